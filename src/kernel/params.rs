@@ -1,0 +1,164 @@
+//! Every number that a scene or a quality can set, with its meaning, range and default.
+
+use glam::Vec2;
+use serde::{Deserialize, Serialize};
+
+/// Liquid parameters of a scene (Position Based Fluids, Macklin & Müller 2013).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct FluidParams {
+    /// Rest density as a multiple of the density of the square lattice of spacing d. Below 1 the particles push each
+    /// other further apart than d, above 1 they stand closer. 0.1 … 100. Default: `1.0`.
+    pub rest_density: f32,
+    /// Relaxation ε in the denominator of λ (eq. 11), 1/d². Raising it softens the constraint and calms it.
+    /// 1e-4 … 10. Default: `0.01`.
+    pub relaxation: f32,
+    /// Lowest value of the constraint C. 0: the liquid only pushes; lower, it also pulls and holds together, and
+    /// particles clump. −1 … 0. Default: `0.0`.
+    pub constraint_floor: f32,
+    /// Strength k of the tensile correction s_corr (eq. 13), in the unit of λ. Raising it keeps particles apart at
+    /// free surfaces. 0 … 1. Default: `0.001`.
+    pub tension_strength: f32,
+    /// Distance Δq of s_corr as a share of the kernel radius, 0.1 … 0.3. Default: `0.2`.
+    pub tension_distance: f32,
+}
+
+impl Default for FluidParams {
+    fn default() -> Self {
+        Self {
+            rest_density: 1.0,
+            relaxation: 0.01,
+            constraint_floor: 0.0,
+            tension_strength: 0.001,
+            tension_distance: 0.2,
+        }
+    }
+}
+
+/// Which sides of the box let air in and out. An open side stands at the pressure of the surroundings, 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct OpenSides {
+    /// x = 0. Default: `false`.
+    pub left: bool,
+    /// x = width. Default: `false`.
+    pub right: bool,
+    /// y = 0. Default: `false`.
+    pub bottom: bool,
+    /// y = height. Default: `false`.
+    pub top: bool,
+}
+
+/// Air parameters of a scene, in kernel units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AirParams {
+    /// Speed of sound c, d/s: pressure differences accelerate the air by `−c² ∇p`. Raising it makes the air stiffer and
+    /// costs substeps.
+    pub sound_speed: f32,
+    /// Sides that are open to the surroundings.
+    pub open: OpenSides,
+}
+
+/// The gradient kernel of the density constraint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GradientKernel {
+    /// `−30/(π h⁵) (h − r)² r̂`, the paper's: a square root and a division a pair.
+    Spiky,
+    /// `(h² − r²)² / (3.84 h (r² + 0.043 h²))` in place of `(h − r)²/r`: within 3 % of spiky for r > 0.3 h, zero and
+    /// smooth at r = 0, one division a pair.
+    Rational,
+}
+
+/// What accuracy is bought with. A preset is a full set of these.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Quality {
+    /// Substeps a tick, 1 … 64; more in a tick whose speeds call for it. Raising it costs in proportion and lowers the
+    /// density error more than iterations do.
+    pub substeps: u32,
+    /// Solver iterations a substep, 1 … 64. Raising it costs in proportion.
+    pub iterations: u32,
+    /// Kernel radius h, d: 2 … 4. 2.5 is the sweet spot; smaller is rougher, larger dearer.
+    pub kernel_radius: f32,
+    /// Furthest that iterating may move a particle from its prediction in a substep, d: 0.05 … 0.5. The neighbour
+    /// search reaches further by twice this, so that no pair is missed.
+    pub correction_limit: f32,
+    /// Edge of an air cell, d: 1 … 32. Smaller sees finer eddies and costs with the inverse cube.
+    pub air_cell: f32,
+    /// Courant number that the air's substeps keep to, 0.1 … 0.9: share of a cell that sound and wind cross in one.
+    pub air_courant: f32,
+    /// Gradient kernel.
+    pub gradient: GradientKernel,
+}
+
+/// The named qualities, cheapest first but for `classic`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Preset {
+    /// The original's plain method: one substep, four iterations, the exact spiky kernel.
+    Classic,
+    /// For the weakest machine.
+    Draft,
+    /// Cheap and calm in shallow water.
+    Fast,
+    /// The default.
+    Balanced,
+    /// For deep water and for pictures.
+    Fine,
+    /// What the others are compared with; not meant to run in real time.
+    Reference,
+}
+
+impl Preset {
+    /// All presets in the order in which they are shown.
+    pub const ALL: [Self; 6] = [Self::Classic, Self::Draft, Self::Fast, Self::Balanced, Self::Fine, Self::Reference];
+
+    /// Name on the command line, in scenes and on the screen.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Classic => "classic",
+            Self::Draft => "draft",
+            Self::Fast => "fast",
+            Self::Balanced => "balanced",
+            Self::Fine => "fine",
+            Self::Reference => "reference",
+        }
+    }
+
+    /// The preset called `name`.
+    pub fn find(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|preset| preset.name() == name)
+    }
+
+    /// The numbers behind the name.
+    pub fn quality(self) -> Quality {
+        let base = Quality {
+            substeps: 2,
+            iterations: 2,
+            kernel_radius: 2.5,
+            correction_limit: 0.1,
+            air_cell: 4.0,
+            air_courant: 0.7,
+            gradient: GradientKernel::Rational,
+        };
+        match self {
+            Self::Classic => {
+                Quality { substeps: 1, iterations: 4, correction_limit: 0.25, gradient: GradientKernel::Spiky, ..base }
+            }
+            Self::Draft => Quality { substeps: 2, iterations: 2, air_cell: 8.0, ..base },
+            Self::Fast => Quality { substeps: 2, iterations: 4, ..base },
+            Self::Balanced => Quality { substeps: 4, iterations: 2, ..base },
+            Self::Fine => Quality { substeps: 4, iterations: 4, air_cell: 3.0, ..base },
+            Self::Reference => Quality { substeps: 16, iterations: 4, air_cell: 2.0, air_courant: 0.5, ..base },
+        }
+    }
+}
+
+/// The surroundings of a world that never change during a step, in kernel units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Domain {
+    /// Size of the box `[0, x] × [0, y]`, d.
+    pub size: Vec2,
+    /// Gravity, d/s².
+    pub gravity: Vec2,
+}

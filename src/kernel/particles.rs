@@ -1,0 +1,90 @@
+//! The store of movable particles: one array per quantity, sorted by cell each substep, with ids that survive the sort.
+
+use crate::kernel::element::ElementId;
+use glam::Vec2;
+use serde::{Deserialize, Serialize};
+
+/// Movable particles. All arrays have one entry per particle, in the same order; the order changes with every sort.
+/// 21 bytes a particle.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Particles {
+    /// Position, d.
+    pub x: Vec<f32>,
+    /// Position, d.
+    pub y: Vec<f32>,
+    /// Velocity, d/s.
+    pub vx: Vec<f32>,
+    /// Velocity, d/s.
+    pub vy: Vec<f32>,
+    /// Number that stays with the particle for life, unique in its world.
+    pub id: Vec<u32>,
+    /// What it is made of.
+    pub element: Vec<ElementId>,
+}
+
+impl Particles {
+    /// Number of particles.
+    pub fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.x.is_empty()
+    }
+
+    /// Appends a particle.
+    pub fn push(&mut self, id: u32, element: ElementId, position: Vec2, velocity: Vec2) {
+        self.x.push(position.x);
+        self.y.push(position.y);
+        self.vx.push(velocity.x);
+        self.vy.push(velocity.y);
+        self.id.push(id);
+        self.element.push(element);
+    }
+
+    /// Position of particle `i`, d.
+    pub fn position(&self, i: usize) -> Vec2 {
+        Vec2::new(self.x[i], self.y[i])
+    }
+
+    /// Velocity of particle `i`, d/s.
+    pub fn velocity(&self, i: usize) -> Vec2 {
+        Vec2::new(self.vx[i], self.vy[i])
+    }
+
+    /// Keeps the particles for which `keep(i)` holds, in their order; returns how many went.
+    pub fn retain(&mut self, keep: impl Fn(&Self, usize) -> bool) -> usize {
+        let before = self.len();
+        let mut kept = 0;
+        for i in 0..before {
+            if keep(self, i) {
+                self.x[kept] = self.x[i];
+                self.y[kept] = self.y[i];
+                self.vx[kept] = self.vx[i];
+                self.vy[kept] = self.vy[i];
+                self.id[kept] = self.id[i];
+                self.element[kept] = self.element[i];
+                kept += 1;
+            }
+        }
+        self.truncate(kept);
+        before - kept
+    }
+
+    fn truncate(&mut self, len: usize) {
+        self.x.truncate(len);
+        self.y.truncate(len);
+        self.vx.truncate(len);
+        self.vy.truncate(len);
+        self.id.truncate(len);
+        self.element.truncate(len);
+    }
+
+    /// Indices in the order of the ids: the order in which states are hashed and written.
+    pub fn in_id_order(&self) -> Vec<u32> {
+        let mut order: Vec<u32> = (0..self.len() as u32).collect();
+        order.sort_unstable_by_key(|&i| self.id[i as usize]);
+        order
+    }
+}

@@ -1,0 +1,7 @@
+//! Powder Master: a real-time 2-D sandbox of powders and fluids in moving air.
+
+#![forbid(unsafe_op_in_unsafe_fn)]
+
+pub mod kernel;
+pub mod scene;
+pub mod sim;

@@ -1,0 +1,121 @@
+//! The world that a scene describes, ready to run: what the simulation starts from and resets to.
+
+use crate::kernel::{
+    element::ElementTable,
+    params::{AirParams, Domain, FluidParams, Preset, Quality},
+    particles::Particles,
+    solids::Solids,
+    sources::{Drain, Emitter, Rect, Wind},
+    units::Scale,
+};
+use serde::{Deserialize, Serialize};
+use std::{collections::BTreeMap, sync::Arc};
+
+/// Name of an effect: a group of stages that a scene can switch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Effect {
+    /// The air grid moves.
+    Air,
+    /// The air drags particles.
+    Drag,
+    /// XSPH viscosity.
+    Viscosity,
+    /// Vorticity confinement.
+    Vorticity,
+    /// The tensile correction s_corr.
+    Tension,
+}
+
+impl Effect {
+    /// All effects in the order in which their stages run.
+    pub const ALL: [Self; 5] = [Self::Air, Self::Drag, Self::Tension, Self::Viscosity, Self::Vorticity];
+
+    /// Name on the command line, in scenes and on the screen.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Air => "air",
+            Self::Drag => "drag",
+            Self::Viscosity => "viscosity",
+            Self::Vorticity => "vorticity",
+            Self::Tension => "tension",
+        }
+    }
+
+    /// The effect called `name`.
+    pub fn find(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|effect| effect.name() == name)
+    }
+}
+
+/// What a scene or a player wants of an effect.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Mode {
+    /// Runs only while something in the world calls for it.
+    #[default]
+    Auto,
+    /// Always runs.
+    On,
+    /// Never runs.
+    Off,
+}
+
+/// Wanted mode of each effect; those that are not named are `auto`.
+pub type EffectModes = BTreeMap<Effect, Mode>;
+
+/// Air that starts at another pressure than the surroundings'.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PressurePatch {
+    /// Where, d.
+    pub area: Rect,
+    /// Pressure there; the surroundings' is 1.
+    pub pressure: f32,
+}
+
+/// A validated scene with its parameters put in. Lengths in d, times in s unless said otherwise.
+#[derive(Clone, Debug)]
+pub struct Blueprint {
+    /// Name under `assets/scenes`, or the file's stem.
+    pub name: String,
+    /// Title in the scene menu.
+    pub title: String,
+    /// One sentence for the scene menu.
+    pub description: String,
+    /// The values of the scene's own parameters.
+    pub parameters: BTreeMap<String, f64>,
+    /// Particle spacing.
+    pub scale: Scale,
+    /// Box and gravity.
+    pub domain: Domain,
+    /// All elements.
+    pub elements: Arc<ElementTable>,
+    /// Movable particles at the start.
+    pub particles: Particles,
+    /// Rock at the start.
+    pub solids: Solids,
+    /// The first id that is free.
+    pub next_id: u32,
+    /// Taps.
+    pub emitters: Vec<Emitter>,
+    /// Fans.
+    pub winds: Vec<Wind>,
+    /// Outlets.
+    pub drains: Vec<Drain>,
+    /// Air pressure at the start where it is not 1.
+    pub pressures: Vec<PressurePatch>,
+    /// Liquid parameters.
+    pub fluid: FluidParams,
+    /// Air parameters.
+    pub air: AirParams,
+    /// Wanted effects.
+    pub effects: EffectModes,
+    /// The named quality that `quality` came from.
+    pub preset: Preset,
+    /// Accuracy settings, with those that the scene or the command line set on top of the preset.
+    pub quality: Quality,
+    /// Most particles (rock included) that the world may hold.
+    pub particle_limit: u32,
+    /// The element that the palette starts with.
+    pub first_element: Option<String>,
+}

@@ -1,0 +1,3 @@
+//! RON scene and element files → validated values → the world that they describe.
+
+pub mod blueprint;
