@@ -4,6 +4,7 @@
 //! one particle of the reference liquid (`units` converts). The box is `[0, width] × [0, height]`, y points up.
 
 pub mod air;
+pub mod brush;
 pub mod element;
 pub mod params;
 pub mod particles;

@@ -50,7 +50,7 @@ pub struct OpenSides {
 }
 
 /// Air parameters of a scene, in kernel units.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AirParams {
     /// Speed of sound c, d/s: pressure differences accelerate the air by `−c² ∇p`. Raising it makes the air stiffer and
     /// costs substeps.
@@ -155,7 +155,7 @@ impl Preset {
 }
 
 /// The surroundings of a world that never change during a step, in kernel units.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Domain {
     /// Size of the box `[0, x] × [0, y]`, d.
     pub size: Vec2,

@@ -1,1 +1,22 @@
-//! The Bevy side of the kernel.
+//! The Bevy side of the kernel: its data as resources, its passes as ordered systems, and what may be done to it from
+//! outside (`intent`, `control`).
+
+pub mod control;
+pub mod effects;
+pub mod intent;
+pub mod ledger;
+pub mod pace;
+pub mod schedule;
+pub mod snapshot;
+pub mod state;
+
+use bevy::prelude::{App, Plugin};
+
+/// The simulation: resources, stages and their order. Runs headless as well as in a window.
+pub struct SimulationPlugin;
+
+impl Plugin for SimulationPlugin {
+    fn build(&self, app: &mut App) {
+        app.init_resource::<pace::Pace>().init_resource::<intent::IntentQueue>();
+    }
+}

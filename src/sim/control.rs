@@ -1,0 +1,79 @@
+//! What may be done to a world as a whole, between ticks: load, reset, freeze, thaw, change the quality.
+
+use crate::{
+    kernel::params::{Preset, Quality},
+    scene::blueprint::Blueprint,
+    sim::{
+        effects::Effects,
+        intent::IntentQueue,
+        ledger::PassLedger,
+        snapshot::{Snapshot, hash_state},
+        state::{AirGrid, Census, Clock, Counters, ParticleStore, Rock, Setup, Sources},
+    },
+};
+use bevy::prelude::World;
+use std::sync::Arc;
+
+/// Makes `world` the start of the scene.
+pub fn load(world: &mut World, blueprint: Arc<Blueprint>) {
+    let origin = Arc::new(Snapshot::of_blueprint(&blueprint, blueprint.quality.air_cell));
+    world.insert_resource(Effects::new(&blueprint.effects));
+    world.insert_resource(Setup {
+        preset: blueprint.preset,
+        quality: blueprint.quality,
+        origin: origin.clone(),
+        blueprint,
+    });
+    restart(world, &origin);
+}
+
+/// Goes back to the start of the scene (or to the state of the save file that was loaded).
+pub fn reset(world: &mut World) {
+    let origin = world.resource::<Setup>().origin.clone();
+    restart(world, &origin);
+}
+
+fn restart(world: &mut World, origin: &Snapshot) {
+    thaw(world, origin);
+    world.insert_resource(Counters::default());
+    world.insert_resource(PassLedger::default());
+}
+
+/// Copies the state out.
+pub fn freeze(world: &World) -> Snapshot {
+    Snapshot {
+        particles: world.resource::<ParticleStore>().0.clone(),
+        solids: world.resource::<Rock>().0.clone(),
+        air: world.resource::<AirGrid>().0.clone(),
+        sources: world.resource::<Sources>().clone(),
+        clock: *world.resource::<Clock>(),
+    }
+}
+
+/// Puts a state of the same scene back (undo, redo). Waiting intents are forgotten.
+pub fn thaw(world: &mut World, snapshot: &Snapshot) {
+    let air_cell = world.resource::<Setup>().quality.air_cell;
+    let air = if snapshot.air.cell() == air_cell { snapshot.air.clone() } else { snapshot.air.resized(air_cell) };
+    world.insert_resource(ParticleStore(snapshot.particles.clone()));
+    world.insert_resource(Rock(snapshot.solids.clone()));
+    world.insert_resource(AirGrid(air));
+    world.insert_resource(snapshot.sources.clone());
+    world.insert_resource(snapshot.clock);
+    world.insert_resource(Census::default());
+    world.get_resource_or_init::<IntentQueue>().clear();
+}
+
+/// Goes on at another quality. The air is carried over to its new cells.
+pub fn set_quality(world: &mut World, preset: Preset, quality: Quality) {
+    let mut setup = world.resource_mut::<Setup>();
+    (setup.preset, setup.quality) = (preset, quality);
+    let mut air = world.resource_mut::<AirGrid>();
+    if air.cell() != quality.air_cell {
+        air.0 = air.resized(quality.air_cell);
+    }
+}
+
+/// Hash of the state as it is (see [`Snapshot::hash`]).
+pub fn hash(world: &World) -> u64 {
+    hash_state(world.resource::<ParticleStore>(), world.resource::<Rock>(), world.resource::<AirGrid>())
+}

@@ -1,0 +1,78 @@
+//! What a player wants done to the world, in world units and apart from any device. Input turns mouse and keys into
+//! intents, the edit stage consumes them in order, replays store them.
+
+use crate::kernel::{brush::Stroke, element::ElementId};
+use bevy::prelude::Resource;
+use glam::Vec2;
+use serde::{Deserialize, Serialize};
+
+/// One wish. Lengths in d, velocities in d/s.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Intent {
+    /// Pour or place an element under the stroke. Movable elements fill free sites at their flow; fixed ones take the
+    /// place of what is there.
+    Draw {
+        /// What.
+        element: ElementId,
+        /// Where.
+        stroke: Stroke,
+    },
+    /// Place an element on all free sites under the stroke at once (lines, rectangles).
+    Stamp {
+        /// What.
+        element: ElementId,
+        /// Where.
+        stroke: Stroke,
+    },
+    /// Fill the connected free room around a point with an element.
+    Fill {
+        /// What.
+        element: ElementId,
+        /// Where it starts, d.
+        at: Vec2,
+    },
+    /// Take away everything under the stroke.
+    Erase {
+        /// Where.
+        stroke: Stroke,
+    },
+    /// Set the air under the stroke moving.
+    Blow {
+        /// Where.
+        stroke: Stroke,
+        /// How fast, d/s.
+        velocity: Vec2,
+    },
+    /// Add pressure to the air under the stroke.
+    Press {
+        /// Where.
+        stroke: Stroke,
+        /// How much; the surroundings' pressure is 1. Negative sucks.
+        amount: f32,
+    },
+    /// Bring the air to rest at the surroundings' pressure.
+    ClearAir,
+}
+
+/// Intents that wait for the next edit stage.
+#[derive(Resource, Debug, Default)]
+pub struct IntentQueue {
+    waiting: Vec<Intent>,
+}
+
+impl IntentQueue {
+    /// Queues an intent.
+    pub fn push(&mut self, intent: Intent) {
+        self.waiting.push(intent);
+    }
+
+    /// Takes all that wait, oldest first.
+    pub fn drain(&mut self) -> std::vec::Drain<'_, Intent> {
+        self.waiting.drain(..)
+    }
+
+    /// Forgets all that wait.
+    pub fn clear(&mut self) {
+        self.waiting.clear();
+    }
+}

@@ -1,0 +1,90 @@
+//! A world frozen between two ticks: what undo, reset and save files hold.
+
+use crate::{
+    kernel::{air::Air, element::ElementId, particles::Particles, solids::Solids},
+    scene::blueprint::Blueprint,
+    sim::state::{Clock, Sources},
+};
+use serde::{Deserialize, Serialize};
+
+/// Everything in a world that changes while it runs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Snapshot {
+    /// Movable particles.
+    pub particles: Particles,
+    /// Rock.
+    pub solids: Solids,
+    /// The air.
+    pub air: Air,
+    /// Taps, fans and outlets with their state.
+    pub sources: Sources,
+    /// Tick, edits, next id.
+    pub clock: Clock,
+}
+
+impl Snapshot {
+    /// The state in which a scene starts, with the air on cells of `air_cell` d.
+    pub fn of_blueprint(blueprint: &Blueprint, air_cell: f32) -> Self {
+        let mut air = Air::new(blueprint.domain.size, air_cell, blueprint.air);
+        air.set_solids(&blueprint.solids);
+        for patch in &blueprint.pressures {
+            air.fill_pressure(patch.area, patch.pressure);
+        }
+        Self {
+            particles: blueprint.particles.clone(),
+            solids: blueprint.solids.clone(),
+            air,
+            sources: Sources {
+                emitters: blueprint.emitters.clone(),
+                winds: blueprint.winds.clone(),
+                drains: blueprint.drains.clone(),
+            },
+            clock: Clock { tick: 0, edits: 0, next_id: blueprint.next_id },
+        }
+    }
+
+    /// A hash over the exact bits of the state in the order of the ids (64-bit FNV-1a): equal hashes mean equal worlds.
+    pub fn hash(&self) -> u64 {
+        hash_state(&self.particles, &self.solids, &self.air)
+    }
+}
+
+/// [`Snapshot::hash`] of the parts, without copying them.
+pub fn hash_state(particles: &Particles, solids: &Solids, air: &Air) -> u64 {
+    let mut hash = Fnv::default();
+    for i in particles.in_id_order() {
+        let i = i as usize;
+        hash.word(particles.id[i]);
+        hash.word(u32::from(particles.element[i].0));
+        for value in [particles.x[i], particles.y[i], particles.vx[i], particles.vy[i]] {
+            hash.word(value.to_bits());
+        }
+    }
+    for (cell, ElementId(element), id) in solids.iter() {
+        for word in [cell.x as u32, cell.y as u32, u32::from(element), id] {
+            hash.word(word);
+        }
+    }
+    for field in [air.pressure(), air.velocity_x(), air.velocity_y()] {
+        for value in field {
+            hash.word(value.to_bits());
+        }
+    }
+    hash.0
+}
+
+struct Fnv(u64);
+
+impl Default for Fnv {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Fnv {
+    fn word(&mut self, word: u32) {
+        for byte in word.to_le_bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! The resources that a world consists of. `control` fills them from a blueprint or a snapshot, the stages change them,
+//! everyone else reads them.
+
+use crate::{
+    kernel::{
+        air::Air,
+        element::ElementTable,
+        params::{Preset, Quality},
+        particles::Particles,
+        solids::Solids,
+        sources::{Drain, Emitter, Wind},
+    },
+    scene::blueprint::Blueprint,
+    sim::snapshot::Snapshot,
+};
+use bevy::prelude::{Deref, DerefMut, Resource};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Movable particles. Written by the edit stage and the substep stages.
+#[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
+pub struct ParticleStore(pub Particles);
+
+/// Rock. Written by the edit stage only.
+#[derive(Resource, Deref, DerefMut, Clone, Debug)]
+pub struct Rock(pub Solids);
+
+/// The air. Written by the edit stage (tools) and the air stage.
+#[derive(Resource, Deref, DerefMut, Clone, Debug)]
+pub struct AirGrid(pub Air);
+
+/// What the scene keeps adding and taking away. Written by the source stage.
+#[derive(Resource, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Sources {
+    /// Taps.
+    pub emitters: Vec<Emitter>,
+    /// Fans.
+    pub winds: Vec<Wind>,
+    /// Outlets.
+    pub drains: Vec<Drain>,
+}
+
+/// How far the world has come.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Clock {
+    /// Ticks done since the scene began.
+    pub tick: u64,
+    /// Edits applied since the scene began: seeds the choice of sites that pouring fills.
+    pub edits: u64,
+    /// The next free particle id.
+    pub next_id: u32,
+}
+
+/// The scene that is played and the quality it is played at.
+#[derive(Resource, Clone, Debug)]
+pub struct Setup {
+    /// The scene as it was built.
+    pub blueprint: Arc<Blueprint>,
+    /// The named quality in force.
+    pub preset: Preset,
+    /// The numbers in force.
+    pub quality: Quality,
+    /// The state that `control::reset` goes back to: the scene's start, or the save file's.
+    pub origin: Arc<Snapshot>,
+}
+
+impl Setup {
+    /// The element table.
+    pub fn elements(&self) -> &ElementTable {
+        &self.blueprint.elements
+    }
+}
+
+/// What the limiters did, since the scene began. In a calm scene all are zero.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Particles removed because a coordinate or speed was not a number.
+    pub non_finite: u64,
+    /// Particles found outside the box or inside rock at the end of a tick.
+    pub escaped: u64,
+    /// Particle-substeps in which a speed was cut to the limit of the substep count.
+    pub speed_clamps: u64,
+    /// Particle-substeps in which a correction was cut to the correction limit.
+    pub position_clamps: u64,
+    /// Most substeps that a tick took.
+    pub substeps_max: u32,
+    /// Air cells whose speed or pressure was cut.
+    pub air_clamps: u64,
+    /// Particles that were not placed because the world is full.
+    pub refused: u64,
+}
+
+/// Number of particles by element, counted once a tick.
+#[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
+pub struct Census {
+    /// Rock and movable particles together.
+    pub total: u32,
+    /// Particles of each element, in the order of the table.
+    pub by_element: Vec<u32>,
+    /// Whether the last edit met the particle limit.
+    pub full: bool,
+}
