@@ -6,6 +6,7 @@ pub mod effects;
 pub mod intent;
 pub mod ledger;
 pub mod pace;
+pub mod replay;
 pub mod schedule;
 pub mod snapshot;
 pub mod state;
