@@ -35,7 +35,7 @@ pub struct SceneFile {
     text: SceneText,
 }
 
-/// Reads the scene called `name_or_path`: a name of [`builtin_names`](builtin::builtin_names) or a path to a `.ron` file.
+/// Reads the scene called `name_or_path`: a name of [`builtin_names`](crate::scene::builtin_names) or a path to a `.ron` file.
 pub fn load(name_or_path: &str) -> Result<SceneFile, SceneError> {
     SceneFile::from_source(builtin::find(name_or_path)?)
 }
