@@ -35,7 +35,7 @@ pub struct SceneFile {
     text: SceneText,
 }
 
-/// Reads the scene called `name_or_path`: a name of [`builtin_names`](builtin::builtin_names) or a path to a `.ron` file.
+/// Reads the scene called `name_or_path`: a name of [`builtin_names`](crate::scene::builtin_names) or a path to a `.ron` file.
 pub fn load(name_or_path: &str) -> Result<SceneFile, SceneError> {
     SceneFile::from_source(builtin::find(name_or_path)?)
 }
@@ -175,11 +175,13 @@ impl SceneFile {
 
     fn domain(&self, values: &Evaluator<'_>, spacing: f64) -> Result<Domain, SceneError> {
         let metres = values.pair("size", &self.text.size, Range::real(1e-3, 1e9))?;
-        let size = (metres / spacing).as_vec2();
-        for (axis, cells) in [("x", size.x), ("y", size.y)] {
+        // "4 * columns * d" over d may miss the whole number by a rounding error.
+        let cells = (metres / spacing * 1e6).round() / 1e6;
+        for (axis, cells) in [("x", cells.x), ("y", cells.y)] {
             let fault = |what: String| values.fault(format_args!("size.{axis}"), format!("in spacings, {what}"));
-            SIDE.check(f64::from(cells)).map_err(fault)?;
+            SIDE.check(cells).map_err(fault)?;
         }
+        let size = cells.as_vec2();
         let cells = size.ceil().as_dvec2();
         if cells.x * cells.y > MOST_CELLS {
             let what = format!("{} × {} cells of {spacing} m; allowed: at most {MOST_CELLS} cells", cells.x, cells.y);

@@ -273,23 +273,32 @@ pub(super) struct QualityText {
 /// Parses RON; `file` is its name in errors.
 pub(super) fn parse<T: DeserializeOwned>(file: &str, bytes: &[u8]) -> Result<T, SceneError> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
-        let good = &bytes[..error.valid_up_to()];
-        let line = 1 + good.iter().filter(|byte| **byte == b'\n').count();
-        let column = 1 + good.iter().rev().take_while(|byte| **byte != b'\n').count();
+        let good = String::from_utf8_lossy(&bytes[..error.valid_up_to()]);
+        let (line, column) = position(&good);
         SceneError::text(file, line, column, "not UTF-8; allowed: a RON text in UTF-8")
     })?;
     if text.trim().is_empty() {
         return Err(SceneError::file(file, "the file is empty; allowed: a RON text, see assets/scenes/empty.ron"));
     }
-    Options::default().with_default_extension(Extensions::IMPLICIT_SOME).from_str(text).map_err(
-        |SpannedError { code, span }| {
-            let what = match code {
-                ron::Error::ExceededRecursionLimit => "nested too deeply".to_owned(),
-                code => code.to_string(),
-            };
-            SceneError::text(file, span.start.line, span.start.col, what)
-        },
-    )
+    let options = Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
+    options.from_str(text).map_err(|SpannedError { code, span }| {
+        if [position(text), position(text.trim_end())].contains(&(span.end.line, span.end.col)) {
+            let what = "the text ends too early; allowed: a RON text with every bracket and quote closed";
+            return SceneError::text(file, span.end.line, span.end.col, what);
+        }
+        let what = match code {
+            ron::Error::ExceededRecursionLimit => "nested too deeply; allowed: what the format asks for".to_owned(),
+            ron::Error::ExpectedComma => "expected a comma or the closing bracket".to_owned(),
+            code => code.to_string(),
+        };
+        SceneError::text(file, span.start.line, span.start.col, what)
+    })
+}
+
+/// Line and column, from 1, of what follows the text.
+fn position(text: &str) -> (usize, usize) {
+    let line = 1 + text.bytes().filter(|byte| *byte == b'\n').count();
+    (line, 1 + text.chars().rev().take_while(|c| *c != '\n').count())
 }
 
 impl SceneText {

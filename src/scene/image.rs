@@ -32,13 +32,15 @@ impl Mask {
         let mut buffer = vec![0; size];
         let frame = reader.next_frame(&mut buffer).map_err(fault)?;
         let channels = frame.color_type.samples();
+        // The frame's own size: an animation's first frame may be smaller than the picture.
+        let (columns, rows) = (frame.width as usize, frame.height as usize);
         let dark = buffer
             .chunks_exact(frame.line_size)
-            .take(height as usize)
-            .flat_map(|row| row[..width as usize * channels].chunks_exact(channels))
+            .take(rows)
+            .flat_map(|row| row[..columns * channels].chunks_exact(channels))
             .map(|pixel| is_dark(frame.color_type, pixel))
             .collect();
-        let mask = Self { columns: width as usize, rows: height as usize, dark };
+        let mask = Self { columns, rows, dark };
         debug_assert_eq!(mask.dark.len(), mask.columns * mask.rows, "one entry a pixel");
         Ok(mask)
     }

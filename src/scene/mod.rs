@@ -19,6 +19,8 @@ mod knobs;
 mod number;
 mod place;
 mod shape;
+#[cfg(test)]
+mod tests;
 
 pub mod blueprint;
 
