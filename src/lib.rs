@@ -2,7 +2,7 @@
 
 #![forbid(unsafe_op_in_unsafe_fn)]
 
-//pub mod cli;
+pub mod cli;
 pub mod kernel;
 pub mod lab;
 pub mod scene;

@@ -1,8 +1,8 @@
 //! The density error: how much too dense the liquid stands, from positions only and apart from the solver's own kernel,
 //! so that any other program's particles can be held against it.
 //!
-//! ρᵢ = Σⱼ (R² − r²)³ / Σ_lattice (R² − r²)³ with R = 3 d: 1 in the square lattice of spacing d. The error of a particle
-//! is max(0, ρ/ρ_rest − 1). Only particles inside the liquid count: those with a neighbour in each of the eight 45°
+//! ρᵢ = Σⱼ (R² − r²)³ with R = 3 d, over the same sum in the square lattice of spacing d. The error of a particle is
+//! max(0, ρ/ρ₀ − 1), ρ₀ being the scene's rest density. Only particles inside the liquid count: those with a neighbour in each of the eight 45°
 //! sectors. Rock is a neighbour like any other; the walls of the box are none.
 
 use crate::{

@@ -2,15 +2,12 @@
 
 use crate::{
     scene::blueprint::Blueprint,
-    sim::{SimulationPlugin, control},
+    sim::{SimulationPlugin, control, workers::Workers},
 };
 use bevy::{
     MinimalPlugins,
-    app::{App, PluginGroup, ScheduleRunnerPlugin, TaskPoolOptions, TaskPoolPlugin},
-    ecs::{
-        schedule::{Schedules, SingleThreadedExecutor},
-        world::World,
-    },
+    app::{App, PluginGroup, ScheduleRunnerPlugin},
+    ecs::world::World,
     time::TimeUpdateStrategy,
 };
 use std::sync::Arc;
@@ -21,17 +18,14 @@ pub struct Headless {
 }
 
 impl Headless {
-    /// The start of a scene.
-    pub fn new(blueprint: Arc<Blueprint>) -> Self {
+    /// The start of a scene, for `workers` to run.
+    pub fn new(blueprint: Arc<Blueprint>, workers: Workers) -> Self {
         let mut app = App::new();
-        let pools = TaskPoolPlugin { task_pool_options: TaskPoolOptions::with_num_threads(1) };
-        app.add_plugins(MinimalPlugins.build().disable::<ScheduleRunnerPlugin>().set(pools));
-        app.add_plugins(SimulationPlugin);
+        app.add_plugins((MinimalPlugins.build().disable::<ScheduleRunnerPlugin>(), SimulationPlugin));
+        app.insert_resource(workers).insert_resource(TimeUpdateStrategy::FixedTimesteps(1));
         control::load(app.world_mut(), blueprint);
-        app.insert_resource(TimeUpdateStrategy::FixedTimesteps(1));
         app.finish();
         app.cleanup();
-        stay_on_this_thread(&mut app);
         // The clock's first update has no time in it and runs no tick.
         app.update();
         Self { app }
@@ -50,14 +44,5 @@ impl Headless {
     /// The world, to change between ticks.
     pub fn world_mut(&mut self) -> &mut World {
         self.app.world_mut()
-    }
-}
-
-/// Systems run on the calling thread, whatever the build, so that the kernel's parallel passes run in the caller's
-/// thread pool. The stages of a tick are a chain: there is nothing to gain from several threads around them.
-fn stay_on_this_thread(app: &mut App) {
-    let mut schedules = app.world_mut().resource_mut::<Schedules>();
-    for (_, schedule) in schedules.iter_mut() {
-        schedule.set_executor(SingleThreadedExecutor::new());
     }
 }

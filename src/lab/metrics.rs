@@ -41,7 +41,7 @@ pub struct Metrics {
     pub accuracy: Accuracy,
     /// What the limiters did since the scene began.
     pub stability: Stability,
-    /// What particles, rock and air hold, bytes.
+    /// What particles, solver, rock and air hold, bytes.
     pub memory_bytes: u64,
     /// Most memory that the process has had, bytes; only on Linux.
     pub peak_rss_bytes: Option<u64>,
@@ -105,7 +105,7 @@ pub struct Accuracy {
     pub density_error_p99: Option<f64>,
     /// Its maximum over all samples.
     pub density_error_max: Option<f64>,
-    /// The solver's own mean constraint C over the particles with C > 0, after its last iteration.
+    /// The solver's own mean constraint C over the particles with C > 0, in its last iteration of the run.
     pub residual: Option<f64>,
     /// Mean of the share of room that the liquid takes too much (see `lab::volume`).
     pub volume_error: Option<f64>,

@@ -18,7 +18,8 @@ use crate::{
         control,
         effects::Effects,
         ledger::{Pass, PassLedger},
-        state::{AirGrid, Counters, ParticleStore, Rock, Setup},
+        state::{AirGrid, Counters, ParticleStore, Rock, Setup, SolverState},
+        workers::Workers,
     },
 };
 use bevy::ecs::world::World;
@@ -74,7 +75,7 @@ impl Sampler {
             quality: setup.preset.name(),
             quality_values: setup.quality,
             parameters: setup.blueprint.parameters.clone(),
-            threads: rayon::current_num_threads(),
+            threads: world.resource::<Workers>().threads(),
             ticks: self.ticks,
             warmup: self.warmup,
             sim_seconds: self.ticks as f64 / f64::from(TICKS_PER_SECOND),
@@ -144,7 +145,7 @@ impl Sampler {
             density_error_mean: stats::mean(&self.samples.density_mean),
             density_error_p99: stats::mean(&self.samples.density_p99),
             density_error_max: stats::largest(&self.samples.density_max),
-            residual: None,
+            residual: residual(world),
             volume_error: stats::mean(&self.samples.volume),
             energy: balance.energy(),
             momentum: balance.momentum.to_array(),
@@ -287,6 +288,15 @@ fn count(world: &World) -> ParticleCount {
     ParticleCount { total: particles.len() + rock.count(), by_element }
 }
 
+/// Mean constraint over the particles where it is violated, as the solver saw it in its last iteration.
+fn residual(world: &World) -> Option<f64> {
+    let rest = f64::from(world.resource::<Setup>().blueprint.fluid.rest_density);
+    let density = &world.resource::<SolverState>().density;
+    let mut constraints: Vec<f64> = density.iter().map(|density| f64::from(*density) / rest - 1.0).collect();
+    constraints.retain(|constraint| *constraint > 0.0);
+    (!density.is_empty()).then(|| stats::mean(&constraints).unwrap_or(0.0))
+}
+
 fn stability(world: &World) -> Stability {
     let counters = world.resource::<Counters>();
     Stability {
@@ -303,11 +313,12 @@ fn stability(world: &World) -> Stability {
 fn memory_bytes(world: &World) -> u64 {
     let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
     let air = world.resource::<AirGrid>();
+    let solver = world.resource::<SolverState>().memory();
     let per_particle = 5 * size_of::<f32>() + size_of::<u8>();
     let per_site = size_of::<u8>() + size_of::<u32>();
     let sites = rock.columns() as usize * rock.rows() as usize;
     let fields = air.pressure().len() + air.velocity_x().len() + air.velocity_y().len();
-    (particles.x.capacity() * per_particle + sites * per_site + fields * size_of::<f32>()) as u64
+    (solver + particles.x.capacity() * per_particle + sites * per_site + fields * size_of::<f32>()) as u64
 }
 
 /// Most memory that the process has had, from Linux's own books.

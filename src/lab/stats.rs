@@ -1,6 +1,6 @@
 //! Order statistics in f64. Sums run in the order of the slice.
 
-/// The `q`-quantile of `values`, 0 ≤ q ≤ 1, between the two nearest values in proportion (NumPy's default); `None` of
+/// The `q`-quantile of `values`, 0 ≤ q ≤ 1, between the two nearest values in proportion; `None` of
 /// nothing. Changes the order of `values`.
 pub fn quantile(values: &mut [f64], q: f64) -> Option<f64> {
     let last = values.len().checked_sub(1)?;

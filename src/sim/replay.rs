@@ -7,7 +7,7 @@ use crate::{
     kernel::{
         brush::Stroke,
         element::ElementTable,
-        params::{Preset, Quality},
+        params::{FluidParams, Preset, Quality},
     },
     scene::blueprint::{Blueprint, EffectModes},
     sim::intent::Intent,
@@ -34,6 +34,10 @@ pub struct Header {
     pub preset: Preset,
     /// The numbers in force.
     pub quality: Quality,
+    /// The liquid's parameters.
+    pub fluid: FluidParams,
+    /// Most particles.
+    pub particle_limit: u32,
     /// Wanted effects.
     pub effects: EffectModes,
     /// Names of the elements that the entries count: a replay fits a program that knows these and perhaps more.
@@ -109,10 +113,24 @@ impl Header {
             parameters: blueprint.parameters.clone(),
             preset: blueprint.preset,
             quality: blueprint.quality,
+            fluid: blueprint.fluid,
+            particle_limit: blueprint.particle_limit,
             effects: blueprint.effects.clone(),
             elements: blueprint.elements.iter().map(|(_, element)| element.name.clone()).collect(),
             ticks,
         }
+    }
+
+    /// The scene's parameters as a scene file takes them.
+    pub fn settings(&self) -> Vec<(String, String)> {
+        self.parameters.iter().map(|(name, value)| (name.clone(), value.to_string())).collect()
+    }
+
+    /// The blueprint that was played, from the one that the scene builds with the same parameters and preset: with the
+    /// recorded numbers of the liquid, and of the quality too if `exact`.
+    pub fn restore(&self, built: Blueprint, exact: bool) -> Blueprint {
+        let quality = if exact { self.quality } else { built.quality };
+        Blueprint { quality, fluid: self.fluid, particle_limit: self.particle_limit, ..built }
     }
 
     fn check(&self, elements: &ElementTable) -> Result<(), String> {

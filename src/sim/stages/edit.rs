@@ -5,6 +5,7 @@ use crate::{
     sim::{
         intent::{Intent, IntentQueue},
         ledger::{Pass, PassLedger},
+        replay::Recorder,
         state::{AirGrid, Census, Clock, Counters, ParticleStore, Rock, Setup},
     },
 };
@@ -15,6 +16,7 @@ use std::time::Instant;
 #[expect(clippy::too_many_arguments, reason = "a system unpacks what it changes")]
 pub(super) fn apply_intents(
     mut queue: ResMut<IntentQueue>,
+    mut recorder: Option<ResMut<Recorder>>,
     setup: Res<Setup>,
     mut particles: ResMut<ParticleStore>,
     mut rock: ResMut<Rock>,
@@ -33,6 +35,9 @@ pub(super) fn apply_intents(
     let mut placed = 0;
     for intent in queue.drain() {
         let seed = clock.edits;
+        if let Some(recorder) = &mut recorder {
+            recorder.note(clock.tick, seed, intent);
+        }
         clock.edits += 1;
         let mut matter = Matter {
             elements: setup.elements(),
