@@ -45,8 +45,7 @@ mod tests {
 
     #[test]
     fn drag_never_reverses_and_follows_its_solution() {
-        for exponent in -1..=3 {
-            let product = 10_f32.powi(exponent);
+        for product in [0.1, 1.0, 10.0, 100.0, 1000.0] {
             let velocity = dragged(Vec2::new(30.0, -40.0), Vec2::ZERO, product / 50.0, 1.0);
             let expected = Vec2::new(30.0, -40.0) / (1.0 + product);
             assert!((velocity - expected).length() < 1e-4 * expected.length(), "{velocity} instead of {expected}");

@@ -13,7 +13,6 @@ use bevy::prelude::{Res, ResMut};
 use std::time::Instant;
 
 /// Applies all waiting intents in order.
-#[expect(clippy::too_many_arguments, reason = "a system unpacks what it changes")]
 pub(super) fn apply_intents(
     mut queue: ResMut<IntentQueue>,
     mut recorder: Option<ResMut<Recorder>>,

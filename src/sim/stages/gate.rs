@@ -12,7 +12,6 @@ use crate::{
 use bevy::prelude::{Res, ResMut};
 
 /// Plans the tick from facts that are there already.
-#[expect(clippy::too_many_arguments, reason = "the gate looks at all that may call for an effect")]
 pub(super) fn plan_tick(
     setup: Res<Setup>,
     particles: Res<ParticleStore>,
