@@ -9,6 +9,7 @@ pub mod pace;
 pub mod schedule;
 pub mod snapshot;
 pub mod state;
+pub mod view;
 
 use bevy::prelude::{App, Plugin};
 
