@@ -1,1 +1,3 @@
+//! Powder Master: parses the command line and hands over.
+
 fn main() {}

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// Row of an element in the [`ElementTable`]; a particle stores it in one byte.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct ElementId(pub u8);
 
 impl ElementId {
@@ -46,7 +46,7 @@ fn one() -> f32 {
     1.0
 }
 
-/// All elements, in the order of the palette. Never empty, at most 256 rows.
+/// All elements, in the order of the palette. Never empty, at most 255 rows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ElementTable {
     rows: Vec<Element>,
@@ -55,7 +55,7 @@ pub struct ElementTable {
 impl ElementTable {
     /// A table of already validated rows.
     pub fn new(rows: Vec<Element>) -> Self {
-        debug_assert!(rows.len() <= 256, "an element id is one byte");
+        debug_assert!(rows.len() <= 255, "an element id is one byte, and one value of it means none");
         Self { rows }
     }
 

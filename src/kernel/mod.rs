@@ -4,10 +4,18 @@
 //! one particle of the reference liquid (`units` converts). The box is `[0, width] × [0, height]`, y points up.
 
 pub mod air;
+pub mod bins;
 pub mod brush;
 pub mod element;
+pub mod forces;
 pub mod params;
 pub mod particles;
+pub mod pbf;
+pub mod predict;
+pub mod simd;
+pub mod smoothing;
 pub mod solids;
 pub mod sources;
+pub mod spawn;
 pub mod units;
+pub mod velocity;

@@ -16,10 +16,10 @@ pub struct FluidParams {
     /// Lowest value of the constraint C. 0: the liquid only pushes; lower, it also pulls and holds together, and
     /// particles clump. −1 … 0. Default: `0.0`.
     pub constraint_floor: f32,
-    /// Strength k of the tensile correction s_corr (eq. 13), in the unit of λ. Raising it keeps particles apart at
+    /// Strength k of the tensile correction `s_corr` (eq. 13), in the unit of λ. Raising it keeps particles apart at
     /// free surfaces. 0 … 1. Default: `0.001`.
     pub tension_strength: f32,
-    /// Distance Δq of s_corr as a share of the kernel radius, 0.1 … 0.3. Default: `0.2`.
+    /// Distance Δq of `s_corr` as a share of the kernel radius, 0.1 … 0.3. Default: `0.2`.
     pub tension_distance: f32,
 }
 
@@ -143,10 +143,10 @@ impl Preset {
         };
         match self {
             Self::Classic => {
-                Quality { substeps: 1, iterations: 4, correction_limit: 0.25, gradient: GradientKernel::Spiky, ..base }
+                Quality { substeps: 1, iterations: 4, correction_limit: 0.5, gradient: GradientKernel::Spiky, ..base }
             }
-            Self::Draft => Quality { substeps: 2, iterations: 2, air_cell: 8.0, ..base },
-            Self::Fast => Quality { substeps: 2, iterations: 4, ..base },
+            Self::Draft => Quality { substeps: 2, iterations: 2, correction_limit: 0.25, air_cell: 8.0, ..base },
+            Self::Fast => Quality { substeps: 2, iterations: 4, correction_limit: 0.25, ..base },
             Self::Balanced => Quality { substeps: 4, iterations: 2, ..base },
             Self::Fine => Quality { substeps: 4, iterations: 4, air_cell: 3.0, ..base },
             Self::Reference => Quality { substeps: 16, iterations: 4, air_cell: 2.0, air_courant: 0.5, ..base },

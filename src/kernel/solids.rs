@@ -113,7 +113,140 @@ impl Solids {
     }
 }
 
+/// Distance to a face at which a swept point comes to rest, d: keeps it on the right side after rounding.
+const FACE_GAP: f32 = 1.0 / 256.0;
+/// Faces that one move can be turned at: a corner takes two, the third stops it.
+const TURNS: usize = 3;
+
+impl Solids {
+    /// Where a point ends that sets out from `from` to `to` and slides along the faces of rock that it meets. Exact at
+    /// any speed: every cell on the way is looked at, and a path between two cells that touch at a corner is closed. The
+    /// box's own cells stop it too.
+    pub fn sweep(&self, from: Vec2, to: Vec2) -> Vec2 {
+        if Self::cell_of(from) == Self::cell_of(to) {
+            return to;
+        }
+        let (mut at, mut target) = (from, to);
+        for _ in 0..TURNS {
+            match self.first_face(at, target) {
+                None => return target,
+                Some(Face::Vertical(point)) => (at, target) = (point, Vec2::new(point.x, target.y)),
+                Some(Face::Horizontal(point)) => (at, target) = (point, Vec2::new(target.x, point.y)),
+            }
+        }
+        at
+    }
+
+    /// The first face of a solid cell between two points (Amanatides & Woo 1987), as the point just before it.
+    fn first_face(&self, from: Vec2, to: Vec2) -> Option<Face> {
+        let (mut cell, last) = (Self::cell_of(from), Self::cell_of(to));
+        let way = to - from;
+        let step = IVec2::new(if way.x > 0.0 { 1 } else { -1 }, if way.y > 0.0 { 1 } else { -1 });
+        // Share of the way at which the next vertical and horizontal cell edges are crossed.
+        let crossing = |from: f32, way: f32, cell: i32, step: i32| {
+            if way == 0.0 { f32::INFINITY } else { ((cell + (step + 1) / 2) as f32 - from) / way }
+        };
+        let cells = (last - cell).abs().element_sum();
+        for _ in 0..cells {
+            let next_x = if cell.x == last.x { f32::INFINITY } else { crossing(from.x, way.x, cell.x, step.x) };
+            let next_y = if cell.y == last.y { f32::INFINITY } else { crossing(from.y, way.y, cell.y, step.y) };
+            let vertical = next_x <= next_y;
+            let next = if vertical { cell + IVec2::new(step.x, 0) } else { cell + IVec2::new(0, step.y) };
+            if self.is_solid(next) {
+                let hit = from + way * if vertical { next_x } else { next_y };
+                let inside = |at: f32, cell: i32| at.clamp(cell as f32 + FACE_GAP, (cell + 1) as f32 - FACE_GAP);
+                let before = |cell: i32, step: i32| (cell + (step + 1) / 2) as f32 - step as f32 * FACE_GAP;
+                return Some(if vertical {
+                    Face::Vertical(Vec2::new(before(cell.x, step.x), inside(hit.y, cell.y)))
+                } else {
+                    Face::Horizontal(Vec2::new(inside(hit.x, cell.x), before(cell.y, step.y)))
+                });
+            }
+            cell = next;
+        }
+        None
+    }
+}
+
+/// A face met on the way, with the point just before it.
+enum Face {
+    /// Normal along x.
+    Vertical(Vec2),
+    /// Normal along y.
+    Horizontal(Vec2),
+}
+
 /// Centre of a cell, d: where its rock particle stands.
 pub fn centre(cell: IVec2) -> Vec2 {
     cell.as_vec2() + Vec2::splat(0.5)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn with_rock(cells: &[(i32, i32)]) -> Solids {
+        let mut solids = Solids::new(100, 100);
+        for (id, &(x, y)) in cells.iter().enumerate() {
+            assert!(solids.insert(IVec2::new(x, y), ElementId(0), id as u32));
+        }
+        solids
+    }
+
+    #[test]
+    fn count_and_version_follow_the_rock() {
+        let mut solids = with_rock(&[(3, 4)]);
+        let version = solids.version();
+        assert!(!solids.insert(IVec2::new(3, 4), ElementId(1), 9), "a taken cell was taken again");
+        assert!(!solids.insert(IVec2::new(-1, 4), ElementId(1), 9), "rock was put outside the box");
+        assert_eq!((solids.count(), solids.version()), (1, version));
+        assert_eq!(solids.get(IVec2::new(3, 4)), Some((ElementId(0), 0)));
+        assert!(solids.remove(IVec2::new(3, 4)) && !solids.remove(IVec2::new(3, 4)));
+        assert_eq!(solids.count(), 0);
+        assert_ne!(solids.version(), version);
+    }
+
+    #[test]
+    fn nothing_tunnels_through_a_wall_one_cell_thick() {
+        let wall: Vec<(i32, i32)> = (0..100).map(|y| (50, y)).collect();
+        let solids = with_rock(&wall);
+        let mut state = 7_u32;
+        let mut random = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as f32 / (1 << 24) as f32
+        };
+        for _ in 0..10_000 {
+            let from = Vec2::new(50.0 * random() * 0.999, 1.0 + 98.0 * random());
+            let to = Vec2::new(50.0 + 50.0 * random(), 100.0 * random());
+            let end = solids.sweep(from, to);
+            assert!(end.x < 50.0, "{from} → {to} ended at {end}");
+            assert!(!solids.is_solid(Solids::cell_of(end)));
+        }
+    }
+
+    #[test]
+    fn nothing_slips_between_cells_that_touch_at_a_corner() {
+        let wall: Vec<(i32, i32)> = (0..100).map(|k| (k, k)).collect();
+        let solids = with_rock(&wall);
+        for k in 0..1000 {
+            let along = 1.0 + 98.0 * k as f32 / 1000.0;
+            let from = Vec2::new(along - 0.9, along + 0.9).clamp(Vec2::splat(0.1), Vec2::splat(99.9));
+            if solids.is_solid(Solids::cell_of(from)) {
+                continue;
+            }
+            let end = solids.sweep(from, Vec2::new(along + 0.9, along - 0.9));
+            assert!(end.x < end.y + 1.0, "{from} slipped to {end}");
+            assert!(!solids.is_solid(Solids::cell_of(end)));
+        }
+    }
+
+    #[test]
+    fn a_point_slides_along_a_face_and_keeps_its_free_moves() {
+        let solids = with_rock(&[(5, 5)]);
+        assert_eq!(solids.sweep(Vec2::new(1.0, 1.0), Vec2::new(4.0, 9.0)), Vec2::new(4.0, 9.0));
+        let end = solids.sweep(Vec2::new(4.5, 5.2), Vec2::new(5.5, 5.7));
+        assert!((end.x - 5.0).abs() < 0.01 && (end.y - 5.7).abs() < 1e-6, "{end}");
+        let out = solids.sweep(Vec2::new(0.5, 50.5), Vec2::new(-7.0, 51.5));
+        assert!(out.x > 0.0 && out.x < 0.01 && out.y == 51.5, "left the box: {out}");
+    }
 }

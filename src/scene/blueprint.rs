@@ -23,7 +23,7 @@ pub enum Effect {
     Viscosity,
     /// Vorticity confinement.
     Vorticity,
-    /// The tensile correction s_corr.
+    /// The tensile correction `s_corr`.
     Tension,
 }
 

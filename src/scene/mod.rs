@@ -1,3 +1,33 @@
 //! RON scene and element files → validated values → the world that they describe.
+//!
+//! ```text
+//! builtin / a path ─► file (the format) ─► build ─► Blueprint
+//!                       │ expression, number    ├ place: shapes → particles and rock (shape, image)
+//!                       └ error: one line each  ├ flow: emitters, winds, drains, pressures
+//!                                               └ knobs: fluid and quality numbers, `--set`
+//! ```
+
+mod build;
+mod builtin;
+mod elements;
+mod error;
+mod expression;
+mod file;
+mod flow;
+mod image;
+mod knobs;
+mod number;
+mod place;
+mod shape;
+#[cfg(test)]
+mod tests;
 
 pub mod blueprint;
+
+pub use build::{SceneFile, load};
+pub use builtin::builtin_names;
+pub use elements::elements;
+pub use error::SceneError;
+pub use file::ParameterSpec;
+pub use knobs::{GRADIENT, KNOBS, Knob};
+pub use number::Range;

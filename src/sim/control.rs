@@ -8,7 +8,7 @@ use crate::{
         intent::IntentQueue,
         ledger::PassLedger,
         snapshot::{Snapshot, hash_state},
-        state::{AirGrid, Census, Clock, Counters, ParticleStore, Rock, Setup, Sources},
+        state::{AirGrid, Census, Clock, Counters, ParticleStore, Rates, Rock, Setup, Sources},
     },
 };
 use bevy::prelude::World;
@@ -18,6 +18,7 @@ use std::sync::Arc;
 pub fn load(world: &mut World, blueprint: Arc<Blueprint>) {
     let origin = Arc::new(Snapshot::of_blueprint(&blueprint, blueprint.quality.air_cell));
     world.insert_resource(Effects::new(&blueprint.effects));
+    world.insert_resource(Rates::new(&blueprint.elements, blueprint.scale));
     world.insert_resource(Setup {
         preset: blueprint.preset,
         quality: blueprint.quality,

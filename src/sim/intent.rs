@@ -66,6 +66,11 @@ impl IntentQueue {
         self.waiting.push(intent);
     }
 
+    /// Whether none waits.
+    pub fn is_empty(&self) -> bool {
+        self.waiting.is_empty()
+    }
+
     /// Takes all that wait, oldest first.
     pub fn drain(&mut self) -> std::vec::Drain<'_, Intent> {
         self.waiting.drain(..)

@@ -6,8 +6,10 @@ use std::time::Duration;
 /// A stage of the tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Pass {
-    /// Intents and sources change the world.
+    /// Intents change the world.
     Edit,
+    /// Taps and outlets.
+    Sources,
     /// The air moves.
     Air,
     /// Gravity.
@@ -32,8 +34,9 @@ pub enum Pass {
 
 impl Pass {
     /// All passes in the order of the tick.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Edit,
+        Self::Sources,
         Self::Air,
         Self::Gravity,
         Self::Drag,
@@ -50,6 +53,7 @@ impl Pass {
     pub fn name(self) -> &'static str {
         match self {
             Self::Edit => "edit",
+            Self::Sources => "sources",
             Self::Air => "air",
             Self::Gravity => "gravity",
             Self::Drag => "drag",

@@ -8,8 +8,10 @@ pub mod ledger;
 pub mod pace;
 pub mod schedule;
 pub mod snapshot;
+pub mod stages;
 pub mod state;
 pub mod view;
+pub mod workers;
 
 use bevy::prelude::{App, Plugin};
 
@@ -18,6 +20,11 @@ pub struct SimulationPlugin;
 
 impl Plugin for SimulationPlugin {
     fn build(&self, app: &mut App) {
-        app.init_resource::<pace::Pace>().init_resource::<intent::IntentQueue>();
+        app.init_resource::<pace::Pace>()
+            .init_resource::<intent::IntentQueue>()
+            .init_resource::<stages::TickPlan>()
+            .init_resource::<state::SolverState>()
+            .init_resource::<workers::Workers>()
+            .add_plugins(stages::plugin);
     }
 }

@@ -5,10 +5,13 @@ use crate::{
     kernel::{
         air::Air,
         element::ElementTable,
+        forces::drag_rates,
         params::{Preset, Quality},
         particles::Particles,
+        pbf::Solver,
         solids::Solids,
         sources::{Drain, Emitter, Wind},
+        units::Scale,
     },
     scene::blueprint::Blueprint,
     sim::snapshot::Snapshot,
@@ -99,4 +102,30 @@ pub struct Census {
     pub by_element: Vec<u32>,
     /// Whether the last edit met the particle limit.
     pub full: bool,
+}
+
+/// The solver's buffers: positions under correction, densities, bins. Written by the substep stages.
+#[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
+pub struct SolverState(pub Solver);
+
+/// What the elements mean to the kernel's passes, in kernel units, one entry an element.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Rates {
+    /// k of `dv/dt = −k |v| v`, 1/d.
+    pub drag: Vec<f32>,
+    /// XSPH c.
+    pub viscosity: Vec<f32>,
+    /// Vorticity confinement ε, d/s.
+    pub vorticity: Vec<f32>,
+}
+
+impl Rates {
+    /// The rates of a scene's elements.
+    pub fn new(elements: &ElementTable, scale: Scale) -> Self {
+        Self {
+            drag: drag_rates(elements, scale),
+            viscosity: elements.iter().map(|(_, element)| element.viscosity).collect(),
+            vorticity: elements.iter().map(|(_, element)| scale.to_kernel(element.vorticity)).collect(),
+        }
+    }
 }

@@ -1,0 +1,381 @@
+//! Binned neighbour search: strips as high as the search reaches, cut into thin columns.
+//!
+//! Particles are counting-sorted by cell (row by row), so that whatever may touch a run of consecutive particles lies in
+//! three contiguous runs, one in each of three strips. Runs of consecutive particles are the groups that the passes work
+//! on side by side. Rock is binned into the same cells, once for every change of the rock.
+//!
+//! The search reaches further than the kernel by a margin: particles move on while the solver iterates, and each may move
+//! by the correction limit. So no pair is missed, and since pairs beyond the kernel add exact zeros, neither the width of
+//! a group nor the search itself shows in the result.
+
+use crate::kernel::solids::{Solids, centre};
+use glam::Vec2;
+use std::ops::Range;
+
+/// Columns in a strip's height: thin columns keep candidate runs short.
+const COLUMNS_PER_RADIUS: f32 = 4.0;
+/// Rounding allowance of the search margin, d.
+const MARGIN_ROUNDING: f32 = 1e-3;
+/// A group ends where its particles would spread wider than this many radii: in thin spray a wide group would draw in
+/// everything that lies between.
+const GROUP_SPAN_RADII: f32 = 8.0;
+
+/// How neighbours are found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Neighbours {
+    /// By bins.
+    #[default]
+    Binned,
+    /// Every particle with every other, O(n²): the reference for tests and for the binning table.
+    Brute,
+}
+
+/// A run of consecutive particles with the runs of candidates that may touch any of them. 56 bytes.
+#[derive(Clone, Debug, Default)]
+pub struct Group {
+    /// First particle.
+    pub first: u32,
+    /// Number of particles, at most the lane width.
+    pub len: u32,
+    /// Movable candidates, one run a strip.
+    pub movable: [Run; 3],
+    /// Rock candidates, one run a strip.
+    pub rock: [Run; 3],
+}
+
+/// A run of consecutive entries.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Run {
+    first: u32,
+    end: u32,
+}
+
+impl Run {
+    fn new(first: u32, end: u32) -> Self {
+        Self { first, end }
+    }
+
+    /// As a range of indices.
+    #[inline(always)]
+    pub fn range(self) -> Range<usize> {
+        self.first as usize..self.end as usize
+    }
+}
+
+impl Group {
+    /// The particles.
+    #[inline(always)]
+    pub fn particles(&self) -> Range<usize> {
+        self.first as usize..(self.first + self.len) as usize
+    }
+}
+
+/// The cells, what is in them, and the groups. Buffers are kept from substep to substep.
+#[derive(Clone, Debug, Default)]
+pub struct Bins {
+    grid: CellGrid,
+    starts: Vec<u32>,
+    keys: Vec<u32>,
+    /// For each particle its place after the sort.
+    pub(crate) places: Vec<u32>,
+    groups: Vec<Group>,
+    rock: RockBins,
+}
+
+/// Rock particles sorted by cell.
+#[derive(Clone, Debug, Default)]
+pub struct RockBins {
+    built_for: Option<(CellGrid, u64)>,
+    /// Position, d.
+    pub x: Vec<f32>,
+    /// Position, d.
+    pub y: Vec<f32>,
+    starts: Vec<u32>,
+}
+
+/// Geometry of the cells: one empty strip below and one above the box.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct CellGrid {
+    columns: usize,
+    rows: usize,
+    reach: f32,
+    per_column: f32,
+    per_row: f32,
+}
+
+impl CellGrid {
+    fn new(size: Vec2, reach: f32) -> Self {
+        let column = reach / COLUMNS_PER_RADIUS;
+        Self {
+            columns: (size.x / column) as usize + 1,
+            rows: (size.y / reach) as usize + 3,
+            reach,
+            per_column: 1.0 / column,
+            per_row: 1.0 / reach,
+        }
+    }
+
+    fn cells(&self) -> usize {
+        self.columns * self.rows
+    }
+
+    #[inline]
+    fn column(&self, x: f32) -> usize {
+        // A negative or NaN coordinate becomes 0 in the cast.
+        ((x * self.per_column) as usize).min(self.columns - 1)
+    }
+
+    #[inline]
+    fn cell(&self, x: f32, y: f32) -> u32 {
+        let row = ((y * self.per_row) as usize + 1).min(self.rows - 2);
+        (row * self.columns + self.column(x)) as u32
+    }
+
+    /// Columns that hold everything within reach of `low … high`. One more on each side covers rounding.
+    fn columns_around(&self, low: f32, high: f32) -> Range<usize> {
+        self.column(low - self.reach).saturating_sub(1)..(self.column(high + self.reach) + 2).min(self.columns)
+    }
+}
+
+impl Bins {
+    /// Lays the cells over a box of `size` d for a kernel of radius `radius` d whose particles may each move by
+    /// `correction_limit` d while they are binned, and bins the rock if it or the cells changed.
+    pub fn lay(&mut self, size: Vec2, radius: f32, correction_limit: f32, solids: &Solids) {
+        self.grid = CellGrid::new(size, radius + 2.0 * correction_limit + MARGIN_ROUNDING);
+        if self.rock.built_for != Some((self.grid, solids.version())) {
+            self.rock.build(&self.grid, solids);
+        }
+    }
+
+    /// Counts the particles into cells and notes in `places` where each goes; the caller moves its arrays there.
+    /// Within a cell the order stays.
+    pub fn sort(&mut self, x: &[f32], y: &[f32]) {
+        debug_assert_eq!(x.len(), y.len());
+        self.starts.clear();
+        self.starts.resize(self.grid.cells() + 1, 0);
+        self.keys.clear();
+        self.keys.extend(x.iter().zip(y).map(|(&x, &y)| self.grid.cell(x, y)));
+        count_into_places(&self.keys, &mut self.starts, &mut self.places);
+    }
+
+    /// Builds the groups over the sorted particles, of at most `width` particles each.
+    pub fn group(&mut self, x: &[f32], width: usize, neighbours: Neighbours) {
+        self.groups.clear();
+        if neighbours == Neighbours::Brute {
+            return self.group_with_all(x.len(), width);
+        }
+        let (grid, starts, rock) = (&self.grid, &self.starts, &self.rock.starts);
+        let span = GROUP_SPAN_RADII * grid.reach;
+        for row in 1..grid.rows - 1 {
+            let row_start = row * grid.columns;
+            let (mut first, end) = (starts[row_start] as usize, starts[row_start + grid.columns] as usize);
+            while first < end {
+                let (mut low, mut high) = (x[first], x[first]);
+                let mut next = first + 1;
+                while next < end && next - first < width {
+                    let (wider_low, wider_high) = (low.min(x[next]), high.max(x[next]));
+                    if wider_high - wider_low > span {
+                        break;
+                    }
+                    (low, high) = (wider_low, wider_high);
+                    next += 1;
+                }
+                let columns = grid.columns_around(low, high);
+                let runs = |starts: &[u32]| {
+                    [row - 1, row, row + 1].map(|strip| {
+                        let start = strip * grid.columns;
+                        Run::new(starts[start + columns.start], starts[start + columns.end])
+                    })
+                };
+                self.groups.push(Group {
+                    first: first as u32,
+                    len: (next - first) as u32,
+                    movable: runs(starts),
+                    rock: if rock.is_empty() { Default::default() } else { runs(rock) },
+                });
+                first = next;
+            }
+        }
+    }
+
+    fn group_with_all(&mut self, particles: usize, width: usize) {
+        let all = |len: usize| [Run::new(0, len as u32), Run::default(), Run::default()];
+        for first in (0..particles).step_by(width) {
+            self.groups.push(Group {
+                first: first as u32,
+                len: width.min(particles - first) as u32,
+                movable: all(particles),
+                rock: all(self.rock.x.len()),
+            });
+        }
+    }
+
+    /// The groups, in the order of their particles; together they hold each particle once.
+    pub fn groups(&self) -> &[Group] {
+        &self.groups
+    }
+
+    /// The binned rock.
+    pub fn rock(&self) -> &RockBins {
+        &self.rock
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        4 * (self.starts.capacity()
+            + self.keys.capacity()
+            + self.places.capacity()
+            + self.rock.x.capacity()
+            + self.rock.y.capacity()
+            + self.rock.starts.capacity())
+            + size_of::<Group>() * self.groups.capacity()
+    }
+}
+
+impl RockBins {
+    fn build(&mut self, grid: &CellGrid, solids: &Solids) {
+        self.built_for = Some((*grid, solids.version()));
+        self.starts.clear();
+        self.x.clear();
+        self.y.clear();
+        if solids.count() == 0 {
+            return;
+        }
+        let positions: Vec<Vec2> = solids.iter().map(|(cell, ..)| centre(cell)).collect();
+        let keys: Vec<u32> = positions.iter().map(|p| grid.cell(p.x, p.y)).collect();
+        self.starts.resize(grid.cells() + 1, 0);
+        let mut places = Vec::new();
+        count_into_places(&keys, &mut self.starts, &mut places);
+        self.x.resize(positions.len(), 0.0);
+        self.y.resize(positions.len(), 0.0);
+        for (position, place) in positions.iter().zip(places) {
+            (self.x[place as usize], self.y[place as usize]) = (position.x, position.y);
+        }
+    }
+}
+
+/// Counting sort: `starts` (zeros, one longer than the number of cells) becomes the first place of each cell, `places`
+/// the place of each entry.
+fn count_into_places(keys: &[u32], starts: &mut [u32], places: &mut Vec<u32>) {
+    // Counts stand two cells ahead, so that after the running sum `starts[k + 1]` is the first place of cell k, and
+    // handing out places moves it on to the first place of cell k + 1: the table ends up in place without a shift.
+    let cells = starts.len() - 1;
+    let mut last = 0;
+    for &key in keys {
+        match starts.get_mut(key as usize + 2) {
+            Some(count) => *count += 1,
+            None => last += 1,
+        }
+    }
+    let mut sum = 0;
+    for start in &mut *starts {
+        sum += *start;
+        *start = sum;
+    }
+    debug_assert_eq!(sum as usize + last, keys.len());
+    places.clear();
+    places.extend(keys.iter().map(|&key| {
+        let start = &mut starts[key as usize + 1];
+        *start += 1;
+        *start - 1
+    }));
+    debug_assert_eq!(starts[cells] as usize, keys.len());
+}
+
+/// Moves `values[i]` to `places[i]`, by way of `spare`.
+pub(crate) fn permute<T: Copy + Default>(values: &mut Vec<T>, places: &[u32], spare: &mut Vec<T>) {
+    spare.resize(values.len(), T::default());
+    for (&value, &place) in values.iter().zip(places) {
+        spare[place as usize] = value;
+    }
+    std::mem::swap(values, spare);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::element::ElementId;
+
+    fn scattered(n: usize, size: Vec2) -> (Vec<f32>, Vec<f32>) {
+        let mut state = 12345_u32;
+        let mut random = || {
+            state ^= state << 13;
+            state ^= state >> 17;
+            state ^= state << 5;
+            state as f32 / u32::MAX as f32
+        };
+        (0..n).map(|_| (random() * size.x, random() * size.y)).unzip()
+    }
+
+    fn sorted(n: usize, size: Vec2, width: usize) -> (Bins, Vec<f32>, Vec<f32>) {
+        let (mut x, mut y) = scattered(n, size);
+        let mut bins = Bins::default();
+        let mut solids = Solids::new(size.x.ceil() as u32, size.y.ceil() as u32);
+        for k in 0..10 {
+            solids.insert(glam::IVec2::new(k, k / 2), ElementId(0), k as u32);
+        }
+        bins.lay(size, 2.5, 0.1, &solids);
+        bins.sort(&x, &y);
+        let mut spare = Vec::new();
+        permute(&mut x, &bins.places, &mut spare);
+        permute(&mut y, &bins.places, &mut spare);
+        bins.group(&x, width, Neighbours::Binned);
+        (bins, x, y)
+    }
+
+    #[test]
+    fn every_particle_is_in_exactly_one_group() {
+        for (n, width) in [(0, 16), (1, 16), (5, 1), (1000, 16), (777, 8)] {
+            let (bins, ..) = sorted(n, Vec2::new(50.0, 30.0), width);
+            let mut next = 0;
+            for group in bins.groups() {
+                assert_eq!(group.first as usize, next);
+                assert!(group.len as usize <= width && group.len > 0);
+                next += group.len as usize;
+            }
+            assert_eq!(next, n);
+        }
+    }
+
+    #[test]
+    fn no_pair_within_reach_is_missed() {
+        for size in [Vec2::new(50.0, 30.0), Vec2::new(3.0, 200.0), Vec2::new(200.0, 1.5), Vec2::new(1.0, 1.0)] {
+            let (bins, x, y) = sorted(600, size, 16);
+            for group in bins.groups() {
+                for i in group.particles() {
+                    for j in 0..x.len() {
+                        let near = (Vec2::new(x[i], y[i]) - Vec2::new(x[j], y[j])).length() < 2.7;
+                        let candidate = group.movable.iter().any(|run| run.range().contains(&j));
+                        assert!(candidate || !near, "{i} misses {j} in a box of {size}");
+                    }
+                    for j in 0..bins.rock().x.len() {
+                        let rock = Vec2::new(bins.rock().x[j], bins.rock().y[j]);
+                        let near = (Vec2::new(x[i], y[i]) - rock).length() < 2.7;
+                        assert!(!near || group.rock.iter().any(|run| run.range().contains(&j)), "{i} misses rock {j}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn candidates_are_few() {
+        let size = Vec2::new(100.0, 100.0);
+        let (bins, x, _) = sorted(10_000, size, 16);
+        let candidates: usize = bins
+            .groups()
+            .iter()
+            .map(|g| g.len as usize * g.movable.iter().map(|r| r.range().len()).sum::<usize>())
+            .sum();
+        assert!(candidates / x.len() < 130, "{} candidates a particle", candidates / x.len());
+    }
+
+    #[test]
+    fn the_sort_is_stable_and_complete() {
+        let keys = [3, 0, 3, 1, 0, 3];
+        let (mut starts, mut places) = (vec![0; 5], Vec::new());
+        count_into_places(&keys, &mut starts, &mut places);
+        assert_eq!(places, [3, 0, 4, 2, 1, 5]);
+        assert_eq!(starts, [0, 2, 3, 3, 6]);
+    }
+}

@@ -1,0 +1,102 @@
+//! The pass for Δx.
+
+use crate::kernel::{
+    bins::{Group, RockBins},
+    params::{Domain, FluidParams},
+    pbf::{WALL_GAP, near_wall, wall_sums},
+    simd::{Lanes, Pass},
+    smoothing::{Gradient, Smoothing},
+};
+use glam::Vec2;
+use std::marker::PhantomData;
+
+/// Moves the particles of `groups` by Δx, within the correction limit of their anchors and within the box.
+pub(super) struct CorrectionPass<'a, G, const TENSION: bool> {
+    pub smoothing: &'a Smoothing,
+    pub domain: &'a Domain,
+    pub fluid: &'a FluidParams,
+    /// Furthest from the anchor in each coordinate, d.
+    pub limit: f32,
+    /// Positions, d.
+    pub x: &'a [f32],
+    pub y: &'a [f32],
+    /// Predicted positions, d.
+    pub anchor: [&'a [f32]; 2],
+    /// λ, d².
+    pub lambda: &'a [f32],
+    pub rock: &'a RockBins,
+    pub groups: &'a [Group],
+    /// Particle that the outputs begin with.
+    pub base: usize,
+    /// Out: corrected positions, d.
+    pub next: [&'a mut [f32]; 2],
+    pub gradient: PhantomData<G>,
+}
+
+impl<G: Gradient, const TENSION: bool> Pass for CorrectionPass<'_, G, TENSION> {
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let h_value = self.smoothing.radius;
+        let (h, zero) = (L::splat(h_value), L::splat(0.0));
+        let (h2, core) = (h * h, L::splat(self.smoothing.core));
+        // s_corr = −k (W(r)/W(Δq))⁴ = −k ((h² − r²)/(h² − Δq²))¹²
+        let strength = L::splat(self.fluid.tension_strength);
+        let distance = self.fluid.tension_distance * h_value;
+        let per_reference = L::splat(1.0 / (h_value * h_value - distance * distance));
+        let scale = L::splat(-self.smoothing.gradient_scale / self.fluid.rest_density);
+        let limit = L::splat(self.limit);
+        let (low, high) = (L::splat(WALL_GAP), self.domain.size - Vec2::splat(WALL_GAP));
+        let [next_x, next_y] = self.next;
+        for group in self.groups {
+            let own = group.particles();
+            let (xi, yi) = (L::load(&self.x[own.start..]), L::load(&self.y[own.start..]));
+            let lambda_i = L::load(&self.lambda[own.start..]);
+            let both = lambda_i + lambda_i;
+            let (mut sum_x, mut sum_y) = (zero, zero);
+            for run in group.movable {
+                let run = run.range();
+                for ((&xj, &yj), &lambda_j) in
+                    self.x[run.clone()].iter().zip(&self.y[run.clone()]).zip(&self.lambda[run])
+                {
+                    let (dx, dy) = (xi - L::splat(xj), yi - L::splat(yj));
+                    let r2 = dx * dx + dy * dy;
+                    let w = (h2 - r2).max(zero);
+                    let mut pressure = lambda_i + L::splat(lambda_j);
+                    if TENSION {
+                        let u = w * per_reference;
+                        let u2 = u * u;
+                        let u4 = u2 * u2;
+                        pressure = pressure - strength * (u4 * u4 * u4);
+                    }
+                    let g = G::weight(h, core, r2, w * w) * pressure;
+                    (sum_x, sum_y) = (sum_x + g * dx, sum_y + g * dy);
+                }
+            }
+            for run in group.rock {
+                for (&xj, &yj) in self.rock.x[run.range()].iter().zip(&self.rock.y[run.range()]) {
+                    let (dx, dy) = (xi - L::splat(xj), yi - L::splat(yj));
+                    let r2 = dx * dx + dy * dy;
+                    let w = (h2 - r2).max(zero);
+                    // Rock has no λ of its own: it mirrors the pressure of whom it pushes.
+                    let g = G::weight(h, core, r2, w * w) * both;
+                    (sum_x, sum_y) = (sum_x + g * dx, sum_y + g * dy);
+                }
+            }
+            if near_wall(&self.x[own.clone()], &self.y[own.clone()], self.domain, h_value) {
+                let (mut lanes_x, mut lanes_y) = ([0.0_f32; 16], [0.0_f32; 16]);
+                for (lane, i) in own.clone().enumerate() {
+                    let (_, push) = wall_sums(self.smoothing, self.domain, Vec2::new(self.x[i], self.y[i]));
+                    (lanes_x[lane], lanes_y[lane]) = (push.x, push.y);
+                }
+                (sum_x, sum_y) = (sum_x + both * L::load(&lanes_x), sum_y + both * L::load(&lanes_y));
+            }
+            let keep =
+                |at: L, anchor: L, high: f32| at.max(anchor - limit).min(anchor + limit).max(low).min(L::splat(high));
+            let anchor_x = L::load(&self.anchor[0][own.start..]);
+            let anchor_y = L::load(&self.anchor[1][own.start..]);
+            let out = own.start - self.base..own.end - self.base;
+            keep(xi + scale * sum_x, anchor_x, high.x).store(&mut next_x[out.clone()]);
+            keep(yi + scale * sum_y, anchor_y, high.y).store(&mut next_y[out]);
+        }
+    }
+}

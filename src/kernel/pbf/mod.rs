@@ -1,0 +1,260 @@
+//! Position Based Fluids (Macklin & Müller 2013), the density constraint in 2-D.
+//!
+//! For each particle `C_i = ρ_i/ρ₀ − 1` (eq. 1), `ρ_i = Σ W` over its neighbours (eq. 2), `λ_i = −C_i / (Σ|∇C_i|² + ε)`
+//! (eq. 11), `Δx_i = 1/ρ₀ Σ (λ_i + λ_j + s_corr) ∇W` (eqs. 12–14). One iteration is a pass for λ over all particles and a
+//! pass for Δx (Jacobi: every particle reads the positions from before the pass).
+//!
+//! Who writes what: `predict` fills the predicted positions, [`Solver::bin`] sorts everything by cell,
+//! [`Solver::solve`] iterates on the predicted positions; `velocity` reads them.
+
+mod constraint;
+mod correction;
+pub(crate) mod parallel;
+
+use crate::kernel::{
+    bins::{Bins, Neighbours, permute},
+    element::ElementId,
+    params::{Domain, FluidParams, GradientKernel, Quality},
+    particles::Particles,
+    simd::InstructionSet,
+    smoothing::{Rational, Smoothing, Spiky},
+    solids::Solids,
+};
+use constraint::ConstraintPass;
+use correction::CorrectionPass;
+use glam::Vec2;
+
+/// Nearest that a liquid particle comes to a box wall, d.
+pub const WALL_GAP: f32 = 0.25;
+
+/// Positions under correction, densities, bins: what the solver keeps beside the particles. 45 bytes a particle and the
+/// bins. The arrays follow the order of the particles.
+#[derive(Clone, Debug)]
+pub struct Solver {
+    /// Cells and groups of the last [`Solver::bin`].
+    pub bins: Bins,
+    /// The smoothing kernels in use.
+    pub smoothing: Smoothing,
+    /// Lanes in use.
+    pub instructions: InstructionSet,
+    /// How neighbours are found.
+    pub neighbours: Neighbours,
+    /// Density ρ in units of the lattice's, as of the last iteration.
+    pub density: Vec<f32>,
+    /// Where the particles go in this substep, d: predicted, then corrected.
+    pub(crate) x: Vec<f32>,
+    pub(crate) y: Vec<f32>,
+    /// The prediction, d: corrections keep within the correction limit of it.
+    pub(crate) anchor_x: Vec<f32>,
+    pub(crate) anchor_y: Vec<f32>,
+    /// Outputs of a pass.
+    pub(crate) next_x: Vec<f32>,
+    pub(crate) next_y: Vec<f32>,
+    pub(crate) lambda: Vec<f32>,
+    spare_ids: Vec<u32>,
+    spare_elements: Vec<ElementId>,
+}
+
+/// What [`Solver::solve`] is told besides the particles.
+#[derive(Clone, Copy, Debug)]
+pub struct SolveParams<'a> {
+    /// Box and gravity.
+    pub domain: &'a Domain,
+    /// Liquid parameters.
+    pub fluid: &'a FluidParams,
+    /// Accuracy.
+    pub quality: &'a Quality,
+    /// Whether the tensile correction is added.
+    pub tension: bool,
+    /// Threads to use.
+    pub threads: usize,
+}
+
+impl Default for Solver {
+    fn default() -> Self {
+        Self::new(InstructionSet::detect(), Neighbours::Binned)
+    }
+}
+
+impl Solver {
+    /// An empty solver.
+    pub fn new(instructions: InstructionSet, neighbours: Neighbours) -> Self {
+        Self {
+            bins: Bins::default(),
+            smoothing: Smoothing::new(2.5, GradientKernel::Rational),
+            instructions,
+            neighbours,
+            density: Vec::new(),
+            x: Vec::new(),
+            y: Vec::new(),
+            anchor_x: Vec::new(),
+            anchor_y: Vec::new(),
+            next_x: Vec::new(),
+            next_y: Vec::new(),
+            lambda: Vec::new(),
+            spare_ids: Vec::new(),
+            spare_elements: Vec::new(),
+        }
+    }
+
+    /// Predicted or corrected position of particle `i`, d.
+    pub fn position(&self, i: usize) -> Vec2 {
+        Vec2::new(self.x[i], self.y[i])
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        let floats = [&self.density, &self.x, &self.y, &self.anchor_x, &self.anchor_y, &self.next_x, &self.next_y];
+        let floats: usize = floats.iter().map(|array| array.capacity()).sum();
+        4 * (floats + self.lambda.capacity() + self.spare_ids.capacity())
+            + self.spare_elements.capacity()
+            + self.bins.memory()
+    }
+
+    /// Sorts the particles and their predicted positions by cell and builds the groups. From here on the prediction is
+    /// the anchor of the corrections.
+    pub fn bin(&mut self, particles: &mut Particles, solids: &Solids, domain: &Domain, quality: &Quality) {
+        if (self.smoothing.radius, self.smoothing.gradient) != (quality.kernel_radius, quality.gradient) {
+            self.smoothing = Smoothing::new(quality.kernel_radius, quality.gradient);
+        }
+        self.bins.lay(domain.size, quality.kernel_radius, quality.correction_limit, solids);
+        self.bins.sort(&self.x, &self.y);
+        let places = &self.bins.places;
+        for array in
+            [&mut particles.x, &mut particles.y, &mut particles.vx, &mut particles.vy, &mut self.x, &mut self.y]
+        {
+            permute(array, places, &mut self.next_x);
+        }
+        permute(&mut particles.id, places, &mut self.spare_ids);
+        permute(&mut particles.element, places, &mut self.spare_elements);
+        separate_coincident(&particles.id, &mut self.x, &mut self.y);
+        self.bins.group(&self.x, self.instructions.width(), self.neighbours);
+        self.anchor_x.clone_from(&self.x);
+        self.anchor_y.clone_from(&self.y);
+    }
+
+    /// Iterates the density constraint on the binned positions.
+    pub fn solve(&mut self, params: &SolveParams) {
+        let particles = self.x.len();
+        for array in [&mut self.density, &mut self.lambda, &mut self.next_x, &mut self.next_y] {
+            array.resize(particles, 0.0);
+        }
+        for _ in 0..params.quality.iterations {
+            match params.quality.gradient {
+                GradientKernel::Spiky => self.iterate::<Spiky>(params),
+                GradientKernel::Rational => self.iterate::<Rational>(params),
+            }
+        }
+    }
+
+    fn iterate<G: crate::kernel::smoothing::Gradient>(&mut self, params: &SolveParams) {
+        self.find_lambda::<G>(params);
+        if params.tension {
+            self.correct::<G, true>(params);
+        } else {
+            self.correct::<G, false>(params);
+        }
+        std::mem::swap(&mut self.x, &mut self.next_x);
+        std::mem::swap(&mut self.y, &mut self.next_y);
+    }
+
+    fn find_lambda<G: crate::kernel::smoothing::Gradient>(&mut self, params: &SolveParams) {
+        let (smoothing, instructions) = (&self.smoothing, self.instructions);
+        let (x, y, rock) = (&self.x, &self.y, self.bins.rock());
+        let outputs = [&mut self.lambda[..], &mut self.density[..]];
+        parallel::split(self.bins.groups(), outputs, params.threads, &|groups, base, [lambda, density]| {
+            instructions.run(ConstraintPass::<G> {
+                smoothing,
+                domain: params.domain,
+                fluid: params.fluid,
+                x,
+                y,
+                rock,
+                groups,
+                base,
+                lambda,
+                density,
+                gradient: std::marker::PhantomData,
+            });
+        });
+    }
+
+    fn correct<G: crate::kernel::smoothing::Gradient, const TENSION: bool>(&mut self, params: &SolveParams) {
+        let (smoothing, instructions) = (&self.smoothing, self.instructions);
+        let (x, y, rock, lambda) = (&self.x, &self.y, self.bins.rock(), &self.lambda);
+        let anchor = [&self.anchor_x[..], &self.anchor_y[..]];
+        let outputs = [&mut self.next_x[..], &mut self.next_y[..]];
+        parallel::split(self.bins.groups(), outputs, params.threads, &|groups, base, next| {
+            instructions.run(CorrectionPass::<G, TENSION> {
+                smoothing,
+                domain: params.domain,
+                fluid: params.fluid,
+                limit: params.quality.correction_limit,
+                x,
+                y,
+                anchor,
+                lambda,
+                rock,
+                groups,
+                base,
+                next,
+                gradient: std::marker::PhantomData,
+            });
+        });
+    }
+}
+
+/// Particles at one point have no direction to part in (the spiky gradient is 0/0 there); equal ones among the last few
+/// of the sorted order are set apart by a small offset that only depends on the id.
+fn separate_coincident(id: &[u32], x: &mut [f32], y: &mut [f32]) {
+    /// Closer than this in both coordinates counts as one point, d.
+    const COINCIDENT: f32 = 1e-4;
+    /// Largest offset in each coordinate, d.
+    const APART: f32 = 0.05;
+    /// Particles before it that each is compared with.
+    const LOOK_BACK: usize = 4;
+    for i in 1..x.len() {
+        let near = |j: usize| (x[i] - x[j]).abs() < COINCIDENT && (y[i] - y[j]).abs() < COINCIDENT;
+        if (i.saturating_sub(LOOK_BACK)..i).any(near) {
+            let mixed = mix(id[i]);
+            x[i] += APART * unit(mixed);
+            y[i] += APART * unit(mixed >> 16);
+        }
+    }
+}
+
+/// Scrambles a number (the finaliser of MurmurHash3), so that neighbouring ids point in unrelated directions.
+pub(crate) fn mix(mut word: u32) -> u32 {
+    word ^= word >> 16;
+    word = word.wrapping_mul(0x85eb_ca6b);
+    word ^= word >> 13;
+    word = word.wrapping_mul(0xc2b2_ae35);
+    word ^ (word >> 16)
+}
+
+/// The low 16 bits as a number in −1 … 1.
+pub(crate) fn unit(bits: u32) -> f32 {
+    (bits & 0xffff) as f32 / 32_767.5 - 1.0
+}
+
+/// Distance and inward sign of the walls that a kernel of radius `h` at `position` reaches, as the density that they add
+/// and the sum of `g (x_i − x_j)` over them. Where two walls meet, their overlap is counted once (as for a separable
+/// kernel).
+#[inline]
+pub(crate) fn wall_sums(smoothing: &Smoothing, domain: &Domain, position: Vec2) -> (f32, Vec2) {
+    let axis = |at: f32, size: f32| {
+        let (low, low_push) = smoothing.wall(at);
+        let (high, high_push) = smoothing.wall(size - at);
+        (low + high, low_push - high_push)
+    };
+    let (density_x, push_x) = axis(position.x, domain.size.x);
+    let (density_y, push_y) = axis(position.y, domain.size.y);
+    (density_x + density_y - density_x * density_y, Vec2::new(push_x * (1.0 - density_y), push_y * (1.0 - density_x)))
+}
+
+/// Whether any of the points is within `reach` of a wall.
+#[inline(always)]
+pub(crate) fn near_wall(x: &[f32], y: &[f32], domain: &Domain, reach: f32) -> bool {
+    let inner = |at: f32, size: f32| at > reach && at < size - reach;
+    !x.iter().zip(y).all(|(&x, &y)| inner(x, domain.size.x) & inner(y, domain.size.y))
+}

@@ -1,0 +1,213 @@
+//! Lanes: one source for every width of vector registers, and the choice of the width at run time.
+//!
+//! A pass over particles is written once, generic over [`Lanes`]. Lanes are plain arrays; inside a function with
+//! `#[target_feature]` the compiler turns them into vector registers. Every operation is the IEEE one on each lane (no
+//! fused multiply-add, no estimates), so every width gives the same bits.
+
+use std::ops::{Add, Div, Mul, Sub};
+
+/// `WIDTH` numbers that are computed side by side.
+pub(crate) trait Lanes:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    /// Number of lanes.
+    const WIDTH: usize;
+
+    /// The same number in every lane.
+    fn splat(value: f32) -> Self;
+
+    /// The first numbers of the slice; lanes past its end are 0.
+    fn load(from: &[f32]) -> Self;
+
+    /// Writes the first lanes into the slice, as many as it holds.
+    fn store(self, to: &mut [f32]);
+
+    /// `if self > other { self } else { other }` in each lane.
+    fn max(self, other: Self) -> Self;
+
+    /// `if self < other { self } else { other }` in each lane.
+    fn min(self, other: Self) -> Self;
+
+    /// Square root of each lane.
+    fn sqrt(self) -> Self;
+}
+
+/// `N` lanes as a plain array.
+#[derive(Clone, Copy)]
+pub(crate) struct Array<const N: usize>([f32; N]);
+
+impl<const N: usize> Array<N> {
+    #[inline(always)]
+    fn zip(self, other: Self, operation: impl Fn(f32, f32) -> f32) -> Self {
+        Self(std::array::from_fn(|lane| operation(self.0[lane], other.0[lane])))
+    }
+}
+
+impl<const N: usize> Add for Array<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.zip(other, |a, b| a + b)
+    }
+}
+
+impl<const N: usize> Sub for Array<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.zip(other, |a, b| a - b)
+    }
+}
+
+impl<const N: usize> Mul for Array<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.zip(other, |a, b| a * b)
+    }
+}
+
+impl<const N: usize> Div for Array<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self.zip(other, |a, b| a / b)
+    }
+}
+
+impl<const N: usize> Lanes for Array<N> {
+    const WIDTH: usize = N;
+
+    #[inline(always)]
+    fn splat(value: f32) -> Self {
+        Self([value; N])
+    }
+
+    #[inline(always)]
+    fn load(from: &[f32]) -> Self {
+        if let Some(full) = from.first_chunk::<N>() {
+            return Self(*full);
+        }
+        let mut lanes = [0.0; N];
+        lanes[..from.len()].copy_from_slice(from);
+        Self(lanes)
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [f32]) {
+        if let Some(full) = to.first_chunk_mut::<N>() {
+            *full = self.0;
+        } else {
+            let lanes = to.len();
+            to.copy_from_slice(&self.0[..lanes]);
+        }
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a > b { a } else { b })
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a < b { a } else { b })
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(std::array::from_fn(|lane| self.0[lane].sqrt()))
+    }
+}
+
+/// Work that is generic over the lane width.
+pub(crate) trait Pass {
+    /// Does the work. Implementations are `#[inline(always)]`, so that they are compiled for the caller's registers.
+    fn run<L: Lanes>(self);
+}
+
+/// Instruction set that the passes are compiled for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InstructionSet {
+    /// 16 lanes.
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+    /// 8 lanes.
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    /// What every processor of the target has; 8 lanes in registers of its own width.
+    Baseline,
+    /// One lane: the slow reference.
+    Scalar,
+}
+
+impl InstructionSet {
+    /// The widest that this processor has.
+    pub fn detect() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if is_x86_feature_detected!("avx512f") {
+                return Self::Avx512;
+            }
+            if is_x86_feature_detected!("avx2") {
+                return Self::Avx2;
+            }
+        }
+        Self::Baseline
+    }
+
+    /// All sets that this processor has, widest first.
+    pub fn available() -> Vec<Self> {
+        let mut sets = Vec::new();
+        #[cfg(target_arch = "x86_64")]
+        {
+            if is_x86_feature_detected!("avx512f") {
+                sets.push(Self::Avx512);
+            }
+            if is_x86_feature_detected!("avx2") {
+                sets.push(Self::Avx2);
+            }
+        }
+        sets.extend([Self::Baseline, Self::Scalar]);
+        sets
+    }
+
+    /// Particles that a pass works on side by side.
+    pub(crate) fn width(self) -> usize {
+        match self {
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => 16,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => 8,
+            Self::Baseline => 8,
+            Self::Scalar => 1,
+        }
+    }
+
+    /// Runs `pass` on the lanes of this set. The processor must have it: sets come from [`Self::detect`] and
+    /// [`Self::available`].
+    #[inline]
+    pub(crate) fn run(self, pass: impl Pass) {
+        match self {
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: `Avx512` is only made where the processor reports AVX-512F.
+            Self::Avx512 => unsafe { run_avx512(pass) },
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: `Avx2` is only made where the processor reports AVX2.
+            Self::Avx2 => unsafe { run_avx2(pass) },
+            Self::Baseline => pass.run::<Array<8>>(),
+            Self::Scalar => pass.run::<Array<1>>(),
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f")]
+fn run_avx512(pass: impl Pass) {
+    pass.run::<Array<16>>();
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn run_avx2(pass: impl Pass) {
+    pass.run::<Array<8>>();
+}

@@ -1,0 +1,82 @@
+//! XSPH viscosity: `v_i += c Σ (m/ρ_j) (v_j − v_i) W` (Macklin & Müller 2013, eq. 17, with the volume m/ρ_j that makes
+//! the sum an average).
+//!
+//! Stable for c ≤ 1: the weights `c m/ρ_j W` are positive and, since `Σ m/ρ_j W ≈ 1`, add up to at most c, so a new
+//! velocity is an average of old ones.
+
+use crate::kernel::{
+    bins::Group,
+    element::ElementId,
+    particles::Particles,
+    pbf::{Solver, parallel},
+    simd::{Lanes, Pass},
+    smoothing::Smoothing,
+};
+
+/// Lowest density that a volume is taken from: a lone droplet's own kernel gives about a seventh.
+const LEAST_DENSITY: f32 = 0.1;
+
+/// Applies viscosity; `coefficients` gives c for each element.
+pub fn apply_viscosity(particles: &mut Particles, solver: &mut Solver, coefficients: &[f32], threads: usize) {
+    let Solver { bins, smoothing, instructions, density, x, y, next_x, next_y, .. } = solver;
+    let read = &*particles;
+    parallel::split(bins.groups(), [&mut next_x[..], &mut next_y[..]], threads, &|groups, base, out| {
+        instructions.run(ViscosityPass { smoothing, particles: read, x, y, density, coefficients, groups, base, out });
+    });
+    std::mem::swap(&mut particles.vx, next_x);
+    std::mem::swap(&mut particles.vy, next_y);
+}
+
+struct ViscosityPass<'a> {
+    smoothing: &'a Smoothing,
+    particles: &'a Particles,
+    /// Positions by which the particles were binned, d.
+    x: &'a [f32],
+    y: &'a [f32],
+    density: &'a [f32],
+    coefficients: &'a [f32],
+    groups: &'a [Group],
+    base: usize,
+    /// Out: velocities, d/s.
+    out: [&'a mut [f32]; 2],
+}
+
+impl Pass for ViscosityPass<'_> {
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let zero = L::splat(0.0);
+        let h2 = L::splat(self.smoothing.radius * self.smoothing.radius);
+        let [out_x, out_y] = self.out;
+        for group in self.groups {
+            let own = group.particles();
+            let (xi, yi) = (L::load(&self.x[own.start..]), L::load(&self.y[own.start..]));
+            let (vxi, vyi) = (L::load(&self.particles.vx[own.start..]), L::load(&self.particles.vy[own.start..]));
+            let (mut sum_x, mut sum_y) = (zero, zero);
+            for run in group.movable {
+                for j in run.range() {
+                    let (dx, dy) = (xi - L::splat(self.x[j]), yi - L::splat(self.y[j]));
+                    let w = (h2 - (dx * dx + dy * dy)).max(zero);
+                    let volume = 1.0 / self.density[j].max(LEAST_DENSITY);
+                    let weight = w * w * w * L::splat(volume);
+                    sum_x = sum_x + weight * (L::splat(self.particles.vx[j]) - vxi);
+                    sum_y = sum_y + weight * (L::splat(self.particles.vy[j]) - vyi);
+                }
+            }
+            let share = share_of(self.coefficients, &self.particles.element[own.clone()], self.smoothing.density_scale);
+            let share = L::load(&share);
+            let out = own.start - self.base..own.end - self.base;
+            (vxi + share * sum_x).store(&mut out_x[out.clone()]);
+            (vyi + share * sum_y).store(&mut out_y[out]);
+        }
+    }
+}
+
+/// `scale · coefficient` of each particle's element, in lanes.
+#[inline(always)]
+pub(super) fn share_of(coefficients: &[f32], elements: &[ElementId], scale: f32) -> [f32; 16] {
+    let mut lanes = [0.0; 16];
+    for (lane, element) in lanes.iter_mut().zip(elements) {
+        *lane = coefficients[element.index()] * scale;
+    }
+    lanes
+}

@@ -1,0 +1,203 @@
+//! A scene file with its parameters put in becomes a [`Blueprint`].
+
+use crate::{
+    kernel::{
+        element::ElementTable,
+        params::{AirParams, Domain, FluidParams, GradientKernel, Preset},
+        units::Scale,
+    },
+    scene::{
+        blueprint::{Blueprint, EffectModes},
+        builtin::{self, Origin, Source},
+        elements::elements,
+        error::{SceneError, choices},
+        file::{ParameterSpec, SceneText, parse},
+        flow::Bounds,
+        knobs::{self, DEFAULT_PARTICLE_LIMIT, GRADIENT, KNOBS, Tuning},
+        number::{Evaluator, Range},
+        place::{Room, fill},
+    },
+};
+use std::collections::BTreeMap;
+
+/// Most cells of a box.
+const MOST_CELLS: f64 = 64e6;
+
+/// Cells along a side of the box. Beyond 32 768 a position in f32 is coarser than 1/500 of a spacing.
+const SIDE: Range = Range::real(4.0, 32_768.0);
+
+/// A scene file that was read and is well-formed; what depends on its parameters is checked by [`SceneFile::build`].
+#[derive(Clone, Debug)]
+pub struct SceneFile {
+    name: String,
+    file: String,
+    origin: Origin,
+    text: SceneText,
+}
+
+/// Reads the scene called `name_or_path`: a name of [`builtin_names`](crate::scene::builtin_names) or a path to a `.ron` file.
+pub fn load(name_or_path: &str) -> Result<SceneFile, SceneError> {
+    SceneFile::from_source(builtin::find(name_or_path)?)
+}
+
+/// The numbers of a scene that `--set` can reach, with those that it did set put in.
+struct Settings {
+    parameters: BTreeMap<String, f64>,
+    tuning: Vec<(&'static knobs::Knob, f64)>,
+    gradient: Option<GradientKernel>,
+}
+
+impl SceneFile {
+    pub(super) fn from_source(source: Source) -> Result<Self, SceneError> {
+        let text: SceneText = parse(&source.file, &source.bytes)?;
+        text.check(&source.file)?;
+        Ok(Self { name: source.name, file: source.file, origin: source.origin, text })
+    }
+
+    /// Name under `assets/scenes`, or the file's stem.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Title in the scene menu.
+    pub fn title(&self) -> &str {
+        &self.text.title
+    }
+
+    /// One sentence for the scene menu.
+    pub fn description(&self) -> &str {
+        &self.text.description
+    }
+
+    /// The scene's own parameters, by name.
+    pub fn parameters(&self) -> &BTreeMap<String, ParameterSpec> {
+        &self.text.parameters
+    }
+
+    /// The world that the scene describes. `settings` (KEY, VALUE) set its parameters and the knobs that every scene has,
+    /// the last one of a key counts; `preset` takes the place of the scene's, `effects` those of the scene's that it
+    /// names.
+    pub fn build(
+        &self,
+        settings: &[(String, String)],
+        preset: Option<Preset>,
+        effects: &EffectModes,
+    ) -> Result<Blueprint, SceneError> {
+        let text = &self.text;
+        let elements = elements()?;
+        let settings = self.read_settings(settings)?;
+        let mut values = Evaluator { file: &self.file, names: settings.parameters.clone() };
+        let spacing = values.number("spacing", &text.spacing, Range::real(0.001, 100.0))?;
+        values.names.insert("d".to_owned(), spacing);
+
+        let preset = preset.or(text.quality.preset).unwrap_or(Preset::Balanced);
+        let tuning = self.tune(&values, preset, &settings)?;
+        let domain = self.domain(&values, spacing)?;
+        let sound_speed = values.number("sound_speed", &text.sound_speed, Range::real(1.0, 400.0))?;
+        let bounds = Bounds { values: &values, spacing, size: domain.size };
+        let (winds, drains) = (bounds.winds(&text.winds)?, bounds.drains(&text.drains)?);
+        let (emitters, pressures) = (bounds.emitters(&elements, &text.emitters)?, bounds.pressures(&text.pressures)?);
+        self.check_first_element(&values, &elements)?;
+        let filled = fill(
+            &Room {
+                elements: &elements,
+                origin: &self.origin,
+                spacing,
+                size: domain.size,
+                particle_limit: tuning.particle_limit,
+            },
+            &values,
+            &text.contents,
+        )?;
+        Ok(Blueprint {
+            name: self.name.clone(),
+            title: text.title.clone(),
+            description: text.description.clone(),
+            parameters: settings.parameters,
+            scale: Scale { spacing: spacing as f32 },
+            domain,
+            elements,
+            particles: filled.particles,
+            solids: filled.solids,
+            next_id: filled.next_id,
+            emitters,
+            winds,
+            drains,
+            pressures,
+            fluid: tuning.fluid,
+            air: AirParams { sound_speed: (sound_speed / spacing) as f32, open: text.open },
+            effects: text.effects.iter().chain(effects).map(|(effect, mode)| (*effect, *mode)).collect(),
+            preset,
+            quality: tuning.quality,
+            particle_limit: tuning.particle_limit,
+            first_element: text.first_element.clone(),
+        })
+    }
+
+    fn read_settings(&self, settings: &[(String, String)]) -> Result<Settings, SceneError> {
+        let defaults = self.text.parameters.iter().map(|(name, spec)| (name.clone(), spec.default));
+        let mut read = Settings { parameters: defaults.collect(), tuning: Vec::new(), gradient: None };
+        for (key, value) in settings {
+            let fault = |what: String| SceneError::value(&self.file, format_args!("--set {key}={value}"), what);
+            let number = |range: Range| match value.trim().parse() {
+                Ok(number) => range.check(number).map_err(fault),
+                Err(_) => Err(fault(format!("`{value}` isn't a number; allowed: {range}"))),
+            };
+            if let Some(spec) = self.text.parameters.get(key) {
+                read.parameters.insert(key.clone(), number(spec.range())?);
+            } else if let Some(knob) = KNOBS.iter().find(|knob| knob.name == key) {
+                read.tuning.push((knob, number(knob.range)?));
+            } else if key == GRADIENT {
+                let gradient = knobs::gradient(value.trim());
+                read.gradient = Some(gradient.ok_or_else(|| fault(choices(value, ["spiky", "rational"])))?);
+            } else {
+                let known = self.text.parameters.keys().map(String::as_str).chain(knobs::names());
+                return Err(fault(format!("no parameter or knob `{key}`; {}", choices(key, known))));
+            }
+        }
+        Ok(read)
+    }
+
+    /// Preset, then what the scene sets, then what the command line sets.
+    fn tune(&self, values: &Evaluator<'_>, preset: Preset, settings: &Settings) -> Result<Tuning, SceneError> {
+        let text = &self.text;
+        let mut tuning =
+            Tuning { fluid: FluidParams::default(), quality: preset.quality(), particle_limit: DEFAULT_PARTICLE_LIMIT };
+        knobs::apply_scene(values, &text.fluid, &text.quality, text.particle_limit.as_ref(), &mut tuning)?;
+        for (knob, value) in &settings.tuning {
+            knob.turn(&mut tuning, *value);
+        }
+        if let Some(gradient) = settings.gradient {
+            tuning.quality.gradient = gradient;
+        }
+        Ok(tuning)
+    }
+
+    fn domain(&self, values: &Evaluator<'_>, spacing: f64) -> Result<Domain, SceneError> {
+        let metres = values.pair("size", &self.text.size, Range::real(1e-3, 1e9))?;
+        // "4 * columns * d" over d may miss the whole number by a rounding error.
+        let cells = (metres / spacing * 1e6).round() / 1e6;
+        for (axis, cells) in [("x", cells.x), ("y", cells.y)] {
+            let fault = |what: String| values.fault(format_args!("size.{axis}"), format!("in spacings, {what}"));
+            SIDE.check(cells).map_err(fault)?;
+        }
+        let size = cells.as_vec2();
+        let cells = size.ceil().as_dvec2();
+        if cells.x * cells.y > MOST_CELLS {
+            let what = format!("{} × {} cells of {spacing} m; allowed: at most {MOST_CELLS} cells", cells.x, cells.y);
+            return Err(values.fault("size", what));
+        }
+        let gravity = values.pair("gravity", &self.text.gravity, Range::real(-1000.0, 1000.0))?;
+        Ok(Domain { size, gravity: (gravity / spacing).as_vec2() })
+    }
+
+    fn check_first_element(&self, values: &Evaluator<'_>, elements: &ElementTable) -> Result<(), SceneError> {
+        match &self.text.first_element {
+            Some(name) if elements.find(name).is_none() => {
+                let known = elements.iter().map(|(_, element)| element.name.as_str());
+                Err(values.fault("first_element", format!("no element `{name}`; {}", choices(name, known))))
+            }
+            _ => Ok(()),
+        }
+    }
+}

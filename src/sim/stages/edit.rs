@@ -1,0 +1,72 @@
+//! Intents change the world.
+
+use crate::{
+    kernel::spawn::{EditReport, Matter},
+    sim::{
+        intent::{Intent, IntentQueue},
+        ledger::{Pass, PassLedger},
+        state::{AirGrid, Census, Clock, Counters, ParticleStore, Rock, Setup},
+    },
+};
+use bevy::prelude::{Res, ResMut};
+use std::time::Instant;
+
+/// Applies all waiting intents in order.
+pub(super) fn apply_intents(
+    mut queue: ResMut<IntentQueue>,
+    setup: Res<Setup>,
+    mut particles: ResMut<ParticleStore>,
+    mut rock: ResMut<Rock>,
+    mut air: ResMut<AirGrid>,
+    mut clock: ResMut<Clock>,
+    mut counters: ResMut<Counters>,
+    mut census: ResMut<Census>,
+    mut ledger: ResMut<PassLedger>,
+) {
+    if queue.is_empty() {
+        return;
+    }
+    let start = Instant::now();
+    let before = rock.version();
+    let mut refused = 0;
+    let mut placed = 0;
+    for intent in queue.drain() {
+        let seed = clock.edits;
+        clock.edits += 1;
+        let mut matter = Matter {
+            elements: setup.elements(),
+            particles: &mut particles,
+            solids: &mut rock,
+            next_id: &mut clock.next_id,
+            limit: setup.blueprint.particle_limit,
+        };
+        let report = match intent {
+            Intent::Draw { element, stroke } => matter.pour(element, &stroke, seed),
+            Intent::Stamp { element, stroke } => matter.stamp(element, &stroke),
+            Intent::Fill { element, at } => matter.fill(element, at),
+            Intent::Erase { stroke } => matter.erase(&stroke),
+            Intent::Blow { stroke, velocity } => {
+                air.blow(stroke.to, stroke.radius, velocity);
+                EditReport::default()
+            }
+            Intent::Press { stroke, amount } => {
+                air.press(stroke.to, stroke.radius, amount);
+                EditReport::default()
+            }
+            Intent::ClearAir => {
+                air.clear();
+                EditReport::default()
+            }
+        };
+        refused += report.refused;
+        placed += report.placed;
+    }
+    if rock.version() != before {
+        air.set_solids(&rock);
+    }
+    counters.refused += refused;
+    if refused > 0 || placed > 0 {
+        census.full = refused > 0;
+    }
+    ledger.note(Pass::Edit, start.elapsed());
+}

@@ -1,0 +1,63 @@
+//! Decides which effects run in a tick, and how many substeps it takes.
+
+use crate::{
+    kernel::{element::Element, predict, units::TICK_SECONDS},
+    scene::blueprint::Effect,
+    sim::{
+        effects::Effects,
+        stages::TickPlan,
+        state::{AirGrid, Census, Counters, ParticleStore, Setup, Sources},
+    },
+};
+use bevy::prelude::{Res, ResMut};
+
+/// Plans the tick from facts that are there already.
+pub(super) fn plan_tick(
+    setup: Res<Setup>,
+    particles: Res<ParticleStore>,
+    air: Res<AirGrid>,
+    sources: Res<Sources>,
+    census: Res<Census>,
+    mut effects: ResMut<Effects>,
+    mut counters: ResMut<Counters>,
+    mut plan: ResMut<TickPlan>,
+) {
+    // The census is from the end of the last tick; in the first one nothing is counted yet.
+    let counted = census.by_element.len() == setup.elements().len();
+    let present = |wanted: &dyn Fn(&Element) -> bool| {
+        let count = |index: usize| if counted { census.by_element[index] } else { 1 };
+        let movable = |element: &Element| !element.fixed && wanted(element);
+        !particles.is_empty() && setup.elements().iter().any(|(id, element)| movable(element) && count(id.index()) > 0)
+    };
+    let called = |called: bool, yes: &'static str, no: &'static str| (called, if called { yes } else { no });
+    effects.decide(
+        Effect::Air,
+        if sources.winds.is_empty() {
+            called(!air.is_quiet(), "the air moves", "the air is still")
+        } else {
+            (true, "a fan drives the air")
+        },
+    );
+    effects.decide(
+        Effect::Drag,
+        called(present(&|element| element.drag > 0.0), "particles feel the air", "no particle feels the air"),
+    );
+    effects.decide(
+        Effect::Tension,
+        called(
+            !particles.is_empty() && setup.blueprint.fluid.tension_strength > 0.0,
+            "a liquid is there",
+            "no liquid, or its tension is 0",
+        ),
+    );
+    effects.decide(
+        Effect::Viscosity,
+        called(present(&|element| element.viscosity > 0.0), "a viscous liquid is there", "nothing is viscous"),
+    );
+    effects.decide(
+        Effect::Vorticity,
+        called(present(&|element| element.vorticity > 0.0), "a liquid keeps its eddies", "nothing keeps its eddies"),
+    );
+    plan.substeps = predict::substeps(&particles, &setup.blueprint.domain, &setup.quality, TICK_SECONDS);
+    counters.substeps_max = counters.substeps_max.max(plan.substeps);
+}

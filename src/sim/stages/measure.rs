@@ -1,0 +1,55 @@
+//! Counts and checks at the end of a tick.
+
+use crate::{
+    kernel::solids::Solids,
+    sim::{
+        ledger::{Pass, PassLedger},
+        pace::Pace,
+        stages::TickPlan,
+        state::{Census, Clock, Counters, ParticleStore, Rock, Setup},
+    },
+};
+use bevy::prelude::{Res, ResMut};
+use std::time::Instant;
+
+/// Counts the particles of each element.
+pub(super) fn count_particles(
+    setup: Res<Setup>,
+    particles: Res<ParticleStore>,
+    rock: Res<Rock>,
+    mut census: ResMut<Census>,
+) {
+    census.by_element.clear();
+    census.by_element.resize(setup.elements().len(), 0);
+    for element in &particles.element {
+        census.by_element[element.index()] += 1;
+    }
+    for (_, element, _) in rock.iter() {
+        census.by_element[element.index()] += 1;
+    }
+    census.total = (particles.len() + rock.count()) as u32;
+}
+
+/// Looks for particles that are where none may be, and closes the tick's books.
+pub(super) fn end_tick(
+    setup: Res<Setup>,
+    particles: Res<ParticleStore>,
+    rock: Res<Rock>,
+    plan: Res<TickPlan>,
+    mut pace: ResMut<Pace>,
+    mut clock: ResMut<Clock>,
+    mut counters: ResMut<Counters>,
+    mut ledger: ResMut<PassLedger>,
+) {
+    let start = Instant::now();
+    let size = setup.blueprint.domain.size;
+    let escaped = |i: usize| {
+        let at = particles.position(i);
+        !(at.x >= 0.0 && at.y >= 0.0 && at.x <= size.x && at.y <= size.y) || rock.is_solid(Solids::cell_of(at))
+    };
+    counters.escaped += (0..particles.len()).filter(|&i| escaped(i)).count() as u64;
+    clock.tick += 1;
+    pace.steps_due = pace.steps_due.saturating_sub(u32::from(pace.paused));
+    ledger.note(Pass::Measure, start.elapsed());
+    ledger.end_tick(plan.started.elapsed());
+}

@@ -1,0 +1,82 @@
+//! The stages of a tick as thin systems: each unpacks resources, calls the kernel and notes the time.
+
+mod edit;
+mod gate;
+mod measure;
+mod sources;
+mod step;
+mod substep;
+
+use crate::{
+    scene::blueprint::Effect,
+    sim::{
+        effects::runs,
+        pace::time_moves,
+        schedule::{Substep, SubstepSystems, TickSystems},
+    },
+};
+use bevy::{
+    ecs::schedule::{LogLevel, ScheduleBuildSettings, SingleThreadedExecutor},
+    prelude::{App, FixedUpdate, IntoScheduleConfigs, Schedule},
+};
+
+pub use step::TickPlan;
+
+/// Adds the stages in their order.
+pub(super) fn plugin(app: &mut App) {
+    app.configure_sets(
+        FixedUpdate,
+        (
+            TickSystems::Edit,
+            (TickSystems::Sources, TickSystems::Gate, TickSystems::Step, TickSystems::Measure)
+                .chain()
+                .run_if(time_moves),
+        )
+            .chain(),
+    );
+    app.add_systems(
+        FixedUpdate,
+        (
+            edit::apply_intents.in_set(TickSystems::Edit),
+            sources::run_sources.in_set(TickSystems::Sources),
+            gate::plan_tick.in_set(TickSystems::Gate),
+            step::run_substeps.in_set(TickSystems::Step),
+            (measure::count_particles, measure::end_tick).chain().in_set(TickSystems::Measure),
+            measure::count_particles.after(TickSystems::Edit).run_if(bevy::prelude::not(time_moves)),
+        ),
+    );
+    app.add_schedule(substep_schedule());
+}
+
+fn substep_schedule() -> Schedule {
+    let mut schedule = Schedule::new(Substep);
+    // The stages are a chain: there is nothing to run side by side, and the threads belong to the kernel.
+    schedule.set_executor(SingleThreadedExecutor::new());
+    schedule.set_build_settings(ScheduleBuildSettings { ambiguity_detection: LogLevel::Error, ..Default::default() });
+    schedule.configure_sets(
+        (
+            SubstepSystems::Air,
+            SubstepSystems::Forces,
+            SubstepSystems::Predict,
+            SubstepSystems::Bin,
+            SubstepSystems::Solve,
+            SubstepSystems::Velocity,
+        )
+            .chain(),
+    );
+    schedule.add_systems((
+        substep::step_air.run_if(runs(Effect::Air)).in_set(SubstepSystems::Air),
+        (substep::apply_gravity, substep::apply_drag.run_if(runs(Effect::Drag))).chain().in_set(SubstepSystems::Forces),
+        substep::predict_positions.in_set(SubstepSystems::Predict),
+        substep::sort_into_bins.in_set(SubstepSystems::Bin),
+        substep::solve_density.in_set(SubstepSystems::Solve),
+        (
+            substep::update_velocities,
+            substep::apply_viscosity.run_if(runs(Effect::Viscosity)),
+            substep::apply_vorticity.run_if(runs(Effect::Vorticity)),
+        )
+            .chain()
+            .in_set(SubstepSystems::Velocity),
+    ));
+    schedule
+}

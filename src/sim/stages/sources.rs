@@ -1,0 +1,41 @@
+//! Taps and outlets.
+
+use crate::{
+    kernel::{predict::remove_non_finite, spawn::Matter, units::TICK_SECONDS},
+    sim::{
+        ledger::{Pass, PassLedger},
+        state::{Clock, Counters, ParticleStore, Rock, Setup, Sources},
+    },
+};
+use bevy::prelude::{Res, ResMut};
+use std::time::Instant;
+
+/// Lets taps flow and outlets drain, and takes away what is no longer a number.
+pub(super) fn run_sources(
+    setup: Res<Setup>,
+    mut sources: ResMut<Sources>,
+    mut particles: ResMut<ParticleStore>,
+    mut rock: ResMut<Rock>,
+    mut clock: ResMut<Clock>,
+    mut counters: ResMut<Counters>,
+    mut ledger: ResMut<PassLedger>,
+) {
+    let start = Instant::now();
+    counters.non_finite += remove_non_finite(&mut particles) as u64;
+    let tick = clock.tick;
+    let Sources { emitters, drains, .. } = &mut *sources;
+    let mut matter = Matter {
+        elements: setup.elements(),
+        particles: &mut particles,
+        solids: &mut rock,
+        next_id: &mut clock.next_id,
+        limit: setup.blueprint.particle_limit,
+    };
+    for drain in drains.iter() {
+        matter.drain(drain);
+    }
+    for emitter in emitters {
+        counters.refused += matter.emit(emitter, tick, TICK_SECONDS).refused;
+    }
+    ledger.note(Pass::Sources, start.elapsed());
+}

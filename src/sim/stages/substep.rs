@@ -1,0 +1,158 @@
+//! The stages of a substep.
+
+use crate::{
+    kernel::{forces, pbf, predict, velocity},
+    scene::blueprint::Effect,
+    sim::{
+        effects::Effects,
+        ledger::{Pass, PassLedger},
+        stages::TickPlan,
+        state::{AirGrid, Counters, ParticleStore, Rates, Rock, Setup, SolverState, Sources},
+        workers::Workers,
+    },
+};
+use bevy::prelude::{Res, ResMut};
+use std::time::Instant;
+
+/// The air moves.
+pub(super) fn step_air(
+    mut air: ResMut<AirGrid>,
+    sources: Res<Sources>,
+    setup: Res<Setup>,
+    plan: Res<TickPlan>,
+    workers: Res<Workers>,
+    mut counters: ResMut<Counters>,
+    mut ledger: ResMut<PassLedger>,
+) {
+    let start = Instant::now();
+    let dt = plan.substep_seconds();
+    let report = workers.run(|threads| air.step(&sources.winds, setup.quality.air_courant, dt, threads > 1));
+    counters.air_clamps += report.speed_clamps + report.pressure_clamps;
+    ledger.note(Pass::Air, start.elapsed());
+}
+
+/// Gravity changes velocities.
+pub(super) fn apply_gravity(
+    mut particles: ResMut<ParticleStore>,
+    setup: Res<Setup>,
+    plan: Res<TickPlan>,
+    mut ledger: ResMut<PassLedger>,
+) {
+    let start = Instant::now();
+    forces::apply_gravity(setup.blueprint.domain.gravity, &mut particles, plan.substep_seconds());
+    ledger.note(Pass::Gravity, start.elapsed());
+}
+
+/// The air drags particles.
+pub(super) fn apply_drag(
+    mut particles: ResMut<ParticleStore>,
+    air: Res<AirGrid>,
+    rates: Res<Rates>,
+    plan: Res<TickPlan>,
+    mut ledger: ResMut<PassLedger>,
+) {
+    let start = Instant::now();
+    forces::apply_drag(&air, &rates.drag, &mut particles, plan.substep_seconds());
+    ledger.note(Pass::Drag, start.elapsed());
+}
+
+/// Velocities predict positions.
+pub(super) fn predict_positions(
+    mut particles: ResMut<ParticleStore>,
+    mut solver: ResMut<SolverState>,
+    rock: Res<Rock>,
+    setup: Res<Setup>,
+    plan: Res<TickPlan>,
+    mut counters: ResMut<Counters>,
+    mut ledger: ResMut<PassLedger>,
+) {
+    let start = Instant::now();
+    let dt = plan.substep_seconds();
+    let domain = &setup.blueprint.domain;
+    let report = predict::predict(&mut particles, &mut solver, &rock, domain, &setup.quality, dt);
+    counters.speed_clamps += report.speed_clamps;
+    ledger.note(Pass::Predict, start.elapsed());
+}
+
+/// Particles are sorted into bins.
+pub(super) fn sort_into_bins(
+    mut particles: ResMut<ParticleStore>,
+    mut solver: ResMut<SolverState>,
+    rock: Res<Rock>,
+    setup: Res<Setup>,
+    mut ledger: ResMut<PassLedger>,
+) {
+    let start = Instant::now();
+    solver.bin(&mut particles, &rock, &setup.blueprint.domain, &setup.quality);
+    ledger.note(Pass::Bin, start.elapsed());
+}
+
+/// The density constraint corrects positions.
+pub(super) fn solve_density(
+    mut solver: ResMut<SolverState>,
+    setup: Res<Setup>,
+    effects: Res<Effects>,
+    workers: Res<Workers>,
+    mut ledger: ResMut<PassLedger>,
+) {
+    let start = Instant::now();
+    workers.run_for(solver.density.len(), |threads| {
+        solver.solve(&pbf::SolveParams {
+            domain: &setup.blueprint.domain,
+            fluid: &setup.blueprint.fluid,
+            quality: &setup.quality,
+            tension: effects.get(Effect::Tension).running,
+            threads,
+        });
+    });
+    ledger.note(Pass::Solve, start.elapsed());
+}
+
+/// Velocities follow from the moves.
+pub(super) fn update_velocities(
+    mut particles: ResMut<ParticleStore>,
+    mut solver: ResMut<SolverState>,
+    rock: Res<Rock>,
+    setup: Res<Setup>,
+    plan: Res<TickPlan>,
+    mut counters: ResMut<Counters>,
+    mut ledger: ResMut<PassLedger>,
+) {
+    let start = Instant::now();
+    let dt = plan.substep_seconds();
+    let report = velocity::update_velocities(&mut particles, &mut solver, &rock, &setup.quality, dt);
+    counters.position_clamps += report.position_clamps;
+    ledger.note(Pass::Velocity, start.elapsed());
+}
+
+/// Viscosity evens velocities out.
+pub(super) fn apply_viscosity(
+    mut particles: ResMut<ParticleStore>,
+    mut solver: ResMut<SolverState>,
+    rates: Res<Rates>,
+    workers: Res<Workers>,
+    mut ledger: ResMut<PassLedger>,
+) {
+    let start = Instant::now();
+    workers.run_for(particles.len(), |threads| {
+        velocity::apply_viscosity(&mut particles, &mut solver, &rates.viscosity, threads);
+    });
+    ledger.note(Pass::Viscosity, start.elapsed());
+}
+
+/// Vorticity confinement keeps eddies alive.
+pub(super) fn apply_vorticity(
+    mut particles: ResMut<ParticleStore>,
+    mut solver: ResMut<SolverState>,
+    rates: Res<Rates>,
+    plan: Res<TickPlan>,
+    workers: Res<Workers>,
+    mut ledger: ResMut<PassLedger>,
+) {
+    let start = Instant::now();
+    let dt = plan.substep_seconds();
+    workers.run_for(particles.len(), |threads| {
+        velocity::apply_vorticity(&mut particles, &mut solver, &rates.vorticity, threads, dt);
+    });
+    ledger.note(Pass::Vorticity, start.elapsed());
+}

@@ -1,0 +1,43 @@
+//! The threads that the kernel may use.
+
+use bevy::prelude::Resource;
+use std::sync::Arc;
+
+/// Fewer particles than this are done on one thread: handing them over costs more than it saves.
+const WORTH_SHARING: usize = 4_000;
+
+/// A pool of threads for the kernel's passes. By default rayon's own, with one thread a core.
+#[derive(Resource, Clone, Default)]
+pub struct Workers {
+    pool: Option<Arc<rayon::ThreadPool>>,
+}
+
+impl Workers {
+    /// A pool of exactly `threads` threads, at least 1.
+    ///
+    /// # Errors
+    /// If the system gives no threads.
+    pub fn new(threads: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.max(1)).build()?;
+        Ok(Self { pool: Some(Arc::new(pool)) })
+    }
+
+    /// Number of threads.
+    pub fn threads(&self) -> usize {
+        self.pool.as_ref().map_or_else(rayon::current_num_threads, |pool| pool.current_num_threads())
+    }
+
+    /// Runs `work` in the pool and tells it how many threads it may use.
+    pub fn run<T: Send>(&self, work: impl FnOnce(usize) -> T + Send) -> T {
+        match &self.pool {
+            Some(pool) if pool.current_num_threads() == 1 => work(1),
+            Some(pool) => pool.install(|| work(pool.current_num_threads())),
+            None => work(rayon::current_num_threads()),
+        }
+    }
+
+    /// [`Workers::run`] for work over `particles` particles: on one thread if they are few.
+    pub fn run_for<T: Send>(&self, particles: usize, work: impl FnOnce(usize) -> T + Send) -> T {
+        if particles < WORTH_SHARING { work(1) } else { self.run(work) }
+    }
+}
