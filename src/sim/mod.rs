@@ -11,6 +11,7 @@ pub mod schedule;
 pub mod snapshot;
 pub mod stages;
 pub mod state;
+pub mod view;
 pub mod workers;
 
 use bevy::prelude::{App, Plugin};
