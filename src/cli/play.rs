@@ -19,7 +19,6 @@ pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Fai
     open(blueprint, threads::workers(options.threads)?)
 }
 
-#[cfg(not(feature = "app"))]
 fn open(blueprint: Blueprint, _workers: Workers) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
         "this build has no window (it lacks the cargo feature `app`); `powder-master run {}` works without one",

@@ -21,7 +21,7 @@ use crate::{
         self,
         blueprint::{Blueprint, EffectModes},
     },
-    sim::{control, replay::Replay},
+    sim::{control, replay::Replay, view::View},
 };
 use bevy::ecs::world::World;
 use std::{fs::File, io::BufWriter, path::Path, sync::Arc, time::Instant};
@@ -150,7 +150,7 @@ fn write_outputs(arguments: &RunArguments, world: &World, metrics: Option<&Metri
         output::write(path, |file| particle_list::write(world, file))?;
     }
     if let Some(path) = &arguments.png {
-        output::write(path, |file| Picture::of_world(world, LONG_SIDE).write_png(file))?;
+        output::write(path, |file| Picture::of_world(world, View::Elements, LONG_SIDE).write_png(file))?;
     }
     if let (Some(path), Some(metrics)) = (&arguments.metrics, metrics) {
         let mut text = serde_json::to_string_pretty(metrics)

@@ -5,7 +5,6 @@ pub mod balance;
 pub mod density;
 pub mod headless;
 pub mod metrics;
-mod palette;
 pub mod particle_list;
 pub mod picture;
 pub mod run;

@@ -1,8 +1,11 @@
 //! The world as a picture, drawn on the processor: discs for what moves, stone squares for rock, the air as a faint tint.
 
 use crate::{
-    lab::palette::{self, Rgb},
-    sim::state::{AirGrid, ParticleStore, Rock, Setup},
+    lab::density::surroundings,
+    sim::{
+        state::{AirGrid, ParticleStore, Rock, Setup},
+        view::{self, DepthMap, Reference, Rgb, Sample, View},
+    },
 };
 use bevy::ecs::world::World;
 use glam::{IVec2, Vec2};
@@ -13,6 +16,9 @@ pub const LONG_SIDE: u32 = 1280;
 
 /// Radius of a particle's disc, d: a little over half, so that a liquid at rest is closed.
 const DISC_RADIUS: f32 = 0.64;
+
+/// Strength of the wind's tint in a picture of something else.
+const FAINT: f32 = 0.4;
 
 /// Most pixels of a spacing: a picture of a handful of particles stays small.
 const LARGEST_SPACING: f32 = 48.0;
@@ -36,16 +42,16 @@ impl Picture {
         (self.width, self.height)
     }
 
-    /// The world, `long_side` pixels along the longer side of its box.
-    pub fn of_world(world: &World, long_side: u32) -> Self {
+    /// The world as `view` shows it, `long_side` pixels along the longer side of its box.
+    pub fn of_world(world: &World, view: View, long_side: u32) -> Self {
         let setup = world.resource::<Setup>();
         let size = setup.blueprint.domain.size;
         let pixels = (long_side as f32 / size.max_element()).min(LARGEST_SPACING);
         let side = |length: f32| ((length * pixels).round() as u32).max(1);
-        let mut canvas = Canvas { picture: Self::plain(side(size.x), side(size.y), palette::SURROUNDINGS), pixels };
-        canvas.air(world.resource::<AirGrid>());
+        let mut canvas = Canvas { picture: Self::plain(side(size.x), side(size.y), view::SURROUNDINGS), pixels };
+        canvas.air(world.resource::<AirGrid>(), setup, view);
         canvas.rock(world.resource::<Rock>(), setup);
-        canvas.particles(world.resource::<ParticleStore>(), setup);
+        canvas.particles(world.resource::<ParticleStore>(), world.resource::<Rock>(), setup, view);
         canvas.picture
     }
 
@@ -53,7 +59,7 @@ impl Picture {
     pub fn row(pictures: &[Self], gap: u32) -> Self {
         let width = pictures.iter().map(|picture| picture.width + gap).sum::<u32>() + gap;
         let height = pictures.iter().map(|picture| picture.height).max().unwrap_or(0) + 2 * gap;
-        let mut row = Self::plain(width, height, palette::SURROUNDINGS);
+        let mut row = Self::plain(width, height, view::SURROUNDINGS);
         let mut left = gap;
         for picture in pictures {
             for (y, line) in (gap..).zip(picture.light.chunks_exact(picture.width as usize)) {
@@ -97,36 +103,51 @@ struct Canvas {
 
 impl Canvas {
     /// The empty box with its air.
-    fn air(&mut self, air: &AirGrid) {
+    fn air(&mut self, air: &AirGrid, setup: &Setup, view: View) {
+        let reference = Reference::of(&setup.blueprint.domain, &setup.blueprint.air);
         let (width, height) = self.picture.size();
         let moves = !air.is_quiet();
-        let wind = 0.2 * air.params().sound_speed;
+        // Moving air shows in every picture: faintly where it is not the subject.
+        let (tint, faint) = if view.shows_air() { (view, 1.0) } else { (View::Wind, FAINT) };
         for y in 0..height {
             let up = (height - y) as f32 - 0.5;
-            let empty = light(palette::box_colour(up / height as f32));
+            let empty = light(view::box_colour(up / height as f32));
             for x in 0..width {
                 let pixel = &mut self.picture.light[(y * width + x) as usize];
                 *pixel = empty;
                 if moves {
                     let p = Vec2::new(x as f32 + 0.5, up) / self.pixels;
-                    let (colour, strength) = palette::air_colour(wind, air.sample_velocity(p));
-                    blend(pixel, light(colour), strength);
+                    let (pressure, velocity) = (air.sample_pressure(p), air.sample_velocity(p));
+                    let (colour, strength) = view::air_colour(tint, reference, pressure, velocity);
+                    blend(pixel, light(colour), faint * strength);
                 }
             }
         }
     }
 
     fn rock(&mut self, rock: &Rock, setup: &Setup) {
-        for (cell, element, _) in rock.iter() {
-            let colour = palette::colour(setup.elements().get(element));
+        for (cell, element, id) in rock.iter() {
+            let colour = view::rock_colour(setup.elements().get(element), cell, id);
             self.fill(cell, light(colour));
         }
     }
 
-    fn particles(&mut self, particles: &ParticleStore, setup: &Setup) {
+    fn particles(&mut self, particles: &ParticleStore, rock: &Rock, setup: &Setup, view: View) {
+        let reference = Reference::of(&setup.blueprint.domain, &setup.blueprint.air);
+        let rest = f64::from(setup.blueprint.fluid.rest_density);
+        let locals = match view {
+            View::Density => surroundings(particles, rock, setup.blueprint.domain.size),
+            _ => Vec::new(),
+        };
+        let mut depths = DepthMap::default();
+        depths.measure(setup.blueprint.domain.size, particles);
         for i in 0..particles.len() {
-            let colour = palette::colour(setup.elements().get(particles.element[i]));
-            self.cover(particles.position(i), DISC_RADIUS, colour, disc);
+            let p = particles.position(i);
+            let speed = particles.velocity(i).length() / reference.fall;
+            let density_error = locals.get(i).map_or(0.0, |local| (local.density / rest - 1.0) as f32);
+            let sample = Sample { speed, depth: depths.at(p), density_error };
+            let colour = view::colour(view, setup.elements().get(particles.element[i]), sample);
+            self.cover(p, DISC_RADIUS, colour, disc);
         }
     }
 
@@ -223,7 +244,7 @@ mod tests {
         let at = |x: usize, y: usize| &pixels[3 * (y * 10 + x)..][..3];
         assert_eq!(at(2, 2), [250, 10, 20]);
         assert_eq!(at(7, 5), [0, 0, 0]);
-        assert_eq!(at(0, 0), palette::SURROUNDINGS);
-        assert_eq!(at(2, 4), palette::SURROUNDINGS, "the first picture is only two rows high");
+        assert_eq!(at(0, 0), view::SURROUNDINGS);
+        assert_eq!(at(2, 4), view::SURROUNDINGS, "the first picture is only two rows high");
     }
 }
