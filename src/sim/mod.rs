@@ -6,10 +6,12 @@ pub mod effects;
 pub mod intent;
 pub mod ledger;
 pub mod pace;
+pub mod replay;
 pub mod schedule;
 pub mod snapshot;
 pub mod stages;
 pub mod state;
+pub mod view;
 pub mod workers;
 
 use bevy::prelude::{App, Plugin};
