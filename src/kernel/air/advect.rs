@@ -162,7 +162,12 @@ impl Band {
                     momentum_y: &mut target.momentum_y[out..out + stride],
                 };
                 self.sum_up(&mut target);
-                turn_corners(source, row - 1, &mut target);
+                // What struck rock has gone round the corner already.
+                for column in source.shape.struck(row - 1) {
+                    for field in [&mut *target.pressure, &mut *target.momentum_x, &mut *target.momentum_y] {
+                        field[*column as usize] = 0.0;
+                    }
+                }
             }
             self.carry_level.rotate_right(1);
             self.carry_up.rotate_right(1);
@@ -199,6 +204,27 @@ impl Band {
             (&self.up, &mut self.carry_up[0]),
         ] {
             carry_sideways(mass, &self.sideways, u, v, carry);
+        }
+        self.turn_corners(source.shape.corners(row), u, v);
+    }
+
+    /// Gives the shares that strike a corner of rock to the cells beside it. What they brought to the rock itself is
+    /// dropped when the rock's row is written. Sums pair opposite sides, so that a mirror image has the same.
+    fn turn_corners(&mut self, corners: &[Corner], u: &[f32], v: &[f32]) {
+        let Self { sideways: Sideways { left, right, .. }, up, down, .. } = self;
+        let [level, _] = &mut self.carry_level;
+        let [above, ..] = &mut self.carry_up;
+        let below = &mut self.carry_down;
+        for Corner { column, upright, sideways } in corners {
+            let k = *column as usize;
+            let i = k - 1;
+            add(above, i, up[k] * (upright[0] * left[k] + upright[1] * right[k]), u[k], v[k]);
+            add(below, i, down[k] * (upright[2] * left[k] + upright[3] * right[k]), u[k], v[k]);
+            let from_left = right[k - 1] * (sideways[0] * down[k - 1] + sideways[1] * up[k - 1]);
+            let from_right = left[k + 1] * (sideways[2] * down[k + 1] + sideways[3] * up[k + 1]);
+            level.mass[i] += from_left + from_right;
+            level.x[i] += from_left * u[k - 1] + from_right * u[k + 1];
+            level.y[i] += from_left * v[k - 1] + from_right * v[k + 1];
         }
     }
 
@@ -258,47 +284,10 @@ fn carry_sideways(mass: &[f32], sideways: &Sideways, u: &[f32], v: &[f32], carry
     }
 }
 
-/// Takes the shares that struck a corner of rock out of the rock and gives them to the cells beside it. A share is
-/// computed anew from its source, with the same bits as in the gather, so that rows stay independent; the sums pair
-/// opposite sides, so that a mirror image has the same.
-fn turn_corners(source: Source, row: usize, target: &mut Target) {
-    let start = row * source.stride;
-    for struck in source.shape.struck(row) {
-        let i = *struck as usize - start;
-        target.pressure[i] = 0.0;
-        target.momentum_x[i] = 0.0;
-        target.momentum_y[i] = 0.0;
-    }
-    for Corner { target: k, shares } in source.shape.corners(row) {
-        let k = *k as usize;
-        let sources = [k - 1, k + 1, k - source.stride, k + source.stride];
-        let mut mass = [0.0; 4];
-        for (side, from) in sources.into_iter().enumerate() {
-            let share = |end: usize| {
-                if shares >> (2 * side + end) & 1 == 0 {
-                    return 0.0;
-                }
-                // From the left it goes right, and so on; the end says where to across.
-                let (right, up) = if side < 2 { (side == 0, end == 1) } else { (end == 1, side == 2) };
-                diagonal_share(source, from, right, up)
-            };
-            mass[side] = 0.5 * (share(0) + share(1));
-        }
-        let sum = |part: &dyn Fn(usize) -> f32| (part(0) + part(1)) + (part(2) + part(3));
-        let i = k - start;
-        target.pressure[i] += sum(&|side| mass[side]);
-        target.momentum_x[i] += sum(&|side| mass[side] * source.velocity_x[sources[side]]);
-        target.momentum_y[i] += sum(&|side| mass[side] * source.velocity_y[sources[side]]);
-    }
-}
-
-/// Mass that the cell k sends diagonally.
-fn diagonal_share(source: Source, k: usize, right: bool, up: bool) -> f32 {
-    let Source { pressure: p, velocity_x: u, velocity_y: v, shape, stride, half, filter } = source;
-    // The face between k0 and its next cell: ours is on the right or on the left of it.
-    let k0 = if right { k } else { k - 1 };
-    let flow_x = face_flow(shape.open_x[k0 + 1], u[k0] + u[k0 + 1], p[k0] - p[k0 + 1], half, filter);
-    let k0 = if up { k } else { k - stride };
-    let flow_y = face_flow(shape.open_y[k0 + stride], v[k0] + v[k0 + stride], p[k0] - p[k0 + stride], half, filter);
-    p[k] * positive(if up { flow_y } else { -flow_y }) * positive(if right { flow_x } else { -flow_x })
+/// Adds `mass` from a cell with velocity (u, v).
+#[inline(always)]
+fn add(carry: &mut Carry, i: usize, mass: f32, u: f32, v: f32) {
+    carry.mass[i] += mass;
+    carry.x[i] += mass * u;
+    carry.y[i] += mass * v;
 }

@@ -3,14 +3,16 @@
 
 use super::grid::Air;
 
-/// A cell beside a corner of rock, which takes half of each share that would go from one of its four neighbours
-/// diagonally into that rock. (The other half goes to the cell on the other side.)
+/// A place in a row of sources where diagonal shares strike rock. Each goes in halves to the two cells beside the rock:
+/// the one above or below its source, and the one left or right of it. All weights are ½ for a share that strikes, else 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
-    pub(super) target: u32,
-    /// Which shares: bit `2·SIDE + END`. SIDE is the neighbour that they come from, left 0, right 1, below 2, above 3;
-    /// END is 0 for the share that goes to the smaller coordinate across (down or left), 1 for the other.
-    pub(super) shares: u8,
+    /// Column, counted with the ring.
+    pub(super) column: u32,
+    /// Of the shares of the cell here, to the cell above and the cell below: `[up left, up right, down left, down right]`.
+    pub(super) upright: [f32; 4],
+    /// To the cell here: `[from the left down, from the left up, from the right down, from the right up]`.
+    pub(super) sideways: [f32; 4],
 }
 
 /// Faces, corners and rooms of a grid.
@@ -20,7 +22,7 @@ pub(super) struct Shape {
     pub(super) open_x: Vec<f32>,
     /// 1 where the lower face of a cell lets air through, else 0, with the ring.
     pub(super) open_y: Vec<f32>,
-    /// Corners in the order of their targets, at most one a cell.
+    /// Corners in the order of the cells.
     corners: Vec<Corner>,
     corner_start: Vec<u32>,
     /// Solid cells into which a corner's share would go.
@@ -75,12 +77,12 @@ impl Shape {
         shape
     }
 
-    /// Corners whose target is in a row (counted with the ring).
+    /// Corners of a row of sources (counted with the ring).
     pub(super) fn corners(&self, row: usize) -> &[Corner] {
         &self.corners[self.corner_start[row] as usize..self.corner_start[row + 1] as usize]
     }
 
-    /// Struck cells of a row (counted with the ring).
+    /// Columns, with the ring, of the solid cells of a row that shares strike.
     pub(super) fn struck(&self, row: usize) -> &[u32] {
         &self.struck[self.struck_start[row] as usize..self.struck_start[row + 1] as usize]
     }
@@ -89,55 +91,54 @@ impl Shape {
         self.open_x.len() * 12 + self.corners.len() * size_of::<Corner>() + self.struck.len() * 4
     }
 
-    /// Looks at each open cell as a target: its neighbour on a side sends it half a share when the face between them is
-    /// open, the cell across from the neighbour is rock, and the neighbour's own face on that side is open.
     fn find_corners(&mut self, air: &Air) {
         let (stride, columns, rows) = (air.stride(), air.columns(), air.rows());
-        let face_x = |shape: &Self, k: usize, high: usize| shape.open_x[k + high] != 0.0;
-        let face_y = |shape: &Self, k: usize, high: usize| shape.open_y[k + high * stride] != 0.0;
-        for row in 1..=rows {
+        for row in 0..=rows + 1 {
+            self.corner_start[row] = self.corners.len() as u32;
+            self.struck_start[row] = self.struck.len() as u32;
+            if row == 0 || row > rows {
+                continue;
+            }
             for column in 1..=columns {
-                let target = row * stride + column;
-                let mut shares = 0_u8;
-                for end in [0, 1] {
-                    // Rock above or below the target: from the left and the right.
-                    let struck = if end == 1 { target + stride } else { target - stride };
-                    for (side, source) in [(0, target - 1), (1, target + 1)] {
-                        let strikes = face_x(self, target, side) && face_y(self, source, end) && air.solid[struck];
-                        shares |= u8::from(strikes) << (2 * side + end);
-                    }
-                    // Rock left or right of it: from below and above.
-                    let struck = if end == 1 { target + 1 } else { target - 1 };
-                    for (side, source) in [(2, target - stride), (3, target + stride)] {
-                        let strikes = face_y(self, target, side - 2) && face_x(self, source, end) && air.solid[struck];
-                        shares |= u8::from(strikes) << (2 * side + end);
-                    }
+                let k = row * stride + column;
+                let weight = |source: usize, right: bool, up: bool| {
+                    if self.strikes(air, source, right, up) { 0.5 } else { 0.0 }
+                };
+                let upright = [(false, false), (true, false), (false, true), (true, true)];
+                let [down_left, down_right, up_left, up_right] = upright.map(|(right, up)| weight(k, right, up));
+                let upright = [up_left, up_right, down_left, down_right];
+                let sideways = [
+                    weight(k - 1, true, false),
+                    weight(k - 1, true, true),
+                    weight(k + 1, false, false),
+                    weight(k + 1, false, true),
+                ];
+                if upright.iter().chain(&sideways).any(|weight| *weight > 0.0) {
+                    self.corners.push(Corner { column: column as u32, upright, sideways });
                 }
-                if shares != 0 {
-                    self.corners.push(Corner { target: target as u32, shares });
-                }
-                if air.solid[target] && self.is_struck(air, target) {
-                    self.struck.push(target as u32);
+                let below = [(k - stride - 1, true, true), (k - stride + 1, false, true)];
+                let above = [(k + stride - 1, true, false), (k + stride + 1, false, false)];
+                if below.into_iter().chain(above).any(|(source, right, up)| self.strikes(air, source, right, up)) {
+                    self.struck.push(column as u32);
                 }
             }
         }
-        for row in 0..rows + 3 {
-            let first = |index: u32| (index as usize) / stride < row;
-            self.corner_start[row] = self.corners.partition_point(|corner| first(corner.target)) as u32;
-            self.struck_start[row] = self.struck.partition_point(|struck| first(*struck)) as u32;
-        }
+        self.corner_start[rows + 2] = self.corners.len() as u32;
+        self.struck_start[rows + 2] = self.struck.len() as u32;
     }
 
-    /// Whether a diagonal neighbour of a cell can send shares both ways around it.
-    fn is_struck(&self, air: &Air, k: usize) -> bool {
+    /// Whether a share of `source` to a diagonal neighbour finds rock there: both faces that it leaves by are open, and
+    /// the neighbour is solid. (Outside the box a share is lost, by whichever face it left.)
+    fn strikes(&self, air: &Air, source: usize, right: bool, up: bool) -> bool {
         let stride = air.stride();
-        [(false, false), (false, true), (true, false), (true, true)].into_iter().any(|(right, above)| {
-            let row = if above { k + stride } else { k - stride };
-            let source = if right { row + 1 } else { row - 1 };
-            let sideways = if right { source } else { source + 1 };
-            let upright = if above { source } else { source + stride };
-            !air.solid[source] && self.open_x[sideways] != 0.0 && self.open_y[upright] != 0.0
-        })
+        let (x, across) = if right { (source + 1, source + 1) } else { (source, source - 1) };
+        let (y, across) = if up { (source + stride, across + stride) } else { (source, across - stride) };
+        // The rarest first: this is asked twelve times a cell.
+        air.solid[across]
+            && self.open_x[x] != 0.0
+            && self.open_y[y] != 0.0
+            && !air.in_ring(source)
+            && !air.in_ring(across)
     }
 
     fn find_rooms(&mut self, air: &Air) {
