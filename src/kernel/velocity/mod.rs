@@ -16,17 +16,25 @@ pub struct MoveReport {
     pub position_clamps: u64,
 }
 
+/// Correction of a substep that goes into the velocity by half, d, where the pressure predictor ran. Its velocities are
+/// nearly right; the small corrections that are left are the particles finding their places, and to take them for motion
+/// would make a still pool simmer.
+const QUIET_CORRECTION: f32 = 0.05;
+
 /// Moves the particles to their corrected positions, stopped by rock, and sets `v = (x* − x)/Δt` (Macklin & Müller 2013,
-/// algorithm 1, line 21).
+/// algorithm 1, line 21). Where the pressure predictor ran (`predicted`), the velocity follows a correction a by the
+/// share `a²/(a² + QUIET_CORRECTION²)`.
 pub fn update_velocities(
     particles: &mut Particles,
     solver: &mut Solver,
     solids: &Solids,
     quality: &Quality,
+    predicted: bool,
     dt: f32,
 ) -> MoveReport {
     let mut report = MoveReport::default();
     let per_dt = 1.0 / dt;
+    let quiet = QUIET_CORRECTION * per_dt;
     let has_rock = solids.count() > 0;
     // The limit itself, less the rounding of (anchor + limit) − anchor.
     let cut = quality.correction_limit * 0.999;
@@ -38,7 +46,13 @@ pub fn update_velocities(
         if has_rock {
             to = solids.sweep(anchor, to);
         }
-        let velocity = (to - particles.position(i)) * per_dt;
+        let mut velocity = (to - particles.position(i)) * per_dt;
+        if predicted {
+            let before = particles.velocity(i);
+            let change = velocity - before;
+            let (change2, quiet2) = (change.length_squared(), quiet * quiet);
+            velocity = before + change * (change2 / (change2 + quiet2));
+        }
         (particles.vx[i], particles.vy[i]) = (velocity.x, velocity.y);
         (particles.x[i], particles.y[i]) = (to.x, to.y);
         (solver.x[i], solver.y[i]) = (to.x, to.y);
