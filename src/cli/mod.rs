@@ -2,12 +2,14 @@
 //! with if they don't end well.
 
 mod args;
+mod bench;
 mod failure;
 mod list;
 mod output;
 mod play;
 mod progress;
 mod run;
+mod study;
 mod threads;
 
 use args::{Arguments, Command};
@@ -41,6 +43,8 @@ fn dispatch(arguments: Arguments) -> Result<(), Failure> {
         None => play::play(None, &arguments.play),
         Some(Command::Play(play)) => play::play(play.scene.as_deref(), &play.options),
         Some(Command::Run(run)) => run::run(&run),
+        Some(Command::Bench { what }) => bench::bench(&what),
+        Some(Command::Study { what }) => study::study(&what),
         Some(Command::List { what }) => list::list(what),
     }
 }

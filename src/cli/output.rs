@@ -1,6 +1,7 @@
 //! Where results go. Paths are looked at before anything is simulated.
 
 use crate::cli::failure::Failure;
+use serde::Serialize;
 use std::{
     fs::File,
     io::{self, BufWriter, Write},
@@ -40,6 +41,14 @@ pub(super) fn create(path: &Path) -> Result<BufWriter<File>, Failure> {
 pub(super) fn write(path: &Path, content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), Failure> {
     let mut file = create(path)?;
     content(&mut file).and_then(|()| file.flush()).map_err(|error| Failure::unwritten(path, &error))
+}
+
+/// Writes a value as JSON, to a file or to stdout.
+pub(super) fn write_json(path: &Path, value: &impl Serialize) -> Result<(), Failure> {
+    let mut text = serde_json::to_string_pretty(value)
+        .map_err(|error| Failure::Outcome(format!("{}: can't be written: {error}", path.display())))?;
+    text.push('\n');
+    if path == Path::new(STDOUT) { print(&text) } else { write(path, |file| file.write_all(text.as_bytes())) }
 }
 
 /// Prints on stdout. A reader that has heard enough is no failure.

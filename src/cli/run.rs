@@ -9,6 +9,7 @@ use crate::{
         threads,
     },
     lab::{
+        self,
         headless::Headless,
         metrics::Metrics,
         particle_list,
@@ -137,8 +138,7 @@ fn simulate<'a>(
     if let Some(tracing) = &mut tracing {
         observers.push(&mut tracing.trace);
     }
-    let outcome = crate::lab::run::run(headless, plan, &mut observers);
-    progress.finish();
+    let outcome = lab::run::run(headless, plan, &mut observers);
     match (outcome, &tracing) {
         (Err(error), Some(tracing)) => Err(Failure::unwritten(tracing.path, &error)),
         _ => Ok(tracing),
@@ -153,13 +153,7 @@ fn write_outputs(arguments: &RunArguments, world: &World, metrics: Option<&Metri
         output::write(path, |file| Picture::of_world(world, View::Elements, LONG_SIDE).write_png(file))?;
     }
     if let (Some(path), Some(metrics)) = (&arguments.metrics, metrics) {
-        let mut text = serde_json::to_string_pretty(metrics)
-            .map_err(|error| Failure::Outcome(format!("{}: can't be written: {error}", path.display())))?;
-        text.push('\n');
-        if path == Path::new(STDOUT) {
-            return output::print(&text);
-        }
-        output::write(path, |file| std::io::Write::write_all(file, text.as_bytes()))?;
+        output::write_json(path, metrics)?;
     }
     Ok(())
 }

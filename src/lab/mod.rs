@@ -2,11 +2,14 @@
 //! changes none, so that a measured world has the hash of an unmeasured one.
 
 pub mod balance;
+pub mod binning;
 pub mod density;
 pub mod headless;
+pub mod machine;
 pub mod metrics;
 pub mod particle_list;
 pub mod picture;
+pub mod rest_density;
 pub mod run;
 pub mod sampler;
 pub mod stats;

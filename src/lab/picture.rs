@@ -71,6 +71,17 @@ impl Picture {
         row
     }
 
+    /// Pictures of one width, one below the other.
+    pub fn column(pictures: &[Self]) -> Self {
+        let width = pictures.iter().map(|picture| picture.width).max().unwrap_or(0);
+        let mut column = Self { width, height: 0, light: Vec::new() };
+        for picture in pictures.iter().filter(|picture| picture.width == width) {
+            column.height += picture.height;
+            column.light.extend_from_slice(&picture.light);
+        }
+        column
+    }
+
     /// Writes the picture as PNG.
     pub fn write_png(&self, out: impl Write) -> io::Result<()> {
         let mut encoder = png::Encoder::new(out, self.width, self.height);
