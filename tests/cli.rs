@@ -84,7 +84,7 @@ fn bad_usage_is_one_line_that_says_what_is_allowed() {
         (&["run", "waterfall", "--set", "wimd=1"], &["wimd", "wind"]),
         (&["run", "waterfall", "--set", "wind=strong"], &["wind=strong"]),
         (&["run", "waterfall", "--set", "wind=1000"], &["wind=1000"]),
-        (&["run", "waterfall", "--effect", "fire=on"], &["air, drag, tension, viscosity, vorticity"]),
+        (&["run", "waterfall", "--effect", "fire=on"], &["air, drag, predictor, tension, viscosity, vorticity"]),
         (&["run", "waterfall", "--effect", "air=perhaps"], &["NAME=auto"]),
         (&["run", "niagara"], &["niagara", "allowed", "dam_break", "waterfall"]),
         (&["run", "no/such.ron"], &["no/such.ron"]),
@@ -143,7 +143,7 @@ fn lists_are_one_a_line_with_the_name_first() {
     };
     assert_eq!(names("scenes"), scene::builtin_names());
     assert_eq!(names("qualities"), ["classic", "draft", "fast", "balanced", "fine", "reference"]);
-    assert_eq!(names("effects").len(), 5);
+    assert_eq!(names("effects"), ["air", "drag", "predictor", "tension", "viscosity", "vorticity"]);
     assert!(names("elements").contains(&"water".to_owned()));
 }
 

@@ -11,7 +11,7 @@ pub(super) fn list(what: Listing) -> Result<(), Failure> {
     let lines = match what {
         Listing::Scenes => scene::builtin_names().into_iter().map(scene).collect::<Result<_, _>>()?,
         Listing::Elements => scene::elements()?.iter().map(|(_, row)| element(row)).collect(),
-        Listing::Effects => Effect::ALL.map(|effect| format!("{}\t{}", effect.name(), meaning(effect))).to_vec(),
+        Listing::Effects => Effect::ALL.map(|effect| format!("{}\t{}", effect.name(), effect.meaning())).to_vec(),
         Listing::Qualities => Preset::ALL.map(quality).to_vec(),
     };
     output::print(&lines.into_iter().fold(String::new(), |text: String, line| text + &line + "\n"))
@@ -35,20 +35,10 @@ fn element(row: &Element) -> String {
     )
 }
 
-fn meaning(effect: Effect) -> &'static str {
-    match effect {
-        Effect::Air => "the air moves",
-        Effect::Drag => "the air drags particles",
-        Effect::Viscosity => "neighbouring particles even out their velocities (XSPH)",
-        Effect::Vorticity => "eddies keep turning (vorticity confinement)",
-        Effect::Tension => "particles keep their distance at a surface (s_corr)",
-    }
-}
-
 fn quality(preset: Preset) -> String {
     let values = preset.quality();
     format!(
-        "{}\tsubsteps={} iterations={} kernel_radius={} correction_limit={} air_cell={} air_courant={} gradient={:?}",
+        "{}\tsubsteps={} iterations={} kernel_radius={} correction_limit={} air_cell={} air_courant={} gradient={:?} predictor={}",
         preset.name(),
         values.substeps,
         values.iterations,
@@ -56,7 +46,8 @@ fn quality(preset: Preset) -> String {
         values.correction_limit,
         values.air_cell,
         values.air_courant,
-        values.gradient
+        values.gradient,
+        values.predictor
     )
     .to_lowercase()
 }

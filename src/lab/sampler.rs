@@ -18,7 +18,7 @@ use crate::{
         control,
         effects::Effects,
         ledger::{Pass, PassLedger},
-        state::{AirGrid, Counters, ParticleStore, Rock, Setup, SolverState},
+        state::{AirGrid, Counters, ParticleStore, PredictorState, Rock, Setup, SolverState},
         workers::Workers,
     },
 };
@@ -263,6 +263,7 @@ fn pass_of(effect: Effect) -> Option<Pass> {
         Effect::Drag => Some(Pass::Drag),
         Effect::Viscosity => Some(Pass::Viscosity),
         Effect::Vorticity => Some(Pass::Vorticity),
+        Effect::Predictor => Some(Pass::Pressure),
         Effect::Tension => None,
     }
 }
@@ -313,12 +314,11 @@ fn stability(world: &World) -> Stability {
 fn memory_bytes(world: &World) -> u64 {
     let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
     let air = world.resource::<AirGrid>();
-    let solver = world.resource::<SolverState>().memory();
+    let solver = world.resource::<SolverState>().memory() + world.resource::<PredictorState>().memory();
     let per_particle = 5 * size_of::<f32>() + size_of::<u8>();
     let per_site = size_of::<u8>() + size_of::<u32>();
     let sites = rock.columns() as usize * rock.rows() as usize;
-    let fields = air.pressure().len() + air.velocity_x().len() + air.velocity_y().len();
-    (solver + particles.x.capacity() * per_particle + sites * per_site + fields * size_of::<f32>()) as u64
+    (solver + particles.x.capacity() * per_particle + sites * per_site + air.memory_bytes()) as u64
 }
 
 /// Most memory that the process has had, from Linux's own books.

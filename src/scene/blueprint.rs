@@ -46,6 +46,18 @@ impl Effect {
         }
     }
 
+    /// What it does, in half a sentence.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Air => "the air moves",
+            Self::Drag => "the air drags particles",
+            Self::Predictor => "pressure is predicted on a coarse grid before the density constraint",
+            Self::Tension => "particles keep their distance at a surface (s_corr)",
+            Self::Viscosity => "neighbouring particles even out their velocities (XSPH)",
+            Self::Vorticity => "eddies keep turning (vorticity confinement)",
+        }
+    }
+
     /// The effect called `name`.
     pub fn find(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|effect| effect.name() == name)

@@ -98,7 +98,6 @@ fn mark_liquid(
 
 /// Sets up `Σ_f w_f (p_c − p_n) = −Σ ± w_f u_f + feedback` over the liquid cells; p = 0 in the air.
 #[inline(always)]
-#[expect(clippy::too_many_arguments, reason = "the equation joins them all")]
 fn assemble(
     grid: &MacGrid,
     closed: &ClosedFaces,
