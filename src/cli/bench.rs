@@ -113,7 +113,7 @@ mod tests {
             "| 75 | 1,234 | – | – |",
             "| 70 | – | 170 | 1,500 |",
             "| 30 | 1,234,567 | 260 | 1,750 |",
-            "| cost grows as | n^1.00 | n^1.98 | n^5.41 |",
+            "| cost grows as | n^1.00 | n^2.00 | n^5.42 |",
             "- bins: 128: 0.250",
         ] {
             assert!(text.contains(line), "no line {line} in\n{text}");
