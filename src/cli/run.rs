@@ -13,7 +13,7 @@ use crate::{
         headless::Headless,
         metrics::Metrics,
         particle_list,
-        picture::{LONG_SIDE, Picture},
+        picture::{DISC_RADIUS, LONG_SIDE, Picture},
         run::{Observer, Plan},
         sampler::Sampler,
         trace::Trace,
@@ -150,7 +150,8 @@ fn write_outputs(arguments: &RunArguments, world: &World, metrics: Option<&Metri
         output::write(path, |file| particle_list::write(world, file))?;
     }
     if let Some(path) = &arguments.png {
-        output::write(path, |file| Picture::of_world(world, View::Elements, LONG_SIDE).write_png(file))?;
+        let picture = Picture::of_world(world, View::Elements, LONG_SIDE, DISC_RADIUS);
+        output::write(path, |file| picture.write_png(file))?;
     }
     if let (Some(path), Some(metrics)) = (&arguments.metrics, metrics) {
         output::write_json(path, metrics)?;

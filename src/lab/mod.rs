@@ -4,6 +4,7 @@
 pub mod balance;
 pub mod binning;
 pub mod density;
+mod drift;
 pub mod headless;
 pub mod machine;
 pub mod metrics;

@@ -14,8 +14,8 @@ use std::io::{self, Write};
 /// Longer side of a picture, pixels.
 pub const LONG_SIDE: u32 = 1280;
 
-/// Radius of a particle's disc, d: a little over half, so that a liquid at rest is closed.
-const DISC_RADIUS: f32 = 0.64;
+/// Radius of a particle's disc that closes a liquid at rest, d: a little over half.
+pub const DISC_RADIUS: f32 = 0.64;
 
 /// Strength of the wind's tint in a picture of something else.
 const FAINT: f32 = 0.4;
@@ -42,8 +42,8 @@ impl Picture {
         (self.width, self.height)
     }
 
-    /// The world as `view` shows it, `long_side` pixels along the longer side of its box.
-    pub fn of_world(world: &World, view: View, long_side: u32) -> Self {
+    /// The world as `view` shows it, `long_side` pixels along the longer side of its box, with discs of `radius` d.
+    pub fn of_world(world: &World, view: View, long_side: u32, radius: f32) -> Self {
         let setup = world.resource::<Setup>();
         let size = setup.blueprint.domain.size;
         let pixels = (long_side as f32 / size.max_element()).min(LARGEST_SPACING);
@@ -51,7 +51,7 @@ impl Picture {
         let mut canvas = Canvas { picture: Self::plain(side(size.x), side(size.y), view::SURROUNDINGS), pixels };
         canvas.air(world.resource::<AirGrid>(), setup, view);
         canvas.rock(world.resource::<Rock>(), setup);
-        canvas.particles(world.resource::<ParticleStore>(), world.resource::<Rock>(), setup, view);
+        canvas.particles(world.resource::<ParticleStore>(), world.resource::<Rock>(), setup, view, radius);
         canvas.picture
     }
 
@@ -143,7 +143,7 @@ impl Canvas {
         }
     }
 
-    fn particles(&mut self, particles: &ParticleStore, rock: &Rock, setup: &Setup, view: View) {
+    fn particles(&mut self, particles: &ParticleStore, rock: &Rock, setup: &Setup, view: View, radius: f32) {
         let reference = Reference::of(&setup.blueprint.domain, &setup.blueprint.air);
         let rest = f64::from(setup.blueprint.fluid.rest_density);
         let locals = match view {
@@ -158,7 +158,7 @@ impl Canvas {
             let density_error = locals.get(i).map_or(0.0, |local| (local.density / rest - 1.0) as f32);
             let sample = Sample { speed, depth: depths.at(p), density_error };
             let colour = view::colour(view, setup.elements().get(particles.element[i]), sample);
-            self.cover(p, DISC_RADIUS, colour, disc);
+            self.cover(p, radius, colour, disc);
         }
     }
 

@@ -38,6 +38,9 @@ const COLUMN: f64 = 3.0;
 /// Longer side of a picture of the study, pixels.
 const PICTURE_SIDE: u32 = 420;
 
+/// Radius of the discs there, d: small enough to show how densely particles stand.
+const PICTURE_DISC: f32 = 0.3;
+
 /// What became of the liquid: means over the observations.
 #[derive(Clone, Debug, Serialize)]
 pub struct Outcome {
@@ -96,7 +99,7 @@ fn observe(preset: Preset, ratio: f64, workers: &Workers) -> Result<(Outcome, Pi
         slope: mean(|look| look.slope),
         surface: mean(|look| look.surface),
     };
-    Ok((outcome, Picture::of_world(headless.world(), View::Elements, PICTURE_SIDE)))
+    Ok((outcome, Picture::of_world(headless.world(), View::Elements, PICTURE_SIDE, PICTURE_DISC)))
 }
 
 /// The liquid at one moment.

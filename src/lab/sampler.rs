@@ -1,13 +1,11 @@
 //! Gathers times and accuracy of a run, tick by tick, and makes the [`Metrics`] of it.
 
 use crate::{
-    kernel::{
-        params::Quality,
-        units::{TICK_SECONDS, TICKS_PER_SECOND},
-    },
+    kernel::units::TICKS_PER_SECOND,
     lab::{
-        balance::{Balance, Matter, floats_free},
+        balance::Matter,
         density::density_error,
+        drift::Drift,
         metrics::{Accuracy, EffectCost, Metrics, ParticleCount, Stability, Stage, TickTimes},
         run::Observer,
         stats,
@@ -23,7 +21,6 @@ use crate::{
     },
 };
 use bevy::ecs::world::World;
-use glam::DVec2;
 use std::{
     io,
     time::{Duration, Instant},
@@ -203,48 +200,6 @@ impl Samples {
     }
 }
 
-/// Follows the momentum through the ticks in which only gravity acts from outside.
-#[derive(Default)]
-struct Drift {
-    before: Option<(Balance, usize)>,
-    sum: DVec2,
-    impetus: f64,
-    ticks: u64,
-}
-
-impl Drift {
-    fn follow(&mut self, world: &World) {
-        let now = Self::undisturbed(world);
-        if let (Some((before, was)), Some((after, is))) = (self.before, now)
-            && was == is
-        {
-            let matter = matter(world);
-            let gravity = matter.domain.gravity.as_dvec2() * f64::from(matter.scale.spacing);
-            self.sum += after.momentum - before.momentum - after.mass * gravity * f64::from(TICK_SECONDS);
-            self.impetus = self.impetus.max(after.impetus);
-            self.ticks += 1;
-        }
-        self.before = now;
-    }
-
-    /// Balance and number of the particles if no wall, rock or air can have touched them since the last tick.
-    fn undisturbed(world: &World) -> Option<(Balance, usize)> {
-        let matter = matter(world);
-        let Quality { kernel_radius, .. } = world.resource::<Setup>().quality;
-        let near = |reach| !floats_free(matter.particles, world.resource::<Rock>(), matter.domain.size, reach);
-        if matter.particles.is_empty() || world.resource::<Effects>().get(Effect::Drag).running || near(kernel_radius) {
-            return None;
-        }
-        let balance = matter.balance();
-        let step = matter.scale.to_kernel(balance.max_speed as f32) * TICK_SECONDS;
-        (!near(kernel_radius + step + 1.0)).then_some((balance, matter.particles.len()))
-    }
-
-    fn share(&self) -> Option<f64> {
-        (self.ticks > 0 && self.impetus > 0.0).then(|| self.sum.length() / self.impetus)
-    }
-}
-
 /// The movable particles with what mechanics needs to know of them.
 pub(crate) fn matter(world: &World) -> Matter<'_> {
     let blueprint = &world.resource::<Setup>().blueprint;
@@ -330,4 +285,74 @@ fn peak_rss_bytes() -> Option<u64> {
 
 fn ms(time: Duration) -> f64 {
     time.as_secs_f64() * 1e3
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::brush::{BrushShape, Stroke};
+    use crate::{
+        lab::{
+            headless::Headless,
+            run::{Plan, run},
+        },
+        scene::{self, blueprint::EffectModes},
+        sim::{
+            intent::{Intent, IntentQueue},
+            workers::Workers,
+        },
+    };
+    use std::sync::Arc;
+
+    fn headless(name: &str, settings: &[(&str, &str)], off: &[Effect]) -> Headless {
+        let settings: Vec<_> = settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+        let modes: EffectModes = off.iter().map(|effect| (*effect, Mode::Off)).collect();
+        Headless::new(Arc::new(scene::load(name).unwrap().build(&settings, None, &modes).unwrap()), Workers::default())
+    }
+
+    fn measure(headless: &mut Headless, ticks: u64) -> Metrics {
+        let mut sampler = Sampler::new(headless.world(), 0);
+        run(headless, &Plan { ticks, ..Plan::default() }, &mut [&mut sampler]).unwrap();
+        sampler.finish(headless.world())
+    }
+
+    #[test]
+    fn a_drop_in_free_fall_keeps_its_momentum_but_for_gravity() {
+        let still = [Effect::Air, Effect::Drag];
+        // The predictor's grid solve is not exact, and neither is its way from particles to grid and back.
+        for (off, limit) in [(&[still[0], still[1], Effect::Predictor][..], 1e-4), (&still, 5e-3)] {
+            let mut headless = headless("empty", &[("columns", "100"), ("rows", "100")], off);
+            let water = headless.world().resource::<Setup>().elements().find("water").unwrap();
+            let stroke = Stroke::dab(BrushShape::Disc, glam::Vec2::new(50.0, 80.0), 8.0);
+            headless.world_mut().resource_mut::<IntentQueue>().push(Intent::Stamp { element: water, stroke });
+            let found = measure(&mut headless, 25);
+            let drift = found.accuracy.momentum_drift.unwrap();
+            assert!(drift < limit, "the liquid pushed itself: {drift}");
+            assert!(found.accuracy.momentum[1] < 0.0, "it falls");
+            assert_eq!(found.accuracy.air_mass_drift, None, "the air is off");
+        }
+    }
+
+    #[test]
+    fn water_at_a_wall_has_no_momentum_drift_to_measure() {
+        let found = measure(&mut headless("hydrostatic", &[("columns", "12"), ("depth", "8")], &[]), 20);
+        assert_eq!(found.accuracy.momentum_drift, None);
+        assert!(found.accuracy.volume_error.unwrap().abs() < 0.1, "{:?}", found.accuracy);
+        assert!(found.accuracy.residual.is_some());
+        assert_eq!(found.stability.escaped, 0);
+    }
+
+    #[test]
+    fn sealed_air_keeps_its_mass_while_it_moves() {
+        let found = measure(&mut headless("sealed_air", &[], &[]), 60);
+        assert!(found.accuracy.air_mass_drift.unwrap().abs() < 1e-5, "{:?}", found.accuracy);
+        assert!(found.accuracy.air_divergence_rms.unwrap() > 0.0, "the pulse travels");
+    }
+
+    #[test]
+    fn memory_grows_by_the_particles() {
+        let bytes = |columns| measure(&mut headless("dam_break", &[("columns", columns)], &[]), 1).memory_bytes;
+        let more = bytes("30") - bytes("10");
+        assert!(more > (2 * 30 * 30 - 2 * 10 * 10) * 21, "only {more} bytes more for 1,600 particles");
+    }
 }

@@ -1,14 +1,14 @@
 //! The volume error: whether the liquid takes the room that its particles stand for.
 //!
-//! Each movable particle covers the square of edge d around it, on samples of d/4. Gaps narrower than d between squares
-//! count as covered (a morphological closing with a square), for so far apart stand neighbours in a liquid; then what
-//! lies outside the box or in rock is taken off. A lattice of spacing d covers exactly d² a particle, and so does a drop
-//! of one particle alone.
+//! A particle stands for a square of edge s, s² = d²/ρ₀ (ρ₀ being the rest density as a multiple of the lattice's); it
+//! covers that square around it, on samples of s/4. Gaps narrower than s between squares count as covered (a
+//! morphological closing with a square), for so far apart stand neighbours in a liquid; then what lies outside the box
+//! or in rock is taken off. A lattice of spacing s covers exactly s² a particle, and so does a drop of one particle.
 
 use crate::kernel::{particles::Particles, solids::Solids};
 use glam::Vec2;
 
-/// Samples a spacing.
+/// Samples along the square of a particle.
 const FINE: i32 = 4;
 
 /// Samples by which the closing spreads and shrinks: it fills gaps of twice as many.
@@ -17,29 +17,42 @@ const SPREAD: usize = 2;
 /// Empty samples around the box, so that nothing spreads over the edge.
 const MARGIN: i32 = 2 * FINE;
 
-/// Room that the particles cover against the room that they stand for, d² each at a rest density of 1: 0 for a liquid
-/// that keeps its volume, −0.1 for one that lost a tenth. `None` without particles.
+/// Most samples: 256 MB. A liquid with more squares in its box is not measured.
+const MOST_SAMPLES: f64 = 2e9;
+
+/// Room that the particles cover against the room that they stand for: 0 for a liquid that keeps its volume, −0.1 for one
+/// that lost a tenth. `None` without particles, or if the box is too large for the squares.
 pub fn volume_error(particles: &Particles, rock: &Solids, size: Vec2, rest_density: f64) -> Option<f64> {
-    let expected = particles.len() as f64 / rest_density;
-    (!particles.is_empty()).then(|| covered_area(particles, rock, size) / expected - 1.0)
+    let per_spacing = rest_density.sqrt() * f64::from(FINE);
+    let samples = f64::from(size.x) * f64::from(size.y) * per_spacing * per_spacing;
+    if particles.is_empty() || samples > MOST_SAMPLES {
+        return None;
+    }
+    let covered = covered_samples(particles, rock, size, per_spacing as f32);
+    Some(covered as f64 / f64::from(FINE * FINE) / particles.len() as f64 - 1.0)
 }
 
-/// Room that the movable particles cover, d².
-pub fn covered_area(particles: &Particles, rock: &Solids, size: Vec2) -> f64 {
-    let samples = |length: f32| (length * FINE as f32).round() as i32;
+/// Samples that the movable particles cover, `per_spacing` of them along d.
+fn covered_samples(particles: &Particles, rock: &Solids, size: Vec2, per_spacing: f32) -> u64 {
+    // The cast saturates: a particle far outside falls off the map.
+    let samples = |length: f32| (length * per_spacing).round() as i32;
     let (width, height) = (samples(size.x), samples(size.y));
     let mut map = Bitmap::new(width + 2 * MARGIN, height + 2 * MARGIN);
+    let half = 0.5 * FINE as f32 / per_spacing;
     for (&x, &y) in particles.x.iter().zip(&particles.y) {
         if x.is_finite() && y.is_finite() {
-            // The casts saturate: a particle far outside falls off the map.
-            map.fill_square(samples(x - 0.5).saturating_add(MARGIN), samples(y - 0.5).saturating_add(MARGIN));
+            let corner = [x, y].map(|at| samples(at - half).saturating_add(MARGIN));
+            map.fill_square(corner[0], corner[1]);
         }
     }
     map.closed();
     for (cell, _, _) in rock.iter() {
-        map.clear_square(cell.x * FINE + MARGIN, cell.y * FINE + MARGIN);
+        let [left, right] = [cell.x, cell.x + 1].map(|x| samples(x as f32) + MARGIN);
+        for y in samples(cell.y as f32)..samples(cell.y as f32 + 1.0) {
+            map.clear_row(left, right, y + MARGIN);
+        }
     }
-    map.count(MARGIN..MARGIN + width, MARGIN..MARGIN + height) as f64 / f64::from(FINE * FINE)
+    map.count(MARGIN..MARGIN + width, MARGIN..MARGIN + height)
 }
 
 /// One bit a sample, rows padded to whole words.
@@ -66,12 +79,8 @@ impl Bitmap {
         [(first, mask as u64), ((first + 1).min(last), (mask >> 64) as u64)]
     }
 
-    fn on_map(&self, x: i32, y: i32) -> bool {
-        x >= 0 && y >= 0 && x <= self.width - FINE && y <= self.height - FINE
-    }
-
     fn fill_square(&mut self, x: i32, y: i32) {
-        if self.on_map(x, y) {
+        if x >= 0 && y >= 0 && x <= self.width - FINE && y <= self.height - FINE {
             for row in y..y + FINE {
                 for (word, mask) in self.span(x, row) {
                     self.bits[word] |= mask;
@@ -80,12 +89,12 @@ impl Bitmap {
         }
     }
 
-    fn clear_square(&mut self, x: i32, y: i32) {
-        if self.on_map(x, y) {
-            for row in y..y + FINE {
-                for (word, mask) in self.span(x, row) {
-                    self.bits[word] &= !mask;
-                }
+    /// Clears the samples `left … right` of row `y`, as far as they are on the map.
+    fn clear_row(&mut self, left: i32, right: i32, y: i32) {
+        if y >= 0 && y < self.height {
+            let row = &mut self.bits[y as usize * self.words..][..self.words];
+            for x in left.clamp(0, self.width)..right.clamp(0, self.width) {
+                row[x as usize / 64] &= !(1 << (x % 64));
             }
         }
     }
@@ -178,8 +187,11 @@ mod tests {
             let expected = f64::from(spacing * spacing) - 1.0;
             assert!((error - expected).abs() < 0.02, "{spacing}: {error} is not {expected}");
         }
-        let dense = volume_error(&world(lattice(50, 40, 0.8)), &rock, size, 1.0 / 0.64).unwrap();
-        assert!(dense.abs() < 0.03, "at its own rest density it keeps its volume: {dense}");
+        for spacing in [0.25_f32, 0.8, 1.7] {
+            let found =
+                volume_error(&world(lattice(40, 30, spacing)), &rock, size, f64::from(spacing).powi(-2)).unwrap();
+            assert!(found.abs() < 0.02, "at its own rest density it keeps its volume: {found} at {spacing} d");
+        }
     }
 
     #[test]
@@ -203,11 +215,12 @@ mod tests {
         let size = Vec2::new(70.0, 10.0);
         let mut rock = Solids::new(70, 10);
         let corner = world([Vec2::new(0.0, 0.0)]);
-        assert_eq!(covered_area(&corner, &rock, size), 0.25, "three quarters of the square are outside");
-        assert_eq!(covered_area(&world([Vec2::splat(1e9), Vec2::NAN]), &rock, size), 0.0);
+        assert_eq!(volume_error(&corner, &rock, size, 1.0), Some(-0.75), "three quarters of the square are outside");
+        assert_eq!(volume_error(&world([Vec2::splat(1e9), Vec2::NAN]), &rock, size, 1.0), Some(-1.0));
         for x in 0..70 {
             rock.insert(IVec2::new(x, 0), ElementId(1), x as u32);
         }
-        assert_eq!(covered_area(&world(lattice(70, 3, 1.0)), &rock, size), 140.0, "the lowest row is in rock");
+        let found = volume_error(&world(lattice(70, 3, 1.0)), &rock, size, 1.0).unwrap();
+        assert!((found + 1.0 / 3.0).abs() < 1e-9, "the lowest of three rows is in rock: {found}");
     }
 }

@@ -201,3 +201,41 @@ impl Recorder {
         Replay { header: Header::new(blueprint, ticks), entries: self.entries[..seen].to_vec() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{self, blueprint::EffectModes};
+
+    fn blueprint() -> Blueprint {
+        scene::load("empty").unwrap().build(&[], None, &EffectModes::new()).unwrap()
+    }
+
+    #[test]
+    fn undo_cuts_the_record_only_when_something_else_is_done() {
+        let mut recorder = Recorder::default();
+        let press = |amount| Intent::Press { stroke: Stroke::rectangle(Vec2::ZERO, Vec2::ONE), amount };
+        for edits in 0..4 {
+            recorder.note(10 * edits, edits, press(edits as f32));
+        }
+        let ticks = |replay: Replay| replay.entries.iter().map(|entry| entry.tick).collect::<Vec<_>>();
+        assert_eq!(ticks(recorder.replay(&blueprint(), 40, 2)), [0, 10], "undone twice");
+        assert_eq!(ticks(recorder.replay(&blueprint(), 40, 4)), [0, 10, 20, 30], "done again");
+        recorder.note(15, 2, press(7.0));
+        assert_eq!(ticks(recorder.replay(&blueprint(), 40, 3)), [0, 10, 15], "what was undone is gone");
+    }
+
+    #[test]
+    fn a_replay_survives_its_file_to_the_last_bit() {
+        let mut recorder = Recorder::default();
+        let at = Vec2::new(0.1 + 0.2, 1.0 / 3.0);
+        recorder.note(7, 0, Intent::Fill { element: crate::kernel::element::ElementId(1), at });
+        recorder.note(7, 1, Intent::ClearAir);
+        recorder.note(9, 2, Intent::Blow { stroke: Stroke::rectangle(at, at * 77.7), velocity: at * -1e-7 });
+        let blueprint = blueprint();
+        let replay = recorder.replay(&blueprint, 9, 3);
+        let text = replay.write().unwrap();
+        assert_eq!(text.lines().count(), 4);
+        assert_eq!(Replay::read(&text, &blueprint.elements).unwrap(), replay);
+    }
+}
