@@ -3,10 +3,9 @@
 use crate::kernel::{
     params::{Domain, Quality},
     particles::Particles,
-    pbf::{Solver, WALL_GAP},
+    pbf::Solver,
     solids::Solids,
 };
-use glam::Vec2;
 
 /// Longest move of a substep, in kernel radii. Collision with rock is exact at any speed; what this bounds is how deep
 /// two streams can enter each other before the density constraint sees them: up to two kernel diameters each.
@@ -57,7 +56,6 @@ pub fn predict(
 ) -> PredictReport {
     let mut report = PredictReport::default();
     let longest = MOVE_RADII * quality.kernel_radius;
-    let (low, high) = (Vec2::splat(WALL_GAP), domain.size - Vec2::splat(WALL_GAP));
     let has_rock = solids.count() > 0;
     solver.x.clear();
     solver.y.clear();
@@ -70,7 +68,7 @@ pub fn predict(
             (particles.vx[i], particles.vy[i]) = (way.x / dt, way.y / dt);
             report.speed_clamps += 1;
         }
-        let mut to = (from + way).max(low).min(high);
+        let mut to = domain.keep_inside(from + way);
         if has_rock {
             to = solids.sweep(from, to);
         }

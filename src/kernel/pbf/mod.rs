@@ -25,9 +25,6 @@ use constraint::ConstraintPass;
 use correction::CorrectionPass;
 use glam::Vec2;
 
-/// Nearest that a liquid particle comes to a box wall, d.
-pub const WALL_GAP: f32 = 0.25;
-
 /// Positions under correction, densities, bins: what the solver keeps beside the particles. 45 bytes a particle and the
 /// bins. The arrays follow the order of the particles.
 #[derive(Clone, Debug)]
@@ -138,7 +135,7 @@ impl Solver {
         }
         permute(&mut particles.id, places, &mut self.spare_ids);
         permute(&mut particles.element, places, &mut self.spare_elements);
-        separate_coincident(&particles.id, &mut self.x, &mut self.y);
+        separate_coincident(&particles.id, &mut self.x, &mut self.y, domain, solids);
         self.bins.group(&self.x, self.instructions.width(), self.neighbours);
         self.anchor_x.clone_from(&self.x);
         self.anchor_y.clone_from(&self.y);
@@ -219,8 +216,8 @@ impl Solver {
 }
 
 /// Particles at one point have no direction to part in (the spiky gradient is 0/0 there); equal ones among the last few
-/// of the sorted order are set apart by a small offset that only depends on the id.
-fn separate_coincident(id: &[u32], x: &mut [f32], y: &mut [f32]) {
+/// of the sorted order are set apart by a small offset that only depends on the id. Rock and walls stop it.
+fn separate_coincident(id: &[u32], x: &mut [f32], y: &mut [f32], domain: &Domain, solids: &Solids) {
     /// Closer than this in both coordinates counts as one point, d.
     const COINCIDENT: f32 = 1e-4;
     /// Largest offset in each coordinate, d.
@@ -231,8 +228,9 @@ fn separate_coincident(id: &[u32], x: &mut [f32], y: &mut [f32]) {
         let near = |j: usize| (x[i] - x[j]).abs() < COINCIDENT && (y[i] - y[j]).abs() < COINCIDENT;
         if (i.saturating_sub(LOOK_BACK)..i).any(near) {
             let mixed = mix(id[i]);
-            x[i] += APART * unit(mixed);
-            y[i] += APART * unit(mixed >> 16);
+            let (from, offset) = (Vec2::new(x[i], y[i]), APART * Vec2::new(unit(mixed), unit(mixed >> 16)));
+            let to = solids.sweep(from, domain.keep_inside(from + offset));
+            (x[i], y[i]) = (to.x, to.y);
         }
     }
 }
