@@ -2,6 +2,8 @@
 
 #![forbid(unsafe_op_in_unsafe_fn)]
 
+#[cfg(feature = "app")]
+pub mod game;
 pub mod kernel;
 pub mod scene;
 pub mod sim;
