@@ -3,6 +3,8 @@
 #![forbid(unsafe_op_in_unsafe_fn)]
 
 pub mod cli;
+#[cfg(feature = "app")]
+pub mod game;
 pub mod kernel;
 pub mod lab;
 pub mod scene;
