@@ -1,0 +1,6 @@
+//! Tests of the headless world as a whole. One binary, so that Bevy is linked once.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod determinism;
