@@ -10,6 +10,8 @@
 mod constraint;
 mod correction;
 pub(crate) mod parallel;
+#[cfg(test)]
+pub(crate) mod tests;
 
 use crate::kernel::{
     bins::{Bins, Neighbours, permute},

@@ -1,5 +1,7 @@
 //! Velocities after the solve: what the moves imply, then viscosity and vorticity confinement.
 
+#[cfg(test)]
+mod tests;
 mod viscosity;
 mod vorticity;
 
