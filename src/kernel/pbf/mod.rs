@@ -129,7 +129,7 @@ impl Solver {
         }
         permute(&mut particles.id, places, &mut self.spare_ids);
         permute(&mut particles.element, places, &mut self.spare_elements);
-        separate_coincident(&particles.id, &mut self.x, &mut self.y);
+        separate_coincident(&particles.id, &mut self.x, &mut self.y, solids);
         self.bins.group(&self.x, self.instructions.width(), self.neighbours);
         self.anchor_x.clone_from(&self.x);
         self.anchor_y.clone_from(&self.y);
@@ -207,20 +207,26 @@ impl Solver {
 }
 
 /// Particles at one point have no direction to part in (the spiky gradient is 0/0 there); equal ones among the last few
-/// of the sorted order are set apart by a small offset that only depends on the id.
-fn separate_coincident(id: &[u32], x: &mut [f32], y: &mut [f32]) {
+/// of the sorted order are set apart by a small offset that only depends on the id and stops at rock. Where many are
+/// pressed into a corner of the rock, they stand on one point to the last bit.
+fn separate_coincident(id: &[u32], x: &mut [f32], y: &mut [f32], solids: &Solids) {
     /// Closer than this in both coordinates counts as one point, d.
     const COINCIDENT: f32 = 1e-4;
     /// Largest offset in each coordinate, d.
     const APART: f32 = 0.05;
     /// Particles before it that each is compared with.
     const LOOK_BACK: usize = 4;
+    let is_near = |a: Vec2, b: Vec2| (a - b).abs().max_element() < COINCIDENT;
     for i in 1..x.len() {
-        let near = |j: usize| (x[i] - x[j]).abs() < COINCIDENT && (y[i] - y[j]).abs() < COINCIDENT;
-        if (i.saturating_sub(LOOK_BACK)..i).any(near) {
+        let at = Vec2::new(x[i], y[i]);
+        if (i.saturating_sub(LOOK_BACK)..i).any(|j| is_near(at, Vec2::new(x[j], y[j]))) {
             let mixed = mix(id[i]);
-            x[i] += APART * unit(mixed);
-            y[i] += APART * unit(mixed >> 16);
+            let offset = APART * Vec2::new(unit(mixed), unit(mixed >> 16));
+            let mut to = solids.sweep(at, at + offset);
+            if is_near(at, to) {
+                to = solids.sweep(at, at - offset);
+            }
+            (x[i], y[i]) = (to.x, to.y);
         }
     }
 }
