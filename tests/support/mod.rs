@@ -9,7 +9,9 @@ use bevy::{
 };
 use glam::Vec2;
 use powder_master::{
-    kernel::{element::ElementId, particles::Particles, pbf::Solver, simd::InstructionSet},
+    kernel::{
+        element::ElementId, params::Domain, particles::Particles, pbf::Solver, simd::InstructionSet, solids::Solids,
+    },
     scene::{
         self,
         blueprint::{Blueprint, EffectModes},
@@ -38,8 +40,9 @@ pub fn blueprint(scene: &str, settings: &[(&str, &str)]) -> Blueprint {
 
 /// A closed box of `columns × rows` cells of still air, without gravity and with nothing in it.
 pub fn empty_box(columns: u32, rows: u32) -> Blueprint {
-    let mut blueprint = blueprint("empty", &[("columns", &columns.to_string()), ("rows", &rows.to_string())]);
-    blueprint.domain.gravity = Vec2::ZERO;
+    let mut blueprint = blueprint("empty", &[]);
+    blueprint.domain = Domain { size: Vec2::new(columns as f32, rows as f32), gravity: Vec2::ZERO };
+    blueprint.solids = Solids::new(columns, rows);
     blueprint
 }
 

@@ -4,4 +4,5 @@
 mod support;
 
 mod determinism;
+mod hard_cases;
 mod motion;
