@@ -2,6 +2,8 @@
 
 #![forbid(unsafe_op_in_unsafe_fn)]
 
+pub mod cli;
 pub mod kernel;
+pub mod lab;
 pub mod scene;
 pub mod sim;

@@ -6,3 +6,4 @@ mod support;
 mod determinism;
 mod hard_cases;
 mod motion;
+mod stages;

@@ -18,8 +18,9 @@ use crate::kernel::{
     element::ElementId,
     params::{Domain, FluidParams, GradientKernel, Quality},
     particles::Particles,
+    predictor::TARGET_DENSITY,
     simd::InstructionSet,
-    smoothing::{Rational, Smoothing, Spiky},
+    smoothing::{Gradient, Rational, Smoothing, Spiky},
     solids::Solids,
 };
 use constraint::ConstraintPass;
@@ -68,8 +69,18 @@ pub struct SolveParams<'a> {
     pub quality: &'a Quality,
     /// Whether the tensile correction is added.
     pub tension: bool,
+    /// Whether the pressure predictor ran: then the constraint aims at its target density, and pairs that are too close
+    /// are set apart.
+    pub predicted: bool,
     /// Threads to use.
     pub threads: usize,
+}
+
+impl SolveParams<'_> {
+    /// Density that the constraint aims at, 1 on the lattice.
+    fn rest_density(&self) -> f32 {
+        self.fluid.rest_density * if self.predicted { TARGET_DENSITY } else { 1.0 }
+    }
 }
 
 impl Default for Solver {
@@ -149,18 +160,19 @@ impl Solver {
         }
     }
 
-    fn iterate<G: crate::kernel::smoothing::Gradient>(&mut self, params: &SolveParams) {
+    fn iterate<G: Gradient>(&mut self, params: &SolveParams) {
         self.find_lambda::<G>(params);
-        if params.tension {
-            self.correct::<G, true>(params);
-        } else {
-            self.correct::<G, false>(params);
+        match (params.tension, params.predicted) {
+            (false, false) => self.correct::<G, false, false>(params),
+            (false, true) => self.correct::<G, false, true>(params),
+            (true, false) => self.correct::<G, true, false>(params),
+            (true, true) => self.correct::<G, true, true>(params),
         }
         std::mem::swap(&mut self.x, &mut self.next_x);
         std::mem::swap(&mut self.y, &mut self.next_y);
     }
 
-    fn find_lambda<G: crate::kernel::smoothing::Gradient>(&mut self, params: &SolveParams) {
+    fn find_lambda<G: Gradient>(&mut self, params: &SolveParams) {
         let (smoothing, instructions) = (&self.smoothing, self.instructions);
         let (x, y, rock) = (&self.x, &self.y, self.bins.rock());
         let outputs = [&mut self.lambda[..], &mut self.density[..]];
@@ -169,6 +181,7 @@ impl Solver {
                 smoothing,
                 domain: params.domain,
                 fluid: params.fluid,
+                rest_density: params.rest_density(),
                 x,
                 y,
                 rock,
@@ -181,16 +194,17 @@ impl Solver {
         });
     }
 
-    fn correct<G: crate::kernel::smoothing::Gradient, const TENSION: bool>(&mut self, params: &SolveParams) {
+    fn correct<G: Gradient, const TENSION: bool, const APART: bool>(&mut self, params: &SolveParams) {
         let (smoothing, instructions) = (&self.smoothing, self.instructions);
         let (x, y, rock, lambda) = (&self.x, &self.y, self.bins.rock(), &self.lambda);
         let anchor = [&self.anchor_x[..], &self.anchor_y[..]];
         let outputs = [&mut self.next_x[..], &mut self.next_y[..]];
         parallel::split(self.bins.groups(), outputs, params.threads, &|groups, base, next| {
-            instructions.run(CorrectionPass::<G, TENSION> {
+            instructions.run(CorrectionPass::<G, TENSION, APART> {
                 smoothing,
                 domain: params.domain,
                 fluid: params.fluid,
+                rest_density: params.rest_density(),
                 limit: params.quality.correction_limit,
                 x,
                 y,

@@ -16,6 +16,8 @@ pub(crate) struct Question<'a> {
     pub(crate) fluid: &'a FluidParams,
     pub(crate) quality: &'a Quality,
     pub(crate) tension: bool,
+    /// Whether the pressure predictor ran before.
+    pub(crate) predicted: bool,
 }
 
 /// What one iteration gives: densities, λ and Δx before any limit.
@@ -28,7 +30,7 @@ pub(crate) struct Answer {
 impl Question<'_> {
     /// The whole iteration.
     pub(crate) fn answer(&self) -> Answer {
-        let rest = f64::from(self.fluid.rest_density);
+        let rest = self.rest_density();
         let (mut density, mut lambda) = (Vec::new(), Vec::new());
         for &at in self.particles {
             let (wall_density, wall_push) = self.walls(at);
@@ -68,7 +70,20 @@ impl Question<'_> {
         for &other in self.rock {
             add(2.0 * lambda[i], self.slope(at, other));
         }
-        sum.map(|part| part / f64::from(self.fluid.rest_density))
+        let constrained = sum.map(|part| part / self.rest_density());
+        if !self.predicted {
+            return constrained;
+        }
+        // Pairs nearer than 0.8 d are set apart by up to half their distance.
+        self.particles.iter().fold(constrained, |sum, &other| {
+            let share = 0.5 * (1.0 - distance2(at, other) / 0.64).max(0.0);
+            [sum[0] + share * (at[0] - other[0]), sum[1] + share * (at[1] - other[1])]
+        })
+    }
+
+    /// After the predictor the constraint aims 1 % lower.
+    fn rest_density(&self) -> f64 {
+        f64::from(self.fluid.rest_density) * if self.predicted { 0.99 } else { 1.0 }
     }
 
     fn h(&self) -> f64 {

@@ -1,0 +1,128 @@
+//! Frame pacing: how much of a frame's time becomes ticks. Late frames slow the world down; they never enlarge a tick
+//! and never pile up.
+
+use crate::{
+    kernel::units::{TICK_SECONDS, TICKS_PER_SECOND},
+    sim::{ledger::PassLedger, pace::Pace, state::Clock},
+};
+use bevy::prelude::{Real, Res, ResMut, Resource, Time, Virtual};
+use std::time::Duration;
+
+/// Time that the ticks of one frame may take.
+const FRAME_BUDGET: Duration = Duration::from_millis(20);
+/// Most ticks in a frame, however cheap they are.
+const MOST_TICKS: u32 = 8;
+/// Ticks a second are counted over this time.
+const WINDOW: Duration = Duration::from_millis(750);
+
+/// Slowest and fastest speed.
+pub const SPEED_RANGE: std::ops::RangeInclusive<f32> = 0.0625..=4.0;
+
+/// Most ticks that one frame may run when a tick costs `tick`.
+pub fn ticks_per_frame(tick: Duration) -> u32 {
+    if tick.is_zero() {
+        return MOST_TICKS;
+    }
+    let affordable = FRAME_BUDGET.as_nanos() / tick.as_nanos();
+    (affordable as u32).clamp(1, MOST_TICKS)
+}
+
+/// How fast the world really runs and how fast frames come.
+#[derive(Resource, Clone, Copy, Debug, Default)]
+pub struct Tempo {
+    /// Frames a second.
+    pub frames_per_second: f32,
+    /// Ticks a second; keeps its last value while the world stands.
+    pub ticks_per_second: f32,
+    /// Share of the wanted speed that the machine keeps up with, if it does not keep up.
+    pub lag: Option<f32>,
+    frame_time: Duration,
+    frames: u32,
+    tick_time: Duration,
+    tick: u64,
+    pace: Pace,
+}
+
+impl Tempo {
+    /// Counts a frame of `elapsed` that left the world at `tick`.
+    fn count(&mut self, elapsed: Duration, tick: u64, pace: Pace) {
+        self.frame_time += elapsed;
+        self.frames += 1;
+        if self.frame_time >= WINDOW {
+            self.frames_per_second = self.frames as f32 / self.frame_time.as_secs_f32();
+            (self.frame_time, self.frames) = (Duration::ZERO, 0);
+        }
+        if pace.paused || pace != self.pace || tick < self.tick {
+            (self.tick, self.tick_time, self.pace, self.lag) = (tick, Duration::ZERO, pace, None);
+            return;
+        }
+        self.tick_time += elapsed;
+        if self.tick_time >= WINDOW {
+            self.ticks_per_second = (tick - self.tick) as f32 / self.tick_time.as_secs_f32();
+            let share = self.ticks_per_second / (TICKS_PER_SECOND as f32 * pace.speed);
+            self.lag = (share < 0.95).then_some(share);
+            (self.tick, self.tick_time) = (tick, Duration::ZERO);
+        }
+    }
+}
+
+/// Lets at most as many ticks into the next frame as it can afford, at the player's speed.
+pub fn set_pace(pace: Res<Pace>, ledger: Res<PassLedger>, mut time: ResMut<Time<Virtual>>) {
+    // While the world stands, fixed updates only carry edits: at slow motion's rate they would feel late.
+    let speed = if pace.ticks() { pace.speed.clamp(*SPEED_RANGE.start(), *SPEED_RANGE.end()) } else { 1.0 };
+    if time.relative_speed() != speed {
+        time.set_relative_speed(speed);
+    }
+    // `max_delta` bounds the real time of a frame, before the speed is applied. Together with an overstep below one
+    // tick, `n` ticks of time can't hold more than `n` ticks.
+    let most = ticks_per_frame(ledger.tick().median()) as f32 * TICK_SECONDS / speed;
+    time.set_max_delta(Duration::from_secs_f32(most));
+}
+
+/// Keeps the counts that the HUD shows.
+pub fn measure_tempo(mut tempo: ResMut<Tempo>, time: Res<Time<Real>>, clock: Res<Clock>, pace: Res<Pace>) {
+    tempo.count(time.delta(), clock.tick, *pace);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_that_cost_more_run_fewer_to_a_frame() {
+        let ms = |ms: f32| ticks_per_frame(Duration::from_secs_f32(ms / 1000.0));
+        assert_eq!(ms(0.0), 8);
+        assert_eq!(ms(1.0), 8);
+        assert_eq!(ms(6.0), 3);
+        assert_eq!(ms(10.5), 1);
+        assert_eq!(ms(500.0), 1);
+    }
+
+    #[test]
+    fn tempo_counts_ticks_and_frames_and_survives_a_reset() {
+        let mut tempo = Tempo::default();
+        for frame in 1..=100 {
+            tempo.count(Duration::from_millis(20), frame, Pace::default());
+        }
+        assert!((tempo.frames_per_second - 50.0).abs() < 1.0);
+        assert!((tempo.ticks_per_second - 50.0).abs() < 1.0);
+        let lag = tempo.lag.expect("50 of 60 is late");
+        assert!((lag - 5.0 / 6.0).abs() < 0.02);
+        tempo.count(Duration::from_millis(20), 0, Pace::default());
+        assert_eq!(tempo.lag, None, "a reset world starts a new count");
+    }
+
+    #[test]
+    fn slow_motion_and_pause_are_not_late() {
+        let mut tempo = Tempo::default();
+        let slow = Pace { speed: 0.25, ..Pace::default() };
+        for frame in 0..200 {
+            tempo.count(Duration::from_millis(10), frame * 15 / 100, slow);
+        }
+        assert_eq!(tempo.lag, None);
+        for _ in 0..200 {
+            tempo.count(Duration::from_millis(10), 30, Pace { paused: true, ..slow });
+        }
+        assert_eq!(tempo.lag, None);
+    }
+}

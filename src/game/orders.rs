@@ -1,0 +1,182 @@
+//! What the player wants done beyond the reach of a tool: keys and the HUD put orders in, one system carries them out
+//! between ticks.
+
+use crate::{
+    game::{
+        camera::WorldCamera,
+        frame::SPEED_RANGE,
+        history,
+        hud::{HudState, toast::Toasts},
+        input::{
+            bindings::Action,
+            pointer::{Pointer, ZOOM_STEP},
+        },
+        screen,
+        tools::{Tool, Toolbox},
+    },
+    kernel::{element::ElementId, params::Preset, solids::Solids},
+    scene::blueprint::{Effect, Mode},
+    sim::{
+        control,
+        effects::Effects,
+        intent::{Intent, IntentQueue},
+        pace::Pace,
+        state::{ParticleStore, Rock, Setup},
+        view::View,
+    },
+};
+use bevy::prelude::{Resource, World};
+use glam::Vec2;
+
+/// How far from the pointer a particle can be sampled, d.
+const SAMPLE_REACH: f32 = 1.5;
+
+/// The view that is shown.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Shown(pub View);
+
+/// One thing to do.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Order {
+    /// What a key or a button does.
+    Act(Action),
+    /// Remember the state before an edit.
+    Checkpoint,
+    /// Take up a tool.
+    Choose(Tool),
+    /// Run at another speed.
+    Speed(f32),
+    /// Go on at another quality.
+    Quality(Preset),
+    /// Switch an effect.
+    Effect(Effect, Mode),
+}
+
+/// Orders that wait.
+#[derive(Resource, Debug, Default)]
+pub struct Orders(Vec<Order>);
+
+impl Orders {
+    /// Queues an order.
+    pub fn push(&mut self, order: Order) {
+        self.0.push(order);
+    }
+}
+
+/// Carries out what waits.
+pub fn obey(world: &mut World) {
+    let waiting = std::mem::take(&mut world.resource_mut::<Orders>().0);
+    for order in waiting {
+        match order {
+            Order::Act(action) => act(world, action),
+            Order::Checkpoint => history::checkpoint(world),
+            Order::Choose(tool) => world.resource_mut::<Toolbox>().tool = tool,
+            Order::Speed(speed) => {
+                world.resource_mut::<Pace>().speed = speed.clamp(*SPEED_RANGE.start(), *SPEED_RANGE.end());
+            }
+            Order::Quality(preset) => control::set_quality(world, preset, preset.quality()),
+            Order::Effect(effect, mode) => world.resource_mut::<Effects>().get_mut(effect).mode = mode,
+        }
+    }
+}
+
+fn act(world: &mut World, action: Action) {
+    match action {
+        // Held buttons are the pointer's business, held arrows the keyboard's.
+        Action::Hold(_) | Action::Pan(..) => {}
+        Action::Sample => sample(world),
+        Action::Element(_)
+        | Action::Tool(_)
+        | Action::Brush(_)
+        | Action::BrushShape => choose(world, action),
+        Action::Pause | Action::Step | Action::Speed(_) => keep_time(world, action),
+        Action::Reset | Action::Undo | Action::Redo | Action::ClearAir => change_world(world, action),
+        Action::View(view) => world.resource_mut::<Shown>().0 = view,
+        Action::NextView => {
+            let mut shown = world.resource_mut::<Shown>();
+            shown.0 = shown.0.next();
+        }
+        Action::Zoom(steps) => {
+            let pixel = world.resource::<Pointer>().at;
+            let mut camera = world.resource_mut::<WorldCamera>();
+            let pixel = pixel.unwrap_or(camera.window() / 2.0);
+            camera.zoom_at(pixel, if steps > 0 { ZOOM_STEP } else { 1.0 / ZOOM_STEP });
+        }
+        Action::Search | Action::Hud | Action::Scenes | Action::Details | Action::Help | Action::Close => {
+            world.resource_mut::<HudState>().act(action);
+        }
+        Action::FullScreen => screen::toggle_full_screen(world),
+        Action::Screenshot => screen::take_screenshot(world),
+    }
+}
+
+fn choose(world: &mut World, action: Action) {
+    let Some(setup) = world.get_resource::<Setup>() else { return };
+    let element = match action {
+        Action::Element(digit) => setup.elements().iter().find(|(_, element)| element.key == digit).map(|(id, _)| id),
+        _ => None,
+    };
+    let mut tools = world.resource_mut::<Toolbox>();
+    match action {
+        Action::Element(_) => tools.tool = element.map_or(tools.tool, Tool::Element),
+        Action::Tool(tool) => tools.tool = tool,
+        Action::Brush(steps) => tools.grow(steps),
+        Action::BrushShape => tools.turn_shape(),
+        _ => {}
+    }
+}
+
+fn keep_time(world: &mut World, action: Action) {
+    let mut pace = world.resource_mut::<Pace>();
+    match action {
+        Action::Pause => *pace = Pace { paused: !pace.paused, steps_due: 0, ..*pace },
+        Action::Step => *pace = Pace { paused: true, steps_due: pace.steps_due + 1, ..*pace },
+        Action::Speed(steps) => {
+            let factor = if steps > 0 { 2.0 } else { 0.5 };
+            pace.speed = (pace.speed * factor).clamp(*SPEED_RANGE.start(), *SPEED_RANGE.end());
+        }
+        _ => {}
+    }
+}
+
+fn change_world(world: &mut World, action: Action) {
+    let told = match action {
+        Action::Reset => {
+            history::checkpoint(world);
+            control::reset(world);
+            "Reset"
+        }
+        Action::ClearAir => {
+            history::checkpoint(world);
+            world.resource_mut::<IntentQueue>().push(Intent::ClearAir);
+            "Air cleared"
+        }
+        Action::Undo if history::undo(world) => "Undone",
+        Action::Undo => "Nothing to undo",
+        Action::Redo if history::redo(world) => "Made again",
+        _ => "Nothing to make again",
+    };
+    world.resource_mut::<Toasts>().say(told);
+}
+
+/// Takes up the element under the pointer.
+fn sample(world: &mut World) {
+    let Some(pixel) = world.resource::<Pointer>().at else { return };
+    let at = world.resource::<WorldCamera>().to_world(pixel);
+    if let Some(element) = element_at(world, at) {
+        world.resource_mut::<Toolbox>().tool = Tool::Element(element);
+    }
+}
+
+/// The rock at a point, or else the movable particle that is nearest within reach.
+fn element_at(world: &World, at: Vec2) -> Option<ElementId> {
+    let rock = world.get_resource::<Rock>()?.get(Solids::cell_of(at));
+    let particles = world.get_resource::<ParticleStore>()?;
+    rock.map(|(element, _)| element).or_else(|| {
+        (0..particles.len())
+            .map(|i| (particles.position(i).distance_squared(at), particles.element[i]))
+            .filter(|(distance, _)| *distance < SAMPLE_REACH * SAMPLE_REACH)
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, element)| element)
+    })
+}

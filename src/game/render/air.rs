@@ -1,0 +1,47 @@
+//! The air as a picture (one texel a cell, colours laid over the empty box) and as arrows.
+
+use crate::{
+    kernel::air::Air,
+    sim::view::{Reference, View, air_colour},
+};
+use glam::Vec2;
+
+/// Tail and head (four f32) and colour (four bytes) of a streak.
+pub type Streak = [u32; 5];
+
+/// A streak from a tail to a head; the colour's last byte is its opacity.
+pub fn streak(tail: Vec2, head: Vec2, colour: [u8; 4]) -> Streak {
+    [tail.x.to_bits(), tail.y.to_bits(), head.x.to_bits(), head.y.to_bits(), u32::from_le_bytes(colour)]
+}
+
+/// Packs the air's colours, premultiplied by their opacity, row by row from the bottom.
+pub fn pack(air: &Air, view: View, reference: Reference, out: &mut Vec<u8>) {
+    out.clear();
+    for row in 0..air.rows() {
+        let velocity = air.velocity_x_row(row).iter().zip(air.velocity_y_row(row));
+        for (&pressure, (&u, &v)) in air.pressure_row(row).iter().zip(velocity) {
+            let (rgb, opacity) = air_colour(view, reference, pressure, Vec2::new(u, v));
+            out.extend(rgb.map(|channel| (f32::from(channel) * opacity) as u8));
+            out.push((255.0 * opacity) as u8);
+        }
+    }
+}
+
+/// Arrows on a lattice of `spacing` d over the box: as long as the spacing in a strong wind, gone in still air.
+pub fn arrows(air: &Air, size: Vec2, spacing: f32, reference: Reference, out: &mut Vec<Streak>) {
+    let count = (size / spacing).floor().max(Vec2::ONE).as_uvec2();
+    let step = size / count.as_vec2();
+    for row in 0..count.y {
+        for column in 0..count.x {
+            let at = (Vec2::new(column as f32, row as f32) + 0.5) * step;
+            let velocity = air.sample_velocity(at);
+            let strength = 2.5 * velocity.length() / reference.wind;
+            let length = spacing * strength / (1.0 + strength);
+            if length > 0.04 * spacing {
+                let half = velocity.normalize_or_zero() * length * 0.5;
+                let opacity = 90.0 + 165.0 * strength / (1.0 + strength);
+                out.push(streak(at - half, at + half, [222, 246, 240, opacity as u8]));
+            }
+        }
+    }
+}
