@@ -1,6 +1,9 @@
 //! Cost of the air for each cell and substep, with rock in it: `cargo bench --no-default-features --bench air`.
 //!
 //! Criterion's `thrpt` is cells × substeps a second; its inverse is the time of one (250 Melem/s are 4 ns).
+//!
+//! Best of many ticks on one thread of a shared AMD EPYC, SSE2, commit a518975: 64² 5.2 ns, 153 × 96 4.5 ns, 512² 5.4 ns;
+//! 153 × 96 without rock 3.7 ns. (The Powder Toy: 22.5 ns.)
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::{IVec2, Vec2};

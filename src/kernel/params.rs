@@ -170,3 +170,18 @@ pub struct Domain {
     /// Gravity, d/s².
     pub gravity: Vec2,
 }
+
+/// Nearest that a liquid particle comes to a box wall, d.
+pub const WALL_GAP: f32 = 0.25;
+
+impl Domain {
+    /// Upper right corner of where liquid particles may be, d; the lower left one is `WALL_GAP` in both coordinates.
+    pub fn highest(&self) -> Vec2 {
+        self.size - Vec2::splat(WALL_GAP)
+    }
+
+    /// The nearest place to a point where a liquid particle may be as far as the box's walls go.
+    pub fn keep_inside(&self, point: Vec2) -> Vec2 {
+        point.max(Vec2::splat(WALL_GAP)).min(self.highest())
+    }
+}

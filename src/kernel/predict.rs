@@ -3,10 +3,9 @@
 use crate::kernel::{
     params::{Domain, Quality},
     particles::Particles,
-    pbf::{Solver, WALL_GAP},
+    pbf::Solver,
     solids::Solids,
 };
-use glam::Vec2;
 
 /// Longest move of a substep, in kernel radii. Collision with rock is exact at any speed; what this bounds is how deep
 /// two streams can enter each other before the density constraint sees them: up to two kernel diameters each.
@@ -58,7 +57,6 @@ pub fn predict(
 ) -> PredictReport {
     let mut report = PredictReport::default();
     let longest = MOVE_RADII * quality.kernel_radius;
-    let (low, high) = (Vec2::splat(WALL_GAP), domain.size - Vec2::splat(WALL_GAP));
     let has_rock = solids.count() > 0;
     solver.x.clear();
     solver.y.clear();
@@ -72,7 +70,7 @@ pub fn predict(
             report.speed_clamps += 1;
         }
         let free = from + way;
-        let mut to = free.max(low).min(high);
+        let mut to = domain.keep_inside(free);
         if has_rock {
             to = solids.sweep(from, to);
         }

@@ -51,27 +51,8 @@ pub(super) struct Target<'a> {
     pub(super) momentum_y: &'a mut [f32],
 }
 
-/// Flow through the faces between the cells `0` and the cells `1`, in cells a substep.
-struct Faces<'a> {
-    open: &'a [f32],
-    pressure: [&'a [f32]; 2],
-    velocity: [&'a [f32]; 2],
-}
-
-impl Faces<'_> {
-    fn write(&self, half: f32, filter: f32, flow: &mut [f32]) {
-        let n = flow.len();
-        let [p0, p1] = self.pressure.map(|row| &row[..n]);
-        let [v0, v1] = self.velocity.map(|row| &row[..n]);
-        let open = &self.open[..n];
-        for i in 0..n {
-            flow[i] = face_flow(open[i], v0[i] + v1[i], p0[i] - p1[i], half, filter);
-        }
-    }
-}
-
-/// No face lets more than half a cell pass, so that two can't take more than there is. The substep's length keeps the
-/// velocities below that; only the filter can reach it, at a jump of pressure.
+/// Flow through a face, in cells a substep. No face lets more than half a cell pass, so that two can't take more than
+/// there is. The substep's length keeps the velocities below that; only the filter can reach it, at a jump of pressure.
 #[inline(always)]
 fn face_flow(open: f32, velocities: f32, drop: f32, half: f32, filter: f32) -> f32 {
     let flow = open * (velocities * half + drop * filter);
@@ -93,28 +74,32 @@ struct Carry {
 }
 
 impl Carry {
-    fn resize(&mut self, n: usize) {
-        for row in [&mut self.mass, &mut self.x, &mut self.y] {
-            row.resize(n, 0.0);
-        }
+    fn new(n: usize) -> Self {
+        Self { mass: vec![0.0; n], x: vec![0.0; n], y: vec![0.0; n] }
+    }
+
+    fn rows(&mut self, n: usize) -> (&mut [f32], &mut [f32], &mut [f32]) {
+        (&mut self.mass[..n], &mut self.x[..n], &mut self.y[..n])
+    }
+
+    /// Adds `mass` from a cell with velocity (u, v).
+    #[inline(always)]
+    fn add(&mut self, i: usize, mass: f32, u: f32, v: f32) {
+        self.mass[i] += mass;
+        self.x[i] += mass * u;
+        self.y[i] += mass * v;
     }
 }
 
-/// Sideways shares of a row of sources.
-#[derive(Debug, Default)]
-struct Sideways {
-    left: Vec<f32>,
-    stay: Vec<f32>,
-    right: Vec<f32>,
-}
-
-/// Row buffers of a band of rows.
-#[derive(Debug, Default)]
+/// Row buffers of a band of rows. Faces count with the cell on their right: face k is between the cells k − 1 and k.
+#[derive(Debug)]
 pub(super) struct Band {
-    flow_x: Vec<f32>,
-    flow_below: Vec<f32>,
-    flow_above: Vec<f32>,
-    sideways: Sideways,
+    /// Share of the cell left of a face that goes right through it.
+    right: Vec<f32>,
+    /// Share of the cell right of a face that goes left through it.
+    left: Vec<f32>,
+    /// Share of each cell that goes down: of this row, and of the next.
+    sinking: [Vec<f32>; 2],
     /// Mass that goes down, stays level and goes up.
     down: Vec<f32>,
     level: Vec<f32>,
@@ -128,166 +113,162 @@ pub(super) struct Band {
 
 impl Band {
     pub(super) fn new(stride: usize) -> Self {
-        let mut band = Self::default();
-        band.flow_x.resize(stride + 1, 0.0);
-        let rows = [&mut band.flow_below, &mut band.flow_above, &mut band.down, &mut band.level, &mut band.up];
-        let sideways = [&mut band.sideways.left, &mut band.sideways.stay, &mut band.sideways.right];
-        for row in rows.into_iter().chain(sideways) {
-            row.resize(stride, 0.0);
+        let row = || vec![0.0; stride];
+        let carry = || Carry::new(stride - 2);
+        Self {
+            right: row(),
+            left: row(),
+            sinking: [row(), row()],
+            down: row(),
+            level: row(),
+            up: row(),
+            carry_down: carry(),
+            carry_level: [carry(), carry()],
+            carry_up: [carry(), carry(), carry()],
         }
-        band.carry_down.resize(stride - 2);
-        for carry in band.carry_level.iter_mut().chain(&mut band.carry_up) {
-            carry.resize(stride - 2);
-        }
-        band
     }
 
     /// Values held.
     pub(super) fn values(&self) -> usize {
-        self.flow_x.len() * 9 + self.carry_down.mass.len() * 18
+        self.right.len() * 7 + self.carry_down.mass.len() * 18
     }
 
     /// Fills the rows of `target`, of which the lowest is `first` (counted with the ring).
     pub(super) fn run(&mut self, source: Source, first: usize, target: Target) {
         let stride = source.stride;
         let end = first + target.pressure.len() / stride;
-        self.flow_below.fill(0.0);
+        self.sinking[0].fill(0.0);
         for row in first - 1..=end {
-            self.share_out(source, row, row < end);
+            self.share_sideways(source, row);
+            self.share_upright(source, row, row < end);
+            let here = row * stride..(row + 1) * stride;
+            let (u, v) = (&source.velocity_x[here.clone()], &source.velocity_y[here]);
+            self.carry(u, v);
+            self.turn_corners(source.shape, row, u, v);
             if row > first {
                 let out = (row - 1 - first) * stride;
-                let mut target = Target {
-                    pressure: &mut target.pressure[out..out + stride],
-                    momentum_x: &mut target.momentum_x[out..out + stride],
-                    momentum_y: &mut target.momentum_y[out..out + stride],
-                };
-                self.sum_up(&mut target);
-                // What struck rock has gone round the corner already.
-                for column in source.shape.struck(row - 1) {
-                    for field in [&mut *target.pressure, &mut *target.momentum_x, &mut *target.momentum_y] {
-                        field[*column as usize] = 0.0;
-                    }
-                }
+                let fields = [&mut *target.pressure, &mut *target.momentum_x, &mut *target.momentum_y];
+                self.sum_up(source.shape.struck(row - 1), fields.map(|field| &mut field[out..out + stride]));
             }
             self.carry_level.rotate_right(1);
             self.carry_up.rotate_right(1);
-            std::mem::swap(&mut self.flow_below, &mut self.flow_above);
+            self.sinking.swap(0, 1);
         }
     }
 
-    /// One row of sources: faces, shares, and what they bring to each column. What lies above is left out for the last
-    /// row of a band, of which only the shares that go down are wanted.
-    fn share_out(&mut self, source: Source, row: usize, above: bool) {
-        let stride = source.stride;
-        let here = row * stride..(row + 1) * stride;
-        let p = &source.pressure[here.clone()];
-        let u = &source.velocity_x[here.clone()];
-        let v = &source.velocity_y[here.clone()];
-        let faces =
-            Faces { open: &source.shape.open_x[here.start + 1..], pressure: [p, &p[1..]], velocity: [u, &u[1..]] };
-        faces.write(source.half, source.filter, &mut self.flow_x[1..stride]);
-        if above {
-            let next = here.end..here.end + stride;
-            let faces = Faces {
-                open: &source.shape.open_y[next.clone()],
-                pressure: [p, &source.pressure[next.clone()]],
-                velocity: [v, &source.velocity_y[next]],
-            };
-            faces.write(source.half, source.filter, &mut self.flow_above);
-        } else {
-            self.flow_above.fill(0.0);
+    /// Sideways shares of a row of sources.
+    fn share_sideways(&mut self, source: Source, row: usize) {
+        let Source { pressure, velocity_x, shape, stride, half, filter, .. } = source;
+        let (start, n) = (row * stride, stride - 1);
+        let [p0, u0] = [pressure, velocity_x].map(|field| &field[start..start + n]);
+        let [p1, u1, open] = [pressure, velocity_x, &shape.open_x].map(|field| &field[start + 1..start + 1 + n]);
+        let (right, left) = (&mut self.right[1..=n], &mut self.left[1..=n]);
+        for i in 0..n {
+            let flow = face_flow(open[i], u0[i] + u1[i], p0[i] - p1[i], half, filter);
+            right[i] = positive(flow);
+            left[i] = positive(-flow);
         }
-        self.write_shares(p);
-        for (mass, carry) in [
-            (&self.down, &mut self.carry_down),
-            (&self.level, &mut self.carry_level[0]),
-            (&self.up, &mut self.carry_up[0]),
-        ] {
-            carry_sideways(mass, &self.sideways, u, v, carry);
+    }
+
+    /// Mass of a row of sources that goes down, stays level and goes up. What lies above is left out for the last row of
+    /// a band, of which only the shares that go down are wanted.
+    fn share_upright(&mut self, source: Source, row: usize, above: bool) {
+        let Source { pressure, velocity_y, shape, stride: n, half, filter, .. } = source;
+        let start = row * n;
+        let p0 = &pressure[start..start + n];
+        let [sinking, sinking_next] = &mut self.sinking;
+        let (sinking, sinking_next) = (&sinking[..n], &mut sinking_next[..n]);
+        let (down, level, up) = (&mut self.down[..n], &mut self.level[..n], &mut self.up[..n]);
+        if !above {
+            for i in 0..n {
+                down[i] = p0[i] * sinking[i];
+            }
+            level.fill(0.0);
+            up.fill(0.0);
+            return;
         }
-        self.turn_corners(source.shape.corners(row), u, v);
+        let v0 = &velocity_y[start..start + n];
+        let [p1, v1, open] = [pressure, velocity_y, &shape.open_y].map(|field| &field[start + n..start + 2 * n]);
+        for i in 0..n {
+            let flow = face_flow(open[i], v0[i] + v1[i], p0[i] - p1[i], half, filter);
+            let rising = positive(flow);
+            sinking_next[i] = positive(-flow);
+            down[i] = p0[i] * sinking[i];
+            level[i] = p0[i] * (1.0 - (sinking[i] + rising));
+            up[i] = p0[i] * rising;
+        }
+    }
+
+    /// Sums what three neighbouring sources bring to each column, for all three rows of targets at once.
+    fn carry(&mut self, u: &[f32], v: &[f32]) {
+        let n = self.carry_down.mass.len();
+        let (u, v) = (&u[..n + 2], &v[..n + 2]);
+        let (right, left) = (&self.right[..n + 2], &self.left[..n + 2]);
+        let (down, level, up) = (&self.down[..n + 2], &self.level[..n + 2], &self.up[..n + 2]);
+        let (down_mass, down_x, down_y) = self.carry_down.rows(n);
+        let (level_mass, level_x, level_y) = self.carry_level[0].rows(n);
+        let (up_mass, up_x, up_y) = self.carry_up[0].rows(n);
+        for i in 0..n {
+            let parts = [right[i + 1], 1.0 - (left[i + 1] + right[i + 2]), left[i + 2]];
+            let (u, v) = ([u[i], u[i + 1], u[i + 2]], [v[i], v[i + 1], v[i + 2]]);
+            (down_mass[i], down_x[i], down_y[i]) = sum_three([down[i], down[i + 1], down[i + 2]], parts, u, v);
+            (level_mass[i], level_x[i], level_y[i]) = sum_three([level[i], level[i + 1], level[i + 2]], parts, u, v);
+            (up_mass[i], up_x[i], up_y[i]) = sum_three([up[i], up[i + 1], up[i + 2]], parts, u, v);
+        }
     }
 
     /// Gives the shares that strike a corner of rock to the cells beside it. What they brought to the rock itself is
     /// dropped when the rock's row is written. Sums pair opposite sides, so that a mirror image has the same.
-    fn turn_corners(&mut self, corners: &[Corner], u: &[f32], v: &[f32]) {
-        let Self { sideways: Sideways { left, right, .. }, up, down, .. } = self;
-        let [level, _] = &mut self.carry_level;
-        let [above, ..] = &mut self.carry_up;
-        let below = &mut self.carry_down;
-        for Corner { column, upright, sideways } in corners {
+    fn turn_corners(&mut self, shape: &Shape, row: usize, u: &[f32], v: &[f32]) {
+        let Self { right, left, up, down, .. } = self;
+        for Corner { column, weights } in shape.above.row(row) {
             let k = *column as usize;
-            let i = k - 1;
-            add(above, i, up[k] * (upright[0] * left[k] + upright[1] * right[k]), u[k], v[k]);
-            add(below, i, down[k] * (upright[2] * left[k] + upright[3] * right[k]), u[k], v[k]);
-            let from_left = right[k - 1] * (sideways[0] * down[k - 1] + sideways[1] * up[k - 1]);
-            let from_right = left[k + 1] * (sideways[2] * down[k + 1] + sideways[3] * up[k + 1]);
-            level.mass[i] += from_left + from_right;
-            level.x[i] += from_left * u[k - 1] + from_right * u[k + 1];
-            level.y[i] += from_left * v[k - 1] + from_right * v[k + 1];
+            let mass = up[k] * (weights[0] * left[k] + weights[1] * right[k + 1]);
+            self.carry_up[0].add(k - 1, mass, u[k], v[k]);
+        }
+        for Corner { column, weights } in shape.below.row(row) {
+            let k = *column as usize;
+            let mass = down[k] * (weights[0] * left[k] + weights[1] * right[k + 1]);
+            self.carry_down.add(k - 1, mass, u[k], v[k]);
+        }
+        let level = &mut self.carry_level[0];
+        for Corner { column, weights } in shape.beside.row(row) {
+            let k = *column as usize;
+            let from_left = right[k] * (weights[0] * down[k - 1] + weights[1] * up[k - 1]);
+            let from_right = left[k + 1] * (weights[2] * down[k + 1] + weights[3] * up[k + 1]);
+            level.mass[k - 1] += from_left + from_right;
+            level.x[k - 1] += from_left * u[k - 1] + from_right * u[k + 1];
+            level.y[k - 1] += from_left * v[k - 1] + from_right * v[k + 1];
         }
     }
 
-    fn write_shares(&mut self, p: &[f32]) {
-        let n = p.len();
-        let Sideways { left, stay, right } = &mut self.sideways;
-        let (left, stay, right) = (&mut left[..n], &mut stay[..n], &mut right[..n]);
-        let flow_x = &self.flow_x[..n + 1];
-        for i in 0..n {
-            left[i] = positive(-flow_x[i]);
-            right[i] = positive(flow_x[i + 1]);
-            stay[i] = 1.0 - (left[i] + right[i]);
-        }
-        let (below, above) = (&self.flow_below[..n], &self.flow_above[..n]);
-        let (down, level, up) = (&mut self.down[..n], &mut self.level[..n], &mut self.up[..n]);
-        for i in 0..n {
-            let (d, u) = (positive(-below[i]), positive(above[i]));
-            down[i] = p[i] * d;
-            up[i] = p[i] * u;
-            level[i] = p[i] * (1.0 - (d + u));
-        }
-    }
-
-    /// Targets of one row: level from their own row, up from the row below, down from the row above.
-    fn sum_up(&self, target: &mut Target) {
+    /// Writes a row of targets: level from their own row, up from the row below, down from the row above.
+    fn sum_up(&self, struck: &[u32], targets: [&mut [f32]; 3]) {
         let n = self.carry_down.mass.len();
         let [_, level] = &self.carry_level;
         let [_, _, up] = &self.carry_up;
         let down = &self.carry_down;
-        for (out, level, up, down) in [
-            (&mut *target.pressure, &level.mass, &up.mass, &down.mass),
-            (&mut *target.momentum_x, &level.x, &up.x, &down.x),
-            (&mut *target.momentum_y, &level.y, &up.y, &down.y),
-        ] {
-            let (out, level, up, down) = (&mut out[1..=n], &level[..n], &up[..n], &down[..n]);
+        let parts = [(&level.mass, &up.mass, &down.mass), (&level.x, &up.x, &down.x), (&level.y, &up.y, &down.y)];
+        for (out, (level, up, down)) in targets.into_iter().zip(parts) {
+            let (cells, level, up, down) = (&mut out[1..=n], &level[..n], &up[..n], &down[..n]);
             for i in 0..n {
-                out[i] = level[i] + (up[i] + down[i]);
+                cells[i] = level[i] + (up[i] + down[i]);
+            }
+            // What struck rock has gone round the corner.
+            for column in struck {
+                out[*column as usize] = 0.0;
             }
         }
     }
 }
 
-/// Sums what three neighbouring sources bring to each column.
-fn carry_sideways(mass: &[f32], sideways: &Sideways, u: &[f32], v: &[f32], carry: &mut Carry) {
-    let n = carry.mass.len();
-    let (mass, u, v) = (&mass[..n + 2], &u[..n + 2], &v[..n + 2]);
-    let Sideways { left, stay, right } = sideways;
-    let (left, stay, right) = (&left[..n + 2], &stay[..n + 2], &right[..n + 2]);
-    let (carry_mass, carry_x, carry_y) = (&mut carry.mass[..n], &mut carry.x[..n], &mut carry.y[..n]);
-    for i in 0..n {
-        let from_left = mass[i] * right[i];
-        let stays = mass[i + 1] * stay[i + 1];
-        let from_right = mass[i + 2] * left[i + 2];
-        carry_mass[i] = stays + (from_left + from_right);
-        carry_x[i] = stays * u[i + 1] + (from_left * u[i] + from_right * u[i + 2]);
-        carry_y[i] = stays * v[i + 1] + (from_left * v[i] + from_right * v[i + 2]);
-    }
-}
-
-/// Adds `mass` from a cell with velocity (u, v).
+/// Mass and momentum of the given parts of three cells, from left to right: middle + (left + right).
 #[inline(always)]
-fn add(carry: &mut Carry, i: usize, mass: f32, u: f32, v: f32) {
-    carry.mass[i] += mass;
-    carry.x[i] += mass * u;
-    carry.y[i] += mass * v;
+fn sum_three(mass: [f32; 3], parts: [f32; 3], u: [f32; 3], v: [f32; 3]) -> (f32, f32, f32) {
+    let from = [mass[0] * parts[0], mass[1] * parts[1], mass[2] * parts[2]];
+    (
+        from[1] + (from[0] + from[2]),
+        from[1] * u[1] + (from[0] * u[0] + from[2] * u[2]),
+        from[1] * v[1] + (from[0] * v[0] + from[2] * v[2]),
+    )
 }

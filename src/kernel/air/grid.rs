@@ -6,7 +6,7 @@
 
 use super::advect::Band;
 use super::shape::Shape;
-use super::step::AirReport;
+use super::step::{AirReport, Room};
 use crate::kernel::params::{AirParams, OpenSides};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
@@ -59,6 +59,7 @@ pub(super) struct Scratch {
     pub(super) momentum_y: Vec<f32>,
     pub(super) bands: Vec<Band>,
     pub(super) row_peaks: Vec<Peaks>,
+    pub(super) rooms: Vec<Room>,
 }
 
 impl Clone for Scratch {

@@ -3,16 +3,48 @@
 
 use super::grid::Air;
 
-/// A place in a row of sources where diagonal shares strike rock. Each goes in halves to the two cells beside the rock:
-/// the one above or below its source, and the one left or right of it. All weights are ½ for a share that strikes, else 0.
+/// A cell at which diagonal shares that strike rock turn aside: each goes in halves to the two cells beside the rock, the
+/// one above or below its source and the one left or right of it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Corner {
+pub(super) struct Corner<const N: usize> {
     /// Column, counted with the ring.
     pub(super) column: u32,
-    /// Of the shares of the cell here, to the cell above and the cell below: `[up left, up right, down left, down right]`.
-    pub(super) upright: [f32; 4],
-    /// To the cell here: `[from the left down, from the left up, from the right down, from the right up]`.
-    pub(super) sideways: [f32; 4],
+    /// ½ for a share that strikes, else 0.
+    pub(super) weights: [f32; N],
+}
+
+/// A list with the items of each row together, rows counted with the ring.
+#[derive(Debug)]
+pub(super) struct ByRow<T> {
+    items: Vec<T>,
+    start: Vec<u32>,
+}
+
+impl<T> ByRow<T> {
+    fn new() -> Self {
+        Self { items: Vec::new(), start: vec![0] }
+    }
+
+    pub(super) fn row(&self, row: usize) -> &[T] {
+        &self.items[self.start[row] as usize..self.start[row + 1] as usize]
+    }
+
+    fn end_row(&mut self) {
+        self.start.push(self.items.len() as u32);
+    }
+
+    fn memory_bytes(&self) -> usize {
+        self.items.len() * size_of::<T>() + self.start.len() * 4
+    }
+}
+
+impl<const N: usize> ByRow<Corner<N>> {
+    fn push(&mut self, column: usize, strikes: [bool; N]) {
+        if strikes.contains(&true) {
+            let weights = strikes.map(|strikes| if strikes { 0.5 } else { 0.0 });
+            self.items.push(Corner { column: column as u32, weights });
+        }
+    }
 }
 
 /// Faces, corners and rooms of a grid.
@@ -22,12 +54,14 @@ pub(super) struct Shape {
     pub(super) open_x: Vec<f32>,
     /// 1 where the lower face of a cell lets air through, else 0, with the ring.
     pub(super) open_y: Vec<f32>,
-    /// Corners in the order of the cells.
-    corners: Vec<Corner>,
-    corner_start: Vec<u32>,
-    /// Solid cells into which a corner's share would go.
-    struck: Vec<u32>,
-    struck_start: Vec<u32>,
+    /// Sources, for the shares up-left and up-right: half goes to the cell above.
+    pub(super) above: ByRow<Corner<2>>,
+    /// Sources, for the shares down-left and down-right: half goes to the cell below.
+    pub(super) below: ByRow<Corner<2>>,
+    /// Targets, for shares down and up from the left, down and up from the right: half comes here.
+    pub(super) beside: ByRow<Corner<4>>,
+    /// Columns, with the ring, of the solid cells that shares strike.
+    struck: ByRow<u32>,
     /// Room of each cell, `u32::MAX` in rock and in the ring.
     pub(super) room: Vec<u32>,
     /// For each room: whether it has an open side of the box.
@@ -42,10 +76,10 @@ impl Shape {
         let mut shape = Self {
             open_x: vec![0.0; cells],
             open_y: vec![0.0; cells],
-            corners: Vec::new(),
-            corner_start: vec![0; rows + 3],
-            struck: Vec::new(),
-            struck_start: vec![0; rows + 3],
+            above: ByRow::new(),
+            below: ByRow::new(),
+            beside: ByRow::new(),
+            struck: ByRow::new(),
             room: vec![u32::MAX; cells],
             room_open: Vec::new(),
         };
@@ -77,54 +111,43 @@ impl Shape {
         shape
     }
 
-    /// Corners of a row of sources (counted with the ring).
-    pub(super) fn corners(&self, row: usize) -> &[Corner] {
-        &self.corners[self.corner_start[row] as usize..self.corner_start[row + 1] as usize]
-    }
-
     /// Columns, with the ring, of the solid cells of a row that shares strike.
     pub(super) fn struck(&self, row: usize) -> &[u32] {
-        &self.struck[self.struck_start[row] as usize..self.struck_start[row + 1] as usize]
+        self.struck.row(row)
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
-        self.open_x.len() * 12 + self.corners.len() * size_of::<Corner>() + self.struck.len() * 4
+        let corners = self.above.memory_bytes() + self.below.memory_bytes() + self.beside.memory_bytes();
+        self.open_x.len() * 12 + corners + self.struck.memory_bytes()
     }
 
     fn find_corners(&mut self, air: &Air) {
         let (stride, columns, rows) = (air.stride(), air.columns(), air.rows());
         for row in 0..=rows + 1 {
-            self.corner_start[row] = self.corners.len() as u32;
-            self.struck_start[row] = self.struck.len() as u32;
-            if row == 0 || row > rows {
-                continue;
-            }
-            for column in 1..=columns {
+            let cells = if row == 0 || row > rows { 0 } else { columns };
+            for column in 1..=cells {
                 let k = row * stride + column;
-                let weight = |source: usize, right: bool, up: bool| {
-                    if self.strikes(air, source, right, up) { 0.5 } else { 0.0 }
-                };
-                let upright = [(false, false), (true, false), (false, true), (true, true)];
-                let [down_left, down_right, up_left, up_right] = upright.map(|(right, up)| weight(k, right, up));
-                let upright = [up_left, up_right, down_left, down_right];
-                let sideways = [
-                    weight(k - 1, true, false),
-                    weight(k - 1, true, true),
-                    weight(k + 1, false, false),
-                    weight(k + 1, false, true),
-                ];
-                if upright.iter().chain(&sideways).any(|weight| *weight > 0.0) {
-                    self.corners.push(Corner { column: column as u32, upright, sideways });
-                }
-                let below = [(k - stride - 1, true, true), (k - stride + 1, false, true)];
-                let above = [(k + stride - 1, true, false), (k + stride + 1, false, false)];
-                if below.into_iter().chain(above).any(|(source, right, up)| self.strikes(air, source, right, up)) {
-                    self.struck.push(column as u32);
+                let strikes = |source: usize, right: bool, up: bool| self.strikes(air, source, right, up);
+                let above = [strikes(k, false, true), strikes(k, true, true)];
+                let below = [strikes(k, false, false), strikes(k, true, false)];
+                let from_left = [strikes(k - 1, true, false), strikes(k - 1, true, true)];
+                let from_right = [strikes(k + 1, false, false), strikes(k + 1, false, true)];
+                let struck = strikes(k - stride - 1, true, true)
+                    || strikes(k - stride + 1, false, true)
+                    || strikes(k + stride - 1, true, false)
+                    || strikes(k + stride + 1, false, false);
+                self.above.push(column, above);
+                self.below.push(column, below);
+                self.beside.push(column, [from_left[0], from_left[1], from_right[0], from_right[1]]);
+                if struck {
+                    self.struck.items.push(column as u32);
                 }
             }
+            self.above.end_row();
+            self.below.end_row();
+            self.beside.end_row();
+            self.struck.end_row();
         }
-        self.corner_start[rows + 2] = self.corners.len() as u32;
-        self.struck_start[rows + 2] = self.struck.len() as u32;
     }
 
     /// Whether a share of `source` to a diagonal neighbour finds rock there: both faces that it leaves by are open, and

@@ -2,8 +2,8 @@
 
 use crate::kernel::{
     bins::{Group, RockBins},
-    params::{Domain, FluidParams},
-    pbf::{WALL_GAP, near_wall, wall_sums},
+    params::{Domain, FluidParams, WALL_GAP},
+    pbf::{near_wall, wall_sums},
     simd::{Lanes, Pass},
     smoothing::{Gradient, Smoothing},
 };
@@ -55,7 +55,7 @@ impl<G: Gradient, const TENSION: bool, const APART: bool> Pass for CorrectionPas
         // The sums are scaled by `scale` in the end; what sets apart is a length already.
         let per_apart = L::splat(1.0 / (APART_WITHIN * APART_WITHIN));
         let apart = L::splat(-APART_SHARE * self.rest_density / self.smoothing.gradient_scale);
-        let (low, high) = (L::splat(WALL_GAP), self.domain.size - Vec2::splat(WALL_GAP));
+        let (low, high) = (L::splat(WALL_GAP), self.domain.highest());
         let [next_x, next_y] = self.next;
         for group in self.groups {
             let own = group.particles();

@@ -27,9 +27,6 @@ use constraint::ConstraintPass;
 use correction::CorrectionPass;
 use glam::Vec2;
 
-/// Nearest that a liquid particle comes to a box wall, d.
-pub const WALL_GAP: f32 = 0.25;
-
 /// Positions under correction, densities, bins: what the solver keeps beside the particles. 45 bytes a particle and the
 /// bins. The arrays follow the order of the particles.
 #[derive(Clone, Debug)]
@@ -140,7 +137,7 @@ impl Solver {
         }
         permute(&mut particles.id, places, &mut self.spare_ids);
         permute(&mut particles.element, places, &mut self.spare_elements);
-        separate_coincident(&particles.id, &mut self.x, &mut self.y, solids);
+        separate_coincident(&particles.id, &mut self.x, &mut self.y, domain, solids);
         self.bins.group(&self.x, self.instructions.width(), self.neighbours);
         self.anchor_x.clone_from(&self.x);
         self.anchor_y.clone_from(&self.y);
@@ -221,9 +218,9 @@ impl Solver {
 }
 
 /// Particles at one point have no direction to part in (the spiky gradient is 0/0 there); equal ones among the last few
-/// of the sorted order are set apart by a small offset that only depends on the id and stops at rock. Where many are
-/// pressed into a corner of the rock, they stand on one point to the last bit.
-fn separate_coincident(id: &[u32], x: &mut [f32], y: &mut [f32], solids: &Solids) {
+/// of the sorted order are set apart by a small offset that only depends on the id. Rock and walls stop it. Where many are
+/// pressed into a corner of the rock, they stand on one point to the last bit; there it goes the other way.
+fn separate_coincident(id: &[u32], x: &mut [f32], y: &mut [f32], domain: &Domain, solids: &Solids) {
     /// Closer than this in both coordinates counts as one point, d.
     const COINCIDENT: f32 = 1e-4;
     /// Largest offset in each coordinate, d.
@@ -236,9 +233,9 @@ fn separate_coincident(id: &[u32], x: &mut [f32], y: &mut [f32], solids: &Solids
         if (i.saturating_sub(LOOK_BACK)..i).any(|j| is_near(at, Vec2::new(x[j], y[j]))) {
             let mixed = mix(id[i]);
             let offset = APART * Vec2::new(unit(mixed), unit(mixed >> 16));
-            let mut to = solids.sweep(at, at + offset);
+            let mut to = solids.sweep(at, domain.keep_inside(at + offset));
             if is_near(at, to) {
-                to = solids.sweep(at, at - offset);
+                to = solids.sweep(at, domain.keep_inside(at - offset));
             }
             (x[i], y[i]) = (to.x, to.y);
         }

@@ -71,8 +71,8 @@ impl Conjugate {
             iterations += 1;
             left = dot(residual, residual);
         }
-        if !left.is_finite() {
-            // A guess that went astray must not be the next solve's first one.
+        if left.is_nan() || left > scale {
+            // Worse than no pressure at all: better to leave it all to the constraint than to act on it.
             solution.fill(0.0);
         }
         PredictorReport { iterations, residual: (left / scale).sqrt() as f32 }

@@ -8,11 +8,12 @@
 //! for the solver). Two iterations of the constraint then do the detail, whatever the depth.
 //!
 //! Rooms: `grid` the geometry, `rock` what is closed, `transfer` particles to grid and back, `pressure` the equation,
-//! `multigrid` and `conjugate` its solver.
+//! `pockets` where it is singular, `multigrid` and `conjugate` its solver.
 
 mod conjugate;
 mod grid;
 mod multigrid;
+mod pockets;
 mod pressure;
 mod rock;
 mod transfer;
@@ -21,6 +22,7 @@ use crate::kernel::{params::Domain, particles::Particles, simd::InstructionSet, 
 use conjugate::Conjugate;
 use grid::MacGrid;
 use multigrid::Hierarchy;
+use pockets::Pockets;
 use rock::ClosedFaces;
 use transfer::Faces;
 
@@ -50,6 +52,7 @@ pub struct Predictor {
     faces: Faces,
     hierarchy: Hierarchy,
     conjugate: Conjugate,
+    pockets: Pockets,
 }
 
 /// What the prediction is told.
@@ -84,6 +87,7 @@ impl Predictor {
             faces: &mut self.faces,
             hierarchy: &mut self.hierarchy,
             conjugate: &mut self.conjugate,
+            pockets: &mut self.pockets,
             target: TARGET_DENSITY * params.rest_density,
             dt: params.dt,
             report: &mut report,
@@ -94,6 +98,10 @@ impl Predictor {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        self.closed.memory() + self.faces.memory() + self.hierarchy.memory() + self.conjugate.memory()
+        self.closed.memory()
+            + self.faces.memory()
+            + self.hierarchy.memory()
+            + self.conjugate.memory()
+            + self.pockets.memory()
     }
 }

@@ -2,7 +2,8 @@
 
 use crate::kernel::{
     predictor::{
-        PredictorReport, conjugate::Conjugate, grid::MacGrid, multigrid::Hierarchy, rock::ClosedFaces, transfer::Faces,
+        PredictorReport, conjugate::Conjugate, grid::MacGrid, multigrid::Hierarchy, pockets::Pockets,
+        rock::ClosedFaces, transfer::Faces,
     },
     simd::{Lanes, Pass},
 };
@@ -25,6 +26,7 @@ pub(super) struct Projection<'a> {
     pub faces: &'a mut Faces,
     pub hierarchy: &'a mut Hierarchy,
     pub conjugate: &'a mut Conjugate,
+    pub pockets: &'a mut Pockets,
     /// Density that is aimed at, particles per d².
     pub target: f32,
     pub dt: f32,
@@ -34,7 +36,7 @@ pub(super) struct Projection<'a> {
 impl Pass for Projection<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { grid, closed, faces, hierarchy, conjugate, target, dt, report } = self;
+        let Self { grid, closed, faces, hierarchy, conjugate, pockets, target, dt, report } = self;
         find_means(grid, faces);
         conjugate.resize(grid.len());
         let Some(rows) = mark_liquid(grid, closed, &faces.density, target, &mut conjugate.liquid) else {
@@ -43,6 +45,7 @@ impl Pass for Projection<'_> {
         };
         let rows = rows.0..=rows.1;
         assemble(grid, closed, faces, hierarchy, conjugate, target, dt, rows.clone());
+        pockets.balance(grid, hierarchy.finest(), &mut conjugate.right_side);
         hierarchy.coarsen();
         *report = conjugate.solve(hierarchy);
         change_velocities(grid, closed, faces, conjugate, rows);

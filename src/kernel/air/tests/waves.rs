@@ -114,7 +114,7 @@ fn wind_against_a_wall_loses_its_speed() {
 }
 
 #[test]
-fn it_is_stable_just_below_the_bound_and_not_far_above() {
+fn it_is_stable_just_below_the_bound() {
     let mut air = closed(40, 40, 4.0);
     let dt = 0.99 * STABLE_COURANT * 4.0 / SOUND;
     stir(&mut air, 1e-4, 0.1, &mut Noise(3));
