@@ -9,6 +9,7 @@ use glam::Vec2;
 use powder_master::{
     kernel::{
         brush::{BrushShape, Stroke},
+        params::OpenSides,
         sources::{Drain, Emitter, Rect, Wind},
     },
     scene::blueprint::{Blueprint, Effect, Mode},
@@ -67,7 +68,10 @@ fn an_open_order_would_be_found() {
     fn write(_: ResMut<Clock>) {}
     let mut sandbox = Sandbox::of(puddle());
     sandbox.app.add_systems(FixedUpdate, write);
-    assert!(ambiguity(&mut sandbox, FixedUpdate).is_some(), "a system that writes the clock at any time is not noticed");
+    assert!(
+        ambiguity(&mut sandbox, FixedUpdate).is_some(),
+        "a system that writes the clock at any time is not noticed"
+    );
 }
 
 #[test]
@@ -100,7 +104,8 @@ fn gravity_pulls_and_the_floor_holds() {
     assert!(sandbox.particles().vy.iter().all(|&vy| vy < 0.0), "something does not fall");
     sandbox.tick(120);
     let particles = sandbox.particles();
-    assert!(particles.y.iter().all(|&y| (0.25..5.0).contains(&y)), "water hangs in the air or is through the floor");
+    let (low, high) = particles.y.iter().fold((f32::MAX, 0.0_f32), |(low, high), &y| (low.min(y), high.max(y)));
+    assert!(low >= 0.25 && high < 7.0, "50 particles on a floor of 30 d stand from {low} to {high}");
 }
 
 #[test]
@@ -298,11 +303,11 @@ fn faster_water_takes_more_substeps_up_to_the_bound_and_is_slowed_past_it() {
         sandbox.tick(1);
         (sandbox.get::<TickPlan>().substeps, sandbox.counters())
     };
-    // A substep moves at most 2 h = 5 d; 4 substeps at rest, 16 at most.
+    // A substep moves at most 4 h = 10 d; 4 substeps at rest, 16 at most.
     let (slow, counters) = run(600.0);
     assert_eq!((slow, counters.speed_clamps, counters.substeps_max), (4, 0, 4));
     let (fast, counters) = run(3000.0);
-    assert_eq!((fast, counters.speed_clamps), (10, 0));
+    assert_eq!((fast, counters.speed_clamps), (6, 0));
     let (fastest, counters) = run(60_000.0);
     assert_eq!((fastest, counters.substeps_max), (16, 16));
     assert!(counters.speed_clamps > 0, "a speed past the bound was neither cut nor counted");
@@ -330,6 +335,7 @@ fn a_full_world_stops_politely() {
 #[test]
 fn a_fan_drives_the_air_and_the_air_carries_water() {
     let mut blueprint = empty_box(60, 20);
+    blueprint.air.open = OpenSides { left: true, right: true, ..OpenSides::default() };
     blueprint.winds.push(Wind { area: area((0.0, 0.0), (60.0, 20.0)), velocity: Vec2::new(80.0, 0.0), rate: 20.0 });
     blueprint.water(Vec2::new(5.0, 10.0), Vec2::ZERO);
     let mut sandbox = Sandbox::of(blueprint);
