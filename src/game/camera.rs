@@ -85,6 +85,11 @@ impl WorldCamera {
         self.world
     }
 
+    /// Part of the window that no bar of the HUD covers, logical pixels.
+    pub fn free(&self) -> Area {
+        self.free
+    }
+
     /// How far it is zoomed in; 1 shows the whole box.
     pub fn zoom(&self) -> f32 {
         self.zoom
@@ -149,10 +154,7 @@ mod tests {
 
     fn camera() -> WorldCamera {
         let mut camera = WorldCamera::new(Vec2::new(800.0, 600.0), Vec2::new(200.0, 100.0));
-        camera.set_window(
-            Vec2::new(800.0, 600.0),
-            Area { min: Vec2::new(0.0, 40.0), max: Vec2::new(800.0, 540.0) },
-        );
+        camera.set_window(Vec2::new(800.0, 600.0), Area { min: Vec2::new(0.0, 40.0), max: Vec2::new(800.0, 540.0) });
         camera
     }
 

@@ -15,7 +15,10 @@ use crate::{
         tools::{Tool, Toolbox},
     },
     kernel::{element::ElementId, params::Preset, solids::Solids},
-    scene::blueprint::{Effect, Mode},
+    scene::{
+        self,
+        blueprint::{Effect, EffectModes, Mode},
+    },
     sim::{
         control,
         effects::Effects,
@@ -27,6 +30,7 @@ use crate::{
 };
 use bevy::prelude::{Resource, World};
 use glam::Vec2;
+use std::sync::Arc;
 
 /// How far from the pointer a particle can be sampled, d.
 const SAMPLE_REACH: f32 = 1.5;
@@ -50,6 +54,13 @@ pub enum Order {
     Quality(Preset),
     /// Switch an effect.
     Effect(Effect, Mode),
+    /// Play another scene.
+    Scene {
+        /// Its name.
+        name: String,
+        /// Its parameters.
+        settings: Vec<(String, String)>,
+    },
 }
 
 /// Orders that wait.
@@ -76,6 +87,7 @@ pub fn obey(world: &mut World) {
             }
             Order::Quality(preset) => control::set_quality(world, preset, preset.quality()),
             Order::Effect(effect, mode) => world.resource_mut::<Effects>().get_mut(effect).mode = mode,
+            Order::Scene { name, settings } => play(world, &name, &settings),
         }
     }
 }
@@ -85,10 +97,7 @@ fn act(world: &mut World, action: Action) {
         // Held buttons are the pointer's business, held arrows the keyboard's.
         Action::Hold(_) | Action::Pan(..) => {}
         Action::Sample => sample(world),
-        Action::Element(_)
-        | Action::Tool(_)
-        | Action::Brush(_)
-        | Action::BrushShape => choose(world, action),
+        Action::Element(_) | Action::Tool(_) | Action::Brush(_) | Action::BrushShape => choose(world, action),
         Action::Pause | Action::Step | Action::Speed(_) => keep_time(world, action),
         Action::Reset | Action::Undo | Action::Redo | Action::ClearAir => change_world(world, action),
         Action::View(view) => world.resource_mut::<Shown>().0 = view,
@@ -102,11 +111,24 @@ fn act(world: &mut World, action: Action) {
             let pixel = pixel.unwrap_or(camera.window() / 2.0);
             camera.zoom_at(pixel, if steps > 0 { ZOOM_STEP } else { 1.0 / ZOOM_STEP });
         }
-        Action::Search | Action::Hud | Action::Scenes | Action::Details | Action::Help | Action::Close => {
-            world.resource_mut::<HudState>().act(action);
-        }
+        Action::Search
+        | Action::Hud
+        | Action::Scenes
+        | Action::Settings
+        | Action::Details
+        | Action::Help
+        | Action::Close => world.resource_mut::<HudState>().act(action),
         Action::FullScreen => screen::toggle_full_screen(world),
         Action::Screenshot => screen::take_screenshot(world),
+    }
+}
+
+/// Plays another scene, at the quality that is in force.
+fn play(world: &mut World, name: &str, settings: &[(String, String)]) {
+    let preset = world.get_resource::<Setup>().map(|setup| setup.preset);
+    match scene::load(name).and_then(|scene| scene.build(settings, preset, &EffectModes::new())) {
+        Ok(blueprint) => control::load(world, Arc::new(blueprint)),
+        Err(error) => world.resource_mut::<Toasts>().warn(error.to_string()),
     }
 }
 

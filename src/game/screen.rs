@@ -1,6 +1,9 @@
 //! The window as a whole: full screen and screenshots.
 
-use crate::{game::hud::toast::Toasts, sim::state::{Clock, Setup}};
+use crate::{
+    game::hud::toast::Toasts,
+    sim::state::{Clock, Setup},
+};
 use bevy::{
     prelude::{On, ResMut, With, World},
     render::view::screenshot::{Screenshot, ScreenshotCaptured},

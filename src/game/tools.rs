@@ -95,7 +95,7 @@ impl Toolbox {
     pub fn turn_shape(&mut self) {
         self.shape = match self.shape {
             BrushShape::Disc => BrushShape::Square,
-            BrushShape::Square => BrushShape::Disc,
+            BrushShape::Square | BrushShape::Rectangle => BrushShape::Disc,
         };
     }
 

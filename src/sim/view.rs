@@ -115,8 +115,19 @@ pub fn colour(view: View, element: &Element, sample: Sample) -> Rgb {
             mix(lit, ABYSS, DEPTH_SHADE * sample.depth)
         }
         View::Speed => ramp(&SPEED_STOPS, sample.speed * 1.25),
-        View::Density => ramp(&DENSITY_STOPS, 0.5 + sample.density_error * 5.0),
+        View::Density => ramp(&DENSITY_STOPS, density_share(sample.density_error)),
     }
+}
+
+/// Where a density error ρ/ρ₀ − 1 stands on the scale of its colours, 0 … 1: rest in the middle. A surface lacks half of
+/// its neighbours by nature, so the scale reaches to −0.5; compression is an error, and 0.1 of it is the end.
+pub fn density_share(error: f32) -> f32 {
+    (0.5 + if error < 0.0 { error } else { 5.0 * error }).clamp(0.0, 1.0)
+}
+
+/// The error at a place of the scale of [`density_share`].
+pub fn density_error(share: f32) -> f32 {
+    if share < 0.5 { share - 0.5 } else { (share - 0.5) / 5.0 }
 }
 
 /// Colour of the rock in `cell`. Neighbouring cells share broad bands, each cell has its own grain.
@@ -300,10 +311,17 @@ mod tests {
     #[test]
     fn density_error_is_red_above_blue_below_and_neutral_at_rest() {
         let at = |density_error| colour(View::Density, &water(), Sample { density_error, ..Sample::default() });
-        let (low, rest, high) = (at(-0.1), at(0.0), at(0.1));
+        let (low, rest, high) = (at(-0.5), at(0.0), at(0.1));
         assert!(high[0] > high[2] + 80, "compressed liquid must look red, is {high:?}");
         assert!(low[2] > low[0] + 80, "stretched liquid must look blue, is {low:?}");
         assert!(rest.iter().max().unwrap() - rest.iter().min().unwrap() < 24, "rest must be neutral, is {rest:?}");
+    }
+
+    #[test]
+    fn the_scale_of_density_errors_can_be_read_backwards() {
+        for error in [-0.4, -0.01, 0.0, 0.03, 0.1] {
+            assert!((density_error(density_share(error)) - error).abs() < 1e-6);
+        }
     }
 
     #[test]

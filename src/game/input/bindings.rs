@@ -48,6 +48,8 @@ pub enum Action {
     Hud,
     /// Opens the scene menu.
     Scenes,
+    /// Opens the settings.
+    Settings,
     /// Shows the books of the simulation.
     Details,
     /// Shows this table.
@@ -233,6 +235,7 @@ pub const BINDINGS: &[Binding] = {
     key(K::ArrowDown, NONE, A::Pan(0, -1), H::Look, "move the picture"),
     key(K::KeyH, NONE, A::Hud, H::Look, "hide the HUD"),
     key(K::F3, NONE, A::Details, H::Look, "details: what runs and what it costs"),
+    key(K::F4, NONE, A::Settings, H::Look, "settings"),
     key(K::F1, NONE, A::Help, H::Look, "this help"),
     key(K::Slash, SHIFT, A::Help, H::Look, "this help"),
     key(K::F11, NONE, A::FullScreen, H::Look, "full screen"),
@@ -303,6 +306,7 @@ fn key_name(key: KeyCode) -> &'static str {
         K::F1 => "F1",
         K::F2 => "F2",
         K::F3 => "F3",
+        K::F4 => "F4",
         K::F11 => "F11",
         K::Space => "Space",
         K::Tab => "Tab",
@@ -330,7 +334,12 @@ mod tests {
     fn no_chord_means_two_things() {
         for (k, a) in BINDINGS.iter().enumerate() {
             for b in &BINDINGS[k + 1..] {
-                assert!(a.trigger != b.trigger || a.mods != b.mods, "`{a}` is bound to {:?} and {:?}", a.action, b.action);
+                assert!(
+                    a.trigger != b.trigger || a.mods != b.mods,
+                    "`{a}` is bound to {:?} and {:?}",
+                    a.action,
+                    b.action
+                );
             }
         }
     }

@@ -2,8 +2,8 @@
 
 use crate::game::{
     camera::WorldCamera,
-    orders::{Order, Orders},
     input::bindings::{Action, BINDINGS, Mods, Trigger},
+    orders::{Order, Orders},
 };
 use bevy::prelude::{ButtonInput, KeyCode, Real, Res, ResMut, Resource, Time};
 use glam::Vec2;

@@ -3,19 +3,21 @@
 use crate::{
     game::{
         camera::WorldCamera,
-        orders::{Order, Orders},
         input::{
             bindings::{self, Action, Gesture, Mods, Trigger},
             strokes::{Held, Pull},
         },
+        orders::{Order, Orders},
         tools::Toolbox,
     },
     sim::intent::{Intent, IntentQueue},
 };
 use bevy::{
     input::mouse::{AccumulatedMouseScroll, MouseScrollUnit},
-    prelude::{ButtonInput, KeyCode, MouseButton, Real, Res, ResMut, Resource, Time},
+    prelude::{ButtonInput, KeyCode, MouseButton, Query, Real, Res, ResMut, Resource, Time, With},
+    window::{PrimaryWindow, Window},
 };
+use bevy_egui::input::EguiWantsInput;
 use glam::Vec2;
 
 /// Buttons that can hold something.
@@ -36,8 +38,14 @@ pub struct Pointer {
     pub over_hud: bool,
 }
 
+/// Finds the pointer in the window, and whether the HUD has it there.
+pub fn locate(windows: Query<&Window, With<PrimaryWindow>>, hud: Res<EguiWantsInput>, mut pointer: ResMut<Pointer>) {
+    let at = windows.single().ok().and_then(Window::cursor_position);
+    let over_hud = hud.is_pointer_over_area() || hud.is_using_pointer() || hud.is_popup_open();
+    *pointer = Pointer { at, over_hud };
+}
+
 /// Reads buttons into [`Held`] and commands.
-#[expect(clippy::too_many_arguments, reason = "a system's parameters are its data flow")]
 pub fn read_buttons(
     buttons: Res<ButtonInput<MouseButton>>,
     keys: Res<ButtonInput<KeyCode>>,
@@ -82,7 +90,6 @@ pub fn read_buttons(
     }
 }
 
-#[expect(clippy::too_many_arguments, reason = "the second half of `read_buttons`")]
 fn begin(
     gesture: Gesture,
     button: MouseButton,

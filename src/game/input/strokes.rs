@@ -130,6 +130,9 @@ pub fn make_intents(
 ) {
     let (Some(pull), Some(setup)) = (&mut held.0, setup) else { return };
     let reference = Reference::of(&setup.blueprint.domain, &setup.blueprint.air);
+    if tools.tool.is_air() {
+        thicken(&mut pull.way, 0.5 * tools.radius());
+    }
     let strokes = match pull.way.as_slice() {
         [] => 0,
         way => way.len().max(2) - 1,
@@ -148,6 +151,19 @@ pub fn make_intents(
     if pull.released {
         held.0 = None;
     }
+}
+
+/// Puts points between points further apart than `gap` d: the air takes a stroke as a row of dabs.
+fn thicken(way: &mut Vec<Vec2>, gap: f32) {
+    let Some((&first, rest)) = way.split_first() else { return };
+    let mut thick = vec![first];
+    let mut last = first;
+    for &next in rest {
+        let parts = ((next - last).length() / gap).ceil().clamp(1.0, WAY_LIMIT as f32);
+        thick.extend((1..=parts as u32).map(|part| last.lerp(next, part as f32 / parts)));
+        last = next;
+    }
+    *way = thick;
 }
 
 /// What the tool wants along one of the `strokes` strokes of a tick.

@@ -2,7 +2,7 @@
 
 use crate::{
     kernel::{element::ElementTable, particles::Particles},
-    sim::view::{Reference, Sample, View, colour},
+    sim::view::{Reference, Sample, View, colour, density_error, density_share},
 };
 
 /// Colours of each element over the range of what is shown, precomputed.
@@ -18,14 +18,14 @@ pub struct ColourTable {
 }
 
 impl ColourTable {
-    /// The colours of a view: over speed, or over density error from −0.1 to 0.1.
+    /// The colours of a view: over speed, or over density error.
     pub fn fill(&mut self, view: View, elements: &ElementTable) {
         self.colours.clear();
         for (_, element) in elements.iter() {
             self.colours.extend((0..LEVELS).map(|level| {
                 let share = level as f32 / (LEVELS - 1) as f32;
                 let sample = match view {
-                    View::Density => Sample { density_error: (share - 0.5) * 0.2, ..Sample::default() },
+                    View::Density => Sample { density_error: density_error(share), ..Sample::default() },
                     _ => Sample { speed: share, ..Sample::default() },
                 };
                 let [r, g, b] = colour(view, element, sample);
@@ -40,13 +40,27 @@ impl ColourTable {
     }
 }
 
-/// Packs all particles as they stood `back` seconds ago (straight back along their velocities). With `density_error`,
-/// one ρ/ρ₀ − 1 for each particle, they are coloured by it, else by speed.
+/// What particles are coloured by.
+#[derive(Clone, Copy, Debug)]
+pub enum ColourBy<'a> {
+    /// Speed.
+    Speed,
+    /// Density over rest density, one for each particle.
+    Density {
+        /// ρ of each particle, in the order of the particles.
+        density: &'a [f32],
+        /// ρ₀ in the same unit.
+        rest: f32,
+    },
+}
+
+/// Packs all particles as they stood `back` seconds ago (straight back along their velocities). Densities that do not
+/// fit the particles (edited while time stands) are left out.
 pub fn pack(
     particles: &Particles,
     table: &ColourTable,
     reference: Reference,
-    density_error: Option<&[f32]>,
+    by: ColourBy<'_>,
     back: f32,
     out: &mut Vec<Blob>,
 ) {
@@ -55,17 +69,15 @@ pub fn pack(
     let (x, y) = (&particles.x[..count], &particles.y[..count]);
     let (vx, vy, element) = (&particles.vx[..count], &particles.vy[..count], &particles.element[..count]);
     let scale = 1.0 / reference.fall;
-    let error = density_error.filter(|error| error.len() == count);
     for (i, blob) in out.iter_mut().enumerate() {
-        let share = match error {
-            Some(error) => 0.5 + error[i] * 5.0,
-            None => (vx[i] * vx[i] + vy[i] * vy[i]).sqrt() * scale,
+        let share = match by {
+            ColourBy::Density { density, rest } => density
+                .get(i)
+                .filter(|_| density.len() == count)
+                .map_or(0.5, |density| density_share(density / rest - 1.0)),
+            ColourBy::Speed => (vx[i] * vx[i] + vy[i] * vy[i]).sqrt() * scale,
         };
-        *blob = [
-            (x[i] - vx[i] * back).to_bits(),
-            (y[i] - vy[i] * back).to_bits(),
-            table.at(element[i].index(), share),
-        ];
+        *blob = [(x[i] - vx[i] * back).to_bits(), (y[i] - vy[i] * back).to_bits(), table.at(element[i].index(), share)];
     }
 }
 
@@ -89,31 +101,31 @@ mod tests {
         }])
     }
 
-    fn packed(view: View, velocity: Vec2, error: Option<&[f32]>) -> Blob {
+    fn packed(view: View, velocity: Vec2, by: ColourBy<'_>) -> Blob {
         let mut particles = Particles::default();
         particles.push(0, ElementId(0), Vec2::new(10.0, 20.0), velocity);
         let mut table = ColourTable::default();
         table.fill(view, &elements());
         let mut out = Vec::new();
-        pack(&particles, &table, Reference { fall: 100.0, wind: 1.0 }, error, 0.01, &mut out);
+        pack(&particles, &table, Reference { fall: 100.0, wind: 1.0 }, by, 0.01, &mut out);
         out[0]
     }
 
     #[test]
     fn a_blob_stands_where_the_particle_was_a_moment_ago() {
-        let blob = packed(View::Elements, Vec2::new(50.0, -100.0), None);
+        let blob = packed(View::Elements, Vec2::new(50.0, -100.0), ColourBy::Speed);
         assert_eq!(f32::from_bits(blob[0]), 9.5);
         assert_eq!(f32::from_bits(blob[1]), 21.0);
     }
 
     #[test]
     fn colours_follow_what_the_view_shows() {
-        let at_rest = packed(View::Elements, Vec2::ZERO, None)[2];
+        let at_rest = packed(View::Elements, Vec2::ZERO, ColourBy::Speed)[2];
         assert_eq!(at_rest.to_le_bytes(), [40, 130, 220, 255]);
-        assert_ne!(packed(View::Elements, Vec2::new(90.0, 0.0), None)[2], at_rest);
+        assert_ne!(packed(View::Elements, Vec2::new(90.0, 0.0), ColourBy::Speed)[2], at_rest);
         let (low, high) = (
-            packed(View::Density, Vec2::ZERO, Some(&[-0.1]))[2].to_le_bytes(),
-            packed(View::Density, Vec2::ZERO, Some(&[0.1]))[2].to_le_bytes(),
+            packed(View::Density, Vec2::ZERO, ColourBy::Density { density: &[0.5], rest: 1.0 })[2].to_le_bytes(),
+            packed(View::Density, Vec2::ZERO, ColourBy::Density { density: &[1.1], rest: 1.0 })[2].to_le_bytes(),
         );
         assert!(low[2] > low[0] && high[0] > high[2], "{low:?} {high:?}");
     }
@@ -121,8 +133,8 @@ mod tests {
     #[test]
     fn absurd_values_do_not_leave_the_table() {
         for speed in [f32::NAN, f32::INFINITY, 1e30] {
-            packed(View::Speed, Vec2::new(speed, 0.0), None);
+            packed(View::Speed, Vec2::new(speed, 0.0), ColourBy::Speed);
         }
-        packed(View::Density, Vec2::ZERO, Some(&[f32::NEG_INFINITY]));
+        packed(View::Density, Vec2::ZERO, ColourBy::Density { density: &[f32::NAN], rest: 1.0 });
     }
 }

@@ -6,7 +6,7 @@ use bevy::{
     render::{
         render_phase::TrackedRenderPass,
         render_resource::{
-            CachedRenderPipelineId, LoadOp, Operations, PipelineCache, RenderPassColorAttachment,
+            Buffer, CachedRenderPipelineId, LoadOp, Operations, PipelineCache, RenderPassColorAttachment,
             RenderPassDescriptor, StoreOp,
         },
         renderer::{RenderContext, ViewQuery},
@@ -63,7 +63,7 @@ pub fn draw(
 }
 
 /// Draws something over the whole screen.
-fn screen(pass: &mut TrackedRenderPass<'_>, cache: &PipelineCache, id: CachedRenderPipelineId) {
+fn screen<'a>(pass: &mut TrackedRenderPass<'a>, cache: &'a PipelineCache, id: CachedRenderPipelineId) {
     if let Some(pipeline) = cache.get_render_pipeline(id) {
         pass.set_render_pipeline(pipeline);
         pass.draw(0..3, 0..1);
@@ -71,11 +71,11 @@ fn screen(pass: &mut TrackedRenderPass<'_>, cache: &PipelineCache, id: CachedRen
 }
 
 /// Draws one quad for each of `count` instances.
-fn instances(
-    pass: &mut TrackedRenderPass<'_>,
-    cache: &PipelineCache,
+fn instances<'a>(
+    pass: &mut TrackedRenderPass<'a>,
+    cache: &'a PipelineCache,
     id: CachedRenderPipelineId,
-    buffer: Option<&bevy::render::render_resource::Buffer>,
+    buffer: Option<&'a Buffer>,
     count: usize,
 ) {
     if let (Some(pipeline), Some(buffer), true) = (cache.get_render_pipeline(id), buffer, count > 0) {

@@ -6,7 +6,7 @@ use crate::{
         orders::Shown,
         render::{
             RenderCost, air,
-            blobs::{self, ColourTable},
+            blobs::{self, ColourBy, ColourTable},
             stone,
             wisps::Wisps,
         },
@@ -15,7 +15,7 @@ use crate::{
     scene::blueprint::Blueprint,
     sim::{
         pace::Pace,
-        state::{AirGrid, ParticleStore, Rock, Setup},
+        state::{AirGrid, ParticleStore, Rock, Setup, SolverState},
         view::{self, DepthMap, Reference, Rgb, View},
     },
 };
@@ -124,6 +124,7 @@ pub fn extract(
     particles: Extract<Option<Res<ParticleStore>>>,
     rock: Extract<Option<Res<Rock>>>,
     air: Extract<Option<Res<AirGrid>>>,
+    solver: Extract<Option<Res<SolverState>>>,
     wisps: Extract<Res<Wisps>>,
     pace: Extract<Res<Pace>>,
     time: Extract<Res<Time<Fixed>>>,
@@ -131,7 +132,7 @@ pub fn extract(
     let begin = Instant::now();
     let picture = &mut *picture;
     let (Some(setup), Some(particles), Some(rock), Some(air), Ok(window)) =
-        (&**setup, &**particles, &**rock, &**air, windows.single())
+        (&*setup, &*particles, &*rock, &*air, windows.single())
     else {
         picture.ready = false;
         return;
@@ -150,12 +151,17 @@ pub fn extract(
     }
     // Half a tick after a tick the world is drawn half a tick before it: it then moves evenly at any frame rate.
     let back = if pace.paused { 0.0 } else { TICK_SECONDS * (1.0 - time.overstep_fraction().clamp(0.0, 1.0)) };
-    blobs::pack(particles, &picture.table, reference, None, back, picture.blobs.values_mut());
+    let by = match (view, &*solver) {
+        (View::Density, Some(solver)) => {
+            ColourBy::Density { density: &solver.density, rest: blueprint.fluid.rest_density }
+        }
+        _ => ColourBy::Speed,
+    };
+    blobs::pack(particles, &picture.table, reference, by, back, picture.blobs.values_mut());
 
-    picture.stones_new =
-        picture.stones_of.as_ref().is_none_or(|(version, of, during)| {
-            *version != rock.version() || !Arc::ptr_eq(of, blueprint) || *during != epoch.0
-        });
+    picture.stones_new = picture.stones_of.as_ref().is_none_or(|(version, of, during)| {
+        *version != rock.version() || !Arc::ptr_eq(of, blueprint) || *during != epoch.0
+    });
     if picture.stones_new {
         stone::pack(rock, &blueprint.elements, picture.stones.values_mut());
         picture.stones_of = Some((rock.version(), blueprint.clone(), epoch.0));

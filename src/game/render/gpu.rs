@@ -9,10 +9,9 @@ use bevy::{
     prelude::{Res, ResMut, Resource},
     render::{
         render_resource::{
-            AddressMode, BindGroup, BindGroupEntries, Extent3d, FilterMode, Origin3d, PipelineCache, RawBufferVec,
-            Sampler, SamplerDescriptor, TexelCopyBufferLayout, TexelCopyTextureInfo, Texture, TextureAspect,
-            TextureDescriptor, TextureDimension, TextureFormat, TextureUsages, TextureView, TextureViewDescriptor,
-            UniformBuffer,
+            AddressMode, BindGroup, BindGroupEntries, Extent3d, FilterMode, Origin3d, PipelineCache, Sampler,
+            SamplerDescriptor, TexelCopyBufferLayout, TexelCopyTextureInfo, Texture, TextureAspect, TextureDescriptor,
+            TextureDimension, TextureFormat, TextureUsages, TextureView, TextureViewDescriptor, UniformBuffer,
         },
         renderer::{RenderDevice, RenderQueue},
     },
@@ -133,17 +132,18 @@ fn write_texels(layer: &Layer, texels: &[u8], bytes_per_texel: u32, queue: &Rend
             aspect: TextureAspect::All,
         },
         texels,
-        TexelCopyBufferLayout {
-            offset: 0,
-            bytes_per_row: Some(layer.size.x * bytes_per_texel),
-            rows_per_image: None,
-        },
+        TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(layer.size.x * bytes_per_texel), rows_per_image: None },
         Extent3d { width: layer.size.x, height: layer.size.y, depth_or_array_layers: 1 },
     );
 }
 
 /// Makes the bind groups that are missing or bound to textures of the past.
-pub fn bind(mut gpu: ResMut<GpuPicture>, pipelines: Res<Pipelines>, cache: Res<PipelineCache>, device: Res<RenderDevice>) {
+pub fn bind(
+    mut gpu: ResMut<GpuPicture>,
+    pipelines: Res<Pipelines>,
+    cache: Res<PipelineCache>,
+    device: Res<RenderDevice>,
+) {
     let gpu = &mut *gpu;
     let Some(layouts) = pipelines.layouts() else { return };
     if gpu.world_group.is_none()

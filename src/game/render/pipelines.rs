@@ -120,9 +120,14 @@ impl Maker<'_> {
         format: TextureFormat,
         blend: Option<BlendState>,
     ) -> CachedRenderPipelineId {
+        // The pass that draws into the field must not have the field bound.
+        let mut layout = vec![self.layouts.world.clone()];
+        if name != "blob" {
+            layout.push(self.layouts.textures.clone());
+        }
         self.cache.queue_render_pipeline(RenderPipelineDescriptor {
             label: Some(name.into()),
-            layout: vec![self.layouts.world.clone(), self.layouts.textures.clone()],
+            layout,
             vertex: VertexState {
                 shader: self.shader.clone(),
                 shader_defs: vec![],

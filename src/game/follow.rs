@@ -1,0 +1,37 @@
+//! What the game does when another scene begins.
+
+use crate::{
+    game::{
+        camera::WorldCamera,
+        history::History,
+        tools::{Tool, Toolbox},
+    },
+    scene::blueprint::Blueprint,
+    sim::state::Setup,
+};
+use bevy::prelude::{Local, Res, ResMut};
+use std::sync::Arc;
+
+/// Shows the whole of the new box, takes up the scene's first element, forgets the past.
+pub fn follow_scene(
+    setup: Option<Res<Setup>>,
+    mut seen: Local<Option<Arc<Blueprint>>>,
+    mut camera: ResMut<WorldCamera>,
+    mut tools: ResMut<Toolbox>,
+    mut history: ResMut<History>,
+) {
+    let Some(setup) = setup else { return };
+    let blueprint = &setup.blueprint;
+    if seen.as_ref().is_some_and(|seen| Arc::ptr_eq(seen, blueprint)) {
+        return;
+    }
+    *seen = Some(blueprint.clone());
+    camera.set_world(blueprint.domain.size);
+    history.clear();
+    let elements = &blueprint.elements;
+    let first = blueprint.first_element.as_deref().and_then(|name| elements.find(name));
+    let movable = || elements.iter().find(|(_, element)| !element.fixed).map(|(id, _)| id);
+    if let Some(element) = first.or_else(movable) {
+        tools.tool = Tool::Element(element);
+    }
+}

@@ -1,0 +1,147 @@
+//! The books of the simulation: what each stage costs, which effects run and why, what the limiters did.
+
+use crate::{
+    game::{
+        hud::{
+            HudCost, HudState,
+            stats::{Readings, grouped},
+            style,
+        },
+        orders::{Order, Orders},
+        render::RenderCost,
+    },
+    scene::blueprint::{Effect, Mode},
+    sim::{
+        effects::Effects,
+        ledger::{Pass, PassLedger},
+        state::{Clock, Setup},
+    },
+};
+use bevy::prelude::{Res, ResMut, Result};
+use bevy_egui::{
+    EguiContexts,
+    egui::{self, RichText, Ui},
+};
+
+/// Shows the books.
+pub fn show(
+    mut contexts: EguiContexts,
+    mut state: ResMut<HudState>,
+    ledger: Res<PassLedger>,
+    effects: Res<Effects>,
+    setup: Res<Setup>,
+    clock: Res<Clock>,
+    readings: Res<Readings>,
+    costs: (Res<RenderCost>, Res<HudCost>),
+    mut orders: ResMut<Orders>,
+) -> Result {
+    if !state.details || !state.visible {
+        return Ok(());
+    }
+    let context = contexts.ctx_mut()?;
+    let screen = context.content_rect();
+    let mut open = true;
+    egui::Window::new("Details")
+        .open(&mut open)
+        .collapsible(true)
+        .resizable(false)
+        .default_pos(egui::pos2(screen.left() + 14.0, screen.top() + 54.0))
+        .show(context, |ui| {
+            egui::ScrollArea::vertical().max_height(screen.height() - 210.0).show(ui, |ui| {
+                world(ui, &setup, &clock);
+                ui.separator();
+                stages(ui, &ledger, &costs.0, &costs.1);
+                ui.separator();
+                switches(ui, &effects, &mut orders);
+                ui.separator();
+                limiters(ui, &readings);
+            });
+        });
+    if !open {
+        state.details = false;
+    }
+    Ok(())
+}
+
+fn weak(text: impl Into<String>) -> RichText {
+    RichText::new(text).color(style::WEAK)
+}
+
+fn world(ui: &mut Ui, setup: &Setup, clock: &Clock) {
+    let (blueprint, quality) = (&setup.blueprint, &setup.quality);
+    let metres = blueprint.scale.vec_to_metres(blueprint.domain.size);
+    ui.label(weak(format!(
+        "{:.1} × {:.1} m, d = {} m, tick {} ({:.1} s)",
+        metres.x,
+        metres.y,
+        blueprint.scale.spacing,
+        grouped(clock.tick),
+        clock.tick as f32 * crate::kernel::units::TICK_SECONDS,
+    )));
+    ui.label(weak(format!(
+        "{}: {} substeps × {} iterations, h = {} d, air cell {} d",
+        setup.preset.name(),
+        quality.substeps,
+        quality.iterations,
+        quality.kernel_radius,
+        quality.air_cell,
+    )));
+}
+
+fn stages(ui: &mut Ui, ledger: &PassLedger, render: &RenderCost, hud: &HudCost) {
+    egui::Grid::new("stages").num_columns(3).spacing([18.0, 3.0]).show(ui, |ui| {
+        for heading in ["stage", "ms a tick", "calls"] {
+            ui.label(weak(heading).small());
+        }
+        ui.end_row();
+        for pass in Pass::ALL {
+            let record = ledger.record(pass);
+            line(ui, pass.name(), record.median().as_secs_f32() * 1000.0, Some(record.calls));
+        }
+        line(ui, "tick", ledger.tick().median().as_secs_f32() * 1000.0, Some(ledger.tick().calls));
+        let (extract, upload) = render.milliseconds();
+        ui.label(weak("frame").small());
+        ui.label(weak("ms a frame").small());
+        ui.end_row();
+        line(ui, "copy out", extract, None);
+        line(ui, "upload", upload, None);
+        line(ui, "HUD", hud.milliseconds, None);
+    });
+}
+
+fn line(ui: &mut Ui, name: &str, milliseconds: f32, calls: Option<u64>) {
+    ui.label(name);
+    ui.monospace(format!("{milliseconds:7.3}"));
+    ui.monospace(calls.map(grouped).unwrap_or_default());
+    ui.end_row();
+}
+
+fn switches(ui: &mut Ui, effects: &Effects, orders: &mut Orders) {
+    egui::Grid::new("effects").num_columns(3).spacing([12.0, 4.0]).show(ui, |ui| {
+        for effect in Effect::ALL {
+            let state = effects.get(effect);
+            let colour = if state.running { style::ACCENT } else { style::WEAK };
+            ui.label(RichText::new(effect.name()).color(colour));
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = 2.0;
+                for (mode, name) in [(Mode::Auto, "auto"), (Mode::On, "on"), (Mode::Off, "off")] {
+                    if ui.selectable_label(state.mode == mode, name).clicked() {
+                        orders.push(Order::Effect(effect, mode));
+                    }
+                }
+            });
+            let verb = if state.running { "runs" } else { "rests" };
+            ui.label(weak(format!("{verb}: {}", state.why)));
+            ui.end_row();
+        }
+    });
+}
+
+fn limiters(ui: &mut Ui, readings: &Readings) {
+    if readings.counters.is_empty() {
+        ui.label(weak("No limiter had anything to do."));
+    }
+    for reading in &readings.counters {
+        ui.label(RichText::new(format!("{} {}", reading.value, reading.unit)).color(style::WARN));
+    }
+}

@@ -1,0 +1,97 @@
+//! The table of keys, made from the bindings.
+
+use crate::game::{
+    hud::{HudState, style},
+    input::bindings::{BINDINGS, Group},
+};
+use bevy::prelude::{ResMut, Result};
+use bevy_egui::{
+    EguiContexts,
+    egui::{self, RichText, Ui},
+};
+
+/// Shows the help.
+pub fn show(mut contexts: EguiContexts, mut state: ResMut<HudState>) -> Result {
+    if !state.help {
+        return Ok(());
+    }
+    let context = contexts.ctx_mut()?;
+    let screen = context.content_rect();
+    let mut open = true;
+    egui::Window::new("Keys and mouse")
+        .open(&mut open)
+        .collapsible(false)
+        .resizable(false)
+        .pivot(egui::Align2::CENTER_CENTER)
+        .default_pos(screen.center())
+        .show(context, |ui| {
+            egui::ScrollArea::vertical().max_height(screen.height() - 190.0).show(ui, |ui| {
+                ui.horizontal_top(|ui| {
+                    ui.spacing_mut().item_spacing.x = 28.0;
+                    for groups in [&Group::ALL[..2], &Group::ALL[2..]] {
+                        ui.vertical(|ui| {
+                            for group in groups {
+                                section(ui, *group);
+                            }
+                        });
+                    }
+                });
+            });
+        });
+    if !open {
+        state.help = false;
+    }
+    Ok(())
+}
+
+fn section(ui: &mut Ui, group: Group) {
+    ui.add_space(4.0);
+    ui.label(RichText::new(group.title()).heading().color(style::ACCENT));
+    egui::Grid::new(group.title()).num_columns(2).spacing([14.0, 4.0]).show(ui, |ui| {
+        for (keys, help) in rows(group) {
+            ui.label(RichText::new(keys).color(style::TEXT));
+            ui.label(RichText::new(help).color(style::WEAK));
+            ui.end_row();
+        }
+    });
+    ui.add_space(6.0);
+}
+
+/// Keys and meaning; bindings of the same meaning share a row.
+fn rows(group: Group) -> Vec<(String, &'static str)> {
+    let mut rows: Vec<(String, &'static str)> = Vec::new();
+    for binding in BINDINGS.iter().filter(|binding| binding.group == group) {
+        let name = binding.to_string();
+        match rows.iter_mut().find(|(_, help)| *help == binding.help) {
+            Some((keys, _)) if keys.split(", ").any(|key| key == name) => {}
+            Some((keys, _)) => {
+                keys.push_str(", ");
+                keys.push_str(&name);
+            }
+            None => rows.push((name, binding.help)),
+        }
+    }
+    for (keys, _) in &mut rows {
+        // Ten digits in a row say no more than the first and the last.
+        let names: Vec<&str> = keys.split(", ").collect();
+        if names.len() > 4 {
+            *keys = format!("{} … {}", names[0], names[names.len() - 1]);
+        }
+    }
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn help_names_every_binding_once_by_its_meaning() {
+        let all: Vec<_> = Group::ALL.into_iter().flat_map(rows).collect();
+        for binding in BINDINGS {
+            let of_meaning = all.iter().filter(|(_, help)| *help == binding.help).count();
+            assert_eq!(of_meaning, 1, "`{}` must stand in the help once", binding.help);
+        }
+        assert!(all.iter().any(|(keys, help)| keys == "Space, P" && *help == "pause"), "{all:?}");
+    }
+}

@@ -1,0 +1,249 @@
+//! Icons drawn with the painter: sharp at any scale, in any colour, no files.
+
+use bevy_egui::egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, pos2, vec2};
+
+/// What an icon shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Icon {
+    /// A drop of something.
+    Drop,
+    /// A piece of stone.
+    Stone,
+    /// Wind.
+    Wind,
+    /// Pressure: arrows from a middle.
+    Pressure,
+    /// An eraser.
+    Eraser,
+    /// Run.
+    Play,
+    /// Stop.
+    Pause,
+    /// One tick.
+    Step,
+    /// Back to the start.
+    Reset,
+    /// Take back.
+    Undo,
+    /// Make again.
+    Redo,
+    /// Scenes.
+    Scenes,
+    /// Views.
+    Eye,
+    /// Quality.
+    Gauge,
+    /// Settings.
+    Gear,
+    /// Books.
+    Chart,
+    /// Help.
+    Question,
+    /// Round brush.
+    Round,
+    /// Square brush.
+    Square,
+}
+
+/// Draws an icon into the square in the middle of `rect`.
+pub fn draw(painter: &Painter, rect: Rect, icon: Icon, colour: Color32) {
+    let side = rect.width().min(rect.height());
+    let pen = Pen { painter, origin: rect.center() - Vec2::splat(side / 2.0), side, colour };
+    match icon {
+        Icon::Drop => pen.drop(),
+        Icon::Stone => pen.stone(),
+        Icon::Wind => pen.wind(),
+        Icon::Pressure => pen.pressure(),
+        Icon::Eraser => pen.eraser(),
+        Icon::Play => pen.fill(&[(0.28, 0.16), (0.84, 0.5), (0.28, 0.84)]),
+        Icon::Pause => {
+            pen.bar(0.24, 0.18, 0.18, 0.64);
+            pen.bar(0.58, 0.18, 0.18, 0.64);
+        }
+        Icon::Step => {
+            pen.fill(&[(0.18, 0.18), (0.64, 0.5), (0.18, 0.82)]);
+            pen.bar(0.68, 0.18, 0.14, 0.64);
+        }
+        Icon::Reset => pen.turn_back(0.34, 1.0),
+        Icon::Undo => pen.bow(1.0),
+        Icon::Redo => pen.bow(-1.0),
+        Icon::Scenes => {
+            for (x, y) in [(0.14, 0.16), (0.54, 0.16), (0.14, 0.54), (0.54, 0.54)] {
+                pen.bar(x, y, 0.32, 0.3);
+            }
+        }
+        Icon::Eye => pen.eye(),
+        Icon::Gauge => pen.gauge(),
+        Icon::Gear => pen.gear(),
+        Icon::Chart => {
+            for (x, height) in [(0.14, 0.34), (0.42, 0.7), (0.7, 0.5)] {
+                pen.bar(x, 0.86 - height, 0.17, height);
+            }
+        }
+        Icon::Question => pen.question(),
+        Icon::Round => {
+            painter.circle_stroke(pen.at(0.5, 0.5), side * 0.36, pen.stroke(0.09));
+        }
+        Icon::Square => {
+            let square = Rect::from_center_size(rect.center(), Vec2::splat(side * 0.68));
+            painter.rect_stroke(square, side * 0.08, pen.stroke(0.09), StrokeKind::Middle);
+        }
+    }
+}
+
+/// Draws in a unit square with y down.
+struct Pen<'a> {
+    painter: &'a Painter,
+    origin: Pos2,
+    side: f32,
+    colour: Color32,
+}
+
+impl Pen<'_> {
+    fn at(&self, x: f32, y: f32) -> Pos2 {
+        self.origin + vec2(x, y) * self.side
+    }
+
+    fn stroke(&self, width: f32) -> Stroke {
+        Stroke::new((width * self.side).max(1.0), self.colour)
+    }
+
+    fn points(&self, points: &[(f32, f32)]) -> Vec<Pos2> {
+        points.iter().map(|&(x, y)| self.at(x, y)).collect()
+    }
+
+    fn fill(&self, points: &[(f32, f32)]) {
+        self.painter.add(Shape::convex_polygon(self.points(points), self.colour, Stroke::NONE));
+    }
+
+    fn line(&self, points: &[(f32, f32)], width: f32) {
+        self.painter.add(Shape::line(self.points(points), self.stroke(width)));
+    }
+
+    fn bar(&self, x: f32, y: f32, width: f32, height: f32) {
+        let rect = Rect::from_min_size(self.at(x, y), vec2(width, height) * self.side);
+        self.painter.rect_filled(rect, self.side * 0.04, self.colour);
+    }
+
+    /// Points on an arc; angles in turns, 0 to the right, growing clockwise.
+    fn arc(&self, x: f32, y: f32, radius: f32, from: f32, to: f32) -> Vec<(f32, f32)> {
+        let steps = 18;
+        (0..=steps)
+            .map(|k| {
+                let (sin, cos) = sin_cos(from + (to - from) * k as f32 / steps as f32);
+                (x + radius * cos, y + radius * sin)
+            })
+            .collect()
+    }
+
+    fn drop(&self) {
+        // A disc with a point on top: the tangents from the point touch it 30° above its middle line.
+        let mut outline = vec![(0.5, 0.08)];
+        outline.extend(self.arc(0.5, 0.6, 0.29, -0.07, 0.57));
+        self.fill(&outline);
+        let shine = self.colour.lerp_to_gamma(Color32::WHITE, 0.55);
+        let points = self.points(&self.arc(0.5, 0.6, 0.18, 0.3, 0.45));
+        self.painter.add(Shape::line(points, Stroke::new((0.07 * self.side).max(1.0), shine)));
+    }
+
+    fn stone(&self) {
+        self.fill(&[(0.1, 0.72), (0.2, 0.38), (0.46, 0.2), (0.74, 0.28), (0.92, 0.6), (0.84, 0.8), (0.2, 0.82)]);
+        let light = self.colour.lerp_to_gamma(Color32::WHITE, 0.28);
+        let lit = self.points(&[(0.2, 0.38), (0.46, 0.2), (0.74, 0.28), (0.54, 0.46)]);
+        self.painter.add(Shape::convex_polygon(lit, light, Stroke::NONE));
+        let dark = self.colour.lerp_to_gamma(Color32::BLACK, 0.3);
+        let shade = self.points(&[(0.54, 0.46), (0.74, 0.28), (0.92, 0.6), (0.84, 0.8), (0.6, 0.81)]);
+        self.painter.add(Shape::convex_polygon(shade, dark, Stroke::NONE));
+    }
+
+    fn wind(&self) {
+        for (y, end, radius) in [(0.34, 0.6, 0.13), (0.52, 0.74, 0.15), (0.7, 0.46, 0.11)] {
+            let (turn, way) = if y < 0.6 { (0.25, -1.0) } else { (-0.25, 1.0) };
+            let mut path = vec![(0.08, y)];
+            path.extend(self.arc(end, y + way * radius, radius, turn, turn + way * 0.62));
+            self.line(&path, 0.085);
+        }
+    }
+
+    fn pressure(&self) {
+        self.painter.circle_filled(self.at(0.5, 0.5), 0.1 * self.side, self.colour);
+        for turn in [0.125, 0.375, 0.625, 0.875] {
+            let (sin, cos) = sin_cos(turn);
+            let point = |along: f32, across: f32| (0.5 + cos * along - sin * across, 0.5 + sin * along + cos * across);
+            self.line(&[point(0.2, 0.0), point(0.4, 0.0)], 0.085);
+            self.fill(&[point(0.52, 0.0), point(0.34, 0.13), point(0.34, -0.13)]);
+        }
+    }
+
+    fn eraser(&self) {
+        self.fill(&[(0.56, 0.16), (0.86, 0.42), (0.66, 0.64), (0.36, 0.38)]);
+        let pale = self.colour.gamma_multiply(0.55);
+        let tip = self.points(&[(0.33, 0.415), (0.63, 0.675), (0.5, 0.82), (0.34, 0.82), (0.16, 0.66), (0.16, 0.6)]);
+        self.painter.add(Shape::convex_polygon(tip, pale, Stroke::NONE));
+        self.line(&[(0.5, 0.86), (0.9, 0.86)], 0.08);
+    }
+
+    fn turn_back(&self, radius: f32, way: f32) {
+        self.line(&self.arc(0.5, 0.52, radius, -0.12 * way, 0.66 * way), 0.1);
+        let (sin, cos) = sin_cos(-0.12 * way);
+        let (x, y) = (0.5 + radius * cos, 0.52 + radius * sin);
+        self.fill(&[(x - 0.2, y + 0.04), (x + 0.13, y + 0.1), (x + 0.06, y - 0.24)]);
+    }
+
+    /// An arrow that bends back, to the left (1) or to the right (−1).
+    fn bow(&self, way: f32) {
+        let x = |x: f32| 0.5 + (x - 0.5) * way;
+        self.line(
+            &[
+                (x(0.3), 0.36),
+                (x(0.6), 0.36),
+                (x(0.76), 0.42),
+                (x(0.82), 0.56),
+                (x(0.76), 0.7),
+                (x(0.6), 0.76),
+                (x(0.36), 0.76),
+            ],
+            0.1,
+        );
+        self.fill(&[(x(0.1), 0.36), (x(0.36), 0.14), (x(0.36), 0.58)]);
+    }
+
+    fn eye(&self) {
+        let mut outline = self.arc(0.5, 0.86, 0.52, -0.39, -0.11);
+        outline.extend(self.arc(0.5, 0.14, 0.52, 0.11, 0.39));
+        outline.push(outline[0]);
+        self.line(&outline, 0.08);
+        self.painter.circle_filled(self.at(0.5, 0.5), 0.14 * self.side, self.colour);
+    }
+
+    fn gauge(&self) {
+        self.line(&self.arc(0.5, 0.6, 0.38, -0.55, 0.05), 0.1);
+        self.line(&[(0.5, 0.6), (0.7, 0.36)], 0.09);
+        self.painter.circle_filled(self.at(0.5, 0.6), 0.08 * self.side, self.colour);
+    }
+
+    fn gear(&self) {
+        self.painter.circle_stroke(self.at(0.5, 0.5), 0.23 * self.side, self.stroke(0.13));
+        for k in 0..8 {
+            let (sin, cos) = sin_cos(k as f32 / 8.0);
+            self.line(&[(0.5 + 0.27 * cos, 0.5 + 0.27 * sin), (0.5 + 0.42 * cos, 0.5 + 0.42 * sin)], 0.13);
+        }
+    }
+
+    fn question(&self) {
+        let mut hook = self.arc(0.5, 0.34, 0.19, -0.5, 0.14);
+        hook.extend([(0.5, 0.55), (0.5, 0.64)]);
+        self.line(&hook, 0.11);
+        self.painter.circle_filled(self.at(0.5, 0.82), 0.07 * self.side, self.colour);
+    }
+}
+
+/// Sine and cosine of an angle in turns.
+fn sin_cos(turns: f32) -> (f32, f32) {
+    bevy::math::ops::sin_cos(turns * std::f32::consts::TAU)
+}
+
+/// A square of `side` points at a place.
+pub fn square(centre: Pos2, side: f32) -> Rect {
+    Rect::from_center_size(pos2(centre.x, centre.y), Vec2::splat(side))
+}

@@ -1,0 +1,145 @@
+//! The head-up display, in egui: a bar with the numbers and menus on top, the palette at the bottom, windows on call.
+//! It reads the world and gives orders; it never changes the world itself.
+
+pub mod bar;
+pub mod brush;
+pub mod details;
+pub mod help;
+pub mod icons;
+pub mod palette;
+pub mod scenes;
+pub mod search;
+pub mod settings;
+pub mod stats;
+pub mod style;
+pub mod toast;
+
+use crate::game::input::{bindings::Action, keys::Typing, pointer::locate};
+use bevy::prelude::{
+    App, IntoScheduleConfigs, Plugin, PreUpdate, Query, ResMut, Resource, RunFixedMainLoop, RunFixedMainLoopSystems,
+    Startup,
+};
+use bevy_egui::{EguiContext, EguiContexts, EguiInput, EguiPreUpdateSet, EguiPrimaryContextPass, egui};
+use std::time::Instant;
+
+/// Shows the HUD.
+pub struct HudPlugin;
+
+impl Plugin for HudPlugin {
+    fn build(&self, app: &mut App) {
+        app.init_resource::<stats::Readings>()
+            .init_resource::<settings::UiScale>()
+            .init_resource::<HudCost>()
+            .init_resource::<scenes::SceneMenu>()
+            .add_systems(Startup, scenes::list_scenes)
+            .add_systems(PreUpdate, mind_the_keys.after(EguiPreUpdateSet::ProcessInput))
+            .add_systems(
+                RunFixedMainLoop,
+                locate.before(crate::game::InputSystems).in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop),
+            )
+            .add_systems(
+                EguiPrimaryContextPass,
+                (
+                    begin,
+                    settings::scale_to_window,
+                    stats::read,
+                    bar::show,
+                    palette::show,
+                    settings::make_room,
+                    brush::show,
+                    scenes::show,
+                    search::show,
+                    details::show,
+                    settings::show,
+                    help::show,
+                    toast::show,
+                    end,
+                )
+                    .chain(),
+            );
+    }
+}
+
+/// What of the HUD is open.
+#[derive(Resource, Clone, Debug, PartialEq, Eq)]
+pub struct HudState {
+    /// Whether it is shown at all.
+    pub visible: bool,
+    /// The table of keys.
+    pub help: bool,
+    /// The books of the simulation.
+    pub details: bool,
+    /// The scene menu.
+    pub scenes: bool,
+    /// The settings.
+    pub settings: bool,
+    /// What is typed into the search for elements, if it is open.
+    pub search: Option<String>,
+}
+
+impl Default for HudState {
+    fn default() -> Self {
+        Self { visible: true, help: false, details: false, scenes: false, settings: false, search: None }
+    }
+}
+
+impl HudState {
+    /// Opens, closes, shows or hides a part.
+    pub fn act(&mut self, action: Action) {
+        match action {
+            Action::Hud => self.visible = !self.visible,
+            Action::Help => self.help = !self.help,
+            Action::Details => self.details = !self.details,
+            Action::Scenes => self.scenes = !self.scenes,
+            Action::Settings => self.settings = !self.settings,
+            Action::Search => {
+                self.search = match self.search {
+                    None => Some(String::new()),
+                    Some(_) => None,
+                };
+            }
+            Action::Close => *self = Self { visible: self.visible, details: self.details, ..Self::default() },
+            _ => return,
+        }
+        // What is asked for is shown, even if the HUD was hidden.
+        self.visible |= self.help || self.scenes || self.settings || self.search.is_some();
+    }
+}
+
+/// Processor time of the last frame's HUD, without turning it into triangles.
+#[derive(Resource, Clone, Copy, Debug, Default)]
+pub struct HudCost {
+    /// Milliseconds, smoothed over some frames.
+    pub milliseconds: f32,
+    begun: Option<Instant>,
+}
+
+fn begin(mut cost: ResMut<HudCost>, mut contexts: EguiContexts, mut styled: bevy::prelude::Local<bool>) {
+    cost.begun = Some(Instant::now());
+    if let (false, Ok(context)) = (*styled, contexts.ctx_mut()) {
+        style::dress(context);
+        *styled = true;
+    }
+}
+
+fn end(mut cost: ResMut<HudCost>) {
+    if let Some(begun) = cost.begun.take() {
+        let now = begun.elapsed().as_secs_f32() * 1000.0;
+        cost.milliseconds += (now - cost.milliseconds) * 0.05;
+    }
+}
+
+/// Keys belong to the game unless a text field has them; egui would move its focus with Tab and arrows and press what
+/// is focused with Space.
+fn mind_the_keys(mut contexts: Query<(&mut EguiContext, &mut EguiInput)>, mut typing: ResMut<Typing>) {
+    for (mut context, mut input) in &mut contexts {
+        let in_text = context.get_mut().text_edit_focused();
+        typing.0 = in_text;
+        if !in_text {
+            input.events.retain(|event| {
+                !matches!(event, egui::Event::Key { key, .. } if *key != egui::Key::Escape)
+                    && !matches!(event, egui::Event::Text(_))
+            });
+        }
+    }
+}

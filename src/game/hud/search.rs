@@ -1,0 +1,110 @@
+//! Finds elements and tools by their names.
+
+use crate::{
+    game::{
+        hud::{
+            HudState,
+            icons::{self, Icon},
+            palette::{colour_of, icon_of},
+            style,
+        },
+        orders::{Order, Orders},
+        tools::Tool,
+    },
+    kernel::element::ElementTable,
+    sim::state::Setup,
+};
+use bevy::prelude::{Res, ResMut, Result};
+use bevy_egui::{
+    EguiContexts,
+    egui::{self, Color32, vec2},
+};
+
+/// Shows the search.
+pub fn show(
+    mut contexts: EguiContexts,
+    mut state: ResMut<HudState>,
+    setup: Res<Setup>,
+    mut orders: ResMut<Orders>,
+) -> Result {
+    let Some(mut text) = state.search.clone() else { return Ok(()) };
+    let context = contexts.ctx_mut()?;
+    let escaped = context.input(|input| input.key_pressed(egui::Key::Escape));
+    let entered = context.input(|input| input.key_pressed(egui::Key::Enter));
+    let found = find(setup.elements(), &text);
+    let mut chosen = found.first().copied().filter(|_| entered);
+    let mut open = true;
+    egui::Window::new("Search")
+        .open(&mut open)
+        .collapsible(false)
+        .resizable(false)
+        .pivot(egui::Align2::CENTER_TOP)
+        .default_pos(context.content_rect().center_top() + vec2(0.0, 120.0))
+        .show(context, |ui| {
+            ui.set_width(260.0);
+            let field = egui::TextEdit::singleline(&mut text).hint_text("element or tool").desired_width(f32::INFINITY);
+            ui.add(field.char_limit(40)).request_focus();
+            ui.spacing_mut().item_spacing.y = 2.0;
+            for tool in &found {
+                if row(ui, *tool, setup.elements(), Some(tool) == found.first()) {
+                    chosen = Some(*tool);
+                }
+            }
+            if found.is_empty() {
+                ui.weak("nothing of that name");
+            }
+        });
+    state.search = (open && !escaped && !entered && chosen.is_none()).then_some(text);
+    if let Some(tool) = chosen {
+        orders.push(Order::Choose(tool));
+    }
+    Ok(())
+}
+
+fn row(ui: &mut egui::Ui, tool: Tool, elements: &ElementTable, first: bool) -> bool {
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 28.0), egui::Sense::click());
+    if first || response.hovered() {
+        let fill = if first { style::ACCENT_FILL } else { style::BUTTON_HOVER };
+        ui.painter().rect_filled(rect, style::BUTTON_CORNER, fill);
+    }
+    let (icon, colour) = match tool {
+        Tool::Element(id) => (icon_of(elements.get(id)), colour_of(elements.get(id))),
+        Tool::Erase => (Icon::Eraser, style::TEXT),
+        Tool::Wind => (Icon::Wind, style::TEXT),
+        Tool::Pressure => (Icon::Pressure, style::TEXT),
+    };
+    icons::draw(ui.painter(), icons::square(rect.left_center() + vec2(18.0, 0.0), 18.0), icon, colour);
+    let font = egui::TextStyle::Button.resolve(ui.style());
+    let at = rect.left_center() + vec2(36.0, 0.0);
+    ui.painter().text(at, egui::Align2::LEFT_CENTER, tool.name(elements), font, Color32::WHITE);
+    response.clicked()
+}
+
+/// Tools whose name holds the text; those that begin with it first.
+fn find(elements: &ElementTable, text: &str) -> Vec<Tool> {
+    let text = text.trim().to_lowercase();
+    let mut found: Vec<Tool> = elements
+        .iter()
+        .map(|(id, _)| Tool::Element(id))
+        .chain(Tool::OTHERS)
+        .filter(|tool| tool.name(elements).to_lowercase().contains(&text))
+        .collect();
+    found.sort_by_key(|tool| !tool.name(elements).to_lowercase().starts_with(&text));
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn search_finds_by_part_and_puts_beginnings_first() {
+        let elements = crate::scene::elements().expect("the table that comes with the game is valid");
+        let names = |text: &str| -> Vec<String> {
+            find(&elements, text).into_iter().map(|tool| tool.name(&elements).to_owned()).collect()
+        };
+        assert_eq!(names("wat")[0], "water");
+        assert_eq!(names("W")[..2], ["water", "wind"]);
+        assert_eq!(names("xyzzy"), [""; 0]);
+    }
+}

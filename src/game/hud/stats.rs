@@ -1,0 +1,170 @@
+//! The numbers in the upper left corner: read a few times a second, so that they can be read, and formatted only then.
+
+use crate::{
+    game::{frame::Tempo, hud::style},
+    kernel::units::TICKS_PER_SECOND,
+    sim::{
+        ledger::PassLedger,
+        pace::Pace,
+        state::{Census, Counters, Setup},
+    },
+};
+use bevy::prelude::{DetectChanges, Real, Res, ResMut, Resource, Time};
+use bevy_egui::egui::{Color32, RichText, Ui};
+use std::fmt::Write;
+
+/// Time between two readings, s.
+const INTERVAL: f32 = 0.25;
+
+/// A number with its unit.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Reading {
+    /// The number.
+    pub value: String,
+    /// Its unit or name.
+    pub unit: String,
+    /// Whether it needs attention.
+    pub warning: bool,
+}
+
+/// The numbers as they were read last.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Readings {
+    /// Frames a second, cost of a tick, ticks a second, speed if it lags.
+    pub pace: Vec<Reading>,
+    /// Particles in all.
+    pub total: Reading,
+    /// Particles of each element that there are any of: colour, name, number.
+    pub elements: Vec<([u8; 3], Reading)>,
+    /// What the limiters did, where it is not zero.
+    pub counters: Vec<Reading>,
+    next: f32,
+}
+
+/// Reads the numbers when it is time.
+pub fn read(
+    mut readings: ResMut<Readings>,
+    time: Res<Time<Real>>,
+    tempo: Res<Tempo>,
+    pace: Res<Pace>,
+    ledger: Res<PassLedger>,
+    census: Res<Census>,
+    counters: Res<Counters>,
+    setup: Res<Setup>,
+) {
+    readings.next -= time.delta_secs();
+    if readings.next > 0.0 && !pace.is_changed() {
+        return;
+    }
+    readings.next = INTERVAL;
+    readings.pace = pace_readings(&tempo, &pace, ledger.tick().median().as_secs_f32() * 1000.0);
+    readings.total =
+        Reading { value: grouped(u64::from(census.total)), unit: "particles".into(), warning: census.full };
+    readings.elements.clear();
+    for (id, element) in setup.elements().iter() {
+        let count = census.by_element.get(id.index()).copied().unwrap_or(0);
+        if count > 0 {
+            let reading = Reading { value: grouped(u64::from(count)), unit: element.name.clone(), warning: false };
+            readings.elements.push((element.colour, reading));
+        }
+    }
+    readings.counters = counter_readings(&counters);
+}
+
+fn pace_readings(tempo: &Tempo, pace: &Pace, tick_ms: f32) -> Vec<Reading> {
+    let reading = |value: String, unit: &str, warning| Reading { value, unit: unit.into(), warning };
+    let mut readings = vec![
+        reading(format!("{:.0}", tempo.frames_per_second), "FPS", false),
+        reading(format!("{tick_ms:.1}"), "ms/tick", tick_ms > 1000.0 / TICKS_PER_SECOND as f32),
+    ];
+    if pace.paused {
+        readings.push(reading("paused".into(), "", true));
+        return readings;
+    }
+    let late = tempo.lag.is_some();
+    readings.push(reading(format!("{:.0}/{TICKS_PER_SECOND}", tempo.ticks_per_second), "ticks/s", late));
+    if let Some(share) = tempo.lag {
+        readings.push(reading(format!("{:.1}×", share * pace.speed), "speed", true));
+    } else if pace.speed != 1.0 {
+        readings.push(reading(format!("{}×", pace.speed), "speed", false));
+    }
+    readings
+}
+
+fn counter_readings(counters: &Counters) -> Vec<Reading> {
+    [
+        (counters.non_finite, "not a number"),
+        (counters.escaped, "escaped"),
+        (counters.speed_clamps, "speeds cut"),
+        (counters.position_clamps, "corrections cut"),
+        (counters.air_clamps, "air cells cut"),
+        (counters.refused, "refused: world full"),
+    ]
+    .into_iter()
+    .filter(|(count, _)| *count > 0)
+    .map(|(count, name)| Reading { value: grouped(count), unit: name.into(), warning: true })
+    .collect()
+}
+
+/// `12345678` as `12,345,678`.
+pub fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
+    for (k, digit) in digits.chars().enumerate() {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// Shows one number.
+pub fn show_reading(ui: &mut Ui, reading: &Reading) {
+    let colour = if reading.warning { style::WARN } else { Color32::WHITE };
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        ui.label(RichText::new(&reading.value).color(colour));
+        if !reading.unit.is_empty() {
+            ui.label(RichText::new(&reading.unit).color(style::WEAK));
+        }
+    });
+}
+
+/// The readings as one text, for a window too narrow for them.
+pub fn as_text(readings: &Readings) -> String {
+    let mut text = String::new();
+    for (_, reading) in &readings.elements {
+        let _ = writeln!(text, "{} {}", reading.value, reading.unit);
+    }
+    text.trim_end().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thousands_are_grouped() {
+        assert_eq!(grouped(0), "0");
+        assert_eq!(grouped(999), "999");
+        assert_eq!(grouped(1000), "1,000");
+        assert_eq!(grouped(1_234_567), "1,234,567");
+    }
+
+    #[test]
+    fn a_late_world_says_how_slow_it_is() {
+        let mut tempo = Tempo::default();
+        (tempo.lag, tempo.ticks_per_second) = (Some(0.8), 48.0);
+        let readings = pace_readings(&tempo, &Pace::default(), 21.0);
+        assert!(readings.iter().any(|reading| reading.value == "0.8×" && reading.warning), "{readings:?}");
+        assert!(readings.iter().any(|reading| reading.value == "48/60"), "{readings:?}");
+    }
+
+    #[test]
+    fn only_limiters_that_did_something_are_shown() {
+        assert_eq!(counter_readings(&Counters::default()), []);
+        let counters = Counters { escaped: 3, ..Counters::default() };
+        assert_eq!(counter_readings(&counters).len(), 1);
+    }
+}

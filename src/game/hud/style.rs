@@ -1,0 +1,91 @@
+//! The look of the HUD: colours, sizes, spacing.
+
+use bevy_egui::egui::{self, Color32, CornerRadius, FontId, Margin, Shadow, Stroke, TextStyle, Vec2};
+
+/// Behind bars and windows.
+pub const PANEL: Color32 = Color32::from_rgb(19, 23, 32);
+/// Lines between things.
+pub const LINE: Color32 = Color32::from_rgb(43, 51, 68);
+/// Things that can be pressed.
+pub const BUTTON: Color32 = Color32::from_rgb(31, 38, 52);
+/// The same under the pointer.
+pub const BUTTON_HOVER: Color32 = Color32::from_rgb(44, 54, 74);
+/// Text.
+pub const TEXT: Color32 = Color32::from_rgb(216, 223, 234);
+/// Text of less weight.
+pub const WEAK: Color32 = Color32::from_rgb(139, 151, 172);
+/// What is chosen.
+pub const ACCENT: Color32 = Color32::from_rgb(86, 168, 255);
+/// Behind what is chosen.
+pub const ACCENT_FILL: Color32 = Color32::from_rgb(28, 56, 92);
+/// What needs attention.
+pub const WARN: Color32 = Color32::from_rgb(255, 184, 92);
+
+/// Corner of buttons and tiles.
+pub const BUTTON_CORNER: u8 = 6;
+/// Corner of windows.
+pub const WINDOW_CORNER: u8 = 10;
+
+/// Dresses egui.
+pub fn dress(context: &egui::Context) {
+    context.set_theme(egui::Theme::Dark);
+    context.all_styles_mut(|style| {
+        style.text_styles = [
+            (TextStyle::Small, FontId::proportional(11.0)),
+            (TextStyle::Body, FontId::proportional(13.5)),
+            (TextStyle::Button, FontId::proportional(13.5)),
+            (TextStyle::Monospace, FontId::monospace(12.0)),
+            (TextStyle::Heading, FontId::proportional(17.0)),
+        ]
+        .into();
+        style.spacing.item_spacing = Vec2::new(8.0, 6.0);
+        style.spacing.button_padding = Vec2::new(9.0, 4.0);
+        style.spacing.interact_size = Vec2::new(32.0, 24.0);
+        style.spacing.window_margin = Margin::same(14);
+        style.spacing.menu_margin = Margin::same(8);
+        style.spacing.slider_width = 150.0;
+        style.spacing.tooltip_width = 320.0;
+        style.interaction.selectable_labels = false;
+        style.interaction.tooltip_delay = 0.35;
+        style.animation_time = 0.08;
+
+        let visuals = &mut style.visuals;
+        visuals.override_text_color = None;
+        visuals.weak_text_color = Some(WEAK);
+        visuals.window_fill = PANEL;
+        visuals.panel_fill = PANEL;
+        visuals.extreme_bg_color = Color32::from_rgb(12, 15, 21);
+        visuals.faint_bg_color = Color32::from_rgb(25, 30, 41);
+        visuals.window_stroke = Stroke::new(1.0, LINE);
+        visuals.window_corner_radius = CornerRadius::same(WINDOW_CORNER);
+        visuals.menu_corner_radius = CornerRadius::same(WINDOW_CORNER);
+        visuals.window_highlight_topmost = false;
+        visuals.window_shadow = Shadow { offset: [0, 6], blur: 22, spread: 0, color: Color32::from_black_alpha(110) };
+        visuals.popup_shadow = visuals.window_shadow;
+        visuals.selection.bg_fill = ACCENT_FILL;
+        visuals.selection.stroke = Stroke::new(1.0, ACCENT);
+        visuals.slider_trailing_fill = true;
+        visuals.warn_fg_color = WARN;
+        let widgets = &mut visuals.widgets;
+        for (widget, fill, text) in [
+            (&mut widgets.noninteractive, PANEL, TEXT),
+            (&mut widgets.inactive, BUTTON, TEXT),
+            (&mut widgets.hovered, BUTTON_HOVER, Color32::WHITE),
+            (&mut widgets.active, ACCENT_FILL, Color32::WHITE),
+            (&mut widgets.open, BUTTON_HOVER, Color32::WHITE),
+        ] {
+            widget.bg_fill = fill;
+            widget.weak_bg_fill = fill;
+            widget.bg_stroke = Stroke::NONE;
+            widget.fg_stroke = Stroke::new(1.0, text);
+            widget.corner_radius = CornerRadius::same(BUTTON_CORNER);
+            widget.expansion = 0.0;
+        }
+        widgets.noninteractive.bg_stroke = Stroke::new(1.0, LINE);
+    });
+}
+
+/// Frame of a bar at the edge of the window.
+pub fn bar_frame() -> egui::Frame {
+    egui::Frame::new().fill(PANEL).inner_margin(Margin::symmetric(12, 7))
+}

@@ -1,0 +1,68 @@
+//! A person's side: input, tools, the picture, the HUD. Reads the simulation's resources and gives it intents.
+//!
+//! ```text
+//! devices ─► input ─┬─► intents ─► (simulation)        simulation ─► render ─► window
+//!                   └─► orders  ─► history, control               └► hud ──┘    │
+//!                          ▲                                           orders ◄─┘
+//! ```
+
+pub mod camera;
+pub mod follow;
+pub mod frame;
+pub mod history;
+pub mod hud;
+pub mod input;
+pub mod orders;
+pub mod render;
+pub mod screen;
+pub mod tools;
+pub mod window;
+
+use crate::kernel::units::TICKS_PER_SECOND;
+use bevy::prelude::{
+    App, Fixed, FixedPreUpdate, IntoScheduleConfigs, Last, Plugin, RunFixedMainLoop, RunFixedMainLoopSystems,
+    SystemSet, Time,
+};
+
+pub use window::{GameError, GameOptions, run};
+
+/// Reads the devices and carries out orders, before the ticks of a frame.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct InputSystems;
+
+/// Input, tools, orders and pace: all of the game that needs no window.
+pub struct GamePlugin;
+
+impl Plugin for GamePlugin {
+    fn build(&self, app: &mut App) {
+        app.insert_resource(Time::<Fixed>::from_hz(f64::from(TICKS_PER_SECOND)))
+            .init_resource::<camera::WorldCamera>()
+            .init_resource::<tools::Toolbox>()
+            .init_resource::<orders::Orders>()
+            .init_resource::<orders::Shown>()
+            .init_resource::<history::History>()
+            .init_resource::<frame::Tempo>()
+            .init_resource::<hud::HudState>()
+            .init_resource::<hud::toast::Toasts>()
+            .init_resource::<input::pointer::Pointer>()
+            .init_resource::<input::keys::Typing>()
+            .init_resource::<input::strokes::Held>()
+            .init_resource::<render::extract::Epoch>()
+            .add_systems(
+                RunFixedMainLoop,
+                (
+                    follow::follow_scene,
+                    input::keys::read_keys,
+                    input::pointer::read_wheel,
+                    input::pointer::read_buttons,
+                    orders::obey,
+                    frame::set_pace,
+                )
+                    .chain()
+                    .in_set(InputSystems)
+                    .in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop),
+            )
+            .add_systems(FixedPreUpdate, input::strokes::make_intents)
+            .add_systems(Last, frame::measure_tempo);
+    }
+}

@@ -1,0 +1,151 @@
+//! The App with a window.
+
+use crate::{
+    game::{GamePlugin, hud::HudPlugin, hud::settings::Room, render::WorldRenderPlugin},
+    scene::blueprint::Blueprint,
+    sim::{SimulationPlugin, control},
+};
+use bevy::{
+    DefaultPlugins,
+    app::{App, AppExit},
+    camera::{Camera2d, ClearColor},
+    color::Color,
+    log::LogPlugin,
+    prelude::{Commands, PluginGroup, Startup},
+    render::view::Msaa,
+    window::{PresentMode, Window, WindowPlugin, WindowResizeConstraints, WindowResolution},
+};
+use bevy_egui::EguiPlugin;
+use std::{
+    panic::{self, AssertUnwindSafe},
+    sync::Arc,
+};
+
+/// How the game is to be shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GameOptions {
+    /// Size of the window, logical pixels.
+    pub size: (u32, u32),
+    /// Whether frames wait for the screen.
+    pub vsync: bool,
+}
+
+impl Default for GameOptions {
+    fn default() -> Self {
+        Self { size: (1280, 800), vsync: true }
+    }
+}
+
+/// Why there is no game.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum GameError {
+    /// There is nowhere to show a window.
+    #[error("no display: {reason}; set DISPLAY, or use `powder-master run {scene}` to run without a window")]
+    NoDisplay {
+        /// What is missing.
+        reason: String,
+        /// The scene that was asked for.
+        scene: String,
+    },
+    /// The window or the graphics can't be set up.
+    #[error("can't open a window: {reason}; use `powder-master run {scene}` to run without one")]
+    NoWindow {
+        /// What went wrong.
+        reason: String,
+        /// The scene that was asked for.
+        scene: String,
+    },
+}
+
+/// Plays a scene in a window until it is closed.
+pub fn run(blueprint: Arc<Blueprint>, options: GameOptions) -> Result<AppExit, GameError> {
+    let scene = blueprint.name.clone();
+    if let Some(reason) = missing_display(|name| std::env::var(name).ok()) {
+        return Err(GameError::NoDisplay { reason, scene });
+    }
+    // Setting the window up panics where it fails (winit can't reach the display, there is no graphics adapter).
+    let hook = panic::take_hook();
+    panic::set_hook(Box::new(|_| {}));
+    let built = panic::catch_unwind(AssertUnwindSafe(|| build(blueprint, options)));
+    panic::set_hook(hook);
+    match built {
+        Ok(mut app) => Ok(app.run()),
+        Err(cause) => {
+            let text = cause.downcast_ref::<String>().cloned();
+            let text = text.or_else(|| cause.downcast_ref::<&str>().map(ToString::to_string)).unwrap_or_default();
+            Err(explain(&text, scene))
+        }
+    }
+}
+
+/// The display that a Unix desktop needs, if none is named.
+fn missing_display(variable: impl Fn(&str) -> Option<String>) -> Option<String> {
+    let named = |name: &str| variable(name).is_some_and(|value| !value.is_empty());
+    let needed = cfg!(all(unix, not(target_os = "macos"), not(target_arch = "wasm32")));
+    (needed && !named("DISPLAY") && !named("WAYLAND_DISPLAY") && !named("WAYLAND_SOCKET"))
+        .then(|| "neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned())
+}
+
+/// One line for what went wrong.
+fn explain(panic: &str, scene: String) -> GameError {
+    if panic.contains("event loop") || panic.contains("EventLoop") {
+        let display = std::env::var("DISPLAY").or_else(|_| std::env::var("WAYLAND_DISPLAY")).unwrap_or_default();
+        return GameError::NoDisplay { reason: format!("`{display}` can't be reached"), scene };
+    }
+    GameError::NoWindow { reason: panic.lines().next().unwrap_or("unknown reason").to_owned(), scene }
+}
+
+fn build(blueprint: Arc<Blueprint>, options: GameOptions) -> App {
+    let window = Window {
+        title: format!("Powder Master: {}", blueprint.title),
+        name: Some("powder-master".into()),
+        resolution: WindowResolution::new(options.size.0, options.size.1),
+        present_mode: if options.vsync { PresentMode::AutoVsync } else { PresentMode::AutoNoVsync },
+        resize_constraints: WindowResizeConstraints { min_width: 480.0, min_height: 320.0, ..Default::default() },
+        fit_canvas_to_parent: true,
+        prevent_default_event_handling: true,
+        ..Window::default()
+    };
+    let mut app = App::new();
+    app.add_plugins(
+        DefaultPlugins
+            .set(WindowPlugin { primary_window: Some(window), ..WindowPlugin::default() })
+            .set(LogPlugin { filter: "error,bevy_winit=off".into(), ..LogPlugin::default() }),
+    )
+    .add_plugins(EguiPlugin::default())
+    .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
+    .insert_resource(ClearColor(Color::BLACK))
+    .init_resource::<Room>()
+    .add_systems(Startup, spawn_camera);
+    control::load(app.world_mut(), blueprint);
+    app
+}
+
+/// The camera that window and HUD are drawn for; where it looks is `WorldCamera`'s business.
+fn spawn_camera(mut commands: Commands) {
+    commands.spawn((Camera2d, Msaa::Off));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[cfg(all(unix, not(target_os = "macos")))]
+    fn without_a_display_the_error_names_the_way_out() {
+        assert!(missing_display(|_| None).is_some());
+        assert!(missing_display(|name| (name == "DISPLAY").then(String::new)).is_some());
+        assert_eq!(missing_display(|name| (name == "DISPLAY").then(|| ":0".into())), None);
+        assert_eq!(missing_display(|name| (name == "WAYLAND_DISPLAY").then(|| "wayland-0".into())), None);
+        let error = GameError::NoDisplay { reason: "none".into(), scene: "waterfall".into() };
+        assert!(error.to_string().contains("powder-master run waterfall"));
+    }
+
+    #[test]
+    fn a_failed_window_is_explained_in_one_line() {
+        let error = explain("Failed to build event loop: Os(OsError)", "empty".into());
+        assert!(matches!(&error, GameError::NoDisplay { scene, .. } if scene == "empty"), "{error}");
+        let error = explain("Unable to find a GPU!\nMore.", "empty".into());
+        assert!(error.to_string().lines().count() == 1 && error.to_string().contains("GPU"), "{error}");
+    }
+}
