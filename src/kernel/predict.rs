@@ -45,7 +45,8 @@ pub fn remove_non_finite(particles: &mut Particles) -> usize {
     particles.retain(is_sound)
 }
 
-/// Predicts `x + v Δt` into the solver, cut to the longest move and swept against rock and box.
+/// Predicts `x + v Δt` into the solver, cut to the longest move and swept against rock and box. Where that changed the
+/// move, the velocity becomes that of the move that is left.
 pub fn predict(
     particles: &mut Particles,
     solver: &mut Solver,
@@ -68,9 +69,14 @@ pub fn predict(
             (particles.vx[i], particles.vy[i]) = (way.x / dt, way.y / dt);
             report.speed_clamps += 1;
         }
-        let mut to = domain.keep_inside(from + way);
+        let free = from + way;
+        let mut to = domain.keep_inside(free);
         if has_rock {
             to = solids.sweep(from, to);
+        }
+        if to != free {
+            let velocity = (to - from) / dt;
+            (particles.vx[i], particles.vy[i]) = (velocity.x, velocity.y);
         }
         solver.x.push(to.x);
         solver.y.push(to.y);

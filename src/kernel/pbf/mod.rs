@@ -10,6 +10,8 @@
 mod constraint;
 mod correction;
 pub(crate) mod parallel;
+#[cfg(test)]
+pub(crate) mod tests;
 
 use crate::kernel::{
     bins::{Bins, Neighbours, permute},
@@ -216,7 +218,8 @@ impl Solver {
 }
 
 /// Particles at one point have no direction to part in (the spiky gradient is 0/0 there); equal ones among the last few
-/// of the sorted order are set apart by a small offset that only depends on the id. Rock and walls stop it.
+/// of the sorted order are set apart by a small offset that only depends on the id. Rock and walls stop it. Where many are
+/// pressed into a corner of the rock, they stand on one point to the last bit; there it goes the other way.
 fn separate_coincident(id: &[u32], x: &mut [f32], y: &mut [f32], domain: &Domain, solids: &Solids) {
     /// Closer than this in both coordinates counts as one point, d.
     const COINCIDENT: f32 = 1e-4;
@@ -224,12 +227,16 @@ fn separate_coincident(id: &[u32], x: &mut [f32], y: &mut [f32], domain: &Domain
     const APART: f32 = 0.05;
     /// Particles before it that each is compared with.
     const LOOK_BACK: usize = 4;
+    let is_near = |a: Vec2, b: Vec2| (a - b).abs().max_element() < COINCIDENT;
     for i in 1..x.len() {
-        let near = |j: usize| (x[i] - x[j]).abs() < COINCIDENT && (y[i] - y[j]).abs() < COINCIDENT;
-        if (i.saturating_sub(LOOK_BACK)..i).any(near) {
+        let at = Vec2::new(x[i], y[i]);
+        if (i.saturating_sub(LOOK_BACK)..i).any(|j| is_near(at, Vec2::new(x[j], y[j]))) {
             let mixed = mix(id[i]);
-            let (from, offset) = (Vec2::new(x[i], y[i]), APART * Vec2::new(unit(mixed), unit(mixed >> 16)));
-            let to = solids.sweep(from, domain.keep_inside(from + offset));
+            let offset = APART * Vec2::new(unit(mixed), unit(mixed >> 16));
+            let mut to = solids.sweep(at, domain.keep_inside(at + offset));
+            if is_near(at, to) {
+                to = solids.sweep(at, domain.keep_inside(at - offset));
+            }
             (x[i], y[i]) = (to.x, to.y);
         }
     }

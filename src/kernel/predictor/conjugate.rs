@@ -75,7 +75,7 @@ impl Conjugate {
             // Worse than no pressure at all: better to leave it all to the constraint than to act on it.
             solution.fill(0.0);
         }
-        PredictorReport { iterations, residual: (left / scale).sqrt() as f32 }
+        PredictorReport { liquid: true, iterations, residual: (left / scale).sqrt() as f32 }
     }
 
     /// Bytes held.

@@ -37,6 +37,8 @@ const BLEND_PER_SECOND: f32 = 1.2;
 /// What a prediction did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PredictorReport {
+    /// Whether anything was liquid. Where nothing is (single drops, spray), velocities stay as they are.
+    pub liquid: bool,
     /// Iterations of conjugate gradients.
     pub iterations: u32,
     /// Residual that is left, relative to the right-hand side.
@@ -92,7 +94,9 @@ impl Predictor {
             dt: params.dt,
             report: &mut report,
         });
-        self.faces.hand_back(&grid, particles, (BLEND_PER_SECOND * params.dt).min(1.0));
+        if report.liquid {
+            self.faces.hand_back(&grid, particles, (BLEND_PER_SECOND * params.dt).min(1.0));
+        }
         report
     }
 

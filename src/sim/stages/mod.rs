@@ -42,7 +42,7 @@ pub(super) fn plugin(app: &mut App) {
             gate::plan_tick.in_set(TickSystems::Gate),
             step::run_substeps.in_set(TickSystems::Step),
             (measure::count_particles, measure::end_tick).chain().in_set(TickSystems::Measure),
-            measure::count_particles.after(TickSystems::Edit).run_if(bevy::prelude::not(time_moves)),
+            measure::count_particles.after(TickSystems::Measure).run_if(bevy::prelude::not(time_moves)),
         ),
     );
     app.add_schedule(substep_schedule());
