@@ -1,5 +1,7 @@
 //! `play`: the game's window.
 
+#[cfg(feature = "app")]
+use crate::game::{self, GameOptions};
 use crate::{
     cli::{args::PlayOptions, failure::Failure, threads},
     scene::{
@@ -8,6 +10,10 @@ use crate::{
     },
     sim::workers::Workers,
 };
+#[cfg(feature = "app")]
+use bevy::app::AppExit;
+#[cfg(feature = "app")]
+use std::sync::Arc;
 
 /// The scene without a name.
 const DEFAULT_SCENE: &str = "waterfall";
@@ -19,6 +25,16 @@ pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Fai
     open(blueprint, threads::workers(options.threads)?)
 }
 
+#[cfg(feature = "app")]
+fn open(blueprint: Blueprint, workers: Workers) -> Result<(), Failure> {
+    match game::run(Arc::new(blueprint), workers, GameOptions::default()) {
+        Ok(AppExit::Success) => Ok(()),
+        Ok(AppExit::Error(code)) => Err(Failure::Outcome(format!("the game ended with error {code}"))),
+        Err(error) => Err(Failure::Usage(error.to_string())),
+    }
+}
+
+#[cfg(not(feature = "app"))]
 fn open(blueprint: Blueprint, _workers: Workers) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
         "this build has no window (it lacks the cargo feature `app`); `powder-master run {}` works without one",
