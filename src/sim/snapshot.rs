@@ -16,6 +16,8 @@ pub struct Snapshot {
     pub solids: Solids,
     /// The air.
     pub air: Air,
+    /// The predictor's pressure, d/s: the first guess of its next solve, empty before its first.
+    pub pressure: Vec<f32>,
     /// Taps, fans and outlets with their state.
     pub sources: Sources,
     /// Tick, edits, next id.
@@ -34,6 +36,7 @@ impl Snapshot {
             particles: blueprint.particles.clone(),
             solids: blueprint.solids.clone(),
             air,
+            pressure: Vec::new(),
             sources: Sources {
                 emitters: blueprint.emitters.clone(),
                 winds: blueprint.winds.clone(),
