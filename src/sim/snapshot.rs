@@ -78,6 +78,15 @@ pub fn hash_state(particles: &Particles, solids: &Solids, air: &Air) -> u64 {
     hash.0
 }
 
+/// The same hash over bytes.
+pub(crate) fn hash_bytes(bytes: &[u8]) -> u64 {
+    let mut hash = Fnv::default();
+    for &byte in bytes {
+        hash.byte(byte);
+    }
+    hash.0
+}
+
 struct Fnv(u64);
 
 impl Default for Fnv {
@@ -89,7 +98,11 @@ impl Default for Fnv {
 impl Fnv {
     fn word(&mut self, word: u32) {
         for byte in word.to_le_bytes() {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+            self.byte(byte);
         }
+    }
+
+    fn byte(&mut self, byte: u8) {
+        self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
     }
 }

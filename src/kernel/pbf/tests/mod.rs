@@ -3,7 +3,7 @@
 pub(crate) mod reference;
 
 use super::*;
-use crate::kernel::params::Preset;
+use crate::kernel::params::{Preset, WALL_GAP};
 use reference::{Question, Vector};
 
 /// A box with particles and rock in it, ready to be solved.
