@@ -6,5 +6,8 @@ mod support;
 mod control;
 mod determinism;
 mod hard_cases;
+mod monkey;
 mod motion;
+mod saves;
 mod stages;
+mod still;
