@@ -6,7 +6,6 @@ use crate::{
     sim::{
         SimulationPlugin, control,
         state::{Census, Setup},
-        workers::Workers,
     },
 };
 use bevy::{
@@ -63,8 +62,8 @@ pub enum GameError {
     },
 }
 
-/// Plays a scene in a window until it is closed; the kernel runs on `workers`.
-pub fn run(blueprint: Arc<Blueprint>, workers: Workers, options: GameOptions) -> Result<AppExit, GameError> {
+/// Plays a scene in a window until it is closed.
+pub fn run(blueprint: Arc<Blueprint>, options: GameOptions) -> Result<AppExit, GameError> {
     let scene = blueprint.name.clone();
     if let Some(reason) = missing_display(|name| std::env::var(name).ok()) {
         return Err(GameError::NoDisplay { reason, scene });
@@ -72,7 +71,7 @@ pub fn run(blueprint: Arc<Blueprint>, workers: Workers, options: GameOptions) ->
     // Setting the window up panics where it fails (winit can't reach the display, there is no graphics adapter).
     let hook = panic::take_hook();
     panic::set_hook(Box::new(|_| {}));
-    let built = panic::catch_unwind(AssertUnwindSafe(|| build(blueprint, workers, options)));
+    let built = panic::catch_unwind(AssertUnwindSafe(|| build(blueprint, options)));
     panic::set_hook(hook);
     match built {
         Ok(mut app) => Ok(app.run()),
@@ -101,7 +100,7 @@ fn explain(panic: &str, scene: String) -> GameError {
     GameError::NoWindow { reason: panic.lines().next().unwrap_or("unknown reason").to_owned(), scene }
 }
 
-fn build(blueprint: Arc<Blueprint>, workers: Workers, options: GameOptions) -> App {
+fn build(blueprint: Arc<Blueprint>, options: GameOptions) -> App {
     let window = Window {
         title: title(&blueprint.title, (blueprint.particles.len() + blueprint.solids.count()) as u32),
         name: Some("powder-master".into()),
@@ -124,7 +123,6 @@ fn build(blueprint: Arc<Blueprint>, workers: Workers, options: GameOptions) -> A
     .init_resource::<Room>()
     .add_systems(Startup, spawn_camera)
     .add_systems(Update, tell_in_title.run_if(on_timer(TITLE_EVERY)));
-    app.insert_resource(workers);
     control::load(app.world_mut(), blueprint);
     app
 }
