@@ -97,7 +97,7 @@ fn explain(panic: &str, scene: String) -> GameError {
 
 fn build(blueprint: Arc<Blueprint>, options: GameOptions) -> App {
     let window = Window {
-        title: format!("Powder Master: {}", blueprint.title),
+        title: "Powder Master".into(),
         name: Some("powder-master".into()),
         resolution: WindowResolution::new(options.size.0, options.size.1),
         present_mode: if options.vsync { PresentMode::AutoVsync } else { PresentMode::AutoNoVsync },
