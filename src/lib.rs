@@ -1,9 +1,30 @@
 //! Powder Master: a real-time 2-D sandbox of powders and fluids in moving air.
+//!
+//! How data flows from the mouse to the screen:
+//!
+//! ```text
+//! game::input   mouse and keys ─► intents (sim::intent), in world units
+//!     │
+//!     ▼  60 times a second, in FixedUpdate (sim::schedule, sim::stages)
+//! Edit ─► Sources ─► Gate ─► Step ─► Measure
+//! intents   taps     effects   │      counts, checks, cost
+//!                              ▼  as often as the speeds call for
+//!             Air ─► Forces ─► Pressure ─► Predict ─► Bin ─► Solve ─► Velocity
+//!             each a thin system over one function of `kernel`
+//!     │
+//!     ▼  every frame
+//! game::render  particles, rock and air, between two ticks      game::hud  counts, cost, tools
+//! ```
+//!
+//! Who may import whom: `kernel ← scene ← sim ← lab`, `sim ← game`, all ← `cli`. Nothing below `game` knows egui, a window
+//! or a renderer, and builds without them (`--no-default-features`).
 
 #![forbid(unsafe_op_in_unsafe_fn)]
 
+pub mod cli;
 #[cfg(feature = "app")]
 pub mod game;
 pub mod kernel;
+pub mod lab;
 pub mod scene;
 pub mod sim;

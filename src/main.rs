@@ -1,3 +1,7 @@
-//! Powder Master: parses the command line and hands over.
+//! The program: reads the command line and hands over.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    powder_master::cli::main(std::env::args_os())
+}

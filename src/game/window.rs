@@ -3,7 +3,7 @@
 use crate::{
     game::{GamePlugin, hud::HudPlugin, hud::settings::Room, render::WorldRenderPlugin},
     scene::blueprint::Blueprint,
-    sim::{SimulationPlugin, control},
+    sim::{SimulationPlugin, control, workers::Workers},
 };
 use bevy::{
     DefaultPlugins,
@@ -57,8 +57,8 @@ pub enum GameError {
     },
 }
 
-/// Plays a scene in a window until it is closed.
-pub fn run(blueprint: Arc<Blueprint>, options: GameOptions) -> Result<AppExit, GameError> {
+/// Plays a scene in a window until it is closed; the kernel runs on `workers`.
+pub fn run(blueprint: Arc<Blueprint>, workers: Workers, options: GameOptions) -> Result<AppExit, GameError> {
     let scene = blueprint.name.clone();
     if let Some(reason) = missing_display(|name| std::env::var(name).ok()) {
         return Err(GameError::NoDisplay { reason, scene });
@@ -66,7 +66,7 @@ pub fn run(blueprint: Arc<Blueprint>, options: GameOptions) -> Result<AppExit, G
     // Setting the window up panics where it fails (winit can't reach the display, there is no graphics adapter).
     let hook = panic::take_hook();
     panic::set_hook(Box::new(|_| {}));
-    let built = panic::catch_unwind(AssertUnwindSafe(|| build(blueprint, options)));
+    let built = panic::catch_unwind(AssertUnwindSafe(|| build(blueprint, workers, options)));
     panic::set_hook(hook);
     match built {
         Ok(mut app) => Ok(app.run()),
@@ -95,7 +95,7 @@ fn explain(panic: &str, scene: String) -> GameError {
     GameError::NoWindow { reason: panic.lines().next().unwrap_or("unknown reason").to_owned(), scene }
 }
 
-fn build(blueprint: Arc<Blueprint>, options: GameOptions) -> App {
+fn build(blueprint: Arc<Blueprint>, workers: Workers, options: GameOptions) -> App {
     let window = Window {
         title: "Powder Master".into(),
         name: Some("powder-master".into()),
@@ -117,6 +117,7 @@ fn build(blueprint: Arc<Blueprint>, options: GameOptions) -> App {
     .insert_resource(ClearColor(Color::BLACK))
     .init_resource::<Room>()
     .add_systems(Startup, spawn_camera);
+    app.insert_resource(workers);
     control::load(app.world_mut(), blueprint);
     app
 }

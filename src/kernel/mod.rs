@@ -12,6 +12,7 @@ pub mod params;
 pub mod particles;
 pub mod pbf;
 pub mod predict;
+pub mod predictor;
 pub mod simd;
 pub mod smoothing;
 pub mod solids;

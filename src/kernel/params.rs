@@ -89,6 +89,9 @@ pub struct Quality {
     pub air_courant: f32,
     /// Gradient kernel.
     pub gradient: GradientKernel,
+    /// Whether the pressure predictor goes before the constraint. It costs about as much as two iterations and makes
+    /// the error independent of depth.
+    pub predictor: bool,
 }
 
 /// The named qualities, cheapest first but for `classic`.
@@ -133,23 +136,28 @@ impl Preset {
     /// The numbers behind the name.
     pub fn quality(self) -> Quality {
         let base = Quality {
-            substeps: 2,
+            substeps: 1,
             iterations: 2,
             kernel_radius: 2.5,
             correction_limit: 0.1,
             air_cell: 4.0,
             air_courant: 0.7,
             gradient: GradientKernel::Rational,
+            predictor: true,
         };
         match self {
-            Self::Classic => {
-                Quality { substeps: 1, iterations: 4, correction_limit: 0.5, gradient: GradientKernel::Spiky, ..base }
-            }
-            Self::Draft => Quality { substeps: 2, iterations: 2, correction_limit: 0.25, air_cell: 8.0, ..base },
-            Self::Fast => Quality { substeps: 2, iterations: 4, correction_limit: 0.25, ..base },
-            Self::Balanced => Quality { substeps: 4, iterations: 2, ..base },
-            Self::Fine => Quality { substeps: 4, iterations: 4, air_cell: 3.0, ..base },
-            Self::Reference => Quality { substeps: 16, iterations: 4, air_cell: 2.0, air_courant: 0.5, ..base },
+            Self::Classic => Quality {
+                iterations: 4,
+                correction_limit: 0.5,
+                gradient: GradientKernel::Spiky,
+                predictor: false,
+                ..base
+            },
+            Self::Draft => Quality { iterations: 1, air_cell: 8.0, ..base },
+            Self::Fast => base,
+            Self::Balanced => Quality { iterations: 3, ..base },
+            Self::Fine => Quality { substeps: 2, air_cell: 3.0, ..base },
+            Self::Reference => Quality { substeps: 8, iterations: 4, air_cell: 2.0, air_courant: 0.5, ..base },
         }
     }
 }
@@ -161,4 +169,19 @@ pub struct Domain {
     pub size: Vec2,
     /// Gravity, d/s².
     pub gravity: Vec2,
+}
+
+/// Nearest that a liquid particle comes to a box wall, d.
+pub const WALL_GAP: f32 = 0.25;
+
+impl Domain {
+    /// Upper right corner of where liquid particles may be, d; the lower left one is `WALL_GAP` in both coordinates.
+    pub fn highest(&self) -> Vec2 {
+        self.size - Vec2::splat(WALL_GAP)
+    }
+
+    /// The nearest place to a point where a liquid particle may be as far as the box's walls go.
+    pub fn keep_inside(&self, point: Vec2) -> Vec2 {
+        point.max(Vec2::splat(WALL_GAP)).min(self.highest())
+    }
 }

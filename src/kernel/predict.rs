@@ -3,14 +3,13 @@
 use crate::kernel::{
     params::{Domain, Quality},
     particles::Particles,
-    pbf::{Solver, WALL_GAP},
+    pbf::Solver,
     solids::Solids,
 };
-use glam::Vec2;
 
 /// Longest move of a substep, in kernel radii. Collision with rock is exact at any speed; what this bounds is how deep
-/// two streams can enter each other before the density constraint sees them: up to one kernel diameter each.
-const MOVE_RADII: f32 = 2.0;
+/// two streams can enter each other before the density constraint sees them: up to two kernel diameters each.
+const MOVE_RADII: f32 = 4.0;
 /// Substeps that a fast tick may take, as a multiple of the quality's.
 const SUBSTEP_GROWTH: u32 = 4;
 
@@ -46,7 +45,8 @@ pub fn remove_non_finite(particles: &mut Particles) -> usize {
     particles.retain(is_sound)
 }
 
-/// Predicts `x + v Δt` into the solver, cut to the longest move and swept against rock and box.
+/// Predicts `x + v Δt` into the solver, cut to the longest move and swept against rock and box. Where that changed the
+/// move, the velocity becomes that of the move that is left.
 pub fn predict(
     particles: &mut Particles,
     solver: &mut Solver,
@@ -57,7 +57,6 @@ pub fn predict(
 ) -> PredictReport {
     let mut report = PredictReport::default();
     let longest = MOVE_RADII * quality.kernel_radius;
-    let (low, high) = (Vec2::splat(WALL_GAP), domain.size - Vec2::splat(WALL_GAP));
     let has_rock = solids.count() > 0;
     solver.x.clear();
     solver.y.clear();
@@ -70,9 +69,14 @@ pub fn predict(
             (particles.vx[i], particles.vy[i]) = (way.x / dt, way.y / dt);
             report.speed_clamps += 1;
         }
-        let mut to = (from + way).max(low).min(high);
+        let free = from + way;
+        let mut to = domain.keep_inside(free);
         if has_rock {
             to = solids.sweep(from, to);
+        }
+        if to != free {
+            let velocity = (to - from) / dt;
+            (particles.vx[i], particles.vy[i]) = (velocity.x, velocity.y);
         }
         solver.x.push(to.x);
         solver.y.push(to.y);

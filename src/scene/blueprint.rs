@@ -19,17 +19,20 @@ pub enum Effect {
     Air,
     /// The air drags particles.
     Drag,
+    /// The pressure predictor.
+    Predictor,
+    /// The tensile correction `s_corr`.
+    Tension,
     /// XSPH viscosity.
     Viscosity,
     /// Vorticity confinement.
     Vorticity,
-    /// The tensile correction `s_corr`.
-    Tension,
 }
 
 impl Effect {
     /// All effects in the order in which their stages run.
-    pub const ALL: [Self; 5] = [Self::Air, Self::Drag, Self::Tension, Self::Viscosity, Self::Vorticity];
+    pub const ALL: [Self; 6] =
+        [Self::Air, Self::Drag, Self::Predictor, Self::Tension, Self::Viscosity, Self::Vorticity];
 
     /// Name on the command line, in scenes and on the screen.
     pub fn name(self) -> &'static str {
@@ -38,7 +41,20 @@ impl Effect {
             Self::Drag => "drag",
             Self::Viscosity => "viscosity",
             Self::Vorticity => "vorticity",
+            Self::Predictor => "predictor",
             Self::Tension => "tension",
+        }
+    }
+
+    /// What it does, in half a sentence.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Air => "the air moves",
+            Self::Drag => "the air drags particles",
+            Self::Predictor => "pressure is predicted on a coarse grid before the density constraint",
+            Self::Tension => "particles keep their distance at a surface (s_corr)",
+            Self::Viscosity => "neighbouring particles even out their velocities (XSPH)",
+            Self::Vorticity => "eddies keep turning (vorticity confinement)",
         }
     }
 

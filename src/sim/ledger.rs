@@ -16,6 +16,8 @@ pub enum Pass {
     Gravity,
     /// The air drags particles.
     Drag,
+    /// The pressure predictor.
+    Pressure,
     /// Positions are predicted and swept against rock and box.
     Predict,
     /// Particles are sorted into bins.
@@ -34,12 +36,13 @@ pub enum Pass {
 
 impl Pass {
     /// All passes in the order of the tick.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Edit,
         Self::Sources,
         Self::Air,
         Self::Gravity,
         Self::Drag,
+        Self::Pressure,
         Self::Predict,
         Self::Bin,
         Self::Solve,
@@ -57,6 +60,7 @@ impl Pass {
             Self::Air => "air",
             Self::Gravity => "gravity",
             Self::Drag => "drag",
+            Self::Pressure => "pressure",
             Self::Predict => "predict",
             Self::Bin => "bin",
             Self::Solve => "solve",

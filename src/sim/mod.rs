@@ -6,6 +6,7 @@ pub mod effects;
 pub mod intent;
 pub mod ledger;
 pub mod pace;
+pub mod replay;
 pub mod schedule;
 pub mod snapshot;
 pub mod stages;
@@ -24,6 +25,7 @@ impl Plugin for SimulationPlugin {
             .init_resource::<intent::IntentQueue>()
             .init_resource::<stages::TickPlan>()
             .init_resource::<state::SolverState>()
+            .init_resource::<state::PredictorState>()
             .init_resource::<workers::Workers>()
             .add_plugins(stages::plugin);
     }

@@ -29,6 +29,8 @@ pub enum SubstepSystems {
     Air,
     /// Gravity and drag change velocities.
     Forces,
+    /// The pressure predictor makes velocities nearly divergence-free.
+    Pressure,
     /// Velocities predict positions, swept against rock and box.
     Predict,
     /// Particles are sorted into bins; candidate ranges are built.

@@ -65,9 +65,11 @@ pub fn hash_state(particles: &Particles, solids: &Solids, air: &Air) -> u64 {
             hash.word(word);
         }
     }
-    for field in [air.pressure(), air.velocity_x(), air.velocity_y()] {
-        for value in field {
-            hash.word(value.to_bits());
+    for row in 0..air.rows() {
+        for field in [air.pressure_row(row), air.velocity_x_row(row), air.velocity_y_row(row)] {
+            for value in field {
+                hash.word(value.to_bits());
+            }
         }
     }
     hash.0

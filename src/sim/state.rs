@@ -9,6 +9,7 @@ use crate::{
         params::{Preset, Quality},
         particles::Particles,
         pbf::Solver,
+        predictor::Predictor,
         solids::Solids,
         sources::{Drain, Emitter, Wind},
         units::Scale,
@@ -107,6 +108,10 @@ pub struct Census {
 /// The solver's buffers: positions under correction, densities, bins. Written by the substep stages.
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
 pub struct SolverState(pub Solver);
+
+/// The pressure predictor's grid. Written by the pressure stage.
+#[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
+pub struct PredictorState(pub Predictor);
 
 /// What the elements mean to the kernel's passes, in kernel units, one entry an element.
 #[derive(Resource, Clone, Debug, Default)]

@@ -17,11 +17,13 @@ pub fn streak(tail: Vec2, head: Vec2, colour: [u8; 4]) -> Streak {
 /// Packs the air's colours, premultiplied by their opacity, row by row from the bottom.
 pub fn pack(air: &Air, view: View, reference: Reference, out: &mut Vec<u8>) {
     out.clear();
-    let velocity = air.velocity_x().iter().zip(air.velocity_y());
-    for (&pressure, (&u, &v)) in air.pressure().iter().zip(velocity) {
-        let (rgb, opacity) = air_colour(view, reference, pressure, Vec2::new(u, v));
-        out.extend(rgb.map(|channel| (f32::from(channel) * opacity) as u8));
-        out.push((255.0 * opacity) as u8);
+    for row in 0..air.rows() {
+        let velocity = air.velocity_x_row(row).iter().zip(air.velocity_y_row(row));
+        for (&pressure, (&u, &v)) in air.pressure_row(row).iter().zip(velocity) {
+            let (rgb, opacity) = air_colour(view, reference, pressure, Vec2::new(u, v));
+            out.extend(rgb.map(|channel| (f32::from(channel) * opacity) as u8));
+            out.push((255.0 * opacity) as u8);
+        }
     }
 }
 

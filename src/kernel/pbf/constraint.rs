@@ -15,6 +15,8 @@ pub(super) struct ConstraintPass<'a, G> {
     pub smoothing: &'a Smoothing,
     pub domain: &'a Domain,
     pub fluid: &'a FluidParams,
+    /// Density that is aimed at, 1 on the lattice.
+    pub rest_density: f32,
     /// Positions, d.
     pub x: &'a [f32],
     pub y: &'a [f32],
@@ -45,10 +47,10 @@ impl<G: Gradient> Pass for ConstraintPass<'_, G> {
         let (h, zero) = (L::splat(self.smoothing.radius), L::splat(0.0));
         let (h2, core) = (h * h, L::splat(self.smoothing.core));
         let density_scale = L::splat(self.smoothing.density_scale);
-        let gradient_scale = self.smoothing.gradient_scale / self.fluid.rest_density;
+        let gradient_scale = self.smoothing.gradient_scale / self.rest_density;
         let (gradient_scale2, relaxation) =
             (L::splat(gradient_scale * gradient_scale), L::splat(self.fluid.relaxation));
-        let (per_rest, floor) = (L::splat(1.0 / self.fluid.rest_density), L::splat(self.fluid.constraint_floor));
+        let (per_rest, floor) = (L::splat(1.0 / self.rest_density), L::splat(self.fluid.constraint_floor));
         for group in self.groups {
             let own = group.particles();
             let (xi, yi) = (L::load(&self.x[own.start..]), L::load(&self.y[own.start..]));

@@ -2,19 +2,26 @@
 
 use crate::kernel::{
     bins::{Group, RockBins},
-    params::{Domain, FluidParams},
-    pbf::{WALL_GAP, near_wall, wall_sums},
+    params::{Domain, FluidParams, WALL_GAP},
+    pbf::{near_wall, wall_sums},
     simd::{Lanes, Pass},
     smoothing::{Gradient, Smoothing},
 };
 use glam::Vec2;
 use std::marker::PhantomData;
 
+/// Pairs nearer than this are set apart, d.
+const APART_WITHIN: f32 = 0.8;
+/// Share of their distance by which the closest are set apart in an iteration.
+const APART_SHARE: f32 = 0.5;
+
 /// Moves the particles of `groups` by Δx, within the correction limit of their anchors and within the box.
-pub(super) struct CorrectionPass<'a, G, const TENSION: bool> {
+pub(super) struct CorrectionPass<'a, G, const TENSION: bool, const APART: bool> {
     pub smoothing: &'a Smoothing,
     pub domain: &'a Domain,
     pub fluid: &'a FluidParams,
+    /// Density that is aimed at, 1 on the lattice.
+    pub rest_density: f32,
     /// Furthest from the anchor in each coordinate, d.
     pub limit: f32,
     /// Positions, d.
@@ -33,7 +40,7 @@ pub(super) struct CorrectionPass<'a, G, const TENSION: bool> {
     pub gradient: PhantomData<G>,
 }
 
-impl<G: Gradient, const TENSION: bool> Pass for CorrectionPass<'_, G, TENSION> {
+impl<G: Gradient, const TENSION: bool, const APART: bool> Pass for CorrectionPass<'_, G, TENSION, APART> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let h_value = self.smoothing.radius;
@@ -43,9 +50,12 @@ impl<G: Gradient, const TENSION: bool> Pass for CorrectionPass<'_, G, TENSION> {
         let strength = L::splat(self.fluid.tension_strength);
         let distance = self.fluid.tension_distance * h_value;
         let per_reference = L::splat(1.0 / (h_value * h_value - distance * distance));
-        let scale = L::splat(-self.smoothing.gradient_scale / self.fluid.rest_density);
+        let scale = L::splat(-self.smoothing.gradient_scale / self.rest_density);
         let limit = L::splat(self.limit);
-        let (low, high) = (L::splat(WALL_GAP), self.domain.size - Vec2::splat(WALL_GAP));
+        // The sums are scaled by `scale` in the end; what sets apart is a length already.
+        let per_apart = L::splat(1.0 / (APART_WITHIN * APART_WITHIN));
+        let apart = L::splat(-APART_SHARE * self.rest_density / self.smoothing.gradient_scale);
+        let (low, high) = (L::splat(WALL_GAP), self.domain.highest());
         let [next_x, next_y] = self.next;
         for group in self.groups {
             let own = group.particles();
@@ -68,7 +78,11 @@ impl<G: Gradient, const TENSION: bool> Pass for CorrectionPass<'_, G, TENSION> {
                         let u4 = u2 * u2;
                         pressure = pressure - strength * (u4 * u4 * u4);
                     }
-                    let g = G::weight(h, core, r2, w * w) * pressure;
+                    let mut g = G::weight(h, core, r2, w * w) * pressure;
+                    if APART {
+                        let close = (L::splat(1.0) - r2 * per_apart).max(zero);
+                        g = g + close * apart;
+                    }
                     (sum_x, sum_y) = (sum_x + g * dx, sum_y + g * dy);
                 }
             }

@@ -10,22 +10,22 @@
 mod constraint;
 mod correction;
 pub(crate) mod parallel;
+#[cfg(test)]
+pub(crate) mod tests;
 
 use crate::kernel::{
     bins::{Bins, Neighbours, permute},
     element::ElementId,
     params::{Domain, FluidParams, GradientKernel, Quality},
     particles::Particles,
+    predictor::TARGET_DENSITY,
     simd::InstructionSet,
-    smoothing::{Rational, Smoothing, Spiky},
+    smoothing::{Gradient, Rational, Smoothing, Spiky},
     solids::Solids,
 };
 use constraint::ConstraintPass;
 use correction::CorrectionPass;
 use glam::Vec2;
-
-/// Nearest that a liquid particle comes to a box wall, d.
-pub const WALL_GAP: f32 = 0.25;
 
 /// Positions under correction, densities, bins: what the solver keeps beside the particles. 45 bytes a particle and the
 /// bins. The arrays follow the order of the particles.
@@ -66,8 +66,18 @@ pub struct SolveParams<'a> {
     pub quality: &'a Quality,
     /// Whether the tensile correction is added.
     pub tension: bool,
+    /// Whether the pressure predictor ran: then the constraint aims at its target density, and pairs that are too close
+    /// are set apart.
+    pub predicted: bool,
     /// Threads to use.
     pub threads: usize,
+}
+
+impl SolveParams<'_> {
+    /// Density that the constraint aims at, 1 on the lattice.
+    fn rest_density(&self) -> f32 {
+        self.fluid.rest_density * if self.predicted { TARGET_DENSITY } else { 1.0 }
+    }
 }
 
 impl Default for Solver {
@@ -127,7 +137,7 @@ impl Solver {
         }
         permute(&mut particles.id, places, &mut self.spare_ids);
         permute(&mut particles.element, places, &mut self.spare_elements);
-        separate_coincident(&particles.id, &mut self.x, &mut self.y);
+        separate_coincident(&particles.id, &mut self.x, &mut self.y, domain, solids);
         self.bins.group(&self.x, self.instructions.width(), self.neighbours);
         self.anchor_x.clone_from(&self.x);
         self.anchor_y.clone_from(&self.y);
@@ -147,18 +157,19 @@ impl Solver {
         }
     }
 
-    fn iterate<G: crate::kernel::smoothing::Gradient>(&mut self, params: &SolveParams) {
+    fn iterate<G: Gradient>(&mut self, params: &SolveParams) {
         self.find_lambda::<G>(params);
-        if params.tension {
-            self.correct::<G, true>(params);
-        } else {
-            self.correct::<G, false>(params);
+        match (params.tension, params.predicted) {
+            (false, false) => self.correct::<G, false, false>(params),
+            (false, true) => self.correct::<G, false, true>(params),
+            (true, false) => self.correct::<G, true, false>(params),
+            (true, true) => self.correct::<G, true, true>(params),
         }
         std::mem::swap(&mut self.x, &mut self.next_x);
         std::mem::swap(&mut self.y, &mut self.next_y);
     }
 
-    fn find_lambda<G: crate::kernel::smoothing::Gradient>(&mut self, params: &SolveParams) {
+    fn find_lambda<G: Gradient>(&mut self, params: &SolveParams) {
         let (smoothing, instructions) = (&self.smoothing, self.instructions);
         let (x, y, rock) = (&self.x, &self.y, self.bins.rock());
         let outputs = [&mut self.lambda[..], &mut self.density[..]];
@@ -167,6 +178,7 @@ impl Solver {
                 smoothing,
                 domain: params.domain,
                 fluid: params.fluid,
+                rest_density: params.rest_density(),
                 x,
                 y,
                 rock,
@@ -179,16 +191,17 @@ impl Solver {
         });
     }
 
-    fn correct<G: crate::kernel::smoothing::Gradient, const TENSION: bool>(&mut self, params: &SolveParams) {
+    fn correct<G: Gradient, const TENSION: bool, const APART: bool>(&mut self, params: &SolveParams) {
         let (smoothing, instructions) = (&self.smoothing, self.instructions);
         let (x, y, rock, lambda) = (&self.x, &self.y, self.bins.rock(), &self.lambda);
         let anchor = [&self.anchor_x[..], &self.anchor_y[..]];
         let outputs = [&mut self.next_x[..], &mut self.next_y[..]];
         parallel::split(self.bins.groups(), outputs, params.threads, &|groups, base, next| {
-            instructions.run(CorrectionPass::<G, TENSION> {
+            instructions.run(CorrectionPass::<G, TENSION, APART> {
                 smoothing,
                 domain: params.domain,
                 fluid: params.fluid,
+                rest_density: params.rest_density(),
                 limit: params.quality.correction_limit,
                 x,
                 y,
@@ -205,20 +218,26 @@ impl Solver {
 }
 
 /// Particles at one point have no direction to part in (the spiky gradient is 0/0 there); equal ones among the last few
-/// of the sorted order are set apart by a small offset that only depends on the id.
-fn separate_coincident(id: &[u32], x: &mut [f32], y: &mut [f32]) {
+/// of the sorted order are set apart by a small offset that only depends on the id. Rock and walls stop it. Where many are
+/// pressed into a corner of the rock, they stand on one point to the last bit; there it goes the other way.
+fn separate_coincident(id: &[u32], x: &mut [f32], y: &mut [f32], domain: &Domain, solids: &Solids) {
     /// Closer than this in both coordinates counts as one point, d.
     const COINCIDENT: f32 = 1e-4;
     /// Largest offset in each coordinate, d.
     const APART: f32 = 0.05;
     /// Particles before it that each is compared with.
     const LOOK_BACK: usize = 4;
+    let is_near = |a: Vec2, b: Vec2| (a - b).abs().max_element() < COINCIDENT;
     for i in 1..x.len() {
-        let near = |j: usize| (x[i] - x[j]).abs() < COINCIDENT && (y[i] - y[j]).abs() < COINCIDENT;
-        if (i.saturating_sub(LOOK_BACK)..i).any(near) {
+        let at = Vec2::new(x[i], y[i]);
+        if (i.saturating_sub(LOOK_BACK)..i).any(|j| is_near(at, Vec2::new(x[j], y[j]))) {
             let mixed = mix(id[i]);
-            x[i] += APART * unit(mixed);
-            y[i] += APART * unit(mixed >> 16);
+            let offset = APART * Vec2::new(unit(mixed), unit(mixed >> 16));
+            let mut to = solids.sweep(at, domain.keep_inside(at + offset));
+            if is_near(at, to) {
+                to = solids.sweep(at, domain.keep_inside(at - offset));
+            }
+            (x[i], y[i]) = (to.x, to.y);
         }
     }
 }

@@ -5,6 +5,7 @@ use crate::{
     sim::{
         intent::{Intent, IntentQueue},
         ledger::{Pass, PassLedger},
+        replay::Recorder,
         state::{AirGrid, Census, Clock, Counters, ParticleStore, Rock, Setup},
     },
 };
@@ -14,6 +15,7 @@ use std::time::Instant;
 /// Applies all waiting intents in order.
 pub(super) fn apply_intents(
     mut queue: ResMut<IntentQueue>,
+    mut recorder: Option<ResMut<Recorder>>,
     setup: Res<Setup>,
     mut particles: ResMut<ParticleStore>,
     mut rock: ResMut<Rock>,
@@ -32,6 +34,9 @@ pub(super) fn apply_intents(
     let mut placed = 0;
     for intent in queue.drain() {
         let seed = clock.edits;
+        if let Some(recorder) = &mut recorder {
+            recorder.note(clock.tick, seed, intent);
+        }
         clock.edits += 1;
         let mut matter = Matter {
             elements: setup.elements(),

@@ -43,6 +43,14 @@ pub(super) fn plan_tick(
         called(present(&|element| element.drag > 0.0), "particles feel the air", "no particle feels the air"),
     );
     effects.decide(
+        Effect::Predictor,
+        if setup.quality.predictor {
+            called(!particles.is_empty(), "a liquid is there", "no liquid")
+        } else {
+            (false, "not in this quality")
+        },
+    );
+    effects.decide(
         Effect::Tension,
         called(
             !particles.is_empty() && setup.blueprint.fluid.tension_strength > 0.0,

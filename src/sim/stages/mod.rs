@@ -42,7 +42,7 @@ pub(super) fn plugin(app: &mut App) {
             gate::plan_tick.in_set(TickSystems::Gate),
             step::run_substeps.in_set(TickSystems::Step),
             (measure::count_particles, measure::end_tick).chain().in_set(TickSystems::Measure),
-            measure::count_particles.after(TickSystems::Edit).run_if(bevy::prelude::not(time_moves)),
+            measure::count_particles.after(TickSystems::Measure).run_if(bevy::prelude::not(time_moves)),
         ),
     );
     app.add_schedule(substep_schedule());
@@ -57,6 +57,7 @@ fn substep_schedule() -> Schedule {
         (
             SubstepSystems::Air,
             SubstepSystems::Forces,
+            SubstepSystems::Pressure,
             SubstepSystems::Predict,
             SubstepSystems::Bin,
             SubstepSystems::Solve,
@@ -67,6 +68,7 @@ fn substep_schedule() -> Schedule {
     schedule.add_systems((
         substep::step_air.run_if(runs(Effect::Air)).in_set(SubstepSystems::Air),
         (substep::apply_gravity, substep::apply_drag.run_if(runs(Effect::Drag))).chain().in_set(SubstepSystems::Forces),
+        substep::predict_pressure.run_if(runs(Effect::Predictor)).in_set(SubstepSystems::Pressure),
         substep::predict_positions.in_set(SubstepSystems::Predict),
         substep::sort_into_bins.in_set(SubstepSystems::Bin),
         substep::solve_density.in_set(SubstepSystems::Solve),

@@ -1,13 +1,13 @@
 //! The stages of a substep.
 
 use crate::{
-    kernel::{forces, pbf, predict, velocity},
+    kernel::{forces, pbf, predict, predictor, velocity},
     scene::blueprint::Effect,
     sim::{
         effects::Effects,
         ledger::{Pass, PassLedger},
         stages::TickPlan,
-        state::{AirGrid, Counters, ParticleStore, Rates, Rock, Setup, SolverState, Sources},
+        state::{AirGrid, Counters, ParticleStore, PredictorState, Rates, Rock, Setup, SolverState, Sources},
         workers::Workers,
     },
 };
@@ -56,6 +56,28 @@ pub(super) fn apply_drag(
     ledger.note(Pass::Drag, start.elapsed());
 }
 
+/// The pressure predictor makes velocities nearly divergence-free.
+pub(super) fn predict_pressure(
+    mut particles: ResMut<ParticleStore>,
+    mut predictor: ResMut<PredictorState>,
+    solver: Res<SolverState>,
+    rock: Res<Rock>,
+    setup: Res<Setup>,
+    plan: Res<TickPlan>,
+    mut ledger: ResMut<PassLedger>,
+) {
+    let start = Instant::now();
+    let params = predictor::PredictorParams {
+        domain: &setup.blueprint.domain,
+        cell: setup.quality.kernel_radius,
+        rest_density: setup.blueprint.fluid.rest_density,
+        instructions: solver.instructions,
+        dt: plan.substep_seconds(),
+    };
+    predictor.run(&mut particles, &rock, &params);
+    ledger.note(Pass::Pressure, start.elapsed());
+}
+
 /// Velocities predict positions.
 pub(super) fn predict_positions(
     mut particles: ResMut<ParticleStore>,
@@ -102,6 +124,7 @@ pub(super) fn solve_density(
             fluid: &setup.blueprint.fluid,
             quality: &setup.quality,
             tension: effects.get(Effect::Tension).running,
+            predicted: effects.get(Effect::Predictor).running,
             threads,
         });
     });
@@ -114,13 +137,15 @@ pub(super) fn update_velocities(
     mut solver: ResMut<SolverState>,
     rock: Res<Rock>,
     setup: Res<Setup>,
+    effects: Res<Effects>,
     plan: Res<TickPlan>,
     mut counters: ResMut<Counters>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
     let dt = plan.substep_seconds();
-    let report = velocity::update_velocities(&mut particles, &mut solver, &rock, &setup.quality, dt);
+    let predicted = effects.get(Effect::Predictor).running;
+    let report = velocity::update_velocities(&mut particles, &mut solver, &rock, &setup.quality, predicted, dt);
     counters.position_clamps += report.position_clamps;
     ledger.note(Pass::Velocity, start.elapsed());
 }

@@ -1,0 +1,122 @@
+//! `bench`: tables of what things cost.
+
+use crate::{
+    cli::{
+        args::Bench,
+        failure::Failure,
+        output::{self, STDOUT},
+        progress::StatusLine,
+        threads,
+    },
+    lab::{
+        binning::{self, BinningError, Growth, ORIGINAL, PRESET, RATES},
+        machine::processor,
+    },
+};
+use serde_json::json;
+use std::{fmt::Write, path::Path};
+
+/// Measures a table and prints it.
+pub(super) fn bench(what: &Bench) -> Result<(), Failure> {
+    match what {
+        Bench::Neighbours { threads, json } => neighbours(*threads, json.as_deref()),
+    }
+}
+
+fn neighbours(threads: Option<u64>, json: Option<&Path>) -> Result<(), Failure> {
+    let to_stdout = json == Some(Path::new(STDOUT));
+    output::check(json.filter(|_| !to_stdout).as_slice())?;
+    let workers = threads::workers(threads)?;
+    let line = StatusLine::new();
+    let growths = binning::measure(&workers, &mut |text| line.say(text)).map_err(|error| match error {
+        BinningError::Scene(error) => Failure::from(error),
+        BinningError::Threads(_) => Failure::Outcome(error.to_string()),
+    })?;
+    drop(line);
+    if let Some(path) = json {
+        let report = json!({
+            "processor": processor(),
+            "quality": PRESET.name(),
+            "rates": RATES,
+            "methods": growths,
+            "original": { "rates": RATES[1..], "brute force": ORIGINAL[0], "bins": ORIGINAL[1] },
+        });
+        output::write_json(path, &report)?;
+    }
+    if to_stdout { Ok(()) } else { output::print(&table(&growths)) }
+}
+
+/// The table in Markdown.
+fn table(growths: &[Growth]) -> String {
+    let mut text = format!("Particles at a tick rate, quality `{}`, {}:\n\n", PRESET.name(), processor());
+    let names = growths.iter().map(|growth| growth.name.as_str()).chain(["original: brute force", "original: bins"]);
+    let names: Vec<&str> = names.collect();
+    let row = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
+    text += &row(&[&["ticks a second"], &names[..]].concat().iter().map(ToString::to_string).collect::<Vec<_>>());
+    text += &format!("|{}\n", "---:|".repeat(names.len() + 1));
+    let shown = |count: Option<f64>| count.map_or_else(|| "–".to_owned(), thousands);
+    for (k, rate) in RATES.iter().enumerate() {
+        let ours = growths.iter().map(|growth| growth.particles_at_rate[k]);
+        let theirs = ORIGINAL.iter().map(|counts| k.checked_sub(1).map(|k| counts[k]));
+        let cells: Vec<String> = std::iter::once(rate.to_string()).chain(ours.chain(theirs).map(shown)).collect();
+        text += &row(&cells);
+    }
+    let mut exponents: Vec<String> = growths.iter().map(|growth| power(growth.exponent)).collect();
+    exponents.extend(ORIGINAL.iter().map(|counts| power(binning::exponent_of(&RATES[1..], counts))));
+    text += &row(&[&["cost grows as".to_owned()], &exponents[..]].concat());
+    text += "\nMeasured (particles: median ms a tick):\n\n";
+    for growth in growths {
+        let points: Vec<String> = growth
+            .points
+            .iter()
+            .map(|point| format!("{}: {:.3}", thousands(point.particles as f64), point.ms))
+            .collect();
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "- {}: {}", growth.name, points.join("; "));
+    }
+    text
+}
+
+fn power(exponent: Option<f64>) -> String {
+    exponent.map_or_else(|| "–".to_owned(), |exponent| format!("n^{exponent:.2}"))
+}
+
+/// A count with commas between the thousands.
+fn thousands(count: f64) -> String {
+    let digits = format!("{count:.0}");
+    let mut text = String::new();
+    for (k, digit) in digits.chars().enumerate() {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_has_a_row_for_each_rate_beside_the_originals() {
+        let growth = Growth {
+            name: "bins".into(),
+            threads: 1,
+            particles_at_rate: vec![Some(1234.4), None, Some(5.0), Some(999.0), Some(1_234_567.0)],
+            exponent: Some(1.0),
+            points: vec![binning::Point { particles: 128, ms: 0.25 }],
+        };
+        let text = table(&[growth]);
+        for line in [
+            "| ticks a second | bins | original: brute force | original: bins |",
+            "| 75 | 1,234 | – | – |",
+            "| 70 | – | 170 | 1,500 |",
+            "| 30 | 1,234,567 | 260 | 1,750 |",
+            "| cost grows as | n^1.00 | n^2.00 | n^5.42 |",
+            "- bins: 128: 0.250",
+        ] {
+            assert!(text.contains(line), "no line {line} in\n{text}");
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! How a command ends if it does not end well: one line and an exit code.
+
+use crate::scene::SceneError;
+use std::{fmt, io, path::Path, process::ExitCode};
+
+/// Why a command did not end well.
+#[derive(Debug)]
+pub(super) enum Failure {
+    /// Bad usage or input: where, what is wrong, what is allowed.
+    Usage(String),
+    /// A check failed, or an output can't be written.
+    Outcome(String),
+}
+
+impl Failure {
+    /// An output that can't be written.
+    pub(super) fn unwritten(path: &Path, error: &io::Error) -> Self {
+        Self::Outcome(format!("{}: can't be written: {error}", path.display()))
+    }
+
+    /// The exit code of the program.
+    pub(super) fn exit_code(&self) -> ExitCode {
+        ExitCode::from(match self {
+            Self::Outcome(_) => 1,
+            Self::Usage(_) => 2,
+        })
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Usage(line) | Self::Outcome(line) => formatter.write_str(line),
+        }
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        Self::Usage(error.to_string())
+    }
+}
+
+/// The parser's complaint, which takes several lines, as one.
+pub(super) fn condense(error: &clap::Error) -> String {
+    let text = error.render().to_string();
+    let complaint: Vec<&str> = text
+        .lines()
+        .map(str::trim)
+        .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more information"))
+        // "tip: to pass '--x' as a value, use '-- --x'": nothing here takes such a value.
+        .filter(|line| !line.is_empty() && !line.starts_with("tip: to pass"))
+        .collect();
+    let complaint = complaint.join(" ");
+    let complaint = complaint.strip_prefix("error: ").unwrap_or(&complaint);
+    format!("{complaint} (powder-master --help says what there is)")
+}

@@ -1,0 +1,53 @@
+//! `list`: what there is to choose from, one a line, fields separated by tabs.
+
+use crate::{
+    cli::{args::Listing, failure::Failure, output},
+    kernel::{element::Element, params::Preset},
+    scene::{self, blueprint::Effect},
+};
+
+/// Prints a list on stdout.
+pub(super) fn list(what: Listing) -> Result<(), Failure> {
+    let lines = match what {
+        Listing::Scenes => scene::builtin_names().into_iter().map(scene).collect::<Result<_, _>>()?,
+        Listing::Elements => scene::elements()?.iter().map(|(_, row)| element(row)).collect(),
+        Listing::Effects => Effect::ALL.map(|effect| format!("{}\t{}", effect.name(), effect.meaning())).to_vec(),
+        Listing::Qualities => Preset::ALL.map(quality).to_vec(),
+    };
+    output::print(&lines.into_iter().fold(String::new(), |text: String, line| text + &line + "\n"))
+}
+
+fn scene(name: &str) -> Result<String, Failure> {
+    let scene = scene::load(name)?;
+    let parameters: Vec<String> = (scene.parameters().iter())
+        .map(|(name, spec)| format!("{name}={} ({} … {})", spec.default, spec.min, spec.max))
+        .collect();
+    Ok(format!("{name}\t{}\t{}", scene.description(), parameters.join(", ")))
+}
+
+fn element(row: &Element) -> String {
+    let [red, green, blue] = row.colour;
+    let kind = if row.fixed { "fixed" } else { "movable" };
+    let Element { name, key, density, viscosity, vorticity, drag, .. } = row;
+    format!(
+        "{name}\tkey={key} {kind} colour=#{red:02x}{green:02x}{blue:02x} density={density} viscosity={viscosity} \
+         vorticity={vorticity} drag={drag}"
+    )
+}
+
+fn quality(preset: Preset) -> String {
+    let values = preset.quality();
+    format!(
+        "{}\tsubsteps={} iterations={} kernel_radius={} correction_limit={} air_cell={} air_courant={} gradient={:?} predictor={}",
+        preset.name(),
+        values.substeps,
+        values.iterations,
+        values.kernel_radius,
+        values.correction_limit,
+        values.air_cell,
+        values.air_courant,
+        values.gradient,
+        values.predictor
+    )
+    .to_lowercase()
+}

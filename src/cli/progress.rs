@@ -1,0 +1,63 @@
+//! A line on the terminal that says how far a long work is. Nothing if stderr is no terminal.
+
+use crate::lab::run::Observer;
+use bevy::ecs::world::World;
+use std::{
+    io::{self, IsTerminal, Write},
+    time::{Duration, Instant},
+};
+
+/// A line on stderr that is written over and over.
+pub(super) struct StatusLine {
+    terminal: bool,
+}
+
+impl StatusLine {
+    /// An empty line.
+    pub(super) fn new() -> Self {
+        Self { terminal: io::stderr().is_terminal() }
+    }
+
+    /// Says something in place of what was said last.
+    pub(super) fn say(&self, text: &str) {
+        if self.terminal {
+            // A terminal that is gone must not end the work.
+            let _ = write!(io::stderr(), "\r\x1b[K{text}");
+        }
+    }
+}
+
+impl Drop for StatusLine {
+    fn drop(&mut self) {
+        self.say("");
+    }
+}
+
+/// Time from one word of progress to the next.
+const EVERY: Duration = Duration::from_millis(200);
+
+/// Shows the progress of a run.
+pub(super) struct Progress {
+    line: StatusLine,
+    ticks: u64,
+    done: u64,
+    shown: Instant,
+}
+
+impl Progress {
+    /// Progress of a run of `ticks`.
+    pub(super) fn new(ticks: u64) -> Self {
+        Self { line: StatusLine::new(), ticks, done: 0, shown: Instant::now() }
+    }
+}
+
+impl Observer for Progress {
+    fn after_tick(&mut self, _world: &World) -> io::Result<()> {
+        self.done += 1;
+        if self.shown.elapsed() >= EVERY {
+            self.shown = Instant::now();
+            self.line.say(&format!("{:3} %  tick {} of {}", 100 * self.done / self.ticks, self.done, self.ticks));
+        }
+        Ok(())
+    }
+}

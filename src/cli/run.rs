@@ -1,0 +1,160 @@
+//! `run`: a scene without a window, and what is to be known of it.
+
+use crate::{
+    cli::{
+        args::{RunArguments, Ticks},
+        failure::Failure,
+        output::{self, STDOUT},
+        progress::Progress,
+        threads,
+    },
+    lab::{
+        self,
+        headless::Headless,
+        metrics::Metrics,
+        particle_list,
+        picture::{DISC_RADIUS, LONG_SIDE, Picture},
+        run::{Observer, Plan},
+        sampler::Sampler,
+        trace::Trace,
+    },
+    scene::{
+        self,
+        blueprint::{Blueprint, EffectModes},
+    },
+    sim::{control, replay::Replay, view::View},
+};
+use bevy::ecs::world::World;
+use std::{fs::File, io::BufWriter, path::Path, sync::Arc, time::Instant};
+
+/// Ticks of a run that does not say: 10 s.
+const DEFAULT_TICKS: u64 = 600;
+
+/// Runs a scene and writes what was asked for.
+pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
+    check_outputs(arguments)?;
+    let (blueprint, plan) = prepare(arguments)?;
+    let workers = threads::workers(arguments.threads)?;
+    let trace = arguments.trace.as_deref().map(Tracing::create).transpose()?;
+
+    let begun = Instant::now();
+    let mut headless = Headless::new(Arc::new(blueprint), workers);
+    let mut sampler = arguments.metrics.is_some().then(|| Sampler::new(headless.world(), plan.warmup));
+    let trace = simulate(&mut headless, &plan, sampler.as_mut(), trace)?;
+    let seconds = begun.elapsed().as_secs_f64();
+
+    if let Some(trace) = trace {
+        trace.finish()?;
+    }
+    let world = headless.world();
+    let metrics = sampler.map(|sampler| sampler.finish(world));
+    write_outputs(arguments, world, metrics.as_ref())?;
+    if arguments.metrics.as_deref() == Some(Path::new(STDOUT)) {
+        return Ok(());
+    }
+    let (ticks, hash) = (plan.ticks, control::hash(world));
+    output::print(&format!("scene={} ticks={ticks} wall_seconds={seconds:.3} hash={hash:016x}\n", arguments.scene))
+}
+
+/// The trace and its path, for what is to be said if it can't be written.
+struct Tracing<'a> {
+    path: &'a Path,
+    trace: Trace<BufWriter<File>>,
+}
+
+impl<'a> Tracing<'a> {
+    fn create(path: &'a Path) -> Result<Self, Failure> {
+        let trace = Trace::new(output::create(path)?).map_err(|error| Failure::unwritten(path, &error))?;
+        Ok(Self { path, trace })
+    }
+
+    fn finish(self) -> Result<(), Failure> {
+        self.trace.finish().map_err(|error| Failure::unwritten(self.path, &error))
+    }
+}
+
+fn check_outputs(arguments: &RunArguments) -> Result<(), Failure> {
+    let metrics = arguments.metrics.as_deref().filter(|path| *path != Path::new(STDOUT));
+    let files = [metrics, arguments.particles.as_deref(), arguments.trace.as_deref(), arguments.png.as_deref()];
+    output::check(&files.into_iter().flatten().collect::<Vec<_>>())
+}
+
+/// Everything that is read, and how far to run it.
+fn prepare(arguments: &RunArguments) -> Result<(Blueprint, Plan), Failure> {
+    let file = scene::load(&arguments.scene)?;
+    let effects: EffectModes = arguments.effects.iter().copied().collect();
+    let replay = arguments.replay.as_deref().map(read_replay).transpose()?;
+    let blueprint = match &replay {
+        None => file.build(&arguments.settings, arguments.quality, &effects)?,
+        Some((path, replay)) => {
+            if replay.header.scene != file.name() {
+                return Err(Failure::Usage(format!(
+                    "{}: was recorded in the scene {}, not in {}; allowed: run {0} --replay FILE",
+                    path.display(),
+                    replay.header.scene,
+                    file.name()
+                )));
+            }
+            let settings = replay.header.settings();
+            let modes = replay.header.effects.iter().chain(&effects).map(|(effect, mode)| (*effect, *mode)).collect();
+            let built = file.build(&settings, Some(arguments.quality.unwrap_or(replay.header.preset)), &modes)?;
+            replay.header.restore(built, arguments.quality.is_none())
+        }
+    };
+    let recorded = replay.as_ref().map(|(_, replay)| replay.header.ticks.max(1));
+    let seconds = arguments.seconds.map(|Ticks(ticks)| ticks);
+    let ticks = arguments.ticks.or(seconds).or(recorded).unwrap_or(DEFAULT_TICKS);
+    if arguments.warmup >= ticks {
+        return Err(Failure::Usage(format!(
+            "--warmup {} leaves nothing of the {ticks} ticks; allowed: 0 to {}",
+            arguments.warmup,
+            ticks - 1
+        )));
+    }
+    let entries = replay.map(|(_, replay)| replay.entries).unwrap_or_default();
+    let intents = entries.into_iter().map(|entry| (entry.tick, entry.intent)).collect();
+    Ok((blueprint, Plan { ticks, warmup: arguments.warmup, intents }))
+}
+
+fn read_replay(path: &Path) -> Result<(&Path, Replay), Failure> {
+    let bad = |what: &dyn std::fmt::Display| Failure::Usage(format!("{}: {what}", path.display()));
+    let text = std::fs::read_to_string(path).map_err(|error| bad(&format_args!("can't be read: {error}")))?;
+    let replay = Replay::read(&text, &*scene::elements()?).map_err(|error| bad(&error))?;
+    Ok((path, replay))
+}
+
+/// Runs the plan; gives the trace back, written up to the end.
+fn simulate<'a>(
+    headless: &mut Headless,
+    plan: &Plan,
+    sampler: Option<&mut Sampler>,
+    mut tracing: Option<Tracing<'a>>,
+) -> Result<Option<Tracing<'a>>, Failure> {
+    let mut progress = Progress::new(plan.ticks);
+    let mut observers: Vec<&mut dyn Observer> = vec![&mut progress];
+    if let Some(sampler) = sampler {
+        observers.push(sampler);
+    }
+    if let Some(tracing) = &mut tracing {
+        observers.push(&mut tracing.trace);
+    }
+    let outcome = lab::run::run(headless, plan, &mut observers);
+    match (outcome, &tracing) {
+        (Err(error), Some(tracing)) => Err(Failure::unwritten(tracing.path, &error)),
+        _ => Ok(tracing),
+    }
+}
+
+fn write_outputs(arguments: &RunArguments, world: &World, metrics: Option<&Metrics>) -> Result<(), Failure> {
+    if let Some(path) = &arguments.particles {
+        output::write(path, |file| particle_list::write(world, file))?;
+    }
+    if let Some(path) = &arguments.png {
+        let picture = Picture::of_world(world, View::Elements, LONG_SIDE, DISC_RADIUS);
+        output::write(path, |file| picture.write_png(file))?;
+    }
+    if let (Some(path), Some(metrics)) = (&arguments.metrics, metrics) {
+        output::write_json(path, metrics)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,52 @@
+//! `study`: experiments of the original report, repeated.
+
+use crate::{
+    cli::{args::Study, failure::Failure, output, progress::StatusLine, threads},
+    lab::{
+        picture::Picture,
+        rest_density::{self, OBSERVED_FOR, Outcome, PRESETS, RATIOS, SETTLED_AFTER},
+    },
+};
+use std::{fmt::Write, path::Path};
+
+/// Gap between the pictures of a study, pixels.
+const GAP: u32 = 12;
+
+/// Runs a study and prints what it found.
+pub(super) fn study(what: &Study) -> Result<(), Failure> {
+    match what {
+        Study::RestDensity { threads, out } => rest_density(*threads, out),
+    }
+}
+
+fn rest_density(threads: Option<u64>, folder: &Path) -> Result<(), Failure> {
+    let path = folder.join("rest-density.png");
+    output::check(&[&path])?;
+    let workers = threads::workers(threads)?;
+    let line = StatusLine::new();
+    let (outcomes, pictures): (Vec<_>, Vec<_>) =
+        rest_density::study(&workers, &mut |text| line.say(text))?.into_iter().unzip();
+    drop(line);
+    let rows: Vec<Picture> = pictures.chunks(RATIOS.len()).map(|row| Picture::row(row, GAP)).collect();
+    output::write(&path, |file| Picture::column(&rows).write_png(file))?;
+    output::print(&table(&outcomes))
+}
+
+fn table(outcomes: &[Outcome]) -> String {
+    let mut text = format!(
+        "Means over {OBSERVED_FOR} s after {SETTLED_AFTER} s; rows of the picture: {}.\n\n\
+         | quality | ratio | kinetic energy a particle, J/m | rms speed, d a tick | particles a d², lower half | \
+         upper half | slope | surface, m |\n|---|---:|---:|---:|---:|---:|---:|---:|\n",
+        PRESETS.map(|preset| format!("`{}`", preset.name())).join(", ")
+    );
+    for outcome in outcomes {
+        let Outcome { quality, ratio, kinetic_energy, jitter, density_bottom, density_top, slope, surface } = outcome;
+        // Writing to a string does not fail.
+        let _ = writeln!(
+            text,
+            "| `{quality}` | {ratio:.2} | {kinetic_energy:.3} | {jitter:.4} | {density_bottom:.2} | {density_top:.2} | \
+             {slope:+.3} | {surface:.2} |"
+        );
+    }
+    text
+}

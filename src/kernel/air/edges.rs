@@ -1,0 +1,82 @@
+//! Open sides: the ring beyond them is the air outside, held at pressure 1.
+//!
+//! A side held hard at pressure 1 throws sound back upside down, as the end of an organ pipe does. So each face of an
+//! open side takes the solution of its own wave between the cell inside (p, u) and the air outside (1, U), u and U along
+//! the outward normal:
+//! ```text
+//! u_face = ½ (u + U) + ½ c (p − 1)        p_face = ½ (p + 1) + (u − U)/(2c)
+//! ```
+//! A wave that goes out (p − 1 = u/c) passes without an echo; a lasting pressure other than 1 blows off. U follows u
+//! with the time that sound takes across the box, so that lasting wind meets no resistance: zero gradient, late. Air that
+//! leaves is lost; air that enters has pressure 1, the speed U and the sideways speed of the cell it enters.
+
+use super::advect::FACE_FILTER;
+use super::grid::Air;
+
+/// A cell at an open side.
+struct Edge {
+    /// The cell, in the fields.
+    inside: usize,
+    /// Its neighbour in the ring.
+    ring: usize,
+    /// Its place in `Air::outside`.
+    slot: usize,
+    /// Whether the outward normal is along x.
+    along_x: bool,
+    /// 1 if the outward normal points to larger coordinates, else −1.
+    outward: f32,
+}
+
+impl Air {
+    /// Brings the ring beyond the open sides up to date: what pass 1 takes in from there.
+    pub(super) fn refresh_outside(&mut self, sound_speed: f32) {
+        // Pass 1 adds half of the ring's velocity and the filter's part of the pressure; this is the rest of `u_face`.
+        let lift = (1.0 - 2.0 * FACE_FILTER) * sound_speed;
+        self.for_each_edge(|air, edge| {
+            let Edge { inside, ring, slot, along_x, outward } = edge;
+            let normal = (air.outside[slot] + lift * (air.pressure[inside] - 1.0)) * outward;
+            air.velocity_x[ring] = if along_x { normal } else { air.velocity_x[inside] };
+            air.velocity_y[ring] = if along_x { air.velocity_y[inside] } else { normal };
+        });
+    }
+
+    /// After pass 2: the part `(u − U)/(2c)` of the face's pressure (pass 2 has given the rest), then U follows.
+    pub(super) fn settle_edges(&mut self, sound_speed: f32, dt: f32) {
+        let courant = sound_speed * dt / self.cell;
+        let follow = (sound_speed * dt / self.size.max_element()).min(1.0);
+        self.for_each_edge(|air, edge| {
+            let velocity = if edge.along_x { &mut air.velocity_x } else { &mut air.velocity_y };
+            let normal = velocity[edge.inside] * edge.outward;
+            let outside = &mut air.outside[edge.slot];
+            velocity[edge.inside] = (normal - (normal - *outside) * (0.5 * courant)) * edge.outward;
+            *outside += (normal - *outside) * follow;
+        });
+    }
+
+    /// Calls `act` for each open cell at an open side: left, right, bottom, top.
+    fn for_each_edge(&mut self, mut act: impl FnMut(&mut Self, Edge)) {
+        let (columns, rows, stride) = (self.columns(), self.rows(), self.stride());
+        let open = self.params.open;
+        let sides = [
+            (open.left, true, false, 0),
+            (open.right, true, true, rows),
+            (open.bottom, false, false, 2 * rows),
+            (open.top, false, true, 2 * rows + columns),
+        ];
+        for (_, along_x, high, first_slot) in sides.into_iter().filter(|(open, ..)| *open) {
+            let step = if along_x { 1 } else { stride };
+            for i in 0..if along_x { rows } else { columns } {
+                let inside = match (along_x, high) {
+                    (true, false) => self.index(0, i),
+                    (true, true) => self.index(columns - 1, i),
+                    (false, false) => self.index(i, 0),
+                    (false, true) => self.index(i, rows - 1),
+                };
+                if !self.solid[inside] {
+                    let (ring, outward) = if high { (inside + step, 1.0) } else { (inside - step, -1.0) };
+                    act(self, Edge { inside, ring, slot: first_slot + i, along_x, outward });
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,288 @@
+//! The state of the air and the way to read it.
+//!
+//! Rows are stored from the bottom up with a ring of one cell around the box, so that every cell has eight neighbours in
+//! memory. The ring stands at pressure 1; behind an open side it carries the velocity of the air outside (`edges`),
+//! behind a closed one it is solid.
+
+use super::advect::Band;
+use super::shape::Shape;
+use super::step::{AirReport, Room};
+use crate::kernel::params::{AirParams, OpenSides};
+use glam::Vec2;
+use serde::{Deserialize, Serialize};
+
+/// Highest pressure that a tool or a scene can set, in pressures of the surroundings. Changing this affects how far
+/// sums of pressure stay exact in f32.
+pub const MAX_PRESSURE: f32 = 1.0e6;
+
+/// Highest speed along an axis that a tool or a fan can set, d/s. Changing this affects nothing that a step can follow:
+/// its own limit is lower.
+pub const MAX_SPEED: f32 = 1.0e6;
+
+/// The air of a box: pressure and velocity on square cells, and which of them are rock.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Stored")]
+pub struct Air {
+    pub(super) size: Vec2,
+    pub(super) cell: f32,
+    #[serde(with = "StoredParams")]
+    pub(super) params: AirParams,
+    pub(super) columns: u32,
+    pub(super) rows: u32,
+    /// Pressure, with the ring. Rock has 0, the ring 1.
+    pub(super) pressure: Vec<f32>,
+    /// Velocity along x, d/s, with the ring. Rock has 0.
+    pub(super) velocity_x: Vec<f32>,
+    /// Velocity along y, d/s, with the ring. Rock has 0.
+    pub(super) velocity_y: Vec<f32>,
+    /// Cells with rock in them, with the ring, which counts as solid.
+    pub(super) solid: Vec<bool>,
+    /// Velocity of the air outside along the outward normal, d/s: left and right by row, bottom and top by column.
+    pub(super) outside: Vec<f32>,
+    /// Version of the rock that `solid` was made from.
+    pub(super) solids_version: Option<u64>,
+    /// Whether the mass at hand must survive the first `set_solids` (air that was resampled), or pressure 1 (new air).
+    pub(super) keep_mass: bool,
+    pub(super) quiet: bool,
+    /// What tools had to clamp since the last step.
+    pub(super) pending: AirReport,
+    #[serde(skip)]
+    pub(super) scratch: Scratch,
+}
+
+/// Buffers that a step needs and that follow from the state: neither copied, compared nor stored.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    pub(super) shape: Option<Shape>,
+    pub(super) next_pressure: Vec<f32>,
+    pub(super) momentum_x: Vec<f32>,
+    pub(super) momentum_y: Vec<f32>,
+    pub(super) bands: Vec<Band>,
+    pub(super) row_peaks: Vec<Peaks>,
+    pub(super) rooms: Vec<Room>,
+}
+
+impl Clone for Scratch {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl PartialEq for Scratch {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+/// Largest values of a row or of the grid: what the next substep's length depends on.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Peaks {
+    /// Largest |u|, d/s.
+    pub(super) x: f32,
+    /// Largest |v|, d/s.
+    pub(super) y: f32,
+    /// Largest pressure.
+    pub(super) pressure: f32,
+}
+
+impl Peaks {
+    /// The larger of each.
+    pub(super) fn max(self, other: Self) -> Self {
+        Self { x: self.x.max(other.x), y: self.y.max(other.y), pressure: self.pressure.max(other.pressure) }
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "AirParams")]
+struct StoredParams {
+    sound_speed: f32,
+    open: OpenSides,
+}
+
+/// The air as a file has it, not yet checked.
+#[derive(Deserialize)]
+struct Stored {
+    size: Vec2,
+    cell: f32,
+    #[serde(with = "StoredParams")]
+    params: AirParams,
+    columns: u32,
+    rows: u32,
+    pressure: Vec<f32>,
+    velocity_x: Vec<f32>,
+    velocity_y: Vec<f32>,
+    solid: Vec<bool>,
+    outside: Vec<f32>,
+    solids_version: Option<u64>,
+    keep_mass: bool,
+    quiet: bool,
+    pending: AirReport,
+}
+
+impl TryFrom<Stored> for Air {
+    type Error = String;
+
+    fn try_from(stored: Stored) -> Result<Self, String> {
+        let (columns, rows) = (stored.columns as usize, stored.rows as usize);
+        let cells = (columns + 2).saturating_mul(rows + 2);
+        let fields = [&stored.pressure, &stored.velocity_x, &stored.velocity_y];
+        if columns == 0 || rows == 0 || stored.solid.len() != cells || fields.iter().any(|f| f.len() != cells) {
+            return Err(format!("air: {columns} × {rows} cells need {cells} values a field, with the ring"));
+        }
+        if stored.outside.len() != 2 * (columns + rows) {
+            return Err(format!("air: outside needs {} values", 2 * (columns + rows)));
+        }
+        if fields.into_iter().chain([&stored.outside]).flatten().any(|value| !value.is_finite()) {
+            return Err("air: every pressure and velocity must be finite".to_owned());
+        }
+        if stored.pressure.iter().any(|p| *p < 0.0) {
+            return Err("air: every pressure must be 0 or more".to_owned());
+        }
+        let lengths = [stored.cell, stored.size.x, stored.size.y, stored.params.sound_speed];
+        if lengths.iter().any(|length| !length.is_finite() || *length <= 0.0) {
+            return Err("air: size, cell and sound_speed must be finite and positive".to_owned());
+        }
+        Ok(Self {
+            size: stored.size,
+            cell: stored.cell,
+            params: stored.params,
+            columns: stored.columns,
+            rows: stored.rows,
+            pressure: stored.pressure,
+            velocity_x: stored.velocity_x,
+            velocity_y: stored.velocity_y,
+            solid: stored.solid,
+            outside: stored.outside,
+            solids_version: stored.solids_version,
+            keep_mass: stored.keep_mass,
+            quiet: stored.quiet,
+            pending: stored.pending,
+            scratch: Scratch::default(),
+        })
+    }
+}
+
+impl Air {
+    /// Air at rest at pressure 1 in a box of `size` (d) on cells of edge `cell` (d). The box is covered whole: the last
+    /// column and row may reach beyond it.
+    pub fn new(size: Vec2, cell: f32, params: AirParams) -> Self {
+        debug_assert!(size.is_finite() && size.min_element() > 0.0 && cell.is_finite() && cell > 0.0);
+        debug_assert!(params.sound_speed.is_finite() && params.sound_speed > 0.0);
+        let columns = ((size.x / cell).ceil() as usize).max(1);
+        let rows = ((size.y / cell).ceil() as usize).max(1);
+        let stride = columns + 2;
+        let cells = stride * (rows + 2);
+        let ring = |k: usize| {
+            let (i, j) = (k % stride, k / stride);
+            i == 0 || j == 0 || i == columns + 1 || j == rows + 1
+        };
+        Self {
+            size,
+            cell,
+            params,
+            columns: columns as u32,
+            rows: rows as u32,
+            pressure: vec![1.0; cells],
+            velocity_x: vec![0.0; cells],
+            velocity_y: vec![0.0; cells],
+            solid: (0..cells).map(ring).collect(),
+            outside: vec![0.0; 2 * (columns + rows)],
+            solids_version: None,
+            keep_mass: false,
+            quiet: true,
+            pending: AirReport::default(),
+            scratch: Scratch::default(),
+        }
+    }
+
+    /// Cells along x.
+    pub fn columns(&self) -> usize {
+        self.columns as usize
+    }
+
+    /// Cells along y.
+    pub fn rows(&self) -> usize {
+        self.rows as usize
+    }
+
+    /// Edge of a cell, d.
+    pub fn cell(&self) -> f32 {
+        self.cell
+    }
+
+    /// The air parameters it was made with.
+    pub fn params(&self) -> &AirParams {
+        &self.params
+    }
+
+    /// Whether nothing moves: a step would do nothing at all.
+    pub fn is_quiet(&self) -> bool {
+        self.quiet
+    }
+
+    /// Pressures of a row from left to right, `columns` values, row 0 at the bottom. Rock has 0.
+    pub fn pressure_row(&self, row: usize) -> &[f32] {
+        &self.pressure[self.row_range(row)]
+    }
+
+    /// Velocities along x of a row, d/s. Rock has 0.
+    pub fn velocity_x_row(&self, row: usize) -> &[f32] {
+        &self.velocity_x[self.row_range(row)]
+    }
+
+    /// Velocities along y of a row, d/s. Rock has 0.
+    pub fn velocity_y_row(&self, row: usize) -> &[f32] {
+        &self.velocity_y[self.row_range(row)]
+    }
+
+    /// Pressure of a cell; 0 in rock.
+    pub fn pressure_at_cell(&self, column: usize, row: usize) -> f32 {
+        self.pressure_row(row)[column]
+    }
+
+    /// Velocity of a cell, d/s; 0 in rock.
+    pub fn velocity_at_cell(&self, column: usize, row: usize) -> Vec2 {
+        Vec2::new(self.velocity_x_row(row)[column], self.velocity_y_row(row)[column])
+    }
+
+    /// Whether rock stands in the cell.
+    pub fn is_solid_cell(&self, column: usize, row: usize) -> bool {
+        self.solid[self.row_range(row)][column]
+    }
+
+    /// Bytes held, buffers included.
+    pub fn memory_bytes(&self) -> usize {
+        let cells = self.pressure.len();
+        let buffers = self.scratch.next_pressure.len() * 3 + self.scratch.bands.iter().map(Band::values).sum::<usize>();
+        let shape = self.scratch.shape.as_ref().map_or(0, Shape::memory_bytes);
+        cells * 13 + self.outside.len() * 4 + buffers * 4 + shape
+    }
+
+    /// Values between a cell and the one above it.
+    pub(super) fn stride(&self) -> usize {
+        self.columns as usize + 2
+    }
+
+    /// Where a cell stands in the fields.
+    pub(super) fn index(&self, column: usize, row: usize) -> usize {
+        (row + 1) * self.stride() + column + 1
+    }
+
+    /// Where the cells of a row stand in the fields.
+    pub(super) fn row_range(&self, row: usize) -> std::ops::Range<usize> {
+        assert!(row < self.rows(), "row {row} of {}", self.rows);
+        let start = self.index(0, row);
+        start..start + self.columns()
+    }
+
+    /// Centre of a cell, d.
+    pub(super) fn centre(&self, column: usize, row: usize) -> Vec2 {
+        Vec2::new(column as f32 + 0.5, row as f32 + 0.5) * self.cell
+    }
+
+    /// Whether any side lets air through.
+    pub(super) fn is_open(&self) -> bool {
+        let open = self.params.open;
+        open.left || open.right || open.bottom || open.top
+    }
+}

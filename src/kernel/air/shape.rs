@@ -1,0 +1,197 @@
+//! What follows from the rock: which faces let air through, where a diagonal share strikes a corner of rock, and which
+//! cells belong to one room. Made anew when the rock changes.
+
+use super::grid::Air;
+
+/// A cell at which diagonal shares that strike rock turn aside: each goes in halves to the two cells beside the rock, the
+/// one above or below its source and the one left or right of it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corner<const N: usize> {
+    /// Column, counted with the ring.
+    pub(super) column: u32,
+    /// ½ for a share that strikes, else 0.
+    pub(super) weights: [f32; N],
+}
+
+/// A list with the items of each row together, rows counted with the ring.
+#[derive(Debug)]
+pub(super) struct ByRow<T> {
+    items: Vec<T>,
+    start: Vec<u32>,
+}
+
+impl<T> ByRow<T> {
+    fn new() -> Self {
+        Self { items: Vec::new(), start: vec![0] }
+    }
+
+    pub(super) fn row(&self, row: usize) -> &[T] {
+        &self.items[self.start[row] as usize..self.start[row + 1] as usize]
+    }
+
+    fn end_row(&mut self) {
+        self.start.push(self.items.len() as u32);
+    }
+
+    fn memory_bytes(&self) -> usize {
+        self.items.len() * size_of::<T>() + self.start.len() * 4
+    }
+}
+
+impl<const N: usize> ByRow<Corner<N>> {
+    fn push(&mut self, column: usize, strikes: [bool; N]) {
+        if strikes.contains(&true) {
+            let weights = strikes.map(|strikes| if strikes { 0.5 } else { 0.0 });
+            self.items.push(Corner { column: column as u32, weights });
+        }
+    }
+}
+
+/// Faces, corners and rooms of a grid.
+#[derive(Debug)]
+pub(super) struct Shape {
+    /// 1 where the left face of a cell lets air through, else 0, with the ring.
+    pub(super) open_x: Vec<f32>,
+    /// 1 where the lower face of a cell lets air through, else 0, with the ring.
+    pub(super) open_y: Vec<f32>,
+    /// Sources, for the shares up-left and up-right: half goes to the cell above.
+    pub(super) above: ByRow<Corner<2>>,
+    /// Sources, for the shares down-left and down-right: half goes to the cell below.
+    pub(super) below: ByRow<Corner<2>>,
+    /// Targets, for shares down and up from the left, down and up from the right: half comes here.
+    pub(super) beside: ByRow<Corner<4>>,
+    /// Columns, with the ring, of the solid cells that shares strike.
+    struck: ByRow<u32>,
+    /// Room of each cell, `u32::MAX` in rock and in the ring.
+    pub(super) room: Vec<u32>,
+    /// For each room: whether it has an open side of the box.
+    pub(super) room_open: Vec<bool>,
+}
+
+impl Shape {
+    pub(super) fn new(air: &Air) -> Self {
+        let stride = air.stride();
+        let (columns, rows) = (air.columns(), air.rows());
+        let cells = air.solid.len();
+        let mut shape = Self {
+            open_x: vec![0.0; cells],
+            open_y: vec![0.0; cells],
+            above: ByRow::new(),
+            below: ByRow::new(),
+            beside: ByRow::new(),
+            struck: ByRow::new(),
+            room: vec![u32::MAX; cells],
+            room_open: Vec::new(),
+        };
+        let open = air.params.open;
+        for row in 1..=rows {
+            for column in 1..=columns + 1 {
+                let k = row * stride + column;
+                let free = match column {
+                    1 => open.left && !air.solid[k],
+                    _ if column == columns + 1 => open.right && !air.solid[k - 1],
+                    _ => !air.solid[k] && !air.solid[k - 1],
+                };
+                shape.open_x[k] = f32::from(u8::from(free));
+            }
+        }
+        for row in 1..=rows + 1 {
+            for column in 1..=columns {
+                let k = row * stride + column;
+                let free = match row {
+                    1 => open.bottom && !air.solid[k],
+                    _ if row == rows + 1 => open.top && !air.solid[k - stride],
+                    _ => !air.solid[k] && !air.solid[k - stride],
+                };
+                shape.open_y[k] = f32::from(u8::from(free));
+            }
+        }
+        shape.find_corners(air);
+        shape.find_rooms(air);
+        shape
+    }
+
+    /// Columns, with the ring, of the solid cells of a row that shares strike.
+    pub(super) fn struck(&self, row: usize) -> &[u32] {
+        self.struck.row(row)
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        let corners = self.above.memory_bytes() + self.below.memory_bytes() + self.beside.memory_bytes();
+        self.open_x.len() * 12 + corners + self.struck.memory_bytes()
+    }
+
+    fn find_corners(&mut self, air: &Air) {
+        let (stride, columns, rows) = (air.stride(), air.columns(), air.rows());
+        for row in 0..=rows + 1 {
+            let cells = if row == 0 || row > rows { 0 } else { columns };
+            for column in 1..=cells {
+                let k = row * stride + column;
+                let strikes = |source: usize, right: bool, up: bool| self.strikes(air, source, right, up);
+                let above = [strikes(k, false, true), strikes(k, true, true)];
+                let below = [strikes(k, false, false), strikes(k, true, false)];
+                let from_left = [strikes(k - 1, true, false), strikes(k - 1, true, true)];
+                let from_right = [strikes(k + 1, false, false), strikes(k + 1, false, true)];
+                let struck = strikes(k - stride - 1, true, true)
+                    || strikes(k - stride + 1, false, true)
+                    || strikes(k + stride - 1, true, false)
+                    || strikes(k + stride + 1, false, false);
+                self.above.push(column, above);
+                self.below.push(column, below);
+                self.beside.push(column, [from_left[0], from_left[1], from_right[0], from_right[1]]);
+                if struck {
+                    self.struck.items.push(column as u32);
+                }
+            }
+            self.above.end_row();
+            self.below.end_row();
+            self.beside.end_row();
+            self.struck.end_row();
+        }
+    }
+
+    /// Whether a share of `source` to a diagonal neighbour finds rock there: both faces that it leaves by are open, and
+    /// the neighbour is solid. (Outside the box a share is lost, by whichever face it left.)
+    fn strikes(&self, air: &Air, source: usize, right: bool, up: bool) -> bool {
+        let stride = air.stride();
+        let (x, across) = if right { (source + 1, source + 1) } else { (source, source - 1) };
+        let (y, across) = if up { (source + stride, across + stride) } else { (source, across - stride) };
+        // The rarest first: this is asked twelve times a cell.
+        air.solid[across]
+            && self.open_x[x] != 0.0
+            && self.open_y[y] != 0.0
+            && !air.in_ring(source)
+            && !air.in_ring(across)
+    }
+
+    fn find_rooms(&mut self, air: &Air) {
+        let stride = air.stride();
+        let mut queue = Vec::new();
+        for seed in 0..air.solid.len() {
+            if air.solid[seed] || self.room[seed] != u32::MAX {
+                continue;
+            }
+            let room = self.room_open.len() as u32;
+            self.room[seed] = room;
+            queue.push(seed);
+            let mut open = false;
+            while let Some(k) = queue.pop() {
+                let faces = [
+                    (self.open_x[k], k - 1),
+                    (self.open_x[k + 1], k + 1),
+                    (self.open_y[k], k - stride),
+                    (self.open_y[k + stride], k + stride),
+                ];
+                for (_, next) in faces.into_iter().filter(|(free, _)| *free != 0.0) {
+                    if air.solid[next] {
+                        open = true;
+                    } else if self.room[next] == u32::MAX {
+                        self.room[next] = room;
+                        queue.push(next);
+                    }
+                }
+            }
+            self.room_open.push(open);
+        }
+    }
+}

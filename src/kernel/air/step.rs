@@ -1,0 +1,272 @@
+//! A step of the air: how many substeps, in which order, and when the air has come to rest.
+
+use super::advect::{Band, FACE_FILTER, Source, Target};
+use super::grid::{Air, Peaks, Scratch};
+use super::pressure::{Push, STILL_MACH, peak};
+use super::shape::Shape;
+use crate::kernel::sources::Wind;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::ops::AddAssign;
+
+/// Most substeps of one step. Past it speeds are clamped and sound is slowed, and both are counted. Changing this affects
+/// the strongest wind that a scene can have, and the longest time that a step can take.
+pub const MAX_SUBSTEPS: u32 = 64;
+
+/// Largest stable Courant number of sound, c√p·dt/cell: `√2 − 2κ`, derived in `pressure`.
+pub const STABLE_COURANT: f32 = std::f32::consts::SQRT_2 - 2.0 * FACE_FILTER;
+
+/// Air is at rest when no velocity and no pressure difference in a room is above this part of the speed of sound and of
+/// the pressure. The dynamic pressure of such wind, `½ Ma²`, is at f32's resolution of the pressure. Changing this
+/// affects when a grid falls asleep.
+pub const QUIET_MACH: f32 = 1.0e-3;
+
+/// Courant number of sound that is kept to when the substeps don't suffice.
+const LIMITED_COURANT: f32 = 1.0;
+
+/// Rows that one thread takes at a time. Changing this affects speed only.
+const BAND_ROWS: usize = 32;
+
+/// Cells from which on threads gain more than starting them costs (some 30 µs a pass).
+const PARALLEL_CELLS: usize = 32 * 1024;
+
+/// What a step did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AirReport {
+    /// Substeps made; 0 if the air was quiet.
+    pub substeps: u32,
+    /// Cells of the grid; 0 if the air was quiet.
+    pub cells: usize,
+    /// Velocity components that were clamped, by tools since the last step or in this one, and substeps for which sound
+    /// was slowed.
+    pub speed_clamps: u64,
+    /// Pressures that a tool asked for and that were clamped to 0 … [`super::MAX_PRESSURE`], since the last step.
+    pub pressure_clamps: u64,
+    /// Mass of air for which new rock left no place, since the last step, d² at pressure 1.
+    pub buried: f64,
+}
+
+impl AddAssign for AirReport {
+    fn add_assign(&mut self, other: Self) {
+        self.substeps += other.substeps;
+        self.cells = self.cells.max(other.cells);
+        self.speed_clamps += other.speed_clamps;
+        self.pressure_clamps += other.pressure_clamps;
+        self.buried += other.buried;
+    }
+}
+
+impl Scratch {
+    fn prepare(&mut self, air: &Air, band_rows: usize) {
+        let cells = air.pressure.len();
+        if self.next_pressure.len() != cells {
+            self.next_pressure = vec![1.0; cells];
+            self.momentum_x = vec![0.0; cells];
+            self.momentum_y = vec![0.0; cells];
+            self.row_peaks = vec![Peaks::default(); air.rows()];
+        }
+        let bands = air.rows().div_ceil(band_rows);
+        while self.bands.len() < bands {
+            self.bands.push(Band::new(air.stride()));
+        }
+    }
+}
+
+/// What is in a room of air that rock shuts off from others.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Room {
+    mass: f64,
+    cells: u32,
+    lowest: f32,
+    highest: f32,
+    /// Pressure at which it comes to rest.
+    rest: f32,
+}
+
+impl Room {
+    fn count(&mut self, pressure: f32) {
+        self.lowest = if self.cells == 0 { pressure } else { self.lowest.min(pressure) };
+        self.highest = self.highest.max(pressure);
+        self.mass += f64::from(pressure);
+        self.cells += 1;
+    }
+}
+
+/// A row of both velocities and its peaks, for pass 2.
+type Row<'a> = (usize, ((&'a mut [f32], &'a mut [f32]), &'a mut Peaks));
+
+/// A substep's length and the speed of sound in it.
+#[derive(Clone, Copy, Debug)]
+struct Substep {
+    dt: f32,
+    sound_speed: f32,
+    parallel: bool,
+}
+
+impl Air {
+    /// Moves the air on by `dt` (s) in substeps that keep wind plus sound below `courant` cells (0.1 … 0.9; up to
+    /// [`STABLE_COURANT`] is taken). `parallel` changes the time it takes and not a bit of the result. Quiet air that no
+    /// fan drives is left untouched.
+    pub fn step(&mut self, winds: &[Wind], courant: f32, dt: f32, parallel: bool) -> AirReport {
+        debug_assert!(dt.is_finite() && courant.is_finite());
+        let mut report = std::mem::take(&mut self.pending);
+        let driven = self.is_driven(winds);
+        if (self.quiet && !driven) || dt.is_nan() || dt <= 0.0 {
+            return report;
+        }
+        self.quiet = false;
+        report.cells = self.columns() * self.rows();
+        let courant = courant.clamp(0.01, STABLE_COURANT);
+        let parallel = parallel && report.cells >= PARALLEL_CELLS;
+        let mut scratch = std::mem::take(&mut self.scratch);
+        scratch.prepare(self, if parallel { BAND_ROWS } else { self.rows() });
+        let shape = scratch.shape.take().unwrap_or_else(|| Shape::new(self));
+
+        let mut peaks = self.peaks();
+        let mut left = dt;
+        loop {
+            let (count, substep) = self.next_substep(peaks, courant, left, parallel, &mut report);
+            self.refresh_outside(substep.sound_speed);
+            peaks = self.substep(substep, &shape, &mut scratch);
+            self.settle_edges(substep.sound_speed, substep.dt);
+            peaks = peaks.max(self.blow_fans(winds, substep.dt, &mut report));
+            report.substeps += 1;
+            left -= substep.dt;
+            if count == 1 {
+                break;
+            }
+        }
+        if !driven && peaks.x.max(peaks.y) <= QUIET_MACH * self.params.sound_speed {
+            self.fall_asleep(&shape, &mut scratch.rooms);
+        }
+        scratch.shape = Some(shape);
+        self.scratch = scratch;
+        report
+    }
+
+    /// Substeps still to make in the time `left`, and the next of them. In one of them sound and wind may cross
+    /// `courant` cells together, and no velocity more than half a cell, so that two faces of a cell can't give away more
+    /// than it has. Past the limit of substeps velocities are clamped to that, and sound is slowed to what is stable.
+    fn next_substep(
+        &mut self,
+        peaks: Peaks,
+        courant: f32,
+        left: f32,
+        parallel: bool,
+        report: &mut AirReport,
+    ) -> (u32, Substep) {
+        let sound_speed = self.params.sound_speed;
+        let sound = sound_speed * peaks.pressure.max(1.0).sqrt();
+        let rate = ((peaks.x + peaks.y + sound) / courant).max(2.0 * peaks.x.max(peaks.y)) / self.cell;
+        let budget = MAX_SUBSTEPS.saturating_sub(report.substeps).max(1);
+        let wanted = (left * rate).ceil().max(1.0);
+        if wanted <= budget as f32 {
+            let count = wanted as u32;
+            return (count, Substep { dt: left / wanted, sound_speed, parallel });
+        }
+        let dt = left / budget as f32;
+        report.speed_clamps += self.clamp_speeds(0.5 * self.cell / dt);
+        let stable = LIMITED_COURANT * self.cell / dt;
+        let slowed = sound > stable;
+        report.speed_clamps += u64::from(slowed);
+        let sound_speed = if slowed { sound_speed * (stable / sound) } else { sound_speed };
+        (budget, Substep { dt, sound_speed, parallel })
+    }
+
+    fn clamp_speeds(&mut self, limit: f32) -> u64 {
+        let mut clamps = 0;
+        for velocity in self.velocity_x.iter_mut().chain(&mut self.velocity_y) {
+            if velocity.abs() > limit {
+                *velocity = limit.copysign(*velocity);
+                clamps += 1;
+            }
+        }
+        clamps
+    }
+
+    /// Pass 1, then pass 2. A pass writes each row from what no pass writes meanwhile, so rows may be in any order.
+    fn substep(&mut self, substep: Substep, shape: &Shape, scratch: &mut Scratch) -> Peaks {
+        let stride = self.stride();
+        let crossing = substep.dt / self.cell;
+        let source = Source {
+            pressure: &self.pressure,
+            velocity_x: &self.velocity_x,
+            velocity_y: &self.velocity_y,
+            shape,
+            stride,
+            half: 0.5 * crossing,
+            filter: FACE_FILTER * substep.sound_speed * crossing,
+        };
+        let inner = stride..stride * (self.rows as usize + 1);
+        share_out(source, scratch, inner.clone(), substep.parallel);
+        std::mem::swap(&mut self.pressure, &mut scratch.next_pressure);
+        let push = Push {
+            pressure: &self.pressure,
+            momentum_x: &scratch.momentum_x,
+            momentum_y: &scratch.momentum_y,
+            shape,
+            stride,
+            gain: 0.5 * substep.sound_speed * substep.sound_speed * crossing,
+            crossing,
+            still: STILL_MACH * self.params.sound_speed,
+        };
+        let (x, y) = (&mut self.velocity_x[inner.clone()], &mut self.velocity_y[inner]);
+        let work = |(row, ((x, y), peaks)): Row| *peaks = push.run(row + 1, x, y);
+        let row_peaks = &mut scratch.row_peaks;
+        if substep.parallel {
+            let rows = x.par_chunks_mut(stride).zip(y.par_chunks_mut(stride)).zip(row_peaks.par_iter_mut());
+            rows.enumerate().with_min_len(BAND_ROWS).for_each(work);
+        } else {
+            let rows = x.chunks_mut(stride).zip(y.chunks_mut(stride)).zip(row_peaks.iter_mut());
+            rows.enumerate().for_each(work);
+        }
+        row_peaks.iter().copied().fold(Peaks::default(), Peaks::max)
+    }
+
+    /// Largest values as they stand.
+    fn peaks(&self) -> Peaks {
+        Peaks { x: peak(&self.velocity_x), y: peak(&self.velocity_y), pressure: peak(&self.pressure) }
+    }
+
+    /// Puts the air to rest if in every room the pressure is even enough: velocities become 0 and the pressure of a
+    /// room its mean (1 if the room is open), so that a further step would change nothing. Mass is kept to a rounding.
+    fn fall_asleep(&mut self, shape: &Shape, rooms: &mut Vec<Room>) {
+        rooms.clear();
+        rooms.resize(shape.room_open.len(), Room::default());
+        let in_room = |(room, _): &(&u32, _)| **room != u32::MAX;
+        for (room, p) in shape.room.iter().zip(&self.pressure).filter(in_room) {
+            rooms[*room as usize].count(*p);
+        }
+        for (room, open) in rooms.iter_mut().zip(&shape.room_open) {
+            let rest = if *open { 1.0 } else { room.mass / f64::from(room.cells) };
+            let tolerance = f64::from(QUIET_MACH) * rest;
+            if rest - f64::from(room.lowest) > tolerance || f64::from(room.highest) - rest > tolerance {
+                return;
+            }
+            room.rest = rest as f32;
+        }
+        for (k, room) in shape.room.iter().enumerate().filter(|(_, room)| **room != u32::MAX) {
+            self.pressure[k] = rooms[*room as usize].rest;
+        }
+        for velocity in [&mut self.velocity_x, &mut self.velocity_y, &mut self.outside] {
+            velocity.fill(0.0);
+        }
+        self.quiet = true;
+    }
+}
+
+fn share_out(source: Source, scratch: &mut Scratch, inner: std::ops::Range<usize>, parallel: bool) {
+    let Scratch { next_pressure, momentum_x, momentum_y, bands, .. } = scratch;
+    let (pressure, x, y) =
+        (&mut next_pressure[inner.clone()], &mut momentum_x[inner.clone()], &mut momentum_y[inner.clone()]);
+    if parallel {
+        let rows = BAND_ROWS;
+        let chunk = rows * source.stride;
+        let targets = pressure.par_chunks_mut(chunk).zip(x.par_chunks_mut(chunk)).zip(y.par_chunks_mut(chunk));
+        targets.zip(bands.par_iter_mut()).enumerate().for_each(|(k, (((pressure, momentum_x), momentum_y), band))| {
+            band.run(source, 1 + k * rows, Target { pressure, momentum_x, momentum_y });
+        });
+    } else {
+        bands[0].run(source, 1, Target { pressure, momentum_x: x, momentum_y: y });
+    }
+}

@@ -1,0 +1,89 @@
+//! Tests of the air as a whole: each name says what would be wrong if it failed.
+
+mod limits;
+mod scheme;
+mod tools;
+mod walls;
+mod waves;
+
+use super::Air;
+use crate::kernel::element::ElementId;
+use crate::kernel::params::{AirParams, OpenSides};
+use crate::kernel::solids::Solids;
+use crate::kernel::sources::Rect;
+use glam::{IVec2, Vec2};
+
+/// Speed of sound of the tests, d/s.
+const SOUND: f32 = 1000.0;
+const DT: f32 = 1.0 / 60.0;
+const COURANT: f32 = 0.7;
+
+fn params(open: OpenSides) -> AirParams {
+    AirParams { sound_speed: SOUND, open }
+}
+
+fn closed(columns: u32, rows: u32, cell: f32) -> Air {
+    Air::new(Vec2::new(columns as f32, rows as f32) * cell, cell, params(OpenSides::default()))
+}
+
+/// Repeatable noise, −1 … 1.
+struct Noise(u64);
+
+impl Noise {
+    fn next(&mut self) -> f32 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 40) as f32 / (1_u64 << 23) as f32 - 1.0
+    }
+}
+
+/// Random pressures 1 ± `pressure` and velocities ± `speed` in the open cells.
+fn stir(air: &mut Air, pressure: f32, speed: f32, noise: &mut Noise) {
+    for row in 0..air.rows() {
+        for k in air.row_range(row) {
+            if !air.solid[k] {
+                air.pressure[k] = 1.0 + pressure * noise.next();
+                air.velocity_x[k] = speed * noise.next();
+                air.velocity_y[k] = speed * noise.next();
+            }
+        }
+    }
+    air.quiet = false;
+}
+
+/// Rock on the cells of a box of `columns × rows` d for which `wanted` holds.
+fn rock(columns: u32, rows: u32, mut wanted: impl FnMut(i32, i32) -> bool) -> Solids {
+    let mut solids = Solids::new(columns, rows);
+    for y in 0..rows as i32 {
+        for x in 0..columns as i32 {
+            if wanted(x, y) {
+                solids.insert(IVec2::new(x, y), ElementId(0), 0);
+            }
+        }
+    }
+    solids
+}
+
+fn rect(x0: f32, y0: f32, x1: f32, y1: f32) -> Rect {
+    Rect { min: Vec2::new(x0, y0), max: Vec2::new(x1, y1) }
+}
+
+fn run(air: &mut Air, ticks: u32) {
+    for _ in 0..ticks {
+        air.step(&[], COURANT, DT, false);
+    }
+}
+
+fn energy(air: &Air) -> f64 {
+    air.kinetic_energy() + air.pressure_energy()
+}
+
+fn assert_sane(air: &Air) {
+    let finite = |field: &[f32]| field.iter().all(|value| value.is_finite());
+    assert!(finite(&air.pressure) && finite(&air.velocity_x) && finite(&air.velocity_y));
+    assert!(air.pressure.iter().all(|p| *p >= 0.0), "a pressure is negative");
+}
+
+fn bits(air: &Air) -> Vec<u32> {
+    let fields = [&air.pressure, &air.velocity_x, &air.velocity_y, &air.outside];
+    fields.into_iter().flatten().map(|value| value.to_bits()).collect()
+}

@@ -1,0 +1,212 @@
+//! The passes themselves: against a plain scatter, mirrored, turned, in parallel, at rest.
+
+use super::super::advect::FACE_FILTER;
+use super::*;
+use rayon::ThreadPoolBuilder;
+
+/// What one substep does, written as a scatter in f64 cell by cell, with the rule for corners spelled out.
+fn scatter(air: &Air, dt: f64) -> [Vec<f64>; 3] {
+    let stride = air.stride() as isize;
+    let crossing = dt / f64::from(air.cell);
+    let s = f64::from(SOUND) * crossing;
+    let at = |field: &[f32], k: isize| f64::from(field[k as usize]);
+    let solid = |k: isize| air.solid[k as usize];
+    let flow = |k: isize, step: isize, field: &[f32]| {
+        if solid(k) || solid(k + step) {
+            return 0.0;
+        }
+        let drop = at(&air.pressure, k) - at(&air.pressure, k + step);
+        let flow = 0.5 * (at(field, k) + at(field, k + step)) * crossing + f64::from(FACE_FILTER) * s * drop;
+        flow.clamp(-0.5, 0.5)
+    };
+    let n = air.pressure.len();
+    let mut next = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
+    for k in (0..n as isize).filter(|k| !solid(*k)) {
+        let [left, right] = [-flow(k - 1, 1, &air.velocity_x), flow(k, 1, &air.velocity_x)].map(|f| f.max(0.0));
+        let [down, up] =
+            [-flow(k - stride, stride, &air.velocity_y), flow(k, stride, &air.velocity_y)].map(|f| f.max(0.0));
+        for (dx, x) in [(-1, left), (0, 1.0 - left - right), (1, right)] {
+            for (dy, y) in [(-stride, down), (0, 1.0 - down - up), (stride, up)] {
+                let across = k + dx + dy;
+                let ends = if solid(across) { [k + dx, k + dy] } else { [across; 2] };
+                for end in ends {
+                    let mass = 0.5 * at(&air.pressure, k) * x * y;
+                    assert!(mass == 0.0 || !solid(end), "a share entered rock");
+                    next[0][end as usize] += mass;
+                    next[1][end as usize] += mass * at(&air.velocity_x, k);
+                    next[2][end as usize] += mass * at(&air.velocity_y, k);
+                }
+            }
+        }
+    }
+    let [p, x, y] = &mut next;
+    for k in (0..n as isize).filter(|k| !solid(*k)) {
+        let here = k as usize;
+        let push = |step: isize| {
+            let pair = |a: isize, b: isize| {
+                if solid(a) || solid(b) { 0.0 } else { p[b as usize] - p[a as usize] }
+            };
+            -0.5 * s * f64::from(SOUND) * (pair(k - step, k) + pair(k, k + step))
+        };
+        let settle = |velocity: f64, step: isize| {
+            let wall = if velocity > 0.0 { solid(k + step) } else { solid(k - step) };
+            velocity * (1.0 - if wall { (velocity.abs() * crossing).min(1.0) } else { 0.0 })
+        };
+        x[here] = settle(x[here] / p[here] + push(1), 1);
+        y[here] = settle(y[here] / p[here] + push(stride), stride);
+    }
+    next
+}
+
+#[test]
+fn the_gather_is_the_scatter() {
+    let mut noise = Noise(42);
+    let solids = rock(23, 19, |_, _| noise.next() > 0.4);
+    let mut air = closed(23, 19, 1.0);
+    air.set_solids(&solids);
+    stir(&mut air, 0.2, 300.0, &mut noise);
+    let dt = 2e-4;
+    let wanted = scatter(&air, f64::from(dt));
+    assert_eq!(air.step(&[], 0.9, dt, false).substeps, 1);
+    for (got, wanted) in [&air.pressure, &air.velocity_x, &air.velocity_y].into_iter().zip(&wanted) {
+        for k in (0..got.len()).filter(|k| !air.solid[*k]) {
+            let error = (f64::from(got[k]) - wanted[k]).abs();
+            assert!(error < 1e-5 * wanted[k].abs().max(1.0), "{} for {} in cell {k}", got[k], wanted[k]);
+        }
+    }
+}
+
+#[test]
+fn a_still_grid_stays_still_bit_for_bit() {
+    let mut noise = Noise(1);
+    let mut air = closed(30, 20, 2.0);
+    air.set_solids(&rock(60, 40, |x, _| x == 30 || noise.next() > 0.95));
+    for (k, p) in air.pressure.iter_mut().enumerate().filter(|(_, p)| **p > 0.0) {
+        *p = if k % 32 <= 15 { 2.7 } else { 0.3 };
+    }
+    air.pressure.iter_mut().zip(&air.solid).filter(|(_, solid)| **solid).for_each(|(p, _)| *p = p.floor().min(1.0));
+    let before = bits(&air);
+    for _ in 0..50 {
+        // Quiet air would not be stepped at all.
+        air.quiet = false;
+        let report = air.step(&[], COURANT, DT, false);
+        assert!(report.substeps > 0 && report.speed_clamps == 0);
+    }
+    assert_eq!(bits(&air), before);
+}
+
+/// The same air seen in a mirror that turns left to right (`x`) or top to bottom.
+fn mirrored(air: &Air, x: bool) -> Air {
+    let mut mirror = air.clone();
+    let (stride, n) = (air.stride(), air.pressure.len());
+    for k in 0..n {
+        let (i, j) = (k % stride, k / stride);
+        let from = if x { j * stride + stride - 1 - i } else { (n / stride - 1 - j) * stride + i };
+        mirror.pressure[k] = air.pressure[from];
+        mirror.solid[k] = air.solid[from];
+        mirror.velocity_x[k] = if x { -air.velocity_x[from] } else { air.velocity_x[from] };
+        mirror.velocity_y[k] = if x { air.velocity_y[from] } else { -air.velocity_y[from] };
+    }
+    mirror
+}
+
+#[test]
+fn mirrored_air_runs_mirrored_bit_for_bit() {
+    let mut noise = Noise(9);
+    for x in [true, false] {
+        let mut air = closed(26, 17, 2.0);
+        air.set_solids(&rock(52, 34, |_, _| noise.next() > 0.9));
+        stir(&mut air, 0.5, 500.0, &mut noise);
+        let mut mirror = mirrored(&air, x);
+        run(&mut air, 20);
+        run(&mut mirror, 20);
+        let back = mirrored(&mirror, x);
+        assert_eq!(back.pressure, air.pressure);
+        assert!(back.velocity_x == air.velocity_x && back.velocity_y == air.velocity_y);
+    }
+}
+
+#[test]
+fn turned_air_runs_turned() {
+    let mut noise = Noise(10);
+    let mut air = closed(20, 20, 2.0);
+    air.set_solids(&rock(40, 40, |_, _| noise.next() > 0.95));
+    stir(&mut air, 0.3, 300.0, &mut noise);
+    let turned = |air: &Air| {
+        let mut turn = air.clone();
+        let stride = air.stride();
+        for k in 0..air.pressure.len() {
+            let (i, j) = (k % stride, k / stride);
+            let from = (stride - 1 - i) * stride + j;
+            turn.pressure[k] = air.pressure[from];
+            turn.solid[k] = air.solid[from];
+            // A quarter turn to the left brings (u, v) to (−v, u).
+            turn.velocity_x[k] = -air.velocity_y[from];
+            turn.velocity_y[k] = air.velocity_x[from];
+        }
+        turn
+    };
+    let mut turn = turned(&air);
+    run(&mut air, 3);
+    run(&mut turn, 3);
+    let wanted = turned(&air);
+    for k in 0..wanted.pressure.len() {
+        // To rounding only: the nine shares are summed by rows, not by columns.
+        assert!((turn.pressure[k] - wanted.pressure[k]).abs() < 1e-4);
+        assert!((turn.velocity_x[k] - wanted.velocity_x[k]).abs() < 0.1);
+        assert!((turn.velocity_y[k] - wanted.velocity_y[k]).abs() < 0.1);
+    }
+}
+
+#[test]
+fn parallel_is_serial_bit_for_bit_for_any_number_of_threads() {
+    let mut noise = Noise(12);
+    let sides = OpenSides { right: true, ..OpenSides::default() };
+    let mut start = Air::new(Vec2::new(203.0, 190.0), 1.0, params(sides));
+    start.set_solids(&rock(203, 190, |_, _| noise.next() > 0.9));
+    stir(&mut start, 0.5, 500.0, &mut noise);
+    let step = |parallel: bool| {
+        let mut air = start.clone();
+        for _ in 0..3 {
+            air.step(&[], COURANT, 4e-3, parallel);
+        }
+        bits(&air)
+    };
+    let serial = step(false);
+    for threads in [1, 2, 5] {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        assert_eq!(pool.install(|| step(true)), serial, "{threads} threads");
+    }
+}
+
+#[test]
+fn a_snapshot_goes_on_with_the_same_bits() {
+    let mut noise = Noise(13);
+    let sides = OpenSides { left: true, ..OpenSides::default() };
+    let mut air = Air::new(Vec2::new(60.0, 50.0), 2.0, params(sides));
+    air.set_solids(&rock(60, 50, |_, _| noise.next() > 0.9));
+    stir(&mut air, 0.5, 500.0, &mut noise);
+    run(&mut air, 3);
+    let stored = postcard::to_stdvec(&air).unwrap();
+    let mut restored: Air = postcard::from_bytes(&stored).unwrap();
+    assert_eq!(restored, air);
+    run(&mut air, 3);
+    run(&mut restored, 3);
+    assert_eq!(bits(&restored), bits(&air));
+}
+
+#[test]
+fn a_damaged_snapshot_is_refused() {
+    let stored = |damage: fn(&mut Air)| {
+        let mut air = closed(4, 4, 1.0);
+        damage(&mut air);
+        postcard::from_bytes::<Air>(&postcard::to_stdvec(&air).unwrap())
+    };
+    assert!(stored(|_| ()).is_ok());
+    assert!(stored(|air| air.velocity_y.truncate(5)).is_err());
+    assert!(stored(|air| air.columns = 0).is_err());
+    assert!(stored(|air| air.outside.clear()).is_err());
+    assert!(stored(|air| air.pressure[9] = -1.0).is_err());
+    assert!(stored(|air| air.velocity_x[9] = f32::NAN).is_err());
+    assert!(stored(|air| air.cell = 0.0).is_err());
+}

@@ -1,0 +1,155 @@
+//! Fans, which a scene has, and the hand of the player: wind, pressure, a fresh start.
+
+use super::grid::{Air, MAX_PRESSURE, MAX_SPEED, Peaks};
+use super::step::AirReport;
+use crate::kernel::sources::{Rect, Wind};
+use glam::Vec2;
+use std::ops::Range;
+
+/// Cells of a box of cells, by column and row.
+struct Window {
+    columns: Range<usize>,
+    rows: Range<usize>,
+}
+
+/// The value within ±[`MAX_SPEED`], 0 for what is no number, and whether that changed it.
+fn bounded_speed(speed: f32) -> (f32, bool) {
+    let bounded = if speed.is_nan() { 0.0 } else { speed.clamp(-MAX_SPEED, MAX_SPEED) };
+    (bounded, bounded != speed)
+}
+
+/// Both components by [`bounded_speed`], and how many it changed.
+fn bounded_velocity(velocity: Vec2) -> (Vec2, u64) {
+    let ((x, cut_x), (y, cut_y)) = (bounded_speed(velocity.x), bounded_speed(velocity.y));
+    (Vec2::new(x, y), u64::from(cut_x) + u64::from(cut_y))
+}
+
+impl Air {
+    /// The wind tool: blends the velocity in a soft disc towards `velocity` (d/s, up to [`MAX_SPEED`] along an axis),
+    /// wholly at `centre` (d), not at all from `radius` (d) on. A disc smaller than a cell is taken as large as one.
+    pub fn blow(&mut self, centre: Vec2, radius: f32, velocity: Vec2) {
+        let (velocity, cuts) = bounded_velocity(velocity);
+        self.pending.speed_clamps += cuts;
+        self.for_each_in_disc(centre, radius, |air, k, weight| {
+            let (u, v) = (&mut air.velocity_x[k], &mut air.velocity_y[k]);
+            let before = (*u, *v);
+            *u += (velocity.x - *u) * weight;
+            *v += (velocity.y - *v) * weight;
+            before != (*u, *v)
+        });
+    }
+
+    /// The pressure tool: adds `amount` to the pressure at `centre` (d), less around it, nothing from `radius` (d) on.
+    /// The result is kept within 0 … [`MAX_PRESSURE`], and each cell where that changed it is counted.
+    pub fn press(&mut self, centre: Vec2, radius: f32, amount: f32) {
+        if amount.is_nan() {
+            self.pending.pressure_clamps += 1;
+            return;
+        }
+        let amount = amount.clamp(-2.0 * MAX_PRESSURE, 2.0 * MAX_PRESSURE);
+        self.for_each_in_disc(centre, radius, |air, k, weight| {
+            let before = air.pressure[k];
+            let wanted = before + amount * weight;
+            air.pressure[k] = wanted.clamp(0.0, MAX_PRESSURE);
+            air.pending.pressure_clamps += u64::from(air.pressure[k] != wanted);
+            air.pressure[k] != before
+        });
+    }
+
+    /// Sets the pressure of the cells whose centre is in `area` (d): 0 … [`MAX_PRESSURE`], 1 for what is no number.
+    pub fn fill_pressure(&mut self, area: Rect, pressure: f32) {
+        let bounded = if pressure.is_nan() { 1.0 } else { pressure.clamp(0.0, MAX_PRESSURE) };
+        let cut = bounded != pressure;
+        let window = self.window(area);
+        for row in window.rows {
+            for column in window.columns.clone() {
+                let k = self.index(column, row);
+                if !self.solid[k] {
+                    self.pending.pressure_clamps += u64::from(cut);
+                    self.quiet &= self.pressure[k] == bounded;
+                    self.pressure[k] = bounded;
+                }
+            }
+        }
+    }
+
+    /// Stops all wind and sets the pressure of all open cells to 1.
+    pub fn clear(&mut self) {
+        for velocity in [&mut self.velocity_x, &mut self.velocity_y, &mut self.outside] {
+            velocity.fill(0.0);
+        }
+        for row in 0..self.rows() {
+            for k in self.row_range(row) {
+                self.pressure[k] = if self.solid[k] { 0.0 } else { 1.0 };
+            }
+        }
+        self.quiet = true;
+    }
+
+    /// Whether a fan would change air at rest.
+    pub(super) fn is_driven(&self, winds: &[Wind]) -> bool {
+        winds.iter().filter(|wind| wind.rate > 0.0 && bounded_velocity(wind.velocity).0 != Vec2::ZERO).any(|wind| {
+            let Window { columns, rows } = self.window(wind.area);
+            rows.into_iter().any(|row| columns.clone().any(|column| !self.solid[self.index(column, row)]))
+        })
+    }
+
+    /// Drives the air in the fans' areas for a time dt (s): the implicit step of `du/dt = rate (target − u)`, which
+    /// can't overshoot. Returns the largest speeds there.
+    pub(super) fn blow_fans(&mut self, winds: &[Wind], dt: f32, report: &mut AirReport) -> Peaks {
+        let mut peaks = Peaks::default();
+        for wind in winds.iter().filter(|wind| wind.rate > 0.0) {
+            let (target, cuts) = bounded_velocity(wind.velocity);
+            report.speed_clamps += cuts;
+            let pull = wind.rate.min(f32::MAX) * dt;
+            // From here on 1/pull is lost in rounding, and pull/(1 + pull) may not be a number.
+            let part = if pull < 1.0e9 { pull / (1.0 + pull) } else { 1.0 };
+            let Window { columns, rows } = self.window(wind.area);
+            for row in rows {
+                for column in columns.clone() {
+                    let k = self.index(column, row);
+                    if self.solid[k] {
+                        continue;
+                    }
+                    self.velocity_x[k] += (target.x - self.velocity_x[k]) * part;
+                    self.velocity_y[k] += (target.y - self.velocity_y[k]) * part;
+                    let here = Peaks { x: self.velocity_x[k].abs(), y: self.velocity_y[k].abs(), pressure: 0.0 };
+                    peaks = peaks.max(here);
+                }
+            }
+        }
+        peaks
+    }
+
+    /// Cells whose centre is in the area.
+    fn window(&self, area: Rect) -> Window {
+        // The cell k has its centre at (k + ½)·cell, so the first at or after x is ceil(x/cell − ½). `as` keeps to the
+        // range of the type and makes 0 of what is no number.
+        let first = |x: f32, count: usize| ((x / self.cell - 0.5).ceil() as usize).min(count);
+        Window {
+            columns: first(area.min.x, self.columns())..first(area.max.x, self.columns()),
+            rows: first(area.min.y, self.rows())..first(area.max.y, self.rows()),
+        }
+    }
+
+    /// Calls `act` for each open cell of a disc with its weight `(1 − r²/R²)²`; it says whether it changed the cell.
+    fn for_each_in_disc(&mut self, centre: Vec2, radius: f32, mut act: impl FnMut(&mut Self, usize, f32) -> bool) {
+        if !(centre.is_finite() && radius.is_finite()) {
+            return;
+        }
+        let radius = radius.max(self.cell);
+        let Window { columns, rows } =
+            self.window(Rect { min: centre - Vec2::splat(radius), max: centre + Vec2::splat(radius) });
+        for row in rows {
+            for column in columns.clone() {
+                let distance = self.centre(column, row).distance_squared(centre) / (radius * radius);
+                let k = self.index(column, row);
+                if distance < 1.0 && !self.solid[k] {
+                    let falloff = 1.0 - distance;
+                    let changed = act(self, k, falloff * falloff);
+                    self.quiet &= !changed;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! Pockets: connected liquid that touches no air, as in a sealed chamber or a full box.
+//!
+//! There the pressure equation fixes p only up to a constant, and it has a solution only if its right-hand side adds up
+//! to 0. The divergences do (what flows out of one cell flows into the next), the density feedback does not: a pocket
+//! that holds too much liquid can't get rid of it. So the mean of the right-hand side is taken out of each pocket.
+
+use crate::kernel::predictor::{grid::MacGrid, multigrid::Level};
+
+/// Couplings that differ by less than this are equal: rounding of the sums of open shares.
+const ROUNDING: f32 = 1e-4;
+
+/// Labels of the connected parts. Buffers are kept.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Pockets {
+    /// Label of each cell; meaningful where there is liquid.
+    label: Vec<u32>,
+    parts: Vec<Part>,
+}
+
+/// A connected part of the liquid.
+#[derive(Clone, Debug)]
+struct Part {
+    /// Label that this one was found to be connected with; its own if it is the first of them.
+    parent: u32,
+    cells: u32,
+    touches_air: bool,
+    sum: f64,
+}
+
+impl Pockets {
+    /// Takes the mean of the right-hand side out of every pocket.
+    #[inline(always)]
+    pub fn balance(&mut self, grid: &MacGrid, level: &Level, right_side: &mut [f32]) {
+        self.label.resize(grid.len(), 0);
+        self.parts.clear();
+        let s = grid.stride;
+        for j in level.first..=level.last {
+            for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
+                if level.diagonal[k] == 0.0 {
+                    continue;
+                }
+                let (left, lower) = (level.right[k - 1], level.upper[k - s]);
+                let label = match (left > 0.0, lower > 0.0) {
+                    (true, true) => self.join(self.label[k - 1], self.label[k - s]),
+                    (true, false) => self.root(self.label[k - 1]),
+                    (false, true) => self.root(self.label[k - s]),
+                    (false, false) => self.found(),
+                };
+                self.label[k] = label;
+                let coupled = left + lower + level.right[k] + level.upper[k];
+                let part = &mut self.parts[label as usize];
+                part.cells += 1;
+                part.touches_air |= level.diagonal[k] - coupled > ROUNDING;
+                part.sum += f64::from(right_side[k]);
+            }
+        }
+        self.gather();
+        if self.parts.iter().all(|part| part.touches_air) {
+            return;
+        }
+        for j in level.first..=level.last {
+            for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
+                if level.diagonal[k] == 0.0 {
+                    continue;
+                }
+                let part = &self.parts[self.root(self.label[k]) as usize];
+                if !part.touches_air {
+                    right_side[k] -= (part.sum / f64::from(part.cells)) as f32;
+                }
+            }
+        }
+    }
+
+    fn found(&mut self) -> u32 {
+        let label = self.parts.len() as u32;
+        self.parts.push(Part { parent: label, cells: 0, touches_air: false, sum: 0.0 });
+        label
+    }
+
+    fn root(&self, mut label: u32) -> u32 {
+        while self.parts[label as usize].parent != label {
+            label = self.parts[label as usize].parent;
+        }
+        label
+    }
+
+    /// Connects two parts; the older label stays.
+    fn join(&mut self, a: u32, b: u32) -> u32 {
+        let (a, b) = (self.root(a), self.root(b));
+        let (older, newer) = (a.min(b), a.max(b));
+        self.parts[newer as usize].parent = older;
+        older
+    }
+
+    /// Adds what was noted under a newer label to its root.
+    fn gather(&mut self) {
+        for label in (0..self.parts.len() as u32).rev() {
+            let root = self.root(label) as usize;
+            if root == label as usize {
+                continue;
+            }
+            let Part { cells, touches_air, sum, .. } = self.parts[label as usize].clone();
+            let part = &mut self.parts[root];
+            part.cells += cells;
+            part.touches_air |= touches_air;
+            part.sum += sum;
+        }
+        // Points every label straight at its root and lets it know what the root knows.
+        for label in 0..self.parts.len() as u32 {
+            let root = self.root(label);
+            let touches_air = self.parts[root as usize].touches_air;
+            let part = &mut self.parts[label as usize];
+            (part.parent, part.touches_air) = (root, touches_air);
+        }
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        4 * self.label.capacity() + size_of::<Part>() * self.parts.capacity()
+    }
+}

@@ -1,0 +1,147 @@
+//! What rock closes: how much of each face is open, and how much of each cell's neighbourhood is rock.
+
+use crate::kernel::{
+    predictor::{
+        grid::MacGrid,
+        transfer::{Axis, Stencil},
+    },
+    solids::{Solids, centre},
+};
+use glam::IVec2;
+
+/// A face that is less open than this is closed: the equation would be stiff, and nothing passes.
+const LEAST_OPEN: f32 = 0.1;
+
+/// Rock as the grid sees it; follows the rock's version.
+#[derive(Clone, Debug, Default)]
+pub(super) struct ClosedFaces {
+    built_for: Option<u64>,
+    /// Open share of the left face of each cell.
+    pub open_u: Vec<f32>,
+    /// Open share of the lower face of each cell.
+    pub open_v: Vec<f32>,
+    /// Share of rock around each cell, smeared as the liquid's density is, 0 … 1.
+    pub rock: Vec<f32>,
+}
+
+impl ClosedFaces {
+    /// Follows the rock.
+    pub fn update(&mut self, grid: &MacGrid, solids: &Solids) {
+        if self.built_for == Some(solids.version()) && self.rock.len() == grid.len() {
+            return;
+        }
+        self.built_for = Some(solids.version());
+        for field in [&mut self.open_u, &mut self.open_v, &mut self.rock] {
+            field.clear();
+            field.resize(grid.len(), 0.0);
+        }
+        for j in 1..=grid.rows + 1 {
+            for i in 1..=grid.columns + 1 {
+                let (x, y) = ((i - 1) as f32 * grid.cell, (j - 1) as f32 * grid.cell);
+                if j <= grid.rows {
+                    self.open_u[grid.row(j) + i] =
+                        open_share(grid, y, |along, across| solids.is_solid(IVec2::new(across, along)), x);
+                }
+                if i <= grid.columns {
+                    self.open_v[grid.row(j) + i] =
+                        open_share(grid, x, |along, across| solids.is_solid(IVec2::new(along, across)), y);
+                }
+            }
+        }
+        self.smear_rock(grid, solids);
+    }
+
+    /// Rock particles share out their volume as liquid particles do, so that rock and liquid side by side add up to 1.
+    fn smear_rock(&mut self, grid: &MacGrid, solids: &Solids) {
+        if solids.count() == 0 {
+            return;
+        }
+        let (mut u, mut v) = (vec![0.0; grid.len()], vec![0.0; grid.len()]);
+        for (cell, ..) in solids.iter() {
+            let at = centre(cell);
+            Stencil::new(grid, at.x, at.y, Axis::U).add(&mut u, grid.stride, |value, weight| *value += weight);
+            Stencil::new(grid, at.x, at.y, Axis::V).add(&mut v, grid.stride, |value, weight| *value += weight);
+        }
+        fold_at_walls(grid, &mut u, &mut v);
+        let share = 0.25 * grid.per_cell * grid.per_cell;
+        for j in 1..=grid.rows {
+            for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
+                let sum: f32 = u[k] + u[k + 1] + v[k] + v[k + grid.stride];
+                self.rock[k] = (share * sum).min(1.0);
+            }
+        }
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        4 * (self.open_u.capacity() + self.open_v.capacity() + self.rock.capacity())
+    }
+}
+
+/// Open share of a face that lies at `plane` across its normal and reaches from `start` one cell along itself: the
+/// share of the lines from cell centre to cell centre that meet no rock. A wall one particle thick closes every line, a
+/// lone rock only its own. `solid(along, across)` tells whether a rock cell is solid.
+fn open_share(grid: &MacGrid, start: f32, solid: impl Fn(i32, i32) -> bool, plane: f32) -> f32 {
+    let end = start + grid.cell;
+    let (near, far) = (plane - 0.5 * grid.cell, plane + 0.5 * grid.cell);
+    let mut open = 0.0;
+    for along in start.floor() as i32..end.ceil() as i32 {
+        let width = (end.min((along + 1) as f32) - start.max(along as f32)).max(0.0);
+        let blocked = (near.floor() as i32..far.ceil() as i32).any(|across| solid(along, across));
+        open += if blocked { 0.0 } else { width };
+    }
+    let share = (open * grid.per_cell).min(1.0);
+    if share < LEAST_OPEN { 0.0 } else { share }
+}
+
+/// What was shared out beyond a wall belongs to this side of it; a face on the wall sees only half of its surroundings.
+pub(super) fn fold_at_walls<T: Foldable>(grid: &MacGrid, u: &mut [T], v: &mut [T]) {
+    let (s, columns, rows) = (grid.stride, grid.columns, grid.rows);
+    for i in 0..=columns + 1 {
+        u[s + i].add(u[i]);
+        let beyond = u[(rows + 1) * s + i];
+        u[rows * s + i].add(beyond);
+    }
+    for j in 0..=rows + 1 {
+        let beyond = v[j * s];
+        v[j * s + 1].add(beyond);
+        let beyond = v[j * s + columns + 1];
+        v[j * s + columns].add(beyond);
+    }
+    for j in 1..=rows {
+        u[j * s + 1].double();
+        u[j * s + columns + 1].double();
+    }
+    for i in 1..=columns {
+        v[s + i].double();
+        v[(rows + 1) * s + i].double();
+    }
+}
+
+/// A deposit on a face.
+pub(super) trait Foldable: Copy {
+    /// Adds another deposit.
+    fn add(&mut self, other: Self);
+    /// Doubles it.
+    fn double(&mut self);
+}
+
+impl Foldable for f32 {
+    fn add(&mut self, other: Self) {
+        *self += other;
+    }
+    fn double(&mut self) {
+        *self *= 2.0;
+    }
+}
+
+impl Foldable for [f32; 2] {
+    fn add(&mut self, other: Self) {
+        self[0] += other[0];
+        self[1] += other[1];
+    }
+    fn double(&mut self) {
+        self[0] *= 2.0;
+        self[1] *= 2.0;
+    }
+}

@@ -1,0 +1,185 @@
+//! Viscosity and vorticity confinement against what is known of them.
+
+use super::*;
+use crate::kernel::{
+    params::{GradientKernel, Preset},
+    pbf::tests::{Bench, random_numbers},
+};
+
+/// A square of 20 × 20 particles on the lattice, `jitter` d off it at random, with velocities from `velocity`.
+fn square(jitter: f32, velocity: impl Fn(Vec2) -> Vec2) -> Bench {
+    let mut bench = Bench::new(60, 60, Preset::Balanced);
+    let mut random = random_numbers(9);
+    for k in 0..400 {
+        let site = Vec2::new(20.5 + (k % 20) as f32, 20.5 + (k / 20) as f32);
+        let at = site + jitter * (2.0 * Vec2::new(random(), random()) - 1.0);
+        bench.add(at, velocity(at));
+    }
+    bench
+}
+
+fn kinetic_energy(particles: &Particles) -> f64 {
+    (0..particles.len()).map(|i| 0.5 * f64::from(particles.velocity(i).length_squared())).sum()
+}
+
+#[test]
+fn rigid_rotation_has_a_vorticity_of_twice_its_rate() {
+    let middle = Vec2::splat(30.0);
+    for (gradient, rate) in [(GradientKernel::Spiky, 3.0), (GradientKernel::Rational, -2.0)] {
+        let mut bench = square(0.0, |at| rate * (at - middle).perp());
+        bench.quality.gradient = gradient;
+        bench.solve(false);
+        apply_vorticity(&mut bench.particles, &mut bench.solver, &[0.0], 1, 0.01);
+        for i in 0..400 {
+            let inner = (bench.particles.position(i) - middle).abs().max_element() < 6.0;
+            let vorticity = bench.solver.lambda[i];
+            // The sum over the lattice is 8 % off the integral that the kernel is normalised by.
+            assert!(
+                !inner || (vorticity - 2.0 * rate).abs() < 0.1 * (2.0 * rate).abs(),
+                "{gradient:?}: ω = {vorticity} at {} instead of {}",
+                bench.particles.position(i),
+                2.0 * rate
+            );
+        }
+    }
+}
+
+#[test]
+fn confinement_of_strength_zero_changes_nothing() {
+    let mut bench = square(0.3, |at| Vec2::new(at.y, at.x - at.y));
+    bench.solve(false);
+    let before = bench.particles.clone();
+    apply_vorticity(&mut bench.particles, &mut bench.solver, &[0.0], 1, 0.01);
+    assert_eq!(before, bench.particles);
+}
+
+#[test]
+fn confinement_pushes_across_the_slope_of_the_vorticity() {
+    // A round eddy: the push goes along its rotation, faster where it is already turning.
+    let middle = Vec2::splat(30.0);
+    let eddy = |at: Vec2| {
+        let from = at - middle;
+        60.0 * from.perp() / (4.0 + from.length_squared())
+    };
+    let mut bench = square(0.0, eddy);
+    bench.solve(false);
+    let before = bench.particles.clone();
+    apply_vorticity(&mut bench.particles, &mut bench.solver, &[1.0], 1, 0.01);
+    for i in 0..400 {
+        let from = before.position(i) - middle;
+        let push = bench.particles.velocity(i) - before.velocity(i);
+        let along = push.dot(from.perp().normalize());
+        if (2.0..5.0).contains(&from.length()) {
+            assert!(along > 0.0, "the eddy is pushed back by {along} at {from} from its middle");
+            assert!(push.dot(from.normalize()).abs() < 0.5 * along, "the push {push} at {from} is not along the eddy");
+        }
+    }
+}
+
+#[test]
+fn viscosity_never_raises_the_kinetic_energy_or_a_speed() {
+    for jitter in [0.0, 0.2, 0.45] {
+        for coefficient in [0.02, 0.5] {
+            let mut bench = square(jitter, |_| Vec2::ZERO);
+            let mut random = random_numbers(21);
+            for i in 0..400 {
+                bench.particles.vx[i] = 40.0 * (random() - 0.5);
+                bench.particles.vy[i] = 40.0 * (random() - 0.5);
+            }
+            bench.solve(false);
+            for pass in 0..20 {
+                let fastest = |p: &Particles| (0..p.len()).map(|i| p.velocity(i).length()).fold(0.0, f32::max);
+                let (energy, speed) = (kinetic_energy(&bench.particles), fastest(&bench.particles));
+                apply_viscosity(&mut bench.particles, &mut bench.solver, &[coefficient], 1);
+                let (after, speed_after) = (kinetic_energy(&bench.particles), fastest(&bench.particles));
+                assert!(after < energy, "jitter {jitter}, c {coefficient}, pass {pass}: energy {energy} → {after}");
+                assert!(
+                    speed_after <= speed * 1.0001,
+                    "jitter {jitter}, c {coefficient}: speed {speed} → {speed_after}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn viscosity_damps_a_shear_layer_and_keeps_its_momentum() {
+    let mut bench = square(0.1, |at| Vec2::new(if at.y > 30.0 { 5.0 } else { -5.0 }, 0.0));
+    bench.solve(false);
+    let step = |bench: &Bench| -> f32 {
+        let mean = |low: f32| {
+            let layer: Vec<usize> = (0..400).filter(|&i| (low..low + 1.0).contains(&bench.particles.y[i])).collect();
+            layer.iter().map(|&i| bench.particles.vx[i]).sum::<f32>() / layer.len() as f32
+        };
+        mean(30.0) - mean(29.0)
+    };
+    assert!((step(&bench) - 10.0).abs() < 1e-3);
+    for _ in 0..50 {
+        apply_viscosity(&mut bench.particles, &mut bench.solver, &[0.1], 1);
+    }
+    let left = step(&bench);
+    assert!((0.1..4.0).contains(&left), "the step of the shear layer went from 10 to {left} d/s");
+    let momentum: f32 = bench.particles.vx.iter().sum();
+    assert!(momentum.abs() < 0.02 * 5.0 * 400.0, "viscosity made a momentum of {momentum}");
+    let still: f32 = bench.particles.vy.iter().map(|v| v.abs()).fold(0.0, f32::max);
+    assert_eq!(still, 0.0, "viscosity moves particles across the layer");
+}
+
+#[test]
+fn an_even_flow_feels_no_viscosity() {
+    let mut bench = square(0.3, |_| Vec2::new(3.0, -4.0));
+    bench.solve(false);
+    let before = bench.particles.clone();
+    apply_viscosity(&mut bench.particles, &mut bench.solver, &[0.5], 1);
+    assert_eq!(before, bench.particles);
+}
+
+#[test]
+fn velocities_follow_from_the_moves_and_cut_corrections_are_counted() {
+    let mut bench = square(0.0, |_| Vec2::ZERO);
+    bench.bin();
+    for i in 0..400 {
+        bench.solver.x[i] += if i < 7 { bench.quality.correction_limit } else { 0.01 };
+    }
+    let before = bench.particles.clone();
+    let report = update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, &bench.quality, false, 0.01);
+    assert_eq!(report.position_clamps, 7, "corrections at their limit");
+    for i in 0..400 {
+        let moved = bench.particles.x[i] - before.x[i];
+        assert!((bench.particles.vx[i] - moved / 0.01).abs() < 1e-3 && bench.particles.vy[i] == 0.0);
+        assert!(moved > 0.009, "particle {i} did not go where it was sent");
+    }
+}
+
+#[test]
+fn after_the_predictor_small_corrections_move_particles_but_hardly_speed_them_up() {
+    let mut bench = square(0.0, |_| Vec2::new(2.0, 0.0));
+    bench.bin();
+    for i in 0..400 {
+        bench.solver.y[i] += if i % 2 == 0 { 0.005 } else { 0.1 };
+    }
+    let before = bench.particles.clone();
+    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, &bench.quality, true, 0.01);
+    for i in 0..400 {
+        // a²/(a² + 0.05²) of a/Δt
+        let expected = if i % 2 == 0 { 0.5 / 101.0 } else { 10.0 * 0.8 };
+        let found = bench.particles.velocity(i);
+        assert!((found.y - expected).abs() < 1e-3 && found.x == 2.0, "{found} after a correction, not {expected}");
+        assert!(bench.particles.y[i] > before.y[i] + 0.004, "the correction itself was lost");
+    }
+}
+
+#[test]
+fn a_correction_into_rock_stops_at_its_face() {
+    let mut bench = square(0.0, |_| Vec2::ZERO);
+    bench.rock((40, 10), (41, 50));
+    bench.bin();
+    for i in 0..400 {
+        bench.solver.x[i] += 0.6;
+    }
+    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, &bench.quality, false, 0.01);
+    for i in 0..400 {
+        let at = bench.particles.position(i);
+        assert!(!bench.solids.is_solid(Solids::cell_of(at)), "particle {i} was moved into rock, to {at}");
+    }
+}

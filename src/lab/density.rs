@@ -1,0 +1,288 @@
+//! The density error: how much too dense the liquid stands, from positions only and apart from the solver's own kernel,
+//! so that any other program's particles can be held against it.
+//!
+//! ρᵢ = Σⱼ (R² − r²)³ with R = 3 d, over the same sum in the square lattice of spacing d. The error of a particle is
+//! max(0, ρ/ρ₀ − 1), ρ₀ being the scene's rest density. Only particles inside the liquid count: those with a neighbour in each of the eight 45°
+//! sectors. Rock is a neighbour like any other; the walls of the box are none.
+
+use crate::{
+    kernel::{particles::Particles, solids},
+    lab::stats,
+};
+use glam::Vec2;
+use rayon::prelude::*;
+
+/// Support R of the estimate, d.
+pub const SUPPORT: f64 = 3.0;
+
+const R2: f64 = SUPPORT * SUPPORT;
+
+/// All eight sectors seen.
+const ALL_SECTORS: u8 = u8::MAX;
+
+/// Σ (R² − r²)³ over the square lattice of spacing 1 around one of its points, itself included.
+const LATTICE_SUM: f64 = {
+    let reach = SUPPORT as i64;
+    let mut sum = 0.0;
+    let mut y = -reach;
+    while y <= reach {
+        let mut x = -reach;
+        while x <= reach {
+            let q = R2 - (x * x + y * y) as f64;
+            if q > 0.0 {
+                sum += q * q * q;
+            }
+            x += 1;
+        }
+        y += 1;
+    }
+    sum
+};
+
+/// What stands around one particle.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Local {
+    /// Density; 1 in the square lattice of spacing d.
+    pub density: f64,
+    /// Whether there is a neighbour in each of the eight sectors.
+    pub interior: bool,
+}
+
+/// The density error of a world at one moment, as fractions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DensityError {
+    /// Mean over the interior particles.
+    pub mean: f64,
+    /// 99th percentile.
+    pub p99: f64,
+    /// Largest.
+    pub max: f64,
+}
+
+/// The density error, `rest_density` (a multiple of the lattice's) counting as none. `None` without interior particles.
+pub fn density_error(
+    particles: &Particles,
+    rock: &solids::Solids,
+    size: Vec2,
+    rest_density: f64,
+) -> Option<DensityError> {
+    let mut errors: Vec<f64> = surroundings(particles, rock, size)
+        .iter()
+        .filter(|local| local.interior)
+        .map(|local| (local.density / rest_density - 1.0).max(0.0))
+        .collect();
+    Some(DensityError {
+        mean: stats::mean(&errors)?,
+        max: stats::largest(&errors)?,
+        p99: stats::quantile(&mut errors, 0.99)?,
+    })
+}
+
+/// What stands around each movable particle, in the order of the store. Particles that are not finite or further than d
+/// outside the box have no surroundings and are nobody's neighbour.
+pub fn surroundings(particles: &Particles, rock: &solids::Solids, size: Vec2) -> Vec<Local> {
+    let grid = Grid::new(particles, rock, size);
+    let found: Vec<Local> = (0..grid.x.len()).into_par_iter().with_min_len(1024).map(|k| grid.look_around(k)).collect();
+    let mut locals = vec![Local::default(); particles.len()];
+    for (&source, local) in grid.source.iter().zip(found) {
+        if source != ROCK {
+            locals[source as usize] = local;
+        }
+    }
+    locals
+}
+
+/// Source of a point that is rock.
+const ROCK: u32 = u32::MAX;
+
+/// Points sorted into square cells of edge R. A point's neighbours lie in three runs of consecutive points.
+struct Grid {
+    columns: usize,
+    rows: usize,
+    /// First point of each cell, row by row, and the number of points.
+    start: Vec<u32>,
+    x: Vec<f64>,
+    y: Vec<f64>,
+    /// Index in the particle store, or [`ROCK`].
+    source: Vec<u32>,
+}
+
+impl Grid {
+    fn new(particles: &Particles, rock: &solids::Solids, size: Vec2) -> Self {
+        let cells_along = |length: f32| ((f64::from(length) + 2.0) / SUPPORT).ceil().max(1.0) as usize;
+        let (columns, rows) = (cells_along(size.x), cells_along(size.y));
+        let inside = |p: Vec2| p.cmpge(Vec2::splat(-1.0)).all() && p.cmple(size + 1.0).all();
+        let cell_of = |p: Vec2| {
+            let along = |x: f32, cells: usize| (((f64::from(x) + 1.0) / SUPPORT) as usize).min(cells - 1);
+            along(p.y, rows) * columns + along(p.x, columns)
+        };
+        let movable = (0..particles.len()).map(|i| (particles.position(i), i as u32));
+        let fixed = rock.iter().map(|(cell, _, _)| (solids::centre(cell), ROCK));
+        let points: Vec<(Vec2, u32)> = movable.chain(fixed).filter(|(p, _)| inside(*p)).collect();
+
+        let mut start = vec![0_u32; columns * rows + 1];
+        for (p, _) in &points {
+            start[cell_of(*p) + 1] += 1;
+        }
+        for k in 1..start.len() {
+            start[k] += start[k - 1];
+        }
+        let mut next = start.clone();
+        let mut grid = Self {
+            columns,
+            rows,
+            start,
+            x: vec![0.0; points.len()],
+            y: vec![0.0; points.len()],
+            source: vec![0; points.len()],
+        };
+        for (p, source) in points {
+            let slot = &mut next[cell_of(p)];
+            let k = *slot as usize;
+            *slot += 1;
+            (grid.x[k], grid.y[k], grid.source[k]) = (f64::from(p.x), f64::from(p.y), source);
+        }
+        grid
+    }
+
+    fn look_around(&self, k: usize) -> Local {
+        if self.source[k] == ROCK {
+            return Local::default();
+        }
+        let (x, y) = (self.x[k], self.y[k]);
+        let along = |x: f64, cells: usize| (((x + 1.0) / SUPPORT) as usize).min(cells - 1);
+        let (column, row) = (along(x, self.columns), along(y, self.rows));
+        let (left, right) = (column.saturating_sub(1), (column + 1).min(self.columns - 1));
+        let mut sum = 0.0;
+        let mut sectors = 0;
+        for row in row.saturating_sub(1)..=(row + 1).min(self.rows - 1) {
+            let first = self.start[row * self.columns + left] as usize;
+            let end = self.start[row * self.columns + right + 1] as usize;
+            for (xj, yj) in self.x[first..end].iter().zip(&self.y[first..end]) {
+                let (dx, dy) = (xj - x, yj - y);
+                let q = R2 - (dx * dx + dy * dy);
+                if q > 0.0 {
+                    sum += q * q * q;
+                    sectors |= sector(dx, dy);
+                }
+            }
+        }
+        Local { density: sum / LATTICE_SUM, interior: sectors == ALL_SECTORS }
+    }
+}
+
+/// The bit of the sector `[45° s, 45° (s + 1))` that a direction lies in; none for no direction.
+fn sector(dx: f64, dy: f64) -> u8 {
+    let upper = dy > 0.0 || (dy == 0.0 && dx > 0.0);
+    let (a, b) = if upper { (dx, dy) } else { (-dx, -dy) };
+    let quarter = if a > 0.0 { u8::from(b >= a) } else { 2 + u8::from(b <= -a) };
+    let bit = 1 << (quarter + 4 * u8::from(!upper));
+    if dx == 0.0 && dy == 0.0 { 0 } else { bit }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::element::ElementId;
+    use glam::IVec2;
+
+    fn world(points: impl IntoIterator<Item = Vec2>) -> Particles {
+        let mut particles = Particles::default();
+        for (id, p) in points.into_iter().enumerate() {
+            particles.push(id as u32, ElementId(0), p, Vec2::ZERO);
+        }
+        particles
+    }
+
+    fn lattice(columns: i32, rows: i32, spacing: f32) -> Vec<Vec2> {
+        (0..columns * rows)
+            .map(|k| (IVec2::new(k % columns, k / columns).as_vec2() + Vec2::splat(0.5)) * spacing)
+            .collect()
+    }
+
+    /// Numbers in [0, 1) from a linear congruence.
+    fn noise(seed: &mut u64) -> f32 {
+        *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (*seed >> 40) as f32 / (1_u64 << 24) as f32
+    }
+
+    /// The definition, pair by pair.
+    fn direct(points: &[Vec2], own: usize) -> Local {
+        let mut sum = 0.0;
+        let mut seen = [false; 8];
+        for (j, p) in points.iter().enumerate() {
+            let d = (p.as_dvec2() - points[own].as_dvec2()).to_array();
+            let r2 = d[0] * d[0] + d[1] * d[1];
+            if r2 >= 9.0 {
+                continue;
+            }
+            sum += (9.0 - r2).powi(3);
+            if j != own {
+                let turn = d[1].atan2(d[0]) / std::f64::consts::FRAC_PI_4;
+                seen[(turn.floor() as i32).rem_euclid(8) as usize] = true;
+            }
+        }
+        let reference: f64 = lattice(7, 7, 1.0)
+            .iter()
+            .map(|p| (9.0 - f64::from(p.distance_squared(Vec2::splat(3.5)))).max(0.0).powi(3))
+            .sum();
+        Local { density: sum / reference, interior: seen.into_iter().all(|seen| seen) }
+    }
+
+    #[test]
+    fn the_lattice_is_at_rest_and_a_tighter_one_too_dense_by_its_area() {
+        let size = Vec2::new(40.0, 30.0);
+        let rock = solids::Solids::new(40, 30);
+        let error = density_error(&world(lattice(40, 30, 1.0)), &rock, size, 1.0).unwrap();
+        assert!(error.max < 1e-12, "the resting lattice has no error, but {}", error.max);
+        let error = density_error(&world(lattice(40, 30, 0.8)), &rock, size, 1.0).unwrap();
+        assert!((error.mean - (1.0 / 0.64 - 1.0)).abs() < 0.02, "{}", error.mean);
+        let error = density_error(&world(lattice(40, 30, 0.8)), &rock, size, 1.0 / 0.64).unwrap();
+        assert!(error.mean < 0.02, "at its own rest density it is at rest, not {}", error.mean);
+    }
+
+    #[test]
+    fn the_grid_finds_what_the_definition_finds() {
+        let mut seed = 7;
+        let size = Vec2::new(24.0, 17.0);
+        let mut points: Vec<Vec2> = (0..700).map(|_| Vec2::new(noise(&mut seed), noise(&mut seed)) * size).collect();
+        points.extend([Vec2::ZERO, size, Vec2::new(-0.9, 3.0), size + 0.9, points[5]]);
+        let mut rock = solids::Solids::new(24, 17);
+        for x in 0..24 {
+            rock.insert(IVec2::new(x, 4), ElementId(1), 10_000 + x as u32);
+        }
+        let movable = points.len();
+        let found = surroundings(&world(points.clone()), &rock, size);
+        points.extend(rock.iter().map(|(cell, _, _)| solids::centre(cell)));
+        assert!(found.iter().any(|local| local.interior) && !found.iter().all(|local| local.interior));
+        for (i, local) in found.iter().enumerate().take(movable) {
+            let expected = direct(&points, i);
+            assert!((local.density - expected.density).abs() < 1e-9, "{i}: {local:?} is not {expected:?}");
+            assert_eq!(local.interior, expected.interior, "{i} at {}", points[i]);
+        }
+    }
+
+    #[test]
+    fn a_surface_particle_is_not_interior_until_rock_covers_it() {
+        let size = Vec2::new(9.0, 9.0);
+        let particles = world(lattice(9, 5, 1.0));
+        let top_middle = 4 * 9 + 4;
+        let mut rock = solids::Solids::new(9, 9);
+        assert!(!surroundings(&particles, &rock, size)[top_middle].interior);
+        for x in 0..9 {
+            rock.insert(IVec2::new(x, 5), ElementId(1), 100 + x as u32);
+        }
+        assert!(surroundings(&particles, &rock, size)[top_middle].interior, "rock is a neighbour");
+    }
+
+    #[test]
+    fn particles_that_are_not_finite_or_far_outside_harm_nobody() {
+        let size = Vec2::new(20.0, 20.0);
+        let rock = solids::Solids::new(20, 20);
+        let mut points = lattice(20, 20, 1.0);
+        let calm = density_error(&world(points.clone()), &rock, size, 1.0);
+        points.extend([Vec2::NAN, Vec2::splat(1e30), Vec2::splat(f32::NEG_INFINITY)]);
+        assert_eq!(density_error(&world(points), &rock, size, 1.0), calm);
+        assert_eq!(density_error(&Particles::default(), &rock, size, 1.0), None);
+    }
+}

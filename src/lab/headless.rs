@@ -1,0 +1,48 @@
+//! The simulation without a window: the game's own plugin in a bare app, stepped tick by tick.
+
+use crate::{
+    scene::blueprint::Blueprint,
+    sim::{SimulationPlugin, control, workers::Workers},
+};
+use bevy::{
+    MinimalPlugins,
+    app::{App, PluginGroup, ScheduleRunnerPlugin},
+    ecs::world::World,
+    time::TimeUpdateStrategy,
+};
+use std::sync::Arc;
+
+/// A world that waits for its next tick.
+pub struct Headless {
+    app: App,
+}
+
+impl Headless {
+    /// The start of a scene, for `workers` to run.
+    pub fn new(blueprint: Arc<Blueprint>, workers: Workers) -> Self {
+        let mut app = App::new();
+        app.add_plugins((MinimalPlugins.build().disable::<ScheduleRunnerPlugin>(), SimulationPlugin));
+        app.insert_resource(workers).insert_resource(TimeUpdateStrategy::FixedTimesteps(1));
+        control::load(app.world_mut(), blueprint);
+        app.finish();
+        app.cleanup();
+        // The clock's first update has no time in it and runs no tick.
+        app.update();
+        Self { app }
+    }
+
+    /// Runs one tick.
+    pub fn tick(&mut self) {
+        self.app.update();
+    }
+
+    /// The world, to read and to control.
+    pub fn world(&self) -> &World {
+        self.app.world()
+    }
+
+    /// The world, to change between ticks.
+    pub fn world_mut(&mut self) -> &mut World {
+        self.app.world_mut()
+    }
+}

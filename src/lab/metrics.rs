@@ -1,0 +1,147 @@
+//! The object that `run --metrics` writes. `null` stands where a value does not apply to the run.
+
+use crate::{kernel::params::Quality, scene::blueprint::Mode};
+use serde::{Serialize, Serializer};
+use std::collections::BTreeMap;
+
+/// Everything that is measured of a run.
+#[derive(Clone, Debug, Serialize)]
+pub struct Metrics {
+    /// Name of the scene.
+    pub scene: String,
+    /// Name of the quality.
+    pub quality: &'static str,
+    /// The numbers in force, which `--set` may have moved away from the name's.
+    pub quality_values: Quality,
+    /// The scene's own parameters.
+    pub parameters: BTreeMap<String, f64>,
+    /// Threads of the kernel.
+    pub threads: usize,
+    /// Ticks run, the warm-up included.
+    pub ticks: u64,
+    /// Ticks left out of times and samples.
+    pub warmup: u64,
+    /// Simulated time, s.
+    pub sim_seconds: f64,
+    /// Time that it took, with sampling, s.
+    pub wall_seconds: f64,
+    /// Hash of the final state, 16 hex digits: equal hashes mean equal worlds.
+    pub hash: String,
+    /// Final number of particles.
+    pub particles: ParticleCount,
+    /// Times of whole ticks.
+    pub ms_per_tick: TickTimes,
+    /// Cost of each stage of the tick.
+    #[serde(serialize_with = "as_map")]
+    pub stages: Vec<(&'static str, Stage)>,
+    /// Cost of each effect and why it ran.
+    #[serde(serialize_with = "as_map")]
+    pub effects: Vec<(&'static str, EffectCost)>,
+    /// How true the result is.
+    pub accuracy: Accuracy,
+    /// What the limiters did since the scene began.
+    pub stability: Stability,
+    /// What particles, solver, rock and air hold, bytes.
+    pub memory_bytes: u64,
+    /// Most memory that the process has had, bytes; only on Linux.
+    pub peak_rss_bytes: Option<u64>,
+}
+
+/// Number of particles, rock and movable ones together.
+#[derive(Clone, Debug, Serialize)]
+pub struct ParticleCount {
+    /// In all.
+    pub total: usize,
+    /// By element, in the order of the table.
+    #[serde(serialize_with = "as_map")]
+    pub by_element: Vec<(String, usize)>,
+}
+
+/// Times of whole ticks, ms, from the first stage to the last.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct TickTimes {
+    /// Median.
+    pub median: Option<f64>,
+    /// 95th percentile.
+    pub p95: Option<f64>,
+    /// Longest.
+    pub max: Option<f64>,
+}
+
+/// Cost of a stage.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Stage {
+    /// Calls: one a tick or one a substep.
+    pub calls: u64,
+    /// Time in all, ms.
+    pub ms_total: f64,
+    /// Median time a tick, ms.
+    pub ms_median: Option<f64>,
+}
+
+/// Cost of an effect.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct EffectCost {
+    /// What the scene or the command line wanted.
+    pub mode: Mode,
+    /// Ticks in which it ran.
+    pub active_ticks: u64,
+    /// Calls of its stage; `null` if it is a part of another's.
+    pub calls: Option<u64>,
+    /// Time of its stage, ms; `null` if it is a part of another's.
+    pub ms_total: Option<f64>,
+    /// Why it ran or not in the last tick.
+    pub why: &'static str,
+}
+
+/// How true the result is. Means are over the samples.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Accuracy {
+    /// Samples taken: one every 20 ticks after the warm-up, or one at the end of a shorter run.
+    pub samples: usize,
+    /// Mean of max(0, ρ/ρ₀ − 1) over the interior particles (see `lab::density`).
+    pub density_error_mean: Option<f64>,
+    /// Mean of its 99th percentile.
+    pub density_error_p99: Option<f64>,
+    /// Its maximum over all samples.
+    pub density_error_max: Option<f64>,
+    /// The solver's own mean constraint C over the particles with C > 0, in its last iteration of the run.
+    pub residual: Option<f64>,
+    /// Mean of the share of room that the liquid takes too much (see `lab::volume`).
+    pub volume_error: Option<f64>,
+    /// Kinetic and potential energy of the movable particles at the end, J for each metre of depth.
+    pub energy: f64,
+    /// Their momentum at the end, kg m/s for each metre of depth.
+    pub momentum: [f64; 2],
+    /// Change of the air's mass since the start, as a share of it.
+    pub air_mass_drift: Option<f64>,
+    /// Momentum that came from nowhere as a share of Σ m |v|, over the ticks in which only gravity acted from outside:
+    /// no particle near a wall or rock, no drag, none come or gone. `null` if there was no such tick.
+    pub momentum_drift: Option<f64>,
+    /// Mean of the root mean square divergence of the air, 1/s.
+    pub air_divergence_rms: Option<f64>,
+}
+
+/// What the limiters did since the scene began; all zero in a calm scene but `substeps_max`.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Stability {
+    /// Particles removed because they were not finite.
+    pub non_finite: u64,
+    /// Particles found outside the box or in rock at the end of a tick.
+    pub escaped: u64,
+    /// Speeds cut, in particles × substeps.
+    pub speed_clamps: u64,
+    /// Corrections cut, in particles × substeps.
+    pub position_clamps: u64,
+    /// Air cells whose speed or pressure was cut.
+    pub air_clamps: u64,
+    /// Particles not placed because the world was full.
+    pub refused: u64,
+    /// Most substeps that a tick took.
+    pub substeps_max: u32,
+}
+
+/// A list of pairs as one object, in its own order.
+fn as_map<K: Serialize, V: Serialize, S: Serializer>(pairs: &[(K, V)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(pairs.iter().map(|(key, value)| (key, value)))
+}

@@ -1,0 +1,18 @@
+//! Accuracy: what a run is measured by, and what it leaves behind. Everything here reads the simulation's resources and
+//! changes none, so that a measured world has the hash of an unmeasured one.
+
+pub mod balance;
+pub mod binning;
+pub mod density;
+mod drift;
+pub mod headless;
+pub mod machine;
+pub mod metrics;
+pub mod particle_list;
+pub mod picture;
+pub mod rest_density;
+pub mod run;
+pub mod sampler;
+pub mod stats;
+pub mod trace;
+pub mod volume;

@@ -1,0 +1,358 @@
+//! Gathers times and accuracy of a run, tick by tick, and makes the [`Metrics`] of it.
+
+use crate::{
+    kernel::units::TICKS_PER_SECOND,
+    lab::{
+        balance::Matter,
+        density::density_error,
+        drift::Drift,
+        metrics::{Accuracy, EffectCost, Metrics, ParticleCount, Stability, Stage, TickTimes},
+        run::Observer,
+        stats,
+        volume::volume_error,
+    },
+    scene::blueprint::{Effect, Mode},
+    sim::{
+        control,
+        effects::Effects,
+        ledger::{Pass, PassLedger},
+        state::{AirGrid, Counters, ParticleStore, PredictorState, Rock, Setup, SolverState},
+        workers::Workers,
+    },
+};
+use bevy::ecs::world::World;
+use std::{
+    io,
+    time::{Duration, Instant},
+};
+
+/// Ticks from one accuracy sample to the next.
+pub const SAMPLE_EVERY: u64 = 20;
+
+/// Watches a run.
+pub struct Sampler {
+    begun: Instant,
+    warmup: u64,
+    ticks: u64,
+    tick_ms: Vec<f64>,
+    pass_ms: [Vec<f64>; Pass::ALL.len()],
+    pass_totals: [Duration; Pass::ALL.len()],
+    /// Active ticks of the effects at the end of the warm-up.
+    active_before: [u64; Effect::ALL.len()],
+    air_mass_before: f64,
+    samples: Samples,
+    drift: Drift,
+}
+
+impl Sampler {
+    /// A sampler of a run that starts with the world as it is, and leaves its first `warmup` ticks out.
+    pub fn new(world: &World, warmup: u64) -> Self {
+        Self {
+            begun: Instant::now(),
+            warmup,
+            ticks: 0,
+            tick_ms: Vec::new(),
+            pass_ms: std::array::from_fn(|_| Vec::new()),
+            pass_totals: [Duration::ZERO; Pass::ALL.len()],
+            active_before: active_ticks(world),
+            air_mass_before: world.resource::<AirGrid>().mass(),
+            samples: Samples::default(),
+            drift: Drift::default(),
+        }
+    }
+
+    /// The metrics of the run that ends here.
+    pub fn finish(mut self, world: &World) -> Metrics {
+        if self.samples.taken == 0 {
+            self.samples.take(world);
+        }
+        let setup = world.resource::<Setup>();
+        Metrics {
+            scene: setup.blueprint.name.clone(),
+            quality: setup.preset.name(),
+            quality_values: setup.quality,
+            parameters: setup.blueprint.parameters.clone(),
+            threads: world.resource::<Workers>().threads(),
+            ticks: self.ticks,
+            warmup: self.warmup,
+            sim_seconds: self.ticks as f64 / f64::from(TICKS_PER_SECOND),
+            wall_seconds: self.begun.elapsed().as_secs_f64(),
+            hash: format!("{:016x}", control::hash(world)),
+            particles: count(world),
+            stages: self.stages(world),
+            effects: self.effects(world),
+            accuracy: self.accuracy(world),
+            stability: stability(world),
+            memory_bytes: memory_bytes(world),
+            peak_rss_bytes: peak_rss_bytes(),
+            ms_per_tick: TickTimes {
+                max: stats::largest(&self.tick_ms),
+                p95: stats::quantile(&mut self.tick_ms, 0.95),
+                median: stats::quantile(&mut self.tick_ms, 0.5),
+            },
+        }
+    }
+
+    fn note_times(&mut self, world: &World) {
+        let ledger = world.resource::<PassLedger>();
+        self.tick_ms.push(ms(ledger.last_tick()));
+        for (k, pass) in Pass::ALL.into_iter().enumerate() {
+            let total = ledger.record(pass).total;
+            self.pass_ms[k].push(ms(total.saturating_sub(self.pass_totals[k])));
+            self.pass_totals[k] = total;
+        }
+    }
+
+    fn stages(&mut self, world: &World) -> Vec<(&'static str, Stage)> {
+        let ledger = world.resource::<PassLedger>();
+        (Pass::ALL.into_iter().zip(&mut self.pass_ms))
+            .map(|(pass, times)| {
+                let record = ledger.record(pass);
+                let ms_median = stats::quantile(times, 0.5);
+                (pass.name(), Stage { calls: record.calls, ms_total: ms(record.total), ms_median })
+            })
+            .collect()
+    }
+
+    fn effects(&self, world: &World) -> Vec<(&'static str, EffectCost)> {
+        let (ledger, effects) = (world.resource::<PassLedger>(), world.resource::<Effects>());
+        Effect::ALL
+            .into_iter()
+            .map(|effect| {
+                let (state, record) = (effects.get(effect), pass_of(effect).map(|pass| ledger.record(pass)));
+                let cost = EffectCost {
+                    mode: state.mode,
+                    active_ticks: state.active_ticks - self.active_before[effect as usize],
+                    calls: record.map(|record| record.calls),
+                    ms_total: record.map(|record| ms(record.total)),
+                    why: state.why,
+                };
+                (effect.name(), cost)
+            })
+            .collect()
+    }
+
+    fn accuracy(&self, world: &World) -> Accuracy {
+        let balance = matter(world).balance();
+        let air_is_there = world.resource::<Effects>().get(Effect::Air).mode != Mode::Off;
+        let mass = world.resource::<AirGrid>().mass();
+        let drift = (mass - self.air_mass_before) / self.air_mass_before;
+        Accuracy {
+            samples: self.samples.taken,
+            density_error_mean: stats::mean(&self.samples.density_mean),
+            density_error_p99: stats::mean(&self.samples.density_p99),
+            density_error_max: stats::largest(&self.samples.density_max),
+            residual: residual(world),
+            volume_error: stats::mean(&self.samples.volume),
+            energy: balance.energy(),
+            momentum: balance.momentum.to_array(),
+            air_mass_drift: (air_is_there && drift.is_finite()).then_some(drift),
+            momentum_drift: self.drift.share(),
+            air_divergence_rms: stats::mean(&self.samples.divergence).filter(|_| air_is_there),
+        }
+    }
+}
+
+impl Observer for Sampler {
+    fn after_tick(&mut self, world: &World) -> io::Result<()> {
+        self.ticks += 1;
+        if self.ticks > self.warmup {
+            self.note_times(world);
+            self.drift.follow(world);
+            if self.ticks.is_multiple_of(SAMPLE_EVERY) {
+                self.samples.take(world);
+            }
+        }
+        Ok(())
+    }
+
+    fn after_warmup(&mut self, world: &World) {
+        self.active_before = active_ticks(world);
+        self.drift = Drift::default();
+        self.drift.follow(world);
+    }
+}
+
+/// The samples of what is too dear for every tick.
+#[derive(Default)]
+struct Samples {
+    taken: usize,
+    density_mean: Vec<f64>,
+    density_p99: Vec<f64>,
+    density_max: Vec<f64>,
+    volume: Vec<f64>,
+    divergence: Vec<f64>,
+}
+
+impl Samples {
+    fn take(&mut self, world: &World) {
+        let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
+        let blueprint = &world.resource::<Setup>().blueprint;
+        let (size, rest) = (blueprint.domain.size, f64::from(blueprint.fluid.rest_density));
+        if let Some(error) = density_error(particles, rock, size, rest) {
+            self.density_mean.push(error.mean);
+            self.density_p99.push(error.p99);
+            self.density_max.push(error.max);
+        }
+        self.volume.extend(volume_error(particles, rock, size, rest));
+        self.divergence.push(world.resource::<AirGrid>().divergence_rms());
+        self.taken += 1;
+    }
+}
+
+/// The movable particles with what mechanics needs to know of them.
+pub(crate) fn matter(world: &World) -> Matter<'_> {
+    let blueprint = &world.resource::<Setup>().blueprint;
+    Matter {
+        particles: world.resource::<ParticleStore>(),
+        elements: &blueprint.elements,
+        domain: &blueprint.domain,
+        scale: blueprint.scale,
+    }
+}
+
+/// The pass that is the effect's own; the tensile correction is a part of the solver's.
+fn pass_of(effect: Effect) -> Option<Pass> {
+    match effect {
+        Effect::Air => Some(Pass::Air),
+        Effect::Drag => Some(Pass::Drag),
+        Effect::Viscosity => Some(Pass::Viscosity),
+        Effect::Vorticity => Some(Pass::Vorticity),
+        Effect::Predictor => Some(Pass::Pressure),
+        Effect::Tension => None,
+    }
+}
+
+fn active_ticks(world: &World) -> [u64; Effect::ALL.len()] {
+    let effects = world.resource::<Effects>();
+    let mut ticks = [0; Effect::ALL.len()];
+    for effect in Effect::ALL {
+        ticks[effect as usize] = effects.get(effect).active_ticks;
+    }
+    ticks
+}
+
+fn count(world: &World) -> ParticleCount {
+    let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
+    let elements = world.resource::<Setup>().elements();
+    let mut numbers = vec![0; elements.len()];
+    for element in particles.element.iter().copied().chain(rock.iter().map(|(_, element, _)| element)) {
+        numbers[element.index()] += 1;
+    }
+    let by_element =
+        elements.iter().zip(numbers).map(|((_, element), number)| (element.name.clone(), number)).collect();
+    ParticleCount { total: particles.len() + rock.count(), by_element }
+}
+
+/// Mean constraint over the particles where it is violated, as the solver saw it in its last iteration.
+fn residual(world: &World) -> Option<f64> {
+    let rest = f64::from(world.resource::<Setup>().blueprint.fluid.rest_density);
+    let density = &world.resource::<SolverState>().density;
+    let mut constraints: Vec<f64> = density.iter().map(|density| f64::from(*density) / rest - 1.0).collect();
+    constraints.retain(|constraint| *constraint > 0.0);
+    (!density.is_empty()).then(|| stats::mean(&constraints).unwrap_or(0.0))
+}
+
+fn stability(world: &World) -> Stability {
+    let counters = world.resource::<Counters>();
+    Stability {
+        non_finite: counters.non_finite,
+        escaped: counters.escaped,
+        speed_clamps: counters.speed_clamps,
+        position_clamps: counters.position_clamps,
+        air_clamps: counters.air_clamps,
+        refused: counters.refused,
+        substeps_max: counters.substeps_max,
+    }
+}
+
+fn memory_bytes(world: &World) -> u64 {
+    let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
+    let air = world.resource::<AirGrid>();
+    let solver = world.resource::<SolverState>().memory() + world.resource::<PredictorState>().memory();
+    let per_particle = 5 * size_of::<f32>() + size_of::<u8>();
+    let per_site = size_of::<u8>() + size_of::<u32>();
+    let sites = rock.columns() as usize * rock.rows() as usize;
+    (solver + particles.x.capacity() * per_particle + sites * per_site + air.memory_bytes()) as u64
+}
+
+/// Most memory that the process has had, from Linux's own books.
+fn peak_rss_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.trim().strip_suffix(" kB")?.trim().parse::<u64>().ok().map(|kilobytes| kilobytes * 1024)
+}
+
+fn ms(time: Duration) -> f64 {
+    time.as_secs_f64() * 1e3
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::brush::{BrushShape, Stroke};
+    use crate::{
+        lab::{
+            headless::Headless,
+            run::{Plan, run},
+        },
+        scene::{self, blueprint::EffectModes},
+        sim::{
+            intent::{Intent, IntentQueue},
+            workers::Workers,
+        },
+    };
+    use std::sync::Arc;
+
+    fn headless(name: &str, settings: &[(&str, &str)], off: &[Effect]) -> Headless {
+        let settings: Vec<_> = settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+        let modes: EffectModes = off.iter().map(|effect| (*effect, Mode::Off)).collect();
+        Headless::new(Arc::new(scene::load(name).unwrap().build(&settings, None, &modes).unwrap()), Workers::default())
+    }
+
+    fn measure(headless: &mut Headless, ticks: u64) -> Metrics {
+        let mut sampler = Sampler::new(headless.world(), 0);
+        run(headless, &Plan { ticks, ..Plan::default() }, &mut [&mut sampler]).unwrap();
+        sampler.finish(headless.world())
+    }
+
+    #[test]
+    fn a_drop_in_free_fall_keeps_its_momentum_but_for_gravity() {
+        let still = [Effect::Air, Effect::Drag];
+        // The predictor's grid solve is not exact, and neither is its way from particles to grid and back.
+        for (off, limit) in [(&[still[0], still[1], Effect::Predictor][..], 1e-4), (&still, 5e-3)] {
+            let mut headless = headless("empty", &[("columns", "100"), ("rows", "100")], off);
+            let water = headless.world().resource::<Setup>().elements().find("water").unwrap();
+            let stroke = Stroke::dab(BrushShape::Disc, glam::Vec2::new(50.0, 80.0), 8.0);
+            headless.world_mut().resource_mut::<IntentQueue>().push(Intent::Stamp { element: water, stroke });
+            let found = measure(&mut headless, 25);
+            let drift = found.accuracy.momentum_drift.unwrap();
+            assert!(drift < limit, "the liquid pushed itself: {drift}");
+            assert!(found.accuracy.momentum[1] < 0.0, "it falls");
+            assert_eq!(found.accuracy.air_mass_drift, None, "the air is off");
+        }
+    }
+
+    #[test]
+    fn water_at_a_wall_has_no_momentum_drift_to_measure() {
+        let found = measure(&mut headless("hydrostatic", &[("columns", "12"), ("depth", "8")], &[]), 20);
+        assert_eq!(found.accuracy.momentum_drift, None);
+        assert!(found.accuracy.volume_error.unwrap().abs() < 0.1, "{:?}", found.accuracy);
+        assert!(found.accuracy.residual.is_some());
+        assert_eq!(found.stability.escaped, 0);
+    }
+
+    #[test]
+    fn sealed_air_keeps_its_mass_while_it_moves() {
+        let found = measure(&mut headless("sealed_air", &[], &[]), 60);
+        assert!(found.accuracy.air_mass_drift.unwrap().abs() < 1e-5, "{:?}", found.accuracy);
+        assert!(found.accuracy.air_divergence_rms.unwrap() > 0.0, "the pulse travels");
+    }
+
+    #[test]
+    fn memory_grows_by_the_particles() {
+        let bytes = |columns| measure(&mut headless("dam_break", &[("columns", columns)], &[]), 1).memory_bytes;
+        let more = bytes("30") - bytes("10");
+        assert!(more > (2 * 30 * 30 - 2 * 10 * 10) * 21, "only {more} bytes more for 1,600 particles");
+    }
+}

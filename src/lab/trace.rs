@@ -1,0 +1,79 @@
+//! A table of the run: one line a tick, comma separated, SI units. A field is empty where there is nothing to measure.
+
+use crate::{
+    kernel::units::TICKS_PER_SECOND,
+    lab::{run::Observer, sampler::matter},
+    sim::{
+        ledger::{Pass, PassLedger},
+        state::{AirGrid, Clock, Rock},
+    },
+};
+use bevy::ecs::world::World;
+use std::io::{self, Write};
+
+/// Names of the columns. Times in s and ms, lengths in m, speeds in m/s; energy (J), momentum (kg m/s) of the movable
+/// particles for each metre of depth; the air's mass in its own unit (one cell of air at rest is 1).
+pub const COLUMNS: [&str; 12] = [
+    "tick",
+    "seconds",
+    "ms",
+    "substeps",
+    "particles",
+    "energy",
+    "momentum_x",
+    "momentum_y",
+    "front_x",
+    "surface_y",
+    "max_speed",
+    "air_mass",
+];
+
+/// Writes the table.
+pub struct Trace<W: Write> {
+    out: W,
+    predictions: u64,
+}
+
+impl<W: Write> Trace<W> {
+    /// Begins with the names of the columns.
+    pub fn new(mut out: W) -> io::Result<Self> {
+        writeln!(out, "{}", COLUMNS.join(","))?;
+        Ok(Self { out, predictions: 0 })
+    }
+
+    /// Ends the table.
+    pub fn finish(mut self) -> io::Result<()> {
+        self.out.flush()
+    }
+}
+
+impl<W: Write> Observer for Trace<W> {
+    fn after_tick(&mut self, world: &World) -> io::Result<()> {
+        let (ledger, tick) = (world.resource::<PassLedger>(), world.resource::<Clock>().tick);
+        let (matter, air) = (matter(world), world.resource::<AirGrid>());
+        let balance = matter.balance();
+        let predictions = ledger.record(Pass::Predict).calls;
+        let substeps = predictions - self.predictions;
+        self.predictions = predictions;
+        let or_empty = |value: Option<f64>| value.map_or_else(String::new, |value| value.to_string());
+        writeln!(
+            self.out,
+            "{tick},{},{},{substeps},{},{},{},{},{},{},{},{}",
+            tick as f64 / f64::from(TICKS_PER_SECOND),
+            ledger.last_tick().as_secs_f64() * 1e3,
+            matter.particles.len() + world.resource::<Rock>().count(),
+            balance.energy(),
+            balance.momentum.x,
+            balance.momentum.y,
+            or_empty(matter.front()),
+            or_empty(matter.surface()),
+            balance.max_speed,
+            air.mass(),
+        )
+    }
+
+    fn after_warmup(&mut self, _world: &World) {
+        // The ledger begins anew.
+        self.predictions = 0;
+    }
+}

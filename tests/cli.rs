@@ -1,0 +1,327 @@
+//! The program as its users see it: exit codes, messages, files.
+
+#![expect(clippy::unwrap_used, reason = "a test that can't go on fails")]
+
+use powder_master::{
+    kernel::brush::{BrushShape, Stroke},
+    lab::{
+        headless::Headless,
+        run::{self, Plan},
+    },
+    scene,
+    sim::{
+        control,
+        intent::Intent,
+        replay::{Recorder, Replay},
+        state::Clock,
+        workers::Workers,
+    },
+};
+use serde_json::Value;
+use std::{
+    path::{Path, PathBuf},
+    process::{Command, Output},
+    sync::Arc,
+};
+
+/// A folder of its own for a test, empty.
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn program(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_powder-master")).args(arguments).current_dir(folder).output().unwrap()
+}
+
+fn good(folder: &Path, arguments: &[&str]) -> String {
+    let output = program(folder, arguments);
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{arguments:?}: {stderr}");
+    assert_eq!(stderr, "", "{arguments:?} has nothing to say on stderr if that is no terminal");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn metrics(folder: &Path, arguments: &[&str]) -> Value {
+    serde_json::from_str(&good(folder, &[arguments, &["--metrics", "-"]].concat())).unwrap()
+}
+
+/// Fails unless the program refuses the arguments with `code` and one line that has all of `says` in it.
+fn refused(folder: &Path, arguments: &[&str], code: i32, says: &[&str]) {
+    let output = program(folder, arguments);
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {stderr}");
+    assert!(output.stdout.is_empty(), "{arguments:?} printed results");
+    assert_eq!(stderr.lines().count(), 1, "{arguments:?} must say one line, not {stderr}");
+    assert!(stderr.starts_with("powder-master: "), "{stderr}");
+    for part in says {
+        assert!(stderr.contains(part), "{arguments:?} must say {part}, not {stderr}");
+    }
+}
+
+const SMALL: [&str; 8] = ["run", "dam_break", "--set", "columns=8", "--ticks", "45", "--effect", "viscosity=on"];
+
+#[test]
+fn bad_usage_is_one_line_that_says_what_is_allowed() {
+    let here = folder("bad_usage");
+    for (arguments, says) in [
+        (&["frob"][..], &["frob"][..]),
+        (&["run"], &["<SCENE>"]),
+        (&["run", "waterfall", "--frob"], &["--frob"]),
+        (&["run", "waterfall", "--seconds", "0"], &["--seconds", "allowed", "1/60"]),
+        (&["run", "waterfall", "--seconds", "-3"], &["--seconds", "allowed"]),
+        (&["run", "waterfall", "--seconds", "nan"], &["--seconds", "allowed"]),
+        (&["run", "waterfall", "--seconds", "1e12"], &["--seconds", "100000"]),
+        (&["run", "waterfall", "--ticks", "0"], &["--ticks", "allowed", "from 1"]),
+        (&["run", "waterfall", "--ticks", "1.5"], &["--ticks", "whole numbers"]),
+        (&["run", "waterfall", "--ticks", "5", "--seconds", "1"], &["--ticks", "--seconds"]),
+        (&["run", "waterfall", "--threads", "0"], &["--threads", "from 1"]),
+        (&["run", "waterfall", "--ticks", "5", "--warmup", "5"], &["--warmup", "allowed: 0 to 4"]),
+        (&["run", "waterfall", "--quality", "best"], &["best", "classic, draft, fast, balanced, fine, reference"]),
+        (&["run", "waterfall", "--set", "wind"], &["KEY=VALUE"]),
+        (&["run", "waterfall", "--set", "wimd=1"], &["wimd", "wind"]),
+        (&["run", "waterfall", "--set", "wind=strong"], &["wind=strong"]),
+        (&["run", "waterfall", "--set", "wind=1000"], &["wind=1000"]),
+        (&["run", "waterfall", "--effect", "fire=on"], &["air, drag, predictor, tension, viscosity, vorticity"]),
+        (&["run", "waterfall", "--effect", "air=perhaps"], &["NAME=auto"]),
+        (&["run", "niagara"], &["niagara", "allowed", "dam_break", "waterfall"]),
+        (&["run", "no/such.ron"], &["no/such.ron"]),
+        (&["play", "niagara"], &["niagara", "allowed"]),
+        (&["list"], &["WHAT"]),
+        (&["list", "cats"], &["scenes, elements, effects, qualities"]),
+    ] {
+        refused(&here, arguments, 2, says);
+    }
+}
+
+#[test]
+fn a_bad_output_path_is_refused_before_anything_is_simulated() {
+    let here = folder("bad_output");
+    // A run of this length would take hours.
+    let long = |option: &'static str, path: &'static str| ["run", "waterfall", "--seconds", "90000", option, path];
+    for option in ["--metrics", "--particles", "--trace", "--png"] {
+        refused(&here, &long(option, "nowhere/out"), 2, &["nowhere/out", "no folder", "allowed"]);
+        refused(&here, &long(option, "."), 2, &["is a folder"]);
+    }
+    refused(&here, &["run", "empty", "--ticks", "1", "--png", "a", "--trace", "a"], 2, &["a:", "two outputs"]);
+    refused(&here, &long("--replay", "nothing.jsonl"), 2, &["nothing.jsonl", "can't be read"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_output_that_cannot_be_written_is_exit_code_1() {
+    let here = folder("full_disk");
+    for option in ["--metrics", "--particles", "--trace", "--png"] {
+        refused(&here, &["run", "empty", "--ticks", "1", option, "/dev/full"], 1, &["/dev/full", "can't be written"]);
+    }
+}
+
+#[cfg(not(feature = "app"))]
+#[test]
+fn a_build_without_a_window_names_run() {
+    let here = folder("no_window");
+    refused(&here, &[], 2, &["no window", "powder-master run waterfall"]);
+    refused(&here, &["play", "dam_break"], 2, &["powder-master run dam_break"]);
+}
+
+#[test]
+fn help_and_version_are_on_stdout() {
+    let here = folder("help");
+    assert!(good(&here, &["--help"]).contains("run"));
+    assert!(good(&here, &["run", "--help"]).contains("--metrics"));
+    assert_eq!(good(&here, &["--version"]), format!("powder-master {}\n", env!("CARGO_PKG_VERSION")));
+}
+
+#[test]
+fn lists_are_one_a_line_with_the_name_first() {
+    let here = folder("lists");
+    let names = |what: &str| -> Vec<String> {
+        let text = good(&here, &["list", what]);
+        text.lines().map(|line| line.split('\t').next().unwrap().to_owned()).collect()
+    };
+    assert_eq!(names("scenes"), scene::builtin_names());
+    assert_eq!(names("qualities"), ["classic", "draft", "fast", "balanced", "fine", "reference"]);
+    assert_eq!(names("effects"), ["air", "drag", "predictor", "tension", "viscosity", "vorticity"]);
+    assert!(names("elements").contains(&"water".to_owned()));
+}
+
+#[test]
+fn metrics_have_all_keys() {
+    let here = folder("metrics_keys");
+    let found = metrics(&here, &SMALL);
+    for (group, keys) in [
+        ("", "scene quality threads ticks sim_seconds wall_seconds hash memory_bytes"),
+        ("/particles", "total by_element"),
+        ("/particles/by_element", "rock water"),
+        ("/ms_per_tick", "median p95 max"),
+        ("/stages/solve", "calls ms_total ms_median"),
+        ("/effects", "air drag tension viscosity vorticity"),
+        ("/effects/viscosity", "mode active_ticks calls ms_total why"),
+        ("/accuracy", "density_error_mean density_error_p99 density_error_max residual volume_error energy"),
+        ("/accuracy", "air_mass_drift momentum_drift air_divergence_rms"),
+        ("/stability", "non_finite escaped speed_clamps position_clamps substeps_max"),
+    ] {
+        for key in keys.split(' ') {
+            assert!(found.pointer(&format!("{group}/{key}")).is_some(), "{group}/{key} is missing");
+        }
+    }
+    assert_eq!(found["scene"], "dam_break");
+    assert_eq!(found["quality"], "balanced");
+    assert_eq!(found["ticks"], 45);
+    assert_eq!(found["sim_seconds"], 0.75);
+    assert_eq!(found["particles"]["total"], 8 * 16);
+    assert_eq!(found["hash"].as_str().map(str::len), Some(16));
+    assert_eq!(found["accuracy"]["samples"], 2, "ticks 20 and 40");
+    assert!(found["accuracy"]["density_error_mean"].is_f64());
+    assert_eq!(found["accuracy"]["air_mass_drift"], Value::Null, "the scene has no air");
+    assert_eq!(found["effects"]["air"]["calls"], 0, "what is off is not called");
+    assert_eq!(found["effects"]["viscosity"]["active_ticks"], 45);
+}
+
+#[test]
+fn warmup_is_left_out_of_times_and_samples_but_not_of_the_run() {
+    let here = folder("warmup");
+    let whole = metrics(&here, &SMALL);
+    let part = metrics(&here, &[&SMALL[..], &["--warmup", "30"]].concat());
+    assert_eq!(whole["hash"], part["hash"], "the warm-up is run, too");
+    assert_eq!(part["ticks"], 45);
+    assert_eq!(part["warmup"], 30);
+    assert_eq!(part["accuracy"]["samples"], 1, "tick 40");
+    assert_eq!(part["effects"]["viscosity"]["active_ticks"], 15);
+    assert_eq!(part["stages"]["measure"]["calls"], 15);
+    assert_eq!(whole["stages"]["measure"]["calls"], 45);
+    let late = metrics(&here, &[&SMALL[..], &["--warmup", "44"]].concat());
+    assert_eq!(late["accuracy"]["samples"], 1, "a run too short for a sample is sampled at its end");
+}
+
+#[test]
+fn tables_have_their_columns_and_the_picture_is_a_picture() {
+    let here = folder("outputs");
+    let files = ["--particles", "p.csv", "--trace", "t.csv", "--png", "w.png", "--metrics", "m.json"];
+    let said = good(&here, &[&SMALL[..], &files].concat());
+    assert!(said.contains("scene=dam_break ticks=45"), "{said}");
+    let read = |name: &str| std::fs::read_to_string(here.join(name)).unwrap();
+    let numbers = |line: &str, from: usize| -> Vec<f64> {
+        line.split(',').skip(from).map(|field| field.parse().unwrap_or_else(|_| panic!("{field} in {line}"))).collect()
+    };
+
+    let particles = read("p.csv");
+    let mut lines = particles.lines();
+    assert_eq!(lines.next(), Some("id,element,x,y,vx,vy"));
+    let rows: Vec<&str> = lines.collect();
+    assert_eq!(rows.len(), 128);
+    let (width, height) = (4.0 * 0.8, 2.1 * 0.8);
+    for (id, row) in rows.iter().enumerate() {
+        assert!(row.starts_with(&format!("{id},water,")), "in the order of the ids: {row}");
+        let values = numbers(row, 2);
+        assert!((0.0..=width).contains(&values[0]) && (0.0..=height).contains(&values[1]), "in metres: {row}");
+    }
+
+    let trace = read("t.csv");
+    let mut lines = trace.lines();
+    let header = "tick,seconds,ms,substeps,particles,energy,momentum_x,momentum_y,front_x,surface_y,max_speed,air_mass";
+    assert_eq!(lines.next(), Some(header));
+    let rows: Vec<Vec<f64>> = lines.map(|line| numbers(line, 0)).collect();
+    assert_eq!(rows.len(), 45);
+    assert_eq!(rows[44][..2], [45.0, 0.75]);
+    assert!(rows.iter().all(|row| row[3] >= 1.0 && row[4] == 128.0));
+    assert!(rows[44][8] > rows[0][8] + 0.3, "the front moves on");
+    assert!(rows[44][5] < rows[0][5] * 1.02, "the energy does not grow");
+
+    let png = std::fs::read(here.join("w.png")).unwrap();
+    assert_eq!(&png[1..4], b"PNG");
+    let metrics: Value = serde_json::from_str(&read("m.json")).unwrap();
+    assert!(said.contains(metrics["hash"].as_str().unwrap()), "stdout and metrics agree on the hash");
+}
+
+#[test]
+fn watching_and_threads_never_change_the_world() {
+    let here = folder("same_hash");
+    let hash = |more: &[&str]| {
+        let said = good(&here, &[&SMALL[..], more].concat());
+        said.trim_end().rsplit_once("hash=").unwrap().1.to_owned()
+    };
+    let plain = hash(&[]);
+    assert_eq!(hash(&[]), plain, "twice the same");
+    assert_eq!(hash(&["--threads", "1"]), plain);
+    assert_eq!(hash(&["--threads", "3"]), plain);
+    let watched = hash(&["--metrics", "m.json", "--trace", "t.csv", "--png", "w.png", "--particles", "p.csv"]);
+    assert_eq!(watched, plain);
+    assert_ne!(hash(&["--set", "columns=9"]), plain, "another world has another hash");
+    assert_ne!(hash(&["--effect", "viscosity=off"]), plain);
+}
+
+/// A person at work in the scene `empty`: a ledge of rock, water placed and poured, some of it taken away, wind. The
+/// record of it and the hash of the world that came out.
+fn record() -> (Replay, u64) {
+    let settings = [("columns", "40"), ("rows", "30")].map(|(key, value)| (key.to_owned(), value.to_owned()));
+    let blueprint = Arc::new(scene::load("empty").unwrap().build(&settings, None, &Default::default()).unwrap());
+    let (rock, water) = (blueprint.elements.find("rock").unwrap(), blueprint.elements.find("water").unwrap());
+    let at = |x: f32, y: f32| glam::Vec2::new(x, y);
+    let line = |from, to| Stroke { shape: BrushShape::Disc, from, to, radius: 1.2 };
+    let tap = line(at(25.0, 25.0), at(25.0, 25.0));
+    let mut intents = vec![
+        (0, Intent::Draw { element: rock, stroke: line(at(5.0, 5.0), at(30.0, 8.0)) }),
+        (0, Intent::Stamp { element: water, stroke: Stroke::rectangle(at(8.0, 15.0), at(20.0, 22.0)) }),
+        (30, Intent::Erase { stroke: line(at(3.0, 3.0), at(12.0, 12.0)) }),
+        (30, Intent::Blow { stroke: line(at(20.0, 20.0), at(20.0, 20.0)), velocity: at(40.0, 3.7) }),
+    ];
+    intents.extend((5..40).map(|tick| (tick, Intent::Draw { element: water, stroke: tap })));
+    intents.sort_by_key(|(tick, _)| *tick);
+    let mut headless = Headless::new(blueprint.clone(), Workers::default());
+    headless.world_mut().init_resource::<Recorder>();
+    run::run(&mut headless, &Plan { ticks: 60, warmup: 0, intents }, &mut []).unwrap();
+    let world = headless.world();
+    let clock = world.resource::<Clock>();
+    let replay = world.resource::<Recorder>().replay(&blueprint, clock.tick, clock.edits);
+    (replay, control::hash(world))
+}
+
+#[test]
+fn a_replay_is_the_same_world_again() {
+    let here = folder("replay");
+    let (replay, hash) = record();
+    assert_eq!(replay.entries.len(), 39);
+    std::fs::write(here.join("mine.jsonl"), replay.write().unwrap()).unwrap();
+    let found = metrics(&here, &["run", "empty", "--replay", "mine.jsonl"]);
+    assert_eq!(found["hash"], format!("{hash:016x}"));
+    assert_eq!(found["ticks"], 60, "as long as it was recorded");
+    assert_eq!(found["parameters"]["columns"], 40.0, "with the parameters that it was recorded with");
+    let finer = metrics(&here, &["run", "empty", "--replay", "mine.jsonl", "--quality", "fine"]);
+    assert_eq!(finer["quality"], "fine");
+    assert_ne!(finer["hash"], found["hash"]);
+}
+
+#[test]
+fn a_bad_replay_is_refused_with_its_line() {
+    let here = folder("bad_replay");
+    let text = record().0.write().unwrap();
+    let case = |name: &str, change: &dyn Fn(&mut Vec<String>)| {
+        let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+        change(&mut lines);
+        std::fs::write(here.join(name), lines.join("\n")).unwrap();
+    };
+    case("empty", &|lines| lines.clear());
+    case("torn", &|lines| lines[4].truncate(20));
+    case("back", &|lines| lines.swap(2, 30));
+    case("stone", &|lines| lines[1] = lines[1].replace("\"element\":0", "\"element\":200"));
+    case("huge", &|lines| lines[1] = lines[1].replace("\"radius\":1.2", "\"radius\":1e300"));
+    case("old", &|lines| lines[0] = lines[0].replace("\"powder_master_replay\":1", "\"powder_master_replay\":99"));
+    case("sand", &|lines| lines[0] = lines[0].replace("\"water\"", "\"sand\""));
+    for (name, says) in [
+        ("empty", &["line 1"][..]),
+        ("torn", &["line 5", "column"]),
+        ("back", &["line 4", "never go back"]),
+        ("stone", &["line 2", "element 200"]),
+        ("huge", &["line 2", "too large"]),
+        ("old", &["line 1", "format 99", "reads 1"]),
+        ("sand", &["line 1", "sand"]),
+    ] {
+        refused(&here, &["run", "empty", "--replay", name], 2, says);
+    }
+    case("good", &|_| ());
+    refused(&here, &["run", "waterfall", "--replay", "good"], 2, &["empty", "waterfall"]);
+    refused(&here, &["run", "empty", "--replay", "good", "--set", "rows=40"], 2, &["--replay", "--set"]);
+}

@@ -1,0 +1,9 @@
+//! Tests of the headless world as a whole. One binary, so that Bevy is linked once.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod determinism;
+mod hard_cases;
+mod motion;
+mod stages;

@@ -1,0 +1,135 @@
+//! Single particles and eddies against known solutions.
+
+use crate::support::{Furnish, Sandbox, WATER, empty_box};
+use glam::Vec2;
+use powder_master::{
+    kernel::{
+        element::{Element, ElementTable},
+        params::Preset,
+    },
+    scene::blueprint::{Blueprint, Effect, Mode},
+    sim::stages::TickPlan,
+};
+use std::sync::Arc;
+
+const GRAVITY: f32 = 98.1;
+
+fn without(blueprint: &mut Blueprint, effects: &[Effect]) {
+    for &effect in effects {
+        blueprint.effects.insert(effect, Mode::Off);
+    }
+}
+
+/// The element table with the water changed.
+fn with_water(blueprint: &mut Blueprint, change: impl Fn(&mut Element)) {
+    let mut rows: Vec<Element> = blueprint.elements.iter().map(|(_, element)| element.clone()).collect();
+    change(&mut rows[WATER.index()]);
+    blueprint.elements = Arc::new(ElementTable::new(rows));
+}
+
+#[test]
+fn a_throw_without_air_follows_its_parabola() {
+    for preset in Preset::ALL {
+        let mut blueprint = empty_box(300, 300);
+        (blueprint.preset, blueprint.quality) = (preset, preset.quality());
+        blueprint.domain.gravity = Vec2::new(0.0, -GRAVITY);
+        without(&mut blueprint, &[Effect::Air, Effect::Drag]);
+        let (start, velocity) = (Vec2::new(20.0, 100.0), Vec2::new(90.0, 120.0));
+        blueprint.water(start, velocity);
+        let mut sandbox = Sandbox::of(blueprint);
+        let substep = 1.0 / (60.0 * preset.quality().substeps as f32);
+        for tick in 1..=120 {
+            sandbox.tick(1);
+            let time = tick as f32 / 60.0;
+            // Velocities change before positions (symplectic Euler): the fall is that of time t + Δt/2.
+            let fall = 0.5 * GRAVITY * time * (time + substep);
+            let exact = start + velocity * time - Vec2::new(0.0, fall);
+            let at = sandbox.particles().position(0);
+            assert!((at - exact).length() < 0.002, "{}: {at} instead of {exact} at tick {tick}", preset.name());
+        }
+        assert_eq!(sandbox.counters().speed_clamps, 0, "a throw of 150 d/s was slowed");
+    }
+}
+
+#[test]
+fn without_forces_a_particle_flies_straight_on() {
+    let mut blueprint = empty_box(300, 300);
+    without(&mut blueprint, &[Effect::Air, Effect::Drag]);
+    blueprint.water(Vec2::new(10.0, 200.0), Vec2::new(60.0, -30.0));
+    let mut sandbox = Sandbox::of(blueprint);
+    sandbox.tick(240);
+    let at = sandbox.particles().position(0);
+    assert!((at - Vec2::new(250.0, 80.0)).length() < 0.02, "{at} instead of (250, 80)");
+}
+
+#[test]
+fn drag_slows_a_particle_as_its_exact_solution_does() {
+    let mut blueprint = empty_box(400, 40);
+    blueprint.effects.insert(Effect::Air, Mode::Off);
+    let speed = 240.0;
+    blueprint.water(Vec2::new(5.0, 20.0), Vec2::new(speed, 0.0));
+    let rate = 0.45 / (1000.0 * 0.1);
+    let mut sandbox = Sandbox::of(blueprint);
+    for tick in 1..=60 {
+        sandbox.tick(1);
+        let time = tick as f32 / 60.0;
+        let exact = speed / (1.0 + rate * speed * time);
+        let found = sandbox.particles().vx[0];
+        assert!((found - exact).abs() < 1e-3 * exact, "tick {tick}: {found} d/s instead of {exact}");
+    }
+}
+
+#[test]
+fn a_drop_falls_at_its_terminal_speed() {
+    for drag in [0.45, 5.0, 100.0] {
+        let mut blueprint = empty_box(20, 2000);
+        blueprint.domain.gravity = Vec2::new(0.0, -GRAVITY);
+        with_water(&mut blueprint, |water| water.drag = drag);
+        blueprint.water(Vec2::new(10.0, 1900.0), Vec2::ZERO);
+        let mut sandbox = Sandbox::of(blueprint);
+        sandbox.tick(600);
+        // g = C v²/(ρ d²), in d/s with d = 0.1 m; gravity acts before drag in a substep, which leaves it g Δt/2 slower.
+        let lag = 0.5 * GRAVITY * sandbox.get::<TickPlan>().substep_seconds();
+        let exact = (9.81_f32 * 1000.0 * 0.01 / drag).sqrt() / 0.1;
+        let expected = (exact * exact + lag * lag).sqrt() - lag;
+        let found = -sandbox.particles().vy[0];
+        assert!((found - expected).abs() < 1e-3 * expected, "C = {drag}: {found} d/s instead of {expected}");
+    }
+}
+
+/// Taylor–Green vortex in a box that is full of water: one eddy, 24 × 24 particles.
+fn vortex(vorticity: f32) -> Blueprint {
+    let mut blueprint = empty_box(24, 24);
+    without(&mut blueprint, &[Effect::Air, Effect::Drag, Effect::Viscosity]);
+    with_water(&mut blueprint, |water| water.vorticity = vorticity);
+    blueprint.pool((0, 0), (24, 24));
+    for i in 0..blueprint.particles.len() {
+        let at = blueprint.particles.position(i).as_dvec2() * std::f64::consts::PI / 24.0;
+        let velocity = 30.0 * glam::DVec2::new(at.x.sin() * at.y.cos(), -at.x.cos() * at.y.sin());
+        (blueprint.particles.vx[i], blueprint.particles.vy[i]) = (velocity.x as f32, velocity.y as f32);
+    }
+    blueprint
+}
+
+#[test]
+fn confinement_never_raises_the_energy_of_an_eddy_above_its_start() {
+    let run = |vorticity: f32, bound: f64| {
+        let mut sandbox = Sandbox::of(vortex(vorticity));
+        let start = sandbox.rms_speed();
+        let mut energies = Vec::new();
+        for tick in 1..=400 {
+            sandbox.tick(1);
+            let energy = (sandbox.rms_speed() / start).powi(2);
+            assert!(energy <= bound, "ε = {vorticity}: energy {energy} of the start's at tick {tick}");
+            energies.push(energy);
+        }
+        assert!(energies[399] < 0.9, "ε = {vorticity}: an eddy that never slows");
+        energies
+    };
+    // The water's own strength, then the strongest that an element may have, which stirs for a few ticks.
+    let (without, with) = (run(0.0, 1.005), run(0.02, 1.005));
+    run(1.0, 1.3);
+    let early = |energies: &[f64]| energies[..60].iter().sum::<f64>();
+    let (without, with) = (early(&without), early(&with));
+    assert!(with > without, "confinement keeps no energy in an eddy: {with} against {without}");
+}
