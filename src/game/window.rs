@@ -102,7 +102,7 @@ fn explain(panic: &str, scene: String) -> GameError {
 
 fn build(blueprint: Arc<Blueprint>, options: GameOptions) -> App {
     let window = Window {
-        title: title(&blueprint.title, (blueprint.particles.len() + blueprint.solids.count()) as u32),
+        title: "Powder Master".into(),
         name: Some("powder-master".into()),
         resolution: WindowResolution::new(options.size.0, options.size.1),
         present_mode: if options.vsync { PresentMode::AutoVsync } else { PresentMode::AutoNoVsync },
@@ -132,14 +132,10 @@ const TITLE_EVERY: Duration = Duration::from_millis(500);
 
 /// Keeps scene and particle count in the title, where a task bar (and a test) reads them.
 fn tell_in_title(setup: Res<Setup>, census: Res<Census>, mut window: Single<&mut Window, With<PrimaryWindow>>) {
-    let title = title(&setup.blueprint.title, census.total);
+    let title = format!("Powder Master: {}, {} particles", setup.blueprint.title, census.total);
     if window.title != title {
         window.title = title;
     }
-}
-
-fn title(scene: &str, particles: u32) -> String {
-    format!("Powder Master: {scene}, {particles} particles")
 }
 
 /// The camera that window and HUD are drawn for; where it looks is `WorldCamera`'s business.
