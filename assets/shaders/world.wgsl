@@ -146,7 +146,7 @@ fn liquid_fragment(in: Screen) -> @location(0) vec4<f32> {
     // The surface catches light from above and a little from the left.
     let slope = vec2<f32>(left - right, below - above);
     let facing = dot(slope, vec2<f32>(-0.35, 0.94)) / max(length(slope), 0.05);
-    let rim = 1.0 - smoothstep(SURFACE, 0.97, field.a);
+    let rim = 1.0 - smoothstep(SURFACE, 0.84, field.a);
     rgb += shading * rim * (0.05 + 0.26 * max(facing, 0.0) - 0.08 * max(-facing, 0.0));
 
     return vec4<f32>(to_linear(clamp(rgb, vec3<f32>(0.0), vec3<f32>(1.0))), cover * world.look.y);

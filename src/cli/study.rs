@@ -12,6 +12,7 @@ use crate::{
         picture::Picture,
         rest_density::{self, OBSERVED_FOR, Outcome, PRESETS, RATIOS, SETTLED_AFTER},
     },
+    sim::workers::Workers,
 };
 use std::{fmt::Write, path::Path};
 
@@ -28,10 +29,10 @@ pub(super) fn study(arguments: &StudyArguments) -> Result<(), Failure> {
 fn rest_density(threads: Option<u64>, folder: &Path) -> Result<(), Failure> {
     let path = folder.join("rest-density.png");
     output::check(&[&path])?;
-    let workers = threads::workers(threads)?;
+    threads::start(threads)?;
     let line = StatusLine::new();
     let (outcomes, pictures): (Vec<_>, Vec<_>) =
-        rest_density::study(&workers, &mut |text| line.say(text))?.into_iter().unzip();
+        rest_density::study(&Workers::default(), &mut |text| line.say(text))?.into_iter().unzip();
     drop(line);
     let rows: Vec<Picture> = pictures.chunks(RATIOS.len()).map(|row| Picture::row(row, GAP)).collect();
     output::write(&path, |file| Picture::column(&rows).write_png(file))?;

@@ -45,19 +45,13 @@ impl Plugin for GamePlugin {
             .init_resource::<hud::HudState>()
             .init_resource::<hud::toast::Toasts>()
             .init_resource::<input::pointer::Pointer>()
+            .init_resource::<input::pointer::HudCover>()
             .init_resource::<input::keys::Typing>()
             .init_resource::<input::strokes::Held>()
             .init_resource::<render::extract::Epoch>()
             .add_systems(
                 RunFixedMainLoop,
-                (
-                    follow::follow_scene,
-                    input::keys::read_keys,
-                    input::pointer::read_wheel,
-                    input::pointer::read_buttons,
-                    orders::obey,
-                    frame::set_pace,
-                )
+                (follow::follow_scene, input::keys::pan, input::devices::read_devices, orders::obey, frame::set_pace)
                     .chain()
                     .in_set(InputSystems)
                     .in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop),

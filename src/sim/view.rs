@@ -25,7 +25,7 @@ const FOAM: Rgb = [226, 240, 250];
 /// Deep liquid darkens towards this.
 pub const ABYSS: Rgb = [4, 16, 46];
 /// Most that depth takes of an element's own colour.
-pub const DEPTH_SHADE: f32 = 0.55;
+pub const DEPTH_SHADE: f32 = 0.75;
 /// Depth at which half of the shading is reached, d.
 const HALF_DEPTH: f32 = 22.0;
 
@@ -164,12 +164,16 @@ pub fn box_colour(height: f32) -> Rgb {
 /// Edge of a cell of the depth map, d.
 const DEPTH_CELL: f32 = 4.0;
 
+/// A cell with fewer particles than this holds spray, not a body of liquid (full are `DEPTH_CELL`²).
+const SPRAY: u32 = 8;
+
 /// How much liquid stands above each place, on a coarse grid.
 #[derive(Clone, Debug, Default)]
 pub struct DepthMap {
     columns: usize,
     rows: usize,
     count: Vec<u32>,
+    above: Vec<f32>,
     share: Vec<u8>,
 }
 
@@ -187,14 +191,22 @@ impl DepthMap {
             let row = ((y / DEPTH_CELL) as usize).min(self.rows - 1);
             self.count[row * self.columns + column] += 1;
         }
-        for column in 0..self.columns {
-            let mut above = 0.0;
-            for row in (0..self.rows).rev() {
-                let k = row * self.columns + column;
-                let here = self.count[k] as f32 / DEPTH_CELL;
-                let depth = above + 0.5 * here;
-                self.share[k] = (255.0 * depth / (depth + HALF_DEPTH)) as u8;
-                above += here;
+        // Spray casts no shade, and neighbouring columns are averaged, so that the surface's noise doesn't stripe the
+        // water below it.
+        self.above.clear();
+        self.above.resize(self.columns, 0.0);
+        for row in (0..self.rows).rev() {
+            let cells = row * self.columns..(row + 1) * self.columns;
+            let (counts, shares) = (&self.count[cells.clone()], &mut self.share[cells]);
+            let thickness = |count: u32| if count < SPRAY { 0.0 } else { count as f32 / DEPTH_CELL };
+            for (column, share) in shares.iter_mut().enumerate() {
+                let (left, right) = (column.saturating_sub(2), (column + 3).min(self.columns));
+                let depths = (left..right).map(|k| self.above[k] + 0.5 * thickness(counts[k]));
+                let depth = depths.sum::<f32>() / (right - left) as f32;
+                *share = if counts[column] == 0 { 0 } else { (255.0 * depth / (depth + HALF_DEPTH)) as u8 };
+            }
+            for (above, count) in self.above.iter_mut().zip(counts) {
+                *above += thickness(*count);
             }
         }
     }

@@ -65,7 +65,6 @@ fn numbers(ui: &mut Ui, readings: &Readings) {
     for reading in &readings.pace {
         show_reading(ui, reading);
     }
-    dot(ui, style::LINE);
     show_reading(ui, &readings.total);
     let mut hidden = false;
     for (colour, reading) in &readings.elements {

@@ -41,13 +41,14 @@ pub fn show(
     let context = contexts.ctx_mut()?;
     let screen = context.content_rect();
     let mut open = true;
+    let height = screen.height() - 210.0;
     egui::Window::new("Details")
         .open(&mut open)
         .collapsible(true)
         .resizable(false)
         .default_pos(egui::pos2(screen.left() + 14.0, screen.top() + 54.0))
         .show(context, |ui| {
-            egui::ScrollArea::vertical().max_height(screen.height() - 210.0).show(ui, |ui| {
+            egui::ScrollArea::vertical().min_scrolled_height(height).max_height(height).show(ui, |ui| {
                 world(ui, &setup, &clock);
                 ui.separator();
                 stages(ui, &ledger, &costs.0, &costs.1);

@@ -18,6 +18,7 @@ pub fn show(mut contexts: EguiContexts, mut state: ResMut<HudState>) -> Result {
     let context = contexts.ctx_mut()?;
     let screen = context.content_rect();
     let mut open = true;
+    let height = screen.height() - 190.0;
     egui::Window::new("Keys and mouse")
         .open(&mut open)
         .collapsible(false)
@@ -25,7 +26,7 @@ pub fn show(mut contexts: EguiContexts, mut state: ResMut<HudState>) -> Result {
         .pivot(egui::Align2::CENTER_CENTER)
         .default_pos(screen.center())
         .show(context, |ui| {
-            egui::ScrollArea::vertical().max_height(screen.height() - 190.0).show(ui, |ui| {
+            egui::ScrollArea::vertical().min_scrolled_height(height).max_height(height).show(ui, |ui| {
                 ui.horizontal_top(|ui| {
                     ui.spacing_mut().item_spacing.x = 28.0;
                     for groups in [&Group::ALL[..2], &Group::ALL[2..]] {

@@ -27,7 +27,7 @@ const WIND_FLOOR: f32 = 0.02;
 /// Pressure that one tick of the pressure tool adds; the surroundings' is 1.
 const PRESS_STEP: f32 = 0.03;
 /// Points of the way that are kept for a tick.
-const WAY_LIMIT: usize = 32;
+const WAY_LIMIT: usize = 64;
 
 /// A held button.
 #[derive(Clone, Debug)]
@@ -46,6 +46,7 @@ pub struct Pull {
     pub start: Vec2,
     /// Where the pointer is now, d.
     pub now: Vec2,
+    at_frame_start: Vec2,
     /// Smoothed velocity of the drag, d/s.
     velocity: Vec2,
     /// The way since the last tick, d; empty while the pointer is over the HUD.
@@ -65,6 +66,7 @@ impl Pull {
             moved: false,
             start: at,
             now: at,
+            at_frame_start: at,
             velocity: Vec2::ZERO,
             way: vec![at],
             over_world: true,
@@ -72,12 +74,13 @@ impl Pull {
         }
     }
 
-    /// The pointer is at `at` now, `seconds` later; `over_world` is false while the HUD covers the place.
-    pub fn follow(&mut self, at: Vec2, seconds: f32, over_world: bool) {
-        if seconds > 0.0 {
-            let share = seconds / (seconds + DRAG_MEMORY);
-            self.velocity += ((at - self.now) / seconds - self.velocity) * share;
-        }
+    /// A frame begins.
+    pub fn begin_frame(&mut self) {
+        self.at_frame_start = self.now;
+    }
+
+    /// The pointer comes by `at`; `over_world` is false while the HUD covers the place.
+    pub fn visit(&mut self, at: Vec2, over_world: bool) {
         self.now = at;
         self.over_world = over_world;
         if !over_world {
@@ -87,6 +90,14 @@ impl Pull {
                 self.way.pop();
             }
             self.way.push(at);
+        }
+    }
+
+    /// A frame of `seconds` ends: this is how fast the drag was.
+    pub fn end_frame(&mut self, seconds: f32) {
+        if seconds > 0.0 {
+            let share = seconds / (seconds + DRAG_MEMORY);
+            self.velocity += ((self.now - self.at_frame_start) / seconds - self.velocity) * share;
         }
     }
 }
