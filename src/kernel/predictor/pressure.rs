@@ -14,8 +14,9 @@ const LIQUID_SHARE: f32 = 0.5;
 const ROCK_SHARE: f32 = 0.9;
 /// Nearest that the surface is taken to be to a liquid cell's centre, cells: nearer would make the equation stiff.
 const LEAST_THETA: f32 = 0.25;
-/// Share of a density error that one substep is to take away.
-const FEEDBACK: f32 = 0.2;
+/// Rate at which a density error is to be taken away, 1/s: a fifth of it in a tick, however many substeps that has. Per
+/// substep it would work eight times as hard at eight of them, and stir a still pool.
+const FEEDBACK_PER_SECOND: f32 = 12.0;
 /// Most that a cell's density is taken to be too high, and too low inside the liquid: pulls harder than this make noise.
 const FEEDBACK_RANGE: (f32, f32) = (-0.1, 0.3);
 /// A cell that is open to less than this has nowhere to go.
@@ -31,14 +32,13 @@ pub(super) struct Projection<'a> {
     pub pockets: &'a mut Pockets,
     /// Density that is aimed at, particles per d².
     pub target: f32,
-    pub dt: f32,
     pub report: &'a mut PredictorReport,
 }
 
 impl Pass for Projection<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { grid, closed, faces, hierarchy, conjugate, pockets, target, dt, report } = self;
+        let Self { grid, closed, faces, hierarchy, conjugate, pockets, target, report } = self;
         find_means(grid, faces);
         conjugate.resize(grid.len());
         let Some(rows) = mark_liquid(grid, closed, &faces.density, target, &mut conjugate.liquid) else {
@@ -46,7 +46,7 @@ impl Pass for Projection<'_> {
             return;
         };
         let rows = rows.0..=rows.1;
-        assemble(grid, closed, faces, hierarchy, conjugate, target, dt, rows.clone());
+        assemble(grid, closed, faces, hierarchy, conjugate, target, rows.clone());
         pockets.balance(grid, hierarchy.finest(), &mut conjugate.right_side);
         hierarchy.coarsen();
         *report = conjugate.solve(hierarchy);
@@ -119,10 +119,9 @@ fn assemble(
     hierarchy: &mut Hierarchy,
     conjugate: &mut Conjugate,
     target: f32,
-    dt: f32,
     rows: std::ops::RangeInclusive<usize>,
 ) {
-    let (s, feedback) = (grid.stride, FEEDBACK * grid.cell / dt);
+    let (s, feedback) = (grid.stride, FEEDBACK_PER_SECOND * grid.cell);
     let Conjugate { liquid, right_side, solution, .. } = conjugate;
     let finest = hierarchy.finest();
     finest.clear(*rows.start(), *rows.end());
