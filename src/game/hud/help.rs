@@ -19,26 +19,21 @@ pub fn show(mut contexts: EguiContexts, mut state: ResMut<HudState>) -> Result {
     let screen = context.content_rect();
     let mut open = true;
     let height = screen.height() - 190.0;
-    egui::Window::new("Keys and mouse")
-        .open(&mut open)
-        .collapsible(false)
-        .resizable(false)
-        .pivot(egui::Align2::CENTER_CENTER)
-        .default_pos(screen.center())
-        .show(context, |ui| {
-            egui::ScrollArea::vertical().min_scrolled_height(height).max_height(height).show(ui, |ui| {
-                ui.horizontal_top(|ui| {
-                    ui.spacing_mut().item_spacing.x = 28.0;
-                    for groups in [&Group::ALL[..2], &Group::ALL[2..]] {
-                        ui.vertical(|ui| {
-                            for group in groups {
-                                section(ui, *group);
-                            }
-                        });
-                    }
-                });
+    let place = (egui::Align2::CENTER_CENTER, screen.center());
+    style::window(context, "Keys and mouse", &mut open, place, |ui| {
+        egui::ScrollArea::vertical().min_scrolled_height(height).max_height(height).show(ui, |ui| {
+            ui.horizontal_top(|ui| {
+                ui.spacing_mut().item_spacing.x = 28.0;
+                for groups in [&Group::ALL[..2], &Group::ALL[2..]] {
+                    ui.vertical(|ui| {
+                        for group in groups {
+                            section(ui, *group);
+                        }
+                    });
+                }
             });
         });
+    });
     if !open {
         state.help = false;
     }

@@ -16,7 +16,7 @@ use crate::{
     sim::{
         pace::Pace,
         state::{AirGrid, ParticleStore, Rock, Setup, SolverState},
-        view::{self, DepthMap, Reference, Rgb, View},
+        view::{self, BurialMap, DepthMap, Reference, Rgb, View},
     },
 };
 use bevy::{
@@ -80,6 +80,7 @@ pub struct Picture {
     pub depth: DepthMap,
     /// Whether `depth` is of this frame.
     pub depth_new: bool,
+    burial: BurialMap,
     table: ColourTable,
     table_of: Option<(View, Arc<Blueprint>)>,
     stones_of: Option<(u64, Arc<Blueprint>, u32)>,
@@ -100,6 +101,7 @@ impl Default for Picture {
             air: (Vec::new(), UVec2::ONE),
             depth: DepthMap::default(),
             depth_new: false,
+            burial: BurialMap::default(),
             table: ColourTable::default(),
             table_of: None,
             stones_of: None,
@@ -163,7 +165,7 @@ pub fn extract(
         *version != rock.version() || !Arc::ptr_eq(of, blueprint) || *during != epoch.0
     });
     if picture.stones_new {
-        stone::pack(rock, &blueprint.elements, picture.stones.values_mut());
+        stone::pack(rock, &blueprint.elements, &mut picture.burial, picture.stones.values_mut());
         picture.stones_of = Some((rock.version(), blueprint.clone(), epoch.0));
     }
 
