@@ -33,7 +33,12 @@ fn folder(test: &str) -> PathBuf {
 }
 
 fn program(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_powder-master")).args(arguments).current_dir(folder).output().unwrap()
+    let mut command = Command::new(env!("CARGO_BIN_EXE_powder-master"));
+    // No test opens a window.
+    for variable in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
+        command.env_remove(variable);
+    }
+    command.args(arguments).current_dir(folder).output().unwrap()
 }
 
 fn good(folder: &Path, arguments: &[&str]) -> String {
@@ -91,6 +96,12 @@ fn bad_usage_is_one_line_that_says_what_is_allowed() {
         (&["play", "niagara"], &["niagara", "allowed"]),
         (&["list"], &["WHAT"]),
         (&["list", "cats"], &["scenes, elements, effects, qualities"]),
+        (&["bench"], &["WHAT"]),
+        (&["bench", "everything"], &["neighbours"]),
+        (&["bench", "neighbours", "--json", "nowhere/x.json"], &["no folder"]),
+        (&["study", "tides", "--out", "."], &["rest-density"]),
+        (&["study", "rest-density"], &["--out"]),
+        (&["study", "rest-density", "--out", "nowhere"], &["no folder"]),
     ] {
         refused(&here, arguments, 2, says);
     }
@@ -118,12 +129,13 @@ fn an_output_that_cannot_be_written_is_exit_code_1() {
     }
 }
 
-#[cfg(not(feature = "app"))]
+#[cfg(any(not(feature = "app"), target_os = "linux"))]
 #[test]
-fn a_build_without_a_window_names_run() {
+fn without_a_window_or_a_display_play_names_run() {
     let here = folder("no_window");
-    refused(&here, &[], 2, &["no window", "powder-master run waterfall"]);
+    refused(&here, &[], 2, &["no ", "powder-master run waterfall"]);
     refused(&here, &["play", "dam_break"], 2, &["powder-master run dam_break"]);
+    refused(&here, &["--quality", "draft", "--set", "wind=0"], 2, &["powder-master run waterfall"]);
 }
 
 #[test]

@@ -1,19 +1,12 @@
 //! `play`: the game's window.
 
-#[cfg(feature = "app")]
-use crate::game::{self, GameOptions};
 use crate::{
     cli::{args::PlayOptions, failure::Failure, threads},
     scene::{
         self,
         blueprint::{Blueprint, EffectModes},
     },
-    sim::workers::Workers,
 };
-#[cfg(feature = "app")]
-use bevy::app::AppExit;
-#[cfg(feature = "app")]
-use std::sync::Arc;
 
 /// The scene without a name.
 const DEFAULT_SCENE: &str = "waterfall";
@@ -22,12 +15,16 @@ const DEFAULT_SCENE: &str = "waterfall";
 pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Failure> {
     let scene = scene::load(scene.unwrap_or(DEFAULT_SCENE))?;
     let blueprint = scene.build(&options.settings, options.quality, &EffectModes::new())?;
-    open(blueprint, threads::workers(options.threads)?)
+    threads::start(options.threads)?;
+    open(blueprint)
 }
 
 #[cfg(feature = "app")]
-fn open(blueprint: Blueprint, workers: Workers) -> Result<(), Failure> {
-    match game::run(Arc::new(blueprint), workers, GameOptions::default()) {
+fn open(blueprint: Blueprint) -> Result<(), Failure> {
+    use crate::game::{self, GameOptions};
+    use bevy::app::AppExit;
+
+    match game::run(std::sync::Arc::new(blueprint), GameOptions::default()) {
         Ok(AppExit::Success) => Ok(()),
         Ok(AppExit::Error(code)) => Err(Failure::Outcome(format!("the game ended with error {code}"))),
         Err(error) => Err(Failure::Usage(error.to_string())),
@@ -35,7 +32,7 @@ fn open(blueprint: Blueprint, workers: Workers) -> Result<(), Failure> {
 }
 
 #[cfg(not(feature = "app"))]
-fn open(blueprint: Blueprint, _workers: Workers) -> Result<(), Failure> {
+fn open(blueprint: Blueprint) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
         "this build has no window (it lacks the cargo feature `app`); `powder-master run {}` works without one",
         blueprint.name

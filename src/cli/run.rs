@@ -22,7 +22,7 @@ use crate::{
         self,
         blueprint::{Blueprint, EffectModes},
     },
-    sim::{control, replay::Replay, view::View},
+    sim::{control, replay::Replay, view::View, workers::Workers},
 };
 use bevy::ecs::world::World;
 use std::{fs::File, io::BufWriter, path::Path, sync::Arc, time::Instant};
@@ -34,11 +34,11 @@ const DEFAULT_TICKS: u64 = 600;
 pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     check_outputs(arguments)?;
     let (blueprint, plan) = prepare(arguments)?;
-    let workers = threads::workers(arguments.threads)?;
+    threads::start(arguments.threads)?;
     let trace = arguments.trace.as_deref().map(Tracing::create).transpose()?;
 
     let begun = Instant::now();
-    let mut headless = Headless::new(Arc::new(blueprint), workers);
+    let mut headless = Headless::new(Arc::new(blueprint), Workers::default());
     let mut sampler = arguments.metrics.is_some().then(|| Sampler::new(headless.world(), plan.warmup));
     let trace = simulate(&mut headless, &plan, sampler.as_mut(), trace)?;
     let seconds = begun.elapsed().as_secs_f64();

@@ -9,20 +9,16 @@ use crate::{
     scene::blueprint::Blueprint,
     sim::state::Setup,
 };
-use bevy::{
-    prelude::{Local, Query, Res, ResMut, With},
-    window::{PrimaryWindow, Window},
-};
+use bevy::prelude::{Local, Res, ResMut};
 use std::sync::Arc;
 
-/// Names the window after it, shows the whole of its box, takes up the scene's first element, forgets the past.
+/// Shows the whole of its box, takes up the scene's first element, forgets the past.
 pub fn follow_scene(
     setup: Option<Res<Setup>>,
     mut seen: Local<Option<Arc<Blueprint>>>,
     mut camera: ResMut<WorldCamera>,
     mut tools: ResMut<Toolbox>,
     mut history: ResMut<History>,
-    mut windows: Query<&mut Window, With<PrimaryWindow>>,
 ) {
     let Some(setup) = setup else { return };
     let blueprint = &setup.blueprint;
@@ -30,9 +26,6 @@ pub fn follow_scene(
         return;
     }
     *seen = Some(blueprint.clone());
-    for mut window in &mut windows {
-        window.title = format!("Powder Master: {}", blueprint.title);
-    }
     camera.set_world(blueprint.domain.size);
     history.clear();
     let elements = &blueprint.elements;

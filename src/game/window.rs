@@ -3,7 +3,10 @@
 use crate::{
     game::{GamePlugin, hud::HudPlugin, hud::settings::Room, render::WorldRenderPlugin},
     scene::blueprint::Blueprint,
-    sim::{SimulationPlugin, control, workers::Workers},
+    sim::{
+        SimulationPlugin, control,
+        state::{Census, Setup},
+    },
 };
 use bevy::{
     DefaultPlugins,
@@ -11,14 +14,16 @@ use bevy::{
     camera::{Camera2d, ClearColor},
     color::Color,
     log::LogPlugin,
-    prelude::{Commands, PluginGroup, Startup},
+    prelude::{Commands, IntoScheduleConfigs, PluginGroup, Res, Single, Startup, Update, With},
     render::view::Msaa,
-    window::{PresentMode, Window, WindowPlugin, WindowResizeConstraints, WindowResolution},
+    time::common_conditions::on_timer,
+    window::{PresentMode, PrimaryWindow, Window, WindowPlugin, WindowResizeConstraints, WindowResolution},
 };
 use bevy_egui::EguiPlugin;
 use std::{
     panic::{self, AssertUnwindSafe},
     sync::Arc,
+    time::Duration,
 };
 
 /// How the game is to be shown.
@@ -57,8 +62,8 @@ pub enum GameError {
     },
 }
 
-/// Plays a scene in a window until it is closed; the kernel runs on `workers`.
-pub fn run(blueprint: Arc<Blueprint>, workers: Workers, options: GameOptions) -> Result<AppExit, GameError> {
+/// Plays a scene in a window until it is closed.
+pub fn run(blueprint: Arc<Blueprint>, options: GameOptions) -> Result<AppExit, GameError> {
     let scene = blueprint.name.clone();
     if let Some(reason) = missing_display(|name| std::env::var(name).ok()) {
         return Err(GameError::NoDisplay { reason, scene });
@@ -66,7 +71,7 @@ pub fn run(blueprint: Arc<Blueprint>, workers: Workers, options: GameOptions) ->
     // Setting the window up panics where it fails (winit can't reach the display, there is no graphics adapter).
     let hook = panic::take_hook();
     panic::set_hook(Box::new(|_| {}));
-    let built = panic::catch_unwind(AssertUnwindSafe(|| build(blueprint, workers, options)));
+    let built = panic::catch_unwind(AssertUnwindSafe(|| build(blueprint, options)));
     panic::set_hook(hook);
     match built {
         Ok(mut app) => Ok(app.run()),
@@ -95,7 +100,7 @@ fn explain(panic: &str, scene: String) -> GameError {
     GameError::NoWindow { reason: panic.lines().next().unwrap_or("unknown reason").to_owned(), scene }
 }
 
-fn build(blueprint: Arc<Blueprint>, workers: Workers, options: GameOptions) -> App {
+fn build(blueprint: Arc<Blueprint>, options: GameOptions) -> App {
     let window = Window {
         title: "Powder Master".into(),
         name: Some("powder-master".into()),
@@ -116,10 +121,21 @@ fn build(blueprint: Arc<Blueprint>, workers: Workers, options: GameOptions) -> A
     .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
     .insert_resource(ClearColor(Color::BLACK))
     .init_resource::<Room>()
-    .add_systems(Startup, spawn_camera);
-    app.insert_resource(workers);
+    .add_systems(Startup, spawn_camera)
+    .add_systems(Update, tell_in_title.run_if(on_timer(TITLE_EVERY)));
     control::load(app.world_mut(), blueprint);
     app
+}
+
+/// How often the title is looked after.
+const TITLE_EVERY: Duration = Duration::from_millis(500);
+
+/// Keeps scene and particle count in the title, where a task bar (and a test) reads them.
+fn tell_in_title(setup: Res<Setup>, census: Res<Census>, mut window: Single<&mut Window, With<PrimaryWindow>>) {
+    let title = format!("Powder Master: {}, {} particles", setup.blueprint.title, census.total);
+    if window.title != title {
+        window.title = title;
+    }
 }
 
 /// The camera that window and HUD are drawn for; where it looks is `WorldCamera`'s business.
