@@ -146,7 +146,7 @@ pub fn rock_colour(element: &Element, cell: IVec2, id: u32, burial: f32) -> Rgb 
 pub fn air_colour(view: View, reference: Reference, pressure: f32, velocity: Vec2) -> (Rgb, f32) {
     match view {
         View::Pressure => {
-            let x = (pressure - 1.0) / 0.12;
+            let x = (pressure - 1.0) / 0.03;
             let strength = x.abs() / (1.0 + x.abs());
             (if x < 0.0 { LOW_PRESSURE } else { HIGH_PRESSURE }, 0.85 * strength)
         }

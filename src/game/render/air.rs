@@ -44,9 +44,9 @@ pub fn arrows(air: &Air, size: Vec2, spacing: f32, reference: Reference, out: &m
         for column in 0..count.x {
             let at = (Vec2::new(column as f32, row as f32) + 0.5) * step;
             let velocity = air.sample_velocity(at);
-            let strength = 2.5 * velocity.length() / reference.wind;
-            let length = spacing * strength / (1.0 + strength);
-            if length > 0.04 * spacing {
+            let strength = 6.0 * velocity.length() / reference.wind;
+            let length = 1.2 * spacing * strength / (1.0 + strength);
+            if length > 0.08 * spacing {
                 let half = velocity.normalize_or_zero() * length * 0.5;
                 let opacity = 90.0 + 165.0 * strength / (1.0 + strength);
                 out.push(streak(at - half, at + half, [222, 246, 240, opacity as u8]));

@@ -19,6 +19,7 @@ use crate::{
         view::{self, BurialMap, DepthMap, Reference, Rgb, View},
     },
 };
+use bevy::platform::time::Instant;
 use bevy::{
     prelude::{Fixed, Query, Res, ResMut, Resource, Time, With},
     render::{
@@ -28,15 +29,12 @@ use bevy::{
     window::{PrimaryWindow, Window},
 };
 use glam::{UVec2, Vec2, Vec4};
-use std::{
-    sync::{Arc, atomic::Ordering},
-    time::Instant,
-};
+use std::sync::{Arc, atomic::Ordering};
 
 /// Radius of a particle's soft disc, d.
 const BLOB_RADIUS: f32 = 1.35;
 /// Spacing of the arrows, logical pixels.
-const ARROW_SPACING: f32 = 26.0;
+const ARROW_SPACING: f32 = 30.0;
 
 /// What the shader knows of the world as a whole; the fields are explained there.
 #[derive(Clone, Copy, Debug, Default, ShaderType)]
@@ -206,7 +204,7 @@ pub fn extract(
             flag(view == View::Elements),
             view::DEPTH_SHADE,
         ),
-        pen: Vec4::new(BLOB_RADIUS, 1.6 * scale_factor.max(1.0), flag(view.shows_air()), 0.0),
+        pen: Vec4::new(BLOB_RADIUS, 1.5 * scale_factor.max(1.0), flag(view.shows_air()), 0.0),
         surroundings: srgb(view::SURROUNDINGS),
         box_top: srgb(view::BOX_TOP),
         box_bottom: srgb(view::BOX_BOTTOM),

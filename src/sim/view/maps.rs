@@ -18,7 +18,9 @@ pub struct DepthMap {
     columns: usize,
     rows: usize,
     count: Vec<u32>,
+    /// Liquid above the row that is measured, d, and whether the cell right above it holds a body of liquid.
     above: Vec<f32>,
+    body: Vec<bool>,
     share: Vec<u8>,
 }
 
@@ -38,20 +40,23 @@ impl DepthMap {
         }
         self.above.clear();
         self.above.resize(self.columns, 0.0);
+        self.body.clear();
+        self.body.resize(self.columns, false);
         for row in (0..self.rows).rev() {
             self.measure_row(row);
         }
     }
 
     /// Spray casts no shade. Neighbouring columns are averaged, so that the surface's noise doesn't stripe the water
-    /// below it; only those with liquid, so that the water isn't lighter beside rock.
+    /// below it; only those with liquid, so that the water isn't lighter beside rock. The cell below a body of liquid,
+    /// half full at its bottom, goes with it.
     fn measure_row(&mut self, row: usize) {
         let cells = row * self.columns..(row + 1) * self.columns;
         let (counts, shares) = (&self.count[cells.clone()], &mut self.share[cells]);
         for (column, share) in shares.iter_mut().enumerate() {
             let (mut sum, mut parts) = (0.0, 0.0);
             for k in column.saturating_sub(REACH)..(column + REACH + 1).min(counts.len()) {
-                if counts[k] >= SPRAY {
+                if counts[k] >= SPRAY || self.body[k] {
                     sum += self.above[k] + 0.5 * counts[k] as f32 / DEPTH_CELL;
                     parts += 1.0;
                 }
@@ -59,8 +64,9 @@ impl DepthMap {
             let depth = if parts > 0.0 { sum / parts } else { 0.0 };
             *share = (255.0 * depth / (depth + HALF_DEPTH)) as u8;
         }
-        for (above, &count) in self.above.iter_mut().zip(counts) {
-            *above += if count >= SPRAY { count as f32 / DEPTH_CELL } else { 0.0 };
+        for (column, &count) in counts.iter().enumerate() {
+            self.body[column] = count >= SPRAY;
+            self.above[column] += if count >= SPRAY { count as f32 / DEPTH_CELL } else { 0.0 };
         }
     }
 
