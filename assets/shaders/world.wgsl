@@ -130,12 +130,15 @@ fn blob_fragment(in: Blob) -> @location(0) vec4<f32> {
 @fragment
 fn liquid_fragment(in: Screen) -> @location(0) vec4<f32> {
     let field = textureSampleLevel(field_texture, linear_sampler, in.uv, 0.0);
+    let soft = clamp(fwidth(field.a) * 0.8, 0.02, 0.3);
+    if field.a < SURFACE - soft {
+        discard;
+    }
     let step = 1.25 / vec2<f32>(textureDimensions(field_texture));
     let left = textureSampleLevel(field_texture, linear_sampler, in.uv - vec2<f32>(step.x, 0.0), 0.0).a;
     let right = textureSampleLevel(field_texture, linear_sampler, in.uv + vec2<f32>(step.x, 0.0), 0.0).a;
     let above = textureSampleLevel(field_texture, linear_sampler, in.uv - vec2<f32>(0.0, step.y), 0.0).a;
     let below = textureSampleLevel(field_texture, linear_sampler, in.uv + vec2<f32>(0.0, step.y), 0.0).a;
-    let soft = clamp(fwidth(field.a) * 0.8, 0.02, 0.3);
     let point = point_at(in.uv);
     let cover = smoothstep(SURFACE - soft, SURFACE + soft, field.a) * smoothstep(0.5, -0.5, outside_box(point));
     var rgb = field.rgb / max(field.a, 0.001);

@@ -18,10 +18,10 @@ use crate::game::{
     camera::Area,
     input::{bindings::Action, keys::Typing, pointer::HudCover},
 };
+use bevy::platform::time::Instant;
 use bevy::prelude::{App, IntoScheduleConfigs, Plugin, PreUpdate, Query, ResMut, Resource, Startup};
 use bevy_egui::{EguiContext, EguiContexts, EguiInput, EguiPreUpdateSet, EguiPrimaryContextPass, egui};
 use glam::Vec2;
-use std::time::Instant;
 
 /// Shows the HUD.
 pub struct HudPlugin;

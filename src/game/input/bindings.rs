@@ -329,10 +329,10 @@ fn key_name(key: KeyCode) -> &'static str {
         K::Slash => "/",
         K::BracketLeft => "[",
         K::BracketRight => "]",
-        K::ArrowLeft => "←",
-        K::ArrowRight => "→",
-        K::ArrowUp => "↑",
-        K::ArrowDown => "↓",
+        K::ArrowLeft => "left",
+        K::ArrowRight => "right",
+        K::ArrowUp => "up",
+        K::ArrowDown => "down",
         _ => "unnamed",
     }
 }
