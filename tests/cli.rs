@@ -112,7 +112,7 @@ fn a_bad_output_path_is_refused_before_anything_is_simulated() {
     let here = folder("bad_output");
     // A run of this length would take hours.
     let long = |option: &'static str, path: &'static str| ["run", "waterfall", "--seconds", "90000", option, path];
-    for option in ["--metrics", "--particles", "--trace", "--png"] {
+    for option in ["--metrics", "--particles", "--trace", "--png", "--snapshot"] {
         refused(&here, &long(option, "nowhere/out"), 2, &["nowhere/out", "no folder", "allowed"]);
         refused(&here, &long(option, "."), 2, &["is a folder"]);
     }
@@ -124,7 +124,7 @@ fn a_bad_output_path_is_refused_before_anything_is_simulated() {
 #[test]
 fn an_output_that_cannot_be_written_is_exit_code_1() {
     let here = folder("full_disk");
-    for option in ["--metrics", "--particles", "--trace", "--png"] {
+    for option in ["--metrics", "--particles", "--trace", "--png", "--snapshot"] {
         refused(&here, &["run", "empty", "--ticks", "1", option, "/dev/full"], 1, &["/dev/full", "can't be written"]);
     }
 }
@@ -304,6 +304,29 @@ fn a_replay_is_the_same_world_again() {
     let finer = metrics(&here, &["run", "empty", "--replay", "mine.jsonl", "--quality", "fine"]);
     assert_eq!(finer["quality"], "fine");
     assert_ne!(finer["hash"], found["hash"]);
+}
+
+#[test]
+fn a_saved_world_goes_on_as_if_it_had_never_stopped() {
+    let here = folder("snapshot");
+    let scene = ["run", "waterfall", "--set", "flow=900"];
+    let whole = metrics(&here, &[&scene[..], &["--ticks", "50"]].concat());
+    good(&here, &[&scene[..], &["--ticks", "20", "--snapshot", "half.save"]].concat());
+    let rest = metrics(&here, &["run", "half.save", "--ticks", "30"]);
+    assert_eq!(rest["hash"], whole["hash"]);
+    assert_eq!(rest["scene"], "waterfall");
+    assert_eq!(rest["ticks"], 30);
+    let other = metrics(&here, &["run", "half.save", "--ticks", "30", "--quality", "draft", "--effect", "air=off"]);
+    assert_eq!(other["quality"], "draft");
+    assert_eq!(other["effects"]["air"]["mode"], "off");
+    assert_ne!(other["hash"], rest["hash"]);
+
+    refused(&here, &["run", "half.save", "--set", "wind=0"], 2, &["half.save", "--set"]);
+    let bytes = std::fs::read(here.join("half.save")).unwrap();
+    std::fs::write(here.join("torn.save"), &bytes[..bytes.len() / 2]).unwrap();
+    refused(&here, &["run", "torn.save"], 2, &["torn.save", "damaged"]);
+    std::fs::write(here.join("poem.txt"), "roses are red").unwrap();
+    refused(&here, &["run", "poem.txt"], 2, &["poem.txt", "not a save file"]);
 }
 
 #[test]

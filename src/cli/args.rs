@@ -123,7 +123,7 @@ pub(super) struct PlayOptions {
 /// `run`.
 #[derive(Debug, Args)]
 pub(super) struct RunArguments {
-    /// Scene: a name of `list scenes`, or a path
+    /// Scene: a name of `list scenes`, or the path of a scene file or a save file
     pub(super) scene: String,
     /// Simulated time [default: 10, or as long as the replay]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true, conflicts_with = "ticks")]
@@ -159,6 +159,9 @@ pub(super) struct RunArguments {
     /// Draw the world at the end
     #[arg(long, value_name = "FILE.png")]
     pub(super) png: Option<PathBuf>,
+    /// Save the world at the end, to be run on
+    #[arg(long, value_name = "FILE")]
+    pub(super) snapshot: Option<PathBuf>,
     /// Repeat recorded input; it brings its own parameters and quality
     #[arg(long, value_name = "FILE", conflicts_with = "settings")]
     pub(super) replay: Option<PathBuf>,

@@ -9,6 +9,7 @@ mod output;
 mod play;
 mod progress;
 mod run;
+mod start;
 mod study;
 mod threads;
 

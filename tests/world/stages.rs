@@ -48,7 +48,7 @@ fn area(low: (f32, f32), high: (f32, f32)) -> Rect {
 fn ambiguity(sandbox: &mut Sandbox, label: impl ScheduleLabel + Clone) -> Option<String> {
     let world = sandbox.app.world_mut();
     let mut schedules = world.resource_mut::<Schedules>();
-    let schedule = schedules.get_mut(label.clone()).expect("a schedule of the tick");
+    let Some(schedule) = schedules.get_mut(label.clone()) else { panic!("no schedule of the tick") };
     schedule.set_build_settings(ScheduleBuildSettings {
         ambiguity_detection: LogLevel::Error,
         ..ScheduleBuildSettings::default()

@@ -108,7 +108,6 @@ impl Predictor {
             conjugate: &mut self.conjugate,
             pockets: &mut self.pockets,
             target: TARGET_DENSITY * params.rest_density,
-            dt: params.dt,
             report: &mut report,
         });
         if report.liquid {

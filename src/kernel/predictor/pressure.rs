@@ -12,8 +12,11 @@ use crate::kernel::{
 const LIQUID_SHARE: f32 = 0.5;
 /// A cell with more rock than this is not solved for.
 const ROCK_SHARE: f32 = 0.9;
-/// Share of a density error that one substep is to take away.
-const FEEDBACK: f32 = 0.2;
+/// Nearest that the surface is taken to be to a liquid cell's centre, cells: nearer would make the equation stiff.
+const LEAST_THETA: f32 = 0.25;
+/// Rate at which a density error is to be taken away, 1/s: a fifth of it in a tick, however many substeps that has. Per
+/// substep it would work eight times as hard at eight of them, and stir a still pool.
+const FEEDBACK_PER_SECOND: f32 = 12.0;
 /// Most that a cell's density is taken to be too high, and too low inside the liquid: pulls harder than this make noise.
 const FEEDBACK_RANGE: (f32, f32) = (-0.1, 0.3);
 /// A cell that is open to less than this has nowhere to go.
@@ -29,14 +32,13 @@ pub(super) struct Projection<'a> {
     pub pockets: &'a mut Pockets,
     /// Density that is aimed at, particles per d².
     pub target: f32,
-    pub dt: f32,
     pub report: &'a mut PredictorReport,
 }
 
 impl Pass for Projection<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { grid, closed, faces, hierarchy, conjugate, pockets, target, dt, report } = self;
+        let Self { grid, closed, faces, hierarchy, conjugate, pockets, target, report } = self;
         find_means(grid, faces);
         conjugate.resize(grid.len());
         let Some(rows) = mark_liquid(grid, closed, &faces.density, target, &mut conjugate.liquid) else {
@@ -44,7 +46,7 @@ impl Pass for Projection<'_> {
             return;
         };
         let rows = rows.0..=rows.1;
-        assemble(grid, closed, faces, hierarchy, conjugate, target, dt, rows.clone());
+        assemble(grid, closed, faces, hierarchy, conjugate, target, rows.clone());
         pockets.balance(grid, hierarchy.finest(), &mut conjugate.right_side);
         hierarchy.coarsen();
         *report = conjugate.solve(hierarchy);
@@ -99,19 +101,27 @@ fn mark_liquid(
     rows
 }
 
-/// Sets up `Σ_f w_f (p_c − p_n) = −Σ ± w_f u_f + feedback` over the liquid cells; p = 0 in the air.
+/// 1/θ for a face between a liquid cell and air, with `filled` the liquid shares of both together: the surface, where
+/// p = 0, lies θ cells from the liquid cell's centre (Enright et al. 2003; a second-order surface). Without it all
+/// surfaces within one cell would be level, and a pool could rest with bumps.
+#[inline(always)]
+fn steepness(filled: f32) -> f32 {
+    1.0 / (filled - 0.5).clamp(LEAST_THETA, 1.0)
+}
+
+/// Sets up `Σ_f w_f s_f (p_c − p_n) = −Σ ± w_f u_f + feedback` over the liquid cells; p = 0 in the air, s_f is 1 between
+/// liquid cells and [`steepness`] at the surface.
 #[inline(always)]
 fn assemble(
     grid: &MacGrid,
     closed: &ClosedFaces,
-    faces: &Faces,
+    faces: &mut Faces,
     hierarchy: &mut Hierarchy,
     conjugate: &mut Conjugate,
     target: f32,
-    dt: f32,
     rows: std::ops::RangeInclusive<usize>,
 ) {
-    let (s, feedback) = (grid.stride, FEEDBACK * grid.cell / dt);
+    let (s, feedback) = (grid.stride, FEEDBACK_PER_SECOND * grid.cell);
     let Conjugate { liquid, right_side, solution, .. } = conjugate;
     let finest = hierarchy.finest();
     finest.clear(*rows.start(), *rows.end());
@@ -134,7 +144,12 @@ fn assemble(
                 || (j < grid.rows && is_free(k + s));
             let least = if at_surface { 0.0 } else { FEEDBACK_RANGE.0 };
             let error = (faces.density[k] / target + closed.rock[k] - 1.0).clamp(least, FEEDBACK_RANGE.1);
-            finest.diagonal[k] = left + right + lower + upper;
+            let fill = |n: usize| faces.density[n] / target + closed.rock[n];
+            let steep = |n: usize| if liquid[n] > 0.0 { 1.0 } else { steepness(fill(k) + fill(n)) };
+            let steep = [k - 1, k + 1, k - s, k + s].map(steep);
+            (faces.steep_u[k], faces.steep_u[k + 1], faces.steep_v[k], faces.steep_v[k + s]) =
+                (steep[0], steep[1], steep[2], steep[3]);
+            finest.diagonal[k] = left * steep[0] + right * steep[1] + lower * steep[2] + upper * steep[3];
             finest.right[k] = right * liquid[k + 1];
             finest.upper[k] = upper * liquid[k + s];
             right_side[k] = feedback * error - divergence;
@@ -156,14 +171,15 @@ fn change_velocities(
     rows: std::ops::RangeInclusive<usize>,
 ) {
     let (liquid, p) = (&conjugate.liquid, &conjugate.solution);
-    let Faces { u, v, new_u, new_v, change, known, .. } = faces;
-    for (old, new, open, step) in [(&*u, new_u, &closed.open_u, 1), (&*v, new_v, &closed.open_v, grid.stride)] {
+    let Faces { u, v, new_u, new_v, steep_u, steep_v, change, known, .. } = faces;
+    let (along, up) = ((&*u, new_u, &closed.open_u, steep_u, 1), (&*v, new_v, &closed.open_v, steep_v, grid.stride));
+    for (old, new, open, steep, step) in [along, up] {
         change.fill(0.0);
         known.fill(0.0);
         for j in *rows.start()..=*rows.end() + 1 {
             for k in grid.row(j) + 1..=grid.row(j) + grid.columns + 1 {
                 let touches = if liquid[k] + liquid[k - step] > 0.0 { 1.0 } else { 0.0 };
-                let gained = if open[k] > 0.0 { p[k - step] - p[k] } else { -old[k][1] };
+                let gained = if open[k] > 0.0 { steep[k] * (p[k - step] - p[k]) } else { -old[k][1] };
                 known[k] = touches;
                 change[k] = touches * gained;
             }

@@ -80,6 +80,10 @@ pub(super) struct Faces {
     pub new_u: Vec<[f32; 2]>,
     /// The same at the lower faces.
     pub new_v: Vec<[f32; 2]>,
+    /// How much steeper than between liquid cells the pressure falls at the left faces.
+    pub steep_u: Vec<f32>,
+    /// The same at the lower faces.
+    pub steep_v: Vec<f32>,
     /// Change on each face and whether it is known (1) or to be filled in from its neighbours (0).
     pub change: Vec<f32>,
     /// See `change`.
@@ -89,12 +93,12 @@ pub(super) struct Faces {
 impl Faces {
     /// Shares out the particles' velocities on the faces.
     pub fn collect(&mut self, grid: &MacGrid, particles: &Particles) {
-        let Self { u, v, density, new_u, new_v, change, known } = self;
+        let Self { u, v, density, new_u, new_v, steep_u, steep_v, change, known } = self;
         for field in [&mut *u, v, new_u, new_v] {
             field.clear();
             field.resize(grid.len(), [0.0; 2]);
         }
-        for field in [density, change, known] {
+        for field in [density, steep_u, steep_v, change, known] {
             field.resize(grid.len(), 0.0);
         }
         let velocities = particles.vx.iter().zip(&particles.vy);
@@ -126,6 +130,10 @@ impl Faces {
     /// Bytes held.
     pub fn memory(&self) -> usize {
         let pairs = [&self.u, &self.v, &self.new_u, &self.new_v].iter().map(|field| field.capacity()).sum::<usize>();
-        8 * pairs + 4 * (self.density.capacity() + self.change.capacity() + self.known.capacity())
+        8 * pairs
+            + 4 * (self.density.capacity()
+                + self.steep_u.capacity() * 2
+                + self.change.capacity()
+                + self.known.capacity())
     }
 }
