@@ -32,7 +32,7 @@ impl Plugin for HudPlugin {
             .init_resource::<settings::UiScale>()
             .init_resource::<HudCost>()
             .init_resource::<scenes::SceneMenu>()
-            .add_systems(Startup, scenes::list_scenes)
+            .add_systems(Startup, (scenes::list_scenes, greet))
             .add_systems(PreUpdate, mind_the_keys.after(EguiPreUpdateSet::ProcessInput))
             .add_systems(
                 EguiPrimaryContextPass,
@@ -111,6 +111,11 @@ pub struct HudCost {
     begun: Option<Instant>,
 }
 
+/// What a newcomer needs to know.
+fn greet(mut toasts: ResMut<toast::Toasts>) {
+    toasts.say("Left button pours, right button erases, F1 shows all keys");
+}
+
 fn begin(mut cost: ResMut<HudCost>, mut contexts: EguiContexts, mut styled: bevy::prelude::Local<bool>) {
     cost.begun = Some(Instant::now());
     if let (false, Ok(context)) = (*styled, contexts.ctx_mut()) {
@@ -135,6 +140,10 @@ fn note_cover(context: &egui::Context, cover: &mut HudCover) {
     cover.menu = egui::Popup::is_any_open(context);
     cover.parts.clear();
     for layer in context.memory(|memory| memory.areas().visible_layer_ids()) {
+        // The root, behind everything, fills the window.
+        if layer.order == egui::Order::Background {
+            continue;
+        }
         if let Some(area) = egui::AreaState::load(context, layer.id).filter(|area| area.interactable) {
             let (min, max) = (area.rect().min, area.rect().max);
             cover.parts.push(Area { min: Vec2::new(min.x, min.y) * zoom, max: Vec2::new(max.x, max.y) * zoom });

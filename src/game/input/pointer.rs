@@ -113,18 +113,17 @@ impl Hand<'_> {
     }
 
     fn begin(&mut self, gesture: Gesture, button: MouseButton, pixel: Vec2) {
-        let at = self.camera.to_world(pixel);
+        let (at, tool) = (self.camera.to_world(pixel), self.tools.tool);
         if gesture != Gesture::Drag {
             self.orders.push(Order::Checkpoint);
         }
-        let freehand =
-            self.tools.tool.is_air() && matches!(gesture, Gesture::Line | Gesture::Rectangle | Gesture::Fill);
+        let freehand = tool.is_air() && matches!(gesture, Gesture::Line | Gesture::Rectangle | Gesture::Fill);
         match (gesture, self.tools.element()) {
             // The air tools know no shapes: they blow wherever they are dragged.
-            _ if freehand => self.held.begin(Pull::new(Gesture::Use, button, pixel, at)),
+            _ if freehand => self.held.begin(Pull::new(Gesture::Use, tool, button, pixel, at)),
             (Gesture::Fill, Some(element)) => self.intents.push(Intent::Fill { element, at }),
             (Gesture::Fill, None) => {}
-            _ => self.held.begin(Pull::new(gesture, button, pixel, at)),
+            _ => self.held.begin(Pull::new(gesture, tool, button, pixel, at)),
         }
     }
 

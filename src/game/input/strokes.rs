@@ -25,7 +25,7 @@ const WIND_LIMIT: f32 = 2.0;
 /// A drag slower than this makes no wind, in units of [`Reference::wind`].
 const WIND_FLOOR: f32 = 0.02;
 /// Pressure that one tick of the pressure tool adds; the surroundings' is 1.
-const PRESS_STEP: f32 = 0.03;
+const PRESS_STEP: f32 = 0.12;
 /// Points of the way that are kept for a tick.
 const WAY_LIMIT: usize = 64;
 
@@ -34,6 +34,8 @@ const WAY_LIMIT: usize = 64;
 pub struct Pull {
     /// What it does.
     pub gesture: Gesture,
+    /// With which tool: another choice before the release is for the next stroke.
+    tool: Tool,
     /// Which button.
     pub button: MouseButton,
     /// Where it was pressed, pixels.
@@ -57,9 +59,10 @@ pub struct Pull {
 
 impl Pull {
     /// A button pressed at a place.
-    pub fn new(gesture: Gesture, button: MouseButton, pixel: Vec2, at: Vec2) -> Self {
+    pub fn new(gesture: Gesture, tool: Tool, button: MouseButton, pixel: Vec2, at: Vec2) -> Self {
         Self {
             gesture,
+            tool,
             button,
             pressed_at: pixel,
             pixel,
@@ -140,6 +143,7 @@ pub fn make_intents(
     mut intents: ResMut<IntentQueue>,
 ) {
     let (Some(pull), Some(setup)) = (&mut held.0, setup) else { return };
+    let tools = tools.with(pull.tool);
     let reference = Reference::of(&setup.blueprint.domain, &setup.blueprint.air);
     if tools.tool.is_air() {
         thicken(&mut pull.way, 0.5 * tools.radius());
