@@ -15,7 +15,7 @@ struct World {
     extent: vec4<f32>,
     // Pixels of one d; opacity of the liquid; 1 if it is shaded by depth and light, else 0; most that depth darkens.
     look: vec4<f32>,
-    // Radius of a blob, d; half-width of a streak, pixels; 1 if the air is shown; unused.
+    // Radius of a blob, d; half-width of a streak, pixels; 1 if the air is shown; scale of lines.
     pen: vec4<f32>,
     surroundings: vec4<f32>,
     box_top: vec4<f32>,
@@ -83,7 +83,7 @@ fn dither(pixel: vec2<f32>) -> f32 {
 @fragment
 fn backdrop_fragment(in: Screen) -> @location(0) vec4<f32> {
     let point = point_at(in.uv);
-    let out_pixels = outside_box(point);
+    let out_pixels = outside_box(point) / world.pen.w;
     let height = clamp(point.y / world.size.y, 0.0, 1.0);
     var inside = mix(world.box_bottom.rgb, world.box_top.rgb, height);
     inside *= 1.0 - 0.35 * exp2(min(out_pixels, 0.0) / 14.0);
