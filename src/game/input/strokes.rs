@@ -35,7 +35,7 @@ pub struct Pull {
     /// What it does.
     pub gesture: Gesture,
     /// With which tool: another choice before the release is for the next stroke.
-    tool: Tool,
+    pub tool: Tool,
     /// Which button.
     pub button: MouseButton,
     /// Where it was pressed, pixels.
