@@ -7,8 +7,8 @@
 //! change of velocity comes back to the particles (Zhu & Bridson 2005, "Animating sand as a fluid"; McAdams et al. 2010
 //! for the solver). Two iterations of the constraint then do the detail, whatever the depth.
 //!
-//! Rooms: `grid` the geometry, `rock` what is closed, `transfer` particles to grid and back, `pressure` the equation,
-//! `pockets` where it is singular, `multigrid` and `conjugate` its solver.
+//! Rooms: `grid` the geometry, `rock` what is closed, `stencil` and `transfer` particles to grid and back, `pressure` the
+//! equation, `pockets` where it is singular, `multigrid` and `conjugate` its solver.
 
 mod conjugate;
 mod grid;
@@ -16,6 +16,7 @@ mod multigrid;
 mod pockets;
 mod pressure;
 mod rock;
+mod stencil;
 mod transfer;
 
 use crate::kernel::{params::Domain, particles::Particles, simd::InstructionSet, solids::Solids};
@@ -81,7 +82,7 @@ impl Predictor {
             self.hierarchy = Hierarchy::new(grid.columns, grid.rows);
         }
         self.closed.update(&grid, solids);
-        self.faces.collect(&grid, particles);
+        self.faces.collect(&grid, particles, params.instructions);
         let mut report = PredictorReport::default();
         params.instructions.run(pressure::Projection {
             grid: &grid,
@@ -95,7 +96,7 @@ impl Predictor {
             report: &mut report,
         });
         if report.liquid {
-            self.faces.hand_back(&grid, particles, (BLEND_PER_SECOND * params.dt).min(1.0));
+            self.faces.hand_back(&grid, particles, params.instructions, (BLEND_PER_SECOND * params.dt).min(1.0));
         }
         report
     }

@@ -3,7 +3,7 @@
 use crate::kernel::{
     predictor::{
         grid::MacGrid,
-        transfer::{Axis, Stencil},
+        stencil::{Axis, faces_around},
     },
     solids::{Solids, centre},
 };
@@ -59,8 +59,8 @@ impl ClosedFaces {
         let (mut u, mut v) = (vec![0.0; grid.len()], vec![0.0; grid.len()]);
         for (cell, ..) in solids.iter() {
             let at = centre(cell);
-            Stencil::new(grid, at.x, at.y, Axis::U).add(&mut u, grid.stride, |value, weight| *value += weight);
-            Stencil::new(grid, at.x, at.y, Axis::V).add(&mut v, grid.stride, |value, weight| *value += weight);
+            faces_around(grid, at.x, at.y, Axis::U, |face, weight| u[face] += weight);
+            faces_around(grid, at.x, at.y, Axis::V, |face, weight| v[face] += weight);
         }
         fold_at_walls(grid, &mut u, &mut v);
         let share = 0.25 * grid.per_cell * grid.per_cell;
