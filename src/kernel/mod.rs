@@ -8,6 +8,7 @@ pub mod bins;
 pub mod brush;
 pub mod element;
 pub mod forces;
+pub(crate) mod parallel;
 pub mod params;
 pub mod particles;
 pub mod pbf;

@@ -9,13 +9,13 @@
 
 mod constraint;
 mod correction;
-pub(crate) mod parallel;
 #[cfg(test)]
 pub(crate) mod tests;
 
 use crate::kernel::{
     bins::{Bins, Neighbours, permute},
     element::ElementId,
+    parallel,
     params::{Domain, FluidParams, GradientKernel, Quality},
     particles::Particles,
     predictor::TARGET_DENSITY,

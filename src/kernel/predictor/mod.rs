@@ -7,9 +7,10 @@
 //! change of velocity comes back to the particles (Zhu & Bridson 2005, "Animating sand as a fluid"; McAdams et al. 2010
 //! for the solver). Two iterations of the constraint then do the detail, whatever the depth.
 //!
-//! Rooms: `grid` the geometry, `rock` what is closed, `stencil` and `transfer` particles to grid and back, `pressure` the
-//! equation, `pockets` where it is singular, `multigrid` and `conjugate` its solver.
+//! Rooms: `grid` the geometry, `rock` what is closed, `stencil`, `blocks` and `transfer` particles to grid and back,
+//! `pressure` the equation, `pockets` where it is singular, `multigrid` and `conjugate` its solver.
 
+mod blocks;
 mod conjugate;
 mod grid;
 mod multigrid;
@@ -69,6 +70,8 @@ pub struct PredictorParams<'a> {
     pub rest_density: f32,
     /// Lanes in use.
     pub instructions: InstructionSet,
+    /// Threads to use.
+    pub threads: usize,
     /// Substep, s.
     pub dt: f32,
 }
@@ -82,7 +85,7 @@ impl Predictor {
             self.hierarchy = Hierarchy::new(grid.columns, grid.rows);
         }
         self.closed.update(&grid, solids);
-        self.faces.collect(&grid, particles, params.instructions);
+        self.faces.collect(&grid, particles, params.instructions, params.threads);
         let mut report = PredictorReport::default();
         params.instructions.run(pressure::Projection {
             grid: &grid,
@@ -96,7 +99,13 @@ impl Predictor {
             report: &mut report,
         });
         if report.liquid {
-            self.faces.hand_back(&grid, particles, params.instructions, (BLEND_PER_SECOND * params.dt).min(1.0));
+            self.faces.hand_back(
+                &grid,
+                particles,
+                params.instructions,
+                params.threads,
+                (BLEND_PER_SECOND * params.dt).min(1.0),
+            );
         }
         report
     }

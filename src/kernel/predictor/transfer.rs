@@ -1,8 +1,10 @@
 //! Particles to grid and back, with bilinear weights.
 
 use crate::kernel::{
+    parallel::spread,
     particles::Particles,
     predictor::{
+        blocks::Blocks,
         grid::MacGrid,
         rock::fold_at_walls,
         stencil::{Axis, LANES, Stencils},
@@ -27,12 +29,13 @@ pub(super) struct Faces {
     pub change: Vec<f32>,
     /// See `change`.
     pub known: Vec<f32>,
+    blocks: Blocks,
 }
 
 impl Faces {
     /// Shares out the particles' velocities on the faces.
-    pub fn collect(&mut self, grid: &MacGrid, particles: &Particles, instructions: InstructionSet) {
-        let Self { u, v, density, new_u, new_v, change, known } = self;
+    pub fn collect(&mut self, grid: &MacGrid, particles: &Particles, instructions: InstructionSet, threads: usize) {
+        let Self { u, v, density, new_u, new_v, change, known, blocks } = self;
         for field in [&mut *u, v, new_u, new_v] {
             field.clear();
             field.resize(grid.len(), [0.0; 2]);
@@ -41,20 +44,36 @@ impl Faces {
             field.resize(grid.len(), 0.0);
         }
         let Particles { x, y, vx, vy, .. } = particles;
-        instructions.run(Collect { grid, x, y, vx, vy, u, v });
+        blocks.partition(grid, y, instructions, threads);
+        blocks.share_out([&mut u[..], &mut v[..]], grid.stride, threads, &|particles, row, [u, v]| {
+            let [x, y, vx, vy] = [x, y, vx, vy].map(|values| &values[particles.clone()]);
+            instructions.run(Collect { grid, x, y, vx, vy, first: grid.row(row), u, v });
+        });
         fold_at_walls(grid, u, v);
     }
 
     /// Adds the change of velocity at each particle, and moves its velocity towards the grid's by the share `blend`.
-    pub fn hand_back(&self, grid: &MacGrid, particles: &mut Particles, instructions: InstructionSet, blend: f32) {
+    pub fn hand_back(
+        &self,
+        grid: &MacGrid,
+        particles: &mut Particles,
+        instructions: InstructionSet,
+        threads: usize,
+        blend: f32,
+    ) {
         let Particles { x, y, vx, vy, .. } = particles;
-        instructions.run(HandBack { grid, faces: self, blend, x, y, vx, vy });
+        spread([&mut vx[..], &mut vy[..]], threads, &|base, [vx, vy]| {
+            let [x, y] = [&*x, &*y].map(|values| &values[base..base + vx.len()]);
+            instructions.run(HandBack { grid, faces: self, blend, x, y, vx, vy });
+        });
     }
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
         let pairs = [&self.u, &self.v, &self.new_u, &self.new_v].iter().map(|field| field.capacity()).sum::<usize>();
-        8 * pairs + 4 * (self.density.capacity() + self.change.capacity() + self.known.capacity())
+        8 * pairs
+            + 4 * (self.density.capacity() + self.change.capacity() + self.known.capacity())
+            + self.blocks.memory()
     }
 }
 
@@ -76,6 +95,8 @@ struct Collect<'a> {
     y: &'a [f32],
     vx: &'a [f32],
     vy: &'a [f32],
+    /// Index of the first face of `u` and `v`.
+    first: usize,
     u: &'a mut [[f32; 2]],
     v: &'a mut [[f32; 2]],
 }
@@ -94,8 +115,8 @@ impl Pass for Collect<'_> {
             for turn in 0..LANES {
                 let lane = turn / 2 + turn % 2 * (LANES / 2);
                 if lane < count {
-                    to_u.add(u, grid.stride, lane);
-                    to_v.add(v, grid.stride, lane);
+                    to_u.add(u, self.first, grid.stride, lane);
+                    to_v.add(v, self.first, grid.stride, lane);
                 }
             }
         }
@@ -125,8 +146,8 @@ impl Deposits {
     }
 
     #[inline(always)]
-    fn add(&self, field: &mut [[f32; 2]], stride: usize, lane: usize) {
-        let corner = self.corner[lane] as usize;
+    fn add(&self, field: &mut [[f32; 2]], first: usize, stride: usize, lane: usize) {
+        let corner = self.corner[lane] as usize - first;
         add_to_pair(field, corner, &self.lower[lane]);
         add_to_pair(field, corner + stride, &self.upper[lane]);
     }

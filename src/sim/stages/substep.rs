@@ -64,17 +64,21 @@ pub(super) fn predict_pressure(
     rock: Res<Rock>,
     setup: Res<Setup>,
     plan: Res<TickPlan>,
+    workers: Res<Workers>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
-    let params = predictor::PredictorParams {
-        domain: &setup.blueprint.domain,
-        cell: setup.quality.kernel_radius,
-        rest_density: setup.blueprint.fluid.rest_density,
-        instructions: solver.instructions,
-        dt: plan.substep_seconds(),
-    };
-    predictor.run(&mut particles, &rock, &params);
+    workers.run_for(particles.len(), |threads| {
+        let params = predictor::PredictorParams {
+            domain: &setup.blueprint.domain,
+            cell: setup.quality.kernel_radius,
+            rest_density: setup.blueprint.fluid.rest_density,
+            instructions: solver.instructions,
+            threads,
+            dt: plan.substep_seconds(),
+        };
+        predictor.run(&mut particles, &rock, &params);
+    });
     ledger.note(Pass::Pressure, start.elapsed());
 }
 
