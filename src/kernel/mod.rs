@@ -6,6 +6,7 @@
 pub mod air;
 pub mod bins;
 pub mod brush;
+pub mod checks;
 pub mod element;
 pub mod forces;
 pub(crate) mod parallel;

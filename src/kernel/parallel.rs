@@ -3,13 +3,12 @@
 //! What an entry gets never depends on where the pieces are cut, so the number of threads does not show in the result.
 
 use crate::kernel::bins::Group;
+use std::ops::Range;
 
 /// Pieces a thread: some are denser than others, so there is something left to steal.
 const PIECES_PER_THREAD: usize = 4;
 /// Fewer groups than this a piece do not pay for handing it over (a hand-over costs some microseconds).
 const FEWEST_GROUPS: usize = 64;
-/// The same for entries of which each takes some nanoseconds.
-const FEWEST_ENTRIES: usize = 2048;
 /// Pieces of arrays begin at multiples of this, so that lanes stay full.
 const ALIGNMENT: usize = 16;
 
@@ -40,15 +39,19 @@ where
     );
 }
 
-/// Runs `work` over pieces of arrays of one length, on up to `threads` threads of the current rayon pool. Each call gets
-/// the index of its first entry and its piece of each array.
-pub(crate) fn spread<const K: usize, T, F>(arrays: [&mut [T]; K], threads: usize, work: &F)
+/// Entries that are worth a piece of their own where each takes some nanoseconds; lighter work wants more.
+pub(crate) const WORTH_A_PIECE: usize = 2048;
+
+/// Runs `work` over pieces of arrays of one length, of `fewest` entries or more, on up to `threads` threads of the
+/// current rayon pool. Each call gets the index of its first entry and its piece of each array.
+pub(crate) fn spread<const K: usize, T, F>(arrays: [&mut [T]; K], fewest: usize, threads: usize, work: &F)
 where
     T: Send,
     F: Fn(usize, [&mut [T]; K]) + Sync,
 {
     let len = arrays.first().map_or(0, |array| array.len());
-    spread_from(0, len, arrays, piece(len, threads, FEWEST_ENTRIES), work);
+    debug_assert!(arrays.iter().all(|array| array.len() == len), "arrays of one length");
+    spread_from(0, len, arrays, piece(len, threads, fewest), work);
 }
 
 fn spread_from<const K: usize, T, F>(base: usize, len: usize, arrays: [&mut [T]; K], piece: usize, work: &F)
@@ -65,6 +68,19 @@ where
         || spread_from(base, half, left, piece, work),
         || spread_from(base + half, len - half, right, piece, work),
     );
+}
+
+/// Runs `work` over pieces of `0 … len`, of `fewest` or more, on up to `threads` threads of the current rayon pool.
+pub(crate) fn over(len: usize, fewest: usize, threads: usize, work: &(impl Fn(Range<usize>) + Sync)) {
+    over_from(0..len, piece(len, threads, fewest), work);
+}
+
+fn over_from(range: Range<usize>, piece: usize, work: &(impl Fn(Range<usize>) + Sync)) {
+    if range.len() <= piece {
+        return work(range);
+    }
+    let middle = range.start + range.len() / 2;
+    rayon::join(|| over_from(range.start..middle, piece, work), || over_from(middle..range.end, piece, work));
 }
 
 /// Entries that a piece has at most.

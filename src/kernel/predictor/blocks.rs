@@ -15,6 +15,9 @@ use std::ops::Range;
 /// Particles in a span, the unit that blocks are made of.
 const SPAN: usize = 128;
 
+/// Fewer spans than this are not handed to another thread.
+const FEWEST_SPANS: usize = 512;
+
 /// Consecutive particles and the grid rows that they reach.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Block {
@@ -37,7 +40,7 @@ impl Blocks {
     /// Cuts the particles at heights `y` d into blocks.
     pub fn partition(&mut self, grid: &MacGrid, y: &[f32], instructions: InstructionSet, threads: usize) {
         self.spans.resize(y.len().div_ceil(SPAN), [0; 2]);
-        spread([&mut self.spans[..]], threads, &|first, [spans]| {
+        spread([&mut self.spans[..]], FEWEST_SPANS, threads, &|first, [spans]| {
             instructions.run(FindSpans { grid, y: &y[first * SPAN..], spans });
         });
         let Self { spans, turns, rest } = self;

@@ -1,7 +1,7 @@
 //! Particles to grid and back, with bilinear weights.
 
 use crate::kernel::{
-    parallel::spread,
+    parallel::{WORTH_A_PIECE, spread},
     particles::Particles,
     predictor::{
         blocks::Blocks,
@@ -62,7 +62,7 @@ impl Faces {
         blend: f32,
     ) {
         let Particles { x, y, vx, vy, .. } = particles;
-        spread([&mut vx[..], &mut vy[..]], threads, &|base, [vx, vy]| {
+        spread([&mut vx[..], &mut vy[..]], WORTH_A_PIECE, threads, &|base, [vx, vy]| {
             let [x, y] = [&*x, &*y].map(|values| &values[base..base + vx.len()]);
             instructions.run(HandBack { grid, faces: self, blend, x, y, vx, vy });
         });

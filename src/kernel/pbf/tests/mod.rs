@@ -3,7 +3,7 @@
 pub(crate) mod reference;
 
 use super::*;
-use crate::kernel::params::Preset;
+use crate::kernel::params::{Preset, WALL_GAP};
 use reference::{Question, Vector};
 
 /// A box with particles and rock in it, ready to be solved.
@@ -70,11 +70,11 @@ impl Bench {
     pub(crate) fn step(&mut self, tension: bool, dt: f32) {
         let Self { particles, solids, domain, quality, solver, predicted, .. } = self;
         let predicted = *predicted;
-        crate::kernel::predict::predict(particles, solver, solids, domain, quality, dt);
+        crate::kernel::predict::predict(particles, solver, solids, domain, quality, 1, dt);
         let params = SolveParams { domain, fluid: &self.fluid, quality, tension, predicted, threads: 1 };
         solver.bin(particles, solids, domain, quality);
         solver.solve(&params);
-        crate::kernel::velocity::update_velocities(particles, solver, solids, quality, predicted, dt);
+        crate::kernel::velocity::update_velocities(particles, solver, solids, quality, predicted, 1, dt);
     }
 }
 
