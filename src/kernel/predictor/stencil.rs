@@ -1,6 +1,6 @@
 //! Bilinear weights of the faces around a point.
 
-use crate::kernel::predictor::grid::MacGrid;
+use crate::kernel::{predictor::grid::MacGrid, simd::whole_below};
 
 /// Which faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,8 +16,8 @@ impl Axis {
     #[inline(always)]
     pub fn column(self, grid: &MacGrid, x: f32) -> (u32, f32) {
         match self {
-            Self::U => below(x * grid.per_cell + 1.0, 1, grid.columns),
-            Self::V => below(x * grid.per_cell + 0.5, 0, grid.columns),
+            Self::U => whole_below(x * grid.per_cell + 1.0, 1, grid.columns as u32),
+            Self::V => whole_below(x * grid.per_cell + 0.5, 0, grid.columns as u32),
         }
     }
 
@@ -25,26 +25,10 @@ impl Axis {
     #[inline(always)]
     pub fn row(self, grid: &MacGrid, y: f32) -> (u32, f32) {
         match self {
-            Self::U => below(y * grid.per_cell + 0.5, 0, grid.rows),
-            Self::V => below(y * grid.per_cell + 1.0, 1, grid.rows),
+            Self::U => whole_below(y * grid.per_cell + 0.5, 0, grid.rows as u32),
+            Self::V => whole_below(y * grid.per_cell + 1.0, 1, grid.rows as u32),
         }
     }
-}
-
-/// The whole number at or just below `at`, within `low …= high`, and what is left. What is not a number counts as low.
-///
-/// A cast would check its range lane by lane. Here the number is bounded first and then added to 2²³, where the spacing
-/// of single precision is 1: the low bits of the sum are the number, rounded. At a whole number either neighbour may
-/// come out, with all that is left or none.
-#[inline(always)]
-fn below(at: f32, low: u32, high: usize) -> (u32, f32) {
-    const ONES: f32 = 8_388_608.0;
-    let (low, high) = (low as f32, high as f32);
-    let middle = at - 0.5;
-    let middle = if middle > low { middle } else { low };
-    let middle = if middle < high { middle } else { high };
-    let sum = middle + ONES;
-    (sum.to_bits() - ONES.to_bits(), at - (sum - ONES))
 }
 
 /// Points whose stencils are found side by side.

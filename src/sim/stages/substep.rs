@@ -113,10 +113,13 @@ pub(super) fn sort_into_bins(
     mut solver: ResMut<SolverState>,
     rock: Res<Rock>,
     setup: Res<Setup>,
+    workers: Res<Workers>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
-    solver.bin(&mut particles, &rock, &setup.blueprint.domain, &setup.quality);
+    workers.run_for(particles.len(), |threads| {
+        solver.bin(&mut particles, &rock, &setup.blueprint.domain, &setup.quality, threads);
+    });
     ledger.note(Pass::Bin, start.elapsed());
 }
 
