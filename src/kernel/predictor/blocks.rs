@@ -67,6 +67,13 @@ impl Blocks {
         }
     }
 
+    /// The rows that any particle reaches.
+    pub fn reached(&self) -> Range<usize> {
+        let first = self.spans.iter().map(|span| span[0]).min();
+        let end = self.spans.iter().map(|span| span[1]).max();
+        first.unwrap_or(0) as usize..end.unwrap_or(0) as usize
+    }
+
     /// Calls `work(particles, first row, rows of each field)` for every block. `fields` have `stride` entries a row.
     pub fn share_out<const K: usize, T, F>(&self, fields: [&mut [T]; K], stride: usize, threads: usize, work: &F)
     where

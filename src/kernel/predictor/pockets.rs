@@ -4,7 +4,7 @@
 //! to 0. The divergences do (what flows out of one cell flows into the next), the density feedback does not: a pocket
 //! that holds too much liquid can't get rid of it. So the mean of the right-hand side is taken out of each pocket.
 
-use crate::kernel::predictor::{grid::MacGrid, multigrid::Level};
+use crate::kernel::predictor::{grid::MacGrid, level::Level};
 
 /// Couplings that differ by less than this are equal: rounding of the sums of open shares.
 const ROUNDING: f32 = 1e-4;
@@ -34,7 +34,7 @@ impl Pockets {
         self.label.resize(grid.len(), 0);
         self.parts.clear();
         let s = grid.stride;
-        for j in level.first..=level.last {
+        for j in level.rows.clone() {
             for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
                 if level.diagonal[k] == 0.0 {
                     continue;
@@ -58,7 +58,7 @@ impl Pockets {
         if self.parts.iter().all(|part| part.touches_air) {
             return;
         }
-        for j in level.first..=level.last {
+        for j in level.rows.clone() {
             for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
                 if level.diagonal[k] == 0.0 {
                     continue;

@@ -2,11 +2,12 @@
 
 use crate::kernel::{
     predictor::{
-        PredictorReport, conjugate::Conjugate, grid::MacGrid, multigrid::Hierarchy, pockets::Pockets,
+        PredictorReport, conjugate::Conjugate, grid::MacGrid, level::Level, multigrid::Hierarchy, pockets::Pockets,
         rock::ClosedFaces, transfer::Faces,
     },
     simd::{Lanes, Pass},
 };
+use std::ops::Range;
 
 /// A cell is liquid from this share of its open room on.
 const LIQUID_SHARE: f32 = 0.5;
@@ -39,16 +40,17 @@ impl Pass for Projection<'_> {
         let Self { grid, closed, faces, hierarchy, conjugate, pockets, target, dt, report } = self;
         find_means(grid, faces);
         conjugate.resize(grid.len());
-        let Some(rows) = mark_liquid(grid, closed, &faces.density, target, &mut conjugate.liquid) else {
-            conjugate.solution.fill(0.0);
+        let rows = mark_liquid(grid, closed, faces, target, conjugate);
+        let before = std::mem::replace(&mut conjugate.rows, rows);
+        conjugate.keep_guess(grid, before);
+        if conjugate.rows.is_empty() {
             return;
-        };
-        let rows = rows.0..=rows.1;
-        assemble(grid, closed, faces, hierarchy, conjugate, target, dt, rows.clone());
+        }
+        assemble(grid, closed, faces, hierarchy.finest(), conjugate, target, dt);
         pockets.balance(grid, hierarchy.finest(), &mut conjugate.right_side);
         hierarchy.coarsen();
         *report = conjugate.solve(hierarchy);
-        change_velocities(grid, closed, faces, conjugate, rows);
+        change_velocities(grid, closed, faces, conjugate);
     }
 }
 
@@ -57,7 +59,7 @@ impl Pass for Projection<'_> {
 fn find_means(grid: &MacGrid, faces: &mut Faces) {
     let share = 0.25 * grid.per_cell * grid.per_cell;
     let n = grid.columns;
-    for j in 1..=grid.rows {
+    for j in cells_reached(grid, faces) {
         let o = grid.row(j) + 1;
         let (left, right) = (&faces.u[o..o + n], &faces.u[o + 1..o + 1 + n]);
         let (lower, upper) = (&faces.v[o..o + n], &faces.v[o + grid.stride..o + grid.stride + n]);
@@ -65,35 +67,48 @@ fn find_means(grid: &MacGrid, faces: &mut Faces) {
             *density = share * (left[i][0] + right[i][0] + lower[i][0] + upper[i][0]);
         }
     }
-    for face in faces.u.iter_mut().chain(&mut faces.v) {
-        let weight = if face[0] > 1e-12 { face[0] } else { 1e-12 };
-        face[1] /= weight;
+    let reached = grid.rows(faces.reached.clone());
+    for field in [&mut faces.u[reached.clone()], &mut faces.v[reached]] {
+        for face in field {
+            let weight = if face[0] > 1e-12 { face[0] } else { 1e-12 };
+            face[1] /= weight;
+        }
     }
 }
 
-/// Marks the liquid cells with 1; returns the first and the last row that has one.
+/// Rows of cells that have a particle on one of their faces.
+fn cells_reached(grid: &MacGrid, faces: &Faces) -> Range<usize> {
+    faces.reached.start.saturating_sub(1).max(1)..faces.reached.end.min(grid.rows + 1)
+}
+
+/// Marks the liquid cells with 1; returns the rows from the first to the last that has one.
 #[inline(always)]
 fn mark_liquid(
     grid: &MacGrid,
     closed: &ClosedFaces,
-    density: &[f32],
+    faces: &Faces,
     target: f32,
-    liquid: &mut [f32],
-) -> Option<(usize, usize)> {
-    liquid.fill(0.0);
-    let mut rows: Option<(usize, usize)> = None;
-    for j in 1..=grid.rows {
+    conjugate: &mut Conjugate,
+) -> Range<usize> {
+    let (s, n) = (grid.stride, grid.columns);
+    conjugate.liquid[grid.rows(conjugate.rows.clone())].fill(0.0);
+    let mut rows = 0..0;
+    for j in cells_reached(grid, faces) {
+        let o = grid.row(j) + 1;
+        let (density, rock) = (&faces.density[o..o + n], &closed.rock[o..o + n]);
+        let (left, right) = (&closed.open_u[o..o + n], &closed.open_u[o + 1..o + 1 + n]);
+        let (lower, upper) = (&closed.open_v[o..o + n], &closed.open_v[o + s..o + s + n]);
         let mut any = false;
-        for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
-            let rock = closed.rock[k];
-            let open = closed.open_u[k] + closed.open_u[k + 1] + closed.open_v[k] + closed.open_v[k + grid.stride];
-            let is_liquid =
-                density[k] >= LIQUID_SHARE * target * (1.0 - rock) && rock < ROCK_SHARE && open >= LEAST_DIAGONAL;
-            liquid[k] = f32::from(u8::from(is_liquid));
+        for (i, liquid) in conjugate.liquid[o..o + n].iter_mut().enumerate() {
+            let open = left[i] + right[i] + lower[i] + upper[i];
+            let is_liquid = (density[i] >= LIQUID_SHARE * target * (1.0 - rock[i]))
+                & (rock[i] < ROCK_SHARE)
+                & (open >= LEAST_DIAGONAL);
+            *liquid = if is_liquid { 1.0 } else { 0.0 };
             any |= is_liquid;
         }
         if any {
-            rows = Some((rows.map_or(j, |(first, _)| first), j));
+            rows = if rows.is_empty() { j } else { rows.start }..j + 1;
         }
     }
     rows
@@ -105,84 +120,87 @@ fn assemble(
     grid: &MacGrid,
     closed: &ClosedFaces,
     faces: &Faces,
-    hierarchy: &mut Hierarchy,
+    finest: &mut Level,
     conjugate: &mut Conjugate,
     target: f32,
     dt: f32,
-    rows: std::ops::RangeInclusive<usize>,
 ) {
-    let (s, feedback) = (grid.stride, FEEDBACK * grid.cell / dt);
-    let Conjugate { liquid, right_side, solution, .. } = conjugate;
-    let finest = hierarchy.finest();
-    finest.clear(*rows.start(), *rows.end());
-    right_side.fill(0.0);
-    // Neither liquid nor mostly rock: the surface is there.
-    let is_free = |k: usize| liquid[k] + 2.0 * closed.rock[k] < 0.5;
+    let (s, n, feedback) = (grid.stride, grid.columns, FEEDBACK * grid.cell / dt);
+    let Conjugate { liquid, right_side, rows, .. } = conjugate;
+    finest.take_rows(rows.clone());
     for j in rows.clone() {
-        for i in 1..=grid.columns {
-            let k = grid.row(j) + i;
-            if liquid[k] == 0.0 {
-                continue;
-            }
-            let (left, right, lower, upper) =
-                (closed.open_u[k], closed.open_u[k + 1], closed.open_v[k], closed.open_v[k + s]);
+        let o = grid.row(j) + 1;
+        let cells = [o, o - 1, o + 1, o - s, o + s];
+        let (liquid, rock) = (cells.map(|o| &liquid[o..o + n]), cells.map(|o| &closed.rock[o..o + n]));
+        let density = &faces.density[o..o + n];
+        let (left, right) = (&closed.open_u[o..o + n], &closed.open_u[o + 1..o + 1 + n]);
+        let (lower, upper) = (&closed.open_v[o..o + n], &closed.open_v[o + s..o + s + n]);
+        let (u_left, u_right) = (&faces.u[o..o + n], &faces.u[o + 1..o + 1 + n]);
+        let (v_lower, v_upper) = (&faces.v[o..o + n], &faces.v[o + s..o + s + n]);
+        let (diagonal, to_right) = (&mut finest.diagonal[o..o + n], &mut finest.right[o..o + n]);
+        let (to_upper, right_side) = (&mut finest.upper[o..o + n], &mut right_side[o..o + n]);
+        for i in 0..n {
             let divergence =
-                right * faces.u[k + 1][1] - left * faces.u[k][1] + upper * faces.v[k + s][1] - lower * faces.v[k][1];
-            let at_surface = (i > 1 && is_free(k - 1))
-                || (i < grid.columns && is_free(k + 1))
-                || (j > 1 && is_free(k - s))
-                || (j < grid.rows && is_free(k + s));
-            let least = if at_surface { 0.0 } else { FEEDBACK_RANGE.0 };
-            let error = (faces.density[k] / target + closed.rock[k] - 1.0).clamp(least, FEEDBACK_RANGE.1);
-            finest.diagonal[k] = left + right + lower + upper;
-            finest.right[k] = right * liquid[k + 1];
-            finest.upper[k] = upper * liquid[k + s];
-            right_side[k] = feedback * error - divergence;
+                right[i] * u_right[i][1] - left[i] * u_left[i][1] + upper[i] * v_upper[i][1] - lower[i] * v_lower[i][1];
+            // Neither liquid nor mostly rock: the surface is there.
+            let is_free = |side: usize| liquid[side][i] + 2.0 * rock[side][i] < 0.5;
+            let at_surface = is_free(1) | is_free(2) | is_free(3) | is_free(4);
+            let (least, most) = (if at_surface { 0.0 } else { FEEDBACK_RANGE.0 }, FEEDBACK_RANGE.1);
+            let error = density[i] / target + rock[0][i] - 1.0;
+            let error = if error > least { error } else { least };
+            let error = if error < most { error } else { most };
+            let is_liquid = liquid[0][i];
+            diagonal[i] = is_liquid * (left[i] + right[i] + lower[i] + upper[i]);
+            to_right[i] = is_liquid * right[i] * liquid[2][i];
+            to_upper[i] = is_liquid * upper[i] * liquid[4][i];
+            right_side[i] = is_liquid * (feedback * error - divergence);
         }
-    }
-    // The last solution is the first guess, where there still is liquid.
-    for (p, liquid) in solution.iter_mut().zip(liquid.iter()) {
-        *p *= *liquid;
     }
 }
 
 /// Finds the change on every face that touches liquid, and fills one layer around them in from its neighbours.
 #[inline(always)]
-fn change_velocities(
-    grid: &MacGrid,
-    closed: &ClosedFaces,
-    faces: &mut Faces,
-    conjugate: &Conjugate,
-    rows: std::ops::RangeInclusive<usize>,
-) {
-    let (liquid, p) = (&conjugate.liquid, &conjugate.solution);
-    let Faces { u, v, new_u, new_v, change, known, .. } = faces;
-    for (old, new, open, step) in [(&*u, new_u, &closed.open_u, 1), (&*v, new_v, &closed.open_v, grid.stride)] {
-        change.fill(0.0);
-        known.fill(0.0);
-        for j in *rows.start()..=*rows.end() + 1 {
-            for k in grid.row(j) + 1..=grid.row(j) + grid.columns + 1 {
-                let touches = if liquid[k] + liquid[k - step] > 0.0 { 1.0 } else { 0.0 };
-                let gained = if open[k] > 0.0 { p[k - step] - p[k] } else { -old[k][1] };
-                known[k] = touches;
-                change[k] = touches * gained;
+fn change_velocities(grid: &MacGrid, closed: &ClosedFaces, faces: &mut Faces, conjugate: &Conjugate) {
+    let Conjugate { liquid, solution: p, rows, .. } = conjugate;
+    let Faces { u, v, new_u, new_v, change, known, reached, .. } = faces;
+    let (s, n) = (grid.stride, grid.columns + 1);
+    // Rows of faces that touch liquid, and with the layer around them.
+    let touching = rows.start..rows.end + 1;
+    let near = (rows.start - 1).max(1)..(rows.end + 2).min(grid.rows + 2);
+    for (old, new, open, step) in [(&*u, new_u, &closed.open_u, 1), (&*v, new_v, &closed.open_v, s)] {
+        for field in [&mut *change, known] {
+            field[grid.rows(near.start - 1..near.end + 1)].fill(0.0);
+        }
+        for j in touching.clone() {
+            let o = grid.row(j) + 1;
+            let [liquid, p] = [liquid, p].map(|field| [&field[o - step..o - step + n], &field[o..o + n]]);
+            let (open, old) = (&open[o..o + n], &old[o..o + n]);
+            let (change, known) = (&mut change[o..o + n], &mut known[o..o + n]);
+            for i in 0..n {
+                let touches = if liquid[0][i] + liquid[1][i] > 0.0 { 1.0 } else { 0.0 };
+                let gained = if open[i] > 0.0 { p[0][i] - p[1][i] } else { -old[i][1] };
+                known[i] = touches;
+                change[i] = touches * gained;
             }
         }
-        let (s, first, last) =
-            (grid.stride, rows.start().saturating_sub(1).max(1), (rows.end() + 2).min(grid.rows + 1));
-        for j in first..=last {
-            for k in grid.row(j)..=grid.row(j) + grid.columns + 1 {
-                let around = known[k - 1] + known[k + 1] + known[k - s] + known[k + s];
-                let sum = change[k - 1] + change[k + 1] + change[k - s] + change[k + s];
-                let filled = sum / if around > 0.5 { around } else { 0.5 };
-                let gained = if known[k] > 0.0 { change[k] } else { filled };
-                new[k] = [gained, old[k][1] + gained];
+        for j in near.clone() {
+            let o = grid.row(j);
+            let (old, new) = (&old[o..o + s], &mut new[o..o + s]);
+            let [(change, around_change), (known, around_known)] = [&*change, &*known]
+                .map(|field| (&field[o..o + s], [o - 1, o + 1, o - s, o + s].map(|at| &field[at..at + s])));
+            for i in 0..s {
+                let sum = |field: &[&[f32]; 4]| (field[0][i] + field[1][i]) + (field[2][i] + field[3][i]);
+                let around = sum(&around_known);
+                let filled = sum(&around_change) / if around > 0.5 { around } else { 0.5 };
+                let gained = if known[i] > 0.0 { change[i] } else { filled };
+                new[i] = [gained, old[i][1] + gained];
             }
         }
         // Away from the liquid nothing changes.
-        for j in (0..first).chain(last + 1..=grid.rows + 2) {
-            for k in grid.row(j)..grid.row(j) + grid.stride {
-                new[k] = [0.0, old[k][1]];
+        for far in [reached.start..near.start.min(reached.end), near.end.max(reached.start)..reached.end] {
+            let far = if far.is_empty() { 0..0 } else { grid.rows(far) };
+            for (new, old) in new[far.clone()].iter_mut().zip(&old[far]) {
+                *new = [0.0, old[1]];
             }
         }
     }

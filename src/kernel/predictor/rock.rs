@@ -8,6 +8,7 @@ use crate::kernel::{
     solids::{Solids, centre},
 };
 use glam::IVec2;
+use std::ops::Range;
 
 /// A face that is less open than this is closed: the equation would be stiff, and nothing passes.
 const LEAST_OPEN: f32 = 0.1;
@@ -20,7 +21,7 @@ pub(super) struct ClosedFaces {
     pub open_u: Vec<f32>,
     /// Open share of the lower face of each cell.
     pub open_v: Vec<f32>,
-    /// Share of rock around each cell, smeared as the liquid's density is, 0 … 1.
+    /// Share of rock around each cell, smeared as the liquid's density is, 0 … 1; 1 in the padding.
     pub rock: Vec<f32>,
 }
 
@@ -48,6 +49,10 @@ impl ClosedFaces {
                 }
             }
         }
+        self.rock.fill(1.0);
+        for j in 1..=grid.rows {
+            self.rock[grid.row(j) + 1..=grid.row(j) + grid.columns].fill(0.0);
+        }
         self.smear_rock(grid, solids);
     }
 
@@ -62,7 +67,7 @@ impl ClosedFaces {
             faces_around(grid, at.x, at.y, Axis::U, |face, weight| u[face] += weight);
             faces_around(grid, at.x, at.y, Axis::V, |face, weight| v[face] += weight);
         }
-        fold_at_walls(grid, &mut u, &mut v);
+        fold_at_walls(grid, 0..grid.rows + 2, &mut u, &mut v);
         let share = 0.25 * grid.per_cell * grid.per_cell;
         for j in 1..=grid.rows {
             for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
@@ -95,26 +100,28 @@ fn open_share(grid: &MacGrid, start: f32, solid: impl Fn(i32, i32) -> bool, plan
 }
 
 /// What was shared out beyond a wall belongs to this side of it; a face on the wall sees only half of its surroundings.
-pub(super) fn fold_at_walls<T: Foldable>(grid: &MacGrid, u: &mut [T], v: &mut [T]) {
+/// `reached` are the rows that were shared out to.
+pub(super) fn fold_at_walls<T: Foldable>(grid: &MacGrid, reached: Range<usize>, u: &mut [T], v: &mut [T]) {
     let (s, columns, rows) = (grid.stride, grid.columns, grid.rows);
     for i in 0..=columns + 1 {
-        u[s + i].add(u[i]);
-        let beyond = u[(rows + 1) * s + i];
-        u[rows * s + i].add(beyond);
+        if reached.start == 0 {
+            u[s + i].add(u[i]);
+        }
+        if reached.end > rows + 1 {
+            let beyond = u[(rows + 1) * s + i];
+            u[rows * s + i].add(beyond);
+        }
     }
-    for j in 0..=rows + 1 {
+    for j in reached.clone() {
         let beyond = v[j * s];
         v[j * s + 1].add(beyond);
         let beyond = v[j * s + columns + 1];
         v[j * s + columns].add(beyond);
-    }
-    for j in 1..=rows {
         u[j * s + 1].double();
         u[j * s + columns + 1].double();
     }
-    for i in 1..=columns {
-        v[s + i].double();
-        v[(rows + 1) * s + i].double();
+    for wall in [1, rows + 1].into_iter().filter(|wall| reached.contains(wall)) {
+        v[wall * s + 1..=wall * s + columns].iter_mut().for_each(Foldable::double);
     }
 }
 

@@ -11,6 +11,7 @@ use crate::kernel::{
     },
     simd::{InstructionSet, Lanes, Pass},
 };
+use std::ops::Range;
 
 /// Fields on the faces.
 #[derive(Clone, Debug, Default)]
@@ -29,27 +30,35 @@ pub(super) struct Faces {
     pub change: Vec<f32>,
     /// See `change`.
     pub known: Vec<f32>,
+    /// Rows that a particle reaches. All fields are those of the last prediction in these rows and in one more on
+    /// either side; what is in the others is left from before.
+    pub reached: Range<usize>,
     blocks: Blocks,
 }
 
 impl Faces {
     /// Shares out the particles' velocities on the faces.
     pub fn collect(&mut self, grid: &MacGrid, particles: &Particles, instructions: InstructionSet, threads: usize) {
-        let Self { u, v, density, new_u, new_v, change, known, blocks } = self;
-        for field in [&mut *u, v, new_u, new_v] {
-            field.clear();
+        let Self { u, v, density, new_u, new_v, change, known, reached, blocks } = self;
+        let Particles { x, y, vx, vy, .. } = particles;
+        blocks.partition(grid, y, instructions, threads);
+        *reached = blocks.reached();
+        let near = grid.rows(reached.start.saturating_sub(1)..(reached.end + 1).min(grid.rows + 3));
+        for field in [&mut *u, v] {
+            field.resize(grid.len(), [0.0; 2]);
+            field[near.clone()].fill([0.0; 2]);
+        }
+        for field in [new_u, new_v] {
             field.resize(grid.len(), [0.0; 2]);
         }
         for field in [density, change, known] {
             field.resize(grid.len(), 0.0);
         }
-        let Particles { x, y, vx, vy, .. } = particles;
-        blocks.partition(grid, y, instructions, threads);
         blocks.share_out([&mut u[..], &mut v[..]], grid.stride, threads, &|particles, row, [u, v]| {
             let [x, y, vx, vy] = [x, y, vx, vy].map(|values| &values[particles.clone()]);
             instructions.run(Collect { grid, x, y, vx, vy, first: grid.row(row), u, v });
         });
-        fold_at_walls(grid, u, v);
+        fold_at_walls(grid, reached.clone(), u, v);
     }
 
     /// Adds the change of velocity at each particle, and moves its velocity towards the grid's by the share `blend`.
