@@ -39,13 +39,15 @@ pub enum Neighbours {
     Brute,
 }
 
-/// A run of consecutive particles with the runs of candidates that may touch any of them. 56 bytes.
+/// A run of consecutive particles with the runs of candidates that may touch any of them. 60 bytes.
 #[derive(Clone, Debug, Default)]
 pub struct Group {
     /// First particle.
     pub first: u32,
     /// Number of particles, at most the lane width.
     pub len: u32,
+    /// Whether the kernel of any of them may reach a wall of the box.
+    pub near_wall: bool,
     /// Movable candidates, one run a strip.
     pub movable: [Run; 3],
     /// Rock candidates, one run a strip.
@@ -108,6 +110,7 @@ pub struct RockBins {
 /// Geometry of the cells: one empty strip below and one above the box.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct CellGrid {
+    size: Vec2,
     columns: usize,
     rows: usize,
     reach: f32,
@@ -119,6 +122,7 @@ impl CellGrid {
     fn new(size: Vec2, reach: f32) -> Self {
         let column = reach / COLUMNS_PER_RADIUS;
         Self {
+            size,
             columns: (size.x / column) as usize + 1,
             rows: (size.y / reach) as usize + 3,
             reach,
@@ -191,6 +195,9 @@ impl Bins {
         let span = GROUP_SPAN_RADII * grid.reach;
         for row in self.strips.clone() {
             let row_start = row * grid.columns;
+            // The strip reaches from `bottom` to one reach above it.
+            let bottom = (row - 1) as f32 * grid.reach;
+            let near_floor_or_top = bottom < grid.reach || bottom + 2.0 * grid.reach > grid.size.y;
             let (mut first, end) = (starts[row_start] as usize, starts[row_start + grid.columns] as usize);
             while first < end {
                 let (mut low, mut high) = (x[first], x[first]);
@@ -213,6 +220,7 @@ impl Bins {
                 self.groups.push(Group {
                     first: first as u32,
                     len: (next - first) as u32,
+                    near_wall: near_floor_or_top || low < grid.reach || high > grid.size.x - grid.reach,
                     movable: runs(starts),
                     rock: if rock.is_empty() { Default::default() } else { runs(rock) },
                 });
@@ -227,6 +235,7 @@ impl Bins {
             self.groups.push(Group {
                 first: first as u32,
                 len: width.min(particles - first) as u32,
+                near_wall: true,
                 movable: all(particles),
                 rock: all(self.rock.x.len()),
             });

@@ -32,7 +32,8 @@ impl Workers {
         match &self.pool {
             Some(pool) if pool.current_num_threads() == 1 => work(1),
             Some(pool) => pool.install(|| work(pool.current_num_threads())),
-            None => work(rayon::current_num_threads()),
+            None if rayon::current_num_threads() == 1 => work(1),
+            None => rayon::scope(|_| work(rayon::current_num_threads())),
         }
     }
 

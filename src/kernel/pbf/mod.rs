@@ -274,10 +274,3 @@ pub(crate) fn wall_sums(smoothing: &Smoothing, domain: &Domain, position: Vec2) 
     let (density_y, push_y) = axis(position.y, domain.size.y);
     (density_x + density_y - density_x * density_y, Vec2::new(push_x * (1.0 - density_y), push_y * (1.0 - density_x)))
 }
-
-/// Whether any of the points is within `reach` of a wall.
-#[inline(always)]
-pub(crate) fn near_wall(x: &[f32], y: &[f32], domain: &Domain, reach: f32) -> bool {
-    let inner = |at: f32, size: f32| at > reach && at < size - reach;
-    !x.iter().zip(y).all(|(&x, &y)| inner(x, domain.size.x) & inner(y, domain.size.y))
-}
