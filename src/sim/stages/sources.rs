@@ -24,7 +24,7 @@ pub(super) fn run_sources(
 ) {
     let start = Instant::now();
     counters.non_finite +=
-        workers.run_for(particles.len(), |threads| remove_non_finite(&mut particles, threads)) as u64;
+        workers.run_checks(particles.len(), |threads| remove_non_finite(&mut particles, threads)) as u64;
     let tick = clock.tick;
     let Sources { emitters, drains, .. } = &mut *sources;
     let mut matter = Matter {
