@@ -8,10 +8,11 @@
 //! for the solver). Two iterations of the constraint then do the detail, whatever the depth.
 //!
 //! Rooms: `grid` the geometry, `rock` what is closed, `stencil`, `blocks` and `transfer` particles to grid and back,
-//! `pressure` the equation, `pockets` where it is singular, `level`, `multigrid` and `conjugate` its solver.
+//! `pressure` and `equation` the equation, `pockets` where it is singular, `level`, `multigrid` and `conjugate` its solver.
 
 mod blocks;
 mod conjugate;
+mod equation;
 mod grid;
 mod level;
 mod multigrid;

@@ -12,6 +12,12 @@ use std::ops::Range;
 
 /// A face that is less open than this is closed: the equation would be stiff, and nothing passes.
 const LEAST_OPEN: f32 = 0.1;
+/// A cell is liquid from this share of its open room on.
+const LIQUID_SHARE: f32 = 0.5;
+/// A cell with more rock than this is not solved for.
+const ROCK_SHARE: f32 = 0.9;
+/// A cell that is open to less than this has nowhere to go.
+const LEAST_ROOM: f32 = 0.05;
 
 /// Rock as the grid sees it; follows the rock's version.
 #[derive(Clone, Debug, Default)]
@@ -23,6 +29,10 @@ pub(super) struct ClosedFaces {
     pub open_v: Vec<f32>,
     /// Share of rock around each cell, smeared as the liquid's density is, 0 … 1; 1 in the padding.
     pub rock: Vec<f32>,
+    /// Σ of the open shares of each cell's faces.
+    pub room: Vec<f32>,
+    /// Share of the density aimed at from which a cell is liquid; infinite where there is nothing to solve.
+    pub liquid_from: Vec<f32>,
 }
 
 impl ClosedFaces {
@@ -32,7 +42,7 @@ impl ClosedFaces {
             return;
         }
         self.built_for = Some(solids.version());
-        for field in [&mut self.open_u, &mut self.open_v, &mut self.rock] {
+        for field in [&mut self.open_u, &mut self.open_v, &mut self.rock, &mut self.room, &mut self.liquid_from] {
             field.clear();
             field.resize(grid.len(), 0.0);
         }
@@ -54,6 +64,14 @@ impl ClosedFaces {
             self.rock[grid.row(j) + 1..=grid.row(j) + grid.columns].fill(0.0);
         }
         self.smear_rock(grid, solids);
+        for j in 1..=grid.rows {
+            for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
+                let room = self.open_u[k] + self.open_u[k + 1] + self.open_v[k] + self.open_v[k + grid.stride];
+                let solved = self.rock[k] < ROCK_SHARE && room >= LEAST_ROOM;
+                self.room[k] = room;
+                self.liquid_from[k] = if solved { LIQUID_SHARE * (1.0 - self.rock[k]) } else { f32::INFINITY };
+            }
+        }
     }
 
     /// Rock particles share out their volume as liquid particles do, so that rock and liquid side by side add up to 1.
@@ -79,7 +97,8 @@ impl ClosedFaces {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        4 * (self.open_u.capacity() + self.open_v.capacity() + self.rock.capacity())
+        let fields = [&self.open_u, &self.open_v, &self.rock, &self.room, &self.liquid_from];
+        4 * fields.iter().map(|field| field.capacity()).sum::<usize>()
     }
 }
 
