@@ -9,6 +9,24 @@ use crate::kernel::predictor::{grid::MacGrid, level::Level};
 /// Couplings that differ by less than this are equal: rounding of the sums of open shares.
 const ROUNDING: f32 = 1e-4;
 
+/// Whether any liquid may be sealed off. It is not if all that is under no liquid is open to air on some side: whoever
+/// goes up from any cell, as far as there is liquid, ends at such a cell.
+#[inline(always)]
+fn may_be_sealed(level: &Level) -> bool {
+    level.rows.clone().any(|j| {
+        let cells = j * level.stride + 1..j * level.stride + 1 + level.columns;
+        let (before, below) = (cells.start - 1..cells.end - 1, cells.start - level.stride..cells.end - level.stride);
+        let (right, upper) = (&level.right[cells.clone()], &level.upper[cells.clone()]);
+        let (left, lower, diagonal) = (&level.right[before], &level.upper[below], &level.diagonal[cells]);
+        let mut any = false;
+        for i in 0..diagonal.len() {
+            let coupled = left[i] + lower[i] + right[i] + upper[i];
+            any |= (diagonal[i] > 0.0) & (upper[i] == 0.0) & (diagonal[i] - coupled <= ROUNDING);
+        }
+        any
+    })
+}
+
 /// Labels of the connected parts. Buffers are kept.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pockets {
@@ -31,6 +49,9 @@ impl Pockets {
     /// Takes the mean of the right-hand side out of every pocket.
     #[inline(always)]
     pub fn balance(&mut self, grid: &MacGrid, level: &Level, right_side: &mut [f32]) {
+        if !may_be_sealed(level) {
+            return;
+        }
         self.label.resize(grid.len(), 0);
         self.parts.clear();
         let s = grid.stride;
