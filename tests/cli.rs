@@ -33,7 +33,12 @@ fn folder(test: &str) -> PathBuf {
 }
 
 fn program(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_powder-master")).args(arguments).current_dir(folder).output().unwrap()
+    let mut command = Command::new(env!("CARGO_BIN_EXE_powder-master"));
+    // No test opens a window.
+    for variable in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
+        command.env_remove(variable);
+    }
+    command.args(arguments).current_dir(folder).output().unwrap()
 }
 
 fn good(folder: &Path, arguments: &[&str]) -> String {
@@ -91,6 +96,12 @@ fn bad_usage_is_one_line_that_says_what_is_allowed() {
         (&["play", "niagara"], &["niagara", "allowed"]),
         (&["list"], &["WHAT"]),
         (&["list", "cats"], &["scenes, elements, effects, qualities"]),
+        (&["bench"], &["WHAT"]),
+        (&["bench", "everything"], &["neighbours"]),
+        (&["bench", "neighbours", "--json", "nowhere/x.json"], &["no folder"]),
+        (&["study", "tides", "--out", "."], &["rest-density"]),
+        (&["study", "rest-density"], &["--out"]),
+        (&["study", "rest-density", "--out", "nowhere"], &["no folder"]),
     ] {
         refused(&here, arguments, 2, says);
     }
@@ -101,7 +112,7 @@ fn a_bad_output_path_is_refused_before_anything_is_simulated() {
     let here = folder("bad_output");
     // A run of this length would take hours.
     let long = |option: &'static str, path: &'static str| ["run", "waterfall", "--seconds", "90000", option, path];
-    for option in ["--metrics", "--particles", "--trace", "--png"] {
+    for option in ["--metrics", "--particles", "--trace", "--png", "--snapshot"] {
         refused(&here, &long(option, "nowhere/out"), 2, &["nowhere/out", "no folder", "allowed"]);
         refused(&here, &long(option, "."), 2, &["is a folder"]);
     }
@@ -113,17 +124,18 @@ fn a_bad_output_path_is_refused_before_anything_is_simulated() {
 #[test]
 fn an_output_that_cannot_be_written_is_exit_code_1() {
     let here = folder("full_disk");
-    for option in ["--metrics", "--particles", "--trace", "--png"] {
+    for option in ["--metrics", "--particles", "--trace", "--png", "--snapshot"] {
         refused(&here, &["run", "empty", "--ticks", "1", option, "/dev/full"], 1, &["/dev/full", "can't be written"]);
     }
 }
 
-#[cfg(not(feature = "app"))]
+#[cfg(any(not(feature = "app"), target_os = "linux"))]
 #[test]
-fn a_build_without_a_window_names_run() {
+fn without_a_window_or_a_display_play_names_run() {
     let here = folder("no_window");
-    refused(&here, &[], 2, &["no window", "powder-master run waterfall"]);
+    refused(&here, &[], 2, &["no ", "powder-master run waterfall"]);
     refused(&here, &["play", "dam_break"], 2, &["powder-master run dam_break"]);
+    refused(&here, &["--quality", "draft", "--set", "wind=0"], 2, &["powder-master run waterfall"]);
 }
 
 #[test]
@@ -292,6 +304,29 @@ fn a_replay_is_the_same_world_again() {
     let finer = metrics(&here, &["run", "empty", "--replay", "mine.jsonl", "--quality", "fine"]);
     assert_eq!(finer["quality"], "fine");
     assert_ne!(finer["hash"], found["hash"]);
+}
+
+#[test]
+fn a_saved_world_goes_on_as_if_it_had_never_stopped() {
+    let here = folder("snapshot");
+    let scene = ["run", "waterfall", "--set", "flow=900"];
+    let whole = metrics(&here, &[&scene[..], &["--ticks", "50"]].concat());
+    good(&here, &[&scene[..], &["--ticks", "20", "--snapshot", "half.save"]].concat());
+    let rest = metrics(&here, &["run", "half.save", "--ticks", "30"]);
+    assert_eq!(rest["hash"], whole["hash"]);
+    assert_eq!(rest["scene"], "waterfall");
+    assert_eq!(rest["ticks"], 30);
+    let other = metrics(&here, &["run", "half.save", "--ticks", "30", "--quality", "draft", "--effect", "air=off"]);
+    assert_eq!(other["quality"], "draft");
+    assert_eq!(other["effects"]["air"]["mode"], "off");
+    assert_ne!(other["hash"], rest["hash"]);
+
+    refused(&here, &["run", "half.save", "--set", "wind=0"], 2, &["half.save", "--set"]);
+    let bytes = std::fs::read(here.join("half.save")).unwrap();
+    std::fs::write(here.join("torn.save"), &bytes[..bytes.len() / 2]).unwrap();
+    refused(&here, &["run", "torn.save"], 2, &["torn.save", "damaged"]);
+    std::fs::write(here.join("poem.txt"), "roses are red").unwrap();
+    refused(&here, &["run", "poem.txt"], 2, &["poem.txt", "not a save file"]);
 }
 
 #[test]

@@ -130,12 +130,15 @@ fn blob_fragment(in: Blob) -> @location(0) vec4<f32> {
 @fragment
 fn liquid_fragment(in: Screen) -> @location(0) vec4<f32> {
     let field = textureSampleLevel(field_texture, linear_sampler, in.uv, 0.0);
+    let soft = clamp(fwidth(field.a) * 0.8, 0.02, 0.3);
+    if field.a < SURFACE - soft {
+        discard;
+    }
     let step = 1.25 / vec2<f32>(textureDimensions(field_texture));
     let left = textureSampleLevel(field_texture, linear_sampler, in.uv - vec2<f32>(step.x, 0.0), 0.0).a;
     let right = textureSampleLevel(field_texture, linear_sampler, in.uv + vec2<f32>(step.x, 0.0), 0.0).a;
     let above = textureSampleLevel(field_texture, linear_sampler, in.uv - vec2<f32>(0.0, step.y), 0.0).a;
     let below = textureSampleLevel(field_texture, linear_sampler, in.uv + vec2<f32>(0.0, step.y), 0.0).a;
-    let soft = clamp(fwidth(field.a) * 0.8, 0.02, 0.3);
     let point = point_at(in.uv);
     let cover = smoothstep(SURFACE - soft, SURFACE + soft, field.a) * smoothstep(0.5, -0.5, outside_box(point));
     var rgb = field.rgb / max(field.a, 0.001);
@@ -146,7 +149,7 @@ fn liquid_fragment(in: Screen) -> @location(0) vec4<f32> {
     // The surface catches light from above and a little from the left.
     let slope = vec2<f32>(left - right, below - above);
     let facing = dot(slope, vec2<f32>(-0.35, 0.94)) / max(length(slope), 0.05);
-    let rim = 1.0 - smoothstep(SURFACE, 0.97, field.a);
+    let rim = 1.0 - smoothstep(SURFACE, 0.84, field.a);
     rgb += shading * rim * (0.05 + 0.26 * max(facing, 0.0) - 0.08 * max(-facing, 0.0));
 
     return vec4<f32>(to_linear(clamp(rgb, vec3<f32>(0.0), vec3<f32>(1.0))), cover * world.look.y);

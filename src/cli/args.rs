@@ -34,17 +34,9 @@ pub(super) enum Command {
     /// Run a scene without a window, and measure it
     Run(Box<RunArguments>),
     /// Measure what something costs, and print the table
-    Bench {
-        /// What to measure
-        #[command(subcommand)]
-        what: Bench,
-    },
+    Bench(BenchArguments),
     /// Repeat an experiment of the report on the original game
-    Study {
-        /// Which experiment
-        #[command(subcommand)]
-        what: Study,
-    },
+    Study(StudyArguments),
     /// Print what there is to choose from, one a line, fields separated by tabs
     List {
         /// What to list
@@ -52,32 +44,44 @@ pub(super) enum Command {
     },
 }
 
+/// `bench`.
+#[derive(Debug, Args)]
+pub(super) struct BenchArguments {
+    /// What to measure
+    pub(super) what: Bench,
+    /// Threads of the last column [default: all]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+    pub(super) threads: Option<u64>,
+    /// Write the table as JSON; `-` is stdout, in place of the table
+    #[arg(long, value_name = "FILE.json")]
+    pub(super) json: Option<PathBuf>,
+}
+
 /// What can be measured.
-#[derive(Debug, Subcommand)]
+#[derive(Clone, Copy, Debug, ValueEnum)]
 pub(super) enum Bench {
     /// How many particles a tick may hold at a tick rate: brute force, bins on one thread, bins on all
-    Neighbours {
-        /// Threads of the last column [default: all]
-        #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
-        threads: Option<u64>,
-        /// Write the table as JSON; `-` is stdout, in place of the table
-        #[arg(long, value_name = "FILE.json")]
-        json: Option<PathBuf>,
-    },
+    Neighbours,
+}
+
+/// `study`.
+#[derive(Debug, Args)]
+pub(super) struct StudyArguments {
+    /// Which experiment
+    pub(super) what: Study,
+    /// Folder for its pictures
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: PathBuf,
+    /// Threads of the simulation [default: all]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+    pub(super) threads: Option<u64>,
 }
 
 /// Experiments of the report on the original game.
-#[derive(Debug, Subcommand)]
+#[derive(Clone, Copy, Debug, ValueEnum)]
 pub(super) enum Study {
-    /// What a rest density that does not suit the spacing does to a liquid
-    RestDensity {
-        /// Threads of the simulation [default: all]
-        #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
-        threads: Option<u64>,
-        /// Folder for the picture rest-density.png
-        #[arg(long, value_name = "DIR")]
-        out: PathBuf,
-    },
+    /// What a rest density that does not suit the spacing does to a liquid: rest-density.png
+    RestDensity,
 }
 
 /// What there is to choose from.
@@ -119,7 +123,7 @@ pub(super) struct PlayOptions {
 /// `run`.
 #[derive(Debug, Args)]
 pub(super) struct RunArguments {
-    /// Scene: a name of `list scenes`, or a path
+    /// Scene: a name of `list scenes`, or the path of a scene file or a save file
     pub(super) scene: String,
     /// Simulated time [default: 10, or as long as the replay]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true, conflicts_with = "ticks")]
@@ -155,6 +159,9 @@ pub(super) struct RunArguments {
     /// Draw the world at the end
     #[arg(long, value_name = "FILE.png")]
     pub(super) png: Option<PathBuf>,
+    /// Save the world at the end, to be run on
+    #[arg(long, value_name = "FILE")]
+    pub(super) snapshot: Option<PathBuf>,
     /// Repeat recorded input; it brings its own parameters and quality
     #[arg(long, value_name = "FILE", conflicts_with = "settings")]
     pub(super) replay: Option<PathBuf>,

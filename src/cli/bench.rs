@@ -2,7 +2,7 @@
 
 use crate::{
     cli::{
-        args::Bench,
+        args::{Bench, BenchArguments},
         failure::Failure,
         output::{self, STDOUT},
         progress::StatusLine,
@@ -12,23 +12,24 @@ use crate::{
         binning::{self, BinningError, Growth, ORIGINAL, PRESET, RATES},
         machine::processor,
     },
+    sim::workers::Workers,
 };
 use serde_json::json;
 use std::{fmt::Write, path::Path};
 
 /// Measures a table and prints it.
-pub(super) fn bench(what: &Bench) -> Result<(), Failure> {
-    match what {
-        Bench::Neighbours { threads, json } => neighbours(*threads, json.as_deref()),
+pub(super) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
+    match arguments.what {
+        Bench::Neighbours => neighbours(arguments.threads, arguments.json.as_deref()),
     }
 }
 
 fn neighbours(threads: Option<u64>, json: Option<&Path>) -> Result<(), Failure> {
     let to_stdout = json == Some(Path::new(STDOUT));
     output::check(json.filter(|_| !to_stdout).as_slice())?;
-    let workers = threads::workers(threads)?;
+    threads::start(threads)?;
     let line = StatusLine::new();
-    let growths = binning::measure(&workers, &mut |text| line.say(text)).map_err(|error| match error {
+    let growths = binning::measure(&Workers::default(), &mut |text| line.say(text)).map_err(|error| match error {
         BinningError::Scene(error) => Failure::from(error),
         BinningError::Threads(_) => Failure::Outcome(error.to_string()),
     })?;

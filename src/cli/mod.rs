@@ -9,6 +9,7 @@ mod output;
 mod play;
 mod progress;
 mod run;
+mod start;
 mod study;
 mod threads;
 
@@ -43,8 +44,8 @@ fn dispatch(arguments: Arguments) -> Result<(), Failure> {
         None => play::play(None, &arguments.play),
         Some(Command::Play(play)) => play::play(play.scene.as_deref(), &play.options),
         Some(Command::Run(run)) => run::run(&run),
-        Some(Command::Bench { what }) => bench::bench(&what),
-        Some(Command::Study { what }) => study::study(&what),
+        Some(Command::Bench(bench)) => bench::bench(&bench),
+        Some(Command::Study(study)) => study::study(&study),
         Some(Command::List { what }) => list::list(what),
     }
 }

@@ -6,7 +6,6 @@ use crate::{
         self,
         blueprint::{Blueprint, EffectModes},
     },
-    sim::workers::Workers,
 };
 
 /// The scene without a name.
@@ -16,10 +15,24 @@ const DEFAULT_SCENE: &str = "waterfall";
 pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Failure> {
     let scene = scene::load(scene.unwrap_or(DEFAULT_SCENE))?;
     let blueprint = scene.build(&options.settings, options.quality, &EffectModes::new())?;
-    open(blueprint, threads::workers(options.threads)?)
+    threads::start(options.threads)?;
+    open(blueprint)
 }
 
-fn open(blueprint: Blueprint, _workers: Workers) -> Result<(), Failure> {
+#[cfg(feature = "app")]
+fn open(blueprint: Blueprint) -> Result<(), Failure> {
+    use crate::game::{self, GameOptions};
+    use bevy::app::AppExit;
+
+    match game::run(std::sync::Arc::new(blueprint), GameOptions::default()) {
+        Ok(AppExit::Success) => Ok(()),
+        Ok(AppExit::Error(code)) => Err(Failure::Outcome(format!("the game ended with error {code}"))),
+        Err(error) => Err(Failure::Usage(error.to_string())),
+    }
+}
+
+#[cfg(not(feature = "app"))]
+fn open(blueprint: Blueprint) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
         "this build has no window (it lacks the cargo feature `app`); `powder-master run {}` works without one",
         blueprint.name

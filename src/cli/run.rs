@@ -6,6 +6,7 @@ use crate::{
         failure::Failure,
         output::{self, STDOUT},
         progress::Progress,
+        start::Start,
         threads,
     },
     lab::{
@@ -18,14 +19,15 @@ use crate::{
         sampler::Sampler,
         trace::Trace,
     },
-    scene::{
-        self,
-        blueprint::{Blueprint, EffectModes},
-    },
-    sim::{control, replay::Replay, view::View},
+    sim::{control, replay::Replay, save, view::View},
 };
 use bevy::ecs::world::World;
-use std::{fs::File, io::BufWriter, path::Path, sync::Arc, time::Instant};
+use std::{
+    fs::File,
+    io::{BufWriter, Write},
+    path::Path,
+    time::Instant,
+};
 
 /// Ticks of a run that does not say: 10 s.
 const DEFAULT_TICKS: u64 = 600;
@@ -33,12 +35,13 @@ const DEFAULT_TICKS: u64 = 600;
 /// Runs a scene and writes what was asked for.
 pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     check_outputs(arguments)?;
-    let (blueprint, plan) = prepare(arguments)?;
-    let workers = threads::workers(arguments.threads)?;
+    let (start, replay) = Start::read(arguments)?;
+    let plan = plan(arguments, replay)?;
+    threads::start(arguments.threads)?;
     let trace = arguments.trace.as_deref().map(Tracing::create).transpose()?;
 
     let begun = Instant::now();
-    let mut headless = Headless::new(Arc::new(blueprint), workers);
+    let mut headless = start.begin();
     let mut sampler = arguments.metrics.is_some().then(|| Sampler::new(headless.world(), plan.warmup));
     let trace = simulate(&mut headless, &plan, sampler.as_mut(), trace)?;
     let seconds = begun.elapsed().as_secs_f64();
@@ -75,33 +78,19 @@ impl<'a> Tracing<'a> {
 
 fn check_outputs(arguments: &RunArguments) -> Result<(), Failure> {
     let metrics = arguments.metrics.as_deref().filter(|path| *path != Path::new(STDOUT));
-    let files = [metrics, arguments.particles.as_deref(), arguments.trace.as_deref(), arguments.png.as_deref()];
+    let files = [
+        metrics,
+        arguments.particles.as_deref(),
+        arguments.trace.as_deref(),
+        arguments.png.as_deref(),
+        arguments.snapshot.as_deref(),
+    ];
     output::check(&files.into_iter().flatten().collect::<Vec<_>>())
 }
 
-/// Everything that is read, and how far to run it.
-fn prepare(arguments: &RunArguments) -> Result<(Blueprint, Plan), Failure> {
-    let file = scene::load(&arguments.scene)?;
-    let effects: EffectModes = arguments.effects.iter().copied().collect();
-    let replay = arguments.replay.as_deref().map(read_replay).transpose()?;
-    let blueprint = match &replay {
-        None => file.build(&arguments.settings, arguments.quality, &effects)?,
-        Some((path, replay)) => {
-            if replay.header.scene != file.name() {
-                return Err(Failure::Usage(format!(
-                    "{}: was recorded in the scene {}, not in {}; allowed: run {0} --replay FILE",
-                    path.display(),
-                    replay.header.scene,
-                    file.name()
-                )));
-            }
-            let settings = replay.header.settings();
-            let modes = replay.header.effects.iter().chain(&effects).map(|(effect, mode)| (*effect, *mode)).collect();
-            let built = file.build(&settings, Some(arguments.quality.unwrap_or(replay.header.preset)), &modes)?;
-            replay.header.restore(built, arguments.quality.is_none())
-        }
-    };
-    let recorded = replay.as_ref().map(|(_, replay)| replay.header.ticks.max(1));
+/// How far to run, and on what input.
+fn plan(arguments: &RunArguments, replay: Option<Replay>) -> Result<Plan, Failure> {
+    let recorded = replay.as_ref().map(|replay| replay.header.ticks.max(1));
     let seconds = arguments.seconds.map(|Ticks(ticks)| ticks);
     let ticks = arguments.ticks.or(seconds).or(recorded).unwrap_or(DEFAULT_TICKS);
     if arguments.warmup >= ticks {
@@ -111,16 +100,9 @@ fn prepare(arguments: &RunArguments) -> Result<(Blueprint, Plan), Failure> {
             ticks - 1
         )));
     }
-    let entries = replay.map(|(_, replay)| replay.entries).unwrap_or_default();
+    let entries = replay.map(|replay| replay.entries).unwrap_or_default();
     let intents = entries.into_iter().map(|entry| (entry.tick, entry.intent)).collect();
-    Ok((blueprint, Plan { ticks, warmup: arguments.warmup, intents }))
-}
-
-fn read_replay(path: &Path) -> Result<(&Path, Replay), Failure> {
-    let bad = |what: &dyn std::fmt::Display| Failure::Usage(format!("{}: {what}", path.display()));
-    let text = std::fs::read_to_string(path).map_err(|error| bad(&format_args!("can't be read: {error}")))?;
-    let replay = Replay::read(&text, &*scene::elements()?).map_err(|error| bad(&error))?;
-    Ok((path, replay))
+    Ok(Plan { ticks, warmup: arguments.warmup, intents })
 }
 
 /// Runs the plan; gives the trace back, written up to the end.
@@ -152,6 +134,9 @@ fn write_outputs(arguments: &RunArguments, world: &World, metrics: Option<&Metri
     if let Some(path) = &arguments.png {
         let picture = Picture::of_world(world, View::Elements, LONG_SIDE, DISC_RADIUS);
         output::write(path, |file| picture.write_png(file))?;
+    }
+    if let Some(path) = &arguments.snapshot {
+        output::write(path, |file| file.write_all(&save::encode(world)))?;
     }
     if let (Some(path), Some(metrics)) = (&arguments.metrics, metrics) {
         output::write_json(path, metrics)?;

@@ -1,11 +1,18 @@
 //! `study`: experiments of the original report, repeated.
 
 use crate::{
-    cli::{args::Study, failure::Failure, output, progress::StatusLine, threads},
+    cli::{
+        args::{Study, StudyArguments},
+        failure::Failure,
+        output,
+        progress::StatusLine,
+        threads,
+    },
     lab::{
         picture::Picture,
         rest_density::{self, OBSERVED_FOR, Outcome, PRESETS, RATIOS, SETTLED_AFTER},
     },
+    sim::workers::Workers,
 };
 use std::{fmt::Write, path::Path};
 
@@ -13,19 +20,19 @@ use std::{fmt::Write, path::Path};
 const GAP: u32 = 12;
 
 /// Runs a study and prints what it found.
-pub(super) fn study(what: &Study) -> Result<(), Failure> {
-    match what {
-        Study::RestDensity { threads, out } => rest_density(*threads, out),
+pub(super) fn study(arguments: &StudyArguments) -> Result<(), Failure> {
+    match arguments.what {
+        Study::RestDensity => rest_density(arguments.threads, &arguments.out),
     }
 }
 
 fn rest_density(threads: Option<u64>, folder: &Path) -> Result<(), Failure> {
     let path = folder.join("rest-density.png");
     output::check(&[&path])?;
-    let workers = threads::workers(threads)?;
+    threads::start(threads)?;
     let line = StatusLine::new();
     let (outcomes, pictures): (Vec<_>, Vec<_>) =
-        rest_density::study(&workers, &mut |text| line.say(text))?.into_iter().unzip();
+        rest_density::study(&Workers::default(), &mut |text| line.say(text))?.into_iter().unzip();
     drop(line);
     let rows: Vec<Picture> = pictures.chunks(RATIOS.len()).map(|row| Picture::row(row, GAP)).collect();
     output::write(&path, |file| Picture::column(&rows).write_png(file))?;

@@ -12,7 +12,7 @@ use crate::{
 use bevy::prelude::{Local, Res, ResMut};
 use std::sync::Arc;
 
-/// Shows the whole of the new box, takes up the scene's first element, forgets the past.
+/// Shows the whole of its box, takes up the scene's first element, forgets the past.
 pub fn follow_scene(
     setup: Option<Res<Setup>>,
     mut seen: Local<Option<Arc<Blueprint>>>,

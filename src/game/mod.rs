@@ -15,13 +15,18 @@ pub mod input;
 pub mod orders;
 pub mod render;
 pub mod screen;
+#[cfg(test)]
+mod tests;
 pub mod tools;
 pub mod window;
 
 use crate::kernel::units::TICKS_PER_SECOND;
-use bevy::prelude::{
-    App, Fixed, FixedPreUpdate, IntoScheduleConfigs, Last, Plugin, RunFixedMainLoop, RunFixedMainLoopSystems,
-    SystemSet, Time,
+use bevy::{
+    prelude::{
+        App, Fixed, FixedPreUpdate, IntoScheduleConfigs, Last, Plugin, RunFixedMainLoop, RunFixedMainLoopSystems,
+        SystemSet, Time,
+    },
+    window::WindowEvent,
 };
 
 pub use window::{GameError, GameOptions, run};
@@ -35,7 +40,8 @@ pub struct GamePlugin;
 
 impl Plugin for GamePlugin {
     fn build(&self, app: &mut App) {
-        app.insert_resource(Time::<Fixed>::from_hz(f64::from(TICKS_PER_SECOND)))
+        app.add_message::<WindowEvent>()
+            .insert_resource(Time::<Fixed>::from_hz(f64::from(TICKS_PER_SECOND)))
             .init_resource::<camera::WorldCamera>()
             .init_resource::<tools::Toolbox>()
             .init_resource::<orders::Orders>()
@@ -45,19 +51,13 @@ impl Plugin for GamePlugin {
             .init_resource::<hud::HudState>()
             .init_resource::<hud::toast::Toasts>()
             .init_resource::<input::pointer::Pointer>()
+            .init_resource::<input::pointer::HudCover>()
             .init_resource::<input::keys::Typing>()
             .init_resource::<input::strokes::Held>()
             .init_resource::<render::extract::Epoch>()
             .add_systems(
                 RunFixedMainLoop,
-                (
-                    follow::follow_scene,
-                    input::keys::read_keys,
-                    input::pointer::read_wheel,
-                    input::pointer::read_buttons,
-                    orders::obey,
-                    frame::set_pace,
-                )
+                (follow::follow_scene, input::keys::pan, input::devices::read_devices, orders::obey, frame::set_pace)
                     .chain()
                     .in_set(InputSystems)
                     .in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop),

@@ -11,6 +11,7 @@ use crate::{
             bindings::Action,
             pointer::{Pointer, ZOOM_STEP},
         },
+        render::extract::Epoch,
         screen,
         tools::{Tool, Toolbox},
     },
@@ -178,6 +179,7 @@ fn change_world(world: &mut World, action: Action) {
         Action::Redo if history::redo(world) => "Made again",
         _ => "Nothing to make again",
     };
+    world.resource_mut::<Epoch>().0 += 1;
     world.resource_mut::<Toasts>().say(told);
 }
 

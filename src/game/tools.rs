@@ -64,6 +64,11 @@ impl Default for Toolbox {
 }
 
 impl Toolbox {
+    /// The same brush with another tool.
+    pub fn with(self, tool: Tool) -> Self {
+        Self { tool, ..self }
+    }
+
     /// The chosen element, if the tool is one.
     pub fn element(&self) -> Option<ElementId> {
         match self.tool {

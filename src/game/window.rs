@@ -3,7 +3,10 @@
 use crate::{
     game::{GamePlugin, hud::HudPlugin, hud::settings::Room, render::WorldRenderPlugin},
     scene::blueprint::Blueprint,
-    sim::{SimulationPlugin, control},
+    sim::{
+        SimulationPlugin, control,
+        state::{Census, Setup},
+    },
 };
 use bevy::{
     DefaultPlugins,
@@ -11,14 +14,16 @@ use bevy::{
     camera::{Camera2d, ClearColor},
     color::Color,
     log::LogPlugin,
-    prelude::{Commands, PluginGroup, Startup},
+    prelude::{Commands, IntoScheduleConfigs, PluginGroup, Res, Single, Startup, Update, With},
     render::view::Msaa,
-    window::{PresentMode, Window, WindowPlugin, WindowResizeConstraints, WindowResolution},
+    time::common_conditions::on_timer,
+    window::{PresentMode, PrimaryWindow, Window, WindowPlugin, WindowResizeConstraints, WindowResolution},
 };
 use bevy_egui::EguiPlugin;
 use std::{
     panic::{self, AssertUnwindSafe},
     sync::Arc,
+    time::Duration,
 };
 
 /// How the game is to be shown.
@@ -97,7 +102,7 @@ fn explain(panic: &str, scene: String) -> GameError {
 
 fn build(blueprint: Arc<Blueprint>, options: GameOptions) -> App {
     let window = Window {
-        title: format!("Powder Master: {}", blueprint.title),
+        title: "Powder Master".into(),
         name: Some("powder-master".into()),
         resolution: WindowResolution::new(options.size.0, options.size.1),
         present_mode: if options.vsync { PresentMode::AutoVsync } else { PresentMode::AutoNoVsync },
@@ -116,9 +121,21 @@ fn build(blueprint: Arc<Blueprint>, options: GameOptions) -> App {
     .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
     .insert_resource(ClearColor(Color::BLACK))
     .init_resource::<Room>()
-    .add_systems(Startup, spawn_camera);
+    .add_systems(Startup, spawn_camera)
+    .add_systems(Update, tell_in_title.run_if(on_timer(TITLE_EVERY)));
     control::load(app.world_mut(), blueprint);
     app
+}
+
+/// How often the title is looked after.
+const TITLE_EVERY: Duration = Duration::from_millis(500);
+
+/// Keeps scene and particle count in the title, where a task bar (and a test) reads them.
+fn tell_in_title(setup: Res<Setup>, census: Res<Census>, mut window: Single<&mut Window, With<PrimaryWindow>>) {
+    let title = format!("Powder Master: {}, {} particles", setup.blueprint.title, census.total);
+    if window.title != title {
+        window.title = title;
+    }
 }
 
 /// The camera that window and HUD are drawn for; where it looks is `WorldCamera`'s business.

@@ -164,6 +164,11 @@ impl Bins {
         }
     }
 
+    /// Bins the rock anew next time, whatever its version: another world's rock may have the same.
+    pub fn forget_rock(&mut self) {
+        self.rock.built_for = None;
+    }
+
     /// Counts the particles into cells and notes in `places` where each goes; the caller moves its arrays there.
     /// Within a cell the order stays.
     pub fn sort(&mut self, x: &[f32], y: &[f32], instructions: InstructionSet, threads: usize) {

@@ -29,8 +29,8 @@ const FEWEST_COLUMNS: usize = 8;
 const MOST_COLUMNS: usize = 1000;
 
 /// Ticks before the clock counts, and ticks that it counts.
-const WARMUP: u32 = 10;
-const TICKS: u32 = 31;
+const WARMUP: u32 = 5;
+const TICKS: u32 = 21;
 
 /// Rounds of a measurement. Every round has the same work in the same tick and other programs only ever add to it, so
 /// the shortest of the rounds counts for each tick.

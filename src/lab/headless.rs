@@ -2,7 +2,11 @@
 
 use crate::{
     scene::blueprint::Blueprint,
-    sim::{SimulationPlugin, control, workers::Workers},
+    sim::{
+        SimulationPlugin, control,
+        save::{self, Saved},
+        workers::Workers,
+    },
 };
 use bevy::{
     MinimalPlugins,
@@ -20,10 +24,19 @@ pub struct Headless {
 impl Headless {
     /// The start of a scene, for `workers` to run.
     pub fn new(blueprint: Arc<Blueprint>, workers: Workers) -> Self {
+        Self::begin(workers, |world| control::load(world, blueprint))
+    }
+
+    /// The world of a save file, for `workers` to run.
+    pub fn resume(saved: Saved, workers: Workers) -> Self {
+        Self::begin(workers, |world| save::load(world, saved))
+    }
+
+    fn begin(workers: Workers, load: impl FnOnce(&mut World)) -> Self {
         let mut app = App::new();
         app.add_plugins((MinimalPlugins.build().disable::<ScheduleRunnerPlugin>(), SimulationPlugin));
         app.insert_resource(workers).insert_resource(TimeUpdateStrategy::FixedTimesteps(1));
-        control::load(app.world_mut(), blueprint);
+        load(app.world_mut());
         app.finish();
         app.cleanup();
         // The clock's first update has no time in it and runs no tick.

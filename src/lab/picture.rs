@@ -4,7 +4,7 @@ use crate::{
     lab::density::surroundings,
     sim::{
         state::{AirGrid, ParticleStore, Rock, Setup},
-        view::{self, DepthMap, Reference, Rgb, Sample, View},
+        view::{self, BurialMap, DepthMap, Reference, Rgb, Sample, View},
     },
 };
 use bevy::ecs::world::World;
@@ -137,8 +137,10 @@ impl Canvas {
     }
 
     fn rock(&mut self, rock: &Rock, setup: &Setup) {
+        let mut burial = BurialMap::default();
+        burial.measure(rock);
         for (cell, element, id) in rock.iter() {
-            let colour = view::rock_colour(setup.elements().get(element), cell, id);
+            let colour = view::rock_colour(setup.elements().get(element), cell, id, burial.at(cell));
             self.fill(cell, light(colour));
         }
     }

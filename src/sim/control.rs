@@ -1,17 +1,22 @@
 //! What may be done to a world as a whole, between ticks: load, reset, freeze, thaw, change the quality.
 
 use crate::{
-    kernel::params::{Preset, Quality},
+    kernel::{
+        params::{Preset, Quality},
+        predictor::Predictor,
+    },
     scene::blueprint::Blueprint,
     sim::{
         effects::Effects,
         intent::IntentQueue,
         ledger::PassLedger,
         snapshot::{Snapshot, hash_state},
-        state::{AirGrid, Census, Clock, Counters, ParticleStore, Rates, Rock, Setup, Sources},
+        state::{
+            AirGrid, Census, Clock, Counters, ParticleStore, PredictorState, Rates, Rock, Setup, SolverState, Sources,
+        },
     },
 };
-use bevy::prelude::World;
+use bevy::prelude::{Mut, World};
 use std::sync::Arc;
 
 /// Makes `world` the start of the scene.
@@ -38,6 +43,7 @@ fn restart(world: &mut World, origin: &Snapshot) {
     thaw(world, origin);
     world.insert_resource(Counters::default());
     world.insert_resource(PassLedger::default());
+    world.resource_mut::<Effects>().start_over();
 }
 
 /// Copies the state out.
@@ -46,6 +52,7 @@ pub fn freeze(world: &World) -> Snapshot {
         particles: world.resource::<ParticleStore>().0.clone(),
         solids: world.resource::<Rock>().0.clone(),
         air: world.resource::<AirGrid>().0.clone(),
+        pressure: world.get_resource::<PredictorState>().map_or_else(Vec::new, |state| state.pressure().to_vec()),
         sources: world.resource::<Sources>().clone(),
         clock: *world.resource::<Clock>(),
     }
@@ -54,13 +61,17 @@ pub fn freeze(world: &World) -> Snapshot {
 /// Puts a state of the same scene back (undo, redo). Waiting intents are forgotten.
 pub fn thaw(world: &mut World, snapshot: &Snapshot) {
     let air_cell = world.resource::<Setup>().quality.air_cell;
-    let air = if snapshot.air.cell() == air_cell { snapshot.air.clone() } else { snapshot.air.resized(air_cell) };
+    let mut air = if snapshot.air.cell() == air_cell { snapshot.air.clone() } else { snapshot.air.resized(air_cell) };
+    air.set_solids(&snapshot.solids);
     world.insert_resource(ParticleStore(snapshot.particles.clone()));
     world.insert_resource(Rock(snapshot.solids.clone()));
     world.insert_resource(AirGrid(air));
     world.insert_resource(snapshot.sources.clone());
     world.insert_resource(snapshot.clock);
     world.insert_resource(Census::default());
+    // What is derived from the rock follows its version, which only tells apart the states of one history.
+    world.insert_resource(PredictorState(Predictor::resume(snapshot.pressure.clone())));
+    world.get_resource_or_init::<SolverState>().bins.forget_rock();
     world.get_resource_or_init::<IntentQueue>().clear();
 }
 
@@ -68,10 +79,12 @@ pub fn thaw(world: &mut World, snapshot: &Snapshot) {
 pub fn set_quality(world: &mut World, preset: Preset, quality: Quality) {
     let mut setup = world.resource_mut::<Setup>();
     (setup.preset, setup.quality) = (preset, quality);
-    let mut air = world.resource_mut::<AirGrid>();
-    if air.cell() != quality.air_cell {
-        air.0 = air.resized(quality.air_cell);
-    }
+    world.resource_scope(|world, mut air: Mut<AirGrid>| {
+        if air.cell() != quality.air_cell {
+            air.0 = air.resized(quality.air_cell);
+            air.set_solids(world.resource::<Rock>());
+        }
+    });
 }
 
 /// Hash of the state as it is (see [`Snapshot::hash`]).

@@ -4,6 +4,9 @@
 use crate::scene::blueprint::{Effect, EffectModes, Mode};
 use bevy::prelude::{Res, Resource};
 
+/// Reason until the first tick.
+const NOT_DECIDED: &str = "not decided yet";
+
 /// An effect's wish, decision and record.
 #[derive(Clone, Debug)]
 pub struct EffectState {
@@ -26,7 +29,7 @@ pub struct Effects {
 impl Effects {
     /// Effects with the wanted modes; none has run yet.
     pub fn new(modes: &EffectModes) -> Self {
-        let idle = EffectState { mode: Mode::Auto, running: false, why: "not decided yet", active_ticks: 0 };
+        let idle = EffectState { mode: Mode::Auto, running: false, why: NOT_DECIDED, active_ticks: 0 };
         let mut effects = Self { states: std::array::from_fn(|_| idle.clone()) };
         for (effect, mode) in modes {
             effects.get_mut(*effect).mode = *mode;
@@ -47,6 +50,13 @@ impl Effects {
     /// The wanted modes.
     pub fn modes(&self) -> EffectModes {
         Effect::ALL.into_iter().map(|effect| (effect, self.get(effect).mode)).collect()
+    }
+
+    /// Forgets what ran; the modes stay.
+    pub fn start_over(&mut self) {
+        for state in &mut self.states {
+            (state.running, state.why, state.active_ticks) = (false, NOT_DECIDED, 0);
+        }
     }
 
     /// Decides for this tick: `called_for` says whether the world calls for the effect, and why or why not.

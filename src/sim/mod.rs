@@ -7,6 +7,7 @@ pub mod intent;
 pub mod ledger;
 pub mod pace;
 pub mod replay;
+pub mod save;
 pub mod schedule;
 pub mod snapshot;
 pub mod stages;

@@ -16,6 +16,8 @@ pub struct Snapshot {
     pub solids: Solids,
     /// The air.
     pub air: Air,
+    /// The predictor's pressure, d/s: the first guess of its next solve, empty before its first.
+    pub pressure: Vec<f32>,
     /// Taps, fans and outlets with their state.
     pub sources: Sources,
     /// Tick, edits, next id.
@@ -34,6 +36,7 @@ impl Snapshot {
             particles: blueprint.particles.clone(),
             solids: blueprint.solids.clone(),
             air,
+            pressure: Vec::new(),
             sources: Sources {
                 emitters: blueprint.emitters.clone(),
                 winds: blueprint.winds.clone(),
@@ -75,6 +78,15 @@ pub fn hash_state(particles: &Particles, solids: &Solids, air: &Air) -> u64 {
     hash.0
 }
 
+/// The same hash over bytes.
+pub(crate) fn hash_bytes(bytes: &[u8]) -> u64 {
+    let mut hash = Fnv::default();
+    for &byte in bytes {
+        hash.byte(byte);
+    }
+    hash.0
+}
+
 struct Fnv(u64);
 
 impl Default for Fnv {
@@ -86,7 +98,11 @@ impl Default for Fnv {
 impl Fnv {
     fn word(&mut self, word: u32) {
         for byte in word.to_le_bytes() {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+            self.byte(byte);
         }
+    }
+
+    fn byte(&mut self, byte: u8) {
+        self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
     }
 }

@@ -1,12 +1,15 @@
 //! What a world looks like: colours of particles, rock and air in each view. Numbers only, so that the window and the
 //! headless picture show the same. Colours are sRGB bytes.
 
+mod maps;
+
 use crate::kernel::{
     element::Element,
     params::{AirParams, Domain},
-    particles::Particles,
 };
 use glam::{IVec2, Vec2};
+
+pub use maps::{BurialMap, DepthMap};
 
 /// An sRGB colour.
 pub type Rgb = [u8; 3];
@@ -25,9 +28,7 @@ const FOAM: Rgb = [226, 240, 250];
 /// Deep liquid darkens towards this.
 pub const ABYSS: Rgb = [4, 16, 46];
 /// Most that depth takes of an element's own colour.
-pub const DEPTH_SHADE: f32 = 0.55;
-/// Depth at which half of the shading is reached, d.
-const HALF_DEPTH: f32 = 22.0;
+pub const DEPTH_SHADE: f32 = 0.75;
 
 const SPEED_STOPS: [Rgb; 6] =
     [[38, 46, 110], [36, 98, 178], [40, 172, 184], [134, 212, 122], [250, 216, 92], [246, 112, 58]];
@@ -130,13 +131,14 @@ pub fn density_error(share: f32) -> f32 {
     if share < 0.5 { share - 0.5 } else { (share - 0.5) / 5.0 }
 }
 
-/// Colour of the rock in `cell`. Neighbouring cells share broad bands, each cell has its own grain.
-pub fn rock_colour(element: &Element, cell: IVec2, id: u32) -> Rgb {
+/// Colour of the rock in `cell`: light at its surface, darker inside ([`BurialMap`]). Neighbouring cells share broad
+/// bands, each cell has its own grain.
+pub fn rock_colour(element: &Element, cell: IVec2, id: u32, burial: f32) -> Rgb {
     let at = cell.as_vec2();
     let broad = value_noise(at * Vec2::new(0.045, 0.11), 1) - 0.5;
     let fine = value_noise(at * 0.31, 2) - 0.5;
     let grain = unit(hash(id, cell.x as u32 ^ (cell.y as u32).rotate_left(16))) - 0.5;
-    let light = 1.0 + 0.30 * broad + 0.20 * fine + 0.13 * grain;
+    let light = (1.0 + 0.30 * broad + 0.20 * fine + 0.13 * grain) * (1.08 - 0.50 * smoothstep(0.0, 1.0, burial));
     element.colour.map(|channel| (f32::from(channel) * light).clamp(0.0, 255.0) as u8)
 }
 
@@ -144,7 +146,7 @@ pub fn rock_colour(element: &Element, cell: IVec2, id: u32) -> Rgb {
 pub fn air_colour(view: View, reference: Reference, pressure: f32, velocity: Vec2) -> (Rgb, f32) {
     match view {
         View::Pressure => {
-            let x = (pressure - 1.0) / 0.12;
+            let x = (pressure - 1.0) / 0.03;
             let strength = x.abs() / (1.0 + x.abs());
             (if x < 0.0 { LOW_PRESSURE } else { HIGH_PRESSURE }, 0.85 * strength)
         }
@@ -159,75 +161,6 @@ pub fn air_colour(view: View, reference: Reference, pressure: f32, velocity: Vec
 /// Colour of the empty box at a height given as a share of the box.
 pub fn box_colour(height: f32) -> Rgb {
     mix(BOX_BOTTOM, BOX_TOP, height)
-}
-
-/// Edge of a cell of the depth map, d.
-const DEPTH_CELL: f32 = 4.0;
-
-/// How much liquid stands above each place, on a coarse grid.
-#[derive(Clone, Debug, Default)]
-pub struct DepthMap {
-    columns: usize,
-    rows: usize,
-    count: Vec<u32>,
-    share: Vec<u8>,
-}
-
-impl DepthMap {
-    /// Measures a world; reuses the memory of the last one.
-    pub fn measure(&mut self, size: Vec2, particles: &Particles) {
-        self.columns = ((size.x / DEPTH_CELL).ceil() as usize).max(1);
-        self.rows = ((size.y / DEPTH_CELL).ceil() as usize).max(1);
-        let cells = self.columns * self.rows;
-        self.count.clear();
-        self.count.resize(cells, 0);
-        self.share.resize(cells, 0);
-        for (&x, &y) in particles.x.iter().zip(&particles.y) {
-            let column = ((x / DEPTH_CELL) as usize).min(self.columns - 1);
-            let row = ((y / DEPTH_CELL) as usize).min(self.rows - 1);
-            self.count[row * self.columns + column] += 1;
-        }
-        for column in 0..self.columns {
-            let mut above = 0.0;
-            for row in (0..self.rows).rev() {
-                let k = row * self.columns + column;
-                let here = self.count[k] as f32 / DEPTH_CELL;
-                let depth = above + 0.5 * here;
-                self.share[k] = (255.0 * depth / (depth + HALF_DEPTH)) as u8;
-                above += here;
-            }
-        }
-    }
-
-    /// Columns and rows of the map; a cell is `width / columns` wide only if the box is a whole number of cells.
-    pub fn dimensions(&self) -> (usize, usize) {
-        (self.columns, self.rows)
-    }
-
-    /// What the map covers, d: the box rounded up to whole cells.
-    pub fn extent(&self) -> Vec2 {
-        Vec2::new(self.columns as f32, self.rows as f32) * DEPTH_CELL
-    }
-
-    /// Depth shares of the cells, 0 … 255, row by row from the bottom.
-    pub fn shares(&self) -> &[u8] {
-        &self.share
-    }
-
-    /// Depth share at a point, 0 … 1, smooth between the cells.
-    pub fn at(&self, point: Vec2) -> f32 {
-        if self.share.is_empty() {
-            return 0.0;
-        }
-        let p = (point / DEPTH_CELL - 0.5).max(Vec2::ZERO);
-        let (column, row) = ((p.x as usize).min(self.columns - 1), (p.y as usize).min(self.rows - 1));
-        let (right, up) = ((column + 1).min(self.columns - 1), (row + 1).min(self.rows - 1));
-        let t = (p - Vec2::new(column as f32, row as f32)).clamp(Vec2::ZERO, Vec2::ONE);
-        let value = |c: usize, r: usize| f32::from(self.share[r * self.columns + c]) / 255.0;
-        let low = value(column, row) * (1.0 - t.x) + value(right, row) * t.x;
-        let high = value(column, up) * (1.0 - t.x) + value(right, up) * t.x;
-        low * (1.0 - t.y) + high * t.y
-    }
 }
 
 /// `a` at 0, `b` at 1.
@@ -275,7 +208,6 @@ fn value_noise(at: Vec2, seed: u32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::element::ElementId;
 
     fn water() -> Element {
         Element {
@@ -326,7 +258,7 @@ mod tests {
 
     #[test]
     fn rock_varies_from_cell_to_cell_but_never_in_time() {
-        let at = |x| rock_colour(&water(), IVec2::new(x, 7), x as u32);
+        let at = |x| rock_colour(&water(), IVec2::new(x, 7), x as u32, 0.5);
         assert_eq!(at(3), at(3));
         let distinct: std::collections::HashSet<_> = (0..20).map(at).collect();
         assert!(distinct.len() > 10, "only {} shades in 20 cells", distinct.len());
@@ -342,22 +274,5 @@ mod tests {
             air_colour(View::Pressure, reference, 0.8, Vec2::ZERO),
         );
         assert!(high.0 != low.0 && high.1 > 0.3 && low.1 > 0.3);
-    }
-
-    #[test]
-    fn depth_grows_downwards_and_is_zero_in_empty_air() {
-        let mut particles = Particles::default();
-        for row in 0..40 {
-            for column in 0..40 {
-                let at = Vec2::new(column as f32 + 0.5, row as f32 + 0.5);
-                particles.push(row * 40 + column, ElementId(0), at, Vec2::ZERO);
-            }
-        }
-        let mut map = DepthMap::default();
-        map.measure(Vec2::new(40.0, 80.0), &particles);
-        let (deep, shallow, air) =
-            (map.at(Vec2::new(20.0, 2.0)), map.at(Vec2::new(20.0, 36.0)), map.at(Vec2::new(20.0, 70.0)));
-        assert!(deep > shallow + 0.3 && shallow > air, "{deep} {shallow} {air}");
-        assert_eq!(air, 0.0);
     }
 }

@@ -111,7 +111,7 @@ impl Sandbox {
 
     /// Uses exactly `threads` threads from here on.
     pub fn with_threads(mut self, threads: usize) -> Self {
-        self.app.insert_resource(Workers::new(threads).expect("threads to test with"));
+        self.app.insert_resource(Workers::new(threads).unwrap_or_else(|error| panic!("{error}")));
         self
     }
 

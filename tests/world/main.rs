@@ -3,7 +3,11 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod control;
 mod determinism;
 mod hard_cases;
+mod monkey;
 mod motion;
+mod saves;
 mod stages;
+mod still;

@@ -6,7 +6,7 @@ use crate::{
             HudState,
             icons::{self, Icon},
             settings::Room,
-            stats::{Readings, as_text, show_reading},
+            stats::{Reading, Readings, as_text, show_reading},
             style,
         },
         input::bindings::{self, Action},
@@ -22,7 +22,7 @@ use bevy_egui::{
 };
 
 /// Below this width the menus lose their names, points.
-const NARROW: f32 = 1000.0;
+const NARROW: f32 = 1080.0;
 
 /// Shows the bar.
 pub fn show(
@@ -62,16 +62,14 @@ pub fn show(
 
 fn numbers(ui: &mut Ui, readings: &Readings) {
     ui.spacing_mut().item_spacing.x = 14.0;
-    for reading in &readings.pace {
-        show_reading(ui, reading);
+    for reading in readings.pace.iter().chain([&readings.total]) {
+        if ui.available_width() > width_of(reading) {
+            show_reading(ui, reading);
+        }
     }
-    dot(ui, style::LINE);
-    show_reading(ui, &readings.total);
     let mut hidden = false;
     for (colour, reading) in &readings.elements {
-        // A chip takes some seven points a letter.
-        let needed = 30.0 + 7.0 * (reading.value.len() + reading.unit.len()) as f32;
-        if ui.available_width() < needed + 26.0 {
+        if ui.available_width() < width_of(reading) + 40.0 {
             hidden = true;
             break;
         }
@@ -85,6 +83,11 @@ fn numbers(ui: &mut Ui, readings: &Readings) {
     if hidden {
         ui.label(RichText::new("…").color(style::WEAK)).on_hover_text(as_text(readings));
     }
+}
+
+/// About as wide as a reading gets, points.
+fn width_of(reading: &Reading) -> f32 {
+    20.0 + 7.2 * (reading.value.len() + reading.unit.len()) as f32
 }
 
 fn dot(ui: &mut Ui, colour: Color32) {

@@ -4,7 +4,11 @@ use crate::{
     game::{
         camera::WorldCamera,
         hud::{HudState, palette::colour_of, style},
-        input::{bindings::Gesture, pointer::Pointer, strokes::Held},
+        input::{
+            bindings::Gesture,
+            pointer::{HudCover, Pointer},
+            strokes::Held,
+        },
         tools::{Tool, Toolbox},
     },
     kernel::brush::BrushShape,
@@ -21,6 +25,7 @@ pub fn show(
     mut contexts: EguiContexts,
     state: Res<HudState>,
     pointer: Res<Pointer>,
+    cover: Res<HudCover>,
     held: Res<Held>,
     tools: Res<Toolbox>,
     setup: Res<Setup>,
@@ -28,7 +33,7 @@ pub fn show(
 ) -> Result {
     let (Some(pixel), true) = (pointer.at, state.visible) else { return Ok(()) };
     let straight = held.pull().filter(|pull| matches!(pull.gesture, Gesture::Line | Gesture::Rectangle));
-    if pointer.over_hud && straight.is_none() {
+    if cover.covers(pixel) && straight.is_none() {
         return Ok(());
     }
     let context = contexts.ctx_mut()?;

@@ -20,7 +20,7 @@ use crate::{
 use bevy::prelude::{Res, ResMut, Result};
 use bevy_egui::{
     EguiContexts,
-    egui::{self, RichText, Ui},
+    egui::{self, RichText, Ui, vec2},
 };
 
 /// Shows the books.
@@ -41,22 +41,21 @@ pub fn show(
     let context = contexts.ctx_mut()?;
     let screen = context.content_rect();
     let mut open = true;
-    egui::Window::new("Details")
-        .open(&mut open)
-        .collapsible(true)
-        .resizable(false)
-        .default_pos(egui::pos2(screen.left() + 14.0, screen.top() + 54.0))
-        .show(context, |ui| {
-            egui::ScrollArea::vertical().max_height(screen.height() - 210.0).show(ui, |ui| {
-                world(ui, &setup, &clock);
-                ui.separator();
-                stages(ui, &ledger, &costs.0, &costs.1);
-                ui.separator();
-                switches(ui, &effects, &mut orders);
-                ui.separator();
-                limiters(ui, &readings);
-            });
+    let height = screen.height() - 210.0;
+    let place = (egui::Align2::LEFT_TOP, screen.left_top() + vec2(14.0, 54.0));
+    style::window(context, "Details", &mut open, place, |ui| {
+        egui::ScrollArea::vertical().min_scrolled_height(height).max_height(height).show(ui, |ui| {
+            ui.spacing_mut().interact_size.y = 17.0;
+            ui.spacing_mut().button_padding = vec2(6.0, 1.0);
+            world(ui, &setup, &clock);
+            ui.separator();
+            stages(ui, &ledger, &costs.0, &costs.1);
+            ui.separator();
+            switches(ui, &effects, &mut orders);
+            ui.separator();
+            limiters(ui, &readings);
         });
+    });
     if !open {
         state.details = false;
     }
@@ -79,7 +78,7 @@ fn world(ui: &mut Ui, setup: &Setup, clock: &Clock) {
         clock.tick as f32 * crate::kernel::units::TICK_SECONDS,
     )));
     ui.label(weak(format!(
-        "{}: {} substeps × {} iterations, h = {} d, air cell {} d",
+        "{}: substeps × iterations {} × {}, h = {} d, air cell {} d",
         setup.preset.name(),
         quality.substeps,
         quality.iterations,
@@ -121,7 +120,7 @@ fn switches(ui: &mut Ui, effects: &Effects, orders: &mut Orders) {
         for effect in Effect::ALL {
             let state = effects.get(effect);
             let colour = if state.running { style::ACCENT } else { style::WEAK };
-            ui.label(RichText::new(effect.name()).color(colour));
+            ui.label(RichText::new(effect.name()).color(colour)).on_hover_text(effect.meaning());
             ui.horizontal(|ui| {
                 ui.spacing_mut().item_spacing.x = 2.0;
                 for (mode, name) in [(Mode::Auto, "auto"), (Mode::On, "on"), (Mode::Off, "off")] {

@@ -10,6 +10,9 @@ use bevy_egui::{
     egui::{self, RichText, Ui},
 };
 
+/// Width of the column of keys, points.
+const KEYS_WIDTH: f32 = 132.0;
+
 /// Shows the help.
 pub fn show(mut contexts: EguiContexts, mut state: ResMut<HudState>) -> Result {
     if !state.help {
@@ -18,26 +21,23 @@ pub fn show(mut contexts: EguiContexts, mut state: ResMut<HudState>) -> Result {
     let context = contexts.ctx_mut()?;
     let screen = context.content_rect();
     let mut open = true;
-    egui::Window::new("Keys and mouse")
-        .open(&mut open)
-        .collapsible(false)
-        .resizable(false)
-        .pivot(egui::Align2::CENTER_CENTER)
-        .default_pos(screen.center())
-        .show(context, |ui| {
-            egui::ScrollArea::vertical().max_height(screen.height() - 190.0).show(ui, |ui| {
-                ui.horizontal_top(|ui| {
-                    ui.spacing_mut().item_spacing.x = 28.0;
-                    for groups in [&Group::ALL[..2], &Group::ALL[2..]] {
-                        ui.vertical(|ui| {
-                            for group in groups {
-                                section(ui, *group);
-                            }
-                        });
-                    }
-                });
+    let height = screen.height() - 190.0;
+    let place = (egui::Align2::CENTER_CENTER, screen.center());
+    style::window(context, "Keys and mouse", &mut open, place, |ui| {
+        ui.spacing_mut().interact_size.y = 17.0;
+        egui::ScrollArea::vertical().min_scrolled_height(height).max_height(height).show(ui, |ui| {
+            ui.horizontal_top(|ui| {
+                ui.spacing_mut().item_spacing.x = 28.0;
+                for groups in [&Group::ALL[..2], &Group::ALL[2..]] {
+                    ui.vertical(|ui| {
+                        for group in groups {
+                            section(ui, *group);
+                        }
+                    });
+                }
             });
         });
+    });
     if !open {
         state.help = false;
     }
@@ -47,7 +47,7 @@ pub fn show(mut contexts: EguiContexts, mut state: ResMut<HudState>) -> Result {
 fn section(ui: &mut Ui, group: Group) {
     ui.add_space(4.0);
     ui.label(RichText::new(group.title()).heading().color(style::ACCENT));
-    egui::Grid::new(group.title()).num_columns(2).spacing([14.0, 4.0]).show(ui, |ui| {
+    egui::Grid::new(group.title()).num_columns(2).min_col_width(KEYS_WIDTH).spacing([14.0, 4.0]).show(ui, |ui| {
         for (keys, help) in rows(group) {
             ui.label(RichText::new(keys).color(style::TEXT));
             ui.label(RichText::new(help).color(style::WEAK));

@@ -43,6 +43,8 @@ pub enum Icon {
     Round,
     /// Square brush.
     Square,
+    /// Close.
+    Close,
 }
 
 /// Draws an icon into the square in the middle of `rect`.
@@ -81,6 +83,10 @@ pub fn draw(painter: &Painter, rect: Rect, icon: Icon, colour: Color32) {
             }
         }
         Icon::Question => pen.question(),
+        Icon::Close => {
+            pen.line(&[(0.2, 0.2), (0.8, 0.8)], 0.11);
+            pen.line(&[(0.2, 0.8), (0.8, 0.2)], 0.11);
+        }
         Icon::Round => {
             painter.circle_stroke(pen.at(0.5, 0.5), side * 0.36, pen.stroke(0.09));
         }

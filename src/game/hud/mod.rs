@@ -14,13 +14,14 @@ pub mod stats;
 pub mod style;
 pub mod toast;
 
-use crate::game::input::{bindings::Action, keys::Typing, pointer::locate};
-use bevy::prelude::{
-    App, IntoScheduleConfigs, Plugin, PreUpdate, Query, ResMut, Resource, RunFixedMainLoop, RunFixedMainLoopSystems,
-    Startup,
+use crate::game::{
+    camera::Area,
+    input::{bindings::Action, keys::Typing, pointer::HudCover},
 };
+use bevy::platform::time::Instant;
+use bevy::prelude::{App, IntoScheduleConfigs, Plugin, PreUpdate, Query, ResMut, Resource, Startup};
 use bevy_egui::{EguiContext, EguiContexts, EguiInput, EguiPreUpdateSet, EguiPrimaryContextPass, egui};
-use std::time::Instant;
+use glam::Vec2;
 
 /// Shows the HUD.
 pub struct HudPlugin;
@@ -31,12 +32,8 @@ impl Plugin for HudPlugin {
             .init_resource::<settings::UiScale>()
             .init_resource::<HudCost>()
             .init_resource::<scenes::SceneMenu>()
-            .add_systems(Startup, scenes::list_scenes)
+            .add_systems(Startup, (scenes::list_scenes, greet))
             .add_systems(PreUpdate, mind_the_keys.after(EguiPreUpdateSet::ProcessInput))
-            .add_systems(
-                RunFixedMainLoop,
-                locate.before(crate::game::InputSystems).in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop),
-            )
             .add_systems(
                 EguiPrimaryContextPass,
                 (
@@ -114,6 +111,11 @@ pub struct HudCost {
     begun: Option<Instant>,
 }
 
+/// What a newcomer needs to know.
+fn greet(mut toasts: ResMut<toast::Toasts>) {
+    toasts.say("Left button pours, right button erases, F1 shows all keys");
+}
+
 fn begin(mut cost: ResMut<HudCost>, mut contexts: EguiContexts, mut styled: bevy::prelude::Local<bool>) {
     cost.begun = Some(Instant::now());
     if let (false, Ok(context)) = (*styled, contexts.ctx_mut()) {
@@ -122,10 +124,30 @@ fn begin(mut cost: ResMut<HudCost>, mut contexts: EguiContexts, mut styled: bevy
     }
 }
 
-fn end(mut cost: ResMut<HudCost>) {
+fn end(mut cost: ResMut<HudCost>, mut cover: ResMut<HudCover>, mut contexts: EguiContexts) {
+    if let Ok(context) = contexts.ctx_mut() {
+        note_cover(context, &mut cover);
+    }
     if let Some(begun) = cost.begun.take() {
         let now = begun.elapsed().as_secs_f32() * 1000.0;
         cost.milliseconds += (now - cost.milliseconds) * 0.05;
+    }
+}
+
+/// Notes which parts of the window the HUD has.
+fn note_cover(context: &egui::Context, cover: &mut HudCover) {
+    let zoom = context.zoom_factor();
+    cover.menu = egui::Popup::is_any_open(context);
+    cover.parts.clear();
+    for layer in context.memory(|memory| memory.areas().visible_layer_ids()) {
+        // The root, behind everything, fills the window.
+        if layer.order == egui::Order::Background {
+            continue;
+        }
+        if let Some(area) = egui::AreaState::load(context, layer.id).filter(|area| area.interactable) {
+            let (min, max) = (area.rect().min, area.rect().max);
+            cover.parts.push(Area { min: Vec2::new(min.x, min.y) * zoom, max: Vec2::new(max.x, max.y) * zoom });
+        }
     }
 }
 

@@ -21,7 +21,7 @@ use crate::{
 use bevy::prelude::{Res, ResMut, Result};
 use bevy_egui::{
     EguiContexts,
-    egui::{self, Align2, Color32, RichText, Ui, vec2},
+    egui::{self, Align, Align2, Color32, Layout, RichText, Ui, vec2},
 };
 
 /// Size of a tile, points.
@@ -54,19 +54,21 @@ pub fn show(
             style::bar_frame().show(ui, |ui| {
                 ui.set_width(screen.width() - 24.0);
                 let chosen = tools.tool;
-                let (pressed, ()) = egui::Sides::new().height(TILE.y).shrink_left().show(
-                    ui,
-                    |ui| {
-                        let scroll = egui::ScrollArea::horizontal().max_height(TILE.y);
-                        scroll.show(ui, |ui| ui.horizontal(|ui| tiles(ui, &setup, chosen)).inner).inner
-                    },
-                    |ui| {
-                        time(ui, &pace, &history, &mut orders);
-                        ui.separator();
-                        brush(ui, screen.width() < NARROW, &mut tools);
-                        ui.separator();
-                    },
-                );
+                let (whole, _) = ui.allocate_exact_size(vec2(ui.available_width(), TILE.y), egui::Sense::hover());
+                let right = egui::UiBuilder::new().max_rect(whole).layout(Layout::right_to_left(Align::Center));
+                let right = ui.scope_builder(right, |ui| {
+                    time(ui, &pace, &history, &mut orders);
+                    ui.separator();
+                    brush(ui, screen.width() < NARROW, &mut tools);
+                    ui.separator();
+                });
+                let left = whole.with_max_x(right.response.rect.left() - 6.0);
+                let left = egui::UiBuilder::new().max_rect(left).layout(Layout::left_to_right(Align::Min));
+                let pressed = ui.scope_builder(left, |ui| {
+                    let scroll = egui::ScrollArea::horizontal().max_height(TILE.y);
+                    scroll.show(ui, |ui| ui.horizontal(|ui| tiles(ui, &setup, chosen)).inner).inner
+                });
+                let pressed = pressed.inner;
                 if let Some(tool) = pressed {
                     orders.push(Order::Choose(tool));
                 }

@@ -69,27 +69,22 @@ pub fn show(
     let screen = context.content_rect();
     let mut open = true;
     let mut play = false;
-    egui::Window::new("Scenes")
-        .open(&mut open)
-        .collapsible(false)
-        .resizable(false)
-        .pivot(egui::Align2::CENTER_CENTER)
-        .default_pos(screen.center())
-        .show(context, |ui| {
-            ui.horizontal_top(|ui| {
-                ui.vertical(|ui| {
-                    ui.set_width(190.0);
-                    egui::ScrollArea::vertical().id_salt("list").max_height(screen.height() - 200.0).show(ui, |ui| {
-                        list(ui, &mut menu, &setup);
-                    });
-                });
-                ui.separator();
-                ui.vertical(|ui| {
-                    ui.set_width(320.0);
-                    play = sheet(ui, &mut menu);
+    let place = (egui::Align2::CENTER_CENTER, screen.center());
+    style::window(context, "Scenes", &mut open, place, |ui| {
+        ui.horizontal_top(|ui| {
+            ui.vertical(|ui| {
+                ui.set_width(190.0);
+                egui::ScrollArea::vertical().id_salt("list").max_height(screen.height() - 200.0).show(ui, |ui| {
+                    list(ui, &mut menu, &setup);
                 });
             });
+            ui.separator();
+            ui.vertical(|ui| {
+                ui.set_width(320.0);
+                play = sheet(ui, &mut menu);
+            });
         });
+    });
     if let (true, Some(scene)) = (play, menu.chosen.and_then(|index| menu.scenes.get(index))) {
         let settings = menu.values.iter().map(|(name, value)| (name.clone(), value.to_string())).collect();
         orders.push(Order::Scene { name: scene.name().to_owned(), settings });
@@ -148,10 +143,5 @@ fn sheet(ui: &mut Ui, menu: &mut SceneMenu) -> bool {
         ui.add(slider.logarithmic(spec.min > 0.0 && spec.max / spec.min > 100.0));
     }
     ui.add_space(10.0);
-    ui.add(
-        egui::Button::new(RichText::new("Play").color(Color32::WHITE))
-            .fill(style::ACCENT_FILL)
-            .min_size(vec2(110.0, 30.0)),
-    )
-    .clicked()
+    style::main_button(ui, "Play").clicked()
 }

@@ -34,26 +34,21 @@ pub fn show(
     let found = find(setup.elements(), &text);
     let mut chosen = found.first().copied().filter(|_| entered);
     let mut open = true;
-    egui::Window::new("Search")
-        .open(&mut open)
-        .collapsible(false)
-        .resizable(false)
-        .pivot(egui::Align2::CENTER_TOP)
-        .default_pos(context.content_rect().center_top() + vec2(0.0, 120.0))
-        .show(context, |ui| {
-            ui.set_width(260.0);
-            let field = egui::TextEdit::singleline(&mut text).hint_text("element or tool").desired_width(f32::INFINITY);
-            ui.add(field.char_limit(40)).request_focus();
-            ui.spacing_mut().item_spacing.y = 2.0;
-            for tool in &found {
-                if row(ui, *tool, setup.elements(), Some(tool) == found.first()) {
-                    chosen = Some(*tool);
-                }
+    let place = (egui::Align2::CENTER_TOP, context.content_rect().center_top() + vec2(0.0, 120.0));
+    style::window(context, "Search", &mut open, place, |ui| {
+        ui.set_width(260.0);
+        let field = egui::TextEdit::singleline(&mut text).hint_text("element or tool").desired_width(f32::INFINITY);
+        ui.add(field.char_limit(40)).request_focus();
+        ui.spacing_mut().item_spacing.y = 2.0;
+        for tool in &found {
+            if row(ui, *tool, setup.elements(), Some(tool) == found.first()) {
+                chosen = Some(*tool);
             }
-            if found.is_empty() {
-                ui.weak("nothing of that name");
-            }
-        });
+        }
+        if found.is_empty() {
+            ui.weak("nothing of that name");
+        }
+    });
     state.search = (open && !escaped && !entered && chosen.is_none()).then_some(text);
     if let Some(tool) = chosen {
         orders.push(Order::Choose(tool));

@@ -88,24 +88,20 @@ pub fn show(mut contexts: EguiContexts, mut state: ResMut<HudState>, mut scale: 
         return Ok(());
     }
     let mut open = true;
-    egui::Window::new("Settings")
-        .open(&mut open)
-        .collapsible(false)
-        .resizable(false)
-        .pivot(egui::Align2::CENTER_CENTER)
-        .default_pos(contexts.ctx_mut()?.content_rect().center())
-        .show(contexts.ctx_mut()?, |ui| {
-            ui.label(RichText::new("Size of the HUD").color(style::WEAK));
-            ui.horizontal(|ui| {
-                for choice in CHOICES {
-                    let text = format!("{:.0} %", choice * 100.0);
-                    if ui.selectable_label(scale.factor == choice, text).clicked() {
-                        scale.factor = choice;
-                    }
+    let context = contexts.ctx_mut()?;
+    let place = (egui::Align2::CENTER_CENTER, context.content_rect().center());
+    style::window(context, "Settings", &mut open, place, |ui| {
+        ui.label(RichText::new("Size of the HUD").color(style::WEAK));
+        ui.horizontal(|ui| {
+            for choice in CHOICES {
+                let text = format!("{:.0} %", choice * 100.0);
+                if ui.selectable_label(scale.factor == choice, text).clicked() {
+                    scale.factor = choice;
                 }
-            });
-            ui.label(RichText::new("100 % follows the size of the window.").small().color(style::WEAK));
+            }
         });
+        ui.label(RichText::new("100 % follows the size of the window.").small().color(style::WEAK));
+    });
     if !open {
         state.settings = false;
     }

@@ -1,5 +1,6 @@
 //! The look of the HUD: colours, sizes, spacing.
 
+use crate::game::hud::icons::{self, Icon};
 use bevy_egui::egui::{self, Color32, CornerRadius, FontId, Margin, Shadow, Stroke, TextStyle, Vec2};
 
 /// Behind bars and windows.
@@ -83,6 +84,52 @@ pub fn dress(context: &egui::Context) {
         }
         widgets.noninteractive.bg_stroke = Stroke::new(1.0, LINE);
     });
+}
+
+/// A window with a heading of our own; sets `open` to false when it is closed.
+pub fn window(
+    context: &egui::Context,
+    title: &str,
+    open: &mut bool,
+    place: (egui::Align2, egui::Pos2),
+    add: impl FnOnce(&mut egui::Ui),
+) {
+    egui::Window::new(title).title_bar(false).resizable(false).pivot(place.0).default_pos(place.1).show(
+        context,
+        |ui| {
+            egui::Sides::new().show(
+                ui,
+                |ui| ui.label(egui::RichText::new(title).heading().color(Color32::WHITE)),
+                |ui| {
+                    if close_button(ui).clicked() {
+                        *open = false;
+                    }
+                },
+            );
+            ui.add_space(6.0);
+            add(ui);
+        },
+    );
+}
+
+fn close_button(ui: &mut egui::Ui) -> egui::Response {
+    let (rect, response) = ui.allocate_exact_size(Vec2::splat(24.0), egui::Sense::click());
+    if response.hovered() {
+        ui.painter().rect_filled(rect, BUTTON_CORNER, BUTTON_HOVER);
+    }
+    let colour = if response.hovered() { Color32::WHITE } else { WEAK };
+    icons::draw(ui.painter(), icons::square(rect.center(), 14.0), Icon::Close, colour);
+    response.on_hover_text("close (Esc)")
+}
+
+/// The button that a window is about.
+pub fn main_button(ui: &mut egui::Ui, text: &str) -> egui::Response {
+    let (rect, response) = ui.allocate_exact_size(Vec2::new(120.0, 32.0), egui::Sense::click());
+    let fill = if response.hovered() { ACCENT } else { ACCENT.gamma_multiply(0.8) };
+    ui.painter().rect_filled(rect, BUTTON_CORNER, fill);
+    let font = TextStyle::Button.resolve(ui.style());
+    ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, text, font, Color32::WHITE);
+    response
 }
 
 /// Frame of a bar at the edge of the window.

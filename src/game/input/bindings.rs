@@ -106,6 +106,17 @@ impl Mods {
             alt: keys.any_pressed([K::AltLeft, K::AltRight]),
         }
     }
+
+    /// A key goes down or up.
+    pub fn follow(&mut self, key: KeyCode, down: bool) {
+        use KeyCode as K;
+        match key {
+            K::ControlLeft | K::ControlRight | K::SuperLeft | K::SuperRight => self.ctrl = down,
+            K::ShiftLeft | K::ShiftRight => self.shift = down,
+            K::AltLeft | K::AltRight => self.alt = down,
+            _ => {}
+        }
+    }
 }
 
 /// A key, a button or the wheel.
@@ -318,10 +329,10 @@ fn key_name(key: KeyCode) -> &'static str {
         K::Slash => "/",
         K::BracketLeft => "[",
         K::BracketRight => "]",
-        K::ArrowLeft => "←",
-        K::ArrowRight => "→",
-        K::ArrowUp => "↑",
-        K::ArrowDown => "↓",
+        K::ArrowLeft => "left",
+        K::ArrowRight => "right",
+        K::ArrowUp => "up",
+        K::ArrowDown => "down",
         _ => "unnamed",
     }
 }

@@ -1,8 +1,8 @@
-//! The keyboard: presses become commands, held arrows move the picture.
+//! The keyboard: presses become orders, held arrows move the picture.
 
 use crate::game::{
     camera::WorldCamera,
-    input::bindings::{Action, BINDINGS, Mods, Trigger},
+    input::bindings::{self, Action, BINDINGS, Mods, Trigger},
     orders::{Order, Orders},
 };
 use bevy::prelude::{ButtonInput, KeyCode, Real, Res, ResMut, Resource, Time};
@@ -15,31 +15,28 @@ const PAN_SPEED: f32 = 700.0;
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Typing(pub bool);
 
-/// Reads the keys.
-pub fn read_keys(
+/// A key goes down.
+pub fn press(key: KeyCode, mods: Mods, orders: &mut Orders) {
+    if let Some(action) = bindings::find(Trigger::Key(key), mods) {
+        orders.push(Order::Act(action));
+    }
+}
+
+/// Moves the picture while an arrow is held.
+pub fn pan(
     keys: Res<ButtonInput<KeyCode>>,
     typing: Res<Typing>,
     time: Res<Time<Real>>,
     mut camera: ResMut<WorldCamera>,
-    mut orders: ResMut<Orders>,
 ) {
-    if typing.0 {
+    if typing.0 || camera.zoom() == 1.0 {
         return;
     }
-    let mods = Mods::held(&keys);
     for binding in BINDINGS {
-        let Trigger::Key(key) = binding.trigger else { continue };
-        if binding.mods != mods {
-            continue;
-        }
-        match binding.action {
-            Action::Pan(right, up) if keys.pressed(key) => {
-                let way = Vec2::new(-right as f32, up as f32);
-                camera.pan(way * PAN_SPEED * time.delta_secs());
-            }
-            Action::Pan(..) => {}
-            action if keys.just_pressed(key) => orders.push(Order::Act(action)),
-            _ => {}
+        if let (Trigger::Key(key), Action::Pan(right, up)) = (binding.trigger, binding.action)
+            && keys.pressed(key)
+        {
+            camera.pan(Vec2::new(-right as f32, up as f32) * PAN_SPEED * time.delta_secs());
         }
     }
 }

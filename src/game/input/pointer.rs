@@ -2,7 +2,7 @@
 
 use crate::{
     game::{
-        camera::WorldCamera,
+        camera::{Area, WorldCamera},
         input::{
             bindings::{self, Action, Gesture, Mods, Trigger},
             strokes::{Held, Pull},
@@ -10,18 +10,16 @@ use crate::{
         orders::{Order, Orders},
         tools::Toolbox,
     },
+    kernel::brush::Stroke,
     sim::intent::{Intent, IntentQueue},
 };
 use bevy::{
-    input::mouse::{AccumulatedMouseScroll, MouseScrollUnit},
-    prelude::{ButtonInput, KeyCode, MouseButton, Query, Real, Res, ResMut, Resource, Time, With},
-    window::{PrimaryWindow, Window},
+    ecs::system::SystemParam,
+    input::mouse::{MouseScrollUnit, MouseWheel},
+    prelude::{MouseButton, Res, ResMut, Resource},
 };
-use bevy_egui::input::EguiWantsInput;
 use glam::Vec2;
 
-/// Buttons that can hold something.
-const BUTTONS: [MouseButton; 3] = [MouseButton::Left, MouseButton::Right, MouseButton::Middle];
 /// Pixels of a trackpad's scroll that count as one notch of a wheel.
 const PIXELS_PER_NOTCH: f32 = 40.0;
 /// A press that moved less than this many pixels was a click.
@@ -34,130 +32,136 @@ pub const ZOOM_STEP: f32 = 1.3;
 pub struct Pointer {
     /// Logical pixels from the window's upper left corner, if it is in the window.
     pub at: Option<Vec2>,
-    /// Whether the HUD has it.
-    pub over_hud: bool,
+    /// Share of a notch that the wheel has turned.
+    turned: f32,
 }
 
-/// Finds the pointer in the window, and whether the HUD has it there.
-pub fn locate(windows: Query<&Window, With<PrimaryWindow>>, hud: Res<EguiWantsInput>, mut pointer: ResMut<Pointer>) {
-    let at = windows.single().ok().and_then(Window::cursor_position);
-    let over_hud = hud.is_pointer_over_area() || hud.is_using_pointer() || hud.is_popup_open();
-    *pointer = Pointer { at, over_hud };
+/// What the HUD covers: written by the HUD, empty without one.
+#[derive(Resource, Clone, Debug, Default, PartialEq)]
+pub struct HudCover {
+    /// Its parts, logical pixels.
+    pub parts: Vec<Area>,
+    /// Whether a menu is open: then the next click anywhere only closes it.
+    pub menu: bool,
 }
 
-/// Reads buttons into [`Held`] and commands.
-pub fn read_buttons(
-    buttons: Res<ButtonInput<MouseButton>>,
-    keys: Res<ButtonInput<KeyCode>>,
-    pointer: Res<Pointer>,
-    time: Res<Time<Real>>,
-    tools: Res<Toolbox>,
-    mut camera: ResMut<WorldCamera>,
-    mut held: ResMut<Held>,
-    mut orders: ResMut<Orders>,
-    mut intents: ResMut<IntentQueue>,
-) {
-    let Some(pixel) = pointer.at else {
-        // The pointer left the window: what was begun ends where it was last seen.
-        if !BUTTONS.iter().any(|&button| buttons.pressed(button)) {
-            held.release();
-        }
-        return;
-    };
-    let at = camera.to_world(pixel);
-    for button in BUTTONS {
-        if buttons.just_pressed(button) && !pointer.over_hud {
-            match bindings::find(Trigger::Button(button), Mods::held(&keys)) {
-                Some(Action::Hold(gesture)) => {
-                    begin(gesture, button, pixel, at, &tools, &mut held, &mut orders, &mut intents);
-                }
-                Some(action) => orders.push(Order::Act(action)),
-                None => {}
-            }
+impl HudCover {
+    /// Whether the HUD has what happens at `pixel`.
+    pub fn covers(&self, pixel: Vec2) -> bool {
+        self.menu || self.parts.iter().any(|part| part.contains(pixel))
+    }
+}
+
+/// The player's hand: the pointer, what it holds, and what it acts on.
+#[derive(SystemParam)]
+pub struct Hand<'w> {
+    /// Orders that it gives.
+    pub orders: ResMut<'w, Orders>,
+    pointer: ResMut<'w, Pointer>,
+    held: ResMut<'w, Held>,
+    camera: ResMut<'w, WorldCamera>,
+    intents: ResMut<'w, IntentQueue>,
+    tools: Res<'w, Toolbox>,
+    cover: Res<'w, HudCover>,
+}
+
+impl Hand<'_> {
+    /// A frame begins.
+    pub fn begin_frame(&mut self) {
+        if let Some(pull) = self.held.pull_mut() {
+            pull.begin_frame();
         }
     }
-    let Some(pull) = held.pull_mut() else { return };
-    if pull.gesture == Gesture::Drag {
-        camera.pan(pixel - pull.pixel);
-    }
-    pull.moved |= (pixel - pull.pressed_at).length() > CLICK;
-    pull.pixel = pixel;
-    let straight = matches!(pull.gesture, Gesture::Line | Gesture::Rectangle);
-    pull.follow(at, time.delta_secs(), !pointer.over_hud || straight);
-    if !buttons.pressed(pull.button) {
-        finish(pull, at, &tools, &mut orders, &mut intents);
-        held.release();
-    }
-}
 
-fn begin(
-    gesture: Gesture,
-    button: MouseButton,
-    pixel: Vec2,
-    at: Vec2,
-    tools: &Toolbox,
-    held: &mut Held,
-    orders: &mut Orders,
-    intents: &mut IntentQueue,
-) {
-    if gesture != Gesture::Drag {
-        orders.push(Order::Checkpoint);
-    }
-    if gesture == Gesture::Fill {
-        if let Some(element) = tools.element() {
-            intents.push(Intent::Fill { element, at });
+    /// A frame of `seconds` ends.
+    pub fn end_frame(&mut self, seconds: f32) {
+        if let Some(pull) = self.held.pull_mut() {
+            pull.end_frame(seconds);
         }
-        return;
     }
-    // The air tools have neither lines nor rectangles: with any modifier they work freehand.
-    let gesture = if tools.tool.is_air() && gesture != Gesture::Drag && gesture != Gesture::Erase {
-        Gesture::Use
-    } else {
-        gesture
-    };
-    held.begin(Pull::new(gesture, button, pixel, at));
-}
 
-/// Does what waited for the release.
-fn finish(pull: &Pull, at: Vec2, tools: &Toolbox, orders: &mut Orders, intents: &mut IntentQueue) {
-    let stroke = match pull.gesture {
-        Gesture::Line => tools.stroke(pull.start, at),
-        Gesture::Rectangle => crate::kernel::brush::Stroke::rectangle(pull.start, at),
-        Gesture::Drag => {
-            if !pull.moved {
-                orders.push(Order::Act(Action::Sample));
-            }
+    /// The pointer moves.
+    pub fn move_to(&mut self, pixel: Vec2) {
+        self.pointer.at = Some(pixel);
+        let Some(pull) = self.held.pull_mut() else { return };
+        if pull.gesture == Gesture::Drag {
+            self.camera.pan(pixel - pull.pixel);
+        }
+        pull.moved |= (pixel - pull.pressed_at).length() > CLICK;
+        pull.pixel = pixel;
+        pull.visit(self.camera.to_world(pixel), !self.cover.covers(pixel));
+    }
+
+    /// The pointer leaves the window. What it holds goes on: the system reports a drag beyond the window, too.
+    pub fn leave(&mut self) {
+        self.pointer.at = None;
+    }
+
+    /// The window loses the devices.
+    pub fn let_go(&mut self) {
+        self.held.release();
+    }
+
+    /// A button goes down.
+    pub fn press(&mut self, button: MouseButton, mods: Mods) {
+        let Some(pixel) = self.pointer.at.filter(|pixel| !self.cover.covers(*pixel)) else { return };
+        match bindings::find(Trigger::Button(button), mods) {
+            Some(Action::Hold(gesture)) => self.begin(gesture, button, pixel),
+            Some(action) => self.orders.push(Order::Act(action)),
+            None => {}
+        }
+    }
+
+    fn begin(&mut self, gesture: Gesture, button: MouseButton, pixel: Vec2) {
+        let (at, tool) = (self.camera.to_world(pixel), self.tools.tool);
+        if gesture != Gesture::Drag {
+            self.orders.push(Order::Checkpoint);
+        }
+        let freehand = tool.is_air() && matches!(gesture, Gesture::Line | Gesture::Rectangle | Gesture::Fill);
+        match (gesture, self.tools.element()) {
+            // The air tools know no shapes: they blow wherever they are dragged.
+            _ if freehand => self.held.begin(Pull::new(Gesture::Use, tool, button, pixel, at)),
+            (Gesture::Fill, Some(element)) => self.intents.push(Intent::Fill { element, at }),
+            (Gesture::Fill, None) => {}
+            _ => self.held.begin(Pull::new(gesture, tool, button, pixel, at)),
+        }
+    }
+
+    /// A button goes up.
+    pub fn release(&mut self, button: MouseButton) {
+        let Some(pull) = self.held.pull().filter(|pull| pull.button == button) else { return };
+        let stroke = match pull.gesture {
+            Gesture::Line => Some(self.tools.stroke(pull.start, pull.now)),
+            Gesture::Rectangle => Some(Stroke::rectangle(pull.start, pull.now)),
+            Gesture::Use | Gesture::Erase | Gesture::Fill | Gesture::Drag => None,
+        };
+        if let Some(stroke) = stroke {
+            self.intents.push(match self.tools.element() {
+                Some(element) => Intent::Stamp { element, stroke },
+                None => Intent::Erase { stroke },
+            });
+        }
+        if pull.gesture == Gesture::Drag && !pull.moved {
+            self.orders.push(Order::Act(Action::Sample));
+        }
+        self.held.release();
+    }
+
+    /// The wheel turns: brush size, or zoom with Ctrl.
+    pub fn scroll(&mut self, wheel: &MouseWheel, mods: Mods) {
+        if self.pointer.at.is_none_or(|pixel| self.cover.covers(pixel)) {
             return;
         }
-        Gesture::Use | Gesture::Erase | Gesture::Fill => return,
-    };
-    intents.push(match tools.element() {
-        Some(element) => Intent::Stamp { element, stroke },
-        None => Intent::Erase { stroke },
-    });
-}
-
-/// Reads the wheel: brush size, or zoom with Ctrl.
-pub fn read_wheel(
-    scroll: Res<AccumulatedMouseScroll>,
-    keys: Res<ButtonInput<KeyCode>>,
-    pointer: Res<Pointer>,
-    mut turned: bevy::prelude::Local<f32>,
-    mut orders: ResMut<Orders>,
-) {
-    if pointer.over_hud || scroll.delta.y == 0.0 {
-        return;
-    }
-    *turned += match scroll.unit {
-        MouseScrollUnit::Line => scroll.delta.y,
-        MouseScrollUnit::Pixel => scroll.delta.y / PIXELS_PER_NOTCH,
-    };
-    let notches = turned.trunc();
-    *turned -= notches;
-    let mods = Mods::held(&keys);
-    for _ in 0..notches.abs() as u32 {
+        self.pointer.turned += match wheel.unit {
+            MouseScrollUnit::Line => wheel.y,
+            MouseScrollUnit::Pixel => wheel.y / PIXELS_PER_NOTCH,
+        };
+        let notches = self.pointer.turned.trunc();
+        self.pointer.turned -= notches;
         if let Some(action) = bindings::find(Trigger::Wheel(notches.signum() as i32), mods) {
-            orders.push(Order::Act(action));
+            for _ in 0..notches.abs().min(20.0) as u32 {
+                self.orders.push(Order::Act(action));
+            }
         }
     }
 }

@@ -25,15 +25,17 @@ const WIND_LIMIT: f32 = 2.0;
 /// A drag slower than this makes no wind, in units of [`Reference::wind`].
 const WIND_FLOOR: f32 = 0.02;
 /// Pressure that one tick of the pressure tool adds; the surroundings' is 1.
-const PRESS_STEP: f32 = 0.03;
+const PRESS_STEP: f32 = 0.12;
 /// Points of the way that are kept for a tick.
-const WAY_LIMIT: usize = 32;
+const WAY_LIMIT: usize = 64;
 
 /// A held button.
 #[derive(Clone, Debug)]
 pub struct Pull {
     /// What it does.
     pub gesture: Gesture,
+    /// With which tool: another choice before the release is for the next stroke.
+    tool: Tool,
     /// Which button.
     pub button: MouseButton,
     /// Where it was pressed, pixels.
@@ -46,6 +48,7 @@ pub struct Pull {
     pub start: Vec2,
     /// Where the pointer is now, d.
     pub now: Vec2,
+    at_frame_start: Vec2,
     /// Smoothed velocity of the drag, d/s.
     velocity: Vec2,
     /// The way since the last tick, d; empty while the pointer is over the HUD.
@@ -56,15 +59,17 @@ pub struct Pull {
 
 impl Pull {
     /// A button pressed at a place.
-    pub fn new(gesture: Gesture, button: MouseButton, pixel: Vec2, at: Vec2) -> Self {
+    pub fn new(gesture: Gesture, tool: Tool, button: MouseButton, pixel: Vec2, at: Vec2) -> Self {
         Self {
             gesture,
+            tool,
             button,
             pressed_at: pixel,
             pixel,
             moved: false,
             start: at,
             now: at,
+            at_frame_start: at,
             velocity: Vec2::ZERO,
             way: vec![at],
             over_world: true,
@@ -72,12 +77,13 @@ impl Pull {
         }
     }
 
-    /// The pointer is at `at` now, `seconds` later; `over_world` is false while the HUD covers the place.
-    pub fn follow(&mut self, at: Vec2, seconds: f32, over_world: bool) {
-        if seconds > 0.0 {
-            let share = seconds / (seconds + DRAG_MEMORY);
-            self.velocity += ((at - self.now) / seconds - self.velocity) * share;
-        }
+    /// A frame begins.
+    pub fn begin_frame(&mut self) {
+        self.at_frame_start = self.now;
+    }
+
+    /// The pointer comes by `at`; `over_world` is false while the HUD covers the place.
+    pub fn visit(&mut self, at: Vec2, over_world: bool) {
         self.now = at;
         self.over_world = over_world;
         if !over_world {
@@ -87,6 +93,14 @@ impl Pull {
                 self.way.pop();
             }
             self.way.push(at);
+        }
+    }
+
+    /// A frame of `seconds` ends: this is how fast the drag was.
+    pub fn end_frame(&mut self, seconds: f32) {
+        if seconds > 0.0 {
+            let share = seconds / (seconds + DRAG_MEMORY);
+            self.velocity += ((self.now - self.at_frame_start) / seconds - self.velocity) * share;
         }
     }
 }
@@ -129,6 +143,7 @@ pub fn make_intents(
     mut intents: ResMut<IntentQueue>,
 ) {
     let (Some(pull), Some(setup)) = (&mut held.0, setup) else { return };
+    let tools = tools.with(pull.tool);
     let reference = Reference::of(&setup.blueprint.domain, &setup.blueprint.air);
     if tools.tool.is_air() {
         thicken(&mut pull.way, 0.5 * tools.radius());

@@ -19,12 +19,21 @@ pub fn pack(air: &Air, view: View, reference: Reference, out: &mut Vec<u8>) {
     out.clear();
     for row in 0..air.rows() {
         let velocity = air.velocity_x_row(row).iter().zip(air.velocity_y_row(row));
-        for (&pressure, (&u, &v)) in air.pressure_row(row).iter().zip(velocity) {
+        for (column, (&pressure, (&u, &v))) in air.pressure_row(row).iter().zip(velocity).enumerate() {
+            let pressure = if air.is_solid_cell(column, row) { pressure_beside(air, column, row) } else { pressure };
             let (rgb, opacity) = air_colour(view, reference, pressure, Vec2::new(u, v));
             out.extend(rgb.map(|channel| (f32::from(channel) * opacity) as u8));
             out.push((255.0 * opacity) as u8);
         }
     }
+}
+
+/// Mean pressure of the open cells beside a cell of rock, so that the picture doesn't fade towards rock.
+fn pressure_beside(air: &Air, column: usize, row: usize) -> f32 {
+    let beside = [(column.wrapping_sub(1), row), (column + 1, row), (column, row.wrapping_sub(1)), (column, row + 1)];
+    let open = beside.into_iter().filter(|&(c, r)| c < air.columns() && r < air.rows() && !air.is_solid_cell(c, r));
+    let (sum, count) = open.fold((0.0, 0), |(sum, count), (c, r)| (sum + air.pressure_row(r)[c], count + 1));
+    if count == 0 { 1.0 } else { sum / count as f32 }
 }
 
 /// Arrows on a lattice of `spacing` d over the box: as long as the spacing in a strong wind, gone in still air.
@@ -35,9 +44,9 @@ pub fn arrows(air: &Air, size: Vec2, spacing: f32, reference: Reference, out: &m
         for column in 0..count.x {
             let at = (Vec2::new(column as f32, row as f32) + 0.5) * step;
             let velocity = air.sample_velocity(at);
-            let strength = 2.5 * velocity.length() / reference.wind;
-            let length = spacing * strength / (1.0 + strength);
-            if length > 0.04 * spacing {
+            let strength = 6.0 * velocity.length() / reference.wind;
+            let length = 1.2 * spacing * strength / (1.0 + strength);
+            if length > 0.08 * spacing {
                 let half = velocity.normalize_or_zero() * length * 0.5;
                 let opacity = 90.0 + 165.0 * strength / (1.0 + strength);
                 out.push(streak(at - half, at + half, [222, 246, 240, opacity as u8]));

@@ -16,9 +16,10 @@ use crate::{
     sim::{
         pace::Pace,
         state::{AirGrid, ParticleStore, Rock, Setup, SolverState},
-        view::{self, DepthMap, Reference, Rgb, View},
+        view::{self, BurialMap, DepthMap, Reference, Rgb, View},
     },
 };
+use bevy::platform::time::Instant;
 use bevy::{
     prelude::{Fixed, Query, Res, ResMut, Resource, Time, With},
     render::{
@@ -28,15 +29,12 @@ use bevy::{
     window::{PrimaryWindow, Window},
 };
 use glam::{UVec2, Vec2, Vec4};
-use std::{
-    sync::{Arc, atomic::Ordering},
-    time::Instant,
-};
+use std::sync::{Arc, atomic::Ordering};
 
 /// Radius of a particle's soft disc, d.
 const BLOB_RADIUS: f32 = 1.35;
 /// Spacing of the arrows, logical pixels.
-const ARROW_SPACING: f32 = 26.0;
+const ARROW_SPACING: f32 = 30.0;
 
 /// What the shader knows of the world as a whole; the fields are explained there.
 #[derive(Clone, Copy, Debug, Default, ShaderType)]
@@ -80,6 +78,7 @@ pub struct Picture {
     pub depth: DepthMap,
     /// Whether `depth` is of this frame.
     pub depth_new: bool,
+    burial: BurialMap,
     table: ColourTable,
     table_of: Option<(View, Arc<Blueprint>)>,
     stones_of: Option<(u64, Arc<Blueprint>, u32)>,
@@ -100,6 +99,7 @@ impl Default for Picture {
             air: (Vec::new(), UVec2::ONE),
             depth: DepthMap::default(),
             depth_new: false,
+            burial: BurialMap::default(),
             table: ColourTable::default(),
             table_of: None,
             stones_of: None,
@@ -163,7 +163,7 @@ pub fn extract(
         *version != rock.version() || !Arc::ptr_eq(of, blueprint) || *during != epoch.0
     });
     if picture.stones_new {
-        stone::pack(rock, &blueprint.elements, picture.stones.values_mut());
+        stone::pack(rock, &blueprint.elements, &mut picture.burial, picture.stones.values_mut());
         picture.stones_of = Some((rock.version(), blueprint.clone(), epoch.0));
     }
 
@@ -204,7 +204,7 @@ pub fn extract(
             flag(view == View::Elements),
             view::DEPTH_SHADE,
         ),
-        pen: Vec4::new(BLOB_RADIUS, 1.6 * scale_factor.max(1.0), flag(view.shows_air()), 0.0),
+        pen: Vec4::new(BLOB_RADIUS, 1.5 * scale_factor.max(1.0), flag(view.shows_air()), 0.0),
         surroundings: srgb(view::SURROUNDINGS),
         box_top: srgb(view::BOX_TOP),
         box_bottom: srgb(view::BOX_BOTTOM),

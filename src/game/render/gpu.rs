@@ -5,6 +5,7 @@ use crate::game::render::{
     extract::{Picture, WorldUniform},
     pipelines::Pipelines,
 };
+use bevy::platform::time::Instant;
 use bevy::{
     prelude::{Res, ResMut, Resource},
     render::{
@@ -17,7 +18,7 @@ use bevy::{
     },
 };
 use glam::UVec2;
-use std::{sync::atomic::Ordering, time::Instant};
+use std::sync::atomic::Ordering;
 
 /// Format of the field that the liquid is drawn into. Its bytes are sRGB, but it is blended and sampled as they are.
 pub const FIELD_FORMAT: TextureFormat = TextureFormat::Rgba8Unorm;

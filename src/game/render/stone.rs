@@ -2,7 +2,7 @@
 
 use crate::{
     kernel::{element::ElementTable, solids::Solids},
-    sim::view::rock_colour,
+    sim::view::{BurialMap, rock_colour},
 };
 use glam::IVec2;
 
@@ -13,10 +13,11 @@ pub type Stone = [u32; 2];
 const SIDES: [IVec2; 4] = [IVec2::Y, IVec2::X, IVec2::NEG_Y, IVec2::NEG_X];
 
 /// Packs all rock.
-pub fn pack(solids: &Solids, elements: &ElementTable, out: &mut Vec<Stone>) {
+pub fn pack(solids: &Solids, elements: &ElementTable, burial: &mut BurialMap, out: &mut Vec<Stone>) {
+    burial.measure(solids);
     out.clear();
     for (cell, element, id) in solids.iter() {
-        let [r, g, b] = rock_colour(elements.get(element), cell, id);
+        let [r, g, b] = rock_colour(elements.get(element), cell, id, burial.at(cell));
         let sides = (0..SIDES.len()).fold(0, |bits, k| bits | (u8::from(solids.is_solid(cell + SIDES[k])) << k));
         out.push([cell.x as u32 | (cell.y as u32) << 16, u32::from_le_bytes([r, g, b, sides])]);
     }
@@ -45,7 +46,7 @@ mod tests {
             solids.insert(cell, ElementId(0), id);
         }
         let mut out = Vec::new();
-        pack(&solids, &elements, &mut out);
+        pack(&solids, &elements, &mut BurialMap::default(), &mut out);
         assert_eq!(out.len(), 2);
         assert_eq!(out[1][0], 1 | 3 << 16);
         let sides = |k: usize| out[k][1].to_le_bytes()[3];

@@ -18,7 +18,7 @@ const COUNT: usize = 420;
 /// Time after which a tracer starts anew elsewhere, s.
 const LIFE: f32 = 1.6;
 /// Time that the tail of a streak lasts, s.
-const TAIL: f32 = 0.11;
+const TAIL: f32 = 0.17;
 /// Wind below this share of the reference is not drawn.
 const FLOOR: f32 = 0.03;
 
@@ -55,7 +55,7 @@ impl Wisps {
             if strength > 0.0 {
                 let life = wisp.age / LIFE;
                 let fade = 4.0 * life * (1.0 - life);
-                let opacity = 150.0 * fade * (strength / (0.25 + strength));
+                let opacity = 110.0 * fade * (strength / (0.25 + strength));
                 out.push(streak(wisp.at - wisp.velocity * TAIL, wisp.at, [196, 214, 226, opacity as u8]));
             }
         }

@@ -142,6 +142,14 @@ impl TryFrom<Stored> for Air {
         if lengths.iter().any(|length| !length.is_finite() || *length <= 0.0) {
             return Err("air: size, cell and sound_speed must be finite and positive".to_owned());
         }
+        // The size is what a change of cells goes by.
+        let expected = (stored.size / stored.cell).ceil().max(Vec2::ONE);
+        if expected != Vec2::new(columns as f32, rows as f32) {
+            return Err(format!(
+                "air: a box of {} d has no {columns} × {rows} cells of {} d",
+                stored.size, stored.cell
+            ));
+        }
         Ok(Self {
             size: stored.size,
             cell: stored.cell,

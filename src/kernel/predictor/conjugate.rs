@@ -34,6 +34,12 @@ impl Conjugate {
         }
     }
 
+    /// Sets out from a solution that reaches over `rows`.
+    pub fn resume(&mut self, solution: Vec<f32>, rows: Range<usize>) {
+        self.resize(solution.len());
+        (self.solution, self.rows) = (solution, rows);
+    }
+
     /// Keeps the last solution as the first guess where there still is liquid; `before` are the rows that had it.
     #[inline(always)]
     pub fn keep_guess(&mut self, grid: &MacGrid, before: Range<usize>) {

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+/// Nearest that the surface is taken to be to a liquid cell's centre, cells: nearer would make the equation stiff.
+const LEAST_THETA: f32 = 0.25;
 /// Most that a cell's density is taken to be too high, and too low inside the liquid: pulls harder than this make noise.
 const FEEDBACK_RANGE: (f32, f32) = (-0.1, 0.3);
 
@@ -53,25 +55,39 @@ impl<'a, T> Sides<'a, T> {
     }
 }
 
-/// The density of cells: the mean of their faces' weights, times `4 share`.
+/// How full cells are: the sum of their faces' weights times `share`, and their rock.
 #[inline(always)]
-pub(super) fn mean_weights(density: &mut [f32], faces: Sides<[f32; 2]>, share: f32) {
-    let Sides { left, right, lower, upper } = faces;
-    for i in 0..density.len() {
-        density[i] = share * (left[i][0] + right[i][0] + lower[i][0] + upper[i][0]);
+pub(super) fn fill(filled: &mut [f32], weights: Sides<[f32; 2]>, rock: &[f32], share: f32) {
+    let Sides { left, right, lower, upper } = weights;
+    for i in 0..filled.len() {
+        filled[i] = share * (left[i][0] + right[i][0] + lower[i][0] + upper[i][0]) + rock[i];
     }
 }
 
-/// Marks cells that hold enough to be liquid; returns whether any does.
+/// Marks cells that are full enough to be liquid; returns whether any is.
 #[inline(always)]
-pub(super) fn mark(liquid: &mut [f32], density: &[f32], liquid_from: &[f32], target: f32) -> bool {
+pub(super) fn mark(liquid: &mut [f32], filled: &[f32], liquid_from: &[f32]) -> bool {
     let mut any = false;
     for i in 0..liquid.len() {
-        let is_liquid = density[i] >= target * liquid_from[i];
+        let is_liquid = filled[i] >= liquid_from[i];
         liquid[i] = if is_liquid { 1.0 } else { 0.0 };
         any |= is_liquid;
     }
     any
+}
+
+/// How steeply the pressure falls at faces between the cells before and after each: 1 between liquid cells, 1/θ between
+/// a liquid one and air, where the surface (p = 0) lies θ cells from the liquid cell's centre (Enright et al. 2003; a
+/// second-order surface). Without it all surfaces within one cell would be level, and a pool could rest with bumps.
+#[inline(always)]
+pub(super) fn steepen(steep: &mut [f32], liquid: [&[f32]; 2], filled: [&[f32]; 2]) {
+    let ([liquid_before, liquid], [filled_before, filled]) = (liquid, filled);
+    for i in 0..steep.len() {
+        let theta = filled_before[i] + filled[i] - 0.5;
+        let theta = if theta > LEAST_THETA { theta } else { LEAST_THETA };
+        let theta = if theta < 1.0 { theta } else { 1.0 };
+        steep[i] = if liquid_before[i] * liquid[i] > 0.0 { 1.0 } else { 1.0 / theta };
+    }
 }
 
 /// Couples liquid cells through the open shares of their faces.
@@ -82,10 +98,12 @@ pub(super) fn couple(
     to_upper: &mut [f32],
     liquid: Around,
     open: Sides<f32>,
-    room: &[f32],
+    steep: Sides<f32>,
 ) {
     for i in 0..diagonal.len() {
-        diagonal[i] = liquid.centre[i] * room[i];
+        let along = open.left[i] * steep.left[i] + open.right[i] * steep.right[i];
+        let up = open.lower[i] * steep.lower[i] + open.upper[i] * steep.upper[i];
+        diagonal[i] = liquid.centre[i] * (along + up);
         to_right[i] = liquid.centre[i] * open.right[i] * liquid.right[i];
         to_upper[i] = liquid.centre[i] * open.upper[i] * liquid.upper[i];
     }
@@ -93,14 +111,7 @@ pub(super) fn couple(
 
 /// Asks for a divergence that takes the density error away.
 #[inline(always)]
-pub(super) fn feed_back(
-    right_side: &mut [f32],
-    liquid: Around,
-    rock: Around,
-    density: &[f32],
-    target: f32,
-    feedback: f32,
-) {
+pub(super) fn feed_back(right_side: &mut [f32], liquid: Around, rock: Around, filled: &[f32], feedback: f32) {
     // Neither liquid nor mostly rock: the surface is there.
     let is_free = |liquid: f32, rock: f32| liquid + 2.0 * rock < 0.5;
     for i in 0..right_side.len() {
@@ -109,7 +120,7 @@ pub(super) fn feed_back(
             | is_free(liquid.lower[i], rock.lower[i])
             | is_free(liquid.upper[i], rock.upper[i]);
         let (least, most) = (if at_surface { 0.0 } else { FEEDBACK_RANGE.0 }, FEEDBACK_RANGE.1);
-        let error = density[i] / target + rock.centre[i] - 1.0;
+        let error = filled[i] - 1.0;
         let error = if error > least { error } else { least };
         let error = if error < most { error } else { most };
         right_side[i] = feedback * error;
@@ -134,13 +145,13 @@ pub(super) fn touch(
     change: &mut [f32],
     liquid: [&[f32]; 2],
     p: [&[f32]; 2],
-    open: &[f32],
+    open_and_steep: [&[f32]; 2],
     old: &[[f32; 2]],
 ) {
-    let ([liquid_before, liquid], [p_before, p]) = (liquid, p);
+    let ([liquid_before, liquid], [p_before, p], [open, steep]) = (liquid, p, open_and_steep);
     for i in 0..known.len() {
         let touches = if liquid_before[i] + liquid[i] > 0.0 { 1.0 } else { 0.0 };
-        let gained = if open[i] > 0.0 { p_before[i] - p[i] } else { -old[i][1] };
+        let gained = if open[i] > 0.0 { steep[i] * (p_before[i] - p[i]) } else { -old[i][1] };
         known[i] = touches;
         change[i] = touches * gained;
     }

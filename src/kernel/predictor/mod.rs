@@ -79,12 +79,29 @@ pub struct PredictorParams<'a> {
 }
 
 impl Predictor {
+    /// A predictor that takes `pressure` (see [`Predictor::pressure`]) as the first guess of its first run.
+    pub fn resume(pressure: Vec<f32>) -> Self {
+        let mut predictor = Self::default();
+        predictor.conjugate.solution = pressure;
+        predictor
+    }
+
+    /// The pressure of the last run, which the next one sets out from. A world that is put back goes on to the bit only
+    /// together with it.
+    pub fn pressure(&self) -> &[f32] {
+        &self.conjugate.solution
+    }
+
     /// Makes the particles' velocities nearly divergence-free where they are liquid.
     pub fn run(&mut self, particles: &mut Particles, solids: &Solids, params: &PredictorParams) -> PredictorReport {
         let grid = MacGrid::new(params.domain.size, params.cell);
         if self.grid != grid {
-            *self = Self { grid, ..Self::default() };
-            self.hierarchy = Hierarchy::new(grid.columns, grid.rows);
+            let pressure = std::mem::take(&mut self.conjugate.solution);
+            let is_resumed = self.grid == MacGrid::default() && pressure.len() == grid.len();
+            *self = Self { grid, hierarchy: Hierarchy::new(grid.columns, grid.rows), ..Self::default() };
+            if is_resumed {
+                self.conjugate.resume(pressure, 1..grid.rows + 1);
+            }
         }
         self.closed.update(&grid, solids);
         self.faces.collect(&grid, particles, params.instructions, params.threads);
@@ -97,7 +114,6 @@ impl Predictor {
             conjugate: &mut self.conjugate,
             pockets: &mut self.pockets,
             target: TARGET_DENSITY * params.rest_density,
-            dt: params.dt,
             report: &mut report,
         });
         if report.liquid {

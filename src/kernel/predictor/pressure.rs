@@ -4,7 +4,7 @@ use crate::kernel::{
     predictor::{
         PredictorReport,
         conjugate::Conjugate,
-        equation::{Around, Sides, couple, feed_back, fill_in, mark, mean_weights, subtract_divergence, touch},
+        equation::{Around, Sides, couple, feed_back, fill, fill_in, mark, steepen, subtract_divergence, touch},
         grid::MacGrid,
         level::Level,
         multigrid::Hierarchy,
@@ -16,8 +16,9 @@ use crate::kernel::{
 };
 use std::ops::Range;
 
-/// Share of a density error that one substep is to take away.
-const FEEDBACK: f32 = 0.2;
+/// Rate at which a density error is to be taken away, 1/s: a fifth of it in a tick, however many substeps that has. Per
+/// substep it would work eight times as hard at eight of them, and stir a still pool.
+const FEEDBACK_PER_SECOND: f32 = 12.0;
 
 /// One projection. `p` is counted in d/s: a face gains `p_left − p_right`.
 pub(super) struct Projection<'a> {
@@ -29,23 +30,22 @@ pub(super) struct Projection<'a> {
     pub pockets: &'a mut Pockets,
     /// Density that is aimed at, particles per d².
     pub target: f32,
-    pub dt: f32,
     pub report: &'a mut PredictorReport,
 }
 
 impl Pass for Projection<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { grid, closed, faces, hierarchy, conjugate, pockets, target, dt, report } = self;
-        find_means(grid, faces);
+        let Self { grid, closed, faces, hierarchy, conjugate, pockets, target, report } = self;
+        find_means(grid, closed, faces, target);
         conjugate.resize(grid.len());
-        let rows = mark_liquid(grid, closed, faces, target, conjugate);
+        let rows = mark_liquid(grid, closed, faces, conjugate);
         let before = std::mem::replace(&mut conjugate.rows, rows);
         conjugate.keep_guess(grid, before);
         if conjugate.rows.is_empty() {
             return;
         }
-        assemble(grid, closed, faces, hierarchy.finest(), conjugate, target, dt);
+        assemble(grid, closed, faces, hierarchy.finest(), conjugate);
         pockets.balance(grid, hierarchy.finest(), &mut conjugate.right_side);
         hierarchy.coarsen();
         *report = conjugate.solve(hierarchy);
@@ -53,13 +53,14 @@ impl Pass for Projection<'_> {
     }
 }
 
-/// Turns momenta into velocities and finds the density of each cell as the mean of its faces'.
+/// Turns momenta into velocities and finds how full each cell is: its density is the mean of its faces'.
 #[inline(always)]
-fn find_means(grid: &MacGrid, faces: &mut Faces) {
-    let share = 0.25 * grid.per_cell * grid.per_cell;
+fn find_means(grid: &MacGrid, closed: &ClosedFaces, faces: &mut Faces, target: f32) {
+    let share = 0.25 * grid.per_cell * grid.per_cell / target;
     for j in cells_reached(grid, faces) {
         let cells = grid.row(j) + 1..grid.row(j) + 1 + grid.columns;
-        mean_weights(&mut faces.density[cells.clone()], Sides::new(&faces.u, &faces.v, cells, grid.stride), share);
+        let weights = Sides::new(&faces.u, &faces.v, cells.clone(), grid.stride);
+        fill(&mut faces.filled[cells.clone()], weights, &closed.rock[cells], share);
     }
     let reached = grid.rows(faces.reached.clone());
     for field in [&mut faces.u[reached.clone()], &mut faces.v[reached]] {
@@ -70,56 +71,53 @@ fn find_means(grid: &MacGrid, faces: &mut Faces) {
     }
 }
 
-/// Rows of cells that have a particle on one of their faces.
+/// Rows of cells that have a particle on one of their faces, and one more on either side.
 fn cells_reached(grid: &MacGrid, faces: &Faces) -> Range<usize> {
-    faces.reached.start.saturating_sub(1).max(1)..faces.reached.end.min(grid.rows + 1)
+    faces.reached.start.saturating_sub(2).max(1)..(faces.reached.end + 1).min(grid.rows + 1)
 }
 
 /// Marks the liquid cells with 1; returns the rows from the first to the last that has one.
 #[inline(always)]
-fn mark_liquid(
-    grid: &MacGrid,
-    closed: &ClosedFaces,
-    faces: &Faces,
-    target: f32,
-    conjugate: &mut Conjugate,
-) -> Range<usize> {
+fn mark_liquid(grid: &MacGrid, closed: &ClosedFaces, faces: &Faces, conjugate: &mut Conjugate) -> Range<usize> {
     conjugate.liquid[grid.rows(conjugate.rows.clone())].fill(0.0);
     let mut rows = 0..0;
     for j in cells_reached(grid, faces) {
         let cells = grid.row(j) + 1..grid.row(j) + 1 + grid.columns;
-        let (density, from) = (&faces.density[cells.clone()], &closed.liquid_from[cells.clone()]);
-        if mark(&mut conjugate.liquid[cells], density, from, target) {
+        let (filled, from) = (&faces.filled[cells.clone()], &closed.liquid_from[cells.clone()]);
+        if mark(&mut conjugate.liquid[cells], filled, from) {
             rows = if rows.is_empty() { j } else { rows.start }..j + 1;
         }
     }
     rows
 }
 
-/// Sets up `Σ_f w_f (p_c − p_n) = −Σ ± w_f u_f + feedback` over the liquid cells; p = 0 in the air.
+/// Sets up `Σ_f w_f s_f (p_c − p_n) = −Σ ± w_f u_f + feedback` over the liquid cells; p = 0 in the air, and s_f is how
+/// much steeper than between liquid cells the pressure falls at the face.
 #[inline(always)]
-fn assemble(
-    grid: &MacGrid,
-    closed: &ClosedFaces,
-    faces: &Faces,
-    finest: &mut Level,
-    conjugate: &mut Conjugate,
-    target: f32,
-    dt: f32,
-) {
-    let (stride, feedback) = (grid.stride, FEEDBACK * grid.cell / dt);
+fn assemble(grid: &MacGrid, closed: &ClosedFaces, faces: &mut Faces, finest: &mut Level, conjugate: &mut Conjugate) {
+    let (stride, feedback) = (grid.stride, FEEDBACK_PER_SECOND * grid.cell);
     let Conjugate { liquid, right_side, rows, .. } = conjugate;
+    let Faces { u, v, filled, steep_u, steep_v, .. } = faces;
+    for (steep, step) in [(&mut *steep_u, 1), (&mut *steep_v, stride)] {
+        for j in rows.start..rows.end + 1 {
+            let faces = grid.row(j) + 1..grid.row(j) + 2 + grid.columns;
+            let before = faces.start - step..faces.end - step;
+            let liquid = [&liquid[before.clone()], &liquid[faces.clone()]];
+            steepen(&mut steep[faces.clone()], liquid, [&filled[before], &filled[faces]]);
+        }
+    }
     finest.take_rows(rows.clone());
     for j in rows.clone() {
         let cells = grid.row(j) + 1..grid.row(j) + 1 + grid.columns;
         let liquid = Around::new(liquid, cells.clone(), stride);
         let open = Sides::new(&closed.open_u, &closed.open_v, cells.clone(), stride);
+        let steep = Sides::new(steep_u, steep_v, cells.clone(), stride);
         let (diagonal, to_right) = (&mut finest.diagonal[cells.clone()], &mut finest.right[cells.clone()]);
-        couple(diagonal, to_right, &mut finest.upper[cells.clone()], liquid, open, &closed.room[cells.clone()]);
+        couple(diagonal, to_right, &mut finest.upper[cells.clone()], liquid, open, steep);
         let right_side = &mut right_side[cells.clone()];
         let rock = Around::new(&closed.rock, cells.clone(), stride);
-        feed_back(right_side, liquid, rock, &faces.density[cells.clone()], target, feedback);
-        subtract_divergence(right_side, liquid.centre, open, Sides::new(&faces.u, &faces.v, cells, stride));
+        feed_back(right_side, liquid, rock, &filled[cells.clone()], feedback);
+        subtract_divergence(right_side, liquid.centre, open, Sides::new(u, v, cells, stride));
     }
 }
 
@@ -127,11 +125,12 @@ fn assemble(
 #[inline(always)]
 fn change_velocities(grid: &MacGrid, closed: &ClosedFaces, faces: &mut Faces, conjugate: &Conjugate) {
     let Conjugate { liquid, solution: p, rows, .. } = conjugate;
-    let Faces { u, v, new_u, new_v, change, known, reached, .. } = faces;
+    let Faces { u, v, new_u, new_v, steep_u, steep_v, change, known, reached, .. } = faces;
     // Rows of faces that touch liquid, and with the layer around them.
     let touching = rows.start..rows.end + 1;
     let near = (rows.start - 1).max(1)..(rows.end + 2).min(grid.rows + 2);
-    for (old, new, open, step) in [(&*u, new_u, &closed.open_u, 1), (&*v, new_v, &closed.open_v, grid.stride)] {
+    let (along, up) = ((&*u, new_u, &closed.open_u, steep_u, 1), (&*v, new_v, &closed.open_v, steep_v, grid.stride));
+    for (old, new, open, steep, step) in [along, up] {
         for field in [&mut *change, known] {
             field[grid.rows(near.start - 1..near.end + 1)].fill(0.0);
         }
@@ -139,8 +138,8 @@ fn change_velocities(grid: &MacGrid, closed: &ClosedFaces, faces: &mut Faces, co
             let cells = grid.row(j) + 1..grid.row(j) + 2 + grid.columns;
             let before = cells.start - step..cells.end - step;
             let (liquid, p) = ([&liquid[before.clone()], &liquid[cells.clone()]], [&p[before], &p[cells.clone()]]);
-            let (open, old) = (&open[cells.clone()], &old[cells.clone()]);
-            touch(&mut known[cells.clone()], &mut change[cells], liquid, p, open, old);
+            let (open, steep, old) = (&open[cells.clone()], &steep[cells.clone()], &old[cells.clone()]);
+            touch(&mut known[cells.clone()], &mut change[cells], liquid, p, [open, steep], old);
         }
         for j in near.clone() {
             let cells = grid.rows(j..j + 1);

@@ -29,9 +29,7 @@ pub(super) struct ClosedFaces {
     pub open_v: Vec<f32>,
     /// Share of rock around each cell, smeared as the liquid's density is, 0 … 1; 1 in the padding.
     pub rock: Vec<f32>,
-    /// Σ of the open shares of each cell's faces.
-    pub room: Vec<f32>,
-    /// Share of the density aimed at from which a cell is liquid; infinite where there is nothing to solve.
+    /// Share of each cell from which it is liquid, its rock counted in; infinite where there is nothing to solve.
     pub liquid_from: Vec<f32>,
 }
 
@@ -42,7 +40,7 @@ impl ClosedFaces {
             return;
         }
         self.built_for = Some(solids.version());
-        for field in [&mut self.open_u, &mut self.open_v, &mut self.rock, &mut self.room, &mut self.liquid_from] {
+        for field in [&mut self.open_u, &mut self.open_v, &mut self.rock, &mut self.liquid_from] {
             field.clear();
             field.resize(grid.len(), 0.0);
         }
@@ -68,8 +66,8 @@ impl ClosedFaces {
             for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
                 let room = self.open_u[k] + self.open_u[k + 1] + self.open_v[k] + self.open_v[k + grid.stride];
                 let solved = self.rock[k] < ROCK_SHARE && room >= LEAST_ROOM;
-                self.room[k] = room;
-                self.liquid_from[k] = if solved { LIQUID_SHARE * (1.0 - self.rock[k]) } else { f32::INFINITY };
+                let least = LIQUID_SHARE * (1.0 - self.rock[k]) + self.rock[k];
+                self.liquid_from[k] = if solved { least } else { f32::INFINITY };
             }
         }
     }
@@ -97,7 +95,7 @@ impl ClosedFaces {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        let fields = [&self.open_u, &self.open_v, &self.rock, &self.room, &self.liquid_from];
+        let fields = [&self.open_u, &self.open_v, &self.rock, &self.liquid_from];
         4 * fields.iter().map(|field| field.capacity()).sum::<usize>()
     }
 }

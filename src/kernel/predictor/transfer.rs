@@ -20,18 +20,22 @@ pub(super) struct Faces {
     pub u: Vec<[f32; 2]>,
     /// The same at the lower faces.
     pub v: Vec<[f32; 2]>,
-    /// Density at the cells, particles per d².
-    pub density: Vec<f32>,
+    /// How full the cells are of liquid and rock, 1 at the density aimed at.
+    pub filled: Vec<f32>,
     /// Change of velocity and new velocity, d/s, at the left faces.
     pub new_u: Vec<[f32; 2]>,
     /// The same at the lower faces.
     pub new_v: Vec<[f32; 2]>,
+    /// How much steeper than between liquid cells the pressure falls at the left faces.
+    pub steep_u: Vec<f32>,
+    /// The same at the lower faces.
+    pub steep_v: Vec<f32>,
     /// Change on each face and whether it is known (1) or to be filled in from its neighbours (0).
     pub change: Vec<f32>,
     /// See `change`.
     pub known: Vec<f32>,
-    /// Rows that a particle reaches. All fields are those of the last prediction in these rows and in one more on
-    /// either side; what is in the others is left from before.
+    /// Rows that a particle reaches. `u` and `v` are 0 in the two rows on either side; what is in all fields beyond is
+    /// left from before.
     pub reached: Range<usize>,
     blocks: Blocks,
 }
@@ -39,11 +43,11 @@ pub(super) struct Faces {
 impl Faces {
     /// Shares out the particles' velocities on the faces.
     pub fn collect(&mut self, grid: &MacGrid, particles: &Particles, instructions: InstructionSet, threads: usize) {
-        let Self { u, v, density, new_u, new_v, change, known, reached, blocks } = self;
+        let Self { u, v, filled, new_u, new_v, steep_u, steep_v, change, known, reached, blocks } = self;
         let Particles { x, y, vx, vy, .. } = particles;
         blocks.partition(grid, y, instructions, threads);
         *reached = blocks.reached();
-        let near = grid.rows(reached.start.saturating_sub(1)..(reached.end + 1).min(grid.rows + 3));
+        let near = grid.rows(reached.start.saturating_sub(2)..(reached.end + 2).min(grid.rows + 3));
         for field in [&mut *u, v] {
             field.resize(grid.len(), [0.0; 2]);
             field[near.clone()].fill([0.0; 2]);
@@ -51,7 +55,7 @@ impl Faces {
         for field in [new_u, new_v] {
             field.resize(grid.len(), [0.0; 2]);
         }
-        for field in [density, change, known] {
+        for field in [filled, steep_u, steep_v, change, known] {
             field.resize(grid.len(), 0.0);
         }
         blocks.share_out([&mut u[..], &mut v[..]], grid.stride, threads, &|particles, row, [u, v]| {
@@ -80,9 +84,8 @@ impl Faces {
     /// Bytes held.
     pub fn memory(&self) -> usize {
         let pairs = [&self.u, &self.v, &self.new_u, &self.new_v].iter().map(|field| field.capacity()).sum::<usize>();
-        8 * pairs
-            + 4 * (self.density.capacity() + self.change.capacity() + self.known.capacity())
-            + self.blocks.memory()
+        let singles = [&self.filled, &self.steep_u, &self.steep_v, &self.change, &self.known];
+        8 * pairs + 4 * singles.iter().map(|field| field.capacity()).sum::<usize>() + self.blocks.memory()
     }
 }
 

@@ -1,0 +1,106 @@
+//! The world that a run starts from: a scene, a scene as a replay found it, or a save file.
+
+use crate::{
+    cli::{args::RunArguments, failure::Failure},
+    kernel::params::Preset,
+    lab::headless::Headless,
+    scene::{
+        self,
+        blueprint::{Blueprint, EffectModes},
+    },
+    sim::{
+        control,
+        effects::Effects,
+        replay::Replay,
+        save::{self, SaveError, Saved},
+        workers::Workers,
+    },
+};
+use std::{fmt::Display, fs, path::Path, sync::Arc};
+
+/// Everything that was read and is ready to run.
+pub(super) enum Start {
+    /// The start of a scene.
+    Scene(Box<Blueprint>),
+    /// A saved world, with what the command line wants otherwise.
+    Saved(Box<Saved>, Wishes),
+}
+
+/// What the command line changes in a saved world.
+pub(super) struct Wishes {
+    quality: Option<Preset>,
+    effects: EffectModes,
+}
+
+impl Start {
+    /// Reads what the command line names, with the recorded input if there is some.
+    pub(super) fn read(arguments: &RunArguments) -> Result<(Self, Option<Replay>), Failure> {
+        let effects: EffectModes = arguments.effects.iter().copied().collect();
+        let path = Path::new(&arguments.scene);
+        if let Some(saved) = read_save(&arguments.scene)? {
+            let brought = [("--set", !arguments.settings.is_empty()), ("--replay", arguments.replay.is_some())];
+            if let Some((option, _)) = brought.into_iter().find(|(_, given)| *given) {
+                return Err(bad(path, &format_args!("a save file can't be run with {option}; allowed: a scene")));
+            }
+            return Ok((Self::Saved(Box::new(saved), Wishes { quality: arguments.quality, effects }), None));
+        }
+        let file = scene::load(&arguments.scene)?;
+        let Some(path) = arguments.replay.as_deref() else {
+            let blueprint = file.build(&arguments.settings, arguments.quality, &effects)?;
+            return Ok((Self::Scene(Box::new(blueprint)), None));
+        };
+        let replay = read_replay(path)?;
+        let header = &replay.header;
+        if header.scene != file.name() {
+            let (recorded, asked) = (&header.scene, file.name());
+            let what = format!("was recorded in the scene {recorded}, not in {asked}; allowed: run {recorded}");
+            return Err(bad(path, &what));
+        }
+        let modes = header.effects.iter().chain(&effects).map(|(effect, mode)| (*effect, *mode)).collect();
+        let built = file.build(&header.settings(), Some(arguments.quality.unwrap_or(header.preset)), &modes)?;
+        let blueprint = header.restore(built, arguments.quality.is_none());
+        Ok((Self::Scene(Box::new(blueprint)), Some(replay)))
+    }
+
+    /// The world, before its first tick.
+    pub(super) fn begin(self) -> Headless {
+        match self {
+            Self::Scene(blueprint) => Headless::new(Arc::new(*blueprint), Workers::default()),
+            Self::Saved(saved, wishes) => {
+                let mut headless = Headless::resume(*saved, Workers::default());
+                let world = headless.world_mut();
+                if let Some(preset) = wishes.quality {
+                    control::set_quality(world, preset, preset.quality());
+                }
+                let mut effects = world.resource_mut::<Effects>();
+                for (effect, mode) in wishes.effects {
+                    effects.get_mut(effect).mode = mode;
+                }
+                headless
+            }
+        }
+    }
+}
+
+fn bad(path: &Path, what: &dyn Display) -> Failure {
+    Failure::Usage(format!("{}: {what}", path.display()))
+}
+
+/// The save file at a path; `None` if the name is a scene's, or of nothing, which the scenes know best to say.
+fn read_save(name_or_path: &str) -> Result<Option<Saved>, Failure> {
+    let path = Path::new(name_or_path);
+    let is_scene = path.extension().is_some_and(|extension| extension == "ron");
+    if is_scene || scene::builtin_names().contains(&name_or_path) || !path.is_file() {
+        return Ok(None);
+    }
+    let bytes = fs::read(path).map_err(|error| bad(path, &format_args!("can't be read: {error}")))?;
+    save::decode(&bytes).map(Some).map_err(|error| match error {
+        SaveError::Foreign => bad(path, &format_args!("{error}; allowed: a scene, a .ron file or a save file")),
+        _ => bad(path, &error),
+    })
+}
+
+fn read_replay(path: &Path) -> Result<Replay, Failure> {
+    let text = fs::read_to_string(path).map_err(|error| bad(path, &format_args!("can't be read: {error}")))?;
+    Replay::read(&text, &*scene::elements()?).map_err(|error| bad(path, &error))
+}

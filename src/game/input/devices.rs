@@ -1,0 +1,49 @@
+//! Reads keyboard and mouse once a frame, event by event in the order in which they happened: at a low frame rate a
+//! whole stroke, or a chord of keys, lies between two frames.
+
+use crate::game::input::{
+    bindings::Mods,
+    keys::{self, Typing},
+    pointer::Hand,
+};
+use bevy::{
+    input::ButtonState,
+    prelude::{ButtonInput, KeyCode, Local, MessageReader, Real, Res, Time},
+    window::WindowEvent,
+};
+
+/// Turns the events of a frame into what they mean.
+pub fn read_devices(
+    mut events: MessageReader<WindowEvent>,
+    keyboard: Res<ButtonInput<KeyCode>>,
+    typing: Res<Typing>,
+    time: Res<Time<Real>>,
+    mut mods: Local<Mods>,
+    mut hand: Hand,
+) {
+    hand.begin_frame();
+    for event in events.read() {
+        match event {
+            WindowEvent::KeyboardInput(key) => {
+                mods.follow(key.key_code, key.state == ButtonState::Pressed);
+                if key.state == ButtonState::Pressed && !key.repeat && !typing.0 {
+                    keys::press(key.key_code, *mods, &mut hand.orders);
+                }
+            }
+            WindowEvent::CursorMoved(moved) => hand.move_to(moved.position),
+            WindowEvent::CursorLeft(_) => hand.leave(),
+            WindowEvent::MouseButtonInput(button) => match button.state {
+                ButtonState::Pressed => hand.press(button.button, *mods),
+                ButtonState::Released => hand.release(button.button),
+            },
+            WindowEvent::MouseWheel(wheel) => hand.scroll(wheel, *mods),
+            WindowEvent::WindowFocused(focus) if !focus.focused => hand.let_go(),
+            _ => {}
+        }
+    }
+    // Releases outside the window are never seen: between events the truth is what Bevy holds for pressed.
+    if events.is_empty() {
+        *mods = Mods::held(&keyboard);
+    }
+    hand.end_frame(time.delta_secs());
+}

@@ -1,0 +1,246 @@
+//! Save files: a world with everything that it needs to go on without its scene file.
+//!
+//! ```text
+//! "PowderMaster\n" │ version, u16 │ hash of the rest, u64 │ postcard of `Saved`        (numbers little-endian)
+//! ```
+//!
+//! `encode` reads a world, `decode` checks every byte and value of a file, `load` puts the result into a world. A file is
+//! as long as what it holds: reading one takes memory in proportion to it, and no more than its box may have.
+
+mod check;
+#[cfg(test)]
+mod tests;
+
+use crate::{
+    kernel::{
+        air::Air,
+        element::{Element, ElementId, ElementTable},
+        params::{AirParams, Domain, FluidParams, Preset, Quality},
+        particles::Particles,
+        predict::remove_non_finite,
+        solids::Solids,
+        units::Scale,
+    },
+    scene::blueprint::{Blueprint, Effect, EffectModes, Mode},
+    sim::{
+        control,
+        effects::Effects,
+        snapshot::{Snapshot, hash_bytes},
+        state::{Clock, Setup, Sources},
+    },
+};
+use bevy::prelude::World;
+use glam::IVec2;
+use serde::{Deserialize, Serialize};
+use std::{collections::BTreeMap, sync::Arc};
+
+/// What every save file begins with.
+const MAGIC: &[u8] = b"PowderMaster\n";
+/// Version of the format. Raise it when [`Contents`] or anything in it changes: old files are refused, not misread.
+const VERSION: u16 = 1;
+
+/// Why a file is not loaded, in one line.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SaveError {
+    /// Something else.
+    #[error("not a save file of Powder Master")]
+    Foreign,
+    /// Written by another version.
+    #[error("a save file of format {found}; this program reads format {VERSION}")]
+    Version {
+        /// Its format.
+        found: u16,
+    },
+    /// Cut or changed.
+    #[error("the save file is damaged: {0}")]
+    Damaged(String),
+    /// A value that no world has.
+    #[error("the save file is not sound: {0}")]
+    Unsound(String),
+}
+
+/// A world out of a save file, checked and ready to load.
+#[derive(Clone, Debug)]
+pub struct Saved {
+    blueprint: Blueprint,
+    snapshot: Snapshot,
+}
+
+impl Saved {
+    /// Name of the scene that it came from.
+    pub fn name(&self) -> &str {
+        &self.blueprint.name
+    }
+
+    /// Title of that scene.
+    pub fn title(&self) -> &str {
+        &self.blueprint.title
+    }
+
+    /// The state.
+    pub fn snapshot(&self) -> &Snapshot {
+        &self.snapshot
+    }
+}
+
+/// What the file holds. Effects and the preset go by name, so that new ones don't shift the old.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Contents {
+    name: String,
+    title: String,
+    description: String,
+    parameters: BTreeMap<String, f64>,
+    scale: Scale,
+    domain: Domain,
+    elements: Vec<Element>,
+    fluid: FluidParams,
+    air_params: AirParams,
+    effects: Vec<(String, Mode)>,
+    preset: String,
+    quality: Quality,
+    particle_limit: u32,
+    first_element: Option<String>,
+    particles: Particles,
+    rock: Vec<RockCell>,
+    air: Air,
+    pressure: Vec<f32>,
+    sources: Sources,
+    clock: Clock,
+}
+
+/// A cell of rock.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct RockCell {
+    column: u32,
+    row: u32,
+    element: ElementId,
+    id: u32,
+}
+
+/// The world as a save file.
+pub fn encode(world: &World) -> Vec<u8> {
+    let setup = world.resource::<Setup>();
+    let blueprint = &setup.blueprint;
+    let Snapshot { mut particles, solids, air, pressure, sources, clock } = control::freeze(world);
+    // The next tick would take them away; a file with them would be refused.
+    remove_non_finite(&mut particles);
+    let rock =
+        solids.iter().map(|(cell, element, id)| RockCell { column: cell.x as u32, row: cell.y as u32, element, id });
+    seal(&Contents {
+        name: blueprint.name.clone(),
+        title: blueprint.title.clone(),
+        description: blueprint.description.clone(),
+        parameters: blueprint.parameters.clone(),
+        scale: blueprint.scale,
+        domain: blueprint.domain,
+        elements: blueprint.elements.iter().map(|(_, element)| element.clone()).collect(),
+        fluid: blueprint.fluid,
+        air_params: blueprint.air,
+        effects: world.resource::<Effects>().modes().iter().map(|(e, mode)| (e.name().to_owned(), *mode)).collect(),
+        preset: setup.preset.name().to_owned(),
+        quality: setup.quality,
+        particle_limit: blueprint.particle_limit,
+        first_element: blueprint.first_element.clone(),
+        particles,
+        rock: rock.collect(),
+        air,
+        pressure,
+        sources,
+        clock,
+    })
+}
+
+fn seal(contents: &Contents) -> Vec<u8> {
+    // Writing to memory has no way to fail, and every length is known.
+    let body = postcard::to_stdvec(contents).unwrap_or_default();
+    let mut bytes = MAGIC.to_vec();
+    bytes.extend(VERSION.to_le_bytes());
+    bytes.extend(hash_bytes(&body).to_le_bytes());
+    bytes.extend(body);
+    bytes
+}
+
+/// Reads a save file.
+///
+/// # Errors
+/// If it is not one, was cut or changed, or holds what no world can.
+pub fn decode(bytes: &[u8]) -> Result<Saved, SaveError> {
+    let damaged = |what: &str| SaveError::Damaged(what.to_owned());
+    let rest = bytes.strip_prefix(MAGIC).ok_or_else(|| {
+        if !bytes.is_empty() && MAGIC.starts_with(bytes) {
+            damaged("it ends in its first line")
+        } else {
+            SaveError::Foreign
+        }
+    })?;
+    let (version, rest) = rest.split_first_chunk().ok_or_else(|| damaged("it ends in its header"))?;
+    let found = u16::from_le_bytes(*version);
+    if found != VERSION {
+        return Err(SaveError::Version { found });
+    }
+    let (hash, body) = rest.split_first_chunk().ok_or_else(|| damaged("it ends in its header"))?;
+    if u64::from_le_bytes(*hash) != hash_bytes(body) {
+        return Err(damaged("its contents do not fit its checksum"));
+    }
+    let (contents, left) = postcard::take_from_bytes::<Contents>(body).map_err(|error| damaged(&error.to_string()))?;
+    if !left.is_empty() {
+        return Err(damaged("something stands behind its end"));
+    }
+    check::contents(&contents).map_err(SaveError::Unsound)?;
+    open(contents).map_err(SaveError::Unsound)
+}
+
+/// Turns checked contents into a world. What needs the whole rock is checked here.
+fn open(contents: Contents) -> Result<Saved, String> {
+    let Contents { particles, rock, air, pressure, sources, clock, domain, quality, .. } = contents;
+    let cells = domain.size.ceil().as_uvec2();
+    let mut solids = Solids::new(cells.x, cells.y);
+    for RockCell { column, row, element, id } in rock {
+        let cell = IVec2::new(column as i32, row as i32);
+        if !solids.insert(cell, element, id) {
+            return Err(format!("the rock at {column}, {row} is outside the box or there twice"));
+        }
+    }
+    if let Some(i) = (0..particles.len()).find(|&i| solids.is_solid(Solids::cell_of(particles.position(i)))) {
+        return Err(format!("particle {} is inside rock or outside the box", particles.id[i]));
+    }
+    check::air_follows_rock(&air, &solids, &domain, contents.air_params)?;
+    let elements = Arc::new(ElementTable::new(contents.elements));
+    let effects: EffectModes =
+        contents.effects.iter().filter_map(|(name, mode)| Some((Effect::find(name)?, *mode))).collect();
+    let Sources { emitters, winds, drains } = sources.clone();
+    let mut snapshot = Snapshot { particles, solids, air, pressure, sources, clock };
+    snapshot.air.set_solids(&snapshot.solids);
+    let blueprint = Blueprint {
+        name: contents.name,
+        title: contents.title,
+        description: contents.description,
+        parameters: contents.parameters,
+        scale: contents.scale,
+        domain,
+        elements,
+        particles: snapshot.particles.clone(),
+        solids: snapshot.solids.clone(),
+        next_id: clock.next_id,
+        emitters,
+        winds,
+        drains,
+        pressures: Vec::new(),
+        fluid: contents.fluid,
+        air: contents.air_params,
+        effects,
+        preset: Preset::find(&contents.preset).unwrap_or(Preset::Balanced),
+        quality,
+        particle_limit: contents.particle_limit,
+        first_element: contents.first_element,
+    };
+    Ok(Saved { blueprint, snapshot })
+}
+
+/// Puts the world of a save file in the place of the one at hand. `control::reset` goes back to it from then on.
+pub fn load(world: &mut World, saved: Saved) {
+    control::load(world, Arc::new(saved.blueprint));
+    let origin = Arc::new(saved.snapshot);
+    world.resource_mut::<Setup>().origin = origin;
+    control::reset(world);
+}

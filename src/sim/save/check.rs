@@ -1,0 +1,193 @@
+//! What a file must keep to before anything is made of it. The ranges are those of scenes and elements.
+
+use super::Contents;
+use crate::{
+    kernel::{
+        air::Air,
+        element::{Element, ElementId},
+        params::{AirParams, Domain, Preset},
+        solids::Solids,
+        sources::Rect,
+    },
+    scene::blueprint::Effect,
+};
+use glam::Vec2;
+use std::collections::HashSet;
+
+/// Most cells of a box.
+const MOST_CELLS: f32 = 64e6;
+/// Longest side of a box, d.
+const LONGEST_SIDE: f32 = 32_768.0;
+/// Furthest that anything lies and fastest that anything moves, d and d/s.
+const ABSURD: f32 = 1e9;
+/// Most taps, fans and outlets of each kind, and parameters.
+const MOST_ENTRIES: usize = 10_000;
+/// Longest text, bytes.
+const LONGEST_TEXT: usize = 10_000;
+/// Rounding allowance of what went through another unit.
+const ROUNDING: f32 = 1.001;
+
+type Verdict = Result<(), String>;
+
+fn demand(holds: bool, what: impl FnOnce() -> String) -> Verdict {
+    if holds { Ok(()) } else { Err(what()) }
+}
+
+fn within(name: &str, value: f32, low: f32, high: f32) -> Verdict {
+    demand(value >= low && value <= high, || format!("{name} is {value}; allowed: {low} to {high}"))
+}
+
+fn finite(name: &str, value: Vec2) -> Verdict {
+    demand(value.abs().max_element() < ABSURD && value.is_finite(), || format!("{name} is {value}"))
+}
+
+/// Everything that needs no rock grid.
+pub(super) fn contents(contents: &Contents) -> Verdict {
+    texts(contents)?;
+    numbers(contents)?;
+    elements(&contents.elements)?;
+    names(contents)?;
+    particles(contents)?;
+    sources(contents)?;
+    air(contents)
+}
+
+fn texts(contents: &Contents) -> Verdict {
+    for text in [&contents.name, &contents.title, &contents.description] {
+        demand(text.len() <= LONGEST_TEXT, || format!("a text of {} bytes; allowed: {LONGEST_TEXT}", text.len()))?;
+    }
+    demand(contents.parameters.len() <= MOST_ENTRIES, || "too many parameters".to_owned())?;
+    demand(contents.parameters.values().all(|value| value.is_finite()), || "a parameter is not a number".to_owned())
+}
+
+fn numbers(contents: &Contents) -> Verdict {
+    let Contents { scale, domain, fluid, quality, air_params, .. } = contents;
+    within("spacing", scale.spacing, 0.001 / ROUNDING, 100.0 * ROUNDING)?;
+    within("width", domain.size.x, 4.0, LONGEST_SIDE)?;
+    within("height", domain.size.y, 4.0, LONGEST_SIDE)?;
+    let cells = domain.size.ceil();
+    within("number of cells", cells.x * cells.y, 16.0, MOST_CELLS)?;
+    within("gravity", domain.gravity.length() * scale.spacing, 0.0, 1500.0)?;
+    within("rest_density", fluid.rest_density, 0.1, 100.0)?;
+    within("relaxation", fluid.relaxation, 1e-4, 10.0)?;
+    within("constraint_floor", fluid.constraint_floor, -1.0, 0.0)?;
+    within("tension_strength", fluid.tension_strength, 0.0, 1.0)?;
+    within("tension_distance", fluid.tension_distance, 0.1, 0.3)?;
+    within("substeps", quality.substeps as f32, 1.0, 64.0)?;
+    within("iterations", quality.iterations as f32, 1.0, 64.0)?;
+    within("kernel_radius", quality.kernel_radius, 2.0, 4.0)?;
+    within("correction_limit", quality.correction_limit, 0.05, 0.5)?;
+    within("air_cell", quality.air_cell, 1.0, 32.0)?;
+    within("air_courant", quality.air_courant, 0.1, 0.9)?;
+    within("sound_speed", air_params.sound_speed * scale.spacing, 1.0 / ROUNDING, 400.0 * ROUNDING)?;
+    within("particle_limit", contents.particle_limit as f32, 1.0, 4e6)
+}
+
+fn elements(elements: &[Element]) -> Verdict {
+    within("number of elements", elements.len() as f32, 1.0, 255.0)?;
+    let mut taken = HashSet::new();
+    for element in elements {
+        let word = element.name.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_');
+        demand(word && (1..=32).contains(&element.name.len()), || "an element has no proper name".to_owned())?;
+        demand(taken.insert(&element.name), || format!("two elements are called {}", element.name))?;
+        demand(element.key.is_ascii_digit(), || format!("the key of {} is no digit", element.name))?;
+        within("density", element.density, 1.0, 100_000.0)?;
+        within("viscosity", element.viscosity, 0.0, 0.5)?;
+        within("vorticity", element.vorticity, 0.0, 1.0)?;
+        within("drag", element.drag, 0.0, 1000.0)?;
+        within("flow", element.flow, f32::MIN_POSITIVE, 1.0)?;
+    }
+    Ok(())
+}
+
+fn names(contents: &Contents) -> Verdict {
+    demand(Preset::find(&contents.preset).is_some(), || "its quality has no known name".to_owned())?;
+    let known = contents.effects.iter().all(|(name, _)| Effect::find(name).is_some());
+    demand(known, || "an effect has no known name".to_owned())?;
+    let first = contents.first_element.as_ref();
+    let known = first.is_none_or(|first| contents.elements.iter().any(|element| element.name == *first));
+    demand(known, || "its first element is none of its elements".to_owned())
+}
+
+fn is_movable(contents: &Contents, element: ElementId) -> bool {
+    contents.elements.get(element.index()).is_some_and(|element| !element.fixed)
+}
+
+fn particles(contents: &Contents) -> Verdict {
+    let (particles, rock, clock) = (&contents.particles, &contents.rock, &contents.clock);
+    let lengths =
+        [particles.x.len(), particles.y.len(), particles.vx.len(), particles.vy.len(), particles.element.len()];
+    demand(lengths.iter().all(|&len| len == particles.id.len()), || {
+        "the particles' arrays differ in length".to_owned()
+    })?;
+    let total = particles.len() + rock.len();
+    demand(total <= contents.particle_limit as usize, || format!("{total} particles are more than its limit"))?;
+    for i in 0..particles.len() {
+        // Places are checked against the cells of the box, where there are some.
+        finite("a position", particles.position(i))?;
+        finite("a velocity", particles.velocity(i))?;
+    }
+    let known = particles.element.iter().all(|&element| is_movable(contents, element));
+    demand(known, || "a particle is of no movable element".to_owned())?;
+    let fixed = |element: ElementId| contents.elements.get(element.index()).is_some_and(|element| element.fixed);
+    demand(rock.iter().all(|rock| fixed(rock.element)), || "rock is of no fixed element".to_owned())?;
+    let size = contents.domain.size.ceil().as_uvec2();
+    let inside = rock.iter().all(|rock| rock.column < size.x && rock.row < size.y);
+    demand(inside, || "rock is outside the box".to_owned())?;
+    let mut ids = HashSet::with_capacity(total);
+    for id in particles.id.iter().copied().chain(rock.iter().map(|rock| rock.id)) {
+        demand(id < clock.next_id, || format!("particle {id} has an id that is not given yet"))?;
+        demand(ids.insert(id), || format!("two particles have the id {id}"))?;
+    }
+    Ok(())
+}
+
+fn sources(contents: &Contents) -> Verdict {
+    let sources = &contents.sources;
+    let lengths = [sources.emitters.len(), sources.winds.len(), sources.drains.len()];
+    demand(lengths.iter().all(|&len| len <= MOST_ENTRIES), || "too many taps, fans or outlets".to_owned())?;
+    let area = |area: &Rect| {
+        finite("a corner of an area", area.min)?;
+        finite("a corner of an area", area.max)?;
+        demand(area.min.cmplt(area.max).all(), || format!("an area from {} to {}", area.min, area.max))
+    };
+    for emitter in &sources.emitters {
+        area(&emitter.area)?;
+        finite("the velocity of a tap", emitter.velocity)?;
+        within("the rate of a tap", emitter.rate, 0.0, 1e6 * ROUNDING)?;
+        within("what is due of a tap", emitter.due, 0.0, 1e6)?;
+        demand(is_movable(contents, emitter.element), || "a tap gives no movable element".to_owned())?;
+    }
+    for wind in &sources.winds {
+        area(&wind.area)?;
+        finite("the velocity of a fan", wind.velocity)?;
+        within("the rate of a fan", wind.rate, 0.0, 1000.0 * ROUNDING)?;
+    }
+    sources.drains.iter().try_for_each(|drain| area(&drain.area))
+}
+
+fn air(contents: &Contents) -> Verdict {
+    let Contents { air, domain, quality, .. } = contents;
+    demand(air.cell() == quality.air_cell, || "its air stands on other cells than its quality's".to_owned())?;
+    demand(*air.params() == contents.air_params, || "its air has other parameters than its scene".to_owned())?;
+    let cells = (domain.size / air.cell()).ceil();
+    let fits = air.columns() == cells.x as usize && air.rows() == cells.y as usize;
+    demand(fits, || format!("air of {} × {} cells does not fit its box", air.columns(), air.rows()))?;
+    let rows =
+        || (0..air.rows()).flat_map(|row| [air.pressure_row(row), air.velocity_x_row(row), air.velocity_y_row(row)]);
+    demand(rows().flatten().all(|value| value.abs() < ABSURD), || "a value of its air is absurd".to_owned())?;
+    demand(contents.pressure.iter().all(|pressure| pressure.is_finite()), || "a pressure is not a number".to_owned())?;
+    // The predictor's cells are no smaller than half a kernel radius, and it keeps some empty ones around the box.
+    let most = (domain.size.x + 64.0) * (domain.size.y + 64.0);
+    within("number of pressures", contents.pressure.len() as f32, 0.0, most)
+}
+
+/// The air is closed where the rock is, and nowhere else.
+pub(super) fn air_follows_rock(air: &Air, solids: &Solids, domain: &Domain, params: AirParams) -> Verdict {
+    let mut expected = Air::new(domain.size, air.cell(), params);
+    expected.set_solids(solids);
+    let differ = |row: usize| {
+        (0..air.columns()).any(|column| air.is_solid_cell(column, row) != expected.is_solid_cell(column, row))
+    };
+    demand(!(0..air.rows()).any(differ), || "its air does not follow its rock".to_owned())
+}

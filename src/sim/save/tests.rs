@@ -1,0 +1,224 @@
+//! Files that were cut, changed or made up.
+
+use super::*;
+use crate::{
+    kernel::sources::{Drain, Emitter, Rect, Wind},
+    scene,
+    sim::{
+        SimulationPlugin,
+        intent::{Intent, IntentQueue},
+        state::{ParticleStore, Rock},
+    },
+};
+use bevy::{MinimalPlugins, app::App, time::TimeUpdateStrategy};
+use glam::Vec2;
+
+fn start(app_scene: &str, settings: &[(&str, &str)]) -> App {
+    let settings: Vec<(String, String)> = settings.iter().map(|&(key, value)| (key.into(), value.into())).collect();
+    let file = scene::load(app_scene).expect("a built-in scene");
+    let blueprint = file.build(&settings, None, &EffectModes::new()).expect("its settings");
+    let mut app = App::new();
+    app.add_plugins((MinimalPlugins, SimulationPlugin)).insert_resource(TimeUpdateStrategy::FixedTimesteps(1));
+    control::load(app.world_mut(), Arc::new(blueprint));
+    app.finish();
+    app.cleanup();
+    app.update();
+    app
+}
+
+fn tick(app: &mut App, ticks: u32) {
+    for _ in 0..ticks {
+        app.update();
+    }
+}
+
+/// A small world with something of everything, a few ticks old.
+fn small() -> App {
+    let mut app = start("empty", &[("columns", "16"), ("rows", "16")]);
+    let stroke = crate::kernel::brush::Stroke::rectangle(Vec2::new(4.0, 2.0), Vec2::new(8.0, 6.0));
+    let rock = crate::kernel::brush::Stroke::rectangle(Vec2::new(10.0, 0.0), Vec2::new(12.0, 2.0));
+    let mut queue = app.world_mut().resource_mut::<IntentQueue>();
+    queue.push(Intent::Stamp { element: ElementId(1), stroke });
+    queue.push(Intent::Stamp { element: ElementId(0), stroke: rock });
+    let area = Rect { min: Vec2::splat(8.0), max: Vec2::splat(12.0) };
+    let mut sources = app.world_mut().resource_mut::<Sources>();
+    let velocity = Vec2::new(1.0, -1.0);
+    let (element, rate) = (ElementId(1), 30.0);
+    sources.emitters.push(Emitter { element, area, velocity, rate, total: Some(9), start: 1, given: 0, due: 0.0 });
+    sources.winds.push(Wind { area, velocity, rate: 2.0 });
+    sources.drains.push(Drain { area: Rect { min: Vec2::splat(14.0), max: Vec2::splat(15.0) } });
+    tick(&mut app, 5);
+    assert!(app.world().resource::<ParticleStore>().len() >= 16 && app.world().resource::<Rock>().count() == 4);
+    app
+}
+
+fn contents(bytes: &[u8]) -> Contents {
+    postcard::from_bytes(&bytes[MAGIC.len() + 10..]).expect("the contents of a good file")
+}
+
+fn refusal(bytes: &[u8]) -> String {
+    let text = decode(bytes).expect_err("a bad file was read").to_string();
+    assert!(!text.contains('\n') && text.len() < 200, "not one clear line: {text}");
+    text
+}
+
+#[test]
+fn what_was_written_is_read() {
+    let app = small();
+    let bytes = encode(app.world());
+    let saved = decode(&bytes).expect("its own file");
+    assert_eq!(saved.snapshot().hash(), control::hash(app.world()));
+    assert_eq!((saved.name(), saved.title()), ("empty", "Empty"));
+    let mut other = start("dam_break", &[("columns", "4")]);
+    load(other.world_mut(), saved);
+    assert_eq!(encode(other.world()), bytes, "saving a loaded world gives another file");
+}
+
+#[test]
+fn a_file_cut_anywhere_is_refused() {
+    let bytes = encode(small().world());
+    for len in 0..bytes.len() {
+        refusal(&bytes[..len]);
+    }
+    // The same with a header that fits what is left.
+    let body = &bytes[MAGIC.len() + 10..];
+    for len in 0..body.len() {
+        let mut cut = bytes[..MAGIC.len() + 2].to_vec();
+        cut.extend(hash_bytes(&body[..len]).to_le_bytes());
+        cut.extend(&body[..len]);
+        refusal(&cut);
+    }
+    let mut longer = body.to_vec();
+    longer.push(0);
+    let mut file = bytes[..MAGIC.len() + 2].to_vec();
+    file.extend(hash_bytes(&longer).to_le_bytes());
+    file.extend(&longer);
+    assert!(refusal(&file).contains("behind its end"));
+}
+
+#[test]
+fn headers_say_what_is_wrong() {
+    let bytes = encode(small().world());
+    assert_eq!(refusal(b""), SaveError::Foreign.to_string());
+    assert_eq!(refusal(b"\x89PNG\r\n\x1a\n and more"), SaveError::Foreign.to_string());
+    let mut newer = bytes.clone();
+    newer[MAGIC.len()] = 200;
+    assert!(refusal(&newer).contains("format 200; this program reads format 1"));
+}
+
+#[test]
+fn every_flipped_bit_is_noticed() {
+    let bytes = encode(small().world());
+    let mut changed = bytes.clone();
+    for bit in 0..8 * bytes.len() {
+        changed[bit / 8] ^= 1 << (bit % 8);
+        refusal(&changed);
+        changed[bit / 8] ^= 1 << (bit % 8);
+    }
+}
+
+#[test]
+fn flips_behind_a_right_checksum_neither_panic_nor_make_a_world_that_does() {
+    let bytes = encode(small().world());
+    let body = &bytes[MAGIC.len() + 10..];
+    let mut app = small();
+    let mut state = 99_u32;
+    let mut random = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 8) as usize
+    };
+    let (mut read, mut refused) = (0, 0);
+    for _ in 0..6000 {
+        let mut changed = body.to_vec();
+        for _ in 0..1 + random() % 3 {
+            let at = random() % changed.len();
+            changed[at] = if random() % 2 == 0 { changed[at] ^ 1 << (random() % 8) } else { random() as u8 };
+        }
+        let mut file = bytes[..MAGIC.len() + 2].to_vec();
+        file.extend(hash_bytes(&changed).to_le_bytes());
+        file.extend(&changed);
+        match decode(&file) {
+            Err(error) => {
+                assert!(!error.to_string().contains('\n') && error.to_string().len() < 300, "{error}");
+                refused += 1;
+            }
+            Ok(saved) => {
+                read += 1;
+                // What is read must run; a few of them are enough.
+                let cells = saved.blueprint.domain.size.x * saved.blueprint.domain.size.y;
+                assert!(cells < 1e4, "a box of {cells} cells out of a file of {} bytes", file.len());
+                if read % 20 == 0 {
+                    load(app.world_mut(), saved);
+                    tick(&mut app, 3);
+                }
+            }
+        }
+    }
+    assert!(read > 100 && refused > 100, "{read} files read, {refused} refused: the flips test nothing");
+}
+
+#[test]
+fn made_up_contents_are_refused_by_name() {
+    let good = contents(&encode(small().world()));
+    assert!(decode(&seal(&good)).is_ok());
+    type Change = fn(&mut Contents);
+    let cases: [(&str, Change); 40] = [
+        ("spacing", |c| c.scale.spacing = 0.0),
+        ("spacing", |c| c.scale.spacing = f32::NAN),
+        ("width", |c| c.domain.size.x = 1e9),
+        ("height", |c| c.domain.size.y = f32::NAN),
+        ("number of cells", |c| c.domain.size = Vec2::splat(32_000.0)),
+        ("gravity", |c| c.domain.gravity.x = f32::INFINITY),
+        ("rest_density", |c| c.fluid.rest_density = 0.0),
+        ("relaxation", |c| c.fluid.relaxation = -1.0),
+        ("substeps", |c| c.quality.substeps = 0),
+        ("substeps", |c| c.quality.substeps = u32::MAX),
+        ("iterations", |c| c.quality.iterations = 65),
+        ("kernel_radius", |c| c.quality.kernel_radius = 1e-6),
+        ("correction_limit", |c| c.quality.correction_limit = f32::NAN),
+        ("air_cell", |c| c.quality.air_cell = 0.001),
+        ("air stands on other cells", |c| c.quality.air_cell = 3.5),
+        ("sound_speed", |c| c.air_params.sound_speed = 0.0),
+        ("other parameters", |c| c.air_params.sound_speed *= 1.5),
+        ("particle_limit", |c| c.particle_limit = 0),
+        ("more than its limit", |c| c.particle_limit = 3),
+        ("number of elements", |c| c.elements.clear()),
+        ("proper name", |c| c.elements[0].name = "a\nb".to_owned()),
+        ("two elements", |c| c.elements[1].name = "rock".to_owned()),
+        ("density", |c| c.elements[1].density = 0.0),
+        ("flow", |c| c.elements[1].flow = f32::NAN),
+        ("quality has no known name", |c| c.preset = "best".to_owned()),
+        ("effect has no known name", |c| c.effects[0].0 = "magic".to_owned()),
+        ("first element", |c| c.first_element = Some("gold".to_owned())),
+        ("differ in length", |c| c.particles.vx.truncate(3)),
+        ("a position is", |c| c.particles.x[2] = f32::NAN),
+        ("a velocity is", |c| c.particles.vy[2] = f32::INFINITY),
+        ("outside the box", |c| c.particles.x[2] = 16.5),
+        ("outside the box", |c| c.particles.y[2] = -0.5),
+        ("inside rock", |c| (c.particles.x[2], c.particles.y[2]) = (11.5, 1.5)),
+        ("no movable element", |c| c.particles.element[0] = ElementId(0)),
+        ("no movable element", |c| c.particles.element[0] = ElementId(200)),
+        ("no fixed element", |c| c.rock[0].element = ElementId(1)),
+        ("rock is outside", |c| c.rock[0].column = u32::MAX),
+        ("there twice", |c| (c.rock[0].column, c.rock[0].row) = (c.rock[1].column, c.rock[1].row)),
+        ("two particles have the id", |c| c.rock[0].id = c.particles.id[0]),
+        ("not given yet", |c| c.clock.next_id = 3),
+    ];
+    let more: [(&str, Change); 9] = [
+        ("an area", |c| c.sources.winds[0].area.min.x = 1e6),
+        ("a corner", |c| c.sources.drains[0].area.max.y = f32::NAN),
+        ("the rate of a tap", |c| c.sources.emitters[0].rate = f32::NAN),
+        ("due of a tap", |c| c.sources.emitters[0].due = -1.0),
+        ("tap gives", |c| c.sources.emitters[0].element = ElementId(0)),
+        ("does not fit its box", |c| c.air = Air::new(Vec2::splat(40.0), c.quality.air_cell, c.air_params)),
+        ("does not follow its rock", |c| c.rock.clear()),
+        ("a parameter", |c| c.parameters.values_mut().for_each(|value| *value = f64::NAN)),
+        ("a pressure", |c| c.pressure = vec![f32::NAN]),
+    ];
+    for (expected, change) in cases.into_iter().chain(more) {
+        let mut contents = good.clone();
+        change(&mut contents);
+        let text = refusal(&seal(&contents));
+        assert!(text.contains(expected), "`{text}` does not say `{expected}`");
+    }
+}

@@ -1,0 +1,198 @@
+//! What the colours need to know of a place's surroundings: how deep the liquid is there, how deep inside rock it lies.
+
+use crate::kernel::{particles::Particles, solids::Solids};
+use glam::{IVec2, Vec2};
+
+/// Depth at which half of the shading is reached, d.
+const HALF_DEPTH: f32 = 22.0;
+/// Edge of a cell of the depth map, d.
+const DEPTH_CELL: f32 = 4.0;
+/// A cell with fewer particles than this holds spray, not a body of liquid (full are `DEPTH_CELL`²).
+const SPRAY: u32 = 8;
+/// Columns to either side over which depth is averaged.
+const REACH: usize = 2;
+
+/// How much liquid stands above each place, on a coarse grid.
+#[derive(Clone, Debug, Default)]
+pub struct DepthMap {
+    columns: usize,
+    rows: usize,
+    count: Vec<u32>,
+    /// Liquid above the row that is measured, d, and whether the cell right above it holds a body of liquid.
+    above: Vec<f32>,
+    body: Vec<bool>,
+    share: Vec<u8>,
+}
+
+impl DepthMap {
+    /// Measures a world; reuses the memory of the last one.
+    pub fn measure(&mut self, size: Vec2, particles: &Particles) {
+        self.columns = ((size.x / DEPTH_CELL).ceil() as usize).max(1);
+        self.rows = ((size.y / DEPTH_CELL).ceil() as usize).max(1);
+        let cells = self.columns * self.rows;
+        self.count.clear();
+        self.count.resize(cells, 0);
+        self.share.resize(cells, 0);
+        for (&x, &y) in particles.x.iter().zip(&particles.y) {
+            let column = ((x / DEPTH_CELL) as usize).min(self.columns - 1);
+            let row = ((y / DEPTH_CELL) as usize).min(self.rows - 1);
+            self.count[row * self.columns + column] += 1;
+        }
+        self.above.clear();
+        self.above.resize(self.columns, 0.0);
+        self.body.clear();
+        self.body.resize(self.columns, false);
+        for row in (0..self.rows).rev() {
+            self.measure_row(row);
+        }
+    }
+
+    /// Spray casts no shade. Neighbouring columns are averaged, so that the surface's noise doesn't stripe the water
+    /// below it; only those with liquid, so that the water isn't lighter beside rock. The cell below a body of liquid,
+    /// half full at its bottom, goes with it.
+    fn measure_row(&mut self, row: usize) {
+        let cells = row * self.columns..(row + 1) * self.columns;
+        let (counts, shares) = (&self.count[cells.clone()], &mut self.share[cells]);
+        for (column, share) in shares.iter_mut().enumerate() {
+            let (mut sum, mut parts) = (0.0, 0.0);
+            for k in column.saturating_sub(REACH)..(column + REACH + 1).min(counts.len()) {
+                if counts[k] >= SPRAY || self.body[k] {
+                    sum += self.above[k] + 0.5 * counts[k] as f32 / DEPTH_CELL;
+                    parts += 1.0;
+                }
+            }
+            let depth = if parts > 0.0 { sum / parts } else { 0.0 };
+            *share = (255.0 * depth / (depth + HALF_DEPTH)) as u8;
+        }
+        for (column, &count) in counts.iter().enumerate() {
+            self.body[column] = count >= SPRAY;
+            self.above[column] += if count >= SPRAY { count as f32 / DEPTH_CELL } else { 0.0 };
+        }
+    }
+
+    /// Columns and rows of the map.
+    pub fn dimensions(&self) -> (usize, usize) {
+        (self.columns, self.rows)
+    }
+
+    /// What the map covers, d: the box rounded up to whole cells.
+    pub fn extent(&self) -> Vec2 {
+        Vec2::new(self.columns as f32, self.rows as f32) * DEPTH_CELL
+    }
+
+    /// Depth shares of the cells, 0 … 255, row by row from the bottom.
+    pub fn shares(&self) -> &[u8] {
+        &self.share
+    }
+
+    /// Depth share at a point, 0 … 1, smooth between the cells.
+    pub fn at(&self, point: Vec2) -> f32 {
+        if self.share.is_empty() {
+            return 0.0;
+        }
+        let p = (point / DEPTH_CELL - 0.5).max(Vec2::ZERO);
+        let (column, row) = ((p.x as usize).min(self.columns - 1), (p.y as usize).min(self.rows - 1));
+        let (right, up) = ((column + 1).min(self.columns - 1), (row + 1).min(self.rows - 1));
+        let t = (p - Vec2::new(column as f32, row as f32)).clamp(Vec2::ZERO, Vec2::ONE);
+        let value = |c: usize, r: usize| f32::from(self.share[r * self.columns + c]) / 255.0;
+        let low = value(column, row) * (1.0 - t.x) + value(right, row) * t.x;
+        let high = value(column, up) * (1.0 - t.x) + value(right, up) * t.x;
+        low * (1.0 - t.y) + high * t.y
+    }
+}
+
+/// Distance from the rock's surface at which it is as dark as it gets, cells.
+const CORE: u8 = 14;
+
+/// How far inside rock each cell lies. The walls of the box count as rock.
+#[derive(Clone, Debug, Default)]
+pub struct BurialMap {
+    columns: i32,
+    /// Steps to the nearest open cell, at most [`CORE`]; a straight step counts 1, a diagonal one too.
+    steps: Vec<u8>,
+}
+
+impl BurialMap {
+    /// Measures the rock; reuses the memory of the last time.
+    pub fn measure(&mut self, solids: &Solids) {
+        let (columns, rows) = (solids.columns(), solids.rows());
+        self.columns = columns;
+        self.steps.clear();
+        self.steps.resize((columns * rows) as usize, 0);
+        for (cell, _, _) in solids.iter() {
+            self.steps[(cell.y * columns + cell.x) as usize] = CORE;
+        }
+        // Two sweeps: each cell is one step further than its nearest neighbour that the sweep has passed.
+        for y in 0..rows {
+            for x in 0..columns {
+                self.relax(x, y, [(-1, 0), (-1, -1), (0, -1), (1, -1)], rows);
+            }
+        }
+        for y in (0..rows).rev() {
+            for x in (0..columns).rev() {
+                self.relax(x, y, [(1, 0), (1, 1), (0, 1), (-1, 1)], rows);
+            }
+        }
+    }
+
+    fn relax(&mut self, x: i32, y: i32, neighbours: [(i32, i32); 4], rows: i32) {
+        let k = (y * self.columns + x) as usize;
+        if self.steps[k] == 0 {
+            return;
+        }
+        for (dx, dy) in neighbours {
+            let (x, y) = (x + dx, y + dy);
+            if x >= 0 && y >= 0 && x < self.columns && y < rows {
+                let next = self.steps[(y * self.columns + x) as usize] + 1;
+                self.steps[k] = self.steps[k].min(next);
+            }
+        }
+    }
+
+    /// How far inside the cell lies: 0 at the surface, 1 deep inside.
+    pub fn at(&self, cell: IVec2) -> f32 {
+        let k = (cell.y * self.columns + cell.x) as usize;
+        f32::from(self.steps.get(k).copied().unwrap_or(1).max(1) - 1) / f32::from(CORE - 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::element::ElementId;
+
+    #[test]
+    fn depth_grows_downwards_and_is_zero_in_empty_air() {
+        let mut particles = Particles::default();
+        for row in 0..40 {
+            for column in 0..40 {
+                let at = Vec2::new(column as f32 + 0.5, row as f32 + 0.5);
+                particles.push(row * 40 + column, ElementId(0), at, Vec2::ZERO);
+            }
+        }
+        let mut map = DepthMap::default();
+        map.measure(Vec2::new(40.0, 80.0), &particles);
+        let (deep, shallow, air) =
+            (map.at(Vec2::new(20.0, 2.0)), map.at(Vec2::new(20.0, 36.0)), map.at(Vec2::new(20.0, 70.0)));
+        assert!(deep > shallow + 0.3 && shallow > air, "{deep} {shallow} {air}");
+        assert_eq!(air, 0.0);
+    }
+
+    #[test]
+    fn rock_is_buried_deeper_further_from_open_cells_but_not_at_walls() {
+        let mut solids = Solids::new(40, 40);
+        for y in 0..30 {
+            for x in 0..40 {
+                solids.insert(IVec2::new(x, y), ElementId(0), (y * 40 + x) as u32);
+            }
+        }
+        let mut map = BurialMap::default();
+        map.measure(&solids);
+        let at = |x, y| map.at(IVec2::new(x, y));
+        assert_eq!(at(20, 29), 0.0);
+        assert!(at(20, 25) > at(20, 27) && at(20, 27) > at(20, 29));
+        assert_eq!(at(20, 0), 1.0);
+        assert_eq!(at(0, 29), 0.0);
+        assert_eq!(at(0, 0), 1.0, "the wall is no surface");
+    }
+}

@@ -1,0 +1,101 @@
+//! A monkey at the mouse, in every built-in scene: whatever it does, the world stays sound.
+
+use crate::support::{ROCK, Random, Sandbox, WATER};
+use glam::Vec2;
+use powder_master::{
+    kernel::{
+        brush::{BrushShape, Stroke},
+        params::Preset,
+        solids::Solids,
+    },
+    scene,
+    sim::{
+        control,
+        intent::Intent,
+        state::{AirGrid, Setup},
+    },
+};
+
+/// Anything that a player's tools can make, sensible or not.
+fn whim(random: &mut Random, size: Vec2) -> Intent {
+    let shape = [BrushShape::Disc, BrushShape::Square, BrushShape::Rectangle][random.index(3)];
+    // Now and then from outside the box.
+    let mut point = || random.point(size * 1.2) - size * 0.1;
+    let (from, to) = (point(), point());
+    let to = if shape == BrushShape::Rectangle { from + (to - from) * 0.15 } else { from + (to - from) * 0.3 };
+    let stroke = Stroke { shape, from, to, radius: random.within(0.0, 5.0) };
+    let element = if random.index(4) == 0 { ROCK } else { WATER };
+    match random.index(12) {
+        0..=4 => Intent::Draw { element, stroke },
+        5 => Intent::Stamp { element, stroke },
+        6 | 7 => Intent::Erase { stroke },
+        8 | 9 => Intent::Blow { stroke, velocity: (random.point(Vec2::ONE) - 0.5) * random.within(0.0, 2000.0) },
+        10 => Intent::Press { stroke, amount: random.within(-2.0, 5.0) },
+        _ if random.index(8) == 0 => Intent::ClearAir,
+        _ => Intent::Draw { element: WATER, stroke: Stroke { radius: 0.0, ..stroke } },
+    }
+}
+
+fn assert_sound(sandbox: &Sandbox, what: &str) {
+    let counters = sandbox.counters();
+    assert_eq!(counters.escaped, 0, "{what}: particles left the box or entered rock");
+    assert_eq!(counters.non_finite, 0, "{what}: particles stopped being numbers");
+    let particles = sandbox.particles();
+    let size = sandbox.get::<Setup>().blueprint.domain.size;
+    for i in 0..particles.len() {
+        let (at, velocity) = (particles.position(i), particles.velocity(i));
+        assert!(velocity.is_finite(), "{what}: {velocity}");
+        let inside = at.cmpge(Vec2::ZERO).all() && at.cmple(size).all();
+        assert!(inside && !sandbox.rock().is_solid(Solids::cell_of(at)), "{what}: a particle at {at}");
+    }
+    let mut ids = particles.id.clone();
+    ids.extend(sandbox.rock().iter().map(|(.., id)| id));
+    ids.sort_unstable();
+    assert!(ids.windows(2).all(|pair| pair[0] != pair[1]), "{what}: an id was given twice");
+    assert_eq!(sandbox.census().total as usize, ids.len(), "{what}: the count is wrong");
+    let air = sandbox.get::<AirGrid>();
+    assert!(air.mass().is_finite() && air.kinetic_energy().is_finite(), "{what}: the air is not finite");
+}
+
+#[test]
+fn no_whim_breaks_a_built_in_scene() {
+    let scenes = scene::builtin_names();
+    assert!(scenes.len() >= 8);
+    for (k, name) in scenes.into_iter().enumerate() {
+        // The largest scenes in a small form: what is tested is not their size.
+        let settings: &[(&str, &str)] = match name {
+            "dam_break" => &[("columns", "20")],
+            "empty" => &[("columns", "100"), ("rows", "60")],
+            _ => &[],
+        };
+        let mut sandbox = Sandbox::scene(name, settings);
+        let size = sandbox.get::<Setup>().blueprint.domain.size;
+        let mut random = Random::new(100 + k as u64);
+        for tick in 0..300 {
+            for _ in 0..random.index(4) {
+                sandbox.push(whim(&mut random, size));
+            }
+            if tick % 60 == 59 {
+                let preset = Preset::ALL[random.index(5)];
+                control::set_quality(sandbox.app.world_mut(), preset, preset.quality());
+            }
+            sandbox.tick(1);
+            if tick % 20 == 0 {
+                assert_sound(&sandbox, &format!("{name}, tick {tick}"));
+            }
+        }
+        assert_sound(&sandbox, name);
+    }
+}
+
+#[test]
+fn left_alone_every_built_in_scene_stays_sound() {
+    for name in scene::builtin_names() {
+        let settings: &[(&str, &str)] = if name == "dam_break" { &[("columns", "20")] } else { &[] };
+        let mut sandbox = Sandbox::scene(name, settings);
+        for _ in 0..4 {
+            sandbox.tick(25);
+            assert_sound(&sandbox, name);
+        }
+    }
+}

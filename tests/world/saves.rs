@@ -1,0 +1,104 @@
+//! Save files of whole worlds: they come back to the bit and go on as if nothing had been.
+
+use crate::support::{Random, Sandbox, WATER, blueprint};
+use glam::Vec2;
+use powder_master::{
+    kernel::{
+        brush::{BrushShape, Stroke},
+        params::Preset,
+    },
+    scene::blueprint::{Effect, Mode},
+    sim::{
+        control,
+        effects::Effects,
+        intent::Intent,
+        save,
+        state::{Clock, Setup},
+    },
+};
+
+fn pour(sandbox: &mut Sandbox, random: &mut Random, size: Vec2) {
+    let stroke = Stroke::dab(BrushShape::Disc, random.point(size), 3.0);
+    sandbox.push(Intent::Draw { element: WATER, stroke });
+    sandbox.push(Intent::Blow { stroke, velocity: random.point(Vec2::splat(60.0)) });
+}
+
+fn reload(world: &Sandbox) -> Sandbox {
+    let bytes = save::encode(world.app.world());
+    let mut other = Sandbox::scene("empty", &[("columns", "16"), ("rows", "16")]);
+    other.tick(3);
+    save::load(other.app.world_mut(), save::decode(&bytes).unwrap_or_else(|error| panic!("{error}")));
+    other
+}
+
+#[test]
+fn a_loaded_world_goes_on_to_the_bit() {
+    for (scene, settings) in [
+        ("dam_break", &[("columns", "14")][..]),
+        ("rest_density", &[]),
+        ("communicating_vessels", &[("left", "2")]),
+        ("wind_tunnel", &[]),
+        ("sealed_air", &[]),
+    ] {
+        let mut world = Sandbox::scene(scene, settings);
+        let size = world.get::<Setup>().blueprint.domain.size;
+        let mut random = Random::new(4);
+        for _ in 0..5 {
+            pour(&mut world, &mut random, size);
+            world.tick(6);
+        }
+        let mut loaded = reload(&world);
+        assert_eq!(loaded.hash(), world.hash(), "{scene}: the round trip changes the world");
+        assert_eq!(*loaded.get::<Clock>(), *world.get::<Clock>());
+        for sandbox in [&mut loaded, &mut world] {
+            let mut random = Random::new(5);
+            pour(sandbox, &mut random, size);
+            sandbox.tick(100);
+            pour(sandbox, &mut random, size);
+            sandbox.tick(100);
+        }
+        assert_eq!(loaded.hash(), world.hash(), "{scene}: a loaded world goes another way");
+    }
+}
+
+#[test]
+fn reset_goes_back_to_the_loaded_state() {
+    let mut world = Sandbox::scene("rest_density", &[]);
+    world.tick(50);
+    let mut loaded = reload(&world);
+    loaded.tick(40);
+    assert_ne!(loaded.hash(), world.hash());
+    control::reset(loaded.app.world_mut());
+    assert_eq!(loaded.hash(), world.hash(), "reset after a load goes elsewhere than to the loaded state");
+    assert_eq!(loaded.tick(40).hash(), world.tick(40).hash());
+}
+
+#[test]
+fn a_file_keeps_scene_quality_and_effects() {
+    let mut blueprint = blueprint("rest_density", &[("ratio", "2"), ("particle_limit", "1234")]);
+    blueprint.effects.insert(Effect::Tension, Mode::Off);
+    let mut world = Sandbox::of(blueprint);
+    let quality = powder_master::kernel::params::Quality { iterations: 7, ..Preset::Fine.quality() };
+    control::set_quality(world.app.world_mut(), Preset::Fine, quality);
+    world.get_mut::<Effects>().get_mut(Effect::Viscosity).mode = Mode::On;
+    world.tick(30);
+    let loaded = reload(&world);
+    let (before, after) = (world.get::<Setup>(), loaded.get::<Setup>());
+    assert_eq!((after.preset, after.quality), (Preset::Fine, quality));
+    assert_eq!(after.blueprint.parameters, before.blueprint.parameters);
+    assert_eq!(after.blueprint.fluid, before.blueprint.fluid);
+    assert_eq!(after.blueprint.particle_limit, 1234);
+    assert_eq!((&after.blueprint.name, &after.blueprint.title), (&before.blueprint.name, &before.blueprint.title));
+    assert_eq!(after.blueprint.elements, before.blueprint.elements);
+    assert_eq!(loaded.get::<Effects>().modes(), world.get::<Effects>().modes());
+}
+
+#[test]
+fn a_world_with_a_bad_particle_can_be_saved() {
+    let mut world = Sandbox::scene("dam_break", &[("columns", "6")]);
+    world.tick(5);
+    world.particles_mut().x[7] = f32::NAN;
+    let mut loaded = reload(&world);
+    assert_eq!(loaded.particles().len(), 71);
+    assert_eq!(loaded.tick(30).hash(), world.tick(30).hash());
+}

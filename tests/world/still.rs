@@ -1,0 +1,78 @@
+//! Water at rest stays at rest, and water that falls comes to it.
+
+use crate::support::{Sandbox, blueprint};
+use powder_master::{kernel::params::Preset, sim::state::SolverState};
+
+struct Rest {
+    /// Root of the mean square of the speeds, d a tick.
+    rms: f64,
+    /// Mean height over what it should be.
+    height: f64,
+    /// Mean of max(0, ρ − 1).
+    error: f64,
+    /// Distance to the nearest neighbour that 99 % of the particles keep, d.
+    gap: f32,
+}
+
+/// A still tank after some seconds.
+fn rest(preset: Preset, columns: u32, depth: u32, ticks: u32) -> Rest {
+    let mut blueprint = blueprint("hydrostatic", &[("columns", &columns.to_string()), ("depth", &depth.to_string())]);
+    (blueprint.preset, blueprint.quality) = (preset, preset.quality());
+    let mut sandbox = Sandbox::of(blueprint);
+    sandbox.tick(ticks);
+    let (mut rms, mut height, mut error) = (0.0, 0.0, 0.0);
+    for _ in 0..30 {
+        sandbox.tick(1);
+        let particles = sandbox.particles();
+        rms += sandbox.rms_speed() / 30.0;
+        let mean = particles.y.iter().map(|&y| f64::from(y)).sum::<f64>() / particles.len() as f64;
+        height += mean / (0.5 * f64::from(depth)) / 30.0;
+        let density = &sandbox.get::<SolverState>().density;
+        error += density.iter().map(|&d| f64::from((d - 1.0).max(0.0))).sum::<f64>() / density.len() as f64 / 30.0;
+    }
+    let particles = sandbox.particles();
+    let gap = |i: usize| {
+        let others = (0..particles.len()).filter(|&j| j != i);
+        others.map(|j| particles.position(i).distance(particles.position(j))).fold(f32::MAX, f32::min)
+    };
+    let mut gaps: Vec<f32> = (0..particles.len()).map(gap).collect();
+    gaps.sort_unstable_by(f32::total_cmp);
+    assert_eq!(sandbox.counters().escaped, 0);
+    Rest { rms, height, error, gap: gaps[gaps.len() / 100] }
+}
+
+#[test]
+fn still_water_stays_still() {
+    for preset in Preset::ALL {
+        let (size, ticks) = if preset == Preset::Reference { (20, 150) } else { (30, 300) };
+        let Rest { rms, height, error, gap } = rest(preset, size, size, ticks);
+        let name = preset.name();
+        // The plain method has no predictor: it simmers, and it gives way at the bottom.
+        let most = if preset.quality().predictor { (0.02, 0.02, 0.002, 0.6) } else { (0.15, 0.04, 0.05, 0.2) };
+        assert!(rms <= most.0, "{name}: the pool boils at {rms} d a tick");
+        assert!((height - 1.0).abs() <= most.1, "{name}: the pool stands at {height} of its height");
+        assert!(error <= most.2, "{name}: a mean density error of {error} at rest");
+        assert!(gap >= most.3, "{name}: one in a hundred is within {gap} d of another");
+    }
+}
+
+#[test]
+fn a_fallen_column_comes_to_rest_with_a_level_surface() {
+    for preset in [Preset::Draft, Preset::Balanced] {
+        let mut blueprint = blueprint("dam_break", &[("columns", "14")]);
+        (blueprint.preset, blueprint.quality) = (preset, preset.quality());
+        let mut sandbox = Sandbox::of(blueprint);
+        sandbox.tick(900);
+        let (name, particles) = (preset.name(), sandbox.particles());
+        assert!(sandbox.rms_speed() < 0.1, "{name}: still {} d a tick after 15 s", sandbox.rms_speed());
+        // 14 × 28 particles in a box 56 wide stand 7 high.
+        let surface = |low: f32| {
+            let column = (0..particles.len()).filter(|&i| (low..low + 7.0).contains(&particles.x[i]));
+            column.map(|i| particles.y[i]).fold(0.0, f32::max)
+        };
+        for k in 0..8 {
+            let height = surface(7.0 * k as f32);
+            assert!((5.0..9.0).contains(&height), "{name}: the surface stands at {height} d at x = {}", 7 * k);
+        }
+    }
+}
