@@ -16,20 +16,15 @@ pub(super) struct Conjugate {
     pub rows: Range<usize>,
     /// 1 in liquid cells, else 0.
     pub liquid: Vec<f32>,
-    /// In: right-hand side. During the solve: the residual.
-    pub right_side: Vec<f32>,
     /// In: first guess. Out: solution, d/s.
     pub solution: Vec<f32>,
     direction: Vec<f32>,
-    product: Vec<f32>,
 }
 
 impl Conjugate {
     /// Makes room for a grid.
     pub fn resize(&mut self, len: usize) {
-        for field in
-            [&mut self.liquid, &mut self.right_side, &mut self.solution, &mut self.direction, &mut self.product]
-        {
+        for field in [&mut self.liquid, &mut self.solution, &mut self.direction] {
             field.resize(len, 0.0);
         }
     }
@@ -49,24 +44,24 @@ impl Conjugate {
         }
     }
 
-    /// Solves the equation of the hierarchy's finest level.
+    /// Solves the equation of the hierarchy's finest level, whose right-hand side becomes the residual.
     #[inline(always)]
     pub fn solve(&mut self, hierarchy: &mut Hierarchy) -> PredictorReport {
-        let Self { right_side: residual, solution, direction, product, rows, .. } = self;
-        let stride = hierarchy.finest().stride;
-        let cells = rows.start * stride..rows.end * stride;
+        let Self { solution, direction, .. } = self;
+        let (stride, cells) = (hierarchy.finest().stride, hierarchy.finest().cells());
         // The operator reads one row below and one above.
         direction[cells.start - stride..cells.start].fill(0.0);
         direction[cells.end..cells.end + stride].fill(0.0);
-        let scale = dot(&residual[cells.clone()], &residual[cells.clone()]).max(1e-30);
-        hierarchy.finest().apply(solution, product);
-        let mut left = subtract(&mut residual[cells.clone()], 1.0, &product[cells.clone()]);
+        let finest = hierarchy.finest();
+        let scale = dot(&finest.b[cells.clone()], &finest.b[cells.clone()]).max(1e-30);
+        finest.apply(solution);
+        let mut left = subtract(&mut finest.b[cells.clone()], 1.0, &finest.work[cells.clone()]);
         let (mut iterations, mut last) = (0, 0.0);
         while iterations < MOST_ITERATIONS && left > TOLERANCE * TOLERANCE * scale {
-            hierarchy.finest().b[cells.clone()].copy_from_slice(&residual[cells.clone()]);
             hierarchy.cycle();
-            let preconditioned = &hierarchy.finest().x[cells.clone()];
-            let next = dot(&residual[cells.clone()], preconditioned);
+            let finest = hierarchy.finest();
+            let preconditioned = &finest.x[cells.clone()];
+            let next = dot(&finest.b[cells.clone()], preconditioned);
             if iterations == 0 {
                 direction[cells.clone()].copy_from_slice(preconditioned);
             } else {
@@ -76,8 +71,8 @@ impl Conjugate {
                 }
             }
             last = next;
-            hierarchy.finest().apply(direction, product);
-            let curvature = dot(&direction[cells.clone()], &product[cells.clone()]);
+            finest.apply(direction);
+            let curvature = dot(&direction[cells.clone()], &finest.work[cells.clone()]);
             if curvature <= 0.0 || !curvature.is_finite() {
                 break;
             }
@@ -85,7 +80,7 @@ impl Conjugate {
             for (solution, direction) in solution[cells.clone()].iter_mut().zip(&direction[cells.clone()]) {
                 *solution += step * *direction;
             }
-            left = subtract(&mut residual[cells.clone()], step, &product[cells.clone()]);
+            left = subtract(&mut finest.b[cells.clone()], step, &finest.work[cells.clone()]);
             iterations += 1;
         }
         if left.is_nan() || left > scale {
@@ -97,7 +92,7 @@ impl Conjugate {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        let fields = [&self.liquid, &self.right_side, &self.solution, &self.direction, &self.product];
+        let fields = [&self.liquid, &self.solution, &self.direction];
         4 * fields.iter().map(|field| field.capacity()).sum::<usize>()
     }
 }

@@ -157,14 +157,15 @@ pub(super) fn touch(
     }
 }
 
-/// Change and new velocity of faces; where the change is not known it is the mean of the neighbours'.
+/// Turns weight and velocity of faces into change and new velocity; where the change is not known it is the mean of the
+/// neighbours'.
 #[inline(always)]
-pub(super) fn fill_in(new: &mut [[f32; 2]], change: Around, known: Around, old: &[[f32; 2]]) {
-    for i in 0..new.len() {
+pub(super) fn fill_in(faces: &mut [[f32; 2]], change: Around, known: Around) {
+    for i in 0..faces.len() {
         let around = (known.left[i] + known.right[i]) + (known.lower[i] + known.upper[i]);
         let sum = (change.left[i] + change.right[i]) + (change.lower[i] + change.upper[i]);
         let filled = sum / if around > 0.5 { around } else { 0.5 };
         let gained = if known.centre[i] > 0.0 { change.centre[i] } else { filled };
-        new[i] = [gained, old[i][1] + gained];
+        faces[i] = [gained, faces[i][1] + gained];
     }
 }

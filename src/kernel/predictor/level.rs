@@ -25,10 +25,10 @@ pub(super) struct Level {
     pub upper: Vec<f32>,
     /// Unknowns.
     pub x: Vec<f32>,
-    /// Right-hand side.
+    /// Right-hand side. On the finest level, conjugate gradients keep their residual here.
     pub b: Vec<f32>,
-    /// Residual, and the next unknowns while smoothing.
-    pub residual: Vec<f32>,
+    /// What [`Level::apply`] or [`Level::find_residual`] found, and the next unknowns while smoothing.
+    pub work: Vec<f32>,
 }
 
 impl Level {
@@ -46,7 +46,7 @@ impl Level {
             upper: field(),
             x: field(),
             b: field(),
-            residual: field(),
+            work: field(),
         }
     }
 
@@ -61,7 +61,7 @@ impl Level {
             &mut self.upper,
             &mut self.x,
             &mut self.b,
-            &mut self.residual,
+            &mut self.work,
         ] {
             field[below.clone()].fill(0.0);
             field[above.clone()].fill(0.0);
@@ -83,18 +83,20 @@ impl Level {
         }
     }
 
-    /// `out = A x`.
+    /// Finds A x.
     #[inline(always)]
-    pub fn apply(&self, x: &[f32], out: &mut [f32]) {
-        self.for_each(x, out, |_, product, _, _| product);
+    pub fn apply(&mut self, x: &[f32]) {
+        let mut work = std::mem::take(&mut self.work);
+        self.for_each(x, &mut work, |_, product, _, _| product);
+        self.work = work;
     }
 
-    /// Finds b − A x.
+    /// Finds b − A x of the level's own unknowns.
     #[inline(always)]
     pub fn find_residual(&mut self) {
-        let mut residual = std::mem::take(&mut self.residual);
-        self.for_each(&self.x, &mut residual, |_, product, b, _| b - product);
-        self.residual = residual;
+        let mut work = std::mem::take(&mut self.work);
+        self.for_each(&self.x, &mut work, |_, product, b, _| b - product);
+        self.work = work;
     }
 
     /// The first Jacobi step, from x = 0.
@@ -109,9 +111,9 @@ impl Level {
     /// A Jacobi step.
     #[inline(always)]
     pub fn smooth(&mut self) {
-        let mut next = std::mem::take(&mut self.residual);
+        let mut next = std::mem::take(&mut self.work);
         self.for_each(&self.x, &mut next, |x, product, b, damped| x + damped * (b - product));
-        self.residual = std::mem::replace(&mut self.x, next);
+        self.work = std::mem::replace(&mut self.x, next);
     }
 
     /// Sets `out_c` to `value(x_c, (A x)_c, b_c, damped_c)` in every cell.

@@ -105,7 +105,7 @@ fn coarsen(fine: &Level, coarse: &mut Level) {
 #[inline(always)]
 fn restrict(fine: &Level, coarse: &mut Level) {
     for j in coarse.rows.clone() {
-        let [lower, upper] = pairs(&fine.residual, fine, coarse, j);
+        let [lower, upper] = pairs(&fine.work, fine, coarse, j);
         let out = j * coarse.stride + 1..j * coarse.stride + 1 + coarse.columns;
         for ((sum, lower), upper) in coarse.b[out].iter_mut().zip(lower).zip(upper) {
             *sum = (lower[0] + lower[1]) + (upper[0] + upper[1]);

@@ -48,7 +48,7 @@ struct Part {
 impl Pockets {
     /// Takes the mean of the right-hand side out of every pocket.
     #[inline(always)]
-    pub fn balance(&mut self, grid: &MacGrid, level: &Level, right_side: &mut [f32]) {
+    pub fn balance(&mut self, grid: &MacGrid, level: &mut Level) {
         if !may_be_sealed(level) {
             return;
         }
@@ -72,7 +72,7 @@ impl Pockets {
                 let part = &mut self.parts[label as usize];
                 part.cells += 1;
                 part.touches_air |= level.diagonal[k] - coupled > ROUNDING;
-                part.sum += f64::from(right_side[k]);
+                part.sum += f64::from(level.b[k]);
             }
         }
         self.gather();
@@ -86,7 +86,7 @@ impl Pockets {
                 }
                 let part = &self.parts[self.root(self.label[k]) as usize];
                 if !part.touches_air {
-                    right_side[k] -= (part.sum / f64::from(part.cells)) as f32;
+                    level.b[k] -= (part.sum / f64::from(part.cells)) as f32;
                 }
             }
         }

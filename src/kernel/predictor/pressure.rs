@@ -46,7 +46,7 @@ impl Pass for Projection<'_> {
             return;
         }
         assemble(grid, closed, faces, hierarchy.finest(), conjugate);
-        pockets.balance(grid, hierarchy.finest(), &mut conjugate.right_side);
+        pockets.balance(grid, hierarchy.finest());
         hierarchy.coarsen();
         *report = conjugate.solve(hierarchy);
         change_velocities(grid, closed, faces, conjugate);
@@ -96,7 +96,7 @@ fn mark_liquid(grid: &MacGrid, closed: &ClosedFaces, faces: &Faces, conjugate: &
 #[inline(always)]
 fn assemble(grid: &MacGrid, closed: &ClosedFaces, faces: &mut Faces, finest: &mut Level, conjugate: &mut Conjugate) {
     let (stride, feedback) = (grid.stride, FEEDBACK_PER_SECOND * grid.cell);
-    let Conjugate { liquid, right_side, rows, .. } = conjugate;
+    let Conjugate { liquid, rows, .. } = conjugate;
     let Faces { u, v, filled, steep_u, steep_v, .. } = faces;
     for (steep, step) in [(&mut *steep_u, 1), (&mut *steep_v, stride)] {
         for j in rows.start..rows.end + 1 {
@@ -114,7 +114,7 @@ fn assemble(grid: &MacGrid, closed: &ClosedFaces, faces: &mut Faces, finest: &mu
         let steep = Sides::new(steep_u, steep_v, cells.clone(), stride);
         let (diagonal, to_right) = (&mut finest.diagonal[cells.clone()], &mut finest.right[cells.clone()]);
         couple(diagonal, to_right, &mut finest.upper[cells.clone()], liquid, open, steep);
-        let right_side = &mut right_side[cells.clone()];
+        let right_side = &mut finest.b[cells.clone()];
         let rock = Around::new(&closed.rock, cells.clone(), stride);
         feed_back(right_side, liquid, rock, &filled[cells.clone()], feedback);
         subtract_divergence(right_side, liquid.centre, open, Sides::new(u, v, cells, stride));
@@ -125,12 +125,12 @@ fn assemble(grid: &MacGrid, closed: &ClosedFaces, faces: &mut Faces, finest: &mu
 #[inline(always)]
 fn change_velocities(grid: &MacGrid, closed: &ClosedFaces, faces: &mut Faces, conjugate: &Conjugate) {
     let Conjugate { liquid, solution: p, rows, .. } = conjugate;
-    let Faces { u, v, new_u, new_v, steep_u, steep_v, change, known, reached, .. } = faces;
+    let Faces { u, v, steep_u, steep_v, change, known, reached, .. } = faces;
     // Rows of faces that touch liquid, and with the layer around them.
     let touching = rows.start..rows.end + 1;
     let near = (rows.start - 1).max(1)..(rows.end + 2).min(grid.rows + 2);
-    let (along, up) = ((&*u, new_u, &closed.open_u, steep_u, 1), (&*v, new_v, &closed.open_v, steep_v, grid.stride));
-    for (old, new, open, steep, step) in [along, up] {
+    let (along, up) = ((u, &closed.open_u, steep_u, 1), (v, &closed.open_v, steep_v, grid.stride));
+    for (face, open, steep, step) in [along, up] {
         for field in [&mut *change, known] {
             field[grid.rows(near.start - 1..near.end + 1)].fill(0.0);
         }
@@ -138,20 +138,18 @@ fn change_velocities(grid: &MacGrid, closed: &ClosedFaces, faces: &mut Faces, co
             let cells = grid.row(j) + 1..grid.row(j) + 2 + grid.columns;
             let before = cells.start - step..cells.end - step;
             let (liquid, p) = ([&liquid[before.clone()], &liquid[cells.clone()]], [&p[before], &p[cells.clone()]]);
-            let (open, steep, old) = (&open[cells.clone()], &steep[cells.clone()], &old[cells.clone()]);
+            let (open, steep, old) = (&open[cells.clone()], &steep[cells.clone()], &face[cells.clone()]);
             touch(&mut known[cells.clone()], &mut change[cells], liquid, p, [open, steep], old);
         }
         for j in near.clone() {
             let cells = grid.rows(j..j + 1);
             let around = |field| Around::new(field, cells.clone(), grid.stride);
-            fill_in(&mut new[cells.clone()], around(change), around(known), &old[cells.clone()]);
+            fill_in(&mut face[cells.clone()], around(change), around(known));
         }
         // Away from the liquid nothing changes.
         for far in [reached.start..near.start.min(reached.end), near.end.max(reached.start)..reached.end] {
             let far = if far.is_empty() { 0..0 } else { grid.rows(far) };
-            for (new, old) in new[far.clone()].iter_mut().zip(&old[far]) {
-                *new = [0.0, old[1]];
-            }
+            face[far].iter_mut().for_each(|face| face[0] = 0.0);
         }
     }
 }

@@ -16,16 +16,13 @@ use std::ops::Range;
 /// Fields on the faces.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Faces {
-    /// Number of particles (as weights) and mean velocity, d/s, at the left faces.
+    /// At the left faces: number of particles (as weights) and mean velocity, d/s; after the solve change of velocity and
+    /// new velocity.
     pub u: Vec<[f32; 2]>,
     /// The same at the lower faces.
     pub v: Vec<[f32; 2]>,
     /// How full the cells are of liquid and rock, 1 at the density aimed at.
     pub filled: Vec<f32>,
-    /// Change of velocity and new velocity, d/s, at the left faces.
-    pub new_u: Vec<[f32; 2]>,
-    /// The same at the lower faces.
-    pub new_v: Vec<[f32; 2]>,
     /// How much steeper than between liquid cells the pressure falls at the left faces.
     pub steep_u: Vec<f32>,
     /// The same at the lower faces.
@@ -43,7 +40,7 @@ pub(super) struct Faces {
 impl Faces {
     /// Shares out the particles' velocities on the faces.
     pub fn collect(&mut self, grid: &MacGrid, particles: &Particles, instructions: InstructionSet, threads: usize) {
-        let Self { u, v, filled, new_u, new_v, steep_u, steep_v, change, known, reached, blocks } = self;
+        let Self { u, v, filled, steep_u, steep_v, change, known, reached, blocks } = self;
         let Particles { x, y, vx, vy, .. } = particles;
         blocks.partition(grid, y, instructions, threads);
         *reached = blocks.reached();
@@ -51,9 +48,6 @@ impl Faces {
         for field in [&mut *u, v] {
             field.resize(grid.len(), [0.0; 2]);
             field[near.clone()].fill([0.0; 2]);
-        }
-        for field in [new_u, new_v] {
-            field.resize(grid.len(), [0.0; 2]);
         }
         for field in [filled, steep_u, steep_v, change, known] {
             field.resize(grid.len(), 0.0);
@@ -83,7 +77,7 @@ impl Faces {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        let pairs = [&self.u, &self.v, &self.new_u, &self.new_v].iter().map(|field| field.capacity()).sum::<usize>();
+        let pairs = self.u.capacity() + self.v.capacity();
         let singles = [&self.filled, &self.steep_u, &self.steep_v, &self.change, &self.known];
         8 * pairs + 4 * singles.iter().map(|field| field.capacity()).sum::<usize>() + self.blocks.memory()
     }
@@ -190,9 +184,9 @@ impl Pass for HandBack<'_> {
         for at in (0..self.x.len()).step_by(LANES) {
             let (x, y) = (lanes(self.x, at), lanes(self.y, at));
             let count = (self.x.len() - at).min(LANES);
-            let gained = mean_of_faces(&faces.new_u, grid, &Stencils::new(grid, &x, &y, Axis::U), count);
+            let gained = mean_of_faces(&faces.u, grid, &Stencils::new(grid, &x, &y, Axis::U), count);
             change(&mut self.vx[at..at + count], &gained, blend);
-            let gained = mean_of_faces(&faces.new_v, grid, &Stencils::new(grid, &x, &y, Axis::V), count);
+            let gained = mean_of_faces(&faces.v, grid, &Stencils::new(grid, &x, &y, Axis::V), count);
             change(&mut self.vy[at..at + count], &gained, blend);
         }
     }
