@@ -205,15 +205,10 @@ impl Bins {
             let near_floor_or_top = bottom < grid.reach || bottom + 2.0 * grid.reach > grid.size.y;
             let (mut first, end) = (starts[row_start] as usize, starts[row_start + grid.columns] as usize);
             while first < end {
-                let (mut low, mut high) = (x[first], x[first]);
-                let mut next = first + 1;
-                while next < end && next - first < width {
-                    let (wider_low, wider_high) = (low.min(x[next]), high.max(x[next]));
-                    if wider_high - wider_low > span {
-                        break;
-                    }
-                    (low, high) = (wider_low, wider_high);
-                    next += 1;
+                let mut next = end.min(first + width);
+                let (mut low, mut high) = extent(&x[first..next]);
+                if high - low > span {
+                    (next, low, high) = shorter(x, first..next, span);
                 }
                 let columns = grid.columns_around(low, high);
                 let runs = |starts: &[u32]| {
@@ -289,6 +284,33 @@ impl RockBins {
             (self.x[place as usize], self.y[place as usize]) = (position.x, position.y);
         }
     }
+}
+
+/// Lowest and highest of at least one value.
+fn extent(values: &[f32]) -> (f32, f32) {
+    /// Values that are compared side by side.
+    const LANES: usize = 8;
+    let (mut low, mut high) = ([values[0]; LANES], [values[0]; LANES]);
+    for values in values.chunks(LANES) {
+        for ((low, high), &value) in low.iter_mut().zip(&mut high).zip(values) {
+            *low = if value < *low { value } else { *low };
+            *high = if value > *high { value } else { *high };
+        }
+    }
+    (low.into_iter().fold(values[0], f32::min), high.into_iter().fold(values[0], f32::max))
+}
+
+/// Cuts a range where its values would spread wider than `span`: its end, lowest and highest.
+fn shorter(x: &[f32], range: Range<usize>, span: f32) -> (usize, f32, f32) {
+    let (mut low, mut high) = (x[range.start], x[range.start]);
+    for next in range.clone() {
+        let (wider_low, wider_high) = (low.min(x[next]), high.max(x[next]));
+        if wider_high - wider_low > span {
+            return (next, low, high);
+        }
+        (low, high) = (wider_low, wider_high);
+    }
+    (range.end, low, high)
 }
 
 /// Finds the cells of a piece of the particles.

@@ -2,7 +2,7 @@
 //!
 //! What an entry gets never depends on where the pieces are cut, so the number of threads does not show in the result.
 
-use crate::kernel::bins::Group;
+use crate::kernel::{bins::Group, simd::InstructionSet};
 use std::ops::Range;
 
 /// Pieces a thread: some are denser than others, so there is something left to steal.
@@ -81,6 +81,45 @@ fn over_from(range: Range<usize>, piece: usize, work: &(impl Fn(Range<usize>) + 
     }
     let middle = range.start + range.len() / 2;
     rayon::join(|| over_from(range.start..middle, piece, work), || over_from(middle..range.end, piece, work));
+}
+
+/// Who does the work.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Team {
+    /// Lanes in use.
+    pub instructions: InstructionSet,
+    /// Threads to use.
+    pub threads: usize,
+}
+
+/// Runs `work` over pieces of a field that are whole rows of `stride` entries, of `fewest` entries or more, on up to
+/// `threads` threads of the current rayon pool. Each call gets the index of its first row and its rows.
+pub(crate) fn by_rows<T: Send>(
+    field: &mut [T],
+    stride: usize,
+    fewest: usize,
+    threads: usize,
+    work: &(impl Fn(usize, &mut [T]) + Sync),
+) {
+    by_rows_from(0, field, stride, piece(field.len(), threads, fewest).max(stride), work);
+}
+
+fn by_rows_from<T: Send>(
+    first: usize,
+    field: &mut [T],
+    stride: usize,
+    piece: usize,
+    work: &(impl Fn(usize, &mut [T]) + Sync),
+) {
+    if field.len() <= piece {
+        return work(first, field);
+    }
+    let half = field.len() / stride / 2;
+    let (lower, upper) = field.split_at_mut(half * stride);
+    rayon::join(
+        || by_rows_from(first, lower, stride, piece, work),
+        || by_rows_from(first + half, upper, stride, piece, work),
+    );
 }
 
 /// Entries that a piece has at most.

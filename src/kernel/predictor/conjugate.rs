@@ -1,6 +1,9 @@
 //! Preconditioned conjugate gradients.
 
-use crate::kernel::predictor::{PredictorReport, grid::MacGrid, multigrid::Hierarchy};
+use crate::kernel::{
+    parallel::Team,
+    predictor::{PredictorReport, grid::MacGrid, multigrid::Hierarchy},
+};
 use std::ops::Range;
 
 /// Iterations at most; one to three are usual.
@@ -46,7 +49,7 @@ impl Conjugate {
 
     /// Solves the equation of the hierarchy's finest level, whose right-hand side becomes the residual.
     #[inline(always)]
-    pub fn solve(&mut self, hierarchy: &mut Hierarchy) -> PredictorReport {
+    pub fn solve(&mut self, hierarchy: &mut Hierarchy, team: Team) -> PredictorReport {
         let Self { solution, direction, .. } = self;
         let (stride, cells) = (hierarchy.finest().stride, hierarchy.finest().cells());
         // The operator reads one row below and one above.
@@ -54,11 +57,11 @@ impl Conjugate {
         direction[cells.end..cells.end + stride].fill(0.0);
         let finest = hierarchy.finest();
         let scale = dot(&finest.b[cells.clone()], &finest.b[cells.clone()]).max(1e-30);
-        finest.apply(solution);
+        finest.apply(solution, team);
         let mut left = subtract(&mut finest.b[cells.clone()], 1.0, &finest.work[cells.clone()]);
         let (mut iterations, mut last) = (0, 0.0);
         while iterations < MOST_ITERATIONS && left > TOLERANCE * TOLERANCE * scale {
-            hierarchy.cycle();
+            hierarchy.cycle(team);
             let finest = hierarchy.finest();
             let preconditioned = &finest.x[cells.clone()];
             let next = dot(&finest.b[cells.clone()], preconditioned);
@@ -71,7 +74,7 @@ impl Conjugate {
                 }
             }
             last = next;
-            finest.apply(direction);
+            finest.apply(direction, team);
             let curvature = dot(&direction[cells.clone()], &finest.work[cells.clone()]);
             if curvature <= 0.0 || !curvature.is_finite() {
                 break;

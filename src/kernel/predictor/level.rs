@@ -1,11 +1,17 @@
 //! One level of the pressure equation: the operator and its smoother.
 
+use crate::kernel::{
+    parallel::{Team, by_rows},
+    simd::{Lanes, Pass},
+};
 use std::ops::Range;
 
 /// Damping of the Jacobi smoother.
 const DAMPING: f32 = 0.8;
 /// A coarse cell that is coupled to less than this is left out.
 const LEAST_DIAGONAL: f32 = 1e-3;
+/// Fewer cells than this are not handed to another thread: the operator takes a fraction of a nanosecond for each.
+const WORTH_A_PIECE: usize = 8192;
 
 /// The equation `diagonal x_c − Σ coupling x_n = b` on one level. Cells are indexed as in `MacGrid`. In the padding left
 /// and right all fields are 0.
@@ -84,18 +90,16 @@ impl Level {
     }
 
     /// Finds A x.
-    #[inline(always)]
-    pub fn apply(&mut self, x: &[f32]) {
+    pub fn apply(&mut self, x: &[f32], team: Team) {
         let mut work = std::mem::take(&mut self.work);
-        self.for_each(x, &mut work, |_, product, _, _| product);
+        self.for_each(x, &mut work, team, |_, product, _, _| product);
         self.work = work;
     }
 
     /// Finds b − A x of the level's own unknowns.
-    #[inline(always)]
-    pub fn find_residual(&mut self) {
+    pub fn find_residual(&mut self, team: Team) {
         let mut work = std::mem::take(&mut self.work);
-        self.for_each(&self.x, &mut work, |_, product, b, _| b - product);
+        self.for_each(&self.x, &mut work, team, |_, product, b, _| b - product);
         self.work = work;
     }
 
@@ -109,26 +113,50 @@ impl Level {
     }
 
     /// A Jacobi step.
-    #[inline(always)]
-    pub fn smooth(&mut self) {
+    pub fn smooth(&mut self, team: Team) {
         let mut next = std::mem::take(&mut self.work);
-        self.for_each(&self.x, &mut next, |x, product, b, damped| x + damped * (b - product));
+        self.for_each(&self.x, &mut next, team, |x, product, b, damped| x + damped * (b - product));
         self.work = std::mem::replace(&mut self.x, next);
     }
 
     /// Sets `out_c` to `value(x_c, (A x)_c, b_c, damped_c)` in every cell.
+    fn for_each(&self, x: &[f32], out: &mut [f32], team: Team, value: impl Fn(f32, f32, f32, f32) -> f32 + Sync) {
+        by_rows(&mut out[self.cells()], self.stride, WORTH_A_PIECE, team.threads, &|row, out| {
+            team.instructions.run(Rows { level: self, first: self.rows.start + row, x, out, value: &value });
+        });
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        7 * 4 * self.x.capacity()
+    }
+}
+
+/// Some rows of [`Level::for_each`].
+struct Rows<'a, V> {
+    level: &'a Level,
+    /// First row.
+    first: usize,
+    x: &'a [f32],
+    /// Out: the rows.
+    out: &'a mut [f32],
+    value: &'a V,
+}
+
+impl<V: Fn(f32, f32, f32, f32) -> f32> Pass for Rows<'_, V> {
     #[inline(always)]
-    fn for_each(&self, x: &[f32], out: &mut [f32], value: impl Fn(f32, f32, f32, f32) -> f32) {
-        let (s, n) = (self.stride, self.columns);
-        for j in self.rows.clone() {
+    fn run<L: Lanes>(self) {
+        let Self { level, first, x, out, value } = self;
+        let (s, n) = (level.stride, level.columns);
+        for (j, out) in (first..).zip(out.chunks_exact_mut(s)) {
             let o = j * s + 1;
             let (centre, left, right) = (&x[o..o + n], &x[o - 1..o - 1 + n], &x[o + 1..o + 1 + n]);
             let (lower, upper) = (&x[o - s..o - s + n], &x[o + s..o + s + n]);
-            let diagonal = &self.diagonal[o..o + n];
-            let (to_right, to_left) = (&self.right[o..o + n], &self.right[o - 1..o - 1 + n]);
-            let (to_upper, to_lower) = (&self.upper[o..o + n], &self.upper[o - s..o - s + n]);
-            let (b, damped) = (&self.b[o..o + n], &self.damped[o..o + n]);
-            for (i, out) in out[o..o + n].iter_mut().enumerate() {
+            let diagonal = &level.diagonal[o..o + n];
+            let (to_right, to_left) = (&level.right[o..o + n], &level.right[o - 1..o - 1 + n]);
+            let (to_upper, to_lower) = (&level.upper[o..o + n], &level.upper[o - s..o - s + n]);
+            let (b, damped) = (&level.b[o..o + n], &level.damped[o..o + n]);
+            for (i, out) in out[1..=n].iter_mut().enumerate() {
                 let product = diagonal[i] * centre[i]
                     - to_right[i] * right[i]
                     - to_left[i] * left[i]
@@ -137,10 +165,5 @@ impl Level {
                 *out = value(centre[i], product, b[i], damped[i]);
             }
         }
-    }
-
-    /// Bytes held.
-    pub fn memory(&self) -> usize {
-        7 * 4 * self.x.capacity()
     }
 }

@@ -22,7 +22,7 @@ mod rock;
 mod stencil;
 mod transfer;
 
-use crate::kernel::{params::Domain, particles::Particles, simd::InstructionSet, solids::Solids};
+use crate::kernel::{parallel::Team, params::Domain, particles::Particles, simd::InstructionSet, solids::Solids};
 use conjugate::Conjugate;
 use grid::MacGrid;
 use multigrid::Hierarchy;
@@ -114,6 +114,7 @@ impl Predictor {
             conjugate: &mut self.conjugate,
             pockets: &mut self.pockets,
             target: TARGET_DENSITY * params.rest_density,
+            team: Team { instructions: params.instructions, threads: params.threads },
             report: &mut report,
         });
         if report.liquid {

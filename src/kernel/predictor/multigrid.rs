@@ -1,7 +1,7 @@
 //! The multigrid V-cycle that preconditions the pressure equation: damped Jacobi, aggregation of 2 × 2 cells, Galerkin
 //! coarse operators, an over-weighted coarse correction (aggregation underestimates smooth corrections, Braess 1995).
 
-use crate::kernel::predictor::level::Level;
+use crate::kernel::{parallel::Team, predictor::level::Level};
 
 /// Weight of the coarse correction.
 const CORRECTION: f32 = 1.8;
@@ -43,27 +43,27 @@ impl Hierarchy {
 
     /// One V(2,2) cycle for the right-hand side in `finest().b`, from 0; the result is in `finest().x`.
     #[inline(always)]
-    pub fn cycle(&mut self) {
+    pub fn cycle(&mut self, team: Team) {
         let coarsest = self.levels.len() - 1;
         for depth in 0..coarsest {
             let (fine, coarse) = self.levels.split_at_mut(depth + 1);
             let (fine, coarse) = (&mut fine[depth], &mut coarse[0]);
             fine.smooth_from_zero();
-            fine.smooth();
-            fine.find_residual();
+            fine.smooth(team);
+            fine.find_residual(team);
             restrict(fine, coarse);
         }
         let level = &mut self.levels[coarsest];
         level.smooth_from_zero();
         for _ in 0..COARSEST_STEPS {
-            level.smooth();
+            level.smooth(team);
         }
         for depth in (0..coarsest).rev() {
             let (fine, coarse) = self.levels.split_at_mut(depth + 1);
             let (fine, coarse) = (&mut fine[depth], &coarse[0]);
             prolong(coarse, fine);
-            fine.smooth();
-            fine.smooth();
+            fine.smooth(team);
+            fine.smooth(team);
         }
     }
 

@@ -1,6 +1,7 @@
 //! The pressure equation: divergence and density feedback in, changes of face velocities out.
 
 use crate::kernel::{
+    parallel::Team,
     predictor::{
         PredictorReport,
         conjugate::Conjugate,
@@ -30,13 +31,14 @@ pub(super) struct Projection<'a> {
     pub pockets: &'a mut Pockets,
     /// Density that is aimed at, particles per d².
     pub target: f32,
+    pub team: Team,
     pub report: &'a mut PredictorReport,
 }
 
 impl Pass for Projection<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { grid, closed, faces, hierarchy, conjugate, pockets, target, report } = self;
+        let Self { grid, closed, faces, hierarchy, conjugate, pockets, target, team, report } = self;
         find_means(grid, closed, faces, target);
         conjugate.resize(grid.len());
         let rows = mark_liquid(grid, closed, faces, conjugate);
@@ -48,7 +50,7 @@ impl Pass for Projection<'_> {
         assemble(grid, closed, faces, hierarchy.finest(), conjugate);
         pockets.balance(grid, hierarchy.finest());
         hierarchy.coarsen();
-        *report = conjugate.solve(hierarchy);
+        *report = conjugate.solve(hierarchy, team);
         change_velocities(grid, closed, faces, conjugate);
     }
 }
