@@ -15,7 +15,7 @@ struct World {
     extent: vec4<f32>,
     // Pixels of one d; opacity of the liquid; 1 if it is shaded by depth and light, else 0; most that depth darkens.
     look: vec4<f32>,
-    // Radius of a blob, d; half-width of a streak, pixels; 1 if the air is shown; unused.
+    // Radius of a blob, d; half-width of a streak, pixels; 1 if the air is shown; scale of lines.
     pen: vec4<f32>,
     surroundings: vec4<f32>,
     box_top: vec4<f32>,
@@ -83,7 +83,7 @@ fn dither(pixel: vec2<f32>) -> f32 {
 @fragment
 fn backdrop_fragment(in: Screen) -> @location(0) vec4<f32> {
     let point = point_at(in.uv);
-    let out_pixels = outside_box(point);
+    let out_pixels = outside_box(point) / world.pen.w;
     let height = clamp(point.y / world.size.y, 0.0, 1.0);
     var inside = mix(world.box_bottom.rgb, world.box_top.rgb, height);
     inside *= 1.0 - 0.35 * exp2(min(out_pixels, 0.0) / 14.0);
@@ -127,11 +127,28 @@ fn blob_fragment(in: Blob) -> @location(0) vec4<f32> {
 
 // ---- the liquid's surface out of the field
 
+fn field_at(point: vec2<f32>) -> f32 {
+    let clip = point * world.to_clip.xy + world.to_clip.zw;
+    let uv = vec2<f32>(clip.x * 0.5 + 0.5, 0.5 - clip.y * 0.5);
+    return textureSampleLevel(field_texture, linear_sampler, uv, 0.0).a;
+}
+
+// What the walls reflect: a liquid that touches a wall ends there, not in drops before it.
+fn reflected(point: vec2<f32>) -> f32 {
+    let mirror = select(-point, 2.0 * world.size.xy - point, point > world.size.xy * 0.5);
+    let near = abs(mirror - point) < vec2<f32>(2.0 * world.pen.x);
+    let x = select(0.0, field_at(vec2<f32>(mirror.x, point.y)), near.x);
+    let y = select(0.0, field_at(vec2<f32>(point.x, mirror.y)), near.y);
+    return 1.0 - (1.0 - x) * (1.0 - y);
+}
+
 @fragment
 fn liquid_fragment(in: Screen) -> @location(0) vec4<f32> {
+    let point = point_at(in.uv);
     let field = textureSampleLevel(field_texture, linear_sampler, in.uv, 0.0);
-    let soft = clamp(fwidth(field.a) * 0.8, 0.02, 0.3);
-    if field.a < SURFACE - soft {
+    let alpha = 1.0 - (1.0 - field.a) * (1.0 - reflected(point));
+    let soft = clamp(fwidth(alpha) * 0.8, 0.02, 0.3);
+    if alpha < SURFACE - soft {
         discard;
     }
     let step = 1.25 / vec2<f32>(textureDimensions(field_texture));
@@ -139,8 +156,7 @@ fn liquid_fragment(in: Screen) -> @location(0) vec4<f32> {
     let right = textureSampleLevel(field_texture, linear_sampler, in.uv + vec2<f32>(step.x, 0.0), 0.0).a;
     let above = textureSampleLevel(field_texture, linear_sampler, in.uv - vec2<f32>(0.0, step.y), 0.0).a;
     let below = textureSampleLevel(field_texture, linear_sampler, in.uv + vec2<f32>(0.0, step.y), 0.0).a;
-    let point = point_at(in.uv);
-    let cover = smoothstep(SURFACE - soft, SURFACE + soft, field.a) * smoothstep(0.5, -0.5, outside_box(point));
+    let cover = smoothstep(SURFACE - soft, SURFACE + soft, alpha) * smoothstep(0.5, -0.5, outside_box(point));
     var rgb = field.rgb / max(field.a, 0.001);
 
     let shading = world.look.z;
@@ -149,7 +165,7 @@ fn liquid_fragment(in: Screen) -> @location(0) vec4<f32> {
     // The surface catches light from above and a little from the left.
     let slope = vec2<f32>(left - right, below - above);
     let facing = dot(slope, vec2<f32>(-0.35, 0.94)) / max(length(slope), 0.05);
-    let rim = 1.0 - smoothstep(SURFACE, 0.84, field.a);
+    let rim = 1.0 - smoothstep(SURFACE, 0.84, alpha);
     rgb += shading * rim * (0.05 + 0.26 * max(facing, 0.0) - 0.08 * max(-facing, 0.0));
 
     return vec4<f32>(to_linear(clamp(rgb, vec3<f32>(0.0), vec3<f32>(1.0))), cover * world.look.y);

@@ -23,6 +23,9 @@ use bevy_egui::{
     egui::{self, RichText, Ui, vec2},
 };
 
+/// Width of the window's contents, points.
+const WIDTH: f32 = 390.0;
+
 /// Shows the books.
 pub fn show(
     mut contexts: EguiContexts,
@@ -45,11 +48,14 @@ pub fn show(
     let place = (egui::Align2::LEFT_TOP, screen.left_top() + vec2(14.0, 54.0));
     style::window(context, "Details", &mut open, place, |ui| {
         egui::ScrollArea::vertical().min_scrolled_height(height).max_height(height).show(ui, |ui| {
+            ui.set_width(WIDTH);
             ui.spacing_mut().interact_size.y = 17.0;
             ui.spacing_mut().button_padding = vec2(6.0, 1.0);
             world(ui, &setup, &clock);
             ui.separator();
-            stages(ui, &ledger, &costs.0, &costs.1);
+            frame(ui, &costs.0, &costs.1);
+            ui.separator();
+            stages(ui, &ledger);
             ui.separator();
             switches(ui, &effects, &mut orders);
             ui.separator();
@@ -87,7 +93,15 @@ fn world(ui: &mut Ui, setup: &Setup, clock: &Clock) {
     )));
 }
 
-fn stages(ui: &mut Ui, ledger: &PassLedger, render: &RenderCost, hud: &HudCost) {
+fn frame(ui: &mut Ui, render: &RenderCost, hud: &HudCost) {
+    let (extract, upload) = render.milliseconds();
+    ui.label(weak(format!(
+        "a frame: picture {extract:.2} + {upload:.2} ms, HUD {:.2} ms of processor time",
+        hud.milliseconds()
+    )));
+}
+
+fn stages(ui: &mut Ui, ledger: &PassLedger) {
     egui::Grid::new("stages").num_columns(3).spacing([18.0, 3.0]).show(ui, |ui| {
         for heading in ["stage", "ms a tick", "calls"] {
             ui.label(weak(heading).small());
@@ -98,13 +112,6 @@ fn stages(ui: &mut Ui, ledger: &PassLedger, render: &RenderCost, hud: &HudCost) 
             line(ui, pass.name(), record.median().as_secs_f32() * 1000.0, Some(record.calls));
         }
         line(ui, "tick", ledger.tick().median().as_secs_f32() * 1000.0, Some(ledger.tick().calls));
-        let (extract, upload) = render.milliseconds();
-        ui.label(weak("frame").small());
-        ui.label(weak("ms a frame").small());
-        ui.end_row();
-        line(ui, "copy out", extract, None);
-        line(ui, "upload", upload, None);
-        line(ui, "HUD", hud.milliseconds, None);
     });
 }
 

@@ -103,12 +103,32 @@ impl HudState {
     }
 }
 
-/// Processor time of the last frame's HUD, without turning it into triangles.
-#[derive(Resource, Clone, Copy, Debug, Default)]
+/// Frames of which the cost is kept for the median.
+const HISTORY: usize = 64;
+
+/// Processor time of a frame's HUD, without turning it into triangles.
+#[derive(Resource, Clone, Debug, Default)]
 pub struct HudCost {
-    /// Milliseconds, smoothed over some frames.
-    pub milliseconds: f32,
+    recent: Vec<f32>,
+    next: usize,
     begun: Option<Instant>,
+}
+
+impl HudCost {
+    /// Median over the last frames, ms.
+    pub fn milliseconds(&self) -> f32 {
+        let mut sorted = self.recent.clone();
+        sorted.sort_unstable_by(f32::total_cmp);
+        sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+    }
+
+    fn note(&mut self, milliseconds: f32) {
+        match self.recent.get_mut(self.next) {
+            Some(slot) => *slot = milliseconds,
+            None => self.recent.push(milliseconds),
+        }
+        self.next = (self.next + 1) % HISTORY;
+    }
 }
 
 /// What a newcomer needs to know.
@@ -129,8 +149,7 @@ fn end(mut cost: ResMut<HudCost>, mut cover: ResMut<HudCover>, mut contexts: Egu
         note_cover(context, &mut cover);
     }
     if let Some(begun) = cost.begun.take() {
-        let now = begun.elapsed().as_secs_f32() * 1000.0;
-        cost.milliseconds += (now - cost.milliseconds) * 0.05;
+        cost.note(begun.elapsed().as_secs_f32() * 1000.0);
     }
 }
 

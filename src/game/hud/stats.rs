@@ -84,7 +84,9 @@ fn pace_readings(tempo: &Tempo, pace: &Pace, tick_ms: f32) -> Vec<Reading> {
     let late = tempo.lag.is_some();
     readings.push(reading(format!("{:.0}/{TICKS_PER_SECOND}", tempo.ticks_per_second), "ticks/s", late));
     if let Some(share) = tempo.lag {
-        readings.push(reading(format!("{:.1}×", share * pace.speed), "speed", true));
+        let speed = share * pace.speed;
+        let digits = if speed < 0.1 { 2 } else { 1 };
+        readings.push(reading(format!("{speed:.digits$}×"), "speed", true));
     } else if pace.speed != 1.0 {
         readings.push(reading(format!("{}×", pace.speed), "speed", false));
     }

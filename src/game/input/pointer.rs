@@ -130,13 +130,14 @@ impl Hand<'_> {
     /// A button goes up.
     pub fn release(&mut self, button: MouseButton) {
         let Some(pull) = self.held.pull().filter(|pull| pull.button == button) else { return };
+        let tools = self.tools.with(pull.tool);
         let stroke = match pull.gesture {
-            Gesture::Line => Some(self.tools.stroke(pull.start, pull.now)),
+            Gesture::Line => Some(tools.stroke(pull.start, pull.now)),
             Gesture::Rectangle => Some(Stroke::rectangle(pull.start, pull.now)),
             Gesture::Use | Gesture::Erase | Gesture::Fill | Gesture::Drag => None,
         };
         if let Some(stroke) = stroke {
-            self.intents.push(match self.tools.element() {
+            self.intents.push(match tools.element() {
                 Some(element) => Intent::Stamp { element, stroke },
                 None => Intent::Erase { stroke },
             });

@@ -19,9 +19,9 @@ use glam::Vec2;
 /// Time over which the speed of a drag is smoothed, s.
 const DRAG_MEMORY: f32 = 0.09;
 /// Speed of the wind for each unit of drag speed.
-const WIND_GAIN: f32 = 1.6;
-/// Most wind that a drag makes, in units of [`Reference::wind`].
-const WIND_LIMIT: f32 = 2.0;
+const WIND_GAIN: f32 = 2.5;
+/// Most wind that a drag makes, in units of [`Reference::wind`]: the speed of sound. Water takes off at some two units.
+const WIND_LIMIT: f32 = 5.0;
 /// A drag slower than this makes no wind, in units of [`Reference::wind`].
 const WIND_FLOOR: f32 = 0.02;
 /// Pressure that one tick of the pressure tool adds; the surroundings' is 1.
@@ -35,7 +35,7 @@ pub struct Pull {
     /// What it does.
     pub gesture: Gesture,
     /// With which tool: another choice before the release is for the next stroke.
-    tool: Tool,
+    pub tool: Tool,
     /// Which button.
     pub button: MouseButton,
     /// Where it was pressed, pixels.

@@ -11,7 +11,7 @@ const LEVELS: usize = 64;
 /// Position (two f32) and colour (four bytes) of a particle.
 pub type Blob = [u32; 3];
 
-/// A table of colours: a row of [`LEVELS`] for each element.
+/// A table of colours: a row for each element.
 #[derive(Clone, Debug, Default)]
 pub struct ColourTable {
     colours: Vec<u32>,

@@ -193,6 +193,8 @@ pub fn extract(
     picture.pixels_per_d = camera.pixels_per_d() * scale_factor;
     let (to_clip, offset) = camera.clip_transform();
     let air_extent = Vec2::new(air.columns() as f32, air.rows() as f32) * air.cell();
+    // Lines that suit a window of this height.
+    let lines = (picture.window.y as f32 / 900.0).max(scale_factor).max(1.0);
     let flag = |on: bool| if on { 1.0 } else { 0.0 };
     picture.uniform = WorldUniform {
         to_clip: two(to_clip, offset),
@@ -204,7 +206,7 @@ pub fn extract(
             flag(view == View::Elements),
             view::DEPTH_SHADE,
         ),
-        pen: Vec4::new(BLOB_RADIUS, 1.5 * scale_factor.max(1.0), flag(view.shows_air()), 0.0),
+        pen: Vec4::new(BLOB_RADIUS, 1.5 * lines, flag(view.shows_air()), lines),
         surroundings: srgb(view::SURROUNDINGS),
         box_top: srgb(view::BOX_TOP),
         box_bottom: srgb(view::BOX_BOTTOM),
