@@ -8,9 +8,19 @@
 //! by the correction limit. So no pair is missed, and since pairs beyond the kernel add exact zeros, neither the width of
 //! a group nor the search itself shows in the result.
 
-use crate::kernel::solids::{Solids, centre};
+#[cfg(test)]
+mod tests;
+
+use crate::kernel::{
+    parallel::spread,
+    simd::{InstructionSet, Lanes, Pass, whole_below},
+    solids::{Solids, centre},
+};
 use glam::Vec2;
-use std::ops::Range;
+use std::{
+    ops::Range,
+    sync::atomic::{AtomicU32, Ordering},
+};
 
 /// Columns in a strip's height: thin columns keep candidate runs short.
 const COLUMNS_PER_RADIUS: f32 = 4.0;
@@ -19,6 +29,8 @@ const MARGIN_ROUNDING: f32 = 1e-3;
 /// A group ends where its particles would spread wider than this many radii: in thin spray a wide group would draw in
 /// everything that lies between.
 const GROUP_SPAN_RADII: f32 = 8.0;
+/// Fewer particles than this a piece do not pay for another thread when their cells are looked up.
+const WORTH_A_LOOK: usize = 16_384;
 
 /// How neighbours are found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -30,13 +42,15 @@ pub enum Neighbours {
     Brute,
 }
 
-/// A run of consecutive particles with the runs of candidates that may touch any of them. 56 bytes.
+/// A run of consecutive particles with the runs of candidates that may touch any of them. 60 bytes.
 #[derive(Clone, Debug, Default)]
 pub struct Group {
     /// First particle.
     pub first: u32,
     /// Number of particles, at most the lane width.
     pub len: u32,
+    /// Whether the kernel of any of them may reach a wall of the box.
+    pub near_wall: bool,
     /// Movable candidates, one run a strip.
     pub movable: [Run; 3],
     /// Rock candidates, one run a strip.
@@ -74,6 +88,9 @@ impl Group {
 #[derive(Clone, Debug, Default)]
 pub struct Bins {
     grid: CellGrid,
+    /// Strips that hold particles.
+    strips: Range<usize>,
+    /// Index of the first particle of each cell, for those strips and the one above and below them.
     starts: Vec<u32>,
     keys: Vec<u32>,
     /// For each particle its place after the sort.
@@ -96,6 +113,7 @@ pub struct RockBins {
 /// Geometry of the cells: one empty strip below and one above the box.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct CellGrid {
+    size: Vec2,
     columns: usize,
     rows: usize,
     reach: f32,
@@ -107,6 +125,7 @@ impl CellGrid {
     fn new(size: Vec2, reach: f32) -> Self {
         let column = reach / COLUMNS_PER_RADIUS;
         Self {
+            size,
             columns: (size.x / column) as usize + 1,
             rows: (size.y / reach) as usize + 3,
             reach,
@@ -119,21 +138,22 @@ impl CellGrid {
         self.columns * self.rows
     }
 
-    #[inline]
-    fn column(&self, x: f32) -> usize {
-        // A negative or NaN coordinate becomes 0 in the cast.
-        ((x * self.per_column) as usize).min(self.columns - 1)
+    #[inline(always)]
+    fn column(&self, x: f32) -> u32 {
+        whole_below(x * self.per_column, 0, self.columns as u32 - 1).0
     }
 
-    #[inline]
+    #[inline(always)]
     fn cell(&self, x: f32, y: f32) -> u32 {
-        let row = ((y * self.per_row) as usize + 1).min(self.rows - 2);
-        (row * self.columns + self.column(x)) as u32
+        let row = whole_below(y * self.per_row + 1.0, 1, self.rows as u32 - 2).0;
+        row * self.columns as u32 + self.column(x)
     }
 
-    /// Columns that hold everything within reach of `low … high`. One more on each side covers rounding.
+    /// Columns that hold everything within reach of `low … high`. The column never falls where x rises, and the reach
+    /// has an allowance for the rounding of the sums here.
+    #[inline(always)]
     fn columns_around(&self, low: f32, high: f32) -> Range<usize> {
-        self.column(low - self.reach).saturating_sub(1)..(self.column(high + self.reach) + 2).min(self.columns)
+        self.column(low - self.reach) as usize..self.column(high + self.reach) as usize + 1
     }
 }
 
@@ -154,13 +174,23 @@ impl Bins {
 
     /// Counts the particles into cells and notes in `places` where each goes; the caller moves its arrays there.
     /// Within a cell the order stays.
-    pub fn sort(&mut self, x: &[f32], y: &[f32]) {
+    pub fn sort(&mut self, x: &[f32], y: &[f32], instructions: InstructionSet, threads: usize) {
         debug_assert_eq!(x.len(), y.len());
-        self.starts.clear();
-        self.starts.resize(self.grid.cells() + 1, 0);
-        self.keys.clear();
-        self.keys.extend(x.iter().zip(y).map(|(&x, &y)| self.grid.cell(x, y)));
-        count_into_places(&self.keys, &mut self.starts, &mut self.places);
+        let Self { grid, strips, starts, keys, places, .. } = self;
+        keys.resize(x.len(), 0);
+        let (lowest, highest) = (AtomicU32::new(u32::MAX), AtomicU32::new(0));
+        spread([&mut keys[..]], WORTH_A_LOOK, threads, &|base, [keys]| {
+            let [x, y] = [x, y].map(|from| &from[base..base + keys.len()]);
+            instructions.run(FindCells { grid, x, y, keys, lowest: &lowest, highest: &highest });
+        });
+        let strip_of = |key: u32| key as usize / grid.columns;
+        *strips = if x.is_empty() { 1..1 } else { strip_of(lowest.into_inner())..strip_of(highest.into_inner()) + 1 };
+        // Cells of the strips around those that hold particles are there, and empty.
+        let first = (strips.start - 1) * grid.columns;
+        starts.resize(grid.cells() + 1, 0);
+        let starts = &mut starts[first..(strips.end + 1) * grid.columns + 1];
+        starts.fill(0);
+        count_into_places(keys, first as u32, starts, places);
     }
 
     /// Builds the groups over the sorted particles, of at most `width` particles each.
@@ -171,19 +201,17 @@ impl Bins {
         }
         let (grid, starts, rock) = (&self.grid, &self.starts, &self.rock.starts);
         let span = GROUP_SPAN_RADII * grid.reach;
-        for row in 1..grid.rows - 1 {
+        for row in self.strips.clone() {
             let row_start = row * grid.columns;
+            // The strip reaches from `bottom` to one reach above it.
+            let bottom = (row - 1) as f32 * grid.reach;
+            let near_floor_or_top = bottom < grid.reach || bottom + 2.0 * grid.reach > grid.size.y;
             let (mut first, end) = (starts[row_start] as usize, starts[row_start + grid.columns] as usize);
             while first < end {
-                let (mut low, mut high) = (x[first], x[first]);
-                let mut next = first + 1;
-                while next < end && next - first < width {
-                    let (wider_low, wider_high) = (low.min(x[next]), high.max(x[next]));
-                    if wider_high - wider_low > span {
-                        break;
-                    }
-                    (low, high) = (wider_low, wider_high);
-                    next += 1;
+                let mut next = end.min(first + width);
+                let (mut low, mut high) = extent(&x[first..next]);
+                if high - low > span {
+                    (next, low, high) = shorter(x, first..next, span);
                 }
                 let columns = grid.columns_around(low, high);
                 let runs = |starts: &[u32]| {
@@ -195,6 +223,7 @@ impl Bins {
                 self.groups.push(Group {
                     first: first as u32,
                     len: (next - first) as u32,
+                    near_wall: near_floor_or_top || low < grid.reach || high > grid.size.x - grid.reach,
                     movable: runs(starts),
                     rock: if rock.is_empty() { Default::default() } else { runs(rock) },
                 });
@@ -209,6 +238,7 @@ impl Bins {
             self.groups.push(Group {
                 first: first as u32,
                 len: width.min(particles - first) as u32,
+                near_wall: true,
                 movable: all(particles),
                 rock: all(self.rock.x.len()),
             });
@@ -250,7 +280,7 @@ impl RockBins {
         let keys: Vec<u32> = positions.iter().map(|p| grid.cell(p.x, p.y)).collect();
         self.starts.resize(grid.cells() + 1, 0);
         let mut places = Vec::new();
-        count_into_places(&keys, &mut self.starts, &mut places);
+        count_into_places(&keys, 0, &mut self.starts, &mut places);
         self.x.resize(positions.len(), 0.0);
         self.y.resize(positions.len(), 0.0);
         for (position, place) in positions.iter().zip(places) {
@@ -259,15 +289,67 @@ impl RockBins {
     }
 }
 
-/// Counting sort: `starts` (zeros, one longer than the number of cells) becomes the first place of each cell, `places`
-/// the place of each entry.
-fn count_into_places(keys: &[u32], starts: &mut [u32], places: &mut Vec<u32>) {
+/// Lowest and highest of at least one value.
+fn extent(values: &[f32]) -> (f32, f32) {
+    /// Values that are compared side by side.
+    const LANES: usize = 8;
+    let (mut low, mut high) = ([values[0]; LANES], [values[0]; LANES]);
+    for values in values.chunks(LANES) {
+        for ((low, high), &value) in low.iter_mut().zip(&mut high).zip(values) {
+            *low = if value < *low { value } else { *low };
+            *high = if value > *high { value } else { *high };
+        }
+    }
+    (low.into_iter().fold(values[0], f32::min), high.into_iter().fold(values[0], f32::max))
+}
+
+/// Cuts a range where its values would spread wider than `span`: its end, lowest and highest.
+fn shorter(x: &[f32], range: Range<usize>, span: f32) -> (usize, f32, f32) {
+    let (mut low, mut high) = (x[range.start], x[range.start]);
+    for next in range.clone() {
+        let (wider_low, wider_high) = (low.min(x[next]), high.max(x[next]));
+        if wider_high - wider_low > span {
+            return (next, low, high);
+        }
+        (low, high) = (wider_low, wider_high);
+    }
+    (range.end, low, high)
+}
+
+/// Finds the cells of a piece of the particles.
+struct FindCells<'a> {
+    grid: &'a CellGrid,
+    x: &'a [f32],
+    y: &'a [f32],
+    /// Out: cells.
+    keys: &'a mut [u32],
+    /// Lowest and highest cell of all pieces.
+    lowest: &'a AtomicU32,
+    highest: &'a AtomicU32,
+}
+
+impl Pass for FindCells<'_> {
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let (mut lowest, mut highest) = (u32::MAX, 0);
+        for ((key, &x), &y) in self.keys.iter_mut().zip(self.x).zip(self.y) {
+            *key = self.grid.cell(x, y);
+            (lowest, highest) = (lowest.min(*key), highest.max(*key));
+        }
+        self.lowest.fetch_min(lowest, Ordering::Relaxed);
+        self.highest.fetch_max(highest, Ordering::Relaxed);
+    }
+}
+
+/// Counting sort: `starts` (zeros, one longer than the number of cells from `first_cell` on) becomes the first place of
+/// each cell, `places` the place of each entry.
+fn count_into_places(keys: &[u32], first_cell: u32, starts: &mut [u32], places: &mut Vec<u32>) {
     // Counts stand two cells ahead, so that after the running sum `starts[k + 1]` is the first place of cell k, and
     // handing out places moves it on to the first place of cell k + 1: the table ends up in place without a shift.
     let cells = starts.len() - 1;
     let mut last = 0;
     for &key in keys {
-        match starts.get_mut(key as usize + 2) {
+        match starts.get_mut((key - first_cell) as usize + 2) {
             Some(count) => *count += 1,
             None => last += 1,
         }
@@ -280,7 +362,7 @@ fn count_into_places(keys: &[u32], starts: &mut [u32], places: &mut Vec<u32>) {
     debug_assert_eq!(sum as usize + last, keys.len());
     places.clear();
     places.extend(keys.iter().map(|&key| {
-        let start = &mut starts[key as usize + 1];
+        let start = &mut starts[(key - first_cell) as usize + 1];
         *start += 1;
         *start - 1
     }));
@@ -294,93 +376,4 @@ pub(crate) fn permute<T: Copy + Default>(values: &mut Vec<T>, places: &[u32], sp
         spare[place as usize] = value;
     }
     std::mem::swap(values, spare);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::kernel::element::ElementId;
-
-    fn scattered(n: usize, size: Vec2) -> (Vec<f32>, Vec<f32>) {
-        let mut state = 12345_u32;
-        let mut random = || {
-            state ^= state << 13;
-            state ^= state >> 17;
-            state ^= state << 5;
-            state as f32 / u32::MAX as f32
-        };
-        (0..n).map(|_| (random() * size.x, random() * size.y)).unzip()
-    }
-
-    fn sorted(n: usize, size: Vec2, width: usize) -> (Bins, Vec<f32>, Vec<f32>) {
-        let (mut x, mut y) = scattered(n, size);
-        let mut bins = Bins::default();
-        let mut solids = Solids::new(size.x.ceil() as u32, size.y.ceil() as u32);
-        for k in 0..10 {
-            solids.insert(glam::IVec2::new(k, k / 2), ElementId(0), k as u32);
-        }
-        bins.lay(size, 2.5, 0.1, &solids);
-        bins.sort(&x, &y);
-        let mut spare = Vec::new();
-        permute(&mut x, &bins.places, &mut spare);
-        permute(&mut y, &bins.places, &mut spare);
-        bins.group(&x, width, Neighbours::Binned);
-        (bins, x, y)
-    }
-
-    #[test]
-    fn every_particle_is_in_exactly_one_group() {
-        for (n, width) in [(0, 16), (1, 16), (5, 1), (1000, 16), (777, 8)] {
-            let (bins, ..) = sorted(n, Vec2::new(50.0, 30.0), width);
-            let mut next = 0;
-            for group in bins.groups() {
-                assert_eq!(group.first as usize, next);
-                assert!(group.len as usize <= width && group.len > 0);
-                next += group.len as usize;
-            }
-            assert_eq!(next, n);
-        }
-    }
-
-    #[test]
-    fn no_pair_within_reach_is_missed() {
-        for size in [Vec2::new(50.0, 30.0), Vec2::new(3.0, 200.0), Vec2::new(200.0, 1.5), Vec2::new(1.0, 1.0)] {
-            let (bins, x, y) = sorted(600, size, 16);
-            for group in bins.groups() {
-                for i in group.particles() {
-                    for j in 0..x.len() {
-                        let near = (Vec2::new(x[i], y[i]) - Vec2::new(x[j], y[j])).length() < 2.7;
-                        let candidate = group.movable.iter().any(|run| run.range().contains(&j));
-                        assert!(candidate || !near, "{i} misses {j} in a box of {size}");
-                    }
-                    for j in 0..bins.rock().x.len() {
-                        let rock = Vec2::new(bins.rock().x[j], bins.rock().y[j]);
-                        let near = (Vec2::new(x[i], y[i]) - rock).length() < 2.7;
-                        assert!(!near || group.rock.iter().any(|run| run.range().contains(&j)), "{i} misses rock {j}");
-                    }
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn candidates_are_few() {
-        let size = Vec2::new(100.0, 100.0);
-        let (bins, x, _) = sorted(10_000, size, 16);
-        let candidates: usize = bins
-            .groups()
-            .iter()
-            .map(|g| g.len as usize * g.movable.iter().map(|r| r.range().len()).sum::<usize>())
-            .sum();
-        assert!(candidates / x.len() < 130, "{} candidates a particle", candidates / x.len());
-    }
-
-    #[test]
-    fn the_sort_is_stable_and_complete() {
-        let keys = [3, 0, 3, 1, 0, 3];
-        let (mut starts, mut places) = (vec![0; 5], Vec::new());
-        count_into_places(&keys, &mut starts, &mut places);
-        assert_eq!(places, [3, 0, 4, 2, 1, 5]);
-        assert_eq!(starts, [0, 2, 3, 3, 6]);
-    }
 }

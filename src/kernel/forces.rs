@@ -1,17 +1,26 @@
 //! Gravity and the drag of the air.
 
-use crate::kernel::{air::Air, element::ElementTable, particles::Particles, units::Scale};
+use crate::kernel::{
+    air::Air,
+    element::ElementTable,
+    parallel::{WORTH_A_PIECE, spread},
+    particles::Particles,
+    units::Scale,
+};
 use glam::Vec2;
 
+/// Fewer particles than this a piece do not pay for another thread: gravity is one addition.
+const WORTH_GRAVITY: usize = 65_536;
+/// Particles whose wind is looked up at a time.
+const BLOCK: usize = 64;
+
 /// Adds gravity (d/s²) over `dt` s.
-pub fn apply_gravity(gravity: Vec2, particles: &mut Particles, dt: f32) {
+pub fn apply_gravity(gravity: Vec2, particles: &mut Particles, threads: usize, dt: f32) {
     let change = gravity * dt;
-    for vx in &mut particles.vx {
-        *vx += change.x;
-    }
-    for vy in &mut particles.vy {
-        *vy += change.y;
-    }
+    spread([&mut particles.vx[..], &mut particles.vy[..]], WORTH_GRAVITY, threads, &|_, [vx, vy]| {
+        vx.iter_mut().for_each(|vx| *vx += change.x);
+        vy.iter_mut().for_each(|vy| *vy += change.y);
+    });
 }
 
 /// Drag of each element as `k` of `dv/dt = −k |v| v`, 1/d: `C / (ρ d²)` per metre, times d.
@@ -22,14 +31,24 @@ pub fn drag_rates(elements: &ElementTable, scale: Scale) -> Vec<f32> {
 /// Drags every particle towards the air at its place with `F = C v²`, v being its velocity relative to the air.
 ///
 /// `dv/dt = −k |v| v` has the exact solution `v / (1 + k |v| Δt)`, which neither overshoots nor reverses at any C.
-pub fn apply_drag(air: &Air, rates: &[f32], particles: &mut Particles, dt: f32) {
+pub fn apply_drag(air: &Air, rates: &[f32], particles: &mut Particles, threads: usize, dt: f32) {
     let quiet = air.is_quiet();
-    for i in 0..particles.len() {
-        let rate = rates[particles.element[i].index()];
-        let wind = if quiet { Vec2::ZERO } else { air.sample_velocity(particles.position(i)) };
-        let velocity = dragged(particles.velocity(i), wind, rate, dt);
-        (particles.vx[i], particles.vy[i]) = (velocity.x, velocity.y);
-    }
+    let Particles { x, y, vx, vy, element, .. } = particles;
+    spread([&mut vx[..], &mut vy[..]], WORTH_A_PIECE, threads, &|base, [vx, vy]| {
+        for (index, (vx, vy)) in vx.chunks_mut(BLOCK).zip(vy.chunks_mut(BLOCK)).enumerate() {
+            let own = base + index * BLOCK..base + index * BLOCK + vx.len();
+            let (mut wind_x, mut wind_y) = ([0.0; BLOCK], [0.0; BLOCK]);
+            if !quiet {
+                let (wind_x, wind_y) = (&mut wind_x[..vx.len()], &mut wind_y[..vx.len()]);
+                air.sample_velocities(&x[own.clone()], &y[own.clone()], wind_x, wind_y);
+            }
+            for (k, element) in element[own].iter().enumerate() {
+                let wind = Vec2::new(wind_x[k], wind_y[k]);
+                let velocity = dragged(Vec2::new(vx[k], vy[k]), wind, rates[element.index()], dt);
+                (vx[k], vy[k]) = (velocity.x, velocity.y);
+            }
+        }
+    });
 }
 
 /// Velocity after `dt` s of drag at `rate` 1/d in a wind.

@@ -6,8 +6,10 @@
 pub mod air;
 pub mod bins;
 pub mod brush;
+pub mod checks;
 pub mod element;
 pub mod forces;
+pub(crate) mod parallel;
 pub mod params;
 pub mod particles;
 pub mod pbf;

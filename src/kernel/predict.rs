@@ -1,17 +1,24 @@
 //! Prediction: where the velocities alone would take the particles, without passing through rock or walls.
 
 use crate::kernel::{
-    params::{Domain, Quality},
+    parallel::{WORTH_A_PIECE, spread},
+    params::{Domain, Quality, WALL_GAP},
     particles::Particles,
     pbf::Solver,
+    simd::{Lanes, Pass},
     solids::Solids,
 };
+use glam::Vec2;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Longest move of a substep, in kernel radii. Collision with rock is exact at any speed; what this bounds is how deep
 /// two streams can enter each other before the density constraint sees them: up to two kernel diameters each.
 const MOVE_RADII: f32 = 4.0;
 /// Substeps that a fast tick may take, as a multiple of the quality's.
 const SUBSTEP_GROWTH: u32 = 4;
+
+/// Particles that are done at a time.
+const BLOCK: usize = 64;
 
 /// What the limiters of the prediction did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -23,26 +30,23 @@ pub struct PredictReport {
 /// Substeps for a tick of `tick` s: the quality's, more if the fastest particle would move too far in one, up to four
 /// times the quality's.
 pub fn substeps(particles: &Particles, domain: &Domain, quality: &Quality, tick: f32) -> u32 {
-    let speed2 = |(vx, vy): (&f32, &f32)| vx * vx + vy * vy;
-    let fastest = particles.vx.iter().zip(&particles.vy).map(speed2).fold(0.0_f32, f32::max).sqrt();
+    let fastest = fastest(&particles.vx, &particles.vy);
     let fastest = fastest + domain.gravity.length() * tick;
     let wanted = (fastest * tick / (MOVE_RADII * quality.kernel_radius)).ceil();
     // A cast saturates, so that any speed gives a number.
     (wanted as u32).clamp(quality.substeps, quality.substeps * SUBSTEP_GROWTH)
 }
 
-/// Removes particles whose position or velocity is not a number or beyond all bounds; returns how many.
-pub fn remove_non_finite(particles: &mut Particles) -> usize {
-    /// Beyond this, in d or d/s, a value is a fault and not a motion.
-    const ABSURD: f32 = 1e9;
-    let sound = |value: f32| value.abs() < ABSURD;
-    let is_sound = |particles: &Particles, i: usize| {
-        sound(particles.x[i]) && sound(particles.y[i]) && sound(particles.vx[i]) && sound(particles.vy[i])
-    };
-    if (0..particles.len()).all(|i| is_sound(particles, i)) {
-        return 0;
+/// Speed of the fastest, d/s.
+fn fastest(vx: &[f32], vy: &[f32]) -> f32 {
+    let mut most = [0.0_f32; BLOCK];
+    for (vx, vy) in vx.chunks(BLOCK).zip(vy.chunks(BLOCK)) {
+        for ((most, vx), vy) in most.iter_mut().zip(vx).zip(vy) {
+            let speed2 = vx * vx + vy * vy;
+            *most = if speed2 > *most { speed2 } else { *most };
+        }
     }
-    particles.retain(is_sound)
+    most.into_iter().fold(0.0, f32::max).sqrt()
 }
 
 /// Predicts `x + v Δt` into the solver, cut to the longest move and swept against rock and box. Where that changed the
@@ -53,33 +57,110 @@ pub fn predict(
     solids: &Solids,
     domain: &Domain,
     quality: &Quality,
+    threads: usize,
     dt: f32,
 ) -> PredictReport {
-    let mut report = PredictReport::default();
+    let instructions = solver.instructions;
+    let rock = (solids.count() > 0).then_some(solids);
     let longest = MOVE_RADII * quality.kernel_radius;
-    let has_rock = solids.count() > 0;
-    solver.x.clear();
-    solver.y.clear();
-    for i in 0..particles.len() {
-        let from = particles.position(i);
-        let mut way = particles.velocity(i) * dt;
-        let length2 = way.x * way.x + way.y * way.y;
-        if length2 > longest * longest {
-            way *= longest / length2.sqrt();
-            (particles.vx[i], particles.vy[i]) = (way.x / dt, way.y / dt);
-            report.speed_clamps += 1;
-        }
-        let free = from + way;
-        let mut to = domain.keep_inside(free);
-        if has_rock {
-            to = solids.sweep(from, to);
-        }
-        if to != free {
-            let velocity = (to - from) / dt;
-            (particles.vx[i], particles.vy[i]) = (velocity.x, velocity.y);
-        }
-        solver.x.push(to.x);
-        solver.y.push(to.y);
+    let Particles { x, y, vx, vy, .. } = particles;
+    for array in [&mut solver.x, &mut solver.y] {
+        array.resize(x.len(), 0.0);
     }
-    report
+    let clamps = AtomicU64::new(0);
+    let arrays = [&mut vx[..], &mut vy[..], &mut solver.x[..], &mut solver.y[..]];
+    spread(arrays, WORTH_A_PIECE, threads, &|base, [vx, vy, to_x, to_y]| {
+        let [x, y] = [&*x, &*y].map(|from| &from[base..base + vx.len()]);
+        let clamps = &clamps;
+        instructions.run(Prediction {
+            domain,
+            rock,
+            longest,
+            dt,
+            from: [x, y],
+            velocity: [vx, vy],
+            to: [to_x, to_y],
+            clamps,
+        });
+    });
+    PredictReport { speed_clamps: clamps.into_inner() }
+}
+
+/// Predicts a piece of the particles.
+struct Prediction<'a> {
+    domain: &'a Domain,
+    /// Rock, if there is any.
+    rock: Option<&'a Solids>,
+    /// Longest move, d.
+    longest: f32,
+    dt: f32,
+    /// Positions, d.
+    from: [&'a [f32]; 2],
+    /// In and out: velocities, d/s; cut where they were too fast.
+    velocity: [&'a mut [f32]; 2],
+    /// Out: predicted positions, d.
+    to: [&'a mut [f32]; 2],
+    /// Counts the particles that were too fast.
+    clamps: &'a AtomicU64,
+}
+
+impl Pass for Prediction<'_> {
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Self { domain, rock, longest, dt, from: [x, y], velocity: [vx, vy], to: [to_x, to_y], clamps } = self;
+        let high = domain.highest();
+        for first in (0..x.len()).step_by(BLOCK) {
+            let own = first..x.len().min(first + BLOCK);
+            let (x, y, vx, vy) = (&x[own.clone()], &y[own.clone()], &mut vx[own.clone()], &mut vy[own.clone()]);
+            let (to_x, to_y) = (&mut to_x[own.clone()], &mut to_y[own]);
+            if let cut @ 1.. = cut_speeds(vx, vy, longest, dt) {
+                clamps.fetch_add(cut, Ordering::Relaxed);
+            }
+            let stopped_x = move_freely(x, vx, to_x, high.x, dt);
+            let stopped_y = move_freely(y, vy, to_y, high.y, dt);
+            if let Some(rock) = rock {
+                for k in 0..x.len() {
+                    let to = rock.sweep(Vec2::new(x[k], y[k]), Vec2::new(to_x[k], to_y[k]));
+                    (to_x[k], to_y[k]) = (to.x, to.y);
+                }
+            }
+            if stopped_x | stopped_y | rock.is_some() {
+                for k in 0..x.len() {
+                    if to_x[k] != x[k] + vx[k] * dt || to_y[k] != y[k] + vy[k] * dt {
+                        (vx[k], vy[k]) = ((to_x[k] - x[k]) / dt, (to_y[k] - y[k]) / dt);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Cuts speeds to `longest` d in `dt` s; returns how many it cut.
+#[inline(always)]
+fn cut_speeds(vx: &mut [f32], vy: &mut [f32], longest: f32, dt: f32) -> u64 {
+    let length2 = |vx: f32, vy: f32| (vx * dt) * (vx * dt) + (vy * dt) * (vy * dt);
+    let is_fast = |vx: f32, vy: f32| length2(vx, vy) > longest * longest;
+    if !vx.iter().zip(&*vy).fold(false, |any, (&vx, &vy)| any | is_fast(vx, vy)) {
+        return 0;
+    }
+    let mut count = 0;
+    for (vx, vy) in vx.iter_mut().zip(vy).filter(|(vx, vy)| is_fast(**vx, **vy)) {
+        let share = longest / length2(*vx, *vy).sqrt();
+        (*vx, *vy) = (*vx * share, *vy * share);
+        count += 1;
+    }
+    count
+}
+
+/// Where velocities take coordinates, kept inside the box; returns whether a wall stopped any.
+#[inline(always)]
+fn move_freely(from: &[f32], velocity: &[f32], to: &mut [f32], high: f32, dt: f32) -> bool {
+    let mut stopped = false;
+    for ((to, from), velocity) in to.iter_mut().zip(from).zip(velocity) {
+        let free = from + velocity * dt;
+        let at = if free > WALL_GAP { free } else { WALL_GAP };
+        *to = if at < high { at } else { high };
+        stopped |= *to != free;
+    }
+    stopped
 }

@@ -119,6 +119,22 @@ impl<const N: usize> Lanes for Array<N> {
     }
 }
 
+/// The whole number at or just below `at`, within `low …= high`, and what is left. What is not a number counts as low.
+///
+/// A cast would check its range lane by lane. Here the number is bounded first and then added to 2²³, where the spacing
+/// of single precision is 1: the low bits of the sum are the number, rounded. At a whole number either neighbour may
+/// come out, with all that is left or none; the result never falls where `at` rises. Bounds are at most 2²².
+#[inline(always)]
+pub(crate) fn whole_below(at: f32, low: u32, high: u32) -> (u32, f32) {
+    const ONES: f32 = 8_388_608.0;
+    let (low, high) = (low as f32, high as f32);
+    let middle = at - 0.5;
+    let middle = if middle > low { middle } else { low };
+    let middle = if middle < high { middle } else { high };
+    let sum = middle + ONES;
+    (sum.to_bits() - ONES.to_bits(), at - (sum - ONES))
+}
+
 /// Work that is generic over the lane width.
 pub(crate) trait Pass {
     /// Does the work. Implementations are `#[inline(always)]`, so that they are compiled for the caller's registers.

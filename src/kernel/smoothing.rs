@@ -53,9 +53,9 @@ impl Smoothing {
 
     /// Density of the half plane beyond a wall at distance `distance` d (0 … h), and the sum of `g(r) (x_i − x_j)` over
     /// it along the wall's normal. Both 0 from h on.
-    #[inline]
+    #[inline(always)]
     pub fn wall(&self, distance: f32) -> (f32, f32) {
-        self.walls.at(distance)
+        if distance >= self.radius { (0.0, 0.0) } else { self.walls.at(distance) }
     }
 
     /// The bare gradient weight g(r) in double precision.

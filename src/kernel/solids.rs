@@ -56,7 +56,12 @@ impl Solids {
 
     /// The cell of a point in d.
     pub fn cell_of(position: Vec2) -> IVec2 {
-        IVec2::new(position.x.floor() as i32, position.y.floor() as i32)
+        // Without a call of `floor`, which not every processor has in hardware.
+        let floor = |at: f32| {
+            let whole = at as i32;
+            whole.saturating_sub(i32::from(at < whole as f32))
+        };
+        IVec2::new(floor(position.x), floor(position.y))
     }
 
     /// Whether the cell is in the box.

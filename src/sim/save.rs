@@ -14,10 +14,10 @@ mod tests;
 use crate::{
     kernel::{
         air::Air,
+        checks::remove_non_finite,
         element::{Element, ElementId, ElementTable},
         params::{AirParams, Domain, FluidParams, Preset, Quality},
         particles::Particles,
-        predict::remove_non_finite,
         solids::Solids,
         units::Scale,
     },
@@ -123,7 +123,7 @@ pub fn encode(world: &World) -> Vec<u8> {
     let blueprint = &setup.blueprint;
     let Snapshot { mut particles, solids, air, pressure, sources, clock } = control::freeze(world);
     // The next tick would take them away; a file with them would be refused.
-    remove_non_finite(&mut particles);
+    remove_non_finite(&mut particles, 1);
     let rock =
         solids.iter().map(|(cell, element, id)| RockCell { column: cell.x as u32, row: cell.y as u32, element, id });
     seal(&Contents {

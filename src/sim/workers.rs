@@ -6,6 +6,9 @@ use std::sync::Arc;
 /// Fewer particles than this are done on one thread: handing them over costs more than it saves.
 const WORTH_SHARING: usize = 4_000;
 
+/// The same where a particle takes a fraction of a nanosecond: entering the pool takes some ten microseconds.
+const WORTH_SHARING_CHECKS: usize = 200_000;
+
 /// A pool of threads for the kernel's passes. By default rayon's own, with one thread a core.
 #[derive(Resource, Clone, Default)]
 pub struct Workers {
@@ -32,12 +35,18 @@ impl Workers {
         match &self.pool {
             Some(pool) if pool.current_num_threads() == 1 => work(1),
             Some(pool) => pool.install(|| work(pool.current_num_threads())),
-            None => work(rayon::current_num_threads()),
+            None if rayon::current_num_threads() == 1 => work(1),
+            None => rayon::scope(|_| work(rayon::current_num_threads())),
         }
     }
 
     /// [`Workers::run`] for work over `particles` particles: on one thread if they are few.
     pub fn run_for<T: Send>(&self, particles: usize, work: impl FnOnce(usize) -> T + Send) -> T {
         if particles < WORTH_SHARING { work(1) } else { self.run(work) }
+    }
+
+    /// [`Workers::run_for`] for a look at each particle.
+    pub fn run_checks<T: Send>(&self, particles: usize, work: impl FnOnce(usize) -> T + Send) -> T {
+        if particles < WORTH_SHARING_CHECKS { work(1) } else { self.run(work) }
     }
 }

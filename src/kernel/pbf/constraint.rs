@@ -3,7 +3,7 @@
 use crate::kernel::{
     bins::{Group, RockBins},
     params::{Domain, FluidParams},
-    pbf::{near_wall, wall_sums},
+    pbf::wall_sums,
     simd::{Lanes, Pass},
     smoothing::{Gradient, Smoothing},
 };
@@ -67,7 +67,7 @@ impl<G: Gradient> Pass for ConstraintPass<'_, G> {
                         let (gx, gy) = (g * dx, g * dy);
                         sums.gradient = [sums.gradient[0] + gx, sums.gradient[1] + gy];
                         if $movable {
-                            sums.others = sums.others + (gx * gx + gy * gy);
+                            sums.others = sums.others + g * g * r2;
                         }
                     }
                 };
@@ -80,7 +80,7 @@ impl<G: Gradient> Pass for ConstraintPass<'_, G> {
             }
             let mut density = sums.density * density_scale;
             let [mut gx, mut gy] = sums.gradient;
-            if near_wall(&self.x[own.clone()], &self.y[own.clone()], self.domain, self.smoothing.radius) {
+            if group.near_wall {
                 self.add_walls(own.clone(), [&mut density, &mut gx, &mut gy]);
             }
             let constraint = (density * per_rest - L::splat(1.0)).max(floor);

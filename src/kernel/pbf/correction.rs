@@ -3,7 +3,7 @@
 use crate::kernel::{
     bins::{Group, RockBins},
     params::{Domain, FluidParams, WALL_GAP},
-    pbf::{near_wall, wall_sums},
+    pbf::wall_sums,
     simd::{Lanes, Pass},
     smoothing::{Gradient, Smoothing},
 };
@@ -96,7 +96,7 @@ impl<G: Gradient, const TENSION: bool, const APART: bool> Pass for CorrectionPas
                     (sum_x, sum_y) = (sum_x + g * dx, sum_y + g * dy);
                 }
             }
-            if near_wall(&self.x[own.clone()], &self.y[own.clone()], self.domain, h_value) {
+            if group.near_wall {
                 let (mut lanes_x, mut lanes_y) = ([0.0_f32; 16], [0.0_f32; 16]);
                 for (lane, i) in own.clone().enumerate() {
                     let (_, push) = wall_sums(self.smoothing, self.domain, Vec2::new(self.x[i], self.y[i]));

@@ -7,15 +7,16 @@
 //! Who writes what: `predict` fills the predicted positions, [`Solver::bin`] sorts everything by cell,
 //! [`Solver::solve`] iterates on the predicted positions; `velocity` reads them.
 
+mod coincident;
 mod constraint;
 mod correction;
-pub(crate) mod parallel;
 #[cfg(test)]
 pub(crate) mod tests;
 
 use crate::kernel::{
     bins::{Bins, Neighbours, permute},
     element::ElementId,
+    parallel,
     params::{Domain, FluidParams, GradientKernel, Quality},
     particles::Particles,
     predictor::TARGET_DENSITY,
@@ -23,9 +24,11 @@ use crate::kernel::{
     smoothing::{Gradient, Rational, Smoothing, Spiky},
     solids::Solids,
 };
+use coincident::separate_coincident;
 use constraint::ConstraintPass;
 use correction::CorrectionPass;
 use glam::Vec2;
+use rayon::iter::{IntoParallelRefMutIterator, ParallelIterator};
 
 /// Positions under correction, densities, bins: what the solver keeps beside the particles. 45 bytes a particle and the
 /// bins. The arrays follow the order of the particles.
@@ -123,24 +126,50 @@ impl Solver {
 
     /// Sorts the particles and their predicted positions by cell and builds the groups. From here on the prediction is
     /// the anchor of the corrections.
-    pub fn bin(&mut self, particles: &mut Particles, solids: &Solids, domain: &Domain, quality: &Quality) {
+    pub fn bin(
+        &mut self,
+        particles: &mut Particles,
+        solids: &Solids,
+        domain: &Domain,
+        quality: &Quality,
+        threads: usize,
+    ) {
         if (self.smoothing.radius, self.smoothing.gradient) != (quality.kernel_radius, quality.gradient) {
             self.smoothing = Smoothing::new(quality.kernel_radius, quality.gradient);
         }
         self.bins.lay(domain.size, quality.kernel_radius, quality.correction_limit, solids);
-        self.bins.sort(&self.x, &self.y);
-        let places = &self.bins.places;
-        for array in
-            [&mut particles.x, &mut particles.y, &mut particles.vx, &mut particles.vy, &mut self.x, &mut self.y]
-        {
-            permute(array, places, &mut self.next_x);
-        }
-        permute(&mut particles.id, places, &mut self.spare_ids);
-        permute(&mut particles.element, places, &mut self.spare_elements);
-        separate_coincident(&particles.id, &mut self.x, &mut self.y, domain, solids);
+        self.bins.sort(&self.x, &self.y, self.instructions, threads);
+        self.follow_sort(particles, threads);
+        separate_coincident(&particles.id, &mut self.x, &mut self.y, self.instructions, domain, solids);
         self.bins.group(&self.x, self.instructions.width(), self.neighbours);
         self.anchor_x.clone_from(&self.x);
         self.anchor_y.clone_from(&self.y);
+    }
+
+    /// Moves everything to where the sort wants it, array by array: those that the solve will fill take what comes.
+    fn follow_sort(&mut self, particles: &mut Particles, threads: usize) {
+        let Self { bins: Bins { places, .. }, x, y, anchor_x, anchor_y, next_x, next_y, .. } = self;
+        let Particles { x: from_x, y: from_y, vx, vy, id, element } = particles;
+        let mut arrays = [
+            (x, next_x),
+            (y, next_y),
+            (from_x, anchor_x),
+            (from_y, anchor_y),
+            (vx, &mut self.lambda),
+            (vy, &mut self.density),
+        ];
+        let (spare_ids, spare_elements) = (&mut self.spare_ids, &mut self.spare_elements);
+        let mut move_names = || {
+            permute(id, places, spare_ids);
+            permute(element, places, spare_elements);
+        };
+        if threads > 1 {
+            let move_arrays = || arrays.par_iter_mut().for_each(|(values, spare)| permute(values, places, spare));
+            rayon::join(move_arrays, move_names);
+        } else {
+            arrays.iter_mut().for_each(|(values, spare)| permute(values, places, spare));
+            move_names();
+        }
     }
 
     /// Iterates the density constraint on the binned positions.
@@ -217,31 +246,6 @@ impl Solver {
     }
 }
 
-/// Particles at one point have no direction to part in (the spiky gradient is 0/0 there); equal ones among the last few
-/// of the sorted order are set apart by a small offset that only depends on the id. Rock and walls stop it. Where many are
-/// pressed into a corner of the rock, they stand on one point to the last bit; there it goes the other way.
-fn separate_coincident(id: &[u32], x: &mut [f32], y: &mut [f32], domain: &Domain, solids: &Solids) {
-    /// Closer than this in both coordinates counts as one point, d.
-    const COINCIDENT: f32 = 1e-4;
-    /// Largest offset in each coordinate, d.
-    const APART: f32 = 0.05;
-    /// Particles before it that each is compared with.
-    const LOOK_BACK: usize = 4;
-    let is_near = |a: Vec2, b: Vec2| (a - b).abs().max_element() < COINCIDENT;
-    for i in 1..x.len() {
-        let at = Vec2::new(x[i], y[i]);
-        if (i.saturating_sub(LOOK_BACK)..i).any(|j| is_near(at, Vec2::new(x[j], y[j]))) {
-            let mixed = mix(id[i]);
-            let offset = APART * Vec2::new(unit(mixed), unit(mixed >> 16));
-            let mut to = solids.sweep(at, domain.keep_inside(at + offset));
-            if is_near(at, to) {
-                to = solids.sweep(at, domain.keep_inside(at - offset));
-            }
-            (x[i], y[i]) = (to.x, to.y);
-        }
-    }
-}
-
 /// Scrambles a number (the finaliser of MurmurHash3), so that neighbouring ids point in unrelated directions.
 pub(crate) fn mix(mut word: u32) -> u32 {
     word ^= word >> 16;
@@ -269,11 +273,4 @@ pub(crate) fn wall_sums(smoothing: &Smoothing, domain: &Domain, position: Vec2) 
     let (density_x, push_x) = axis(position.x, domain.size.x);
     let (density_y, push_y) = axis(position.y, domain.size.y);
     (density_x + density_y - density_x * density_y, Vec2::new(push_x * (1.0 - density_y), push_y * (1.0 - density_x)))
-}
-
-/// Whether any of the points is within `reach` of a wall.
-#[inline(always)]
-pub(crate) fn near_wall(x: &[f32], y: &[f32], domain: &Domain, reach: f32) -> bool {
-    let inner = |at: f32, size: f32| at > reach && at < size - reach;
-    !x.iter().zip(y).all(|(&x, &y)| inner(x, domain.size.x) & inner(y, domain.size.y))
 }

@@ -1,6 +1,7 @@
 //! Geometry of the staggered grid.
 
 use glam::Vec2;
+use std::ops::Range;
 
 /// Rows and columns of cells with a ring of padding. Cell (i, j) with 1 ≤ i ≤ columns, 1 ≤ j ≤ rows has index
 /// `j · stride + i`; face u of that index is its left one, face v its lower one.
@@ -30,6 +31,12 @@ impl MacGrid {
     /// Length of a field.
     pub fn len(&self) -> usize {
         self.stride * (self.rows + 3)
+    }
+
+    /// The indices of rows.
+    #[inline(always)]
+    pub fn rows(&self, rows: Range<usize>) -> Range<usize> {
+        self.row(rows.start)..self.row(rows.end)
     }
 
     /// Index of cell (0, j).

@@ -7,18 +7,22 @@
 //! change of velocity comes back to the particles (Zhu & Bridson 2005, "Animating sand as a fluid"; McAdams et al. 2010
 //! for the solver). Two iterations of the constraint then do the detail, whatever the depth.
 //!
-//! Rooms: `grid` the geometry, `rock` what is closed, `transfer` particles to grid and back, `pressure` the equation,
-//! `pockets` where it is singular, `multigrid` and `conjugate` its solver.
+//! Rooms: `grid` the geometry, `rock` what is closed, `stencil`, `blocks` and `transfer` particles to grid and back,
+//! `pressure` and `equation` the equation, `pockets` where it is singular, `level`, `multigrid` and `conjugate` its solver.
 
+mod blocks;
 mod conjugate;
+mod equation;
 mod grid;
+mod level;
 mod multigrid;
 mod pockets;
 mod pressure;
 mod rock;
+mod stencil;
 mod transfer;
 
-use crate::kernel::{params::Domain, particles::Particles, simd::InstructionSet, solids::Solids};
+use crate::kernel::{parallel::Team, params::Domain, particles::Particles, simd::InstructionSet, solids::Solids};
 use conjugate::Conjugate;
 use grid::MacGrid;
 use multigrid::Hierarchy;
@@ -68,6 +72,8 @@ pub struct PredictorParams<'a> {
     pub rest_density: f32,
     /// Lanes in use.
     pub instructions: InstructionSet,
+    /// Threads to use.
+    pub threads: usize,
     /// Substep, s.
     pub dt: f32,
 }
@@ -90,15 +96,15 @@ impl Predictor {
     pub fn run(&mut self, particles: &mut Particles, solids: &Solids, params: &PredictorParams) -> PredictorReport {
         let grid = MacGrid::new(params.domain.size, params.cell);
         if self.grid != grid {
-            let mut pressure = std::mem::take(&mut self.conjugate.solution);
+            let pressure = std::mem::take(&mut self.conjugate.solution);
             let is_resumed = self.grid == MacGrid::default() && pressure.len() == grid.len();
             *self = Self { grid, hierarchy: Hierarchy::new(grid.columns, grid.rows), ..Self::default() };
             if is_resumed {
-                std::mem::swap(&mut self.conjugate.solution, &mut pressure);
+                self.conjugate.resume(pressure, 1..grid.rows + 1);
             }
         }
         self.closed.update(&grid, solids);
-        self.faces.collect(&grid, particles);
+        self.faces.collect(&grid, particles, params.instructions, params.threads);
         let mut report = PredictorReport::default();
         params.instructions.run(pressure::Projection {
             grid: &grid,
@@ -108,10 +114,17 @@ impl Predictor {
             conjugate: &mut self.conjugate,
             pockets: &mut self.pockets,
             target: TARGET_DENSITY * params.rest_density,
+            team: Team { instructions: params.instructions, threads: params.threads },
             report: &mut report,
         });
         if report.liquid {
-            self.faces.hand_back(&grid, particles, (BLEND_PER_SECOND * params.dt).min(1.0));
+            self.faces.hand_back(
+                &grid,
+                particles,
+                params.instructions,
+                params.threads,
+                (BLEND_PER_SECOND * params.dt).min(1.0),
+            );
         }
         report
     }

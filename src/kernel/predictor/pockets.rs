@@ -4,10 +4,28 @@
 //! to 0. The divergences do (what flows out of one cell flows into the next), the density feedback does not: a pocket
 //! that holds too much liquid can't get rid of it. So the mean of the right-hand side is taken out of each pocket.
 
-use crate::kernel::predictor::{grid::MacGrid, multigrid::Level};
+use crate::kernel::predictor::{grid::MacGrid, level::Level};
 
 /// Couplings that differ by less than this are equal: rounding of the sums of open shares.
 const ROUNDING: f32 = 1e-4;
+
+/// Whether any liquid may be sealed off. It is not if all that is under no liquid is open to air on some side: whoever
+/// goes up from any cell, as far as there is liquid, ends at such a cell.
+#[inline(always)]
+fn may_be_sealed(level: &Level) -> bool {
+    level.rows.clone().any(|j| {
+        let cells = j * level.stride + 1..j * level.stride + 1 + level.columns;
+        let (before, below) = (cells.start - 1..cells.end - 1, cells.start - level.stride..cells.end - level.stride);
+        let (right, upper) = (&level.right[cells.clone()], &level.upper[cells.clone()]);
+        let (left, lower, diagonal) = (&level.right[before], &level.upper[below], &level.diagonal[cells]);
+        let mut any = false;
+        for i in 0..diagonal.len() {
+            let coupled = left[i] + lower[i] + right[i] + upper[i];
+            any |= (diagonal[i] > 0.0) & (upper[i] == 0.0) & (diagonal[i] - coupled <= ROUNDING);
+        }
+        any
+    })
+}
 
 /// Labels of the connected parts. Buffers are kept.
 #[derive(Clone, Debug, Default)]
@@ -30,11 +48,14 @@ struct Part {
 impl Pockets {
     /// Takes the mean of the right-hand side out of every pocket.
     #[inline(always)]
-    pub fn balance(&mut self, grid: &MacGrid, level: &Level, right_side: &mut [f32]) {
+    pub fn balance(&mut self, grid: &MacGrid, level: &mut Level) {
+        if !may_be_sealed(level) {
+            return;
+        }
         self.label.resize(grid.len(), 0);
         self.parts.clear();
         let s = grid.stride;
-        for j in level.first..=level.last {
+        for j in level.rows.clone() {
             for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
                 if level.diagonal[k] == 0.0 {
                     continue;
@@ -51,21 +72,21 @@ impl Pockets {
                 let part = &mut self.parts[label as usize];
                 part.cells += 1;
                 part.touches_air |= level.diagonal[k] - coupled > ROUNDING;
-                part.sum += f64::from(right_side[k]);
+                part.sum += f64::from(level.b[k]);
             }
         }
         self.gather();
         if self.parts.iter().all(|part| part.touches_air) {
             return;
         }
-        for j in level.first..=level.last {
+        for j in level.rows.clone() {
             for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
                 if level.diagonal[k] == 0.0 {
                     continue;
                 }
                 let part = &self.parts[self.root(self.label[k]) as usize];
                 if !part.touches_air {
-                    right_side[k] -= (part.sum / f64::from(part.cells)) as f32;
+                    level.b[k] -= (part.sum / f64::from(part.cells)) as f32;
                 }
             }
         }

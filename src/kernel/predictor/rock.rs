@@ -3,14 +3,21 @@
 use crate::kernel::{
     predictor::{
         grid::MacGrid,
-        transfer::{Axis, Stencil},
+        stencil::{Axis, faces_around},
     },
     solids::{Solids, centre},
 };
 use glam::IVec2;
+use std::ops::Range;
 
 /// A face that is less open than this is closed: the equation would be stiff, and nothing passes.
 const LEAST_OPEN: f32 = 0.1;
+/// A cell is liquid from this share of its open room on.
+const LIQUID_SHARE: f32 = 0.5;
+/// A cell with more rock than this is not solved for.
+const ROCK_SHARE: f32 = 0.9;
+/// A cell that is open to less than this has nowhere to go.
+const LEAST_ROOM: f32 = 0.05;
 
 /// Rock as the grid sees it; follows the rock's version.
 #[derive(Clone, Debug, Default)]
@@ -20,8 +27,10 @@ pub(super) struct ClosedFaces {
     pub open_u: Vec<f32>,
     /// Open share of the lower face of each cell.
     pub open_v: Vec<f32>,
-    /// Share of rock around each cell, smeared as the liquid's density is, 0 … 1.
+    /// Share of rock around each cell, smeared as the liquid's density is, 0 … 1; 1 in the padding.
     pub rock: Vec<f32>,
+    /// Share of each cell from which it is liquid, its rock counted in; infinite where there is nothing to solve.
+    pub liquid_from: Vec<f32>,
 }
 
 impl ClosedFaces {
@@ -31,7 +40,7 @@ impl ClosedFaces {
             return;
         }
         self.built_for = Some(solids.version());
-        for field in [&mut self.open_u, &mut self.open_v, &mut self.rock] {
+        for field in [&mut self.open_u, &mut self.open_v, &mut self.rock, &mut self.liquid_from] {
             field.clear();
             field.resize(grid.len(), 0.0);
         }
@@ -48,7 +57,19 @@ impl ClosedFaces {
                 }
             }
         }
+        self.rock.fill(1.0);
+        for j in 1..=grid.rows {
+            self.rock[grid.row(j) + 1..=grid.row(j) + grid.columns].fill(0.0);
+        }
         self.smear_rock(grid, solids);
+        for j in 1..=grid.rows {
+            for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
+                let room = self.open_u[k] + self.open_u[k + 1] + self.open_v[k] + self.open_v[k + grid.stride];
+                let solved = self.rock[k] < ROCK_SHARE && room >= LEAST_ROOM;
+                let least = LIQUID_SHARE * (1.0 - self.rock[k]) + self.rock[k];
+                self.liquid_from[k] = if solved { least } else { f32::INFINITY };
+            }
+        }
     }
 
     /// Rock particles share out their volume as liquid particles do, so that rock and liquid side by side add up to 1.
@@ -59,10 +80,10 @@ impl ClosedFaces {
         let (mut u, mut v) = (vec![0.0; grid.len()], vec![0.0; grid.len()]);
         for (cell, ..) in solids.iter() {
             let at = centre(cell);
-            Stencil::new(grid, at.x, at.y, Axis::U).add(&mut u, grid.stride, |value, weight| *value += weight);
-            Stencil::new(grid, at.x, at.y, Axis::V).add(&mut v, grid.stride, |value, weight| *value += weight);
+            faces_around(grid, at.x, at.y, Axis::U, |face, weight| u[face] += weight);
+            faces_around(grid, at.x, at.y, Axis::V, |face, weight| v[face] += weight);
         }
-        fold_at_walls(grid, &mut u, &mut v);
+        fold_at_walls(grid, 0..grid.rows + 2, &mut u, &mut v);
         let share = 0.25 * grid.per_cell * grid.per_cell;
         for j in 1..=grid.rows {
             for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
@@ -74,7 +95,8 @@ impl ClosedFaces {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        4 * (self.open_u.capacity() + self.open_v.capacity() + self.rock.capacity())
+        let fields = [&self.open_u, &self.open_v, &self.rock, &self.liquid_from];
+        4 * fields.iter().map(|field| field.capacity()).sum::<usize>()
     }
 }
 
@@ -95,26 +117,28 @@ fn open_share(grid: &MacGrid, start: f32, solid: impl Fn(i32, i32) -> bool, plan
 }
 
 /// What was shared out beyond a wall belongs to this side of it; a face on the wall sees only half of its surroundings.
-pub(super) fn fold_at_walls<T: Foldable>(grid: &MacGrid, u: &mut [T], v: &mut [T]) {
+/// `reached` are the rows that were shared out to.
+pub(super) fn fold_at_walls<T: Foldable>(grid: &MacGrid, reached: Range<usize>, u: &mut [T], v: &mut [T]) {
     let (s, columns, rows) = (grid.stride, grid.columns, grid.rows);
     for i in 0..=columns + 1 {
-        u[s + i].add(u[i]);
-        let beyond = u[(rows + 1) * s + i];
-        u[rows * s + i].add(beyond);
+        if reached.start == 0 {
+            u[s + i].add(u[i]);
+        }
+        if reached.end > rows + 1 {
+            let beyond = u[(rows + 1) * s + i];
+            u[rows * s + i].add(beyond);
+        }
     }
-    for j in 0..=rows + 1 {
+    for j in reached.clone() {
         let beyond = v[j * s];
         v[j * s + 1].add(beyond);
         let beyond = v[j * s + columns + 1];
         v[j * s + columns].add(beyond);
-    }
-    for j in 1..=rows {
         u[j * s + 1].double();
         u[j * s + columns + 1].double();
     }
-    for i in 1..=columns {
-        v[s + i].double();
-        v[(rows + 1) * s + i].double();
+    for wall in [1, rows + 1].into_iter().filter(|wall| reached.contains(wall)) {
+        v[wall * s + 1..=wall * s + columns].iter_mut().for_each(Foldable::double);
     }
 }
 

@@ -1,85 +1,28 @@
 //! Particles to grid and back, with bilinear weights.
 
 use crate::kernel::{
+    parallel::{WORTH_A_PIECE, spread},
     particles::Particles,
-    predictor::{grid::MacGrid, rock::fold_at_walls},
+    predictor::{
+        blocks::Blocks,
+        grid::MacGrid,
+        rock::fold_at_walls,
+        stencil::{Axis, LANES, Stencils},
+    },
+    simd::{InstructionSet, Lanes, Pass},
 };
-
-/// Which faces.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Axis {
-    /// Left faces: they stand on columns' edges and rows' middles.
-    U,
-    /// Lower faces: they stand on columns' middles and rows' edges.
-    V,
-}
-
-/// The four faces around a point: index of the lower left one, and the shares of the right and upper ones.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Stencil {
-    corner: usize,
-    right: f32,
-    upper: f32,
-}
-
-impl Stencil {
-    /// The faces around a point, d.
-    #[inline(always)]
-    pub fn new(grid: &MacGrid, x: f32, y: f32, axis: Axis) -> Self {
-        let (x, y) = (x * grid.per_cell + 1.0, y * grid.per_cell + 1.0);
-        let on_edge = |at: f32, cells: usize| {
-            let index = (at as i32).clamp(1, cells as i32);
-            (index as usize, at - index as f32)
-        };
-        let on_middle = |at: f32, cells: usize| {
-            let index = ((at - 0.5) as i32).clamp(0, cells as i32);
-            (index as usize, at - 0.5 - index as f32)
-        };
-        let ((i, right), (j, upper)) = match axis {
-            Axis::U => (on_edge(x, grid.columns), on_middle(y, grid.rows)),
-            Axis::V => (on_middle(x, grid.columns), on_edge(y, grid.rows)),
-        };
-        Self { corner: grid.row(j) + i, right, upper }
-    }
-
-    /// Calls `add(entry, weight)` for the four entries of a field.
-    #[inline(always)]
-    pub fn add<T>(&self, field: &mut [T], stride: usize, add: impl Fn(&mut T, f32)) {
-        let (left, lower) = (1.0 - self.right, 1.0 - self.upper);
-        let [a, b] = &mut field[self.corner..self.corner + 2] else { return };
-        add(a, left * lower);
-        add(b, self.right * lower);
-        let above = self.corner + stride;
-        let [a, b] = &mut field[above..above + 2] else { return };
-        add(a, left * self.upper);
-        add(b, self.right * self.upper);
-    }
-
-    /// The bilinear mean of a field of pairs.
-    #[inline(always)]
-    fn mean(&self, field: &[[f32; 2]], stride: usize) -> [f32; 2] {
-        let (left, lower) = (1.0 - self.right, 1.0 - self.upper);
-        let above = self.corner + stride;
-        let (a, b, c, d) = (field[self.corner], field[self.corner + 1], field[above], field[above + 1]);
-        let mean =
-            |k: usize| lower * (left * a[k] + self.right * b[k]) + self.upper * (left * c[k] + self.right * d[k]);
-        [mean(0), mean(1)]
-    }
-}
+use std::ops::Range;
 
 /// Fields on the faces.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Faces {
-    /// Number of particles (as weights) and mean velocity, d/s, at the left faces.
+    /// At the left faces: number of particles (as weights) and mean velocity, d/s; after the solve change of velocity and
+    /// new velocity.
     pub u: Vec<[f32; 2]>,
     /// The same at the lower faces.
     pub v: Vec<[f32; 2]>,
-    /// Density at the cells, particles per d².
-    pub density: Vec<f32>,
-    /// Change of velocity and new velocity, d/s, at the left faces.
-    pub new_u: Vec<[f32; 2]>,
-    /// The same at the lower faces.
-    pub new_v: Vec<[f32; 2]>,
+    /// How full the cells are of liquid and rock, 1 at the density aimed at.
+    pub filled: Vec<f32>,
     /// How much steeper than between liquid cells the pressure falls at the left faces.
     pub steep_u: Vec<f32>,
     /// The same at the lower faces.
@@ -88,52 +31,199 @@ pub(super) struct Faces {
     pub change: Vec<f32>,
     /// See `change`.
     pub known: Vec<f32>,
+    /// Rows that a particle reaches. `u` and `v` are 0 in the two rows on either side; what is in all fields beyond is
+    /// left from before.
+    pub reached: Range<usize>,
+    blocks: Blocks,
 }
 
 impl Faces {
     /// Shares out the particles' velocities on the faces.
-    pub fn collect(&mut self, grid: &MacGrid, particles: &Particles) {
-        let Self { u, v, density, new_u, new_v, steep_u, steep_v, change, known } = self;
-        for field in [&mut *u, v, new_u, new_v] {
-            field.clear();
+    pub fn collect(&mut self, grid: &MacGrid, particles: &Particles, instructions: InstructionSet, threads: usize) {
+        let Self { u, v, filled, steep_u, steep_v, change, known, reached, blocks } = self;
+        let Particles { x, y, vx, vy, .. } = particles;
+        blocks.partition(grid, y, instructions, threads);
+        *reached = blocks.reached();
+        let near = grid.rows(reached.start.saturating_sub(2)..(reached.end + 2).min(grid.rows + 3));
+        for field in [&mut *u, v] {
             field.resize(grid.len(), [0.0; 2]);
+            field[near.clone()].fill([0.0; 2]);
         }
-        for field in [density, steep_u, steep_v, change, known] {
+        for field in [filled, steep_u, steep_v, change, known] {
             field.resize(grid.len(), 0.0);
         }
-        let velocities = particles.vx.iter().zip(&particles.vy);
-        for ((&x, &y), (&vx, &vy)) in particles.x.iter().zip(&particles.y).zip(velocities) {
-            let deposit = |value: f32| {
-                move |face: &mut [f32; 2], weight: f32| {
-                    face[0] += weight;
-                    face[1] += weight * value;
-                }
-            };
-            Stencil::new(grid, x, y, Axis::U).add(u, grid.stride, deposit(vx));
-            Stencil::new(grid, x, y, Axis::V).add(v, grid.stride, deposit(vy));
-        }
-        fold_at_walls(grid, u, v);
+        blocks.share_out([&mut u[..], &mut v[..]], grid.stride, threads, &|particles, row, [u, v]| {
+            let [x, y, vx, vy] = [x, y, vx, vy].map(|values| &values[particles.clone()]);
+            instructions.run(Collect { grid, x, y, vx, vy, first: grid.row(row), u, v });
+        });
+        fold_at_walls(grid, reached.clone(), u, v);
     }
 
     /// Adds the change of velocity at each particle, and moves its velocity towards the grid's by the share `blend`.
-    pub fn hand_back(&self, grid: &MacGrid, particles: &mut Particles, blend: f32) {
-        let velocities = particles.vx.iter_mut().zip(&mut particles.vy);
-        for ((&x, &y), (vx, vy)) in particles.x.iter().zip(&particles.y).zip(velocities) {
-            let [change_x, grid_x] = Stencil::new(grid, x, y, Axis::U).mean(&self.new_u, grid.stride);
-            let [change_y, grid_y] = Stencil::new(grid, x, y, Axis::V).mean(&self.new_v, grid.stride);
-            let (moved_x, moved_y) = (*vx + change_x, *vy + change_y);
-            *vx = moved_x + blend * (grid_x - moved_x);
-            *vy = moved_y + blend * (grid_y - moved_y);
-        }
+    pub fn hand_back(
+        &self,
+        grid: &MacGrid,
+        particles: &mut Particles,
+        instructions: InstructionSet,
+        threads: usize,
+        blend: f32,
+    ) {
+        let Particles { x, y, vx, vy, .. } = particles;
+        spread([&mut vx[..], &mut vy[..]], WORTH_A_PIECE, threads, &|base, [vx, vy]| {
+            let [x, y] = [&*x, &*y].map(|values| &values[base..base + vx.len()]);
+            instructions.run(HandBack { grid, faces: self, blend, x, y, vx, vy });
+        });
     }
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        let pairs = [&self.u, &self.v, &self.new_u, &self.new_v].iter().map(|field| field.capacity()).sum::<usize>();
-        8 * pairs
-            + 4 * (self.density.capacity()
-                + self.steep_u.capacity() * 2
-                + self.change.capacity()
-                + self.known.capacity())
+        let pairs = self.u.capacity() + self.v.capacity();
+        let singles = [&self.filled, &self.steep_u, &self.steep_v, &self.change, &self.known];
+        8 * pairs + 4 * singles.iter().map(|field| field.capacity()).sum::<usize>() + self.blocks.memory()
+    }
+}
+
+/// The numbers of a slice from `at` on, as many as there are lanes; lanes past its end are 0.
+#[inline(always)]
+fn lanes(from: &[f32], at: usize) -> [f32; LANES] {
+    let from = &from[at..];
+    from.first_chunk().copied().unwrap_or_else(|| {
+        let mut lanes = [0.0; LANES];
+        lanes[..from.len()].copy_from_slice(from);
+        lanes
+    })
+}
+
+/// Adds the particles' weights and momenta to the faces around them.
+struct Collect<'a> {
+    grid: &'a MacGrid,
+    x: &'a [f32],
+    y: &'a [f32],
+    vx: &'a [f32],
+    vy: &'a [f32],
+    /// Index of the first face of `u` and `v`.
+    first: usize,
+    u: &'a mut [[f32; 2]],
+    v: &'a mut [[f32; 2]],
+}
+
+impl Pass for Collect<'_> {
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Self { grid, u, v, .. } = self;
+        for at in (0..self.x.len()).step_by(LANES) {
+            let (x, y) = (lanes(self.x, at), lanes(self.y, at));
+            let count = (self.x.len() - at).min(LANES);
+            let to_u = Deposits::new(&Stencils::new(grid, &x, &y, Axis::U), &lanes(self.vx, at));
+            let to_v = Deposits::new(&Stencils::new(grid, &x, &y, Axis::V), &lanes(self.vy, at));
+            // Neighbours in the order add to the same faces, and each sum waits for the one before: far and near ones
+            // in turn wait less.
+            for turn in 0..LANES {
+                let lane = turn / 2 + turn % 2 * (LANES / 2);
+                if lane < count {
+                    to_u.add(u, self.first, grid.stride, lane);
+                    to_v.add(v, self.first, grid.stride, lane);
+                }
+            }
+        }
+    }
+}
+
+/// What each of some points adds to the faces around it: weight and momentum of the left face and of the right one.
+struct Deposits {
+    corner: [u32; LANES],
+    lower: [[f32; 4]; LANES],
+    upper: [[f32; 4]; LANES],
+}
+
+impl Deposits {
+    #[inline(always)]
+    fn new(stencils: &Stencils, velocity: &[f32; LANES]) -> Self {
+        let (mut lower, mut upper) = ([[0.0_f32; 4]; LANES], [[0.0_f32; 4]; LANES]);
+        for lane in 0..LANES {
+            let right = stencils.right[lane];
+            let left = 1.0 - right;
+            let shares = [left, left * velocity[lane], right, right * velocity[lane]];
+            let (to_upper, to_lower) = (stencils.upper[lane], 1.0 - stencils.upper[lane]);
+            lower[lane] = shares.map(|share| share * to_lower);
+            upper[lane] = shares.map(|share| share * to_upper);
+        }
+        Self { corner: stencils.corner, lower, upper }
+    }
+
+    #[inline(always)]
+    fn add(&self, field: &mut [[f32; 2]], first: usize, stride: usize, lane: usize) {
+        let corner = self.corner[lane] as usize - first;
+        add_to_pair(field, corner, &self.lower[lane]);
+        add_to_pair(field, corner + stride, &self.upper[lane]);
+    }
+}
+
+#[inline(always)]
+fn add_to_pair(field: &mut [[f32; 2]], at: usize, shares: &[f32; 4]) {
+    let [left, right] = &mut field[at..at + 2] else { return };
+    *left = [left[0] + shares[0], left[1] + shares[1]];
+    *right = [right[0] + shares[2], right[1] + shares[3]];
+}
+
+/// Changes the particles' velocities as the faces around them say.
+struct HandBack<'a> {
+    grid: &'a MacGrid,
+    faces: &'a Faces,
+    blend: f32,
+    x: &'a [f32],
+    y: &'a [f32],
+    vx: &'a mut [f32],
+    vy: &'a mut [f32],
+}
+
+impl Pass for HandBack<'_> {
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Self { grid, faces, blend, .. } = self;
+        for at in (0..self.x.len()).step_by(LANES) {
+            let (x, y) = (lanes(self.x, at), lanes(self.y, at));
+            let count = (self.x.len() - at).min(LANES);
+            let gained = mean_of_faces(&faces.u, grid, &Stencils::new(grid, &x, &y, Axis::U), count);
+            change(&mut self.vx[at..at + count], &gained, blend);
+            let gained = mean_of_faces(&faces.v, grid, &Stencils::new(grid, &x, &y, Axis::V), count);
+            change(&mut self.vy[at..at + count], &gained, blend);
+        }
+    }
+}
+
+/// Change of velocity and new velocity at the first `count` points: the bilinear means of the faces around them.
+#[inline(always)]
+fn mean_of_faces(field: &[[f32; 2]], grid: &MacGrid, stencils: &Stencils, count: usize) -> [[f32; LANES]; 2] {
+    // The means of lower and upper faces, on the left and on the right.
+    let mut sides = [[0.0_f32; 4]; LANES];
+    for lane in 0..count {
+        let corner = stencils.corner[lane] as usize;
+        let (upper, lower) = (stencils.upper[lane], 1.0 - stencils.upper[lane]);
+        let ([a, b], [c, d]) = (pair(field, corner), pair(field, corner + grid.stride));
+        let mean = |below: f32, above: f32| lower * below + upper * above;
+        sides[lane] = [mean(a[0], c[0]), mean(a[1], c[1]), mean(b[0], d[0]), mean(b[1], d[1])];
+    }
+    let mut means = [[0.0; LANES]; 2];
+    for lane in 0..LANES {
+        let (right, left) = (stencils.right[lane], 1.0 - stencils.right[lane]);
+        let side = &sides[lane];
+        means[0][lane] = left * side[0] + right * side[2];
+        means[1][lane] = left * side[1] + right * side[3];
+    }
+    means
+}
+
+#[inline(always)]
+fn pair(field: &[[f32; 2]], at: usize) -> [[f32; 2]; 2] {
+    [field[at], field[at + 1]]
+}
+
+/// Adds the change to velocities and moves them towards the grid's.
+#[inline(always)]
+fn change(velocity: &mut [f32], [gained, grid]: &[[f32; LANES]; 2], blend: f32) {
+    for (lane, velocity) in velocity.iter_mut().enumerate() {
+        let moved = *velocity + gained[lane];
+        *velocity = moved + blend * (grid[lane] - moved);
     }
 }

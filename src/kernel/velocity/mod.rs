@@ -8,8 +8,16 @@ mod vorticity;
 pub use viscosity::apply_viscosity;
 pub use vorticity::apply_vorticity;
 
-use crate::kernel::{params::Quality, particles::Particles, pbf::Solver, solids::Solids};
+use crate::kernel::{
+    parallel::{WORTH_A_PIECE, spread},
+    params::Quality,
+    particles::Particles,
+    pbf::Solver,
+    simd::{Lanes, Pass},
+    solids::Solids,
+};
 use glam::Vec2;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What the limiters of the solve did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -34,31 +42,77 @@ pub fn update_velocities(
     solids: &Solids,
     quality: &Quality,
     predicted: bool,
+    threads: usize,
     dt: f32,
 ) -> MoveReport {
-    let mut report = MoveReport::default();
-    let per_dt = 1.0 / dt;
-    let quiet = QUIET_CORRECTION * per_dt;
-    let has_rock = solids.count() > 0;
-    // The limit itself, less the rounding of (anchor + limit) − anchor.
-    let cut = quality.correction_limit * 0.999;
-    for i in 0..particles.len() {
-        let anchor = Vec2::new(solver.anchor_x[i], solver.anchor_y[i]);
-        let mut to = solver.position(i);
-        let correction = (to - anchor).abs();
-        report.position_clamps += u64::from(correction.max_element() >= cut);
-        if has_rock {
-            to = solids.sweep(anchor, to);
+    let Solver { instructions, x: to_x, y: to_y, anchor_x, anchor_y, .. } = solver;
+    let clamps = AtomicU64::new(0);
+    let Particles { x, y, vx, vy, .. } = particles;
+    let arrays = [&mut x[..], &mut y[..], &mut vx[..], &mut vy[..], &mut to_x[..], &mut to_y[..]];
+    spread(arrays, WORTH_A_PIECE, threads, &|base, [x, y, vx, vy, to_x, to_y]| {
+        let anchor = [&*anchor_x, &*anchor_y].map(|anchor| &anchor[base..base + x.len()]);
+        instructions.run(Move {
+            rock: (solids.count() > 0).then_some(solids),
+            // The limit itself, less the rounding of (anchor + limit) − anchor.
+            cut: quality.correction_limit * 0.999,
+            quiet: if predicted { QUIET_CORRECTION } else { 0.0 },
+            dt,
+            anchor,
+            corrected: [to_x, to_y],
+            position: [x, y],
+            velocity: [vx, vy],
+            clamps: &clamps,
+        });
+    });
+    MoveReport { position_clamps: clamps.into_inner() }
+}
+
+/// Moves a piece of the particles.
+struct Move<'a> {
+    /// Rock, if there is any.
+    rock: Option<&'a Solids>,
+    /// Correction that counts as cut, d.
+    cut: f32,
+    /// Correction that goes into the velocity by half, d.
+    quiet: f32,
+    dt: f32,
+    /// Predicted positions, d.
+    anchor: [&'a [f32]; 2],
+    /// In and out: corrected positions, d; stopped by rock.
+    corrected: [&'a mut [f32]; 2],
+    /// Out: positions, d.
+    position: [&'a mut [f32]; 2],
+    /// In and out: velocities, d/s.
+    velocity: [&'a mut [f32]; 2],
+    /// Counts the corrections that were cut.
+    clamps: &'a AtomicU64,
+}
+
+impl Pass for Move<'_> {
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Self { rock, cut, quiet, dt, anchor: [from_x, from_y], clamps, .. } = self;
+        let ([to_x, to_y], [x, y], [vx, vy]) = (self.corrected, self.position, self.velocity);
+        let per_dt = 1.0 / dt;
+        let (quiet, mut cuts) = (quiet * per_dt, 0_u32);
+        for k in 0..from_x.len() {
+            let (far_x, far_y) = ((to_x[k] - from_x[k]).abs() >= cut, (to_y[k] - from_y[k]).abs() >= cut);
+            cuts += u32::from(far_x | far_y);
         }
-        let mut change = (to - anchor) * per_dt;
-        if predicted {
-            let (change2, quiet2) = (change.length_squared(), quiet * quiet);
-            change *= change2 / (change2 + quiet2);
+        clamps.fetch_add(u64::from(cuts), Ordering::Relaxed);
+        if let Some(rock) = rock {
+            for k in 0..from_x.len() {
+                let to = rock.sweep(Vec2::new(from_x[k], from_y[k]), Vec2::new(to_x[k], to_y[k]));
+                (to_x[k], to_y[k]) = (to.x, to.y);
+            }
         }
-        let velocity = particles.velocity(i) + change;
-        (particles.vx[i], particles.vy[i]) = (velocity.x, velocity.y);
-        (particles.x[i], particles.y[i]) = (to.x, to.y);
-        (solver.x[i], solver.y[i]) = (to.x, to.y);
+        for k in 0..from_x.len() {
+            let (change_x, change_y) = ((to_x[k] - from_x[k]) * per_dt, (to_y[k] - from_y[k]) * per_dt);
+            let change2 = change_x * change_x + change_y * change_y;
+            let share = if quiet > 0.0 { change2 / (change2 + quiet * quiet) } else { 1.0 };
+            (vx[k], vy[k]) = (vx[k] + change_x * share, vy[k] + change_y * share);
+        }
+        x.copy_from_slice(to_x);
+        y.copy_from_slice(to_y);
     }
-    report
 }

@@ -142,7 +142,8 @@ fn velocities_follow_from_the_moves_and_cut_corrections_are_counted() {
         bench.solver.x[i] += if i < 7 { bench.quality.correction_limit } else { 0.01 };
     }
     let before = bench.particles.clone();
-    let report = update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, &bench.quality, false, 0.01);
+    let report =
+        update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, &bench.quality, false, 1, 0.01);
     assert_eq!(report.position_clamps, 7, "corrections at their limit");
     for i in 0..400 {
         let moved = bench.particles.x[i] - before.x[i];
@@ -159,7 +160,7 @@ fn after_the_predictor_small_corrections_move_particles_but_hardly_speed_them_up
         bench.solver.y[i] += if i % 2 == 0 { 0.005 } else { 0.1 };
     }
     let before = bench.particles.clone();
-    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, &bench.quality, true, 0.01);
+    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, &bench.quality, true, 1, 0.01);
     for i in 0..400 {
         // a²/(a² + 0.05²) of a/Δt
         let expected = if i % 2 == 0 { 0.5 / 101.0 } else { 10.0 * 0.8 };
@@ -177,7 +178,7 @@ fn a_correction_into_rock_stops_at_its_face() {
     for i in 0..400 {
         bench.solver.x[i] += 0.6;
     }
-    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, &bench.quality, false, 0.01);
+    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, &bench.quality, false, 1, 0.01);
     for i in 0..400 {
         let at = bench.particles.position(i);
         assert!(!bench.solids.is_solid(Solids::cell_of(at)), "particle {i} was moved into rock, to {at}");

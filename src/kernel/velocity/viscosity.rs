@@ -7,8 +7,9 @@
 use crate::kernel::{
     bins::Group,
     element::ElementId,
+    parallel,
     particles::Particles,
-    pbf::{Solver, parallel},
+    pbf::Solver,
     simd::{Lanes, Pass},
     smoothing::Smoothing,
 };

@@ -6,9 +6,10 @@
 
 use crate::kernel::{
     bins::Group,
+    parallel,
     params::GradientKernel,
     particles::Particles,
-    pbf::{Solver, parallel},
+    pbf::Solver,
     simd::{Lanes, Pass},
     smoothing::{Gradient, Rational, Smoothing, Spiky},
     velocity::viscosity::share_of,

@@ -1,12 +1,13 @@
 //! Counts and checks at the end of a tick.
 
 use crate::{
-    kernel::solids::Solids,
+    kernel::checks,
     sim::{
         ledger::{Pass, PassLedger},
         pace::Pace,
         stages::TickPlan,
         state::{Census, Clock, Counters, ParticleStore, Rock, Setup},
+        workers::Workers,
     },
 };
 use bevy::prelude::{Res, ResMut};
@@ -21,9 +22,7 @@ pub(super) fn count_particles(
 ) {
     census.by_element.clear();
     census.by_element.resize(setup.elements().len(), 0);
-    for element in &particles.element {
-        census.by_element[element.index()] += 1;
-    }
+    checks::count_elements(&particles.element, &mut census.by_element);
     for (_, element, _) in rock.iter() {
         census.by_element[element.index()] += 1;
     }
@@ -36,18 +35,15 @@ pub(super) fn end_tick(
     particles: Res<ParticleStore>,
     rock: Res<Rock>,
     plan: Res<TickPlan>,
+    workers: Res<Workers>,
     mut pace: ResMut<Pace>,
     mut clock: ResMut<Clock>,
     mut counters: ResMut<Counters>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
-    let size = setup.blueprint.domain.size;
-    let escaped = |i: usize| {
-        let at = particles.position(i);
-        !(at.x >= 0.0 && at.y >= 0.0 && at.x <= size.x && at.y <= size.y) || rock.is_solid(Solids::cell_of(at))
-    };
-    counters.escaped += (0..particles.len()).filter(|&i| escaped(i)).count() as u64;
+    counters.escaped += workers
+        .run_for(particles.len(), |threads| checks::count_escaped(&particles, &rock, &setup.blueprint.domain, threads));
     clock.tick += 1;
     pace.steps_due = pace.steps_due.saturating_sub(u32::from(pace.paused));
     ledger.note(Pass::Measure, start.elapsed());

@@ -1,10 +1,11 @@
 //! Taps and outlets.
 
 use crate::{
-    kernel::{predict::remove_non_finite, spawn::Matter, units::TICK_SECONDS},
+    kernel::{checks::remove_non_finite, spawn::Matter, units::TICK_SECONDS},
     sim::{
         ledger::{Pass, PassLedger},
         state::{Clock, Counters, ParticleStore, Rock, Setup, Sources},
+        workers::Workers,
     },
 };
 use bevy::prelude::{Res, ResMut};
@@ -17,11 +18,13 @@ pub(super) fn run_sources(
     mut particles: ResMut<ParticleStore>,
     mut rock: ResMut<Rock>,
     mut clock: ResMut<Clock>,
+    workers: Res<Workers>,
     mut counters: ResMut<Counters>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
-    counters.non_finite += remove_non_finite(&mut particles) as u64;
+    counters.non_finite +=
+        workers.run_checks(particles.len(), |threads| remove_non_finite(&mut particles, threads)) as u64;
     let tick = clock.tick;
     let Sources { emitters, drains, .. } = &mut *sources;
     let mut matter = Matter {

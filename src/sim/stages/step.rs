@@ -1,6 +1,9 @@
 //! Runs the substeps of a tick.
 
-use crate::{kernel::units::TICK_SECONDS, sim::schedule::Substep};
+use crate::{
+    kernel::units::TICK_SECONDS,
+    sim::{schedule::Substep, state::ParticleStore, workers::Workers},
+};
 use bevy::prelude::{Resource, World};
 use std::time::Instant;
 
@@ -31,7 +34,11 @@ pub(super) fn run_substeps(world: &mut World) {
     let mut plan = world.resource_mut::<TickPlan>();
     plan.started = Instant::now();
     let substeps = plan.substeps;
-    for _ in 0..substeps {
-        world.run_schedule(Substep);
-    }
+    // Enters the pool once: the stages' own entries cost nothing from inside.
+    let (workers, particles) = (world.resource::<Workers>().clone(), world.resource::<ParticleStore>().len());
+    workers.run_for(particles, |_| {
+        for _ in 0..substeps {
+            world.run_schedule(Substep);
+        }
+    });
 }

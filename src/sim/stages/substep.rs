@@ -36,10 +36,12 @@ pub(super) fn apply_gravity(
     mut particles: ResMut<ParticleStore>,
     setup: Res<Setup>,
     plan: Res<TickPlan>,
+    workers: Res<Workers>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
-    forces::apply_gravity(setup.blueprint.domain.gravity, &mut particles, plan.substep_seconds());
+    let (gravity, dt) = (setup.blueprint.domain.gravity, plan.substep_seconds());
+    workers.run_for(particles.len(), |threads| forces::apply_gravity(gravity, &mut particles, threads, dt));
     ledger.note(Pass::Gravity, start.elapsed());
 }
 
@@ -49,10 +51,12 @@ pub(super) fn apply_drag(
     air: Res<AirGrid>,
     rates: Res<Rates>,
     plan: Res<TickPlan>,
+    workers: Res<Workers>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
-    forces::apply_drag(&air, &rates.drag, &mut particles, plan.substep_seconds());
+    let dt = plan.substep_seconds();
+    workers.run_for(particles.len(), |threads| forces::apply_drag(&air, &rates.drag, &mut particles, threads, dt));
     ledger.note(Pass::Drag, start.elapsed());
 }
 
@@ -64,17 +68,21 @@ pub(super) fn predict_pressure(
     rock: Res<Rock>,
     setup: Res<Setup>,
     plan: Res<TickPlan>,
+    workers: Res<Workers>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
-    let params = predictor::PredictorParams {
-        domain: &setup.blueprint.domain,
-        cell: setup.quality.kernel_radius,
-        rest_density: setup.blueprint.fluid.rest_density,
-        instructions: solver.instructions,
-        dt: plan.substep_seconds(),
-    };
-    predictor.run(&mut particles, &rock, &params);
+    workers.run_for(particles.len(), |threads| {
+        let params = predictor::PredictorParams {
+            domain: &setup.blueprint.domain,
+            cell: setup.quality.kernel_radius,
+            rest_density: setup.blueprint.fluid.rest_density,
+            instructions: solver.instructions,
+            threads,
+            dt: plan.substep_seconds(),
+        };
+        predictor.run(&mut particles, &rock, &params);
+    });
     ledger.note(Pass::Pressure, start.elapsed());
 }
 
@@ -85,13 +93,16 @@ pub(super) fn predict_positions(
     rock: Res<Rock>,
     setup: Res<Setup>,
     plan: Res<TickPlan>,
+    workers: Res<Workers>,
     mut counters: ResMut<Counters>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
     let dt = plan.substep_seconds();
     let domain = &setup.blueprint.domain;
-    let report = predict::predict(&mut particles, &mut solver, &rock, domain, &setup.quality, dt);
+    let report = workers.run_for(particles.len(), |threads| {
+        predict::predict(&mut particles, &mut solver, &rock, domain, &setup.quality, threads, dt)
+    });
     counters.speed_clamps += report.speed_clamps;
     ledger.note(Pass::Predict, start.elapsed());
 }
@@ -102,10 +113,13 @@ pub(super) fn sort_into_bins(
     mut solver: ResMut<SolverState>,
     rock: Res<Rock>,
     setup: Res<Setup>,
+    workers: Res<Workers>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
-    solver.bin(&mut particles, &rock, &setup.blueprint.domain, &setup.quality);
+    workers.run_for(particles.len(), |threads| {
+        solver.bin(&mut particles, &rock, &setup.blueprint.domain, &setup.quality, threads);
+    });
     ledger.note(Pass::Bin, start.elapsed());
 }
 
@@ -139,13 +153,16 @@ pub(super) fn update_velocities(
     setup: Res<Setup>,
     effects: Res<Effects>,
     plan: Res<TickPlan>,
+    workers: Res<Workers>,
     mut counters: ResMut<Counters>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
     let dt = plan.substep_seconds();
     let predicted = effects.get(Effect::Predictor).running;
-    let report = velocity::update_velocities(&mut particles, &mut solver, &rock, &setup.quality, predicted, dt);
+    let report = workers.run_for(particles.len(), |threads| {
+        velocity::update_velocities(&mut particles, &mut solver, &rock, &setup.quality, predicted, threads, dt)
+    });
     counters.position_clamps += report.position_clamps;
     ledger.note(Pass::Velocity, start.elapsed());
 }

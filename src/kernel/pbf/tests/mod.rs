@@ -50,7 +50,7 @@ impl Bench {
     pub(crate) fn bin(&mut self) {
         self.solver.x.clone_from(&self.particles.x);
         self.solver.y.clone_from(&self.particles.y);
-        self.solver.bin(&mut self.particles, &self.solids, &self.domain, &self.quality);
+        self.solver.bin(&mut self.particles, &self.solids, &self.domain, &self.quality, 1);
     }
 
     /// Bins and iterates.
@@ -70,11 +70,11 @@ impl Bench {
     pub(crate) fn step(&mut self, tension: bool, dt: f32) {
         let Self { particles, solids, domain, quality, solver, predicted, .. } = self;
         let predicted = *predicted;
-        crate::kernel::predict::predict(particles, solver, solids, domain, quality, dt);
+        crate::kernel::predict::predict(particles, solver, solids, domain, quality, 1, dt);
         let params = SolveParams { domain, fluid: &self.fluid, quality, tension, predicted, threads: 1 };
-        solver.bin(particles, solids, domain, quality);
+        solver.bin(particles, solids, domain, quality, 1);
         solver.solve(&params);
-        crate::kernel::velocity::update_velocities(particles, solver, solids, quality, predicted, dt);
+        crate::kernel::velocity::update_velocities(particles, solver, solids, quality, predicted, 1, dt);
     }
 }
 

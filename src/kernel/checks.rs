@@ -1,0 +1,109 @@
+//! Looks over all particles once a tick: what is no longer a number, what is where none may be, how many there are.
+
+use crate::kernel::{element::ElementId, parallel::over, params::Domain, particles::Particles, solids::Solids};
+use glam::{IVec2, Vec2};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+/// Particles that are looked at together.
+const BLOCK: usize = 256;
+/// Fewer particles than this a piece do not pay for another thread: a look is short.
+const WORTH_A_LOOK: usize = 32_768;
+
+/// Beyond this, in d or d/s, a value is a fault and not a motion.
+const ABSURD: f32 = 1e9;
+
+fn sound(value: f32) -> bool {
+    value.abs() < ABSURD
+}
+
+/// Removes particles whose position or velocity is not a number or beyond all bounds; returns how many.
+pub fn remove_non_finite(particles: &mut Particles, threads: usize) -> usize {
+    let all_sound = AtomicBool::new(true);
+    let Particles { x, y, vx, vy, .. } = &*particles;
+    over(x.len(), WORTH_A_LOOK, threads, &|range| {
+        for values in [x, y, vx, vy] {
+            let fine =
+                values[range.clone()].chunks(BLOCK).all(|block| block.iter().fold(true, |all, &v| all & sound(v)));
+            all_sound.fetch_and(fine, Ordering::Relaxed);
+        }
+    });
+    if all_sound.into_inner() {
+        return 0;
+    }
+    particles.retain(|particles, i| {
+        [&particles.x, &particles.y, &particles.vx, &particles.vy].into_iter().all(|values| sound(values[i]))
+    })
+}
+
+/// Particles outside the box or inside rock.
+pub fn count_escaped(particles: &Particles, solids: &Solids, domain: &Domain, threads: usize) -> u64 {
+    let Particles { x, y, .. } = particles;
+    let size = domain.size.min(IVec2::new(solids.columns(), solids.rows()).as_vec2());
+    let inside = |x: f32, y: f32| (x >= 0.0) & (y >= 0.0) & (x <= size.x) & (y <= size.y);
+    let escaped = AtomicU64::new(0);
+    over(x.len(), WORTH_A_LOOK, threads, &|range| {
+        let mut count = 0;
+        for (x, y) in x[range.clone()].chunks(BLOCK).zip(y[range].chunks(BLOCK)) {
+            let outside: u32 = x.iter().zip(y).map(|(&x, &y)| u32::from(!inside(x, y))).sum();
+            count += u64::from(outside);
+            if solids.count() > 0 {
+                let in_rock =
+                    |&(&x, &y): &(&f32, &f32)| inside(x, y) && solids.is_solid(Solids::cell_of(Vec2::new(x, y)));
+                count += x.iter().zip(y).filter(in_rock).count() as u64;
+            }
+        }
+        escaped.fetch_add(count, Ordering::Relaxed);
+    });
+    escaped.into_inner()
+}
+
+/// Adds the number of particles of each element to its entry of `counts`.
+pub fn count_elements(elements: &[ElementId], counts: &mut [u32]) {
+    for block in elements.chunks(BLOCK) {
+        // One element after the other in the same counter waits for itself; most blocks are of one element.
+        if block.iter().fold(true, |same, element| same & (*element == block[0])) {
+            counts[block[0].index()] += block.len() as u32;
+        } else {
+            block.iter().for_each(|element| counts[element.index()] += 1);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_is_no_number_is_removed() {
+        let mut particles = Particles::default();
+        for id in 0..1000 {
+            particles.push(id, ElementId(0), Vec2::splat(1.0), Vec2::ZERO);
+        }
+        assert_eq!(remove_non_finite(&mut particles, 1), 0);
+        particles.x[3] = f32::NAN;
+        particles.vy[999] = -1e30;
+        assert_eq!(remove_non_finite(&mut particles, 2), 2);
+        assert!(particles.len() == 998 && !particles.id.contains(&3) && !particles.id.contains(&999));
+    }
+
+    #[test]
+    fn particles_outside_and_in_rock_have_escaped() {
+        let (mut solids, domain) = (Solids::new(10, 8), Domain { size: Vec2::new(10.0, 7.5), gravity: Vec2::ZERO });
+        let mut particles = Particles::default();
+        let places = [(5.0, 5.0), (9.9, 7.5), (10.1, 3.0), (5.0, 7.6), (-0.1, 3.0), (f32::NAN, 1.0), (2.5, 2.5)];
+        for (id, place) in (0..).zip(places) {
+            particles.push(id, ElementId(0), place.into(), Vec2::ZERO);
+        }
+        assert_eq!(count_escaped(&particles, &solids, &domain, 1), 4);
+        solids.insert(IVec2::new(2, 2), ElementId(1), 99);
+        assert_eq!(count_escaped(&particles, &solids, &domain, 1), 5);
+    }
+
+    #[test]
+    fn every_element_is_counted() {
+        let elements: Vec<ElementId> = (0..1000).map(|k| ElementId(u8::from(k >= 700))).collect();
+        let mut counts = [0, 5];
+        count_elements(&elements, &mut counts);
+        assert_eq!(counts, [700, 305]);
+    }
+}

@@ -1,0 +1,238 @@
+//! Blocks of particles that may share out their velocities side by side.
+//!
+//! Particles were sorted into strips not long ago, so those that follow one another reach a narrow band of grid rows. They
+//! are cut into blocks that go in two turns: blocks of one turn reach disjoint rows. The cuts follow from the positions
+//! alone, so that every face adds up in the same order whatever the number of threads. Particles that are out of order
+//! (just poured, for example) go last, one after the other.
+
+use crate::kernel::{
+    parallel::{cut, piece, spread},
+    predictor::{grid::MacGrid, stencil::Axis},
+    simd::{InstructionSet, Lanes, Pass},
+};
+use std::ops::Range;
+
+/// Particles in a span, the unit that blocks are made of.
+const SPAN: usize = 128;
+
+/// Fewer spans than this are not handed to another thread.
+const FEWEST_SPANS: usize = 512;
+
+/// Consecutive particles and the grid rows that they reach.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Block {
+    pub particles: Range<usize>,
+    pub rows: Range<usize>,
+}
+
+/// A partition of the particles. Buffers are kept.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Blocks {
+    /// First row that each span of particles reaches, and the one after the last.
+    spans: Vec<[u32; 2]>,
+    /// The blocks of the first and of the second turn, each with its rows in ascending order.
+    turns: [Vec<Block>; 2],
+    /// What fits in neither.
+    rest: Vec<Block>,
+}
+
+impl Blocks {
+    /// Cuts the particles at heights `y` d into blocks.
+    pub fn partition(&mut self, grid: &MacGrid, y: &[f32], instructions: InstructionSet, threads: usize) {
+        self.spans.resize(y.len().div_ceil(SPAN), [0; 2]);
+        spread([&mut self.spans[..]], FEWEST_SPANS, threads, &|first, [spans]| {
+            instructions.run(FindSpans { grid, y: &y[first * SPAN..], spans });
+        });
+        let Self { spans, turns, rest } = self;
+        turns.iter_mut().chain([&mut *rest]).for_each(Vec::clear);
+        let end_of = |block: Option<&Block>| block.map_or(0, |block| block.rows.end);
+        // The turn of the block at hand, and whether it may grow.
+        let (mut turn, mut grows) = (1, false);
+        for (index, span) in spans.iter().enumerate() {
+            let particles = index * SPAN..y.len().min((index + 1) * SPAN);
+            let rows = span[0] as usize..span[1] as usize;
+            let before = turns[turn].len().checked_sub(2).map(|index| &turns[turn][index]);
+            if rows.start >= end_of(turns[1 - turn].last()) {
+                (turn, grows) = (1 - turn, true);
+                turns[turn].push(Block { particles, rows });
+            } else if grows && rows.start >= end_of(before) {
+                if let Some(block) = turns[turn].last_mut() {
+                    block.particles.end = particles.end;
+                    block.rows = block.rows.start.min(rows.start)..block.rows.end.max(rows.end);
+                }
+            } else {
+                grows = false;
+                rest.push(Block { particles, rows });
+            }
+        }
+    }
+
+    /// The rows that any particle reaches.
+    pub fn reached(&self) -> Range<usize> {
+        let first = self.spans.iter().map(|span| span[0]).min();
+        let end = self.spans.iter().map(|span| span[1]).max();
+        first.unwrap_or(0) as usize..end.unwrap_or(0) as usize
+    }
+
+    /// Calls `work(particles, first row, rows of each field)` for every block. `fields` have `stride` entries a row.
+    pub fn share_out<const K: usize, T, F>(&self, fields: [&mut [T]; K], stride: usize, threads: usize, work: &F)
+    where
+        T: Send,
+        F: Fn(Range<usize>, usize, [&mut [T]; K]) + Sync,
+    {
+        let mut fields = fields;
+        for turn in &self.turns {
+            run_blocks(
+                turn,
+                0,
+                fields.each_mut().map(|field| &mut **field),
+                stride,
+                piece(turn.len(), threads, 1),
+                work,
+            );
+        }
+        run_one_by_one(&self.rest, 0, fields, stride, work);
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        let blocks = self.turns.iter().chain([&self.rest]).map(Vec::capacity).sum::<usize>();
+        size_of::<Block>() * blocks + 8 * self.spans.capacity()
+    }
+}
+
+/// Runs blocks with disjoint rows; `fields` begin with row `base`.
+fn run_blocks<const K: usize, T, F>(
+    blocks: &[Block],
+    base: usize,
+    fields: [&mut [T]; K],
+    stride: usize,
+    piece: usize,
+    work: &F,
+) where
+    T: Send,
+    F: Fn(Range<usize>, usize, [&mut [T]; K]) + Sync,
+{
+    if blocks.len() <= piece {
+        return run_one_by_one(blocks, base, fields, stride, work);
+    }
+    let (lower, upper) = blocks.split_at(blocks.len() / 2);
+    let boundary = upper[0].rows.start;
+    let (lower_rows, upper_rows) = cut(fields, (boundary - base) * stride);
+    rayon::join(
+        || run_blocks(lower, base, lower_rows, stride, piece, work),
+        || run_blocks(upper, boundary, upper_rows, stride, piece, work),
+    );
+}
+
+fn run_one_by_one<const K: usize, T>(
+    blocks: &[Block],
+    base: usize,
+    mut fields: [&mut [T]; K],
+    stride: usize,
+    work: &impl Fn(Range<usize>, usize, [&mut [T]; K]),
+) {
+    for block in blocks {
+        let rows = (block.rows.start - base) * stride..(block.rows.end - base) * stride;
+        work(block.particles.clone(), block.rows.start, fields.each_mut().map(|field| &mut field[rows.clone()]));
+    }
+}
+
+/// Finds the rows that spans of particles reach.
+struct FindSpans<'a> {
+    grid: &'a MacGrid,
+    y: &'a [f32],
+    spans: &'a mut [[u32; 2]],
+}
+
+impl Pass for FindSpans<'_> {
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        for (span, y) in self.spans.iter_mut().zip(self.y.chunks(SPAN)) {
+            let (mut first, mut last) = (u32::MAX, 0);
+            for &y in y {
+                first = first.min(Axis::U.row(self.grid, y).0);
+                last = last.max(Axis::V.row(self.grid, y).0);
+            }
+            // A stencil has two rows.
+            *span = [first, last + 2];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec2;
+
+    fn partition(heights: &[f32]) -> Blocks {
+        let mut blocks = Blocks::default();
+        blocks.partition(&MacGrid::new(Vec2::new(10.0, 400.0), 2.5), heights, InstructionSet::Baseline, 1);
+        blocks
+    }
+
+    fn all(blocks: &Blocks) -> Vec<Block> {
+        let mut all: Vec<Block> = blocks.turns.iter().flatten().chain(&blocks.rest).cloned().collect();
+        all.sort_by_key(|block| block.particles.start);
+        all
+    }
+
+    fn check(heights: &[f32]) -> Blocks {
+        let blocks = partition(heights);
+        let mut next = 0;
+        for block in all(&blocks) {
+            assert_eq!(block.particles.start, next, "a particle is left out or comes twice");
+            next = block.particles.end;
+        }
+        assert_eq!(next, heights.len());
+        for turn in &blocks.turns {
+            for pair in turn.windows(2) {
+                assert!(pair[0].rows.end <= pair[1].rows.start, "two blocks of a turn share rows: {pair:?}");
+            }
+        }
+        blocks
+    }
+
+    #[test]
+    fn sorted_particles_go_in_two_turns_of_many_blocks() {
+        let heights: Vec<f32> = (0..20_000).map(|k| k as f32 * 0.018 + (k * 7919 % 27) as f32 * 0.1).collect();
+        let blocks = check(&heights);
+        assert!(blocks.rest.is_empty(), "{} blocks are out of order", blocks.rest.len());
+        assert!(blocks.turns.iter().all(|turn| turn.len() > 20), "{} blocks only", all(&blocks).len());
+    }
+
+    #[test]
+    fn what_was_just_poured_goes_last_and_the_others_as_before() {
+        let mut heights: Vec<f32> = (0..20_000).map(|k| k as f32 * 0.018).collect();
+        let sorted = check(&heights);
+        heights.extend((0..500).map(|k| 50.0 + (k % 10) as f32));
+        let poured = check(&heights);
+        assert!(poured.rest.len() <= 5);
+        assert_eq!(poured.turns[0][..20], sorted.turns[0][..20]);
+    }
+
+    #[test]
+    fn any_order_is_taken() {
+        check(&[]);
+        check(&[1.0]);
+        check(&(0..5_000).map(|k| (k * 7919 % 4000) as f32 * 0.1).collect::<Vec<_>>());
+        check(&(0..5_000).map(|k| (5_000 - k) as f32 * 0.07).collect::<Vec<_>>());
+        check(&[f32::NAN, f32::INFINITY, -1e9, 1e30]);
+    }
+
+    #[test]
+    fn every_block_gets_its_rows_on_any_number_of_threads() {
+        let heights: Vec<f32> = (0..20_000).map(|k| (k - k % 7 * 300).max(0) as f32 * 0.018).collect();
+        let blocks = partition(&heights);
+        let runs = [1, 2, 5].map(|threads| {
+            let mut rows = vec![0_u64; 170];
+            blocks.share_out([&mut rows[..]], 1, threads, &|particles, first, [rows]| {
+                for (index, row) in rows.iter_mut().enumerate() {
+                    *row = *row * 31 + (particles.start * (first + index)) as u64;
+                }
+            });
+            rows
+        });
+        assert!(runs[0] == runs[1] && runs[0] == runs[2]);
+    }
+}

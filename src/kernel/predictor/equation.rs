@@ -1,0 +1,171 @@
+//! The rows of the pressure equation: what is done to each cell or face of a row, in lanes. The caller walks the rows.
+
+use std::ops::Range;
+
+/// Nearest that the surface is taken to be to a liquid cell's centre, cells: nearer would make the equation stiff.
+const LEAST_THETA: f32 = 0.25;
+/// Most that a cell's density is taken to be too high, and too low inside the liquid: pulls harder than this make noise.
+const FEEDBACK_RANGE: (f32, f32) = (-0.1, 0.3);
+
+/// A row of cells, and its neighbours to all sides.
+#[derive(Clone, Copy)]
+pub(super) struct Around<'a> {
+    pub centre: &'a [f32],
+    left: &'a [f32],
+    right: &'a [f32],
+    lower: &'a [f32],
+    upper: &'a [f32],
+}
+
+impl<'a> Around<'a> {
+    /// The entries `cells` of a field and those around them.
+    #[inline(always)]
+    pub fn new(field: &'a [f32], cells: Range<usize>, stride: usize) -> Self {
+        let Range { start, end } = cells;
+        Self {
+            centre: &field[start..end],
+            left: &field[start - 1..end - 1],
+            right: &field[start + 1..end + 1],
+            lower: &field[start - stride..end - stride],
+            upper: &field[start + stride..end + stride],
+        }
+    }
+}
+
+/// The faces of a row of cells.
+#[derive(Clone, Copy)]
+pub(super) struct Sides<'a, T> {
+    left: &'a [T],
+    right: &'a [T],
+    lower: &'a [T],
+    upper: &'a [T],
+}
+
+impl<'a, T> Sides<'a, T> {
+    /// The faces of `cells`.
+    #[inline(always)]
+    pub fn new(u: &'a [T], v: &'a [T], cells: Range<usize>, stride: usize) -> Self {
+        let Range { start, end } = cells;
+        Self {
+            left: &u[start..end],
+            right: &u[start + 1..end + 1],
+            lower: &v[start..end],
+            upper: &v[start + stride..end + stride],
+        }
+    }
+}
+
+/// How full cells are: the sum of their faces' weights times `share`, and their rock.
+#[inline(always)]
+pub(super) fn fill(filled: &mut [f32], weights: Sides<[f32; 2]>, rock: &[f32], share: f32) {
+    let Sides { left, right, lower, upper } = weights;
+    for i in 0..filled.len() {
+        filled[i] = share * (left[i][0] + right[i][0] + lower[i][0] + upper[i][0]) + rock[i];
+    }
+}
+
+/// Marks cells that are full enough to be liquid; returns whether any is.
+#[inline(always)]
+pub(super) fn mark(liquid: &mut [f32], filled: &[f32], liquid_from: &[f32]) -> bool {
+    let mut any = false;
+    for i in 0..liquid.len() {
+        let is_liquid = filled[i] >= liquid_from[i];
+        liquid[i] = if is_liquid { 1.0 } else { 0.0 };
+        any |= is_liquid;
+    }
+    any
+}
+
+/// How steeply the pressure falls at faces between the cells before and after each: 1 between liquid cells, 1/θ between
+/// a liquid one and air, where the surface (p = 0) lies θ cells from the liquid cell's centre (Enright et al. 2003; a
+/// second-order surface). Without it all surfaces within one cell would be level, and a pool could rest with bumps.
+#[inline(always)]
+pub(super) fn steepen(steep: &mut [f32], liquid: [&[f32]; 2], filled: [&[f32]; 2]) {
+    let ([liquid_before, liquid], [filled_before, filled]) = (liquid, filled);
+    for i in 0..steep.len() {
+        let theta = filled_before[i] + filled[i] - 0.5;
+        let theta = if theta > LEAST_THETA { theta } else { LEAST_THETA };
+        let theta = if theta < 1.0 { theta } else { 1.0 };
+        steep[i] = if liquid_before[i] * liquid[i] > 0.0 { 1.0 } else { 1.0 / theta };
+    }
+}
+
+/// Couples liquid cells through the open shares of their faces.
+#[inline(always)]
+pub(super) fn couple(
+    diagonal: &mut [f32],
+    to_right: &mut [f32],
+    to_upper: &mut [f32],
+    liquid: Around,
+    open: Sides<f32>,
+    steep: Sides<f32>,
+) {
+    for i in 0..diagonal.len() {
+        let along = open.left[i] * steep.left[i] + open.right[i] * steep.right[i];
+        let up = open.lower[i] * steep.lower[i] + open.upper[i] * steep.upper[i];
+        diagonal[i] = liquid.centre[i] * (along + up);
+        to_right[i] = liquid.centre[i] * open.right[i] * liquid.right[i];
+        to_upper[i] = liquid.centre[i] * open.upper[i] * liquid.upper[i];
+    }
+}
+
+/// Asks for a divergence that takes the density error away.
+#[inline(always)]
+pub(super) fn feed_back(right_side: &mut [f32], liquid: Around, rock: Around, filled: &[f32], feedback: f32) {
+    // Neither liquid nor mostly rock: the surface is there.
+    let is_free = |liquid: f32, rock: f32| liquid + 2.0 * rock < 0.5;
+    for i in 0..right_side.len() {
+        let at_surface = is_free(liquid.left[i], rock.left[i])
+            | is_free(liquid.right[i], rock.right[i])
+            | is_free(liquid.lower[i], rock.lower[i])
+            | is_free(liquid.upper[i], rock.upper[i]);
+        let (least, most) = (if at_surface { 0.0 } else { FEEDBACK_RANGE.0 }, FEEDBACK_RANGE.1);
+        let error = filled[i] - 1.0;
+        let error = if error > least { error } else { least };
+        let error = if error < most { error } else { most };
+        right_side[i] = feedback * error;
+    }
+}
+
+/// Takes the divergence of the velocities off the right-hand side of liquid cells; 0 in the others.
+#[inline(always)]
+pub(super) fn subtract_divergence(right_side: &mut [f32], liquid: &[f32], open: Sides<f32>, faces: Sides<[f32; 2]>) {
+    for i in 0..right_side.len() {
+        let divergence = open.right[i] * faces.right[i][1] - open.left[i] * faces.left[i][1]
+            + open.upper[i] * faces.upper[i][1]
+            - open.lower[i] * faces.lower[i][1];
+        right_side[i] = liquid[i] * (right_side[i] - divergence);
+    }
+}
+
+/// The change on faces between the cells before and after each; known where either is liquid.
+#[inline(always)]
+pub(super) fn touch(
+    known: &mut [f32],
+    change: &mut [f32],
+    liquid: [&[f32]; 2],
+    p: [&[f32]; 2],
+    open_and_steep: [&[f32]; 2],
+    old: &[[f32; 2]],
+) {
+    let ([liquid_before, liquid], [p_before, p], [open, steep]) = (liquid, p, open_and_steep);
+    for i in 0..known.len() {
+        let touches = if liquid_before[i] + liquid[i] > 0.0 { 1.0 } else { 0.0 };
+        let gained = if open[i] > 0.0 { steep[i] * (p_before[i] - p[i]) } else { -old[i][1] };
+        known[i] = touches;
+        change[i] = touches * gained;
+    }
+}
+
+/// Turns weight and velocity of faces into change and new velocity; where the change is not known it is the mean of the
+/// neighbours'.
+#[inline(always)]
+pub(super) fn fill_in(faces: &mut [[f32; 2]], change: Around, known: Around) {
+    for i in 0..faces.len() {
+        let around = (known.left[i] + known.right[i]) + (known.lower[i] + known.upper[i]);
+        let sum = (change.left[i] + change.right[i]) + (change.lower[i] + change.upper[i]);
+        let filled = sum / if around > 0.5 { around } else { 0.5 };
+        let gained = if known.centre[i] > 0.0 { change.centre[i] } else { filled };
+        faces[i] = [gained, faces[i][1] + gained];
+    }
+}

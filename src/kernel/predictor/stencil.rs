@@ -1,0 +1,69 @@
+//! Bilinear weights of the faces around a point.
+
+use crate::kernel::{predictor::grid::MacGrid, simd::whole_below};
+
+/// Which faces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Axis {
+    /// Left faces: they stand on columns' edges and rows' middles.
+    U,
+    /// Lower faces: they stand on columns' middles and rows' edges.
+    V,
+}
+
+impl Axis {
+    /// Index along x of the faces to the left of a point, and the share of those to the right.
+    #[inline(always)]
+    pub fn column(self, grid: &MacGrid, x: f32) -> (u32, f32) {
+        match self {
+            Self::U => whole_below(x * grid.per_cell + 1.0, 1, grid.columns as u32),
+            Self::V => whole_below(x * grid.per_cell + 0.5, 0, grid.columns as u32),
+        }
+    }
+
+    /// Index along y of the faces below a point, and the share of those above.
+    #[inline(always)]
+    pub fn row(self, grid: &MacGrid, y: f32) -> (u32, f32) {
+        match self {
+            Self::U => whole_below(y * grid.per_cell + 0.5, 0, grid.rows as u32),
+            Self::V => whole_below(y * grid.per_cell + 1.0, 1, grid.rows as u32),
+        }
+    }
+}
+
+/// Points whose stencils are found side by side.
+pub(super) const LANES: usize = 16;
+
+/// The four faces around each of some points: index of the lower left one, and the shares of the right and upper ones.
+pub(super) struct Stencils {
+    pub corner: [u32; LANES],
+    pub right: [f32; LANES],
+    pub upper: [f32; LANES],
+}
+
+impl Stencils {
+    /// The faces around points, d.
+    #[inline(always)]
+    pub fn new(grid: &MacGrid, x: &[f32; LANES], y: &[f32; LANES], axis: Axis) -> Self {
+        let mut stencils = Self { corner: [0; LANES], right: [0.0; LANES], upper: [0.0; LANES] };
+        let stride = grid.stride as u32;
+        for lane in 0..LANES {
+            let (i, right) = axis.column(grid, x[lane]);
+            let (j, upper) = axis.row(grid, y[lane]);
+            stencils.corner[lane] = j * stride + i;
+            (stencils.right[lane], stencils.upper[lane]) = (right, upper);
+        }
+        stencils
+    }
+}
+
+/// Calls `add(face, weight)` for the four faces around a point, d.
+pub(super) fn faces_around(grid: &MacGrid, x: f32, y: f32, axis: Axis, mut add: impl FnMut(usize, f32)) {
+    let ((i, right), (j, upper)) = (axis.column(grid, x), axis.row(grid, y));
+    let corner = grid.row(j as usize) + i as usize;
+    let (left, lower) = (1.0 - right, 1.0 - upper);
+    add(corner, left * lower);
+    add(corner + 1, right * lower);
+    add(corner + grid.stride, left * upper);
+    add(corner + grid.stride + 1, right * upper);
+}
