@@ -58,11 +58,11 @@ impl Tank {
 
     fn predict(&mut self) {
         let Self { particles, solids, domain, quality, solver } = self;
-        predict::predict(particles, solver, solids, domain, quality, SUBSTEP);
+        predict::predict(particles, solver, solids, domain, quality, 1, SUBSTEP);
     }
 
     fn bin(&mut self) {
-        self.solver.bin(&mut self.particles, &self.solids, &self.domain, &self.quality);
+        self.solver.bin(&mut self.particles, &self.solids, &self.domain, &self.quality, 1);
     }
 
     fn solve(&mut self, iterations: u32) {
@@ -87,14 +87,14 @@ fn stages(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(u64::from(SIDE * SIDE)));
     let best = InstructionSet::detect();
     group.bench_function("gravity", |b| {
-        stage(b, Tank::new(best), |tank| forces::apply_gravity(Vec2::new(0.0, -1e-6), &mut tank.particles, SUBSTEP));
+        stage(b, Tank::new(best), |tank| forces::apply_gravity(Vec2::new(0.0, -1e-6), &mut tank.particles, 1, SUBSTEP));
     });
     group.bench_function("drag", |b| {
         let tank = Tank::new(best);
         let params = AirParams { sound_speed: 1000.0, open: OpenSides::default() };
         let mut air = Air::new(tank.domain.size, 4.0, params);
         air.blow(Vec2::splat(50.0), 40.0, Vec2::new(30.0, 0.0));
-        stage(b, tank, |tank| forces::apply_drag(&air, &[0.001], &mut tank.particles, SUBSTEP));
+        stage(b, tank, |tank| forces::apply_drag(&air, &[0.001], &mut tank.particles, 1, SUBSTEP));
     });
     group.bench_function("predictor", |b| {
         let tank = Tank::new(best);
@@ -108,6 +108,7 @@ fn stages(criterion: &mut Criterion) {
                     cell: tank.quality.kernel_radius,
                     rest_density: 1.0,
                     instructions: best,
+                    threads: 1,
                     dt: SUBSTEP,
                 };
                 predictor.run(particles, &tank.solids, &params)
@@ -151,7 +152,7 @@ fn stages(criterion: &mut Criterion) {
     group.bench_function("velocity", |b| {
         stage(b, Tank::new(best), |tank| {
             let Tank { particles, solids, quality, solver, .. } = tank;
-            velocity::update_velocities(particles, solver, solids, quality, true, SUBSTEP);
+            velocity::update_velocities(particles, solver, solids, quality, true, 1, SUBSTEP);
         });
     });
     group.finish();
