@@ -3,6 +3,10 @@
 //! New particles stand on the sites of the lattice (the centres of the cells), a little off them when poured, and only
 //! where no other particle is near: nothing is ever put into something.
 
+mod occupancy;
+#[cfg(test)]
+mod tests;
+
 use crate::kernel::{
     brush::Stroke,
     element::{ElementId, ElementTable},
@@ -12,6 +16,7 @@ use crate::kernel::{
     sources::{Drain, Emitter},
 };
 use glam::{IVec2, Vec2};
+use occupancy::Occupancy;
 
 /// A site is free if no particle is nearer than this, d.
 const CLEARANCE: f32 = 0.8;
@@ -256,223 +261,5 @@ impl Filling {
     /// Every free site, right on it, at rest.
     fn all() -> Self {
         Self { share: 1.0, seed: 0, scatter: 0.0, velocity: Vec2::ZERO, most: u32::MAX }
-    }
-}
-
-/// Which points near a region are taken: particles in lists by cell.
-struct Occupancy {
-    low: IVec2,
-    columns: i32,
-    rows: i32,
-    newest: Vec<u32>,
-    points: Vec<(Vec2, u32)>,
-}
-
-/// End of a list.
-const NONE: u32 = u32::MAX;
-
-impl Occupancy {
-    /// The particles in the cells `low … high` and those around them.
-    fn new(particles: &Particles, low: IVec2, high: IVec2) -> Self {
-        let (low, high) = (low - 1, high + 1);
-        let (columns, rows) = (high.x - low.x + 1, high.y - low.y + 1);
-        let mut occupancy =
-            Self { low, columns, rows, newest: vec![NONE; (columns * rows) as usize], points: Vec::new() };
-        for i in 0..particles.len() {
-            occupancy.insert(particles.position(i));
-        }
-        occupancy
-    }
-
-    fn index(&self, cell: IVec2) -> Option<usize> {
-        let cell = cell - self.low;
-        let inside = cell.x >= 0 && cell.y >= 0 && cell.x < self.columns && cell.y < self.rows;
-        inside.then(|| (cell.y * self.columns + cell.x) as usize)
-    }
-
-    fn insert(&mut self, point: Vec2) {
-        if let Some(k) = self.index(Solids::cell_of(point)) {
-            self.points.push((point, self.newest[k]));
-            self.newest[k] = self.points.len() as u32 - 1;
-        }
-    }
-
-    fn is_near(&self, point: Vec2) -> bool {
-        let cell = Solids::cell_of(point);
-        (-1..=1).any(|dy| (-1..=1).any(|dx| self.cell_holds_near(cell + IVec2::new(dx, dy), point)))
-    }
-
-    fn cell_holds_near(&self, cell: IVec2, point: Vec2) -> bool {
-        let mut entry = self.index(cell).map_or(NONE, |k| self.newest[k]);
-        while let Some(&(other, older)) = self.points.get(entry as usize) {
-            if (other - point).length_squared() < CLEARANCE * CLEARANCE {
-                return true;
-            }
-            entry = older;
-        }
-        false
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::kernel::{brush::BrushShape, element::Element, sources::Rect};
-
-    struct Bench {
-        elements: ElementTable,
-        particles: Particles,
-        solids: Solids,
-        next_id: u32,
-        limit: u32,
-    }
-
-    const ROCK: ElementId = ElementId(0);
-    const WATER: ElementId = ElementId(1);
-
-    impl Bench {
-        fn new() -> Self {
-            let element = |name: &str, fixed: bool, flow: f32| Element {
-                name: name.into(),
-                key: '1',
-                colour: [0; 3],
-                fixed,
-                density: 1000.0,
-                viscosity: 0.0,
-                vorticity: 0.0,
-                drag: 0.0,
-                flow,
-            };
-            Self {
-                elements: ElementTable::new(vec![element("rock", true, 1.0), element("water", false, 0.25)]),
-                particles: Particles::default(),
-                solids: Solids::new(60, 40),
-                next_id: 0,
-                limit: 10_000,
-            }
-        }
-
-        fn matter(&mut self) -> Matter<'_> {
-            Matter {
-                elements: &self.elements,
-                particles: &mut self.particles,
-                solids: &mut self.solids,
-                next_id: &mut self.next_id,
-                limit: self.limit,
-            }
-        }
-
-        fn nearest(&self) -> f32 {
-            let mut nearest = f32::MAX;
-            for i in 0..self.particles.len() {
-                for j in 0..i {
-                    nearest = nearest.min(self.particles.position(i).distance(self.particles.position(j)));
-                }
-            }
-            nearest
-        }
-    }
-
-    fn disc(x: f32, y: f32, radius: f32) -> Stroke {
-        Stroke::dab(BrushShape::Disc, Vec2::new(x, y), radius)
-    }
-
-    #[test]
-    fn pouring_fills_up_and_never_puts_two_in_one_place() {
-        let mut bench = Bench::new();
-        let first = bench.matter().pour(WATER, &disc(30.0, 20.0, 6.0), 0);
-        assert!((10..=50).contains(&first.placed), "one tick poured {} particles", first.placed);
-        for edit in 1..200 {
-            bench.matter().pour(WATER, &disc(30.0 + 0.01 * edit as f32, 20.0, 6.0), edit);
-        }
-        assert!(bench.particles.len() > 80, "the brush did not fill up: {}", bench.particles.len());
-        assert!(bench.nearest() >= CLEARANCE, "two particles {} d apart", bench.nearest());
-    }
-
-    #[test]
-    fn rock_takes_the_place_of_water_and_ids_stay_unique() {
-        let mut bench = Bench::new();
-        bench.matter().stamp(WATER, &Stroke::rectangle(Vec2::new(10.0, 10.0), Vec2::new(20.0, 20.0)));
-        assert_eq!(bench.particles.len(), 100);
-        let report = bench.matter().pour(ROCK, &disc(10.0, 10.0, 3.0), 1);
-        assert_eq!(report.placed as usize, bench.solids.count());
-        assert!(report.removed > 0);
-        assert_eq!(bench.particles.len() as u64, 100 - report.removed);
-        let mut ids: Vec<u32> = bench.particles.id.clone();
-        ids.extend(bench.solids.iter().map(|(.., id)| id));
-        ids.sort_unstable();
-        assert!(ids.windows(2).all(|pair| pair[0] < pair[1]), "an id was given twice");
-    }
-
-    #[test]
-    fn water_is_not_poured_into_rock() {
-        let mut bench = Bench::new();
-        bench.matter().pour(ROCK, &disc(30.0, 20.0, 5.0), 0);
-        let report = bench.matter().stamp(WATER, &disc(30.0, 20.0, 4.0));
-        assert_eq!(report.placed, 0);
-    }
-
-    #[test]
-    fn erasing_takes_everything_under_the_brush_and_nothing_else() {
-        let mut bench = Bench::new();
-        bench.matter().stamp(WATER, &Stroke::rectangle(Vec2::new(5.0, 5.0), Vec2::new(15.0, 15.0)));
-        bench.matter().pour(ROCK, &disc(40.0, 20.0, 3.0), 1);
-        let rock = bench.solids.count();
-        let report = bench.matter().erase(&disc(10.0, 10.0, 3.0));
-        assert!(report.removed > 20 && bench.particles.len() as u64 == 100 - report.removed);
-        assert_eq!(bench.solids.count(), rock);
-        bench.matter().erase(&Stroke::rectangle(Vec2::ZERO, Vec2::new(60.0, 40.0)));
-        assert_eq!((bench.particles.len(), bench.solids.count()), (0, 0));
-    }
-
-    #[test]
-    fn at_the_limit_placing_stops_and_is_counted() {
-        let mut bench = Bench::new();
-        bench.limit = 50;
-        let report = bench.matter().stamp(WATER, &Stroke::rectangle(Vec2::new(5.0, 5.0), Vec2::new(15.0, 15.0)));
-        assert_eq!((report.placed, report.refused), (50, 50));
-        assert_eq!(bench.matter().pour(ROCK, &disc(40.0, 20.0, 0.0), 1).refused, 1);
-    }
-
-    #[test]
-    fn filling_stops_at_rock() {
-        let mut bench = Bench::new();
-        for k in 0..40 {
-            bench.solids.insert(IVec2::new(20, k), ROCK, 1000 + k as u32);
-        }
-        let report = bench.matter().fill(WATER, Vec2::new(5.0, 5.0));
-        assert_eq!(report.placed, 20 * 40);
-        assert_eq!(bench.matter().fill(WATER, Vec2::new(5.0, 5.0)).placed, 0, "a full room was filled again");
-        assert_eq!(bench.matter().fill(WATER, Vec2::new(-5.0, f32::NAN)).placed, 0);
-    }
-
-    #[test]
-    fn a_tap_keeps_its_rate_and_its_total() {
-        let mut bench = Bench::new();
-        let area = Rect { min: Vec2::new(10.0, 30.0), max: Vec2::new(30.0, 34.0) };
-        let mut emitter = Emitter {
-            element: WATER,
-            area,
-            velocity: Vec2::new(0.0, -1.0),
-            rate: 30.0,
-            total: Some(40),
-            start: 10,
-            given: 0,
-            due: 0.0,
-        };
-        for tick in 0..10 {
-            bench.matter().emit(&mut emitter, tick, 1.0 / 60.0);
-        }
-        assert_eq!(emitter.given, 0, "it flowed before its start");
-        for tick in 10..70 {
-            bench.matter().emit(&mut emitter, tick, 1.0 / 60.0);
-        }
-        assert!((29..=31).contains(&emitter.given), "{} particles in a second at 30/s", emitter.given);
-        for tick in 70..300 {
-            bench.matter().emit(&mut emitter, tick, 1.0 / 60.0);
-        }
-        assert_eq!((emitter.given, bench.particles.len()), (40, 40));
-        assert!(bench.nearest() >= CLEARANCE);
-        assert_eq!(bench.matter().drain(&Drain { area }).removed, 40);
     }
 }

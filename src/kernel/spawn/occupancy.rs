@@ -1,0 +1,61 @@
+//! Which sites are taken.
+
+use crate::kernel::{particles::Particles, solids::Solids, spawn::CLEARANCE};
+use glam::{IVec2, Vec2};
+
+/// Which points near a region are taken: particles in lists by cell.
+pub(super) struct Occupancy {
+    low: IVec2,
+    columns: i32,
+    rows: i32,
+    newest: Vec<u32>,
+    points: Vec<(Vec2, u32)>,
+}
+
+/// End of a list.
+const NONE: u32 = u32::MAX;
+
+impl Occupancy {
+    /// The particles in the cells `low … high` and those around them.
+    pub fn new(particles: &Particles, low: IVec2, high: IVec2) -> Self {
+        let (low, high) = (low - 1, high + 1);
+        let (columns, rows) = (high.x - low.x + 1, high.y - low.y + 1);
+        let mut occupancy =
+            Self { low, columns, rows, newest: vec![NONE; (columns * rows) as usize], points: Vec::new() };
+        for i in 0..particles.len() {
+            occupancy.insert(particles.position(i));
+        }
+        occupancy
+    }
+
+    fn index(&self, cell: IVec2) -> Option<usize> {
+        let cell = cell - self.low;
+        let inside = cell.x >= 0 && cell.y >= 0 && cell.x < self.columns && cell.y < self.rows;
+        inside.then(|| (cell.y * self.columns + cell.x) as usize)
+    }
+
+    /// Takes a point.
+    pub fn insert(&mut self, point: Vec2) {
+        if let Some(k) = self.index(Solids::cell_of(point)) {
+            self.points.push((point, self.newest[k]));
+            self.newest[k] = self.points.len() as u32 - 1;
+        }
+    }
+
+    /// Whether a taken point is nearer than [`CLEARANCE`].
+    pub fn is_near(&self, point: Vec2) -> bool {
+        let cell = Solids::cell_of(point);
+        (-1..=1).any(|dy| (-1..=1).any(|dx| self.cell_holds_near(cell + IVec2::new(dx, dy), point)))
+    }
+
+    fn cell_holds_near(&self, cell: IVec2, point: Vec2) -> bool {
+        let mut entry = self.index(cell).map_or(NONE, |k| self.newest[k]);
+        while let Some(&(other, older)) = self.points.get(entry as usize) {
+            if (other - point).length_squared() < CLEARANCE * CLEARANCE {
+                return true;
+            }
+            entry = older;
+        }
+        false
+    }
+}

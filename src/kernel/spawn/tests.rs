@@ -1,0 +1,161 @@
+//! What placing and taking away must hold to.
+
+use super::*;
+use crate::kernel::{brush::BrushShape, element::Element, sources::Rect};
+
+struct Bench {
+    elements: ElementTable,
+    particles: Particles,
+    solids: Solids,
+    next_id: u32,
+    limit: u32,
+}
+
+const ROCK: ElementId = ElementId(0);
+const WATER: ElementId = ElementId(1);
+
+impl Bench {
+    fn new() -> Self {
+        let element = |name: &str, fixed: bool, flow: f32| Element {
+            name: name.into(),
+            key: '1',
+            colour: [0; 3],
+            fixed,
+            density: 1000.0,
+            viscosity: 0.0,
+            vorticity: 0.0,
+            drag: 0.0,
+            flow,
+        };
+        Self {
+            elements: ElementTable::new(vec![element("rock", true, 1.0), element("water", false, 0.25)]),
+            particles: Particles::default(),
+            solids: Solids::new(60, 40),
+            next_id: 0,
+            limit: 10_000,
+        }
+    }
+
+    fn matter(&mut self) -> Matter<'_> {
+        Matter {
+            elements: &self.elements,
+            particles: &mut self.particles,
+            solids: &mut self.solids,
+            next_id: &mut self.next_id,
+            limit: self.limit,
+        }
+    }
+
+    fn nearest(&self) -> f32 {
+        let mut nearest = f32::MAX;
+        for i in 0..self.particles.len() {
+            for j in 0..i {
+                nearest = nearest.min(self.particles.position(i).distance(self.particles.position(j)));
+            }
+        }
+        nearest
+    }
+}
+
+fn disc(x: f32, y: f32, radius: f32) -> Stroke {
+    Stroke::dab(BrushShape::Disc, Vec2::new(x, y), radius)
+}
+
+#[test]
+fn pouring_fills_up_and_never_puts_two_in_one_place() {
+    let mut bench = Bench::new();
+    let first = bench.matter().pour(WATER, &disc(30.0, 20.0, 6.0), 0);
+    assert!((10..=50).contains(&first.placed), "one tick poured {} particles", first.placed);
+    for edit in 1..200 {
+        bench.matter().pour(WATER, &disc(30.0 + 0.01 * edit as f32, 20.0, 6.0), edit);
+    }
+    assert!(bench.particles.len() > 80, "the brush did not fill up: {}", bench.particles.len());
+    assert!(bench.nearest() >= CLEARANCE, "two particles {} d apart", bench.nearest());
+}
+
+#[test]
+fn rock_takes_the_place_of_water_and_ids_stay_unique() {
+    let mut bench = Bench::new();
+    bench.matter().stamp(WATER, &Stroke::rectangle(Vec2::new(10.0, 10.0), Vec2::new(20.0, 20.0)));
+    assert_eq!(bench.particles.len(), 100);
+    let report = bench.matter().pour(ROCK, &disc(10.0, 10.0, 3.0), 1);
+    assert_eq!(report.placed as usize, bench.solids.count());
+    assert!(report.removed > 0);
+    assert_eq!(bench.particles.len() as u64, 100 - report.removed);
+    let mut ids: Vec<u32> = bench.particles.id.clone();
+    ids.extend(bench.solids.iter().map(|(.., id)| id));
+    ids.sort_unstable();
+    assert!(ids.windows(2).all(|pair| pair[0] < pair[1]), "an id was given twice");
+}
+
+#[test]
+fn water_is_not_poured_into_rock() {
+    let mut bench = Bench::new();
+    bench.matter().pour(ROCK, &disc(30.0, 20.0, 5.0), 0);
+    let report = bench.matter().stamp(WATER, &disc(30.0, 20.0, 4.0));
+    assert_eq!(report.placed, 0);
+}
+
+#[test]
+fn erasing_takes_everything_under_the_brush_and_nothing_else() {
+    let mut bench = Bench::new();
+    bench.matter().stamp(WATER, &Stroke::rectangle(Vec2::new(5.0, 5.0), Vec2::new(15.0, 15.0)));
+    bench.matter().pour(ROCK, &disc(40.0, 20.0, 3.0), 1);
+    let rock = bench.solids.count();
+    let report = bench.matter().erase(&disc(10.0, 10.0, 3.0));
+    assert!(report.removed > 20 && bench.particles.len() as u64 == 100 - report.removed);
+    assert_eq!(bench.solids.count(), rock);
+    bench.matter().erase(&Stroke::rectangle(Vec2::ZERO, Vec2::new(60.0, 40.0)));
+    assert_eq!((bench.particles.len(), bench.solids.count()), (0, 0));
+}
+
+#[test]
+fn at_the_limit_placing_stops_and_is_counted() {
+    let mut bench = Bench::new();
+    bench.limit = 50;
+    let report = bench.matter().stamp(WATER, &Stroke::rectangle(Vec2::new(5.0, 5.0), Vec2::new(15.0, 15.0)));
+    assert_eq!((report.placed, report.refused), (50, 50));
+    assert_eq!(bench.matter().pour(ROCK, &disc(40.0, 20.0, 0.0), 1).refused, 1);
+}
+
+#[test]
+fn filling_stops_at_rock() {
+    let mut bench = Bench::new();
+    for k in 0..40 {
+        bench.solids.insert(IVec2::new(20, k), ROCK, 1000 + k as u32);
+    }
+    let report = bench.matter().fill(WATER, Vec2::new(5.0, 5.0));
+    assert_eq!(report.placed, 20 * 40);
+    assert_eq!(bench.matter().fill(WATER, Vec2::new(5.0, 5.0)).placed, 0, "a full room was filled again");
+    assert_eq!(bench.matter().fill(WATER, Vec2::new(-5.0, f32::NAN)).placed, 0);
+}
+
+#[test]
+fn a_tap_keeps_its_rate_and_its_total() {
+    let mut bench = Bench::new();
+    let area = Rect { min: Vec2::new(10.0, 30.0), max: Vec2::new(30.0, 34.0) };
+    let mut emitter = Emitter {
+        element: WATER,
+        area,
+        velocity: Vec2::new(0.0, -1.0),
+        rate: 30.0,
+        total: Some(40),
+        start: 10,
+        given: 0,
+        due: 0.0,
+    };
+    for tick in 0..10 {
+        bench.matter().emit(&mut emitter, tick, 1.0 / 60.0);
+    }
+    assert_eq!(emitter.given, 0, "it flowed before its start");
+    for tick in 10..70 {
+        bench.matter().emit(&mut emitter, tick, 1.0 / 60.0);
+    }
+    assert!((29..=31).contains(&emitter.given), "{} particles in a second at 30/s", emitter.given);
+    for tick in 70..300 {
+        bench.matter().emit(&mut emitter, tick, 1.0 / 60.0);
+    }
+    assert_eq!((emitter.given, bench.particles.len()), (40, 40));
+    assert!(bench.nearest() >= CLEARANCE);
+    assert_eq!(bench.matter().drain(&Drain { area }).removed, 40);
+}
