@@ -4,7 +4,7 @@ use bevy::prelude::Resource;
 use std::sync::Arc;
 
 /// Fewer particles than this are done on one thread: handing them over costs more than it saves.
-const WORTH_SHARING: usize = 4_000;
+const WORTH_SHARING: usize = 6_000;
 
 /// The same where a particle takes a fraction of a nanosecond: entering the pool takes some ten microseconds.
 const WORTH_SHARING_CHECKS: usize = 200_000;
