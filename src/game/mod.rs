@@ -29,7 +29,7 @@ use bevy::{
     window::WindowEvent,
 };
 
-pub use window::{GameError, GameOptions, run};
+pub use window::{GameError, run};
 
 /// Reads the devices and carries out orders, before the ticks of a frame.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]

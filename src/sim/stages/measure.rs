@@ -9,8 +9,8 @@ use crate::{
         state::{Census, Clock, Counters, ParticleStore, Rock, Setup},
     },
 };
+use bevy::platform::time::Instant;
 use bevy::prelude::{Res, ResMut};
-use std::time::Instant;
 
 /// Counts the particles of each element.
 pub(super) fn count_particles(

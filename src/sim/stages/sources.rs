@@ -7,8 +7,8 @@ use crate::{
         state::{Clock, Counters, ParticleStore, Rock, Setup, Sources},
     },
 };
+use bevy::platform::time::Instant;
 use bevy::prelude::{Res, ResMut};
-use std::time::Instant;
 
 /// Lets taps flow and outlets drain, and takes away what is no longer a number.
 pub(super) fn run_sources(

@@ -1,8 +1,8 @@
 //! Runs the substeps of a tick.
 
 use crate::{kernel::units::TICK_SECONDS, sim::schedule::Substep};
+use bevy::platform::time::Instant;
 use bevy::prelude::{Resource, World};
-use std::time::Instant;
 
 /// What the gate decided for the tick.
 #[derive(Resource, Clone, Copy, Debug)]
