@@ -100,7 +100,7 @@ pub(super) enum Listing {
 /// `play`.
 #[derive(Debug, Args)]
 pub(super) struct PlayArguments {
-    /// Scene: a name of `list scenes`, or a path [default: waterfall]
+    /// Scene: a name of `list scenes`, or the path of a scene file or a save file [default: waterfall]
     pub(super) scene: Option<String>,
     #[command(flatten)]
     pub(super) options: PlayOptions,

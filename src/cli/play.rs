@@ -1,30 +1,24 @@
 //! `play`: the game's window.
 
-use crate::{
-    cli::{args::PlayOptions, failure::Failure, threads},
-    scene::{
-        self,
-        blueprint::{Blueprint, EffectModes},
-    },
-};
+use crate::cli::{args::PlayOptions, failure::Failure, start::Start, threads};
 
 /// The scene without a name.
 const DEFAULT_SCENE: &str = "waterfall";
 
-/// Opens the game with a scene.
+/// Opens the game with a scene or a saved world.
 pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Failure> {
-    let scene = scene::load(scene.unwrap_or(DEFAULT_SCENE))?;
-    let blueprint = scene.build(&options.settings, options.quality, &EffectModes::new())?;
+    let scene = scene.unwrap_or(DEFAULT_SCENE);
+    let start = Start::of_play(scene, options)?;
     threads::start(options.threads)?;
-    open(blueprint)
+    open(scene, start)
 }
 
 #[cfg(feature = "app")]
-fn open(blueprint: Blueprint) -> Result<(), Failure> {
-    use crate::game::{self, GameOptions};
+fn open(scene: &str, start: Start) -> Result<(), Failure> {
+    use crate::game;
     use bevy::app::AppExit;
 
-    match game::run(std::sync::Arc::new(blueprint), GameOptions::default()) {
+    match game::run(scene, |world| start.load(world)) {
         Ok(AppExit::Success) => Ok(()),
         Ok(AppExit::Error(code)) => Err(Failure::Outcome(format!("the game ended with error {code}"))),
         Err(error) => Err(Failure::Usage(error.to_string())),
@@ -32,9 +26,8 @@ fn open(blueprint: Blueprint) -> Result<(), Failure> {
 }
 
 #[cfg(not(feature = "app"))]
-fn open(blueprint: Blueprint) -> Result<(), Failure> {
+fn open(scene: &str, _: Start) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
-        "this build has no window (it lacks the cargo feature `app`); `powder-master run {}` works without one",
-        blueprint.name
+        "this build has no window (it lacks the cargo feature `app`); `powder-master run {scene}` works without one"
     )))
 }

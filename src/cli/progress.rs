@@ -1,10 +1,10 @@
 //! A line on the terminal that says how far a long work is. Nothing if stderr is no terminal.
 
 use crate::lab::run::Observer;
-use bevy::ecs::world::World;
+use bevy::{ecs::world::World, platform::time::Instant};
 use std::{
     io::{self, IsTerminal, Write},
-    time::{Duration, Instant},
+    time::Duration,
 };
 
 /// A line on stderr that is written over and over.

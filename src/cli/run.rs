@@ -19,14 +19,13 @@ use crate::{
         sampler::Sampler,
         trace::Trace,
     },
-    sim::{control, replay::Replay, save, view::View},
+    sim::{control, replay::Replay, save, view::View, workers::Workers},
 };
-use bevy::ecs::world::World;
+use bevy::{ecs::world::World, platform::time::Instant};
 use std::{
     fs::File,
     io::{BufWriter, Write},
     path::Path,
-    time::Instant,
 };
 
 /// Ticks of a run that does not say: 10 s.
@@ -35,13 +34,13 @@ const DEFAULT_TICKS: u64 = 600;
 /// Runs a scene and writes what was asked for.
 pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     check_outputs(arguments)?;
-    let (start, replay) = Start::read(arguments)?;
+    let (start, replay) = Start::of_run(arguments)?;
     let plan = plan(arguments, replay)?;
     threads::start(arguments.threads)?;
     let trace = arguments.trace.as_deref().map(Tracing::create).transpose()?;
 
     let begun = Instant::now();
-    let mut headless = start.begin();
+    let mut headless = Headless::begin(Workers::default(), |world| start.load(world));
     let mut sampler = arguments.metrics.is_some().then(|| Sampler::new(headless.world(), plan.warmup));
     let trace = simulate(&mut headless, &plan, sampler.as_mut(), trace)?;
     let seconds = begun.elapsed().as_secs_f64();

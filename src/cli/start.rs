@@ -1,9 +1,11 @@
 //! The world that a run starts from: a scene, a scene as a replay found it, or a save file.
 
 use crate::{
-    cli::{args::RunArguments, failure::Failure},
+    cli::{
+        args::{PlayOptions, RunArguments},
+        failure::Failure,
+    },
     kernel::params::Preset,
-    lab::headless::Headless,
     scene::{
         self,
         blueprint::{Blueprint, EffectModes},
@@ -13,9 +15,9 @@ use crate::{
         effects::Effects,
         replay::Replay,
         save::{self, SaveError, Saved},
-        workers::Workers,
     },
 };
+use bevy::ecs::world::World;
 use std::{fmt::Display, fs, path::Path, sync::Arc};
 
 /// Everything that was read and is ready to run.
@@ -33,22 +35,17 @@ pub(super) struct Wishes {
 }
 
 impl Start {
-    /// Reads what the command line names, with the recorded input if there is some.
-    pub(super) fn read(arguments: &RunArguments) -> Result<(Self, Option<Replay>), Failure> {
+    /// Reads what `run` names, with the recorded input if there is some.
+    pub(super) fn of_run(arguments: &RunArguments) -> Result<(Self, Option<Replay>), Failure> {
         let effects: EffectModes = arguments.effects.iter().copied().collect();
-        let path = Path::new(&arguments.scene);
-        if let Some(saved) = read_save(&arguments.scene)? {
-            let brought = [("--set", !arguments.settings.is_empty()), ("--replay", arguments.replay.is_some())];
-            if let Some((option, _)) = brought.into_iter().find(|(_, given)| *given) {
-                return Err(bad(path, &format_args!("a save file can't be run with {option}; allowed: a scene")));
-            }
-            return Ok((Self::Saved(Box::new(saved), Wishes { quality: arguments.quality, effects }), None));
+        let Some(path) = arguments.replay.as_deref() else {
+            let start = Self::read(&arguments.scene, &arguments.settings, arguments.quality, effects)?;
+            return Ok((start, None));
+        };
+        if read_save(&arguments.scene)?.is_some() {
+            return Err(only_a_scene(&arguments.scene, "--replay"));
         }
         let file = scene::load(&arguments.scene)?;
-        let Some(path) = arguments.replay.as_deref() else {
-            let blueprint = file.build(&arguments.settings, arguments.quality, &effects)?;
-            return Ok((Self::Scene(Box::new(blueprint)), None));
-        };
         let replay = read_replay(path)?;
         let header = &replay.header;
         if header.scene != file.name() {
@@ -62,13 +59,33 @@ impl Start {
         Ok((Self::Scene(Box::new(blueprint)), Some(replay)))
     }
 
-    /// The world, before its first tick.
-    pub(super) fn begin(self) -> Headless {
+    /// Reads what `play` names.
+    pub(super) fn of_play(name_or_path: &str, options: &PlayOptions) -> Result<Self, Failure> {
+        Self::read(name_or_path, &options.settings, options.quality, EffectModes::new())
+    }
+
+    fn read(
+        name_or_path: &str,
+        settings: &[(String, String)],
+        quality: Option<Preset>,
+        effects: EffectModes,
+    ) -> Result<Self, Failure> {
+        let Some(saved) = read_save(name_or_path)? else {
+            let blueprint = scene::load(name_or_path)?.build(settings, quality, &effects)?;
+            return Ok(Self::Scene(Box::new(blueprint)));
+        };
+        if !settings.is_empty() {
+            return Err(only_a_scene(name_or_path, "--set"));
+        }
+        Ok(Self::Saved(Box::new(saved), Wishes { quality, effects }))
+    }
+
+    /// Makes `world` the start.
+    pub(super) fn load(self, world: &mut World) {
         match self {
-            Self::Scene(blueprint) => Headless::new(Arc::new(*blueprint), Workers::default()),
+            Self::Scene(blueprint) => control::load(world, Arc::new(*blueprint)),
             Self::Saved(saved, wishes) => {
-                let mut headless = Headless::resume(*saved, Workers::default());
-                let world = headless.world_mut();
+                save::load(world, *saved);
                 if let Some(preset) = wishes.quality {
                     control::set_quality(world, preset, preset.quality());
                 }
@@ -76,10 +93,13 @@ impl Start {
                 for (effect, mode) in wishes.effects {
                     effects.get_mut(effect).mode = mode;
                 }
-                headless
             }
         }
     }
+}
+
+fn only_a_scene(path: &str, option: &str) -> Failure {
+    bad(Path::new(path), &format_args!("a save file has no use for {option}; allowed: a scene"))
 }
 
 fn bad(path: &Path, what: &dyn Display) -> Failure {

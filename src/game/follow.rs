@@ -3,7 +3,6 @@
 use crate::{
     game::{
         camera::WorldCamera,
-        history::History,
         tools::{Tool, Toolbox},
     },
     scene::blueprint::Blueprint,
@@ -12,13 +11,12 @@ use crate::{
 use bevy::prelude::{Local, Res, ResMut};
 use std::sync::Arc;
 
-/// Shows the whole of its box, takes up the scene's first element, forgets the past.
+/// Shows the whole of its box, takes up the scene's first element.
 pub fn follow_scene(
     setup: Option<Res<Setup>>,
     mut seen: Local<Option<Arc<Blueprint>>>,
     mut camera: ResMut<WorldCamera>,
     mut tools: ResMut<Toolbox>,
-    mut history: ResMut<History>,
 ) {
     let Some(setup) = setup else { return };
     let blueprint = &setup.blueprint;
@@ -27,7 +25,6 @@ pub fn follow_scene(
     }
     *seen = Some(blueprint.clone());
     camera.set_world(blueprint.domain.size);
-    history.clear();
     let elements = &blueprint.elements;
     let first = blueprint.first_element.as_deref().and_then(|name| elements.find(name));
     let movable = || elements.iter().find(|(_, element)| !element.fixed).map(|(id, _)| id);

@@ -7,6 +7,7 @@
 //! ```
 
 pub mod camera;
+pub mod files;
 pub mod follow;
 pub mod frame;
 pub mod history;
@@ -14,6 +15,7 @@ pub mod hud;
 pub mod input;
 pub mod orders;
 pub mod render;
+pub mod saves;
 pub mod screen;
 #[cfg(test)]
 mod tests;
@@ -29,7 +31,7 @@ use bevy::{
     window::WindowEvent,
 };
 
-pub use window::{GameError, GameOptions, run};
+pub use window::{GameError, run};
 
 /// Reads the devices and carries out orders, before the ticks of a frame.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -47,6 +49,7 @@ impl Plugin for GamePlugin {
             .init_resource::<orders::Orders>()
             .init_resource::<orders::Shown>()
             .init_resource::<history::History>()
+            .init_resource::<saves::SaveFolders>()
             .init_resource::<frame::Tempo>()
             .init_resource::<hud::HudState>()
             .init_resource::<hud::toast::Toasts>()

@@ -5,14 +5,14 @@ use crate::{
     game::{
         camera::WorldCamera,
         frame::SPEED_RANGE,
-        history,
+        history::{self, History},
         hud::{HudState, toast::Toasts},
         input::{
             bindings::Action,
             pointer::{Pointer, ZOOM_STEP},
         },
         render::extract::Epoch,
-        screen,
+        saves, screen,
         tools::{Tool, Toolbox},
     },
     kernel::{element::ElementId, params::Preset, solids::Solids},
@@ -31,7 +31,7 @@ use crate::{
 };
 use bevy::prelude::{Resource, World};
 use glam::Vec2;
-use std::sync::Arc;
+use std::{path::PathBuf, sync::Arc};
 
 /// How far from the pointer a particle can be sampled, d.
 const SAMPLE_REACH: f32 = 1.5;
@@ -55,6 +55,8 @@ pub enum Order {
     Quality(Preset),
     /// Switch an effect.
     Effect(Effect, Mode),
+    /// Go on with the world of a save file.
+    Load(PathBuf),
     /// Play another scene.
     Scene {
         /// Its name.
@@ -88,6 +90,7 @@ pub fn obey(world: &mut World) {
             }
             Order::Quality(preset) => control::set_quality(world, preset, preset.quality()),
             Order::Effect(effect, mode) => world.resource_mut::<Effects>().get_mut(effect).mode = mode,
+            Order::Load(path) => saves::load(world, &path),
             Order::Scene { name, settings } => play(world, &name, &settings),
         }
     }
@@ -112,8 +115,10 @@ fn act(world: &mut World, action: Action) {
             let pixel = pixel.unwrap_or(camera.window() / 2.0);
             camera.zoom_at(pixel, if steps > 0 { ZOOM_STEP } else { 1.0 / ZOOM_STEP });
         }
+        Action::Save => saves::save(world),
         Action::Search
         | Action::Hud
+        | Action::Saves
         | Action::Scenes
         | Action::Settings
         | Action::Details
@@ -128,7 +133,11 @@ fn act(world: &mut World, action: Action) {
 fn play(world: &mut World, name: &str, settings: &[(String, String)]) {
     let preset = world.get_resource::<Setup>().map(|setup| setup.preset);
     match scene::load(name).and_then(|scene| scene.build(settings, preset, &EffectModes::new())) {
-        Ok(blueprint) => control::load(world, Arc::new(blueprint)),
+        Ok(blueprint) => {
+            control::load(world, Arc::new(blueprint));
+            world.resource_mut::<History>().clear();
+            world.resource_mut::<Epoch>().0 += 1;
+        }
         Err(error) => world.resource_mut::<Toasts>().warn(error.to_string()),
     }
 }

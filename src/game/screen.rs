@@ -1,7 +1,7 @@
 //! The window as a whole: full screen and screenshots.
 
 use crate::{
-    game::hud::toast::Toasts,
+    game::{files, hud::toast::Toasts},
     sim::state::{Clock, Setup},
 };
 use bevy::{
@@ -9,7 +9,6 @@ use bevy::{
     render::view::screenshot::{Screenshot, ScreenshotCaptured},
     window::{MonitorSelection, PrimaryWindow, Window, WindowMode},
 };
-use std::path::PathBuf;
 
 /// Covers the monitor, or goes back to a window.
 pub fn toggle_full_screen(world: &mut World) {
@@ -26,7 +25,7 @@ pub fn toggle_full_screen(world: &mut World) {
 pub fn take_screenshot(world: &mut World) {
     let scene = world.get_resource::<Setup>().map_or("world", |setup| setup.blueprint.name.as_str());
     let tick = world.get_resource::<Clock>().map_or(0, |clock| clock.tick);
-    let path = free_path(scene, tick);
+    let path = files::free_path(&std::env::current_dir().unwrap_or_default(), scene, tick, "png");
     world.spawn(Screenshot::primary_window()).observe(
         move |captured: On<ScreenshotCaptured>, mut toasts: ResMut<Toasts>| {
             let written = captured
@@ -41,16 +40,4 @@ pub fn take_screenshot(world: &mut World) {
             }
         },
     );
-}
-
-/// A file name that is not taken yet.
-fn free_path(scene: &str, tick: u64) -> PathBuf {
-    let folder = std::env::current_dir().unwrap_or_default();
-    let mut path = folder.join(format!("powder-master-{scene}-{tick}.png"));
-    let mut number = 2;
-    while path.exists() {
-        path = folder.join(format!("powder-master-{scene}-{tick}-{number}.png"));
-        number += 1;
-    }
-    path
 }

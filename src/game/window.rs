@@ -2,9 +2,8 @@
 
 use crate::{
     game::{GamePlugin, hud::HudPlugin, hud::settings::Room, render::WorldRenderPlugin},
-    scene::blueprint::Blueprint,
     sim::{
-        SimulationPlugin, control,
+        SimulationPlugin,
         state::{Census, Setup},
     },
 };
@@ -14,7 +13,7 @@ use bevy::{
     camera::{Camera2d, ClearColor},
     color::Color,
     log::LogPlugin,
-    prelude::{Commands, IntoScheduleConfigs, PluginGroup, Res, Single, Startup, Update, With},
+    prelude::{Commands, IntoScheduleConfigs, PluginGroup, Res, Single, Startup, Update, With, World},
     render::view::Msaa,
     time::common_conditions::on_timer,
     window::{PresentMode, PrimaryWindow, Window, WindowPlugin, WindowResizeConstraints, WindowResolution},
@@ -22,24 +21,11 @@ use bevy::{
 use bevy_egui::EguiPlugin;
 use std::{
     panic::{self, AssertUnwindSafe},
-    sync::Arc,
     time::Duration,
 };
 
-/// How the game is to be shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct GameOptions {
-    /// Size of the window, logical pixels.
-    pub size: (u32, u32),
-    /// Whether frames wait for the screen.
-    pub vsync: bool,
-}
-
-impl Default for GameOptions {
-    fn default() -> Self {
-        Self { size: (1280, 800), vsync: true }
-    }
-}
+/// Size of the window at the start, logical pixels.
+const WINDOW_SIZE: (u32, u32) = (1280, 800);
 
 /// Why there is no game.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -62,16 +48,16 @@ pub enum GameError {
     },
 }
 
-/// Plays a scene in a window until it is closed.
-pub fn run(blueprint: Arc<Blueprint>, options: GameOptions) -> Result<AppExit, GameError> {
-    let scene = blueprint.name.clone();
+/// Plays in a window until it is closed. `load` makes the world; `scene` is what `run` would call it.
+pub fn run(scene: &str, load: impl FnOnce(&mut World)) -> Result<AppExit, GameError> {
+    let scene = scene.to_owned();
     if let Some(reason) = missing_display(|name| std::env::var(name).ok()) {
         return Err(GameError::NoDisplay { reason, scene });
     }
     // Setting the window up panics where it fails (winit can't reach the display, there is no graphics adapter).
     let hook = panic::take_hook();
     panic::set_hook(Box::new(|_| {}));
-    let built = panic::catch_unwind(AssertUnwindSafe(|| build(blueprint, options)));
+    let built = panic::catch_unwind(AssertUnwindSafe(|| build(load)));
     panic::set_hook(hook);
     match built {
         Ok(mut app) => Ok(app.run()),
@@ -100,12 +86,12 @@ fn explain(panic: &str, scene: String) -> GameError {
     GameError::NoWindow { reason: panic.lines().next().unwrap_or("unknown reason").to_owned(), scene }
 }
 
-fn build(blueprint: Arc<Blueprint>, options: GameOptions) -> App {
+fn build(load: impl FnOnce(&mut World)) -> App {
     let window = Window {
         title: "Powder Master".into(),
         name: Some("powder-master".into()),
-        resolution: WindowResolution::new(options.size.0, options.size.1),
-        present_mode: if options.vsync { PresentMode::AutoVsync } else { PresentMode::AutoNoVsync },
+        resolution: WindowResolution::from(WINDOW_SIZE),
+        present_mode: PresentMode::AutoVsync,
         resize_constraints: WindowResizeConstraints { min_width: 480.0, min_height: 320.0, ..Default::default() },
         fit_canvas_to_parent: true,
         prevent_default_event_handling: true,
@@ -123,7 +109,7 @@ fn build(blueprint: Arc<Blueprint>, options: GameOptions) -> App {
     .init_resource::<Room>()
     .add_systems(Startup, spawn_camera)
     .add_systems(Update, tell_in_title.run_if(on_timer(TITLE_EVERY)));
-    control::load(app.world_mut(), blueprint);
+    load(app.world_mut());
     app
 }
 

@@ -2,11 +2,7 @@
 
 use crate::{
     scene::blueprint::Blueprint,
-    sim::{
-        SimulationPlugin, control,
-        save::{self, Saved},
-        workers::Workers,
-    },
+    sim::{SimulationPlugin, control, workers::Workers},
 };
 use bevy::{
     MinimalPlugins,
@@ -27,12 +23,8 @@ impl Headless {
         Self::begin(workers, |world| control::load(world, blueprint))
     }
 
-    /// The world of a save file, for `workers` to run.
-    pub fn resume(saved: Saved, workers: Workers) -> Self {
-        Self::begin(workers, |world| save::load(world, saved))
-    }
-
-    fn begin(workers: Workers, load: impl FnOnce(&mut World)) -> Self {
+    /// The world that `load` makes, for `workers` to run.
+    pub fn begin(workers: Workers, load: impl FnOnce(&mut World)) -> Self {
         let mut app = App::new();
         app.add_plugins((MinimalPlugins.build().disable::<ScheduleRunnerPlugin>(), SimulationPlugin));
         app.insert_resource(workers).insert_resource(TimeUpdateStrategy::FixedTimesteps(1));

@@ -20,11 +20,8 @@ use crate::{
         workers::Workers,
     },
 };
-use bevy::ecs::world::World;
-use std::{
-    io,
-    time::{Duration, Instant},
-};
+use bevy::{ecs::world::World, platform::time::Instant};
+use std::{io, time::Duration};
 
 /// Ticks from one accuracy sample to the next.
 pub const SAMPLE_EVERY: u64 = 20;

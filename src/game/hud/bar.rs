@@ -102,6 +102,8 @@ fn menus(ui: &mut Ui, narrow: bool, state: &HudState, setup: &Setup, shown: View
         (Icon::Question, Action::Help, state.help),
         (Icon::Gear, Action::Settings, state.settings),
         (Icon::Chart, Action::Details, state.details),
+        (Icon::Load, Action::Saves, state.saves),
+        (Icon::Save, Action::Save, false),
     ] {
         if icon_button(ui, icon, None, open).on_hover_text(tip(action)).clicked() {
             orders.push(Order::Act(action));

@@ -29,6 +29,10 @@ pub enum Icon {
     Redo,
     /// Scenes.
     Scenes,
+    /// Save.
+    Save,
+    /// Load.
+    Load,
     /// Views.
     Eye,
     /// Quality.
@@ -74,6 +78,8 @@ pub fn draw(painter: &Painter, rect: Rect, icon: Icon, colour: Color32) {
                 pen.bar(x, y, 0.32, 0.3);
             }
         }
+        Icon::Save => pen.tray(1.0),
+        Icon::Load => pen.tray(-1.0),
         Icon::Eye => pen.eye(),
         Icon::Gauge => pen.gauge(),
         Icon::Gear => pen.gear(),
@@ -212,6 +218,14 @@ impl Pen<'_> {
             0.1,
         );
         self.fill(&[(x(0.1), 0.36), (x(0.36), 0.14), (x(0.36), 0.58)]);
+    }
+
+    /// A tray with an arrow into it (1) or out of it (−1).
+    fn tray(&self, way: f32) {
+        self.line(&[(0.14, 0.6), (0.14, 0.86), (0.86, 0.86), (0.86, 0.6)], 0.1);
+        let y = |y: f32| 0.38 + (y - 0.38) * way;
+        self.line(&[(0.5, y(0.1)), (0.5, y(0.44))], 0.1);
+        self.fill(&[(0.5, y(0.7)), (0.28, y(0.4)), (0.72, y(0.4))]);
     }
 
     fn eye(&self) {

@@ -7,6 +7,7 @@ pub mod details;
 pub mod help;
 pub mod icons;
 pub mod palette;
+pub mod saves;
 pub mod scenes;
 pub mod search;
 pub mod settings;
@@ -32,6 +33,7 @@ impl Plugin for HudPlugin {
             .init_resource::<settings::UiScale>()
             .init_resource::<HudCost>()
             .init_resource::<scenes::SceneMenu>()
+            .init_resource::<saves::SaveMenu>()
             .add_systems(Startup, (scenes::list_scenes, greet))
             .add_systems(PreUpdate, mind_the_keys.after(EguiPreUpdateSet::ProcessInput))
             .add_systems(
@@ -45,6 +47,7 @@ impl Plugin for HudPlugin {
                     settings::make_room,
                     brush::show,
                     scenes::show,
+                    saves::show,
                     search::show,
                     details::show,
                     settings::show,
@@ -68,6 +71,8 @@ pub struct HudState {
     pub details: bool,
     /// The scene menu.
     pub scenes: bool,
+    /// The list of save files.
+    pub saves: bool,
     /// The settings.
     pub settings: bool,
     /// What is typed into the search for elements, if it is open.
@@ -76,7 +81,7 @@ pub struct HudState {
 
 impl Default for HudState {
     fn default() -> Self {
-        Self { visible: true, help: false, details: false, scenes: false, settings: false, search: None }
+        Self { visible: true, help: false, details: false, scenes: false, saves: false, settings: false, search: None }
     }
 }
 
@@ -88,6 +93,7 @@ impl HudState {
             Action::Help => self.help = !self.help,
             Action::Details => self.details = !self.details,
             Action::Scenes => self.scenes = !self.scenes,
+            Action::Saves => self.saves = !self.saves,
             Action::Settings => self.settings = !self.settings,
             Action::Search => {
                 self.search = match self.search {
@@ -99,7 +105,7 @@ impl HudState {
             _ => return,
         }
         // What is asked for is shown, even if the HUD was hidden.
-        self.visible |= self.help || self.scenes || self.settings || self.search.is_some();
+        self.visible |= self.help || self.scenes || self.saves || self.settings || self.search.is_some();
     }
 }
 

@@ -46,6 +46,10 @@ pub enum Action {
     Pan(i32, i32),
     /// Shows or hides the HUD.
     Hud,
+    /// Writes the world into a file.
+    Save,
+    /// Opens the list of save files.
+    Saves,
     /// Opens the scene menu.
     Scenes,
     /// Opens the settings.
@@ -231,6 +235,8 @@ pub const BINDINGS: &[Binding] = {
     key(K::NumpadAdd, NONE, A::Speed(1), H::World, "faster"),
     key(K::Equal, NONE, A::ClearAir, H::World, "clear the air"),
     key(K::KeyR, NONE, A::Reset, H::World, "reset the scene (can be undone)"),
+    key(K::KeyS, CTRL, A::Save, H::World, "save the world"),
+    key(K::KeyO, CTRL, A::Saves, H::World, "load a saved world (can be undone)"),
     key(K::KeyM, NONE, A::Scenes, H::World, "scene menu"),
 
     key(K::KeyV, NONE, A::NextView, H::Look, "next view"),
@@ -296,9 +302,11 @@ fn key_name(key: KeyCode) -> &'static str {
         K::KeyF => "F",
         K::KeyH => "H",
         K::KeyM => "M",
+        K::KeyO => "O",
         K::KeyP => "P",
         K::KeyQ => "Q",
         K::KeyR => "R",
+        K::KeyS => "S",
         K::KeyV => "V",
         K::KeyW => "W",
         K::KeyX => "X",

@@ -9,8 +9,8 @@ use crate::{
         state::{AirGrid, Census, Clock, Counters, ParticleStore, Rock, Setup},
     },
 };
+use bevy::platform::time::Instant;
 use bevy::prelude::{Res, ResMut};
-use std::time::Instant;
 
 /// Applies all waiting intents in order.
 pub(super) fn apply_intents(

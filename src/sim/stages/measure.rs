@@ -10,8 +10,8 @@ use crate::{
         workers::Workers,
     },
 };
+use bevy::platform::time::Instant;
 use bevy::prelude::{Res, ResMut};
-use std::time::Instant;
 
 /// Counts the particles of each element.
 pub(super) fn count_particles(

@@ -4,14 +4,15 @@ use crate::{
     kernel::{checks::remove_non_finite, spawn::Matter, units::TICK_SECONDS},
     sim::{
         ledger::{Pass, PassLedger},
+        stages::TickPlan,
         state::{Clock, Counters, ParticleStore, Rock, Setup, Sources},
         workers::Workers,
     },
 };
+use bevy::platform::time::Instant;
 use bevy::prelude::{Res, ResMut};
-use std::time::Instant;
 
-/// Lets taps flow and outlets drain, and takes away what is no longer a number.
+/// Begins the tick: lets taps flow and outlets drain, and takes away what is no longer a number.
 pub(super) fn run_sources(
     setup: Res<Setup>,
     mut sources: ResMut<Sources>,
@@ -19,10 +20,12 @@ pub(super) fn run_sources(
     mut rock: ResMut<Rock>,
     mut clock: ResMut<Clock>,
     workers: Res<Workers>,
+    mut plan: ResMut<TickPlan>,
     mut counters: ResMut<Counters>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
+    plan.started = start;
     counters.non_finite +=
         workers.run_checks(particles.len(), |threads| remove_non_finite(&mut particles, threads)) as u64;
     let tick = clock.tick;

@@ -4,15 +4,17 @@ use crate::{
     kernel::units::TICK_SECONDS,
     sim::{schedule::Substep, state::ParticleStore, workers::Workers},
 };
-use bevy::prelude::{Resource, World};
-use std::time::Instant;
+use bevy::{
+    platform::time::Instant,
+    prelude::{Resource, World},
+};
 
 /// What the gate decided for the tick.
 #[derive(Resource, Clone, Copy, Debug)]
 pub struct TickPlan {
     /// Substeps of this tick.
     pub substeps: u32,
-    /// When the step began.
+    /// When the tick began.
     pub(super) started: Instant,
 }
 
@@ -31,9 +33,7 @@ impl TickPlan {
 
 /// Runs the substep schedule as often as the plan says.
 pub(super) fn run_substeps(world: &mut World) {
-    let mut plan = world.resource_mut::<TickPlan>();
-    plan.started = Instant::now();
-    let substeps = plan.substeps;
+    let substeps = world.resource::<TickPlan>().substeps;
     // Enters the pool once: the stages' own entries cost nothing from inside.
     let (workers, particles) = (world.resource::<Workers>().clone(), world.resource::<ParticleStore>().len());
     workers.run_for(particles, |_| {

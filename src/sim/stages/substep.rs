@@ -11,8 +11,8 @@ use crate::{
         workers::Workers,
     },
 };
+use bevy::platform::time::Instant;
 use bevy::prelude::{Res, ResMut};
-use std::time::Instant;
 
 /// The air moves.
 pub(super) fn step_air(

@@ -1,0 +1,84 @@
+//! The files that the game writes by itself: where they go and what they are called.
+
+use std::{
+    env, fs, io,
+    path::{Path, PathBuf},
+};
+
+/// Ending of save files.
+pub const SAVE_ENDING: &str = "pms";
+/// Longest part of a file's name that comes from the scene.
+const NAME_LIMIT: usize = 60;
+
+/// The folders that the game's files may be in: the one that it runs in, and the system's one for a user's data where
+/// that can't be written.
+pub fn folders() -> Vec<PathBuf> {
+    let data = |name: &str| env::var_os(name).filter(|path| !path.is_empty()).map(PathBuf::from);
+    let data = if cfg!(windows) {
+        data("APPDATA")
+    } else if cfg!(target_os = "macos") {
+        data("HOME").map(|home| home.join("Library/Application Support"))
+    } else {
+        data("XDG_DATA_HOME").or_else(|| data("HOME").map(|home| home.join(".local/share")))
+    };
+    env::current_dir().ok().into_iter().chain(data.map(|data| data.join("powder-master"))).collect()
+}
+
+/// Writes a new file into the first folder that takes it, and says where.
+pub fn write_new(folders: &[PathBuf], scene: &str, tick: u64, ending: &str, bytes: &[u8]) -> io::Result<PathBuf> {
+    let mut refusal = io::Error::new(io::ErrorKind::NotFound, "there is no folder to write to");
+    for folder in folders {
+        let path = free_path(folder, scene, tick, ending);
+        match fs::create_dir_all(folder).and_then(|()| write_whole(&path, bytes)) {
+            Ok(()) => return Ok(path),
+            Err(error) => refusal = error,
+        }
+    }
+    Err(refusal)
+}
+
+/// Writes a file so that a failure leaves no half of it behind, and nothing lost that was there.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut part = path.as_os_str().to_owned();
+    part.push(".part");
+    let part = PathBuf::from(part);
+    let written = fs::write(&part, bytes).and_then(|()| fs::rename(&part, path));
+    if written.is_err() {
+        // What matters is why it was not written.
+        let _ = fs::remove_file(&part);
+    }
+    written
+}
+
+/// A name in `folder` that is not taken yet.
+pub fn free_path(folder: &Path, scene: &str, tick: u64, ending: &str) -> PathBuf {
+    // A scene may be named anything, a file not.
+    let fit = |letter: char| if letter.is_alphanumeric() || letter == '_' { letter } else { '-' };
+    let scene: String = scene.chars().take(NAME_LIMIT).map(fit).collect();
+    let mut path = folder.join(format!("powder-{scene}-{tick}.{ending}"));
+    let mut number = 2;
+    while path.exists() {
+        path = folder.join(format!("powder-{scene}-{tick}-{number}.{ending}"));
+        number += 1;
+    }
+    path
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_never_replace_each_other_and_stay_in_their_folder() {
+        let folder = env::temp_dir().join(format!("powder-files-{}", std::process::id()));
+        let folders = [PathBuf::from("/dev/null/nowhere"), folder.clone()];
+        let first = write_new(&folders, "../a b", 7, "pms", b"one").expect("the second folder takes it");
+        let second = write_new(&folders, "../a b", 7, "pms", b"two").expect("so it does again");
+        assert_eq!(first, folder.join("powder----a-b-7.pms"));
+        assert_eq!(second, folder.join("powder----a-b-7-2.pms"));
+        assert_eq!(fs::read(&first).expect("it was written"), b"one");
+        assert_eq!(fs::read_dir(&folder).expect("it was made").count(), 2, "nothing else is left behind");
+        fs::remove_dir_all(&folder).expect("it is ours");
+        assert!(write_new(&folders[..1], "a", 7, "pms", b"").is_err());
+    }
+}

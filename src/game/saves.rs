@@ -1,0 +1,106 @@
+//! Saving and loading worlds while playing.
+
+use crate::{
+    game::{
+        files::{self, SAVE_ENDING},
+        history,
+        hud::toast::Toasts,
+        render::extract::Epoch,
+    },
+    sim::{
+        save::{self, SaveError, Saved},
+        state::{Clock, Setup},
+    },
+};
+use bevy::prelude::{Resource, World};
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+    time::SystemTime,
+};
+
+/// Folders that save files are in; new ones go into the first that can be written.
+#[derive(Resource, Clone, Debug)]
+pub struct SaveFolders(pub Vec<PathBuf>);
+
+impl Default for SaveFolders {
+    fn default() -> Self {
+        Self(files::folders())
+    }
+}
+
+/// Why a file is not loaded.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// It can't be read.
+    #[error("can't be read: {0}")]
+    Unread(#[from] io::Error),
+    /// It is no sound save file.
+    #[error(transparent)]
+    Bad(#[from] SaveError),
+}
+
+/// What a save file holds, for the list.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Summary {
+    /// Title of the scene.
+    pub title: String,
+    /// Its tick.
+    pub tick: u64,
+    /// Particles, rock included.
+    pub particles: usize,
+}
+
+impl Summary {
+    /// Reads the file at `path` to the end, as loading it would.
+    pub fn read(path: &Path) -> Result<Self, LoadError> {
+        let saved = read(path)?;
+        let state = saved.snapshot();
+        Ok(Self {
+            title: saved.title().to_owned(),
+            tick: state.clock.tick,
+            particles: state.particles.len() + state.solids.count(),
+        })
+    }
+}
+
+/// The save files in `folders` and when each was written, newest first.
+pub fn list(folders: &[PathBuf]) -> Vec<(PathBuf, SystemTime)> {
+    let entries = folders.iter().filter_map(|folder| fs::read_dir(folder).ok()).flatten().flatten();
+    let mut saves: Vec<_> = entries
+        .filter(|entry| entry.path().extension().is_some_and(|ending| ending == SAVE_ENDING))
+        .filter_map(|entry| Some((entry.path(), entry.metadata().ok()?.modified().ok()?)))
+        .collect();
+    saves.sort_by(|(a, written_a), (b, written_b)| written_b.cmp(written_a).then_with(|| a.cmp(b)));
+    saves
+}
+
+/// Writes the world into a new file and says where.
+pub fn save(world: &mut World) {
+    let Some(setup) = world.get_resource::<Setup>() else { return };
+    let (folders, tick) = (&world.resource::<SaveFolders>().0, world.resource::<Clock>().tick);
+    let written = files::write_new(folders, &setup.blueprint.name, tick, SAVE_ENDING, &save::encode(world));
+    let mut toasts = world.resource_mut::<Toasts>();
+    match written {
+        Ok(path) => toasts.say(format!("Saved: {}", path.display())),
+        Err(error) => toasts.warn(format!("Not saved: {error}")),
+    }
+}
+
+/// Goes on with the world of a file. The one at hand can be had back with undo; a bad file changes nothing.
+pub fn load(world: &mut World, path: &Path) {
+    let name = path.file_name().unwrap_or(path.as_os_str()).display();
+    match read(path) {
+        Ok(saved) => {
+            history::checkpoint(world);
+            save::load(world, saved);
+            world.resource_mut::<Epoch>().0 += 1;
+            world.resource_mut::<Toasts>().say(format!("Loaded: {name} (undo goes back)"));
+        }
+        Err(error) => world.resource_mut::<Toasts>().warn(format!("{name}: {error}")),
+    }
+}
+
+fn read(path: &Path) -> Result<Saved, LoadError> {
+    Ok(save::decode(&fs::read(path)?)?)
+}

@@ -1,0 +1,133 @@
+//! What the pointer draws and erases.
+
+use super::*;
+
+#[test]
+fn a_held_button_pours_each_tick_and_its_release_stops() {
+    let mut player = Player::new();
+    player.point_at(player.middle());
+    player.press();
+    player.frames(5);
+    assert_eq!(player.seen().len(), 5, "one pour a tick");
+    let poured = player.particles();
+    assert!(poured > 0);
+    player.release();
+    player.frames(2);
+    player.seen();
+    player.frames(3);
+    assert_eq!(player.seen(), [], "nothing is poured after the release");
+}
+
+#[test]
+fn a_click_within_one_frame_draws() {
+    let mut player = Player::new();
+    player.point_at(player.middle());
+    player.press();
+    player.release();
+    player.frames(2);
+    assert!(player.particles() > 0, "the click was lost");
+}
+
+#[test]
+fn a_stroke_within_one_frame_draws_its_whole_way() {
+    let mut player = Player::new();
+    player.choose("rock");
+    let (a, b) = (player.middle(), player.middle() + Vec2::new(30.0, 0.0));
+    player.point_at(a);
+    player.press();
+    player.point_at(a + Vec2::new(15.0, 12.0));
+    player.point_at(b);
+    player.release();
+    player.frames(2);
+    let rock = player.world().resource::<Rock>();
+    for at in [a, a + Vec2::new(15.0, 12.0), b] {
+        assert!(rock.is_solid(at.floor().as_ivec2()), "no rock at {at}");
+    }
+}
+
+#[test]
+fn pouring_does_not_depend_on_the_frame_rate() {
+    let poured = |frame: Duration, frames: usize| {
+        let mut player = Player::new();
+        player.0.insert_resource(TimeUpdateStrategy::ManualDuration(frame));
+        player.point_at(player.middle());
+        player.press();
+        player.frames(frames);
+        let ticks = player.tick();
+        (player.seen().len() as f64 / ticks as f64 * 100.0).round()
+    };
+    let tick = Duration::from_secs_f64(1.0 / 60.0);
+    assert_eq!(poured(tick / 3, 90), 100.0);
+    assert_eq!(poured(tick * 2, 15), 100.0);
+}
+
+#[test]
+fn the_right_button_erases() {
+    let mut player = Player::new();
+    player.choose("rock");
+    player.point_at(player.middle());
+    player.press();
+    player.frame();
+    player.release();
+    player.frames(2);
+    assert!(player.rocks() > 0);
+    player.button(MouseButton::Right, ButtonState::Pressed);
+    player.frames(2);
+    assert_eq!(player.rocks(), 0);
+}
+
+#[test]
+fn a_pointer_over_the_hud_never_draws() {
+    let mut player = Player::new();
+    let window = player.world().resource::<WorldCamera>().window();
+    player.0.world_mut().resource_mut::<HudCover>().parts = vec![Area { min: Vec2::ZERO, max: window }];
+    player.point_at(player.middle());
+    player.press();
+    player.frames(3);
+    assert_eq!(player.seen(), []);
+    // A drag that began in the world draws nothing where it passes over the HUD.
+    player.release();
+    player.frame();
+    player.0.world_mut().resource_mut::<HudCover>().parts.clear();
+    player.press();
+    player.frames(2);
+    assert!(!player.seen().is_empty());
+    player.0.world_mut().resource_mut::<HudCover>().parts = vec![Area { min: Vec2::ZERO, max: window }];
+    player.point_at(player.middle() + Vec2::X);
+    player.frames(3);
+    assert_eq!(player.seen(), []);
+}
+
+#[test]
+fn shift_draws_a_line_and_ctrl_a_rectangle_on_release() {
+    let mut player = Player::new();
+    let (a, b) = (player.middle(), player.middle() + Vec2::new(20.0, 10.0));
+    for (key, is_rectangle) in [(KeyCode::ShiftLeft, false), (KeyCode::ControlLeft, true)] {
+        player.key(key, ButtonState::Pressed);
+        player.point_at(a);
+        player.press();
+        player.frames(2);
+        player.point_at(b);
+        player.frames(2);
+        assert_eq!(player.seen(), [], "nothing before the release");
+        player.key(key, ButtonState::Released);
+        player.release();
+        player.frames(2);
+        let seen = player.seen();
+        let [Intent::Stamp { stroke, .. }] = seen[..] else { panic!("one stamp, not {seen:?}") };
+        assert!((stroke.from - a).length() < 0.1 && (stroke.to - b).length() < 0.1, "{stroke:?}");
+        assert_eq!(stroke.radius == 0.0, is_rectangle);
+    }
+}
+
+#[test]
+fn fill_starts_where_the_pointer_is() {
+    let mut player = Player::new();
+    player.choose("rock");
+    player.key(KeyCode::ControlLeft, ButtonState::Pressed);
+    player.key(KeyCode::ShiftLeft, ButtonState::Pressed);
+    player.point_at(player.middle());
+    player.press();
+    player.frames(2);
+    assert!(matches!(player.seen()[..], [Intent::Fill { .. }]));
+}

@@ -1,0 +1,65 @@
+//! The keyboard: time, tools, views.
+
+use super::*;
+
+#[test]
+fn a_paused_world_takes_edits_and_steps_one_tick_at_a_time() {
+    let mut player = Player::new();
+    player.chord(&[KeyCode::KeyP]);
+    let tick = player.tick();
+    player.point_at(player.middle());
+    player.press();
+    player.frames(3);
+    assert!(player.particles() > 0, "edits must happen while time stands");
+    assert_eq!(player.tick(), tick);
+    player.chord(&[KeyCode::Period]);
+    player.frames(3);
+    assert_eq!(player.tick(), tick + 1);
+    player.chord(&[KeyCode::KeyP]);
+    player.frames(3);
+    assert!(player.tick() > tick + 1);
+}
+
+#[test]
+fn sampling_takes_up_what_is_under_the_pointer() {
+    let mut player = Player::new();
+    player.choose("rock");
+    player.point_at(player.middle());
+    player.press();
+    player.frame();
+    player.release();
+    player.frame();
+    player.choose("water");
+    player.button(MouseButton::Middle, ButtonState::Pressed);
+    player.button(MouseButton::Middle, ButtonState::Released);
+    player.frames(2);
+    let rock = player.world().resource::<Setup>().elements().find("rock").expect("rock exists");
+    assert_eq!(player.world().resource::<Toolbox>().tool, Tool::Element(rock));
+}
+
+#[test]
+fn letters_in_a_text_field_are_no_keys() {
+    let mut player = Player::new();
+    player.0.insert_resource(Typing(true));
+    player.chord(&[KeyCode::KeyP]);
+    assert!(!player.world().resource::<Pace>().paused);
+}
+
+#[test]
+fn keys_choose_views_tools_speed_and_brush() {
+    let mut player = Player::new();
+    player.chord(&[KeyCode::ShiftLeft, KeyCode::Digit2]);
+    assert_eq!(player.world().resource::<Shown>().0, View::Speed);
+    player.chord(&[KeyCode::KeyV]);
+    assert_eq!(player.world().resource::<Shown>().0, View::Density);
+    player.chord(&[KeyCode::Digit1]);
+    let first = player.world().resource::<Setup>().elements().iter().find(|(_, e)| e.key == '1').map(|(id, _)| id);
+    assert_eq!(player.world().resource::<Toolbox>().element(), first);
+    player.chord(&[KeyCode::Minus]);
+    assert_eq!(player.world().resource::<Pace>().speed, 0.5);
+    let radius = player.world().resource::<Toolbox>().radius();
+    player.chord(&[KeyCode::BracketRight]);
+    assert!(player.world().resource::<Toolbox>().radius() > radius);
+    player.chord(&[KeyCode::KeyH]);
+    assert!(!player.world().resource::<HudState>().visible);
+}

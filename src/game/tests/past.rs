@@ -1,0 +1,66 @@
+//! Undo, redo, reset, another scene.
+
+use super::*;
+
+#[test]
+fn undo_and_redo_restore_the_exact_state() {
+    let mut player = Player::new();
+    player.chord(&[KeyCode::Space]);
+    let empty = player.hash();
+    player.point_at(player.middle());
+    player.press();
+    player.frame();
+    player.release();
+    player.frames(2);
+    let drawn = player.hash();
+    assert_ne!(drawn, empty);
+    player.chord(&[KeyCode::ControlLeft, KeyCode::KeyZ]);
+    assert_eq!(player.hash(), empty, "undo");
+    player.chord(&[KeyCode::ControlLeft, KeyCode::KeyY]);
+    assert_eq!(player.hash(), drawn, "redo");
+    player.chord(&[KeyCode::ControlLeft, KeyCode::KeyY]);
+    assert_eq!(player.world().resource::<Toasts>().last(), Some("Nothing to make again"));
+}
+
+#[test]
+fn a_reset_can_be_undone() {
+    let mut player = Player::new();
+    player.chord(&[KeyCode::Space]);
+    player.point_at(player.middle());
+    player.press();
+    player.frame();
+    player.release();
+    player.frames(2);
+    let drawn = player.hash();
+    player.chord(&[KeyCode::KeyR]);
+    assert_eq!(player.particles(), 0);
+    player.chord(&[KeyCode::ControlLeft, KeyCode::KeyZ]);
+    assert_eq!(player.hash(), drawn);
+}
+
+#[test]
+fn another_scene_forgets_the_past_and_shows_its_own_box() {
+    let mut player = Player::new();
+    player.point_at(player.middle());
+    player.press();
+    player.frame();
+    player.release();
+    player.frame();
+    let settings = vec![("columns".to_owned(), "12".to_owned())];
+    player.0.world_mut().resource_mut::<Orders>().push(Order::Scene { name: "dam_break".into(), settings });
+    player.frames(2);
+    let setup = player.world().resource::<Setup>();
+    assert_eq!(setup.blueprint.name, "dam_break");
+    assert_eq!(player.world().resource::<WorldCamera>().world(), setup.blueprint.domain.size);
+    assert_eq!(player.particles(), 2 * 12 * 12);
+    player.chord(&[KeyCode::ControlLeft, KeyCode::KeyZ]);
+    assert_eq!(player.world().resource::<Toasts>().last(), Some("Nothing to undo"));
+    player.0.world_mut().resource_mut::<Orders>().push(Order::Scene { name: "nowhere".into(), settings: vec![] });
+    player.frames(2);
+    assert!(player.world().resource::<Toasts>().last().is_some_and(|text| text.contains("nowhere")));
+    assert_eq!(
+        player.world().resource::<Setup>().blueprint.name,
+        "dam_break",
+        "a scene that isn't there changes nothing"
+    );
+}
