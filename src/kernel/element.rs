@@ -84,3 +84,21 @@ impl ElementTable {
         self.rows.is_empty()
     }
 }
+
+#[cfg(test)]
+impl Element {
+    /// An element for tests: as heavy as water, and nothing else to it.
+    pub(crate) fn plain(name: &str, fixed: bool) -> Self {
+        Self {
+            name: name.into(),
+            key: '1',
+            colour: [40, 130, 220],
+            fixed,
+            density: 1000.0,
+            viscosity: 0.0,
+            vorticity: 0.0,
+            drag: 0.0,
+            flow: 1.0,
+        }
+    }
+}

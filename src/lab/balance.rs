@@ -130,17 +130,7 @@ mod tests {
     fn table() -> ElementTable {
         ElementTable::new(
             [1000.0, 500.0]
-                .map(|density| Element {
-                    name: format!("liquid {density}"),
-                    key: '1',
-                    colour: [0; 3],
-                    fixed: false,
-                    density,
-                    viscosity: 0.0,
-                    vorticity: 0.0,
-                    drag: 0.0,
-                    flow: 1.0,
-                })
+                .map(|density| Element { density, ..Element::plain(&format!("liquid {density}"), false) })
                 .into(),
         )
     }

@@ -14,5 +14,7 @@ pub mod rest_density;
 pub mod run;
 pub mod sampler;
 pub mod stats;
+#[cfg(test)]
+mod testing;
 pub mod trace;
 pub mod volume;

@@ -154,21 +154,8 @@ impl Bitmap {
 mod tests {
     use super::*;
     use crate::kernel::element::ElementId;
+    use crate::lab::testing::{lattice, world};
     use glam::IVec2;
-
-    fn world(points: impl IntoIterator<Item = Vec2>) -> Particles {
-        let mut particles = Particles::default();
-        for (id, p) in points.into_iter().enumerate() {
-            particles.push(id as u32, ElementId(0), p, Vec2::ZERO);
-        }
-        particles
-    }
-
-    fn lattice(columns: i32, rows: i32, spacing: f32) -> Vec<Vec2> {
-        (0..columns * rows)
-            .map(|k| (IVec2::new(k % columns, k / columns).as_vec2() + Vec2::splat(0.5)) * spacing)
-            .collect()
-    }
 
     #[test]
     fn a_lattice_and_a_lone_particle_take_their_own_room() {

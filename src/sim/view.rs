@@ -210,17 +210,7 @@ mod tests {
     use super::*;
 
     fn water() -> Element {
-        Element {
-            name: "water".into(),
-            key: '1',
-            colour: [40, 130, 220],
-            fixed: false,
-            density: 1000.0,
-            viscosity: 0.0,
-            vorticity: 0.0,
-            drag: 0.0,
-            flow: 1.0,
-        }
+        Element::plain("water", false)
     }
 
     fn brightness(rgb: Rgb) -> u32 {

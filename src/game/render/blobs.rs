@@ -88,17 +88,7 @@ mod tests {
     use glam::Vec2;
 
     fn elements() -> ElementTable {
-        ElementTable::new(vec![Element {
-            name: "water".into(),
-            key: '1',
-            colour: [40, 130, 220],
-            fixed: false,
-            density: 1000.0,
-            viscosity: 0.0,
-            vorticity: 0.0,
-            drag: 0.0,
-            flow: 1.0,
-        }])
+        ElementTable::new(vec![Element::plain("water", false)])
     }
 
     fn packed(view: View, velocity: Vec2, by: ColourBy<'_>) -> Blob {

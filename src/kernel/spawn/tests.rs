@@ -16,19 +16,11 @@ const WATER: ElementId = ElementId(1);
 
 impl Bench {
     fn new() -> Self {
-        let element = |name: &str, fixed: bool, flow: f32| Element {
-            name: name.into(),
-            key: '1',
-            colour: [0; 3],
-            fixed,
-            density: 1000.0,
-            viscosity: 0.0,
-            vorticity: 0.0,
-            drag: 0.0,
-            flow,
-        };
         Self {
-            elements: ElementTable::new(vec![element("rock", true, 1.0), element("water", false, 0.25)]),
+            elements: ElementTable::new(vec![
+                Element::plain("rock", true),
+                Element { flow: 0.25, ..Element::plain("water", false) },
+            ]),
             particles: Particles::default(),
             solids: Solids::new(60, 40),
             next_id: 0,
