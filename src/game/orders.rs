@@ -11,6 +11,7 @@ use crate::{
             bindings::Action,
             pointer::{Pointer, ZOOM_STEP},
         },
+        recording,
         render::extract::Epoch,
         saves, screen,
         tools::{Tool, Toolbox},
@@ -88,8 +89,11 @@ pub fn obey(world: &mut World) {
             Order::Speed(speed) => {
                 world.resource_mut::<Pace>().speed = speed.clamp(*SPEED_RANGE.start(), *SPEED_RANGE.end());
             }
-            Order::Quality(preset) => control::set_quality(world, preset, preset.quality()),
-            Order::Effect(effect, mode) => world.resource_mut::<Effects>().get_mut(effect).mode = mode,
+            Order::Quality(preset) => set_quality(world, preset),
+            Order::Effect(effect, mode) => {
+                recording::stop(world, "another choice of effects");
+                world.resource_mut::<Effects>().get_mut(effect).mode = mode;
+            }
             Order::Load(path) => saves::load(world, &path),
             Order::Scene { name, settings } => play(world, &name, &settings),
         }
@@ -115,7 +119,10 @@ fn act(world: &mut World, action: Action) {
             let pixel = pixel.unwrap_or(camera.window() / 2.0);
             camera.zoom_at(pixel, if steps > 0 { ZOOM_STEP } else { 1.0 / ZOOM_STEP });
         }
-        Action::Save => saves::save(world),
+        Action::Save => {
+            recording::write(world);
+            saves::save(world);
+        }
         Action::Search
         | Action::Hud
         | Action::Saves
@@ -129,11 +136,19 @@ fn act(world: &mut World, action: Action) {
     }
 }
 
+fn set_quality(world: &mut World, preset: Preset) {
+    if world.resource::<Setup>().preset != preset {
+        recording::stop(world, "another quality");
+    }
+    control::set_quality(world, preset, preset.quality());
+}
+
 /// Plays another scene, at the quality that is in force.
 fn play(world: &mut World, name: &str, settings: &[(String, String)]) {
     let preset = world.get_resource::<Setup>().map(|setup| setup.preset);
     match scene::load(name).and_then(|scene| scene.build(settings, preset, &EffectModes::new())) {
         Ok(blueprint) => {
+            recording::stop(world, "another scene");
             control::load(world, Arc::new(blueprint));
             world.resource_mut::<History>().clear();
             world.resource_mut::<Epoch>().0 += 1;
@@ -175,6 +190,7 @@ fn change_world(world: &mut World, action: Action) {
     let told = match action {
         Action::Reset => {
             history::checkpoint(world);
+            recording::stop(world, "a reset");
             control::reset(world);
             "Reset"
         }
