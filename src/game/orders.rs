@@ -8,7 +8,7 @@ use crate::{
         history::{self, History},
         hud::{HudState, toast::Toasts},
         input::{
-            bindings::Action,
+            bindings::{self, Action},
             pointer::{Pointer, ZOOM_STEP},
         },
         recording,
@@ -85,7 +85,7 @@ pub fn obey(world: &mut World) {
         match order {
             Order::Act(action) => act(world, action),
             Order::Checkpoint => history::checkpoint(world),
-            Order::Choose(tool) => world.resource_mut::<Toolbox>().tool = tool,
+            Order::Choose(tool) => take_up(world, tool),
             Order::Speed(speed) => {
                 world.resource_mut::<Pace>().speed = speed.clamp(*SPEED_RANGE.start(), *SPEED_RANGE.end());
             }
@@ -105,7 +105,8 @@ fn act(world: &mut World, action: Action) {
         // Held buttons are the pointer's business, held arrows the keyboard's.
         Action::Hold(_) | Action::Pan(..) => {}
         Action::Sample => sample(world),
-        Action::Element(_) | Action::Tool(_) | Action::Brush(_) | Action::BrushShape => choose(world, action),
+        Action::Tool(tool) => take_up(world, tool),
+        Action::Element(_) | Action::Brush(_) | Action::BrushShape => choose(world, action),
         Action::Pause | Action::Step | Action::Speed(_) => keep_time(world, action),
         Action::Reset | Action::Undo | Action::Redo | Action::ClearAir => change_world(world, action),
         Action::View(view) => world.resource_mut::<Shown>().0 = view,
@@ -157,6 +158,17 @@ fn play(world: &mut World, name: &str, settings: &[(String, String)]) {
     }
 }
 
+fn take_up(world: &mut World, tool: Tool) {
+    world.resource_mut::<Toolbox>().tool = tool;
+    let still = world.get_resource::<Effects>().is_some_and(|effects| effects.get(Effect::Air).mode == Mode::Off);
+    if tool.is_air() && still {
+        let details = bindings::of(Action::Details).map(ToString::to_string).unwrap_or_default();
+        world
+            .resource_mut::<Toasts>()
+            .warn(format!("The air is off in this scene: switch it on in the details ({details})"));
+    }
+}
+
 fn choose(world: &mut World, action: Action) {
     let Some(setup) = world.get_resource::<Setup>() else { return };
     let element = match action {
@@ -166,7 +178,6 @@ fn choose(world: &mut World, action: Action) {
     let mut tools = world.resource_mut::<Toolbox>();
     match action {
         Action::Element(_) => tools.tool = element.map_or(tools.tool, Tool::Element),
-        Action::Tool(tool) => tools.tool = tool,
         Action::Brush(steps) => tools.grow(steps),
         Action::BrushShape => tools.turn_shape(),
         _ => {}
