@@ -284,7 +284,7 @@ fn record() -> (Replay, u64) {
     intents.sort_by_key(|(tick, _)| *tick);
     let mut headless = Headless::new(blueprint.clone(), Workers::default());
     headless.world_mut().init_resource::<Recorder>();
-    run::run(&mut headless, &Plan { ticks: 60, warmup: 0, intents }, &mut []).unwrap();
+    run::run(&mut headless, &Plan { ticks: 60, intents, ..Plan::default() }, &mut []).unwrap();
     let world = headless.world();
     let clock = world.resource::<Clock>();
     let replay = world.resource::<Recorder>().replay(&blueprint, clock.tick, clock.edits);

@@ -118,6 +118,9 @@ pub(super) struct PlayOptions {
     /// Threads of the simulation [default: all]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
     pub(super) threads: Option<u64>,
+    /// Record what is played, for `run SCENE --replay FILE`
+    #[arg(long, value_name = "FILE")]
+    pub(super) record: Option<PathBuf>,
 }
 
 /// `run`.

@@ -1,6 +1,7 @@
 //! `play`: the game's window.
 
-use crate::cli::{args::PlayOptions, failure::Failure, start::Start, threads};
+use crate::cli::{args::PlayOptions, failure::Failure, output, start::Start, threads};
+use std::path::PathBuf;
 
 /// The scene without a name.
 const DEFAULT_SCENE: &str = "waterfall";
@@ -8,17 +9,18 @@ const DEFAULT_SCENE: &str = "waterfall";
 /// Opens the game with a scene or a saved world.
 pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Failure> {
     let scene = scene.unwrap_or(DEFAULT_SCENE);
+    output::check(options.record.as_deref().as_slice())?;
     let start = Start::of_play(scene, options)?;
     threads::start(options.threads)?;
-    open(scene, start)
+    open(scene, options.record.clone(), start)
 }
 
 #[cfg(feature = "app")]
-fn open(scene: &str, start: Start) -> Result<(), Failure> {
+fn open(scene: &str, record: Option<PathBuf>, start: Start) -> Result<(), Failure> {
     use crate::game;
     use bevy::app::AppExit;
 
-    match game::run(scene, |world| start.load(world)) {
+    match game::run(scene, record, |world| start.load(world)) {
         Ok(AppExit::Success) => Ok(()),
         Ok(AppExit::Error(code)) => Err(Failure::Outcome(format!("the game ended with error {code}"))),
         Err(error) => Err(Failure::Usage(error.to_string())),
@@ -26,7 +28,7 @@ fn open(scene: &str, start: Start) -> Result<(), Failure> {
 }
 
 #[cfg(not(feature = "app"))]
-fn open(scene: &str, _: Start) -> Result<(), Failure> {
+fn open(scene: &str, _: Option<PathBuf>, _: Start) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
         "this build has no window (it lacks the cargo feature `app`); `powder-master run {scene}` works without one"
     )))

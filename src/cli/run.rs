@@ -101,7 +101,7 @@ fn plan(arguments: &RunArguments, replay: Option<Replay>) -> Result<Plan, Failur
     }
     let entries = replay.map(|replay| replay.entries).unwrap_or_default();
     let intents = entries.into_iter().map(|entry| (entry.tick, entry.intent)).collect();
-    Ok(Plan { ticks, warmup: arguments.warmup, intents })
+    Ok(Plan { ticks, warmup: arguments.warmup, intents, complete: recorded == Some(ticks) })
 }
 
 /// Runs the plan; gives the trace back, written up to the end.

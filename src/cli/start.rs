@@ -61,7 +61,11 @@ impl Start {
 
     /// Reads what `play` names.
     pub(super) fn of_play(name_or_path: &str, options: &PlayOptions) -> Result<Self, Failure> {
-        Self::read(name_or_path, &options.settings, options.quality, EffectModes::new())
+        let start = Self::read(name_or_path, &options.settings, options.quality, EffectModes::new())?;
+        match start {
+            Self::Saved(..) if options.record.is_some() => Err(only_a_scene(name_or_path, "--record")),
+            start => Ok(start),
+        }
     }
 
     fn read(

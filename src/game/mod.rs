@@ -14,6 +14,7 @@ pub mod history;
 pub mod hud;
 pub mod input;
 pub mod orders;
+pub mod recording;
 pub mod render;
 pub mod saves;
 pub mod screen;
@@ -25,8 +26,8 @@ pub mod window;
 use crate::kernel::units::TICKS_PER_SECOND;
 use bevy::{
     prelude::{
-        App, Fixed, FixedPreUpdate, IntoScheduleConfigs, Last, Plugin, RunFixedMainLoop, RunFixedMainLoopSystems,
-        SystemSet, Time,
+        App, AppExit, Fixed, FixedPreUpdate, IntoScheduleConfigs, Last, Plugin, RunFixedMainLoop,
+        RunFixedMainLoopSystems, SystemSet, Time, on_message,
     },
     window::WindowEvent,
 };
@@ -66,6 +67,6 @@ impl Plugin for GamePlugin {
                     .in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop),
             )
             .add_systems(FixedPreUpdate, input::strokes::make_intents)
-            .add_systems(Last, frame::measure_tempo);
+            .add_systems(Last, (frame::measure_tempo, recording::write_at_exit.run_if(on_message::<AppExit>)));
     }
 }

@@ -8,9 +8,10 @@ use crate::{
         history::{self, History},
         hud::{HudState, toast::Toasts},
         input::{
-            bindings::Action,
+            bindings::{self, Action},
             pointer::{Pointer, ZOOM_STEP},
         },
+        recording,
         render::extract::Epoch,
         saves, screen,
         tools::{Tool, Toolbox},
@@ -84,12 +85,15 @@ pub fn obey(world: &mut World) {
         match order {
             Order::Act(action) => act(world, action),
             Order::Checkpoint => history::checkpoint(world),
-            Order::Choose(tool) => world.resource_mut::<Toolbox>().tool = tool,
+            Order::Choose(tool) => take_up(world, tool),
             Order::Speed(speed) => {
                 world.resource_mut::<Pace>().speed = speed.clamp(*SPEED_RANGE.start(), *SPEED_RANGE.end());
             }
-            Order::Quality(preset) => control::set_quality(world, preset, preset.quality()),
-            Order::Effect(effect, mode) => world.resource_mut::<Effects>().get_mut(effect).mode = mode,
+            Order::Quality(preset) => set_quality(world, preset),
+            Order::Effect(effect, mode) => {
+                recording::stop(world, "another choice of effects");
+                world.resource_mut::<Effects>().get_mut(effect).mode = mode;
+            }
             Order::Load(path) => saves::load(world, &path),
             Order::Scene { name, settings } => play(world, &name, &settings),
         }
@@ -101,7 +105,8 @@ fn act(world: &mut World, action: Action) {
         // Held buttons are the pointer's business, held arrows the keyboard's.
         Action::Hold(_) | Action::Pan(..) => {}
         Action::Sample => sample(world),
-        Action::Element(_) | Action::Tool(_) | Action::Brush(_) | Action::BrushShape => choose(world, action),
+        Action::Tool(tool) => take_up(world, tool),
+        Action::Element(_) | Action::Brush(_) | Action::BrushShape => choose(world, action),
         Action::Pause | Action::Step | Action::Speed(_) => keep_time(world, action),
         Action::Reset | Action::Undo | Action::Redo | Action::ClearAir => change_world(world, action),
         Action::View(view) => world.resource_mut::<Shown>().0 = view,
@@ -115,7 +120,10 @@ fn act(world: &mut World, action: Action) {
             let pixel = pixel.unwrap_or(camera.window() / 2.0);
             camera.zoom_at(pixel, if steps > 0 { ZOOM_STEP } else { 1.0 / ZOOM_STEP });
         }
-        Action::Save => saves::save(world),
+        Action::Save => {
+            recording::write(world);
+            saves::save(world);
+        }
         Action::Search
         | Action::Hud
         | Action::Saves
@@ -129,16 +137,35 @@ fn act(world: &mut World, action: Action) {
     }
 }
 
+fn set_quality(world: &mut World, preset: Preset) {
+    if world.resource::<Setup>().preset != preset {
+        recording::stop(world, "another quality");
+    }
+    control::set_quality(world, preset, preset.quality());
+}
+
 /// Plays another scene, at the quality that is in force.
 fn play(world: &mut World, name: &str, settings: &[(String, String)]) {
     let preset = world.get_resource::<Setup>().map(|setup| setup.preset);
     match scene::load(name).and_then(|scene| scene.build(settings, preset, &EffectModes::new())) {
         Ok(blueprint) => {
+            recording::stop(world, "another scene");
             control::load(world, Arc::new(blueprint));
             world.resource_mut::<History>().clear();
             world.resource_mut::<Epoch>().0 += 1;
         }
         Err(error) => world.resource_mut::<Toasts>().warn(error.to_string()),
+    }
+}
+
+fn take_up(world: &mut World, tool: Tool) {
+    world.resource_mut::<Toolbox>().tool = tool;
+    let still = world.get_resource::<Effects>().is_some_and(|effects| effects.get(Effect::Air).mode == Mode::Off);
+    if tool.is_air() && still {
+        let details = bindings::of(Action::Details).map(ToString::to_string).unwrap_or_default();
+        world
+            .resource_mut::<Toasts>()
+            .warn(format!("The air is off in this scene: switch it on in the details ({details})"));
     }
 }
 
@@ -151,7 +178,6 @@ fn choose(world: &mut World, action: Action) {
     let mut tools = world.resource_mut::<Toolbox>();
     match action {
         Action::Element(_) => tools.tool = element.map_or(tools.tool, Tool::Element),
-        Action::Tool(tool) => tools.tool = tool,
         Action::Brush(steps) => tools.grow(steps),
         Action::BrushShape => tools.turn_shape(),
         _ => {}
@@ -175,6 +201,7 @@ fn change_world(world: &mut World, action: Action) {
     let told = match action {
         Action::Reset => {
             history::checkpoint(world);
+            recording::stop(world, "a reset");
             control::reset(world);
             "Reset"
         }

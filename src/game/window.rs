@@ -1,7 +1,7 @@
 //! The App with a window.
 
 use crate::{
-    game::{GamePlugin, hud::HudPlugin, hud::settings::Room, render::WorldRenderPlugin},
+    game::{GamePlugin, hud::HudPlugin, hud::settings::Room, recording, render::WorldRenderPlugin},
     sim::{
         SimulationPlugin,
         state::{Census, Setup},
@@ -21,6 +21,7 @@ use bevy::{
 use bevy_egui::EguiPlugin;
 use std::{
     panic::{self, AssertUnwindSafe},
+    path::PathBuf,
     time::Duration,
 };
 
@@ -48,8 +49,9 @@ pub enum GameError {
     },
 }
 
-/// Plays in a window until it is closed. `load` makes the world; `scene` is what `run` would call it.
-pub fn run(scene: &str, load: impl FnOnce(&mut World)) -> Result<AppExit, GameError> {
+/// Plays in a window until it is closed. `load` makes the world; `scene` is what `run` would call it; what the
+/// player does goes to `record`.
+pub fn run(scene: &str, record: Option<PathBuf>, load: impl FnOnce(&mut World)) -> Result<AppExit, GameError> {
     let scene = scene.to_owned();
     if let Some(reason) = missing_display(|name| std::env::var(name).ok()) {
         return Err(GameError::NoDisplay { reason, scene });
@@ -57,7 +59,7 @@ pub fn run(scene: &str, load: impl FnOnce(&mut World)) -> Result<AppExit, GameEr
     // Setting the window up panics where it fails (winit can't reach the display, there is no graphics adapter).
     let hook = panic::take_hook();
     panic::set_hook(Box::new(|_| {}));
-    let built = panic::catch_unwind(AssertUnwindSafe(|| build(load)));
+    let built = panic::catch_unwind(AssertUnwindSafe(|| build(record, load)));
     panic::set_hook(hook);
     match built {
         Ok(mut app) => Ok(app.run()),
@@ -86,7 +88,7 @@ fn explain(panic: &str, scene: String) -> GameError {
     GameError::NoWindow { reason: panic.lines().next().unwrap_or("unknown reason").to_owned(), scene }
 }
 
-fn build(load: impl FnOnce(&mut World)) -> App {
+fn build(record: Option<PathBuf>, load: impl FnOnce(&mut World)) -> App {
     let window = Window {
         title: "Powder Master".into(),
         name: Some("powder-master".into()),
@@ -110,6 +112,9 @@ fn build(load: impl FnOnce(&mut World)) -> App {
     .add_systems(Startup, spawn_camera)
     .add_systems(Update, tell_in_title.run_if(on_timer(TITLE_EVERY)));
     load(app.world_mut());
+    if let Some(path) = record {
+        recording::begin(app.world_mut(), path);
+    }
     app
 }
 

@@ -5,6 +5,7 @@ use crate::{
     sim::{
         intent::{Intent, IntentQueue},
         ledger::PassLedger,
+        pace::Pace,
         state::Clock,
     },
 };
@@ -29,6 +30,8 @@ pub struct Plan {
     pub warmup: u64,
     /// Input: after how many ticks of the world which intent is due, in order.
     pub intents: Vec<(u64, Intent)>,
+    /// Whether to the end of a recording: then what was done after its last tick, to a world that stood, is done, too.
+    pub complete: bool,
 }
 
 /// Runs the plan, showing each tick to the observers.
@@ -49,6 +52,13 @@ pub fn run(headless: &mut Headless, plan: &Plan, observers: &mut [&mut dyn Obser
         for observer in observers.iter_mut() {
             observer.after_tick(headless.world())?;
         }
+    }
+    if plan.complete && intents.peek().is_some() {
+        let world = headless.world_mut();
+        intents.for_each(|(_, intent)| world.resource_mut::<IntentQueue>().push(*intent));
+        let pace = std::mem::replace(&mut *world.resource_mut::<Pace>(), Pace { paused: true, ..Pace::default() });
+        headless.tick();
+        *headless.world_mut().resource_mut::<Pace>() = pace;
     }
     Ok(())
 }

@@ -9,6 +9,8 @@ use bevy_egui::{EguiContexts, egui};
 
 /// Time that a message stays, s.
 const STAY: f32 = 3.2;
+/// Widest message that stays on one line, points.
+const WIDTH: f32 = 640.0;
 /// Messages shown at once.
 const MOST: usize = 4;
 
@@ -72,6 +74,7 @@ pub fn show(
         .order(egui::Order::Foreground)
         .interactable(false)
         .show(context, |ui| {
+            ui.set_max_width(WIDTH);
             ui.vertical_centered(|ui| {
                 if full {
                     card(ui, "The world is full: erase something before you draw more", true, 1.0);

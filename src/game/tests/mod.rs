@@ -37,6 +37,7 @@ mod air;
 mod draw;
 mod keys;
 mod past;
+mod recording;
 mod saves;
 
 /// The intents that the ticks saw.

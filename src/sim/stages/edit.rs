@@ -29,7 +29,6 @@ pub(super) fn apply_intents(
         return;
     }
     let start = Instant::now();
-    let before = rock.version();
     let mut refused = 0;
     let mut placed = 0;
     for intent in queue.drain() {
@@ -63,11 +62,10 @@ pub(super) fn apply_intents(
                 EditReport::default()
             }
         };
+        // After each one, so that it makes no difference which of them came in the same tick.
+        air.set_solids(&rock);
         refused += report.refused;
         placed += report.placed;
-    }
-    if rock.version() != before {
-        air.set_solids(&rock);
     }
     counters.refused += refused;
     if refused > 0 || placed > 0 {
