@@ -25,7 +25,7 @@ pub(in crate::game) const WIND_LIMIT: f32 = 5.0;
 /// A drag slower than this makes no wind, in units of [`Reference::wind`].
 const WIND_FLOOR: f32 = 0.02;
 /// Pressure that one tick of the pressure tool adds; the surroundings' is 1.
-const PRESS_STEP: f32 = 0.12;
+const PRESS_STEP: f32 = 0.4;
 /// Points of the way that are kept for a tick.
 const WAY_LIMIT: usize = 64;
 
