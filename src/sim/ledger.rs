@@ -30,7 +30,7 @@ pub enum Pass {
     Viscosity,
     /// Vorticity confinement.
     Vorticity,
-    /// Counts and checks at the end of the tick.
+    /// Checks at the end of the tick.
     Measure,
 }
 

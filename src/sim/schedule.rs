@@ -10,11 +10,13 @@ pub enum TickSystems {
     Edit,
     /// Taps and outlets.
     Sources,
+    /// Counts the particles: nothing places or takes any after it. Runs while paused, too.
+    Count,
     /// Decides which effects run and how many substeps it takes.
     Gate,
     /// Runs [`Substep`] as often as it takes.
     Step,
-    /// Counts, checks, closes the books of the tick.
+    /// Checks, and closes the books of the tick.
     Measure,
 }
 

@@ -94,7 +94,7 @@ pub struct Counters {
     pub refused: u64,
 }
 
-/// Number of particles by element, counted once a tick.
+/// Number of particles by element, counted once a tick before the gate decides.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
 pub struct Census {
     /// Rock and movable particles together.

@@ -30,7 +30,7 @@ use correction::CorrectionPass;
 use glam::Vec2;
 use rayon::iter::{IntoParallelRefMutIterator, ParallelIterator};
 
-/// Positions under correction, densities, bins: what the solver keeps beside the particles. 45 bytes a particle and the
+/// Positions under correction, densities, bins: what the solver keeps beside the particles. 37 bytes a particle and the
 /// bins. The arrays follow the order of the particles.
 #[derive(Clone, Debug)]
 pub struct Solver {

@@ -22,12 +22,9 @@ pub(super) fn plan_tick(
     mut counters: ResMut<Counters>,
     mut plan: ResMut<TickPlan>,
 ) {
-    // The census is from the end of the last tick; in the first one nothing is counted yet.
-    let counted = census.by_element.len() == setup.elements().len();
     let present = |wanted: &dyn Fn(&Element) -> bool| {
-        let count = |index: usize| if counted { census.by_element[index] } else { 1 };
-        let movable = |element: &Element| !element.fixed && wanted(element);
-        !particles.is_empty() && setup.elements().iter().any(|(id, element)| movable(element) && count(id.index()) > 0)
+        let mut counted = setup.elements().iter().zip(&census.by_element);
+        counted.any(|((_, element), &count)| count > 0 && !element.fixed && wanted(element))
     };
     let called = |called: bool, yes: &'static str, no: &'static str| (called, if called { yes } else { no });
     effects.decide(

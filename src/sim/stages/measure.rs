@@ -1,4 +1,4 @@
-//! Counts and checks at the end of a tick.
+//! Checks at the end of a tick.
 
 use crate::{
     kernel::checks,
@@ -6,28 +6,12 @@ use crate::{
         ledger::{Pass, PassLedger},
         pace::Pace,
         stages::TickPlan,
-        state::{Census, Clock, Counters, ParticleStore, Rock, Setup},
+        state::{Clock, Counters, ParticleStore, Rock, Setup},
         workers::Workers,
     },
 };
 use bevy::platform::time::Instant;
 use bevy::prelude::{Res, ResMut};
-
-/// Counts the particles of each element.
-pub(super) fn count_particles(
-    setup: Res<Setup>,
-    particles: Res<ParticleStore>,
-    rock: Res<Rock>,
-    mut census: ResMut<Census>,
-) {
-    census.by_element.clear();
-    census.by_element.resize(setup.elements().len(), 0);
-    checks::count_elements(&particles.element, &mut census.by_element);
-    for (_, element, _) in rock.iter() {
-        census.by_element[element.index()] += 1;
-    }
-    census.total = (particles.len() + rock.count()) as u32;
-}
 
 /// Looks for particles that are where none may be, and closes the tick's books.
 pub(super) fn end_tick(

@@ -1,5 +1,6 @@
 //! The stages of a tick as thin systems: each unpacks resources, calls the kernel and notes the time.
 
+mod count;
 mod edit;
 mod gate;
 mod measure;
@@ -28,9 +29,9 @@ pub(super) fn plugin(app: &mut App) {
         FixedUpdate,
         (
             TickSystems::Edit,
-            (TickSystems::Sources, TickSystems::Gate, TickSystems::Step, TickSystems::Measure)
-                .chain()
-                .run_if(time_moves),
+            TickSystems::Sources.run_if(time_moves),
+            TickSystems::Count,
+            (TickSystems::Gate, TickSystems::Step, TickSystems::Measure).chain().run_if(time_moves),
         )
             .chain(),
     );
@@ -39,10 +40,10 @@ pub(super) fn plugin(app: &mut App) {
         (
             edit::apply_intents.in_set(TickSystems::Edit),
             sources::run_sources.in_set(TickSystems::Sources),
+            count::count_particles.in_set(TickSystems::Count),
             gate::plan_tick.in_set(TickSystems::Gate),
             step::run_substeps.in_set(TickSystems::Step),
-            (measure::count_particles, measure::end_tick).chain().in_set(TickSystems::Measure),
-            measure::count_particles.after(TickSystems::Measure).run_if(bevy::prelude::not(time_moves)),
+            measure::end_tick.in_set(TickSystems::Measure),
         ),
     );
     app.add_schedule(substep_schedule());
