@@ -42,11 +42,16 @@ impl Workers {
 
     /// [`Workers::run`] for work over `particles` particles: on one thread if they are few.
     pub fn run_for<T: Send>(&self, particles: usize, work: impl FnOnce(usize) -> T + Send) -> T {
-        if particles < WORTH_SHARING { work(1) } else { self.run(work) }
+        self.run_if(particles >= WORTH_SHARING, work)
     }
 
     /// [`Workers::run_for`] for a look at each particle.
     pub fn run_checks<T: Send>(&self, particles: usize, work: impl FnOnce(usize) -> T + Send) -> T {
-        if particles < WORTH_SHARING_CHECKS { work(1) } else { self.run(work) }
+        self.run_if(particles >= WORTH_SHARING_CHECKS, work)
+    }
+
+    /// [`Workers::run`] if the work is worth sharing, else on this thread.
+    pub fn run_if<T: Send>(&self, worth: bool, work: impl FnOnce(usize) -> T + Send) -> T {
+        if worth { self.run(work) } else { work(1) }
     }
 }

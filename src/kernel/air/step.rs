@@ -104,6 +104,11 @@ struct Substep {
 }
 
 impl Air {
+    /// Whether the grid is so large that threads gain more than starting them costs.
+    pub fn is_worth_sharing(&self) -> bool {
+        self.columns() * self.rows() >= PARALLEL_CELLS
+    }
+
     /// Moves the air on by `dt` (s) in substeps that keep wind plus sound below `courant` cells (0.1 … 0.9; up to
     /// [`STABLE_COURANT`] is taken). `parallel` changes the time it takes and not a bit of the result. Quiet air that no
     /// fan drives is left untouched.
@@ -117,7 +122,7 @@ impl Air {
         self.quiet = false;
         report.cells = self.columns() * self.rows();
         let courant = courant.clamp(0.01, STABLE_COURANT);
-        let parallel = parallel && report.cells >= PARALLEL_CELLS;
+        let parallel = parallel && self.is_worth_sharing();
         let mut scratch = std::mem::take(&mut self.scratch);
         scratch.prepare(self, if parallel { BAND_ROWS } else { self.rows() });
         let shape = scratch.shape.take().unwrap_or_else(|| Shape::new(self));

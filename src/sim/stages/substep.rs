@@ -26,7 +26,8 @@ pub(super) fn step_air(
 ) {
     let start = Instant::now();
     let dt = plan.substep_seconds();
-    let report = workers.run(|threads| air.step(&sources.winds, setup.quality.air_courant, dt, threads > 1));
+    let worth = air.is_worth_sharing();
+    let report = workers.run_if(worth, |threads| air.step(&sources.winds, setup.quality.air_courant, dt, threads > 1));
     counters.air_clamps += report.speed_clamps + report.pressure_clamps;
     ledger.note(Pass::Air, start.elapsed());
 }
