@@ -76,3 +76,21 @@ fn a_fallen_column_comes_to_rest_with_a_level_surface() {
         }
     }
 }
+
+#[test]
+fn a_pool_at_rest_is_flat_within_a_cell_of_the_pressure_grid() {
+    let mut sandbox = Sandbox::scene("hydrostatic", &[("columns", "100"), ("depth", "20")]);
+    sandbox.tick(1200);
+    let particles = sandbox.particles();
+    // The mean of the four highest particles in each strip of 4 d.
+    let tops: Vec<f32> = (0..25)
+        .map(|strip| {
+            let inside = |i: &usize| (particles.x[*i] / 4.0) as usize == strip;
+            let mut heights: Vec<f32> = (0..particles.len()).filter(inside).map(|i| particles.y[i]).collect();
+            heights.sort_unstable_by(|a, b| b.total_cmp(a));
+            heights[..4].iter().sum::<f32>() / 4.0
+        })
+        .collect();
+    let (low, high) = tops.iter().fold((f32::MAX, 0.0_f32), |(low, high), &top| (low.min(top), high.max(top)));
+    assert!(high - low < 0.5, "a still pool stands between {low} and {high} d");
+}
