@@ -16,6 +16,9 @@ const MOST_TICKS: u64 = MOST_SECONDS as u64 * TICKS_PER_SECOND as u64;
 /// Most threads that can be asked for.
 const MOST_THREADS: u64 = 256;
 
+/// Most runs of a setting in a sweep.
+const MOST_ROUNDS: u64 = 1000;
+
 /// A real-time 2-D sandbox of powders and fluids in moving air.
 #[derive(Debug, Parser)]
 #[command(name = "powder-master", version, args_conflicts_with_subcommands = true, disable_help_subcommand = true)]
@@ -37,6 +40,8 @@ pub(super) enum Command {
     Bench(BenchArguments),
     /// Repeat an experiment of the report on the original game
     Study(StudyArguments),
+    /// Measure what accuracy costs in a scene: curve.csv, curve.svg, curve.png, summary.md
+    Sweep(SweepArguments),
     /// Print what there is to choose from, one a line, fields separated by tabs
     List {
         /// What to list
@@ -82,6 +87,42 @@ pub(super) struct StudyArguments {
 pub(super) enum Study {
     /// What a rest density that does not suit the spacing does to a liquid: rest-density.png
     RestDensity,
+}
+
+/// `sweep`.
+#[derive(Debug, Args)]
+pub(super) struct SweepArguments {
+    /// Scenes: names of `list scenes`, or paths of scene files or save files
+    #[arg(required = true, value_name = "SCENE")]
+    pub(super) scenes: Vec<String>,
+    /// Folder for the results, made if it isn't there; with several scenes, each gets a folder in it. A sweep that was
+    /// stopped goes on from what it finds there
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: PathBuf,
+    /// Fewer settings, shorter runs, one of each
+    #[arg(long)]
+    pub(super) quick: bool,
+    /// Only this preset; may be repeated [default: all presets and what is around them]
+    #[arg(long = "only", value_name = "QUALITY", value_parser = preset)]
+    pub(super) only: Vec<Preset>,
+    /// Runs of each setting, interleaved [default: 3; with --quick 1]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = rounds)]
+    pub(super) repeat: Option<u64>,
+    /// Threads of the settings that don't stand for a number of threads
+    #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true, value_parser = threads)]
+    pub(super) threads: u64,
+    /// Set a parameter of the scenes, or a number of the liquid
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    pub(super) settings: Vec<(String, String)>,
+    /// Ticks of the scene before the moment from which every run sets out [default: 240 with taps or fans, else 0]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = warmup)]
+    pub(super) start: Option<u64>,
+    /// Ticks of a run [default: 300; with --quick 120]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = ticks)]
+    pub(super) ticks: Option<u64>,
+    /// Ticks at the start of a run that are left out of times and samples [default: a fifth of the run, less one]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = warmup)]
+    pub(super) warmup: Option<u64>,
 }
 
 /// What there is to choose from.
@@ -159,6 +200,9 @@ pub(super) struct RunArguments {
     /// Write a line for each tick: time, energy, momentum, front, surface
     #[arg(long, value_name = "FILE.csv")]
     pub(super) trace: Option<PathBuf>,
+    /// Run the same start at `reference` quality, too, and write the distance to it over time
+    #[arg(long, value_name = "FILE.csv")]
+    pub(super) reference: Option<PathBuf>,
     /// Draw the world at the end
     #[arg(long, value_name = "FILE.png")]
     pub(super) png: Option<PathBuf>,
@@ -195,6 +239,10 @@ fn ticks(text: &str) -> Result<u64, String> {
 
 fn warmup(text: &str) -> Result<u64, String> {
     whole(text, 0..=MOST_TICKS - 1)
+}
+
+fn rounds(text: &str) -> Result<u64, String> {
+    whole(text, 1..=MOST_ROUNDS)
 }
 
 fn threads(text: &str) -> Result<u64, String> {

@@ -11,6 +11,7 @@ mod progress;
 mod run;
 mod start;
 mod study;
+mod sweep;
 mod threads;
 
 use args::{Arguments, Command};
@@ -46,6 +47,7 @@ fn dispatch(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Run(run)) => run::run(&run),
         Some(Command::Bench(bench)) => bench::bench(&bench),
         Some(Command::Study(study)) => study::study(&study),
+        Some(Command::Sweep(sweep)) => sweep::sweep(&sweep),
         Some(Command::List { what }) => list::list(what),
     }
 }

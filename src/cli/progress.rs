@@ -12,6 +12,15 @@ pub(super) struct StatusLine {
     terminal: bool,
 }
 
+/// Width of a bar, characters.
+const BAR: usize = 24;
+
+/// A bar that is full when `done` of `all` are done.
+pub(super) fn bar(done: usize, all: usize) -> String {
+    let full = (BAR * done).checked_div(all).unwrap_or(BAR).min(BAR);
+    format!("[{}{}]", "█".repeat(full), "·".repeat(BAR - full))
+}
+
 impl StatusLine {
     /// An empty line.
     pub(super) fn new() -> Self {
@@ -59,5 +68,18 @@ impl Observer for Progress {
             self.line.say(&format!("{:3} %  tick {} of {}", 100 * self.done / self.ticks, self.done, self.ticks));
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bar_fills_from_the_left_and_never_spills() {
+        assert_eq!(bar(0, 10), format!("[{}]", "·".repeat(24)));
+        assert_eq!(bar(5, 10), format!("[{}{}]", "█".repeat(12), "·".repeat(12)));
+        assert_eq!(bar(12, 10), format!("[{}]", "█".repeat(24)));
+        assert_eq!(bar(0, 0), format!("[{}]", "█".repeat(24)));
     }
 }

@@ -13,8 +13,10 @@ use crate::{
         self,
         headless::Headless,
         metrics::Metrics,
+        moment::Moment,
         particle_list,
         picture::{DISC_RADIUS, LONG_SIDE, Picture},
+        reference::{Follower, Reference, write_points},
         run::{Observer, Plan},
         sampler::Sampler,
         trace::Trace,
@@ -39,17 +41,25 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     threads::start(arguments.threads)?;
     let trace = arguments.trace.as_deref().map(Tracing::create).transpose()?;
 
-    let begun = Instant::now();
     let mut headless = Headless::begin(Workers::default(), |world| start.load(world));
+    let reference = arguments.reference.as_deref().map(|path| reference(path, headless.world(), &plan)).transpose()?;
+    let mut follower = reference.as_ref().map(Follower::new);
+    let begun = Instant::now();
     let mut sampler = arguments.metrics.is_some().then(|| Sampler::new(headless.world(), plan.warmup));
-    let trace = simulate(&mut headless, &plan, sampler.as_mut(), trace)?;
+    let trace = simulate(&mut headless, &plan, sampler.as_mut(), follower.as_mut(), trace)?;
     let seconds = begun.elapsed().as_secs_f64();
 
     if let Some(trace) = trace {
         trace.finish()?;
     }
     let world = headless.world();
-    let metrics = sampler.map(|sampler| sampler.finish(world));
+    let mut metrics = sampler.map(|sampler| sampler.finish(world));
+    if let (Some(path), Some(follower)) = (&arguments.reference, &follower) {
+        output::write(path, |file| write_points(follower.points(), file))?;
+        if let Some(metrics) = &mut metrics {
+            metrics.accuracy.distance = Some(follower.mean(plan.warmup));
+        }
+    }
     write_outputs(arguments, world, metrics.as_ref())?;
     if arguments.metrics.as_deref() == Some(Path::new(STDOUT)) {
         return Ok(());
@@ -81,6 +91,7 @@ fn check_outputs(arguments: &RunArguments) -> Result<(), Failure> {
         metrics,
         arguments.particles.as_deref(),
         arguments.trace.as_deref(),
+        arguments.reference.as_deref(),
         arguments.png.as_deref(),
         arguments.snapshot.as_deref(),
     ];
@@ -104,17 +115,28 @@ fn plan(arguments: &RunArguments, replay: Option<Replay>) -> Result<Plan, Failur
     Ok(Plan { ticks, warmup: arguments.warmup, intents, complete: recorded == Some(ticks) })
 }
 
+/// The same start run at `reference` quality.
+fn reference(path: &Path, world: &World, plan: &Plan) -> Result<Reference, Failure> {
+    let mut progress = Progress::new(plan.ticks);
+    Reference::record(&Moment::of(world), plan, Workers::default(), &mut progress)
+        .map_err(|error| Failure::unwritten(path, &error))
+}
+
 /// Runs the plan; gives the trace back, written up to the end.
 fn simulate<'a>(
     headless: &mut Headless,
     plan: &Plan,
     sampler: Option<&mut Sampler>,
+    follower: Option<&mut Follower>,
     mut tracing: Option<Tracing<'a>>,
 ) -> Result<Option<Tracing<'a>>, Failure> {
     let mut progress = Progress::new(plan.ticks);
     let mut observers: Vec<&mut dyn Observer> = vec![&mut progress];
     if let Some(sampler) = sampler {
         observers.push(sampler);
+    }
+    if let Some(follower) = follower {
+        observers.push(follower);
     }
     if let Some(tracing) = &mut tracing {
         observers.push(&mut tracing.trace);

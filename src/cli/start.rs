@@ -68,6 +68,24 @@ impl Start {
         }
     }
 
+    /// Reads what `sweep` names.
+    pub(super) fn of_sweep(name_or_path: &str, settings: &[(String, String)]) -> Result<Self, Failure> {
+        Self::read(name_or_path, settings, None, EffectModes::new())
+    }
+
+    /// Name of the scene.
+    pub(super) fn name(&self) -> &str {
+        match self {
+            Self::Scene(blueprint) => &blueprint.name,
+            Self::Saved(saved, _) => saved.name(),
+        }
+    }
+
+    /// Whether it is the start of a scene.
+    pub(super) fn is_scene(&self) -> bool {
+        matches!(self, Self::Scene(_))
+    }
+
     fn read(
         name_or_path: &str,
         settings: &[(String, String)],

@@ -57,6 +57,9 @@ pub struct DensityError {
     pub p99: f64,
     /// Largest.
     pub max: f64,
+    /// Mean density of the interior particles, 1 at rest density. A liquid that stands too thin has no error, but this
+    /// tells.
+    pub density: f64,
 }
 
 /// The density error, `rest_density` (a multiple of the lattice's) counting as none. `None` without interior particles.
@@ -66,12 +69,16 @@ pub fn density_error(
     size: Vec2,
     rest_density: f64,
 ) -> Option<DensityError> {
-    let mut errors: Vec<f64> = surroundings(particles, rock, size)
+    let mut densities: Vec<f64> = surroundings(particles, rock, size)
         .iter()
         .filter(|local| local.interior)
-        .map(|local| (local.density / rest_density - 1.0).max(0.0))
+        .map(|local| local.density / rest_density)
         .collect();
+    let density = stats::mean(&densities)?;
+    densities.iter_mut().for_each(|density| *density = (*density - 1.0).max(0.0));
+    let mut errors = densities;
     Some(DensityError {
+        density,
         mean: stats::mean(&errors)?,
         max: stats::largest(&errors)?,
         p99: stats::quantile(&mut errors, 0.99)?,
@@ -224,8 +231,11 @@ mod tests {
         assert!(error.max < 1e-12, "the resting lattice has no error, but {}", error.max);
         let error = density_error(&world(lattice(40, 30, 0.8)), &rock, size, 1.0).unwrap();
         assert!((error.mean - (1.0 / 0.64 - 1.0)).abs() < 0.02, "{}", error.mean);
+        assert!((error.density - 1.0 / 0.64).abs() < 0.02, "{}", error.density);
         let error = density_error(&world(lattice(40, 30, 0.8)), &rock, size, 1.0 / 0.64).unwrap();
         assert!(error.mean < 0.02, "at its own rest density it is at rest, not {}", error.mean);
+        let error = density_error(&world(lattice(30, 20, 1.25)), &rock, size, 1.0).unwrap();
+        assert!(error.mean < 1e-12 && (error.density - 0.64).abs() < 0.02, "too thin is no error: {error:?}");
     }
 
     #[test]

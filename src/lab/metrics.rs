@@ -1,6 +1,6 @@
 //! The object that `run --metrics` writes. `null` stands where a value does not apply to the run.
 
-use crate::{kernel::params::Quality, scene::blueprint::Mode};
+use crate::{kernel::params::Quality, lab::coarse::Distance, scene::blueprint::Mode};
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 
@@ -39,6 +39,8 @@ pub struct Metrics {
     pub effects: Vec<(&'static str, EffectCost)>,
     /// How true the result is.
     pub accuracy: Accuracy,
+    /// What finding that out cost.
+    pub sampling: Sampling,
     /// What the limiters did since the scene began.
     pub stability: Stability,
     /// What particles, solver, rock and air hold, bytes.
@@ -105,12 +107,19 @@ pub struct Accuracy {
     pub density_error_p99: Option<f64>,
     /// Its maximum over all samples.
     pub density_error_max: Option<f64>,
+    /// Mean density of the interior particles, 1 at rest density: a liquid that stands too thin has no error.
+    pub density_mean: Option<f64>,
     /// The solver's own mean constraint C over the particles with C > 0, in its last iteration of the run.
     pub residual: Option<f64>,
     /// Mean of the share of room that the liquid takes too much (see `lab::volume`).
     pub volume_error: Option<f64>,
-    /// Kinetic and potential energy of the movable particles at the end, J for each metre of depth.
+    /// Kinetic and potential energy of the movable particles at the end, J for each metre of depth (`--trace` has it for
+    /// every tick).
     pub energy: f64,
+    /// The same at the start of the run.
+    pub energy_start: f64,
+    /// The highest of the samples.
+    pub energy_peak: f64,
     /// Their momentum at the end, kg m/s for each metre of depth.
     pub momentum: [f64; 2],
     /// Change of the air's mass since the start, as a share of it.
@@ -120,6 +129,17 @@ pub struct Accuracy {
     pub momentum_drift: Option<f64>,
     /// Mean of the root mean square divergence of the air, 1/s.
     pub air_divergence_rms: Option<f64>,
+    /// Mean distance to the same start at `reference` quality (see `lab::coarse`); only with `run --reference`.
+    pub distance: Option<Distance>,
+}
+
+/// What measuring cost. It is in no tick's time.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Sampling {
+    /// All of it after the warm-up, ms.
+    pub ms_total: f64,
+    /// Median of an accuracy sample, ms.
+    pub ms_median: Option<f64>,
 }
 
 /// What the limiters did since the scene began; all zero in a calm scene but `substeps_max`.

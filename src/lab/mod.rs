@@ -3,17 +3,21 @@
 
 pub mod balance;
 pub mod binning;
+pub mod coarse;
 pub mod density;
 mod drift;
 pub mod headless;
 pub mod machine;
 pub mod metrics;
+pub mod moment;
 pub mod particle_list;
 pub mod picture;
+pub mod reference;
 pub mod rest_density;
 pub mod run;
 pub mod sampler;
 pub mod stats;
+pub mod sweep;
 #[cfg(test)]
 mod testing;
 pub mod trace;

@@ -6,7 +6,7 @@ use crate::{
         balance::Matter,
         density::density_error,
         drift::Drift,
-        metrics::{Accuracy, EffectCost, Metrics, ParticleCount, Stability, Stage, TickTimes},
+        metrics::{Accuracy, EffectCost, Metrics, ParticleCount, Sampling, Stability, Stage, TickTimes},
         run::Observer,
         stats,
         volume::volume_error,
@@ -37,8 +37,11 @@ pub struct Sampler {
     /// Active ticks of the effects at the end of the warm-up.
     active_before: [u64; Effect::ALL.len()],
     air_mass_before: f64,
+    energy_before: f64,
     samples: Samples,
     drift: Drift,
+    /// Time that measuring took.
+    spent: Duration,
 }
 
 impl Sampler {
@@ -53,6 +56,8 @@ impl Sampler {
             pass_totals: [Duration::ZERO; Pass::ALL.len()],
             active_before: active_ticks(world),
             air_mass_before: world.resource::<AirGrid>().mass(),
+            energy_before: matter(world).balance().energy(),
+            spent: Duration::ZERO,
             samples: Samples::default(),
             drift: Drift::default(),
         }
@@ -61,7 +66,7 @@ impl Sampler {
     /// The metrics of the run that ends here.
     pub fn finish(mut self, world: &World) -> Metrics {
         if self.samples.taken == 0 {
-            self.samples.take(world);
+            self.sample(world);
         }
         let setup = world.resource::<Setup>();
         Metrics {
@@ -79,6 +84,7 @@ impl Sampler {
             stages: self.stages(world),
             effects: self.effects(world),
             accuracy: self.accuracy(world),
+            sampling: Sampling { ms_total: ms(self.spent), ms_median: stats::quantile(&mut self.samples.ms, 0.5) },
             stability: stability(world),
             memory_bytes: memory_bytes(world),
             peak_rss_bytes: peak_rss_bytes(),
@@ -88,6 +94,14 @@ impl Sampler {
                 median: stats::quantile(&mut self.tick_ms, 0.5),
             },
         }
+    }
+
+    fn sample(&mut self, world: &World) {
+        let start = Instant::now();
+        self.samples.take(world);
+        let took = start.elapsed();
+        self.samples.ms.push(ms(took));
+        self.spent += took;
     }
 
     fn note_times(&mut self, world: &World) {
@@ -139,13 +153,17 @@ impl Sampler {
             density_error_mean: stats::mean(&self.samples.density_mean),
             density_error_p99: stats::mean(&self.samples.density_p99),
             density_error_max: stats::largest(&self.samples.density_max),
+            density_mean: stats::mean(&self.samples.density),
             residual: residual(world),
             volume_error: stats::mean(&self.samples.volume),
             energy: balance.energy(),
+            energy_start: self.energy_before,
+            energy_peak: stats::largest(&self.samples.energy).unwrap_or(f64::NAN),
             momentum: balance.momentum.to_array(),
             air_mass_drift: (air_is_there && drift.is_finite()).then_some(drift),
             momentum_drift: self.drift.share(),
             air_divergence_rms: stats::mean(&self.samples.divergence).filter(|_| air_is_there),
+            distance: None,
         }
     }
 }
@@ -155,9 +173,11 @@ impl Observer for Sampler {
         self.ticks += 1;
         if self.ticks > self.warmup {
             self.note_times(world);
+            let start = Instant::now();
             self.drift.follow(world);
+            self.spent += start.elapsed();
             if self.ticks.is_multiple_of(SAMPLE_EVERY) {
-                self.samples.take(world);
+                self.sample(world);
             }
         }
         Ok(())
@@ -177,6 +197,10 @@ struct Samples {
     density_mean: Vec<f64>,
     density_p99: Vec<f64>,
     density_max: Vec<f64>,
+    density: Vec<f64>,
+    energy: Vec<f64>,
+    /// Time of each.
+    ms: Vec<f64>,
     volume: Vec<f64>,
     divergence: Vec<f64>,
 }
@@ -190,7 +214,9 @@ impl Samples {
             self.density_mean.push(error.mean);
             self.density_p99.push(error.p99);
             self.density_max.push(error.max);
+            self.density.push(error.density);
         }
+        self.energy.push(matter(world).balance().energy());
         self.volume.extend(volume_error(particles, rock, size, rest));
         self.divergence.push(world.resource::<AirGrid>().divergence_rms());
         self.taken += 1;
@@ -280,7 +306,7 @@ fn peak_rss_bytes() -> Option<u64> {
     line.trim().strip_suffix(" kB")?.trim().parse::<u64>().ok().map(|kilobytes| kilobytes * 1024)
 }
 
-fn ms(time: Duration) -> f64 {
+pub(super) fn ms(time: Duration) -> f64 {
     time.as_secs_f64() * 1e3
 }
 

@@ -1,0 +1,204 @@
+//! A run at `reference` quality, and how far others that set out from the same moment go from it over time.
+
+use crate::{
+    kernel::{
+        params::{Preset, Quality},
+        units::TICKS_PER_SECOND,
+    },
+    lab::{
+        coarse::{CoarseField, Distance, Magnitude},
+        moment::Moment,
+        run::{Observer, Plan, run},
+        sampler::{SAMPLE_EVERY, matter},
+    },
+    sim::workers::Workers,
+};
+use bevy::ecs::world::World;
+use std::io::{self, Write};
+
+/// What the reference run was like: one sample every [`SAMPLE_EVERY`] ticks and one at the end.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    ticks: u64,
+    samples: Vec<Sample>,
+    magnitude: Magnitude,
+}
+
+#[derive(Clone, Debug)]
+struct Sample {
+    field: CoarseField,
+    /// Energy of the particles, J for each metre of depth.
+    energy: f64,
+}
+
+impl Sample {
+    fn of(world: &World) -> Self {
+        Self { field: CoarseField::of(world), energy: matter(world).balance().energy() }
+    }
+}
+
+/// How far a run was from the reference after so many ticks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Ticks from the start of the run.
+    pub tick: u64,
+    /// How far.
+    pub distance: Distance,
+    /// Energy of the particles as a multiple of the reference's.
+    pub energy_ratio: f64,
+}
+
+/// Whether a sample is due after `tick` of `ticks`.
+fn is_due(tick: u64, ticks: u64) -> bool {
+    tick.is_multiple_of(SAMPLE_EVERY) || tick == ticks
+}
+
+impl Reference {
+    /// The quality that is the reference.
+    pub fn quality() -> Quality {
+        Preset::Reference.quality()
+    }
+
+    /// Runs `plan` from `moment` at `reference` quality; `watcher` sees each tick, too.
+    pub fn record(moment: &Moment, plan: &Plan, workers: Workers, watcher: &mut dyn Observer) -> io::Result<Self> {
+        let mut headless = moment.go_on(Preset::Reference, Self::quality(), workers);
+        let mut recorder = Recorder { tick: 0, ticks: plan.ticks, samples: Vec::new() };
+        run(&mut headless, plan, &mut [&mut recorder, watcher])?;
+        let fields: Vec<CoarseField> = recorder.samples.iter().map(|sample| sample.field.clone()).collect();
+        Ok(Self { ticks: plan.ticks, magnitude: CoarseField::magnitudes(&fields), samples: recorder.samples })
+    }
+}
+
+struct Recorder {
+    tick: u64,
+    ticks: u64,
+    samples: Vec<Sample>,
+}
+
+impl Observer for Recorder {
+    fn after_tick(&mut self, world: &World) -> io::Result<()> {
+        self.tick += 1;
+        if is_due(self.tick, self.ticks) {
+            self.samples.push(Sample::of(world));
+        }
+        Ok(())
+    }
+}
+
+/// Follows a run that set out from the reference's moment.
+pub struct Follower<'a> {
+    reference: &'a Reference,
+    tick: u64,
+    points: Vec<Point>,
+}
+
+impl<'a> Follower<'a> {
+    /// A follower of a run that begins.
+    pub fn new(reference: &'a Reference) -> Self {
+        Self { reference, tick: 0, points: Vec::new() }
+    }
+
+    /// What it saw, in the order of the ticks.
+    pub fn points(&self) -> &[Point] {
+        &self.points
+    }
+
+    /// Mean distance over what it saw after the first `warmup` ticks.
+    pub fn mean(&self, warmup: u64) -> Distance {
+        let counted = self.points.iter().filter(|point| point.tick > warmup);
+        Distance::mean(&counted.map(|point| point.distance).collect::<Vec<_>>())
+    }
+}
+
+impl Observer for Follower<'_> {
+    fn after_tick(&mut self, world: &World) -> io::Result<()> {
+        self.tick += 1;
+        if is_due(self.tick, self.reference.ticks)
+            && let Some(reference) = self.reference.samples.get(self.points.len())
+        {
+            let own = Sample::of(world);
+            self.points.push(Point {
+                tick: self.tick,
+                distance: own.field.distance(&reference.field, self.reference.magnitude),
+                energy_ratio: own.energy / reference.energy,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// Names of the columns of [`write_points`]: the parts of the distance are those of [`Distance`].
+pub const COLUMNS: &str = "tick,seconds,share,momentum,air,energy_ratio";
+
+/// Writes the distance over time as a table, comma separated. A field is empty where there is nothing to compare.
+pub fn write_points(points: &[Point], mut out: impl Write) -> io::Result<()> {
+    let field = |value: Option<f64>| value.map_or_else(String::new, |value| value.to_string());
+    writeln!(out, "{COLUMNS}")?;
+    for Point { tick, distance, energy_ratio } in points {
+        let seconds = *tick as f64 / f64::from(TICKS_PER_SECOND);
+        let Distance { share, momentum, air } = *distance;
+        let ratio = field(Some(*energy_ratio).filter(|ratio| ratio.is_finite()));
+        writeln!(out, "{tick},{seconds},{},{},{},{ratio}", field(share), field(momentum), field(air))?;
+    }
+    out.flush()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        lab::headless::Headless,
+        scene::{self, blueprint::EffectModes},
+        sim::control,
+    };
+    use std::sync::Arc;
+
+    struct Nobody;
+
+    impl Observer for Nobody {
+        fn after_tick(&mut self, _world: &World) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    fn small_dam_break() -> Moment {
+        let settings = [("columns".to_owned(), "16".to_owned())];
+        let blueprint = scene::load("dam_break").unwrap().build(&settings, None, &EffectModes::new()).unwrap();
+        Moment::of(Headless::new(Arc::new(blueprint), Workers::default()).world())
+    }
+
+    fn follow(moment: &Moment, reference: &Reference, quality: Quality, plan: &Plan) -> (Vec<Point>, u64) {
+        let mut headless = moment.go_on(Preset::Fast, quality, Workers::default());
+        let mut follower = Follower::new(reference);
+        run(&mut headless, plan, &mut [&mut follower]).unwrap();
+        (follower.points().to_vec(), control::hash(headless.world()))
+    }
+
+    #[test]
+    fn the_reference_stays_with_itself_and_the_rough_go_far() {
+        let (moment, plan) = (small_dam_break(), Plan { ticks: 90, ..Plan::default() });
+        let reference = Reference::record(&moment, &plan, Workers::default(), &mut Nobody).unwrap();
+        let (own, _) = follow(&moment, &reference, Reference::quality(), &plan);
+        assert_eq!(own.iter().map(|point| point.tick).collect::<Vec<_>>(), [20, 40, 60, 80, 90]);
+        let nothing = Distance { share: Some(0.0), momentum: Some(0.0), air: None };
+        assert!(own.iter().all(|point| point.distance == nothing && point.energy_ratio == 1.0), "{own:?}");
+        let (fine, _) = follow(&moment, &reference, Quality { substeps: 4, ..Preset::Fine.quality() }, &plan);
+        let (rough, hash) = follow(&moment, &reference, Preset::Classic.quality(), &plan);
+        let early = |points: &[Point]| points[1].distance.share.unwrap();
+        assert!(early(&fine) > 0.0 && early(&fine) < early(&rough), "{fine:?}\n{rough:?}");
+        let mut alone = moment.go_on(Preset::Fast, Preset::Classic.quality(), Workers::default());
+        run(&mut alone, &plan, &mut []).unwrap();
+        assert_eq!(control::hash(alone.world()), hash, "to be followed changes nothing");
+    }
+
+    #[test]
+    fn the_mean_leaves_the_warm_up_out() {
+        let (moment, plan) = (small_dam_break(), Plan { ticks: 40, ..Plan::default() });
+        let reference = Reference::record(&moment, &plan, Workers::default(), &mut Nobody).unwrap();
+        let mut headless = moment.go_on(Preset::Draft, Preset::Draft.quality(), Workers::default());
+        let mut follower = Follower::new(&reference);
+        run(&mut headless, &plan, &mut [&mut follower]).unwrap();
+        assert_eq!(follower.mean(20), follower.points()[1].distance);
+        assert_eq!(follower.mean(40), Distance::default(), "nothing is left");
+    }
+}

@@ -1,0 +1,241 @@
+//! What a sweep measures: the presets, a plane of substeps × iterations, and around each preset one knob at a time.
+
+use super::{ErrorMeasure, effective};
+use crate::kernel::params::{Preset, Quality};
+use std::ops::RangeInclusive;
+
+/// The presets that are meant to run in real time: the ones whose neighbours are measured.
+pub const REAL_TIME: [Preset; 4] = [Preset::Draft, Preset::Fast, Preset::Balanced, Preset::Fine];
+
+/// Kernel radii, d.
+const RADII: [f32; 3] = [2.0, 2.25, 3.0];
+
+/// Substeps of the plane.
+const SUBSTEPS: [u32; 3] = [1, 2, 4];
+
+/// Iterations of the plane.
+const ITERATIONS: RangeInclusive<u32> = 1..=4;
+
+/// Substeps and iterations of the plain method, beside those of `classic`.
+const PLAIN: [(u32, u32); 5] = [(1, 8), (2, 2), (2, 4), (4, 2), (4, 4)];
+
+/// Air cells where air is what counts, d.
+const AIR_CELLS: [f32; 8] = [16.0, 12.0, 8.0, 6.0, 4.0, 3.0, 2.0, 1.5];
+
+/// Courant numbers of the air.
+const COURANTS: [f32; 3] = [0.35, 0.7, 0.9];
+
+/// A full set of knobs to measure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    /// What it is called; no two of a sweep have the same name.
+    pub name: String,
+    /// The preset that it is.
+    pub preset: Option<Preset>,
+    /// The knobs.
+    pub quality: Quality,
+    /// Threads of the kernel.
+    pub threads: usize,
+}
+
+impl Setting {
+    fn preset(preset: Preset, threads: usize) -> Self {
+        Self { name: preset.name().to_owned(), preset: Some(preset), quality: preset.quality(), threads }
+    }
+
+    /// The knobs in one word, exact: what the journal knows it by.
+    pub fn key(&self) -> String {
+        let Quality {
+            substeps,
+            iterations,
+            kernel_radius,
+            correction_limit,
+            air_cell,
+            air_courant,
+            gradient,
+            predictor,
+        } = self.quality;
+        let threads = self.threads;
+        format!(
+            "{substeps}x{iterations} h{kernel_radius} c{correction_limit} {gradient:?} p{predictor} a{air_cell} \
+             C{air_courant} t{threads}"
+        )
+    }
+}
+
+/// How much is measured.
+#[derive(Clone, Debug)]
+pub struct Scope {
+    /// What the error is.
+    pub measure: ErrorMeasure,
+    /// Whether the scene has air.
+    pub has_air: bool,
+    /// Threads of all settings but those that stand for threads.
+    pub threads: usize,
+    /// Other numbers of threads at which the presets are measured, too.
+    pub other_threads: Vec<usize>,
+    /// Only the presets and a small plane.
+    pub quick: bool,
+    /// Only these presets, if any.
+    pub only: Vec<Preset>,
+}
+
+/// The settings of a sweep, each once.
+pub fn settings(scope: &Scope) -> Vec<Setting> {
+    let presets = if scope.only.is_empty() { &Preset::ALL[..] } else { &scope.only };
+    let mut list = List { scope, settings: Vec::new() };
+    for preset in presets {
+        list.add(Setting::preset(*preset, scope.threads));
+    }
+    if scope.only.is_empty() {
+        match scope.measure {
+            ErrorMeasure::Density => list.add_liquid(),
+            ErrorMeasure::Air => list.add_air(),
+        }
+    }
+    list.settings
+}
+
+struct List<'a> {
+    scope: &'a Scope,
+    settings: Vec<Setting>,
+}
+
+impl List<'_> {
+    /// Adds a setting unless one with the same effect is there.
+    fn add(&mut self, setting: Setting) {
+        let effect = |setting: &Setting| (effective(setting.quality, self.scope.has_air), setting.threads);
+        if !self.settings.iter().any(|other| effect(other) == effect(&setting)) {
+            self.settings.push(setting);
+        }
+    }
+
+    fn add_named(&mut self, name: String, quality: Quality) {
+        self.add(Setting { name, preset: None, quality, threads: self.scope.threads });
+    }
+
+    fn add_liquid(&mut self) {
+        let fast = Preset::Fast.quality();
+        let (most_substeps, most_iterations) = if self.scope.quick { (2, 3) } else { (u32::MAX, u32::MAX) };
+        for substeps in SUBSTEPS.into_iter().filter(|substeps| *substeps <= most_substeps) {
+            for iterations in ITERATIONS.filter(|iterations| *iterations <= most_iterations) {
+                self.add_named(format!("{substeps}×{iterations}"), Quality { substeps, iterations, ..fast });
+            }
+        }
+        if self.scope.quick {
+            return;
+        }
+        for (substeps, iterations) in PLAIN {
+            let quality = Quality { substeps, iterations, ..Preset::Classic.quality() };
+            self.add_named(format!("classic, {substeps}×{iterations}"), quality);
+        }
+        for preset in REAL_TIME {
+            self.add_neighbours(preset);
+        }
+        self.add_threads();
+    }
+
+    /// One knob at a time around a preset.
+    fn add_neighbours(&mut self, preset: Preset) {
+        let (name, own) = (preset.name(), preset.quality());
+        for iterations in [own.iterations - 1, own.iterations + 1].into_iter().filter(|iterations| *iterations > 0) {
+            self.add_named(format!("{name}, {iterations} iterations"), Quality { iterations, ..own });
+        }
+        let substeps = 2 * own.substeps;
+        self.add_named(format!("{name}, {substeps} substeps"), Quality { substeps, ..own });
+        for kernel_radius in RADII {
+            self.add_named(format!("{name}, h {kernel_radius}"), Quality { kernel_radius, ..own });
+        }
+        self.add_named(format!("{name}, no predictor"), Quality { predictor: false, ..own });
+        if self.scope.has_air {
+            for air_cell in [2.0 * own.air_cell, 0.5 * own.air_cell] {
+                self.add_named(format!("{name}, air cell {air_cell}"), Quality { air_cell, ..own });
+            }
+            for air_courant in COURANTS {
+                self.add_named(format!("{name}, Courant {air_courant}"), Quality { air_courant, ..own });
+            }
+        }
+    }
+
+    fn add_air(&mut self) {
+        let fast = Preset::Fast.quality();
+        for air_courant in COURANTS {
+            for air_cell in AIR_CELLS {
+                if !self.scope.quick || (air_courant == fast.air_courant && air_cell.fract() == 0.0) {
+                    let quality = Quality { air_cell, air_courant, ..fast };
+                    self.add_named(format!("air cell {air_cell}, Courant {air_courant}"), quality);
+                }
+            }
+        }
+        if !self.scope.quick {
+            self.add_threads();
+        }
+    }
+
+    fn add_threads(&mut self) {
+        for preset in REAL_TIME {
+            for &threads in &self.scope.other_threads {
+                let name = format!("{}, {threads} thread{}", preset.name(), if threads == 1 { "" } else { "s" });
+                self.add(Setting { name, preset: None, ..Setting::preset(preset, threads) });
+            }
+        }
+    }
+}
+
+/// Numbers of threads worth a look beside `chosen`: 1, 2, 4, … and all of `available`.
+pub fn other_threads(chosen: usize, available: usize) -> Vec<usize> {
+    let powers = (0..usize::BITS).map(|k| 1 << k).take_while(|threads| *threads < available);
+    powers.chain([available]).filter(|threads| *threads != chosen).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    fn scope(measure: ErrorMeasure, has_air: bool) -> Scope {
+        Scope { measure, has_air, threads: 1, other_threads: vec![2], quick: false, only: Vec::new() }
+    }
+
+    #[test]
+    fn no_setting_is_measured_twice_and_the_design_stays_small() {
+        for scope in [
+            scope(ErrorMeasure::Density, false),
+            scope(ErrorMeasure::Density, true),
+            scope(ErrorMeasure::Air, true),
+            Scope { quick: true, ..scope(ErrorMeasure::Density, true) },
+        ] {
+            let settings = settings(&scope);
+            let keys: BTreeSet<String> = settings.iter().map(Setting::key).collect();
+            let names: BTreeSet<&str> = settings.iter().map(|setting| setting.name.as_str()).collect();
+            assert_eq!((keys.len(), names.len()), (settings.len(), settings.len()), "{scope:?}");
+            assert!(settings.len() < 80, "{} settings for {scope:?}", settings.len());
+            let presets = settings.iter().filter(|setting| setting.preset.is_some()).count();
+            assert_eq!(presets, Preset::ALL.len(), "every preset is there by its name");
+        }
+    }
+
+    #[test]
+    fn air_knobs_are_turned_only_where_there_is_air() {
+        let named = |scope: &Scope| settings(scope).iter().filter(|setting| setting.name.contains("air cell")).count();
+        assert_eq!(named(&scope(ErrorMeasure::Density, false)), 0);
+        assert!(named(&scope(ErrorMeasure::Density, true)) > 0);
+        assert!(named(&scope(ErrorMeasure::Air, true)) >= 20);
+    }
+
+    #[test]
+    fn only_what_is_asked_for_is_measured() {
+        let only =
+            Scope { only: vec![Preset::Draft, Preset::Draft, Preset::Fine], ..scope(ErrorMeasure::Density, true) };
+        let names: Vec<String> = settings(&only).into_iter().map(|setting| setting.name).collect();
+        assert_eq!(names, ["draft", "fine"]);
+    }
+
+    #[test]
+    fn threads_go_up_by_doubling() {
+        assert_eq!(other_threads(1, 2), [2]);
+        assert_eq!(other_threads(1, 12), [2, 4, 8, 12]);
+        assert_eq!(other_threads(4, 8), [1, 2, 8]);
+        assert_eq!(other_threads(1, 1), [0_usize; 0]);
+    }
+}

@@ -1,0 +1,44 @@
+//! curve.svg and curve.png: error against time, both logarithmic.
+
+use super::{
+    design::Setting,
+    row::{NEGLIGIBLE, Row},
+    summary::Subject,
+};
+use crate::lab::{
+    machine::processor,
+    plot::{Axis, Chart, Look, Naming, Point, Series},
+};
+
+/// The curve: the front, the presets by their names, all other settings faint.
+pub fn chart(subject: &Subject, rows: &[Row]) -> Chart {
+    let own = |row: &&Row| row.setting.threads == subject.threads;
+    let is_preset = |row: &&Row| row.setting.preset.is_some();
+    let mut front: Vec<&Row> = rows.iter().filter(own).filter(|row| row.front).collect();
+    front.sort_by(|a, b| a.ms.total_cmp(&b.ms));
+    let others = rows.iter().filter(own).filter(|row| !is_preset(row) && row.error.is_finite());
+    let mut series = vec![
+        Series::new("front", Look::Front, front.iter().map(|row| point(row))),
+        // A point without a place between any two, so that no line joins them.
+        Series::new("other settings", Look::Faint, others.flat_map(|row| [point(row), Point::new(f64::NAN, f64::NAN)]))
+            .named(Naming::Legend),
+    ];
+    for row in rows.iter().filter(is_preset).filter(|row| row.error.is_finite()) {
+        let Setting { name, .. } = &row.setting;
+        let name = if row.is_valid() { name.clone() } else { format!("{name} (not valid)") };
+        series.push(Series::new(name, Look::Scatter, [point(row)]).named(Naming::AtEnd));
+    }
+    let threads = if subject.threads == 1 { "1 thread".to_owned() } else { format!("{} threads", subject.threads) };
+    Chart {
+        title: format!("{}: what accuracy costs", subject.scene),
+        subtitle: format!("{}, {threads}", processor()),
+        x: Axis::logarithmic("ms a tick"),
+        y: Axis::logarithmic(subject.measure.title()),
+        series,
+    }
+}
+
+/// A row as a point; errors next to nothing stand at the lower edge.
+fn point(row: &Row) -> Point {
+    Point::new(row.ms, row.error.max(NEGLIGIBLE)).between_x(row.ms_range[0], row.ms_range[1])
+}

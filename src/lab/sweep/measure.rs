@@ -1,0 +1,95 @@
+//! One run of a setting: its times and, if it is the first, how exact it was.
+
+use super::{
+    design::Setting,
+    journal::{Found, Record},
+};
+use crate::{
+    kernel::params::Preset,
+    lab::{
+        metrics::Metrics,
+        moment::Moment,
+        reference::{Follower, Reference},
+        run::{Observer, Plan, run as run_plan},
+        sampler::{Sampler, ms},
+        stats,
+    },
+    sim::{control, ledger::PassLedger, workers::Workers},
+};
+use bevy::ecs::world::World;
+use std::io;
+
+/// The run that all are compared with, on all threads: its time is not what counts.
+pub(super) fn reference(moment: &Moment, plan: &Plan) -> io::Result<Reference> {
+    Reference::record(moment, plan, Workers::default(), &mut Times::default())
+}
+
+/// Runs a setting from the moment on; with a reference it is sampled, too.
+pub(super) fn run(
+    moment: &Moment,
+    plan: &Plan,
+    setting: &Setting,
+    workers: &Workers,
+    reference: Option<&Reference>,
+) -> io::Result<Record> {
+    // What the preset is called makes no difference to the run.
+    let preset = setting.preset.unwrap_or(Preset::Fast);
+    let mut headless = moment.go_on(preset, setting.quality, workers.clone());
+    let mut times = Times { warmup: plan.warmup, ..Times::default() };
+    let found = if let Some(reference) = reference {
+        let mut sampler = Sampler::new(headless.world(), plan.warmup);
+        let mut follower = Follower::new(reference);
+        run_plan(&mut headless, plan, &mut [&mut times, &mut sampler, &mut follower])?;
+        Some(found(moment, &sampler.finish(headless.world()), &follower, plan.warmup))
+    } else {
+        run_plan(&mut headless, plan, &mut [&mut times])?;
+        None
+    };
+    Ok(Record {
+        ms: stats::quantile(&mut times.ms, 0.5).unwrap_or(f64::NAN),
+        ms_p95: stats::quantile(&mut times.ms, 0.95).unwrap_or(f64::NAN),
+        hash: format!("{:016x}", control::hash(headless.world())),
+        found,
+    })
+}
+
+fn found(moment: &Moment, metrics: &Metrics, follower: &Follower, warmup: u64) -> Found {
+    let (accuracy, stability) = (&metrics.accuracy, &metrics.stability);
+    let finite = |value: f64| value.is_finite().then_some(value);
+    let energy_gain = if moment.is_closed() {
+        finite(accuracy.energy_peak / accuracy.energy_start - 1.0)
+    } else {
+        let counted = follower.points().iter().filter(|point| point.tick > warmup);
+        stats::largest(&counted.map(|point| point.energy_ratio - 1.0).collect::<Vec<_>>()).and_then(finite)
+    };
+    Found {
+        particles: metrics.particles.total,
+        error_mean: accuracy.density_error_mean,
+        error_p99: accuracy.density_error_p99,
+        error_max: accuracy.density_error_max,
+        density_mean: accuracy.density_mean,
+        volume_error: accuracy.volume_error,
+        residual: accuracy.residual,
+        energy_gain,
+        lost: stability.non_finite + stability.escaped,
+        distance: follower.mean(warmup),
+    }
+}
+
+/// Notes the time of each tick after the warm-up.
+#[derive(Default)]
+struct Times {
+    warmup: u64,
+    tick: u64,
+    ms: Vec<f64>,
+}
+
+impl Observer for Times {
+    fn after_tick(&mut self, world: &World) -> io::Result<()> {
+        self.tick += 1;
+        if self.tick > self.warmup {
+            self.ms.push(ms(world.resource::<PassLedger>().last_tick()));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,142 @@
+//! A row of the curve: all runs of a setting together.
+
+use super::{
+    ErrorMeasure,
+    design::Setting,
+    journal::{Found, Record},
+};
+use crate::lab::stats;
+
+/// Most that the energy may grow.
+const ENERGY_GAIN: f64 = 0.01;
+
+/// Furthest that the mean density may be off rest density.
+const DENSITY_OFF: f64 = 0.02;
+
+/// Errors below this are equal: a hundredth of what the strictest preset is asked for.
+pub const NEGLIGIBLE: f64 = 1e-5;
+
+/// What a setting costs and how exact it is.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// The setting.
+    pub setting: Setting,
+    /// Number of runs.
+    pub runs: usize,
+    /// Time of a tick, ms: the median over the runs of their medians.
+    pub ms: f64,
+    /// The fastest and the slowest run's median, ms.
+    pub ms_range: [f64; 2],
+    /// 95th percentile of the ticks, ms: the median over the runs.
+    pub ms_p95: f64,
+    /// The error that counts in this scene.
+    pub error: f64,
+    /// Everything that was found.
+    pub found: Found,
+    /// Hash of the final state.
+    pub hash: String,
+    /// What is wrong with the world that came out; nothing in a valid row.
+    pub faults: Vec<String>,
+    /// Whether no valid row beats it.
+    pub front: bool,
+}
+
+impl Row {
+    /// The runs of a setting together; `None` without any.
+    pub fn new(setting: &Setting, measure: ErrorMeasure, records: &[&Record], found: &Found) -> Option<Self> {
+        let mut times: Vec<f64> = records.iter().map(|record| record.ms).collect();
+        let mut p95: Vec<f64> = records.iter().map(|record| record.ms_p95).collect();
+        let error = match measure {
+            ErrorMeasure::Density => found.error_p99,
+            ErrorMeasure::Air => found.distance.air,
+        };
+        Some(Self {
+            setting: setting.clone(),
+            runs: records.len(),
+            ms_range: [times.iter().copied().min_by(f64::total_cmp)?, stats::largest(&times)?],
+            ms: stats::quantile(&mut times, 0.5)?,
+            ms_p95: stats::quantile(&mut p95, 0.5)?,
+            error: error.unwrap_or(f64::NAN),
+            found: found.clone(),
+            hash: records.first()?.hash.clone(),
+            faults: faults(measure, found),
+            front: false,
+        })
+    }
+
+    /// Whether its world is sound, so that its error means something.
+    pub fn is_valid(&self) -> bool {
+        self.faults.is_empty()
+    }
+}
+
+/// What makes an error meaningless: a fluid that explodes or stands too thin has little of it.
+fn faults(measure: ErrorMeasure, found: &Found) -> Vec<String> {
+    let mut faults = Vec::new();
+    if found.lost > 0 {
+        faults.push(format!("{} particles lost or outside", found.lost));
+    }
+    if measure == ErrorMeasure::Air {
+        if found.distance.air.is_none() {
+            faults.push("no air to compare".to_owned());
+        }
+        return faults;
+    }
+    match found.energy_gain {
+        Some(gain) if gain > ENERGY_GAIN => faults.push(format!("energy up by {:.1} %", 100.0 * gain)),
+        _ => (),
+    }
+    match found.density_mean {
+        None => faults.push("no liquid with an inside".to_owned()),
+        // Written so that a NaN is a fault, too.
+        Some(density) if !((density - 1.0).abs() <= DENSITY_OFF) => {
+            faults.push(format!("mean density {density:.3}"));
+        }
+        Some(_) => (),
+    }
+    faults
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::kernel::params::Preset;
+
+    /// A valid row with these figures.
+    pub(in crate::lab::sweep) fn row(name: &str, ms: f64, error: f64) -> Row {
+        let preset = Preset::find(name);
+        let quality = preset.unwrap_or(Preset::Fast).quality();
+        let setting = Setting { name: name.to_owned(), preset, quality, threads: 1 };
+        let sound = Found { error_p99: Some(error), density_mean: Some(0.99), ..Found::default() };
+        let record = Record { ms, ms_p95: ms, hash: String::new(), found: None };
+        Row::new(&setting, ErrorMeasure::Density, &[&record], &sound).unwrap()
+    }
+
+    #[test]
+    fn runs_go_together_by_their_median_and_show_their_spread() {
+        let record = |ms: f64| Record { ms, ms_p95: ms + 1.0, hash: "1".to_owned(), found: None };
+        let records = [record(1.2), record(0.9), record(3.0)];
+        let records: Vec<&Record> = records.iter().collect();
+        let setting = row("a", 1.0, 1.0).setting;
+        let row = Row::new(&setting, ErrorMeasure::Density, &records, &Found::default()).unwrap();
+        assert_eq!((row.ms, row.ms_range, row.ms_p95, row.runs), (1.2, [0.9, 3.0], 2.2, 3));
+        assert!(Row::new(&setting, ErrorMeasure::Density, &[], &Found::default()).is_none());
+    }
+
+    #[test]
+    fn a_world_that_is_not_sound_is_not_valid() {
+        let sound = Found { density_mean: Some(0.985), energy_gain: Some(0.002), ..Found::default() };
+        assert_eq!(faults(ErrorMeasure::Density, &sound), [""; 0]);
+        for (bad, says) in [
+            (Found { lost: 3, ..sound.clone() }, "3 particles"),
+            (Found { energy_gain: Some(0.013), ..sound.clone() }, "1.3 %"),
+            (Found { density_mean: Some(0.97), ..sound.clone() }, "0.970"),
+            (Found { density_mean: Some(1.05), ..sound.clone() }, "1.050"),
+            (Found { density_mean: Some(f64::NAN), ..sound.clone() }, "NaN"),
+            (Found { density_mean: None, ..sound.clone() }, "no liquid"),
+        ] {
+            let faults = faults(ErrorMeasure::Density, &bad);
+            assert!(faults.len() == 1 && faults[0].contains(says), "{faults:?} does not say {says}");
+        }
+    }
+}

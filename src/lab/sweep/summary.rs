@@ -1,0 +1,285 @@
+//! summary.md: what a reader should choose, and what the knobs buy.
+
+use super::{ErrorMeasure, effective, presets, row::Row};
+use crate::{
+    kernel::params::{GradientKernel, Preset, Quality},
+    lab::machine::processor,
+};
+use std::fmt::Write;
+
+/// Times that a reader may have, ms a tick.
+pub const BUDGETS: [f64; 5] = [1.0, 2.0, 4.0, 8.0, 16.0];
+
+/// What the summary is of.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// Name of the scene.
+    pub scene: &'a str,
+    /// Parameters of the scene.
+    pub parameters: &'a str,
+    /// What the error is.
+    pub measure: ErrorMeasure,
+    /// Whether the scene has air.
+    pub has_air: bool,
+    /// Ticks that are run before the moment that all runs set out from.
+    pub start: u64,
+    /// Ticks of a run.
+    pub ticks: u64,
+    /// Ticks left out.
+    pub warmup: u64,
+    /// Threads of the settings that don't stand for threads.
+    pub threads: usize,
+}
+
+/// The summary in Markdown.
+pub fn text(subject: &Subject, rows: &[Row]) -> String {
+    let own: Vec<&Row> = rows.iter().filter(|row| row.setting.threads == subject.threads).collect();
+    let sections = [
+        heading(subject, rows),
+        budgets(subject, &own),
+        preset_table(subject, rows),
+        knobs(subject, &own),
+        threads(rows),
+        excluded(rows),
+    ];
+    sections.into_iter().filter(|section| !section.is_empty()).collect::<Vec<_>>().join("\n")
+}
+
+// Writing to a string does not fail: the results of `writeln!` below are dropped.
+
+fn heading(subject: &Subject, rows: &[Row]) -> String {
+    let Subject { scene, parameters, start, ticks, warmup, threads, .. } = subject;
+    let runs = rows.iter().map(|row| row.runs).max().unwrap_or(0);
+    let particles = rows.iter().map(|row| row.found.particles).max().unwrap_or(0);
+    let what = match subject.measure {
+        ErrorMeasure::Density => {
+            "Error: the density error, a fraction, from positions alone; p99 is what the front goes by."
+        }
+        ErrorMeasure::Air => "Error: the distance of the air's velocity to that of the reference, a fraction.",
+    };
+    let of_threads = if *threads == 1 { "1 thread".to_owned() } else { format!("{threads} threads") };
+    format!(
+        "# {scene}: what accuracy costs\n\n{}, {of_threads}; {particles} particles, rock included{parameters}. Every \
+         setting ran {runs} times {ticks} ticks from the same moment (tick {start} of the scene), interleaved; the first \
+         {warmup} don't count. Times are the median over the runs of the median tick.\n\n{what}\n",
+        processor()
+    )
+}
+
+fn budgets(subject: &Subject, rows: &[&Row]) -> String {
+    let mut text =
+        "## What to choose\n\n| at most, ms | setting | ms | error | best preset | ms | error |\n|---:|---|---:|---:|---|---:|---:|\n"
+            .to_owned();
+    for budget in BUDGETS {
+        let best = |wanted: &dyn Fn(&Row) -> bool| {
+            let fitting = rows.iter().filter(|row| row.is_valid() && row.ms <= budget && wanted(row));
+            let best = fitting.min_by(|a, b| a.error.total_cmp(&b.error).then(a.ms.total_cmp(&b.ms)));
+            best.map_or_else(
+                || "none | – | –".to_owned(),
+                |row| format!("{} | {:.2} | {:.5}", name(row), row.ms, row.error),
+            )
+        };
+        // A setting with coarser air than the presets' own coarsest is no choice for the liquid's sake.
+        let coarsest = Preset::Draft.quality().air_cell;
+        let any = |row: &Row| {
+            subject.measure == ErrorMeasure::Air || !subject.has_air || row.setting.quality.air_cell <= coarsest
+        };
+        let _ = writeln!(text, "| {budget} | {} | {} |", best(&any), best(&|row| row.setting.preset.is_some()));
+    }
+    text
+}
+
+fn name(row: &Row) -> String {
+    match row.setting.preset {
+        Some(preset) => format!("`{}`", preset.name()),
+        None => row.setting.name.clone(),
+    }
+}
+
+fn preset_table(subject: &Subject, rows: &[Row]) -> String {
+    let mut text = "## The presets\n\n\
+         | preset | ms | fastest … slowest run | error mean | p99 | mean density | energy gained | liquid elsewhere | \
+         momentum | air | on the front |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---|\n"
+        .to_owned();
+    for preset in Preset::ALL {
+        let Some(row) = rows.iter().find(|row| row.setting.preset == Some(preset)) else { continue };
+        let found = &row.found;
+        let on_front = if row.front { "yes" } else { "no" };
+        let _ = writeln!(
+            text,
+            "| `{}` | {:.3} | {:.3} … {:.3} | {} | {} | {} | {} | {} | {} | {} | {on_front} |",
+            preset.name(),
+            row.ms,
+            row.ms_range[0],
+            row.ms_range[1],
+            figure(found.error_mean, 5),
+            figure(found.error_p99, 5),
+            figure(found.density_mean, 3),
+            figure(found.energy_gain, 4),
+            figure(found.distance.share, 3),
+            figure(found.distance.momentum, 3),
+            figure(found.distance.air, 3),
+        );
+    }
+    let air_is_unseen = subject.has_air && subject.measure == ErrorMeasure::Density;
+    let troubles = presets::check(rows, air_is_unseen);
+    if troubles.is_empty() {
+        text += "\nOrder: ok. Each preset is dearer and exacter than the one before it, and on the front.\n";
+    } else {
+        text += "\nOrder: not ok.\n\n";
+        for trouble in troubles {
+            let _ = writeln!(text, "- {trouble}");
+        }
+    }
+    text
+}
+
+fn figure(value: Option<f64>, digits: usize) -> String {
+    value.map_or_else(|| "–".to_owned(), |value| format!("{value:.digits$}"))
+}
+
+/// One knob turned, from one row to another.
+fn knobs(subject: &Subject, rows: &[&Row]) -> String {
+    let mut text = String::new();
+    for from in rows.iter().filter(|row| row.setting.preset.is_some()) {
+        for to in rows {
+            let qualities = [from, to].map(|row| effective(row.setting.quality, subject.has_air));
+            if let Some(change) = one_change(qualities[0], qualities[1]) {
+                let _ = writeln!(
+                    text,
+                    "| {} | {change} | {:.2} | {} | {} |",
+                    name(from),
+                    to.ms / from.ms,
+                    figure(Some(to.error / from.error).filter(|ratio| ratio.is_finite()), 2),
+                    to.faults.join(", "),
+                );
+            }
+        }
+    }
+    if text.is_empty() {
+        return text;
+    }
+    "## What a knob buys\n\nOne knob turned, the others left: time and error as multiples of the preset's.\n\n\
+     | from | to | time | error | not valid |\n|---|---|---:|---:|---|\n"
+        .to_owned()
+        + &text
+}
+
+/// The knob that differs, if it is one.
+fn one_change(from: Quality, to: Quality) -> Option<String> {
+    let kernel = |gradient| if gradient == GradientKernel::Spiky { "spiky" } else { "rational" };
+    let changes = [
+        (from.substeps != to.substeps).then(|| format!("{} substeps", to.substeps)),
+        (from.iterations != to.iterations).then(|| format!("{} iterations", to.iterations)),
+        (from.kernel_radius != to.kernel_radius).then(|| format!("h {}", to.kernel_radius)),
+        (from.correction_limit != to.correction_limit).then(|| format!("correction limit {}", to.correction_limit)),
+        (from.predictor != to.predictor).then(|| if to.predictor { "predictor" } else { "no predictor" }.to_owned()),
+        (from.gradient != to.gradient).then(|| kernel(to.gradient).to_owned()),
+        (from.air_cell != to.air_cell).then(|| format!("air cell {}", to.air_cell)),
+        (from.air_courant != to.air_courant).then(|| format!("Courant {}", to.air_courant)),
+    ];
+    let mut changes = changes.into_iter().flatten();
+    changes.next().filter(|_| changes.next().is_none())
+}
+
+/// What threads do to each preset.
+fn threads(rows: &[Row]) -> String {
+    let mut text = String::new();
+    for from in rows.iter().filter(|row| row.setting.preset.is_some()) {
+        for to in rows {
+            if to.setting.quality == from.setting.quality && to.setting.threads != from.setting.threads {
+                let _ = writeln!(
+                    text,
+                    "| {} | {} | {:.3} | {} | {:.3} | {:.2} |",
+                    name(from),
+                    from.setting.threads,
+                    from.ms,
+                    to.setting.threads,
+                    to.ms,
+                    from.ms / to.ms,
+                );
+            }
+        }
+    }
+    if text.is_empty() {
+        return text;
+    }
+    "## Threads\n\nThe result is the same to the bit.\n\n| preset | threads | ms | threads | ms | speed-up |\n\
+     |---|---:|---:|---:|---:|---:|\n"
+        .to_owned()
+        + &text
+}
+
+fn excluded(rows: &[Row]) -> String {
+    let mut text = String::new();
+    for row in rows.iter().filter(|row| !row.is_valid()) {
+        let _ = writeln!(text, "- {} ({:.2} ms, error {:.5}): {}", name(row), row.ms, row.error, row.faults.join(", "));
+    }
+    if text.is_empty() {
+        return text;
+    }
+    "## Not valid\n\nError alone misleads: these lose particles, gain energy or stand too thin or too dense, and count for \
+     nothing above.\n\n"
+        .to_owned()
+        + &text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{super::row::tests::row, *};
+
+    fn subject(threads: usize) -> Subject<'static> {
+        Subject {
+            scene: "dam_break",
+            parameters: "",
+            measure: ErrorMeasure::Density,
+            has_air: false,
+            start: 0,
+            ticks: 300,
+            warmup: 59,
+            threads,
+        }
+    }
+
+    #[test]
+    fn each_budget_gets_the_exactest_setting_that_fits_and_is_valid() {
+        let mut rows =
+            [row("draft", 0.5, 0.03), row("2×1", 1.5, 0.001), row("fine", 1.9, 0.005), row("4×4", 0.9, 1e-4)];
+        rows[3].faults.push("energy up by 9.0 %".to_owned());
+        let text = text(&subject(1), &rows);
+        for line in [
+            "| 1 | `draft` | 0.50 | 0.03000 | `draft` | 0.50 | 0.03000 |",
+            "| 2 | 2×1 | 1.50 | 0.00100 | `fine` | 1.90 | 0.00500 |",
+            "- 4×4 (0.90 ms, error 0.00010): energy up by 9.0 %",
+            "Order: ok.",
+        ] {
+            assert!(text.contains(line), "no line {line} in\n{text}");
+        }
+        let nothing = text_of_slow();
+        assert!(nothing.contains("| 1 | none | – | – | none | – | – |"), "{nothing}");
+    }
+
+    fn text_of_slow() -> String {
+        text(&subject(1), &[row("reference", 9.0, 0.0)])
+    }
+
+    #[test]
+    fn a_turned_knob_and_other_threads_show_as_ratios() {
+        let mut rows =
+            [row("fast", 1.0, 0.02), row("fast, h 3", 1.3, 0.01), row("both", 2.0, 0.01), row("t", 0.5, 0.02)];
+        rows[1].setting.quality.kernel_radius = 3.0;
+        (rows[2].setting.quality.kernel_radius, rows[2].setting.quality.substeps) = (3.0, 2);
+        rows[3].setting.threads = 2;
+        let text = text(&subject(1), &rows);
+        assert!(text.contains("| `fast` | h 3 | 1.30 | 0.50 |  |"), "{text}");
+        assert!(text.contains("| `fast` | 1 | 1.000 | 2 | 0.500 | 2.00 |"), "{text}");
+        let rows_of_knobs = text.lines().filter(|line| line.starts_with("| `fast` |") && line.contains("h 3")).count();
+        assert_eq!(rows_of_knobs, 1, "two knobs at once tell nothing");
+    }
+
+    #[test]
+    fn presets_out_of_order_are_named() {
+        let text = text(&subject(1), &[row("draft", 0.5, 0.01), row("fast", 0.8, 0.02)]);
+        assert!(text.contains("Order: not ok.\n\n- `draft` → `fast`: the error rises"), "{text}");
+    }
+}
