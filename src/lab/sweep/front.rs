@@ -49,7 +49,7 @@ pub fn front(points: &[Point]) -> Vec<bool> {
 /// What a row is compared by.
 pub(super) fn point(row: &Row, air_is_unseen: bool) -> Point {
     let coarseness = if air_is_unseen { row.setting.quality.air_cell } else { 0.0 };
-    Point { ms: row.ms, error: row.error.max(super::row::NEGLIGIBLE), coarseness }
+    Point { ms: row.ms, error: row.error, coarseness }
 }
 
 /// Marks the rows on the front, those of each number of threads by themselves: threads change no error.

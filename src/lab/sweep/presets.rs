@@ -30,7 +30,7 @@ pub enum Trouble {
         /// What is wrong.
         faults: String,
     },
-    /// Another setting is faster in every run, and as exact.
+    /// Another setting is faster in every run, and as exact; not said of a preset that has next to no error.
     Beaten {
         /// The preset.
         preset: Preset,
@@ -87,6 +87,7 @@ pub fn check(rows: &[Row], air_is_unseen: bool) -> Vec<Trouble> {
 fn beats_beyond_noise(row: &Row, other: &Row, air_is_unseen: bool) -> bool {
     let (a, b) = (point(row, air_is_unseen), point(other, air_is_unseen));
     row.is_valid()
+        && other.error > NEGLIGIBLE
         && row.setting.threads == other.setting.threads
         && row.ms_range[1] < other.ms_range[0]
         && a.error <= b.error

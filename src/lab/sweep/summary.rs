@@ -251,7 +251,6 @@ mod tests {
             "| 1 | `draft` | 0.50 | 0.03000 | `draft` | 0.50 | 0.03000 |",
             "| 2 | 2×1 | 1.50 | 0.00100 | `fine` | 1.90 | 0.00500 |",
             "- 4×4 (0.90 ms, error 0.00010): energy up by 9.0 %",
-            "Order: ok.",
         ] {
             assert!(text.contains(line), "no line {line} in\n{text}");
         }
