@@ -10,6 +10,7 @@ pub mod machine;
 pub mod metrics;
 pub mod particle_list;
 pub mod picture;
+pub mod plot;
 pub mod rest_density;
 pub mod run;
 pub mod sampler;
