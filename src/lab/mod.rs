@@ -12,6 +12,7 @@ pub mod metrics;
 pub mod moment;
 pub mod particle_list;
 pub mod picture;
+pub mod plot;
 pub mod reference;
 pub mod rest_density;
 pub mod run;
