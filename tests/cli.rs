@@ -102,6 +102,16 @@ fn bad_usage_is_one_line_that_says_what_is_allowed() {
         (&["study", "tides", "--out", "."], &["rest-density"]),
         (&["study", "rest-density"], &["--out"]),
         (&["study", "rest-density", "--out", "nowhere"], &["no folder"]),
+        (&["sweep", "--out", "x"], &["<SCENE>"]),
+        (&["sweep", "dam_break"], &["--out"]),
+        (&["sweep", "niagara", "--out", "x"], &["niagara", "allowed"]),
+        (&["sweep", "dam_break", "dam_break", "--out", "x"], &["dam_break is named twice", "allowed"]),
+        (&["sweep", "dam_break", "--out", "x", "--repeat", "0"], &["--repeat", "from 1"]),
+        (&["sweep", "dam_break", "--out", "x", "--ticks", "9", "--warmup", "9"], &["--warmup", "allowed: 0 to 8"]),
+        (&["sweep", "dam_break", "--out", "x", "--set", "substeps=3"], &["substeps=3", "the sweep", "rest_density"]),
+        (&["sweep", "dam_break", "--out", "x", "--set", "columns=1"], &["columns=1"]),
+        (&["sweep", "dam_break", "--out", "x", "--only", "best"], &["best", "balanced"]),
+        (&["sweep", "empty", "--out", "x"], &["empty", "nothing moves", "allowed"]),
     ] {
         refused(&here, arguments, 2, says);
     }
@@ -112,11 +122,15 @@ fn a_bad_output_path_is_refused_before_anything_is_simulated() {
     let here = folder("bad_output");
     // A run of this length would take hours.
     let long = |option: &'static str, path: &'static str| ["run", "waterfall", "--seconds", "90000", option, path];
-    for option in ["--metrics", "--particles", "--trace", "--png", "--snapshot"] {
+    for option in ["--metrics", "--particles", "--trace", "--reference", "--png", "--snapshot"] {
         refused(&here, &long(option, "nowhere/out"), 2, &["nowhere/out", "no folder", "allowed"]);
         refused(&here, &long(option, "."), 2, &["is a folder"]);
     }
     refused(&here, &["run", "empty", "--ticks", "1", "--png", "a", "--trace", "a"], 2, &["a:", "two outputs"]);
+    std::fs::write(here.join("file"), "").unwrap();
+    refused(&here, &["sweep", "dam_break", "--out", "file"], 2, &["file", "can't be made a folder"]);
+    std::fs::create_dir_all(here.join("taken/curve.csv")).unwrap();
+    refused(&here, &["sweep", "dam_break", "--out", "taken"], 2, &["curve.csv", "is a folder"]);
     refused(&here, &long("--replay", "nothing.jsonl"), 2, &["nothing.jsonl", "can't be read"]);
 }
 
@@ -124,7 +138,7 @@ fn a_bad_output_path_is_refused_before_anything_is_simulated() {
 #[test]
 fn an_output_that_cannot_be_written_is_exit_code_1() {
     let here = folder("full_disk");
-    for option in ["--metrics", "--particles", "--trace", "--png", "--snapshot"] {
+    for option in ["--metrics", "--particles", "--trace", "--reference", "--png", "--snapshot"] {
         refused(&here, &["run", "empty", "--ticks", "1", option, "/dev/full"], 1, &["/dev/full", "can't be written"]);
     }
 }
@@ -172,7 +186,11 @@ fn metrics_have_all_keys() {
         ("/effects", "air drag tension viscosity vorticity"),
         ("/effects/viscosity", "mode active_ticks calls ms_total why"),
         ("/accuracy", "density_error_mean density_error_p99 density_error_max residual volume_error energy"),
-        ("/accuracy", "air_mass_drift momentum_drift air_divergence_rms"),
+        (
+            "/accuracy",
+            "air_mass_drift momentum_drift air_divergence_rms density_mean energy_start energy_peak distance",
+        ),
+        ("/sampling", "ms_total ms_median"),
         ("/stability", "non_finite escaped speed_clamps position_clamps substeps_max"),
     ] {
         for key in keys.split(' ') {
@@ -188,6 +206,7 @@ fn metrics_have_all_keys() {
     assert_eq!(found["accuracy"]["samples"], 2, "ticks 20 and 40");
     assert!(found["accuracy"]["density_error_mean"].is_f64());
     assert_eq!(found["accuracy"]["air_mass_drift"], Value::Null, "the scene has no air");
+    assert!(found["sampling"]["ms_median"].as_f64().unwrap() > 0.0, "what measuring costs is shown");
     assert_eq!(found["effects"]["air"]["calls"], 0, "what is off is not called");
     assert_eq!(found["effects"]["viscosity"]["active_ticks"], 45);
 }
@@ -259,10 +278,106 @@ fn watching_and_threads_never_change_the_world() {
     assert_eq!(hash(&[]), plain, "twice the same");
     assert_eq!(hash(&["--threads", "1"]), plain);
     assert_eq!(hash(&["--threads", "3"]), plain);
-    let watched = hash(&["--metrics", "m.json", "--trace", "t.csv", "--png", "w.png", "--particles", "p.csv"]);
+    let watched = hash(
+        &[
+            ["--metrics", "m.json"],
+            ["--trace", "t.csv"],
+            ["--png", "w.png"],
+            ["--particles", "p.csv"],
+            ["--reference", "r.csv"],
+        ]
+        .concat(),
+    );
     assert_eq!(watched, plain);
     assert_ne!(hash(&["--set", "columns=9"]), plain, "another world has another hash");
     assert_ne!(hash(&["--effect", "viscosity=off"]), plain);
+}
+
+#[test]
+fn the_distance_to_the_reference_is_a_table_over_time() {
+    let here = folder("reference");
+    let found = metrics(&here, &[&SMALL[..], &["--quality", "draft", "--reference", "r.csv"]].concat());
+    let table = std::fs::read_to_string(here.join("r.csv")).unwrap();
+    let lines: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(lines[0], ["tick", "seconds", "share", "momentum", "air", "energy_ratio"]);
+    assert_eq!(lines[1..].iter().map(|line| line[0]).collect::<Vec<_>>(), ["20", "40", "45"]);
+    let shares: Vec<f64> = lines[1..].iter().map(|line| line[2].parse().unwrap()).collect();
+    assert!(shares.iter().all(|share| (1e-6..0.5).contains(share)), "{shares:?}");
+    assert!(lines[1..].iter().all(|line| line[4].is_empty()), "the scene has no air");
+    let mean = shares.iter().sum::<f64>() / 3.0;
+    assert!((found["accuracy"]["distance"]["share"].as_f64().unwrap() - mean).abs() < 1e-9);
+    let own = metrics(&here, &[&SMALL[..], &["--quality", "reference", "--reference", "r.csv"]].concat());
+    assert_eq!(own["accuracy"]["distance"]["momentum"], 0.0, "the reference is no distance from itself");
+}
+
+/// Two small settings of a small scene, twice each.
+const SMALL_SWEEP: [&str; 14] = [
+    "sweep",
+    "dam_break",
+    "--set",
+    "columns=8",
+    "--only",
+    "draft",
+    "--only",
+    "fast",
+    "--ticks",
+    "21",
+    "--repeat",
+    "2",
+    "--out",
+    "sw",
+];
+
+#[test]
+fn a_sweep_leaves_a_curve_and_goes_on_where_it_was_stopped() {
+    let here = folder("sweep");
+    let said = good(&here, &SMALL_SWEEP);
+    let read = |name: &str| std::fs::read_to_string(here.join("sw").join(name)).unwrap();
+    assert_eq!(said, read("summary.md"));
+    for part in ["# dam_break", "128 particles", "## What to choose", "| `draft` |", "Order: "] {
+        assert!(said.contains(part), "no {part} in\n{said}");
+    }
+    let table = read("curve.csv");
+    let lines: Vec<&str> = table.lines().collect();
+    assert_eq!(lines.len(), 3);
+    let header: Vec<&str> = lines[0].split(',').collect();
+    let field = |line: &str, name: &str| {
+        let k = header.iter().position(|column| *column == name).unwrap();
+        line.split(',').nth(k).unwrap().to_owned()
+    };
+    for line in &lines[1..] {
+        assert_eq!(field(line, "runs"), "2");
+        let number = |name: &str| field(line, name).parse::<f64>().unwrap();
+        assert!(number("ms_low") <= number("ms") && number("ms") <= number("ms_high"), "{line}");
+        let quality = field(line, "preset");
+        let run = metrics(&here, &["run", "dam_break", "--set", "columns=8", "--ticks", "21", "--quality", &quality]);
+        assert_eq!(run["hash"], field(line, "hash"), "measured in the sweep is the same world as by itself");
+    }
+    assert!(read("curve.svg").starts_with("<svg"));
+    assert_eq!(&std::fs::read(here.join("sw/curve.png")).unwrap()[1..4], b"PNG");
+
+    let runs = read("runs.jsonl");
+    assert_eq!(runs.lines().count(), 4);
+    std::fs::write(here.join("sw/runs.jsonl"), &runs[..runs.len() - 9]).unwrap();
+    good(&here, &SMALL_SWEEP);
+    let again = read("runs.jsonl");
+    assert_eq!(again.lines().count(), 4, "the half run was run again, and only that");
+    let whole: usize = runs.lines().take(3).map(|line| line.len() + 1).sum();
+    assert_eq!(again[..whole], runs[..whole]);
+    good(&here, &SMALL_SWEEP);
+    assert_eq!(read("runs.jsonl"), again, "nothing was left to do");
+    assert_eq!(std::fs::read_to_string(here.join("sw/curve.csv")).unwrap().lines().count(), 3);
+}
+
+#[test]
+fn several_scenes_have_a_folder_each() {
+    let here = folder("sweep_scenes");
+    let tiny = ["--only", "draft", "--ticks", "2", "--start", "1", "--repeat", "1", "--out", "all"];
+    good(&here, &[&["sweep", "sealed_air", "rest_density"][..], &tiny[..]].concat());
+    for scene in ["sealed_air", "rest_density"] {
+        let summary = std::fs::read_to_string(here.join("all").join(scene).join("summary.md")).unwrap();
+        assert!(summary.starts_with(&format!("# {scene}")), "{summary}");
+    }
 }
 
 /// A person at work in the scene `empty`: a ledge of rock, water placed and poured, some of it taken away, wind. The

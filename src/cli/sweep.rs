@@ -14,7 +14,7 @@ use crate::{
         sweep::{
             ErrorMeasure, Progress, Sweep, SweepError,
             design::{Scope, other_threads, settings},
-
+            draw,
             journal::Journal,
             row::Row,
             summary::{self, Subject},
@@ -27,7 +27,7 @@ use crate::{
 use bevy::platform::time::Instant;
 use std::{
     fs,
-    io::Write,
+    io::{self, Write},
     num::NonZero,
     path::{Path, PathBuf},
 };
@@ -106,6 +106,10 @@ fn folders(arguments: &SweepArguments, starts: &[Start]) -> Result<Vec<PathBuf>,
     Ok(folders)
 }
 
+/// Pixels of the PNG for each of the SVG's.
+const PNG_SCALE: f32 = 2.0;
+
+/// The finished runs.
 const JOURNAL: &str = "runs.jsonl";
 
 /// What the journal knows this build by: results of another are not mixed with its own.
@@ -207,7 +211,8 @@ fn write(folder: &Path, subject: &Subject, rows: &[Row]) -> Result<(), Failure> 
     let summary = summary::text(subject, rows);
     output::write(&folder.join("curve.csv"), |file| table::write(rows, file))?;
     output::write(&folder.join("summary.md"), |file| file.write_all(summary.as_bytes()))?;
-
-
+    let chart = draw::chart(subject, rows);
+    output::write(&folder.join("curve.svg"), |file| file.write_all(chart.svg().as_bytes()))?;
+    output::write(&folder.join("curve.png"), |file| chart.write_png(file, PNG_SCALE).map_err(io::Error::other))?;
     output::print(&summary)
 }

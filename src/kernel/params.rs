@@ -154,10 +154,12 @@ impl Preset {
                 ..base
             },
             Self::Draft => Quality { iterations: 1, air_cell: 8.0, ..base },
-            Self::Fast => base,
-            Self::Balanced => Quality { iterations: 3, ..base },
+            Self::Fast => Quality { air_cell: 6.0, ..base },
+            Self::Balanced => Quality { substeps: 2, iterations: 1, ..base },
             Self::Fine => Quality { substeps: 2, air_cell: 3.0, ..base },
-            Self::Reference => Quality { substeps: 8, iterations: 4, air_cell: 2.0, air_courant: 0.5, ..base },
+            Self::Reference => {
+                Quality { substeps: 8, iterations: 4, kernel_radius: 3.0, air_cell: 1.0, air_courant: 0.5, ..base }
+            }
         }
     }
 }

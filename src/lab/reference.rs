@@ -44,7 +44,7 @@ pub struct Point {
     pub tick: u64,
     /// How far.
     pub distance: Distance,
-    /// Energy of the particles as a multiple of the reference's.
+    /// Energy of the particles as a multiple of the reference's; not a number where that has none.
     pub energy_ratio: f64,
 }
 

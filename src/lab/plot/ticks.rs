@@ -75,7 +75,7 @@ fn number(value: f64) -> String {
     let short = rounded.trim_end_matches('0').trim_end_matches('.');
     match value.abs() {
         size if size < 1e-9 => "0".to_owned(),
-        size if size < 1e-4 || size >= 1e7 => format!("{value:.1e}").replace('-', "−"),
+        size if !(1e-4..1e7).contains(&size) => format!("{value:.1e}").replace('-', "−"),
         _ => grouped(short).replace('-', "−"),
     }
 }

@@ -10,6 +10,9 @@ use crate::lab::{
     plot::{Axis, Chart, Look, Naming, Point, Series},
 };
 
+/// Largest error that is shown.
+const MOST_ERROR: f64 = 1.0;
+
 /// The curve: the front, the presets by their names, all other settings faint.
 pub fn chart(subject: &Subject, rows: &[Row]) -> Chart {
     let own = |row: &&Row| row.setting.threads == subject.threads;
@@ -33,9 +36,17 @@ pub fn chart(subject: &Subject, rows: &[Row]) -> Chart {
         title: format!("{}: what accuracy costs", subject.scene),
         subtitle: format!("{}, {threads}", processor()),
         x: Axis::logarithmic("ms a tick"),
-        y: Axis::logarithmic(subject.measure.title()),
+        y: y_axis(subject, rows),
         series,
     }
+}
+
+/// The errors that there are, but none beyond 1: a world that far off is not a little worse but another one.
+fn y_axis(subject: &Subject, rows: &[Row]) -> Axis {
+    let errors = || rows.iter().map(|row| row.error.max(NEGLIGIBLE)).filter(|error| error.is_finite());
+    let low = errors().fold(MOST_ERROR, f64::min);
+    let high = errors().fold(NEGLIGIBLE, f64::max).min(MOST_ERROR);
+    Axis::logarithmic(subject.measure.title()).within(0.7 * low, 1.4 * high)
 }
 
 /// A row as a point; errors next to nothing stand at the lower edge.

@@ -30,8 +30,8 @@ pub struct Found {
     pub volume_error: Option<f64>,
     /// The solver's own residual.
     pub residual: Option<f64>,
-    /// Highest energy of the particles, less 1: against the start's in a closed scene, against the reference's at the same
-    /// time in others.
+    /// Highest energy of the particles against the start's, less 1 and less what swelling to the target density takes;
+    /// only in a closed scene.
     pub energy_gain: Option<f64>,
     /// Particles that were not finite, and particle-ticks outside the box or in rock.
     pub lost: u64,

@@ -7,6 +7,7 @@ use super::{
 use crate::{
     kernel::params::Preset,
     lab::{
+        density::density_error,
         metrics::Metrics,
         moment::Moment,
         reference::{Follower, Reference},
@@ -14,7 +15,12 @@ use crate::{
         sampler::{Sampler, ms},
         stats,
     },
-    sim::{control, ledger::PassLedger, workers::Workers},
+    sim::{
+        control,
+        ledger::PassLedger,
+        state::{ParticleStore, Rock, Setup},
+        workers::Workers,
+    },
 };
 use bevy::ecs::world::World;
 use std::io;
@@ -35,12 +41,19 @@ pub(super) fn run(
     // What the preset is called makes no difference to the run.
     let preset = setting.preset.unwrap_or(Preset::Fast);
     let mut headless = moment.go_on(preset, setting.quality, workers.clone());
+    let density = mean_density(headless.world());
     let mut times = Times { warmup: plan.warmup, ..Times::default() };
     let found = if let Some(reference) = reference {
         let mut sampler = Sampler::new(headless.world(), plan.warmup);
         let mut follower = Follower::new(reference);
         run_plan(&mut headless, plan, &mut [&mut times, &mut sampler, &mut follower])?;
-        Some(found(moment, &sampler.finish(headless.world()), &follower, plan.warmup))
+        let mut found = found(&sampler.finish(headless.world()), &follower, plan.warmup);
+        found.energy_gain = found.energy_gain.filter(|_| moment.is_closed()).map(|ratio| {
+            // What swells to its target density is lifted by as much; that is not the energy of an unstable world.
+            let swelling = found.density_mean.zip(density).map_or(1.0, |(after, before)| after / before);
+            ratio * swelling - 1.0
+        });
+        Some(found)
     } else {
         run_plan(&mut headless, plan, &mut [&mut times])?;
         None
@@ -53,15 +66,15 @@ pub(super) fn run(
     })
 }
 
-fn found(moment: &Moment, metrics: &Metrics, follower: &Follower, warmup: u64) -> Found {
+/// Mean density of the liquid's interior, 1 at rest density.
+fn mean_density(world: &World) -> Option<f64> {
+    let blueprint = &world.resource::<Setup>().blueprint;
+    let (size, rest) = (blueprint.domain.size, f64::from(blueprint.fluid.rest_density));
+    density_error(world.resource::<ParticleStore>(), world.resource::<Rock>(), size, rest).map(|error| error.density)
+}
+
+fn found(metrics: &Metrics, follower: &Follower, warmup: u64) -> Found {
     let (accuracy, stability) = (&metrics.accuracy, &metrics.stability);
-    let finite = |value: f64| value.is_finite().then_some(value);
-    let energy_gain = if moment.is_closed() {
-        finite(accuracy.energy_peak / accuracy.energy_start - 1.0)
-    } else {
-        let counted = follower.points().iter().filter(|point| point.tick > warmup);
-        stats::largest(&counted.map(|point| point.energy_ratio - 1.0).collect::<Vec<_>>()).and_then(finite)
-    };
     Found {
         particles: metrics.particles.total,
         error_mean: accuracy.density_error_mean,
@@ -70,7 +83,7 @@ fn found(moment: &Moment, metrics: &Metrics, follower: &Follower, warmup: u64) -
         density_mean: accuracy.density_mean,
         volume_error: accuracy.volume_error,
         residual: accuracy.residual,
-        energy_gain,
+        energy_gain: Some(accuracy.energy_peak / accuracy.energy_start).filter(|ratio| ratio.is_finite()),
         lost: stability.non_finite + stability.escaped,
         distance: follower.mean(warmup),
     }

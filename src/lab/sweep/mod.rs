@@ -13,7 +13,7 @@
 //! accuracy, the others are timed and their worlds compared.
 
 pub mod design;
-//DRAW
+pub mod draw;
 pub mod front;
 pub mod journal;
 mod measure;
@@ -30,7 +30,10 @@ use crate::{
 use design::Setting;
 use journal::{Journal, Record};
 use row::Row;
-use std::{collections::BTreeMap, io};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    io,
+};
 
 /// What counts as the error of a setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,12 +117,9 @@ impl Sweep<'_> {
     /// # Errors
     /// If threads can't be had, the journal can't be written, or a world does not come out the same twice.
     pub fn run(&self, journal: &mut Journal, says: &mut dyn FnMut(Progress)) -> Result<Vec<Row>, SweepError> {
-        let mut workers = BTreeMap::new();
-        for setting in &self.settings {
-            if !workers.contains_key(&setting.threads) {
-                workers.insert(setting.threads, Workers::new(setting.threads)?);
-            }
-        }
+        let threads: BTreeSet<usize> = self.settings.iter().map(|setting| setting.threads).collect();
+        let pools = threads.into_iter().map(|threads| Ok((threads, Workers::new(threads)?)));
+        let workers: BTreeMap<usize, Workers> = pools.collect::<Result<_, rayon::ThreadPoolBuildError>>()?;
         let runs = self.settings.len() * self.rounds as usize;
         let plan = Plan { ticks: self.ticks, warmup: self.warmup, ..Plan::default() };
         let mut reference = None;

@@ -1,6 +1,7 @@
 //! Whether the presets are what they claim: each exacter and dearer than the one before, and none a bad buy.
 
 use super::{
+    ErrorMeasure,
     front::point,
     row::{NEGLIGIBLE, Row},
 };
@@ -56,8 +57,9 @@ impl fmt::Display for Trouble {
     }
 }
 
-/// Everything that is wrong with the presets among these rows. `air_is_unseen` as for the front.
-pub fn check(rows: &[Row], air_is_unseen: bool) -> Vec<Trouble> {
+/// Everything that is wrong with the presets among these rows. Only where the error is the liquid's they have to be on the
+/// front: where it is the air's, what they spend on liquid buys nothing. `air_is_unseen` as for the front.
+pub fn check(rows: &[Row], measure: ErrorMeasure, air_is_unseen: bool) -> Vec<Trouble> {
     let steps: Vec<(Preset, &Row)> = STEPS
         .into_iter()
         .filter_map(|preset| Some((preset, rows.iter().find(|row| row.setting.preset == Some(preset))?)))
@@ -76,7 +78,9 @@ pub fn check(rows: &[Row], air_is_unseen: bool) -> Vec<Trouble> {
     for (preset, own) in steps {
         if !own.is_valid() {
             troubles.push(Trouble::Invalid { preset, faults: own.faults.join(", ") });
-        } else if let Some(other) = rows.iter().find(|other| beats_beyond_noise(other, own, air_is_unseen)) {
+        } else if measure == ErrorMeasure::Density
+            && let Some(other) = rows.iter().find(|other| beats_beyond_noise(other, own, air_is_unseen))
+        {
             troubles.push(Trouble::Beaten { preset, by: other.setting.name.clone() });
         }
     }
@@ -111,7 +115,7 @@ mod tests {
     }
 
     fn says(rows: &[Row]) -> Vec<String> {
-        check(rows, false).iter().map(ToString::to_string).collect()
+        check(rows, ErrorMeasure::Density, false).iter().map(ToString::to_string).collect()
     }
 
     #[test]
@@ -147,9 +151,18 @@ mod tests {
         assert_eq!(says(&rows), ["`balanced` is not on the front: 2×3 is faster and as exact"]);
         rows[2].ms_range = [0.85, 1.1];
         assert_eq!(says(&rows), [""; 0], "the runs overlap");
+        let about_air = check(&rows_with(&rows, [1.0, 1.0]), ErrorMeasure::Air, false);
+        assert_eq!(about_air, [], "where the air counts, the liquid's knobs are no bad buy");
         rows[5].faults.push("exploded".to_owned());
         rows[2].ms_range = [1.0, 1.0];
         assert_eq!(says(&rows), [""; 0], "what is not sound beats no one");
+    }
+
+    /// The rows with another spread of `balanced`.
+    fn rows_with(rows: &[Row], ms_range: [f64; 2]) -> Vec<Row> {
+        let mut rows = rows.to_vec();
+        rows[2].ms_range = ms_range;
+        rows
     }
 
     #[test]

@@ -88,11 +88,8 @@ fn faults(measure: ErrorMeasure, found: &Found) -> Vec<String> {
     }
     match found.density_mean {
         None => faults.push("no liquid with an inside".to_owned()),
-        // Written so that a NaN is a fault, too.
-        Some(density) if !((density - 1.0).abs() <= DENSITY_OFF) => {
-            faults.push(format!("mean density {density:.3}"));
-        }
-        Some(_) => (),
+        Some(density) if (density - 1.0).abs() <= DENSITY_OFF => (),
+        Some(density) => faults.push(format!("mean density {density:.3}")),
     }
     faults
 }

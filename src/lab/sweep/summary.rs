@@ -49,7 +49,10 @@ pub fn text(subject: &Subject, rows: &[Row]) -> String {
 
 fn heading(subject: &Subject, rows: &[Row]) -> String {
     let Subject { scene, parameters, start, ticks, warmup, threads, .. } = subject;
-    let runs = rows.iter().map(|row| row.runs).max().unwrap_or(0);
+    let runs = match rows.iter().map(|row| row.runs).max() {
+        Some(runs @ 2..) => format!("{runs} times"),
+        _ => "once".to_owned(),
+    };
     let particles = rows.iter().map(|row| row.found.particles).max().unwrap_or(0);
     let what = match subject.measure {
         ErrorMeasure::Density => {
@@ -60,7 +63,7 @@ fn heading(subject: &Subject, rows: &[Row]) -> String {
     let of_threads = if *threads == 1 { "1 thread".to_owned() } else { format!("{threads} threads") };
     format!(
         "# {scene}: what accuracy costs\n\n{}, {of_threads}; {particles} particles, rock included{parameters}. Every \
-         setting ran {runs} times {ticks} ticks from the same moment (tick {start} of the scene), interleaved; the first \
+         setting ran {ticks} ticks {runs}, from the same moment (tick {start} of the scene) and interleaved; the first \
          {warmup} don't count. Times are the median over the runs of the median tick.\n\n{what}\n",
         processor()
     )
@@ -122,9 +125,10 @@ fn preset_table(subject: &Subject, rows: &[Row]) -> String {
         );
     }
     let air_is_unseen = subject.has_air && subject.measure == ErrorMeasure::Density;
-    let troubles = presets::check(rows, air_is_unseen);
+    let troubles = presets::check(rows, subject.measure, air_is_unseen);
     if troubles.is_empty() {
-        text += "\nOrder: ok. Each preset is dearer and exacter than the one before it, and on the front.\n";
+        let front = if subject.measure == ErrorMeasure::Density { ", and on the front" } else { "" };
+        let _ = writeln!(text, "\nOrder: ok. Each preset is dearer and exacter than the one before it{front}.");
     } else {
         text += "\nOrder: not ok.\n\n";
         for trouble in troubles {

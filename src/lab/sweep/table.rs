@@ -29,7 +29,7 @@ pub const COLUMNS: [(&str, &str); 32] = [
     ("density_mean", "mean density of the interior particles, 1 at rest density"),
     ("volume_error", "room that the liquid takes too much, a fraction"),
     ("residual", "the solver's own mean constraint where it is violated, in the last iteration"),
-    ("energy_gain", "highest energy against the start's (closed scenes) or the reference's at the time, less 1"),
+    ("energy_gain", "highest energy against the start's less 1, without what swelling takes; only in closed scenes"),
     ("lost", "particles that were not finite, and particle-ticks outside the box or in rock"),
     ("distance_share", "distance to the reference: liquid in another coarse cell, a fraction"),
     ("distance_momentum", "distance to the reference: momentum"),
