@@ -1,55 +1,110 @@
 //! curve.svg and curve.png: error against time, both logarithmic.
 
-use super::{
-    design::Setting,
-    row::{NEGLIGIBLE, Row},
-    summary::Subject,
-};
+use super::{ErrorMeasure, row::Row, summary::Subject};
 use crate::lab::{
     machine::processor,
     plot::{Axis, Chart, Look, Naming, Point, Series},
 };
 
-/// Largest error that is shown.
+/// Largest error that is shown: a world that far off is not a little worse but another one.
 const MOST_ERROR: f64 = 1.0;
+
+/// Least density error that is shown; what has less stands there, too.
+const LEAST_ERROR: f64 = 1e-5;
 
 /// The curve: the front, the presets by their names, all other settings faint.
 pub fn chart(subject: &Subject, rows: &[Row]) -> Chart {
-    let own = |row: &&Row| row.setting.threads == subject.threads;
-    let is_preset = |row: &&Row| row.setting.preset.is_some();
-    let mut front: Vec<&Row> = rows.iter().filter(own).filter(|row| row.front).collect();
-    front.sort_by(|a, b| a.ms.total_cmp(&b.ms));
-    let others = rows.iter().filter(own).filter(|row| !is_preset(row) && row.error.is_finite());
-    let mut series = vec![
-        Series::new("front", Look::Front, front.iter().map(|row| point(row))),
-        // A point without a place between any two, so that no line joins them.
-        Series::new("other settings", Look::Faint, others.flat_map(|row| [point(row), Point::new(f64::NAN, f64::NAN)]))
-            .named(Naming::Legend),
-    ];
-    for row in rows.iter().filter(is_preset).filter(|row| row.error.is_finite()) {
-        let Setting { name, .. } = &row.setting;
-        let name = if row.is_valid() { name.clone() } else { format!("{name} (not valid)") };
-        series.push(Series::new(name, Look::Scatter, [point(row)]).named(Naming::AtEnd));
+    let own: Vec<&Row> = rows.iter().filter(|row| row.setting.threads == subject.threads).collect();
+    let points = |rows: &[&Row]| rows.iter().filter_map(|row| point(subject, row)).collect::<Vec<_>>();
+    let mut series = vec![Series::new("front", Look::Front, points(&lower_edge(&own)))];
+    let (presets, others): (Vec<&Row>, Vec<&Row>) = own.into_iter().partition(|row| row.setting.preset.is_some());
+    // Each by itself, so that no line joins them.
+    for (k, point) in points(&others).into_iter().enumerate() {
+        let naming = if k == 0 { Naming::Legend } else { Naming::Unnamed };
+        series.push(Series::new("other settings", Look::Faint, [point]).named(naming));
+    }
+    for row in presets {
+        let not_valid = if row.is_valid() { "" } else { " (not valid)" };
+        let name = format!("{}{not_valid}", row.setting.name);
+        series.push(Series::new(name, Look::Scatter, point(subject, row)).named(Naming::AtEnd));
     }
     let threads = if subject.threads == 1 { "1 thread".to_owned() } else { format!("{} threads", subject.threads) };
+    let errors = || rows.iter().filter_map(|row| point(subject, row)).map(|point| point.y);
+    let (low, high) = (errors().fold(MOST_ERROR, f64::min), errors().fold(LEAST_ERROR, f64::max));
     Chart {
         title: format!("{}: what accuracy costs", subject.scene),
         subtitle: format!("{}, {threads}", processor()),
         x: Axis::logarithmic("ms a tick"),
-        y: y_axis(subject, rows),
+        y: Axis::logarithmic(subject.measure.title()).within(0.7 * low, 1.4 * high),
         series,
     }
 }
 
-/// The errors that there are, but none beyond 1: a world that far off is not a little worse but another one.
-fn y_axis(subject: &Subject, rows: &[Row]) -> Axis {
-    let errors = || rows.iter().map(|row| row.error.max(NEGLIGIBLE)).filter(|error| error.is_finite());
-    let low = errors().fold(MOST_ERROR, f64::min);
-    let high = errors().fold(NEGLIGIBLE, f64::max).min(MOST_ERROR);
-    Axis::logarithmic(subject.measure.title()).within(0.7 * low, 1.4 * high)
+/// The rows of the front of which none is faster and as exact, fastest first: what is left when only time and error
+/// count.
+fn lower_edge<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {
+    let mut front: Vec<&Row> = rows.iter().copied().filter(|row| row.front).collect();
+    front.sort_by(|a, b| a.ms.total_cmp(&b.ms));
+    let mut least = f64::INFINITY;
+    front.retain(|row| {
+        let exacter = row.error < least;
+        least = least.min(row.error);
+        exacter
+    });
+    front
 }
 
-/// A row as a point; errors next to nothing stand at the lower edge.
-fn point(row: &Row) -> Point {
-    Point::new(row.ms, row.error.max(NEGLIGIBLE)).between_x(row.ms_range[0], row.ms_range[1])
+/// A row as a point with its spread; `None` where it has no place. What is no distance from the reference is the
+/// reference.
+fn point(subject: &Subject, row: &Row) -> Option<Point> {
+    let error = match subject.measure {
+        ErrorMeasure::Density => row.error.max(LEAST_ERROR),
+        ErrorMeasure::Air => Some(row.error).filter(|error| *error > 0.0)?,
+    };
+    let point = Point::new(row.ms, error);
+    let [low, high] = row.ms_range;
+    let shown = row.error.is_finite() && error <= MOST_ERROR;
+    shown.then(|| if low < high { point.between_x(low, high) } else { point })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{
+        super::row::tests::{row, subject},
+        *,
+    };
+
+    #[test]
+    fn every_sound_number_is_a_point_and_the_front_only_falls() {
+        let mut rows = [
+            row("draft", 0.5, 0.03),
+            row("fine", 1.5, 0.0),
+            row("2×1", 1.0, 0.05),
+            row("wild", 0.4, 7.0),
+            row("4×4", 3.0, f64::NAN),
+        ];
+        for k in [0, 1, 2] {
+            rows[k].front = true;
+        }
+        rows[0].ms_range = [0.4, 0.6];
+        let chart = chart(&subject(1), &rows);
+        let of = |name: &str| {
+            let found: Vec<&Point> =
+                chart.series.iter().filter(|series| series.name == name).flat_map(|series| &series.points).collect();
+            found.iter().map(|point| (point.x, point.y)).collect::<Vec<_>>()
+        };
+        assert_eq!(of("front"), [(0.5, 0.03), (1.5, 1e-5)], "2×1 is on the front only for its finer air");
+        assert_eq!(of("other settings"), [(1.0, 0.05)]);
+        assert_eq!(of("fine"), [(1.5, 1e-5)], "no error stands at the edge");
+        let bars: usize =
+            chart.series.iter().flat_map(|series| &series.points).filter(|point| point.x_range.is_some()).count();
+        assert_eq!(bars, 2, "draft's own and the front's");
+    }
+
+    #[test]
+    fn the_reference_has_no_place_where_distance_to_it_counts() {
+        let about_air = Subject { measure: ErrorMeasure::Air, ..subject(1) };
+        let chart = chart(&about_air, &[row("reference", 9.0, 0.0), row("draft", 0.5, 0.4)]);
+        assert_eq!(chart.series.iter().map(|series| series.points.len()).sum::<usize>(), 1);
+    }
 }

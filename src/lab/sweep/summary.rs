@@ -230,20 +230,10 @@ fn excluded(rows: &[Row]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{super::row::tests::row, *};
-
-    fn subject(threads: usize) -> Subject<'static> {
-        Subject {
-            scene: "dam_break",
-            parameters: "",
-            measure: ErrorMeasure::Density,
-            has_air: false,
-            start: 0,
-            ticks: 300,
-            warmup: 59,
-            threads,
-        }
-    }
+    use super::{
+        super::row::tests::{row, subject},
+        *,
+    };
 
     #[test]
     fn each_budget_gets_the_exactest_setting_that_fits_and_is_valid() {

@@ -107,6 +107,15 @@ mod tests {
     use super::{super::row::tests::row, *};
 
     #[test]
+    fn the_document_says_what_every_column_holds() {
+        let document = include_str!("../../../docs/accuracy.md");
+        for (name, meaning) in COLUMNS {
+            let line = format!("| `{name}` | {meaning} |");
+            assert!(document.contains(&line), "docs/accuracy.md has no line {line}");
+        }
+    }
+
+    #[test]
     fn a_line_has_a_field_for_each_column_and_the_fastest_is_first() {
         let mut rows = [row("fine", 1.5, 0.005), row("fast, h 3", 0.5, 0.03)];
         rows[1].faults = vec!["energy up by 2.0 %".to_owned(), "mean density 0.970".to_owned()];
