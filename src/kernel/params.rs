@@ -94,19 +94,20 @@ pub struct Quality {
     pub predictor: bool,
 }
 
-/// The named qualities, cheapest first but for `classic`.
+/// The named qualities, cheapest first but for `classic`. The others are steps on the curve of error against time: each is
+/// dearer and exacter than the one before it, and no other setting is a better buy (docs/accuracy.md).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Preset {
     /// The original's plain method: one substep, four iterations, the exact spiky kernel.
     Classic,
-    /// For the weakest machine.
+    /// For the weakest machine: one substep of one iteration, coarse air.
     Draft,
-    /// Cheap and calm in shallow water.
+    /// A second iteration.
     Fast,
-    /// The default.
+    /// The default. A second substep of one iteration in place of the second iteration: half the error.
     Balanced,
-    /// For deep water and for pictures.
+    /// Two substeps of two iterations, finer air.
     Fine,
     /// What the others are compared with; not meant to run in real time.
     Reference,
