@@ -14,6 +14,7 @@ pub mod plot;
 pub mod rest_density;
 pub mod run;
 pub mod sampler;
+pub mod scaling;
 pub mod stats;
 #[cfg(test)]
 mod testing;
