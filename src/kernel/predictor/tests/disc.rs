@@ -90,7 +90,7 @@ fn nothing_flows_through_the_disc() {
             continue;
         }
         touching += 1;
-        let (u, v, open_u, open_v) = (&rig.faces.u, &rig.faces.v, &rig.closed.open_u, &rig.closed.open_v);
+        let (u, v, open_u, open_v) = (&rig.faces.u, &rig.faces.v, &rig.open.u, &rig.open.v);
         let out = open_u[k + 1] * u[k + 1][1] - open_u[k] * u[k][1] + open_v[k + s] * v[k + s][1] - open_v[k] * v[k][1];
         most = most.max(out.abs());
         for (open, velocity) in [(open_u[k], u[k][1]), (open_v[k], v[k][1])] {

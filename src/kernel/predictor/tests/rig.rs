@@ -41,12 +41,13 @@ impl Equation {
         let grid = MacGrid::new(size, cell);
         let mut closed = ClosedFaces::default();
         closed.update(&grid, solids);
+        let Open { u: open_u, v: open_v, liquid_from } = Open::new(&grid, &closed);
         let mut conjugate = Conjugate::default();
         conjugate.resize(grid.len());
         let (mut fill, [mut steep_u, mut steep_v]) = (vec![0.0; grid.len()], [(); 2].map(|()| vec![0.0; grid.len()]));
         for (column, row, k) in cells(&grid) {
             fill[k] = filled(column, row);
-            let is_open = closed.liquid_from[k].is_finite();
+            let is_open = liquid_from[k].is_finite();
             conjugate.liquid[k] = if is_open && liquid(column, row) { 1.0 } else { 0.0 };
         }
         conjugate.rows = 1..grid.rows + 1;
@@ -68,11 +69,11 @@ impl Equation {
                 &mut finest.right[row.clone()],
                 &mut finest.upper[row.clone()],
                 Around::new(&conjugate.liquid, row.clone(), stride),
-                Sides::new(&closed.open_u, &closed.open_v, row.clone(), stride),
+                Sides::new(&open_u, &open_v, row.clone(), stride),
                 Sides::new(&steep_u, &steep_v, row, stride),
             );
         }
-        hierarchy.coarsen();
+        coarsen(&mut hierarchy);
         Self { grid, hierarchy, conjugate }
     }
 
@@ -109,7 +110,7 @@ impl Equation {
     /// The preconditioner's answer to a right-hand side.
     pub fn precondition(&mut self, b: &[f64]) -> Vec<f64> {
         self.hierarchy.finest().b.iter_mut().zip(b).for_each(|(single, double)| *single = *double as f32);
-        self.hierarchy.cycle(team());
+        cycle(&mut self.hierarchy);
         let x = self.hierarchy.finest().x.clone();
         let mut answer = vec![0.0; b.len()];
         self.liquid().for_each(|(.., k)| answer[k] = f64::from(x[k]));
@@ -151,6 +152,32 @@ impl Equation {
     }
 }
 
+/// Builds the coarse levels of an equation whose finest one is set up.
+fn coarsen(hierarchy: &mut Hierarchy) {
+    hierarchy.coarsen();
+}
+
+/// One cycle of the preconditioner.
+fn cycle(hierarchy: &mut Hierarchy) {
+    hierarchy.cycle(team());
+}
+
+/// What rock leaves open, a number for each cell of the grid.
+pub(super) struct Open {
+    /// Open share of left faces.
+    pub u: Vec<f32>,
+    /// Open share of lower faces.
+    pub v: Vec<f32>,
+    /// How full a cell has to be.
+    pub liquid_from: Vec<f32>,
+}
+
+impl Open {
+    fn new(_grid: &MacGrid, closed: &ClosedFaces) -> Self {
+        Self { u: closed.open_u.clone(), v: closed.open_v.clone(), liquid_from: closed.liquid_from.clone() }
+    }
+}
+
 /// Columns, rows (from 0) and indices of all cells.
 pub(super) fn cells(grid: &MacGrid) -> impl Iterator<Item = (usize, usize, usize)> + use<> {
     let (columns, stride) = (grid.columns, grid.stride);
@@ -165,6 +192,7 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
 pub(super) struct Rig {
     pub grid: MacGrid,
     pub closed: ClosedFaces,
+    pub open: Open,
     pub faces: Faces,
     pub hierarchy: Hierarchy,
     pub conjugate: Conjugate,
@@ -178,7 +206,8 @@ impl Rig {
         let (mut closed, mut faces) = (ClosedFaces::default(), Faces::default());
         closed.update(&grid, solids);
         faces.collect(&grid, particles, team().instructions, 1);
-        Self { grid, closed, faces, hierarchy, conjugate: Conjugate::default() }
+        let open = Open::new(&grid, &closed);
+        Self { grid, closed, open, faces, hierarchy, conjugate: Conjugate::default() }
     }
 
     /// Projects once, as a tick does.

@@ -59,10 +59,10 @@ fn no_path_through_open_faces_leads_from_one_side_to_the_other() {
         while let Some(k) = next.pop() {
             assert_ne!(sides[k], Some(false), "{}: cell {k} is reached from the other side", wall.name);
             let ways = [
-                (k + 1, rig.closed.open_u[k + 1]),
-                (k - 1, rig.closed.open_u[k]),
-                (k + grid.stride, rig.closed.open_v[k + grid.stride]),
-                (k - grid.stride, rig.closed.open_v[k]),
+                (k + 1, rig.open.u[k + 1]),
+                (k - 1, rig.open.u[k]),
+                (k + grid.stride, rig.open.v[k + grid.stride]),
+                (k - grid.stride, rig.open.v[k]),
             ];
             for (other, open) in ways {
                 if open > 0.0 && !std::mem::replace(&mut reached[other], true) {
@@ -85,10 +85,10 @@ fn nothing_flows_through_a_closed_face() {
         rig.project(LATTICE);
         for (.., k) in cells(&rig.grid) {
             let touches = |other: usize| rig.conjugate.liquid[k] + rig.conjugate.liquid[other] > 0.0;
-            if rig.closed.open_u[k] == 0.0 && touches(k - 1) {
+            if rig.open.u[k] == 0.0 && touches(k - 1) {
                 assert_eq!(rig.faces.u[k][1], 0.0, "{}: flow through a closed face", wall.name);
             }
-            if rig.closed.open_v[k] == 0.0 && touches(k - rig.grid.stride) {
+            if rig.open.v[k] == 0.0 && touches(k - rig.grid.stride) {
                 assert_eq!(rig.faces.v[k][1], 0.0, "{}: flow through a closed face", wall.name);
             }
         }
