@@ -97,7 +97,12 @@ fn bad_usage_is_one_line_that_says_what_is_allowed() {
         (&["list"], &["WHAT"]),
         (&["list", "cats"], &["scenes, elements, effects, qualities"]),
         (&["bench"], &["WHAT"]),
-        (&["bench", "everything"], &["neighbours"]),
+        (&["bench", "everything"], &["neighbours, scaling"]),
+        (&["bench", "neighbours", "--quick"], &["--quick", "bench scaling"]),
+        (&["bench", "scaling", "--up-to", "3"], &["--up-to", "from 1458"]),
+        (&["bench", "scaling", "--cap", "-1"], &["--cap", "seconds from 0"]),
+        (&["bench", "scaling", "--svg", "nowhere"], &["no folder"]),
+        (&["bench", "scaling", "--beside", "nothing.json"], &["nothing.json", "can't be read"]),
         (&["bench", "neighbours", "--json", "nowhere/x.json"], &["no folder"]),
         (&["study", "tides", "--out", "."], &["rest-density"]),
         (&["study", "rest-density"], &["--out"]),
@@ -474,4 +479,44 @@ fn a_bad_replay_is_refused_with_its_line() {
     case("good", &|_| ());
     refused(&here, &["run", "waterfall", "--replay", "good"], 2, &["empty", "waterfall"]);
     refused(&here, &["run", "empty", "--replay", "good", "--set", "rows=40"], 2, &["--replay", "--set"]);
+}
+
+#[test]
+fn bench_scaling_writes_table_json_and_curves() {
+    let here = folder("scaling");
+    std::fs::write(
+        here.join("others.json"),
+        r#"[{"name": "another program", "figures": [{"particles": 1500, "ms": 9, "error_p99": 0.2}, {"particles": 1e4, "ms": 61}]}]"#,
+    )
+    .unwrap();
+    refused(&here, &["bench", "scaling", "--quick", "--beside", "others.json"], 2, &["others.json", "1e4", "allowed"]);
+    let good_one = r#"[{"name": "another program", "figures": [{"particles": 1500, "ms": 9, "error_p99": 0.2}]}]"#;
+    std::fs::write(here.join("others.json"), good_one).unwrap();
+    // The smallest size only.
+    let options =
+        ["--quick", "--up-to", "1458", "--threads", "2", "--json", "out.json", "--svg", ".", "--beside", "others.json"];
+    let table = good(&here, &[&["bench", "scaling"], &options[..]].concat());
+    let report: Value = serde_json::from_slice(&std::fs::read(here.join("out.json")).unwrap()).unwrap();
+    let rows = report["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 7, "the presets and the plain method at its best");
+    for row in rows {
+        assert_eq!(row["particles"], 1458);
+        assert_eq!(row["threads"], serde_json::json!([1, 2]));
+        assert_eq!(row["same_hash"], true);
+        assert_eq!(row["escaped"], 0);
+        assert!(row["ms"].as_array().unwrap().iter().all(|ms| ms.as_f64().unwrap() > 0.0));
+        assert!(row["error_p99"].as_f64().unwrap() < 0.5);
+        let name = row["setting"].as_str().unwrap();
+        assert!(
+            table.lines().any(|line| line.starts_with(&format!("| 1,458 | `{name}` |"))),
+            "no row of {name} in\n{table}"
+        );
+    }
+    let error = |name: &str| rows.iter().find(|row| row["setting"] == name).unwrap()["error_p99"].as_f64().unwrap();
+    assert!(error("fine") < error("draft") && error("reference") < error("fine"), "accuracy is bought");
+    for name in ["scaling-time.svg", "scaling-error.svg", "scaling-threads.svg"] {
+        let svg = std::fs::read_to_string(here.join(name)).unwrap();
+        assert!(svg.contains("balanced") && svg.ends_with("</svg>\n"), "{name}");
+    }
+    assert!(std::fs::read_to_string(here.join("scaling-time.svg")).unwrap().contains("another program"));
 }

@@ -60,6 +60,8 @@ pub(super) struct BenchArguments {
     /// Write the table as JSON; `-` is stdout, in place of the table
     #[arg(long, value_name = "FILE.json")]
     pub(super) json: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) scaling: ScalingOptions,
 }
 
 /// What can be measured.
@@ -67,6 +69,43 @@ pub(super) struct BenchArguments {
 pub(super) enum Bench {
     /// How many particles a tick may hold at a tick rate: brute force, bins on one thread, bins on all
     Neighbours,
+    /// What a tick costs and how exact it is, from 1,458 to 999,698 particles, at every quality
+    Scaling,
+}
+
+/// Options of `bench scaling`.
+#[derive(Debug, Args)]
+pub(super) struct ScalingOptions {
+    /// Draw the curves into a folder: scaling-time.svg, scaling-error.svg, scaling-threads.svg (bench scaling)
+    #[arg(long, value_name = "DIR")]
+    pub(super) svg: Option<PathBuf>,
+    /// Show other programs' figures beside: [{name, figures: [{particles, ms, error_mean, error_p99}]}] (bench scaling)
+    #[arg(long, value_name = "FILE.json")]
+    pub(super) beside: Option<PathBuf>,
+    /// Take less than a minute: three sizes, one second of each (bench scaling)
+    #[arg(long)]
+    pub(super) quick: bool,
+    /// Leave larger worlds out (bench scaling)
+    #[arg(long, value_name = "PARTICLES", allow_negative_numbers = true, value_parser = particles)]
+    pub(super) up_to: Option<u64>,
+    /// Leave a row out that would take longer [default: 40, with --quick 5] (bench scaling)
+    #[arg(long, value_name = "SECONDS", value_parser = cap, allow_negative_numbers = true)]
+    pub(super) cap: Option<f64>,
+}
+
+impl ScalingOptions {
+    /// The first of these options that was given.
+    pub(super) fn first_given(&self) -> Option<&'static str> {
+        let Self { svg, beside, quick, up_to, cap } = self;
+        let given = [
+            ("--svg", svg.is_some()),
+            ("--beside", beside.is_some()),
+            ("--quick", *quick),
+            ("--up-to", up_to.is_some()),
+            ("--cap", cap.is_some()),
+        ];
+        given.into_iter().find(|(_, is_given)| *is_given).map(|(name, _)| name)
+    }
 }
 
 /// `study`.
@@ -247,6 +286,15 @@ fn rounds(text: &str) -> Result<u64, String> {
 
 fn threads(text: &str) -> Result<u64, String> {
     whole(text, 1..=MOST_THREADS)
+}
+
+fn particles(text: &str) -> Result<u64, String> {
+    whole(text, 1_458..=100_000_000)
+}
+
+fn cap(text: &str) -> Result<f64, String> {
+    let seconds = text.parse().ok().filter(|seconds| (0.0..=MOST_SECONDS).contains(seconds));
+    seconds.ok_or_else(|| format!("allowed: seconds from 0 to {MOST_SECONDS}"))
 }
 
 fn preset(text: &str) -> Result<Preset, String> {

@@ -17,6 +17,7 @@ pub mod reference;
 pub mod rest_density;
 pub mod run;
 pub mod sampler;
+pub mod scaling;
 pub mod stats;
 pub mod sweep;
 #[cfg(test)]

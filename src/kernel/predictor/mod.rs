@@ -7,7 +7,7 @@
 //! change of velocity comes back to the particles (Zhu & Bridson 2005, "Animating sand as a fluid"; McAdams et al. 2010
 //! for the solver). Two iterations of the constraint then do the detail, whatever the depth.
 //!
-//! Rooms: `grid` the geometry, `rock` what is closed, `stencil`, `blocks` and `transfer` particles to grid and back,
+//! Rooms: `grid` the geometry, `rock` what is closed, `parts` cells that a wall cuts, `stencil`, `blocks` and `transfer` particles to grid and back,
 //! `pressure` and `equation` the equation, `pockets` where it is singular, `level`, `multigrid` and `conjugate` its solver.
 
 mod blocks;
@@ -16,10 +16,13 @@ mod equation;
 mod grid;
 mod level;
 mod multigrid;
+mod parts;
 mod pockets;
 mod pressure;
 mod rock;
 mod stencil;
+#[cfg(test)]
+mod tests;
 mod transfer;
 
 use crate::kernel::{parallel::Team, params::Domain, particles::Particles, simd::InstructionSet, solids::Solids};

@@ -3,6 +3,7 @@
 use crate::kernel::{
     predictor::{
         grid::MacGrid,
+        parts::Parts,
         stencil::{Axis, faces_around},
     },
     solids::{Solids, centre},
@@ -44,16 +45,24 @@ impl ClosedFaces {
             field.clear();
             field.resize(grid.len(), 0.0);
         }
+        let parts = Parts::new(grid, solids);
         for j in 1..=grid.rows + 1 {
             for i in 1..=grid.columns + 1 {
                 let (x, y) = ((i - 1) as f32 * grid.cell, (j - 1) as f32 * grid.cell);
+                let k = grid.row(j) + i;
                 if j <= grid.rows {
-                    self.open_u[grid.row(j) + i] =
-                        open_share(grid, y, |along, across| solids.is_solid(IVec2::new(across, along)), x);
+                    let solid = |along, across| solids.is_solid(IVec2::new(across, along));
+                    let joins = |along, [before, after]: [i32; 2]| {
+                        parts.has(k - 1, IVec2::new(before, along)) && parts.has(k, IVec2::new(after, along))
+                    };
+                    self.open_u[k] = open_share(grid, y, solid, joins, x);
                 }
                 if i <= grid.columns {
-                    self.open_v[grid.row(j) + i] =
-                        open_share(grid, x, |along, across| solids.is_solid(IVec2::new(along, across)), y);
+                    let solid = |along, across| solids.is_solid(IVec2::new(along, across));
+                    let joins = |along, [before, after]: [i32; 2]| {
+                        parts.has(k - grid.stride, IVec2::new(along, before)) && parts.has(k, IVec2::new(along, after))
+                    };
+                    self.open_v[k] = open_share(grid, x, solid, joins, y);
                 }
             }
         }
@@ -101,16 +110,24 @@ impl ClosedFaces {
 }
 
 /// Open share of a face that lies at `plane` across its normal and reaches from `start` one cell along itself: the
-/// share of the lines from cell centre to cell centre that meet no rock. A wall one particle thick closes every line, a
-/// lone rock only its own. `solid(along, across)` tells whether a rock cell is solid.
-fn open_share(grid: &MacGrid, start: f32, solid: impl Fn(i32, i32) -> bool, plane: f32) -> f32 {
+/// share of the lines from cell centre to cell centre that meet no rock and join the parts that the two cells stand for.
+/// A wall one particle thick closes every line, a lone rock only its own. `solid(along, across)` tells whether a rock
+/// cell is solid, `joins(along, [before, after])` whether those before and after the plane are in their cells' parts.
+fn open_share(
+    grid: &MacGrid,
+    start: f32,
+    solid: impl Fn(i32, i32) -> bool,
+    joins: impl Fn(i32, [i32; 2]) -> bool,
+    plane: f32,
+) -> f32 {
     let end = start + grid.cell;
     let (near, far) = (plane - 0.5 * grid.cell, plane + 0.5 * grid.cell);
+    let sides = [plane.ceil() as i32 - 1, plane.floor() as i32];
     let mut open = 0.0;
     for along in start.floor() as i32..end.ceil() as i32 {
         let width = (end.min((along + 1) as f32) - start.max(along as f32)).max(0.0);
         let blocked = (near.floor() as i32..far.ceil() as i32).any(|across| solid(along, across));
-        open += if blocked { 0.0 } else { width };
+        open += if blocked || !joins(along, sides) { 0.0 } else { width };
     }
     let share = (open * grid.per_cell).min(1.0);
     if share < LEAST_OPEN { 0.0 } else { share }

@@ -1,8 +1,9 @@
-//! `bench`: tables of what things cost.
+//! `bench neighbours`: the binning table.
 
 use crate::{
     cli::{
-        args::{Bench, BenchArguments},
+        args::BenchArguments,
+        bench::{row, thousands},
         failure::Failure,
         output::{self, STDOUT},
         progress::StatusLine,
@@ -17,17 +18,15 @@ use crate::{
 use serde_json::json;
 use std::{fmt::Write, path::Path};
 
-/// Measures a table and prints it.
-pub(super) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
-    match arguments.what {
-        Bench::Neighbours => neighbours(arguments.threads, arguments.json.as_deref()),
+/// Measures how many particles a tick may hold, and prints the table.
+pub(super) fn neighbours(arguments: &BenchArguments) -> Result<(), Failure> {
+    if let Some(option) = arguments.scaling.first_given() {
+        return Err(Failure::Usage(format!("{option} belongs to bench scaling; allowed here: --threads, --json")));
     }
-}
-
-fn neighbours(threads: Option<u64>, json: Option<&Path>) -> Result<(), Failure> {
+    let json = arguments.json.as_deref();
     let to_stdout = json == Some(Path::new(STDOUT));
     output::check(json.filter(|_| !to_stdout).as_slice())?;
-    threads::start(threads)?;
+    threads::start(arguments.threads)?;
     let line = StatusLine::new();
     let growths = binning::measure(&Workers::default(), &mut |text| line.say(text)).map_err(|error| match error {
         BinningError::Scene(error) => Failure::from(error),
@@ -52,7 +51,6 @@ fn table(growths: &[Growth]) -> String {
     let mut text = format!("Particles at a tick rate, quality `{}`, {}:\n\n", PRESET.name(), processor());
     let names = growths.iter().map(|growth| growth.name.as_str()).chain(["original: brute force", "original: bins"]);
     let names: Vec<&str> = names.collect();
-    let row = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
     text += &row(&[&["ticks a second"], &names[..]].concat().iter().map(ToString::to_string).collect::<Vec<_>>());
     text += &format!("|{}\n", "---:|".repeat(names.len() + 1));
     let shown = |count: Option<f64>| count.map_or_else(|| "–".to_owned(), thousands);
@@ -80,19 +78,6 @@ fn table(growths: &[Growth]) -> String {
 
 fn power(exponent: Option<f64>) -> String {
     exponent.map_or_else(|| "–".to_owned(), |exponent| format!("n^{exponent:.2}"))
-}
-
-/// A count with commas between the thousands.
-fn thousands(count: f64) -> String {
-    let digits = format!("{count:.0}");
-    let mut text = String::new();
-    for (k, digit) in digits.chars().enumerate() {
-        if k > 0 && (digits.len() - k).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }
 
 #[cfg(test)]

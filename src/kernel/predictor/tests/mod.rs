@@ -1,0 +1,92 @@
+//! The predictor's parts against known answers: each test has a solution on paper, or a sum that must come out.
+
+mod disc;
+mod equation;
+mod multigrid;
+mod pockets;
+mod rig;
+mod still;
+mod surface;
+mod transfer;
+mod walls;
+
+use crate::kernel::{
+    element::ElementId,
+    parallel::Team,
+    particles::Particles,
+    predictor::{Predictor, PredictorParams, PredictorReport, TARGET_DENSITY},
+    simd::InstructionSet,
+    solids::Solids,
+};
+use crate::kernel::{params::Domain, solids::centre};
+use glam::{IVec2, Vec2};
+
+/// Edge of a cell as the presets have it, d.
+const CELL: f32 = 2.5;
+
+/// A substep, s.
+const DT: f32 = 1.0 / 60.0;
+
+/// The rest density at which a lattice of spacing d is just as dense as the predictor wants it, so that all that is left
+/// to do is the divergence.
+const LATTICE: f32 = 1.0 / TARGET_DENSITY;
+
+fn team() -> Team {
+    Team { instructions: InstructionSet::detect(), threads: 1 }
+}
+
+/// Particles on those sites of the lattice of spacing d where `velocity` has one, but not in rock.
+fn lattice(solids: &Solids, velocity: impl Fn(Vec2) -> Option<Vec2>) -> Particles {
+    let mut particles = Particles::default();
+    for k in 0..solids.columns() * solids.rows() {
+        let cell = IVec2::new(k % solids.columns(), k / solids.columns());
+        if let Some(velocity) = velocity(centre(cell)).filter(|_| !solids.is_solid(cell)) {
+            particles.push(k as u32, ElementId(1), centre(cell), velocity);
+        }
+    }
+    particles
+}
+
+/// A box of this size with rock where `is_rock` says so.
+fn solids(columns: u32, rows: u32, is_rock: impl Fn(Vec2) -> bool) -> Solids {
+    let mut solids = Solids::new(columns, rows);
+    for k in 0..columns * rows {
+        let cell = IVec2::new((k % columns) as i32, (k / columns) as i32);
+        if is_rock(centre(cell)) {
+            solids.insert(cell, ElementId(0), k);
+        }
+    }
+    solids
+}
+
+fn size(solids: &Solids) -> Vec2 {
+    IVec2::new(solids.columns(), solids.rows()).as_vec2()
+}
+
+/// One prediction as a tick has it.
+fn predict(particles: &mut Particles, solids: &Solids, rest_density: f32) -> PredictorReport {
+    let domain = Domain { size: size(solids), gravity: Vec2::ZERO };
+    let params = PredictorParams {
+        domain: &domain,
+        cell: CELL,
+        rest_density,
+        instructions: InstructionSet::detect(),
+        threads: 1,
+        dt: DT,
+    };
+    Predictor::default().run(particles, solids, &params)
+}
+
+/// Numbers from −1 to 1 that look random and are always the same.
+fn noise(seed: u32) -> impl FnMut() -> f32 {
+    let mut state = seed;
+    move || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 8) as f32 / (1 << 23) as f32 - 1.0
+    }
+}
+
+/// Order of convergence from errors on grids of which each is twice as fine as the one before: the least of the steps.
+fn order(errors: &[f64]) -> f64 {
+    errors.windows(2).map(|pair| (pair[0] / pair[1]).log2()).fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,138 @@
+//! Particles to grid and back: constants and linear fields, and the sums that have to stay.
+
+use super::{CELL, lattice, noise, size, solids, team};
+use crate::kernel::{
+    element::ElementId,
+    particles::Particles,
+    predictor::{grid::MacGrid, transfer::Faces},
+};
+use glam::Vec2;
+
+/// Particles at random places of a box, `gap` d or more from its walls.
+fn cloud(count: usize, box_size: Vec2, gap: f32, mut velocity: impl FnMut(Vec2) -> Vec2) -> Particles {
+    let mut random = noise(17);
+    let mut particles = Particles::default();
+    for id in 0..count {
+        let share = Vec2::new(random(), random()) * 0.5 + 0.5;
+        let at = Vec2::splat(gap) + share * (box_size - 2.0 * gap);
+        particles.push(id as u32, ElementId(1), at, velocity(at));
+    }
+    particles
+}
+
+fn collect(grid: &MacGrid, particles: &Particles) -> Faces {
+    let mut faces = Faces::default();
+    faces.collect(grid, particles, team().instructions, 1);
+    faces
+}
+
+/// Points of the left and of the lower face of a cell, d.
+fn face_points(grid: &MacGrid, column: usize, row: usize) -> [Vec2; 2] {
+    let corner = Vec2::new(column as f32, row as f32) * grid.cell;
+    [corner + Vec2::new(0.0, 0.5 * grid.cell), corner + Vec2::new(0.5 * grid.cell, 0.0)]
+}
+
+#[test]
+fn a_uniform_velocity_is_uniform_on_the_grid_up_to_the_walls() {
+    let box_size = Vec2::new(50.0, 40.0);
+    let grid = MacGrid::new(box_size, CELL);
+    let faces = collect(&grid, &cloud(3000, box_size, 0.25, |_| Vec2::new(3.0, -7.0)));
+    for (field, velocity) in [(&faces.u, 3.0), (&faces.v, -7.0)] {
+        for face in field.iter().filter(|face| face[0] > 1e-6) {
+            assert!((face[1] / face[0] - velocity).abs() < 1e-4, "{} and not {velocity}", face[1] / face[0]);
+        }
+    }
+}
+
+#[test]
+fn weight_and_momentum_are_shared_out_whole() {
+    let box_size = Vec2::new(50.0, 40.0);
+    let grid = MacGrid::new(box_size, CELL);
+    let mut random = noise(2);
+    // Away from the walls: on those, a face stands for twice what it sees.
+    let particles = cloud(4000, box_size, CELL, |_| Vec2::new(random(), random()) * 20.0);
+    let faces = collect(&grid, &particles);
+    let sums = |field: &[[f32; 2]]| {
+        field.iter().fold([0.0; 2], |[w, p], face| [w + f64::from(face[0]), p + f64::from(face[1])])
+    };
+    for (field, velocity) in [(&faces.u, &particles.vx), (&faces.v, &particles.vy)] {
+        let [weight, momentum] = sums(field);
+        let expected: f64 = velocity.iter().map(|v| f64::from(*v)).sum();
+        let scale: f64 = velocity.iter().map(|v| f64::from(v.abs())).sum();
+        assert!((weight - 4000.0).abs() < 1e-2, "a weight of {weight}");
+        assert!((momentum - expected).abs() < 1e-6 * scale, "{momentum} and not {expected}");
+    }
+}
+
+#[test]
+fn a_full_box_is_as_dense_at_its_walls_as_inside() {
+    // Along a wall, deposits beyond it are folded back; on it, they count twice.
+    let walls = solids(50, 40, |_| false);
+    let grid = MacGrid::new(size(&walls), CELL);
+    let faces = collect(&grid, &lattice(&walls, |_| Some(Vec2::ZERO)));
+    let full = grid.cell * grid.cell;
+    for row in 0..grid.rows {
+        for column in 0..grid.columns {
+            let k = grid.row(row + 1) + column + 1;
+            for weight in [faces.u[k][0], faces.u[k + 1][0], faces.v[k][0], faces.v[k + grid.stride][0]] {
+                assert!((weight / full - 1.0).abs() < 0.05, "({column}, {row}): {} of full", weight / full);
+            }
+            let mean = (faces.u[k][0] + faces.u[k + 1][0] + faces.v[k][0] + faces.v[k + grid.stride][0]) / (4.0 * full);
+            assert!((mean - 1.0).abs() < 0.03, "({column}, {row}): the cell is {mean} full");
+        }
+    }
+}
+
+#[test]
+fn a_linear_flow_is_linear_on_the_grid_and_back() {
+    let flow = |at: Vec2| Vec2::new(1.0 + 0.3 * at.x - 0.2 * at.y, -2.0 - 0.1 * at.x + 0.4 * at.y);
+    let walls = solids(50, 40, |_| false);
+    let grid = MacGrid::new(size(&walls), CELL);
+    let mut faces = collect(&grid, &lattice(&walls, |at| Some(flow(at))));
+    // The lattice lies within a hundredth of a spacing of evenly around each face.
+    for row in 1..grid.rows - 1 {
+        for column in 1..grid.columns - 1 {
+            let k = grid.row(row + 1) + column + 1;
+            let [left, lower] = face_points(&grid, column, row).map(flow);
+            let (u, v) = (faces.u[k][1] / faces.u[k][0], faces.v[k][1] / faces.v[k][0]);
+            assert!((u - left.x).abs() < 5e-3 && (v - lower.y).abs() < 5e-3, "({column}, {row}): {u}, {v}");
+        }
+    }
+    // A change that is linear on the faces is the same at the particles, wherever they are.
+    for row in 0..grid.rows + 1 {
+        for column in 0..grid.columns + 1 {
+            let [left, lower] = face_points(&grid, column, row).map(flow);
+            let k = grid.row(row + 1) + column + 1;
+            (faces.u[k], faces.v[k]) = ([left.x, 0.0], [lower.y, 0.0]);
+        }
+    }
+    let mut particles = cloud(3000, size(&walls), CELL, |_| Vec2::ZERO);
+    faces.hand_back(&grid, &mut particles, team().instructions, 1, 0.0);
+    for i in 0..particles.len() {
+        let (found, expected) = (particles.velocity(i), flow(particles.position(i)));
+        assert!(found.distance(expected) < 1e-3, "{found} and not {expected} at {}", particles.position(i));
+    }
+}
+
+#[test]
+fn what_the_faces_give_is_what_the_particles_get() {
+    // The way back is the way there, transposed: Σ_p Δv_p = Σ_f w_f Δu_f for any change of the faces.
+    let box_size = Vec2::new(50.0, 40.0);
+    let grid = MacGrid::new(box_size, CELL);
+    let mut random = noise(8);
+    let mut particles = cloud(3000, box_size, CELL, |_| Vec2::ZERO);
+    let mut faces = collect(&grid, &particles);
+    let mut given = [0.0; 2];
+    for (sum, field) in given.iter_mut().zip([&mut faces.u, &mut faces.v]) {
+        for face in field {
+            let change = random();
+            *sum += f64::from(face[0]) * f64::from(change);
+            *face = [change, 0.0];
+        }
+    }
+    faces.hand_back(&grid, &mut particles, team().instructions, 1, 0.0);
+    for (given, velocity) in given.into_iter().zip([&particles.vx, &particles.vy]) {
+        let got: f64 = velocity.iter().map(|v| f64::from(*v)).sum();
+        assert!((given - got).abs() < 1e-2, "{given} given, {got} got");
+    }
+}

@@ -1,0 +1,121 @@
+//! Walls one particle thick: no flux through closed faces, no pressure through them.
+
+use super::{
+    CELL, LATTICE, lattice, noise, predict,
+    rig::{Rig, cells},
+    solids,
+};
+use crate::kernel::{
+    predictor::grid::MacGrid,
+    solids::{Solids, centre},
+};
+use glam::Vec2;
+use std::ops::Range;
+
+/// A wall, and the side of it a point is on.
+struct Wall {
+    name: &'static str,
+    solids: Solids,
+    is_left: fn(Vec2) -> bool,
+}
+
+/// Upright, level and diagonal walls, all one particle thick.
+fn walls() -> Vec<Wall> {
+    let wall = |name, is_rock: fn(Vec2) -> bool, is_left| Wall { name, solids: solids(60, 60, is_rock), is_left };
+    vec![
+        wall("upright on a cell's edge", |at| at.x as i32 == 30, |at| at.x < 30.0),
+        wall("upright inside a cell", |at| at.x as i32 == 31, |at| at.x < 31.0),
+        wall("level", |at| at.y as i32 == 28, |at| at.y < 28.0),
+        // Its cells touch at corners only.
+        wall("diagonal", |at| at.x as i32 == at.y as i32, |at| at.x < at.y),
+        wall("steep", |at| at.x as i32 == 15 + at.y as i32 / 2, |at| at.x < 15.0 + (at.y as i32 / 2) as f32),
+    ]
+}
+
+/// Which cells of the grid lie on the left: those whose centre and four corners do.
+fn sides(grid: &MacGrid, is_left: fn(Vec2) -> bool) -> Vec<Option<bool>> {
+    let mut sides = vec![None; grid.len()];
+    for (column, row, k) in cells(grid) {
+        let corner = |x: f32, y: f32| (Vec2::new(column as f32 + x, row as f32 + y)) * grid.cell;
+        let points = [corner(0.5, 0.5), corner(0.05, 0.05), corner(0.95, 0.05), corner(0.05, 0.95), corner(0.95, 0.95)];
+        let left = points.iter().filter(|at| is_left(**at)).count();
+        sides[k] = match left {
+            0 => Some(false),
+            5 => Some(true),
+            _ => None,
+        };
+    }
+    sides
+}
+
+#[test]
+fn no_path_through_open_faces_leads_from_one_side_to_the_other() {
+    for wall in walls() {
+        let rig = Rig::new(&lattice(&wall.solids, |_| Some(Vec2::ZERO)), &wall.solids, CELL);
+        let (grid, sides) = (rig.grid, sides(&rig.grid, wall.is_left));
+        let mut reached: Vec<bool> = sides.iter().map(|side| *side == Some(true)).collect();
+        let mut next: Vec<usize> = (0..grid.len()).filter(|k| reached[*k]).collect();
+        assert!(next.len() > 40, "{}", wall.name);
+        while let Some(k) = next.pop() {
+            assert_ne!(sides[k], Some(false), "{}: cell {k} is reached from the other side", wall.name);
+            let ways = [
+                (k + 1, rig.open.u[k + 1]),
+                (k - 1, rig.open.u[k]),
+                (k + grid.stride, rig.open.v[k + grid.stride]),
+                (k - grid.stride, rig.open.v[k]),
+            ];
+            for (other, open) in ways {
+                if open > 0.0 && !std::mem::replace(&mut reached[other], true) {
+                    next.push(other);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_flows_through_a_closed_face() {
+    let mut random = noise(4);
+    for wall in walls() {
+        let mut particles = lattice(&wall.solids, |_| Some(Vec2::ZERO));
+        for i in 0..particles.len() {
+            (particles.vx[i], particles.vy[i]) = (30.0 * random(), 30.0 * random());
+        }
+        let mut rig = Rig::new(&particles, &wall.solids, CELL);
+        rig.project(LATTICE);
+        for (.., k) in cells(&rig.grid) {
+            let touches = |other: usize| rig.conjugate.liquid[k] + rig.conjugate.liquid[other] > 0.0;
+            if rig.open.u[k] == 0.0 && touches(k - 1) {
+                assert_eq!(rig.faces.u[k][1], 0.0, "{}: flow through a closed face", wall.name);
+            }
+            if rig.open.v[k] == 0.0 && touches(k - rig.grid.stride) {
+                assert_eq!(rig.faces.v[k][1], 0.0, "{}: flow through a closed face", wall.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn still_water_beside_a_tank_under_pressure_stays_still() {
+    for wall in walls() {
+        // Left: liquid that falls on. Right: liquid at rest, without weight.
+        let (is_left, thrown) = (wall.is_left, 10.0);
+        let velocity = |at: Vec2| if is_left(at) { Vec2::new(0.0, -thrown) } else { Vec2::ZERO };
+        let mut particles = lattice(&wall.solids, |at| (at.y < 50.0).then(|| velocity(at)));
+        predict(&mut particles, &wall.solids, LATTICE);
+        let fastest = |near: Range<f32>| {
+            let right = (0..particles.len()).filter(|i| !is_left(particles.position(*i)));
+            let within = right.filter(|i| near.contains(&distance_to_rock(&wall.solids, particles.position(*i))));
+            within.map(|i| particles.velocity(i).length()).fold(0.0, f32::max) / thrown
+        };
+        let (near, far) = (fastest(0.0..2.0 * CELL), fastest(2.0 * CELL..100.0));
+        assert!(far < 0.06, "{}: still water moves with {far} of the other side's velocity", wall.name);
+        // Within a cell of the wall, faces take the mean of the particles on both sides of it.
+        assert!(near < 0.4, "{}: still water at the wall moves with {near} of the other side's velocity", wall.name);
+    }
+}
+
+/// Distance of a point to the nearest rock, d.
+fn distance_to_rock(solids: &Solids, at: Vec2) -> f32 {
+    solids.iter().map(|(cell, ..)| centre(cell).distance(at)).fold(f32::MAX, f32::min)
+}
