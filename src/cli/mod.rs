@@ -3,6 +3,7 @@
 
 mod args;
 mod bench;
+mod exam;
 mod failure;
 mod list;
 mod output;
@@ -45,6 +46,7 @@ fn dispatch(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Play(play)) => play::play(play.scene.as_deref(), &play.options),
         Some(Command::Run(run)) => run::run(&run),
         Some(Command::Bench(bench)) => bench::bench(&bench),
+        Some(Command::Exam(arguments)) => exam::exam(&arguments),
         Some(Command::Study(study)) => study::study(&study),
         Some(Command::List { what }) => list::list(what),
     }

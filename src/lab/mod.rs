@@ -5,6 +5,7 @@ pub mod balance;
 pub mod binning;
 pub mod density;
 mod drift;
+pub mod exam;
 pub mod headless;
 pub mod machine;
 pub mod metrics;
