@@ -22,6 +22,9 @@ pub enum Verdict {
 pub struct Row {
     /// Name of the case.
     pub case: &'static str,
+    /// Heading of the case.
+    #[serde(skip)]
+    pub title: &'static str,
     /// What was measured.
     pub quantity: &'static str,
     /// The quality, or the settings of the air.
@@ -42,6 +45,30 @@ pub struct Row {
     pub verdict: Verdict,
     /// Time that simulating the case took in this setting, ms; the rows of a case share it.
     pub milliseconds: f64,
+}
+
+impl Row {
+    /// What was expected, what came, the error and the tolerance, in words.
+    pub fn figures(&self) -> [String; 4] {
+        let with_unit = |value: f64| format!("{} {}", figure(value), self.unit).trim_end().to_owned();
+        let distance =
+            |value: f64| if self.relative { format!("{} %", figure(100.0 * value)) } else { with_unit(value) };
+        [with_unit(self.expected), with_unit(self.got), distance(self.error), distance(self.tolerance)]
+    }
+}
+
+/// A number to four figures.
+fn figure(value: f64) -> String {
+    match value.abs() {
+        0.0 => "0".to_owned(),
+        size if !size.is_finite() => "none".to_owned(),
+        size if !(1e-3..1e5).contains(&size) => format!("{value:.1e}"),
+        size => {
+            let digits = (3 - size.log10().floor() as i32).clamp(0, 4) as usize;
+            let text = format!("{value:.digits$}");
+            if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+        }
+    }
 }
 
 /// How far the exam has come.
@@ -76,4 +103,24 @@ pub struct ExamDesk {
     pub progress: Progress,
     /// The rows that are there, in the order in which they came.
     pub rows: Vec<Row>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_have_four_digits_at_most() {
+        for (value, text) in [
+            (0.0, "0"),
+            (9.81, "9.81"),
+            (1.66666, "1.667"),
+            (-0.012345, "-0.0123"),
+            (12345.6, "12346"),
+            (2e-7, "2.0e-7"),
+            (f64::NAN, "none"),
+        ] {
+            assert_eq!(figure(value), text);
+        }
+    }
 }

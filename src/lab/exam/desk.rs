@@ -120,3 +120,38 @@ async fn sit(jobs: Vec<Job>, notes: Sender<Note>) {
     }
     let _ = notes.send(Note::Done);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::params::Preset;
+    use std::time::Duration;
+
+    /// Lets the examiner work until `until` holds, for half a minute at most.
+    fn wait(app: &mut App, until: impl Fn(&ExamDesk) -> bool) {
+        for _ in 0..6000 {
+            app.update();
+            if until(app.world().resource::<ExamDesk>()) {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        panic!("{:?}", app.world().resource::<ExamDesk>());
+    }
+
+    #[test]
+    fn rows_come_to_the_desk_until_it_is_stopped() {
+        let mut app = App::new();
+        app.add_plugins(plugin);
+        app.update();
+        assert_eq!(*app.world().resource::<ExamDesk>(), ExamDesk::default(), "nobody asked");
+        app.world_mut().resource_mut::<ExamDesk>().wanted = Some(vec![Preset::Draft]);
+        wait(&mut app, |desk| !desk.rows.is_empty());
+        let desk = app.world().resource::<ExamDesk>();
+        assert_eq!(desk.rows[0].case, CASES[0].name);
+        assert!(matches!(desk.progress, Progress::Running { of, .. } if of == CASES.len()), "{:?}", desk.progress);
+        app.world_mut().resource_mut::<ExamDesk>().wanted = None;
+        wait(&mut app, |desk| desk.progress == Progress::Stopped);
+        assert!(app.world().resource::<Examiner>().running.is_none(), "the thread was not let go");
+    }
+}

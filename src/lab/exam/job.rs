@@ -65,7 +65,8 @@ fn judge(job: &Job, finding: &Finding, milliseconds: f64) -> Row {
         false => Verdict::Miss,
     };
     let setting = job.setting.name.clone();
-    Row { case: job.case.name, quantity, setting, unit, expected, got, relative, error, tolerance, verdict, milliseconds }
+    let Case { name: case, title, .. } = *job.case;
+    Row { case, title, quantity, setting, unit, expected, got, relative, error, tolerance, verdict, milliseconds }
 }
 
 /// Sits all jobs, `side_by_side` at a time, and gives their rows in the order of the jobs. `says` hears how many are done

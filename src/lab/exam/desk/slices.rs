@@ -41,3 +41,36 @@ pub(super) fn go_on() {
     }
     RUNNING.set(Some(exam));
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        kernel::params::Preset,
+        lab::exam::{CASES, jobs, sit_all},
+    };
+    use std::sync::mpsc::channel;
+
+    #[test]
+    fn slices_give_the_rows_of_a_whole() {
+        let jobs = || jobs(CASES, |case| case.name == "free_fall", &[Preset::Draft]);
+        let (notes, received) = channel();
+        let sitting = Sitting::begin(jobs(), notes).unwrap();
+        let mut slices = 0;
+        while RUNNING.with_borrow(Option::is_some) {
+            go_on();
+            slices += 1;
+        }
+        drop(sitting);
+        let rows: Vec<_> = received.iter().filter_map(|note| if let Note::Rows(rows) = note { Some(rows) } else { None }).collect();
+        let whole = sit_all(&jobs(), 1, |_, _, _| {}).unwrap();
+        assert!(slices > 0 && rows.concat().iter().map(|row| row.got).eq(whole.iter().map(|row| row.got)));
+    }
+
+    #[test]
+    fn what_is_let_go_is_forgotten() {
+        let (notes, _received) = channel();
+        drop(Sitting::begin(jobs(CASES, |_| true, &Preset::ALL), notes));
+        assert!(RUNNING.with_borrow(Option::is_none));
+    }
+}
