@@ -375,7 +375,10 @@ fn the_exam_prints_its_rows_and_fails_if_one_does() {
     assert!(table.contains("| free_fall") && table.contains("| balanced") && table.contains("0 fail"), "{table}");
     let rows: Value = serde_json::from_str(&std::fs::read_to_string(here.join("rows.json")).unwrap()).unwrap();
     let rows = rows["rows"].as_array().unwrap();
-    assert_eq!(rows.len(), table.lines().filter(|line| line.starts_with("| free_fall") || line.starts_with("| pulse")).count());
+    assert_eq!(
+        rows.len(),
+        table.lines().filter(|line| line.starts_with("| free_fall") || line.starts_with("| pulse")).count()
+    );
     for row in rows {
         let [expected, got, error] = ["expected", "got", "error"].map(|key| row[key].as_f64().unwrap());
         let error_of = (got - expected).abs() / if row["relative"] == true { expected.abs() } else { 1.0 };

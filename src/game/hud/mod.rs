@@ -86,7 +86,16 @@ pub struct HudState {
 
 impl Default for HudState {
     fn default() -> Self {
-        Self { visible: true, help: false, details: false, exam: false, scenes: false, saves: false, settings: false, search: None }
+        Self {
+            visible: true,
+            help: false,
+            details: false,
+            exam: false,
+            scenes: false,
+            saves: false,
+            settings: false,
+            search: None,
+        }
     }
 }
 

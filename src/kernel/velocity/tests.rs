@@ -189,7 +189,7 @@ fn a_correction_into_rock_stops_at_its_face() {
 #[test]
 fn a_liquid_is_as_thick_at_many_substeps_as_at_one() {
     let left = |substeps: u16| {
-        let mut bench = square(0.0, |at| Vec2::new((0.4 * at.y).cos(), 0.0));
+        let mut bench = square(0.0, |at| Vec2::new((0.4 * f64::from(at.y)).cos() as f32, 0.0));
         bench.solve(false);
         for _ in 0..40 * substeps {
             let dt = TICK_SECONDS / f32::from(substeps);

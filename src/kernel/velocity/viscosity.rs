@@ -28,7 +28,18 @@ pub fn apply_viscosity(particles: &mut Particles, solver: &mut Solver, coefficie
     let Solver { bins, smoothing, instructions, density, x, y, next_x, next_y, .. } = solver;
     let read = &*particles;
     parallel::split(bins.groups(), [&mut next_x[..], &mut next_y[..]], threads, &|groups, base, out| {
-        instructions.run(ViscosityPass { smoothing, particles: read, x, y, density, coefficients, part, groups, base, out });
+        instructions.run(ViscosityPass {
+            smoothing,
+            particles: read,
+            x,
+            y,
+            density,
+            coefficients,
+            part,
+            groups,
+            base,
+            out,
+        });
     });
     std::mem::swap(&mut particles.vx, next_x);
     std::mem::swap(&mut particles.vy, next_y);

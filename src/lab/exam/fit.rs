@@ -31,7 +31,8 @@ mod tests {
 
     #[test]
     fn the_period_of_a_damped_sine_is_found() {
-        let curve: Vec<_> = (0..500).map(|k| f64::from(k) / 60.0).map(|t| (t, (-0.1 * t).exp() * (2.0 * t).cos())).collect();
+        let curve: Vec<_> =
+            (0..500).map(|k| f64::from(k) / 60.0).map(|t| (t, (-0.1 * t).exp() * (2.0 * t).cos())).collect();
         let half = half_period(&curve).unwrap();
         assert!((half / std::f64::consts::FRAC_PI_2 - 1.0).abs() < 1e-3, "{half}");
         assert_eq!(half_period(&curve[..20]), None, "it has not crossed zero twice");

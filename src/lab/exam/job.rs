@@ -15,6 +15,9 @@ use std::sync::{
     atomic::{AtomicUsize, Ordering},
 };
 
+/// What comes of a job.
+pub type Rows = Result<Vec<Row>, SceneError>;
+
 /// A case in one setting.
 #[derive(Clone)]
 pub struct Job {
@@ -43,7 +46,7 @@ impl Job {
     }
 
     /// Simulates the case and compares.
-    pub async fn sit(self) -> Result<Vec<Row>, SceneError> {
+    pub async fn sit(self) -> Rows {
         let clockwork = Clockwork::default();
         let findings = (self.case.run)(self.setting.clone(), clockwork.clone()).await?;
         let milliseconds = clockwork.milliseconds();
@@ -71,16 +74,12 @@ fn judge(job: &Job, finding: &Finding, milliseconds: f64) -> Row {
 
 /// Sits all jobs, `side_by_side` at a time, and gives their rows in the order of the jobs. `says` hears how many are done
 /// of how many, and which one is begun.
-pub fn sit_all(
-    jobs: &[Job],
-    side_by_side: usize,
-    says: impl Fn(usize, usize, &Job) + Sync,
-) -> Result<Vec<Row>, SceneError> {
+pub fn sit_all(jobs: &[Job], side_by_side: usize, says: impl Fn(usize, usize, &Job) + Sync) -> Rows {
     // The dearest quality first, so that nothing long is left for the end.
     let mut order: Vec<usize> = (0..jobs.len()).collect();
     order.sort_by_key(|&k| std::cmp::Reverse(jobs[k].setting.preset.quality().substeps));
     let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let results: Vec<Mutex<Option<Result<Vec<Row>, SceneError>>>> = jobs.iter().map(|_| Mutex::new(None)).collect();
+    let results: Vec<Mutex<Option<Rows>>> = jobs.iter().map(|_| Mutex::new(None)).collect();
     let work = || {
         while let Some(&k) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
             says(done.load(Ordering::Relaxed), jobs.len(), &jobs[k]);

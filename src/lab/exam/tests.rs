@@ -1,9 +1,9 @@
 //! The quick exam, and that its rows can fail.
 
 use super::{
-    CASES, Case, Job, finish,
+    CASES, Case, Job,
     case::{Finding, Over, Run, Setting, Tolerance},
-    jobs, sit_all,
+    finish, jobs, sit_all,
     world::Clockwork,
 };
 use crate::{
@@ -24,7 +24,8 @@ fn the_quick_exam_is_passed_at_balanced() {
 #[test]
 fn an_exam_has_the_same_rows_side_by_side_and_stopped_and_gone_on_with() {
     let jobs = jobs(CASES, |case| ["free_fall", "pulse"].contains(&case.name), &[Preset::Draft, Preset::Fast]);
-    let answers = |rows: Vec<Row>| rows.into_iter().map(|row| (row.case, row.setting, row.got.to_bits())).collect::<Vec<_>>();
+    let answers =
+        |rows: Vec<Row>| rows.into_iter().map(|row| (row.case, row.setting, row.got.to_bits())).collect::<Vec<_>>();
     let alone = answers(sit_all(&jobs, 1, |_, _, _| {}).unwrap());
     assert_eq!(alone, answers(sit_all(&jobs, 3, |_, _, _| {}).unwrap()));
     let mut ticks = 0;

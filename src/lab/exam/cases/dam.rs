@@ -105,22 +105,20 @@ async fn dam_break(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding
 /// The value of a curve between two of its points.
 fn at(curve: &[(f64, f64)], time: f64) -> f64 {
     let pair = curve.windows(2).find(|pair| (pair[0].0..=pair[1].0).contains(&time));
-    pair.map_or(f64::NAN, |pair| {
-        pair[0].1 + (pair[1].1 - pair[0].1) * (time - pair[0].0) / (pair[1].0 - pair[0].0)
-    })
+    pair.map_or(f64::NAN, |pair| pair[0].1 + (pair[1].1 - pair[0].1) * (time - pair[0].0) / (pair[1].0 - pair[0].0))
 }
 
 fn slope(points: &[(f64, f64)]) -> f64 {
     stats::line(points).map_or(f64::NAN, |(slope, _)| slope)
 }
 
-/// Height of the liquid at the left wall, m: how far up the particles within three spacings of it follow each other
-/// without a gap of one. What was splashed higher does not count.
+/// Height of the liquid at the left wall, m: how far up the particles within six spacings of it follow each other
+/// without a gap of two. What was splashed higher does not count.
 fn at_wall(stage: &Stage) -> f64 {
     let particles = stage.particles();
-    let near = particles.x.iter().zip(&particles.y).filter(|(x, _)| **x < 3.0);
+    let near = particles.x.iter().zip(&particles.y).filter(|(x, _)| **x < 6.0);
     let mut heights: Vec<f64> = near.map(|(_, y)| f64::from(*y)).collect();
     heights.sort_unstable_by(f64::total_cmp);
-    let top = heights.iter().fold(0.0, |top, &y| if y - top < 1.0 { y } else { top });
+    let top = heights.iter().fold(0.0, |top, &y| if y - top < 2.0 { y } else { top });
     (top + 0.5) * stage.spacing()
 }

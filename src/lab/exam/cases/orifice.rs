@@ -43,7 +43,13 @@ async fn orifice(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>,
         curve.push((stage.seconds(), left as f64 * d * d / WIDTH));
     }
     let got = falls_to(&curve, TO).zip(falls_to(&curve, FROM)).map_or(f64::NAN, |(end, start)| end - start);
-    Ok(vec![Finding { quantity: "time from 3.6 m to 2.4 m", unit: "s", expected: theory(), got, tolerance: Share(0.10) }])
+    Ok(vec![Finding {
+        quantity: "time from 3.6 m to 2.4 m",
+        unit: "s",
+        expected: theory(),
+        got,
+        tolerance: Share(0.10),
+    }])
 }
 
 /// The time by the theory, s.

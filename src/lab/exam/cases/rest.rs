@@ -57,13 +57,7 @@ async fn hydrostatic(setting: Setting, clockwork: Clockwork) -> Result<Vec<Findi
             got: mean(&surface),
             tolerance: Share(0.02),
         },
-        Finding {
-            quantity: "density, lowest third",
-            unit: "",
-            expected: 1.0,
-            got: mean(&low),
-            tolerance: Share(0.02),
-        },
+        Finding { quantity: "density, lowest third", unit: "", expected: 1.0, got: mean(&low), tolerance: Share(0.02) },
         Finding {
             quantity: "density, highest third",
             unit: "",
@@ -71,13 +65,7 @@ async fn hydrostatic(setting: Setting, clockwork: Clockwork) -> Result<Vec<Findi
             got: mean(&high),
             tolerance: Share(0.02),
         },
-        Finding {
-            quantity: "rms speed",
-            unit: "d/tick",
-            expected: 0.0,
-            got: mean(&motion),
-            tolerance: Within(0.02),
-        },
+        Finding { quantity: "rms speed", unit: "d/tick", expected: 0.0, got: mean(&motion), tolerance: Within(0.02) },
     ])
 }
 

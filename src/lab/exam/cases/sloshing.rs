@@ -40,12 +40,7 @@ async fn sloshing(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>
     Ok(findings)
 }
 
-async fn swing(
-    depth: f64,
-    tilt: f64,
-    setting: &Setting,
-    clockwork: &Clockwork,
-) -> Result<Option<f64>, SceneError> {
+async fn swing(depth: f64, tilt: f64, setting: &Setting, clockwork: &Clockwork) -> Result<Option<f64>, SceneError> {
     let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/exam/sloshing.ron"));
     let blueprint = own("sloshing", text, &[("depth", depth), ("tilt", tilt)], setting)?;
     let mut stage = Stage::new(blueprint, clockwork);

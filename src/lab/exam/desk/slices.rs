@@ -62,7 +62,8 @@ mod tests {
             slices += 1;
         }
         drop(sitting);
-        let rows: Vec<_> = received.iter().filter_map(|note| if let Note::Rows(rows) = note { Some(rows) } else { None }).collect();
+        let rows: Vec<_> =
+            received.iter().filter_map(|note| if let Note::Rows(rows) = note { Some(rows) } else { None }).collect();
         let whole = sit_all(&jobs(), 1, |_, _, _| {}).unwrap();
         assert!(slices > 0 && rows.concat().iter().map(|row| row.got).eq(whole.iter().map(|row| row.got)));
     }
