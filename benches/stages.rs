@@ -14,6 +14,7 @@ use powder_master::kernel::{
     predictor::{Predictor, PredictorParams},
     simd::InstructionSet,
     solids::Solids,
+    units::TICK_SECONDS,
     velocity,
 };
 use std::{hint::black_box, time::Duration};
@@ -140,7 +141,7 @@ fn stages(criterion: &mut Criterion) {
         group.bench_function(format!("solve/{name}"), |b| stage(b, Tank::new(set), |tank| tank.solve(1)));
         group.bench_function(format!("viscosity/{name}"), |b| {
             stage(b, Tank::new(set), |tank| {
-                velocity::apply_viscosity(&mut tank.particles, &mut tank.solver, &[0.02], 1);
+                velocity::apply_viscosity(&mut tank.particles, &mut tank.solver, &[0.02], 1, TICK_SECONDS);
             });
         });
         group.bench_function(format!("vorticity/{name}"), |b| {

@@ -104,6 +104,12 @@ fn bad_usage_is_one_line_that_says_what_is_allowed() {
         (&["bench", "scaling", "--svg", "nowhere"], &["no folder"]),
         (&["bench", "scaling", "--beside", "nothing.json"], &["nothing.json", "can't be read"]),
         (&["bench", "neighbours", "--json", "nowhere/x.json"], &["no folder"]),
+        (&["exam", "--case", "cats"], &["--case", "allowed", "free_fall", "dam_break"]),
+        (&["exam", "--quality", "best"], &["best", "classic"]),
+        (&["exam", "--threads", "0"], &["--threads", "from 1"]),
+        (&["exam", "--json", "nowhere/x.json"], &["no folder"]),
+        (&["exam", "--json", "-", "--markdown", "-"], &["stdout"]),
+        (&["exam", "--json", "x", "--markdown", "x"], &["two outputs"]),
         (&["study", "tides", "--out", "."], &["rest-density"]),
         (&["study", "rest-density"], &["--out"]),
         (&["study", "rest-density", "--out", "nowhere"], &["no folder"]),
@@ -519,4 +525,28 @@ fn bench_scaling_writes_table_json_and_curves() {
         assert!(svg.contains("balanced") && svg.ends_with("</svg>\n"), "{name}");
     }
     assert!(std::fs::read_to_string(here.join("scaling-time.svg")).unwrap().contains("another program"));
+}
+
+#[test]
+fn the_exam_prints_its_rows_and_fails_if_one_does() {
+    let here = folder("exam");
+    let arguments = ["exam", "--case", "free_fall", "--case", "pulse", "--quality", "draft", "--quality", "balanced"];
+    let table = good(&here, &[&arguments[..], &["--json", "rows.json", "--markdown", "rows.md"]].concat());
+    assert!(table.contains("| free_fall") && table.contains("| balanced") && table.contains("0 fail"), "{table}");
+    let rows: Value = serde_json::from_str(&std::fs::read_to_string(here.join("rows.json")).unwrap()).unwrap();
+    let rows = rows["rows"].as_array().unwrap();
+    assert_eq!(
+        rows.len(),
+        table.lines().filter(|line| line.starts_with("| free_fall") || line.starts_with("| pulse")).count()
+    );
+    for row in rows {
+        let [expected, got, error] = ["expected", "got", "error"].map(|key| row[key].as_f64().unwrap());
+        let error_of = (got - expected).abs() / if row["relative"] == true { expected.abs() } else { 1.0 };
+        assert!((error - error_of).abs() <= 1e-12 && row["milliseconds"].as_f64().unwrap() > 0.0, "{row}");
+        assert_eq!(row["verdict"] == "pass", error <= row["tolerance"].as_f64().unwrap(), "{row}");
+    }
+    let document = std::fs::read_to_string(here.join("rows.md")).unwrap();
+    assert!(document.contains("## Free fall (`free_fall`)") && document.contains("**Tolerance:**"), "{document}");
+    let json = good(&here, &[&arguments[..], &["--json", "-"]].concat());
+    assert!(serde_json::from_str::<Value>(&json).is_ok(), "stdout has the JSON alone: {json}");
 }

@@ -2,6 +2,7 @@
 
 use crate::{
     kernel::{params::Preset, units::TICKS_PER_SECOND},
+    lab::exam::CASES,
     scene::blueprint::{Effect, Mode},
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -38,6 +39,8 @@ pub(super) enum Command {
     Run(Box<RunArguments>),
     /// Measure what something costs, and print the table
     Bench(BenchArguments),
+    /// Compare the physics with known answers, at each quality
+    Exam(ExamArguments),
     /// Repeat an experiment of the report on the original game
     Study(StudyArguments),
     /// Measure what accuracy costs in a scene: curve.csv, curve.svg, curve.png, summary.md
@@ -106,6 +109,29 @@ impl ScalingOptions {
         ];
         given.into_iter().find(|(_, is_given)| *is_given).map(|(name, _)| name)
     }
+}
+
+/// `exam`.
+#[derive(Debug, Args)]
+pub(super) struct ExamArguments {
+    /// Write the rows as JSON; `-` is stdout, in place of the table
+    #[arg(long, value_name = "FILE.json")]
+    pub(super) json: Option<PathBuf>,
+    /// Write the rows with what they mean, as docs/exam.md has them; `-` is stdout, in place of the table
+    #[arg(long, value_name = "FILE.md")]
+    pub(super) markdown: Option<PathBuf>,
+    /// Quality to examine, again for more: a name of `list qualities` [default: all]
+    #[arg(long = "quality", value_name = "QUALITY", value_parser = preset)]
+    pub(super) qualities: Vec<Preset>,
+    /// Case to examine, again for more [default: all]
+    #[arg(long = "case", value_name = "NAME", value_parser = case)]
+    pub(super) cases: Vec<String>,
+    /// The cases that take a second, at `balanced`
+    #[arg(long)]
+    pub(super) quick: bool,
+    /// Cases at a time, each on one thread; they never change the result [default: one a processor]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+    pub(super) threads: Option<u64>,
 }
 
 /// `study`.
@@ -299,6 +325,13 @@ fn cap(text: &str) -> Result<f64, String> {
 
 fn preset(text: &str) -> Result<Preset, String> {
     Preset::find(text).ok_or_else(|| format!("allowed: {}", Preset::ALL.map(Preset::name).join(", ")))
+}
+
+fn case(text: &str) -> Result<String, String> {
+    match CASES.iter().find(|case| case.name == text) {
+        Some(case) => Ok(case.name.to_owned()),
+        None => Err(format!("allowed: {}", CASES.iter().map(|case| case.name).collect::<Vec<_>>().join(", "))),
+    }
 }
 
 fn setting(text: &str) -> Result<(String, String), String> {

@@ -3,6 +3,7 @@
 
 mod args;
 mod bench;
+mod exam;
 mod failure;
 mod list;
 mod output;
@@ -46,6 +47,7 @@ fn dispatch(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Play(play)) => play::play(play.scene.as_deref(), &play.options),
         Some(Command::Run(run)) => run::run(&run),
         Some(Command::Bench(bench)) => bench::bench(&bench),
+        Some(Command::Exam(arguments)) => exam::exam(&arguments),
         Some(Command::Study(study)) => study::study(&study),
         Some(Command::Sweep(sweep)) => sweep::sweep(&sweep),
         Some(Command::List { what }) => list::list(what),

@@ -130,6 +130,7 @@ fn act(world: &mut World, action: Action) {
         | Action::Scenes
         | Action::Settings
         | Action::Details
+        | Action::Exam
         | Action::Help
         | Action::Close => world.resource_mut::<HudState>().act(action),
         Action::FullScreen => screen::toggle_full_screen(world),

@@ -13,7 +13,7 @@ use bevy::{
     camera::{Camera2d, ClearColor},
     color::Color,
     log::LogPlugin,
-    prelude::{Commands, IntoScheduleConfigs, PluginGroup, Res, Single, Startup, Update, With, World},
+    prelude::{Commands, IntoScheduleConfigs, PluginGroup, Res, Single, Startup, Update, With},
     render::view::Msaa,
     time::common_conditions::on_timer,
     window::{PresentMode, PrimaryWindow, Window, WindowPlugin, WindowResizeConstraints, WindowResolution},
@@ -49,9 +49,10 @@ pub enum GameError {
     },
 }
 
-/// Plays in a window until it is closed. `load` makes the world; `scene` is what `run` would call it; what the
+/// Plays in a window until it is closed. `furnish` adds what the game
+/// does not know and makes the world; `scene` is what `run` would call it; what the
 /// player does goes to `record`.
-pub fn run(scene: &str, record: Option<PathBuf>, load: impl FnOnce(&mut World)) -> Result<AppExit, GameError> {
+pub fn run(scene: &str, record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> Result<AppExit, GameError> {
     let scene = scene.to_owned();
     if let Some(reason) = missing_display(|name| std::env::var(name).ok()) {
         return Err(GameError::NoDisplay { reason, scene });
@@ -59,7 +60,7 @@ pub fn run(scene: &str, record: Option<PathBuf>, load: impl FnOnce(&mut World)) 
     // Setting the window up panics where it fails (winit can't reach the display, there is no graphics adapter).
     let hook = panic::take_hook();
     panic::set_hook(Box::new(|_| {}));
-    let built = panic::catch_unwind(AssertUnwindSafe(|| build(record, load)));
+    let built = panic::catch_unwind(AssertUnwindSafe(|| build(record, furnish)));
     panic::set_hook(hook);
     match built {
         Ok(mut app) => Ok(app.run()),
@@ -88,7 +89,7 @@ fn explain(panic: &str, scene: String) -> GameError {
     GameError::NoWindow { reason: panic.lines().next().unwrap_or("unknown reason").to_owned(), scene }
 }
 
-fn build(record: Option<PathBuf>, load: impl FnOnce(&mut World)) -> App {
+fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> App {
     let window = Window {
         title: "Powder Master".into(),
         name: Some("powder-master".into()),
@@ -111,7 +112,7 @@ fn build(record: Option<PathBuf>, load: impl FnOnce(&mut World)) -> App {
     .init_resource::<Room>()
     .add_systems(Startup, spawn_camera)
     .add_systems(Update, tell_in_title.run_if(on_timer(TITLE_EVERY)));
-    load(app.world_mut());
+    furnish(&mut app);
     if let Some(path) = record {
         recording::begin(app.world_mut(), path);
     }

@@ -28,7 +28,7 @@ pub struct Element {
     /// Density, kg/m²; 1 … 100 000. Weighs the particle in energy, momentum and drag.
     pub density: f32,
     /// XSPH viscosity c (Macklin & Müller 2013, eq. 17): share of the velocity difference to its neighbours that a
-    /// particle gives up each substep; raising it makes the liquid thicker. 0 … 0.5.
+    /// particle gives up each tick, however many substeps that has; raising it makes the liquid thicker. 0 … 0.5.
     #[serde(default)]
     pub viscosity: f32,
     /// Vorticity confinement ε (eq. 16), m/s² for each 1/s of vorticity; raising it keeps eddies alive longer. 0 … 1.

@@ -6,6 +6,7 @@ pub mod binning;
 pub mod coarse;
 pub mod density;
 mod drift;
+pub mod exam;
 pub mod headless;
 pub mod machine;
 pub mod metrics;

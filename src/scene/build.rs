@@ -18,7 +18,7 @@ use crate::{
         place::{Room, fill},
     },
 };
-use std::collections::BTreeMap;
+use std::{borrow::Cow, collections::BTreeMap};
 
 /// Most cells of a box.
 const MOST_CELLS: f64 = 64e6;
@@ -38,6 +38,16 @@ pub struct SceneFile {
 /// Reads the scene called `name_or_path`: a name of [`builtin_names`](crate::scene::builtin_names) or a path to a `.ron` file.
 pub fn load(name_or_path: &str) -> Result<SceneFile, SceneError> {
     SceneFile::from_source(builtin::find(name_or_path)?)
+}
+
+/// The scene with this text, called `name`. It can't name pictures.
+pub fn from_text(name: &str, text: &'static str) -> Result<SceneFile, SceneError> {
+    SceneFile::from_source(Source {
+        name: name.to_owned(),
+        file: format!("{name}.ron"),
+        bytes: Cow::Borrowed(text.as_bytes()),
+        origin: Origin::Builtin,
+    })
 }
 
 /// The numbers of a scene that `--set` can reach, with those that it did set put in.

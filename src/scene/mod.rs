@@ -24,7 +24,7 @@ mod tests;
 
 pub mod blueprint;
 
-pub use build::{SceneFile, load};
+pub use build::{SceneFile, from_text, load};
 pub use builtin::builtin_names;
 pub use elements::elements;
 pub use error::SceneError;

@@ -3,6 +3,7 @@
 
 pub mod control;
 pub mod effects;
+pub mod exam;
 pub mod intent;
 pub mod ledger;
 pub mod pace;

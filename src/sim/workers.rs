@@ -13,6 +13,8 @@ const WORTH_SHARING_CHECKS: usize = 200_000;
 #[derive(Resource, Clone, Default)]
 pub struct Workers {
     pool: Option<Arc<rayon::ThreadPool>>,
+    /// Whether there is no pool: all is done by whoever asks.
+    alone: bool,
 }
 
 impl Workers {
@@ -22,11 +24,19 @@ impl Workers {
     /// If the system gives no threads.
     pub fn new(threads: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.max(1)).build()?;
-        Ok(Self { pool: Some(Arc::new(pool)) })
+        Ok(Self { pool: Some(Arc::new(pool)), alone: false })
+    }
+
+    /// No pool: the thread that asks does the work.
+    pub fn single() -> Self {
+        Self { pool: None, alone: true }
     }
 
     /// Number of threads.
     pub fn threads(&self) -> usize {
+        if self.alone {
+            return 1;
+        }
         self.pool.as_ref().map_or_else(rayon::current_num_threads, |pool| pool.current_num_threads())
     }
 
@@ -35,7 +45,7 @@ impl Workers {
         match &self.pool {
             Some(pool) if pool.current_num_threads() == 1 => work(1),
             Some(pool) => pool.install(|| work(pool.current_num_threads())),
-            None if rayon::current_num_threads() == 1 => work(1),
+            None if self.alone || rayon::current_num_threads() == 1 => work(1),
             None => rayon::scope(|_| work(rayon::current_num_threads())),
         }
     }

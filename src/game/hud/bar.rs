@@ -101,6 +101,7 @@ fn menus(ui: &mut Ui, narrow: bool, state: &HudState, setup: &Setup, shown: View
     for (icon, action, open) in [
         (Icon::Question, Action::Help, state.help),
         (Icon::Gear, Action::Settings, state.settings),
+        (Icon::Check, Action::Exam, state.exam),
         (Icon::Chart, Action::Details, state.details),
         (Icon::Load, Action::Saves, state.saves),
         (Icon::Save, Action::Save, false),

@@ -47,7 +47,9 @@ pub enum Icon {
     Round,
     /// Square brush.
     Square,
-    /// Close.
+    /// Right.
+    Check,
+    /// Close, or wrong.
     Close,
 }
 
@@ -89,6 +91,7 @@ pub fn draw(painter: &Painter, rect: Rect, icon: Icon, colour: Color32) {
             }
         }
         Icon::Question => pen.question(),
+        Icon::Check => pen.line(&[(0.12, 0.52), (0.4, 0.8), (0.88, 0.22)], 0.13),
         Icon::Close => {
             pen.line(&[(0.2, 0.2), (0.8, 0.8)], 0.11);
             pen.line(&[(0.2, 0.8), (0.8, 0.2)], 0.11);

@@ -4,6 +4,7 @@
 pub mod bar;
 pub mod brush;
 pub mod details;
+pub mod exam;
 pub mod help;
 pub mod icons;
 pub mod palette;
@@ -34,6 +35,7 @@ impl Plugin for HudPlugin {
             .init_resource::<HudCost>()
             .init_resource::<scenes::SceneMenu>()
             .init_resource::<saves::SaveMenu>()
+            .init_resource::<crate::sim::exam::ExamDesk>()
             .add_systems(Startup, (scenes::list_scenes, greet))
             .add_systems(PreUpdate, mind_the_keys.after(EguiPreUpdateSet::ProcessInput))
             .add_systems(
@@ -50,6 +52,7 @@ impl Plugin for HudPlugin {
                     saves::show,
                     search::show,
                     details::show,
+                    exam::show,
                     settings::show,
                     help::show,
                     toast::show,
@@ -69,6 +72,8 @@ pub struct HudState {
     pub help: bool,
     /// The books of the simulation.
     pub details: bool,
+    /// The physics exam.
+    pub exam: bool,
     /// The scene menu.
     pub scenes: bool,
     /// The list of save files.
@@ -81,7 +86,16 @@ pub struct HudState {
 
 impl Default for HudState {
     fn default() -> Self {
-        Self { visible: true, help: false, details: false, scenes: false, saves: false, settings: false, search: None }
+        Self {
+            visible: true,
+            help: false,
+            details: false,
+            exam: false,
+            scenes: false,
+            saves: false,
+            settings: false,
+            search: None,
+        }
     }
 }
 
@@ -92,6 +106,7 @@ impl HudState {
             Action::Hud => self.visible = !self.visible,
             Action::Help => self.help = !self.help,
             Action::Details => self.details = !self.details,
+            Action::Exam => self.exam = !self.exam,
             Action::Scenes => self.scenes = !self.scenes,
             Action::Saves => self.saves = !self.saves,
             Action::Settings => self.settings = !self.settings,
@@ -105,7 +120,7 @@ impl HudState {
             _ => return,
         }
         // What is asked for is shown, even if the HUD was hidden.
-        self.visible |= self.help || self.scenes || self.saves || self.settings || self.search.is_some();
+        self.visible |= self.help || self.exam || self.scenes || self.saves || self.settings || self.search.is_some();
     }
 }
 

@@ -22,6 +22,11 @@ pub const ACCENT_FILL: Color32 = Color32::from_rgb(28, 56, 92);
 /// What needs attention.
 pub const WARN: Color32 = Color32::from_rgb(255, 184, 92);
 
+/// What came out right.
+pub const GOOD: Color32 = Color32::from_rgb(104, 211, 145);
+/// What came out wrong.
+pub const BAD: Color32 = Color32::from_rgb(255, 112, 112);
+
 /// Corner of buttons and tiles.
 pub const BUTTON_CORNER: u8 = 6;
 /// Corner of windows.

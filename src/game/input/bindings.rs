@@ -56,6 +56,8 @@ pub enum Action {
     Settings,
     /// Shows the books of the simulation.
     Details,
+    /// Shows the physics exam.
+    Exam,
     /// Shows this table.
     Help,
     /// Full screen and back.
@@ -253,6 +255,7 @@ pub const BINDINGS: &[Binding] = {
     key(K::KeyH, NONE, A::Hud, H::Look, "hide the HUD"),
     key(K::F3, NONE, A::Details, H::Look, "details: what runs and what it costs"),
     key(K::F4, NONE, A::Settings, H::Look, "settings"),
+    key(K::F6, NONE, A::Exam, H::Look, "physics exam: known answers, computed and compared"),
     key(K::F1, NONE, A::Help, H::Look, "this help"),
     key(K::Slash, SHIFT, A::Help, H::Look, "this help"),
     key(K::F11, NONE, A::FullScreen, H::Look, "full screen"),
@@ -326,6 +329,7 @@ fn key_name(key: KeyCode) -> &'static str {
         K::F2 => "F2",
         K::F3 => "F3",
         K::F4 => "F4",
+        K::F6 => "F6",
         K::F11 => "F11",
         K::Space => "Space",
         K::Tab => "Tab",

@@ -4,6 +4,7 @@ use super::*;
 use crate::kernel::{
     params::{GradientKernel, Preset},
     pbf::tests::{Bench, random_numbers},
+    units::TICK_SECONDS,
 };
 
 /// A square of 20 × 20 particles on the lattice, `jitter` d off it at random, with velocities from `velocity`.
@@ -90,7 +91,7 @@ fn viscosity_never_raises_the_kinetic_energy_or_a_speed() {
             for pass in 0..20 {
                 let fastest = |p: &Particles| (0..p.len()).map(|i| p.velocity(i).length()).fold(0.0, f32::max);
                 let (energy, speed) = (kinetic_energy(&bench.particles), fastest(&bench.particles));
-                apply_viscosity(&mut bench.particles, &mut bench.solver, &[coefficient], 1);
+                apply_viscosity(&mut bench.particles, &mut bench.solver, &[coefficient], 1, TICK_SECONDS);
                 let (after, speed_after) = (kinetic_energy(&bench.particles), fastest(&bench.particles));
                 assert!(after < energy, "jitter {jitter}, c {coefficient}, pass {pass}: energy {energy} → {after}");
                 assert!(
@@ -115,7 +116,7 @@ fn viscosity_damps_a_shear_layer_and_keeps_its_momentum() {
     };
     assert!((step(&bench) - 10.0).abs() < 1e-3);
     for _ in 0..50 {
-        apply_viscosity(&mut bench.particles, &mut bench.solver, &[0.1], 1);
+        apply_viscosity(&mut bench.particles, &mut bench.solver, &[0.1], 1, TICK_SECONDS);
     }
     let left = step(&bench);
     assert!((0.1..4.0).contains(&left), "the step of the shear layer went from 10 to {left} d/s");
@@ -130,7 +131,7 @@ fn an_even_flow_feels_no_viscosity() {
     let mut bench = square(0.3, |_| Vec2::new(3.0, -4.0));
     bench.solve(false);
     let before = bench.particles.clone();
-    apply_viscosity(&mut bench.particles, &mut bench.solver, &[0.5], 1);
+    apply_viscosity(&mut bench.particles, &mut bench.solver, &[0.5], 1, TICK_SECONDS);
     assert_eq!(before, bench.particles);
 }
 
@@ -183,4 +184,19 @@ fn a_correction_into_rock_stops_at_its_face() {
         let at = bench.particles.position(i);
         assert!(!bench.solids.is_solid(Solids::cell_of(at)), "particle {i} was moved into rock, to {at}");
     }
+}
+
+#[test]
+fn a_liquid_is_as_thick_at_many_substeps_as_at_one() {
+    let left = |substeps: u16| {
+        let mut bench = square(0.0, |at| Vec2::new((0.4 * f64::from(at.y)).cos() as f32, 0.0));
+        bench.solve(false);
+        for _ in 0..40 * substeps {
+            let dt = TICK_SECONDS / f32::from(substeps);
+            apply_viscosity(&mut bench.particles, &mut bench.solver, &[0.1], 1, dt);
+        }
+        kinetic_energy(&bench.particles)
+    };
+    let (one, eight) = (left(1), left(8));
+    assert!((eight / one - 1.0).abs() < 0.01, "{one} is left at one substep, {eight} at eight");
 }

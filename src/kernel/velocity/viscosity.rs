@@ -1,6 +1,9 @@
 //! XSPH viscosity: `v_i += c Σ (m/ρ_j) (v_j − v_i) W` (Macklin & Müller 2013, eq. 17, with the volume m/ρ_j that makes
 //! the sum an average).
 //!
+//! c is the share of a tick: a substep takes its part `c Δt/tick`, so that a liquid is as thick at many substeps as at one.
+//! The kinematic viscosity is `c h²/20` a tick (`∫ y² W = h²/10` for poly6).
+//!
 //! Stable for c ≤ 1: the weights `c m/ρ_j W` are positive and, since `Σ m/ρ_j W ≈ 1`, add up to at most c, so a new
 //! velocity is an average of old ones.
 
@@ -12,17 +15,31 @@ use crate::kernel::{
     pbf::Solver,
     simd::{Lanes, Pass},
     smoothing::Smoothing,
+    units::TICK_SECONDS,
 };
 
 /// Lowest density that a volume is taken from: a lone droplet's own kernel gives about a seventh.
 const LEAST_DENSITY: f32 = 0.1;
 
-/// Applies viscosity; `coefficients` gives c for each element.
-pub fn apply_viscosity(particles: &mut Particles, solver: &mut Solver, coefficients: &[f32], threads: usize) {
+/// Applies viscosity over `dt` s; `coefficients` gives c for each element.
+pub fn apply_viscosity(particles: &mut Particles, solver: &mut Solver, coefficients: &[f32], threads: usize, dt: f32) {
+    // One substep a tick takes exactly c.
+    let part = dt / TICK_SECONDS;
     let Solver { bins, smoothing, instructions, density, x, y, next_x, next_y, .. } = solver;
     let read = &*particles;
     parallel::split(bins.groups(), [&mut next_x[..], &mut next_y[..]], threads, &|groups, base, out| {
-        instructions.run(ViscosityPass { smoothing, particles: read, x, y, density, coefficients, groups, base, out });
+        instructions.run(ViscosityPass {
+            smoothing,
+            particles: read,
+            x,
+            y,
+            density,
+            coefficients,
+            part,
+            groups,
+            base,
+            out,
+        });
     });
     std::mem::swap(&mut particles.vx, next_x);
     std::mem::swap(&mut particles.vy, next_y);
@@ -36,6 +53,8 @@ struct ViscosityPass<'a> {
     y: &'a [f32],
     density: &'a [f32],
     coefficients: &'a [f32],
+    /// Part of a tick that passes.
+    part: f32,
     groups: &'a [Group],
     base: usize,
     /// Out: velocities, d/s.
@@ -63,7 +82,8 @@ impl Pass for ViscosityPass<'_> {
                     sum_y = sum_y + weight * (L::splat(self.particles.vy[j]) - vyi);
                 }
             }
-            let share = share_of(self.coefficients, &self.particles.element[own.clone()], self.smoothing.density_scale);
+            let scale = self.smoothing.density_scale * self.part;
+            let share = share_of(self.coefficients, &self.particles.element[own.clone()], scale);
             let share = L::load(&share);
             let out = own.start - self.base..own.end - self.base;
             (vxi + share * sum_x).store(&mut out_x[out.clone()]);

@@ -173,12 +173,14 @@ pub(super) fn apply_viscosity(
     mut particles: ResMut<ParticleStore>,
     mut solver: ResMut<SolverState>,
     rates: Res<Rates>,
+    plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
+    let dt = plan.substep_seconds();
     workers.run_for(particles.len(), |threads| {
-        velocity::apply_viscosity(&mut particles, &mut solver, &rates.viscosity, threads);
+        velocity::apply_viscosity(&mut particles, &mut solver, &rates.viscosity, threads, dt);
     });
     ledger.note(Pass::Viscosity, start.elapsed());
 }

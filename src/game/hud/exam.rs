@@ -1,0 +1,211 @@
+//! The physics exam: its rows as they come, while the game goes on.
+
+use crate::{
+    game::hud::{
+        HudState,
+        icons::{self, Icon},
+        style,
+    },
+    kernel::params::Preset,
+    sim::{
+        exam::{ExamDesk, Progress, Row, Verdict},
+        state::Setup,
+    },
+};
+use bevy::prelude::{Res, ResMut, Result};
+use bevy_egui::{
+    EguiContexts,
+    egui::{self, Align2, Color32, RichText, Ui, pos2, vec2},
+};
+
+/// Width of the window's contents, points.
+const WIDTH: f32 = 700.0;
+/// Height of a line, points.
+const LINE: f32 = 19.0;
+/// Where the columns are, points: the first two from their left edge, the figures from their right.
+const COLUMNS: [f32; 6] = [24.0, 268.0, 474.0, 554.0, 624.0, 690.0];
+/// Their headings.
+const HEADINGS: [&str; 6] = ["", "at", "expected", "got", "error", "allowed"];
+
+/// Shows the exam.
+pub fn show(
+    mut contexts: EguiContexts,
+    mut state: ResMut<HudState>,
+    setup: Res<Setup>,
+    mut desk: ResMut<ExamDesk>,
+) -> Result {
+    if !state.exam || !state.visible {
+        return Ok(());
+    }
+    let mut open = true;
+    let context = contexts.ctx_mut()?;
+    let screen = context.content_rect();
+    let place = (Align2::CENTER_CENTER, screen.center());
+    style::window(context, "Physics exam", &mut open, place, |ui| {
+        ui.set_width(WIDTH);
+        let about = "Known answers of theory and experiment, computed in the background and compared.";
+        ui.label(RichText::new(about).color(style::WEAK));
+        if let Some(wanted) = controls(ui, &desk, setup.preset) {
+            desk.wanted = wanted;
+        }
+        if !desk.rows.is_empty() {
+            ui.separator();
+            headings(ui);
+            table(ui, &desk.rows, (screen.height() - 350.0).max(4.0 * LINE));
+            ui.separator();
+            summary(ui, &desk.rows);
+        }
+    });
+    if !open {
+        state.exam = false;
+    }
+    Ok(())
+}
+
+/// Begins and stops; what is wanted from now on, if that was changed.
+fn controls(ui: &mut Ui, desk: &ExamDesk, preset: Preset) -> Option<Option<Vec<Preset>>> {
+    let mut wanted = None;
+    ui.horizontal(|ui| {
+        if desk.wanted.is_some() {
+            if style::main_button(ui, "Stop").clicked() {
+                wanted = Some(None);
+            }
+        } else {
+            if style::main_button(ui, "Examine").on_hover_text("the quality that is played at").clicked() {
+                wanted = Some(Some(vec![preset]));
+            }
+            if ui.button("all qualities").on_hover_text("takes some minutes").clicked() {
+                wanted = Some(Some(Preset::ALL.to_vec()));
+            }
+        }
+        match &desk.progress {
+            Progress::Idle => {}
+            Progress::Running { done, of, now } => {
+                let share = *done as f32 / (*of).max(1) as f32;
+                ui.add(egui::ProgressBar::new(share).desired_width(160.0).text(format!("{done} of {of}")));
+                ui.label(RichText::new(now).small().color(style::WEAK));
+            }
+            Progress::Done => drop(ui.label(RichText::new("done").color(style::WEAK))),
+            Progress::Stopped => drop(ui.label(RichText::new("stopped").color(style::WEAK))),
+            Progress::Broken(why) => drop(ui.label(RichText::new(why).color(style::WARN))),
+        }
+    });
+    wanted
+}
+
+fn headings(ui: &mut Ui) {
+    let (rect, _) = ui.allocate_exact_size(vec2(WIDTH, LINE), egui::Sense::hover());
+    let font = egui::TextStyle::Small.resolve(ui.style());
+    for (column, heading) in HEADINGS.into_iter().enumerate() {
+        put(ui, rect, column, heading, &font, style::WEAK);
+    }
+}
+
+/// A line of the table.
+enum Line<'a> {
+    /// The case that the rows below belong to.
+    Case(&'static str),
+    /// A row.
+    Row(&'a Row),
+}
+
+/// The rows under the names of their cases.
+fn lines(rows: &[Row]) -> Vec<Line<'_>> {
+    let mut lines = Vec::new();
+    for (k, row) in rows.iter().enumerate() {
+        if k == 0 || rows[k - 1].case != row.case {
+            lines.push(Line::Case(row.title));
+        }
+        lines.push(Line::Row(row));
+    }
+    lines
+}
+
+/// The rows; of a long table only what is seen is laid out.
+fn table(ui: &mut Ui, rows: &[Row], height: f32) {
+    let lines = lines(rows);
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let area = egui::ScrollArea::vertical().max_height(height).stick_to_bottom(true);
+    area.show_rows(ui, LINE, lines.len(), |ui, seen| {
+        for line in &lines[seen] {
+            let (rect, _) = ui.allocate_exact_size(vec2(WIDTH, LINE), egui::Sense::hover());
+            match line {
+                Line::Case(title) => {
+                    let font = egui::TextStyle::Button.resolve(ui.style());
+                    ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, title, font, Color32::WHITE);
+                }
+                Line::Row(row) => show_row(ui, rect, row),
+            }
+        }
+    });
+}
+
+fn show_row(ui: &Ui, rect: egui::Rect, row: &Row) {
+    let (icon, colour) = mark(row.verdict);
+    icons::draw(ui.painter(), icons::square(rect.left_center() + vec2(11.0, 0.0), 11.0), icon, colour);
+    let (text, figures) = (egui::TextStyle::Body.resolve(ui.style()), egui::TextStyle::Small.resolve(ui.style()));
+    let [expected, got, error, allowed] = row.figures();
+    put(ui, rect, 0, row.quantity, &text, style::TEXT);
+    put(ui, rect, 1, &row.setting, &figures, style::WEAK);
+    put(ui, rect, 2, &expected, &figures, style::WEAK);
+    put(ui, rect, 3, &got, &figures, style::TEXT);
+    put(ui, rect, 4, &error, &figures, colour);
+    put(ui, rect, 5, &allowed, &figures, style::WEAK);
+}
+
+fn put(ui: &Ui, rect: egui::Rect, column: usize, text: &str, font: &egui::FontId, colour: Color32) {
+    let align = if column < 2 { Align2::LEFT_CENTER } else { Align2::RIGHT_CENTER };
+    ui.painter().text(pos2(rect.left() + COLUMNS[column], rect.center().y), align, text, font.clone(), colour);
+}
+
+/// How a verdict looks.
+fn mark(verdict: Verdict) -> (Icon, Color32) {
+    match verdict {
+        Verdict::Pass => (Icon::Check, style::GOOD),
+        Verdict::Miss => (Icon::Close, style::WARN),
+        Verdict::Fail => (Icon::Close, style::BAD),
+    }
+}
+
+/// How many rows came out how.
+fn summary(ui: &mut Ui, rows: &[Row]) {
+    ui.horizontal(|ui| {
+        for (verdict, name) in
+            [(Verdict::Pass, "within"), (Verdict::Miss, "beyond, below balanced"), (Verdict::Fail, "beyond")]
+        {
+            let count = rows.iter().filter(|row| row.verdict == verdict).count();
+            let (icon, colour) = mark(verdict);
+            let (rect, _) = ui.allocate_exact_size(vec2(12.0, LINE), egui::Sense::hover());
+            icons::draw(ui.painter(), icons::square(rect.center(), 11.0), icon, colour);
+            ui.label(RichText::new(format!("{count} {name}")).color(if count > 0 { colour } else { style::WEAK }));
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_case_has_one_heading_above_its_rows() {
+        let row = |case: &'static str| Row {
+            case,
+            title: case,
+            quantity: "q",
+            setting: "fast".into(),
+            unit: "m",
+            expected: 1.0,
+            got: 1.0,
+            relative: true,
+            error: 0.0,
+            tolerance: 0.1,
+            verdict: Verdict::Pass,
+            milliseconds: 1.0,
+        };
+        let rows = [row("fall"), row("fall"), row("wave")];
+        let headings: Vec<usize> = (lines(&rows).iter().enumerate())
+            .filter_map(|(k, line)| matches!(line, Line::Case(_)).then_some(k))
+            .collect();
+        assert_eq!(headings, [0, 3]);
+    }
+}

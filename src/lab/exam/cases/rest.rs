@@ -1,0 +1,80 @@
+//! Water at rest in a tank.
+
+use crate::{
+    kernel::units::TICKS_PER_SECOND,
+    lab::{
+        density::surroundings,
+        exam::{
+            case::{
+                Case, Finding, Over, Setting,
+                Tolerance::{Share, Within},
+            },
+            world::{Clockwork, Stage, builtin},
+        },
+        stats,
+    },
+    scene::SceneError,
+    sim::state::Rock,
+};
+
+pub(in crate::lab::exam) const HYDROSTATIC: Case = Case {
+    name: "hydrostatic",
+    title: "Hydrostatic column",
+    setup: "The scene `hydrostatic`, 40 particles wide and 60 deep. After 8 s of rest, means over 2 s.",
+    answer: "Water is incompressible: the density is 1 at every depth, the surface stands where the volume puts it, and \
+             nothing moves.",
+    tolerance: "Density and height: 2 %, the project's bound; the predictor itself aims 1 % under rest density. Motion: \
+                0.02 d a tick, which is calm to the eye.",
+    over: Over::Qualities,
+    quick: false,
+    run: |setting, clockwork| Box::pin(hydrostatic(setting, clockwork)),
+};
+
+/// Particles along the width and the depth.
+const SIZE: (u32, u32) = (40, 60);
+
+async fn hydrostatic(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, SceneError> {
+    let (columns, depth) = (f64::from(SIZE.0), f64::from(SIZE.1));
+    let blueprint = builtin("hydrostatic", &[("columns", columns), ("depth", depth)], &setting)?;
+    let mut stage = Stage::new(blueprint, &clockwork);
+    stage.run(8.0).await;
+    let (mut surface, mut motion, mut low, mut high) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for _ in 0..12 {
+        stage.run(1.0 / 6.0).await;
+        let matter = stage.matter();
+        surface.push(matter.surface().unwrap_or(f64::NAN));
+        let balance = matter.balance();
+        motion.push((2.0 * balance.kinetic / balance.mass).sqrt() / stage.spacing() / f64::from(TICKS_PER_SECOND));
+        low.push(density(&stage, 0.0, depth / 3.0));
+        high.push(density(&stage, depth * 2.0 / 3.0, depth));
+    }
+    let mean = |values: &[f64]| stats::mean(values).unwrap_or(f64::NAN);
+    Ok(vec![
+        Finding {
+            quantity: "height of the surface",
+            unit: "m",
+            expected: depth * stage.spacing(),
+            got: mean(&surface),
+            tolerance: Share(0.02),
+        },
+        Finding { quantity: "density, lowest third", unit: "", expected: 1.0, got: mean(&low), tolerance: Share(0.02) },
+        Finding {
+            quantity: "density, highest third",
+            unit: "",
+            expected: 1.0,
+            got: mean(&high),
+            tolerance: Share(0.02),
+        },
+        Finding { quantity: "rms speed", unit: "d/tick", expected: 0.0, got: mean(&motion), tolerance: Within(0.02) },
+    ])
+}
+
+/// Mean density of the particles inside the liquid between two heights, d.
+fn density(stage: &Stage, from: f64, to: f64) -> f64 {
+    let matter = stage.matter();
+    let locals = surroundings(matter.particles, stage.world().resource::<Rock>(), matter.domain.size);
+    let inside = (locals.iter().zip(&matter.particles.y))
+        .filter(|(local, y)| local.interior && (from..to).contains(&f64::from(**y)))
+        .map(|(local, _)| local.density);
+    stats::mean(&inside.collect::<Vec<_>>()).unwrap_or(f64::NAN)
+}

@@ -1,0 +1,104 @@
+//! A shear layer damped by XSPH viscosity.
+
+use crate::{
+    kernel::{
+        element::{Element, ElementTable},
+        units::TICKS_PER_SECOND,
+    },
+    lab::{
+        exam::{
+            case::{Case, Finding, Over, Setting, Tolerance::Share},
+            world::{Clockwork, Stage, own},
+        },
+        stats,
+    },
+    scene::{
+        SceneError,
+        blueprint::{Effect, Mode},
+    },
+};
+use std::{f64::consts::PI, sync::Arc};
+
+pub(in crate::lab::exam) const SHEAR_LAYER: Case = Case {
+    name: "shear_layer",
+    title: "Shear layer",
+    setup: "A full channel of 12 m × 1 m (assets/exam/shear_layer.ron) in which the water runs at `U cos(k y)`, \
+            U = 0.1 m/s, k = π/1 m; it is thick (XSPH c = 0.5). How fast U falls in the middle third from 0.1 s to 1 s, with \
+            viscosity and without; the difference of the two rates is the viscosity's.",
+    answer: "Each tick XSPH replaces v by its mean with the weights `c W`: a wave `cos(k y)` keeps the share \
+             `1 − c Σ W (1 − cos k y)` over the lattice's neighbours, in the continuum `1 − c k² h²/20` (for poly6 \
+             `∫ y² W = h²/10`). The rate is that times the ticks in a second: a kinematic viscosity of `c h²/20` a tick.",
+    tolerance: "10 %: the particles leave the lattice that the sum is taken over.",
+    over: Over::Qualities,
+    quick: false,
+    run: |setting, clockwork| Box::pin(shear_layer(setting, clockwork)),
+};
+
+/// Speed at the start, d/s, and height of the channel, d.
+const SPEED: f32 = 1.0;
+const HEIGHT: f64 = 10.0;
+/// Simulated time, s, of which the first part is left to the particles to find their places.
+const SECONDS: f64 = 1.0;
+const SETTLE: f64 = 0.1;
+/// XSPH viscosity c: so thick that the particles finding their places does not matter beside it.
+const VISCOSITY: f32 = 0.5;
+
+async fn shear_layer(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, SceneError> {
+    let mut rates = [0.0; 2];
+    let mut expected = f64::NAN;
+    for (rate, mode) in rates.iter_mut().zip([Mode::On, Mode::Off]) {
+        let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/exam/shear_layer.ron"));
+        let mut blueprint = own("shear_layer", text, &[], &setting)?;
+        blueprint.effects.insert(Effect::Viscosity, mode);
+        let thick = |(_, element): (_, &Element)| Element { viscosity: VISCOSITY, ..element.clone() };
+        blueprint.elements = Arc::new(ElementTable::new(blueprint.elements.iter().map(thick).collect()));
+        let particles = &mut blueprint.particles;
+        for i in 0..particles.len() {
+            particles.vx[i] = SPEED * (PI * f64::from(particles.y[i]) / HEIGHT).cos() as f32;
+        }
+        let mut stage = Stage::new(blueprint, &clockwork);
+        let mut curve = Vec::new();
+        while stage.seconds() < SECONDS {
+            stage.tick().await;
+            if stage.seconds() >= SETTLE {
+                curve.push((stage.seconds(), amplitude(&stage).ln()));
+            }
+        }
+        *rate = stats::line(&curve).map_or(f64::NAN, |(slope, _)| -slope);
+        expected = theory(&stage);
+    }
+    Ok(vec![Finding {
+        quantity: "rate at which XSPH damps it",
+        unit: "1/s",
+        expected,
+        got: rates[0] - rates[1],
+        tolerance: Share(0.10),
+    }])
+}
+
+/// Amplitude of `cos(k y)` in the velocity along the channel, d/s.
+fn amplitude(stage: &Stage) -> f64 {
+    let matter = stage.matter();
+    let (particles, width) = (matter.particles, matter.domain.size.x);
+    let (mut sum, mut norm) = (0.0, 0.0);
+    for i in (0..particles.len()).filter(|&i| (width / 3.0..width * 2.0 / 3.0).contains(&particles.x[i])) {
+        let wave = (PI * f64::from(particles.y[i]) / HEIGHT).cos();
+        sum += f64::from(particles.vx[i]) * wave;
+        norm += wave * wave;
+    }
+    sum / norm
+}
+
+/// The rate by the sum over the lattice, 1/s.
+fn theory(stage: &Stage) -> f64 {
+    let h = f64::from(stage.quality().kernel_radius);
+    let (mut loss, mut norm) = (0.0, 0.0);
+    for x in -4..=4 {
+        for y in -4..=4 {
+            let w = (h * h - f64::from(x * x + y * y)).max(0.0).powi(3);
+            loss += w * (1.0 - (PI / HEIGHT * f64::from(y)).cos());
+            norm += w;
+        }
+    }
+    -(1.0 - f64::from(VISCOSITY) * loss / norm).ln() * f64::from(TICKS_PER_SECOND)
+}

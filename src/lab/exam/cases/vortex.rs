@@ -1,0 +1,97 @@
+//! A Taylor–Green vortex in the air.
+
+use crate::{
+    kernel::sources::{Rect, Wind},
+    lab::{
+        exam::{
+            case::{
+                Case, Finding, Over, Setting,
+                Tolerance::{Share, Within},
+            },
+            world::{Clockwork, Stage, own},
+        },
+        stats,
+    },
+    scene::SceneError,
+    sim::state::Sources,
+};
+use glam::Vec2;
+use std::f64::consts::PI;
+
+pub(in crate::lab::exam) const VORTEX: Case = Case {
+    name: "vortex",
+    title: "Taylor–Green vortex",
+    setup: "`u = U sin(k x) cos(k y)`, `v = −U cos(k x) sin(k y)` in a closed box of 12 m without rock, k = π/12 m, \
+            U = 5 m/s = c/8. A fan in every cell brings the air to that speed in one tick; then the fans are taken away \
+            (assets/exam/vortex.ron). Its energy is followed for 2.4 s, on cells of the quality and on cells half as large.",
+    answer: "Without viscosity the vortex would last. Forward advection is an upwind scheme: along each axis it diffuses with \
+             ½ |u| Δx. Averaged over the vortex, `dE/dt = −Δx U³ k² (⟨|s|c²⟩⟨|c|³⟩ + ⟨|s|³⟩⟨|c|s²⟩) = −0.180 Δx U³ k²`, \
+             which a viscosity `ν = 0.180 U Δx` would do, too (`dE/dt = −4 ν k² E`, E = ¼ U²). It falls with U: \
+             `√(E₀/E) = 1 + 2 ν₀ k² t`. Half the cell has half the viscosity: order 1.",
+    tolerance: "Viscosity: 10 %; the terms of second order, `½ u² Δt`, take 4 % off at this Courant number, sound and walls \
+                take a little energy. Order: 0.15.",
+    over: Over::Air,
+    quick: true,
+    run: |setting, clockwork| Box::pin(vortex(setting, clockwork)),
+};
+
+/// Speed U, m/s, and edge of the box, m.
+const SPEED: f64 = 5.0;
+const EDGE: f64 = 12.0;
+/// Time over which it is followed, s: that in which U crosses the box.
+const SECONDS: f64 = EDGE / SPEED;
+
+async fn vortex(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, SceneError> {
+    let (cell, coarse) = viscosity(1.0, &setting, &clockwork).await?;
+    let (_, fine) = viscosity(0.5, &setting, &clockwork).await?;
+    let shares = 2.0 * (2.0 / (3.0 * PI)) * (4.0 / (3.0 * PI));
+    Ok(vec![
+        Finding {
+            quantity: "numerical viscosity",
+            unit: "m²/s",
+            expected: shares * SPEED * cell,
+            got: coarse,
+            tolerance: Share(0.10),
+        },
+        Finding {
+            quantity: "order of convergence",
+            unit: "",
+            expected: 1.0,
+            got: (coarse / fine).log2(),
+            tolerance: Within(0.15),
+        },
+    ])
+}
+
+/// Edge of a cell, m, and viscosity on it, m²/s, with cells `finer` times the quality's.
+async fn viscosity(finer: f32, setting: &Setting, clockwork: &Clockwork) -> Result<(f64, f64), SceneError> {
+    let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/exam/vortex.ron"));
+    let mut blueprint = own("vortex", text, &[], setting)?;
+    blueprint.quality.air_cell *= finer;
+    let (cell, size) = (blueprint.quality.air_cell, blueprint.domain.size);
+    let speed = blueprint.scale.to_kernel(SPEED as f32);
+    let cells = (size / cell).round().as_ivec2();
+    for row in 0..cells.y {
+        for column in 0..cells.x {
+            let min = Vec2::new(column as f32, row as f32) * cell;
+            let place = (min + 0.5 * cell).as_dvec2() / size.as_dvec2() * PI;
+            let velocity = Vec2::new((place.x.sin() * place.y.cos()) as f32, -(place.x.cos() * place.y.sin()) as f32);
+            // So strong that the air is at its speed after one tick.
+            let fan = Wind { area: Rect { min, max: min + cell }, velocity: velocity * speed, rate: 1e6 };
+            blueprint.winds.push(fan);
+        }
+    }
+    let d = f64::from(blueprint.scale.spacing);
+    let mut stage = Stage::new(blueprint, clockwork);
+    stage.tick().await;
+    stage.world_mut().resource_mut::<Sources>().winds.clear();
+    let start = stage.air().kinetic_energy();
+    let (begun, wave) = (stage.seconds(), PI / EDGE);
+    let mut curve = vec![(0.0, 0.0)];
+    while stage.seconds() - begun < SECONDS {
+        stage.tick().await;
+        curve.push((stage.seconds() - begun, (start / stage.air().kinetic_energy()).sqrt() - 1.0));
+    }
+    let slope = stats::line(&curve).map_or(f64::NAN, |(slope, _)| slope);
+    Ok((f64::from(cell) * d, slope / (2.0 * wave * wave)))
+}

@@ -1,0 +1,126 @@
+//! Where the physics exam and the game meet: the game asks for an exam and shows its rows, the lab sits it and writes
+//! them. Neither knows the other.
+
+use crate::kernel::params::Preset;
+use bevy::prelude::Resource;
+use serde::Serialize;
+
+/// How a row came out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Within the tolerance.
+    Pass,
+    /// Beyond the tolerance at a quality that promises nothing: `classic`, `draft` or `fast`.
+    Miss,
+    /// Beyond the tolerance at `balanced` or better.
+    Fail,
+}
+
+/// One quantity of one case in one setting: what is known and what came out.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// Name of the case.
+    pub case: &'static str,
+    /// Heading of the case.
+    #[serde(skip)]
+    pub title: &'static str,
+    /// What was measured.
+    pub quantity: &'static str,
+    /// The quality, or the settings of the air.
+    pub setting: String,
+    /// Unit of `expected` and `got`; empty for a ratio.
+    pub unit: &'static str,
+    /// The known answer.
+    pub expected: f64,
+    /// What the program gave.
+    pub got: f64,
+    /// Whether `error` and `tolerance` are shares of `expected`, or else in its unit.
+    pub relative: bool,
+    /// |got − expected|.
+    pub error: f64,
+    /// Largest error that passes.
+    pub tolerance: f64,
+    /// How it came out.
+    pub verdict: Verdict,
+    /// Time that simulating the case took in this setting, ms; the rows of a case share it.
+    pub milliseconds: f64,
+}
+
+impl Row {
+    /// What was expected, what came, the error and the tolerance, in words.
+    pub fn figures(&self) -> [String; 4] {
+        let with_unit = |value: f64| format!("{} {}", figure(value), self.unit).trim_end().to_owned();
+        let distance =
+            |value: f64| if self.relative { format!("{} %", figure(100.0 * value)) } else { with_unit(value) };
+        [with_unit(self.expected), with_unit(self.got), distance(self.error), distance(self.tolerance)]
+    }
+}
+
+/// A number to four figures.
+fn figure(value: f64) -> String {
+    match value.abs() {
+        0.0 => "0".to_owned(),
+        size if !size.is_finite() => "none".to_owned(),
+        size if !(1e-3..1e5).contains(&size) => format!("{value:.1e}"),
+        size => {
+            let digits = (3 - size.log10().floor() as i32).clamp(0, 4) as usize;
+            let text = format!("{value:.digits$}");
+            if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+        }
+    }
+}
+
+/// How far the exam has come.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Progress {
+    /// Nobody has asked for one.
+    #[default]
+    Idle,
+    /// It runs.
+    Running {
+        /// Cases done, each in one setting.
+        done: usize,
+        /// Cases in all.
+        of: usize,
+        /// What is simulated now.
+        now: String,
+    },
+    /// All rows are there.
+    Done,
+    /// It was stopped before its end.
+    Stopped,
+    /// It can't go on: why.
+    Broken(String),
+}
+
+/// What the game wants of the exam, and what has come of it. Written by the game (`wanted`) and by the lab (the rest).
+#[derive(Resource, Clone, Debug, Default, PartialEq)]
+pub struct ExamDesk {
+    /// The qualities at which an exam shall be sat. Taking it back stops it; it is taken back at its end.
+    pub wanted: Option<Vec<Preset>>,
+    /// How far it has come.
+    pub progress: Progress,
+    /// The rows that are there, in the order in which they came.
+    pub rows: Vec<Row>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_have_four_digits_at_most() {
+        for (value, text) in [
+            (0.0, "0"),
+            (9.81, "9.81"),
+            (1.66666, "1.667"),
+            (-0.012345, "-0.0123"),
+            (12345.6, "12346"),
+            (2e-7, "2.0e-7"),
+            (f64::NAN, "none"),
+        ] {
+            assert_eq!(figure(value), text);
+        }
+    }
+}
