@@ -40,7 +40,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let trace = arguments.trace.as_deref().map(Tracing::create).transpose()?;
 
     let begun = Instant::now();
-    let mut headless = Headless::begin(Workers::default(), |world| start.load(world));
+    let mut headless = Headless::begin(Workers::default(), |world| start.load(world, arguments.simd));
     let mut sampler = arguments.metrics.is_some().then(|| Sampler::new(headless.world(), plan.warmup));
     let trace = simulate(&mut headless, &plan, sampler.as_mut(), trace)?;
     let seconds = begun.elapsed().as_secs_f64();
