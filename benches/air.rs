@@ -2,14 +2,23 @@
 //!
 //! Criterion's `thrpt` is cells × substeps a second; its inverse is the time of one (250 Melem/s are 4 ns).
 //!
-//! Best of many ticks on one thread of a shared AMD EPYC, SSE2, commit a518975: 64² 5.2 ns, 153 × 96 4.5 ns, 512² 5.4 ns;
-//! 153 × 96 without rock 3.7 ns. (The Powder Toy: 22.5 ns.)
+//! Medians on one thread of a shared AMD EPYC (family 26), interleaved with what was before, which knew SSE2 only:
+//!
+//! | cells | AVX-512 | AVX2 | SSE2 | scalar | before |
+//! |---|---|---|---|---|---|
+//! | 64 × 64 | 3.4 ns | 3.8 ns | 5.1 ns | 14.3 ns | 5.7 ns |
+//! | 153 × 96 | 3.3 ns | 3.7 ns | 4.8 ns | 15.3 ns | 5.0 ns |
+//! | 512 × 512 | 3.5 ns | 3.7 ns | 4.8 ns | 16.7 ns | 4.9 ns |
+//!
+//! (The Powder Toy: 22.5 ns.)
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::{IVec2, Vec2};
 use powder_master::kernel::air::Air;
 use powder_master::kernel::element::ElementId;
+use powder_master::kernel::parallel::Team;
 use powder_master::kernel::params::{AirParams, OpenSides};
+use powder_master::kernel::simd::InstructionSet;
 use powder_master::kernel::solids::Solids;
 use powder_master::kernel::units::TICK_SECONDS;
 use std::time::{Duration, Instant};
@@ -45,8 +54,10 @@ fn substep(c: &mut Criterion) {
     let mut group = c.benchmark_group("air");
     for (columns, rows) in [(64, 64), (153, 96), (512, 512)] {
         group.throughput(Throughput::Elements((columns * rows) as u64));
-        for parallel in [false, true] {
-            let name = if parallel { "threads" } else { "one thread" };
+        let alone = InstructionSet::available().into_iter().map(|instructions| Team { instructions, threads: 1 });
+        let together = Team { instructions: InstructionSet::detect(), threads: rayon::current_num_threads() };
+        for team in alone.chain([together]) {
+            let name = format!("{} on {}", team.instructions.name(), team.threads);
             group.bench_function(BenchmarkId::new(name, format!("{columns} × {rows}")), |bencher| {
                 let mut air = windy(columns, rows);
                 let size = Vec2::new(columns as f32, rows as f32) * CELL;
@@ -55,7 +66,7 @@ fn substep(c: &mut Criterion) {
                     while substeps < iterations {
                         stir(&mut air, size);
                         let start = Instant::now();
-                        substeps += u64::from(air.step(&[], 0.7, TICK_SECONDS, parallel).substeps);
+                        substeps += u64::from(air.step(&[], 0.7, team, TICK_SECONDS).substeps);
                         spent += start.elapsed();
                     }
                     spent.div_f64(substeps as f64 / iterations as f64)

@@ -83,6 +83,8 @@ fn bad_usage_is_one_line_that_says_what_is_allowed() {
         (&["run", "waterfall", "--ticks", "1.5"], &["--ticks", "whole numbers"]),
         (&["run", "waterfall", "--ticks", "5", "--seconds", "1"], &["--ticks", "--seconds"]),
         (&["run", "waterfall", "--threads", "0"], &["--threads", "from 1"]),
+        (&["run", "waterfall", "--simd", "avx1024"], &["--simd", "allowed on this processor: auto, ", "scalar"]),
+        (&["play", "--simd", "fast"], &["--simd", "allowed on this processor: auto, ", "scalar"]),
         (&["run", "waterfall", "--ticks", "5", "--warmup", "5"], &["--warmup", "allowed: 0 to 4"]),
         (&["run", "waterfall", "--quality", "best"], &["best", "classic, draft, fast, balanced, fine, reference"]),
         (&["run", "waterfall", "--set", "wind"], &["KEY=VALUE"]),
@@ -189,7 +191,7 @@ fn metrics_have_all_keys() {
     let here = folder("metrics_keys");
     let found = metrics(&here, &SMALL);
     for (group, keys) in [
-        ("", "scene quality threads ticks sim_seconds wall_seconds hash memory_bytes"),
+        ("", "scene quality threads simd ticks sim_seconds wall_seconds hash memory_bytes"),
         ("/particles", "total by_element"),
         ("/particles/by_element", "rock water"),
         ("/ms_per_tick", "median p95 max"),
@@ -211,6 +213,7 @@ fn metrics_have_all_keys() {
     assert_eq!(found["scene"], "dam_break");
     assert_eq!(found["quality"], "balanced");
     assert_eq!(found["ticks"], 45);
+    assert_eq!(metrics(&here, &[&SMALL[..], &["--simd", "scalar"]].concat())["simd"], "scalar");
     assert_eq!(found["sim_seconds"], 0.75);
     assert_eq!(found["particles"]["total"], 8 * 16);
     assert_eq!(found["hash"].as_str().map(str::len), Some(16));
@@ -289,6 +292,8 @@ fn watching_and_threads_never_change_the_world() {
     assert_eq!(hash(&[]), plain, "twice the same");
     assert_eq!(hash(&["--threads", "1"]), plain);
     assert_eq!(hash(&["--threads", "3"]), plain);
+    assert_eq!(hash(&["--simd", "auto"]), plain);
+    assert_eq!(hash(&["--simd", "scalar"]), plain);
     let watched = hash(
         &[
             ["--metrics", "m.json"],

@@ -1,7 +1,7 @@
 //! What the command line understands.
 
 use crate::{
-    kernel::{params::Preset, units::TICKS_PER_SECOND},
+    kernel::{params::Preset, simd::InstructionSet, units::TICKS_PER_SECOND},
     lab::exam::CASES,
     scene::blueprint::{Effect, Mode},
 };
@@ -224,6 +224,9 @@ pub(super) struct PlayOptions {
     /// Threads of the simulation [default: all]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
     pub(super) threads: Option<u64>,
+    /// Instruction set of the simulation: auto, or a narrower one than the processor's best
+    #[arg(long, value_name = "SET", default_value = "auto", hide_default_value = true, value_parser = simd)]
+    pub(super) simd: InstructionSet,
     /// Record what is played, for `run SCENE --replay FILE`
     #[arg(long, value_name = "FILE")]
     pub(super) record: Option<PathBuf>,
@@ -252,6 +255,9 @@ pub(super) struct RunArguments {
     /// Threads of the simulation; they never change the result [default: all]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
     pub(super) threads: Option<u64>,
+    /// Instruction set of the simulation: auto, or a narrower one than the processor's best; it never changes the result
+    #[arg(long, value_name = "SET", default_value = "auto", hide_default_value = true, value_parser = simd)]
+    pub(super) simd: InstructionSet,
     /// Ticks at the start that are left out of times and accuracy samples
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true, allow_negative_numbers = true,
           value_parser = warmup)]
@@ -323,6 +329,17 @@ fn cap(text: &str) -> Result<f64, String> {
     seconds.ok_or_else(|| format!("allowed: seconds from 0 to {MOST_SECONDS}"))
 }
 
+fn simd(text: &str) -> Result<InstructionSet, String> {
+    if text == "auto" {
+        return Ok(InstructionSet::detect());
+    }
+    let sets = InstructionSet::available();
+    sets.iter().copied().find(|set| set.name() == text).ok_or_else(|| {
+        let names: Vec<&str> = sets.into_iter().map(InstructionSet::name).collect();
+        format!("allowed on this processor: auto, {}", names.join(", "))
+    })
+}
+
 fn preset(text: &str) -> Result<Preset, String> {
     Preset::find(text).ok_or_else(|| format!("allowed: {}", Preset::ALL.map(Preset::name).join(", ")))
 }
@@ -373,6 +390,26 @@ mod tests {
         for bad in ["0", "-1", "0.001", "nan", "inf", "-inf", "1e300", "100001", "", "ten"] {
             assert!(seconds(bad).is_err_and(|message| message.contains("allowed")), "{bad} passed");
         }
+    }
+
+    #[test]
+    fn only_sets_that_the_processor_has_can_be_asked_for() {
+        assert_eq!(simd("auto"), Ok(InstructionSet::detect()));
+        for set in InstructionSet::available() {
+            assert_eq!(simd(set.name()), Ok(set));
+        }
+        for bad in ["", "AVX2", "avx1024", "neon2"] {
+            assert!(
+                simd(bad).is_err_and(|message| message.contains("auto") && message.contains("scalar")),
+                "{bad} passed"
+            );
+        }
+        #[cfg(target_arch = "x86_64")]
+        assert_eq!(
+            simd("avx512").is_ok(),
+            is_x86_feature_detected!("avx512f"),
+            "the passes would meet no such registers"
+        );
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! `play`: the game's window.
 
 use crate::cli::{args::PlayOptions, failure::Failure, output, start::Start, threads};
+use bevy::ecs::world::World;
 use std::path::PathBuf;
 
 /// The scene without a name.
@@ -12,17 +13,18 @@ pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Fai
     output::check(options.record.as_deref().as_slice())?;
     let start = Start::of_play(scene, options)?;
     threads::start(options.threads)?;
-    open(scene, options.record.clone(), start)
+    let load = |world: &mut World| start.load(world, options.simd);
+    open(scene, options.record.clone(), load)
 }
 
 #[cfg(feature = "app")]
-fn open(scene: &str, record: Option<PathBuf>, start: Start) -> Result<(), Failure> {
+fn open(scene: &str, record: Option<PathBuf>, load: impl FnOnce(&mut World)) -> Result<(), Failure> {
     use crate::{game, lab::exam::desk};
     use bevy::app::AppExit;
 
     match game::run(scene, record, |app| {
         app.add_plugins(desk::plugin);
-        start.load(app.world_mut());
+        load(app.world_mut());
     }) {
         Ok(AppExit::Success) => Ok(()),
         Ok(AppExit::Error(code)) => Err(Failure::Outcome(format!("the game ended with error {code}"))),
@@ -31,7 +33,7 @@ fn open(scene: &str, record: Option<PathBuf>, start: Start) -> Result<(), Failur
 }
 
 #[cfg(not(feature = "app"))]
-fn open(scene: &str, _: Option<PathBuf>, _: Start) -> Result<(), Failure> {
+fn open(scene: &str, _: Option<PathBuf>, _: impl FnOnce(&mut World)) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
         "this build has no window (it lacks the cargo feature `app`); `powder-master run {scene}` works without one"
     )))

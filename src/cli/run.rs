@@ -41,7 +41,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     threads::start(arguments.threads)?;
     let trace = arguments.trace.as_deref().map(Tracing::create).transpose()?;
 
-    let mut headless = Headless::begin(Workers::default(), |world| start.load(world));
+    let mut headless = Headless::begin(Workers::default(), |world| start.load(world, arguments.simd));
     let reference = arguments.reference.as_deref().map(|path| reference(path, headless.world(), &plan)).transpose()?;
     let mut follower = reference.as_ref().map(Follower::new);
     let begun = Instant::now();

@@ -5,7 +5,7 @@ use crate::{
         args::{PlayOptions, RunArguments},
         failure::Failure,
     },
-    kernel::params::Preset,
+    kernel::{params::Preset, simd::InstructionSet},
     scene::{
         self,
         blueprint::{Blueprint, EffectModes},
@@ -15,6 +15,7 @@ use crate::{
         effects::Effects,
         replay::Replay,
         save::{self, SaveError, Saved},
+        state::SolverState,
     },
 };
 use bevy::ecs::world::World;
@@ -102,8 +103,8 @@ impl Start {
         Ok(Self::Saved(Box::new(saved), Wishes { quality, effects }))
     }
 
-    /// Makes `world` the start.
-    pub(super) fn load(self, world: &mut World) {
+    /// Makes `world` the start, to be simulated on the lanes of `instructions`.
+    pub(super) fn load(self, world: &mut World, instructions: InstructionSet) {
         match self {
             Self::Scene(blueprint) => control::load(world, Arc::new(*blueprint)),
             Self::Saved(saved, wishes) => {
@@ -117,6 +118,7 @@ impl Start {
                 }
             }
         }
+        world.resource_mut::<SolverState>().instructions = instructions;
     }
 }
 

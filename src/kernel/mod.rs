@@ -9,7 +9,7 @@ pub mod brush;
 pub mod checks;
 pub mod element;
 pub mod forces;
-pub(crate) mod parallel;
+pub mod parallel;
 pub mod params;
 pub mod particles;
 pub mod pbf;

@@ -85,10 +85,10 @@ fn over_from(range: Range<usize>, piece: usize, work: &(impl Fn(Range<usize>) + 
 
 /// Who does the work.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Team {
+pub struct Team {
     /// Lanes in use.
     pub instructions: InstructionSet,
-    /// Threads to use.
+    /// Threads to use of the current rayon pool; 1 is the calling thread alone.
     pub threads: usize,
 }
 

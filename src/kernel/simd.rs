@@ -22,6 +22,13 @@ pub(crate) trait Lanes:
     /// Writes the first lanes into the slice, as many as it holds.
     fn store(self, to: &mut [f32]);
 
+    /// The numbers of a row from `first` on, which must fill the lanes. Cheaper than [`Lanes::load`], which must be
+    /// ready for fewer.
+    fn of(row: &[f32], first: usize) -> Self;
+
+    /// Writes the lanes into a row from `first` on, which must hold them all.
+    fn put(self, row: &mut [f32], first: usize);
+
     /// `if self > other { self } else { other }` in each lane.
     fn max(self, other: Self) -> Self;
 
@@ -30,6 +37,15 @@ pub(crate) trait Lanes:
 
     /// Square root of each lane.
     fn sqrt(self) -> Self;
+
+    /// `if self < other { yes } else { no }` in each lane.
+    fn if_less(self, other: Self, yes: Self, no: Self) -> Self;
+
+    /// Magnitude of each lane.
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.max(Self::splat(0.0) - self)
+    }
 }
 
 /// `N` lanes as a plain array.
@@ -104,6 +120,22 @@ impl<const N: usize> Lanes for Array<N> {
     }
 
     #[inline(always)]
+    fn of(row: &[f32], first: usize) -> Self {
+        match row[first..].first_chunk::<N>() {
+            Some(full) => Self(*full),
+            None => too_short(),
+        }
+    }
+
+    #[inline(always)]
+    fn put(self, row: &mut [f32], first: usize) {
+        match row[first..].first_chunk_mut::<N>() {
+            Some(full) => *full = self.0,
+            None => too_short(),
+        }
+    }
+
+    #[inline(always)]
     fn max(self, other: Self) -> Self {
         self.zip(other, |a, b| if a > b { a } else { b })
     }
@@ -117,6 +149,28 @@ impl<const N: usize> Lanes for Array<N> {
     fn sqrt(self) -> Self {
         Self(std::array::from_fn(|lane| self.0[lane].sqrt()))
     }
+
+    #[inline(always)]
+    fn if_less(self, other: Self, yes: Self, no: Self) -> Self {
+        Self(std::array::from_fn(|lane| if self.0[lane] < other.0[lane] { yes.0[lane] } else { no.0[lane] }))
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn too_short() -> ! {
+    panic!("the row ends within the lanes");
+}
+
+/// Where lanes begin, until each of `len` entries has been in lanes. The last lanes reach back over those before them
+/// rather than past the end, so that no work may read what it writes.
+///
+/// # Panics
+/// If `len` entries don't fill the lanes.
+#[inline(always)]
+pub(crate) fn lane_starts<L: Lanes>(len: usize) -> impl Iterator<Item = usize> {
+    assert!(len >= L::WIDTH, "{len} entries don't fill {} lanes", L::WIDTH);
+    (0..len).step_by(L::WIDTH).map(move |first| first.min(len - L::WIDTH))
 }
 
 /// The whole number at or just below `at`, within `low …= high`, and what is left. What is not a number counts as low.
@@ -140,6 +194,17 @@ pub(crate) trait Pass {
     /// Does the work. Implementations are `#[inline(always)]`, so that they are compiled for the caller's registers.
     fn run<L: Lanes>(self);
 }
+
+/// Name of what every processor of the target has.
+const BASELINE: &str = if cfg!(target_arch = "x86_64") {
+    "sse2"
+} else if cfg!(target_arch = "aarch64") {
+    "neon"
+} else if cfg!(all(target_arch = "wasm32", target_feature = "simd128")) {
+    "simd128"
+} else {
+    "baseline"
+};
 
 /// Instruction set that the passes are compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -187,6 +252,18 @@ impl InstructionSet {
         sets
     }
 
+    /// Its name, as the command line takes it and the metrics give it.
+    pub fn name(self) -> &'static str {
+        match self {
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => "avx512",
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => "avx2",
+            Self::Baseline => BASELINE,
+            Self::Scalar => "scalar",
+        }
+    }
+
     /// Particles that a pass works on side by side.
     pub(crate) fn width(self) -> usize {
         match self {
@@ -212,6 +289,16 @@ impl InstructionSet {
             Self::Avx2 => unsafe { run_avx2(pass) },
             Self::Baseline => pass.run::<Array<8>>(),
             Self::Scalar => pass.run::<Array<1>>(),
+        }
+    }
+
+    /// [`Self::run`] for a pass that needs so many registers at a time that it has no use for two to a number: on lanes
+    /// that fill one register of this set.
+    #[inline]
+    pub(crate) fn run_by_register(self, pass: impl Pass) {
+        match self {
+            Self::Baseline => pass.run::<Array<4>>(),
+            _ => self.run(pass),
         }
     }
 }

@@ -17,6 +17,8 @@ pub struct Metrics {
     pub parameters: BTreeMap<String, f64>,
     /// Threads of the kernel.
     pub threads: usize,
+    /// Instruction set of the kernel, as `--simd` takes it.
+    pub simd: &'static str,
     /// Ticks run, the warm-up included.
     pub ticks: u64,
     /// Ticks left out of times and samples.

@@ -75,6 +75,7 @@ impl Sampler {
             quality_values: setup.quality,
             parameters: setup.blueprint.parameters.clone(),
             threads: world.resource::<Workers>().threads(),
+            simd: world.resource::<SolverState>().instructions.name(),
             ticks: self.ticks,
             warmup: self.warmup,
             sim_seconds: self.ticks as f64 / f64::from(TICKS_PER_SECOND),

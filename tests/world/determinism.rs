@@ -1,6 +1,6 @@
 //! The same inputs give the same bits: on every instruction set, on any number of threads, however neighbours are found.
 
-use crate::support::{Furnish, Random, Sandbox, WATER, empty_box};
+use crate::support::{Furnish, ROCK, Random, Sandbox, WATER, empty_box};
 use glam::Vec2;
 use powder_master::{
     kernel::{
@@ -10,8 +10,11 @@ use powder_master::{
         pbf::Solver,
         simd::InstructionSet,
     },
-    scene::blueprint::{Blueprint, Effect, Mode},
-    sim::intent::Intent,
+    scene::{
+        self,
+        blueprint::{Blueprint, Effect, Mode},
+    },
+    sim::{intent::Intent, state::AirGrid},
 };
 
 /// A column of water that falls over a rock, with every effect on.
@@ -85,4 +88,68 @@ fn the_same_inputs_give_the_same_world_and_others_another() {
     };
     assert_eq!(run(1), run(1), "two runs of the same inputs differ");
     assert_ne!(run(1), run(2), "the hash does not see the inputs");
+}
+
+/// The standard scenes. Those that have a size get one at which threads share particles or air, if that is not theirs
+/// by default; the others run as they are played.
+const STANDARD: [(&str, &[(&str, &str)]); 8] = [
+    ("communicating_vessels", &[("left", "6.5"), ("right", "6")]),
+    ("dam_break", &[]),
+    ("empty", &[("columns", "1200"), ("rows", "640")]),
+    ("hydrostatic", &[("columns", "100"), ("depth", "64")]),
+    ("rest_density", &[]),
+    ("sealed_air", &[]),
+    ("waterfall", &[]),
+    ("wind_tunnel", &[]),
+];
+
+/// Hash of a standard scene after 600 ticks, and whether threads had anything to share in it. `empty` is built in: water
+/// on a ledge of rock, in wind.
+fn standard_run(scene: &str, settings: &[(&str, &str)], set: InstructionSet, threads: usize) -> (u64, bool) {
+    let mut sandbox = Sandbox::scene(scene, settings).with_threads(threads).with_lanes(set);
+    let at = |x: f32, y: f32| Vec2::new(x, y);
+    if scene == "empty" {
+        let ledge = Stroke { shape: BrushShape::Square, from: at(500.0, 60.0), to: at(600.0, 60.0), radius: 4.0 };
+        let drop = Stroke::dab(BrushShape::Disc, at(560.0, 120.0), 20.0);
+        sandbox.push(Intent::Stamp { element: ROCK, stroke: ledge });
+        sandbox.push(Intent::Stamp { element: WATER, stroke: drop });
+    }
+    let mut shared = false;
+    for step in 0..20 {
+        if scene == "empty" {
+            let gust = Stroke::dab(BrushShape::Disc, at(200.0 + 40.0 * step as f32, 200.0), 150.0);
+            sandbox.push(Intent::Blow { stroke: gust, velocity: at(120.0, -40.0) });
+        }
+        sandbox.tick(30);
+        let air = sandbox.get::<AirGrid>();
+        shared |= sandbox.particles().len() >= 6_000 || (air.is_worth_sharing() && !air.is_quiet());
+    }
+    (sandbox.hash(), shared)
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "the standard scenes at their sizes need the release build")]
+fn every_standard_scene_has_the_same_bits_on_every_instruction_set() {
+    let mut names = scene::builtin_names();
+    names.sort_unstable();
+    assert_eq!(STANDARD.map(|(name, _)| name).to_vec(), names, "a standard scene is left out");
+    for (name, settings) in STANDARD {
+        let run = |set| (set, standard_run(name, settings, set, 1).0);
+        let runs: Vec<(InstructionSet, u64)> = InstructionSet::available().into_iter().map(run).collect();
+        assert!(runs.len() >= 2, "one instruction set alone proves nothing");
+        assert!(runs.iter().all(|run| run.1 == runs[0].1), "{name}: hashes after 600 ticks differ: {runs:x?}");
+    }
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "the standard scenes at their sizes need the release build")]
+fn every_standard_scene_has_the_same_bits_on_every_number_of_threads() {
+    let mut scenes_that_share = 0;
+    for (name, settings) in STANDARD {
+        let runs =
+            [1, 2, 3, 8].map(|threads| (threads, standard_run(name, settings, InstructionSet::detect(), threads)));
+        assert!(runs.iter().all(|run| run.1 == runs[0].1), "{name}: hashes after 600 ticks differ: {runs:x?}");
+        scenes_that_share += u32::from(runs[0].1.1);
+    }
+    assert!(scenes_that_share >= 5, "only {scenes_that_share} scenes are large enough to be shared");
 }

@@ -23,7 +23,9 @@
 //! **How.** A gather: row by row, sources' shares into row buffers, then for each target the sum over its three rows, in
 //! an order that a mirror image shares (middle + (one side + other side)), so that mirrored air has mirrored bits.
 
+use super::pressure::shifted;
 use super::shape::{Corner, Shape};
+use crate::kernel::simd::{Lanes, lane_starts};
 
 /// Part κ of the wave solution that a face follows, 0 … ½. Raising it kills alternating pressure sooner and damps
 /// sound: a wave of 20 cells loses `κ` × 0.8 of its height a wavelength. Changing this affects the stability limit
@@ -44,25 +46,15 @@ pub(super) struct Source<'a> {
     pub(super) filter: f32,
 }
 
-/// What pass 1 writes: whole rows, with the ring, of which only the cells of the box are touched.
-pub(super) struct Target<'a> {
-    pub(super) pressure: &'a mut [f32],
-    pub(super) momentum_x: &'a mut [f32],
-    pub(super) momentum_y: &'a mut [f32],
-}
-
-/// Flow through a face, in cells a substep. No face lets more than half a cell pass, so that two can't take more than
-/// there is. The substep's length keeps the velocities below that; only the filter can reach it, at a jump of pressure.
-#[inline(always)]
-fn face_flow(open: f32, velocities: f32, drop: f32, half: f32, filter: f32) -> f32 {
-    let flow = open * (velocities * half + drop * filter);
-    let flow = if flow > 0.5 { 0.5 } else { flow };
-    if flow < -0.5 { -0.5 } else { flow }
-}
-
-#[inline(always)]
-fn positive(x: f32) -> f32 {
-    if x > 0.0 { x } else { 0.0 }
+impl Source<'_> {
+    /// Flow through faces, in cells a substep. No face lets more than half a cell pass, so that two can't take more than
+    /// there is. The substep's length keeps the velocities below that; only the filter can reach it, at a jump of
+    /// pressure.
+    #[inline(always)]
+    fn face_flow<L: Lanes>(&self, open: L, velocities: L, drop: L) -> L {
+        let flow = open * (velocities * L::splat(self.half) + drop * L::splat(self.filter));
+        flow.min(L::splat(0.5)).max(L::splat(-0.5))
+    }
 }
 
 /// Mass and momentum that one row of sources brings to each column of a row of targets.
@@ -78,8 +70,8 @@ impl Carry {
         Self { mass: vec![0.0; n], x: vec![0.0; n], y: vec![0.0; n] }
     }
 
-    fn rows(&mut self, n: usize) -> (&mut [f32], &mut [f32], &mut [f32]) {
-        (&mut self.mass[..n], &mut self.x[..n], &mut self.y[..n])
+    fn rows(&mut self, n: usize) -> [&mut [f32]; 3] {
+        [&mut self.mass[..n], &mut self.x[..n], &mut self.y[..n]]
     }
 
     /// Adds `mass` from a cell with velocity (u, v).
@@ -91,9 +83,9 @@ impl Carry {
     }
 }
 
-/// Row buffers of a band of rows. Faces count with the cell on their right: face k is between the cells k − 1 and k.
+/// Row buffers of pass 1. Faces count with the cell on their right: face k is between the cells k − 1 and k.
 #[derive(Debug)]
-pub(super) struct Band {
+pub(super) struct Advection {
     /// Share of the cell left of a face that goes right through it.
     right: Vec<f32>,
     /// Share of the cell right of a face that goes left through it.
@@ -111,7 +103,7 @@ pub(super) struct Band {
     carry_up: [Carry; 3],
 }
 
-impl Band {
+impl Advection {
     pub(super) fn new(stride: usize) -> Self {
         let row = || vec![0.0; stride];
         let carry = || Carry::new(stride - 2);
@@ -133,87 +125,107 @@ impl Band {
         self.right.len() * 7 + self.carry_down.mass.len() * 18
     }
 
-    /// Fills the rows of `target`, of which the lowest is `first` (counted with the ring).
-    pub(super) fn run(&mut self, source: Source, first: usize, target: Target) {
-        let stride = source.stride;
-        let end = first + target.pressure.len() / stride;
+    /// Begins with a row of sources of which only the shares that go up are wanted.
+    pub(super) fn begin(&mut self) {
         self.sinking[0].fill(0.0);
-        for row in first - 1..=end {
-            self.share_sideways(source, row);
-            self.share_upright(source, row, row < end);
-            let here = row * stride..(row + 1) * stride;
-            let (u, v) = (&source.velocity_x[here.clone()], &source.velocity_y[here]);
-            self.carry(u, v);
-            self.turn_corners(source.shape, row, u, v);
-            if row > first {
-                let out = (row - 1 - first) * stride;
-                let fields = [&mut *target.pressure, &mut *target.momentum_x, &mut *target.momentum_y];
-                self.sum_up(source.shape.struck(row - 1), fields.map(|field| &mut field[out..out + stride]));
-            }
-            self.carry_level.rotate_right(1);
-            self.carry_up.rotate_right(1);
-            self.sinking.swap(0, 1);
+    }
+
+    /// Shares out a row of sources (counted with the ring). What lies above it is left out for the last one, of which
+    /// only the shares that go down are wanted.
+    #[inline(always)]
+    pub(super) fn share<L: Lanes>(&mut self, source: Source, row: usize, above: bool) {
+        self.share_sideways::<L>(source, row);
+        if above {
+            self.share_upright::<L>(source, row);
+        } else {
+            self.share_down::<L>(source, row);
         }
+        let here = row * source.stride..(row + 1) * source.stride;
+        let (u, v) = (&source.velocity_x[here.clone()], &source.velocity_y[here]);
+        self.carry::<L>(u, v);
+        self.turn_corners(source.shape, row, u, v);
+    }
+
+    /// Goes on to the next row of sources.
+    #[inline(always)]
+    pub(super) fn advance(&mut self) {
+        self.carry_level.rotate_right(1);
+        self.carry_up.rotate_right(1);
+        self.sinking.swap(0, 1);
     }
 
     /// Sideways shares of a row of sources.
-    fn share_sideways(&mut self, source: Source, row: usize) {
-        let Source { pressure, velocity_x, shape, stride, half, filter, .. } = source;
-        let (start, n) = (row * stride, stride - 1);
-        let [p0, u0] = [pressure, velocity_x].map(|field| &field[start..start + n]);
-        let [p1, u1, open] = [pressure, velocity_x, &shape.open_x].map(|field| &field[start + 1..start + 1 + n]);
+    #[inline(always)]
+    fn share_sideways<L: Lanes>(&mut self, source: Source, row: usize) {
+        let (start, n) = (row * source.stride, source.stride - 1);
+        let [p0, u0] = [source.pressure, source.velocity_x].map(|field| &field[start..start + n]);
+        let [p1, u1, open] =
+            [source.pressure, source.velocity_x, &source.shape.open_x].map(|field| &field[start + 1..start + 1 + n]);
         let (right, left) = (&mut self.right[1..=n], &mut self.left[1..=n]);
-        for i in 0..n {
-            let flow = face_flow(open[i], u0[i] + u1[i], p0[i] - p1[i], half, filter);
-            right[i] = positive(flow);
-            left[i] = positive(-flow);
+        let zero = L::splat(0.0);
+        for i in lane_starts::<L>(n) {
+            let velocities = L::of(u0, i) + L::of(u1, i);
+            let flow = source.face_flow(L::of(open, i), velocities, L::of(p0, i) - L::of(p1, i));
+            flow.max(zero).put(right, i);
+            (zero - flow).max(zero).put(left, i);
         }
     }
 
-    /// Mass of a row of sources that goes down, stays level and goes up. What lies above is left out for the last row of
-    /// a band, of which only the shares that go down are wanted.
-    fn share_upright(&mut self, source: Source, row: usize, above: bool) {
-        let Source { pressure, velocity_y, shape, stride: n, half, filter, .. } = source;
+    /// Mass of a row of sources that goes down, stays level and goes up.
+    #[inline(always)]
+    fn share_upright<L: Lanes>(&mut self, source: Source, row: usize) {
+        let n = source.stride;
         let start = row * n;
-        let p0 = &pressure[start..start + n];
+        let [p0, v0] = [source.pressure, source.velocity_y].map(|field| &field[start..start + n]);
+        let [p1, v1, open] =
+            [source.pressure, source.velocity_y, &source.shape.open_y].map(|field| &field[start + n..start + 2 * n]);
         let [sinking, sinking_next] = &mut self.sinking;
         let (sinking, sinking_next) = (&sinking[..n], &mut sinking_next[..n]);
         let (down, level, up) = (&mut self.down[..n], &mut self.level[..n], &mut self.up[..n]);
-        if !above {
-            for i in 0..n {
-                down[i] = p0[i] * sinking[i];
-            }
-            level.fill(0.0);
-            up.fill(0.0);
-            return;
-        }
-        let v0 = &velocity_y[start..start + n];
-        let [p1, v1, open] = [pressure, velocity_y, &shape.open_y].map(|field| &field[start + n..start + 2 * n]);
-        for i in 0..n {
-            let flow = face_flow(open[i], v0[i] + v1[i], p0[i] - p1[i], half, filter);
-            let rising = positive(flow);
-            sinking_next[i] = positive(-flow);
-            down[i] = p0[i] * sinking[i];
-            level[i] = p0[i] * (1.0 - (sinking[i] + rising));
-            up[i] = p0[i] * rising;
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        for i in lane_starts::<L>(n) {
+            let p = L::of(p0, i);
+            let velocities = L::of(v0, i) + L::of(v1, i);
+            let flow = source.face_flow(L::of(open, i), velocities, p - L::of(p1, i));
+            let (rising, sinks) = (flow.max(zero), L::of(sinking, i));
+            (zero - flow).max(zero).put(sinking_next, i);
+            (p * sinks).put(down, i);
+            (p * (one - (sinks + rising))).put(level, i);
+            (p * rising).put(up, i);
         }
     }
 
+    /// Mass of a row of sources that goes down.
+    #[inline(always)]
+    fn share_down<L: Lanes>(&mut self, source: Source, row: usize) {
+        let n = source.stride;
+        let p = &source.pressure[row * n..(row + 1) * n];
+        let (sinking, down) = (&self.sinking[0][..n], &mut self.down[..n]);
+        for i in lane_starts::<L>(n) {
+            (L::of(p, i) * L::of(sinking, i)).put(down, i);
+        }
+        self.level.fill(0.0);
+        self.up.fill(0.0);
+    }
+
     /// Sums what three neighbouring sources bring to each column, for all three rows of targets at once.
-    fn carry(&mut self, u: &[f32], v: &[f32]) {
+    #[inline(always)]
+    fn carry<L: Lanes>(&mut self, u: &[f32], v: &[f32]) {
         let n = self.carry_down.mass.len();
-        let (u, v) = (&u[..n + 2], &v[..n + 2]);
-        let (right, left) = (&self.right[..n + 2], &self.left[..n + 2]);
-        let (down, level, up) = (&self.down[..n + 2], &self.level[..n + 2], &self.up[..n + 2]);
-        let (down_mass, down_x, down_y) = self.carry_down.rows(n);
-        let (level_mass, level_x, level_y) = self.carry_level[0].rows(n);
-        let (up_mass, up_x, up_y) = self.carry_up[0].rows(n);
-        for i in 0..n {
-            let parts = [right[i + 1], 1.0 - (left[i + 1] + right[i + 2]), left[i + 2]];
-            let (u, v) = ([u[i], u[i + 1], u[i + 2]], [v[i], v[i + 1], v[i + 2]]);
-            (down_mass[i], down_x[i], down_y[i]) = sum_three([down[i], down[i + 1], down[i + 2]], parts, u, v);
-            (level_mass[i], level_x[i], level_y[i]) = sum_three([level[i], level[i + 1], level[i + 2]], parts, u, v);
-            (up_mass[i], up_x[i], up_y[i]) = sum_three([up[i], up[i + 1], up[i + 2]], parts, u, v);
+        let (u, v) = (shifted(u, n), shifted(v, n));
+        let [_, goes_right, leaves_right] = shifted(&self.right, n);
+        let [_, leaves_left, goes_left] = shifted(&self.left, n);
+        let carries = [&mut self.carry_down, &mut self.carry_level[0], &mut self.carry_up[0]];
+        let [mut down, mut level, mut up] = carries.map(|carry| carry.rows(n));
+        let masses = [&self.down, &self.level, &self.up].map(|row| shifted(row, n));
+        let one = L::splat(1.0);
+        for i in lane_starts::<L>(n) {
+            let stays = one - (L::of(leaves_left, i) + L::of(leaves_right, i));
+            let parts = [L::of(goes_right, i), stays, L::of(goes_left, i)];
+            let (u, v) = (three(u, i), three(v, i));
+            store_three(sum_three(three(masses[0], i), parts, u, v), &mut down, i);
+            store_three(sum_three(three(masses[1], i), parts, u, v), &mut level, i);
+            store_three(sum_three(three(masses[2], i), parts, u, v), &mut up, i);
         }
     }
 
@@ -243,7 +255,8 @@ impl Band {
     }
 
     /// Writes a row of targets: level from their own row, up from the row below, down from the row above.
-    fn sum_up(&self, struck: &[u32], targets: [&mut [f32]; 3]) {
+    #[inline(always)]
+    pub(super) fn sum_up<L: Lanes>(&self, struck: &[u32], targets: [&mut [f32]; 3]) {
         let n = self.carry_down.mass.len();
         let [_, level] = &self.carry_level;
         let [_, _, up] = &self.carry_up;
@@ -251,8 +264,9 @@ impl Band {
         let parts = [(&level.mass, &up.mass, &down.mass), (&level.x, &up.x, &down.x), (&level.y, &up.y, &down.y)];
         for (out, (level, up, down)) in targets.into_iter().zip(parts) {
             let (cells, level, up, down) = (&mut out[1..=n], &level[..n], &up[..n], &down[..n]);
-            for i in 0..n {
-                cells[i] = level[i] + (up[i] + down[i]);
+            for i in lane_starts::<L>(n) {
+                let crossing = L::of(up, i) + L::of(down, i);
+                (L::of(level, i) + crossing).put(cells, i);
             }
             // What struck rock has gone round the corner.
             for column in struck {
@@ -262,13 +276,26 @@ impl Band {
     }
 }
 
+/// Each lane's own entry and the two after it.
+#[inline(always)]
+fn three<L: Lanes>(rows: [&[f32]; 3], i: usize) -> [L; 3] {
+    [L::of(rows[0], i), L::of(rows[1], i), L::of(rows[2], i)]
+}
+
+#[inline(always)]
+fn store_three<L: Lanes>([mass, x, y]: [L; 3], [to_mass, to_x, to_y]: &mut [&mut [f32]; 3], i: usize) {
+    mass.put(to_mass, i);
+    x.put(to_x, i);
+    y.put(to_y, i);
+}
+
 /// Mass and momentum of the given parts of three cells, from left to right: middle + (left + right).
 #[inline(always)]
-fn sum_three(mass: [f32; 3], parts: [f32; 3], u: [f32; 3], v: [f32; 3]) -> (f32, f32, f32) {
+fn sum_three<L: Lanes>(mass: [L; 3], parts: [L; 3], u: [L; 3], v: [L; 3]) -> [L; 3] {
     let from = [mass[0] * parts[0], mass[1] * parts[1], mass[2] * parts[2]];
-    (
+    [
         from[1] + (from[0] + from[2]),
         from[1] * u[1] + (from[0] * u[0] + from[2] * u[2]),
         from[1] * v[1] + (from[0] * v[0] + from[2] * v[2]),
-    )
+    ]
 }

@@ -4,7 +4,7 @@
 //! memory. The ring stands at pressure 1; behind an open side it carries the velocity of the air outside (`edges`),
 //! behind a closed one it is solid.
 
-use super::advect::Band;
+use super::band::Band;
 use super::shape::Shape;
 use super::step::{AirReport, Room};
 use crate::kernel::params::{AirParams, OpenSides};
@@ -55,10 +55,9 @@ pub struct Air {
 pub(super) struct Scratch {
     pub(super) shape: Option<Shape>,
     pub(super) next_pressure: Vec<f32>,
-    pub(super) momentum_x: Vec<f32>,
-    pub(super) momentum_y: Vec<f32>,
+    pub(super) next_x: Vec<f32>,
+    pub(super) next_y: Vec<f32>,
     pub(super) bands: Vec<Band>,
-    pub(super) row_peaks: Vec<Peaks>,
     pub(super) rooms: Vec<Room>,
 }
 
@@ -74,7 +73,7 @@ impl PartialEq for Scratch {
     }
 }
 
-/// Largest values of a row or of the grid: what the next substep's length depends on.
+/// Largest values of a band or of the grid: what the next substep's length depends on.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Peaks {
     /// Largest |u|, d/s.

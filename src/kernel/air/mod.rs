@@ -9,8 +9,9 @@
 //! |---|---|---|---|
 //! | `grid` | the state, who may see it | | |
 //! | `shape` | what follows from rock: open faces, corners, rooms | `Shape` | the solid cells |
-//! | `advect` | pass 1: shares mass and momentum out | next pressure, momentum | pressure, velocity |
-//! | `pressure` | pass 2: pushes pairs | velocity | next pressure, momentum |
+//! | `advect` | pass 1: shares mass and momentum out | rows of new pressure, momentum | pressure, velocity |
+//! | `pressure` | pass 2: pushes pairs | new velocity | rows of new pressure, momentum |
+//! | `band` | both passes over some rows | new pressure, new velocity | pressure, velocity |
 //! | `edges` | the open sides | the ring around the box, outermost cells | pressure, velocity |
 //! | `step` | counts substeps, orders the passes, puts quiet air to sleep | | |
 //! | `tools` | fans and the hand of the player | velocity, pressure | |
@@ -18,6 +19,7 @@
 //! | `sample`, `measure`, `resize` | values at points, sums, another cell size | | all |
 
 mod advect;
+mod band;
 mod edges;
 mod grid;
 mod measure;

@@ -15,6 +15,8 @@
 
 use super::grid::Peaks;
 use super::shape::Shape;
+use crate::kernel::simd::{Lanes, lane_starts};
+use std::hint::black_box;
 
 /// Stands in the division of momentum by mass, so that a cell without mass has no velocity and none a division by 0.
 /// Far below a rounding of any mass that matters.
@@ -24,14 +26,9 @@ const VACUUM: f32 = 1.0e-30;
 /// would cause it, far above denormals (which cost a hundred times the time), even when shares multiply it.
 pub(super) const STILL_MACH: f32 = 1.0e-9;
 
-/// What pass 2 reads: the new pressure with the ring, and the coefficients of the substep.
+/// The coefficients of a substep.
 #[derive(Clone, Copy)]
-pub(super) struct Push<'a> {
-    pub(super) pressure: &'a [f32],
-    pub(super) momentum_x: &'a [f32],
-    pub(super) momentum_y: &'a [f32],
-    pub(super) shape: &'a Shape,
-    pub(super) stride: usize,
+pub(super) struct Push {
     /// `½ c²·dt/cell`, d/s.
     pub(super) gain: f32,
     /// dt/cell, s/d.
@@ -40,32 +37,47 @@ pub(super) struct Push<'a> {
     pub(super) still: f32,
 }
 
-impl Push<'_> {
-    /// Writes the velocities of a row (counted with the ring) and returns its peaks.
-    pub(super) fn run(&self, row: usize, velocity_x: &mut [f32], velocity_y: &mut [f32]) -> Peaks {
-        let stride = self.stride;
+/// What pass 2 reads for a row of cells, each with the ring.
+pub(super) struct Pushed<'a> {
+    /// New pressures of the row below, this row and the row above.
+    pub(super) pressure: [&'a [f32]; 3],
+    pub(super) momentum_x: &'a [f32],
+    pub(super) momentum_y: &'a [f32],
+    pub(super) shape: &'a Shape,
+    /// The row, counted with the ring.
+    pub(super) row: usize,
+}
+
+impl Push {
+    /// Writes the velocities of a row (with the ring) and returns its peaks.
+    #[inline(always)]
+    pub(super) fn run<L: Lanes>(&self, from: Pushed, velocity: [&mut [f32]; 2]) -> Peaks {
+        let stride = from.momentum_x.len();
         let n = stride - 2;
-        let start = row * stride + 1;
-        let here = &self.pressure[start..start + n];
-        let left = &self.pressure[start - 1..start - 1 + n];
-        let right = &self.pressure[start + 1..start + 1 + n];
-        let below = &self.pressure[start - stride..start - stride + n];
-        let above = &self.pressure[start + stride..start + stride + n];
-        let open_left = &self.shape.open_x[start..start + n];
-        let open_right = &self.shape.open_x[start + 1..start + 1 + n];
-        let open_below = &self.shape.open_y[start..start + n];
-        let open_above = &self.shape.open_y[start + stride..start + stride + n];
-        let (momentum_x, momentum_y) = (&self.momentum_x[start..start + n], &self.momentum_y[start..start + n]);
-        let (velocity_x, velocity_y) = (&mut velocity_x[1..=n], &mut velocity_y[1..=n]);
-        for i in 0..n {
-            let p = here[i];
-            let per_mass = 1.0 / (p + VACUUM);
-            let rise_x = open_right[i] * (right[i] - p) + open_left[i] * (p - left[i]);
-            let rise_y = open_above[i] * (above[i] - p) + open_below[i] * (p - below[i]);
-            let u = momentum_x[i] * per_mass - self.gain * rise_x;
-            let v = momentum_y[i] * per_mass - self.gain * rise_y;
-            velocity_x[i] = self.settle(u, open_left[i], open_right[i]);
-            velocity_y[i] = self.settle(v, open_below[i], open_above[i]);
+        let start = from.row * stride + 1;
+        let [below, row, above] = from.pressure;
+        let [left, here, right] = shifted(row, n);
+        let (below, above) = (&below[1..=n], &above[1..=n]);
+        let [_, open_left, open_right] = shifted(&from.shape.open_x[start - 1..], n);
+        let open_below = &from.shape.open_y[start..start + n];
+        let open_above = &from.shape.open_y[start + stride..start + stride + n];
+        let (momentum_x, momentum_y) = (&from.momentum_x[1..=n], &from.momentum_y[1..=n]);
+        let [velocity_x, velocity_y] = velocity.map(|row| &mut row[1..=n]);
+        let (gain, one) = (L::splat(self.gain), L::splat(1.0));
+        for i in lane_starts::<L>(n) {
+            let p = L::of(here, i);
+            let (left, right) = (L::of(left, i), L::of(right, i));
+            let (below, above) = (L::of(below, i), L::of(above, i));
+            let (open_left, open_right) = (L::of(open_left, i), L::of(open_right, i));
+            let (open_below, open_above) = (L::of(open_below, i), L::of(open_above, i));
+            let per_mass = one / (p + L::splat(VACUUM));
+            let rise_x = open_right * (right - p) + open_left * (p - left);
+            let rise_y = open_above * (above - p) + open_below * (p - below);
+            let u = L::of(momentum_x, i) * per_mass - gain * rise_x;
+            let v = L::of(momentum_y, i) * per_mass - gain * rise_y;
+            let (u, v) = (self.settle(u, open_left, open_right), self.settle(v, open_below, open_above));
+            u.put(velocity_x, i);
+            v.put(velocity_y, i);
         }
         Peaks { x: peak(velocity_x), y: peak(velocity_y), pressure: peak(here) }
     }
@@ -74,21 +86,29 @@ impl Push<'_> {
     /// its speed: the part |u|·dt/cell of the cell. So wind pressed against a wall dies within the time it takes to
     /// cross a cell, and faint sound, whose part is next to nothing, is thrown back whole. Energy only falls.
     #[inline(always)]
-    fn settle(&self, velocity: f32, open_low: f32, open_high: f32) -> f32 {
-        let towards_high = if velocity > 0.0 { velocity } else { 0.0 };
+    fn settle<L: Lanes>(&self, velocity: L, open_low: L, open_high: L) -> L {
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        let towards_high = velocity.max(zero);
         let towards_low = towards_high - velocity;
-        let struck = ((1.0 - open_high) * towards_high + (1.0 - open_low) * towards_low) * self.crossing;
-        let struck = if struck < 1.0 { struck } else { 1.0 };
-        let velocity = velocity - velocity * struck;
-        if velocity.abs() < self.still { 0.0 } else { velocity }
+        let struck = ((one - open_high) * towards_high + (one - open_low) * towards_low) * L::splat(self.crossing);
+        let velocity = velocity - velocity * struck.min(one);
+        velocity.abs().if_less(L::splat(self.still), zero, velocity)
     }
 }
 
-/// Largest magnitude in a row. Eight running maxima, so that the compiler uses lanes; a maximum has no order.
+/// `n` entries of a row from its first, second and third on. The compiler is kept from seeing that they overlap: it would
+/// put lanes together from others, which takes longer than loading them.
+#[inline(always)]
+pub(super) fn shifted(row: &[f32], n: usize) -> [&[f32]; 3] {
+    [0, 1, 2].map(|shift| &black_box(&row[shift..])[..n])
+}
+
+/// Largest magnitude in a row. Sixteen running maxima, so that the compiler uses lanes; a maximum has no order.
+#[inline(always)]
 pub(super) fn peak(row: &[f32]) -> f32 {
     let larger = |a: f32, b: f32| if a > b { a } else { b };
-    let mut lanes = [0.0_f32; 8];
-    let (chunks, rest) = row.as_chunks::<8>();
+    let mut lanes = [0.0_f32; 16];
+    let (chunks, rest) = row.as_chunks::<16>();
     for chunk in chunks {
         for (lane, value) in lanes.iter_mut().zip(chunk) {
             *lane = larger(value.abs(), *lane);

@@ -1,10 +1,11 @@
 //! A step of the air: how many substeps, in which order, and when the air has come to rest.
 
-use super::advect::{Band, FACE_FILTER, Source, Target};
+use super::advect::{FACE_FILTER, Source};
+use super::band::{Band, BandPass, Target};
 use super::grid::{Air, Peaks, Scratch};
 use super::pressure::{Push, STILL_MACH, peak};
 use super::shape::Shape;
-use crate::kernel::sources::Wind;
+use crate::kernel::{parallel::Team, simd::InstructionSet, sources::Wind};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::AddAssign;
@@ -24,8 +25,11 @@ pub const QUIET_MACH: f32 = 1.0e-3;
 /// Courant number of sound that is kept to when the substeps don't suffice.
 const LIMITED_COURANT: f32 = 1.0;
 
-/// Rows that one thread takes at a time. Changing this affects speed only.
-const BAND_ROWS: usize = 32;
+/// Bands that a thread gets: one may be held up. Changing this affects speed only.
+const BANDS_PER_THREAD: usize = 2;
+
+/// Fewest rows of a band: two more are made beside it. Changing this affects speed only.
+const FEWEST_ROWS: usize = 16;
 
 /// Cells from which on threads gain more than starting them costs (some 30 µs a pass).
 const PARALLEL_CELLS: usize = 32 * 1024;
@@ -61,9 +65,8 @@ impl Scratch {
         let cells = air.pressure.len();
         if self.next_pressure.len() != cells {
             self.next_pressure = vec![1.0; cells];
-            self.momentum_x = vec![0.0; cells];
-            self.momentum_y = vec![0.0; cells];
-            self.row_peaks = vec![Peaks::default(); air.rows()];
+            self.next_x = vec![0.0; cells];
+            self.next_y = vec![0.0; cells];
         }
         let bands = air.rows().div_ceil(band_rows);
         while self.bands.len() < bands {
@@ -92,15 +95,11 @@ impl Room {
     }
 }
 
-/// A row of both velocities and its peaks, for pass 2.
-type Row<'a> = (usize, ((&'a mut [f32], &'a mut [f32]), &'a mut Peaks));
-
 /// A substep's length and the speed of sound in it.
 #[derive(Clone, Copy, Debug)]
 struct Substep {
     dt: f32,
     sound_speed: f32,
-    parallel: bool,
 }
 
 impl Air {
@@ -110,9 +109,9 @@ impl Air {
     }
 
     /// Moves the air on by `dt` (s) in substeps that keep wind plus sound below `courant` cells (0.1 … 0.9; up to
-    /// [`STABLE_COURANT`] is taken). `parallel` changes the time it takes and not a bit of the result. Quiet air that no
-    /// fan drives is left untouched.
-    pub fn step(&mut self, winds: &[Wind], courant: f32, dt: f32, parallel: bool) -> AirReport {
+    /// [`STABLE_COURANT`] is taken). `team` changes the time it takes and not a bit of the result. Quiet air that no fan
+    /// drives is left untouched.
+    pub fn step(&mut self, winds: &[Wind], courant: f32, team: Team, dt: f32) -> AirReport {
         debug_assert!(dt.is_finite() && courant.is_finite());
         let mut report = std::mem::take(&mut self.pending);
         let driven = self.is_driven(winds);
@@ -122,17 +121,17 @@ impl Air {
         self.quiet = false;
         report.cells = self.columns() * self.rows();
         let courant = courant.clamp(0.01, STABLE_COURANT);
-        let parallel = parallel && self.is_worth_sharing();
+        let (instructions, band_rows) = self.division(team);
         let mut scratch = std::mem::take(&mut self.scratch);
-        scratch.prepare(self, if parallel { BAND_ROWS } else { self.rows() });
+        scratch.prepare(self, band_rows);
         let shape = scratch.shape.take().unwrap_or_else(|| Shape::new(self));
 
         let mut peaks = self.peaks();
         let mut left = dt;
         loop {
-            let (count, substep) = self.next_substep(peaks, courant, left, parallel, &mut report);
+            let (count, substep) = self.next_substep(peaks, courant, left, &mut report);
             self.refresh_outside(substep.sound_speed);
-            peaks = self.substep(substep, &shape, &mut scratch);
+            peaks = self.substep(substep, &shape, &mut scratch, instructions, band_rows);
             self.settle_edges(substep.sound_speed, substep.dt);
             peaks = peaks.max(self.blow_fans(winds, substep.dt, &mut report));
             report.substeps += 1;
@@ -149,17 +148,19 @@ impl Air {
         report
     }
 
+    /// The lanes for rows of this length, which must fill them, and the rows of a band.
+    fn division(&self, team: Team) -> (InstructionSet, usize) {
+        let instructions =
+            if self.columns() < team.instructions.width() { InstructionSet::Scalar } else { team.instructions };
+        let shared = team.threads > 1 && self.is_worth_sharing();
+        let bands = if shared { team.threads * BANDS_PER_THREAD } else { 1 };
+        (instructions, self.rows().div_ceil(bands).max(FEWEST_ROWS))
+    }
+
     /// Substeps still to make in the time `left`, and the next of them. In one of them sound and wind may cross
     /// `courant` cells together, and no velocity more than half a cell, so that two faces of a cell can't give away more
     /// than it has. Past the limit of substeps velocities are clamped to that, and sound is slowed to what is stable.
-    fn next_substep(
-        &mut self,
-        peaks: Peaks,
-        courant: f32,
-        left: f32,
-        parallel: bool,
-        report: &mut AirReport,
-    ) -> (u32, Substep) {
+    fn next_substep(&mut self, peaks: Peaks, courant: f32, left: f32, report: &mut AirReport) -> (u32, Substep) {
         let sound_speed = self.params.sound_speed;
         let sound = sound_speed * peaks.pressure.max(1.0).sqrt();
         let rate = ((peaks.x + peaks.y + sound) / courant).max(2.0 * peaks.x.max(peaks.y)) / self.cell;
@@ -167,7 +168,7 @@ impl Air {
         let wanted = (left * rate).ceil().max(1.0);
         if wanted <= budget as f32 {
             let count = wanted as u32;
-            return (count, Substep { dt: left / wanted, sound_speed, parallel });
+            return (count, Substep { dt: left / wanted, sound_speed });
         }
         let dt = left / budget as f32;
         report.speed_clamps += self.clamp_speeds(0.5 * self.cell / dt);
@@ -175,7 +176,7 @@ impl Air {
         let slowed = sound > stable;
         report.speed_clamps += u64::from(slowed);
         let sound_speed = if slowed { sound_speed * (stable / sound) } else { sound_speed };
-        (budget, Substep { dt, sound_speed, parallel })
+        (budget, Substep { dt, sound_speed })
     }
 
     fn clamp_speeds(&mut self, limit: f32) -> u64 {
@@ -189,8 +190,15 @@ impl Air {
         clamps
     }
 
-    /// Pass 1, then pass 2. A pass writes each row from what no pass writes meanwhile, so rows may be in any order.
-    fn substep(&mut self, substep: Substep, shape: &Shape, scratch: &mut Scratch) -> Peaks {
+    /// Both passes over all rows, in bands of `band_rows`.
+    fn substep(
+        &mut self,
+        substep: Substep,
+        shape: &Shape,
+        scratch: &mut Scratch,
+        instructions: InstructionSet,
+        band_rows: usize,
+    ) -> Peaks {
         let stride = self.stride();
         let crossing = substep.dt / self.cell;
         let source = Source {
@@ -202,30 +210,29 @@ impl Air {
             half: 0.5 * crossing,
             filter: FACE_FILTER * substep.sound_speed * crossing,
         };
-        let inner = stride..stride * (self.rows as usize + 1);
-        share_out(source, scratch, inner.clone(), substep.parallel);
-        std::mem::swap(&mut self.pressure, &mut scratch.next_pressure);
         let push = Push {
-            pressure: &self.pressure,
-            momentum_x: &scratch.momentum_x,
-            momentum_y: &scratch.momentum_y,
-            shape,
-            stride,
             gain: 0.5 * substep.sound_speed * substep.sound_speed * crossing,
             crossing,
             still: STILL_MACH * self.params.sound_speed,
         };
-        let (x, y) = (&mut self.velocity_x[inner.clone()], &mut self.velocity_y[inner]);
-        let work = |(row, ((x, y), peaks)): Row| *peaks = push.run(row + 1, x, y);
-        let row_peaks = &mut scratch.row_peaks;
-        if substep.parallel {
-            let rows = x.par_chunks_mut(stride).zip(y.par_chunks_mut(stride)).zip(row_peaks.par_iter_mut());
-            rows.enumerate().with_min_len(BAND_ROWS).for_each(work);
+        let Scratch { next_pressure, next_x, next_y, bands, .. } = scratch;
+        let (inner, chunk) = (stride..stride * (self.rows as usize + 1), band_rows * stride);
+        let [pressure, x, y] = [&mut *next_pressure, &mut *next_x, &mut *next_y].map(|field| &mut field[inner.clone()]);
+        let bands = &mut bands[..self.rows().div_ceil(band_rows)];
+        let work = |(k, (((pressure, velocity_x), velocity_y), band))| {
+            let target = Target { pressure, velocity_x, velocity_y };
+            instructions.run_by_register(BandPass { band, source, push, first: 1 + k * band_rows, target });
+        };
+        if let [band] = bands {
+            work((0, (((pressure, x), y), band)));
         } else {
-            let rows = x.chunks_mut(stride).zip(y.chunks_mut(stride)).zip(row_peaks.iter_mut());
-            rows.enumerate().for_each(work);
+            let targets = pressure.par_chunks_mut(chunk).zip(x.par_chunks_mut(chunk)).zip(y.par_chunks_mut(chunk));
+            targets.zip(bands.par_iter_mut()).enumerate().for_each(work);
         }
-        row_peaks.iter().copied().fold(Peaks::default(), Peaks::max)
+        std::mem::swap(&mut self.pressure, next_pressure);
+        std::mem::swap(&mut self.velocity_x, next_x);
+        std::mem::swap(&mut self.velocity_y, next_y);
+        bands.iter().map(|band| band.peaks).fold(Peaks::default(), Peaks::max)
     }
 
     /// Largest values as they stand.
@@ -257,21 +264,5 @@ impl Air {
             velocity.fill(0.0);
         }
         self.quiet = true;
-    }
-}
-
-fn share_out(source: Source, scratch: &mut Scratch, inner: std::ops::Range<usize>, parallel: bool) {
-    let Scratch { next_pressure, momentum_x, momentum_y, bands, .. } = scratch;
-    let (pressure, x, y) =
-        (&mut next_pressure[inner.clone()], &mut momentum_x[inner.clone()], &mut momentum_y[inner.clone()]);
-    if parallel {
-        let rows = BAND_ROWS;
-        let chunk = rows * source.stride;
-        let targets = pressure.par_chunks_mut(chunk).zip(x.par_chunks_mut(chunk)).zip(y.par_chunks_mut(chunk));
-        targets.zip(bands.par_iter_mut()).enumerate().for_each(|(k, (((pressure, momentum_x), momentum_y), band))| {
-            band.run(source, 1 + k * rows, Target { pressure, momentum_x, momentum_y });
-        });
-    } else {
-        bands[0].run(source, 1, Target { pressure, momentum_x: x, momentum_y: y });
     }
 }

@@ -16,7 +16,7 @@ use crate::kernel::{
     sources::{Drain, Emitter},
 };
 use glam::{IVec2, Vec2};
-use occupancy::Occupancy;
+pub use occupancy::Occupancy;
 
 /// A site is free if no particle is nearer than this, d.
 const CLEARANCE: f32 = 0.8;
@@ -77,7 +77,13 @@ impl Matter<'_> {
             velocity: Vec2::ZERO,
             most: u32::MAX,
         };
-        self.place_movable(element, stroke.bounds(self.size()), stroke.cells(self.size()), filling)
+        self.place_movable(
+            element,
+            stroke.bounds(self.size()),
+            stroke.cells(self.size()),
+            filling,
+            &mut Occupancy::default(),
+        )
     }
 
     /// Fills all free sites under the stroke at once, each particle right on its site.
@@ -85,13 +91,15 @@ impl Matter<'_> {
         if self.elements.get(element).fixed {
             return self.place_fixed(element, stroke);
         }
-        self.place_movable(element, stroke.bounds(self.size()), stroke.cells(self.size()), Filling::all())
+        let cells = stroke.cells(self.size());
+        self.place_movable(element, stroke.bounds(self.size()), cells, Filling::all(), &mut Occupancy::default())
     }
 
     /// Fills the connected free cells around a point.
     pub fn fill(&mut self, element: ElementId, at: Vec2) -> EditReport {
         let whole = Some((IVec2::ZERO, self.size() - 1));
-        let room = Occupancy::new(self.particles, IVec2::ZERO, self.size() - 1);
+        let mut room = Occupancy::default();
+        room.look(self.particles, IVec2::ZERO, self.size() - 1);
         let start = Solids::cell_of(at);
         let free = |cell: IVec2, solids: &Solids| !solids.is_solid(cell) && !room.is_near(centre(cell));
         let mut report = EditReport::default();
@@ -116,7 +124,7 @@ impl Matter<'_> {
             }
         }
         if !fixed {
-            return self.place_movable(element, whole, cells.into_iter(), Filling::all());
+            return self.place_movable(element, whole, cells.into_iter(), Filling::all(), &mut room);
         }
         for cell in cells {
             self.place_rock(element, cell, &mut report);
@@ -137,8 +145,8 @@ impl Matter<'_> {
         EditReport { removed: removed as u64, ..EditReport::default() }
     }
 
-    /// Lets a tap flow for `dt` s at tick `tick`.
-    pub fn emit(&mut self, emitter: &mut Emitter, tick: u64, dt: f32) -> EditReport {
+    /// Lets a tap flow for `dt` s at tick `tick`. `room` is for its use alone, and what it holds does not matter.
+    pub fn emit(&mut self, emitter: &mut Emitter, room: &mut Occupancy, tick: u64, dt: f32) -> EditReport {
         if tick < emitter.start {
             return EditReport::default();
         }
@@ -152,19 +160,19 @@ impl Matter<'_> {
         let (low, high) = (Solids::cell_of(emitter.area.min), Solids::cell_of(emitter.area.max));
         let (low, high) = (low.max(IVec2::ZERO), high.min(self.size() - 1));
         let area = emitter.area;
-        let sites: Vec<IVec2> = (low.y..=high.y)
-            .flat_map(|y| (low.x..=high.x).map(move |x| IVec2::new(x, y)))
-            .filter(|&cell| area.contains(centre(cell)))
-            .collect();
-        if sites.is_empty() {
+        let sites = || {
+            let cells = (low.y..=high.y).flat_map(|y| (low.x..=high.x).map(move |x| IVec2::new(x, y)));
+            cells.filter(|&cell| area.contains(centre(cell)))
+        };
+        let count = sites().count();
+        if count == 0 {
             return EditReport::default();
         }
         // Start somewhere else each tick, so that a wide tap flows evenly.
         let seed = mix(tick as u32);
-        let turn = seed as usize % sites.len();
-        let turned = sites[turn..].iter().chain(&sites[..turn]).copied();
+        let turned = sites().cycle().skip(seed as usize % count).take(count);
         let filling = Filling { share: 1.0, seed, scatter: SCATTER, velocity: emitter.velocity, most };
-        let report = self.place_movable(emitter.element, Some((low, high)), turned, filling);
+        let report = self.place_movable(emitter.element, Some((low, high)), turned, filling, room);
         emitter.given += report.placed as u32;
         emitter.due = (emitter.due - report.placed as f32).max(0.0);
         report
@@ -196,10 +204,11 @@ impl Matter<'_> {
         bounds: Option<(IVec2, IVec2)>,
         cells: impl Iterator<Item = IVec2>,
         filling: Filling,
+        room: &mut Occupancy,
     ) -> EditReport {
         let mut report = EditReport::default();
         let Some((low, high)) = bounds else { return report };
-        let mut occupancy = Occupancy::new(self.particles, low, high);
+        room.look(self.particles, low, high);
         for cell in cells {
             if report.placed >= u64::from(filling.most) {
                 break;
@@ -210,7 +219,7 @@ impl Matter<'_> {
             }
             let scatter = mix(chance);
             let at = centre(cell) + filling.scatter * Vec2::new(unit(scatter), unit(scatter >> 16));
-            if self.solids.is_solid(cell) || occupancy.is_near(at) {
+            if self.solids.is_solid(cell) || room.is_near(at) {
                 continue;
             }
             if self.room_left() == 0 {
@@ -219,7 +228,7 @@ impl Matter<'_> {
             }
             let id = self.take_id();
             self.particles.push(id, element, at, filling.velocity);
-            occupancy.insert(at);
+            room.insert(at);
             report.placed += 1;
         }
         report

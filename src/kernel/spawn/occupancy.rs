@@ -3,12 +3,16 @@
 use crate::kernel::{particles::Particles, solids::Solids, spawn::CLEARANCE};
 use glam::{IVec2, Vec2};
 
-/// Which points near a region are taken: particles in lists by cell.
-pub(super) struct Occupancy {
+/// Which points near a region are taken: particles in lists by cell. Its buffers are used again and again.
+#[derive(Debug, Default)]
+pub struct Occupancy {
+    /// Lower left cell.
     low: IVec2,
     columns: i32,
     rows: i32,
+    /// For each cell the point that came last.
     newest: Vec<u32>,
+    /// Points with the one before them in their cell.
     points: Vec<(Vec2, u32)>,
 }
 
@@ -16,16 +20,16 @@ pub(super) struct Occupancy {
 const NONE: u32 = u32::MAX;
 
 impl Occupancy {
-    /// The particles in the cells `low … high` and those around them.
-    pub fn new(particles: &Particles, low: IVec2, high: IVec2) -> Self {
+    /// Takes the particles in the cells `low … high` and those around them, and forgets all others.
+    pub(super) fn look(&mut self, particles: &Particles, low: IVec2, high: IVec2) {
         let (low, high) = (low - 1, high + 1);
-        let (columns, rows) = (high.x - low.x + 1, high.y - low.y + 1);
-        let mut occupancy =
-            Self { low, columns, rows, newest: vec![NONE; (columns * rows) as usize], points: Vec::new() };
+        (self.low, self.columns, self.rows) = (low, high.x - low.x + 1, high.y - low.y + 1);
+        self.newest.clear();
+        self.newest.resize((self.columns * self.rows) as usize, NONE);
+        self.points.clear();
         for i in 0..particles.len() {
-            occupancy.insert(particles.position(i));
+            self.insert(particles.position(i));
         }
-        occupancy
     }
 
     fn index(&self, cell: IVec2) -> Option<usize> {
@@ -35,7 +39,7 @@ impl Occupancy {
     }
 
     /// Takes a point.
-    pub fn insert(&mut self, point: Vec2) {
+    pub(super) fn insert(&mut self, point: Vec2) {
         if let Some(k) = self.index(Solids::cell_of(point)) {
             self.points.push((point, self.newest[k]));
             self.newest[k] = self.points.len() as u32 - 1;
@@ -43,7 +47,7 @@ impl Occupancy {
     }
 
     /// Whether a taken point is nearer than [`CLEARANCE`].
-    pub fn is_near(&self, point: Vec2) -> bool {
+    pub(super) fn is_near(&self, point: Vec2) -> bool {
         let cell = Solids::cell_of(point);
         (-1..=1).any(|dy| (-1..=1).any(|dx| self.cell_holds_near(cell + IVec2::new(dx, dy), point)))
     }

@@ -137,15 +137,15 @@ fn a_tap_keeps_its_rate_and_its_total() {
         due: 0.0,
     };
     for tick in 0..10 {
-        bench.matter().emit(&mut emitter, tick, 1.0 / 60.0);
+        bench.matter().emit(&mut emitter, &mut Occupancy::default(), tick, 1.0 / 60.0);
     }
     assert_eq!(emitter.given, 0, "it flowed before its start");
     for tick in 10..70 {
-        bench.matter().emit(&mut emitter, tick, 1.0 / 60.0);
+        bench.matter().emit(&mut emitter, &mut Occupancy::default(), tick, 1.0 / 60.0);
     }
     assert!((29..=31).contains(&emitter.given), "{} particles in a second at 30/s", emitter.given);
     for tick in 70..300 {
-        bench.matter().emit(&mut emitter, tick, 1.0 / 60.0);
+        bench.matter().emit(&mut emitter, &mut Occupancy::default(), tick, 1.0 / 60.0);
     }
     assert_eq!((emitter.given, bench.particles.len()), (40, 40));
     assert!(bench.nearest() >= CLEARANCE);

@@ -1,7 +1,11 @@
 //! Taps and outlets.
 
 use crate::{
-    kernel::{checks::remove_non_finite, spawn::Matter, units::TICK_SECONDS},
+    kernel::{
+        checks::remove_non_finite,
+        spawn::{Matter, Occupancy},
+        units::TICK_SECONDS,
+    },
     sim::{
         ledger::{Pass, PassLedger},
         stages::TickPlan,
@@ -10,7 +14,7 @@ use crate::{
     },
 };
 use bevy::platform::time::Instant;
-use bevy::prelude::{Res, ResMut};
+use bevy::prelude::{Local, Res, ResMut};
 
 /// Begins the tick: lets taps flow and outlets drain, and takes away what is no longer a number.
 pub(super) fn run_sources(
@@ -21,6 +25,7 @@ pub(super) fn run_sources(
     mut clock: ResMut<Clock>,
     workers: Res<Workers>,
     mut plan: ResMut<TickPlan>,
+    mut room: Local<Occupancy>,
     mut counters: ResMut<Counters>,
     mut ledger: ResMut<PassLedger>,
 ) {
@@ -41,7 +46,7 @@ pub(super) fn run_sources(
         matter.drain(drain);
     }
     for emitter in emitters {
-        counters.refused += matter.emit(emitter, tick, TICK_SECONDS).refused;
+        counters.refused += matter.emit(emitter, &mut room, tick, TICK_SECONDS).refused;
     }
     ledger.note(Pass::Sources, start.elapsed());
 }

@@ -1,7 +1,7 @@
 //! The stages of a substep.
 
 use crate::{
-    kernel::{forces, pbf, predict, predictor, velocity},
+    kernel::{forces, parallel::Team, pbf, predict, predictor, velocity},
     scene::blueprint::Effect,
     sim::{
         effects::Effects,
@@ -19,6 +19,7 @@ pub(super) fn step_air(
     mut air: ResMut<AirGrid>,
     sources: Res<Sources>,
     setup: Res<Setup>,
+    solver: Res<SolverState>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
@@ -26,8 +27,10 @@ pub(super) fn step_air(
 ) {
     let start = Instant::now();
     let dt = plan.substep_seconds();
-    let worth = air.is_worth_sharing();
-    let report = workers.run_if(worth, |threads| air.step(&sources.winds, setup.quality.air_courant, dt, threads > 1));
+    let (worth, instructions) = (air.is_worth_sharing(), solver.instructions);
+    let report = workers.run_if(worth, |threads| {
+        air.step(&sources.winds, setup.quality.air_courant, Team { instructions, threads }, dt)
+    });
     counters.air_clamps += report.speed_clamps + report.pressure_clamps;
     ledger.note(Pass::Air, start.elapsed());
 }

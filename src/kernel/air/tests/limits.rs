@@ -17,7 +17,7 @@ fn a_hurricane_is_clamped_and_counted() {
     let mass = air.mass();
     let mut clamps = 0;
     for _ in 0..100 {
-        let report = air.step(&[fan], COURANT, DT, false);
+        let report = air.step(&[fan], COURANT, ALONE, DT);
         clamps += report.speed_clamps;
         assert!(report.substeps <= MAX_SUBSTEPS);
         assert_mass(&air, mass);
@@ -35,7 +35,7 @@ fn a_million_atmospheres_in_a_cell_stay_finite() {
         let mass = air.mass();
         let mut clamps = 0;
         for _ in 0..200 {
-            clamps += air.step(&[], COURANT, DT, false).speed_clamps;
+            clamps += air.step(&[], COURANT, ALONE, DT).speed_clamps;
             assert_mass(&air, mass);
         }
         assert!(clamps > 0, "nothing was counted");
@@ -104,10 +104,10 @@ fn paint_that_is_no_number_or_absurd_is_clamped_and_counted() {
     air.fill_pressure(Rect { min: Vec2::splat(f32::NAN), max: Vec2::splat(f32::NAN) }, 3.0);
     assert!(air.max_speed() <= MAX_SPEED && air.pressure.iter().all(|p| (0.0..=MAX_PRESSURE).contains(p)));
     let fan = Wind { area: rect(0.0, 0.0, 16.0, 16.0), velocity: Vec2::new(f32::NAN, 1.0), rate: f32::INFINITY };
-    let report = air.step(&[fan], COURANT, DT, false);
+    let report = air.step(&[fan], COURANT, ALONE, DT);
     assert!(report.speed_clamps > 2 && report.pressure_clamps >= 3, "{report:?}");
     assert_sane(&air);
-    let later = air.step(&[], COURANT, 1e-5, false);
+    let later = air.step(&[], COURANT, ALONE, 1e-5);
     assert_eq!(later.pressure_clamps, 0, "a clamp was counted twice");
 }
 
@@ -118,10 +118,10 @@ fn quiet_air_is_not_stepped() {
     let before = air.clone();
     let still = Wind { area: rect(0.0, 0.0, 9.0, 9.0), velocity: Vec2::ZERO, rate: 5.0 };
     let outside = Wind { area: rect(90.0, 0.0, 99.0, 9.0), velocity: Vec2::ONE, rate: 5.0 };
-    assert_eq!(air.step(&[still, outside], COURANT, DT, false).substeps, 0);
+    assert_eq!(air.step(&[still, outside], COURANT, ALONE, DT).substeps, 0);
     assert_eq!(bits(&air), bits(&before));
     let fan = Wind { area: rect(0.0, 0.0, 9.0, 9.0), velocity: Vec2::ONE, rate: 5.0 };
-    assert!(air.step(&[fan], COURANT, DT, false).substeps > 0);
+    assert!(air.step(&[fan], COURANT, ALONE, DT).substeps > 0);
     assert!(!air.is_quiet());
 }
 

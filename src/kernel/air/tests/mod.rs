@@ -8,7 +8,9 @@ mod waves;
 
 use super::Air;
 use crate::kernel::element::ElementId;
+use crate::kernel::parallel::Team;
 use crate::kernel::params::{AirParams, OpenSides};
+use crate::kernel::simd::InstructionSet;
 use crate::kernel::solids::Solids;
 use crate::kernel::sources::Rect;
 use glam::{IVec2, Vec2};
@@ -17,6 +19,7 @@ use glam::{IVec2, Vec2};
 const SOUND: f32 = 1000.0;
 const DT: f32 = 1.0 / 60.0;
 const COURANT: f32 = 0.7;
+const ALONE: Team = Team { instructions: InstructionSet::Baseline, threads: 1 };
 
 fn params(open: OpenSides) -> AirParams {
     AirParams { sound_speed: SOUND, open }
@@ -69,7 +72,7 @@ fn rect(x0: f32, y0: f32, x1: f32, y1: f32) -> Rect {
 
 fn run(air: &mut Air, ticks: u32) {
     for _ in 0..ticks {
-        air.step(&[], COURANT, DT, false);
+        air.step(&[], COURANT, ALONE, DT);
     }
 }
 

@@ -67,7 +67,7 @@ fn the_gather_is_the_scatter() {
     stir(&mut air, 0.2, 300.0, &mut noise);
     let dt = 2e-4;
     let wanted = scatter(&air, f64::from(dt));
-    assert_eq!(air.step(&[], 0.9, dt, false).substeps, 1);
+    assert_eq!(air.step(&[], 0.9, ALONE, dt).substeps, 1);
     for (got, wanted) in [&air.pressure, &air.velocity_x, &air.velocity_y].into_iter().zip(&wanted) {
         for k in (0..got.len()).filter(|k| !air.solid[*k]) {
             let error = (f64::from(got[k]) - wanted[k]).abs();
@@ -89,7 +89,7 @@ fn a_still_grid_stays_still_bit_for_bit() {
     for _ in 0..50 {
         // Quiet air would not be stepped at all.
         air.quiet = false;
-        let report = air.step(&[], COURANT, DT, false);
+        let report = air.step(&[], COURANT, ALONE, DT);
         assert!(report.substeps > 0 && report.speed_clamps == 0);
     }
     assert_eq!(bits(&air), before);
@@ -165,17 +165,42 @@ fn parallel_is_serial_bit_for_bit_for_any_number_of_threads() {
     let mut start = Air::new(Vec2::new(203.0, 190.0), 1.0, params(sides));
     start.set_solids(&rock(203, 190, |_, _| noise.next() > 0.9));
     stir(&mut start, 0.5, 500.0, &mut noise);
-    let step = |parallel: bool| {
+    let step = |threads: usize| {
         let mut air = start.clone();
+        assert!(air.is_worth_sharing(), "what is not shared proves nothing");
         for _ in 0..3 {
-            air.step(&[], COURANT, 4e-3, parallel);
+            air.step(&[], COURANT, Team { threads, ..ALONE }, 4e-3);
         }
         bits(&air)
     };
-    let serial = step(false);
-    for threads in [1, 2, 5] {
-        let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        assert_eq!(pool.install(|| step(true)), serial, "{threads} threads");
+    let serial = step(1);
+    for threads in [2, 3, 5, 40] {
+        let pool = ThreadPoolBuilder::new().num_threads(threads.min(5)).build().unwrap();
+        assert!(pool.install(|| step(threads)) == serial, "{threads} threads");
+    }
+}
+
+#[test]
+fn every_instruction_set_gives_the_same_bits() {
+    // Widths that fill lanes, overlap them, and are too narrow for them.
+    for (columns, rows) in [(64, 20), (37, 33), (17, 5), (16, 4), (15, 40), (9, 9), (7, 3), (2, 50), (1, 1)] {
+        let mut noise = Noise(14);
+        let sides = OpenSides { left: true, top: true, ..OpenSides::default() };
+        let mut start = Air::new(Vec2::new(columns as f32, rows as f32), 1.0, params(sides));
+        start.set_solids(&rock(columns, rows, |_, _| noise.next() > 0.8));
+        stir(&mut start, 0.5, 500.0, &mut noise);
+        let step = |instructions| {
+            let mut air = start.clone();
+            for _ in 0..5 {
+                air.step(&[], COURANT, Team { instructions, threads: 1 }, 4e-3);
+            }
+            (instructions, bits(&air))
+        };
+        let runs: Vec<_> = InstructionSet::available().into_iter().map(step).collect();
+        assert!(runs.len() >= 2, "one instruction set alone proves nothing");
+        for (set, bits) in &runs {
+            assert!(*bits == runs[0].1, "{columns} × {rows}: {set:?} differs from {:?}", runs[0].0);
+        }
     }
 }
 

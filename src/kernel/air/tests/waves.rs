@@ -121,7 +121,7 @@ fn it_is_stable_just_below_the_bound() {
     let start = energy(&air);
     let mut substeps = 0;
     for _ in 0..2000 {
-        substeps += air.step(&[], STABLE_COURANT, dt * 0.99, false).substeps;
+        substeps += air.step(&[], STABLE_COURANT, ALONE, dt * 0.99).substeps;
         air.quiet = false;
     }
     assert_eq!(substeps, 2000, "the bound was not reached: the step was cut");
@@ -155,7 +155,7 @@ fn a_wind_tunnel_reaches_a_steady_even_stream() {
     let fan = Wind { area: rect(0.0, 0.0, 16.0, 48.0), velocity: Vec2::new(100.0, 0.0), rate: 30.0 };
     let blow = |air: &mut Air, ticks: u32| {
         for _ in 0..ticks {
-            air.step(&[fan], COURANT, DT, false);
+            air.step(&[fan], COURANT, ALONE, DT);
         }
     };
     blow(&mut air, 600);

@@ -1,0 +1,123 @@
+//! A band of rows: both passes over it. Pass 2 follows pass 1 row by row, while the new rows are in the nearest cache.
+//!
+//! A row of pass 2 needs the new pressure of the rows beside it. So a band also makes the row below its first and the row
+//! above its last for itself, and bands can be done in any order and side by side.
+
+use super::{
+    advect::{Advection, Source},
+    grid::Peaks,
+    pressure::{Push, Pushed},
+};
+use crate::kernel::simd::{Lanes, Pass};
+
+/// Row buffers of a band.
+#[derive(Debug)]
+pub(super) struct Band {
+    advection: Advection,
+    /// New pressure: of the row made last and the two below it, with the ring, which stands at 1.
+    pressure: [Vec<f32>; 3],
+    /// Momentum of the row made last and the one below it.
+    momentum_x: [Vec<f32>; 2],
+    momentum_y: [Vec<f32>; 2],
+    /// Largest values of its rows after the last substep.
+    pub(super) peaks: Peaks,
+}
+
+/// What a substep writes: whole rows, with the ring, of which only the cells of the box are touched.
+pub(super) struct Target<'a> {
+    pub(super) pressure: &'a mut [f32],
+    pub(super) velocity_x: &'a mut [f32],
+    pub(super) velocity_y: &'a mut [f32],
+}
+
+impl Band {
+    pub(super) fn new(stride: usize) -> Self {
+        let row = |value| vec![value; stride];
+        Self {
+            advection: Advection::new(stride),
+            pressure: [row(1.0), row(1.0), row(1.0)],
+            momentum_x: [row(0.0), row(0.0)],
+            momentum_y: [row(0.0), row(0.0)],
+            peaks: Peaks::default(),
+        }
+    }
+
+    /// Values held.
+    pub(super) fn values(&self) -> usize {
+        self.advection.values() + self.pressure[0].len() * 7
+    }
+
+    /// Makes the next row of new pressure and momentum.
+    #[inline(always)]
+    fn sum_up<L: Lanes>(&mut self, struck: &[u32]) {
+        self.rotate();
+        let targets = [&mut self.pressure[0], &mut self.momentum_x[0], &mut self.momentum_y[0]];
+        self.advection.sum_up::<L>(struck, targets.map(Vec::as_mut_slice));
+    }
+
+    fn rotate(&mut self) {
+        self.pressure.rotate_right(1);
+        self.momentum_x.swap(0, 1);
+        self.momentum_y.swap(0, 1);
+    }
+}
+
+/// A substep of a band of rows.
+pub(super) struct BandPass<'a> {
+    pub(super) band: &'a mut Band,
+    pub(super) source: Source<'a>,
+    pub(super) push: Push,
+    /// Its lowest row, counted with the ring.
+    pub(super) first: usize,
+    pub(super) target: Target<'a>,
+}
+
+impl BandPass<'_> {
+    /// Pass 2 for a row, once the row above it is made.
+    #[inline(always)]
+    fn follow<L: Lanes>(&mut self, row: usize) {
+        let stride = self.source.stride;
+        let out = (row - self.first) * stride..(row - self.first + 1) * stride;
+        let Band { pressure: [above, here, below], momentum_x, momentum_y, .. } = &*self.band;
+        let from = Pushed {
+            pressure: [below, here, above],
+            momentum_x: &momentum_x[1],
+            momentum_y: &momentum_y[1],
+            shape: self.source.shape,
+            row,
+        };
+        let Target { pressure, velocity_x, velocity_y } = &mut self.target;
+        let peaks = self.push.run::<L>(from, [&mut velocity_x[out.clone()], &mut velocity_y[out.clone()]]);
+        pressure[out][1..=stride - 2].copy_from_slice(&here[1..=stride - 2]);
+        self.band.peaks = self.band.peaks.max(peaks);
+    }
+}
+
+impl Pass for BandPass<'_> {
+    #[inline(always)]
+    fn run<L: Lanes>(mut self) {
+        let (source, first) = (self.source, self.first);
+        let rows = source.pressure.len() / source.stride - 2;
+        let end = first + self.target.pressure.len() / source.stride;
+        let (low, high) = ((first - 1).max(1), end.min(rows));
+        self.band.peaks = Peaks::default();
+        self.band.pressure[0].fill(1.0);
+        self.band.advection.begin();
+        // A row of sources completes the targets below it, and these the push of the row below them.
+        for row in low - 1..=high + 1 {
+            self.band.advection.share::<L>(source, row, row <= high);
+            if row > low {
+                self.band.sum_up::<L>(source.shape.struck(row - 1));
+            }
+            self.band.advection.advance();
+            if row > first + 1 {
+                self.follow::<L>(row - 2);
+            }
+        }
+        if end > rows {
+            self.band.rotate();
+            self.band.pressure[0].fill(1.0);
+            self.follow::<L>(rows);
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! A steady tick allocates nothing: neither the kernel's passes nor the schedules around them. A binary of its own,
+//! because the allocator counts for the whole process.
+//!
+//! On one thread there is none at all. On more, entering the pool costs rayon a block of its waiting list now and then.
+
+use powder_master::{
+    lab::headless::Headless,
+    scene::{self, blueprint::EffectModes},
+    sim::workers::Workers,
+};
+use std::{
+    alloc::{GlobalAlloc, Layout, System},
+    backtrace::Backtrace,
+    sync::{
+        Arc, Mutex,
+        atomic::{AtomicBool, AtomicU64, Ordering},
+    },
+};
+
+/// Ticks that are counted.
+const TICKS: u64 = 120;
+
+/// The system's allocator, which counts while it is told to and remembers who came first.
+struct Counting;
+
+static COUNTS: AtomicBool = AtomicBool::new(false);
+static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
+static FIRST: Mutex<String> = Mutex::new(String::new());
+
+fn note() {
+    if COUNTS.load(Ordering::Relaxed) && ALLOCATIONS.fetch_add(1, Ordering::Relaxed) == 0 {
+        // To write down who it was allocates, too.
+        COUNTS.store(false, Ordering::Relaxed);
+        if let Ok(mut first) = FIRST.lock() {
+            *first = Backtrace::force_capture().to_string();
+        }
+        COUNTS.store(true, Ordering::Relaxed);
+    }
+}
+
+// SAFETY: all is left to the system's allocator; counting touches none of the memory.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        note();
+        // SAFETY: the caller's promise is the same.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        note();
+        // SAFETY: the caller's promise is the same.
+        unsafe { System.alloc_zeroed(layout) }
+    }
+
+    unsafe fn realloc(&self, block: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        note();
+        // SAFETY: the caller's promise is the same.
+        unsafe { System.realloc(block, layout, size) }
+    }
+
+    unsafe fn dealloc(&self, block: *mut u8, layout: Layout) {
+        // SAFETY: the caller's promise is the same.
+        unsafe { System.dealloc(block, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Allocations of `TICKS` ticks of a scene after `warm_up` ticks, and where the first came from.
+fn count(scene: &str, settings: &[(&str, &str)], threads: usize, warm_up: u64) -> (u64, String) {
+    let settings: Vec<(String, String)> = settings.iter().map(|&(key, value)| (key.into(), value.into())).collect();
+    let blueprint = scene::load(scene).and_then(|file| file.build(&settings, None, &EffectModes::new()));
+    let blueprint = Arc::new(blueprint.unwrap_or_else(|error| panic!("{error}")));
+    let workers = Workers::new(threads).unwrap_or_else(|error| panic!("{error}"));
+    let mut headless = Headless::new(blueprint, workers);
+    for _ in 0..warm_up {
+        headless.tick();
+    }
+    ALLOCATIONS.store(0, Ordering::Relaxed);
+    COUNTS.store(true, Ordering::Relaxed);
+    for _ in 0..TICKS {
+        headless.tick();
+    }
+    COUNTS.store(false, Ordering::Relaxed);
+    (ALLOCATIONS.load(Ordering::Relaxed), FIRST.lock().map(|first| first.clone()).unwrap_or_default())
+}
+
+#[test]
+fn a_steady_tick_allocates_nothing() {
+    // The allocator sees what it should.
+    COUNTS.store(true, Ordering::Relaxed);
+    std::hint::black_box(vec![0_u8; 100]);
+    COUNTS.store(false, Ordering::Relaxed);
+    assert_eq!(ALLOCATIONS.load(Ordering::Relaxed), 1, "an allocation goes unseen");
+
+    let cases: [(&str, &[(&str, &str)], u64); 8] = [
+        ("communicating_vessels", &[], 300),
+        ("dam_break", &[("columns", "30")], 600),
+        ("empty", &[], 100),
+        ("hydrostatic", &[], 60),
+        ("rest_density", &[], 400),
+        ("sealed_air", &[], 300),
+        ("waterfall", &[], 600),
+        ("wind_tunnel", &[], 600),
+    ];
+    let mut faults = Vec::new();
+    for (scene, settings, warm_up) in cases {
+        let (allocations, first) = count(scene, settings, 1, warm_up);
+        println!("{scene}: {allocations} allocations in {TICKS} ticks");
+        if allocations > 0 {
+            faults.push(format!("{scene}: {allocations} allocations in {TICKS} ticks, the first by\n{first}"));
+        }
+    }
+    // A tick enters the pool twice, and rayon keeps a list of those who wait for it in blocks of 63.
+    let (allocations, first) = count("dam_break", &[("columns", "60")], 2, 300);
+    println!("dam_break on two threads: {allocations} allocations in {TICKS} ticks");
+    if allocations > TICKS * 2 / 63 + 1 {
+        faults.push(format!("on two threads: {allocations} allocations in {TICKS} ticks, the first by\n{first}"));
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
