@@ -6,6 +6,7 @@ pub mod binning;
 pub mod density;
 mod drift;
 pub mod headless;
+pub mod live;
 pub mod machine;
 pub mod metrics;
 pub mod particle_list;
