@@ -17,10 +17,10 @@ pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Fai
 
 #[cfg(feature = "app")]
 fn open(scene: &str, record: Option<PathBuf>, start: Start) -> Result<(), Failure> {
-    use crate::game;
+    use crate::{game, lab::live::LivePlugin};
     use bevy::app::AppExit;
 
-    match game::run(scene, record, |world| start.load(world)) {
+    match game::run(scene, record, LivePlugin, |world| start.load(world)) {
         Ok(AppExit::Success) => Ok(()),
         Ok(AppExit::Error(code)) => Err(Failure::Outcome(format!("the game ended with error {code}"))),
         Err(error) => Err(Failure::Usage(error.to_string())),

@@ -5,11 +5,12 @@ use crate::{
     sim::{
         SimulationPlugin,
         state::{Census, Setup},
+        view,
     },
 };
 use bevy::{
     DefaultPlugins,
-    app::{App, AppExit},
+    app::{App, AppExit, Plugin},
     camera::{Camera2d, ClearColor},
     color::Color,
     log::LogPlugin,
@@ -50,8 +51,13 @@ pub enum GameError {
 }
 
 /// Plays in a window until it is closed. `load` makes the world; `scene` is what `run` would call it; what the
-/// player does goes to `record`.
-pub fn run(scene: &str, record: Option<PathBuf>, load: impl FnOnce(&mut World)) -> Result<AppExit, GameError> {
+/// player does goes to `record`, and `measuring` is what measures the world meanwhile.
+pub fn run(
+    scene: &str,
+    record: Option<PathBuf>,
+    measuring: impl Plugin,
+    load: impl FnOnce(&mut World),
+) -> Result<AppExit, GameError> {
     let scene = scene.to_owned();
     if let Some(reason) = missing_display(|name| std::env::var(name).ok()) {
         return Err(GameError::NoDisplay { reason, scene });
@@ -59,7 +65,7 @@ pub fn run(scene: &str, record: Option<PathBuf>, load: impl FnOnce(&mut World)) 
     // Setting the window up panics where it fails (winit can't reach the display, there is no graphics adapter).
     let hook = panic::take_hook();
     panic::set_hook(Box::new(|_| {}));
-    let built = panic::catch_unwind(AssertUnwindSafe(|| build(record, load)));
+    let built = panic::catch_unwind(AssertUnwindSafe(|| build(record, measuring, load)));
     panic::set_hook(hook);
     match built {
         Ok(mut app) => Ok(app.run()),
@@ -88,7 +94,7 @@ fn explain(panic: &str, scene: String) -> GameError {
     GameError::NoWindow { reason: panic.lines().next().unwrap_or("unknown reason").to_owned(), scene }
 }
 
-fn build(record: Option<PathBuf>, load: impl FnOnce(&mut World)) -> App {
+fn build(record: Option<PathBuf>, measuring: impl Plugin, load: impl FnOnce(&mut World)) -> App {
     let window = Window {
         title: "Powder Master".into(),
         name: Some("powder-master".into()),
@@ -99,6 +105,7 @@ fn build(record: Option<PathBuf>, load: impl FnOnce(&mut World)) -> App {
         prevent_default_event_handling: true,
         ..Window::default()
     };
+    let [red, green, blue] = view::SURROUNDINGS;
     let mut app = App::new();
     app.add_plugins(
         DefaultPlugins
@@ -106,8 +113,8 @@ fn build(record: Option<PathBuf>, load: impl FnOnce(&mut World)) -> App {
             .set(LogPlugin { filter: "error,bevy_winit=off".into(), ..LogPlugin::default() }),
     )
     .add_plugins(EguiPlugin::default())
-    .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
-    .insert_resource(ClearColor(Color::BLACK))
+    .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin, measuring))
+    .insert_resource(ClearColor(Color::srgb_u8(red, green, blue)))
     .init_resource::<Room>()
     .add_systems(Startup, spawn_camera)
     .add_systems(Update, tell_in_title.run_if(on_timer(TITLE_EVERY)));

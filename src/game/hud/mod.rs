@@ -1,6 +1,7 @@
 //! The head-up display, in egui: a bar with the numbers and menus on top, the palette at the bottom, windows on call.
 //! It reads the world and gives orders; it never changes the world itself.
 
+pub mod accuracy;
 pub mod bar;
 pub mod brush;
 pub mod details;
@@ -11,6 +12,7 @@ pub mod saves;
 pub mod scenes;
 pub mod search;
 pub mod settings;
+pub mod split;
 pub mod stats;
 pub mod style;
 pub mod toast;
@@ -34,6 +36,7 @@ impl Plugin for HudPlugin {
             .init_resource::<HudCost>()
             .init_resource::<scenes::SceneMenu>()
             .init_resource::<saves::SaveMenu>()
+            .init_resource::<accuracy::AccuracyPanel>()
             .add_systems(Startup, (scenes::list_scenes, greet))
             .add_systems(PreUpdate, mind_the_keys.after(EguiPreUpdateSet::ProcessInput))
             .add_systems(
@@ -50,6 +53,8 @@ impl Plugin for HudPlugin {
                     saves::show,
                     search::show,
                     details::show,
+                    split::show,
+                    accuracy::show,
                     settings::show,
                     help::show,
                     toast::show,
@@ -69,6 +74,8 @@ pub struct HudState {
     pub help: bool,
     /// The books of the simulation.
     pub details: bool,
+    /// What accuracy costs.
+    pub accuracy: bool,
     /// The scene menu.
     pub scenes: bool,
     /// The list of save files.
@@ -81,7 +88,16 @@ pub struct HudState {
 
 impl Default for HudState {
     fn default() -> Self {
-        Self { visible: true, help: false, details: false, scenes: false, saves: false, settings: false, search: None }
+        Self {
+            visible: true,
+            help: false,
+            details: false,
+            accuracy: false,
+            scenes: false,
+            saves: false,
+            settings: false,
+            search: None,
+        }
     }
 }
 
@@ -92,6 +108,7 @@ impl HudState {
             Action::Hud => self.visible = !self.visible,
             Action::Help => self.help = !self.help,
             Action::Details => self.details = !self.details,
+            Action::Accuracy => self.accuracy = !self.accuracy,
             Action::Scenes => self.scenes = !self.scenes,
             Action::Saves => self.saves = !self.saves,
             Action::Settings => self.settings = !self.settings,
@@ -101,10 +118,14 @@ impl HudState {
                     Some(_) => None,
                 };
             }
-            Action::Close => *self = Self { visible: self.visible, details: self.details, ..Self::default() },
+            Action::Close => {
+                let Self { visible, details, accuracy, .. } = *self;
+                *self = Self { visible, details, accuracy, ..Self::default() };
+            }
             _ => return,
         }
         // What is asked for is shown, even if the HUD was hidden.
+        self.visible |= action == Action::Accuracy && self.accuracy;
         self.visible |= self.help || self.scenes || self.saves || self.settings || self.search.is_some();
     }
 }
