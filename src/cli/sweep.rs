@@ -8,6 +8,7 @@ use crate::{
         progress::{StatusLine, bar},
         start::Start,
     },
+    kernel::simd::InstructionSet,
     lab::{
         headless::Headless,
         moment::Moment,
@@ -170,7 +171,7 @@ fn measure(
 fn moment(arguments: &SweepArguments, start: Start) -> Result<(Moment, u64), Failure> {
     let name = start.name().to_owned();
     let is_scene = start.is_scene();
-    let mut headless = Headless::begin(Workers::default(), |world| start.load(world));
+    let mut headless = Headless::begin(Workers::default(), |world| start.load(world, InstructionSet::detect()));
     let sources = headless.world().resource::<Sources>();
     let fed = !sources.emitters.is_empty() || !sources.winds.is_empty();
     let run_in = arguments.start.unwrap_or(if fed && is_scene { RUN_IN } else { 0 });

@@ -5,11 +5,12 @@ use crate::{
     sim::{
         SimulationPlugin,
         state::{Census, Setup},
+        view,
     },
 };
 use bevy::{
     DefaultPlugins,
-    app::{App, AppExit},
+    app::{App, AppExit, Plugin},
     camera::{Camera2d, ClearColor},
     color::Color,
     log::LogPlugin,
@@ -49,9 +50,8 @@ pub enum GameError {
     },
 }
 
-/// Plays in a window until it is closed. `furnish` adds what the game
-/// does not know and makes the world; `scene` is what `run` would call it; what the
-/// player does goes to `record`.
+/// Plays in a window until it is closed. `furnish` adds what the game does not know and makes the world; `scene` is what
+/// `run` would call it; what the player does goes to `record`.
 pub fn run(scene: &str, record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> Result<AppExit, GameError> {
     let scene = scene.to_owned();
     if let Some(reason) = missing_display(|name| std::env::var(name).ok()) {
@@ -100,6 +100,7 @@ fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> App {
         prevent_default_event_handling: true,
         ..Window::default()
     };
+    let [red, green, blue] = view::SURROUNDINGS;
     let mut app = App::new();
     app.add_plugins(
         DefaultPlugins
@@ -107,8 +108,8 @@ fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> App {
             .set(LogPlugin { filter: "error,bevy_winit=off".into(), ..LogPlugin::default() }),
     )
     .add_plugins(EguiPlugin::default())
-    .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
-    .insert_resource(ClearColor(Color::BLACK))
+    .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin, measuring))
+    .insert_resource(ClearColor(Color::srgb_u8(red, green, blue)))
     .init_resource::<Room>()
     .add_systems(Startup, spawn_camera)
     .add_systems(Update, tell_in_title.run_if(on_timer(TITLE_EVERY)));
