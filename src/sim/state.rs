@@ -110,6 +110,10 @@ pub struct Census {
     pub by_element: Vec<u32>,
     /// Whether the last edit met the particle limit.
     pub full: bool,
+    /// Rock of each element.
+    pub(super) rock: Vec<u32>,
+    /// Version of the rock that was counted. A world that is put in the place of another begins with a new census.
+    pub(super) rock_version: Option<u64>,
 }
 
 /// The solver's buffers: positions under correction, densities, bins. Written by the substep stages.

@@ -13,11 +13,18 @@ pub(super) fn count_particles(
     rock: Res<Rock>,
     mut census: ResMut<Census>,
 ) {
-    census.by_element.clear();
-    census.by_element.resize(setup.elements().len(), 0);
-    checks::count_elements(&particles.element, &mut census.by_element);
-    for (_, element, _) in rock.iter() {
-        census.by_element[element.index()] += 1;
+    let elements = setup.elements().len();
+    let census = &mut *census;
+    // A look at every site of the box: only where rock came or went.
+    if census.rock_version != Some(rock.version()) {
+        census.rock_version = Some(rock.version());
+        census.rock.clear();
+        census.rock.resize(elements, 0);
+        for (_, element, _) in rock.iter() {
+            census.rock[element.index()] += 1;
+        }
     }
+    census.by_element.clone_from(&census.rock);
+    checks::count_elements(&particles.element, &mut census.by_element);
     census.total = (particles.len() + rock.count()) as u32;
 }

@@ -1,0 +1,84 @@
+//! A tank of water to run single stages on; shared by the benches and the instruction counts.
+
+use glam::Vec2;
+use powder_master::kernel::{
+    bins::Neighbours,
+    element::ElementId,
+    params::{Domain, FluidParams, Preset, Quality},
+    particles::Particles,
+    pbf::{SolveParams, Solver},
+    predict,
+    simd::InstructionSet,
+    solids::Solids,
+};
+
+/// Particles along each edge of the tank.
+pub const SIDE: u32 = 100;
+/// Length of a substep, s.
+pub const SUBSTEP: f32 = 1.0 / 60.0;
+
+/// A full tank with a free surface, a little off the lattice, binned and solved once.
+#[derive(Clone)]
+pub struct Tank {
+    /// The water.
+    pub particles: Particles,
+    /// No rock.
+    pub solids: Solids,
+    /// The box, a little higher than the water, and gravity.
+    pub domain: Domain,
+    /// `balanced`.
+    pub quality: Quality,
+    /// Binned for the particles as they stand.
+    pub solver: Solver,
+}
+
+impl Tank {
+    /// The tank, to be worked on by one thread on the lanes of `instructions`.
+    pub fn new(instructions: InstructionSet) -> Self {
+        let size = Vec2::new(SIDE as f32, SIDE as f32 + 20.0);
+        let mut tank = Self {
+            particles: Particles::default(),
+            solids: Solids::new(SIDE, SIDE + 20),
+            domain: Domain { size, gravity: Vec2::new(0.0, -98.1) },
+            quality: Preset::Balanced.quality(),
+            solver: Solver::new(instructions, Neighbours::Binned),
+        };
+        let mut state = 1_u32;
+        let mut random = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as f32 / (1 << 24) as f32 - 0.5
+        };
+        for id in 0..SIDE * SIDE {
+            let site = Vec2::new((id % SIDE) as f32 + 0.5, (id / SIDE) as f32 + 0.5);
+            let at = site + 0.3 * Vec2::new(random(), random());
+            tank.particles.push(id, ElementId(0), at, 10.0 * Vec2::new(random(), random()));
+        }
+        tank.predict();
+        tank.bin();
+        tank.solve(2);
+        tank
+    }
+
+    /// Predicts positions.
+    pub fn predict(&mut self) {
+        let Self { particles, solids, domain, quality, solver } = self;
+        predict::predict(particles, solver, solids, domain, quality, 1, SUBSTEP);
+    }
+
+    /// Sorts into bins.
+    pub fn bin(&mut self) {
+        self.solver.bin(&mut self.particles, &self.solids, &self.domain, &self.quality, 1);
+    }
+
+    /// Iterates the density constraint.
+    pub fn solve(&mut self, iterations: u32) {
+        self.solver.solve(&SolveParams {
+            domain: &self.domain,
+            fluid: &FluidParams::default(),
+            quality: &Quality { iterations, ..self.quality },
+            tension: false,
+            predicted: true,
+            threads: 1,
+        });
+    }
+}

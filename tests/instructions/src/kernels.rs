@@ -1,0 +1,87 @@
+//! The hot kernels, each on a fixed state, on one thread and the lanes of AVX2 (valgrind 3.19 has no AVX-512).
+
+use crate::tank::{SUBSTEP, Tank};
+use glam::{IVec2, Vec2};
+use powder_master::kernel::{
+    air::Air,
+    element::ElementId,
+    forces,
+    parallel::Team,
+    params::{AirParams, OpenSides},
+    predictor::{Predictor, PredictorParams},
+    simd::InstructionSet,
+    solids::Solids,
+    velocity,
+};
+use std::hint::black_box;
+
+/// Names of the kernels.
+pub const NAMES: [&str; 8] = ["bin", "solve", "velocity", "viscosity", "vorticity", "predictor", "drag", "air"];
+
+/// The instruction set that is counted, if this processor has it.
+pub fn counted_set() -> Option<InstructionSet> {
+    InstructionSet::available().into_iter().find(|set| set.name() == "avx2")
+}
+
+/// What is counted: callgrind collects from here on and up to the return.
+#[inline(never)]
+pub fn counted<S>(state: &mut S, kernel: impl FnOnce(&mut S)) {
+    kernel(black_box(state));
+}
+
+/// Runs a kernel once on its state. `false` if there is none of that name.
+pub fn run(name: &str, set: InstructionSet) -> bool {
+    let mut tank = Tank::new(set);
+    match name {
+        "bin" => {
+            // Sorting what is sorted is cheaper than what a tick does.
+            tank.predict();
+            counted(&mut tank, Tank::bin);
+        }
+        "solve" => counted(&mut tank, |tank| tank.solve(1)),
+        "velocity" => counted(&mut tank, |Tank { particles, solids, quality, solver, .. }| {
+            velocity::update_velocities(particles, solver, solids, quality, true, 1, SUBSTEP);
+        }),
+        "viscosity" => counted(&mut tank, |tank| {
+            velocity::apply_viscosity(&mut tank.particles, &mut tank.solver, &[0.02], 1, SUBSTEP);
+        }),
+        "vorticity" => counted(&mut tank, |tank| {
+            velocity::apply_vorticity(&mut tank.particles, &mut tank.solver, &[0.01], 1, SUBSTEP);
+        }),
+        "predictor" => {
+            let mut predictor = Predictor::default();
+            counted(&mut tank, |Tank { particles, solids, domain, quality, .. }| {
+                let params = PredictorParams {
+                    domain,
+                    cell: quality.kernel_radius,
+                    rest_density: 1.0,
+                    instructions: set,
+                    threads: 1,
+                    dt: SUBSTEP,
+                };
+                predictor.run(particles, solids, &params);
+            });
+        }
+        "drag" => {
+            let air = windy();
+            counted(&mut tank, |tank| forces::apply_drag(&air, &[0.001], &mut tank.particles, 1, SUBSTEP));
+        }
+        "air" => counted(&mut windy(), |air| {
+            air.step(&[], 0.7, Team { instructions: set, threads: 1 }, SUBSTEP);
+        }),
+        _ => return false,
+    }
+    true
+}
+
+/// Wind about a wall with gaps, on 64 × 48 cells.
+fn windy() -> Air {
+    let mut solids = Solids::new(256, 192);
+    for y in (0..192).filter(|y| y % 64 > 16) {
+        solids.insert(IVec2::new(100, y), ElementId(0), 0);
+    }
+    let mut air = Air::new(Vec2::new(256.0, 192.0), 4.0, AirParams { sound_speed: 1000.0, open: OpenSides::default() });
+    air.set_solids(&solids);
+    air.blow(Vec2::new(80.0, 60.0), 60.0, Vec2::new(150.0, 60.0));
+    air
+}
