@@ -127,7 +127,7 @@ fn preset_table(subject: &Subject, rows: &[Row]) -> String {
     let air_is_unseen = subject.has_air && subject.measure == ErrorMeasure::Density;
     let troubles = presets::check(rows, subject.measure, air_is_unseen);
     if troubles.is_empty() {
-        let front = if subject.measure == ErrorMeasure::Density { ", and on the front" } else { "" };
+        let front = if subject.measure == ErrorMeasure::Density { ", and no setting beats it by a margin" } else { "" };
         let _ = writeln!(text, "\nOrder: ok. Each preset is dearer and exacter than the one before it{front}.");
     } else {
         text += "\nOrder: not ok.\n\n";
