@@ -31,6 +31,9 @@ impl Frozen {
             world.insert_resource(self.setup.clone());
             world.insert_resource(self.effects.clone());
         }
+        // A state goes on at the quality that it was run at: a recording has the changes since then taken back, too.
+        let mut setup = world.resource_mut::<Setup>();
+        (setup.preset, setup.quality) = (self.setup.preset, self.setup.quality);
         control::thaw(world, &self.state);
     }
 

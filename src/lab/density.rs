@@ -69,26 +69,33 @@ pub fn density_error(
     size: Vec2,
     rest_density: f64,
 ) -> Option<DensityError> {
-    let mut densities: Vec<f64> = surroundings(particles, rock, size)
-        .iter()
-        .filter(|local| local.interior)
-        .map(|local| local.density / rest_density)
-        .collect();
-    let density = stats::mean(&densities)?;
-    densities.iter_mut().for_each(|density| *density = (*density - 1.0).max(0.0));
-    let mut errors = densities;
-    Some(DensityError {
-        density,
-        mean: stats::mean(&errors)?,
-        max: stats::largest(&errors)?,
-        p99: stats::quantile(&mut errors, 0.99)?,
-    })
+    DensityError::of(&surroundings(particles, rock, size), rest_density)
+}
+
+impl DensityError {
+    /// The error over the interior ones of `locals`; `None` if there are none.
+    pub(super) fn of(locals: &[Local], rest_density: f64) -> Option<Self> {
+        let interior = locals.iter().filter(|local| local.interior);
+        let mut densities: Vec<f64> = interior.map(|local| local.density / rest_density).collect();
+        let density = stats::mean(&densities)?;
+        densities.iter_mut().for_each(|density| *density = (*density - 1.0).max(0.0));
+        let mut errors = densities;
+        Some(Self {
+            density,
+            mean: stats::mean(&errors)?,
+            max: stats::largest(&errors)?,
+            p99: stats::quantile(&mut errors, 0.99)?,
+        })
+    }
 }
 
 /// What stands around each movable particle, in the order of the store. Particles that are not finite or further than d
 /// outside the box have no surroundings and are nobody's neighbour.
 pub fn surroundings(particles: &Particles, rock: &solids::Solids, size: Vec2) -> Vec<Local> {
-    let grid = Grid::new(particles, rock, size);
+    let lattice = Lattice::new(size);
+    let movable = (0..particles.len()).map(|i| (particles.position(i), i as u32));
+    let fixed = rock.iter().map(|(cell, _, _)| (solids::centre(cell), ROCK));
+    let grid = Grid::new(&lattice, movable.chain(fixed).filter(|(p, _)| lattice.holds(*p)).collect());
     let found: Vec<Local> = (0..grid.x.len()).into_par_iter().with_min_len(1024).map(|k| grid.look_around(k)).collect();
     let mut locals = vec![Local::default(); particles.len()];
     for (&source, local) in grid.source.iter().zip(found) {
@@ -99,11 +106,42 @@ pub fn surroundings(particles: &Particles, rock: &solids::Solids, size: Vec2) ->
     locals
 }
 
-/// Source of a point that is rock.
-const ROCK: u32 = u32::MAX;
+/// Source of a point that is only a neighbour, such as rock.
+pub(super) const ROCK: u32 = u32::MAX;
 
-/// Points sorted into square cells of edge R. A point's neighbours lie in three runs of consecutive points.
-struct Grid {
+/// Square cells of edge R over the box and d around it.
+pub(super) struct Lattice {
+    size: Vec2,
+    pub(super) columns: usize,
+    pub(super) rows: usize,
+}
+
+impl Lattice {
+    /// The cells of a box of `size` d.
+    pub(super) fn new(size: Vec2) -> Self {
+        let cells_along = |length: f32| ((f64::from(length) + 2.0) / SUPPORT).ceil().max(1.0) as usize;
+        Self { size, columns: cells_along(size.x), rows: cells_along(size.y) }
+    }
+
+    /// Whether a point lies where cells are.
+    pub(super) fn holds(&self, p: Vec2) -> bool {
+        p.cmpge(Vec2::splat(-1.0)).all() && p.cmple(self.size + 1.0).all()
+    }
+
+    /// Column and row of a point that it holds.
+    pub(super) fn place(&self, p: Vec2) -> (usize, usize) {
+        let along = |x: f32, cells: usize| (((f64::from(x) + 1.0) / SUPPORT) as usize).min(cells - 1);
+        (along(p.x, self.columns), along(p.y, self.rows))
+    }
+
+    fn cell_of(&self, p: Vec2) -> usize {
+        let (column, row) = self.place(p);
+        row * self.columns + column
+    }
+}
+
+/// Points sorted into the cells of a lattice. A point's neighbours lie in three runs of consecutive points.
+pub(super) struct Grid {
     columns: usize,
     rows: usize,
     /// First point of each cell, row by row, and the number of points.
@@ -111,22 +149,14 @@ struct Grid {
     x: Vec<f64>,
     y: Vec<f64>,
     /// Index in the particle store, or [`ROCK`].
-    source: Vec<u32>,
+    pub(super) source: Vec<u32>,
 }
 
 impl Grid {
-    fn new(particles: &Particles, rock: &solids::Solids, size: Vec2) -> Self {
-        let cells_along = |length: f32| ((f64::from(length) + 2.0) / SUPPORT).ceil().max(1.0) as usize;
-        let (columns, rows) = (cells_along(size.x), cells_along(size.y));
-        let inside = |p: Vec2| p.cmpge(Vec2::splat(-1.0)).all() && p.cmple(size + 1.0).all();
-        let cell_of = |p: Vec2| {
-            let along = |x: f32, cells: usize| (((f64::from(x) + 1.0) / SUPPORT) as usize).min(cells - 1);
-            along(p.y, rows) * columns + along(p.x, columns)
-        };
-        let movable = (0..particles.len()).map(|i| (particles.position(i), i as u32));
-        let fixed = rock.iter().map(|(cell, _, _)| (solids::centre(cell), ROCK));
-        let points: Vec<(Vec2, u32)> = movable.chain(fixed).filter(|(p, _)| inside(*p)).collect();
-
+    /// Sorts points that the lattice holds.
+    pub(super) fn new(lattice: &Lattice, points: Vec<(Vec2, u32)>) -> Self {
+        let (columns, rows) = (lattice.columns, lattice.rows);
+        let cell_of = |p| lattice.cell_of(p);
         let mut start = vec![0_u32; columns * rows + 1];
         for (p, _) in &points {
             start[cell_of(*p) + 1] += 1;
@@ -152,7 +182,8 @@ impl Grid {
         grid
     }
 
-    fn look_around(&self, k: usize) -> Local {
+    /// What stands around point `k`, unless that is only a neighbour itself.
+    pub(super) fn look_around(&self, k: usize) -> Local {
         if self.source[k] == ROCK {
             return Local::default();
         }

@@ -8,6 +8,7 @@ pub mod density;
 mod drift;
 pub mod exam;
 pub mod headless;
+pub mod live;
 pub mod machine;
 pub mod metrics;
 pub mod moment;

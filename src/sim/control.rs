@@ -77,14 +77,20 @@ pub fn thaw(world: &mut World, snapshot: &Snapshot) {
 
 /// Goes on at another quality. The air is carried over to its new cells.
 pub fn set_quality(world: &mut World, preset: Preset, quality: Quality) {
-    let mut setup = world.resource_mut::<Setup>();
-    (setup.preset, setup.quality) = (preset, quality);
     world.resource_scope(|world, mut air: Mut<AirGrid>| {
-        if air.cell() != quality.air_cell {
-            air.0 = air.resized(quality.air_cell);
-            air.set_solids(world.resource::<Rock>());
-        }
+        world.resource_scope(|world, mut setup: Mut<Setup>| {
+            change_quality(&mut setup, &mut air, world.resource::<Rock>(), preset, quality);
+        });
     });
+}
+
+/// [`set_quality`] of the parts.
+pub(super) fn change_quality(setup: &mut Setup, air: &mut AirGrid, rock: &Rock, preset: Preset, quality: Quality) {
+    (setup.preset, setup.quality) = (preset, quality);
+    if air.cell() != quality.air_cell {
+        air.0 = air.resized(quality.air_cell);
+        air.set_solids(rock);
+    }
 }
 
 /// Hash of the state as it is (see [`Snapshot::hash`]).

@@ -52,6 +52,13 @@ impl Effects {
         Effect::ALL.into_iter().map(|effect| (effect, self.get(effect).mode)).collect()
     }
 
+    /// Wants what `other` wants.
+    pub fn take_modes(&mut self, other: &Self) {
+        for (state, other) in self.states.iter_mut().zip(&other.states) {
+            state.mode = other.mode;
+        }
+    }
+
     /// Forgets what ran; the modes stay.
     pub fn start_over(&mut self) {
         for state in &mut self.states {

@@ -1,7 +1,11 @@
 //! What a player wants done to the world, in world units and apart from any device. Input turns mouse and keys into
 //! intents, the edit stage consumes them in order, replays store them.
 
-use crate::kernel::{brush::Stroke, element::ElementId};
+use crate::kernel::{
+    brush::Stroke,
+    element::ElementId,
+    params::{Preset, Quality},
+};
 use bevy::prelude::Resource;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
@@ -52,6 +56,13 @@ pub enum Intent {
     },
     /// Bring the air to rest at the surroundings' pressure.
     ClearAir,
+    /// Go on at another quality: chosen by the player, or by the autopilot, whose decisions are recorded like everybody's.
+    Quality {
+        /// Its name; for numbers between two names the nearest below.
+        preset: Preset,
+        /// Its numbers.
+        quality: Quality,
+    },
 }
 
 /// Intents that wait for the next edit stage.
@@ -69,6 +80,11 @@ impl IntentQueue {
     /// Whether none waits.
     pub fn is_empty(&self) -> bool {
         self.waiting.is_empty()
+    }
+
+    /// All that wait, oldest first.
+    pub fn iter(&self) -> std::slice::Iter<'_, Intent> {
+        self.waiting.iter()
     }
 
     /// Takes all that wait, oldest first.

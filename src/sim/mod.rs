@@ -1,7 +1,10 @@
 //! The Bevy side of the kernel: its data as resources, its passes as ordered systems, and what may be done to it from
 //! outside (`intent`, `control`).
 
+pub mod accuracy;
+pub mod autopilot;
 pub mod control;
+pub mod difference;
 pub mod effects;
 pub mod exam;
 pub mod intent;
@@ -11,8 +14,10 @@ pub mod replay;
 pub mod save;
 pub mod schedule;
 pub mod snapshot;
+pub mod split;
 pub mod stages;
 pub mod state;
+pub mod twin;
 pub mod view;
 pub mod workers;
 

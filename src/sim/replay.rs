@@ -10,7 +10,7 @@ use crate::{
         params::{FluidParams, Preset, Quality},
     },
     scene::blueprint::{Blueprint, EffectModes},
-    sim::intent::Intent,
+    sim::{intent::Intent, save::check},
 };
 use bevy::prelude::Resource;
 use glam::Vec2;
@@ -167,6 +167,7 @@ fn check_entry(entry: &Entry, last: u64, elements: usize) -> Result<(), String> 
         Intent::Blow { stroke, velocity } => (None, &[stroke.from, stroke.to, *velocity], &[stroke.radius]),
         Intent::Press { stroke, amount } => (None, &places(stroke), &[stroke.radius, *amount]),
         Intent::ClearAir => (None, &[], &[]),
+        Intent::Quality { quality, .. } => return check::quality(quality),
     };
     if let Some(element) = element.filter(|element| element.index() >= elements) {
         return Err(format!("element {} is not one of the {elements} elements (0 … {})", element.0, elements - 1));

@@ -7,7 +7,7 @@
 //! `encode` reads a world, `decode` checks every byte and value of a file, `load` puts the result into a world. A file is
 //! as long as what it holds: reading one takes memory in proportion to it, and no more than its box may have.
 
-mod check;
+pub(in crate::sim) mod check;
 #[cfg(test)]
 mod tests;
 

@@ -55,6 +55,13 @@ pub struct Clock {
     pub next_id: u32,
 }
 
+impl Clock {
+    /// Ticks and edits: what a world was put through, whatever it made of it.
+    pub fn seen(&self) -> (u64, u64) {
+        (self.tick, self.edits)
+    }
+}
+
 /// The scene that is played and the quality it is played at.
 #[derive(Resource, Clone, Debug)]
 pub struct Setup {

@@ -169,7 +169,7 @@ pub fn mix(a: Rgb, b: Rgb, t: f32) -> Rgb {
     std::array::from_fn(|k| (f32::from(a[k]) + (f32::from(b[k]) - f32::from(a[k])) * t + 0.5) as u8)
 }
 
-fn ramp(stops: &[Rgb], t: f32) -> Rgb {
+pub(super) fn ramp(stops: &[Rgb], t: f32) -> Rgb {
     let last = stops.len() - 1;
     let at = t.clamp(0.0, 1.0) * last as f32;
     let below = (at as usize).min(last - 1);

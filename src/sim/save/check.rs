@@ -5,7 +5,7 @@ use crate::{
     kernel::{
         air::Air,
         element::{Element, ElementId},
-        params::{AirParams, Domain, Preset},
+        params::{AirParams, Domain, Preset, Quality},
         solids::Solids,
         sources::Rect,
     },
@@ -73,14 +73,19 @@ fn numbers(contents: &Contents) -> Verdict {
     within("constraint_floor", fluid.constraint_floor, -1.0, 0.0)?;
     within("tension_strength", fluid.tension_strength, 0.0, 1.0)?;
     within("tension_distance", fluid.tension_distance, 0.1, 0.3)?;
+    self::quality(quality)?;
+    within("sound_speed", air_params.sound_speed * scale.spacing, 1.0 / ROUNDING, 400.0 * ROUNDING)?;
+    within("particle_limit", contents.particle_limit as f32, 1.0, 4e6)
+}
+
+/// The numbers of a quality.
+pub(in crate::sim) fn quality(quality: &Quality) -> Verdict {
     within("substeps", quality.substeps as f32, 1.0, 64.0)?;
     within("iterations", quality.iterations as f32, 1.0, 64.0)?;
     within("kernel_radius", quality.kernel_radius, 2.0, 4.0)?;
     within("correction_limit", quality.correction_limit, 0.05, 0.5)?;
     within("air_cell", quality.air_cell, 1.0, 32.0)?;
-    within("air_courant", quality.air_courant, 0.1, 0.9)?;
-    within("sound_speed", air_params.sound_speed * scale.spacing, 1.0 / ROUNDING, 400.0 * ROUNDING)?;
-    within("particle_limit", contents.particle_limit as f32, 1.0, 4e6)
+    within("air_courant", quality.air_courant, 0.1, 0.9)
 }
 
 fn elements(elements: &[Element]) -> Verdict {

@@ -3,6 +3,7 @@
 use crate::{
     kernel::spawn::{EditReport, Matter},
     sim::{
+        control::change_quality,
         intent::{Intent, IntentQueue},
         ledger::{Pass, PassLedger},
         replay::Recorder,
@@ -10,13 +11,13 @@ use crate::{
     },
 };
 use bevy::platform::time::Instant;
-use bevy::prelude::{Res, ResMut};
+use bevy::prelude::ResMut;
 
 /// Applies all waiting intents in order.
 pub(super) fn apply_intents(
     mut queue: ResMut<IntentQueue>,
     mut recorder: Option<ResMut<Recorder>>,
-    setup: Res<Setup>,
+    mut setup: ResMut<Setup>,
     mut particles: ResMut<ParticleStore>,
     mut rock: ResMut<Rock>,
     mut air: ResMut<AirGrid>,
@@ -59,6 +60,10 @@ pub(super) fn apply_intents(
             }
             Intent::ClearAir => {
                 air.clear();
+                EditReport::default()
+            }
+            Intent::Quality { preset, quality } => {
+                change_quality(&mut setup, &mut air, &rock, preset, quality);
                 EditReport::default()
             }
         };

@@ -1,0 +1,173 @@
+//! Looking at a world while it is played, without touching it.
+
+use super::{LivePlugin, survey::Surveyor};
+use crate::{
+    kernel::params::Preset,
+    lab::{
+        headless::Headless,
+        run::{Plan, run},
+    },
+    scene::{self, blueprint::EffectModes},
+    sim::{
+        accuracy::{LiveError, Survey, SurveyRequest, Watched},
+        autopilot::{self, Autopilot, Goal, controller::Verdict, ladder},
+        control,
+        intent::Intent,
+        ledger::PassLedger,
+        replay::Recorder,
+        schedule::TickSystems,
+        state::{Clock, Setup},
+        workers::Workers,
+    },
+};
+use bevy::prelude::{App, FixedUpdate, IntoScheduleConfigs, Res, ResMut};
+use std::{
+    sync::Arc,
+    thread,
+    time::{Duration, Instant},
+};
+
+fn begin(scene: &str, settings: &[(&str, &str)], plugin: impl bevy::app::Plugin) -> Headless {
+    let settings: Vec<_> = settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+    let blueprint = scene::load(scene).unwrap().build(&settings, None, &EffectModes::new()).unwrap();
+    Headless::begin_with(Workers::new(1).unwrap(), plugin, |world| control::load(world, Arc::new(blueprint)))
+}
+
+fn survey(headless: &Headless) -> &Survey {
+    headless.world().resource::<Survey>()
+}
+
+fn ask(headless: &mut Headless, request: SurveyRequest) {
+    headless.world_mut().resource_mut::<Survey>().request = Some(request);
+}
+
+#[test]
+fn a_watched_and_surveyed_world_has_the_hash_of_an_unwatched_one() {
+    let small = [("columns", "24")];
+    let mut plain = begin("dam_break", &small, |_: &mut App| ());
+    let mut watched = begin("dam_break", &small, LivePlugin);
+    watched.world_mut().resource_mut::<Watched>().0 = true;
+    for tick in 0..90 {
+        if tick == 20 {
+            ask(&mut watched, SurveyRequest::Begin);
+        }
+        plain.tick();
+        watched.tick();
+    }
+    assert_eq!(control::hash(plain.world()), control::hash(watched.world()), "measuring changes the world");
+    let error = watched.world().resource::<LiveError>();
+    assert!(error.mean().is_some_and(|mean| mean > 0.0) && error.p99() >= error.mean(), "{error:?}");
+}
+
+#[test]
+fn what_nobody_looks_at_is_not_measured() {
+    let mut headless = begin("dam_break", &[("columns", "8")], LivePlugin);
+    (0..10).for_each(|_| headless.tick());
+    assert_eq!(headless.world().resource::<LiveError>().latest(), None);
+}
+
+#[test]
+fn a_survey_measures_every_preset_from_this_moment_while_play_goes_on() {
+    for sliced in [false, true] {
+        let mut headless = begin("dam_break", &[("columns", "10")], LivePlugin);
+        if sliced {
+            headless.world_mut().insert_resource(Surveyor::sliced());
+        }
+        (0..25).for_each(|_| headless.tick());
+        ask(&mut headless, SurveyRequest::Begin);
+        headless.tick();
+        assert!(survey(&headless).is_running());
+        let (begun, mut seen) = (Instant::now(), 0.0);
+        while survey(&headless).is_running() {
+            let progress = survey(&headless).progress.unwrap();
+            assert!((seen..=1.0).contains(&progress), "progress went from {seen} to {progress}");
+            seen = progress;
+            headless.tick();
+            thread::sleep(Duration::from_millis(1));
+            assert!(begun.elapsed() < Duration::from_secs(120), "the survey does not end");
+        }
+        let curve = survey(&headless).curve.clone();
+        assert_eq!((curve.scene.as_str(), curve.tick), ("dam_break", 26));
+        assert_eq!(curve.points.len(), Preset::ALL.len());
+        let point = |preset| *curve.point(preset).expect("every preset is measured");
+        for preset in Preset::ALL {
+            assert!(point(preset).milliseconds > 0.0 && point(preset).error.is_some(), "{}", preset.name());
+        }
+        let (draft, reference) = (point(Preset::Draft), point(Preset::Reference));
+        assert!(draft.milliseconds < reference.milliseconds, "{curve:?}");
+        assert!(draft.error > reference.error, "{curve:?}");
+        assert!(curve.scale().is_some_and(|scale| scale > 0.0));
+        assert!(headless.world().resource::<Clock>().tick > 26, "play stood still meanwhile");
+    }
+}
+
+#[test]
+fn a_survey_can_be_given_up_and_begun_again() {
+    let mut headless = begin("dam_break", &[("columns", "10")], LivePlugin);
+    (0..3).for_each(|_| headless.tick());
+    ask(&mut headless, SurveyRequest::Begin);
+    headless.tick();
+    ask(&mut headless, SurveyRequest::Cancel);
+    headless.tick();
+    assert!(!survey(&headless).is_running());
+    thread::sleep(Duration::from_millis(60));
+    let before = survey(&headless).curve.clone();
+    headless.tick();
+    assert_eq!(survey(&headless).curve, before, "a survey that was given up goes on");
+    ask(&mut headless, SurveyRequest::Begin);
+    headless.tick();
+    assert!(survey(&headless).is_running() && survey(&headless).curve.tick > before.tick);
+    ask(&mut headless, SurveyRequest::Cancel);
+    headless.tick();
+}
+
+/// What a tick would cost on a machine where it costs in proportion to the work, and three times as much for a while.
+fn pretend_load(setup: Res<Setup>, clock: Res<Clock>, mut ledger: ResMut<PassLedger>) {
+    let load = if (200..400).contains(&clock.tick) { 3.0 } else { 1.0 };
+    ledger.end_tick(Duration::from_secs_f32(load * ladder::work(&setup.quality) / 1000.0));
+}
+
+/// A recorded world with the autopilot on, after `ticks` ticks: its hash, what was recorded, and the world.
+fn fly(goal: Goal, ticks: u64) -> (u64, Vec<(u64, Intent)>, Headless) {
+    let mut headless = begin("dam_break", &[("columns", "12")], |app: &mut App| {
+        app.add_plugins((LivePlugin, autopilot::plugin));
+        app.add_systems(FixedUpdate, pretend_load.after(TickSystems::Measure).before(autopilot::steer));
+        app.init_resource::<Recorder>();
+    });
+    headless.world_mut().resource_mut::<Watched>().0 = true;
+    headless.world_mut().resource_mut::<Autopilot>().hold(Some(goal));
+    (0..ticks).for_each(|_| headless.tick());
+    let world = headless.world();
+    let (setup, clock) = (world.resource::<Setup>(), world.resource::<Clock>());
+    let replay = world.resource::<Recorder>().replay(&setup.blueprint, clock.tick, clock.edits);
+    let intents = replay.entries.iter().map(|entry| (entry.tick, entry.intent)).collect();
+    (control::hash(world), intents, headless)
+}
+
+#[test]
+fn a_flight_is_recorded_and_repeats_to_the_bit_without_the_autopilot() {
+    for goal in [Goal::Time(16.0), Goal::Error(0.0005)] {
+        let (hash, intents, flown) = fly(goal, 600);
+        let moves = intents.iter().filter(|(_, intent)| matches!(intent, Intent::Quality { .. })).count();
+        assert!(moves >= 2, "{goal:?} moved {moves} times only: nothing is tested");
+        assert!(flown.world().resource::<Autopilot>().moves() as usize >= moves);
+        let mut again = begin("dam_break", &[("columns", "12")], |_: &mut App| ());
+        run(&mut again, &Plan { ticks: 600, intents, complete: true, ..Plan::default() }, &mut []).unwrap();
+        assert_eq!(control::hash(again.world()), hash, "{goal:?}");
+        assert_eq!(again.world().resource::<Setup>().quality, flown.world().resource::<Setup>().quality);
+    }
+}
+
+#[test]
+fn a_flight_keeps_to_its_time_and_says_when_it_cannot() {
+    let (_, _, flown) = fly(Goal::Time(16.0), 390);
+    let (setup, autopilot) = (flown.world().resource::<Setup>(), flown.world().resource::<Autopilot>());
+    assert!(3.0 * ladder::work(&setup.quality) <= 16.0, "{:?} is too dear under the load", setup.quality);
+    assert_eq!(autopilot.verdict(), Verdict::Holds);
+    let (_, _, flown) = fly(Goal::Time(16.0), 600);
+    let work = ladder::work(&flown.world().resource::<Setup>().quality);
+    assert!(work <= 16.0 && work > 9.0, "after the load it goes back to {work} of 16 ms");
+    let (_, _, flown) = fly(Goal::Time(0.5), 100);
+    assert_eq!(flown.world().resource::<Autopilot>().verdict(), Verdict::Beyond);
+    assert_eq!(flown.world().resource::<Setup>().preset, Preset::Draft);
+}

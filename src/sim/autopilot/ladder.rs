@@ -1,0 +1,116 @@
+//! The qualities that the autopilot chooses from, cheapest first: the presets and what lies between two of them.
+
+use crate::kernel::params::{Preset, Quality};
+use bevy::math::ops;
+
+/// Work of a substep's solver in units of an iteration, beside the iterations: prediction, sorting, the predictor.
+const FIXED_WORK: f32 = 2.0;
+/// Work from one rung to the next grows at least by this factor.
+const LEAST_STEP: f32 = 1.25;
+/// How fast the density error falls with the work: error ∝ work^−1.5.
+const ERROR_EXPONENT: f32 = -1.5;
+
+/// One quality.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rung {
+    /// The preset that it is, or the one below.
+    pub preset: Preset,
+    /// Its numbers.
+    pub quality: Quality,
+    /// Work of a tick in units of an iteration: about in proportion to its time.
+    pub work: f32,
+}
+
+impl Rung {
+    /// Density error in units of that of a work of 1: a first guess.
+    pub fn error(&self) -> f32 {
+        ops::powf(self.work, ERROR_EXPONENT)
+    }
+}
+
+/// Work of a tick in units of an iteration over all particles.
+pub fn work(quality: &Quality) -> f32 {
+    quality.substeps as f32 * (FIXED_WORK + quality.iterations as f32)
+}
+
+/// All rungs, the cheapest first; each costs more than the one before.
+pub fn ladder() -> Vec<Rung> {
+    let mut rungs: Vec<Rung> = Vec::new();
+    for preset in Preset::ALL.into_iter().filter(|preset| *preset != Preset::Classic) {
+        let quality = preset.quality();
+        let mut work = work(&quality);
+        if let Some(&below) = rungs.last() {
+            between(below, work, &mut rungs);
+            // A preset that spends its time elsewhere (finer air, a stricter solve) costs more than its iterations say.
+            work = work.max(rungs.last().map_or(0.0, |rung| rung.work) * 1.1);
+        }
+        rungs.push(Rung { preset, quality, work });
+    }
+    rungs
+}
+
+/// Adds what lies between a preset and one of the work `above`: more substeps or iterations of the lower.
+fn between(below: Rung, above: f32, rungs: &mut Vec<Rung>) {
+    let mut choices: Vec<Quality> = Vec::new();
+    for substeps in below.quality.substeps..=16 {
+        for iterations in below.quality.iterations..=below.quality.iterations + 2 {
+            choices.push(Quality { substeps, iterations, ..below.quality });
+        }
+    }
+    // Of two with the same work the one with more substeps has the smaller error.
+    choices.sort_by(|a, b| work(a).total_cmp(&work(b)).then(b.substeps.cmp(&a.substeps)));
+    let mut last = below.work;
+    for quality in choices {
+        let work = work(&quality);
+        if work >= last * LEAST_STEP && work * LEAST_STEP <= above {
+            rungs.push(Rung { preset: below.preset, quality, work });
+            last = work;
+        }
+    }
+}
+
+/// The rung whose work is nearest to a quality's.
+pub fn nearest(rungs: &[Rung], quality: &Quality) -> usize {
+    if let Some(same) = rungs.iter().position(|rung| rung.quality == *quality) {
+        return same;
+    }
+    let wanted = work(quality);
+    let distance = |rung: &Rung| if rung.work > wanted { rung.work / wanted } else { wanted / rung.work };
+    let nearest = rungs.iter().enumerate().min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)));
+    nearest.map_or(0, |(index, _)| index)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ladder_rises_and_holds_every_preset_but_classic() {
+        let rungs = ladder();
+        assert!(rungs.windows(2).all(|pair| pair[1].work > pair[0].work), "{rungs:?}");
+        assert!(rungs.windows(2).all(|pair| pair[1].error() < pair[0].error()));
+        for preset in Preset::ALL {
+            let found = rungs.iter().any(|rung| rung.quality == preset.quality());
+            assert_eq!(found, preset != Preset::Classic, "{}", preset.name());
+        }
+        let steepest = rungs.windows(2).map(|pair| pair[1].work / pair[0].work).fold(0.0, f32::max);
+        assert!(steepest <= 1.7, "a step of {steepest} is too high to settle near a bound");
+    }
+
+    #[test]
+    fn every_rung_is_a_sound_quality() {
+        for rung in ladder() {
+            crate::sim::save::check::quality(&rung.quality).unwrap();
+        }
+    }
+
+    #[test]
+    fn a_quality_finds_its_own_rung_or_the_nearest() {
+        let rungs = ladder();
+        for (k, rung) in rungs.iter().enumerate() {
+            assert_eq!(nearest(&rungs, &rung.quality), k);
+        }
+        let absurd = Quality { substeps: 64, iterations: 64, ..Preset::Fine.quality() };
+        assert_eq!(nearest(&rungs, &absurd), rungs.len() - 1);
+    }
+}

@@ -1,0 +1,214 @@
+//! The controller over synthetic plants: what it promises, held against a load that is known.
+
+use super::{
+    OF_ERROR, OF_TIME,
+    controller::{Controller, Verdict},
+    ladder::{self, Rung},
+};
+
+const TICK: f32 = 1.0 / 60.0;
+const SAMPLE: f32 = 3.0 * TICK;
+
+/// Numbers in −1 … 1, the same in every run.
+struct Noise(u64);
+
+impl Noise {
+    fn next(&mut self) -> f32 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 40) as f32 / (1_u64 << 23) as f32 - 1.0
+    }
+}
+
+/// A flight over a plant: what was in force when.
+struct Log {
+    /// Seconds, true value without noise, position, verdict.
+    steps: Vec<(f32, f32, usize, Verdict)>,
+    /// When it moved.
+    moves: Vec<f32>,
+}
+
+impl Log {
+    /// Longest time without a break in which the true value was over the bound, s.
+    fn longest_over(&self, bound: f32) -> f32 {
+        let (mut longest, mut begun) = (0.0_f32, None);
+        for &(time, value, ..) in &self.steps {
+            begun = if value > bound { begun.or(Some(time)) } else { None };
+            longest = begun.map_or(longest, |begun| longest.max(time - begun));
+        }
+        longest
+    }
+
+    fn moves_between(&self, from: f32, to: f32) -> usize {
+        self.moves.iter().filter(|time| (from..to).contains(*time)).count()
+    }
+
+    fn at(&self, time: f32) -> (f32, usize, Verdict) {
+        let &(_, value, position, verdict) = self.steps.iter().find(|step| step.0 >= time).expect("it flew so long");
+        (value, position, verdict)
+    }
+}
+
+/// Flies for `seconds`: `truth(time, position)` is the value, `noise` its share that is random.
+fn fly(
+    controller: &mut Controller,
+    seconds: f32,
+    step: f32,
+    noise: f32,
+    mut truth: impl FnMut(f32, usize) -> f32,
+) -> Log {
+    let mut random = Noise(9);
+    let mut log = Log { steps: Vec::new(), moves: Vec::new() };
+    for k in 0..(seconds / step) as u32 {
+        let time = k as f32 * step;
+        let value = truth(time, controller.position());
+        if controller.observe(value * (1.0 + noise * random.next()), step).is_some() {
+            log.moves.push(time);
+        }
+        log.steps.push((time, value, controller.position(), controller.verdict()));
+    }
+    log
+}
+
+/// Work of the rungs, dearest first: the model of the time.
+fn times() -> Vec<f32> {
+    ladder::ladder().iter().rev().map(|rung| rung.work).collect()
+}
+
+fn errors() -> Vec<f32> {
+    ladder::ladder().iter().map(Rung::error).collect()
+}
+
+#[test]
+fn a_step_in_the_load_is_met_within_half_a_second_and_settles_within_two() {
+    for noise in [0.0, 0.2] {
+        for factor in [1.3, 2.0, 3.0] {
+            // What a rung really costs is not quite what its work says.
+            let cost = |position: usize| times()[position] * (1.0 + 0.15 * ((position % 3) as f32 - 1.0));
+            let load = |time: f32| if (20.0..40.0).contains(&time) { factor } else { 1.0 };
+            let mut controller = Controller::new(12.0, OF_TIME, times(), 0);
+            let log = fly(&mut controller, 60.0, TICK, noise, |time, position| 0.5 * load(time) * cost(position));
+            assert!(log.longest_over(12.0) <= 0.5, "over for {} s at ×{factor}", log.longest_over(12.0));
+            for change in [0.0, 20.0, 40.0] {
+                let late = log.moves_between(change + 2.0, change + 20.0);
+                assert_eq!(
+                    late, 0,
+                    "×{factor}, noise {noise}: moved {late} times later than 2 s after {change} s: {:?}",
+                    log.moves
+                );
+                let (value, position, verdict) = log.at(change + 19.0);
+                assert_eq!(verdict, Verdict::Holds);
+                let dearer = if position > 0 { 0.5 * load(change + 19.0) * cost(position - 1) } else { f32::INFINITY };
+                assert!(value <= 12.0 && dearer > 0.55 * 12.0, "settled at {value} ms, the next costs {dearer}");
+            }
+        }
+    }
+}
+
+#[test]
+fn noise_alone_never_moves_it() {
+    // From well inside to right below the bound: whatever the place, at most a first correction.
+    for share in [0.5, 0.7, 0.8, 0.9, 0.97, 1.0] {
+        let mut controller = Controller::new(10.0, OF_TIME, times(), 4);
+        let unit = 10.0 * share / times()[4];
+        let log = fly(&mut controller, 120.0, TICK, 0.2, |_, position| unit * times()[position]);
+        assert!(log.moves.len() <= 2, "{} moves at {share} of the bound", log.moves.len());
+        assert_eq!(log.moves_between(15.0, 120.0), 0, "it still moves at {share} of the bound: {:?}", log.moves);
+    }
+}
+
+#[test]
+fn spikes_are_not_the_load() {
+    let mut controller = Controller::new(10.0, OF_TIME, times(), 5);
+    let unit = 8.0 / times()[5];
+    let log = fly(&mut controller, 60.0, TICK, 0.05, |time, position| {
+        let spike = (time * 60.0).round() as u32 % 20 == 7;
+        unit * times()[position] * if spike { 12.0 } else { 1.0 }
+    });
+    assert_eq!(log.moves, [] as [f32; 0], "one tick in twenty took twelve times as long");
+}
+
+#[test]
+fn a_bound_that_cannot_be_held_is_said_and_found_again() {
+    let cheapest = times().len() - 1;
+    let load = |time: f32| if time < 10.0 { 50.0 } else { 1.0 };
+    let mut controller = Controller::new(10.0, OF_TIME, times(), 0);
+    let log = fly(&mut controller, 20.0, TICK, 0.2, |time, position| load(time) * times()[position]);
+    let (_, position, verdict) = log.at(1.0);
+    assert_eq!((position, verdict), (cheapest, Verdict::Beyond));
+    assert!(log.steps.iter().filter(|step| (1.0..10.0).contains(&step.0)).all(|step| step.3 == Verdict::Beyond));
+    assert_eq!(log.at(13.0).2, Verdict::Holds, "once the load is gone it holds again");
+    assert_eq!(log.moves_between(12.0, 20.0), 0);
+}
+
+#[test]
+fn an_error_bound_is_held_with_the_least_work() {
+    for exponent in [0.8, 1.5, 2.5] {
+        // A splash at 10 s quadruples the error for 5 s; it follows a change of the quality with some inertia.
+        let model = errors();
+        let real = |position: usize| bevy::math::ops::powf(model[position], exponent / 1.5);
+        let calm = 0.004 / real(3);
+        let mut now = calm * real(0);
+        let mut controller = Controller::new(0.005, OF_ERROR, errors(), 0);
+        let log = fly(&mut controller, 30.0, SAMPLE, 0.15, |time, position| {
+            let splash = if (10.0..15.0).contains(&time) { 4.0 } else { 1.0 };
+            now += (calm * real(position) * splash - now) * 0.6;
+            now
+        });
+        let held = (0..model.len()).any(|position| 4.0 * calm * real(position) <= 0.85 * 0.005);
+        if held {
+            assert!(log.longest_over(0.005) <= 0.5, "x{exponent}: over for {} s", log.longest_over(0.005));
+        }
+        assert_eq!(log.at(9.0).2, Verdict::Holds);
+        assert!(
+            log.moves_between(2.0, 10.0) == 0 && log.moves_between(17.0, 30.0) == 0,
+            "x{exponent}: {:?}",
+            log.moves
+        );
+        let rung = log.at(29.0).1;
+        let cheaper = if rung > 1 { calm * real(rung - 2) } else { f32::INFINITY };
+        assert!(cheaper > 0.65 * 0.005, "x{exponent}: it stays at rung {rung} for nothing");
+    }
+}
+
+#[test]
+fn slow_ticks_are_counted_by_their_time() {
+    // 60 ms a tick at the start: few observations have to do.
+    let mut controller = Controller::new(20.0, OF_TIME, times(), 0);
+    let (mut time, mut moved) = (0.0, Vec::new());
+    for _ in 0..200 {
+        let value = times()[controller.position()] * 1.25;
+        time += (value / 1000.0).max(TICK);
+        if controller.observe(value, (value / 1000.0).max(TICK)).is_some() {
+            moved.push(time);
+        }
+    }
+    assert!(times()[controller.position()] * 1.25 <= 20.0);
+    assert!(moved.last().is_some_and(|last| *last <= 2.0), "{moved:?}");
+    assert!(moved[0] <= 0.5, "{moved:?}");
+}
+
+#[test]
+fn what_is_not_a_number_is_not_observed() {
+    let mut controller = Controller::new(10.0, OF_TIME, times(), 0);
+    for value in [f32::NAN, f32::INFINITY] {
+        for _ in 0..500 {
+            assert_eq!(controller.observe(value, TICK), None);
+        }
+    }
+    assert_eq!(controller.observe(1e9, 0.0), None);
+}
+
+#[test]
+fn a_tighter_bound_is_met_at_once_and_a_wider_one_used() {
+    let mut controller = Controller::new(10.0, OF_TIME, times(), 0);
+    let plant = |_: f32, position: usize| 0.4 * times()[position];
+    fly(&mut controller, 5.0, TICK, 0.1, plant);
+    let middle = controller.position();
+    controller.set_bound(4.0);
+    let log = fly(&mut controller, 5.0, TICK, 0.1, plant);
+    assert!(controller.position() > middle && log.longest_over(4.0) <= 0.5);
+    controller.set_bound(10.0);
+    let log = fly(&mut controller, 5.0, TICK, 0.1, plant);
+    assert!(controller.position() < times().len() - 1 && log.moves_between(2.0, 5.0) == 0);
+    assert!(plant(0.0, controller.position()) > 5.5, "the wider bound is not used");
+}
