@@ -280,6 +280,14 @@ pub(super) struct RunArguments {
     /// Save the world at the end, to be run on
     #[arg(long, value_name = "FILE")]
     pub(super) snapshot: Option<PathBuf>,
+    /// Let the autopilot change the quality to hold so many ms a tick; the hash then depends on the machine
+    #[arg(long, value_name = "MS", allow_negative_numbers = true, value_parser = hold_ms,
+          conflicts_with_all = ["hold_error", "replay"])]
+    pub(super) hold_ms: Option<f32>,
+    /// Let the autopilot change the quality to hold a mean density error, in percent; the hash does not
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = hold_error,
+          conflicts_with = "replay")]
+    pub(super) hold_error: Option<f32>,
     /// Repeat recorded input; it brings its own parameters and quality
     #[arg(long, value_name = "FILE", conflicts_with = "settings")]
     pub(super) replay: Option<PathBuf>,
@@ -338,6 +346,19 @@ fn simd(text: &str) -> Result<InstructionSet, String> {
         let names: Vec<&str> = sets.into_iter().map(InstructionSet::name).collect();
         format!("allowed on this processor: auto, {}", names.join(", "))
     })
+}
+
+fn hold_ms(text: &str) -> Result<f32, String> {
+    number(text, 0.01..=10_000.0)
+}
+
+fn hold_error(text: &str) -> Result<f32, String> {
+    number(text, 0.0001..=100.0)
+}
+
+fn number(text: &str, range: std::ops::RangeInclusive<f32>) -> Result<f32, String> {
+    let number = text.parse().ok().filter(|number| range.contains(number));
+    number.ok_or_else(|| format!("allowed: numbers from {} to {}", range.start(), range.end()))
 }
 
 fn preset(text: &str) -> Result<Preset, String> {

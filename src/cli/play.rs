@@ -19,11 +19,11 @@ pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Fai
 
 #[cfg(feature = "app")]
 fn open(scene: &str, record: Option<PathBuf>, load: impl FnOnce(&mut World)) -> Result<(), Failure> {
-    use crate::{game, lab::exam::desk};
+    use crate::{game, lab::{exam::desk, live::LivePlugin}};
     use bevy::app::AppExit;
 
     match game::run(scene, record, |app| {
-        app.add_plugins(desk::plugin);
+        app.add_plugins((desk::plugin, LivePlugin));
         load(app.world_mut());
     }) {
         Ok(AppExit::Success) => Ok(()),

@@ -12,6 +12,7 @@ use crate::{
     lab::{
         self,
         headless::Headless,
+        live::LivePlugin,
         metrics::Metrics,
         moment::Moment,
         particle_list,
@@ -21,7 +22,17 @@ use crate::{
         sampler::Sampler,
         trace::Trace,
     },
-    sim::{control, replay::Replay, save, view::View, workers::Workers},
+    sim::{
+        accuracy::Watched,
+        autopilot::{self, Autopilot, Goal, controller::Verdict},
+        control,
+        intent::Intent,
+        replay::Replay,
+        save,
+        state::Setup,
+        view::View,
+        workers::Workers,
+    },
 };
 use bevy::{ecs::world::World, platform::time::Instant};
 use std::{
@@ -41,7 +52,14 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     threads::start(arguments.threads)?;
     let trace = arguments.trace.as_deref().map(Tracing::create).transpose()?;
 
-    let mut headless = Headless::begin(Workers::default(), |world| start.load(world, arguments.simd));
+    let mut headless = match goal(arguments) {
+        None => Headless::begin(Workers::default(), |world| start.load(world, arguments.simd)),
+        Some(goal) => Headless::begin_with(Workers::default(), (LivePlugin, autopilot::plugin), |world| {
+            world.resource_mut::<Watched>().0 = true;
+            world.resource_mut::<Autopilot>().hold(Some(goal));
+            start.load(world, arguments.simd);
+        }),
+    };
     let reference = arguments.reference.as_deref().map(|path| reference(path, headless.world(), &plan)).transpose()?;
     let mut follower = reference.as_ref().map(Follower::new);
     let begun = Instant::now();
@@ -65,7 +83,25 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         return Ok(());
     }
     let (ticks, hash) = (plan.ticks, control::hash(world));
-    output::print(&format!("scene={} ticks={ticks} wall_seconds={seconds:.3} hash={hash:016x}\n", arguments.scene))
+    let scene = &arguments.scene;
+    output::print(&format!("scene={scene} ticks={ticks} wall_seconds={seconds:.3} hash={hash:016x}{}\n", flown(world)))
+}
+
+/// What the autopilot is to hold.
+fn goal(arguments: &RunArguments) -> Option<Goal> {
+    arguments.hold_ms.map(Goal::Time).or(arguments.hold_error.map(|percent| Goal::Error(percent / 100.0)))
+}
+
+/// How the autopilot stands with its bound at the end, if it flew.
+fn flown(world: &World) -> String {
+    let Some(autopilot) = world.get_resource::<Autopilot>() else { return String::new() };
+    let quality = world.resource::<Setup>().quality;
+    let held = match autopilot.verdict() {
+        Verdict::Holds => "yes",
+        Verdict::Beyond => "no",
+        Verdict::Settling => "settling",
+    };
+    format!(" held={held} moves={} quality={}x{}", autopilot.moves(), quality.substeps, quality.iterations)
 }
 
 /// The trace and its path, for what is to be said if it can't be written.
@@ -111,7 +147,10 @@ fn plan(arguments: &RunArguments, replay: Option<Replay>) -> Result<Plan, Failur
         )));
     }
     let entries = replay.map(|replay| replay.entries).unwrap_or_default();
-    let intents = entries.into_iter().map(|entry| (entry.tick, entry.intent)).collect();
+    // Who asks for a quality gets it from the first tick to the last.
+    let wanted = |intent: &Intent| arguments.quality.is_none() || !matches!(intent, Intent::Quality { .. });
+    let intents = entries.into_iter().filter(|entry| wanted(&entry.intent));
+    let intents = intents.map(|entry| (entry.tick, entry.intent)).collect();
     Ok(Plan { ticks, warmup: arguments.warmup, intents, complete: recorded == Some(ticks) })
 }
 

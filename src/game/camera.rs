@@ -39,6 +39,10 @@ pub struct WorldCamera {
     zoom: f32,
     /// Point of the world in the middle of the free area, d.
     centre: Vec2,
+    /// Further areas of the same size that show the same part of the box (an A/B split).
+    others: Option<[Area; 2]>,
+    /// The area that the pointer took hold of, while it holds something: 0 is the free one.
+    held: Option<usize>,
 }
 
 impl Default for WorldCamera {
@@ -50,7 +54,15 @@ impl Default for WorldCamera {
 impl WorldCamera {
     /// A camera that shows the whole of a box of `world` d in a window of `window` pixels.
     pub fn new(window: Vec2, world: Vec2) -> Self {
-        Self { window, free: Area { min: Vec2::ZERO, max: window }, world, zoom: 1.0, centre: world / 2.0 }
+        Self {
+            window,
+            free: Area { min: Vec2::ZERO, max: window },
+            world,
+            zoom: 1.0,
+            centre: world / 2.0,
+            others: None,
+            held: None,
+        }
     }
 
     /// Follows the window and the HUD. A window without a size (minimised) leaves things as they are.
@@ -101,8 +113,45 @@ impl WorldCamera {
         room.min_element() * self.zoom
     }
 
+    /// Shows the same in two more areas of the size of the free one, or in that alone.
+    pub fn set_others(&mut self, others: Option<[Area; 2]>) {
+        if self.others != others {
+            (self.others, self.held) = (others, None);
+        }
+    }
+
+    /// All areas: the free one, and the others if there are any.
+    pub fn panes(&self) -> impl Iterator<Item = Area> {
+        std::iter::once(self.free).chain(self.others.into_iter().flatten())
+    }
+
+    /// Until it is let go, the pointer is where it is in the area of `pixel`, wherever it is dragged.
+    pub fn hold_pane(&mut self, pixel: Vec2) {
+        self.held = self.panes().position(|pane| pane.contains(pixel));
+    }
+
+    /// The pointer is in whatever area it is over.
+    pub fn let_pane_go(&mut self) {
+        self.held = None;
+    }
+
+    /// How far the area that the pointer is in, or holds, lies from the free one, pixels.
+    fn shift(&self, pixel: Vec2) -> Vec2 {
+        let pane = match self.held {
+            Some(held) => self.panes().nth(held),
+            None => self.panes().find(|pane| pane.contains(pixel)),
+        };
+        pane.map_or(Vec2::ZERO, |pane| pane.min - self.free.min)
+    }
+
+    /// The pixel at which a point of the world stands in the area that the pointer is in, or holds.
+    pub fn to_pixel_beside(&self, point: Vec2, pointer: Vec2) -> Vec2 {
+        self.to_pixel(point) + self.shift(pointer)
+    }
+
     /// The point of the world under a pixel, d.
     pub fn to_world(&self, pixel: Vec2) -> Vec2 {
+        let pixel = pixel - self.shift(pixel);
         let middle = (self.free.min + self.free.max) / 2.0;
         self.centre + (pixel - middle) * Vec2::new(1.0, -1.0) / self.pixels_per_d()
     }
@@ -132,10 +181,10 @@ impl WorldCamera {
         (self.zoom, self.centre) = (1.0, self.world / 2.0);
     }
 
-    /// Scale and offset that take a point of the world to clip space.
-    pub fn clip_transform(&self) -> (Vec2, Vec2) {
+    /// Scale and offset that take a point of the world to clip space, shown in `pane`.
+    pub fn clip_transform(&self, pane: Area) -> (Vec2, Vec2) {
         let scale = 2.0 * self.pixels_per_d() / self.window;
-        let origin = self.to_pixel(Vec2::ZERO) / self.window;
+        let origin = (self.to_pixel(Vec2::ZERO) + pane.min - self.free.min) / self.window;
         (scale, Vec2::new(2.0 * origin.x - 1.0, 1.0 - 2.0 * origin.y))
     }
 
@@ -200,10 +249,30 @@ mod tests {
     fn clip_space_agrees_with_pixels() {
         let camera = camera();
         let point = Vec2::new(150.0, 20.0);
-        let (scale, offset) = camera.clip_transform();
+        let (scale, offset) = camera.clip_transform(camera.free());
         let clip = point * scale + offset;
         let pixel = (clip * Vec2::new(0.5, -0.5) + 0.5) * camera.window();
         assert!((pixel - camera.to_pixel(point)).length() < 1e-2);
+    }
+
+    #[test]
+    fn a_second_area_shows_the_same_and_a_drag_keeps_to_its_own() {
+        let mut camera = camera();
+        let area = |x: f32| Area { min: Vec2::new(x, 40.0), max: Vec2::new(x + 260.0, 540.0) };
+        camera.set_window(Vec2::new(800.0, 600.0), area(0.0));
+        camera.set_others(Some([area(270.0), area(540.0)]));
+        let (first, second) = (Vec2::new(100.0, 300.0), Vec2::new(370.0, 300.0));
+        assert!((camera.to_world(first) - camera.to_world(second)).length() < 1e-3);
+        assert!((camera.to_pixel_beside(camera.to_world(second), second) - second).length() < 1e-2);
+        camera.hold_pane(first);
+        assert!(camera.to_world(second).x > camera.to_world(first).x + 10.0, "a drag must not jump at the divider");
+        camera.let_pane_go();
+        let point = camera.to_world(second);
+        camera.zoom_at(second, 2.0);
+        assert!((camera.to_world(second) - point).length() < 1e-3, "zoom holds the point under the pointer");
+        let (scale, offset) = camera.clip_transform(area(270.0));
+        let clip = (point * scale + offset) * Vec2::new(0.5, -0.5) + 0.5;
+        assert!((clip * camera.window() - second).length() < 0.1);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 
 use crate::{
     kernel::units::{TICK_SECONDS, TICKS_PER_SECOND},
-    sim::{ledger::PassLedger, pace::Pace, state::Clock},
+    sim::{ledger::PassLedger, pace::Pace, split::Split, state::Clock},
 };
 use bevy::prelude::{Real, Res, ResMut, Resource, Time, Virtual};
 use std::time::Duration;
@@ -67,7 +67,7 @@ impl Tempo {
 }
 
 /// Lets at most as many ticks into the next frame as it can afford, at the player's speed.
-pub fn set_pace(pace: Res<Pace>, ledger: Res<PassLedger>, mut time: ResMut<Time<Virtual>>) {
+pub fn set_pace(pace: Res<Pace>, ledger: Res<PassLedger>, split: Res<Split>, mut time: ResMut<Time<Virtual>>) {
     // While the world stands, fixed updates only carry edits: at slow motion's rate they would feel late.
     let speed = if pace.ticks() { pace.speed.clamp(*SPEED_RANGE.start(), *SPEED_RANGE.end()) } else { 1.0 };
     if time.relative_speed() != speed {
@@ -75,7 +75,8 @@ pub fn set_pace(pace: Res<Pace>, ledger: Res<PassLedger>, mut time: ResMut<Time<
     }
     // `max_delta` bounds the real time of a frame, before the speed is applied. Together with an overstep below one
     // tick, `n` ticks of time can't hold more than `n` ticks.
-    let most = ticks_per_frame(ledger.tick().median()) as f32 * TICK_SECONDS / speed;
+    let tick = ledger.tick().median() + split.tick_time();
+    let most = ticks_per_frame(tick) as f32 * TICK_SECONDS / speed;
     time.set_max_delta(Duration::from_secs_f32(most));
 }
 

@@ -18,12 +18,16 @@ pub mod recording;
 pub mod render;
 pub mod saves;
 pub mod screen;
+pub mod split;
 #[cfg(test)]
 mod tests;
 pub mod tools;
 pub mod window;
 
-use crate::kernel::units::TICKS_PER_SECOND;
+use crate::{
+    kernel::units::TICKS_PER_SECOND,
+    sim::{accuracy, autopilot},
+};
 use bevy::{
     prelude::{
         App, AppExit, Fixed, FixedPreUpdate, IntoScheduleConfigs, Last, Plugin, RunFixedMainLoop,
@@ -59,9 +63,20 @@ impl Plugin for GamePlugin {
             .init_resource::<input::keys::Typing>()
             .init_resource::<input::strokes::Held>()
             .init_resource::<render::extract::Epoch>()
+            .init_resource::<accuracy::Watched>()
+            .init_resource::<accuracy::LiveError>()
+            .init_resource::<accuracy::Survey>()
+            .add_plugins((autopilot::plugin, crate::sim::split::plugin))
             .add_systems(
                 RunFixedMainLoop,
-                (follow::follow_scene, input::keys::pan, input::devices::read_devices, orders::obey, frame::set_pace)
+                (
+                    follow::follow_scene,
+                    input::keys::pan,
+                    input::devices::read_devices,
+                    orders::obey,
+                    split::watch,
+                    frame::set_pace,
+                )
                     .chain()
                     .in_set(InputSystems)
                     .in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop),

@@ -13,7 +13,7 @@ use crate::{
         },
         recording,
         render::extract::Epoch,
-        saves, screen,
+        saves, screen, split,
         tools::{Tool, Toolbox},
     },
     kernel::{element::ElementId, params::Preset, solids::Solids},
@@ -22,10 +22,13 @@ use crate::{
         blueprint::{Effect, EffectModes, Mode},
     },
     sim::{
+        accuracy::{Survey, SurveyRequest},
+        autopilot::{Autopilot, Goal},
         control,
         effects::Effects,
         intent::{Intent, IntentQueue},
         pace::Pace,
+        split::Split,
         state::{ParticleStore, Rock, Setup},
         view::View,
     },
@@ -54,6 +57,12 @@ pub enum Order {
     Speed(f32),
     /// Go on at another quality.
     Quality(Preset),
+    /// Go on with the second world of the split at another quality.
+    SecondQuality(Preset),
+    /// Let the autopilot hold something, or nothing.
+    Hold(Option<Goal>),
+    /// Measure what the qualities cost from here on, or give that up.
+    Survey(SurveyRequest),
     /// Switch an effect.
     Effect(Effect, Mode),
     /// Go on with the world of a save file.
@@ -89,7 +98,14 @@ pub fn obey(world: &mut World) {
             Order::Speed(speed) => {
                 world.resource_mut::<Pace>().speed = speed.clamp(*SPEED_RANGE.start(), *SPEED_RANGE.end());
             }
-            Order::Quality(preset) => set_quality(world, preset),
+            Order::Quality(preset) => {
+                // Who chooses by hand flies by hand.
+                world.resource_mut::<Autopilot>().hold(None);
+                world.resource_mut::<IntentQueue>().push(Intent::Quality { preset, quality: preset.quality() });
+            }
+            Order::SecondQuality(preset) => world.resource_mut::<Split>().set_quality(preset, preset.quality()),
+            Order::Hold(goal) => world.resource_mut::<Autopilot>().hold(goal),
+            Order::Survey(request) => world.resource_mut::<Survey>().request = Some(request),
             Order::Effect(effect, mode) => {
                 recording::stop(world, "another choice of effects");
                 world.resource_mut::<Effects>().get_mut(effect).mode = mode;
@@ -131,18 +147,13 @@ fn act(world: &mut World, action: Action) {
         | Action::Settings
         | Action::Details
         | Action::Exam
+        | Action::Accuracy
         | Action::Help
         | Action::Close => world.resource_mut::<HudState>().act(action),
+        Action::Split => split::toggle(world),
         Action::FullScreen => screen::toggle_full_screen(world),
         Action::Screenshot => screen::take_screenshot(world),
     }
-}
-
-fn set_quality(world: &mut World, preset: Preset) {
-    if world.resource::<Setup>().preset != preset {
-        recording::stop(world, "another quality");
-    }
-    control::set_quality(world, preset, preset.quality());
 }
 
 /// Plays another scene, at the quality that is in force.

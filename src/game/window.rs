@@ -5,6 +5,7 @@ use crate::{
     sim::{
         SimulationPlugin,
         state::{Census, Setup},
+        view,
     },
 };
 use bevy::{
@@ -100,6 +101,7 @@ fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> App {
         prevent_default_event_handling: true,
         ..Window::default()
     };
+    let [red, green, blue] = view::SURROUNDINGS;
     let mut app = App::new();
     app.add_plugins(
         DefaultPlugins
@@ -107,8 +109,8 @@ fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> App {
             .set(LogPlugin { filter: "error,bevy_winit=off".into(), ..LogPlugin::default() }),
     )
     .add_plugins(EguiPlugin::default())
-    .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
-    .insert_resource(ClearColor(Color::BLACK))
+    .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin, measuring))
+    .insert_resource(ClearColor(Color::srgb_u8(red, green, blue)))
     .init_resource::<Room>()
     .add_systems(Startup, spawn_camera)
     .add_systems(Update, tell_in_title.run_if(on_timer(TITLE_EVERY)));

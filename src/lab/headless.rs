@@ -6,7 +6,7 @@ use crate::{
 };
 use bevy::{
     MinimalPlugins,
-    app::{App, Plugin, PluginGroup, ScheduleRunnerPlugin},
+    app::{App, PluginGroup, Plugins, ScheduleRunnerPlugin},
     ecs::world::World,
     time::TimeUpdateStrategy,
 };
@@ -25,13 +25,14 @@ impl Headless {
 
     /// The world that `load` makes, for `workers` to run.
     pub fn begin(workers: Workers, load: impl FnOnce(&mut World)) -> Self {
-        Self::begin_with(workers, |_: &mut App| (), load)
+        Self::begin_with(workers, (), load)
     }
 
-    /// The world that `load` makes, with one more plugin.
-    pub fn begin_with(workers: Workers, plugin: impl Plugin, load: impl FnOnce(&mut World)) -> Self {
+    /// The world that `load` makes, with more plugins.
+    pub fn begin_with<M>(workers: Workers, plugins: impl Plugins<M>, load: impl FnOnce(&mut World)) -> Self {
         let mut app = App::new();
-        app.add_plugins((MinimalPlugins.build().disable::<ScheduleRunnerPlugin>(), SimulationPlugin, plugin));
+        app.add_plugins((MinimalPlugins.build().disable::<ScheduleRunnerPlugin>(), SimulationPlugin));
+        app.add_plugins(plugins);
         app.insert_resource(workers).insert_resource(TimeUpdateStrategy::FixedTimesteps(1));
         load(app.world_mut());
         app.finish();

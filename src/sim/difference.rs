@@ -1,11 +1,11 @@
 //! How far two worlds of the same scene are apart, on a coarse field: share of liquid and its velocity in square cells.
 //! A flow is chaotic, particles soon stand elsewhere; what they add up to is compared.
 
-use crate::sim::{
-    state::{ParticleStore, Setup},
-    view::{Reference, Rgb},
+use crate::{
+    kernel::particles::Particles,
+    scene::blueprint::Blueprint,
+    sim::view::{Reference, Rgb},
 };
-use bevy::prelude::World;
 use glam::Vec2;
 
 /// Edge of a cell, d.
@@ -27,7 +27,7 @@ struct Field {
 }
 
 impl Field {
-    fn measure(&mut self, particles: &ParticleStore, columns: usize, rows: usize) {
+    fn measure(&mut self, particles: &Particles, columns: usize, rows: usize) {
         self.share.clear();
         self.share.resize(columns * rows, 0.0);
         self.flow.clear();
@@ -56,13 +56,12 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// Compares two worlds of the same scene.
-    pub fn measure(&mut self, first: &World, second: &World) {
-        let blueprint = &first.resource::<Setup>().blueprint;
+    /// Compares the particles of two worlds of the same scene.
+    pub fn measure(&mut self, blueprint: &Blueprint, first: &Particles, second: &Particles) {
         let cells = (blueprint.domain.size / CELL).ceil().max(Vec2::ONE);
         (self.columns, self.rows) = (cells.x as usize, cells.y as usize);
-        for (field, world) in self.fields.iter_mut().zip([first, second]) {
-            field.measure(world.resource::<ParticleStore>(), self.columns, self.rows);
+        for (field, particles) in self.fields.iter_mut().zip([first, second]) {
+            field.measure(particles, self.columns, self.rows);
         }
         let speed = FULL_SPEED * Reference::of(&blueprint.domain, &blueprint.air).fall;
         let [a, b] = &self.fields;

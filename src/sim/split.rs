@@ -138,7 +138,7 @@ mod tests {
         kernel::brush::{BrushShape, Stroke},
         lab::headless::Headless,
         scene::{self, blueprint::EffectModes},
-        sim::{control, difference::Difference},
+        sim::{control, difference::Difference, state::ParticleStore},
     };
     use glam::Vec2;
 
@@ -175,7 +175,9 @@ mod tests {
 
     fn difference(headless: &Headless) -> Difference {
         let mut difference = Difference::default();
-        difference.measure(headless.world(), headless.world().resource::<Split>().world().expect("it is on"));
+        let (first, second) = (headless.world(), headless.world().resource::<Split>().world().expect("it is on"));
+        let particles = |world: &World| world.resource::<ParticleStore>().0.clone();
+        difference.measure(&first.resource::<Setup>().blueprint, &particles(first), &particles(second));
         difference
     }
 

@@ -12,7 +12,7 @@ use crate::{
         input::bindings::{self, Action},
         orders::{Order, Orders, Shown},
     },
-    kernel::params::Preset,
+    kernel::params::{Preset, Quality},
     sim::{state::Setup, view::View},
 };
 use bevy::prelude::{Res, ResMut, Result};
@@ -103,6 +103,7 @@ fn menus(ui: &mut Ui, narrow: bool, state: &HudState, setup: &Setup, shown: View
         (Icon::Gear, Action::Settings, state.settings),
         (Icon::Check, Action::Exam, state.exam),
         (Icon::Chart, Action::Details, state.details),
+        (Icon::Curve, Action::Accuracy, state.accuracy),
         (Icon::Load, Action::Saves, state.saves),
         (Icon::Save, Action::Save, false),
     ] {
@@ -111,14 +112,11 @@ fn menus(ui: &mut Ui, narrow: bool, state: &HudState, setup: &Setup, shown: View
         }
     }
     let name = |text: &'static str| (!narrow).then_some(text);
-    let quality = icon_button(ui, Icon::Gauge, name(setup.preset.name()), false);
-    menu(&quality, "Quality", |ui| {
-        for preset in Preset::ALL {
-            if row(ui, preset.name(), about(preset), preset == setup.preset) {
-                orders.push(Order::Quality(preset));
-            }
-        }
-    });
+    let quality = (!narrow).then(|| quality_name(setup.preset, &setup.quality));
+    let quality = icon_button(ui, Icon::Gauge, quality.as_deref(), false);
+    if let Some(preset) = quality_menu(&quality, setup.preset) {
+        orders.push(Order::Quality(preset));
+    }
     let view = icon_button(ui, Icon::Eye, name(shown.name()), shown != View::Elements);
     menu(&view, "View", |ui| {
         for view in View::ALL {
@@ -133,6 +131,27 @@ fn menus(ui: &mut Ui, narrow: bool, state: &HudState, setup: &Setup, shown: View
     if scenes.on_hover_text(tip(Action::Scenes)).clicked() {
         orders.push(Order::Act(Action::Scenes));
     }
+}
+
+/// The menu of qualities under a button; says which one is chosen.
+pub fn quality_menu(button: &egui::Response, now: Preset) -> Option<Preset> {
+    let mut chosen = None;
+    menu(button, "Quality", |ui| {
+        for preset in Preset::ALL {
+            if row(ui, preset.name(), about(preset), preset == now) {
+                chosen = Some(preset);
+            }
+        }
+    });
+    chosen
+}
+
+/// A quality on the screen: its name, or substeps × iterations where it lies between two names.
+pub fn quality_name(preset: Preset, quality: &Quality) -> String {
+    if *quality == preset.quality() {
+        return preset.name().to_owned();
+    }
+    format!("{} × {}", quality.substeps, quality.iterations)
 }
 
 fn about(preset: Preset) -> &'static str {

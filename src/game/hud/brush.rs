@@ -49,12 +49,12 @@ pub fn show(
     let pen = Pen { painter, stroke: Stroke::new(1.25, colour) };
     match straight {
         Some(pull) if pull.gesture == Gesture::Line => {
-            let start = at(camera.to_pixel(pull.start));
+            let start = at(camera.to_pixel_beside(pull.start, pixel));
             pen.line(start, at(pixel));
             pen.brush(tools.shape, start, radius);
             pen.brush(tools.shape, at(pixel), radius);
         }
-        Some(pull) => pen.rectangle(Rect::from_two_pos(at(camera.to_pixel(pull.start)), at(pixel))),
+        Some(pull) => pen.rectangle(Rect::from_two_pos(at(camera.to_pixel_beside(pull.start, pixel)), at(pixel))),
         None => pen.brush(tools.shape, at(pixel), radius),
     }
     Ok(())

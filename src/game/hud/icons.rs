@@ -41,6 +41,10 @@ pub enum Icon {
     Gear,
     /// Books.
     Chart,
+    /// Error against time.
+    Curve,
+    /// Two halves.
+    Split,
     /// Help.
     Question,
     /// Round brush.
@@ -89,6 +93,17 @@ pub fn draw(painter: &Painter, rect: Rect, icon: Icon, colour: Color32) {
             for (x, height) in [(0.14, 0.34), (0.42, 0.7), (0.7, 0.5)] {
                 pen.bar(x, 0.86 - height, 0.17, height);
             }
+        }
+        Icon::Curve => {
+            pen.line(&[(0.14, 0.1), (0.14, 0.86), (0.92, 0.86)], 0.09);
+            pen.line(&[(0.26, 0.18), (0.34, 0.46), (0.52, 0.62), (0.9, 0.7)], 0.09);
+            painter.circle_filled(pen.at(0.44, 0.56), 0.12 * side, colour);
+        }
+        Icon::Split => {
+            let square = Rect::from_center_size(rect.center(), vec2(side * 0.8, side * 0.64));
+            painter.rect_stroke(square, side * 0.06, pen.stroke(0.08), StrokeKind::Middle);
+            pen.line(&[(0.5, 0.18), (0.5, 0.82)], 0.08);
+            pen.bar(0.5, 0.18, 0.4, 0.64);
         }
         Icon::Question => pen.question(),
         Icon::Check => pen.line(&[(0.12, 0.52), (0.4, 0.8), (0.88, 0.22)], 0.13),

@@ -1,6 +1,7 @@
 //! The head-up display, in egui: a bar with the numbers and menus on top, the palette at the bottom, windows on call.
 //! It reads the world and gives orders; it never changes the world itself.
 
+pub mod accuracy;
 pub mod bar;
 pub mod brush;
 pub mod details;
@@ -12,6 +13,7 @@ pub mod saves;
 pub mod scenes;
 pub mod search;
 pub mod settings;
+pub mod split;
 pub mod stats;
 pub mod style;
 pub mod toast;
@@ -36,6 +38,7 @@ impl Plugin for HudPlugin {
             .init_resource::<scenes::SceneMenu>()
             .init_resource::<saves::SaveMenu>()
             .init_resource::<crate::sim::exam::ExamDesk>()
+            .init_resource::<accuracy::AccuracyPanel>()
             .add_systems(Startup, (scenes::list_scenes, greet))
             .add_systems(PreUpdate, mind_the_keys.after(EguiPreUpdateSet::ProcessInput))
             .add_systems(
@@ -53,6 +56,8 @@ impl Plugin for HudPlugin {
                     search::show,
                     details::show,
                     exam::show,
+                    split::show,
+                    accuracy::show,
                     settings::show,
                     help::show,
                     toast::show,
@@ -74,6 +79,8 @@ pub struct HudState {
     pub details: bool,
     /// The physics exam.
     pub exam: bool,
+    /// What accuracy costs.
+    pub accuracy: bool,
     /// The scene menu.
     pub scenes: bool,
     /// The list of save files.
@@ -91,6 +98,7 @@ impl Default for HudState {
             help: false,
             details: false,
             exam: false,
+            accuracy: false,
             scenes: false,
             saves: false,
             settings: false,
@@ -107,6 +115,7 @@ impl HudState {
             Action::Help => self.help = !self.help,
             Action::Details => self.details = !self.details,
             Action::Exam => self.exam = !self.exam,
+            Action::Accuracy => self.accuracy = !self.accuracy,
             Action::Scenes => self.scenes = !self.scenes,
             Action::Saves => self.saves = !self.saves,
             Action::Settings => self.settings = !self.settings,
@@ -116,10 +125,14 @@ impl HudState {
                     Some(_) => None,
                 };
             }
-            Action::Close => *self = Self { visible: self.visible, details: self.details, ..Self::default() },
+            Action::Close => {
+                let Self { visible, details, accuracy, .. } = *self;
+                *self = Self { visible, details, accuracy, ..Self::default() };
+            }
             _ => return,
         }
         // What is asked for is shown, even if the HUD was hidden.
+        self.visible |= action == Action::Accuracy && self.accuracy;
         self.visible |= self.help || self.exam || self.scenes || self.saves || self.settings || self.search.is_some();
     }
 }

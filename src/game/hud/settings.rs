@@ -1,8 +1,12 @@
 //! The scale of the HUD, and the room that it leaves to the world.
 
-use crate::game::{
-    camera::{Area, WorldCamera},
-    hud::{HudState, style},
+use crate::{
+    game::{
+        camera::{Area, WorldCamera},
+        hud::{HudState, style},
+        split,
+    },
+    sim::split::Split,
 };
 use bevy::{
     prelude::{Query, Res, ResMut, Resource, Result, With},
@@ -69,6 +73,8 @@ pub fn scale_to_window(
 pub fn make_room(
     mut contexts: EguiContexts,
     room: Res<Room>,
+    split: Res<Split>,
+    state: Res<HudState>,
     windows: Query<&Window, With<PrimaryWindow>>,
     mut camera: ResMut<WorldCamera>,
 ) -> Result {
@@ -76,8 +82,16 @@ pub fn make_room(
     let zoom = contexts.ctx_mut()?.zoom_factor();
     let size = window.resolution.size();
     let free = Area { min: Vec2::new(0.0, room.top * zoom), max: Vec2::new(size.x, size.y - room.bottom * zoom) };
-    if camera.window() != size || camera.free() != free {
-        camera.set_window(size, free);
+    let (first, others) = match split.is_on() {
+        true => {
+            let [first, second, third] = split::areas(free, camera.world(), if state.visible { zoom } else { 0.0 });
+            (first, Some([second, third]))
+        }
+        false => (free, None),
+    };
+    camera.set_others(others);
+    if camera.window() != size || camera.free() != first {
+        camera.set_window(size, first);
     }
     Ok(())
 }

@@ -68,7 +68,8 @@ pub fn show(
         return Ok(());
     }
     let context = contexts.ctx_mut()?;
-    let bottom = (camera.window().y - camera.free().max.y) / context.zoom_factor();
+    let lowest = camera.panes().map(|pane| pane.max.y).fold(0.0, f32::max);
+    let bottom = (camera.window().y - lowest) / context.zoom_factor();
     egui::Area::new("toasts".into())
         .anchor(egui::Align2::CENTER_BOTTOM, [0.0, -bottom - 14.0])
         .order(egui::Order::Foreground)

@@ -58,6 +58,10 @@ pub enum Action {
     Details,
     /// Shows the physics exam.
     Exam,
+    /// Shows what accuracy costs.
+    Accuracy,
+    /// Puts the world beside itself at another quality, or ends that.
+    Split,
     /// Shows this table.
     Help,
     /// Full screen and back.
@@ -253,6 +257,8 @@ pub const BINDINGS: &[Binding] = {
     key(K::ArrowUp, NONE, A::Pan(0, 1), H::Look, "move the picture"),
     key(K::ArrowDown, NONE, A::Pan(0, -1), H::Look, "move the picture"),
     key(K::KeyH, NONE, A::Hud, H::Look, "hide the HUD"),
+    key(K::KeyA, NONE, A::Accuracy, H::Look, "accuracy: what it costs, and the autopilot"),
+    key(K::KeyB, NONE, A::Split, H::Look, "A/B split: the same world at two qualities"),
     key(K::F3, NONE, A::Details, H::Look, "details: what runs and what it costs"),
     key(K::F4, NONE, A::Settings, H::Look, "settings"),
     key(K::F6, NONE, A::Exam, H::Look, "physics exam: known answers, computed and compared"),
@@ -301,6 +307,8 @@ impl fmt::Display for Binding {
 fn key_name(key: KeyCode) -> &'static str {
     use KeyCode as K;
     match key {
+        K::KeyA => "A",
+        K::KeyB => "B",
         K::KeyE => "E",
         K::KeyF => "F",
         K::KeyH => "H",

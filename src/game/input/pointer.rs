@@ -100,6 +100,7 @@ impl Hand<'_> {
     /// The window loses the devices.
     pub fn let_go(&mut self) {
         self.held.release();
+        self.camera.let_pane_go();
     }
 
     /// A button goes down.
@@ -116,6 +117,9 @@ impl Hand<'_> {
         let (at, tool) = (self.camera.to_world(pixel), self.tools.tool);
         if gesture != Gesture::Drag {
             self.orders.push(Order::Checkpoint);
+        }
+        if gesture != Gesture::Fill && self.held.pull().is_none() {
+            self.camera.hold_pane(pixel);
         }
         let freehand = tool.is_air() && matches!(gesture, Gesture::Line | Gesture::Rectangle | Gesture::Fill);
         match (gesture, self.tools.element()) {
@@ -146,6 +150,7 @@ impl Hand<'_> {
             self.orders.push(Order::Act(Action::Sample));
         }
         self.held.release();
+        self.camera.let_pane_go();
     }
 
     /// The wheel turns: brush size, or zoom with Ctrl.

@@ -1,12 +1,16 @@
 //! Draws the picture: the field of the liquid first, then everything in the window from back to front.
 
-use crate::game::render::{extract::Picture, gpu::GpuPicture, pipelines::Pipelines};
+use crate::game::render::{
+    extract::{Picture, Pictures},
+    gpu::{GpuPicture, GpuPictures, Layer},
+    pipelines::{Ids, Pipelines},
+};
 use bevy::{
     prelude::Res,
     render::{
         render_phase::TrackedRenderPass,
         render_resource::{
-            Buffer, CachedRenderPipelineId, LoadOp, Operations, PipelineCache, RenderPassColorAttachment,
+            BindGroup, Buffer, CachedRenderPipelineId, LoadOp, Operations, PipelineCache, RenderPassColorAttachment,
             RenderPassDescriptor, StoreOp,
         },
         renderer::{RenderContext, ViewQuery},
@@ -14,51 +18,84 @@ use bevy::{
     },
 };
 
-/// Draws the world of the frame.
+/// Draws the worlds of the frame.
 pub fn draw(
     view: ViewQuery<&ViewTarget>,
-    picture: Res<Picture>,
-    gpu: Res<GpuPicture>,
+    pictures: Res<Pictures>,
+    gpu: Res<GpuPictures>,
     pipelines: Res<Pipelines>,
     cache: Res<PipelineCache>,
     mut context: RenderContext,
 ) {
     let target = view.into_inner();
-    let (Some(ids), Some(world), Some(textures), Some(field), true) =
-        (pipelines.ids(), &gpu.world_group, &gpu.texture_group, &gpu.field, picture.ready)
-    else {
+    let Some(ids) = pipelines.ids() else { return };
+    let panes: Vec<Pane<'_>> = pictures.shown().iter().zip(gpu.panes()).filter_map(Pane::new).collect();
+    if panes.is_empty() {
         return;
-    };
-    {
+    }
+    for pane in &panes {
         let mut pass = context.begin_tracked_render_pass(RenderPassDescriptor {
             label: Some("liquid field"),
             color_attachments: &[Some(RenderPassColorAttachment {
-                view: &field.view,
+                view: &pane.field.view,
                 depth_slice: None,
                 resolve_target: None,
                 ops: Operations { load: LoadOp::Clear(Default::default()), store: StoreOp::Store },
             })],
             ..RenderPassDescriptor::default()
         });
-        pass.set_bind_group(0, world, &[]);
-        instances(&mut pass, &cache, ids.blobs, picture.blobs.buffer(), picture.blobs.len());
+        pass.set_bind_group(0, pane.world, &[]);
+        instances(&mut pass, &cache, ids.blobs, pane.picture.blobs.buffer(), pane.picture.blobs.len());
     }
     let mut pass = context.begin_tracked_render_pass(RenderPassDescriptor {
         label: Some("world"),
         color_attachments: &[Some(target.get_color_attachment())],
         ..RenderPassDescriptor::default()
     });
-    pass.set_bind_group(0, world, &[]);
-    pass.set_bind_group(1, textures, &[]);
-    screen(&mut pass, &cache, ids.backdrop);
-    let streaks = (picture.streaks.buffer(), picture.streaks.len());
-    if !picture.streaks_on_top {
-        instances(&mut pass, &cache, ids.streaks, streaks.0, streaks.1);
+    for pane in &panes {
+        pane.draw(&mut pass, &cache, ids);
     }
-    screen(&mut pass, &cache, ids.liquid);
-    instances(&mut pass, &cache, ids.stones, picture.stones.buffer(), picture.stones.len());
-    if picture.streaks_on_top {
-        instances(&mut pass, &cache, ids.streaks, streaks.0, streaks.1);
+}
+
+/// A picture that has everything to be drawn.
+struct Pane<'a> {
+    picture: &'a Picture,
+    world: &'a BindGroup,
+    textures: &'a BindGroup,
+    field: &'a Layer,
+}
+
+impl<'a> Pane<'a> {
+    fn new((picture, gpu): (&'a Picture, &'a GpuPicture)) -> Option<Self> {
+        Some(Self {
+            picture,
+            world: gpu.world_group.as_ref()?,
+            textures: gpu.texture_group.as_ref()?,
+            field: gpu.field.as_ref()?,
+        })
+    }
+
+    fn draw(&self, pass: &mut TrackedRenderPass<'a>, cache: &'a PipelineCache, ids: Ids) {
+        let picture = self.picture;
+        if let Some(part) = picture.part {
+            let size = part.size();
+            if size.min_element() == 0 {
+                return;
+            }
+            pass.set_scissor_rect(part.min.x, part.min.y, size.x, size.y);
+        }
+        pass.set_bind_group(0, self.world, &[]);
+        pass.set_bind_group(1, self.textures, &[]);
+        screen(pass, cache, ids.backdrop);
+        let streaks = (picture.streaks.buffer(), picture.streaks.len());
+        if !picture.streaks_on_top {
+            instances(pass, cache, ids.streaks, streaks.0, streaks.1);
+        }
+        screen(pass, cache, ids.liquid);
+        instances(pass, cache, ids.stones, picture.stones.buffer(), picture.stones.len());
+        if picture.streaks_on_top {
+            instances(pass, cache, ids.streaks, streaks.0, streaks.1);
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::{
     game::{
-        camera::WorldCamera,
+        camera::{Area, WorldCamera},
         orders::Shown,
         render::{
             RenderCost, air,
@@ -14,14 +14,17 @@ use crate::{
     kernel::units::TICK_SECONDS,
     scene::blueprint::Blueprint,
     sim::{
+        difference::{self, Difference},
         pace::Pace,
+        split::Split,
         state::{AirGrid, ParticleStore, Rock, Setup, SolverState},
         view::{self, BurialMap, DepthMap, Reference, Rgb, View},
     },
 };
 use bevy::platform::time::Instant;
 use bevy::{
-    prelude::{Fixed, Query, Res, ResMut, Resource, Time, With},
+    math::URect,
+    prelude::{Fixed, Query, Res, ResMut, Resource, Time, With, World},
     render::{
         Extract,
         render_resource::{BufferUsages, RawBufferVec, ShaderType},
@@ -51,15 +54,35 @@ pub struct WorldUniform {
     abyss: Vec4,
 }
 
-/// One frame's picture, on the processor's side.
-#[derive(Resource)]
+/// One frame's pictures, on the processor's side: the world's, and in an A/B split the second world's and the
+/// difference's.
+#[derive(Resource, Default)]
+pub struct Pictures {
+    panes: [Picture; 3],
+    count: usize,
+    difference: Difference,
+}
+
+impl Pictures {
+    /// The pictures of this frame.
+    pub fn shown(&self) -> &[Picture] {
+        &self.panes[..self.count]
+    }
+
+    /// The same, to hand them over.
+    pub fn shown_mut(&mut self) -> &mut [Picture] {
+        &mut self.panes[..self.count]
+    }
+}
+
+/// A picture of a world.
 pub struct Picture {
-    /// Whether there is a world to draw.
-    pub ready: bool,
     /// Size of the window, physical pixels.
     pub window: UVec2,
     /// Physical pixels of one d.
     pub pixels_per_d: f32,
+    /// The part of the window that it is confined to, physical pixels; the whole if there is none.
+    pub part: Option<URect>,
     /// The shader's numbers.
     pub uniform: WorldUniform,
     /// Movable particles.
@@ -87,9 +110,9 @@ pub struct Picture {
 impl Default for Picture {
     fn default() -> Self {
         Self {
-            ready: false,
             window: UVec2::ONE,
             pixels_per_d: 1.0,
+            part: None,
             uniform: WorldUniform::default(),
             blobs: RawBufferVec::new(BufferUsages::VERTEX),
             stones: RawBufferVec::new(BufferUsages::VERTEX),
@@ -111,10 +134,46 @@ impl Default for Picture {
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Epoch(pub u32);
 
-/// Copies the world out.
+/// Where and how everything is seen.
+#[derive(Clone, Copy)]
+struct Sight<'a> {
+    window: &'a Window,
+    camera: &'a WorldCamera,
+    view: View,
+    epoch: u32,
+    /// The moment that is drawn, s before the last tick.
+    back: f32,
+}
+
+/// A world, and what is drawn into it.
+#[derive(Clone, Copy)]
+struct Scene<'a> {
+    setup: &'a Setup,
+    particles: &'a ParticleStore,
+    rock: &'a Rock,
+    air: &'a AirGrid,
+    solver: Option<&'a SolverState>,
+    wisps: Option<&'a Wisps>,
+}
+
+impl<'a> Scene<'a> {
+    /// What there is of the second world of a split.
+    fn of(world: &'a World) -> Option<Self> {
+        Some(Self {
+            setup: world.get_resource()?,
+            particles: world.get_resource()?,
+            rock: world.get_resource()?,
+            air: world.get_resource()?,
+            solver: world.get_resource(),
+            wisps: None,
+        })
+    }
+}
+
+/// Copies the worlds out.
 #[expect(clippy::too_many_arguments, reason = "a system's parameters are its data flow")]
 pub fn extract(
-    mut picture: ResMut<Picture>,
+    mut pictures: ResMut<Pictures>,
     cost: Res<RenderCost>,
     windows: Extract<Query<&Window, With<PrimaryWindow>>>,
     camera: Extract<Res<WorldCamera>>,
@@ -126,94 +185,151 @@ pub fn extract(
     air: Extract<Option<Res<AirGrid>>>,
     solver: Extract<Option<Res<SolverState>>>,
     wisps: Extract<Res<Wisps>>,
+    split: Extract<Res<Split>>,
     pace: Extract<Res<Pace>>,
     time: Extract<Res<Time<Fixed>>>,
 ) {
     let begin = Instant::now();
-    let picture = &mut *picture;
+    pictures.count = 0;
     let (Some(setup), Some(particles), Some(rock), Some(air), Ok(window)) =
         (&*setup, &*particles, &*rock, &*air, windows.single())
     else {
-        picture.ready = false;
         return;
     };
-    picture.window = window.resolution.physical_size();
-    picture.ready = picture.window.min_element() > 0;
-    if !picture.ready {
+    if window.resolution.physical_size().min_element() == 0 {
         return;
-    }
-    let (view, blueprint) = (shown.0, &setup.blueprint);
-    let reference = Reference::of(&blueprint.domain, &blueprint.air);
-
-    if picture.table_of.as_ref().is_none_or(|(old, of)| *old != view || !Arc::ptr_eq(of, blueprint)) {
-        picture.table.fill(view, &blueprint.elements);
-        picture.table_of = Some((view, blueprint.clone()));
     }
     // Half a tick after a tick the world is drawn half a tick before it: it then moves evenly at any frame rate.
     let back = if pace.paused { 0.0 } else { TICK_SECONDS * (1.0 - time.overstep_fraction().clamp(0.0, 1.0)) };
-    let by = match (view, &*solver) {
-        (View::Density, Some(solver)) => {
-            ColourBy::Density { density: &solver.density, rest: blueprint.fluid.rest_density }
+    let sight = Sight { window, camera: &camera, view: shown.0, epoch: epoch.0, back };
+    let first = Scene { setup, particles, rock, air, solver: solver.as_deref(), wisps: Some(&**wisps) };
+    let Pictures { panes: [a, b, c], count, difference } = &mut *pictures;
+    let areas: Vec<Area> = camera.panes().collect();
+    match (split.world().and_then(Scene::of), areas.as_slice()) {
+        (Some(second), &[at_a, at_b, at_c]) => {
+            a.fill(Scene { wisps: None, ..first }, sight, at_a, true);
+            b.fill(second, sight, at_b, true);
+            difference.measure(&setup.blueprint, particles, second.particles);
+            c.fill_with_difference(difference, first, sight, at_c);
+            *count = 3;
         }
-        _ => ColourBy::Speed,
-    };
-    blobs::pack(particles, &picture.table, reference, by, back, picture.blobs.values_mut());
-
-    picture.stones_new = picture.stones_of.as_ref().is_none_or(|(version, of, during)| {
-        *version != rock.version() || !Arc::ptr_eq(of, blueprint) || *during != epoch.0
-    });
-    if picture.stones_new {
-        stone::pack(rock, &blueprint.elements, &mut picture.burial, picture.stones.values_mut());
-        picture.stones_of = Some((rock.version(), blueprint.clone(), epoch.0));
-    }
-
-    picture.depth_new = view == View::Elements;
-    if picture.depth_new {
-        picture.depth.measure(blueprint.domain.size, particles);
-    }
-
-    picture.air.0.clear();
-    picture.streaks.clear();
-    picture.streaks_on_top = view.shows_air();
-    if view.shows_air() {
-        air::pack(air, view, reference, &mut picture.air.0);
-        picture.air.1 = UVec2::new(air.columns() as u32, air.rows() as u32);
-    }
-    let size = blueprint.domain.size;
-    match view {
-        View::Wind => {
-            let spacing = ARROW_SPACING / camera.pixels_per_d();
-            air::arrows(air, size, spacing, reference, picture.streaks.values_mut());
+        _ => {
+            a.fill(first, sight, camera.free(), false);
+            *count = 1;
         }
-        View::Elements => wisps.pack(reference, picture.streaks.values_mut()),
-        View::Speed | View::Density | View::Pressure => {}
     }
-
-    let scale_factor = window.resolution.scale_factor();
-    picture.pixels_per_d = camera.pixels_per_d() * scale_factor;
-    let (to_clip, offset) = camera.clip_transform();
-    let air_extent = Vec2::new(air.columns() as f32, air.rows() as f32) * air.cell();
-    // Lines that suit a window of this height.
-    let lines = (picture.window.y as f32 / 900.0).max(scale_factor).max(1.0);
-    let flag = |on: bool| if on { 1.0 } else { 0.0 };
-    picture.uniform = WorldUniform {
-        to_clip: two(to_clip, offset),
-        size: two(size, picture.window.as_vec2()),
-        extent: two(picture.depth.extent().max(Vec2::ONE), air_extent),
-        look: Vec4::new(
-            picture.pixels_per_d,
-            if view.shows_air() { 0.42 } else { 0.97 },
-            flag(view == View::Elements),
-            view::DEPTH_SHADE,
-        ),
-        pen: Vec4::new(BLOB_RADIUS, 1.5 * lines, flag(view.shows_air()), lines),
-        surroundings: srgb(view::SURROUNDINGS),
-        box_top: srgb(view::BOX_TOP),
-        box_bottom: srgb(view::BOX_BOTTOM),
-        frame: srgb(view::FRAME),
-        abyss: srgb(view::ABYSS),
-    };
     cost.extract.store(begin.elapsed().as_micros() as u32, Ordering::Relaxed);
+}
+
+impl Picture {
+    /// Draws a world into `area`, and into nothing else if it is `confined`.
+    fn fill(&mut self, scene: Scene<'_>, sight: Sight<'_>, area: Area, confined: bool) {
+        let (view, blueprint) = (sight.view, &scene.setup.blueprint);
+        let reference = Reference::of(&blueprint.domain, &blueprint.air);
+        if self.table_of.as_ref().is_none_or(|(old, of)| *old != view || !Arc::ptr_eq(of, blueprint)) {
+            self.table.fill(view, &blueprint.elements);
+            self.table_of = Some((view, blueprint.clone()));
+        }
+        let by = match (view, scene.solver) {
+            (View::Density, Some(solver)) => {
+                ColourBy::Density { density: &solver.density, rest: blueprint.fluid.rest_density }
+            }
+            _ => ColourBy::Speed,
+        };
+        blobs::pack(scene.particles, &self.table, reference, by, sight.back, self.blobs.values_mut());
+        self.fill_stones(scene, sight.epoch);
+        self.depth_new = view == View::Elements;
+        if self.depth_new {
+            self.depth.measure(blueprint.domain.size, scene.particles);
+        }
+        self.fill_air(scene, sight, reference);
+        let air = scene.air;
+        let air_extent = Vec2::new(air.columns() as f32, air.rows() as f32) * air.cell();
+        self.look(scene.setup, sight, view, air_extent);
+        self.place(sight, area, confined);
+    }
+
+    /// Draws how far two worlds are apart, over the rock of one of them.
+    fn fill_with_difference(&mut self, difference: &Difference, scene: Scene<'_>, sight: Sight<'_>, area: Area) {
+        self.blobs.clear();
+        self.streaks.clear();
+        self.fill_stones(scene, sight.epoch);
+        self.depth_new = false;
+        difference.texels(&mut self.air.0);
+        self.air.1 = UVec2::new(difference.columns() as u32, difference.rows() as u32);
+        self.look(scene.setup, sight, View::Pressure, self.air.1.as_vec2() * difference::CELL);
+        self.place(sight, area, true);
+    }
+
+    fn fill_stones(&mut self, scene: Scene<'_>, epoch: u32) {
+        let (rock, blueprint) = (scene.rock, &scene.setup.blueprint);
+        self.stones_new = self.stones_of.as_ref().is_none_or(|(version, of, during)| {
+            *version != rock.version() || !Arc::ptr_eq(of, blueprint) || *during != epoch
+        });
+        if self.stones_new {
+            stone::pack(rock, &blueprint.elements, &mut self.burial, self.stones.values_mut());
+            self.stones_of = Some((rock.version(), blueprint.clone(), epoch));
+        }
+    }
+
+    fn fill_air(&mut self, scene: Scene<'_>, sight: Sight<'_>, reference: Reference) {
+        let (view, air) = (sight.view, scene.air);
+        self.air.0.clear();
+        self.streaks.clear();
+        self.streaks_on_top = view.shows_air();
+        if view.shows_air() {
+            air::pack(air, view, reference, &mut self.air.0);
+            self.air.1 = UVec2::new(air.columns() as u32, air.rows() as u32);
+        }
+        match view {
+            View::Wind => {
+                let spacing = ARROW_SPACING / sight.camera.pixels_per_d();
+                let size = scene.setup.blueprint.domain.size;
+                air::arrows(air, size, spacing, reference, self.streaks.values_mut());
+            }
+            View::Elements => {
+                if let Some(wisps) = scene.wisps {
+                    wisps.pack(reference, self.streaks.values_mut());
+                }
+            }
+            View::Speed | View::Density | View::Pressure => {}
+        }
+    }
+
+    /// The shader's numbers but for where in the window it is.
+    fn look(&mut self, setup: &Setup, sight: Sight<'_>, view: View, air_extent: Vec2) {
+        let scale_factor = sight.window.resolution.scale_factor();
+        self.window = sight.window.resolution.physical_size();
+        self.pixels_per_d = sight.camera.pixels_per_d() * scale_factor;
+        // Lines that suit a window of this height.
+        let lines = (self.window.y as f32 / 900.0).max(scale_factor).max(1.0);
+        let flag = |on: bool| if on { 1.0 } else { 0.0 };
+        self.uniform = WorldUniform {
+            to_clip: Vec4::ZERO,
+            size: two(setup.blueprint.domain.size, self.window.as_vec2()),
+            extent: two(self.depth.extent().max(Vec2::ONE), air_extent),
+            look: Vec4::new(
+                self.pixels_per_d,
+                if view.shows_air() { 0.42 } else { 0.97 },
+                flag(view == View::Elements),
+                view::DEPTH_SHADE,
+            ),
+            pen: Vec4::new(BLOB_RADIUS, 1.5 * lines, flag(view.shows_air()), lines),
+            surroundings: srgb(view::SURROUNDINGS),
+            box_top: srgb(view::BOX_TOP),
+            box_bottom: srgb(view::BOX_BOTTOM),
+            frame: srgb(view::FRAME),
+            abyss: srgb(view::ABYSS),
+        };
+    }
+
+    fn place(&mut self, sight: Sight<'_>, area: Area, confined: bool) {
+        let (to_clip, offset) = sight.camera.clip_transform(area);
+        self.uniform.to_clip = two(to_clip, offset);
+        let scale_factor = sight.window.resolution.scale_factor();
+        let corner = |pixel: Vec2| (pixel * scale_factor).round().max(Vec2::ZERO).as_uvec2().min(self.window);
+        self.part = confined.then(|| URect::from_corners(corner(area.min), corner(area.max)));
+    }
 }
 
 fn two(a: Vec2, b: Vec2) -> Vec4 {

@@ -2,8 +2,8 @@
 
 use crate::game::render::{
     RenderCost,
-    extract::{Picture, WorldUniform},
-    pipelines::Pipelines,
+    extract::{Picture, Pictures, WorldUniform},
+    pipelines::{Layouts, Pipelines},
 };
 use bevy::platform::time::Instant;
 use bevy::{
@@ -33,8 +33,19 @@ pub struct Layer {
     size: UVec2,
 }
 
-/// Buffers, textures and bind groups of the picture.
+/// The pictures of a frame, in the order of [`Pictures::shown`].
 #[derive(Resource, Default)]
+pub struct GpuPictures([GpuPicture; 3]);
+
+impl GpuPictures {
+    /// The pictures.
+    pub fn panes(&self) -> &[GpuPicture] {
+        &self.0
+    }
+}
+
+/// Buffers, textures and bind groups of a picture.
+#[derive(Default)]
 pub struct GpuPicture {
     uniform: UniformBuffer<WorldUniform>,
     air: Option<Layer>,
@@ -58,42 +69,44 @@ macro_rules! write_growing {
     }};
 }
 
-/// Hands the frame's picture over.
+/// Hands the frame's pictures over.
 pub fn upload(
-    mut picture: ResMut<Picture>,
-    mut gpu: ResMut<GpuPicture>,
+    mut pictures: ResMut<Pictures>,
+    mut gpu: ResMut<GpuPictures>,
     device: Res<RenderDevice>,
     queue: Res<RenderQueue>,
     cost: Res<RenderCost>,
 ) {
-    if !picture.ready {
-        return;
-    }
     let begin = Instant::now();
-    let (picture, gpu) = (&mut *picture, &mut *gpu);
-    write_growing!(picture.blobs, &device, &queue);
-    write_growing!(picture.streaks, &device, &queue);
+    for (picture, gpu) in pictures.shown_mut().iter_mut().zip(&mut gpu.0) {
+        hand_over(picture, gpu, &device, &queue);
+    }
+    cost.upload.store(begin.elapsed().as_micros() as u32, Ordering::Relaxed);
+}
+
+fn hand_over(picture: &mut Picture, gpu: &mut GpuPicture, device: &RenderDevice, queue: &RenderQueue) {
+    write_growing!(picture.blobs, device, queue);
+    write_growing!(picture.streaks, device, queue);
     if picture.stones_new {
-        write_growing!(picture.stones, &device, &queue);
+        write_growing!(picture.stones, device, queue);
     }
     gpu.uniform.set(picture.uniform);
-    gpu.uniform.write_buffer(&device, &queue);
+    gpu.uniform.write_buffer(device, queue);
 
     let (texels, size) = (&picture.air.0, if picture.air.0.is_empty() { UVec2::ONE } else { picture.air.1 });
-    gpu.stale |= fit(&mut gpu.air, "air", size, TextureFormat::Rgba8Unorm, TextureUsages::COPY_DST, &device);
+    gpu.stale |= fit(&mut gpu.air, "air", size, TextureFormat::Rgba8Unorm, TextureUsages::COPY_DST, device);
     if let (Some(layer), false) = (&gpu.air, texels.is_empty()) {
-        write_texels(layer, texels, 4, &queue);
+        write_texels(layer, texels, 4, queue);
     }
     let (columns, rows) = picture.depth.dimensions();
     let size = UVec2::new(columns as u32, rows as u32).max(UVec2::ONE);
-    gpu.stale |= fit(&mut gpu.depth, "depth", size, TextureFormat::R8Unorm, TextureUsages::COPY_DST, &device);
+    gpu.stale |= fit(&mut gpu.depth, "depth", size, TextureFormat::R8Unorm, TextureUsages::COPY_DST, device);
     if let (Some(layer), true) = (&gpu.depth, picture.depth_new) {
-        write_texels(layer, picture.depth.shares(), 1, &queue);
+        write_texels(layer, picture.depth.shares(), 1, queue);
     }
     let share = (FIELD_TEXELS_PER_D / picture.pixels_per_d).min(1.0);
     let size = (picture.window.as_vec2() * share).ceil().as_uvec2().max(UVec2::ONE);
-    gpu.stale |= fit(&mut gpu.field, "liquid", size, FIELD_FORMAT, TextureUsages::RENDER_ATTACHMENT, &device);
-    cost.upload.store(begin.elapsed().as_micros() as u32, Ordering::Relaxed);
+    gpu.stale |= fit(&mut gpu.field, "liquid", size, FIELD_FORMAT, TextureUsages::RENDER_ATTACHMENT, device);
 }
 
 /// Makes the texture if there is none of this size; says whether it is new.
@@ -140,13 +153,18 @@ fn write_texels(layer: &Layer, texels: &[u8], bytes_per_texel: u32, queue: &Rend
 
 /// Makes the bind groups that are missing or bound to textures of the past.
 pub fn bind(
-    mut gpu: ResMut<GpuPicture>,
+    mut gpu: ResMut<GpuPictures>,
     pipelines: Res<Pipelines>,
     cache: Res<PipelineCache>,
     device: Res<RenderDevice>,
 ) {
-    let gpu = &mut *gpu;
     let Some(layouts) = pipelines.layouts() else { return };
+    for gpu in &mut gpu.0 {
+        bind_one(gpu, layouts, &cache, &device);
+    }
+}
+
+fn bind_one(gpu: &mut GpuPicture, layouts: &Layouts, cache: &PipelineCache, device: &RenderDevice) {
     if gpu.world_group.is_none()
         && let Some(uniform) = gpu.uniform.binding()
     {

@@ -39,8 +39,8 @@ impl Plugin for WorldRenderPlugin {
         render_app
             .insert_resource(cost)
             .insert_resource(pipelines::WorldShader(shader))
-            .init_resource::<extract::Picture>()
-            .init_resource::<gpu::GpuPicture>()
+            .init_resource::<extract::Pictures>()
+            .init_resource::<gpu::GpuPictures>()
             .init_resource::<pipelines::Pipelines>()
             .add_systems(ExtractSchedule, extract::extract)
             .add_systems(

@@ -1,0 +1,280 @@
+//! The accuracy panel: the running world on the curve of error against time, the presets to choose on it, the survey
+//! that measures the curve here and now, the autopilot, the A/B split, and what each stage takes of a tick.
+
+mod axis;
+mod pilot;
+mod plot;
+
+use crate::{
+    game::{
+        hud::{
+            HudState,
+            bar::{icon_button, quality_name, tip},
+            icons::Icon,
+            style,
+        },
+        input::bindings::Action,
+        orders::{Order, Orders},
+    },
+    sim::{
+        accuracy::{Curve, LiveError, Survey, SurveyRequest},
+        autopilot::Autopilot,
+        ledger::{Pass, PassLedger},
+        split::Split,
+        state::{Clock, Setup},
+    },
+};
+use axis::short;
+use bevy::prelude::{Res, ResMut, Resource, Result};
+use bevy_egui::{
+    EguiContexts,
+    egui::{self, Color32, RichText, Sense, Ui, vec2},
+};
+use plot::Plot;
+use std::collections::BTreeMap;
+
+/// Width of the panel's contents, points.
+const WIDTH: f32 = 396.0;
+/// Places of the live point that are remembered: two seconds.
+const TRAIL: usize = 40;
+/// Ticks from one of them to the next.
+const TRAIL_EVERY: u64 = 3;
+/// Stages that take less of a tick than this share are summed up.
+const SMALL: f32 = 0.02;
+
+/// What the panel remembers.
+#[derive(Resource, Default)]
+pub struct AccuracyPanel {
+    /// The last curve of each scene.
+    curves: BTreeMap<String, Curve>,
+    trail: Vec<(f32, f32)>,
+    trail_tick: u64,
+    bounds: pilot::Bounds,
+}
+
+impl AccuracyPanel {
+    /// Takes up what was measured since.
+    fn follow(&mut self, survey: &Survey, clock: &Clock, now: Option<(f32, f32)>) {
+        if !survey.curve.points.is_empty() && self.curves.get(&survey.curve.scene) != Some(&survey.curve) {
+            self.curves.insert(survey.curve.scene.clone(), survey.curve.clone());
+        }
+        if clock.tick < self.trail_tick || now.is_none() {
+            self.trail.clear();
+        } else if clock.tick < self.trail_tick + TRAIL_EVERY && !self.trail.is_empty() {
+            return;
+        }
+        self.trail_tick = clock.tick;
+        if self.trail.len() == TRAIL {
+            self.trail.remove(0);
+        }
+        self.trail.extend(now);
+    }
+}
+
+/// An error as a text.
+pub fn percent(error: f32) -> String {
+    format!("{} %", short(100.0 * error))
+}
+
+/// Shows the panel.
+pub fn show(
+    mut contexts: EguiContexts,
+    mut state: ResMut<HudState>,
+    mut panel: ResMut<AccuracyPanel>,
+    setup: Res<Setup>,
+    clock: Res<Clock>,
+    measured: (Res<PassLedger>, Res<LiveError>),
+    survey: Res<Survey>,
+    autopilot: Res<Autopilot>,
+    split: Res<Split>,
+    mut orders: ResMut<Orders>,
+) -> Result {
+    if !state.accuracy || !state.visible {
+        return Ok(());
+    }
+    let (ledger, error) = measured;
+    let milliseconds = ledger.tick().median().as_secs_f32() * 1000.0;
+    let live = error.mean().filter(|_| milliseconds > 0.0).map(|error| (milliseconds, error));
+    panel.follow(&survey, &clock, live);
+    let context = contexts.ctx_mut()?;
+    let screen = context.content_rect();
+    let mut open = true;
+    let height = screen.height() - 215.0;
+    let place = (egui::Align2::RIGHT_TOP, screen.right_top() + vec2(-14.0, 54.0));
+    style::window(context, "Accuracy", &mut open, place, |ui| {
+        egui::ScrollArea::vertical().min_scrolled_height(height).max_height(height).show(ui, |ui| {
+            ui.set_width(WIDTH.min(screen.width() - 60.0));
+            ui.spacing_mut().button_padding = vec2(7.0, 2.0);
+            headline(ui, &setup, milliseconds, &error);
+            let AccuracyPanel { curves, trail, bounds, .. } = &mut *panel;
+            let curve = curves.get(&setup.blueprint.name);
+            let scale = curve.and_then(Curve::scale);
+            let plot = Plot {
+                curve,
+                scale: scale.unwrap_or(1.0),
+                trail,
+                goal: autopilot.goal(),
+                now: (setup.preset, setup.quality),
+            };
+            let size = vec2(ui.available_width(), (0.34 * screen.height()).clamp(150.0, 240.0));
+            if let Some(preset) = plot.show(ui, size) {
+                orders.push(Order::Quality(preset));
+            }
+            measure(ui, &survey, curve, scale, &split, &mut orders);
+            ui.separator();
+            pilot::show(ui, &autopilot, bounds, &mut orders);
+            pilot::status(ui, &autopilot, &setup, milliseconds, error.mean());
+            ui.separator();
+            stages(ui, &ledger, &error);
+        });
+    });
+    if !open {
+        state.accuracy = false;
+    }
+    Ok(())
+}
+
+fn weak(text: impl Into<String>) -> RichText {
+    RichText::new(text).color(style::WEAK)
+}
+
+fn headline(ui: &mut Ui, setup: &Setup, milliseconds: f32, error: &LiveError) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 5.0;
+        ui.label(RichText::new(format!("{milliseconds:.2}")).heading().color(Color32::WHITE));
+        ui.label(weak("ms a tick"));
+        ui.add_space(10.0);
+        let (mean, p99) = (error.mean(), error.p99());
+        ui.label(RichText::new(mean.map_or("none".into(), percent)).heading().color(Color32::WHITE));
+        ui.label(weak("error"));
+        if let Some(p99) = p99 {
+            ui.label(weak(format!("(p99 {})", percent(p99))));
+        }
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.label(RichText::new(quality_name(setup.preset, &setup.quality)).color(style::ACCENT));
+        });
+    })
+    .response
+    .on_hover_text(
+        "Mean and 99th percentile of how much too dense the liquid stands, from a sample of its particles over half a \
+         second; the time is the median of the last ticks",
+    );
+}
+
+/// The survey, and the split.
+fn measure(
+    ui: &mut Ui,
+    survey: &Survey,
+    curve: Option<&Curve>,
+    scale: Option<f32>,
+    split: &Split,
+    orders: &mut Orders,
+) {
+    ui.horizontal(|ui| {
+        match survey.progress {
+            Some(progress) => {
+                let bar = egui::ProgressBar::new(progress).desired_width(190.0).desired_height(22.0);
+                ui.add(bar.text(format!("measuring, {:.0} %", 100.0 * progress)).fill(style::ACCENT_FILL));
+                if ui.button("cancel").clicked() {
+                    orders.push(Order::Survey(SurveyRequest::Cancel));
+                }
+            }
+            None => {
+                let button = style::main_button(ui, "Measure here");
+                let told = "Takes the world as it is and runs every quality from it for two seconds, on one thread \
+                            beside the game, which plays on";
+                if button.on_hover_text(told).clicked() {
+                    orders.push(Order::Survey(SurveyRequest::Begin));
+                }
+            }
+        }
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if icon_button(ui, Icon::Split, Some("A/B split"), split.is_on())
+                .on_hover_text(tip(Action::Split))
+                .clicked()
+            {
+                orders.push(Order::Act(Action::Split));
+            }
+        });
+    });
+    if let Some(curve) = curve {
+        let times = match scale {
+            Some(scale) if (scale - 1.0).abs() > 0.005 => format!(", times × {} to match the game", short(scale)),
+            _ => String::new(),
+        };
+        let from = super::stats::grouped(curve.tick);
+        ui.label(weak(format!("curve of {} from tick {from} on, one thread{times}", curve.scene)).small());
+    }
+}
+
+/// What the stages take of a tick.
+fn stages(ui: &mut Ui, ledger: &PassLedger, error: &LiveError) {
+    let tick = ledger.tick().median().as_secs_f32() * 1000.0;
+    let times = Pass::ALL.map(|pass| (pass.name(), ledger.record(pass).median().as_secs_f32() * 1000.0));
+    let longest = times.iter().map(|(_, time)| *time).fold(0.0, f32::max);
+    let mut rest = tick;
+    for (name, time) in times {
+        if time >= SMALL * tick && tick > 0.0 {
+            bar(ui, name, time, longest);
+            rest -= time;
+        }
+    }
+    if tick > 0.0 {
+        bar(ui, "others", rest.max(0.0), longest);
+    }
+    ui.label(weak(format!("measuring the error takes {} ms a tick more", short(error.milliseconds_a_tick()))).small());
+}
+
+fn bar(ui: &mut Ui, name: &str, time: f32, longest: f32) {
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 14.0), Sense::hover());
+    let (names, numbers) = (70.0, 52.0);
+    let font = egui::FontId::proportional(12.0);
+    ui.painter().text(rect.left_center(), egui::Align2::LEFT_CENTER, name, font, style::TEXT);
+    let number = format!("{time:.3}");
+    ui.painter().text(
+        rect.left_center() + vec2(names + numbers - 8.0, 0.0),
+        egui::Align2::RIGHT_CENTER,
+        number,
+        egui::FontId::monospace(11.0),
+        style::TEXT,
+    );
+    let room = rect.with_min_x(rect.left() + names + numbers).shrink2(vec2(0.0, 2.0));
+    ui.painter().rect_filled(room, 3.0, style::BUTTON);
+    if longest > 0.0 {
+        let filled = room.with_max_x(room.left() + room.width() * (time / longest).min(1.0));
+        ui.painter().rect_filled(filled, 3.0, style::ACCENT.gamma_multiply(0.75));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_panel_keeps_a_curve_for_each_scene_and_a_short_trail() {
+        let mut panel = AccuracyPanel::default();
+        let point = crate::sim::accuracy::CurvePoint {
+            preset: crate::kernel::params::Preset::Fast,
+            quality: crate::kernel::params::Preset::Fast.quality(),
+            milliseconds: 1.0,
+            error: Some(0.01),
+            p99: None,
+        };
+        let survey = |scene: &str| Survey {
+            curve: Curve { scene: scene.into(), points: vec![point], ..Curve::default() },
+            ..Survey::default()
+        };
+        for (scene, ticks) in [("waterfall", 0..300), ("dam_break", 0..300)] {
+            for tick in ticks {
+                let clock = Clock { tick, ..Clock::default() };
+                panel.follow(&survey(scene), &clock, Some((1.0, 0.01)));
+            }
+        }
+        assert_eq!(panel.curves.len(), 2);
+        assert_eq!(panel.trail.len(), TRAIL);
+        panel.follow(&Survey::default(), &Clock::default(), Some((1.0, 0.01)));
+        assert_eq!(panel.trail.len(), 1, "another history begins a new trail");
+        panel.follow(&Survey::default(), &Clock::default(), None);
+        assert!(panel.trail.is_empty());
+    }
+}

@@ -1,0 +1,95 @@
+//! The A/B split as a player has it: on and off, and where in the window its parts are.
+
+use crate::{
+    game::{
+        camera::Area,
+        hud::{HudState, toast::Toasts},
+    },
+    kernel::params::Preset,
+    sim::{accuracy::Watched, autopilot::Autopilot, split::Split, state::Setup},
+};
+use bevy::prelude::{Res, ResMut, World};
+use glam::Vec2;
+
+/// Height of the line over each part, points.
+pub const LABEL: f32 = 30.0;
+/// Room between the parts, points.
+const GAP: f32 = 4.0;
+
+/// Puts a second world beside the one that is played, or lets it go: then the first goes on alone.
+pub fn toggle(world: &mut World) {
+    if world.resource::<Split>().is_on() {
+        world.resource_mut::<Split>().end();
+        return;
+    }
+    let Some(setup) = world.get_resource::<Setup>() else { return };
+    let preset = if setup.preset == Preset::Draft { Preset::Fine } else { Preset::Draft };
+    Split::begin(world, preset, preset.quality());
+    world.resource_mut::<Toasts>().say("The same world at two qualities; B again goes on with A alone");
+}
+
+/// Lets the error of the world be sampled while somebody looks at it.
+pub fn watch(hud: Res<HudState>, autopilot: Res<Autopilot>, split: Res<Split>, mut watched: ResMut<Watched>) {
+    let looks = (hud.visible && hud.accuracy) || autopilot.goal().is_some() || split.is_on();
+    if watched.0 != looks {
+        watched.0 = looks;
+    }
+}
+
+/// Where first world, second world and their difference go in `free`, all in the same size, with a line of
+/// [`LABEL`] × `zoom` pixels over each: side by side, in two rows, or below each other, whatever shows them largest.
+pub fn areas(free: Area, world: Vec2, zoom: f32) -> [Area; 3] {
+    let (label, gap) = (LABEL * zoom, (GAP * zoom).max(2.0));
+    let arrange = |columns: usize| {
+        let rows = 3_usize.div_ceil(columns);
+        let grid = Vec2::new(columns as f32, rows as f32);
+        let cell = (free.max - free.min - gap * (grid - 1.0)) / grid;
+        let size = cell - Vec2::new(0.0, label);
+        let areas: [Area; 3] = std::array::from_fn(|k| {
+            let place = Vec2::new((k % columns) as f32, (k / columns) as f32);
+            let min = free.min + place * (cell + gap) + Vec2::new(0.0, label);
+            Area { min, max: min + size }
+        });
+        ((size / world).min_element(), areas)
+    };
+    let all = [arrange(2), arrange(3), arrange(1)];
+    let best = all.iter().max_by(|(a, _), (b, _)| a.total_cmp(b));
+    best.map_or([free; 3], |(_, areas)| *areas)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn free() -> Area {
+        Area { min: Vec2::new(0.0, 44.0), max: Vec2::new(1280.0, 720.0) }
+    }
+
+    #[test]
+    fn the_parts_are_alike_apart_and_inside() {
+        for world in [Vec2::new(160.0, 90.0), Vec2::new(40.0, 200.0), Vec2::new(400.0, 30.0)] {
+            let areas = areas(free(), world, 1.05);
+            for (k, area) in areas.iter().enumerate() {
+                let size = area.max - area.min;
+                assert!((size - (areas[0].max - areas[0].min)).length() < 1e-2);
+                assert!(size.min_element() > 100.0, "{world}: {area:?} is too small");
+                let (min, max) = (free().min.y + LABEL, free().max + 0.1);
+                assert!(area.min.y >= min && area.max.cmple(max).all(), "{world}: {area:?} sticks out");
+                for other in &areas[k + 1..] {
+                    let apart = area.max.x < other.min.x || area.max.y < other.min.y;
+                    assert!(apart, "{world}: {area:?} covers {other:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn wide_worlds_lie_below_each_other_and_tall_ones_stand_side_by_side() {
+        let tall = areas(free(), Vec2::new(40.0, 200.0), 1.0);
+        assert!(tall[0].min.y == tall[2].min.y, "{tall:?}");
+        let wide = areas(free(), Vec2::new(400.0, 30.0), 1.0);
+        assert!(wide[0].min.x == wide[2].min.x, "{wide:?}");
+        let usual = areas(free(), Vec2::new(160.0, 90.0), 1.0);
+        assert!(usual[0].min.y == usual[1].min.y && usual[2].min.y > usual[0].max.y, "{usual:?}");
+    }
+}
