@@ -3,7 +3,10 @@
 #![expect(clippy::unwrap_used, reason = "a test that can't go on fails")]
 
 use powder_master::{
-    kernel::brush::{BrushShape, Stroke},
+    kernel::{
+        brush::{BrushShape, Stroke},
+        params::{Preset, Quality},
+    },
     lab::{
         headless::Headless,
         run::{self, Plan},
@@ -12,7 +15,7 @@ use powder_master::{
     sim::{
         control,
         intent::Intent,
-        replay::{Recorder, Replay},
+        replay::{Entry, Recorder, Replay},
         state::Clock,
         workers::Workers,
     },
@@ -93,6 +96,11 @@ fn bad_usage_is_one_line_that_says_what_is_allowed() {
         (&["run", "waterfall", "--set", "wind=1000"], &["wind=1000"]),
         (&["run", "waterfall", "--effect", "fire=on"], &["air, drag, predictor, tension, viscosity, vorticity"]),
         (&["run", "waterfall", "--effect", "air=perhaps"], &["NAME=auto"]),
+        (&["run", "waterfall", "--hold-ms", "0"], &["--hold-ms", "allowed: numbers from 0.01"]),
+        (&["run", "waterfall", "--hold-ms", "-1"], &["--hold-ms", "allowed"]),
+        (&["run", "waterfall", "--hold-error", "nan"], &["--hold-error", "allowed: numbers from 0.0001 to 100"]),
+        (&["run", "waterfall", "--hold-error", "1", "--hold-ms", "1"], &["--hold-error", "--hold-ms"]),
+        (&["run", "empty", "--hold-error", "1", "--replay", "x"], &["--hold-error", "--replay"]),
         (&["run", "niagara"], &["niagara", "allowed", "dam_break", "waterfall"]),
         (&["run", "no/such.ron"], &["no/such.ron"]),
         (&["play", "niagara"], &["niagara", "allowed"]),
@@ -475,6 +483,9 @@ fn a_bad_replay_is_refused_with_its_line() {
     case("stone", &|lines| lines[1] = lines[1].replace("\"element\":0", "\"element\":200"));
     case("huge", &|lines| lines[1] = lines[1].replace("\"radius\":1.2", "\"radius\":1e300"));
     case("old", &|lines| lines[0] = lines[0].replace("\"powder_master_replay\":1", "\"powder_master_replay\":99"));
+    let none = Quality { substeps: 0, ..Preset::Fine.quality() };
+    let entry = Entry { tick: u64::MAX, intent: Intent::Quality { preset: Preset::Fine, quality: none } };
+    case("none", &|lines| lines.push(serde_json::to_string(&entry).unwrap()));
     case("sand", &|lines| lines[0] = lines[0].replace("\"water\"", "\"sand\""));
     for (name, says) in [
         ("empty", &["line 1"][..]),
@@ -483,6 +494,7 @@ fn a_bad_replay_is_refused_with_its_line() {
         ("stone", &["line 2", "element 200"]),
         ("huge", &["line 2", "too large"]),
         ("old", &["line 1", "format 99", "reads 1"]),
+        ("none", &["line 41", "substeps is 0", "allowed"]),
         ("sand", &["line 1", "sand"]),
     ] {
         refused(&here, &["run", "empty", "--replay", name], 2, says);
@@ -554,4 +566,21 @@ fn the_exam_prints_its_rows_and_fails_if_one_does() {
     assert!(document.contains("## Free fall (`free_fall`)") && document.contains("**Tolerance:**"), "{document}");
     let json = good(&here, &[&arguments[..], &["--json", "-"]].concat());
     assert!(serde_json::from_str::<Value>(&json).is_ok(), "stdout has the JSON alone: {json}");
+}
+
+#[test]
+fn an_error_is_held_the_same_way_each_time_and_a_time_says_how_it_went() {
+    let here = folder("hold");
+    let run = |arguments: &[&str]| {
+        let text = good(&here, &[&["run", "dam_break", "--set", "columns=16", "--ticks", "150"], arguments].concat());
+        let field = |name: &str| {
+            let value = text.split_whitespace().find_map(|field| field.strip_prefix(name)).map(str::to_owned);
+            value.unwrap_or_else(|| panic!("no {name} in {text}"))
+        };
+        (field("hash="), field("held="), field("moves=").parse::<u32>().unwrap())
+    };
+    let (hash, held, moves) = run(&["--hold-error", "0.0001"]);
+    assert!(moves > 0, "a bound this tight calls for another quality; held={held}");
+    assert_eq!(run(&["--hold-error", "0.0001"]).0, hash, "nothing of it depends on the machine");
+    assert_eq!(run(&["--hold-ms", "0.01"]).1, "no", "no machine is as fast as that");
 }

@@ -121,7 +121,7 @@ impl WorldCamera {
     }
 
     /// All areas: the free one, and the others if there are any.
-    pub fn panes(&self) -> impl Iterator<Item = Area> {
+    pub fn panes(&self) -> impl Iterator<Item = Area> + use<> {
         std::iter::once(self.free).chain(self.others.into_iter().flatten())
     }
 

@@ -1,5 +1,5 @@
-//! Recording what the player does, for `run --replay`. The record is that of one scene at one quality: where either
-//! changes, it is written and ends.
+//! Recording what the player and the autopilot do, for `run --replay`. The record is that of one scene: where that changes,
+//! it is written and ends.
 
 use crate::{
     game::{files, hud::toast::Toasts},

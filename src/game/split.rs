@@ -46,7 +46,10 @@ pub fn areas(free: Area, world: Vec2, zoom: f32) -> [Area; 3] {
         let cell = (free.max - free.min - gap * (grid - 1.0)) / grid;
         let size = cell - Vec2::new(0.0, label);
         let areas: [Area; 3] = std::array::from_fn(|k| {
-            let place = Vec2::new((k % columns) as f32, (k / columns) as f32);
+            let in_row = if k / columns + 1 < rows { columns } else { 3 - (rows - 1) * columns };
+            // A row that is not full stands in the middle.
+            let indent = (columns - in_row) as f32 / 2.0;
+            let place = Vec2::new((k % columns) as f32 + indent, (k / columns) as f32);
             let min = free.min + place * (cell + gap) + Vec2::new(0.0, label);
             Area { min, max: min + size }
         });
@@ -91,5 +94,6 @@ mod tests {
         assert!(wide[0].min.x == wide[2].min.x, "{wide:?}");
         let usual = areas(free(), Vec2::new(160.0, 90.0), 1.0);
         assert!(usual[0].min.y == usual[1].min.y && usual[2].min.y > usual[0].max.y, "{usual:?}");
+        assert!((usual[2].min.x + usual[2].max.x - 1280.0).abs() < 1.0, "{usual:?}");
     }
 }

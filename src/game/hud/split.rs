@@ -88,7 +88,7 @@ impl<'a> Facts<'a> {
 }
 
 /// A bar over a part.
-fn line(context: &egui::Context, id: &str, area: Area, add: impl FnOnce(&mut Ui)) {
+fn line(context: &egui::Context, id: &'static str, area: Area, add: impl FnOnce(&mut Ui)) {
     let zoom = context.zoom_factor();
     let (left, top) = (area.min.x / zoom, area.min.y / zoom - LABEL);
     let width = (area.max.x - area.min.x) / zoom;

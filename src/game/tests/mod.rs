@@ -33,6 +33,7 @@ use bevy::{
 use glam::Vec2;
 use std::{sync::Arc, time::Duration};
 
+mod accuracy;
 mod air;
 mod draw;
 mod keys;

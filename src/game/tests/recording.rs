@@ -82,9 +82,34 @@ fn a_recording_repeats_pauses_undo_wind_and_the_last_edits() {
 }
 
 #[test]
+fn a_recording_goes_on_at_another_quality_and_back_with_undo() {
+    let path = file("qualities");
+    let mut player = recorded(&path);
+    let choose = |player: &mut Player, preset| {
+        player.0.world_mut().resource_mut::<Orders>().push(Order::Quality(preset));
+        player.frames(6);
+        assert_eq!(player.world().resource::<Setup>().quality, preset.quality());
+    };
+    scribble(&mut player, "water", Vec2::new(0.0, 10.0));
+    choose(&mut player, Preset::Fine);
+    scribble(&mut player, "rock", Vec2::new(-20.0, -5.0));
+    choose(&mut player, Preset::Draft);
+    scribble(&mut player, "water", Vec2::new(9.0, 0.0));
+    choose(&mut player, Preset::Reference);
+    player.chord(&[KeyCode::ControlLeft, KeyCode::KeyZ]);
+    assert_eq!(player.world().resource::<Setup>().preset, Preset::Draft, "a state goes on at its own quality");
+    player.frames(10);
+    let hash = player.hash();
+    player.0.world_mut().write_message(bevy::app::AppExit::Success);
+    player.frame();
+    assert!(player.world().contains_resource::<Recording>(), "the recording has ended");
+    assert_eq!(again(&path), hash);
+    fs::remove_file(path).expect("it is ours");
+}
+
+#[test]
 fn a_recording_ends_where_it_would_stop_being_true() {
     let orders = [
-        Order::Quality(Preset::Fine),
         Order::Scene { name: "dam_break".into(), settings: vec![] },
         Order::Act(crate::game::input::bindings::Action::Reset),
     ];

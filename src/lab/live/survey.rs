@@ -113,7 +113,8 @@ impl Surveyor {
                 let found = shared.found.lock().unwrap_or_else(PoisonError::into_inner).clone();
                 survey.curve.points = found.points;
                 survey.progress = Some(found.progress);
-                found.done
+                // A thread that is gone has nothing more to tell, whatever became of it.
+                found.done || Arc::strong_count(shared) == 1
             }
             Some(Job::Slices(work)) => {
                 let begun = Instant::now();
@@ -141,10 +142,9 @@ fn start(work: Work) -> Job {
             work_aside(work, &theirs);
         }
     });
-    match (started, slot.lock().unwrap_or_else(PoisonError::into_inner).take()) {
-        (Err(_), Some(work)) => Job::Slices(Box::new(work)),
-        _ => Job::Thread { shared },
-    }
+    // Where no thread starts, nobody else wants the work.
+    let left = started.err().and_then(|_| slot.lock().unwrap_or_else(PoisonError::into_inner).take());
+    left.map_or(Job::Thread { shared }, |work| Job::Slices(Box::new(work)))
 }
 
 fn work_aside(mut work: Work, shared: &Shared) {

@@ -68,12 +68,13 @@ impl Plot<'_> {
         let field = Rect::from_min_max(rect.min + vec2(MARGIN.x, 8.0), rect.max - vec2(10.0, MARGIN.y));
         let painter = ui.painter_at(rect.expand(2.0));
         let points: Vec<&CurvePoint> = self.curve.iter().flat_map(|curve| &curve.points).collect();
-        let live = self.trail.last().copied();
-        let times = points.iter().map(|point| self.scale * point.milliseconds).chain(live.map(|live| live.0));
+        let times =
+            points.iter().map(|point| self.scale * point.milliseconds).chain(self.trail.iter().map(|place| place.0));
         let bound = |wanted: fn(Goal) -> Option<f32>| self.goal.and_then(wanted);
         let time_bound = bound(|goal| if let Goal::Time(bound) = goal { Some(bound) } else { None });
         let error_bound = bound(|goal| if let Goal::Error(bound) = goal { Some(bound) } else { None });
-        let errors = points.iter().filter_map(|point| point.error).chain(live.map(|live| live.1)).chain(error_bound);
+        let errors = points.iter().filter_map(|point| point.error).chain(self.trail.iter().map(|place| place.1));
+        let errors = errors.chain(error_bound);
         let canvas = Canvas {
             painter: &painter,
             field,
@@ -164,7 +165,7 @@ fn grid(canvas: &Canvas<'_>) {
             canvas.text(pos2(x, field.bottom() + 3.0), Align2::CENTER_TOP, &short(mark.value), style::WEAK);
         }
     }
-    for mark in canvas.y.marks() {
+    for mark in canvas.y.marks().into_iter().filter(|mark| mark.value >= FLOOR) {
         let y = canvas.at(1.0, mark.value).y;
         canvas.painter.hline(field.x_range(), y, line(mark.power));
         if mark.labelled {
