@@ -19,7 +19,10 @@ pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Fai
 
 #[cfg(feature = "app")]
 fn open(scene: &str, record: Option<PathBuf>, load: impl FnOnce(&mut World)) -> Result<(), Failure> {
-    use crate::{game, lab::{exam::desk, live::LivePlugin}};
+    use crate::{
+        game,
+        lab::{exam::desk, live::LivePlugin},
+    };
     use bevy::app::AppExit;
 
     match game::run(scene, record, |app| {
