@@ -261,7 +261,7 @@ mod tests {
         let area = |x: f32| Area { min: Vec2::new(x, 40.0), max: Vec2::new(x + 260.0, 540.0) };
         camera.set_window(Vec2::new(800.0, 600.0), area(0.0));
         camera.set_others(Some([area(270.0), area(540.0)]));
-        let (first, second) = (Vec2::new(100.0, 300.0), Vec2::new(370.0, 300.0));
+        let (first, second) = (Vec2::new(100.0, 290.0), Vec2::new(370.0, 290.0));
         assert!((camera.to_world(first) - camera.to_world(second)).length() < 1e-3);
         assert!((camera.to_pixel_beside(camera.to_world(second), second) - second).length() < 1e-2);
         camera.hold_pane(first);

@@ -6,7 +6,12 @@ use crate::{
         hud::{HudState, toast::Toasts},
     },
     kernel::params::Preset,
-    sim::{accuracy::Watched, autopilot::Autopilot, split::Split, state::Setup},
+    sim::{
+        accuracy::{LiveError, Watched},
+        autopilot::Autopilot,
+        split::Split,
+        state::Setup,
+    },
 };
 use bevy::prelude::{Res, ResMut, World};
 use glam::Vec2;
@@ -29,10 +34,18 @@ pub fn toggle(world: &mut World) {
 }
 
 /// Lets the error of the world be sampled while somebody looks at it.
-pub fn watch(hud: Res<HudState>, autopilot: Res<Autopilot>, split: Res<Split>, mut watched: ResMut<Watched>) {
+pub fn watch(
+    hud: Res<HudState>,
+    autopilot: Res<Autopilot>,
+    split: Res<Split>,
+    mut watched: ResMut<Watched>,
+    mut error: ResMut<LiveError>,
+) {
     let looks = (hud.visible && hud.accuracy) || autopilot.goal().is_some() || split.is_on();
     if watched.0 != looks {
         watched.0 = looks;
+        // What was measured before somebody looked away is of another time.
+        error.clear();
     }
 }
 

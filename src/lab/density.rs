@@ -75,8 +75,8 @@ pub fn density_error(
 impl DensityError {
     /// The error over the interior ones of `locals`; `None` if there are none.
     pub(super) fn of(locals: &[Local], rest_density: f64) -> Option<Self> {
-        let mut densities: Vec<f64> =
-            locals.iter().filter(|local| local.interior).map(|local| local.density / rest_density).collect();
+        let interior = locals.iter().filter(|local| local.interior);
+        let mut densities: Vec<f64> = interior.map(|local| local.density / rest_density).collect();
         let density = stats::mean(&densities)?;
         densities.iter_mut().for_each(|density| *density = (*density - 1.0).max(0.0));
         let mut errors = densities;

@@ -3,8 +3,17 @@
 //! thread.
 
 use crate::{
-    kernel::params::{Preset, Quality},
-    sim::{SimulationPlugin, control, effects::Effects, snapshot::Snapshot, state::Setup, workers::Workers},
+    kernel::{
+        params::{Preset, Quality},
+        simd::InstructionSet,
+    },
+    sim::{
+        SimulationPlugin, control,
+        effects::Effects,
+        snapshot::Snapshot,
+        state::{Setup, SolverState},
+        workers::Workers,
+    },
 };
 use bevy::{
     ecs::schedule::SingleThreadedExecutor,
@@ -21,6 +30,8 @@ pub struct Seed {
     pub effects: Effects,
     /// The state.
     pub state: Arc<Snapshot>,
+    /// Instructions that the solver uses.
+    pub instructions: InstructionSet,
 }
 
 impl Seed {
@@ -28,7 +39,12 @@ impl Seed {
     pub fn of(world: &World) -> Self {
         let mut effects = world.resource::<Effects>().clone();
         effects.start_over();
-        Self { setup: world.resource::<Setup>().clone(), effects, state: Arc::new(control::freeze(world)) }
+        Self {
+            setup: world.resource::<Setup>().clone(),
+            effects,
+            state: Arc::new(control::freeze(world)),
+            instructions: world.resource::<SolverState>().instructions,
+        }
     }
 }
 
@@ -51,6 +67,7 @@ impl Twin {
         world.insert_resource(seed.setup.clone());
         world.insert_resource(seed.effects.clone());
         control::thaw(&mut world, &seed.state);
+        world.resource_mut::<SolverState>().instructions = seed.instructions;
         Self { world }
     }
 

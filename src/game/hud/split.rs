@@ -13,6 +13,7 @@ use crate::{
         orders::{Order, Orders},
         split::LABEL,
     },
+    kernel::params::Preset,
     sim::{
         accuracy::LiveError,
         difference::{self, Difference},
@@ -108,7 +109,7 @@ fn line(context: &egui::Context, id: &'static str, area: Area, add: impl FnOnce(
 }
 
 /// Name, quality and cost of a world; the quality that is chosen for it, if one is.
-fn facts(ui: &mut Ui, facts: &Facts<'_>) -> Option<crate::kernel::params::Preset> {
+fn facts(ui: &mut Ui, facts: &Facts<'_>) -> Option<Preset> {
     let (rect, _) = ui.allocate_exact_size(vec2(22.0, 22.0), Sense::hover());
     ui.painter().rect_filled(rect, style::BUTTON_CORNER, style::ACCENT_FILL);
     let font = egui::TextStyle::Button.resolve(ui.style());

@@ -61,7 +61,8 @@ fn a_survey_is_asked_for_once() {
 fn edits_go_to_both_worlds_from_either_half_and_one_key_ends_the_split() {
     let mut player = Player::new();
     player.chord(&[KeyCode::KeyB]);
-    order(&mut player, Order::SecondQuality(player.world().resource::<Setup>().preset));
+    let preset = player.world().resource::<Setup>().preset;
+    order(&mut player, Order::SecondQuality(preset));
     let half = |x: f32| Area { min: Vec2::new(x, 0.0), max: Vec2::new(x + 400.0, 700.0) };
     {
         let mut camera = player.0.world_mut().resource_mut::<WorldCamera>();

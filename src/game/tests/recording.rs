@@ -99,6 +99,7 @@ fn a_recording_goes_on_at_another_quality_and_back_with_undo() {
     player.chord(&[KeyCode::ControlLeft, KeyCode::KeyZ]);
     assert_eq!(player.world().resource::<Setup>().preset, Preset::Draft, "a state goes on at its own quality");
     player.frames(10);
+    player.chord(&[KeyCode::KeyP]);
     let hash = player.hash();
     player.0.world_mut().write_message(bevy::app::AppExit::Success);
     player.frame();

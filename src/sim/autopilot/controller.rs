@@ -105,11 +105,6 @@ impl Controller {
         }
     }
 
-    /// The bound.
-    pub fn bound(&self) -> f32 {
-        self.bound
-    }
-
     /// Holds another bound from now on; what was learned stays.
     pub fn set_bound(&mut self, bound: f32) {
         if self.bound != bound {

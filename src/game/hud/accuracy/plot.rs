@@ -132,6 +132,7 @@ impl Plot<'_> {
                 (false, true) => (style::BUTTON_HOVER, Color32::WHITE),
                 (false, false) => (style::BUTTON, style::TEXT),
             };
+            canvas.painter.line_segment([dot, button.center()], Stroke::new(1.0, style::WEAK.gamma_multiply(0.6)));
             let border = if in_force { style::ACCENT } else { style::LINE };
             canvas.painter.rect(button, 5.0, fill, Stroke::new(1.0, border), StrokeKind::Inside);
             canvas.painter.galley(button.min + PADDING, text, colour);
@@ -210,12 +211,14 @@ fn trail(canvas: &Canvas<'_>, trail: &[(f32, f32)]) {
 fn place_beside(dot: Pos2, size: egui::Vec2, field: Rect, taken: &[Rect]) -> Rect {
     let (near, far) = (8.0 + size.x / 2.0, 9.0 + size.y / 2.0);
     let places = [
-        vec2(near, -far * 0.7),
-        vec2(-near, far * 0.7),
-        vec2(near, far * 0.7),
-        vec2(-near, -far * 0.7),
         vec2(0.0, -far),
         vec2(0.0, far),
+        vec2(near, 0.0),
+        vec2(-near, 0.0),
+        vec2(near, -far * 0.8),
+        vec2(-near, far * 0.8),
+        vec2(near, far * 0.8),
+        vec2(-near, -far * 0.8),
         vec2(near, -far * 1.9),
         vec2(-near, far * 1.9),
         vec2(near, far * 1.9),
