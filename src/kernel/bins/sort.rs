@@ -189,10 +189,14 @@ impl Sort {
 
 /// Particles in a cell below `cell`.
 fn count_below(keys: &[u32], blocks: &[[u32; 2]], cell: u32) -> usize {
-    let count = |(keys, [lowest, highest]): (&[u32], &[u32; 2])| match () {
-        () if *highest < cell => keys.len(),
-        () if *lowest >= cell => 0,
-        () => keys.iter().map(|&key| u32::from(key < cell)).sum::<u32>() as usize,
+    let count = |(keys, [lowest, highest]): (&[u32], &[u32; 2])| {
+        if *highest < cell {
+            keys.len()
+        } else if *lowest >= cell {
+            0
+        } else {
+            keys.iter().map(|&key| u32::from(key < cell)).sum::<u32>() as usize
+        }
     };
     keys.chunks(BLOCK).zip(blocks).map(count).sum()
 }

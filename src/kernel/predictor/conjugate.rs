@@ -96,7 +96,7 @@ struct Turn<'a> {
     is_first: bool,
 }
 
-impl<'b> Sweep<Rows<'b, f32>> for Turn<'_> {
+impl Sweep<Rows<'_, f32>> for Turn<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, direction: Rows<f32>) {
         let preconditioned = &self.preconditioned[rows.start * self.stride..rows.end * self.stride];
@@ -122,7 +122,7 @@ struct Advance<'a> {
 /// Rows of solution and right-hand side, and their sums.
 type Advanced<'a> = ((Rows<'a, f32>, Rows<'a, f32>), Rows<'a, f64>);
 
-impl<'b> Sweep<Advanced<'b>> for Advance<'_> {
+impl Sweep<Advanced<'_>> for Advance<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, ((mut solution, mut b), sums): Advanced) {
         for (((j, solution), b), sum) in rows.zip(solution.each()).zip(b.each()).zip(sums.field) {

@@ -232,7 +232,7 @@ impl<'b> Sweep<(Rows<'b, f32>, (Rows<'b, f64>, Rows<'b, f64>))> for TakeProductO
 
 struct SmoothFromZero<'a>(Equation<'a>);
 
-impl<'b> Sweep<Rows<'b, f32>> for SmoothFromZero<'_> {
+impl Sweep<Rows<'_, f32>> for SmoothFromZero<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut out: Rows<f32>) {
         let equation = &self.0;
@@ -291,7 +291,7 @@ impl Smooth<'_> {
     }
 }
 
-impl<'b> Sweep<Rows<'b, f32>> for Smooth<'_> {
+impl Sweep<Rows<'_, f32>> for Smooth<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut out: Rows<f32>) {
         for (j, out) in rows.zip(out.each()) {
@@ -321,7 +321,7 @@ struct Restrict<'a> {
     x: &'a [f32],
 }
 
-impl<'b> Sweep<Rows<'b, f32>> for Restrict<'_> {
+impl Sweep<Rows<'_, f32>> for Restrict<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut out: Rows<f32>) {
         let equation = &self.equation;
@@ -361,7 +361,7 @@ impl RowSums {
 
     /// The sum over `rows`.
     pub fn total(&self, rows: &Range<usize>) -> f64 {
-        self.0[rows.clone()].iter().fold(0.0, |total, row| total + row)
+        self.0[rows.clone()].iter().sum()
     }
 }
 

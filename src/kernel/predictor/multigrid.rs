@@ -105,7 +105,7 @@ struct Coarsen<'a> {
 /// Rows of diagonal and damping, and of the couplings to the right and up.
 type Operator<'a> = ((Rows<'a, f32>, Rows<'a, f32>), (Rows<'a, f32>, Rows<'a, f32>));
 
-impl<'b> Sweep<Operator<'b>> for Coarsen<'_> {
+impl Sweep<Operator<'_>> for Coarsen<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, ((mut diagonal, mut damped), (mut right, mut upper)): Operator) {
         let out = diagonal.each().zip(damped.each()).zip(right.each()).zip(upper.each());
@@ -140,7 +140,7 @@ struct Prolong<'a> {
     fine: &'a Level,
 }
 
-impl<'b> Sweep<Rows<'b, f32>> for Prolong<'_> {
+impl Sweep<Rows<'_, f32>> for Prolong<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut x: Rows<f32>) {
         let Self { coarse, fine } = self;

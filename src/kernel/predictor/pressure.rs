@@ -116,7 +116,7 @@ struct Mark<'a> {
 /// Rows of the cells' filling and liquid, and of the solution with whether there is any liquid.
 type Marks<'a> = ((Rows<'a, f32>, Rows<'a, f32>), (Rows<'a, f32>, Rows<'a, bool>));
 
-impl<'b> Sweep<Marks<'b>> for Mark<'_> {
+impl Sweep<Marks<'_>> for Mark<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, ((mut filled, mut liquid), (mut solution, wet)): Marks) {
         let Self { grid, closed, weights: [u, v], share } = *self;
@@ -189,7 +189,7 @@ struct Assemble<'a> {
 /// Rows of diagonal and damping, of the couplings to the right and up, and of the right-hand side.
 type System<'a> = ((Rows<'a, f32>, Rows<'a, f32>), ((Rows<'a, f32>, Rows<'a, f32>), Rows<'a, f32>));
 
-impl<'b> Sweep<System<'b>> for Assemble<'_> {
+impl Sweep<System<'_>> for Assemble<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, system: System) {
         let Self { grid, closed, faces, liquid, sealed } = *self;
@@ -322,7 +322,7 @@ struct FillIn<'a> {
     change: &'a [f32],
 }
 
-impl<'b> Sweep<Rows<'b, [f32; 2]>> for FillIn<'_> {
+impl Sweep<Rows<'_, [f32; 2]>> for FillIn<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut faces: Rows<[f32; 2]>) {
         let Self { grid, near, known, change } = *self;
