@@ -29,8 +29,8 @@ use std::ops::Range;
 
 /// Rounding allowance of the search margin, d.
 const MARGIN_ROUNDING: f32 = 1e-3;
-/// Groups of which the buffer has more than it needs, as a share: their number changes a little from tick to tick.
-const SPARE_GROUPS: usize = 16;
+/// The buffer of groups has one in so many to spare: their number changes a little from tick to tick.
+const SPARE_GROUPS: usize = 8;
 
 /// Fewer particles than this are not handed to another thread to get their ids.
 const WORTH_NAMING: usize = 8192;
@@ -45,13 +45,13 @@ pub enum Neighbours {
     Brute,
 }
 
-/// A run of consecutive particles with the runs of candidates that may touch any of them. 60 bytes.
+/// A run of consecutive particles with the runs of candidates that may touch any of them. 56 bytes.
 #[derive(Clone, Debug, Default)]
 pub struct Group {
     /// First particle.
     pub first: u32,
     /// Number of particles, at most the lane width.
-    pub len: u32,
+    pub len: u16,
     /// Whether the kernel of any of them may reach a wall of the box.
     pub near_wall: bool,
     /// Movable candidates, one run a strip.
@@ -83,7 +83,7 @@ impl Group {
     /// The particles.
     #[inline(always)]
     pub fn particles(&self) -> Range<usize> {
-        self.first as usize..(self.first + self.len) as usize
+        self.first as usize..self.first as usize + usize::from(self.len)
     }
 }
 
@@ -151,7 +151,7 @@ impl Bins {
         self.groups.clear();
         self.groups.extend((0..particles).step_by(width).map(|first| Group {
             first: first as u32,
-            len: width.min(particles - first) as u32,
+            len: width.min(particles - first) as u16,
             near_wall: true,
             movable: all(particles),
             rock: all(self.rock.x.len()),

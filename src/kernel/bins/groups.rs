@@ -96,7 +96,7 @@ impl Cutter<'_> {
             if let Some(group) = groups.next() {
                 *group = Group {
                     first: first as u32,
-                    len: (next - first) as u32,
+                    len: (next - first) as u16,
                     near_wall: near_floor_or_top || self.grid.is_near_side(low, high),
                     movable: runs(self.starts),
                     rock: if self.rock.starts.is_empty() { Default::default() } else { runs(&self.rock.starts) },

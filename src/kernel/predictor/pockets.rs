@@ -9,8 +9,8 @@ use crate::kernel::predictor::{grid::MacGrid, level::Level};
 /// Couplings that differ by less than this are equal: rounding of the sums of open shares.
 pub(super) const ROUNDING: f32 = 1e-4;
 
-/// Parts that there is room for at a time: there are few but for spray.
-const MORE_PARTS: usize = 64;
+/// Parts that there is room for at least: there are few but for spray.
+const FEWEST_PARTS: usize = 64;
 
 /// The connected parts of the liquid. The buffer is kept. Each cell's label stands in the level's `work`, as a number
 /// that single precision holds exactly.
@@ -24,10 +24,13 @@ pub(super) struct Pockets {
 struct Part {
     /// Label that this one was found to be connected with; its own if it is the first of them.
     parent: u32,
+    /// Number of cells, or [`OPEN`] if one of them touches air.
     cells: u32,
-    touches_air: bool,
     sum: f64,
 }
+
+/// In place of a number of cells: more than any grid has, and no less with more cells.
+const OPEN: u32 = u32::MAX;
 
 impl Pockets {
     /// Takes the mean of the right-hand side out of every pocket.
@@ -48,14 +51,14 @@ impl Pockets {
                 };
                 level.work[k] = label as f32;
                 let coupled = left + lower + level.right[k] + level.upper[k];
+                let touches_air = level.diagonal[k] - coupled > ROUNDING;
                 let part = &mut self.parts[label as usize];
-                part.cells += 1;
-                part.touches_air |= level.diagonal[k] - coupled > ROUNDING;
+                part.cells = part.cells.saturating_add(if touches_air { OPEN } else { 1 });
                 part.sum += f64::from(level.b[k]);
             }
         }
         self.gather();
-        if self.parts.iter().all(|part| part.touches_air) {
+        if self.parts.iter().all(|part| part.cells == OPEN) {
             return;
         }
         for j in level.rows.clone() {
@@ -64,7 +67,7 @@ impl Pockets {
                     continue;
                 }
                 let part = &self.parts[self.root(level.work[k] as u32) as usize];
-                if !part.touches_air {
+                if part.cells != OPEN {
                     level.b[k] -= (part.sum / f64::from(part.cells)) as f32;
                 }
             }
@@ -74,9 +77,9 @@ impl Pockets {
     fn found(&mut self) -> u32 {
         let label = self.parts.len() as u32;
         if self.parts.len() == self.parts.capacity() {
-            self.parts.reserve_exact(MORE_PARTS);
+            self.parts.reserve_exact(label as usize / 2 + FEWEST_PARTS);
         }
-        self.parts.push(Part { parent: label, cells: 0, touches_air: false, sum: 0.0 });
+        self.parts.push(Part { parent: label, cells: 0, sum: 0.0 });
         label
     }
 
@@ -102,18 +105,17 @@ impl Pockets {
             if root == label as usize {
                 continue;
             }
-            let Part { cells, touches_air, sum, .. } = self.parts[label as usize].clone();
+            let Part { cells, sum, .. } = self.parts[label as usize].clone();
             let part = &mut self.parts[root];
-            part.cells += cells;
-            part.touches_air |= touches_air;
+            part.cells = part.cells.saturating_add(cells);
             part.sum += sum;
         }
         // Points every label straight at its root and lets it know what the root knows.
         for label in 0..self.parts.len() as u32 {
             let root = self.root(label);
-            let touches_air = self.parts[root as usize].touches_air;
+            let cells = self.parts[root as usize].cells;
             let part = &mut self.parts[label as usize];
-            (part.parent, part.touches_air) = (root, touches_air);
+            (part.parent, part.cells) = (root, cells);
         }
     }
 
