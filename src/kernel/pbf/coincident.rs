@@ -10,7 +10,7 @@ use crate::kernel::{
 use glam::Vec2;
 
 /// Closer than this in both coordinates counts as one point, d.
-const COINCIDENT: f32 = 1e-4;
+const COINCIDENT: f32 = 1e-3;
 /// Largest offset in each coordinate, d.
 const APART: f32 = 0.05;
 /// Particles before it that each is compared with.
