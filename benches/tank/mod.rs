@@ -62,7 +62,7 @@ impl Tank {
     /// Predicts positions.
     pub fn predict(&mut self) {
         let Self { particles, solids, domain, quality, solver } = self;
-        predict::predict(particles, solver, solids, domain, quality, 1, SUBSTEP);
+        predict::predict(particles, solver.instructions, solids, domain, quality, 1, SUBSTEP);
     }
 
     /// Sorts into bins.
@@ -72,13 +72,14 @@ impl Tank {
 
     /// Iterates the density constraint.
     pub fn solve(&mut self, iterations: u32) {
-        self.solver.solve(&SolveParams {
+        let params = SolveParams {
             domain: &self.domain,
             fluid: &FluidParams::default(),
             quality: &Quality { iterations, ..self.quality },
             tension: false,
             predicted: true,
             threads: 1,
-        });
+        };
+        self.solver.solve(&self.particles, &params);
     }
 }

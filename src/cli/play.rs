@@ -12,7 +12,7 @@ pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Fai
     let scene = scene.unwrap_or(DEFAULT_SCENE);
     output::check(options.record.as_deref().as_slice())?;
     let start = Start::of_play(scene, options)?;
-    threads::start(options.threads)?;
+    threads::start_aside(options.threads)?;
     let load = |world: &mut World| start.load(world, options.simd);
     open(scene, options.record.clone(), load)
 }

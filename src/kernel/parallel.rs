@@ -2,8 +2,14 @@
 //!
 //! What an entry gets never depends on where the pieces are cut, so the number of threads does not show in the result.
 
-use crate::kernel::{bins::Group, simd::InstructionSet};
-use std::ops::Range;
+use crate::kernel::{
+    bins::Group,
+    simd::{InstructionSet, Lanes, Pass},
+};
+use std::{
+    ops::Range,
+    sync::atomic::{AtomicBool, Ordering},
+};
 
 /// Pieces a thread: some are denser than others, so there is something left to steal.
 const PIECES_PER_THREAD: usize = 4;
@@ -83,6 +89,59 @@ fn over_from(range: Range<usize>, piece: usize, work: &(impl Fn(Range<usize>) + 
     rayon::join(|| over_from(range.start..middle, piece, work), || over_from(middle..range.end, piece, work));
 }
 
+/// Looks for work in vain, one after the other, after which a watching thread gives up: a millisecond, about.
+const PATIENCE: u32 = 10_000;
+/// Looks in vain after which a watching thread lets others of the system go first.
+const POLITENESS: u32 = 64;
+
+/// Runs `work` in the current rayon pool while up to `watchers` of its other threads look out for the parts that `work`
+/// hands over. Left alone, they would fall asleep between two of them, and waking them takes longer than a small part.
+/// A thread that waits for others in the midst of a part may come to watch, too; that is why no watch lasts.
+pub(crate) fn watched<T: Send>(watchers: usize, work: impl FnOnce() -> T + Send) -> T {
+    if watchers == 0 {
+        return work();
+    }
+    let watch = Watch { done: AtomicBool::new(false), leader: rayon::current_thread_index() };
+    let lead = || {
+        let result = work();
+        watch.done.store(true, Ordering::Release);
+        result
+    };
+    rayon::join(lead, || watch.share(watchers)).0
+}
+
+/// What watching threads know.
+struct Watch {
+    done: AtomicBool,
+    /// The thread that hands work over. Were it to watch for itself, nothing would come.
+    leader: Option<usize>,
+}
+
+impl Watch {
+    fn share(&self, watchers: usize) {
+        if watchers > 1 {
+            rayon::join(|| self.look_out(), || self.share(watchers - 1));
+        } else {
+            self.look_out();
+        }
+    }
+
+    fn look_out(&self) {
+        let mut in_vain = 0;
+        while in_vain < PATIENCE && !self.done.load(Ordering::Acquire) && rayon::current_thread_index() != self.leader {
+            if rayon::yield_now() == Some(rayon::Yield::Executed) {
+                in_vain = 0;
+            } else {
+                in_vain += 1;
+                std::hint::spin_loop();
+                if in_vain % POLITENESS == 0 {
+                    std::thread::yield_now();
+                }
+            }
+        }
+    }
+}
+
 /// Who does the work.
 #[derive(Clone, Copy, Debug)]
 pub struct Team {
@@ -92,34 +151,88 @@ pub struct Team {
     pub threads: usize,
 }
 
-/// Runs `work` over pieces of a field that are whole rows of `stride` entries, of `fewest` entries or more, on up to
-/// `threads` threads of the current rayon pool. Each call gets the index of its first row and its rows.
-pub(crate) fn by_rows<T: Send>(
-    field: &mut [T],
-    stride: usize,
-    fewest: usize,
-    threads: usize,
-    work: &(impl Fn(usize, &mut [T]) + Sync),
-) {
-    by_rows_from(0, field, stride, piece(field.len(), threads, fewest).max(stride), work);
+/// Rows that can be cut in two.
+pub(crate) trait Band: Send + Sized {
+    /// Cuts `rows` rows off the front.
+    fn split(self, rows: usize) -> (Self, Self);
 }
 
-fn by_rows_from<T: Send>(
-    first: usize,
-    field: &mut [T],
-    stride: usize,
-    piece: usize,
-    work: &(impl Fn(usize, &mut [T]) + Sync),
-) {
-    if field.len() <= piece {
-        return work(first, field);
+/// Rows of a field of `stride` entries each.
+pub(crate) struct Rows<'a, T> {
+    pub field: &'a mut [T],
+    pub stride: usize,
+}
+
+impl<'a, T> Rows<'a, T> {
+    /// The rows `rows` of a field.
+    pub fn new(field: &'a mut [T], stride: usize, rows: &Range<usize>) -> Self {
+        Self { field: &mut field[rows.start * stride..rows.end * stride], stride }
     }
-    let half = field.len() / stride / 2;
-    let (lower, upper) = field.split_at_mut(half * stride);
+
+    /// Row by row.
+    #[inline(always)]
+    pub fn each(&mut self) -> std::slice::ChunksExactMut<'_, T> {
+        self.field.chunks_exact_mut(self.stride)
+    }
+}
+
+impl<T: Send> Band for Rows<'_, T> {
+    fn split(self, rows: usize) -> (Self, Self) {
+        let (lower, upper) = self.field.split_at_mut(rows * self.stride);
+        (Self { field: lower, stride: self.stride }, Self { field: upper, stride: self.stride })
+    }
+}
+
+impl<A: Band, B: Band> Band for (A, B) {
+    fn split(self, rows: usize) -> (Self, Self) {
+        let ((lower_a, upper_a), (lower_b, upper_b)) = (self.0.split(rows), self.1.split(rows));
+        ((lower_a, lower_b), (upper_a, upper_b))
+    }
+}
+
+/// Work on rows of a grid, of which each may be done by itself.
+pub(crate) trait Sweep<B>: Sync {
+    /// Does the rows `rows`; `band` holds what they are written to. Implementations are `#[inline(always)]`, so that they
+    /// are compiled for the caller's registers.
+    fn run(&self, rows: Range<usize>, band: B);
+}
+
+/// Sweeps over `rows` rows of `stride` entries in pieces of `fewest` entries or more.
+pub(crate) fn sweep<B: Band>(
+    work: &impl Sweep<B>,
+    rows: Range<usize>,
+    band: B,
+    stride: usize,
+    fewest: usize,
+    team: Team,
+) {
+    let most = piece(rows.len() * stride, team.threads, fewest) / stride;
+    sweep_from(work, rows, band, most.max(1), team.instructions);
+}
+
+fn sweep_from<B: Band, S: Sweep<B>>(work: &S, rows: Range<usize>, band: B, most: usize, instructions: InstructionSet) {
+    if rows.len() <= most {
+        return instructions.run(SweepRows { work, rows, band });
+    }
+    let middle = rows.start + rows.len() / 2;
+    let (lower, upper) = band.split(middle - rows.start);
     rayon::join(
-        || by_rows_from(first, lower, stride, piece, work),
-        || by_rows_from(first + half, upper, stride, piece, work),
+        || sweep_from(work, rows.start..middle, lower, most, instructions),
+        || sweep_from(work, middle..rows.end, upper, most, instructions),
     );
+}
+
+struct SweepRows<'a, S, B> {
+    work: &'a S,
+    rows: Range<usize>,
+    band: B,
+}
+
+impl<B, S: Sweep<B>> Pass for SweepRows<'_, S, B> {
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        self.work.run(self.rows, self.band);
+    }
 }
 
 /// Entries that a piece has at most.
@@ -139,4 +252,57 @@ pub(crate) fn cut<const K: usize, T>(arrays: [&mut [T]; K], at: usize) -> ([&mut
         before
     });
     (left, right)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Number {
+        stride: usize,
+    }
+
+    impl<'b> Sweep<(Rows<'b, u32>, Rows<'b, usize>)> for Number {
+        fn run(&self, rows: Range<usize>, (mut cells, sums): (Rows<u32>, Rows<usize>)) {
+            assert_eq!((cells.field.len(), sums.field.len()), (rows.len() * self.stride, rows.len()));
+            for ((row, cells), sum) in rows.zip(cells.each()).zip(sums.field) {
+                cells.iter_mut().for_each(|cell| *cell += 1);
+                *sum += row;
+            }
+        }
+    }
+
+    #[test]
+    fn a_sweep_does_every_row_once_with_all_of_its_fields() {
+        for (threads, fewest) in [(1, 1), (2, 1), (3, 40), (8, 1000)] {
+            let (mut cells, mut sums) = (vec![0_u32; 7 * 50], vec![0_usize; 50]);
+            let rows = 3..47;
+            let band = (Rows::new(&mut cells, 7, &rows), Rows::new(&mut sums, 1, &rows));
+            let team = Team { instructions: InstructionSet::Baseline, threads };
+            sweep(&Number { stride: 7 }, rows.clone(), band, 7, fewest, team);
+            assert!(cells.chunks(7).enumerate().all(|(row, cells)| cells == [u32::from(rows.contains(&row)); 7]));
+            assert!((0..50).all(|row| sums[row] == if rows.contains(&row) { row } else { 0 }));
+        }
+    }
+
+    #[test]
+    fn watched_work_gives_its_result_whoever_watches() {
+        for (threads, watchers) in [(1, 0), (1, 3), (2, 1), (4, 3), (4, 7)] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            for len in [10, 10_000] {
+                let sum = pool.install(|| {
+                    watched(watchers, || {
+                        let mut field = vec![1_u64; len];
+                        for _ in 0..20 {
+                            spread([&mut field[..]], 64, threads, &|base, [field]| {
+                                (base as u64..).zip(field).for_each(|(k, entry)| *entry += k);
+                            });
+                        }
+                        field.iter().sum::<u64>()
+                    })
+                });
+                assert_eq!(sum, len as u64 + 20 * (len as u64 * (len as u64 - 1) / 2));
+            }
+        }
+    }
 }

@@ -4,8 +4,7 @@ use crate::kernel::{
     parallel::{WORTH_A_PIECE, spread},
     params::{Domain, Quality, WALL_GAP},
     particles::Particles,
-    pbf::Solver,
-    simd::{Lanes, Pass},
+    simd::{InstructionSet, Lanes, Pass},
     solids::Solids,
 };
 use glam::Vec2;
@@ -49,39 +48,24 @@ fn fastest(vx: &[f32], vy: &[f32]) -> f32 {
     most.into_iter().fold(0.0, f32::max).sqrt()
 }
 
-/// Predicts `x + v Δt` into the solver, cut to the longest move and swept against rock and box. Where that changed the
+/// Moves the particles to `x + v Δt`, cut to the longest move and swept against rock and box. Where that changed the
 /// move, the velocity becomes that of the move that is left.
 pub fn predict(
     particles: &mut Particles,
-    solver: &mut Solver,
+    instructions: InstructionSet,
     solids: &Solids,
     domain: &Domain,
     quality: &Quality,
     threads: usize,
     dt: f32,
 ) -> PredictReport {
-    let instructions = solver.instructions;
     let rock = (solids.count() > 0).then_some(solids);
     let longest = MOVE_RADII * quality.kernel_radius;
     let Particles { x, y, vx, vy, .. } = particles;
-    for array in [&mut solver.x, &mut solver.y] {
-        array.resize(x.len(), 0.0);
-    }
     let clamps = AtomicU64::new(0);
-    let arrays = [&mut vx[..], &mut vy[..], &mut solver.x[..], &mut solver.y[..]];
-    spread(arrays, WORTH_A_PIECE, threads, &|base, [vx, vy, to_x, to_y]| {
-        let [x, y] = [&*x, &*y].map(|from| &from[base..base + vx.len()]);
+    spread([&mut x[..], y, vx, vy], WORTH_A_PIECE, threads, &|_, [x, y, vx, vy]| {
         let clamps = &clamps;
-        instructions.run(Prediction {
-            domain,
-            rock,
-            longest,
-            dt,
-            from: [x, y],
-            velocity: [vx, vy],
-            to: [to_x, to_y],
-            clamps,
-        });
+        instructions.run(Prediction { domain, rock, longest, dt, position: [x, y], velocity: [vx, vy], clamps });
     });
     PredictReport { speed_clamps: clamps.into_inner() }
 }
@@ -94,12 +78,10 @@ struct Prediction<'a> {
     /// Longest move, d.
     longest: f32,
     dt: f32,
-    /// Positions, d.
-    from: [&'a [f32]; 2],
+    /// In: positions, d. Out: predicted positions.
+    position: [&'a mut [f32]; 2],
     /// In and out: velocities, d/s; cut where they were too fast.
     velocity: [&'a mut [f32]; 2],
-    /// Out: predicted positions, d.
-    to: [&'a mut [f32]; 2],
     /// Counts the particles that were too fast.
     clamps: &'a AtomicU64,
 }
@@ -107,12 +89,16 @@ struct Prediction<'a> {
 impl Pass for Prediction<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { domain, rock, longest, dt, from: [x, y], velocity: [vx, vy], to: [to_x, to_y], clamps } = self;
+        let Self { domain, rock, longest, dt, position: [x, y], velocity: [vx, vy], clamps } = self;
         let high = domain.highest();
+        let (mut from_x, mut from_y) = ([0.0_f32; BLOCK], [0.0_f32; BLOCK]);
         for first in (0..x.len()).step_by(BLOCK) {
             let own = first..x.len().min(first + BLOCK);
-            let (x, y, vx, vy) = (&x[own.clone()], &y[own.clone()], &mut vx[own.clone()], &mut vy[own.clone()]);
-            let (to_x, to_y) = (&mut to_x[own.clone()], &mut to_y[own]);
+            let (vx, vy) = (&mut vx[own.clone()], &mut vy[own.clone()]);
+            let (to_x, to_y) = (&mut x[own.clone()], &mut y[own]);
+            let (x, y) = (&mut from_x[..vx.len()], &mut from_y[..vx.len()]);
+            x.copy_from_slice(to_x);
+            y.copy_from_slice(to_y);
             if let cut @ 1.. = cut_speeds(vx, vy, longest, dt) {
                 clamps.fetch_add(cut, Ordering::Relaxed);
             }

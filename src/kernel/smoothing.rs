@@ -45,7 +45,7 @@ impl Smoothing {
             density_scale: (1.0 / lattice_sum(h)) as f32,
             gradient_scale: gradient_scale as f32,
             core: (RATIONAL_CORE * h * h) as f32,
-            walls: WallTable { density: Vec::new(), gradient: Vec::new(), per_spacing: 0.0 },
+            walls: WallTable { sums: Vec::new(), per_spacing: 0.0 },
         };
         smoothing.walls = WallTable::new(&smoothing);
         smoothing
@@ -120,8 +120,8 @@ impl Gradient for Rational {
 /// particles: its density is the integral of W, so that the lattice that ends half a spacing before it rests.
 #[derive(Clone, Debug)]
 struct WallTable {
-    density: Vec<f32>,
-    gradient: Vec<f32>,
+    /// Density and gradient.
+    sums: Vec<[f32; 2]>,
     per_spacing: f32,
 }
 
@@ -135,7 +135,7 @@ impl WallTable {
         let h = f64::from(smoothing.radius);
         let step = h / (WALL_INTERVALS * WALL_STEPS.0) as f64;
         let poly6 = 4.0 / (PI * h * h * h * h * h * h * h * h);
-        let (mut density, mut gradient) = (vec![0.0; WALL_INTERVALS + 1], vec![0.0; WALL_INTERVALS + 1]);
+        let mut sums = vec![[0.0; 2]; WALL_INTERVALS + 1];
         let (mut density_sum, mut gradient_sum) = (0.0, 0.0);
         for interval in (0..WALL_INTERVALS).rev() {
             for k in (0..WALL_STEPS.0).rev() {
@@ -150,21 +150,19 @@ impl WallTable {
                     gradient_sum += 2.0 * smoothing.gradient_weight(r2) * normal * along_step * step;
                 }
             }
-            density[interval] = density_sum as f32;
-            gradient[interval] = gradient_sum as f32;
+            sums[interval] = [density_sum as f32, gradient_sum as f32];
         }
-        Self { density, gradient, per_spacing: (WALL_INTERVALS as f64 / h) as f32 }
+        Self { sums, per_spacing: (WALL_INTERVALS as f64 / h) as f32 }
     }
 
+    #[inline]
     fn at(&self, distance: f32) -> (f32, f32) {
         let place = (distance * self.per_spacing).max(0.0);
         let interval = place as usize;
-        if interval >= WALL_INTERVALS {
-            return (0.0, 0.0);
-        }
+        let Some([near, far]) = self.sums.get(interval..interval + 2) else { return (0.0, 0.0) };
         let share = place - interval as f32;
-        let between = |table: &[f32]| table[interval] + share * (table[interval + 1] - table[interval]);
-        (between(&self.density), between(&self.gradient))
+        let between = |sum: usize| near[sum] + share * (far[sum] - near[sum]);
+        (between(0), between(1))
     }
 }
 

@@ -15,6 +15,7 @@ pub struct Solids {
     columns: i32,
     rows: i32,
     element: Vec<u8>,
+    /// Empty as long as there has been no rock.
     id: Vec<u32>,
     count: usize,
     version: u64,
@@ -28,7 +29,7 @@ impl Solids {
             columns: columns as i32,
             rows: rows as i32,
             element: vec![EMPTY; cells],
-            id: vec![0; cells],
+            id: Vec::new(),
             count: 0,
             version: 0,
         }
@@ -47,6 +48,11 @@ impl Solids {
     /// Number of rock particles.
     pub fn count(&self) -> usize {
         self.count
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        self.element.capacity() + 4 * self.id.capacity()
     }
 
     /// Changes with every change of the rock, so that what is derived from it knows when to follow.
@@ -89,6 +95,9 @@ impl Solids {
         let Some(k) = self.index(cell) else { return false };
         if self.element[k] != EMPTY {
             return false;
+        }
+        if self.id.is_empty() {
+            self.id = vec![0; self.element.len()];
         }
         self.element[k] = element.0;
         self.id[k] = id;

@@ -295,9 +295,7 @@ fn memory_bytes(world: &World) -> u64 {
     let air = world.resource::<AirGrid>();
     let solver = world.resource::<SolverState>().memory() + world.resource::<PredictorState>().memory();
     let per_particle = 5 * size_of::<f32>() + size_of::<u8>();
-    let per_site = size_of::<u8>() + size_of::<u32>();
-    let sites = rock.columns() as usize * rock.rows() as usize;
-    (solver + particles.x.capacity() * per_particle + sites * per_site + air.memory_bytes()) as u64
+    (solver + particles.x.capacity() * per_particle + rock.memory() + air.memory_bytes()) as u64
 }
 
 /// Most memory that the process has had, from Linux's own books.

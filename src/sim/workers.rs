@@ -1,13 +1,20 @@
 //! The threads that the kernel may use.
 
+use crate::kernel::parallel::watched;
 use bevy::prelude::Resource;
-use std::sync::Arc;
+use std::{
+    num::NonZero,
+    sync::{Arc, LazyLock},
+};
 
 /// Fewer particles than this are done on one thread: handing them over costs more than it saves.
 const WORTH_SHARING: usize = 6_000;
 
 /// The same where a particle takes a fraction of a nanosecond: entering the pool takes some ten microseconds.
 const WORTH_SHARING_CHECKS: usize = 200_000;
+
+/// Cores that this process may use.
+static CORES: LazyLock<usize> = LazyLock::new(|| std::thread::available_parallelism().map_or(1, NonZero::get));
 
 /// A pool of threads for the kernel's passes. By default rayon's own, with one thread a core.
 #[derive(Resource, Clone, Default)]
@@ -48,6 +55,14 @@ impl Workers {
             None if self.alone || rayon::current_num_threads() == 1 => work(1),
             None => rayon::scope(|_| work(rayon::current_num_threads())),
         }
+    }
+
+    /// [`Workers::run_for`] for a whole tick's work: the other threads stay awake for it, if there is a core for each.
+    pub fn run_tick<T: Send>(&self, particles: usize, work: impl FnOnce() -> T + Send) -> T {
+        self.run_for(particles, |threads| {
+            let watchers = if threads <= *CORES { threads - 1 } else { 0 };
+            watched(watchers, work)
+        })
     }
 
     /// [`Workers::run`] for work over `particles` particles: on one thread if they are few.

@@ -1,33 +1,36 @@
 //! Nobody within reach is missed, and everybody is in one group.
 
 use super::*;
-use crate::kernel::element::ElementId;
+use crate::kernel::{element::ElementId, pbf::tests::random_numbers};
 
-fn scattered(n: usize, size: Vec2) -> (Vec<f32>, Vec<f32>) {
-    let mut state = 12345_u32;
-    let mut random = || {
-        state ^= state << 13;
-        state ^= state >> 17;
-        state ^= state << 5;
-        state as f32 / u32::MAX as f32
-    };
-    (0..n).map(|_| (random() * size.x, random() * size.y)).unzip()
+fn scattered(n: usize, size: Vec2) -> Particles {
+    let mut random = random_numbers(12345);
+    let mut particles = Particles::default();
+    for id in 0..n as u32 {
+        let velocity = Vec2::new(random(), random());
+        particles.push(id, ElementId((id % 3) as u8), Vec2::new(random(), random()) * size, velocity);
+    }
+    particles
 }
 
-fn sorted(n: usize, size: Vec2, width: usize) -> (Bins, Vec<f32>, Vec<f32>) {
-    let (mut x, mut y) = scattered(n, size);
+/// Sorts, without touching positions.
+fn sort(bins: &mut Bins, particles: &mut Particles, threads: usize) {
+    let mut spare: [Vec<f32>; 4] = Default::default();
+    let instructions = InstructionSet::Baseline;
+    bins.bin(particles, spare.each_mut(), Neighbours::Binned, instructions, threads, &|_| ());
+}
+
+fn sorted(n: usize, size: Vec2, width: usize) -> (Bins, Particles) {
+    let mut particles = scattered(n, size);
     let mut bins = Bins::default();
     let mut solids = Solids::new(size.x.ceil() as u32, size.y.ceil() as u32);
     for k in 0..10 {
         solids.insert(glam::IVec2::new(k, k / 2), ElementId(0), k as u32);
     }
     bins.lay(size, 2.5, 0.1, &solids);
-    bins.sort(&x, &y, InstructionSet::Baseline, 1);
-    let mut spare = Vec::new();
-    permute(&mut x, &bins.places, &mut spare);
-    permute(&mut y, &bins.places, &mut spare);
-    bins.group(&x, width, Neighbours::Binned);
-    (bins, x, y)
+    sort(&mut bins, &mut particles, 1);
+    bins.group(&particles.x, width, 1);
+    (bins, particles)
 }
 
 #[test]
@@ -47,7 +50,7 @@ fn every_particle_is_in_exactly_one_group() {
 #[test]
 fn no_pair_within_reach_is_missed() {
     for size in [Vec2::new(50.0, 30.0), Vec2::new(3.0, 200.0), Vec2::new(200.0, 1.5), Vec2::new(1.0, 1.0)] {
-        let (bins, x, y) = sorted(600, size, 16);
+        let (bins, Particles { x, y, .. }) = sorted(600, size, 16);
         for group in bins.groups() {
             for i in group.particles() {
                 for j in 0..x.len() {
@@ -68,17 +71,83 @@ fn no_pair_within_reach_is_missed() {
 #[test]
 fn candidates_are_few() {
     let size = Vec2::new(100.0, 100.0);
-    let (bins, x, _) = sorted(10_000, size, 16);
+    let (bins, Particles { x, .. }) = sorted(10_000, size, 16);
     let candidates: usize =
         bins.groups().iter().map(|g| g.len as usize * g.movable.iter().map(|r| r.range().len()).sum::<usize>()).sum();
     assert!(candidates / x.len() < 130, "{} candidates a particle", candidates / x.len());
 }
 
+/// Cells in the order of the particles.
+fn cells(bins: &Bins, particles: &Particles) -> Vec<u32> {
+    particles.x.iter().zip(&particles.y).map(|(&x, &y)| bins.grid.cell(x, y)).collect()
+}
+
 #[test]
-fn the_sort_is_stable_and_complete() {
-    let keys = [3, 0, 3, 1, 0, 3];
-    let (mut starts, mut places) = (vec![0; 5], Vec::new());
-    count_into_places(&keys, 0, &mut starts, &mut places);
-    assert_eq!(places, [3, 0, 4, 2, 1, 5]);
-    assert_eq!(starts, [0, 2, 3, 3, 6]);
+fn the_sort_is_stable_and_takes_everything_along() {
+    for (n, threads) in [(0, 1), (1, 1), (5000, 1), (20_000, 3)] {
+        let size = Vec2::new(60.0, 40.0);
+        let before = scattered(n, size);
+        let (mut bins, mut after) = (Bins::default(), before.clone());
+        bins.lay(size, 2.5, 0.1, &Solids::new(60, 40));
+        sort(&mut bins, &mut after, threads);
+        let keys: Vec<_> = cells(&bins, &after).into_iter().zip(after.id.iter().copied()).collect();
+        // Ids count up in the order from before.
+        assert!(keys.is_sorted(), "{n} particles are out of order");
+        for i in 0..n {
+            let from = after.id[i] as usize;
+            assert_eq!((after.position(i), after.velocity(i)), (before.position(from), before.velocity(from)));
+            assert_eq!(after.element[i], before.element[from]);
+        }
+    }
+}
+
+#[test]
+fn the_sort_does_not_depend_on_how_it_is_cut() {
+    let size = Vec2::new(90.0, 70.0);
+    let run = |threads: usize| {
+        let (mut bins, mut particles) = (Bins::default(), scattered(9000, size));
+        bins.lay(size, 2.5, 0.1, &Solids::new(90, 70));
+        let mut random = random_numbers(77);
+        for step in 0..6 {
+            for y in &mut particles.y {
+                // In the end everything comes down.
+                *y = ((*y + 4.0 * random() - 2.0) * if step == 4 { 0.2 } else { 1.0 }).clamp(0.0, size.y);
+            }
+            // A few are poured in, at the end of the order.
+            for k in 0..300 {
+                particles.push(
+                    10_000 + step * 1000 + k,
+                    ElementId(0),
+                    Vec2::new(random(), random()) * size,
+                    Vec2::ZERO,
+                );
+            }
+            sort(&mut bins, &mut particles, threads);
+            assert!(cells(&bins, &particles).is_sorted());
+        }
+        let groups: Vec<_> = bins.groups().iter().map(|group| format!("{group:?}")).collect();
+        (particles, groups)
+    };
+    let one = run(1);
+    assert!([2, 3, 8].into_iter().all(|threads| run(threads) == one));
+}
+
+#[test]
+fn what_is_turned_inwards_stays_in_its_cell() {
+    let size = Vec2::new(40.0, 40.0);
+    let (mut bins, mut particles) = (Bins::default(), scattered(3000, size));
+    bins.lay(size, 2.5, 0.1, &Solids::new(40, 40));
+    let mut spare: [Vec<f32>; 4] = Default::default();
+    let grid = CellGrid::new(size, 2.7 + MARGIN_ROUNDING);
+    let settle = |strip: Strip| {
+        for i in 0..strip.x.len() {
+            for offset in [Vec2::new(0.05, 0.05), Vec2::new(-0.05, 0.04), Vec2::new(0.0, -0.05)] {
+                let turned = strip.turn_inwards(i, offset);
+                let cell = grid.cell(strip.x[i], strip.y[i]);
+                assert_eq!(grid.cell(strip.x[i] + turned.x, strip.y[i] + turned.y), cell);
+                assert_eq!(turned.abs(), offset.abs());
+            }
+        }
+    };
+    bins.bin(&mut particles, spare.each_mut(), Neighbours::Binned, InstructionSet::Baseline, 1, &settle);
 }

@@ -1,6 +1,7 @@
 //! Particles at one point are set apart.
 
 use crate::kernel::{
+    bins::Strip,
     params::Domain,
     pbf::{mix, unit},
     simd::{InstructionSet, Lanes, Pass},
@@ -9,7 +10,7 @@ use crate::kernel::{
 use glam::Vec2;
 
 /// Closer than this in both coordinates counts as one point, d.
-const COINCIDENT: f32 = 1e-4;
+const COINCIDENT: f32 = 1e-3;
 /// Largest offset in each coordinate, d.
 const APART: f32 = 0.05;
 /// Particles before it that each is compared with.
@@ -18,22 +19,14 @@ const LOOK_BACK: usize = 4;
 const BLOCK: usize = 64;
 
 /// Particles at one point have no direction to part in (the spiky gradient is 0/0 there); equal ones among the last few
-/// of the sorted order are set apart by a small offset that only depends on the id. Rock and walls stop it.
-pub(super) fn separate_coincident(
-    id: &[u32],
-    x: &mut [f32],
-    y: &mut [f32],
-    instructions: InstructionSet,
-    domain: &Domain,
-    solids: &Solids,
-) {
-    instructions.run(Separate { id, x, y, domain, solids });
+/// of the sorted order are set apart by a small offset that only depends on the id and stays in the cell. Rock and walls
+/// stop it.
+pub(super) fn separate_coincident(strip: Strip, instructions: InstructionSet, domain: &Domain, solids: &Solids) {
+    instructions.run(Separate { strip, domain, solids });
 }
 
 struct Separate<'a> {
-    id: &'a [u32],
-    x: &'a mut [f32],
-    y: &'a mut [f32],
+    strip: Strip<'a>,
     domain: &'a Domain,
     solids: &'a Solids,
 }
@@ -41,10 +34,12 @@ struct Separate<'a> {
 impl Pass for Separate<'_> {
     #[inline(always)]
     fn run<L: Lanes>(mut self) {
-        for first in (0..self.x.len()).step_by(BLOCK) {
-            let end = self.x.len().min(first + BLOCK);
-            if first == 0 || self.any_near(first, end) {
-                (first.max(1)..end).for_each(|i| self.separate(i));
+        let count = self.strip.x.len();
+        (1..count.min(LOOK_BACK)).for_each(|i| self.separate(i));
+        for first in (LOOK_BACK..count).step_by(BLOCK) {
+            let end = count.min(first + BLOCK);
+            if self.any_near(first, end) {
+                (first..end).for_each(|i| self.separate(i));
             }
         }
     }
@@ -54,10 +49,11 @@ impl Separate<'_> {
     /// Whether any of the particles `first … end` is at the point of one before it.
     #[inline(always)]
     fn any_near(&self, first: usize, end: usize) -> bool {
+        let Strip { x, y, .. } = &self.strip;
         let mut any = false;
         for back in 1..=LOOK_BACK {
-            let own = self.x[first..end].iter().zip(&self.y[first..end]);
-            let before = self.x[first - back..].iter().zip(&self.y[first - back..]);
+            let own = x[first..end].iter().zip(&y[first..end]);
+            let before = x[first - back..].iter().zip(&y[first - back..]);
             for ((x, y), (x_before, y_before)) in own.zip(before) {
                 any |= ((x - x_before).abs() < COINCIDENT) & ((y - y_before).abs() < COINCIDENT);
             }
@@ -66,13 +62,15 @@ impl Separate<'_> {
     }
 
     fn separate(&mut self, i: usize) {
-        let Self { id, x, y, domain, solids } = self;
-        let near = |j: usize| (x[i] - x[j]).abs() < COINCIDENT && (y[i] - y[j]).abs() < COINCIDENT;
+        let Self { strip, domain, solids } = self;
+        let near =
+            |j: usize| (strip.x[i] - strip.x[j]).abs() < COINCIDENT && (strip.y[i] - strip.y[j]).abs() < COINCIDENT;
         if (i.saturating_sub(LOOK_BACK)..i).any(near) {
-            let mixed = mix(id[i]);
-            let (from, offset) = (Vec2::new(x[i], y[i]), APART * Vec2::new(unit(mixed), unit(mixed >> 16)));
+            let mixed = mix(strip.id(i));
+            let offset = strip.turn_inwards(i, APART * Vec2::new(unit(mixed), unit(mixed >> 16)));
+            let from = Vec2::new(strip.x[i], strip.y[i]);
             let to = solids.sweep(from, domain.keep_inside(from + offset));
-            (x[i], y[i]) = (to.x, to.y);
+            (strip.x[i], strip.y[i]) = (to.x, to.y);
         }
     }
 }

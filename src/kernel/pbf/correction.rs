@@ -104,13 +104,17 @@ impl<G: Gradient, const TENSION: bool, const APART: bool> Pass for CorrectionPas
                 }
                 (sum_x, sum_y) = (sum_x + both * L::load(&lanes_x), sum_y + both * L::load(&lanes_y));
             }
-            let keep =
-                |at: L, anchor: L, high: f32| at.max(anchor - limit).min(anchor + limit).max(low).min(L::splat(high));
             let anchor_x = L::load(&self.anchor[0][own.start..]);
             let anchor_y = L::load(&self.anchor[1][own.start..]);
             let out = own.start - self.base..own.end - self.base;
-            keep(xi + scale * sum_x, anchor_x, high.x).store(&mut next_x[out.clone()]);
-            keep(yi + scale * sum_y, anchor_y, high.y).store(&mut next_y[out]);
+            keep_near(xi + scale * sum_x, anchor_x, limit, [low, L::splat(high.x)]).store(&mut next_x[out.clone()]);
+            keep_near(yi + scale * sum_y, anchor_y, limit, [low, L::splat(high.y)]).store(&mut next_y[out]);
         }
     }
+}
+
+/// Keeps coordinates within `limit` of their anchors, and then within the box.
+#[inline(always)]
+fn keep_near<L: Lanes>(at: L, anchor: L, limit: L, [low, high]: [L; 2]) -> L {
+    at.max(anchor - limit).min(anchor + limit).max(low).min(high)
 }

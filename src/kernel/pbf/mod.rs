@@ -4,8 +4,8 @@
 //! (eq. 11), `Δx_i = 1/ρ₀ Σ (λ_i + λ_j + s_corr) ∇W` (eqs. 12–14). One iteration is a pass for λ over all particles and a
 //! pass for Δx (Jacobi: every particle reads the positions from before the pass).
 //!
-//! Who writes what: `predict` fills the predicted positions, [`Solver::bin`] sorts everything by cell,
-//! [`Solver::solve`] iterates on the predicted positions; `velocity` reads them.
+//! Who writes what: `predict` moves the particles to their predicted positions, [`Solver::bin`] sorts them by cell,
+//! [`Solver::solve`] leaves corrected positions beside them, to which `velocity` moves them.
 
 mod coincident;
 mod constraint;
@@ -14,8 +14,7 @@ mod correction;
 pub(crate) mod tests;
 
 use crate::kernel::{
-    bins::{Bins, Neighbours, permute},
-    element::ElementId,
+    bins::{Bins, Neighbours, Strip},
     parallel,
     params::{Domain, FluidParams, GradientKernel, Quality},
     particles::Particles,
@@ -28,9 +27,8 @@ use coincident::separate_coincident;
 use constraint::ConstraintPass;
 use correction::CorrectionPass;
 use glam::Vec2;
-use rayon::iter::{IntoParallelRefMutIterator, ParallelIterator};
 
-/// Positions under correction, densities, bins: what the solver keeps beside the particles. 37 bytes a particle and the
+/// Positions under correction, densities, bins: what the solver keeps beside the particles. 24 bytes a particle and the
 /// bins. The arrays follow the order of the particles.
 #[derive(Clone, Debug)]
 pub struct Solver {
@@ -44,18 +42,14 @@ pub struct Solver {
     pub neighbours: Neighbours,
     /// Density ρ in units of the lattice's, as of the last iteration.
     pub density: Vec<f32>,
-    /// Where the particles go in this substep, d: predicted, then corrected.
+    /// Corrected positions, d, as of the last iteration. The particles themselves stay where they were predicted to be:
+    /// corrections keep within the correction limit of that.
     pub(crate) x: Vec<f32>,
     pub(crate) y: Vec<f32>,
-    /// The prediction, d: corrections keep within the correction limit of it.
-    pub(crate) anchor_x: Vec<f32>,
-    pub(crate) anchor_y: Vec<f32>,
-    /// Outputs of a pass.
+    /// Outputs of a pass, and room for the sort.
     pub(crate) next_x: Vec<f32>,
     pub(crate) next_y: Vec<f32>,
     pub(crate) lambda: Vec<f32>,
-    spare_ids: Vec<u32>,
-    spare_elements: Vec<ElementId>,
 }
 
 /// What [`Solver::solve`] is told besides the particles.
@@ -100,32 +94,19 @@ impl Solver {
             density: Vec::new(),
             x: Vec::new(),
             y: Vec::new(),
-            anchor_x: Vec::new(),
-            anchor_y: Vec::new(),
             next_x: Vec::new(),
             next_y: Vec::new(),
             lambda: Vec::new(),
-            spare_ids: Vec::new(),
-            spare_elements: Vec::new(),
         }
-    }
-
-    /// Predicted or corrected position of particle `i`, d.
-    pub fn position(&self, i: usize) -> Vec2 {
-        Vec2::new(self.x[i], self.y[i])
     }
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        let floats = [&self.density, &self.x, &self.y, &self.anchor_x, &self.anchor_y, &self.next_x, &self.next_y];
-        let floats: usize = floats.iter().map(|array| array.capacity()).sum();
-        4 * (floats + self.lambda.capacity() + self.spare_ids.capacity())
-            + self.spare_elements.capacity()
-            + self.bins.memory()
+        let floats = [&self.density, &self.x, &self.y, &self.next_x, &self.next_y, &self.lambda];
+        4 * floats.iter().map(|array| array.capacity()).sum::<usize>() + self.bins.memory()
     }
 
-    /// Sorts the particles and their predicted positions by cell and builds the groups. From here on the prediction is
-    /// the anchor of the corrections.
+    /// Sorts the particles by cell and builds the groups.
     pub fn bin(
         &mut self,
         particles: &mut Particles,
@@ -137,72 +118,69 @@ impl Solver {
         if (self.smoothing.radius, self.smoothing.gradient) != (quality.kernel_radius, quality.gradient) {
             self.smoothing = Smoothing::new(quality.kernel_radius, quality.gradient);
         }
-        self.bins.lay(domain.size, quality.kernel_radius, quality.correction_limit, solids);
-        self.bins.sort(&self.x, &self.y, self.instructions, threads);
-        self.follow_sort(particles, threads);
-        separate_coincident(&particles.id, &mut self.x, &mut self.y, self.instructions, domain, solids);
-        self.bins.group(&self.x, self.instructions.width(), self.neighbours);
-        self.anchor_x.clone_from(&self.x);
-        self.anchor_y.clone_from(&self.y);
+        let Self { bins, instructions, neighbours, density, next_x, next_y, lambda, .. } = self;
+        bins.lay(domain.size, quality.kernel_radius, quality.correction_limit, solids);
+        let settle = |strip: Strip| separate_coincident(strip, *instructions, domain, solids);
+        bins.bin(particles, [next_x, next_y, lambda, density], *neighbours, *instructions, threads, &settle);
     }
 
-    /// Moves everything to where the sort wants it, array by array: those that the solve will fill take what comes.
-    fn follow_sort(&mut self, particles: &mut Particles, threads: usize) {
-        let Self { bins: Bins { places, .. }, x, y, anchor_x, anchor_y, next_x, next_y, .. } = self;
-        let Particles { x: from_x, y: from_y, vx, vy, id, element } = particles;
-        let mut arrays = [
-            (x, next_x),
-            (y, next_y),
-            (from_x, anchor_x),
-            (from_y, anchor_y),
-            (vx, &mut self.lambda),
-            (vy, &mut self.density),
-        ];
-        let (spare_ids, spare_elements) = (&mut self.spare_ids, &mut self.spare_elements);
-        let mut move_names = || {
-            permute(id, places, spare_ids);
-            permute(element, places, spare_elements);
-        };
-        if threads > 1 {
-            let move_arrays = || arrays.par_iter_mut().for_each(|(values, spare)| permute(values, places, spare));
-            rayon::join(move_arrays, move_names);
-        } else {
-            arrays.iter_mut().for_each(|(values, spare)| permute(values, places, spare));
-            move_names();
+    /// Iterates the density constraint on the binned particles.
+    pub fn solve(&mut self, particles: &Particles, params: &SolveParams) {
+        let count = particles.len();
+        for array in [&mut self.density, &mut self.lambda, &mut self.x, &mut self.y, &mut self.next_x, &mut self.next_y]
+        {
+            array.resize(count, 0.0);
         }
-    }
-
-    /// Iterates the density constraint on the binned positions.
-    pub fn solve(&mut self, params: &SolveParams) {
-        let particles = self.x.len();
-        for array in [&mut self.density, &mut self.lambda, &mut self.next_x, &mut self.next_y] {
-            array.resize(particles, 0.0);
-        }
-        for _ in 0..params.quality.iterations {
+        let anchor = [&particles.x[..], &particles.y[..]];
+        for iteration in 0..params.quality.iterations {
+            // The first sets out from the prediction itself.
+            let is_first = iteration == 0;
             match params.quality.gradient {
-                GradientKernel::Spiky => self.iterate::<Spiky>(params),
-                GradientKernel::Rational => self.iterate::<Rational>(params),
+                GradientKernel::Spiky => self.iterate::<Spiky>(anchor, is_first, params),
+                GradientKernel::Rational => self.iterate::<Rational>(anchor, is_first, params),
             }
         }
     }
 
-    fn iterate<G: Gradient>(&mut self, params: &SolveParams) {
-        self.find_lambda::<G>(params);
+    fn iterate<G: Gradient>(&mut self, anchor: [&[f32]; 2], is_first: bool, params: &SolveParams) {
+        let Self { bins, smoothing, instructions, density, x, y, next_x, next_y, lambda, .. } = self;
+        let pass = Iteration {
+            bins,
+            smoothing,
+            instructions: *instructions,
+            params,
+            anchor,
+            at: if is_first { anchor } else { [&x[..], &y[..]] },
+        };
+        pass.find_lambda::<G>(lambda, density);
+        let next = [&mut next_x[..], &mut next_y[..]];
         match (params.tension, params.predicted) {
-            (false, false) => self.correct::<G, false, false>(params),
-            (false, true) => self.correct::<G, false, true>(params),
-            (true, false) => self.correct::<G, true, false>(params),
-            (true, true) => self.correct::<G, true, true>(params),
+            (false, false) => pass.correct::<G, false, false>(lambda, next),
+            (false, true) => pass.correct::<G, false, true>(lambda, next),
+            (true, false) => pass.correct::<G, true, false>(lambda, next),
+            (true, true) => pass.correct::<G, true, true>(lambda, next),
         }
-        std::mem::swap(&mut self.x, &mut self.next_x);
-        std::mem::swap(&mut self.y, &mut self.next_y);
+        std::mem::swap(x, next_x);
+        std::mem::swap(y, next_y);
     }
+}
 
-    fn find_lambda<G: Gradient>(&mut self, params: &SolveParams) {
-        let (smoothing, instructions) = (&self.smoothing, self.instructions);
-        let (x, y, rock) = (&self.x, &self.y, self.bins.rock());
-        let outputs = [&mut self.lambda[..], &mut self.density[..]];
-        parallel::split(self.bins.groups(), outputs, params.threads, &|groups, base, [lambda, density]| {
+/// What the two passes of an iteration read.
+struct Iteration<'a> {
+    bins: &'a Bins,
+    smoothing: &'a Smoothing,
+    instructions: InstructionSet,
+    params: &'a SolveParams<'a>,
+    /// Predicted positions, d.
+    anchor: [&'a [f32]; 2],
+    /// Positions before the iteration, d.
+    at: [&'a [f32]; 2],
+}
+
+impl Iteration<'_> {
+    fn find_lambda<G: Gradient>(&self, lambda: &mut [f32], density: &mut [f32]) {
+        let Self { bins, smoothing, instructions, params, at: [x, y], .. } = *self;
+        parallel::split(bins.groups(), [lambda, density], params.threads, &|groups, base, [lambda, density]| {
             instructions.run(ConstraintPass::<G> {
                 smoothing,
                 domain: params.domain,
@@ -210,7 +188,7 @@ impl Solver {
                 rest_density: params.rest_density(),
                 x,
                 y,
-                rock,
+                rock: bins.rock(),
                 groups,
                 base,
                 lambda,
@@ -220,12 +198,9 @@ impl Solver {
         });
     }
 
-    fn correct<G: Gradient, const TENSION: bool, const APART: bool>(&mut self, params: &SolveParams) {
-        let (smoothing, instructions) = (&self.smoothing, self.instructions);
-        let (x, y, rock, lambda) = (&self.x, &self.y, self.bins.rock(), &self.lambda);
-        let anchor = [&self.anchor_x[..], &self.anchor_y[..]];
-        let outputs = [&mut self.next_x[..], &mut self.next_y[..]];
-        parallel::split(self.bins.groups(), outputs, params.threads, &|groups, base, next| {
+    fn correct<G: Gradient, const TENSION: bool, const APART: bool>(&self, lambda: &[f32], next: [&mut [f32]; 2]) {
+        let Self { bins, smoothing, instructions, params, anchor, at: [x, y] } = *self;
+        parallel::split(bins.groups(), next, params.threads, &|groups, base, next| {
             instructions.run(CorrectionPass::<G, TENSION, APART> {
                 smoothing,
                 domain: params.domain,
@@ -236,7 +211,7 @@ impl Solver {
                 y,
                 anchor,
                 lambda,
-                rock,
+                rock: bins.rock(),
                 groups,
                 base,
                 next,

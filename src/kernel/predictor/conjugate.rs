@@ -1,8 +1,12 @@
 //! Preconditioned conjugate gradients.
 
 use crate::kernel::{
-    parallel::Team,
-    predictor::{PredictorReport, grid::MacGrid, multigrid::Hierarchy},
+    parallel::{Rows, Sweep, Team, sweep},
+    predictor::{
+        PredictorReport,
+        level::{RowSums, WORTH_A_PIECE, row_dot},
+        multigrid::Hierarchy,
+    },
 };
 use std::ops::Range;
 
@@ -21,7 +25,10 @@ pub(super) struct Conjugate {
     pub liquid: Vec<f32>,
     /// In: first guess. Out: solution, d/s.
     pub solution: Vec<f32>,
+    /// Whether a row has liquid.
+    pub wet: Vec<bool>,
     direction: Vec<f32>,
+    sums: [RowSums; 2],
 }
 
 impl Conjugate {
@@ -38,52 +45,32 @@ impl Conjugate {
         (self.solution, self.rows) = (solution, rows);
     }
 
-    /// Keeps the last solution as the first guess where there still is liquid; `before` are the rows that had it.
-    #[inline(always)]
-    pub fn keep_guess(&mut self, grid: &MacGrid, before: Range<usize>) {
-        let before = grid.rows(before);
-        for (p, liquid) in self.solution[before.clone()].iter_mut().zip(&self.liquid[before]) {
-            *p *= *liquid;
-        }
-    }
-
     /// Solves the equation of the hierarchy's finest level, whose right-hand side becomes the residual.
-    #[inline(always)]
     pub fn solve(&mut self, hierarchy: &mut Hierarchy, team: Team) -> PredictorReport {
-        let Self { solution, direction, .. } = self;
-        let (stride, cells) = (hierarchy.finest().stride, hierarchy.finest().cells());
+        let Self { solution, direction, sums: [sums, after], .. } = self;
+        let finest = hierarchy.finest();
+        let (stride, rows, cells) = (finest.stride, finest.rows.clone(), finest.cells());
         // The operator reads one row below and one above.
         direction[cells.start - stride..cells.start].fill(0.0);
         direction[cells.end..cells.end + stride].fill(0.0);
-        let finest = hierarchy.finest();
-        let scale = dot(&finest.b[cells.clone()], &finest.b[cells.clone()]).max(1e-30);
-        finest.apply(solution, team);
-        let mut left = subtract(&mut finest.b[cells.clone()], 1.0, &finest.work[cells.clone()]);
-        let (mut iterations, mut last) = (0, 0.0);
+        let [scale, mut left] = finest.take_product_off(solution, [&mut *sums, after], team);
+        let scale = scale.max(1e-30);
+        let (mut iterations, mut last) = (0, f64::INFINITY);
         while iterations < MOST_ITERATIONS && left > TOLERANCE * TOLERANCE * scale {
-            hierarchy.cycle(team);
+            let next = hierarchy.cycle(sums, team);
             let finest = hierarchy.finest();
-            let preconditioned = &finest.x[cells.clone()];
-            let next = dot(&finest.b[cells.clone()], preconditioned);
-            if iterations == 0 {
-                direction[cells.clone()].copy_from_slice(preconditioned);
-            } else {
-                let keep = (next / last) as f32;
-                for (direction, preconditioned) in direction[cells.clone()].iter_mut().zip(preconditioned) {
-                    *direction = *preconditioned + keep * *direction;
-                }
-            }
+            let turn =
+                Turn { preconditioned: &finest.x, stride, keep: (next / last) as f32, is_first: iterations == 0 };
+            sweep(&turn, rows.clone(), Rows::new(direction, stride, &rows), stride, WORTH_A_PIECE, team);
             last = next;
-            finest.apply(direction, team);
-            let curvature = dot(&direction[cells.clone()], &finest.work[cells.clone()]);
+            let curvature = finest.apply(direction, sums, team);
             if curvature <= 0.0 || !curvature.is_finite() {
                 break;
             }
-            let step = (next / curvature) as f32;
-            for (solution, direction) in solution[cells.clone()].iter_mut().zip(&direction[cells.clone()]) {
-                *solution += step * *direction;
-            }
-            left = subtract(&mut finest.b[cells.clone()], step, &finest.work[cells.clone()]);
+            let advance = Advance { direction, product: &finest.work, stride, step: (next / curvature) as f32 };
+            let fields = (Rows::new(solution, stride, &rows), Rows::new(&mut finest.b, stride, &rows));
+            sweep(&advance, rows.clone(), (fields, sums.rows(&rows)), stride, WORTH_A_PIECE, team);
+            left = sums.total(&rows);
             iterations += 1;
         }
         if left.is_nan() || left > scale {
@@ -100,54 +87,52 @@ impl Conjugate {
     }
 }
 
-/// Lanes of the sums: fixed, so that their rounding does not depend on the processor.
-const SUM_LANES: usize = 32;
-/// Entries that are summed in single precision before they go to the double-precision sum.
-const SUM_CHUNK: usize = 1024;
+/// Turns the direction.
+struct Turn<'a> {
+    preconditioned: &'a [f32],
+    stride: usize,
+    /// Share of the last direction that is kept.
+    keep: f32,
+    is_first: bool,
+}
 
-/// `a · b` with a fixed order of sums.
-#[inline(always)]
-fn dot(a: &[f32], b: &[f32]) -> f64 {
-    let mut total = 0.0;
-    for (a, b) in a.chunks(SUM_CHUNK).zip(b.chunks(SUM_CHUNK)) {
-        let mut lanes = [0.0_f32; SUM_LANES];
-        let (a_rows, a_rest) = a.as_chunks::<SUM_LANES>();
-        let (b_rows, b_rest) = b.as_chunks::<SUM_LANES>();
-        for (a, b) in a_rows.iter().zip(b_rows) {
-            for lane in 0..SUM_LANES {
-                lanes[lane] += a[lane] * b[lane];
+impl Sweep<Rows<'_, f32>> for Turn<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, direction: Rows<f32>) {
+        let preconditioned = &self.preconditioned[rows.start * self.stride..rows.end * self.stride];
+        if self.is_first {
+            direction.field.copy_from_slice(preconditioned);
+        } else {
+            for (direction, preconditioned) in direction.field.iter_mut().zip(preconditioned) {
+                *direction = *preconditioned + self.keep * *direction;
             }
         }
-        for (lane, (a, b)) in lanes.iter_mut().zip(a_rest.iter().zip(b_rest)) {
-            *lane += a * b;
-        }
-        total += total_of(lanes);
     }
-    total
 }
 
-/// `a −= share · b`; returns `a · a`, in the order of [`dot`].
-#[inline(always)]
-fn subtract(a: &mut [f32], share: f32, b: &[f32]) -> f64 {
-    let mut total = 0.0;
-    for (a, b) in a.chunks_mut(SUM_CHUNK).zip(b.chunks(SUM_CHUNK)) {
-        for (a, b) in a.iter_mut().zip(b) {
-            *a -= share * b;
-        }
-        total += dot(a, a);
-    }
-    total
+/// Goes a step along the direction and notes b · b for each row.
+struct Advance<'a> {
+    direction: &'a [f32],
+    /// A times the direction.
+    product: &'a [f32],
+    stride: usize,
+    step: f32,
 }
 
-/// The sum of lanes, halving them each time.
-#[inline(always)]
-fn total_of(mut lanes: [f32; SUM_LANES]) -> f64 {
-    let mut width = SUM_LANES / 2;
-    while width > 0 {
-        for lane in 0..width {
-            lanes[lane] += lanes[lane + width];
+/// Rows of solution and right-hand side, and their sums.
+type Advanced<'a> = ((Rows<'a, f32>, Rows<'a, f32>), Rows<'a, f64>);
+
+impl Sweep<Advanced<'_>> for Advance<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, ((mut solution, mut b), sums): Advanced) {
+        for (((j, solution), b), sum) in rows.zip(solution.each()).zip(b.each()).zip(sums.field) {
+            let cells = j * self.stride..(j + 1) * self.stride;
+            let (direction, product) = (&self.direction[cells.clone()], &self.product[cells]);
+            for i in 0..solution.len() {
+                solution[i] += self.step * direction[i];
+                b[i] -= self.step * product[i];
+            }
+            *sum = row_dot(b, b);
         }
-        width /= 2;
     }
-    f64::from(lanes[0])
 }

@@ -1,5 +1,6 @@
 //! The rows of the pressure equation: what is done to each cell or face of a row, in lanes. The caller walks the rows.
 
+use crate::kernel::predictor::pockets::ROUNDING;
 use std::ops::Range;
 
 /// Nearest that the surface is taken to be to a liquid cell's centre, cells: nearer would make the equation stiff.
@@ -32,6 +33,15 @@ impl<'a> Around<'a> {
     }
 }
 
+impl<'a> Around<'a> {
+    /// A row of cells with one more at either end, and the rows below and above it.
+    #[inline(always)]
+    pub fn of_rows(lower: &'a [f32], own: &'a [f32], upper: &'a [f32]) -> Self {
+        let n = lower.len();
+        Self { centre: &own[1..=n], left: &own[..n], right: &own[2..n + 2], lower, upper: &upper[..n] }
+    }
+}
+
 /// The faces of a row of cells.
 #[derive(Clone, Copy)]
 pub(super) struct Sides<'a, T> {
@@ -52,6 +62,14 @@ impl<'a, T> Sides<'a, T> {
             lower: &v[start..end],
             upper: &v[start + stride..end + stride],
         }
+    }
+}
+
+impl<'a, T> Sides<'a, T> {
+    /// The faces of a row of cells from rows of their own: left faces with one more at the end, lower and upper ones.
+    #[inline(always)]
+    pub fn of_rows(u: &'a [T], lower: &'a [T], upper: &'a [T]) -> Self {
+        Self { left: &u[..lower.len()], right: &u[1..], lower, upper }
     }
 }
 
@@ -107,6 +125,25 @@ pub(super) fn couple(
         to_right[i] = liquid.centre[i] * open.right[i] * liquid.right[i];
         to_upper[i] = liquid.centre[i] * open.upper[i] * liquid.upper[i];
     }
+}
+
+/// Whether any of the cells has no liquid above it and no way to air on any side.
+#[inline(always)]
+pub(super) fn may_be_sealed(
+    diagonal: &[f32],
+    to_right: &[f32],
+    to_upper: &[f32],
+    liquid: Around,
+    open: Sides<f32>,
+) -> bool {
+    let mut any = false;
+    for i in 0..diagonal.len() {
+        let to_left = liquid.centre[i] * open.left[i] * liquid.left[i];
+        let to_lower = liquid.centre[i] * open.lower[i] * liquid.lower[i];
+        let coupled = to_left + to_lower + to_right[i] + to_upper[i];
+        any |= (diagonal[i] > 0.0) & (to_upper[i] == 0.0) & (diagonal[i] - coupled <= ROUNDING);
+    }
+    any
 }
 
 /// Asks for a divergence that takes the density error away.

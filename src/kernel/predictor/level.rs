@@ -1,17 +1,14 @@
-//! One level of the pressure equation: the operator and its smoother.
+//! One level of the pressure equation: the operator, its smoother, and sums over cells.
 
-use crate::kernel::{
-    parallel::{Team, by_rows},
-    simd::{Lanes, Pass},
-};
+use crate::kernel::parallel::{Band, Rows, Sweep, Team, sweep};
 use std::ops::Range;
 
 /// Damping of the Jacobi smoother.
 const DAMPING: f32 = 0.8;
 /// A coarse cell that is coupled to less than this is left out.
 const LEAST_DIAGONAL: f32 = 1e-3;
-/// Fewer cells than this are not handed to another thread: the operator takes a fraction of a nanosecond for each.
-const WORTH_A_PIECE: usize = 8192;
+/// Fewer cells than this are not handed to another thread: a sweep takes a fraction of a nanosecond for each.
+pub(super) const WORTH_A_PIECE: usize = 4096;
 
 /// The equation `diagonal x_c − Σ coupling x_n = b` on one level. Cells are indexed as in `MacGrid`. In the padding left
 /// and right all fields are 0.
@@ -33,7 +30,7 @@ pub(super) struct Level {
     pub x: Vec<f32>,
     /// Right-hand side. On the finest level, conjugate gradients keep their residual here.
     pub b: Vec<f32>,
-    /// What [`Level::apply`] or [`Level::find_residual`] found, and the next unknowns while smoothing.
+    /// What [`Level::apply`] found, and the next unknowns while smoothing.
     pub work: Vec<f32>,
 }
 
@@ -80,50 +77,72 @@ impl Level {
         self.rows.start * self.stride..self.rows.end * self.stride
     }
 
-    /// Follows the diagonal.
-    #[inline(always)]
-    pub fn invert(&mut self) {
-        let cells = self.cells();
-        for (damped, &diagonal) in self.damped[cells.clone()].iter_mut().zip(&self.diagonal[cells]) {
-            *damped = if diagonal > LEAST_DIAGONAL { DAMPING / diagonal } else { 0.0 };
+    /// The operator and the right-hand side.
+    fn equation(&self) -> Equation<'_> {
+        Equation {
+            columns: self.columns,
+            stride: self.stride,
+            diagonal: &self.diagonal,
+            damped: &self.damped,
+            right: &self.right,
+            upper: &self.upper,
+            b: &self.b,
         }
     }
 
-    /// Finds A x.
-    pub fn apply(&mut self, x: &[f32], team: Team) {
+    /// Sets `work` to A x; returns x · A x.
+    pub fn apply(&mut self, x: &[f32], sums: &mut RowSums, team: Team) -> f64 {
         let mut work = std::mem::take(&mut self.work);
-        self.for_each(x, &mut work, team, |_, product, _, _| product);
+        let band = (Rows::new(&mut work, self.stride, &self.rows), sums.rows(&self.rows));
+        self.sweep(&Apply { equation: self.equation(), x }, band, team);
         self.work = work;
+        sums.total(&self.rows)
     }
 
-    /// Finds b − A x of the level's own unknowns.
-    pub fn find_residual(&mut self, team: Team) {
-        let mut work = std::mem::take(&mut self.work);
-        self.for_each(&self.x, &mut work, team, |_, product, b, _| b - product);
-        self.work = work;
+    /// Takes A x off the right-hand side; returns b · b from before and after.
+    pub fn take_product_off(&mut self, x: &[f32], sums: [&mut RowSums; 2], team: Team) -> [f64; 2] {
+        let mut b = std::mem::take(&mut self.b);
+        let [before, after] = sums;
+        let band = (Rows::new(&mut b, self.stride, &self.rows), (before.rows(&self.rows), after.rows(&self.rows)));
+        self.sweep(&TakeProductOff { equation: self.equation(), x }, band, team);
+        self.b = b;
+        [before, after].map(|sums| sums.total(&self.rows))
     }
 
-    /// The first Jacobi step, from x = 0.
-    #[inline(always)]
-    pub fn smooth_from_zero(&mut self) {
-        let cells = self.cells();
-        for ((x, b), damped) in self.x[cells.clone()].iter_mut().zip(&self.b[cells.clone()]).zip(&self.damped[cells]) {
-            *x = *damped * *b;
-        }
+    /// The first two Jacobi steps, from x = 0.
+    pub fn smooth_from_zero(&mut self, team: Team) {
+        let mut x = std::mem::take(&mut self.x);
+        let band = Rows::new(&mut x, self.stride, &self.rows);
+        self.sweep(&SmoothFromZero(self.equation()), band, team);
+        self.x = x;
     }
 
     /// A Jacobi step.
     pub fn smooth(&mut self, team: Team) {
         let mut next = std::mem::take(&mut self.work);
-        self.for_each(&self.x, &mut next, team, |x, product, b, damped| x + damped * (b - product));
+        let band = Rows::new(&mut next, self.stride, &self.rows);
+        self.sweep(&Smooth { equation: self.equation(), x: &self.x }, band, team);
         self.work = std::mem::replace(&mut self.x, next);
     }
 
-    /// Sets `out_c` to `value(x_c, (A x)_c, b_c, damped_c)` in every cell.
-    fn for_each(&self, x: &[f32], out: &mut [f32], team: Team, value: impl Fn(f32, f32, f32, f32) -> f32 + Sync) {
-        by_rows(&mut out[self.cells()], self.stride, WORTH_A_PIECE, team.threads, &|row, out| {
-            team.instructions.run(Rows { level: self, first: self.rows.start + row, x, out, value: &value });
-        });
+    /// A Jacobi step; returns b · x with the new x.
+    pub fn smooth_and_sum(&mut self, sums: &mut RowSums, team: Team) -> f64 {
+        let mut next = std::mem::take(&mut self.work);
+        let band = (Rows::new(&mut next, self.stride, &self.rows), sums.rows(&self.rows));
+        self.sweep(&Smooth { equation: self.equation(), x: &self.x }, band, team);
+        self.work = std::mem::replace(&mut self.x, next);
+        sums.total(&self.rows)
+    }
+
+    /// The residual's sums over 2 × 2 cells become the right-hand side of the next coarser level.
+    pub fn restrict(&self, coarse: &mut Self, team: Team) {
+        let band = Rows::new(&mut coarse.b, coarse.stride, &coarse.rows);
+        let work = Restrict { equation: self.equation(), rows: self.rows.clone(), x: &self.x };
+        sweep(&work, coarse.rows.clone(), band, 4 * coarse.stride, WORTH_A_PIECE, team);
+    }
+
+    fn sweep<B: Band>(&self, work: &impl Sweep<B>, band: B, team: Team) {
+        sweep(work, self.rows.clone(), band, self.stride, WORTH_A_PIECE, team);
     }
 
     /// Bytes held.
@@ -132,38 +151,246 @@ impl Level {
     }
 }
 
-/// Some rows of [`Level::for_each`].
-struct Rows<'a, V> {
-    level: &'a Level,
-    /// First row.
-    first: usize,
-    x: &'a [f32],
-    /// Out: the rows.
-    out: &'a mut [f32],
-    value: &'a V,
+/// What damps the step of a cell of that diagonal.
+#[inline(always)]
+pub(super) fn damping(diagonal: f32) -> f32 {
+    if diagonal > LEAST_DIAGONAL { DAMPING / diagonal } else { 0.0 }
 }
 
-impl<V: Fn(f32, f32, f32, f32) -> f32> Pass for Rows<'_, V> {
+/// The equation as sweeps read it.
+struct Equation<'a> {
+    columns: usize,
+    stride: usize,
+    diagonal: &'a [f32],
+    damped: &'a [f32],
+    right: &'a [f32],
+    upper: &'a [f32],
+    b: &'a [f32],
+}
+
+impl Equation<'_> {
+    /// Calls `take(i, (A x)_i)` for the `len` cells from index `first` on.
     #[inline(always)]
-    fn run<L: Lanes>(self) {
-        let Self { level, first, x, out, value } = self;
-        let (s, n) = (level.stride, level.columns);
-        for (j, out) in (first..).zip(out.chunks_exact_mut(s)) {
-            let o = j * s + 1;
-            let (centre, left, right) = (&x[o..o + n], &x[o - 1..o - 1 + n], &x[o + 1..o + 1 + n]);
-            let (lower, upper) = (&x[o - s..o - s + n], &x[o + s..o + s + n]);
-            let diagonal = &level.diagonal[o..o + n];
-            let (to_right, to_left) = (&level.right[o..o + n], &level.right[o - 1..o - 1 + n]);
-            let (to_upper, to_lower) = (&level.upper[o..o + n], &level.upper[o - s..o - s + n]);
-            let (b, damped) = (&level.b[o..o + n], &level.damped[o..o + n]);
-            for (i, out) in out[1..=n].iter_mut().enumerate() {
-                let product = diagonal[i] * centre[i]
-                    - to_right[i] * right[i]
-                    - to_left[i] * left[i]
-                    - to_upper[i] * upper[i]
-                    - to_lower[i] * lower[i];
-                *out = value(centre[i], product, b[i], damped[i]);
+    fn products(&self, x: &[f32], first: usize, len: usize, mut take: impl FnMut(usize, f32)) {
+        let (o, n, s) = (first, len, self.stride);
+        let (centre, left, right) = (&x[o..o + n], &x[o - 1..o - 1 + n], &x[o + 1..o + 1 + n]);
+        let (lower, upper) = (&x[o - s..o - s + n], &x[o + s..o + s + n]);
+        let diagonal = &self.diagonal[o..o + n];
+        let (to_right, to_left) = (&self.right[o..o + n], &self.right[o - 1..o - 1 + n]);
+        let (to_upper, to_lower) = (&self.upper[o..o + n], &self.upper[o - s..o - s + n]);
+        for i in 0..n {
+            let product = diagonal[i] * centre[i]
+                - to_right[i] * right[i]
+                - to_left[i] * left[i]
+                - to_upper[i] * upper[i]
+                - to_lower[i] * lower[i];
+            take(i, product);
+        }
+    }
+
+    /// The cells of a row.
+    #[inline(always)]
+    fn cells(&self, row: usize) -> Range<usize> {
+        row * self.stride + 1..row * self.stride + 1 + self.columns
+    }
+}
+
+struct Apply<'a> {
+    equation: Equation<'a>,
+    x: &'a [f32],
+}
+
+impl<'b> Sweep<(Rows<'b, f32>, Rows<'b, f64>)> for Apply<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, (mut out, sums): (Rows<f32>, Rows<f64>)) {
+        for ((j, out), sum) in rows.zip(out.each()).zip(sums.field) {
+            let cells = self.equation.cells(j);
+            let out = &mut out[1..=cells.len()];
+            self.equation.products(self.x, cells.start, cells.len(), |i, product| out[i] = product);
+            *sum = row_dot(out, &self.x[cells]);
+        }
+    }
+}
+
+struct TakeProductOff<'a> {
+    equation: Equation<'a>,
+    x: &'a [f32],
+}
+
+impl<'b> Sweep<(Rows<'b, f32>, (Rows<'b, f64>, Rows<'b, f64>))> for TakeProductOff<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, (mut b, (before, after)): (Rows<f32>, (Rows<f64>, Rows<f64>))) {
+        for (((j, b), before), after) in rows.zip(b.each()).zip(before.field).zip(after.field) {
+            let cells = self.equation.cells(j);
+            let b = &mut b[1..=cells.len()];
+            *before = row_dot(b, b);
+            self.equation.products(self.x, cells.start, cells.len(), |i, product| b[i] -= product);
+            *after = row_dot(b, b);
+        }
+    }
+}
+
+struct SmoothFromZero<'a>(Equation<'a>);
+
+impl Sweep<Rows<'_, f32>> for SmoothFromZero<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, mut out: Rows<f32>) {
+        let equation = &self.0;
+        let s = equation.stride;
+        for (j, out) in rows.zip(out.each()) {
+            let cells = equation.cells(j);
+            let (o, n) = (cells.start, cells.len());
+            let out = &mut out[1..1 + n];
+            // The first step alone is damping times right-hand side, of a cell and of those around it.
+            let [damped, d_left, d_right, d_lower, d_upper] = and_around(equation.damped, cells.clone(), s);
+            let [b, b_left, b_right, b_lower, b_upper] = and_around(equation.b, cells.clone(), s);
+            let diagonal = &equation.diagonal[cells.clone()];
+            let (to_right, to_left) = (&equation.right[cells.clone()], &equation.right[o - 1..o - 1 + n]);
+            let (to_upper, to_lower) = (&equation.upper[cells], &equation.upper[o - s..o - s + n]);
+            for i in 0..n {
+                let first = damped[i] * b[i];
+                let product = diagonal[i] * first
+                    - to_right[i] * (d_right[i] * b_right[i])
+                    - to_left[i] * (d_left[i] * b_left[i])
+                    - to_upper[i] * (d_upper[i] * b_upper[i])
+                    - to_lower[i] * (d_lower[i] * b_lower[i]);
+                out[i] = first + damped[i] * (b[i] - product);
             }
         }
     }
+}
+
+/// A row of cells and those to the left, to the right, below and above.
+#[inline(always)]
+fn and_around(field: &[f32], cells: Range<usize>, stride: usize) -> [&[f32]; 5] {
+    let Range { start, end } = cells;
+    [
+        &field[start..end],
+        &field[start - 1..end - 1],
+        &field[start + 1..end + 1],
+        &field[start - stride..end - stride],
+        &field[start + stride..end + stride],
+    ]
+}
+
+struct Smooth<'a> {
+    equation: Equation<'a>,
+    x: &'a [f32],
+}
+
+impl Smooth<'_> {
+    #[inline(always)]
+    fn row(&self, row: usize, out: &mut [f32]) {
+        let cells = self.equation.cells(row);
+        let (x, damped) = (&self.x[cells.clone()], &self.equation.damped[cells.clone()]);
+        let b = &self.equation.b[cells.clone()];
+        let out = &mut out[1..=cells.len()];
+        self.equation.products(self.x, cells.start, cells.len(), |i, product| {
+            out[i] = x[i] + damped[i] * (b[i] - product);
+        });
+    }
+}
+
+impl Sweep<Rows<'_, f32>> for Smooth<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, mut out: Rows<f32>) {
+        for (j, out) in rows.zip(out.each()) {
+            self.row(j, out);
+        }
+    }
+}
+
+impl<'b> Sweep<(Rows<'b, f32>, Rows<'b, f64>)> for Smooth<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, (mut out, sums): (Rows<f32>, Rows<f64>)) {
+        for ((j, out), sum) in rows.zip(out.each()).zip(sums.field) {
+            self.row(j, out);
+            let cells = self.equation.cells(j);
+            *sum = row_dot(&out[1..=cells.len()], &self.equation.b[cells]);
+        }
+    }
+}
+
+/// Cells of a row whose residuals are found before they are summed.
+const CHUNK: usize = 64;
+
+struct Restrict<'a> {
+    equation: Equation<'a>,
+    /// Fine rows that are solved for.
+    rows: Range<usize>,
+    x: &'a [f32],
+}
+
+impl Sweep<Rows<'_, f32>> for Restrict<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, mut out: Rows<f32>) {
+        let equation = &self.equation;
+        for (j, out) in rows.zip(out.each()) {
+            for first in (0..equation.columns).step_by(CHUNK) {
+                let n = CHUNK.min(equation.columns - first);
+                let mut residuals = [[0.0_f32; CHUNK]; 2];
+                for (fine, residual) in [2 * j - 1, 2 * j].into_iter().zip(&mut residuals) {
+                    if self.rows.contains(&fine) {
+                        let start = equation.cells(fine).start + first;
+                        let (b, residual) = (&equation.b[start..start + n], &mut residual[..n]);
+                        equation.products(self.x, start, n, |i, product| residual[i] = b[i] - product);
+                    }
+                }
+                let (lower, upper) = (residuals[0].as_chunks::<2>().0, residuals[1].as_chunks::<2>().0);
+                let sums = &mut out[first / 2 + 1..][..n.div_ceil(2)];
+                for ((sum, lower), upper) in sums.iter_mut().zip(lower).zip(upper) {
+                    *sum = (lower[0] + lower[1]) + (upper[0] + upper[1]);
+                }
+            }
+        }
+    }
+}
+
+/// Sums over the cells of a grid, row by row, so that their rounding depends neither on the processor nor on the threads.
+#[derive(Clone, Debug, Default)]
+pub(super) struct RowSums(Vec<f64>);
+
+impl RowSums {
+    /// Room for the sums of `rows`.
+    pub fn rows(&mut self, rows: &Range<usize>) -> Rows<'_, f64> {
+        if self.0.len() < rows.end {
+            self.0.resize(rows.end, 0.0);
+        }
+        Rows::new(&mut self.0, 1, rows)
+    }
+
+    /// The sum over `rows`.
+    pub fn total(&self, rows: &Range<usize>) -> f64 {
+        self.0[rows.clone()].iter().sum()
+    }
+}
+
+/// Lanes of the sums: fixed, so that their rounding does not depend on the processor.
+const SUM_LANES: usize = 16;
+
+/// `a · b` over the cells of a row, with a fixed order of sums.
+#[inline(always)]
+pub(super) fn row_dot(a: &[f32], b: &[f32]) -> f64 {
+    let (a_rows, a_rest) = a.as_chunks::<SUM_LANES>();
+    let (b_rows, b_rest) = b.as_chunks::<SUM_LANES>();
+    let [mut a_last, mut b_last] = [[0.0_f32; SUM_LANES]; 2];
+    a_last[..a_rest.len()].copy_from_slice(a_rest);
+    b_last[..b_rest.len()].copy_from_slice(b_rest);
+    let mut lanes = [0.0_f32; SUM_LANES];
+    for lane in 0..SUM_LANES {
+        lanes[lane] = a_last[lane] * b_last[lane];
+    }
+    for (a, b) in a_rows.iter().zip(b_rows) {
+        for lane in 0..SUM_LANES {
+            lanes[lane] += a[lane] * b[lane];
+        }
+    }
+    let [mut eight, mut four] = [[0.0_f32; 8], [0.0; 8]];
+    for lane in 0..8 {
+        eight[lane] = lanes[lane] + lanes[lane + 8];
+    }
+    for lane in 0..4 {
+        four[lane] = eight[lane] + eight[lane + 4];
+    }
+    f64::from((four[0] + four[2]) + (four[1] + four[3]))
 }

@@ -1,7 +1,11 @@
 //! The multigrid V-cycle that preconditions the pressure equation: damped Jacobi, aggregation of 2 × 2 cells, Galerkin
 //! coarse operators, an over-weighted coarse correction (aggregation underestimates smooth corrections, Braess 1995).
 
-use crate::kernel::{parallel::Team, predictor::level::Level};
+use crate::kernel::{
+    parallel::{Rows, Sweep, Team, sweep},
+    predictor::level::{Level, RowSums, WORTH_A_PIECE, damping},
+};
+use std::ops::Range;
 
 /// Weight of the coarse correction.
 const CORRECTION: f32 = 1.8;
@@ -32,39 +36,38 @@ impl Hierarchy {
     }
 
     /// Builds the coarse operators from the finest.
-    #[inline(always)]
-    pub fn coarsen(&mut self) {
-        self.levels[0].invert();
+    pub fn coarsen(&mut self, team: Team) {
         for depth in 1..self.levels.len() {
             let (fine, coarse) = self.levels.split_at_mut(depth);
-            coarsen(&fine[depth - 1], &mut coarse[0]);
+            coarsen(&fine[depth - 1], &mut coarse[0], team);
         }
     }
 
-    /// One V(2,2) cycle for the right-hand side in `finest().b`, from 0; the result is in `finest().x`.
-    #[inline(always)]
-    pub fn cycle(&mut self, team: Team) {
+    /// One V(2,2) cycle for the right-hand side in `finest().b`, from 0; the result is in `finest().x`. Returns b · x.
+    pub fn cycle(&mut self, sums: &mut RowSums, team: Team) -> f64 {
         let coarsest = self.levels.len() - 1;
         for depth in 0..coarsest {
             let (fine, coarse) = self.levels.split_at_mut(depth + 1);
-            let (fine, coarse) = (&mut fine[depth], &mut coarse[0]);
-            fine.smooth_from_zero();
-            fine.smooth(team);
-            fine.find_residual(team);
-            restrict(fine, coarse);
+            let fine = &mut fine[depth];
+            fine.smooth_from_zero(team);
+            fine.restrict(&mut coarse[0], team);
         }
         let level = &mut self.levels[coarsest];
-        level.smooth_from_zero();
-        for _ in 0..COARSEST_STEPS {
+        level.smooth_from_zero(team);
+        for _ in 0..COARSEST_STEPS - 1 {
             level.smooth(team);
         }
         for depth in (0..coarsest).rev() {
             let (fine, coarse) = self.levels.split_at_mut(depth + 1);
-            let (fine, coarse) = (&mut fine[depth], &coarse[0]);
-            prolong(coarse, fine);
+            let fine = &mut fine[depth];
+            prolong(&coarse[0], fine, team);
             fine.smooth(team);
-            fine.smooth(team);
+            if depth > 0 {
+                fine.smooth(team);
+            }
         }
+        // Where there is one level only, this is a step more.
+        self.levels[0].smooth_and_sum(sums, team)
     }
 
     /// Bytes held.
@@ -81,54 +84,80 @@ fn pairs<'a>(field: &'a [f32], fine: &Level, coarse: &Level, row: usize) -> [&'a
 }
 
 /// Couplings across the edge of an aggregate add up, those inside one leave the diagonal.
-#[inline(always)]
-fn coarsen(fine: &Level, coarse: &mut Level) {
+fn coarsen(fine: &Level, coarse: &mut Level, team: Team) {
     coarse.take_rows(fine.rows.start.div_ceil(2)..fine.rows.end / 2 + 1);
-    for j in coarse.rows.clone() {
-        let [diagonal, right, upper] =
-            [&fine.diagonal, &fine.right, &fine.upper].map(|field| pairs(field, fine, coarse, j));
-        let out = j * coarse.stride + 1..j * coarse.stride + 1 + coarse.columns;
-        let (to_right, to_upper) = (&mut coarse.right[out.clone()], &mut coarse.upper[out.clone()]);
-        let to_diagonal = &mut coarse.diagonal[out];
-        for i in 0..to_diagonal.len() {
-            let whole = (diagonal[0][i][0] + diagonal[0][i][1]) + (diagonal[1][i][0] + diagonal[1][i][1]);
-            let inside = (right[0][i][0] + right[1][i][0]) + (upper[0][i][0] + upper[0][i][1]);
-            to_diagonal[i] = whole - 2.0 * inside;
-            to_right[i] = right[0][i][1] + right[1][i][1];
-            to_upper[i] = upper[1][i][0] + upper[1][i][1];
-        }
-    }
-    coarse.invert();
+    let (rows, stride) = (coarse.rows.clone(), coarse.stride);
+    let [mut diagonal, mut damped, mut right, mut upper] =
+        [&mut coarse.diagonal, &mut coarse.damped, &mut coarse.right, &mut coarse.upper].map(std::mem::take);
+    let band = (
+        (Rows::new(&mut diagonal, stride, &rows), Rows::new(&mut damped, stride, &rows)),
+        (Rows::new(&mut right, stride, &rows), Rows::new(&mut upper, stride, &rows)),
+    );
+    sweep(&Coarsen { fine, coarse }, rows, band, 4 * stride, WORTH_A_PIECE, team);
+    (coarse.diagonal, coarse.damped, coarse.right, coarse.upper) = (diagonal, damped, right, upper);
 }
 
-/// The coarse right-hand side: the sum of an aggregate's residuals.
-#[inline(always)]
-fn restrict(fine: &Level, coarse: &mut Level) {
-    for j in coarse.rows.clone() {
-        let [lower, upper] = pairs(&fine.work, fine, coarse, j);
-        let out = j * coarse.stride + 1..j * coarse.stride + 1 + coarse.columns;
-        for ((sum, lower), upper) in coarse.b[out].iter_mut().zip(lower).zip(upper) {
-            *sum = (lower[0] + lower[1]) + (upper[0] + upper[1]);
+struct Coarsen<'a> {
+    fine: &'a Level,
+    coarse: &'a Level,
+}
+
+/// Rows of diagonal and damping, and of the couplings to the right and up.
+type Operator<'a> = ((Rows<'a, f32>, Rows<'a, f32>), (Rows<'a, f32>, Rows<'a, f32>));
+
+impl Sweep<Operator<'_>> for Coarsen<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, ((mut diagonal, mut damped), (mut right, mut upper)): Operator) {
+        let out = diagonal.each().zip(damped.each()).zip(right.each()).zip(upper.each());
+        for (j, (((to_diagonal, to_damped), to_right), to_upper)) in rows.zip(out) {
+            let [diagonal, right, upper] = [&self.fine.diagonal, &self.fine.right, &self.fine.upper]
+                .map(|field| pairs(field, self.fine, self.coarse, j));
+            let out = 1..1 + self.coarse.columns;
+            let (to_diagonal, to_damped) = (&mut to_diagonal[out.clone()], &mut to_damped[out.clone()]);
+            let (to_right, to_upper) = (&mut to_right[out.clone()], &mut to_upper[out]);
+            for i in 0..to_diagonal.len() {
+                let whole = (diagonal[0][i][0] + diagonal[0][i][1]) + (diagonal[1][i][0] + diagonal[1][i][1]);
+                let inside = (right[0][i][0] + right[1][i][0]) + (upper[0][i][0] + upper[0][i][1]);
+                to_diagonal[i] = whole - 2.0 * inside;
+                to_damped[i] = damping(to_diagonal[i]);
+                to_right[i] = right[0][i][1] + right[1][i][1];
+                to_upper[i] = upper[1][i][0] + upper[1][i][1];
+            }
         }
     }
 }
 
 /// Adds the coarse solution to the fine one.
-#[inline(always)]
-fn prolong(coarse: &Level, fine: &mut Level) {
-    for j in fine.rows.clone() {
-        let own = j * fine.stride + 1..j * fine.stride + 1 + fine.columns;
-        let from = &coarse.x[j.div_ceil(2) * coarse.stride + 1..][..coarse.columns];
-        // What is not solved for stays 0.
-        let weight = |damped: f32| if damped > 0.0 { CORRECTION } else { 0.0 };
-        let (x, odd_x) = fine.x[own.clone()].as_chunks_mut();
-        let (damped, odd_damped) = fine.damped[own].as_chunks();
-        for (([left, right], [damped_left, damped_right]), from) in x.iter_mut().zip(damped).zip(from) {
-            *left += weight(*damped_left) * from;
-            *right += weight(*damped_right) * from;
-        }
-        if let ([x], [damped], Some(from)) = (odd_x, odd_damped, from.last()) {
-            *x += weight(*damped) * from;
+fn prolong(coarse: &Level, fine: &mut Level, team: Team) {
+    let mut x = std::mem::take(&mut fine.x);
+    let band = Rows::new(&mut x, fine.stride, &fine.rows);
+    sweep(&Prolong { coarse, fine }, fine.rows.clone(), band, fine.stride, WORTH_A_PIECE, team);
+    fine.x = x;
+}
+
+struct Prolong<'a> {
+    coarse: &'a Level,
+    fine: &'a Level,
+}
+
+impl Sweep<Rows<'_, f32>> for Prolong<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, mut x: Rows<f32>) {
+        let Self { coarse, fine } = self;
+        for (j, x) in rows.zip(x.each()) {
+            let own = j * fine.stride + 1..j * fine.stride + 1 + fine.columns;
+            let from = &coarse.x[j.div_ceil(2) * coarse.stride + 1..][..coarse.columns];
+            // What is not solved for stays 0.
+            let weight = |damped: f32| if damped > 0.0 { CORRECTION } else { 0.0 };
+            let (x, odd_x) = x[1..=fine.columns].as_chunks_mut();
+            let (damped, odd_damped) = fine.damped[own].as_chunks();
+            for (([left, right], [damped_left, damped_right]), from) in x.iter_mut().zip(damped).zip(from) {
+                *left += weight(*damped_left) * from;
+                *right += weight(*damped_right) * from;
+            }
+            if let ([x], [damped], Some(from)) = (odd_x, odd_damped, from.last()) {
+                *x += weight(*damped) * from;
+            }
         }
     }
 }

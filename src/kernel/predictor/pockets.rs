@@ -7,31 +7,15 @@
 use crate::kernel::predictor::{grid::MacGrid, level::Level};
 
 /// Couplings that differ by less than this are equal: rounding of the sums of open shares.
-const ROUNDING: f32 = 1e-4;
+pub(super) const ROUNDING: f32 = 1e-4;
 
-/// Whether any liquid may be sealed off. It is not if all that is under no liquid is open to air on some side: whoever
-/// goes up from any cell, as far as there is liquid, ends at such a cell.
-#[inline(always)]
-fn may_be_sealed(level: &Level) -> bool {
-    level.rows.clone().any(|j| {
-        let cells = j * level.stride + 1..j * level.stride + 1 + level.columns;
-        let (before, below) = (cells.start - 1..cells.end - 1, cells.start - level.stride..cells.end - level.stride);
-        let (right, upper) = (&level.right[cells.clone()], &level.upper[cells.clone()]);
-        let (left, lower, diagonal) = (&level.right[before], &level.upper[below], &level.diagonal[cells]);
-        let mut any = false;
-        for i in 0..diagonal.len() {
-            let coupled = left[i] + lower[i] + right[i] + upper[i];
-            any |= (diagonal[i] > 0.0) & (upper[i] == 0.0) & (diagonal[i] - coupled <= ROUNDING);
-        }
-        any
-    })
-}
+/// Parts that there is room for at least: there are few but for spray.
+const FEWEST_PARTS: usize = 64;
 
-/// Labels of the connected parts. Buffers are kept.
+/// The connected parts of the liquid. The buffer is kept. Each cell's label stands in the level's `work`, as a number
+/// that single precision holds exactly.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pockets {
-    /// Label of each cell; meaningful where there is liquid.
-    label: Vec<u32>,
     parts: Vec<Part>,
 }
 
@@ -40,19 +24,17 @@ pub(super) struct Pockets {
 struct Part {
     /// Label that this one was found to be connected with; its own if it is the first of them.
     parent: u32,
+    /// Number of cells, or [`OPEN`] if one of them touches air.
     cells: u32,
-    touches_air: bool,
     sum: f64,
 }
 
+/// In place of a number of cells: more than any grid has, and no less with more cells.
+const OPEN: u32 = u32::MAX;
+
 impl Pockets {
     /// Takes the mean of the right-hand side out of every pocket.
-    #[inline(always)]
     pub fn balance(&mut self, grid: &MacGrid, level: &mut Level) {
-        if !may_be_sealed(level) {
-            return;
-        }
-        self.label.resize(grid.len(), 0);
         self.parts.clear();
         let s = grid.stride;
         for j in level.rows.clone() {
@@ -62,21 +44,21 @@ impl Pockets {
                 }
                 let (left, lower) = (level.right[k - 1], level.upper[k - s]);
                 let label = match (left > 0.0, lower > 0.0) {
-                    (true, true) => self.join(self.label[k - 1], self.label[k - s]),
-                    (true, false) => self.root(self.label[k - 1]),
-                    (false, true) => self.root(self.label[k - s]),
+                    (true, true) => self.join(level.work[k - 1] as u32, level.work[k - s] as u32),
+                    (true, false) => self.root(level.work[k - 1] as u32),
+                    (false, true) => self.root(level.work[k - s] as u32),
                     (false, false) => self.found(),
                 };
-                self.label[k] = label;
+                level.work[k] = label as f32;
                 let coupled = left + lower + level.right[k] + level.upper[k];
+                let touches_air = level.diagonal[k] - coupled > ROUNDING;
                 let part = &mut self.parts[label as usize];
-                part.cells += 1;
-                part.touches_air |= level.diagonal[k] - coupled > ROUNDING;
+                part.cells = part.cells.saturating_add(if touches_air { OPEN } else { 1 });
                 part.sum += f64::from(level.b[k]);
             }
         }
         self.gather();
-        if self.parts.iter().all(|part| part.touches_air) {
+        if self.parts.iter().all(|part| part.cells == OPEN) {
             return;
         }
         for j in level.rows.clone() {
@@ -84,8 +66,8 @@ impl Pockets {
                 if level.diagonal[k] == 0.0 {
                     continue;
                 }
-                let part = &self.parts[self.root(self.label[k]) as usize];
-                if !part.touches_air {
+                let part = &self.parts[self.root(level.work[k] as u32) as usize];
+                if part.cells != OPEN {
                     level.b[k] -= (part.sum / f64::from(part.cells)) as f32;
                 }
             }
@@ -94,7 +76,10 @@ impl Pockets {
 
     fn found(&mut self) -> u32 {
         let label = self.parts.len() as u32;
-        self.parts.push(Part { parent: label, cells: 0, touches_air: false, sum: 0.0 });
+        if self.parts.len() == self.parts.capacity() {
+            self.parts.reserve_exact(label as usize / 2 + FEWEST_PARTS);
+        }
+        self.parts.push(Part { parent: label, cells: 0, sum: 0.0 });
         label
     }
 
@@ -120,23 +105,22 @@ impl Pockets {
             if root == label as usize {
                 continue;
             }
-            let Part { cells, touches_air, sum, .. } = self.parts[label as usize].clone();
+            let Part { cells, sum, .. } = self.parts[label as usize].clone();
             let part = &mut self.parts[root];
-            part.cells += cells;
-            part.touches_air |= touches_air;
+            part.cells = part.cells.saturating_add(cells);
             part.sum += sum;
         }
         // Points every label straight at its root and lets it know what the root knows.
         for label in 0..self.parts.len() as u32 {
             let root = self.root(label);
-            let touches_air = self.parts[root as usize].touches_air;
+            let cells = self.parts[root as usize].cells;
             let part = &mut self.parts[label as usize];
-            (part.parent, part.touches_air) = (root, touches_air);
+            (part.parent, part.cells) = (root, cells);
         }
     }
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        4 * self.label.capacity() + size_of::<Part>() * self.parts.capacity()
+        size_of::<Part>() * self.parts.capacity()
     }
 }

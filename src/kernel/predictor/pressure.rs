@@ -1,13 +1,15 @@
 //! The pressure equation: divergence and density feedback in, changes of face velocities out.
 
 use crate::kernel::{
-    parallel::Team,
+    parallel::{Band, Rows, Sweep, Team, sweep},
     predictor::{
         PredictorReport,
         conjugate::Conjugate,
-        equation::{Around, Sides, couple, feed_back, fill, fill_in, mark, steepen, subtract_divergence, touch},
+        equation::{
+            Around, Sides, couple, feed_back, fill, fill_in, mark, may_be_sealed, steepen, subtract_divergence, touch,
+        },
         grid::MacGrid,
-        level::Level,
+        level::{Level, WORTH_A_PIECE, damping},
         multigrid::Hierarchy,
         pockets::Pockets,
         rock::ClosedFaces,
@@ -15,7 +17,10 @@ use crate::kernel::{
     },
     simd::{Lanes, Pass},
 };
-use std::ops::Range;
+use std::{
+    ops::Range,
+    sync::atomic::{AtomicBool, Ordering},
+};
 
 /// Rate at which a density error is to be taken away, 1/s: a fifth of it in a tick, however many substeps that has. Per
 /// substep it would work eight times as hard at eight of them, and stir a still pool.
@@ -35,123 +40,301 @@ pub(super) struct Projection<'a> {
     pub report: &'a mut PredictorReport,
 }
 
+/// Cells of a row that are done together where values are made on the way.
+const CHUNK: usize = 64;
+
 impl Pass for Projection<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let Self { grid, closed, faces, hierarchy, conjugate, pockets, target, team, report } = self;
-        find_means(grid, closed, faces, target);
         conjugate.resize(grid.len());
-        let rows = mark_liquid(grid, closed, faces, conjugate);
-        let before = std::mem::replace(&mut conjugate.rows, rows);
-        conjugate.keep_guess(grid, before);
+        mark_liquid(grid, closed, faces, conjugate, target, team);
+        find_means(grid, faces, team);
         if conjugate.rows.is_empty() {
             return;
         }
-        assemble(grid, closed, faces, hierarchy.finest(), conjugate);
-        pockets.balance(grid, hierarchy.finest());
-        hierarchy.coarsen();
+        if assemble(grid, closed, faces, hierarchy.finest(), conjugate, team) {
+            pockets.balance(grid, hierarchy.finest());
+        }
+        hierarchy.coarsen(team);
         *report = conjugate.solve(hierarchy, team);
-        change_velocities(grid, closed, faces, conjugate);
+        change_velocities(grid, closed, faces, hierarchy.finest(), conjugate, team);
     }
 }
 
-/// Turns momenta into velocities and finds how full each cell is: its density is the mean of its faces'.
-#[inline(always)]
-fn find_means(grid: &MacGrid, closed: &ClosedFaces, faces: &mut Faces, target: f32) {
-    let share = 0.25 * grid.per_cell * grid.per_cell / target;
-    for j in cells_reached(grid, faces) {
-        let cells = grid.row(j) + 1..grid.row(j) + 1 + grid.columns;
-        let weights = Sides::new(&faces.u, &faces.v, cells.clone(), grid.stride);
-        fill(&mut faces.filled[cells.clone()], weights, &closed.rock[cells], share);
-    }
-    let reached = grid.rows(faces.reached.clone());
-    for field in [&mut faces.u[reached.clone()], &mut faces.v[reached]] {
-        for face in field {
-            let weight = if face[0] > 1e-12 { face[0] } else { 1e-12 };
-            face[1] /= weight;
-        }
-    }
+/// Sweeps over rows of the grid.
+fn over_rows<B: Band>(grid: &MacGrid, work: &impl Sweep<B>, rows: &Range<usize>, band: B, team: Team) {
+    sweep(work, rows.clone(), band, grid.stride, WORTH_A_PIECE, team);
 }
 
 /// Rows of cells that have a particle on one of their faces, and one more on either side.
 fn cells_reached(grid: &MacGrid, faces: &Faces) -> Range<usize> {
-    faces.reached.start.saturating_sub(2).max(1)..(faces.reached.end + 1).min(grid.rows + 1)
+    let first = faces.reached.start.saturating_sub(2).max(1);
+    first..(faces.reached.end + 1).min(grid.rows + 1).max(first)
 }
 
-/// Marks the liquid cells with 1; returns the rows from the first to the last that has one.
-#[inline(always)]
-fn mark_liquid(grid: &MacGrid, closed: &ClosedFaces, faces: &Faces, conjugate: &mut Conjugate) -> Range<usize> {
-    conjugate.liquid[grid.rows(conjugate.rows.clone())].fill(0.0);
-    let mut rows = 0..0;
-    for j in cells_reached(grid, faces) {
-        let cells = grid.row(j) + 1..grid.row(j) + 1 + grid.columns;
-        let (filled, from) = (&faces.filled[cells.clone()], &closed.liquid_from[cells.clone()]);
-        if mark(&mut conjugate.liquid[cells], filled, from) {
-            rows = if rows.is_empty() { j } else { rows.start }..j + 1;
+/// Finds how full the cells are, marks the liquid ones with 1 and notes the rows from the first to the last that has
+/// one. The last solution stays as the first guess where there still is liquid.
+fn mark_liquid(
+    grid: &MacGrid,
+    closed: &ClosedFaces,
+    faces: &mut Faces,
+    conjugate: &mut Conjugate,
+    target: f32,
+    team: Team,
+) {
+    let rows = cells_reached(grid, faces);
+    let Conjugate { rows: before, liquid, solution, wet, .. } = conjugate;
+    for far in
+        [before.start..rows.start.clamp(before.start, before.end), rows.end.clamp(before.start, before.end)..before.end]
+    {
+        liquid[grid.rows(far.clone())].fill(0.0);
+        solution[grid.rows(far)].fill(0.0);
+    }
+    wet.resize(grid.rows + 3, false);
+    let share = 0.25 * grid.per_cell * grid.per_cell / target;
+    let Faces { u, v, filled, .. } = faces;
+    let band = (
+        (Rows::new(filled, grid.stride, &rows), Rows::new(liquid, grid.stride, &rows)),
+        (Rows::new(solution, grid.stride, &rows), Rows::new(wet, 1, &rows)),
+    );
+    over_rows(grid, &Mark { grid, closed, weights: [u, v], share }, &rows, band, team);
+    let is_wet = |j: &usize| wet[*j];
+    let (first, last) = (rows.clone().find(is_wet), rows.rev().find(is_wet));
+    *before = first.zip(last).map_or(0..0, |(first, last)| first..last + 1);
+}
+
+struct Mark<'a> {
+    grid: &'a MacGrid,
+    closed: &'a ClosedFaces,
+    /// Weights of the faces.
+    weights: [&'a [[f32; 2]]; 2],
+    /// Share of a cell that a face's weight stands for.
+    share: f32,
+}
+
+/// Rows of the cells' filling and liquid, and of the solution with whether there is any liquid.
+type Marks<'a> = ((Rows<'a, f32>, Rows<'a, f32>), (Rows<'a, f32>, Rows<'a, bool>));
+
+impl Sweep<Marks<'_>> for Mark<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, ((mut filled, mut liquid), (mut solution, wet)): Marks) {
+        let Self { grid, closed, weights: [u, v], share } = *self;
+        let out = filled.each().zip(liquid.each()).zip(solution.each()).zip(wet.field);
+        for (j, (((filled, liquid), solution), wet)) in rows.zip(out) {
+            let (cells, own) = (grid.row(j) + 1..grid.row(j) + 1 + grid.columns, 1..1 + grid.columns);
+            let (filled, liquid) = (&mut filled[own.clone()], &mut liquid[own.clone()]);
+            let stored = closed.row(j) + 1..closed.row(j) + 1 + grid.columns;
+            fill(filled, Sides::new(u, v, cells, grid.stride), &closed.rock[stored.clone()], share);
+            *wet = mark(liquid, filled, &closed.liquid_from[stored]);
+            for (p, liquid) in solution[own].iter_mut().zip(&*liquid) {
+                *p *= *liquid;
+            }
         }
     }
-    rows
+}
+
+/// Turns momenta into velocities.
+fn find_means(grid: &MacGrid, faces: &mut Faces, team: Team) {
+    let Faces { u, v, reached, .. } = faces;
+    let band = (Rows::new(u, grid.stride, reached), Rows::new(v, grid.stride, reached));
+    over_rows(grid, &Divide, reached, band, team);
+}
+
+struct Divide;
+
+impl<'b> Sweep<(Rows<'b, [f32; 2]>, Rows<'b, [f32; 2]>)> for Divide {
+    #[inline(always)]
+    fn run(&self, _: Range<usize>, (u, v): (Rows<[f32; 2]>, Rows<[f32; 2]>)) {
+        for field in [u.field, v.field] {
+            for face in field {
+                let weight = if face[0] > 1e-12 { face[0] } else { 1e-12 };
+                face[1] /= weight;
+            }
+        }
+    }
 }
 
 /// Sets up `Σ_f w_f s_f (p_c − p_n) = −Σ ± w_f u_f + feedback` over the liquid cells; p = 0 in the air, and s_f is how
-/// much steeper than between liquid cells the pressure falls at the face.
-#[inline(always)]
-fn assemble(grid: &MacGrid, closed: &ClosedFaces, faces: &mut Faces, finest: &mut Level, conjugate: &mut Conjugate) {
-    let (stride, feedback) = (grid.stride, FEEDBACK_PER_SECOND * grid.cell);
-    let Conjugate { liquid, rows, .. } = conjugate;
-    let Faces { u, v, filled, steep_u, steep_v, .. } = faces;
-    for (steep, step) in [(&mut *steep_u, 1), (&mut *steep_v, stride)] {
-        for j in rows.start..rows.end + 1 {
-            let faces = grid.row(j) + 1..grid.row(j) + 2 + grid.columns;
-            let before = faces.start - step..faces.end - step;
-            let liquid = [&liquid[before.clone()], &liquid[faces.clone()]];
-            steepen(&mut steep[faces.clone()], liquid, [&filled[before], &filled[faces]]);
-        }
-    }
+/// much steeper than between liquid cells the pressure falls at the face. Returns whether any of it may be sealed off.
+fn assemble(
+    grid: &MacGrid,
+    closed: &ClosedFaces,
+    faces: &Faces,
+    finest: &mut Level,
+    conjugate: &Conjugate,
+    team: Team,
+) -> bool {
+    let rows = &conjugate.rows;
     finest.take_rows(rows.clone());
-    for j in rows.clone() {
-        let cells = grid.row(j) + 1..grid.row(j) + 1 + grid.columns;
-        let liquid = Around::new(liquid, cells.clone(), stride);
-        let open = Sides::new(&closed.open_u, &closed.open_v, cells.clone(), stride);
-        let steep = Sides::new(steep_u, steep_v, cells.clone(), stride);
-        let (diagonal, to_right) = (&mut finest.diagonal[cells.clone()], &mut finest.right[cells.clone()]);
-        couple(diagonal, to_right, &mut finest.upper[cells.clone()], liquid, open, steep);
-        let right_side = &mut finest.b[cells.clone()];
-        let rock = Around::new(&closed.rock, cells.clone(), stride);
-        feed_back(right_side, liquid, rock, &filled[cells.clone()], feedback);
-        subtract_divergence(right_side, liquid.centre, open, Sides::new(u, v, cells, stride));
+    let sealed = AtomicBool::new(false);
+    let work = Assemble { grid, closed, faces, liquid: &conjugate.liquid, sealed: &sealed };
+    let Level { diagonal, damped, right, upper, b, .. } = finest;
+    let band = |field| Rows::new(field, grid.stride, rows);
+    let band = ((band(diagonal), band(damped)), ((band(right), band(upper)), band(b)));
+    over_rows(grid, &work, rows, band, team);
+    sealed.into_inner()
+}
+
+struct Assemble<'a> {
+    grid: &'a MacGrid,
+    closed: &'a ClosedFaces,
+    faces: &'a Faces,
+    liquid: &'a [f32],
+    /// Out: whether any liquid may be sealed off. It is not if all that is under no liquid is open to air on some side:
+    /// whoever goes up from any cell, as far as there is liquid, ends at such a cell.
+    sealed: &'a AtomicBool,
+}
+
+/// Rows of diagonal and damping, of the couplings to the right and up, and of the right-hand side.
+type System<'a> = ((Rows<'a, f32>, Rows<'a, f32>), ((Rows<'a, f32>, Rows<'a, f32>), Rows<'a, f32>));
+
+impl Sweep<System<'_>> for Assemble<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, system: System) {
+        let Self { grid, closed, faces, liquid, sealed } = *self;
+        let ((mut diagonal, mut damped), ((mut right, mut upper), mut b)) = system;
+        let (stride, feedback) = (grid.stride, FEEDBACK_PER_SECOND * grid.cell);
+        let mut any_sealed = false;
+        let out = diagonal.each().zip(damped.each()).zip(right.each().zip(upper.each())).zip(b.each());
+        for (j, (((diagonal, damped), (right, upper)), b)) in rows.zip(out) {
+            let end = grid.row(j) + 1 + grid.columns;
+            for start in (grid.row(j) + 1..end).step_by(CHUNK) {
+                let cells = start..end.min(start + CHUNK);
+                let (n, own) = (cells.len(), start - grid.row(j)..start - grid.row(j) + cells.len());
+                let [mut steep_u, mut steep_lower, mut steep_upper] = [[0.0_f32; CHUNK + 1]; 3];
+                let of = (liquid, &faces.filled[..]);
+                steepness(&mut steep_u[..n + 1], of, start, 1);
+                steepness(&mut steep_lower[..n], of, start, stride);
+                steepness(&mut steep_upper[..n], of, start + stride, stride);
+                let around = Around::new(liquid, cells.clone(), stride);
+                let [below, at, above] = [j - 1, j, j + 1].map(|j| closed.row(j) + own.start);
+                let (open_u, open_v) = (&closed.open_u[at..at + n + 1], &closed.open_v);
+                let open = Sides::of_rows(open_u, &open_v[at..at + n], &open_v[above..above + n]);
+                let rock = &closed.rock;
+                let rock = Around::of_rows(&rock[below..below + n], &rock[at - 1..at + n + 1], &rock[above..above + n]);
+                let steep = Sides::of_rows(&steep_u[..n + 1], &steep_lower[..n], &steep_upper[..n]);
+                let (diagonal, to_right) = (&mut diagonal[own.clone()], &mut right[own.clone()]);
+                let to_upper = &mut upper[own.clone()];
+                couple(diagonal, to_right, to_upper, around, open, steep);
+                let damped = &mut damped[own.clone()];
+                for i in 0..n {
+                    damped[i] = damping(diagonal[i]);
+                }
+                any_sealed |= may_be_sealed(diagonal, to_right, to_upper, around, open);
+                let (right_side, filled) = (&mut b[own], &faces.filled[cells.clone()]);
+                feed_back(right_side, around, rock, filled, feedback);
+                let velocities = Sides::new(&faces.u, &faces.v, cells, stride);
+                subtract_divergence(right_side, around.centre, open, velocities);
+            }
+        }
+        sealed.fetch_or(any_sealed, Ordering::Relaxed);
     }
 }
 
-/// Finds the change on every face that touches liquid, and fills one layer around them in from its neighbours.
+/// How steeply the pressure falls at the faces from `first` on, between each cell and the one `step` before it. Of the
+/// cells it wants to know whether they are liquid and how full they are.
 #[inline(always)]
-fn change_velocities(grid: &MacGrid, closed: &ClosedFaces, faces: &mut Faces, conjugate: &Conjugate) {
+fn steepness(out: &mut [f32], (liquid, filled): (&[f32], &[f32]), first: usize, step: usize) {
+    let (own, before) = (first..first + out.len(), first - step..first - step + out.len());
+    steepen(out, [&liquid[before.clone()], &liquid[own.clone()]], [&filled[before], &filled[own]]);
+}
+
+/// Finds the change on every face that touches liquid, and fills one layer around them in from its neighbours.
+fn change_velocities(
+    grid: &MacGrid,
+    closed: &ClosedFaces,
+    faces: &mut Faces,
+    finest: &mut Level,
+    conjugate: &Conjugate,
+    team: Team,
+) {
     let Conjugate { liquid, solution: p, rows, .. } = conjugate;
-    let Faces { u, v, steep_u, steep_v, change, known, reached, .. } = faces;
-    // Rows of faces that touch liquid, and with the layer around them.
+    let Faces { u, v, filled, reached, .. } = faces;
+    // The change on each face and whether it is known (1) or to be filled in from its neighbours (0). The solver is done
+    // with these.
+    let Level { x: change, work: known, .. } = finest;
+    // Rows of faces that touch liquid, with the layer around them, and with what is read around that.
     let touching = rows.start..rows.end + 1;
     let near = (rows.start - 1).max(1)..(rows.end + 2).min(grid.rows + 2);
-    let (along, up) = ((u, &closed.open_u, steep_u, 1), (v, &closed.open_v, steep_v, grid.stride));
-    for (face, open, steep, step) in [along, up] {
-        for field in [&mut *change, known] {
-            field[grid.rows(near.start - 1..near.end + 1)].fill(0.0);
+    let around = near.start - 1..near.end + 1;
+    let all = reached.start.min(near.start)..reached.end.max(near.end);
+    let along = (u, &closed.open_u, 1);
+    for (face, open, step) in [along, (v, &closed.open_v, grid.stride)] {
+        let work = Touch { grid, touching: &touching, liquid, p, filled, closed, open, old: face, step };
+        let band = (Rows::new(known, grid.stride, &around), Rows::new(change, grid.stride, &around));
+        over_rows(grid, &work, &around, band, team);
+        let work = FillIn { grid, near: &near, known, change };
+        over_rows(grid, &work, &all, Rows::new(face, grid.stride, &all), team);
+    }
+    // The solver expects its padding empty.
+    for j in around {
+        (change[grid.row(j) + grid.columns + 1], known[grid.row(j) + grid.columns + 1]) = (0.0, 0.0);
+    }
+}
+
+struct Touch<'a> {
+    grid: &'a MacGrid,
+    touching: &'a Range<usize>,
+    liquid: &'a [f32],
+    p: &'a [f32],
+    filled: &'a [f32],
+    closed: &'a ClosedFaces,
+    /// Open shares, as `closed` stores them.
+    open: &'a [f32],
+    /// Velocities from before the solve.
+    old: &'a [[f32; 2]],
+    /// From the cell after a face to that before it.
+    step: usize,
+}
+
+impl<'b> Sweep<(Rows<'b, f32>, Rows<'b, f32>)> for Touch<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, (mut known, mut change): (Rows<f32>, Rows<f32>)) {
+        let Self { grid, touching, liquid, p, filled, closed, open, old, step } = *self;
+        for (j, (known, change)) in rows.zip(known.each().zip(change.each())) {
+            if !touching.contains(&j) {
+                known.fill(0.0);
+                change.fill(0.0);
+                continue;
+            }
+            let end = grid.row(j) + 2 + grid.columns;
+            for start in (grid.row(j) + 1..end).step_by(CHUNK) {
+                let cells = start..end.min(start + CHUNK);
+                let before = cells.start - step..cells.end - step;
+                let own = start - grid.row(j)..start - grid.row(j) + cells.len();
+                let (liquid, p) =
+                    ([&liquid[before.clone()], &liquid[cells.clone()]], [&p[before.clone()], &p[cells.clone()]]);
+                let mut steep = [0.0_f32; CHUNK];
+                let steep = &mut steep[..cells.len()];
+                steepness(steep, (self.liquid, filled), start, step);
+                let open = &open[closed.row(j) + own.start..closed.row(j) + own.end];
+                touch(&mut known[own.clone()], &mut change[own], liquid, p, [open, steep], &old[cells]);
+            }
         }
-        for j in touching.clone() {
-            let cells = grid.row(j) + 1..grid.row(j) + 2 + grid.columns;
-            let before = cells.start - step..cells.end - step;
-            let (liquid, p) = ([&liquid[before.clone()], &liquid[cells.clone()]], [&p[before], &p[cells.clone()]]);
-            let (open, steep, old) = (&open[cells.clone()], &steep[cells.clone()], &face[cells.clone()]);
-            touch(&mut known[cells.clone()], &mut change[cells], liquid, p, [open, steep], old);
-        }
-        for j in near.clone() {
-            let cells = grid.rows(j..j + 1);
-            let around = |field| Around::new(field, cells.clone(), grid.stride);
-            fill_in(&mut face[cells.clone()], around(change), around(known));
-        }
-        // Away from the liquid nothing changes.
-        for far in [reached.start..near.start.min(reached.end), near.end.max(reached.start)..reached.end] {
-            let far = if far.is_empty() { 0..0 } else { grid.rows(far) };
-            face[far].iter_mut().for_each(|face| face[0] = 0.0);
+    }
+}
+
+struct FillIn<'a> {
+    grid: &'a MacGrid,
+    near: &'a Range<usize>,
+    known: &'a [f32],
+    change: &'a [f32],
+}
+
+impl Sweep<Rows<'_, [f32; 2]>> for FillIn<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, mut faces: Rows<[f32; 2]>) {
+        let Self { grid, near, known, change } = *self;
+        for (j, faces) in rows.zip(faces.each()) {
+            if near.contains(&j) {
+                let cells = grid.rows(j..j + 1);
+                let around = |field| Around::new(field, cells.clone(), grid.stride);
+                fill_in(faces, around(change), around(known));
+            } else {
+                // Away from the liquid nothing changes.
+                faces.iter_mut().for_each(|face| face[0] = 0.0);
+            }
         }
     }
 }

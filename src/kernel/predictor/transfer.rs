@@ -1,7 +1,7 @@
 //! Particles to grid and back, with bilinear weights.
 
 use crate::kernel::{
-    parallel::{WORTH_A_PIECE, spread},
+    parallel::{Rows, Sweep, Team, WORTH_A_PIECE, spread, sweep},
     particles::Particles,
     predictor::{
         blocks::Blocks,
@@ -11,7 +11,11 @@ use crate::kernel::{
     },
     simd::{InstructionSet, Lanes, Pass},
 };
+use glam::{Vec4, Vec4Swizzles};
 use std::ops::Range;
+
+/// Fewer faces than this are not handed to another thread to be cleared.
+const WORTH_CLEARING: usize = 32_768;
 
 /// Fields on the faces.
 #[derive(Clone, Debug, Default)]
@@ -23,14 +27,6 @@ pub(super) struct Faces {
     pub v: Vec<[f32; 2]>,
     /// How full the cells are of liquid and rock, 1 at the density aimed at.
     pub filled: Vec<f32>,
-    /// How much steeper than between liquid cells the pressure falls at the left faces.
-    pub steep_u: Vec<f32>,
-    /// The same at the lower faces.
-    pub steep_v: Vec<f32>,
-    /// Change on each face and whether it is known (1) or to be filled in from its neighbours (0).
-    pub change: Vec<f32>,
-    /// See `change`.
-    pub known: Vec<f32>,
     /// Rows that a particle reaches. `u` and `v` are 0 in the two rows on either side; what is in all fields beyond is
     /// left from before.
     pub reached: Range<usize>,
@@ -40,18 +36,17 @@ pub(super) struct Faces {
 impl Faces {
     /// Shares out the particles' velocities on the faces.
     pub fn collect(&mut self, grid: &MacGrid, particles: &Particles, instructions: InstructionSet, threads: usize) {
-        let Self { u, v, filled, steep_u, steep_v, change, known, reached, blocks } = self;
+        let Self { u, v, filled, reached, blocks } = self;
         let Particles { x, y, vx, vy, .. } = particles;
         blocks.partition(grid, y, instructions, threads);
         *reached = blocks.reached();
-        let near = grid.rows(reached.start.saturating_sub(2)..(reached.end + 2).min(grid.rows + 3));
+        let near = reached.start.saturating_sub(2)..(reached.end + 2).min(grid.rows + 3);
         for field in [&mut *u, v] {
             field.resize(grid.len(), [0.0; 2]);
-            field[near.clone()].fill([0.0; 2]);
         }
-        for field in [filled, steep_u, steep_v, change, known] {
-            field.resize(grid.len(), 0.0);
-        }
+        filled.resize(grid.len(), 0.0);
+        let band = (Rows::new(u, grid.stride, &near), Rows::new(v, grid.stride, &near));
+        sweep(&Clear, near, band, grid.stride, WORTH_CLEARING, Team { instructions, threads });
         blocks.share_out([&mut u[..], &mut v[..]], grid.stride, threads, &|particles, row, [u, v]| {
             let [x, y, vx, vy] = [x, y, vx, vy].map(|values| &values[particles.clone()]);
             instructions.run(Collect { grid, x, y, vx, vy, first: grid.row(row), u, v });
@@ -78,8 +73,17 @@ impl Faces {
     /// Bytes held.
     pub fn memory(&self) -> usize {
         let pairs = self.u.capacity() + self.v.capacity();
-        let singles = [&self.filled, &self.steep_u, &self.steep_v, &self.change, &self.known];
-        8 * pairs + 4 * singles.iter().map(|field| field.capacity()).sum::<usize>() + self.blocks.memory()
+        8 * pairs + 4 * self.filled.capacity() + self.blocks.memory()
+    }
+}
+
+struct Clear;
+
+impl<'b> Sweep<(Rows<'b, [f32; 2]>, Rows<'b, [f32; 2]>)> for Clear {
+    #[inline(always)]
+    fn run(&self, _: Range<usize>, (u, v): (Rows<[f32; 2]>, Rows<[f32; 2]>)) {
+        u.field.fill([0.0; 2]);
+        v.field.fill([0.0; 2]);
     }
 }
 
@@ -194,36 +198,32 @@ impl Pass for HandBack<'_> {
 
 /// Change of velocity and new velocity at the first `count` points: the bilinear means of the faces around them.
 #[inline(always)]
-fn mean_of_faces(field: &[[f32; 2]], grid: &MacGrid, stencils: &Stencils, count: usize) -> [[f32; LANES]; 2] {
-    // The means of lower and upper faces, on the left and on the right.
-    let mut sides = [[0.0_f32; 4]; LANES];
+fn mean_of_faces(field: &[[f32; 2]], grid: &MacGrid, stencils: &Stencils, count: usize) -> [[f32; 2]; LANES] {
+    let mut means = [[0.0; 2]; LANES];
     for lane in 0..count {
         let corner = stencils.corner[lane] as usize;
-        let (upper, lower) = (stencils.upper[lane], 1.0 - stencils.upper[lane]);
-        let ([a, b], [c, d]) = (pair(field, corner), pair(field, corner + grid.stride));
-        let mean = |below: f32, above: f32| lower * below + upper * above;
-        sides[lane] = [mean(a[0], c[0]), mean(a[1], c[1]), mean(b[0], d[0]), mean(b[1], d[1])];
-    }
-    let mut means = [[0.0; LANES]; 2];
-    for lane in 0..LANES {
-        let (right, left) = (stencils.right[lane], 1.0 - stencils.right[lane]);
-        let side = &sides[lane];
-        means[0][lane] = left * side[0] + right * side[2];
-        means[1][lane] = left * side[1] + right * side[3];
+        let (right, upper) = (stencils.right[lane], stencils.upper[lane]);
+        let (left, lower) = (1.0 - right, 1.0 - upper);
+        // The means of lower and upper faces, on the left and on the right.
+        let sides = lower * pair(field, corner) + upper * pair(field, corner + grid.stride);
+        let shares = sides * Vec4::new(left, left, right, right);
+        let mean = shares + shares.zwxy();
+        means[lane] = [mean.x, mean.y];
     }
     means
 }
 
+/// Two faces side by side.
 #[inline(always)]
-fn pair(field: &[[f32; 2]], at: usize) -> [[f32; 2]; 2] {
-    [field[at], field[at + 1]]
+fn pair(field: &[[f32; 2]], at: usize) -> Vec4 {
+    Vec4::from_slice(field[at..at + 2].as_flattened())
 }
 
 /// Adds the change to velocities and moves them towards the grid's.
 #[inline(always)]
-fn change(velocity: &mut [f32], [gained, grid]: &[[f32; LANES]; 2], blend: f32) {
-    for (lane, velocity) in velocity.iter_mut().enumerate() {
-        let moved = *velocity + gained[lane];
-        *velocity = moved + blend * (grid[lane] - moved);
+fn change(velocity: &mut [f32], means: &[[f32; 2]; LANES], blend: f32) {
+    for (velocity, [gained, grid]) in velocity.iter_mut().zip(means) {
+        let moved = *velocity + gained;
+        *velocity = moved + blend * (grid - moved);
     }
 }

@@ -45,12 +45,11 @@ pub fn update_velocities(
     threads: usize,
     dt: f32,
 ) -> MoveReport {
-    let Solver { instructions, x: to_x, y: to_y, anchor_x, anchor_y, .. } = solver;
+    let Solver { instructions, x: to_x, y: to_y, .. } = solver;
     let clamps = AtomicU64::new(0);
     let Particles { x, y, vx, vy, .. } = particles;
-    let arrays = [&mut x[..], &mut y[..], &mut vx[..], &mut vy[..], &mut to_x[..], &mut to_y[..]];
-    spread(arrays, WORTH_A_PIECE, threads, &|base, [x, y, vx, vy, to_x, to_y]| {
-        let anchor = [&*anchor_x, &*anchor_y].map(|anchor| &anchor[base..base + x.len()]);
+    spread([&mut vx[..], vy, to_x, to_y], WORTH_A_PIECE, threads, &|base, [vx, vy, to_x, to_y]| {
+        let anchor = [&*x, &*y].map(|anchor| &anchor[base..base + vx.len()]);
         instructions.run(Move {
             rock: (solids.count() > 0).then_some(solids),
             // The limit itself, less the rounding of (anchor + limit) − anchor.
@@ -59,11 +58,12 @@ pub fn update_velocities(
             dt,
             anchor,
             corrected: [to_x, to_y],
-            position: [x, y],
             velocity: [vx, vy],
             clamps: &clamps,
         });
     });
+    std::mem::swap(x, to_x);
+    std::mem::swap(y, to_y);
     MoveReport { position_clamps: clamps.into_inner() }
 }
 
@@ -80,8 +80,6 @@ struct Move<'a> {
     anchor: [&'a [f32]; 2],
     /// In and out: corrected positions, d; stopped by rock.
     corrected: [&'a mut [f32]; 2],
-    /// Out: positions, d.
-    position: [&'a mut [f32]; 2],
     /// In and out: velocities, d/s.
     velocity: [&'a mut [f32]; 2],
     /// Counts the corrections that were cut.
@@ -92,7 +90,7 @@ impl Pass for Move<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let Self { rock, cut, quiet, dt, anchor: [from_x, from_y], clamps, .. } = self;
-        let ([to_x, to_y], [x, y], [vx, vy]) = (self.corrected, self.position, self.velocity);
+        let ([to_x, to_y], [vx, vy]) = (self.corrected, self.velocity);
         let per_dt = 1.0 / dt;
         let (quiet, mut cuts) = (quiet * per_dt, 0_u32);
         for k in 0..from_x.len() {
@@ -112,7 +110,5 @@ impl Pass for Move<'_> {
             let share = if quiet > 0.0 { change2 / (change2 + quiet * quiet) } else { 1.0 };
             (vx[k], vy[k]) = (vx[k] + change_x * share, vy[k] + change_y * share);
         }
-        x.copy_from_slice(to_x);
-        y.copy_from_slice(to_y);
     }
 }

@@ -25,21 +25,10 @@ const LEAST_DENSITY: f32 = 0.1;
 pub fn apply_viscosity(particles: &mut Particles, solver: &mut Solver, coefficients: &[f32], threads: usize, dt: f32) {
     // One substep a tick takes exactly c.
     let part = dt / TICK_SECONDS;
-    let Solver { bins, smoothing, instructions, density, x, y, next_x, next_y, .. } = solver;
+    let Solver { bins, smoothing, instructions, density, next_x, next_y, .. } = solver;
     let read = &*particles;
     parallel::split(bins.groups(), [&mut next_x[..], &mut next_y[..]], threads, &|groups, base, out| {
-        instructions.run(ViscosityPass {
-            smoothing,
-            particles: read,
-            x,
-            y,
-            density,
-            coefficients,
-            part,
-            groups,
-            base,
-            out,
-        });
+        instructions.run(ViscosityPass { smoothing, particles: read, density, coefficients, part, groups, base, out });
     });
     std::mem::swap(&mut particles.vx, next_x);
     std::mem::swap(&mut particles.vy, next_y);
@@ -48,9 +37,6 @@ pub fn apply_viscosity(particles: &mut Particles, solver: &mut Solver, coefficie
 struct ViscosityPass<'a> {
     smoothing: &'a Smoothing,
     particles: &'a Particles,
-    /// Positions by which the particles were binned, d.
-    x: &'a [f32],
-    y: &'a [f32],
     density: &'a [f32],
     coefficients: &'a [f32],
     /// Part of a tick that passes.
@@ -69,12 +55,12 @@ impl Pass for ViscosityPass<'_> {
         let [out_x, out_y] = self.out;
         for group in self.groups {
             let own = group.particles();
-            let (xi, yi) = (L::load(&self.x[own.start..]), L::load(&self.y[own.start..]));
+            let (xi, yi) = (L::load(&self.particles.x[own.start..]), L::load(&self.particles.y[own.start..]));
             let (vxi, vyi) = (L::load(&self.particles.vx[own.start..]), L::load(&self.particles.vy[own.start..]));
             let (mut sum_x, mut sum_y) = (zero, zero);
             for run in group.movable {
                 for j in run.range() {
-                    let (dx, dy) = (xi - L::splat(self.x[j]), yi - L::splat(self.y[j]));
+                    let (dx, dy) = (xi - L::splat(self.particles.x[j]), yi - L::splat(self.particles.y[j]));
                     let w = (h2 - (dx * dx + dy * dy)).max(zero);
                     let volume = 1.0 / self.density[j].max(LEAST_DENSITY);
                     let weight = w * w * w * L::splat(volume);

@@ -29,17 +29,17 @@ pub fn apply_vorticity(particles: &mut Particles, solver: &mut Solver, strengths
 
 fn confine<G: Gradient>(particles: &mut Particles, solver: &mut Solver, strengths: &[f32], threads: usize, dt: f32) {
     // ω lives in the array of λ, which is free between two solves.
-    let Solver { bins, smoothing, instructions, x, y, next_x, next_y, lambda: vorticity, .. } = solver;
+    let Solver { bins, smoothing, instructions, next_x, next_y, lambda: vorticity, .. } = solver;
     let read = &*particles;
     parallel::split(bins.groups(), [&mut vorticity[..]], threads, &|groups, base, [out]| {
         let gradient = PhantomData::<G>;
-        instructions.run(CurlPass { smoothing, particles: read, x, y, groups, base, out, gradient });
+        instructions.run(CurlPass { smoothing, particles: read, groups, base, out, gradient });
     });
     let outputs = [&mut next_x[..], &mut next_y[..]];
     parallel::split(bins.groups(), outputs, threads, &|groups, base, out| {
         let gradient = PhantomData::<G>;
         let pass =
-            ConfinementPass { smoothing, particles: read, x, y, vorticity, strengths, groups, base, out, dt, gradient };
+            ConfinementPass { smoothing, particles: read, vorticity, strengths, groups, base, out, dt, gradient };
         instructions.run(pass);
     });
     std::mem::swap(&mut particles.vx, next_x);
@@ -50,8 +50,6 @@ fn confine<G: Gradient>(particles: &mut Particles, solver: &mut Solver, strength
 struct CurlPass<'a, G> {
     smoothing: &'a Smoothing,
     particles: &'a Particles,
-    x: &'a [f32],
-    y: &'a [f32],
     groups: &'a [Group],
     base: usize,
     /// Out: ω, 1/s.
@@ -66,12 +64,12 @@ impl<G: Gradient> Pass for CurlPass<'_, G> {
         let (h2, core, scale) = (h * h, L::splat(self.smoothing.core), L::splat(self.smoothing.gradient_scale));
         for group in self.groups {
             let own = group.particles();
-            let (xi, yi) = (L::load(&self.x[own.start..]), L::load(&self.y[own.start..]));
+            let (xi, yi) = (L::load(&self.particles.x[own.start..]), L::load(&self.particles.y[own.start..]));
             let (vxi, vyi) = (L::load(&self.particles.vx[own.start..]), L::load(&self.particles.vy[own.start..]));
             let mut curl = zero;
             for run in group.movable {
                 for j in run.range() {
-                    let (dx, dy) = (xi - L::splat(self.x[j]), yi - L::splat(self.y[j]));
+                    let (dx, dy) = (xi - L::splat(self.particles.x[j]), yi - L::splat(self.particles.y[j]));
                     let (dvx, dvy) = (L::splat(self.particles.vx[j]) - vxi, L::splat(self.particles.vy[j]) - vyi);
                     let r2 = dx * dx + dy * dy;
                     let w = (h2 - r2).max(zero);
@@ -87,8 +85,6 @@ impl<G: Gradient> Pass for CurlPass<'_, G> {
 struct ConfinementPass<'a, G> {
     smoothing: &'a Smoothing,
     particles: &'a Particles,
-    x: &'a [f32],
-    y: &'a [f32],
     /// ω, 1/s.
     vorticity: &'a [f32],
     strengths: &'a [f32],
@@ -108,13 +104,13 @@ impl<G: Gradient> Pass for ConfinementPass<'_, G> {
         let [out_x, out_y] = self.out;
         for group in self.groups {
             let own = group.particles();
-            let (xi, yi) = (L::load(&self.x[own.start..]), L::load(&self.y[own.start..]));
+            let (xi, yi) = (L::load(&self.particles.x[own.start..]), L::load(&self.particles.y[own.start..]));
             let curl = L::load(&self.vorticity[own.start..]);
             let strength = curl.max(zero - curl);
             let (mut slope_x, mut slope_y) = (zero, zero);
             for run in group.movable {
                 for j in run.range() {
-                    let (dx, dy) = (xi - L::splat(self.x[j]), yi - L::splat(self.y[j]));
+                    let (dx, dy) = (xi - L::splat(self.particles.x[j]), yi - L::splat(self.particles.y[j]));
                     let r2 = dx * dx + dy * dy;
                     let w = (h2 - r2).max(zero);
                     let rise = L::splat(self.vorticity[j].abs()) - strength;

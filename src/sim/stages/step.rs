@@ -36,7 +36,7 @@ pub(super) fn run_substeps(world: &mut World) {
     let substeps = world.resource::<TickPlan>().substeps;
     // Enters the pool once: the stages' own entries cost nothing from inside.
     let (workers, particles) = (world.resource::<Workers>().clone(), world.resource::<ParticleStore>().len());
-    workers.run_for(particles, |_| {
+    workers.run_tick(particles, || {
         for _ in 0..substeps {
             world.run_schedule(Substep);
         }

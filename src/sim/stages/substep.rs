@@ -93,7 +93,7 @@ pub(super) fn predict_pressure(
 /// Velocities predict positions.
 pub(super) fn predict_positions(
     mut particles: ResMut<ParticleStore>,
-    mut solver: ResMut<SolverState>,
+    solver: Res<SolverState>,
     rock: Res<Rock>,
     setup: Res<Setup>,
     plan: Res<TickPlan>,
@@ -105,7 +105,7 @@ pub(super) fn predict_positions(
     let dt = plan.substep_seconds();
     let domain = &setup.blueprint.domain;
     let report = workers.run_for(particles.len(), |threads| {
-        predict::predict(&mut particles, &mut solver, &rock, domain, &setup.quality, threads, dt)
+        predict::predict(&mut particles, solver.instructions, &rock, domain, &setup.quality, threads, dt)
     });
     counters.speed_clamps += report.speed_clamps;
     ledger.note(Pass::Predict, start.elapsed());
@@ -129,6 +129,7 @@ pub(super) fn sort_into_bins(
 
 /// The density constraint corrects positions.
 pub(super) fn solve_density(
+    particles: Res<ParticleStore>,
     mut solver: ResMut<SolverState>,
     setup: Res<Setup>,
     effects: Res<Effects>,
@@ -136,15 +137,16 @@ pub(super) fn solve_density(
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
-    workers.run_for(solver.density.len(), |threads| {
-        solver.solve(&pbf::SolveParams {
+    workers.run_for(particles.len(), |threads| {
+        let params = pbf::SolveParams {
             domain: &setup.blueprint.domain,
             fluid: &setup.blueprint.fluid,
             quality: &setup.quality,
             tension: effects.get(Effect::Tension).running,
             predicted: effects.get(Effect::Predictor).running,
             threads,
-        });
+        };
+        solver.solve(&particles, &params);
     });
     ledger.note(Pass::Solve, start.elapsed());
 }

@@ -3,7 +3,10 @@
 pub(crate) mod reference;
 
 use super::*;
-use crate::kernel::params::{Preset, WALL_GAP};
+use crate::kernel::{
+    element::ElementId,
+    params::{Preset, WALL_GAP},
+};
 use reference::{Question, Vector};
 
 /// A box with particles and rock in it, ready to be solved.
@@ -46,34 +49,35 @@ impl Bench {
         }
     }
 
-    /// Bins the particles where they are.
+    /// Bins the particles where they are; there are no corrections yet.
     pub(crate) fn bin(&mut self) {
+        self.solver.bin(&mut self.particles, &self.solids, &self.domain, &self.quality, 1);
         self.solver.x.clone_from(&self.particles.x);
         self.solver.y.clone_from(&self.particles.y);
-        self.solver.bin(&mut self.particles, &self.solids, &self.domain, &self.quality, 1);
     }
 
     /// Bins and iterates.
     pub(crate) fn solve(&mut self, tension: bool) {
         self.bin();
-        self.solver.solve(&SolveParams {
+        let params = SolveParams {
             domain: &self.domain,
             fluid: &self.fluid,
             quality: &self.quality,
             tension,
             predicted: self.predicted,
             threads: 1,
-        });
+        };
+        self.solver.solve(&self.particles, &params);
     }
 
     /// Predicts over `dt` s, solves and moves.
     pub(crate) fn step(&mut self, tension: bool, dt: f32) {
         let Self { particles, solids, domain, quality, solver, predicted, .. } = self;
         let predicted = *predicted;
-        crate::kernel::predict::predict(particles, solver, solids, domain, quality, 1, dt);
+        crate::kernel::predict::predict(particles, solver.instructions, solids, domain, quality, 1, dt);
         let params = SolveParams { domain, fluid: &self.fluid, quality, tension, predicted, threads: 1 };
         solver.bin(particles, solids, domain, quality, 1);
-        solver.solve(&params);
+        solver.solve(particles, &params);
         crate::kernel::velocity::update_velocities(particles, solver, solids, quality, predicted, 1, dt);
     }
 }
@@ -138,7 +142,7 @@ fn check(set: (&str, &[Vec2]), gradient: GradientKernel, tension: bool, predicte
     let points = |x: &[f32], y: &[f32]| -> Vec<Vector> {
         x.iter().zip(y).map(|(&x, &y)| [f64::from(x), f64::from(y)]).collect()
     };
-    let anchors = points(&solver.anchor_x, &solver.anchor_y);
+    let anchors = points(&bench.particles.x, &bench.particles.y);
     let rock = points(&solver.bins.rock().x, &solver.bins.rock().y);
     let Bench { domain, fluid, quality, .. } = &bench;
     let answer = Question { particles: &anchors, rock: &rock, domain, fluid, quality, tension, predicted }.answer();

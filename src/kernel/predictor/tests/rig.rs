@@ -8,6 +8,7 @@ use crate::kernel::{
         conjugate::Conjugate,
         equation::{Around, Sides, couple, steepen},
         grid::MacGrid,
+        level::{RowSums, damping},
         multigrid::Hierarchy,
         pockets::Pockets,
         pressure::Projection,
@@ -154,12 +155,14 @@ impl Equation {
 
 /// Builds the coarse levels of an equation whose finest one is set up.
 fn coarsen(hierarchy: &mut Hierarchy) {
-    hierarchy.coarsen();
+    let finest = hierarchy.finest();
+    finest.damped.iter_mut().zip(&finest.diagonal).for_each(|(damped, diagonal)| *damped = damping(*diagonal));
+    hierarchy.coarsen(team());
 }
 
 /// One cycle of the preconditioner.
 fn cycle(hierarchy: &mut Hierarchy) {
-    hierarchy.cycle(team());
+    hierarchy.cycle(&mut RowSums::default(), team());
 }
 
 /// What rock leaves open, a number for each cell of the grid.
@@ -173,8 +176,11 @@ pub(super) struct Open {
 }
 
 impl Open {
-    fn new(_grid: &MacGrid, closed: &ClosedFaces) -> Self {
-        Self { u: closed.open_u.clone(), v: closed.open_v.clone(), liquid_from: closed.liquid_from.clone() }
+    fn new(grid: &MacGrid, closed: &ClosedFaces) -> Self {
+        let each = |field: &[f32]| {
+            (0..grid.rows + 3).flat_map(|j| &field[closed.row(j)..closed.row(j) + grid.stride]).copied().collect()
+        };
+        Self { u: each(&closed.open_u), v: each(&closed.open_v), liquid_from: each(&closed.liquid_from) }
     }
 }
 

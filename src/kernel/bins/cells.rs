@@ -1,0 +1,82 @@
+//! Geometry of the cells.
+
+use crate::kernel::simd::whole_below;
+use glam::Vec2;
+use std::ops::Range;
+
+/// Columns in a strip's height: thin columns keep candidate runs short.
+const COLUMNS_PER_RADIUS: u32 = 3;
+
+/// Strips as high as the search reaches, cut into thin columns: one empty strip below and one above the box.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct CellGrid {
+    /// Size of the box, d.
+    pub size: Vec2,
+    /// Cells along x.
+    pub columns: usize,
+    /// Cells along y.
+    pub rows: usize,
+    /// Height of a strip, d.
+    pub reach: f32,
+    per_column: f32,
+    per_row: f32,
+}
+
+impl CellGrid {
+    /// Cells over a box of `size` d for a search that reaches `reach` d far.
+    pub fn new(size: Vec2, reach: f32) -> Self {
+        let column = reach / COLUMNS_PER_RADIUS as f32;
+        Self {
+            size,
+            columns: (size.x / column) as usize + 1,
+            rows: (size.y / reach) as usize + 3,
+            reach,
+            per_column: 1.0 / column,
+            per_row: 1.0 / reach,
+        }
+    }
+
+    /// Number of cells.
+    pub fn cells(&self) -> usize {
+        self.columns * self.rows
+    }
+
+    /// Column of a coordinate, d. It never falls where x rises.
+    #[inline(always)]
+    pub fn column(&self, x: f32) -> u32 {
+        whole_below(x * self.per_column, 0, self.columns as u32 - 1).0
+    }
+
+    /// Cell of a point, d.
+    #[inline(always)]
+    pub fn cell(&self, x: f32, y: f32) -> u32 {
+        let row = whole_below(y * self.per_row + 1.0, 1, self.rows as u32 - 2).0;
+        row * self.columns as u32 + self.column(x)
+    }
+
+    /// Columns that hold everything within reach of what is in the columns `first … last`: rounding may put a particle
+    /// into the column beside its own, for which the reach has an allowance.
+    #[inline(always)]
+    pub fn columns_around(&self, first: u32, last: u32) -> Range<usize> {
+        let end = last + COLUMNS_PER_RADIUS + 1;
+        first.saturating_sub(COLUMNS_PER_RADIUS) as usize..(end as usize).min(self.columns)
+    }
+
+    /// Columns that `radii` of the search are wide.
+    pub fn columns_of(radii: u32) -> u32 {
+        radii * COLUMNS_PER_RADIUS
+    }
+
+    /// Whether what is in the strip `row` may be within reach of the bottom or the top of the box.
+    pub fn is_near_floor_or_top(&self, row: usize) -> bool {
+        // The strip reaches from `bottom` to one reach above it.
+        let bottom = (row as f32 - 1.0) * self.reach;
+        bottom < self.reach || bottom + 2.0 * self.reach > self.size.y
+    }
+
+    /// Whether what is in the columns `first … last` may be within reach of the left or the right side of the box.
+    #[inline(always)]
+    pub fn is_near_side(&self, first: u32, last: u32) -> bool {
+        first <= COLUMNS_PER_RADIUS || last + COLUMNS_PER_RADIUS + 2 >= self.columns as u32
+    }
+}

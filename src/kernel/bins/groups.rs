@@ -1,0 +1,107 @@
+//! Runs of sorted particles that the passes work on side by side, with the runs of what may touch any of them.
+
+use crate::kernel::{
+    bins::{Group, Run, cells::CellGrid, rock::RockBins, sort::Sort},
+    parallel::piece,
+};
+
+/// A group ends where its particles would spread wider than this many radii: in thin spray a wide group would draw in
+/// everything that lies between.
+const GROUP_SPAN_RADII: u32 = 8;
+/// Fewer groups than this do not pay for another thread.
+const WORTH_A_PIECE: usize = 64;
+
+/// The groups of a strip.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StripGroups {
+    strip: u32,
+    /// Number of groups in the strips before it.
+    first: u32,
+}
+
+/// Where groups are cut.
+#[derive(Clone, Copy)]
+pub(super) struct Cutter<'a> {
+    pub grid: &'a CellGrid,
+    pub starts: &'a [u32],
+    pub rock: &'a RockBins,
+    /// Sorted positions, d.
+    pub x: &'a [f32],
+    /// Particles in a group at most.
+    pub width: usize,
+}
+
+impl Cutter<'_> {
+    /// Calls `work` with the first particle, that after the last, and the first and the last column of every group of a
+    /// strip.
+    #[inline(always)]
+    fn for_each(&self, strip: usize, mut work: impl FnMut(usize, usize, u32, u32)) {
+        let start = strip * self.grid.columns;
+        let (mut first, end) = (self.starts[start] as usize, self.starts[start + self.grid.columns] as usize);
+        while first < end {
+            let mut next = end.min(first + self.width);
+            let low = self.grid.column(self.x[first]);
+            let mut high = self.grid.column(self.x[next - 1]);
+            let last = low + CellGrid::columns_of(GROUP_SPAN_RADII);
+            if high > last {
+                next = first + self.x[first..next].partition_point(|&x| self.grid.column(x) <= last);
+                high = self.grid.column(self.x[next - 1]);
+            }
+            work(first, next, low, high);
+            first = next;
+        }
+    }
+
+    /// Counts the groups of all strips; returns how many there are.
+    pub fn count(&self, sort: &Sort, strips: &mut Vec<StripGroups>) -> usize {
+        strips.clear();
+        let mut groups = 0;
+        for strip in sort.strips.clone() {
+            strips.push(StripGroups { strip: strip as u32, first: groups });
+            self.for_each(strip, |_, _, _, _| groups += 1);
+        }
+        groups as usize
+    }
+
+    /// Fills the groups of strips in; `groups` begin with those of the first.
+    pub fn fill(&self, strips: &[StripGroups], groups: &mut [Group], threads: usize) {
+        self.fill_pieces(strips, groups, piece(groups.len(), threads, WORTH_A_PIECE));
+    }
+
+    fn fill_pieces(&self, strips: &[StripGroups], groups: &mut [Group], piece: usize) {
+        if strips.len() <= 1 || groups.len() <= piece {
+            let mut groups = groups.iter_mut();
+            for strip in strips {
+                self.fill_strip(strip.strip as usize, &mut groups);
+            }
+            return;
+        }
+        let half = (groups.len() / 2) as u32 + strips[0].first;
+        let middle = strips.partition_point(|strip| strip.first < half).clamp(1, strips.len() - 1);
+        let (lower, upper) = strips.split_at(middle);
+        let (lower_groups, upper_groups) = groups.split_at_mut((upper[0].first - lower[0].first) as usize);
+        rayon::join(|| self.fill_pieces(lower, lower_groups, piece), || self.fill_pieces(upper, upper_groups, piece));
+    }
+
+    fn fill_strip<'g>(&self, strip: usize, groups: &mut impl Iterator<Item = &'g mut Group>) {
+        let near_floor_or_top = self.grid.is_near_floor_or_top(strip);
+        self.for_each(strip, |first, next, low, high| {
+            let columns = self.grid.columns_around(low, high);
+            let runs = |starts: &[u32]| {
+                [strip - 1, strip, strip + 1].map(|strip| {
+                    let start = strip * self.grid.columns;
+                    Run::new(starts[start + columns.start], starts[start + columns.end])
+                })
+            };
+            if let Some(group) = groups.next() {
+                *group = Group {
+                    first: first as u32,
+                    len: (next - first) as u16,
+                    near_wall: near_floor_or_top || self.grid.is_near_side(low, high),
+                    movable: runs(self.starts),
+                    rock: if self.rock.starts.is_empty() { Default::default() } else { runs(&self.rock.starts) },
+                };
+            }
+        });
+    }
+}
