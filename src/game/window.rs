@@ -110,7 +110,7 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
             .set(LogPlugin { filter: "error,bevy_winit=off".into(), ..LogPlugin::default() }),
     )
     .add_plugins(EguiPlugin::default())
-    .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin, measuring))
+    .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
     .insert_resource(ClearColor(Color::srgb_u8(red, green, blue)))
     .init_resource::<Room>()
     .add_systems(Startup, spawn_camera)

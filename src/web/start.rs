@@ -2,6 +2,7 @@
 
 use crate::{
     game::{hud::toast::Toasts, input::touch::Fingers, window},
+    lab::{exam::desk, live::LivePlugin},
     sim::control,
     web::{hook, host, link::Link},
 };
@@ -20,7 +21,10 @@ pub fn start(link: &str, touch: bool) -> Result<(), JsError> {
         Ok(blueprint) => (blueprint, None),
         Err(error) => (Link::read("[]")?.build()?, Some(error)),
     };
-    let mut app = window::build(None, |app| control::load(app.world_mut(), Arc::new(blueprint)));
+    let mut app = window::build(None, |app| {
+        app.add_plugins((desk::plugin, LivePlugin));
+        control::load(app.world_mut(), Arc::new(blueprint));
+    });
     app.add_plugins(hook::plugin);
     app.world_mut().resource_mut::<Fingers>().in_use = touch;
     if let Some(error) = problem {

@@ -1,10 +1,10 @@
 //! Lanes for the browser: four numbers to a 128-bit register of WebAssembly. Left to plain arrays the compiler puts too
 //! few of the operations into registers: a pass takes two to three times as long.
 
-use crate::kernel::simd::Lanes;
+use crate::kernel::simd::{Lanes, too_short};
 use core::arch::wasm32::{
-    f32x4_add, f32x4_div, f32x4_mul, f32x4_pmax, f32x4_pmin, f32x4_splat, f32x4_sqrt, f32x4_sub, v128, v128_load,
-    v128_store,
+    f32x4_add, f32x4_div, f32x4_lt, f32x4_mul, f32x4_pmax, f32x4_pmin, f32x4_splat, f32x4_sqrt, f32x4_sub, v128,
+    v128_bitselect, v128_load, v128_store,
 };
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -96,6 +96,28 @@ impl Lanes for Quads {
             let len = to.len();
             to.copy_from_slice(&lanes[..len]);
         }
+    }
+
+    #[inline(always)]
+    fn of(row: &[f32], first: usize) -> Self {
+        match row[first..].first_chunk() {
+            Some(full) => Self::from_array(full),
+            None => too_short(),
+        }
+    }
+
+    #[inline(always)]
+    fn put(self, row: &mut [f32], first: usize) {
+        match row[first..].first_chunk_mut() {
+            Some(full) => self.write(full),
+            None => too_short(),
+        }
+    }
+
+    #[inline(always)]
+    fn if_less(self, other: Self, yes: Self, no: Self) -> Self {
+        let pick = |k: usize| v128_bitselect(yes.0[k], no.0[k], f32x4_lt(self.0[k], other.0[k]));
+        Self([pick(0), pick(1)])
     }
 
     // `pmax(a, b)` is `if a < b { b } else { a }`, so the operands change places.
