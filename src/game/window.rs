@@ -10,7 +10,7 @@ use crate::{
 };
 use bevy::{
     DefaultPlugins,
-    app::{App, AppExit, Plugin},
+    app::{App, AppExit},
     camera::{Camera2d, ClearColor},
     color::Color,
     log::LogPlugin,
