@@ -16,11 +16,12 @@
 //! game::render  particles, rock and air, between two ticks      game::hud  counts, cost, tools
 //! ```
 //!
-//! Who may import whom: `kernel ← scene ← sim ← lab`, `sim ← game`, all ← `cli`. Nothing below `game` knows egui, a window
-//! or a renderer, and builds without them (`--no-default-features`).
+//! Who may import whom: `kernel ← scene ← sim ← lab`, `sim ← game`, all ← `cli` and `web`. Nothing below `game` knows
+//! egui, a window or a renderer, and builds without them (`--no-default-features`).
 
 #![forbid(unsafe_op_in_unsafe_fn)]
 
+#[cfg(not(target_arch = "wasm32"))]
 pub mod cli;
 #[cfg(feature = "app")]
 pub mod game;
@@ -28,3 +29,4 @@ pub mod kernel;
 pub mod lab;
 pub mod scene;
 pub mod sim;
+pub mod web;

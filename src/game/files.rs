@@ -1,5 +1,6 @@
 //! The files that the game writes by itself: where they go and what they are called.
 
+use crate::game::disk;
 use std::{
     env, fs, io,
     path::{Path, PathBuf},
@@ -13,6 +14,9 @@ const NAME_LIMIT: usize = 60;
 /// The folders that the game's files may be in: the one that it runs in, and the system's one for a user's data where
 /// that can't be written.
 pub fn folders() -> Vec<PathBuf> {
+    if cfg!(target_arch = "wasm32") {
+        return vec![PathBuf::from("saved worlds")];
+    }
     let data = |name: &str| env::var_os(name).filter(|path| !path.is_empty()).map(PathBuf::from);
     let data = if cfg!(windows) {
         data("APPDATA")
@@ -29,7 +33,7 @@ pub fn write_new(folders: &[PathBuf], scene: &str, tick: u64, ending: &str, byte
     let mut refusal = io::Error::new(io::ErrorKind::NotFound, "there is no folder to write to");
     for folder in folders {
         let path = free_path(folder, scene, tick, ending);
-        match fs::create_dir_all(folder).and_then(|()| write_whole(&path, bytes)) {
+        match disk::write(&path, bytes) {
             Ok(()) => return Ok(path),
             Err(error) => refusal = error,
         }
@@ -57,7 +61,7 @@ pub fn free_path(folder: &Path, scene: &str, tick: u64, ending: &str) -> PathBuf
     let scene: String = scene.chars().take(NAME_LIMIT).map(fit).collect();
     let mut path = folder.join(format!("powder-{scene}-{tick}.{ending}"));
     let mut number = 2;
-    while path.exists() {
+    while disk::exists(&path) {
         path = folder.join(format!("powder-{scene}-{tick}-{number}.{ending}"));
         number += 1;
     }

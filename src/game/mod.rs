@@ -7,6 +7,7 @@
 //! ```
 
 pub mod camera;
+pub mod disk;
 pub mod files;
 pub mod follow;
 pub mod frame;
@@ -61,6 +62,7 @@ impl Plugin for GamePlugin {
             .init_resource::<input::pointer::Pointer>()
             .init_resource::<input::pointer::HudCover>()
             .init_resource::<input::keys::Typing>()
+            .init_resource::<input::touch::Fingers>()
             .init_resource::<input::strokes::Held>()
             .init_resource::<render::extract::Epoch>()
             .init_resource::<accuracy::Watched>()

@@ -2,6 +2,7 @@
 
 use crate::{
     game::{
+        disk,
         files::{self, SAVE_ENDING},
         history,
         hud::toast::Toasts,
@@ -15,7 +16,7 @@ use crate::{
 };
 use bevy::prelude::{Resource, World};
 use std::{
-    fs, io,
+    io,
     path::{Path, PathBuf},
     time::SystemTime,
 };
@@ -67,11 +68,9 @@ impl Summary {
 
 /// The save files in `folders` and when each was written, newest first.
 pub fn list(folders: &[PathBuf]) -> Vec<(PathBuf, SystemTime)> {
-    let entries = folders.iter().filter_map(|folder| fs::read_dir(folder).ok()).flatten().flatten();
-    let mut saves: Vec<_> = entries
-        .filter(|entry| entry.path().extension().is_some_and(|ending| ending == SAVE_ENDING))
-        .filter_map(|entry| Some((entry.path(), entry.metadata().ok()?.modified().ok()?)))
-        .collect();
+    let files = folders.iter().flat_map(|folder| disk::list(folder));
+    let mut saves: Vec<_> =
+        files.filter(|(path, _)| path.extension().is_some_and(|ending| ending == SAVE_ENDING)).collect();
     saves.sort_by(|(a, written_a), (b, written_b)| written_b.cmp(written_a).then_with(|| a.cmp(b)));
     saves
 }
@@ -104,5 +103,5 @@ pub fn load(world: &mut World, path: &Path) {
 }
 
 fn read(path: &Path) -> Result<Saved, LoadError> {
-    Ok(save::decode(&fs::read(path)?)?)
+    Ok(save::decode(&disk::read(path)?)?)
 }

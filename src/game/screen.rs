@@ -1,7 +1,7 @@
 //! The window as a whole: full screen and screenshots.
 
 use crate::{
-    game::{files, hud::toast::Toasts},
+    game::{disk, files, hud::toast::Toasts},
     sim::state::{Clock, Setup},
 };
 use bevy::{
@@ -9,6 +9,7 @@ use bevy::{
     render::view::screenshot::{Screenshot, ScreenshotCaptured},
     window::{MonitorSelection, PrimaryWindow, Window, WindowMode},
 };
+use std::{env, path::PathBuf};
 
 /// Covers the monitor, or goes back to a window.
 pub fn toggle_full_screen(world: &mut World) {
@@ -25,7 +26,8 @@ pub fn toggle_full_screen(world: &mut World) {
 pub fn take_screenshot(world: &mut World) {
     let scene = world.get_resource::<Setup>().map_or("world", |setup| setup.blueprint.name.as_str());
     let tick = world.get_resource::<Clock>().map_or(0, |clock| clock.tick);
-    let path = files::free_path(&std::env::current_dir().unwrap_or_default(), scene, tick, "png");
+    let folder = if cfg!(target_arch = "wasm32") { PathBuf::new() } else { env::current_dir().unwrap_or_default() };
+    let path = files::free_path(&folder, scene, tick, "png");
     world.spawn(Screenshot::primary_window()).observe(
         move |captured: On<ScreenshotCaptured>, mut toasts: ResMut<Toasts>| {
             let written = captured
@@ -33,11 +35,24 @@ pub fn take_screenshot(world: &mut World) {
                 .clone()
                 .try_into_dynamic()
                 .map_err(|error| error.to_string())
-                .and_then(|image| image.to_rgb8().save(&path).map_err(|error| error.to_string()));
+                .and_then(|image| {
+                    let image = image.to_rgb8();
+                    encode(image.width(), image.height(), &image).map_err(|error| error.to_string())
+                })
+                .and_then(|bytes| disk::give(&path, &bytes).map_err(|error| error.to_string()));
             match written {
                 Ok(()) => toasts.say(format!("Screenshot: {}", path.display())),
                 Err(error) => toasts.warn(format!("No screenshot: {error}")),
             }
         },
     );
+}
+
+/// A picture of three bytes a pixel as a PNG.
+fn encode(width: u32, height: u32, pixels: &[u8]) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.write_header()?.write_image_data(pixels)?;
+    Ok(bytes)
 }

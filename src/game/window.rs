@@ -10,7 +10,7 @@ use crate::{
 };
 use bevy::{
     DefaultPlugins,
-    app::{App, AppExit, Plugin},
+    app::{App, AppExit},
     camera::{Camera2d, ClearColor},
     color::Color,
     log::LogPlugin,
@@ -89,15 +89,17 @@ fn explain(panic: &str, scene: String) -> GameError {
     GameError::NoWindow { reason: panic.lines().next().unwrap_or("unknown reason").to_owned(), scene }
 }
 
-fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> App {
+pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> App {
     let window = Window {
         title: "Powder Master".into(),
         name: Some("powder-master".into()),
         resolution: WindowResolution::from(WINDOW_SIZE),
         present_mode: PresentMode::AutoVsync,
-        resize_constraints: WindowResizeConstraints { min_width: 480.0, min_height: 320.0, ..Default::default() },
+        resize_constraints: constraints(),
+        // In a page: its canvas. Which of the browser's own keys to keep back is the page's business.
+        canvas: Some("#world".into()),
         fit_canvas_to_parent: true,
-        prevent_default_event_handling: true,
+        prevent_default_event_handling: false,
         ..Window::default()
     };
     let [red, green, blue] = view::SURROUNDINGS;
@@ -108,7 +110,7 @@ fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> App {
             .set(LogPlugin { filter: "error,bevy_winit=off".into(), ..LogPlugin::default() }),
     )
     .add_plugins(EguiPlugin::default())
-    .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin, measuring))
+    .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
     .insert_resource(ClearColor(Color::srgb_u8(red, green, blue)))
     .init_resource::<Room>()
     .add_systems(Startup, spawn_camera)
@@ -118,6 +120,12 @@ fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> App {
         recording::begin(app.world_mut(), path);
     }
     app
+}
+
+/// The smallest window of a desktop; in a page, the page says how large the canvas is.
+fn constraints() -> WindowResizeConstraints {
+    let (min_width, min_height) = if cfg!(target_arch = "wasm32") { (1.0, 1.0) } else { (480.0, 320.0) };
+    WindowResizeConstraints { min_width, min_height, ..Default::default() }
 }
 
 /// How often the title is looked after.

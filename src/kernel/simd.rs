@@ -4,7 +4,16 @@
 //! `#[target_feature]` the compiler turns them into vector registers. Every operation is the IEEE one on each lane (no
 //! fused multiply-add, no estimates), so every width gives the same bits.
 
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+mod quads;
+
 use std::ops::{Add, Div, Mul, Sub};
+
+/// Lanes of [`InstructionSet::Baseline`].
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+type BaselineLanes = quads::Quads;
+#[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
+type BaselineLanes = Array<8>;
 
 /// `WIDTH` numbers that are computed side by side.
 pub(crate) trait Lanes:
@@ -271,7 +280,7 @@ impl InstructionSet {
             Self::Avx512 => 16,
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 => 8,
-            Self::Baseline => 8,
+            Self::Baseline => BaselineLanes::WIDTH,
             Self::Scalar => 1,
         }
     }
@@ -287,7 +296,7 @@ impl InstructionSet {
             #[cfg(target_arch = "x86_64")]
             // SAFETY: `Avx2` is only made where the processor reports AVX2.
             Self::Avx2 => unsafe { run_avx2(pass) },
-            Self::Baseline => pass.run::<Array<8>>(),
+            Self::Baseline => pass.run::<BaselineLanes>(),
             Self::Scalar => pass.run::<Array<1>>(),
         }
     }

@@ -17,13 +17,14 @@ pub mod split;
 pub mod stats;
 pub mod style;
 pub mod toast;
+pub mod touch;
 
 use crate::game::{
     camera::Area,
-    input::{bindings::Action, keys::Typing, pointer::HudCover},
+    input::{bindings::Action, keys::Typing, pointer::HudCover, touch::Fingers},
 };
 use bevy::platform::time::Instant;
-use bevy::prelude::{App, IntoScheduleConfigs, Plugin, PreUpdate, Query, ResMut, Resource, Startup};
+use bevy::prelude::{App, IntoScheduleConfigs, Plugin, PreUpdate, Query, Res, ResMut, Resource, Startup, not};
 use bevy_egui::{EguiContext, EguiContexts, EguiInput, EguiPreUpdateSet, EguiPrimaryContextPass, egui};
 use glam::Vec2;
 
@@ -47,8 +48,8 @@ impl Plugin for HudPlugin {
                     begin,
                     settings::scale_to_window,
                     stats::read,
-                    bar::show,
-                    palette::show,
+                    (bar::show, palette::show).chain().run_if(not(touch::in_use)),
+                    touch::show.run_if(touch::in_use),
                     settings::make_room,
                     brush::show,
                     scenes::show,
@@ -166,8 +167,12 @@ impl HudCost {
 }
 
 /// What a newcomer needs to know.
-fn greet(mut toasts: ResMut<toast::Toasts>) {
-    toasts.say("Left button pours, right button erases, F1 shows all keys");
+fn greet(mut toasts: ResMut<toast::Toasts>, fingers: Res<Fingers>) {
+    toasts.say(if fingers.in_use {
+        "One finger draws, two move and zoom"
+    } else {
+        "Left button pours, right button erases, F1 shows all keys"
+    });
 }
 
 fn begin(mut cost: ResMut<HudCost>, mut contexts: EguiContexts, mut styled: bevy::prelude::Local<bool>) {

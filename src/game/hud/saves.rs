@@ -1,6 +1,7 @@
 //! The list of save files.
 
 use crate::game::{
+    disk,
     hud::{HudState, stats::grouped, style},
     orders::{Order, Orders},
     saves::{self, LoadError, SaveFolders, Summary},
@@ -11,7 +12,7 @@ use bevy_egui::{
     EguiContexts,
     egui::{self, Align2, Color32, RichText, Ui, pos2, vec2},
 };
-use std::{path::PathBuf, time::SystemTime};
+use std::path::PathBuf;
 
 /// Size of a row, points.
 const ROW: egui::Vec2 = vec2(430.0, 42.0);
@@ -87,7 +88,7 @@ fn list(folders: &SaveFolders) -> Vec<SaveFile> {
     let files = saves::list(&folders.0).into_iter();
     files
         .map(|(path, written)| {
-            let age = SystemTime::now().duration_since(written).unwrap_or_default();
+            let age = disk::now().duration_since(written).unwrap_or_default();
             SaveFile { path, age: age_text(age.as_secs()), summary: None }
         })
         .collect()

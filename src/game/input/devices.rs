@@ -1,14 +1,15 @@
-//! Reads keyboard and mouse once a frame, event by event in the order in which they happened: at a low frame rate a
+//! Reads keyboard, mouse and fingers once a frame, event by event in the order in which they happened: at a low frame rate a
 //! whole stroke, or a chord of keys, lies between two frames.
 
 use crate::game::input::{
     bindings::Mods,
     keys::{self, Typing},
     pointer::Hand,
+    touch::Fingers,
 };
 use bevy::{
     input::ButtonState,
-    prelude::{ButtonInput, KeyCode, Local, MessageReader, Real, Res, Time},
+    prelude::{ButtonInput, KeyCode, Local, MessageReader, Real, Res, ResMut, Time},
     window::WindowEvent,
 };
 
@@ -19,6 +20,7 @@ pub fn read_devices(
     typing: Res<Typing>,
     time: Res<Time<Real>>,
     mut mods: Local<Mods>,
+    mut fingers: ResMut<Fingers>,
     mut hand: Hand,
 ) {
     hand.begin_frame();
@@ -32,11 +34,15 @@ pub fn read_devices(
             }
             WindowEvent::CursorMoved(moved) => hand.move_to(moved.position),
             WindowEvent::CursorLeft(_) => hand.leave(),
-            WindowEvent::MouseButtonInput(button) => match button.state {
-                ButtonState::Pressed => hand.press(button.button, *mods),
-                ButtonState::Released => hand.release(button.button),
-            },
+            WindowEvent::MouseButtonInput(button) => {
+                fingers.in_use = false;
+                match button.state {
+                    ButtonState::Pressed => hand.press(button.button, *mods),
+                    ButtonState::Released => hand.release(button.button),
+                }
+            }
             WindowEvent::MouseWheel(wheel) => hand.scroll(wheel, *mods),
+            WindowEvent::TouchInput(touch) => fingers.follow(touch, &mut hand),
             WindowEvent::WindowFocused(focus) if !focus.focused => hand.let_go(),
             _ => {}
         }
@@ -45,5 +51,6 @@ pub fn read_devices(
     if events.is_empty() {
         *mods = Mods::held(&keyboard);
     }
+    fingers.end_frame(time.delta_secs(), &mut hand);
     hand.end_frame(time.delta_secs());
 }

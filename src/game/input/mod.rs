@@ -1,5 +1,5 @@
 //! Devices → intents. `bindings` says which key or button means what; `devices` reads what happened since the last
-//! frame, in its order, and `pointer` and `keys` say what it means; `strokes` turns what the pointer holds into intents,
+//! frame, in its order, and `pointer`, `touch` and `keys` say what it means; `strokes` turns what the pointer holds into intents,
 //! one lot for each tick.
 
 pub mod bindings;
@@ -7,3 +7,4 @@ pub mod devices;
 pub mod keys;
 pub mod pointer;
 pub mod strokes;
+pub mod touch;

@@ -97,6 +97,18 @@ impl Hand<'_> {
         self.pointer.at = None;
     }
 
+    /// Whether the HUD has what happens at `pixel`.
+    pub fn is_over_hud(&self, pixel: Vec2) -> bool {
+        self.cover.covers(pixel)
+    }
+
+    /// The picture grows by `factor` around `pixel`, then moves by `pixels`: the other way round there would be no room to
+    /// move in while all of the box is seen.
+    pub fn move_picture(&mut self, pixel: Vec2, pixels: Vec2, factor: f32) {
+        self.camera.zoom_at(pixel, factor);
+        self.camera.pan(pixels);
+    }
+
     /// The window loses the devices.
     pub fn let_go(&mut self) {
         self.held.release();

@@ -40,6 +40,7 @@ mod keys;
 mod past;
 mod recording;
 mod saves;
+mod touch;
 
 /// The intents that the ticks saw.
 #[derive(Resource, Default)]

@@ -1,0 +1,123 @@
+//! Where the game's files are: a disk, or in a page the browser's own storage.
+
+#[cfg(not(target_arch = "wasm32"))]
+mod native {
+    use crate::game::files::write_whole;
+    use std::{
+        fs, io,
+        path::{Path, PathBuf},
+        time::SystemTime,
+    };
+
+    /// The bytes of a file.
+    pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+        fs::read(path)
+    }
+
+    /// Writes a file into a folder, which is made if there is none.
+    pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
+        path.parent().map_or(Ok(()), fs::create_dir_all)?;
+        write_whole(path, bytes)
+    }
+
+    /// Whether there is such a file.
+    pub fn exists(path: &Path) -> bool {
+        path.exists()
+    }
+
+    /// The files of a folder and when each was written.
+    pub fn list(folder: &Path) -> Vec<(PathBuf, SystemTime)> {
+        let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+        entries.filter_map(|entry| Some((entry.path(), entry.metadata().ok()?.modified().ok()?))).collect()
+    }
+
+    /// The time by which files are dated.
+    pub fn now() -> SystemTime {
+        SystemTime::now()
+    }
+
+    /// Gives the player a new file to look at, such as a picture.
+    pub fn give(path: &Path, bytes: &[u8]) -> io::Result<()> {
+        write(path, bytes)
+    }
+}
+
+#[cfg(target_arch = "wasm32")]
+mod browser {
+    use std::{
+        collections::BTreeMap,
+        io,
+        path::{Path, PathBuf},
+        sync::{Mutex, MutexGuard, PoisonError},
+        time::{Duration, SystemTime},
+    };
+    use wasm_bindgen::prelude::wasm_bindgen;
+
+    // What the page's script does with files (`web/page.js`).
+    #[wasm_bindgen(js_namespace = powderHost)]
+    extern "C" {
+        /// Keeps a file in the browser's own storage.
+        fn keep(path: &str, bytes: &[u8], written: f64);
+
+        /// Gives the player a file, as a download.
+        fn download(name: &str, bytes: &[u8]);
+    }
+
+    /// The files, as the browser's storage has them: read before the game starts, kept up as it writes.
+    static FILES: Mutex<BTreeMap<PathBuf, (Vec<u8>, SystemTime)>> = Mutex::new(BTreeMap::new());
+
+    fn files() -> MutexGuard<'static, BTreeMap<PathBuf, (Vec<u8>, SystemTime)>> {
+        FILES.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn time(milliseconds: f64) -> SystemTime {
+        SystemTime::UNIX_EPOCH + Duration::from_secs_f64(milliseconds.max(0.0) / 1000.0)
+    }
+
+    /// Puts a file where it was: from the browser's storage, before the game starts. `written` is in milliseconds of
+    /// the Unix epoch.
+    #[wasm_bindgen]
+    pub fn restore(path: String, bytes: Vec<u8>, written: f64) {
+        files().insert(PathBuf::from(path), (bytes, time(written)));
+    }
+
+    /// The bytes of a file.
+    pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+        files().get(path).map(|(bytes, _)| bytes.clone()).ok_or_else(|| io::ErrorKind::NotFound.into())
+    }
+
+    /// Writes a file.
+    pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
+        let written = js_sys::Date::now();
+        keep(&path.to_string_lossy(), bytes, written);
+        files().insert(path.to_owned(), (bytes.to_vec(), time(written)));
+        Ok(())
+    }
+
+    /// Whether there is such a file.
+    pub fn exists(path: &Path) -> bool {
+        files().contains_key(path)
+    }
+
+    /// The files of a folder and when each was written.
+    pub fn list(folder: &Path) -> Vec<(PathBuf, SystemTime)> {
+        let inside = |path: &Path| path.parent() == Some(folder);
+        files().iter().filter(|(path, _)| inside(path)).map(|(path, (_, written))| (path.clone(), *written)).collect()
+    }
+
+    /// The time by which files are dated.
+    pub fn now() -> SystemTime {
+        time(js_sys::Date::now())
+    }
+
+    /// Gives the player a new file to look at, such as a picture: a download.
+    pub fn give(path: &Path, bytes: &[u8]) -> io::Result<()> {
+        download(&path.file_name().unwrap_or_default().to_string_lossy(), bytes);
+        Ok(())
+    }
+}
+
+#[cfg(target_arch = "wasm32")]
+pub use browser::{exists, give, list, now, read, write};
+#[cfg(not(target_arch = "wasm32"))]
+pub use native::{exists, give, list, now, read, write};

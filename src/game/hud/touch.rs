@@ -1,0 +1,265 @@
+//! The tools for fingers: in place of bar and palette while the player uses fingers. All that can be pressed is at least
+//! 48 pixels in size.
+
+use crate::{
+    game::{
+        history::History,
+        hud::{
+            HudState,
+            icons::{self, Icon},
+            palette::{colour_of, icon_of},
+            settings::Room,
+            stats::Readings,
+            style,
+        },
+        input::{bindings::Action, touch::Fingers},
+        orders::{Order, Orders, Shown},
+        tools::{Tool, Toolbox},
+    },
+    kernel::brush::BrushShape,
+    scene,
+    sim::{pace::Pace, state::Setup, view::View},
+};
+use bevy::{
+    ecs::system::SystemParam,
+    prelude::{Local, Res, ResMut, Result},
+};
+use bevy_egui::{
+    EguiContexts,
+    egui::{self, Align2, Color32, RichText, Ui, vec2},
+};
+
+/// Side of what can be pressed, pixels.
+const TARGET: f32 = 48.0;
+/// Width of a tool, pixels.
+const TILE_WIDTH: f32 = 60.0;
+
+/// A list that is open above the tools.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Sheet {
+    /// None.
+    #[default]
+    Closed,
+    /// The scenes: name and title.
+    Scenes(Vec<(String, String)>),
+    /// The views.
+    Views,
+}
+
+/// What the tools show.
+#[derive(SystemParam)]
+pub struct Scene<'w> {
+    state: Res<'w, HudState>,
+    setup: Res<'w, Setup>,
+    pace: Res<'w, Pace>,
+    history: Res<'w, History>,
+    readings: Res<'w, Readings>,
+    shown: Res<'w, Shown>,
+}
+
+/// Run condition: the player uses fingers.
+pub fn in_use(fingers: Res<Fingers>) -> bool {
+    fingers.in_use
+}
+
+/// Shows the tools, or the one button that brings them back.
+pub fn show(
+    mut contexts: EguiContexts,
+    scene: Scene,
+    mut tools: ResMut<Toolbox>,
+    mut room: ResMut<Room>,
+    mut orders: ResMut<Orders>,
+    mut sheet: Local<Sheet>,
+) -> Result {
+    let Scene { state, setup, pace, history, readings, shown } = scene;
+    *room = Room::default();
+    let context = contexts.ctx_mut()?;
+    let screen = context.content_rect();
+    let unit = 1.0 / context.zoom_factor();
+    if !state.visible {
+        *sheet = Sheet::Closed;
+        egui::Area::new("touch again".into()).anchor(Align2::RIGHT_BOTTOM, vec2(-8.0, -8.0) * unit).show(
+            context,
+            |ui| {
+                if button(ui, unit, Icon::Drop, true, true) {
+                    orders.push(Order::Act(Action::Hud));
+                }
+            },
+        );
+        return Ok(());
+    }
+    let bar = egui::Area::new("touch".into())
+        .anchor(Align2::LEFT_BOTTOM, vec2(0.0, 0.0))
+        .order(egui::Order::Middle)
+        .constrain(false)
+        .show(context, |ui| {
+            egui::Frame::new().fill(style::PANEL).inner_margin(4.0).show(ui, |ui| {
+                ui.set_width(screen.width() - 8.0);
+                ui.spacing_mut().item_spacing = vec2(4.0, 4.0) * unit;
+                row(ui, "tools", |ui| choose(ui, unit, &setup, tools.tool, &mut orders));
+                row(ui, "acts", |ui| {
+                    act(ui, unit, &pace, &history, &mut orders);
+                    size(ui, unit, &mut tools);
+                    menus(ui, unit, &mut sheet, &mut orders);
+                });
+            });
+        });
+    room.bottom = screen.bottom() - bar.response.rect.top();
+    if *sheet != Sheet::Closed {
+        let above = screen.with_max_y(bar.response.rect.top());
+        if list(context, above, unit, &sheet, &setup, shown.0, &mut orders) {
+            *sheet = Sheet::Closed;
+        }
+    }
+    egui::Area::new("touch numbers".into()).fixed_pos(egui::pos2(8.0, 6.0)).interactable(false).show(context, |ui| {
+        let total = format!("{} {}", readings.total.value, readings.total.unit);
+        let pace = readings.pace.iter().map(|reading| format!("{} {}", reading.value, reading.unit));
+        let text = [total].into_iter().chain(pace).collect::<Vec<_>>().join("   ");
+        ui.label(RichText::new(text).small().color(style::WEAK));
+    });
+    Ok(())
+}
+
+/// A row that a finger can push sideways if it is longer than the screen.
+fn row(ui: &mut Ui, name: &str, add: impl FnOnce(&mut Ui)) {
+    let scroll = egui::ScrollArea::horizontal().id_salt(name);
+    let scroll = scroll.scroll_bar_visibility(egui::scroll_area::ScrollBarVisibility::AlwaysHidden);
+    scroll.show(ui, |ui| ui.horizontal(add));
+}
+
+fn choose(ui: &mut Ui, unit: f32, setup: &Setup, chosen: Tool, orders: &mut Orders) {
+    let elements = setup
+        .elements()
+        .iter()
+        .map(|(id, element)| (Tool::Element(id), icon_of(element), colour_of(element), element.name.as_str()));
+    let others = Tool::OTHERS.into_iter().zip([Icon::Eraser, Icon::Wind, Icon::Pressure]);
+    let others = others.map(|(tool, icon)| (tool, icon, style::TEXT, tool.name(setup.elements())));
+    for (tool, icon, colour, name) in elements.chain(others) {
+        let (rect, response) = ui.allocate_exact_size(vec2(TILE_WIDTH, TARGET) * unit, egui::Sense::click());
+        let fill = if chosen == tool { style::ACCENT_FILL } else { style::BUTTON };
+        let painter = ui.painter();
+        painter.rect_filled(rect, style::BUTTON_CORNER, fill);
+        icons::draw(painter, icons::square(rect.center() - vec2(0.0, 7.0) * unit, 22.0 * unit), icon, colour);
+        let text = if chosen == tool { Color32::WHITE } else { style::TEXT };
+        let font = egui::FontId::proportional(11.0 * unit);
+        painter.text(rect.center_bottom() - vec2(0.0, 3.0) * unit, Align2::CENTER_BOTTOM, name, font, text);
+        if response.clicked() {
+            orders.push(Order::Choose(tool));
+        }
+    }
+}
+
+/// A button with an icon; whether it is pressed.
+fn button(ui: &mut Ui, unit: f32, icon: Icon, active: bool, enabled: bool) -> bool {
+    let (rect, response) = ui.allocate_exact_size(vec2(TARGET, TARGET) * unit, egui::Sense::click());
+    let fill = if active { style::ACCENT_FILL } else { style::BUTTON };
+    ui.painter().rect_filled(rect, style::BUTTON_CORNER, fill);
+    let colour = match (enabled, active) {
+        (false, _) => style::LINE,
+        (true, true) => style::ACCENT,
+        (true, false) => style::TEXT,
+    };
+    icons::draw(ui.painter(), icons::square(rect.center(), 22.0 * unit), icon, colour);
+    enabled && response.clicked()
+}
+
+fn act(ui: &mut Ui, unit: f32, pace: &Pace, history: &History, orders: &mut Orders) {
+    let (back, forth) = history.reach();
+    let time = if pace.paused { Icon::Play } else { Icon::Pause };
+    for (icon, action, active, enabled) in [
+        (Icon::Close, Action::Hud, false, true),
+        (time, Action::Pause, pace.paused, true),
+        (Icon::Step, Action::Step, false, true),
+        (Icon::Undo, Action::Undo, false, back),
+        (Icon::Redo, Action::Redo, false, forth),
+        (Icon::Reset, Action::Reset, false, true),
+    ] {
+        if button(ui, unit, icon, active, enabled) {
+            orders.push(Order::Act(action));
+        }
+    }
+}
+
+/// Size and shape of the brush.
+fn size(ui: &mut Ui, unit: f32, tools: &mut ResMut<Toolbox>) {
+    let mut step = |ui: &mut Ui, text: &str, steps: i32| {
+        let text = RichText::new(text).size(20.0 * unit);
+        if ui.add_sized(vec2(TARGET, TARGET) * unit, egui::Button::new(text)).clicked() {
+            tools.grow(steps);
+        }
+    };
+    step(ui, "−", -1);
+    step(ui, "+", 1);
+    let icon = if tools.shape == BrushShape::Disc { Icon::Round } else { Icon::Square };
+    if button(ui, unit, icon, false, true) {
+        tools.turn_shape();
+    }
+}
+
+fn menus(ui: &mut Ui, unit: f32, sheet: &mut Sheet, orders: &mut Orders) {
+    if button(ui, unit, Icon::Scenes, matches!(sheet, Sheet::Scenes(_)), true) {
+        *sheet = if matches!(sheet, Sheet::Scenes(_)) { Sheet::Closed } else { Sheet::Scenes(titles()) };
+    }
+    if button(ui, unit, Icon::Eye, *sheet == Sheet::Views, true) {
+        *sheet = if *sheet == Sheet::Views { Sheet::Closed } else { Sheet::Views };
+    }
+    for (icon, action) in [(Icon::Save, Action::Save), (Icon::Load, Action::Saves)] {
+        if button(ui, unit, icon, false, true) {
+            orders.push(Order::Act(action));
+        }
+    }
+}
+
+fn titles() -> Vec<(String, String)> {
+    let scenes = scene::builtin_names().into_iter().filter_map(|name| scene::load(name).ok());
+    scenes.map(|scene| (scene.name().to_owned(), scene.title().to_owned())).collect()
+}
+
+/// The open list; whether something was chosen.
+fn list(
+    context: &egui::Context,
+    above: egui::Rect,
+    unit: f32,
+    sheet: &Sheet,
+    setup: &Setup,
+    shown: View,
+    orders: &mut Orders,
+) -> bool {
+    let lines: Vec<(&str, bool, Order)> = match sheet {
+        Sheet::Closed => return false,
+        Sheet::Scenes(scenes) => scenes
+            .iter()
+            .map(|(name, title)| {
+                let order = Order::Scene { name: name.clone(), settings: Vec::new() };
+                (title.as_str(), *name == setup.blueprint.name, order)
+            })
+            .collect(),
+        Sheet::Views => {
+            View::ALL.into_iter().map(|view| (view.name(), view == shown, Order::Act(Action::View(view)))).collect()
+        }
+    };
+    let mut pressed = None;
+    let area = egui::Area::new("touch list".into()).pivot(Align2::CENTER_BOTTOM).fixed_pos(above.center_bottom());
+    area.order(egui::Order::Foreground).show(context, |ui| {
+        egui::Frame::window(ui.style()).show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 2.0;
+            egui::ScrollArea::vertical().max_height(above.height() - 48.0 * unit).show(ui, |ui| {
+                for (text, chosen, order) in lines {
+                    let size = vec2((above.width() - 64.0 * unit).min(320.0 * unit), TARGET * unit);
+                    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
+                    let fill = if chosen { style::ACCENT_FILL } else { style::BUTTON };
+                    ui.painter().rect_filled(rect, style::BUTTON_CORNER, fill);
+                    let font = egui::FontId::proportional(16.0 * unit);
+                    let at = rect.left_center() + vec2(12.0, 0.0) * unit;
+                    ui.painter().text(at, Align2::LEFT_CENTER, text, font, Color32::WHITE);
+                    if response.clicked() {
+                        pressed = Some(order);
+                    }
+                }
+            });
+        });
+    });
+    let chosen = pressed.is_some();
+    pressed.into_iter().for_each(|order| orders.push(order));
+    chosen
+}

@@ -1,0 +1,136 @@
+//! Fingers: one does what the left button does, two move and zoom the picture.
+//!
+//! A second finger never comes down at the same moment as the first, so the first one waits a moment before it draws.
+
+use crate::game::input::{bindings::Mods, pointer::Hand};
+use bevy::{
+    input::touch::{TouchInput, TouchPhase},
+    prelude::{MouseButton, Resource},
+};
+use glam::Vec2;
+
+/// Time that the first finger waits for a second, s.
+const PATIENCE: f32 = 0.08;
+/// A finger that moves this far draws at once, pixels.
+const DECIDED: f32 = 8.0;
+/// Fingers closer than this don't zoom, pixels.
+const CLOSEST: f32 = 16.0;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Finger {
+    id: u64,
+    /// Where it came down, pixels.
+    began: Vec2,
+    /// Where it is, pixels.
+    at: Vec2,
+}
+
+/// What the fingers are doing, from the first that comes down to the last that goes up.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum Doing {
+    #[default]
+    Nothing,
+    /// One finger is down; for how long, s.
+    Waiting(f32),
+    Drawing,
+    Moving,
+    /// What is begun over the HUD is the HUD's, and what is left of two fingers is nobody's.
+    Other,
+}
+
+/// The fingers on the screen.
+#[derive(Resource, Clone, Debug, Default, PartialEq)]
+pub struct Fingers {
+    /// Whether the player uses fingers: then the HUD has tools that are large enough for them.
+    pub in_use: bool,
+    down: Vec<Finger>,
+    doing: Doing,
+}
+
+impl Fingers {
+    /// A finger comes, moves or goes.
+    pub fn follow(&mut self, touch: &TouchInput, hand: &mut Hand) {
+        match touch.phase {
+            TouchPhase::Started => self.put(touch.id, touch.position, hand),
+            TouchPhase::Moved => self.slide(touch.id, touch.position, hand),
+            TouchPhase::Ended => self.lift(touch.id, true, hand),
+            TouchPhase::Canceled => self.lift(touch.id, false, hand),
+        }
+    }
+
+    /// A frame of `seconds` ends.
+    pub fn end_frame(&mut self, seconds: f32, hand: &mut Hand) {
+        if let Doing::Waiting(waited) = self.doing {
+            self.doing = Doing::Waiting(waited + seconds);
+            if waited + seconds > PATIENCE {
+                self.draw(hand);
+            }
+        }
+    }
+
+    fn put(&mut self, id: u64, at: Vec2, hand: &mut Hand) {
+        self.in_use = true;
+        // The end of an earlier touch may have been missed: a page can lose its events.
+        self.down.retain(|finger| finger.id != id);
+        self.down.push(Finger { id, began: at, at });
+        self.doing = match (self.down.len(), self.doing) {
+            (1, _) if hand.is_over_hud(at) => Doing::Other,
+            (1, _) => Doing::Waiting(0.0),
+            (_, Doing::Drawing) => {
+                hand.let_go();
+                Doing::Moving
+            }
+            (_, Doing::Waiting(_)) => Doing::Moving,
+            (_, doing) => doing,
+        };
+    }
+
+    fn slide(&mut self, id: u64, at: Vec2, hand: &mut Hand) {
+        let before = self.pair();
+        let Some(finger) = self.down.iter_mut().find(|finger| finger.id == id) else { return };
+        finger.at = at;
+        let far = finger.began.distance(at) > DECIDED;
+        match self.doing {
+            Doing::Waiting(_) if far => self.draw(hand),
+            Doing::Drawing => hand.move_to(at),
+            Doing::Moving => {
+                if let (Some((middle, width)), Some((old_middle, old_width))) = (self.pair(), before) {
+                    hand.move_picture(old_middle, middle - old_middle, width / old_width);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn lift(&mut self, id: u64, done: bool, hand: &mut Hand) {
+        if let (Doing::Waiting(_), true) = (self.doing, done) {
+            self.draw(hand);
+        }
+        self.down.retain(|finger| finger.id != id);
+        match self.doing {
+            Doing::Drawing if done => hand.release(MouseButton::Left),
+            Doing::Drawing => hand.let_go(),
+            Doing::Moving => self.doing = Doing::Other,
+            _ => {}
+        }
+        if self.down.is_empty() {
+            self.doing = Doing::Nothing;
+            hand.leave();
+        }
+    }
+
+    /// The finger that waited begins to draw.
+    fn draw(&mut self, hand: &mut Hand) {
+        let Some(finger) = self.down.first() else { return };
+        hand.move_to(finger.began);
+        hand.press(MouseButton::Left, Mods::default());
+        hand.move_to(finger.at);
+        self.doing = Doing::Drawing;
+    }
+
+    /// Middle and distance of the first two fingers.
+    fn pair(&self) -> Option<(Vec2, f32)> {
+        let [a, b, ..] = self.down.as_slice() else { return None };
+        Some(((a.at + b.at) / 2.0, a.at.distance(b.at).max(CLOSEST)))
+    }
+}

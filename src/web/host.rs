@@ -1,0 +1,17 @@
+//! What the page's script does for the program: the object `powderHost`, which `web/page.js` and `web/worker.js` set up.
+
+use wasm_bindgen::prelude::wasm_bindgen;
+
+#[wasm_bindgen(js_namespace = powderHost)]
+extern "C" {
+    /// Tells the player that the program ended, and why.
+    pub(super) fn failed(message: &str);
+
+    /// Takes the progress bar away: the first frame is drawn.
+    pub(super) fn painted();
+}
+
+/// Tells of a panic in whatever thread.
+pub(super) fn tell_of_panics() {
+    std::panic::set_hook(Box::new(|panic| failed(&panic.to_string())));
+}

@@ -1,0 +1,103 @@
+//! What the part of a link after `#` asks for: `scene=dam_break&columns=71&quality=fine`.
+
+use crate::{
+    kernel::params::Preset,
+    scene::{
+        self, SceneError,
+        blueprint::{Blueprint, EffectModes},
+    },
+};
+
+/// The scene of a link that names none.
+const DEFAULT_SCENE: &str = "waterfall";
+
+/// What a link asks for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Link {
+    /// Name of the scene.
+    pub scene: String,
+    /// The quality, if it is not to be the scene's own.
+    pub quality: Option<Preset>,
+    /// Parameters of the scene, and numbers of quality and liquid: what `--set` takes.
+    pub settings: Vec<(String, String)>,
+}
+
+/// Why a link can't be followed.
+#[derive(Debug, thiserror::Error)]
+pub enum LinkError {
+    /// The scene, or a parameter of it.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The quality.
+    #[error("quality `{name}`: no such quality; allowed: {}", Preset::ALL.map(Preset::name).join(", "))]
+    Quality {
+        /// What the link calls it.
+        name: String,
+    },
+    /// The page's script passed something else than a list of pairs.
+    #[error("not a list of names and values: {0}")]
+    Form(#[from] serde_json::Error),
+}
+
+impl Link {
+    /// Reads names and values, decoded, as a JSON list of pairs of strings. `scene` and `quality` are the link's own
+    /// words, all others the scene's.
+    ///
+    /// # Errors
+    /// If it is no such list, or the quality does not exist.
+    pub fn read(pairs: &str) -> Result<Self, LinkError> {
+        let mut link = Self { scene: DEFAULT_SCENE.to_owned(), quality: None, settings: Vec::new() };
+        for (name, value) in serde_json::from_str::<Vec<(String, String)>>(pairs)? {
+            match name.as_str() {
+                "scene" => link.scene = value,
+                "quality" => link.quality = Some(Preset::find(&value).ok_or(LinkError::Quality { name: value })?),
+                _ => link.settings.push((name, value)),
+            }
+        }
+        Ok(link)
+    }
+
+    /// Builds the scene.
+    ///
+    /// # Errors
+    /// If there is no such scene, or it does not take a setting.
+    pub fn build(&self) -> Result<Blueprint, LinkError> {
+        Ok(scene::load(&self.scene)?.build(&self.settings, self.quality, &EffectModes::new())?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn error(pairs: &str) -> String {
+        Link::read(pairs).and_then(|link| link.build()).expect_err("must be refused").to_string()
+    }
+
+    #[test]
+    fn a_link_names_scene_quality_and_parameters() {
+        let link = Link::read(r#"[["scene","dam_break"],["columns","9"],["quality","fine"]]"#).expect("is sound");
+        let blueprint = link.build().expect("exists");
+        assert_eq!((blueprint.name.as_str(), blueprint.preset), ("dam_break", Preset::Fine));
+        assert_eq!(blueprint.parameters["columns"], 9.0);
+    }
+
+    #[test]
+    fn an_empty_link_is_the_waterfall() {
+        assert_eq!(Link::read("[]").and_then(|link| link.build()).expect("exists").name, "waterfall");
+    }
+
+    #[test]
+    fn a_bad_link_says_what_is_wrong_in_one_line() {
+        for (pairs, about) in [
+            (r#"[["scene","nowhere"]]"#, "nowhere"),
+            (r#"[["scene","dam_break"],["columns","many"]]"#, "columns"),
+            (r#"[["scene","dam_break"],["colums","9"]]"#, "colums"),
+            (r#"[["quality","perfect"]]"#, "allowed: classic, draft"),
+            ("scene=empty", "list"),
+        ] {
+            let error = error(pairs);
+            assert!(error.contains(about) && error.lines().count() == 1, "{error}");
+        }
+    }
+}

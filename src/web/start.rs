@@ -1,0 +1,35 @@
+//! Opens the game on the page.
+
+use crate::{
+    game::{hud::toast::Toasts, input::touch::Fingers, window},
+    lab::{exam::desk, live::LivePlugin},
+    sim::control,
+    web::{hook, host, link::Link},
+};
+use std::sync::Arc;
+use wasm_bindgen::prelude::{JsError, wasm_bindgen};
+
+/// Plays what a link asks for (a JSON list of pairs) on the page's canvas, with tools for fingers if `touch`. What can't
+/// be followed is told, and the default scene played.
+///
+/// # Errors
+/// If there is no scene to play.
+#[wasm_bindgen]
+pub fn start(link: &str, touch: bool) -> Result<(), JsError> {
+    host::tell_of_panics();
+    let (blueprint, problem) = match Link::read(link).and_then(|link| link.build()) {
+        Ok(blueprint) => (blueprint, None),
+        Err(error) => (Link::read("[]")?.build()?, Some(error)),
+    };
+    let mut app = window::build(None, |app| {
+        app.add_plugins((desk::plugin, LivePlugin));
+        control::load(app.world_mut(), Arc::new(blueprint));
+    });
+    app.add_plugins(hook::plugin);
+    app.world_mut().resource_mut::<Fingers>().in_use = touch;
+    if let Some(error) = problem {
+        app.world_mut().resource_mut::<Toasts>().warn(error.to_string());
+    }
+    app.run();
+    Ok(())
+}
