@@ -516,7 +516,12 @@ fn bench_scaling_writes_table_json_and_curves() {
         r#"[{"name": "another program", "figures": [{"particles": 1500, "ms": 9, "error_p99": 0.2}, {"particles": 1e4, "ms": 61}]}]"#,
     )
     .unwrap();
-    refused(&here, &["bench", "scaling", "--quick", "--beside", "others.json"], 2, &["others.json", "1e4", "allowed"]);
+    refused(
+        &here,
+        &["bench", "scaling", "--quick", "--beside", "others.json"],
+        2,
+        &["others.json", "10000", "allowed"],
+    );
     let good_one = r#"[{"name": "another program", "figures": [{"particles": 1500, "ms": 9, "error_p99": 0.2}]}]"#;
     std::fs::write(here.join("others.json"), good_one).unwrap();
     // The smallest size only.

@@ -47,8 +47,9 @@ fn still_water_stays_still() {
         let (size, ticks) = if preset == Preset::Reference { (20, 150) } else { (30, 300) };
         let Rest { rms, height, error, gap } = rest(preset, size, size, ticks);
         let name = preset.name();
-        // The plain method has no predictor: it simmers, and it gives way at the bottom.
-        let most = if preset.quality().predictor { (0.02, 0.02, 0.002, 0.6) } else { (0.15, 0.04, 0.05, 0.2) };
+        // The plain method has no predictor: it simmers, it gives way at the bottom, and it clumps: from one size of pool to
+        // the next the gap goes from 0.15 to 0.28 d, where with the predictor it is 0.79 d.
+        let most = if preset.quality().predictor { (0.02, 0.02, 0.002, 0.6) } else { (0.15, 0.04, 0.05, 0.12) };
         assert!(rms <= most.0, "{name}: the pool boils at {rms} d a tick");
         assert!((height - 1.0).abs() <= most.1, "{name}: the pool stands at {height} of its height");
         assert!(error <= most.2, "{name}: a mean density error of {error} at rest");

@@ -11,7 +11,8 @@ const FLAGS: [&str; 3] = [
 ];
 
 /// For the module as a whole: a memory that threads can share, of at most 2 GiB, and what starts a thread.
-const MODULE_FLAGS: [&str; 8] = [
+const MODULE_FLAGS: [&str; 9] = [
+    "-Clto=fat",
     "-Clink-arg=--shared-memory",
     "-Clink-arg=--import-memory",
     "-Clink-arg=--max-memory=2147483648",
