@@ -7,7 +7,10 @@ use crate::{
 use bevy::{
     MinimalPlugins,
     app::{App, PluginGroup, Plugins, ScheduleRunnerPlugin},
-    ecs::world::World,
+    ecs::{
+        schedule::{Schedules, SingleThreadedExecutor},
+        world::World,
+    },
     time::TimeUpdateStrategy,
 };
 use std::sync::Arc;
@@ -37,6 +40,10 @@ impl Headless {
         load(app.world_mut());
         app.finish();
         app.cleanup();
+        // Beside the tick there is hardly anything to run.
+        for (_, schedule) in app.world_mut().resource_mut::<Schedules>().iter_mut() {
+            schedule.set_executor(SingleThreadedExecutor::new());
+        }
         // The clock's first update has no time in it and runs no tick.
         app.update();
         Self { app }

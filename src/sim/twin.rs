@@ -15,10 +15,7 @@ use crate::{
         workers::Workers,
     },
 };
-use bevy::{
-    ecs::schedule::SingleThreadedExecutor,
-    prelude::{App, FixedUpdate, World},
-};
+use bevy::prelude::{App, FixedUpdate, World};
 use std::sync::Arc;
 
 /// Everything that a second world starts from.
@@ -58,10 +55,6 @@ impl Twin {
     pub fn new(seed: &Seed, workers: Workers) -> Self {
         let mut app = App::empty();
         app.add_plugins(SimulationPlugin).insert_resource(workers);
-        app.edit_schedule(FixedUpdate, |schedule| {
-            // A chain of stages: nothing of it could run side by side, and it may run on any thread.
-            schedule.set_executor(SingleThreadedExecutor::new());
-        });
         let mut world = std::mem::take(app.world_mut());
         control::load(&mut world, seed.setup.blueprint.clone());
         world.insert_resource(seed.setup.clone());

@@ -25,6 +25,11 @@ pub use step::TickPlan;
 
 /// Adds the stages in their order.
 pub(super) fn plugin(app: &mut App) {
+    // The stages are a chain: there is nothing to run side by side, and handing each to another thread takes longer than
+    // some of them and allocates.
+    app.edit_schedule(FixedUpdate, |schedule| {
+        schedule.set_executor(SingleThreadedExecutor::new());
+    });
     app.configure_sets(
         FixedUpdate,
         (
@@ -51,7 +56,7 @@ pub(super) fn plugin(app: &mut App) {
 
 fn substep_schedule() -> Schedule {
     let mut schedule = Schedule::new(Substep);
-    // The stages are a chain: there is nothing to run side by side, and the threads belong to the kernel.
+    // A chain, too.
     schedule.set_executor(SingleThreadedExecutor::new());
     schedule.set_build_settings(ScheduleBuildSettings { ambiguity_detection: LogLevel::Error, ..Default::default() });
     schedule.configure_sets(
