@@ -1,5 +1,6 @@
 //! Accuracy: what a run is measured by, and what it leaves behind. Everything here reads the simulation's resources and
-//! changes none, so that a measured world has the hash of an unmeasured one.
+//! changes none, so that a measured world has the hash of an unmeasured one. What only the command line asks for is not
+//! in the page.
 
 pub mod balance;
 pub mod binning;
@@ -14,13 +15,16 @@ pub mod metrics;
 pub mod moment;
 pub mod particle_list;
 pub mod picture;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod plot;
 pub mod reference;
 pub mod rest_density;
 pub mod run;
 pub mod sampler;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod scaling;
 pub mod stats;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod sweep;
 #[cfg(test)]
 mod testing;

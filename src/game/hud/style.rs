@@ -1,7 +1,9 @@
 //! The look of the HUD: colours, sizes, spacing.
 
 use crate::game::hud::icons::{self, Icon};
-use bevy_egui::egui::{self, Color32, CornerRadius, FontId, Margin, Shadow, Stroke, TextStyle, Vec2};
+use bevy_egui::egui::{
+    self, Color32, CornerRadius, FontId, Margin, Shadow, Stroke, TextStyle, Vec2, style::ScrollStyle,
+};
 
 /// Behind bars and windows.
 pub const PANEL: Color32 = Color32::from_rgb(19, 23, 32);
@@ -44,6 +46,8 @@ pub fn dress(context: &egui::Context) {
             (TextStyle::Heading, FontId::proportional(17.0)),
         ]
         .into();
+        // A bar beside what it scrolls, not over it.
+        style.spacing.scroll = ScrollStyle::solid();
         style.spacing.item_spacing = Vec2::new(8.0, 6.0);
         style.spacing.button_padding = Vec2::new(9.0, 4.0);
         style.spacing.interact_size = Vec2::new(32.0, 24.0);

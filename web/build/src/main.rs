@@ -77,7 +77,7 @@ fn run(options: &Options) -> Result<(), Fault> {
 fn build(places: &Places, quick: bool) -> Result<(), Fault> {
     let begun = Instant::now();
     source::require()?;
-    let module = compile::compile(places)?;
+    let module = compile::compile(places, quick)?;
     let bound = bind::bind(&module, places)?;
     let bound = if quick { bound } else { optimise::optimise(&bound, places)? };
     pack::pack(&bound, places, !quick)?;
