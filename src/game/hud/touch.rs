@@ -9,7 +9,7 @@ use crate::{
             icons::{self, Icon},
             palette::{colour_of, icon_of},
             settings::Room,
-            stats::Readings,
+            stats::{Reading, Readings},
             style,
         },
         input::{bindings::Action, touch::Fingers},
@@ -112,10 +112,15 @@ pub fn show(
         }
     }
     egui::Area::new("touch numbers".into()).fixed_pos(egui::pos2(8.0, 6.0)).interactable(false).show(context, |ui| {
-        let total = format!("{} {}", readings.total.value, readings.total.unit);
-        let pace = readings.pace.iter().map(|reading| format!("{} {}", reading.value, reading.unit));
-        let text = [total].into_iter().chain(pace).collect::<Vec<_>>().join("   ");
-        ui.label(RichText::new(text).small().color(style::WEAK));
+        ui.set_max_width(screen.width() - 16.0);
+        ui.spacing_mut().item_spacing = vec2(10.0, 2.0) * unit;
+        ui.horizontal_wrapped(|ui| {
+            for Reading { value, unit: what, .. } in [&readings.total].into_iter().chain(&readings.pace) {
+                let text = RichText::new(format!("{value} {what}")).size(12.0 * unit).color(style::WEAK);
+                // A number stays with its unit.
+                ui.add(egui::Label::new(text).extend());
+            }
+        });
     });
     Ok(())
 }
