@@ -14,6 +14,9 @@ const MOST_SECONDS: f64 = 100_000.0;
 /// Longest run, ticks.
 const MOST_TICKS: u64 = MOST_SECONDS as u64 * TICKS_PER_SECOND as u64;
 
+/// Longest soak, h.
+const MOST_HOURS: f64 = 1000.0;
+
 /// Most threads that can be asked for.
 const MOST_THREADS: u64 = 256;
 
@@ -41,6 +44,8 @@ pub(super) enum Command {
     Bench(BenchArguments),
     /// Compare the physics with known answers, at each quality
     Exam(ExamArguments),
+    /// Play a scene for hours by a script, and see that nothing grows or gets lost
+    Soak(SoakArguments),
     /// Repeat an experiment of the report on the original game
     Study(StudyArguments),
     /// Measure what accuracy costs in a scene: curve.csv, curve.svg, curve.png, summary.md
@@ -132,6 +137,37 @@ pub(super) struct ExamArguments {
     /// Cases at a time, each on one thread; they never change the result [default: one a processor]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
     pub(super) threads: Option<u64>,
+}
+
+/// `soak`.
+#[derive(Debug, Args)]
+pub(super) struct SoakArguments {
+    /// Scene: a name of `list scenes`, or the path of a scene file
+    pub(super) scene: String,
+    /// Simulated time
+    #[arg(long, value_name = "HOURS", value_parser = hours, default_value = "24", allow_negative_numbers = true)]
+    pub(super) hours: Minutes,
+    /// Quality: a name of `list qualities` [default: the scene's]
+    #[arg(long, value_name = "QUALITY", value_parser = preset)]
+    pub(super) quality: Option<Preset>,
+    /// Set a parameter of the scene, or a number of the quality or the liquid
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    pub(super) settings: Vec<(String, String)>,
+    /// End at the first minute of simulated time after this much real time, and judge what there is
+    #[arg(long, value_name = "HOURS", value_parser = hours, allow_negative_numbers = true)]
+    pub(super) within: Option<Minutes>,
+    /// Whims of the player: the same number, the same play
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(super) seed: u64,
+    /// Write the figures as JSON; `-` is stdout
+    #[arg(long, value_name = "FILE.json")]
+    pub(super) json: Option<PathBuf>,
+    /// Threads of the simulation; they never change the result [default: all]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+    pub(super) threads: Option<u64>,
+    /// Instruction set of the simulation: auto, or a narrower one than the processor's best; it never changes the result
+    #[arg(long, value_name = "SET", default_value = "auto", hide_default_value = true, value_parser = simd)]
+    pub(super) simd: InstructionSet,
 }
 
 /// `study`.
@@ -304,6 +340,20 @@ fn seconds(text: &str) -> Result<Ticks, String> {
         Ok(Ticks(ticks.round() as u64))
     } else {
         Err(format!("allowed: seconds from 1/{TICKS_PER_SECOND} (one tick) to {MOST_SECONDS}"))
+    }
+}
+
+/// A simulated time, in minutes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Minutes(pub(super) u64);
+
+fn hours(text: &str) -> Result<Minutes, String> {
+    let minutes = text.parse().map_or(f64::NAN, |hours: f64| hours * 60.0);
+    // Written so that a NaN is refused, too.
+    if (0.999..=MOST_HOURS * 60.0).contains(&minutes) {
+        Ok(Minutes(minutes.round() as u64))
+    } else {
+        Err(format!("allowed: hours from 1/60 (a minute) to {MOST_HOURS}"))
     }
 }
 

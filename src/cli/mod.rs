@@ -10,6 +10,7 @@ mod output;
 mod play;
 mod progress;
 mod run;
+mod soak;
 mod start;
 mod study;
 mod sweep;
@@ -48,6 +49,7 @@ fn dispatch(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Run(run)) => run::run(&run),
         Some(Command::Bench(bench)) => bench::bench(&bench),
         Some(Command::Exam(arguments)) => exam::exam(&arguments),
+        Some(Command::Soak(arguments)) => soak::soak(&arguments),
         Some(Command::Study(study)) => study::study(&study),
         Some(Command::Sweep(sweep)) => sweep::sweep(&sweep),
         Some(Command::List { what }) => list::list(what),

@@ -69,6 +69,18 @@ impl Start {
         }
     }
 
+    /// Reads what `soak` names.
+    pub(super) fn of_soak(
+        name_or_path: &str,
+        settings: &[(String, String)],
+        quality: Option<Preset>,
+    ) -> Result<Self, Failure> {
+        match Self::read(name_or_path, settings, quality, EffectModes::new())? {
+            Self::Saved(..) => Err(only_a_scene(name_or_path, "soak")),
+            start => Ok(start),
+        }
+    }
+
     /// Reads what `sweep` names.
     pub(super) fn of_sweep(name_or_path: &str, settings: &[(String, String)]) -> Result<Self, Failure> {
         Self::read(name_or_path, settings, None, EffectModes::new())

@@ -23,6 +23,8 @@ pub mod run;
 pub mod sampler;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod scaling;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod soak;
 pub mod stats;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod sweep;

@@ -6,6 +6,7 @@ use crate::{
         balance::Matter,
         density::density_error,
         drift::Drift,
+        machine,
         metrics::{Accuracy, EffectCost, Metrics, ParticleCount, Sampling, Stability, Stage, TickTimes},
         run::Observer,
         stats,
@@ -88,7 +89,7 @@ impl Sampler {
             sampling: Sampling { ms_total: ms(self.spent), ms_median: stats::quantile(&mut self.samples.ms, 0.5) },
             stability: stability(world),
             memory_bytes: memory_bytes(world),
-            peak_rss_bytes: peak_rss_bytes(),
+            peak_rss_bytes: machine::memory().map(|memory| memory.peak),
             ms_per_tick: TickTimes {
                 max: stats::largest(&self.tick_ms),
                 p95: stats::quantile(&mut self.tick_ms, 0.95),
@@ -296,13 +297,6 @@ fn memory_bytes(world: &World) -> u64 {
     let solver = world.resource::<SolverState>().memory() + world.resource::<PredictorState>().memory();
     let per_particle = 5 * size_of::<f32>() + size_of::<u8>();
     (solver + particles.x.capacity() * per_particle + rock.memory() + air.memory_bytes()) as u64
-}
-
-/// Most memory that the process has had, from Linux's own books.
-fn peak_rss_bytes() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    line.trim().strip_suffix(" kB")?.trim().parse::<u64>().ok().map(|kilobytes| kilobytes * 1024)
 }
 
 pub(super) fn ms(time: Duration) -> f64 {

@@ -1,0 +1,74 @@
+//! The soak: a scene played for hours of simulated time by a player that follows a script, and looked at every second.
+//! What may not happen in an hour shows in a day: memory that grows, particles that get lost one by one, energy that
+//! creeps up.
+
+mod player;
+mod report;
+
+pub use player::{BOUT, Player};
+pub use report::{Period, Report, Totals};
+
+use crate::{
+    lab::{headless::Headless, machine, sampler::matter},
+    sim::{
+        intent::IntentQueue,
+        ledger::PassLedger,
+        state::{AirGrid, Clock, Counters, ParticleStore, Rock, Setup},
+    },
+};
+use bevy::ecs::world::World;
+
+/// Ticks from one look to the next.
+const LOOK_EVERY: u64 = 60;
+
+/// Plays `bouts` minutes and looks at them, in `periods` of as many minutes each; `go_on` hears after each minute how many
+/// are done, and may end it there.
+pub fn soak(
+    headless: &mut Headless,
+    seed: u64,
+    bouts: u64,
+    periods: u64,
+    mut go_on: impl FnMut(u64) -> bool,
+) -> Report {
+    let mut player = Player::new(&headless.world().resource::<Setup>().blueprint, seed);
+    let rock_before = headless.world().resource::<Rock>().count();
+    let per_period = bouts.div_ceil(periods).max(1);
+    let mut report = Report { rock_before, rock_after: rock_before, ..Report::default() };
+    let mut period = Period::default();
+    for bout in 1..=bouts {
+        for _ in 0..BOUT {
+            let tick = headless.world().resource::<Clock>().tick;
+            if let Some(intent) = player.act(tick) {
+                headless.world_mut().resource_mut::<IntentQueue>().push(intent);
+            }
+            headless.tick();
+            let tick_time = headless.world().resource::<PassLedger>().last_tick();
+            period.tick_ms.push(tick_time.as_secs_f64() * 1e3);
+            if (tick + 1).is_multiple_of(LOOK_EVERY) {
+                look(headless.world(), &mut period);
+            }
+        }
+        if bout % per_period == 0 || bout == bouts {
+            let whole = std::mem::take(&mut period);
+            report.periods.push(whole.close());
+        }
+        report.minutes = bout;
+        report.rock_after = headless.world().resource::<Rock>().count();
+        report.counters = *headless.world().resource::<Counters>();
+        if !go_on(bout) {
+            break;
+        }
+    }
+    report
+}
+
+fn look(world: &World, period: &mut Period) {
+    let air = world.resource::<AirGrid>();
+    let liquid = matter(world).balance();
+    period.particles.push(world.resource::<ParticleStore>().len() as f64);
+    period.kinetic.push(liquid.kinetic);
+    period.energy.push(liquid.energy());
+    period.air_mass.push(air.mass());
+    period.air_energy.push(air.kinetic_energy());
+    period.resident.extend(machine::memory().map(|memory| memory.resident as f64));
+}

@@ -1,0 +1,150 @@
+//! A player by script: the same whims for the same seed.
+
+use crate::{
+    kernel::{
+        brush::{BrushShape, Stroke},
+        element::{ElementId, ElementTable},
+        solids::Solids,
+    },
+    scene::blueprint::Blueprint,
+    sim::intent::Intent,
+};
+use glam::{IVec2, Vec2};
+
+/// Ticks from one bout to the next: a minute.
+pub const BOUT: u64 = 3600;
+
+/// Longest wall that the player builds, and its thickness, d.
+const WALL: Vec2 = Vec2::new(14.0, 2.0);
+
+/// Plays in bouts of a minute: pours for some seconds here and there, builds a wall, blows and sucks, and takes the wall
+/// away again. Between its hands' work the world is left alone. What it builds stands where the scene has no rock, so
+/// that taking it away leaves the scene as it was.
+#[derive(Clone, Debug)]
+pub struct Player {
+    state: u64,
+    size: Vec2,
+    ground: Solids,
+    movable: Vec<ElementId>,
+    fixed: Vec<ElementId>,
+    wall: Option<Stroke>,
+    hand: Vec2,
+}
+
+impl Player {
+    /// A player of the scene whose whims are those of `seed`.
+    pub fn new(blueprint: &Blueprint, seed: u64) -> Self {
+        let of = |table: &ElementTable, fixed: bool| {
+            table.iter().filter(|(_, element)| element.fixed == fixed).map(|(id, _)| id).collect()
+        };
+        Self {
+            state: seed,
+            size: blueprint.domain.size,
+            ground: blueprint.solids.clone(),
+            movable: of(&blueprint.elements, false),
+            fixed: of(&blueprint.elements, true),
+            wall: None,
+            hand: 0.5 * blueprint.domain.size,
+        }
+    }
+
+    /// What the player does in a tick.
+    pub fn act(&mut self, tick: u64) -> Option<Intent> {
+        match tick % BOUT {
+            300..600 => self.pour(),
+            600 => self.build(),
+            900..1080 => Some(self.blow()),
+            1200..1212 => Some(self.press()),
+            1800 => self.wall.take().map(|stroke| Intent::Erase { stroke }),
+            2000 => Some(Intent::ClearAir),
+            _ => None,
+        }
+    }
+
+    fn pour(&mut self) -> Option<Intent> {
+        // One tick in four, as a hand dabs; the element of a dab is any that moves.
+        if self.index(4) > 0 || self.movable.is_empty() {
+            return None;
+        }
+        let choice = self.index(self.movable.len());
+        let element = self.movable[choice];
+        let stroke = self.drag(3.0);
+        Some(Intent::Draw { element, stroke })
+    }
+
+    fn build(&mut self) -> Option<Intent> {
+        let corner = self.point();
+        let way = if self.index(2) == 0 { WALL } else { Vec2::new(WALL.y, WALL.x) };
+        let stroke = Stroke::rectangle(corner, (corner + way).min(self.size));
+        let size = IVec2::new(self.ground.columns(), self.ground.rows());
+        if self.fixed.is_empty() || stroke.cells(size).any(|cell| self.ground.is_solid(cell)) {
+            return None;
+        }
+        self.wall = Some(stroke);
+        let choice = self.index(self.fixed.len());
+        Some(Intent::Stamp { element: self.fixed[choice], stroke })
+    }
+
+    fn blow(&mut self) -> Intent {
+        let stroke = self.drag(8.0);
+        let velocity = (self.point() / self.size - 0.5) * 800.0;
+        Intent::Blow { stroke, velocity }
+    }
+
+    fn press(&mut self) -> Intent {
+        let amount = if self.index(2) == 0 { 0.1 } else { -0.1 };
+        Intent::Press { stroke: self.drag(6.0), amount }
+    }
+
+    /// A short drag from where the hand is; now and then the hand is lifted and set down elsewhere.
+    fn drag(&mut self, radius: f32) -> Stroke {
+        if self.index(20) == 0 {
+            self.hand = self.point();
+        }
+        let from = self.hand;
+        let step = (self.point() / self.size - 0.5) * 8.0;
+        self.hand = (from + step).clamp(Vec2::ZERO, self.size);
+        Stroke { shape: BrushShape::Disc, from, to: self.hand, radius }
+    }
+
+    /// Anywhere in the box, d.
+    fn point(&mut self) -> Vec2 {
+        let mut share = || self.next() as f32 / 4_294_967_296.0;
+        Vec2::new(share(), share()) * self.size
+    }
+
+    fn index(&mut self, count: usize) -> usize {
+        self.next() as usize % count
+    }
+
+    /// The upper half of a linear congruential generator (Knuth, MMIX).
+    fn next(&mut self) -> u32 {
+        self.state = self.state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.state >> 32) as u32
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{self, blueprint::EffectModes};
+
+    fn acts(seed: u64, bouts: u64) -> Vec<Intent> {
+        let blueprint = scene::load("waterfall").unwrap().build(&[], None, &EffectModes::new()).unwrap();
+        let mut player = Player::new(&blueprint, seed);
+        (0..bouts * BOUT).filter_map(|tick| player.act(tick)).collect()
+    }
+
+    #[test]
+    fn the_same_seed_has_the_same_whims_and_all_of_them() {
+        let played = acts(1, 20);
+        assert_eq!(played, acts(1, 20));
+        assert_ne!(played, acts(2, 20));
+        let some = |kind: fn(&Intent) -> bool| played.iter().filter(|intent| kind(intent)).count();
+        assert!(some(|intent| matches!(intent, Intent::Draw { .. })) > 500);
+        assert!(some(|intent| matches!(intent, Intent::Blow { .. })) > 500);
+        assert!(some(|intent| matches!(intent, Intent::Press { .. })) > 100);
+        let walls = some(|intent| matches!(intent, Intent::Stamp { .. }));
+        assert!(walls > 5 && walls == some(|intent| matches!(intent, Intent::Erase { .. })), "{walls} walls");
+    }
+}

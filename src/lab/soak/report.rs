@@ -1,0 +1,204 @@
+//! What a soak showed, and whether it passes.
+
+use crate::{
+    lab::stats::{largest, mean, quantile},
+    sim::state::Counters,
+};
+use serde::Serialize;
+use std::fmt::Write;
+
+/// How much more memory the last quarter may need than the second: what an allocator's fragments may, and no leak of a
+/// byte a tick in a day (5 MB).
+const MEMORY_GROWTH: f64 = 2e6;
+
+/// How far the mean count of the last quarter may be from that of the second: several times what hours of the waterfall
+/// scatter.
+const COUNT_DRIFT: f64 = 0.05;
+
+/// How much more kinetic energy than in the median period may be there at any time, over the same in the second quarter.
+const ENERGY_GROWTH: f64 = 2.0;
+
+/// Looks of a stretch of time.
+#[derive(Clone, Debug, Default)]
+pub struct Period {
+    /// Times of the ticks, ms.
+    pub tick_ms: Vec<f64>,
+    /// Movable particles.
+    pub particles: Vec<f64>,
+    /// Kinetic energy of the particles, J for each metre of depth.
+    pub kinetic: Vec<f64>,
+    /// The same with the potential energy, J for each metre of depth.
+    pub energy: Vec<f64>,
+    /// Mass of the air, in cells at the surroundings' pressure.
+    pub air_mass: Vec<f64>,
+    /// Kinetic energy of the air, in its own units.
+    pub air_energy: Vec<f64>,
+    /// Memory of the process, bytes; only on Linux.
+    pub resident: Vec<f64>,
+}
+
+impl Period {
+    /// What is kept of it.
+    pub fn close(mut self) -> Totals {
+        let of = |values: &[f64]| mean(values).unwrap_or_default();
+        let peak = |values: &[f64]| largest(values).unwrap_or_default();
+        Totals {
+            ms: quantile(&mut self.tick_ms, 0.5).unwrap_or_default(),
+            ms_p99: quantile(&mut self.tick_ms, 0.99).unwrap_or_default(),
+            particles: of(&self.particles),
+            kinetic: of(&self.kinetic),
+            kinetic_peak: peak(&self.kinetic),
+            energy: of(&self.energy),
+            air_mass: of(&self.air_mass),
+            air_energy: of(&self.air_energy),
+            resident: largest(&self.resident),
+        }
+    }
+}
+
+/// What is kept of a stretch of time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Totals {
+    /// Median tick, ms.
+    pub ms: f64,
+    /// 99th percentile of the ticks, ms.
+    pub ms_p99: f64,
+    /// Mean number of movable particles.
+    pub particles: f64,
+    /// Mean kinetic energy of the particles, J for each metre of depth.
+    pub kinetic: f64,
+    /// The highest.
+    pub kinetic_peak: f64,
+    /// Mean kinetic and potential energy, J for each metre of depth.
+    pub energy: f64,
+    /// Mean mass of the air, in cells at the surroundings' pressure.
+    pub air_mass: f64,
+    /// Mean kinetic energy of the air.
+    pub air_energy: f64,
+    /// Most memory of the process, bytes; only on Linux.
+    pub resident: Option<f64>,
+}
+
+/// A soak from its start to its end.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    /// Minutes simulated.
+    pub minutes: u64,
+    /// Rock at the start and at the end.
+    pub rock_before: usize,
+    /// See `rock_before`.
+    pub rock_after: usize,
+    /// What the limiters did.
+    pub counters: Counters,
+    /// Periods of the same length, but perhaps the last.
+    pub periods: Vec<Totals>,
+}
+
+impl Report {
+    /// What did not hold, each in a line; nothing if all did.
+    pub fn faults(&self) -> Vec<String> {
+        let mut faults = Vec::new();
+        let mut expect = |holds: bool, what: String| {
+            if !holds {
+                faults.push(what);
+            }
+        };
+        let Counters { non_finite, escaped, .. } = self.counters;
+        expect(non_finite == 0, format!("{non_finite} particles stopped being numbers"));
+        expect(escaped == 0, format!("{escaped} times a particle was outside the box or in rock at the end of a tick"));
+        let (before, after) = (self.rock_before, self.rock_after);
+        expect(before == after, format!("{before} particles of rock became {after}"));
+        let finite =
+            |totals: &Totals| totals.energy.is_finite() && totals.air_mass.is_finite() && totals.air_energy.is_finite();
+        expect(self.periods.iter().all(finite), "an energy or the mass of the air is no number".into());
+        // The first quarter fills pools and buffers.
+        let quarter = self.periods.len() / 4;
+        if quarter > 0 {
+            let (second, last) = (&self.periods[quarter..2 * quarter], &self.periods[self.periods.len() - quarter..]);
+            let of = |periods: &[Totals], what: fn(&Totals) -> f64| {
+                mean(&periods.iter().map(what).collect::<Vec<_>>()).unwrap_or_default()
+            };
+            let peak = |periods: &[Totals], what: fn(&Totals) -> f64| {
+                largest(&periods.iter().map(what).collect::<Vec<_>>()).unwrap_or_default()
+            };
+            let count = |totals: &Totals| totals.particles;
+            let (early, late) = (of(second, count), of(last, count));
+            expect(
+                (late - early).abs() <= COUNT_DRIFT * early.max(1.0),
+                format!("{early:.0} particles in the second quarter became {late:.0} in the last"),
+            );
+            let resident = |totals: &Totals| totals.resident.unwrap_or_default();
+            let (early, late) = (peak(second, resident), peak(last, resident));
+            expect(
+                late <= early + MEMORY_GROWTH,
+                format!("{:.1} MB in the second quarter became {:.1} in the last", early / 1e6, late / 1e6),
+            );
+            let kinetic = |totals: &Totals| totals.kinetic;
+            let (early, late) = (of(second, kinetic), of(last, kinetic));
+            expect(
+                late <= ENERGY_GROWTH * early,
+                format!("a kinetic energy of {early:.0} J in the second quarter became {late:.0} J in the last"),
+            );
+        }
+        faults
+    }
+
+    /// The periods as a table in Markdown.
+    pub fn table(&self) -> String {
+        let mut text = String::from(
+            "| until, h | ms | p99 | particles | kinetic energy, J | peak | energy, kJ | air mass | memory, MB |\n\
+             |---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
+        );
+        let hours = self.minutes as f64 / 60.0 / self.periods.len().max(1) as f64;
+        for (k, totals) in (1..).zip(&self.periods) {
+            let Totals { ms, ms_p99, particles, kinetic, kinetic_peak, energy, air_mass, .. } = *totals;
+            let memory = totals.resident.map_or_else(|| "–".into(), |bytes| format!("{:.1}", bytes / 1e6));
+            // Writing to a string does not fail.
+            let _ = writeln!(
+                text,
+                "| {:.2} | {ms:.3} | {ms_p99:.3} | {particles:.0} | {kinetic:.0} | {kinetic_peak:.0} | {:.1} | \
+                 {air_mass:.1} | {memory} |",
+                hours * f64::from(k),
+                energy / 1e3
+            );
+        }
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn calm() -> Report {
+        let totals = Totals {
+            ms: 1.0,
+            particles: 10_000.0,
+            kinetic: 500.0,
+            energy: 9e5,
+            air_mass: 800.0,
+            resident: Some(3e7),
+            ..Totals::default()
+        };
+        Report { minutes: 60, rock_before: 9, rock_after: 9, periods: vec![totals; 8], ..Report::default() }
+    }
+
+    fn faults_with(change: impl FnOnce(&mut Report)) -> usize {
+        let mut report = calm();
+        change(&mut report);
+        report.faults().len()
+    }
+
+    #[test]
+    fn each_fault_is_seen_and_nothing_else() {
+        assert_eq!(faults_with(|_| {}), 0);
+        assert_eq!(faults_with(|report| report.counters.escaped = 1), 1);
+        assert_eq!(faults_with(|report| report.counters.non_finite = 1), 1);
+        assert_eq!(faults_with(|report| report.rock_after = 8), 1);
+        assert_eq!(faults_with(|report| report.periods[1].air_mass = f64::NAN), 1);
+        assert_eq!(faults_with(|report| report.periods[7].particles = 20_000.0), 1);
+        assert_eq!(faults_with(|report| report.periods[7].resident = Some(4e7)), 1);
+        assert_eq!(faults_with(|report| report.periods[6].kinetic = 5000.0), 1);
+        assert_eq!(faults_with(|report| report.periods[0].particles = 20_000.0), 0, "the first quarter fills pools");
+    }
+}
