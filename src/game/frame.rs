@@ -36,6 +36,8 @@ pub struct Tempo {
     pub ticks_per_second: f32,
     /// Share of the wanted speed that the machine keeps up with, if it does not keep up.
     pub lag: Option<f32>,
+    /// Whether frames come only when something changes.
+    pub rests: bool,
     frame_time: Duration,
     frames: u32,
     tick_time: Duration,
@@ -46,8 +48,10 @@ pub struct Tempo {
 impl Tempo {
     /// Counts a frame of `elapsed` that left the world at `tick`.
     fn count(&mut self, elapsed: Duration, tick: u64, pace: Pace) {
-        self.frame_time += elapsed;
-        self.frames += 1;
+        if !self.rests {
+            self.frame_time += elapsed;
+            self.frames += 1;
+        }
         if self.frame_time >= WINDOW {
             self.frames_per_second = self.frames as f32 / self.frame_time.as_secs_f32();
             (self.frame_time, self.frames) = (Duration::ZERO, 0);

@@ -17,6 +17,7 @@ pub mod input;
 pub mod orders;
 pub mod recording;
 pub mod render;
+pub mod rest;
 pub mod saves;
 pub mod screen;
 pub mod split;

@@ -81,6 +81,11 @@ pub enum Order {
 pub struct Orders(Vec<Order>);
 
 impl Orders {
+    /// Whether none waits.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// Queues an order.
     pub fn push(&mut self, order: Order) {
         self.0.push(order);

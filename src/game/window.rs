@@ -1,7 +1,7 @@
 //! The App with a window.
 
 use crate::{
-    game::{GamePlugin, hud::HudPlugin, hud::settings::Room, recording, render::WorldRenderPlugin},
+    game::{GamePlugin, hud::HudPlugin, hud::settings::Room, recording, render::WorldRenderPlugin, rest},
     sim::{
         SimulationPlugin,
         state::{Census, Setup},
@@ -112,6 +112,7 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
     .add_plugins(EguiPlugin::default())
     .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
     .insert_resource(ClearColor(Color::srgb_u8(red, green, blue)))
+    .add_plugins(rest::plugin)
     .init_resource::<Room>()
     .add_systems(Startup, spawn_camera)
     .add_systems(Update, tell_in_title.run_if(on_timer(TITLE_EVERY)));

@@ -1,0 +1,105 @@
+//! Rest: while nothing changes, no frame is drawn and the event loop sleeps. A paused game takes next to no processor, and
+//! one whose window can't be seen stands still.
+
+use crate::{
+    game::{frame::Tempo, hud::toast::Toasts, input::strokes::Held, orders::Orders},
+    sim::{accuracy::Survey, exam::ExamDesk, intent::IntentQueue, pace::Pace},
+};
+use bevy::{
+    prelude::{App, DetectChanges, Last, Local, MessageReader, Real, Res, ResMut, Time, Virtual},
+    window::WindowEvent,
+    winit::{UpdateMode, WinitSettings},
+};
+use std::time::Duration;
+
+/// How long frames go on after the last change: the renderer draws one frame behind, and what is lit by the pointer fades.
+const LINGER: Duration = Duration::from_millis(400);
+
+/// Time from one look to the next while nothing changes; input wakes at once. In a page its script may want something.
+const NAP: Duration = if cfg!(target_arch = "wasm32") { Duration::from_millis(100) } else { Duration::from_secs(2) };
+
+/// The same while something is worked out in the background.
+const WATCH: Duration = Duration::from_millis(200);
+
+/// Lets the event loop sleep whenever it may.
+pub fn plugin(app: &mut App) {
+    app.init_resource::<WinitSettings>().add_systems(Last, rest);
+    // A page's script tells this in its own way.
+    #[cfg(not(target_arch = "wasm32"))]
+    app.add_systems(Last, stand_while_unseen);
+}
+
+/// What keeps the game awake.
+struct Signs {
+    /// The world's time moves.
+    moves: bool,
+    /// Something is worked out in the background, and its progress shown.
+    works: bool,
+}
+
+/// How the event loop goes on, after `calm` without a sign of change.
+fn mode(signs: &Signs, calm: Duration) -> UpdateMode {
+    if signs.moves || calm < LINGER {
+        UpdateMode::Continuous
+    } else {
+        UpdateMode::reactive_low_power(if signs.works { WATCH } else { NAP })
+    }
+}
+
+fn rest(
+    pace: Res<Pace>,
+    time: Res<Time<Virtual>>,
+    real: Res<Time<Real>>,
+    mut events: MessageReader<WindowEvent>,
+    (orders, intents, held): (Res<Orders>, Res<IntentQueue>, Res<Held>),
+    (toasts, desk, survey): (Res<Toasts>, Res<ExamDesk>, Res<Survey>),
+    mut calm: Local<Duration>,
+    mut tempo: ResMut<Tempo>,
+    mut settings: ResMut<WinitSettings>,
+) {
+    let touched = events.read().count() > 0 || !orders.is_empty() || !intents.is_empty() || held.pull().is_some();
+    // A message that is shown is about to go.
+    let stirs = touched || pace.is_changed() || toasts.last().is_some();
+    *calm = if stirs { Duration::ZERO } else { (*calm + real.delta()).min(LINGER) };
+    let signs = Signs { moves: pace.ticks() && !time.is_paused(), works: desk.wanted.is_some() || survey.is_running() };
+    let focused = mode(&signs, *calm);
+    tempo.rests = focused != UpdateMode::Continuous;
+    // Out of focus a game that runs keeps to the rate of a screen, as Bevy has it.
+    let unfocused = if tempo.rests { focused } else { WinitSettings::game().unfocused_mode };
+    if (settings.focused_mode, settings.unfocused_mode) != (focused, unfocused) {
+        (settings.focused_mode, settings.unfocused_mode) = (focused, unfocused);
+    }
+}
+
+/// Time stands while no part of the window can be seen.
+#[cfg(not(target_arch = "wasm32"))]
+fn stand_while_unseen(mut events: MessageReader<WindowEvent>, mut time: ResMut<Time<Virtual>>) {
+    for event in events.read() {
+        if let WindowEvent::WindowOccluded(window) = event {
+            if window.occluded { time.pause() } else { time.unpause() }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STILL: Signs = Signs { moves: false, works: false };
+
+    #[test]
+    fn a_world_that_moves_never_rests() {
+        assert_eq!(mode(&Signs { moves: true, ..STILL }, Duration::from_secs(100)), UpdateMode::Continuous);
+    }
+
+    #[test]
+    fn a_world_that_stands_rests_after_a_moment() {
+        assert_eq!(mode(&STILL, Duration::ZERO), UpdateMode::Continuous, "the last change must reach the screen");
+        assert_eq!(mode(&STILL, LINGER), UpdateMode::reactive_low_power(NAP));
+    }
+
+    #[test]
+    fn what_works_in_the_background_is_watched() {
+        assert_eq!(mode(&Signs { works: true, ..STILL }, LINGER), UpdateMode::reactive_low_power(WATCH));
+    }
+}
