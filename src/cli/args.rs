@@ -75,6 +75,8 @@ pub(super) struct BenchArguments {
 /// What can be measured.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(super) enum Bench {
+    /// What each effect costs in each scene, alone and together, and what running only what is called for saves
+    Effects,
     /// How many particles a tick may hold at a tick rate: brute force, bins on one thread, bins on all
     Neighbours,
     /// What a tick costs and how exact it is, from 1,458 to 999,698 particles, at every quality
@@ -90,7 +92,7 @@ pub(super) struct ScalingOptions {
     /// Show other programs' figures beside: [{name, figures: [{particles, ms, error_mean, error_p99}]}] (bench scaling)
     #[arg(long, value_name = "FILE.json")]
     pub(super) beside: Option<PathBuf>,
-    /// Take less than a minute: three sizes, one second of each (bench scaling)
+    /// Take less than a minute: three sizes, one second of each (bench scaling), or one run of each choice (bench effects)
     #[arg(long)]
     pub(super) quick: bool,
     /// Leave larger worlds out (bench scaling)
@@ -102,8 +104,8 @@ pub(super) struct ScalingOptions {
 }
 
 impl ScalingOptions {
-    /// The first of these options that was given.
-    pub(super) fn first_given(&self) -> Option<&'static str> {
+    /// The first of these options that was given, but for what is `allowed`.
+    pub(super) fn first_given(&self, allowed: &[&str]) -> Option<&'static str> {
         let Self { svg, beside, quick, up_to, cap } = self;
         let given = [
             ("--svg", svg.is_some()),
@@ -112,7 +114,7 @@ impl ScalingOptions {
             ("--up-to", up_to.is_some()),
             ("--cap", cap.is_some()),
         ];
-        given.into_iter().find(|(_, is_given)| *is_given).map(|(name, _)| name)
+        given.into_iter().find(|(name, is_given)| *is_given && !allowed.contains(name)).map(|(name, _)| name)
     }
 }
 

@@ -8,6 +8,8 @@ pub mod coarse;
 pub mod density;
 mod drift;
 pub mod exam;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod gating;
 pub mod headless;
 pub mod live;
 pub mod machine;

@@ -1,5 +1,6 @@
 //! `bench`: tables of what things cost.
 
+mod effects;
 mod neighbours;
 mod scaling;
 
@@ -11,6 +12,7 @@ use crate::cli::{
 /// Measures a table and prints it.
 pub(super) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
     match arguments.what {
+        Bench::Effects => effects::effects(arguments),
         Bench::Neighbours => neighbours::neighbours(arguments),
         Bench::Scaling => scaling::scaling(arguments),
     }

@@ -20,7 +20,7 @@ use std::{fmt::Write, path::Path};
 
 /// Measures how many particles a tick may hold, and prints the table.
 pub(super) fn neighbours(arguments: &BenchArguments) -> Result<(), Failure> {
-    if let Some(option) = arguments.scaling.first_given() {
+    if let Some(option) = arguments.scaling.first_given(&[]) {
         return Err(Failure::Usage(format!("{option} belongs to bench scaling; allowed here: --threads, --json")));
     }
     let json = arguments.json.as_deref();

@@ -14,6 +14,15 @@ use std::ops::Range;
 const MOST_ITERATIONS: u32 = 8;
 /// Residual, relative to the right-hand side, at which it is good enough: what is left is the constraint's to do.
 const TOLERANCE: f64 = 0.1;
+/// Substep from which on that holds, s: shorter ones must each be as much better, or what is left adds up. The first guess
+/// lags behind a body that moves, so that it drags at it.
+const LONG_ENOUGH: f64 = 1.0 / 120.0;
+
+/// The residual at which a solve for a substep of `dt` (s) is good enough.
+pub(super) fn tolerance(dt: f32) -> f64 {
+    let share = f64::from(dt) / LONG_ENOUGH;
+    TOLERANCE * if share < 0.999 { share } else { 1.0 }
+}
 
 /// The vectors of the iteration. The solution stays as the next first guess.
 #[derive(Clone, Debug, Default)]
@@ -45,8 +54,8 @@ impl Conjugate {
         (self.solution, self.rows) = (solution, rows);
     }
 
-    /// Solves the equation of the hierarchy's finest level, whose right-hand side becomes the residual.
-    pub fn solve(&mut self, hierarchy: &mut Hierarchy, team: Team) -> PredictorReport {
+    /// Solves the equation of the hierarchy's finest level, whose right-hand side becomes the residual, up to `tolerance`.
+    pub fn solve(&mut self, hierarchy: &mut Hierarchy, tolerance: f64, team: Team) -> PredictorReport {
         let Self { solution, direction, sums: [sums, after], .. } = self;
         let finest = hierarchy.finest();
         let (stride, rows, cells) = (finest.stride, finest.rows.clone(), finest.cells());
@@ -56,7 +65,7 @@ impl Conjugate {
         let [scale, mut left] = finest.take_product_off(solution, [&mut *sums, after], team);
         let scale = scale.max(1e-30);
         let (mut iterations, mut last) = (0, f64::INFINITY);
-        while iterations < MOST_ITERATIONS && left > TOLERANCE * TOLERANCE * scale {
+        while iterations < MOST_ITERATIONS && left > tolerance * tolerance * scale {
             let next = hierarchy.cycle(sums, team);
             let finest = hierarchy.finest();
             let turn =

@@ -117,6 +117,7 @@ impl Predictor {
             conjugate: &mut self.conjugate,
             pockets: &mut self.pockets,
             target: TARGET_DENSITY * params.rest_density,
+            tolerance: conjugate::tolerance(params.dt),
             team: Team { instructions: params.instructions, threads: params.threads },
             report: &mut report,
         });

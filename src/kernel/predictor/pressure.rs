@@ -36,6 +36,8 @@ pub(super) struct Projection<'a> {
     pub pockets: &'a mut Pockets,
     /// Density that is aimed at, particles per d².
     pub target: f32,
+    /// Residual, relative to the right-hand side, that may be left.
+    pub tolerance: f64,
     pub team: Team,
     pub report: &'a mut PredictorReport,
 }
@@ -46,7 +48,7 @@ const CHUNK: usize = 64;
 impl Pass for Projection<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { grid, closed, faces, hierarchy, conjugate, pockets, target, team, report } = self;
+        let Self { grid, closed, faces, hierarchy, conjugate, pockets, target, tolerance, team, report } = self;
         conjugate.resize(grid.len());
         mark_liquid(grid, closed, faces, conjugate, target, team);
         find_means(grid, faces, team);
@@ -57,7 +59,7 @@ impl Pass for Projection<'_> {
             pockets.balance(grid, hierarchy.finest());
         }
         hierarchy.coarsen(team);
-        *report = conjugate.solve(hierarchy, team);
+        *report = conjugate.solve(hierarchy, tolerance, team);
         change_velocities(grid, closed, faces, hierarchy.finest(), conjugate, team);
     }
 }

@@ -1,11 +1,11 @@
 //! The pressure equation on its own, and the projection with all its fields in view.
 
-use super::team;
+use super::{DT, team};
 use crate::kernel::{
     particles::Particles,
     predictor::{
         PredictorReport, TARGET_DENSITY,
-        conjugate::Conjugate,
+        conjugate::{Conjugate, tolerance},
         equation::{Around, Sides, couple, steepen},
         grid::MacGrid,
         level::{RowSums, damping},
@@ -122,7 +122,7 @@ impl Equation {
     pub fn solve_once(&mut self, b: &[f64]) -> (Vec<f64>, PredictorReport) {
         self.hierarchy.finest().b.iter_mut().zip(b).for_each(|(single, double)| *single = *double as f32);
         self.conjugate.solution.fill(0.0);
-        let report = self.conjugate.solve(&mut self.hierarchy, team());
+        let report = self.conjugate.solve(&mut self.hierarchy, tolerance(DT), team());
         (self.conjugate.solution.iter().map(|x| f64::from(*x)).collect(), report)
     }
 
@@ -227,6 +227,7 @@ impl Rig {
             conjugate: &mut self.conjugate,
             pockets: &mut Pockets::default(),
             target: TARGET_DENSITY * rest_density,
+            tolerance: tolerance(DT),
             team: team(),
             report: &mut report,
         });
