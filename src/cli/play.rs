@@ -48,12 +48,7 @@ fn open(
 }
 
 #[cfg(not(feature = "app"))]
-fn open(
-    scene: &str,
-    _: Option<PathBuf>,
-    _: Option<Recording>,
-    _: impl FnOnce(&mut World),
-) -> Result<(), Failure> {
+fn open(scene: &str, _: Option<PathBuf>, _: Option<Recording>, _: impl FnOnce(&mut World)) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
         "this build has no window (it lacks the cargo feature `app`); `powder-master run {scene}` works without one"
     )))

@@ -61,8 +61,7 @@ pub(super) fn replay(arguments: &ReplayArguments) -> Result<(), Failure> {
     let path = &arguments.file;
     let recording = Recording::decode(&read(path)?).map_err(|error| bad(path, &error))?;
     threads::start(arguments.threads)?;
-    let mut replay =
-        Replay::new(&recording, Workers::default(), arguments.simd).map_err(|error| bad(path, &error))?;
+    let mut replay = Replay::new(&recording, Workers::default(), arguments.simd).map_err(|error| bad(path, &error))?;
     // A panic is an outcome here, told in one line.
     fault::watch(false);
     let crashed = recording.end == Some(End::Crashed);
@@ -76,13 +75,16 @@ pub(super) fn replay(arguments: &ReplayArguments) -> Result<(), Failure> {
         };
         let (recorded, stretches) = (recording.ticks(), recording.stretches.len());
         let same = outcome.is_ok();
-        output::write_json(json, &Outcome { same, ticks: done, recorded, stretches, hash, difference, panic, crashed })?;
+        output::write_json(
+            json,
+            &Outcome { same, ticks: done, recorded, stretches, hash, difference, panic, crashed },
+        )?;
     }
     match outcome {
         Ok(_) if json == Some(Path::new(STDOUT)) => Ok(()),
-        Ok(hash) if crashed => {
-            output::print(&format!("same: {done} ticks, hash {hash:016x}; recorded by a crash that does not come again\n"))
-        }
+        Ok(hash) if crashed => output::print(&format!(
+            "same: {done} ticks, hash {hash:016x}; recorded by a crash that does not come again\n"
+        )),
         Ok(hash) => output::print(&format!("same: {done} ticks, hash {hash:016x}\n")),
         Err(Stop::Different(difference)) => Err(Failure::Outcome(format!("{}: {difference}", path.display()))),
         Err(Stop::Panic(text)) => {

@@ -65,7 +65,8 @@ impl Start {
         if let Some((option, _)) = unfit.into_iter().find(|(_, is_given)| *is_given) {
             return Err(no_use(name_or_path, "a recording", option));
         }
-        let first = recording.stretches.first().ok_or_else(|| bad(Path::new(name_or_path), &RecordingError::Foreign))?;
+        let first =
+            recording.stretches.first().ok_or_else(|| bad(Path::new(name_or_path), &RecordingError::Foreign))?;
         let saved = first.start().map_err(|error| bad(Path::new(name_or_path), &error))?;
         let wishes = Wishes { quality: None, effects: EffectModes::new() };
         Ok((Self::Saved(Box::new(saved), wishes), Some(recording)))

@@ -93,7 +93,7 @@ impl Plugin for GamePlugin {
                 Last,
                 (
                     frame::measure_tempo,
-                    recording::end_when_full.run_if(on_timer(Duration::from_secs(1)).and(resource_exists::<Setup>)),
+                    recording::end_when_full.run_if(resource_exists::<Setup>).run_if(on_timer(Duration::from_secs(1))),
                     recording::write_at_exit.run_if(on_message::<AppExit>),
                 ),
             );

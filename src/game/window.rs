@@ -78,9 +78,7 @@ pub fn run(scene: &str, record: Option<PathBuf>, furnish: impl FnOnce(&mut App))
             .map_err(|crash::Crash { what, saved }| GameError::Crashed { what, saved }),
         #[cfg(target_arch = "wasm32")]
         Ok(mut app) => Ok(app.run()),
-        Err(cause) => {
-            Err(explain(&fault::message(&*cause), scene))
-        }
+        Err(cause) => Err(explain(&fault::message(&*cause), scene)),
     }
 }
 

@@ -87,9 +87,10 @@ impl Recorder {
     pub fn keep_up(&self, world: &World) {
         let mut desk = self.desk();
         let jumped = std::mem::take(&mut desk.jumped);
-        let full = desk.rolling.last().is_none_or(|segment| {
-            segment.marks.len() >= SEGMENT_TICKS || segment.entries.len() >= SEGMENT_ENTRIES
-        });
+        let full = desk
+            .rolling
+            .last()
+            .is_none_or(|segment| segment.marks.len() >= SEGMENT_TICKS || segment.entries.len() >= SEGMENT_ENTRIES);
         let waits = desk.recording.as_ref().is_some_and(Tape::is_empty);
         if !(jumped || full || waits) {
             return;

@@ -77,7 +77,11 @@ impl<'a> Replay<'a> {
     ///
     /// # Errors
     /// If a state can't be read.
-    pub fn of_last(recording: &'a Recording, workers: Workers, instructions: InstructionSet) -> Result<Self, SaveError> {
+    pub fn of_last(
+        recording: &'a Recording,
+        workers: Workers,
+        instructions: InstructionSet,
+    ) -> Result<Self, SaveError> {
         Self::from_stretch(recording, recording.stretches.len() - 1, workers, instructions)
     }
 

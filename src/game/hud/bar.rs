@@ -75,8 +75,12 @@ fn recording(ui: &mut Ui, ticks: u64) {
         ui.spacing_mut().item_spacing.x = 5.0;
         dot(ui, style::BAD);
         let seconds = ticks / u64::from(TICKS_PER_SECOND);
-        ui.label(RichText::new(format!("{}:{:02}", seconds / 60, seconds % 60)).color(style::BAD))
-            .on_hover_text(format!("recording ({} ends it)", bindings::of(Action::Record).map(ToString::to_string).unwrap_or_default()));
+        ui.label(RichText::new(format!("{}:{:02}", seconds / 60, seconds % 60)).color(style::BAD)).on_hover_text(
+            format!(
+                "recording ({} ends it)",
+                bindings::of(Action::Record).map(ToString::to_string).unwrap_or_default()
+            ),
+        );
     });
 }
 

@@ -40,7 +40,7 @@ fn folder(name: &str) -> PathBuf {
 }
 
 fn pour(mut queue: ResMut<IntentQueue>, clock: Res<Clock>) {
-    if clock.tick % 3 == 0 {
+    if clock.tick.is_multiple_of(3) {
         let stroke = Stroke::dab(BrushShape::Disc, Vec2::new(20.0 + clock.tick as f32 % 40.0, 30.0), 3.0);
         queue.push(Intent::Draw { element: ElementId(1), stroke });
     }

@@ -136,7 +136,8 @@ fn every_flipped_bit_is_noticed() {
 #[test]
 fn huge_counts_behind_a_right_checksum_take_no_memory() {
     let good = Recording::decode(&recorded().1).expect("its own file");
-    for count in [&[0xff, 0xff, 0xff, 0xff, 0x0f][..], &[0xff; 9], &[0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 1]] {
+    for count in [&[0xff, 0xff, 0xff, 0xff, 0x0f][..], &[0xff; 9], &[0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 1]]
+    {
         let mut writer = Writer::new();
         writer.start(&good.stretches[0].save);
         writer.chunk(TICKS, count);
