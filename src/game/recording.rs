@@ -15,10 +15,7 @@ use crate::{
         state::Setup,
     },
 };
-use bevy::{
-    log::error,
-    prelude::{Resource, World},
-};
+use bevy::{log::error, prelude::World};
 use std::{
     io,
     path::{Path, PathBuf},
@@ -27,21 +24,9 @@ use std::{
 /// The folder beside save files that recordings go to.
 const FOLDER: &str = "recordings";
 
-/// The file that the command line names for the recording.
-#[derive(Resource, Clone, Debug)]
-pub struct RecordTo(PathBuf);
-
-impl RecordTo {
-    /// Where it is.
-    pub fn path(&self) -> &Path {
-        &self.0
-    }
-}
-
 /// Records from now on into a file.
-pub fn begin_into(world: &mut World, path: PathBuf) {
-    world.resource::<Recorder>().begin(world);
-    world.insert_resource(RecordTo(path));
+pub fn begin_into(world: &World, path: PathBuf) {
+    world.resource::<Recorder>().begin(world, Some(path));
 }
 
 /// Begins a recording, or ends it and writes it.
@@ -53,7 +38,7 @@ pub fn toggle(world: &mut World) {
         end(world, "");
         return;
     }
-    world.resource::<Recorder>().begin(world);
+    world.resource::<Recorder>().begin(world, None);
     let key = bindings::of(Action::Record).map(ToString::to_string).unwrap_or_default();
     world.resource_mut::<Toasts>().say(format!("Recording from here on; {key} again ends it"));
 }
@@ -69,7 +54,6 @@ fn end(world: &mut World, why: &str) {
     let seconds = world.resource::<Recorder>().ticks().unwrap_or(0) as f64 / f64::from(TICKS_PER_SECOND);
     let written = write_recording(world, recorder::end_now(world));
     world.resource::<Recorder>().end();
-    world.remove_resource::<RecordTo>();
     let mut toasts = world.resource_mut::<Toasts>();
     match written {
         Ok(Some(path)) => toasts.say(format!("Recorded {seconds:.1} s: {}{why}", path.display())),
@@ -96,7 +80,7 @@ pub fn keep_last_minute(world: &mut World) {
 
 /// Writes the file that the command line named, as far as it is.
 pub fn write(world: &mut World) {
-    if !world.contains_resource::<RecordTo>() {
+    if world.resource::<Recorder>().destination().is_none() {
         return;
     }
     if let Err(problem) = write_recording(world, recorder::end_now(world)) {
@@ -115,21 +99,15 @@ pub fn write_at_exit(world: &mut World) {
 }
 
 fn write_recording(world: &World, end: End) -> Result<Option<PathBuf>, String> {
-    let named = world.get_resource::<RecordTo>().map(|RecordTo(path)| path.as_path());
-    write_to(named, &folders(world), world.resource::<Recorder>(), "", end)
+    write_to(&folders(world), world.resource::<Recorder>(), "", end)
 }
 
 /// Writes the recording, if there is one, into the file that is named for it, or a new one.
-pub fn write_to(
-    named: Option<&Path>,
-    folders: &[PathBuf],
-    recorder: &Recorder,
-    suffix: &str,
-    end: End,
-) -> Result<Option<PathBuf>, String> {
+pub fn write_to(folders: &[PathBuf], recorder: &Recorder, suffix: &str, end: End) -> Result<Option<PathBuf>, String> {
     let Some(bytes) = recorder.recording(end) else { return Ok(None) };
-    let written = match named {
-        Some(path) => files::write_whole(path, &bytes).map(|()| path.to_owned()),
+    let named = recorder.destination();
+    let written = match &named {
+        Some(path) => files::write_whole(path, &bytes).map(|()| path.clone()),
         None => write_new(folders, recorder, suffix, &bytes),
     };
     written.map(Some).map_err(|error| {

@@ -127,7 +127,7 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
     .add_systems(Update, tell_in_title.run_if(on_timer(TITLE_EVERY)));
     furnish(&mut app);
     if let Some(path) = record {
-        recording::begin_into(app.world_mut(), path);
+        recording::begin_into(app.world(), path);
     }
     app
 }

@@ -14,7 +14,10 @@ use crate::sim::{
     tape::{Start, Tape},
 };
 use bevy::prelude::{App, FixedUpdate, IntoScheduleConfigs, Res, Resource, World, resource_exists};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::{
+    path::PathBuf,
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+};
 
 /// What is always kept, ticks: a minute of the world's time.
 pub const KEPT_TICKS: u64 = 3600;
@@ -38,6 +41,8 @@ struct Desk {
     /// How often `rolling` began a segment.
     serial: u64,
     recording: Option<Tape>,
+    /// The file that the recording shall go to, if one was named for it.
+    to: Option<PathBuf>,
     marker: Marker,
     /// Whether the world is another one than that which was written last.
     jumped: bool,
@@ -130,10 +135,17 @@ impl Recorder {
         self.desk().rolling.last().map(|segment| (segment.start.scene().to_owned(), segment.now()))
     }
 
-    /// Begins a recording at the state of the world.
-    pub fn begin(&self, world: &World) {
-        self.desk().recording = Some(Tape::default());
+    /// Begins a recording at the state of the world; `to` is the file that it shall go to, if one is named for it.
+    pub fn begin(&self, world: &World, to: Option<PathBuf>) {
+        let mut desk = self.desk();
+        (desk.recording, desk.to) = (Some(Tape::default()), to);
+        drop(desk);
         self.keep_up(world);
+    }
+
+    /// The file that is named for the recording.
+    pub fn destination(&self) -> Option<PathBuf> {
+        self.desk().to.clone()
     }
 
     /// Whether there is a recording, and how many ticks it holds.
@@ -153,7 +165,8 @@ impl Recorder {
 
     /// Ends the recording.
     pub fn end(&self) {
-        self.desk().recording = None;
+        let mut desk = self.desk();
+        (desk.recording, desk.to) = (None, None);
     }
 
     /// What was written since `cursor`, if it is anything.

@@ -90,7 +90,7 @@ fn whims_in_every_built_in_scene_are_the_same_again_from_the_middle_on() {
             sandbox.get_mut::<Pace>().paused = false;
         };
         play(&mut sandbox, 40);
-        sandbox.get::<Recorder>().begin(sandbox.app.world());
+        sandbox.get::<Recorder>().begin(sandbox.app.world(), None);
         let begun = sandbox.get::<Clock>().tick;
         play(&mut sandbox, 100);
         // Edits of a world that stands, at the very end.
@@ -111,7 +111,7 @@ fn whims_in_every_built_in_scene_are_the_same_again_from_the_middle_on() {
 #[test]
 fn undo_and_reset_begin_a_stretch_and_the_whole_is_the_same_again() {
     let mut sandbox = recorded("dam_break", &[("columns", "12")]);
-    sandbox.get::<Recorder>().begin(sandbox.app.world());
+    sandbox.get::<Recorder>().begin(sandbox.app.world(), None);
     let pour = |sandbox: &mut Sandbox, x: f32| {
         let stroke = Stroke::dab(BrushShape::Disc, Vec2::new(x, 15.0), 2.0);
         sandbox.push(Intent::Draw { element: WATER, stroke }).tick(12);
@@ -134,7 +134,7 @@ fn undo_and_reset_begin_a_stretch_and_the_whole_is_the_same_again() {
 fn the_first_tick_that_differs_is_named() {
     let mut sandbox = recorded("waterfall", &[]);
     sandbox.tick(30);
-    sandbox.get::<Recorder>().begin(sandbox.app.world());
+    sandbox.get::<Recorder>().begin(sandbox.app.world(), None);
     sandbox.tick(60);
     // Something reaches into the world behind the recorder's back, after tick 90.
     sandbox.particles_mut().vx[17] += 1e-4;

@@ -145,10 +145,9 @@ fn claim(folder: &Path) -> io::Result<(PathBuf, File)> {
     for number in 0..MOST_GAMES {
         let path = folder.join(format!("{PREFIX}{number}.{RECORDING_ENDING}"));
         match OpenOptions::new().write(true).create_new(true).open(&path) {
-            Ok(file) => {
-                file.try_lock()?;
-                return Ok((path, file));
-            }
+            // Whoever was quicker to lock it takes it for one that was left.
+            Ok(file) if file.try_lock().is_ok() => return Ok((path, file)),
+            Ok(_) => {}
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
             Err(error) => return Err(error),
         }

@@ -48,14 +48,13 @@ pub fn folder() -> Option<PathBuf> {
 /// After a panic.
 pub fn run<T>(mut app: App, journals: Option<PathBuf>, run: impl FnOnce(App) -> T) -> Result<T, Crash> {
     let recorder = app.world_mut().get_resource_or_init::<Recorder>().clone();
-    let named = app.world().get_resource::<recording::RecordTo>().cloned();
     let folders = recording::folders(app.world());
-    // First look for what is left of other games, then leave something for others.
-    let journal = journals.map(|folder| {
-        remains::search(&mut app, folder.clone());
-        Journal::begin(&folder, recorder.clone())
+    let journal = journals.and_then(|folder| {
+        // Ours is locked before anything looks for those that are not.
+        let journal = Journal::begin(&folder, recorder.clone());
+        remains::search(&mut app, folder);
+        journal
     });
-    let journal: Option<SharedJournal> = journal.flatten();
     if let Some(journal) = &journal {
         app.insert_resource(journal.clone());
         journal::follow(&mut app);
@@ -69,7 +68,7 @@ pub fn run<T>(mut app: App, journals: Option<PathBuf>, run: impl FnOnce(App) -> 
             }
             Ok(outcome)
         }
-        Err(payload) => Err(save(&*payload, &recorder, named.as_ref(), &folders, journal.as_ref())),
+        Err(payload) => Err(save(&*payload, &recorder, &folders, journal.as_ref())),
     }
 }
 
@@ -77,7 +76,6 @@ pub fn run<T>(mut app: App, journals: Option<PathBuf>, run: impl FnOnce(App) -> 
 fn save(
     payload: &(dyn Any + Send),
     recorder: &Recorder,
-    named: Option<&recording::RecordTo>,
     folders: &[PathBuf],
     journal: Option<&SharedJournal>,
 ) -> Crash {
@@ -87,7 +85,7 @@ fn save(
         Ok(path) => format!("the last minute is in {}", path.display()),
         Err(error) => format!("the last minute can't be written: {error}"),
     };
-    match recording::write_to(named.map(|named| named.path()), folders, recorder, "-crash", End::Crashed) {
+    match recording::write_to(folders, recorder, "-crash", End::Crashed) {
         Ok(Some(path)) => saved += &format!(", the recording in {}", path.display()),
         Ok(None) => {}
         Err(problem) => saved += &format!("; {problem}"),

@@ -55,8 +55,8 @@ fn buttons(ui: &mut Ui, progress: Option<f32>, ticks: u64) -> Option<Choice> {
             }
         }
         let seconds = ticks as f64 / f64::from(TICKS_PER_SECOND);
-        let earlier = ui.button(format!("{seconds:.0} s earlier"));
-        if ticks > 0 && earlier.on_hover_text("the state that was kept last, if the end is what went wrong").clicked() {
+        let why = "the state that was kept last, if the end is what went wrong";
+        if ticks > 0 && ui.button(format!("{seconds:.0} s earlier")).on_hover_text(why).clicked() {
             choice = Some(Choice::Earlier);
         }
         if ui.button(RichText::new("Forget").color(style::WEAK)).on_hover_text("delete it").clicked() {

@@ -27,7 +27,7 @@ fn file(name: &str) -> PathBuf {
 fn recorded(path: &Path) -> Player {
     let mut player = Player::new();
     control::reset(player.0.world_mut());
-    recording::begin_into(player.0.world_mut(), path.to_owned());
+    recording::begin_into(player.0.world(), path.to_owned());
     player
 }
 
