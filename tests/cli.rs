@@ -3,10 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that can't go on fails")]
 
 use powder_master::{
-    kernel::{
-        brush::{BrushShape, Stroke},
-        params::{Preset, Quality},
-    },
+    kernel::brush::{BrushShape, Stroke},
     lab::{
         headless::Headless,
         run::{self, Plan},
@@ -15,8 +12,9 @@ use powder_master::{
     sim::{
         control,
         intent::Intent,
-        replay::{Entry, Recorder, Replay},
-        state::Clock,
+        recorder::{self, Recorder},
+        recording::{Recording, Writer},
+        save,
         workers::Workers,
     },
 };
@@ -100,7 +98,6 @@ fn bad_usage_is_one_line_that_says_what_is_allowed() {
         (&["run", "waterfall", "--hold-ms", "-1"], &["--hold-ms", "allowed"]),
         (&["run", "waterfall", "--hold-error", "nan"], &["--hold-error", "allowed: numbers from 0.0001 to 100"]),
         (&["run", "waterfall", "--hold-error", "1", "--hold-ms", "1"], &["--hold-error", "--hold-ms"]),
-        (&["run", "empty", "--hold-error", "1", "--replay", "x"], &["--hold-error", "--replay"]),
         (&["run", "niagara"], &["niagara", "allowed", "dam_break", "waterfall"]),
         (&["run", "no/such.ron"], &["no/such.ron"]),
         (&["play", "niagara"], &["niagara", "allowed"]),
@@ -152,7 +149,6 @@ fn a_bad_output_path_is_refused_before_anything_is_simulated() {
     refused(&here, &["sweep", "dam_break", "--out", "file"], 2, &["file", "can't be made a folder"]);
     std::fs::create_dir_all(here.join("taken/curve.csv")).unwrap();
     refused(&here, &["sweep", "dam_break", "--out", "taken"], 2, &["curve.csv", "is a folder"]);
-    refused(&here, &long("--replay", "nothing.jsonl"), 2, &["nothing.jsonl", "can't be read"]);
 }
 
 #[cfg(target_os = "linux")]
@@ -409,8 +405,8 @@ fn several_scenes_have_a_folder_each() {
 }
 
 /// A person at work in the scene `empty`: a ledge of rock, water placed and poured, some of it taken away, wind. The
-/// record of it and the hash of the world that came out.
-fn record() -> (Replay, u64) {
+/// recording of it and the hash of the world that came out.
+fn record() -> (Vec<u8>, u64) {
     let settings = [("columns", "40"), ("rows", "30")].map(|(key, value)| (key.to_owned(), value.to_owned()));
     let blueprint = Arc::new(scene::load("empty").unwrap().build(&settings, None, &Default::default()).unwrap());
     let (rock, water) = (blueprint.elements.find("rock").unwrap(), blueprint.elements.find("water").unwrap());
@@ -425,28 +421,60 @@ fn record() -> (Replay, u64) {
     ];
     intents.extend((5..40).map(|tick| (tick, Intent::Draw { element: water, stroke: tap })));
     intents.sort_by_key(|(tick, _)| *tick);
-    let mut headless = Headless::new(blueprint.clone(), Workers::default());
-    headless.world_mut().init_resource::<Recorder>();
+    let mut headless =
+        Headless::begin_with(Workers::default(), recorder::plugin, |world| control::load(world, blueprint.clone()));
     run::run(&mut headless, &Plan { ticks: 60, intents, ..Plan::default() }, &mut []).unwrap();
     let world = headless.world();
-    let clock = world.resource::<Clock>();
-    let replay = world.resource::<Recorder>().replay(&blueprint, clock.tick, clock.edits);
-    (replay, control::hash(world))
+    (world.resource::<Recorder>().last_minute(recorder::end_now(world)), control::hash(world))
 }
 
 #[test]
-fn a_replay_is_the_same_world_again() {
+fn a_recording_is_the_same_world_again() {
     let here = folder("replay");
-    let (replay, hash) = record();
-    assert_eq!(replay.entries.len(), 39);
-    std::fs::write(here.join("mine.jsonl"), replay.write().unwrap()).unwrap();
-    let found = metrics(&here, &["run", "empty", "--replay", "mine.jsonl"]);
+    let (bytes, hash) = record();
+    std::fs::write(here.join("mine.pmr"), &bytes).unwrap();
+    let line = format!("same: 60 ticks, hash {hash:016x}\n");
+    assert_eq!(good(&here, &["replay", "mine.pmr"]), line);
+    assert_eq!(good(&here, &["replay", "mine.pmr", "--threads", "2", "--simd", "scalar"]), line);
+    let outcome: Value = serde_json::from_str(&good(&here, &["replay", "mine.pmr", "--json", "-"])).unwrap();
+    assert_eq!((&outcome["same"], &outcome["ticks"]), (&Value::from(true), &Value::from(60)));
+    assert_eq!(outcome["hash"], format!("{hash:016x}"));
+
+    let found = metrics(&here, &["run", "mine.pmr"]);
     assert_eq!(found["hash"], format!("{hash:016x}"));
     assert_eq!(found["ticks"], 60, "as long as it was recorded");
     assert_eq!(found["parameters"]["columns"], 40.0, "with the parameters that it was recorded with");
-    let finer = metrics(&here, &["run", "empty", "--replay", "mine.jsonl", "--quality", "fine"]);
+    let finer = metrics(&here, &["run", "mine.pmr", "--quality", "fine"]);
     assert_eq!(finer["quality"], "fine");
     assert_ne!(finer["hash"], found["hash"]);
+    refused(&here, &["run", "mine.pmr", "--set", "rows=40"], 2, &["mine.pmr", "no use for --set"]);
+    refused(&here, &["run", "mine.pmr", "--hold-ms", "1"], 2, &["mine.pmr", "no use for --hold-ms"]);
+    refused(&here, &["play", "mine.pmr", "--quality", "fine"], 2, &["mine.pmr", "no use for --quality"]);
+}
+
+#[test]
+fn a_replay_names_the_first_tick_that_differs() {
+    let here = folder("replay_differs");
+    let recording = Recording::decode(&record().0).unwrap();
+    let mut writer = Writer::new();
+    writer.start(&save::encode(
+        Headless::begin(Workers::default(), |world| {
+            save::load(world, recording.stretches[0].start().unwrap());
+        })
+        .world(),
+    ));
+    let stretch = &recording.stretches[0];
+    // One dab of the poured water is missing: that of tick 23, which makes tick 24.
+    let entries: Vec<_> = stretch.entries.iter().filter(|entry| entry.tick != 23).copied().collect();
+    assert_eq!(entries.len() + 1, stretch.entries.len());
+    writer.ticks(&entries, &stretch.marks);
+    writer.end(recording.end.unwrap());
+    std::fs::write(here.join("changed.pmr"), writer.take()).unwrap();
+    let says = ["changed.pmr", "tick 24 is the first that differs (number 24 of the recording)"];
+    refused(&here, &["replay", "changed.pmr"], 1, &says);
+    refused(&here, &["replay", "changed.pmr", "--json", "out.json"], 1, &says);
+    let outcome: Value = serde_json::from_slice(&std::fs::read(here.join("out.json")).unwrap()).unwrap();
+    assert_eq!((&outcome["same"], &outcome["difference"]["tick"]), (&Value::from(false), &Value::from(24)));
 }
 
 #[test]
@@ -473,39 +501,35 @@ fn a_saved_world_goes_on_as_if_it_had_never_stopped() {
 }
 
 #[test]
-fn a_bad_replay_is_refused_with_its_line() {
+fn a_bad_recording_is_refused_in_one_line() {
     let here = folder("bad_replay");
-    let text = record().0.write().unwrap();
-    let case = |name: &str, change: &dyn Fn(&mut Vec<String>)| {
-        let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
-        change(&mut lines);
-        std::fs::write(here.join(name), lines.join("\n")).unwrap();
-    };
-    case("empty", &|lines| lines.clear());
-    case("torn", &|lines| lines[4].truncate(20));
-    case("back", &|lines| lines.swap(2, 30));
-    case("stone", &|lines| lines[1] = lines[1].replace("\"element\":0", "\"element\":200"));
-    case("huge", &|lines| lines[1] = lines[1].replace("\"radius\":1.2", "\"radius\":1e300"));
-    case("old", &|lines| lines[0] = lines[0].replace("\"powder_master_replay\":1", "\"powder_master_replay\":99"));
-    let none = Quality { substeps: 0, ..Preset::Fine.quality() };
-    let entry = Entry { tick: u64::MAX, intent: Intent::Quality { preset: Preset::Fine, quality: none } };
-    case("none", &|lines| lines.push(serde_json::to_string(&entry).unwrap()));
-    case("sand", &|lines| lines[0] = lines[0].replace("\"water\"", "\"sand\""));
-    for (name, says) in [
-        ("empty", &["line 1"][..]),
-        ("torn", &["line 5", "column"]),
-        ("back", &["line 4", "never go back"]),
-        ("stone", &["line 2", "element 200"]),
-        ("huge", &["line 2", "too large"]),
-        ("old", &["line 1", "format 99", "reads 1"]),
-        ("none", &["line 41", "substeps is 0", "allowed"]),
-        ("sand", &["line 1", "sand"]),
+    let (bytes, _) = record();
+    let mut changed = bytes.clone();
+    changed[2000] ^= 4;
+    let mut newer = bytes.clone();
+    newer[23] = 77;
+    let mut huge = bytes[..25].to_vec();
+    huge.extend(b"S\xff\xff\xff\xff and then nothing");
+    for (name, bytes, says) in [
+        ("empty", &b""[..], &["not a recording"][..]),
+        ("poem", b"roses are red", &["not a recording"]),
+        ("half", &bytes[..bytes.len() / 2], &["damaged", "breaks off"]),
+        ("short", &bytes[..bytes.len() - 1], &["damaged"]),
+        ("changed", &changed, &["damaged", "checksum"]),
+        ("newer", &newer, &["format 77; this program reads format 2"]),
+        ("old", b"{\"powder_master_replay\":1,\"scene\":\"empty\"}\n", &["format 1; this program reads format 2"]),
+        ("huge", &huge, &["damaged", "breaks off"]),
     ] {
-        refused(&here, &["run", "empty", "--replay", name], 2, says);
+        std::fs::write(here.join(name), bytes).unwrap();
+        refused(&here, &["replay", name], 2, &[&[name], says].concat());
     }
-    case("good", &|_| ());
-    refused(&here, &["run", "waterfall", "--replay", "good"], 2, &["empty", "waterfall"]);
-    refused(&here, &["run", "empty", "--replay", "good", "--set", "rows=40"], 2, &["--replay", "--set"]);
+    for name in ["half", "changed", "newer", "old"] {
+        refused(&here, &["run", name], 2, &[name, "recording"]);
+        refused(&here, &["play", name], 2, &[name, "recording"]);
+    }
+    refused(&here, &["replay", "nothing.pmr"], 2, &["nothing.pmr", "can't be read"]);
+    refused(&here, &["replay", "half", "--json", "nowhere/x"], 2, &["no folder"]);
+    refused(&here, &["replay"], 2, &["<FILE>"]);
 }
 
 #[test]

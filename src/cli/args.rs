@@ -40,6 +40,8 @@ pub(super) enum Command {
     Play(PlayArguments),
     /// Run a scene without a window, and measure it
     Run(Box<RunArguments>),
+    /// Run a recording again, and name the first tick that is not what it was
+    Replay(ReplayArguments),
     /// Measure what something costs, and print the table
     Bench(BenchArguments),
     /// Compare the physics with known answers, at each quality
@@ -55,6 +57,23 @@ pub(super) enum Command {
         /// What to list
         what: Listing,
     },
+}
+
+/// `replay`.
+#[derive(Debug, Args)]
+pub(super) struct ReplayArguments {
+    /// The recording
+    #[arg(value_name = "FILE")]
+    pub(super) file: PathBuf,
+    /// Threads of the simulation; they never change the result [default: all]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+    pub(super) threads: Option<u64>,
+    /// Instruction set of the simulation: auto, or a narrower one than the processor's best; it never changes the result
+    #[arg(long, value_name = "SET", default_value = "auto", hide_default_value = true, value_parser = simd)]
+    pub(super) simd: InstructionSet,
+    /// Write the outcome as JSON; `-` is stdout, in place of the line
+    #[arg(long, value_name = "FILE.json")]
+    pub(super) json: Option<PathBuf>,
 }
 
 /// `bench`.
@@ -244,7 +263,7 @@ pub(super) enum Listing {
 /// `play`.
 #[derive(Debug, Args)]
 pub(super) struct PlayArguments {
-    /// Scene: a name of `list scenes`, or the path of a scene file or a save file [default: waterfall]
+    /// Scene: a name of `list scenes`, or the path of a scene file, a save file or a recording [default: waterfall]
     pub(super) scene: Option<String>,
     #[command(flatten)]
     pub(super) options: PlayOptions,
@@ -265,7 +284,7 @@ pub(super) struct PlayOptions {
     /// Instruction set of the simulation: auto, or a narrower one than the processor's best
     #[arg(long, value_name = "SET", default_value = "auto", hide_default_value = true, value_parser = simd)]
     pub(super) simd: InstructionSet,
-    /// Record what is played, for `run SCENE --replay FILE`
+    /// Record what is played, from the start on, for `replay FILE`
     #[arg(long, value_name = "FILE")]
     pub(super) record: Option<PathBuf>,
 }
@@ -273,9 +292,9 @@ pub(super) struct PlayOptions {
 /// `run`.
 #[derive(Debug, Args)]
 pub(super) struct RunArguments {
-    /// Scene: a name of `list scenes`, or the path of a scene file or a save file
+    /// Scene: a name of `list scenes`, or the path of a scene file, a save file or a recording (from its last jump on)
     pub(super) scene: String,
-    /// Simulated time [default: 10, or as long as the replay]
+    /// Simulated time [default: 10, or as long as the recording]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true, conflicts_with = "ticks")]
     pub(super) seconds: Option<Ticks>,
     /// Simulated time in ticks of 1/60 s
@@ -320,15 +339,11 @@ pub(super) struct RunArguments {
     pub(super) snapshot: Option<PathBuf>,
     /// Let the autopilot change the quality to hold so many ms a tick; the hash then depends on the machine
     #[arg(long, value_name = "MS", allow_negative_numbers = true, value_parser = hold_ms,
-          conflicts_with_all = ["hold_error", "replay"])]
+          conflicts_with = "hold_error")]
     pub(super) hold_ms: Option<f32>,
     /// Let the autopilot change the quality to hold a mean density error, in percent; the hash does not
-    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = hold_error,
-          conflicts_with = "replay")]
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = hold_error)]
     pub(super) hold_error: Option<f32>,
-    /// Repeat recorded input; it brings its own parameters and quality
-    #[arg(long, value_name = "FILE", conflicts_with = "settings")]
-    pub(super) replay: Option<PathBuf>,
 }
 
 /// A simulated time, in ticks.

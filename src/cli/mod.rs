@@ -9,6 +9,7 @@ mod list;
 mod output;
 mod play;
 mod progress;
+mod replay;
 mod run;
 mod soak;
 mod start;
@@ -47,6 +48,7 @@ fn dispatch(arguments: Arguments) -> Result<(), Failure> {
         None => play::play(None, &arguments.play),
         Some(Command::Play(play)) => play::play(play.scene.as_deref(), &play.options),
         Some(Command::Run(run)) => run::run(&run),
+        Some(Command::Replay(replay)) => replay::replay(&replay),
         Some(Command::Bench(bench)) => bench::bench(&bench),
         Some(Command::Exam(arguments)) => exam::exam(&arguments),
         Some(Command::Soak(arguments)) => soak::soak(&arguments),

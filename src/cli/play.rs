@@ -1,26 +1,34 @@
 //! `play`: the game's window.
 
-use crate::cli::{args::PlayOptions, failure::Failure, output, start::Start, threads};
+use crate::{
+    cli::{args::PlayOptions, failure::Failure, output, start::Start, threads},
+    sim::recording::Recording,
+};
 use bevy::ecs::world::World;
 use std::path::PathBuf;
 
 /// The scene without a name.
 const DEFAULT_SCENE: &str = "waterfall";
 
-/// Opens the game with a scene or a saved world.
+/// Opens the game with a scene, a saved world or a recording.
 pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Failure> {
     let scene = scene.unwrap_or(DEFAULT_SCENE);
     output::check(options.record.as_deref().as_slice())?;
-    let start = Start::of_play(scene, options)?;
+    let (start, recording) = Start::of_play(scene, options)?;
     threads::start_aside(options.threads)?;
     let load = |world: &mut World| start.load(world, options.simd);
-    open(scene, options.record.clone(), load)
+    open(scene, options.record.clone(), recording, load)
 }
 
 #[cfg(feature = "app")]
-fn open(scene: &str, record: Option<PathBuf>, load: impl FnOnce(&mut World)) -> Result<(), Failure> {
+fn open(
+    scene: &str,
+    record: Option<PathBuf>,
+    recording: Option<Recording>,
+    load: impl FnOnce(&mut World),
+) -> Result<(), Failure> {
     use crate::{
-        game,
+        game::{self, GameError, playback},
         lab::{exam::desk, live::LivePlugin},
     };
     use bevy::app::AppExit;
@@ -28,15 +36,19 @@ fn open(scene: &str, record: Option<PathBuf>, load: impl FnOnce(&mut World)) -> 
     match game::run(scene, record, |app| {
         app.add_plugins((desk::plugin, LivePlugin));
         load(app.world_mut());
+        if let Some(recording) = recording {
+            playback::begin(app.world_mut(), recording);
+        }
     }) {
         Ok(AppExit::Success) => Ok(()),
         Ok(AppExit::Error(code)) => Err(Failure::Outcome(format!("the game ended with error {code}"))),
+        Err(error @ GameError::Crashed { .. }) => Err(Failure::Outcome(error.to_string())),
         Err(error) => Err(Failure::Usage(error.to_string())),
     }
 }
 
 #[cfg(not(feature = "app"))]
-fn open(scene: &str, _: Option<PathBuf>, _: impl FnOnce(&mut World)) -> Result<(), Failure> {
+fn open(scene: &str, _: Option<PathBuf>, _: Option<Recording>, _: impl FnOnce(&mut World)) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
         "this build has no window (it lacks the cargo feature `app`); `powder-master run {scene}` works without one"
     )))

@@ -27,7 +27,7 @@ use crate::{
         autopilot::{self, Autopilot, Goal, controller::Verdict},
         control,
         intent::Intent,
-        replay::Replay,
+        recording::Stretch,
         save,
         state::Setup,
         view::View,
@@ -47,8 +47,8 @@ const DEFAULT_TICKS: u64 = 600;
 /// Runs a scene and writes what was asked for.
 pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     check_outputs(arguments)?;
-    let (start, replay) = Start::of_run(arguments)?;
-    let plan = plan(arguments, replay)?;
+    let (start, recorded) = Start::of_run(arguments)?;
+    let plan = plan(arguments, recorded)?;
     threads::start(arguments.threads)?;
     let trace = arguments.trace.as_deref().map(Tracing::create).transpose()?;
 
@@ -141,8 +141,8 @@ fn check_outputs(arguments: &RunArguments) -> Result<(), Failure> {
 }
 
 /// How far to run, and on what input.
-fn plan(arguments: &RunArguments, replay: Option<Replay>) -> Result<Plan, Failure> {
-    let recorded = replay.as_ref().map(|replay| replay.header.ticks.max(1));
+fn plan(arguments: &RunArguments, stretch: Option<Stretch>) -> Result<Plan, Failure> {
+    let recorded = stretch.as_ref().map(|stretch| stretch.marks.len().max(1) as u64);
     let seconds = arguments.seconds.map(|Ticks(ticks)| ticks);
     let ticks = arguments.ticks.or(seconds).or(recorded).unwrap_or(DEFAULT_TICKS);
     if arguments.warmup >= ticks {
@@ -152,9 +152,13 @@ fn plan(arguments: &RunArguments, replay: Option<Replay>) -> Result<Plan, Failur
             ticks - 1
         )));
     }
-    let entries = replay.map(|replay| replay.entries).unwrap_or_default();
-    // Who asks for a quality gets it from the first tick to the last.
-    let wanted = |intent: &Intent| arguments.quality.is_none() || !matches!(intent, Intent::Quality { .. });
+    let entries = stretch.map(|stretch| stretch.entries).unwrap_or_default();
+    // Who asks for a quality or for an effect gets it from the first tick to the last.
+    let wanted = |intent: &Intent| match intent {
+        Intent::Quality { .. } => arguments.quality.is_none(),
+        Intent::Effect { effect, .. } => !arguments.effects.iter().any(|(asked, _)| asked == effect),
+        _ => true,
+    };
     let intents = entries.into_iter().filter(|entry| wanted(&entry.intent));
     let intents = intents.map(|entry| (entry.tick, entry.intent)).collect();
     Ok(Plan { ticks, warmup: arguments.warmup, intents, complete: recorded == Some(ticks) })

@@ -1,4 +1,4 @@
-//! The world that a run starts from: a scene, a scene as a replay found it, or a save file.
+//! The world that a run starts from: a scene, a save file, or a state in a recording.
 
 use crate::{
     cli::{
@@ -13,7 +13,7 @@ use crate::{
     sim::{
         control,
         effects::Effects,
-        replay::Replay,
+        recording::{Recording, RecordingError, Stretch},
         save::{self, SaveError, Saved},
         state::SolverState,
     },
@@ -36,37 +36,40 @@ pub(super) struct Wishes {
 }
 
 impl Start {
-    /// Reads what `run` names, with the recorded input if there is some.
-    pub(super) fn of_run(arguments: &RunArguments) -> Result<(Self, Option<Replay>), Failure> {
+    /// Reads what `run` names, with the recorded input if it is a recording.
+    pub(super) fn of_run(arguments: &RunArguments) -> Result<(Self, Option<Stretch>), Failure> {
         let effects: EffectModes = arguments.effects.iter().copied().collect();
-        let Some(path) = arguments.replay.as_deref() else {
-            let start = Self::read(&arguments.scene, &arguments.settings, arguments.quality, effects)?;
-            return Ok((start, None));
+        let RunArguments { scene, settings, quality, .. } = arguments;
+        let Some(mut recording) = read_recording(scene)? else {
+            return Ok((Self::read(scene, settings, *quality, effects)?, None));
         };
-        if read_save(&arguments.scene)?.is_some() {
-            return Err(only_a_scene(&arguments.scene, "--replay"));
+        let unfit = [
+            ("--set", !settings.is_empty()),
+            ("--hold-ms", arguments.hold_ms.is_some()),
+            ("--hold-error", arguments.hold_error.is_some()),
+        ];
+        if let Some((option, _)) = unfit.into_iter().find(|(_, is_given)| *is_given) {
+            return Err(no_use(scene, "a recording", option));
         }
-        let file = scene::load(&arguments.scene)?;
-        let replay = read_replay(path)?;
-        let header = &replay.header;
-        if header.scene != file.name() {
-            let (recorded, asked) = (&header.scene, file.name());
-            let what = format!("was recorded in the scene {recorded}, not in {asked}; allowed: run {recorded}");
-            return Err(bad(path, &what));
-        }
-        let modes = header.effects.iter().chain(&effects).map(|(effect, mode)| (*effect, *mode)).collect();
-        let built = file.build(&header.settings(), Some(arguments.quality.unwrap_or(header.preset)), &modes)?;
-        let blueprint = header.restore(built, arguments.quality.is_none());
-        Ok((Self::Scene(Box::new(blueprint)), Some(replay)))
+        let last = recording.stretches.pop().ok_or_else(|| bad(Path::new(scene), &RecordingError::Foreign))?;
+        let saved = last.start().map_err(|error| bad(Path::new(scene), &error))?;
+        Ok((Self::Saved(Box::new(saved), Wishes { quality: *quality, effects }), Some(last)))
     }
 
-    /// Reads what `play` names.
-    pub(super) fn of_play(name_or_path: &str, options: &PlayOptions) -> Result<Self, Failure> {
-        let start = Self::read(name_or_path, &options.settings, options.quality, EffectModes::new())?;
-        match start {
-            Self::Saved(..) if options.record.is_some() => Err(only_a_scene(name_or_path, "--record")),
-            start => Ok(start),
+    /// Reads what `play` names, with the recording if it is one.
+    pub(super) fn of_play(name_or_path: &str, options: &PlayOptions) -> Result<(Self, Option<Recording>), Failure> {
+        let Some(recording) = read_recording(name_or_path)? else {
+            return Ok((Self::read(name_or_path, &options.settings, options.quality, EffectModes::new())?, None));
+        };
+        let unfit = [("--set", !options.settings.is_empty()), ("--quality", options.quality.is_some())];
+        if let Some((option, _)) = unfit.into_iter().find(|(_, is_given)| *is_given) {
+            return Err(no_use(name_or_path, "a recording", option));
         }
+        let first =
+            recording.stretches.first().ok_or_else(|| bad(Path::new(name_or_path), &RecordingError::Foreign))?;
+        let saved = first.start().map_err(|error| bad(Path::new(name_or_path), &error))?;
+        let wishes = Wishes { quality: None, effects: EffectModes::new() };
+        Ok((Self::Saved(Box::new(saved), wishes), Some(recording)))
     }
 
     /// Reads what `soak` names.
@@ -110,7 +113,7 @@ impl Start {
             return Ok(Self::Scene(Box::new(blueprint)));
         };
         if !settings.is_empty() {
-            return Err(only_a_scene(name_or_path, "--set"));
+            return Err(no_use(name_or_path, "a save file", "--set"));
         }
         Ok(Self::Saved(Box::new(saved), Wishes { quality, effects }))
     }
@@ -134,29 +137,44 @@ impl Start {
     }
 }
 
-fn only_a_scene(path: &str, option: &str) -> Failure {
-    bad(Path::new(path), &format_args!("a save file has no use for {option}; allowed: a scene"))
+fn no_use(path: &str, what: &str, option: &str) -> Failure {
+    bad(Path::new(path), &format_args!("{what} has no use for {option}; allowed: a scene"))
 }
 
-fn bad(path: &Path, what: &dyn Display) -> Failure {
+/// What is wrong with an input.
+pub(super) fn bad(path: &Path, what: &dyn Display) -> Failure {
     Failure::Usage(format!("{}: {what}", path.display()))
 }
 
 /// The save file at a path; `None` if the name is a scene's, or of nothing, which the scenes know best to say.
 fn read_save(name_or_path: &str) -> Result<Option<Saved>, Failure> {
-    let path = Path::new(name_or_path);
-    let is_scene = path.extension().is_some_and(|extension| extension == "ron");
-    if is_scene || scene::builtin_names().contains(&name_or_path) || !path.is_file() {
-        return Ok(None);
-    }
-    let bytes = fs::read(path).map_err(|error| bad(path, &format_args!("can't be read: {error}")))?;
-    save::decode(&bytes).map(Some).map_err(|error| match error {
-        SaveError::Foreign => bad(path, &format_args!("{error}; allowed: a scene, a .ron file or a save file")),
+    let Some(path) = file_beside_scenes(name_or_path) else { return Ok(None) };
+    save::decode(&read(path)?).map(Some).map_err(|error| match error {
+        SaveError::Foreign => {
+            bad(path, &format_args!("{error}; allowed: a scene, a .ron file, a save file or a recording"))
+        }
         _ => bad(path, &error),
     })
 }
 
-fn read_replay(path: &Path) -> Result<Replay, Failure> {
-    let text = fs::read_to_string(path).map_err(|error| bad(path, &format_args!("can't be read: {error}")))?;
-    Replay::read(&text, &*scene::elements()?).map_err(|error| bad(path, &error))
+/// The recording at a path; `None` if there is something else, or nothing.
+fn read_recording(name_or_path: &str) -> Result<Option<Recording>, Failure> {
+    let Some(path) = file_beside_scenes(name_or_path) else { return Ok(None) };
+    let bytes = read(path)?;
+    if !Recording::is_meant(&bytes) {
+        return Ok(None);
+    }
+    Recording::decode(&bytes).map(Some).map_err(|error| bad(path, &error))
+}
+
+/// The file that a name stands for, if it is no scene.
+fn file_beside_scenes(name_or_path: &str) -> Option<&Path> {
+    let path = Path::new(name_or_path);
+    let is_scene = path.extension().is_some_and(|extension| extension == "ron");
+    (!is_scene && !scene::builtin_names().contains(&name_or_path) && path.is_file()).then_some(path)
+}
+
+/// The bytes of a file.
+pub(super) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    fs::read(path).map_err(|error| bad(path, &format_args!("can't be read: {error}")))
 }

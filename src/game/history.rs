@@ -39,15 +39,10 @@ impl Frozen {
 
     /// Bytes that it takes, to a good approximation.
     fn size_in_memory(&self) -> usize {
-        let own = size_of_state(&self.state);
+        let own = self.state.size_in_memory();
         // A loaded world brings its start along, twice; all its states share it, so this errs on the large side.
-        if self.setup.origin.clock.tick > 0 { own + 2 * size_of_state(&self.setup.origin) } else { own }
+        if self.setup.origin.clock.tick > 0 { own + 2 * self.setup.origin.size_in_memory() } else { own }
     }
-}
-
-fn size_of_state(state: &Snapshot) -> usize {
-    let cells = (state.solids.columns() * state.solids.rows()) as usize;
-    state.particles.len() * 21 + cells * 5 + state.air.columns() * state.air.rows() * 12
 }
 
 /// States to go back to and to go forward to.

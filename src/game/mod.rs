@@ -7,6 +7,8 @@
 //! ```
 
 pub mod camera;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod crash;
 pub mod disk;
 pub mod files;
 pub mod follow;
@@ -15,6 +17,7 @@ pub mod history;
 pub mod hud;
 pub mod input;
 pub mod orders;
+pub mod playback;
 pub mod recording;
 pub mod render;
 pub mod rest;
@@ -28,16 +31,18 @@ pub mod window;
 
 use crate::{
     kernel::units::TICKS_PER_SECOND,
-    sim::{accuracy, autopilot},
+    sim::{accuracy, autopilot, recorder, state::Setup},
 };
 use bevy::{
     prelude::{
         App, AppExit, Fixed, FixedPreUpdate, IntoScheduleConfigs, Last, Plugin, RunFixedMainLoop,
-        RunFixedMainLoopSystems, SystemSet, Time, on_message,
+        RunFixedMainLoopSystems, SystemSet, Time, on_message, resource_exists,
     },
+    time::common_conditions::on_timer,
     window::WindowEvent,
 };
 
+use std::time::Duration;
 pub use window::{GameError, run};
 
 /// Reads the devices and carries out orders, before the ticks of a frame.
@@ -69,7 +74,7 @@ impl Plugin for GamePlugin {
             .init_resource::<accuracy::Watched>()
             .init_resource::<accuracy::LiveError>()
             .init_resource::<accuracy::Survey>()
-            .add_plugins((autopilot::plugin, crate::sim::split::plugin))
+            .add_plugins((autopilot::plugin, crate::sim::split::plugin, recorder::plugin))
             .add_systems(
                 RunFixedMainLoop,
                 (
@@ -84,7 +89,14 @@ impl Plugin for GamePlugin {
                     .in_set(InputSystems)
                     .in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop),
             )
-            .add_systems(FixedPreUpdate, input::strokes::make_intents)
-            .add_systems(Last, (frame::measure_tempo, recording::write_at_exit.run_if(on_message::<AppExit>)));
+            .add_systems(FixedPreUpdate, (playback::feed, input::strokes::make_intents).chain())
+            .add_systems(
+                Last,
+                (
+                    frame::measure_tempo,
+                    recording::end_when_full.run_if(resource_exists::<Setup>).run_if(on_timer(Duration::from_secs(1))),
+                    recording::write_at_exit.run_if(on_message::<AppExit>),
+                ),
+            );
     }
 }

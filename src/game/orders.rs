@@ -112,8 +112,7 @@ pub fn obey(world: &mut World) {
             Order::Hold(goal) => world.resource_mut::<Autopilot>().hold(goal),
             Order::Survey(request) => world.resource_mut::<Survey>().request = Some(request),
             Order::Effect(effect, mode) => {
-                recording::stop(world, "another choice of effects");
-                world.resource_mut::<Effects>().get_mut(effect).mode = mode;
+                world.resource_mut::<IntentQueue>().push(Intent::Effect { effect, mode });
             }
             Order::Load(path) => saves::load(world, &path),
             Order::Scene { name, settings } => play(world, &name, &settings),
@@ -145,6 +144,8 @@ fn act(world: &mut World, action: Action) {
             recording::write(world);
             saves::save(world);
         }
+        Action::Record => recording::toggle(world),
+        Action::KeepLastMinute => recording::keep_last_minute(world),
         Action::Search
         | Action::Hud
         | Action::Saves
@@ -166,7 +167,6 @@ fn play(world: &mut World, name: &str, settings: &[(String, String)]) {
     let preset = world.get_resource::<Setup>().map(|setup| setup.preset);
     match scene::load(name).and_then(|scene| scene.build(settings, preset, &EffectModes::new())) {
         Ok(blueprint) => {
-            recording::stop(world, "another scene");
             control::load(world, Arc::new(blueprint));
             world.resource_mut::<History>().clear();
             world.resource_mut::<Epoch>().0 += 1;
@@ -218,7 +218,6 @@ fn change_world(world: &mut World, action: Action) {
     let told = match action {
         Action::Reset => {
             history::checkpoint(world);
-            recording::stop(world, "a reset");
             control::reset(world);
             "Reset"
         }

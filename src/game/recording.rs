@@ -1,63 +1,133 @@
-//! Recording what the player and the autopilot do, for `run --replay`. The record is that of one scene: where that changes,
-//! it is written and ends.
+//! Recordings of what is played: begun and ended by a key, or kept from the start on in a file that the command line
+//! names; and the last minute, which is there at any time.
 
 use crate::{
-    game::{files, hud::toast::Toasts},
+    game::{
+        disk, files,
+        hud::toast::Toasts,
+        input::bindings::{self, Action},
+        saves::SaveFolders,
+    },
+    kernel::units::TICKS_PER_SECOND,
     sim::{
-        replay::Recorder,
-        state::{Clock, Setup},
+        recorder::{self, Recorder},
+        recording::{End, RECORDING_ENDING},
+        state::Setup,
     },
 };
-use bevy::{
-    log::error,
-    prelude::{Resource, World},
+use bevy::{log::error, prelude::World};
+use std::{
+    io,
+    path::{Path, PathBuf},
 };
-use std::{io, path::PathBuf};
 
-/// The file that is recorded to.
-#[derive(Resource, Clone, Debug)]
-pub struct Recording(PathBuf);
+/// The folder beside save files that recordings go to.
+const FOLDER: &str = "recordings";
 
-/// Records from now on, the start of a scene, into a file.
-pub fn begin(world: &mut World, path: PathBuf) {
-    world.insert_resource(Recorder::default());
-    world.insert_resource(Recording(path));
+/// Records from now on into a file.
+pub fn begin_into(world: &World, path: PathBuf) {
+    world.resource::<Recorder>().begin(world, Some(path));
 }
 
-/// Writes what was recorded so far.
+/// Begins a recording, or ends it and writes it.
+pub fn toggle(world: &mut World) {
+    if !world.contains_resource::<Setup>() {
+        return;
+    }
+    if world.resource::<Recorder>().ticks().is_some() {
+        end(world, "");
+        return;
+    }
+    world.resource::<Recorder>().begin(world, None);
+    let key = bindings::of(Action::Record).map(ToString::to_string).unwrap_or_default();
+    world.resource_mut::<Toasts>().say(format!("Recording from here on; {key} again ends it"));
+}
+
+/// Ends a recording that takes all the memory that it may.
+pub fn end_when_full(world: &mut World) {
+    if world.resource::<Recorder>().is_full() {
+        end(world, " It took all the memory that it may.");
+    }
+}
+
+fn end(world: &mut World, why: &str) {
+    let seconds = world.resource::<Recorder>().ticks().unwrap_or(0) as f64 / f64::from(TICKS_PER_SECOND);
+    let written = write_recording(world, recorder::end_now(world));
+    world.resource::<Recorder>().end();
+    let mut toasts = world.resource_mut::<Toasts>();
+    match written {
+        Ok(Some(path)) => toasts.say(format!("Recorded {seconds:.1} s: {}{why}", path.display())),
+        Ok(None) => {}
+        Err(problem) => toasts.warn(problem),
+    }
+}
+
+/// Writes the last minute into a new file and says where.
+pub fn keep_last_minute(world: &mut World) {
+    if !world.contains_resource::<Setup>() {
+        return;
+    }
+    // What the last tick changed is on the tape; what was put in the place of the world since then is not yet.
+    world.resource::<Recorder>().keep_up(world);
+    let bytes = world.resource::<Recorder>().last_minute(recorder::end_now(world));
+    let written = write_new(&folders(world), world.resource::<Recorder>(), "", &bytes);
+    let mut toasts = world.resource_mut::<Toasts>();
+    match written {
+        Ok(path) => toasts.say(format!("The last minute: {}", path.display())),
+        Err(error) => toasts.warn(format!("The last minute can't be written: {error}")),
+    }
+}
+
+/// Writes the file that the command line named, as far as it is.
 pub fn write(world: &mut World) {
-    if let Err(problem) = try_write(world) {
+    if world.resource::<Recorder>().destination().is_none() {
+        return;
+    }
+    if let Err(problem) = write_recording(world, recorder::end_now(world)) {
         world.resource_mut::<Toasts>().warn(problem);
     }
 }
 
-/// Ends the record before something that it can't hold.
-pub fn stop(world: &mut World, before: &str) {
-    if !world.contains_resource::<Recording>() {
+/// Writes the recording when the game ends.
+pub fn write_at_exit(world: &mut World) {
+    if !world.contains_resource::<Setup>() {
         return;
     }
-    match try_write(world) {
-        Ok(()) => world.resource_mut::<Toasts>().warn(format!("The recording ends here, with {before}")),
-        Err(problem) => world.resource_mut::<Toasts>().warn(problem),
-    }
-    world.remove_resource::<Recording>();
-    world.remove_resource::<Recorder>();
-}
-
-/// Writes the record when the game ends.
-pub fn write_at_exit(world: &mut World) {
-    if let Err(problem) = try_write(world) {
+    if let Err(problem) = write_recording(world, recorder::end_now(world)) {
         error!("{problem}");
     }
 }
 
-fn try_write(world: &World) -> Result<(), String> {
-    let (Some(Recording(path)), Some(recorder)) = (world.get_resource(), world.get_resource::<Recorder>()) else {
-        return Ok(());
+fn write_recording(world: &World, end: End) -> Result<Option<PathBuf>, String> {
+    write_to(&folders(world), world.resource::<Recorder>(), "", end)
+}
+
+/// Writes the recording, if there is one, into the file that is named for it, or a new one.
+pub fn write_to(folders: &[PathBuf], recorder: &Recorder, suffix: &str, end: End) -> Result<Option<PathBuf>, String> {
+    let Some(bytes) = recorder.recording(end) else { return Ok(None) };
+    let named = recorder.destination();
+    let written = match &named {
+        Some(path) => files::write_whole(path, &bytes).map(|()| path.clone()),
+        None => write_new(folders, recorder, suffix, &bytes),
     };
-    let (setup, clock) = (world.resource::<Setup>(), world.resource::<Clock>());
-    let replay = recorder.replay(&setup.blueprint, clock.tick, clock.edits);
-    let text = replay.write().map_err(io::Error::from);
-    text.and_then(|text| files::write_whole(path, text.as_bytes()))
-        .map_err(|error| format!("{}: the recording can't be written: {error}", path.display()))
+    written.map(Some).map_err(|error| {
+        let path = named.map_or(String::new(), |path| format!("{}: ", path.display()));
+        format!("{path}the recording can't be written: {error}")
+    })
+}
+
+/// Writes a new file that is called after the scene and the tick.
+pub fn write_new(folders: &[PathBuf], recorder: &Recorder, suffix: &str, bytes: &[u8]) -> io::Result<PathBuf> {
+    let (scene, tick) = recorder.place().unwrap_or_else(|| ("world".to_owned(), 0));
+    let scene = scene + suffix;
+    if cfg!(target_arch = "wasm32") {
+        let path = files::free_path(Path::new(""), &scene, tick, RECORDING_ENDING);
+        return disk::give(&path, bytes).map(|()| path);
+    }
+    files::write_new(folders, &scene, tick, RECORDING_ENDING, bytes)
+}
+
+/// The folders that recordings may go to, the first that takes them.
+pub fn folders(world: &World) -> Vec<PathBuf> {
+    world.resource::<SaveFolders>().0.iter().map(|folder| folder.join(FOLDER)).collect()
 }

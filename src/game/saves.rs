@@ -6,7 +6,6 @@ use crate::{
         files::{self, SAVE_ENDING},
         history,
         hud::toast::Toasts,
-        recording,
         render::extract::Epoch,
     },
     sim::{
@@ -92,7 +91,6 @@ pub fn load(world: &mut World, path: &Path) {
     let name = path.file_name().unwrap_or(path.as_os_str()).display();
     match read(path) {
         Ok(saved) => {
-            recording::stop(world, "another world");
             history::checkpoint(world);
             save::load(world, saved);
             world.resource_mut::<Epoch>().0 += 1;

@@ -1,9 +1,11 @@
 //! The App with a window.
 
+#[cfg(not(target_arch = "wasm32"))]
+use crate::game::crash;
 use crate::{
     game::{GamePlugin, hud::HudPlugin, hud::settings::Room, recording, render::WorldRenderPlugin, rest},
     sim::{
-        SimulationPlugin,
+        SimulationPlugin, fault,
         state::{Census, Setup},
         view,
     },
@@ -48,9 +50,17 @@ pub enum GameError {
         /// The scene that was asked for.
         scene: String,
     },
+    /// It panicked.
+    #[error("the game crashed: {what}; {saved}")]
+    Crashed {
+        /// What the panic said, and where.
+        what: String,
+        /// What was saved of the world, and where.
+        saved: String,
+    },
 }
 
-/// Plays in a window until it is closed. `furnish` adds what the game does not know and makes the world; `scene` is what
+/// Plays in a window until it is closed; whatever ends it otherwise, the world can be had back (see `crash`). `furnish` adds what the game does not know and makes the world; `scene` is what
 /// `run` would call it; what the player does goes to `record`.
 pub fn run(scene: &str, record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> Result<AppExit, GameError> {
     let scene = scene.to_owned();
@@ -63,12 +73,12 @@ pub fn run(scene: &str, record: Option<PathBuf>, furnish: impl FnOnce(&mut App))
     let built = panic::catch_unwind(AssertUnwindSafe(|| build(record, furnish)));
     panic::set_hook(hook);
     match built {
+        #[cfg(not(target_arch = "wasm32"))]
+        Ok(app) => crash::run(app, crash::folder(), |mut app| app.run())
+            .map_err(|crash::Crash { what, saved }| GameError::Crashed { what, saved }),
+        #[cfg(target_arch = "wasm32")]
         Ok(mut app) => Ok(app.run()),
-        Err(cause) => {
-            let text = cause.downcast_ref::<String>().cloned();
-            let text = text.or_else(|| cause.downcast_ref::<&str>().map(ToString::to_string)).unwrap_or_default();
-            Err(explain(&text, scene))
-        }
+        Err(cause) => Err(explain(&fault::message(&*cause), scene)),
     }
 }
 
@@ -118,7 +128,7 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
     .add_systems(Update, tell_in_title.run_if(on_timer(TITLE_EVERY)));
     furnish(&mut app);
     if let Some(path) = record {
-        recording::begin(app.world_mut(), path);
+        recording::begin_into(app.world(), path);
     }
     app
 }

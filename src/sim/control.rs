@@ -10,6 +10,7 @@ use crate::{
         effects::Effects,
         intent::IntentQueue,
         ledger::PassLedger,
+        recorder::Recorder,
         snapshot::{Snapshot, hash_state},
         state::{
             AirGrid, Census, Clock, Counters, ParticleStore, PredictorState, Rates, Rock, Setup, SolverState, Sources,
@@ -60,6 +61,9 @@ pub fn freeze(world: &World) -> Snapshot {
 
 /// Puts a state of the same scene back (undo, redo). Waiting intents are forgotten.
 pub fn thaw(world: &mut World, snapshot: &Snapshot) {
+    if let Some(recorder) = world.get_resource::<Recorder>() {
+        recorder.jump();
+    }
     let air_cell = world.resource::<Setup>().quality.air_cell;
     let mut air = if snapshot.air.cell() == air_cell { snapshot.air.clone() } else { snapshot.air.resized(air_cell) };
     air.set_solids(&snapshot.solids);

@@ -1,10 +1,13 @@
 //! What a player wants done to the world, in world units and apart from any device. Input turns mouse and keys into
 //! intents, the edit stage consumes them in order, replays store them.
 
-use crate::kernel::{
-    brush::Stroke,
-    element::ElementId,
-    params::{Preset, Quality},
+use crate::{
+    kernel::{
+        brush::Stroke,
+        element::ElementId,
+        params::{Preset, Quality},
+    },
+    scene::blueprint::{Effect, Mode},
 };
 use bevy::prelude::Resource;
 use glam::Vec2;
@@ -62,6 +65,13 @@ pub enum Intent {
         preset: Preset,
         /// Its numbers.
         quality: Quality,
+    },
+    /// Want an effect always, never, or while something calls for it.
+    Effect {
+        /// Which.
+        effect: Effect,
+        /// When.
+        mode: Mode,
     },
 }
 

@@ -1,242 +1,186 @@
-//! Recorded input: which intent the edit stage took in which tick, so that a run can be repeated to the last bit.
-//!
-//! A replay file is text, one JSON object a line: first the [`Header`], then one [`Entry`] for each intent in the order
-//! in which they were taken.
+//! Runs a recording again and compares every tick with what was recorded.
 
 use crate::{
-    kernel::{
-        brush::Stroke,
-        element::ElementTable,
-        params::{FluidParams, Preset, Quality},
+    kernel::simd::InstructionSet,
+    sim::{
+        control,
+        intent::IntentQueue,
+        mark::{Mark, Marker},
+        pace::Pace,
+        recording::{End, Recording, Stretch},
+        save::SaveError,
+        state::{AirGrid, Clock, ParticleStore, Rock},
+        twin::Twin,
+        workers::Workers,
     },
-    scene::blueprint::{Blueprint, EffectModes},
-    sim::{intent::Intent, save::check},
 };
-use bevy::prelude::Resource;
-use glam::Vec2;
-use serde::{Deserialize, Serialize};
-use std::{collections::BTreeMap, fmt::Write};
+use bevy::prelude::World;
+use serde::Serialize;
+use std::fmt;
 
-/// Version of the format that this program writes and reads.
-pub const FORMAT: u32 = 1;
-
-/// The first line: the world that the input belongs to.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Header {
-    /// [`FORMAT`].
-    pub powder_master_replay: u32,
-    /// The scene that was played.
-    pub scene: String,
-    /// Values of the scene's parameters.
-    pub parameters: BTreeMap<String, f64>,
-    /// The named quality.
-    pub preset: Preset,
-    /// The numbers in force.
-    pub quality: Quality,
-    /// The liquid's parameters.
-    pub fluid: FluidParams,
-    /// Most particles.
-    pub particle_limit: u32,
-    /// Wanted effects.
-    pub effects: EffectModes,
-    /// Names of the elements that the entries count: a replay fits a program that knows these and perhaps more.
-    pub elements: Vec<String>,
-    /// Ticks that were played.
-    pub ticks: u64,
-}
-
-/// A line after the first.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Entry {
-    /// Ticks that were done when the intent was taken.
+/// The first tick that is not what it was.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Difference {
+    /// How many ticks the world had done after it.
     pub tick: u64,
-    /// The intent.
-    pub intent: Intent,
+    /// Which tick of the recording it is, from 1.
+    pub nth: u64,
+    /// What was recorded; nothing if only the state behind the last tick differs.
+    pub recorded: Option<Mark>,
+    /// What came out.
+    pub found: Mark,
 }
 
-/// A world and the input to it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Replay {
+impl fmt::Display for Difference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { tick, nth, recorded, found } = self;
+        let Some(recorded) = recorded else {
+            return write!(f, "tick {tick} is the same, but what was done after it gives another world");
+        };
+        write!(f, "tick {tick} is the first that differs (number {nth} of the recording): ")?;
+        if recorded.particles != found.particles {
+            return write!(f, "{} moving particles, recorded {}", found.particles, recorded.particles);
+        }
+        let both = recorded.matter != found.matter && recorded.surroundings != found.surroundings;
+        f.write_str(match recorded.matter != found.matter {
+            true if both => "the particles, and air or rock",
+            true => "the particles",
+            false => "air or rock",
+        })
+    }
+}
+
+/// A recording that runs again.
+pub struct Replay<'a> {
+    recording: &'a Recording,
+    workers: Workers,
+    instructions: InstructionSet,
+    /// The stretch that runs, and the world of it.
+    stretch: usize,
+    twin: Twin,
+    marker: Marker,
+    entries: usize,
+    marks: usize,
+    done: u64,
+}
+
+impl<'a> Replay<'a> {
+    /// The start of a recording, for `workers` to run on the lanes of `instructions`.
+    ///
+    /// # Errors
+    /// If a state can't be read.
+    pub fn new(recording: &'a Recording, workers: Workers, instructions: InstructionSet) -> Result<Self, SaveError> {
+        Self::from_stretch(recording, 0, workers, instructions)
+    }
+
+    /// The start of its last stretch.
+    ///
+    /// # Errors
+    /// If a state can't be read.
+    pub fn of_last(
+        recording: &'a Recording,
+        workers: Workers,
+        instructions: InstructionSet,
+    ) -> Result<Self, SaveError> {
+        Self::from_stretch(recording, recording.stretches.len() - 1, workers, instructions)
+    }
+
+    fn from_stretch(
+        recording: &'a Recording,
+        stretch: usize,
+        workers: Workers,
+        instructions: InstructionSet,
+    ) -> Result<Self, SaveError> {
+        let twin = Twin::of_saved(recording.stretches[stretch].start()?, workers.clone(), instructions);
+        let marker = Marker::default();
+        Ok(Self { recording, workers, instructions, stretch, twin, marker, entries: 0, marks: 0, done: 0 })
+    }
+
     /// The world.
-    pub header: Header,
-    /// The input, oldest first.
-    pub entries: Vec<Entry>,
-}
-
-/// What is wrong with a replay file.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("line {line}: {what}")]
-pub struct ReplayError {
-    /// Line, counted from 1.
-    pub line: usize,
-    /// What is wrong there and what is allowed.
-    pub what: String,
-}
-
-impl Replay {
-    /// Reads a replay file's text. `elements` is the table of the program that reads.
-    pub fn read(text: &str, elements: &ElementTable) -> Result<Self, ReplayError> {
-        let mut lines = (1..).zip(text.lines());
-        let (_, first) = lines.next().unwrap_or((1, ""));
-        let header: Header = parse(1, first)?;
-        header.check(elements).map_err(|what| ReplayError { line: 1, what })?;
-        let mut entries: Vec<Entry> = Vec::new();
-        for (line, text) in lines.filter(|(_, text)| !text.trim().is_empty()) {
-            let entry: Entry = parse(line, text)?;
-            let last = entries.last().map_or(0, |entry| entry.tick);
-            check_entry(&entry, last, header.elements.len()).map_err(|what| ReplayError { line, what })?;
-            entries.push(entry);
-        }
-        Ok(Self { header, entries })
+    pub fn world(&self) -> &World {
+        self.twin.world()
     }
 
-    /// The text of the replay file.
-    pub fn write(&self) -> Result<String, serde_json::Error> {
-        let mut text = serde_json::to_string(&self.header)?;
-        text.push('\n');
-        for entry in &self.entries {
-            // Writing to a string does not fail.
-            let _ = writeln!(text, "{}", serde_json::to_string(entry)?);
-        }
-        Ok(text)
+    /// Ticks that were run.
+    pub fn done(&self) -> u64 {
+        self.done
     }
-}
 
-impl Header {
-    /// The header for a world that was built from `blueprint` and has done `ticks`.
-    pub fn new(blueprint: &Blueprint, ticks: u64) -> Self {
-        Self {
-            powder_master_replay: FORMAT,
-            scene: blueprint.name.clone(),
-            parameters: blueprint.parameters.clone(),
-            preset: blueprint.preset,
-            quality: blueprint.quality,
-            fluid: blueprint.fluid,
-            particle_limit: blueprint.particle_limit,
-            effects: blueprint.effects.clone(),
-            elements: blueprint.elements.iter().map(|(_, element)| element.name.clone()).collect(),
-            ticks,
+    /// Runs the next tick and compares it; `false` if there is none.
+    ///
+    /// # Errors
+    /// If it is not what was recorded.
+    pub fn tick(&mut self) -> Result<bool, Difference> {
+        while self.marks == self.now().marks.len() {
+            if self.stretch + 1 == self.recording.stretches.len() {
+                return Ok(false);
+            }
+            self.go_to(self.stretch + 1);
+        }
+        let recorded = self.now().marks[self.marks];
+        self.push_due();
+        self.twin.tick();
+        self.marks += 1;
+        self.done += 1;
+        let found = self.mark();
+        let tick = self.now().tick + self.marks as u64;
+        if found != recorded {
+            return Err(Difference { tick, nth: self.done, recorded: Some(recorded), found });
+        }
+        Ok(true)
+    }
+
+    /// Does what was done to the world after the last tick, while it stood, and compares the end.
+    ///
+    /// # Errors
+    /// If it is not what was recorded.
+    pub fn finish(&mut self) -> Result<u64, Difference> {
+        self.push_due();
+        self.twin.world_mut().resource_mut::<Pace>().paused = true;
+        self.twin.tick();
+        self.twin.world_mut().resource_mut::<Pace>().paused = false;
+        let hash = control::hash(self.world());
+        match self.recording.end {
+            Some(End::Stopped { hash: recorded }) if recorded != hash => {
+                let tick = self.world().resource::<Clock>().tick;
+                Err(Difference { tick, nth: self.done, recorded: None, found: self.mark() })
+            }
+            _ => Ok(hash),
         }
     }
 
-    /// The scene's parameters as a scene file takes them.
-    pub fn settings(&self) -> Vec<(String, String)> {
-        self.parameters.iter().map(|(name, value)| (name.clone(), value.to_string())).collect()
+    /// Runs one more tick than was recorded: the one in which the program panicked.
+    pub fn go_beyond(&mut self) {
+        self.twin.tick();
     }
 
-    /// The blueprint that was played, from the one that the scene builds with the same parameters and preset: with the
-    /// recorded numbers of the liquid, and of the quality too if `exact`.
-    pub fn restore(&self, built: Blueprint, exact: bool) -> Blueprint {
-        let quality = if exact { self.quality } else { built.quality };
-        Blueprint { quality, fluid: self.fluid, particle_limit: self.particle_limit, ..built }
+    fn now(&self) -> &'a Stretch {
+        &self.recording.stretches[self.stretch]
     }
 
-    fn check(&self, elements: &ElementTable) -> Result<(), String> {
-        if self.powder_master_replay != FORMAT {
-            return Err(format!("replay format {}, but this program reads {FORMAT}", self.powder_master_replay));
+    fn go_to(&mut self, stretch: usize) {
+        // Every state was looked at when the recording was read.
+        if let Ok(saved) = self.recording.stretches[stretch].start() {
+            self.twin = Twin::of_saved(saved, self.workers.clone(), self.instructions);
         }
-        let mut known = elements.iter().map(|(_, element)| &element.name);
-        match self.elements.iter().find(|name| known.next() != Some(name)) {
-            Some(name) => Err(format!("element \"{name}\" is not at this place of the element table")),
-            None => Ok(()),
+        (self.stretch, self.entries, self.marks) = (stretch, 0, 0);
+        self.marker = Marker::default();
+    }
+
+    /// Gives the world the input that is due.
+    fn push_due(&mut self) {
+        let now = self.now().tick + self.marks as u64;
+        let waiting = self.now().entries[self.entries..].iter();
+        let mut queue = self.twin.world_mut().resource_mut::<IntentQueue>();
+        for entry in waiting.take_while(|entry| entry.tick <= now) {
+            queue.push(entry.intent);
+            self.entries += 1;
         }
     }
-}
 
-fn parse<T: for<'a> Deserialize<'a>>(line: usize, text: &str) -> Result<T, ReplayError> {
-    serde_json::from_str(text).map_err(|error| {
-        let text = error.to_string();
-        // Every JSON text is one line long: its own line number says nothing, its column stays.
-        let what = text.replace(" at line 1 column ", " at column ").replace(" at line 1", "");
-        ReplayError { line, what }
-    })
-}
-
-fn check_entry(entry: &Entry, last: u64, elements: usize) -> Result<(), String> {
-    if entry.tick < last {
-        return Err(format!("tick {} comes after tick {last}, but ticks never go back", entry.tick));
-    }
-    let (element, places, numbers): (_, &[Vec2], &[f32]) = match &entry.intent {
-        Intent::Draw { element, stroke } | Intent::Stamp { element, stroke } => {
-            (Some(element), &places(stroke), &[stroke.radius])
-        }
-        Intent::Fill { element, at } => (Some(element), &[*at], &[]),
-        Intent::Erase { stroke } => (None, &places(stroke), &[stroke.radius]),
-        Intent::Blow { stroke, velocity } => (None, &[stroke.from, stroke.to, *velocity], &[stroke.radius]),
-        Intent::Press { stroke, amount } => (None, &places(stroke), &[stroke.radius, *amount]),
-        Intent::ClearAir => (None, &[], &[]),
-        Intent::Quality { quality, .. } => return check::quality(quality),
-    };
-    if let Some(element) = element.filter(|element| element.index() >= elements) {
-        return Err(format!("element {} is not one of the {elements} elements (0 … {})", element.0, elements - 1));
-    }
-    if !(places.iter().all(|place| place.is_finite()) && numbers.iter().all(|number| number.is_finite())) {
-        return Err("a coordinate or amount is too large for a number of the simulation".into());
-    }
-    Ok(())
-}
-
-fn places(stroke: &Stroke) -> [Vec2; 2] {
-    [stroke.from, stroke.to]
-}
-
-/// Notes what the edit stage takes. Going back to an earlier state of the same scene (undo) and forth again (redo) keeps
-/// the record right: the world knows how many edits it has seen, and the record is cut there before it goes on.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct Recorder {
-    entries: Vec<Entry>,
-}
-
-impl Recorder {
-    /// Notes that the world, `tick` ticks and `edits` edits old, takes `intent`.
-    pub fn note(&mut self, tick: u64, edits: u64, intent: Intent) {
-        self.entries.truncate(edits as usize);
-        self.entries.push(Entry { tick, intent });
-    }
-
-    /// The record of a world, `ticks` ticks and `edits` edits old, that was built from `blueprint`.
-    pub fn replay(&self, blueprint: &Blueprint, ticks: u64, edits: u64) -> Replay {
-        let seen = self.entries.len().min(edits as usize);
-        Replay { header: Header::new(blueprint, ticks), entries: self.entries[..seen].to_vec() }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::{self, blueprint::EffectModes};
-
-    fn blueprint() -> Blueprint {
-        scene::load("empty").unwrap().build(&[], None, &EffectModes::new()).unwrap()
-    }
-
-    #[test]
-    fn undo_cuts_the_record_only_when_something_else_is_done() {
-        let mut recorder = Recorder::default();
-        let press = |amount| Intent::Press { stroke: Stroke::rectangle(Vec2::ZERO, Vec2::ONE), amount };
-        for edits in 0..4 {
-            recorder.note(10 * edits, edits, press(edits as f32));
-        }
-        let ticks = |replay: Replay| replay.entries.iter().map(|entry| entry.tick).collect::<Vec<_>>();
-        assert_eq!(ticks(recorder.replay(&blueprint(), 40, 2)), [0, 10], "undone twice");
-        assert_eq!(ticks(recorder.replay(&blueprint(), 40, 4)), [0, 10, 20, 30], "done again");
-        recorder.note(15, 2, press(7.0));
-        assert_eq!(ticks(recorder.replay(&blueprint(), 40, 3)), [0, 10, 15], "what was undone is gone");
-    }
-
-    #[test]
-    fn a_replay_survives_its_file_to_the_last_bit() {
-        let mut recorder = Recorder::default();
-        let at = Vec2::new(0.1 + 0.2, 1.0 / 3.0);
-        recorder.note(7, 0, Intent::Fill { element: crate::kernel::element::ElementId(1), at });
-        recorder.note(7, 1, Intent::ClearAir);
-        recorder.note(9, 2, Intent::Blow { stroke: Stroke::rectangle(at, at * 77.7), velocity: at * -1e-7 });
-        let blueprint = blueprint();
-        let replay = recorder.replay(&blueprint, 9, 3);
-        let text = replay.write().unwrap();
-        assert_eq!(text.lines().count(), 4);
-        assert_eq!(Replay::read(&text, &blueprint.elements).unwrap(), replay);
+    fn mark(&mut self) -> Mark {
+        let world = self.twin.world();
+        let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
+        self.marker.mark(particles, rock, world.resource::<AirGrid>(), world.resource::<Clock>())
     }
 }

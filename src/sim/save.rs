@@ -81,6 +81,11 @@ impl Saved {
     pub fn snapshot(&self) -> &Snapshot {
         &self.snapshot
     }
+
+    /// Number of its elements.
+    pub fn elements(&self) -> usize {
+        self.blueprint.elements.len()
+    }
 }
 
 /// What the file holds. Effects and the preset go by name, so that new ones don't shift the old.
@@ -119,9 +124,18 @@ struct RockCell {
 
 /// The world as a save file.
 pub fn encode(world: &World) -> Vec<u8> {
-    let setup = world.resource::<Setup>();
-    let blueprint = &setup.blueprint;
-    let Snapshot { mut particles, solids, air, pressure, sources, clock } = control::freeze(world);
+    let Setup { blueprint, preset, quality, .. } = world.resource::<Setup>();
+    encode_state(blueprint, (*preset, *quality), &world.resource::<Effects>().modes(), control::freeze(world))
+}
+
+/// [`encode`] of the parts: a state of the scene, at a quality and with the wanted effects.
+pub(in crate::sim) fn encode_state(
+    blueprint: &Blueprint,
+    (preset, quality): (Preset, Quality),
+    effects: &EffectModes,
+    state: Snapshot,
+) -> Vec<u8> {
+    let Snapshot { mut particles, solids, air, pressure, sources, clock } = state;
     // The next tick would take them away; a file with them would be refused.
     remove_non_finite(&mut particles, 1);
     let rock =
@@ -136,9 +150,9 @@ pub fn encode(world: &World) -> Vec<u8> {
         elements: blueprint.elements.iter().map(|(_, element)| element.clone()).collect(),
         fluid: blueprint.fluid,
         air_params: blueprint.air,
-        effects: world.resource::<Effects>().modes().iter().map(|(e, mode)| (e.name().to_owned(), *mode)).collect(),
-        preset: setup.preset.name().to_owned(),
-        quality: setup.quality,
+        effects: effects.iter().map(|(effect, mode)| (effect.name().to_owned(), *mode)).collect(),
+        preset: preset.name().to_owned(),
+        quality,
         particle_limit: blueprint.particle_limit,
         first_element: blueprint.first_element.clone(),
         particles,

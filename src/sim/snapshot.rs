@@ -46,6 +46,12 @@ impl Snapshot {
         }
     }
 
+    /// Bytes that it takes, to a good approximation.
+    pub fn size_in_memory(&self) -> usize {
+        let air = self.air.columns() * self.air.rows() * 12;
+        self.particles.len() * 21 + self.solids.memory() + air + self.pressure.len() * 4
+    }
+
     /// A hash over the exact bits of the state in the order of the ids (64-bit FNV-1a): equal hashes mean equal worlds.
     pub fn hash(&self) -> u64 {
         hash_state(&self.particles, &self.solids, &self.air)

@@ -10,6 +10,7 @@ use crate::{
     sim::{
         SimulationPlugin, control,
         effects::Effects,
+        save::{self, Saved},
         snapshot::Snapshot,
         state::{Setup, SolverState},
         workers::Workers,
@@ -53,14 +54,20 @@ pub struct Twin {
 impl Twin {
     /// The world of `seed`, for `workers` to run.
     pub fn new(seed: &Seed, workers: Workers) -> Self {
-        let mut app = App::empty();
-        app.add_plugins(SimulationPlugin).insert_resource(workers);
-        let mut world = std::mem::take(app.world_mut());
+        let mut world = bare(workers);
         control::load(&mut world, seed.setup.blueprint.clone());
         world.insert_resource(seed.setup.clone());
         world.insert_resource(seed.effects.clone());
         control::thaw(&mut world, &seed.state);
         world.resource_mut::<SolverState>().instructions = seed.instructions;
+        Self { world }
+    }
+
+    /// The world of a save file, for `workers` to run on the lanes of `instructions`.
+    pub fn of_saved(saved: Saved, workers: Workers, instructions: InstructionSet) -> Self {
+        let mut world = bare(workers);
+        save::load(&mut world, saved);
+        world.resource_mut::<SolverState>().instructions = instructions;
         Self { world }
     }
 
@@ -84,6 +91,13 @@ impl Twin {
         self.world.run_schedule(FixedUpdate);
         self.world.clear_trackers();
     }
+}
+
+/// The schedules of a simulation, and nothing to simulate yet.
+fn bare(workers: Workers) -> World {
+    let mut app = App::empty();
+    app.add_plugins(SimulationPlugin).insert_resource(workers);
+    std::mem::take(app.world_mut())
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ mod determinism;
 mod hard_cases;
 mod monkey;
 mod motion;
+mod recordings;
 mod saves;
 mod stages;
 mod still;

@@ -17,7 +17,7 @@ use powder_master::{
 };
 
 /// Anything that a player's tools can make, sensible or not.
-fn whim(random: &mut Random, size: Vec2) -> Intent {
+pub fn whim(random: &mut Random, size: Vec2) -> Intent {
     let shape = [BrushShape::Disc, BrushShape::Square, BrushShape::Rectangle][random.index(3)];
     // Now and then from outside the box.
     let mut point = || random.point(size * 1.2) - size * 0.1;

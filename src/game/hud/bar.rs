@@ -12,8 +12,11 @@ use crate::{
         input::bindings::{self, Action},
         orders::{Order, Orders, Shown},
     },
-    kernel::params::{Preset, Quality},
-    sim::{state::Setup, view::View},
+    kernel::{
+        params::{Preset, Quality},
+        units::TICKS_PER_SECOND,
+    },
+    sim::{recorder::Recorder, state::Setup, view::View},
 };
 use bevy::prelude::{Res, ResMut, Result};
 use bevy_egui::{
@@ -31,6 +34,7 @@ pub fn show(
     readings: Res<Readings>,
     setup: Res<Setup>,
     shown: Res<Shown>,
+    recorder: Res<Recorder>,
     mut room: ResMut<Room>,
     mut orders: ResMut<Orders>,
 ) -> Result {
@@ -51,13 +55,33 @@ pub fn show(
                     ui.set_height(26.0);
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                         menus(ui, width < NARROW, &state, &setup, shown.0, &mut orders);
-                        ui.with_layout(Layout::left_to_right(Align::Center), |ui| numbers(ui, &readings));
+                        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                            if let Some(ticks) = recorder.ticks() {
+                                recording(ui, ticks);
+                            }
+                            numbers(ui, &readings);
+                        });
                     });
                 });
             });
         });
     room.top = shown_bar.response.rect.bottom();
     Ok(())
+}
+
+/// That there is a recording, and how long it is.
+fn recording(ui: &mut Ui, ticks: u64) {
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.x = 5.0;
+        dot(ui, style::BAD);
+        let seconds = ticks / u64::from(TICKS_PER_SECOND);
+        ui.label(RichText::new(format!("{}:{:02}", seconds / 60, seconds % 60)).color(style::BAD)).on_hover_text(
+            format!(
+                "recording ({} ends it)",
+                bindings::of(Action::Record).map(ToString::to_string).unwrap_or_default()
+            ),
+        );
+    });
 }
 
 fn numbers(ui: &mut Ui, readings: &Readings) {

@@ -4,6 +4,8 @@
 pub mod accuracy;
 pub mod bar;
 pub mod brush;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod crash;
 pub mod details;
 pub mod exam;
 pub mod help;
@@ -66,6 +68,8 @@ impl Plugin for HudPlugin {
                 )
                     .chain(),
             );
+        #[cfg(not(target_arch = "wasm32"))]
+        app.add_systems(EguiPrimaryContextPass, crash::show.after(settings::show).before(help::show));
     }
 }
 

@@ -48,6 +48,10 @@ pub enum Action {
     Hud,
     /// Writes the world into a file.
     Save,
+    /// Begins a recording, or ends it.
+    Record,
+    /// Writes the last minute as a recording.
+    KeepLastMinute,
     /// Opens the list of save files.
     Saves,
     /// Opens the scene menu.
@@ -243,6 +247,8 @@ pub const BINDINGS: &[Binding] = {
     key(K::KeyR, NONE, A::Reset, H::World, "reset the scene (can be undone)"),
     key(K::KeyS, CTRL, A::Save, H::World, "save the world"),
     key(K::KeyO, CTRL, A::Saves, H::World, "load a saved world (can be undone)"),
+    key(K::F9, NONE, A::Record, H::World, "record; again: end the recording and write it"),
+    key(K::F9, SHIFT, A::KeepLastMinute, H::World, "write the last minute as a recording"),
     key(K::KeyM, NONE, A::Scenes, H::World, "scene menu"),
 
     key(K::KeyV, NONE, A::NextView, H::Look, "next view"),
@@ -338,6 +344,7 @@ fn key_name(key: KeyCode) -> &'static str {
         K::F3 => "F3",
         K::F4 => "F4",
         K::F6 => "F6",
+        K::F9 => "F9",
         K::F11 => "F11",
         K::Space => "Space",
         K::Tab => "Tab",

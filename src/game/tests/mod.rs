@@ -35,6 +35,8 @@ use std::{sync::Arc, time::Duration};
 
 mod accuracy;
 mod air;
+#[cfg(not(target_arch = "wasm32"))]
+mod crash;
 mod draw;
 mod keys;
 mod past;

@@ -2,25 +2,32 @@
 
 use super::*;
 use crate::{
-    game::recording::{self, Recording},
-    kernel::params::Preset,
-    lab::{
-        headless::Headless,
-        run::{Plan, run},
+    game::{input::bindings::Action, playback, recording, saves::SaveFolders},
+    kernel::{params::Preset, simd::InstructionSet},
+    scene::blueprint::{Effect, Mode},
+    sim::{
+        effects::Effects,
+        recorder::Recorder,
+        recording::{RECORDING_ENDING, Recording},
+        replay::Replay,
+        save,
+        workers::Workers,
     },
-    sim::{replay::Replay, workers::Workers},
 };
-use std::{fs, path::PathBuf};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 fn file(name: &str) -> PathBuf {
-    std::env::temp_dir().join(format!("powder-master-{name}-{}.jsonl", std::process::id()))
+    std::env::temp_dir().join(format!("powder-master-{name}-{}.{RECORDING_ENDING}", std::process::id()))
 }
 
 /// A player who is recorded from the first tick.
-fn recorded(path: &std::path::Path) -> Player {
+fn recorded(path: &Path) -> Player {
     let mut player = Player::new();
     control::reset(player.0.world_mut());
-    recording::begin(player.0.world_mut(), path.to_owned());
+    recording::begin_into(player.0.world(), path.to_owned());
     player
 }
 
@@ -35,18 +42,30 @@ fn scribble(player: &mut Player, element: &str, at: Vec2) {
     player.frames(2);
 }
 
+fn order(player: &mut Player, order: Order) {
+    player.0.world_mut().resource_mut::<Orders>().push(order);
+    player.frame();
+}
+
+fn read(path: &Path) -> Recording {
+    let bytes = fs::read(path).expect("it was written");
+    Recording::decode(&bytes).unwrap_or_else(|error| panic!("{error}"))
+}
+
 /// The hash at the end of a recording, played again.
-fn again(path: &std::path::Path) -> u64 {
-    let scene = scene::load("empty").expect("the scene comes with the game");
-    let text = fs::read_to_string(path).expect("it was written");
-    let built = scene.build(&[], None, &EffectModes::new()).expect("its defaults are valid");
-    let replay = Replay::read(&text, &built.elements).expect("it is a replay");
-    let blueprint = Arc::new(replay.header.restore(built, true));
-    let mut headless = Headless::new(blueprint, Workers::default());
-    let intents = replay.entries.iter().map(|entry| (entry.tick, entry.intent)).collect();
-    let plan = Plan { ticks: replay.header.ticks, warmup: 0, intents, complete: true };
-    run(&mut headless, &plan, &mut []).expect("nobody watches");
-    control::hash(headless.world())
+fn again(path: &Path) -> u64 {
+    let recording = read(path);
+    let mut replay = Replay::new(&recording, Workers::default(), InstructionSet::detect()).expect("it was read");
+    while replay.tick().unwrap_or_else(|difference| panic!("{difference}")) {}
+    replay.finish().unwrap_or_else(|difference| panic!("{difference}"))
+}
+
+/// The recordings in a folder for saved worlds.
+fn recordings(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder.join("recordings")).into_iter().flatten();
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("it can be read").path()).collect();
+    paths.sort();
+    paths
 }
 
 #[test]
@@ -103,28 +122,98 @@ fn a_recording_goes_on_at_another_quality_and_back_with_undo() {
     let hash = player.hash();
     player.0.world_mut().write_message(bevy::app::AppExit::Success);
     player.frame();
-    assert!(player.world().contains_resource::<Recording>(), "the recording has ended");
+    assert!(player.world().resource::<Recorder>().ticks().is_some(), "the recording has ended");
     assert_eq!(again(&path), hash);
     fs::remove_file(path).expect("it is ours");
 }
 
 #[test]
-fn a_recording_ends_where_it_would_stop_being_true() {
-    let orders = [
-        Order::Scene { name: "dam_break".into(), settings: vec![] },
-        Order::Act(crate::game::input::bindings::Action::Reset),
-    ];
-    for (number, order) in orders.into_iter().enumerate() {
-        let path = file(&format!("ends-{number}"));
-        let mut player = recorded(&path);
-        scribble(&mut player, "water", Vec2::ZERO);
-        player.chord(&[KeyCode::Space]);
-        let hash = player.hash();
-        player.0.world_mut().resource_mut::<Orders>().push(order.clone());
-        player.frame();
-        assert!(!player.world().contains_resource::<Recording>(), "{order:?}");
-        scribble(&mut player, "rock", Vec2::ZERO);
-        assert_eq!(again(&path), hash, "{order:?}");
-        fs::remove_file(path).expect("it is ours");
-    }
+fn a_recording_goes_on_through_everything_that_puts_another_world_in_place() {
+    let path = file("jumps");
+    let mut player = recorded(&path);
+    scribble(&mut player, "water", Vec2::ZERO);
+    order(&mut player, Order::Effect(Effect::Viscosity, Mode::On));
+    player.frames(3);
+    assert_eq!(player.world().resource::<Effects>().get(Effect::Viscosity).mode, Mode::On);
+    let saved = save::encode(player.world());
+    let save = file("jumps-save").with_extension("pms");
+    fs::write(&save, saved).expect("the folder of temporary files can be written");
+    order(&mut player, Order::Scene { name: "dam_break".into(), settings: vec![("columns".into(), "9".into())] });
+    player.frames(5);
+    order(&mut player, Order::Load(save.clone()));
+    player.frames(5);
+    player.chord(&[KeyCode::ControlLeft, KeyCode::KeyZ]);
+    player.frames(5);
+    order(&mut player, Order::Act(Action::Reset));
+    scribble(&mut player, "rock", Vec2::ZERO);
+    player.chord(&[KeyCode::Space]);
+    let hash = player.hash();
+    player.0.world_mut().write_message(bevy::app::AppExit::Success);
+    player.frame();
+    assert_eq!(read(&path).stretches.len(), 5, "start, scene, save file, undo, reset");
+    assert_eq!(again(&path), hash);
+    fs::remove_file(path).and_then(|()| fs::remove_file(save)).expect("they are ours");
+}
+
+#[test]
+fn a_key_begins_a_recording_and_ends_it_and_another_keeps_the_last_minute() {
+    let folder = file("keys").with_extension("d");
+    let mut player = Player::new();
+    player.0.insert_resource(SaveFolders(vec![folder.clone()]));
+    scribble(&mut player, "water", Vec2::new(0.0, 10.0));
+    player.chord(&[KeyCode::F9]);
+    assert!(player.world().resource::<Recorder>().ticks().is_some());
+    let begun = player.tick();
+    scribble(&mut player, "rock", Vec2::new(-20.0, -5.0));
+    player.chord(&[KeyCode::Space]);
+    scribble(&mut player, "water", Vec2::new(5.0, 9.0));
+    let (hash, tick) = (player.hash(), player.tick());
+    player.chord(&[KeyCode::F9]);
+    assert_eq!(player.world().resource::<Recorder>().ticks(), None);
+    let [path] = &recordings(&folder)[..] else { panic!("one file, not {:?}", recordings(&folder)) };
+    let told = player.world().resource::<Toasts>().last().expect("it is told").to_owned();
+    assert!(told.starts_with("Recorded 0.") && told.ends_with(&path.display().to_string()), "{told}");
+    let recording = read(path);
+    assert!(recording.stretches[0].tick.abs_diff(begun) <= 1, "{} is not {begun}", recording.stretches[0].tick);
+    assert_eq!(recording.stretches[0].tick + recording.ticks(), tick);
+    assert_eq!(again(path), hash);
+
+    player.chord(&[KeyCode::ShiftLeft, KeyCode::F9]);
+    let minute = recordings(&folder).into_iter().find(|other| other != path).expect("a second file");
+    let told = player.world().resource::<Toasts>().last().expect("it is told").to_owned();
+    assert!(told.starts_with("The last minute: ") && told.ends_with(&minute.display().to_string()), "{told}");
+    assert_eq!(read(&minute).ticks(), tick, "all that was played, and the recording did not end it");
+    assert_eq!(again(&minute), hash);
+    fs::remove_dir_all(folder).expect("it is ours");
+}
+
+#[test]
+fn a_recording_can_be_watched_and_comes_to_the_same_end() {
+    let path = file("watched");
+    let mut player = recorded(&path);
+    scribble(&mut player, "water", Vec2::ZERO);
+    player.chord(&[KeyCode::ControlLeft, KeyCode::KeyZ]);
+    scribble(&mut player, "rock", Vec2::new(3.0, -9.0));
+    player.chord(&[KeyCode::Space]);
+    let (hash, tick) = (player.hash(), player.tick());
+    player.0.world_mut().write_message(bevy::app::AppExit::Success);
+    player.frame();
+    let recording = read(&path);
+    let mut watcher = Player::new();
+    let watch = |watcher: &mut Player| {
+        save::load(watcher.0.world_mut(), recording.stretches[0].start().expect("it was read"));
+        playback::begin(watcher.0.world_mut(), recording.clone());
+    };
+    watch(&mut watcher);
+    watcher.frames(recording.ticks() as usize + 10);
+    assert!(watcher.world().resource::<Pace>().paused, "it stands at the end");
+    assert_eq!((watcher.tick(), watcher.hash()), (tick, hash));
+    watcher.chord(&[KeyCode::Space]);
+    watch(&mut watcher);
+    watcher.frames(4);
+    order(&mut watcher, Order::Act(Action::Reset));
+    watcher.frames(30);
+    assert_eq!(watcher.particles(), 0, "a reset leaves the recording");
+    assert!(!watcher.world().resource::<Pace>().paused);
+    fs::remove_file(path).expect("it is ours");
 }

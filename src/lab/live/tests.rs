@@ -14,7 +14,8 @@ use crate::{
         control,
         intent::Intent,
         ledger::PassLedger,
-        replay::Recorder,
+        recorder::{self, Recorder},
+        recording::Recording,
         schedule::TickSystems,
         state::{Clock, Setup},
         workers::Workers,
@@ -135,15 +136,15 @@ fn fly(goal: Goal, ticks: u64) -> (u64, Vec<(u64, Intent)>, Headless) {
     let mut headless = begin("dam_break", &[("columns", "12")], |app: &mut App| {
         app.add_plugins((LivePlugin, autopilot::plugin));
         app.add_systems(FixedUpdate, pretend_load.after(TickSystems::Measure).before(autopilot::steer));
-        app.init_resource::<Recorder>();
+        recorder::plugin(app);
     });
     headless.world_mut().resource_mut::<Watched>().0 = true;
     headless.world_mut().resource_mut::<Autopilot>().hold(Some(goal));
     (0..ticks).for_each(|_| headless.tick());
     let world = headless.world();
-    let (setup, clock) = (world.resource::<Setup>(), world.resource::<Clock>());
-    let replay = world.resource::<Recorder>().replay(&setup.blueprint, clock.tick, clock.edits);
-    let intents = replay.entries.iter().map(|entry| (entry.tick, entry.intent)).collect();
+    let bytes = world.resource::<Recorder>().last_minute(recorder::end_now(world));
+    let recording = Recording::decode(&bytes).unwrap();
+    let intents = recording.stretches[0].entries.iter().map(|entry| (entry.tick, entry.intent)).collect();
     (control::hash(world), intents, headless)
 }
 

@@ -4,20 +4,20 @@ use crate::{
     kernel::spawn::{EditReport, Matter},
     sim::{
         control::change_quality,
+        effects::Effects,
         intent::{Intent, IntentQueue},
         ledger::{Pass, PassLedger},
-        replay::Recorder,
+        recorder::Recorder,
         state::{AirGrid, Census, Clock, Counters, ParticleStore, Rock, Setup},
     },
 };
 use bevy::platform::time::Instant;
-use bevy::prelude::ResMut;
+use bevy::prelude::{Res, ResMut};
 
 /// Applies all waiting intents in order.
 pub(super) fn apply_intents(
-    mut queue: ResMut<IntentQueue>,
-    mut recorder: Option<ResMut<Recorder>>,
-    mut setup: ResMut<Setup>,
+    (mut queue, recorder): (ResMut<IntentQueue>, Option<Res<Recorder>>),
+    (mut setup, mut effects): (ResMut<Setup>, ResMut<Effects>),
     mut particles: ResMut<ParticleStore>,
     mut rock: ResMut<Rock>,
     mut air: ResMut<AirGrid>,
@@ -34,8 +34,8 @@ pub(super) fn apply_intents(
     let mut placed = 0;
     for intent in queue.drain() {
         let seed = clock.edits;
-        if let Some(recorder) = &mut recorder {
-            recorder.note(clock.tick, seed, intent);
+        if let Some(recorder) = &recorder {
+            recorder.note(clock.tick, intent);
         }
         clock.edits += 1;
         let mut matter = Matter {
@@ -64,6 +64,10 @@ pub(super) fn apply_intents(
             }
             Intent::Quality { preset, quality } => {
                 change_quality(&mut setup, &mut air, &rock, preset, quality);
+                EditReport::default()
+            }
+            Intent::Effect { effect, mode } => {
+                effects.get_mut(effect).mode = mode;
                 EditReport::default()
             }
         };

@@ -1,0 +1,192 @@
+//! The journal of a running game: its newest state and what happened since then, in a file that is always whole up to
+//! the last half second. Written by a thread of its own; the game only copies what is new.
+//!
+//! A state comes every 30 s of the world's time (see `sim::recorder`) and takes the place of the one before in one step.
+//! The file is locked as long as the game lives, so that another game knows whose it is.
+
+use crate::sim::{
+    recorder::{Cursor, News, Recorder},
+    recording::{End, RECORDING_ENDING, Writer},
+};
+use bevy::{
+    log::error,
+    prelude::{App, Last, Res, Resource},
+};
+use std::{
+    fs::{self, File, OpenOptions},
+    io::{self, Write},
+    path::{Path, PathBuf},
+    sync::{
+        Arc, Mutex, MutexGuard, PoisonError,
+        mpsc::{Receiver, Sender, channel},
+    },
+    thread::{self, JoinHandle},
+    time::{Duration, Instant},
+};
+
+/// What the names of journals begin with.
+pub const PREFIX: &str = "running-";
+/// Games of one user that may run at once.
+const MOST_GAMES: u32 = 64;
+/// Time from one writing to the next: so much input is lost with the machine.
+const EVERY: Duration = Duration::from_millis(500);
+
+enum Word {
+    News(Box<News>),
+    End(End),
+}
+
+/// A journal that is written.
+#[derive(Debug)]
+pub struct Journal {
+    recorder: Recorder,
+    cursor: Cursor,
+    path: PathBuf,
+    sender: Option<Sender<Word>>,
+    thread: Option<JoinHandle<io::Result<()>>>,
+    written: Instant,
+}
+
+/// The journal, for the game and for what comes after it.
+#[derive(Resource, Clone, Debug)]
+pub struct SharedJournal(Arc<Mutex<Journal>>);
+
+impl Journal {
+    /// Begins a journal in a folder, which is made if there is none. Nothing if that can't be: the game goes on without.
+    pub fn begin(folder: &Path, recorder: Recorder) -> Option<SharedJournal> {
+        let (path, file) = match claim(folder) {
+            Ok(claimed) => claimed,
+            Err(error) => {
+                error!("{}: no journal can be kept there: {error}", folder.display());
+                return None;
+            }
+        };
+        let (sender, words) = channel();
+        let place = path.clone();
+        let thread = thread::Builder::new().name("journal".to_owned()).spawn(move || write(&place, file, &words));
+        let thread = thread.map_err(|error| error!("the journal can't be kept: {error}")).ok()?;
+        let (sender, thread) = (Some(sender), Some(thread));
+        let journal = Self { recorder, cursor: Cursor::default(), path, sender, thread, written: Instant::now() };
+        Some(SharedJournal(Arc::new(Mutex::new(journal))))
+    }
+
+    /// Hands what is new to the thread.
+    fn tell_news(&mut self) {
+        self.written = Instant::now();
+        if let Some(news) = self.recorder.news(&mut self.cursor) {
+            self.tell(Word::News(Box::new(news)));
+        }
+    }
+
+    fn tell(&mut self, word: Word) {
+        // A thread that is gone met an error, which is told when it is joined.
+        if self.sender.as_ref().is_some_and(|sender| sender.send(word).is_err()) {
+            self.join();
+        }
+    }
+
+    /// Waits until all is written and the lock is free; whether it could be.
+    fn join(&mut self) -> bool {
+        self.sender = None;
+        match self.thread.take().map(JoinHandle::join) {
+            Some(Ok(Ok(()))) => true,
+            Some(Ok(Err(error))) => {
+                error!("{}: the journal can't be written: {error}", self.path.display());
+                false
+            }
+            _ => false,
+        }
+    }
+}
+
+impl SharedJournal {
+    fn lock(&self) -> MutexGuard<'_, Journal> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Ends the journal of a game that ended well: nothing is left of it.
+    pub fn forget(&self) {
+        let mut journal = self.lock();
+        journal.join();
+        if let Err(error) = fs::remove_file(&journal.path) {
+            error!("{}: the journal can't be removed: {error}", journal.path.display());
+        }
+    }
+
+    /// Ends the journal of a game that crashed; whether it is whole.
+    pub fn close(&self) -> bool {
+        let mut journal = self.lock();
+        journal.tell_news();
+        journal.tell(Word::End(End::Crashed));
+        journal.join()
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> PathBuf {
+        self.lock().path.clone()
+    }
+}
+
+/// Keeps the journal up while the game runs.
+pub fn follow(app: &mut App) {
+    app.add_systems(Last, keep_up);
+}
+
+fn keep_up(journal: Res<SharedJournal>) {
+    let mut journal = journal.lock();
+    if journal.written.elapsed() >= EVERY {
+        journal.tell_news();
+    }
+}
+
+/// A file of our own, locked, and its path.
+fn claim(folder: &Path) -> io::Result<(PathBuf, File)> {
+    fs::create_dir_all(folder)?;
+    for number in 0..MOST_GAMES {
+        let path = folder.join(format!("{PREFIX}{number}.{RECORDING_ENDING}"));
+        match OpenOptions::new().write(true).create_new(true).open(&path) {
+            // Whoever was quicker to lock it takes it for one that was left.
+            Ok(file) if file.try_lock().is_ok() => return Ok((path, file)),
+            Ok(_) => {}
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Err(io::Error::other("too many games run, or were left"))
+}
+
+/// Writes what it is told until nobody tells more.
+fn write(path: &Path, mut file: File, words: &Receiver<Word>) -> io::Result<()> {
+    let mut writer = Writer::new();
+    while let Ok(word) = words.recv() {
+        match word {
+            Word::News(news) => {
+                let News { start, entries, marks } = *news;
+                let Some(start) = start else {
+                    writer.ticks(&entries, &marks);
+                    file.write_all(&writer.take())?;
+                    continue;
+                };
+                writer = Writer::new();
+                writer.start(&start.encode());
+                writer.ticks(&entries, &marks);
+                file = replace(path, &writer.take())?;
+            }
+            Word::End(end) => {
+                writer.end(end);
+                file.write_all(&writer.take())?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Puts a new file in the place of the old one, in one step, and keeps it open and locked.
+fn replace(path: &Path, bytes: &[u8]) -> io::Result<File> {
+    let part = path.with_extension("part");
+    let mut file = File::create(&part)?;
+    file.try_lock()?;
+    file.write_all(bytes)?;
+    fs::rename(&part, path)?;
+    Ok(file)
+}

@@ -1,0 +1,67 @@
+//! The offer to go on with the world of a game that did not end well.
+
+use crate::{
+    game::{
+        crash::remains::{Choice, Remains},
+        hud::{stats::grouped, style},
+    },
+    kernel::units::TICKS_PER_SECOND,
+};
+use bevy::prelude::{ResMut, Result};
+use bevy_egui::{
+    EguiContexts,
+    egui::{self, Align2, RichText, Ui},
+};
+
+/// Width of the window, points.
+const WIDTH: f32 = 400.0;
+
+/// Shows the offer while it stands.
+pub fn show(mut contexts: EguiContexts, remains: Option<ResMut<Remains>>) -> Result {
+    let Some(mut remains) = remains else { return Ok(()) };
+    let Some((found, progress)) = remains.offer() else { return Ok(()) };
+    let (title, tick, ticks) = (found.title.clone(), found.tick, found.ticks());
+    let context = contexts.ctx_mut()?;
+    let mut choice = None;
+    let mut open = true;
+    let place = (Align2::CENTER_CENTER, context.content_rect().center());
+    style::window(context, "The game ended unexpectedly", &mut open, place, |ui| {
+        ui.set_width(WIDTH);
+        let seconds = tick as f64 / f64::from(TICKS_PER_SECOND);
+        ui.label(format!("{title}, tick {} ({seconds:.1} s), can be restored; it will be paused.", grouped(tick)));
+        ui.add_space(8.0);
+        choice = buttons(ui, progress, ticks);
+    });
+    // Closing decides nothing: the next start offers it again.
+    if !open {
+        remains.put_off();
+    } else if choice.is_some() {
+        remains.choice = choice;
+    }
+    Ok(())
+}
+
+fn buttons(ui: &mut Ui, progress: Option<f32>, ticks: u64) -> Option<Choice> {
+    let mut choice = None;
+    ui.horizontal(|ui| {
+        match progress {
+            Some(share) => {
+                ui.add(egui::ProgressBar::new(share).desired_width(120.0).show_percentage());
+            }
+            None => {
+                if style::main_button(ui, "Restore").on_hover_text("the world just before the end").clicked() {
+                    choice = Some(Choice::Restore);
+                }
+            }
+        }
+        let seconds = ticks as f64 / f64::from(TICKS_PER_SECOND);
+        let why = "the state that was kept last, if the end is what went wrong";
+        if ticks > 0 && ui.button(format!("{seconds:.0} s earlier")).on_hover_text(why).clicked() {
+            choice = Some(Choice::Earlier);
+        }
+        if ui.button(RichText::new("Forget").color(style::WEAK)).on_hover_text("delete it").clicked() {
+            choice = Some(Choice::Forget);
+        }
+    });
+    choice
+}

@@ -1,0 +1,215 @@
+//! The recorder: keeps what happens to the world as states, input and marks. The last minute always, within a bound on
+//! memory, so that any surprise can be kept; and from a moment on whatever a recording is asked to hold.
+//!
+//! Intents come from the edit stage. A state that is put in the place of another (undo, reset, another scene: all that
+//! `control` thaws) begins a new segment.
+
+use crate::sim::{
+    control,
+    intent::Intent,
+    mark::{Mark, Marker},
+    recording::{End, Entry},
+    schedule::TickSystems,
+    state::{AirGrid, Clock, ParticleStore, Rock, Setup},
+    tape::{Start, Tape},
+};
+use bevy::prelude::{App, FixedUpdate, IntoScheduleConfigs, Res, Resource, World, resource_exists};
+use std::{
+    path::PathBuf,
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+};
+
+/// What is always kept, ticks: a minute of the world's time.
+pub const KEPT_TICKS: u64 = 3600;
+/// Ticks from one state of the last minute to the next: so much has to be run again to come to any moment of it.
+pub const SEGMENT_TICKS: usize = 1800;
+/// Most intents before another state is taken: someone may draw for hours in a world that stands.
+const SEGMENT_ENTRIES: usize = 20_000;
+/// Most memory that the last minute may take, bytes. Three states of a million particles are within it; of larger worlds
+/// less is kept, at least the newest state.
+pub const KEPT_BYTES: usize = 192 << 20;
+/// Most memory that a recording may take, bytes. An hour of ticks takes 3 MB, a state 21 bytes a particle and more.
+pub const RECORDING_BYTES: usize = 512 << 20;
+
+/// Shared, so that what was recorded outlives the world that it is of.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Recorder(Arc<Mutex<Desk>>);
+
+#[derive(Debug, Default)]
+struct Desk {
+    rolling: Tape,
+    /// How often `rolling` began a segment.
+    serial: u64,
+    recording: Option<Tape>,
+    /// The file that the recording shall go to, if one was named for it.
+    to: Option<PathBuf>,
+    marker: Marker,
+    /// Whether the world is another one than that which was written last.
+    jumped: bool,
+}
+
+/// How far a reader has come that follows the newest segment of the last minute.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Cursor {
+    serial: u64,
+    entries: usize,
+    marks: usize,
+}
+
+/// What was written since a reader looked last.
+#[derive(Clone, Debug)]
+pub struct News {
+    /// The state that a new segment begins with, if there is one.
+    pub start: Option<Arc<Start>>,
+    /// Intents of the newest segment.
+    pub entries: Vec<Entry>,
+    /// Marks of the newest segment.
+    pub marks: Vec<Mark>,
+}
+
+impl Recorder {
+    fn desk(&self) -> MutexGuard<'_, Desk> {
+        // A panic elsewhere is what the record is for; nothing here leaves it half written.
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Notes that the world takes `intent` after `tick` ticks.
+    pub fn note(&self, tick: u64, intent: Intent) {
+        let mut desk = self.desk();
+        let entry = Entry { tick, intent };
+        desk.rolling.note(entry);
+        if let Some(recording) = &mut desk.recording {
+            recording.note(entry);
+        }
+    }
+
+    /// Notes that another state is put in the place of the one at hand.
+    pub fn jump(&self) {
+        self.desk().jumped = true;
+    }
+
+    /// Takes the state of the world where a segment has to begin with it. Before every edit stage.
+    pub fn keep_up(&self, world: &World) {
+        let mut desk = self.desk();
+        let jumped = std::mem::take(&mut desk.jumped);
+        let full = desk
+            .rolling
+            .last()
+            .is_none_or(|segment| segment.marks.len() >= SEGMENT_TICKS || segment.entries.len() >= SEGMENT_ENTRIES);
+        let waits = desk.recording.as_ref().is_some_and(Tape::is_empty);
+        if !(jumped || full || waits) {
+            return;
+        }
+        let start = Arc::new(Start::of(world));
+        desk.rolling.begin(start.clone(), !jumped);
+        desk.serial += 1;
+        desk.rolling.forget(KEPT_TICKS, KEPT_BYTES);
+        if jumped || waits {
+            desk.marker = Marker::default();
+            if let Some(recording) = &mut desk.recording {
+                recording.begin(start, false);
+            }
+        }
+    }
+
+    /// Takes the mark of the tick that was done, if one was.
+    fn mark(&self, particles: &ParticleStore, rock: &Rock, air: &AirGrid, clock: &Clock) {
+        let mut desk = self.desk();
+        if desk.jumped || desk.rolling.last().is_none_or(|segment| segment.now() + 1 != clock.tick) {
+            return;
+        }
+        let mark = desk.marker.mark(particles, rock, air, clock);
+        desk.rolling.mark(mark);
+        if let Some(recording) = &mut desk.recording {
+            recording.mark(mark);
+        }
+    }
+
+    /// The last minute as a recording.
+    pub fn last_minute(&self, end: End) -> Vec<u8> {
+        self.desk().rolling.encode(end)
+    }
+
+    /// Name of the scene that is played, and how many ticks of it are done.
+    pub fn place(&self) -> Option<(String, u64)> {
+        self.desk().rolling.last().map(|segment| (segment.start.scene().to_owned(), segment.now()))
+    }
+
+    /// Begins a recording at the state of the world; `to` is the file that it shall go to, if one is named for it.
+    pub fn begin(&self, world: &World, to: Option<PathBuf>) {
+        let mut desk = self.desk();
+        (desk.recording, desk.to) = (Some(Tape::default()), to);
+        drop(desk);
+        self.keep_up(world);
+    }
+
+    /// The file that is named for the recording.
+    pub fn destination(&self) -> Option<PathBuf> {
+        self.desk().to.clone()
+    }
+
+    /// Whether there is a recording, and how many ticks it holds.
+    pub fn ticks(&self) -> Option<u64> {
+        self.desk().recording.as_ref().map(Tape::ticks)
+    }
+
+    /// Whether a recording takes all the memory that it may.
+    pub fn is_full(&self) -> bool {
+        self.desk().recording.as_ref().is_some_and(|tape| tape.size_in_memory() > RECORDING_BYTES)
+    }
+
+    /// The recording so far.
+    pub fn recording(&self, end: End) -> Option<Vec<u8>> {
+        self.desk().recording.as_ref().map(|tape| tape.encode(end))
+    }
+
+    /// Ends the recording.
+    pub fn end(&self) {
+        let mut desk = self.desk();
+        (desk.recording, desk.to) = (None, None);
+    }
+
+    /// What was written since `cursor`, if it is anything.
+    pub fn news(&self, cursor: &mut Cursor) -> Option<News> {
+        let desk = self.desk();
+        let segment = desk.rolling.last()?;
+        let start = (cursor.serial != desk.serial).then(|| segment.start.clone());
+        if start.is_some() {
+            *cursor = Cursor { serial: desk.serial, entries: 0, marks: 0 };
+        }
+        let (entries, marks) = (segment.entries[cursor.entries..].to_vec(), segment.marks[cursor.marks..].to_vec());
+        cursor.entries += entries.len();
+        cursor.marks += marks.len();
+        (start.is_some() || !entries.is_empty() || !marks.is_empty()).then_some(News { start, entries, marks })
+    }
+
+    /// Bytes that the last minute takes, to a good approximation.
+    pub fn size_in_memory(&self) -> usize {
+        self.desk().rolling.size_in_memory()
+    }
+}
+
+/// How a recording ends that is written now.
+pub fn end_now(world: &World) -> End {
+    End::Stopped { hash: control::hash(world) }
+}
+
+/// Adds the recorder to a simulation.
+pub fn plugin(app: &mut App) {
+    app.init_resource::<Recorder>().add_systems(
+        FixedUpdate,
+        (
+            keep_up.before(TickSystems::Edit).run_if(resource_exists::<Setup>),
+            mark.after(TickSystems::Measure).run_if(resource_exists::<Setup>),
+        ),
+    );
+}
+
+/// See [`Recorder::keep_up`].
+pub fn keep_up(world: &World) {
+    world.resource::<Recorder>().keep_up(world);
+}
+
+fn mark(recorder: Res<Recorder>, particles: Res<ParticleStore>, rock: Res<Rock>, air: Res<AirGrid>, clock: Res<Clock>) {
+    recorder.mark(&particles, &rock, &air, &clock);
+}

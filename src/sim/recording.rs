@@ -1,0 +1,348 @@
+//! Recordings: states of a world, the input that it took from each of them on, and a mark of every tick.
+//!
+//! ```text
+//! "PowderMaster recording\n" │ version, u16 │ chunk …                                  (numbers little-endian)
+//!
+//! chunk:  kind, u8 │ length of the body, u32 │ hash of the body, u64 │ body
+//!   'S'   a state: a save file (`sim::save`). It begins a stretch; one behind another stands where something put another
+//!         world in the place of the one at hand (undo, reset, another scene)
+//!   'T'   ticks: postcard of (the intents that were taken, `Vec<Entry>`; the mark of each tick, `Vec<Mark>`)
+//!   'E'   the end: postcard of `End`. Nothing stands behind it
+//! ```
+//!
+//! Everything is checked on reading, as a save file is. A file takes memory in proportion to its length; of the worlds in
+//! it, only one is unfolded at a time. A program that was killed leaves a file without an end: `decode` refuses it,
+//! `salvage` takes what is whole.
+
+#[cfg(test)]
+mod tests;
+
+use crate::{
+    kernel::brush::Stroke,
+    sim::{
+        intent::Intent,
+        mark::Mark,
+        save::{self, SaveError, Saved, check},
+        snapshot::hash_bytes,
+    },
+};
+use glam::Vec2;
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+
+/// Ending of recordings.
+pub const RECORDING_ENDING: &str = "pmr";
+/// What every recording begins with.
+const MAGIC: &[u8] = b"PowderMaster recording\n";
+/// Version of the format. Raise it when anything in the chunks changes: old files are refused, not misread.
+const VERSION: u16 = 2;
+/// What a file of format 1 begins with: text, input only, from the start of a scene.
+const TEXT_FORMAT: &[u8] = b"{\"powder_master_replay\":";
+
+const STATE: u8 = b'S';
+const TICKS: u8 = b'T';
+const END: u8 = b'E';
+
+/// An intent and when it was taken.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// Ticks that the world had done.
+    pub tick: u64,
+    /// The intent.
+    pub intent: Intent,
+}
+
+/// How a recording ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum End {
+    /// It was ended.
+    Stopped {
+        /// Hash of the world then (`control::hash`).
+        hash: u64,
+    },
+    /// The program panicked: in the tick after the last one that has a mark, or outside of ticks.
+    Crashed,
+}
+
+/// What happened from a state on, until something put another in its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stretch {
+    save: Vec<u8>,
+    /// Ticks that the state has done.
+    pub tick: u64,
+    /// Input, oldest first.
+    pub entries: Vec<Entry>,
+    /// The mark of each tick.
+    pub marks: Vec<Mark>,
+}
+
+impl Stretch {
+    /// The state.
+    ///
+    /// # Errors
+    /// None for a recording that was read: reading looks at every state.
+    pub fn start(&self) -> Result<Saved, SaveError> {
+        save::decode(&self.save)
+    }
+}
+
+/// A recording that was read. It has a stretch at least.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recording {
+    /// Its stretches, oldest first.
+    pub stretches: Vec<Stretch>,
+    /// How it ended; nothing if the file breaks off.
+    pub end: Option<End>,
+}
+
+/// Why a file is no recording, in one line.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum RecordingError {
+    /// Something else.
+    #[error("not a recording of Powder Master")]
+    Foreign,
+    /// Written by another version.
+    #[error("a recording of format {found}; this program reads format {VERSION}")]
+    Version {
+        /// Its format.
+        found: u16,
+    },
+    /// Cut or changed.
+    #[error("the recording is damaged: {0}")]
+    Damaged(String),
+    /// It says what can't have been.
+    #[error("the recording is not sound: {0}")]
+    Unsound(String),
+    /// A state in it is not sound.
+    #[error("a state in the recording: {0}")]
+    State(#[from] SaveError),
+}
+
+impl Recording {
+    /// Whether bytes are meant to be a recording, of whatever format.
+    pub fn is_meant(bytes: &[u8]) -> bool {
+        bytes.starts_with(MAGIC) || bytes.starts_with(TEXT_FORMAT)
+    }
+
+    /// Reads a whole recording.
+    ///
+    /// # Errors
+    /// If it is not one, was cut or changed, or holds what can't have been.
+    pub fn decode(bytes: &[u8]) -> Result<Self, RecordingError> {
+        let recording = Self::read(bytes, false)?;
+        match recording.end {
+            Some(_) => Ok(recording),
+            None => Err(RecordingError::Damaged("it has no end".to_owned())),
+        }
+    }
+
+    /// Reads what is whole of a recording that may break off.
+    ///
+    /// # Errors
+    /// If not even its first state is whole.
+    pub fn salvage(bytes: &[u8]) -> Result<Self, RecordingError> {
+        Self::read(bytes, true)
+    }
+
+    /// Ticks in all.
+    pub fn ticks(&self) -> u64 {
+        self.stretches.iter().map(|stretch| stretch.marks.len() as u64).sum()
+    }
+
+    fn read(bytes: &[u8], lenient: bool) -> Result<Self, RecordingError> {
+        let mut rest = header(bytes)?;
+        let mut reader = Reader::default();
+        while !rest.is_empty() && reader.end.is_none() {
+            match reader.chunk(&mut rest) {
+                Err(_) if lenient && !reader.stretches.is_empty() => break,
+                outcome => outcome?,
+            }
+        }
+        let Reader { stretches, end, .. } = reader;
+        let damaged = |what: &str| Err(RecordingError::Damaged(what.to_owned()));
+        match (&stretches[..], end) {
+            ([], _) => damaged("it holds no state"),
+            (_, Some(_)) if !rest.is_empty() && !lenient => damaged("something stands behind its end"),
+            _ => Ok(Self { stretches, end }),
+        }
+    }
+}
+
+fn header(bytes: &[u8]) -> Result<&[u8], RecordingError> {
+    if bytes.starts_with(TEXT_FORMAT) {
+        return Err(RecordingError::Version { found: 1 });
+    }
+    let damaged = |what: &str| RecordingError::Damaged(what.to_owned());
+    let rest = bytes.strip_prefix(MAGIC).ok_or_else(|| {
+        if !bytes.is_empty() && MAGIC.starts_with(bytes) {
+            damaged("it ends in its first line")
+        } else {
+            RecordingError::Foreign
+        }
+    })?;
+    let (version, rest) = rest.split_first_chunk().ok_or_else(|| damaged("it ends in its header"))?;
+    match u16::from_le_bytes(*version) {
+        VERSION => Ok(rest),
+        found => Err(RecordingError::Version { found }),
+    }
+}
+
+/// What was read so far.
+#[derive(Default)]
+struct Reader {
+    stretches: Vec<Stretch>,
+    /// Number of elements of the newest stretch.
+    elements: usize,
+    end: Option<End>,
+}
+
+impl Reader {
+    /// Reads a chunk; nothing changes if it is not good.
+    fn chunk(&mut self, rest: &mut &[u8]) -> Result<(), RecordingError> {
+        let (kind, body, behind) = cut_chunk(rest)?;
+        match kind {
+            STATE => self.state(body)?,
+            TICKS => self.ticks(parse(body)?)?,
+            END => self.end = Some(parse(body)?),
+            _ => return Err(RecordingError::Damaged(format!("a part of the unknown kind {kind}"))),
+        }
+        *rest = behind;
+        Ok(())
+    }
+
+    fn state(&mut self, body: &[u8]) -> Result<(), RecordingError> {
+        let saved = save::decode(body)?;
+        self.elements = saved.elements();
+        let tick = saved.snapshot().clock.tick;
+        self.stretches.push(Stretch { save: body.to_vec(), tick, entries: Vec::new(), marks: Vec::new() });
+        Ok(())
+    }
+
+    fn ticks(&mut self, (entries, marks): (Vec<Entry>, Vec<Mark>)) -> Result<(), RecordingError> {
+        let Some(stretch) = self.stretches.last_mut() else {
+            return Err(RecordingError::Damaged("it does not begin with a state".to_owned()));
+        };
+        let done = stretch.tick.checked_add((stretch.marks.len() + marks.len()) as u64);
+        let done = done.ok_or_else(|| RecordingError::Unsound("it comes to the end of time".to_owned()))?;
+        let mut last = stretch.entries.last().map_or(stretch.tick, |entry| entry.tick);
+        for entry in &entries {
+            check_entry(entry, last..=done, self.elements).map_err(RecordingError::Unsound)?;
+            last = entry.tick;
+        }
+        stretch.entries.extend(entries);
+        stretch.marks.extend(marks);
+        Ok(())
+    }
+}
+
+/// Kind and body of the first chunk, and what stands behind it.
+fn cut_chunk(bytes: &[u8]) -> Result<(u8, &[u8], &[u8]), RecordingError> {
+    let damaged = |what: &str| RecordingError::Damaged(what.to_owned());
+    let short = || damaged("it breaks off");
+    let (&[kind], bytes) = bytes.split_first_chunk().ok_or_else(short)?;
+    let (length, bytes) = bytes.split_first_chunk().ok_or_else(short)?;
+    let (hash, bytes) = bytes.split_first_chunk().ok_or_else(short)?;
+    let (body, behind) = bytes.split_at_checked(u32::from_le_bytes(*length) as usize).ok_or_else(short)?;
+    if u64::from_le_bytes(*hash) != hash_of(kind, body) {
+        return Err(damaged("a part does not fit its checksum"));
+    }
+    Ok((kind, body, behind))
+}
+
+/// The kind is part of what is checked.
+fn hash_of(kind: u8, body: &[u8]) -> u64 {
+    hash_bytes(body) ^ u64::from(kind)
+}
+
+fn parse<T: DeserializeOwned>(body: &[u8]) -> Result<T, RecordingError> {
+    match postcard::take_from_bytes(body) {
+        Ok((value, [])) => Ok(value),
+        Ok(_) => Err(RecordingError::Damaged("a part is longer than what it holds".to_owned())),
+        Err(error) => Err(RecordingError::Damaged(error.to_string())),
+    }
+}
+
+fn check_entry(entry: &Entry, ticks: std::ops::RangeInclusive<u64>, elements: usize) -> Result<(), String> {
+    if !ticks.contains(&entry.tick) {
+        return Err(format!(
+            "an intent is due at tick {}; allowed here: {} to {}",
+            entry.tick,
+            ticks.start(),
+            ticks.end()
+        ));
+    }
+    let (element, places, numbers): (_, &[Vec2], &[f32]) = match &entry.intent {
+        Intent::Draw { element, stroke } | Intent::Stamp { element, stroke } => {
+            (Some(element), &places(stroke), &[stroke.radius])
+        }
+        Intent::Fill { element, at } => (Some(element), &[*at], &[]),
+        Intent::Erase { stroke } => (None, &places(stroke), &[stroke.radius]),
+        Intent::Blow { stroke, velocity } => (None, &[stroke.from, stroke.to, *velocity], &[stroke.radius]),
+        Intent::Press { stroke, amount } => (None, &places(stroke), &[stroke.radius, *amount]),
+        Intent::ClearAir | Intent::Effect { .. } => (None, &[], &[]),
+        Intent::Quality { quality, .. } => return check::quality(quality),
+    };
+    if let Some(element) = element.filter(|element| element.index() >= elements) {
+        return Err(format!("element {} is not one of the {elements} elements (0 … {})", element.0, elements - 1));
+    }
+    if !(places.iter().all(|place| place.is_finite()) && numbers.iter().all(|number| number.is_finite())) {
+        return Err("a coordinate or amount of an intent is not a number".to_owned());
+    }
+    Ok(())
+}
+
+fn places(stroke: &Stroke) -> [Vec2; 2] {
+    [stroke.from, stroke.to]
+}
+
+/// Writes a recording, all at once or as it comes.
+#[derive(Clone, Debug)]
+pub struct Writer(Vec<u8>);
+
+impl Default for Writer {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Writer {
+    /// The beginning of a file.
+    pub fn new() -> Self {
+        let mut bytes = MAGIC.to_vec();
+        bytes.extend(VERSION.to_le_bytes());
+        Self(bytes)
+    }
+
+    /// A state, given as a save file.
+    pub fn start(&mut self, save: &[u8]) {
+        self.chunk(STATE, save);
+    }
+
+    /// What came after it.
+    pub fn ticks(&mut self, entries: &[Entry], marks: &[Mark]) {
+        if !(entries.is_empty() && marks.is_empty()) {
+            self.chunk(TICKS, &bytes(&(entries, marks)));
+        }
+    }
+
+    /// How it ended.
+    pub fn end(&mut self, end: End) {
+        self.chunk(END, &bytes(&end));
+    }
+
+    /// What was written since this was asked last.
+    pub fn take(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.0)
+    }
+
+    fn chunk(&mut self, kind: u8, body: &[u8]) {
+        self.0.push(kind);
+        self.0.extend((body.len() as u32).to_le_bytes());
+        self.0.extend(hash_of(kind, body).to_le_bytes());
+        self.0.extend(body);
+    }
+}
+
+fn bytes(value: &impl Serialize) -> Vec<u8> {
+    // Writing to memory has no way to fail, and every length is known.
+    postcard::to_stdvec(value).unwrap_or_default()
+}

@@ -1,0 +1,181 @@
+//! Recordings that were cut, changed or made up.
+
+use super::*;
+use crate::{
+    kernel::{
+        element::ElementId,
+        params::{Preset, Quality},
+    },
+    lab::headless::Headless,
+    scene::{
+        self,
+        blueprint::{Effect, EffectModes, Mode},
+    },
+    sim::{
+        control,
+        intent::IntentQueue,
+        recorder::{self, Recorder},
+        workers::Workers,
+    },
+};
+use std::sync::Arc;
+
+/// A small world with something of everything, recorded: water, rock, wind, other qualities and effects, a reset.
+fn recorded() -> (Headless, Vec<u8>) {
+    let settings = [("columns", "16"), ("rows", "16")].map(|(key, value)| (key.to_owned(), value.to_owned()));
+    let blueprint = scene::load("empty").unwrap().build(&settings, None, &EffectModes::new()).unwrap();
+    let mut headless = Headless::begin_with(Workers::default(), recorder::plugin, |world| {
+        control::load(world, Arc::new(blueprint));
+    });
+    let push = |headless: &mut Headless, intent| headless.world_mut().resource_mut::<IntentQueue>().push(intent);
+    let stroke = Stroke::rectangle(Vec2::new(4.0, 2.0), Vec2::new(8.0, 6.0));
+    push(&mut headless, Intent::Stamp { element: ElementId(1), stroke });
+    let rock = Stroke::rectangle(Vec2::new(10.0, 0.0), Vec2::new(12.0, 2.0));
+    push(&mut headless, Intent::Stamp { element: ElementId(0), stroke: rock });
+    (0..4).for_each(|_| headless.tick());
+    push(&mut headless, Intent::Blow { stroke, velocity: Vec2::new(30.0, 5.0) });
+    push(&mut headless, Intent::Quality { preset: Preset::Fine, quality: Preset::Fine.quality() });
+    push(&mut headless, Intent::Effect { effect: Effect::Viscosity, mode: Mode::On });
+    (0..4).for_each(|_| headless.tick());
+    control::reset(headless.world_mut());
+    push(&mut headless, Intent::Draw { element: ElementId(1), stroke });
+    (0..4).for_each(|_| headless.tick());
+    let bytes = headless.world().resource::<Recorder>().last_minute(recorder::end_now(headless.world()));
+    (headless, bytes)
+}
+
+fn refusal(bytes: &[u8]) -> String {
+    let text = Recording::decode(bytes).expect_err("a bad file was read").to_string();
+    assert!(!text.contains('\n') && text.len() < 300, "not one clear line: {text}");
+    text
+}
+
+/// A file of one state with these ticks.
+fn made_up(entries: &[Entry], marks: usize) -> Vec<u8> {
+    let mark = Mark { particles: 1, matter: 2, surroundings: 3 };
+    let good = Recording::decode(&recorded().1).expect("its own file");
+    let mut writer = Writer::new();
+    writer.start(&good.stretches[1].save);
+    writer.ticks(entries, &vec![mark; marks]);
+    writer.end(End::Crashed);
+    writer.take()
+}
+
+#[test]
+fn what_was_written_is_read() {
+    let (headless, bytes) = recorded();
+    let recording = Recording::decode(&bytes).expect("its own file");
+    assert_eq!(recording.end, Some(End::Stopped { hash: control::hash(headless.world()) }));
+    let ticks: Vec<_> = recording.stretches.iter().map(|stretch| (stretch.tick, stretch.marks.len())).collect();
+    assert_eq!(ticks, [(0, 8), (0, 4)]);
+    let due: Vec<u64> = recording.stretches[0].entries.iter().map(|entry| entry.tick).collect();
+    assert_eq!(due, [0, 0, 4, 4, 4]);
+    assert_eq!(recording.stretches[1].entries.len(), 1);
+    assert_eq!(Recording::salvage(&bytes).expect("a whole file"), recording);
+}
+
+#[test]
+fn a_file_cut_anywhere_is_refused_and_what_is_whole_of_it_salvaged() {
+    let (_, bytes) = recorded();
+    let whole = Recording::decode(&bytes).expect("its own file");
+    let mut salvaged = std::collections::BTreeSet::new();
+    for len in 0..bytes.len() {
+        refusal(&bytes[..len]);
+        match Recording::salvage(&bytes[..len]) {
+            Ok(recording) => {
+                assert_eq!(recording.end, None);
+                assert!(recording.stretches.iter().zip(&whole.stretches).all(|(part, all)| {
+                    all.entries.starts_with(&part.entries) && all.marks.starts_with(&part.marks)
+                }));
+                salvaged.insert((recording.stretches.len(), recording.ticks()));
+            }
+            Err(error) => assert!(salvaged.is_empty(), "{len} bytes: {error}, but fewer were good"),
+        }
+    }
+    assert_eq!(salvaged.into_iter().collect::<Vec<_>>(), [(1, 0), (1, 8), (2, 8), (2, 12)]);
+}
+
+#[test]
+fn headers_say_what_is_wrong() {
+    let (_, bytes) = recorded();
+    assert_eq!(refusal(b""), RecordingError::Foreign.to_string());
+    assert_eq!(refusal(b"PowderMaster\n\x01\x00"), RecordingError::Foreign.to_string(), "a save file");
+    let old = refusal(b"{\"powder_master_replay\":1,\"scene\":\"empty\"}\n");
+    assert!(old.contains("format 1; this program reads format 2"), "{old}");
+    let mut newer = bytes.clone();
+    newer[MAGIC.len()] = 200;
+    assert!(refusal(&newer).contains("format 200; this program reads format 2"));
+    let mut longer = bytes.clone();
+    longer.push(0);
+    assert!(refusal(&longer).contains("behind its end"));
+    let mut endless = Writer::new();
+    endless.start(&Recording::decode(&bytes).unwrap().stretches[0].save);
+    assert!(refusal(&endless.take()).contains("no end"));
+    let mut blank = Writer::new();
+    blank.end(End::Crashed);
+    assert!(refusal(&blank.take()).contains("no state"));
+    let mut late = Writer::new();
+    late.ticks(&[], &[Mark { particles: 0, matter: 0, surroundings: 0 }]);
+    assert!(refusal(&late.take()).contains("begin with a state"));
+}
+
+#[test]
+fn every_flipped_bit_is_noticed() {
+    let (_, bytes) = recorded();
+    let mut changed = bytes.clone();
+    // A state has its own test of every bit.
+    for byte in (0..bytes.len()).filter(|byte| byte % 7 == 0 || *byte < 60 || bytes.len() - byte < 300) {
+        for bit in 0..8 {
+            changed[byte] ^= 1 << bit;
+            refusal(&changed);
+            changed[byte] ^= 1 << bit;
+        }
+    }
+}
+
+#[test]
+fn huge_counts_behind_a_right_checksum_take_no_memory() {
+    let good = Recording::decode(&recorded().1).expect("its own file");
+    for count in [&[0xff, 0xff, 0xff, 0xff, 0x0f][..], &[0xff; 9], &[0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 1]]
+    {
+        let mut writer = Writer::new();
+        writer.start(&good.stretches[0].save);
+        writer.chunk(TICKS, count);
+        writer.end(End::Crashed);
+        assert!(refusal(&writer.take()).contains("damaged"));
+        let mut marks = vec![0];
+        marks.extend(count);
+        let mut writer = Writer::new();
+        writer.start(&good.stretches[0].save);
+        writer.chunk(TICKS, &marks);
+        assert!(refusal(&writer.take()).contains("damaged"));
+    }
+    // A length that says more than there is.
+    let mut bytes = Writer::new().take();
+    bytes.push(STATE);
+    bytes.extend(u32::MAX.to_le_bytes());
+    bytes.extend([0; 40]);
+    assert!(refusal(&bytes).contains("breaks off"));
+}
+
+#[test]
+fn made_up_input_is_refused_by_name() {
+    let stroke = Stroke::rectangle(Vec2::ZERO, Vec2::ONE);
+    let air = |tick| Entry { tick, intent: Intent::ClearAir };
+    assert!(Recording::decode(&made_up(&[air(0), air(3), air(3)], 3)).is_ok());
+    let of = |intent| vec![Entry { tick: 1, intent }];
+    let none = Quality { substeps: 0, ..Preset::Fine.quality() };
+    for (entries, says) in [
+        (vec![air(4)], "tick 4; allowed here: 0 to 3"),
+        (vec![air(2), air(1)], "tick 1; allowed here: 2 to 3"),
+        (of(Intent::Stamp { element: ElementId(200), stroke }), "element 200"),
+        (of(Intent::Fill { element: ElementId(1), at: Vec2::new(0.0, f32::NAN) }), "not a number"),
+        (of(Intent::Erase { stroke: Stroke { radius: f32::INFINITY, ..stroke } }), "not a number"),
+        (of(Intent::Press { stroke, amount: f32::NAN }), "not a number"),
+        (of(Intent::Blow { stroke, velocity: Vec2::splat(f32::INFINITY) }), "not a number"),
+        (of(Intent::Quality { preset: Preset::Fine, quality: none }), "substeps is 0"),
+    ] {
+        let text = refusal(&made_up(&entries, 3));
+        assert!(text.contains(says), "`{text}` does not say `{says}`");
+    }
+}
