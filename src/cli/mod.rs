@@ -5,10 +5,12 @@ mod args;
 mod bench;
 mod exam;
 mod failure;
+mod gauntlet;
 mod list;
 mod output;
 mod play;
 mod progress;
+mod report;
 mod run;
 mod start;
 mod study;
@@ -48,6 +50,7 @@ fn dispatch(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Run(run)) => run::run(&run),
         Some(Command::Bench(bench)) => bench::bench(&bench),
         Some(Command::Exam(arguments)) => exam::exam(&arguments),
+        Some(Command::Gauntlet(arguments)) => gauntlet::gauntlet(&arguments),
         Some(Command::Study(study)) => study::study(&study),
         Some(Command::Sweep(sweep)) => sweep::sweep(&sweep),
         Some(Command::List { what }) => list::list(what),

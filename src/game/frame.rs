@@ -2,30 +2,22 @@
 //! and never pile up.
 
 use crate::{
-    kernel::units::{TICK_SECONDS, TICKS_PER_SECOND},
-    sim::{ledger::PassLedger, pace::Pace, split::Split, state::Clock},
+    kernel::units::TICKS_PER_SECOND,
+    sim::{
+        ledger::PassLedger,
+        pace::{Pace, longest_frame},
+        split::Split,
+        state::Clock,
+    },
 };
 use bevy::prelude::{Real, Res, ResMut, Resource, Time, Virtual};
 use std::time::Duration;
 
-/// Time that the ticks of one frame may take.
-const FRAME_BUDGET: Duration = Duration::from_millis(20);
-/// Most ticks in a frame, however cheap they are.
-const MOST_TICKS: u32 = 8;
 /// Ticks a second are counted over this time.
 const WINDOW: Duration = Duration::from_millis(750);
 
 /// Slowest and fastest speed.
 pub const SPEED_RANGE: std::ops::RangeInclusive<f32> = 0.0625..=4.0;
-
-/// Most ticks that one frame may run when a tick costs `tick`.
-pub fn ticks_per_frame(tick: Duration) -> u32 {
-    if tick.is_zero() {
-        return MOST_TICKS;
-    }
-    let affordable = FRAME_BUDGET.as_nanos() / tick.as_nanos();
-    (affordable as u32).clamp(1, MOST_TICKS)
-}
 
 /// How fast the world really runs and how fast frames come.
 #[derive(Resource, Clone, Copy, Debug, Default)]
@@ -73,11 +65,8 @@ pub fn set_pace(pace: Res<Pace>, ledger: Res<PassLedger>, split: Res<Split>, mut
     if time.relative_speed() != speed {
         time.set_relative_speed(speed);
     }
-    // `max_delta` bounds the real time of a frame, before the speed is applied. Together with an overstep below one
-    // tick, `n` ticks of time can't hold more than `n` ticks.
     let tick = ledger.tick().median() + split.tick_time();
-    let most = ticks_per_frame(tick) as f32 * TICK_SECONDS / speed;
-    time.set_max_delta(Duration::from_secs_f32(most));
+    time.set_max_delta(longest_frame(tick, speed));
 }
 
 /// Keeps the counts that the HUD shows.
@@ -88,16 +77,6 @@ pub fn measure_tempo(mut tempo: ResMut<Tempo>, time: Res<Time<Real>>, clock: Res
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn ticks_that_cost_more_run_fewer_to_a_frame() {
-        let ms = |ms: f32| ticks_per_frame(Duration::from_secs_f32(ms / 1000.0));
-        assert_eq!(ms(0.0), 8);
-        assert_eq!(ms(1.0), 8);
-        assert_eq!(ms(6.0), 3);
-        assert_eq!(ms(10.5), 1);
-        assert_eq!(ms(500.0), 1);
-    }
 
     #[test]
     fn tempo_counts_ticks_and_frames_and_survives_a_reset() {

@@ -5,12 +5,16 @@
 pub mod balance;
 pub mod binning;
 pub mod coarse;
+mod crew;
 pub mod density;
 mod drift;
+mod drive;
 pub mod exam;
+pub mod gauntlet;
 pub mod headless;
 pub mod live;
 pub mod machine;
+mod markdown;
 pub mod metrics;
 pub mod moment;
 pub mod particle_list;
@@ -23,6 +27,7 @@ pub mod run;
 pub mod sampler;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod scaling;
+mod stage;
 pub mod stats;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod sweep;

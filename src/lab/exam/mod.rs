@@ -13,7 +13,6 @@
 mod case;
 mod cases;
 pub mod desk;
-mod drive;
 mod fit;
 mod job;
 mod report;
@@ -22,6 +21,6 @@ mod tests;
 mod world;
 
 pub use case::{CASES, Case};
-pub use drive::finish;
+pub use super::drive::finish;
 pub use job::{Job, jobs, sit_all};
 pub use report::{document, summary, table};

@@ -1,7 +1,7 @@
 //! The exam in slices of a frame, for where there are no threads.
 
 use super::{Note, sit};
-use crate::lab::exam::{drive::step, job::Job};
+use crate::lab::{drive::step, exam::job::Job};
 use bevy::platform::time::Instant;
 use std::{cell::RefCell, future::Future, pin::Pin, sync::mpsc::Sender, time::Duration};
 

@@ -1,7 +1,7 @@
 //! The exam on a thread of its own.
 
 use super::{Note, sit};
-use crate::lab::exam::{drive::finish, job::Job};
+use crate::lab::{drive::finish, exam::job::Job};
 use std::{
     sync::{
         Arc,

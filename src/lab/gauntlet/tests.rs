@@ -1,0 +1,1 @@
+//! The gauntlet, and that its judge can fail a case.

@@ -1,0 +1,103 @@
+//! Where the stability gauntlet and the game meet: the lab lays the cases here and says how they came out, the game shows
+//! them and plays the one that is to be watched.
+
+use crate::{
+    kernel::params::Preset,
+    scene::{SceneError, blueprint::Blueprint},
+    sim::desk::Desk,
+};
+use bevy::prelude::{Resource, World};
+use serde::Serialize;
+
+/// How a case came out at a quality.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Nothing broke.
+    Pass,
+    /// Something broke where the plain method, `classic`, is known to.
+    Known,
+    /// Something broke.
+    Fail,
+}
+
+/// A case at a quality.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// Name of the case.
+    pub case: &'static str,
+    /// Heading of the case.
+    #[serde(skip)]
+    pub title: &'static str,
+    /// Name of the quality.
+    pub quality: &'static str,
+    /// How it came out.
+    pub verdict: Verdict,
+    /// What broke, each in a few words with what was allowed.
+    pub broken: Vec<String>,
+    /// Why that was to be expected, if it was.
+    pub known: Option<&'static str>,
+    /// Ticks run.
+    pub ticks: u64,
+    /// Movable particles at the end.
+    pub particles: usize,
+    /// Energy gained beyond what was put in, as the speed that all particles together would have of it, m/s.
+    pub gain: f64,
+    /// Most of that which is allowed.
+    pub gain_allowed: Option<f64>,
+    /// 99th percentile of the density error: the worst after the shock. `None` without a particle inside a liquid.
+    pub density_worst: Option<f64>,
+    /// The same over the last tenth of the case.
+    pub density_end: Option<f64>,
+    /// Root of the mean square of the speeds over the last tenth, d a tick.
+    pub motion: f64,
+    /// Dearest tick, as a multiple of a calm one: candidate pairs a particle, times substeps and iterations.
+    pub work: f64,
+    /// Most of that which is allowed.
+    pub work_allowed: f64,
+    /// Speeds, corrections and air that limiters cut, and particles that found no room.
+    pub clamps: Clamps,
+    /// Time of a tick: median, ms.
+    pub ms_median: f64,
+    /// Time of a tick: the longest, ms.
+    pub ms_max: f64,
+    /// Time of the whole case, ms.
+    pub ms_total: f64,
+}
+
+/// What the limiters did in all.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Clamps {
+    /// Particle-substeps in which a speed was cut.
+    pub speed: u64,
+    /// Particle-substeps in which a correction was cut.
+    pub position: u64,
+    /// Air cells whose speed or pressure was cut.
+    pub air: u64,
+    /// Particles that were not placed for want of room.
+    pub refused: u64,
+    /// Particles that were taken away because they were no number.
+    pub removed: u64,
+}
+
+/// A case as the game knows it.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// Name, and that of its scene.
+    pub name: &'static str,
+    /// Heading.
+    pub title: &'static str,
+    /// What happens in it.
+    pub what: &'static str,
+    /// Its world at a quality.
+    pub start: fn(&'static str, Preset) -> Result<Blueprint, SceneError>,
+    /// What is done to it before each tick.
+    pub act: Option<fn(&mut World, u64)>,
+}
+
+/// The cases that can be watched, in the order in which they are shown. Written by the lab at the start.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Cases(pub Vec<Entry>);
+
+/// What the game wants of the gauntlet, and what has come of it.
+pub type GauntletDesk = Desk<Row>;
