@@ -28,16 +28,40 @@ pub struct Tempo {
     pub ticks_per_second: f32,
     /// Share of the wanted speed that the machine keeps up with, if it does not keep up.
     pub lag: Option<f32>,
+    /// Simulated time that frames were too late for since the scene began, s.
+    missed: f64,
     frame_time: Duration,
     frames: u32,
     tick_time: Duration,
     tick: u64,
+    /// The tick of the last frame.
+    seen: u64,
     pace: Pace,
 }
 
 impl Tempo {
+    /// Ticks that frames were too late for since the scene began: what a hitch cost. They are left out and not caught up
+    /// with.
+    pub fn dropped(&self) -> f64 {
+        self.missed * f64::from(TICKS_PER_SECOND)
+    }
+
+    /// Notes how much of a frame of `elapsed`, at the player's speed, became `simulated` time.
+    fn note_hitch(&mut self, elapsed: Duration, speed: f32, simulated: Duration) {
+        let missed = elapsed.as_secs_f64() * f64::from(speed) - simulated.as_secs_f64();
+        // What is left when nothing was cut is rounding.
+        if missed > 1e-6 {
+            self.missed += missed;
+        }
+    }
+
     /// Counts a frame of `elapsed` that left the world at `tick`.
     fn count(&mut self, elapsed: Duration, tick: u64, pace: Pace) {
+        // What came before the first tick was loading.
+        if tick < self.seen || tick == 0 {
+            self.missed = 0.0;
+        }
+        self.seen = tick;
         self.frame_time += elapsed;
         self.frames += 1;
         if self.frame_time >= WINDOW {
@@ -70,7 +94,16 @@ pub fn set_pace(pace: Res<Pace>, ledger: Res<PassLedger>, split: Res<Split>, mut
 }
 
 /// Keeps the counts that the HUD shows.
-pub fn measure_tempo(mut tempo: ResMut<Tempo>, time: Res<Time<Real>>, clock: Res<Clock>, pace: Res<Pace>) {
+pub fn measure_tempo(
+    mut tempo: ResMut<Tempo>,
+    time: Res<Time<Real>>,
+    simulated: Res<Time<Virtual>>,
+    clock: Res<Clock>,
+    pace: Res<Pace>,
+) {
+    if !pace.paused && pace.ticks() {
+        tempo.note_hitch(time.delta(), simulated.relative_speed(), simulated.delta());
+    }
     tempo.count(time.delta(), clock.tick, *pace);
 }
 
@@ -90,6 +123,19 @@ mod tests {
         assert!((lag - 5.0 / 6.0).abs() < 0.02);
         tempo.count(Duration::from_millis(20), 0, Pace::default());
         assert_eq!(tempo.lag, None, "a reset world starts a new count");
+    }
+
+    #[test]
+    fn a_hitch_is_counted_in_ticks_and_forgotten_with_the_scene() {
+        let mut tempo = Tempo::default();
+        tempo.note_hitch(Duration::from_millis(16), 1.0, Duration::from_millis(16));
+        tempo.count(Duration::from_millis(16), 10, Pace::default());
+        assert_eq!(tempo.dropped(), 0.0);
+        tempo.note_hitch(Duration::from_secs(10), 0.5, Duration::from_millis(100));
+        tempo.count(Duration::from_secs(10), 16, Pace::default());
+        assert!((tempo.dropped() - 4.9 * 60.0).abs() < 1e-3, "{}", tempo.dropped());
+        tempo.count(Duration::from_millis(16), 1, Pace::default());
+        assert_eq!(tempo.dropped(), 0.0, "another scene has its own");
     }
 
     #[test]

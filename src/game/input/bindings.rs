@@ -247,7 +247,7 @@ pub const BINDINGS: &[Binding] = {
 
     key(K::KeyV, NONE, A::NextView, H::Look, "next view"),
     view(K::Digit1, View::Elements), view(K::Digit2, View::Speed), view(K::Digit3, View::Density),
-    view(K::Digit4, View::Pressure), view(K::Digit5, View::Wind),
+    view(K::Digit4, View::Pressure), view(K::Digit5, View::Wind), view(K::Digit6, View::Stability),
     key(K::KeyZ, NONE, A::Zoom(1), H::Look, "zoom in at the pointer"),
     key(K::KeyZ, SHIFT, A::Zoom(-1), H::Look, "zoom out"),
     wheel(1, CTRL, A::Zoom(1), H::Look, "zoom in at the pointer"),
