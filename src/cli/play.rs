@@ -21,12 +21,12 @@ pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Fai
 fn open(scene: &str, record: Option<PathBuf>, load: impl FnOnce(&mut World)) -> Result<(), Failure> {
     use crate::{
         game,
-        lab::{exam::desk, live::LivePlugin},
+        lab::{exam, gauntlet, live::LivePlugin},
     };
     use bevy::app::AppExit;
 
     match game::run(scene, record, |app| {
-        app.add_plugins((desk::plugin, LivePlugin));
+        app.add_plugins((exam::plugin, gauntlet::plugin, LivePlugin));
         load(app.world_mut());
     }) {
         Ok(AppExit::Success) => Ok(()),

@@ -7,6 +7,7 @@ pub mod binning;
 pub mod coarse;
 mod crew;
 pub mod density;
+mod desk;
 mod drift;
 mod drive;
 pub mod exam;

@@ -4,10 +4,11 @@
 use crate::{
     kernel::params::Preset,
     scene::{SceneError, blueprint::Blueprint},
-    sim::desk::Desk,
+    sim::{desk::Desk, state::Counters},
 };
 use bevy::prelude::{Resource, World};
 use serde::Serialize;
+use std::sync::Arc;
 
 /// How a case came out at a quality.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -55,8 +56,8 @@ pub struct Row {
     pub work: f64,
     /// Most of that which is allowed.
     pub work_allowed: f64,
-    /// Speeds, corrections and air that limiters cut, and particles that found no room.
-    pub clamps: Clamps,
+    /// What the limiters did.
+    pub clamps: Counters,
     /// Time of a tick: median, ms.
     pub ms_median: f64,
     /// Time of a tick: the longest, ms.
@@ -65,23 +66,11 @@ pub struct Row {
     pub ms_total: f64,
 }
 
-/// What the limiters did in all.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Clamps {
-    /// Particle-substeps in which a speed was cut.
-    pub speed: u64,
-    /// Particle-substeps in which a correction was cut.
-    pub position: u64,
-    /// Air cells whose speed or pressure was cut.
-    pub air: u64,
-    /// Particles that were not placed for want of room.
-    pub refused: u64,
-    /// Particles that were taken away because they were no number.
-    pub removed: u64,
-}
+/// Makes the world of a case at a quality.
+pub type Start = Arc<dyn Fn(Preset) -> Result<Blueprint, SceneError> + Send + Sync>;
 
 /// A case as the game knows it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone)]
 pub struct Entry {
     /// Name, and that of its scene.
     pub name: &'static str,
@@ -90,13 +79,13 @@ pub struct Entry {
     /// What happens in it.
     pub what: &'static str,
     /// Its world at a quality.
-    pub start: fn(&'static str, Preset) -> Result<Blueprint, SceneError>,
+    pub start: Start,
     /// What is done to it before each tick.
     pub act: Option<fn(&mut World, u64)>,
 }
 
 /// The cases that can be watched, in the order in which they are shown. Written by the lab at the start.
-#[derive(Resource, Clone, Debug, Default)]
+#[derive(Resource, Clone, Default)]
 pub struct Cases(pub Vec<Entry>);
 
 /// What the game wants of the gauntlet, and what has come of it.

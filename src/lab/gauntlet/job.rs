@@ -37,7 +37,7 @@ impl Job {
     }
 
     /// Simulates the case and judges it. Yields after each tick.
-    pub async fn run(self) -> Result<Row, SceneError> {
+    pub async fn judge(self) -> Result<Row, SceneError> {
         let Self { case, preset } = self;
         let clockwork = Clockwork::default();
         let mut stage = Stage::new(case.blueprint(preset)?, &clockwork);
@@ -76,7 +76,7 @@ pub fn run_all(
         let long = job.case.size as u64;
         (long * 1000 + u64::from(quality.substeps * quality.iterations)) * u64::from(job.case.ticks)
     };
-    let results = crew::work(jobs, side_by_side, dearness, says, |job| finish(job.clone().run(), || true));
+    let results = crew::work(jobs, side_by_side, dearness, says, |job| finish(job.clone().judge(), || true));
     // Nobody stops them: each has its row.
     results.into_iter().flatten().collect()
 }

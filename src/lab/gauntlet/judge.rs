@@ -9,7 +9,7 @@ use crate::{
         stats,
     },
     sim::{
-        gauntlet::{Clamps, Row, Verdict},
+        gauntlet::{Row, Verdict},
         ledger::PassLedger,
         pace::MOST_TICKS,
         stages::TickPlan,
@@ -202,15 +202,8 @@ impl Judge {
 
     /// What is to be said of the case at the end.
     pub fn row(mut self, case: &Case, preset: Preset, world: &World, ms_total: f64) -> Row {
-        let counters = world.resource::<Counters>();
-        let clamps = Clamps {
-            speed: counters.speed_clamps,
-            position: counters.position_clamps,
-            air: counters.air_clamps,
-            refused: counters.refused,
-            removed: counters.non_finite,
-        };
-        let broken = self.broken(counters, clamps, world);
+        let clamps = *world.resource::<Counters>();
+        let broken = self.broken(&clamps, world);
         let known = case.known.filter(|_| preset == Preset::Classic);
         let verdict = match (broken.is_empty(), known) {
             (true, _) => Verdict::Pass,
@@ -240,7 +233,7 @@ impl Judge {
         }
     }
 
-    fn broken(&self, counters: &Counters, clamps: Clamps, world: &World) -> Vec<String> {
+    fn broken(&self, counters: &Counters, world: &World) -> Vec<String> {
         let rules = &self.rules;
         let mut broken = Vec::new();
         if let Some((when, what)) = self.unsound {
@@ -274,12 +267,12 @@ impl Judge {
                 broken.push(format!("mass of the air off by {drift:.1e}, allowed {AIR_DRIFT:.0e}"));
             }
         }
-        if self.missing != clamps.removed as i64 || clamps.removed != rules.removed {
-            let (missing, removed) = (self.missing, clamps.removed);
+        let (missing, removed) = (self.missing, counters.non_finite);
+        if missing != removed as i64 || removed != rules.removed {
             broken.push(format!("{missing} particles went, {removed} as no number, where {} should", rules.removed));
         }
-        if rules.calm && (clamps != Clamps::default()) {
-            broken.push(format!("limiters acted: {clamps:?}"));
+        if rules.calm {
+            broken.extend(counters.acted().map(|acted| format!("{} {}", acted.count, acted.what)));
         }
         if let Some(Err(what)) = rules.also.map(|also| also(world)) {
             broken.push(what);

@@ -17,6 +17,48 @@ mod report;
 #[cfg(test)]
 mod tests;
 
+use crate::{
+    kernel::params::Preset,
+    lab::desk,
+    scene::SceneError,
+    sim::gauntlet::{Cases, Entry, Row},
+};
+use bevy::app::App;
+use std::sync::Arc;
 pub use case::{CASES, Case, Size};
 pub use job::{Job, jobs, run_all};
 pub use report::{document, summary, table};
+
+/// Tells the game the cases, and runs them in the background when their desk wants it.
+pub fn plugin(app: &mut App) {
+    app.add_plugins(desk::plugin::<Job>).insert_resource(Cases(entries()));
+}
+
+/// The cases that can be watched: those of which the world tells all.
+fn entries() -> Vec<Entry> {
+    let watchable = CASES.iter().filter(|case| case.frames.is_none() && case.size != Size::Long);
+    let entry = |case: &'static Case| Entry {
+        name: case.name,
+        title: case.title,
+        what: case.what,
+        start: Arc::new(|preset| case.blueprint(preset)),
+        act: case.act,
+    };
+    watchable.map(entry).collect()
+}
+
+impl desk::Task for Job {
+    type Row = Row;
+
+    fn all(presets: &[Preset]) -> Vec<Self> {
+        jobs(CASES, |case| case.size != Size::Long, presets)
+    }
+
+    fn title(&self) -> String {
+        self.title()
+    }
+
+    async fn run(self) -> Result<Vec<Row>, SceneError> {
+        Ok(vec![self.judge().await?])
+    }
+}

@@ -40,7 +40,6 @@ fn cells(row: &Row) -> [String; 11] {
         Verdict::Fail => "FAIL",
     };
     let maybe = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), figure);
-    let c = row.clamps;
     [
         row.case.to_owned(),
         row.quality.to_owned(),
@@ -51,7 +50,7 @@ fn cells(row: &Row) -> [String; 11] {
         maybe(row.density_end),
         figure(row.motion),
         figure(row.work),
-        (c.speed + c.position + c.air + c.refused + c.removed).to_string(),
+        row.clamps.acted().map(|acted| acted.count).sum::<u64>().to_string(),
         format!("{:.2}/{:.1}", row.ms_median, row.ms_max),
     ]
 }
