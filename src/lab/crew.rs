@@ -46,7 +46,8 @@ mod tests {
     fn results_come_in_the_order_of_the_jobs_whatever_was_begun_first() {
         let jobs: Vec<u64> = (0..40).collect();
         let begun = Mutex::new(Vec::new());
-        let squares = work(&jobs, 1, |&job| job % 7, |_, of, &job| begun.lock().unwrap().push((of, job)), |&job| job * job);
+        let squares =
+            work(&jobs, 1, |&job| job % 7, |_, of, &job| begun.lock().unwrap().push((of, job)), |&job| job * job);
         assert_eq!(squares, jobs.iter().map(|job| job * job).collect::<Vec<_>>());
         assert_eq!(begun.lock().unwrap()[0], (40, 6), "the dearest goes first");
         assert_eq!(squares, work(&jobs, 5, |&job| job % 7, |_, _, _| {}, |&job| job * job));

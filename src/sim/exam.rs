@@ -1,8 +1,8 @@
 //! Where the physics exam and the game meet: the game asks for an exam and shows its rows, the lab sits it and writes
 //! them. Neither knows the other.
 
-pub use crate::sim::desk::Progress;
 use crate::sim::desk::Desk;
+pub use crate::sim::desk::Progress;
 use serde::Serialize;
 
 /// How a row came out.

@@ -4,7 +4,7 @@
 use crate::{
     kernel::params::Preset,
     scene::{SceneError, blueprint::Blueprint},
-    sim::{desk::Desk, state::Counters},
+    sim::{control, desk::Desk, script::Script, state::Counters},
 };
 use bevy::prelude::{Resource, World};
 use serde::Serialize;
@@ -72,7 +72,7 @@ pub type Start = Arc<dyn Fn(Preset) -> Result<Blueprint, SceneError> + Send + Sy
 /// A case as the game knows it.
 #[derive(Clone)]
 pub struct Entry {
-    /// Name, and that of its scene.
+    /// Name.
     pub name: &'static str,
     /// Heading.
     pub title: &'static str,
@@ -87,6 +87,24 @@ pub struct Entry {
 /// The cases that can be watched, in the order in which they are shown. Written by the lab at the start.
 #[derive(Resource, Clone, Default)]
 pub struct Cases(pub Vec<Entry>);
+
+impl Cases {
+    /// The case called `name`.
+    pub fn find(&self, name: &str) -> Option<&Entry> {
+        self.0.iter().find(|entry| entry.name == name)
+    }
+}
+
+impl Entry {
+    /// Makes `world` the case's, which `start` built, and lets what is done to it begin.
+    pub fn play(&self, world: &mut World, blueprint: Blueprint) {
+        match self.act {
+            Some(act) => world.insert_resource(Script { scene: blueprint.name.clone(), act }),
+            None => drop(world.remove_resource::<Script>()),
+        }
+        control::load(world, Arc::new(blueprint));
+    }
+}
 
 /// What the game wants of the gauntlet, and what has come of it.
 pub type GauntletDesk = Desk<Row>;

@@ -58,6 +58,8 @@ pub enum Action {
     Details,
     /// Shows the physics exam.
     Exam,
+    /// Shows the stability gauntlet.
+    Gauntlet,
     /// Shows what accuracy costs.
     Accuracy,
     /// Puts the world beside itself at another quality, or ends that.
@@ -262,6 +264,7 @@ pub const BINDINGS: &[Binding] = {
     key(K::F3, NONE, A::Details, H::Look, "details: what runs and what it costs"),
     key(K::F4, NONE, A::Settings, H::Look, "settings"),
     key(K::F6, NONE, A::Exam, H::Look, "physics exam: known answers, computed and compared"),
+    key(K::F7, NONE, A::Gauntlet, H::Look, "stability gauntlet: hard cases, to watch and to run"),
     key(K::F1, NONE, A::Help, H::Look, "this help"),
     key(K::Slash, SHIFT, A::Help, H::Look, "this help"),
     key(K::F11, NONE, A::FullScreen, H::Look, "full screen"),

@@ -7,11 +7,9 @@ use crate::{
     sim::desk::{Desk, Progress},
 };
 use bevy::prelude::{App, DetectChangesMut, ResMut, Resource, Update};
-use std::{
-    sync::{
-        Mutex, PoisonError,
-        mpsc::{Receiver, Sender, TryRecvError, channel},
-    },
+use std::sync::{
+    Mutex, PoisonError,
+    mpsc::{Receiver, Sender, TryRecvError, channel},
 };
 
 #[cfg(any(test, target_arch = "wasm32"))]

@@ -3,7 +3,9 @@
 use super::{Note, Task, work};
 use crate::lab::drive::step;
 use bevy::platform::time::Instant;
-use std::{any::TypeId, cell::RefCell, future::Future, marker::PhantomData, pin::Pin, sync::mpsc::Sender, time::Duration};
+use std::{
+    any::TypeId, cell::RefCell, future::Future, marker::PhantomData, pin::Pin, sync::mpsc::Sender, time::Duration,
+};
 
 /// Time that a kind of work takes of a frame. A tick that takes longer is not cut.
 const SLICE: Duration = Duration::from_millis(4);

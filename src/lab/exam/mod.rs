@@ -20,10 +20,10 @@ mod report;
 mod tests;
 mod world;
 
+pub use super::drive::finish;
 use crate::{kernel::params::Preset, lab::desk, scene::SceneError, sim::exam::Row};
 use bevy::app::App;
 pub use case::{CASES, Case};
-pub use super::drive::finish;
 pub use job::{Job, jobs, sit_all};
 pub use report::{document, summary, table};
 

@@ -53,6 +53,8 @@ impl Books {
 /// What the judge has seen of a case.
 pub(super) struct Judge {
     rules: Rules,
+    /// The most energy that may be gained, as a speed, m/s.
+    gain_allowed: Option<f64>,
     /// Ticks or frames that it lasts.
     length: u64,
     seen: u64,
@@ -86,8 +88,10 @@ impl Judge {
     pub fn new(case: &Case, world: &World) -> Self {
         let quality = world.resource::<Setup>().quality;
         let books = Books::of(world);
+        let spacing = f64::from(matter(world).scale.spacing);
         Self {
             rules: case.rules,
+            gain_allowed: case.rules.gain.map(|gain| gain.speed(&quality, spacing)),
             length: u64::from(case.ticks),
             seen: 0,
             put_in: books.energy,
@@ -220,7 +224,7 @@ impl Judge {
             ticks: world.resource::<Clock>().tick,
             particles: world.resource::<ParticleStore>().len(),
             gain: self.gain,
-            gain_allowed: self.rules.gain,
+            gain_allowed: self.gain_allowed,
             density_worst: self.density_worst,
             density_end: stats::mean(&self.density_end),
             motion: stats::mean(&self.motion).unwrap_or(0.0),
@@ -251,7 +255,7 @@ impl Judge {
                 broken.push(format!("{what} {value:.3}, allowed {allowed}"));
             }
         };
-        bound("energy gained, m/s:", self.gain, rules.gain);
+        bound("energy gained, m/s:", self.gain, self.gain_allowed);
         bound("fastest, m/s:", self.fastest, rules.fastest);
         if let Some(density) = rules.density {
             let seen = |value: Option<f64>| value.unwrap_or(0.0);

@@ -24,10 +24,10 @@ use crate::{
     sim::gauntlet::{Cases, Entry, Row},
 };
 use bevy::app::App;
-use std::sync::Arc;
 pub use case::{CASES, Case, Size};
 pub use job::{Job, jobs, run_all};
 pub use report::{document, summary, table};
+use std::sync::Arc;
 
 /// Tells the game the cases, and runs them in the background when their desk wants it.
 pub fn plugin(app: &mut App) {

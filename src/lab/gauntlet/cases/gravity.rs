@@ -1,7 +1,8 @@
 //! Gravity that does not stay as it is.
 
+use super::water;
 use crate::{
-    lab::gauntlet::case::{Case, Density, Rules, Size},
+    lab::gauntlet::case::{Case, Density, Gain, Rules, Size},
     sim::{
         control::set_gravity,
         state::{ParticleStore, Setup},
@@ -14,7 +15,8 @@ const POOL: &str = "(title: \"Gravity\", spacing: 0.1, size: (6, 5), effects: {a
     (element: \"water\", shape: Rect(min: (0, 0), max: (6, 2)))])";
 
 /// Why energy is told apart from what a change of gravity puts in.
-const PUT_IN: &str = "Turning gravity changes every particle's height energy; that is counted as put in. Beyond it: 1.5 m/s.";
+const PUT_IN: &str =
+    "Turning gravity changes every particle's height energy; that is counted as put in. Beyond it: 1.5 m/s.";
 
 /// Standard gravity, m/s².
 const G: f32 = 9.81;
@@ -35,8 +37,8 @@ pub(in crate::lab::gauntlet) const FLIPPING: Case = Case {
     act: Some(|world, tick| pull(world, Vec2::new(0.0, if tick % 2 == 0 { -G } else { G }))),
     ticks: 300,
     rules: Rules {
-        gain: Some(1.5),
-        density: Some(Density { shock: 0, worst: 0.1, end: 0.1 }),
+        gain: Some(Gain::Speed(1.5)),
+        density: Some(Density { shock: 0, worst: 0.05, end: 0.05 }),
         work: 2.0,
         ..Rules::ALWAYS
     },
@@ -75,8 +77,9 @@ pub(in crate::lab::gauntlet) const TURNING: Case = Case {
     }),
     ticks: 540,
     rules: Rules {
-        gain: Some(1.5),
-        density: Some(Density { shock: 0, worst: 0.3, end: 0.3 }),
+        gain: Some(Gain::Speed(1.5)),
+        density: Some(Density { shock: 0, worst: 0.3, end: 0.2 }),
+        work: 2.0,
         ..Rules::ALWAYS
     },
     ..Case::USUAL
@@ -84,19 +87,52 @@ pub(in crate::lab::gauntlet) const TURNING: Case = Case {
 
 pub(in crate::lab::gauntlet) const WEIGHTLESS: Case = Case {
     name: "weightless",
-    title: "At rest without gravity",
-    what: "A block of water and three lone particles on the lattice, at rest, without gravity, with every effect on.",
-    guards: "Anything that moves by itself: a force between particles at rest, wind from nothing, rounding that drifts.",
+    title: "Drops at rest without gravity",
+    what: "120 lone particles of water, up to the walls and corners of the box, at rest and without gravity, with every effect \
+           on.",
+    guards: "Anything that moves by itself: a force of a particle on itself or of a wall out of reach, wind from nothing, \
+             rounding that drifts.",
     allowed: "Not a bit of any position may change.",
     size: Size::Quick,
     scene: "(title: \"Weightless\", spacing: 0.1, size: (6, 5), gravity: (0, 0),
-        effects: {air: on, drag: on, tension: on, viscosity: on, vorticity: on}, contents: [
-        (element: \"water\", shape: Rect(min: (2, 2), max: (4, 3))),
-        (element: \"water\", shape: Rect(min: (0, 0), max: (0.1, 0.1))),
-        (element: \"water\", shape: Rect(min: (5, 4.9), max: (5.1, 5))),
-        (element: \"water\", shape: Rect(min: (1, 1), max: (1.1, 1.1)))])",
+        effects: {air: on, drag: on, predictor: on, tension: on, viscosity: on, vorticity: on})",
+    arrange: Some(|blueprint| {
+        for k in 0..120 {
+            let cell = Vec2::new((k % 12) as f32, (k / 12) as f32);
+            water(blueprint, Vec2::splat(0.05) + Vec2::new(0.535, 0.54) * cell, Vec2::ZERO);
+        }
+    }),
     ticks: 120,
-    rules: Rules { gain: Some(0.0), fastest: Some(0.0), rest: Some(0.0), calm: true, also: Some(unmoved), ..Rules::ALWAYS },
+    rules: Rules {
+        gain: Some(Gain::Speed(0.0)),
+        fastest: Some(0.0),
+        rest: Some(0.0),
+        calm: true,
+        also: Some(unmoved),
+        ..Rules::ALWAYS
+    },
+    ..Case::USUAL
+};
+
+pub(in crate::lab::gauntlet) const FLOATING: Case = Case {
+    name: "floating",
+    title: "A block at rest without gravity",
+    what: "A block of 20 × 10 particles on the lattice floats in the middle of the box, without gravity, for 5 s.",
+    guards: "Surfaces that evaporate, or draw a body together and let it swing.",
+    allowed: "The predictor aims at a density of 0.99, and the tensile correction pushes at every surface, so that the block \
+              finds another shape; for that, an energy of 0.5 m/s. Then it is at rest, to 0.02 d a tick.",
+    size: Size::Quick,
+    scene: "(title: \"Floating\", spacing: 0.1, size: (6, 5), gravity: (0, 0), contents: [
+        (element: \"water\", shape: Rect(min: (2, 2), max: (4, 3)))])",
+    ticks: 300,
+    rules: Rules {
+        confines: Some(|at| (1.5..=4.5).contains(&at.x) && (1.5..=3.5).contains(&at.y)),
+        gain: Some(Gain::Speed(0.5)),
+        density: Some(Density { shock: 0, worst: 0.03, end: 0.02 }),
+        rest: Some(0.02),
+        work: 1.2,
+        ..Rules::ALWAYS
+    },
     ..Case::USUAL
 };
 

@@ -1,7 +1,7 @@
 //! Fast matter against rock.
 
 use super::{noise, water};
-use crate::lab::gauntlet::case::{Case, Density, Rules, Size};
+use crate::lab::gauntlet::case::{Case, Density, Gain, Rules, Size};
 use glam::Vec2;
 
 pub(in crate::lab::gauntlet) const SHOTS: Case = Case {
@@ -34,7 +34,11 @@ pub(in crate::lab::gauntlet) const SHOTS: Case = Case {
         }
     }),
     ticks: 60,
-    rules: Rules { confines: Some(|at| at.x <= 6.0 && at.x + at.y >= 6.1), gain: Some(8.0), ..Rules::ALWAYS },
+    rules: Rules {
+        confines: Some(|at| at.x <= 6.0 && at.x + at.y >= 6.1),
+        gain: Some(Gain::Speed(8.0)),
+        ..Rules::ALWAYS
+    },
     ..Case::USUAL
 };
 
@@ -51,7 +55,7 @@ pub(in crate::lab::gauntlet) const FALLING_BLOCK: Case = Case {
     ticks: 240,
     rules: Rules {
         confines: Some(|at| at.y >= 3.1),
-        gain: Some(10.0),
+        gain: Some(Gain::Speed(10.0)),
         density: Some(Density { shock: 60, worst: 0.5, end: 0.2 }),
         ..Rules::ALWAYS
     },
@@ -77,7 +81,7 @@ pub(in crate::lab::gauntlet) const BULLET: Case = Case {
     ticks: 180,
     rules: Rules {
         confines: Some(|at| at.y <= 2.0 || at.y >= 2.1),
-        gain: Some(1.0),
+        gain: Some(Gain::Speed(1.0)),
         fastest: Some(1001.0),
         density: Some(Density { shock: 30, worst: 0.3, end: 0.1 }),
         ..Rules::ALWAYS

@@ -25,6 +25,13 @@ use bevy::ecs::world::World;
 use glam::Vec2;
 use std::sync::Arc;
 
+/// What plain PBF does to water that is deep or pressed hard.
+const BOILS: &str = "plain PBF carries pressure a few particles down an iteration; water that is deeper than some 27 \
+     particles, or pressed as hard, is crushed and boils";
+
+/// What plain PBF does to water at rest.
+const TREMBLES: &str = "plain PBF takes every correction for motion, and water at rest trembles at .06 to .10 d a tick";
+
 /// The element called `name`; every table has those of the built-in scenes.
 fn element(elements: &ElementTable, name: &str) -> ElementId {
     elements.find(name).unwrap_or_default()

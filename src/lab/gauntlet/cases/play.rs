@@ -6,7 +6,7 @@ use crate::{
         brush::{BrushShape, Stroke},
         params::Preset,
     },
-    lab::gauntlet::case::{Case, Density, Rules, Size},
+    lab::gauntlet::case::{Case, Density, Gain, Rules, Size},
     scene::blueprint::{Effect, Mode},
     sim::{
         effects::Effects,
@@ -39,7 +39,7 @@ pub(in crate::lab::gauntlet) const HITCHES: Case = Case {
     }),
     ticks: 240,
     rules: Rules {
-        gain: Some(0.8),
+        gain: Some(Gain::Speed(0.8)),
         density: Some(Density { shock: 10, worst: 0.3, end: 0.1 }),
         sealed: true,
         ..Rules::ALWAYS
@@ -63,7 +63,7 @@ pub(in crate::lab::gauntlet) const QUALITY_CHANGES: Case = Case {
     }),
     ticks: 300,
     rules: Rules {
-        gain: Some(1.0),
+        gain: Some(Gain::Speed(1.0)),
         density: Some(Density { shock: 10, worst: 0.3, end: 0.2 }),
         work: 100.0,
         sealed: true,
@@ -78,7 +78,7 @@ pub(in crate::lab::gauntlet) const EFFECTS_TOGGLE: Case = Case {
     what: "A dam break with a gust over it; before every tick each effect is switched on, off or to auto, in all \
            combinations.",
     guards: "Stages that count on each other having run.",
-    allowed: "Energy as in the dam break, 1 m/s.",
+    allowed: "Energy: as much as corrections give; a tick without the predictor takes them for motion.",
     size: Size::Quick,
     scene: DAM,
     act: Some(|world, tick| {
@@ -92,7 +92,7 @@ pub(in crate::lab::gauntlet) const EFFECTS_TOGGLE: Case = Case {
     }),
     ticks: 300,
     rules: Rules {
-        gain: Some(1.0),
+        gain: Some(Gain::Corrections(1.0)),
         density: Some(Density { shock: 10, worst: 0.4, end: 0.3 }),
         sealed: true,
         ..Rules::ALWAYS
@@ -114,11 +114,11 @@ pub(in crate::lab::gauntlet) const MOUSE_MINUTE: Case = Case {
            pressure is pumped, rock is drawn and erased.",
     guards: "Ids, counts, edits and limits that only run out after thousands of strokes; air that is pumped up for ever.",
     allowed: "As fast as wind can be. The box stays full, so it may be too dense while it is stirred.",
-    scene: "(title: \"Mouse\", spacing: 0.1, size: (4, 3), particle_limit: 1500)",
+    scene: "(title: \"Mouse\", spacing: 0.1, size: (3, 2), particle_limit: 800)",
     act: Some(|world, tick| {
         let (middle, reach) = (size(world) / 2.0, size(world).length());
         let everywhere = Stroke::dab(BrushShape::Disc, middle, reach);
-        let spot = Vec2::new((tick * 7 % 40) as f32, (tick * 3 % 30) as f32);
+        let spot = Vec2::new((tick * 7 % 30) as f32, (tick * 3 % 20) as f32);
         let elements = world.resource::<Setup>().elements();
         let (rock, water) = (element(elements, "rock"), element(elements, "water"));
         let turn = if tick / 20 % 2 == 0 { 300.0 } else { -300.0 };
@@ -127,7 +127,7 @@ pub(in crate::lab::gauntlet) const MOUSE_MINUTE: Case = Case {
         intend(world, Intent::Press { stroke: everywhere, amount: 0.5 * turn / 300.0 });
         intend(world, Intent::Stamp { element: rock, stroke: Stroke::dab(BrushShape::Square, spot, 2.0) });
         if tick % 4 == 0 {
-            let half = Stroke::dab(BrushShape::Disc, Vec2::new(40.0 - spot.x, 30.0 - spot.y), 12.0);
+            let half = Stroke::dab(BrushShape::Disc, Vec2::new(30.0 - spot.x, 20.0 - spot.y), 9.0);
             intend(world, Intent::Erase { stroke: half });
         }
     }),

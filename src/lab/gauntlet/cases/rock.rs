@@ -1,9 +1,9 @@
 //! Rock that comes and goes.
 
-use super::{element, intend};
+use super::{TREMBLES, element, intend};
 use crate::{
     kernel::brush::{BrushShape, Stroke},
-    lab::gauntlet::case::{Case, Density, Rules, Size},
+    lab::gauntlet::case::{Case, Density, Gain, Rules, Size},
     sim::{intent::Intent, state::Setup},
 };
 use bevy::ecs::world::World;
@@ -38,11 +38,13 @@ pub(in crate::lab::gauntlet) const ROCK_OVER_WATER: Case = Case {
     }),
     ticks: 480,
     rules: Rules {
-        gain: Some(1.0),
+        gain: Some(Gain::Speed(1.0)),
         density: Some(Density { shock: 0, worst: 0.3, end: 0.1 }),
         rest: Some(0.05),
+        work: 2.0,
         ..Rules::ALWAYS
     },
+    known: Some(TREMBLES),
     ..Case::USUAL
 };
 
@@ -62,7 +64,7 @@ pub(in crate::lab::gauntlet) const ROCK_ERASED: Case = Case {
     act: Some(erase_floor),
     ticks: 420,
     rules: Rules {
-        gain: Some(0.8),
+        gain: Some(Gain::Speed(0.8)),
         density: Some(Density { shock: 0, worst: 0.3, end: 0.1 }),
         ..Rules::ALWAYS
     },
