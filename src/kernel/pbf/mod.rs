@@ -10,6 +10,7 @@
 mod coincident;
 mod constraint;
 mod correction;
+mod crowd;
 #[cfg(test)]
 pub(crate) mod tests;
 
@@ -114,7 +115,7 @@ impl Solver {
         4 * floats.iter().map(|array| array.capacity()).sum::<usize>() + self.bins.memory()
     }
 
-    /// Sorts the particles by cell, sets those at one point apart and builds the groups.
+    /// Sorts the particles by cell, sets those at one point apart, scatters crowds and builds the groups.
     pub fn bin(
         &mut self,
         particles: &mut Particles,
@@ -130,8 +131,17 @@ impl Solver {
         bins.lay(domain.size, quality.kernel_radius, quality.correction_limit, solids);
         let set_apart = AtomicU64::new(0);
         let settle = |strip: Strip| separate_coincident(strip, *instructions, domain, solids, &set_apart);
-        bins.bin(particles, [next_x, next_y, lambda, density], *neighbours, *instructions, threads, &settle);
-        BinReport { set_apart: set_apart.into_inner() }
+        let mut bin = |bins: &mut Bins, particles: &mut Particles| {
+            let spare = [&mut *next_x, &mut *next_y, &mut *lambda, &mut *density];
+            bins.bin(particles, spare, *neighbours, *instructions, threads, &settle);
+        };
+        bin(bins, particles);
+        let mut scattered = 0;
+        if bins.is_crowded() {
+            scattered = crowd::scatter(particles, bins.crowds(), domain, solids);
+            bin(bins, particles);
+        }
+        BinReport { set_apart: scattered + set_apart.into_inner() }
     }
 
     /// Where the last substep predicted the particles to be, before the constraint moved them, d; in their order, as
