@@ -102,7 +102,7 @@ fn bad_usage_is_one_line_that_says_what_is_allowed() {
         (&["run", "no/such.ron"], &["no/such.ron"]),
         (&["play", "niagara"], &["niagara", "allowed"]),
         (&["list"], &["WHAT"]),
-        (&["list", "cats"], &["scenes, elements, effects, qualities"]),
+        (&["list", "cats"], &["scenes, elements, effects, qualities, cases"]),
         (&["bench"], &["WHAT"]),
         (&["bench", "everything"], &["neighbours, scaling"]),
         (&["bench", "neighbours", "--quick"], &["--quick", "bench scaling"]),
@@ -113,6 +113,10 @@ fn bad_usage_is_one_line_that_says_what_is_allowed() {
         (&["bench", "neighbours", "--json", "nowhere/x.json"], &["no folder"]),
         (&["exam", "--case", "cats"], &["--case", "allowed", "free_fall", "dam_break"]),
         (&["exam", "--quality", "best"], &["best", "classic"]),
+        (&["gauntlet", "--case", "cats"], &["--case", "allowed", "point_64", "deep_tank"]),
+        (&["gauntlet", "--quality", "best"], &["best", "classic"]),
+        (&["gauntlet", "--threads", "0"], &["--threads", "from 1"]),
+        (&["gauntlet", "--json", "-", "--markdown", "-"], &["stdout"]),
         (&["exam", "--threads", "0"], &["--threads", "from 1"]),
         (&["exam", "--json", "nowhere/x.json"], &["no folder"]),
         (&["exam", "--json", "-", "--markdown", "-"], &["stdout"]),
@@ -185,6 +189,9 @@ fn lists_are_one_a_line_with_the_name_first() {
         text.lines().map(|line| line.split('\t').next().unwrap().to_owned()).collect()
     };
     assert_eq!(names("scenes"), scene::builtin_names());
+    assert!(
+        ["two_at_a_point", "deep_tank", "poison"].iter().all(|case| names("cases").iter().any(|name| name == case))
+    );
     assert_eq!(names("qualities"), ["classic", "draft", "fast", "balanced", "fine", "reference"]);
     assert_eq!(names("effects"), ["air", "drag", "predictor", "tension", "viscosity", "vorticity"]);
     assert!(names("elements").contains(&"water".to_owned()));
@@ -597,6 +604,27 @@ fn the_exam_prints_its_rows_and_fails_if_one_does() {
     }
     let document = std::fs::read_to_string(here.join("rows.md")).unwrap();
     assert!(document.contains("## Free fall (`free_fall`)") && document.contains("**Tolerance:**"), "{document}");
+    let json = good(&here, &[&arguments[..], &["--json", "-"]].concat());
+    assert!(serde_json::from_str::<Value>(&json).is_ok(), "stdout has the JSON alone: {json}");
+}
+
+#[test]
+fn the_gauntlet_prints_its_rows_and_writes_them() {
+    let here = folder("gauntlet");
+    let arguments =
+        ["gauntlet", "--case", "two_at_a_point", "--case", "suction", "--quality", "draft", "--quality", "fast"];
+    let table = good(&here, &[&arguments[..], &["--json", "rows.json", "--markdown", "rows.md"]].concat());
+    assert!(table.contains("| two_at_a_point") && table.contains("4 runs: 4 pass, 0 known"), "{table}");
+    let rows: Value = serde_json::from_str(&std::fs::read_to_string(here.join("rows.json")).unwrap()).unwrap();
+    let rows = rows["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 4);
+    for row in rows {
+        assert_eq!(row["verdict"], "pass", "{row}");
+        assert!(row["broken"].as_array().unwrap().is_empty(), "{row}");
+    }
+    assert!(rows[2]["clamps"]["air_clamps"].as_u64().unwrap() > 0, "suction is cut at a vacuum: {}", rows[2]);
+    let document = std::fs::read_to_string(here.join("rows.md")).unwrap();
+    assert!(document.contains("(`suction`)") && document.contains("**Guards against:**"), "{document}");
     let json = good(&here, &[&arguments[..], &["--json", "-"]].concat());
     assert!(serde_json::from_str::<Value>(&json).is_ok(), "stdout has the JSON alone: {json}");
 }

@@ -2,7 +2,7 @@
 
 use crate::{
     kernel::{params::Preset, simd::InstructionSet, units::TICKS_PER_SECOND},
-    lab::exam::CASES,
+    lab::{exam, gauntlet},
     scene::blueprint::{Effect, Mode},
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -48,6 +48,8 @@ pub(super) enum Command {
     Exam(ExamArguments),
     /// Play a scene for hours by a script, and see that nothing grows or gets lost
     Soak(SoakArguments),
+    /// Run every hard case at each quality, and judge whether it stays stable
+    Gauntlet(GauntletArguments),
     /// Repeat an experiment of the report on the original game
     Study(StudyArguments),
     /// Measure what accuracy costs in a scene: curve.csv, curve.svg, curve.png, summary.md
@@ -150,7 +152,7 @@ pub(super) struct ExamArguments {
     #[arg(long = "quality", value_name = "QUALITY", value_parser = preset)]
     pub(super) qualities: Vec<Preset>,
     /// Case to examine, again for more [default: all]
-    #[arg(long = "case", value_name = "NAME", value_parser = case)]
+    #[arg(long = "case", value_name = "NAME", value_parser = exam_case)]
     pub(super) cases: Vec<String>,
     /// The cases that take a second, at `balanced`
     #[arg(long)]
@@ -189,6 +191,29 @@ pub(super) struct SoakArguments {
     /// Instruction set of the simulation: auto, or a narrower one than the processor's best; it never changes the result
     #[arg(long, value_name = "SET", default_value = "auto", hide_default_value = true, value_parser = simd)]
     pub(super) simd: InstructionSet,
+}
+
+/// `gauntlet`.
+#[derive(Debug, Args)]
+pub(super) struct GauntletArguments {
+    /// Write the rows as JSON; `-` is stdout, in place of the table
+    #[arg(long, value_name = "FILE.json")]
+    pub(super) json: Option<PathBuf>,
+    /// Write the rows with what they mean, as docs/gauntlet.md has them; `-` is stdout, in place of the table
+    #[arg(long, value_name = "FILE.md")]
+    pub(super) markdown: Option<PathBuf>,
+    /// Quality to run at, again for more: a name of `list qualities` [default: all]
+    #[arg(long = "quality", value_name = "QUALITY", value_parser = preset)]
+    pub(super) qualities: Vec<Preset>,
+    /// Case to run, again for more: a name of `list cases` [default: all]
+    #[arg(long = "case", value_name = "NAME", value_parser = gauntlet_case)]
+    pub(super) cases: Vec<String>,
+    /// The cases that take a moment, at `balanced`
+    #[arg(long)]
+    pub(super) quick: bool,
+    /// Cases at a time, each on one thread; they never change the result [default: one a processor]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+    pub(super) threads: Option<u64>,
 }
 
 /// `study`.
@@ -258,6 +283,8 @@ pub(super) enum Listing {
     Effects,
     /// Name and the numbers behind it
     Qualities,
+    /// Hard cases of `gauntlet`: name, what happens
+    Cases,
 }
 
 /// `play`.
@@ -432,10 +459,18 @@ fn preset(text: &str) -> Result<Preset, String> {
     Preset::find(text).ok_or_else(|| format!("allowed: {}", Preset::ALL.map(Preset::name).join(", ")))
 }
 
-fn case(text: &str) -> Result<String, String> {
-    match CASES.iter().find(|case| case.name == text) {
-        Some(case) => Ok(case.name.to_owned()),
-        None => Err(format!("allowed: {}", CASES.iter().map(|case| case.name).collect::<Vec<_>>().join(", "))),
+fn exam_case(text: &str) -> Result<String, String> {
+    name_among(text, exam::CASES.iter().map(|case| case.name))
+}
+
+fn gauntlet_case(text: &str) -> Result<String, String> {
+    name_among(text, gauntlet::CASES.iter().map(|case| case.name))
+}
+
+fn name_among(text: &str, names: impl Iterator<Item = &'static str> + Clone) -> Result<String, String> {
+    match names.clone().find(|name| *name == text) {
+        Some(name) => Ok(name.to_owned()),
+        None => Err(format!("allowed: {}", names.collect::<Vec<_>>().join(", "))),
     }
 }
 

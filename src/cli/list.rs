@@ -3,6 +3,7 @@
 use crate::{
     cli::{args::Listing, failure::Failure, output},
     kernel::{element::Element, params::Preset},
+    lab::gauntlet,
     scene::{self, blueprint::Effect},
 };
 
@@ -13,6 +14,7 @@ pub(super) fn list(what: Listing) -> Result<(), Failure> {
         Listing::Elements => scene::elements()?.iter().map(|(_, row)| element(row)).collect(),
         Listing::Effects => Effect::ALL.map(|effect| format!("{}\t{}", effect.name(), effect.meaning())).to_vec(),
         Listing::Qualities => Preset::ALL.map(quality).to_vec(),
+        Listing::Cases => gauntlet::CASES.iter().map(|case| format!("{}\t{}", case.name, case.what)).collect(),
     };
     output::print(&lines.into_iter().fold(String::new(), |text: String, line| text + &line + "\n"))
 }

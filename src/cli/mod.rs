@@ -5,11 +5,13 @@ mod args;
 mod bench;
 mod exam;
 mod failure;
+mod gauntlet;
 mod list;
 mod output;
 mod play;
 mod progress;
 mod replay;
+mod report;
 mod run;
 mod soak;
 mod start;
@@ -52,6 +54,7 @@ fn dispatch(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Bench(bench)) => bench::bench(&bench),
         Some(Command::Exam(arguments)) => exam::exam(&arguments),
         Some(Command::Soak(arguments)) => soak::soak(&arguments),
+        Some(Command::Gauntlet(arguments)) => gauntlet::gauntlet(&arguments),
         Some(Command::Study(study)) => study::study(&study),
         Some(Command::Sweep(sweep)) => sweep::sweep(&sweep),
         Some(Command::List { what }) => list::list(what),

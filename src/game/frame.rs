@@ -2,30 +2,24 @@
 //! and never pile up.
 
 use crate::{
-    kernel::units::{TICK_SECONDS, TICKS_PER_SECOND},
-    sim::{ledger::PassLedger, pace::Pace, split::Split, state::Clock},
+    kernel::units::TICKS_PER_SECOND,
+    sim::{
+        ledger::PassLedger,
+        pace::{Pace, longest_frame},
+        split::Split,
+        state::Clock,
+    },
 };
 use bevy::prelude::{Real, Res, ResMut, Resource, Time, Virtual};
 use std::time::Duration;
 
-/// Time that the ticks of one frame may take.
-const FRAME_BUDGET: Duration = Duration::from_millis(20);
-/// Most ticks in a frame, however cheap they are.
-const MOST_TICKS: u32 = 8;
+/// One tick.
+const TICK: Duration = Duration::from_nanos(1_000_000_000 / TICKS_PER_SECOND as u64);
 /// Ticks a second are counted over this time.
 const WINDOW: Duration = Duration::from_millis(750);
 
 /// Slowest and fastest speed.
 pub const SPEED_RANGE: std::ops::RangeInclusive<f32> = 0.0625..=4.0;
-
-/// Most ticks that one frame may run when a tick costs `tick`.
-pub fn ticks_per_frame(tick: Duration) -> u32 {
-    if tick.is_zero() {
-        return MOST_TICKS;
-    }
-    let affordable = FRAME_BUDGET.as_nanos() / tick.as_nanos();
-    (affordable as u32).clamp(1, MOST_TICKS)
-}
 
 /// How fast the world really runs and how fast frames come.
 #[derive(Resource, Clone, Copy, Debug, Default)]
@@ -38,16 +32,40 @@ pub struct Tempo {
     pub lag: Option<f32>,
     /// Whether frames come only when something changes.
     pub rests: bool,
+    /// Simulated time that frames were too late for since the scene began, s.
+    missed: f64,
     frame_time: Duration,
     frames: u32,
     tick_time: Duration,
     tick: u64,
+    /// The tick of the last frame.
+    seen: u64,
     pace: Pace,
 }
 
 impl Tempo {
+    /// Ticks that frames were too late for since the scene began: what a hitch cost. They are left out and not caught up
+    /// with.
+    pub fn dropped(&self) -> f64 {
+        self.missed * f64::from(TICKS_PER_SECOND)
+    }
+
+    /// Notes how much of a frame of `elapsed`, at the player's speed, became `simulated` time.
+    fn note_hitch(&mut self, elapsed: Duration, speed: f32, simulated: Duration) {
+        let missed = elapsed.as_secs_f64() * f64::from(speed) - simulated.as_secs_f64();
+        // What is left when nothing was cut is rounding.
+        if missed > 1e-6 {
+            self.missed += missed;
+        }
+    }
+
     /// Counts a frame of `elapsed` that left the world at `tick`.
     fn count(&mut self, elapsed: Duration, tick: u64, pace: Pace) {
+        // What came before the first tick was loading.
+        if tick < self.seen || tick == 0 {
+            self.missed = 0.0;
+        }
+        self.seen = tick;
         if !self.rests {
             self.frame_time += elapsed;
             self.frames += 1;
@@ -71,37 +89,42 @@ impl Tempo {
 }
 
 /// Lets at most as many ticks into the next frame as it can afford, at the player's speed.
-pub fn set_pace(pace: Res<Pace>, ledger: Res<PassLedger>, split: Res<Split>, mut time: ResMut<Time<Virtual>>) {
+pub fn set_pace(
+    pace: Res<Pace>,
+    ledger: Res<PassLedger>,
+    split: Res<Split>,
+    tempo: Res<Tempo>,
+    mut time: ResMut<Time<Virtual>>,
+) {
     // While the world stands, fixed updates only carry edits: at slow motion's rate they would feel late.
     let speed = if pace.ticks() { pace.speed.clamp(*SPEED_RANGE.start(), *SPEED_RANGE.end()) } else { 1.0 };
     if time.relative_speed() != speed {
         time.set_relative_speed(speed);
     }
-    // `max_delta` bounds the real time of a frame, before the speed is applied. Together with an overstep below one
-    // tick, `n` ticks of time can't hold more than `n` ticks.
     let tick = ledger.tick().median() + split.tick_time();
-    let most = ticks_per_frame(tick) as f32 * TICK_SECONDS / speed;
-    time.set_max_delta(Duration::from_secs_f32(most));
+    // A frame that wakes a resting game goes on as if it had not slept.
+    let longest = if tempo.rests { TICK } else { longest_frame(tick, speed) };
+    time.set_max_delta(longest);
 }
 
 /// Keeps the counts that the HUD shows.
-pub fn measure_tempo(mut tempo: ResMut<Tempo>, time: Res<Time<Real>>, clock: Res<Clock>, pace: Res<Pace>) {
+pub fn measure_tempo(
+    mut tempo: ResMut<Tempo>,
+    time: Res<Time<Real>>,
+    simulated: Res<Time<Virtual>>,
+    clock: Res<Clock>,
+    pace: Res<Pace>,
+) {
+    // Time that was slept away was not missed.
+    if !pace.paused && pace.ticks() && !tempo.rests {
+        tempo.note_hitch(time.delta(), simulated.relative_speed(), simulated.delta());
+    }
     tempo.count(time.delta(), clock.tick, *pace);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn ticks_that_cost_more_run_fewer_to_a_frame() {
-        let ms = |ms: f32| ticks_per_frame(Duration::from_secs_f32(ms / 1000.0));
-        assert_eq!(ms(0.0), 8);
-        assert_eq!(ms(1.0), 8);
-        assert_eq!(ms(6.0), 3);
-        assert_eq!(ms(10.5), 1);
-        assert_eq!(ms(500.0), 1);
-    }
 
     #[test]
     fn tempo_counts_ticks_and_frames_and_survives_a_reset() {
@@ -115,6 +138,19 @@ mod tests {
         assert!((lag - 5.0 / 6.0).abs() < 0.02);
         tempo.count(Duration::from_millis(20), 0, Pace::default());
         assert_eq!(tempo.lag, None, "a reset world starts a new count");
+    }
+
+    #[test]
+    fn a_hitch_is_counted_in_ticks_and_forgotten_with_the_scene() {
+        let mut tempo = Tempo::default();
+        tempo.note_hitch(Duration::from_millis(16), 1.0, Duration::from_millis(16));
+        tempo.count(Duration::from_millis(16), 10, Pace::default());
+        assert_eq!(tempo.dropped(), 0.0);
+        tempo.note_hitch(Duration::from_secs(10), 0.5, Duration::from_millis(100));
+        tempo.count(Duration::from_secs(10), 16, Pace::default());
+        assert!((tempo.dropped() - 4.9 * 60.0).abs() < 1e-3, "{}", tempo.dropped());
+        tempo.count(Duration::from_millis(16), 1, Pace::default());
+        assert_eq!(tempo.dropped(), 0.0, "another scene has its own");
     }
 
     #[test]

@@ -26,6 +26,7 @@ use crate::{
         autopilot::{Autopilot, Goal},
         control,
         effects::Effects,
+        gauntlet::Cases,
         intent::{Intent, IntentQueue},
         pace::Pace,
         split::Split,
@@ -74,6 +75,8 @@ pub enum Order {
         /// Its parameters.
         settings: Vec<(String, String)>,
     },
+    /// Play a hard case of the stability gauntlet.
+    Watch(&'static str),
 }
 
 /// Orders that wait.
@@ -116,6 +119,7 @@ pub fn obey(world: &mut World) {
             }
             Order::Load(path) => saves::load(world, &path),
             Order::Scene { name, settings } => play(world, &name, &settings),
+            Order::Watch(name) => watch(world, name),
         }
     }
 }
@@ -153,6 +157,7 @@ fn act(world: &mut World, action: Action) {
         | Action::Settings
         | Action::Details
         | Action::Exam
+        | Action::Gauntlet
         | Action::Accuracy
         | Action::Help
         | Action::Close => world.resource_mut::<HudState>().act(action),
@@ -168,6 +173,21 @@ fn play(world: &mut World, name: &str, settings: &[(String, String)]) {
     match scene::load(name).and_then(|scene| scene.build(settings, preset, &EffectModes::new())) {
         Ok(blueprint) => {
             control::load(world, Arc::new(blueprint));
+            world.resource_mut::<History>().clear();
+            world.resource_mut::<Epoch>().0 += 1;
+        }
+        Err(error) => world.resource_mut::<Toasts>().warn(error.to_string()),
+    }
+}
+
+/// Plays a hard case, at the quality that is in force.
+fn watch(world: &mut World, name: &str) {
+    let preset = world.get_resource::<Setup>().map_or(Preset::Balanced, |setup| setup.preset);
+    let Some(case) = world.resource::<Cases>().find(name).cloned() else { return };
+    match (case.start)(preset) {
+        Ok(blueprint) => {
+            recording::stop(world, "another scene");
+            case.play(world, blueprint);
             world.resource_mut::<History>().clear();
             world.resource_mut::<Epoch>().0 += 1;
         }

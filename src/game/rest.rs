@@ -2,11 +2,16 @@
 //! one whose window can't be seen stands still.
 
 use crate::{
-    game::{frame::Tempo, hud::toast::Toasts, input::strokes::Held, orders::Orders},
+    game::{
+        frame::{Tempo, measure_tempo},
+        hud::toast::Toasts,
+        input::strokes::Held,
+        orders::Orders,
+    },
     sim::{accuracy::Survey, exam::ExamDesk, intent::IntentQueue, pace::Pace},
 };
 use bevy::{
-    prelude::{App, DetectChanges, Last, Local, MessageReader, Real, Res, ResMut, Time, Virtual},
+    prelude::{App, DetectChanges, IntoScheduleConfigs, Last, Local, MessageReader, Real, Res, ResMut, Time, Virtual},
     window::WindowEvent,
     winit::{UpdateMode, WinitSettings},
 };
@@ -23,7 +28,7 @@ const WATCH: Duration = Duration::from_millis(200);
 
 /// Lets the event loop sleep whenever it may.
 pub fn plugin(app: &mut App) {
-    app.init_resource::<WinitSettings>().add_systems(Last, rest);
+    app.init_resource::<WinitSettings>().add_systems(Last, rest.after(measure_tempo));
     // A page's script tells this in its own way.
     #[cfg(not(target_arch = "wasm32"))]
     app.add_systems(Last, stand_while_unseen);

@@ -158,6 +158,16 @@ impl Bins {
         }));
     }
 
+    /// Whether a cell may hold a crowd. Costs nothing: it follows from what the sort found.
+    pub(crate) fn is_crowded(&self) -> bool {
+        self.sort.is_crowded()
+    }
+
+    /// The particles of each crowded cell.
+    pub(crate) fn crowds(&self) -> impl Iterator<Item = Range<usize>> {
+        self.sort.crowds(&self.grid)
+    }
+
     /// The groups, in the order of their particles; together they hold each particle once.
     pub fn groups(&self) -> &[Group] {
         &self.groups

@@ -26,14 +26,34 @@ pub struct PredictReport {
     pub speed_clamps: u64,
 }
 
+/// Substeps of a tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Substeps {
+    /// How many it takes.
+    pub count: u32,
+    /// Whether the speeds call for more than the limit: then those that are too fast are cut.
+    pub short: bool,
+}
+
 /// Substeps for a tick of `tick` s: the quality's, more if the fastest particle would move too far in one, up to four
 /// times the quality's.
-pub fn substeps(particles: &Particles, domain: &Domain, quality: &Quality, tick: f32) -> u32 {
+///
+/// **The bound.** A move is explicit, `x + v Δt`, and exact whatever its length as far as rock and walls go (`sweep`).
+/// What bounds it is that two streams must not pass through each other unseen: each moves at most `MOVE_RADII` h, so with
+/// the fastest speed v and gravity g a tick T takes `n ≥ (v + g T) T / (MOVE_RADII h)` substeps. Past the limit
+/// the speed itself is cut to `MOVE_RADII h / Δt` and counted, so that the bound holds at any speed.
+pub fn substeps(particles: &Particles, domain: &Domain, quality: &Quality, tick: f32) -> Substeps {
     let fastest = fastest(&particles.vx, &particles.vy);
     let fastest = fastest + domain.gravity.length() * tick;
-    let wanted = (fastest * tick / (MOVE_RADII * quality.kernel_radius)).ceil();
+    let wanted = (fastest * tick / longest_move(quality)).ceil();
+    let most = quality.substeps * SUBSTEP_GROWTH;
     // A cast saturates, so that any speed gives a number.
-    (wanted as u32).clamp(quality.substeps, quality.substeps * SUBSTEP_GROWTH)
+    Substeps { count: (wanted as u32).clamp(quality.substeps, most), short: wanted > most as f32 }
+}
+
+/// Furthest that a particle may move in a substep, d: faster ones are cut to it.
+pub fn longest_move(quality: &Quality) -> f32 {
+    MOVE_RADII * quality.kernel_radius
 }
 
 /// Speed of the fastest, d/s.
@@ -60,7 +80,7 @@ pub fn predict(
     dt: f32,
 ) -> PredictReport {
     let rock = (solids.count() > 0).then_some(solids);
-    let longest = MOVE_RADII * quality.kernel_radius;
+    let longest = longest_move(quality);
     let Particles { x, y, vx, vy, .. } = particles;
     let clamps = AtomicU64::new(0);
     spread([&mut x[..], y, vx, vy], WORTH_A_PIECE, threads, &|_, [x, y, vx, vy]| {

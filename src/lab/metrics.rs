@@ -1,6 +1,6 @@
 //! The object that `run --metrics` writes. `null` stands where a value does not apply to the run.
 
-use crate::{kernel::params::Quality, lab::coarse::Distance, scene::blueprint::Mode};
+use crate::{kernel::params::Quality, lab::coarse::Distance, scene::blueprint::Mode, sim::state::Counters};
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 
@@ -44,7 +44,7 @@ pub struct Metrics {
     /// What finding that out cost.
     pub sampling: Sampling,
     /// What the limiters did since the scene began.
-    pub stability: Stability,
+    pub stability: Counters,
     /// What particles, solver, rock and air hold, bytes.
     pub memory_bytes: u64,
     /// Most memory that the process has had, bytes; only on Linux.
@@ -142,25 +142,6 @@ pub struct Sampling {
     pub ms_total: f64,
     /// Median of an accuracy sample, ms.
     pub ms_median: Option<f64>,
-}
-
-/// What the limiters did since the scene began; all zero in a calm scene but `substeps_max`.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Stability {
-    /// Particles removed because they were not finite.
-    pub non_finite: u64,
-    /// Particles found outside the box or in rock at the end of a tick.
-    pub escaped: u64,
-    /// Speeds cut, in particles × substeps.
-    pub speed_clamps: u64,
-    /// Corrections cut, in particles × substeps.
-    pub position_clamps: u64,
-    /// Air cells whose speed or pressure was cut.
-    pub air_clamps: u64,
-    /// Particles not placed because the world was full.
-    pub refused: u64,
-    /// Most substeps that a tick took.
-    pub substeps_max: u32,
 }
 
 /// A list of pairs as one object, in its own order.

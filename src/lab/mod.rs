@@ -5,14 +5,19 @@
 pub mod balance;
 pub mod binning;
 pub mod coarse;
+mod crew;
 pub mod density;
+mod desk;
 mod drift;
+mod drive;
 pub mod exam;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod gating;
+pub mod gauntlet;
 pub mod headless;
 pub mod live;
 pub mod machine;
+mod markdown;
 pub mod metrics;
 pub mod moment;
 pub mod particle_list;
@@ -27,6 +32,7 @@ pub mod sampler;
 pub mod scaling;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod soak;
+mod stage;
 pub mod stats;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod sweep;

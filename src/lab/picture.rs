@@ -4,7 +4,7 @@ use crate::{
     lab::density::surroundings,
     sim::{
         state::{AirGrid, ParticleStore, Rock, Setup},
-        view::{self, BurialMap, DepthMap, Reference, Rgb, Sample, View},
+        view::{self, BurialMap, DepthMap, Limited, Reference, Rgb, Sample, StrainMap, View},
     },
 };
 use bevy::ecs::world::World;
@@ -51,7 +51,7 @@ impl Picture {
         let mut canvas = Canvas { picture: Self::plain(side(size.x), side(size.y), view::SURROUNDINGS), pixels };
         canvas.air(world.resource::<AirGrid>(), setup, view);
         canvas.rock(world.resource::<Rock>(), setup);
-        canvas.particles(world.resource::<ParticleStore>(), world.resource::<Rock>(), setup, view, radius);
+        canvas.particles(world, setup, view, radius);
         canvas.picture
     }
 
@@ -145,20 +145,26 @@ impl Canvas {
         }
     }
 
-    fn particles(&mut self, particles: &ParticleStore, rock: &Rock, setup: &Setup, view: View, radius: f32) {
+    fn particles(&mut self, world: &World, setup: &Setup, view: View, radius: f32) {
+        let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
         let reference = Reference::of(&setup.blueprint.domain, &setup.blueprint.air);
         let rest = f64::from(setup.blueprint.fluid.rest_density);
         let locals = match view {
             View::Density => surroundings(particles, rock, setup.blueprint.domain.size),
             _ => Vec::new(),
         };
+        let mut strain = StrainMap::default();
+        if let Some(limited) = Limited::of(world).filter(|_| view == View::Stability) {
+            strain.measure(setup.blueprint.domain.size, limited);
+        }
         let mut depths = DepthMap::default();
         depths.measure(setup.blueprint.domain.size, particles);
         for i in 0..particles.len() {
             let p = particles.position(i);
             let speed = particles.velocity(i).length() / reference.fall;
             let density_error = locals.get(i).map_or(0.0, |local| (local.density / rest - 1.0) as f32);
-            let sample = Sample { speed, depth: depths.at(p), density_error };
+            let strain = strain.shares().get(i).copied().unwrap_or(0.0);
+            let sample = Sample { speed, depth: depths.at(p), density_error, strain };
             let colour = view::colour(view, setup.elements().get(particles.element[i]), sample);
             self.cover(p, radius, colour, disc);
         }

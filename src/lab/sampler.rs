@@ -7,7 +7,7 @@ use crate::{
         density::density_error,
         drift::Drift,
         machine,
-        metrics::{Accuracy, EffectCost, Metrics, ParticleCount, Sampling, Stability, Stage, TickTimes},
+        metrics::{Accuracy, EffectCost, Metrics, ParticleCount, Sampling, Stage, TickTimes},
         run::Observer,
         stats,
         volume::volume_error,
@@ -87,7 +87,7 @@ impl Sampler {
             effects: self.effects(world),
             accuracy: self.accuracy(world),
             sampling: Sampling { ms_total: ms(self.spent), ms_median: stats::quantile(&mut self.samples.ms, 0.5) },
-            stability: stability(world),
+            stability: *world.resource::<Counters>(),
             memory_bytes: memory_bytes(world),
             peak_rss_bytes: machine::memory().map(|memory| memory.peak),
             ms_per_tick: TickTimes {
@@ -276,19 +276,6 @@ fn residual(world: &World) -> Option<f64> {
     let mut constraints: Vec<f64> = density.iter().map(|density| f64::from(*density) / rest - 1.0).collect();
     constraints.retain(|constraint| *constraint > 0.0);
     (!density.is_empty()).then(|| stats::mean(&constraints).unwrap_or(0.0))
-}
-
-fn stability(world: &World) -> Stability {
-    let counters = world.resource::<Counters>();
-    Stability {
-        non_finite: counters.non_finite,
-        escaped: counters.escaped,
-        speed_clamps: counters.speed_clamps,
-        position_clamps: counters.position_clamps,
-        air_clamps: counters.air_clamps,
-        refused: counters.refused,
-        substeps_max: counters.substeps_max,
-    }
 }
 
 fn memory_bytes(world: &World) -> u64 {

@@ -18,6 +18,7 @@ use crate::{
     },
 };
 use bevy::prelude::{Mut, World};
+use glam::Vec2;
 use std::sync::Arc;
 
 /// Makes `world` the start of the scene.
@@ -94,6 +95,14 @@ pub(super) fn change_quality(setup: &mut Setup, air: &mut AirGrid, rock: &Rock, 
     if air.cell() != quality.air_cell {
         air.0 = air.resized(quality.air_cell);
         air.set_solids(rock);
+    }
+}
+
+/// Lets things fall another way from here on, d/s².
+pub fn set_gravity(world: &mut World, gravity: Vec2) {
+    let mut setup = world.resource_mut::<Setup>();
+    if setup.blueprint.domain.gravity != gravity {
+        Arc::make_mut(&mut setup.blueprint).domain.gravity = gravity;
     }
 }
 

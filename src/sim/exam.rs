@@ -1,8 +1,8 @@
 //! Where the physics exam and the game meet: the game asks for an exam and shows its rows, the lab sits it and writes
 //! them. Neither knows the other.
 
-use crate::kernel::params::Preset;
-use bevy::prelude::Resource;
+use crate::sim::desk::Desk;
+pub use crate::sim::desk::Progress;
 use serde::Serialize;
 
 /// How a row came out.
@@ -58,7 +58,7 @@ impl Row {
 }
 
 /// A number to four figures.
-fn figure(value: f64) -> String {
+pub(crate) fn figure(value: f64) -> String {
     match value.abs() {
         0.0 => "0".to_owned(),
         size if !size.is_finite() => "none".to_owned(),
@@ -71,39 +71,8 @@ fn figure(value: f64) -> String {
     }
 }
 
-/// How far the exam has come.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub enum Progress {
-    /// Nobody has asked for one.
-    #[default]
-    Idle,
-    /// It runs.
-    Running {
-        /// Cases done, each in one setting.
-        done: usize,
-        /// Cases in all.
-        of: usize,
-        /// What is simulated now.
-        now: String,
-    },
-    /// All rows are there.
-    Done,
-    /// It was stopped before its end.
-    Stopped,
-    /// It can't go on: why.
-    Broken(String),
-}
-
-/// What the game wants of the exam, and what has come of it. Written by the game (`wanted`) and by the lab (the rest).
-#[derive(Resource, Clone, Debug, Default, PartialEq)]
-pub struct ExamDesk {
-    /// The qualities at which an exam shall be sat. Taking it back stops it; it is taken back at its end.
-    pub wanted: Option<Vec<Preset>>,
-    /// How far it has come.
-    pub progress: Progress,
-    /// The rows that are there, in the order in which they came.
-    pub rows: Vec<Row>,
-}
+/// What the game wants of the exam, and what has come of it.
+pub type ExamDesk = Desk<Row>;
 
 #[cfg(test)]
 mod tests {

@@ -1,6 +1,13 @@
-//! Whether and how fast the world runs.
+//! Whether and how fast the world runs, and how much of a late frame becomes ticks.
 
+use crate::kernel::units::TICK_SECONDS;
 use bevy::prelude::Resource;
+use std::time::Duration;
+
+/// Time that the ticks of one frame may take.
+const FRAME_BUDGET: Duration = Duration::from_millis(20);
+/// Most ticks in a frame, however cheap they are.
+pub const MOST_TICKS: u32 = 8;
 
 /// Pause, single steps and speed.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
@@ -29,4 +36,36 @@ impl Pace {
 /// Run condition: the world's time moves in this fixed update.
 pub fn time_moves(pace: bevy::prelude::Res<Pace>) -> bool {
     pace.ticks()
+}
+
+/// Most ticks that one frame may run when a tick costs `tick`.
+fn ticks_per_frame(tick: Duration) -> u32 {
+    if tick.is_zero() {
+        return MOST_TICKS;
+    }
+    let affordable = FRAME_BUDGET.as_nanos() / tick.as_nanos();
+    (affordable as u32).clamp(1, MOST_TICKS)
+}
+
+/// Real time of a frame that becomes ticks when one costs `tick` and the world runs at `speed`; the rest is dropped, so
+/// that a frame that came late by any time does not make the next one late as well.
+pub fn longest_frame(tick: Duration, speed: f32) -> Duration {
+    // The bound is on the real time of a frame, before the speed is applied. Together with an overstep below one tick, `n`
+    // ticks of time can't hold more than `n` ticks.
+    Duration::from_secs_f32(ticks_per_frame(tick) as f32 * TICK_SECONDS / speed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_that_cost_more_run_fewer_to_a_frame() {
+        let ms = |ms: f32| ticks_per_frame(Duration::from_secs_f32(ms / 1000.0));
+        assert_eq!(ms(0.0), 8);
+        assert_eq!(ms(1.0), 8);
+        assert_eq!(ms(6.0), 3);
+        assert_eq!(ms(10.5), 1);
+        assert_eq!(ms(500.0), 1);
+    }
 }

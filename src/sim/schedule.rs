@@ -6,6 +6,8 @@ use bevy::{ecs::schedule::ScheduleLabel, prelude::SystemSet};
 /// The stages of a tick, in order.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TickSystems {
+    /// The scene's script acts, if it has one.
+    Script,
     /// Intents change the world; runs while paused, too.
     Edit,
     /// Taps and outlets.

@@ -2,6 +2,7 @@
 //! headless picture show the same. Colours are sRGB bytes.
 
 mod maps;
+mod strain;
 
 use crate::kernel::{
     element::Element,
@@ -10,6 +11,7 @@ use crate::kernel::{
 use glam::{IVec2, Vec2};
 
 pub use maps::{BurialMap, DepthMap};
+pub use strain::{Limited, StrainMap};
 
 /// An sRGB colour.
 pub type Rgb = [u8; 3];
@@ -51,20 +53,24 @@ pub enum View {
     Pressure,
     /// Velocity of the air.
     Wind,
+    /// Where limiters act, and how near to it the particles are.
+    Stability,
 }
 
 impl View {
     /// All views in the order in which a key cycles through them.
-    pub const ALL: [Self; 5] = [Self::Elements, Self::Speed, Self::Density, Self::Pressure, Self::Wind];
+    pub const ALL: [Self; 6] =
+        [Self::Elements, Self::Speed, Self::Density, Self::Pressure, Self::Wind, Self::Stability];
 
     /// Name on the screen.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Elements => "Elements",
             Self::Speed => "Speed",
             Self::Density => "Density error",
             Self::Pressure => "Air pressure",
             Self::Wind => "Air velocity",
+            Self::Stability => "Stability",
         }
     }
 
@@ -105,6 +111,8 @@ pub struct Sample {
     pub depth: f32,
     /// ρ/ρ₀ − 1.
     pub density_error: f32,
+    /// Share of the nearest limit, 0 … 1 ([`StrainMap`]).
+    pub strain: f32,
 }
 
 /// Colour of a movable particle.
@@ -117,6 +125,7 @@ pub fn colour(view: View, element: &Element, sample: Sample) -> Rgb {
         }
         View::Speed => ramp(&SPEED_STOPS, sample.speed * 1.25),
         View::Density => ramp(&DENSITY_STOPS, density_share(sample.density_error)),
+        View::Stability => strain::strain_colour(sample.strain),
     }
 }
 
@@ -154,7 +163,7 @@ pub fn air_colour(view: View, reference: Reference, pressure: f32, velocity: Vec
             let x = 2.0 * velocity.length() / reference.wind;
             (WIND, 0.55 * x / (1.0 + x))
         }
-        View::Elements | View::Speed | View::Density => ([0; 3], 0.0),
+        View::Elements | View::Speed | View::Density | View::Stability => ([0; 3], 0.0),
     }
 }
 
@@ -244,6 +253,13 @@ mod tests {
         for error in [-0.4, -0.01, 0.0, 0.03, 0.1] {
             assert!((density_error(density_share(error)) - error).abs() < 1e-6);
         }
+    }
+
+    #[test]
+    fn whoever_is_at_a_limit_is_red_and_who_is_far_from_it_is_not() {
+        let at = |strain| colour(View::Stability, &water(), Sample { strain, ..Sample::default() });
+        let (calm, acted) = (at(0.0), at(1.0));
+        assert!(acted[0] > 230 && acted[0] > 2 * acted[1] && calm[0] < calm[2], "{calm:?} {acted:?}");
     }
 
     #[test]

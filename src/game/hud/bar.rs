@@ -126,6 +126,7 @@ fn menus(ui: &mut Ui, narrow: bool, state: &HudState, setup: &Setup, shown: View
         (Icon::Question, Action::Help, state.help),
         (Icon::Gear, Action::Settings, state.settings),
         (Icon::Check, Action::Exam, state.exam),
+        (Icon::Shield, Action::Gauntlet, state.gauntlet),
         (Icon::Chart, Action::Details, state.details),
         (Icon::Curve, Action::Accuracy, state.accuracy),
         (Icon::Load, Action::Saves, state.saves),

@@ -15,6 +15,7 @@ use crate::{
         effects::Effects,
         ledger::{Pass, PassLedger},
         state::{Clock, Setup},
+        view::View,
     },
 };
 use bevy::prelude::{Res, ResMut, Result};
@@ -22,6 +23,9 @@ use bevy_egui::{
     EguiContexts,
     egui::{self, RichText, Ui, vec2},
 };
+
+/// Name of the view that shows where limiters act.
+const STABILITY: &str = View::Stability.name();
 
 /// Width of the window's contents, points.
 const WIDTH: f32 = 390.0;
@@ -144,10 +148,20 @@ fn switches(ui: &mut Ui, effects: &Effects, orders: &mut Orders) {
 }
 
 fn limiters(ui: &mut Ui, readings: &Readings) {
-    if readings.counters.is_empty() {
-        ui.label(weak("No limiter had anything to do."));
+    if readings.limiters.is_empty() {
+        ui.label(weak("No limiter acted."));
+        return;
     }
-    for reading in &readings.counters {
-        ui.label(RichText::new(format!("{} {}", reading.value, reading.unit)).color(style::WARN));
-    }
+    ui.label(weak(format!("limiters, since the scene began (the view {STABILITY} shows where)")).small());
+    egui::Grid::new("limiters").num_columns(4).spacing([8.0, 3.0]).show(ui, |ui| {
+        for pair in readings.limiters.chunks(2) {
+            for (reading, meaning) in pair {
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    ui.label(RichText::new(&reading.value).monospace().color(style::WARN));
+                });
+                ui.label(&reading.unit).on_hover_text(*meaning);
+            }
+            ui.end_row();
+        }
+    });
 }

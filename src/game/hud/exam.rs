@@ -2,13 +2,12 @@
 
 use crate::{
     game::hud::{
-        HudState,
+        HudState, desk,
         icons::{self, Icon},
         style,
     },
-    kernel::params::Preset,
     sim::{
-        exam::{ExamDesk, Progress, Row, Verdict},
+        exam::{ExamDesk, Row, Verdict},
         state::Setup,
     },
 };
@@ -45,7 +44,7 @@ pub fn show(
         ui.set_width(WIDTH);
         let about = "Known answers of theory and experiment, computed in the background and compared.";
         ui.label(RichText::new(about).color(style::WEAK));
-        if let Some(wanted) = controls(ui, &desk, setup.preset) {
+        if let Some(wanted) = desk::controls(ui, &desk, setup.preset, "Examine") {
             desk.wanted = wanted;
         }
         if !desk.rows.is_empty() {
@@ -60,37 +59,6 @@ pub fn show(
         state.exam = false;
     }
     Ok(())
-}
-
-/// Begins and stops; what is wanted from now on, if that was changed.
-fn controls(ui: &mut Ui, desk: &ExamDesk, preset: Preset) -> Option<Option<Vec<Preset>>> {
-    let mut wanted = None;
-    ui.horizontal(|ui| {
-        if desk.wanted.is_some() {
-            if style::main_button(ui, "Stop").clicked() {
-                wanted = Some(None);
-            }
-        } else {
-            if style::main_button(ui, "Examine").on_hover_text("the quality that is played at").clicked() {
-                wanted = Some(Some(vec![preset]));
-            }
-            if ui.button("all qualities").on_hover_text("takes some minutes").clicked() {
-                wanted = Some(Some(Preset::ALL.to_vec()));
-            }
-        }
-        match &desk.progress {
-            Progress::Idle => {}
-            Progress::Running { done, of, now } => {
-                let share = *done as f32 / (*of).max(1) as f32;
-                ui.add(egui::ProgressBar::new(share).desired_width(160.0).text(format!("{done} of {of}")));
-                ui.label(RichText::new(now).small().color(style::WEAK));
-            }
-            Progress::Done => drop(ui.label(RichText::new("done").color(style::WEAK))),
-            Progress::Stopped => drop(ui.label(RichText::new("stopped").color(style::WEAK))),
-            Progress::Broken(why) => drop(ui.label(RichText::new(why).color(style::WARN))),
-        }
-    });
-    wanted
 }
 
 fn headings(ui: &mut Ui) {

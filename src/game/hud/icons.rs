@@ -53,6 +53,8 @@ pub enum Icon {
     Square,
     /// Right.
     Check,
+    /// What holds.
+    Shield,
     /// Close, or wrong.
     Close,
 }
@@ -107,6 +109,8 @@ pub fn draw(painter: &Painter, rect: Rect, icon: Icon, colour: Color32) {
         }
         Icon::Question => pen.question(),
         Icon::Check => pen.line(&[(0.12, 0.52), (0.4, 0.8), (0.88, 0.22)], 0.13),
+        Icon::Shield => pen
+            .line(&[(0.5, 0.04), (0.88, 0.2), (0.84, 0.56), (0.5, 0.96), (0.16, 0.56), (0.12, 0.2), (0.5, 0.04)], 0.1),
         Icon::Close => {
             pen.line(&[(0.2, 0.2), (0.8, 0.8)], 0.11);
             pen.line(&[(0.2, 0.8), (0.8, 0.2)], 0.11);

@@ -6,8 +6,10 @@ pub mod bar;
 pub mod brush;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod crash;
+mod desk;
 pub mod details;
 pub mod exam;
+pub mod gauntlet;
 pub mod help;
 pub mod icons;
 pub mod palette;
@@ -41,6 +43,8 @@ impl Plugin for HudPlugin {
             .init_resource::<scenes::SceneMenu>()
             .init_resource::<saves::SaveMenu>()
             .init_resource::<crate::sim::exam::ExamDesk>()
+            .init_resource::<crate::sim::gauntlet::GauntletDesk>()
+            .init_resource::<crate::sim::gauntlet::Cases>()
             .init_resource::<accuracy::AccuracyPanel>()
             .add_systems(Startup, (scenes::list_scenes, greet))
             .add_systems(PreUpdate, mind_the_keys.after(EguiPreUpdateSet::ProcessInput))
@@ -58,7 +62,7 @@ impl Plugin for HudPlugin {
                     saves::show,
                     search::show,
                     details::show,
-                    exam::show,
+                    (exam::show, gauntlet::show).chain(),
                     split::show,
                     accuracy::show,
                     settings::show,
@@ -84,6 +88,8 @@ pub struct HudState {
     pub details: bool,
     /// The physics exam.
     pub exam: bool,
+    /// The stability gauntlet.
+    pub gauntlet: bool,
     /// What accuracy costs.
     pub accuracy: bool,
     /// The scene menu.
@@ -103,6 +109,7 @@ impl Default for HudState {
             help: false,
             details: false,
             exam: false,
+            gauntlet: false,
             accuracy: false,
             scenes: false,
             saves: false,
@@ -120,6 +127,7 @@ impl HudState {
             Action::Help => self.help = !self.help,
             Action::Details => self.details = !self.details,
             Action::Exam => self.exam = !self.exam,
+            Action::Gauntlet => self.gauntlet = !self.gauntlet,
             Action::Accuracy => self.accuracy = !self.accuracy,
             Action::Scenes => self.scenes = !self.scenes,
             Action::Saves => self.saves = !self.saves,
@@ -138,7 +146,13 @@ impl HudState {
         }
         // What is asked for is shown, even if the HUD was hidden.
         self.visible |= action == Action::Accuracy && self.accuracy;
-        self.visible |= self.help || self.exam || self.scenes || self.saves || self.settings || self.search.is_some();
+        self.visible |= self.help
+            || self.exam
+            || self.gauntlet
+            || self.scenes
+            || self.saves
+            || self.settings
+            || self.search.is_some();
     }
 }
 

@@ -6,7 +6,7 @@ use crate::{
     sim::{
         ledger::PassLedger,
         pace::Pace,
-        state::{Census, Counters, Setup},
+        state::{Acted, Census, Counters, Setup},
     },
 };
 use bevy::prelude::{DetectChanges, Real, Res, ResMut, Resource, Time};
@@ -36,8 +36,8 @@ pub struct Readings {
     pub total: Reading,
     /// Particles of each element that there are any of: colour, name, number.
     pub elements: Vec<([u8; 3], Reading)>,
-    /// What the limiters did, where it is not zero.
-    pub counters: Vec<Reading>,
+    /// What the limiters did, where it is not zero, each with what it means.
+    pub limiters: Vec<(Reading, &'static str)>,
     next: f32,
 }
 
@@ -68,7 +68,7 @@ pub fn read(
             readings.elements.push((element.colour, reading));
         }
     }
-    readings.counters = counter_readings(&counters);
+    readings.limiters = limiter_readings(&counters, &tempo);
 }
 
 fn pace_readings(tempo: &Tempo, pace: &Pace, tick_ms: f32) -> Vec<Reading> {
@@ -93,19 +93,17 @@ fn pace_readings(tempo: &Tempo, pace: &Pace, tick_ms: f32) -> Vec<Reading> {
     readings
 }
 
-fn counter_readings(counters: &Counters) -> Vec<Reading> {
-    [
-        (counters.non_finite, "not a number"),
-        (counters.escaped, "escaped"),
-        (counters.speed_clamps, "speeds cut"),
-        (counters.position_clamps, "corrections cut"),
-        (counters.air_clamps, "air cells cut"),
-        (counters.refused, "refused: world full"),
-    ]
-    .into_iter()
-    .filter(|(count, _)| *count > 0)
-    .map(|(count, name)| Reading { value: grouped(count), unit: name.into(), warning: true })
-    .collect()
+fn limiter_readings(counters: &Counters, tempo: &Tempo) -> Vec<(Reading, &'static str)> {
+    let late = tempo.dropped() as u64;
+    let hitch =
+        Acted { what: "ticks dropped", meaning: "ticks that late frames left out: the world ran slower", count: late };
+    counters
+        .acted()
+        .chain((late > 0).then_some(hitch))
+        .map(|Acted { what, meaning, count }| {
+            (Reading { value: grouped(count), unit: what.into(), warning: true }, meaning)
+        })
+        .collect()
 }
 
 /// `12345678` as `12,345,678`.
@@ -165,8 +163,11 @@ mod tests {
 
     #[test]
     fn only_limiters_that_did_something_are_shown() {
-        assert_eq!(counter_readings(&Counters::default()), []);
-        let counters = Counters { escaped: 3, ..Counters::default() };
-        assert_eq!(counter_readings(&counters).len(), 1);
+        assert_eq!(limiter_readings(&Counters { substeps_max: 4, ..Counters::default() }, &Tempo::default()), []);
+        let counters = Counters { escaped: 3, speed_clamps: 1200, ..Counters::default() };
+        let shown = limiter_readings(&counters, &Tempo::default());
+        let texts: Vec<String> =
+            shown.iter().map(|(reading, _)| format!("{} {}", reading.value, reading.unit)).collect();
+        assert_eq!(texts, ["3 escaped", "1,200 speeds cut"]);
     }
 }

@@ -62,6 +62,8 @@ pub enum Action {
     Details,
     /// Shows the physics exam.
     Exam,
+    /// Shows the stability gauntlet.
+    Gauntlet,
     /// Shows what accuracy costs.
     Accuracy,
     /// Puts the world beside itself at another quality, or ends that.
@@ -253,7 +255,7 @@ pub const BINDINGS: &[Binding] = {
 
     key(K::KeyV, NONE, A::NextView, H::Look, "next view"),
     view(K::Digit1, View::Elements), view(K::Digit2, View::Speed), view(K::Digit3, View::Density),
-    view(K::Digit4, View::Pressure), view(K::Digit5, View::Wind),
+    view(K::Digit4, View::Pressure), view(K::Digit5, View::Wind), view(K::Digit6, View::Stability),
     key(K::KeyZ, NONE, A::Zoom(1), H::Look, "zoom in at the pointer"),
     key(K::KeyZ, SHIFT, A::Zoom(-1), H::Look, "zoom out"),
     wheel(1, CTRL, A::Zoom(1), H::Look, "zoom in at the pointer"),
@@ -268,6 +270,7 @@ pub const BINDINGS: &[Binding] = {
     key(K::F3, NONE, A::Details, H::Look, "details: what runs and what it costs"),
     key(K::F4, NONE, A::Settings, H::Look, "settings"),
     key(K::F6, NONE, A::Exam, H::Look, "physics exam: known answers, computed and compared"),
+    key(K::F7, NONE, A::Gauntlet, H::Look, "stability gauntlet: hard cases, to watch and to run"),
     key(K::F1, NONE, A::Help, H::Look, "this help"),
     key(K::Slash, SHIFT, A::Help, H::Look, "this help"),
     key(K::F11, NONE, A::FullScreen, H::Look, "full screen"),

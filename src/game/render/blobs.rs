@@ -18,7 +18,7 @@ pub struct ColourTable {
 }
 
 impl ColourTable {
-    /// The colours of a view: over speed, or over density error.
+    /// The colours of a view: over speed, density error or the share of a limit.
     pub fn fill(&mut self, view: View, elements: &ElementTable) {
         self.colours.clear();
         for (_, element) in elements.iter() {
@@ -26,6 +26,7 @@ impl ColourTable {
                 let share = level as f32 / (LEVELS - 1) as f32;
                 let sample = match view {
                     View::Density => Sample { density_error: density_error(share), ..Sample::default() },
+                    View::Stability => Sample { strain: share, ..Sample::default() },
                     _ => Sample { speed: share, ..Sample::default() },
                 };
                 let [r, g, b] = colour(view, element, sample);
@@ -52,6 +53,11 @@ pub enum ColourBy<'a> {
         /// ρ₀ in the same unit.
         rest: f32,
     },
+    /// Share of the nearest limit, one for each particle.
+    Strain {
+        /// The shares, in the order of the particles.
+        share: &'a [f32],
+    },
 }
 
 /// Packs all particles as they stood `back` seconds ago (straight back along their velocities). Densities that do not
@@ -75,6 +81,7 @@ pub fn pack(
                 .get(i)
                 .filter(|_| density.len() == count)
                 .map_or(0.5, |density| density_share(density / rest - 1.0)),
+            ColourBy::Strain { share } => share.get(i).copied().unwrap_or(0.0),
             ColourBy::Speed => (vx[i] * vx[i] + vy[i] * vy[i]).sqrt() * scale,
         };
         *blob = [(x[i] - vx[i] * back).to_bits(), (y[i] - vy[i] * back).to_bits(), table.at(element[i].index(), share)];

@@ -17,8 +17,9 @@ use crate::{
         difference::{self, Difference},
         pace::Pace,
         split::Split,
-        state::{AirGrid, ParticleStore, Rock, Setup, SolverState},
-        view::{self, BurialMap, DepthMap, Reference, Rgb, View},
+        stages::TickPlan,
+        state::{AirGrid, Clock, ParticleStore, PredictorState, Rock, Setup, SolverState},
+        view::{self, BurialMap, DepthMap, Limited, Reference, Rgb, StrainMap, View},
     },
 };
 use bevy::platform::time::Instant;
@@ -102,6 +103,8 @@ pub struct Picture {
     /// Whether `depth` is of this frame.
     pub depth_new: bool,
     burial: BurialMap,
+    /// Where limiters act; of the last time that the view showed it.
+    strain: StrainMap,
     table: ColourTable,
     table_of: Option<(View, Arc<Blueprint>)>,
     stones_of: Option<(u64, Arc<Blueprint>, u32)>,
@@ -123,6 +126,7 @@ impl Default for Picture {
             depth: DepthMap::default(),
             depth_new: false,
             burial: BurialMap::default(),
+            strain: StrainMap::default(),
             table: ColourTable::default(),
             table_of: None,
             stones_of: None,
@@ -153,6 +157,8 @@ struct Scene<'a> {
     rock: &'a Rock,
     air: &'a AirGrid,
     solver: Option<&'a SolverState>,
+    /// What the limiters work on.
+    limited: Limited<'a>,
     wisps: Option<&'a Wisps>,
 }
 
@@ -165,6 +171,7 @@ impl<'a> Scene<'a> {
             rock: world.get_resource()?,
             air: world.get_resource()?,
             solver: world.get_resource(),
+            limited: Limited::of(world)?,
             wisps: None,
         })
     }
@@ -184,6 +191,11 @@ pub fn extract(
     rock: Extract<Option<Res<Rock>>>,
     air: Extract<Option<Res<AirGrid>>>,
     solver: Extract<Option<Res<SolverState>>>,
+    (predictor, plan, clock): (
+        Extract<Option<Res<PredictorState>>>,
+        Extract<Option<Res<TickPlan>>>,
+        Extract<Option<Res<Clock>>>,
+    ),
     wisps: Extract<Res<Wisps>>,
     split: Extract<Res<Split>>,
     pace: Extract<Res<Pace>>,
@@ -202,7 +214,17 @@ pub fn extract(
     // Half a tick after a tick the world is drawn half a tick before it: it then moves evenly at any frame rate.
     let back = if pace.paused { 0.0 } else { TICK_SECONDS * (1.0 - time.overstep_fraction().clamp(0.0, 1.0)) };
     let sight = Sight { window, camera: &camera, view: shown.0, epoch: epoch.0, back };
-    let first = Scene { setup, particles, rock, air, solver: solver.as_deref(), wisps: Some(&**wisps) };
+    let solver = solver.as_deref();
+    let limited = Limited {
+        particles,
+        solver: solver.map(|solver| &solver.0),
+        predictor: predictor.as_deref().map(|predictor| &predictor.0),
+        air,
+        quality: &setup.quality,
+        dt: plan.as_deref().map_or(TICK_SECONDS, TickPlan::substep_seconds),
+        tick: clock.as_deref().map_or(0, |clock| clock.tick),
+    };
+    let first = Scene { setup, particles, rock, air, solver, limited, wisps: Some(&**wisps) };
     let Pictures { panes: [a, b, c], count, difference } = &mut *pictures;
     let areas: Vec<Area> = camera.panes().collect();
     match (split.world().and_then(Scene::of), areas.as_slice()) {
@@ -230,7 +252,11 @@ impl Picture {
             self.table.fill(view, &blueprint.elements);
             self.table_of = Some((view, blueprint.clone()));
         }
+        if view == View::Stability {
+            self.strain.measure(blueprint.domain.size, scene.limited);
+        }
         let by = match (view, scene.solver) {
+            (View::Stability, _) => ColourBy::Strain { share: self.strain.shares() },
             (View::Density, Some(solver)) => {
                 ColourBy::Density { density: &solver.density, rest: blueprint.fluid.rest_density }
             }
@@ -244,7 +270,10 @@ impl Picture {
         }
         self.fill_air(scene, sight, reference);
         let air = scene.air;
-        let air_extent = Vec2::new(air.columns() as f32, air.rows() as f32) * air.cell();
+        let air_extent = match view {
+            View::Stability => self.strain.extent(),
+            _ => Vec2::new(air.columns() as f32, air.rows() as f32) * air.cell(),
+        };
         self.look(scene.setup, sight, view, air_extent);
         self.place(sight, area, confined);
     }
@@ -292,6 +321,11 @@ impl Picture {
                     wisps.pack(reference, self.streaks.values_mut());
                 }
             }
+            View::Stability => {
+                self.strain.texels(&mut self.air.0);
+                let (columns, rows) = self.strain.dimensions();
+                self.air.1 = UVec2::new(columns as u32, rows as u32);
+            }
             View::Speed | View::Density | View::Pressure => {}
         }
     }
@@ -314,7 +348,7 @@ impl Picture {
                 flag(view == View::Elements),
                 view::DEPTH_SHADE,
             ),
-            pen: Vec4::new(BLOB_RADIUS, 1.5 * lines, flag(view.shows_air()), lines),
+            pen: Vec4::new(BLOB_RADIUS, 1.5 * lines, flag(view.shows_air() || view == View::Stability), lines),
             surroundings: srgb(view::SURROUNDINGS),
             box_top: srgb(view::BOX_TOP),
             box_bottom: srgb(view::BOX_BOTTOM),

@@ -52,6 +52,8 @@ fn keys_choose_views_tools_speed_and_brush() {
     assert_eq!(player.world().resource::<Shown>().0, View::Speed);
     player.chord(&[KeyCode::KeyV]);
     assert_eq!(player.world().resource::<Shown>().0, View::Density);
+    player.chord(&[KeyCode::ShiftLeft, KeyCode::Digit6]);
+    assert_eq!(player.world().resource::<Shown>().0, View::Stability);
     player.chord(&[KeyCode::Digit1]);
     let first = player.world().resource::<Setup>().elements().iter().find(|(_, e)| e.key == '1').map(|(id, _)| id);
     assert_eq!(player.world().resource::<Toolbox>().element(), first);

@@ -2,7 +2,7 @@
 
 use super::advect::{FACE_FILTER, Source};
 use super::band::{Band, BandPass, Target};
-use super::grid::{Air, Peaks, Scratch};
+use super::grid::{Air, MAX_PRESSURE, Peaks, Scratch};
 use super::pressure::{Push, STILL_MACH, peak};
 use super::shape::Shape;
 use crate::kernel::{parallel::Team, simd::InstructionSet, sources::Wind};
@@ -41,9 +41,11 @@ pub struct AirReport {
     pub substeps: u32,
     /// Cells of the grid; 0 if the air was quiet.
     pub cells: usize,
-    /// Velocity components that were clamped, by tools since the last step or in this one, and substeps for which sound
-    /// was slowed.
+    /// Velocity components that were clamped, by tools since the last step or in this one.
     pub speed_clamps: u64,
+    /// Substeps for which sound was slowed.
+    #[serde(skip)]
+    pub slowed: u64,
     /// Pressures that a tool asked for and that were clamped to 0 … [`super::MAX_PRESSURE`], since the last step.
     pub pressure_clamps: u64,
     /// Mass of air for which new rock left no place, since the last step, d² at pressure 1.
@@ -55,6 +57,7 @@ impl AddAssign for AirReport {
         self.substeps += other.substeps;
         self.cells = self.cells.max(other.cells);
         self.speed_clamps += other.speed_clamps;
+        self.slowed += other.slowed;
         self.pressure_clamps += other.pressure_clamps;
         self.buried += other.buried;
     }
@@ -174,9 +177,19 @@ impl Air {
         report.speed_clamps += self.clamp_speeds(0.5 * self.cell / dt);
         let stable = LIMITED_COURANT * self.cell / dt;
         let slowed = sound > stable;
-        report.speed_clamps += u64::from(slowed);
+        report.slowed += u64::from(slowed);
         let sound_speed = if slowed { sound_speed * (stable / sound) } else { sound_speed };
         (budget, Substep { dt, sound_speed })
+    }
+
+    /// How much of what a step of `dt` s can follow a cell uses: 1 where a limiter acts. Of its wind and its sound at
+    /// the most substeps, and of the highest pressure, whichever comes nearest.
+    pub fn limit_share(&self, column: usize, row: usize, dt: f32) -> f32 {
+        let crossing = dt / (MAX_SUBSTEPS as f32 * self.cell);
+        let (pressure, velocity) = (self.pressure_at_cell(column, row), self.velocity_at_cell(column, row));
+        let wind = 2.0 * velocity.abs().max_element() * crossing;
+        let sound = self.params.sound_speed * pressure.sqrt() * crossing / LIMITED_COURANT;
+        wind.max(sound).max(pressure / MAX_PRESSURE)
     }
 
     fn clamp_speeds(&mut self, limit: f32) -> u64 {

@@ -86,6 +86,11 @@ impl Air {
         self.quiet = true;
     }
 
+    /// Takes what tools and new rock had to clamp since the last step: nobody waits for a step of air that stays at rest.
+    pub fn take_report(&mut self) -> AirReport {
+        std::mem::take(&mut self.pending)
+    }
+
     /// Whether a fan would change air at rest.
     pub(super) fn is_driven(&self, winds: &[Wind]) -> bool {
         winds.iter().filter(|wind| wind.rate > 0.0 && bounded_velocity(wind.velocity).0 != Vec2::ZERO).any(|wind| {

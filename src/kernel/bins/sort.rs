@@ -16,6 +16,9 @@ use std::{mem::swap, ops::Range};
 
 /// Particles in a block.
 const BLOCK: usize = 256;
+/// Blocks of one and the same cell in a row that are a crowd: 1,024 particles where some two have room. A liquid of the
+/// highest rest density, 100, has 450 of them there in the largest cells.
+const CROWD: usize = 4;
 /// Fewer blocks than this a piece do not pay for another thread when their cells are looked up.
 const WORTH_A_LOOK: usize = 32;
 /// Fewer particles than this do not pay for a segment of their own.
@@ -166,6 +169,21 @@ impl Sort {
         starts[(found.start - 1) * grid.columns..=found.start * grid.columns].fill(0);
         starts[found.end * grid.columns..=(found.end + 1) * grid.columns].fill(count as u32);
         *strips = found;
+    }
+
+    /// Whether a crowd was found: so many particles of one cell that whole blocks of the order from before were. One that
+    /// formed since then is found the next time, when it has been sorted together.
+    pub fn is_crowded(&self) -> bool {
+        let full = self.source.len() / BLOCK;
+        let blocks = &self.blocks[..full.min(self.blocks.len())];
+        blocks.windows(CROWD).any(|run| run.iter().flatten().all(|cell| *cell == run[0][0]))
+    }
+
+    /// The places of the particles of each cell that holds a crowd.
+    pub fn crowds(&self, grid: &CellGrid) -> impl Iterator<Item = Range<usize>> {
+        let cells = self.strips.start * grid.columns..=self.strips.end * grid.columns;
+        let places = self.starts[cells].windows(2).map(|ends| ends[0] as usize..ends[1] as usize);
+        places.filter(|places| places.len() >= CROWD * BLOCK)
     }
 
     /// The ids in their new order, to be written by pieces; the sort is over with [`Sort::keep_names`].

@@ -8,6 +8,7 @@ use crate::kernel::{
     solids::Solids,
 };
 use glam::Vec2;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Closer than this in both coordinates counts as one point, d.
 const COINCIDENT: f32 = 1e-3;
@@ -20,15 +21,23 @@ const BLOCK: usize = 64;
 
 /// Particles at one point have no direction to part in (the spiky gradient is 0/0 there); equal ones among the last few
 /// of the sorted order are set apart by a small offset that only depends on the id and stays in the cell. Rock and walls
-/// stop it.
-pub(super) fn separate_coincident(strip: Strip, instructions: InstructionSet, domain: &Domain, solids: &Solids) {
-    instructions.run(Separate { strip, domain, solids });
+/// stop it. `count` gains the number of those that were.
+pub(super) fn separate_coincident(
+    strip: Strip,
+    instructions: InstructionSet,
+    domain: &Domain,
+    solids: &Solids,
+    count: &AtomicU64,
+) {
+    instructions.run(Separate { strip, domain, solids, count });
 }
 
 struct Separate<'a> {
     strip: Strip<'a>,
     domain: &'a Domain,
     solids: &'a Solids,
+    /// Counts the particles that were set apart.
+    count: &'a AtomicU64,
 }
 
 impl Pass for Separate<'_> {
@@ -62,7 +71,7 @@ impl Separate<'_> {
     }
 
     fn separate(&mut self, i: usize) {
-        let Self { strip, domain, solids } = self;
+        let Self { strip, domain, solids, count } = self;
         let near =
             |j: usize| (strip.x[i] - strip.x[j]).abs() < COINCIDENT && (strip.y[i] - strip.y[j]).abs() < COINCIDENT;
         if (i.saturating_sub(LOOK_BACK)..i).any(near) {
@@ -71,6 +80,7 @@ impl Separate<'_> {
             let from = Vec2::new(strip.x[i], strip.y[i]);
             let to = solids.sweep(from, domain.keep_inside(from + offset));
             (strip.x[i], strip.y[i]) = (to.x, to.y);
+            count.fetch_add(1, Ordering::Relaxed);
         }
     }
 }

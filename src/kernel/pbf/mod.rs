@@ -10,6 +10,7 @@
 mod coincident;
 mod constraint;
 mod correction;
+mod crowd;
 #[cfg(test)]
 pub(crate) mod tests;
 
@@ -27,6 +28,7 @@ use coincident::separate_coincident;
 use constraint::ConstraintPass;
 use correction::CorrectionPass;
 use glam::Vec2;
+use std::sync::atomic::AtomicU64;
 
 /// Positions under correction, densities, bins: what the solver keeps beside the particles. 24 bytes a particle and the
 /// bins. The arrays follow the order of the particles.
@@ -50,6 +52,13 @@ pub struct Solver {
     pub(crate) next_x: Vec<f32>,
     pub(crate) next_y: Vec<f32>,
     pub(crate) lambda: Vec<f32>,
+}
+
+/// What [`Solver::bin`] did besides sorting.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BinReport {
+    /// Particles that were at one point with another and set apart.
+    pub set_apart: u64,
 }
 
 /// What [`Solver::solve`] is told besides the particles.
@@ -106,7 +115,7 @@ impl Solver {
         4 * floats.iter().map(|array| array.capacity()).sum::<usize>() + self.bins.memory()
     }
 
-    /// Sorts the particles by cell and builds the groups.
+    /// Sorts the particles by cell, sets those at one point apart, scatters crowds and builds the groups.
     pub fn bin(
         &mut self,
         particles: &mut Particles,
@@ -114,14 +123,31 @@ impl Solver {
         domain: &Domain,
         quality: &Quality,
         threads: usize,
-    ) {
+    ) -> BinReport {
         if (self.smoothing.radius, self.smoothing.gradient) != (quality.kernel_radius, quality.gradient) {
             self.smoothing = Smoothing::new(quality.kernel_radius, quality.gradient);
         }
         let Self { bins, instructions, neighbours, density, next_x, next_y, lambda, .. } = self;
         bins.lay(domain.size, quality.kernel_radius, quality.correction_limit, solids);
-        let settle = |strip: Strip| separate_coincident(strip, *instructions, domain, solids);
-        bins.bin(particles, [next_x, next_y, lambda, density], *neighbours, *instructions, threads, &settle);
+        let set_apart = AtomicU64::new(0);
+        let settle = |strip: Strip| separate_coincident(strip, *instructions, domain, solids, &set_apart);
+        let mut bin = |bins: &mut Bins, particles: &mut Particles| {
+            let spare = [&mut *next_x, &mut *next_y, &mut *lambda, &mut *density];
+            bins.bin(particles, spare, *neighbours, *instructions, threads, &settle);
+        };
+        bin(bins, particles);
+        let mut scattered = 0;
+        if bins.is_crowded() {
+            scattered = crowd::scatter(particles, bins.crowds(), domain, solids);
+            bin(bins, particles);
+        }
+        BinReport { set_apart: scattered + set_apart.into_inner() }
+    }
+
+    /// Where the last substep predicted the particles to be, before the constraint moved them, d; in their order, as
+    /// long as none came or went since.
+    pub fn predicted(&self) -> [&[f32]; 2] {
+        [&self.x, &self.y]
     }
 
     /// Iterates the density constraint on the binned particles.

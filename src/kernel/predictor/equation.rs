@@ -33,6 +33,18 @@ impl<'a> Around<'a> {
     }
 }
 
+impl Around<'_> {
+    /// Whether a side of liquid cell `i` is neither liquid nor mostly rock: the surface is there.
+    #[inline(always)]
+    fn touches_air(self, rock: Around, i: usize) -> bool {
+        let is_free = |liquid: f32, rock: f32| liquid + 2.0 * rock < 0.5;
+        is_free(self.left[i], rock.left[i])
+            | is_free(self.right[i], rock.right[i])
+            | is_free(self.lower[i], rock.lower[i])
+            | is_free(self.upper[i], rock.upper[i])
+    }
+}
+
 impl<'a> Around<'a> {
     /// A row of cells with one more at either end, and the rows below and above it.
     #[inline(always)]
@@ -146,21 +158,33 @@ pub(super) fn may_be_sealed(
     any
 }
 
-/// Asks for a divergence that takes the density error away.
+/// Asks for a divergence that takes the density error away. Returns in how many liquid cells the error is out of
+/// [`FEEDBACK_RANGE`] and was cut to it.
 #[inline(always)]
-pub(super) fn feed_back(right_side: &mut [f32], liquid: Around, rock: Around, filled: &[f32], feedback: f32) {
-    // Neither liquid nor mostly rock: the surface is there.
-    let is_free = |liquid: f32, rock: f32| liquid + 2.0 * rock < 0.5;
+pub(super) fn feed_back(right_side: &mut [f32], liquid: Around, rock: Around, filled: &[f32], feedback: f32) -> u32 {
+    let mut cuts = 0;
     for i in 0..right_side.len() {
-        let at_surface = is_free(liquid.left[i], rock.left[i])
-            | is_free(liquid.right[i], rock.right[i])
-            | is_free(liquid.lower[i], rock.lower[i])
-            | is_free(liquid.upper[i], rock.upper[i]);
+        let at_surface = liquid.touches_air(rock, i);
         let (least, most) = (if at_surface { 0.0 } else { FEEDBACK_RANGE.0 }, FEEDBACK_RANGE.1);
-        let error = filled[i] - 1.0;
-        let error = if error > least { error } else { least };
+        let wanted = filled[i] - 1.0;
+        let error = if wanted > least { wanted } else { least };
         let error = if error < most { error } else { most };
         right_side[i] = feedback * error;
+        // A surface is no error: what is missing there is air.
+        let cut = (wanted > most) | ((wanted < FEEDBACK_RANGE.0) & !at_surface);
+        cuts += u32::from(cut & (liquid.centre[i] > 0.0));
+    }
+    cuts
+}
+
+/// How much of [`FEEDBACK_RANGE`] the error of a cell uses: past 1 it is cut. `i` counts within the row.
+pub(super) fn feedback_share(liquid: Around, rock: Around, filled: &[f32], i: usize) -> f32 {
+    let error = filled[i] - 1.0;
+    match error {
+        _ if liquid.centre[i] == 0.0 => 0.0,
+        error if error > 0.0 => error / FEEDBACK_RANGE.1,
+        _ if liquid.touches_air(rock, i) => 0.0,
+        error => error / FEEDBACK_RANGE.0,
     }
 }
 

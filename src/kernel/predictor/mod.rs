@@ -27,6 +27,7 @@ mod transfer;
 
 use crate::kernel::{parallel::Team, params::Domain, particles::Particles, simd::InstructionSet, solids::Solids};
 use conjugate::Conjugate;
+use glam::Vec2;
 use grid::MacGrid;
 use multigrid::Hierarchy;
 use pockets::Pockets;
@@ -50,6 +51,10 @@ pub struct PredictorReport {
     pub iterations: u32,
     /// Residual that is left, relative to the right-hand side.
     pub residual: f32,
+    /// Whether the solve stopped above its tolerance: at the most iterations, or because it came no further.
+    pub unsolved: bool,
+    /// Liquid cells whose density error was cut to the feedback's range.
+    pub cuts: u64,
 }
 
 /// Grid fields and solver of the predictor. Buffers are kept from substep to substep; the pressure, too, as the first
@@ -131,6 +136,23 @@ impl Predictor {
             );
         }
         report
+    }
+
+    /// Shows `visit` the centre (d) of every liquid cell of the last run, and how much of the feedback's range its density
+    /// error uses: past 1 it was cut.
+    pub fn limit_shares(&self, mut visit: impl FnMut(Vec2, f32)) {
+        let Self { grid, closed, faces, conjugate, .. } = self;
+        if conjugate.rows.is_empty() || faces.filled.len() != grid.len() {
+            return;
+        }
+        pressure::feedback_shares(grid, closed, faces, conjugate, |[column, row], share| {
+            visit((Vec2::new(column as f32, row as f32) + 0.5) * grid.cell, share);
+        });
+    }
+
+    /// Edge of a cell, d; 0 before the first run.
+    pub fn cell(&self) -> f32 {
+        self.grid.cell
     }
 
     /// Bytes held.

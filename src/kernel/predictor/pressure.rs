@@ -6,7 +6,8 @@ use crate::kernel::{
         PredictorReport,
         conjugate::Conjugate,
         equation::{
-            Around, Sides, couple, feed_back, fill, fill_in, mark, may_be_sealed, steepen, subtract_divergence, touch,
+            Around, Sides, couple, feed_back, feedback_share, fill, fill_in, mark, may_be_sealed, steepen,
+            subtract_divergence, touch,
         },
         grid::MacGrid,
         level::{Level, WORTH_A_PIECE, damping},
@@ -19,11 +20,16 @@ use crate::kernel::{
 };
 use std::{
     ops::Range,
-    sync::atomic::{AtomicBool, Ordering},
+    sync::atomic::{AtomicBool, AtomicU64, Ordering},
 };
 
 /// Rate at which a density error is to be taken away, 1/s: a fifth of it in a tick, however many substeps that has. Per
 /// substep it would work eight times as hard at eight of them, and stir a still pool.
+///
+/// **The bound.** The divergence f e that is asked for moves matter for Δt: `e' = e − (1 + e) f Δt e`, to first order
+/// `e' = (1 − f Δt) e`. That shrinks for `f Δt ≤ 2` and without a change of sign for **`f Δt ≤ 1`**. A substep is a tick
+/// at most, so f Δt ≤ 12/60 = 0.2 always. The errors themselves are cut to `FEEDBACK_RANGE`, so that even past the
+/// bound no more than f · 0.3 is asked for; every cell in which that acts is counted.
 const FEEDBACK_PER_SECOND: f32 = 12.0;
 
 /// One projection. `p` is counted in d/s: a face gains `p_left − p_right`.
@@ -55,11 +61,12 @@ impl Pass for Projection<'_> {
         if conjugate.rows.is_empty() {
             return;
         }
-        if assemble(grid, closed, faces, hierarchy.finest(), conjugate, team) {
+        let (sealed, cuts) = assemble(grid, closed, faces, hierarchy.finest(), conjugate, team);
+        if sealed {
             pockets.balance(grid, hierarchy.finest());
         }
         hierarchy.coarsen(team);
-        *report = conjugate.solve(hierarchy, tolerance, team);
+        *report = PredictorReport { cuts, ..conjugate.solve(hierarchy, tolerance, team) };
         change_velocities(grid, closed, faces, hierarchy.finest(), conjugate, team);
     }
 }
@@ -158,7 +165,8 @@ impl<'b> Sweep<(Rows<'b, [f32; 2]>, Rows<'b, [f32; 2]>)> for Divide {
 }
 
 /// Sets up `Σ_f w_f s_f (p_c − p_n) = −Σ ± w_f u_f + feedback` over the liquid cells; p = 0 in the air, and s_f is how
-/// much steeper than between liquid cells the pressure falls at the face. Returns whether any of it may be sealed off.
+/// much steeper than between liquid cells the pressure falls at the face. Returns whether any of it may be sealed off, and
+/// in how many cells the feedback was cut.
 fn assemble(
     grid: &MacGrid,
     closed: &ClosedFaces,
@@ -166,16 +174,16 @@ fn assemble(
     finest: &mut Level,
     conjugate: &Conjugate,
     team: Team,
-) -> bool {
+) -> (bool, u64) {
     let rows = &conjugate.rows;
     finest.take_rows(rows.clone());
-    let sealed = AtomicBool::new(false);
-    let work = Assemble { grid, closed, faces, liquid: &conjugate.liquid, sealed: &sealed };
+    let (sealed, cuts) = (AtomicBool::new(false), AtomicU64::new(0));
+    let work = Assemble { grid, closed, faces, liquid: &conjugate.liquid, sealed: &sealed, cuts: &cuts };
     let Level { diagonal, damped, right, upper, b, .. } = finest;
     let band = |field| Rows::new(field, grid.stride, rows);
     let band = ((band(diagonal), band(damped)), ((band(right), band(upper)), band(b)));
     over_rows(grid, &work, rows, band, team);
-    sealed.into_inner()
+    (sealed.into_inner(), cuts.into_inner())
 }
 
 struct Assemble<'a> {
@@ -186,6 +194,8 @@ struct Assemble<'a> {
     /// Out: whether any liquid may be sealed off. It is not if all that is under no liquid is open to air on some side:
     /// whoever goes up from any cell, as far as there is liquid, ends at such a cell.
     sealed: &'a AtomicBool,
+    /// Counts the cells in which the feedback was cut.
+    cuts: &'a AtomicU64,
 }
 
 /// Rows of diagonal and damping, of the couplings to the right and up, and of the right-hand side.
@@ -194,10 +204,10 @@ type System<'a> = ((Rows<'a, f32>, Rows<'a, f32>), ((Rows<'a, f32>, Rows<'a, f32
 impl Sweep<System<'_>> for Assemble<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, system: System) {
-        let Self { grid, closed, faces, liquid, sealed } = *self;
+        let Self { grid, closed, faces, liquid, sealed, cuts } = *self;
         let ((mut diagonal, mut damped), ((mut right, mut upper), mut b)) = system;
         let (stride, feedback) = (grid.stride, FEEDBACK_PER_SECOND * grid.cell);
-        let mut any_sealed = false;
+        let (mut any_sealed, mut cut) = (false, 0);
         let out = diagonal.each().zip(damped.each()).zip(right.each().zip(upper.each())).zip(b.each());
         for (j, (((diagonal, damped), (right, upper)), b)) in rows.zip(out) {
             let end = grid.row(j) + 1 + grid.columns;
@@ -225,12 +235,35 @@ impl Sweep<System<'_>> for Assemble<'_> {
                 }
                 any_sealed |= may_be_sealed(diagonal, to_right, to_upper, around, open);
                 let (right_side, filled) = (&mut b[own], &faces.filled[cells.clone()]);
-                feed_back(right_side, around, rock, filled, feedback);
+                cut += feed_back(right_side, around, rock, filled, feedback);
                 let velocities = Sides::new(&faces.u, &faces.v, cells, stride);
                 subtract_divergence(right_side, around.centre, open, velocities);
             }
         }
         sealed.fetch_or(any_sealed, Ordering::Relaxed);
+        cuts.fetch_add(u64::from(cut), Ordering::Relaxed);
+    }
+}
+
+/// Shows `visit` every liquid cell of the last projection, as (column, row) from the lower left, and how much of the
+/// feedback's range its density error uses.
+pub(super) fn feedback_shares(
+    grid: &MacGrid,
+    closed: &ClosedFaces,
+    faces: &Faces,
+    conjugate: &Conjugate,
+    mut visit: impl FnMut([usize; 2], f32),
+) {
+    let n = grid.columns;
+    for j in conjugate.rows.clone() {
+        let cells = grid.row(j) + 1..grid.row(j) + 1 + n;
+        let [below, at, above] = [j - 1, j, j + 1].map(|j| closed.row(j) + 1);
+        let rock = &closed.rock;
+        let rock = Around::of_rows(&rock[below..below + n], &rock[at - 1..at + n + 1], &rock[above..above + n]);
+        let liquid = Around::new(&conjugate.liquid, cells.clone(), grid.stride);
+        for i in (0..n).filter(|i| liquid.centre[*i] > 0.0) {
+            visit([i, j - 1], feedback_share(liquid, rock, &faces.filled[cells.clone()], i));
+        }
     }
 }
 

@@ -46,6 +46,8 @@ pub struct EditReport {
     pub removed: u64,
     /// Particles not placed for want of room under the limit.
     pub refused: u64,
+    /// Whether a tap could not give what was due for want of free sites.
+    pub blocked: bool,
 }
 
 /// How many of the free sites are used, and how.
@@ -172,7 +174,8 @@ impl Matter<'_> {
         let seed = mix(tick as u32);
         let turned = sites().cycle().skip(seed as usize % count).take(count);
         let filling = Filling { share: 1.0, seed, scatter: SCATTER, velocity: emitter.velocity, most };
-        let report = self.place_movable(emitter.element, Some((low, high)), turned, filling, room);
+        let mut report = self.place_movable(emitter.element, Some((low, high)), turned, filling, room);
+        report.blocked = report.placed + report.refused < u64::from(most);
         emitter.given += report.placed as u32;
         emitter.due = (emitter.due - report.placed as f32).max(0.0);
         report

@@ -9,6 +9,7 @@ pub use viscosity::apply_viscosity;
 pub use vorticity::apply_vorticity;
 
 use crate::kernel::{
+    element::ElementId,
     parallel::{WORTH_A_PIECE, spread},
     params::Quality,
     particles::Particles,
@@ -24,6 +25,24 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub struct MoveReport {
     /// Particles whose correction was cut to the correction limit.
     pub position_clamps: u64,
+}
+
+/// What viscosity or vorticity confinement had to leave out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StrengthReport {
+    /// Particles of elements whose strength was cut to what a substep can take.
+    pub clamps: u64,
+}
+
+impl StrengthReport {
+    /// Counts the particles of elements whose strength is above `most`. Costs nothing as long as no element's is.
+    fn of(particles: &[ElementId], strengths: &[f32], most: f32) -> Self {
+        if strengths.iter().all(|strength| *strength <= most) {
+            return Self::default();
+        }
+        let cut = |element: &&ElementId| strengths[element.index()] > most;
+        Self { clamps: particles.iter().filter(cut).count() as u64 }
+    }
 }
 
 /// Correction of a substep that goes into the velocity by half, d, where the pressure predictor ran. Its velocities are

@@ -4,8 +4,9 @@
 //! c is the share of a tick: a substep takes its part `c Δt/tick`, so that a liquid is as thick at many substeps as at one.
 //! The kinematic viscosity is `c h²/20` a tick (`∫ y² W = h²/10` for poly6).
 //!
-//! Stable for c ≤ 1: the weights `c m/ρ_j W` are positive and, since `Σ m/ρ_j W ≈ 1`, add up to at most c, so a new
-//! velocity is an average of old ones.
+//! **The bound.** With the positive weights `w_j = c m/ρ_j W` a new velocity is `(1 − Σ w_j) v_i + Σ w_j v_j`. While
+//! `Σ w_j ≤ 1` it is an average of old ones, so no speed can rise; differences shrink up to `Σ w_j ≤ 2` and grow past it.
+//! As `Σ m/ρ_j W ≈ 1`, the bound is **`c Δt/tick ≤ 1`**. A coefficient beyond it is cut to it, and counted.
 
 use crate::kernel::{
     bins::Group,
@@ -16,22 +17,45 @@ use crate::kernel::{
     simd::{Lanes, Pass},
     smoothing::Smoothing,
     units::TICK_SECONDS,
+    velocity::StrengthReport,
 };
 
 /// Lowest density that a volume is taken from: a lone droplet's own kernel gives about a seventh.
 const LEAST_DENSITY: f32 = 0.1;
 
+/// Largest share of its difference to its neighbours that a particle may give up in a substep: the bound.
+const MOST_SHARE: f32 = 1.0;
+
 /// Applies viscosity over `dt` s; `coefficients` gives c for each element.
-pub fn apply_viscosity(particles: &mut Particles, solver: &mut Solver, coefficients: &[f32], threads: usize, dt: f32) {
+pub fn apply_viscosity(
+    particles: &mut Particles,
+    solver: &mut Solver,
+    coefficients: &[f32],
+    threads: usize,
+    dt: f32,
+) -> StrengthReport {
     // One substep a tick takes exactly c.
     let part = dt / TICK_SECONDS;
+    let most = MOST_SHARE / part;
+    let report = StrengthReport::of(&particles.element, coefficients, most);
     let Solver { bins, smoothing, instructions, density, next_x, next_y, .. } = solver;
     let read = &*particles;
     parallel::split(bins.groups(), [&mut next_x[..], &mut next_y[..]], threads, &|groups, base, out| {
-        instructions.run(ViscosityPass { smoothing, particles: read, density, coefficients, part, groups, base, out });
+        instructions.run(ViscosityPass {
+            smoothing,
+            particles: read,
+            density,
+            coefficients,
+            most,
+            part,
+            groups,
+            base,
+            out,
+        });
     });
     std::mem::swap(&mut particles.vx, next_x);
     std::mem::swap(&mut particles.vy, next_y);
+    report
 }
 
 struct ViscosityPass<'a> {
@@ -39,6 +63,8 @@ struct ViscosityPass<'a> {
     particles: &'a Particles,
     density: &'a [f32],
     coefficients: &'a [f32],
+    /// Largest coefficient.
+    most: f32,
     /// Part of a tick that passes.
     part: f32,
     groups: &'a [Group],
@@ -69,7 +95,7 @@ impl Pass for ViscosityPass<'_> {
                 }
             }
             let scale = self.smoothing.density_scale * self.part;
-            let share = share_of(self.coefficients, &self.particles.element[own.clone()], scale);
+            let share = share_of(self.coefficients, self.most, &self.particles.element[own.clone()], scale);
             let share = L::load(&share);
             let out = own.start - self.base..own.end - self.base;
             (vxi + share * sum_x).store(&mut out_x[out.clone()]);
@@ -78,12 +104,13 @@ impl Pass for ViscosityPass<'_> {
     }
 }
 
-/// `scale · coefficient` of each particle's element, in lanes.
+/// `scale · coefficient` of each particle's element, in lanes; a coefficient counts for `most` at most.
 #[inline(always)]
-pub(super) fn share_of(coefficients: &[f32], elements: &[ElementId], scale: f32) -> [f32; 16] {
+pub(super) fn share_of(coefficients: &[f32], most: f32, elements: &[ElementId], scale: f32) -> [f32; 16] {
     let mut lanes = [0.0; 16];
     for (lane, element) in lanes.iter_mut().zip(elements) {
-        *lane = coefficients[element.index()] * scale;
+        let coefficient = coefficients[element.index()];
+        *lane = if coefficient < most { coefficient } else { most } * scale;
     }
     lanes
 }

@@ -3,6 +3,14 @@
 //!
 //! The direction N is noise where |ω| is even; it is faded in over gradients of `STEADY` of |ω| a spacing, so that
 //! confinement acts on eddies and not on the noise of a pool at rest.
+//!
+//! **The bound.** A shear wave `v = V sin(kx) ŷ` has `ω = k Ŵ(k) V cos(kx)`, Ŵ being the smoothing of the kernel, and the
+//! push on it is `ε Δt k Ŵ V sign(sin kx) |cos kx|`, of which `2/π` is along the wave itself: a substep makes it
+//! `1 + (2/π) ε Δt k Ŵ` times as high. For spiky `∫ r² W = h²/7`, so `Ŵ ≈ e^{−k²h²/28}`, and `k Ŵ` is largest, `2.27/h`,
+//! at a wavelength of 1.7 h: no wave grows faster than by `1.45 ε Δt/h` of itself. That growth is what confinement is
+//! for, and no step makes it neutral; viscosity c takes `c (1 − Ŵ₆) ≈ ½ c` a tick off the same wave and so wins, short
+//! waves over long, for `ε ≤ 0.34 c h/tick`. What a step must not do is to make more of a wave than a small part of it:
+//! **`ε Δt ≤ 0.07 h`**, a tenth. A strength beyond it is cut to it, and counted.
 
 use crate::kernel::{
     bins::Group,
@@ -12,22 +20,39 @@ use crate::kernel::{
     pbf::Solver,
     simd::{Lanes, Pass},
     smoothing::{Gradient, Rational, Smoothing, Spiky},
-    velocity::viscosity::share_of,
+    velocity::{StrengthReport, viscosity::share_of},
 };
 use std::marker::PhantomData;
 
 /// Gradient of |ω| at which confinement is half in force, 1/(s d).
 const STEADY: f32 = 1.0;
 
+/// Largest ε Δt as a share of the kernel radius: the bound.
+const MOST_GAIN: f32 = 0.07;
+
 /// Applies vorticity confinement over `dt` s; `strengths` gives ε for each element, d/s.
-pub fn apply_vorticity(particles: &mut Particles, solver: &mut Solver, strengths: &[f32], threads: usize, dt: f32) {
+pub fn apply_vorticity(
+    particles: &mut Particles,
+    solver: &mut Solver,
+    strengths: &[f32],
+    threads: usize,
+    dt: f32,
+) -> StrengthReport {
+    let report = StrengthReport::of(&particles.element, strengths, most_strength(solver, dt));
     match solver.smoothing.gradient {
         GradientKernel::Spiky => confine::<Spiky>(particles, solver, strengths, threads, dt),
         GradientKernel::Rational => confine::<Rational>(particles, solver, strengths, threads, dt),
     }
+    report
+}
+
+/// Largest ε, d/s.
+fn most_strength(solver: &Solver, dt: f32) -> f32 {
+    MOST_GAIN * solver.smoothing.radius / dt
 }
 
 fn confine<G: Gradient>(particles: &mut Particles, solver: &mut Solver, strengths: &[f32], threads: usize, dt: f32) {
+    let most = most_strength(solver, dt);
     // ω lives in the array of λ, which is free between two solves.
     let Solver { bins, smoothing, instructions, next_x, next_y, lambda: vorticity, .. } = solver;
     let read = &*particles;
@@ -39,7 +64,7 @@ fn confine<G: Gradient>(particles: &mut Particles, solver: &mut Solver, strength
     parallel::split(bins.groups(), outputs, threads, &|groups, base, out| {
         let gradient = PhantomData::<G>;
         let pass =
-            ConfinementPass { smoothing, particles: read, vorticity, strengths, groups, base, out, dt, gradient };
+            ConfinementPass { smoothing, particles: read, vorticity, strengths, most, groups, base, out, dt, gradient };
         instructions.run(pass);
     });
     std::mem::swap(&mut particles.vx, next_x);
@@ -88,6 +113,8 @@ struct ConfinementPass<'a, G> {
     /// ω, 1/s.
     vorticity: &'a [f32],
     strengths: &'a [f32],
+    /// Largest strength.
+    most: f32,
     groups: &'a [Group],
     base: usize,
     /// Out: velocities, d/s.
@@ -121,8 +148,8 @@ impl<G: Gradient> Pass for ConfinementPass<'_, G> {
             let (slope_x, slope_y) = (slope_x * scale, slope_y * scale);
             let length = (slope_x * slope_x + slope_y * slope_y).sqrt() + L::splat(STEADY);
             // N × ω ẑ = (N_y ω, −N_x ω)
-            let push =
-                L::load(&share_of(self.strengths, &self.particles.element[own.clone()], self.dt)) * curl / length;
+            let elements = &self.particles.element[own.clone()];
+            let push = L::load(&share_of(self.strengths, self.most, elements, self.dt)) * curl / length;
             let (vx, vy) = (L::load(&self.particles.vx[own.start..]), L::load(&self.particles.vy[own.start..]));
             let out = own.start - self.base..own.end - self.base;
             (vx + slope_y * push).store(&mut out_x[out.clone()]);

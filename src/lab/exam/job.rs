@@ -2,17 +2,16 @@
 
 use crate::{
     kernel::params::Preset,
-    lab::exam::{
-        case::{Case, Finding, Over, Setting, Tolerance},
+    lab::{
+        crew,
         drive::finish,
-        world::Clockwork,
+        exam::{
+            case::{Case, Finding, Over, Setting, Tolerance},
+            world::Clockwork,
+        },
     },
     scene::SceneError,
     sim::exam::{Row, Verdict},
-};
-use std::sync::{
-    Mutex,
-    atomic::{AtomicUsize, Ordering},
 };
 
 /// What comes of a job.
@@ -75,28 +74,10 @@ fn judge(job: &Job, finding: &Finding, milliseconds: f64) -> Row {
 /// Sits all jobs, `side_by_side` at a time, and gives their rows in the order of the jobs. `says` hears how many are done
 /// of how many, and which one is begun.
 pub fn sit_all(jobs: &[Job], side_by_side: usize, says: impl Fn(usize, usize, &Job) + Sync) -> Rows {
-    // The dearest quality first, so that nothing long is left for the end.
-    let mut order: Vec<usize> = (0..jobs.len()).collect();
-    order.sort_by_key(|&k| std::cmp::Reverse(jobs[k].setting.preset.quality().substeps));
-    let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let results: Vec<Mutex<Option<Rows>>> = jobs.iter().map(|_| Mutex::new(None)).collect();
-    let work = || {
-        while let Some(&k) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
-            says(done.load(Ordering::Relaxed), jobs.len(), &jobs[k]);
-            let rows = finish(jobs[k].clone().sit(), || true);
-            *results[k].lock().unwrap_or_else(std::sync::PoisonError::into_inner) = rows;
-            done.fetch_add(1, Ordering::Relaxed);
-        }
-    };
-    std::thread::scope(|scope| {
-        for _ in 1..side_by_side.min(jobs.len()) {
-            scope.spawn(work);
-        }
-        work();
-    });
+    let dearness = |job: &Job| u64::from(job.setting.preset.quality().substeps);
+    let results = crew::work(jobs, side_by_side, dearness, says, |job| finish(job.clone().sit(), || true));
     let mut rows = Vec::new();
     for result in results {
-        let result = result.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
         rows.extend(result.unwrap_or_else(|| Ok(Vec::new()))?);
     }
     Ok(rows)

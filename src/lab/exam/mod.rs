@@ -8,12 +8,11 @@
 //!
 //! A case builds its world by the same doors as every scene (`scene::from_text`, `control::load`) and changes nothing in it
 //! afterwards but what it says. It is a future that yields after each tick, so that whoever drives it can do something
-//! else in between: count, stop, or draw a frame (`drive`). `desk` runs the exam for the game in the background.
+//! else in between: count, stop, or draw a frame (`drive`). In the game it runs in the background
+//! (`lab::desk`).
 
 mod case;
 mod cases;
-pub mod desk;
-mod drive;
 mod fit;
 mod job;
 mod report;
@@ -21,7 +20,30 @@ mod report;
 mod tests;
 mod world;
 
+pub use super::drive::finish;
+use crate::{kernel::params::Preset, lab::desk, scene::SceneError, sim::exam::Row};
+use bevy::app::App;
 pub use case::{CASES, Case};
-pub use drive::finish;
 pub use job::{Job, jobs, sit_all};
 pub use report::{document, summary, table};
+
+/// Sits the exam in the background when its desk wants one.
+pub fn plugin(app: &mut App) {
+    app.add_plugins(desk::plugin::<Job>);
+}
+
+impl desk::Task for Job {
+    type Row = Row;
+
+    fn all(presets: &[Preset]) -> Vec<Self> {
+        jobs(CASES, |_| true, presets)
+    }
+
+    fn title(&self) -> String {
+        self.title()
+    }
+
+    async fn run(self) -> Result<Vec<Row>, SceneError> {
+        self.sit().await
+    }
+}

@@ -1,7 +1,10 @@
 //! The rows in words: a table, a summary, the document.
 
 use crate::{
-    lab::exam::case::{CASES, Case},
+    lab::{
+        exam::case::{CASES, Case},
+        markdown,
+    },
     sim::exam::{Row, Verdict},
 };
 use std::fmt::Write;
@@ -16,29 +19,10 @@ pub fn table(rows: &[Row]) -> String {
     align(&HEADINGS, rows.iter().map(|row| cells(row).to_vec()).collect())
 }
 
+/// The lines under the last headings, as many as are given.
 fn align(headings: &[&str], lines: Vec<Vec<String>>) -> String {
     let skipped = HEADINGS.len() - headings.len();
-    let is_figure = |column: usize| FIGURES.contains(&(column + skipped)) || column + 1 == headings.len();
-    let wide = |column: usize| {
-        let heading = headings[column].chars().count();
-        lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0).max(heading).max(2)
-    };
-    let widths: Vec<usize> = (0..headings.len()).map(wide).collect();
-    let line = |cells: Vec<&str>| {
-        let padded = cells.into_iter().enumerate().map(|(column, cell)| {
-            let width = widths[column];
-            if is_figure(column) { format!("{cell:>width$}") } else { format!("{cell:<width$}") }
-        });
-        format!("| {} |\n", padded.collect::<Vec<_>>().join(" | "))
-    };
-    let mut text = line(headings.to_vec());
-    let rule = |column: usize| {
-        let dashes = "-".repeat(widths[column] + 1);
-        if is_figure(column) { format!("{dashes}:") } else { format!("{dashes}-") }
-    };
-    text += &format!("|{}|\n", (0..headings.len()).map(rule).collect::<Vec<_>>().join("|"));
-    lines.iter().for_each(|cells| text += &line(cells.iter().map(String::as_str).collect()));
-    text
+    markdown::table(headings, |column| FIGURES.contains(&(column + skipped)) || column + 1 == headings.len(), &lines)
 }
 
 fn cells(row: &Row) -> [String; 9] {
@@ -84,7 +68,7 @@ fn section(case: &Case, rows: &[Row]) -> String {
     let own: Vec<Vec<String>> =
         rows.iter().filter(|row| row.case == case.name).map(|row| cells(row)[1..].to_vec()).collect();
     let Case { name, title, setup, answer, tolerance, .. } = case;
-    let prose = |text: &str| fill(text, 120);
+    let prose = |text: &str| markdown::fill(text, 120);
     format!(
         "## {title} (`{name}`)\n\n{}\n\n{}\n\n{}\n\n{}",
         prose(setup),
@@ -92,24 +76,6 @@ fn section(case: &Case, rows: &[Row]) -> String {
         prose(&format!("**Tolerance:** {tolerance}")),
         align(&HEADINGS[1..], own)
     )
-}
-
-/// Breaks a text into lines of at most `width` characters.
-fn fill(text: &str, width: usize) -> String {
-    let mut lines = vec![String::new()];
-    for word in text.split_whitespace() {
-        let line = lines.last().map_or(0, |line| line.chars().count());
-        if line > 0 && line + 1 + word.chars().count() > width {
-            lines.push(String::new());
-        }
-        if let Some(line) = lines.last_mut() {
-            if !line.is_empty() {
-                line.push(' ');
-            }
-            line.push_str(word);
-        }
-    }
-    lines.join("\n")
 }
 
 #[cfg(test)]
@@ -143,13 +109,5 @@ mod tests {
         assert!(lines[3].contains("22.32 %") && lines[3].contains("2 %") && lines[3].contains("miss"), "{text}");
         assert!(lines[4].contains("none") && lines[4].contains("FAIL"), "{text}");
         assert_eq!(summary(&[row(9.81, Verdict::Pass), row(1.0, Verdict::Fail)]).split(": ").count(), 2);
-    }
-
-    #[test]
-    fn lines_are_filled_and_no_word_is_lost() {
-        let text = "one two three four five six seven";
-        let filled = fill(text, 9);
-        assert!(filled.lines().all(|line| line.len() <= 9), "{filled}");
-        assert_eq!(filled.split_whitespace().collect::<Vec<_>>(), text.split_whitespace().collect::<Vec<_>>());
     }
 }

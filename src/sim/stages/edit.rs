@@ -77,6 +77,7 @@ pub(super) fn apply_intents(
         placed += report.placed;
     }
     counters.refused += refused;
+    counters.add_air(&air.take_report());
     if refused > 0 || placed > 0 {
         census.full = refused > 0;
     }

@@ -63,6 +63,8 @@ pub(super) fn plan_tick(
         Effect::Vorticity,
         called(present(&|element| element.vorticity > 0.0), "a liquid keeps its eddies", "nothing keeps its eddies"),
     );
-    plan.substeps = predict::substeps(&particles, &setup.blueprint.domain, &setup.quality, TICK_SECONDS);
+    let wanted = predict::substeps(&particles, &setup.blueprint.domain, &setup.quality, TICK_SECONDS);
+    plan.substeps = wanted.count;
+    counters.substeps_short += u64::from(wanted.short);
     counters.substeps_max = counters.substeps_max.max(plan.substeps);
 }

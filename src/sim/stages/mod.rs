@@ -14,11 +14,12 @@ use crate::{
         effects::runs,
         pace::time_moves,
         schedule::{Substep, SubstepSystems, TickSystems},
+        script::{self, Script},
     },
 };
 use bevy::{
     ecs::schedule::{LogLevel, ScheduleBuildSettings, SingleThreadedExecutor},
-    prelude::{App, FixedUpdate, IntoScheduleConfigs, Schedule},
+    prelude::{App, FixedUpdate, IntoScheduleConfigs, Schedule, resource_exists},
 };
 
 pub use step::TickPlan;
@@ -33,6 +34,7 @@ pub(super) fn plugin(app: &mut App) {
     app.configure_sets(
         FixedUpdate,
         (
+            TickSystems::Script.run_if(resource_exists::<Script>).run_if(time_moves),
             TickSystems::Edit,
             TickSystems::Sources.run_if(time_moves),
             TickSystems::Count,
@@ -43,6 +45,7 @@ pub(super) fn plugin(app: &mut App) {
     app.add_systems(
         FixedUpdate,
         (
+            script::run.in_set(TickSystems::Script),
             edit::apply_intents.in_set(TickSystems::Edit),
             sources::run_sources.in_set(TickSystems::Sources),
             count::count_particles.in_set(TickSystems::Count),

@@ -46,7 +46,9 @@ pub(super) fn run_sources(
         matter.drain(drain);
     }
     for emitter in emitters {
-        counters.refused += matter.emit(emitter, &mut room, tick, TICK_SECONDS).refused;
+        let report = matter.emit(emitter, &mut room, tick, TICK_SECONDS);
+        counters.refused += report.refused;
+        counters.taps_blocked += u64::from(report.blocked);
     }
     ledger.note(Pass::Sources, start.elapsed());
 }

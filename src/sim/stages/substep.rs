@@ -31,7 +31,7 @@ pub(super) fn step_air(
     let report = workers.run_if(worth, |threads| {
         air.step(&sources.winds, setup.quality.air_courant, Team { instructions, threads }, dt)
     });
-    counters.air_clamps += report.speed_clamps + report.pressure_clamps;
+    counters.add_air(&report);
     ledger.note(Pass::Air, start.elapsed());
 }
 
@@ -73,10 +73,11 @@ pub(super) fn predict_pressure(
     setup: Res<Setup>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
+    mut counters: ResMut<Counters>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
-    workers.run_for(particles.len(), |threads| {
+    let report = workers.run_for(particles.len(), |threads| {
         let params = predictor::PredictorParams {
             domain: &setup.blueprint.domain,
             cell: setup.quality.kernel_radius,
@@ -85,8 +86,10 @@ pub(super) fn predict_pressure(
             threads,
             dt: plan.substep_seconds(),
         };
-        predictor.run(&mut particles, &rock, &params);
+        predictor.run(&mut particles, &rock, &params)
     });
+    counters.pressure_clamps += report.cuts;
+    counters.pressure_unsolved += u64::from(report.unsolved);
     ledger.note(Pass::Pressure, start.elapsed());
 }
 
@@ -118,12 +121,14 @@ pub(super) fn sort_into_bins(
     rock: Res<Rock>,
     setup: Res<Setup>,
     workers: Res<Workers>,
+    mut counters: ResMut<Counters>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
-    workers.run_for(particles.len(), |threads| {
-        solver.bin(&mut particles, &rock, &setup.blueprint.domain, &setup.quality, threads);
+    let report = workers.run_for(particles.len(), |threads| {
+        solver.bin(&mut particles, &rock, &setup.blueprint.domain, &setup.quality, threads)
     });
+    counters.set_apart += report.set_apart;
     ledger.note(Pass::Bin, start.elapsed());
 }
 
@@ -180,13 +185,15 @@ pub(super) fn apply_viscosity(
     rates: Res<Rates>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
+    mut counters: ResMut<Counters>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
     let dt = plan.substep_seconds();
-    workers.run_for(particles.len(), |threads| {
-        velocity::apply_viscosity(&mut particles, &mut solver, &rates.viscosity, threads, dt);
+    let report = workers.run_for(particles.len(), |threads| {
+        velocity::apply_viscosity(&mut particles, &mut solver, &rates.viscosity, threads, dt)
     });
+    counters.strength_clamps += report.clamps;
     ledger.note(Pass::Viscosity, start.elapsed());
 }
 
@@ -197,12 +204,14 @@ pub(super) fn apply_vorticity(
     rates: Res<Rates>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
+    mut counters: ResMut<Counters>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
     let dt = plan.substep_seconds();
-    workers.run_for(particles.len(), |threads| {
-        velocity::apply_vorticity(&mut particles, &mut solver, &rates.vorticity, threads, dt);
+    let report = workers.run_for(particles.len(), |threads| {
+        velocity::apply_vorticity(&mut particles, &mut solver, &rates.vorticity, threads, dt)
     });
+    counters.strength_clamps += report.clamps;
     ledger.note(Pass::Vorticity, start.elapsed());
 }

@@ -7,12 +7,12 @@ use std::{
 };
 
 /// Lets whoever drives the future do something else once.
-pub(super) fn pause() -> Pause {
+pub(crate) fn pause() -> Pause {
     Pause { paused: false }
 }
 
 /// See [`pause`].
-pub(super) struct Pause {
+pub(crate) struct Pause {
     paused: bool,
 }
 
@@ -25,7 +25,7 @@ impl Future for Pause {
 }
 
 /// Goes on with a future up to its next pause.
-pub(super) fn step<F: Future + ?Sized>(future: Pin<&mut F>) -> Poll<F::Output> {
+pub(crate) fn step<F: Future + ?Sized>(future: Pin<&mut F>) -> Poll<F::Output> {
     future.poll(&mut Context::from_waker(Waker::noop()))
 }
 

@@ -1,0 +1,234 @@
+//! What a hard case is: a scene, what is done to it, and what must hold all the while.
+
+use crate::{
+    kernel::{
+        params::{Preset, Quality},
+        units::TICKS_PER_SECOND,
+    },
+    lab::gauntlet::cases,
+    scene::{
+        self, SceneError,
+        blueprint::{Blueprint, EffectModes},
+    },
+};
+use bevy::ecs::world::World;
+use glam::DVec2;
+use std::time::Duration;
+
+/// All cases, in the order in which they are shown.
+pub const CASES: &[Case] = &[
+    cases::crowd::TWO_AT_A_POINT,
+    cases::crowd::POINT_64,
+    cases::crowd::POINT_10000,
+    cases::crowd::GRID_TENTH,
+    cases::crowd::GRID_THIRD,
+    cases::crowd::SPAWN_OVER_WATER,
+    cases::crowd::CLOSE_PAIRS,
+    cases::depth::DAM_BREAK,
+    cases::depth::CLUMPS,
+    cases::depth::POOL,
+    cases::depth::DEEP_TANK,
+    cases::depth::SHAFT,
+    cases::depth::NARROW_SHAFT,
+    cases::depth::OVERFULL_SHAFT,
+    cases::depth::CORNER_100G,
+    cases::depth::WEDGE,
+    cases::impact::SHOTS,
+    cases::impact::FALLING_BLOCK,
+    cases::impact::BULLET,
+    cases::gravity::FLIPPING,
+    cases::gravity::TURNING,
+    cases::gravity::WEIGHTLESS,
+    cases::gravity::FLOATING,
+    cases::air::WIND_1000,
+    cases::air::PRESSURE_1E6,
+    cases::air::SUCTION,
+    cases::air::VACUUM,
+    cases::air::ONE_CELL,
+    cases::air::ONE_CELL_HOLE,
+    cases::air::SEALED_ROCK,
+    cases::air::VORTEX,
+    cases::matter::VORTICITY_BOUND,
+    cases::matter::VORTICITY_BEYOND,
+    cases::matter::VISCOSITY_BOUND,
+    cases::matter::VISCOSITY_BEYOND,
+    cases::matter::DRAG_HUGE,
+    cases::matter::DRAG_LIGHT,
+    cases::matter::HEAVY_ABOVE_LIGHT,
+    cases::rock::ROCK_OVER_WATER,
+    cases::rock::ROCK_ERASED,
+    cases::ends::ENDS_1,
+    cases::ends::ENDS_2,
+    cases::ends::ENDS_3,
+    cases::ends::ENDS_4,
+    cases::ends::ENDS_5,
+    cases::ends::ENDS_6,
+    cases::ends::ENDS_7,
+    cases::ends::SPACING_1_MM,
+    cases::ends::SPACING_10_M,
+    cases::ends::FAR_AWAY,
+    cases::ends::MILLION,
+    cases::ends::NOBODY,
+    cases::play::HITCHES,
+    cases::play::QUALITY_CHANGES,
+    cases::play::EFFECTS_TOGGLE,
+    cases::play::MOUSE_MINUTE,
+    cases::play::POISON,
+];
+
+/// A hard case.
+pub struct Case {
+    /// Name on the command line.
+    pub name: &'static str,
+    /// Heading.
+    pub title: &'static str,
+    /// What happens, in Markdown.
+    pub what: &'static str,
+    /// What it guards against, in Markdown.
+    pub guards: &'static str,
+    /// Why the rules allow what they allow, in Markdown.
+    pub allowed: &'static str,
+    /// How long it takes.
+    pub size: Size,
+    /// The scene.
+    pub(super) scene: &'static str,
+    /// Knobs of the scene that are turned, on top of the quality.
+    pub(super) settings: &'static [(&'static str, &'static str)],
+    /// What the start has that a scene's text can't say.
+    pub(super) arrange: Option<fn(&mut Blueprint)>,
+    /// What is done before each tick.
+    pub(super) act: Option<fn(&mut World, u64)>,
+    /// Time since the last frame, for each frame of the game that it stands for; without it, ticks come in time.
+    pub(super) frames: Option<fn(u64) -> Duration>,
+    /// How long it runs, ticks (frames where these are given). What shall be at rest is so in the last tenth.
+    pub(super) ticks: u32,
+    /// What must hold.
+    pub(super) rules: Rules,
+    /// Why `classic`, the original's plain method, is known to break a rule here, if it is.
+    pub known: Option<&'static str>,
+}
+
+/// How long a case takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Size {
+    /// A moment, even in a debug build.
+    Quick,
+    /// Some seconds in a release build.
+    Usual,
+    /// So long that only the command runs it.
+    Long,
+}
+
+/// What must hold in a case. These hold in each: every value is finite, pressures are at least 0, nobody is outside the
+/// box or inside rock, no particle goes missing.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rules {
+    /// Where a particle may be, m: beyond it, it has passed through something.
+    pub confines: Option<fn(DVec2) -> bool>,
+    /// The most that kinetic and potential energy may be above what was there and was put in, as the speed that all
+    /// particles together would have of it.
+    pub gain: Option<Gain>,
+    /// The fastest that a particle may be, m/s.
+    pub fastest: Option<f64>,
+    /// The density error after the shock.
+    pub density: Option<Density>,
+    /// The root of the mean square of the speeds in the last tenth, d a tick.
+    pub rest: Option<f64>,
+    /// The dearest tick, as a multiple of a calm one.
+    pub work: f64,
+    /// Whether the air is shut in, and its mass stays to 1e-5.
+    pub sealed: bool,
+    /// Whether no limiter may act.
+    pub calm: bool,
+    /// Particles that are no number and have to be taken away.
+    pub removed: u64,
+    /// What else must hold at the end; else what broke.
+    pub also: Option<fn(&World) -> Result<(), String>>,
+}
+
+/// A bound on the energy gained.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Gain {
+    /// A speed, m/s.
+    Speed(f64),
+    /// A multiple of the speed that corrections can give: the correction limit in each of the quality's substeps. It is
+    /// 6 d/s for `draft` and `fast`, 12 for `balanced` and `fine`, 48 for `reference` and 30 for `classic`.
+    Corrections(f64),
+}
+
+impl Gain {
+    /// In m/s, at a quality and a spacing (m).
+    pub fn speed(self, quality: &Quality, spacing: f64) -> f64 {
+        match self {
+            Self::Speed(speed) => speed,
+            Self::Corrections(multiple) => {
+                let per_tick = f64::from(quality.correction_limit) * f64::from(quality.substeps);
+                multiple * per_tick * f64::from(TICKS_PER_SECOND) * spacing
+            }
+        }
+    }
+}
+
+/// Bounds of the 99th percentile of the density error.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Density {
+    /// Ticks after which the shock is over.
+    pub shock: u64,
+    /// Bound from there on.
+    pub worst: f64,
+    /// Bound in the last tenth.
+    pub end: f64,
+}
+
+impl Rules {
+    /// What must hold in every case.
+    pub const ALWAYS: Self = Self {
+        confines: None,
+        gain: None,
+        fastest: None,
+        density: None,
+        rest: None,
+        work: 8.0,
+        sealed: false,
+        calm: false,
+        removed: 0,
+        also: None,
+    };
+}
+
+impl Case {
+    /// What most cases have in common.
+    pub(super) const USUAL: Self = Self {
+        name: "",
+        title: "",
+        what: "",
+        guards: "",
+        allowed: "",
+        size: Size::Usual,
+        scene: "",
+        settings: &[],
+        arrange: None,
+        act: None,
+        frames: None,
+        ticks: 0,
+        rules: Rules::ALWAYS,
+        known: None,
+    };
+
+    /// Name of its scene: none of a built-in one.
+    pub(super) fn scene_name(&self) -> String {
+        format!("gauntlet_{}", self.name)
+    }
+
+    /// Its world at a quality.
+    pub(super) fn blueprint(&self, preset: Preset) -> Result<Blueprint, SceneError> {
+        let settings: Vec<_> =
+            self.settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+        let mut blueprint =
+            scene::from_text(&self.scene_name(), self.scene)?.build(&settings, Some(preset), &EffectModes::new())?;
+        if let Some(arrange) = self.arrange {
+            arrange(&mut blueprint);
+        }
+        Ok(blueprint)
+    }
+}

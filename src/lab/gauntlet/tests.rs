@@ -1,0 +1,163 @@
+//! The gauntlet, and that its judge can fail a case.
+
+use super::{
+    CASES, Case, Size,
+    case::{Density, Gain, Rules},
+    cases::ends::{KNOB_ENDS, RUNS},
+    jobs, run_all,
+};
+use crate::{
+    kernel::params::Preset,
+    scene::KNOBS,
+    sim::{
+        gauntlet::{Row, Verdict},
+        state::{AirGrid, ParticleStore},
+    },
+};
+use bevy::ecs::world::World;
+use glam::Vec2;
+
+fn run(case: &'static [Case], presets: &[Preset]) -> Vec<Row> {
+    run_all(&jobs(case, |_| true, presets), 2, |_, _, _| {}).unwrap()
+}
+
+fn hold(wanted: impl Fn(&Case) -> bool, presets: &[Preset]) {
+    let rows = run_all(&jobs(CASES, wanted, presets), 2, |_, _, _| {}).unwrap();
+    let failed: Vec<String> = (rows.iter().filter(|row| row.verdict == Verdict::Fail))
+        .map(|row| format!("{} at {}: {}", row.case, row.quality, row.broken.join("; ")))
+        .collect();
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
+
+#[test]
+fn quick_cases_hold() {
+    let presets = if cfg!(debug_assertions) { &[Preset::Draft, Preset::Balanced][..] } else { &[Preset::Balanced] };
+    hold(|case| case.size == Size::Quick, presets);
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "every case at every quality needs the release build")]
+fn every_case_holds_at_every_quality() {
+    hold(|case| case.size != Size::Long, &Preset::ALL);
+}
+
+#[test]
+fn cases_have_names_of_their_own_and_say_what_they_are() {
+    for (k, case) in CASES.iter().enumerate() {
+        assert!(CASES[..k].iter().all(|other| other.name != case.name), "two cases are called {}", case.name);
+        let texts = [case.title, case.what, case.guards, case.allowed];
+        assert!(texts.iter().all(|text| !text.is_empty()), "{} is told by half", case.name);
+        assert!(case.ticks > 0);
+    }
+}
+
+#[test]
+fn any_two_knobs_meet_at_both_ends() {
+    for knob in &KNOBS {
+        let Some((_, low, high)) = KNOB_ENDS.iter().find(|end| end.0 == knob.name) else {
+            assert_eq!(knob.name, "particle_limit", "a knob is not in the gauntlet");
+            continue;
+        };
+        let ends = [low, high].map(|end| end.parse::<f64>().unwrap());
+        assert_eq!(ends, [knob.range.min, knob.range.max], "{}: not the ends of its range", knob.name);
+    }
+    for a in 0..KNOB_ENDS.len() {
+        for b in 0..a {
+            let is_high = |run: usize, knob: usize| RUNS[run][knob].1 == KNOB_ENDS[knob].2;
+            let mut met: Vec<_> = (0..RUNS.len()).map(|run| (is_high(run, a), is_high(run, b))).collect();
+            met.sort_unstable();
+            met.dedup();
+            assert_eq!(met.len(), 4, "{} and {} do not meet in all ways", KNOB_ENDS[a].0, KNOB_ENDS[b].0);
+        }
+    }
+}
+
+#[test]
+fn a_row_is_the_same_side_by_side_and_alone_but_for_its_times() {
+    let jobs = jobs(CASES, |case| ["shots", "suction"].contains(&case.name), &[Preset::Draft, Preset::Fast]);
+    let timeless = |side_by_side| {
+        let rows = run_all(&jobs, side_by_side, |_, _, _| {}).unwrap();
+        rows.into_iter().map(|row| Row { ms_median: 0.0, ms_max: 0.0, ms_total: 0.0, ..row }).collect::<Vec<_>>()
+    };
+    assert_eq!(timeless(1), timeless(3));
+}
+
+/// A small pool, for cases that must fail.
+const POOL: &str =
+    "(title: \"Pool\", spacing: 0.1, size: (2, 2), gravity: (0, -9.81), effects: {drag: off}, contents: [
+    (element: \"water\", shape: Rect(min: (0, 0), max: (2, 0.5)))])";
+
+const fn sabotaged(name: &'static str, rules: Rules, act: fn(&mut World, u64)) -> Case {
+    Case { name, scene: POOL, act: Some(act), ticks: 40, rules, ..Case::USUAL }
+}
+
+/// Changes the particles between the books of an edit and those of a tick can't be told from an edit; so what a kernel
+/// does wrong is played by rules that a sound kernel breaks.
+static SABOTAGED: [Case; 10] = [
+    sabotaged("sound", Rules { gain: Some(Gain::Speed(1.0)), calm: false, ..Rules::ALWAYS }, |_, _| {}),
+    sabotaged("gain", Rules { gain: Some(Gain::Speed(-1.0)), ..Rules::ALWAYS }, |_, _| {}),
+    sabotaged("fast", Rules { fastest: Some(5.0), ..Rules::ALWAYS }, |world, tick| {
+        if tick == 5 {
+            world.resource_mut::<ParticleStore>().0.vy[0] = 300.0;
+        }
+    }),
+    sabotaged("confined", Rules { confines: Some(|at| at.x < 1.0), ..Rules::ALWAYS }, |_, _| {}),
+    sabotaged("density", Rules { density: Some(DENSE), ..Rules::ALWAYS }, |world, _| {
+        // Half of the water, pressed together again before every tick.
+        let particles = &mut world.resource_mut::<ParticleStore>().0;
+        particles.x.iter_mut().enumerate().for_each(|(i, x)| *x = 5.0 + 0.5 * (i % 20) as f32);
+    }),
+    sabotaged("rest", Rules { rest: Some(1e-3), ..Rules::ALWAYS }, |world, _| {
+        world.resource_mut::<ParticleStore>().0.vx.iter_mut().for_each(|speed| *speed = 10.0);
+    }),
+    sabotaged("work", Rules { work: 1.2, ..Rules::ALWAYS }, |world, _| {
+        world.resource_mut::<ParticleStore>().0.vx[0] = 2000.0;
+    }),
+    sabotaged("removed", Rules::ALWAYS, |world, tick| {
+        if tick == 5 {
+            world.resource_mut::<ParticleStore>().0.vx[0] = f32::NAN;
+        }
+    }),
+    sabotaged("calm", Rules { calm: true, ..Rules::ALWAYS }, |world, tick| {
+        if tick == 5 {
+            world.resource_mut::<AirGrid>().0.press(Vec2::splat(10.0), 3.0, -100.0);
+        }
+    }),
+    sabotaged("also", Rules { also: Some(|_| Err("not so".into())), ..Rules::ALWAYS }, |_, _| {}),
+];
+
+const DENSE: Density = Density { shock: 0, worst: 0.2, end: 0.2 };
+
+#[test]
+fn the_judge_finds_every_kind_of_fault_and_no_other() {
+    let expected = [
+        ("sound", ""),
+        ("gain", "energy gained"),
+        ("fast", "fastest"),
+        ("confined", "through to"),
+        ("density", "density error"),
+        ("rest", "motion"),
+        ("work", "work of a tick"),
+        ("removed", "1 particles went, 1 as no number, where 0 should"),
+        ("calm", "air cells cut"),
+        ("also", "not so"),
+    ];
+    let rows = run(&SABOTAGED, &[Preset::Draft]);
+    for (row, (name, what)) in rows.iter().zip(expected) {
+        assert_eq!(row.case, name);
+        let verdict = if what.is_empty() { Verdict::Pass } else { Verdict::Fail };
+        assert_eq!(row.verdict, verdict, "{name}: {:?}", row.broken);
+        assert!(row.broken.iter().all(|broken| broken.contains(what)), "{name}: {:?}", row.broken);
+    }
+}
+
+#[test]
+fn only_classic_may_be_known_to_fail() {
+    static KNOWN: [Case; 1] = [Case {
+        rules: Rules { gain: Some(Gain::Speed(-1.0)), ..Rules::ALWAYS },
+        known: Some("it is told beforehand"),
+        ..sabotaged("known", Rules::ALWAYS, |_, _| {})
+    }];
+    let verdicts: Vec<Verdict> = run(&KNOWN, &[Preset::Classic, Preset::Draft]).iter().map(|row| row.verdict).collect();
+    assert_eq!(verdicts, [Verdict::Known, Verdict::Fail]);
+}
