@@ -8,6 +8,10 @@ mod determinism;
 mod hard_cases;
 mod monkey;
 mod motion;
+#[path = "../properties/mod.rs"]
+mod properties;
+mod refinement;
 mod saves;
 mod stages;
 mod still;
+mod symmetry;
