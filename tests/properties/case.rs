@@ -56,9 +56,10 @@ impl Case {
             deeds.push('\n');
         }
         // 64-bit FNV-1a: the same failure is kept once.
-        let hash = self.scene.bytes().chain(deeds.bytes()).fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-            (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-        });
+        let hash =
+            self.scene.bytes().chain(deeds.bytes()).fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+                (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+            });
         let scene = folder().join(format!("found-{hash:016x}.ron"));
         fs::create_dir_all(folder())?;
         fs::write(&scene, &self.scene)?;

@@ -1,6 +1,9 @@
 //! Every case under `tests/cases`, for ever.
 
-use super::{case, case::Case, rules};
+use super::{
+    case::{self, Case},
+    rules,
+};
 use std::fs;
 
 #[test]

@@ -50,7 +50,9 @@ fn no_scene_and_no_hand_breaks_a_rule() {
         Err(fault) => Err(TestCaseError::fail(fault)),
     });
     match result {
-        Ok(()) => assert!(refused < built / 4 + 2, "{refused} of {} scenes were refused: not valid ones", built + refused),
+        Ok(()) => {
+            assert!(refused < built / 4 + 2, "{refused} of {} scenes were refused: not valid ones", built + refused)
+        }
         Err(TestError::Fail(fault, case)) => {
             let kept = case.keep().map_or_else(|error| error.to_string(), |path| path.display().to_string());
             panic!("{fault}\nkept as {kept}\n{}\n{:?}", case.scene, case.deeds);

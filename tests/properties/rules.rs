@@ -71,10 +71,7 @@ impl Judge {
         let fluid = &blueprint.fluid;
         let plain = fluid.rest_density >= 1.0 && fluid.constraint_floor == 0.0 && fluid.tension_strength <= 0.001;
         let known = alone && plain && blueprint.pressures.is_empty();
-        Self {
-            air_mass: air_stays.then(|| sandbox.get::<AirGrid>().mass()),
-            energy: known.then(|| energy(sandbox)),
-        }
+        Self { air_mass: air_stays.then(|| sandbox.get::<AirGrid>().mass()), energy: known.then(|| energy(sandbox)) }
     }
 
     fn look(&mut self, sandbox: &Sandbox) -> Result<(), Fault> {
@@ -114,10 +111,8 @@ impl Judge {
 fn energy(sandbox: &Sandbox) -> f64 {
     let domain = &sandbox.get::<Setup>().blueprint.domain;
     let gravity = domain.gravity;
-    let lowest = Vec2::new(
-        if gravity.x > 0.0 { domain.size.x } else { 0.0 },
-        if gravity.y > 0.0 { domain.size.y } else { 0.0 },
-    );
+    let lowest =
+        Vec2::new(if gravity.x > 0.0 { domain.size.x } else { 0.0 }, if gravity.y > 0.0 { domain.size.y } else { 0.0 });
     let particles = sandbox.particles();
     let of = |i: usize| {
         let speed2 = particles.velocity(i).as_dvec2().length_squared();

@@ -32,11 +32,7 @@ fn whole(low: u32, high: u32) -> BoxedStrategy<u32> {
 
 /// A name and a number of a range, left out half the time.
 fn field(name: &'static str, values: BoxedStrategy<f64>) -> BoxedStrategy<String> {
-    prop_oneof![
-        Just(String::new()),
-        values.prop_map(move |value| format!("{name}: {value:?}, ")),
-    ]
-    .boxed()
+    prop_oneof![Just(String::new()), values.prop_map(move |value| format!("{name}: {value:?}, ")),].boxed()
 }
 
 fn fields(list: Vec<BoxedStrategy<String>>) -> BoxedStrategy<String> {
@@ -173,9 +169,7 @@ fn quality() -> BoxedStrategy<(String, f64, f64)> {
         field("kernel_radius", number(2.0, 4.0)),
         field("correction_limit", number(0.05, 0.5)),
         field("air_courant", number(0.1, 0.9)),
-        prop_oneof![Just(""), Just("gradient: spiky, "), Just("gradient: rational, ")]
-            .prop_map(str::to_owned)
-            .boxed(),
+        prop_oneof![Just(""), Just("gradient: spiky, "), Just("gradient: rational, ")].prop_map(str::to_owned).boxed(),
     ]);
     (preset, counts, cell, rest)
         .prop_map(|(preset, counts, cell, rest)| {
