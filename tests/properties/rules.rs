@@ -186,3 +186,44 @@ fn speeds(sandbox: &Sandbox) -> Result<(), Fault> {
     let fastest = (0..particles.len()).map(|i| particles.velocity(i).length()).fold(0.0, f32::max);
     demand(fastest <= most, || format!("a speed of {fastest} d/s; the limiters leave {most}"))
 }
+
+/// A world with a block of water and one of rock.
+
+fn small() -> Case {
+    let scene = "(title: \"T\", spacing: 0.1, size: (2, 1), contents: [
+        (element: \"rock\", shape: Rect(min: (1, 0), max: (1.2, 0.5))),
+        (element: \"water\", shape: Rect(min: (0, 0), max: (0.8, 0.4)))])";
+    Case { scene: scene.to_owned(), deeds: Vec::new(), ticks: 20 }
+}
+
+#[test]
+fn a_sound_world_is_found_sound_and_every_fault_is_seen() {
+    assert_eq!(judge(&small()), Ok(true));
+    assert_ne!(judge(&Case { scene: "(title: 3)".to_owned(), ..small() }), Ok(true));
+    type Harm = fn(&mut Sandbox);
+    let harms: [(&str, Harm); 7] = [
+        ("a particle that is no number", |world| world.particles_mut().x[0] = f32::NAN),
+        ("a particle in rock", |world| world.particles_mut().x[3] = 11.0),
+        ("a particle outside", |world| world.particles_mut().y[3] = -0.5),
+        ("an id twice", |world| world.particles_mut().id[1] = 5),
+        ("a particle that nobody counted", |world| {
+            world.particles_mut().retain(|_, i| i > 0);
+        }),
+        ("a speed past every limiter", |world| world.particles_mut().vx[2] = 1e6),
+        ("air that came from nowhere", |world| {
+            let air: &mut AirGrid = world.get_mut();
+            air.press(Vec2::new(5.0, 8.0), 2.0, 0.1);
+        }),
+    ];
+    for (what, harm) in harms {
+        let case = small();
+        let file = scene::from_text("case", case.scene.clone()).unwrap_or_else(|error| panic!("{error}"));
+        let blueprint = file.build(&[], None, &EffectModes::new()).unwrap_or_else(|error| panic!("{error}"));
+        let mut sandbox = Sandbox::of(blueprint);
+        let mut judge = Judge::new(&sandbox, &case);
+        sandbox.tick(2);
+        assert_eq!(judge.look(&sandbox), Ok(()));
+        harm(&mut sandbox);
+        assert!(judge.look(&sandbox).is_err(), "nobody saw {what}");
+    }
+}

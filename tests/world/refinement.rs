@@ -66,21 +66,22 @@ fn half_the_substep_lowers_the_error_of_a_throw_through_air() {
 
 /// 99th percentile of max(0, ρ/ρ₀ − 1) in a pool after it has settled, and the most that its energy rose above the start.
 fn pool(preset: Preset, substeps: u32) -> (f64, f64) {
-    let mut blueprint = empty_box(24, 40);
+    let mut blueprint = empty_box(16, 30);
     (blueprint.preset, blueprint.quality) = (preset, preset.quality());
     blueprint.quality.substeps = substeps;
     blueprint.domain.gravity = Vec2::new(0.0, -98.1);
-    for effect in [Effect::Air, Effect::Drag] {
+    // Tension pushes once an iteration: more of it is another liquid.
+    for effect in [Effect::Air, Effect::Drag, Effect::Tension] {
         blueprint.effects.insert(effect, Mode::Off);
     }
-    blueprint.pool((0, 0), (24, 30));
+    blueprint.pool((0, 0), (16, 22));
     let mut sandbox = Sandbox::of(blueprint);
     let start = energy(&sandbox);
     let (mut errors, mut rise) = (Vec::new(), 0.0_f64);
-    for tick in 0..240 {
+    for tick in 0..180 {
         sandbox.tick(1);
         rise = rise.max(energy(&sandbox) - start);
-        if tick >= 180 && tick % 4 == 0 {
+        if tick >= 140 && tick % 4 == 0 {
             let mut found: Vec<f64> =
                 sandbox.get::<SolverState>().density.iter().map(|rho| f64::from((rho - 1.0).max(0.0))).collect();
             found.sort_unstable_by(f64::total_cmp);
@@ -102,8 +103,10 @@ fn half_the_substep_lowers_the_density_error_of_a_pool() {
     for (error, _) in predicted {
         assert!(error < 0.02, "with the predictor: {predicted:?}");
     }
+    // The predictor aims 1 % under the rest density, so a pool at the start's rises by half of that, and some more as its
+    // particles leave the lattice.
     for (_, rise) in found.into_iter().chain(predicted) {
-        assert!(rise < 0.01, "energy from nowhere, as a share of the start's: {found:?} {predicted:?}");
+        assert!(rise < 0.02, "energy from nowhere, as a share of the start's: {found:?} {predicted:?}");
     }
 }
 
