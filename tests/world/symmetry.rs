@@ -49,12 +49,6 @@ fn furthest(upright: &Sandbox, other: &Sandbox, quarters: u32) -> f32 {
     let (a, b) = (upright.particles(), other.particles());
     assert_eq!(a.len(), b.len());
     let apart = |(i, j): (u32, u32)| turned(a.position(i as usize), quarters).distance(b.position(j as usize));
-    if std::env::var_os("DBG").is_some() {
-        let mut l: Vec<_> = a.in_id_order().into_iter().zip(b.in_id_order()).map(|p| (apart(p), a.position(p.0 as usize), turned(b.position(p.1 as usize), 4-quarters))).collect();
-        l.sort_by(|a,b| b.0.total_cmp(&a.0));
-        for x in l.iter().take(12) { eprintln!("{quarters}: {x:?}"); }
-        eprintln!("median {:?}", l[l.len()/2]);
-    }
     a.in_id_order().into_iter().zip(b.in_id_order()).map(apart).fold(0.0, f32::max)
 }
 
