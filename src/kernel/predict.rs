@@ -170,3 +170,32 @@ fn move_freely(from: &[f32], velocity: &[f32], to: &mut [f32], high: f32, dt: f3
     }
     stopped
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::{element::ElementId, params::Preset, units::TICK_SECONDS};
+
+    #[test]
+    fn speeds_are_followed_up_to_the_bound_and_cut_to_it_past_it() {
+        let quality = Preset::Balanced.quality();
+        let most = quality.substeps * SUBSTEP_GROWTH;
+        let bound = longest_move(&quality) * most as f32 / TICK_SECONDS;
+        let domain = Domain { size: Vec2::splat(1000.0), gravity: Vec2::ZERO };
+        let solids = Solids::new(1000, 1000);
+        for (speed, short) in [(0.99 * bound, false), (10.0 * bound, true)] {
+            let mut particles = Particles::default();
+            particles.push(0, ElementId(0), Vec2::splat(500.0), Vec2::new(0.6, -0.8) * speed);
+            let wanted = substeps(&particles, &domain, &quality, TICK_SECONDS);
+            assert_eq!(wanted, Substeps { count: most, short });
+            let dt = TICK_SECONDS / wanted.count as f32;
+            let report = predict(&mut particles, InstructionSet::Baseline, &solids, &domain, &quality, 1, dt);
+            assert_eq!(report.speed_clamps, u64::from(short));
+            let (left, moved) = (particles.velocity(0), particles.position(0).distance(Vec2::splat(500.0)));
+            let expected = speed.min(bound);
+            assert!((left.length() / expected - 1.0).abs() < 1e-4, "{left} at a speed of {speed}");
+            assert!((left.normalize() - Vec2::new(0.6, -0.8)).length() < 1e-4, "the way has changed: {left}");
+            assert!(moved <= longest_move(&quality) * 1.0001, "moved {moved} d");
+        }
+    }
+}

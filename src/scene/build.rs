@@ -41,11 +41,15 @@ pub fn load(name_or_path: &str) -> Result<SceneFile, SceneError> {
 }
 
 /// The scene with this text, called `name`. It can't name pictures.
-pub fn from_text(name: &str, text: &'static str) -> Result<SceneFile, SceneError> {
+pub fn from_text(name: &str, text: impl Into<Cow<'static, str>>) -> Result<SceneFile, SceneError> {
+    let bytes = match text.into() {
+        Cow::Borrowed(text) => Cow::Borrowed(text.as_bytes()),
+        Cow::Owned(text) => Cow::Owned(text.into_bytes()),
+    };
     SceneFile::from_source(Source {
         name: name.to_owned(),
         file: format!("{name}.ron"),
-        bytes: Cow::Borrowed(text.as_bytes()),
+        bytes,
         origin: Origin::Builtin,
     })
 }

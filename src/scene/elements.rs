@@ -20,7 +20,7 @@ pub fn elements() -> Result<Arc<ElementTable>, SceneError> {
     table(ELEMENTS.as_bytes()).map(Arc::new)
 }
 
-fn table(bytes: &[u8]) -> Result<ElementTable, SceneError> {
+pub(super) fn table(bytes: &[u8]) -> Result<ElementTable, SceneError> {
     let rows: Vec<Element> = parse(FILE, bytes)?;
     if rows.len() > MOST {
         return Err(SceneError::file(FILE, format!("{} elements; allowed: at most {MOST}", rows.len())));

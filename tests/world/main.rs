@@ -8,7 +8,11 @@ mod determinism;
 mod hard_cases;
 mod monkey;
 mod motion;
+#[path = "../properties/mod.rs"]
+mod properties;
 mod recordings;
+mod refinement;
 mod saves;
 mod stages;
 mod still;
+mod symmetry;

@@ -366,6 +366,12 @@ impl Sweep<Rows<'_, [f32; 2]>> for FillIn<'_> {
                 let cells = grid.rows(j..j + 1);
                 let around = |field| Around::new(field, cells.clone(), grid.stride);
                 fill_in(faces, around(change), around(known));
+            } else if j == 0 && near.start == 1 {
+                // Beyond the floor stands what stands above it, as `fill_in` finds it beyond the other walls: particles
+                // within half a cell of a wall take a part of their velocity along it from there.
+                for (face, gained) in faces.iter_mut().zip(&change[grid.rows(1..2)]) {
+                    *face = [*gained, face[1] + gained];
+                }
             } else {
                 // Away from the liquid nothing changes.
                 faces.iter_mut().for_each(|face| face[0] = 0.0);

@@ -200,3 +200,50 @@ fn a_liquid_is_as_thick_at_many_substeps_as_at_one() {
     let (one, eight) = (left(1), left(8));
     assert!((eight / one - 1.0).abs() < 0.01, "{one} is left at one substep, {eight} at eight");
 }
+
+#[test]
+fn viscosity_is_stable_up_to_its_bound_and_cut_to_it_past_it() {
+    for (coefficient, cut) in [(0.99, 0), (10.0, 400)] {
+        let mut bench = square(0.2, |_| Vec2::ZERO);
+        let mut random = random_numbers(33);
+        for i in 0..400 {
+            (bench.particles.vx[i], bench.particles.vy[i]) = (40.0 * (random() - 0.5), 40.0 * (random() - 0.5));
+        }
+        bench.solve(false);
+        for pass in 0..50 {
+            let before = kinetic_energy(&bench.particles);
+            let report = apply_viscosity(&mut bench.particles, &mut bench.solver, &[coefficient], 1, TICK_SECONDS);
+            let after = kinetic_energy(&bench.particles);
+            assert_eq!(report.clamps, cut, "c {coefficient}: particles whose coefficient was cut");
+            assert!(after <= before, "c {coefficient}, pass {pass}: energy {before} → {after}");
+        }
+        // Many substeps take small shares each: the same coefficient is within the bound of one.
+        let report = apply_viscosity(&mut bench.particles, &mut bench.solver, &[coefficient], 1, TICK_SECONDS / 16.0);
+        assert_eq!(report.clamps, 0);
+    }
+}
+
+#[test]
+fn confinement_makes_no_wave_grow_faster_than_its_bound_says_whatever_its_strength() {
+    let radius = Preset::Balanced.quality().kernel_radius;
+    // The bound itself: ε Δt = 0.07 h.
+    let bound = 0.07 * radius / 0.01;
+    for (strength, cut) in [(0.99 * bound, 0), (10.0 * bound, 400)] {
+        // The wavelength that grows fastest, 1.7 h, and a short and a long one.
+        for waves in [1.0, 1.7, 6.0] {
+            let turn = std::f32::consts::TAU / (waves * radius);
+            let mut bench = square(0.0, |at| Vec2::new(0.0, 10.0 * (turn * at.x).sin()));
+            bench.solve(false);
+            for pass in 0..20 {
+                let before = kinetic_energy(&bench.particles);
+                let report = apply_vorticity(&mut bench.particles, &mut bench.solver, &[strength], 1, 0.01);
+                let growth = (kinetic_energy(&bench.particles) / before).sqrt();
+                assert_eq!(report.clamps, cut, "ε {strength}: particles whose strength was cut");
+                assert!(
+                    growth < 1.0 + 1.45 * 0.07 * 1.05,
+                    "ε {strength}, {waves} h, pass {pass}: a wave became {growth} times as high in a substep"
+                );
+            }
+        }
+    }
+}

@@ -1,6 +1,6 @@
 //! Sound, wind and the sides that let them out.
 
-use super::super::{QUIET_MACH, STABLE_COURANT};
+use super::super::{MAX_SUBSTEPS, QUIET_MACH, STABLE_COURANT};
 use super::*;
 use crate::kernel::sources::Wind;
 
@@ -190,4 +190,21 @@ fn a_vortex_lasts() {
     run(&mut air, (128.0_f32 / 100.0 / DT) as u32);
     let kept = air.kinetic_energy() / start;
     assert!((0.4..=1.0).contains(&kept), "{kept}");
+}
+
+#[test]
+fn ten_times_past_the_bound_sound_is_slowed_and_nothing_grows() {
+    let mut air = closed(40, 40, 4.0);
+    // All substeps that there are would have to go ten times as far as is stable.
+    let dt = 10.0 * STABLE_COURANT * 4.0 / SOUND * MAX_SUBSTEPS as f32;
+    stir(&mut air, 1e-4, 0.1, &mut Noise(3));
+    let start = energy(&air);
+    for _ in 0..50 {
+        let report = air.step(&[], STABLE_COURANT, ALONE, dt);
+        assert!(report.slowed > 0 || air.is_quiet(), "sound went past the bound and nobody counted it: {report:?}");
+        assert!(report.substeps <= MAX_SUBSTEPS);
+        assert!(energy(&air) < 1.01 * start, "{} of {start}", energy(&air));
+        assert_sane(&air);
+        air.quiet = false;
+    }
 }

@@ -2,6 +2,7 @@
 
 mod disc;
 mod equation;
+mod feedback;
 mod multigrid;
 mod pockets;
 mod rig;

@@ -6,6 +6,8 @@ use super::{
     solids,
 };
 use crate::kernel::{
+    element::ElementId,
+    particles::Particles,
     predictor::grid::MacGrid,
     solids::{Solids, centre},
 };
@@ -118,4 +120,33 @@ fn still_water_beside_a_tank_under_pressure_stays_still() {
 /// Distance of a point to the nearest rock, d.
 fn distance_to_rock(solids: &Solids, at: Vec2) -> f32 {
     solids.iter().map(|(cell, ..)| centre(cell).distance(at)).fold(f32::MAX, f32::min)
+}
+
+#[test]
+fn a_layer_along_any_wall_is_sped_up_alike() {
+    // Two streams meet in the middle of a layer three spacings deep: what they gain along the wall must not depend on
+    // which wall it is. The box is a square of whole cells, so that the grids are turned onto each other.
+    let side = 40.0;
+    let turn = |at: Vec2, quarters: u32| (0..quarters).fold(at - 0.5 * side, |at, _| at.perp()) + 0.5 * side;
+    let way = |way: Vec2, quarters: u32| (0..quarters).fold(way, |way, _| way.perp());
+    let run = |quarters: u32| -> Vec<Vec2> {
+        let solids = solids(40, 40, |_| false);
+        let mut particles = Particles::default();
+        for y in 0..6 {
+            for x in 8..32 {
+                let at = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+                let velocity = Vec2::new(if at.x < 20.0 { 30.0 } else { -30.0 }, 0.0);
+                particles.push(particles.len() as u32, ElementId(1), turn(at, quarters), way(velocity, quarters));
+            }
+        }
+        predict(&mut particles, &solids, LATTICE);
+        (0..particles.len()).map(|i| way(particles.velocity(i), 4 - quarters)).collect()
+    };
+    let floor = run(0);
+    assert!(floor.iter().any(|velocity| velocity.y > 5.0), "the streams do not meet");
+    for quarters in 1..4 {
+        let other = run(quarters);
+        let apart = floor.iter().zip(&other).map(|(a, b)| (*a - *b).length()).fold(0.0, f32::max);
+        assert!(apart < 0.05, "{quarters} quarters: velocities are {apart} d/s apart");
+    }
 }

@@ -1,0 +1,76 @@
+//! Every file of the corpus through its reader, so that what the fuzzer once found stays found; and every file of each
+//! through all the others.
+
+#[path = "support/readers.rs"]
+mod readers;
+
+use readers::{READERS, small_world};
+use std::{
+    fs,
+    panic::catch_unwind,
+    path::{Path, PathBuf},
+    time::{Duration, Instant},
+};
+
+/// Longest that a file may take, on a slow machine and without optimisation.
+const LONGEST: Duration = Duration::from_secs(20);
+
+fn corpus(name: &str) -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus").join(name);
+    let entries = fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let mut files: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn no_file_of_the_corpus_breaks_its_reader_or_any_other() {
+    let mut failed = Vec::new();
+    for (of, _) in READERS {
+        let files = corpus(of);
+        assert!(!files.is_empty(), "the corpus of {of} is empty");
+        for file in files {
+            let bytes = fs::read(&file).expect("can be read");
+            assert!(bytes.len() <= 8192, "{}: a seed is small", file.display());
+            for (name, read) in READERS {
+                let begun = Instant::now();
+                let result = catch_unwind(|| read(&bytes));
+                if result.is_err() || begun.elapsed() > LONGEST {
+                    failed.push(format!("{name} with {} after {:?}", file.display(), begun.elapsed()));
+                }
+            }
+        }
+    }
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
+
+#[test]
+fn what_is_cut_or_changed_anywhere_breaks_no_reader() {
+    for (name, read) in READERS {
+        for file in corpus(name) {
+            let bytes = fs::read(&file).expect("can be read");
+            let step = (bytes.len() / 12).max(1);
+            for at in (0..bytes.len()).step_by(step) {
+                read(&bytes[..at]);
+                let mut changed = bytes.clone();
+                changed[at] ^= 0x81;
+                read(&changed);
+            }
+        }
+    }
+}
+
+/// The corpus of saves follows the format: this writes the seeds anew (`WRITE_CORPUS=1 cargo test --test readers`).
+#[test]
+fn the_seed_of_the_saves_is_of_this_format() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus/save/small");
+    let mut world = small_world();
+    world.tick();
+    let bytes = powder_master::sim::save::encode(world.world());
+    if std::env::var_os("WRITE_CORPUS").is_some() {
+        fs::create_dir_all(file.parent().expect("has a folder")).expect("can be made");
+        fs::write(&file, &bytes).expect("can be written");
+    }
+    let kept = fs::read(&file).expect("can be read");
+    powder_master::sim::save::decode(&kept).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
+}

@@ -1,0 +1,147 @@
+//! Every reader of bytes from outside, each as a function that may do anything with them but panic, hang or eat memory.
+//! The corpus test runs them over files, the fuzzer over what it thinks of. Beside the reader's own limits they check what
+//! it promises: a fault is one line, and what is accepted is sound.
+
+use powder_master::{
+    lab::headless::Headless,
+    scene::{self, SceneError, blueprint::EffectModes, builtin_names, readers},
+    sim::{control, replay::Replay, save, snapshot::Snapshot, state::Setup, workers::Workers},
+    web::link::Link,
+};
+
+/// A name and what it stands for. The corpus of each is `tests/corpus/NAME`.
+pub type Reader = (&'static str, fn(&[u8]));
+
+/// All readers.
+pub const READERS: [Reader; 8] = [
+    ("scene", read_scene),
+    ("elements", read_elements),
+    ("expression", read_expression),
+    ("settings", read_settings),
+    ("picture", read_picture),
+    ("replay", read_replay),
+    ("save", read_save),
+    ("link", read_link),
+];
+
+/// A small scene with parameters for `--set`.
+const SMALL: &str = "(title: \"Small\", parameters: {\"n\": (default: 6, min: 4, max: 12, integer: true, description: \"\")},
+    spacing: 0.1, size: (\"n * d\", \"8 * d\"), contents: [(element: \"water\", shape: Rect(min: (0, 0), max: (0.4, 0.4)))])";
+
+/// Cells of a world that is worth running for a look at it.
+const FEW: usize = 4096;
+
+fn one_line(error: impl std::fmt::Display) {
+    let error = error.to_string();
+    assert!(!error.contains('\n'), "a fault of several lines: {error}");
+}
+
+fn judged<T>(result: Result<T, SceneError>) -> Option<T> {
+    result.map_err(one_line).ok()
+}
+
+fn read_scene(bytes: &[u8]) {
+    let Some(file) = judged(readers::scene(bytes)) else { return };
+    let Some(blueprint) = judged(file.build(&[], None, &EffectModes::new())) else { return };
+    let count = blueprint.particles.len() + blueprint.solids.count();
+    assert!(count <= blueprint.particle_limit as usize, "more particles than the limit");
+    let particles = &blueprint.particles;
+    assert!(particles.x.iter().chain(&particles.y).chain(&particles.vx).chain(&particles.vy).all(|v| v.is_finite()));
+}
+
+fn read_elements(bytes: &[u8]) {
+    if let Some(table) = judged(readers::element_table(bytes)) {
+        assert!((1..=255).contains(&table.len()));
+    }
+}
+
+fn read_expression(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    if let Ok(value) = readers::expression(text, 0.1) {
+        assert!(value.is_finite(), "{value}");
+    }
+}
+
+/// One `KEY=VALUE` a line.
+fn read_settings(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    let pairs = text.lines().take(64).filter_map(|line| line.split_once('='));
+    let settings: Vec<_> = pairs.map(|(key, value)| (key.to_owned(), value.to_owned())).collect();
+    let Some(file) = judged(scene::from_text("small", SMALL)) else { unreachable!("the small scene is sound") };
+    judged(file.build(&settings, None, &EffectModes::new()));
+}
+
+fn read_picture(bytes: &[u8]) {
+    if let Err(error) = readers::picture(bytes) {
+        one_line(error);
+    }
+}
+
+fn read_replay(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    let Some(elements) = judged(scene::elements()) else { unreachable!("the built-in table is sound") };
+    if let Err(error) = Replay::read(text, &elements) {
+        one_line(error);
+    }
+}
+
+/// The first line, the version and the checksum, and what they stand before: without them every change would be found by
+/// its checksum and nothing behind it be reached.
+fn sealed(body: &[u8]) -> Vec<u8> {
+    let hash = body
+        .iter()
+        .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3));
+    let empty = empty_save();
+    let version = empty.get(MAGIC.len()..MAGIC.len() + 2).unwrap_or_default();
+    [MAGIC, version, &hash.to_le_bytes(), body].concat()
+}
+
+const MAGIC: &[u8] = b"PowderMaster\n";
+
+fn empty_save() -> &'static [u8] {
+    static EMPTY: std::sync::OnceLock<Vec<u8>> = std::sync::OnceLock::new();
+    EMPTY.get_or_init(|| save::encode(small_world().world()))
+}
+
+/// The small scene, not yet run.
+pub fn small_world() -> Headless {
+    let blueprint = scene::from_text("small", SMALL).and_then(|file| file.build(&[], None, &EffectModes::new()));
+    let blueprint = blueprint.unwrap_or_else(|error| panic!("{error}"));
+    Headless::new(std::sync::Arc::new(blueprint), Workers::single())
+}
+
+/// A whole save file, or what stands behind its header.
+fn read_save(bytes: &[u8]) {
+    let whole = if bytes.starts_with(MAGIC) { bytes.to_vec() } else { sealed(bytes) };
+    match save::decode(&whole) {
+        Ok(saved) => go_on(saved),
+        Err(error) => one_line(error),
+    }
+}
+
+/// What was accepted must also run, if that is cheap.
+fn go_on(saved: save::Saved) {
+    let Snapshot { particles, solids, air, .. } = saved.snapshot();
+    let cells = (solids.columns() * solids.rows()) as usize + air.columns() * air.rows();
+    if cells > FEW || particles.len() > 256 {
+        return;
+    }
+    let mut world = Headless::begin(Workers::single(), |world| save::load(world, saved));
+    let quality = world.world().resource::<Setup>().quality;
+    if quality.substeps * quality.iterations <= 16 {
+        world.tick();
+        control::hash(world.world());
+    }
+}
+
+fn read_link(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    match Link::read(text) {
+        // Another name would be a path, and a page has none; of the scenes those that are small.
+        Ok(link) if builtin_names().contains(&link.scene.as_str()) && link.settings.is_empty() => {
+            link.build().map(drop).unwrap_or_else(one_line);
+        }
+        Ok(_) => {}
+        Err(error) => one_line(error),
+    }
+}
