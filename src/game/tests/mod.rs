@@ -36,6 +36,7 @@ use std::{sync::Arc, time::Duration};
 mod accuracy;
 mod air;
 mod draw;
+mod gauntlet;
 mod keys;
 mod past;
 mod recording;
