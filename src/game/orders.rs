@@ -183,7 +183,7 @@ fn play(world: &mut World, name: &str, settings: &[(String, String)]) {
 /// Plays a hard case, at the quality that is in force.
 fn watch(world: &mut World, name: &str) {
     let preset = world.get_resource::<Setup>().map_or(Preset::Balanced, |setup| setup.preset);
-    let Some(case) = world.resource::<Cases>().find(name).cloned() else { return };
+    let Some(case) = world.get_resource::<Cases>().and_then(|cases| cases.find(name)).cloned() else { return };
     match (case.start)(preset) {
         Ok(blueprint) => {
             recording::stop(world, "another scene");

@@ -38,6 +38,7 @@ mod air;
 #[cfg(not(target_arch = "wasm32"))]
 mod crash;
 mod draw;
+mod gauntlet;
 mod keys;
 mod past;
 mod recording;
