@@ -12,10 +12,10 @@ use crate::{
 };
 use serde::{Deserialize, Serialize};
 
+/// Sums that are kept side by side: what a compiler turns into vector registers.
+const LANES: usize = 8;
 /// Distance of the keys of neighbouring places: 2³² over the golden ratio, odd.
 const STRIDE: u32 = 0x9e37_79b1;
-/// What tells the two keys of a place apart.
-const OTHER: u32 = 0x85eb_ca6b;
 /// What tells the keys of two pairs of arrays apart.
 const SALT: u32 = 0xc2b2_ae35;
 /// Odd factor that spreads a sum's bits: 2⁶⁴ over the golden ratio.
@@ -43,15 +43,11 @@ impl Marker {
     /// The mark of a state. The rock is looked at only where its version changed: a world that was put in the place of
     /// another needs a new marker.
     pub fn mark(&mut self, particles: &Particles, rock: &Solids, air: &Air, clock: &Clock) -> Mark {
-        let Particles { x, y, vx, vy, id, element } = particles;
-        let places = fold(x, y, 1, f32::to_bits, f32::to_bits);
-        let speeds = fold(vx, vy, 2, f32::to_bits, f32::to_bits);
-        let kinds = fold(id, element, 3, |id| id, |element| u32::from(element.0));
         let counts = clock.edits.wrapping_mul(SPREAD) ^ u64::from(clock.next_id);
         Mark {
             particles: particles.len() as u32,
-            matter: narrow([places, speeds, kinds, counts]),
-            surroundings: narrow([self.rock(rock), fold_air(air), 0, 0]),
+            matter: narrow([fold_places(particles), fold(&particles.vx, &particles.vy, 2), counts]),
+            surroundings: narrow([self.rock(rock), fold_air(air), 0]),
         }
     }
 
@@ -77,25 +73,71 @@ fn fold_air(air: &Air) -> u64 {
     for row in 0..air.rows() {
         let key = 4 + 2 * row as u32;
         let (pressure, along, up) = (air.pressure_row(row), air.velocity_x_row(row), air.velocity_y_row(row));
-        sum = sum.wrapping_add(fold(pressure, along, key, f32::to_bits, f32::to_bits));
-        sum = sum.wrapping_add(fold(up, pressure, key + 1, f32::to_bits, f32::to_bits));
+        sum = sum.wrapping_add(fold(pressure, along, key)).wrapping_add(fold(up, pressure, key + 1));
     }
     sum
 }
 
-/// The sum of the products of the words of two arrays.
-fn fold<A: Copy, B: Copy>(a: &[A], b: &[B], salt: u32, word: impl Fn(A) -> u32, other: impl Fn(B) -> u32) -> u64 {
-    let mut key = salt.wrapping_mul(SALT);
-    let mut sum = 0_u64;
-    for (&a, &b) in a.iter().zip(b) {
-        let (a, b) = (word(a).wrapping_add(key), other(b).wrapping_add(key ^ OTHER));
-        sum = sum.wrapping_add(u64::from(a) * u64::from(b));
-        key = key.wrapping_add(STRIDE);
+/// Positions, with who and what stands there.
+fn fold_places(particles: &Particles) -> u64 {
+    let Particles { x, y, id, element, .. } = particles;
+    let mut sums = Sums::new(1);
+    let ((x, last_x), (y, last_y)) = (x.as_chunks::<LANES>(), y.as_chunks::<LANES>());
+    let ((id, last_id), (element, last_element)) = (id.as_chunks::<LANES>(), element.as_chunks::<LANES>());
+    for (((x, y), id), element) in x.iter().zip(y).zip(id).zip(element) {
+        for k in 0..LANES {
+            let (a, b) = (x[k].to_bits().wrapping_add(id[k]), y[k].to_bits().wrapping_add(u32::from(element[k].0)));
+            sums.add(k, a, b);
+        }
     }
-    sum
+    let rest = last_x.iter().zip(last_y).zip(last_id).zip(last_element);
+    for (k, (((x, y), id), element)) in rest.enumerate() {
+        sums.add(k, x.to_bits().wrapping_add(*id), y.to_bits().wrapping_add(u32::from(element.0)));
+    }
+    sums.total()
 }
 
-fn narrow(sums: [u64; 4]) -> u32 {
+/// Two arrays of the same length.
+fn fold(a: &[f32], b: &[f32], salt: u32) -> u64 {
+    let mut sums = Sums::new(salt);
+    let ((a, last_a), (b, last_b)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
+    for (a, b) in a.iter().zip(b) {
+        for k in 0..LANES {
+            sums.add(k, a[k].to_bits(), b[k].to_bits());
+        }
+    }
+    for (k, (a, b)) in last_a.iter().zip(last_b).enumerate() {
+        sums.add(k, a.to_bits(), b.to_bits());
+    }
+    sums.total()
+}
+
+/// Sums of products of keyed words.
+struct Sums {
+    keys: [u32; LANES],
+    sums: [u64; LANES],
+}
+
+impl Sums {
+    fn new(salt: u32) -> Self {
+        let key = |lane| (lane as u32).wrapping_mul(STRIDE).wrapping_add(salt.wrapping_mul(SALT));
+        Self { keys: std::array::from_fn(key), sums: [0; LANES] }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, lane: usize, a: u32, b: u32) {
+        let key = self.keys[lane];
+        let product = u64::from(a.wrapping_add(key)) * u64::from(b.wrapping_sub(key));
+        self.sums[lane] = self.sums[lane].wrapping_add(product);
+        self.keys[lane] = key.wrapping_add(STRIDE.wrapping_mul(LANES as u32));
+    }
+
+    fn total(self) -> u64 {
+        self.sums.into_iter().fold(0, u64::wrapping_add)
+    }
+}
+
+fn narrow(sums: [u64; 3]) -> u32 {
     let all = sums.into_iter().fold(0_u64, |all, sum| (all ^ sum).wrapping_mul(SPREAD).rotate_left(32));
     (all ^ all >> 32) as u32
 }
