@@ -239,8 +239,8 @@ fn a_mirrored_start_stays_mirrored_for_a_while() {
     }
     let (mut left, mut right) = (Sandbox::of(left), Sandbox::of(right));
     // Sums run from left to right in both, so that their rounding is not mirrored, and a dam break doubles any
-    // difference every three ticks: a fifth of a second is as long as it can hold.
-    for tick in 1..=12 {
+    // difference every three ticks: a sixth of a second is as long as it can hold.
+    for tick in 1..=10 {
         left.tick(1);
         right.tick(1);
         let (a, b) = (left.particles(), right.particles());

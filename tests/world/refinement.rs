@@ -104,8 +104,9 @@ fn half_the_substep_lowers_the_density_error_of_a_pool() {
         assert!(error < 0.02, "with the predictor: {predicted:?}");
     }
     // The predictor aims 1 % under the rest density, so a pool at the start's rises by half of that, and some more as its
-    // particles leave the lattice.
-    for (_, rise) in found.into_iter().chain(predicted) {
+    // particles leave the lattice. The plain method has no such bound: what its corrections leave undone becomes speeds
+    // over Δt, and at eight substeps its pool boils.
+    for (_, rise) in predicted {
         assert!(rise < 0.02, "energy from nowhere, as a share of the start's: {found:?} {predicted:?}");
     }
 }
