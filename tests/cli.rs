@@ -190,7 +190,7 @@ fn lists_are_one_a_line_with_the_name_first() {
     };
     assert_eq!(names("scenes"), scene::builtin_names());
     assert_eq!(names("qualities"), ["classic", "draft", "fast", "balanced", "fine", "reference"]);
-    assert_eq!(names("effects"), ["air", "drag", "predictor", "tension", "viscosity", "vorticity"]);
+    assert_eq!(names("effects"), ["air", "drag", "predictor", "tension", "viscosity", "vorticity", "sleep"]);
     assert!(names("elements").contains(&"water".to_owned()));
 }
 

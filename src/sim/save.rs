@@ -18,6 +18,7 @@ use crate::{
         element::{Element, ElementId, ElementTable},
         params::{AirParams, Domain, FluidParams, Preset, Quality},
         particles::Particles,
+        sleep::SleepRecord,
         solids::Solids,
         units::Scale,
     },
@@ -37,7 +38,7 @@ use std::{collections::BTreeMap, sync::Arc};
 /// What every save file begins with.
 const MAGIC: &[u8] = b"PowderMaster\n";
 /// Version of the format. Raise it when [`Contents`] or anything in it changes: old files are refused, not misread.
-const VERSION: u16 = 1;
+const VERSION: u16 = 2;
 
 /// Why a file is not loaded, in one line.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -104,6 +105,7 @@ struct Contents {
     rock: Vec<RockCell>,
     air: Air,
     pressure: Vec<f32>,
+    sleep: SleepRecord,
     sources: Sources,
     clock: Clock,
 }
@@ -121,7 +123,7 @@ struct RockCell {
 pub fn encode(world: &World) -> Vec<u8> {
     let setup = world.resource::<Setup>();
     let blueprint = &setup.blueprint;
-    let Snapshot { mut particles, solids, air, pressure, sources, clock } = control::freeze(world);
+    let Snapshot { mut particles, solids, air, pressure, sleep, sources, clock } = control::freeze(world);
     // The next tick would take them away; a file with them would be refused.
     remove_non_finite(&mut particles, 1);
     let rock =
@@ -145,6 +147,7 @@ pub fn encode(world: &World) -> Vec<u8> {
         rock: rock.collect(),
         air,
         pressure,
+        sleep,
         sources,
         clock,
     })
@@ -192,7 +195,7 @@ pub fn decode(bytes: &[u8]) -> Result<Saved, SaveError> {
 
 /// Turns checked contents into a world. What needs the whole rock is checked here.
 fn open(contents: Contents) -> Result<Saved, String> {
-    let Contents { particles, rock, air, pressure, sources, clock, domain, quality, .. } = contents;
+    let Contents { particles, rock, air, pressure, sleep, sources, clock, domain, quality, .. } = contents;
     let cells = domain.size.ceil().as_uvec2();
     let mut solids = Solids::new(cells.x, cells.y);
     for RockCell { column, row, element, id } in rock {
@@ -209,7 +212,7 @@ fn open(contents: Contents) -> Result<Saved, String> {
     let effects: EffectModes =
         contents.effects.iter().filter_map(|(name, mode)| Some((Effect::find(name)?, *mode))).collect();
     let Sources { emitters, winds, drains } = sources.clone();
-    let mut snapshot = Snapshot { particles, solids, air, pressure, sources, clock };
+    let mut snapshot = Snapshot { particles, solids, air, pressure, sleep, sources, clock };
     snapshot.air.set_solids(&snapshot.solids);
     let blueprint = Blueprint {
         name: contents.name,

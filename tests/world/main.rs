@@ -9,5 +9,6 @@ mod hard_cases;
 mod monkey;
 mod motion;
 mod saves;
+mod sleep;
 mod stages;
 mod still;
