@@ -193,7 +193,7 @@ fn lists_are_one_a_line_with_the_name_first() {
         ["two_at_a_point", "deep_tank", "poison"].iter().all(|case| names("cases").iter().any(|name| name == case))
     );
     assert_eq!(names("qualities"), ["classic", "draft", "fast", "balanced", "fine", "reference"]);
-    assert_eq!(names("effects"), ["air", "drag", "predictor", "tension", "viscosity", "vorticity"]);
+    assert_eq!(names("effects"), ["air", "drag", "predictor", "tension", "viscosity", "vorticity", "sleep"]);
     assert!(names("elements").contains(&"water".to_owned()));
 }
 

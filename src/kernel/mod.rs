@@ -16,6 +16,7 @@ pub mod pbf;
 pub mod predict;
 pub mod predictor;
 pub mod simd;
+pub mod sleep;
 pub mod smoothing;
 pub mod solids;
 pub mod sources;

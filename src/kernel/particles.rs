@@ -3,6 +3,7 @@
 use crate::kernel::element::ElementId;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// Movable particles. All arrays have one entry per particle, in the same order; the order changes with every sort.
 /// 21 bytes a particle.
@@ -59,12 +60,7 @@ impl Particles {
         let mut kept = 0;
         for i in 0..before {
             if keep(self, i) {
-                self.x[kept] = self.x[i];
-                self.y[kept] = self.y[i];
-                self.vx[kept] = self.vx[i];
-                self.vy[kept] = self.vy[i];
-                self.id[kept] = self.id[i];
-                self.element[kept] = self.element[i];
+                self.copy(i, kept);
                 kept += 1;
             }
         }
@@ -72,7 +68,43 @@ impl Particles {
         before - kept
     }
 
-    fn truncate(&mut self, len: usize) {
+    /// Forgets all.
+    pub(crate) fn clear(&mut self) {
+        self.truncate(0);
+    }
+
+    /// Appends those of `other` in `range`, in their order.
+    pub(crate) fn append(&mut self, other: &Self, range: Range<usize>) {
+        self.x.extend_from_slice(&other.x[range.clone()]);
+        self.y.extend_from_slice(&other.y[range.clone()]);
+        self.vx.extend_from_slice(&other.vx[range.clone()]);
+        self.vy.extend_from_slice(&other.vy[range.clone()]);
+        self.id.extend_from_slice(&other.id[range.clone()]);
+        self.element.extend_from_slice(&other.element[range]);
+    }
+
+    /// Overwrites particle `to` with particle `i`.
+    pub(crate) fn copy(&mut self, i: usize, to: usize) {
+        self.x[to] = self.x[i];
+        self.y[to] = self.y[i];
+        self.vx[to] = self.vx[i];
+        self.vy[to] = self.vy[i];
+        self.id[to] = self.id[i];
+        self.element[to] = self.element[i];
+    }
+
+    /// Overwrites particle `to` with particle `i` of `other`.
+    pub(crate) fn copy_from(&mut self, other: &Self, i: usize, to: usize) {
+        self.x[to] = other.x[i];
+        self.y[to] = other.y[i];
+        self.vx[to] = other.vx[i];
+        self.vy[to] = other.vy[i];
+        self.id[to] = other.id[i];
+        self.element[to] = other.element[i];
+    }
+
+    /// Keeps the first `len`.
+    pub(crate) fn truncate(&mut self, len: usize) {
         self.x.truncate(len);
         self.y.truncate(len);
         self.vx.truncate(len);

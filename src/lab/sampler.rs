@@ -17,7 +17,7 @@ use crate::{
         control,
         effects::Effects,
         ledger::{Pass, PassLedger},
-        state::{AirGrid, Counters, ParticleStore, PredictorState, Rock, Setup, SolverState},
+        state::{AirGrid, Counters, ParticleStore, PredictorState, Rock, Setup, SleepState, SolverState},
         workers::Workers,
     },
 };
@@ -244,6 +244,7 @@ fn pass_of(effect: Effect) -> Option<Pass> {
         Effect::Viscosity => Some(Pass::Viscosity),
         Effect::Vorticity => Some(Pass::Vorticity),
         Effect::Predictor => Some(Pass::Pressure),
+        Effect::Sleep => Some(Pass::Sleep),
         Effect::Tension => None,
     }
 }
@@ -282,8 +283,9 @@ fn memory_bytes(world: &World) -> u64 {
     let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
     let air = world.resource::<AirGrid>();
     let solver = world.resource::<SolverState>().memory() + world.resource::<PredictorState>().memory();
+    let sleep = world.resource::<SleepState>().memory();
     let per_particle = 5 * size_of::<f32>() + size_of::<u8>();
-    (solver + particles.x.capacity() * per_particle + rock.memory() + air.memory_bytes()) as u64
+    (solver + sleep + particles.x.capacity() * per_particle + rock.memory() + air.memory_bytes()) as u64
 }
 
 pub(super) fn ms(time: Duration) -> f64 {

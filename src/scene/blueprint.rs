@@ -27,12 +27,14 @@ pub enum Effect {
     Viscosity,
     /// Vorticity confinement.
     Vorticity,
+    /// What rests stands still and costs nothing.
+    Sleep,
 }
 
 impl Effect {
     /// All effects in the order in which their stages run.
-    pub const ALL: [Self; 6] =
-        [Self::Air, Self::Drag, Self::Predictor, Self::Tension, Self::Viscosity, Self::Vorticity];
+    pub const ALL: [Self; 7] =
+        [Self::Air, Self::Drag, Self::Predictor, Self::Tension, Self::Viscosity, Self::Vorticity, Self::Sleep];
 
     /// Name on the command line, in scenes and on the screen.
     pub fn name(self) -> &'static str {
@@ -43,6 +45,7 @@ impl Effect {
             Self::Vorticity => "vorticity",
             Self::Predictor => "predictor",
             Self::Tension => "tension",
+            Self::Sleep => "sleep",
         }
     }
 
@@ -55,6 +58,7 @@ impl Effect {
             Self::Tension => "particles keep their distance at a surface (s_corr)",
             Self::Viscosity => "neighbouring particles even out their velocities (XSPH)",
             Self::Vorticity => "eddies keep turning (vorticity confinement)",
+            Self::Sleep => "water at rest stands still until something touches it, and costs nothing",
         }
     }
 

@@ -4,6 +4,7 @@ use crate::{
     kernel::{
         params::{Preset, Quality},
         predictor::Predictor,
+        sleep::Sleep,
     },
     scene::blueprint::Blueprint,
     sim::{
@@ -13,7 +14,8 @@ use crate::{
         recorder::Recorder,
         snapshot::{Snapshot, hash_state},
         state::{
-            AirGrid, Census, Clock, Counters, ParticleStore, PredictorState, Rates, Rock, Setup, SolverState, Sources,
+            AirGrid, Census, Clock, Counters, ParticleStore, PredictorState, Rates, Rock, Setup, SleepState,
+            SolverState, Sources,
         },
     },
 };
@@ -55,6 +57,7 @@ pub fn freeze(world: &World) -> Snapshot {
         solids: world.resource::<Rock>().0.clone(),
         air: world.resource::<AirGrid>().0.clone(),
         pressure: world.get_resource::<PredictorState>().map_or_else(Vec::new, |state| state.pressure().to_vec()),
+        sleep: world.get_resource::<SleepState>().map_or_else(Default::default, |sleep| sleep.record().clone()),
         sources: world.resource::<Sources>().clone(),
         clock: *world.resource::<Clock>(),
     }
@@ -76,6 +79,13 @@ pub fn thaw(world: &mut World, snapshot: &Snapshot) {
     world.insert_resource(Census::default());
     // What is derived from the rock follows its version, which only tells apart the states of one history.
     world.insert_resource(PredictorState(Predictor::resume(snapshot.pressure.clone())));
+    let size = world.resource::<Setup>().blueprint.domain.size;
+    world.insert_resource(SleepState(Sleep::resume(
+        snapshot.sleep.clone(),
+        &snapshot.particles,
+        size,
+        snapshot.solids.version(),
+    )));
     world.get_resource_or_init::<SolverState>().bins.forget_rock();
     world.get_resource_or_init::<IntentQueue>().clear();
 }

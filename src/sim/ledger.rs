@@ -30,13 +30,15 @@ pub enum Pass {
     Viscosity,
     /// Vorticity confinement.
     Vorticity,
+    /// Who sleeps, who wakes.
+    Sleep,
     /// Checks at the end of the tick.
     Measure,
 }
 
 impl Pass {
     /// All passes in the order of the tick.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Edit,
         Self::Sources,
         Self::Air,
@@ -49,6 +51,7 @@ impl Pass {
         Self::Velocity,
         Self::Viscosity,
         Self::Vorticity,
+        Self::Sleep,
         Self::Measure,
     ];
 
@@ -67,6 +70,7 @@ impl Pass {
             Self::Velocity => "velocity",
             Self::Viscosity => "viscosity",
             Self::Vorticity => "vorticity",
+            Self::Sleep => "sleep",
             Self::Measure => "measure",
         }
     }

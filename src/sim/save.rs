@@ -18,6 +18,7 @@ use crate::{
         element::{Element, ElementId, ElementTable},
         params::{AirParams, Domain, FluidParams, Preset, Quality},
         particles::Particles,
+        sleep::SleepRecord,
         solids::Solids,
         units::Scale,
     },
@@ -37,7 +38,7 @@ use std::{collections::BTreeMap, sync::Arc};
 /// What every save file begins with.
 const MAGIC: &[u8] = b"PowderMaster\n";
 /// Version of the format. Raise it when [`Contents`] or anything in it changes: old files are refused, not misread.
-const VERSION: u16 = 1;
+const VERSION: u16 = 2;
 
 /// Why a file is not loaded, in one line.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -109,6 +110,7 @@ struct Contents {
     rock: Vec<RockCell>,
     air: Air,
     pressure: Vec<f32>,
+    sleep: SleepRecord,
     sources: Sources,
     clock: Clock,
 }
@@ -135,7 +137,7 @@ pub(in crate::sim) fn encode_state(
     effects: &EffectModes,
     state: Snapshot,
 ) -> Vec<u8> {
-    let Snapshot { mut particles, solids, air, pressure, sources, clock } = state;
+    let Snapshot { mut particles, solids, air, pressure, sleep, sources, clock } = state;
     // The next tick would take them away; a file with them would be refused.
     remove_non_finite(&mut particles, 1);
     let rock =
@@ -159,6 +161,7 @@ pub(in crate::sim) fn encode_state(
         rock: rock.collect(),
         air,
         pressure,
+        sleep,
         sources,
         clock,
     })
@@ -206,7 +209,7 @@ pub fn decode(bytes: &[u8]) -> Result<Saved, SaveError> {
 
 /// Turns checked contents into a world. What needs the whole rock is checked here.
 fn open(contents: Contents) -> Result<Saved, String> {
-    let Contents { particles, rock, air, pressure, sources, clock, domain, quality, .. } = contents;
+    let Contents { particles, rock, air, pressure, sleep, sources, clock, domain, quality, .. } = contents;
     let cells = domain.size.ceil().as_uvec2();
     let mut solids = Solids::new(cells.x, cells.y);
     for RockCell { column, row, element, id } in rock {
@@ -223,7 +226,7 @@ fn open(contents: Contents) -> Result<Saved, String> {
     let effects: EffectModes =
         contents.effects.iter().filter_map(|(name, mode)| Some((Effect::find(name)?, *mode))).collect();
     let Sources { emitters, winds, drains } = sources.clone();
-    let mut snapshot = Snapshot { particles, solids, air, pressure, sources, clock };
+    let mut snapshot = Snapshot { particles, solids, air, pressure, sleep, sources, clock };
     snapshot.air.set_solids(&snapshot.solids);
     let blueprint = Blueprint {
         name: contents.name,

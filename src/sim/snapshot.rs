@@ -1,7 +1,7 @@
 //! A world frozen between two ticks: what undo, reset and save files hold.
 
 use crate::{
-    kernel::{air::Air, element::ElementId, particles::Particles, solids::Solids},
+    kernel::{air::Air, element::ElementId, particles::Particles, sleep::SleepRecord, solids::Solids},
     scene::blueprint::Blueprint,
     sim::state::{Clock, Sources},
 };
@@ -18,6 +18,8 @@ pub struct Snapshot {
     pub air: Air,
     /// The predictor's pressure, d/s: the first guess of its next solve, empty before its first.
     pub pressure: Vec<f32>,
+    /// Who sleeps, and who may soon.
+    pub sleep: SleepRecord,
     /// Taps, fans and outlets with their state.
     pub sources: Sources,
     /// Tick, edits, next id.
@@ -37,6 +39,7 @@ impl Snapshot {
             solids: blueprint.solids.clone(),
             air,
             pressure: Vec::new(),
+            sleep: SleepRecord::default(),
             sources: Sources {
                 emitters: blueprint.emitters.clone(),
                 winds: blueprint.winds.clone(),

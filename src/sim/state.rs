@@ -10,6 +10,7 @@ use crate::{
         particles::Particles,
         pbf::Solver,
         predictor::Predictor,
+        sleep::Sleep,
         solids::Solids,
         sources::{Drain, Emitter, Wind},
         units::Scale,
@@ -188,6 +189,10 @@ pub struct SolverState(pub Solver);
 /// The pressure predictor's grid. Written by the pressure stage.
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
 pub struct PredictorState(pub Predictor);
+
+/// Who sleeps. Written by the sleep stages.
+#[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
+pub struct SleepState(pub Sleep);
 
 /// What the elements mean to the kernel's passes, in kernel units, one entry an element.
 #[derive(Resource, Clone, Debug, Default)]

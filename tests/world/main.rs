@@ -13,6 +13,7 @@ mod properties;
 mod recordings;
 mod refinement;
 mod saves;
+mod sleep;
 mod stages;
 mod still;
 mod symmetry;

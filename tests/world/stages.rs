@@ -198,7 +198,8 @@ fn pass_of(effect: Effect) -> Option<Pass> {
         Effect::Viscosity => Some(Pass::Viscosity),
         Effect::Vorticity => Some(Pass::Vorticity),
         Effect::Predictor => Some(Pass::Pressure),
-        Effect::Tension => None,
+        // A part of the solver's pass, and a look now and then.
+        Effect::Tension | Effect::Sleep => None,
     }
 }
 

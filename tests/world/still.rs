@@ -1,7 +1,11 @@
 //! Water at rest stays at rest, and water that falls comes to it.
 
 use crate::support::{Sandbox, blueprint};
-use powder_master::{kernel::params::Preset, sim::state::SolverState};
+use powder_master::{
+    kernel::params::Preset,
+    scene::blueprint::{Blueprint, Effect, Mode},
+    sim::state::SolverState,
+};
 
 struct Rest {
     /// Root of the mean square of the speeds, d a tick.
@@ -14,11 +18,17 @@ struct Rest {
     gap: f32,
 }
 
+/// A world that rests by the method alone: what sleeps is still anyway.
+fn awake(mut blueprint: Blueprint) -> Sandbox {
+    blueprint.effects.insert(Effect::Sleep, Mode::Off);
+    Sandbox::of(blueprint)
+}
+
 /// A still tank after some seconds.
 fn rest(preset: Preset, columns: u32, depth: u32, ticks: u32) -> Rest {
     let mut blueprint = blueprint("hydrostatic", &[("columns", &columns.to_string()), ("depth", &depth.to_string())]);
     (blueprint.preset, blueprint.quality) = (preset, preset.quality());
-    let mut sandbox = Sandbox::of(blueprint);
+    let mut sandbox = awake(blueprint);
     sandbox.tick(ticks);
     let (mut rms, mut height, mut error) = (0.0, 0.0, 0.0);
     for _ in 0..30 {
@@ -62,7 +72,7 @@ fn a_fallen_column_comes_to_rest_with_a_level_surface() {
     for preset in [Preset::Draft, Preset::Balanced] {
         let mut blueprint = blueprint("dam_break", &[("columns", "14")]);
         (blueprint.preset, blueprint.quality) = (preset, preset.quality());
-        let mut sandbox = Sandbox::of(blueprint);
+        let mut sandbox = awake(blueprint);
         sandbox.tick(900);
         let (name, particles) = (preset.name(), sandbox.particles());
         assert!(sandbox.rms_speed() < 0.1, "{name}: still {} d a tick after 15 s", sandbox.rms_speed());
@@ -80,7 +90,7 @@ fn a_fallen_column_comes_to_rest_with_a_level_surface() {
 
 #[test]
 fn a_pool_at_rest_is_flat_within_a_cell_of_the_pressure_grid() {
-    let mut sandbox = Sandbox::scene("hydrostatic", &[("columns", "100"), ("depth", "20")]);
+    let mut sandbox = awake(blueprint("hydrostatic", &[("columns", "100"), ("depth", "20")]));
     sandbox.tick(1200);
     let particles = sandbox.particles();
     // The mean of the four highest particles in each strip of 4 d.

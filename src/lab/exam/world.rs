@@ -6,7 +6,7 @@ use crate::{
     lab::exam::case::Setting,
     scene::{
         self, SceneError, SceneFile,
-        blueprint::{Blueprint, EffectModes},
+        blueprint::{Blueprint, Effect, EffectModes, Mode},
     },
 };
 
@@ -27,5 +27,6 @@ pub(super) fn own(
 
 fn build(file: &SceneFile, settings: &[(&str, f64)], preset: Preset) -> Result<Blueprint, SceneError> {
     let settings: Vec<_> = settings.iter().map(|(key, value)| ((*key).to_owned(), value.to_string())).collect();
-    file.build(&settings, Some(preset), &EffectModes::new())
+    // What rests has to come to rest, and stay there, by the method alone.
+    file.build(&settings, Some(preset), &EffectModes::from([(Effect::Sleep, Mode::Off)]))
 }

@@ -82,10 +82,9 @@ fn dam_break_is_the_lattice_that_other_programs_are_compared_on() {
         assert_eq!(world.particles.id[i], i as u32);
     }
     assert!(
-        Effect::ALL
-            .iter()
-            .all(|effect| (world.effects.get(effect) == Some(&Mode::Off)) != (*effect == Effect::Predictor)),
-        "the bare liquid: nothing but the constraint, and the predictor where the quality has it"
+        Effect::ALL.iter().all(|effect| (world.effects.get(effect) == Some(&Mode::Off))
+            != [Effect::Predictor, Effect::Sleep].contains(effect)),
+        "the bare liquid: nothing but the constraint, the predictor where the quality has it, and sleep once it rests"
     );
     assert_eq!((world.preset, world.quality), (Preset::Balanced, Preset::Balanced.quality()));
     for columns in [2, 3, 224, 500] {

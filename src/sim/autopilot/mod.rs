@@ -15,7 +15,7 @@ use crate::{
         intent::{Intent, IntentQueue},
         ledger::PassLedger,
         schedule::TickSystems,
-        state::{Clock, Setup},
+        state::{Clock, ParticleStore, Setup, SleepState},
     },
 };
 use bevy::prelude::{App, FixedUpdate, IntoScheduleConfigs, Res, ResMut, Resource};
@@ -140,12 +140,18 @@ impl Flight {
 pub fn plugin(app: &mut App) {
     app.init_resource::<Autopilot>()
         .init_resource::<LiveError>()
-        .add_systems(FixedUpdate, steer.after(TickSystems::Measure).run_if(engaged));
+        .add_systems(FixedUpdate, steer.after(TickSystems::Measure).run_if(engaged).run_if(anyone_is_awake));
 }
 
 /// Run condition: there is something to hold.
 fn engaged(autopilot: Res<Autopilot>) -> bool {
     autopilot.goal.is_some()
+}
+
+/// Run condition: not all sleeps. What a tick of sleepers costs says nothing of a quality, and a change would wake them.
+fn anyone_is_awake(sleep: Option<Res<SleepState>>, particles: Option<Res<ParticleStore>>) -> bool {
+    let asleep = sleep.map_or(0, |sleep| sleep.asleep());
+    asleep == 0 || particles.is_none_or(|particles| asleep < particles.len())
 }
 
 /// Looks at the tick that ended and asks for another quality for the next.

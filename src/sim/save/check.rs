@@ -139,6 +139,8 @@ fn particles(contents: &Contents) -> Verdict {
     let size = contents.domain.size.ceil().as_uvec2();
     let inside = rock.iter().all(|rock| rock.column < size.x && rock.row < size.y);
     demand(inside, || "rock is outside the box".to_owned())?;
+    let fits = contents.sleep.fits(particles, contents.domain.size);
+    demand(fits, || "its sleepers are not its first particles at rest".to_owned())?;
     let mut ids = HashSet::with_capacity(total);
     for id in particles.id.iter().copied().chain(rock.iter().map(|rock| rock.id)) {
         demand(id < clock.next_id, || format!("particle {id} has an id that is not given yet"))?;

@@ -5,8 +5,8 @@ use crate::{
     scene::blueprint::Effect,
     sim::{
         effects::Effects,
-        stages::TickPlan,
-        state::{AirGrid, Census, Counters, ParticleStore, Setup, Sources},
+        stages::{TickPlan, sleep},
+        state::{AirGrid, Census, Counters, ParticleStore, Setup, SleepState, Sources},
     },
 };
 use bevy::prelude::{Res, ResMut};
@@ -18,6 +18,7 @@ pub(super) fn plan_tick(
     air: Res<AirGrid>,
     sources: Res<Sources>,
     census: Res<Census>,
+    asleep: Res<SleepState>,
     mut effects: ResMut<Effects>,
     mut counters: ResMut<Counters>,
     mut plan: ResMut<TickPlan>,
@@ -66,5 +67,6 @@ pub(super) fn plan_tick(
     let wanted = predict::substeps(&particles, &setup.blueprint.domain, &setup.quality, TICK_SECONDS);
     plan.substeps = wanted.count;
     counters.substeps_short += u64::from(wanted.short);
+    effects.decide(Effect::Sleep, sleep::is_called_for(&setup, asleep.asleep(), particles.len()));
     counters.substeps_max = counters.substeps_max.max(plan.substeps);
 }

@@ -4,6 +4,7 @@ mod count;
 mod edit;
 mod gate;
 mod measure;
+mod sleep;
 mod sources;
 mod step;
 mod substep;
@@ -48,10 +49,14 @@ pub(super) fn plugin(app: &mut App) {
             script::run.in_set(TickSystems::Script),
             edit::apply_intents.in_set(TickSystems::Edit),
             sources::run_sources.in_set(TickSystems::Sources),
-            count::count_particles.in_set(TickSystems::Count),
-            gate::plan_tick.in_set(TickSystems::Gate),
+            (sleep::check_sleepers.run_if(sleep::anyone_sleeps), count::count_particles)
+                .chain()
+                .in_set(TickSystems::Count),
+            (gate::plan_tick, sleep::keep_asleep).chain().in_set(TickSystems::Gate),
             step::run_substeps.in_set(TickSystems::Step),
-            measure::end_tick.in_set(TickSystems::Measure),
+            (sleep::watch.run_if(runs(Effect::Sleep)).run_if(sleep::is_time_to_look), measure::end_tick)
+                .chain()
+                .in_set(TickSystems::Measure),
         ),
     );
     app.add_schedule(substep_schedule());
@@ -65,20 +70,31 @@ fn substep_schedule() -> Schedule {
     schedule.configure_sets(
         (
             SubstepSystems::Air,
-            SubstepSystems::Forces,
-            SubstepSystems::Pressure,
-            SubstepSystems::Predict,
-            SubstepSystems::Bin,
-            SubstepSystems::Solve,
-            SubstepSystems::Velocity,
+            (
+                SubstepSystems::Forces,
+                SubstepSystems::Pressure,
+                SubstepSystems::Predict,
+                SubstepSystems::Bin,
+                SubstepSystems::Solve,
+                SubstepSystems::Velocity,
+            )
+                .chain()
+                .run_if(sleep::anyone_is_awake),
         )
             .chain(),
     );
     schedule.add_systems((
-        substep::step_air.run_if(runs(Effect::Air)).in_set(SubstepSystems::Air),
+        (
+            substep::step_air.run_if(runs(Effect::Air)),
+            sleep::wake_blown.run_if(runs(Effect::Drag)).run_if(sleep::anyone_sleeps),
+        )
+            .chain()
+            .in_set(SubstepSystems::Air),
         (substep::apply_gravity, substep::apply_drag.run_if(runs(Effect::Drag))).chain().in_set(SubstepSystems::Forces),
         substep::predict_pressure.run_if(runs(Effect::Predictor)).in_set(SubstepSystems::Pressure),
-        substep::predict_positions.in_set(SubstepSystems::Predict),
+        (substep::predict_positions, sleep::wake_touched.run_if(sleep::anyone_sleeps))
+            .chain()
+            .in_set(SubstepSystems::Predict),
         substep::sort_into_bins.in_set(SubstepSystems::Bin),
         substep::solve_density.in_set(SubstepSystems::Solve),
         (

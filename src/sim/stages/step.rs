@@ -2,11 +2,17 @@
 
 use crate::{
     kernel::units::TICK_SECONDS,
-    sim::{schedule::Substep, state::ParticleStore, workers::Workers},
+    scene::blueprint::Effect,
+    sim::{
+        effects::Effects,
+        schedule::Substep,
+        state::{ParticleStore, SleepState, SolverState},
+        workers::Workers,
+    },
 };
 use bevy::{
     platform::time::Instant,
-    prelude::{Resource, World},
+    prelude::{Mut, Resource, World},
 };
 
 /// What the gate decided for the tick.
@@ -34,11 +40,31 @@ impl TickPlan {
 /// Runs the substep schedule as often as the plan says.
 pub(super) fn run_substeps(world: &mut World) {
     let substeps = world.resource::<TickPlan>().substeps;
+    world.resource_scope(|world, mut sleep: Mut<SleepState>| {
+        let mut particles = world.resource_mut::<ParticleStore>();
+        sleep.set_aside(&mut particles);
+        // What was poured or has come near in the last substep.
+        sleep.wake_touched(&mut particles);
+    });
     // Enters the pool once: the stages' own entries cost nothing from inside.
     let (workers, particles) = (world.resource::<Workers>().clone(), world.resource::<ParticleStore>().len());
+    if particles == 0 && !world.resource::<Effects>().get(Effect::Air).running {
+        put_back(world);
+        return;
+    }
     workers.run_tick(particles, || {
         for _ in 0..substeps {
             world.run_schedule(Substep);
         }
+    });
+    put_back(world);
+}
+
+/// The sleepers join those that are awake.
+fn put_back(world: &mut World) {
+    world.resource_scope(|world, mut sleep: Mut<SleepState>| {
+        world.resource_scope(|world, mut solver: Mut<SolverState>| {
+            sleep.put_back(&mut world.resource_mut::<ParticleStore>(), &mut solver.density);
+        });
     });
 }
