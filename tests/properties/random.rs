@@ -51,7 +51,7 @@ fn no_scene_and_no_hand_breaks_a_rule() {
     });
     match result {
         Ok(()) => {
-            assert!(refused < built / 4 + 2, "{refused} of {} scenes were refused: not valid ones", built + refused)
+            assert!(refused < built / 4 + 2, "{refused} of {} scenes were refused: not valid ones", built + refused);
         }
         Err(TestError::Fail(fault, case)) => {
             let kept = case.keep().map_or_else(|error| error.to_string(), |path| path.display().to_string());

@@ -188,7 +188,6 @@ fn speeds(sandbox: &Sandbox) -> Result<(), Fault> {
 }
 
 /// A world with a block of water and one of rock.
-
 fn small() -> Case {
     let scene = "(title: \"T\", spacing: 0.1, size: (2, 1), contents: [
         (element: \"rock\", shape: Rect(min: (1, 0), max: (1.2, 0.5))),

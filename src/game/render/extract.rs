@@ -177,6 +177,13 @@ impl<'a> Scene<'a> {
     }
 }
 
+/// What the last tick left besides the world: the predictor's grid, the tick's plan and its number.
+type LastTick<'w, 's> = (
+    Extract<'w, 's, Option<Res<'static, PredictorState>>>,
+    Extract<'w, 's, Option<Res<'static, TickPlan>>>,
+    Extract<'w, 's, Option<Res<'static, Clock>>>,
+);
+
 /// Copies the worlds out.
 #[expect(clippy::too_many_arguments, reason = "a system's parameters are its data flow")]
 pub fn extract(
@@ -191,11 +198,7 @@ pub fn extract(
     rock: Extract<Option<Res<Rock>>>,
     air: Extract<Option<Res<AirGrid>>>,
     solver: Extract<Option<Res<SolverState>>>,
-    (predictor, plan, clock): (
-        Extract<Option<Res<PredictorState>>>,
-        Extract<Option<Res<TickPlan>>>,
-        Extract<Option<Res<Clock>>>,
-    ),
+    (predictor, plan, clock): LastTick<'_, '_>,
     wisps: Extract<Res<Wisps>>,
     split: Extract<Res<Split>>,
     pace: Extract<Res<Pace>>,

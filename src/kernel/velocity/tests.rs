@@ -231,8 +231,8 @@ fn confinement_makes_no_wave_grow_faster_than_its_bound_says_whatever_its_streng
     for (strength, cut) in [(0.99 * bound, 0), (10.0 * bound, 400)] {
         // The wavelength that grows fastest, 1.7 h, and a short and a long one.
         for waves in [1.0, 1.7, 6.0] {
-            let turn = std::f32::consts::TAU / (waves * radius);
-            let mut bench = square(0.0, |at| Vec2::new(0.0, 10.0 * (turn * at.x).sin()));
+            let turn = std::f64::consts::TAU / f64::from(waves * radius);
+            let mut bench = square(0.0, |at| Vec2::new(0.0, (10.0 * (turn * f64::from(at.x)).sin()) as f32));
             bench.solve(false);
             for pass in 0..20 {
                 let before = kinetic_energy(&bench.particles);
