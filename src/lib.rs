@@ -6,9 +6,9 @@
 //! game::input   mouse and keys ─► intents (sim::intent), in world units
 //!     │
 //!     ▼  60 times a second, in FixedUpdate (sim::schedule, sim::stages)
-//! Edit ─► Sources ─► Count ─► Gate ─► Step ─► Measure
-//! intents   taps     census  effects   │      checks, cost
-//!                                      ▼  as often as the speeds call for
+//! Script ─► Edit ─► Sources ─► Count ─► Gate ─► Step ─► Measure
+//! cases      intents   taps     census  effects   │      checks, cost
+//!                                                 ▼  as often as the speeds call for
 //!             Air ─► Forces ─► Pressure ─► Predict ─► Bin ─► Solve ─► Velocity
 //!             each a thin system over one function of `kernel`
 //!     │

@@ -77,7 +77,7 @@ pub fn plugin(app: &mut App) {
     app.init_resource::<Split>().add_systems(
         FixedUpdate,
         (
-            copy_input.before(TickSystems::Edit).run_if(is_on),
+            copy_input.after(TickSystems::Script).before(TickSystems::Edit).run_if(is_on),
             tick_second_world.after(TickSystems::Measure).run_if(is_on),
         ),
     );

@@ -105,7 +105,7 @@ fn list(ui: &mut Ui, cases: &[Entry], rows: &[Row], setup: &Setup, height: f32) 
                     icons::draw(ui.painter(), icons::square(at, 11.0), icon, colour);
                 }
             }
-            let response = response.on_hover_text(about(case, rows));
+            let response = response.on_hover_ui(|ui| drop(ui.label(about(case, rows))));
             if response.clicked() {
                 clicked = Some(case.name);
             }
