@@ -79,7 +79,7 @@ impl Start {
         quality: Option<Preset>,
     ) -> Result<Self, Failure> {
         match Self::read(name_or_path, settings, quality, EffectModes::new())? {
-            Self::Saved(..) => Err(only_a_scene(name_or_path, "soak")),
+            Self::Saved(..) => Err(no_use(name_or_path, "a save file", "soak")),
             start => Ok(start),
         }
     }
