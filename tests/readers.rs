@@ -4,6 +4,11 @@
 #[path = "support/readers.rs"]
 mod readers;
 
+use powder_master::sim::{
+    recorder::{self, Recorder},
+    recording::Recording,
+    save,
+};
 use readers::{READERS, small_world};
 use std::{
     fs,
@@ -60,17 +65,24 @@ fn what_is_cut_or_changed_anywhere_breaks_no_reader() {
     }
 }
 
-/// The corpus of saves follows the format: this writes the seeds anew (`WRITE_CORPUS=1 cargo test --test readers`).
-#[test]
-fn the_seed_of_the_saves_is_of_this_format() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus/save/small");
-    let mut world = small_world();
-    world.tick();
-    let bytes = powder_master::sim::save::encode(world.world());
+/// The seed `file` of the corpus, written anew if that is wanted (`WRITE_CORPUS=1 cargo test --test readers`).
+fn seed(file: &str, bytes: &[u8]) -> Vec<u8> {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus").join(file);
     if std::env::var_os("WRITE_CORPUS").is_some() {
         fs::create_dir_all(file.parent().expect("has a folder")).expect("can be made");
-        fs::write(&file, &bytes).expect("can be written");
+        fs::write(&file, bytes).expect("can be written");
     }
-    let kept = fs::read(&file).expect("can be read");
-    powder_master::sim::save::decode(&kept).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
+    fs::read(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()))
+}
+
+#[test]
+fn the_seeds_of_saves_and_recordings_are_of_this_format() {
+    let mut world = small_world(recorder::plugin);
+    (0..3).for_each(|_| world.tick());
+    let kept = seed("save/small", &save::encode(world.world()));
+    save::decode(&kept).unwrap_or_else(|error| panic!("{error}"));
+    let world = world.world();
+    let recorded = world.resource::<Recorder>().last_minute(recorder::end_now(world));
+    let kept = seed("recording/small", &recorded);
+    Recording::decode(&kept).unwrap_or_else(|error| panic!("{error}"));
 }

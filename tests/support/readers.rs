@@ -2,10 +2,18 @@
 //! The corpus test runs them over files, the fuzzer over what it thinks of. Beside the reader's own limits they check what
 //! it promises: a fault is one line, and what is accepted is sound.
 
+use bevy::app::Plugins;
 use powder_master::{
     lab::headless::Headless,
     scene::{self, SceneError, blueprint::EffectModes, builtin_names, readers},
-    sim::{control, replay::Replay, save, snapshot::Snapshot, state::Setup, workers::Workers},
+    sim::{
+        control,
+        recording::{Recording, RecordingError},
+        save,
+        snapshot::Snapshot,
+        state::Setup,
+        workers::Workers,
+    },
     web::link::Link,
 };
 
@@ -19,7 +27,7 @@ pub const READERS: [Reader; 8] = [
     ("expression", read_expression),
     ("settings", read_settings),
     ("picture", read_picture),
-    ("replay", read_replay),
+    ("recording", read_recording),
     ("save", read_save),
     ("link", read_link),
 ];
@@ -77,11 +85,17 @@ fn read_picture(bytes: &[u8]) {
     }
 }
 
-fn read_replay(bytes: &[u8]) {
-    let Ok(text) = std::str::from_utf8(bytes) else { return };
-    let Some(elements) = judged(scene::elements()) else { unreachable!("the built-in table is sound") };
-    if let Err(error) = Replay::read(text, &elements) {
-        one_line(error);
+fn read_recording(bytes: &[u8]) {
+    let readers: [fn(&[u8]) -> Result<Recording, RecordingError>; 2] = [Recording::decode, Recording::salvage];
+    for reader in readers {
+        match reader(bytes) {
+            // Each state in it is a save file of its own.
+            Ok(recording) => {
+                let states = recording.stretches.iter().map(|stretch| stretch.start().map(go_on));
+                states.filter_map(Result::err).for_each(one_line);
+            }
+            Err(error) => one_line(error),
+        }
     }
 }
 
@@ -100,14 +114,14 @@ const MAGIC: &[u8] = b"PowderMaster\n";
 
 fn empty_save() -> &'static [u8] {
     static EMPTY: std::sync::OnceLock<Vec<u8>> = std::sync::OnceLock::new();
-    EMPTY.get_or_init(|| save::encode(small_world().world()))
+    EMPTY.get_or_init(|| save::encode(small_world(()).world()))
 }
 
-/// The small scene, not yet run.
-pub fn small_world() -> Headless {
+/// The small scene with more plugins, not yet run.
+pub fn small_world<M>(plugins: impl Plugins<M>) -> Headless {
     let blueprint = scene::from_text("small", SMALL).and_then(|file| file.build(&[], None, &EffectModes::new()));
     let blueprint = blueprint.unwrap_or_else(|error| panic!("{error}"));
-    Headless::new(std::sync::Arc::new(blueprint), Workers::single())
+    Headless::begin_with(Workers::single(), plugins, |world| control::load(world, std::sync::Arc::new(blueprint)))
 }
 
 /// A whole save file, or what stands behind its header.

@@ -1,3 +1,3 @@
 //! See `tests/support/readers.rs`.
 #![no_main]
-powder_master_fuzz::target!("replay");
+powder_master_fuzz::target!("recording");
