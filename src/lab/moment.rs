@@ -99,7 +99,7 @@ mod tests {
     #[test]
     fn a_run_that_sets_out_from_a_moment_is_the_run_that_went_on() {
         let settings = [("flow".to_owned(), "900".to_owned())];
-        let modes = EffectModes::from([(Effect::Vorticity, Mode::Off)]);
+        let modes = EffectModes::from([(Effect::Vorticity, Mode::Off), (Effect::Sleep, Mode::Off)]);
         let blueprint = scene::load("waterfall").unwrap().build(&settings, None, &modes).unwrap();
         let mut headless = Headless::new(Arc::new(blueprint), Workers::default());
         for _ in 0..10 {
