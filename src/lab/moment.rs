@@ -85,8 +85,6 @@ impl Moment {
             for (effect, mode) in &self.effects {
                 effects.get_mut(*effect).mode = *mode;
             }
-            // What sleeps costs the same at every quality, and errs by the same: it says nothing of any.
-            effects.get_mut(Effect::Sleep).mode = Mode::Off;
         })
     }
 }

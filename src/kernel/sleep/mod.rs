@@ -443,6 +443,9 @@ impl Sleep {
     fn wake_turned(&mut self, particles: &mut Particles) -> Range<usize> {
         let end = self.asleep();
         let mut kept = 0;
+        // What woke is not calm because it was so before.
+        let turned = self.record.tiles.iter_mut().zip(&self.flags).filter(|(_, flags)| **flags & TURNS != 0);
+        turned.for_each(|(calm, _)| *calm = Calm::default());
         self.room.clear();
         for i in 0..end {
             if self.flags[self.grid.tile(self.x[i], self.y[i])] & TURNS != 0 {

@@ -75,6 +75,7 @@ fn what_was_taken_or_pushed_wakes_its_body_alone() {
     sleep.check(&mut particles, 7);
     assert_eq!((sleep.asleep(), particles.len()), (200, 299));
     assert_eq!(particles.id[..200], (0..200).collect::<Vec<u32>>());
+    assert_eq!(sleep.watch(&mut particles, &mut [], SIZE, 7), 0, "what woke sleeps at the next look");
 
     let (mut sleep, mut particles) = asleep();
     particles.vy[10] = 1.0;

@@ -15,8 +15,10 @@ use crate::{
         sampler::{Sampler, ms},
         stats,
     },
+    scene::blueprint::{Effect, Mode},
     sim::{
         control,
+        effects::Effects,
         ledger::PassLedger,
         state::{ParticleStore, Rock, Setup},
         workers::Workers,
@@ -41,6 +43,8 @@ pub(super) fn run(
     // What the preset is called makes no difference to the run.
     let preset = setting.preset.unwrap_or(Preset::Fast);
     let mut headless = moment.go_on(preset, setting.quality, workers.clone());
+    // What sleeps costs the same at every quality, and errs by the same: it says nothing of any.
+    headless.world_mut().resource_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off;
     let density = mean_density(headless.world());
     let mut times = Times { warmup: plan.warmup, ..Times::default() };
     let found = if let Some(reference) = reference {
