@@ -17,7 +17,7 @@ use glam::{IVec2, Vec2};
 use powder_master::kernel::air::Air;
 use powder_master::kernel::element::ElementId;
 use powder_master::kernel::parallel::Team;
-use powder_master::kernel::params::{AirParams, OpenSides};
+use powder_master::kernel::params::{AIR_DENSITY, AirParams, OpenSides};
 use powder_master::kernel::simd::InstructionSet;
 use powder_master::kernel::solids::Solids;
 use powder_master::kernel::units::TICK_SECONDS;
@@ -39,7 +39,7 @@ fn windy(columns: usize, rows: usize) -> Air {
         }
     }
     let size = Vec2::new(columns as f32, rows as f32) * CELL;
-    let mut air = Air::new(size, CELL, AirParams { sound_speed: SOUND, open: OpenSides::default() });
+    let mut air = Air::new(size, CELL, AirParams { sound_speed: SOUND, density: AIR_DENSITY, open: OpenSides::default() });
     air.set_solids(&solids);
     stir(&mut air, size);
     air

@@ -26,10 +26,9 @@ pub struct PredictReport {
     pub speed_clamps: u64,
 }
 
-/// Substeps for a tick of `tick` s: the quality's, more if the fastest particle would move too far in one, up to four
-/// times the quality's.
-pub fn substeps(particles: &Particles, domain: &Domain, quality: &Quality, tick: f32) -> u32 {
-    let fastest = fastest(&particles.vx, &particles.vy);
+/// Substeps for a tick of `tick` s: the quality's, more if the fastest particle (d/s) would move too far in one, up to
+/// four times the quality's.
+pub fn substeps(fastest: f32, domain: &Domain, quality: &Quality, tick: f32) -> u32 {
     let fastest = fastest + domain.gravity.length() * tick;
     let wanted = (fastest * tick / (MOVE_RADII * quality.kernel_radius)).ceil();
     // A cast saturates, so that any speed gives a number.
@@ -37,7 +36,7 @@ pub fn substeps(particles: &Particles, domain: &Domain, quality: &Quality, tick:
 }
 
 /// Speed of the fastest, d/s.
-fn fastest(vx: &[f32], vy: &[f32]) -> f32 {
+pub fn fastest(vx: &[f32], vy: &[f32]) -> f32 {
     let mut most = [0.0_f32; BLOCK];
     for (vx, vy) in vx.chunks(BLOCK).zip(vy.chunks(BLOCK)) {
         for ((most, vx), vy) in most.iter_mut().zip(vx).zip(vy) {

@@ -5,8 +5,10 @@
 //! behind a closed one it is solid.
 
 use super::band::Band;
+use super::feedback::Feedback;
 use super::shape::Shape;
 use super::step::{AirReport, Room};
+use super::tiles::{Tiling, Watch};
 use crate::kernel::params::{AirParams, OpenSides};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
@@ -44,6 +46,10 @@ pub struct Air {
     /// Whether the mass at hand must survive the first `set_solids` (air that was resampled), or pressure 1 (new air).
     pub(super) keep_mass: bool,
     pub(super) quiet: bool,
+    /// Tiles that are awake (see `tiles`); none while the air is quiet.
+    pub(super) awake: Vec<bool>,
+    /// Pressure at which each room comes to rest; empty if it must be found anew.
+    pub(super) rests: Vec<f32>,
     /// What tools had to clamp since the last step.
     pub(super) pending: AirReport,
     #[serde(skip)]
@@ -59,11 +65,15 @@ pub(super) struct Scratch {
     pub(super) next_y: Vec<f32>,
     pub(super) bands: Vec<Band>,
     pub(super) rooms: Vec<Room>,
+    /// Whether tiles may sleep: a wish, which a copy keeps.
+    pub(super) sleeps: bool,
+    pub(super) watch: Watch,
+    pub(super) feedback: Feedback,
 }
 
 impl Clone for Scratch {
     fn clone(&self) -> Self {
-        Self::default()
+        Self { sleeps: self.sleeps, ..Self::default() }
     }
 }
 
@@ -95,6 +105,7 @@ impl Peaks {
 #[serde(remote = "AirParams")]
 struct StoredParams {
     sound_speed: f32,
+    density: f32,
     open: OpenSides,
 }
 
@@ -115,6 +126,8 @@ struct Stored {
     solids_version: Option<u64>,
     keep_mass: bool,
     quiet: bool,
+    awake: Vec<bool>,
+    rests: Vec<f32>,
     pending: AirReport,
 }
 
@@ -137,9 +150,15 @@ impl TryFrom<Stored> for Air {
         if stored.pressure.iter().any(|p| *p < 0.0) {
             return Err("air: every pressure must be 0 or more".to_owned());
         }
-        let lengths = [stored.cell, stored.size.x, stored.size.y, stored.params.sound_speed];
+        if stored.awake.len() != Tiling::new(columns, rows).count() {
+            return Err(format!("air: {} values tell which tiles are awake", stored.awake.len()));
+        }
+        if stored.rests.len() > cells || stored.rests.iter().any(|rest| !rest.is_finite() || *rest < 0.0) {
+            return Err("air: every pressure of rest must be finite and 0 or more".to_owned());
+        }
+        let lengths = [stored.cell, stored.size.x, stored.size.y, stored.params.sound_speed, stored.params.density];
         if lengths.iter().any(|length| !length.is_finite() || *length <= 0.0) {
-            return Err("air: size, cell and sound_speed must be finite and positive".to_owned());
+            return Err("air: size, cell, sound_speed and density must be finite and positive".to_owned());
         }
         // The size is what a change of cells goes by.
         let expected = (stored.size / stored.cell).ceil().max(Vec2::ONE);
@@ -163,6 +182,8 @@ impl TryFrom<Stored> for Air {
             solids_version: stored.solids_version,
             keep_mass: stored.keep_mass,
             quiet: stored.quiet,
+            awake: stored.awake,
+            rests: stored.rests,
             pending: stored.pending,
             scratch: Scratch::default(),
         })
@@ -197,6 +218,8 @@ impl Air {
             solids_version: None,
             keep_mass: false,
             quiet: true,
+            awake: vec![false; Tiling::new(columns, rows).count()],
+            rests: Vec::new(),
             pending: AirReport::default(),
             scratch: Scratch::default(),
         }
@@ -262,7 +285,8 @@ impl Air {
         let cells = self.pressure.len();
         let buffers = self.scratch.next_pressure.len() * 3 + self.scratch.bands.iter().map(Band::values).sum::<usize>();
         let shape = self.scratch.shape.as_ref().map_or(0, Shape::memory_bytes);
-        cells * 13 + self.outside.len() * 4 + buffers * 4 + shape
+        let state = cells * 13 + self.outside.len() * 4 + self.awake.len() + self.rests.len() * 4;
+        state + buffers * 4 + shape + self.scratch.watch.memory_bytes() + self.scratch.feedback.memory_bytes()
     }
 
     /// Values between a cell and the one above it.

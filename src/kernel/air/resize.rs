@@ -49,7 +49,8 @@ impl Air {
         self.copy_outside(&mut air);
         air.scale_to(self.mass());
         air.keep_mass = true;
-        air.quiet = false;
+        air.wake_all();
+        air.scratch.sleeps = self.scratch.sleeps;
         air.pending = self.pending;
         air
     }

@@ -52,6 +52,7 @@ impl Air {
             let wanted = before + amount * weight;
             air.pressure[k] = wanted.clamp(0.0, MAX_PRESSURE);
             air.pending.pressure_clamps += u64::from(air.pressure[k] != wanted);
+            air.rests.clear();
             air.pressure[k] != before
         });
     }
@@ -66,8 +67,11 @@ impl Air {
                 let k = self.index(column, row);
                 if !self.solid[k] {
                     self.pending.pressure_clamps += u64::from(cut);
-                    self.quiet &= self.pressure[k] == bounded;
-                    self.pressure[k] = bounded;
+                    if self.pressure[k] != bounded {
+                        self.pressure[k] = bounded;
+                        self.touch(k);
+                        self.rests.clear();
+                    }
                 }
             }
         }
@@ -83,7 +87,8 @@ impl Air {
                 self.pressure[k] = if self.solid[k] { 0.0 } else { 1.0 };
             }
         }
-        self.quiet = true;
+        self.rests.clear();
+        self.set_quiet();
     }
 
     /// Whether a fan would change air at rest.
@@ -92,6 +97,23 @@ impl Air {
             let Window { columns, rows } = self.window(wind.area);
             rows.into_iter().any(|row| columns.clone().any(|column| !self.solid[self.index(column, row)]))
         })
+    }
+
+    /// Wakes the tiles in which fans blow.
+    pub(super) fn wake_fans(&mut self, winds: &[Wind]) {
+        let tiling = self.tiling();
+        for wind in winds {
+            if !self.is_driven(std::slice::from_ref(wind)) {
+                continue;
+            }
+            let Window { columns, rows } = self.window(wind.area);
+            for tile in 0..tiling.count() {
+                let overlaps = |a: &Range<usize>, b: Range<usize>| a.start.max(b.start) < a.end.min(b.end);
+                if overlaps(&columns, tiling.columns(tile)) && overlaps(&rows, tiling.rows(tile)) {
+                    self.wake(tile);
+                }
+            }
+        }
     }
 
     /// Drives the air in the fans' areas for a time dt (s): the implicit step of `du/dt = rate (target − u)`, which
@@ -146,8 +168,9 @@ impl Air {
                 let k = self.index(column, row);
                 if distance < 1.0 && !self.solid[k] {
                     let falloff = 1.0 - distance;
-                    let changed = act(self, k, falloff * falloff);
-                    self.quiet &= !changed;
+                    if act(self, k, falloff * falloff) {
+                        self.touch(k);
+                    }
                 }
             }
         }

@@ -75,6 +75,7 @@ fn numbers(contents: &Contents) -> Verdict {
     within("tension_distance", fluid.tension_distance, 0.1, 0.3)?;
     self::quality(quality)?;
     within("sound_speed", air_params.sound_speed * scale.spacing, 1.0 / ROUNDING, 400.0 * ROUNDING)?;
+    within("air_density", air_params.density, 0.01, 1000.0)?;
     within("particle_limit", contents.particle_limit as f32, 1.0, 4e6)
 }
 

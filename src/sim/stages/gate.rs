@@ -1,8 +1,8 @@
 //! Decides which effects run in a tick, and how many substeps it takes.
 
 use crate::{
-    kernel::{element::Element, predict, units::TICK_SECONDS},
-    scene::blueprint::Effect,
+    kernel::{air::QUIET_MACH, element::Element, params::Preset, predict, units::TICK_SECONDS},
+    scene::blueprint::{Effect, Mode},
     sim::{
         effects::Effects,
         stages::TickPlan,
@@ -27,18 +27,40 @@ pub(super) fn plan_tick(
         counted.any(|((_, element), &count)| count > 0 && !element.fixed && wanted(element))
     };
     let called = |called: bool, yes: &'static str, no: &'static str| (called, if called { yes } else { no });
+    let feels_air = present(&|element| element.drag > 0.0);
+    let drag_runs = match effects.get(Effect::Drag).mode {
+        Mode::Auto => feels_air,
+        mode => mode == Mode::On,
+    };
+    let air_is_off = effects.get(Effect::Air).mode == Mode::Off;
+    let fastest = predict::fastest(&particles.vx, &particles.vy);
+    // A new velocity of the air is a mean of velocities, so slower particles wake no tile.
+    let stirs = fastest > QUIET_MACH * air.params().sound_speed;
     effects.decide(
-        Effect::Air,
-        if sources.winds.is_empty() {
-            called(!air.is_quiet(), "the air moves", "the air is still")
+        Effect::AirFeedback,
+        if air_is_off {
+            (false, "the air is switched off")
+        } else if !drag_runs || !feels_air {
+            (false, "no particle feels the air")
+        } else if setup.preset == Preset::Classic {
+            (false, "not in this quality")
         } else {
-            (true, "a fan drives the air")
+            called(stirs || !air.is_quiet(), "particles meet moving air", "particles and air are still")
         },
     );
+    let fed = effects.get(Effect::AirFeedback).running;
     effects.decide(
-        Effect::Drag,
-        called(present(&|element| element.drag > 0.0), "particles feel the air", "no particle feels the air"),
+        Effect::Air,
+        if !sources.winds.is_empty() {
+            (true, "a fan drives the air")
+        } else if fed && air.is_quiet() {
+            (true, "particles drag it along")
+        } else {
+            called(!air.is_quiet(), "the air moves", "the air is still")
+        },
     );
+    effects.decide(Effect::Drag, called(feels_air, "particles feel the air", "no particle feels the air"));
+    effects.decide(Effect::Sleep, called(!air.is_quiet(), "calm air sleeps by tiles", "nothing moves"));
     effects.decide(
         Effect::Predictor,
         if setup.quality.predictor {
@@ -63,6 +85,6 @@ pub(super) fn plan_tick(
         Effect::Vorticity,
         called(present(&|element| element.vorticity > 0.0), "a liquid keeps its eddies", "nothing keeps its eddies"),
     );
-    plan.substeps = predict::substeps(&particles, &setup.blueprint.domain, &setup.quality, TICK_SECONDS);
+    plan.substeps = predict::substeps(fastest, &setup.blueprint.domain, &setup.quality, TICK_SECONDS);
     counters.substeps_max = counters.substeps_max.max(plan.substeps);
 }
