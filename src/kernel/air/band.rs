@@ -50,6 +50,7 @@ impl Band {
             (row[0], row[width - 1]) = (1.0, 1.0);
         }
         self.advection.begin();
+        self.peaks = Peaks::default();
     }
 
     /// Values held.

@@ -56,6 +56,9 @@ impl Feedback {
     }
 }
 
+/// Particles to a d² that a gate reckons with: twice as many as there are in water.
+const CROWD: f32 = 2.0;
+
 /// When particles wake air that sleeps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rousing {
@@ -88,6 +91,13 @@ struct Party {
 }
 
 impl Air {
+    /// Whether a crowd of particles of a speed (d/s) could wake air at rest at pressure 1 in a substep of `dt` s.
+    pub fn may_be_roused(&self, drag: DragTable, speed: f32, dt: f32) -> bool {
+        let loads = drag.rates.iter().zip(drag.masses).map(|(rate, mass)| CROWD * mass * (rate * speed * dt).min(1.0));
+        let load = loads.fold(0.0, f32::max);
+        speed * load / (self.params.density + load) > QUIET_MACH * self.params.sound_speed
+    }
+
     /// First half of the exchange over `dt` s: finds the velocity that the air gets. [`Air::drag_along`] must follow with
     /// the same particles. `team` changes the time it takes and not a bit of the result.
     pub fn meet(&mut self, drag: DragTable, particles: &Particles, rousing: Rousing, team: Team, dt: f32) {
@@ -107,8 +117,12 @@ impl Air {
                 let meeting = [brought * velocity[0], brought * velocity[1], brought, 0.0];
                 let k = at.k - first * stride;
                 let (left, right) = (1.0 - at.x, at.x);
-                let corners =
-                    [(k, left * (1.0 - at.y)), (k + 1, right * (1.0 - at.y)), (k + stride, left * at.y), (k + stride + 1, right * at.y)];
+                let corners = [
+                    (k, left * (1.0 - at.y)),
+                    (k + 1, right * (1.0 - at.y)),
+                    (k + stride, left * at.y),
+                    (k + stride + 1, right * at.y),
+                ];
                 for (k, weight) in corners {
                     for (sum, value) in meetings[k].iter_mut().zip(meeting) {
                         *sum += weight * value;
@@ -131,9 +145,7 @@ impl Air {
                 let i = base + i;
                 let Party { at, share } = air.party(drag, element[i], [x[i], y[i]], [*vx, *vy], dt);
                 let (low, high) = (&meetings[at.k..at.k + 2], &meetings[at.k + stride..at.k + stride + 2]);
-                let wind = |axis: usize| {
-                    at.mix([low[0][axis], low[1][axis]], [high[0][axis], high[1][axis]])
-                };
+                let wind = |axis: usize| at.mix([low[0][axis], low[1][axis]], [high[0][axis], high[1][axis]]);
                 let (u, v) = (wind(0), wind(1));
                 *vx += share * (u - *vx);
                 *vy += share * (v - *vy);
@@ -166,8 +178,7 @@ impl Air {
         let meetings = &mut feedback.meetings[first..reached.end * stride];
         spread([meetings], WORTH_RESOLVING, threads, &|base, [meetings]| {
             let cells = first + base..first + base + meetings.len();
-            let [p, u, v] =
-                [&self.pressure, &self.velocity_x, &self.velocity_y].map(|field| &field[cells.clone()]);
+            let [p, u, v] = [&self.pressure, &self.velocity_x, &self.velocity_y].map(|field| &field[cells.clone()]);
             for (i, meeting) in meetings.iter_mut().enumerate() {
                 let [x, y, load, _] = *meeting;
                 let mass = p[i] * cell_mass;

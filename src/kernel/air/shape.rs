@@ -190,7 +190,7 @@ impl Shape {
         }
         self.turns.clear();
         let (tiling, stride) = (air.tiling(), air.stride());
-        let width = tiling.size()[0];
+        let [width, height] = tiling.size();
         self.find_turns(air, active);
         for tile in 0..tiling.count() {
             let (columns, rows) = (tiling.columns(tile), tiling.rows(tile));
@@ -201,6 +201,18 @@ impl Shape {
             if tile >= width && active[tile] != active[tile - width] {
                 let first = (tiling.rows(tile).start + 1) * stride;
                 close(columns.map(|column| first + column + 1), &mut self.open_y, &mut self.fences_y);
+            }
+        }
+        // Where one of the four tiles that meet is active, the sleeping cell across from its own must not send it
+        // anything, for it would give nothing away: no share goes both ways if it can't go sideways.
+        for (j, i) in (1..height).flat_map(|j| (1..width).map(move |i| (j, i))) {
+            let upper_right = j * width + i;
+            let around = [upper_right - width - 1, upper_right - width, upper_right - 1, upper_right];
+            let mut awake = (0..4).filter(|place| active[around[*place]]);
+            if let (Some(place), None) = (awake.next(), awake.next()) {
+                let row = tiling.rows(upper_right).start + usize::from(place / 2 == 0);
+                let face = row * stride + tiling.columns(upper_right).start + 1;
+                close(std::iter::once(face), &mut self.open_x, &mut self.fences_x);
             }
         }
     }
@@ -222,7 +234,8 @@ impl Shape {
             let asleep = (row - usize::from(!up)) * stride + column - usize::from(!right);
             let (source_row, source_column) = (row - usize::from(up), column - usize::from(right));
             // The faces of the source towards the two others.
-            let open = self.open_x[source_row * stride + column] != 0.0 && self.open_y[row * stride + source_column] != 0.0;
+            let open =
+                self.open_x[source_row * stride + column] != 0.0 && self.open_y[row * stride + source_column] != 0.0;
             if open && !air.solid[asleep] {
                 self.turns.push(Turn { row: source_row as u32, column: source_column as u32, right, up });
             }

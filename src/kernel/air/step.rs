@@ -116,6 +116,7 @@ impl Air {
     /// Whether so much is awake that threads gain more than starting them costs.
     pub fn is_worth_sharing(&self) -> bool {
         let (awake, tiles) = self.awake_tiles();
+        let awake = if self.scratch.sleeps { awake } else { tiles };
         self.columns() * self.rows() * awake >= PARALLEL_CELLS * tiles
     }
 
@@ -253,11 +254,8 @@ impl Air {
             for Block { rows, columns } in blocks {
                 let rows = (rows.start + 1).max(first)..(rows.end + 1).min(end);
                 if !rows.is_empty() {
-                    let target = Target {
-                        pressure: &mut *pressure,
-                        velocity_x: &mut *velocity_x,
-                        velocity_y: &mut *velocity_y,
-                    };
+                    let target =
+                        Target { pressure: &mut *pressure, velocity_x: &mut *velocity_x, velocity_y: &mut *velocity_y };
                     let source = Source { left: columns.start, width: columns.len() + 2, ..source };
                     let band = &mut *band;
                     instructions.run_by_register(BandPass { band, source, push, rows, first, target });

@@ -85,7 +85,10 @@ fn flows_come_out_in_spacings_and_ticks() {
     assert_eq!((world.winds[0].area, world.winds[0].velocity), (rect(2.0, 2.0, 4.0, 8.0), Vec2::new(6.0, -2.0)));
     assert_eq!(world.drains[0].area, rect(8.0, -1.0, 11.0, 2.0));
     assert_eq!((world.pressures[0].area, world.pressures[0].pressure), (rect(2.0, 2.0, 4.0, 4.0), 1.5));
-    assert_eq!(world.air, AirParams { sound_speed: 20.0, density: AIR_DENSITY, open: OpenSides { top: true, ..Default::default() } });
+    assert_eq!(
+        world.air,
+        AirParams { sound_speed: 20.0, density: AIR_DENSITY, open: OpenSides { top: true, ..Default::default() } }
+    );
     assert_eq!(world.first_element.as_deref(), Some("rock"));
 }
 

@@ -1,12 +1,12 @@
 //! Decides which effects run in a tick, and how many substeps it takes.
 
 use crate::{
-    kernel::{air::QUIET_MACH, element::Element, params::Preset, predict, units::TICK_SECONDS},
+    kernel::{element::Element, forces::DragTable, params::Preset, predict, units::TICK_SECONDS},
     scene::blueprint::{Effect, Mode},
     sim::{
         effects::Effects,
         stages::TickPlan,
-        state::{AirGrid, Census, Counters, ParticleStore, Setup, Sources},
+        state::{AirGrid, Census, Counters, ParticleStore, Rates, Setup, Sources},
     },
 };
 use bevy::prelude::{Res, ResMut};
@@ -18,6 +18,7 @@ pub(super) fn plan_tick(
     air: Res<AirGrid>,
     sources: Res<Sources>,
     census: Res<Census>,
+    rates: Res<Rates>,
     mut effects: ResMut<Effects>,
     mut counters: ResMut<Counters>,
     mut plan: ResMut<TickPlan>,
@@ -34,8 +35,8 @@ pub(super) fn plan_tick(
     };
     let air_is_off = effects.get(Effect::Air).mode == Mode::Off;
     let fastest = predict::fastest(&particles.vx, &particles.vy);
-    // A new velocity of the air is a mean of velocities, so slower particles wake no tile.
-    let stirs = fastest > QUIET_MACH * air.params().sound_speed;
+    let drag = DragTable { rates: &rates.drag, masses: &rates.mass };
+    let stirs = air.may_be_roused(drag, fastest, TICK_SECONDS / setup.quality.substeps as f32);
     effects.decide(
         Effect::AirFeedback,
         if air_is_off {

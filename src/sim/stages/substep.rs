@@ -1,7 +1,12 @@
 //! The stages of a substep.
 
 use crate::{
-    kernel::{air::Rousing, forces::{self, DragTable}, parallel::Team, pbf, predict, predictor, velocity},
+    kernel::{
+        air::Rousing,
+        forces::{self, DragTable},
+        parallel::Team,
+        pbf, predict, predictor, velocity,
+    },
     scene::blueprint::{Effect, Mode},
     sim::{
         effects::Effects,

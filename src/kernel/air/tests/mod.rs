@@ -1,7 +1,9 @@
 //! Tests of the air as a whole: each name says what would be wrong if it failed.
 
+mod feedback;
 mod limits;
 mod scheme;
+mod sleep;
 mod tools;
 mod walls;
 mod waves;
