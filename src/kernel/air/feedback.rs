@@ -99,7 +99,7 @@ impl Air {
     }
 
     /// First half of the exchange over `dt` s: finds the velocity that the air gets. [`Air::drag_along`] must follow with
-    /// the same particles. `team` changes the time it takes and not a bit of the result.
+    /// the same particles. The air must be built. `team` changes the time it takes and not a bit of the result.
     pub fn meet(&mut self, drag: DragTable, particles: &Particles, rousing: Rousing, team: Team, dt: f32) {
         let mut feedback = std::mem::take(&mut self.scratch.feedback);
         feedback.meetings.resize(self.pressure.len(), Meeting::default());

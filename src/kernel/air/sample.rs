@@ -53,6 +53,9 @@ impl Air {
     /// Velocity at a point (d), d/s: bilinear between cell centres, and that of the nearest centre line beyond the
     /// outermost centres. Rock counts as air at rest.
     pub fn sample_velocity(&self, p: Vec2) -> Vec2 {
+        if !self.is_built() {
+            return Vec2::ZERO;
+        }
         let at = self.stencil(p.x, p.y, 1.0 / self.cell);
         Vec2::new(self.blend(&self.velocity_x, &at), self.blend(&self.velocity_y, &at))
     }
@@ -60,6 +63,11 @@ impl Air {
     /// [`Air::sample_velocity`] at many points, with the same bits.
     pub fn sample_velocities(&self, x: &[f32], y: &[f32], out_u: &mut [f32], out_v: &mut [f32]) {
         debug_assert!(x.len() == y.len() && x.len() == out_u.len() && x.len() == out_v.len());
+        if !self.is_built() {
+            out_u.fill(0.0);
+            out_v.fill(0.0);
+            return;
+        }
         let per_cell = 1.0 / self.cell;
         for (((x, y), u), v) in x.iter().zip(y).zip(out_u).zip(out_v) {
             let at = self.stencil(*x, *y, per_cell);
@@ -70,6 +78,9 @@ impl Air {
 
     /// Pressure at a point (d): bilinear between the centres of open cells; 0 where all cells around are rock.
     pub fn sample_pressure(&self, p: Vec2) -> f32 {
+        if !self.is_built() {
+            return 1.0;
+        }
         let at = self.stencil(p.x, p.y, 1.0 / self.cell);
         let corners = [
             (at.k, (1.0 - at.x) * (1.0 - at.y)),

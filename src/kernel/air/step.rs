@@ -117,16 +117,16 @@ impl Air {
     pub fn is_worth_sharing(&self) -> bool {
         let (awake, tiles) = self.awake_tiles();
         let awake = if self.scratch.sleeps { awake } else { tiles };
-        self.columns() * self.rows() * awake >= PARALLEL_CELLS * tiles
+        awake > 0 && self.columns() * self.rows() * awake >= PARALLEL_CELLS * tiles
     }
 
     /// Moves the air on by `dt` (s) in substeps that keep wind plus sound below `courant` cells (0.1 … 0.9; up to
     /// [`STABLE_COURANT`] is taken). `team` changes the time it takes and not a bit of the result. Quiet air that no fan
-    /// drives is left untouched.
+    /// drives is left untouched, as is air that is not built.
     pub fn step(&mut self, winds: &[Wind], courant: f32, team: Team, dt: f32) -> AirReport {
         debug_assert!(dt.is_finite() && courant.is_finite());
         let mut report = std::mem::take(&mut self.pending);
-        let driven = self.is_driven(winds);
+        let driven = self.is_built() && self.is_driven(winds);
         if (self.quiet && !driven) || dt.is_nan() || dt <= 0.0 {
             return report;
         }

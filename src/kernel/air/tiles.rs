@@ -208,30 +208,22 @@ impl Air {
         let Watch { active, blocks, looked_at, next_active, .. } = watch;
         tiling.widen(&self.awake, next_active);
         let fresh = active.len() != next_active.len();
-        if !fresh && active == next_active {
-            return false;
-        }
         if self.scratch.sleeps {
             // What a tile was before is not known to a grid that was just copied: it was one of these.
             let left = |tile: &usize| !next_active[*tile] && (fresh || looked_at[*tile] || active[*tile]);
             for tile in (0..tiling.count()).filter(left) {
                 self.still(tile);
-            }
-            if fresh {
-                next_pressure.copy_from_slice(&self.pressure);
-                next_x.copy_from_slice(&self.velocity_x);
-                next_y.copy_from_slice(&self.velocity_y);
-            } else {
-                for tile in (0..tiling.count()).filter(left) {
-                    for row in tiling.rows(tile) {
-                        let columns = tiling.columns(tile);
-                        let cells = self.index(columns.start, row)..self.index(columns.start, row) + columns.len();
-                        next_pressure[cells.clone()].copy_from_slice(&self.pressure[cells.clone()]);
-                        next_x[cells.clone()].fill(0.0);
-                        next_y[cells].fill(0.0);
-                    }
+                let columns = tiling.columns(tile);
+                for row in tiling.rows(tile) {
+                    let cells = self.index(columns.start, row)..self.index(columns.start, row) + columns.len();
+                    next_pressure[cells.clone()].copy_from_slice(&self.pressure[cells.clone()]);
+                    next_x[cells.clone()].fill(0.0);
+                    next_y[cells].fill(0.0);
                 }
             }
+        }
+        if !fresh && active == next_active {
+            return false;
         }
         std::mem::swap(active, next_active);
         cover(tiling, active, blocks);

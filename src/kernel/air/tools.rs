@@ -26,7 +26,7 @@ fn bounded_velocity(velocity: Vec2) -> (Vec2, u64) {
 
 impl Air {
     /// The wind tool: blends the velocity in a soft disc towards `velocity` (d/s, up to [`MAX_SPEED`] along an axis),
-    /// wholly at `centre` (d), not at all from `radius` (d) on. A disc smaller than a cell is taken as large as one.
+    /// wholly at `centre` (d), not at all from `radius` (d) on. The air must be built. A disc smaller than a cell is taken as large as one.
     pub fn blow(&mut self, centre: Vec2, radius: f32, velocity: Vec2) {
         let (velocity, cuts) = bounded_velocity(velocity);
         self.pending.speed_clamps += cuts;
@@ -40,6 +40,7 @@ impl Air {
     }
 
     /// The pressure tool: adds `amount` to the pressure at `centre` (d), less around it, nothing from `radius` (d) on.
+    /// The air must be built.
     /// The result is kept within 0 … [`MAX_PRESSURE`], and each cell where that changed it is counted.
     pub fn press(&mut self, centre: Vec2, radius: f32, amount: f32) {
         if amount.is_nan() {
@@ -58,9 +59,13 @@ impl Air {
     }
 
     /// Sets the pressure of the cells whose centre is in `area` (d): 0 … [`MAX_PRESSURE`], 1 for what is no number.
+    /// The air must be built.
     pub fn fill_pressure(&mut self, area: Rect, pressure: f32) {
         let bounded = if pressure.is_nan() { 1.0 } else { pressure.clamp(0.0, MAX_PRESSURE) };
         let cut = bounded != pressure;
+        if !self.is_built() {
+            return;
+        }
         let window = self.window(area);
         for row in window.rows {
             for column in window.columns.clone() {
@@ -93,6 +98,7 @@ impl Air {
 
     /// Whether a fan would change air at rest.
     pub(super) fn is_driven(&self, winds: &[Wind]) -> bool {
+        debug_assert!(self.is_built());
         winds.iter().filter(|wind| wind.rate > 0.0 && bounded_velocity(wind.velocity).0 != Vec2::ZERO).any(|wind| {
             let Window { columns, rows } = self.window(wind.area);
             rows.into_iter().any(|row| columns.clone().any(|column| !self.solid[self.index(column, row)]))
@@ -156,7 +162,7 @@ impl Air {
 
     /// Calls `act` for each open cell of a disc with its weight `(1 − r²/R²)²`; it says whether it changed the cell.
     fn for_each_in_disc(&mut self, centre: Vec2, radius: f32, mut act: impl FnMut(&mut Self, usize, f32) -> bool) {
-        if !(centre.is_finite() && radius.is_finite()) {
+        if !(centre.is_finite() && radius.is_finite() && self.is_built()) {
             return;
         }
         let radius = radius.max(self.cell);

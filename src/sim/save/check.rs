@@ -188,8 +188,11 @@ fn air(contents: &Contents) -> Verdict {
     within("number of pressures", contents.pressure.len() as f32, 0.0, most)
 }
 
-/// The air is closed where the rock is, and nowhere else.
+/// The air is closed where the rock is, and nowhere else. Air without a grid knows no rock.
 pub(super) fn air_follows_rock(air: &Air, solids: &Solids, domain: &Domain, params: AirParams) -> Verdict {
+    if !air.is_built() {
+        return Ok(());
+    }
     let mut expected = Air::new(domain.size, air.cell(), params);
     expected.set_solids(solids);
     let differ = |row: usize| {

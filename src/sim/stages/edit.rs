@@ -1,9 +1,14 @@
 //! Intents change the world.
 
 use crate::{
-    kernel::spawn::{EditReport, Matter},
+    kernel::{
+        element::ElementTable,
+        spawn::{EditReport, Matter},
+    },
+    scene::blueprint::{Effect, Mode},
     sim::{
         control::change_quality,
+        effects::Effects,
         intent::{Intent, IntentQueue},
         ledger::{Pass, PassLedger},
         replay::Recorder,
@@ -11,7 +16,7 @@ use crate::{
     },
 };
 use bevy::platform::time::Instant;
-use bevy::prelude::ResMut;
+use bevy::prelude::{Res, ResMut};
 
 /// Applies all waiting intents in order.
 pub(super) fn apply_intents(
@@ -24,6 +29,7 @@ pub(super) fn apply_intents(
     mut clock: ResMut<Clock>,
     mut counters: ResMut<Counters>,
     mut census: ResMut<Census>,
+    effects: Res<Effects>,
     mut ledger: ResMut<PassLedger>,
 ) {
     if queue.is_empty() {
@@ -38,6 +44,9 @@ pub(super) fn apply_intents(
             recorder.note(clock.tick, seed, intent);
         }
         clock.edits += 1;
+        if moves_air(&intent, effects.get(Effect::Air).mode, setup.elements(), &rock) {
+            air.build(&rock);
+        }
         let mut matter = Matter {
             elements: setup.elements(),
             particles: &mut particles,
@@ -77,4 +86,17 @@ pub(super) fn apply_intents(
         census.full = refused > 0;
     }
     ledger.note(Pass::Edit, start.elapsed());
+}
+
+/// Whether an intent may move air that has been at rest since the scene began. Rock that comes or goes does, unless there
+/// is no air to speak of.
+fn moves_air(intent: &Intent, air: Mode, elements: &ElementTable, rock: &Rock) -> bool {
+    match intent {
+        Intent::Blow { .. } | Intent::Press { .. } => true,
+        Intent::Draw { element, .. } | Intent::Stamp { element, .. } | Intent::Fill { element, .. } => {
+            air != Mode::Off && elements.get(*element).fixed
+        }
+        Intent::Erase { .. } => air != Mode::Off && rock.count() > 0,
+        Intent::ClearAir | Intent::Quality { .. } => false,
+    }
 }

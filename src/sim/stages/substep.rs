@@ -26,6 +26,7 @@ pub(super) fn step_air(
     setup: Res<Setup>,
     solver: Res<SolverState>,
     effects: Res<Effects>,
+    rock: Res<Rock>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
@@ -33,6 +34,9 @@ pub(super) fn step_air(
 ) {
     let start = Instant::now();
     let dt = plan.substep_seconds();
+    if !sources.winds.is_empty() {
+        air.build(&rock);
+    }
     air.allow_sleep(effects.get(Effect::Sleep).mode != Mode::Off);
     let (worth, instructions) = (air.is_worth_sharing(), solver.instructions);
     let report = workers.run_if(worth, |threads| {
@@ -63,13 +67,15 @@ pub(super) fn apply_drag(
     rates: Res<Rates>,
     solver: Res<SolverState>,
     effects: Res<Effects>,
+    rock: Res<Rock>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
     let (dt, feedback) = (plan.substep_seconds(), effects.get(Effect::AirFeedback));
-    if feedback.running {
+    if feedback.running && effects.get(Effect::Air).running {
+        air.build(&rock);
         let drag = DragTable { rates: &rates.drag, masses: &rates.mass };
         let rousing = if feedback.mode == Mode::On { Rousing::Breaths } else { Rousing::Gusts };
         let instructions = solver.instructions;
