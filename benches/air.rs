@@ -14,10 +14,12 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::{IVec2, Vec2};
-use powder_master::kernel::air::Air;
+use powder_master::kernel::air::{Air, Rousing};
 use powder_master::kernel::element::ElementId;
+use powder_master::kernel::forces::{DragTable, apply_drag};
 use powder_master::kernel::parallel::Team;
-use powder_master::kernel::params::{AirParams, OpenSides};
+use powder_master::kernel::params::{AIR_DENSITY, AirParams, OpenSides};
+use powder_master::kernel::particles::Particles;
 use powder_master::kernel::simd::InstructionSet;
 use powder_master::kernel::solids::Solids;
 use powder_master::kernel::units::TICK_SECONDS;
@@ -39,7 +41,8 @@ fn windy(columns: usize, rows: usize) -> Air {
         }
     }
     let size = Vec2::new(columns as f32, rows as f32) * CELL;
-    let mut air = Air::new(size, CELL, AirParams { sound_speed: SOUND, open: OpenSides::default() });
+    let mut air =
+        Air::new(size, CELL, AirParams { sound_speed: SOUND, density: AIR_DENSITY, open: OpenSides::default() });
     air.set_solids(&solids);
     stir(&mut air, size);
     air
@@ -77,5 +80,66 @@ fn substep(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, substep);
+/// A gust in a corner of 512 × 512 cells that has half a second, where tiles sleep and where they don't. A tick each.
+fn gust(c: &mut Criterion) {
+    const TICKS: u64 = 30;
+    let team = Team { instructions: InstructionSet::detect(), threads: 1 };
+    let mut group = c.benchmark_group("air with a gust in a corner");
+    group.sample_size(10);
+    for (name, sleeps) in [("tiles sleep", true), ("all awake", false)] {
+        group.bench_function(name, |bencher| {
+            bencher.iter_custom(|iterations| {
+                let (mut ticks, mut spent) = (0, Duration::ZERO);
+                while ticks < iterations {
+                    let params = AirParams { sound_speed: SOUND, density: AIR_DENSITY, open: OpenSides::default() };
+                    let mut air = Air::new(Vec2::splat(512.0 * CELL), CELL, params);
+                    air.allow_sleep(sleeps);
+                    air.blow(Vec2::splat(100.0), 40.0, Vec2::new(6.0, 3.0));
+                    let start = Instant::now();
+                    for _ in 0..TICKS {
+                        air.step(&[], 0.7, team, TICK_SECONDS);
+                    }
+                    spent += start.elapsed();
+                    ticks += TICKS;
+                }
+                spent.div_f64(ticks as f64 / iterations as f64)
+            });
+        });
+    }
+    group.finish();
+}
+
+/// Drag of water in strips, as the bins sort it, in moving air: of the particles alone, and of particles and air.
+fn drag(c: &mut Criterion) {
+    const COUNT: usize = 50_000;
+    let team = Team { instructions: InstructionSet::detect(), threads: 1 };
+    let size = Vec2::new(500.0, 300.0);
+    let params = AirParams { sound_speed: SOUND, density: AIR_DENSITY, open: OpenSides::default() };
+    let mut air = Air::new(size, CELL, params);
+    air.blow(size * 0.5, 400.0, Vec2::new(60.0, 20.0));
+    air.step(&[], 0.7, team, TICK_SECONDS);
+    let mut particles = Particles::default();
+    for i in 0..COUNT {
+        let (strip, place) = (i / 1500, i % 1500);
+        let at = Vec2::new((place / 3) as f32 + 0.5, (strip * 3 + place % 3) as f32 + 0.5);
+        particles.push(i as u32, ElementId(0), at, Vec2::new((i % 90) as f32, -50.0));
+    }
+    let table = DragTable { rates: &[0.0045], masses: &[1000.0] };
+    let mut group = c.benchmark_group("drag");
+    group.throughput(Throughput::Elements(COUNT as u64));
+    group.bench_function("of particles", |bencher| {
+        let mut particles = particles.clone();
+        bencher.iter(|| apply_drag(&air, table.rates, &mut particles, 1, 1.0e-6));
+    });
+    group.bench_function("of particles and air", |bencher| {
+        let (mut air, mut particles) = (air.clone(), particles.clone());
+        bencher.iter(|| {
+            air.meet(table, &particles, Rousing::Gusts, team, 1.0e-6);
+            air.drag_along(table, &mut particles, 1, 1.0e-6);
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, substep, gust, drag);
 criterion_main!(benches);

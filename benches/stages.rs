@@ -8,7 +8,7 @@ use glam::Vec2;
 use powder_master::kernel::{
     air::Air,
     forces,
-    params::{AirParams, OpenSides},
+    params::{AIR_DENSITY, AirParams, OpenSides},
     predictor::{Predictor, PredictorParams},
     simd::InstructionSet,
     velocity,
@@ -30,7 +30,7 @@ fn stages(criterion: &mut Criterion) {
     });
     group.bench_function("drag", |b| {
         let tank = Tank::new(best);
-        let params = AirParams { sound_speed: 1000.0, open: OpenSides::default() };
+        let params = AirParams { sound_speed: 1000.0, density: AIR_DENSITY, open: OpenSides::default() };
         let mut air = Air::new(tank.domain.size, 4.0, params);
         air.blow(Vec2::splat(50.0), 40.0, Vec2::new(30.0, 0.0));
         stage(b, tank, |tank| forces::apply_drag(&air, &[0.001], &mut tank.particles, 1, SUBSTEP));

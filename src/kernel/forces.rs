@@ -28,6 +28,15 @@ pub fn drag_rates(elements: &ElementTable, scale: Scale) -> Vec<f32> {
     elements.iter().map(|(_, element)| element.drag / (element.density * scale.spacing)).collect()
 }
 
+/// What drag needs to know of the elements, an entry each.
+#[derive(Clone, Copy, Debug)]
+pub struct DragTable<'a> {
+    /// k of `dv/dt = −k |v| v`, 1/d ([`drag_rates`]).
+    pub rates: &'a [f32],
+    /// Mass of a particle, kg/m² d²: its element's density.
+    pub masses: &'a [f32],
+}
+
 /// Drags every particle towards the air at its place with `F = C v²`, v being its velocity relative to the air.
 ///
 /// `dv/dt = −k |v| v` has the exact solution `v / (1 + k |v| Δt)`, which neither overshoots nor reverses at any C. The

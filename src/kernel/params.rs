@@ -55,9 +55,14 @@ pub struct AirParams {
     /// Speed of sound c, d/s: pressure differences accelerate the air by `−c² ∇p`. Raising it makes the air stiffer and
     /// costs substeps.
     pub sound_speed: f32,
+    /// Density at pressure 1, kg/m²: what the air weighs against the particles that drag it (`air_feedback`). 0.01 … 1000.
+    pub density: f32,
     /// Sides that are open to the surroundings.
     pub open: OpenSides,
 }
+
+/// Density of real air of a depth of 1 m at pressure 1, kg/m².
+pub const AIR_DENSITY: f32 = 1.2;
 
 /// The gradient kernel of the density constraint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

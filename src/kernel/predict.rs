@@ -35,15 +35,14 @@ pub struct Substeps {
     pub short: bool,
 }
 
-/// Substeps for a tick of `tick` s: the quality's, more if the fastest particle would move too far in one, up to four
-/// times the quality's.
+/// Substeps for a tick of `tick` s: the quality's, more if the fastest particle (d/s) would move too far in one, up to
+/// four times the quality's.
 ///
 /// **The bound.** A move is explicit, `x + v Δt`, and exact whatever its length as far as rock and walls go (`sweep`).
 /// What bounds it is that two streams must not pass through each other unseen: each moves at most `MOVE_RADII` h, so with
 /// the fastest speed v and gravity g a tick T takes `n ≥ (v + g T) T / (MOVE_RADII h)` substeps. Past the limit
 /// the speed itself is cut to `MOVE_RADII h / Δt` and counted, so that the bound holds at any speed.
-pub fn substeps(particles: &Particles, domain: &Domain, quality: &Quality, tick: f32) -> Substeps {
-    let fastest = fastest(&particles.vx, &particles.vy);
+pub fn substeps(fastest: f32, domain: &Domain, quality: &Quality, tick: f32) -> Substeps {
     let fastest = fastest + domain.gravity.length() * tick;
     let wanted = (fastest * tick / longest_move(quality)).ceil();
     let most = quality.substeps * SUBSTEP_GROWTH;
@@ -57,7 +56,7 @@ pub fn longest_move(quality: &Quality) -> f32 {
 }
 
 /// Speed of the fastest, d/s.
-fn fastest(vx: &[f32], vy: &[f32]) -> f32 {
+pub fn fastest(vx: &[f32], vy: &[f32]) -> f32 {
     let mut most = [0.0_f32; BLOCK];
     for (vx, vy) in vx.chunks(BLOCK).zip(vy.chunks(BLOCK)) {
         for ((most, vx), vy) in most.iter_mut().zip(vx).zip(vy) {
@@ -186,7 +185,7 @@ mod tests {
         for (speed, short) in [(0.99 * bound, false), (10.0 * bound, true)] {
             let mut particles = Particles::default();
             particles.push(0, ElementId(0), Vec2::splat(500.0), Vec2::new(0.6, -0.8) * speed);
-            let wanted = substeps(&particles, &domain, &quality, TICK_SECONDS);
+            let wanted = substeps(fastest(&particles.vx, &particles.vy), &domain, &quality, TICK_SECONDS);
             assert_eq!(wanted, Substeps { count: most, short });
             let dt = TICK_SECONDS / wanted.count as f32;
             let report = predict(&mut particles, InstructionSet::Baseline, &solids, &domain, &quality, 1, dt);

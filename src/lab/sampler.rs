@@ -56,7 +56,7 @@ impl Sampler {
             pass_ms: std::array::from_fn(|_| Vec::new()),
             pass_totals: [Duration::ZERO; Pass::ALL.len()],
             active_before: active_ticks(world),
-            air_mass_before: world.resource::<AirGrid>().mass(),
+            air_mass_before: air_mass(world),
             energy_before: matter(world).balance().energy(),
             spent: Duration::ZERO,
             samples: Samples::default(),
@@ -148,7 +148,7 @@ impl Sampler {
     fn accuracy(&self, world: &World) -> Accuracy {
         let balance = matter(world).balance();
         let air_is_there = world.resource::<Effects>().get(Effect::Air).mode != Mode::Off;
-        let mass = world.resource::<AirGrid>().mass();
+        let mass = air_mass(world);
         let drift = (mass - self.air_mass_before) / self.air_mass_before;
         Accuracy {
             samples: self.samples.taken,
@@ -241,12 +241,18 @@ fn pass_of(effect: Effect) -> Option<Pass> {
     match effect {
         Effect::Air => Some(Pass::Air),
         Effect::Drag => Some(Pass::Drag),
+        Effect::AirFeedback => Some(Pass::Feedback),
         Effect::Viscosity => Some(Pass::Viscosity),
         Effect::Vorticity => Some(Pass::Vorticity),
         Effect::Predictor => Some(Pass::Pressure),
         Effect::Sleep => Some(Pass::Sleep),
         Effect::Tension => None,
     }
+}
+
+/// Mass of the air, d².
+fn air_mass(world: &World) -> f64 {
+    world.resource::<AirGrid>().with_grid(world.resource::<Rock>()).mass()
 }
 
 fn active_ticks(world: &World) -> [u64; Effect::ALL.len()] {

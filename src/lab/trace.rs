@@ -68,7 +68,7 @@ impl<W: Write> Observer for Trace<W> {
             or_empty(matter.front()),
             or_empty(matter.surface()),
             balance.max_speed,
-            air.mass(),
+            air.with_grid(world.resource::<Rock>()).mass(),
         )
     }
 

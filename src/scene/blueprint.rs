@@ -19,6 +19,8 @@ pub enum Effect {
     Air,
     /// The air drags particles.
     Drag,
+    /// Particles drag the air.
+    AirFeedback,
     /// The pressure predictor.
     Predictor,
     /// The tensile correction `s_corr`.
@@ -27,20 +29,29 @@ pub enum Effect {
     Viscosity,
     /// Vorticity confinement.
     Vorticity,
-    /// What rests stands still and costs nothing.
+    /// What has come to rest sleeps: bodies of liquid and tiles of air.
     Sleep,
 }
 
 impl Effect {
     /// All effects in the order in which their stages run.
-    pub const ALL: [Self; 7] =
-        [Self::Air, Self::Drag, Self::Predictor, Self::Tension, Self::Viscosity, Self::Vorticity, Self::Sleep];
+    pub const ALL: [Self; 8] = [
+        Self::Air,
+        Self::Drag,
+        Self::AirFeedback,
+        Self::Predictor,
+        Self::Tension,
+        Self::Viscosity,
+        Self::Vorticity,
+        Self::Sleep,
+    ];
 
     /// Name on the command line, in scenes and on the screen.
     pub fn name(self) -> &'static str {
         match self {
             Self::Air => "air",
             Self::Drag => "drag",
+            Self::AirFeedback => "air_feedback",
             Self::Viscosity => "viscosity",
             Self::Vorticity => "vorticity",
             Self::Predictor => "predictor",
@@ -54,11 +65,12 @@ impl Effect {
         match self {
             Self::Air => "the air moves",
             Self::Drag => "the air drags particles",
+            Self::AirFeedback => "particles drag the air: what drag takes from one, the other gets",
             Self::Predictor => "pressure is predicted on a coarse grid before the density constraint",
             Self::Tension => "particles keep their distance at a surface (s_corr)",
             Self::Viscosity => "neighbouring particles even out their velocities (XSPH)",
             Self::Vorticity => "eddies keep turning (vorticity confinement)",
-            Self::Sleep => "water at rest stands still until something touches it, and costs nothing",
+            Self::Sleep => "what has come to rest is left alone until something touches it",
         }
     }
 

@@ -108,6 +108,7 @@ impl SceneFile {
         let tuning = self.tune(&values, preset, &settings)?;
         let domain = self.domain(&values, spacing)?;
         let sound_speed = values.number("sound_speed", &text.sound_speed, Range::real(1.0, 400.0))?;
+        let air_density = values.number("air_density", &text.air_density, Range::real(0.01, 1000.0))?;
         let bounds = Bounds { values: &values, spacing, size: domain.size };
         let (winds, drains) = (bounds.winds(&text.winds)?, bounds.drains(&text.drains)?);
         let (emitters, pressures) = (bounds.emitters(&elements, &text.emitters)?, bounds.pressures(&text.pressures)?);
@@ -139,7 +140,11 @@ impl SceneFile {
             drains,
             pressures,
             fluid: tuning.fluid,
-            air: AirParams { sound_speed: (sound_speed / spacing) as f32, open: text.open },
+            air: AirParams {
+                sound_speed: (sound_speed / spacing) as f32,
+                density: air_density as f32,
+                open: text.open,
+            },
             effects: text.effects.iter().chain(effects).map(|(effect, mode)| (*effect, *mode)).collect(),
             preset,
             quality: tuning.quality,

@@ -60,6 +60,10 @@ pub(super) struct SceneText {
     /// dear and looks no different. Default: `40`.
     #[serde(default = "default_sound_speed")]
     pub(super) sound_speed: Number,
+    /// Density of the air at pressure 1, kg/m²: 0.01 … 1000. Raising it lets particles drag it along less
+    /// (`air_feedback`). Default: `1.2`, that of real air 1 m deep.
+    #[serde(default = "default_air_density")]
+    pub(super) air_density: Number,
     /// Liquid parameters. Default: those of `FluidParams`.
     #[serde(default)]
     pub(super) fluid: FluidText,
@@ -83,6 +87,10 @@ fn earth() -> Pair {
 
 fn default_sound_speed() -> Number {
     Number::Literal(40.0)
+}
+
+fn default_air_density() -> Number {
+    Number::Literal(1.2)
 }
 
 fn zero() -> Pair {

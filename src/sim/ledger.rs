@@ -14,6 +14,8 @@ pub enum Pass {
     Air,
     /// Gravity.
     Gravity,
+    /// Particles drag the air.
+    Feedback,
     /// The air drags particles.
     Drag,
     /// The pressure predictor.
@@ -38,11 +40,12 @@ pub enum Pass {
 
 impl Pass {
     /// All passes in the order of the tick.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Edit,
         Self::Sources,
         Self::Air,
         Self::Gravity,
+        Self::Feedback,
         Self::Drag,
         Self::Pressure,
         Self::Predict,
@@ -62,6 +65,7 @@ impl Pass {
             Self::Sources => "sources",
             Self::Air => "air",
             Self::Gravity => "gravity",
+            Self::Feedback => "air_feedback",
             Self::Drag => "drag",
             Self::Pressure => "pressure",
             Self::Predict => "predict",

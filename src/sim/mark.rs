@@ -167,7 +167,7 @@ mod tests {
     use super::*;
     use crate::kernel::{
         element::ElementId,
-        params::{AirParams, OpenSides},
+        params::{AIR_DENSITY, AirParams, OpenSides},
         sources::Rect,
     };
     use glam::{IVec2, Vec2};
@@ -180,7 +180,11 @@ mod tests {
         }
         let mut rock = Solids::new(20, 40);
         (3..9).for_each(|x| assert!(rock.insert(IVec2::new(x, 2), ElementId(0), 1000 + x as u32)));
-        let mut air = Air::new(Vec2::new(20.0, 40.0), 2.0, AirParams { sound_speed: 30.0, open: OpenSides::default() });
+        let mut air = Air::new(
+            Vec2::new(20.0, 40.0),
+            2.0,
+            AirParams { sound_speed: 30.0, density: AIR_DENSITY, open: OpenSides::default() },
+        );
         air.fill_pressure(Rect { min: Vec2::splat(4.0), max: Vec2::splat(9.0) }, 2.0);
         (particles, rock, air, Clock { tick: 3, edits: 2, next_id: 2000 })
     }

@@ -29,8 +29,10 @@ pub struct Snapshot {
 impl Snapshot {
     /// The state in which a scene starts, with the air on cells of `air_cell` d.
     pub fn of_blueprint(blueprint: &Blueprint, air_cell: f32) -> Self {
-        let mut air = Air::new(blueprint.domain.size, air_cell, blueprint.air);
-        air.set_solids(&blueprint.solids);
+        let mut air = Air::unbuilt(blueprint.domain.size, air_cell, blueprint.air);
+        if !blueprint.pressures.is_empty() {
+            air.build(&blueprint.solids);
+        }
         for patch in &blueprint.pressures {
             air.fill_pressure(patch.area, patch.pressure);
         }
@@ -77,6 +79,8 @@ pub fn hash_state(particles: &Particles, solids: &Solids, air: &Air) -> u64 {
             hash.word(word);
         }
     }
+    // Air that is at rest has one hash, with a grid or without.
+    let air = air.with_grid(solids);
     for row in 0..air.rows() {
         for field in [air.pressure_row(row), air.velocity_x_row(row), air.velocity_y_row(row)] {
             for value in field {

@@ -199,6 +199,8 @@ pub struct SleepState(pub Sleep);
 pub struct Rates {
     /// k of `dv/dt = −k |v| v`, 1/d.
     pub drag: Vec<f32>,
+    /// Mass of a particle, kg/m² d².
+    pub mass: Vec<f32>,
     /// XSPH c.
     pub viscosity: Vec<f32>,
     /// Vorticity confinement ε, d/s.
@@ -210,6 +212,7 @@ impl Rates {
     pub fn new(elements: &ElementTable, scale: Scale) -> Self {
         Self {
             drag: drag_rates(elements, scale),
+            mass: elements.iter().map(|(_, element)| element.density).collect(),
             viscosity: elements.iter().map(|(_, element)| element.viscosity).collect(),
             vorticity: elements.iter().map(|(_, element)| scale.to_kernel(element.vorticity)).collect(),
         }

@@ -5,6 +5,7 @@ mod support;
 
 mod control;
 mod determinism;
+mod draught;
 mod hard_cases;
 mod monkey;
 mod motion;

@@ -84,6 +84,8 @@ fn a_drop_falls_at_its_terminal_speed() {
     for drag in [0.45, 5.0, 100.0] {
         let mut blueprint = empty_box(20, 2000);
         blueprint.domain.gravity = Vec2::new(0.0, -GRAVITY);
+        // The answer is for air that stands still.
+        without(&mut blueprint, &[Effect::AirFeedback]);
         with_water(&mut blueprint, |water| water.drag = drag);
         blueprint.water(Vec2::new(10.0, 1900.0), Vec2::ZERO);
         let mut sandbox = Sandbox::of(blueprint);

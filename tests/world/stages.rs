@@ -195,6 +195,7 @@ fn pass_of(effect: Effect) -> Option<Pass> {
     match effect {
         Effect::Air => Some(Pass::Air),
         Effect::Drag => Some(Pass::Drag),
+        Effect::AirFeedback => Some(Pass::Feedback),
         Effect::Viscosity => Some(Pass::Viscosity),
         Effect::Vorticity => Some(Pass::Vorticity),
         Effect::Predictor => Some(Pass::Pressure),

@@ -39,7 +39,12 @@ pub(super) struct Source<'a> {
     pub(super) velocity_x: &'a [f32],
     pub(super) velocity_y: &'a [f32],
     pub(super) shape: &'a Shape,
+    /// Values between a cell and the one above it.
     pub(super) stride: usize,
+    /// Columns at hand, counted with the ring, and one more on either side: rows are counted from the first of them.
+    pub(super) left: usize,
+    /// How many these are.
+    pub(super) width: usize,
     /// ½ dt/cell: from the sum of two velocities to a face's flow.
     pub(super) half: f32,
     /// `κ c·dt/cell`.
@@ -47,6 +52,12 @@ pub(super) struct Source<'a> {
 }
 
 impl Source<'_> {
+    /// Where the columns at hand of a row begin in the fields.
+    #[inline(always)]
+    pub(super) fn start(&self, row: usize) -> usize {
+        row * self.stride + self.left
+    }
+
     /// Flow through faces, in cells a substep. No face lets more than half a cell pass, so that two can't take more than
     /// there is. The substep's length keeps the velocities below that; only the filter can reach it, at a jump of
     /// pressure.
@@ -140,10 +151,11 @@ impl Advection {
         } else {
             self.share_down::<L>(source, row);
         }
-        let here = row * source.stride..(row + 1) * source.stride;
+        let here = source.start(row)..source.start(row) + source.width;
         let (u, v) = (&source.velocity_x[here.clone()], &source.velocity_y[here]);
         self.carry::<L>(u, v);
-        self.turn_corners(source.shape, row, u, v);
+        self.turn_corners(source, row, u, v);
+        self.turn_at_fences(source, row, u, v);
     }
 
     /// Goes on to the next row of sources.
@@ -157,7 +169,7 @@ impl Advection {
     /// Sideways shares of a row of sources.
     #[inline(always)]
     fn share_sideways<L: Lanes>(&mut self, source: Source, row: usize) {
-        let (start, n) = (row * source.stride, source.stride - 1);
+        let (start, n) = (source.start(row), source.width - 1);
         let [p0, u0] = [source.pressure, source.velocity_x].map(|field| &field[start..start + n]);
         let [p1, u1, open] =
             [source.pressure, source.velocity_x, &source.shape.open_x].map(|field| &field[start + 1..start + 1 + n]);
@@ -174,11 +186,11 @@ impl Advection {
     /// Mass of a row of sources that goes down, stays level and goes up.
     #[inline(always)]
     fn share_upright<L: Lanes>(&mut self, source: Source, row: usize) {
-        let n = source.stride;
-        let start = row * n;
+        let n = source.width;
+        let (start, above) = (source.start(row), source.start(row + 1));
         let [p0, v0] = [source.pressure, source.velocity_y].map(|field| &field[start..start + n]);
         let [p1, v1, open] =
-            [source.pressure, source.velocity_y, &source.shape.open_y].map(|field| &field[start + n..start + 2 * n]);
+            [source.pressure, source.velocity_y, &source.shape.open_y].map(|field| &field[above..above + n]);
         let [sinking, sinking_next] = &mut self.sinking;
         let (sinking, sinking_next) = (&sinking[..n], &mut sinking_next[..n]);
         let (down, level, up) = (&mut self.down[..n], &mut self.level[..n], &mut self.up[..n]);
@@ -198,20 +210,20 @@ impl Advection {
     /// Mass of a row of sources that goes down.
     #[inline(always)]
     fn share_down<L: Lanes>(&mut self, source: Source, row: usize) {
-        let n = source.stride;
-        let p = &source.pressure[row * n..(row + 1) * n];
+        let (start, n) = (source.start(row), source.width);
+        let p = &source.pressure[start..start + n];
         let (sinking, down) = (&self.sinking[0][..n], &mut self.down[..n]);
         for i in lane_starts::<L>(n) {
             (L::of(p, i) * L::of(sinking, i)).put(down, i);
         }
-        self.level.fill(0.0);
-        self.up.fill(0.0);
+        self.level[..n].fill(0.0);
+        self.up[..n].fill(0.0);
     }
 
     /// Sums what three neighbouring sources bring to each column, for all three rows of targets at once.
     #[inline(always)]
     fn carry<L: Lanes>(&mut self, u: &[f32], v: &[f32]) {
-        let n = self.carry_down.mass.len();
+        let n = u.len() - 2;
         let (u, v) = (shifted(u, n), shifted(v, n));
         let [_, goes_right, leaves_right] = shifted(&self.right, n);
         let [_, leaves_left, goes_left] = shifted(&self.left, n);
@@ -231,21 +243,22 @@ impl Advection {
 
     /// Gives the shares that strike a corner of rock to the cells beside it. What they brought to the rock itself is
     /// dropped when the rock's row is written. Sums pair opposite sides, so that a mirror image has the same.
-    fn turn_corners(&mut self, shape: &Shape, row: usize, u: &[f32], v: &[f32]) {
+    fn turn_corners(&mut self, source: Source, row: usize, u: &[f32], v: &[f32]) {
+        let Source { shape, left: first, width, .. } = source;
         let Self { right, left, up, down, .. } = self;
-        for Corner { column, weights } in shape.above.row(row) {
-            let k = *column as usize;
+        for Corner { column, weights } in shape.above.row_within(row, first, width) {
+            let k = *column as usize - first;
             let mass = up[k] * (weights[0] * left[k] + weights[1] * right[k + 1]);
             self.carry_up[0].add(k - 1, mass, u[k], v[k]);
         }
-        for Corner { column, weights } in shape.below.row(row) {
-            let k = *column as usize;
+        for Corner { column, weights } in shape.below.row_within(row, first, width) {
+            let k = *column as usize - first;
             let mass = down[k] * (weights[0] * left[k] + weights[1] * right[k + 1]);
             self.carry_down.add(k - 1, mass, u[k], v[k]);
         }
         let level = &mut self.carry_level[0];
-        for Corner { column, weights } in shape.beside.row(row) {
-            let k = *column as usize;
+        for Corner { column, weights } in shape.beside.row_within(row, first, width) {
+            let k = *column as usize - first;
             let from_left = right[k] * (weights[0] * down[k - 1] + weights[1] * up[k - 1]);
             let from_right = left[k + 1] * (weights[2] * down[k + 1] + weights[3] * up[k + 1]);
             level.mass[k - 1] += from_left + from_right;
@@ -254,10 +267,35 @@ impl Advection {
         }
     }
 
+    /// The same for shares that would enter a sleeping tile across its corner.
+    fn turn_at_fences(&mut self, source: Source, row: usize, u: &[f32], v: &[f32]) {
+        let Source { shape, left: first, width, .. } = source;
+        let inside = 1..width - 1;
+        for turn in shape.turns_of(row) {
+            // Negative and too large ones are out of range alike.
+            let k = (turn.column as usize).wrapping_sub(first);
+            let beside = if turn.right { k.wrapping_add(1) } else { k.wrapping_sub(1) };
+            if !(inside.contains(&k) || inside.contains(&beside)) || k >= width {
+                continue;
+            }
+            let sideways = if turn.right { self.right[k + 1] } else { self.left[k] };
+            let (upright, carry) =
+                if turn.up { (self.up[k], &mut self.carry_up[0]) } else { (self.down[k], &mut self.carry_down) };
+            let half = 0.5 * sideways * upright;
+            if inside.contains(&k) {
+                carry.add(k - 1, half, u[k], v[k]);
+            }
+            if inside.contains(&beside) {
+                self.carry_level[0].add(beside - 1, half, u[k], v[k]);
+            }
+        }
+    }
+
     /// Writes a row of targets: level from their own row, up from the row below, down from the row above.
     #[inline(always)]
-    pub(super) fn sum_up<L: Lanes>(&self, struck: &[u32], targets: [&mut [f32]; 3]) {
-        let n = self.carry_down.mass.len();
+    pub(super) fn sum_up<L: Lanes>(&self, source: Source, row: usize, targets: [&mut [f32]; 3]) {
+        let n = source.width - 2;
+        let struck = source.shape.struck_within(row, source.left, source.width);
         let [_, level] = &self.carry_level;
         let [_, _, up] = &self.carry_up;
         let down = &self.carry_down;
@@ -270,7 +308,7 @@ impl Advection {
             }
             // What struck rock has gone round the corner.
             for column in struck {
-                out[*column as usize] = 0.0;
+                out[*column as usize - source.left] = 0.0;
             }
         }
     }

@@ -9,6 +9,7 @@ use super::{
     pressure::{Push, Pushed},
 };
 use crate::kernel::simd::{Lanes, Pass};
+use std::ops::Range;
 
 /// Row buffers of a band.
 #[derive(Debug)]
@@ -42,6 +43,16 @@ impl Band {
         }
     }
 
+    /// Gets ready for rows of `width` columns, with the one on either side.
+    fn begin(&mut self, width: usize) {
+        self.pressure[0].fill(1.0);
+        for row in &mut self.pressure[1..] {
+            (row[0], row[width - 1]) = (1.0, 1.0);
+        }
+        self.advection.begin();
+        self.peaks = Peaks::default();
+    }
+
     /// Values held.
     pub(super) fn values(&self) -> usize {
         self.advection.values() + self.pressure[0].len() * 7
@@ -49,10 +60,10 @@ impl Band {
 
     /// Makes the next row of new pressure and momentum.
     #[inline(always)]
-    fn sum_up<L: Lanes>(&mut self, struck: &[u32]) {
+    fn sum_up<L: Lanes>(&mut self, source: Source, row: usize) {
         self.rotate();
         let targets = [&mut self.pressure[0], &mut self.momentum_x[0], &mut self.momentum_y[0]];
-        self.advection.sum_up::<L>(struck, targets.map(Vec::as_mut_slice));
+        self.advection.sum_up::<L>(source, row, targets.map(|row| &mut row[..source.width]));
     }
 
     fn rotate(&mut self) {
@@ -62,12 +73,15 @@ impl Band {
     }
 }
 
-/// A substep of a band of rows.
+/// A substep of a band of rows, or of the part of it that is awake.
 pub(super) struct BandPass<'a> {
     pub(super) band: &'a mut Band,
+    /// The columns that are done.
     pub(super) source: Source<'a>,
     pub(super) push: Push,
-    /// Its lowest row, counted with the ring.
+    /// The rows that are done, counted with the ring.
+    pub(super) rows: Range<usize>,
+    /// The row that the target begins with, counted with the ring.
     pub(super) first: usize,
     pub(super) target: Target<'a>,
 }
@@ -76,19 +90,21 @@ impl BandPass<'_> {
     /// Pass 2 for a row, once the row above it is made.
     #[inline(always)]
     fn follow<L: Lanes>(&mut self, row: usize) {
-        let stride = self.source.stride;
-        let out = (row - self.first) * stride..(row - self.first + 1) * stride;
+        let Source { stride, left, width, shape, .. } = self.source;
+        let start = (row - self.first) * stride + left;
+        let out = start..start + width;
         let Band { pressure: [above, here, below], momentum_x, momentum_y, .. } = &*self.band;
         let from = Pushed {
-            pressure: [below, here, above],
-            momentum_x: &momentum_x[1],
-            momentum_y: &momentum_y[1],
-            shape: self.source.shape,
-            row,
+            pressure: [&below[..width], &here[..width], &above[..width]],
+            momentum_x: &momentum_x[1][..width],
+            momentum_y: &momentum_y[1][..width],
+            shape,
+            start: self.source.start(row),
+            stride,
         };
         let Target { pressure, velocity_x, velocity_y } = &mut self.target;
         let peaks = self.push.run::<L>(from, [&mut velocity_x[out.clone()], &mut velocity_y[out.clone()]]);
-        pressure[out][1..=stride - 2].copy_from_slice(&here[1..=stride - 2]);
+        pressure[out][1..=width - 2].copy_from_slice(&here[1..=width - 2]);
         self.band.peaks = self.band.peaks.max(peaks);
     }
 }
@@ -96,18 +112,15 @@ impl BandPass<'_> {
 impl Pass for BandPass<'_> {
     #[inline(always)]
     fn run<L: Lanes>(mut self) {
-        let (source, first) = (self.source, self.first);
+        let (source, Range { start: first, end }) = (self.source, self.rows.clone());
         let rows = source.pressure.len() / source.stride - 2;
-        let end = first + self.target.pressure.len() / source.stride;
         let (low, high) = ((first - 1).max(1), end.min(rows));
-        self.band.peaks = Peaks::default();
-        self.band.pressure[0].fill(1.0);
-        self.band.advection.begin();
+        self.band.begin(source.width);
         // A row of sources completes the targets below it, and these the push of the row below them.
         for row in low - 1..=high + 1 {
             self.band.advection.share::<L>(source, row, row <= high);
             if row > low {
-                self.band.sum_up::<L>(source.shape.struck(row - 1));
+                self.band.sum_up::<L>(source, row - 1);
             }
             self.band.advection.advance();
             if row > first + 1 {

@@ -29,10 +29,10 @@ struct Edge {
 
 impl Air {
     /// Brings the ring beyond the open sides up to date: what pass 1 takes in from there.
-    pub(super) fn refresh_outside(&mut self, sound_speed: f32) {
+    pub(super) fn refresh_outside(&mut self, active: &[bool], sound_speed: f32) {
         // Pass 1 adds half of the ring's velocity and the filter's part of the pressure; this is the rest of `u_face`.
         let lift = (1.0 - 2.0 * FACE_FILTER) * sound_speed;
-        self.for_each_edge(|air, edge| {
+        self.for_each_edge(active, |air, edge| {
             let Edge { inside, ring, slot, along_x, outward } = edge;
             let normal = (air.outside[slot] + lift * (air.pressure[inside] - 1.0)) * outward;
             air.velocity_x[ring] = if along_x { normal } else { air.velocity_x[inside] };
@@ -41,10 +41,10 @@ impl Air {
     }
 
     /// After pass 2: the part `(u − U)/(2c)` of the face's pressure (pass 2 has given the rest), then U follows.
-    pub(super) fn settle_edges(&mut self, sound_speed: f32, dt: f32) {
+    pub(super) fn settle_edges(&mut self, active: &[bool], sound_speed: f32, dt: f32) {
         let courant = sound_speed * dt / self.cell;
         let follow = (sound_speed * dt / self.size.max_element()).min(1.0);
-        self.for_each_edge(|air, edge| {
+        self.for_each_edge(active, |air, edge| {
             let velocity = if edge.along_x { &mut air.velocity_x } else { &mut air.velocity_y };
             let normal = velocity[edge.inside] * edge.outward;
             let outside = &mut air.outside[edge.slot];
@@ -53,8 +53,9 @@ impl Air {
         });
     }
 
-    /// Calls `act` for each open cell at an open side: left, right, bottom, top.
-    fn for_each_edge(&mut self, mut act: impl FnMut(&mut Self, Edge)) {
+    /// Calls `act` for each open cell of the active tiles at an open side: left, right, bottom, top.
+    fn for_each_edge(&mut self, active: &[bool], mut act: impl FnMut(&mut Self, Edge)) {
+        let tiling = self.tiling();
         let (columns, rows, stride) = (self.columns(), self.rows(), self.stride());
         let open = self.params.open;
         let sides = [
@@ -66,13 +67,14 @@ impl Air {
         for (_, along_x, high, first_slot) in sides.into_iter().filter(|(open, ..)| *open) {
             let step = if along_x { 1 } else { stride };
             for i in 0..if along_x { rows } else { columns } {
-                let inside = match (along_x, high) {
-                    (true, false) => self.index(0, i),
-                    (true, true) => self.index(columns - 1, i),
-                    (false, false) => self.index(i, 0),
-                    (false, true) => self.index(i, rows - 1),
+                let (column, row) = match (along_x, high) {
+                    (true, false) => (0, i),
+                    (true, true) => (columns - 1, i),
+                    (false, false) => (i, 0),
+                    (false, true) => (i, rows - 1),
                 };
-                if !self.solid[inside] {
+                let inside = self.index(column, row);
+                if !self.solid[inside] && active[tiling.of(column, row)] {
                     let (ring, outward) = if high { (inside + step, 1.0) } else { (inside - step, -1.0) };
                     act(self, Edge { inside, ring, slot: first_slot + i, along_x, outward });
                 }

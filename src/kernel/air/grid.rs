@@ -5,11 +5,15 @@
 //! behind a closed one it is solid.
 
 use super::band::Band;
+use super::feedback::Feedback;
 use super::shape::Shape;
 use super::step::{AirReport, Room};
+use super::tiles::{Tiling, Watch};
 use crate::kernel::params::{AirParams, OpenSides};
+use crate::kernel::solids::Solids;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// Highest pressure that a tool or a scene can set, in pressures of the surroundings. Changing this affects how far
 /// sums of pressure stay exact in f32.
@@ -20,6 +24,9 @@ pub const MAX_PRESSURE: f32 = 1.0e6;
 pub const MAX_SPEED: f32 = 1.0e6;
 
 /// The air of a box: pressure and velocity on square cells, and which of them are rock.
+///
+/// Air that nothing has ever moved needs no grid: it is [`Air::unbuilt`], and its fields hold one row, which stands for
+/// all of them. [`Air::build`] makes the grid once something is about to move it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Stored")]
 pub struct Air {
@@ -44,6 +51,10 @@ pub struct Air {
     /// Whether the mass at hand must survive the first `set_solids` (air that was resampled), or pressure 1 (new air).
     pub(super) keep_mass: bool,
     pub(super) quiet: bool,
+    /// Tiles that are awake (see `tiles`); none while the air is quiet.
+    pub(super) awake: Vec<bool>,
+    /// Pressure at which each room comes to rest; empty if it must be found anew.
+    pub(super) rests: Vec<f32>,
     /// What tools had to clamp since the last step.
     pub(super) pending: AirReport,
     #[serde(skip)]
@@ -59,11 +70,15 @@ pub(super) struct Scratch {
     pub(super) next_y: Vec<f32>,
     pub(super) bands: Vec<Band>,
     pub(super) rooms: Vec<Room>,
+    /// Whether tiles may sleep: a wish, which a copy keeps.
+    pub(super) sleeps: bool,
+    pub(super) watch: Watch,
+    pub(super) feedback: Feedback,
 }
 
 impl Clone for Scratch {
     fn clone(&self) -> Self {
-        Self::default()
+        Self { sleeps: self.sleeps, ..Self::default() }
     }
 }
 
@@ -95,6 +110,7 @@ impl Peaks {
 #[serde(remote = "AirParams")]
 struct StoredParams {
     sound_speed: f32,
+    density: f32,
     open: OpenSides,
 }
 
@@ -115,6 +131,8 @@ struct Stored {
     solids_version: Option<u64>,
     keep_mass: bool,
     quiet: bool,
+    awake: Vec<bool>,
+    rests: Vec<f32>,
     pending: AirReport,
 }
 
@@ -123,12 +141,23 @@ impl TryFrom<Stored> for Air {
 
     fn try_from(stored: Stored) -> Result<Self, String> {
         let (columns, rows) = (stored.columns as usize, stored.rows as usize);
+        let still =
+            |field: &[f32], value: f32| field.len() == columns.saturating_add(2) && field.iter().all(|v| *v == value);
+        let unbuilt = stored.quiet
+            && still(&stored.pressure, 1.0)
+            && still(&stored.velocity_x, 0.0)
+            && still(&stored.velocity_y, 0.0)
+            && stored.solid == vec![false; stored.pressure.len()]
+            && stored.outside.is_empty()
+            && stored.awake.is_empty()
+            && stored.solids_version.is_none();
         let cells = (columns + 2).saturating_mul(rows + 2);
         let fields = [&stored.pressure, &stored.velocity_x, &stored.velocity_y];
-        if columns == 0 || rows == 0 || stored.solid.len() != cells || fields.iter().any(|f| f.len() != cells) {
+        let whole = stored.solid.len() == cells && fields.iter().all(|field| field.len() == cells);
+        if columns == 0 || rows == 0 || !(whole || unbuilt) {
             return Err(format!("air: {columns} × {rows} cells need {cells} values a field, with the ring"));
         }
-        if stored.outside.len() != 2 * (columns + rows) {
+        if stored.outside.len() != 2 * (columns + rows) && !unbuilt {
             return Err(format!("air: outside needs {} values", 2 * (columns + rows)));
         }
         if fields.into_iter().chain([&stored.outside]).flatten().any(|value| !value.is_finite()) {
@@ -137,9 +166,15 @@ impl TryFrom<Stored> for Air {
         if stored.pressure.iter().any(|p| *p < 0.0) {
             return Err("air: every pressure must be 0 or more".to_owned());
         }
-        let lengths = [stored.cell, stored.size.x, stored.size.y, stored.params.sound_speed];
+        if stored.awake.len() != Tiling::new(columns, rows).count() && !unbuilt {
+            return Err(format!("air: {} values tell which tiles are awake", stored.awake.len()));
+        }
+        if stored.rests.len() > cells || stored.rests.iter().any(|rest| !rest.is_finite() || *rest < 0.0) {
+            return Err("air: every pressure of rest must be finite and 0 or more".to_owned());
+        }
+        let lengths = [stored.cell, stored.size.x, stored.size.y, stored.params.sound_speed, stored.params.density];
         if lengths.iter().any(|length| !length.is_finite() || *length <= 0.0) {
-            return Err("air: size, cell and sound_speed must be finite and positive".to_owned());
+            return Err("air: size, cell, sound_speed and density must be finite and positive".to_owned());
         }
         // The size is what a change of cells goes by.
         let expected = (stored.size / stored.cell).ceil().max(Vec2::ONE);
@@ -163,6 +198,8 @@ impl TryFrom<Stored> for Air {
             solids_version: stored.solids_version,
             keep_mass: stored.keep_mass,
             quiet: stored.quiet,
+            awake: stored.awake,
+            rests: stored.rests,
             pending: stored.pending,
             scratch: Scratch::default(),
         })
@@ -197,9 +234,63 @@ impl Air {
             solids_version: None,
             keep_mass: false,
             quiet: true,
+            awake: vec![false; Tiling::new(columns, rows).count()],
+            rests: Vec::new(),
             pending: AirReport::default(),
             scratch: Scratch::default(),
         }
+    }
+
+    /// The same without a grid yet. It knows no rock and all of its rows read as air at rest; nothing but
+    /// [`Air::build`] changes that.
+    pub fn unbuilt(size: Vec2, cell: f32, params: AirParams) -> Self {
+        let columns = ((size.x / cell).ceil() as usize).max(1);
+        let rows = ((size.y / cell).ceil() as usize).max(1);
+        Self {
+            size,
+            cell,
+            params,
+            columns: columns as u32,
+            rows: rows as u32,
+            pressure: vec![1.0; columns + 2],
+            velocity_x: vec![0.0; columns + 2],
+            velocity_y: vec![0.0; columns + 2],
+            solid: vec![false; columns + 2],
+            outside: Vec::new(),
+            solids_version: None,
+            keep_mass: false,
+            quiet: true,
+            awake: Vec::new(),
+            rests: Vec::new(),
+            pending: AirReport::default(),
+            scratch: Scratch::default(),
+        }
+    }
+
+    /// Whether there is a grid.
+    pub fn is_built(&self) -> bool {
+        self.pressure.len() > self.stride()
+    }
+
+    /// Makes the grid if there is none: air at rest, with the rock that there is now.
+    pub fn build(&mut self, solids: &Solids) {
+        if !self.is_built() {
+            let mut built = Self::new(self.size, self.cell, self.params);
+            built.set_solids(solids);
+            built.pending = self.pending;
+            built.scratch.sleeps = self.scratch.sleeps;
+            *self = built;
+        }
+    }
+
+    /// The air with its grid, for those who want to look at every cell.
+    pub fn with_grid(&self, solids: &Solids) -> Cow<'_, Self> {
+        if self.is_built() {
+            return Cow::Borrowed(self);
+        }
+        let mut built = self.clone();
+        built.build(solids);
+        Cow::Owned(built)
     }
 
     /// Cells along x.
@@ -262,7 +353,8 @@ impl Air {
         let cells = self.pressure.len();
         let buffers = self.scratch.next_pressure.len() * 3 + self.scratch.bands.iter().map(Band::values).sum::<usize>();
         let shape = self.scratch.shape.as_ref().map_or(0, Shape::memory_bytes);
-        cells * 13 + self.outside.len() * 4 + buffers * 4 + shape
+        let state = cells * 13 + self.outside.len() * 4 + self.awake.len() + self.rests.len() * 4;
+        state + buffers * 4 + shape + self.scratch.watch.memory_bytes() + self.scratch.feedback.memory_bytes()
     }
 
     /// Values between a cell and the one above it.
@@ -278,7 +370,7 @@ impl Air {
     /// Where the cells of a row stand in the fields.
     pub(super) fn row_range(&self, row: usize) -> std::ops::Range<usize> {
         assert!(row < self.rows(), "row {row} of {}", self.rows);
-        let start = self.index(0, row);
+        let start = if self.is_built() { self.index(0, row) } else { 1 };
         start..start + self.columns()
     }
 

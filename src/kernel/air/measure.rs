@@ -21,6 +21,7 @@ impl Air {
     }
 
     /// Mass: pressure of the open cells times their area, d². It doesn't depend on the size of the cells.
+    /// Air that is not built knows no rock: that of the whole box.
     pub fn mass(&self) -> f64 {
         self.mass_where(|k| !self.solid[k])
     }
@@ -54,6 +55,9 @@ impl Air {
     /// Root of the mean square of the divergence of the velocity over the open cells, 1/s, from the velocities at the
     /// faces (a closed face has none). 0 where there is no open cell.
     pub fn divergence_rms(&self) -> f64 {
+        if !self.is_built() {
+            return 0.0;
+        }
         let stride = self.stride();
         let face = |field: &[f32], low: usize, high: usize| {
             let closed = |k: usize| self.solid[k] && !(self.in_ring(k) && self.lets_out(k));

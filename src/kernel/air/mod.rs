@@ -13,7 +13,9 @@
 //! | `pressure` | pass 2: pushes pairs | new velocity | rows of new pressure, momentum |
 //! | `band` | both passes over some rows | new pressure, new velocity | pressure, velocity |
 //! | `edges` | the open sides | the ring around the box, outermost cells | pressure, velocity |
-//! | `step` | counts substeps, orders the passes, puts quiet air to sleep | | |
+//! | `tiles` | which parts are stepped and which sleep | awake tiles, fences in `Shape` | all |
+//! | `step` | counts substeps, orders the passes, puts quiet air to rest | | |
+//! | `feedback` | what particles give the air, and the air them | velocity | particles, pressure |
 //! | `tools` | fans and the hand of the player | velocity, pressure | |
 //! | `walls` | rock that comes and goes | solid cells, pressure | `Solids` |
 //! | `sample`, `measure`, `resize` | values at points, sums, another cell size | | all |
@@ -21,6 +23,7 @@
 mod advect;
 mod band;
 mod edges;
+mod feedback;
 mod grid;
 mod measure;
 mod pressure;
@@ -28,11 +31,13 @@ mod resize;
 mod sample;
 mod shape;
 mod step;
+mod tiles;
 mod tools;
 mod walls;
 
 #[cfg(test)]
 mod tests;
 
+pub use feedback::Rousing;
 pub use grid::{Air, MAX_PRESSURE, MAX_SPEED};
 pub use step::{AirReport, MAX_SUBSTEPS, QUIET_MACH, STABLE_COURANT};

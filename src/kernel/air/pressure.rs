@@ -44,17 +44,18 @@ pub(super) struct Pushed<'a> {
     pub(super) momentum_x: &'a [f32],
     pub(super) momentum_y: &'a [f32],
     pub(super) shape: &'a Shape,
-    /// The row, counted with the ring.
-    pub(super) row: usize,
+    /// Where the columns at hand of the row begin in the fields.
+    pub(super) start: usize,
+    /// Values between a cell and the one above it.
+    pub(super) stride: usize,
 }
 
 impl Push {
     /// Writes the velocities of a row (with the ring) and returns its peaks.
     #[inline(always)]
     pub(super) fn run<L: Lanes>(&self, from: Pushed, velocity: [&mut [f32]; 2]) -> Peaks {
-        let stride = from.momentum_x.len();
-        let n = stride - 2;
-        let start = from.row * stride + 1;
+        let n = from.momentum_x.len() - 2;
+        let (start, stride) = (from.start + 1, from.stride);
         let [below, row, above] = from.pressure;
         let [left, here, right] = shifted(row, n);
         let (below, above) = (&below[1..=n], &above[1..=n]);

@@ -18,6 +18,9 @@ impl Air {
     /// A new cell is taken for rock if no open cell is below it. Rock itself is not known here: call
     /// [`Air::set_solids`] next, which keeps the mass in the same way.
     pub fn resized(&self, cell: f32) -> Air {
+        if !self.is_built() {
+            return Self { pending: self.pending, ..Self::unbuilt(self.size, cell, self.params) };
+        }
         let mut air = Self::new(self.size, cell, self.params);
         let (old, new) = (f64::from(self.cell), f64::from(cell));
         for row in 0..air.rows() {
@@ -49,7 +52,8 @@ impl Air {
         self.copy_outside(&mut air);
         air.scale_to(self.mass());
         air.keep_mass = true;
-        air.quiet = false;
+        air.wake_all();
+        air.scratch.sleeps = self.scratch.sleeps;
         air.pending = self.pending;
         air
     }

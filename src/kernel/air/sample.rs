@@ -4,11 +4,21 @@ use super::grid::Air;
 use glam::Vec2;
 
 /// The four cells around a point and how much of each.
-struct Stencil {
+pub(super) struct Stencil {
     /// Lower left cell, in the fields.
-    k: usize,
-    x: f32,
-    y: f32,
+    pub(super) k: usize,
+    /// Share of those on the right.
+    pub(super) x: f32,
+    /// Share of the upper ones.
+    pub(super) y: f32,
+}
+
+impl Stencil {
+    /// Blend of the lower two cells and the upper two, each from left to right.
+    #[inline(always)]
+    pub(super) fn mix(&self, low: [f32; 2], high: [f32; 2]) -> f32 {
+        mix(mix(low[0], low[1], self.x), mix(high[0], high[1], self.x), self.y)
+    }
 }
 
 /// Blend that is exact at both ends.
@@ -20,7 +30,7 @@ fn mix(a: f32, b: f32, part: f32) -> f32 {
 /// A coordinate in cells from the first centre: the cell at or below it and how far beyond. `max` and `min` also turn
 /// what is no number into 0.
 #[inline(always)]
-fn split(at: f32, per_cell: f32, last: f32) -> (usize, f32) {
+pub(super) fn split(at: f32, per_cell: f32, last: f32) -> (usize, f32) {
     let at = (at * per_cell - 0.5).max(0.0).min(last);
     let whole = at as u32;
     (whole as usize, at - whole as f32)
@@ -28,21 +38,24 @@ fn split(at: f32, per_cell: f32, last: f32) -> (usize, f32) {
 
 impl Air {
     #[inline(always)]
-    fn stencil(&self, x: f32, y: f32, per_cell: f32) -> Stencil {
+    pub(super) fn stencil(&self, x: f32, y: f32, per_cell: f32) -> Stencil {
         let (column, x) = split(x, per_cell, (self.columns - 1) as f32);
         let (row, y) = split(y, per_cell, (self.rows - 1) as f32);
         Stencil { k: self.index(column, row), x, y }
     }
 
     #[inline(always)]
-    fn blend(&self, field: &[f32], at: &Stencil) -> f32 {
+    pub(super) fn blend(&self, field: &[f32], at: &Stencil) -> f32 {
         let (low, high) = (&field[at.k..at.k + 2], &field[at.k + self.stride()..at.k + self.stride() + 2]);
-        mix(mix(low[0], low[1], at.x), mix(high[0], high[1], at.x), at.y)
+        at.mix([low[0], low[1]], [high[0], high[1]])
     }
 
     /// Velocity at a point (d), d/s: bilinear between cell centres, and that of the nearest centre line beyond the
     /// outermost centres. Rock counts as air at rest.
     pub fn sample_velocity(&self, p: Vec2) -> Vec2 {
+        if !self.is_built() {
+            return Vec2::ZERO;
+        }
         let at = self.stencil(p.x, p.y, 1.0 / self.cell);
         Vec2::new(self.blend(&self.velocity_x, &at), self.blend(&self.velocity_y, &at))
     }
@@ -50,6 +63,11 @@ impl Air {
     /// [`Air::sample_velocity`] at many points, with the same bits.
     pub fn sample_velocities(&self, x: &[f32], y: &[f32], out_u: &mut [f32], out_v: &mut [f32]) {
         debug_assert!(x.len() == y.len() && x.len() == out_u.len() && x.len() == out_v.len());
+        if !self.is_built() {
+            out_u.fill(0.0);
+            out_v.fill(0.0);
+            return;
+        }
         let per_cell = 1.0 / self.cell;
         for (((x, y), u), v) in x.iter().zip(y).zip(out_u).zip(out_v) {
             let at = self.stencil(*x, *y, per_cell);
@@ -60,6 +78,9 @@ impl Air {
 
     /// Pressure at a point (d): bilinear between the centres of open cells; 0 where all cells around are rock.
     pub fn sample_pressure(&self, p: Vec2) -> f32 {
+        if !self.is_built() {
+            return 1.0;
+        }
         let at = self.stencil(p.x, p.y, 1.0 / self.cell);
         let corners = [
             (at.k, (1.0 - at.x) * (1.0 - at.y)),

@@ -25,8 +25,23 @@ impl<T> ByRow<T> {
         Self { items: Vec::new(), start: vec![0] }
     }
 
-    pub(super) fn row(&self, row: usize) -> &[T] {
+    fn row(&self, row: usize) -> &[T] {
         &self.items[self.start[row] as usize..self.start[row + 1] as usize]
+    }
+
+    /// Items of a row that are in the columns after `first`, `width − 2` of them; `column` tells an item's.
+    #[inline(always)]
+    fn within(&self, row: usize, first: usize, width: usize, column: impl Fn(&T) -> u32) -> &[T] {
+        let items = self.row(row);
+        let outside = |item: Option<&T>| {
+            item.is_some_and(|item| column(item) as usize <= first || column(item) as usize > first + width - 2)
+        };
+        if !outside(items.first()) && !outside(items.last()) {
+            return items;
+        }
+        let low = items.partition_point(|item| column(item) as usize <= first);
+        let high = items.partition_point(|item| column(item) as usize <= first + width - 2);
+        &items[low..high]
     }
 
     fn end_row(&mut self) {
@@ -38,11 +53,40 @@ impl<T> ByRow<T> {
     }
 }
 
+/// A share that would enter a sleeping tile across its corner: half of it goes to the cell above or below its source,
+/// half to the one beside it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Turn {
+    /// Row of the source, counted with the ring.
+    row: u32,
+    /// Its column, counted with the ring.
+    pub(super) column: u32,
+    /// Whether the share goes right or left.
+    pub(super) right: bool,
+    /// Whether it goes up or down.
+    pub(super) up: bool,
+}
+
 impl<const N: usize> ByRow<Corner<N>> {
+    /// Corners of a row in the columns after `first`, `width − 2` of them.
+    pub(super) fn row_within(&self, row: usize, first: usize, width: usize) -> &[Corner<N>] {
+        self.within(row, first, width, |corner| corner.column)
+    }
+
     fn push(&mut self, column: usize, strikes: [bool; N]) {
         if strikes.contains(&true) {
             let weights = strikes.map(|strikes| if strikes { 0.5 } else { 0.0 });
             self.items.push(Corner { column: column as u32, weights });
+        }
+    }
+}
+
+/// Closes those of the faces that are open, and notes them.
+fn close(faces: impl Iterator<Item = usize>, open: &mut [f32], fences: &mut Vec<u32>) {
+    for k in faces {
+        if open[k] != 0.0 {
+            open[k] = 0.0;
+            fences.push(k as u32);
         }
     }
 }
@@ -66,6 +110,12 @@ pub(super) struct Shape {
     pub(super) room: Vec<u32>,
     /// For each room: whether it has an open side of the box.
     pub(super) room_open: Vec<bool>,
+    /// Open left faces of cells that are closed because a tile beside sleeps.
+    fences_x: Vec<u32>,
+    /// Open lower faces of cells that are closed for the same reason.
+    fences_y: Vec<u32>,
+    /// Corners of sleeping tiles between three that are not, by row.
+    turns: Vec<Turn>,
 }
 
 impl Shape {
@@ -82,6 +132,9 @@ impl Shape {
             struck: ByRow::new(),
             room: vec![u32::MAX; cells],
             room_open: Vec::new(),
+            fences_x: Vec::new(),
+            fences_y: Vec::new(),
+            turns: Vec::new(),
         };
         let open = air.params.open;
         for row in 1..=rows {
@@ -112,8 +165,82 @@ impl Shape {
     }
 
     /// Columns, with the ring, of the solid cells of a row that shares strike.
-    pub(super) fn struck(&self, row: usize) -> &[u32] {
-        self.struck.row(row)
+    pub(super) fn struck_within(&self, row: usize, first: usize, width: usize) -> &[u32] {
+        self.struck.within(row, first, width, |column| *column)
+    }
+
+    /// Turns of the sources of a row.
+    #[inline(always)]
+    pub(super) fn turns_of(&self, row: usize) -> &[Turn] {
+        if self.turns.is_empty() {
+            return &[];
+        }
+        let low = self.turns.partition_point(|turn| (turn.row as usize) < row);
+        let high = self.turns.partition_point(|turn| turn.row as usize <= row);
+        &self.turns[low..high]
+    }
+
+    /// Closes the faces between active tiles and sleeping ones, and opens those that were closed before for that.
+    pub(super) fn fence(&mut self, air: &Air, active: &[bool]) {
+        for k in self.fences_x.drain(..) {
+            self.open_x[k as usize] = 1.0;
+        }
+        for k in self.fences_y.drain(..) {
+            self.open_y[k as usize] = 1.0;
+        }
+        self.turns.clear();
+        let (tiling, stride) = (air.tiling(), air.stride());
+        let [width, height] = tiling.size();
+        self.find_turns(air, active);
+        for tile in 0..tiling.count() {
+            let (columns, rows) = (tiling.columns(tile), tiling.rows(tile));
+            if tile % width > 0 && active[tile] != active[tile - 1] {
+                let faces = rows.map(|row| (row + 1) * stride + columns.start + 1);
+                close(faces, &mut self.open_x, &mut self.fences_x);
+            }
+            if tile >= width && active[tile] != active[tile - width] {
+                let first = (tiling.rows(tile).start + 1) * stride;
+                close(columns.map(|column| first + column + 1), &mut self.open_y, &mut self.fences_y);
+            }
+        }
+        // Where one of the four tiles that meet is active, the sleeping cell across from its own must not send it
+        // anything, for it would give nothing away: no share goes both ways if it can't go sideways.
+        for (j, i) in (1..height).flat_map(|j| (1..width).map(move |i| (j, i))) {
+            let upper_right = j * width + i;
+            let around = [upper_right - width - 1, upper_right - width, upper_right - 1, upper_right];
+            let mut awake = (0..4).filter(|place| active[around[*place]]);
+            if let (Some(place), None) = (awake.next(), awake.next()) {
+                let row = tiling.rows(upper_right).start + usize::from(place / 2 == 0);
+                let face = row * stride + tiling.columns(upper_right).start + 1;
+                close(std::iter::once(face), &mut self.open_x, &mut self.fences_x);
+            }
+        }
+    }
+
+    /// Finds where one of the four tiles that meet sleeps and the other three don't. Rock there has its own corners.
+    fn find_turns(&mut self, air: &Air, active: &[bool]) {
+        let (tiling, stride) = (air.tiling(), air.stride());
+        let [width, height] = tiling.size();
+        for (j, i) in (1..height).flat_map(|j| (1..width).map(move |i| (j, i))) {
+            let upper_right = j * width + i;
+            let around = [upper_right - width - 1, upper_right - width, upper_right - 1, upper_right];
+            let mut asleep = (0..4).filter(|place| !active[around[*place]]);
+            let (Some(place), None) = (asleep.next(), asleep.next()) else {
+                continue;
+            };
+            // Of the four cells that meet, the sleeping one, counted with the ring, and the one across.
+            let (row, column) = (tiling.rows(upper_right).start + 1, tiling.columns(upper_right).start + 1);
+            let (right, up) = (place % 2 == 1, place / 2 == 1);
+            let asleep = (row - usize::from(!up)) * stride + column - usize::from(!right);
+            let (source_row, source_column) = (row - usize::from(up), column - usize::from(right));
+            // The faces of the source towards the two others.
+            let open =
+                self.open_x[source_row * stride + column] != 0.0 && self.open_y[row * stride + source_column] != 0.0;
+            if open && !air.solid[asleep] {
+                self.turns.push(Turn { row: source_row as u32, column: source_column as u32, right, up });
+            }
+        }
+        self.turns.sort_unstable_by_key(|turn| (turn.row, turn.column));
     }
 
     pub(super) fn memory_bytes(&self) -> usize {

@@ -5,6 +5,7 @@ use super::band::{Band, BandPass, Target};
 use super::grid::{Air, MAX_PRESSURE, Peaks, Scratch};
 use super::pressure::{Push, STILL_MACH, peak};
 use super::shape::Shape;
+use super::tiles::{Block, WATCH};
 use crate::kernel::{parallel::Team, simd::InstructionSet, sources::Wind};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -39,7 +40,7 @@ const PARALLEL_CELLS: usize = 32 * 1024;
 pub struct AirReport {
     /// Substeps made; 0 if the air was quiet.
     pub substeps: u32,
-    /// Cells of the grid; 0 if the air was quiet.
+    /// Most cells that a substep did: those of the tiles that are awake and around them; 0 if the air was quiet.
     pub cells: usize,
     /// Velocity components that were clamped, by tools since the last step or in this one.
     pub speed_clamps: u64,
@@ -64,16 +65,13 @@ impl AddAssign for AirReport {
 }
 
 impl Scratch {
-    fn prepare(&mut self, air: &Air, band_rows: usize) {
+    fn prepare(&mut self, air: &Air) {
         let cells = air.pressure.len();
         if self.next_pressure.len() != cells {
             self.next_pressure = vec![1.0; cells];
             self.next_x = vec![0.0; cells];
             self.next_y = vec![0.0; cells];
-        }
-        let bands = air.rows().div_ceil(band_rows);
-        while self.bands.len() < bands {
-            self.bands.push(Band::new(air.stride()));
+            self.watch.forget();
         }
     }
 }
@@ -85,8 +83,8 @@ pub(super) struct Room {
     cells: u32,
     lowest: f32,
     highest: f32,
-    /// Pressure at which it comes to rest.
-    rest: f32,
+    /// Whether it has an open side of the box.
+    open: bool,
 }
 
 impl Room {
@@ -95,6 +93,18 @@ impl Room {
         self.highest = self.highest.max(pressure);
         self.mass += f64::from(pressure);
         self.cells += 1;
+    }
+
+    /// Pressure at which it comes to rest.
+    pub(super) fn rest(&self) -> f32 {
+        if self.open { 1.0 } else { (self.mass / f64::from(self.cells.max(1))) as f32 }
+    }
+
+    /// Whether no pressure is further from that of rest than the bound.
+    fn is_even(&self) -> bool {
+        let rest = f64::from(self.rest());
+        let tolerance = f64::from(QUIET_MACH) * rest;
+        rest - f64::from(self.lowest) <= tolerance && f64::from(self.highest) - rest <= tolerance
     }
 }
 
@@ -106,36 +116,48 @@ struct Substep {
 }
 
 impl Air {
-    /// Whether the grid is so large that threads gain more than starting them costs.
+    /// Whether so much is awake that threads gain more than starting them costs.
     pub fn is_worth_sharing(&self) -> bool {
-        self.columns() * self.rows() >= PARALLEL_CELLS
+        let (awake, tiles) = self.awake_tiles();
+        let awake = if self.scratch.sleeps { awake } else { tiles };
+        awake > 0 && self.columns() * self.rows() * awake >= PARALLEL_CELLS * tiles
     }
 
     /// Moves the air on by `dt` (s) in substeps that keep wind plus sound below `courant` cells (0.1 … 0.9; up to
     /// [`STABLE_COURANT`] is taken). `team` changes the time it takes and not a bit of the result. Quiet air that no fan
-    /// drives is left untouched.
+    /// drives is left untouched, as is air that is not built.
     pub fn step(&mut self, winds: &[Wind], courant: f32, team: Team, dt: f32) -> AirReport {
         debug_assert!(dt.is_finite() && courant.is_finite());
         let mut report = std::mem::take(&mut self.pending);
-        let driven = self.is_driven(winds);
+        let driven = self.is_built() && self.is_driven(winds);
         if (self.quiet && !driven) || dt.is_nan() || dt <= 0.0 {
             return report;
         }
         self.quiet = false;
-        report.cells = self.columns() * self.rows();
         let courant = courant.clamp(0.01, STABLE_COURANT);
-        let (instructions, band_rows) = self.division(team);
+        let mut shape = self.scratch.shape.take().unwrap_or_else(|| Shape::new(self));
         let mut scratch = std::mem::take(&mut self.scratch);
-        scratch.prepare(self, band_rows);
-        let shape = scratch.shape.take().unwrap_or_else(|| Shape::new(self));
+        self.scratch.sleeps = scratch.sleeps;
+        scratch.prepare(self);
 
-        let mut peaks = self.peaks();
+        let mut peaks = Peaks::default();
         let mut left = dt;
         loop {
+            if report.substeps % WATCH == 0 {
+                let changed = self.tend(winds, &mut shape, &mut scratch);
+                if scratch.watch.blocks.is_empty() {
+                    self.fall_asleep(&shape, &mut scratch);
+                    break;
+                }
+                if changed || report.substeps == 0 {
+                    peaks = self.peaks(&scratch.watch.blocks);
+                }
+                report.cells = report.cells.max(scratch.watch.cells());
+            }
             let (count, substep) = self.next_substep(peaks, courant, left, &mut report);
-            self.refresh_outside(substep.sound_speed);
-            peaks = self.substep(substep, &shape, &mut scratch, instructions, band_rows);
-            self.settle_edges(substep.sound_speed, substep.dt);
+            self.refresh_outside(&scratch.watch.active, substep.sound_speed);
+            peaks = self.substep(substep, &shape, &mut scratch, team);
+            self.settle_edges(&scratch.watch.active, substep.sound_speed, substep.dt);
             peaks = peaks.max(self.blow_fans(winds, substep.dt, &mut report));
             report.substeps += 1;
             left -= substep.dt;
@@ -143,19 +165,23 @@ impl Air {
                 break;
             }
         }
-        if !driven && peaks.x.max(peaks.y) <= QUIET_MACH * self.params.sound_speed {
-            self.fall_asleep(&shape, &mut scratch.rooms);
+        let still = !scratch.sleeps && !driven && peaks.x.max(peaks.y) <= QUIET_MACH * self.params.sound_speed;
+        if still {
+            self.count_rooms(&shape, &mut scratch.rooms);
+            if scratch.rooms.iter().all(Room::is_even) {
+                self.fall_asleep(&shape, &mut scratch);
+            }
         }
         scratch.shape = Some(shape);
         self.scratch = scratch;
         report
     }
 
-    /// The lanes for rows of this length, which must fill them, and the rows of a band.
-    fn division(&self, team: Team) -> (InstructionSet, usize) {
+    /// The lanes for blocks, which must fill them, and the rows of a band.
+    fn division(&self, team: Team, cells: usize) -> (InstructionSet, usize) {
         let instructions =
             if self.columns() < team.instructions.width() { InstructionSet::Scalar } else { team.instructions };
-        let shared = team.threads > 1 && self.is_worth_sharing();
+        let shared = team.threads > 1 && cells >= PARALLEL_CELLS;
         let bands = if shared { team.threads * BANDS_PER_THREAD } else { 1 };
         (instructions, self.rows().div_ceil(bands).max(FEWEST_ROWS))
     }
@@ -203,15 +229,9 @@ impl Air {
         clamps
     }
 
-    /// Both passes over all rows, in bands of `band_rows`.
-    fn substep(
-        &mut self,
-        substep: Substep,
-        shape: &Shape,
-        scratch: &mut Scratch,
-        instructions: InstructionSet,
-        band_rows: usize,
-    ) -> Peaks {
+    /// Both passes over the blocks that are awake, in bands of rows.
+    fn substep(&mut self, substep: Substep, shape: &Shape, scratch: &mut Scratch, team: Team) -> Peaks {
+        let (instructions, band_rows) = self.division(team, scratch.watch.cells());
         let stride = self.stride();
         let crossing = substep.dt / self.cell;
         let source = Source {
@@ -220,6 +240,8 @@ impl Air {
             velocity_y: &self.velocity_y,
             shape,
             stride,
+            left: 0,
+            width: stride,
             half: 0.5 * crossing,
             filter: FACE_FILTER * substep.sound_speed * crossing,
         };
@@ -228,13 +250,32 @@ impl Air {
             crossing,
             still: STILL_MACH * self.params.sound_speed,
         };
-        let Scratch { next_pressure, next_x, next_y, bands, .. } = scratch;
+        let count = self.rows().div_ceil(band_rows);
+        while scratch.bands.len() < count {
+            scratch.bands.push(Band::new(stride));
+        }
+        let Scratch { next_pressure, next_x, next_y, bands, watch, .. } = scratch;
         let (inner, chunk) = (stride..stride * (self.rows as usize + 1), band_rows * stride);
         let [pressure, x, y] = [&mut *next_pressure, &mut *next_x, &mut *next_y].map(|field| &mut field[inner.clone()]);
-        let bands = &mut bands[..self.rows().div_ceil(band_rows)];
-        let work = |(k, (((pressure, velocity_x), velocity_y), band))| {
-            let target = Target { pressure, velocity_x, velocity_y };
-            instructions.run_by_register(BandPass { band, source, push, first: 1 + k * band_rows, target });
+        let (bands, blocks) = (&mut bands[..count], &watch.blocks);
+        type Rows<'a> = (((&'a mut [f32], &'a mut [f32]), &'a mut [f32]), &'a mut Band);
+        let work = |(k, (((pressure, velocity_x), velocity_y), band)): (usize, Rows)| {
+            // Counted with the ring.
+            let first = 1 + k * band_rows;
+            let end = first + pressure.len() / stride;
+            let mut peaks = Peaks::default();
+            for Block { rows, columns } in blocks {
+                let rows = (rows.start + 1).max(first)..(rows.end + 1).min(end);
+                if !rows.is_empty() {
+                    let target =
+                        Target { pressure: &mut *pressure, velocity_x: &mut *velocity_x, velocity_y: &mut *velocity_y };
+                    let source = Source { left: columns.start, width: columns.len() + 2, ..source };
+                    let band = &mut *band;
+                    instructions.run_by_register(BandPass { band, source, push, rows, first, target });
+                    peaks = peaks.max(band.peaks);
+                }
+            }
+            band.peaks = peaks;
         };
         if let [band] = bands {
             work((0, (((pressure, x), y), band)));
@@ -248,34 +289,50 @@ impl Air {
         bands.iter().map(|band| band.peaks).fold(Peaks::default(), Peaks::max)
     }
 
-    /// Largest values as they stand.
-    fn peaks(&self) -> Peaks {
-        Peaks { x: peak(&self.velocity_x), y: peak(&self.velocity_y), pressure: peak(&self.pressure) }
+    /// Largest values of the blocks as they stand.
+    fn peaks(&self, blocks: &[Block]) -> Peaks {
+        let mut peaks = Peaks::default();
+        for Block { rows, columns } in blocks {
+            // With what lies around them: the air beyond an open side flows in.
+            for row in rows.start..rows.end + 2 {
+                let cells = row * self.stride() + columns.start..row * self.stride() + columns.end + 2;
+                let [x, y, pressure] =
+                    [&self.velocity_x, &self.velocity_y, &self.pressure].map(|field| peak(&field[cells.clone()]));
+                peaks = peaks.max(Peaks { x, y, pressure });
+            }
+        }
+        peaks
     }
 
-    /// Puts the air to rest if in every room the pressure is even enough: velocities become 0 and the pressure of a
-    /// room its mean (1 if the room is open), so that a further step would change nothing. Mass is kept to a rounding.
-    fn fall_asleep(&mut self, shape: &Shape, rooms: &mut Vec<Room>) {
+    /// What is in each room.
+    pub(super) fn count_rooms(&self, shape: &Shape, rooms: &mut Vec<Room>) {
         rooms.clear();
-        rooms.resize(shape.room_open.len(), Room::default());
-        let in_room = |(room, _): &(&u32, _)| **room != u32::MAX;
-        for (room, p) in shape.room.iter().zip(&self.pressure).filter(in_room) {
+        rooms.extend(shape.room_open.iter().map(|open| Room { open: *open, ..Room::default() }));
+        for (room, p) in shape.room.iter().zip(&self.pressure).filter(|(room, _)| **room != u32::MAX) {
             rooms[*room as usize].count(*p);
         }
-        for (room, open) in rooms.iter_mut().zip(&shape.room_open) {
-            let rest = if *open { 1.0 } else { room.mass / f64::from(room.cells) };
-            let tolerance = f64::from(QUIET_MACH) * rest;
-            if rest - f64::from(room.lowest) > tolerance || f64::from(room.highest) - rest > tolerance {
-                return;
-            }
-            room.rest = rest as f32;
-        }
+    }
+
+    /// Puts the air to rest: velocities become 0 and the pressure of a room its mean (1 if the room is open), so that a
+    /// further step would change nothing. Mass is kept to a rounding.
+    fn fall_asleep(&mut self, shape: &Shape, scratch: &mut Scratch) {
+        self.count_rooms(shape, &mut scratch.rooms);
+        self.rests.clear();
+        self.rests.extend(scratch.rooms.iter().map(Room::rest));
         for (k, room) in shape.room.iter().enumerate().filter(|(_, room)| **room != u32::MAX) {
-            self.pressure[k] = rooms[*room as usize].rest;
+            self.pressure[k] = self.rests[*room as usize];
         }
         for velocity in [&mut self.velocity_x, &mut self.velocity_y, &mut self.outside] {
             velocity.fill(0.0);
         }
+        self.set_quiet();
+        scratch.watch.forget();
+    }
+
+    /// From now on nothing moves.
+    pub(super) fn set_quiet(&mut self) {
         self.quiet = true;
+        self.awake.fill(false);
+        self.scratch.watch.forget();
     }
 }

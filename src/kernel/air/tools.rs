@@ -26,7 +26,7 @@ fn bounded_velocity(velocity: Vec2) -> (Vec2, u64) {
 
 impl Air {
     /// The wind tool: blends the velocity in a soft disc towards `velocity` (d/s, up to [`MAX_SPEED`] along an axis),
-    /// wholly at `centre` (d), not at all from `radius` (d) on. A disc smaller than a cell is taken as large as one.
+    /// wholly at `centre` (d), not at all from `radius` (d) on. The air must be built. A disc smaller than a cell is taken as large as one.
     pub fn blow(&mut self, centre: Vec2, radius: f32, velocity: Vec2) {
         let (velocity, cuts) = bounded_velocity(velocity);
         self.pending.speed_clamps += cuts;
@@ -40,6 +40,7 @@ impl Air {
     }
 
     /// The pressure tool: adds `amount` to the pressure at `centre` (d), less around it, nothing from `radius` (d) on.
+    /// The air must be built.
     /// The result is kept within 0 … [`MAX_PRESSURE`], and each cell where that changed it is counted.
     pub fn press(&mut self, centre: Vec2, radius: f32, amount: f32) {
         if amount.is_nan() {
@@ -52,22 +53,30 @@ impl Air {
             let wanted = before + amount * weight;
             air.pressure[k] = wanted.clamp(0.0, MAX_PRESSURE);
             air.pending.pressure_clamps += u64::from(air.pressure[k] != wanted);
+            air.rests.clear();
             air.pressure[k] != before
         });
     }
 
     /// Sets the pressure of the cells whose centre is in `area` (d): 0 … [`MAX_PRESSURE`], 1 for what is no number.
+    /// The air must be built.
     pub fn fill_pressure(&mut self, area: Rect, pressure: f32) {
         let bounded = if pressure.is_nan() { 1.0 } else { pressure.clamp(0.0, MAX_PRESSURE) };
         let cut = bounded != pressure;
+        if !self.is_built() {
+            return;
+        }
         let window = self.window(area);
         for row in window.rows {
             for column in window.columns.clone() {
                 let k = self.index(column, row);
                 if !self.solid[k] {
                     self.pending.pressure_clamps += u64::from(cut);
-                    self.quiet &= self.pressure[k] == bounded;
-                    self.pressure[k] = bounded;
+                    if self.pressure[k] != bounded {
+                        self.pressure[k] = bounded;
+                        self.touch(k);
+                        self.rests.clear();
+                    }
                 }
             }
         }
@@ -83,7 +92,8 @@ impl Air {
                 self.pressure[k] = if self.solid[k] { 0.0 } else { 1.0 };
             }
         }
-        self.quiet = true;
+        self.rests.clear();
+        self.set_quiet();
     }
 
     /// Takes what tools and new rock had to clamp since the last step: nobody waits for a step of air that stays at rest.
@@ -93,10 +103,28 @@ impl Air {
 
     /// Whether a fan would change air at rest.
     pub(super) fn is_driven(&self, winds: &[Wind]) -> bool {
+        debug_assert!(self.is_built());
         winds.iter().filter(|wind| wind.rate > 0.0 && bounded_velocity(wind.velocity).0 != Vec2::ZERO).any(|wind| {
             let Window { columns, rows } = self.window(wind.area);
             rows.into_iter().any(|row| columns.clone().any(|column| !self.solid[self.index(column, row)]))
         })
+    }
+
+    /// Wakes the tiles in which fans blow.
+    pub(super) fn wake_fans(&mut self, winds: &[Wind]) {
+        let tiling = self.tiling();
+        for wind in winds {
+            if !self.is_driven(std::slice::from_ref(wind)) {
+                continue;
+            }
+            let Window { columns, rows } = self.window(wind.area);
+            for tile in 0..tiling.count() {
+                let overlaps = |a: &Range<usize>, b: Range<usize>| a.start.max(b.start) < a.end.min(b.end);
+                if overlaps(&columns, tiling.columns(tile)) && overlaps(&rows, tiling.rows(tile)) {
+                    self.wake(tile);
+                }
+            }
+        }
     }
 
     /// Drives the air in the fans' areas for a time dt (s): the implicit step of `du/dt = rate (target − u)`, which
@@ -139,7 +167,7 @@ impl Air {
 
     /// Calls `act` for each open cell of a disc with its weight `(1 − r²/R²)²`; it says whether it changed the cell.
     fn for_each_in_disc(&mut self, centre: Vec2, radius: f32, mut act: impl FnMut(&mut Self, usize, f32) -> bool) {
-        if !(centre.is_finite() && radius.is_finite()) {
+        if !(centre.is_finite() && radius.is_finite() && self.is_built()) {
             return;
         }
         let radius = radius.max(self.cell);
@@ -151,8 +179,9 @@ impl Air {
                 let k = self.index(column, row);
                 if distance < 1.0 && !self.solid[k] {
                     let falloff = 1.0 - distance;
-                    let changed = act(self, k, falloff * falloff);
-                    self.quiet &= !changed;
+                    if act(self, k, falloff * falloff) {
+                        self.touch(k);
+                    }
                 }
             }
         }

@@ -10,7 +10,7 @@ use crate::kernel::solids::Solids;
 const FAR: u32 = u32::MAX;
 
 impl Air {
-    /// Follows the rock. Does nothing while `solids.version()` is the one it last followed.
+    /// Follows the rock. Does nothing while `solids.version()` is the one it last followed, or to air that is not built.
     ///
     /// Air that has not followed any rock yet keeps its pressure: a scene starts with rock and still air. Resampled air
     /// in a closed box keeps its mass instead. From then on,
@@ -21,7 +21,7 @@ impl Air {
     ///   1/(k + 1) of its mass and gives as much to each. Where several open at once this goes on inwards. A hollow
     ///   without any open neighbour starts as a vacuum: no air was there.
     pub fn set_solids(&mut self, solids: &Solids) {
-        if self.solids_version == Some(solids.version()) {
+        if self.solids_version == Some(solids.version()) || !self.is_built() {
             return;
         }
         let first = self.solids_version.is_none();
@@ -36,6 +36,8 @@ impl Air {
             return;
         }
         self.scratch.shape = None;
+        self.scratch.watch.forget();
+        self.rests.clear();
         let before = std::mem::replace(&mut self.solid, next);
         if first {
             self.take_shape(&before);
@@ -122,7 +124,7 @@ impl Air {
                     let kept = self.pressure[target] / sum;
                     self.velocity_x[target] *= kept;
                     self.velocity_y[target] *= kept;
-                    self.quiet = false;
+                    self.touch(target);
                 }
                 self.pressure[target] = sum;
             }
@@ -135,7 +137,6 @@ impl Air {
         let opened = |k: usize| !self.solid[k] && before[k];
         let (distance, order) = self.flood(|k| !self.solid[k] && !before[k], opened);
         for layer in order.chunk_by(|a, b| distance[*a] == distance[*b]) {
-            self.quiet = false;
             let depth = distance[layer[0]];
             let takers = |air: &Self, donor: usize| {
                 1.0 + air.beside(donor).iter().filter(|beside| distance[**beside] == depth).count() as f32
@@ -157,11 +158,13 @@ impl Air {
                     self.velocity_y[*k] = y / sum;
                 }
                 self.pressure[*k] = sum;
+                self.touch(*k);
             }
             donors.sort_unstable();
             donors.dedup();
             for donor in donors {
                 self.pressure[donor] /= takers(self, donor);
+                self.touch(donor);
             }
         }
     }
@@ -178,7 +181,7 @@ impl Air {
         }
         if std::mem::take(&mut self.keep_mass) {
             self.scale_to(mass);
-            self.quiet = false;
+            self.wake_all();
         }
     }
 

@@ -7,7 +7,6 @@
 
 use crate::kernel::{
     parallel::{cut, piece, spread},
-    predictor::{grid::MacGrid, stencil::Axis},
     simd::{InstructionSet, Lanes, Pass},
 };
 use std::ops::Range;
@@ -18,16 +17,23 @@ const SPAN: usize = 128;
 /// Fewer spans than this are not handed to another thread.
 const FEWEST_SPANS: usize = 512;
 
+/// A grid that particles share something out to.
+pub(in crate::kernel) trait Reach: Copy + Sync {
+    /// First row that a particle at height `y` d reaches, and the one after the last. Implementations are
+    /// `#[inline(always)]`, so that they are compiled for the caller's registers.
+    fn rows(self, y: f32) -> [u32; 2];
+}
+
 /// Consecutive particles and the grid rows that they reach.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Block {
+pub(in crate::kernel) struct Block {
     pub particles: Range<usize>,
     pub rows: Range<usize>,
 }
 
 /// A partition of the particles. Buffers are kept.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Blocks {
+pub(in crate::kernel) struct Blocks {
     /// First row that each span of particles reaches, and the one after the last.
     spans: Vec<[u32; 2]>,
     /// The blocks of the first and of the second turn, each with its rows in ascending order.
@@ -38,7 +44,7 @@ pub(super) struct Blocks {
 
 impl Blocks {
     /// Cuts the particles at heights `y` d into blocks.
-    pub fn partition(&mut self, grid: &MacGrid, y: &[f32], instructions: InstructionSet, threads: usize) {
+    pub fn partition(&mut self, grid: impl Reach, y: &[f32], instructions: InstructionSet, threads: usize) {
         self.spans.resize(y.len().div_ceil(SPAN), [0; 2]);
         spread([&mut self.spans[..]], FEWEST_SPANS, threads, &|first, [spans]| {
             instructions.run(FindSpans { grid, y: &y[first * SPAN..], spans });
@@ -139,23 +145,23 @@ fn run_one_by_one<const K: usize, T>(
 }
 
 /// Finds the rows that spans of particles reach.
-struct FindSpans<'a> {
-    grid: &'a MacGrid,
+struct FindSpans<'a, R> {
+    grid: R,
     y: &'a [f32],
     spans: &'a mut [[u32; 2]],
 }
 
-impl Pass for FindSpans<'_> {
+impl<R: Reach> Pass for FindSpans<'_, R> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         for (span, y) in self.spans.iter_mut().zip(self.y.chunks(SPAN)) {
-            let (mut first, mut last) = (u32::MAX, 0);
+            let (mut first, mut end) = (u32::MAX, 0);
             for &y in y {
-                first = first.min(Axis::U.row(self.grid, y).0);
-                last = last.max(Axis::V.row(self.grid, y).0);
+                let [low, high] = self.grid.rows(y);
+                first = first.min(low);
+                end = end.max(high);
             }
-            // A stencil has two rows.
-            *span = [first, last + 2];
+            *span = [first, end];
         }
     }
 }
@@ -163,6 +169,7 @@ impl Pass for FindSpans<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::predictor::grid::MacGrid;
     use glam::Vec2;
 
     fn partition(heights: &[f32]) -> Blocks {

@@ -10,7 +10,7 @@
 //! Rooms: `grid` the geometry, `rock` what is closed, `parts` cells that a wall cuts, `stencil`, `blocks` and `transfer` particles to grid and back,
 //! `pressure` and `equation` the equation, `pockets` where it is singular, `level`, `multigrid` and `conjugate` its solver.
 
-mod blocks;
+pub(in crate::kernel) mod blocks;
 mod conjugate;
 mod equation;
 mod grid;

@@ -1,6 +1,9 @@
 //! Bilinear weights of the faces around a point.
 
-use crate::kernel::{predictor::grid::MacGrid, simd::whole_below};
+use crate::kernel::{
+    predictor::{blocks::Reach, grid::MacGrid},
+    simd::whole_below,
+};
 
 /// Which faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +31,14 @@ impl Axis {
             Self::U => whole_below(y * grid.per_cell + 0.5, 0, grid.rows as u32),
             Self::V => whole_below(y * grid.per_cell + 1.0, 1, grid.rows as u32),
         }
+    }
+}
+
+impl Reach for &MacGrid {
+    #[inline(always)]
+    fn rows(self, y: f32) -> [u32; 2] {
+        // A stencil has two rows, and those of v begin half a cell higher.
+        [Axis::U.row(self, y).0, Axis::V.row(self, y).0 + 2]
     }
 }
 

@@ -1,7 +1,7 @@
 use super::*;
 use crate::kernel::{
     element::ElementId,
-    params::{AirParams, OpenSides},
+    params::{AIR_DENSITY, AirParams, OpenSides},
 };
 
 const SIZE: Vec2 = Vec2::new(120.0, 40.0);
@@ -116,7 +116,8 @@ fn wind_wakes_what_feels_it() {
     // 0.1 d/s² is what a sleeper may be pushed by, at 0.4/d that of 0.5 d/s.
     for (speed, left) in [(0.45, 300), (0.6, 100)] {
         let (mut sleep, mut particles) = asleep();
-        let mut air = Air::new(SIZE, 4.0, AirParams { sound_speed: 300.0, open: OpenSides::default() });
+        let mut air =
+            Air::new(SIZE, 4.0, AirParams { sound_speed: 300.0, density: AIR_DENSITY, open: OpenSides::default() });
         air.blow(Vec2::new(6.0, 6.0), 4.0, Vec2::new(speed, 0.0));
         sleep.set_aside(&mut particles);
         sleep.wake_blown(&mut particles, &air, 0.4, gravity);

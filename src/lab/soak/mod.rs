@@ -63,7 +63,7 @@ pub fn soak(
 }
 
 fn look(world: &World, period: &mut Period) {
-    let air = world.resource::<AirGrid>();
+    let air = world.resource::<AirGrid>().with_grid(world.resource::<Rock>());
     let liquid = matter(world).balance();
     period.particles.push(world.resource::<ParticleStore>().len() as f64);
     period.kinetic.push(liquid.kinetic);

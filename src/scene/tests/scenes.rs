@@ -17,7 +17,7 @@ fn what_is_not_given_has_its_default() {
     assert_eq!(world.domain.size, Vec2::new(10.0, 8.0));
     assert_eq!(world.domain.gravity, Vec2::new(0.0, -19.62));
     assert_eq!(world.fluid, FluidParams::default());
-    assert_eq!(world.air, AirParams { sound_speed: 80.0, open: OpenSides::default() });
+    assert_eq!(world.air, AirParams { sound_speed: 80.0, density: AIR_DENSITY, open: OpenSides::default() });
     assert_eq!((world.quality, world.particle_limit, world.next_id), (Preset::Balanced.quality(), 200_000, 0));
     assert!(world.effects.is_empty() && world.first_element.is_none());
 }
@@ -85,7 +85,10 @@ fn flows_come_out_in_spacings_and_ticks() {
     assert_eq!((world.winds[0].area, world.winds[0].velocity), (rect(2.0, 2.0, 4.0, 8.0), Vec2::new(6.0, -2.0)));
     assert_eq!(world.drains[0].area, rect(8.0, -1.0, 11.0, 2.0));
     assert_eq!((world.pressures[0].area, world.pressures[0].pressure), (rect(2.0, 2.0, 4.0, 4.0), 1.5));
-    assert_eq!(world.air, AirParams { sound_speed: 20.0, open: OpenSides { top: true, ..Default::default() } });
+    assert_eq!(
+        world.air,
+        AirParams { sound_speed: 20.0, density: AIR_DENSITY, open: OpenSides { top: true, ..Default::default() } }
+    );
     assert_eq!(world.first_element.as_deref(), Some("rock"));
 }
 

@@ -1,7 +1,11 @@
 //! Intents change the world.
 
 use crate::{
-    kernel::spawn::{EditReport, Matter},
+    kernel::{
+        element::ElementTable,
+        spawn::{EditReport, Matter},
+    },
+    scene::blueprint::{Effect, Mode},
     sim::{
         control::change_quality,
         effects::Effects,
@@ -38,6 +42,9 @@ pub(super) fn apply_intents(
             recorder.note(clock.tick, intent);
         }
         clock.edits += 1;
+        if moves_air(&intent, effects.get(Effect::Air).mode, setup.elements(), &rock) {
+            air.build(&rock);
+        }
         let mut matter = Matter {
             elements: setup.elements(),
             particles: &mut particles,
@@ -82,4 +89,17 @@ pub(super) fn apply_intents(
         census.full = refused > 0;
     }
     ledger.note(Pass::Edit, start.elapsed());
+}
+
+/// Whether an intent may move air that has been at rest since the scene began. Rock that comes or goes does, unless there
+/// is no air to speak of.
+fn moves_air(intent: &Intent, air: Mode, elements: &ElementTable, rock: &Rock) -> bool {
+    match intent {
+        Intent::Blow { .. } | Intent::Press { .. } => true,
+        Intent::Draw { element, .. } | Intent::Stamp { element, .. } | Intent::Fill { element, .. } => {
+            air != Mode::Off && elements.get(*element).fixed
+        }
+        Intent::Erase { .. } => air != Mode::Off && rock.count() > 0,
+        Intent::ClearAir | Intent::Quality { .. } | Intent::Effect { .. } => false,
+    }
 }

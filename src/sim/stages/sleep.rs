@@ -25,11 +25,13 @@ pub(super) fn anyone_is_awake(particles: Res<ParticleStore>) -> bool {
 
 /// Whether the setup calls for sleep, of which `asleep` of `count` particles make use. The plain method simmers and never
 /// rests, and the reference is what sleep, too, is held against.
-pub(super) fn is_called_for(setup: &Setup, asleep: usize, count: usize) -> (bool, &'static str) {
-    if count == 0 {
-        (false, "no liquid")
-    } else if setup.preset == Preset::Reference {
+pub(super) fn is_called_for(setup: &Setup, asleep: usize, count: usize, air_moves: bool) -> (bool, &'static str) {
+    if setup.preset == Preset::Reference {
         (false, "the reference simulates all")
+    } else if count == 0 && air_moves {
+        (true, "calm air sleeps by tiles")
+    } else if count == 0 {
+        (false, "nothing moves")
     } else if !setup.quality.predictor {
         (false, "without the predictor nothing rests")
     } else if asleep == 0 {

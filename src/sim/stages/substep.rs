@@ -1,8 +1,14 @@
 //! The stages of a substep.
 
 use crate::{
-    kernel::{forces, parallel::Team, pbf, predict, predictor, velocity},
-    scene::blueprint::Effect,
+    kernel::{
+        air::Rousing,
+        forces::{self, DragTable},
+        parallel::Team,
+        params::Preset,
+        pbf, predict, predictor, velocity,
+    },
+    scene::blueprint::{Effect, Mode},
     sim::{
         effects::Effects,
         ledger::{Pass, PassLedger},
@@ -20,6 +26,8 @@ pub(super) fn step_air(
     sources: Res<Sources>,
     setup: Res<Setup>,
     solver: Res<SolverState>,
+    effects: Res<Effects>,
+    rock: Res<Rock>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
@@ -27,6 +35,11 @@ pub(super) fn step_air(
 ) {
     let start = Instant::now();
     let dt = plan.substep_seconds();
+    if !sources.winds.is_empty() {
+        air.build(&rock);
+    }
+    let sleep = effects.get(Effect::Sleep).mode;
+    air.allow_sleep(sleep == Mode::On || sleep == Mode::Auto && setup.preset != Preset::Reference);
     let (worth, instructions) = (air.is_worth_sharing(), solver.instructions);
     let report = workers.run_if(worth, |threads| {
         air.step(&sources.winds, setup.quality.air_courant, Team { instructions, threads }, dt)
@@ -49,17 +62,34 @@ pub(super) fn apply_gravity(
     ledger.note(Pass::Gravity, start.elapsed());
 }
 
-/// The air drags particles.
+/// The air drags particles, and they the air if that effect runs.
 pub(super) fn apply_drag(
     mut particles: ResMut<ParticleStore>,
-    air: Res<AirGrid>,
+    mut air: ResMut<AirGrid>,
     rates: Res<Rates>,
+    solver: Res<SolverState>,
+    effects: Res<Effects>,
+    rock: Res<Rock>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
-    let dt = plan.substep_seconds();
+    let (dt, feedback) = (plan.substep_seconds(), effects.get(Effect::AirFeedback));
+    if feedback.running && effects.get(Effect::Air).running {
+        air.build(&rock);
+        let drag = DragTable { rates: &rates.drag, masses: &rates.mass };
+        let rousing = if feedback.mode == Mode::On { Rousing::Breaths } else { Rousing::Gusts };
+        let instructions = solver.instructions;
+        workers.run_for(particles.len(), |threads| {
+            air.meet(drag, &particles, rousing, Team { instructions, threads }, dt);
+        });
+        ledger.note(Pass::Feedback, start.elapsed());
+        let start = Instant::now();
+        workers.run_for(particles.len(), |threads| air.drag_along(drag, &mut particles, threads, dt));
+        ledger.note(Pass::Drag, start.elapsed());
+        return;
+    }
     workers.run_for(particles.len(), |threads| forces::apply_drag(&air, &rates.drag, &mut particles, threads, dt));
     ledger.note(Pass::Drag, start.elapsed());
 }

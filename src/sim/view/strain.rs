@@ -183,14 +183,14 @@ mod tests {
     use super::*;
     use crate::kernel::{
         element::ElementId,
-        params::{AirParams, OpenSides, Preset},
+        params::{AIR_DENSITY, AirParams, OpenSides, Preset},
         sources::Rect,
     };
 
     const SIZE: Vec2 = Vec2::new(80.0, 60.0);
 
     fn air() -> Air {
-        Air::new(SIZE, 4.0, AirParams { sound_speed: 500.0, open: OpenSides::default() })
+        Air::new(SIZE, 4.0, AirParams { sound_speed: 500.0, density: AIR_DENSITY, open: OpenSides::default() })
     }
 
     fn measure(map: &mut StrainMap, particles: &Particles, air: &Air, tick: u64) {

@@ -7,7 +7,7 @@ use powder_master::kernel::{
     element::ElementId,
     forces,
     parallel::Team,
-    params::{AirParams, OpenSides},
+    params::{AIR_DENSITY, AirParams, OpenSides},
     predictor::{Predictor, PredictorParams},
     simd::InstructionSet,
     solids::Solids,
@@ -80,7 +80,11 @@ fn windy() -> Air {
     for y in (0..192).filter(|y| y % 64 > 16) {
         solids.insert(IVec2::new(100, y), ElementId(0), 0);
     }
-    let mut air = Air::new(Vec2::new(256.0, 192.0), 4.0, AirParams { sound_speed: 1000.0, open: OpenSides::default() });
+    let mut air = Air::new(
+        Vec2::new(256.0, 192.0),
+        4.0,
+        AirParams { sound_speed: 1000.0, density: AIR_DENSITY, open: OpenSides::default() },
+    );
     air.set_solids(&solids);
     air.blow(Vec2::new(80.0, 60.0), 60.0, Vec2::new(150.0, 60.0));
     air

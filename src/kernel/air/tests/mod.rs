@@ -1,7 +1,9 @@
 //! Tests of the air as a whole: each name says what would be wrong if it failed.
 
+mod feedback;
 mod limits;
 mod scheme;
+mod sleep;
 mod tools;
 mod walls;
 mod waves;
@@ -9,7 +11,7 @@ mod waves;
 use super::Air;
 use crate::kernel::element::ElementId;
 use crate::kernel::parallel::Team;
-use crate::kernel::params::{AirParams, OpenSides};
+use crate::kernel::params::{AIR_DENSITY, AirParams, OpenSides};
 use crate::kernel::simd::InstructionSet;
 use crate::kernel::solids::Solids;
 use crate::kernel::sources::Rect;
@@ -22,7 +24,7 @@ const COURANT: f32 = 0.7;
 const ALONE: Team = Team { instructions: InstructionSet::Baseline, threads: 1 };
 
 fn params(open: OpenSides) -> AirParams {
-    AirParams { sound_speed: SOUND, open }
+    AirParams { sound_speed: SOUND, density: AIR_DENSITY, open }
 }
 
 fn closed(columns: u32, rows: u32, cell: f32) -> Air {

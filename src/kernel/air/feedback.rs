@@ -1,0 +1,225 @@
+//! Momentum both ways: what drag takes from particles, the air gets, and the other way round.
+//!
+//! Particle i (mass m, drag rate k, see `kernel::forces`) meets the four cells around it with the bilinear weights w of
+//! `sample`. Its share `α = kr Δt/(1 + kr Δt)`, r its speed relative to the air before, is that of the exact solution in
+//! air that doesn't yield. Here the air yields: each cell c, of mass M, ends at the common velocity
+//!
+//! ```text
+//! u_c' = (M u_c + Σ w m α v) / (M + Σ w m α)            v' = v + α (Σ w u_c' − v)
+//! ```
+//!
+//! which is the implicit step of the exchange between each cell and each particle's part in it.
+//! - **Momentum**: cell c gets `Σ w m α (v − u_c')`, and the same terms, summed the other way, are what the particles lose.
+//! - **Energy** never grows: by `a·(a − b) ≥ ½ (a² − b²)` on both sides the sum of both grows by at most
+//!   `Σ m α (v·u' − Σ w u_c'² + (u' − v)·v')`, u' the mean `Σ w u_c'`, which is at most `−Σ m α (1 − α) |v − u'|²` because
+//!   the mean of squares is no less than the square of the mean.
+//! - **Any load**: a new velocity is a mean of old ones, so neither overshoots, however heavy the particles or thin the
+//!   air. In air far heavier than they are it is the plain drag.
+//!
+//! Rock and tiles that sleep are air at rest that doesn't yield, as in plain drag. A sleeping tile wakes when one of its
+//! cells would get a speed above [`QUIET_MACH`].
+
+use super::grid::Air;
+use super::sample::Stencil;
+use super::step::QUIET_MACH;
+use crate::kernel::{
+    element::ElementId,
+    forces::DragTable,
+    parallel::{Team, WORTH_A_PIECE, spread},
+    particles::Particles,
+    predictor::blocks::{Blocks, Reach},
+};
+
+/// Fewer cells than this are not handed to another thread.
+const WORTH_RESOLVING: usize = 8192;
+
+/// A drag per substep past which a particle has the wind's velocity, whatever the rounding.
+const UTTER: f32 = 1.0e30;
+
+/// Of a cell: the momentum that it meets, x and y, the mass that brings it, kg/m² d²; then its new velocity, d/s.
+type Meeting = [f32; 4];
+
+/// Buffers of the exchange, of which nothing is kept from one to the next.
+#[derive(Debug, Default)]
+pub(super) struct Feedback {
+    blocks: Blocks,
+    /// One entry a cell, with the ring.
+    meetings: Vec<Meeting>,
+    /// Tiles that don't sleep.
+    active: Vec<bool>,
+}
+
+impl Feedback {
+    /// Bytes held.
+    pub(super) fn memory_bytes(&self) -> usize {
+        self.blocks.memory() + self.meetings.capacity() * size_of::<Meeting>() + self.active.capacity()
+    }
+}
+
+/// Particles to a d² that a gate reckons with: twice as many as there are in water.
+const CROWD: f32 = 2.0;
+
+/// When particles wake air that sleeps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rousing {
+    /// When they would give it a speed above [`QUIET_MACH`].
+    Gusts,
+    /// Whenever they would move it at all.
+    Breaths,
+}
+
+/// Which rows of the grid, counted with the ring, a height reaches.
+#[derive(Clone, Copy)]
+struct Rows {
+    per_cell: f32,
+    last: f32,
+}
+
+impl Reach for Rows {
+    #[inline(always)]
+    fn rows(self, y: f32) -> [u32; 2] {
+        let (row, _) = super::sample::split(y, self.per_cell, self.last);
+        [row as u32 + 1, row as u32 + 3]
+    }
+}
+
+/// What a particle brings to the exchange.
+struct Party {
+    at: Stencil,
+    /// α.
+    share: f32,
+}
+
+impl Air {
+    /// Whether a crowd of particles of a speed (d/s) could wake air at rest at pressure 1 in a substep of `dt` s.
+    pub fn may_be_roused(&self, drag: DragTable, speed: f32, dt: f32) -> bool {
+        let loads = drag.rates.iter().zip(drag.masses).map(|(rate, mass)| CROWD * mass * (rate * speed * dt).min(1.0));
+        let load = loads.fold(0.0, f32::max);
+        speed * load / (self.params.density + load) > QUIET_MACH * self.params.sound_speed
+    }
+
+    /// First half of the exchange over `dt` s: finds the velocity that the air gets. [`Air::drag_along`] must follow with
+    /// the same particles. The air must be built. `team` changes the time it takes and not a bit of the result.
+    pub fn meet(&mut self, drag: DragTable, particles: &Particles, rousing: Rousing, team: Team, dt: f32) {
+        let mut feedback = std::mem::take(&mut self.scratch.feedback);
+        feedback.meetings.resize(self.pressure.len(), Meeting::default());
+        let rows = Rows { per_cell: 1.0 / self.cell, last: (self.rows() - 1) as f32 };
+        feedback.blocks.partition(rows, &particles.y, team.instructions, team.threads);
+        let (reached, stride) = (feedback.blocks.reached(), self.stride());
+        feedback.meetings[reached.start * stride..reached.end * stride].fill(Meeting::default());
+        let air = &*self;
+        let Feedback { blocks, meetings, .. } = &mut feedback;
+        blocks.share_out([&mut meetings[..]], stride, team.threads, &|range, first, [meetings]| {
+            for i in range {
+                let (element, velocity) = (particles.element[i], [particles.vx[i], particles.vy[i]]);
+                let Party { at, share } = air.party(drag, element, [particles.x[i], particles.y[i]], velocity, dt);
+                let brought = share * drag.masses[element.index()];
+                let meeting = [brought * velocity[0], brought * velocity[1], brought, 0.0];
+                let k = at.k - first * stride;
+                let (left, right) = (1.0 - at.x, at.x);
+                let corners = [
+                    (k, left * (1.0 - at.y)),
+                    (k + 1, right * (1.0 - at.y)),
+                    (k + stride, left * at.y),
+                    (k + stride + 1, right * at.y),
+                ];
+                for (k, weight) in corners {
+                    for (sum, value) in meetings[k].iter_mut().zip(meeting) {
+                        *sum += weight * value;
+                    }
+                }
+            }
+        });
+        self.agree(&mut feedback, team.threads);
+        self.rouse(&mut feedback, rousing);
+        self.scratch.feedback = feedback;
+    }
+
+    /// Second half of the exchange: the particles get their velocities, and the air those that [`Air::meet`] found.
+    pub fn drag_along(&mut self, drag: DragTable, particles: &mut Particles, threads: usize, dt: f32) {
+        let feedback = std::mem::take(&mut self.scratch.feedback);
+        let (air, meetings, stride) = (&*self, &feedback.meetings[..], self.stride());
+        let Particles { x, y, vx, vy, element, .. } = particles;
+        spread([&mut vx[..], &mut vy[..]], WORTH_A_PIECE, threads, &|base, [vx, vy]| {
+            for (i, (vx, vy)) in vx.iter_mut().zip(vy).enumerate() {
+                let i = base + i;
+                let Party { at, share } = air.party(drag, element[i], [x[i], y[i]], [*vx, *vy], dt);
+                let (low, high) = (&meetings[at.k..at.k + 2], &meetings[at.k + stride..at.k + stride + 2]);
+                let wind = |axis: usize| at.mix([low[0][axis], low[1][axis]], [high[0][axis], high[1][axis]]);
+                let (u, v) = (wind(0), wind(1));
+                *vx += share * (u - *vx);
+                *vy += share * (v - *vy);
+            }
+        });
+        let reached = feedback.blocks.reached();
+        let cells = reached.start * stride..reached.end * stride;
+        let velocities = self.velocity_x[cells.clone()].iter_mut().zip(&mut self.velocity_y[cells.clone()]);
+        for ((u, v), meeting) in velocities.zip(&feedback.meetings[cells]) {
+            (*u, *v) = (meeting[0], meeting[1]);
+        }
+        self.scratch.feedback = feedback;
+    }
+
+    /// Place and share of a particle, by the wind as it is before the exchange.
+    #[inline(always)]
+    fn party(&self, drag: DragTable, element: ElementId, place: [f32; 2], velocity: [f32; 2], dt: f32) -> Party {
+        let at = self.stencil(place[0], place[1], 1.0 / self.cell);
+        let (x, y) = (velocity[0] - self.blend(&self.velocity_x, &at), velocity[1] - self.blend(&self.velocity_y, &at));
+        let slowing = (drag.rates[element.index()] * (x * x + y * y).sqrt() * dt).min(UTTER);
+        Party { at, share: slowing / (1.0 + slowing) }
+    }
+
+    /// From what cells meet to the velocity that they get.
+    fn agree(&self, feedback: &mut Feedback, threads: usize) {
+        let stride = self.stride();
+        let reached = feedback.blocks.reached();
+        let first = reached.start * stride;
+        let cell_mass = self.params.density * (self.cell * self.cell);
+        let meetings = &mut feedback.meetings[first..reached.end * stride];
+        spread([meetings], WORTH_RESOLVING, threads, &|base, [meetings]| {
+            let cells = first + base..first + base + meetings.len();
+            let [p, u, v] = [&self.pressure, &self.velocity_x, &self.velocity_y].map(|field| &field[cells.clone()]);
+            for (i, meeting) in meetings.iter_mut().enumerate() {
+                let [x, y, load, _] = *meeting;
+                let mass = p[i] * cell_mass;
+                // Rock and what nobody meets stay as they are.
+                let yields = load > 0.0 && !self.solid[cells.start + i];
+                let per_mass = 1.0 / if yields { mass + load } else { 1.0 };
+                *meeting = if yields {
+                    [(mass * u[i] + x) * per_mass, (mass * v[i] + y) * per_mass, load, 0.0]
+                } else {
+                    [u[i], v[i], load, 0.0]
+                };
+            }
+        });
+    }
+
+    /// Wakes sleeping tiles that would get too fast for that. The others keep still.
+    fn rouse(&mut self, feedback: &mut Feedback, rousing: Rousing) {
+        let bound = match rousing {
+            Rousing::Gusts => QUIET_MACH * self.params.sound_speed,
+            Rousing::Breaths => 0.0,
+        };
+        let (tiling, stride) = (self.tiling(), self.stride());
+        let Feedback { blocks, meetings, active } = feedback;
+        self.find_active(active);
+        let reached = blocks.reached();
+        for tile in (0..tiling.count()).filter(|tile| !active[*tile]) {
+            let rows = tiling.rows(tile);
+            // Counted with the ring.
+            let rows = (rows.start + 1).max(reached.start)..(rows.end + 1).min(reached.end);
+            let columns = tiling.columns(tile);
+            let cells = |row: usize| row * stride + columns.start + 1..row * stride + columns.end + 1;
+            let is_gust = |meeting: &Meeting| meeting[0].abs() > bound || meeting[1].abs() > bound;
+            if rows.clone().any(|row| meetings[cells(row)].iter().any(is_gust)) {
+                self.wake(tile);
+                continue;
+            }
+            for row in rows {
+                for k in cells(row) {
+                    meetings[k] = [self.velocity_x[k], self.velocity_y[k], 0.0, 0.0];
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! Momentum both ways.
+
+use super::super::Rousing;
+use super::*;
+use crate::kernel::{
+    forces::{DragTable, apply_drag},
+    particles::Particles,
+};
+use glam::DVec2;
+
+/// Water of 0.1 m, and something that is light and mostly drag.
+const DRAG: DragTable = DragTable { rates: &[0.0045, 1.0e5], masses: &[1000.0, 1.0e-3] };
+
+/// `count` particles in `area` at up to `speed` d/s, of both kinds in turn.
+fn swarm(area: Rect, count: usize, speed: f32, noise: &mut Noise) -> Particles {
+    let mut particles = Particles::default();
+    for id in 0..count {
+        let part = Vec2::new(noise.next(), noise.next()) * 0.5 + Vec2::splat(0.5);
+        let velocity = Vec2::new(noise.next(), noise.next()) * speed;
+        particles.push(id as u32, ElementId((id % 2) as u8), area.min + (area.max - area.min) * part, velocity);
+    }
+    particles
+}
+
+fn exchange(air: &mut Air, drag: DragTable, particles: &mut Particles, team: Team) {
+    air.meet(drag, particles, Rousing::Breaths, team, DT);
+    air.drag_along(drag, particles, team.threads, DT);
+}
+
+/// Momentum and energy of motion of both.
+fn sums(air: &Air, drag: DragTable, particles: &Particles) -> (DVec2, f64) {
+    let density = f64::from(air.params.density);
+    let (mut momentum, mut energy) = (air.momentum() * density, air.kinetic_energy() * density);
+    for i in 0..particles.len() {
+        let (mass, v) = (f64::from(drag.masses[particles.element[i].index()]), particles.velocity(i).as_dvec2());
+        momentum += v * mass;
+        energy += 0.5 * mass * v.length_squared();
+    }
+    (momentum, energy)
+}
+
+#[test]
+fn momentum_is_kept_and_energy_only_falls_at_any_load() {
+    let mut noise = Noise(5);
+    let tables = [
+        DRAG,
+        // Heavy and rough, weightless and smooth.
+        DragTable { rates: &[1.0e5, 1.0e-6], masses: &[1.0e5, 1.0e-3] },
+        DragTable { rates: &[0.0, 0.3], masses: &[1000.0, 1000.0] },
+    ];
+    for (area, count) in [(rect(0.0, 0.0, 160.0, 96.0), 3000), (rect(40.5, 40.5, 43.5, 43.5), 10_000)] {
+        for drag in tables {
+            let mut air = closed(40, 24, 4.0);
+            stir(&mut air, 0.3, 60.0, &mut noise);
+            let mut particles = swarm(area, count, 150.0, &mut noise);
+            let (momentum, mut energy) = sums(&air, drag, &particles);
+            let scale = (2.0 * energy * particles.len() as f64 * f64::from(drag.masses[0].max(drag.masses[1]))).sqrt();
+            let fastest = 160.0_f32.hypot(160.0);
+            for _ in 0..60 {
+                exchange(&mut air, drag, &mut particles, ALONE);
+                let (now, left) = sums(&air, drag, &particles);
+                assert!((now - momentum).length() < 1e-5 * scale, "{now} instead of {momentum} of {scale}");
+                assert!(left <= energy * (1.0 + 1e-6), "energy grew from {energy} to {left}");
+                energy = left;
+            }
+            assert_sane(&air);
+            assert!(air.max_speed() <= fastest && particles.vx.iter().chain(&particles.vy).all(|v| v.abs() <= fastest));
+        }
+    }
+}
+
+#[test]
+fn heavy_air_drags_as_air_that_nothing_moves() {
+    let mut noise = Noise(6);
+    let mut air = closed(20, 20, 4.0);
+    stir(&mut air, 0.1, 30.0, &mut noise);
+    air.params.density = 1.0e7;
+    let mut particles = swarm(rect(0.0, 0.0, 80.0, 80.0), 500, 100.0, &mut noise);
+    let mut plain = particles.clone();
+    exchange(&mut air, DRAG, &mut particles, ALONE);
+    apply_drag(&air, DRAG.rates, &mut plain, 1, DT);
+    for (got, expected) in particles.vx.iter().zip(&plain.vx) {
+        assert!((got - expected).abs() < 2e-3, "{got} instead of {expected}");
+    }
+}
+
+#[test]
+fn one_drop_and_one_cell_meet_at_their_common_speed() {
+    let mut air = closed(9, 9, 4.0);
+    let mut particles = Particles::default();
+    particles.push(0, ElementId(0), air.centre(4, 4), Vec2::new(50.0, 0.0));
+    exchange(&mut air, DRAG, &mut particles, ALONE);
+    let slowing = 0.0045 * 50.0 * DT;
+    let (share, mass) = (slowing / (1.0 + slowing), 1.2 * 16.0);
+    let common = share * 1000.0 * 50.0 / (mass + share * 1000.0);
+    assert!((air.velocity_at_cell(4, 4).x - common).abs() < 1e-4 * common);
+    assert!((particles.vx[0] - (50.0 + share * (common - 50.0))).abs() < 1e-4);
+    assert_eq!(air.velocity_at_cell(3, 4), Vec2::ZERO, "a cell that holds nothing of the drop moves");
+}
+
+#[test]
+fn threads_and_instruction_sets_do_not_show() {
+    let run = |team: Team| {
+        let mut noise = Noise(7);
+        let mut air = closed(150, 220, 4.0);
+        air.set_solids(&rock(600, 880, |x, y| x / 40 == 5 && y % 90 > 20));
+        stir(&mut air, 0.1, 50.0, &mut noise);
+        let mut particles = swarm(rect(0.0, 0.0, 600.0, 880.0), 30_000, 100.0, &mut noise);
+        // Most in strips, as the bins sort them, the last poured anywhere.
+        let mut order: Vec<usize> = (0..particles.len()).collect();
+        order[..25_000].sort_by_key(|i| (particles.y[*i] / 3.0) as u32);
+        particles.x = order.iter().map(|i| particles.x[*i]).collect();
+        particles.y = order.iter().map(|i| particles.y[*i]).collect();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(team.threads).build().unwrap();
+        pool.install(|| (0..3).for_each(|_| exchange(&mut air, DRAG, &mut particles, team)));
+        let speeds = particles.vx.iter().chain(&particles.vy).map(|v| v.to_bits());
+        (bits(&air), speeds.collect::<Vec<_>>())
+    };
+    let expected = run(ALONE);
+    for threads in [2, 3, 8] {
+        assert!(run(Team { threads, ..ALONE }) == expected, "{threads} threads");
+    }
+    for instructions in InstructionSet::available() {
+        assert!(run(Team { instructions, threads: 2 }) == expected, "{}", instructions.name());
+    }
+}
+
+#[test]
+fn only_gusts_wake_sleeping_air_and_what_sleeps_does_not_yield() {
+    for (speed, wakes) in [(0.9, false), (60.0, true)] {
+        let mut air = closed(96, 48, 4.0);
+        let mut particles = Particles::default();
+        for id in 0..64 {
+            let place = Vec2::new(40.25 + 0.5 * (id % 8) as f32, 30.25 + 0.5 * (id / 8) as f32);
+            particles.push(id, ElementId(0), place, Vec2::new(speed, 0.0));
+        }
+        let mut plain = particles.clone();
+        apply_drag(&air, DRAG.rates, &mut plain, 1, DT);
+        air.meet(DRAG, &particles, Rousing::Gusts, ALONE, DT);
+        air.drag_along(DRAG, &mut particles, 1, DT);
+        assert_eq!(!air.is_quiet(), wakes, "{speed} d/s");
+        assert_eq!(air.awake_tiles().0, usize::from(wakes));
+        let close = particles.vx.iter().zip(&plain.vx).all(|(got, plain)| (got - plain).abs() < 1e-5 * speed);
+        assert_eq!(close, !wakes, "{speed} d/s: drag in air that yields is not drag in air that doesn't");
+    }
+}
