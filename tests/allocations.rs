@@ -101,7 +101,7 @@ fn a_steady_tick_allocates_nothing() {
         ("communicating_vessels", &[], 300),
         ("dam_break", &[("columns", "30")], 600),
         ("empty", &[], 100),
-        ("hydrostatic", &[], 60),
+        ("hydrostatic", &[], 400),
         ("rest_density", &[], 400),
         ("sealed_air", &[], 300),
         ("waterfall", &[], 1200),

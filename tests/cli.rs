@@ -8,7 +8,7 @@ use powder_master::{
         headless::Headless,
         run::{self, Plan},
     },
-    scene,
+    scene::{self, blueprint::Effect},
     sim::{
         control,
         intent::Intent,
@@ -92,7 +92,10 @@ fn bad_usage_is_one_line_that_says_what_is_allowed() {
         (&["run", "waterfall", "--set", "wimd=1"], &["wimd", "wind"]),
         (&["run", "waterfall", "--set", "wind=strong"], &["wind=strong"]),
         (&["run", "waterfall", "--set", "wind=1000"], &["wind=1000"]),
-        (&["run", "waterfall", "--effect", "fire=on"], &["air, drag, predictor, tension, viscosity, vorticity"]),
+        (
+            &["run", "waterfall", "--effect", "fire=on"],
+            &["air, drag, air_feedback, predictor, tension, viscosity, vorticity, sleep"],
+        ),
         (&["run", "waterfall", "--effect", "air=perhaps"], &["NAME=auto"]),
         (&["run", "waterfall", "--hold-ms", "0"], &["--hold-ms", "allowed: numbers from 0.01"]),
         (&["run", "waterfall", "--hold-ms", "-1"], &["--hold-ms", "allowed"]),
@@ -193,7 +196,7 @@ fn lists_are_one_a_line_with_the_name_first() {
         ["two_at_a_point", "deep_tank", "poison"].iter().all(|case| names("cases").iter().any(|name| name == case))
     );
     assert_eq!(names("qualities"), ["classic", "draft", "fast", "balanced", "fine", "reference"]);
-    assert_eq!(names("effects"), ["air", "drag", "predictor", "tension", "viscosity", "vorticity", "sleep"]);
+    assert_eq!(names("effects"), Effect::ALL.map(Effect::name));
     assert!(names("elements").contains(&"water".to_owned()));
 }
 

@@ -52,6 +52,7 @@ fn half_the_substep_lowers_the_error_of_a_throw_through_air() {
         blueprint.domain.gravity = Vec2::new(0.0, -98.1);
         blueprint.quality.substeps = substeps;
         blueprint.effects.insert(Effect::Drag, Mode::On);
+        blueprint.effects.insert(Effect::AirFeedback, Mode::Off);
         blueprint.water(Vec2::new(20.0, 200.0), Vec2::new(90.0, 60.0));
         let mut sandbox = Sandbox::of(blueprint);
         sandbox.tick(60);

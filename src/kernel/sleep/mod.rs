@@ -126,6 +126,8 @@ pub struct Sleep {
     id: Vec<u32>,
     /// Their densities, for who looks at them.
     density: Vec<f32>,
+    /// Room for the densities of the others.
+    others: Vec<f32>,
     /// During the substeps the whole store, the sleepers in front; else room.
     aside: Particles,
     is_aside: bool,
@@ -141,7 +143,7 @@ impl Sleep {
         let mut sleep = Self { record, rock: rock_version, ..Self::default() };
         sleep.record.asleep = sleep.record.asleep.min(particles.len() as u32);
         sleep.lay(size);
-        sleep.remember(particles, &[]);
+        sleep.remember(particles);
         sleep
     }
 
@@ -166,7 +168,8 @@ impl Sleep {
             + 4 * (self.tiles.capacity() + self.waiting.capacity() + self.body.capacity())
             + size_of::<Tally>() * self.tally.capacity()
             + size_of::<Calm>() * self.record.tiles.capacity()
-            + 4 * (self.x.capacity() + self.y.capacity() + self.id.capacity() + self.density.capacity())
+            + 4 * (self.x.capacity() + self.y.capacity() + self.id.capacity())
+            + 4 * (self.density.capacity() + self.others.capacity())
             + 21 * (self.aside.x.capacity() + self.room.x.capacity())
     }
 
@@ -360,35 +363,35 @@ impl Sleep {
     /// Puts what is in the tiles that turn behind the sleepers, at rest.
     fn let_sleep(&mut self, particles: &mut Particles, density: &mut [f32]) -> usize {
         let (before, is_known) = (self.asleep(), density.len() == particles.len());
-        let (mut densities, mut others) = (self.density.clone(), Vec::new());
         self.room.clear();
+        self.others.clear();
         let mut end = before;
         for i in before..particles.len() {
             let own = if is_known { density[i] } else { 1.0 };
             if self.flags[self.grid.tile(particles.x[i], particles.y[i])] & TURNS != 0 {
                 particles.copy(i, end);
                 (particles.vx[end], particles.vy[end]) = (0.0, 0.0);
-                densities.push(own);
+                self.density.push(own);
                 end += 1;
             } else {
                 self.room.append(particles, i..i + 1);
-                others.push(own);
+                self.others.push(own);
             }
         }
         for i in 0..self.room.len() {
             particles.copy_from(&self.room, i, end + i);
         }
         if is_known {
-            density[..end].copy_from_slice(&densities);
-            density[end..].copy_from_slice(&others);
+            density[..end].copy_from_slice(&self.density);
+            density[end..].copy_from_slice(&self.others);
         }
         self.record.asleep = end as u32;
-        self.remember(particles, &densities);
+        self.remember(particles);
         end - before
     }
 
     /// Notes how the sleepers lie.
-    fn remember(&mut self, particles: &Particles, density: &[f32]) {
+    fn remember(&mut self, particles: &Particles) {
         let asleep = self.asleep();
         for (copy, from) in [(&mut self.x, &particles.x), (&mut self.y, &particles.y)] {
             copy.clear();
@@ -396,8 +399,6 @@ impl Sleep {
         }
         self.id.clear();
         self.id.extend_from_slice(&particles.id[..asleep]);
-        self.density.clear();
-        self.density.extend_from_slice(density);
         // Of those who were put back asleep, no one knows more than that they are at rest.
         self.density.resize(asleep, 1.0);
         self.mark();

@@ -45,7 +45,7 @@ impl Books {
         Self {
             energy: matter(world).balance().energy(),
             particles: world.resource::<ParticleStore>().len(),
-            air: world.resource::<AirGrid>().mass(),
+            air: world.resource::<AirGrid>().with_grid(world.resource::<Rock>()).mass(),
         }
     }
 }

@@ -11,10 +11,10 @@ use crate::{
     scene::KNOBS,
     sim::{
         gauntlet::{Row, Verdict},
-        state::{AirGrid, ParticleStore},
+        state::{AirGrid, ParticleStore, Rock},
     },
 };
-use bevy::ecs::world::World;
+use bevy::{ecs::world::World, prelude::Mut};
 use glam::Vec2;
 
 fn run(case: &'static [Case], presets: &[Preset]) -> Vec<Row> {
@@ -120,7 +120,10 @@ static SABOTAGED: [Case; 10] = [
     }),
     sabotaged("calm", Rules { calm: true, ..Rules::ALWAYS }, |world, tick| {
         if tick == 5 {
-            world.resource_mut::<AirGrid>().0.press(Vec2::splat(10.0), 3.0, -100.0);
+            world.resource_scope(|world, mut air: Mut<AirGrid>| {
+                air.build(world.resource::<Rock>());
+                air.press(Vec2::splat(10.0), 3.0, -100.0);
+            });
         }
     }),
     sabotaged("also", Rules { also: Some(|_| Err("not so".into())), ..Rules::ALWAYS }, |_, _| {}),

@@ -83,7 +83,7 @@ fn dam_break_is_the_lattice_that_other_programs_are_compared_on() {
     }
     assert!(
         Effect::ALL.iter().all(|effect| (world.effects.get(effect) == Some(&Mode::Off))
-            != [Effect::Predictor, Effect::Sleep].contains(effect)),
+            != [Effect::AirFeedback, Effect::Predictor, Effect::Sleep].contains(effect)),
         "the bare liquid: nothing but the constraint, the predictor where the quality has it, and sleep once it rests"
     );
     assert_eq!((world.preset, world.quality), (Preset::Balanced, Preset::Balanced.quality()));
