@@ -14,7 +14,7 @@ use crate::{
     sim::{
         effects::Effects,
         ledger::{Pass, PassLedger},
-        state::{Clock, Setup},
+        state::{AirGrid, Clock, ParticleStore, Setup, SleepState},
         view::View,
     },
 };
@@ -40,6 +40,7 @@ pub fn show(
     clock: Res<Clock>,
     readings: Res<Readings>,
     costs: (Res<RenderCost>, Res<HudCost>),
+    sleepers: (Res<SleepState>, Res<ParticleStore>, Res<AirGrid>),
     mut orders: ResMut<Orders>,
 ) -> Result {
     if !state.details || !state.visible {
@@ -62,6 +63,7 @@ pub fn show(
             stages(ui, &ledger);
             ui.separator();
             switches(ui, &effects, &mut orders);
+            asleep(ui, &sleepers.0, &sleepers.1, &sleepers.2);
             ui.separator();
             limiters(ui, &readings);
         });
@@ -145,6 +147,13 @@ fn switches(ui: &mut Ui, effects: &Effects, orders: &mut Orders) {
             ui.end_row();
         }
     });
+}
+
+/// How much of the world the stages leave alone.
+fn asleep(ui: &mut Ui, sleep: &SleepState, particles: &ParticleStore, air: &AirGrid) {
+    let (awake, tiles) = air.awake_tiles();
+    let [asleep, count] = [sleep.asleep(), particles.len()].map(|count| grouped(count as u64));
+    ui.label(weak(format!("asleep: {asleep} of {count} particles, {} of {tiles} tiles of air", tiles - awake)));
 }
 
 fn limiters(ui: &mut Ui, readings: &Readings) {
