@@ -143,7 +143,7 @@ impl Air {
         let mut peaks = Peaks::default();
         let mut left = dt;
         loop {
-            if report.substeps % WATCH == 0 {
+            if report.substeps.is_multiple_of(WATCH) {
                 let changed = self.tend(winds, &mut shape, &mut scratch);
                 if scratch.watch.blocks.is_empty() {
                     self.fall_asleep(&shape, &mut scratch);

@@ -136,14 +136,14 @@ pub(super) struct Rules {
     pub rest: Option<f64>,
     /// The dearest tick, as a multiple of a calm one.
     pub work: f64,
-    /// Whether the air is shut in, and its mass stays to 1e-5.
-    pub sealed: bool,
+    /// The most by which the mass of air that is shut in may change, as a share of it.
+    pub air: Option<f64>,
     /// Whether no limiter may act.
     pub calm: bool,
     /// Particles that are no number and have to be taken away.
     pub removed: u64,
     /// What else must hold at the end; else what broke.
-    pub also: Option<fn(&World) -> Result<(), String>>,
+    pub also: Option<Look>,
 }
 
 /// A bound on the energy gained.
@@ -180,7 +180,13 @@ pub(super) struct Density {
     pub end: f64,
 }
 
+/// Looks at a world; what is wrong with it is the error.
+pub type Look = fn(&World) -> Result<(), String>;
+
 impl Rules {
+    /// Rounding of the air's mass where it is shut in.
+    pub const SEALED: Option<f64> = Some(1e-5);
+
     /// What must hold in every case.
     pub const ALWAYS: Self = Self {
         confines: None,
@@ -189,7 +195,7 @@ impl Rules {
         density: None,
         rest: None,
         work: 8.0,
-        sealed: false,
+        air: None,
         calm: false,
         removed: 0,
         also: None,

@@ -28,9 +28,6 @@ const REACH: f32 = 3.0;
 /// Candidates of a particle in the resting lattice: the particles of nine cells.
 const CALM_CANDIDATES: f64 = 9.0 * (REACH * REACH) as f64;
 
-/// Largest relative drift of the mass of air that is shut in.
-const AIR_DRIFT: f64 = 1e-5;
-
 /// What there is of what may not get lost.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Books {
@@ -144,7 +141,7 @@ impl Judge {
             let speed = if balance.mass > 0.0 { (2.0 * balance.kinetic / balance.mass).sqrt() } else { 0.0 };
             self.motion.push(speed / spacing / f64::from(crate::kernel::units::TICKS_PER_SECOND));
         }
-        if self.seen % LOOK_EVERY == 0 || self.seen == self.length {
+        if self.seen.is_multiple_of(LOOK_EVERY) || self.seen == self.length {
             self.look_at_density(world, ending);
         }
     }
@@ -251,7 +248,7 @@ impl Judge {
         }
         // What is no number is beyond every bound.
         let mut bound = |what: &str, value: f64, allowed: Option<f64>| {
-            if let Some(allowed) = allowed.filter(|allowed| !(value <= *allowed)) {
+            if let Some(allowed) = allowed.filter(|allowed| value.is_nan() || value > *allowed) {
                 broken.push(format!("{what} {value:.3}, allowed {allowed}"));
             }
         };
@@ -265,10 +262,10 @@ impl Judge {
         bound("motion, d a tick:", stats::mean(&self.motion).unwrap_or(0.0), rules.rest);
         bound("work of a tick", self.work, Some(rules.work));
         bound("ticks in a frame", self.late as f64, Some(f64::from(MOST_TICKS)));
-        if rules.sealed {
+        if let Some(allowed) = rules.air {
             let drift = (self.air.0 / self.air.1).abs();
-            if !(drift <= AIR_DRIFT) {
-                broken.push(format!("mass of the air off by {drift:.1e}, allowed {AIR_DRIFT:.0e}"));
+            if drift.is_nan() || drift > allowed {
+                broken.push(format!("mass of the air off by {drift:.1e}, allowed {allowed:.0e}"));
             }
         }
         let (missing, removed) = (self.missing, counters.non_finite);

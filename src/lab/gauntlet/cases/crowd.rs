@@ -211,7 +211,7 @@ pub(super) fn apart(world: &World, share: f64, least: f32) -> Result<(), String>
     let gaps = gaps(world.resource::<ParticleStore>());
     let rank = ((1.0 - share) * gaps.len() as f64).round() as usize;
     match gaps.get(rank) {
-        Some(gap) if !(*gap >= least) => Err(format!(
+        Some(gap) if gap.is_nan() || *gap < least => Err(format!(
             "the nearest neighbour of {} in a hundred is within {gap:.3} d, allowed {least}",
             (100.0 * (1.0 - share)).round()
         )),

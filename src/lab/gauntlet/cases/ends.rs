@@ -63,7 +63,7 @@ const fn ends(name: &'static str, title: &'static str, run: usize) -> Case {
             (element: \"water\", shape: Rect(min: (0, 0), max: (0.8, 1.2)))])",
         settings: &RUNS[run],
         ticks: if is_dear { 12 } else { 60 },
-        rules: Rules { work: 8.0, sealed: true, ..Rules::ALWAYS },
+        rules: Rules { work: 8.0, air: Rules::SEALED, ..Rules::ALWAYS },
         ..Case::USUAL
     }
 }
@@ -181,6 +181,6 @@ pub(in crate::lab::gauntlet) const NOBODY: Case = Case {
         }
     }),
     ticks: 60,
-    rules: Rules { sealed: true, calm: true, ..Rules::ALWAYS },
+    rules: Rules { air: Rules::SEALED, calm: true, ..Rules::ALWAYS },
     ..Case::USUAL
 };

@@ -54,22 +54,23 @@ pub(in crate::lab::gauntlet) const TURNING: Case = Case {
     scene: POOL,
     act: Some(|world, tick| {
         // Sixteen directions, from a table: this way the bits are the same on every machine.
+        const EVEN: f32 = std::f32::consts::FRAC_1_SQRT_2;
         const TURN: [(f32, f32); 16] = [
             (0.0, -1.0),
             (0.38268, -0.92388),
-            (0.70711, -0.70711),
+            (EVEN, -EVEN),
             (0.92388, -0.38268),
             (1.0, 0.0),
             (0.92388, 0.38268),
-            (0.70711, 0.70711),
+            (EVEN, EVEN),
             (0.38268, 0.92388),
             (0.0, 1.0),
             (-0.38268, 0.92388),
-            (-0.70711, 0.70711),
+            (-EVEN, EVEN),
             (-0.92388, 0.38268),
             (-1.0, 0.0),
             (-0.92388, -0.38268),
-            (-0.70711, -0.70711),
+            (-EVEN, -EVEN),
             (-0.38268, -0.92388),
         ];
         let (x, y) = TURN[(tick * 16 / 180 % 16) as usize];

@@ -41,7 +41,7 @@ pub(in crate::lab::gauntlet) const HITCHES: Case = Case {
     rules: Rules {
         gain: Some(Gain::Speed(0.8)),
         density: Some(Density { shock: 10, worst: 0.3, end: 0.1 }),
-        sealed: true,
+        air: Rules::SEALED,
         ..Rules::ALWAYS
     },
     ..Case::USUAL
@@ -66,7 +66,7 @@ pub(in crate::lab::gauntlet) const QUALITY_CHANGES: Case = Case {
         gain: Some(Gain::Speed(1.0)),
         density: Some(Density { shock: 10, worst: 0.3, end: 0.2 }),
         work: 100.0,
-        sealed: true,
+        air: Rules::SEALED,
         ..Rules::ALWAYS
     },
     ..Case::USUAL
@@ -75,15 +75,16 @@ pub(in crate::lab::gauntlet) const QUALITY_CHANGES: Case = Case {
 pub(in crate::lab::gauntlet) const EFFECTS_TOGGLE: Case = Case {
     name: "effects_toggle",
     title: "Effects switched every tick",
-    what: "A dam break with a gust over it; before every tick each effect is switched on, off or to auto, in all \
-           combinations.",
+    what: "A dam break with a gust over it; before every tick each effect is switched on, off or to auto, in another \
+           combination.",
     guards: "Stages that count on each other having run.",
-    allowed: "Energy: as much as corrections give; a tick without the predictor takes them for motion.",
+    allowed: "Energy: as much as corrections give; a tick without the predictor takes them for motion. Some ticks in a row \
+              without it let the water be crushed to half as much again.",
     size: Size::Quick,
     scene: DAM,
     act: Some(|world, tick| {
         let mut effects = world.resource_mut::<Effects>();
-        let mut digits = tick * 5 % 729;
+        let mut digits = tick * 5 % 6561;
         for effect in Effect::ALL {
             effects.get_mut(effect).mode = [Mode::Auto, Mode::On, Mode::Off][(digits % 3) as usize];
             digits /= 3;
@@ -93,8 +94,8 @@ pub(in crate::lab::gauntlet) const EFFECTS_TOGGLE: Case = Case {
     ticks: 300,
     rules: Rules {
         gain: Some(Gain::Corrections(1.0)),
-        density: Some(Density { shock: 10, worst: 0.4, end: 0.3 }),
-        sealed: true,
+        density: Some(Density { shock: 10, worst: 0.6, end: 0.3 }),
+        air: Rules::SEALED,
         ..Rules::ALWAYS
     },
     ..Case::USUAL
@@ -158,7 +159,7 @@ pub(in crate::lab::gauntlet) const POISON: Case = Case {
     rules: Rules {
         removed: 5,
         density: Some(Density { shock: 10, worst: 0.3, end: 0.1 }),
-        sealed: true,
+        air: Rules::SEALED,
         ..Rules::ALWAYS
     },
     ..Case::USUAL
