@@ -186,7 +186,6 @@ fn watch(world: &mut World, name: &str) {
     let Some(case) = world.get_resource::<Cases>().and_then(|cases| cases.find(name)).cloned() else { return };
     match (case.start)(preset) {
         Ok(blueprint) => {
-            recording::stop(world, "another scene");
             case.play(world, blueprint);
             world.resource_mut::<History>().clear();
             world.resource_mut::<Epoch>().0 += 1;

@@ -6,14 +6,7 @@ use bevy::app::Plugins;
 use powder_master::{
     lab::headless::Headless,
     scene::{self, SceneError, blueprint::EffectModes, builtin_names, readers},
-    sim::{
-        control,
-        recording::{Recording, RecordingError},
-        save,
-        snapshot::Snapshot,
-        state::Setup,
-        workers::Workers,
-    },
+    sim::{control, recording::Recording, save, snapshot::Snapshot, state::Setup, workers::Workers},
     web::link::Link,
 };
 
@@ -86,9 +79,8 @@ fn read_picture(bytes: &[u8]) {
 }
 
 fn read_recording(bytes: &[u8]) {
-    let readers: [fn(&[u8]) -> Result<Recording, RecordingError>; 2] = [Recording::decode, Recording::salvage];
-    for reader in readers {
-        match reader(bytes) {
+    for outcome in [Recording::decode(bytes), Recording::salvage(bytes)] {
+        match outcome {
             // Each state in it is a save file of its own.
             Ok(recording) => {
                 let states = recording.stretches.iter().map(|stretch| stretch.start().map(go_on));
