@@ -347,6 +347,7 @@ fn key_name(key: KeyCode) -> &'static str {
         K::F3 => "F3",
         K::F4 => "F4",
         K::F6 => "F6",
+        K::F7 => "F7",
         K::F9 => "F9",
         K::F11 => "F11",
         K::Space => "Space",
