@@ -21,7 +21,7 @@ use std::time::Duration;
 const LINGER: Duration = Duration::from_millis(400);
 
 /// Time from one look to the next while nothing changes; input wakes at once. In a page its script may want something.
-const NAP: Duration = if cfg!(target_arch = "wasm32") { Duration::from_millis(100) } else { Duration::from_secs(2) };
+const NAP: Duration = if cfg!(target_arch = "wasm32") { Duration::from_millis(100) } else { Duration::from_secs(10) };
 
 /// The same while something is worked out in the background.
 const WATCH: Duration = Duration::from_millis(200);
