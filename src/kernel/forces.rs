@@ -2,6 +2,7 @@
 
 use crate::kernel::{
     air::Air,
+    brush::soft_disc,
     element::ElementTable,
     parallel::{WORTH_A_PIECE, spread},
     particles::Particles,
@@ -60,6 +61,23 @@ pub fn apply_drag(air: &Air, rates: &[f32], particles: &mut Particles, threads: 
             }
         }
     });
+}
+
+/// Drags the particles in a soft disc as [`apply_drag`] would in air that has `wind` (d/s) for `dt` s and yields to
+/// nobody: all of it at `centre` (d), nothing from `radius` (d) on ([`soft_disc`]).
+pub fn drag_in_disc(centre: Vec2, radius: f32, wind: Vec2, rates: &[f32], particles: &mut Particles, dt: f32) {
+    if !(centre.is_finite() && radius.is_finite() && wind.is_finite()) {
+        return;
+    }
+    let Particles { x, y, vx, vy, element, .. } = particles;
+    for (i, (x, y)) in x.iter().zip(y).enumerate() {
+        let weight = soft_disc(Vec2::new(*x, *y), centre, radius);
+        if weight > 0.0 {
+            let before = Vec2::new(vx[i], vy[i]);
+            let after = before + (dragged(before, wind, rates[element[i].index()], dt) - before) * weight;
+            (vx[i], vy[i]) = (after.x, after.y);
+        }
+    }
 }
 
 /// Velocity after `dt` s of drag at `rate` 1/d in a wind.

@@ -2,7 +2,10 @@
 
 use super::grid::{Air, MAX_PRESSURE, MAX_SPEED, Peaks};
 use super::step::AirReport;
-use crate::kernel::sources::{Rect, Wind};
+use crate::kernel::{
+    brush::soft_disc,
+    sources::{Rect, Wind},
+};
 use glam::Vec2;
 use std::ops::Range;
 
@@ -26,7 +29,8 @@ fn bounded_velocity(velocity: Vec2) -> (Vec2, u64) {
 
 impl Air {
     /// The wind tool: blends the velocity in a soft disc towards `velocity` (d/s, up to [`MAX_SPEED`] along an axis),
-    /// wholly at `centre` (d), not at all from `radius` (d) on. The air must be built. A disc smaller than a cell is taken as large as one.
+    /// wholly at `centre` (d), not at all from `radius` (d) on. The air must be built. A disc smaller than a cell is
+    /// taken as large as one.
     pub fn blow(&mut self, centre: Vec2, radius: f32, velocity: Vec2) {
         let (velocity, cuts) = bounded_velocity(velocity);
         self.pending.speed_clamps += cuts;
@@ -165,7 +169,7 @@ impl Air {
         }
     }
 
-    /// Calls `act` for each open cell of a disc with its weight `(1 − r²/R²)²`; it says whether it changed the cell.
+    /// Calls `act` for each open cell of a disc with its weight ([`soft_disc`]); it says whether it changed the cell.
     fn for_each_in_disc(&mut self, centre: Vec2, radius: f32, mut act: impl FnMut(&mut Self, usize, f32) -> bool) {
         if !(centre.is_finite() && radius.is_finite() && self.is_built()) {
             return;
@@ -175,13 +179,10 @@ impl Air {
             self.window(Rect { min: centre - Vec2::splat(radius), max: centre + Vec2::splat(radius) });
         for row in rows {
             for column in columns.clone() {
-                let distance = self.centre(column, row).distance_squared(centre) / (radius * radius);
+                let weight = soft_disc(self.centre(column, row), centre, radius);
                 let k = self.index(column, row);
-                if distance < 1.0 && !self.solid[k] {
-                    let falloff = 1.0 - distance;
-                    if act(self, k, falloff * falloff) {
-                        self.touch(k);
-                    }
+                if weight > 0.0 && !self.solid[k] && act(self, k, weight) {
+                    self.touch(k);
                 }
             }
         }

@@ -3,7 +3,10 @@
 use crate::{
     kernel::{
         element::ElementTable,
+        forces,
+        params::Preset,
         spawn::{EditReport, Matter},
+        units::TICK_SECONDS,
     },
     scene::blueprint::{Effect, Mode},
     sim::{
@@ -12,7 +15,7 @@ use crate::{
         intent::{Intent, IntentQueue},
         ledger::{Pass, PassLedger},
         recorder::Recorder,
-        state::{AirGrid, Census, Clock, Counters, ParticleStore, Rock, Setup},
+        state::{AirGrid, Census, Clock, Counters, ParticleStore, Rates, Rock, Setup},
     },
 };
 use bevy::platform::time::Instant;
@@ -25,6 +28,7 @@ pub(super) fn apply_intents(
     mut particles: ResMut<ParticleStore>,
     mut rock: ResMut<Rock>,
     mut air: ResMut<AirGrid>,
+    rates: Res<Rates>,
     mut clock: ResMut<Clock>,
     mut counters: ResMut<Counters>,
     mut census: ResMut<Census>,
@@ -59,6 +63,10 @@ pub(super) fn apply_intents(
             Intent::Erase { stroke } => matter.erase(&stroke),
             Intent::Blow { stroke, velocity } => {
                 air.blow(stroke.to, stroke.radius, velocity);
+                if air_may_yield(&setup, &effects) {
+                    let radius = stroke.radius.max(air.cell());
+                    forces::drag_in_disc(stroke.to, radius, velocity, &rates.drag, &mut particles, TICK_SECONDS);
+                }
                 EditReport::default()
             }
             Intent::Press { stroke, amount } => {
@@ -89,6 +97,14 @@ pub(super) fn apply_intents(
         census.full = refused > 0;
     }
     ledger.note(Pass::Edit, start.elapsed());
+}
+
+/// Whether the air that the hand blows would stop at the first water that it meets. The hand goes on pushing, so what is
+/// under it gets the wind of the tick at once, and the hand gives the momentum for it.
+fn air_may_yield(setup: &Setup, effects: &Effects) -> bool {
+    let runs = |effect: Effect| effects.get(effect).mode != Mode::Off;
+    let yields = effects.get(Effect::AirFeedback).mode == Mode::On || setup.preset != Preset::Classic;
+    runs(Effect::Air) && runs(Effect::Drag) && runs(Effect::AirFeedback) && yields
 }
 
 /// Whether an intent may move air that has been at rest since the scene began. Rock that comes or goes does, unless there
