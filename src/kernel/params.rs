@@ -10,7 +10,8 @@ pub struct FluidParams {
     /// Rest density as a multiple of the density of the square lattice of spacing d. Below 1 the particles push each
     /// other further apart than d, above 1 they stand closer. 0.1 … 100. Default: `1.0`.
     pub rest_density: f32,
-    /// Relaxation ε in the denominator of λ (eq. 11), 1/d². Raising it softens the constraint and calms it.
+    /// Relaxation ε in the denominator of λ (eq. 11), 1/d². Raising it softens the constraint and calms it. Where the
+    /// pressure predictor runs it is at least [`PREDICTED_RELAXATION`](crate::kernel::pbf::PREDICTED_RELAXATION).
     /// 1e-4 … 10. Default: `0.01`.
     pub relaxation: f32,
     /// Lowest value of the constraint C. 0: the liquid only pushes; lower, it also pulls and holds together, and
@@ -145,7 +146,7 @@ impl Preset {
             substeps: 1,
             iterations: 2,
             kernel_radius: 2.5,
-            correction_limit: 0.1,
+            correction_limit: 0.2,
             air_cell: 4.0,
             air_courant: 0.7,
             gradient: GradientKernel::Rational,
@@ -163,9 +164,15 @@ impl Preset {
             Self::Fast => Quality { air_cell: 6.0, ..base },
             Self::Balanced => Quality { substeps: 2, iterations: 1, ..base },
             Self::Fine => Quality { substeps: 2, air_cell: 3.0, ..base },
-            Self::Reference => {
-                Quality { substeps: 8, iterations: 4, kernel_radius: 3.0, air_cell: 1.0, air_courant: 0.5, ..base }
-            }
+            Self::Reference => Quality {
+                substeps: 8,
+                iterations: 4,
+                kernel_radius: 3.0,
+                correction_limit: 0.1,
+                air_cell: 1.0,
+                air_courant: 0.5,
+                ..base
+            },
         }
     }
 }

@@ -87,7 +87,7 @@ const REST_DENSITY: Knob = Knob {
 const RELAXATION: Knob = Knob {
     name: "relaxation",
     range: Range::real(1e-4, 10.0),
-    meaning: "relaxation ε of the constraint, 1/d²",
+    meaning: "relaxation ε of the constraint, 1/d²; with the predictor at least 0.2",
     turn: |tuning, value| tuning.fluid.relaxation = value as f32,
 };
 const CONSTRAINT_FLOOR: Knob = Knob {

@@ -64,14 +64,17 @@ impl Strip<'_> {
         self.ids[self.source[i] as usize]
     }
 
-    /// An offset, or its mirror image in either coordinate, that leaves a particle of the strip in its cell; `offset` is
-    /// small beside a cell.
-    pub fn turn_inwards(&self, i: usize, offset: glam::Vec2) -> glam::Vec2 {
-        let (x, y) = (self.x[i], self.y[i]);
-        let leaves = |to_x: f32, to_y: f32| self.grid.cell(to_x, to_y) != self.grid.cell(x, y);
-        let turn = |leaves: bool, offset: f32| if leaves { -offset } else { offset };
-        let offset_x = turn(leaves(x + offset.x, y), offset.x);
-        glam::Vec2::new(offset_x, turn(leaves(x, y + offset.y), offset.y))
+    /// An offset, or its mirror image in either coordinate, that leaves a particle of the strip in its cell and in a place
+    /// that is `free`; 0 in a coordinate in which there is none.
+    pub fn turn_inwards(&self, i: usize, offset: glam::Vec2, free: impl Fn(glam::Vec2) -> bool) -> glam::Vec2 {
+        let from = glam::Vec2::new(self.x[i], self.y[i]);
+        let own = self.grid.cell(from.x, from.y);
+        let stays = |to: glam::Vec2| self.grid.cell(to.x, to.y) == own && free(to);
+        let turn = |offset: glam::Vec2| {
+            let ways = [offset, -offset];
+            ways.into_iter().find(|way| stays(from + way)).unwrap_or_default()
+        };
+        turn(glam::Vec2::new(offset.x, 0.0)) + turn(glam::Vec2::new(0.0, offset.y))
     }
 }
 

@@ -142,7 +142,7 @@ fn what_is_turned_inwards_stays_in_its_cell() {
     let settle = |strip: Strip| {
         for i in 0..strip.x.len() {
             for offset in [Vec2::new(0.05, 0.05), Vec2::new(-0.05, 0.04), Vec2::new(0.0, -0.05)] {
-                let turned = strip.turn_inwards(i, offset);
+                let turned = strip.turn_inwards(i, offset, |_| true);
                 let cell = grid.cell(strip.x[i], strip.y[i]);
                 assert_eq!(grid.cell(strip.x[i] + turned.x, strip.y[i] + turned.y), cell);
                 assert_eq!(turned.abs(), offset.abs());

@@ -20,8 +20,9 @@ const LOOK_BACK: usize = 4;
 const BLOCK: usize = 64;
 
 /// Particles at one point have no direction to part in (the spiky gradient is 0/0 there); equal ones among the last few
-/// of the sorted order are set apart by a small offset that only depends on the id and stays in the cell. Rock and walls
-/// stop it. `count` gains the number of those that were.
+/// of the sorted order are set apart by a small offset that only depends on the id and stays in the cell. Where it would
+/// end in rock or beyond a wall it is turned round: in a corner, those that it drove into the corner would stay at one
+/// point for ever, and what came after would push them in further. `count` gains the number of those that were set apart.
 pub(super) fn separate_coincident(
     strip: Strip,
     instructions: InstructionSet,
@@ -76,9 +77,10 @@ impl Separate<'_> {
             |j: usize| (strip.x[i] - strip.x[j]).abs() < COINCIDENT && (strip.y[i] - strip.y[j]).abs() < COINCIDENT;
         if (i.saturating_sub(LOOK_BACK)..i).any(near) {
             let mixed = mix(strip.id(i));
-            let offset = strip.turn_inwards(i, APART * Vec2::new(unit(mixed), unit(mixed >> 16)));
             let from = Vec2::new(strip.x[i], strip.y[i]);
-            let to = solids.sweep(from, domain.keep_inside(from + offset));
+            let free = |to: Vec2| domain.keep_inside(to) == to && !solids.is_solid(Solids::cell_of(to));
+            let offset = strip.turn_inwards(i, APART * Vec2::new(unit(mixed), unit(mixed >> 16)), free);
+            let to = solids.sweep(from, from + offset);
             (strip.x[i], strip.y[i]) = (to.x, to.y);
             count.fetch_add(1, Ordering::Relaxed);
         }

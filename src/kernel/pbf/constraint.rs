@@ -17,6 +17,8 @@ pub(super) struct ConstraintPass<'a, G> {
     pub fluid: &'a FluidParams,
     /// Density that is aimed at, 1 on the lattice.
     pub rest_density: f32,
+    /// ε, 1/d².
+    pub relaxation: f32,
     /// Positions, d.
     pub x: &'a [f32],
     pub y: &'a [f32],
@@ -48,8 +50,7 @@ impl<G: Gradient> Pass for ConstraintPass<'_, G> {
         let (h2, core) = (h * h, L::splat(self.smoothing.core));
         let density_scale = L::splat(self.smoothing.density_scale);
         let gradient_scale = self.smoothing.gradient_scale / self.rest_density;
-        let (gradient_scale2, relaxation) =
-            (L::splat(gradient_scale * gradient_scale), L::splat(self.fluid.relaxation));
+        let (gradient_scale2, relaxation) = (L::splat(gradient_scale * gradient_scale), L::splat(self.relaxation));
         let (per_rest, floor) = (L::splat(1.0 / self.rest_density), L::splat(self.fluid.constraint_floor));
         for group in self.groups {
             let own = group.particles();

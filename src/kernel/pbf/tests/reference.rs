@@ -50,7 +50,8 @@ impl Question<'_> {
                 own = [own[0] + slope[0], own[1] + slope[1]];
             }
             squares += own[0] * own[0] + own[1] * own[1];
-            lambda.push(-constraint / (squares + f64::from(self.fluid.relaxation)));
+            let relaxation = f64::from(self.fluid.relaxation);
+            lambda.push(-constraint / (squares + if self.predicted { relaxation.max(0.2) } else { relaxation }));
         }
         let moves = (0..self.particles.len()).map(|i| self.correction(i, &lambda)).collect();
         Answer { density, lambda, moves }
