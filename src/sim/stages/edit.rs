@@ -36,6 +36,7 @@ pub(super) fn apply_intents(
     let start = Instant::now();
     let mut refused = 0;
     let mut placed = 0;
+    let before = clock.edits;
     for intent in queue.drain() {
         let seed = clock.edits;
         if let Some(recorder) = &recorder {
@@ -88,7 +89,7 @@ pub(super) fn apply_intents(
     if refused > 0 || placed > 0 {
         census.full = refused > 0;
     }
-    ledger.note(Pass::Edit, start.elapsed());
+    ledger.note(Pass::Edit, clock.edits - before, start.elapsed());
 }
 
 /// Whether an intent may move air that has been at rest since the scene began. Rock that comes or goes does, unless there

@@ -1,7 +1,7 @@
 //! Water at rest sleeps. The stages look who falls asleep and who wakes; the substeps in between know of no sleepers.
 
 use crate::{
-    kernel::{params::Preset, sleep::LOOK_TICKS},
+    kernel::sleep::LOOK_TICKS,
     scene::blueprint::Effect,
     sim::{
         effects::Effects,
@@ -23,26 +23,6 @@ pub(super) fn anyone_is_awake(particles: Res<ParticleStore>) -> bool {
     !particles.is_empty()
 }
 
-/// Whether the setup calls for sleep, of which `asleep` of `count` particles make use. The plain method simmers and never
-/// rests, and the reference is what sleep, too, is held against.
-pub(super) fn is_called_for(setup: &Setup, asleep: usize, count: usize, air_moves: bool) -> (bool, &'static str) {
-    if setup.preset == Preset::Reference {
-        (false, "the reference simulates all")
-    } else if count == 0 && air_moves {
-        (true, "calm air sleeps by tiles")
-    } else if count == 0 {
-        (false, "nothing moves")
-    } else if !setup.quality.predictor {
-        (false, "without the predictor nothing rests")
-    } else if asleep == 0 {
-        (true, "nothing rests yet")
-    } else if asleep < count {
-        (true, "some of the water rests")
-    } else {
-        (true, "all of the water rests")
-    }
-}
-
 /// Wakes those whom an edit, a tap or an outlet changed. Runs while paused, too, so that a state which is kept then knows.
 pub(super) fn check_sleepers(
     mut sleep: ResMut<SleepState>,
@@ -50,9 +30,9 @@ pub(super) fn check_sleepers(
     rock: Res<Rock>,
     mut ledger: ResMut<PassLedger>,
 ) {
-    let start = Instant::now();
+    let (start, asleep) = (Instant::now(), sleep.asleep() as u64);
     sleep.check(&mut particles, rock.version());
-    ledger.note(Pass::Sleep, start.elapsed());
+    ledger.note(Pass::Sleep, asleep, start.elapsed());
 }
 
 /// Wakes all where the conditions changed under which they fell asleep.
@@ -92,7 +72,8 @@ pub(super) fn wake_blown(
     let start = Instant::now();
     let drag = rates.drag.iter().copied().fold(0.0, f32::max);
     sleep.wake_blown(&mut particles, &air, drag, setup.blueprint.domain.gravity);
-    ledger.note(Pass::Sleep, start.elapsed());
+    // It looks at the air over the bodies, and at no particle.
+    ledger.note(Pass::Sleep, 0, start.elapsed());
 }
 
 /// Wakes the bodies that someone is about to touch.
@@ -101,9 +82,9 @@ pub(super) fn wake_touched(
     mut particles: ResMut<ParticleStore>,
     mut ledger: ResMut<PassLedger>,
 ) {
-    let start = Instant::now();
+    let (start, awake) = (Instant::now(), particles.len() as u64);
     sleep.wake_touched(&mut particles);
-    ledger.note(Pass::Sleep, start.elapsed());
+    ledger.note(Pass::Sleep, awake, start.elapsed());
 }
 
 /// Run condition: it is time to look who rests.
@@ -120,7 +101,7 @@ pub(super) fn watch(
     setup: Res<Setup>,
     mut ledger: ResMut<PassLedger>,
 ) {
-    let start = Instant::now();
+    let (start, awake) = (Instant::now(), (particles.len() - sleep.asleep()) as u64);
     sleep.watch(&mut particles, &mut solver.density, setup.blueprint.domain.size, rock.version());
-    ledger.note(Pass::Sleep, start.elapsed());
+    ledger.note(Pass::Sleep, awake, start.elapsed());
 }
