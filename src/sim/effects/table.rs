@@ -180,8 +180,8 @@ static TABLE: [Row; Effect::ALL.len()] = [
             } else if facts.particles == 0 {
                 verdict(facts.air_moves, "calm air sleeps by tiles", "nothing moves")
             } else if !facts.predicts {
-                // The plain method simmers and never rests.
-                (false, "without the predictor nothing rests")
+                // The plain method simmers: its water never rests (see `water_may_rest`).
+                verdict(facts.air_moves, "calm air sleeps by tiles", "without the predictor nothing rests")
             } else if facts.asleep == 0 {
                 (true, "nothing rests yet")
             } else if facts.asleep < facts.particles {

@@ -2,7 +2,7 @@
 
 use crate::{
     kernel::sleep::LOOK_TICKS,
-    scene::blueprint::Effect,
+    scene::blueprint::{Effect, Mode},
     sim::{
         effects::Effects,
         ledger::{Pass, PassLedger},
@@ -21,6 +21,17 @@ pub(super) fn anyone_sleeps(sleep: Res<SleepState>) -> bool {
 /// Run condition of the substeps: someone is awake.
 pub(super) fn anyone_is_awake(particles: Res<ParticleStore>) -> bool {
     !particles.is_empty()
+}
+
+/// Run condition: the effect runs, and not for the air alone.
+pub(super) fn water_may_rest(effects: Res<Effects>, setup: Res<Setup>) -> bool {
+    lets_water_rest(&effects, &setup)
+}
+
+/// Without the predictor, water sleeps only where that is asked for.
+fn lets_water_rest(effects: &Effects, setup: &Setup) -> bool {
+    let sleep = effects.get(Effect::Sleep);
+    sleep.running && (setup.quality.predictor || sleep.mode == Mode::On)
 }
 
 /// Wakes those whom an edit, a tap or an outlet changed. Runs while paused, too, so that a state which is kept then knows.
@@ -50,11 +61,12 @@ pub(super) fn keep_asleep(mut sleep: ResMut<SleepState>, effects: Res<Effects>, 
         quality.gradient as u32,
         setup.blueprint.fluid.rest_density.to_bits(),
     ];
-    let acting = [Effect::Sleep, Effect::Predictor, Effect::Tension, Effect::Viscosity, Effect::Vorticity];
+    let acting = [Effect::Predictor, Effect::Tension, Effect::Viscosity, Effect::Vorticity];
     for (bytes, number) in bytes.chunks_exact_mut(4).zip(numbers) {
         bytes.copy_from_slice(&number.to_le_bytes());
     }
-    for (byte, effect) in bytes[32..].iter_mut().zip(acting) {
+    bytes[32] = u8::from(lets_water_rest(&effects, &setup));
+    for (byte, effect) in bytes[33..].iter_mut().zip(acting) {
         *byte = u8::from(effects.get(effect).running);
     }
     sleep.keep_under(hash_bytes(&bytes));
