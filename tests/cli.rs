@@ -209,9 +209,9 @@ fn metrics_have_all_keys() {
         ("/particles", "total by_element"),
         ("/particles/by_element", "rock water"),
         ("/ms_per_tick", "median p95 max"),
-        ("/stages/solve", "calls ms_total ms_median"),
+        ("/stages/solve", "calls ms_total ms_median unit touched spared ms_saved"),
         ("/effects", "air drag tension viscosity vorticity"),
-        ("/effects/viscosity", "mode active_ticks calls ms_total why"),
+        ("/effects/viscosity", "mode state active_ticks differing_ticks calls ms_total ms_saved why"),
         ("/accuracy", "density_error_mean density_error_p99 density_error_max residual volume_error energy"),
         (
             "/accuracy",
@@ -236,6 +236,8 @@ fn metrics_have_all_keys() {
     assert_eq!(found["accuracy"]["air_mass_drift"], Value::Null, "the scene has no air");
     assert!(found["sampling"]["ms_median"].as_f64().unwrap() > 0.0, "what measuring costs is shown");
     assert_eq!(found["effects"]["air"]["calls"], 0, "what is off is not called");
+    assert_eq!(found["effects"]["air"]["state"], "off");
+    assert_eq!(found["effects"]["air"]["ms_saved"], Value::Null, "nobody knows what it would have taken");
     assert_eq!(found["effects"]["viscosity"]["active_ticks"], 45);
 }
 

@@ -5,6 +5,7 @@ use crate::{
     kernel::{element::Element, params::Preset},
     lab::gauntlet,
     scene::{self, blueprint::Effect},
+    sim::effects::table::Row,
 };
 
 /// Prints a list on stdout.
@@ -12,7 +13,7 @@ pub(super) fn list(what: Listing) -> Result<(), Failure> {
     let lines = match what {
         Listing::Scenes => scene::builtin_names().into_iter().map(scene).collect::<Result<_, _>>()?,
         Listing::Elements => scene::elements()?.iter().map(|(_, row)| element(row)).collect(),
-        Listing::Effects => Effect::ALL.map(|effect| format!("{}\t{}", effect.name(), effect.meaning())).to_vec(),
+        Listing::Effects => Effect::ALL.map(effect).to_vec(),
         Listing::Qualities => Preset::ALL.map(quality).to_vec(),
         Listing::Cases => gauntlet::CASES.iter().map(|case| format!("{}\t{}", case.name, case.what)).collect(),
     };
@@ -35,6 +36,14 @@ fn element(row: &Element) -> String {
         "{name}\tkey={key} {kind} colour=#{red:02x}{green:02x}{blue:02x} density={density} viscosity={viscosity} \
          vorticity={vorticity} drag={drag}"
     )
+}
+
+fn effect(effect: Effect) -> String {
+    let Row { name, meaning, passes, part_of, when, off, parameters, .. } = effect.row();
+    let own: Vec<&str> = passes.iter().map(|pass| pass.name()).collect();
+    let stages = part_of.map_or_else(|| own.join(", "), |pass| format!("in {}", pass.name()));
+    let parameters = if parameters.is_empty() { "none".to_owned() } else { parameters.join(", ") };
+    format!("{name}\t{meaning}\tstages: {stages}\tauto: runs while {when}\toff: {off}\tparameters: {parameters}")
 }
 
 fn quality(preset: Preset) -> String {

@@ -1,6 +1,11 @@
 //! The object that `run --metrics` writes. `null` stands where a value does not apply to the run.
 
-use crate::{kernel::params::Quality, lab::coarse::Distance, scene::blueprint::Mode, sim::state::Counters};
+use crate::{
+    kernel::params::Quality,
+    lab::coarse::Distance,
+    scene::blueprint::Mode,
+    sim::{effects::account::Standing, ledger::Unit, state::Counters},
+};
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 
@@ -81,21 +86,36 @@ pub struct Stage {
     pub ms_total: f64,
     /// Median time a tick, ms.
     pub ms_median: Option<f64>,
+    /// What it works on.
+    pub unit: Unit,
+    /// How many of them it worked on, each as often as it did.
+    pub touched: u64,
+    /// How many it was spared because they slept or because it was not called.
+    pub spared: u64,
+    /// Time that this saved, ms, reckoned as docs/effects.md says; `null` if the stage never ran.
+    pub ms_saved: Option<f64>,
 }
 
 /// Cost of an effect.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct EffectCost {
     /// What the scene or the command line wanted.
     pub mode: Mode,
+    /// Whether it works in the last tick.
+    pub state: Standing,
     /// Ticks in which it ran.
     pub active_ticks: u64,
+    /// Ticks since the scene began in which `on` may make another world than `auto`.
+    pub differing_ticks: u64,
     /// Calls of its stage; `null` if it is a part of another's.
     pub calls: Option<u64>,
     /// Time of its stage, ms; `null` if it is a part of another's.
     pub ms_total: Option<f64>,
-    /// Why it ran or not in the last tick.
-    pub why: &'static str,
+    /// Time that was saved because it did not run, ms, reckoned; of `sleep`, because what others work on slept. `null` if
+    /// its stage never ran or is another's.
+    pub ms_saved: Option<f64>,
+    /// Why it ran or not in the last tick, or how much of what it works on slept.
+    pub why: String,
 }
 
 /// How true the result is. Means are over the samples.

@@ -15,8 +15,11 @@ use crate::{
     scene::blueprint::{Effect, Mode},
     sim::{
         control,
-        effects::Effects,
-        ledger::{Pass, PassLedger},
+        effects::{
+            Effects,
+            account::{self, Account, Sleepers},
+        },
+        ledger::{Pass, PassLedger, PassRecord},
         state::{AirGrid, Counters, ParticleStore, PredictorState, Rock, Setup, SleepState, SolverState},
         workers::Workers,
     },
@@ -122,27 +125,41 @@ impl Sampler {
             .map(|(pass, times)| {
                 let record = ledger.record(pass);
                 let ms_median = stats::quantile(times, 0.5);
-                (pass.name(), Stage { calls: record.calls, ms_total: ms(record.total), ms_median })
+                let stage = Stage {
+                    calls: record.calls,
+                    ms_total: ms(record.total),
+                    ms_median,
+                    unit: pass.unit(),
+                    touched: record.touched,
+                    spared: record.spared,
+                    ms_saved: record.saved(),
+                };
+                (pass.name(), stage)
             })
             .collect()
     }
 
     fn effects(&self, world: &World) -> Vec<(&'static str, EffectCost)> {
         let (ledger, effects) = (world.resource::<PassLedger>(), world.resource::<Effects>());
-        Effect::ALL
-            .into_iter()
-            .map(|effect| {
-                let (state, record) = (effects.get(effect), pass_of(effect).map(|pass| ledger.record(pass)));
-                let cost = EffectCost {
-                    mode: state.mode,
-                    active_ticks: state.active_ticks - self.active_before[effect as usize],
-                    calls: record.map(|record| record.calls),
-                    ms_total: record.map(|record| ms(record.total)),
-                    why: state.why,
-                };
-                (effect.name(), cost)
-            })
-            .collect()
+        let sleepers = Sleepers::in_world(world);
+        let cost = |effect: Effect| {
+            let Account { mode, standing, why, .. } = Account::of(effect, effects, sleepers);
+            let (state, passes) = (effects.get(effect), effect.row().passes);
+            let records = || passes.iter().map(|pass| ledger.record(*pass));
+            let has_own = !passes.is_empty();
+            let cost = EffectCost {
+                mode,
+                state: standing,
+                active_ticks: state.active_ticks - self.active_before[effect as usize],
+                differing_ticks: state.differing_ticks,
+                calls: has_own.then(|| records().map(|record| record.calls).sum()),
+                ms_total: has_own.then(|| records().map(|record| ms(record.total)).sum()),
+                ms_saved: account::saving(effect, effects, ledger, PassRecord::saved),
+                why,
+            };
+            (effect.name(), cost)
+        };
+        Effect::ALL.into_iter().map(cost).collect()
     }
 
     fn accuracy(&self, world: &World) -> Accuracy {
@@ -233,20 +250,6 @@ pub(crate) fn matter(world: &World) -> Matter<'_> {
         elements: &blueprint.elements,
         domain: &blueprint.domain,
         scale: blueprint.scale,
-    }
-}
-
-/// The pass that is the effect's own; the tensile correction is a part of the solver's.
-fn pass_of(effect: Effect) -> Option<Pass> {
-    match effect {
-        Effect::Air => Some(Pass::Air),
-        Effect::Drag => Some(Pass::Drag),
-        Effect::AirFeedback => Some(Pass::Feedback),
-        Effect::Viscosity => Some(Pass::Viscosity),
-        Effect::Vorticity => Some(Pass::Vorticity),
-        Effect::Predictor => Some(Pass::Pressure),
-        Effect::Sleep => Some(Pass::Sleep),
-        Effect::Tension => None,
     }
 }
 

@@ -11,7 +11,7 @@ use crate::kernel::{
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, sync::Arc};
 
-/// Name of an effect: a group of stages that a scene can switch.
+/// Name of an effect: a group of stages that a scene can switch. What each is stands in `sim::effects::table`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Effect {
@@ -45,39 +45,6 @@ impl Effect {
         Self::Vorticity,
         Self::Sleep,
     ];
-
-    /// Name on the command line, in scenes and on the screen.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Air => "air",
-            Self::Drag => "drag",
-            Self::AirFeedback => "air_feedback",
-            Self::Viscosity => "viscosity",
-            Self::Vorticity => "vorticity",
-            Self::Predictor => "predictor",
-            Self::Tension => "tension",
-            Self::Sleep => "sleep",
-        }
-    }
-
-    /// What it does, in half a sentence.
-    pub fn meaning(self) -> &'static str {
-        match self {
-            Self::Air => "the air moves",
-            Self::Drag => "the air drags particles",
-            Self::AirFeedback => "particles drag the air: what drag takes from one, the other gets",
-            Self::Predictor => "pressure is predicted on a coarse grid before the density constraint",
-            Self::Tension => "particles keep their distance at a surface (s_corr)",
-            Self::Viscosity => "neighbouring particles even out their velocities (XSPH)",
-            Self::Vorticity => "eddies keep turning (vorticity confinement)",
-            Self::Sleep => "what has come to rest is left alone until something touches it",
-        }
-    }
-
-    /// The effect called `name`.
-    pub fn find(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|effect| effect.name() == name)
-    }
 }
 
 /// What a scene or a player wants of an effect.

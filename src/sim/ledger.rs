@@ -1,6 +1,14 @@
-//! The pass ledger: what each stage of a tick cost. Written by the stages, read by the HUD and `--metrics`.
+//! The pass ledger: what each stage of a tick cost, what it worked on, and what it was spared. Written by the stages, read
+//! by the HUD and `--metrics`.
+//!
+//! **What it saves** to leave particles or cells alone is never measured, since it does not happen. It is reckoned: what a
+//! pass was spared times what it took for one of them, by its own clock, when it last had enough of them (docs/effects.md
+//! holds that against worlds in which nothing is left out). A pass that never ran has no such time, and what it would take
+//! is unknown.
 
+use crate::scene::blueprint::Effect;
 use bevy::prelude::Resource;
+use serde::Serialize;
 use std::time::Duration;
 
 /// A stage of the tick.
@@ -78,26 +86,164 @@ impl Pass {
             Self::Measure => "measure",
         }
     }
+
+    /// What it works on.
+    pub fn unit(self) -> Unit {
+        match self {
+            Self::Edit => Unit::Edits,
+            Self::Air => Unit::Cells,
+            _ => Unit::Particles,
+        }
+    }
+
+    /// The effect that it belongs to, if it does to one.
+    pub fn effect(self) -> Option<Effect> {
+        Effect::ALL.into_iter().find(|effect| effect.row().passes.contains(&self))
+    }
+
+    /// What it would work on in a tick in which nothing is left out, where that is not what it worked on.
+    fn whole(self, extent: Extent) -> Option<u64> {
+        match self {
+            // Sleep is not spared by sleep, and the others leave nothing out.
+            Self::Edit | Self::Sources | Self::Sleep | Self::Measure => None,
+            Self::Air => Some(extent.cells),
+            _ => Some(extent.particles),
+        }
+    }
 }
+
+/// What a pass works on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Unit {
+    /// Particles, each once a call.
+    Particles,
+    /// Cells of the air, each once a substep of the air.
+    Cells,
+    /// Edits.
+    Edits,
+}
+
+impl Unit {
+    /// Plural.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Particles => "particles",
+            Self::Cells => "cells",
+            Self::Edits => "edits",
+        }
+    }
+}
+
+/// What a tick works on if nothing is left out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Extent {
+    /// Movable particles times substeps.
+    pub particles: u64,
+    /// Cells of the air times substeps of the air, the fewest that it may take.
+    pub cells: u64,
+}
+
+/// Fewest particles or cells of a tick from which the time for one of them is learnt, where there are as many: with few,
+/// what a call itself takes would be taken for theirs. Changing this affects only what savings are reckoned to.
+const ENOUGH: u64 = 1024;
 
 /// Ticks of which the times are kept for medians.
 const HISTORY: usize = 64;
 
 /// What one pass cost.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct PassRecord {
     /// Calls since the ledger was cleared.
     pub calls: u64,
     /// Time in all since then.
     pub total: Duration,
-    current: Duration,
+    /// Particles or cells that it worked on in all, each as often as it did.
+    pub touched: u64,
+    /// Particles or cells that it was spared in all: those that slept, and all where it was not called.
+    pub spared: u64,
+    /// The same of the last tick.
+    pub last: Work,
+    now: Work,
     recent: Vec<Duration>,
+    /// Time for a particle or cell in the ticks with enough of them, ns, in turns.
+    each: [f32; HISTORY],
+    /// Number of those ticks.
+    learnt: usize,
+}
+
+/// What a pass did in a tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Calls.
+    pub calls: u32,
+    /// Particles or cells worked on.
+    pub touched: u64,
+    /// Particles or cells left alone.
+    pub spared: u64,
+    time: Duration,
+}
+
+impl Default for PassRecord {
+    fn default() -> Self {
+        Self {
+            calls: 0,
+            total: Duration::ZERO,
+            touched: 0,
+            spared: 0,
+            last: Work::default(),
+            now: Work::default(),
+            recent: Vec::new(),
+            each: [0.0; HISTORY],
+            learnt: 0,
+        }
+    }
 }
 
 impl PassRecord {
     /// Median time a tick over the last ticks (64 at most) since the ledger was cleared.
     pub fn median(&self) -> Duration {
         median(&self.recent)
+    }
+
+    /// Time for a particle or cell, ns: median over the last ticks (64 at most) in which there were enough of them. `None`
+    /// if there never were.
+    pub fn each(&self) -> Option<f64> {
+        let mut sorted = self.each;
+        let known = &mut sorted[..self.learnt.min(HISTORY)];
+        known.sort_unstable_by(f32::total_cmp);
+        known.get(known.len() / 2).map(|each| f64::from(*each))
+    }
+
+    /// What it saved in the last tick to leave alone what was left alone, ms; `None` if that is unknown.
+    pub fn saved_last(&self) -> Option<f64> {
+        self.worth(self.last.spared)
+    }
+
+    /// The same of all ticks since the ledger was cleared, ms.
+    pub fn saved(&self) -> Option<f64> {
+        self.worth(self.spared)
+    }
+
+    fn worth(&self, spared: u64) -> Option<f64> {
+        if spared == 0 { Some(0.0) } else { self.each().map(|each| each * spared as f64 * 1e-6) }
+    }
+
+    /// Closes a tick in which it would have worked on `whole` if nothing had been left out.
+    fn close(&mut self, whole: Option<u64>, slot: usize) {
+        let work = &mut self.now;
+        if let Some(whole) = whole {
+            work.spared = work.spared.max(whole.saturating_sub(work.touched));
+        }
+        let enough = work.touched > 0 && work.touched >= ENOUGH.min(work.touched + work.spared);
+        if enough {
+            self.each[self.learnt % HISTORY] = (work.time.as_nanos() as f64 / work.touched as f64) as f32;
+            self.learnt += 1;
+        }
+        self.touched += work.touched;
+        self.spared += work.spared;
+        put(&mut self.recent, slot, work.time);
+        self.last = std::mem::take(work);
     }
 }
 
@@ -115,12 +261,19 @@ impl Default for PassLedger {
 }
 
 impl PassLedger {
-    /// Notes a call of `pass`.
-    pub fn note(&mut self, pass: Pass, time: Duration) {
+    /// Notes a call of `pass` that worked on so many particles or cells.
+    pub fn note(&mut self, pass: Pass, touched: u64, time: Duration) {
         let record = &mut self.records[pass as usize];
         record.calls += 1;
         record.total += time;
-        record.current += time;
+        record.now.calls += 1;
+        record.now.touched += touched;
+        record.now.time += time;
+    }
+
+    /// Notes how many cells or particles `pass` left alone, where that is more than what [`Extent`] tells.
+    pub fn spare(&mut self, pass: Pass, spared: u64) {
+        self.records[pass as usize].now.spared += spared;
     }
 
     /// The record of `pass`.
@@ -134,18 +287,13 @@ impl PassLedger {
     }
 
     /// Closes a tick that took `time` in all.
-    pub fn end_tick(&mut self, time: Duration) {
+    pub fn end_tick(&mut self, extent: Extent, time: Duration) {
         let slot = self.tick.calls as usize % HISTORY;
         self.tick.calls += 1;
         self.tick.total += time;
-        self.tick.current = time;
-        for record in self.records.iter_mut().chain([&mut self.tick]) {
-            if record.recent.len() <= slot {
-                record.recent.push(record.current);
-            } else {
-                record.recent[slot] = record.current;
-            }
-            record.current = Duration::ZERO;
+        put(&mut self.tick.recent, slot, time);
+        for (pass, record) in Pass::ALL.into_iter().zip(&mut self.records) {
+            record.close(pass.whole(extent), slot);
         }
     }
 
@@ -155,9 +303,21 @@ impl PassLedger {
         self.tick.recent.get(newest).copied().unwrap_or_default()
     }
 
-    /// Forgets everything.
+    /// Begins anew. What a pass takes for a particle or cell is still known.
     pub fn clear(&mut self) {
-        *self = Self::default();
+        let before = std::mem::take(self);
+        for (record, before) in self.records.iter_mut().zip(before.records) {
+            (record.each, record.learnt) = (before.each, before.learnt);
+        }
+    }
+}
+
+/// Keeps a time in place of the oldest.
+fn put(recent: &mut Vec<Duration>, slot: usize, time: Duration) {
+    if recent.len() <= slot {
+        recent.push(time);
+    } else {
+        recent[slot] = time;
     }
 }
 
@@ -165,4 +325,46 @@ fn median(times: &[Duration]) -> Duration {
     let mut sorted = times.to_vec();
     sorted.sort_unstable();
     sorted.get(sorted.len() / 2).copied().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ns(count: u64) -> Duration {
+        Duration::from_nanos(count)
+    }
+
+    #[test]
+    fn what_is_spared_is_worth_what_the_pass_took_for_as_many() {
+        let mut ledger = PassLedger::default();
+        let extent = Extent { particles: 4000, cells: 0 };
+        for _ in 0..3 {
+            ledger.note(Pass::Solve, 2000, ns(20_000));
+            ledger.note(Pass::Solve, 2000, ns(20_000));
+            ledger.end_tick(extent, ns(50_000));
+        }
+        assert_eq!(ledger.record(Pass::Solve).saved_last(), Some(0.0), "nothing was spared");
+        // A quarter is awake; a few others come at a price that is the call's, not theirs.
+        ledger.note(Pass::Solve, 10, ns(9_000));
+        ledger.end_tick(extent, ns(10_000));
+        let record = ledger.record(Pass::Solve);
+        assert_eq!((record.last.calls, record.last.touched, record.last.spared), (1, 10, 3990));
+        assert!((record.saved_last().unwrap() - 3990.0 * 10e-6).abs() < 1e-9, "{:?}", record.saved_last());
+        assert_eq!((record.touched, record.spared), (12_010, 3990));
+        assert_eq!(ledger.record(Pass::Viscosity).saved_last(), None, "nobody knows what it would have taken");
+        assert_eq!(ledger.record(Pass::Air).saved_last(), Some(0.0), "there is no air");
+    }
+
+    #[test]
+    fn all_that_there_is_is_enough_to_learn_from() {
+        let mut ledger = PassLedger::default();
+        ledger.note(Pass::Bin, 50, ns(1000));
+        ledger.end_tick(Extent { particles: 50, cells: 0 }, ns(2000));
+        assert_eq!(ledger.record(Pass::Bin).each(), Some(20.0));
+        ledger.clear();
+        assert_eq!((ledger.record(Pass::Bin).calls, ledger.record(Pass::Bin).spared), (0, 0));
+        ledger.end_tick(Extent { particles: 100, cells: 0 }, ns(2000));
+        assert_eq!(ledger.record(Pass::Bin).saved(), Some(100.0 * 20e-6));
+    }
 }

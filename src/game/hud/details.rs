@@ -1,4 +1,5 @@
-//! The books of the simulation: what each stage costs, which effects run and why, what the limiters did.
+//! The books of the simulation: what each stage costs, what it works on and is spared, which effects run and why, what the
+//! limiters did.
 
 use crate::{
     game::{
@@ -12,8 +13,11 @@ use crate::{
     },
     scene::blueprint::{Effect, Mode},
     sim::{
-        effects::Effects,
-        ledger::{Pass, PassLedger},
+        effects::{
+            Effects,
+            account::{self, Account, Sleepers},
+        },
+        ledger::{Pass, PassLedger, PassRecord, Unit},
         state::{AirGrid, Clock, ParticleStore, Setup, SleepState},
         view::View,
     },
@@ -28,7 +32,7 @@ use bevy_egui::{
 const STABILITY: &str = View::Stability.name();
 
 /// Width of the window's contents, points.
-const WIDTH: f32 = 390.0;
+const WIDTH: f32 = 480.0;
 
 /// Shows the books.
 pub fn show(
@@ -62,8 +66,9 @@ pub fn show(
             ui.separator();
             stages(ui, &ledger);
             ui.separator();
-            switches(ui, &effects, &mut orders);
-            asleep(ui, &sleepers.0, &sleepers.1, &sleepers.2);
+            let sleepers = Sleepers::of(&sleepers.0, &sleepers.1, &sleepers.2);
+            switches(ui, &effects, &ledger, sleepers, &mut orders);
+            asleep(ui, sleepers);
             ui.separator();
             limiters(ui, &readings);
         });
@@ -107,53 +112,116 @@ fn frame(ui: &mut Ui, render: &RenderCost, hud: &HudCost) {
     )));
 }
 
+/// Columns of the stages, and what they mean.
+const COLUMNS: [(&str, &str); 6] = [
+    ("stage", "a pass over particles or cells"),
+    ("ms a tick", "median of the last second"),
+    ("calls", "in the last tick"),
+    ("worked on", "particles, or cells of the air, in the last tick; each as often as it was worked on"),
+    ("spared", "those that sleep, and all where the stage is not called"),
+    ("saves ms", "what was spared, times what the stage takes for one; ? if it never ran"),
+];
+
 fn stages(ui: &mut Ui, ledger: &PassLedger) {
-    egui::Grid::new("stages").num_columns(3).spacing([18.0, 3.0]).show(ui, |ui| {
-        for heading in ["stage", "ms a tick", "calls"] {
-            ui.label(weak(heading).small());
+    egui::Grid::new("stages").num_columns(COLUMNS.len()).spacing([12.0, 3.0]).show(ui, |ui| {
+        for (heading, meaning) in COLUMNS {
+            ui.label(weak(heading).small()).on_hover_text(meaning);
         }
         ui.end_row();
         for pass in Pass::ALL {
-            let record = ledger.record(pass);
-            line(ui, pass.name(), record.median().as_secs_f32() * 1000.0, Some(record.calls));
+            stage(ui, pass, ledger.record(pass));
         }
-        line(ui, "tick", ledger.tick().median().as_secs_f32() * 1000.0, Some(ledger.tick().calls));
+        ui.label("tick");
+        ui.monospace(milliseconds(ledger.tick()));
+        for _ in 0..3 {
+            ui.label("");
+        }
+        let saved = Pass::ALL.map(|pass| ledger.record(pass).saved_last());
+        let known: f64 = saved.iter().flatten().sum();
+        let all = saved.iter().all(Option::is_some);
+        ui.monospace(format!("{known:7.3}{}", if all { "" } else { " + ?" }));
+        ui.end_row();
     });
 }
 
-fn line(ui: &mut Ui, name: &str, milliseconds: f32, calls: Option<u64>) {
-    ui.label(name);
-    ui.monospace(format!("{milliseconds:7.3}"));
-    ui.monospace(calls.map(grouped).unwrap_or_default());
+fn stage(ui: &mut Ui, pass: Pass, record: &PassRecord) {
+    let colour = if record.last.calls > 0 { style::TEXT } else { style::WEAK };
+    let number = |ui: &mut Ui, text: String| ui.label(RichText::new(text).monospace().color(colour));
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let calls = format!("{} calls since the scene began", grouped(record.calls));
+        ui.label(RichText::new(pass.name()).color(colour)).on_hover_text(calls);
+        if pass.unit() != Unit::Particles {
+            ui.label(weak(pass.unit().name()).small());
+        }
+    });
+    number(ui, milliseconds(record));
+    number(ui, format!("{:>4}", record.last.calls));
+    number(ui, format!("{:>9}", grouped(record.last.touched)));
+    number(ui, format!("{:>9}", grouped(record.last.spared)));
+    number(ui, saved(record.saved_last()));
     ui.end_row();
 }
 
-fn switches(ui: &mut Ui, effects: &Effects, orders: &mut Orders) {
-    egui::Grid::new("effects").num_columns(3).spacing([12.0, 4.0]).show(ui, |ui| {
+fn milliseconds(record: &PassRecord) -> String {
+    format!("{:7.3}", record.median().as_secs_f32() * 1000.0)
+}
+
+/// Milliseconds that were saved: nothing where nothing was.
+fn saved(milliseconds: Option<f64>) -> String {
+    match milliseconds {
+        Some(0.0) => format!("{:>7}", "–"),
+        Some(milliseconds) => format!("{milliseconds:7.3}"),
+        None => format!("{:>7}", "?"),
+    }
+}
+
+fn switches(ui: &mut Ui, effects: &Effects, ledger: &PassLedger, sleepers: Sleepers, orders: &mut Orders) {
+    egui::Grid::new("effects").num_columns(4).spacing([12.0, 4.0]).show(ui, |ui| {
+        ui.label(weak("effect").small());
+        ui.label("");
+        let meaning = "what it takes when it runs; of sleep, what those take that sleep; ? if it never ran";
+        ui.label(weak("saves ms").small()).on_hover_text(meaning);
+        ui.end_row();
         for effect in Effect::ALL {
-            let state = effects.get(effect);
-            let colour = if state.running { style::ACCENT } else { style::WEAK };
-            ui.label(RichText::new(effect.name()).color(colour)).on_hover_text(effect.meaning());
+            let account = Account::of(effect, effects, sleepers);
+            let colour = if account.works { style::ACCENT } else { style::WEAK };
+            ui.label(RichText::new(effect.name()).color(colour)).on_hover_text(explanation(effect));
             ui.horizontal(|ui| {
                 ui.spacing_mut().item_spacing.x = 2.0;
                 for (mode, name) in [(Mode::Auto, "auto"), (Mode::On, "on"), (Mode::Off, "off")] {
-                    if ui.selectable_label(state.mode == mode, name).clicked() {
+                    if ui.selectable_label(account.mode == mode, name).clicked() {
                         orders.push(Order::Effect(effect, mode));
                     }
                 }
             });
-            let verb = if state.running { "runs" } else { "rests" };
-            ui.label(weak(format!("{verb}: {}", state.why)));
+            let saving = account::saving(effect, effects, ledger, PassRecord::saved_last);
+            ui.label(RichText::new(saved(saving)).monospace().color(style::WEAK));
+            ui.add(egui::Label::new(weak(account.text())).truncate());
             ui.end_row();
         }
     });
 }
 
+/// What the table says of an effect.
+fn explanation(effect: Effect) -> String {
+    let row = effect.row();
+    let plain = |text: &str| text.replace('`', "");
+    let names: Vec<&str> = row.passes.iter().map(|pass| pass.name()).collect();
+    let stage = row.part_of.map_or_else(|| names.join(", "), |pass| format!("a part of {}", pass.name()));
+    let mut text = format!("{}.\nstage: {stage}\nauto: runs while {}", row.meaning, plain(row.when));
+    text += &format!("\noff: {}", plain(row.off));
+    if !row.parameters.is_empty() {
+        text += &format!("\nparameters: {}", row.parameters.join(", "));
+    }
+    text
+}
+
 /// How much of the world the stages leave alone.
-fn asleep(ui: &mut Ui, sleep: &SleepState, particles: &ParticleStore, air: &AirGrid) {
-    let (awake, tiles) = air.awake_tiles();
-    let [asleep, count] = [sleep.asleep(), particles.len()].map(|count| grouped(count as u64));
-    ui.label(weak(format!("asleep: {asleep} of {count} particles, {} of {tiles} tiles of air", tiles - awake)));
+fn asleep(ui: &mut Ui, sleepers: Sleepers) {
+    let [(asleep, particles), (still, tiles)] =
+        [sleepers.particles, sleepers.tiles].map(|(asleep, all)| (grouped(asleep as u64), grouped(all as u64)));
+    ui.label(weak(format!("asleep: {asleep} of {particles} particles, {still} of {tiles} tiles of air")));
 }
 
 fn limiters(ui: &mut Ui, readings: &Readings) {

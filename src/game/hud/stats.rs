@@ -1,5 +1,6 @@
 //! The numbers in the upper left corner: read a few times a second, so that they can be read, and formatted only then.
 
+pub use crate::sim::effects::account::grouped;
 use crate::{
     game::{frame::Tempo, hud::style},
     kernel::units::TICKS_PER_SECOND,
@@ -106,19 +107,6 @@ fn limiter_readings(counters: &Counters, tempo: &Tempo) -> Vec<(Reading, &'stati
         .collect()
 }
 
-/// `12345678` as `12,345,678`.
-pub fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
-    for (k, digit) in digits.chars().enumerate() {
-        if k > 0 && (digits.len() - k).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
 /// Shows one number.
 pub fn show_reading(ui: &mut Ui, reading: &Reading) {
     let colour = if reading.warning { style::WARN } else { Color32::WHITE };
@@ -143,14 +131,6 @@ pub fn as_text(readings: &Readings) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn thousands_are_grouped() {
-        assert_eq!(grouped(0), "0");
-        assert_eq!(grouped(999), "999");
-        assert_eq!(grouped(1000), "1,000");
-        assert_eq!(grouped(1_234_567), "1,234,567");
-    }
 
     #[test]
     fn a_late_world_says_how_slow_it_is() {

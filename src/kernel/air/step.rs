@@ -42,6 +42,9 @@ pub struct AirReport {
     pub substeps: u32,
     /// Most cells that a substep did: those of the tiles that are awake and around them; 0 if the air was quiet.
     pub cells: usize,
+    /// Cells done in all substeps together.
+    #[serde(skip)]
+    pub worked: u64,
     /// Velocity components that were clamped, by tools since the last step or in this one.
     pub speed_clamps: u64,
     /// Substeps for which sound was slowed.
@@ -57,6 +60,7 @@ impl AddAssign for AirReport {
     fn add_assign(&mut self, other: Self) {
         self.substeps += other.substeps;
         self.cells = self.cells.max(other.cells);
+        self.worked += other.worked;
         self.speed_clamps += other.speed_clamps;
         self.slowed += other.slowed;
         self.pressure_clamps += other.pressure_clamps;
@@ -160,6 +164,7 @@ impl Air {
             self.settle_edges(&scratch.watch.active, substep.sound_speed, substep.dt);
             peaks = peaks.max(self.blow_fans(winds, substep.dt, &mut report));
             report.substeps += 1;
+            report.worked += scratch.watch.cells() as u64;
             left -= substep.dt;
             if count == 1 {
                 break;
@@ -175,6 +180,12 @@ impl Air {
         scratch.shape = Some(shape);
         self.scratch = scratch;
         report
+    }
+
+    /// Substeps that a step of `dt` s with such a `courant` would take in air at rest at pressure 1: the fewest.
+    pub fn substeps_at_rest(&self, courant: f32, dt: f32) -> u32 {
+        let rate = self.params.sound_speed / (courant.clamp(0.01, STABLE_COURANT) * self.cell);
+        (dt * rate).ceil().clamp(1.0, MAX_SUBSTEPS as f32) as u32
     }
 
     /// The lanes for blocks, which must fill them, and the rows of a band.

@@ -163,6 +163,14 @@ impl Air {
         (self.awake.iter().filter(|awake| **awake).count(), self.awake.len())
     }
 
+    /// Tiles that the last step left alone, and all; neither if there is no grid.
+    pub fn sleeping_tiles(&self) -> (usize, usize) {
+        // A copy has not looked yet.
+        let active = &self.scratch.watch.active;
+        let stepped = if active.len() == self.awake.len() { active } else { &self.awake };
+        (stepped.iter().filter(|stepped| !**stepped).count(), self.awake.len())
+    }
+
     pub(super) fn tiling(&self) -> Tiling {
         Tiling::new(self.columns(), self.rows())
     }

@@ -13,7 +13,7 @@ use crate::{
         autopilot::{self, Autopilot, Goal, controller::Verdict, ladder},
         control,
         intent::Intent,
-        ledger::PassLedger,
+        ledger::{Extent, PassLedger},
         recorder::{self, Recorder},
         recording::Recording,
         schedule::TickSystems,
@@ -128,7 +128,7 @@ fn a_survey_can_be_given_up_and_begun_again() {
 /// What a tick would cost on a machine where it costs in proportion to the work, and three times as much for a while.
 fn pretend_load(setup: Res<Setup>, clock: Res<Clock>, mut ledger: ResMut<PassLedger>) {
     let load = if (200..400).contains(&clock.tick) { 3.0 } else { 1.0 };
-    ledger.end_tick(Duration::from_secs_f32(load * ladder::work(&setup.quality) / 1000.0));
+    ledger.end_tick(Extent::default(), Duration::from_secs_f32(load * ladder::work(&setup.quality) / 1000.0));
 }
 
 /// A recorded world with the autopilot on, after `ticks` ticks: its hash, what was recorded, and the world.

@@ -40,6 +40,7 @@ pub(super) fn apply_intents(
     let start = Instant::now();
     let mut refused = 0;
     let mut placed = 0;
+    let before = clock.edits;
     for intent in queue.drain() {
         let seed = clock.edits;
         if let Some(recorder) = &recorder {
@@ -96,7 +97,7 @@ pub(super) fn apply_intents(
     if refused > 0 || placed > 0 {
         census.full = refused > 0;
     }
-    ledger.note(Pass::Edit, start.elapsed());
+    ledger.note(Pass::Edit, clock.edits - before, start.elapsed());
 }
 
 /// Whether the air that the hand blows would stop at the first water that it meets. The hand goes on pushing, so what is

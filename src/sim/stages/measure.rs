@@ -3,10 +3,10 @@
 use crate::{
     kernel::checks,
     sim::{
-        ledger::{Pass, PassLedger},
+        ledger::{Extent, Pass, PassLedger},
         pace::Pace,
         stages::TickPlan,
-        state::{Clock, Counters, ParticleStore, Rock, Setup},
+        state::{AirGrid, Clock, Counters, ParticleStore, Rock, Setup},
         workers::Workers,
     },
 };
@@ -18,6 +18,7 @@ pub(super) fn end_tick(
     setup: Res<Setup>,
     particles: Res<ParticleStore>,
     rock: Res<Rock>,
+    air: Res<AirGrid>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut pace: ResMut<Pace>,
@@ -30,6 +31,11 @@ pub(super) fn end_tick(
         .run_for(particles.len(), |threads| checks::count_escaped(&particles, &rock, &setup.blueprint.domain, threads));
     clock.tick += 1;
     pace.steps_due = pace.steps_due.saturating_sub(u32::from(pace.paused));
-    ledger.note(Pass::Measure, start.elapsed());
-    ledger.end_tick(plan.started.elapsed());
+    ledger.note(Pass::Measure, particles.len() as u64, start.elapsed());
+    let air_substeps = air.substeps_at_rest(setup.quality.air_courant, plan.substep_seconds());
+    let extent = Extent {
+        particles: particles.len() as u64 * u64::from(plan.substeps),
+        cells: (air.columns() * air.rows()) as u64 * u64::from(air_substeps * plan.substeps),
+    };
+    ledger.end_tick(extent, plan.started.elapsed());
 }

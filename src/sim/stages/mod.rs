@@ -54,7 +54,7 @@ pub(super) fn plugin(app: &mut App) {
                 .in_set(TickSystems::Count),
             (gate::plan_tick, sleep::keep_asleep).chain().in_set(TickSystems::Gate),
             step::run_substeps.in_set(TickSystems::Step),
-            (sleep::watch.run_if(runs(Effect::Sleep)).run_if(sleep::is_time_to_look), measure::end_tick)
+            (sleep::watch.run_if(sleep::water_may_rest).run_if(sleep::is_time_to_look), measure::end_tick)
                 .chain()
                 .in_set(TickSystems::Measure),
         ),

@@ -1,8 +1,8 @@
 //! Water at rest sleeps. The stages look who falls asleep and who wakes; the substeps in between know of no sleepers.
 
 use crate::{
-    kernel::{params::Preset, sleep::LOOK_TICKS},
-    scene::blueprint::Effect,
+    kernel::sleep::LOOK_TICKS,
+    scene::blueprint::{Effect, Mode},
     sim::{
         effects::Effects,
         ledger::{Pass, PassLedger},
@@ -23,24 +23,15 @@ pub(super) fn anyone_is_awake(particles: Res<ParticleStore>) -> bool {
     !particles.is_empty()
 }
 
-/// Whether the setup calls for sleep, of which `asleep` of `count` particles make use. The plain method simmers and never
-/// rests, and the reference is what sleep, too, is held against.
-pub(super) fn is_called_for(setup: &Setup, asleep: usize, count: usize, air_moves: bool) -> (bool, &'static str) {
-    if setup.preset == Preset::Reference {
-        (false, "the reference simulates all")
-    } else if count == 0 && air_moves {
-        (true, "calm air sleeps by tiles")
-    } else if count == 0 {
-        (false, "nothing moves")
-    } else if !setup.quality.predictor {
-        (false, "without the predictor nothing rests")
-    } else if asleep == 0 {
-        (true, "nothing rests yet")
-    } else if asleep < count {
-        (true, "some of the water rests")
-    } else {
-        (true, "all of the water rests")
-    }
+/// Run condition: the effect runs, and not for the air alone.
+pub(super) fn water_may_rest(effects: Res<Effects>, setup: Res<Setup>) -> bool {
+    lets_water_rest(&effects, &setup)
+}
+
+/// Without the predictor, water sleeps only where that is asked for.
+fn lets_water_rest(effects: &Effects, setup: &Setup) -> bool {
+    let sleep = effects.get(Effect::Sleep);
+    sleep.running && (setup.quality.predictor || sleep.mode == Mode::On)
 }
 
 /// Wakes those whom an edit, a tap or an outlet changed. Runs while paused, too, so that a state which is kept then knows.
@@ -50,9 +41,9 @@ pub(super) fn check_sleepers(
     rock: Res<Rock>,
     mut ledger: ResMut<PassLedger>,
 ) {
-    let start = Instant::now();
+    let (start, asleep) = (Instant::now(), sleep.asleep() as u64);
     sleep.check(&mut particles, rock.version());
-    ledger.note(Pass::Sleep, start.elapsed());
+    ledger.note(Pass::Sleep, asleep, start.elapsed());
 }
 
 /// Wakes all where the conditions changed under which they fell asleep.
@@ -70,11 +61,12 @@ pub(super) fn keep_asleep(mut sleep: ResMut<SleepState>, effects: Res<Effects>, 
         quality.gradient as u32,
         setup.blueprint.fluid.rest_density.to_bits(),
     ];
-    let acting = [Effect::Sleep, Effect::Predictor, Effect::Tension, Effect::Viscosity, Effect::Vorticity];
+    let acting = [Effect::Predictor, Effect::Tension, Effect::Viscosity, Effect::Vorticity];
     for (bytes, number) in bytes.chunks_exact_mut(4).zip(numbers) {
         bytes.copy_from_slice(&number.to_le_bytes());
     }
-    for (byte, effect) in bytes[32..].iter_mut().zip(acting) {
+    bytes[32] = u8::from(lets_water_rest(&effects, &setup));
+    for (byte, effect) in bytes[33..].iter_mut().zip(acting) {
         *byte = u8::from(effects.get(effect).running);
     }
     sleep.keep_under(hash_bytes(&bytes));
@@ -92,7 +84,8 @@ pub(super) fn wake_blown(
     let start = Instant::now();
     let drag = rates.drag.iter().copied().fold(0.0, f32::max);
     sleep.wake_blown(&mut particles, &air, drag, setup.blueprint.domain.gravity);
-    ledger.note(Pass::Sleep, start.elapsed());
+    // It looks at the air over the bodies, and at no particle.
+    ledger.note(Pass::Sleep, 0, start.elapsed());
 }
 
 /// Wakes the bodies that someone is about to touch.
@@ -101,9 +94,9 @@ pub(super) fn wake_touched(
     mut particles: ResMut<ParticleStore>,
     mut ledger: ResMut<PassLedger>,
 ) {
-    let start = Instant::now();
+    let (start, awake) = (Instant::now(), particles.len() as u64);
     sleep.wake_touched(&mut particles);
-    ledger.note(Pass::Sleep, start.elapsed());
+    ledger.note(Pass::Sleep, awake, start.elapsed());
 }
 
 /// Run condition: it is time to look who rests.
@@ -120,7 +113,7 @@ pub(super) fn watch(
     setup: Res<Setup>,
     mut ledger: ResMut<PassLedger>,
 ) {
-    let start = Instant::now();
+    let (start, awake) = (Instant::now(), (particles.len() - sleep.asleep()) as u64);
     sleep.watch(&mut particles, &mut solver.density, setup.blueprint.domain.size, rock.version());
-    ledger.note(Pass::Sleep, start.elapsed());
+    ledger.note(Pass::Sleep, awake, start.elapsed());
 }

@@ -31,6 +31,7 @@ pub(super) fn run_sources(
 ) {
     let start = Instant::now();
     plan.started = start;
+    let count = particles.len() as u64;
     counters.non_finite +=
         workers.run_checks(particles.len(), |threads| remove_non_finite(&mut particles, threads)) as u64;
     let tick = clock.tick;
@@ -50,5 +51,5 @@ pub(super) fn run_sources(
         counters.refused += report.refused;
         counters.taps_blocked += u64::from(report.blocked);
     }
-    ledger.note(Pass::Sources, start.elapsed());
+    ledger.note(Pass::Sources, count, start.elapsed());
 }

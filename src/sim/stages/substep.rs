@@ -45,7 +45,9 @@ pub(super) fn step_air(
         air.step(&sources.winds, setup.quality.air_courant, Team { instructions, threads }, dt)
     });
     counters.add_air(&report);
-    ledger.note(Pass::Air, start.elapsed());
+    let all = u64::from(report.substeps) * (air.columns() * air.rows()) as u64;
+    ledger.spare(Pass::Air, all - report.worked);
+    ledger.note(Pass::Air, report.worked, start.elapsed());
 }
 
 /// Gravity changes velocities.
@@ -59,7 +61,7 @@ pub(super) fn apply_gravity(
     let start = Instant::now();
     let (gravity, dt) = (setup.blueprint.domain.gravity, plan.substep_seconds());
     workers.run_for(particles.len(), |threads| forces::apply_gravity(gravity, &mut particles, threads, dt));
-    ledger.note(Pass::Gravity, start.elapsed());
+    ledger.note(Pass::Gravity, particles.len() as u64, start.elapsed());
 }
 
 /// The air drags particles, and they the air if that effect runs.
@@ -84,14 +86,14 @@ pub(super) fn apply_drag(
         workers.run_for(particles.len(), |threads| {
             air.meet(drag, &particles, rousing, Team { instructions, threads }, dt);
         });
-        ledger.note(Pass::Feedback, start.elapsed());
+        ledger.note(Pass::Feedback, particles.len() as u64, start.elapsed());
         let start = Instant::now();
         workers.run_for(particles.len(), |threads| air.drag_along(drag, &mut particles, threads, dt));
-        ledger.note(Pass::Drag, start.elapsed());
+        ledger.note(Pass::Drag, particles.len() as u64, start.elapsed());
         return;
     }
     workers.run_for(particles.len(), |threads| forces::apply_drag(&air, &rates.drag, &mut particles, threads, dt));
-    ledger.note(Pass::Drag, start.elapsed());
+    ledger.note(Pass::Drag, particles.len() as u64, start.elapsed());
 }
 
 /// The pressure predictor makes velocities nearly divergence-free.
@@ -120,7 +122,7 @@ pub(super) fn predict_pressure(
     });
     counters.pressure_clamps += report.cuts;
     counters.pressure_unsolved += u64::from(report.unsolved);
-    ledger.note(Pass::Pressure, start.elapsed());
+    ledger.note(Pass::Pressure, particles.len() as u64, start.elapsed());
 }
 
 /// Velocities predict positions.
@@ -141,7 +143,7 @@ pub(super) fn predict_positions(
         predict::predict(&mut particles, solver.instructions, &rock, domain, &setup.quality, threads, dt)
     });
     counters.speed_clamps += report.speed_clamps;
-    ledger.note(Pass::Predict, start.elapsed());
+    ledger.note(Pass::Predict, particles.len() as u64, start.elapsed());
 }
 
 /// Particles are sorted into bins.
@@ -159,7 +161,7 @@ pub(super) fn sort_into_bins(
         solver.bin(&mut particles, &rock, &setup.blueprint.domain, &setup.quality, threads)
     });
     counters.set_apart += report.set_apart;
-    ledger.note(Pass::Bin, start.elapsed());
+    ledger.note(Pass::Bin, particles.len() as u64, start.elapsed());
 }
 
 /// The density constraint corrects positions.
@@ -183,7 +185,7 @@ pub(super) fn solve_density(
         };
         solver.solve(&particles, &params);
     });
-    ledger.note(Pass::Solve, start.elapsed());
+    ledger.note(Pass::Solve, particles.len() as u64, start.elapsed());
 }
 
 /// Velocities follow from the moves.
@@ -205,7 +207,7 @@ pub(super) fn update_velocities(
         velocity::update_velocities(&mut particles, &mut solver, &rock, &setup.quality, predicted, threads, dt)
     });
     counters.position_clamps += report.position_clamps;
-    ledger.note(Pass::Velocity, start.elapsed());
+    ledger.note(Pass::Velocity, particles.len() as u64, start.elapsed());
 }
 
 /// Viscosity evens velocities out.
@@ -224,7 +226,7 @@ pub(super) fn apply_viscosity(
         velocity::apply_viscosity(&mut particles, &mut solver, &rates.viscosity, threads, dt)
     });
     counters.strength_clamps += report.clamps;
-    ledger.note(Pass::Viscosity, start.elapsed());
+    ledger.note(Pass::Viscosity, particles.len() as u64, start.elapsed());
 }
 
 /// Vorticity confinement keeps eddies alive.
@@ -243,5 +245,5 @@ pub(super) fn apply_vorticity(
         velocity::apply_vorticity(&mut particles, &mut solver, &rates.vorticity, threads, dt)
     });
     counters.strength_clamps += report.clamps;
-    ledger.note(Pass::Vorticity, start.elapsed());
+    ledger.note(Pass::Vorticity, particles.len() as u64, start.elapsed());
 }

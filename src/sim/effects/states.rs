@@ -1,7 +1,9 @@
-//! Effects: which of them run in this tick, and why. Decided once a tick from facts that are there already; the stages
-//! obey by run condition.
+//! Which effects run in this tick, and why. Decided once a tick; the stages obey by run condition.
 
-use crate::scene::blueprint::{Effect, EffectModes, Mode};
+use crate::{
+    scene::blueprint::{Effect, EffectModes, Mode},
+    sim::effects::facts::Facts,
+};
 use bevy::prelude::{Res, Resource};
 
 /// Reason until the first tick.
@@ -18,6 +20,9 @@ pub struct EffectState {
     pub why: &'static str,
     /// Ticks in which it ran, since the scene began.
     pub active_ticks: u64,
+    /// Ticks since then in which [`Mode::Auto`] may make another world than [`Mode::On`] (see
+    /// [`Row::differs_from_on`](super::table::Row::differs_from_on)), whatever the mode was.
+    pub differing_ticks: u64,
 }
 
 /// The state of every effect.
@@ -29,7 +34,8 @@ pub struct Effects {
 impl Effects {
     /// Effects with the wanted modes; none has run yet.
     pub fn new(modes: &EffectModes) -> Self {
-        let idle = EffectState { mode: Mode::Auto, running: false, why: NOT_DECIDED, active_ticks: 0 };
+        let idle =
+            EffectState { mode: Mode::Auto, running: false, why: NOT_DECIDED, active_ticks: 0, differing_ticks: 0 };
         let mut effects = Self { states: std::array::from_fn(|_| idle.clone()) };
         for (effect, mode) in modes {
             effects.get_mut(*effect).mode = *mode;
@@ -52,6 +58,11 @@ impl Effects {
         Effect::ALL.into_iter().map(|effect| (effect, self.get(effect).mode)).collect()
     }
 
+    /// The wanted modes in the order of [`Effect::ALL`].
+    pub fn wanted(&self) -> [Mode; Effect::ALL.len()] {
+        self.states.each_ref().map(|state| state.mode)
+    }
+
     /// Wants what `other` wants.
     pub fn take_modes(&mut self, other: &Self) {
         for (state, other) in self.states.iter_mut().zip(&other.states) {
@@ -62,19 +73,18 @@ impl Effects {
     /// Forgets what ran; the modes stay.
     pub fn start_over(&mut self) {
         for state in &mut self.states {
-            (state.running, state.why, state.active_ticks) = (false, NOT_DECIDED, 0);
+            (state.running, state.why) = (false, NOT_DECIDED);
+            (state.active_ticks, state.differing_ticks) = (0, 0);
         }
     }
 
-    /// Decides for this tick: `called_for` says whether the world calls for the effect, and why or why not.
-    pub fn decide(&mut self, effect: Effect, called_for: (bool, &'static str)) {
-        let state = self.get_mut(effect);
-        (state.running, state.why) = match state.mode {
-            Mode::Auto => called_for,
-            Mode::On => (true, "switched on"),
-            Mode::Off => (false, "switched off"),
-        };
-        state.active_ticks += u64::from(state.running);
+    /// Decides for this tick.
+    pub fn decide(&mut self, facts: &Facts) {
+        for (effect, state) in Effect::ALL.into_iter().zip(&mut self.states) {
+            (state.running, state.why) = facts.decide(effect);
+            state.active_ticks += u64::from(state.running);
+            state.differing_ticks += u64::from((effect.row().differs_from_on)(facts));
+        }
     }
 }
 

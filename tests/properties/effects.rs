@@ -1,0 +1,195 @@
+//! `auto` leaves out only what would do nothing, to the bit, and what does not run is not called.
+//!
+//! **Nothing to do** is what the table of effects says, tick by tick, and no list kept here. `auto` runs an effect where
+//! the world calls for it (`called_for`); where it does not, forcing the effect on may still act, and the table knows from
+//! the same facts whether it may (`differs_from_on`): the predictor in `classic`, sleep in `reference`, and `air_feedback`
+//! near any particle that feels the air, since forced on it rouses air that `auto` leaves asleep. A run in which no tick is
+//! of that kind must be the same with `on`; one in which the effect never ran, with `off`.
+
+use super::{case::Case, hands, scenes};
+use crate::support::Sandbox;
+use powder_master::{
+    kernel::params::Preset,
+    scene::{
+        self,
+        blueprint::{Blueprint, Effect, EffectModes, Mode},
+    },
+    sim::{effects::Effects, stages::TickPlan},
+};
+use proptest::{
+    prelude::*,
+    test_runner::{Config, RngAlgorithm, TestRng, TestRunner},
+};
+
+/// Ticks of a built-in scene.
+const SCENE_TICKS: u32 = 60;
+/// Random cases, of each one effect.
+const CASES: u32 = if cfg!(debug_assertions) { 48 } else { 256 };
+/// Work of a random run, passes over a particle.
+const WORK: f64 = if cfg!(debug_assertions) { 6e5 } else { 4e6 };
+/// Ticks of a random run: at least, at most.
+const TICKS: (f64, f64) = (4.0, 60.0);
+
+/// What a run with an effect in some mode came to.
+#[derive(Clone, Copy, Debug)]
+struct Outcome {
+    hash: u64,
+    /// Ticks in which it ran.
+    active: u64,
+    /// Ticks in which `auto` and `on` may differ.
+    differing: u64,
+    /// Calls of its passes.
+    calls: u64,
+}
+
+/// Runs `case` with `effect` in `mode`. What is not called for is not called in any tick.
+fn run(blueprint: &Blueprint, case: &Case, effect: Effect, mode: Mode) -> Result<Outcome, String> {
+    let mut blueprint = blueprint.clone();
+    blueprint.effects.insert(effect, mode);
+    let mut sandbox = Sandbox::of(blueprint);
+    let mut deeds = case.deeds.iter().peekable();
+    let calls = |sandbox: &Sandbox| effect.row().passes.iter().map(|pass| sandbox.calls(*pass)).sum::<u64>();
+    for tick in 0..case.ticks {
+        while let Some(deed) = deeds.next_if(|deed| deed.tick <= tick) {
+            sandbox.push(deed.intent);
+        }
+        let before = calls(&sandbox);
+        sandbox.tick(1);
+        let (added, runs) = (calls(&sandbox) - before, sandbox.get::<Effects>().get(effect).running);
+        // A stage of a substep is called once in each at most; sleep has four of them, and a look at either end.
+        let most = if runs { 4 * u64::from(sandbox.get::<TickPlan>().substeps) + 2 } else { 0 };
+        if added > most {
+            return Err(format!("{} {mode:?}: {added} calls in tick {tick}, {most} allowed", effect.name()));
+        }
+    }
+    let state = sandbox.get::<Effects>().get(effect);
+    let (active, differing) = (state.active_ticks, state.differing_ticks);
+    Ok(Outcome { hash: sandbox.hash(), active, differing, calls: calls(&sandbox) })
+}
+
+/// Which of the two claims a case was good for.
+#[derive(Clone, Copy, Debug, Default)]
+struct Held {
+    /// `auto` and `on` were one.
+    on: bool,
+    /// They were, and `auto` left something out.
+    on_idle: bool,
+    /// `auto` and `off` were one.
+    off: bool,
+}
+
+/// Compares the modes of an effect.
+fn judge(blueprint: &Blueprint, case: &Case, effect: Effect) -> Result<Held, String> {
+    let auto = run(blueprint, case, effect, Mode::Auto)?;
+    let off = run(blueprint, case, effect, Mode::Off)?;
+    let fault = |what: &str| Err(format!("{}: {what}; {auto:?}", effect.name()));
+    if off.calls > 0 || off.active > 0 {
+        return fault(&format!("off, and {} calls in {} ticks", off.calls, off.active));
+    }
+    if auto.active == 0 && auto.calls > 0 {
+        return fault("not called for, and called");
+    }
+    if auto.active == 0 && off.hash != auto.hash {
+        return fault("it never ran, and without it the world is another one");
+    }
+    let mut held = Held { off: auto.active == 0, ..Held::default() };
+    if auto.differing == 0 {
+        let on = run(blueprint, case, effect, Mode::On)?;
+        if on.hash != auto.hash {
+            return fault("auto left it out where it had something to do");
+        }
+        if on.active != u64::from(case.ticks) {
+            return fault("on, and it did not run in every tick");
+        }
+        (held.on, held.on_idle) = (true, auto.active < on.active);
+    }
+    Ok(held)
+}
+
+/// A built-in scene as it is, as a case in which nothing is done.
+fn still(ticks: u32) -> Case {
+    Case { scene: String::new(), deeds: Vec::new(), ticks }
+}
+
+#[test]
+fn in_every_scene_auto_leaves_out_only_what_does_nothing() {
+    let mut faults = Vec::new();
+    let (mut on, mut idle, mut off) = (0, 0, 0);
+    for name in scene::builtin_names() {
+        let file = scene::load(name).unwrap_or_else(|error| panic!("{error}"));
+        let blueprint =
+            file.build(&[], Some(Preset::Draft), &EffectModes::new()).unwrap_or_else(|error| panic!("{error}"));
+        for effect in Effect::ALL {
+            match judge(&blueprint, &still(SCENE_TICKS), effect) {
+                Ok(held) => {
+                    on += u32::from(held.on);
+                    idle += u32::from(held.on_idle);
+                    off += u32::from(held.off);
+                }
+                Err(fault) => faults.push(format!("{name}: {fault}")),
+            }
+        }
+    }
+    println!("{on} pairs are the same with on, {idle} of them left something out; {off} are the same with off");
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    // Only air_feedback, where something feels the air, is not told of.
+    assert!(on >= 7 * 8 && idle >= 8 && off >= 8, "hardly anything was compared: {on}, {idle}, {off}");
+}
+
+/// A random scene, random hands and an effect.
+fn random() -> impl Strategy<Value = (Case, Effect)> {
+    let effect = (0..Effect::ALL.len()).prop_map(|k| Effect::ALL[k]);
+    let case = scenes::scene().prop_flat_map(|scene| {
+        let ticks = (WORK / scene.work).clamp(TICKS.0, TICKS.1) as u32;
+        hands::deeds(scene.size, ticks).prop_map(move |deeds| Case { scene: scene.text.clone(), deeds, ticks })
+    });
+    (case, effect)
+}
+
+#[test]
+fn in_random_scenes_auto_leaves_out_only_what_does_nothing() {
+    let asked = std::env::var_os("PROPTEST_CASES").is_some();
+    let cases = if asked { Config::default().cases } else { CASES };
+    let config = Config { cases, failure_persistence: None, max_shrink_iters: 200, ..Config::default() };
+    let mut runner = if asked {
+        TestRunner::new(config)
+    } else {
+        TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::ChaCha))
+    };
+    let counts = std::cell::Cell::new((0_u32, 0_u32, 0_u32));
+    let result = runner.run(&random(), |(case, effect)| {
+        let file = scene::from_text("case", case.scene.clone());
+        // Whether a scene is refused as it should be is another test's.
+        let Ok(blueprint) = file.and_then(|file| file.build(&[], None, &EffectModes::new())) else { return Ok(()) };
+        let held = judge(&blueprint, &case, effect).map_err(TestCaseError::fail)?;
+        let (on, idle, off) = counts.get();
+        counts.set((on + u32::from(held.on), idle + u32::from(held.on_idle), off + u32::from(held.off)));
+        Ok(())
+    });
+    if let Err(error) = result {
+        panic!("{error}");
+    }
+    let (on, idle, off) = counts.get();
+    println!("of {cases} cases {on} are the same with on, {idle} of them left something out; {off} with off");
+    assert!(on > cases / 3 && idle > cases / 32 && off > cases / 32, "hardly anything was compared: {on} {idle} {off}");
+}
+
+#[test]
+fn what_acts_where_nothing_calls_for_it_is_told_by_the_table() {
+    // One case of each kind: the world is another one, and the facts said that it may be.
+    for (effect, preset) in
+        [(Effect::Predictor, Preset::Classic), (Effect::Sleep, Preset::Reference), (Effect::AirFeedback, Preset::Draft)]
+    {
+        let mut blueprint = crate::support::empty_box(24, 20);
+        (blueprint.preset, blueprint.quality) = (preset, preset.quality());
+        crate::support::Furnish::pool(&mut blueprint, (0, 0), (24, 6));
+        if effect == Effect::AirFeedback {
+            blueprint.particles.vx.fill(0.01);
+        }
+        let case = still(100);
+        let outcome = |mode| run(&blueprint, &case, effect, mode).unwrap_or_else(|fault| panic!("{fault}"));
+        let (auto, on) = (outcome(Mode::Auto), outcome(Mode::On));
+        assert!(auto.differing > 0, "{} at {}: nobody was told", effect.name(), preset.name());
+        assert_ne!(auto.hash, on.hash, "{} at {}: it does nothing", effect.name(), preset.name());
+    }
+}
