@@ -1,6 +1,6 @@
 //! Water under its own weight.
 
-use super::{BOILS, crowd::apart, water};
+use super::{BOILS, TREMBLES, crowd::apart, water};
 use crate::{
     lab::gauntlet::case::{Case, Density, Gain, Rules, Size},
     sim::state::ParticleStore,
@@ -69,6 +69,28 @@ pub(in crate::lab::gauntlet) const POOL: Case = Case {
         ..Rules::ALWAYS
     },
     known: Some(BOILS),
+    ..Case::USUAL
+};
+
+pub(in crate::lab::gauntlet) const FULL_BOX: Case = Case {
+    name: "full_box",
+    title: "A box full to the brim",
+    what: "A closed box of 40 by 40 particles without room for one more, weightless, at rest from the start.",
+    guards: "Jacobi steps that overshoot where all particles are too dense at once and none can give way: the water boils \
+             by itself, most of all with many short substeps.",
+    allowed: "rms speed 0.02 d a tick, density error 3 %, a speed of 0.05 m/s while they find their places. No limiter acts.",
+    scene: "(title: \"Full\", spacing: 0.1, size: (4, 4), gravity: (0, 0), effects: {air: off, drag: off}, contents: [
+        (element: \"water\", shape: Rect(min: (0, 0), max: (4, 4)))])",
+    ticks: 120,
+    rules: Rules {
+        gain: Some(Gain::Speed(0.05)),
+        density: Some(Density { shock: 10, worst: 0.03, end: 0.03 }),
+        rest: Some(0.02),
+        work: 2.0,
+        calm: true,
+        ..Rules::ALWAYS
+    },
+    known: Some(TREMBLES),
     ..Case::USUAL
 };
 
