@@ -45,6 +45,11 @@ impl Mask {
         Ok(mask)
     }
 
+    /// Number of its pixels.
+    pub(super) fn pixels(&self) -> usize {
+        self.dark.len()
+    }
+
     /// Whether the pixel at the point is dark; (0, 0) is the picture's lower left corner and (1, 1) its upper right one.
     pub(super) fn is_dark(&self, x: f64, y: f64) -> bool {
         let (column, row) = ((x * self.columns as f64).floor(), ((1.0 - y) * self.rows as f64).ceil() - 1.0);

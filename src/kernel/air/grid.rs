@@ -172,6 +172,9 @@ impl TryFrom<Stored> for Air {
         if stored.rests.len() > cells || stored.rests.iter().any(|rest| !rest.is_finite() || *rest < 0.0) {
             return Err("air: every pressure of rest must be finite and 0 or more".to_owned());
         }
+        if !stored.pending.is_of_tools() {
+            return Err("air: what tools had to clamp is no count of a world's".to_owned());
+        }
         let lengths = [stored.cell, stored.size.x, stored.size.y, stored.params.sound_speed, stored.params.density];
         if lengths.iter().any(|length| !length.is_finite() || *length <= 0.0) {
             return Err("air: size, cell, sound_speed and density must be finite and positive".to_owned());
@@ -301,6 +304,17 @@ impl Air {
     /// Cells along y.
     pub fn rows(&self) -> usize {
         self.rows as usize
+    }
+
+    /// Width and height of the box, d.
+    pub fn size(&self) -> Vec2 {
+        self.size
+    }
+
+    /// Every pressure and velocity that it holds, the surroundings' and those of rest included.
+    pub fn values(&self) -> impl Iterator<Item = f32> + '_ {
+        let fields = [&self.pressure, &self.velocity_x, &self.velocity_y, &self.outside, &self.rests];
+        fields.into_iter().flatten().copied()
     }
 
     /// Edge of a cell, d.

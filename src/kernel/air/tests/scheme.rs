@@ -234,4 +234,8 @@ fn a_damaged_snapshot_is_refused() {
     assert!(stored(|air| air.pressure[9] = -1.0).is_err());
     assert!(stored(|air| air.velocity_x[9] = f32::NAN).is_err());
     assert!(stored(|air| air.cell = 0.0).is_err());
+    assert!(stored(|air| (air.pending.speed_clamps, air.pending.buried) = (9, 0.5)).is_ok());
+    assert!(stored(|air| air.pending.speed_clamps = u64::MAX).is_err());
+    assert!(stored(|air| air.pending.substeps = u32::MAX).is_err());
+    assert!(stored(|air| air.pending.buried = f64::NAN).is_err());
 }
