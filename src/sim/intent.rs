@@ -73,6 +73,11 @@ pub enum Intent {
         /// When.
         mode: Mode,
     },
+    /// Let things fall another way from here on.
+    Gravity {
+        /// Which way and how fast, d/s².
+        gravity: Vec2,
+    },
 }
 
 /// Intents that wait for the next edit stage.

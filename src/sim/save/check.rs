@@ -8,6 +8,7 @@ use crate::{
         params::{AirParams, Domain, Preset, Quality},
         solids::Solids,
         sources::Rect,
+        units::Scale,
     },
     scene::{MOST_COVERED, blueprint::Effect},
     sim::state::Clock,
@@ -76,7 +77,7 @@ fn numbers(contents: &Contents) -> Verdict {
     within("height", domain.size.y, 4.0, LONGEST_SIDE)?;
     let cells = domain.size.ceil();
     within("number of cells", cells.x * cells.y, 16.0, MOST_CELLS)?;
-    within("gravity", domain.gravity.length() * scale.spacing, 0.0, 1500.0)?;
+    gravity(domain.gravity, *scale)?;
     within("rest_density", fluid.rest_density, 0.1, 100.0)?;
     within("relaxation", fluid.relaxation, 1e-4, 10.0)?;
     within("constraint_floor", fluid.constraint_floor, -1.0, 0.0)?;
@@ -86,6 +87,11 @@ fn numbers(contents: &Contents) -> Verdict {
     within("sound_speed", air_params.sound_speed * scale.spacing, 1.0 / ROUNDING, 400.0 * ROUNDING)?;
     within("air_density", air_params.density, 0.01, 1000.0)?;
     within("particle_limit", contents.particle_limit as f32, 1.0, 4e6)
+}
+
+/// Gravity in d/s² at a spacing: in m/s² it keeps to the range of scenes.
+pub(in crate::sim) fn gravity(gravity: Vec2, scale: Scale) -> Verdict {
+    within("gravity", gravity.length() * scale.spacing, 0.0, 1500.0)
 }
 
 /// The numbers of a quality.

@@ -86,7 +86,7 @@ pub(super) fn plan_tick(
         Effect::Vorticity,
         called(present(&|element| element.vorticity > 0.0), "a liquid keeps its eddies", "nothing keeps its eddies"),
     );
-    let wanted = predict::substeps(fastest, &setup.blueprint.domain, &setup.quality, TICK_SECONDS);
+    let wanted = predict::substeps(fastest, &setup.domain, &setup.quality, TICK_SECONDS);
     plan.substeps = wanted.count;
     counters.substeps_short += u64::from(wanted.short);
     effects.decide(Effect::Sleep, sleep::is_called_for(&setup, asleep.asleep(), particles.len(), !air.is_quiet()));
