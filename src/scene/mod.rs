@@ -29,7 +29,7 @@ pub use build::{SceneFile, from_text, load};
 pub use builtin::builtin_names;
 pub use elements::elements;
 pub use error::SceneError;
-pub(crate) use flow::MOST_COVERED;
 pub use file::ParameterSpec;
+pub(crate) use flow::MOST_COVERED;
 pub use knobs::{GRADIENT, KNOBS, Knob};
 pub use number::Range;

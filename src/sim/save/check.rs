@@ -210,14 +210,12 @@ fn sources(contents: &Contents) -> Verdict {
 
 fn air(contents: &Contents) -> Verdict {
     let Contents { air, domain, quality, .. } = contents;
+    // That its cells fit its size is checked where it is read.
     demand(air.cell() == quality.air_cell, || "its air stands on other cells than its quality's".to_owned())?;
     demand(*air.params() == contents.air_params, || "its air has other parameters than its scene".to_owned())?;
     demand(air.size() == domain.size, || {
         format!("its air fills a box of {} d, its scene has one of {} d", air.size(), domain.size)
     })?;
-    let cells = (domain.size / air.cell()).ceil();
-    let fits = air.columns() == cells.x as usize && air.rows() == cells.y as usize;
-    demand(fits, || format!("air of {} × {} cells does not fit its box", air.columns(), air.rows()))?;
     for value in air.values() {
         demand(value.abs() < ABSURD, || format!("a pressure or wind is {value}; allowed: less than {ABSURD:e}"))?;
     }

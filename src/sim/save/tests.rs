@@ -210,7 +210,9 @@ fn made_up_contents_are_refused_by_name() {
         ("the rate of a tap", |c| c.sources.emitters[0].rate = f32::NAN),
         ("due of a tap", |c| c.sources.emitters[0].due = -1.0),
         ("tap gives", |c| c.sources.emitters[0].element = ElementId(0)),
-        ("does not fit its box", |c| c.air = Air::new(Vec2::splat(40.0), c.quality.air_cell, c.air_params)),
+        ("its air fills a box of [40, 40]", |c| {
+            c.air = Air::new(Vec2::splat(40.0), c.quality.air_cell, c.air_params);
+        }),
         ("does not follow its rock", |c| c.rock.clear()),
         ("a parameter", |c| c.parameters.values_mut().for_each(|value| *value = f64::NAN)),
         ("a pressure of its water", |c| c.pressure = vec![f32::NAN]),

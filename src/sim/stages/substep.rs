@@ -155,9 +155,8 @@ pub(super) fn sort_into_bins(
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
-    let report = workers.run_for(particles.len(), |threads| {
-        solver.bin(&mut particles, &rock, &setup.domain, &setup.quality, threads)
-    });
+    let report = workers
+        .run_for(particles.len(), |threads| solver.bin(&mut particles, &rock, &setup.domain, &setup.quality, threads));
     counters.set_apart += report.set_apart;
     ledger.note(Pass::Bin, start.elapsed());
 }
