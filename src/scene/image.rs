@@ -59,10 +59,10 @@ impl Mask {
     }
 }
 
-/// The decoder takes it for granted that a palette holds whole colours, and no more than a byte can tell apart.
+/// The decoder takes it for granted that a palette holds whole colours. How many it may hold it looks at itself.
 fn check_palette(info: &Info<'_>) -> Result<(), String> {
     let bytes = info.palette.as_ref().map_or(0, |palette| palette.len());
-    if info.color_type == ColorType::Indexed && (!bytes.is_multiple_of(3) || bytes > 768) {
+    if info.color_type == ColorType::Indexed && !bytes.is_multiple_of(3) {
         return Err(format!("a palette of {bytes} bytes; allowed: up to 256 colours of 3 bytes each"));
     }
     Ok(())

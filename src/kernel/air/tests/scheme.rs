@@ -269,6 +269,7 @@ fn a_damaged_snapshot_is_refused() {
     assert!(stored(|air| air.cell = 0.0).is_err());
     assert!(stored(|air| (air.pending.speed_clamps, air.pending.buried) = (9, 0.5)).is_ok());
     assert!(stored(|air| air.pending.speed_clamps = u64::MAX).is_err());
+    assert!(stored(|air| air.solid[3] = false).is_err(), "the ring has a hole");
     assert!(stored(|air| air.pending.substeps = u32::MAX).is_err());
     assert!(stored(|air| air.pending.buried = f64::NAN).is_err());
 }
