@@ -4,29 +4,19 @@ use crate::{
     cli::{
         args::ExamArguments,
         failure::Failure,
-        progress::StatusLine,
-        report::{Report, presets},
+        report::{Report, watched},
     },
     lab::exam::{CASES, Case, document, jobs, sit_all, summary, table},
     sim::exam::{Row, Verdict},
 };
-use std::sync::Mutex;
 
 /// Sits the exam and prints its rows. Rows at `balanced` or better that are beyond their tolerance fail it.
 pub(super) fn exam(arguments: &ExamArguments) -> Result<(), Failure> {
-    let report = Report::new(arguments.json.as_deref(), arguments.markdown.as_deref(), arguments.threads)?;
-    let wanted = |case: &Case| match arguments.cases.is_empty() {
-        true => case.quick || !arguments.quick,
-        false => arguments.cases.iter().any(|name| name == case.name),
-    };
-    let jobs = jobs(CASES, wanted, &presets(&arguments.qualities, arguments.quick));
-    let line = Mutex::new(StatusLine::new());
-    let rows = sit_all(&jobs, report.threads, |done, of, job| {
-        if let Ok(line) = line.lock() {
-            line.say(&format!("{:3} %  {done} of {of}, {}", 100 * done / of, job.title()));
-        }
-    })?;
-    drop(line);
+    let ExamArguments { cases, options } = arguments;
+    let report = Report::new(options)?;
+    let wanted = |case: &Case| options.wants(cases, case.name, case.quick);
+    let jobs = jobs(CASES, wanted, &options.presets());
+    let rows = watched(|says| sit_all(&jobs, report.threads, |done, of, job| says(done, of, &job.title())))?;
     report.write(
         &rows,
         |processor| document(&rows, processor, "powder-master exam --markdown docs/exam.md"),

@@ -1,13 +1,18 @@
-//! What `exam` and `gauntlet` have in common: where their rows go.
+//! What `exam` and `gauntlet` have in common: which cases they run, how far they are, where their rows go.
 
-use crate::cli::{
-    failure::Failure,
-    output::{self, STDOUT},
+use crate::{
+    cli::{
+        args::ReportOptions,
+        failure::Failure,
+        output::{self, STDOUT},
+        progress::StatusLine,
+    },
+    kernel::params::Preset,
+    lab::machine::processor,
 };
-use crate::{kernel::params::Preset, lab::machine::processor};
 use serde::Serialize;
 use serde_json::json;
-use std::{io::Write, path::Path, thread::available_parallelism};
+use std::{io::Write, path::Path, sync::Mutex, thread::available_parallelism};
 
 /// Where rows shall go.
 pub(super) struct Report<'a> {
@@ -18,19 +23,16 @@ pub(super) struct Report<'a> {
 }
 
 impl<'a> Report<'a> {
-    /// A report into these files, both looked at before anything is simulated. `threads`: one a processor unless given.
-    pub(super) fn new(
-        json: Option<&'a Path>,
-        markdown: Option<&'a Path>,
-        threads: Option<u64>,
-    ) -> Result<Self, Failure> {
+    /// A report into the files that are asked for, both looked at before anything is simulated.
+    pub(super) fn new(options: &'a ReportOptions) -> Result<Self, Failure> {
+        let (json, markdown) = (options.json.as_deref(), options.markdown.as_deref());
         let files = [json, markdown];
         if files.iter().all(|file| *file == Some(Path::new(STDOUT))) {
             return Err(Failure::Usage("--json and --markdown can't both have stdout; allowed: a file for one".into()));
         }
         let on_disk: Vec<&Path> = files.into_iter().flatten().filter(|file| *file != Path::new(STDOUT)).collect();
         output::check(&on_disk)?;
-        let threads = threads.map_or_else(|| available_parallelism().map_or(1, usize::from), |n| n as usize);
+        let threads = options.threads.map_or_else(|| available_parallelism().map_or(1, usize::from), |n| n as usize);
         Ok(Self { json, markdown, threads })
     }
 
@@ -58,9 +60,29 @@ impl<'a> Report<'a> {
     }
 }
 
-/// The qualities that were asked for, in their order; none stands for all, or with `quick` for `balanced`.
-pub(super) fn presets(asked: &[Preset], quick: bool) -> Vec<Preset> {
-    let default = if quick { &[Preset::Balanced][..] } else { &Preset::ALL[..] };
-    let asked = if asked.is_empty() { default } else { asked };
-    Preset::ALL.into_iter().filter(|preset| asked.contains(preset)).collect()
+/// Does a long work that says how many jobs are done, of how many, and which one is begun.
+pub(super) fn watched<R>(work: impl FnOnce(&(dyn Fn(usize, usize, &str) + Sync)) -> R) -> R {
+    let line = Mutex::new(StatusLine::new());
+    work(&|done, of, title| {
+        if let Ok(line) = line.lock() {
+            line.say(&format!("{:3} %  {done} of {of}, {title}", 100 * done / of));
+        }
+    })
+}
+
+impl ReportOptions {
+    /// Whether a case is wanted: one that is named, or where none is, any; with `--quick` one that is quick.
+    pub(super) fn wants(&self, named: &[String], case: &str, is_quick: bool) -> bool {
+        match named {
+            [] => is_quick || !self.quick,
+            named => named.iter().any(|name| name == case),
+        }
+    }
+
+    /// The qualities that were asked for, in their order; none stands for all, or with `quick` for `balanced`.
+    pub(super) fn presets(&self) -> Vec<Preset> {
+        let default = if self.quick { &[Preset::Balanced][..] } else { &Preset::ALL[..] };
+        let asked = if self.qualities.is_empty() { default } else { &self.qualities };
+        Preset::ALL.into_iter().filter(|preset| asked.contains(preset)).collect()
+    }
 }

@@ -9,44 +9,46 @@ use crate::{
         start::Start,
         threads,
     },
-    lab::{headless::Headless, machine::processor, soak},
+    lab::{
+        headless::Headless,
+        machine::processor,
+        soak::{self, Report},
+    },
     sim::{state::Setup, workers::Workers},
 };
 use bevy::platform::time::Instant;
 use serde_json::json;
+use std::path::Path;
 
 /// Rows of the table.
 const PERIODS: u64 = 24;
 
-/// Soaks the scene and prints what was seen, period by period. A fault fails it.
+/// Soaks the scene and prints what was seen, period by period. A fault fails it. A file of figures is written anew at the
+/// end of each period, so that a soak that is stopped leaves what it has seen.
 pub(super) fn soak(arguments: &SoakArguments) -> Result<(), Failure> {
     output::check(&arguments.json.as_deref().into_iter().collect::<Vec<_>>())?;
     let start = Start::of_soak(&arguments.scene, &arguments.settings, arguments.quality)?;
     threads::start(arguments.threads)?;
     let mut headless = Headless::begin(Workers::default(), |world| start.load(world, arguments.simd));
-    let minutes = arguments.hours.0;
-    let (begun, line) = (Instant::now(), StatusLine::new());
+    let quality = headless.world().resource::<Setup>().preset.name();
+    let (minutes, begun, line) = (arguments.hours.0, Instant::now(), StatusLine::new());
+    let seconds = || begun.elapsed().as_secs_f64();
     let most = arguments.within.map_or(f64::INFINITY, |Minutes(minutes)| minutes as f64 * 60.0);
-    let report = soak::soak(&mut headless, arguments.seed, minutes, PERIODS, |done| {
-        line.say(&format!("{} minute {done} of {minutes}", bar(done as usize, minutes as usize)));
-        begun.elapsed().as_secs_f64() < most
+    let file = arguments.json.as_deref().filter(|path| *path != Path::new(output::STDOUT));
+    let (mut written, mut outcome) = (0, Ok(()));
+    let report = soak::soak(&mut headless, arguments.seed, minutes, PERIODS, |report| {
+        line.say(&format!("{} minute {} of {minutes}", bar(report.minutes as usize, minutes as usize), report.minutes));
+        if report.periods.len() > written {
+            written = report.periods.len();
+            outcome = file.map_or(Ok(()), |path| write_json(path, arguments, quality, report, seconds()));
+        }
+        outcome.is_ok() && seconds() < most
     });
     drop(line);
-    let (world, faults, seconds) = (headless.world(), report.faults(), begun.elapsed().as_secs_f64());
-    let quality = world.resource::<Setup>().preset.name();
+    outcome?;
+    let (faults, seconds) = (report.faults(), seconds());
     if let Some(path) = &arguments.json {
-        let counters = report.counters;
-        output::write_json(
-            path,
-            &json!({
-                "scene": arguments.scene, "quality": quality, "seed": arguments.seed, "minutes": report.minutes,
-                "wall_seconds": seconds, "processor": processor(), "periods": report.periods,
-                "rock": [report.rock_before, report.rock_after], "non_finite": counters.non_finite,
-                "escaped": counters.escaped, "speed_clamps": counters.speed_clamps,
-                "position_clamps": counters.position_clamps, "air_clamps": counters.air_clamps,
-                "refused": counters.refused, "faults": faults,
-            }),
-        )?;
+        write_json(path, arguments, quality, &report, seconds)?;
     }
     let hours = report.minutes as f64 / 60.0;
     let verdict = if faults.is_empty() { "sound" } else { "NOT sound" };
@@ -59,4 +61,25 @@ pub(super) fn soak(arguments: &SoakArguments) -> Result<(), Failure> {
         None => Ok(()),
         Some(first) => Err(Failure::Outcome(format!("{} faults, the first: {first}", faults.len()))),
     }
+}
+
+fn write_json(
+    path: &Path,
+    SoakArguments { scene, seed, hours, .. }: &SoakArguments,
+    quality: &str,
+    report: &Report,
+    seconds: f64,
+) -> Result<(), Failure> {
+    let counters = report.counters;
+    output::write_json(
+        path,
+        &json!({
+            "scene": scene, "quality": quality, "seed": seed, "minutes": report.minutes, "minutes_wanted": hours.0,
+            "wall_seconds": seconds, "processor": processor(), "periods": report.periods,
+            "rock": [report.rock_before, report.rock_after], "non_finite": counters.non_finite,
+            "escaped": counters.escaped, "speed_clamps": counters.speed_clamps,
+            "position_clamps": counters.position_clamps, "air_clamps": counters.air_clamps,
+            "refused": counters.refused, "faults": report.faults(),
+        }),
+    )
 }

@@ -19,7 +19,7 @@ use crate::{
     },
 };
 use bevy::ecs::world::World;
-use std::{fmt::Display, fs, path::Path, sync::Arc};
+use std::{fmt::Display, fs::File, io::Read, path::Path, sync::Arc};
 
 /// Everything that was read and is ready to run.
 pub(super) enum Start {
@@ -174,7 +174,17 @@ fn file_beside_scenes(name_or_path: &str) -> Option<&Path> {
     (!is_scene && !scene::builtin_names().contains(&name_or_path) && path.is_file()).then_some(path)
 }
 
+/// Largest save file or recording that is read, bytes: more than the largest that is written.
+const LARGEST: u64 = 1 << 30;
+
 /// The bytes of a file.
 pub(super) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    fs::read(path).map_err(|error| bad(path, &format_args!("can't be read: {error}")))
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
+        .map_err(|error| bad(path, &format_args!("can't be read: {error}")))?;
+    if bytes.len() as u64 > LARGEST {
+        return Err(bad(path, &format_args!("larger than {} MiB; allowed: a save file or a recording", LARGEST >> 20)));
+    }
+    Ok(bytes)
 }

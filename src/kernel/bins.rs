@@ -99,9 +99,9 @@ pub struct Bins {
 
 impl Bins {
     /// Lays the cells over a box of `size` d for a kernel of radius `radius` d whose particles may each move by
-    /// `correction_limit` d while they are binned, and bins the rock if it or the cells changed.
-    pub fn lay(&mut self, size: Vec2, radius: f32, correction_limit: f32, solids: &Solids) {
-        self.grid = CellGrid::new(size, radius + 2.0 * correction_limit + MARGIN_ROUNDING);
+    /// `longest_correction` d while they are binned, and bins the rock if it or the cells changed.
+    pub fn lay(&mut self, size: Vec2, radius: f32, longest_correction: f32, solids: &Solids) {
+        self.grid = CellGrid::new(size, radius + 2.0 * longest_correction + MARGIN_ROUNDING);
         self.rock.follow(&self.grid, solids);
     }
 

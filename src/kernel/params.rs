@@ -86,8 +86,8 @@ pub struct Quality {
     pub iterations: u32,
     /// Kernel radius h, d: 2 … 4. 2.5 is the sweet spot; smaller is rougher, larger dearer.
     pub kernel_radius: f32,
-    /// Furthest that iterating may move a particle from its prediction in a substep, d: 0.05 … 0.5. The neighbour
-    /// search reaches further by twice this, so that no pair is missed.
+    /// Furthest that iterating may move a particle from its prediction in a substep along an axis, d: 0.05 … 0.5. With the
+    /// predictor, crowded particles may go further ([`Quality::longest_correction`]).
     pub correction_limit: f32,
     /// Edge of an air cell, d: 1 … 32. Smaller sees finer eddies and costs with the inverse cube.
     pub air_cell: f32,
@@ -119,6 +119,19 @@ pub enum Preset {
     Reference,
 }
 
+/// How many times the correction limit a crowded particle may move where the pressure predictor runs. In a corner that a
+/// stream presses on, a crowd of particles near one point is held together from outside: it must part faster than more are
+/// pressed in.
+const CROWDED_LIMIT: f32 = 2.0;
+
+impl Quality {
+    /// Furthest that iterating may move the most crowded particle in a substep along an axis, d. The neighbour search
+    /// reaches further than the kernel by twice this, so that no pair is missed.
+    pub fn longest_correction(&self) -> f32 {
+        self.correction_limit * if self.predictor { CROWDED_LIMIT } else { 1.0 }
+    }
+}
+
 impl Preset {
     /// All presets in the order in which they are shown.
     pub const ALL: [Self; 6] = [Self::Classic, Self::Draft, Self::Fast, Self::Balanced, Self::Fine, Self::Reference];
@@ -146,7 +159,7 @@ impl Preset {
             substeps: 1,
             iterations: 2,
             kernel_radius: 2.5,
-            correction_limit: 0.2,
+            correction_limit: 0.1,
             air_cell: 4.0,
             air_courant: 0.7,
             gradient: GradientKernel::Rational,
@@ -164,15 +177,9 @@ impl Preset {
             Self::Fast => Quality { air_cell: 6.0, ..base },
             Self::Balanced => Quality { substeps: 2, iterations: 1, ..base },
             Self::Fine => Quality { substeps: 2, air_cell: 3.0, ..base },
-            Self::Reference => Quality {
-                substeps: 8,
-                iterations: 4,
-                kernel_radius: 3.0,
-                correction_limit: 0.1,
-                air_cell: 1.0,
-                air_courant: 0.5,
-                ..base
-            },
+            Self::Reference => {
+                Quality { substeps: 8, iterations: 4, kernel_radius: 3.0, air_cell: 1.0, air_courant: 0.5, ..base }
+            }
         }
     }
 }

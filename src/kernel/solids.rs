@@ -5,12 +5,11 @@
 
 use crate::kernel::element::ElementId;
 use glam::{IVec2, Vec2};
-use serde::{Deserialize, Serialize};
 
 const EMPTY: u8 = u8::MAX;
 
 /// Which cells of the box are rock. Cells outside the box count as solid.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Solids {
     columns: i32,
     rows: i32,

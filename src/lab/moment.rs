@@ -1,7 +1,7 @@
 //! A moment of a world, from which any number of runs can set out, each at a quality of its own.
 
 use crate::{
-    kernel::params::{Preset, Quality},
+    kernel::params::{Domain, Preset, Quality},
     lab::headless::Headless,
     scene::blueprint::{Blueprint, Effect, EffectModes, Mode},
     sim::{
@@ -20,6 +20,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Moment {
     blueprint: Arc<Blueprint>,
+    domain: Domain,
     snapshot: Snapshot,
     effects: EffectModes,
     fingerprint: u64,
@@ -28,8 +29,10 @@ pub struct Moment {
 impl Moment {
     /// The world as it is.
     pub fn of(world: &World) -> Self {
+        let Setup { blueprint, domain, .. } = world.resource::<Setup>();
         Self {
-            blueprint: world.resource::<Setup>().blueprint.clone(),
+            blueprint: blueprint.clone(),
+            domain: *domain,
             snapshot: control::freeze(world),
             effects: world.resource::<Effects>().modes(),
             fingerprint: hash_bytes(&save::encode(world)),
@@ -79,6 +82,7 @@ impl Moment {
     pub fn go_on(&self, preset: Preset, quality: Quality, workers: Workers) -> Headless {
         Headless::begin(workers, |world| {
             control::load(world, self.blueprint.clone());
+            world.resource_mut::<Setup>().domain = self.domain;
             control::set_quality(world, preset, quality);
             control::thaw(world, &self.snapshot);
             let mut effects = world.resource_mut::<Effects>();

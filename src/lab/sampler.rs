@@ -244,11 +244,11 @@ impl Samples {
 
 /// The movable particles with what mechanics needs to know of them.
 pub(crate) fn matter(world: &World) -> Matter<'_> {
-    let blueprint = &world.resource::<Setup>().blueprint;
+    let Setup { blueprint, domain, .. } = world.resource::<Setup>();
     Matter {
         particles: world.resource::<ParticleStore>(),
         elements: &blueprint.elements,
-        domain: &blueprint.domain,
+        domain,
         scale: blueprint.scale,
     }
 }

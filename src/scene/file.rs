@@ -41,16 +41,17 @@ pub(super) struct SceneText {
     /// 10 000. Default: nothing.
     #[serde(default)]
     pub(super) contents: Vec<Placement>,
-    /// Taps, at most 1000. Default: none.
+    /// Taps, at most 1000, on 64 million cells together. Default: none.
     #[serde(default)]
     pub(super) emitters: Vec<EmitterText>,
-    /// Fans, at most 1000. Default: none.
+    /// Fans, at most 1000, on 64 million cells together. Default: none.
     #[serde(default)]
     pub(super) winds: Vec<WindText>,
     /// Outlets, at most 1000. Default: none.
     #[serde(default)]
     pub(super) drains: Vec<Area>,
-    /// Air that starts at another pressure than the surroundings', at most 1000. Default: none.
+    /// Air that starts at another pressure than the surroundings', at most 1000 patches, on 1000 million cells together.
+    /// Default: none.
     #[serde(default)]
     pub(super) pressures: Vec<PressureText>,
     /// Sides of the box that are open to the surroundings' air. Default: none.
@@ -170,7 +171,8 @@ pub(super) enum Shape {
         /// Corners, m; 3 … 1000.
         points: Vec<Pair>,
     },
-    /// The dark pixels of a picture: those that are more black than white and more opaque than transparent.
+    /// The dark pixels of a picture: those that are more black than white and more opaque than transparent. All pictures
+    /// of a scene together: at most 4 × 4096 × 4096 pixels.
     Image {
         /// A PNG file of at most 4096 × 4096 pixels, its path relative to the scene file.
         file: String,

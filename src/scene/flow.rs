@@ -18,6 +18,13 @@ use crate::{
 use glam::{DVec2, Vec2};
 use std::fmt::Display;
 
+/// Cells that the taps of a scene may cover together, and its fans: each is looked at in every tick. As many as a box has
+/// at most.
+pub const MOST_COVERED: f64 = 64e6;
+
+/// Cells that the patches of pressure of a scene may cover together, so that none hangs the program.
+const MOST_FILLED: f64 = 1e9;
+
 /// Velocities that a file may give, m/s.
 pub(super) const VELOCITY: Range = Range::real(-300.0, 300.0);
 
@@ -52,7 +59,18 @@ impl Bounds<'_> {
 
     pub(super) fn emitters(&self, elements: &ElementTable, texts: &[EmitterText]) -> Result<Vec<Emitter>, SceneError> {
         let emitter = |(i, text)| self.emitter(elements, &format_args!("emitters[{i}]"), text);
-        texts.iter().enumerate().map(emitter).collect()
+        let emitters: Vec<Emitter> = texts.iter().enumerate().map(emitter).collect::<Result<_, _>>()?;
+        self.check_cover("emitters", emitters.iter().map(|emitter| emitter.area), MOST_COVERED)?;
+        Ok(emitters)
+    }
+
+    /// All the areas of a list together.
+    fn check_cover(&self, list: &str, areas: impl Iterator<Item = Rect>, most: f64) -> Result<(), SceneError> {
+        let cells: f64 = areas.map(|area| (area.max - area.min).as_dvec2().element_product()).sum();
+        if cells <= most {
+            return Ok(());
+        }
+        Err(self.values.fault(list, format!("they cover {cells:.0} cells; allowed: at most {most} together")))
     }
 
     fn emitter(&self, elements: &ElementTable, field: &dyn Display, text: &EmitterText) -> Result<Emitter, SceneError> {
@@ -95,7 +113,9 @@ impl Bounds<'_> {
                 rate: self.values.number(format_args!("{field}.rate"), &text.rate, Range::real(0.001, 1000.0))? as f32,
             })
         };
-        texts.iter().enumerate().map(wind).collect()
+        let winds: Vec<Wind> = texts.iter().enumerate().map(wind).collect::<Result<_, SceneError>>()?;
+        self.check_cover("winds", winds.iter().map(|wind| wind.area), MOST_COVERED)?;
+        Ok(winds)
     }
 
     /// Drains may reach past the box by a spacing, so that they hold what lies at its wall.
@@ -113,6 +133,8 @@ impl Bounds<'_> {
                 self.values.number(format_args!("{field}.pressure"), &text.pressure, Range::real(0.1, 10.0))?;
             Ok(PressurePatch { area: self.area(&field, &text.min, &text.max, 0.0)?, pressure: pressure as f32 })
         };
-        texts.iter().enumerate().map(patch).collect()
+        let patches: Vec<PressurePatch> = texts.iter().enumerate().map(patch).collect::<Result<_, SceneError>>()?;
+        self.check_cover("pressures", patches.iter().map(|patch| patch.area), MOST_FILLED)?;
+        Ok(patches)
     }
 }

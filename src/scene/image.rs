@@ -1,6 +1,6 @@
 //! The dark pixels of a PNG picture as a mask.
 
-use png::{ColorType, Decoder, Limits, Transformations};
+use png::{ColorType, Decoder, Info, Limits, Transformations};
 use std::io::Cursor;
 
 /// Most pixels along a side.
@@ -28,6 +28,7 @@ impl Mask {
         if width > MOST || height > MOST {
             return Err(format!("{width} × {height} pixels; allowed: at most {MOST} × {MOST}"));
         }
+        check_palette(reader.info())?;
         let size = reader.output_buffer_size().ok_or("the picture is too large")?;
         let mut buffer = vec![0; size];
         let frame = reader.next_frame(&mut buffer).map_err(fault)?;
@@ -45,12 +46,26 @@ impl Mask {
         Ok(mask)
     }
 
+    /// Number of its pixels.
+    pub(super) fn pixels(&self) -> usize {
+        self.dark.len()
+    }
+
     /// Whether the pixel at the point is dark; (0, 0) is the picture's lower left corner and (1, 1) its upper right one.
     pub(super) fn is_dark(&self, x: f64, y: f64) -> bool {
         let (column, row) = ((x * self.columns as f64).floor(), ((1.0 - y) * self.rows as f64).ceil() - 1.0);
         let inside = column >= 0.0 && row >= 0.0 && column < self.columns as f64 && row < self.rows as f64;
         inside && self.dark[row as usize * self.columns + column as usize]
     }
+}
+
+/// The decoder takes it for granted that a palette holds whole colours. How many it may hold it looks at itself.
+fn check_palette(info: &Info<'_>) -> Result<(), String> {
+    let bytes = info.palette.as_ref().map_or(0, |palette| palette.len());
+    if info.color_type == ColorType::Indexed && !bytes.is_multiple_of(3) {
+        return Err(format!("a palette of {bytes} bytes; allowed: up to 256 colours of 3 bytes each"));
+    }
+    Ok(())
 }
 
 /// More black than white (Rec. 601 luma) and more opaque than transparent.
@@ -96,5 +111,13 @@ pub(super) mod tests {
         assert!(Mask::decode(&bytes).is_err());
         let wide = png(ColorType::Grayscale, 5000, &[0; 5000]);
         assert!(Mask::decode(&wide).expect_err("too wide").contains("at most 4096"));
+    }
+
+    /// Such a palette made the decoder panic.
+    #[test]
+    fn a_palette_that_is_not_whole_is_an_error() {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/corpus/picture/palette-cut");
+        let error = Mask::decode(&std::fs::read(file).expect("a file of the corpus")).expect_err("no whole colours");
+        assert!(error.contains("a palette of 13 bytes; allowed: up to 256 colours"), "{error}");
     }
 }

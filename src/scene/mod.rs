@@ -30,5 +30,6 @@ pub use builtin::builtin_names;
 pub use elements::elements;
 pub use error::SceneError;
 pub use file::ParameterSpec;
+pub(crate) use flow::MOST_COVERED;
 pub use knobs::{GRADIENT, KNOBS, Knob};
 pub use number::Range;

@@ -22,6 +22,9 @@ use glam::{DVec2, IVec2, UVec2, Vec2};
 /// Tests of a site against a shape that a scene may cost, so that none hangs the program.
 const MOST_WORK: u64 = 1_000_000_000;
 
+/// Pixels of all pictures of a scene: each keeps a byte until the box is filled, however small its file is.
+const MOST_PIXELS: usize = 4 * 4096 * 4096;
+
 /// A site whose cell sticks out of the box by no more than this is inside, d.
 const SLACK: f32 = 1e-3;
 
@@ -79,10 +82,15 @@ pub(super) struct Room<'a> {
 pub(super) fn fill(room: &Room<'_>, values: &Evaluator<'_>, contents: &[Placement]) -> Result<Filled, SceneError> {
     let cells = room.size.ceil().as_uvec2();
     let mut lattice = Lattice { cells, holder: vec![0; cells.x as usize * cells.y as usize] };
-    let mut work = 0;
+    let (mut work, mut pixels) = (0, 0);
     let mut prepared = Vec::with_capacity(contents.len());
     for (i, placement) in contents.iter().enumerate() {
         let placement = prepare(room, values, i, placement)?;
+        pixels += placement.region.pixels();
+        if pixels > MOST_PIXELS {
+            let what = format!("the pictures up to it have {pixels} pixels; allowed: at most {MOST_PIXELS} in a scene");
+            return Err(values.fault(format_args!("contents[{i}].image"), what));
+        }
         claim(room, &mut lattice, i, &placement, &mut work)
             .map_err(|()| values.fault(format_args!("contents[{i}]"), "too many large shapes; allowed: fewer"))?;
         prepared.push(placement);

@@ -94,6 +94,14 @@ impl Region {
         }
     }
 
+    /// Pixels of its picture, if it is one.
+    pub(super) fn pixels(&self) -> usize {
+        match self {
+            Self::Image { mask, .. } => mask.pixels(),
+            _ => 0,
+        }
+    }
+
     /// Whether the point is inside. Lower and left edges of a rectangle count, the others don't.
     pub(super) fn contains(&self, point: DVec2) -> bool {
         match self {

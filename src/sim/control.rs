@@ -20,7 +20,6 @@ use crate::{
     },
 };
 use bevy::prelude::{Mut, World};
-use glam::Vec2;
 use std::sync::Arc;
 
 /// Makes `world` the start of the scene.
@@ -32,14 +31,17 @@ pub fn load(world: &mut World, blueprint: Arc<Blueprint>) {
         preset: blueprint.preset,
         quality: blueprint.quality,
         origin: origin.clone(),
+        domain: blueprint.domain,
         blueprint,
     });
     restart(world, &origin);
 }
 
-/// Goes back to the start of the scene (or to the state of the save file that was loaded).
+/// Goes back to the start of the scene (or to the state of the save file that was loaded), and to its gravity.
 pub fn reset(world: &mut World) {
-    let origin = world.resource::<Setup>().origin.clone();
+    let mut setup = world.resource_mut::<Setup>();
+    setup.domain = setup.blueprint.domain;
+    let origin = setup.origin.clone();
     restart(world, &origin);
 }
 
@@ -105,14 +107,6 @@ pub(super) fn change_quality(setup: &mut Setup, air: &mut AirGrid, rock: &Rock, 
     if air.cell() != quality.air_cell {
         air.0 = air.resized(quality.air_cell);
         air.set_solids(rock);
-    }
-}
-
-/// Lets things fall another way from here on, d/s².
-pub fn set_gravity(world: &mut World, gravity: Vec2) {
-    let mut setup = world.resource_mut::<Setup>();
-    if setup.blueprint.domain.gravity != gravity {
-        Arc::make_mut(&mut setup.blueprint).domain.gravity = gravity;
     }
 }
 

@@ -13,7 +13,7 @@ use bevy::prelude::Resource;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
-/// One wish. Lengths in d, velocities in d/s.
+/// One wish. Lengths in d, velocities in d/s. In recordings they go by their order: new ones stand behind the others.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Intent {
     /// Pour or place an element under the stroke. Movable elements fill free sites at their flow; fixed ones take the
@@ -72,6 +72,11 @@ pub enum Intent {
         effect: Effect,
         /// When.
         mode: Mode,
+    },
+    /// Let things fall another way from here on.
+    Gravity {
+        /// Which way and how fast, d/s².
+        gravity: Vec2,
     },
 }
 

@@ -83,7 +83,8 @@ impl Recorder {
         }
     }
 
-    /// Notes that another state is put in the place of the one at hand.
+    /// Notes that another state is put in the place of the one at hand, or that something other than an intent or a tick
+    /// has changed it: what is recorded goes on from the state that the next edit stage finds.
     pub fn jump(&self) {
         self.desk().jumped = true;
     }
@@ -199,7 +200,7 @@ pub fn plugin(app: &mut App) {
     app.init_resource::<Recorder>().add_systems(
         FixedUpdate,
         (
-            keep_up.before(TickSystems::Edit).run_if(resource_exists::<Setup>),
+            keep_up.after(TickSystems::Script).before(TickSystems::Edit).run_if(resource_exists::<Setup>),
             mark.after(TickSystems::Measure).run_if(resource_exists::<Setup>),
         ),
     );

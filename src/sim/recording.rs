@@ -18,7 +18,7 @@
 mod tests;
 
 use crate::{
-    kernel::brush::Stroke,
+    kernel::{brush::Stroke, units::Scale},
     sim::{
         intent::Intent,
         mark::Mark,
@@ -28,12 +28,14 @@ use crate::{
 };
 use glam::Vec2;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use std::ops::RangeInclusive;
 
 /// Ending of recordings.
 pub const RECORDING_ENDING: &str = "pmr";
 /// What every recording begins with.
 const MAGIC: &[u8] = b"PowderMaster recording\n";
-/// Version of the format. Raise it when anything in the chunks changes: old files are refused, not misread.
+/// Version of the format. Raise it when anything in the chunks changes: old files are refused, not misread. An intent that
+/// is added behind the others changes nothing in old files.
 const VERSION: u16 = 2;
 /// What a file of format 1 begins with: text, input only, from the start of a scene.
 const TEXT_FORMAT: &[u8] = b"{\"powder_master_replay\":";
@@ -150,7 +152,7 @@ impl Recording {
 
     fn read(bytes: &[u8], lenient: bool) -> Result<Self, RecordingError> {
         let mut rest = header(bytes)?;
-        let mut reader = Reader::default();
+        let mut reader = Reader { stretches: Vec::new(), elements: 0, scale: Scale { spacing: 1.0 }, end: None };
         while !rest.is_empty() && reader.end.is_none() {
             match reader.chunk(&mut rest) {
                 Err(_) if lenient && !reader.stretches.is_empty() => break,
@@ -187,11 +189,11 @@ fn header(bytes: &[u8]) -> Result<&[u8], RecordingError> {
 }
 
 /// What was read so far.
-#[derive(Default)]
 struct Reader {
     stretches: Vec<Stretch>,
-    /// Number of elements of the newest stretch.
+    /// Number of elements of the newest stretch, and its spacing.
     elements: usize,
+    scale: Scale,
     end: Option<End>,
 }
 
@@ -211,7 +213,7 @@ impl Reader {
 
     fn state(&mut self, body: &[u8]) -> Result<(), RecordingError> {
         let saved = save::decode(body)?;
-        self.elements = saved.elements();
+        (self.elements, self.scale) = (saved.elements(), saved.scale());
         let tick = saved.snapshot().clock.tick;
         self.stretches.push(Stretch { save: body.to_vec(), tick, entries: Vec::new(), marks: Vec::new() });
         Ok(())
@@ -221,11 +223,11 @@ impl Reader {
         let Some(stretch) = self.stretches.last_mut() else {
             return Err(RecordingError::Damaged("it does not begin with a state".to_owned()));
         };
-        let done = stretch.tick.checked_add((stretch.marks.len() + marks.len()) as u64);
-        let done = done.ok_or_else(|| RecordingError::Unsound("it comes to the end of time".to_owned()))?;
+        // The states' ticks are bounded (`save::check`), and so many marks are in no file.
+        let done = stretch.tick + (stretch.marks.len() + marks.len()) as u64;
         let mut last = stretch.entries.last().map_or(stretch.tick, |entry| entry.tick);
         for entry in &entries {
-            check_entry(entry, last..=done, self.elements).map_err(RecordingError::Unsound)?;
+            check_entry(entry, last..=done, self.elements, self.scale).map_err(RecordingError::Unsound)?;
             last = entry.tick;
         }
         stretch.entries.extend(entries);
@@ -261,7 +263,7 @@ fn parse<T: DeserializeOwned>(body: &[u8]) -> Result<T, RecordingError> {
     }
 }
 
-fn check_entry(entry: &Entry, ticks: std::ops::RangeInclusive<u64>, elements: usize) -> Result<(), String> {
+fn check_entry(entry: &Entry, ticks: RangeInclusive<u64>, elements: usize, scale: Scale) -> Result<(), String> {
     if !ticks.contains(&entry.tick) {
         return Err(format!(
             "an intent is due at tick {}; allowed here: {} to {}",
@@ -280,6 +282,7 @@ fn check_entry(entry: &Entry, ticks: std::ops::RangeInclusive<u64>, elements: us
         Intent::Press { stroke, amount } => (None, &places(stroke), &[stroke.radius, *amount]),
         Intent::ClearAir | Intent::Effect { .. } => (None, &[], &[]),
         Intent::Quality { quality, .. } => return check::quality(quality),
+        Intent::Gravity { gravity } => return check::gravity(*gravity, scale),
     };
     if let Some(element) = element.filter(|element| element.index() >= elements) {
         return Err(format!("element {} is not one of the {elements} elements (0 … {})", element.0, elements - 1));

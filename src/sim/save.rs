@@ -83,6 +83,11 @@ impl Saved {
         &self.snapshot
     }
 
+    /// Its particle spacing.
+    pub fn scale(&self) -> Scale {
+        self.blueprint.scale
+    }
+
     /// Number of its elements.
     pub fn elements(&self) -> usize {
         self.blueprint.elements.len()
@@ -126,13 +131,15 @@ struct RockCell {
 
 /// The world as a save file.
 pub fn encode(world: &World) -> Vec<u8> {
-    let Setup { blueprint, preset, quality, .. } = world.resource::<Setup>();
-    encode_state(blueprint, (*preset, *quality), &world.resource::<Effects>().modes(), control::freeze(world))
+    let Setup { blueprint, domain, preset, quality, .. } = world.resource::<Setup>();
+    encode_state(blueprint, *domain, (*preset, *quality), &world.resource::<Effects>().modes(), control::freeze(world))
 }
 
-/// [`encode`] of the parts: a state of the scene, at a quality and with the wanted effects.
+/// [`encode`] of the parts: a state of the scene, in its box with the gravity in force, at a quality and with the wanted
+/// effects.
 pub(in crate::sim) fn encode_state(
     blueprint: &Blueprint,
+    domain: Domain,
     (preset, quality): (Preset, Quality),
     effects: &EffectModes,
     state: Snapshot,
@@ -148,7 +155,7 @@ pub(in crate::sim) fn encode_state(
         description: blueprint.description.clone(),
         parameters: blueprint.parameters.clone(),
         scale: blueprint.scale,
-        domain: blueprint.domain,
+        domain,
         elements: blueprint.elements.iter().map(|(_, element)| element.clone()).collect(),
         fluid: blueprint.fluid,
         air_params: blueprint.air,

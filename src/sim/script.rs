@@ -9,7 +9,8 @@ pub struct Script {
     /// Name of the scene that it belongs to.
     pub scene: String,
     /// What it does, told the ticks that the scene has run. Whatever it does follows from that and the world alone, so
-    /// that a scene that is begun again goes the same way.
+    /// that a scene that is begun again goes the same way. It acts by intents, which a recording holds; what it changes
+    /// by itself it has to tell the recorder ([`Recorder::jump`](crate::sim::recorder::Recorder::jump)).
     pub act: fn(&mut World, u64),
 }
 

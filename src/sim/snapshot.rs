@@ -5,10 +5,9 @@ use crate::{
     scene::blueprint::Blueprint,
     sim::state::{Clock, Sources},
 };
-use serde::{Deserialize, Serialize};
 
 /// Everything in a world that changes while it runs.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
     /// Movable particles.
     pub particles: Particles,

@@ -6,7 +6,7 @@ use crate::{
         air::{Air, AirReport},
         element::ElementTable,
         forces::drag_rates,
-        params::{Preset, Quality},
+        params::{Domain, Preset, Quality},
         particles::Particles,
         pbf::Solver,
         predictor::Predictor,
@@ -68,6 +68,8 @@ impl Clock {
 pub struct Setup {
     /// The scene as it was built.
     pub blueprint: Arc<Blueprint>,
+    /// The scene's box, with the gravity in force.
+    pub domain: Domain,
     /// The named quality in force.
     pub preset: Preset,
     /// The numbers in force.

@@ -1,7 +1,7 @@
 //! A tape: states of a world, and what happened to it from each of them on. What the recorder writes to.
 
 use crate::{
-    kernel::params::{Preset, Quality},
+    kernel::params::{Domain, Preset, Quality},
     scene::blueprint::{Blueprint, EffectModes},
     sim::{
         control,
@@ -20,6 +20,7 @@ use std::{collections::VecDeque, mem::size_of, sync::Arc};
 #[derive(Clone, Debug)]
 pub struct Start {
     blueprint: Arc<Blueprint>,
+    domain: Domain,
     quality: (Preset, Quality),
     effects: EffectModes,
     state: Snapshot,
@@ -31,6 +32,7 @@ impl Start {
         let setup = world.resource::<Setup>();
         Self {
             blueprint: setup.blueprint.clone(),
+            domain: setup.domain,
             quality: (setup.preset, setup.quality),
             effects: world.resource::<Effects>().modes(),
             state: control::freeze(world),
@@ -49,7 +51,7 @@ impl Start {
 
     /// It as a save file.
     pub fn encode(&self) -> Vec<u8> {
-        save::encode_state(&self.blueprint, self.quality, &self.effects, self.state.clone())
+        save::encode_state(&self.blueprint, self.domain, self.quality, &self.effects, self.state.clone())
     }
 }
 
@@ -96,8 +98,12 @@ impl Tape {
         self.segments.back()
     }
 
-    /// Begins a segment. `follows`: at the state that the segment before has come to.
+    /// Begins a segment, in the place of one in which nothing has happened. `follows`: at the state that the segment before
+    /// has come to.
     pub fn begin(&mut self, start: Arc<Start>, follows: bool) {
+        if self.last().is_some_and(|last| last.entries.is_empty() && last.marks.is_empty()) {
+            self.segments.pop_back();
+        }
         self.segments.push_back(Segment { start, follows, entries: Vec::new(), marks: Vec::new() });
     }
 

@@ -97,7 +97,7 @@ impl Judge {
         let Some(before) = self.energy else { return Ok(()) };
         let after = energy(sandbox);
         let setup = sandbox.get::<Setup>();
-        let domain = &setup.blueprint.domain;
+        let domain = &setup.domain;
         let count = sandbox.particles().len() as f64;
         let fall = f64::from(domain.gravity.abs().dot(domain.size));
         // Corrections of a tenth of a spacing a substep, as speeds.
@@ -109,7 +109,7 @@ impl Judge {
 
 /// Kinetic energy and that of position, from the lowest corner of the box on.
 fn energy(sandbox: &Sandbox) -> f64 {
-    let domain = &sandbox.get::<Setup>().blueprint.domain;
+    let domain = &sandbox.get::<Setup>().domain;
     let gravity = domain.gravity;
     let lowest =
         Vec2::new(if gravity.x > 0.0 { domain.size.x } else { 0.0 }, if gravity.y > 0.0 { domain.size.y } else { 0.0 });
@@ -179,7 +179,7 @@ fn counts(sandbox: &Sandbox) -> Result<(), Fault> {
 fn speeds(sandbox: &Sandbox) -> Result<(), Fault> {
     let (plan, setup) = (sandbox.get::<TickPlan>(), sandbox.get::<Setup>());
     let dt = plan.substep_seconds();
-    let correction = std::f32::consts::SQRT_2 * setup.quality.correction_limit;
+    let correction = std::f32::consts::SQRT_2 * setup.quality.longest_correction();
     // Confinement adds a tenth of the speeds around at most.
     let most = 1.1 * (longest_move(&setup.quality) + correction) / dt * 1.001;
     let particles = sandbox.particles();

@@ -54,6 +54,21 @@ pub trait Furnish {
     fn pool(&mut self, low: (i32, i32), high: (i32, i32));
     /// Puts rock into the cells `low … high` (high not included).
     fn rock(&mut self, low: (i32, i32), high: (i32, i32));
+    /// Moves every particle by up to [`NUDGE`] in each coordinate.
+    fn nudge(&mut self);
+}
+
+/// Some roundings of a position in a box of a few dozen cells, d: what two runs may differ by that ought to be the same
+/// but for rounding.
+pub const NUDGE: f32 = 1e-5;
+
+/// Root of the mean square of the distances of each particle of `other` to that of `one`, taken to its `place`, d.
+pub fn apart(one: &Sandbox, other: &Sandbox, place: impl Fn(Vec2) -> Vec2) -> f64 {
+    let (a, b) = (one.particles(), other.particles());
+    assert_eq!(a.len(), b.len());
+    let square = |(i, j): (u32, u32)| f64::from(place(a.position(i as usize)).distance_squared(b.position(j as usize)));
+    let total: f64 = a.in_id_order().into_iter().zip(b.in_id_order()).map(square).sum();
+    (total / a.len() as f64).sqrt()
 }
 
 impl Furnish for Blueprint {
@@ -79,6 +94,13 @@ impl Furnish for Blueprint {
                     self.next_id += 1;
                 }
             }
+        }
+    }
+
+    fn nudge(&mut self) {
+        let mut random = Random::new(7);
+        for at in self.particles.x.iter_mut().chain(&mut self.particles.y) {
+            *at += random.within(-NUDGE, NUDGE);
         }
     }
 }

@@ -4,9 +4,18 @@
 
 use bevy::app::Plugins;
 use powder_master::{
+    kernel::simd::InstructionSet,
     lab::headless::Headless,
     scene::{self, SceneError, blueprint::EffectModes, builtin_names, readers},
-    sim::{control, recording::Recording, save, snapshot::Snapshot, state::Setup, workers::Workers},
+    sim::{
+        control,
+        recording::{Recording, Writer},
+        replay::Replay,
+        save,
+        snapshot::Snapshot,
+        state::Setup,
+        workers::Workers,
+    },
     web::link::Link,
 };
 
@@ -28,6 +37,9 @@ pub const READERS: [Reader; 8] = [
 /// A small scene with parameters for `--set`.
 const SMALL: &str = "(title: \"Small\", parameters: {\"n\": (default: 6, min: 4, max: 12, integer: true, description: \"\")},
     spacing: 0.1, size: (\"n * d\", \"8 * d\"), contents: [(element: \"water\", shape: Rect(min: (0, 0), max: (0.4, 0.4)))])";
+
+/// Ticks of a recording that are run.
+const TICKS: usize = 12;
 
 /// Cells of a world that is worth running for a look at it.
 const FEW: usize = 4096;
@@ -78,28 +90,73 @@ fn read_picture(bytes: &[u8]) {
     }
 }
 
+/// A whole recording, or parts of one without their checksums.
 fn read_recording(bytes: &[u8]) {
-    for outcome in [Recording::decode(bytes), Recording::salvage(bytes)] {
+    let whole = if Recording::is_meant(bytes) { bytes.to_vec() } else { put_together(bytes) };
+    for outcome in [Recording::decode(&whole), Recording::salvage(&whole)] {
         match outcome {
             // Each state in it is a save file of its own.
             Ok(recording) => {
-                let states = recording.stretches.iter().map(|stretch| stretch.start().map(go_on));
-                states.filter_map(Result::err).for_each(one_line);
+                let mut is_cheap = true;
+                for state in recording.stretches.iter().map(|stretch| stretch.start()) {
+                    match state {
+                        Ok(saved) => is_cheap &= go_on(saved),
+                        Err(error) => one_line(error),
+                    }
+                }
+                if is_cheap {
+                    replay(&recording);
+                }
             }
             Err(error) => one_line(error),
         }
     }
 }
 
+/// A recording of parts that are each a kind, a length of two bytes and a body: the first line, the version and all
+/// checksums are put to them, those of its states, too.
+pub fn put_together(mut parts: &[u8]) -> Vec<u8> {
+    let mut whole = Writer::new().take();
+    while let Some((&[kind, low, high], rest)) = parts.split_first_chunk() {
+        let (body, rest) = rest.split_at(usize::from(u16::from_le_bytes([low, high])).min(rest.len()));
+        let body = if kind == b'S' { sealed(body) } else { body.to_vec() };
+        whole.push(kind);
+        whole.extend((body.len() as u32).to_le_bytes());
+        whole.extend((hash(&body) ^ u64::from(kind)).to_le_bytes());
+        whole.extend(body);
+        parts = rest;
+    }
+    whole
+}
+
+/// What [`put_together`] makes this recording of.
+pub fn taken_apart(recording: &[u8]) -> Vec<u8> {
+    let header = Writer::new().take().len();
+    let mut rest = recording.get(header..).unwrap_or_default();
+    let mut parts = Vec::new();
+    while let Some((&[kind, l0, l1, l2, l3], behind)) = rest.split_first_chunk() {
+        let (body, behind) = behind[8..].split_at(u32::from_le_bytes([l0, l1, l2, l3]) as usize);
+        let body = if kind == b'S' { &body[MAGIC.len() + 10..] } else { body };
+        parts.push(kind);
+        parts.extend((body.len() as u16).to_le_bytes());
+        parts.extend(body);
+        rest = behind;
+    }
+    parts
+}
+
+/// 64-bit FNV-1a.
+fn hash(bytes: &[u8]) -> u64 {
+    let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, step)
+}
+
 /// The first line, the version and the checksum, and what they stand before: without them every change would be found by
 /// its checksum and nothing behind it be reached.
 fn sealed(body: &[u8]) -> Vec<u8> {
-    let hash = body
-        .iter()
-        .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3));
     let empty = empty_save();
     let version = empty.get(MAGIC.len()..MAGIC.len() + 2).unwrap_or_default();
-    [MAGIC, version, &hash.to_le_bytes(), body].concat()
+    [MAGIC, version, &hash(body).to_le_bytes(), body].concat()
 }
 
 const MAGIC: &[u8] = b"PowderMaster\n";
@@ -109,9 +166,14 @@ fn empty_save() -> &'static [u8] {
     EMPTY.get_or_init(|| save::encode(small_world(()).world()))
 }
 
-/// The small scene with more plugins, not yet run.
+/// The small scene.
 pub fn small_world<M>(plugins: impl Plugins<M>) -> Headless {
-    let blueprint = scene::from_text("small", SMALL).and_then(|file| file.build(&[], None, &EffectModes::new()));
+    world_of(SMALL, plugins)
+}
+
+/// A scene with more plugins, not yet run.
+pub fn world_of<M>(text: &'static str, plugins: impl Plugins<M>) -> Headless {
+    let blueprint = scene::from_text("small", text).and_then(|file| file.build(&[], None, &EffectModes::new()));
     let blueprint = blueprint.unwrap_or_else(|error| panic!("{error}"));
     Headless::begin_with(Workers::single(), plugins, |world| control::load(world, std::sync::Arc::new(blueprint)))
 }
@@ -120,24 +182,37 @@ pub fn small_world<M>(plugins: impl Plugins<M>) -> Headless {
 fn read_save(bytes: &[u8]) {
     let whole = if bytes.starts_with(MAGIC) { bytes.to_vec() } else { sealed(bytes) };
     match save::decode(&whole) {
-        Ok(saved) => go_on(saved),
+        Ok(saved) => drop(go_on(saved)),
         Err(error) => one_line(error),
     }
 }
 
-/// What was accepted must also run, if that is cheap.
-fn go_on(saved: save::Saved) {
+/// Its input must be sound, too; that what was made up comes to the marks that were made up is not to be expected.
+fn replay(recording: &Recording) {
+    let Ok(mut replay) = Replay::new(recording, Workers::single(), InstructionSet::detect()) else { return };
+    for _ in 0..TICKS {
+        if let Ok(false) = replay.tick() {
+            replay.finish().map(drop).unwrap_or_else(one_line);
+            return;
+        }
+    }
+}
+
+/// What was accepted must also run, if that is cheap; whether it is.
+fn go_on(saved: save::Saved) -> bool {
     let Snapshot { particles, solids, air, .. } = saved.snapshot();
     let cells = (solids.columns() * solids.rows()) as usize + air.columns() * air.rows();
     if cells > FEW || particles.len() > 256 {
-        return;
+        return false;
     }
     let mut world = Headless::begin(Workers::single(), |world| save::load(world, saved));
     let quality = world.world().resource::<Setup>().quality;
-    if quality.substeps * quality.iterations <= 16 {
+    let is_cheap = quality.substeps * quality.iterations <= 16;
+    if is_cheap {
         world.tick();
         control::hash(world.world());
     }
+    is_cheap
 }
 
 fn read_link(bytes: &[u8]) {

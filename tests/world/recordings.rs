@@ -4,6 +4,7 @@ use crate::{
     monkey::whim,
     support::{Random, Sandbox, WATER},
 };
+use bevy::app::App;
 use glam::Vec2;
 use powder_master::{
     kernel::{
@@ -11,17 +12,20 @@ use powder_master::{
         params::Preset,
         simd::InstructionSet,
     },
+    lab::gauntlet,
     scene::{
         self,
         blueprint::{Effect, Mode},
     },
     sim::{
         control,
+        gauntlet::Cases,
         intent::Intent,
         pace::Pace,
         recorder::{self, KEPT_TICKS, Recorder, SEGMENT_TICKS},
         recording::{End, Recording, Writer},
         replay::{Difference, Replay},
+        save,
         state::{Clock, Setup},
         workers::Workers,
     },
@@ -130,6 +134,75 @@ fn undo_and_reset_begin_a_stretch_and_the_whole_is_the_same_again() {
     assert_eq!(read(&sandbox.get::<Recorder>().last_minute(recorder::end_now(sandbox.app.world()))), recording);
 }
 
+/// A hard case of the gauntlet with its script, as the game plays it where it is watched, recorded from its 20th tick on.
+fn watched(name: &str, ticks: u32) -> (Sandbox, Recording) {
+    let mut lab = App::new();
+    lab.add_plugins(gauntlet::plugin);
+    let case = lab.world().resource::<Cases>().find(name).unwrap_or_else(|| panic!("no case {name}"));
+    let mut sandbox = recorded("empty", &[]);
+    let start = (case.start)(Preset::Draft).unwrap_or_else(|error| panic!("{error}"));
+    case.play(sandbox.app.world_mut(), start);
+    sandbox.tick(20);
+    sandbox.get::<Recorder>().begin(sandbox.app.world(), None);
+    sandbox.tick(ticks);
+    let recording = read(&file(&sandbox));
+    (sandbox, recording)
+}
+
+#[test]
+fn what_a_script_does_to_a_hard_case_is_in_its_recording() {
+    let intents = |recording: &Recording, wanted: fn(&Intent) -> bool| {
+        let entries = recording.stretches.iter().flat_map(|stretch| &stretch.entries);
+        entries.filter(|entry| wanted(&entry.intent)).count()
+    };
+    let turns = |intent: &Intent| matches!(intent, Intent::Gravity { .. });
+    for (name, ticks, wanted, count) in [
+        ("gravity_flips", 60, turns as fn(&Intent) -> bool, 60),
+        ("gravity_turns", 60, turns, 6),
+        ("effects_toggle", 60, |intent| matches!(intent, Intent::Effect { .. }), 60 * Effect::ALL.len()),
+        ("quality_changes", 60, |intent| matches!(intent, Intent::Quality { .. }), 60),
+        ("suction", 30, |intent| matches!(intent, Intent::Press { .. }), 10),
+    ] {
+        let (sandbox, recording) = watched(name, ticks);
+        assert_eq!(recording.stretches.len(), 1, "{name}");
+        assert_eq!(intents(&recording, wanted), count, "{name}");
+        assert_eq!(same(&recording), (u64::from(ticks), sandbox.hash()), "{name}");
+    }
+}
+
+#[test]
+fn what_a_script_breaks_without_an_intent_begins_a_stretch() {
+    let (sandbox, recording) = watched("poison", 40);
+    let begins: Vec<u64> = recording.stretches.iter().map(|stretch| stretch.tick).collect();
+    assert_eq!(begins, [20, 30, 40], "particles become no number after 20, 30 and 40 ticks");
+    assert_eq!(same(&recording), (40, sandbox.hash()));
+}
+
+/// Gravity is no part of a state that undo puts back, but of the scene that reset begins again.
+#[test]
+fn gravity_stays_through_undo_and_saves_and_ends_with_a_reset() {
+    let mut sandbox = recorded("dam_break", &[("columns", "12")]);
+    let scenes = sandbox.get::<Setup>().domain.gravity;
+    let before = control::freeze(sandbox.app.world());
+    let up = -2.0 * scenes;
+    sandbox.push(Intent::Gravity { gravity: up }).tick(10);
+    assert_eq!((sandbox.get::<Setup>().domain.gravity, sandbox.get::<Setup>().blueprint.domain.gravity), (up, scenes));
+    control::thaw(sandbox.app.world_mut(), &before);
+    sandbox.tick(10);
+    let saved = save::decode(&save::encode(sandbox.app.world())).unwrap_or_else(|error| panic!("{error}"));
+    let mut other = Sandbox::scene("empty", &[]);
+    save::load(other.app.world_mut(), saved);
+    assert_eq!(other.get::<Setup>().domain.gravity, up);
+    sandbox.tick(10);
+    assert_eq!(other.tick(10).hash(), sandbox.hash(), "a saved world falls another way");
+    control::reset(sandbox.app.world_mut());
+    assert_eq!(sandbox.get::<Setup>().domain.gravity, scenes);
+    sandbox.tick(10);
+    let recording = read(&file(&sandbox));
+    assert_eq!(recording.stretches.len(), 3, "undo and reset");
+    assert_eq!(same(&recording), (40, sandbox.hash()));
+}
+
 #[test]
 fn the_first_tick_that_differs_is_named() {
     let mut sandbox = recorded("waterfall", &[]);
@@ -161,7 +234,7 @@ fn a_file_that_was_tampered_with_differs_at_the_tick_where_it_was() {
             // The state has not changed; this is how it came into the file.
             let mut world = Sandbox::scene("dam_break", &[("columns", "12")]);
             world.tick(stretch.tick as u32);
-            writer.start(&powder_master::sim::save::encode(world.app.world()));
+            writer.start(&save::encode(world.app.world()));
             writer.ticks(&stretch.entries, &stretch.marks);
         }
         writer.end(changed.end.unwrap());

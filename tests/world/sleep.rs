@@ -336,10 +336,7 @@ fn other_conditions_wake_all() {
         },
         |sandbox| sandbox.get_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off,
         |sandbox| {
-            let setup = sandbox.get_mut::<Setup>();
-            let mut turned = (*setup.blueprint).clone();
-            turned.domain.gravity = Vec2::new(98.1, 0.0);
-            setup.blueprint = Arc::new(turned);
+            sandbox.push(Intent::Gravity { gravity: Vec2::new(98.1, 0.0) });
         },
     ];
     for (k, change) in changes.into_iter().enumerate() {

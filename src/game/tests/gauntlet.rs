@@ -12,7 +12,7 @@ fn offered() -> Player {
     };
     let act = |world: &mut World, tick| {
         if tick >= 3 {
-            control::set_gravity(world, Vec2::new(0.0, 50.0));
+            world.resource_mut::<IntentQueue>().push(Intent::Gravity { gravity: Vec2::new(0.0, 50.0) });
         }
     };
     let case = Entry { name: "up", title: "Up", what: "It falls up.", start: Arc::new(start), act: Some(act) };
@@ -21,7 +21,7 @@ fn offered() -> Player {
 }
 
 fn gravity(player: &Player) -> f32 {
-    player.world().resource::<Setup>().blueprint.domain.gravity.y
+    player.world().resource::<Setup>().domain.gravity.y
 }
 
 fn order(player: &mut Player, order: Order) {

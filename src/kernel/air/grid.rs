@@ -136,6 +136,12 @@ struct Stored {
     pending: AirReport,
 }
 
+/// Whether place `k` of the fields is in the ring around `columns` × `rows` cells.
+pub(super) fn in_ring(k: usize, columns: usize, rows: usize) -> bool {
+    let (i, j) = (k % (columns + 2), k / (columns + 2));
+    i == 0 || j == 0 || i > columns || j > rows
+}
+
 impl TryFrom<Stored> for Air {
     type Error = String;
 
@@ -157,6 +163,10 @@ impl TryFrom<Stored> for Air {
         if columns == 0 || rows == 0 || !(whole || unbuilt) {
             return Err(format!("air: {columns} × {rows} cells need {cells} values a field, with the ring"));
         }
+        // Whoever walks from cell to cell relies on it to stop there.
+        if !unbuilt && (0..cells).any(|k| in_ring(k, columns, rows) && !stored.solid[k]) {
+            return Err("air: the ring around its cells must be solid".to_owned());
+        }
         if stored.outside.len() != 2 * (columns + rows) && !unbuilt {
             return Err(format!("air: outside needs {} values", 2 * (columns + rows)));
         }
@@ -171,6 +181,9 @@ impl TryFrom<Stored> for Air {
         }
         if stored.rests.len() > cells || stored.rests.iter().any(|rest| !rest.is_finite() || *rest < 0.0) {
             return Err("air: every pressure of rest must be finite and 0 or more".to_owned());
+        }
+        if !stored.pending.is_of_tools() {
+            return Err("air: what tools had to clamp is no count of a world's".to_owned());
         }
         let lengths = [stored.cell, stored.size.x, stored.size.y, stored.params.sound_speed, stored.params.density];
         if lengths.iter().any(|length| !length.is_finite() || *length <= 0.0) {
@@ -216,10 +229,6 @@ impl Air {
         let rows = ((size.y / cell).ceil() as usize).max(1);
         let stride = columns + 2;
         let cells = stride * (rows + 2);
-        let ring = |k: usize| {
-            let (i, j) = (k % stride, k / stride);
-            i == 0 || j == 0 || i == columns + 1 || j == rows + 1
-        };
         Self {
             size,
             cell,
@@ -229,7 +238,7 @@ impl Air {
             pressure: vec![1.0; cells],
             velocity_x: vec![0.0; cells],
             velocity_y: vec![0.0; cells],
-            solid: (0..cells).map(ring).collect(),
+            solid: (0..cells).map(|k| in_ring(k, columns, rows)).collect(),
             outside: vec![0.0; 2 * (columns + rows)],
             solids_version: None,
             keep_mass: false,
@@ -301,6 +310,17 @@ impl Air {
     /// Cells along y.
     pub fn rows(&self) -> usize {
         self.rows as usize
+    }
+
+    /// Width and height of the box, d.
+    pub fn size(&self) -> Vec2 {
+        self.size
+    }
+
+    /// Every pressure and velocity that it holds, the surroundings' and those of rest included.
+    pub fn values(&self) -> impl Iterator<Item = f32> + '_ {
+        let fields = [&self.pressure, &self.velocity_x, &self.velocity_y, &self.outside, &self.rests];
+        fields.into_iter().flatten().copied()
     }
 
     /// Edge of a cell, d.

@@ -56,6 +56,19 @@ pub struct AirReport {
     pub buried: f64,
 }
 
+/// Most that a count in a file may be: whatever is counted beside it, the sum is far from the end of the numbers.
+const MOST_COUNTED: u64 = 1 << 53;
+
+impl AirReport {
+    /// Whether it holds what tools and new rock can leave for the next step, and nothing of a step.
+    pub(super) fn is_of_tools(&self) -> bool {
+        let Self { substeps, cells, worked, speed_clamps, slowed, pressure_clamps, buried } = *self;
+        (substeps, cells, worked, slowed) == (0, 0, 0, 0)
+            && speed_clamps.max(pressure_clamps) <= MOST_COUNTED
+            && (0.0..=MOST_COUNTED as f64).contains(&buried)
+    }
+}
+
 impl AddAssign for AirReport {
     fn add_assign(&mut self, other: Self) {
         self.substeps += other.substeps;

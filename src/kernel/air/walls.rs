@@ -3,7 +3,7 @@
 //! A cell is solid when any rock stands in it, so that a wall one particle thick stops the air. New rock squeezes its air
 //! out to the nearest open cells; air flows in from the cells beside when rock goes. Both move mass and make none.
 
-use super::grid::Air;
+use super::grid::{Air, in_ring};
 use crate::kernel::solids::Solids;
 
 /// Steps from the nearest cell that a flood started from.
@@ -71,8 +71,7 @@ impl Air {
     }
 
     pub(super) fn in_ring(&self, k: usize) -> bool {
-        let (i, j) = (k % self.stride(), k / self.stride());
-        i == 0 || j == 0 || i > self.columns() || j > self.rows()
+        in_ring(k, self.columns(), self.rows())
     }
 
     fn beside(&self, k: usize) -> [usize; 4] {

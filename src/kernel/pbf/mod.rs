@@ -141,7 +141,7 @@ impl Solver {
             self.smoothing = Smoothing::new(quality.kernel_radius, quality.gradient);
         }
         let Self { bins, instructions, neighbours, density, next_x, next_y, lambda, .. } = self;
-        bins.lay(domain.size, quality.kernel_radius, quality.correction_limit, solids);
+        bins.lay(domain.size, quality.kernel_radius, quality.longest_correction(), solids);
         let set_apart = AtomicU64::new(0);
         let settle = |strip: Strip| separate_coincident(strip, *instructions, domain, solids, &set_apart);
         let mut bin = |bins: &mut Bins, particles: &mut Particles| {
@@ -192,12 +192,13 @@ impl Solver {
             at: if is_first { anchor } else { [&x[..], &y[..]] },
         };
         pass.find_lambda::<G>(lambda, density);
+        let density = &density[..];
         let next = [&mut next_x[..], &mut next_y[..]];
         match (params.tension, params.predicted) {
-            (false, false) => pass.correct::<G, false, false>(lambda, next),
-            (false, true) => pass.correct::<G, false, true>(lambda, next),
-            (true, false) => pass.correct::<G, true, false>(lambda, next),
-            (true, true) => pass.correct::<G, true, true>(lambda, next),
+            (false, false) => pass.correct::<G, false, false>(lambda, density, next),
+            (false, true) => pass.correct::<G, false, true>(lambda, density, next),
+            (true, false) => pass.correct::<G, true, false>(lambda, density, next),
+            (true, true) => pass.correct::<G, true, true>(lambda, density, next),
         }
         std::mem::swap(x, next_x);
         std::mem::swap(y, next_y);
@@ -238,7 +239,12 @@ impl Iteration<'_> {
         });
     }
 
-    fn correct<G: Gradient, const TENSION: bool, const APART: bool>(&self, lambda: &[f32], next: [&mut [f32]; 2]) {
+    fn correct<G: Gradient, const TENSION: bool, const APART: bool>(
+        &self,
+        lambda: &[f32],
+        density: &[f32],
+        next: [&mut [f32]; 2],
+    ) {
         let Self { bins, smoothing, instructions, params, anchor, at: [x, y] } = *self;
         parallel::split(bins.groups(), next, params.threads, &|groups, base, next| {
             instructions.run(CorrectionPass::<G, TENSION, APART> {
@@ -246,7 +252,8 @@ impl Iteration<'_> {
                 domain: params.domain,
                 fluid: params.fluid,
                 rest_density: params.rest_density(),
-                limit: params.quality.correction_limit,
+                limits: [params.quality.correction_limit, params.quality.longest_correction()],
+                density,
                 x,
                 y,
                 anchor,

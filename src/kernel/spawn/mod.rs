@@ -176,7 +176,8 @@ impl Matter<'_> {
         let filling = Filling { share: 1.0, seed, scatter: SCATTER, velocity: emitter.velocity, most };
         let mut report = self.place_movable(emitter.element, Some((low, high)), turned, filling, room);
         report.blocked = report.placed + report.refused < u64::from(most);
-        emitter.given += report.placed as u32;
+        // A tap without a total is not asked how much it has given.
+        emitter.given = emitter.given.saturating_add(report.placed as u32);
         emitter.due = (emitter.due - report.placed as f32).max(0.0);
         report
     }
@@ -191,13 +192,16 @@ impl Matter<'_> {
         IVec2::new(self.solids.columns(), self.solids.rows())
     }
 
+    /// Particles that may still be placed: a world is full at its limit, or when all ids are given.
     fn room_left(&self) -> u64 {
-        u64::from(self.limit).saturating_sub((self.particles.len() + self.solids.count()) as u64)
+        let room = u64::from(self.limit).saturating_sub((self.particles.len() + self.solids.count()) as u64);
+        room.min(u64::from(u32::MAX - *self.next_id))
     }
 
+    /// An id that was never given. Only where there is room left.
     fn take_id(&mut self) -> u32 {
         let id = *self.next_id;
-        *self.next_id = id.wrapping_add(1);
+        *self.next_id += 1;
         id
     }
 

@@ -154,7 +154,7 @@ pub(super) enum Gain {
     /// A speed, m/s.
     Speed(f64),
     /// A multiple of the speed that corrections can give: the correction limit in each of the quality's substeps. It is
-    /// 12 d/s for `draft` and `fast`, 24 for `balanced` and `fine`, 48 for `reference` and 30 for `classic`.
+    /// 6 d/s for `draft` and `fast`, 12 for `balanced` and `fine`, 48 for `reference` and 30 for `classic`.
     Corrections(f64),
 }
 

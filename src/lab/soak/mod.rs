@@ -21,14 +21,14 @@ use bevy::ecs::world::World;
 /// Ticks from one look to the next.
 const LOOK_EVERY: u64 = 60;
 
-/// Plays `bouts` minutes and looks at them, in `periods` of as many minutes each; `go_on` hears after each minute how many
-/// are done, and may end it there.
+/// Plays `bouts` minutes and looks at them, in `periods` of as many minutes each; `go_on` sees after each minute what
+/// there is of the report, and may end it there.
 pub fn soak(
     headless: &mut Headless,
     seed: u64,
     bouts: u64,
     periods: u64,
-    mut go_on: impl FnMut(u64) -> bool,
+    mut go_on: impl FnMut(&Report) -> bool,
 ) -> Report {
     let mut player = Player::new(&headless.world().resource::<Setup>().blueprint, seed);
     let rock_before = headless.world().resource::<Rock>().count();
@@ -48,16 +48,19 @@ pub fn soak(
                 look(headless.world(), &mut period);
             }
         }
-        if bout % per_period == 0 || bout == bouts {
-            let whole = std::mem::take(&mut period);
-            report.periods.push(whole.close());
-        }
         report.minutes = bout;
         report.rock_after = headless.world().resource::<Rock>().count();
         report.counters = *headless.world().resource::<Counters>();
-        if !go_on(bout) {
+        if bout % per_period == 0 || bout == bouts {
+            report.periods.push(std::mem::take(&mut period).close(bout));
+        }
+        if !go_on(&report) {
             break;
         }
+    }
+    // One that was ended early.
+    if !period.particles.is_empty() {
+        report.periods.push(period.close(report.minutes));
     }
     report
 }

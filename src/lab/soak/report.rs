@@ -38,11 +38,12 @@ pub struct Period {
 }
 
 impl Period {
-    /// What is kept of it.
-    pub fn close(mut self) -> Totals {
+    /// What is kept of it, if it ends after `minutes` of the soak.
+    pub fn close(mut self, minutes: u64) -> Totals {
         let of = |values: &[f64]| mean(values).unwrap_or_default();
         let peak = |values: &[f64]| largest(values).unwrap_or_default();
         Totals {
+            until: minutes,
             ms: quantile(&mut self.tick_ms, 0.5).unwrap_or_default(),
             ms_p99: quantile(&mut self.tick_ms, 0.99).unwrap_or_default(),
             particles: of(&self.particles),
@@ -59,6 +60,8 @@ impl Period {
 /// What is kept of a stretch of time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Totals {
+    /// Minutes from the start of the soak to its end.
+    pub until: u64,
     /// Median tick, ms.
     pub ms: f64,
     /// 99th percentile of the ticks, ms.
@@ -149,16 +152,15 @@ impl Report {
             "| until, h | ms | p99 | particles | kinetic energy, J | peak | energy, kJ | air mass | memory, MB |\n\
              |---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
         );
-        let hours = self.minutes as f64 / 60.0 / self.periods.len().max(1) as f64;
-        for (k, totals) in (1..).zip(&self.periods) {
-            let Totals { ms, ms_p99, particles, kinetic, kinetic_peak, energy, air_mass, .. } = *totals;
+        for totals in &self.periods {
+            let Totals { until, ms, ms_p99, particles, kinetic, kinetic_peak, energy, air_mass, .. } = *totals;
             let memory = totals.resident.map_or_else(|| "–".into(), |bytes| format!("{:.1}", bytes / 1e6));
             // Writing to a string does not fail.
             let _ = writeln!(
                 text,
                 "| {:.2} | {ms:.3} | {ms_p99:.3} | {particles:.0} | {kinetic:.0} | {kinetic_peak:.0} | {:.1} | \
                  {air_mass:.1} | {memory} |",
-                hours * f64::from(k),
+                until as f64 / 60.0,
                 energy / 1e3
             );
         }

@@ -94,6 +94,23 @@ fn values_out_of_range_say_which_and_what_is_allowed() {
     assert!(error("(title: \"\", spacing: 1, size: (5, 5))").contains("title: allowed: 1 to 60 characters"));
 }
 
+/// A short file that asks for more than a tick, or the start, can take in bounded time.
+#[test]
+fn flows_that_cover_too_much_are_refused() {
+    let large = |fields: String| format!("(title: \"Large\", spacing: 0.001, size: (8, 8), {fields})");
+    let many = |entry: &str, count: usize| vec![entry; count].join(", ");
+    let area = "min: (0, 0), max: (8, 8)";
+    for (list, entry, most, fault) in [
+        ("emitters", format!("(element: \"water\", {area}, rate: 9)"), 1, "emitters: they cover 128000000 cells"),
+        ("winds", format!("({area}, velocity: (1, 0), rate: 9)"), 1, "winds: they cover 128000000 cells"),
+        ("pressures", format!("({area}, pressure: 2)"), 15, "pressures: they cover 1024000000 cells"),
+    ] {
+        assert!(build(&large(format!("{list}: [{}]", many(&entry, most)))).is_ok(), "{list}");
+        let error = error(&large(format!("{list}: [{}]", many(&entry, most + 1))));
+        assert!(error.contains(fault) && error.contains("; allowed: at most "), "{error}");
+    }
+}
+
 #[test]
 fn unknown_elements_are_named_with_the_known_ones() {
     let fault = "contents[0].element: no element `watr`; did you mean `water`? allowed: rock, water, none";

@@ -65,6 +65,15 @@ fn pictures_lie_beside_their_scene() {
     std::fs::remove_file(folder.join("dot.png")).expect("the picture");
     let error = file.build(&[], None, &EffectModes::new()).expect_err("no picture").to_string();
     assert!(error.ends_with("contents[0].image.file: `dot.png`: no such file"), "{error}");
+    // A few kilobytes that ask for gigabytes.
+    let huge = png(png::ColorType::Grayscale, 4096, &vec![255; 4096 * 4096]);
+    assert!(huge.len() < 100_000);
+    std::fs::write(folder.join("dot.png"), huge).expect("a picture");
+    let picture = "(element: \"rock\", shape: Image(file: \"dot.png\", min: (1, 1), max: (3, 3)))";
+    std::fs::write(&path, scene(&format!("contents: [{}]", [picture; 9].join(", ")))).expect("a scene");
+    let file = crate::scene::load(path.to_str().expect("a plain path")).expect("a scene");
+    let error = file.build(&[], None, &EffectModes::new()).expect_err("too many pixels").to_string();
+    assert!(error.contains("contents[4].image: the pictures up to it have 83886080 pixels; allowed"), "{error}");
     std::fs::remove_dir_all(folder).expect("the folder");
 }
 

@@ -174,6 +174,8 @@ fn made_up_input_is_refused_by_name() {
         (of(Intent::Press { stroke, amount: f32::NAN }), "not a number"),
         (of(Intent::Blow { stroke, velocity: Vec2::splat(f32::INFINITY) }), "not a number"),
         (of(Intent::Quality { preset: Preset::Fine, quality: none }), "substeps is 0"),
+        (of(Intent::Gravity { gravity: Vec2::new(f32::NAN, 0.0) }), "gravity is NaN"),
+        (of(Intent::Gravity { gravity: Vec2::splat(1e9) }), "allowed: 0 to 1500"),
     ] {
         let text = refusal(&made_up(&entries, 3));
         assert!(text.contains(says), "`{text}` does not say `{says}`");

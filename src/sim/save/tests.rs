@@ -7,7 +7,7 @@ use crate::{
     sim::{
         SimulationPlugin,
         intent::{Intent, IntentQueue},
-        state::{ParticleStore, Rock},
+        state::{Counters, ParticleStore, Rock},
     },
 };
 use bevy::{MinimalPlugins, app::App, time::TimeUpdateStrategy};
@@ -204,16 +204,31 @@ fn made_up_contents_are_refused_by_name() {
         ("two particles have the id", |c| c.rock[0].id = c.particles.id[0]),
         ("not given yet", |c| c.clock.next_id = 3),
     ];
-    let more: [(&str, Change); 9] = [
+    let more: [(&str, Change); 16] = [
         ("an area", |c| c.sources.winds[0].area.min.x = 1e6),
         ("a corner", |c| c.sources.drains[0].area.max.y = f32::NAN),
         ("the rate of a tap", |c| c.sources.emitters[0].rate = f32::NAN),
         ("due of a tap", |c| c.sources.emitters[0].due = -1.0),
         ("tap gives", |c| c.sources.emitters[0].element = ElementId(0)),
-        ("does not fit its box", |c| c.air = Air::new(Vec2::splat(40.0), c.quality.air_cell, c.air_params)),
+        ("its air fills a box of [40, 40]", |c| {
+            c.air = Air::new(Vec2::splat(40.0), c.quality.air_cell, c.air_params);
+        }),
         ("does not follow its rock", |c| c.rock.clear()),
         ("a parameter", |c| c.parameters.values_mut().for_each(|value| *value = f64::NAN)),
-        ("a pressure", |c| c.pressure = vec![f32::NAN]),
+        ("a pressure of its water", |c| c.pressure = vec![f32::NAN]),
+        ("a pressure of its water", |c| c.pressure = vec![1e13]),
+        ("its tick is 18446744073709551615; allowed: 0 to 9007199254740992", |c| c.clock.tick = u64::MAX),
+        ("its number of edits", |c| c.clock.edits = u64::MAX),
+        ("the start of a tap", |c| c.sources.emitters[0].start = u64::MAX),
+        ("too many taps", |c| c.sources.drains = vec![c.sources.drains[0]; 1001]),
+        ("its air fills a box of [15.5, 16]", |c| {
+            c.air = Air::new(Vec2::new(15.5, 16.0), c.quality.air_cell, c.air_params);
+        }),
+        ("taps or fans cover 128000000 cells; allowed: at most 64000000", |c| {
+            (c.domain.size, c.sleep) = (Vec2::splat(8000.0), SleepRecord::default());
+            let area = Rect { min: Vec2::splat(-9.0), max: Vec2::splat(9000.0) };
+            c.sources.winds = vec![Wind { area, ..c.sources.winds[0] }; 2];
+        }),
     ];
     for (expected, change) in cases.into_iter().chain(more) {
         let mut contents = good.clone();
@@ -221,4 +236,26 @@ fn made_up_contents_are_refused_by_name() {
         let text = refusal(&seal(&contents));
         assert!(text.contains(expected), "`{text}` does not say `{expected}`");
     }
+}
+
+/// Counts at the end of their numbers: nothing overflows, and what finds no number any more is refused and counted.
+#[test]
+fn a_world_at_the_end_of_its_numbers_goes_on() {
+    let mut contents = contents(&encode(small().world()));
+    contents.clock.next_id = u32::MAX - 1;
+    (contents.clock.tick, contents.clock.edits) = (1 << 53, 1 << 53);
+    contents.sources.emitters[0].total = None;
+    contents.sources.emitters[0].given = u32::MAX;
+    contents.sources.emitters[0].due = 1e6;
+    let mut app = start("dam_break", &[("columns", "4")]);
+    load(app.world_mut(), decode(&seal(&contents)).expect("it is sound"));
+    app.world_mut().resource_mut::<IntentQueue>().push(Intent::ClearAir);
+    let before = app.world().resource::<ParticleStore>().len();
+    tick(&mut app, 5);
+    assert_eq!(app.world().resource::<ParticleStore>().len(), before + 1, "there was one id left");
+    assert!(app.world().resource::<Counters>().refused > 0);
+    assert_eq!(app.world().resource::<Clock>().tick, (1 << 53) + 5);
+    contents.clock.tick += 5;
+    let text = refusal(&seal(&contents));
+    assert!(text.contains("its tick"), "{text}");
 }

@@ -86,6 +86,10 @@ pub(super) fn apply_intents(
                 effects.get_mut(effect).mode = mode;
                 EditReport::default()
             }
+            Intent::Gravity { gravity } => {
+                setup.domain.gravity = gravity;
+                EditReport::default()
+            }
         };
         // After each one, so that it makes no difference which of them came in the same tick.
         air.set_solids(&rock);
@@ -117,6 +121,6 @@ fn moves_air(intent: &Intent, air: Mode, elements: &ElementTable, rock: &Rock) -
             air != Mode::Off && elements.get(*element).fixed
         }
         Intent::Erase { .. } => air != Mode::Off && rock.count() > 0,
-        Intent::ClearAir | Intent::Quality { .. } | Intent::Effect { .. } => false,
+        Intent::ClearAir | Intent::Quality { .. } | Intent::Effect { .. } | Intent::Gravity { .. } => false,
     }
 }

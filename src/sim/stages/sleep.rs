@@ -50,7 +50,7 @@ pub(super) fn check_sleepers(
 pub(super) fn keep_asleep(mut sleep: ResMut<SleepState>, effects: Res<Effects>, setup: Res<Setup>) {
     let mut bytes = [0; 64];
     let quality = &setup.quality;
-    let gravity = setup.blueprint.domain.gravity;
+    let gravity = setup.domain.gravity;
     let numbers = [
         gravity.x.to_bits(),
         gravity.y.to_bits(),
@@ -83,7 +83,7 @@ pub(super) fn wake_blown(
 ) {
     let start = Instant::now();
     let drag = rates.drag.iter().copied().fold(0.0, f32::max);
-    sleep.wake_blown(&mut particles, &air, drag, setup.blueprint.domain.gravity);
+    sleep.wake_blown(&mut particles, &air, drag, setup.domain.gravity);
     // It looks at the air over the bodies, and at no particle.
     ledger.note(Pass::Sleep, 0, start.elapsed());
 }

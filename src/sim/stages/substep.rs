@@ -59,7 +59,7 @@ pub(super) fn apply_gravity(
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
-    let (gravity, dt) = (setup.blueprint.domain.gravity, plan.substep_seconds());
+    let (gravity, dt) = (setup.domain.gravity, plan.substep_seconds());
     workers.run_for(particles.len(), |threads| forces::apply_gravity(gravity, &mut particles, threads, dt));
     ledger.note(Pass::Gravity, particles.len() as u64, start.elapsed());
 }
@@ -111,7 +111,7 @@ pub(super) fn predict_pressure(
     let start = Instant::now();
     let report = workers.run_for(particles.len(), |threads| {
         let params = predictor::PredictorParams {
-            domain: &setup.blueprint.domain,
+            domain: &setup.domain,
             cell: setup.quality.kernel_radius,
             rest_density: setup.blueprint.fluid.rest_density,
             instructions: solver.instructions,
@@ -138,7 +138,7 @@ pub(super) fn predict_positions(
 ) {
     let start = Instant::now();
     let dt = plan.substep_seconds();
-    let domain = &setup.blueprint.domain;
+    let domain = &setup.domain;
     let report = workers.run_for(particles.len(), |threads| {
         predict::predict(&mut particles, solver.instructions, &rock, domain, &setup.quality, threads, dt)
     });
@@ -157,9 +157,8 @@ pub(super) fn sort_into_bins(
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
-    let report = workers.run_for(particles.len(), |threads| {
-        solver.bin(&mut particles, &rock, &setup.blueprint.domain, &setup.quality, threads)
-    });
+    let report = workers
+        .run_for(particles.len(), |threads| solver.bin(&mut particles, &rock, &setup.domain, &setup.quality, threads));
     counters.set_apart += report.set_apart;
     ledger.note(Pass::Bin, particles.len() as u64, start.elapsed());
 }
@@ -176,7 +175,7 @@ pub(super) fn solve_density(
     let start = Instant::now();
     workers.run_for(particles.len(), |threads| {
         let params = pbf::SolveParams {
-            domain: &setup.blueprint.domain,
+            domain: &setup.domain,
             fluid: &setup.blueprint.fluid,
             quality: &setup.quality,
             tension: effects.get(Effect::Tension).running,

@@ -64,8 +64,9 @@ pub(in crate::lab::gauntlet) const PRESSURE_1E6: Case = Case {
     what: "One cell of the air is set to a million times the pressure of the surroundings, beside water and rock.",
     guards: "A shock that no time step resolves: sound a thousand times faster than the grid's.",
     allowed: "The box then holds air of some hundreds of atmospheres, in which a storm goes on that carries the water along \
-              and presses it against rock: it may be four times too dense. Nobody is faster than the air can be. Pressures of a million and of one in \
-              the same sums leave the smaller one four digits: the mass of the air may be off by 10⁻⁴.",
+              and presses it against rock: it may be four times too dense. Nobody is faster than the air can be. The mass \
+              of the air may be off by 10⁻⁴: each substep keeps it to f32's rounding and no better, and in a storm that \
+              hardly changes, neither do the roundings, so that those of up to 150,000 substeps add up.",
     scene: SEALED,
     act: Some(|world, tick| press(world, tick, 1e6)),
     ticks: 300,

@@ -1,10 +1,10 @@
 //! Gravity that does not stay as it is.
 
-use super::water;
+use super::{intend, water};
 use crate::{
     lab::gauntlet::case::{Case, Density, Gain, Rules, Size},
     sim::{
-        control::set_gravity,
+        intent::Intent,
         state::{ParticleStore, Setup},
     },
 };
@@ -23,7 +23,9 @@ const G: f32 = 9.81;
 
 fn pull(world: &mut World, gravity: Vec2) {
     let gravity = world.resource::<Setup>().blueprint.scale.vec_to_kernel(gravity);
-    set_gravity(world, gravity);
+    if world.resource::<Setup>().domain.gravity != gravity {
+        intend(world, Intent::Gravity { gravity });
+    }
 }
 
 pub(in crate::lab::gauntlet) const FLIPPING: Case = Case {

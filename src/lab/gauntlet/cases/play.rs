@@ -9,8 +9,8 @@ use crate::{
     lab::gauntlet::case::{Case, Density, Gain, Rules, Size},
     scene::blueprint::{Effect, Mode},
     sim::{
-        effects::Effects,
         intent::Intent,
+        recorder::Recorder,
         state::{ParticleStore, Setup},
     },
 };
@@ -83,10 +83,9 @@ pub(in crate::lab::gauntlet) const EFFECTS_TOGGLE: Case = Case {
     size: Size::Quick,
     scene: DAM,
     act: Some(|world, tick| {
-        let mut effects = world.resource_mut::<Effects>();
         let mut digits = tick * 5 % 6561;
         for effect in Effect::ALL {
-            effects.get_mut(effect).mode = [Mode::Auto, Mode::On, Mode::Off][(digits % 3) as usize];
+            intend(world, Intent::Effect { effect, mode: [Mode::Auto, Mode::On, Mode::Off][(digits % 3) as usize] });
             digits /= 3;
         }
         gust(world, tick);
@@ -152,6 +151,10 @@ pub(in crate::lab::gauntlet) const POISON: Case = Case {
             let field = if tick % 20 == 0 { &mut particles.x } else { &mut particles.vy };
             if let Some(victim) = field.get_mut(100 + tick as usize) {
                 *victim = *value;
+            }
+            // No player can do this, so that there is no intent for it.
+            if let Some(recorder) = world.get_resource::<Recorder>() {
+                recorder.jump();
             }
         }
     }),

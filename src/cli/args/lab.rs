@@ -1,0 +1,196 @@
+//! What measures and judges.
+
+use super::values::{
+    Minutes, cap, exam_case, gauntlet_case, hours, particles, preset, rounds, setting, simd, threads, ticks, warmup,
+};
+use crate::kernel::{params::Preset, simd::InstructionSet};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// `bench`.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct BenchArguments {
+    /// What to measure
+    pub(in crate::cli) what: Bench,
+    /// Threads of the last column [default: all]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+    pub(in crate::cli) threads: Option<u64>,
+    /// Write the table as JSON; `-` is stdout, in place of the table
+    #[arg(long, value_name = "FILE.json")]
+    pub(in crate::cli) json: Option<PathBuf>,
+    #[command(flatten)]
+    pub(in crate::cli) scaling: ScalingOptions,
+}
+
+/// What can be measured.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(in crate::cli) enum Bench {
+    /// What each effect costs in each scene, alone and together, and what running only what is called for saves
+    Effects,
+    /// How many particles a tick may hold at a tick rate: brute force, bins on one thread, bins on all
+    Neighbours,
+    /// What a tick costs and how exact it is, from 1,458 to 999,698 particles, at every quality
+    Scaling,
+}
+
+/// Options of `bench scaling`.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct ScalingOptions {
+    /// Draw the curves into a folder: scaling-time.svg, scaling-error.svg, scaling-threads.svg (bench scaling)
+    #[arg(long, value_name = "DIR")]
+    pub(in crate::cli) svg: Option<PathBuf>,
+    /// Show other programs' figures beside: [{name, figures: [{particles, ms, error_mean, error_p99}]}] (bench scaling)
+    #[arg(long, value_name = "FILE.json")]
+    pub(in crate::cli) beside: Option<PathBuf>,
+    /// Take less than a minute: three sizes, one second of each (bench scaling), or one run of each choice (bench effects)
+    #[arg(long)]
+    pub(in crate::cli) quick: bool,
+    /// Leave larger worlds out (bench scaling)
+    #[arg(long, value_name = "PARTICLES", allow_negative_numbers = true, value_parser = particles)]
+    pub(in crate::cli) up_to: Option<u64>,
+    /// Leave a row out that would take longer [default: 40, with --quick 5] (bench scaling)
+    #[arg(long, value_name = "SECONDS", value_parser = cap, allow_negative_numbers = true)]
+    pub(in crate::cli) cap: Option<f64>,
+}
+
+impl ScalingOptions {
+    /// The first of these options that was given, but for what is `allowed`.
+    pub(in crate::cli) fn first_given(&self, allowed: &[&str]) -> Option<&'static str> {
+        let Self { svg, beside, quick, up_to, cap } = self;
+        let given = [
+            ("--svg", svg.is_some()),
+            ("--beside", beside.is_some()),
+            ("--quick", *quick),
+            ("--up-to", up_to.is_some()),
+            ("--cap", cap.is_some()),
+        ];
+        given.into_iter().find(|(name, is_given)| *is_given && !allowed.contains(name)).map(|(name, _)| name)
+    }
+}
+
+/// What `exam` and `gauntlet` have in common.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct ReportOptions {
+    /// Write the rows as JSON; `-` is stdout, in place of the table
+    #[arg(long, value_name = "FILE.json")]
+    pub(in crate::cli) json: Option<PathBuf>,
+    /// Write the rows with what they mean, as a document; `-` is stdout, in place of the table
+    #[arg(long, value_name = "FILE.md")]
+    pub(in crate::cli) markdown: Option<PathBuf>,
+    /// Quality to run at, again for more: a name of `list qualities` [default: all]
+    #[arg(long = "quality", value_name = "QUALITY", value_parser = preset)]
+    pub(in crate::cli) qualities: Vec<Preset>,
+    /// The cases that take a moment, at `balanced`
+    #[arg(long)]
+    pub(in crate::cli) quick: bool,
+    /// Cases at a time, each on one thread; they never change the result [default: one a processor]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+    pub(in crate::cli) threads: Option<u64>,
+}
+
+/// `exam`.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct ExamArguments {
+    /// Case to examine, again for more [default: all]
+    #[arg(long = "case", value_name = "NAME", value_parser = exam_case)]
+    pub(in crate::cli) cases: Vec<String>,
+    #[command(flatten)]
+    pub(in crate::cli) options: ReportOptions,
+}
+
+/// `gauntlet`.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct GauntletArguments {
+    /// Case to run, again for more: a name of `list cases` [default: all]
+    #[arg(long = "case", value_name = "NAME", value_parser = gauntlet_case)]
+    pub(in crate::cli) cases: Vec<String>,
+    #[command(flatten)]
+    pub(in crate::cli) options: ReportOptions,
+}
+
+/// `soak`.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct SoakArguments {
+    /// Scene: a name of `list scenes`, or the path of a scene file
+    pub(in crate::cli) scene: String,
+    /// Simulated time
+    #[arg(long, value_name = "HOURS", value_parser = hours, default_value = "24", allow_negative_numbers = true)]
+    pub(in crate::cli) hours: Minutes,
+    /// Quality: a name of `list qualities` [default: the scene's]
+    #[arg(long, value_name = "QUALITY", value_parser = preset)]
+    pub(in crate::cli) quality: Option<Preset>,
+    /// Set a parameter of the scene, or a number of the quality or the liquid
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    pub(in crate::cli) settings: Vec<(String, String)>,
+    /// End at the first minute of simulated time after this much real time, and judge what there is
+    #[arg(long, value_name = "HOURS", value_parser = hours, allow_negative_numbers = true)]
+    pub(in crate::cli) within: Option<Minutes>,
+    /// Whims of the player: the same number, the same play
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(in crate::cli) seed: u64,
+    /// Write the figures as JSON; `-` is stdout
+    #[arg(long, value_name = "FILE.json")]
+    pub(in crate::cli) json: Option<PathBuf>,
+    /// Threads of the simulation; they never change the result [default: all]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+    pub(in crate::cli) threads: Option<u64>,
+    /// Instruction set of the simulation: auto, or a narrower one than the processor's best; it never changes the result
+    #[arg(long, value_name = "SET", default_value = "auto", hide_default_value = true, value_parser = simd)]
+    pub(in crate::cli) simd: InstructionSet,
+}
+
+/// `study`.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct StudyArguments {
+    /// Which experiment
+    pub(in crate::cli) what: Study,
+    /// Folder for its pictures
+    #[arg(long, value_name = "DIR")]
+    pub(in crate::cli) out: PathBuf,
+    /// Threads of the simulation [default: all]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+    pub(in crate::cli) threads: Option<u64>,
+}
+
+/// Experiments of the report on the original game.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(in crate::cli) enum Study {
+    /// What a rest density that does not suit the spacing does to a liquid: rest-density.png
+    RestDensity,
+}
+
+/// `sweep`.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct SweepArguments {
+    /// Scenes: names of `list scenes`, or paths of scene files or save files
+    #[arg(required = true, value_name = "SCENE")]
+    pub(in crate::cli) scenes: Vec<String>,
+    /// Folder for the results, made if it isn't there; with several scenes, each gets a folder in it. A sweep that was
+    /// stopped goes on from what it finds there
+    #[arg(long, value_name = "DIR")]
+    pub(in crate::cli) out: PathBuf,
+    /// Fewer settings, shorter runs, one of each
+    #[arg(long)]
+    pub(in crate::cli) quick: bool,
+    /// Only this preset; may be repeated [default: all presets and what is around them]
+    #[arg(long = "only", value_name = "QUALITY", value_parser = preset)]
+    pub(in crate::cli) only: Vec<Preset>,
+    /// Runs of each setting, interleaved [default: 3; with --quick 1]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = rounds)]
+    pub(in crate::cli) repeat: Option<u64>,
+    /// Threads of the settings that don't stand for a number of threads
+    #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true, value_parser = threads)]
+    pub(in crate::cli) threads: u64,
+    /// Set a parameter of the scenes, or a number of the liquid
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    pub(in crate::cli) settings: Vec<(String, String)>,
+    /// Ticks of the scene before the moment from which every run sets out [default: 240 with taps or fans, else 0]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = warmup)]
+    pub(in crate::cli) start: Option<u64>,
+    /// Ticks of a run [default: 300; with --quick 120]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = ticks)]
+    pub(in crate::cli) ticks: Option<u64>,
+    /// Ticks at the start of a run that are left out of times and samples [default: a fifth of the run, less one]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = warmup)]
+    pub(in crate::cli) warmup: Option<u64>,
+}
