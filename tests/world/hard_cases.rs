@@ -6,6 +6,7 @@ use powder_master::{
     kernel::{params::Preset, particles::Particles, solids::Solids},
     scene::blueprint::{Blueprint, Effect, Mode},
 };
+use std::collections::HashMap;
 
 const GRAVITY: f32 = 98.1;
 
@@ -270,4 +271,20 @@ fn a_mirrored_start_on_an_odd_grid_stays_mirrored_for_a_while() {
             assert!(gap < 0.01, "tick {tick}: {found} is {gap} d from the mirror image of its twin {other}");
         }
     }
+}
+
+#[test]
+fn no_notch_in_the_rock_swallows_a_stream() {
+    let mut blueprint = crate::support::blueprint("waterfall", &[]);
+    (blueprint.preset, blueprint.quality) = (Preset::Draft, Preset::Draft.quality());
+    let mut sandbox = Sandbox::of(blueprint);
+    sandbox.tick(400);
+    let mut crowds = HashMap::new();
+    let particles = sandbox.particles();
+    for i in 0..particles.len() {
+        *crowds.entry(Solids::cell_of(particles.position(i))).or_insert(0) += 1;
+    }
+    // One to a cell at rest, three or four where a jet hits.
+    let (cell, most) = crowds.into_iter().max_by_key(|(_, count)| *count).expect("the waterfall has water");
+    assert!(most <= 10, "{most} particles in the cell {cell}");
 }

@@ -30,8 +30,8 @@ fn bounded_velocity(velocity: Vec2) -> (Vec2, u64) {
 impl Air {
     /// The wind tool: blends the velocity in a soft disc towards `velocity` (d/s, up to [`MAX_SPEED`] along an axis),
     /// wholly at `centre` (d), not at all from `radius` (d) on. The air must be built. A disc smaller than a cell is
-    /// taken as large as one.
-    pub fn blow(&mut self, centre: Vec2, radius: f32, velocity: Vec2) {
+    /// taken as large as one. Returns the velocity that it was within its bounds.
+    pub fn blow(&mut self, centre: Vec2, radius: f32, velocity: Vec2) -> Vec2 {
         let (velocity, cuts) = bounded_velocity(velocity);
         self.pending.speed_clamps += cuts;
         self.for_each_in_disc(centre, radius, |air, k, weight| {
@@ -41,6 +41,7 @@ impl Air {
             *v += (velocity.y - *v) * weight;
             before != (*u, *v)
         });
+        velocity
     }
 
     /// The pressure tool: adds `amount` to the pressure at `centre` (d), less around it, nothing from `radius` (d) on.

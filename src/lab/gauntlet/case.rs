@@ -58,7 +58,6 @@ pub const CASES: &[Case] = &[
     cases::matter::HEAVY_ABOVE_LIGHT,
     cases::rock::ROCK_OVER_WATER,
     cases::rock::ROCK_ERASED,
-    cases::rock::WATERFALL,
     cases::ends::ENDS_1,
     cases::ends::ENDS_2,
     cases::ends::ENDS_3,

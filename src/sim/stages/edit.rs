@@ -63,10 +63,10 @@ pub(super) fn apply_intents(
             Intent::Fill { element, at } => matter.fill(element, at),
             Intent::Erase { stroke } => matter.erase(&stroke),
             Intent::Blow { stroke, velocity } => {
-                air.blow(stroke.to, stroke.radius, velocity);
+                let wind = air.blow(stroke.to, stroke.radius, velocity);
                 if air_may_yield(&setup, &effects) {
                     let radius = stroke.radius.max(air.cell());
-                    forces::drag_in_disc(stroke.to, radius, velocity, &rates.drag, &mut particles, TICK_SECONDS);
+                    forces::drag_in_disc(stroke.to, radius, wind, &rates.drag, &mut particles, TICK_SECONDS);
                 }
                 EditReport::default()
             }

@@ -52,7 +52,7 @@ pub(in crate::lab::gauntlet) const POINT_64: Case = Case {
     arrange: Some(|blueprint| (0..64).for_each(|_| water(blueprint, Vec2::new(3.02, 0.84), Vec2::ZERO))),
     ticks: 300,
     rules: Rules {
-        gain: Some(Gain::Corrections(6.0)),
+        gain: Some(Gain::Corrections(6.5)),
         density: Some(Density { shock: 60, worst: 0.5, end: 0.1 }),
         rest: Some(0.15),
         work: 2.0,

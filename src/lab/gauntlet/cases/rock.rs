@@ -1,6 +1,6 @@
 //! Rock that comes and goes.
 
-use super::{BOILS, TREMBLES, element, intend};
+use super::{TREMBLES, element, intend};
 use crate::{
     kernel::brush::{BrushShape, Stroke},
     lab::gauntlet::case::{Case, Density, Gain, Rules, Size},
@@ -77,17 +77,3 @@ fn erase_floor(world: &mut World, tick: u64) {
         intend(world, Intent::Erase { stroke: floor });
     }
 }
-
-pub(in crate::lab::gauntlet) const WATERFALL: Case = Case {
-    name: "waterfall",
-    title: "A stream over rugged rock",
-    what: "The scene `waterfall`: jets fall on ledges full of notches that the pressure grid can't see.",
-    guards: "Corners that swallow the stream: what is pressed into one ends at a single point, where neighbours have no \
-             direction to push it to, and more follows.",
-    allowed: "The jets hit rock at 10 m/s, where 1 % of the particles may be a quarter too dense for a moment.",
-    scene: include_str!("../../../../assets/scenes/waterfall.ron"),
-    ticks: 300,
-    rules: Rules { density: Some(Density { shock: 10, worst: 0.25, end: 0.15 }), ..Rules::ALWAYS },
-    known: Some(BOILS),
-    ..Case::USUAL
-};
