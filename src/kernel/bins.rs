@@ -8,9 +8,10 @@
 //! by the correction limit. So no pair is missed, and since pairs beyond the kernel add exact zeros, neither the width of
 //! a group nor the search itself shows in the result.
 //!
-//! Rooms: `cells` the geometry, `sort` the particles, `groups`, `rock`.
+//! Rooms: `cells` the geometry, `sort` the particles, `groups`, `focus` those that are iterated again, `rock`.
 
 mod cells;
+mod focus;
 mod groups;
 mod rock;
 mod sort;
@@ -20,8 +21,14 @@ mod tests;
 pub use rock::RockBins;
 pub(crate) use sort::Strip;
 
-use crate::kernel::{parallel::spread, particles::Particles, simd::InstructionSet, solids::Solids};
+use crate::kernel::{
+    parallel::spread,
+    particles::Particles,
+    simd::{InstructionSet, Lanes},
+    solids::Solids,
+};
 use cells::CellGrid;
+use focus::Focus;
 use glam::Vec2;
 use groups::{Cutter, StripGroups};
 use sort::{Sort, fetch_names};
@@ -45,13 +52,20 @@ pub enum Neighbours {
     Brute,
 }
 
+/// [`Group::lanes`] of a group of which all are worked on.
+pub(crate) const ALL_LANES: u16 = u16::MAX;
+/// Most lanes of any instruction set.
+pub(crate) const MOST_LANES: usize = u16::BITS as usize;
+
 /// A run of consecutive particles with the runs of candidates that may touch any of them. 56 bytes.
 #[derive(Clone, Debug, Default)]
 pub struct Group {
     /// First particle.
     pub first: u32,
+    /// Lanes that are worked on, the lowest bit for the first particle; [`ALL_LANES`] for all that there are.
+    pub lanes: u16,
     /// Number of particles, at most the lane width.
-    pub len: u16,
+    pub len: u8,
     /// Whether the kernel of any of them may reach a wall of the box.
     pub near_wall: bool,
     /// Movable candidates, one run a strip.
@@ -85,6 +99,16 @@ impl Group {
     pub fn particles(&self) -> Range<usize> {
         self.first as usize..self.first as usize + usize::from(self.len)
     }
+
+    /// `new` in the lanes that are worked on, `old()` in the others.
+    #[inline(always)]
+    pub(crate) fn choose<L: Lanes>(&self, new: L, old: impl FnOnce() -> L) -> L {
+        if self.lanes == ALL_LANES {
+            return new;
+        }
+        let chosen: [f32; MOST_LANES] = std::array::from_fn(|lane| f32::from(self.lanes >> lane & 1));
+        L::load(&chosen).if_less(L::splat(0.5), old(), new)
+    }
 }
 
 /// The cells, what is in them, and the groups. Buffers are kept from substep to substep.
@@ -94,6 +118,7 @@ pub struct Bins {
     sort: Sort,
     strips: Vec<StripGroups>,
     groups: Vec<Group>,
+    focus: Focus,
     rock: RockBins,
 }
 
@@ -136,7 +161,7 @@ impl Bins {
     }
 
     fn group(&mut self, x: &[f32], width: usize, threads: usize) {
-        let Self { grid, sort, strips, groups, rock } = self;
+        let Self { grid, sort, strips, groups, rock, .. } = self;
         let cutter = Cutter { grid, starts: &sort.starts, rock, x, width };
         let count = cutter.count(sort, strips);
         if count > groups.capacity() {
@@ -151,7 +176,8 @@ impl Bins {
         self.groups.clear();
         self.groups.extend((0..particles).step_by(width).map(|first| Group {
             first: first as u32,
-            len: width.min(particles - first) as u16,
+            lanes: ALL_LANES,
+            len: width.min(particles - first) as u8,
             near_wall: true,
             movable: all(particles),
             rock: all(self.rock.x.len()),
@@ -173,6 +199,17 @@ impl Bins {
         &self.groups
     }
 
+    /// Narrows [`Bins::focused`] down to what stands within reach of a particle whose density is above `bound`. The
+    /// particles were binned at `at` (d).
+    pub(crate) fn focus(&mut self, at: [&[f32]; 2], density: &[f32], bound: f32) {
+        self.focus.find(&self.grid, &self.sort.strips, &self.groups, at, density, bound);
+    }
+
+    /// The groups of the last [`Bins::focus`], in the order of their particles. Of some only a part is worked on.
+    pub(crate) fn focused(&self) -> &[Group] {
+        &self.focus.groups
+    }
+
     /// The binned rock.
     pub fn rock(&self) -> &RockBins {
         &self.rock
@@ -184,5 +221,6 @@ impl Bins {
             + self.rock.memory()
             + size_of::<StripGroups>() * self.strips.capacity()
             + size_of::<Group>() * self.groups.capacity()
+            + self.focus.memory()
     }
 }

@@ -6,6 +6,8 @@ use std::ops::Range;
 
 /// Columns in a strip's height: thin columns keep candidate runs short.
 const COLUMNS_PER_RADIUS: u32 = 3;
+/// Columns of a tile, which so is as wide as it is high.
+const COLUMNS_PER_TILE: u32 = COLUMNS_PER_RADIUS;
 
 /// Strips as high as the search reaches, cut into thin columns: one empty strip below and one above the box.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -50,8 +52,23 @@ impl CellGrid {
     /// Cell of a point, d.
     #[inline(always)]
     pub fn cell(&self, x: f32, y: f32) -> u32 {
-        let row = whole_below(y * self.per_row + 1.0, 1, self.rows as u32 - 2).0;
-        row * self.columns as u32 + self.column(x)
+        self.row(y) * self.columns as u32 + self.column(x)
+    }
+
+    #[inline(always)]
+    fn row(&self, y: f32) -> u32 {
+        whole_below(y * self.per_row + 1.0, 1, self.rows as u32 - 2).0
+    }
+
+    /// Tiles along x, of which the first and the last are empty.
+    pub fn tile_columns(&self) -> usize {
+        self.columns.div_ceil(COLUMNS_PER_TILE as usize) + 2
+    }
+
+    /// Tile of a point, d: tiles are a strip high and as wide. Those on all sides of it exist.
+    #[inline(always)]
+    pub fn tile(&self, x: f32, y: f32) -> usize {
+        self.row(y) as usize * self.tile_columns() + (self.column(x) / COLUMNS_PER_TILE) as usize + 1
     }
 
     /// Columns that hold everything within reach of what is in the columns `first … last`: rounding may put a particle

@@ -1,7 +1,7 @@
 //! Runs of sorted particles that the passes work on side by side, with the runs of what may touch any of them.
 
 use crate::kernel::{
-    bins::{Group, Run, cells::CellGrid, rock::RockBins, sort::Sort},
+    bins::{ALL_LANES, Group, Run, cells::CellGrid, rock::RockBins, sort::Sort},
     parallel::piece,
 };
 
@@ -96,7 +96,8 @@ impl Cutter<'_> {
             if let Some(group) = groups.next() {
                 *group = Group {
                     first: first as u32,
-                    len: (next - first) as u16,
+                    lanes: ALL_LANES,
+                    len: (next - first) as u8,
                     near_wall: near_floor_or_top || self.grid.is_near_side(low, high),
                     movable: runs(self.starts),
                     rock: if self.rock.starts.is_empty() { Default::default() } else { runs(&self.rock.starts) },

@@ -1,7 +1,7 @@
 //! The pass for λ.
 
 use crate::kernel::{
-    bins::{Group, RockBins},
+    bins::{Group, MOST_LANES, RockBins},
     params::{Domain, FluidParams},
     pbf::wall_sums,
     simd::{Lanes, Pass},
@@ -26,9 +26,9 @@ pub(super) struct ConstraintPass<'a, G> {
     pub groups: &'a [Group],
     /// Particle that the outputs begin with.
     pub base: usize,
-    /// Out: λ, d².
+    /// Out: λ, d². What the groups leave out keeps its own.
     pub lambda: &'a mut [f32],
-    /// Out: density, 1 on the lattice.
+    /// Out: density, 1 on the lattice, likewise.
     pub density: &'a mut [f32],
     pub gradient: PhantomData<G>,
 }
@@ -88,8 +88,8 @@ impl<G: Gradient> Pass for ConstraintPass<'_, G> {
             let slope = (sums.others + (gx * gx + gy * gy)) * gradient_scale2;
             let lambda = (zero - constraint) / (slope + relaxation);
             let out = own.start - self.base..own.end - self.base;
-            density.store(&mut self.density[out.clone()]);
-            lambda.store(&mut self.lambda[out]);
+            group.choose(density, || L::load(&self.density[out.clone()])).store(&mut self.density[out.clone()]);
+            group.choose(lambda, || L::load(&self.lambda[out.clone()])).store(&mut self.lambda[out]);
         }
     }
 }
@@ -98,7 +98,7 @@ impl<G> ConstraintPass<'_, G> {
     /// Adds density and gradient of the box walls, particle by particle: few are near one.
     #[inline(always)]
     fn add_walls<L: Lanes>(&self, own: std::ops::Range<usize>, sums: [&mut L; 3]) {
-        let mut lanes = [[0.0_f32; 16]; 3];
+        let mut lanes = [[0.0_f32; MOST_LANES]; 3];
         for (lane, sum) in lanes.iter_mut().zip(&sums) {
             sum.store(&mut lane[..L::WIDTH]);
         }

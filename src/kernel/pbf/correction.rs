@@ -1,7 +1,7 @@
 //! The pass for Δx.
 
 use crate::kernel::{
-    bins::{Group, RockBins},
+    bins::{Group, MOST_LANES, RockBins},
     params::{Domain, FluidParams, WALL_GAP},
     pbf::wall_sums,
     simd::{Lanes, Pass},
@@ -106,7 +106,7 @@ impl<G: Gradient, const TENSION: bool, const APART: bool> Pass for CorrectionPas
                 }
             }
             if group.near_wall {
-                let (mut lanes_x, mut lanes_y) = ([0.0_f32; 16], [0.0_f32; 16]);
+                let (mut lanes_x, mut lanes_y) = ([0.0_f32; MOST_LANES], [0.0_f32; MOST_LANES]);
                 for (lane, i) in own.clone().enumerate() {
                     let (_, push) = wall_sums(self.smoothing, self.domain, Vec2::new(self.x[i], self.y[i]));
                     (lanes_x[lane], lanes_y[lane]) = (push.x, push.y);
@@ -119,8 +119,10 @@ impl<G: Gradient, const TENSION: bool, const APART: bool> Pass for CorrectionPas
             let crowding =
                 ((L::load(&self.density[own.start..]) - crowded) * per_crowding).max(zero).min(L::splat(1.0));
             let limit = usual + crowding * further;
-            keep_near(xi + scale * sum_x, anchor_x, limit, [low, L::splat(high.x)]).store(&mut next_x[out.clone()]);
-            keep_near(yi + scale * sum_y, anchor_y, limit, [low, L::splat(high.y)]).store(&mut next_y[out]);
+            let to_x = keep_near(xi + scale * sum_x, anchor_x, limit, [low, L::splat(high.x)]);
+            let to_y = keep_near(yi + scale * sum_y, anchor_y, limit, [low, L::splat(high.y)]);
+            group.choose(to_x, || xi).store(&mut next_x[out.clone()]);
+            group.choose(to_y, || yi).store(&mut next_y[out]);
         }
     }
 }

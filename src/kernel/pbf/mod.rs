@@ -15,7 +15,7 @@ mod crowd;
 pub(crate) mod tests;
 
 use crate::kernel::{
-    bins::{Bins, Neighbours, Strip},
+    bins::{Bins, Group, Neighbours, RockBins, Strip},
     parallel,
     params::{Domain, FluidParams, GradientKernel, Quality},
     particles::Particles,
@@ -37,6 +37,14 @@ use std::sync::atomic::AtomicU64;
 /// predictor's by then, so that softening the constraint costs no accuracy (docs/accuracy.md, "Relaxation"); without the
 /// predictor it would.
 pub const PREDICTED_RELAXATION: f32 = 0.2;
+
+/// Density error, as a share of the density aimed at, from which on liquid is iterated again where the pressure predictor
+/// ran: shared by the substeps of a tick, each of which corrects what it finds. What is less dense has been corrected once
+/// and is left to the next substep: to iterate there costs as much and buys nothing (docs/accuracy.md, "Iterating where the
+/// error is").
+const ITERATE_ABOVE: f32 = 0.05;
+/// Where that is less than this, next to everything would be iterated again, and all of it is.
+const LEAST_TO_LOOK_FOR: f32 = 0.01;
 
 /// Positions under correction, densities, bins: what the solver keeps beside the particles. 24 bytes a particle and the
 /// bins. The arrays follow the order of the particles.
@@ -91,6 +99,12 @@ impl SolveParams<'_> {
     /// Density that the constraint aims at, 1 on the lattice.
     fn rest_density(&self) -> f32 {
         self.fluid.rest_density * if self.predicted { TARGET_DENSITY } else { 1.0 }
+    }
+
+    /// Density from which on liquid is iterated again, 1 on the lattice; `None`: whatever it is.
+    fn iterate_above(&self) -> Option<f32> {
+        let error = ITERATE_ABOVE / self.quality.substeps as f32;
+        (self.predicted && error >= LEAST_TO_LOOK_FOR).then(|| self.rest_density() * (1.0 + error))
     }
 
     /// ε of eq. 11 in force, 1/d².
@@ -163,7 +177,8 @@ impl Solver {
         [&self.x, &self.y]
     }
 
-    /// Iterates the density constraint on the binned particles.
+    /// Iterates the density constraint on the binned particles: once over all of them, and then, where the predictor ran,
+    /// only where they are still too dense.
     pub fn solve(&mut self, particles: &Particles, params: &SolveParams) {
         let count = particles.len();
         for array in [&mut self.density, &mut self.lambda, &mut self.x, &mut self.y, &mut self.next_x, &mut self.next_y]
@@ -172,27 +187,41 @@ impl Solver {
         }
         let anchor = [&particles.x[..], &particles.y[..]];
         for iteration in 0..params.quality.iterations {
-            // The first sets out from the prediction itself.
-            let is_first = iteration == 0;
+            let reach = match params.iterate_above() {
+                _ if iteration == 0 => Reach::First,
+                None => Reach::All,
+                Some(bound) => {
+                    self.bins.focus(anchor, &self.density, bound);
+                    Reach::Focused
+                }
+            };
+            if reach == Reach::Focused && self.bins.focused().is_empty() {
+                return;
+            }
             match params.quality.gradient {
-                GradientKernel::Spiky => self.iterate::<Spiky>(anchor, is_first, params),
-                GradientKernel::Rational => self.iterate::<Rational>(anchor, is_first, params),
+                GradientKernel::Spiky => self.iterate::<Spiky>(anchor, reach, params),
+                GradientKernel::Rational => self.iterate::<Rational>(anchor, reach, params),
             }
         }
     }
 
-    fn iterate<G: Gradient>(&mut self, anchor: [&[f32]; 2], is_first: bool, params: &SolveParams) {
+    fn iterate<G: Gradient>(&mut self, anchor: [&[f32]; 2], reach: Reach, params: &SolveParams) {
         let Self { bins, smoothing, instructions, density, x, y, next_x, next_y, lambda, .. } = self;
         let pass = Iteration {
-            bins,
+            groups: if reach == Reach::Focused { bins.focused() } else { bins.groups() },
+            rock: bins.rock(),
             smoothing,
             instructions: *instructions,
             params,
             anchor,
-            at: if is_first { anchor } else { [&x[..], &y[..]] },
+            at: if reach == Reach::First { anchor } else { [&x[..], &y[..]] },
         };
         pass.find_lambda::<G>(lambda, density);
         let density = &density[..];
+        if reach == Reach::Focused {
+            next_x.copy_from_slice(x);
+            next_y.copy_from_slice(y);
+        }
         let next = [&mut next_x[..], &mut next_y[..]];
         match (params.tension, params.predicted) {
             (false, false) => pass.correct::<G, false, false>(lambda, density, next),
@@ -205,9 +234,21 @@ impl Solver {
     }
 }
 
+/// What an iteration goes over.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Reach {
+    /// All, and sets out from the prediction itself.
+    First,
+    /// All.
+    All,
+    /// What is still too dense, and what is around it.
+    Focused,
+}
+
 /// What the two passes of an iteration read.
 struct Iteration<'a> {
-    bins: &'a Bins,
+    groups: &'a [Group],
+    rock: &'a RockBins,
     smoothing: &'a Smoothing,
     instructions: InstructionSet,
     params: &'a SolveParams<'a>,
@@ -219,8 +260,8 @@ struct Iteration<'a> {
 
 impl Iteration<'_> {
     fn find_lambda<G: Gradient>(&self, lambda: &mut [f32], density: &mut [f32]) {
-        let Self { bins, smoothing, instructions, params, at: [x, y], .. } = *self;
-        parallel::split(bins.groups(), [lambda, density], params.threads, &|groups, base, [lambda, density]| {
+        let Self { groups, rock, smoothing, instructions, params, at: [x, y], .. } = *self;
+        parallel::split(groups, [lambda, density], params.threads, &|groups, base, [lambda, density]| {
             instructions.run(ConstraintPass::<G> {
                 smoothing,
                 domain: params.domain,
@@ -229,7 +270,7 @@ impl Iteration<'_> {
                 relaxation: params.relaxation(),
                 x,
                 y,
-                rock: bins.rock(),
+                rock,
                 groups,
                 base,
                 lambda,
@@ -245,8 +286,8 @@ impl Iteration<'_> {
         density: &[f32],
         next: [&mut [f32]; 2],
     ) {
-        let Self { bins, smoothing, instructions, params, anchor, at: [x, y] } = *self;
-        parallel::split(bins.groups(), next, params.threads, &|groups, base, next| {
+        let Self { groups, rock, smoothing, instructions, params, anchor, at: [x, y] } = *self;
+        parallel::split(groups, next, params.threads, &|groups, base, next| {
             instructions.run(CorrectionPass::<G, TENSION, APART> {
                 smoothing,
                 domain: params.domain,
@@ -258,7 +299,7 @@ impl Iteration<'_> {
                 y,
                 anchor,
                 lambda,
-                rock: bins.rock(),
+                rock,
                 groups,
                 base,
                 next,

@@ -1,5 +1,6 @@
 //! The passes against a slow reference, on sets of particles that are hard in one way each.
 
+mod focus;
 pub(crate) mod reference;
 
 use super::*;

@@ -32,7 +32,7 @@ fn errors_of_a_pool(part: f64) -> Vec<f64> {
 
 #[test]
 fn under_a_level_surface_the_pressure_is_found_to_second_order() {
-    for part in [0.0, 0.1, 0.3, 0.45, 0.75, 0.8, 0.95] {
+    for part in [0.0, 0.1, 0.3, 0.45, 0.55, 0.6, 0.75, 0.8, 0.95] {
         let errors = errors_of_a_pool(part);
         assert!(order(&errors) >= 1.9, "{part}: order {} with errors {errors:?}", order(&errors));
     }
@@ -40,11 +40,11 @@ fn under_a_level_surface_the_pressure_is_found_to_second_order() {
 
 #[test]
 fn a_surface_just_over_a_centre_is_found_to_first_order() {
-    // There it is taken to be a quarter of a cell away, because the equation would be stiff.
-    for part in [0.5, 0.6, 0.7] {
+    // There it is taken to be a twentieth of a cell away, so that the equation stays bounded.
+    for part in [0.5, 0.52, 0.54] {
         let errors = errors_of_a_pool(part);
         assert!(order(&errors) >= 0.9, "{part}: order {} with errors {errors:?}", order(&errors));
-        assert!(errors[0] < 0.05, "{part}: {errors:?}");
+        assert!(errors[0] < 0.02, "{part}: {errors:?}");
     }
 }
 
@@ -73,6 +73,6 @@ fn the_error_of_the_pressure_in_a_round_drop_falls_with_the_cells() {
         })
         .collect();
     // How full a cell is says where a slanting surface lies only roughly, so the errors come and go from grid to grid.
-    assert!(errors.iter().all(|error| *error < 0.03), "{errors:?}");
-    assert!(errors[3] < errors[1] / 2.5, "the error does not fall: {errors:?}");
+    assert!(errors.iter().all(|error| *error < 0.005), "{errors:?}");
+    assert!(errors[3] < errors[0] / 2.5, "the error does not fall: {errors:?}");
 }

@@ -15,12 +15,14 @@ use crate::{
     },
     scene::SceneError,
 };
+use std::f64::consts::PI;
 
 pub(in crate::lab::exam) const VESSELS: Case = Case {
     name: "vessels",
     title: "Communicating vessels",
     setup: "The scene `communicating_vessels`: tanks of 7 m and 4.4 m width, filled to 5 m and 1.5 m, joined by a slot of \
-            0.8 m at the floor through a wall of 0.6 m. Levels are means over the last 9 of 22 s, two swings from side to side. \
+            0.8 m at the floor through a wall of 0.6 m. Levels are means over the last 13 of 26 s, three swings from \
+            side to side, weighted by sin² (Hann), so that what is left of the swing cancels. \
             When half of their difference is gone is taken in the same tanks at d = 0.05 m (assets/exam/vessels.ron), where \
             the slot is 16 particles high; at 8 the jet does not contract. When they first meet is no measure: by then \
             the waves that the jet makes in the tanks are higher than what is left of the difference, and the least change \
@@ -44,21 +46,21 @@ const SLOT: f64 = 0.8;
 /// Levels at the start, m.
 const START: (f64, f64) = (5.0, 1.5);
 /// Contraction of a jet out of a slot.
-pub(super) const CONTRACTION: f64 = std::f64::consts::PI / (std::f64::consts::PI + 2.0);
+pub(super) const CONTRACTION: f64 = PI / (PI + 2.0);
 
 async fn vessels(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, SceneError> {
     let blueprint = builtin("communicating_vessels", &[("left", START.0), ("right", START.1)], &setting)?;
     let mut stage = Stage::new(blueprint, &clockwork);
     stage.run(13.0).await;
-    let (mut left, mut right) = (Vec::new(), Vec::new());
-    for _ in 0..54 {
+    let (mut left, mut right) = (0.0, 0.0);
+    for look in 0..LOOKS {
         stage.run(1.0 / 6.0).await;
         let tops = stage.matter().column_tops();
-        left.extend(level(&tops, 0.0, LEFT, stage.spacing()));
-        right.extend(level(&tops, LEFT + WALL, LEFT + WALL + RIGHT, stage.spacing()));
+        // The weights add up to 1.
+        let weight = 2.0 / f64::from(LOOKS) * (PI * (f64::from(look) + 0.5) / f64::from(LOOKS)).sin().powi(2);
+        left += weight * level(&tops, 0.0, LEFT, stage.spacing());
+        right += weight * level(&tops, LEFT + WALL, LEFT + WALL + RIGHT, stage.spacing());
     }
-    let mean = |values: &[f64]| stats::mean(values).unwrap_or(f64::NAN);
-    let (left, right) = (mean(&left), mean(&right));
     let volume = LEFT * START.0 + RIGHT * START.1;
     Ok(vec![
         Finding {
@@ -85,6 +87,8 @@ async fn vessels(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>,
     ])
 }
 
+/// Looks at the levels, a sixth of a second apart.
+const LOOKS: u32 = 78;
 /// Half of the difference at the start, m.
 const HALF: f64 = 0.5 * (START.0 - START.1);
 
@@ -111,9 +115,9 @@ fn filled(stage: &Stage) -> f64 {
 }
 
 /// Median height of the columns between two places (m), m.
-fn level(tops: &[f64], from: f64, to: f64, d: f64) -> Option<f64> {
+fn level(tops: &[f64], from: f64, to: f64, d: f64) -> f64 {
     let mut tops = tops[(from / d).round() as usize..(to / d).round() as usize].to_vec();
-    stats::quantile(&mut tops, 0.5).map(|y| (y + 0.5) * d)
+    stats::quantile(&mut tops, 0.5).map_or(f64::NAN, |y| (y + 0.5) * d)
 }
 
 /// Time to half the difference by the theory, s.
