@@ -126,7 +126,21 @@ pub enum Preset {
 /// pressed in.
 const CROWDED_LIMIT: f32 = 2.0;
 
+/// Density error, as a share of the density aimed at, from which on liquid is iterated again where the pressure predictor
+/// runs: shared by the substeps of a tick, each of which corrects what it finds. What is less dense has been corrected once
+/// and is left to the next substep: to iterate there costs as much and buys nothing (docs/accuracy.md, "Iterating where the
+/// error is").
+const ITERATE_ABOVE: f32 = 0.05;
+/// Where a substep's share of that is less than this, next to everything would be iterated again, and all of it is.
+const LEAST_TO_LOOK_FOR: f32 = 0.01;
+
 impl Quality {
+    /// Density error, as a share of the density aimed at, from which on liquid is iterated again; `None`: whatever it is.
+    pub fn iterate_above(&self) -> Option<f32> {
+        let error = ITERATE_ABOVE / self.substeps as f32;
+        (self.predictor && error >= LEAST_TO_LOOK_FOR).then_some(error)
+    }
+
     /// Furthest that iterating may move the most crowded particle in a substep along an axis, d. The neighbour search
     /// reaches further than the kernel by twice this, so that no pair is missed.
     pub fn longest_correction(&self) -> f32 {

@@ -38,14 +38,6 @@ use std::sync::atomic::AtomicU64;
 /// predictor it would.
 pub const PREDICTED_RELAXATION: f32 = 0.2;
 
-/// Density error, as a share of the density aimed at, from which on liquid is iterated again where the pressure predictor
-/// ran: shared by the substeps of a tick, each of which corrects what it finds. What is less dense has been corrected once
-/// and is left to the next substep: to iterate there costs as much and buys nothing (docs/accuracy.md, "Iterating where the
-/// error is").
-const ITERATE_ABOVE: f32 = 0.05;
-/// Where that is less than this, next to everything would be iterated again, and all of it is.
-const LEAST_TO_LOOK_FOR: f32 = 0.01;
-
 /// Positions under correction, densities, bins: what the solver keeps beside the particles. 24 bytes a particle and the
 /// bins. The arrays follow the order of the particles.
 #[derive(Clone, Debug)]
@@ -103,8 +95,7 @@ impl SolveParams<'_> {
 
     /// Density from which on liquid is iterated again, 1 on the lattice; `None`: whatever it is.
     fn iterate_above(&self) -> Option<f32> {
-        let error = ITERATE_ABOVE / self.quality.substeps as f32;
-        (self.predicted && error >= LEAST_TO_LOOK_FOR).then(|| self.rest_density() * (1.0 + error))
+        self.quality.iterate_above().filter(|_| self.predicted).map(|error| self.rest_density() * (1.0 + error))
     }
 
     /// ε of eq. 11 in force, 1/d².

@@ -24,7 +24,7 @@ use ladder::Rung;
 use std::sync::Arc;
 
 /// Times of ticks: right after a move they are still unusual, and they follow the work closely.
-const OF_TIME: Character = Character { settle: 0.04, aim: 0.85, drift: 1.15, patience: 0.6 };
+const OF_TIME: Character = Character { settle: 0.04, aim: 0.74, drift: 1.15, patience: 0.6 };
 /// A liquid takes a while to feel another quality, and what it makes of it is known less well.
 const OF_ERROR: Character = Character { settle: 0.1, aim: 0.6, drift: 1.3, patience: 0.8 };
 
