@@ -477,7 +477,7 @@ fn vessels_fall_asleep_level() {
     let mut world = blueprint("communicating_vessels", &[]);
     (world.preset, world.quality) = (Preset::Draft, Preset::Draft.quality());
     let mut sandbox = Sandbox::of(world.clone());
-    until_asleep(&mut sandbox, 8000);
+    until_asleep(&mut sandbox, 12_000);
     let slept = sandbox.get::<Clock>().tick;
     let mut reference = without_sleep(world);
     reference.tick(slept as u32 + 300);

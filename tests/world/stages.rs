@@ -102,7 +102,7 @@ fn gravity_pulls_and_the_floor_holds() {
     let mut sandbox = Sandbox::of(puddle());
     sandbox.tick(1);
     assert!(sandbox.particles().vy.iter().all(|&vy| vy < 0.0), "something does not fall");
-    sandbox.tick(420);
+    sandbox.tick(720);
     let particles = sandbox.particles();
     let (low, high) = particles.y.iter().fold((f32::MAX, 0.0_f32), |(low, high), &y| (low.min(y), high.max(y)));
     assert!(low >= 0.25 && high < 5.0, "50 particles on a floor of 30 d stand from {low} to {high}");

@@ -73,9 +73,10 @@ fn a_fallen_column_comes_to_rest_with_a_level_surface() {
         let mut blueprint = blueprint("dam_break", &[("columns", "14")]);
         (blueprint.preset, blueprint.quality) = (preset, preset.quality());
         let mut sandbox = awake(blueprint);
-        sandbox.tick(900);
+        // A wave in a basin of 56 d that is 7 d deep goes on for long: hardly anything slows it.
+        sandbox.tick(2400);
         let (name, particles) = (preset.name(), sandbox.particles());
-        assert!(sandbox.rms_speed() < 0.1, "{name}: still {} d a tick after 15 s", sandbox.rms_speed());
+        assert!(sandbox.rms_speed() < 0.1, "{name}: still {} d a tick after 40 s", sandbox.rms_speed());
         // 14 × 28 particles in a box 56 wide stand 7 high.
         let surface = |low: f32| {
             let column = (0..particles.len()).filter(|&i| (low..low + 7.0).contains(&particles.x[i]));
