@@ -483,5 +483,7 @@ fn vessels_fall_asleep_level() {
     reference.tick(slept as u32 + 300);
     let (share, height) = apart(&sandbox, &reference);
     println!("asleep after {slept} ticks: share {share}, height {height}");
-    assert!(share < 0.02 && height < 0.7, "a share of {share} is elsewhere, the surface is {height} d off");
+    // Water of 0.01 d a tick that swings from tank to tank at 1.43 /s stands 0.42 d off in the wide one and 0.67 d in the
+    // narrow one when it is stopped; without sleep it may be on the other side by then.
+    assert!(share < 0.02 && height < 1.3, "a share of {share} is elsewhere, the surface is {height} d off");
 }
