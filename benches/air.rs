@@ -18,7 +18,7 @@ use powder_master::kernel::air::{Air, Rousing};
 use powder_master::kernel::element::ElementId;
 use powder_master::kernel::forces::{DragTable, apply_drag};
 use powder_master::kernel::parallel::Team;
-use powder_master::kernel::params::{AIR_DENSITY, AirParams, OpenSides};
+use powder_master::kernel::params::{AIR_DENSITY, AirAdvection, AirParams, AirScheme, OpenSides};
 use powder_master::kernel::particles::Particles;
 use powder_master::kernel::simd::InstructionSet;
 use powder_master::kernel::solids::Solids;
@@ -27,6 +27,7 @@ use std::time::{Duration, Instant};
 
 const CELL: f32 = 4.0;
 const SOUND: f32 = 1000.0;
+const SCHEME: AirScheme = AirScheme { courant: 0.7, advection: AirAdvection::SecondOrder };
 
 /// A windy box with a tenth of its cells rock: two walls with gaps and lone particles.
 fn windy(columns: usize, rows: usize) -> Air {
@@ -59,8 +60,9 @@ fn substep(c: &mut Criterion) {
         group.throughput(Throughput::Elements((columns * rows) as u64));
         let alone = InstructionSet::available().into_iter().map(|instructions| Team { instructions, threads: 1 });
         let together = Team { instructions: InstructionSet::detect(), threads: rayon::current_num_threads() };
-        for team in alone.chain([together]) {
-            let name = format!("{} on {}", team.instructions.name(), team.threads);
+        let schemes = AirAdvection::ALL.map(|advection| AirScheme { advection, ..SCHEME });
+        for (team, scheme) in alone.chain([together]).flat_map(|team| schemes.map(|scheme| (team, scheme))) {
+            let name = format!("{}, {} on {}", scheme.advection.name(), team.instructions.name(), team.threads);
             group.bench_function(BenchmarkId::new(name, format!("{columns} × {rows}")), |bencher| {
                 let mut air = windy(columns, rows);
                 let size = Vec2::new(columns as f32, rows as f32) * CELL;
@@ -69,7 +71,7 @@ fn substep(c: &mut Criterion) {
                     while substeps < iterations {
                         stir(&mut air, size);
                         let start = Instant::now();
-                        substeps += u64::from(air.step(&[], 0.7, team, TICK_SECONDS).substeps);
+                        substeps += u64::from(air.step(&[], scheme, team, TICK_SECONDS).substeps);
                         spent += start.elapsed();
                     }
                     spent.div_f64(substeps as f64 / iterations as f64)
@@ -97,7 +99,7 @@ fn gust(c: &mut Criterion) {
                     air.blow(Vec2::splat(100.0), 40.0, Vec2::new(6.0, 3.0));
                     let start = Instant::now();
                     for _ in 0..TICKS {
-                        air.step(&[], 0.7, team, TICK_SECONDS);
+                        air.step(&[], SCHEME, team, TICK_SECONDS);
                     }
                     spent += start.elapsed();
                     ticks += TICKS;
@@ -117,7 +119,7 @@ fn drag(c: &mut Criterion) {
     let params = AirParams { sound_speed: SOUND, density: AIR_DENSITY, open: OpenSides::default() };
     let mut air = Air::new(size, CELL, params);
     air.blow(size * 0.5, 400.0, Vec2::new(60.0, 20.0));
-    air.step(&[], 0.7, team, TICK_SECONDS);
+    air.step(&[], SCHEME, team, TICK_SECONDS);
     let mut particles = Particles::default();
     for i in 0..COUNT {
         let (strip, place) = (i / 1500, i % 1500);

@@ -49,7 +49,7 @@ fn effect(effect: Effect) -> String {
 fn quality(preset: Preset) -> String {
     let values = preset.quality();
     format!(
-        "{}\tsubsteps={} iterations={} kernel_radius={} correction_limit={} air_cell={} air_courant={} gradient={:?} predictor={}",
+        "{}\tsubsteps={} iterations={} kernel_radius={} correction_limit={} air_cell={} air_courant={} air_advection={} gradient={} predictor={}",
         preset.name(),
         values.substeps,
         values.iterations,
@@ -57,8 +57,8 @@ fn quality(preset: Preset) -> String {
         values.correction_limit,
         values.air_cell,
         values.air_courant,
-        values.gradient,
+        values.air_advection.name(),
+        values.gradient.name(),
         values.predictor
     )
-    .to_lowercase()
 }

@@ -22,7 +22,7 @@ use crate::{
             table,
         },
     },
-    scene::{GRADIENT, KNOBS},
+    scene::{KNOBS, WORD_KNOBS},
     sim::{snapshot::hash_bytes, state::Sources, workers::Workers},
 };
 use bevy::platform::time::Instant;
@@ -78,7 +78,7 @@ fn length(arguments: &SweepArguments) -> Result<Length, Failure> {
 fn check_settings(settings: &[(String, String)]) -> Result<(), Failure> {
     let of_liquid = ["rest_density", "relaxation", "constraint_floor", "tension_strength", "tension_distance"];
     let own = |key: &str| {
-        let is_knob = KNOBS.iter().any(|knob| knob.name == key) || key == GRADIENT;
+        let is_knob = KNOBS.iter().any(|knob| knob.name == key) || WORD_KNOBS.iter().any(|knob| knob.name == key);
         is_knob && !of_liquid.contains(&key) && key != "particle_limit"
     };
     match settings.iter().find(|(key, _)| own(key)) {

@@ -3,7 +3,7 @@
 use crate::{
     kernel::{
         element::ElementTable,
-        params::{AirParams, Domain, FluidParams, GradientKernel, Preset},
+        params::{AirParams, Domain, FluidParams, Preset},
         units::Scale,
     },
     scene::{
@@ -13,7 +13,7 @@ use crate::{
         error::{SceneError, choices},
         file::{ParameterSpec, SceneText, parse},
         flow::Bounds,
-        knobs::{self, DEFAULT_PARTICLE_LIMIT, GRADIENT, KNOBS, Tuning},
+        knobs::{self, DEFAULT_PARTICLE_LIMIT, KNOBS, Tuning, WORD_KNOBS},
         number::{Evaluator, Range},
         place::{Room, fill},
     },
@@ -58,7 +58,7 @@ pub fn from_text(name: &str, text: impl Into<Cow<'static, str>>) -> Result<Scene
 struct Settings {
     parameters: BTreeMap<String, f64>,
     tuning: Vec<(&'static knobs::Knob, f64)>,
-    gradient: Option<GradientKernel>,
+    words: Vec<(&'static knobs::WordKnob, usize)>,
 }
 
 impl SceneFile {
@@ -155,7 +155,7 @@ impl SceneFile {
 
     fn read_settings(&self, settings: &[(String, String)]) -> Result<Settings, SceneError> {
         let defaults = self.text.parameters.iter().map(|(name, spec)| (name.clone(), spec.default));
-        let mut read = Settings { parameters: defaults.collect(), tuning: Vec::new(), gradient: None };
+        let mut read = Settings { parameters: defaults.collect(), tuning: Vec::new(), words: Vec::new() };
         for (key, value) in settings {
             let fault = |what: String| SceneError::value(&self.file, format_args!("--set {key}={value}"), what);
             let number = |range: Range| match value.trim().parse() {
@@ -166,9 +166,9 @@ impl SceneFile {
                 read.parameters.insert(key.clone(), number(spec.range())?);
             } else if let Some(knob) = KNOBS.iter().find(|knob| knob.name == key) {
                 read.tuning.push((knob, number(knob.range)?));
-            } else if key == GRADIENT {
-                let gradient = knobs::gradient(value.trim());
-                read.gradient = Some(gradient.ok_or_else(|| fault(choices(value, ["spiky", "rational"])))?);
+            } else if let Some(knob) = WORD_KNOBS.iter().find(|knob| knob.name == key) {
+                let word = knob.words.iter().position(|word| *word == value.trim());
+                read.words.push((knob, word.ok_or_else(|| fault(choices(value, knob.words)))?));
             } else {
                 let known = self.text.parameters.keys().map(String::as_str).chain(knobs::names());
                 return Err(fault(format!("no parameter or knob `{key}`; {}", choices(key, known))));
@@ -186,8 +186,8 @@ impl SceneFile {
         for (knob, value) in &settings.tuning {
             knob.turn(&mut tuning, *value);
         }
-        if let Some(gradient) = settings.gradient {
-            tuning.quality.gradient = gradient;
+        for (knob, word) in &settings.words {
+            knob.turn(&mut tuning, *word);
         }
         Ok(tuning)
     }

@@ -4,7 +4,7 @@
 //! Every [`Number`] is a literal or an expression in quotes over the scene's parameters and the spacing `d`.
 
 use crate::{
-    kernel::params::{GradientKernel, OpenSides, Preset},
+    kernel::params::{AirAdvection, GradientKernel, OpenSides, Preset},
     scene::{
         blueprint::EffectModes,
         error::SceneError,
@@ -276,6 +276,8 @@ pub(super) struct QualityText {
     pub(super) air_cell: Option<Number>,
     /// Courant number of the air's substeps: 0.1 … 0.9.
     pub(super) air_courant: Option<Number>,
+    /// `first_order` or `second_order`.
+    pub(super) air_advection: Option<AirAdvection>,
     /// `spiky` or `rational`.
     pub(super) gradient: Option<GradientKernel>,
 }

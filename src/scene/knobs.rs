@@ -1,7 +1,7 @@
 //! The numbers that every scene has and `--set` reaches by name: accuracy, liquid, particle limit.
 
 use crate::{
-    kernel::params::{FluidParams, GradientKernel, Quality},
+    kernel::params::{AirAdvection, FluidParams, GradientKernel, Quality},
     scene::{
         error::SceneError,
         file::{FluidText, QualityText},
@@ -39,8 +39,36 @@ impl Knob {
     }
 }
 
-/// Name of the one knob that is a word: `spiky` or `rational`.
-pub const GRADIENT: &str = "gradient";
+/// A knob of every scene that is a word.
+#[derive(Debug)]
+pub struct WordKnob {
+    /// Name in scenes and for `--set`.
+    pub name: &'static str,
+    /// Words allowed.
+    pub words: [&'static str; 2],
+    turn: fn(&mut Tuning, usize),
+}
+
+impl WordKnob {
+    /// Sets it to one of its words.
+    pub(super) fn turn(&self, tuning: &mut Tuning, word: usize) {
+        (self.turn)(tuning, word);
+    }
+}
+
+/// All knobs that are words.
+pub static WORD_KNOBS: [WordKnob; 2] = [
+    WordKnob {
+        name: "gradient",
+        words: [GradientKernel::ALL[0].name(), GradientKernel::ALL[1].name()],
+        turn: |tuning, word| tuning.quality.gradient = GradientKernel::ALL[word],
+    },
+    WordKnob {
+        name: "air_advection",
+        words: [AirAdvection::ALL[0].name(), AirAdvection::ALL[1].name()],
+        turn: |tuning, word| tuning.quality.air_advection = AirAdvection::ALL[word],
+    },
+];
 
 const SUBSTEPS: Knob = Knob {
     name: "substeps",
@@ -115,7 +143,7 @@ pub(super) const PARTICLE_LIMIT: Knob = Knob {
     turn: |tuning, value| tuning.particle_limit = value as u32,
 };
 
-/// All knobs but [`GRADIENT`].
+/// All knobs that are numbers.
 pub static KNOBS: [Knob; 12] = [
     SUBSTEPS,
     ITERATIONS,
@@ -133,16 +161,7 @@ pub static KNOBS: [Knob; 12] = [
 
 /// Names of all knobs.
 pub(super) fn names<'a>() -> impl Iterator<Item = &'a str> {
-    KNOBS.iter().map(|knob| knob.name).chain([GRADIENT])
-}
-
-/// The gradient kernel called `word`.
-pub(super) fn gradient(word: &str) -> Option<GradientKernel> {
-    match word {
-        "spiky" => Some(GradientKernel::Spiky),
-        "rational" => Some(GradientKernel::Rational),
-        _ => None,
-    }
+    KNOBS.iter().map(|knob| knob.name).chain(WORD_KNOBS.iter().map(|knob| knob.name))
 }
 
 /// Turns the knobs that the scene's `fluid`, `quality` and `particle_limit` set.
@@ -175,6 +194,9 @@ pub(super) fn apply_scene(
     }
     if let Some(gradient) = quality.gradient {
         tuning.quality.gradient = gradient;
+    }
+    if let Some(advection) = quality.air_advection {
+        tuning.quality.air_advection = advection;
     }
     Ok(())
 }

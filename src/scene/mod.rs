@@ -31,5 +31,5 @@ pub use elements::elements;
 pub use error::SceneError;
 pub use file::ParameterSpec;
 pub(crate) use flow::MOST_COVERED;
-pub use knobs::{GRADIENT, KNOBS, Knob};
+pub use knobs::{KNOBS, Knob, WORD_KNOBS, WordKnob};
 pub use number::Range;

@@ -170,6 +170,9 @@ fn quality() -> BoxedStrategy<(String, f64, f64)> {
         field("correction_limit", number(0.05, 0.5)),
         field("air_courant", number(0.1, 0.9)),
         prop_oneof![Just(""), Just("gradient: spiky, "), Just("gradient: rational, ")].prop_map(str::to_owned).boxed(),
+        prop_oneof![Just(""), Just("air_advection: first_order, "), Just("air_advection: second_order, ")]
+            .prop_map(str::to_owned)
+            .boxed(),
     ]);
     (preset, counts, cell, rest)
         .prop_map(|(preset, counts, cell, rest)| {

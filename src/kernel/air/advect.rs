@@ -24,8 +24,10 @@
 //! an order that a mirror image shares (middle + (one side + other side)), so that mirrored air has mirrored bits.
 
 use super::pressure::shifted;
+use super::second_order::{SecondOrder, Shares, starting_there};
 use super::shape::{Corner, Shape};
-use crate::kernel::simd::{Lanes, lane_starts};
+use crate::kernel::simd::{Array, Lanes, lane_starts};
+use std::ops::Range;
 
 /// Part κ of the wave solution that a face follows, 0 … ½. Raising it kills alternating pressure sooner and damps
 /// sound: a wave of 20 cells loses `κ` × 0.8 of its height a wavelength. Changing this affects the stability limit
@@ -49,6 +51,8 @@ pub(super) struct Source<'a> {
     pub(super) half: f32,
     /// `κ c·dt/cell`.
     pub(super) filter: f32,
+    /// Whether shares know how the velocity changes within their cell.
+    pub(super) second_order: bool,
 }
 
 impl Source<'_> {
@@ -58,13 +62,28 @@ impl Source<'_> {
         row * self.stride + self.left
     }
 
-    /// Flow through faces, in cells a substep. No face lets more than half a cell pass, so that two can't take more than
-    /// there is. The substep's length keeps the velocities below that; only the filter can reach it, at a jump of
-    /// pressure.
+    /// Flow through faces from the velocities before and behind them, in cells a substep. No face lets more than half a cell
+    /// pass, so that two can't take more than there is. The substep's length keeps the velocities below that; only the
+    /// filter can reach it, at a jump of pressure, and the second order, where air rushes together.
     #[inline(always)]
-    fn face_flow<L: Lanes>(&self, open: L, velocities: L, drop: L) -> L {
-        let flow = open * (velocities * L::splat(self.half) + drop * L::splat(self.filter));
+    fn face_flow<L: Lanes>(&self, open: L, [before, behind]: [L; 2], drop: L) -> L {
+        let mut wind = (before + behind) * L::splat(self.half);
+        if self.second_order {
+            wind = starting_there(wind, (behind - before) * L::splat(2.0 * self.half));
+        }
+        let flow = open * (wind + drop * L::splat(self.filter));
         flow.min(L::splat(0.5)).max(L::splat(-0.5))
+    }
+
+    /// The same for the faces between the box and the ring: what is in the ring is no velocity of air there (`edges`), so
+    /// that nothing is known of how it changes.
+    fn at_edge(&self) -> Self {
+        Self { second_order: false, ..*self }
+    }
+
+    /// Whether the faces above a row are inside the box.
+    fn is_inside(&self, row: usize) -> bool {
+        row > 0 && (row + 2) * self.stride < self.pressure.len()
     }
 }
 
@@ -103,10 +122,13 @@ pub(super) struct Advection {
     left: Vec<f32>,
     /// Share of each cell that goes down: of this row, and of the next.
     sinking: [Vec<f32>; 2],
+    /// Share of each cell that goes up.
+    rising: Vec<f32>,
     /// Mass that goes down, stays level and goes up.
     down: Vec<f32>,
     level: Vec<f32>,
     up: Vec<f32>,
+    second_order: SecondOrder,
     carry_down: Carry,
     /// Of this row of sources and the one below.
     carry_level: [Carry; 2],
@@ -122,9 +144,11 @@ impl Advection {
             right: row(),
             left: row(),
             sinking: [row(), row()],
+            rising: row(),
             down: row(),
             level: row(),
             up: row(),
+            second_order: SecondOrder::default(),
             carry_down: carry(),
             carry_level: [carry(), carry()],
             carry_up: [carry(), carry(), carry()],
@@ -133,7 +157,7 @@ impl Advection {
 
     /// Values held.
     pub(super) fn values(&self) -> usize {
-        self.right.len() * 7 + self.carry_down.mass.len() * 18
+        self.right.len() * 8 + self.carry_down.mass.len() * 18 + self.second_order.values()
     }
 
     /// Begins with a row of sources of which only the shares that go up are wanted.
@@ -153,7 +177,11 @@ impl Advection {
         }
         let here = source.start(row)..source.start(row) + source.width;
         let (u, v) = (&source.velocity_x[here.clone()], &source.velocity_y[here]);
-        self.carry::<L>(u, v);
+        if source.second_order {
+            self.carry_second::<L>(source, row);
+        } else {
+            self.carry::<L>(u, v);
+        }
         self.turn_corners(source, row, u, v);
         self.turn_at_fences(source, row, u, v);
     }
@@ -169,14 +197,27 @@ impl Advection {
     /// Sideways shares of a row of sources.
     #[inline(always)]
     fn share_sideways<L: Lanes>(&mut self, source: Source, row: usize) {
-        let (start, n) = (source.start(row), source.width - 1);
-        let [p0, u0] = [source.pressure, source.velocity_x].map(|field| &field[start..start + n]);
+        let last = source.width - 1;
+        self.share_faces::<L>(source, row, 1..last + 1);
+        if source.second_order {
+            for face in [1, last].into_iter().filter(|face| [1, source.stride - 1].contains(&(source.left + face))) {
+                self.share_faces::<Array<1>>(source.at_edge(), row, face..face + 1);
+            }
+        }
+    }
+
+    /// Shares that pass these faces of a row of sources.
+    #[inline(always)]
+    fn share_faces<L: Lanes>(&mut self, source: Source, row: usize, faces: Range<usize>) {
+        let behind = source.start(row) + faces.start;
+        let (before, n) = (behind - 1, faces.len());
+        let [p0, u0] = [source.pressure, source.velocity_x].map(|field| &field[before..before + n]);
         let [p1, u1, open] =
-            [source.pressure, source.velocity_x, &source.shape.open_x].map(|field| &field[start + 1..start + 1 + n]);
-        let (right, left) = (&mut self.right[1..=n], &mut self.left[1..=n]);
+            [source.pressure, source.velocity_x, &source.shape.open_x].map(|field| &field[behind..behind + n]);
+        let (right, left) = (&mut self.right[faces.clone()], &mut self.left[faces]);
         let zero = L::splat(0.0);
         for i in lane_starts::<L>(n) {
-            let velocities = L::of(u0, i) + L::of(u1, i);
+            let velocities = [L::of(u0, i), L::of(u1, i)];
             let flow = source.face_flow(L::of(open, i), velocities, L::of(p0, i) - L::of(p1, i));
             flow.max(zero).put(right, i);
             (zero - flow).max(zero).put(left, i);
@@ -186,21 +227,22 @@ impl Advection {
     /// Mass of a row of sources that goes down, stays level and goes up.
     #[inline(always)]
     fn share_upright<L: Lanes>(&mut self, source: Source, row: usize) {
+        let source = if source.is_inside(row) { source } else { source.at_edge() };
         let n = source.width;
         let (start, above) = (source.start(row), source.start(row + 1));
         let [p0, v0] = [source.pressure, source.velocity_y].map(|field| &field[start..start + n]);
         let [p1, v1, open] =
             [source.pressure, source.velocity_y, &source.shape.open_y].map(|field| &field[above..above + n]);
         let [sinking, sinking_next] = &mut self.sinking;
-        let (sinking, sinking_next) = (&sinking[..n], &mut sinking_next[..n]);
+        let (sinking, sinking_next, rises) = (&sinking[..n], &mut sinking_next[..n], &mut self.rising[..n]);
         let (down, level, up) = (&mut self.down[..n], &mut self.level[..n], &mut self.up[..n]);
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         for i in lane_starts::<L>(n) {
             let p = L::of(p0, i);
-            let velocities = L::of(v0, i) + L::of(v1, i);
-            let flow = source.face_flow(L::of(open, i), velocities, p - L::of(p1, i));
+            let flow = source.face_flow(L::of(open, i), [L::of(v0, i), L::of(v1, i)], p - L::of(p1, i));
             let (rising, sinks) = (flow.max(zero), L::of(sinking, i));
             (zero - flow).max(zero).put(sinking_next, i);
+            rising.put(rises, i);
             (p * sinks).put(down, i);
             (p * (one - (sinks + rising))).put(level, i);
             (p * rising).put(up, i);
@@ -239,6 +281,16 @@ impl Advection {
             store_three(sum_three(three(masses[1], i), parts, u, v), &mut level, i);
             store_three(sum_three(three(masses[2], i), parts, u, v), &mut up, i);
         }
+    }
+
+    /// The same to second order.
+    #[inline(always)]
+    fn carry_second<L: Lanes>(&mut self, source: Source, row: usize) {
+        let n = source.width - 2;
+        let Self { right, left, sinking: [sinking, _], rising, down, level, up, .. } = self;
+        let shares = Shares { right, left, sinking, rising, masses: [down, level, up] };
+        let carries = [&mut self.carry_down, &mut self.carry_level[0], &mut self.carry_up[0]];
+        self.second_order.carry::<L>(source, row, shares, carries.map(|carry| carry.rows(n)));
     }
 
     /// Gives the shares that strike a corner of rock to the cells beside it. What they brought to the rock itself is
@@ -316,12 +368,12 @@ impl Advection {
 
 /// Each lane's own entry and the two after it.
 #[inline(always)]
-fn three<L: Lanes>(rows: [&[f32]; 3], i: usize) -> [L; 3] {
+pub(super) fn three<L: Lanes>(rows: [&[f32]; 3], i: usize) -> [L; 3] {
     [L::of(rows[0], i), L::of(rows[1], i), L::of(rows[2], i)]
 }
 
 #[inline(always)]
-fn store_three<L: Lanes>([mass, x, y]: [L; 3], [to_mass, to_x, to_y]: &mut [&mut [f32]; 3], i: usize) {
+pub(super) fn store_three<L: Lanes>([mass, x, y]: [L; 3], [to_mass, to_x, to_y]: &mut [&mut [f32]; 3], i: usize) {
     mass.put(to_mass, i);
     x.put(to_x, i);
     y.put(to_y, i);

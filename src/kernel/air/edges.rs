@@ -4,11 +4,15 @@
 //! open side takes the solution of its own wave between the cell inside (p, u) and the air outside (1, U), u and U along
 //! the outward normal:
 //! ```text
-//! u_face = ½ (u + U) + ½ c (p − 1)        p_face = ½ (p + 1) + (u − U)/(2c)
+//! u_face = ½ (u + U) + ½ c (p − P)        p_face = ½ (p + P) + (u − U)/(2c)
 //! ```
 //! A wave that goes out (p − 1 = u/c) passes without an echo; a lasting pressure other than 1 blows off. U follows u
-//! with the time that sound takes across the box, so that lasting wind meets no resistance: zero gradient, late. Air that
-//! leaves is lost; air that enters has pressure 1, the speed U and the sideways speed of the cell it enters.
+//! with the time that sound takes across the box: zero gradient, late.
+//!
+//! The air outside is at rest. What leaves blows into it and is lost, P = 1. What enters was at rest: it comes straight in,
+//! with the speed U, to which the lower pressure `P = 1 − ½ U²/c²` has brought it (Bernoulli). So no side feeds a wind: in
+//! air that entered at P = 1 and with the sideways speed of the cell it enters, a gust in a box with four open sides grew
+//! to a storm.
 
 use super::advect::FACE_FILTER;
 use super::grid::Air;
@@ -34,9 +38,10 @@ impl Air {
         let lift = (1.0 - 2.0 * FACE_FILTER) * sound_speed;
         self.for_each_edge(active, |air, edge| {
             let Edge { inside, ring, slot, along_x, outward } = edge;
-            let normal = (air.outside[slot] + lift * (air.pressure[inside] - 1.0)) * outward;
-            air.velocity_x[ring] = if along_x { normal } else { air.velocity_x[inside] };
-            air.velocity_y[ring] = if along_x { air.velocity_y[inside] } else { normal };
+            let suction = suction(air.outside[slot], sound_speed);
+            let normal = (air.outside[slot] + lift * (air.pressure[inside] - 1.0) + sound_speed * suction) * outward;
+            air.velocity_x[ring] = if along_x { normal } else { 0.0 };
+            air.velocity_y[ring] = if along_x { 0.0 } else { normal };
         });
     }
 
@@ -48,7 +53,8 @@ impl Air {
             let velocity = if edge.along_x { &mut air.velocity_x } else { &mut air.velocity_y };
             let normal = velocity[edge.inside] * edge.outward;
             let outside = &mut air.outside[edge.slot];
-            velocity[edge.inside] = (normal - (normal - *outside) * (0.5 * courant)) * edge.outward;
+            let push = sound_speed * suction(*outside, sound_speed) - (normal - *outside);
+            velocity[edge.inside] = (normal + push * (0.5 * courant)) * edge.outward;
             *outside += (normal - *outside) * follow;
         });
     }
@@ -81,4 +87,11 @@ impl Air {
             }
         }
     }
+}
+
+/// By how much the pressure at a side through which air comes in (U < 0) is below 1: what brings air at rest to the speed
+/// with which it enters (Bernoulli).
+fn suction(outside: f32, sound_speed: f32) -> f32 {
+    let mach = outside.min(0.0) / sound_speed;
+    (0.5 * mach * mach).min(1.0)
 }

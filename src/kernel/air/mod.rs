@@ -29,6 +29,7 @@ mod measure;
 mod pressure;
 mod resize;
 mod sample;
+mod second_order;
 mod shape;
 mod step;
 mod tiles;

@@ -6,7 +6,12 @@ use super::grid::{Air, MAX_PRESSURE, Peaks, Scratch};
 use super::pressure::{Push, STILL_MACH, peak};
 use super::shape::Shape;
 use super::tiles::{Block, WATCH};
-use crate::kernel::{parallel::Team, simd::InstructionSet, sources::Wind};
+use crate::kernel::{
+    parallel::Team,
+    params::{AirAdvection, AirScheme},
+    simd::InstructionSet,
+    sources::Wind,
+};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::AddAssign;
@@ -140,18 +145,17 @@ impl Air {
         awake > 0 && self.columns() * self.rows() * awake >= PARALLEL_CELLS * tiles
     }
 
-    /// Moves the air on by `dt` (s) in substeps that keep wind plus sound below `courant` cells (0.1 … 0.9; up to
-    /// [`STABLE_COURANT`] is taken). `team` changes the time it takes and not a bit of the result. Quiet air that no fan
-    /// drives is left untouched, as is air that is not built.
-    pub fn step(&mut self, winds: &[Wind], courant: f32, team: Team, dt: f32) -> AirReport {
-        debug_assert!(dt.is_finite() && courant.is_finite());
+    /// Moves the air on by `dt` (s) in as many substeps as the scheme calls for. `team` changes the time it takes and not a
+    /// bit of the result. Quiet air that no fan drives is left untouched, as is air that is not built.
+    pub fn step(&mut self, winds: &[Wind], scheme: AirScheme, team: Team, dt: f32) -> AirReport {
+        debug_assert!(dt.is_finite() && scheme.courant.is_finite());
         let mut report = std::mem::take(&mut self.pending);
         let driven = self.is_built() && self.is_driven(winds);
         if (self.quiet && !driven) || dt.is_nan() || dt <= 0.0 {
             return report;
         }
         self.quiet = false;
-        let courant = courant.clamp(0.01, STABLE_COURANT);
+        let courant = scheme.courant.clamp(0.01, STABLE_COURANT);
         let mut shape = self.scratch.shape.take().unwrap_or_else(|| Shape::new(self));
         let mut scratch = std::mem::take(&mut self.scratch);
         self.scratch.sleeps = scratch.sleeps;
@@ -173,7 +177,7 @@ impl Air {
             }
             let (count, substep) = self.next_substep(peaks, courant, left, &mut report);
             self.refresh_outside(&scratch.watch.active, substep.sound_speed);
-            peaks = self.substep(substep, &shape, &mut scratch, team);
+            peaks = self.substep(substep, scheme.advection, &shape, &mut scratch, team);
             self.settle_edges(&scratch.watch.active, substep.sound_speed, substep.dt);
             peaks = peaks.max(self.blow_fans(winds, substep.dt, &mut report));
             report.substeps += 1;
@@ -254,7 +258,14 @@ impl Air {
     }
 
     /// Both passes over the blocks that are awake, in bands of rows.
-    fn substep(&mut self, substep: Substep, shape: &Shape, scratch: &mut Scratch, team: Team) -> Peaks {
+    fn substep(
+        &mut self,
+        substep: Substep,
+        advection: AirAdvection,
+        shape: &Shape,
+        scratch: &mut Scratch,
+        team: Team,
+    ) -> Peaks {
         let (instructions, band_rows) = self.division(team, scratch.watch.cells());
         let stride = self.stride();
         let crossing = substep.dt / self.cell;
@@ -268,6 +279,7 @@ impl Air {
             width: stride,
             half: 0.5 * crossing,
             filter: FACE_FILTER * substep.sound_speed * crossing,
+            second_order: advection == AirAdvection::SecondOrder,
         };
         let push = Push {
             gain: 0.5 * substep.sound_speed * substep.sound_speed * crossing,

@@ -53,7 +53,7 @@ pub(super) type Run = Pin<Box<dyn Future<Output = Result<Vec<Finding>, SceneErro
 pub enum Over {
     /// The named qualities.
     Qualities,
-    /// The air's own settings among these: cell and Courant number.
+    /// The air's own settings among these: cell, Courant number and advection.
     Air,
 }
 
@@ -77,16 +77,16 @@ impl Setting {
     /// The settings of the air that these qualities have, each once.
     pub(super) fn airs(presets: &[Preset]) -> Vec<Self> {
         let air = |preset: Preset| {
-            let Quality { air_cell, air_courant, .. } = preset.quality();
-            (air_cell, air_courant)
+            let Quality { air_cell, air_courant, air_advection, .. } = preset.quality();
+            (air_cell, air_courant, air_advection)
         };
         let mut settings: Vec<Self> = Vec::new();
         for &preset in presets {
             match settings.iter_mut().find(|setting| air(setting.preset) == air(preset)) {
                 Some(setting) => setting.binding |= is_binding(preset),
                 None => {
-                    let (cell, courant) = air(preset);
-                    let name = format!("cell {cell} d, Courant {courant}");
+                    let (cell, courant, advection) = air(preset);
+                    let name = format!("cell {cell} d, Courant {courant}, {}", advection.words());
                     settings.push(Self { name, ..Self::of(preset) });
                 }
             }

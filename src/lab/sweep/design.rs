@@ -1,7 +1,7 @@
 //! What a sweep measures: the presets, a plane of substeps × iterations, and around each preset one knob at a time.
 
 use super::{ErrorMeasure, effective};
-use crate::kernel::params::{Preset, Quality};
+use crate::kernel::params::{AirAdvection, Preset, Quality};
 use std::ops::RangeInclusive;
 
 /// The presets that are meant to run in real time: the ones whose neighbours are measured.
@@ -52,13 +52,15 @@ impl Setting {
             correction_limit,
             air_cell,
             air_courant,
+            air_advection,
             gradient,
             predictor,
         } = self.quality;
         let threads = self.threads;
         format!(
             "{substeps}x{iterations} h{kernel_radius} c{correction_limit} {gradient:?} p{predictor} a{air_cell} \
-             C{air_courant} t{threads}"
+             C{air_courant} \
+             {air_advection:?} t{threads}"
         )
     }
 }
@@ -154,17 +156,24 @@ impl List<'_> {
             for air_courant in COURANTS {
                 self.add_named(format!("{name}, Courant {air_courant}"), Quality { air_courant, ..own });
             }
+            for air_advection in AirAdvection::ALL {
+                let name = format!("{name}, {}", air_advection.words());
+                self.add_named(name, Quality { air_advection, ..own });
+            }
         }
     }
 
     fn add_air(&mut self) {
         let fast = Preset::Fast.quality();
-        for air_courant in COURANTS {
-            for air_cell in AIR_CELLS {
-                if !self.scope.quick || (air_courant == fast.air_courant && air_cell.fract() == 0.0) {
-                    let quality = Quality { air_cell, air_courant, ..fast };
-                    self.add_named(format!("air cell {air_cell}, Courant {air_courant}"), quality);
-                }
+        for air_cell in AIR_CELLS.into_iter().filter(|cell| !self.scope.quick || cell.fract() == 0.0) {
+            let quality = Quality { air_cell, ..fast };
+            for air_advection in AirAdvection::ALL {
+                let name = format!("air cell {air_cell}, {}", air_advection.words());
+                self.add_named(name, Quality { air_advection, ..quality });
+            }
+            for air_courant in COURANTS.into_iter().filter(|_| !self.scope.quick) {
+                let name = format!("air cell {air_cell}, Courant {air_courant}");
+                self.add_named(name, Quality { air_courant, ..quality });
             }
         }
         if !self.scope.quick {

@@ -169,6 +169,6 @@ fn check_repeats(journal: &Journal, setting: &Setting, record: &Record) -> Resul
 
 /// The knobs that make a difference: without air its own do not.
 fn effective(quality: Quality, has_air: bool) -> Quality {
-    let Quality { air_cell, air_courant, .. } = Preset::Reference.quality();
-    if has_air { quality } else { Quality { air_cell, air_courant, ..quality } }
+    let Quality { air_cell, air_courant, air_advection, .. } = Preset::Reference.quality();
+    if has_air { quality } else { Quality { air_cell, air_courant, air_advection, ..quality } }
 }

@@ -2,7 +2,7 @@
 
 use super::{ErrorMeasure, effective, presets, row::Row};
 use crate::{
-    kernel::params::{GradientKernel, Preset, Quality},
+    kernel::params::{Preset, Quality},
     lab::machine::processor,
 };
 use std::fmt::Write;
@@ -171,16 +171,16 @@ fn knobs(subject: &Subject, rows: &[&Row]) -> String {
 
 /// The knob that differs, if it is one.
 fn one_change(from: Quality, to: Quality) -> Option<String> {
-    let kernel = |gradient| if gradient == GradientKernel::Spiky { "spiky" } else { "rational" };
     let changes = [
         (from.substeps != to.substeps).then(|| format!("{} substeps", to.substeps)),
         (from.iterations != to.iterations).then(|| format!("{} iterations", to.iterations)),
         (from.kernel_radius != to.kernel_radius).then(|| format!("h {}", to.kernel_radius)),
         (from.correction_limit != to.correction_limit).then(|| format!("correction limit {}", to.correction_limit)),
         (from.predictor != to.predictor).then(|| if to.predictor { "predictor" } else { "no predictor" }.to_owned()),
-        (from.gradient != to.gradient).then(|| kernel(to.gradient).to_owned()),
+        (from.gradient != to.gradient).then(|| to.gradient.name().to_owned()),
         (from.air_cell != to.air_cell).then(|| format!("air cell {}", to.air_cell)),
         (from.air_courant != to.air_courant).then(|| format!("Courant {}", to.air_courant)),
+        (from.air_advection != to.air_advection).then(|| to.air_advection.words().to_owned()),
     ];
     let mut changes = changes.into_iter().flatten();
     changes.next().filter(|_| changes.next().is_none())

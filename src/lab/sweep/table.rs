@@ -1,11 +1,11 @@
 //! curve.csv: a line for every setting, comma separated. A field is empty where a value does not apply.
 
 use super::row::Row;
-use crate::kernel::params::{GradientKernel, Preset, Quality};
+use crate::kernel::params::{Preset, Quality};
 use std::io::{self, Write};
 
 /// Names of the columns with what they hold.
-pub const COLUMNS: [(&str, &str); 32] = [
+pub const COLUMNS: [(&str, &str); 33] = [
     ("setting", "name of the setting, unique in the table"),
     ("preset", "name of the preset that it is"),
     ("threads", "threads of the kernel"),
@@ -17,6 +17,7 @@ pub const COLUMNS: [(&str, &str); 32] = [
     ("predictor", "whether the pressure predictor runs: true or false"),
     ("air_cell", "edge of an air cell, d"),
     ("air_courant", "Courant number of the air's substeps"),
+    ("air_advection", "advection of the air: first_order or second_order"),
     ("runs", "number of runs"),
     ("ms", "time of a tick, ms: the median over the runs of their medians"),
     ("ms_low", "median of the fastest run, ms"),
@@ -53,12 +54,17 @@ pub fn write(rows: &[Row], mut out: impl Write) -> io::Result<()> {
 
 fn fields(row: &Row) -> [String; COLUMNS.len()] {
     let Row { setting, found, .. } = row;
-    let Quality { substeps, iterations, kernel_radius, correction_limit, air_cell, air_courant, gradient, predictor } =
-        setting.quality;
-    let gradient = match gradient {
-        GradientKernel::Spiky => "spiky",
-        GradientKernel::Rational => "rational",
-    };
+    let Quality {
+        substeps,
+        iterations,
+        kernel_radius,
+        correction_limit,
+        air_cell,
+        air_courant,
+        air_advection,
+        gradient,
+        predictor,
+    } = setting.quality;
     let ms = |value: f64| format!("{value:.4}");
     let share = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.6}"));
     [
@@ -68,11 +74,12 @@ fn fields(row: &Row) -> [String; COLUMNS.len()] {
         substeps.to_string(),
         iterations.to_string(),
         kernel_radius.to_string(),
-        gradient.to_owned(),
+        gradient.name().to_owned(),
         correction_limit.to_string(),
         predictor.to_string(),
         air_cell.to_string(),
         air_courant.to_string(),
+        air_advection.name().to_owned(),
         row.runs.to_string(),
         ms(row.ms),
         ms(row.ms_range[0]),

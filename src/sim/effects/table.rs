@@ -55,7 +55,7 @@ static TABLE: [Row; Effect::ALL.len()] = [
         passes: &[Pass::Air],
         part_of: None,
         when: "the air moves, a fan drives it, or particles drag it along",
-        parameters: &["winds", "pressures", "open", "sound_speed", "air_cell", "air_courant"],
+        parameters: &["winds", "pressures", "open", "sound_speed", "air_cell", "air_courant", "air_advection"],
         off: "the air stands; no grid of it is even built",
         called_for: |facts| {
             if facts.has_fans {

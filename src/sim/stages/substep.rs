@@ -42,7 +42,7 @@ pub(super) fn step_air(
     air.allow_sleep(sleep == Mode::On || sleep == Mode::Auto && setup.preset != Preset::Reference);
     let (worth, instructions) = (air.is_worth_sharing(), solver.instructions);
     let report = workers.run_if(worth, |threads| {
-        air.step(&sources.winds, setup.quality.air_courant, Team { instructions, threads }, dt)
+        air.step(&sources.winds, setup.quality.air_scheme(), Team { instructions, threads }, dt)
     });
     counters.add_air(&report);
     let all = u64::from(report.substeps) * (air.columns() * air.rows()) as u64;

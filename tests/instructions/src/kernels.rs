@@ -7,7 +7,7 @@ use powder_master::kernel::{
     element::ElementId,
     forces,
     parallel::Team,
-    params::{AIR_DENSITY, AirParams, OpenSides},
+    params::{AIR_DENSITY, AirAdvection, AirParams, AirScheme, OpenSides},
     predictor::{Predictor, PredictorParams},
     simd::InstructionSet,
     solids::Solids,
@@ -67,7 +67,8 @@ pub fn run(name: &str, set: InstructionSet) -> bool {
             counted(&mut tank, |tank| forces::apply_drag(&air, &[0.001], &mut tank.particles, 1, SUBSTEP));
         }
         "air" => counted(&mut windy(), |air| {
-            air.step(&[], 0.7, Team { instructions: set, threads: 1 }, SUBSTEP);
+            let scheme = AirScheme { courant: 0.7, advection: AirAdvection::SecondOrder };
+            air.step(&[], scheme, Team { instructions: set, threads: 1 }, SUBSTEP);
         }),
         _ => return false,
     }

@@ -11,7 +11,7 @@ mod waves;
 use super::Air;
 use crate::kernel::element::ElementId;
 use crate::kernel::parallel::Team;
-use crate::kernel::params::{AIR_DENSITY, AirParams, OpenSides};
+use crate::kernel::params::{AIR_DENSITY, AirAdvection, AirParams, AirScheme, OpenSides};
 use crate::kernel::simd::InstructionSet;
 use crate::kernel::solids::Solids;
 use crate::kernel::sources::Rect;
@@ -21,6 +21,7 @@ use glam::{IVec2, Vec2};
 const SOUND: f32 = 1000.0;
 const DT: f32 = 1.0 / 60.0;
 const COURANT: f32 = 0.7;
+const SCHEME: AirScheme = AirScheme { courant: COURANT, advection: AirAdvection::SecondOrder };
 const ALONE: Team = Team { instructions: InstructionSet::Baseline, threads: 1 };
 
 fn params(open: OpenSides) -> AirParams {
@@ -74,7 +75,7 @@ fn rect(x0: f32, y0: f32, x1: f32, y1: f32) -> Rect {
 
 fn run(air: &mut Air, ticks: u32) {
     for _ in 0..ticks {
-        air.step(&[], COURANT, ALONE, DT);
+        air.step(&[], SCHEME, ALONE, DT);
     }
 }
 

@@ -5,20 +5,37 @@ use super::super::advect::FACE_FILTER;
 use super::*;
 use rayon::ThreadPoolBuilder;
 
+/// The slope of a field in a cell along `step` by its definition: 0 at a peak, else of the three differences the least.
+fn slope(air: &Air, field: &[f32], k: isize, step: isize) -> f64 {
+    let difference = |a: isize, b: isize| {
+        let solid = air.solid[a as usize] || air.solid[b as usize];
+        if solid { 0.0 } else { f64::from(field[b as usize]) - f64::from(field[a as usize]) }
+    };
+    let (low, high) = (difference(k - step, k), difference(k, k + step));
+    if low * high <= 0.0 {
+        return 0.0;
+    }
+    low.signum() * (2.0 * low.abs()).min(2.0 * high.abs()).min(0.5 * (low + high).abs())
+}
+
 /// What one substep does, written as a scatter in f64 cell by cell, with the rule for corners spelled out.
-fn scatter(air: &Air, dt: f64) -> [Vec<f64>; 3] {
+fn scatter(air: &Air, advection: AirAdvection, dt: f64) -> [Vec<f64>; 3] {
     let stride = air.stride() as isize;
     let crossing = dt / f64::from(air.cell);
     let s = f64::from(SOUND) * crossing;
     let at = |field: &[f32], k: isize| f64::from(field[k as usize]);
     let solid = |k: isize| air.solid[k as usize];
+    let second_order = advection == AirAdvection::SecondOrder;
     let flow = |k: isize, step: isize, field: &[f32]| {
         if solid(k) || solid(k + step) {
             return 0.0;
         }
         let drop = at(&air.pressure, k) - at(&air.pressure, k + step);
-        let flow = 0.5 * (at(field, k) + at(field, k + step)) * crossing + f64::from(FACE_FILTER) * s * drop;
-        flow.clamp(-0.5, 0.5)
+        let mut wind = 0.5 * (at(field, k) + at(field, k + step)) * crossing;
+        if second_order {
+            wind *= 1.0 - (at(field, k + step) - at(field, k)) * crossing;
+        }
+        (wind + f64::from(FACE_FILTER) * s * drop).clamp(-0.5, 0.5)
     };
     let n = air.pressure.len();
     let mut next = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
@@ -26,16 +43,31 @@ fn scatter(air: &Air, dt: f64) -> [Vec<f64>; 3] {
         let [left, right] = [-flow(k - 1, 1, &air.velocity_x), flow(k, 1, &air.velocity_x)].map(|f| f.max(0.0));
         let [down, up] =
             [-flow(k - stride, stride, &air.velocity_y), flow(k, stride, &air.velocity_y)].map(|f| f.max(0.0));
-        for (dx, x) in [(-1, left), (0, 1.0 - left - right), (1, right)] {
-            for (dy, y) in [(-stride, down), (0, 1.0 - down - up), (stride, up)] {
+        // Shares, and how far from the middle of the cell the middle of each is.
+        let parts = |step: isize, low: f64, high: f64| {
+            let stays = (0, 1.0 - low - high, 0.5 * (low - high));
+            [(-step, low, -0.5 * (1.0 - low)), stays, (step, high, 0.5 * (1.0 - high))]
+        };
+        for (dx, x, ahead) in parts(1, left, right) {
+            for (dy, y, above) in parts(stride, down, up) {
                 let across = k + dx + dy;
-                let ends = if solid(across) { [k + dx, k + dy] } else { [across; 2] };
+                let turned = solid(across);
+                let velocity = |field: &[f32]| {
+                    // What goes round a corner has the cell's mean velocity.
+                    let tilted = if second_order && !turned {
+                        slope(air, field, k, 1) * ahead + slope(air, field, k, stride) * above
+                    } else {
+                        0.0
+                    };
+                    at(field, k) + tilted
+                };
+                let ends = if turned { [k + dx, k + dy] } else { [across; 2] };
                 for end in ends {
                     let mass = 0.5 * at(&air.pressure, k) * x * y;
                     assert!(mass == 0.0 || !solid(end), "a share entered rock");
                     next[0][end as usize] += mass;
-                    next[1][end as usize] += mass * at(&air.velocity_x, k);
-                    next[2][end as usize] += mass * at(&air.velocity_y, k);
+                    next[1][end as usize] += mass * velocity(&air.velocity_x);
+                    next[2][end as usize] += mass * velocity(&air.velocity_y);
                 }
             }
         }
@@ -61,18 +93,27 @@ fn scatter(air: &Air, dt: f64) -> [Vec<f64>; 3] {
 
 #[test]
 fn the_gather_is_the_scatter() {
-    let mut noise = Noise(42);
-    let solids = rock(23, 19, |_, _| noise.next() > 0.4);
-    let mut air = closed(23, 19, 1.0);
-    air.set_solids(&solids);
-    stir(&mut air, 0.2, 300.0, &mut noise);
-    let dt = 2e-4;
-    let wanted = scatter(&air, f64::from(dt));
-    assert_eq!(air.step(&[], 0.9, ALONE, dt).substeps, 1);
-    for (got, wanted) in [&air.pressure, &air.velocity_x, &air.velocity_y].into_iter().zip(&wanted) {
-        for k in (0..got.len()).filter(|k| !air.solid[*k]) {
-            let error = (f64::from(got[k]) - wanted[k]).abs();
-            assert!(error < 1e-5 * wanted[k].abs().max(1.0), "{} for {} in cell {k}", got[k], wanted[k]);
+    for (advection, rocky) in AirAdvection::ALL.into_iter().flat_map(|advection| [(advection, 0.4), (advection, 0.9)]) {
+        let mut noise = Noise(42);
+        let solids = rock(23, 19, |_, _| noise.next() > rocky);
+        let mut air = closed(23, 19, 1.0);
+        air.set_solids(&solids);
+        stir(&mut air, 0.2, 300.0, &mut noise);
+        let dt = 2e-4;
+        let wanted = scatter(&air, advection, f64::from(dt));
+        assert_eq!(air.step(&[], AirScheme { courant: 0.9, advection }, ALONE, dt).substeps, 1);
+        // A velocity is a sum of momenta of 300 d/s.
+        let fields = [(&air.pressure, 1.0), (&air.velocity_x, 30.0), (&air.velocity_y, 30.0)];
+        for ((got, least), wanted) in fields.into_iter().zip(&wanted) {
+            for k in (0..got.len()).filter(|k| !air.solid[*k]) {
+                let error = (f64::from(got[k]) - wanted[k]).abs();
+                assert!(
+                    error < 1e-5 * wanted[k].abs().max(least),
+                    "{advection:?}: {} for {} at {k}",
+                    got[k],
+                    wanted[k]
+                );
+            }
         }
     }
 }
@@ -91,11 +132,11 @@ fn a_storm_of_a_million_atmospheres_loses_mass_to_rounding_alone() {
     for _ in 0..3000 {
         let sound = SOUND * air.pressure.iter().copied().fold(1.0, f32::max).sqrt();
         let dt = 0.5 * COURANT * air.cell / (2.0 * air.max_speed() + sound);
-        let (before, wanted) = (air.mass(), scatter(&air, f64::from(dt)));
+        let (before, wanted) = (air.mass(), scatter(&air, SCHEME.advection, f64::from(dt)));
         let kept = wanted[0].iter().sum::<f64>() * air.cell_area();
         let pressures = air.pressure.clone();
         assert!((kept / before - 1.0).abs() < 1e-13, "the scheme itself makes {before} to {kept}");
-        if air.step(&[], COURANT, ALONE, dt).substeps != 1 {
+        if air.step(&[], SCHEME, ALONE, dt).substeps != 1 {
             break;
         }
         steps += 1;
@@ -127,7 +168,7 @@ fn a_still_grid_stays_still_bit_for_bit() {
     for _ in 0..50 {
         // Quiet air would not be stepped at all.
         air.quiet = false;
-        let report = air.step(&[], COURANT, ALONE, DT);
+        let report = air.step(&[], SCHEME, ALONE, DT);
         assert!(report.substeps > 0 && report.speed_clamps == 0);
     }
     assert_eq!(bits(&air), before);
@@ -151,13 +192,15 @@ fn mirrored(air: &Air, x: bool) -> Air {
 #[test]
 fn mirrored_air_runs_mirrored_bit_for_bit() {
     let mut noise = Noise(9);
-    for x in [true, false] {
+    for (x, advection) in [true, false].into_iter().flat_map(|x| AirAdvection::ALL.map(|advection| (x, advection))) {
         let mut air = closed(26, 17, 2.0);
         air.set_solids(&rock(52, 34, |_, _| noise.next() > 0.9));
         stir(&mut air, 0.5, 500.0, &mut noise);
         let mut mirror = mirrored(&air, x);
-        run(&mut air, 20);
-        run(&mut mirror, 20);
+        for _ in 0..20 {
+            air.step(&[], AirScheme { advection, ..SCHEME }, ALONE, DT);
+            mirror.step(&[], AirScheme { advection, ..SCHEME }, ALONE, DT);
+        }
         let back = mirrored(&mirror, x);
         assert_eq!(back.pressure, air.pressure);
         assert!(back.velocity_x == air.velocity_x && back.velocity_y == air.velocity_y);
@@ -207,7 +250,7 @@ fn parallel_is_serial_bit_for_bit_for_any_number_of_threads() {
         let mut air = start.clone();
         assert!(air.is_worth_sharing(), "what is not shared proves nothing");
         for _ in 0..3 {
-            air.step(&[], COURANT, Team { threads, ..ALONE }, 4e-3);
+            air.step(&[], SCHEME, Team { threads, ..ALONE }, 4e-3);
         }
         bits(&air)
     };
@@ -227,17 +270,19 @@ fn every_instruction_set_gives_the_same_bits() {
         let mut start = Air::new(Vec2::new(columns as f32, rows as f32), 1.0, params(sides));
         start.set_solids(&rock(columns, rows, |_, _| noise.next() > 0.8));
         stir(&mut start, 0.5, 500.0, &mut noise);
-        let step = |instructions| {
-            let mut air = start.clone();
-            for _ in 0..5 {
-                air.step(&[], COURANT, Team { instructions, threads: 1 }, 4e-3);
+        for advection in AirAdvection::ALL {
+            let step = |instructions| {
+                let mut air = start.clone();
+                for _ in 0..5 {
+                    air.step(&[], AirScheme { advection, ..SCHEME }, Team { instructions, threads: 1 }, 4e-3);
+                }
+                (instructions, bits(&air))
+            };
+            let runs: Vec<_> = InstructionSet::available().into_iter().map(step).collect();
+            assert!(runs.len() >= 2, "one instruction set alone proves nothing");
+            for (set, bits) in &runs {
+                assert!(*bits == runs[0].1, "{advection:?}, {columns} × {rows}: {set:?} is not {:?}", runs[0].0);
             }
-            (instructions, bits(&air))
-        };
-        let runs: Vec<_> = InstructionSet::available().into_iter().map(step).collect();
-        assert!(runs.len() >= 2, "one instruction set alone proves nothing");
-        for (set, bits) in &runs {
-            assert!(*bits == runs[0].1, "{columns} × {rows}: {set:?} differs from {:?}", runs[0].0);
         }
     }
 }
@@ -277,4 +322,62 @@ fn a_damaged_snapshot_is_refused() {
     assert!(stored(|air| air.solid[3] = false).is_err(), "the ring has a hole");
     assert!(stored(|air| air.pending.substeps = u32::MAX).is_err());
     assert!(stored(|air| air.pending.buried = f64::NAN).is_err());
+}
+
+/// Momentum of the air, d³/s at pressure 1.
+fn momentum(air: &Air) -> [f64; 2] {
+    [&air.velocity_x, &air.velocity_y].map(|velocity| {
+        let cells = air.pressure.iter().zip(velocity).filter(|(p, _)| **p > 0.0);
+        cells.map(|(p, u)| f64::from(*p) * f64::from(*u)).sum::<f64>() * air.cell_area()
+    })
+}
+
+#[test]
+fn what_carries_slopes_keeps_momentum_and_makes_no_energy() {
+    // In the middle of a box so large that nothing reaches its walls.
+    let mut air = closed(96, 96, 1.0);
+    let mut noise = Noise(77);
+    for row in 40..56 {
+        for column in 40..56 {
+            let k = row * air.stride() + column;
+            (air.velocity_x[k], air.velocity_y[k]) = (200.0 + 300.0 * noise.next(), 300.0 * noise.next());
+            air.pressure[k] = 1.0 + 0.5 * noise.next();
+        }
+    }
+    air.quiet = false;
+    let (begun, mut before) = (momentum(&air), energy(&air));
+    for tick in 0..20 {
+        air.step(&[], SCHEME, ALONE, 1e-3);
+        let now = energy(&air);
+        assert!(now <= before * (1.0 + 1e-6), "tick {tick}: energy from {before} to {now}");
+        before = now;
+    }
+    for (now, begun) in momentum(&air).into_iter().zip(begun) {
+        assert!((now - begun).abs() < 1e-5 * begun.abs(), "momentum from {begun} to {now}");
+    }
+}
+
+#[test]
+fn a_jet_that_drifts_stays_sharp_and_overshoots_nothing() {
+    // So slow a sound that walls aren't heard in the middle.
+    let (sound_speed, drift, jet) = (250.0, 200.0, 100.0);
+    let smeared = AirAdvection::ALL.map(|advection| {
+        let mut air = Air::new(Vec2::new(96.0, 128.0), 1.0, AirParams { sound_speed, ..params(OpenSides::default()) });
+        for row in 0..air.rows() {
+            for k in air.row_range(row) {
+                air.velocity_y[k] = drift;
+                air.velocity_x[k] = if (50..60).contains(&row) { jet } else { 0.0 };
+            }
+        }
+        air.quiet = false;
+        air.step(&[], AirScheme { advection, ..SCHEME }, ALONE, 0.1);
+        let profile: Vec<f32> = (60..90).map(|row| air.velocity_x[air.row_range(row).start + 48]).collect();
+        assert!(profile.iter().all(|u| (-1e-3..=jet + 1e-3).contains(u)), "{profile:?}");
+        let most = profile.iter().copied().fold(0.0, f32::max);
+        let between = profile.iter().filter(|u| (0.1 * jet..0.9 * jet).contains(*u)).count();
+        (between, most / jet)
+    });
+    let [first, second] = smeared;
+    assert!(second.0 <= 8 && first.0 >= 16, "cells between jet and rest: {} and {}", first.0, second.0);
+    assert!(second.1 > 0.99 && first.1 < 0.9, "highest: {} and {}", first.1, second.1);
 }

@@ -28,7 +28,7 @@ fn distance(a: &Air, b: &Air) -> f32 {
 fn a_gust_in_a_corner_costs_by_its_size() {
     let mut air = sleeping(512, 512, 4.0);
     air.blow(Vec2::splat(100.0), 40.0, Vec2::new(60.0, 20.0));
-    let report = air.step(&[], COURANT, ALONE, DT);
+    let report = air.step(&[], SCHEME, ALONE, DT);
     assert!(report.cells > 0 && report.cells * 20 < 512 * 512, "{} cells are stepped", report.cells);
     assert!(air.awake_tiles().0 > 0);
 }
@@ -53,7 +53,7 @@ fn air_that_sleeps_in_part_stays_within_the_bound() {
             }
         }
         for air in &mut pair {
-            air.step(&[], COURANT, ALONE, DT);
+            air.step(&[], SCHEME, ALONE, DT);
         }
         furthest = furthest.max(distance(&pair[0], &pair[1]));
         let (awake, all) = pair[1].awake_tiles();
@@ -79,7 +79,7 @@ fn a_wave_wakes_what_lies_ahead_in_time() {
     });
     for tick in 0..120 {
         for air in &mut pair {
-            air.step(&[], COURANT, ALONE, DT);
+            air.step(&[], SCHEME, ALONE, DT);
         }
         let apart = distance(&pair[0], &pair[1]);
         assert!(apart < 3.0 * QUIET_MACH, "{} bounds away at tick {tick}", apart / QUIET_MACH);
@@ -127,7 +127,7 @@ fn sleep_shows_no_threads_lanes_or_copies() {
                 if tick == 50 {
                     air.press(Vec2::new(600.0, 60.0), 20.0, 0.3);
                 }
-                air.step(if tick < 30 { std::slice::from_ref(&fan) } else { &[] }, COURANT, team, DT);
+                air.step(if tick < 30 { std::slice::from_ref(&fan) } else { &[] }, SCHEME, team, DT);
                 if copies && tick % 7 == 0 {
                     air = air.clone();
                 }
@@ -156,7 +156,7 @@ fn where_nothing_sleeps_sleep_changes_nothing() {
         stir(&mut air, 0.2, 60.0, &mut Noise(9));
         air.wake_all();
         for _ in 0..5 {
-            air.step(&[], COURANT, ALONE, DT);
+            air.step(&[], SCHEME, ALONE, DT);
         }
         assert_eq!(air.awake_tiles().0, air.awake_tiles().1);
         bits(&air)

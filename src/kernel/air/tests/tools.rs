@@ -41,7 +41,7 @@ fn a_fan_drives_only_the_cells_whose_centre_it_covers() {
     let mut air = closed(8, 8, 2.0);
     let fan = Wind { area: rect(3.0, 4.9, 7.0, 9.0), velocity: Vec2::new(10.0, -20.0), rate: 60.0 };
     let dt = 1e-6;
-    air.step(&[fan], COURANT, ALONE, dt);
+    air.step(&[fan], SCHEME, ALONE, dt);
     let wanted = fan.velocity * (60.0 * dt / (1.0 + 60.0 * dt));
     for row in 0..8 {
         for column in 0..8 {
@@ -56,7 +56,7 @@ fn a_fan_drives_only_the_cells_whose_centre_it_covers() {
 fn a_violent_fan_does_not_overshoot() {
     let mut air = closed(8, 8, 2.0);
     let fan = Wind { area: rect(4.0, 4.0, 12.0, 12.0), velocity: Vec2::new(50.0, 0.0), rate: 1e30 };
-    air.step(&[fan], COURANT, ALONE, DT);
+    air.step(&[fan], SCHEME, ALONE, DT);
     assert_eq!(air.velocity_at_cell(3, 3), fan.velocity);
 }
 

@@ -12,7 +12,7 @@ fn mass_is_kept_and_pressure_stays_positive_over_a_thousand_steps_with_rock() {
         stir(&mut air, 0.99, 800.0, &mut noise);
         let mass = air.mass();
         for _ in 0..1000 {
-            air.step(&[], COURANT, ALONE, cell * 5e-4);
+            air.step(&[], SCHEME, ALONE, cell * 5e-4);
             // Keep it stirred, so that the thousandth step has as much to do as the first.
             for velocity in air.velocity_x.iter_mut().zip(&air.solid).filter(|(_, solid)| !**solid) {
                 *velocity.0 += 20.0 * noise.next();
@@ -50,7 +50,7 @@ fn assert_no_leak(wall: impl Fn(i32, i32) -> bool, far: impl Fn(i32, i32) -> boo
     }
     air.quiet = false;
     for _ in 0..200 {
-        air.step(&[], COURANT, ALONE, 4e-3);
+        air.step(&[], SCHEME, ALONE, 4e-3);
     }
     for row in 0..40 {
         for column in (0..40).filter(|column| far(*column, row)) {
@@ -124,7 +124,7 @@ fn rock_that_comes_and_goes_keeps_the_mass() {
             }
         }
         air.set_solids(&solids);
-        let report = air.step(&[], COURANT, ALONE, 1e-3);
+        let report = air.step(&[], SCHEME, ALONE, 1e-3);
         assert_eq!(report.buried, 0.0);
         assert!((air.mass() / mass - 1.0).abs() < 1e-5, "round {round}: {}", air.mass() / mass - 1.0);
         assert_sane(&air);
@@ -137,7 +137,7 @@ fn air_without_a_way_out_is_counted_as_buried() {
     air.set_solids(&rock(3, 1, |x, _| x == 1));
     air.set_solids(&rock(3, 1, |x, _| x < 2));
     // The version says nothing about where the rock is, so it must differ for the change to be followed.
-    let report = air.step(&[], COURANT, ALONE, DT);
+    let report = air.step(&[], SCHEME, ALONE, DT);
     assert_eq!((report.buried, air.mass()), (1.0, 1.0));
 }
 
@@ -172,6 +172,6 @@ fn still_air_stays_still_on_cells_of_another_size() {
     air.set_solids(&solids);
     let mut other = air.resized(3.0);
     other.set_solids(&solids);
-    other.step(&[], COURANT, ALONE, DT);
+    other.step(&[], SCHEME, ALONE, DT);
     assert!(other.is_quiet() && other.max_speed() == 0.0);
 }

@@ -5,7 +5,7 @@ use crate::lab::gauntlet::case::{Case, Density, Gain, Rules, Size};
 use glam::Vec2;
 
 /// The knobs that every scene has with the ends of their ranges.
-pub(in crate::lab::gauntlet) const KNOB_ENDS: [(&str, &str, &str); 12] = [
+pub(in crate::lab::gauntlet) const KNOB_ENDS: [(&str, &str, &str); 13] = [
     ("substeps", "1", "64"),
     ("iterations", "1", "64"),
     ("kernel_radius", "2", "4"),
@@ -18,6 +18,7 @@ pub(in crate::lab::gauntlet) const KNOB_ENDS: [(&str, &str, &str); 12] = [
     ("tension_strength", "0", "1"),
     ("tension_distance", "0.1", "0.3"),
     ("gradient", "spiky", "rational"),
+    ("air_advection", "first_order", "second_order"),
 ];
 
 type Settings = [(&'static str, &'static str); KNOB_ENDS.len()];
