@@ -97,7 +97,7 @@ pub enum AirAdvection {
     /// 0.18 times its speed times a cell's edge would.
     FirstOrder,
     /// What leaves a cell has the velocity of the part of the cell that leaves (limited slopes, van Leer 1979). A step costs
-    /// about 1.8 times as much and smears a tenth or less of that.
+    /// twice as much and smears a thirtieth of that at cells of 4 d (docs/accuracy.md).
     SecondOrder,
 }
 

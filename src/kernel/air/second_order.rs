@@ -82,7 +82,7 @@ impl SecondOrder {
     /// Sums what three neighbouring sources bring to each column, for the rows of targets below, level and above: mass and
     /// momentum.
     #[inline(always)]
-    pub(super) fn carry<L: Lanes>(&mut self, source: Source, row: usize, shares: Shares, mut to: [[&mut [f32]; 3]; 3]) {
+    pub(super) fn carry<L: Lanes>(&mut self, source: Source, row: usize, shares: Shares, to: [[&mut [f32]; 3]; 3]) {
         if self.slope.u.len() != source.stride {
             self.slope.resize(source.stride);
             self.momentum.iter_mut().for_each(|pair| pair.resize(source.stride));
@@ -92,9 +92,10 @@ impl SecondOrder {
         let n = source.width - 2;
         let [_, goes_right, leaves_right] = shifted(shares.right, n);
         let [_, leaves_left, goes_left] = shifted(shares.left, n);
-        let slopes = [&self.slope.u, &self.slope.v].map(|row| shifted(row, n));
-        let masses = shares.masses.map(|row| shifted(row, n));
-        let momenta = self.momentum.each_ref().map(|pair| [&pair.u, &pair.v].map(|row| shifted(row, n)));
+        let [slope_u, slope_v] = [&self.slope.u, &self.slope.v].map(|row| shifted(row, n));
+        let [down, level, up] = shares.masses.map(|row| shifted(row, n));
+        let [of_down, of_level, of_up] = self.momentum.each_ref().map(|Pair { u, v }| [shifted(u, n), shifted(v, n)]);
+        let [mut to_down, mut to_level, mut to_up] = to;
         let (half, one) = (L::splat(0.5), L::splat(1.0));
         for i in lane_starts::<L>(n) {
             let (from_left, from_right) = (L::of(goes_right, i), L::of(goes_left, i));
@@ -107,24 +108,24 @@ impl SecondOrder {
                 half * (stays * (to_left - to_right)),
                 half * (from_right * (from_right - one)),
             ];
-            let [tilted_u, tilted_v] = slopes.map(|slope| product(three(slope, i), moments));
-            for ((mass, [u, v]), to) in masses.iter().zip(&momenta).zip(&mut to) {
-                let mass = three(*mass, i);
-                let sums = [
-                    sum(product(mass, parts)),
-                    sum(product(three(*u, i), parts)) + sum(product(mass, tilted_u)),
-                    sum(product(three(*v, i), parts)) + sum(product(mass, tilted_v)),
-                ];
-                store_three(sums, to, i);
-            }
+            let tilted = [product(three(slope_u, i), moments), product(three(slope_v, i), moments)];
+            store_three(gather(down, of_down, parts, tilted, i), &mut to_down, i);
+            store_three(gather(level, of_level, parts, tilted, i), &mut to_level, i);
+            store_three(gather(up, of_up, parts, tilted, i), &mut to_up, i);
         }
     }
 
     /// Finds the slopes and the momenta of the parts of each cell that go down, stay level and go up.
     #[inline(always)]
     fn part<L: Lanes>(&mut self, source: Source, row: usize, shares: Shares) {
+        self.part_columns::<L>(source, row, shares, 1..source.width - 1, true);
+        self.part_ends(source, row, shares);
+    }
+
+    /// The same for the outermost columns. Kept apart, so that the code of the others stays small enough to be inlined.
+    #[inline(never)]
+    fn part_ends(&mut self, source: Source, row: usize, shares: Shares) {
         let n = source.width - 2;
-        self.part_columns::<L>(source, row, shares, 1..n + 1, true);
         for column in [0, 1, n, n + 1] {
             let k = source.left + column;
             let inside = k > 1 && k + 2 < source.stride;
@@ -183,6 +184,23 @@ impl SecondOrder {
 #[inline(always)]
 pub(super) fn starting_there<L: Lanes>(wind: L, stretch: L) -> L {
     wind * (L::splat(1.0) - stretch)
+}
+
+/// Mass and momentum of the given parts of three cells, of whose velocities `tilted` is the part that slopes add.
+#[inline(always)]
+fn gather<L: Lanes>(
+    mass: [&[f32]; 3],
+    [u, v]: [[&[f32]; 3]; 2],
+    parts: [L; 3],
+    [tilted_u, tilted_v]: [[L; 3]; 2],
+    i: usize,
+) -> [L; 3] {
+    let mass = three(mass, i);
+    [
+        sum(product(mass, parts)),
+        sum(product(three(u, i), parts)) + sum(product(mass, tilted_u)),
+        sum(product(three(v, i), parts)) + sum(product(mass, tilted_v)),
+    ]
 }
 
 #[inline(always)]
