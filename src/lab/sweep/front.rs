@@ -1,10 +1,11 @@
 //! The Pareto front: the rows that no other beats.
 //!
 //! A row is beaten by one that takes no more time and has no more error, and less of at least one. Where a scene has air
-//! but the error is the liquid's, the other one's air cells may be no larger either: the density error does not see what
-//! a finer air grid buys.
+//! but the error is the liquid's, the other one may not smear the air more either: the density error does not see what a
+//! finer air grid or a better scheme buys.
 
 use super::row::Row;
+use crate::kernel::params::{AirAdvection, Quality};
 
 /// What rows are compared by; less is better in each.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,8 +49,17 @@ pub fn front(points: &[Point]) -> Vec<bool> {
 
 /// What a row is compared by.
 pub(super) fn point(row: &Row, air_is_unseen: bool) -> Point {
-    let coarseness = if air_is_unseen { row.setting.quality.air_cell } else { 0.0 };
+    let coarseness = if air_is_unseen { air_viscosity(&row.setting.quality) } else { 0.0 };
     Point { ms: row.ms, error: row.error, coarseness }
+}
+
+/// Viscosity by which the air's scheme smears an eddy, multiples of the eddy's speed, d: at most what the exam's vortex finds
+/// (docs/exam.md).
+fn air_viscosity(quality: &Quality) -> f32 {
+    match quality.air_advection {
+        AirAdvection::FirstOrder => 0.18 * quality.air_cell,
+        AirAdvection::SecondOrder => 0.012 * quality.air_cell,
+    }
 }
 
 /// Marks the rows on the front, those of each number of threads by themselves: threads change no error.
