@@ -1,8 +1,11 @@
 //! Jobs side by side.
 
-use std::sync::{
-    Mutex, PoisonError,
-    atomic::{AtomicUsize, Ordering},
+use std::{
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicUsize, Ordering},
+    },
+    thread,
 };
 
 /// Does all jobs, `side_by_side` at a time, and gives what came of them in their order. The dearest by `dearness` are
@@ -27,9 +30,12 @@ pub fn work<J: Sync, R: Send>(
             done.fetch_add(1, Ordering::Relaxed);
         }
     };
-    std::thread::scope(|scope| {
+    thread::scope(|scope| {
         for _ in 1..side_by_side.min(jobs.len()) {
-            scope.spawn(work);
+            // Where there are no more threads, those that there are do it all.
+            if thread::Builder::new().spawn_scoped(scope, work).is_err() {
+                break;
+            }
         }
         work();
     });
