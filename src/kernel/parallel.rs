@@ -254,6 +254,16 @@ pub(crate) fn cut<const K: usize, T>(arrays: [&mut [T]; K], at: usize) -> ([&mut
     (left, right)
 }
 
+/// Runs `work` in a pool of so many threads. In a module, where a test has no threads, it is done by the caller; pieces are
+/// cut as for all of them even so.
+#[cfg(test)]
+pub(crate) fn in_pool<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
+    if cfg!(target_arch = "wasm32") {
+        return work();
+    }
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads").install(work)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -288,9 +298,8 @@ mod tests {
     #[test]
     fn watched_work_gives_its_result_whoever_watches() {
         for (threads, watchers) in [(1, 0), (1, 3), (2, 1), (4, 3), (4, 7)] {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             for len in [10, 10_000] {
-                let sum = pool.install(|| {
+                let sum = in_pool(threads, || {
                     watched(watchers, || {
                         let mut field = vec![1_u64; len];
                         for _ in 0..20 {

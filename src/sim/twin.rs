@@ -117,7 +117,7 @@ mod tests {
     fn a_twin_goes_the_way_of_the_first_to_the_bit() {
         let mut first = waterfall();
         (0..30).for_each(|_| first.tick());
-        let mut twin = Twin::new(&Seed::of(first.world()), Workers::new(1).unwrap());
+        let mut twin = Twin::new(&Seed::of(first.world()), Workers::single());
         assert_eq!(control::hash(twin.world()), control::hash(first.world()), "the copy differs");
         (0..30).for_each(|_| first.tick());
         (0..30).for_each(|_| twin.tick());

@@ -69,6 +69,7 @@ fn recordings(folder: &Path) -> Vec<PathBuf> {
 }
 
 #[test]
+#[cfg_attr(target_arch = "wasm32", ignore = "a module has no files")]
 fn a_recording_repeats_pauses_undo_wind_and_the_last_edits() {
     let path = file("everything");
     let mut player = recorded(&path);
@@ -101,6 +102,7 @@ fn a_recording_repeats_pauses_undo_wind_and_the_last_edits() {
 }
 
 #[test]
+#[cfg_attr(target_arch = "wasm32", ignore = "a module has no files")]
 fn a_recording_goes_on_at_another_quality_and_back_with_undo() {
     let path = file("qualities");
     let mut player = recorded(&path);
@@ -128,6 +130,7 @@ fn a_recording_goes_on_at_another_quality_and_back_with_undo() {
 }
 
 #[test]
+#[cfg_attr(target_arch = "wasm32", ignore = "a module has no files")]
 fn a_recording_goes_on_through_everything_that_puts_another_world_in_place() {
     let path = file("jumps");
     let mut player = recorded(&path);
@@ -156,6 +159,7 @@ fn a_recording_goes_on_through_everything_that_puts_another_world_in_place() {
 }
 
 #[test]
+#[cfg_attr(target_arch = "wasm32", ignore = "a module has no files")]
 fn a_key_begins_a_recording_and_ends_it_and_another_keeps_the_last_minute() {
     let folder = file("keys").with_extension("d");
     let mut player = Player::new();
@@ -188,6 +192,7 @@ fn a_key_begins_a_recording_and_ends_it_and_another_keeps_the_last_minute() {
 }
 
 #[test]
+#[cfg_attr(target_arch = "wasm32", ignore = "a module has no files")]
 fn a_recording_can_be_watched_and_comes_to_the_same_end() {
     let path = file("watched");
     let mut player = recorded(&path);

@@ -31,6 +31,7 @@ fn load(player: &mut Player, path: &std::path::Path) {
 }
 
 #[test]
+#[cfg_attr(target_arch = "wasm32", ignore = "a module has no files")]
 fn a_saved_world_comes_back_and_loading_can_be_undone() {
     let folder = folder("saves");
     let mut player = painter(&folder);
@@ -57,6 +58,7 @@ fn a_saved_world_comes_back_and_loading_can_be_undone() {
 }
 
 #[test]
+#[cfg_attr(target_arch = "wasm32", ignore = "a module has no files")]
 fn a_broken_file_changes_nothing_and_says_why() {
     let folder = folder("broken");
     let mut player = painter(&folder);
@@ -79,6 +81,7 @@ fn a_broken_file_changes_nothing_and_says_why() {
 }
 
 #[test]
+#[cfg_attr(target_arch = "wasm32", ignore = "a module has no files")]
 fn where_nothing_can_be_written_the_player_is_told() {
     let mut player = Player::new();
     player.0.insert_resource(SaveFolders(vec![PathBuf::from("/dev/null/nowhere")]));

@@ -23,18 +23,15 @@ use crate::{
 };
 use bevy::{
     app::Plugins,
+    platform::time::Instant,
     prelude::{App, FixedUpdate, IntoScheduleConfigs, Res, ResMut},
 };
-use std::{
-    sync::Arc,
-    thread,
-    time::{Duration, Instant},
-};
+use std::{sync::Arc, thread, time::Duration};
 
 fn begin<M>(scene: &str, settings: &[(&str, &str)], plugins: impl Plugins<M>) -> Headless {
     let settings: Vec<_> = settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
     let blueprint = scene::load(scene).unwrap().build(&settings, None, &EffectModes::new()).unwrap();
-    Headless::begin_with(Workers::new(1).unwrap(), plugins, |world| control::load(world, Arc::new(blueprint)))
+    Headless::begin_with(Workers::single(), plugins, |world| control::load(world, Arc::new(blueprint)))
 }
 
 fn survey(headless: &Headless) -> &Survey {

@@ -204,6 +204,7 @@ fn settings_say_what_is_allowed() {
 }
 
 #[test]
+#[cfg_attr(target_arch = "wasm32", ignore = "a module has no files")]
 fn files_that_cannot_be_read_say_why() {
     let fault = |name: &str| load(name).expect_err(name).to_string();
     assert!(

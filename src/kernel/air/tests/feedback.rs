@@ -111,8 +111,7 @@ fn threads_and_instruction_sets_do_not_show() {
         order[..25_000].sort_by_key(|i| (particles.y[*i] / 3.0) as u32);
         particles.x = order.iter().map(|i| particles.x[*i]).collect();
         particles.y = order.iter().map(|i| particles.y[*i]).collect();
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(team.threads).build().unwrap();
-        pool.install(|| (0..3).for_each(|_| exchange(&mut air, DRAG, &mut particles, team)));
+        in_pool(team.threads, || (0..3).for_each(|_| exchange(&mut air, DRAG, &mut particles, team)));
         let speeds = particles.vx.iter().chain(&particles.vy).map(|v| v.to_bits());
         (bits(&air), speeds.collect::<Vec<_>>())
     };

@@ -10,7 +10,7 @@ mod waves;
 
 use super::Air;
 use crate::kernel::element::ElementId;
-use crate::kernel::parallel::Team;
+use crate::kernel::parallel::{Team, in_pool};
 use crate::kernel::params::{AIR_DENSITY, AirAdvection, AirParams, AirScheme, OpenSides};
 use crate::kernel::simd::InstructionSet;
 use crate::kernel::solids::Solids;

@@ -3,7 +3,6 @@
 use super::super::MAX_PRESSURE;
 use super::super::advect::FACE_FILTER;
 use super::*;
-use rayon::ThreadPoolBuilder;
 
 /// The slope of a field in a cell along `step` by its definition: 0 at a peak, else of the three differences the least.
 fn slope(air: &Air, field: &[f32], k: isize, step: isize) -> f64 {
@@ -256,8 +255,7 @@ fn parallel_is_serial_bit_for_bit_for_any_number_of_threads() {
     };
     let serial = step(1);
     for threads in [2, 3, 5, 40] {
-        let pool = ThreadPoolBuilder::new().num_threads(threads.min(5)).build().unwrap();
-        assert!(pool.install(|| step(threads)) == serial, "{threads} threads");
+        assert!(in_pool(threads.min(5), || step(threads)) == serial, "{threads} threads");
     }
 }
 

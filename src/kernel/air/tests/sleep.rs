@@ -117,8 +117,7 @@ fn sleep_shows_no_threads_lanes_or_copies() {
         let mut air = sleeping(300, 200, 4.0);
         air.set_solids(&walls(300, 200));
         let fan = Wind { area: rect(20.0, 20.0, 60.0, 60.0), velocity: Vec2::new(80.0, 40.0), rate: 5.0 };
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(team.threads).build().unwrap();
-        pool.install(|| {
+        in_pool(team.threads, || {
             let mut partly = 0;
             for tick in 0..90 {
                 if tick % 20 == 3 {
