@@ -20,6 +20,8 @@
 //! egui, a window or a renderer, and builds without them (`--no-default-features`).
 
 #![forbid(unsafe_op_in_unsafe_fn)]
+#![cfg_attr(all(test, target_arch = "wasm32"), feature(custom_test_frameworks, test))]
+#![cfg_attr(all(test, target_arch = "wasm32"), test_runner(crate::web::suite::run))]
 
 #[cfg(not(target_arch = "wasm32"))]
 pub mod cli;

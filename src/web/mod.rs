@@ -15,5 +15,7 @@ mod host;
 mod measure;
 #[cfg(all(target_arch = "wasm32", feature = "app"))]
 mod start;
+#[cfg(all(test, target_arch = "wasm32"))]
+pub(crate) mod suite;
 #[cfg(all(target_arch = "wasm32", target_feature = "atomics"))]
 mod threads;

@@ -18,13 +18,27 @@ pub struct Bound {
 /// Writes the script that takes the module into a page.
 pub fn bind(module: &Path, places: &Places) -> Result<Bound, Fault> {
     eprintln!("binding it to JavaScript");
-    fs::create_dir_all(&places.work).map_err(|error| Fault::file(&places.work, error))?;
     let mut bindgen = Bindgen::new();
-    bindgen.input_path(module).out_name("powder-master").typescript(false);
-    bindgen.remove_name_section(true).remove_producers_section(true).omit_default_module_path(true);
+    bindgen.remove_name_section(true).remove_producers_section(true);
+    write(bindgen.input_path(module), &places.work, "powder-master")
+}
+
+/// Writes the script that takes the module of the tests into node.
+pub fn bind_suite(module: &Path, places: &Places) -> Result<(), Fault> {
+    let bound = write(Bindgen::new().input_path(module), &places.suite, "suite")?;
+    // Node takes a script for a module by its ending.
+    let script = bound.script.with_extension("mjs");
+    fs::rename(&bound.script, &script).map_err(|error| Fault::file(&script, error))
+}
+
+fn write(bindgen: &mut Bindgen, folder: &Path, name: &str) -> Result<Bound, Fault> {
+    fs::create_dir_all(folder).map_err(|error| Fault::file(folder, error))?;
     bindgen
+        .out_name(name)
+        .typescript(false)
+        .omit_default_module_path(true)
         .web(true)
-        .and_then(|bindgen| bindgen.generate(&places.work))
+        .and_then(|bindgen| bindgen.generate(folder))
         .map_err(|error| Fault::failed(format!("wasm-bindgen: {error:#}")))?;
-    Ok(Bound { wasm: places.work.join("powder-master_bg.wasm"), script: places.work.join("powder-master.js") })
+    Ok(Bound { wasm: folder.join(format!("{name}_bg.wasm")), script: folder.join(format!("{name}.js")) })
 }

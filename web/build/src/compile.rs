@@ -1,6 +1,7 @@
 //! Source → module: cargo, with the standard library built along.
 
 use crate::{Places, fault::Fault, tool};
+use serde_json::Value;
 use std::{env, path::PathBuf, process::Command};
 
 /// For all crates. `embed-bitcode` lets the last step optimise across crates, whatever cargo's profile says.
@@ -25,24 +26,48 @@ const MODULE_FLAGS: [&str; 8] = [
 /// For a small module: what no crate needs of another goes. Takes minutes and spares one part in twenty.
 const ACROSS_CRATES: &str = "-Clto=fat";
 
+/// The tests are built as the game is, so they share its crates; only their own has the checks of a debug build, and is
+/// compiled in pieces side by side. `panic_abort` is of no effect but that the crates are the same.
+const SUITE: [&str; 2] = ["debug-assertions=true", "codegen-units=16"];
+
 /// Compiles the game, for size or soon, and says where its module is.
 pub fn compile(places: &Places, quick: bool) -> Result<PathBuf, Fault> {
     eprintln!("compiling the game for wasm32 (the first time takes a while)");
-    let target = places.root.join("target/wasm");
-    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let mut command = Command::new(cargo);
-    command
+    let mut command = cargo("rustc", places);
+    command.args(["--crate-type", "cdylib", "--"]).args(MODULE_FLAGS).args((!quick).then_some(ACROSS_CRATES));
+    tool::run(&mut command).map_err(|_| Fault::failed("the game does not compile for wasm32 (see above)"))?;
+    Ok(places.target.join("wasm32-unknown-unknown/web/powder_master.wasm"))
+}
+
+/// Compiles the tests of the library, and says where their module is.
+pub fn compile_suite(places: &Places) -> Result<PathBuf, Fault> {
+    eprintln!("compiling the tests for wasm32 (the first time takes a while)");
+    let mut command = cargo("test", places);
+    command.args(["--no-run", "--message-format", "json-render-diagnostics", "-Zpanic-abort-tests"]);
+    let flags = format!("rustflags={MODULE_FLAGS:?}");
+    for setting in SUITE.into_iter().chain([flags.as_str()]) {
+        command.arg("--config").arg(format!("profile.web.package.powder-master.{setting}"));
+    }
+    let messages = tool::output_of_loud(command.arg("-Zprofile-rustflags"))
+        .map_err(|_| Fault::failed("the tests do not compile for wasm32 (see above)"))?;
+    let mut messages = messages.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
+    messages
+        .find_map(|message| message.get("executable")?.as_str().map(PathBuf::from))
+        .ok_or_else(|| Fault::failed("cargo does not say where the module of the tests is"))
+}
+
+/// A command of cargo about the library for wasm32, with the standard library built along.
+fn cargo(command: &str, places: &Places) -> Command {
+    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo
         .current_dir(&places.root)
         // Building the standard library is not stable yet, but this compiler can.
         .env("RUSTC_BOOTSTRAP", "1")
         .env("CARGO_ENCODED_RUSTFLAGS", FLAGS.join("\x1f"))
         .env_remove("RUSTFLAGS")
-        .args(["rustc", "--package", "powder-master", "--lib", "--crate-type", "cdylib", "--profile", "web"])
-        .args(["--target", "wasm32-unknown-unknown", "-Zbuild-std=std,panic_abort", "--target-dir"])
-        .arg(&target)
-        .arg("--")
-        .args(MODULE_FLAGS)
-        .args((!quick).then_some(ACROSS_CRATES));
-    tool::run(&mut command).map_err(|_| Fault::failed("the game does not compile for wasm32 (see above)"))?;
-    Ok(target.join("wasm32-unknown-unknown/web/powder_master.wasm"))
+        .args([command, "--package", "powder-master", "--lib", "--profile", "web"])
+        // `test` is for the tests; it is not in the game, but so the crates are the same for both.
+        .args(["--target", "wasm32-unknown-unknown", "-Zbuild-std=std,panic_abort,test", "--target-dir"])
+        .arg(&places.target);
+    cargo
 }

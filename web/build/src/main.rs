@@ -1,8 +1,11 @@
-//! `cargo web`: builds the game for the browser into `dist/` and serves it on this machine.
+//! `cargo web`: builds the game for the browser into `dist/` and serves it on this machine, or runs the library's tests as a
+//! module.
 //!
 //! ```text
 //! source ─► compile ─► bind ─► optimise ─► pack ─► serve
 //! std's     cargo      JS      wasm-opt    dist/   localhost
+//!                       └► suite
+//!                          node
 //! ```
 
 mod bind;
@@ -12,6 +15,7 @@ mod optimise;
 mod pack;
 mod serve;
 mod source;
+mod suite;
 mod tool;
 
 use clap::Parser;
@@ -27,13 +31,16 @@ use std::{
 #[command(name = "cargo web", version)]
 struct Options {
     /// Only build
-    #[arg(long, conflicts_with = "serve")]
+    #[arg(long, conflicts_with_all = ["serve", "test"])]
     build: bool,
     /// Only serve what was built before
-    #[arg(long)]
+    #[arg(long, conflicts_with = "test")]
     serve: bool,
+    /// Only run the library's tests as a module under node; of those whose name has NAME in it, if it is given
+    #[arg(long, value_name = "NAME", num_args = 0..=1, default_missing_value = "")]
+    test: Option<String>,
     /// Leave the module as large as the compiler made it, without compressed copies: builds sooner
-    #[arg(long)]
+    #[arg(long, conflicts_with = "test")]
     quick: bool,
     /// Port of the server on this machine; 0 takes a free one
     #[arg(long, value_name = "N", default_value_t = 8080)]
@@ -44,6 +51,10 @@ struct Options {
 struct Places {
     /// The repository.
     root: PathBuf,
+    /// What is compiled.
+    target: PathBuf,
+    /// The module of the tests and its script.
+    suite: PathBuf,
     /// What is between source and `dist/`.
     work: PathBuf,
     /// What a host serves.
@@ -64,7 +75,13 @@ fn main() -> ExitCode {
 fn run(options: &Options) -> Result<(), Fault> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let root = root.canonicalize().map_err(|error| Fault::file(&root, error))?;
-    let places = Places { work: root.join("target/wasm/page"), dist: root.join("dist"), root };
+    let target = root.join("target/wasm");
+    let (suite, work) = (target.join("suite"), target.join("page"));
+    let places = Places { dist: root.join("dist"), suite, work, target, root };
+    if let Some(name) = &options.test {
+        source::require()?;
+        return suite::test(name, &places);
+    }
     if !options.serve {
         build(&places, options.quick)?;
     }

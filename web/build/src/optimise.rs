@@ -43,7 +43,7 @@ fn find(places: &Places) -> Result<PathBuf, Fault> {
     if is_fit(&on_path) {
         return Ok(on_path);
     }
-    let tools = places.root.join("target/wasm/tools");
+    let tools = places.target.join("tools");
     let from_npm = tools.join("node_modules/.bin/wasm-opt");
     if !is_fit(&from_npm) && tool::exists("npm") {
         eprintln!("getting wasm-opt: {FROM_NPM}");

@@ -20,10 +20,19 @@ pub fn run(command: &mut Command) -> Result<(), Fault> {
     }
 }
 
-/// What a program writes to its output.
+/// What a program writes to its output; what it says beside it is lost.
 pub fn output(command: &mut Command) -> Result<String, Fault> {
+    listen(command.stderr(Stdio::null()))
+}
+
+/// What a program writes to its output; what it says beside it goes to the terminal.
+pub fn output_of_loud(command: &mut Command) -> Result<String, Fault> {
+    listen(command.stderr(Stdio::inherit()))
+}
+
+fn listen(command: &mut Command) -> Result<String, Fault> {
     let name = command.get_program().display().to_string();
-    match command.stderr(Stdio::null()).output() {
+    match command.output() {
         Ok(output) if output.status.success() => Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned()),
         Ok(output) => Err(Fault::failed(format!("{name} ended with {}", output.status))),
         Err(error) => {
