@@ -27,7 +27,7 @@ const MODULE_FLAGS: [&str; 8] = [
 const ACROSS_CRATES: &str = "-Clto=fat";
 
 /// The tests are built as the game is, so they share its crates; only their own has the checks of a debug build, and is
-/// compiled in pieces side by side. `panic_abort` is of no effect but that the crates are the same.
+/// compiled in pieces side by side.
 const SUITE: [&str; 2] = ["debug-assertions=true", "codegen-units=16"];
 
 /// Compiles the game, for size or soon, and says where its module is.
@@ -43,7 +43,8 @@ pub fn compile(places: &Places, quick: bool) -> Result<PathBuf, Fault> {
 pub fn compile_suite(places: &Places) -> Result<PathBuf, Fault> {
     eprintln!("compiling the tests for wasm32 (the first time takes a while)");
     let mut command = cargo("test", places);
-    command.args(["--no-run", "--message-format", "json-render-diagnostics", "-Zpanic-abort-tests"]);
+    // Cargo would compile all crates anew, for tests that unwind, which a module can't.
+    command.arg("-Zpanic-abort-tests").args(["--no-run", "--message-format", "json-render-diagnostics"]);
     let flags = format!("rustflags={MODULE_FLAGS:?}");
     for setting in SUITE.into_iter().chain([flags.as_str()]) {
         command.arg("--config").arg(format!("profile.web.package.powder-master.{setting}"));
