@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Longest move of a substep, in kernel radii. Collision with rock is exact at any speed; what this bounds is how deep
 /// two streams can enter each other before the density constraint sees them: up to two kernel diameters each.
-const MOVE_RADII: f32 = 4.0;
+pub(crate) const MOVE_RADII: f32 = 4.0;
 /// Substeps that a fast tick may take, as a multiple of the quality's.
 const SUBSTEP_GROWTH: u32 = 4;
 

@@ -181,9 +181,8 @@ fn speeds(sandbox: &Sandbox) -> Result<(), Fault> {
     let (plan, setup) = (sandbox.get::<TickPlan>(), sandbox.get::<Setup>());
     let dt = plan.substep_seconds();
     let correction = std::f32::consts::SQRT_2 * setup.quality.longest_correction();
-    // Confinement adds to that: a tenth in a shear wave, more in a crowd that is pressed together (0.29 in `ends-low`). The
-    // next substep cuts it again.
-    let most = 1.5 * (longest_move(&setup.quality) + correction) / dt;
+    // Confinement adds a tenth of the longest move. The next substep cuts it again.
+    let most = (1.1 * longest_move(&setup.quality) + correction) / dt;
     let particles = sandbox.particles();
     let fastest = (0..particles.len()).map(|i| particles.velocity(i).length()).fold(0.0, f32::max);
     demand(fastest <= most, || format!("a speed of {fastest} d/s; the limiters leave {most}"))

@@ -1,6 +1,7 @@
 //! Viscosity and vorticity confinement against what is known of them.
 
 use super::*;
+use crate::kernel::predict::longest_move;
 use crate::kernel::{
     params::{GradientKernel, Preset},
     pbf::tests::{Bench, random_numbers},
@@ -245,5 +246,27 @@ fn confinement_makes_no_wave_grow_faster_than_its_bound_says_whatever_its_streng
                 );
             }
         }
+    }
+}
+
+#[test]
+fn confinement_pushes_no_crowd_further_than_its_cap() {
+    let quality = Preset::Balanced.quality();
+    let (dt, strength) = (0.01, 0.06 * quality.kernel_radius / 0.01);
+    let cap = 0.1 * longest_move(&quality) / dt;
+    for (across, is_crowd) in [(20.0, false), (0.4, true)] {
+        let mut bench = Bench::new(60, 60, Preset::Balanced);
+        let mut random = random_numbers(31);
+        for _ in 0..400 {
+            let at = Vec2::splat(30.0) + across * (Vec2::new(random(), random()) - 0.5);
+            bench.add(at, 600.0 * Vec2::new(random() - 0.5, random() - 0.5));
+        }
+        bench.solve(false);
+        let before = bench.particles.clone();
+        let report = apply_vorticity(&mut bench.particles, &mut bench.solver, &[strength], 1, dt);
+        let changes = (0..400).map(|i| bench.particles.velocity(i).distance(before.velocity(i)));
+        let furthest = changes.fold(0.0, f32::max);
+        assert!(furthest <= 1.0001 * cap, "{furthest} d/s; the cap is {cap}");
+        assert_eq!(report.clamps > 0, is_crowd, "{} pushes were cut, the largest is {furthest}", report.clamps);
     }
 }

@@ -11,6 +11,10 @@
 //! for, and no step makes it neutral; viscosity c takes `c (1 − Ŵ₆) ≈ ½ c` a tick off the same wave and so wins, short
 //! waves over long, for `ε ≤ 0.34 c h/tick`. What a step must not do is to make more of a wave than a small part of it:
 //! **`ε Δt ≤ 0.07 h`**, a tenth. A strength beyond it is cut to it, and counted.
+//!
+//! That holds where particles stand as far apart as the liquid's density has it. In a crowd that is pressed together ω, a
+//! sum, is larger by as much as the crowd is denser, and so is the push. No push changes a speed by more than a tenth of
+//! the longest move of a substep; one beyond it is cut to it, and counted.
 
 use crate::kernel::{
     bins::Group,
@@ -18,17 +22,24 @@ use crate::kernel::{
     params::GradientKernel,
     particles::Particles,
     pbf::Solver,
+    predict::MOVE_RADII,
     simd::{Lanes, Pass},
     smoothing::{Gradient, Rational, Smoothing, Spiky},
     velocity::{StrengthReport, viscosity::share_of},
 };
-use std::marker::PhantomData;
+use std::{
+    marker::PhantomData,
+    sync::atomic::{AtomicU64, Ordering},
+};
 
 /// Gradient of |ω| at which confinement is half in force, 1/(s d).
 const STEADY: f32 = 1.0;
 
 /// Largest ε Δt as a share of the kernel radius: the bound.
 const MOST_GAIN: f32 = 0.07;
+
+/// Largest change of a particle's speed, longest moves a substep.
+const MOST_CHANGE: f32 = 0.1;
 
 /// Applies vorticity confinement over `dt` s; `strengths` gives ε for each element, d/s.
 pub fn apply_vorticity(
@@ -38,11 +49,11 @@ pub fn apply_vorticity(
     threads: usize,
     dt: f32,
 ) -> StrengthReport {
-    let report = StrengthReport::of(&particles.element, strengths, most_strength(solver, dt));
-    match solver.smoothing.gradient {
+    let mut report = StrengthReport::of(&particles.element, strengths, most_strength(solver, dt));
+    report.clamps += match solver.smoothing.gradient {
         GradientKernel::Spiky => confine::<Spiky>(particles, solver, strengths, threads, dt),
         GradientKernel::Rational => confine::<Rational>(particles, solver, strengths, threads, dt),
-    }
+    };
     report
 }
 
@@ -51,8 +62,17 @@ fn most_strength(solver: &Solver, dt: f32) -> f32 {
     MOST_GAIN * solver.smoothing.radius / dt
 }
 
-fn confine<G: Gradient>(particles: &mut Particles, solver: &mut Solver, strengths: &[f32], threads: usize, dt: f32) {
+/// Confines, and counts the particles whose push was cut.
+fn confine<G: Gradient>(
+    particles: &mut Particles,
+    solver: &mut Solver,
+    strengths: &[f32],
+    threads: usize,
+    dt: f32,
+) -> u64 {
     let most = most_strength(solver, dt);
+    let most_change = MOST_CHANGE * MOVE_RADII * solver.smoothing.radius / dt;
+    let cuts = AtomicU64::new(0);
     // ω lives in the array of λ, which is free between two solves.
     let Solver { bins, smoothing, instructions, next_x, next_y, lambda: vorticity, .. } = solver;
     let read = &*particles;
@@ -63,12 +83,26 @@ fn confine<G: Gradient>(particles: &mut Particles, solver: &mut Solver, strength
     let outputs = [&mut next_x[..], &mut next_y[..]];
     parallel::split(bins.groups(), outputs, threads, &|groups, base, out| {
         let gradient = PhantomData::<G>;
-        let pass =
-            ConfinementPass { smoothing, particles: read, vorticity, strengths, most, groups, base, out, dt, gradient };
-        instructions.run(pass);
+        let mut own_cuts = 0;
+        instructions.run(ConfinementPass {
+            smoothing,
+            particles: read,
+            vorticity,
+            strengths,
+            most,
+            most_change,
+            groups,
+            base,
+            out,
+            cuts: &mut own_cuts,
+            dt,
+            gradient,
+        });
+        cuts.fetch_add(own_cuts, Ordering::Relaxed);
     });
     std::mem::swap(&mut particles.vx, next_x);
     std::mem::swap(&mut particles.vy, next_y);
+    cuts.into_inner()
 }
 
 /// Finds ω.
@@ -115,10 +149,14 @@ struct ConfinementPass<'a, G> {
     strengths: &'a [f32],
     /// Largest strength.
     most: f32,
+    /// Largest change of speed, d/s.
+    most_change: f32,
     groups: &'a [Group],
     base: usize,
     /// Out: velocities, d/s.
     out: [&'a mut [f32]; 2],
+    /// Out: particles whose change was cut.
+    cuts: &'a mut u64,
     dt: f32,
     gradient: PhantomData<G>,
 }
@@ -128,6 +166,7 @@ impl<G: Gradient> Pass for ConfinementPass<'_, G> {
     fn run<L: Lanes>(self) {
         let (h, zero) = (L::splat(self.smoothing.radius), L::splat(0.0));
         let (h2, core, scale) = (h * h, L::splat(self.smoothing.core), L::splat(-self.smoothing.gradient_scale));
+        let (most, least, one) = (L::splat(self.most_change), L::splat(f32::MIN_POSITIVE), L::splat(1.0));
         let [out_x, out_y] = self.out;
         for group in self.groups {
             let own = group.particles();
@@ -152,8 +191,14 @@ impl<G: Gradient> Pass for ConfinementPass<'_, G> {
             let push = L::load(&share_of(self.strengths, self.most, elements, self.dt)) * curl / length;
             let (vx, vy) = (L::load(&self.particles.vx[own.start..]), L::load(&self.particles.vy[own.start..]));
             let out = own.start - self.base..own.end - self.base;
-            (vx + slope_y * push).store(&mut out_x[out.clone()]);
-            (vy - slope_x * push).store(&mut out_y[out]);
+            let (change_x, change_y) = (slope_y * push, slope_x * push);
+            let size = (change_x * change_x + change_y * change_y).sqrt();
+            let kept = (most / size.max(least)).min(one);
+            let mut shares = [1.0; 16];
+            kept.store(&mut shares[..own.len()]);
+            *self.cuts += shares.iter().filter(|kept| **kept < 1.0).count() as u64;
+            (vx + change_x * kept).store(&mut out_x[out.clone()]);
+            (vy - change_y * kept).store(&mut out_y[out]);
         }
     }
 }
