@@ -17,7 +17,10 @@
 //! air       √( Σ |u − u'|² / max(⟨Σ |u'|²⟩, n u₀²) )      root mean square difference of air velocity, likewise
 //! ```
 //!
-//! where ' is the reference, ⟨ ⟩ the mean over its samples, M' its mass, n its cells with air and u₀ a speed that is calm
+//! Eddies of air are shed at another moment in each run. Over a whole run the air is therefore compared by its mean over the
+//! run's samples, not sample by sample: two runs of the same wake have that in common.
+//!
+//! Here ' is the reference, ⟨ ⟩ the mean over its samples, M' its mass, n its cells with air and u₀ a speed that is calm
 //! to the eye, 0.02 d a tick, so that what rests is not compared with nothing.
 
 use crate::{
@@ -68,7 +71,7 @@ pub struct Distance {
     pub share: Option<f64>,
     /// Difference of momentum against the reference's.
     pub momentum: Option<f64>,
-    /// Root mean square difference of air velocity against the reference's.
+    /// Root mean square difference of air velocity against the reference's; over a run, of its mean.
     pub air: Option<f64>,
 }
 
@@ -115,6 +118,19 @@ impl CoarseField {
             field.air = places.map(|corner| mean_velocity(air, rock, corner, matter.domain.size) * d).collect();
         }
         field
+    }
+
+    /// The mean of the air of these samples, without the liquid.
+    pub fn mean_air<'a>(samples: impl IntoIterator<Item = &'a Self>) -> Self {
+        let (mut mean, mut count) = (Self::default(), 0.0);
+        for sample in samples {
+            mean.air.resize(sample.air.len(), DVec2::ZERO);
+            mean.air.iter_mut().zip(&sample.air).for_each(|(sum, u)| *sum += *u);
+            mean.calm = sample.calm;
+            count += 1.0;
+        }
+        mean.air.iter_mut().for_each(|sum| *sum /= count);
+        mean
     }
 
     /// Sums over this field as a reference.
@@ -211,6 +227,19 @@ mod tests {
         assert!((distance.share.unwrap() - 0.5).abs() < 1e-3, "{distance:?}");
         assert_eq!(distance.momentum, Some(0.0), "all is at rest");
         assert_eq!(distance.air, None, "the scene has no air");
+    }
+
+    #[test]
+    fn air_that_swings_in_another_phase_has_the_same_mean() {
+        let sample = |u: f64| CoarseField { air: vec![DVec2::new(3.0, u); 4], calm: 1e-3, ..CoarseField::default() };
+        let (own, reference) = ([sample(2.0), sample(-2.0)], [sample(-2.0), sample(2.0)]);
+        let against = CoarseField::magnitudes(&reference);
+        assert!(own[0].distance(&reference[0], against).air.unwrap() > 1.0);
+        let means = [&own, &reference].map(CoarseField::mean_air);
+        assert_eq!(means[0].distance(&means[1], against), Distance { air: Some(0.0), ..Distance::default() });
+        let slower = [sample(2.0), sample(-1.0)];
+        assert!(CoarseField::mean_air(&slower).distance(&means[1], against).air.unwrap() > 0.1);
+        assert!(CoarseField::mean_air([]).distance(&CoarseField::mean_air([]), against).air.is_none());
     }
 
     #[test]

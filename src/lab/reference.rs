@@ -90,12 +90,13 @@ pub struct Follower<'a> {
     reference: &'a Reference,
     tick: u64,
     points: Vec<Point>,
+    fields: Vec<CoarseField>,
 }
 
 impl<'a> Follower<'a> {
     /// A follower of a run that begins.
     pub fn new(reference: &'a Reference) -> Self {
-        Self { reference, tick: 0, points: Vec::new() }
+        Self { reference, tick: 0, points: Vec::new(), fields: Vec::new() }
     }
 
     /// What it saw, in the order of the ticks.
@@ -103,10 +104,15 @@ impl<'a> Follower<'a> {
         &self.points
     }
 
-    /// Mean distance over what it saw after the first `warmup` ticks.
+    /// Mean distance over what it saw after the first `warmup` ticks; of the air, distance of the means.
     pub fn mean(&self, warmup: u64) -> Distance {
-        let counted = self.points.iter().filter(|point| point.tick > warmup);
-        Distance::mean(&counted.map(|point| point.distance).collect::<Vec<_>>())
+        let first = self.points.partition_point(|point| point.tick <= warmup);
+        let (points, fields) = (&self.points[first..], &self.fields[first..]);
+        let samples = &self.reference.samples[first..self.points.len()];
+        let (own, reference) =
+            (CoarseField::mean_air(fields), CoarseField::mean_air(samples.iter().map(|sample| &sample.field)));
+        let liquid = Distance::mean(&points.iter().map(|point| point.distance).collect::<Vec<_>>());
+        Distance { air: own.distance(&reference, self.reference.magnitude).air, ..liquid }
     }
 }
 
@@ -122,6 +128,7 @@ impl Observer for Follower<'_> {
                 distance: own.field.distance(&reference.field, self.reference.magnitude),
                 energy_ratio: own.energy / reference.energy,
             });
+            self.fields.push(own.field);
         }
         Ok(())
     }

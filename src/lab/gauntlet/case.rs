@@ -49,6 +49,7 @@ pub const CASES: &[Case] = &[
     cases::air::ONE_CELL_HOLE,
     cases::air::SEALED_ROCK,
     cases::air::VORTEX,
+    cases::air::OPEN_BOX,
     cases::matter::VORTICITY_BOUND,
     cases::matter::VORTICITY_BEYOND,
     cases::matter::VISCOSITY_BOUND,

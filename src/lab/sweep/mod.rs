@@ -59,7 +59,7 @@ impl ErrorMeasure {
     pub fn title(self) -> &'static str {
         match self {
             Self::Density => "density error, 99th percentile",
-            Self::Air => "distance of air velocity to the reference",
+            Self::Air => "distance of mean air velocity to the reference",
         }
     }
 }

@@ -58,7 +58,7 @@ fn heading(subject: &Subject, rows: &[Row]) -> String {
         ErrorMeasure::Density => {
             "Error: the density error, a fraction, from positions alone; p99 is what the front goes by."
         }
-        ErrorMeasure::Air => "Error: the distance of the air's velocity to that of the reference, a fraction.",
+        ErrorMeasure::Air => "Error: the distance of the air's mean velocity to that of the reference, a fraction.",
     };
     let of_threads = if *threads == 1 { "1 thread".to_owned() } else { format!("{threads} threads") };
     format!(

@@ -34,7 +34,7 @@ pub const COLUMNS: [(&str, &str); 33] = [
     ("lost", "particles that were not finite, and particle-ticks outside the box or in rock"),
     ("distance_share", "distance to the reference: liquid in another coarse cell, a fraction"),
     ("distance_momentum", "distance to the reference: momentum"),
-    ("distance_air", "distance to the reference: air velocity"),
+    ("distance_air", "distance to the reference: mean air velocity"),
     ("particles", "particles at the end, rock included"),
     ("front", "whether no valid setting beats it: true or false"),
     ("faults", "what makes the row invalid, separated by semicolons"),
