@@ -95,12 +95,13 @@ fn world(ui: &mut Ui, setup: &Setup, clock: &Clock) {
         clock.tick as f32 * crate::kernel::units::TICK_SECONDS,
     )));
     ui.label(weak(format!(
-        "{}: substeps × iterations {} × {}, h = {} d, air cell {} d",
+        "{}: substeps × iterations {} × {}, h = {} d, air cell {} d, {}",
         setup.preset.name(),
         quality.substeps,
         quality.iterations,
         quality.kernel_radius,
         quality.air_cell,
+        quality.air_advection.words(),
     )));
 }
 
