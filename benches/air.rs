@@ -2,7 +2,8 @@
 //!
 //! Criterion's `thrpt` is cells × substeps a second; its inverse is the time of one (250 Melem/s are 4 ns).
 //!
-//! Medians on one thread of a shared AMD EPYC (family 26), interleaved with what was before, which knew SSE2 only:
+//! Medians on one thread of a shared AMD EPYC (family 26), to first order, interleaved with what was before, which knew SSE2
+//! only:
 //!
 //! | cells | AVX-512 | AVX2 | SSE2 | scalar | before |
 //! |---|---|---|---|---|---|
@@ -10,7 +11,7 @@
 //! | 153 × 96 | 3.3 ns | 3.7 ns | 4.8 ns | 15.3 ns | 5.0 ns |
 //! | 512 × 512 | 3.5 ns | 3.7 ns | 4.8 ns | 16.7 ns | 4.9 ns |
 //!
-//! (The Powder Toy: 22.5 ns.)
+//! Second order takes twice as long. (The Powder Toy: 22.5 ns.)
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::{IVec2, Vec2};
