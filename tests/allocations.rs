@@ -15,6 +15,8 @@ use std::{
         Arc, Mutex,
         atomic::{AtomicBool, AtomicU64, Ordering},
     },
+    thread,
+    time::Duration,
 };
 
 /// Ticks that are counted.
@@ -77,6 +79,8 @@ fn count(scene: &str, settings: &[(&str, &str)], threads: usize, warm_up: u64) -
     for _ in 0..warm_up {
         headless.tick();
     }
+    // Threads of the pool may begin later than this one, and the warm-up of an empty world is over in a moment.
+    thread::sleep(Duration::from_millis(100));
     ALLOCATIONS.store(0, Ordering::Relaxed);
     COUNTS.store(true, Ordering::Relaxed);
     for _ in 0..TICKS {
