@@ -10,6 +10,7 @@
 //! | `grid` | the state, who may see it | | |
 //! | `shape` | what follows from rock: open faces, corners, rooms | `Shape` | the solid cells |
 //! | `advect` | pass 1: shares mass and momentum out | rows of new pressure, momentum | pressure, velocity |
+//! | `second_order` | gives each share the velocity of its part of the cell | rows of momentum | velocity, shares |
 //! | `pressure` | pass 2: pushes pairs | new velocity | rows of new pressure, momentum |
 //! | `band` | both passes over some rows | new pressure, new velocity | pressure, velocity |
 //! | `edges` | the open sides | the ring around the box, outermost cells | pressure, velocity |
