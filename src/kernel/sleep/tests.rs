@@ -1,5 +1,6 @@
-use super::*;
+use super::{falling::LOOKS, *};
 use crate::kernel::{
+    air::Air,
     element::ElementId,
     params::{AIR_DENSITY, AirParams, OpenSides},
 };

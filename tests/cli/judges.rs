@@ -1,0 +1,94 @@
+//! What measures and judges: `bench scaling`, `exam`, `gauntlet`.
+
+use crate::{folder, good, refused};
+use serde_json::Value;
+
+#[test]
+fn bench_scaling_writes_table_json_and_curves() {
+    let here = folder("scaling");
+    std::fs::write(
+        here.join("others.json"),
+        r#"[{"name": "another program", "figures": [{"particles": 1500, "ms": 9, "error_p99": 0.2}, {"particles": 1e4, "ms": 61}]}]"#,
+    )
+    .unwrap();
+    refused(
+        &here,
+        &["bench", "scaling", "--quick", "--beside", "others.json"],
+        2,
+        &["others.json", "10000", "allowed"],
+    );
+    let good_one = r#"[{"name": "another program", "figures": [{"particles": 1500, "ms": 9, "error_p99": 0.2}]}]"#;
+    std::fs::write(here.join("others.json"), good_one).unwrap();
+    // The smallest size only.
+    let options =
+        ["--quick", "--up-to", "1458", "--threads", "2", "--json", "out.json", "--svg", ".", "--beside", "others.json"];
+    let table = good(&here, &[&["bench", "scaling"], &options[..]].concat());
+    let report: Value = serde_json::from_slice(&std::fs::read(here.join("out.json")).unwrap()).unwrap();
+    let rows = report["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 7, "the presets and the plain method at its best");
+    for row in rows {
+        assert_eq!(row["particles"], 1458);
+        assert_eq!(row["threads"], serde_json::json!([1, 2]));
+        assert_eq!(row["same_hash"], true);
+        assert_eq!(row["escaped"], 0);
+        assert!(row["ms"].as_array().unwrap().iter().all(|ms| ms.as_f64().unwrap() > 0.0));
+        assert!(row["error_p99"].as_f64().unwrap() < 0.5);
+        let name = row["setting"].as_str().unwrap();
+        assert!(
+            table.lines().any(|line| line.starts_with(&format!("| 1,458 | `{name}` |"))),
+            "no row of {name} in\n{table}"
+        );
+    }
+    let error = |name: &str| rows.iter().find(|row| row["setting"] == name).unwrap()["error_p99"].as_f64().unwrap();
+    assert!(error("fine") < error("draft") && error("reference") < error("fine"), "accuracy is bought");
+    for name in ["scaling-time.svg", "scaling-error.svg", "scaling-threads.svg"] {
+        let svg = std::fs::read_to_string(here.join(name)).unwrap();
+        assert!(svg.contains("balanced") && svg.ends_with("</svg>\n"), "{name}");
+    }
+    assert!(std::fs::read_to_string(here.join("scaling-time.svg")).unwrap().contains("another program"));
+}
+
+#[test]
+fn the_exam_prints_its_rows_and_fails_if_one_does() {
+    let here = folder("exam");
+    let arguments = ["exam", "--case", "free_fall", "--case", "pulse", "--quality", "draft", "--quality", "balanced"];
+    let table = good(&here, &[&arguments[..], &["--json", "rows.json", "--markdown", "rows.md"]].concat());
+    assert!(table.contains("| free_fall") && table.contains("| balanced") && table.contains("0 fail"), "{table}");
+    let rows: Value = serde_json::from_str(&std::fs::read_to_string(here.join("rows.json")).unwrap()).unwrap();
+    let rows = rows["rows"].as_array().unwrap();
+    assert_eq!(
+        rows.len(),
+        table.lines().filter(|line| line.starts_with("| free_fall") || line.starts_with("| pulse")).count()
+    );
+    for row in rows {
+        let [expected, got, error] = ["expected", "got", "error"].map(|key| row[key].as_f64().unwrap());
+        let error_of = (got - expected).abs() / if row["relative"] == true { expected.abs() } else { 1.0 };
+        assert!((error - error_of).abs() <= 1e-12 && row["milliseconds"].as_f64().unwrap() > 0.0, "{row}");
+        assert_eq!(row["verdict"] == "pass", error <= row["tolerance"].as_f64().unwrap(), "{row}");
+    }
+    let document = std::fs::read_to_string(here.join("rows.md")).unwrap();
+    assert!(document.contains("## Free fall (`free_fall`)") && document.contains("**Tolerance:**"), "{document}");
+    let json = good(&here, &[&arguments[..], &["--json", "-"]].concat());
+    assert!(serde_json::from_str::<Value>(&json).is_ok(), "stdout has the JSON alone: {json}");
+}
+
+#[test]
+fn the_gauntlet_prints_its_rows_and_writes_them() {
+    let here = folder("gauntlet");
+    let arguments =
+        ["gauntlet", "--case", "two_at_a_point", "--case", "suction", "--quality", "draft", "--quality", "fast"];
+    let table = good(&here, &[&arguments[..], &["--json", "rows.json", "--markdown", "rows.md"]].concat());
+    assert!(table.contains("| two_at_a_point") && table.contains("4 runs: 4 pass, 0 known"), "{table}");
+    let rows: Value = serde_json::from_str(&std::fs::read_to_string(here.join("rows.json")).unwrap()).unwrap();
+    let rows = rows["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 4);
+    for row in rows {
+        assert_eq!(row["verdict"], "pass", "{row}");
+        assert!(row["broken"].as_array().unwrap().is_empty(), "{row}");
+    }
+    assert!(rows[2]["clamps"]["air_clamps"].as_u64().unwrap() > 0, "suction is cut at a vacuum: {}", rows[2]);
+    let document = std::fs::read_to_string(here.join("rows.md")).unwrap();
+    assert!(document.contains("(`suction`)") && document.contains("**Guards against:**"), "{document}");
+    let json = good(&here, &[&arguments[..], &["--json", "-"]].concat());
+    assert!(serde_json::from_str::<Value>(&json).is_ok(), "stdout has the JSON alone: {json}");
+}

@@ -1,0 +1,167 @@
+//! `run`: its metrics, tables and pictures, and that watching changes nothing.
+
+use crate::{folder, good, metrics};
+use serde_json::Value;
+
+const SMALL: [&str; 8] = ["run", "dam_break", "--set", "columns=8", "--ticks", "45", "--effect", "viscosity=on"];
+
+#[test]
+fn metrics_have_all_keys() {
+    let here = folder("metrics_keys");
+    let found = metrics(&here, &SMALL);
+    for (group, keys) in [
+        ("", "scene quality threads simd ticks sim_seconds wall_seconds hash memory_bytes"),
+        ("/particles", "total by_element"),
+        ("/particles/by_element", "rock water"),
+        ("/ms_per_tick", "median p95 max"),
+        ("/stages/solve", "calls ms_total ms_median unit touched spared ms_saved"),
+        ("/effects", "air drag tension viscosity vorticity"),
+        ("/effects/viscosity", "mode state active_ticks differing_ticks calls ms_total ms_saved why"),
+        ("/accuracy", "density_error_mean density_error_p99 density_error_max residual volume_error energy"),
+        (
+            "/accuracy",
+            "air_mass_drift momentum_drift air_divergence_rms density_mean energy_start energy_peak distance",
+        ),
+        ("/sampling", "ms_total ms_median"),
+        ("/stability", "non_finite escaped speed_clamps position_clamps substeps_max"),
+    ] {
+        for key in keys.split(' ') {
+            assert!(found.pointer(&format!("{group}/{key}")).is_some(), "{group}/{key} is missing");
+        }
+    }
+    assert_eq!(found["scene"], "dam_break");
+    assert_eq!(found["quality"], "balanced");
+    assert_eq!(found["ticks"], 45);
+    assert_eq!(metrics(&here, &[&SMALL[..], &["--simd", "scalar"]].concat())["simd"], "scalar");
+    assert_eq!(found["sim_seconds"], 0.75);
+    assert_eq!(found["particles"]["total"], 8 * 16);
+    assert_eq!(found["hash"].as_str().map(str::len), Some(16));
+    assert_eq!(found["accuracy"]["samples"], 2, "ticks 20 and 40");
+    assert!(found["accuracy"]["density_error_mean"].is_f64());
+    assert_eq!(found["accuracy"]["air_mass_drift"], Value::Null, "the scene has no air");
+    assert!(found["sampling"]["ms_median"].as_f64().unwrap() > 0.0, "what measuring costs is shown");
+    assert_eq!(found["effects"]["air"]["calls"], 0, "what is off is not called");
+    assert_eq!(found["effects"]["air"]["state"], "off");
+    assert_eq!(found["effects"]["air"]["ms_saved"], Value::Null, "nobody knows what it would have taken");
+    assert_eq!(found["effects"]["viscosity"]["active_ticks"], 45);
+}
+
+#[test]
+fn warmup_is_left_out_of_times_and_samples_but_not_of_the_run() {
+    let here = folder("warmup");
+    let whole = metrics(&here, &SMALL);
+    let part = metrics(&here, &[&SMALL[..], &["--warmup", "30"]].concat());
+    assert_eq!(whole["hash"], part["hash"], "the warm-up is run, too");
+    assert_eq!(part["ticks"], 45);
+    assert_eq!(part["warmup"], 30);
+    assert_eq!(part["accuracy"]["samples"], 1, "tick 40");
+    assert_eq!(part["effects"]["viscosity"]["active_ticks"], 15);
+    assert_eq!(part["stages"]["measure"]["calls"], 15);
+    assert_eq!(whole["stages"]["measure"]["calls"], 45);
+    let late = metrics(&here, &[&SMALL[..], &["--warmup", "44"]].concat());
+    assert_eq!(late["accuracy"]["samples"], 1, "a run too short for a sample is sampled at its end");
+}
+
+#[test]
+fn tables_have_their_columns_and_the_picture_is_a_picture() {
+    let here = folder("outputs");
+    let files = ["--particles", "p.csv", "--trace", "t.csv", "--png", "w.png", "--metrics", "m.json"];
+    let said = good(&here, &[&SMALL[..], &files].concat());
+    assert!(said.contains("scene=dam_break ticks=45"), "{said}");
+    let read = |name: &str| std::fs::read_to_string(here.join(name)).unwrap();
+    let numbers = |line: &str, from: usize| -> Vec<f64> {
+        line.split(',').skip(from).map(|field| field.parse().unwrap_or_else(|_| panic!("{field} in {line}"))).collect()
+    };
+
+    let particles = read("p.csv");
+    let mut lines = particles.lines();
+    assert_eq!(lines.next(), Some("id,element,x,y,vx,vy"));
+    let rows: Vec<&str> = lines.collect();
+    assert_eq!(rows.len(), 128);
+    let (width, height) = (4.0 * 0.8, 2.1 * 0.8);
+    for (id, row) in rows.iter().enumerate() {
+        assert!(row.starts_with(&format!("{id},water,")), "in the order of the ids: {row}");
+        let values = numbers(row, 2);
+        assert!((0.0..=width).contains(&values[0]) && (0.0..=height).contains(&values[1]), "in metres: {row}");
+    }
+
+    let trace = read("t.csv");
+    let mut lines = trace.lines();
+    let header = "tick,seconds,ms,substeps,particles,energy,momentum_x,momentum_y,front_x,surface_y,max_speed,air_mass";
+    assert_eq!(lines.next(), Some(header));
+    let rows: Vec<Vec<f64>> = lines.map(|line| numbers(line, 0)).collect();
+    assert_eq!(rows.len(), 45);
+    assert_eq!(rows[44][..2], [45.0, 0.75]);
+    assert!(rows.iter().all(|row| row[3] >= 1.0 && row[4] == 128.0));
+    assert!(rows[44][8] > rows[0][8] + 0.3, "the front moves on");
+    assert!(rows[44][5] < rows[0][5] * 1.02, "the energy does not grow");
+
+    let png = std::fs::read(here.join("w.png")).unwrap();
+    assert_eq!(&png[1..4], b"PNG");
+    let metrics: Value = serde_json::from_str(&read("m.json")).unwrap();
+    assert!(said.contains(metrics["hash"].as_str().unwrap()), "stdout and metrics agree on the hash");
+}
+
+#[test]
+fn watching_and_threads_never_change_the_world() {
+    let here = folder("same_hash");
+    let hash = |more: &[&str]| {
+        let said = good(&here, &[&SMALL[..], more].concat());
+        said.trim_end().rsplit_once("hash=").unwrap().1.to_owned()
+    };
+    let plain = hash(&[]);
+    assert_eq!(hash(&[]), plain, "twice the same");
+    assert_eq!(hash(&["--threads", "1"]), plain);
+    assert_eq!(hash(&["--threads", "3"]), plain);
+    assert_eq!(hash(&["--simd", "auto"]), plain);
+    assert_eq!(hash(&["--simd", "scalar"]), plain);
+    let watched = hash(
+        &[
+            ["--metrics", "m.json"],
+            ["--trace", "t.csv"],
+            ["--png", "w.png"],
+            ["--particles", "p.csv"],
+            ["--reference", "r.csv"],
+        ]
+        .concat(),
+    );
+    assert_eq!(watched, plain);
+    assert_ne!(hash(&["--set", "columns=9"]), plain, "another world has another hash");
+    assert_ne!(hash(&["--effect", "viscosity=off"]), plain);
+}
+
+#[test]
+fn the_distance_to_the_reference_is_a_table_over_time() {
+    let here = folder("reference");
+    let found = metrics(&here, &[&SMALL[..], &["--quality", "draft", "--reference", "r.csv"]].concat());
+    let table = std::fs::read_to_string(here.join("r.csv")).unwrap();
+    let lines: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(lines[0], ["tick", "seconds", "share", "momentum", "air", "energy_ratio"]);
+    assert_eq!(lines[1..].iter().map(|line| line[0]).collect::<Vec<_>>(), ["20", "40", "45"]);
+    let shares: Vec<f64> = lines[1..].iter().map(|line| line[2].parse().unwrap()).collect();
+    assert!(shares.iter().all(|share| (1e-6..0.5).contains(share)), "{shares:?}");
+    assert!(lines[1..].iter().all(|line| line[4].is_empty()), "the scene has no air");
+    let mean = shares.iter().sum::<f64>() / 3.0;
+    assert!((found["accuracy"]["distance"]["share"].as_f64().unwrap() - mean).abs() < 1e-9);
+    let own = metrics(&here, &[&SMALL[..], &["--quality", "reference", "--reference", "r.csv"]].concat());
+    assert_eq!(own["accuracy"]["distance"]["momentum"], 0.0, "the reference is no distance from itself");
+}
+
+/// Two small settings of a small scene, twice each.
+
+#[test]
+fn an_error_is_held_the_same_way_each_time_and_a_time_says_how_it_went() {
+    let here = folder("hold");
+    let run = |arguments: &[&str]| {
+        let text = good(&here, &[&["run", "dam_break", "--set", "columns=16", "--ticks", "150"], arguments].concat());
+        let field = |name: &str| {
+            let value = text.split_whitespace().find_map(|field| field.strip_prefix(name)).map(str::to_owned);
+            value.unwrap_or_else(|| panic!("no {name} in {text}"))
+        };
+        (field("hash="), field("held="), field("moves=").parse::<u32>().unwrap())
+    };
+    let (hash, held, moves) = run(&["--hold-error", "0.0001"]);
+    assert!(moves > 0, "a bound this tight calls for another quality; held={held}");
+    assert_eq!(run(&["--hold-error", "0.0001"]).0, hash, "nothing of it depends on the machine");
+    assert_eq!(run(&["--hold-ms", "0.01"]).1, "no", "no machine is as fast as that");
+}

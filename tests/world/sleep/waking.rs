@@ -1,0 +1,181 @@
+//! Whatever acts on a sleeping body wakes it first, and no other.
+
+use super::{apart, asleep, disc, dry_box, gap, lake, lake_in_air, two_ponds, until_asleep, without_sleep, work};
+use crate::support::{Furnish, ROCK, Sandbox, WATER};
+use glam::Vec2;
+use powder_master::{
+    kernel::{
+        brush::Stroke,
+        params::Preset,
+        sources::{Drain, Rect},
+    },
+    scene::blueprint::{Effect, Mode},
+    sim::{
+        effects::Effects,
+        intent::Intent,
+        ledger::Pass,
+        state::{Clock, Sources},
+    },
+};
+
+#[test]
+fn a_drop_wakes_a_lake_that_has_slept_for_an_hour() {
+    let (mut sandbox, mut reference) = (Sandbox::of(lake()), without_sleep(lake()));
+    until_asleep(&mut sandbox, 400);
+    reference.tick(400);
+    let lake = sandbox.particles().len();
+    let before = (work(&sandbox), sandbox.hash());
+    sandbox.tick(60 * 60 * 60);
+    assert_eq!((work(&sandbox), sandbox.hash()), before, "an hour of sleep leaves traces");
+    let drop = Intent::Stamp { element: WATER, stroke: disc(Vec2::new(40.0, 60.0), 3.0) };
+    for world in [&mut sandbox, &mut reference] {
+        world.push(drop);
+    }
+    let radius = Preset::Balanced.quality().kernel_radius;
+    let mut woke = None;
+    for tick in 1..=360 {
+        sandbox.tick(1);
+        reference.tick(1);
+        if asleep(&sandbox) > 0 {
+            assert_eq!(asleep(&sandbox), lake, "the lake is one body");
+            assert!(gap(&sandbox) > 2.0 * radius, "tick {tick}: the drop is in the lake, and it sleeps");
+        } else {
+            woke.get_or_insert(tick);
+        }
+        let (share, height) = apart(&sandbox, &reference);
+        // The crown of the splash is a few drops, which fly apart.
+        assert!(share < 0.06 && height < 6.0, "tick {tick}: a share of {share} is elsewhere, {height} d off");
+        if tick == 360 {
+            println!("share {share}, height {height}");
+        }
+    }
+    // From 57 d to 28 d at 98.1 d/s² takes 46 ticks.
+    let woke = woke.expect("a drop fell into the lake");
+    assert!((40..=50).contains(&woke), "the lake woke after {woke} ticks");
+}
+
+#[test]
+fn the_fastest_shot_does_not_get_in_unseen() {
+    for speed in [60.0, 600.0, 3000.0] {
+        let mut sandbox = Sandbox::of(lake());
+        until_asleep(&mut sandbox, 400);
+        let at = Vec2::new(40.0, 65.0);
+        let id = 1_000_000;
+        sandbox.particles_mut().push(id, WATER, at, Vec2::new(0.0, -speed));
+        for tick in 0..120 {
+            sandbox.tick(1);
+            if asleep(&sandbox) == 0 {
+                break;
+            }
+            assert!(gap(&sandbox) > 5.0, "{speed} d/s, tick {tick}: {} d", gap(&sandbox));
+        }
+        assert_eq!(asleep(&sandbox), 0, "{speed} d/s: nothing woke");
+    }
+}
+
+#[test]
+fn a_brush_wakes_the_pond_that_it_takes_from_and_no_other() {
+    let (mut sandbox, mut reference) = (Sandbox::of(two_ponds()), without_sleep(two_ponds()));
+    until_asleep(&mut sandbox, 600);
+    assert_eq!(asleep(&sandbox), 1400);
+    reference.tick(sandbox.get::<Clock>().tick as u32);
+    let left_alone: Vec<u32> = {
+        let particles = sandbox.particles();
+        (0..1400).filter(|&i| particles.x[i] > 79.0).map(|i| particles.id[i]).collect()
+    };
+    let stroke = Stroke::rectangle(Vec2::new(0.0, 10.0), Vec2::new(15.0, 40.0));
+    for world in [&mut sandbox, &mut reference] {
+        world.push(Intent::Erase { stroke }).tick(1);
+    }
+    let sleepers = sandbox.particles().id[..asleep(&sandbox)].to_vec();
+    assert_eq!(sleepers, left_alone, "the right pond sleeps on, in its order");
+    for _ in 0..6 {
+        sandbox.tick(10);
+        reference.tick(10);
+        assert_eq!(asleep(&sandbox), 800);
+        let (share, _) = apart(&sandbox, &reference);
+        println!("share {share}");
+        assert!(share < 0.08, "a share of {share} is elsewhere");
+    }
+}
+
+#[test]
+fn an_outlet_wakes_the_pond_that_it_drains() {
+    let mut sandbox = Sandbox::of(two_ponds());
+    until_asleep(&mut sandbox, 600);
+    let area = Rect { min: Vec2::new(0.0, 0.0), max: Vec2::new(3.0, 3.0) };
+    sandbox.get_mut::<Sources>().drains.push(Drain { area });
+    sandbox.tick(1);
+    assert_eq!(asleep(&sandbox), 800);
+    sandbox.tick(200);
+    let left = sandbox.particles().x.iter().filter(|&&x| x < 30.0).count();
+    assert!(left < 400, "{left} of 600 are left");
+}
+
+#[test]
+fn a_lake_whose_wall_is_taken_away_breaks_out_as_if_it_had_never_slept() {
+    let world = || {
+        let mut world = dry_box(120, 60);
+        world.pool((0, 0), (30, 40));
+        world.rock((30, 0), (32, 60));
+        world
+    };
+    let (mut sandbox, mut reference) = (Sandbox::of(world()), without_sleep(world()));
+    until_asleep(&mut sandbox, 600);
+    let ticks = sandbox.get::<Clock>().tick;
+    reference.tick(ticks as u32);
+    let wall = Stroke::rectangle(Vec2::new(29.9, 0.0), Vec2::new(32.1, 60.0));
+    for world in [&mut sandbox, &mut reference] {
+        world.push(Intent::Erase { stroke: wall }).tick(1);
+    }
+    assert_eq!(asleep(&sandbox), 0, "the wall is gone, and the lake sleeps");
+    for _ in 0..6 {
+        sandbox.tick(10);
+        reference.tick(10);
+        let (share, height) = apart(&sandbox, &reference);
+        println!("share {share}, height {height}");
+        assert!(share < 0.08, "a share of {share} is elsewhere, the surface is {height} d off");
+    }
+}
+
+#[test]
+fn rock_drawn_into_sleeping_water_wakes_it() {
+    let mut sandbox = Sandbox::of(lake());
+    until_asleep(&mut sandbox, 400);
+    sandbox.push(Intent::Draw { element: ROCK, stroke: disc(Vec2::new(40.0, 60.0), 2.0) }).tick(1);
+    assert_eq!(asleep(&sandbox), 0);
+}
+
+#[test]
+fn wind_wakes_a_lake_in_the_tick_in_which_it_blows() {
+    let mut sandbox = Sandbox::of(lake_in_air());
+    until_asleep(&mut sandbox, 2000);
+    let lake = asleep(&sandbox);
+    // Too faint to tilt the lake by a thousandth, and far above it.
+    sandbox.push(Intent::Blow { stroke: disc(Vec2::new(40.0, 60.0), 3.0), velocity: Vec2::new(0.01, 0.0) }).tick(3);
+    assert_eq!(asleep(&sandbox), lake, "a breath of air wakes it");
+    sandbox.push(Intent::Blow { stroke: disc(Vec2::new(40.0, 24.0), 6.0), velocity: Vec2::new(120.0, 0.0) }).tick(1);
+    assert_eq!(asleep(&sandbox), 0, "the wind blows, and the lake sleeps");
+}
+
+#[test]
+fn other_conditions_wake_all() {
+    let changes: [fn(&mut Sandbox); 3] = [
+        |sandbox| {
+            let quality = Preset::Fine.quality();
+            sandbox.push(Intent::Quality { preset: Preset::Fine, quality });
+        },
+        |sandbox| sandbox.get_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off,
+        |sandbox| {
+            sandbox.push(Intent::Gravity { gravity: Vec2::new(98.1, 0.0) });
+        },
+    ];
+    for (k, change) in changes.into_iter().enumerate() {
+        let mut sandbox = Sandbox::of(lake());
+        until_asleep(&mut sandbox, 400);
+        change(&mut sandbox);
+        sandbox.tick(1);
+        assert_eq!(asleep(&sandbox), 0, "change {k}");
+        assert!(sandbox.calls(Pass::Solve) > 0);
+    }
+}
