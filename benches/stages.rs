@@ -44,7 +44,7 @@ fn stages(criterion: &mut Criterion) {
         group.bench_function(format!("velocity/{name}"), |b| {
             stage(b, Tank::new(set), |tank| {
                 let Tank { particles, solids, quality, solver, .. } = tank;
-                velocity::update_velocities(particles, solver, solids, quality, true, 1, SUBSTEP);
+                velocity::update_velocities(particles, solver, solids, true, 1, SUBSTEP);
             });
         });
         group.bench_function(format!("viscosity/{name}"), |b| {

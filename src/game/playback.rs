@@ -25,20 +25,22 @@ pub struct Playback {
     /// What the world was when it was looked at last.
     blueprint: Arc<Blueprint>,
     tick: u64,
+    /// Edits of the world once it has taken what was given.
+    edits: u64,
 }
 
 /// Shows a recording. The world is at the start of it.
 pub fn begin(world: &mut World, recording: Recording) {
-    let (blueprint, tick) = (world.resource::<Setup>().blueprint.clone(), world.resource::<Clock>().tick);
-    world.insert_resource(Playback { recording, stretch: 0, given: 0, blueprint, tick });
+    let (blueprint, Clock { tick, edits, .. }) = (world.resource::<Setup>().blueprint.clone(), *world.resource());
+    world.insert_resource(Playback { recording, stretch: 0, given: 0, blueprint, tick, edits });
 }
 
 /// Gives the world the input that is due. Before every fixed update.
 pub fn feed(world: &mut World) {
     let Some(mut playback) = world.remove_resource::<Playback>() else { return };
-    let now = world.resource::<Clock>().tick;
+    let Clock { tick: now, edits, .. } = *world.resource();
     let same = Arc::ptr_eq(&playback.blueprint, &world.resource::<Setup>().blueprint);
-    if !same || now < playback.tick || now > playback.tick + 1 {
+    if !same || now < playback.tick || now > playback.tick + 1 || edits != playback.edits {
         world.resource_mut::<Toasts>().say("The recording is left here");
         return;
     }
@@ -56,7 +58,7 @@ pub fn feed(world: &mut World) {
             world.resource_mut::<Epoch>().0 += 1;
             playback.stretch += 1;
             playback.given = 0;
-            playback.tick = world.resource::<Clock>().tick;
+            Clock { tick: playback.tick, edits: playback.edits, .. } = *world.resource();
             playback.blueprint = world.resource::<Setup>().blueprint.clone();
             playback.give(world, playback.tick);
             world.insert_resource(playback);
@@ -75,6 +77,7 @@ impl Playback {
         for entry in self.recording.stretches[self.stretch].entries[self.given..].iter().take_while(|e| e.tick <= now) {
             queue.push(entry.intent);
             self.given += 1;
+            self.edits += 1;
         }
     }
 }

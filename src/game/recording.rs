@@ -52,13 +52,18 @@ pub fn end_when_full(world: &mut World) {
 
 fn end(world: &mut World, why: &str) {
     let seconds = world.resource::<Recorder>().ticks().unwrap_or(0) as f64 / f64::from(TICKS_PER_SECOND);
-    let written = write_recording(world, recorder::end_now(world));
-    world.resource::<Recorder>().end();
-    let mut toasts = world.resource_mut::<Toasts>();
-    match written {
-        Ok(Some(path)) => toasts.say(format!("Recorded {seconds:.1} s: {}{why}", path.display())),
-        Ok(None) => {}
-        Err(problem) => toasts.warn(problem),
+    let end = recorder::end_now(world);
+    world.resource::<Recorder>().stop(end);
+    match write_recording(world, end) {
+        Ok(path) => {
+            world.resource::<Recorder>().forget();
+            let path = path.map_or(String::new(), |path| path.display().to_string());
+            world.resource_mut::<Toasts>().say(format!("Recorded {seconds:.1} s: {path}{why}"));
+        }
+        Err(problem) => {
+            let key = bindings::of(Action::Record).map(ToString::to_string).unwrap_or_default();
+            world.resource_mut::<Toasts>().warn(format!("{problem}. It ends here, and is kept: {key} tries again."));
+        }
     }
 }
 

@@ -41,11 +41,20 @@ struct Desk {
     /// How often `rolling` began a segment.
     serial: u64,
     recording: Option<Tape>,
+    /// How the recording ended, where it takes no more.
+    stopped: Option<End>,
     /// The file that the recording shall go to, if one was named for it.
     to: Option<PathBuf>,
     marker: Marker,
     /// Whether the world is another one than that which was written last.
     jumped: bool,
+}
+
+impl Desk {
+    /// The recording that takes what happens.
+    fn running(&mut self) -> Option<&mut Tape> {
+        self.recording.as_mut().filter(|_| self.stopped.is_none())
+    }
 }
 
 /// How far a reader has come that follows the newest segment of the last minute.
@@ -78,7 +87,7 @@ impl Recorder {
         let mut desk = self.desk();
         let entry = Entry { tick, intent };
         desk.rolling.note(entry);
-        if let Some(recording) = &mut desk.recording {
+        if let Some(recording) = desk.running() {
             recording.note(entry);
         }
     }
@@ -97,7 +106,7 @@ impl Recorder {
             .rolling
             .last()
             .is_none_or(|segment| segment.marks.len() >= SEGMENT_TICKS || segment.entries.len() >= SEGMENT_ENTRIES);
-        let waits = desk.recording.as_ref().is_some_and(Tape::is_empty);
+        let waits = desk.running().is_some_and(|recording| recording.is_empty());
         if !(jumped || full || waits) {
             return;
         }
@@ -107,7 +116,7 @@ impl Recorder {
         desk.rolling.forget(KEPT_TICKS, KEPT_BYTES);
         if jumped || waits {
             desk.marker = Marker::default();
-            if let Some(recording) = &mut desk.recording {
+            if let Some(recording) = desk.running() {
                 recording.begin(start, false);
             }
         }
@@ -121,7 +130,7 @@ impl Recorder {
         }
         let mark = desk.marker.mark(particles, rock, air, clock);
         desk.rolling.mark(mark);
-        if let Some(recording) = &mut desk.recording {
+        if let Some(recording) = desk.running() {
             recording.mark(mark);
         }
     }
@@ -139,7 +148,7 @@ impl Recorder {
     /// Begins a recording at the state of the world; `to` is the file that it shall go to, if one is named for it.
     pub fn begin(&self, world: &World, to: Option<PathBuf>) {
         let mut desk = self.desk();
-        (desk.recording, desk.to) = (Some(Tape::default()), to);
+        (desk.recording, desk.stopped, desk.to) = (Some(Tape::default()), None, to);
         drop(desk);
         self.keep_up(world);
     }
@@ -154,20 +163,26 @@ impl Recorder {
         self.desk().recording.as_ref().map(Tape::ticks)
     }
 
-    /// Whether a recording takes all the memory that it may.
+    /// Whether a recording that runs takes all the memory that it may.
     pub fn is_full(&self) -> bool {
-        self.desk().recording.as_ref().is_some_and(|tape| tape.size_in_memory() > RECORDING_BYTES)
+        self.desk().running().is_some_and(|tape| tape.size_in_memory() > RECORDING_BYTES)
     }
 
-    /// The recording so far.
+    /// The recording so far, which ends with `end` if it still runs.
     pub fn recording(&self, end: End) -> Option<Vec<u8>> {
-        self.desk().recording.as_ref().map(|tape| tape.encode(end))
+        let desk = self.desk();
+        desk.recording.as_ref().map(|tape| tape.encode(desk.stopped.unwrap_or(end)))
     }
 
-    /// Ends the recording.
-    pub fn end(&self) {
+    /// Ends the recording, but keeps it until it is written: it takes no more from here on.
+    pub fn stop(&self, end: End) {
+        self.desk().stopped.get_or_insert(end);
+    }
+
+    /// Forgets the recording: it is written.
+    pub fn forget(&self) {
         let mut desk = self.desk();
-        (desk.recording, desk.to) = (None, None);
+        (desk.recording, desk.stopped, desk.to) = (None, None, None);
     }
 
     /// What was written since `cursor`, if it is anything.

@@ -100,9 +100,10 @@ impl Tape {
 
     /// Begins a segment, in the place of one in which nothing has happened. `follows`: at the state that the segment before
     /// has come to.
-    pub fn begin(&mut self, start: Arc<Start>, follows: bool) {
+    pub fn begin(&mut self, start: Arc<Start>, mut follows: bool) {
         if self.last().is_some_and(|last| last.entries.is_empty() && last.marks.is_empty()) {
-            self.segments.pop_back();
+            // Where a jump led to the one that goes, it leads to this one.
+            follows &= self.segments.pop_back().is_some_and(|replaced| replaced.follows);
         }
         self.segments.push_back(Segment { start, follows, entries: Vec::new(), marks: Vec::new() });
     }

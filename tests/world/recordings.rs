@@ -134,6 +134,24 @@ fn undo_and_reset_begin_a_stretch_and_the_whole_is_the_same_again() {
     assert_eq!(read(&sandbox.get::<Recorder>().last_minute(recorder::end_now(sandbox.app.world()))), recording);
 }
 
+#[test]
+fn a_recording_begun_right_after_a_jump_leaves_the_jump_in_the_last_minute() {
+    let mut sandbox = recorded("dam_break", &[("columns", "12")]);
+    sandbox.tick(10);
+    let before = control::freeze(sandbox.app.world());
+    sandbox.tick(10);
+    control::thaw(sandbox.app.world_mut(), &before);
+    sandbox.get_mut::<Pace>().paused = true;
+    sandbox.tick(1);
+    sandbox.get::<Recorder>().begin(sandbox.app.world(), None);
+    sandbox.get_mut::<Pace>().paused = false;
+    sandbox.tick(10);
+    let last_minute = read(&sandbox.get::<Recorder>().last_minute(recorder::end_now(sandbox.app.world())));
+    assert_eq!(last_minute.stretches.len(), 2, "the jump is not in it");
+    assert_eq!(same(&last_minute), (30, sandbox.hash()));
+    assert_eq!(same(&read(&file(&sandbox))), (10, sandbox.hash()));
+}
+
 /// A hard case of the gauntlet with its script, as the game plays it where it is watched, recorded from its 20th tick on.
 fn watched(name: &str, ticks: u32) -> (Sandbox, Recording) {
     let mut lab = App::new();

@@ -193,6 +193,32 @@ fn a_key_begins_a_recording_and_ends_it_and_another_keeps_the_last_minute() {
 
 #[test]
 #[cfg_attr(target_arch = "wasm32", ignore = "a module has no files")]
+fn a_recording_that_can_not_be_written_ends_and_is_kept_until_it_can() {
+    let folder = file("full-disk").with_extension("d");
+    fs::write(&folder, "no folder").expect("the folder of temporary files can be written");
+    let mut player = Player::new();
+    player.0.insert_resource(SaveFolders(vec![folder.clone()]));
+    player.chord(&[KeyCode::F9]);
+    scribble(&mut player, "water", Vec2::new(0.0, 10.0));
+    player.chord(&[KeyCode::Space]);
+    let (hash, tick) = (player.hash(), player.tick());
+    player.chord(&[KeyCode::F9]);
+    let told = player.world().resource::<Toasts>().last().expect("it is told").to_owned();
+    assert!(told.contains("can't be written") && told.ends_with("F9 tries again."), "{told}");
+    player.chord(&[KeyCode::Space]);
+    scribble(&mut player, "rock", Vec2::new(-20.0, -5.0));
+    fs::remove_file(&folder).expect("it is ours");
+    player.chord(&[KeyCode::F9]);
+    assert_eq!(player.world().resource::<Recorder>().ticks(), None);
+    let [path] = &recordings(&folder)[..] else { panic!("one file, not {:?}", recordings(&folder)) };
+    let recording = read(path);
+    assert_eq!(recording.stretches[0].tick + recording.ticks(), tick, "it went on");
+    assert_eq!(again(path), hash);
+    fs::remove_dir_all(folder).expect("it is ours");
+}
+
+#[test]
+#[cfg_attr(target_arch = "wasm32", ignore = "a module has no files")]
 fn a_recording_can_be_watched_and_comes_to_the_same_end() {
     let path = file("watched");
     let mut player = recorded(&path);
@@ -220,5 +246,11 @@ fn a_recording_can_be_watched_and_comes_to_the_same_end() {
     watcher.frames(30);
     assert_eq!(watcher.particles(), 0, "a reset leaves the recording");
     assert!(!watcher.world().resource::<Pace>().paused);
+    watch(&mut watcher);
+    watcher.frames(4);
+    scribble(&mut watcher, "rock", Vec2::new(20.0, 9.0));
+    assert_eq!(watcher.world().resource::<Toasts>().last(), Some("The recording is left here"));
+    watcher.frames(recording.ticks() as usize + 10);
+    assert!(!watcher.world().resource::<Pace>().paused, "a stroke leaves the recording, and its end stops no one");
     fs::remove_file(path).expect("it is ours");
 }

@@ -3,7 +3,7 @@
 use crate::kernel::{
     bins::{Group, MOST_LANES, RockBins},
     params::{Domain, FluidParams, WALL_GAP},
-    pbf::wall_sums,
+    pbf::{CorrectionLimit, wall_sums},
     simd::{Lanes, Pass},
     smoothing::{Gradient, Smoothing},
 };
@@ -15,9 +15,6 @@ const APART_WITHIN: f32 = 0.8;
 /// Share of their distance by which the closest are set apart in an iteration.
 const APART_SHARE: f32 = 0.5;
 
-/// From this density on, as a multiple of the one aimed at, a correction may be longer, and from the second on the longest.
-const CROWDED: [f32; 2] = [1.5, 2.0];
-
 /// Moves the particles of `groups` by Δx, within the correction limit of their anchors and within the box.
 pub(super) struct CorrectionPass<'a, G, const TENSION: bool, const APART: bool> {
     pub smoothing: &'a Smoothing,
@@ -25,8 +22,8 @@ pub(super) struct CorrectionPass<'a, G, const TENSION: bool, const APART: bool> 
     pub fluid: &'a FluidParams,
     /// Density that is aimed at, 1 on the lattice.
     pub rest_density: f32,
-    /// Furthest from the anchor in each coordinate, d: as a rule, and of crowded particles.
-    pub limits: [f32; 2],
+    /// Furthest from the anchor.
+    pub limit: CorrectionLimit,
     /// Density, 1 on the lattice.
     pub density: &'a [f32],
     /// Positions, d.
@@ -56,11 +53,6 @@ impl<G: Gradient, const TENSION: bool, const APART: bool> Pass for CorrectionPas
         let distance = self.fluid.tension_distance * h_value;
         let per_reference = L::splat(1.0 / (h_value * h_value - distance * distance));
         let scale = L::splat(-self.smoothing.gradient_scale / self.rest_density);
-        let [usual, longest] = self.limits;
-        let (usual, further) = (L::splat(usual), L::splat(longest - usual));
-        let [from, to] = CROWDED;
-        let (crowded, per_crowding) =
-            (L::splat(from * self.rest_density), L::splat(1.0 / ((to - from) * self.rest_density)));
         // The sums are scaled by `scale` in the end; what sets apart is a length already.
         let per_apart = L::splat(1.0 / (APART_WITHIN * APART_WITHIN));
         let apart = L::splat(-APART_SHARE * self.rest_density / self.smoothing.gradient_scale);
@@ -116,9 +108,7 @@ impl<G: Gradient, const TENSION: bool, const APART: bool> Pass for CorrectionPas
             let anchor_x = L::load(&self.anchor[0][own.start..]);
             let anchor_y = L::load(&self.anchor[1][own.start..]);
             let out = own.start - self.base..own.end - self.base;
-            let crowding =
-                ((L::load(&self.density[own.start..]) - crowded) * per_crowding).max(zero).min(L::splat(1.0));
-            let limit = usual + crowding * further;
+            let limit = self.limit.lanes(L::load(&self.density[own.start..]));
             let to_x = keep_near(xi + scale * sum_x, anchor_x, limit, [low, L::splat(high.x)]);
             let to_y = keep_near(yi + scale * sum_y, anchor_y, limit, [low, L::splat(high.y)]);
             group.choose(to_x, || xi).store(&mut next_x[out.clone()]);

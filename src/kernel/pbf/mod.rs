@@ -11,6 +11,7 @@ mod coincident;
 mod constraint;
 mod correction;
 mod crowd;
+mod limit;
 #[cfg(test)]
 pub(crate) mod tests;
 
@@ -28,6 +29,7 @@ use coincident::separate_coincident;
 use constraint::ConstraintPass;
 use correction::CorrectionPass;
 use glam::Vec2;
+pub(crate) use limit::CorrectionLimit;
 use std::sync::atomic::AtomicU64;
 
 /// Least relaxation ε where the pressure predictor ran, 1/d². A Jacobi step corrects each particle as if its neighbours
@@ -37,6 +39,9 @@ use std::sync::atomic::AtomicU64;
 /// predictor's by then, so that softening the constraint costs no accuracy (docs/accuracy.md, "Relaxation"); without the
 /// predictor it would.
 pub const PREDICTED_RELAXATION: f32 = 0.2;
+
+/// Share of its limit up to which what lies between two positions is taken for a correction: more than rounding.
+const MOST_SHARE: f32 = 1.01;
 
 /// Positions under correction, densities, bins: what the solver keeps beside the particles. 24 bytes a particle and the
 /// bins. The arrays follow the order of the particles.
@@ -60,6 +65,8 @@ pub struct Solver {
     pub(crate) next_x: Vec<f32>,
     pub(crate) next_y: Vec<f32>,
     pub(crate) lambda: Vec<f32>,
+    /// Limit of the last corrections; none before the first.
+    pub(crate) limit: Option<CorrectionLimit>,
 }
 
 /// What [`Solver::bin`] did besides sorting.
@@ -124,6 +131,7 @@ impl Solver {
             next_x: Vec::new(),
             next_y: Vec::new(),
             lambda: Vec::new(),
+            limit: None,
         }
     }
 
@@ -162,10 +170,15 @@ impl Solver {
         BinReport { set_apart: scattered + set_apart.into_inner() }
     }
 
-    /// Where the last substep predicted the particles to be, before the constraint moved them, d; in their order, as
-    /// long as none came or went since.
-    pub fn predicted(&self) -> [&[f32]; 2] {
-        [&self.x, &self.y]
+    /// By how much of its correction limit the last substep moved the particle that is number `i` and `at` now; `None` if
+    /// it was not solved, as those that sleep. Of particles that came or went since it knows nothing, either: who is
+    /// further from there than any correction leads is another one.
+    pub fn correction_share(&self, i: usize, at: Vec2) -> Option<f32> {
+        // Who sleeps is in front, with a density but without a prediction.
+        let k = i.checked_sub(self.density.len().checked_sub(self.x.len())?)?;
+        let predicted = Vec2::new(*self.x.get(k)?, *self.y.get(k)?);
+        let share = (at - predicted).abs().max_element() / self.limit?.at(self.density[i]);
+        (share <= MOST_SHARE).then_some(share)
     }
 
     /// Iterates the density constraint on the binned particles: once over all of them, and then, where the predictor ran,
@@ -176,6 +189,7 @@ impl Solver {
         {
             array.resize(count, 0.0);
         }
+        self.limit = Some(CorrectionLimit::new(params));
         let anchor = [&particles.x[..], &particles.y[..]];
         for iteration in 0..params.quality.iterations {
             let reach = match params.iterate_above() {
@@ -284,7 +298,7 @@ impl Iteration<'_> {
                 domain: params.domain,
                 fluid: params.fluid,
                 rest_density: params.rest_density(),
-                limits: [params.quality.correction_limit, params.quality.longest_correction()],
+                limit: CorrectionLimit::new(params),
                 density,
                 x,
                 y,

@@ -11,9 +11,8 @@ pub use vorticity::apply_vorticity;
 use crate::kernel::{
     element::ElementId,
     parallel::{WORTH_A_PIECE, spread},
-    params::Quality,
     particles::Particles,
-    pbf::Solver,
+    pbf::{CorrectionLimit, Solver},
     simd::{Lanes, Pass},
     solids::Solids,
 };
@@ -50,6 +49,9 @@ impl StrengthReport {
 /// would make a still pool simmer.
 const QUIET_CORRECTION: f32 = 0.05;
 
+/// Share of its limit from which on a correction counts as cut: less the rounding of (anchor + limit) − anchor.
+const CUT: f32 = 0.999;
+
 /// Moves the particles to their corrected positions, stopped by rock, and sets `v = (x* − x)/Δt` (Macklin & Müller 2013,
 /// algorithm 1, line 21), as the predicted velocity and the correction's: `v + (x* − (x + v Δt))/Δt`. In f32 that is not the
 /// same: a free particle keeps its velocity to the last bit, where the difference of two large positions would round it
@@ -59,20 +61,18 @@ pub fn update_velocities(
     particles: &mut Particles,
     solver: &mut Solver,
     solids: &Solids,
-    quality: &Quality,
     predicted: bool,
     threads: usize,
     dt: f32,
 ) -> MoveReport {
-    let Solver { instructions, x: to_x, y: to_y, .. } = solver;
+    let Solver { instructions, x: to_x, y: to_y, density, limit, .. } = solver;
     let clamps = AtomicU64::new(0);
     let Particles { x, y, vx, vy, .. } = particles;
     spread([&mut vx[..], vy, to_x, to_y], WORTH_A_PIECE, threads, &|base, [vx, vy, to_x, to_y]| {
         let anchor = [&*x, &*y].map(|anchor| &anchor[base..base + vx.len()]);
         instructions.run(Move {
             rock: (solids.count() > 0).then_some(solids),
-            // The limit itself, less the rounding of (anchor + limit) − anchor.
-            cut: quality.correction_limit * 0.999,
+            limit: limit.map(|limit| (limit, &density[base..base + vx.len()])),
             quiet: if predicted { QUIET_CORRECTION } else { 0.0 },
             dt,
             anchor,
@@ -90,8 +90,8 @@ pub fn update_velocities(
 struct Move<'a> {
     /// Rock, if there is any.
     rock: Option<&'a Solids>,
-    /// Correction that counts as cut, d.
-    cut: f32,
+    /// Limit of the corrections and the densities that it goes by, if there were any.
+    limit: Option<(CorrectionLimit, &'a [f32])>,
     /// Correction that goes into the velocity by half, d.
     quiet: f32,
     dt: f32,
@@ -108,15 +108,19 @@ struct Move<'a> {
 impl Pass for Move<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { rock, cut, quiet, dt, anchor: [from_x, from_y], clamps, .. } = self;
+        let Self { rock, limit, quiet, dt, anchor: [from_x, from_y], clamps, .. } = self;
         let ([to_x, to_y], [vx, vy]) = (self.corrected, self.velocity);
         let per_dt = 1.0 / dt;
-        let (quiet, mut cuts) = (quiet * per_dt, 0_u32);
-        for k in 0..from_x.len() {
-            let (far_x, far_y) = ((to_x[k] - from_x[k]).abs() >= cut, (to_y[k] - from_y[k]).abs() >= cut);
-            cuts += u32::from(far_x | far_y);
+        let quiet = quiet * per_dt;
+        if let Some((limit, density)) = limit {
+            let mut cuts = 0_u32;
+            for k in 0..from_x.len() {
+                let cut = limit.at(density[k]) * CUT;
+                let (far_x, far_y) = ((to_x[k] - from_x[k]).abs() >= cut, (to_y[k] - from_y[k]).abs() >= cut);
+                cuts += u32::from(far_x | far_y);
+            }
+            clamps.fetch_add(u64::from(cuts), Ordering::Relaxed);
         }
-        clamps.fetch_add(u64::from(cuts), Ordering::Relaxed);
         if let Some(rock) = rock {
             for k in 0..from_x.len() {
                 let to = rock.sweep(Vec2::new(from_x[k], from_y[k]), Vec2::new(to_x[k], to_y[k]));

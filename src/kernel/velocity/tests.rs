@@ -139,14 +139,30 @@ fn an_even_flow_feels_no_viscosity() {
 #[test]
 fn velocities_follow_from_the_moves_and_cut_corrections_are_counted() {
     let mut bench = square(0.0, |_| Vec2::ZERO);
-    bench.bin();
+    bench.predicted = true;
+    bench.solve(false);
+    bench.solver.density.fill(1.0);
+    bench.solver.x.clone_from(&bench.particles.x);
+    bench.solver.y.clone_from(&bench.particles.y);
+    let [usual, longest] = [bench.quality.correction_limit, bench.quality.longest_correction()];
+    assert!(longest > usual);
     for i in 0..400 {
-        bench.solver.x[i] += if i < 7 { bench.quality.correction_limit } else { 0.01 };
+        bench.solver.x[i] += match i {
+            0..7 => usual,
+            // In a crowd there is further to go.
+            7..12 => {
+                bench.solver.density[i] = 2.5;
+                if i < 9 { longest } else { usual }
+            }
+            _ => 0.01,
+        };
     }
     let before = bench.particles.clone();
-    let report =
-        update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, &bench.quality, false, 1, 0.01);
-    assert_eq!(report.position_clamps, 7, "corrections at their limit");
+    let report = update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, false, 1, 0.01);
+    assert_eq!(report.position_clamps, 9, "corrections at their limit");
+    let shares = |i| bench.solver.correction_share(i, bench.particles.position(i)).unwrap();
+    assert!((shares(3) - 1.0).abs() < 1e-3 && (shares(8) - 1.0).abs() < 1e-3 && shares(10) < 0.6 && shares(20) < 0.2);
+    assert_eq!(bench.solver.correction_share(20, Vec2::splat(5.0)), None, "another particle");
     for i in 0..400 {
         let moved = bench.particles.x[i] - before.x[i];
         assert!((bench.particles.vx[i] - moved / 0.01).abs() < 1e-3 && bench.particles.vy[i] == 0.0);
@@ -162,7 +178,7 @@ fn after_the_predictor_small_corrections_move_particles_but_hardly_speed_them_up
         bench.solver.y[i] += if i % 2 == 0 { 0.005 } else { 0.1 };
     }
     let before = bench.particles.clone();
-    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, &bench.quality, true, 1, 0.01);
+    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, true, 1, 0.01);
     for i in 0..400 {
         // a²/(a² + 0.05²) of a/Δt
         let expected = if i % 2 == 0 { 0.5 / 101.0 } else { 10.0 * 0.8 };
@@ -180,7 +196,7 @@ fn a_correction_into_rock_stops_at_its_face() {
     for i in 0..400 {
         bench.solver.x[i] += 0.6;
     }
-    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, &bench.quality, false, 1, 0.01);
+    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, false, 1, 0.01);
     for i in 0..400 {
         let at = bench.particles.position(i);
         assert!(!bench.solids.is_solid(Solids::cell_of(at)), "particle {i} was moved into rock, to {at}");

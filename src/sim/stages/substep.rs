@@ -192,7 +192,6 @@ pub(super) fn update_velocities(
     mut particles: ResMut<ParticleStore>,
     mut solver: ResMut<SolverState>,
     rock: Res<Rock>,
-    setup: Res<Setup>,
     effects: Res<Effects>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
@@ -203,7 +202,7 @@ pub(super) fn update_velocities(
     let dt = plan.substep_seconds();
     let predicted = effects.get(Effect::Predictor).running;
     let report = workers.run_for(particles.len(), |threads| {
-        velocity::update_velocities(&mut particles, &mut solver, &rock, &setup.quality, predicted, threads, dt)
+        velocity::update_velocities(&mut particles, &mut solver, &rock, predicted, threads, dt)
     });
     counters.position_clamps += report.position_clamps;
     ledger.note(Pass::Velocity, particles.len() as u64, start.elapsed());

@@ -110,14 +110,12 @@ impl StrainMap {
     }
 
     fn look_at_particles(&mut self, Limited { particles, solver, quality, dt, .. }: Limited<'_>) {
-        let (per_move, per_correction) = (dt / longest_move(quality), 1.0 / quality.correction_limit);
-        // Edited while time stands, the particles may be others than the solver's.
-        let predicted = solver.map(Solver::predicted).filter(|[x, _]| x.len() == particles.len());
+        let per_move = dt / longest_move(quality);
         self.share.clear();
         for i in 0..particles.len() {
             let at = particles.position(i);
-            let corrected = predicted.map_or(0.0, |[x, y]| (at - Vec2::new(x[i], y[i])).abs().max_element());
-            let share = (particles.velocity(i).length() * per_move).max(corrected * per_correction);
+            let corrected = solver.and_then(|solver| solver.correction_share(i, at)).unwrap_or(0.0);
+            let share = (particles.velocity(i).length() * per_move).max(corrected);
             if share >= ACTS {
                 self.light(at, at);
             }

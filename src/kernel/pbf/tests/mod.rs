@@ -79,7 +79,7 @@ impl Bench {
         let params = SolveParams { domain, fluid: &self.fluid, quality, tension, predicted, threads: 1 };
         solver.bin(particles, solids, domain, quality, 1);
         solver.solve(particles, &params);
-        crate::kernel::velocity::update_velocities(particles, solver, solids, quality, predicted, 1, dt);
+        crate::kernel::velocity::update_velocities(particles, solver, solids, predicted, 1, dt);
     }
 }
 
