@@ -43,7 +43,7 @@ fn stages(criterion: &mut Criterion) {
         group.bench_function(format!("solve/{name}"), |b| stage(b, Tank::new(set), |tank| tank.solve(1)));
         group.bench_function(format!("velocity/{name}"), |b| {
             stage(b, Tank::new(set), |tank| {
-                let Tank { particles, solids, quality, solver, .. } = tank;
+                let Tank { particles, solids, solver, .. } = tank;
                 velocity::update_velocities(particles, solver, solids, true, 1, SUBSTEP);
             });
         });
