@@ -60,8 +60,9 @@ pub enum GameError {
     },
 }
 
-/// Plays in a window until it is closed; whatever ends it otherwise, the world can be had back (see `crash`). `furnish` adds what the game does not know and makes the world; `scene` is what
-/// `run` would call it; what the player does goes to `record`.
+/// Plays in a window until it is closed; whatever ends it otherwise, the world can be had back (see `crash`). `furnish`
+/// adds what the game does not know and makes the world; `scene` is what `run` would call it; what the player does goes to
+/// `record`.
 pub fn run(scene: &str, record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> Result<AppExit, GameError> {
     let scene = scene.to_owned();
     if let Some(reason) = missing_display(|name| std::env::var(name).ok()) {

@@ -1,7 +1,8 @@
 //! Numbers only: particles, rock, air and the passes over them. Knows no App, World, file or window.
 //!
-//! **Units.** Inside the kernel a length is counted in particle spacings `d`, a time in seconds and a mass in masses of
-//! one particle of the reference liquid (`units` converts). The box is `[0, width] × [0, height]`, y points up.
+//! **Units.** Inside the kernel a length is counted in particle spacings `d` and a time in seconds (`units` converts). The
+//! density of liquid is counted in that of its lattice; where masses meet, as in the exchange of liquid and air, they are
+//! kg/m² d², so that a density is the mass of a cell of 1 d². The box is `[0, width] × [0, height]`, y points up.
 
 pub mod air;
 pub mod bins;

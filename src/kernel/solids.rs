@@ -189,6 +189,15 @@ enum Face {
     Horizontal(Vec2),
 }
 
+/// A cell that sticks out of the box by no more than this is inside, d.
+const SLACK: f32 = 1e-3;
+
+/// Whether all of a cell is in a box of `size` d. Rock may stand in a cell that the box cuts; what moves would be pushed
+/// out of it, and does not fit.
+pub fn is_whole(cell: IVec2, size: Vec2) -> bool {
+    (cell + 1).as_vec2().cmple(size + SLACK).all()
+}
+
 /// Centre of a cell, d: where its rock particle stands.
 pub fn centre(cell: IVec2) -> Vec2 {
     cell.as_vec2() + Vec2::splat(0.5)

@@ -32,7 +32,7 @@ pub struct Metrics {
     pub sim_seconds: f64,
     /// Time that it took, with sampling, s.
     pub wall_seconds: f64,
-    /// Hash of the final state, 16 hex digits: equal hashes mean equal worlds.
+    /// Hash of the final state, 16 hex digits: equal hashes mean equal particles, rock and air.
     pub hash: String,
     /// Final number of particles.
     pub particles: ParticleCount,

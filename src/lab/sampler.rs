@@ -281,11 +281,9 @@ fn count(world: &World) -> ParticleCount {
 
 /// Mean constraint over the particles where it is violated, as the solver saw it in its last iteration.
 fn residual(world: &World) -> Option<f64> {
-    let rest = f64::from(world.resource::<Setup>().blueprint.fluid.rest_density);
-    let density = &world.resource::<SolverState>().density;
-    let mut constraints: Vec<f64> = density.iter().map(|density| f64::from(*density) / rest - 1.0).collect();
-    constraints.retain(|constraint| *constraint > 0.0);
-    (!density.is_empty()).then(|| stats::mean(&constraints).unwrap_or(0.0))
+    let solver = world.resource::<SolverState>();
+    let violations: Vec<f64> = solver.violations().map(f64::from).collect();
+    (!solver.density.is_empty()).then(|| stats::mean(&violations).unwrap_or(0.0))
 }
 
 fn memory_bytes(world: &World) -> u64 {

@@ -4,7 +4,7 @@ use crate::{
     kernel::{
         element::{ElementId, ElementTable},
         particles::Particles,
-        solids::{Solids, centre},
+        solids::{Solids, centre, is_whole},
     },
     scene::{
         builtin::Origin,
@@ -24,9 +24,6 @@ const MOST_WORK: u64 = 1_000_000_000;
 
 /// Pixels of all pictures of a scene: each keeps a byte until the box is filled, however small its file is.
 const MOST_PIXELS: usize = 4 * 4096 * 4096;
-
-/// A site whose cell sticks out of the box by no more than this is inside, d.
-const SLACK: f32 = 1e-3;
 
 /// The lattice of a box, and which placement holds each of its sites.
 struct Lattice {
@@ -144,8 +141,7 @@ fn claim(room: &Room<'_>, lattice: &mut Lattice, i: usize, placement: &Prepared,
         }
         let k = lattice.index(cell);
         let free = lattice.holder[k] == 0;
-        // Rock may stand in a cell that the box cuts; what moves has to fit in whole.
-        let fits = placement.fixed || (cell + 1).as_vec2().cmple(room.size + SLACK).all();
+        let fits = placement.fixed || is_whole(cell, room.size);
         if fits && (free || placement.replace) && placement.region.contains(centre(cell).as_dvec2()) {
             lattice.holder[k] = holder;
         }

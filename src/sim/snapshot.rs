@@ -2,11 +2,11 @@
 
 use crate::{
     kernel::{air::Air, element::ElementId, particles::Particles, sleep::SleepRecord, solids::Solids},
-    scene::blueprint::Blueprint,
+    scene::blueprint::{Blueprint, Effect, Mode},
     sim::state::{Clock, Sources},
 };
 
-/// Everything in a world that changes while it runs.
+/// Everything in a world that a tick changes. What only an intent changes (gravity, quality, effects) is not in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
     /// Movable particles.
@@ -29,11 +29,12 @@ impl Snapshot {
     /// The state in which a scene starts, with the air on cells of `air_cell` d.
     pub fn of_blueprint(blueprint: &Blueprint, air_cell: f32) -> Self {
         let mut air = Air::unbuilt(blueprint.domain.size, air_cell, blueprint.air);
-        if !blueprint.pressures.is_empty() {
+        let air_stands = blueprint.effects.get(&Effect::Air) == Some(&Mode::Off);
+        if !blueprint.pressures.is_empty() && !air_stands {
             air.build(&blueprint.solids);
-        }
-        for patch in &blueprint.pressures {
-            air.fill_pressure(patch.area, patch.pressure);
+            for patch in &blueprint.pressures {
+                air.fill_pressure(patch.area, patch.pressure);
+            }
         }
         Self {
             particles: blueprint.particles.clone(),
@@ -56,7 +57,8 @@ impl Snapshot {
         self.particles.len() * 21 + self.solids.memory() + air + self.pressure.len() * 4
     }
 
-    /// A hash over the exact bits of the state in the order of the ids (64-bit FNV-1a): equal hashes mean equal worlds.
+    /// A hash over the exact bits of the state in the order of the ids (64-bit FNV-1a): equal hashes mean equal
+    /// particles, rock and air.
     pub fn hash(&self) -> u64 {
         hash_state(&self.particles, &self.solids, &self.air)
     }

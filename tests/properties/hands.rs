@@ -9,6 +9,7 @@ use powder_master::{
         element::ElementId,
         params::Preset,
     },
+    scene::blueprint::{Effect, Mode},
     sim::intent::Intent,
 };
 use proptest::prelude::*;
@@ -53,7 +54,13 @@ fn intent(size: Vec2) -> impl Strategy<Value = Intent> {
             let preset = Preset::ALL[k];
             Intent::Quality { preset, quality: preset.quality() }
         }),
+        2 => (0..Effect::ALL.len(), mode()).prop_map(|(k, mode)| Intent::Effect { effect: Effect::ALL[k], mode }),
+        1 => (-200_f32..200.0, -200_f32..200.0).prop_map(|(x, y)| Intent::Gravity { gravity: Vec2::new(x, y) }),
     ]
+}
+
+fn mode() -> impl Strategy<Value = Mode> {
+    prop_oneof![Just(Mode::Auto), Just(Mode::On), Just(Mode::Off)]
 }
 
 /// What is done to a world of `size` d in `ticks` ticks, oldest first.

@@ -1,7 +1,7 @@
 //! Random scene files from the whole space of valid ones: every number at both ends of its range and in between.
 
 use glam::Vec2;
-use powder_master::kernel::params::Preset;
+use powder_master::{kernel::params::Preset, scene::blueprint::Effect};
 use proptest::prelude::*;
 use std::fmt::Write;
 
@@ -139,10 +139,10 @@ fn open() -> BoxedStrategy<String> {
 
 fn effects() -> BoxedStrategy<String> {
     let mode = || prop_oneof![3 => Just("auto"), 1 => Just("on"), 1 => Just("off")];
-    let names = ["air", "drag", "viscosity", "vorticity", "predictor", "tension"];
-    prop::collection::vec(mode(), names.len())
+    prop::collection::vec(mode(), Effect::ALL.len())
         .prop_map(move |modes| {
-            let pairs: Vec<String> = names.iter().zip(modes).map(|(name, mode)| format!("{name}: {mode}")).collect();
+            let named = Effect::ALL.iter().zip(modes);
+            let pairs: Vec<String> = named.map(|(effect, mode)| format!("{}: {mode}", effect.name())).collect();
             format!("    effects: {{{}}},\n", pairs.join(", "))
         })
         .boxed()

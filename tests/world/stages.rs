@@ -12,8 +12,9 @@ use powder_master::{
         params::OpenSides,
         sources::{Drain, Emitter, Rect, Wind},
     },
-    scene::blueprint::{Blueprint, Effect, Mode},
+    scene::blueprint::{Blueprint, Effect, Mode, PressurePatch},
     sim::{
+        control,
         effects::Effects,
         intent::Intent,
         ledger::Pass,
@@ -290,6 +291,30 @@ fn modes_can_be_switched_while_it_runs() {
     let calls = sandbox.calls(Pass::Viscosity);
     sandbox.tick(3);
     assert_eq!(sandbox.calls(Pass::Viscosity), calls);
+}
+
+#[test]
+fn air_that_is_switched_off_stands_whatever_moved_it() {
+    let wind = || Intent::Blow { stroke: dab(10.0, 10.0, 8.0), velocity: Vec2::new(300.0, 0.0) };
+    let patch = PressurePatch { area: Rect { min: Vec2::ZERO, max: Vec2::splat(9.0) }, pressure: 3.0 };
+    let mut never = puddle();
+    never.effects.insert(Effect::Air, Mode::Off);
+    let positions = |sandbox: &Sandbox| (sandbox.particles().x.clone(), sandbox.particles().y.clone());
+    let quiet = positions(Sandbox::of(never.clone()).tick(30));
+    never.pressures.push(patch);
+    let mut never = Sandbox::of(never);
+    assert_eq!(positions(never.push(wind()).tick(30)), quiet, "wind and pressure move what is in air that stands");
+    assert!(!never.get::<AirGrid>().is_built(), "a grid for air that stands");
+    let mut sandbox = Sandbox::of(puddle());
+    sandbox.push(wind()).tick(2);
+    assert!(!sandbox.get::<AirGrid>().is_quiet());
+    let before = control::freeze(sandbox.app.world());
+    for _ in 0..2 {
+        sandbox.push(Intent::Effect { effect: Effect::Air, mode: Mode::Off }).tick(1);
+        assert!(sandbox.get::<AirGrid>().is_quiet(), "the wind stays for ever");
+        // A state from when it blew is put back.
+        control::thaw(sandbox.app.world_mut(), &before);
+    }
 }
 
 #[test]

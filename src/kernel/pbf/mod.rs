@@ -67,6 +67,8 @@ pub struct Solver {
     pub(crate) lambda: Vec<f32>,
     /// Limit of the last corrections; none before the first.
     pub(crate) limit: Option<CorrectionLimit>,
+    /// Density that the last solve aimed at, 1 on the lattice.
+    aim: f32,
 }
 
 /// What [`Solver::bin`] did besides sorting.
@@ -132,6 +134,7 @@ impl Solver {
             next_y: Vec::new(),
             lambda: Vec::new(),
             limit: None,
+            aim: 1.0,
         }
     }
 
@@ -170,6 +173,11 @@ impl Solver {
         BinReport { set_apart: scattered + set_apart.into_inner() }
     }
 
+    /// The constraint C (eq. 1) of each particle that is too dense, as it was in the particle's last iteration.
+    pub fn violations(&self) -> impl Iterator<Item = f32> {
+        self.density.iter().map(|density| density / self.aim - 1.0).filter(|constraint| *constraint > 0.0)
+    }
+
     /// By how much of its correction limit the last substep moved the particle that is number `i` and `at` now; `None` if
     /// it was not solved, as those that sleep. Of particles that came or went since it knows nothing, either: who is
     /// further from there than any correction leads is another one.
@@ -189,7 +197,7 @@ impl Solver {
         {
             array.resize(count, 0.0);
         }
-        self.limit = Some(CorrectionLimit::new(params));
+        (self.limit, self.aim) = (Some(CorrectionLimit::new(params)), params.rest_density());
         let anchor = [&particles.x[..], &particles.y[..]];
         for iteration in 0..params.quality.iterations {
             let reach = match params.iterate_above() {
@@ -328,8 +336,8 @@ pub(crate) fn unit(bits: u32) -> f32 {
     (bits & 0xffff) as f32 / 32_767.5 - 1.0
 }
 
-/// Distance and inward sign of the walls that a kernel of radius `h` at `position` reaches, as the density that they add
-/// and the sum of `g (x_i − x_j)` over them. Where two walls meet, their overlap is counted once (as for a separable
+/// What the walls that a kernel at `position` (d) reaches do to a particle there: the density that they add, and the sum of
+/// `g (x_i − x_j)` over what they are filled with. Where two walls meet, their overlap is counted once (as for a separable
 /// kernel).
 #[inline]
 pub(crate) fn wall_sums(smoothing: &Smoothing, domain: &Domain, position: Vec2) -> (f32, Vec2) {

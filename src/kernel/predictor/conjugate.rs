@@ -86,7 +86,7 @@ impl Conjugate {
             // Worse than no pressure at all: better to leave it all to the constraint than to act on it.
             solution[cells].fill(0.0);
         }
-        let unsolved = left.is_nan() || left > TOLERANCE * TOLERANCE * scale;
+        let unsolved = left.is_nan() || left > tolerance * tolerance * scale;
         PredictorReport { liquid: true, iterations, residual: (left / scale).sqrt() as f32, unsolved, cuts: 0 }
     }
 

@@ -1,7 +1,7 @@
 //! Placing and taking away matter: what tools, taps and outlets do.
 //!
 //! New particles stand on the sites of the lattice (the centres of the cells), a little off them when poured, and only
-//! where no other particle is near: nothing is ever put into something.
+//! where no other particle is near: nothing is ever put into something, nor into a cell that the box cuts.
 
 mod occupancy;
 #[cfg(test)]
@@ -10,9 +10,10 @@ mod tests;
 use crate::kernel::{
     brush::Stroke,
     element::{ElementId, ElementTable},
+    params::Domain,
     particles::Particles,
     pbf::{mix, unit},
-    solids::{Solids, centre},
+    solids::{Solids, centre, is_whole},
     sources::{Drain, Emitter},
 };
 use glam::{IVec2, Vec2};
@@ -25,6 +26,8 @@ const SCATTER: f32 = 0.08;
 
 /// Everything that placing and taking away touches.
 pub struct Matter<'a> {
+    /// The box.
+    pub domain: &'a Domain,
     /// All elements.
     pub elements: &'a ElementTable,
     /// Movable particles.
@@ -217,7 +220,7 @@ impl Matter<'_> {
         let Some((low, high)) = bounds else { return report };
         room.look(self.particles, low, high);
         for cell in cells {
-            if report.placed >= u64::from(filling.most) {
+            if report.placed + report.refused >= u64::from(filling.most) {
                 break;
             }
             let chance = mix(filling.seed ^ mix(cell.x as u32 ^ (cell.y as u32) << 16));
@@ -226,7 +229,7 @@ impl Matter<'_> {
             }
             let scatter = mix(chance);
             let at = centre(cell) + filling.scatter * Vec2::new(unit(scatter), unit(scatter >> 16));
-            if self.solids.is_solid(cell) || room.is_near(at) {
+            if !is_whole(cell, self.domain.size) || self.solids.is_solid(cell) || room.is_near(at) {
                 continue;
             }
             if self.room_left() == 0 {

@@ -4,6 +4,7 @@ use super::*;
 use crate::kernel::{brush::BrushShape, element::Element, sources::Rect};
 
 struct Bench {
+    domain: Domain,
     elements: ElementTable,
     particles: Particles,
     solids: Solids,
@@ -17,6 +18,7 @@ const WATER: ElementId = ElementId(1);
 impl Bench {
     fn new() -> Self {
         Self {
+            domain: Domain { size: Vec2::new(60.0, 40.0), gravity: Vec2::ZERO },
             elements: ElementTable::new(vec![
                 Element::plain("rock", true),
                 Element { flow: 0.25, ..Element::plain("water", false) },
@@ -30,6 +32,7 @@ impl Bench {
 
     fn matter(&mut self) -> Matter<'_> {
         Matter {
+            domain: &self.domain,
             elements: &self.elements,
             particles: &mut self.particles,
             solids: &mut self.solids,
@@ -125,17 +128,8 @@ fn filling_stops_at_rock() {
 #[test]
 fn a_tap_keeps_its_rate_and_its_total() {
     let mut bench = Bench::new();
-    let area = Rect { min: Vec2::new(10.0, 30.0), max: Vec2::new(30.0, 34.0) };
-    let mut emitter = Emitter {
-        element: WATER,
-        area,
-        velocity: Vec2::new(0.0, -1.0),
-        rate: 30.0,
-        total: Some(40),
-        start: 10,
-        given: 0,
-        due: 0.0,
-    };
+    let mut emitter = Emitter { velocity: Vec2::new(0.0, -1.0), total: Some(40), start: 10, ..tap(30.0) };
+    let area = emitter.area;
     for tick in 0..10 {
         bench.matter().emit(&mut emitter, &mut Occupancy::default(), tick, 1.0 / 60.0);
     }
@@ -150,4 +144,42 @@ fn a_tap_keeps_its_rate_and_its_total() {
     assert_eq!((emitter.given, bench.particles.len()), (40, 40));
     assert!(bench.nearest() >= CLEARANCE);
     assert_eq!(bench.matter().drain(&Drain { area }).removed, 40);
+}
+
+/// A tap of 20 × 4 sites.
+fn tap(rate: f32) -> Emitter {
+    let area = Rect { min: Vec2::new(10.0, 30.0), max: Vec2::new(30.0, 34.0) };
+    Emitter { element: WATER, area, velocity: Vec2::ZERO, rate, total: None, start: 0, given: 0, due: 0.0 }
+}
+
+#[test]
+fn what_moves_is_never_placed_in_a_cell_that_the_box_cuts() {
+    let places: [fn(&mut Matter<'_>); 4] = [
+        |matter| _ = matter.fill(WATER, Vec2::splat(3.5)),
+        |matter| _ = matter.stamp(WATER, &Stroke::rectangle(Vec2::ZERO, Vec2::new(60.0, 40.0))),
+        |matter| (0..200).for_each(|seed| _ = matter.pour(WATER, &disc(58.0, 38.0, 6.0), seed)),
+        |matter| {
+            let area = Rect { min: Vec2::new(50.0, 30.0), max: Vec2::new(60.0, 40.0) };
+            let mut tap = Emitter { area, ..tap(6000.0) };
+            (0..60).for_each(|tick| _ = matter.emit(&mut tap, &mut Occupancy::default(), tick, 1.0 / 60.0));
+        },
+    ];
+    for (k, place) in places.into_iter().enumerate() {
+        let mut bench = Bench::new();
+        // The last column is cut to .4 d, the last row to .9 d.
+        bench.domain.size = Vec2::new(59.4, 39.9);
+        place(&mut bench.matter());
+        let highest = (0..bench.particles.len()).map(|i| bench.particles.position(i)).fold(Vec2::ZERO, Vec2::max);
+        assert!(bench.particles.len() > 20, "place {k}");
+        assert!(highest.x < 59.0 && highest.y < 39.0 && highest.y > 37.0, "place {k}: {highest}");
+    }
+}
+
+#[test]
+fn a_tap_in_a_full_world_refuses_what_is_due_and_no_more() {
+    let mut bench = Bench::new();
+    bench.limit = 0;
+    let mut tap = tap(90.0);
+    let report = bench.matter().emit(&mut tap, &mut Occupancy::default(), 0, 1.0 / 60.0);
+    assert_eq!((report.placed, report.refused, report.blocked), (0, 1, false));
 }

@@ -15,7 +15,7 @@ const MEMORY_GROWTH: f64 = 2e6;
 /// scatter.
 const COUNT_DRIFT: f64 = 0.05;
 
-/// How much more kinetic energy than in the median period may be there at any time, over the same in the second quarter.
+/// How many times the mean kinetic energy of the second quarter that of the last may be.
 const ENERGY_GROWTH: f64 = 2.0;
 
 /// Looks of a stretch of time.

@@ -56,7 +56,7 @@ static TABLE: [Row; Effect::ALL.len()] = [
         part_of: None,
         when: "the air moves, a fan drives it, or particles drag it along",
         parameters: &["winds", "pressures", "open", "sound_speed", "air_cell", "air_courant", "air_advection"],
-        off: "the air stands; no grid of it is even built",
+        off: "the air stands, whatever moved it before; no grid of it is even built",
         called_for: |facts| {
             if facts.has_fans {
                 (true, "a fan drives the air")
@@ -94,12 +94,14 @@ static TABLE: [Row; Effect::ALL.len()] = [
         called_for: |facts| {
             if facts.mode(Effect::Air) == Mode::Off {
                 (false, "the air is switched off")
-            } else if !facts.runs(Effect::Drag) || !facts.feels_air {
+            } else if !facts.feels_air {
                 (false, "no particle feels the air")
+            } else if !facts.runs(Effect::Drag) {
+                (false, "the drag is switched off")
             } else if facts.preset == Preset::Classic {
                 (false, "not in this quality")
             } else {
-                verdict(facts.stirs_air || facts.air_moves, "particles meet moving air", "particles and air are still")
+                verdict(facts.stirs_air || facts.air_moves, "the air moves, or particles could move it", "particles and air are still")
             }
         },
         another: "a particle feels the air: the faintest breath of it wakes air that sleeps",

@@ -20,7 +20,7 @@ use std::collections::HashSet;
 const MOST_CELLS: f32 = 64e6;
 /// Longest side of a box, d.
 const LONGEST_SIDE: f32 = 32_768.0;
-/// Highest potential of the predictor, d²/s: that of the fastest moves over the longest side, and more.
+/// Highest pressure of the predictor, d/s: that of the fastest moves over the longest side in cells, and more.
 const ABSURD_POTENTIAL: f32 = 1e12;
 /// Furthest that anything lies and fastest that anything moves, d and d/s.
 const ABSURD: f32 = 1e9;

@@ -47,10 +47,12 @@ pub(super) fn apply_intents(
             recorder.note(clock.tick, intent);
         }
         clock.edits += 1;
-        if moves_air(&intent, effects.get(Effect::Air).mode, setup.elements(), &rock) {
+        let air_stands = effects.get(Effect::Air).mode == Mode::Off;
+        if !air_stands && moves_air(&intent, setup.elements(), &rock) {
             air.build(&rock);
         }
         let mut matter = Matter {
+            domain: &setup.domain,
             elements: setup.elements(),
             particles: &mut particles,
             solids: &mut rock,
@@ -62,6 +64,7 @@ pub(super) fn apply_intents(
             Intent::Stamp { element, stroke } => matter.stamp(element, &stroke),
             Intent::Fill { element, at } => matter.fill(element, at),
             Intent::Erase { stroke } => matter.erase(&stroke),
+            Intent::Blow { .. } | Intent::Press { .. } if air_stands => EditReport::default(),
             Intent::Blow { stroke, velocity } => {
                 let wind = air.blow(stroke.to, stroke.radius, velocity);
                 if air_may_yield(&setup, &effects) {
@@ -109,18 +112,17 @@ pub(super) fn apply_intents(
 fn air_may_yield(setup: &Setup, effects: &Effects) -> bool {
     let runs = |effect: Effect| effects.get(effect).mode != Mode::Off;
     let yields = effects.get(Effect::AirFeedback).mode == Mode::On || setup.preset != Preset::Classic;
-    runs(Effect::Air) && runs(Effect::Drag) && runs(Effect::AirFeedback) && yields
+    runs(Effect::Drag) && runs(Effect::AirFeedback) && yields
 }
 
-/// Whether an intent may move air that has been at rest since the scene began. Rock that comes or goes does, unless there
-/// is no air to speak of.
-fn moves_air(intent: &Intent, air: Mode, elements: &ElementTable, rock: &Rock) -> bool {
+/// Whether an intent may move air that has been at rest since the scene began. Rock that comes or goes does.
+fn moves_air(intent: &Intent, elements: &ElementTable, rock: &Rock) -> bool {
     match intent {
         Intent::Blow { .. } | Intent::Press { .. } => true,
         Intent::Draw { element, .. } | Intent::Stamp { element, .. } | Intent::Fill { element, .. } => {
-            air != Mode::Off && elements.get(*element).fixed
+            elements.get(*element).fixed
         }
-        Intent::Erase { .. } => air != Mode::Off && rock.count() > 0,
+        Intent::Erase { .. } => rock.count() > 0,
         Intent::ClearAir | Intent::Quality { .. } | Intent::Effect { .. } | Intent::Gravity { .. } => false,
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::{
     kernel::{element::Element, forces::DragTable, predict, units::TICK_SECONDS},
+    scene::blueprint::{Effect, Mode},
     sim::{
         effects::{Effects, facts::Facts},
         stages::TickPlan,
@@ -14,7 +15,7 @@ use bevy::prelude::{Res, ResMut};
 pub(super) fn plan_tick(
     setup: Res<Setup>,
     particles: Res<ParticleStore>,
-    air: Res<AirGrid>,
+    mut air: ResMut<AirGrid>,
     sources: Res<Sources>,
     census: Res<Census>,
     asleep: Res<SleepState>,
@@ -30,6 +31,10 @@ pub(super) fn plan_tick(
     let fastest = predict::fastest(&particles.vx, &particles.vy);
     let drag = DragTable { rates: &rates.drag, masses: &rates.mass };
     let modes = effects.wanted();
+    // Air that is switched off stands: a wind that froze would blow for ever.
+    if modes[Effect::Air as usize] == Mode::Off && !air.is_quiet() {
+        air.clear();
+    }
     effects.decide(&Facts {
         modes,
         preset: setup.preset,

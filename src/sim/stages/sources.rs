@@ -37,6 +37,7 @@ pub(super) fn run_sources(
     let tick = clock.tick;
     let Sources { emitters, drains, .. } = &mut *sources;
     let mut matter = Matter {
+        domain: &setup.domain,
         elements: setup.elements(),
         particles: &mut particles,
         solids: &mut rock,
