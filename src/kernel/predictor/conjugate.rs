@@ -4,7 +4,7 @@ use crate::kernel::{
     parallel::{Rows, Sweep, Team, sweep},
     predictor::{
         PredictorReport,
-        level::{RowSums, WORTH_A_PIECE, row_dot},
+        level::{RowSums, SUM_LANES, WORTH_A_PIECE, clear_around, row_dot},
         multigrid::Hierarchy,
     },
 };
@@ -24,18 +24,24 @@ pub(super) fn tolerance(dt: f32) -> f64 {
     TOLERANCE * if share < 0.999 { share } else { 1.0 }
 }
 
+/// Columns are solved for in pieces of so many. The sums' lanes and the finer levels' pairs begin anew in each, so that it
+/// makes no difference, to the last bit, how many there are.
+pub(super) const SPAN_STEP: usize = 64;
+
 /// The vectors of the iteration. The solution stays as the next first guess.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Conjugate {
     /// Rows from the first to the last that has a liquid cell. Outside of them `liquid` and `solution` are 0 and the other
     /// fields are not read.
     pub rows: Range<usize>,
+    /// Columns from the first to the last that has one, rounded to whole pieces of [`SPAN_STEP`] from the first column on.
+    pub span: Range<usize>,
     /// 1 in liquid cells, else 0.
     pub liquid: Vec<f32>,
     /// In: first guess. Out: solution, d/s.
     pub solution: Vec<f32>,
-    /// Whether a row has liquid.
-    pub wet: Vec<bool>,
+    /// Columns of each row from the first to the last liquid cell.
+    pub wet: Vec<Range<u32>>,
     direction: Vec<f32>,
     sums: [RowSums; 2],
 }
@@ -58,27 +64,32 @@ impl Conjugate {
     pub fn solve(&mut self, hierarchy: &mut Hierarchy, tolerance: f64, team: Team) -> PredictorReport {
         let Self { solution, direction, sums: [sums, after], .. } = self;
         let finest = hierarchy.finest();
-        let (stride, rows, cells) = (finest.stride, finest.rows.clone(), finest.cells());
-        // The operator reads one row below and one above.
-        direction[cells.start - stride..cells.start].fill(0.0);
-        direction[cells.end..cells.end + stride].fill(0.0);
+        let (stride, rows, span, cells) = (finest.stride, finest.rows.clone(), finest.span.clone(), finest.cells());
+        // The operator reads one cell further.
+        clear_around(direction, stride, finest.columns, &rows, &span);
         let [scale, mut left] = finest.take_product_off(solution, [&mut *sums, after], team);
         let scale = scale.max(1e-30);
         let (mut iterations, mut last) = (0, f64::INFINITY);
         while iterations < MOST_ITERATIONS && left > tolerance * tolerance * scale {
             let next = hierarchy.cycle(sums, team);
             let finest = hierarchy.finest();
-            let turn =
-                Turn { preconditioned: &finest.x, stride, keep: (next / last) as f32, is_first: iterations == 0 };
-            sweep(&turn, rows.clone(), Rows::new(direction, stride, &rows), stride, WORTH_A_PIECE, team);
+            let turn = Turn {
+                preconditioned: &finest.x,
+                stride,
+                span: &span,
+                keep: (next / last) as f32,
+                is_first: iterations == 0,
+            };
+            sweep(&turn, rows.clone(), Rows::new(direction, stride, &rows), span.len(), WORTH_A_PIECE, team);
             last = next;
             let curvature = finest.apply(direction, sums, team);
             if curvature <= 0.0 || !curvature.is_finite() {
                 break;
             }
-            let advance = Advance { direction, product: &finest.work, stride, step: (next / curvature) as f32 };
+            let product = &finest.work;
+            let advance = Advance { direction, product, stride, span: &span, step: (next / curvature) as f32 };
             let fields = (Rows::new(solution, stride, &rows), Rows::new(&mut finest.b, stride, &rows));
-            sweep(&advance, rows.clone(), (fields, sums.rows(&rows)), stride, WORTH_A_PIECE, team);
+            sweep(&advance, rows.clone(), (fields, sums.rows(&rows)), span.len(), WORTH_A_PIECE, team);
             left = sums.total(&rows);
             iterations += 1;
         }
@@ -101,6 +112,7 @@ impl Conjugate {
 struct Turn<'a> {
     preconditioned: &'a [f32],
     stride: usize,
+    span: &'a Range<usize>,
     /// Share of the last direction that is kept.
     keep: f32,
     is_first: bool,
@@ -108,12 +120,15 @@ struct Turn<'a> {
 
 impl Sweep<Rows<'_, f32>> for Turn<'_> {
     #[inline(always)]
-    fn run(&self, rows: Range<usize>, direction: Rows<f32>) {
-        let preconditioned = &self.preconditioned[rows.start * self.stride..rows.end * self.stride];
-        if self.is_first {
-            direction.field.copy_from_slice(preconditioned);
-        } else {
-            for (direction, preconditioned) in direction.field.iter_mut().zip(preconditioned) {
+    fn run(&self, rows: Range<usize>, mut direction: Rows<f32>) {
+        for (j, direction) in rows.zip(direction.each()) {
+            let direction = &mut direction[self.span.clone()];
+            let preconditioned = &self.preconditioned[j * self.stride..][self.span.clone()];
+            if self.is_first {
+                direction.copy_from_slice(preconditioned);
+                continue;
+            }
+            for (direction, preconditioned) in direction.iter_mut().zip(preconditioned) {
                 *direction = *preconditioned + self.keep * *direction;
             }
         }
@@ -126,6 +141,7 @@ struct Advance<'a> {
     /// A times the direction.
     product: &'a [f32],
     stride: usize,
+    span: &'a Range<usize>,
     step: f32,
 }
 
@@ -135,14 +151,18 @@ type Advanced<'a> = ((Rows<'a, f32>, Rows<'a, f32>), Rows<'a, f64>);
 impl Sweep<Advanced<'_>> for Advance<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, ((mut solution, mut b), sums): Advanced) {
+        let span = self.span;
+        // The sums count from the padding on; past the span, b is 0.
+        let summed = span.start - 1..(span.end - 1 + SUM_LANES).min(self.stride);
         for (((j, solution), b), sum) in rows.zip(solution.each()).zip(b.each()).zip(sums.field) {
-            let cells = j * self.stride..(j + 1) * self.stride;
-            let (direction, product) = (&self.direction[cells.clone()], &self.product[cells]);
+            let [direction, product] =
+                [self.direction, self.product].map(|field| &field[j * self.stride..][span.clone()]);
+            let (solution, own) = (&mut solution[span.clone()], &mut b[span.clone()]);
             for i in 0..solution.len() {
                 solution[i] += self.step * direction[i];
-                b[i] -= self.step * product[i];
+                own[i] -= self.step * product[i];
             }
-            *sum = row_dot(b, b);
+            *sum = row_dot(&b[summed.clone()], &b[summed.clone()]);
         }
     }
 }

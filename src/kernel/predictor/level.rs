@@ -16,8 +16,10 @@ pub(super) const WORTH_A_PIECE: usize = 4096;
 pub(super) struct Level {
     pub columns: usize,
     pub stride: usize,
-    /// Rows that are solved for. In the row below and the row above all fields are 0; beyond, nothing is read.
+    /// Rows that are solved for, and columns of them. In the row below and the row above and within [`MARGIN`] columns on
+    /// either side all fields are 0; beyond, nothing is read.
     pub rows: Range<usize>,
+    pub span: Range<usize>,
     /// Σ of the open shares of a cell's faces; 0 where there is nothing to solve.
     pub diagonal: Vec<f32>,
     /// Damping/diagonal, or 0.
@@ -43,6 +45,7 @@ impl Level {
             columns,
             stride,
             rows: 1..1,
+            span: 1..1,
             diagonal: field(),
             damped: field(),
             right: field(),
@@ -53,10 +56,9 @@ impl Level {
         }
     }
 
-    /// Says which rows are solved for; the caller fills the operator in there.
-    pub fn take_rows(&mut self, rows: Range<usize>) {
-        let below = (rows.start - 1) * self.stride..rows.start * self.stride;
-        let above = rows.end * self.stride..(rows.end + 1) * self.stride;
+    /// Says which rows are solved for, and which columns of them; the caller fills the operator in there.
+    pub fn take(&mut self, rows: Range<usize>, span: Range<usize>) {
+        let (stride, columns) = (self.stride, self.columns);
         for field in [
             &mut self.diagonal,
             &mut self.damped,
@@ -66,10 +68,9 @@ impl Level {
             &mut self.b,
             &mut self.work,
         ] {
-            field[below.clone()].fill(0.0);
-            field[above.clone()].fill(0.0);
+            clear_around(field, stride, columns, &rows, &span);
         }
-        self.rows = rows;
+        (self.rows, self.span) = (rows, span);
     }
 
     /// The indices of the rows that are solved for.
@@ -77,10 +78,15 @@ impl Level {
         self.rows.start * self.stride..self.rows.end * self.stride
     }
 
+    /// The columns of the next coarser level that its span is made from.
+    pub fn coarse_span(&self) -> Range<usize> {
+        self.span.start.div_ceil(2)..self.span.end / 2 + 1
+    }
+
     /// The operator and the right-hand side.
     fn equation(&self) -> Equation<'_> {
         Equation {
-            columns: self.columns,
+            span: self.span.clone(),
             stride: self.stride,
             diagonal: &self.diagonal,
             damped: &self.damped,
@@ -137,17 +143,37 @@ impl Level {
     /// The residual's sums over 2 × 2 cells become the right-hand side of the next coarser level.
     pub fn restrict(&self, coarse: &mut Self, team: Team) {
         let band = Rows::new(&mut coarse.b, coarse.stride, &coarse.rows);
-        let work = Restrict { equation: self.equation(), rows: self.rows.clone(), x: &self.x };
-        sweep(&work, coarse.rows.clone(), band, 4 * coarse.stride, WORTH_A_PIECE, team);
+        let (rows, columns) = (self.rows.clone(), self.columns);
+        let work = Restrict { equation: self.equation(), rows, columns, span: coarse.span.clone(), x: &self.x };
+        sweep(&work, coarse.rows.clone(), band, 4 * coarse.span.len(), WORTH_A_PIECE, team);
     }
 
     fn sweep<B: Band>(&self, work: &impl Sweep<B>, band: B, team: Team) {
-        sweep(work, self.rows.clone(), band, self.stride, WORTH_A_PIECE, team);
+        sweep(work, self.rows.clone(), band, self.span.len(), WORTH_A_PIECE, team);
     }
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
         7 * 4 * self.x.capacity()
+    }
+}
+
+/// Columns beside those that are solved for in which fields are 0: as many as a pair of cells and a sum reach past them.
+const MARGIN: usize = SUM_LANES;
+
+/// Sets a field to 0 around the cells that are solved for.
+pub(super) fn clear_around(field: &mut [f32], stride: usize, columns: usize, rows: &Range<usize>, span: &Range<usize>) {
+    let (low, high) = (span.start.saturating_sub(MARGIN), (span.end + MARGIN).min(stride));
+    for row in [rows.start - 1, rows.end] {
+        field[row * stride + low..row * stride + high].fill(0.0);
+    }
+    // What is beside all columns is padding, and always 0.
+    if span.start == 1 && span.end == columns + 1 {
+        return;
+    }
+    for row in rows.clone() {
+        field[row * stride + low..row * stride + span.start].fill(0.0);
+        field[row * stride + span.end..row * stride + high].fill(0.0);
     }
 }
 
@@ -159,7 +185,7 @@ pub(super) fn damping(diagonal: f32) -> f32 {
 
 /// The equation as sweeps read it.
 struct Equation<'a> {
-    columns: usize,
+    span: Range<usize>,
     stride: usize,
     diagonal: &'a [f32],
     damped: &'a [f32],
@@ -188,10 +214,10 @@ impl Equation<'_> {
         }
     }
 
-    /// The cells of a row.
+    /// The cells of a row that are solved for.
     #[inline(always)]
     fn cells(&self, row: usize) -> Range<usize> {
-        row * self.stride + 1..row * self.stride + 1 + self.columns
+        row * self.stride + self.span.start..row * self.stride + self.span.end
     }
 }
 
@@ -205,7 +231,7 @@ impl<'b> Sweep<(Rows<'b, f32>, Rows<'b, f64>)> for Apply<'_> {
     fn run(&self, rows: Range<usize>, (mut out, sums): (Rows<f32>, Rows<f64>)) {
         for ((j, out), sum) in rows.zip(out.each()).zip(sums.field) {
             let cells = self.equation.cells(j);
-            let out = &mut out[1..=cells.len()];
+            let out = &mut out[self.equation.span.clone()];
             self.equation.products(self.x, cells.start, cells.len(), |i, product| out[i] = product);
             *sum = row_dot(out, &self.x[cells]);
         }
@@ -222,7 +248,7 @@ impl<'b> Sweep<(Rows<'b, f32>, (Rows<'b, f64>, Rows<'b, f64>))> for TakeProductO
     fn run(&self, rows: Range<usize>, (mut b, (before, after)): (Rows<f32>, (Rows<f64>, Rows<f64>))) {
         for (((j, b), before), after) in rows.zip(b.each()).zip(before.field).zip(after.field) {
             let cells = self.equation.cells(j);
-            let b = &mut b[1..=cells.len()];
+            let b = &mut b[self.equation.span.clone()];
             *before = row_dot(b, b);
             self.equation.products(self.x, cells.start, cells.len(), |i, product| b[i] -= product);
             *after = row_dot(b, b);
@@ -240,7 +266,7 @@ impl Sweep<Rows<'_, f32>> for SmoothFromZero<'_> {
         for (j, out) in rows.zip(out.each()) {
             let cells = equation.cells(j);
             let (o, n) = (cells.start, cells.len());
-            let out = &mut out[1..1 + n];
+            let out = &mut out[equation.span.clone()];
             // The first step alone is damping times right-hand side, of a cell and of those around it.
             let [damped, d_left, d_right, d_lower, d_upper] = and_around(equation.damped, cells.clone(), s);
             let [b, b_left, b_right, b_lower, b_upper] = and_around(equation.b, cells.clone(), s);
@@ -284,7 +310,7 @@ impl Smooth<'_> {
         let cells = self.equation.cells(row);
         let (x, damped) = (&self.x[cells.clone()], &self.equation.damped[cells.clone()]);
         let b = &self.equation.b[cells.clone()];
-        let out = &mut out[1..=cells.len()];
+        let out = &mut out[self.equation.span.clone()];
         self.equation.products(self.x, cells.start, cells.len(), |i, product| {
             out[i] = x[i] + damped[i] * (b[i] - product);
         });
@@ -306,7 +332,7 @@ impl<'b> Sweep<(Rows<'b, f32>, Rows<'b, f64>)> for Smooth<'_> {
         for ((j, out), sum) in rows.zip(out.each()).zip(sums.field) {
             self.row(j, out);
             let cells = self.equation.cells(j);
-            *sum = row_dot(&out[1..=cells.len()], &self.equation.b[cells]);
+            *sum = row_dot(&out[self.equation.span.clone()], &self.equation.b[cells]);
         }
     }
 }
@@ -318,6 +344,10 @@ struct Restrict<'a> {
     equation: Equation<'a>,
     /// Fine rows that are solved for.
     rows: Range<usize>,
+    /// Fine columns that there are.
+    columns: usize,
+    /// Coarse columns that are solved for.
+    span: Range<usize>,
     x: &'a [f32],
 }
 
@@ -326,18 +356,20 @@ impl Sweep<Rows<'_, f32>> for Restrict<'_> {
     fn run(&self, rows: Range<usize>, mut out: Rows<f32>) {
         let equation = &self.equation;
         for (j, out) in rows.zip(out.each()) {
-            for first in (0..equation.columns).step_by(CHUNK) {
-                let n = CHUNK.min(equation.columns - first);
+            // Of a pair that the span cuts, what is outside is 0.
+            let end = (2 * self.span.end - 1).min(self.columns + 1);
+            for first in (2 * self.span.start - 1..end).step_by(CHUNK) {
+                let n = CHUNK.min(end - first);
                 let mut residuals = [[0.0_f32; CHUNK]; 2];
                 for (fine, residual) in [2 * j - 1, 2 * j].into_iter().zip(&mut residuals) {
                     if self.rows.contains(&fine) {
-                        let start = equation.cells(fine).start + first;
+                        let start = fine * equation.stride + first;
                         let (b, residual) = (&equation.b[start..start + n], &mut residual[..n]);
                         equation.products(self.x, start, n, |i, product| residual[i] = b[i] - product);
                     }
                 }
                 let (lower, upper) = (residuals[0].as_chunks::<2>().0, residuals[1].as_chunks::<2>().0);
-                let sums = &mut out[first / 2 + 1..][..n.div_ceil(2)];
+                let sums = &mut out[first.div_ceil(2)..][..n.div_ceil(2)];
                 for ((sum, lower), upper) in sums.iter_mut().zip(lower).zip(upper) {
                     *sum = (lower[0] + lower[1]) + (upper[0] + upper[1]);
                 }
@@ -366,7 +398,7 @@ impl RowSums {
 }
 
 /// Lanes of the sums: fixed, so that their rounding does not depend on the processor.
-const SUM_LANES: usize = 16;
+pub(super) const SUM_LANES: usize = 16;
 
 /// `a · b` over the cells of a row, with a fixed order of sums.
 #[inline(always)]

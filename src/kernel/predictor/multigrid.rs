@@ -76,16 +76,16 @@ impl Hierarchy {
     }
 }
 
-/// The two rows of cells that a coarse row is made of, from the first column on, as pairs along the row. A row that is
-/// not solved for and the padding at the end of an odd row are 0.
+/// The two rows of cells that the span of a coarse row is made of, as pairs along the row. What is not solved for is 0.
 #[inline(always)]
 fn pairs<'a>(field: &'a [f32], fine: &Level, coarse: &Level, row: usize) -> [&'a [[f32; 2]]; 2] {
-    [2 * row - 1, 2 * row].map(|j| field[j * fine.stride + 1..][..2 * coarse.columns].as_chunks().0)
+    let (first, len) = (2 * coarse.span.start - 1, 2 * coarse.span.len());
+    [2 * row - 1, 2 * row].map(|j| field[j * fine.stride + first..][..len].as_chunks().0)
 }
 
 /// Couplings across the edge of an aggregate add up, those inside one leave the diagonal.
 fn coarsen(fine: &Level, coarse: &mut Level, team: Team) {
-    coarse.take_rows(fine.rows.start.div_ceil(2)..fine.rows.end / 2 + 1);
+    coarse.take(fine.rows.start.div_ceil(2)..fine.rows.end / 2 + 1, fine.coarse_span());
     let (rows, stride) = (coarse.rows.clone(), coarse.stride);
     let [mut diagonal, mut damped, mut right, mut upper] =
         [&mut coarse.diagonal, &mut coarse.damped, &mut coarse.right, &mut coarse.upper].map(std::mem::take);
@@ -93,7 +93,7 @@ fn coarsen(fine: &Level, coarse: &mut Level, team: Team) {
         (Rows::new(&mut diagonal, stride, &rows), Rows::new(&mut damped, stride, &rows)),
         (Rows::new(&mut right, stride, &rows), Rows::new(&mut upper, stride, &rows)),
     );
-    sweep(&Coarsen { fine, coarse }, rows, band, 4 * stride, WORTH_A_PIECE, team);
+    sweep(&Coarsen { fine, coarse }, rows, band, 4 * coarse.span.len(), WORTH_A_PIECE, team);
     (coarse.diagonal, coarse.damped, coarse.right, coarse.upper) = (diagonal, damped, right, upper);
 }
 
@@ -112,7 +112,7 @@ impl Sweep<Operator<'_>> for Coarsen<'_> {
         for (j, (((to_diagonal, to_damped), to_right), to_upper)) in rows.zip(out) {
             let [diagonal, right, upper] = [&self.fine.diagonal, &self.fine.right, &self.fine.upper]
                 .map(|field| pairs(field, self.fine, self.coarse, j));
-            let out = 1..1 + self.coarse.columns;
+            let out = self.coarse.span.clone();
             let (to_diagonal, to_damped) = (&mut to_diagonal[out.clone()], &mut to_damped[out.clone()]);
             let (to_right, to_upper) = (&mut to_right[out.clone()], &mut to_upper[out]);
             for i in 0..to_diagonal.len() {
@@ -131,7 +131,7 @@ impl Sweep<Operator<'_>> for Coarsen<'_> {
 fn prolong(coarse: &Level, fine: &mut Level, team: Team) {
     let mut x = std::mem::take(&mut fine.x);
     let band = Rows::new(&mut x, fine.stride, &fine.rows);
-    sweep(&Prolong { coarse, fine }, fine.rows.clone(), band, fine.stride, WORTH_A_PIECE, team);
+    sweep(&Prolong { coarse, fine }, fine.rows.clone(), band, fine.span.len(), WORTH_A_PIECE, team);
     fine.x = x;
 }
 
@@ -144,12 +144,13 @@ impl Sweep<Rows<'_, f32>> for Prolong<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut x: Rows<f32>) {
         let Self { coarse, fine } = self;
+        let pairs = 2 * coarse.span.start - 1..(2 * coarse.span.end - 1).min(fine.columns + 1);
         for (j, x) in rows.zip(x.each()) {
-            let own = j * fine.stride + 1..j * fine.stride + 1 + fine.columns;
-            let from = &coarse.x[j.div_ceil(2) * coarse.stride + 1..][..coarse.columns];
+            let own = j * fine.stride + pairs.start..j * fine.stride + pairs.end;
+            let from = &coarse.x[j.div_ceil(2) * coarse.stride..][coarse.span.clone()];
             // What is not solved for stays 0.
             let weight = |damped: f32| if damped > 0.0 { CORRECTION } else { 0.0 };
-            let (x, odd_x) = x[1..=fine.columns].as_chunks_mut();
+            let (x, odd_x) = x[pairs.clone()].as_chunks_mut();
             let (damped, odd_damped) = fine.damped[own].as_chunks();
             for (([left, right], [damped_left, damped_right]), from) in x.iter_mut().zip(damped).zip(from) {
                 *left += weight(*damped_left) * from;

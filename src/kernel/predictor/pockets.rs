@@ -38,7 +38,7 @@ impl Pockets {
         self.parts.clear();
         let s = grid.stride;
         for j in level.rows.clone() {
-            for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
+            for k in grid.row(j) + level.span.start..grid.row(j) + level.span.end {
                 if level.diagonal[k] == 0.0 {
                     continue;
                 }
@@ -62,7 +62,7 @@ impl Pockets {
             return;
         }
         for j in level.rows.clone() {
-            for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
+            for k in grid.row(j) + level.span.start..grid.row(j) + level.span.end {
                 if level.diagonal[k] == 0.0 {
                     continue;
                 }

@@ -4,7 +4,7 @@ use crate::kernel::{
     parallel::{Band, Rows, Sweep, Team, sweep},
     predictor::{
         PredictorReport,
-        conjugate::Conjugate,
+        conjugate::{Conjugate, SPAN_STEP},
         equation::{
             Around, Sides, couple, feed_back, feedback_share, fill, fill_in, mark, may_be_sealed, steepen,
             subtract_divergence, touch,
@@ -93,14 +93,14 @@ fn mark_liquid(
     team: Team,
 ) {
     let rows = cells_reached(grid, faces);
-    let Conjugate { rows: before, liquid, solution, wet, .. } = conjugate;
+    let Conjugate { rows: before, span, liquid, solution, wet, .. } = conjugate;
     for far in
         [before.start..rows.start.clamp(before.start, before.end), rows.end.clamp(before.start, before.end)..before.end]
     {
         liquid[grid.rows(far.clone())].fill(0.0);
         solution[grid.rows(far)].fill(0.0);
     }
-    wet.resize(grid.rows + 3, false);
+    wet.resize(grid.rows + 3, 0..0);
     let share = 0.25 * grid.per_cell * grid.per_cell / target;
     let Faces { u, v, filled, .. } = faces;
     let band = (
@@ -108,9 +108,19 @@ fn mark_liquid(
         (Rows::new(solution, grid.stride, &rows), Rows::new(wet, 1, &rows)),
     );
     over_rows(grid, &Mark { grid, closed, weights: [u, v], share }, &rows, band, team);
-    let is_wet = |j: &usize| wet[*j];
+    let is_wet = |j: &usize| !wet[*j].is_empty();
     let (first, last) = (rows.clone().find(is_wet), rows.rev().find(is_wet));
     *before = first.zip(last).map_or(0..0, |(first, last)| first..last + 1);
+    let wet = wet[before.clone()].iter().filter(|wet| !wet.is_empty()).cloned();
+    let ends = wet.reduce(|ends, wet| ends.start.min(wet.start)..ends.end.max(wet.end));
+    *span = ends.map_or(1..1, |ends| whole_pieces(ends, grid.columns));
+}
+
+/// Columns, rounded to whole pieces of [`SPAN_STEP`] from the first on.
+fn whole_pieces(columns: Range<u32>, count: usize) -> Range<usize> {
+    let (first, last) = (columns.start as usize - 1, columns.end as usize - 2);
+    let (low, high) = (first / SPAN_STEP * SPAN_STEP, (last / SPAN_STEP + 1) * SPAN_STEP);
+    low + 1..high.min(count) + 1
 }
 
 struct Mark<'a> {
@@ -122,8 +132,8 @@ struct Mark<'a> {
     share: f32,
 }
 
-/// Rows of the cells' filling and liquid, and of the solution with whether there is any liquid.
-type Marks<'a> = ((Rows<'a, f32>, Rows<'a, f32>), (Rows<'a, f32>, Rows<'a, bool>));
+/// Rows of the cells' filling and liquid, and of the solution with the columns from the first to the last liquid cell.
+type Marks<'a> = ((Rows<'a, f32>, Rows<'a, f32>), (Rows<'a, f32>, Rows<'a, Range<u32>>));
 
 impl Sweep<Marks<'_>> for Mark<'_> {
     #[inline(always)]
@@ -135,12 +145,21 @@ impl Sweep<Marks<'_>> for Mark<'_> {
             let (filled, liquid) = (&mut filled[own.clone()], &mut liquid[own.clone()]);
             let stored = closed.row(j) + 1..closed.row(j) + 1 + grid.columns;
             fill(filled, Sides::new(u, v, cells, grid.stride), &closed.rock[stored.clone()], share);
-            *wet = mark(liquid, filled, &closed.liquid_from[stored]);
+            let any = mark(liquid, filled, &closed.liquid_from[stored]);
+            *wet = if any { ends(liquid) } else { 0..0 };
             for (p, liquid) in solution[own].iter_mut().zip(&*liquid) {
                 *p *= *liquid;
             }
         }
     }
+}
+
+/// Columns from the first to the last cell that is marked in a row.
+#[inline(always)]
+fn ends(liquid: &[f32]) -> Range<u32> {
+    let is_marked = |liquid: &f32| *liquid > 0.0;
+    let first = liquid.iter().position(is_marked).map_or(0, |first| first as u32 + 1);
+    first..liquid.iter().rposition(is_marked).map_or(0, |last| last as u32 + 2)
 }
 
 /// Turns momenta into velocities.
@@ -175,14 +194,14 @@ fn assemble(
     conjugate: &Conjugate,
     team: Team,
 ) -> (bool, u64) {
-    let rows = &conjugate.rows;
-    finest.take_rows(rows.clone());
+    let Conjugate { rows, span, liquid, .. } = conjugate;
+    finest.take(rows.clone(), span.clone());
     let (sealed, cuts) = (AtomicBool::new(false), AtomicU64::new(0));
-    let work = Assemble { grid, closed, faces, liquid: &conjugate.liquid, sealed: &sealed, cuts: &cuts };
+    let work = Assemble { grid, closed, faces, liquid, span, sealed: &sealed, cuts: &cuts };
     let Level { diagonal, damped, right, upper, b, .. } = finest;
     let band = |field| Rows::new(field, grid.stride, rows);
     let band = ((band(diagonal), band(damped)), ((band(right), band(upper)), band(b)));
-    over_rows(grid, &work, rows, band, team);
+    sweep(&work, rows.clone(), band, span.len(), WORTH_A_PIECE, team);
     (sealed.into_inner(), cuts.into_inner())
 }
 
@@ -191,6 +210,8 @@ struct Assemble<'a> {
     closed: &'a ClosedFaces,
     faces: &'a Faces,
     liquid: &'a [f32],
+    /// Columns that are solved for.
+    span: &'a Range<usize>,
     /// Out: whether any liquid may be sealed off. It is not if all that is under no liquid is open to air on some side:
     /// whoever goes up from any cell, as far as there is liquid, ends at such a cell.
     sealed: &'a AtomicBool,
@@ -204,14 +225,14 @@ type System<'a> = ((Rows<'a, f32>, Rows<'a, f32>), ((Rows<'a, f32>, Rows<'a, f32
 impl Sweep<System<'_>> for Assemble<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, system: System) {
-        let Self { grid, closed, faces, liquid, sealed, cuts } = *self;
+        let Self { grid, closed, faces, liquid, span, sealed, cuts } = *self;
         let ((mut diagonal, mut damped), ((mut right, mut upper), mut b)) = system;
         let (stride, feedback) = (grid.stride, FEEDBACK_PER_SECOND * grid.cell);
         let (mut any_sealed, mut cut) = (false, 0);
         let out = diagonal.each().zip(damped.each()).zip(right.each().zip(upper.each())).zip(b.each());
         for (j, (((diagonal, damped), (right, upper)), b)) in rows.zip(out) {
-            let end = grid.row(j) + 1 + grid.columns;
-            for start in (grid.row(j) + 1..end).step_by(CHUNK) {
+            let end = grid.row(j) + span.end;
+            for start in (grid.row(j) + span.start..end).step_by(CHUNK) {
                 let cells = start..end.min(start + CHUNK);
                 let (n, own) = (cells.len(), start - grid.row(j)..start - grid.row(j) + cells.len());
                 let [mut steep_u, mut steep_lower, mut steep_upper] = [[0.0_f32; CHUNK + 1]; 3];

@@ -101,7 +101,11 @@ static TABLE: [Row; Effect::ALL.len()] = [
             } else if facts.preset == Preset::Classic {
                 (false, "not in this quality")
             } else {
-                verdict(facts.stirs_air || facts.air_moves, "the air moves, or particles could move it", "particles and air are still")
+                verdict(
+                    facts.stirs_air || facts.air_moves,
+                    "the air moves, or particles could move it",
+                    "particles and air are still",
+                )
             }
         },
         another: "a particle feels the air: the faintest breath of it wakes air that sleeps",

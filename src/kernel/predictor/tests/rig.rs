@@ -54,7 +54,7 @@ impl Equation {
         conjugate.rows = 1..grid.rows + 1;
         let mut hierarchy = Hierarchy::new(grid.columns, grid.rows);
         let (finest, stride) = (hierarchy.finest(), grid.stride);
-        finest.take_rows(conjugate.rows.clone());
+        finest.take(conjugate.rows.clone(), 1..grid.columns + 1);
         for (steep, step) in [(&mut steep_u, 1), (&mut steep_v, stride)] {
             for j in 1..grid.rows + 2 {
                 let after = grid.row(j) + 1..grid.row(j) + 2 + grid.columns;
