@@ -24,22 +24,20 @@ pub(super) fn tolerance(dt: f32) -> f64 {
     TOLERANCE * if share < 0.999 { share } else { 1.0 }
 }
 
-/// Columns are solved for in pieces of so many. The sums' lanes and the finer levels' pairs begin anew in each, so that it
-/// makes no difference, to the last bit, how many there are.
-pub(super) const SPAN_STEP: usize = 64;
-
 /// The vectors of the iteration. The solution stays as the next first guess.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Conjugate {
     /// Rows from the first to the last that has a liquid cell. Outside of them `liquid` and `solution` are 0 and the other
     /// fields are not read.
     pub rows: Range<usize>,
-    /// Columns from the first to the last that has one, rounded to whole pieces of [`SPAN_STEP`] from the first column on.
+    /// Columns from the first to the last that has one, rounded to whole pieces.
     pub span: Range<usize>,
     /// 1 in liquid cells, else 0.
     pub liquid: Vec<f32>,
     /// In: first guess. Out: solution, d/s.
     pub solution: Vec<f32>,
+    /// Columns near particles; in the others `liquid` and `solution` are 0.
+    pub area: Range<usize>,
     /// Columns of each row from the first to the last liquid cell.
     pub wet: Vec<Range<u32>>,
     direction: Vec<f32>,
@@ -54,10 +52,10 @@ impl Conjugate {
         }
     }
 
-    /// Sets out from a solution that reaches over `rows`.
-    pub fn resume(&mut self, solution: Vec<f32>, rows: Range<usize>) {
+    /// Sets out from a solution that reaches over `rows` and `columns`.
+    pub fn resume(&mut self, solution: Vec<f32>, rows: Range<usize>, columns: Range<usize>) {
         self.resize(solution.len());
-        (self.solution, self.rows) = (solution, rows);
+        (self.solution, self.rows, self.area) = (solution, rows, columns);
     }
 
     /// Solves the equation of the hierarchy's finest level, whose right-hand side becomes the residual, up to `tolerance`.

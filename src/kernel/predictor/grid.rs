@@ -3,6 +3,10 @@
 use glam::Vec2;
 use std::ops::Range;
 
+/// What is done to columns is done in pieces of so many. The lanes of sums and the pairs of finer levels begin anew in each,
+/// so that it makes no difference, to the last bit, how many there are.
+const SPAN_STEP: usize = 64;
+
 /// Rows and columns of cells with a ring of padding. Cell (i, j) with 1 ≤ i ≤ columns, 1 ≤ j ≤ rows has index
 /// `j · stride + i`; face u of that index is its left one, face v its lower one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -31,6 +35,32 @@ impl MacGrid {
     /// Length of a field.
     pub fn len(&self) -> usize {
         self.stride * (self.rows + 3)
+    }
+
+    /// Columns of cells, rounded to whole pieces of [`SPAN_STEP`] from the first on.
+    pub fn whole_pieces(&self, columns: Range<usize>) -> Range<usize> {
+        if columns.is_empty() {
+            return 1..1;
+        }
+        let (first, last) = (columns.start - 1, columns.end - 2);
+        let (low, high) = (first / SPAN_STEP * SPAN_STEP, (last / SPAN_STEP + 1) * SPAN_STEP);
+        low + 1..high.min(self.columns) + 1
+    }
+
+    /// Columns of cells near particles between `low` and `high` (d along x): those whose faces they reach and two more on
+    /// either side, rounded to whole pieces.
+    pub fn columns_near(&self, [low, high]: [f32; 2]) -> Range<usize> {
+        if low > high {
+            return 1..1;
+        }
+        let column = |x: f32| 1 + ((x * self.per_cell) as usize).min(self.columns - 1);
+        self.whole_pieces(column(low).saturating_sub(3).max(1)..(column(high) + 4).min(self.columns + 1))
+    }
+
+    /// Columns with the padding beside the first and the last.
+    pub fn padded(&self, columns: &Range<usize>) -> Range<usize> {
+        let start = if columns.start == 1 { 0 } else { columns.start };
+        start..if columns.end == self.columns + 1 { self.stride } else { columns.end }
     }
 
     /// The indices of rows.

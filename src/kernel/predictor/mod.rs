@@ -109,7 +109,7 @@ impl Predictor {
             let is_resumed = self.grid == MacGrid::default() && pressure.len() == grid.len();
             *self = Self { grid, hierarchy: Hierarchy::new(grid.columns, grid.rows), ..Self::default() };
             if is_resumed {
-                self.conjugate.resume(pressure, 1..grid.rows + 1);
+                self.conjugate.resume(pressure, 1..grid.rows + 1, 1..grid.columns + 1);
             }
         }
         self.closed.update(&grid, solids);

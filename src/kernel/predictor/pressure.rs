@@ -1,10 +1,10 @@
 //! The pressure equation: divergence and density feedback in, changes of face velocities out.
 
 use crate::kernel::{
-    parallel::{Band, Rows, Sweep, Team, sweep},
+    parallel::{Rows, Sweep, Team, sweep},
     predictor::{
         PredictorReport,
-        conjugate::{Conjugate, SPAN_STEP},
+        conjugate::Conjugate,
         equation::{
             Around, Sides, couple, feed_back, feedback_share, fill, fill_in, mark, may_be_sealed, steepen,
             subtract_divergence, touch,
@@ -71,11 +71,6 @@ impl Pass for Projection<'_> {
     }
 }
 
-/// Sweeps over rows of the grid.
-fn over_rows<B: Band>(grid: &MacGrid, work: &impl Sweep<B>, rows: &Range<usize>, band: B, team: Team) {
-    sweep(work, rows.clone(), band, grid.stride, WORTH_A_PIECE, team);
-}
-
 /// Rows of cells that have a particle on one of their faces, and one more on either side.
 fn cells_reached(grid: &MacGrid, faces: &Faces) -> Range<usize> {
     let first = faces.reached.start.saturating_sub(2).max(1);
@@ -93,12 +88,21 @@ fn mark_liquid(
     team: Team,
 ) {
     let rows = cells_reached(grid, faces);
-    let Conjugate { rows: before, span, liquid, solution, wet, .. } = conjugate;
+    let Conjugate { rows: before, area, span, liquid, solution, wet, .. } = conjugate;
     for far in
         [before.start..rows.start.clamp(before.start, before.end), rows.end.clamp(before.start, before.end)..before.end]
     {
         liquid[grid.rows(far.clone())].fill(0.0);
         solution[grid.rows(far)].fill(0.0);
+    }
+    if *area != faces.area {
+        // In columns that nothing is near any more.
+        for row in before.clone() {
+            for column in area.clone().filter(|column| !faces.area.contains(column)) {
+                (liquid[grid.row(row) + column], solution[grid.row(row) + column]) = (0.0, 0.0);
+            }
+        }
+        area.clone_from(&faces.area);
     }
     wet.resize(grid.rows + 3, 0..0);
     let share = 0.25 * grid.per_cell * grid.per_cell / target;
@@ -107,25 +111,21 @@ fn mark_liquid(
         (Rows::new(filled, grid.stride, &rows), Rows::new(liquid, grid.stride, &rows)),
         (Rows::new(solution, grid.stride, &rows), Rows::new(wet, 1, &rows)),
     );
-    over_rows(grid, &Mark { grid, closed, weights: [u, v], share }, &rows, band, team);
+    let work = Mark { grid, closed, area, weights: [u, v], share };
+    sweep(&work, rows.clone(), band, area.len(), WORTH_A_PIECE, team);
     let is_wet = |j: &usize| !wet[*j].is_empty();
     let (first, last) = (rows.clone().find(is_wet), rows.rev().find(is_wet));
     *before = first.zip(last).map_or(0..0, |(first, last)| first..last + 1);
     let wet = wet[before.clone()].iter().filter(|wet| !wet.is_empty()).cloned();
     let ends = wet.reduce(|ends, wet| ends.start.min(wet.start)..ends.end.max(wet.end));
-    *span = ends.map_or(1..1, |ends| whole_pieces(ends, grid.columns));
-}
-
-/// Columns, rounded to whole pieces of [`SPAN_STEP`] from the first on.
-fn whole_pieces(columns: Range<u32>, count: usize) -> Range<usize> {
-    let (first, last) = (columns.start as usize - 1, columns.end as usize - 2);
-    let (low, high) = (first / SPAN_STEP * SPAN_STEP, (last / SPAN_STEP + 1) * SPAN_STEP);
-    low + 1..high.min(count) + 1
+    *span = ends.map_or(1..1, |ends| grid.whole_pieces(ends.start as usize..ends.end as usize));
 }
 
 struct Mark<'a> {
     grid: &'a MacGrid,
     closed: &'a ClosedFaces,
+    /// Columns that are looked at.
+    area: &'a Range<usize>,
     /// Weights of the faces.
     weights: [&'a [[f32; 2]]; 2],
     /// Share of a cell that a face's weight stands for.
@@ -138,15 +138,15 @@ type Marks<'a> = ((Rows<'a, f32>, Rows<'a, f32>), (Rows<'a, f32>, Rows<'a, Range
 impl Sweep<Marks<'_>> for Mark<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, ((mut filled, mut liquid), (mut solution, wet)): Marks) {
-        let Self { grid, closed, weights: [u, v], share } = *self;
+        let Self { grid, closed, area, weights: [u, v], share } = *self;
         let out = filled.each().zip(liquid.each()).zip(solution.each()).zip(wet.field);
         for (j, (((filled, liquid), solution), wet)) in rows.zip(out) {
-            let (cells, own) = (grid.row(j) + 1..grid.row(j) + 1 + grid.columns, 1..1 + grid.columns);
+            let (cells, own) = (grid.row(j) + area.start..grid.row(j) + area.end, area.clone());
             let (filled, liquid) = (&mut filled[own.clone()], &mut liquid[own.clone()]);
-            let stored = closed.row(j) + 1..closed.row(j) + 1 + grid.columns;
+            let stored = closed.row(j) + area.start..closed.row(j) + area.end;
             fill(filled, Sides::new(u, v, cells, grid.stride), &closed.rock[stored.clone()], share);
             let any = mark(liquid, filled, &closed.liquid_from[stored]);
-            *wet = if any { ends(liquid) } else { 0..0 };
+            *wet = if any { ends(liquid, area.start) } else { 0..0 };
             for (p, liquid) in solution[own].iter_mut().zip(&*liquid) {
                 *p *= *liquid;
             }
@@ -154,28 +154,31 @@ impl Sweep<Marks<'_>> for Mark<'_> {
     }
 }
 
-/// Columns from the first to the last cell that is marked in a row.
+/// Columns from the first to the last cell that is marked in a row, which begins at column `start`.
 #[inline(always)]
-fn ends(liquid: &[f32]) -> Range<u32> {
+fn ends(liquid: &[f32], start: usize) -> Range<u32> {
     let is_marked = |liquid: &f32| *liquid > 0.0;
-    let first = liquid.iter().position(is_marked).map_or(0, |first| first as u32 + 1);
-    first..liquid.iter().rposition(is_marked).map_or(0, |last| last as u32 + 2)
+    let ends = liquid.iter().position(is_marked).zip(liquid.iter().rposition(is_marked));
+    ends.map_or(0..0, |(first, last)| (start + first) as u32..(start + last + 1) as u32)
 }
 
 /// Turns momenta into velocities.
 fn find_means(grid: &MacGrid, faces: &mut Faces, team: Team) {
-    let Faces { u, v, reached, .. } = faces;
+    let Faces { u, v, reached, area, .. } = faces;
     let band = (Rows::new(u, grid.stride, reached), Rows::new(v, grid.stride, reached));
-    over_rows(grid, &Divide, reached, band, team);
+    let work = Divide { columns: grid.padded(area) };
+    sweep(&work, reached.clone(), band, area.len(), WORTH_A_PIECE, team);
 }
 
-struct Divide;
+struct Divide {
+    columns: Range<usize>,
+}
 
 impl<'b> Sweep<(Rows<'b, [f32; 2]>, Rows<'b, [f32; 2]>)> for Divide {
     #[inline(always)]
-    fn run(&self, _: Range<usize>, (u, v): (Rows<[f32; 2]>, Rows<[f32; 2]>)) {
-        for field in [u.field, v.field] {
-            for face in field {
+    fn run(&self, _: Range<usize>, (mut u, mut v): (Rows<[f32; 2]>, Rows<[f32; 2]>)) {
+        for row in u.each().chain(v.each()) {
+            for face in &mut row[self.columns.clone()] {
                 let weight = if face[0] > 1e-12 { face[0] } else { 1e-12 };
                 face[1] /= weight;
             }
@@ -306,7 +309,8 @@ fn change_velocities(
     team: Team,
 ) {
     let Conjugate { liquid, solution: p, rows, .. } = conjugate;
-    let Faces { u, v, filled, reached, .. } = faces;
+    let Faces { u, v, filled, reached, area, .. } = faces;
+    let columns = &grid.padded(area);
     // The change on each face and whether it is known (1) or to be filled in from its neighbours (0). The solver is done
     // with these.
     let Level { x: change, work: known, .. } = finest;
@@ -317,11 +321,11 @@ fn change_velocities(
     let all = reached.start.min(near.start)..reached.end.max(near.end);
     let along = (u, &closed.open_u, 1);
     for (face, open, step) in [along, (v, &closed.open_v, grid.stride)] {
-        let work = Touch { grid, touching: &touching, liquid, p, filled, closed, open, old: face, step };
+        let work = Touch { grid, touching: &touching, columns, liquid, p, filled, closed, open, old: face, step };
         let band = (Rows::new(known, grid.stride, &around), Rows::new(change, grid.stride, &around));
-        over_rows(grid, &work, &around, band, team);
-        let work = FillIn { grid, near: &near, known, change };
-        over_rows(grid, &work, &all, Rows::new(face, grid.stride, &all), team);
+        sweep(&work, around.clone(), band, columns.len(), WORTH_A_PIECE, team);
+        let work = FillIn { grid, near: &near, columns, known, change };
+        sweep(&work, all.clone(), Rows::new(face, grid.stride, &all), columns.len(), WORTH_A_PIECE, team);
     }
     // The solver expects its padding empty.
     for j in around {
@@ -332,6 +336,8 @@ fn change_velocities(
 struct Touch<'a> {
     grid: &'a MacGrid,
     touching: &'a Range<usize>,
+    /// Columns that are looked at, with the padding.
+    columns: &'a Range<usize>,
     liquid: &'a [f32],
     p: &'a [f32],
     filled: &'a [f32],
@@ -347,15 +353,20 @@ struct Touch<'a> {
 impl<'b> Sweep<(Rows<'b, f32>, Rows<'b, f32>)> for Touch<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, (mut known, mut change): (Rows<f32>, Rows<f32>)) {
-        let Self { grid, touching, liquid, p, filled, closed, open, old, step } = *self;
+        let Self { grid, touching, columns, liquid, p, filled, closed, open, old, step } = *self;
         for (j, (known, change)) in rows.zip(known.each().zip(change.each())) {
+            // What is filled in reads one face further.
+            let around = columns.start.saturating_sub(1)..(columns.end + 1).min(grid.stride);
             if !touching.contains(&j) {
-                known.fill(0.0);
-                change.fill(0.0);
+                known[around.clone()].fill(0.0);
+                change[around].fill(0.0);
                 continue;
             }
-            let end = grid.row(j) + 2 + grid.columns;
-            for start in (grid.row(j) + 1..end).step_by(CHUNK) {
+            for beside in [around.start, around.end - 1] {
+                (known[beside], change[beside]) = (0.0, 0.0);
+            }
+            let end = grid.row(j) + columns.end;
+            for start in (grid.row(j) + columns.start.max(1)..end).step_by(CHUNK) {
                 let cells = start..end.min(start + CHUNK);
                 let before = cells.start - step..cells.end - step;
                 let own = start - grid.row(j)..start - grid.row(j) + cells.len();
@@ -374,6 +385,8 @@ impl<'b> Sweep<(Rows<'b, f32>, Rows<'b, f32>)> for Touch<'_> {
 struct FillIn<'a> {
     grid: &'a MacGrid,
     near: &'a Range<usize>,
+    /// Columns that are looked at, with the padding.
+    columns: &'a Range<usize>,
     known: &'a [f32],
     change: &'a [f32],
 }
@@ -381,16 +394,17 @@ struct FillIn<'a> {
 impl Sweep<Rows<'_, [f32; 2]>> for FillIn<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut faces: Rows<[f32; 2]>) {
-        let Self { grid, near, known, change } = *self;
+        let Self { grid, near, columns, known, change } = *self;
         for (j, faces) in rows.zip(faces.each()) {
+            let faces = &mut faces[columns.clone()];
             if near.contains(&j) {
-                let cells = grid.rows(j..j + 1);
+                let cells = grid.row(j) + columns.start..grid.row(j) + columns.end;
                 let around = |field| Around::new(field, cells.clone(), grid.stride);
                 fill_in(faces, around(change), around(known));
             } else if j == 0 && near.start == 1 {
                 // Beyond the floor stands what stands above it, as `fill_in` finds it beyond the other walls: particles
                 // within half a cell of a wall take a part of their velocity along it from there.
-                for (face, gained) in faces.iter_mut().zip(&change[grid.rows(1..2)]) {
+                for (face, gained) in faces.iter_mut().zip(&change[grid.row(1)..][columns.clone()]) {
                     *face = [*gained, face[1] + gained];
                 }
             } else {

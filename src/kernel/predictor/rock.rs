@@ -125,7 +125,7 @@ impl ClosedFaces {
             faces_around(grid, at.x, at.y, Axis::U, |face, weight| u[face] += weight);
             faces_around(grid, at.x, at.y, Axis::V, |face, weight| v[face] += weight);
         }
-        fold_at_walls(grid, 0..grid.rows + 2, &mut u, &mut v);
+        fold_at_walls(grid, 0..grid.rows + 2, 0..grid.stride, &mut u, &mut v);
         let share = 0.25 * grid.per_cell * grid.per_cell;
         for j in 1..=grid.rows {
             for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
@@ -167,10 +167,16 @@ fn open_share(
 }
 
 /// What was shared out beyond a wall belongs to this side of it; a face on the wall sees only half of its surroundings.
-/// `reached` are the rows that were shared out to.
-pub(super) fn fold_at_walls<T: Foldable>(grid: &MacGrid, reached: Range<usize>, u: &mut [T], v: &mut [T]) {
+/// `reached` are the rows that were shared out to, `across` the columns, with the padding.
+pub(super) fn fold_at_walls<T: Foldable>(
+    grid: &MacGrid,
+    reached: Range<usize>,
+    across: Range<usize>,
+    u: &mut [T],
+    v: &mut [T],
+) {
     let (s, columns, rows) = (grid.stride, grid.columns, grid.rows);
-    for i in 0..=columns + 1 {
+    for i in across.clone() {
         if reached.start == 0 {
             u[s + i].add(u[i]);
         }
@@ -180,15 +186,20 @@ pub(super) fn fold_at_walls<T: Foldable>(grid: &MacGrid, reached: Range<usize>, 
         }
     }
     for j in reached.clone() {
-        let beyond = v[j * s];
-        v[j * s + 1].add(beyond);
-        let beyond = v[j * s + columns + 1];
-        v[j * s + columns].add(beyond);
-        u[j * s + 1].double();
-        u[j * s + columns + 1].double();
+        if across.start == 0 {
+            let beyond = v[j * s];
+            v[j * s + 1].add(beyond);
+            u[j * s + 1].double();
+        }
+        if across.end == s {
+            let beyond = v[j * s + columns + 1];
+            v[j * s + columns].add(beyond);
+            u[j * s + columns + 1].double();
+        }
     }
     for wall in [1, rows + 1].into_iter().filter(|wall| reached.contains(wall)) {
-        v[wall * s + 1..=wall * s + columns].iter_mut().for_each(Foldable::double);
+        let cells = across.start.max(1)..across.end.min(columns + 1);
+        v[wall * s..][cells].iter_mut().for_each(Foldable::double);
     }
 }
 

@@ -30,13 +30,15 @@ pub(super) struct Faces {
     /// Rows that a particle reaches. `u` and `v` are 0 in the two rows on either side; what is in all fields beyond is
     /// left from before.
     pub reached: Range<usize>,
+    /// Columns of cells near particles. Beyond them and the faces next to them, too, all is left from before.
+    pub area: Range<usize>,
     blocks: Blocks,
 }
 
 impl Faces {
     /// Shares out the particles' velocities on the faces.
     pub fn collect(&mut self, grid: &MacGrid, particles: &Particles, instructions: InstructionSet, threads: usize) {
-        let Self { u, v, filled, reached, blocks } = self;
+        let Self { u, v, filled, reached, area, blocks } = self;
         let Particles { x, y, vx, vy, .. } = particles;
         blocks.partition(grid, y, instructions, threads);
         *reached = blocks.reached();
@@ -45,13 +47,16 @@ impl Faces {
             field.resize(grid.len(), [0.0; 2]);
         }
         filled.resize(grid.len(), 0.0);
+        *area = grid.columns_near(ends(x));
+        let columns = grid.padded(area);
+        let work = Clear { columns: columns.start..(columns.end + 1).min(grid.stride) };
         let band = (Rows::new(u, grid.stride, &near), Rows::new(v, grid.stride, &near));
-        sweep(&Clear, near, band, grid.stride, WORTH_CLEARING, Team { instructions, threads });
+        sweep(&work, near, band, columns.len(), WORTH_CLEARING, Team { instructions, threads });
         blocks.share_out([&mut u[..], &mut v[..]], grid.stride, threads, &|particles, row, [u, v]| {
             let [x, y, vx, vy] = [x, y, vx, vy].map(|values| &values[particles.clone()]);
             instructions.run(Collect { grid, x, y, vx, vy, first: grid.row(row), u, v });
         });
-        fold_at_walls(grid, reached.clone(), u, v);
+        fold_at_walls(grid, reached.clone(), columns, u, v);
     }
 
     /// Adds the change of velocity at each particle, and moves its velocity towards the grid's by the share `blend`.
@@ -77,14 +82,29 @@ impl Faces {
     }
 }
 
-struct Clear;
+struct Clear {
+    columns: Range<usize>,
+}
 
 impl<'b> Sweep<(Rows<'b, [f32; 2]>, Rows<'b, [f32; 2]>)> for Clear {
     #[inline(always)]
-    fn run(&self, _: Range<usize>, (u, v): (Rows<[f32; 2]>, Rows<[f32; 2]>)) {
-        u.field.fill([0.0; 2]);
-        v.field.fill([0.0; 2]);
+    fn run(&self, _: Range<usize>, (mut u, mut v): (Rows<[f32; 2]>, Rows<[f32; 2]>)) {
+        u.each().chain(v.each()).for_each(|row| row[self.columns.clone()].fill([0.0; 2]));
     }
+}
+
+/// The lowest and the highest of some numbers; the other way round if there is none.
+fn ends(numbers: &[f32]) -> [f32; 2] {
+    let (blocks, rest) = numbers.as_chunks::<LANES>();
+    let (mut low, mut high) = ([f32::MAX; LANES], [f32::MIN; LANES]);
+    for block in blocks {
+        for lane in 0..LANES {
+            low[lane] = low[lane].min(block[lane]);
+            high[lane] = high[lane].max(block[lane]);
+        }
+    }
+    let low = low.iter().chain(rest).fold(f32::MAX, |low, x| low.min(*x));
+    [low, high.iter().chain(rest).fold(f32::MIN, |high, x| high.max(*x))]
 }
 
 /// The numbers of a slice from `at` on, as many as there are lanes; lanes past its end are 0.
