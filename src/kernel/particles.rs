@@ -120,3 +120,20 @@ impl Particles {
         order
     }
 }
+
+/// Numbers that are compared side by side.
+const EXTENT_LANES: usize = 16;
+
+/// The lowest and the highest of some numbers; the other way round if there is none.
+pub(crate) fn extent(numbers: &[f32]) -> [f32; 2] {
+    let (blocks, rest) = numbers.as_chunks::<EXTENT_LANES>();
+    let (mut low, mut high) = ([f32::MAX; EXTENT_LANES], [f32::MIN; EXTENT_LANES]);
+    for block in blocks {
+        for lane in 0..EXTENT_LANES {
+            low[lane] = low[lane].min(block[lane]);
+            high[lane] = high[lane].max(block[lane]);
+        }
+    }
+    let low = low.iter().chain(rest).fold(f32::MAX, |low, x| low.min(*x));
+    [low, high.iter().chain(rest).fold(f32::MIN, |high, x| high.max(*x))]
+}

@@ -79,6 +79,11 @@ impl CellGrid {
         first.saturating_sub(COLUMNS_PER_RADIUS) as usize..(end as usize).min(self.columns)
     }
 
+    /// Columns that hold everything within reach of what is between `low` and `high`, d along x.
+    pub fn columns_near(&self, [low, high]: [f32; 2]) -> Range<usize> {
+        if low > high { 0..0 } else { self.columns_around(self.column(low), self.column(high)) }
+    }
+
     /// Columns that `radii` of the search are wide.
     pub fn columns_of(radii: u32) -> u32 {
         radii * COLUMNS_PER_RADIUS

@@ -9,7 +9,7 @@ use crate::kernel::{
     bins::cells::CellGrid,
     element::ElementId,
     parallel::{cut, piece},
-    particles::Particles,
+    particles::{Particles, extent},
     simd::{InstructionSet, Lanes, Pass},
 };
 use std::{mem::swap, ops::Range};
@@ -29,8 +29,11 @@ const WORTH_A_SEGMENT: usize = 2048;
 pub(super) struct Sort {
     /// Strips that hold particles.
     pub strips: Range<usize>,
-    /// Index of the first particle of each cell, for those strips and the one above and below them.
+    /// Index of the first particle of each cell, for those strips and the one above and below them. In a strip that holds
+    /// particles only those of the columns near particles count, and those at both of its ends.
     pub starts: Vec<u32>,
+    /// Columns near particles.
+    columns: Range<usize>,
     /// Cell of each particle in the order from before; then room for the sorted ids.
     keys: Vec<u32>,
     /// Lowest and highest cell in each block of particles.
@@ -93,7 +96,8 @@ impl Sort {
         let Particles { x, y, vx, vy, id, element } = particles;
         let found = self.find_cells(grid, x, y, instructions, threads);
         self.cut_into_segments(grid, found, x.len(), threads);
-        let Self { starts, keys, blocks, source, spare_elements, segments, .. } = self;
+        self.columns = grid.columns_near(extent(x));
+        let Self { starts, columns, keys, blocks, source, spare_elements, segments, .. } = self;
         source.resize(x.len(), 0);
         spare_elements.resize(x.len(), ElementId(0));
         let mut values = [x, y, vx, vy];
@@ -101,6 +105,7 @@ impl Sort {
         sorted.iter_mut().for_each(|sorted| sorted.resize(values[0].len(), 0.0));
         let unsorted = Unsorted {
             grid,
+            columns,
             keys,
             blocks,
             values: values.each_ref().map(|values| &values[..]),
@@ -184,8 +189,9 @@ impl Sort {
 
     /// The places of the particles of each cell that holds a crowd.
     pub fn crowds(&self, grid: &CellGrid) -> impl Iterator<Item = Range<usize>> {
-        let cells = self.strips.start * grid.columns..=self.strips.end * grid.columns;
-        let places = self.starts[cells].windows(2).map(|ends| ends[0] as usize..ends[1] as usize);
+        let cells = |strip: usize| strip * grid.columns + self.columns.start..=strip * grid.columns + self.columns.end;
+        let ends = self.strips.clone().flat_map(move |strip| self.starts[cells(strip)].windows(2));
+        let places = ends.map(|ends| ends[0] as usize..ends[1] as usize);
         places.filter(|places| places.len() >= CROWD * BLOCK)
     }
 
@@ -278,6 +284,8 @@ impl Pass for FindCells<'_> {
 /// The particles as they were.
 struct Unsorted<'a> {
     grid: &'a CellGrid,
+    /// Columns near particles.
+    columns: &'a Range<usize>,
     keys: &'a [u32],
     blocks: &'a [[u32; 2]],
     values: [&'a [f32]; 4],
@@ -350,12 +358,23 @@ impl Segment {
 
     /// Finds the end of each cell's particles and where each particle comes from.
     fn place(&self, unsorted: &Unsorted, ends: &mut [u32], source: &mut [u32]) {
-        let base = self.places.start as u32;
-        ends.fill(0);
+        let (base, columns) = (self.places.start as u32, unsorted.columns);
+        for strip in ends.chunks_mut(unsorted.grid.columns) {
+            strip[columns.clone()].fill(0);
+        }
         self.for_each_own(unsorted, |cell, _| ends[cell] += 1);
         let mut sum = base;
-        for end in &mut *ends {
-            sum += std::mem::replace(end, sum);
+        for strip in ends.chunks_mut(unsorted.grid.columns) {
+            // Where the first of the columns begins, the cell before it ends.
+            if let Some(before) = columns.start.checked_sub(1) {
+                strip[before] = sum;
+            }
+            for end in &mut strip[columns.clone()] {
+                sum += std::mem::replace(end, sum);
+            }
+            if columns.end < strip.len() {
+                strip[strip.len() - 1] = sum;
+            }
         }
         debug_assert_eq!(sum as usize, self.places.end);
         // Handing out places moves each start on to the cell's end.

@@ -2,7 +2,7 @@
 
 use crate::kernel::{
     parallel::{Rows, Sweep, Team, WORTH_A_PIECE, spread, sweep},
-    particles::Particles,
+    particles::{Particles, extent},
     predictor::{
         blocks::Blocks,
         grid::MacGrid,
@@ -47,7 +47,7 @@ impl Faces {
             field.resize(grid.len(), [0.0; 2]);
         }
         filled.resize(grid.len(), 0.0);
-        *area = grid.columns_near(ends(x));
+        *area = grid.columns_near(extent(x));
         let columns = grid.padded(area);
         let work = Clear { columns: columns.start..(columns.end + 1).min(grid.stride) };
         let band = (Rows::new(u, grid.stride, &near), Rows::new(v, grid.stride, &near));
@@ -91,20 +91,6 @@ impl<'b> Sweep<(Rows<'b, [f32; 2]>, Rows<'b, [f32; 2]>)> for Clear {
     fn run(&self, _: Range<usize>, (mut u, mut v): (Rows<[f32; 2]>, Rows<[f32; 2]>)) {
         u.each().chain(v.each()).for_each(|row| row[self.columns.clone()].fill([0.0; 2]));
     }
-}
-
-/// The lowest and the highest of some numbers; the other way round if there is none.
-fn ends(numbers: &[f32]) -> [f32; 2] {
-    let (blocks, rest) = numbers.as_chunks::<LANES>();
-    let (mut low, mut high) = ([f32::MAX; LANES], [f32::MIN; LANES]);
-    for block in blocks {
-        for lane in 0..LANES {
-            low[lane] = low[lane].min(block[lane]);
-            high[lane] = high[lane].max(block[lane]);
-        }
-    }
-    let low = low.iter().chain(rest).fold(f32::MAX, |low, x| low.min(*x));
-    [low, high.iter().chain(rest).fold(f32::MIN, |high, x| high.max(*x))]
 }
 
 /// The numbers of a slice from `at` on, as many as there are lanes; lanes past its end are 0.
