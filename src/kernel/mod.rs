@@ -6,6 +6,7 @@
 
 pub mod air;
 pub mod bins;
+mod blocks;
 pub mod brush;
 pub mod checks;
 pub mod element;

@@ -14,7 +14,7 @@ use powder_master::{
         self,
         blueprint::{Blueprint, Effect, EffectModes, Mode},
     },
-    sim::{effects::Effects, stages::TickPlan},
+    sim::{effects::Effects, intent::Intent, stages::TickPlan},
 };
 use proptest::{
     prelude::*,
@@ -51,7 +51,10 @@ fn run(blueprint: &Blueprint, case: &Case, effect: Effect, mode: Mode) -> Result
     let calls = |sandbox: &Sandbox| effect.row().passes.iter().map(|pass| sandbox.calls(*pass)).sum::<u64>();
     for tick in 0..case.ticks {
         while let Some(deed) = deeds.next_if(|deed| deed.tick <= tick) {
-            sandbox.push(deed.intent);
+            // The others may be switched by hand.
+            if !matches!(deed.intent, Intent::Effect { effect: switched, .. } if switched == effect) {
+                sandbox.push(deed.intent);
+            }
         }
         let before = calls(&sandbox);
         sandbox.tick(1);

@@ -23,12 +23,13 @@ use super::grid::Air;
 use super::sample::Stencil;
 use super::step::QUIET_MACH;
 use crate::kernel::{
+    blocks::{Blocks, Reach},
     element::ElementId,
     forces::DragTable,
-    parallel::{Team, WORTH_A_PIECE, spread},
-    particles::Particles,
-    predictor::blocks::{Blocks, Reach},
+    parallel::{Rows, Sweep, Team, WORTH_A_PIECE, spread, sweep},
+    particles::{Particles, extent},
 };
+use std::ops::Range;
 
 /// Fewer cells than this are not handed to another thread.
 const WORTH_RESOLVING: usize = 8192;
@@ -43,7 +44,9 @@ type Meeting = [f32; 4];
 #[derive(Debug, Default)]
 pub(super) struct Feedback {
     blocks: Blocks,
-    /// One entry a cell, with the ring.
+    /// Columns that any particle reaches, counted with the ring.
+    columns: Range<usize>,
+    /// One entry a cell, with the ring. Beyond the rows and columns that are reached it is left from before.
     meetings: Vec<Meeting>,
     /// Tiles that don't sleep.
     active: Vec<bool>,
@@ -68,14 +71,14 @@ pub enum Rousing {
     Breaths,
 }
 
-/// Which rows of the grid, counted with the ring, a height reaches.
+/// Which rows or columns of the grid, counted with the ring, a coordinate reaches.
 #[derive(Clone, Copy)]
-struct Rows {
+struct Along {
     per_cell: f32,
     last: f32,
 }
 
-impl Reach for Rows {
+impl Reach for Along {
     #[inline(always)]
     fn rows(self, y: f32) -> [u32; 2] {
         let (row, _) = super::sample::split(y, self.per_cell, self.last);
@@ -103,10 +106,14 @@ impl Air {
     pub fn meet(&mut self, drag: DragTable, particles: &Particles, rousing: Rousing, team: Team, dt: f32) {
         let mut feedback = std::mem::take(&mut self.scratch.feedback);
         feedback.meetings.resize(self.pressure.len(), Meeting::default());
-        let rows = Rows { per_cell: 1.0 / self.cell, last: (self.rows() - 1) as f32 };
-        feedback.blocks.partition(rows, &particles.y, team.instructions, team.threads);
-        let (reached, stride) = (feedback.blocks.reached(), self.stride());
-        feedback.meetings[reached.start * stride..reached.end * stride].fill(Meeting::default());
+        let along = |count: usize| Along { per_cell: 1.0 / self.cell, last: (count - 1) as f32 };
+        feedback.blocks.partition(along(self.rows()), &particles.y, team.instructions, team.threads);
+        let [low, high] = extent(&particles.x).map(|x| along(self.columns()).rows(x));
+        feedback.columns = low[0] as usize..high[1] as usize;
+        let stride = self.stride();
+        for row in feedback.blocks.reached() {
+            feedback.meetings[row * stride..][feedback.columns.clone()].fill(Meeting::default());
+        }
         let air = &*self;
         let Feedback { blocks, meetings, .. } = &mut feedback;
         blocks.share_out([&mut meetings[..]], stride, team.threads, &|range, first, [meetings]| {
@@ -130,7 +137,7 @@ impl Air {
                 }
             }
         });
-        self.agree(&mut feedback, team.threads);
+        self.agree(&mut feedback, team);
         self.rouse(&mut feedback, rousing);
         self.scratch.feedback = feedback;
     }
@@ -151,11 +158,12 @@ impl Air {
                 *vy += share * (v - *vy);
             }
         });
-        let reached = feedback.blocks.reached();
-        let cells = reached.start * stride..reached.end * stride;
-        let velocities = self.velocity_x[cells.clone()].iter_mut().zip(&mut self.velocity_y[cells.clone()]);
-        for ((u, v), meeting) in velocities.zip(&feedback.meetings[cells]) {
-            (*u, *v) = (meeting[0], meeting[1]);
+        for row in feedback.blocks.reached() {
+            let cells = row * stride + feedback.columns.start..row * stride + feedback.columns.end;
+            let velocities = self.velocity_x[cells.clone()].iter_mut().zip(&mut self.velocity_y[cells.clone()]);
+            for ((u, v), meeting) in velocities.zip(&feedback.meetings[cells]) {
+                (*u, *v) = (meeting[0], meeting[1]);
+            }
         }
         self.scratch.feedback = feedback;
     }
@@ -170,28 +178,12 @@ impl Air {
     }
 
     /// From what cells meet to the velocity that they get.
-    fn agree(&self, feedback: &mut Feedback, threads: usize) {
-        let stride = self.stride();
-        let reached = feedback.blocks.reached();
-        let first = reached.start * stride;
-        let cell_mass = self.params.density * (self.cell * self.cell);
-        let meetings = &mut feedback.meetings[first..reached.end * stride];
-        spread([meetings], WORTH_RESOLVING, threads, &|base, [meetings]| {
-            let cells = first + base..first + base + meetings.len();
-            let [p, u, v] = [&self.pressure, &self.velocity_x, &self.velocity_y].map(|field| &field[cells.clone()]);
-            for (i, meeting) in meetings.iter_mut().enumerate() {
-                let [x, y, load, _] = *meeting;
-                let mass = p[i] * cell_mass;
-                // Rock and what nobody meets stay as they are.
-                let yields = load > 0.0 && !self.solid[cells.start + i];
-                let per_mass = 1.0 / if yields { mass + load } else { 1.0 };
-                *meeting = if yields {
-                    [(mass * u[i] + x) * per_mass, (mass * v[i] + y) * per_mass, load, 0.0]
-                } else {
-                    [u[i], v[i], load, 0.0]
-                };
-            }
-        });
+    fn agree(&self, feedback: &mut Feedback, team: Team) {
+        let Feedback { blocks, columns, meetings, .. } = feedback;
+        let (rows, stride) = (blocks.reached(), self.stride());
+        let band = Rows::new(meetings, stride, &rows);
+        let work = Agree { air: self, columns, cell_mass: self.params.density * (self.cell * self.cell) };
+        sweep(&work, rows, band, columns.len().max(1), WORTH_RESOLVING, team);
     }
 
     /// Wakes sleeping tiles that would get too fast for that. The others keep still.
@@ -201,7 +193,7 @@ impl Air {
             Rousing::Breaths => 0.0,
         };
         let (tiling, stride) = (self.tiling(), self.stride());
-        let Feedback { blocks, meetings, active } = feedback;
+        let Feedback { blocks, columns: met, meetings, active } = feedback;
         self.find_active(active);
         let reached = blocks.reached();
         for tile in (0..tiling.count()).filter(|tile| !active[*tile]) {
@@ -209,7 +201,11 @@ impl Air {
             // Counted with the ring.
             let rows = (rows.start + 1).max(reached.start)..(rows.end + 1).min(reached.end);
             let columns = tiling.columns(tile);
-            let cells = |row: usize| row * stride + columns.start + 1..row * stride + columns.end + 1;
+            let (start, end) = ((columns.start + 1).max(met.start), (columns.end + 1).min(met.end));
+            if start >= end {
+                continue;
+            }
+            let cells = |row: usize| row * stride + start..row * stride + end;
             let is_gust = |meeting: &Meeting| meeting[0].abs() > bound || meeting[1].abs() > bound;
             if rows.clone().any(|row| meetings[cells(row)].iter().any(is_gust)) {
                 self.wake(tile);
@@ -219,6 +215,37 @@ impl Air {
                 for k in cells(row) {
                     meetings[k] = [self.velocity_x[k], self.velocity_y[k], 0.0, 0.0];
                 }
+            }
+        }
+    }
+}
+
+struct Agree<'a> {
+    air: &'a Air,
+    columns: &'a Range<usize>,
+    /// Mass of a cell of air at pressure 1, kg/m² d².
+    cell_mass: f32,
+}
+
+impl Sweep<Rows<'_, Meeting>> for Agree<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, mut meetings: Rows<Meeting>) {
+        let Self { air, columns, cell_mass } = *self;
+        for (row, meetings) in rows.zip(meetings.each()) {
+            let cells = row * air.stride() + columns.start..row * air.stride() + columns.end;
+            let [p, u, v] = [&air.pressure, &air.velocity_x, &air.velocity_y].map(|field| &field[cells.clone()]);
+            let solid = &air.solid[cells];
+            for (i, meeting) in meetings[columns.clone()].iter_mut().enumerate() {
+                let [x, y, load, _] = *meeting;
+                let mass = p[i] * cell_mass;
+                // Rock and what nobody meets stay as they are.
+                let yields = load > 0.0 && !solid[i];
+                let per_mass = 1.0 / if yields { mass + load } else { 1.0 };
+                *meeting = if yields {
+                    [(mass * u[i] + x) * per_mass, (mass * v[i] + y) * per_mass, load, 0.0]
+                } else {
+                    [u[i], v[i], load, 0.0]
+                };
             }
         }
     }

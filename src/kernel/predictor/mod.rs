@@ -7,11 +7,10 @@
 //! change of velocity comes back to the particles (Zhu & Bridson 2005, "Animating sand as a fluid"; McAdams et al. 2010
 //! for the solver). A few iterations of the constraint then do the detail, whatever the depth.
 //!
-//! Rooms: `grid` the geometry, `rock` what is closed, `parts` cells that a wall cuts, `stencil`, `blocks` and `transfer`
-//! particles to grid and back, `pressure` and `equation` the equation, `pockets` where it is singular, `level`, `multigrid`
+//! Rooms: `grid` the geometry, `rock` what is closed, `parts` cells that a wall cuts, `stencil` and `transfer` particles to
+//! grid and back, `pressure` and `equation` the equation, `pockets` where it is singular, `level`, `multigrid`
 //! and `conjugate` its solver.
 
-pub(in crate::kernel) mod blocks;
 mod conjugate;
 mod equation;
 mod grid;

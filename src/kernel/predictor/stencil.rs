@@ -1,9 +1,6 @@
 //! Bilinear weights of the faces around a point.
 
-use crate::kernel::{
-    predictor::{blocks::Reach, grid::MacGrid},
-    simd::whole_below,
-};
+use crate::kernel::{blocks::Reach, predictor::grid::MacGrid, simd::whole_below};
 
 /// Which faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,10 +1,10 @@
 //! Particles to grid and back, with bilinear weights.
 
 use crate::kernel::{
+    blocks::Blocks,
     parallel::{Rows, Sweep, Team, WORTH_A_PIECE, spread, sweep},
     particles::{Particles, extent},
     predictor::{
-        blocks::Blocks,
         grid::MacGrid,
         rock::fold_at_walls,
         stencil::{Axis, LANES, Stencils},

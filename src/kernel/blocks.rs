@@ -18,7 +18,7 @@ const SPAN: usize = 128;
 const FEWEST_SPANS: usize = 512;
 
 /// A grid that particles share something out to.
-pub(in crate::kernel) trait Reach: Copy + Sync {
+pub(super) trait Reach: Copy + Sync {
     /// First row that a particle at height `y` d reaches, and the one after the last. Implementations are
     /// `#[inline(always)]`, so that they are compiled for the caller's registers.
     fn rows(self, y: f32) -> [u32; 2];
@@ -26,14 +26,14 @@ pub(in crate::kernel) trait Reach: Copy + Sync {
 
 /// Consecutive particles and the grid rows that they reach.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::kernel) struct Block {
+pub(super) struct Block {
     pub particles: Range<usize>,
     pub rows: Range<usize>,
 }
 
 /// A partition of the particles. Buffers are kept.
 #[derive(Clone, Debug, Default)]
-pub(in crate::kernel) struct Blocks {
+pub(super) struct Blocks {
     /// First row that each span of particles reaches, and the one after the last.
     spans: Vec<[u32; 2]>,
     /// The blocks of the first and of the second turn, each with its rows in ascending order.
@@ -169,12 +169,23 @@ impl<R: Reach> Pass for FindSpans<'_, R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::predictor::grid::MacGrid;
-    use glam::Vec2;
+    use crate::kernel::simd::whole_below;
+
+    /// 160 rows, 2.5 d high; a particle reaches its own and those on either side.
+    #[derive(Clone, Copy)]
+    struct Strips;
+
+    impl Reach for Strips {
+        #[inline(always)]
+        fn rows(self, y: f32) -> [u32; 2] {
+            let (row, _) = whole_below(y / 2.5, 0, 159);
+            [row, row + 3]
+        }
+    }
 
     fn partition(heights: &[f32]) -> Blocks {
         let mut blocks = Blocks::default();
-        blocks.partition(&MacGrid::new(Vec2::new(10.0, 400.0), 2.5), heights, InstructionSet::Baseline, 1);
+        blocks.partition(Strips, heights, InstructionSet::Baseline, 1);
         blocks
     }
 
