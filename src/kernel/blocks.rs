@@ -171,21 +171,21 @@ mod tests {
     use super::*;
     use crate::kernel::simd::whole_below;
 
-    /// 160 rows, 2.5 d high; a particle reaches its own and those on either side.
+    /// 160 rows, 2.5 d high, with a stencil of two rows at each of two heights half a row apart, as on a staggered grid.
     #[derive(Clone, Copy)]
-    struct Strips;
+    struct Staggered;
 
-    impl Reach for Strips {
+    impl Reach for Staggered {
         #[inline(always)]
         fn rows(self, y: f32) -> [u32; 2] {
-            let (row, _) = whole_below(y / 2.5, 0, 159);
-            [row, row + 3]
+            let row = |at: f32| whole_below(at, 0, 159).0;
+            [row(y / 2.5 - 0.5), row(y / 2.5) + 2]
         }
     }
 
     fn partition(heights: &[f32]) -> Blocks {
         let mut blocks = Blocks::default();
-        blocks.partition(Strips, heights, InstructionSet::Baseline, 1);
+        blocks.partition(Staggered, heights, InstructionSet::Baseline, 1);
         blocks
     }
 

@@ -2,7 +2,7 @@
 
 use super::{
     noise,
-    rig::{Equation, dot},
+    rig::{Equation, coarsen, dot},
     solids,
 };
 use glam::Vec2;
@@ -80,4 +80,31 @@ fn a_tick_needs_hardly_more_iterations_on_a_fine_grid_than_on_a_coarse_one() {
         equation.solve_once(&b).1.iterations
     });
     assert!(iterations[0] <= 3 && iterations[2] <= iterations[0] + 2, "{iterations:?} iterations");
+}
+
+#[test]
+fn columns_without_liquid_are_left_out_to_the_bit() {
+    for ends in [130..190, 65..97, 257..299, 3..40] {
+        let wet = |column: usize, row: usize| ends.contains(&column) && row < 9 + column % 7;
+        let mut equation =
+            Equation::new(Vec2::new(750.0, 50.0), 2.5, &solids(750, 50, |_| false), wet, |column, row| {
+                if wet(column, row) { 1.0 } else { 0.2 }
+            });
+        let b = random_field(&equation, 3);
+        let whole = equation.precondition(&b);
+        let (columns, stride) = (equation.grid.columns, equation.grid.stride);
+        let span = equation.grid.whole_pieces(ends.start + 1..ends.end + 1);
+        assert!(span.len() < 140 && span.len() % 64 == (span.end - 1) % 64, "{span:?} of {columns}");
+        let finest = equation.hierarchy.finest();
+        let rows = finest.rows.clone();
+        // What is further away is left from before, whatever it was.
+        for field in [&mut finest.right, &mut finest.diagonal, &mut finest.damped, &mut finest.x, &mut finest.work] {
+            for k in rows.clone().flat_map(|row| row * stride + 1..=row * stride + columns) {
+                field[k] = if span.contains(&(k % stride)) { field[k] } else { f32::NAN };
+            }
+        }
+        finest.take(rows, span);
+        coarsen(&mut equation.hierarchy);
+        assert_eq!(equation.precondition(&b), whole, "liquid in the columns {ends:?}");
+    }
 }

@@ -154,7 +154,7 @@ impl Equation {
 }
 
 /// Builds the coarse levels of an equation whose finest one is set up.
-fn coarsen(hierarchy: &mut Hierarchy) {
+pub(super) fn coarsen(hierarchy: &mut Hierarchy) {
     let finest = hierarchy.finest();
     finest.damped.iter_mut().zip(&finest.diagonal).for_each(|(damped, diagonal)| *damped = damping(*diagonal));
     hierarchy.coarsen(team());

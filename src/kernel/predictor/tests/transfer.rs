@@ -1,10 +1,11 @@
 //! Particles to grid and back: constants and linear fields, and the sums that have to stay.
 
-use super::{CELL, lattice, noise, size, solids, team};
+use super::{CELL, DT, LATTICE, lattice, noise, size, solids, team};
 use crate::kernel::{
     element::ElementId,
+    params::Domain,
     particles::Particles,
-    predictor::{grid::MacGrid, transfer::Faces},
+    predictor::{Predictor, PredictorParams, grid::MacGrid, transfer::Faces},
 };
 use glam::Vec2;
 
@@ -134,5 +135,46 @@ fn what_the_faces_give_is_what_the_particles_get() {
     for (given, velocity) in given.into_iter().zip([&particles.vx, &particles.vy]) {
         let got: f64 = velocity.iter().map(|v| f64::from(*v)).sum();
         assert!((given - got).abs() < 1e-2, "{given} given, {got} got");
+    }
+}
+
+#[test]
+fn what_is_far_away_changes_nothing_and_leaves_nothing_behind() {
+    let rock = solids(2000, 60, |at| at.y < 2.0 && at.x > 900.0);
+    let pool = |first: f32| {
+        lattice(&rock, move |at| {
+            let inside = (first..first + 90.0).contains(&at.x) && at.y < 30.0;
+            inside.then(|| Vec2::new(0.3 * (at.y - 9.0), -4.0 + 0.1 * (at.x - first)))
+        })
+    };
+    let domain = Domain { size: size(&rock), gravity: Vec2::ZERO };
+    let params = PredictorParams {
+        domain: &domain,
+        cell: CELL,
+        rest_density: LATTICE,
+        instructions: team().instructions,
+        threads: 1,
+        dt: DT,
+    };
+    let alone = |first: f32| {
+        let mut particles = pool(first);
+        assert!(Predictor::default().run(&mut particles, &rock, &params).liquid);
+        particles
+    };
+    let mut kept = Predictor::default();
+    for first in [0.0, 955.0, 1910.0, 300.0, 0.0] {
+        let quiet = alone(first);
+        // Two drops at the far ends: the whole grid is looked at.
+        let mut among = pool(first);
+        let count = among.len();
+        for (id, x) in [(1_000_000, 0.5), (1_000_001, 1999.5)] {
+            among.push(id, ElementId(1), Vec2::new(x, 55.5), Vec2::new(0.0, -9.0));
+        }
+        Predictor::default().run(&mut among, &rock, &params);
+        assert_eq!((&among.vx[..count], &among.vy[..count]), (&quiet.vx[..], &quiet.vy[..]), "drops far from {first}");
+        // The pool comes from somewhere else: no pressure there is the pressure of no liquid.
+        let mut moved = pool(first);
+        kept.run(&mut moved, &rock, &params);
+        assert_eq!((moved.vx, moved.vy), (quiet.vx, quiet.vy), "a predictor that has been elsewhere before {first}");
     }
 }
