@@ -21,7 +21,7 @@ pub struct Subject<'a> {
     pub measure: ErrorMeasure,
     /// Whether the scene has air.
     pub has_air: bool,
-    /// Ticks that are run before the moment that all runs set out from.
+    /// Tick of the scene at the moment that all runs set out from.
     pub start: u64,
     /// Ticks of a run.
     pub ticks: u64,
