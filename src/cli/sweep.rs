@@ -17,6 +17,7 @@ use crate::{
             design::{Scope, other_threads, settings},
             draw,
             journal::{Journal, JournalFile, OpenError},
+            presets::Order,
             row::Row,
             summary::{self, Subject},
             table,
@@ -42,7 +43,7 @@ const TICKS: [u64; 2] = [300, 120];
 /// Runs of a setting.
 const ROUNDS: u64 = 3;
 
-/// Measures the scenes one after the other.
+/// Measures the scenes one after the other. With `--check`, presets that are out of order fail it once all are measured.
 pub(super) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     check_settings(&arguments.settings)?;
     let length = length(arguments)?;
@@ -53,8 +54,14 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let folders = folders(arguments, &starts)?;
     let journals: Vec<JournalFile> = folders.iter().map(|folder| journal(folder)).collect::<Result<_, _>>()?;
     let program = program();
+    let mut disorder = Vec::new();
     for ((start, folder), journal) in starts.into_iter().zip(&folders).zip(journals) {
-        measure(arguments, length, &program, start, folder, journal)?;
+        let name = start.name.clone();
+        let order = measure(arguments, length, &program, start, folder, journal)?;
+        disorder.extend(order.complaint().map(|complaint| format!("{name}: {complaint}")));
+    }
+    if arguments.check && !disorder.is_empty() {
+        return Err(Failure::Outcome(disorder.join("; ")));
     }
     Ok(())
 }
@@ -181,7 +188,7 @@ fn measure(
     mut start: Opening,
     folder: &Path,
     file: JournalFile,
-) -> Result<(), Failure> {
+) -> Result<Order, Failure> {
     let line = StatusLine::new();
     line.say(&format!("{}: to the moment that is measured", start.name));
     let moment = start.run_in(arguments.start)?;
@@ -222,7 +229,8 @@ fn measure(
         warmup,
         threads,
     };
-    write(folder, &subject, &rows)
+    write(folder, &subject, &rows)?;
+    Ok(subject.order(&rows))
 }
 
 /// Knows how long the rest will take.

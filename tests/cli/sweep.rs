@@ -26,7 +26,7 @@ fn a_sweep_leaves_a_curve_and_goes_on_where_it_was_stopped() {
     let said = good(&here, &SMALL_SWEEP);
     let read = |name: &str| fs::read_to_string(here.join("sw").join(name)).unwrap();
     assert_eq!(said, read("summary.md"));
-    for part in ["# dam_break", "128 particles", "## What to choose", "| `draft` |", "Order: "] {
+    for part in ["# dam_break", "128 particles", "## What to choose", "| `draft` |", "Order: not judged. "] {
         assert!(said.contains(part), "no {part} in\n{said}");
     }
     let table = read("curve.csv");
@@ -126,4 +126,19 @@ fn a_sweep_from_a_save_file_counts_from_its_tick() {
         let said = good(&here, &[&tiny[..], more].concat());
         assert!(said.contains(says), "no {says} in\n{said}");
     }
+}
+
+#[test]
+fn presets_out_of_order_fail_the_sweep_only_if_that_is_asked_for() {
+    let here = folder("sweep_check");
+    // So little water stands thin: balanced and better are not valid.
+    let thin = ["sweep", "dam_break", "--set", "columns=20", "--quick", "--out", "thin"];
+    assert!(good(&here, &thin).contains("\nOrder: not ok.\n"));
+    let summary = fs::read_to_string(here.join("thin/summary.md")).unwrap();
+    let says = ["dam_break: the presets are out of order", "`fine` is not valid: mean density 0.97"];
+    let output = crate::program(&here, &[&thin[..], &["--check"]].concat());
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!((output.status.code(), stderr.lines().count()), (Some(1), 1), "{stderr}");
+    assert!(says.iter().all(|part| stderr.contains(part)), "{stderr}");
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), summary, "the results are there all the same");
 }
