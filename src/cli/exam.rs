@@ -19,7 +19,7 @@ pub(super) fn exam(arguments: &ExamArguments) -> Result<(), Failure> {
     let rows = watched(|says| sit_all(&jobs, report.threads, |done, of, job| says(done, of, &job.title())))?;
     report.write(
         &rows,
-        |processor| document(&rows, processor, "powder-master exam --markdown docs/exam.md"),
+        |processor| document(&rows, processor, &options.command("exam", cases)),
         || format!("{}\n{}\n", table(&rows), summary(&rows)),
     )?;
     verdict(&rows)

@@ -19,7 +19,7 @@ pub(super) fn gauntlet(arguments: &GauntletArguments) -> Result<(), Failure> {
     let rows = watched(|says| run_all(&jobs, report.threads, |done, of, job| says(done, of, &job.title())))?;
     report.write(
         &rows,
-        |processor| document(&rows, processor, "powder-master gauntlet --markdown docs/gauntlet.md"),
+        |processor| document(&rows, processor, &options.command("gauntlet", cases)),
         || format!("{}\n{}\n", table(&rows), summary(&rows)),
     )?;
     verdict(&rows)

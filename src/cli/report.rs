@@ -12,7 +12,12 @@ use crate::{
 };
 use serde::Serialize;
 use serde_json::json;
-use std::{io::Write, path::Path, sync::Mutex, thread::available_parallelism};
+use std::{
+    io::Write,
+    path::{Path, PathBuf},
+    sync::Mutex,
+    thread::available_parallelism,
+};
 
 /// Where rows shall go.
 pub(super) struct Report<'a> {
@@ -77,6 +82,33 @@ impl ReportOptions {
             [] => is_quick || !self.quick,
             named => named.iter().any(|name| name == case),
         }
+    }
+
+    /// The command that was given, with its options, to be written where its results are.
+    pub(super) fn command(&self, name: &str, cases: &[String]) -> String {
+        let mut words = vec!["powder-master".to_owned(), name.to_owned()];
+        let mut option = |name: &str, value: &str| {
+            words.push(name.to_owned());
+            // What a shell would take apart stands in quotes.
+            let is_plain = value.chars().all(|char| char.is_alphanumeric() || "-_./,+=:@".contains(char));
+            words.push(if is_plain { value.to_owned() } else { format!("'{}'", value.replace('\'', r"'\''")) });
+        };
+        cases.iter().for_each(|case| option("--case", case));
+        self.qualities.iter().for_each(|quality| option("--quality", quality.name()));
+        let path = |file: &Option<PathBuf>| file.as_ref().map(|path| path.display().to_string());
+        if let Some(threads) = self.threads {
+            option("--threads", &threads.to_string());
+        }
+        if let Some(file) = path(&self.json) {
+            option("--json", &file);
+        }
+        if let Some(file) = path(&self.markdown) {
+            option("--markdown", &file);
+        }
+        if self.quick {
+            words.push("--quick".to_owned());
+        }
+        words.join(" ")
     }
 
     /// The qualities that were asked for, in their order; none stands for all, or with `quick` for `balanced`.

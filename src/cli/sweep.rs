@@ -16,7 +16,8 @@ use crate::{
             ErrorMeasure, Progress, Sweep, SweepError,
             design::{Scope, other_threads, settings},
             draw,
-            journal::Journal,
+            journal::{Journal, JournalFile, OpenError},
+            presets::Order,
             row::Row,
             summary::{self, Subject},
             table,
@@ -42,19 +43,67 @@ const TICKS: [u64; 2] = [300, 120];
 /// Runs of a setting.
 const ROUNDS: u64 = 3;
 
-/// Measures the scenes one after the other.
+/// Measures the scenes one after the other. With `--check`, presets that are out of order fail it once all are measured.
 pub(super) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     check_settings(&arguments.settings)?;
     let length = length(arguments)?;
-    // All is read before anything is simulated.
-    let starts: Vec<Start> =
-        (arguments.scenes.iter()).map(|scene| Start::of_sweep(scene, &arguments.settings)).collect::<Result<_, _>>()?;
+    // What can be refused is refused before anything is simulated or written, and what can't be written before anything is
+    // simulated.
+    let starts = (arguments.scenes.iter()).map(|scene| Opening::of(Start::of_sweep(scene, &arguments.settings)?));
+    let starts: Vec<Opening> = starts.collect::<Result<_, Failure>>()?;
     let folders = folders(arguments, &starts)?;
+    let journals: Vec<JournalFile> = folders.iter().map(|folder| journal(folder)).collect::<Result<_, _>>()?;
     let program = program();
-    for (start, folder) in starts.into_iter().zip(folders) {
-        measure(arguments, length, &program, start, &folder)?;
+    let mut disorder = Vec::new();
+    for ((start, folder), journal) in starts.into_iter().zip(&folders).zip(journals) {
+        let name = start.name.clone();
+        let order = measure(arguments, length, &program, start, folder, journal)?;
+        disorder.extend(order.complaint().map(|complaint| format!("{name}: {complaint}")));
+    }
+    if arguments.check && !disorder.is_empty() {
+        return Err(Failure::Outcome(disorder.join("; ")));
     }
     Ok(())
+}
+
+/// A world before the first tick of the sweep.
+struct Opening {
+    name: String,
+    is_scene: bool,
+    headless: Headless,
+}
+
+impl Opening {
+    fn of(start: Start) -> Result<Self, Failure> {
+        let (name, is_scene) = (start.name().to_owned(), start.is_scene());
+        let headless = Headless::begin(Workers::default(), |world| start.load(world, InstructionSet::detect()));
+        let opening = Self { name, is_scene, headless };
+        opening.moment().map(|_| opening)
+    }
+
+    /// The world as it is now, if there is something to measure.
+    fn moment(&self) -> Result<Moment, Failure> {
+        let moment = Moment::of(self.headless.world());
+        if moment.is_idle() {
+            return Err(Failure::Usage(format!(
+                "{}: nothing moves in this scene, so there is nothing to measure; allowed: scenes with liquid, moving air, \
+                 taps or fans",
+                self.name
+            )));
+        }
+        Ok(moment)
+    }
+
+    /// Runs to the moment that all runs set out from.
+    fn run_in(&mut self, asked: Option<u64>) -> Result<Moment, Failure> {
+        let sources = self.headless.world().resource::<Sources>();
+        let fed = !sources.emitters.is_empty() || !sources.winds.is_empty();
+        for _ in 0..asked.unwrap_or(if fed && self.is_scene { RUN_IN } else { 0 }) {
+            self.headless.tick();
+        }
+        // All that was there may have run out by now.
+        self.moment()
+    }
 }
 
 /// Ticks of a run, and those of them that are left out.
@@ -91,8 +140,8 @@ fn check_settings(settings: &[(String, String)]) -> Result<(), Failure> {
 }
 
 /// The folder of each scene, made if it is not there.
-fn folders(arguments: &SweepArguments, starts: &[Start]) -> Result<Vec<PathBuf>, Failure> {
-    let names: Vec<&str> = starts.iter().map(Start::name).collect();
+fn folders(arguments: &SweepArguments, starts: &[Opening]) -> Result<Vec<PathBuf>, Failure> {
+    let names: Vec<&str> = starts.iter().map(|start| start.name.as_str()).collect();
     if let Some(k) = (1..names.len()).find(|k| names[..*k].contains(&names[*k])) {
         return Err(Failure::Usage(format!("the scene {} is named twice; allowed: each scene once", names[k])));
     }
@@ -105,6 +154,19 @@ fn folders(arguments: &SweepArguments, starts: &[Start]) -> Result<Vec<PathBuf>,
         output::check(&files.each_ref().map(PathBuf::as_path))?;
     }
     Ok(folders)
+}
+
+/// The journal in a folder, which no other sweep may write as long as this one runs.
+fn journal(folder: &Path) -> Result<JournalFile, Failure> {
+    let path = folder.join(JOURNAL);
+    JournalFile::open(&path).map_err(|error| match error {
+        OpenError::InUse => Failure::Usage(format!(
+            "{}: {error}, and runs of two at once would disturb each other's times; allowed: to wait for its end, or \
+             another --out",
+            path.display()
+        )),
+        OpenError::Io(error) => Failure::unwritten(&path, &error),
+    })
 }
 
 /// Pixels of the PNG for each of the SVG's.
@@ -123,13 +185,16 @@ fn measure(
     arguments: &SweepArguments,
     Length { ticks, warmup }: Length,
     program: &str,
-    start: Start,
+    mut start: Opening,
     folder: &Path,
-) -> Result<(), Failure> {
-    let scene = start.name().to_owned();
+    file: JournalFile,
+) -> Result<Order, Failure> {
     let line = StatusLine::new();
-    line.say(&format!("{scene}: to the moment that is measured"));
-    let (moment, run_in) = moment(arguments, start)?;
+    line.say(&format!("{}: to the moment that is measured", start.name));
+    let moment = start.run_in(arguments.start)?;
+    let Opening { name: scene, headless, .. } = start;
+    // The run-in's world is not needed any more.
+    drop(headless);
     let measure = ErrorMeasure::of(&moment);
     let threads = arguments.threads as usize;
     let scope = Scope {
@@ -143,12 +208,12 @@ fn measure(
     let rounds = arguments.repeat.unwrap_or(if arguments.quick { 1 } else { ROUNDS }) as u32;
     let sweep = Sweep { moment: &moment, measure, settings: settings(&scope), ticks, warmup, rounds };
     let path = folder.join(JOURNAL);
-    let mut journal =
-        Journal::open(&path, sweep.campaign(program)).map_err(|error| Failure::unwritten(&path, &error))?;
+    let unwritten = |error: io::Error| Failure::unwritten(&path, &error);
+    let mut journal = Journal::read(file, sweep.campaign(program)).map_err(unwritten)?;
     let mut pace = Pace { begun: Instant::now(), before: None };
     let rows = sweep.run(&mut journal, &mut |progress| line.say(&pace.text(&scene, progress)));
     let rows = rows.map_err(|error| match error {
-        SweepError::Journal(error) => Failure::unwritten(&path, &error),
+        SweepError::Journal(error) => unwritten(error),
         error => Failure::Outcome(format!("{scene}: {error}")),
     })?;
     drop(line);
@@ -159,33 +224,13 @@ fn measure(
         parameters: &parameters.concat(),
         measure,
         has_air: moment.has_air(),
-        start: run_in,
+        start: moment.snapshot().clock.tick,
         ticks,
         warmup,
         threads,
     };
-    write(folder, &subject, &rows)
-}
-
-/// The moment that all runs set out from, and the ticks that lie before it.
-fn moment(arguments: &SweepArguments, start: Start) -> Result<(Moment, u64), Failure> {
-    let name = start.name().to_owned();
-    let is_scene = start.is_scene();
-    let mut headless = Headless::begin(Workers::default(), |world| start.load(world, InstructionSet::detect()));
-    let sources = headless.world().resource::<Sources>();
-    let fed = !sources.emitters.is_empty() || !sources.winds.is_empty();
-    let run_in = arguments.start.unwrap_or(if fed && is_scene { RUN_IN } else { 0 });
-    for _ in 0..run_in {
-        headless.tick();
-    }
-    let moment = Moment::of(headless.world());
-    if moment.is_idle() {
-        return Err(Failure::Usage(format!(
-            "{name}: nothing moves in this scene, so there is nothing to measure; allowed: scenes with liquid, moving \
-             air, taps or fans"
-        )));
-    }
-    Ok((moment, run_in))
+    write(folder, &subject, &rows)?;
+    Ok(subject.order(&rows))
 }
 
 /// Knows how long the rest will take.

@@ -68,6 +68,9 @@ fn the_exam_prints_its_rows_and_fails_if_one_does() {
     }
     let document = std::fs::read_to_string(here.join("rows.md")).unwrap();
     assert!(document.contains("## Free fall (`free_fall`)") && document.contains("**Tolerance:**"), "{document}");
+    let command = "`powder-master exam --case free_fall --case pulse --quality draft --quality balanced --json rows.json \
+                   --markdown rows.md` writes this file";
+    assert!(document.contains(command), "the command that was given: {document}");
     let json = good(&here, &[&arguments[..], &["--json", "-"]].concat());
     assert!(serde_json::from_str::<Value>(&json).is_ok(), "stdout has the JSON alone: {json}");
 }
@@ -89,6 +92,9 @@ fn the_gauntlet_prints_its_rows_and_writes_them() {
     assert!(rows[2]["clamps"]["air_clamps"].as_u64().unwrap() > 0, "suction is cut at a vacuum: {}", rows[2]);
     let document = std::fs::read_to_string(here.join("rows.md")).unwrap();
     assert!(document.contains("(`suction`)") && document.contains("**Guards against:**"), "{document}");
+    let again = good(&here, &["gauntlet", "--quick", "--case", "suction", "--threads", "1", "--markdown", "-"]);
+    let command = "`powder-master gauntlet --case suction --threads 1 --markdown - --quick` writes this file";
+    assert!(again.contains(command), "the command that was given: {again}");
     let json = good(&here, &[&arguments[..], &["--json", "-"]].concat());
     assert!(serde_json::from_str::<Value>(&json).is_ok(), "stdout has the JSON alone: {json}");
 }

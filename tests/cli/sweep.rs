@@ -1,6 +1,7 @@
 //! `sweep`: its curve, and going on where it was stopped.
 
-use crate::{folder, good, metrics};
+use crate::{folder, good, metrics, refused};
+use std::fs::{self, File};
 
 const SMALL_SWEEP: [&str; 14] = [
     "sweep",
@@ -23,9 +24,9 @@ const SMALL_SWEEP: [&str; 14] = [
 fn a_sweep_leaves_a_curve_and_goes_on_where_it_was_stopped() {
     let here = folder("sweep");
     let said = good(&here, &SMALL_SWEEP);
-    let read = |name: &str| std::fs::read_to_string(here.join("sw").join(name)).unwrap();
+    let read = |name: &str| fs::read_to_string(here.join("sw").join(name)).unwrap();
     assert_eq!(said, read("summary.md"));
-    for part in ["# dam_break", "128 particles", "## What to choose", "| `draft` |", "Order: "] {
+    for part in ["# dam_break", "128 particles", "## What to choose", "| `draft` |", "Order: not judged. "] {
         assert!(said.contains(part), "no {part} in\n{said}");
     }
     let table = read("curve.csv");
@@ -49,19 +50,19 @@ fn a_sweep_leaves_a_curve_and_goes_on_where_it_was_stopped() {
         }
     }
     assert!(read("curve.svg").starts_with("<svg"));
-    assert_eq!(&std::fs::read(here.join("sw/curve.png")).unwrap()[1..4], b"PNG");
+    assert_eq!(&fs::read(here.join("sw/curve.png")).unwrap()[1..4], b"PNG");
 
     let runs = read("runs.jsonl");
     assert_eq!(runs.lines().count(), 4);
-    std::fs::write(here.join("sw/runs.jsonl"), &runs[..runs.len() - 9]).unwrap();
+    let half = &runs[..runs.len() - 9];
+    fs::write(here.join("sw/runs.jsonl"), half).unwrap();
     good(&here, &SMALL_SWEEP);
     let again = read("runs.jsonl");
-    assert_eq!(again.lines().count(), 4, "the half run was run again, and only that");
-    let whole: usize = runs.lines().take(3).map(|line| line.len() + 1).sum();
-    assert_eq!(again[..whole], runs[..whole]);
+    assert_eq!(again.lines().count(), 5, "the half run was run again, and only that");
+    assert!(again.starts_with(&format!("{half}\n")), "nothing of what was there is lost");
     good(&here, &SMALL_SWEEP);
     assert_eq!(read("runs.jsonl"), again, "nothing was left to do");
-    assert_eq!(std::fs::read_to_string(here.join("sw/curve.csv")).unwrap().lines().count(), 3);
+    assert_eq!(fs::read_to_string(here.join("sw/curve.csv")).unwrap().lines().count(), 3);
 }
 
 #[test]
@@ -70,7 +71,74 @@ fn several_scenes_have_a_folder_each() {
     let tiny = ["--only", "draft", "--ticks", "2", "--start", "1", "--repeat", "1", "--out", "all"];
     good(&here, &[&["sweep", "sealed_air", "rest_density"][..], &tiny[..]].concat());
     for scene in ["sealed_air", "rest_density"] {
-        let summary = std::fs::read_to_string(here.join("all").join(scene).join("summary.md")).unwrap();
+        let summary = fs::read_to_string(here.join("all").join(scene).join("summary.md")).unwrap();
         assert!(summary.starts_with(&format!("# {scene}")), "{summary}");
     }
+}
+
+#[test]
+fn a_second_sweep_into_the_same_folder_is_refused() {
+    let here = folder("sweep_twice");
+    fs::create_dir(here.join("sw")).unwrap();
+    let journal = here.join("sw/runs.jsonl");
+    fs::write(&journal, "a line\n").unwrap();
+    let first = File::open(&journal).unwrap();
+    first.lock().unwrap();
+    refused(&here, &SMALL_SWEEP, 2, &["runs.jsonl", "another sweep writes here", "allowed", "another --out"]);
+    assert_eq!(fs::read_to_string(&journal).unwrap(), "a line\n");
+    drop(first);
+    good(&here, &SMALL_SWEEP);
+    assert_eq!(fs::read_to_string(&journal).unwrap().lines().count(), 5);
+}
+
+/// Ticks that would take hours.
+const LONG: [&str; 4] = ["--start", "1000000", "--only", "draft"];
+
+#[test]
+fn every_scene_is_looked_at_before_any_is_simulated() {
+    let here = folder("sweep_looks");
+    refused(
+        &here,
+        &[&["sweep", "hydrostatic", "empty", "--out", "m"][..], &LONG].concat(),
+        2,
+        &["empty", "nothing moves"],
+    );
+    assert!(!here.join("m").exists(), "nothing is written, either");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_that_cannot_be_written_is_found_before_anything_is_simulated() {
+    let here = folder("sweep_unwritable");
+    let into_proc = ["sweep", "hydrostatic", "--out", "/proc/self"];
+    refused(&here, &[&into_proc[..], &LONG].concat(), 1, &["/proc/self/runs.jsonl", "can't be written"]);
+}
+
+#[test]
+fn a_sweep_from_a_save_file_counts_from_its_tick() {
+    let here = folder("sweep_save");
+    good(&here, &["run", "dam_break", "--set", "columns=8", "--ticks", "24", "--snapshot", "saved"]);
+    let tiny = ["sweep", "saved", "--only", "draft", "--ticks", "2", "--repeat", "1"];
+    for (more, says) in [
+        (&["--out", "at_once"][..], "from the same moment (tick 24 of the scene)"),
+        (&["--out", "later", "--start", "3"], "from the same moment (tick 27 of the scene)"),
+    ] {
+        let said = good(&here, &[&tiny[..], more].concat());
+        assert!(said.contains(says), "no {says} in\n{said}");
+    }
+}
+
+#[test]
+fn presets_out_of_order_fail_the_sweep_only_if_that_is_asked_for() {
+    let here = folder("sweep_check");
+    // So little water stands thin: balanced and better are not valid.
+    let thin = ["sweep", "dam_break", "--set", "columns=20", "--quick", "--out", "thin"];
+    assert!(good(&here, &thin).contains("\nOrder: not ok.\n"));
+    let summary = fs::read_to_string(here.join("thin/summary.md")).unwrap();
+    let says = ["dam_break: the presets are out of order", "`fine` is not valid: mean density 0.97"];
+    let output = crate::program(&here, &[&thin[..], &["--check"]].concat());
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!((output.status.code(), stderr.lines().count()), (Some(1), 1), "{stderr}");
+    assert!(says.iter().all(|part| stderr.contains(part)), "{stderr}");
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), summary, "the results are there all the same");
 }

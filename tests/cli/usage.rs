@@ -70,6 +70,7 @@ fn bad_usage_is_one_line_that_says_what_is_allowed() {
         (&["sweep", "dam_break", "--out", "x", "--set", "substeps=3"], &["substeps=3", "the sweep", "rest_density"]),
         (&["sweep", "dam_break", "--out", "x", "--set", "columns=1"], &["columns=1"]),
         (&["sweep", "dam_break", "--out", "x", "--only", "best"], &["best", "balanced"]),
+        (&["sweep", "dam_break", "--out", "x", "--check", "--only", "fine"], &["--check", "--only"]),
         (&["sweep", "empty", "--out", "x"], &["empty", "nothing moves", "allowed"]),
     ] {
         refused(&here, arguments, 2, says);

@@ -175,6 +175,10 @@ pub(in crate::cli) struct SweepArguments {
     /// Only this preset; may be repeated [default: all presets and what is around them]
     #[arg(long = "only", value_name = "QUALITY", value_parser = preset)]
     pub(in crate::cli) only: Vec<Preset>,
+    /// End with exit code 1 if the presets are not in order: each dearer and exacter than the one before it, and none
+    /// beaten by a margin
+    #[arg(long, conflicts_with = "only")]
+    pub(in crate::cli) check: bool,
     /// Runs of each setting, interleaved [default: 3; with --quick 1]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = rounds)]
     pub(in crate::cli) repeat: Option<u64>,

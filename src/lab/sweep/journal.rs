@@ -1,15 +1,16 @@
 //! The journal of a sweep: a line for every finished run, so that a sweep that was stopped goes on.
 //!
 //! Lines of another campaign (another program, processor, scene or length of run) stay where they are and don't count. A
-//! line that can't be read, such as the last one of a sweep that was killed, doesn't either.
+//! line that can't be read, such as the last one of a sweep that was killed, doesn't either. The file is locked as long as
+//! the sweep goes on, and is only ever appended to: no other sweep can come between its lines, and nothing of one is lost.
 
 use super::design::Setting;
 use crate::lab::coarse::Distance;
 use serde::{Deserialize, Serialize};
 use std::{
     collections::BTreeMap,
-    fs::{File, OpenOptions},
-    io::{self, Read, Seek, SeekFrom, Write},
+    fs::{File, OpenOptions, TryLockError},
+    io::{self, Read, Write},
     path::Path,
 };
 
@@ -61,6 +62,38 @@ struct Line {
     record: Record,
 }
 
+/// Why a journal can't be had.
+#[derive(Debug, thiserror::Error)]
+pub enum OpenError {
+    /// Another sweep writes it.
+    #[error("another sweep writes here")]
+    InUse,
+    /// It can't be read or written.
+    #[error(transparent)]
+    Io(#[from] io::Error),
+}
+
+/// The file of a journal, locked for this sweep.
+#[derive(Debug)]
+pub struct JournalFile(File);
+
+impl JournalFile {
+    /// Opens the file at `path`, or makes it, and locks it. The lock ends with the process, however that ends.
+    ///
+    /// # Errors
+    /// If it is locked, or can't be opened for reading and writing.
+    pub fn open(path: &Path) -> Result<Self, OpenError> {
+        let file = OpenOptions::new().read(true).append(true).create(true).open(path)?;
+        match file.try_lock() {
+            Ok(()) => Ok(Self(file)),
+            Err(TryLockError::WouldBlock) => Err(OpenError::InUse),
+            // A file system without locks: lines are appended whole all the same.
+            Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => Ok(Self(file)),
+            Err(TryLockError::Error(error)) => Err(OpenError::Io(error)),
+        }
+    }
+}
+
 /// The runs of one campaign, and the file that they are kept in.
 pub struct Journal {
     file: File,
@@ -69,20 +102,18 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Opens the file at `path`, or makes it, and reads what it has of `campaign`.
+    /// Reads what the file has of `campaign`, to go on from there.
     ///
     /// # Errors
     /// If it can't be read or written.
-    pub fn open(path: &Path, campaign: String) -> io::Result<Self> {
-        let mut file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)?;
+    pub fn read(JournalFile(mut file): JournalFile, campaign: String) -> io::Result<Self> {
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes)?;
-        // What stands behind the last line break is half a line.
-        let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
-        file.set_len(whole as u64)?;
-        file.seek(SeekFrom::End(0))?;
-        let lines = bytes[..whole].split(|byte| *byte == b'\n');
-        let records = lines
+        // Half a line of a sweep that was killed ends here, so that the next stands on its own.
+        if bytes.last().is_some_and(|last| *last != b'\n') {
+            file.write_all(b"\n")?;
+        }
+        let records = (bytes.split(|byte| *byte == b'\n'))
             .filter_map(|line| serde_json::from_slice::<Line>(line).ok())
             .filter(|line| line.campaign == campaign)
             .map(|line| ((line.setting, line.round), line.record))
@@ -146,44 +177,63 @@ mod tests {
         path
     }
 
+    fn open(path: &Path, campaign: &str) -> Journal {
+        Journal::read(JournalFile::open(path).unwrap(), campaign.to_owned()).unwrap()
+    }
+
     #[test]
     fn what_was_added_is_there_again_and_only_for_its_campaign() {
         let path = path("again");
-        let open = |campaign: &str| Journal::open(&path, campaign.to_owned()).unwrap();
-        let mut journal = open("one");
+        let mut journal = open(&path, "one");
         journal.add(&setting(1), 0, record(1.1, true)).unwrap();
         journal.add(&setting(1), 1, record(1.3, false)).unwrap();
         drop(journal);
-        let mut journal = open("one");
+        let mut journal = open(&path, "one");
         assert_eq!(journal.find(&setting(1), 0), Some(&record(1.1, true)));
         assert_eq!(journal.find(&setting(1), 1), Some(&record(1.3, false)));
         assert_eq!(journal.found(&setting(1)), record(1.1, true).found.as_ref());
         assert_eq!(journal.find(&setting(2), 0), None, "other threads are another setting");
         assert_eq!(journal.hash(&setting(2)), None);
         journal.add(&setting(2), 0, record(0.7, false)).unwrap();
-        assert_eq!(open("two").find(&setting(1), 0), None);
-        assert_eq!(open("one").find(&setting(2), 0), Some(&record(0.7, false)), "the other campaign did no harm");
+        drop(journal);
+        assert_eq!(open(&path, "two").find(&setting(1), 0), None);
+        assert_eq!(
+            open(&path, "one").find(&setting(2), 0),
+            Some(&record(0.7, false)),
+            "the other campaign did no harm"
+        );
     }
 
     #[test]
-    fn half_a_line_is_forgotten_and_what_comes_next_stands_on_its_own() {
+    fn half_a_line_does_not_count_and_what_comes_next_stands_on_its_own() {
         let path = path("half");
-        let mut journal = Journal::open(&path, "one".to_owned()).unwrap();
+        let mut journal = open(&path, "one");
         journal.add(&setting(1), 0, record(1.1, true)).unwrap();
         journal.add(&setting(1), 1, record(1.3, false)).unwrap();
         drop(journal);
         let whole = std::fs::read(&path).unwrap();
-        for cut in 1..=whole.iter().rev().skip(1).position(|byte| *byte == b'\n').unwrap() {
+        // From all but the closing brace to nothing but the opening one.
+        for cut in 2..whole.iter().rev().skip(1).position(|byte| *byte == b'\n').unwrap() {
             std::fs::write(&path, &whole[..whole.len() - cut]).unwrap();
-            let mut journal = Journal::open(&path, "one".to_owned()).unwrap();
+            let mut journal = open(&path, "one");
             assert_eq!(journal.find(&setting(1), 0), Some(&record(1.1, true)));
             assert_eq!(journal.find(&setting(1), 1), None, "{cut} bytes are missing");
             journal.add(&setting(1), 1, record(1.4, false)).unwrap();
             drop(journal);
-            let journal = Journal::open(&path, "one".to_owned()).unwrap();
+            let journal = open(&path, "one");
             assert_eq!(journal.find(&setting(1), 1), Some(&record(1.4, false)));
         }
         std::fs::write(&path, b"\xff\xfe\nno json\n").unwrap();
-        assert!(Journal::open(&path, "one".to_owned()).unwrap().records.is_empty());
+        assert!(open(&path, "one").records.is_empty());
+    }
+
+    #[test]
+    fn a_journal_is_one_sweep_s_alone_until_that_ends() {
+        let path = path("locked");
+        let mut journal = open(&path, "one");
+        assert!(matches!(JournalFile::open(&path), Err(OpenError::InUse)));
+        journal.add(&setting(1), 0, record(1.1, false)).unwrap();
+        drop(journal);
+        assert_eq!(open(&path, "one").find(&setting(1), 0), Some(&record(1.1, false)));
     }
 }

@@ -19,6 +19,8 @@ pub mod journal;
 mod measure;
 pub mod presets;
 pub mod row;
+#[cfg(test)]
+mod shipped;
 pub mod summary;
 pub mod table;
 

@@ -65,34 +65,128 @@ impl fmt::Display for Trouble {
     }
 }
 
-/// Everything that is wrong with the presets among these rows. Only where the error is the liquid's they have to be on the
-/// front: where it is the air's, what they spend on liquid buys nothing. `air_is_unseen` as for the front.
-pub fn check(rows: &[Row], measure: ErrorMeasure, air_is_unseen: bool) -> Vec<Trouble> {
-    let steps: Vec<(Preset, &Row)> = STEPS
-        .into_iter()
-        .filter_map(|preset| Some((preset, rows.iter().find(|row| row.setting.preset == Some(preset))?)))
-        .collect();
-    let mut troubles = Vec::new();
-    for pair in steps.windows(2) {
-        let [(a, cheap), (b, dear)] = [pair[0], pair[1]];
-        if dear.ms <= cheap.ms {
-            troubles.push(Trouble::TimeFalls { pair: [(a, cheap.ms), (b, dear.ms)] });
-        }
-        // Two errors that are both next to nothing are in order.
-        if dear.error >= cheap.error && dear.error > NEGLIGIBLE {
-            troubles.push(Trouble::ErrorRises { pair: [(a, cheap.error), (b, dear.error)] });
+/// A step of accuracy and the one before it that can't be told apart, as both have next to no error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Alike {
+    /// The two presets.
+    pub pair: [Preset; 2],
+    /// Whether they take as long, too.
+    pub in_time: bool,
+}
+
+/// What is to be said of the presets in a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Order {
+    /// These steps were not measured, and without all of them there is no order.
+    NotJudged(Vec<Preset>),
+    /// Each step is dearer and exacter than the one before it.
+    Ok {
+        /// Those of which that can't be said, as they are as exact.
+        alike: Vec<Alike>,
+        /// Whether it was also judged that no setting beats a preset by a margin.
+        front: bool,
+    },
+    /// Everything that is wrong.
+    NotOk(Vec<Trouble>),
+}
+
+impl Order {
+    /// What there is to complain of, in a line; `None` if the order is ok.
+    pub fn complaint(&self) -> Option<String> {
+        match self {
+            Self::Ok { .. } => None,
+            Self::NotJudged(missing) => {
+                Some(format!("the order of the presets is not judged without {}", names(missing)))
+            }
+            Self::NotOk(troubles) => {
+                let all: Vec<String> = troubles.iter().map(ToString::to_string).collect();
+                Some(format!("the presets are out of order: {}", all.join(", ")))
+            }
         }
     }
+}
+
+/// A paragraph in Markdown, and a list of what is wrong.
+impl fmt::Display for Order {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotJudged(missing) => {
+                writeln!(
+                    formatter,
+                    "Order: not judged. It takes all of {}; not measured: {}.",
+                    names(&STEPS),
+                    names(missing)
+                )
+            }
+            Self::NotOk(troubles) => {
+                writeln!(formatter, "Order: not ok.\n")?;
+                troubles.iter().try_for_each(|trouble| writeln!(formatter, "- {trouble}"))
+            }
+            Self::Ok { alike, front } => {
+                let whole = "Order: ok. Each preset is dearer and exacter than the one before it";
+                if alike.is_empty() {
+                    let front = if *front { ", and no setting beats it by a margin" } else { "" };
+                    return writeln!(formatter, "{whole}{front}.");
+                }
+                let pairs: Vec<String> = alike.iter().map(Alike::text).collect();
+                let told = *front && alike.len() + 1 < STEPS.len();
+                let front = if told { " No setting beats one with a larger error by a margin." } else { "" };
+                writeln!(
+                    formatter,
+                    "{whole}, but where both err by less than {NEGLIGIBLE}: {}.{front}",
+                    pairs.join(", ")
+                )
+            }
+        }
+    }
+}
+
+impl Alike {
+    fn text(&self) -> String {
+        let [before, step] = self.pair.map(Preset::name);
+        let time = if self.in_time { " and takes as long" } else { "" };
+        format!("`{step}` is as exact as `{before}`{time}")
+    }
+}
+
+fn names(presets: &[Preset]) -> String {
+    presets.iter().map(|preset| format!("`{}`", preset.name())).collect::<Vec<_>>().join(", ")
+}
+
+/// What these rows say of the presets. Only where the error is the liquid's they have to be on the front: where it is the
+/// air's, what they spend on liquid buys nothing. `air_is_unseen` as for the front.
+pub fn judge(rows: &[Row], measure: ErrorMeasure, air_is_unseen: bool) -> Order {
+    let find = |preset: Preset| rows.iter().find(|row| row.setting.preset == Some(preset));
+    let missing: Vec<Preset> = STEPS.into_iter().filter(|preset| find(*preset).is_none()).collect();
+    if !missing.is_empty() {
+        return Order::NotJudged(missing);
+    }
+    let steps: Vec<(Preset, &Row)> = STEPS.into_iter().filter_map(|preset| Some((preset, find(preset)?))).collect();
+    let (mut troubles, mut alike) = (Vec::new(), Vec::new());
+    for pair in steps.windows(2) {
+        let [(a, cheap), (b, dear)] = [pair[0], pair[1]];
+        // Two errors that are both next to nothing can't be told apart, nor can times then that are within the margin: the
+        // same work was done.
+        let as_exact = cheap.error.max(dear.error) <= NEGLIGIBLE;
+        let in_time = as_exact && (dear.ms / cheap.ms - 1.0).abs() < TIME_MARGIN;
+        if as_exact {
+            alike.push(Alike { pair: [a, b], in_time });
+        } else if dear.error >= cheap.error {
+            troubles.push(Trouble::ErrorRises { pair: [(a, cheap.error), (b, dear.error)] });
+        }
+        if dear.ms <= cheap.ms && !in_time {
+            troubles.push(Trouble::TimeFalls { pair: [(a, cheap.ms), (b, dear.ms)] });
+        }
+    }
+    let front = measure == ErrorMeasure::Density;
     for (preset, own) in steps {
         if !own.is_valid() {
             troubles.push(Trouble::Invalid { preset, faults: own.faults.join(", ") });
-        } else if measure == ErrorMeasure::Density
-            && let Some(other) = rows.iter().find(|other| beats_beyond_noise(other, own, air_is_unseen))
-        {
+        } else if front && let Some(other) = rows.iter().find(|other| beats_beyond_noise(other, own, air_is_unseen)) {
             troubles.push(Trouble::Beaten { preset, by: other.setting.name.clone() });
         }
     }
-    troubles
+    if troubles.is_empty() { Order::Ok { alike, front } } else { Order::NotOk(troubles) }
 }
 
 /// Whether a row beats another by more than their runs scatter.
@@ -124,7 +218,11 @@ mod tests {
     }
 
     fn says(rows: &[Row]) -> Vec<String> {
-        check(rows, ErrorMeasure::Density, false).iter().map(ToString::to_string).collect()
+        match judge(rows, ErrorMeasure::Density, false) {
+            Order::NotOk(troubles) => troubles.iter().map(ToString::to_string).collect(),
+            Order::Ok { front: true, .. } => Vec::new(),
+            order => panic!("{order}"),
+        }
     }
 
     #[test]
@@ -147,10 +245,49 @@ mod tests {
     }
 
     #[test]
-    fn errors_of_next_to_nothing_are_in_order() {
+    fn errors_of_next_to_nothing_are_in_order_but_not_called_exacter() {
+        let order = |rows: &[Row]| judge(rows, ErrorMeasure::Density, false).to_string();
         let mut rows = ladder();
+        assert_eq!(
+            order(&rows),
+            "Order: ok. Each preset is dearer and exacter than the one before it, and no setting beats it by a margin.\n"
+        );
         (rows[3].error, rows[4].error) = (2e-5, 5e-5);
-        assert_eq!(says(&rows), [""; 0]);
+        assert_eq!(
+            order(&rows),
+            "Order: ok. Each preset is dearer and exacter than the one before it, but where both err by less than 0.0001: \
+             `reference` is as exact as `fine`. No setting beats one with a larger error by a margin.\n"
+        );
+        rows[4].ms = 1.45;
+        assert!(order(&rows).contains("`reference` is as exact as `fine` and takes as long."), "{}", order(&rows));
+        rows[4].ms = 1.3;
+        assert_eq!(says(&rows), ["`fine` → `reference`: the time falls, 1.500 → 1.300 ms"]);
+    }
+
+    #[test]
+    fn without_all_steps_there_is_no_order() {
+        let order = judge(&ladder()[..1], ErrorMeasure::Density, false);
+        assert_eq!(
+            order.to_string(),
+            "Order: not judged. It takes all of `draft`, `fast`, `balanced`, `fine`, `reference`; not measured: `fast`, \
+             `balanced`, `fine`, `reference`.\n"
+        );
+        assert!(order.complaint().unwrap().contains("not judged"));
+        let classic = judge(&[row("classic", 1.4, 0.3)], ErrorMeasure::Density, false);
+        assert_eq!(classic, Order::NotJudged(STEPS.to_vec()));
+    }
+
+    #[test]
+    fn the_complaint_names_all_that_is_wrong_in_a_line() {
+        let mut rows = ladder();
+        assert_eq!(judge(&rows, ErrorMeasure::Density, false).complaint(), None);
+        rows[1].error = 0.04;
+        rows[0].faults.push("mean density 0.900".to_owned());
+        assert_eq!(
+            judge(&rows, ErrorMeasure::Density, false).complaint().unwrap(),
+            "the presets are out of order: `draft` → `fast`: the error rises, 0.03000 → 0.04000, `draft` is not valid: mean \
+             density 0.900"
+        );
     }
 
     #[test]
@@ -166,8 +303,9 @@ mod tests {
         rows[5].error = 0.008;
         assert_eq!(says(&rows).len(), 1, "exacter by a margin");
         (rows[5].ms, rows[5].ms_range) = (0.9, [0.9, 0.9]);
-        let about_air = check(&rows_with(&rows, [1.0, 1.0]), ErrorMeasure::Air, false);
-        assert_eq!(about_air, [], "where the air counts, the liquid's knobs are no bad buy");
+        let about_air = judge(&rows_with(&rows, [1.0, 1.0]), ErrorMeasure::Air, false);
+        let ok = Order::Ok { alike: Vec::new(), front: false };
+        assert_eq!(about_air, ok, "where the air counts, the liquid's knobs are no bad buy");
         rows[5].faults.push("exploded".to_owned());
         rows[2].ms_range = [1.0, 1.0];
         assert_eq!(says(&rows), [""; 0], "what is not sound beats no one");

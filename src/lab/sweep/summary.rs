@@ -1,6 +1,10 @@
 //! summary.md: what a reader should choose, and what the knobs buy.
 
-use super::{ErrorMeasure, effective, presets, row::Row};
+use super::{
+    ErrorMeasure, effective,
+    presets::{self, Order},
+    row::Row,
+};
 use crate::{
     kernel::params::{Preset, Quality},
     lab::machine::processor,
@@ -21,7 +25,7 @@ pub struct Subject<'a> {
     pub measure: ErrorMeasure,
     /// Whether the scene has air.
     pub has_air: bool,
-    /// Ticks that are run before the moment that all runs set out from.
+    /// Tick of the scene at the moment that all runs set out from.
     pub start: u64,
     /// Ticks of a run.
     pub ticks: u64,
@@ -29,6 +33,13 @@ pub struct Subject<'a> {
     pub warmup: u64,
     /// Threads of the settings that don't stand for threads.
     pub threads: usize,
+}
+
+impl Subject<'_> {
+    /// What is to be said of the presets.
+    pub fn order(&self, rows: &[Row]) -> Order {
+        presets::judge(rows, self.measure, self.has_air && self.measure == ErrorMeasure::Density)
+    }
 }
 
 /// The summary in Markdown.
@@ -124,17 +135,7 @@ fn preset_table(subject: &Subject, rows: &[Row]) -> String {
             figure(found.distance.air, 3),
         );
     }
-    let air_is_unseen = subject.has_air && subject.measure == ErrorMeasure::Density;
-    let troubles = presets::check(rows, subject.measure, air_is_unseen);
-    if troubles.is_empty() {
-        let front = if subject.measure == ErrorMeasure::Density { ", and no setting beats it by a margin" } else { "" };
-        let _ = writeln!(text, "\nOrder: ok. Each preset is dearer and exacter than the one before it{front}.");
-    } else {
-        text += "\nOrder: not ok.\n\n";
-        for trouble in troubles {
-            let _ = writeln!(text, "- {trouble}");
-        }
-    }
+    let _ = write!(text, "\n{}", subject.order(rows));
     text
 }
 
@@ -272,7 +273,12 @@ mod tests {
 
     #[test]
     fn presets_out_of_order_are_named() {
-        let text = text(&subject(1), &[row("draft", 0.5, 0.01), row("fast", 0.8, 0.02)]);
-        assert!(text.contains("Order: not ok.\n\n- `draft` → `fast`: the error rises"), "{text}");
+        let mut rows = ["draft", "fast", "balanced", "fine", "reference"].map(|name| row(name, 0.5, 0.01));
+        for (k, row) in rows.iter_mut().enumerate() {
+            row.ms = 0.5 + k as f64;
+        }
+        rows[1].error = 0.02;
+        let text = text(&subject(1), &rows);
+        assert!(text.contains("\n\nOrder: not ok.\n\n- `draft` → `fast`: the error rises"), "{text}");
     }
 }
