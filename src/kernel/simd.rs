@@ -218,11 +218,13 @@ const BASELINE: &str = if cfg!(target_arch = "x86_64") {
 /// Instruction set that the passes are compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InstructionSet {
-    /// 16 lanes.
+    /// 16 lanes. Nobody else can name it, as it may only be had where the processor has it.
     #[cfg(target_arch = "x86_64")]
+    #[non_exhaustive]
     Avx512,
-    /// 8 lanes.
+    /// 8 lanes; the same.
     #[cfg(target_arch = "x86_64")]
+    #[non_exhaustive]
     Avx2,
     /// What every processor of the target has; 8 lanes in registers of its own width.
     Baseline,

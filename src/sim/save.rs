@@ -145,8 +145,10 @@ pub(in crate::sim) fn encode_state(
     state: Snapshot,
 ) -> Vec<u8> {
     let Snapshot { mut particles, solids, air, pressure, sleep, sources, clock } = state;
-    // The next tick would take them away; a file with them would be refused.
+    // A file with them would be refused: those that are no number (the next tick would take them away) and, which never
+    // happens, those in rock or outside. Better a world without them than none.
     remove_non_finite(&mut particles, 1);
+    particles.retain(|particles, i| !solids.is_solid(Solids::cell_of(particles.position(i))));
     let rock =
         solids.iter().map(|(cell, element, id)| RockCell { column: cell.x as u32, row: cell.y as u32, element, id });
     seal(&Contents {

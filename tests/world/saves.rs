@@ -101,4 +101,8 @@ fn a_world_with_a_bad_particle_can_be_saved() {
     let mut loaded = reload(&world);
     assert_eq!(loaded.particles().len(), 71);
     assert_eq!(loaded.tick(30).hash(), world.tick(30).hash());
+    let size = world.get::<Setup>().domain.size;
+    world.particles_mut().x[3] = -2.0;
+    world.particles_mut().y[5] = size.y + 3.0;
+    assert_eq!(reload(&world).particles().len(), 69, "a world with escaped particles can't be loaded");
 }

@@ -16,7 +16,7 @@ use crate::{
         orders::{Order, Orders, Shown},
         tools::{Tool, Toolbox},
     },
-    kernel::brush::BrushShape,
+    kernel::{brush::BrushShape, params::Preset},
     scene,
     sim::{pace::Pace, state::Setup, view::View},
 };
@@ -44,6 +44,10 @@ pub enum Sheet {
     Scenes(Vec<(String, String)>),
     /// The views.
     Views,
+    /// The qualities.
+    Qualities,
+    /// The panels, and what else has no button of its own.
+    More,
 }
 
 /// What the tools show.
@@ -96,8 +100,8 @@ pub fn show(
             egui::Frame::new().fill(style::PANEL).inner_margin(4.0).show(ui, |ui| {
                 ui.set_width(screen.width() - 8.0);
                 ui.spacing_mut().item_spacing = vec2(4.0, 4.0) * unit;
-                row(ui, "tools", |ui| choose(ui, unit, &setup, tools.tool, &mut orders));
-                row(ui, "acts", |ui| {
+                ui.horizontal_wrapped(|ui| choose(ui, unit, &setup, tools.tool, &mut orders));
+                ui.horizontal_wrapped(|ui| {
                     act(ui, unit, &pace, &history, &mut orders);
                     size(ui, unit, &mut tools);
                     menus(ui, unit, &mut sheet, &mut orders);
@@ -107,7 +111,8 @@ pub fn show(
     room.bottom = screen.bottom() - bar.response.rect.top();
     if *sheet != Sheet::Closed {
         let above = screen.with_max_y(bar.response.rect.top());
-        if list(context, above, unit, &sheet, &setup, shown.0, &mut orders) {
+        let lines = lines(&sheet, &state, &setup, shown.0);
+        if list(context, above, unit, lines, &mut orders) {
             *sheet = Sheet::Closed;
         }
     }
@@ -123,13 +128,6 @@ pub fn show(
         });
     });
     Ok(())
-}
-
-/// A row that a finger can push sideways if it is longer than the screen.
-fn row(ui: &mut Ui, name: &str, add: impl FnOnce(&mut Ui)) {
-    let scroll = egui::ScrollArea::horizontal().id_salt(name);
-    let scroll = scroll.scroll_bar_visibility(egui::scroll_area::ScrollBarVisibility::AlwaysHidden);
-    scroll.show(ui, |ui| ui.horizontal(add));
 }
 
 fn choose(ui: &mut Ui, unit: f32, setup: &Setup, chosen: Tool, orders: &mut Orders) {
@@ -205,8 +203,10 @@ fn menus(ui: &mut Ui, unit: f32, sheet: &mut Sheet, orders: &mut Orders) {
     if button(ui, unit, Icon::Scenes, matches!(sheet, Sheet::Scenes(_)), true) {
         *sheet = if matches!(sheet, Sheet::Scenes(_)) { Sheet::Closed } else { Sheet::Scenes(titles()) };
     }
-    if button(ui, unit, Icon::Eye, *sheet == Sheet::Views, true) {
-        *sheet = if *sheet == Sheet::Views { Sheet::Closed } else { Sheet::Views };
+    for (icon, own) in [(Icon::Eye, Sheet::Views), (Icon::Gauge, Sheet::Qualities), (Icon::Gear, Sheet::More)] {
+        if button(ui, unit, icon, *sheet == own, true) {
+            *sheet = if *sheet == own { Sheet::Closed } else { own };
+        }
     }
     for (icon, action) in [(Icon::Save, Action::Save), (Icon::Load, Action::Saves)] {
         if button(ui, unit, icon, false, true) {
@@ -220,18 +220,10 @@ fn titles() -> Vec<(String, String)> {
     scenes.map(|scene| (scene.name().to_owned(), scene.title().to_owned())).collect()
 }
 
-/// The open list; whether something was chosen.
-fn list(
-    context: &egui::Context,
-    above: egui::Rect,
-    unit: f32,
-    sheet: &Sheet,
-    setup: &Setup,
-    shown: View,
-    orders: &mut Orders,
-) -> bool {
-    let lines: Vec<(&str, bool, Order)> = match sheet {
-        Sheet::Closed => return false,
+/// The lines of a list: text, whether it is what is shown now, and what choosing it asks for.
+fn lines<'a>(sheet: &'a Sheet, state: &HudState, setup: &Setup, shown: View) -> Vec<(&'a str, bool, Order)> {
+    match sheet {
+        Sheet::Closed => Vec::new(),
         Sheet::Scenes(scenes) => scenes
             .iter()
             .map(|(name, title)| {
@@ -242,7 +234,34 @@ fn list(
         Sheet::Views => {
             View::ALL.into_iter().map(|view| (view.name(), view == shown, Order::Act(Action::View(view)))).collect()
         }
-    };
+        Sheet::Qualities => {
+            let line = |preset: Preset| (preset.name(), preset == setup.preset, Order::Quality(preset));
+            Preset::ALL.into_iter().map(line).collect()
+        }
+        Sheet::More => [
+            ("Accuracy and cost", state.accuracy, Action::Accuracy),
+            ("Details and effects", state.details, Action::Details),
+            ("Two qualities side by side", false, Action::Split),
+            ("Physics exam", state.exam, Action::Exam),
+            ("Hard cases", state.gauntlet, Action::Gauntlet),
+            ("Slower", false, Action::Speed(-1)),
+            ("Faster", false, Action::Speed(1)),
+            ("Bring the air to rest", false, Action::ClearAir),
+            ("Settings", state.settings, Action::Settings),
+        ]
+        .map(|(text, open, action)| (text, open, Order::Act(action)))
+        .into(),
+    }
+}
+
+/// The open list; whether something was chosen.
+fn list(
+    context: &egui::Context,
+    above: egui::Rect,
+    unit: f32,
+    lines: Vec<(&str, bool, Order)>,
+    orders: &mut Orders,
+) -> bool {
     let mut pressed = None;
     let area = egui::Area::new("touch list".into()).pivot(Align2::CENTER_BOTTOM).fixed_pos(above.center_bottom());
     area.order(egui::Order::Foreground).show(context, |ui| {
