@@ -39,8 +39,8 @@ pub fn run(name: &str, set: InstructionSet) -> bool {
             counted(&mut tank, Tank::bin);
         }
         "solve" => counted(&mut tank, |tank| tank.solve(1)),
-        "velocity" => counted(&mut tank, |Tank { particles, solids, quality, solver, .. }| {
-            velocity::update_velocities(particles, solver, solids, quality, true, 1, SUBSTEP);
+        "velocity" => counted(&mut tank, |Tank { particles, solids, solver, .. }| {
+            velocity::update_velocities(particles, solver, solids, true, 1, SUBSTEP);
         }),
         "viscosity" => counted(&mut tank, |tank| {
             velocity::apply_viscosity(&mut tank.particles, &mut tank.solver, &[0.02], 1, SUBSTEP);
