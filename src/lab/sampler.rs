@@ -254,7 +254,7 @@ pub(crate) fn matter(world: &World) -> Matter<'_> {
 }
 
 /// Mass of the air, d².
-fn air_mass(world: &World) -> f64 {
+pub(super) fn air_mass(world: &World) -> f64 {
     world.resource::<AirGrid>().with_grid(world.resource::<Rock>()).mass()
 }
 
@@ -280,7 +280,7 @@ fn count(world: &World) -> ParticleCount {
 }
 
 /// Mean constraint over the particles where it is violated, as the solver saw it in its last iteration.
-fn residual(world: &World) -> Option<f64> {
+pub(super) fn residual(world: &World) -> Option<f64> {
     let rest = f64::from(world.resource::<Setup>().blueprint.fluid.rest_density);
     let density = &world.resource::<SolverState>().density;
     let mut constraints: Vec<f64> = density.iter().map(|density| f64::from(*density) / rest - 1.0).collect();
