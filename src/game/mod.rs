@@ -31,7 +31,7 @@ pub mod window;
 
 use crate::{
     kernel::units::TICKS_PER_SECOND,
-    sim::{accuracy, autopilot, recorder, state::Setup},
+    sim::{accuracy, autopilot, measures, recorder, state::Setup},
 };
 use bevy::{
     prelude::{
@@ -74,6 +74,7 @@ impl Plugin for GamePlugin {
             .init_resource::<accuracy::Watched>()
             .init_resource::<accuracy::LiveError>()
             .init_resource::<accuracy::Survey>()
+            .init_resource::<measures::Measures>()
             .add_plugins((autopilot::plugin, crate::sim::split::plugin, recorder::plugin))
             .add_systems(
                 RunFixedMainLoop,

@@ -29,7 +29,6 @@ use crate::{
         gauntlet::Cases,
         intent::{Intent, IntentQueue},
         pace::Pace,
-        split::Split,
         state::{ParticleStore, Rock, Setup},
         view::View,
     },
@@ -58,7 +57,7 @@ pub enum Order {
     Speed(f32),
     /// Go on at another quality.
     Quality(Preset),
-    /// Go on with the second world of the split at another quality.
+    /// Start the second world of the split again from the first, at this quality.
     SecondQuality(Preset),
     /// Let the autopilot hold something, or nothing.
     Hold(Option<Goal>),
@@ -111,7 +110,7 @@ pub fn obey(world: &mut World) {
                 world.resource_mut::<Autopilot>().hold(None);
                 world.resource_mut::<IntentQueue>().push(Intent::Quality { preset, quality: preset.quality() });
             }
-            Order::SecondQuality(preset) => world.resource_mut::<Split>().set_quality(preset, preset.quality()),
+            Order::SecondQuality(preset) => split::choose(world, preset),
             Order::Hold(goal) => world.resource_mut::<Autopilot>().hold(goal),
             Order::Survey(request) => world.resource_mut::<Survey>().request = Some(request),
             Order::Effect(effect, mode) => {

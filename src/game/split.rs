@@ -9,6 +9,7 @@ use crate::{
     sim::{
         accuracy::{LiveError, Watched},
         autopilot::Autopilot,
+        measures::Measures,
         split::Split,
         state::Setup,
     },
@@ -33,14 +34,27 @@ pub fn toggle(world: &mut World) {
     world.resource_mut::<Toasts>().say("The same world at two qualities; B again goes on with A alone");
 }
 
-/// Lets the error of the world be sampled while somebody looks at it.
+/// Starts the second world again from the first, at this quality.
+pub fn choose(world: &mut World, preset: Preset) {
+    if world.resource::<Split>().is_on() {
+        Split::begin(world, preset, preset.quality());
+        world.resource_mut::<Toasts>().say("B starts again from A as it is now");
+    }
+}
+
+/// Lets the error of the world be sampled, and all else be measured, while somebody looks at it.
 pub fn watch(
     hud: Res<HudState>,
     autopilot: Res<Autopilot>,
     split: Res<Split>,
     mut watched: ResMut<Watched>,
     mut error: ResMut<LiveError>,
+    mut measures: ResMut<Measures>,
 ) {
+    let wanted = hud.visible && hud.accuracy && hud.measures;
+    if measures.wanted() != wanted {
+        measures.want(wanted);
+    }
     let looks = (hud.visible && hud.accuracy) || autopilot.goal().is_some() || split.is_on();
     if watched.0 != looks {
         watched.0 = looks;

@@ -254,7 +254,7 @@ pub(crate) fn matter(world: &World) -> Matter<'_> {
 }
 
 /// Mass of the air, d².
-fn air_mass(world: &World) -> f64 {
+pub(super) fn air_mass(world: &World) -> f64 {
     world.resource::<AirGrid>().with_grid(world.resource::<Rock>()).mass()
 }
 
@@ -280,7 +280,7 @@ fn count(world: &World) -> ParticleCount {
 }
 
 /// Mean constraint over the particles where it is violated, as the solver saw it in its last iteration.
-fn residual(world: &World) -> Option<f64> {
+pub(super) fn residual(world: &World) -> Option<f64> {
     let solver = world.resource::<SolverState>();
     let violations: Vec<f64> = solver.violations().map(f64::from).collect();
     (!solver.density.is_empty()).then(|| stats::mean(&violations).unwrap_or(0.0))

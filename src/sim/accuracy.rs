@@ -1,7 +1,14 @@
 //! What the game knows of its own accuracy: the density error of the running world, and the curve of error against time
 //! measured from a moment of it. `lab::live` writes, the HUD and the autopilot read; nothing here changes a world.
 
-use crate::kernel::params::{Preset, Quality};
+use crate::{
+    kernel::{
+        air::Air,
+        params::{Preset, Quality},
+    },
+    scene::blueprint::Blueprint,
+    sim::snapshot::{hash_bytes, hash_state},
+};
 use bevy::prelude::Resource;
 use std::{collections::VecDeque, time::Duration};
 
@@ -93,15 +100,20 @@ pub struct CurvePoint {
     pub p99: Option<f32>,
 }
 
-/// Error against time of the presets, all from the same state of a world.
+/// Error against time of the presets, all from the same state of a world in which nothing sleeps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Curve {
-    /// Scene of the world.
+    /// Name of the world's scene.
     pub scene: String,
-    /// Its tick.
+    /// Which scene of that name, with which settings (see [`fingerprint`]).
+    pub of: u64,
+    /// The world's tick.
     pub tick: u64,
-    /// The quality that was in force, and what a tick of the game took at it, ms.
+    /// The quality that was in force, and what a tick of the game took at it, ms; `None` where all slept: that says
+    /// nothing of a quality.
     pub here: Option<(Quality, f32)>,
+    /// What such a tick took on one thread with those asleep who slept, ms; `None` where nobody did.
+    pub here_on_one_thread: Option<f32>,
     /// One point a preset that is done, the cheapest first; and the quality that was in force, if it is no preset.
     pub points: Vec<CurvePoint>,
 }
@@ -116,10 +128,27 @@ impl Curve {
     /// quality that was in force is known from both. `None` until it is measured.
     pub fn scale(&self) -> Option<f32> {
         let (quality, milliseconds) = self.here?;
-        let same = self.points.iter().find(|point| point.quality == quality && point.milliseconds > 0.0)?;
-        (milliseconds > 0.0).then(|| milliseconds / same.milliseconds)
+        let same = || self.points.iter().find(|point| point.quality == quality).map(|point| point.milliseconds);
+        let one_thread = self.here_on_one_thread.or_else(same)?;
+        (milliseconds > 0.0 && one_thread > 0.0).then(|| milliseconds / one_thread)
     }
 }
+
+/// A hash over everything that a scene starts with but its quality: two scenes with the same one have the same curves.
+pub fn fingerprint(blueprint: &Blueprint) -> u64 {
+    // Debug writes a number in as many digits as it takes to read it back, so other values are other texts.
+    let rules = (&blueprint.parameters, blueprint.scale, blueprint.domain, blueprint.fluid, blueprint.air);
+    let contents =
+        (&blueprint.elements, &blueprint.emitters, &blueprint.winds, &blueprint.drains, &blueprint.pressures);
+    let text = format!("{} {rules:?} {contents:?} {:?}", blueprint.name, blueprint.effects);
+    // The air's cells belong to the quality; what is not yet built is at rest whatever they are.
+    let still = Air::unbuilt(blueprint.domain.size, COARSE, blueprint.air);
+    let state = hash_state(&blueprint.particles, &blueprint.solids, &still);
+    hash_bytes(&[text.as_bytes(), &state.to_le_bytes()].concat())
+}
+
+/// Edge of an air cell where only whether there is air counts, d.
+const COARSE: f32 = 32.0;
 
 /// "Measure here": asked for by the HUD, done by the lab.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
@@ -151,6 +180,7 @@ pub enum SurveyRequest {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::{self, blueprint::EffectModes};
 
     fn sample(tick: u64, mean: Option<f32>) -> ErrorSample {
         ErrorSample { tick, mean, p99: mean, cost: Duration::from_micros(300) }
@@ -167,6 +197,39 @@ mod tests {
         assert!((live.milliseconds_a_tick() - 0.1).abs() < 1e-4);
         live.note(sample(40, None));
         assert_eq!(live.mean(), Some(1.0), "a moment without liquid inside has no error");
+    }
+
+    #[test]
+    fn a_scene_with_other_settings_is_another_and_at_another_quality_the_same() {
+        let build = |text: &str, columns: &str, preset| {
+            let settings = [("columns".to_owned(), columns.to_owned())];
+            let scene = scene::from_text("pool", text.to_owned()).unwrap();
+            fingerprint(&scene.build(&settings, preset, &EffectModes::new()).unwrap())
+        };
+        let text = include_str!("../../assets/scenes/dam_break.ron");
+        let usual = build(text, "24", None);
+        assert_eq!(usual, build(text, "24", Some(Preset::Reference)), "the quality is what the curve is over");
+        assert_ne!(usual, build(text, "25", None), "a parameter");
+        let lower = text.replacen("2 * columns * d", "columns * d", 1);
+        assert_ne!(lower, text, "there is no block to change");
+        assert_ne!(usual, build(&lower, "24", None), "another file of that name");
+    }
+
+    #[test]
+    fn the_scale_is_of_ticks_in_which_the_same_sleep() {
+        let point = |milliseconds| CurvePoint {
+            preset: Preset::Fast,
+            quality: Preset::Fast.quality(),
+            milliseconds,
+            error: None,
+            p99: None,
+        };
+        let here = Some((Preset::Fast.quality(), 1.0));
+        let curve = Curve { here, points: vec![point(4.0)], ..Curve::default() };
+        assert_eq!(curve.scale(), Some(0.25));
+        let half_asleep = Curve { here_on_one_thread: Some(2.0), ..curve.clone() };
+        assert_eq!(half_asleep.scale(), Some(0.5), "four threads of an awake world are not two and sleep");
+        assert_eq!(Curve { here: None, ..curve }.scale(), None, "what all sleep in says nothing");
     }
 
     #[test]

@@ -4,6 +4,7 @@ use crate::{
     game::hud::{
         HudState, desk,
         icons::{self, Icon},
+        stats::grouped,
         style,
     },
     sim::{
@@ -18,13 +19,13 @@ use bevy_egui::{
 };
 
 /// Width of the window's contents, points.
-const WIDTH: f32 = 700.0;
+const WIDTH: f32 = 760.0;
 /// Height of a line, points.
 const LINE: f32 = 19.0;
 /// Where the columns are, points: the first two from their left edge, the figures from their right.
-const COLUMNS: [f32; 6] = [24.0, 268.0, 474.0, 554.0, 624.0, 690.0];
+const COLUMNS: [f32; 7] = [24.0, 268.0, 486.0, 566.0, 640.0, 704.0, 750.0];
 /// Their headings.
-const HEADINGS: [&str; 6] = ["", "at", "expected", "got", "error", "allowed"];
+const HEADINGS: [&str; 7] = ["", "at", "expected", "got", "error", "allowed", "ms"];
 
 /// Shows the exam.
 pub fn show(
@@ -119,6 +120,15 @@ fn show_row(ui: &Ui, rect: egui::Rect, row: &Row) {
     put(ui, rect, 3, &got, &figures, style::TEXT);
     put(ui, rect, 4, &error, &figures, colour);
     put(ui, rect, 5, &allowed, &figures, style::WEAK);
+    put(ui, rect, 6, &milliseconds(row), &figures, style::WEAK);
+}
+
+/// Time that simulating the case took in this setting.
+fn milliseconds(row: &Row) -> String {
+    match row.milliseconds {
+        time if time < 10.0 => format!("{time:.1}"),
+        time => grouped(time.round() as u64),
+    }
 }
 
 fn put(ui: &Ui, rect: egui::Rect, column: usize, text: &str, font: &egui::FontId, colour: Color32) {

@@ -92,6 +92,8 @@ pub struct HudState {
     pub gauntlet: bool,
     /// What accuracy costs.
     pub accuracy: bool,
+    /// All measures, in the panel of what accuracy costs.
+    pub measures: bool,
     /// The scene menu.
     pub scenes: bool,
     /// The list of save files.
@@ -111,6 +113,7 @@ impl Default for HudState {
             exam: false,
             gauntlet: false,
             accuracy: false,
+            measures: false,
             scenes: false,
             saves: false,
             settings: false,
@@ -139,8 +142,8 @@ impl HudState {
                 };
             }
             Action::Close => {
-                let Self { visible, details, accuracy, .. } = *self;
-                *self = Self { visible, details, accuracy, ..Self::default() };
+                let Self { visible, details, accuracy, measures, .. } = *self;
+                *self = Self { visible, details, accuracy, measures, ..Self::default() };
             }
             _ => return,
         }

@@ -5,6 +5,7 @@ use crate::{
         camera::{Area, WorldCamera},
         hud::{
             HudState,
+            accuracy::{percent, short},
             bar::{icon_button, quality_menu, quality_name, tip},
             icons::Icon,
             style,
@@ -13,13 +14,16 @@ use crate::{
         orders::{Order, Orders},
         split::LABEL,
     },
-    kernel::params::Preset,
+    kernel::{
+        params::Preset,
+        units::{Scale, TICK_SECONDS},
+    },
     sim::{
         accuracy::LiveError,
-        difference::{self, Difference},
+        difference::{self, Difference, FULL_SPEED, Half},
         ledger::PassLedger,
         split::Split,
-        state::{ParticleStore, Setup},
+        state::{AirGrid, Clock, ParticleStore, Setup},
     },
 };
 use bevy::prelude::{Local, Res, ResMut, Result, World};
@@ -50,7 +54,7 @@ pub fn show(
     setup: Res<Setup>,
     ledger: Res<PassLedger>,
     error: Res<LiveError>,
-    particles: Res<ParticleStore>,
+    contents: (Res<ParticleStore>, Res<AirGrid>, Res<Clock>),
     mut difference: Local<Difference>,
     mut orders: ResMut<Orders>,
 ) -> Result {
@@ -77,8 +81,12 @@ pub fn show(
             });
         });
     }
-    difference.measure(&setup.blueprint, &particles, second.resource::<ParticleStore>());
-    line(context, "split difference", at_c, |ui| apart(ui, &difference));
+    let (particles, air, clock) = contents;
+    let of_second = Half { particles: second.resource::<ParticleStore>(), air: second.resource::<AirGrid>() };
+    difference.measure(&setup.blueprint, Half { particles: &particles, air: &air }, of_second);
+    let equal = split.quality().is_some_and(|(_, quality)| quality == setup.quality);
+    let apart = Apart { difference: &difference, equal, scale: setup.blueprint.scale, age: split.age(clock.tick) };
+    line(context, "split difference", at_c, |ui| apart.show(ui));
     Ok(())
 }
 
@@ -119,35 +127,62 @@ fn facts(ui: &mut Ui, facts: &Facts<'_>) -> Option<Preset> {
     let chosen = quality_menu(&button, facts.setup.preset);
     ui.label(format!("{:.2} ms", facts.ledger.tick().median().as_secs_f32() * 1000.0));
     if let (Some(mean), true) = (facts.error.mean(), ui.available_width() > 130.0) {
-        let text = format!("error {}", super::accuracy::percent(mean));
+        let text = format!("error {}", percent(mean));
         ui.label(RichText::new(text).color(style::WEAK));
     }
     chosen
 }
 
-/// How far the worlds are apart, and what the colours mean.
-fn apart(ui: &mut Ui, difference: &Difference) {
-    ui.label("Difference");
-    let text = match difference.is_nothing() {
-        true => "none".to_owned(),
-        false => format!("{} on average", super::accuracy::percent(difference.mean())),
-    };
-    ui.label(RichText::new(text).color(style::WEAK)).on_hover_text(
-        "In each cell of 4 d: liquid that one world has there and the other not, or flow in another way",
-    );
-    if ui.available_width() > SCALE.x + 20.0 {
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let (rect, _) = ui.allocate_exact_size(SCALE, Sense::hover());
-            for k in 0..SHADES {
-                let share = |k: usize| k as f32 / SHADES as f32;
-                let ([r, g, b], opacity) = difference::colour(share(k + 1));
-                let part = egui::Rect::from_x_y_ranges(
-                    rect.left() + rect.width() * share(k)..=rect.left() + rect.width() * share(k + 1),
-                    rect.y_range(),
-                );
-                let alpha = (255.0 * opacity) as u8;
-                ui.painter().rect_filled(part, 0.0, Color32::from_rgba_unmultiplied(r, g, b, alpha));
-            }
-        });
+/// How far the worlds are apart.
+struct Apart<'a> {
+    difference: &'a Difference,
+    /// Whether their qualities are equal.
+    equal: bool,
+    scale: Scale,
+    /// Ticks since they were the same.
+    age: Option<u64>,
+}
+
+impl Apart<'_> {
+    /// It in words.
+    fn text(&self) -> String {
+        if self.difference.is_nothing() {
+            return if self.equal { "none, the qualities are equal".to_owned() } else { "none".to_owned() };
+        }
+        let liquid = self.difference.liquid().map(|mean| format!("liquid {}", percent(mean)));
+        let wind = self.difference.wind().map(|wind| self.scale.to_metres(wind));
+        let air = wind.map(|wind| format!("air {} m/s", short(wind)));
+        let age = self.age.map(|ticks| format!("after {:.1} s", ticks as f32 * TICK_SECONDS));
+        let parts: Vec<String> = [liquid, air, age].into_iter().flatten().collect();
+        parts.join(", ")
+    }
+
+    /// Shows it, and what the colours mean.
+    fn show(&self, ui: &mut Ui) {
+        ui.label("Difference");
+        ui.label(RichText::new(self.text()).color(style::WEAK)).on_hover_text(format!(
+            "In each cell of 4 d: liquid that one world has there and the other not, or flow in another way, on average; \
+             and the air's velocity, root mean square. Full heat: all the liquid, or {} % of the speed of a fall through \
+             the box; where there is no liquid, a strong wind.\nB starts again from A when you choose its quality, or both come to have the same.",
+            100.0 * FULL_SPEED
+        ));
+        if ui.available_width() > SCALE.x + 20.0 {
+            ui.with_layout(Layout::right_to_left(Align::Center), scale);
+        }
+    }
+}
+
+/// The colours of the heat map, from a little to all.
+fn scale(ui: &mut Ui) {
+    let (rect, _) = ui.allocate_exact_size(SCALE, Sense::hover());
+    for k in 0..SHADES {
+        let share = |k: usize| k as f32 / SHADES as f32;
+        let ([r, g, b], opacity) = difference::colour(share(k + 1));
+        let part = egui::Rect::from_x_y_ranges(
+            rect.left() + rect.width() * share(k)..=rect.left() + rect.width() * share(k + 1),
+            rect.y_range(),
+        );
+        let alpha = (255.0 * opacity) as u8;
+        ui.painter().rect_filled(part, 0.0, Color32::from_rgba_unmultiplied(r, g, b, alpha));
     }
 }

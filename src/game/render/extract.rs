@@ -14,7 +14,7 @@ use crate::{
     kernel::units::TICK_SECONDS,
     scene::blueprint::Blueprint,
     sim::{
-        difference::{self, Difference},
+        difference::{self, Difference, Half},
         pace::Pace,
         split::Split,
         stages::TickPlan,
@@ -163,6 +163,11 @@ struct Scene<'a> {
 }
 
 impl<'a> Scene<'a> {
+    /// What is compared with another world.
+    fn half(self) -> Half<'a> {
+        Half { particles: self.particles, air: self.air }
+    }
+
     /// What there is of the second world of a split.
     fn of(world: &'a World) -> Option<Self> {
         Some(Self {
@@ -234,7 +239,7 @@ pub fn extract(
         (Some(second), &[at_a, at_b, at_c]) => {
             a.fill(Scene { wisps: None, ..first }, sight, at_a, true);
             b.fill(second, sight, at_b, true);
-            difference.measure(&setup.blueprint, particles, second.particles);
+            difference.measure(&setup.blueprint, first.half(), second.half());
             c.fill_with_difference(difference, first, sight, at_c);
             *count = 3;
         }

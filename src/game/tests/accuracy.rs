@@ -6,8 +6,10 @@ use crate::{
     sim::{
         accuracy::{Survey, SurveyRequest, Watched},
         autopilot::{Autopilot, Goal},
-        difference::Difference,
+        difference::{Difference, Half},
+        measures::Measures,
         split::Split,
+        state::AirGrid,
     },
 };
 
@@ -22,9 +24,10 @@ fn second(player: &Player) -> &World {
 
 fn apart(player: &Player) -> Difference {
     let mut difference = Difference::default();
-    let particles = |world: &World| world.resource::<ParticleStore>().0.clone();
+    let half =
+        |world| Half { particles: World::resource::<ParticleStore>(world), air: World::resource::<AirGrid>(world) };
     let blueprint = &player.world().resource::<Setup>().blueprint;
-    difference.measure(blueprint, &particles(player.world()), &particles(second(player)));
+    difference.measure(blueprint, half(player.world()), half(second(player)));
     difference
 }
 
@@ -37,6 +40,26 @@ fn a_key_opens_the_panel_and_only_then_the_error_is_measured() {
     player.chord(&[KeyCode::KeyH]);
     player.frame();
     assert!(!player.world().resource::<Watched>().0, "a hidden panel looks at nothing");
+}
+
+#[test]
+fn all_is_measured_only_while_its_part_of_the_panel_is_open_and_seen() {
+    let mut player = Player::new();
+    let wanted = |player: &Player| player.world().resource::<Measures>().wanted();
+    player.chord(&[KeyCode::KeyA]);
+    assert!(!wanted(&player), "the panel opens with it closed");
+    player.0.world_mut().resource_mut::<HudState>().measures = true;
+    player.frame();
+    assert!(wanted(&player));
+    player.chord(&[KeyCode::KeyH]);
+    player.frame();
+    assert!(!wanted(&player), "a hidden panel measures nothing");
+    player.chord(&[KeyCode::KeyH]);
+    player.frame();
+    assert!(wanted(&player));
+    player.chord(&[KeyCode::KeyA]);
+    player.frame();
+    assert!(!wanted(&player), "a closed panel measures nothing");
 }
 
 #[test]
@@ -90,6 +113,16 @@ fn edits_go_to_both_worlds_from_either_half_and_one_key_ends_the_split() {
     player.frames(30);
     assert_ne!(control::hash(second(&player)), player.hash());
     assert!(!apart(&player).is_nothing());
+    // B at A's quality again, and A at B's: from then on there is nothing to see.
+    order(&mut player, Order::SecondQuality(preset));
+    assert!(apart(&player).is_nothing());
+    order(&mut player, Order::SecondQuality(Preset::Classic));
+    player.frames(10);
+    assert!(!apart(&player).is_nothing());
+    order(&mut player, Order::Quality(Preset::Classic));
+    player.frames(10);
+    assert_eq!(control::hash(second(&player)), player.hash());
+    assert!(apart(&player).is_nothing());
     player.chord(&[KeyCode::Space]);
     let hash = player.hash();
     player.chord(&[KeyCode::KeyB]);

@@ -1,7 +1,8 @@
-//! Accuracy while a world is played: samples of the density error of the running world ([`sample`]), and the curve of
-//! error against time from a moment of it on ([`survey`]). What is found goes into the resources of `sim::accuracy`; the
-//! world itself is only read.
+//! Accuracy while a world is played: samples of the density error of the running world ([`sample`]), all other measures
+//! of it on demand ([`measures`]), and the curve of error against time from a moment of it on ([`survey`]). What is found
+//! goes into the resources of `sim::accuracy` and `sim::measures`; the world itself is only read.
 
+pub mod measures;
 pub mod sample;
 pub mod survey;
 #[cfg(test)]
@@ -10,6 +11,7 @@ mod tests;
 use crate::sim::{
     accuracy::{ErrorSample, LiveError, SAMPLE_EVERY, Survey, Watched},
     autopilot,
+    measures::Measures,
     schedule::TickSystems,
     split::Split,
     state::{Clock, ParticleStore, Rock, Setup},
@@ -28,6 +30,7 @@ impl Plugin for LivePlugin {
         app.init_resource::<LiveError>()
             .init_resource::<Watched>()
             .init_resource::<Survey>()
+            .init_resource::<Measures>()
             .init_resource::<Split>()
             .init_resource::<Scratch>()
             .init_resource::<survey::Surveyor>()
@@ -39,7 +42,12 @@ impl Plugin for LivePlugin {
                     .after(TickSystems::Measure)
                     .before(autopilot::steer),
             )
-            .add_systems(Update, survey::run);
+            .add_systems(
+                FixedUpdate,
+                (measures::start.before(TickSystems::Script), measures::follow.after(TickSystems::Measure))
+                    .run_if(measures::is_wanted),
+            )
+            .add_systems(Update, (survey::run, measures::measure.run_if(measures::is_wanted)));
     }
 }
 
@@ -75,9 +83,10 @@ fn sample_second_world(mut split: ResMut<Split>, mut scratch: ResMut<Scratch>) {
     world.resource_mut::<LiveError>().note(sample);
 }
 
-/// Whether the world has come to another tick, and to one at which it is sampled.
+/// Whether the world has come to another tick, and to one at which it is sampled; the first sample waits for none, as a
+/// world that stands comes to none.
 fn is_due(clock: &Clock, error: &LiveError) -> bool {
-    clock.tick.is_multiple_of(SAMPLE_EVERY) && error.latest().is_none_or(|last| last.tick != clock.tick)
+    error.latest().is_none_or(|last| last.tick != clock.tick && clock.tick.is_multiple_of(SAMPLE_EVERY))
 }
 
 fn take(scratch: &mut Scratch, setup: &Setup, clock: &Clock, particles: &ParticleStore, rock: &Rock) -> ErrorSample {

@@ -5,9 +5,11 @@
 use crate::{
     kernel::params::{Preset, Quality},
     lab::{density::density_error, live::tick_milliseconds, stats},
+    scene::blueprint::{Effect, Mode},
     sim::{
-        accuracy::{Curve, CurvePoint, Survey, SurveyRequest},
+        accuracy::{Curve, CurvePoint, Survey, SurveyRequest, fingerprint},
         autopilot::ladder,
+        effects::{Effects, account::Sleepers},
         ledger::PassLedger,
         state::{Clock, ParticleStore, Rock, Setup},
         twin::{Seed, Twin},
@@ -65,9 +67,27 @@ struct Shared {
 
 #[derive(Clone, Debug, Default)]
 struct Found {
-    points: Vec<CurvePoint>,
+    results: Vec<Done>,
     progress: f32,
     done: bool,
+}
+
+/// What a run found.
+#[derive(Clone, Copy, Debug)]
+enum Done {
+    /// What a tick takes at the quality in force on one thread, with those asleep who sleep, ms.
+    Here(f32),
+    /// A quality.
+    Point(CurvePoint),
+}
+
+impl Done {
+    fn note(self, curve: &mut Curve) {
+        match self {
+            Self::Here(milliseconds) => curve.here_on_one_thread = Some(milliseconds),
+            Self::Point(point) => curve.points.push(point),
+        }
+    }
 }
 
 /// Begins, follows and ends surveys.
@@ -89,13 +109,15 @@ impl Surveyor {
     fn begin(&mut self, world: &mut World) {
         self.cancel();
         let (setup, clock) = (world.resource::<Setup>(), world.resource::<Clock>());
+        let sleep = Asleep::of(world);
         let curve = Curve {
             scene: setup.blueprint.name.clone(),
+            of: fingerprint(&setup.blueprint),
             tick: clock.tick,
-            here: Some((setup.quality, tick_milliseconds(world))),
-            points: Vec::new(),
+            here: (sleep != Asleep::All).then(|| (setup.quality, tick_milliseconds(world))),
+            ..Curve::default()
         };
-        let work = Work::new(Seed::of(world));
+        let work = Work::new(Seed::of(world), sleep);
         *world.resource_mut::<Survey>() = Survey { request: None, progress: Some(0.0), curve };
         self.job = Some(if self.sliced { Job::Slices(Box::new(work)) } else { start(work) });
     }
@@ -111,7 +133,8 @@ impl Surveyor {
             None => return,
             Some(Job::Thread { shared }) => {
                 let found = shared.found.lock().unwrap_or_else(PoisonError::into_inner).clone();
-                survey.curve.points = found.points;
+                let known = survey.curve.points.len() + usize::from(survey.curve.here_on_one_thread.is_some());
+                found.results.iter().skip(known).for_each(|result| result.note(&mut survey.curve));
                 survey.progress = Some(found.progress);
                 // A thread that is gone has nothing more to tell, whatever became of it.
                 found.done || Arc::strong_count(shared) == 1
@@ -119,7 +142,9 @@ impl Surveyor {
             Some(Job::Slices(work)) => {
                 let begun = Instant::now();
                 while !work.is_done() && begun.elapsed() < SLICE {
-                    survey.curve.points.extend(work.advance());
+                    if let Some(result) = work.advance() {
+                        result.note(&mut survey.curve);
+                    }
                 }
                 survey.progress = Some(work.progress());
                 work.is_done()
@@ -150,9 +175,9 @@ fn start(work: Work) -> Job {
 fn work_aside(mut work: Work, shared: &Shared) {
     while !work.is_done() && !shared.cancelled.load(Ordering::Relaxed) {
         let begun = Instant::now();
-        let point = work.advance();
+        let result = work.advance();
         let mut found = shared.found.lock().unwrap_or_else(PoisonError::into_inner);
-        found.points.extend(point);
+        found.results.extend(result);
         (found.progress, found.done) = (work.progress(), work.is_done());
         drop(found);
         // Half of the time belongs to the game.
@@ -160,20 +185,47 @@ fn work_aside(mut work: Work, shared: &Shared) {
     }
 }
 
+/// How much of a world sleeps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Asleep {
+    None,
+    Some,
+    All,
+}
+
+impl Asleep {
+    fn of(world: &World) -> Self {
+        let Sleepers { particles: (asleep, particles), tiles: (still, tiles) } = Sleepers::in_world(world);
+        match (asleep + still, particles + tiles) {
+            (0, _) => Self::None,
+            (sleepers, all) if sleepers == all => Self::All,
+            _ => Self::Some,
+        }
+    }
+}
+
 /// A survey, tick by tick.
 struct Work {
     seed: Seed,
-    /// Qualities to run, the dearest first, and the work of each.
-    left: Vec<(Preset, Quality)>,
+    /// What is to be run, the dearest first.
+    left: Vec<Leg>,
     run: Option<Run>,
     done: f32,
     total: f32,
 }
 
-/// The world at one of the qualities.
-struct Run {
+/// A quality to run.
+#[derive(Clone, Copy)]
+struct Leg {
     preset: Preset,
     quality: Quality,
+    /// Whether those may sleep who do in the game.
+    sleep: bool,
+}
+
+/// The world at one of the qualities.
+struct Run {
+    leg: Leg,
     twin: Twin,
     ticks: u32,
     means: Vec<f64>,
@@ -181,13 +233,19 @@ struct Run {
 }
 
 impl Work {
-    fn new(seed: Seed) -> Self {
-        let mut left: Vec<_> = Preset::ALL.into_iter().map(|preset| (preset, preset.quality())).collect();
-        if left.iter().all(|(_, quality)| *quality != seed.setup.quality) {
-            left.push((seed.setup.preset, seed.setup.quality));
+    fn new(seed: Seed, asleep: Asleep) -> Self {
+        let leg = |preset, quality| Leg { preset, quality, sleep: false };
+        let here = leg(seed.setup.preset, seed.setup.quality);
+        let mut left: Vec<_> = Preset::ALL.into_iter().map(|preset| leg(preset, preset.quality())).collect();
+        if left.iter().all(|leg| leg.quality != here.quality) {
+            left.push(here);
         }
-        left.sort_by(|(_, a), (_, b)| ladder::work(b).total_cmp(&ladder::work(a)));
-        let total = left.iter().map(|(_, quality)| ladder::work(quality)).sum();
+        left.sort_by(|a, b| ladder::work(&b.quality).total_cmp(&ladder::work(&a.quality)));
+        // The game's own time is of a world with sleepers: what its threads make of it shows against the same world.
+        if asleep == Asleep::Some {
+            left.push(Leg { sleep: true, ..here });
+        }
+        let total = left.iter().map(|leg| ladder::work(&leg.quality)).sum();
         Self { seed, left, run: None, done: 0.0, total }
     }
 
@@ -200,47 +258,58 @@ impl Work {
         let under_way = self
             .run
             .as_ref()
-            .map_or(0.0, |run| ladder::work(&run.quality) * run.ticks as f32 / (WARMUP + TICKS) as f32);
+            .map_or(0.0, |run| ladder::work(&run.leg.quality) * run.ticks as f32 / (WARMUP + TICKS) as f32);
         ((self.done + under_way) / self.total).min(1.0)
     }
 
-    /// Does one tick of the work; the point if that finishes one.
-    fn advance(&mut self) -> Option<CurvePoint> {
+    /// Does one tick of the work; the result if that finishes a run.
+    fn advance(&mut self) -> Option<Done> {
         if self.run.is_none() {
-            let (preset, quality) = self.left.pop()?;
-            self.run = Some(Run::new(&self.seed, preset, quality));
+            self.run = Some(Run::new(&self.seed, self.left.pop()?));
         }
-        let point = self.run.as_mut()?.advance()?;
+        let run = self.run.as_mut()?;
+        let result = run.advance()?;
+        self.done += ladder::work(&run.leg.quality);
         self.run = None;
-        self.done += ladder::work(&point.quality);
-        Some(point)
+        Some(result)
     }
 }
 
 impl Run {
-    fn new(seed: &Seed, preset: Preset, quality: Quality) -> Self {
+    fn new(seed: &Seed, leg: Leg) -> Self {
         // Without threads, the calling one is all there is.
         let mut twin = Twin::new(seed, Workers::new(1).unwrap_or_default());
-        twin.set_quality(preset, quality);
-        Self { preset, quality, twin, ticks: 0, means: Vec::new(), p99s: Vec::new() }
+        twin.set_quality(leg.preset, leg.quality);
+        if !leg.sleep {
+            // What sleeps costs the same at every quality, and errs by the same: it says nothing of any.
+            twin.world_mut().resource_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off;
+        }
+        Self { leg, twin, ticks: 0, means: Vec::new(), p99s: Vec::new() }
     }
 
-    fn advance(&mut self) -> Option<CurvePoint> {
+    fn advance(&mut self) -> Option<Done> {
         if self.ticks == WARMUP {
             self.twin.world_mut().resource_mut::<PassLedger>().clear();
         }
         self.twin.tick();
         self.ticks += 1;
-        if self.ticks > WARMUP && self.ticks.is_multiple_of(MEASURE_EVERY) {
+        if !self.leg.sleep && self.ticks > WARMUP && self.ticks.is_multiple_of(MEASURE_EVERY) {
             self.measure();
         }
-        (self.ticks == WARMUP + TICKS).then(|| CurvePoint {
-            preset: self.preset,
-            quality: self.quality,
-            milliseconds: tick_milliseconds(self.twin.world()),
+        if self.ticks < WARMUP + TICKS {
+            return None;
+        }
+        let milliseconds = tick_milliseconds(self.twin.world());
+        if self.leg.sleep {
+            return Some(Done::Here(milliseconds));
+        }
+        Some(Done::Point(CurvePoint {
+            preset: self.leg.preset,
+            quality: self.leg.quality,
+            milliseconds,
             error: stats::mean(&self.means).map(|mean| mean as f32),
             p99: stats::mean(&self.p99s).map(|p99| p99 as f32),
-        })
+        }))
     }
 
     fn measure(&mut self) {
@@ -252,5 +321,58 @@ impl Run {
             self.means.push(error.mean);
             self.p99s.push(error.p99);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        lab::headless::Headless,
+        scene::{self, blueprint::EffectModes},
+        sim::state::SleepState,
+    };
+
+    /// A pool whose water and air came to rest.
+    fn pool() -> Headless {
+        let settings = [("columns", "16"), ("depth", "10")].map(|(key, value)| (key.to_owned(), value.to_owned()));
+        let blueprint = scene::load("hydrostatic").unwrap().build(&settings, None, &EffectModes::new()).unwrap();
+        let mut headless = Headless::new(Arc::new(blueprint), Workers::single());
+        let asleep = |headless: &Headless| Asleep::of(headless.world()) == Asleep::All;
+        while !asleep(&headless) {
+            headless.tick();
+            assert!(headless.world().resource::<Clock>().tick < 3000, "it does not fall asleep");
+        }
+        headless
+    }
+
+    #[test]
+    fn what_sleeps_is_awake_in_every_run_from_the_first_tick_to_the_last() {
+        let headless = pool();
+        let mut work = Work::new(Seed::of(headless.world()), Asleep::of(headless.world()));
+        let mut moved = 0;
+        while !work.is_done() {
+            work.advance();
+            if let Some(run) = &work.run {
+                let world = run.twin.world();
+                let name = run.leg.preset.name();
+                assert_eq!(world.resource::<SleepState>().asleep(), 0, "{name} sleeps at tick {}", run.ticks);
+                moved +=
+                    u32::from(world.resource::<PassLedger>().record(crate::sim::ledger::Pass::Solve).last.calls > 0);
+            }
+        }
+        assert!(moved >= Preset::ALL.len() as u32 * (WARMUP + TICKS - 1), "only {moved} ticks were simulated");
+    }
+
+    #[test]
+    fn only_a_world_of_which_a_part_sleeps_is_run_once_more_for_its_time() {
+        let headless = pool();
+        let legs = |asleep| Work::new(Seed::of(headless.world()), asleep).left;
+        assert_eq!(legs(Asleep::None).len(), Preset::ALL.len());
+        assert_eq!(legs(Asleep::All).len(), Preset::ALL.len());
+        let some = legs(Asleep::Some);
+        assert_eq!(some.iter().filter(|leg| leg.sleep).count(), 1);
+        let last = some.last().expect("it is run first");
+        assert!(last.sleep && last.quality == headless.world().resource::<Setup>().quality);
     }
 }

@@ -2,18 +2,24 @@
 
 use super::{LivePlugin, survey::Surveyor};
 use crate::{
-    kernel::params::Preset,
+    kernel::{
+        brush::{BrushShape, Stroke},
+        params::Preset,
+    },
     lab::{
         headless::Headless,
         run::{Plan, run},
+        sampler::Sampler,
     },
     scene::{self, blueprint::EffectModes},
     sim::{
         accuracy::{LiveError, Survey, SurveyRequest, Watched},
         autopilot::{self, Autopilot, Goal, controller::Verdict, ladder},
         control,
-        intent::Intent,
+        intent::{Intent, IntentQueue},
         ledger::{Extent, PassLedger},
+        measures::{Measured, Measures},
+        pace::Pace,
         recorder::{self, Recorder},
         recording::Recording,
         schedule::TickSystems,
@@ -65,6 +71,74 @@ fn what_nobody_looks_at_is_not_measured() {
     let mut headless = begin("dam_break", &[("columns", "8")], LivePlugin);
     (0..10).for_each(|_| headless.tick());
     assert_eq!(headless.world().resource::<LiveError>().latest(), None);
+    assert_eq!(headless.world().resource::<Measures>().latest(), None);
+}
+
+#[test]
+fn a_world_that_stands_is_sampled_when_somebody_looks() {
+    let mut headless = begin("dam_break", &[("columns", "24")], LivePlugin);
+    (0..31).for_each(|_| headless.tick());
+    headless.world_mut().resource_mut::<Pace>().paused = true;
+    headless.world_mut().resource_mut::<Watched>().0 = true;
+    headless.tick();
+    assert_eq!(headless.world().resource::<LiveError>().latest().map(|sample| sample.tick), Some(31));
+}
+
+fn measured(headless: &Headless) -> Measured {
+    *headless.world().resource::<Measures>().latest().expect("somebody looks")
+}
+
+/// Looks away and back, so that the next tick is measured.
+fn look_again(headless: &mut Headless) {
+    headless.world_mut().resource_mut::<Measures>().want(true);
+    headless.tick();
+}
+
+#[test]
+fn all_measures_are_those_of_the_metrics_and_change_nothing() {
+    let mut plain = begin("waterfall", &[], ());
+    let mut looked_at = begin("waterfall", &[], LivePlugin);
+    for tick in 0..90 {
+        if tick % 30 == 0 {
+            looked_at.world_mut().resource_mut::<Measures>().want(true);
+        }
+        plain.tick();
+        looked_at.tick();
+    }
+    assert_eq!(control::hash(plain.world()), control::hash(looked_at.world()), "measuring changes the world");
+    look_again(&mut looked_at);
+    let mut sampler = Sampler::new(plain.world(), 0);
+    run(&mut plain, &Plan { ticks: 1, ..Plan::default() }, &mut [&mut sampler]).unwrap();
+    let (found, metrics) = (measured(&looked_at), sampler.finish(plain.world()).accuracy);
+    assert_eq!((found.residual, found.volume_error), (metrics.residual, metrics.volume_error));
+    assert_eq!((found.kinetic + found.potential, found.momentum.to_array()), (metrics.energy, metrics.momentum));
+    let air = found.air.expect("the waterfall has air");
+    assert_eq!(Some(air.divergence), metrics.air_divergence_rms);
+    assert!(air.mass > 0.0 && found.kinetic > 0.0 && !found.cost.is_zero(), "{found:?}");
+}
+
+#[test]
+fn a_measurement_stands_for_a_second_and_the_drift_begins_with_each_world() {
+    let mut headless = begin("sealed_air", &[], LivePlugin);
+    look_again(&mut headless);
+    let first = measured(&headless);
+    headless.tick();
+    assert_eq!(measured(&headless), first, "it is measured every tick");
+    assert!(first.air.is_some_and(|air| air.drift.abs() < 1e-6), "a closed box keeps its air: {first:?}");
+    thread::sleep(Duration::from_millis(1100));
+    let size = headless.world().resource::<Setup>().blueprint.domain.size;
+    let stroke = Stroke::dab(BrushShape::Disc, size / 2.0, 6.0);
+    headless.world_mut().resource_mut::<IntentQueue>().push(Intent::Press { stroke, amount: 2.0 });
+    headless.tick();
+    let pumped = measured(&headless);
+    assert!(pumped.seen.0 == first.seen.0 + 2 && pumped.air.is_some_and(|air| air.drift > 1e-3), "{pumped:?}");
+    control::reset(headless.world_mut());
+    headless.tick();
+    let again = measured(&headless);
+    assert!(again.seen.0 == 1 && again.air.is_some_and(|air| air.drift.abs() < 1e-6), "{again:?}");
+    headless.world_mut().resource_mut::<Measures>().want(false);
+    headless.tick();
+    assert_eq!(headless.world().resource::<Measures>().latest(), None);
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! The accuracy panel: the running world on the curve of error against time, the presets to choose on it, the survey
-//! that measures the curve here and now, the autopilot, the A/B split, and what each stage takes of a tick.
+//! that measures the curve here and now, the autopilot, the A/B split, what each stage takes of a tick, and on demand all
+//! else that is measured.
 
 mod axis;
+mod measures;
 mod pilot;
 mod plot;
 
@@ -16,22 +18,24 @@ use crate::{
         input::bindings::Action,
         orders::{Order, Orders},
     },
+    scene::blueprint::Blueprint,
     sim::{
-        accuracy::{Curve, LiveError, Survey, SurveyRequest},
+        accuracy::{Curve, LiveError, Survey, SurveyRequest, fingerprint},
         autopilot::Autopilot,
         ledger::{Pass, PassLedger},
+        measures::Measures,
         split::Split,
         state::{Clock, Setup},
     },
 };
-use axis::short;
+pub use axis::short;
 use bevy::prelude::{Res, ResMut, Resource, Result};
 use bevy_egui::{
     EguiContexts,
     egui::{self, Color32, RichText, Sense, Ui, vec2},
 };
-use plot::Plot;
-use std::collections::BTreeMap;
+use plot::{Live, Plot};
+use std::{collections::BTreeMap, sync::Arc};
 
 /// Width of the panel's contents, points.
 const WIDTH: f32 = 396.0;
@@ -45,18 +49,35 @@ const SMALL: f32 = 0.02;
 /// What the panel remembers.
 #[derive(Resource, Default)]
 pub struct AccuracyPanel {
-    /// The last curve of each scene.
-    curves: BTreeMap<String, Curve>,
-    trail: Vec<(f32, f32)>,
+    /// The last curve of each scene, by its fingerprint.
+    curves: BTreeMap<u64, Curve>,
+    /// The scene that is played, and its fingerprint.
+    scene: Option<(Arc<Blueprint>, u64)>,
+    trail: Vec<Live>,
     trail_tick: u64,
     bounds: pilot::Bounds,
+    /// Whether all measures were in sight since they were opened.
+    measures_seen: bool,
 }
 
 impl AccuracyPanel {
+    /// The fingerprint of the scene that is played; the trail of another ends.
+    fn turn_to(&mut self, blueprint: &Arc<Blueprint>) -> u64 {
+        match &self.scene {
+            Some((known, fingerprint)) if Arc::ptr_eq(known, blueprint) => *fingerprint,
+            _ => {
+                let found = fingerprint(blueprint);
+                self.scene = Some((blueprint.clone(), found));
+                self.trail.clear();
+                found
+            }
+        }
+    }
+
     /// Takes up what was measured since.
-    fn follow(&mut self, survey: &Survey, clock: &Clock, now: Option<(f32, f32)>) {
-        if !survey.curve.points.is_empty() && self.curves.get(&survey.curve.scene) != Some(&survey.curve) {
-            self.curves.insert(survey.curve.scene.clone(), survey.curve.clone());
+    fn follow(&mut self, survey: &Survey, clock: &Clock, now: Option<Live>) {
+        if !survey.curve.points.is_empty() && self.curves.get(&survey.curve.of) != Some(&survey.curve) {
+            self.curves.insert(survey.curve.of, survey.curve.clone());
         }
         if clock.tick < self.trail_tick || now.is_none() {
             self.trail.clear();
@@ -83,7 +104,7 @@ pub fn show(
     mut panel: ResMut<AccuracyPanel>,
     setup: Res<Setup>,
     clock: Res<Clock>,
-    measured: (Res<PassLedger>, Res<LiveError>),
+    measured: (Res<PassLedger>, Res<LiveError>, Res<Measures>),
     survey: Res<Survey>,
     autopilot: Res<Autopilot>,
     split: Res<Split>,
@@ -92,9 +113,10 @@ pub fn show(
     if !state.accuracy || !state.visible {
         return Ok(());
     }
-    let (ledger, error) = measured;
+    let (ledger, error, measures) = measured;
     let milliseconds = ledger.tick().median().as_secs_f32() * 1000.0;
-    let live = error.mean().filter(|_| milliseconds > 0.0).map(|error| (milliseconds, error));
+    let live = (milliseconds > 0.0).then(|| Live { milliseconds, error: error.mean() });
+    let scene = panel.turn_to(&setup.blueprint);
     panel.follow(&survey, &clock, live);
     let context = contexts.ctx_mut()?;
     let screen = context.content_rect();
@@ -106,18 +128,19 @@ pub fn show(
             ui.set_width(WIDTH.min(screen.width() - 60.0));
             ui.spacing_mut().button_padding = vec2(7.0, 2.0);
             headline(ui, &setup, milliseconds, &error);
-            let AccuracyPanel { curves, trail, bounds, .. } = &mut *panel;
-            let curve = curves.get(&setup.blueprint.name);
+            let AccuracyPanel { curves, trail, bounds, measures_seen: seen, .. } = &mut *panel;
+            let curve = curves.get(&scene);
             let scale = curve.and_then(Curve::scale);
             let plot = Plot {
                 curve,
                 scale: scale.unwrap_or(1.0),
                 trail,
                 goal: autopilot.goal(),
-                now: (setup.preset, setup.quality),
+                now: setup.quality,
+                looked: error.latest().is_some(),
             };
             let size = vec2(ui.available_width(), (0.34 * screen.height()).clamp(150.0, 240.0));
-            if let Some(preset) = plot.show(ui, size) {
+            if let Some(preset) = plot.show(ui, size).or(plot.chips(ui)) {
                 orders.push(Order::Quality(preset));
             }
             measure(ui, &survey, curve, scale, &split, &mut orders);
@@ -126,6 +149,8 @@ pub fn show(
             pilot::status(ui, &autopilot, &setup, milliseconds, error.mean());
             ui.separator();
             stages(ui, &ledger, &error);
+            ui.separator();
+            measures::show(ui, &mut state.measures, seen, &measures);
         });
     });
     if !open {
@@ -199,11 +224,12 @@ fn measure(
     });
     if let Some(curve) = curve {
         let times = match scale {
-            Some(scale) if (scale - 1.0).abs() > 0.005 => format!(", times × {} to match the game", short(scale)),
+            Some(scale) if (scale - 1.0).abs() > 0.005 => format!(", times × {} as in the game", short(scale)),
             _ => String::new(),
         };
         let from = super::stats::grouped(curve.tick);
-        ui.label(weak(format!("curve of {} from tick {from} on, one thread{times}", curve.scene)).small());
+        let told = format!("{} from tick {from} on, one thread, all awake{times}", curve.scene);
+        ui.label(weak(told).small());
     }
 }
 
@@ -249,30 +275,55 @@ fn bar(ui: &mut Ui, name: &str, time: f32, longest: f32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{
+        kernel::params::Preset,
+        scene::{self, blueprint::EffectModes},
+    };
+
+    #[test]
+    fn each_scene_and_each_setting_of_it_has_its_own_curve() {
+        let build = |columns: &str, preset| {
+            let settings = [("columns".to_owned(), columns.to_owned())];
+            let scene = scene::load("dam_break").unwrap();
+            Arc::new(scene.build(&settings, preset, &EffectModes::new()).unwrap())
+        };
+        let mut panel = AccuracyPanel::default();
+        let first = build("10", None);
+        let of = panel.turn_to(&first);
+        panel.curves.insert(of, Curve::default());
+        panel.trail.push(Live { milliseconds: 1.0, error: None });
+        let shows = |panel: &mut AccuracyPanel, blueprint: &Arc<Blueprint>| {
+            let scene = panel.turn_to(blueprint);
+            panel.curves.contains_key(&scene)
+        };
+        assert!(shows(&mut panel, &first) && panel.trail.len() == 1);
+        assert!(!shows(&mut panel, &build("12", None)), "the curve of other settings is shown");
+        assert!(panel.trail.is_empty(), "and the trail of another scene");
+        assert!(shows(&mut panel, &build("10", Some(Preset::Fine))), "the same scene again has lost its curve");
+    }
 
     #[test]
     fn the_panel_keeps_a_curve_for_each_scene_and_a_short_trail() {
         let mut panel = AccuracyPanel::default();
+        let live = Some(Live { milliseconds: 1.0, error: Some(0.01) });
         let point = crate::sim::accuracy::CurvePoint {
-            preset: crate::kernel::params::Preset::Fast,
-            quality: crate::kernel::params::Preset::Fast.quality(),
+            preset: Preset::Fast,
+            quality: Preset::Fast.quality(),
             milliseconds: 1.0,
             error: Some(0.01),
             p99: None,
         };
-        let survey = |scene: &str| Survey {
-            curve: Curve { scene: scene.into(), points: vec![point], ..Curve::default() },
-            ..Survey::default()
-        };
-        for (scene, ticks) in [("waterfall", 0..300), ("dam_break", 0..300)] {
+        let survey =
+            |of: u64| Survey { curve: Curve { of, points: vec![point], ..Curve::default() }, ..Survey::default() };
+        for (scene, ticks) in [(1, 0..300), (2, 0..300)] {
             for tick in ticks {
                 let clock = Clock { tick, ..Clock::default() };
-                panel.follow(&survey(scene), &clock, Some((1.0, 0.01)));
+                panel.follow(&survey(scene), &clock, live);
             }
         }
         assert_eq!(panel.curves.len(), 2);
         assert_eq!(panel.trail.len(), TRAIL);
-        panel.follow(&Survey::default(), &Clock::default(), Some((1.0, 0.01)));
+        panel.follow(&Survey::default(), &Clock::default(), live);
         assert_eq!(panel.trail.len(), 1, "another history begins a new trail");
         panel.follow(&Survey::default(), &Clock::default(), None);
         assert!(panel.trail.is_empty());

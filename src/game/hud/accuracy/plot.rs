@@ -1,5 +1,5 @@
 //! Error against time, log–log: the curve that was measured with the presets as buttons on it, the world as it runs now,
-//! and the bound that the autopilot holds.
+//! and the bound that the autopilot holds. What has a time and no error, for want of liquid, stands on the lower edge.
 
 use super::{
     axis::{Axis, short},
@@ -17,8 +17,12 @@ use bevy_egui::egui::{self, Align2, Color32, FontId, Pos2, Rect, Sense, Shape, S
 
 /// Errors below this are drawn at it: a logarithm has no 0.
 const FLOOR: f32 = 1e-5;
+/// Density errors of usual scenes, from calm to violent.
+const USUAL: [f32; 2] = [1e-4, 1e-2];
 /// Radius of a measured point, points.
 const DOT: f32 = 4.0;
+/// What of the plot a measured point takes for the pointer, points.
+const TOUCHED: egui::Vec2 = vec2(9.0, 9.0);
 /// Room for the numbers at the left and below, points.
 const MARGIN: egui::Vec2 = vec2(46.0, 30.0);
 /// Room around the text of a preset's button, points.
@@ -32,12 +36,23 @@ pub struct Plot<'a> {
     pub curve: Option<&'a Curve>,
     /// What its times are multiplied by.
     pub scale: f32,
-    /// ms a tick and error of late, oldest first; the last is now.
-    pub trail: &'a [(f32, f32)],
+    /// The world of late, oldest first; the last is now.
+    pub trail: &'a [Live],
     /// What the autopilot holds.
     pub goal: Option<Goal>,
     /// The quality in force.
-    pub now: (Preset, Quality),
+    pub now: Quality,
+    /// Whether the error was looked for: then, where there is none, there is no liquid to have one.
+    pub looked: bool,
+}
+
+/// The world as it ran at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Live {
+    /// Time of a tick, ms.
+    pub milliseconds: f32,
+    /// Density error; `None` without a liquid inside.
+    pub error: Option<f32>,
 }
 
 /// Lines and places of the plot.
@@ -49,6 +64,13 @@ struct Canvas<'a> {
 }
 
 impl Canvas<'_> {
+    fn place(&self, milliseconds: f32, error: Option<f32>) -> Pos2 {
+        error.map_or_else(
+            || pos2(self.at(milliseconds, FLOOR).x, self.field.bottom()),
+            |error| self.at(milliseconds, error),
+        )
+    }
+
     fn at(&self, milliseconds: f32, error: f32) -> Pos2 {
         pos2(
             self.field.left() + self.field.width() * self.x.share(milliseconds),
@@ -68,28 +90,72 @@ impl Plot<'_> {
         let field = Rect::from_min_max(rect.min + vec2(MARGIN.x, 8.0), rect.max - vec2(10.0, MARGIN.y));
         let painter = ui.painter_at(rect.expand(2.0));
         let points: Vec<&CurvePoint> = self.curve.iter().flat_map(|curve| &curve.points).collect();
-        let times =
-            points.iter().map(|point| self.scale * point.milliseconds).chain(self.trail.iter().map(|place| place.0));
+        let times = points
+            .iter()
+            .map(|point| self.scale * point.milliseconds)
+            .chain(self.trail.iter().map(|live| live.milliseconds));
         let bound = |wanted: fn(Goal) -> Option<f32>| self.goal.and_then(wanted);
         let time_bound = bound(|goal| if let Goal::Time(bound) = goal { Some(bound) } else { None });
         let error_bound = bound(|goal| if let Goal::Error(bound) = goal { Some(bound) } else { None });
-        let errors = points.iter().filter_map(|point| point.error).chain(self.trail.iter().map(|place| place.1));
-        let errors = errors.chain(error_bound);
+        let errors =
+            points.iter().filter_map(|point| point.error).chain(self.trail.iter().filter_map(|live| live.error));
+        // Without any error the axis shows where errors usually are.
+        let errors: Vec<f32> = errors.chain(error_bound).collect();
+        let errors = if errors.is_empty() { USUAL.to_vec() } else { errors };
         let canvas = Canvas {
             painter: &painter,
             field,
             x: Axis::around(times.chain(time_bound)),
-            y: Axis::around(errors.map(|error| error.max(FLOOR))),
+            y: Axis::around(errors.iter().map(|error| error.max(FLOOR))),
         };
         grid(&canvas);
         limits(&canvas, time_bound, error_bound);
         self.line(&canvas);
         trail(&canvas, self.trail);
         let chosen = self.presets(ui, &canvas);
-        if points.is_empty() {
-            let text = "no curve of this scene yet: measure here";
-            canvas.text(field.center_top() + vec2(0.0, 16.0), Align2::CENTER_CENTER, text, style::WEAK);
+        for (k, text) in self.hints().into_iter().enumerate() {
+            let at = field.center_top() + vec2(0.0, 26.0 + 15.0 * k as f32);
+            canvas.text(at, Align2::CENTER_CENTER, text, style::WEAK);
         }
+        chosen
+    }
+
+    /// What there is to say where something is missing.
+    fn hints(&self) -> Vec<&'static str> {
+        let points = self.curve.map_or(&[][..], |curve| &curve.points);
+        let errs = points.iter().any(|point| point.error.is_some());
+        let mut hints = Vec::new();
+        if !errs && self.looked && self.trail.last().is_none_or(|live| live.error.is_none()) {
+            hints.push("no density error to measure: no particle has liquid all around");
+        }
+        match points {
+            [] => hints.push("no curve of this scene yet: measure here"),
+            _ if !errs => hints.push("the curve has times only"),
+            _ => {}
+        }
+        hints
+    }
+
+    /// The presets as buttons below, as long as one of them has none on the curve; the one that was pressed.
+    pub fn chips(&self, ui: &mut Ui) -> Option<Preset> {
+        let point = |preset| self.curve.and_then(|curve| curve.point(preset));
+        if Preset::ALL.into_iter().all(|preset| point(preset).is_some_and(|point| point.error.is_some())) {
+            return None;
+        }
+        let mut chosen = None;
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
+            for preset in Preset::ALL {
+                let measured = point(preset);
+                let time = measured.map(|point| format!("  {} ms", short(self.scale * point.milliseconds)));
+                let text = format!("{}{}", preset.name(), time.unwrap_or_default());
+                let chip = ui.add(egui::Button::new(text).selected(preset.quality() == self.now));
+                let told = measured.map_or_else(|| "click to go on at it".to_owned(), |point| self.about(point));
+                if chip.on_hover_text(told).clicked() {
+                    chosen = Some(preset);
+                }
+            }
+        });
         chosen
     }
 
@@ -107,17 +173,16 @@ impl Plot<'_> {
 
     fn presets(&self, ui: &Ui, canvas: &Canvas<'_>) -> Option<Preset> {
         let mut chosen = None;
-        let dots: Vec<(&CurvePoint, Pos2)> = self
-            .curve
-            .iter()
-            .flat_map(|curve| &curve.points)
-            .filter_map(|point| Some((point, canvas.at(self.scale * point.milliseconds, point.error?))))
-            .collect();
-        let mut taken: Vec<Rect> = dots.iter().map(|(_, dot)| Rect::from_center_size(*dot, vec2(9.0, 9.0))).collect();
-        taken.extend(self.trail.last().map(|live| Rect::from_center_size(canvas.at(live.0, live.1), vec2(14.0, 14.0))));
+        let points = self.curve.iter().flat_map(|curve| &curve.points);
+        let dots: Vec<(&CurvePoint, Pos2)> =
+            points.map(|point| (point, canvas.place(self.scale * point.milliseconds, point.error))).collect();
+        let mut taken: Vec<Rect> = dots.iter().map(|(_, dot)| Rect::from_center_size(*dot, TOUCHED)).collect();
+        let live = self.trail.last().map(|live| canvas.place(live.milliseconds, live.error));
+        taken.extend(live.map(|live| Rect::from_center_size(live, vec2(14.0, 14.0))));
         for (point, dot) in dots {
-            let in_force = point.quality == self.now.1;
-            if point.quality != point.preset.quality() {
+            let in_force = point.quality == self.now;
+            // What has no error has its button below.
+            if point.quality != point.preset.quality() || point.error.is_none() {
                 canvas.painter.circle_stroke(dot, DOT - 1.0, Stroke::new(1.5, style::ACCENT));
                 continue;
             }
@@ -126,7 +191,9 @@ impl Plot<'_> {
             let button = place_beside(dot, text.size() + 2.0 * PADDING, canvas.field, &taken);
             taken.push(button);
             let id = ui.id().with(("preset", point.preset.name()));
-            let response = ui.interact(button.union(Rect::from_center_size(dot, vec2(12.0, 12.0))), id, Sense::click());
+            // Button and dot, and not what lies between them: another's button may.
+            let response = ui.interact(button, id, Sense::click())
+                | ui.interact(Rect::from_center_size(dot, TOUCHED), id.with("dot"), Sense::click());
             let (fill, colour) = match (in_force, response.hovered()) {
                 (true, _) => (style::ACCENT_FILL, Color32::WHITE),
                 (false, true) => (style::BUTTON_HOVER, Color32::WHITE),
@@ -195,13 +262,14 @@ fn limits(canvas: &Canvas<'_>, time: Option<f32>, error: Option<f32>) {
 }
 
 /// The world as it runs, and where it was.
-fn trail(canvas: &Canvas<'_>, trail: &[(f32, f32)]) {
-    for (k, &(time, error)) in trail.iter().enumerate() {
+fn trail(canvas: &Canvas<'_>, trail: &[Live]) {
+    for (k, live) in trail.iter().enumerate() {
         let age = (k + 1) as f32 / trail.len() as f32;
-        canvas.painter.circle_filled(canvas.at(time, error), 1.5, LIVE.gamma_multiply(0.45 * age * age));
+        let at = canvas.place(live.milliseconds, live.error);
+        canvas.painter.circle_filled(at, 1.5, LIVE.gamma_multiply(0.45 * age * age));
     }
-    if let Some(&(time, error)) = trail.last() {
-        let at = canvas.at(time, error);
+    if let Some(live) = trail.last() {
+        let at = canvas.place(live.milliseconds, live.error);
         canvas.painter.circle_filled(at, 7.0, LIVE.gamma_multiply(0.25));
         canvas.painter.circle_filled(at, 3.5, LIVE);
     }
@@ -223,6 +291,12 @@ fn place_beside(dot: Pos2, size: egui::Vec2, field: Rect, taken: &[Rect]) -> Rec
         vec2(-near, far * 1.9),
         vec2(near, far * 1.9),
         vec2(-near, -far * 1.9),
+        vec2(0.0, -far * 2.2),
+        vec2(0.0, far * 2.2),
+        vec2(near, -far * 3.0),
+        vec2(-near, -far * 3.0),
+        vec2(near, far * 3.0),
+        vec2(-near, far * 3.0),
     ];
     let rects = places.map(|place| Rect::from_center_size(dot + place, size));
     let free = |rect: &&Rect| field.contains_rect(**rect) && taken.iter().all(|other| !other.intersects(**rect));
@@ -237,11 +311,93 @@ fn place_beside(dot: Pos2, size: egui::Vec2, field: Rect, taken: &[Rect]) -> Rec
 mod tests {
     use super::*;
 
+    fn plot<'a>(curve: Option<&'a Curve>, trail: &'a [Live]) -> Plot<'a> {
+        Plot { curve, scale: 1.0, trail, goal: None, now: Preset::Fast.quality(), looked: true }
+    }
+
+    /// A curve of all presets, each twice as dear as the one before it and half as wrong; `error` is the first one's.
+    fn curve(error: Option<f32>) -> Curve {
+        let point = |preset: Preset| {
+            let factor = f32::from(1_u8 << preset as u8);
+            let error = error.map(|error| error / factor);
+            CurvePoint { preset, quality: preset.quality(), milliseconds: factor, error, p99: error }
+        };
+        Curve { points: Preset::ALL.map(point).into(), ..Curve::default() }
+    }
+
+    /// What the plot and its chips write in a window, and which preset a click on the words `on` chooses.
+    fn press(plot: &Plot<'_>, on: &str) -> (Vec<String>, Option<Preset>) {
+        let context = egui::Context::default();
+        let (mut words, mut chosen, mut target) = (Vec::new(), None, None);
+        for step in 0..6 {
+            let button = |pressed, pos| egui::Event::PointerButton {
+                pos,
+                button: egui::PointerButton::Primary,
+                pressed,
+                modifiers: egui::Modifiers::NONE,
+            };
+            let events = match (step, target) {
+                (3, Some(at)) => vec![egui::Event::PointerMoved(at)],
+                (4, Some(at)) => vec![button(true, at)],
+                (5, Some(at)) => vec![button(false, at)],
+                _ => Vec::new(),
+            };
+            let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, vec2(440.0, 400.0)));
+            let input = egui::RawInput { events, screen_rect, ..egui::RawInput::default() };
+            let output = context.run_ui(input, |ui| {
+                let pressed = plot.show(ui, vec2(396.0, 200.0)).or(plot.chips(ui));
+                chosen = chosen.or(pressed);
+            });
+            words.clear();
+            for shape in output.shapes {
+                if let Shape::Text(text) = shape.shape {
+                    let written = text.galley.text().to_owned();
+                    if written.starts_with(on) {
+                        target = Some(text.visual_bounding_rect().center());
+                    }
+                    words.push(written);
+                }
+            }
+        }
+        (words, chosen)
+    }
+
+    #[test]
+    fn every_preset_can_be_pressed_with_a_curve_without_and_without_liquid() {
+        let (full, times) = (curve(Some(0.1)), curve(None));
+        let live = [Live { milliseconds: 2.0, error: None }];
+        for curve in [None, Some(&full), Some(&times)] {
+            for preset in Preset::ALL {
+                let (words, chosen) = press(&plot(curve, &live), preset.name());
+                assert_eq!(chosen, Some(preset), "{words:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_missing_is_said() {
+        let (full, times) = (curve(Some(0.01)), curve(None));
+        let (wet, dry) = (Live { milliseconds: 2.0, error: Some(0.1) }, Live { milliseconds: 2.0, error: None });
+        let hints = |curve, live: &[Live]| plot(curve, live).hints().join("; ");
+        assert_eq!(hints(Some(&full), &[wet]), "");
+        assert!(hints(None, &[wet]).starts_with("no curve of this scene yet"));
+        let empty = hints(None, &[dry]);
+        assert!(empty.starts_with("no density error to measure") && empty.ends_with("measure here"), "{empty}");
+        assert!(hints(Some(&times), &[dry]).ends_with("times only"));
+    }
+
     #[test]
     fn buttons_avoid_each_other_and_stay_inside() {
         let field = Rect::from_min_size(pos2(0.0, 0.0), vec2(340.0, 200.0));
         let mut taken: Vec<Rect> = Vec::new();
-        for dot in [pos2(60.0, 40.0), pos2(75.0, 60.0), pos2(82.0, 66.0), pos2(150.0, 100.0), pos2(335.0, 195.0)] {
+        for dot in [
+            pos2(60.0, 40.0),
+            pos2(75.0, 60.0),
+            pos2(82.0, 66.0),
+            pos2(83.0, 66.0),
+            pos2(150.0, 100.0),
+            pos2(335.0, 195.0),
+        ] {
             let rect = place_beside(dot, vec2(62.0, 20.0), field, &taken);
             assert!(field.contains_rect(rect), "{rect:?} sticks out");
             assert!(taken.iter().all(|other| !other.intersects(rect)), "{rect:?} covers another");
