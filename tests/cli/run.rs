@@ -165,3 +165,13 @@ fn an_error_is_held_the_same_way_each_time_and_a_time_says_how_it_went() {
     assert_eq!(run(&["--hold-error", "0.0001"]).0, hash, "nothing of it depends on the machine");
     assert_eq!(run(&["--hold-ms", "0.01"]).1, "no", "no machine is as fast as that");
 }
+
+#[test]
+fn an_error_is_held_in_the_waterfall_without_swinging_between_qualities() {
+    let here = folder("hold_waterfall");
+    let text = good(&here, &["run", "waterfall", "--seconds", "15", "--hold-error", "0.1"]);
+    let moves = text.split_whitespace().find_map(|field| field.strip_prefix("moves="));
+    let moves: u32 = moves.unwrap_or_else(|| panic!("no moves in {text}")).parse().unwrap();
+    assert!(moves <= 4, "one quality does for all of it, but it moved {moves} times: {text}");
+    assert!(text.contains("held=yes"), "{text}");
+}

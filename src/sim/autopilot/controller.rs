@@ -2,11 +2,16 @@
 //! clock, no world and no quality: the same observations give the same decisions.
 //!
 //! What each position does to the quantity is a model at first and learned from every move. A move aims well below the
-//! bound, and back up only goes what is believed to stay well below it, so that a position that was left because it did
-//! not hold is not tried again until the quantity itself has changed.
+//! bound, and back up only goes what is believed to stay well below it. A position that was left because it did not hold
+//! rests ([`Backoff`]), each time twice as long, unless the quantity itself changes. A quantity that is known from samples
+//! is over the bound only where its mean is by more than its standard error, and changes only by several of them.
 
+use super::{
+    backoff::Backoff,
+    usual::Usual,
+    window::{Estimate, Observations, Window},
+};
 use bevy::math::ops;
-use std::collections::VecDeque;
 
 /// Over the bound by this factor, the short window decides.
 const GROSS: f32 = 1.25;
@@ -16,21 +21,17 @@ const CLEAR: f32 = 0.87;
 const EASE: f32 = 0.78;
 /// … otherwise only below this one: noise alone must not move it, nor a move that relieved more than it had to.
 const EASE_LATE: f32 = 0.65;
-/// How long "soon" is, s.
-const SOON: f32 = 0.9;
+/// "Soon" is so much longer than what the first look at a position takes, s.
+const SOON: f32 = 0.3;
+/// A mean whose standard error is below this share of it needs no longer look.
+const WELL_KNOWN: f32 = 0.1;
 /// In another situation what was learned counts less by this share.
 const FORGET: f32 = 0.2;
 /// What one move teaches is at most this factor: it may have met with a change from outside.
 const LESSON: f32 = 2.0;
-/// Share of the observations that a trimmed mean leaves out at either end.
-const TRIM: f32 = 0.08;
 
-/// Time (s) and least number of observations of the means that decisions rest on.
-const NEWEST: (f32, usize) = (0.06, 3);
-const SHORT: (f32, usize) = (0.12, 3);
-const FAIR: (f32, usize) = (0.38, 5);
-/// Least number of observations where there is no haste.
-const LEAST_PATIENT: usize = 8;
+/// The newest observations, where a change is under way.
+const NEWEST: Window = Window { seconds: 0.06, count: 3 };
 
 /// What the quantity is like.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,8 +42,20 @@ pub struct Character {
     pub aim: f32,
     /// Change at one position that is more than noise: a factor.
     pub drift: f32,
-    /// Time over which it is averaged where there is no haste, s.
-    pub patience: f32,
+    /// What a gross breach is seen by.
+    pub short: Window,
+    /// What any other breach is seen by.
+    pub fair: Window,
+    /// What is looked at after a move or a change, where there is no haste.
+    pub patient: Window,
+    /// What is looked at before a move back without a change; not shorter than `patient`.
+    pub calm: Window,
+    /// Time after the first look at a position over which what is usual there is found, s.
+    pub usual: f32,
+    /// Share of the observations that a mean leaves out at either end: for a quantity whose outliers are no part of it.
+    pub trim: f32,
+    /// Standard errors that a mean is doubted by: 0 where it is what it is.
+    pub doubt: f32,
 }
 
 /// How it stands with the bound.
@@ -67,16 +80,16 @@ pub struct Controller {
     /// The same as learned.
     believed: Vec<f32>,
     at: usize,
-    /// Observations since the last move: seconds and value.
-    seen: VecDeque<(f32, f32)>,
+    /// Observations since the last move.
+    seen: Observations,
     /// Time since the last move, s.
     age: f32,
     /// Time since the last move or change of the quantity, s.
     stirred: f32,
     /// The position before the last move and the value there, until that has taught something.
     lesson: Option<(usize, f32)>,
-    /// The value that this position settled at.
-    settled: Option<f32>,
+    usual: Usual,
+    backoff: Backoff,
     /// Whether the quantity fell of late, so that less relief may do.
     eager: bool,
     /// Moves in a row that did not relieve enough.
@@ -93,23 +106,25 @@ impl Controller {
             character,
             at: at.min(model.len() - 1),
             believed: model.clone(),
+            backoff: Backoff::new(model.len()),
             model,
-            seen: VecDeque::new(),
+            seen: Observations::default(),
             age: 0.0,
             stirred: 0.0,
             lesson: None,
-            settled: None,
+            usual: Usual::default(),
             eager: true,
             misses: 0,
             verdict: Verdict::Settling,
         }
     }
 
-    /// Holds another bound from now on; what was learned stays.
+    /// Holds another bound from now on; what was learned stays, but what failed may hold this one.
     pub fn set_bound(&mut self, bound: f32) {
         if self.bound != bound {
             self.bound = bound;
             (self.stirred, self.eager, self.misses, self.verdict) = (0.0, true, 0, Verdict::Settling);
+            self.backoff.forget();
         }
     }
 
@@ -130,57 +145,54 @@ impl Controller {
         }
         self.age += seconds;
         self.stirred += seconds;
-        if self.age <= self.character.settle {
+        self.backoff.pass(seconds);
+        let Character { settle, drift, short, fair, patient, calm, .. } = self.character;
+        if self.age <= settle {
             return None;
         }
-        self.seen.push_back((seconds, value));
-        while self.seen.len() > LEAST_PATIENT
-            && self.seen.iter().map(|seen| seen.0).sum::<f32>() > self.character.patience + seconds
-        {
-            self.seen.pop_front();
+        self.seen.push(value, seconds, Window { seconds: 4.0 * calm.seconds, ..calm });
+        let short = self.estimate(short)?;
+        if self.at_least(short) > GROSS * self.bound {
+            return self.relieve_grossly(short);
         }
-        let short = self.mean_over(SHORT)?;
-        if short > GROSS * self.bound {
-            // The window may reach back to before the change: what is newest counts, and it teaches nothing.
-            self.lesson = None;
-            let moved = self.relieve(short.max(self.mean_over(NEWEST)?));
-            self.lesson = None;
-            return moved;
-        }
-        let fair = self.mean_over(FAIR)?;
-        if fair > self.bound {
+        let fair = self.estimate(fair)?;
+        if self.at_least(fair) > self.bound {
             return self.relieve(fair);
         }
         (self.verdict, self.misses) = (Verdict::Holds, 0);
-        let long = self.mean_over((self.character.patience, LEAST_PATIENT))?;
-        self.learn(long);
-        self.notice_drift(long);
-        let soon = self.stirred < SOON;
-        if soon && long > CLEAR * self.bound && self.at + 1 < self.model.len() {
+        let long = self.estimate(patient)?;
+        let calm = self.estimate(calm);
+        if let Some(calm) = calm {
+            if self.at_least(calm) > self.bound {
+                return self.relieve(calm);
+            }
+            self.learn(calm.mean);
+        }
+        self.notice_drift(long, seconds);
+        let soon = self.stirred < patient.seconds + SOON;
+        if soon && self.at_least(long) > CLEAR * self.bound && self.at + 1 < self.model.len() {
             return self.relieve(long);
         }
         // While it still falls, the first step back would be too short.
-        if long > self.character.drift * fair {
+        if long.mean > drift * fair.mean {
             return None;
         }
-        self.ease(long.max(fair), if soon && self.eager { EASE } else { EASE_LATE })
+        let fell = soon && self.eager;
+        let basis = if fell || long.error < WELL_KNOWN * long.mean { long } else { calm? };
+        let share = if fell { EASE } else { EASE_LATE };
+        self.ease(self.at_most(basis).max(self.at_most(fair)), share)
     }
 
-    /// The trimmed mean of the observations of the last `window.0` s, if there are enough.
-    fn mean_over(&self, window: (f32, usize)) -> Option<f32> {
-        let mut span = 0.0;
-        let mut values: Vec<f32> = Vec::new();
-        for &(seconds, value) in self.seen.iter().rev() {
-            values.push(value);
-            span += seconds;
-            if span >= window.0 - 1e-4 && values.len() >= window.1 {
-                values.sort_unstable_by(f32::total_cmp);
-                let trim = (TRIM * values.len() as f32).ceil() as usize;
-                let kept = &values[trim..values.len() - trim];
-                return Some(kept.iter().sum::<f32>() / kept.len() as f32);
-            }
-        }
-        None
+    fn estimate(&mut self, window: Window) -> Option<Estimate> {
+        self.seen.estimate(window, self.character.trim)
+    }
+
+    fn at_least(&self, estimate: Estimate) -> f32 {
+        estimate.mean - self.character.doubt * estimate.error
+    }
+
+    fn at_most(&self, estimate: Estimate) -> f32 {
+        estimate.mean + self.character.doubt * estimate.error
     }
 
     /// What `position` is believed to make of a value that is measured here.
@@ -188,27 +200,49 @@ impl Controller {
         value * self.believed[position] / self.believed[self.at]
     }
 
+    /// Where the last move came from, if that relieved more and nothing was learned of the move yet.
+    fn came_back_from(&self) -> Option<usize> {
+        self.lesson.map(|lesson| lesson.0).filter(|&from| from > self.at)
+    }
+
+    /// Moves on because of the short window, which may reach back to before a change: what is newest counts. Nothing but
+    /// a move back teaches so soon.
+    fn relieve_grossly(&mut self, short: Estimate) -> Option<usize> {
+        if self.came_back_from().is_none() {
+            self.lesson = None;
+        }
+        let newest = self.estimate(NEWEST)?;
+        let moved = self.relieve(if newest.mean > short.mean { newest } else { short });
+        self.lesson = None;
+        moved
+    }
+
     /// Moves to the first position that is believed to hold, or to the last.
-    fn relieve(&mut self, value: f32) -> Option<usize> {
+    fn relieve(&mut self, estimate: Estimate) -> Option<usize> {
+        let held = self.came_back_from();
+        let value = estimate.mean;
         self.learn(value);
         let last = self.model.len() - 1;
         if self.at == last {
             self.verdict = Verdict::Beyond;
             return None;
         }
+        self.backoff.fail(self.at);
         // What fell short once is not trusted as far again.
         let gross = value > GROSS * self.bound;
         let aim = self.bound * self.character.aim / if gross { (1 << self.misses.min(8)) as f32 } else { 1.0 };
         self.misses += u32::from(gross);
         self.eager = false;
-        let enough = (self.at + 1..last).find(|&position| self.expect(position, value) <= aim);
-        Some(self.move_to(enough.unwrap_or(last), value))
+        let enough = (self.at + 1..last).find(|&position| self.expect(position, value) <= aim).unwrap_or(last);
+        // Where it came from held a moment ago.
+        Some(self.move_to(held.map_or(enough, |held| enough.min(held)), value))
     }
 
-    /// Moves back to where less relief is believed to do, if there is such a position.
+    /// Moves back to where less relief is believed to do, if there is such a position that does not rest.
     fn ease(&mut self, value: f32, share: f32) -> Option<usize> {
-        let enough = (0..self.at).find(|&position| self.expect(position, value) <= share * self.bound);
-        self.eager |= enough.is_some();
+        self.learn(value);
+        let first = self.backoff.first_allowed(self.at);
+        let enough = (first..self.at).find(|&position| self.expect(position, value) <= share * self.bound);
         enough.map(|position| self.move_to(position, value))
     }
 
@@ -216,7 +250,7 @@ impl Controller {
         self.lesson = Some((self.at, value));
         self.at = position;
         self.seen.clear();
-        (self.age, self.stirred, self.settled, self.verdict) = (0.0, 0.0, None, Verdict::Settling);
+        (self.age, self.stirred, self.usual, self.verdict) = (0.0, 0.0, Usual::default(), Verdict::Settling);
         position
     }
 
@@ -224,7 +258,7 @@ impl Controller {
     fn learn(&mut self, value: f32) {
         let Some((from, before)) = self.lesson.take() else { return };
         let expected = before * self.believed[self.at] / self.believed[from];
-        if !(expected > 0.0 && value > 0.0) {
+        if expected <= 0.0 {
             return;
         }
         let factor = (value / expected).clamp(1.0 / LESSON, LESSON);
@@ -236,20 +270,37 @@ impl Controller {
         }
     }
 
-    /// Notices that the value is another than the one that this position settled at: then it is looked at as closely as
-    /// after a move, and the model counts more again.
-    fn notice_drift(&mut self, value: f32) {
-        let settled = *self.settled.get_or_insert(value);
-        let drift = self.character.drift;
-        if value <= drift * settled && drift * value >= settled {
-            return;
+    /// Notices that the value is another than what is usual at this position: then it is looked at as closely as after a
+    /// move, and the model counts more again. If it fell, what failed rests no longer.
+    fn notice_drift(&mut self, long: Estimate, seconds: f32) {
+        let Character { drift, patient, usual, doubt, .. } = self.character;
+        let Some(since) = self.usual.note(long, seconds, usual) else { return };
+        // Longer windows know smaller changes, but none may reach back to what is usual.
+        for windows in [1.0, 2.5, 5.0, 10.0] {
+            let seconds = windows * patient.seconds;
+            if windows > 1.0 && seconds > since.min(2.0 * usual) {
+                return;
+            }
+            let Some(now) = self.estimate(Window { seconds, ..patient }) else { return };
+            if let Some(fell) = self.usual.changed(now.mean, windows, drift, doubt) {
+                self.usual = Usual::default();
+                self.start_anew(fell);
+                return;
+            }
         }
+    }
+
+    /// Takes what comes for another situation, a better one if the quantity `fell`.
+    fn start_anew(&mut self, fell: bool) {
         let (here, model_here) = (self.believed[self.at], self.model[self.at]);
         for (believed, model) in self.believed.iter_mut().zip(&self.model) {
             let lesson = (*believed / here) / (model / model_here);
             *believed = here * model / model_here * ops::powf(lesson, 1.0 - FORGET);
         }
-        self.eager |= value < settled;
-        (self.settled, self.stirred) = (Some(value), 0.0);
+        self.stirred = 0.0;
+        if fell {
+            self.eager = true;
+            self.backoff.forget();
+        }
     }
 }

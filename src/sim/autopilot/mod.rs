@@ -2,10 +2,13 @@
 //! ledger and the live error, decides ([`controller`]) on a rung of the [`ladder`], and gives its decision as an intent
 //! like any player's: a recording holds it, and a replay needs no autopilot.
 
+mod backoff;
 pub mod controller;
 pub mod ladder;
 #[cfg(test)]
 mod tests;
+mod usual;
+mod window;
 
 use crate::{
     kernel::units::TICK_SECONDS,
@@ -22,11 +25,36 @@ use bevy::prelude::{App, FixedUpdate, IntoScheduleConfigs, Res, ResMut, Resource
 use controller::{Character, Controller, Verdict};
 use ladder::Rung;
 use std::sync::Arc;
+use window::Window;
 
-/// Times of ticks: right after a move they are still unusual, and they follow the work closely.
-const OF_TIME: Character = Character { settle: 0.04, aim: 0.74, drift: 1.15, patience: 0.6 };
-/// A liquid takes a while to feel another quality, and what it makes of it is known less well.
-const OF_ERROR: Character = Character { settle: 0.1, aim: 0.6, drift: 1.3, patience: 0.8 };
+/// Times of ticks: right after a move they are still unusual, and they follow the work closely. Single ticks that take much
+/// longer are no part of it.
+const OF_TIME: Character = Character {
+    settle: 0.04,
+    aim: 0.74,
+    drift: 1.15,
+    short: Window { seconds: 0.12, count: 3 },
+    fair: Window { seconds: 0.38, count: 5 },
+    patient: Window { seconds: 0.6, count: 8 },
+    calm: Window { seconds: 0.6, count: 8 },
+    usual: 0.0,
+    trim: 0.08,
+    doubt: 0.0,
+};
+/// A liquid takes a while to feel another quality. A sample of 320 particles meets few of those that carry the error, so
+/// that single samples are several times the mean, and are a part of it.
+const OF_ERROR: Character = Character {
+    settle: 0.1,
+    aim: 0.7,
+    drift: 1.5,
+    short: Window { seconds: 0.15, count: 3 },
+    fair: Window { seconds: 0.4, count: 8 },
+    patient: Window { seconds: 0.8, count: 8 },
+    calm: Window { seconds: 2.0, count: 8 },
+    usual: 4.0,
+    trim: 0.0,
+    doubt: 1.0,
+};
 
 /// What is to be held.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -212,3 +212,63 @@ fn a_tighter_bound_is_met_at_once_and_a_wider_one_used() {
     assert!(controller.position() < times().len() - 1 && log.moves_between(2.0, 5.0) == 0);
     assert!(plant(0.0, controller.position()) > 5.5, "the wider bound is not used");
 }
+
+/// Mean density error of the rungs in `waterfall`, %, and the power that its tail goes with.
+const WATERFALL: [(f32, f32); 5] = [(0.27, 1.0), (0.143, 1.0), (0.037, 2.0), (0.0094, 12.0), (0.0003, 40.0)];
+
+/// Flies over samples of an error with a heavy tail: `rest(time)` is the share that is left of the waterfall's.
+fn fly_over_samples(bound: f32, seed: u64, seconds: f32, rest: impl Fn(f32) -> f32) -> Log {
+    let mut random = Noise(seed);
+    let mut controller = Controller::new(bound, OF_ERROR, errors(), 2);
+    let mut log = Log { steps: Vec::new(), moves: Vec::new() };
+    for k in 0..(seconds / SAMPLE) as u32 {
+        let time = k as f32 * SAMPLE;
+        let (mean, power) = *WATERFALL.get(controller.position()).unwrap_or(&(0.0, 1.0));
+        // (p + 1) uᵖ has the mean 1; its standard deviation is 0.6, 0.9, 2.4 and 4.5 for the powers here.
+        let uniform = 0.5 * (random.next() + 1.0);
+        let sample = mean * rest(time) * (power + 1.0) * bevy::math::ops::powf(uniform, power);
+        log.steps.push((time, mean * rest(time), controller.position(), controller.verdict()));
+        if controller.observe(sample, SAMPLE).is_some() {
+            log.moves.push(time);
+        }
+    }
+    log
+}
+
+#[test]
+fn samples_with_a_heavy_tail_do_not_make_it_swing() {
+    // With each bound a rung that holds it with room to spare.
+    for (bound, rung) in [(0.03, 3.0), (0.05, 3.0), (0.1, 2.0), (0.2, 2.0)] {
+        let (mut early, mut late) = (0, 0);
+        for seed in 1..=8 {
+            let log = fly_over_samples(bound, seed, 600.0, |_| 1.0);
+            assert!(log.moves.len() <= 60, "{bound} %, seed {seed}: {} moves in ten minutes", log.moves.len());
+            early += log.moves_between(0.0, 300.0);
+            late += log.moves_between(300.0, 600.0);
+            let settled: Vec<_> = log.steps.iter().filter(|step| step.0 > 30.0).collect();
+            let mean_of = |sum: f32| sum / settled.len() as f32;
+            let mean = mean_of(settled.iter().map(|step| step.1).sum());
+            let place = mean_of(settled.iter().map(|step| step.2 as f32).sum());
+            assert!(mean < 0.5 * bound, "{bound} %, seed {seed}: a mean of {mean} %");
+            assert!(place < rung + 0.75, "{bound} %, seed {seed}: at rung {place} on average, {rung} does");
+        }
+        assert!(3 * late < 2 * early, "{bound} %: {early} moves, and then still {late}");
+    }
+}
+
+#[test]
+fn water_that_comes_to_rest_is_eased_whatever_failed_before() {
+    let mut tried = 0;
+    for bound in [0.03, 0.05, 0.1, 0.2] {
+        for seed in 1..=12 {
+            let log = fly_over_samples(bound, seed, 180.0, |time| if time < 150.0 { 1.0 } else { 0.01 });
+            // What is usual has to be known, and of rungs finer than this the samples say nothing: pauses end the stay.
+            let before = log.at(149.9).1;
+            if before <= 3 && log.moves_between(140.0, 150.0) == 0 {
+                assert_eq!(log.at(165.0).1, 0, "{bound} %, seed {seed}: from rung {before}: {:?}", log.moves);
+                tried += 1;
+            }
+        }
+    }
+    assert!(tried >= 24, "only {tried} flights came to that");
+}
