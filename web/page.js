@@ -149,6 +149,10 @@ function listen(game) {
     }
   });
   canvas.addEventListener('webglcontextlost', () => rescue(game));
+  // What ends the module without a panic, such as memory that can't grow.
+  addEventListener('error', ({ error }) => {
+    if (error instanceof WebAssembly.RuntimeError) globalThis.powderHost.failed(error.message);
+  });
   document.addEventListener('visibilitychange', () => game.hidden(document.hidden));
 
   canvas.addEventListener('contextmenu', (event) => event.preventDefault());
@@ -261,6 +265,8 @@ async function main() {
   const ready = new Promise((resolve) => { isReady = resolve; });
   globalThis.powderHost = {
     failed(message) {
+      // What comes after the first is its consequence.
+      if (cover.classList.contains('failed')) return;
       console.error(message);
       fail(`The game ended: ${message}`, ['Load the page again.']);
     },
