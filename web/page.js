@@ -8,6 +8,11 @@ const bar = document.getElementById('progress');
 
 const CAN_T_ISOLATE = 'powder-master can not isolate this page';
 const MOST_THREADS = 8;
+// Time that threads may take to start, ms.
+const PATIENCE = 10_000;
+// Most memory of the game, pages of 64 KiB, and what is the least that it may be offered.
+const MOST_PAGES = 32768;
+const FEWEST_PAGES = 4096;
 
 function fail(message, advice = []) {
   cover.hidden = false;
@@ -85,21 +90,51 @@ async function download() {
   return module;
 }
 
-// One worker for each thread beside the page's own.
-async function startThreads(game, module) {
+// The game's memory. What threads can share is set aside as a whole, which a small device may refuse: then less of it.
+function setAside() {
+  for (let maximum = MOST_PAGES; ; maximum /= 2) {
+    try {
+      return new WebAssembly.Memory({ initial: build.pages, maximum, shared: true });
+    } catch (error) {
+      if (maximum <= FEWEST_PAGES) {
+        throw Object.assign(new Error(`the browser gives it no memory (${error.message})`), {
+          advice: ['Close other pages and programs, and load the page again.', 'Or use another browser.'],
+        });
+      }
+    }
+  }
+}
+
+// One worker for each thread beside the page's own; none if one of them can't start.
+async function startThreads(game, module, memory) {
   const wanted = Number(new URLSearchParams(location.search).get('threads')) || navigator.hardwareConcurrency || 1;
-  const workers = crossOriginIsolated ? Math.min(wanted, MOST_THREADS) - 1 : 0;
-  if (workers < 1) return;
+  const count = crossOriginIsolated ? Math.min(wanted, MOST_THREADS) - 1 : 0;
+  if (count < 1) return;
   const script = new URL(build.script, document.baseURI).href;
-  const ready = Array.from({ length: workers }, () => new Promise((resolve, reject) => {
+  const workers = [];
+  let failed;
+  const failure = new Promise((_, reject) => { failed = (why) => reject(new Error(why)); });
+  const start = () => new Promise((resolve) => {
     const worker = new Worker(build.worker, { type: 'module', name: 'kernel' });
-    worker.onmessage = () => resolve(worker);
-    worker.onerror = (event) => reject(new Error(`a thread can't start: ${event.message}`));
-    worker.postMessage({ script, module, memory: game.sharedMemory() });
-  }));
+    workers.push(worker);
+    worker.onmessage = ({ data }) => (data === 'ready' ? resolve() : failed(data.failed));
+    worker.onerror = (event) => failed(event.message ?? 'its script can not be loaded');
+    worker.postMessage({ script, module, memory });
+  });
+  const timer = setTimeout(failed, PATIENCE, 'it takes too long');
+  try {
+    await Promise.race([Promise.all(Array.from({ length: count }, start)), failure]);
+  } catch (error) {
+    console.warn(`a thread can't start, so there is one only: ${error.message}`);
+    for (const worker of workers) worker.terminate();
+    return;
+  } finally {
+    clearTimeout(timer);
+  }
+  failed = globalThis.powderHost.failed;
   // Held for as long as the page lives: some browsers collect a worker that nobody holds.
-  globalThis.powderWorkers = await Promise.all(ready);
-  game.buildPool(workers);
+  globalThis.powderWorkers = workers;
+  game.buildPool(count);
 }
 
 const pairs = (link) => JSON.stringify([...new URLSearchParams(link)]);
@@ -110,8 +145,13 @@ function listen(game) {
     try {
       game.scene(link());
     } catch (error) {
-      console.warn(String(error.message ?? error));
+      game.warn(String(error.message ?? error));
     }
+  });
+  canvas.addEventListener('webglcontextlost', () => rescue(game));
+  // What ends the module without a panic, such as memory that can't grow.
+  addEventListener('error', ({ error }) => {
+    if (error instanceof WebAssembly.RuntimeError) globalThis.powderHost.failed(error.message);
   });
   document.addEventListener('visibilitychange', () => game.hidden(document.hidden));
 
@@ -150,20 +190,66 @@ function hook(game, ready) {
   };
 }
 
-// Keeps what is needed to play without a network, and nothing of former versions.
+// The path of the next file that is kept, or null if it can't be.
+let nextKept = () => {};
+
+// Without its graphics the game can't go on, but its world is not lost.
+async function rescue(game) {
+  const lost = 'The browser took the graphics away from the game.';
+  const kept = new Promise((resolve) => { nextKept = resolve; });
+  fail(lost, ['The world is being saved.']);
+  game.rescue();
+  fail(lost, await kept
+    ? ['The world is saved: load the page again, and the world from the list (Ctrl+O, or the button “Load”).']
+    : ['The world could not be saved.', 'Load the page again.']);
+}
+
+// Tells the game what became of a file that the browser should keep.
+async function tellKept(game, path, kept) {
+  try {
+    const name = await kept;
+    if (name !== path) game.renamed(path, name);
+    nextKept(name);
+  } catch (error) {
+    game.notKept(path, error.name ?? String(error));
+    nextKept(null);
+  }
+}
+
+// Keeps what is needed to play without a network: a cache for each build. The page itself comes last, so a build that
+// has it is whole; only then those before it go.
 async function keepOffline() {
   if (!navigator.serviceWorker) return;
-  const { scope } = await navigator.serviceWorker.register('service.js');
-  const cache = await caches.open(`powder-master ${scope}`);
-  const list = await (await fetch('files.json')).json();
-  const wanted = ['./', 'files.json', ...Object.keys(list.bytes)].map((name) => new URL(name, document.baseURI).href);
-  for (const request of await cache.keys()) {
-    if (!wanted.includes(request.url.split(/[?#]/)[0])) await cache.delete(request);
+  await navigator.serviceWorker.register('service.js');
+  const { scope } = await navigator.serviceWorker.ready;
+  const named = `powder-master ${scope}`;
+  // Without a network it is the list of the build that is kept.
+  const answer = await take('files.json', 'reload');
+  const list = await answer.clone().json();
+  const name = `${named}#${list.build}`;
+  const cache = await caches.open(name);
+  if (!await cache.match(scope, { ignoreVary: true })) {
+    await cache.put('files.json', answer);
+    for (const file of Object.keys(list.bytes)) {
+      const hashed = Object.values(list.names).includes(file);
+      if (!hashed || !await cache.match(file, { ignoreVary: true })) {
+        await cache.put(file, await take(file, hashed ? 'default' : 'reload'));
+      }
+    }
+    const page = await take(scope, 'reload');
+    if (!(await page.clone().text()).includes(list.build)) throw new Error('the host is about to change the game');
+    await cache.put(scope, page);
   }
-  for (const url of wanted) {
-    if (!await cache.match(url, { ignoreVary: true })) await cache.add(url);
+  for (const other of await caches.keys()) {
+    if (other.split('#')[0] === named && other !== name) await caches.delete(other);
   }
   globalThis.powderMaster.offline = true;
+}
+
+async function take(url, cache) {
+  const response = await fetch(url, { cache });
+  if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
+  return response;
 }
 
 async function main() {
@@ -171,11 +257,16 @@ async function main() {
   if (lack) return fail(...lack);
   await isolate().catch((error) => console.warn(`no service worker: ${error}`));
 
-  const storage = await import(new URL(build.storage, document.baseURI).href);
+  const part = (name) => import(new URL(name, document.baseURI).href);
+  const storage = part(build.storage);
+  const [module, game, { keep }, files] = await Promise.all(
+    [download(), part(build.script), storage, storage.then(({ all }) => all())]);
   let isReady;
   const ready = new Promise((resolve) => { isReady = resolve; });
   globalThis.powderHost = {
     failed(message) {
+      // What comes after the first is its consequence.
+      if (cover.classList.contains('failed')) return;
       console.error(message);
       fail(`The game ended: ${message}`, ['Load the page again.']);
     },
@@ -185,8 +276,7 @@ async function main() {
       isReady();
     },
     // What comes from the game is a view of its memory, which others can't share.
-    keep: (path, bytes, written) => storage.keep(path, bytes.slice(), written)
-      .catch((error) => console.warn(`${path} is kept for this visit only: ${error}`)),
+    keep: (path, bytes, written) => void tellKept(game, path, keep(path, bytes.slice(), written)),
     download(name, bytes) {
       const url = URL.createObjectURL(new Blob([bytes.slice()]));
       Object.assign(document.createElement('a'), { href: url, download: name }).click();
@@ -194,11 +284,9 @@ async function main() {
     },
   };
 
-  const [module, game, files] = await Promise.all([
-    download(), import(new URL(build.script, document.baseURI).href), storage.all(),
-  ]);
-  await game.default({ module_or_path: module });
-  await startThreads(game, module);
+  const memory = setAside();
+  await game.default({ module_or_path: module, memory });
+  await startThreads(game, module, memory);
   for (const file of files) game.restore(file.path, file.bytes, file.written);
   globalThis.powderMaster = hook(game, ready);
   listen(game);
@@ -210,5 +298,5 @@ async function main() {
 
 main().catch((error) => {
   console.error(error);
-  fail(`The game can't start: ${error.message ?? error}`, ['Load the page again, with a network.']);
+  fail(`The game can't start: ${error.message ?? error}`, error.advice ?? ['Load the page again, with a network.']);
 });

@@ -18,6 +18,8 @@ function open() {
     opening.onsuccess = () => resolve(opening.result);
     opening.onerror = () => reject(opening.error);
   });
+  // What is refused now may be allowed later.
+  database.catch(() => { database = undefined; });
   return database;
 }
 
@@ -31,7 +33,32 @@ export async function all() {
   }
 }
 
-// Keeps a file, or throws.
+// A name that is not taken: `a.pms`, `a-2.pms`, …
+function free(path, taken) {
+  const ending = path.lastIndexOf('.');
+  let name = path;
+  for (let number = 2; taken.includes(name); number += 1) {
+    name = `${path.slice(0, ending)}-${number}${path.slice(ending)}`;
+  }
+  return name;
+}
+
+// Keeps a new file, or throws; says under which name, for another page may have taken this one.
 export async function keep(path, bytes, written) {
-  await request((await open()).transaction(STORE, 'readwrite').objectStore(STORE).put({ path, bytes, written }));
+  // Else the browser may clear it away when space runs out.
+  navigator.storage?.persist?.().catch(() => {});
+  const transaction = (await open()).transaction(STORE, 'readwrite');
+  // What is put in may still be refused when all is written.
+  const done = new Promise((resolve, reject) => {
+    transaction.oncomplete = resolve;
+    transaction.onabort = () => reject(transaction.error ?? new Error('it was not written'));
+  });
+  const write = async () => {
+    const store = transaction.objectStore(STORE);
+    const name = free(path, await request(store.getAllKeys()));
+    await request(store.add({ path: name, bytes, written }));
+    return name;
+  };
+  const [name] = await Promise.all([write(), done]);
+  return name;
 }

@@ -56,7 +56,7 @@ mod browser {
     // What the page's script does with files (`web/page.js`).
     #[wasm_bindgen(js_namespace = powderHost)]
     extern "C" {
-        /// Keeps a file in the browser's own storage.
+        /// Keeps a file in the browser's own storage. That it could not, or calls it otherwise, is told later (`web::hook`).
         fn keep(path: &str, bytes: &[u8], written: f64);
 
         /// Gives the player a file, as a download.
@@ -79,6 +79,14 @@ mod browser {
     #[wasm_bindgen]
     pub fn restore(path: String, bytes: Vec<u8>, written: f64) {
         files().insert(PathBuf::from(path), (bytes, time(written)));
+    }
+
+    /// Calls a file otherwise.
+    pub fn rename(path: &Path, new: &Path) {
+        let mut files = files();
+        if let Some(file) = files.remove(path) {
+            files.insert(new.to_owned(), file);
+        }
     }
 
     /// The bytes of a file.
@@ -118,6 +126,6 @@ mod browser {
 }
 
 #[cfg(target_arch = "wasm32")]
-pub use browser::{exists, give, list, now, read, write};
+pub use browser::{exists, give, list, now, read, rename, write};
 #[cfg(not(target_arch = "wasm32"))]
 pub use native::{exists, give, list, now, read, write};

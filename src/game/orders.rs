@@ -67,12 +67,21 @@ pub enum Order {
     Effect(Effect, Mode),
     /// Go on with the world of a save file.
     Load(PathBuf),
-    /// Play another scene.
+    /// Play another scene, at the quality that is in force.
     Scene {
         /// Its name.
         name: String,
         /// Its parameters.
         settings: Vec<(String, String)>,
+    },
+    /// Play a scene as if the game began with it, whatever is in force.
+    Open {
+        /// Its name.
+        name: String,
+        /// Its parameters.
+        settings: Vec<(String, String)>,
+        /// The quality, if it is not to be the scene's own.
+        quality: Option<Preset>,
     },
     /// Play a hard case of the stability gauntlet.
     Watch(&'static str),
@@ -117,7 +126,15 @@ pub fn obey(world: &mut World) {
                 world.resource_mut::<IntentQueue>().push(Intent::Effect { effect, mode });
             }
             Order::Load(path) => saves::load(world, &path),
-            Order::Scene { name, settings } => play(world, &name, &settings),
+            Order::Scene { name, settings } => {
+                let preset = world.get_resource::<Setup>().map(|setup| setup.preset);
+                play(world, &name, &settings, preset);
+            }
+            Order::Open { name, settings, quality } => {
+                // Else it would soon go on at another quality.
+                world.resource_mut::<Autopilot>().hold(None);
+                play(world, &name, &settings, quality);
+            }
             Order::Watch(name) => watch(world, name),
         }
     }
@@ -166,9 +183,8 @@ fn act(world: &mut World, action: Action) {
     }
 }
 
-/// Plays another scene, at the quality that is in force.
-fn play(world: &mut World, name: &str, settings: &[(String, String)]) {
-    let preset = world.get_resource::<Setup>().map(|setup| setup.preset);
+/// Plays another scene; without a `preset` at its own quality.
+fn play(world: &mut World, name: &str, settings: &[(String, String)], preset: Option<Preset>) {
     match scene::load(name).and_then(|scene| scene.build(settings, preset, &EffectModes::new())) {
         Ok(blueprint) => {
             control::load(world, Arc::new(blueprint));

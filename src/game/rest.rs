@@ -4,13 +4,14 @@
 use crate::{
     game::{
         frame::{Tempo, measure_tempo},
-        hud::toast::Toasts,
+        hud::{saves::SaveMenu, toast::Toasts},
         input::strokes::Held,
         orders::Orders,
     },
-    sim::{accuracy::Survey, exam::ExamDesk, intent::IntentQueue, pace::Pace},
+    sim::{accuracy::Survey, exam::ExamDesk, gauntlet::GauntletDesk, intent::IntentQueue, pace::Pace},
 };
 use bevy::{
+    ecs::system::SystemParam,
     prelude::{App, DetectChanges, IntoScheduleConfigs, Last, Local, MessageReader, Real, Res, ResMut, Time, Virtual},
     window::WindowEvent,
     winit::{UpdateMode, WinitSettings},
@@ -20,10 +21,10 @@ use std::time::Duration;
 /// How long frames go on after the last change: the renderer draws one frame behind, and what is lit by the pointer fades.
 const LINGER: Duration = Duration::from_millis(400);
 
-/// Time from one look to the next while nothing changes; input wakes at once. In a page its script may want something.
-const NAP: Duration = if cfg!(target_arch = "wasm32") { Duration::from_millis(100) } else { Duration::from_secs(10) };
+/// Time from one look to the next while nothing changes; input wakes at once, and so does a page's script.
+const NAP: Duration = Duration::from_secs(10);
 
-/// The same while something is worked out in the background.
+/// The same while another thread works something out.
 const WATCH: Duration = Duration::from_millis(200);
 
 /// Lets the event loop sleep whenever it may.
@@ -42,9 +43,31 @@ struct Signs {
     works: bool,
 }
 
+/// What may be worked out in the background.
+#[derive(SystemParam)]
+struct Background<'w> {
+    exam: Res<'w, ExamDesk>,
+    gauntlet: Res<'w, GauntletDesk>,
+    survey: Res<'w, Survey>,
+    #[cfg(not(target_arch = "wasm32"))]
+    remains: Option<Res<'w, crate::game::crash::remains::Remains>>,
+}
+
+impl Background<'_> {
+    fn works(&self) -> bool {
+        #[cfg(not(target_arch = "wasm32"))]
+        let restores = self.remains.as_ref().is_some_and(|remains| remains.is_busy());
+        #[cfg(target_arch = "wasm32")]
+        let restores = false;
+        restores || self.exam.wanted.is_some() || self.gauntlet.wanted.is_some() || self.survey.is_running()
+    }
+}
+
 /// How the event loop goes on, after `calm` without a sign of change.
 fn mode(signs: &Signs, calm: Duration) -> UpdateMode {
-    if signs.moves || calm < LINGER {
+    // In a page the frames do the work, a slice each.
+    let works_by_frames = signs.works && cfg!(target_arch = "wasm32");
+    if signs.moves || works_by_frames || calm < LINGER {
         UpdateMode::Continuous
     } else {
         UpdateMode::reactive_low_power(if signs.works { WATCH } else { NAP })
@@ -57,16 +80,16 @@ fn rest(
     real: Res<Time<Real>>,
     mut events: MessageReader<WindowEvent>,
     (orders, intents, held): (Res<Orders>, Res<IntentQueue>, Res<Held>),
-    (toasts, desk, survey): (Res<Toasts>, Res<ExamDesk>, Res<Survey>),
+    (toasts, saves, background): (Res<Toasts>, Res<SaveMenu>, Background),
     mut calm: Local<Duration>,
     mut tempo: ResMut<Tempo>,
     mut settings: ResMut<WinitSettings>,
 ) {
     let touched = events.read().count() > 0 || !orders.is_empty() || !intents.is_empty() || held.pull().is_some();
-    // A message that is shown is about to go.
-    let stirs = touched || pace.is_changed() || toasts.last().is_some();
+    // A message that is shown is about to go; of the list of saves each frame reads one.
+    let stirs = touched || pace.is_changed() || toasts.last().is_some() || saves.is_reading();
     *calm = if stirs { Duration::ZERO } else { (*calm + real.delta()).min(LINGER) };
-    let signs = Signs { moves: pace.ticks() && !time.is_paused(), works: desk.wanted.is_some() || survey.is_running() };
+    let signs = Signs { moves: pace.ticks() && !time.is_paused(), works: background.works() };
     let focused = mode(&signs, *calm);
     tempo.rests = focused != UpdateMode::Continuous;
     // Out of focus a game that runs keeps to the rate of a screen, as Bevy has it.
@@ -89,6 +112,8 @@ fn stand_while_unseen(mut events: MessageReader<WindowEvent>, mut time: ResMut<T
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::params::Preset;
+    use bevy::{ecs::system::RunSystemOnce, prelude::World};
 
     const STILL: Signs = Signs { moves: false, works: false };
 
@@ -104,7 +129,26 @@ mod tests {
     }
 
     #[test]
-    fn what_works_in_the_background_is_watched() {
-        assert_eq!(mode(&Signs { works: true, ..STILL }, LINGER), UpdateMode::reactive_low_power(WATCH));
+    fn what_works_in_the_background_is_watched_or_in_a_page_done() {
+        let expected =
+            if cfg!(target_arch = "wasm32") { UpdateMode::Continuous } else { UpdateMode::reactive_low_power(WATCH) };
+        assert_eq!(mode(&Signs { works: true, ..STILL }, LINGER), expected);
+    }
+
+    #[test]
+    fn exam_and_gauntlet_are_work() {
+        let mut world = World::new();
+        world.init_resource::<ExamDesk>();
+        world.init_resource::<GauntletDesk>();
+        world.init_resource::<Survey>();
+        let works = |world: &mut World| {
+            world.run_system_once(|background: Background| background.works()).expect("all of it is there")
+        };
+        assert!(!works(&mut world));
+        world.resource_mut::<ExamDesk>().wanted = Some(vec![Preset::Fast]);
+        assert!(works(&mut world));
+        world.insert_resource(ExamDesk::default());
+        world.resource_mut::<GauntletDesk>().wanted = Some(vec![Preset::Fast]);
+        assert!(works(&mut world));
     }
 }

@@ -78,7 +78,9 @@ pub(super) fn find(name_or_path: &str) -> Result<Source, SceneError> {
     let path = Path::new(name_or_path);
     let is_path = path.extension().is_some_and(|extension| extension == "ron") || path.components().count() > 1;
     if !is_path && !path.exists() {
-        let what = format!("no such scene; {}, or a path to a .ron file", choices(name_or_path, builtin_names()));
+        // A page has no files.
+        let or_path = if cfg!(target_arch = "wasm32") { "" } else { ", or a path to a .ron file" };
+        let what = format!("no such scene; {}{or_path}", choices(name_or_path, builtin_names()));
         return Err(SceneError::file(name_or_path, what));
     }
     let bytes = read(path).map_err(|what| SceneError::file(name_or_path, what))?;

@@ -5,7 +5,10 @@
 
 use crate::{
     game::{
+        disk,
         frame::Tempo,
+        hud::toast::Toasts,
+        input::bindings::Action,
         orders::{Order, Orders},
     },
     sim::{
@@ -16,9 +19,12 @@ use crate::{
     },
     web::{host, link::Link},
 };
-use bevy::prelude::{App, First, Last, Local, Res, ResMut, Time, Virtual};
+use bevy::{
+    prelude::{App, First, Last, Local, Res, ResMut, Time, Virtual},
+    winit::{EventLoopProxy, EventLoopProxyWrapper, WinitUserEvent},
+};
 use serde::Serialize;
-use std::{cell::RefCell, collections::BTreeMap};
+use std::{cell::RefCell, collections::BTreeMap, path::Path};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 thread_local! {
@@ -26,12 +32,26 @@ thread_local! {
     static TOLD: RefCell<Vec<Told>> = const { RefCell::new(Vec::new()) };
     /// What may be asked.
     static STATS: RefCell<Stats> = RefCell::default();
+    /// The event loop, which sleeps while nothing changes.
+    static LOOP: RefCell<Option<EventLoopProxy<WinitUserEvent>>> = const { RefCell::new(None) };
 }
 
 enum Told {
     Scene(Link),
     Pause(bool),
     Hidden(bool),
+    Rescue,
+    Warning(String),
+    Renamed { from: String, to: String },
+    NotKept { path: String, why: String },
+}
+
+fn tell(told: Told) {
+    TOLD.with_borrow_mut(|all| all.push(told));
+    LOOP.with_borrow(|sleeper| {
+        // Before the game runs there is none to wake, and after its end none that could be.
+        let _ = sleeper.as_ref().map(|sleeper| sleeper.send_event(WinitUserEvent::WakeUp));
+    });
 }
 
 /// The state of the game in the last frame.
@@ -49,25 +69,43 @@ struct Stats {
     ticks_per_second: f32,
     ms_per_tick: f64,
     threads: usize,
+    messages: Vec<String>,
 }
 
 /// Listens to the page.
 pub(super) fn plugin(app: &mut App) {
     app.add_systems(First, listen).add_systems(Last, note);
+    let sleeper = app.world().get_resource::<EventLoopProxyWrapper>().map(|sleeper| (**sleeper).clone());
+    LOOP.set(sleeper);
 }
 
-fn listen(mut orders: ResMut<Orders>, mut pace: ResMut<Pace>, mut time: ResMut<Time<Virtual>>) {
+fn listen(
+    mut orders: ResMut<Orders>,
+    mut pace: ResMut<Pace>,
+    mut time: ResMut<Time<Virtual>>,
+    mut toasts: ResMut<Toasts>,
+) {
     for told in TOLD.take() {
         match told {
-            Told::Scene(link) => {
-                orders.push(Order::Scene { name: link.scene, settings: link.settings });
-                if let Some(quality) = link.quality {
-                    orders.push(Order::Quality(quality));
-                }
+            Told::Scene(Link { scene: name, settings, quality }) => {
+                orders.push(Order::Open { name, settings, quality });
             }
             Told::Pause(paused) => *pace = Pace { paused, steps_due: 0, ..*pace },
             Told::Hidden(true) => time.pause(),
             Told::Hidden(false) => time.unpause(),
+            Told::Rescue => {
+                orders.push(Order::Act(Action::Save));
+                *pace = Pace { paused: true, steps_due: 0, ..*pace };
+            }
+            Told::Warning(text) => toasts.warn(text),
+            Told::Renamed { from, to } => {
+                toasts.take_back(&from);
+                toasts.say(format!("Saved: {to}"));
+            }
+            Told::NotKept { path, why } => {
+                toasts.take_back(&path);
+                toasts.warn(format!("Not kept: the browser refuses it ({why}). {path} goes with this page."));
+            }
         }
     }
 }
@@ -80,6 +118,7 @@ fn note(
     tempo: Res<Tempo>,
     ledger: Res<PassLedger>,
     workers: Res<Workers>,
+    toasts: Res<Toasts>,
     mut painted: Local<bool>,
 ) {
     STATS.with_borrow_mut(|stats| {
@@ -95,6 +134,7 @@ fn note(
         stats.ticks_per_second = tempo.ticks_per_second;
         stats.ms_per_tick = ledger.tick().median().as_secs_f64() * 1000.0;
         stats.threads = workers.threads();
+        stats.messages = toasts.texts().map(str::to_owned).collect();
     });
     if !*painted {
         host::painted();
@@ -119,18 +159,43 @@ pub fn stats() -> Result<String, JsError> {
 pub fn scene(link: &str) -> Result<(), JsError> {
     let link = Link::read(link)?;
     link.build()?;
-    TOLD.with_borrow_mut(|told| told.push(Told::Scene(link)));
+    tell(Told::Scene(link));
     Ok(())
 }
 
 /// Stops the world's time, or lets it go on.
 #[wasm_bindgen]
 pub fn pause(paused: bool) {
-    TOLD.with_borrow_mut(|told| told.push(Told::Pause(paused)));
+    tell(Told::Pause(paused));
 }
 
 /// The page is hidden, or seen again.
 #[wasm_bindgen]
 pub fn hidden(hidden: bool) {
-    TOLD.with_borrow_mut(|told| told.push(Told::Hidden(hidden)));
+    tell(Told::Hidden(hidden));
+}
+
+/// Tells the player that something went wrong.
+#[wasm_bindgen]
+pub fn warn(text: String) {
+    tell(Told::Warning(text));
+}
+
+/// Saves the world and stops its time: the player can no longer see it.
+#[wasm_bindgen]
+pub fn rescue() {
+    tell(Told::Rescue);
+}
+
+/// The browser keeps a file under another name: another page has taken the one that it had.
+#[wasm_bindgen]
+pub fn renamed(from: String, to: String) {
+    disk::rename(Path::new(&from), Path::new(&to));
+    tell(Told::Renamed { from, to });
+}
+
+/// The browser does not keep a file, which is there until the page is left.
+#[wasm_bindgen(js_name = notKept)]
+pub fn not_kept(path: String, why: String) {
+    tell(Told::NotKept { path, why });
 }

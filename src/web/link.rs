@@ -99,5 +99,7 @@ mod tests {
             let error = error(pairs);
             assert!(error.contains(about) && error.lines().count() == 1, "{error}");
         }
+        let error = error(r#"[["scene","nowhere"]]"#);
+        assert_eq!(error.contains(".ron"), !cfg!(target_arch = "wasm32"), "a page has no files: {error}");
     }
 }

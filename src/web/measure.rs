@@ -16,14 +16,22 @@ use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 /// and samples leave the first `warmup` ticks out.
 ///
 /// # Errors
-/// If the link can't be followed.
+/// If the link can't be followed, or there can't be so many ticks.
 #[wasm_bindgen]
-pub fn measure(link: &str, ticks: u32, warmup: u32) -> Result<String, JsError> {
+pub fn measure(link: &str, ticks: f64, warmup: f64) -> Result<String, JsError> {
     host::tell_of_panics();
     let blueprint = Link::read(link)?.build()?;
-    let plan = Plan { ticks: ticks.into(), warmup: warmup.into(), ..Plan::default() };
+    let plan = Plan { ticks: count("ticks", ticks)?, warmup: count("warmup", warmup)?, ..Plan::default() };
     let mut headless = Headless::new(Arc::new(blueprint), Workers::default());
     let mut sampler = Sampler::new(headless.world(), plan.warmup);
     run::run(&mut headless, &plan, &mut [&mut sampler])?;
     Ok(serde_json::to_string(&sampler.finish(headless.world()))?)
+}
+
+/// A number of ticks as a script gives it, which knows only one kind of number.
+fn count(name: &str, number: f64) -> Result<u64, JsError> {
+    if number.fract() != 0.0 || !(0.0..=f64::from(u32::MAX)).contains(&number) {
+        return Err(JsError::new(&format!("{name} `{number}`: not a whole number from 0 to {}", u32::MAX)));
+    }
+    Ok(number as u64)
 }

@@ -26,6 +26,8 @@ pub fn start(link: &str, touch: bool) -> Result<(), JsError> {
         control::load(app.world_mut(), Arc::new(blueprint));
     });
     app.add_plugins(hook::plugin);
+    // Bevy has put its own teller in the place.
+    host::tell_of_panics();
     app.world_mut().resource_mut::<Fingers>().in_use = touch;
     if let Some(error) = problem {
         app.world_mut().resource_mut::<Toasts>().warn(error.to_string());

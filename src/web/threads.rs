@@ -4,13 +4,14 @@
 use crate::web::host;
 use rayon::{ThreadBuilder, ThreadPoolBuilder};
 use std::{
+    arch::wasm32,
     hint,
     sync::{Mutex, MutexGuard, PoisonError, TryLockError},
 };
-use wasm_bindgen::{
-    JsValue,
-    prelude::{JsError, wasm_bindgen},
-};
+use wasm_bindgen::prelude::{JsError, wasm_bindgen};
+
+/// The page's own thread in the pool.
+const PAGE: usize = 0;
 
 /// Threads that wait for a worker to run them.
 static WAITING: Mutex<Vec<ThreadBuilder>> = Mutex::new(Vec::new());
@@ -24,12 +25,6 @@ fn waiting() -> MutexGuard<'static, Vec<ThreadBuilder>> {
             Err(TryLockError::WouldBlock) => hint::spin_loop(),
         }
     }
-}
-
-/// The memory of the game, for its workers.
-#[wasm_bindgen(js_name = sharedMemory)]
-pub fn shared_memory() -> JsValue {
-    wasm_bindgen::memory()
 }
 
 /// Makes the pool of the caller and `workers` workers, each of which is at [`work`] or about to be.
@@ -57,4 +52,20 @@ pub fn work() {
             None => hint::spin_loop(),
         }
     }
+}
+
+/// Tells the page, in the name of a worker whose work ended in the middle, why. The page's thread waits for that work for
+/// ever and does nothing else but other work: so it is told by such.
+#[wasm_bindgen]
+pub fn fallen(message: String) {
+    // Outside the pool nobody waits.
+    if rayon::current_thread_index().is_none() {
+        return;
+    }
+    rayon::spawn_broadcast(move |place| {
+        if place.index() == PAGE {
+            host::failed(&message);
+            wasm32::unreachable();
+        }
+    });
 }

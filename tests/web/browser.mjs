@@ -1,7 +1,7 @@
 // A real Chromium, a server of the page, and eyes for the picture.
 
 import { execFileSync, spawn } from 'node:child_process';
-import { existsSync, readFileSync } from 'node:fs';
+import { cpSync, existsSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { createRequire } from 'node:module';
 import { extname, join, resolve } from 'node:path';
@@ -31,21 +31,39 @@ export async function serve(builder) {
 
 const KINDS = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm' };
 
-// A plain static host, which sends no special headers, with the page under a sub-path.
+// A plain static host, which sends no special headers, with the page under a sub-path. Its `dist` may be changed, and
+// of the files for which `breaks` holds it loses the connection.
 export async function plainHost(dist) {
+  const host = { dist, breaks: () => false };
   const server = createServer((request, response) => {
     const name = decodeURI(new URL(request.url, 'http://x').pathname).replace('/some/where/', '') || 'index.html';
-    const path = join(dist, name);
+    const path = join(host.dist, name);
+    if (host.breaks(name)) return request.socket.destroy();
     if (!existsSync(path) || name.includes('..')) return response.writeHead(404).end();
     response.writeHead(200, { 'Content-Type': KINDS[extname(path)] ?? 'application/octet-stream' });
     response.end(readFileSync(path));
   });
   await new Promise((done) => server.listen(0, '127.0.0.1', done));
-  const stop = () => {
+  host.url = `http://127.0.0.1:${server.address().port}/some/where/`;
+  host.stop = () => {
     server.closeAllConnections();
     return new Promise((done) => server.close(done));
   };
-  return { url: `http://127.0.0.1:${server.address().port}/some/where/`, stop };
+  return host;
+}
+
+// Makes another build of a page: the same game in files with other names.
+export function rebuild(dist, folder, title) {
+  cpSync(dist, folder, { recursive: true });
+  const path = (name) => join(folder, name);
+  const list = JSON.parse(readFileSync(path('files.json'), 'utf8'));
+  const renames = Object.values(list.names).map((name) => [name, name.replace(/-[0-9a-f]{4}/, '-0000')]);
+  for (const [old, name] of renames) renameSync(path(old), path(name));
+  for (const file of ['files.json', 'index.html']) {
+    let text = readFileSync(path(file), 'utf8').replaceAll(list.build, '0'.repeat(16));
+    for (const [old, name] of renames) text = text.replaceAll(old, name);
+    writeFileSync(path(file), text.replace(/<title>.*<\/title>/, `<title>${title}</title>`));
+  }
 }
 
 // What a browser makes of two pictures: share of pixels that differ visibly, in percent.

@@ -110,6 +110,11 @@ impl Remains {
         }
     }
 
+    /// Whether a thread looks for something, or runs it again.
+    pub fn is_busy(&self) -> bool {
+        matches!(self.stage, Stage::Searching(_) | Stage::Restoring(..))
+    }
+
     /// Decides nothing: the file stays, and the next start offers it again.
     pub fn put_off(&mut self) {
         self.stage = Stage::Nothing;

@@ -24,6 +24,13 @@ pub struct SaveMenu {
     files: Vec<SaveFile>,
 }
 
+impl SaveMenu {
+    /// Whether there are files of which it is not known yet what is in them.
+    pub fn is_reading(&self) -> bool {
+        self.files.iter().any(|file| file.summary.is_none())
+    }
+}
+
 struct SaveFile {
     path: PathBuf,
     age: String,

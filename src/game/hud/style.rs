@@ -37,6 +37,8 @@ pub const WINDOW_CORNER: u8 = 10;
 /// Dresses egui.
 pub fn dress(context: &egui::Context) {
     context.set_theme(egui::Theme::Dark);
+    // The frame that a press wakes has the time at which the game fell asleep: no press is too long for a click.
+    context.options_mut(|options| options.input_options.max_click_duration = f64::INFINITY);
     context.all_styles_mut(|style| {
         style.text_styles = [
             (TextStyle::Small, FontId::proportional(11.0)),

@@ -36,6 +36,16 @@ impl Toasts {
         self.push(text.into(), true);
     }
 
+    /// Takes back what was told about something.
+    pub fn take_back(&mut self, about: &str) {
+        self.0.retain(|toast| !toast.text.contains(about));
+    }
+
+    /// The messages, the newest last.
+    pub fn texts(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(|toast| toast.text.as_str())
+    }
+
     /// The newest message.
     pub fn last(&self) -> Option<&str> {
         self.0.last().map(|toast| toast.text.as_str())
@@ -96,4 +106,18 @@ fn card(ui: &mut egui::Ui, text: &str, warning: bool, opacity: f32) {
         .corner_radius(8)
         .inner_margin(egui::Margin::symmetric(14, 7))
         .show(ui, |ui| ui.label(egui::RichText::new(text).color(colour.gamma_multiply(opacity))));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_turns_out_wrong_is_taken_back() {
+        let mut toasts = Toasts::default();
+        toasts.say("Saved: worlds/a.pms");
+        toasts.say("Undone");
+        toasts.take_back("worlds/a.pms");
+        assert_eq!(toasts.texts().collect::<Vec<_>>(), ["Undone"]);
+    }
 }

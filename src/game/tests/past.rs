@@ -1,6 +1,7 @@
 //! Undo, redo, reset, another scene.
 
 use super::*;
+use crate::kernel::params::Preset;
 
 #[test]
 fn undo_and_redo_restore_the_exact_state() {
@@ -63,4 +64,23 @@ fn another_scene_forgets_the_past_and_shows_its_own_box() {
         "dam_break",
         "a scene that isn't there changes nothing"
     );
+}
+
+#[test]
+fn a_scene_that_is_opened_has_its_own_quality_and_settings_whatever_is_in_force() {
+    let open = |player: &mut Player, quality| {
+        let settings =
+            [("columns", "12"), ("iterations", "7")].map(|(name, value)| (name.to_owned(), value.to_owned()));
+        let order = Order::Open { name: "dam_break".into(), settings: settings.into(), quality };
+        player.0.world_mut().resource_mut::<Orders>().push(order);
+        player.frames(2);
+        let setup = player.world().resource::<Setup>();
+        (setup.preset, setup.quality.clone())
+    };
+    let mut player = Player::new();
+    let (own, first) = open(&mut player, None);
+    let (fine, with_settings) = open(&mut player, Some(Preset::Fine));
+    assert_eq!(fine, Preset::Fine);
+    assert_ne!(with_settings, Preset::Fine.quality(), "what is set counts beside the quality");
+    assert_eq!(open(&mut player, None), (own, first), "the quality before is forgotten");
 }

@@ -1,0 +1,252 @@
+// The page on a desktop: mouse, keys, the hook, links and saved worlds.
+
+import assert from 'node:assert/strict';
+import { join } from 'node:path';
+import { difference, water } from '../browser.mjs';
+import { drag, follow, sleep, stats, still, until, untilKept } from '../player.mjs';
+
+const FLOOR = { x: 40, y: 690, width: 360, height: 40 };
+
+export async function onADesktop(player) {
+  const page = await player.play(`${player.host.url}#scene=empty`);
+  await atTheStart(player, page);
+  await withTheMouse(player, page);
+  await withKeys(player, page);
+  await byTheHook(player, page);
+  await asAWindow(player, page);
+  await withSaves(player, page);
+  await page.context().close();
+  await asleep(player);
+}
+
+async function atTheStart({ shoot, test }, page) {
+  await test('the page loads, isolated, with a thread for each processor', async () => {
+    const now = await stats(page);
+    assert.equal(now.scene, 'empty');
+    assert.equal(now.particles, 0);
+    const [isolated, processors] = await page.evaluate(() => [crossOriginIsolated, navigator.hardwareConcurrency]);
+    assert.ok(isolated);
+    assert.equal(now.threads, Math.min(processors, 8));
+    await shoot(page, 'desktop-empty');
+    const times = await page.evaluate(() => window.powderMaster.times);
+    return `${now.threads} threads, ${Math.round(times.firstFrame - times.lastByte)} ms from the last byte to the first frame`;
+  });
+}
+
+async function withTheMouse({ eyes, shoot, shootUntil, test }, page) {
+  await test('the left button pours', async () => {
+    await until(page, 'the greeting goes', ({ messages }) => messages.length === 0);
+    const picture = await shoot(page, 'desktop-empty');
+    await sleep(1000);
+    // What changes by itself: the numbers in the bar.
+    const untouched = await difference(eyes, picture, await shoot(page, 'desktop-untouched'));
+    await drag(page, [[560, 420], [640, 440], [720, 420], [640, 400], [560, 420], [640, 440], [720, 420]]);
+    const now = await until(page, 'pouring', ({ particles, elements }) => particles > 50 && elements.water === particles);
+    const share = await shootUntil(page, 'desktop-poured', picture, (share) => share > untouched + 0.2);
+    return `${now.particles} particles, ${share.toFixed(2)} % of the picture changed, ${untouched.toFixed(2)} % before`;
+  });
+
+  await test('wind blows the water away', async () => {
+    await page.mouse.move(640, 120);
+    const look = async (name) => water(eyes, await shoot(page, name), FLOOR);
+    let [before, calm] = [0, 0];
+    // Until what falls lies on the floor.
+    for (const end = Date.now() + 60_000; calm < 500 || Math.abs(calm - before) > 0.05 * calm;) {
+      assert.ok(Date.now() < end, `water on ${calm} pixels of the floor, ${before} before`);
+      before = calm;
+      await sleep(1000);
+      calm = await look('desktop-calm');
+    }
+    await page.keyboard.press('KeyW');
+    let windy = calm;
+    for (let gust = 0; gust < 20 && 4 * windy >= 3 * calm; gust += 1) {
+      await drag(page, [[50, 715], [130, 715], [210, 715], [290, 715], [370, 715], [450, 715], [530, 715]], 'left', 40);
+      windy = await look('desktop-windy');
+    }
+    assert.ok(4 * windy < 3 * calm, `water on ${windy} pixels of the floor, ${calm} before`);
+    return `water on ${windy} pixels of the floor, ${calm} before`;
+  });
+
+  await test('the right button erases', async () => {
+    const before = (await stats(page)).particles;
+    const way = [60, 200, 350, 500, 650, 800, 950, 1100, 1230].map((x) => [x, 715]);
+    await drag(page, way, 'right');
+    const now = await until(page, 'erasing', ({ particles }) => particles < before);
+    return `${now.particles} particles, ${before} before`;
+  });
+}
+
+async function withKeys({ test }, page) {
+  await test('keys are the game’s, and the browser’s own stay away', async () => {
+    await page.evaluate(() => {
+      window.kept = [];
+      addEventListener('keydown', (event) => window.kept.push([event.code, event.defaultPrevented]));
+    });
+    for (const key of ['Tab', 'Tab', 'Control+KeyS', 'Control+KeyZ', 'F1', 'Escape', 'Slash']) await page.keyboard.press(key);
+    await page.keyboard.press('Space');
+    await until(page, 'Space pauses', ({ paused }) => paused);
+    await page.keyboard.press('Space');
+    await until(page, 'Space goes on', ({ paused }) => !paused);
+    const kept = await page.evaluate(() => window.kept.filter(([code]) => !code.startsWith('Control')));
+    assert.ok(kept.length >= 9 && kept.every(([, prevented]) => prevented), JSON.stringify(kept));
+    assert.equal(await page.evaluate(() => document.activeElement.id), 'world');
+    assert.ok(!await page.evaluate(() => document.getElementById('world')
+      .dispatchEvent(new MouseEvent('contextmenu', { cancelable: true }))), 'the context menu opens');
+    const reload = await page.evaluate(() => document.body
+      .dispatchEvent(new KeyboardEvent('keydown', { code: 'F5', cancelable: true, bubbles: true })));
+    assert.ok(reload, 'F5 must stay the browser’s');
+  });
+}
+
+async function byTheHook({ shoot, test }, page) {
+  const refusal = (what) => page.evaluate((what) => {
+    try {
+      window.powderMaster[what[0]](...what.slice(1));
+      return 'nothing';
+    } catch (error) {
+      return error.message;
+    }
+  }, what);
+
+  await test('scenes by the hook and by link', async () => {
+    await page.evaluate(() => window.powderMaster.scene('dam_break', { columns: 20 }));
+    // 20 columns of 40.
+    await until(page, 'the hook', ({ scene, elements }) => scene === 'dam_break' && elements.water === 800);
+    assert.match(await refusal(['scene', 'nowhere']), /nowhere/);
+    await follow(page, '#scene=communicating_vessels');
+    await until(page, 'the link', ({ scene }) => scene === 'communicating_vessels');
+    await shoot(page, 'desktop-vessels');
+    await page.evaluate(() => window.powderMaster.pause());
+    const { tick } = await until(page, 'the hook pauses', ({ paused }) => paused);
+    await sleep(500);
+    assert.equal((await stats(page)).tick, tick);
+    await page.evaluate(() => window.powderMaster.pause(false));
+    await until(page, 'it goes on', (now) => now.tick > tick);
+  });
+
+  await test('a link means the same at the start and later', async () => {
+    const own = (await stats(page)).quality;
+    assert.notEqual(own, 'fine');
+    await follow(page, '#scene=dam_break&columns=20&quality=fine');
+    await until(page, 'the quality of the link', ({ scene, quality }) => scene === 'dam_break' && quality === 'fine');
+    await follow(page, '#scene=communicating_vessels');
+    await until(page, 'the scene’s own quality', ({ scene, quality }) => scene === 'communicating_vessels' && quality === own);
+  });
+
+  await test('a bad link changes nothing and says why', async () => {
+    await follow(page, '#scene=nowhere');
+    const { messages, scene } = await until(page, 'a message', ({ messages }) => messages.some((text) => text.includes('nowhere')));
+    assert.equal(scene, 'communicating_vessels');
+    assert.ok(!messages.some((text) => text.includes('.ron')), 'a page has no files');
+    await shoot(page, 'desktop-bad-link');
+    await follow(page, '#scene=communicating_vessels');
+  });
+
+  await test('what can not be measured is refused', async () => {
+    for (const ticks of [-1, 0.5, NaN, 1e12]) assert.match(await refusal(['measure', 'scene=empty', ticks]), /^ticks `.*: not a whole number/);
+    assert.match(await refusal(['measure', 'scene=empty', 1, -1]), /^warmup/);
+    assert.match(await refusal(['measure', 'scene=nowhere', 1]), /nowhere/);
+    assert.equal(await refusal(['measure', 'scene=empty', 1]), 'nothing');
+  });
+}
+
+async function asAWindow({ shoot, test }, page) {
+  await test('the canvas follows the window', async () => {
+    for (const [width, height] of [[700, 500], [1500, 900], [1280, 800]]) {
+      await page.setViewportSize({ width, height });
+      await page.waitForFunction(([w, h]) => {
+        const canvas = document.getElementById('world');
+        return canvas.width === Math.round(w * devicePixelRatio) && canvas.height === Math.round(h * devicePixelRatio);
+      }, [width, height]);
+    }
+    await page.setViewportSize({ width: 700, height: 500 });
+    await sleep(2000);
+    await shoot(page, 'small-window');
+    await page.setViewportSize({ width: 1280, height: 800 });
+  });
+
+  await test('a hidden tab pauses and comes back without a jump', async () => {
+    const hide = (hidden) => page.evaluate((hidden) => {
+      Object.defineProperty(document, 'hidden', { get: () => hidden, configurable: true });
+      document.dispatchEvent(new Event('visibilitychange'));
+    }, hidden);
+    await hide(true);
+    // A slow frame may still be under way when the page is told.
+    let [tick, since] = [-1, 0];
+    await until(page, 'it stands', (now) => {
+      if (now.tick !== tick) [tick, since] = [now.tick, Date.now()];
+      return Date.now() - since > 3000;
+    });
+    await sleep(2000);
+    assert.equal((await stats(page)).tick, tick, 'it went on');
+    const back = Date.now();
+    await hide(false);
+    const now = await until(page, 'it goes on', (now) => now.tick > tick);
+    const most = 60 * (Date.now() - back) / 1000 + 10;
+    assert.ok(now.tick - tick <= most, `a jump of ${now.tick - tick} ticks, at most ${most} are due`);
+    return `${now.tick - tick} ticks at the return`;
+  });
+}
+
+async function withSaves({ shoot, shots, started, test }, page) {
+  await test('a saved world outlives the page', async () => {
+    await page.evaluate(() => window.powderMaster.scene('dam_break', { columns: 12 }));
+    const { elements } = await until(page, 'a world to save', ({ scene }) => scene === 'dam_break');
+    await page.keyboard.press('Control+KeyS');
+    // One of each Ctrl+S of these tests.
+    const kept = await untilKept(page, 2);
+    await page.reload();
+    await started(page);
+    assert.equal((await stats(page)).scene, 'communicating_vessels', 'that of the link');
+    await page.keyboard.press('Control+KeyO');
+    await sleep(3000);
+    await shoot(page, 'desktop-saves');
+    // The newest file is the upper of two lines in the middle of the window.
+    await page.mouse.click(640, 380);
+    const now = await until(page, 'the saved world', ({ scene }) => scene === 'dam_break');
+    assert.deepEqual(now.elements, elements);
+    await shoot(page, 'desktop-loaded');
+    return `${kept.length} files, ${now.particles} particles`;
+  });
+
+  await test('a screenshot is a download', async () => {
+    const download = page.waitForEvent('download');
+    await page.keyboard.press('F2');
+    const picture = await download;
+    assert.match(picture.suggestedFilename(), /^powder-.*\.png$/);
+    await picture.saveAs(join(shots, 'downloaded.png'));
+  });
+}
+
+// Counts what the page asks WebGL to draw.
+const countDraws = (page) => page.addInitScript(() => {
+  window.draws = 0;
+  for (const name of ['drawArrays', 'drawElements', 'drawArraysInstanced', 'drawElementsInstanced']) {
+    const draw = WebGL2RenderingContext.prototype[name];
+    WebGL2RenderingContext.prototype[name] = function (...rest) {
+      window.draws += 1;
+      return draw.apply(this, rest);
+    };
+  }
+});
+
+async function asleep({ host, play, test }) {
+  await test('a paused page draws nothing, and hears the hook at once', async () => {
+    const page = await play(`${host.url}#scene=waterfall`, {}, { before: countDraws });
+    await still(page);
+    const draws = () => page.evaluate(() => window.draws);
+    // It looks after itself each ten seconds.
+    let drawn = Infinity;
+    for (let look = 0; look < 3 && drawn > 0; look += 1) {
+      const before = await draws();
+      assert.ok(before > 0);
+      await sleep(5000);
+      drawn = await draws() - before;
+    }
+    assert.equal(drawn, 0, 'calls to draw in five seconds');
+    await page.evaluate(() => window.powderMaster.scene('dam_break'));
+    await until(page, 'the hook', ({ scene }) => scene === 'dam_break', 4);
+    assert.ok((await stats(page)).paused);
+    await page.context().close();
+  });
+}

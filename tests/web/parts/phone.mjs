@@ -1,0 +1,89 @@
+// The page on a phone, and on a screen with small pixels.
+
+import assert from 'node:assert/strict';
+import { launch } from '../browser.mjs';
+import { sleep, stats, still, until } from '../player.mjs';
+
+export async function onAPhone({ host, play, shoot, shootUntil, test }) {
+  const page = await play(`${host.url}#scene=empty`, {
+    viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true,
+  });
+  const devtools = await page.context().newCDPSession(page);
+  const touch = (type, ...points) => devtools.send('Input.dispatchTouchEvent', {
+    type, touchPoints: points.map(([x, y], id) => ({ x, y, id })),
+  });
+  await test('the canvas of a phone fills its screen', async () => {
+    const size = await page.evaluate(() => ['width', 'height'].map((side) => document.getElementById('world')[side]));
+    assert.deepEqual(size, [390, 844]);
+    await shoot(page, 'phone-empty');
+  });
+  await test('one finger draws', async () => {
+    await touch('touchStart', [120, 300]);
+    for (let x = 120; x <= 280; x += 8) {
+      await touch('touchMove', [x, 300]);
+      await sleep(40);
+    }
+    await touch('touchEnd');
+    const now = await until(page, 'drawing', ({ particles }) => particles > 30);
+    await sleep(1500);
+    await shoot(page, 'phone-drawn');
+    return `${now.particles} particles`;
+  });
+  await test('two fingers zoom and draw nothing', async () => {
+    // Water that still moves would differ by itself.
+    await still(page);
+    await sleep(1500);
+    const before = (await stats(page)).particles;
+    const first = await shoot(page, 'phone-before-zoom');
+    await touch('touchStart', [180, 300], [210, 300]);
+    for (let half = 15; half <= 120; half += 7) {
+      await touch('touchMove', [195 - half, 300], [195 + half, 300]);
+      await sleep(40);
+    }
+    await touch('touchEnd');
+    const share = await shootUntil(page, 'phone-zoomed', first, (share) => share > 0.5);
+    assert.equal((await stats(page)).particles, before);
+    return `${share.toFixed(1)} % of the picture changed`;
+  });
+  await test('the tool bar hides and comes back', async () => {
+    const tap = async (x, y) => {
+      await touch('touchStart', [x, y]);
+      await sleep(150);
+      await touch('touchEnd');
+    };
+    await sleep(1500);
+    const before = await shoot(page, 'phone-tools');
+    await tap(28, 844 - 28);
+    const hidden = await shootUntil(page, 'phone-no-tools', before, (share) => share > 5);
+    await tap(390 - 30, 844 - 30);
+    const again = await shootUntil(page, 'phone-tools-again', before, (share) => share < 0.5);
+    // Undo is the fourth button: what the finger drew goes.
+    await tap(4 + 3 * 52 + 24, 844 - 28);
+    await until(page, 'undo', ({ particles }) => particles === 0);
+    return `${hidden.toFixed(1)} % of the picture gone, all but ${again.toFixed(1)} % back`;
+  });
+  await page.context().close();
+}
+
+// An emulated density changes what a page is told, not how large its pixels are: this one is the browser's own.
+export async function onADenseScreen({ host, modules, shoot, test }) {
+  const dense = await launch(modules, ['--force-device-scale-factor=2', '--window-size=700,500']);
+  try {
+    await test('a dense screen has all its pixels', async () => {
+      const page = await (await dense.newContext({ viewport: null })).newPage();
+      await page.goto(`${host.url}#scene=communicating_vessels`);
+      await page.waitForFunction(() => window.powderMaster?.times.firstFrame);
+      assert.equal(await page.evaluate(() => devicePixelRatio), 2);
+      const size = await page.waitForFunction(() => {
+        const { width, height } = document.getElementById('world');
+        const all = width === innerWidth * devicePixelRatio && height === innerHeight * devicePixelRatio;
+        return all && [width, height];
+      });
+      await sleep(2000);
+      await shoot(page, 'dense-screen');
+      return `${(await size.jsonValue()).join(' × ')} pixels`;
+    });
+  } finally {
+    await dense.close();
+  }
+}
