@@ -172,7 +172,6 @@ fn act(ui: &mut Ui, unit: f32, pace: &Pace, history: &History, orders: &mut Orde
     for (icon, action, active, enabled) in [
         (Icon::Close, Action::Hud, false, true),
         (time, Action::Pause, pace.paused, true),
-        (Icon::Step, Action::Step, false, true),
         (Icon::Undo, Action::Undo, false, back),
         (Icon::Redo, Action::Redo, false, forth),
         (Icon::Reset, Action::Reset, false, true),
@@ -208,11 +207,6 @@ fn menus(ui: &mut Ui, unit: f32, sheet: &mut Sheet, orders: &mut Orders) {
             *sheet = if *sheet == own { Sheet::Closed } else { own };
         }
     }
-    for (icon, action) in [(Icon::Save, Action::Save), (Icon::Load, Action::Saves)] {
-        if button(ui, unit, icon, false, true) {
-            orders.push(Order::Act(action));
-        }
-    }
 }
 
 fn titles() -> Vec<(String, String)> {
@@ -239,6 +233,9 @@ fn lines<'a>(sheet: &'a Sheet, state: &HudState, setup: &Setup, shown: View) -> 
             Preset::ALL.into_iter().map(line).collect()
         }
         Sheet::More => [
+            ("Save", false, Action::Save),
+            ("Load", state.saves, Action::Saves),
+            ("One tick", false, Action::Step),
             ("Accuracy and cost", state.accuracy, Action::Accuracy),
             ("Details and effects", state.details, Action::Details),
             ("Two qualities side by side", false, Action::Split),

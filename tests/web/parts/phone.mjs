@@ -53,12 +53,12 @@ export async function onAPhone({ host, play, shoot, shootUntil, test }) {
     };
     await sleep(1500);
     const before = await shoot(page, 'phone-tools');
-    await tap(28, 844 - 28);
+    await tap(28, 844 - 28 - 52);
     const hidden = await shootUntil(page, 'phone-no-tools', before, (share) => share > 5);
     await tap(390 - 30, 844 - 30);
     const again = await shootUntil(page, 'phone-tools-again', before, (share) => share < 0.5);
-    // Undo is the fourth button: what the finger drew goes.
-    await tap(4 + 3 * 52 + 24, 844 - 28);
+    // Undo is the third button of the upper row: what the finger drew goes.
+    await tap(4 + 2 * 52 + 24, 844 - 28 - 52);
     await until(page, 'undo', ({ particles }) => particles === 0);
     return `${hidden.toFixed(1)} % of the picture gone, all but ${again.toFixed(1)} % back`;
   });
