@@ -104,7 +104,7 @@ pub fn show(
                 ui.horizontal_wrapped(|ui| {
                     act(ui, unit, &pace, &history, &mut orders);
                     size(ui, unit, &mut tools);
-                    menus(ui, unit, &mut sheet, &mut orders);
+                    menus(ui, unit, &mut sheet);
                 });
             });
         });
@@ -198,7 +198,7 @@ fn size(ui: &mut Ui, unit: f32, tools: &mut ResMut<Toolbox>) {
     }
 }
 
-fn menus(ui: &mut Ui, unit: f32, sheet: &mut Sheet, orders: &mut Orders) {
+fn menus(ui: &mut Ui, unit: f32, sheet: &mut Sheet) {
     if button(ui, unit, Icon::Scenes, matches!(sheet, Sheet::Scenes(_)), true) {
         *sheet = if matches!(sheet, Sheet::Scenes(_)) { Sheet::Closed } else { Sheet::Scenes(titles()) };
     }
