@@ -30,7 +30,7 @@ function missing() {
   const simd = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 15, 11]);
   if (typeof WebAssembly !== 'object' || !WebAssembly.validate(simd)) {
     return ['This browser is too old: it has no WebAssembly with vectors.',
-      ['Use Chrome or Edge from version 91, Firefox from 114, or Safari from 16.4.']];
+      ['Use Chrome or Edge from version 91, Firefox from 89, or Safari from 16.4.']];
   }
   if (!document.createElement('canvas').getContext('webgl2')) {
     return ['This browser shows no WebGL 2, which the game draws with.',
