@@ -75,7 +75,7 @@ fn a_scene_that_is_opened_has_its_own_quality_and_settings_whatever_is_in_force(
         player.0.world_mut().resource_mut::<Orders>().push(order);
         player.frames(2);
         let setup = player.world().resource::<Setup>();
-        (setup.preset, setup.quality.clone())
+        (setup.preset, setup.quality)
     };
     let mut player = Player::new();
     let (own, first) = open(&mut player, None);

@@ -52,7 +52,6 @@ export async function overAnUpdate({ play, started, test }) {
     await started(page);
     assert.equal(await page.title(), title);
     await isKept(page);
-
     await page.context().close();
   };
   const seeNew = async (page) => {
