@@ -261,6 +261,7 @@ fn list(
 ) -> bool {
     let mut pressed = None;
     let area = egui::Area::new("touch list".into()).pivot(Align2::CENTER_BOTTOM).fixed_pos(above.center_bottom());
+    let area = area.default_height(above.height());
     area.order(egui::Order::Foreground).show(context, |ui| {
         egui::Frame::window(ui.style()).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 2.0;
