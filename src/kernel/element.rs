@@ -42,6 +42,23 @@ pub struct Element {
     pub flow: f32,
 }
 
+impl Element {
+    /// An element as heavy as water, with nothing else to it.
+    pub fn plain(name: &str, fixed: bool) -> Self {
+        Self {
+            name: name.into(),
+            key: '1',
+            colour: [40, 130, 220],
+            fixed,
+            density: 1000.0,
+            viscosity: 0.0,
+            vorticity: 0.0,
+            drag: 0.0,
+            flow: 1.0,
+        }
+    }
+}
+
 fn one() -> f32 {
     1.0
 }
@@ -82,23 +99,5 @@ impl ElementTable {
     /// Whether there is no row at all.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
-    }
-}
-
-#[cfg(test)]
-impl Element {
-    /// An element for tests: as heavy as water, and nothing else to it.
-    pub(crate) fn plain(name: &str, fixed: bool) -> Self {
-        Self {
-            name: name.into(),
-            key: '1',
-            colour: [40, 130, 220],
-            fixed,
-            density: 1000.0,
-            viscosity: 0.0,
-            vorticity: 0.0,
-            drag: 0.0,
-            flow: 1.0,
-        }
     }
 }
