@@ -8,21 +8,21 @@
 //! by the correction limit. So no pair is missed, and since pairs beyond the kernel add exact zeros, neither the width of
 //! a group nor the search itself shows in the result.
 //!
-//! Rooms: `cells` the geometry, `sort` the particles, `groups`, `focus` those that are iterated again, `rock`.
+//! Rooms: `cells` the geometry, `sort` the particles, `strip` those of a row of cells, `groups`, `focus` those that are iterated again, `rock`.
 
 mod cells;
 mod focus;
 mod groups;
 mod rock;
 mod sort;
+mod strip;
 #[cfg(test)]
 mod tests;
 
 pub use rock::RockBins;
-pub(crate) use sort::Strip;
+pub(crate) use strip::Strip;
 
 use crate::{
-    parallel::spread,
     particles::Particles,
     simd::{InstructionSet, Lanes},
     solids::Solids,
@@ -31,16 +31,13 @@ use cells::CellGrid;
 use focus::Focus;
 use glam::Vec2;
 use groups::{Cutter, StripGroups};
-use sort::{Sort, fetch_names};
+use sort::Sort;
 use std::ops::Range;
 
 /// Rounding allowance of the search margin, d.
 const MARGIN_ROUNDING: f32 = 1e-3;
 /// The buffer of groups has one in so many to spare: their number changes a little from tick to tick.
 const SPARE_GROUPS: usize = 8;
-
-/// Fewer particles than this are not handed to another thread to get their ids.
-const WORTH_NAMING: usize = 8192;
 
 /// How neighbours are found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -136,24 +133,19 @@ impl Bins {
     }
 
     /// Sorts the particles by cell and builds the groups over them, as wide as the lanes. Within a cell the order stays.
-    /// `spare` is room for a coordinate or velocity each; `settle` may then change the positions of each strip.
+    /// `spare` is room for a column of numbers; `settle` may then change the positions of each strip.
     pub(crate) fn bin(
         &mut self,
         particles: &mut Particles,
-        spare: [&mut Vec<f32>; 4],
+        spare: &mut Vec<f32>,
         neighbours: Neighbours,
         instructions: InstructionSet,
         threads: usize,
         settle: &(impl Fn(Strip) + Sync),
     ) {
-        self.sort.sort(&self.grid, particles, spare, instructions, threads, settle);
-        let ids = &particles.id;
-        let (source, names) = self.sort.names();
-        spread([names], WORTH_NAMING, threads, &|base, [names]| {
-            let source = &source[base..base + names.len()];
-            fetch_names(names, ids, source);
-        });
-        self.sort.keep_names(&mut particles.id);
+        self.sort.place(&self.grid, &particles.x, &particles.y, instructions, threads);
+        self.sort.reorder(particles, spare, threads);
+        self.sort.settle(&self.grid, particles, threads, settle);
         match neighbours {
             Neighbours::Binned => self.group(&particles.x, instructions.width(), threads),
             Neighbours::Brute => self.group_with_all(particles.len(), instructions.width()),

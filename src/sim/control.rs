@@ -2,6 +2,7 @@
 
 use crate::{
     kernel::{
+        element::ElementParams,
         params::{Preset, Quality},
         predictor::Predictor,
         sleep::Sleep,
@@ -14,7 +15,7 @@ use crate::{
         recorder::Recorder,
         snapshot::{Snapshot, hash_state},
         state::{
-            AirGrid, Census, Clock, Counters, ParticleStore, PredictorState, Rates, Rock, Setup, SleepState,
+            AirGrid, Census, Clock, Counters, Elements, ParticleStore, PredictorState, Rock, Setup, SleepState,
             SolverState, Sources,
         },
     },
@@ -26,7 +27,7 @@ use std::sync::Arc;
 pub fn load(world: &mut World, blueprint: Arc<Blueprint>) {
     let origin = Arc::new(Snapshot::of_blueprint(&blueprint, blueprint.quality.air_cell));
     world.insert_resource(Effects::new(&blueprint.effects));
-    world.insert_resource(Rates::new(&blueprint.elements, blueprint.scale));
+    world.insert_resource(Elements(ElementParams::new(&blueprint.elements, blueprint.scale)));
     world.insert_resource(Setup {
         preset: blueprint.preset,
         quality: blueprint.quality,

@@ -4,8 +4,7 @@
 use crate::{
     kernel::{
         air::{Air, AirReport},
-        element::ElementTable,
-        forces::drag_rates,
+        element::{ElementParams, ElementTable},
         params::{Domain, Preset, Quality},
         particles::Particles,
         pbf::Solver,
@@ -13,7 +12,6 @@ use crate::{
         sleep::Sleep,
         solids::Solids,
         sources::{Drain, Emitter, Wind},
-        units::Scale,
     },
     scene::blueprint::Blueprint,
     sim::snapshot::Snapshot,
@@ -196,27 +194,6 @@ pub struct PredictorState(pub Predictor);
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
 pub struct SleepState(pub Sleep);
 
-/// What the elements mean to the kernel's passes, in kernel units, one entry an element.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct Rates {
-    /// k of `dv/dt = −k |v| v`, 1/d.
-    pub drag: Vec<f32>,
-    /// Mass of a particle, kg/m² d².
-    pub mass: Vec<f32>,
-    /// XSPH c.
-    pub viscosity: Vec<f32>,
-    /// Vorticity confinement ε, d/s.
-    pub vorticity: Vec<f32>,
-}
-
-impl Rates {
-    /// The rates of a scene's elements.
-    pub fn new(elements: &ElementTable, scale: Scale) -> Self {
-        Self {
-            drag: drag_rates(elements, scale),
-            mass: elements.iter().map(|(_, element)| element.density).collect(),
-            viscosity: elements.iter().map(|(_, element)| element.viscosity).collect(),
-            vorticity: elements.iter().map(|(_, element)| scale.to_kernel(element.vorticity)).collect(),
-        }
-    }
-}
+/// What the kernel's passes read of the elements. Made when a scene opens.
+#[derive(Resource, Deref, Clone, Debug, Default)]
+pub struct Elements(pub ElementParams);

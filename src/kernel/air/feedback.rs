@@ -24,8 +24,7 @@ use super::sample::Stencil;
 use super::step::QUIET_MACH;
 use crate::{
     blocks::{Blocks, Reach},
-    element::ElementId,
-    forces::DragTable,
+    element::{ElementId, ElementParams},
     parallel::{Rows, Sweep, Team, WORTH_A_PIECE, spread, sweep},
     particles::{Particles, extent},
 };
@@ -95,15 +94,16 @@ struct Party {
 
 impl Air {
     /// Whether a crowd of particles of a speed (d/s) could wake air at rest at pressure 1 in a substep of `dt` s.
-    pub fn may_be_roused(&self, drag: DragTable, speed: f32, dt: f32) -> bool {
-        let loads = drag.rates.iter().zip(drag.masses).map(|(rate, mass)| CROWD * mass * (rate * speed * dt).min(1.0));
+    pub fn may_be_roused(&self, elements: &ElementParams, speed: f32, dt: f32) -> bool {
+        let loads =
+            elements.drag.iter().zip(&elements.mass).map(|(rate, mass)| CROWD * mass * (rate * speed * dt).min(1.0));
         let load = loads.fold(0.0, f32::max);
         speed * load / (self.params.density + load) > QUIET_MACH * self.params.sound_speed
     }
 
     /// First half of the exchange over `dt` s: finds the velocity that the air gets. [`Air::drag_along`] must follow with
     /// the same particles. The air must be built. `team` changes the time it takes and not a bit of the result.
-    pub fn meet(&mut self, drag: DragTable, particles: &Particles, rousing: Rousing, team: Team, dt: f32) {
+    pub fn meet(&mut self, elements: &ElementParams, particles: &Particles, rousing: Rousing, team: Team, dt: f32) {
         let mut feedback = std::mem::take(&mut self.scratch.feedback);
         feedback.meetings.resize(self.pressure.len(), Meeting::default());
         let along = |count: usize| Along { per_cell: 1.0 / self.cell, last: (count - 1) as f32 };
@@ -119,8 +119,8 @@ impl Air {
         blocks.share_out([&mut meetings[..]], stride, team.threads, &|range, first, [meetings]| {
             for i in range {
                 let (element, velocity) = (particles.element[i], [particles.vx[i], particles.vy[i]]);
-                let Party { at, share } = air.party(drag, element, [particles.x[i], particles.y[i]], velocity, dt);
-                let brought = share * drag.masses[element.index()];
+                let Party { at, share } = air.party(elements, element, [particles.x[i], particles.y[i]], velocity, dt);
+                let brought = share * elements.mass[element.index()];
                 let meeting = [brought * velocity[0], brought * velocity[1], brought, 0.0];
                 let k = at.k - first * stride;
                 let (left, right) = (1.0 - at.x, at.x);
@@ -143,14 +143,14 @@ impl Air {
     }
 
     /// Second half of the exchange: the particles get their velocities, and the air those that [`Air::meet`] found.
-    pub fn drag_along(&mut self, drag: DragTable, particles: &mut Particles, threads: usize, dt: f32) {
+    pub fn drag_along(&mut self, elements: &ElementParams, particles: &mut Particles, threads: usize, dt: f32) {
         let feedback = std::mem::take(&mut self.scratch.feedback);
         let (air, meetings, stride) = (&*self, &feedback.meetings[..], self.stride());
         let Particles { x, y, vx, vy, element, .. } = particles;
         spread([&mut vx[..], &mut vy[..]], WORTH_A_PIECE, threads, &|base, [vx, vy]| {
             for (i, (vx, vy)) in vx.iter_mut().zip(vy).enumerate() {
                 let i = base + i;
-                let Party { at, share } = air.party(drag, element[i], [x[i], y[i]], [*vx, *vy], dt);
+                let Party { at, share } = air.party(elements, element[i], [x[i], y[i]], [*vx, *vy], dt);
                 let (low, high) = (&meetings[at.k..at.k + 2], &meetings[at.k + stride..at.k + stride + 2]);
                 let wind = |axis: usize| at.mix([low[0][axis], low[1][axis]], [high[0][axis], high[1][axis]]);
                 let (u, v) = (wind(0), wind(1));
@@ -170,10 +170,17 @@ impl Air {
 
     /// Place and share of a particle, by the wind as it is before the exchange.
     #[inline(always)]
-    fn party(&self, drag: DragTable, element: ElementId, place: [f32; 2], velocity: [f32; 2], dt: f32) -> Party {
+    fn party(
+        &self,
+        elements: &ElementParams,
+        element: ElementId,
+        place: [f32; 2],
+        velocity: [f32; 2],
+        dt: f32,
+    ) -> Party {
         let at = self.stencil(place[0], place[1], 1.0 / self.cell);
         let (x, y) = (velocity[0] - self.blend(&self.velocity_x, &at), velocity[1] - self.blend(&self.velocity_y, &at));
-        let slowing = (drag.rates[element.index()] * (x * x + y * y).sqrt() * dt).min(UTTER);
+        let slowing = (elements.drag[element.index()] * (x * x + y * y).sqrt() * dt).min(UTTER);
         Party { at, share: slowing / (1.0 + slowing) }
     }
 

@@ -61,9 +61,10 @@ pub struct Solver {
     /// corrections keep within the correction limit of that.
     pub(crate) x: Vec<f32>,
     pub(crate) y: Vec<f32>,
-    /// Outputs of a pass, and room for the sort.
+    /// Outputs of a pass.
     pub(crate) next_x: Vec<f32>,
     pub(crate) next_y: Vec<f32>,
+    /// Output of a pass, and room for the sort.
     pub(crate) lambda: Vec<f32>,
     /// Limit of the last corrections; none before the first.
     pub(crate) limit: Option<CorrectionLimit>,
@@ -156,13 +157,12 @@ impl Solver {
         if (self.smoothing.radius, self.smoothing.gradient) != (quality.kernel_radius, quality.gradient) {
             self.smoothing = Smoothing::new(quality.kernel_radius, quality.gradient);
         }
-        let Self { bins, instructions, neighbours, density, next_x, next_y, lambda, .. } = self;
+        let Self { bins, instructions, neighbours, lambda, .. } = self;
         bins.lay(domain.size, quality.kernel_radius, quality.longest_correction(), solids);
         let set_apart = AtomicU64::new(0);
         let settle = |strip: Strip| separate_coincident(strip, *instructions, domain, solids, &set_apart);
         let mut bin = |bins: &mut Bins, particles: &mut Particles| {
-            let spare = [&mut *next_x, &mut *next_y, &mut *lambda, &mut *density];
-            bins.bin(particles, spare, *neighbours, *instructions, threads, &settle);
+            bins.bin(particles, lambda, *neighbours, *instructions, threads, &settle);
         };
         bin(bins, particles);
         let mut scattered = 0;

@@ -126,7 +126,8 @@ impl Sleep {
             + size_of::<Calm>() * self.record.tiles.capacity()
             + 4 * (self.x.capacity() + self.y.capacity() + self.id.capacity())
             + 4 * (self.density.capacity() + self.others.capacity())
-            + 21 * (self.aside.x.capacity() + self.room.x.capacity())
+            + self.aside.memory()
+            + self.room.memory()
     }
 
     /// Lays the tiles over a box of `size` d.

@@ -10,7 +10,7 @@
 
 use crate::{
     bins::Group,
-    element::ElementId,
+    element::{ElementId, ElementParams},
     parallel,
     particles::Particles,
     pbf::Solver,
@@ -26,14 +26,15 @@ const LEAST_DENSITY: f32 = 0.1;
 /// Largest share of its difference to its neighbours that a particle may give up in a substep: the bound.
 const MOST_SHARE: f32 = 1.0;
 
-/// Applies viscosity over `dt` s; `coefficients` gives c for each element.
+/// Applies viscosity over `dt` s; c is the elements'.
 pub fn apply_viscosity(
     particles: &mut Particles,
     solver: &mut Solver,
-    coefficients: &[f32],
+    elements: &ElementParams,
     threads: usize,
     dt: f32,
 ) -> StrengthReport {
+    let coefficients = &elements.viscosity[..];
     // One substep a tick takes exactly c.
     let part = dt / TICK_SECONDS;
     let most = MOST_SHARE / part;

@@ -18,6 +18,7 @@
 
 use crate::{
     bins::Group,
+    element::ElementParams,
     parallel,
     params::GradientKernel,
     particles::Particles,
@@ -41,14 +42,15 @@ const MOST_GAIN: f32 = 0.07;
 /// Largest change of a particle's speed, longest moves a substep.
 const MOST_CHANGE: f32 = 0.1;
 
-/// Applies vorticity confinement over `dt` s; `strengths` gives ε for each element, d/s.
+/// Applies vorticity confinement over `dt` s, with the ε of the elements.
 pub fn apply_vorticity(
     particles: &mut Particles,
     solver: &mut Solver,
-    strengths: &[f32],
+    elements: &ElementParams,
     threads: usize,
     dt: f32,
 ) -> StrengthReport {
+    let strengths = &elements.vorticity[..];
     let mut report = StrengthReport::of(&particles.element, strengths, most_strength(solver, dt));
     report.clamps += match solver.smoothing.gradient {
         GradientKernel::Spiky => confine::<Spiky>(particles, solver, strengths, threads, dt),

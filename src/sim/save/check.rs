@@ -4,8 +4,10 @@ use super::Contents;
 use crate::{
     kernel::{
         air::Air,
+        columns::ABSURD,
         element::{Element, ElementId, ElementTable},
         params::{AirParams, Domain, Preset, Quality},
+        particles::Particles,
         solids::Solids,
         sources::Rect,
         units::Scale,
@@ -26,8 +28,6 @@ const MOST_CELLS: f32 = 64e6;
 const LONGEST_SIDE: f32 = 32_768.0;
 /// Highest pressure of the predictor, d/s: that of the fastest moves over the longest side in cells, and more.
 const ABSURD_POTENTIAL: f32 = 1e12;
-/// Furthest that anything lies and fastest that anything moves, d and d/s.
-const ABSURD: f32 = 1e9;
 /// Most ticks and edits that a world has seen, and ticks until a tap flows: some five million years, and far from where
 /// counting on would come to the end of the numbers.
 const LAST_TICK: u64 = 1 << 53;
@@ -136,17 +136,14 @@ fn is_movable(contents: &Contents, element: ElementId) -> bool {
 
 fn particles(contents: &Contents) -> Verdict {
     let (particles, rock, clock) = (&contents.particles, &contents.rock, &contents.clock);
-    let lengths =
-        [particles.x.len(), particles.y.len(), particles.vx.len(), particles.vy.len(), particles.element.len()];
-    demand(lengths.iter().all(|&len| len == particles.id.len()), || {
-        "the particles' arrays differ in length".to_owned()
-    })?;
+    demand(particles.has_equal_columns(), || "the particles' arrays differ in length".to_owned())?;
     let total = particles.len() + rock.len();
     demand(total <= contents.particle_limit as usize, || format!("{total} particles are more than its limit"))?;
+    // Places are checked against the cells of the box, where there are some.
     for i in 0..particles.len() {
-        // Places are checked against the cells of the box, where there are some.
-        finite("a position", particles.position(i))?;
-        finite("a velocity", particles.velocity(i))?;
+        for (name, value) in Particles::COLUMNS.iter().zip(particles.get(i).values()) {
+            demand(value.is_sound(), || format!("{name} of a particle is no number, or {ABSURD:e} and more"))?;
+        }
     }
     let known = particles.element.iter().all(|&element| is_movable(contents, element));
     demand(known, || "a particle is of no movable element".to_owned())?;

@@ -1,12 +1,12 @@
 //! Gathers the facts of a tick, lets the table of effects decide by them, and plans how many substeps it takes.
 
 use crate::{
-    kernel::{element::Element, forces::DragTable, predict, units::TICK_SECONDS},
+    kernel::{element::Element, predict, units::TICK_SECONDS},
     scene::blueprint::{Effect, Mode},
     sim::{
         effects::{Effects, facts::Facts},
         stages::TickPlan,
-        state::{AirGrid, Census, Counters, ParticleStore, Rates, Setup, SleepState, Sources},
+        state::{AirGrid, Census, Counters, Elements, ParticleStore, Setup, SleepState, Sources},
     },
 };
 use bevy::prelude::{Res, ResMut};
@@ -19,7 +19,7 @@ pub(super) fn plan_tick(
     sources: Res<Sources>,
     census: Res<Census>,
     asleep: Res<SleepState>,
-    rates: Res<Rates>,
+    elements: Res<Elements>,
     mut effects: ResMut<Effects>,
     mut counters: ResMut<Counters>,
     mut plan: ResMut<TickPlan>,
@@ -29,7 +29,6 @@ pub(super) fn plan_tick(
         counted.any(|((_, element), &count)| count > 0 && !element.fixed && wanted(element))
     };
     let fastest = predict::fastest(&particles.vx, &particles.vy);
-    let drag = DragTable { rates: &rates.drag, masses: &rates.mass };
     let modes = effects.wanted();
     // Air that is switched off stands: a wind that froze would blow for ever.
     if modes[Effect::Air as usize] == Mode::Off && !air.is_quiet() {
@@ -47,7 +46,7 @@ pub(super) fn plan_tick(
         has_tension: setup.blueprint.fluid.tension_strength > 0.0,
         has_fans: !sources.winds.is_empty(),
         air_moves: !air.is_quiet(),
-        stirs_air: air.may_be_roused(drag, fastest, TICK_SECONDS / setup.quality.substeps as f32),
+        stirs_air: air.may_be_roused(&elements, fastest, TICK_SECONDS / setup.quality.substeps as f32),
     });
     let wanted = predict::substeps(fastest, &setup.domain, &setup.quality, TICK_SECONDS);
     plan.substeps = wanted.count;

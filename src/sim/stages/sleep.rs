@@ -7,7 +7,7 @@ use crate::{
         effects::Effects,
         ledger::{Pass, PassLedger},
         snapshot::hash_bytes,
-        state::{AirGrid, Clock, ParticleStore, Rates, Rock, Setup, SleepState, SolverState},
+        state::{AirGrid, Clock, Elements, ParticleStore, Rock, Setup, SleepState, SolverState},
     },
 };
 use bevy::platform::time::Instant;
@@ -77,12 +77,12 @@ pub(super) fn wake_blown(
     mut sleep: ResMut<SleepState>,
     mut particles: ResMut<ParticleStore>,
     air: Res<AirGrid>,
-    rates: Res<Rates>,
+    elements: Res<Elements>,
     setup: Res<Setup>,
     mut ledger: ResMut<PassLedger>,
 ) {
     let start = Instant::now();
-    let drag = rates.drag.iter().copied().fold(0.0, f32::max);
+    let drag = elements.drag.iter().copied().fold(0.0, f32::max);
     sleep.wake_blown(&mut particles, &air, drag, setup.domain.gravity);
     // It looks at the air over the bodies, and at no particle.
     ledger.note(Pass::Sleep, 0, start.elapsed());

@@ -1,19 +1,13 @@
 //! The stages of a substep.
 
 use crate::{
-    kernel::{
-        air::Rousing,
-        forces::{self, DragTable},
-        parallel::Team,
-        params::Preset,
-        pbf, predict, predictor, velocity,
-    },
+    kernel::{air::Rousing, forces, parallel::Team, params::Preset, pbf, predict, predictor, velocity},
     scene::blueprint::{Effect, Mode},
     sim::{
         effects::Effects,
         ledger::{Pass, PassLedger},
         stages::TickPlan,
-        state::{AirGrid, Counters, ParticleStore, PredictorState, Rates, Rock, Setup, SolverState, Sources},
+        state::{AirGrid, Counters, Elements, ParticleStore, PredictorState, Rock, Setup, SolverState, Sources},
         workers::Workers,
     },
 };
@@ -68,7 +62,7 @@ pub(super) fn apply_gravity(
 pub(super) fn apply_drag(
     mut particles: ResMut<ParticleStore>,
     mut air: ResMut<AirGrid>,
-    rates: Res<Rates>,
+    elements: Res<Elements>,
     solver: Res<SolverState>,
     effects: Res<Effects>,
     rock: Res<Rock>,
@@ -80,19 +74,18 @@ pub(super) fn apply_drag(
     let (dt, feedback) = (plan.substep_seconds(), effects.get(Effect::AirFeedback));
     if feedback.running && effects.get(Effect::Air).running {
         air.build(&rock);
-        let drag = DragTable { rates: &rates.drag, masses: &rates.mass };
         let rousing = if feedback.mode == Mode::On { Rousing::Breaths } else { Rousing::Gusts };
         let instructions = solver.instructions;
         workers.run_for(particles.len(), |threads| {
-            air.meet(drag, &particles, rousing, Team { instructions, threads }, dt);
+            air.meet(&elements, &particles, rousing, Team { instructions, threads }, dt);
         });
         ledger.note(Pass::Feedback, particles.len() as u64, start.elapsed());
         let start = Instant::now();
-        workers.run_for(particles.len(), |threads| air.drag_along(drag, &mut particles, threads, dt));
+        workers.run_for(particles.len(), |threads| air.drag_along(&elements, &mut particles, threads, dt));
         ledger.note(Pass::Drag, particles.len() as u64, start.elapsed());
         return;
     }
-    workers.run_for(particles.len(), |threads| forces::apply_drag(&air, &rates.drag, &mut particles, threads, dt));
+    workers.run_for(particles.len(), |threads| forces::apply_drag(&air, &elements, &mut particles, threads, dt));
     ledger.note(Pass::Drag, particles.len() as u64, start.elapsed());
 }
 
@@ -212,7 +205,7 @@ pub(super) fn update_velocities(
 pub(super) fn apply_viscosity(
     mut particles: ResMut<ParticleStore>,
     mut solver: ResMut<SolverState>,
-    rates: Res<Rates>,
+    elements: Res<Elements>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
@@ -221,7 +214,7 @@ pub(super) fn apply_viscosity(
     let start = Instant::now();
     let dt = plan.substep_seconds();
     let report = workers.run_for(particles.len(), |threads| {
-        velocity::apply_viscosity(&mut particles, &mut solver, &rates.viscosity, threads, dt)
+        velocity::apply_viscosity(&mut particles, &mut solver, &elements, threads, dt)
     });
     counters.strength_clamps += report.clamps;
     ledger.note(Pass::Viscosity, particles.len() as u64, start.elapsed());
@@ -231,7 +224,7 @@ pub(super) fn apply_viscosity(
 pub(super) fn apply_vorticity(
     mut particles: ResMut<ParticleStore>,
     mut solver: ResMut<SolverState>,
-    rates: Res<Rates>,
+    elements: Res<Elements>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
@@ -240,7 +233,7 @@ pub(super) fn apply_vorticity(
     let start = Instant::now();
     let dt = plan.substep_seconds();
     let report = workers.run_for(particles.len(), |threads| {
-        velocity::apply_vorticity(&mut particles, &mut solver, &rates.vorticity, threads, dt)
+        velocity::apply_vorticity(&mut particles, &mut solver, &elements, threads, dt)
     });
     counters.strength_clamps += report.clamps;
     ledger.note(Pass::Vorticity, particles.len() as u64, start.elapsed());
