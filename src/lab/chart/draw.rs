@@ -1,6 +1,6 @@
 //! Draws a chart. All is placed in pixels on axes that are linear in what they show: values or their logarithms.
 
-use super::{Axis, Chart, Look, Point, Scale, Series};
+use super::types::{Axis, Chart, Look, Point, Scale, Series};
 use crate::sim::numbers;
 use plotters::{
     coord::{
