@@ -1,11 +1,8 @@
-//! Hands work to threads: pieces of arrays, and groups with the outputs that belong to them.
+//! Hands work to threads: pieces of arrays and rows of grids.
 //!
 //! What an entry gets never depends on where the pieces are cut, so the number of threads does not show in the result.
 
-use crate::{
-    bins::Group,
-    simd::{InstructionSet, Lanes, Pass},
-};
+use crate::simd::{InstructionSet, Lanes, Pass};
 use std::{
     ops::Range,
     sync::atomic::{AtomicBool, Ordering},
@@ -13,8 +10,6 @@ use std::{
 
 /// Pieces a thread: some are denser than others, so there is something left to steal.
 const PIECES_PER_THREAD: usize = 4;
-/// Fewer groups than this a piece do not pay for handing it over (a hand-over costs some microseconds).
-const FEWEST_GROUPS: usize = 64;
 /// Pieces of arrays begin at multiples of this, so that lanes stay full.
 const ALIGNMENT: usize = 16;
 
@@ -35,42 +30,6 @@ pub(crate) fn fork<P: Parts>(part: P, most: usize, run: &(impl Fn(P) + Sync)) {
     }
     let (left, right) = part.halve();
     rayon::join(|| fork(left, most, run), || fork(right, most, run));
-}
-
-/// Runs `work` over pieces of `groups`, on up to `threads` threads of the current rayon pool. Each call gets its groups,
-/// the index of their first particle, and the outputs from that particle on, up to its last.
-pub(crate) fn split<const K: usize, T, F>(groups: &[Group], outputs: [&mut [T]; K], threads: usize, work: &F)
-where
-    T: Send,
-    F: Fn(&[Group], usize, [&mut [T]; K]) + Sync,
-{
-    let most = piece(groups.len(), threads, FEWEST_GROUPS);
-    fork(GroupParts { groups, base: 0, outputs }, most, &|part: GroupParts<K, T>| {
-        work(part.groups, part.base, part.outputs);
-    });
-}
-
-/// Groups with what belongs to their particles, the first of which is number `base`.
-struct GroupParts<'a, const K: usize, T> {
-    groups: &'a [Group],
-    base: usize,
-    outputs: [&'a mut [T]; K],
-}
-
-impl<const K: usize, T: Send> Parts for GroupParts<'_, K, T> {
-    fn size(&self) -> usize {
-        self.groups.len()
-    }
-
-    fn halve(self) -> (Self, Self) {
-        let (left, right) = self.groups.split_at(self.groups.len() / 2);
-        let boundary = right[0].first as usize;
-        let (left_outputs, right_outputs) = cut(self.outputs, boundary - self.base);
-        (
-            Self { groups: left, base: self.base, outputs: left_outputs },
-            Self { groups: right, base: boundary, outputs: right_outputs },
-        )
-    }
 }
 
 /// Entries that are worth a piece of their own where each takes some nanoseconds; lighter work wants more.

@@ -47,7 +47,7 @@ fn each_layer_uses_only_those_below_it() {
 }
 
 /// Files in cycles that are known, by layer: to become fewer until there are none.
-const KNOWN: &[(&str, usize)] = &[("cli", 4), ("game", 34), ("kernel", 31), ("lab", 39), ("scene", 2), ("sim", 10)];
+const KNOWN: &[(&str, usize)] = &[("cli", 4), ("game", 34), ("kernel", 0), ("lab", 39), ("scene", 2), ("sim", 10)];
 
 #[test]
 fn no_files_depend_on_each_other() {

@@ -19,11 +19,14 @@
 //! Rock and tiles that sleep are air at rest that doesn't yield, as in plain drag. A sleeping tile wakes when one of its
 //! cells would get a speed above [`QUIET_MACH`].
 
-use super::grid::Air;
-use super::sample::Stencil;
-use super::step::QUIET_MACH;
+use super::{
+    grid::Air,
+    meetings::{Feedback, Meeting},
+    rooms::QUIET_MACH,
+    sample::{Stencil, split},
+};
 use crate::{
-    blocks::{Blocks, Reach},
+    blocks::Reach,
     element::{ElementId, ElementParams},
     parallel::{Rows, Sweep, Team, WORTH_A_PIECE, spread, sweep},
     particles::{Particles, extent},
@@ -36,29 +39,7 @@ const WORTH_RESOLVING: usize = 8192;
 /// A drag per substep past which a particle has the wind's velocity, whatever the rounding.
 const UTTER: f32 = 1.0e30;
 
-/// Of a cell: the momentum that it meets, x and y, the mass that brings it, kg/m² d²; then its new velocity, d/s.
-type Meeting = [f32; 4];
-
-/// Buffers of the exchange, of which nothing is kept from one to the next.
-#[derive(Debug, Default)]
-pub(super) struct Feedback {
-    blocks: Blocks,
-    /// Columns that any particle reaches, counted with the ring.
-    columns: Range<usize>,
-    /// One entry a cell, with the ring. Beyond the rows and columns that are reached it is left from before.
-    meetings: Vec<Meeting>,
-    /// Tiles that don't sleep.
-    active: Vec<bool>,
-}
-
-impl Feedback {
-    /// Bytes held.
-    pub(super) fn memory_bytes(&self) -> usize {
-        self.blocks.memory() + self.meetings.capacity() * size_of::<Meeting>() + self.active.capacity()
-    }
-}
-
-/// Particles to a d² that a gate reckons with: twice as many as there are in water.
+/// Particles to a d² that a gate counts on: twice as many as there are in water.
 const CROWD: f32 = 2.0;
 
 /// When particles wake air that sleeps.
@@ -80,7 +61,7 @@ struct Along {
 impl Reach for Along {
     #[inline(always)]
     fn rows(self, y: f32) -> [u32; 2] {
-        let (row, _) = super::sample::split(y, self.per_cell, self.last);
+        let (row, _) = split(y, self.per_cell, self.last);
         [row as u32 + 1, row as u32 + 3]
     }
 }

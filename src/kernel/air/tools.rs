@@ -1,7 +1,10 @@
 //! Fans, which a scene has, and the hand of the player: wind, pressure, a fresh start.
 
-use super::grid::{Air, MAX_PRESSURE, MAX_SPEED, Peaks};
-use super::step::AirReport;
+use super::{
+    grid::{Air, MAX_PRESSURE, MAX_SPEED},
+    pressure::Peaks,
+    report::AirReport,
+};
 use crate::{
     brush::soft_disc,
     sources::{Rect, Wind},

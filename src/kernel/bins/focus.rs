@@ -1,6 +1,9 @@
 //! Where the liquid is still too dense: the groups that the solver iterates again.
 
-use crate::bins::{ALL_LANES, Group, cells::CellGrid};
+use crate::bins::{
+    cells::CellGrid,
+    group::{ALL_LANES, Group},
+};
 use std::ops::Range;
 
 /// Densities that are looked at together: most are fine.

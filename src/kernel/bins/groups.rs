@@ -1,7 +1,12 @@
 //! Runs of sorted particles that the passes work on side by side, with the runs of what may touch any of them.
 
 use crate::{
-    bins::{ALL_LANES, Group, Run, cells::CellGrid, rock::RockBins, sort::Sort},
+    bins::{
+        cells::CellGrid,
+        group::{ALL_LANES, Group, Run},
+        rock::RockBins,
+        sort::Sort,
+    },
     parallel::{Parts, fork, piece},
 };
 

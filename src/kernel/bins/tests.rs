@@ -1,7 +1,10 @@
-//! Nobody within reach is missed, and everybody is in one group.
+//! No particle within reach is missed, and each is in one group.
 
-use super::*;
-use crate::{element::ElementId, pbf::tests::random_numbers};
+use super::{Bins, Neighbours, Strip, cells::CellGrid, search::MARGIN_ROUNDING};
+use crate::{
+    element::ElementId, particles::Particles, pbf::tests::random_numbers, simd::InstructionSet, solids::Solids,
+};
+use glam::Vec2;
 
 fn scattered(n: usize, size: Vec2) -> Particles {
     let mut random = random_numbers(12345);

@@ -16,8 +16,7 @@ mod limit;
 pub(crate) mod tests;
 
 use crate::{
-    bins::{Bins, Group, Neighbours, RockBins, Strip},
-    parallel,
+    bins::{self, Bins, Group, Neighbours, RockBins, Strip},
     params::{Domain, FluidParams, GradientKernel, Quality},
     particles::Particles,
     predictor::TARGET_DENSITY,
@@ -274,7 +273,7 @@ struct Iteration<'a> {
 impl Iteration<'_> {
     fn find_lambda<G: Gradient>(&self, lambda: &mut [f32], density: &mut [f32]) {
         let Self { groups, rock, smoothing, instructions, params, at: [x, y], .. } = *self;
-        parallel::split(groups, [lambda, density], params.threads, &|groups, base, [lambda, density]| {
+        bins::split(groups, [lambda, density], params.threads, &|groups, base, [lambda, density]| {
             instructions.run(ConstraintPass::<G> {
                 smoothing,
                 domain: params.domain,
@@ -300,7 +299,7 @@ impl Iteration<'_> {
         next: [&mut [f32]; 2],
     ) {
         let Self { groups, rock, smoothing, instructions, params, anchor, at: [x, y] } = *self;
-        parallel::split(groups, next, params.threads, &|groups, base, next| {
+        bins::split(groups, next, params.threads, &|groups, base, next| {
             instructions.run(CorrectionPass::<G, TENSION, APART> {
                 smoothing,
                 domain: params.domain,

@@ -9,9 +9,8 @@
 //! As `Σ m/ρ_j W ≈ 1`, the bound is **`c Δt/tick ≤ 1`**. A coefficient beyond it is cut to it, and counted.
 
 use crate::{
-    bins::Group,
+    bins::{self, Group},
     element::{ElementId, ElementParams},
-    parallel,
     particles::Particles,
     pbf::Solver,
     simd::{Lanes, Pass},
@@ -41,7 +40,7 @@ pub fn apply_viscosity(
     let report = StrengthReport::of(&particles.element, coefficients, most);
     let Solver { bins, smoothing, instructions, density, next_x, next_y, .. } = solver;
     let read = &*particles;
-    parallel::split(bins.groups(), [&mut next_x[..], &mut next_y[..]], threads, &|groups, base, out| {
+    bins::split(bins.groups(), [&mut next_x[..], &mut next_y[..]], threads, &|groups, base, out| {
         instructions.run(ViscosityPass {
             smoothing,
             particles: read,

@@ -17,9 +17,8 @@
 //! the longest move of a substep; one beyond it is cut to it, and counted.
 
 use crate::{
-    bins::Group,
+    bins::{self, Group},
     element::ElementParams,
-    parallel,
     params::GradientKernel,
     particles::Particles,
     pbf::Solver,
@@ -78,12 +77,12 @@ fn confine<G: Gradient>(
     // ω lives in the array of λ, which is free between two solves.
     let Solver { bins, smoothing, instructions, next_x, next_y, lambda: vorticity, .. } = solver;
     let read = &*particles;
-    parallel::split(bins.groups(), [&mut vorticity[..]], threads, &|groups, base, [out]| {
+    bins::split(bins.groups(), [&mut vorticity[..]], threads, &|groups, base, [out]| {
         let gradient = PhantomData::<G>;
         instructions.run(CurlPass { smoothing, particles: read, groups, base, out, gradient });
     });
     let outputs = [&mut next_x[..], &mut next_y[..]];
-    parallel::split(bins.groups(), outputs, threads, &|groups, base, out| {
+    bins::split(bins.groups(), outputs, threads, &|groups, base, out| {
         let gradient = PhantomData::<G>;
         let mut own_cuts = 0;
         instructions.run(ConfinementPass {

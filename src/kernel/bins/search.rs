@@ -1,41 +1,24 @@
-//! Binned neighbour search: strips as high as the search reaches, cut into thin columns.
-//!
-//! Particles are counting-sorted by cell (row by row), so that whatever may touch a run of consecutive particles lies in
-//! three contiguous runs, one in each of three strips. Runs of consecutive particles are the groups that the passes work
-//! on side by side. Rock is binned into the same cells, once for every change of the rock.
-//!
-//! The search reaches further than the kernel by a margin: particles move on while the solver iterates, and each may move
-//! by the correction limit. So no pair is missed, and since pairs beyond the kernel add exact zeros, neither the width of
-//! a group nor the search itself shows in the result.
-//!
-//! Rooms: `cells` the geometry, `sort` the particles, `strip` those of a row of cells, `groups`, `focus` those that are iterated again, `rock`.
-
-mod cells;
-mod focus;
-mod groups;
-mod rock;
-mod sort;
-mod strip;
-#[cfg(test)]
-mod tests;
-
-pub use rock::RockBins;
-pub(crate) use strip::Strip;
+//! The search as a whole: sorts the particles and cuts them into groups.
 
 use crate::{
+    bins::{
+        cells::CellGrid,
+        focus::Focus,
+        group::{ALL_LANES, Group, Run},
+        groups::{Cutter, StripGroups},
+        rock::RockBins,
+        sort::Sort,
+        strip::Strip,
+    },
     particles::Particles,
-    simd::{InstructionSet, Lanes},
+    simd::InstructionSet,
     solids::Solids,
 };
-use cells::CellGrid;
-use focus::Focus;
 use glam::Vec2;
-use groups::{Cutter, StripGroups};
-use sort::Sort;
 use std::ops::Range;
 
 /// Rounding allowance of the search margin, d.
-const MARGIN_ROUNDING: f32 = 1e-3;
+pub(super) const MARGIN_ROUNDING: f32 = 1e-3;
 /// The buffer of groups has one in so many to spare: their number changes a little from tick to tick.
 const SPARE_GROUPS: usize = 8;
 
@@ -49,69 +32,10 @@ pub enum Neighbours {
     Brute,
 }
 
-/// [`Group::lanes`] of a group of which all are worked on.
-pub(crate) const ALL_LANES: u16 = u16::MAX;
-/// Most lanes of any instruction set.
-pub(crate) const MOST_LANES: usize = u16::BITS as usize;
-
-/// A run of consecutive particles with the runs of candidates that may touch any of them. 56 bytes.
-#[derive(Clone, Debug, Default)]
-pub struct Group {
-    /// First particle.
-    pub first: u32,
-    /// Lanes that are worked on, the lowest bit for the first particle; [`ALL_LANES`] for all that there are.
-    pub lanes: u16,
-    /// Number of particles, at most the lane width.
-    pub len: u8,
-    /// Whether the kernel of any of them may reach a wall of the box.
-    pub near_wall: bool,
-    /// Movable candidates, one run a strip.
-    pub movable: [Run; 3],
-    /// Rock candidates, one run a strip.
-    pub rock: [Run; 3],
-}
-
-/// A run of consecutive entries.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Run {
-    first: u32,
-    end: u32,
-}
-
-impl Run {
-    fn new(first: u32, end: u32) -> Self {
-        Self { first, end }
-    }
-
-    /// As a range of indices.
-    #[inline(always)]
-    pub fn range(self) -> Range<usize> {
-        self.first as usize..self.end as usize
-    }
-}
-
-impl Group {
-    /// The particles.
-    #[inline(always)]
-    pub fn particles(&self) -> Range<usize> {
-        self.first as usize..self.first as usize + usize::from(self.len)
-    }
-
-    /// `new` in the lanes that are worked on, `old()` in the others.
-    #[inline(always)]
-    pub(crate) fn choose<L: Lanes>(&self, new: L, old: impl FnOnce() -> L) -> L {
-        if self.lanes == ALL_LANES {
-            return new;
-        }
-        let chosen: [f32; MOST_LANES] = std::array::from_fn(|lane| f32::from(self.lanes >> lane & 1));
-        L::load(&chosen).if_less(L::splat(0.5), old(), new)
-    }
-}
-
 /// The cells, what is in them, and the groups. Buffers are kept from substep to substep.
 #[derive(Clone, Debug, Default)]
 pub struct Bins {
-    grid: CellGrid,
+    pub(super) grid: CellGrid,
     sort: Sort,
     strips: Vec<StripGroups>,
     groups: Vec<Group>,
@@ -152,7 +76,8 @@ impl Bins {
         }
     }
 
-    fn group(&mut self, x: &[f32], width: usize, threads: usize) {
+    /// Cuts the sorted particles into groups of up to `width`.
+    pub(super) fn group(&mut self, x: &[f32], width: usize, threads: usize) {
         let Self { grid, sort, strips, groups, rock, .. } = self;
         let cutter = Cutter { grid, starts: &sort.starts, rock, x, width };
         let count = cutter.count(sort, strips);
