@@ -4,10 +4,9 @@
 
 pub mod balance;
 pub mod binning;
+pub mod cases;
 pub mod coarse;
-mod crew;
 pub mod density;
-mod desk;
 mod drift;
 mod drive;
 pub mod exam;
@@ -15,6 +14,7 @@ pub mod exam;
 pub mod gating;
 pub mod gauntlet;
 pub mod headless;
+pub mod jobs;
 pub mod live;
 pub mod machine;
 mod markdown;

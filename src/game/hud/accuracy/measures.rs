@@ -1,9 +1,9 @@
 //! All measures of the running world: measured only while they are shown.
 
 use super::weak;
-use crate::sim::{
-    exam::figure,
-    measures::{Measured, Measures},
+use crate::{
+    lab::cases::figure,
+    sim::measures::{Measured, Measures},
 };
 use bevy_egui::egui::{self, Ui};
 
