@@ -5,7 +5,7 @@ use crate::{
         args::CaseArguments,
         failure::Failure,
         output::{self, STDOUT},
-        progress::StatusLine,
+        progress,
     },
     kernel::params::Preset,
     lab::{
@@ -17,7 +17,6 @@ use serde_json::json;
 use std::{
     io::Write,
     path::{Path, PathBuf},
-    sync::Mutex,
     thread::available_parallelism,
 };
 
@@ -27,13 +26,12 @@ pub(super) fn judge<C: Case>(arguments: &CaseArguments<C>) -> Result<(), Failure
     check_outputs(&[json.as_deref(), markdown.as_deref()])?;
     let threads = arguments.threads.map_or_else(|| available_parallelism().map_or(1, usize::from), |n| n as usize);
     let jobs = jobs(C::SUITE.cases, |case| arguments.wants(case), &arguments.presets());
-    let line = Mutex::new(StatusLine::new());
-    let rows = run_all(&jobs, threads, |done, of, job| {
-        if let Ok(line) = line.lock() {
-            line.say(&format!("{:3} %  {done} of {of}, {}", 100 * done / of, job.title()));
-        }
+    let bar = progress::bar(jobs.len() as u64);
+    let rows = run_all(&jobs, threads, |done, job| {
+        bar.set_position(done as u64);
+        bar.set_message(job.title());
     })?;
-    drop(line);
+    drop(bar);
     if let Some(path) = json {
         output::write_json(path, &json!({ "processor": processor(), "threads": threads, "rows": rows }))?;
     }

@@ -55,12 +55,12 @@ impl<C: Case> Job<C> {
     }
 }
 
-/// Runs all jobs, `threads` at a time, and gives their rows in the order of the jobs. `says` hears how many are done of
-/// how many, and which one is begun.
+/// Runs all jobs, `threads` at a time, and gives their rows in the order of the jobs. `says` hears how many are done,
+/// and which one is begun.
 pub fn run_all<C: Case>(
     jobs: &[Job<C>],
     threads: usize,
-    says: impl Fn(usize, usize, &Job<C>) + Sync,
+    says: impl Fn(usize, &Job<C>) + Sync,
 ) -> Result<Vec<Row<C::Figures>>, SceneError> {
     let results = pool::run(jobs, threads, Job::cost, says, |job| finish(job.run(), || true));
     let mut rows = Vec::new();

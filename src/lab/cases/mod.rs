@@ -17,5 +17,5 @@ pub use case::{About, Case, Column, Size, Suite};
 pub use job::{Job, jobs, run_all};
 pub use queue::{JobQueue, Progress, plugin};
 pub use report::{document, failure, summary, table};
-pub use row::{Figures, Row, Verdict, figure};
+pub use row::{Figures, Row, Verdict};
 pub use setting::{Over, Setting};

@@ -78,37 +78,3 @@ impl<F: Figures> Serialize for Row<F> {
         Flat { case: self.case, verdict: self.verdict, setting, figures: &self.figures }.serialize(serializer)
     }
 }
-
-/// A number to four figures.
-pub fn figure(value: f64) -> String {
-    match value.abs() {
-        0.0 => "0".to_owned(),
-        size if !size.is_finite() => "none".to_owned(),
-        size if !(1e-3..1e5).contains(&size) => format!("{value:.1e}"),
-        size => {
-            let digits = (3 - size.log10().floor() as i32).clamp(0, 4) as usize;
-            let text = format!("{value:.digits$}");
-            if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn figures_have_four_digits_at_most() {
-        for (value, text) in [
-            (0.0, "0"),
-            (9.81, "9.81"),
-            (1.66666, "1.667"),
-            (-0.012345, "-0.0123"),
-            (12345.6, "12346"),
-            (2e-7, "2.0e-7"),
-            (f64::NAN, "none"),
-        ] {
-            assert_eq!(figure(value), text);
-        }
-    }
-}

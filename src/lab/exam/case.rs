@@ -3,10 +3,11 @@
 pub(super) use crate::lab::cases::{Over, Setting, Size};
 use crate::{
     lab::{
-        cases::{Figures, Verdict, figure},
+        cases::{Figures, Verdict},
         stage::Clockwork,
     },
     scene::SceneError,
+    sim::numbers::figure,
 };
 use serde::Serialize;
 use std::pin::Pin;

@@ -17,7 +17,7 @@ use crate::{
 fn the_quick_exam_is_passed_at_balanced() {
     let jobs = jobs(CASES, |case| case.size == Size::Quick, &[Preset::Balanced]);
     assert!(jobs.len() >= 5, "the quick exam is empty");
-    let rows = run_all(&jobs, 2, |_, _, _| {}).unwrap();
+    let rows = run_all(&jobs, 2, |_, _| {}).unwrap();
     let failed: Vec<&Row<Answer>> = rows.iter().filter(|row| row.verdict != Verdict::Pass).collect();
     assert!(failed.is_empty(), "{failed:#?}");
     assert!(rows.len() > jobs.len() && rows.iter().all(|row| row.figures.milliseconds > 0.0));
@@ -29,8 +29,8 @@ fn an_exam_has_the_same_rows_side_by_side_and_stopped_and_gone_on_with() {
     let answers = |rows: Vec<Row<Answer>>| {
         rows.into_iter().map(|row| (row.case, row.setting, row.figures.got.to_bits())).collect::<Vec<_>>()
     };
-    let alone = answers(run_all(&jobs, 1, |_, _, _| {}).unwrap());
-    assert_eq!(alone, answers(run_all(&jobs, 3, |_, _, _| {}).unwrap()));
+    let alone = answers(run_all(&jobs, 1, |_, _| {}).unwrap());
+    assert_eq!(alone, answers(run_all(&jobs, 3, |_, _| {}).unwrap()));
     let mut ticks = 0;
     let stopped = finish(jobs[0].run(), || {
         ticks += 1;
@@ -55,7 +55,7 @@ fn answer(got: f64) -> Run {
 #[test]
 fn beyond_the_tolerance_is_a_miss_at_low_qualities_and_a_failure_from_balanced_on() {
     use Verdict::{Fail, Miss, Pass};
-    let rows = run_all(&jobs(&TOLD, |_| true, &Preset::ALL), 1, |_, _, _| {}).unwrap();
+    let rows = run_all(&jobs(&TOLD, |_| true, &Preset::ALL), 1, |_, _| {}).unwrap();
     let verdicts: Vec<Verdict> = rows.iter().map(|row| row.verdict).collect();
     let beyond = [Miss, Miss, Miss, Fail, Fail, Fail];
     // What is no number is beyond every tolerance.

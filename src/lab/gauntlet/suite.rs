@@ -2,7 +2,7 @@
 
 use crate::{
     lab::{
-        cases::{About, Case, Column, Row, Setting, Suite, Verdict, figure},
+        cases::{About, Case, Column, Row, Setting, Suite, Verdict},
         gauntlet::{
             CASES, GauntletCase, Stability,
             judge::{Judge, Totals},
@@ -10,6 +10,7 @@ use crate::{
         stage::{Clockwork, Stage},
     },
     scene::SceneError,
+    sim::numbers::figure,
 };
 
 impl Case for GauntletCase {

@@ -15,7 +15,7 @@ use bevy::{ecs::world::World, prelude::Mut};
 use glam::Vec2;
 
 fn run(case: &'static [GauntletCase], presets: &[Preset]) -> Vec<Row<Stability>> {
-    run_all(&jobs(case, |_| true, presets), 2, |_, _, _| {}).unwrap()
+    run_all(&jobs(case, |_| true, presets), 2, |_, _| {}).unwrap()
 }
 
 /// A debug build, which takes ten times as long, runs the quick cases at one quality; a release build runs every case but
@@ -26,7 +26,7 @@ fn every_case_holds() {
         true => (Size::Quick, &[Preset::Balanced][..]),
         false => (Size::Usual, &Preset::ALL[..]),
     };
-    let rows = run_all(&jobs(CASES, |case| case.size <= most, presets), 2, |_, _, _| {}).unwrap();
+    let rows = run_all(&jobs(CASES, |case| case.size <= most, presets), 2, |_, _| {}).unwrap();
     let failed: Vec<String> = (rows.iter().filter(|row| row.verdict == Verdict::Fail))
         .map(|row| format!("{} at {}: {}", row.case, row.setting, row.figures.broken.join("; ")))
         .collect();
@@ -77,7 +77,7 @@ fn any_two_knobs_meet_at_both_ends() {
 fn a_row_is_the_same_side_by_side_and_alone_but_for_its_times() {
     let jobs = jobs(CASES, |case| ["shots", "suction"].contains(&case.name), &[Preset::Draft, Preset::Fast]);
     let timeless = |side_by_side| {
-        let rows = run_all(&jobs, side_by_side, |_, _, _| {}).unwrap();
+        let rows = run_all(&jobs, side_by_side, |_, _| {}).unwrap();
         let timeless = |row: Row<Stability>| Row {
             figures: Stability { ms_median: 0.0, ms_max: 0.0, ms_total: 0.0, ..row.figures },
             ..row

@@ -1,9 +1,9 @@
 //! All measures of the running world: measured only while they are shown.
 
 use super::weak;
-use crate::{
-    lab::cases::figure,
-    sim::measures::{Measured, Measures},
+use crate::sim::{
+    measures::{Measured, Measures},
+    numbers::figure,
 };
 use bevy_egui::egui::{self, Ui};
 

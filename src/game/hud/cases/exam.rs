@@ -5,9 +5,7 @@ use crate::{
         hud::{
             HudState,
             cases::window::{Panel, mark},
-            icons,
-            stats::grouped,
-            style,
+            icons, style,
         },
         orders::Order,
     },
@@ -15,7 +13,7 @@ use crate::{
         cases::{Row, Verdict},
         exam::{Answer, ExamCase},
     },
-    sim::state::Setup,
+    sim::{numbers::grouped, state::Setup},
 };
 use bevy_egui::egui::{self, Align2, Color32, RichText, Ui, pos2, vec2};
 

@@ -3,7 +3,7 @@
 use crate::{
     kernel::{
         element::{Element, ElementId, ElementTable},
-        pbf::{mix, unit},
+        random::{mix, unit},
     },
     scene::blueprint::Blueprint,
     sim::{
