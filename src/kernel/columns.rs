@@ -20,13 +20,13 @@ pub trait Column: Copy + Default + Send + Sync {
         true
     }
 
-    /// Room for a column of this type.
+    /// The buffer for columns of this type.
     #[doc(hidden)]
     fn spare<'a>(spares: &'a mut Spares) -> &'a mut Vec<Self>;
 }
 
-/// Room for a column of each type, in which it is brought into another order. It is swapped with the column, so what it
-/// holds afterwards is the column as it was.
+/// A buffer for a column of each type, in which it is brought into another order. It is swapped with the column, so it then
+/// holds the column as it was.
 #[derive(Debug)]
 pub struct Spares<'a> {
     pub(crate) floats: &'a mut Vec<f32>,

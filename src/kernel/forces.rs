@@ -48,8 +48,8 @@ pub fn apply_drag(air: &Air, elements: &ElementParams, particles: &mut Particles
     });
 }
 
-/// Drags the particles in a soft disc as [`apply_drag`] would in air that has `wind` (d/s) for `dt` s and yields to
-/// nobody: all of it at `centre` (d), nothing from `radius` (d) on ([`soft_disc`]).
+/// Drags the particles in a soft disc as [`apply_drag`] would in air that has `wind` (d/s) for `dt` s and does
+/// not yield: all of it at `centre` (d), nothing from `radius` (d) on ([`soft_disc`]).
 pub fn drag_in_disc(
     centre: Vec2,
     radius: f32,

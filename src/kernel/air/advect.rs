@@ -15,7 +15,7 @@
 //! A closed face has f = 0, so a share that would enter rock stays where it is. A diagonal share needs both faces of its
 //! cell open; if the cell across is rock, the two cells beside it take half each. Nothing slips through a diagonal wall.
 //! `κ s (p₀ − p₁)`, s = c·dt/cell, is a little of what the exact solution of the face's own wave would add; without it a
-//! pressure that alternates from cell to cell pushes nobody and stays for ever.
+//! pressure that alternates from cell to cell pushes nothing and stays for ever.
 //!
 //! All shares are ≥ 0 and sum to 1, hence mass and momentum are conserved and pressure stays ≥ 0; a new velocity is a
 //! mean of old ones, hence no speed and no kinetic energy grows here.

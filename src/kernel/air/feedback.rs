@@ -226,7 +226,7 @@ impl Sweep<Rows<'_, Meeting>> for Agree<'_> {
             for (i, meeting) in meetings[columns.clone()].iter_mut().enumerate() {
                 let [x, y, load, _] = *meeting;
                 let mass = p[i] * cell_mass;
-                // Rock and what nobody meets stay as they are.
+                // Rock and cells without particles stay as they are.
                 let yields = load > 0.0 && !solid[i];
                 let per_mass = 1.0 / if yields { mass + load } else { 1.0 };
                 *meeting = if yields {

@@ -25,7 +25,7 @@ use std::borrow::Cow;
 /// sums of pressure stay exact in f32.
 pub const MAX_PRESSURE: f32 = 1.0e6;
 
-/// Highest speed along an axis that a tool or a fan can set, d/s. Changing this affects nothing that a step can follow:
+/// Highest speed along an axis that a tool or a wind can set, d/s. Changing this affects nothing that a step can follow:
 /// its own limit is lower.
 pub const MAX_SPEED: f32 = 1.0e6;
 
@@ -274,7 +274,7 @@ impl Air {
         }
     }
 
-    /// The air with its grid, for those who want to look at every cell.
+    /// The air with its grid, for callers that look at every cell.
     pub fn with_grid(&self, solids: &Solids) -> Cow<'_, Self> {
         if self.is_built() {
             return Cow::Borrowed(self);

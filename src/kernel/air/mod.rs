@@ -22,7 +22,7 @@
 //! | `tiles` | which parts are stepped and which sleep | awake tiles, fences in `Shape` | all |
 //! | `step`, `report` | counts substeps, orders the passes, puts quiet air to rest | | |
 //! | `feedback`, `meetings` | what particles give the air, and the air them | velocity | particles, pressure |
-//! | `tools` | fans and the player's air tools | velocity, pressure | |
+//! | `tools` | winds of the scene and the player's air tools | velocity, pressure | |
 //! | `walls` | rock that comes and goes | solid cells, pressure | `Solids` |
 //! | `sample`, `measure`, `resize` | values at points, sums, another cell size | | all |
 

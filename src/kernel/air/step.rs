@@ -65,7 +65,7 @@ impl Air {
     }
 
     /// Moves the air on by `dt` (s) in as many substeps as the scheme calls for. `team` changes the time it takes and not a
-    /// bit of the result. Quiet air that no fan drives is left untouched, as is air that is not built.
+    /// bit of the result. Quiet air that no wind drives is left untouched, as is air that is not built.
     pub fn step(&mut self, winds: &[Wind], scheme: AirScheme, team: Team, dt: f32) -> AirReport {
         debug_assert!(dt.is_finite() && scheme.courant.is_finite());
         let mut report = std::mem::take(&mut self.pending);
@@ -98,7 +98,7 @@ impl Air {
             self.refresh_outside(&scratch.watch.active, substep.sound_speed);
             peaks = self.substep(substep, scheme.advection, &shape, &mut scratch, team);
             self.settle_edges(&scratch.watch.active, substep.sound_speed, substep.dt);
-            peaks = peaks.max(self.blow_fans(winds, substep.dt, &mut report));
+            peaks = peaks.max(self.blow_winds(winds, substep.dt, &mut report));
             report.substeps += 1;
             report.worked += scratch.watch.cells() as u64;
             left -= substep.dt;

@@ -1,7 +1,7 @@
 //! Tiles: the air sleeps by parts.
 //!
 //! A tile is **awake** when a speed in it, or the difference of a pressure to that at which its room comes to rest, is
-//! above [`QUIET_MACH`] of the speed of sound or of that pressure; when a fan blows in it; or when something has just
+//! above [`QUIET_MACH`] of the speed of sound or of that pressure; when a wind blows in it; or when something has just
 //! touched it. The awake tiles and those around them, sideways and across corners, are **active**: they are stepped. All
 //! others sleep: their air stands still at the pressures that it had, so that no mass comes or goes.
 //!
@@ -81,7 +81,7 @@ impl Air {
             for tile in (0..tiling.count()).filter(|tile| watch.looked_at[*tile]) {
                 self.awake[tile] = self.is_stirred(tile, &watch.rest);
             }
-            self.wake_fans(winds);
+            self.wake_winds(winds);
         }
         let Watch { active, blocks, looked_at, next_active, .. } = watch;
         tiling.widen(&self.awake, next_active);

@@ -44,9 +44,9 @@ pub struct Bins {
 }
 
 impl Bins {
-    /// Lays the cells over a box of `size` d for a kernel of radius `radius` d whose particles may each move by
+    /// Fits the cells to a box of `size` d for a kernel of radius `radius` d whose particles may each move by
     /// `longest_correction` d while they are binned, and bins the rock if it or the cells changed.
-    pub fn lay(&mut self, size: Vec2, radius: f32, longest_correction: f32, solids: &Solids) {
+    pub fn resize(&mut self, size: Vec2, radius: f32, longest_correction: f32, solids: &Solids) {
         self.grid = CellGrid::new(size, radius + 2.0 * longest_correction + MARGIN_ROUNDING);
         self.rock.follow(&self.grid, solids);
     }
@@ -57,7 +57,7 @@ impl Bins {
     }
 
     /// Sorts the particles by cell and builds the groups over them, as wide as the lanes. Within a cell the order stays.
-    /// `spare` is room for a column of numbers; `settle` may then change the positions of each strip.
+    /// `spare` is a buffer for a column of numbers; `settle` may then change the positions of each strip.
     pub(crate) fn bin(
         &mut self,
         particles: &mut Particles,

@@ -38,7 +38,7 @@ pub(super) struct Sort {
     pub starts: Vec<u32>,
     /// Columns near particles.
     columns: Range<usize>,
-    /// Cell of each particle in the order from before; then room to reorder a column.
+    /// Cell of each particle in the order from before; then a buffer to reorder a column.
     keys: Vec<u32>,
     /// Lowest and highest cell in each block of particles.
     blocks: Vec<[u32; 2]>,
@@ -72,7 +72,7 @@ impl Sort {
         }
     }
 
-    /// Brings all columns of the particles into the order that was found. `floats` is room for one of them, and is left with
+    /// Brings all columns of the particles into the order that was found. `floats` is a buffer for one of them, and is left with
     /// what one of them held.
     pub fn reorder(&mut self, particles: &mut Particles, floats: &mut Vec<f32>, threads: usize) {
         let Self { source, keys: words, spare_elements: elements, .. } = self;

@@ -8,7 +8,7 @@ const CROWDED: [f32; 2] = [1.5, 2.0];
 /// The correction limit of each particle, by its density.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct CorrectionLimit {
-    /// Of who is not crowded, d along each axis.
+    /// Of a particle that is not crowded, d along each axis.
     usual: f32,
     /// What the most crowded may go further, d.
     further: f32,

@@ -63,7 +63,7 @@ pub struct Solver {
     /// Outputs of a pass.
     pub(crate) next_x: Vec<f32>,
     pub(crate) next_y: Vec<f32>,
-    /// Output of a pass, and room for the sort.
+    /// Output of a pass, and a buffer of the sort.
     pub(crate) lambda: Vec<f32>,
     /// Limit of the last corrections; none before the first.
     pub(crate) limit: Option<CorrectionLimit>,
@@ -157,7 +157,7 @@ impl Solver {
             self.smoothing = Smoothing::new(quality.kernel_radius, quality.gradient);
         }
         let Self { bins, instructions, neighbours, lambda, .. } = self;
-        bins.lay(domain.size, quality.kernel_radius, quality.longest_correction(), solids);
+        bins.resize(domain.size, quality.kernel_radius, quality.longest_correction(), solids);
         let set_apart = AtomicU64::new(0);
         let settle = |strip: Strip| separate_coincident(strip, *instructions, domain, solids, &set_apart);
         let mut bin = |bins: &mut Bins, particles: &mut Particles| {
@@ -178,10 +178,10 @@ impl Solver {
     }
 
     /// By how much of its correction limit the last substep moved the particle that is number `i` and `at` now; `None` if
-    /// it was not solved, as those that sleep. Of particles that came or went since it knows nothing, either: who is
-    /// further from there than any correction leads is another one.
+    /// it was not solved, as those that sleep. Nor of particles that came or went since: one that is further from there than
+    /// any correction leads is another one.
     pub fn correction_share(&self, i: usize, at: Vec2) -> Option<f32> {
-        // Who sleeps is in front, with a density but without a prediction.
+        // Sleepers are in front, with a density but without a prediction.
         let k = i.checked_sub(self.density.len().checked_sub(self.x.len())?)?;
         let predicted = Vec2::new(*self.x.get(k)?, *self.y.get(k)?);
         let share = (at - predicted).abs().max_element() / self.limit?.at(self.density[i]);

@@ -1,6 +1,6 @@
 //! What has been calm for a second falls asleep.
 
-use super::{Sleep, TURNS};
+use super::{CHANGES, Sleep};
 use crate::{particles::Particles, units::TICK_SECONDS};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
@@ -55,7 +55,7 @@ impl Sleep {
     /// Looks at the particles that are awake, and lets the bodies sleep that have been calm long enough. `density` goes
     /// with the particles where it is theirs; the rock is of version `rock_version`. Returns how many fell asleep.
     pub fn watch(&mut self, particles: &mut Particles, density: &mut [f32], size: Vec2, rock_version: u64) -> usize {
-        self.lay(size);
+        self.resize(size);
         self.rock = rock_version;
         self.look(particles);
         let Self { grid, record, tally, flags, waiting, body, .. } = &mut *self;
@@ -83,7 +83,7 @@ impl Sleep {
             }
             if looks >= LOOKS {
                 falls_asleep = true;
-                body.iter().for_each(|&tile| flags[tile as usize] |= TURNS);
+                body.iter().for_each(|&tile| flags[tile as usize] |= CHANGES);
             }
         }
         if falls_asleep { self.let_sleep(particles, density) } else { 0 }
@@ -105,7 +105,7 @@ impl Sleep {
         empty.for_each(|(calm, _)| *calm = Calm::default());
     }
 
-    /// Puts what is in the tiles that turn behind the sleepers, at rest.
+    /// Puts what is in the marked tiles behind the sleepers, at rest.
     fn let_sleep(&mut self, particles: &mut Particles, density: &mut [f32]) -> usize {
         let (before, is_known) = (self.asleep(), density.len() == particles.len());
         self.room.clear();
@@ -113,7 +113,7 @@ impl Sleep {
         let mut end = before;
         for i in before..particles.len() {
             let own = if is_known { density[i] } else { 1.0 };
-            if self.flags[self.grid.tile(particles.x[i], particles.y[i])] & TURNS != 0 {
+            if self.flags[self.grid.tile(particles.x[i], particles.y[i])] & CHANGES != 0 {
                 particles.copy(i, end);
                 (particles.vx[end], particles.vy[end]) = (0.0, 0.0);
                 self.density.push(own);

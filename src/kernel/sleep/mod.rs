@@ -14,7 +14,7 @@
 //!
 //! What wakes: an awake particle in a tile of the body or beside it ([`Sleep::wake_touched`], looked at before the first
 //! substep and in each after the prediction, before the solver looks for neighbours), wind ([`Sleep::wake_blown`]), any
-//! change of the sleepers themselves, as by a brush or an outlet ([`Sleep::check`]), and for all of them a change of the
+//! change of the sleepers themselves, as by a brush or a drain ([`Sleep::check`]), and for all of them a change of the
 //! rock, of gravity, of the quality or of the effects ([`Sleep::keep_under`]).
 
 mod falling;
@@ -61,9 +61,9 @@ const ASLEEP: u8 = 1;
 /// A tile of a sleeping body or beside one.
 const NEAR: u8 = 2;
 /// A tile of a body that is about to wake, or to fall asleep.
-const TURNS: u8 = 4;
+const CHANGES: u8 = 4;
 
-/// Who sleeps. Buffers are kept; without sleepers there is nothing in them that counts.
+/// Which particles sleep. Buffers are kept; where none sleeps, nothing in them counts.
 #[derive(Clone, Debug, Default)]
 pub struct Sleep {
     record: SleepRecord,
@@ -76,18 +76,18 @@ pub struct Sleep {
     /// Tiles of the body at hand.
     body: Vec<u32>,
     waiting: Vec<u32>,
-    /// The sleepers as they fell asleep, to see whether anyone touched them.
+    /// The sleepers as they fell asleep, to see whether anything touched them.
     x: Vec<f32>,
     y: Vec<f32>,
     id: Vec<u32>,
-    /// Their densities, for who looks at them.
+    /// Their densities, for the views and measures.
     density: Vec<f32>,
-    /// Room for the densities of the others.
+    /// Buffer for the densities of the others.
     others: Vec<f32>,
-    /// During the substeps the whole store, the sleepers in front; else room.
+    /// During the substeps the whole store, the sleepers in front; else a buffer.
     aside: Particles,
     is_aside: bool,
-    /// Room to change the order.
+    /// Buffer to change the order.
     room: Particles,
     /// Version of the rock that they lie on.
     rock: u64,
@@ -98,7 +98,7 @@ impl Sleep {
     pub fn resume(record: SleepRecord, particles: &Particles, size: Vec2, rock_version: u64) -> Self {
         let mut sleep = Self { record, rock: rock_version, ..Self::default() };
         sleep.record.asleep = sleep.record.asleep.min(particles.len() as u32);
-        sleep.lay(size);
+        sleep.resize(size);
         sleep.remember(particles);
         sleep
     }
@@ -130,8 +130,8 @@ impl Sleep {
             + self.room.memory()
     }
 
-    /// Lays the tiles over a box of `size` d.
-    fn lay(&mut self, size: Vec2) {
+    /// Fits the tiles to a box of `size` d.
+    fn resize(&mut self, size: Vec2) {
         let grid = TileGrid::new(size);
         if self.grid != grid || self.flags.len() != grid.len() {
             self.grid = grid;
@@ -146,7 +146,7 @@ impl Sleep {
     }
 
     /// Says under which conditions the world goes on, as a number that is another one under others: gravity, quality,
-    /// effects. Where they are not those from before, all wake.
+    /// effects. Where they differ from those before, all wake.
     pub fn keep_under(&mut self, conditions: u64) {
         if self.record.under != conditions {
             self.record.under = conditions;
@@ -188,7 +188,7 @@ impl Sleep {
         }
         self.id.clear();
         self.id.extend_from_slice(&particles.id[..asleep]);
-        // Of those who were put back asleep, no one knows more than that they are at rest.
+        // Of sleepers that were restored, nothing is known but that they are at rest.
         self.density.resize(asleep, 1.0);
         self.mark();
     }
