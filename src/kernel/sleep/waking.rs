@@ -1,6 +1,9 @@
 //! What is touched, or about to be, wakes.
 
-use super::{ASLEEP, CHANGES, NEAR, Sleep, falling::Calm};
+use super::{
+    calm::Calm,
+    state::{ASLEEP, CHANGES, NEAR, Sleep},
+};
 use crate::{air::Air, particles::Particles};
 use glam::Vec2;
 use std::ops::Range;
