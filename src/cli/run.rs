@@ -30,7 +30,6 @@ use crate::{
         recording::Stretch,
         save,
         state::Setup,
-        view::View,
         workers::Workers,
     },
 };
@@ -202,7 +201,7 @@ fn write_outputs(arguments: &RunArguments, world: &World, metrics: Option<&Metri
         output::write(path, |file| particle_list::write(world, file))?;
     }
     if let Some(path) = &arguments.png {
-        let picture = Picture::of_world(world, View::Elements, LONG_SIDE, DISC_RADIUS);
+        let picture = Picture::of_world(world, LONG_SIDE, DISC_RADIUS);
         output::write(path, |file| picture.write_png(file))?;
     }
     if let Some(path) = &arguments.snapshot {

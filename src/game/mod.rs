@@ -27,6 +27,7 @@ pub mod split;
 #[cfg(test)]
 mod tests;
 pub mod tools;
+pub mod views;
 pub mod window;
 
 use crate::{
@@ -59,7 +60,7 @@ impl Plugin for GamePlugin {
             .init_resource::<camera::WorldCamera>()
             .init_resource::<tools::Toolbox>()
             .init_resource::<orders::Orders>()
-            .init_resource::<orders::Shown>()
+            .init_resource::<views::table::Shown>()
             .init_resource::<history::History>()
             .init_resource::<saves::SaveFolders>()
             .init_resource::<frame::Tempo>()

@@ -15,6 +15,7 @@ use crate::{
         render::extract::Epoch,
         saves, screen, split,
         tools::{Tool, Toolbox},
+        views::table::Shown,
     },
     kernel::{element::ElementId, params::Preset, solids::Solids},
     scene::{
@@ -30,7 +31,6 @@ use crate::{
         intent::{Intent, IntentQueue},
         pace::Pace,
         state::{ParticleStore, Rock, Setup},
-        view::View,
     },
 };
 use bevy::prelude::{Resource, World};
@@ -39,10 +39,6 @@ use std::{path::PathBuf, sync::Arc};
 
 /// How far from the pointer a particle can be sampled, d.
 const SAMPLE_REACH: f32 = 1.5;
-
-/// The view that is shown.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Shown(pub View);
 
 /// One thing to do.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,10 +4,10 @@
 use crate::game::crash;
 use crate::{
     game::{GamePlugin, hud::HudPlugin, hud::settings::Room, recording, render::WorldRenderPlugin, rest},
+    lab::colours,
     sim::{
         SimulationPlugin, fault,
         state::{Census, Setup},
-        view,
     },
 };
 use bevy::{
@@ -113,7 +113,7 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
         prevent_default_event_handling: false,
         ..Window::default()
     };
-    let [red, green, blue] = view::SURROUNDINGS;
+    let [red, green, blue] = colours::SURROUNDINGS;
     let mut app = App::new();
     app.add_plugins(
         DefaultPlugins

@@ -9,7 +9,7 @@ use crate::{
     },
     lab::{headless::Headless, picture::Picture, sampler::matter, stats},
     scene::{self, SceneError, blueprint::EffectModes},
-    sim::{view::View, workers::Workers},
+    sim::workers::Workers,
 };
 use serde::Serialize;
 use std::sync::Arc;
@@ -99,7 +99,7 @@ fn observe(preset: Preset, ratio: f64, workers: &Workers) -> Result<(Outcome, Pi
         slope: mean(|look| look.slope),
         surface: mean(|look| look.surface),
     };
-    Ok((outcome, Picture::of_world(headless.world(), View::Elements, PICTURE_SIDE, PICTURE_DISC)))
+    Ok((outcome, Picture::of_world(headless.world(), PICTURE_SIDE, PICTURE_DISC)))
 }
 
 /// The liquid at one moment.

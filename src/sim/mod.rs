@@ -5,7 +5,6 @@ pub mod accuracy;
 pub mod autopilot;
 pub mod control;
 pub mod desk;
-pub mod difference;
 pub mod effects;
 pub mod exam;
 pub mod fault;
@@ -27,7 +26,6 @@ pub mod stages;
 pub mod state;
 pub mod tape;
 pub mod twin;
-pub mod view;
 pub mod workers;
 
 use bevy::prelude::{App, Plugin};

@@ -10,13 +10,14 @@ use crate::{
             style,
         },
         input::bindings::{self, Action},
-        orders::{Order, Orders, Shown},
+        orders::{Order, Orders},
+        views::table::{ELEMENTS, Shown, VIEWS, View},
     },
     kernel::{
         params::{Preset, Quality},
         units::TICKS_PER_SECOND,
     },
-    sim::{recorder::Recorder, state::Setup, view::View},
+    sim::{recorder::Recorder, state::Setup},
 };
 use bevy::prelude::{Res, ResMut, Result};
 use bevy_egui::{
@@ -120,7 +121,7 @@ fn dot(ui: &mut Ui, colour: Color32) {
 }
 
 /// The menus, from right to left.
-fn menus(ui: &mut Ui, narrow: bool, state: &HudState, setup: &Setup, shown: View, orders: &mut Orders) {
+fn menus(ui: &mut Ui, narrow: bool, state: &HudState, setup: &Setup, shown: &'static View, orders: &mut Orders) {
     ui.spacing_mut().item_spacing.x = 6.0;
     for (icon, action, open) in [
         (Icon::Question, Action::Help, state.help),
@@ -142,11 +143,11 @@ fn menus(ui: &mut Ui, narrow: bool, state: &HudState, setup: &Setup, shown: View
     if let Some(preset) = quality_menu(&quality, setup.preset) {
         orders.push(Order::Quality(preset));
     }
-    let view = icon_button(ui, Icon::Eye, name(shown.name()), shown != View::Elements);
+    let view = icon_button(ui, Icon::Eye, name(shown.name), *shown != ELEMENTS);
     menu(&view, "View", |ui| {
-        for view in View::ALL {
+        for view in VIEWS {
             let key = bindings::of(Action::View(view)).map(ToString::to_string).unwrap_or_default();
-            if row(ui, view.name(), &key, view == shown) {
+            if row(ui, view.name, &key, view == shown) {
                 orders.push(Order::Act(Action::View(view)));
             }
         }

@@ -9,7 +9,8 @@ use crate::{
             style,
         },
         orders::{Order, Orders},
-        render::RenderCost,
+        render::cost::RenderCost,
+        views::table::STABILITY,
     },
     scene::blueprint::{Effect, Mode},
     sim::{
@@ -19,7 +20,6 @@ use crate::{
         },
         ledger::{Pass, PassLedger, PassRecord, Unit},
         state::{AirGrid, Clock, ParticleStore, Setup, SleepState},
-        view::View,
     },
 };
 use bevy::prelude::{Res, ResMut, Result};
@@ -27,9 +27,6 @@ use bevy_egui::{
     EguiContexts,
     egui::{self, RichText, Ui, vec2},
 };
-
-/// Name of the view that shows where limiters act.
-const STABILITY: &str = View::Stability.name();
 
 /// Width of the window's contents, points.
 const WIDTH: f32 = 480.0;
@@ -230,7 +227,7 @@ fn limiters(ui: &mut Ui, readings: &Readings) {
         ui.label(weak("No limiter acted."));
         return;
     }
-    ui.label(weak(format!("limiters, since the scene began (the view {STABILITY} shows where)")).small());
+    ui.label(weak(format!("limiters, since the scene began (the view {} shows where)")).small());
     egui::Grid::new("limiters").num_columns(4).spacing([8.0, 3.0]).show(ui, |ui| {
         for pair in readings.limiters.chunks(2) {
             for (reading, meaning) in pair {

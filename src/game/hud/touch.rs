@@ -13,12 +13,13 @@ use crate::{
             style,
         },
         input::{bindings::Action, touch::Fingers},
-        orders::{Order, Orders, Shown},
+        orders::{Order, Orders},
         tools::{Tool, Toolbox},
+        views::table::{Shown, VIEWS, View},
     },
     kernel::{brush::BrushShape, params::Preset},
     scene,
-    sim::{pace::Pace, state::Setup, view::View},
+    sim::{pace::Pace, state::Setup},
 };
 use bevy::{
     ecs::system::SystemParam,
@@ -215,7 +216,7 @@ fn titles() -> Vec<(String, String)> {
 }
 
 /// The lines of a list: text, whether it is what is shown now, and what choosing it asks for.
-fn lines<'a>(sheet: &'a Sheet, state: &HudState, setup: &Setup, shown: View) -> Vec<(&'a str, bool, Order)> {
+fn lines<'a>(sheet: &'a Sheet, state: &HudState, setup: &Setup, shown: &View) -> Vec<(&'a str, bool, Order)> {
     match sheet {
         Sheet::Closed => Vec::new(),
         Sheet::Scenes(scenes) => scenes
@@ -226,7 +227,7 @@ fn lines<'a>(sheet: &'a Sheet, state: &HudState, setup: &Setup, shown: View) -> 
             })
             .collect(),
         Sheet::Views => {
-            View::ALL.into_iter().map(|view| (view.name(), view == shown, Order::Act(Action::View(view)))).collect()
+            VIEWS.into_iter().map(|view| (view.name, view == shown, Order::Act(Action::View(view)))).collect()
         }
         Sheet::Qualities => {
             let line = |preset: Preset| (preset.name(), preset == setup.preset, Order::Quality(preset));

@@ -1,7 +1,7 @@
 //! The one table of keys and buttons. Input looks actions up in it, help prints it, the palette shows its keys.
 //! Keys are physical: they stand where they stand on a US keyboard, whatever is printed on them.
 
-use crate::{game::tools::Tool, sim::view::View};
+use crate::game::{tools::Tool, views::table::View};
 use bevy::prelude::{ButtonInput, KeyCode, MouseButton};
 use std::fmt;
 
@@ -37,7 +37,7 @@ pub enum Action {
     /// Brings the air to rest.
     ClearAir,
     /// Shows a view.
-    View(View),
+    View(&'static View),
     /// Shows the next view.
     NextView,
     /// Zooms at the pointer, in (+1) or out (−1).

@@ -7,10 +7,10 @@ use crate::{
         tools::{Tool, Toolbox},
     },
     kernel::brush::Stroke,
+    lab::colours::Reference,
     sim::{
         intent::{Intent, IntentQueue},
         state::Setup,
-        view::Reference,
     },
 };
 use bevy::prelude::{MouseButton, Res, ResMut, Resource};

@@ -1,8 +1,9 @@
 //! The picture on the graphics' side: buffers and textures, filled once a frame.
 
 use crate::game::render::{
-    RenderCost,
-    extract::{Picture, Pictures, WorldUniform},
+    cost::RenderCost,
+    extract::Pictures,
+    picture::{Picture, WorldUniform},
     pipelines::{Layouts, Pipelines},
 };
 use bevy::platform::time::Instant;
@@ -85,10 +86,10 @@ pub fn upload(
 }
 
 fn hand_over(picture: &mut Picture, gpu: &mut GpuPicture, device: &RenderDevice, queue: &RenderQueue) {
-    write_growing!(picture.blobs, device, queue);
+    write_growing!(picture.particles, device, queue);
     write_growing!(picture.streaks, device, queue);
-    if picture.stones_new {
-        write_growing!(picture.stones, device, queue);
+    if picture.rock_new {
+        write_growing!(picture.rock, device, queue);
     }
     gpu.uniform.set(picture.uniform);
     gpu.uniform.write_buffer(device, queue);

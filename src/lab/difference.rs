@@ -3,8 +3,8 @@
 
 use crate::{
     kernel::{air::Air, particles::Particles},
+    lab::colours::{Reference, Rgb, ramp},
     scene::blueprint::Blueprint,
-    sim::view::{Reference, Rgb},
 };
 use glam::Vec2;
 
@@ -161,7 +161,7 @@ pub fn colour(heat: f32) -> (Rgb, f32) {
     }
     // The root spreads small differences: most are.
     let root = heat.min(1.0).sqrt();
-    (crate::sim::view::ramp(&STOPS, root), (0.25 + 1.5 * root).min(1.0))
+    (ramp(&STOPS, root), (0.25 + 1.5 * root).min(1.0))
 }
 
 #[cfg(test)]

@@ -1,13 +1,13 @@
-//! Wisps: tracers that drift with the air and are drawn as short streaks, so that wind can be seen. They are part of the
+//! Tracers: points that drift with the air and are drawn as short streaks, so that wind can be seen. They are part of the
 //! picture, not of the world: nothing in the simulation reads them.
 
 use crate::{
     game::render::air::{Streak, streak},
     kernel::units::TICK_SECONDS,
+    lab::colours::Reference,
     sim::{
         pace::Pace,
         state::{AirGrid, Setup},
-        view::Reference,
     },
 };
 use bevy::prelude::{Res, ResMut, Resource, Time, Virtual};
@@ -23,7 +23,7 @@ const TAIL: f32 = 0.17;
 const FLOOR: f32 = 0.03;
 
 #[derive(Clone, Copy, Debug, Default)]
-struct Wisp {
+struct Tracer {
     at: Vec2,
     age: f32,
     velocity: Vec2,
@@ -31,14 +31,14 @@ struct Wisp {
 
 /// The tracers.
 #[derive(Resource, Clone, Debug, Default)]
-pub struct Wisps {
-    all: Vec<Wisp>,
+pub struct Tracers {
+    all: Vec<Tracer>,
     seed: u32,
     /// Whether any of them moves.
     awake: bool,
 }
 
-impl Wisps {
+impl Tracers {
     /// A number in 0 … 1, another each time.
     fn chance(&mut self) -> f32 {
         self.seed = self.seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -50,13 +50,13 @@ impl Wisps {
         if !self.awake {
             return;
         }
-        for wisp in &self.all {
-            let strength = wisp.velocity.length() / reference.wind - FLOOR;
+        for tracer in &self.all {
+            let strength = tracer.velocity.length() / reference.wind - FLOOR;
             if strength > 0.0 {
-                let life = wisp.age / LIFE;
+                let life = tracer.age / LIFE;
                 let fade = 4.0 * life * (1.0 - life);
                 let opacity = 110.0 * fade * (strength / (0.25 + strength));
-                out.push(streak(wisp.at - wisp.velocity * TAIL, wisp.at, [196, 214, 226, opacity as u8]));
+                out.push(streak(tracer.at - tracer.velocity * TAIL, tracer.at, [196, 214, 226, opacity as u8]));
             }
         }
     }
@@ -64,7 +64,7 @@ impl Wisps {
 
 /// Lets the tracers drift for one frame.
 pub fn drift(
-    mut wisps: ResMut<Wisps>,
+    mut tracers: ResMut<Tracers>,
     air: Option<Res<AirGrid>>,
     setup: Option<Res<Setup>>,
     pace: Res<Pace>,
@@ -72,24 +72,24 @@ pub fn drift(
 ) {
     let (Some(air), Some(setup)) = (air, setup) else { return };
     if air.is_quiet() {
-        wisps.awake = false;
+        tracers.awake = false;
         return;
     }
     let seconds = if pace.paused { 0.0 } else { time.delta_secs().min(8.0 * TICK_SECONDS) };
     let size = setup.blueprint.domain.size;
-    wisps.awake = true;
-    wisps.all.resize(COUNT, Wisp { age: LIFE, ..Wisp::default() });
+    tracers.awake = true;
+    tracers.all.resize(COUNT, Tracer { age: LIFE, ..Tracer::default() });
     for k in 0..COUNT {
-        let mut wisp = wisps.all[k];
-        wisp.age += seconds;
-        wisp.at += wisp.velocity * seconds;
-        let outside = wisp.at.cmplt(Vec2::ZERO).any() || wisp.at.cmpgt(size).any();
-        if wisp.age >= LIFE || outside {
+        let mut tracer = tracers.all[k];
+        tracer.age += seconds;
+        tracer.at += tracer.velocity * seconds;
+        let outside = tracer.at.cmplt(Vec2::ZERO).any() || tracer.at.cmpgt(size).any();
+        if tracer.age >= LIFE || outside {
             // The first generation starts at all ages, so that they don't blink together.
-            let age = if wisp.at == Vec2::ZERO { LIFE * wisps.chance() } else { 0.0 };
-            wisp = Wisp { at: Vec2::new(wisps.chance(), wisps.chance()) * size, age, velocity: Vec2::ZERO };
+            let age = if tracer.at == Vec2::ZERO { LIFE * tracers.chance() } else { 0.0 };
+            tracer = Tracer { at: Vec2::new(tracers.chance(), tracers.chance()) * size, age, velocity: Vec2::ZERO };
         }
-        wisp.velocity = air.sample_velocity(wisp.at);
-        wisps.all[k] = wisp;
+        tracer.velocity = air.sample_velocity(tracer.at);
+        tracers.all[k] = tracer;
     }
 }

@@ -2,18 +2,18 @@
 
 use crate::{
     kernel::{element::ElementTable, solids::Solids},
-    sim::view::{BurialMap, rock_colour},
+    lab::{colours::rock_colour, maps::BurialMap},
 };
 use glam::IVec2;
 
 /// Cell (two u16), then colour and sides (four bytes).
-pub type Stone = [u32; 2];
+pub type RockInstance = [u32; 2];
 
 /// Sides in the order of their bits: top, right, bottom, left. A set bit means rock or wall there.
 const SIDES: [IVec2; 4] = [IVec2::Y, IVec2::X, IVec2::NEG_Y, IVec2::NEG_X];
 
 /// Packs all rock.
-pub fn pack(solids: &Solids, elements: &ElementTable, burial: &mut BurialMap, out: &mut Vec<Stone>) {
+pub fn pack(solids: &Solids, elements: &ElementTable, burial: &mut BurialMap, out: &mut Vec<RockInstance>) {
     burial.measure(solids);
     out.clear();
     for (cell, element, id) in solids.iter() {

@@ -5,10 +5,10 @@ use crate::{
     kernel::{
         air::Air, params::Quality, particles::Particles, pbf::Solver, predict::longest_move, predictor::Predictor,
     },
+    lab::colours::{Rgb, ramp},
     sim::{
         stages::TickPlan,
         state::{AirGrid, Clock, ParticleStore, PredictorState, Setup, SolverState},
-        view::{Rgb, ramp},
     },
 };
 use bevy::prelude::World;
@@ -172,7 +172,7 @@ impl StrainMap {
 }
 
 /// Colour of a share of a limit, 0 … 1.
-pub(super) fn strain_colour(share: f32) -> Rgb {
+pub fn strain_colour(share: f32) -> Rgb {
     ramp(&STOPS, share)
 }
 
