@@ -1,7 +1,10 @@
 //! Watching a hard case.
 
 use super::*;
-use crate::sim::gauntlet::{Cases, Entry};
+use crate::{
+    game::hud::panels::gauntlet::ID,
+    sim::gauntlet::{Cases, Entry},
+};
 
 /// A player who is offered a case in which gravity points up from its fourth tick on.
 fn offered() -> Player {
@@ -48,7 +51,7 @@ fn a_case_is_played_with_its_script_until_another_scene_is() {
 fn a_key_opens_and_closes_the_list() {
     let mut player = offered();
     player.chord(&[KeyCode::F7]);
-    assert!(player.world().resource::<HudState>().gauntlet);
+    assert!(player.world().resource::<Panels>().shows(ID));
     player.chord(&[KeyCode::F7]);
-    assert!(!player.world().resource::<HudState>().gauntlet);
+    assert!(!player.world().resource::<Panels>().shows(ID));
 }

@@ -1,14 +1,18 @@
-//! The books of the simulation: what each stage costs, what it works on and is spared, which effects run and why, what the
+//! The statistics of the simulation: what each stage costs, what it works on and is spared, which effects run and why, what the
 //! limiters did.
 
 use crate::{
     game::{
+        actions::PanelId,
         hud::{
-            HudCost, HudState,
+            cost::HudCost,
             stats::{Readings, grouped},
-            style,
+            style::{self, weak},
         },
+        icons,
+        input::bindings::{Group, NONE},
         orders::{Order, Orders},
+        panels::{Panel, Panels},
         render::cost::RenderCost,
         views::table::STABILITY,
     },
@@ -22,19 +26,38 @@ use crate::{
         state::{AirGrid, Clock, ParticleStore, Setup, SleepState},
     },
 };
-use bevy::prelude::{Res, ResMut, Result};
+use bevy::prelude::{App, KeyCode, Res, ResMut, Result};
 use bevy_egui::{
     EguiContexts,
     egui::{self, RichText, Ui, vec2},
 };
 
+/// Its name.
+pub const ID: PanelId = PanelId("details");
+
 /// Width of the window's contents, points.
 const WIDTH: f32 = 480.0;
 
-/// Shows the books.
-pub fn show(
+/// Adds the panel.
+pub fn plugin(app: &mut App) {
+    let panel = Panel {
+        id: ID,
+        title: "Details",
+        icon: icons::chart,
+        keys: &[(KeyCode::F3, NONE)],
+        group: Group::Look,
+        help: "details: what runs and what it costs",
+        in_bar: true,
+        in_list: Some("Details and effects"),
+        stays: true,
+    };
+    Panels::add(app, panel, show);
+}
+
+/// Shows them.
+fn show(
     mut contexts: EguiContexts,
-    mut state: ResMut<HudState>,
+    mut panels: ResMut<Panels>,
     ledger: Res<PassLedger>,
     effects: Res<Effects>,
     setup: Res<Setup>,
@@ -44,15 +67,11 @@ pub fn show(
     sleepers: (Res<SleepState>, Res<ParticleStore>, Res<AirGrid>),
     mut orders: ResMut<Orders>,
 ) -> Result {
-    if !state.details || !state.visible {
-        return Ok(());
-    }
     let context = contexts.ctx_mut()?;
     let screen = context.content_rect();
-    let mut open = true;
     let height = screen.height() - 210.0;
     let place = (egui::Align2::LEFT_TOP, screen.left_top() + vec2(14.0, 54.0));
-    style::window(context, "Details", &mut open, place, |ui| {
+    style::panel(context, &mut panels, ID, place, |ui| {
         egui::ScrollArea::vertical().min_scrolled_height(height).max_height(height).show(ui, |ui| {
             ui.set_width(WIDTH);
             ui.spacing_mut().interact_size.y = 17.0;
@@ -70,14 +89,7 @@ pub fn show(
             limiters(ui, &readings);
         });
     });
-    if !open {
-        state.details = false;
-    }
     Ok(())
-}
-
-fn weak(text: impl Into<String>) -> RichText {
-    RichText::new(text).color(style::WEAK)
 }
 
 fn world(ui: &mut Ui, setup: &Setup, clock: &Clock) {
@@ -227,7 +239,7 @@ fn limiters(ui: &mut Ui, readings: &Readings) {
         ui.label(weak("No limiter acted."));
         return;
     }
-    ui.label(weak(format!("limiters, since the scene began (the view {} shows where)")).small());
+    ui.label(weak(format!("limiters, since the scene began (the view {} shows where)", STABILITY.name)).small());
     egui::Grid::new("limiters").num_columns(4).spacing([8.0, 3.0]).show(ui, |ui| {
         for pair in readings.limiters.chunks(2) {
             for (reading, meaning) in pair {

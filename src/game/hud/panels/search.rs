@@ -2,56 +2,82 @@
 
 use crate::{
     game::{
-        hud::{
-            HudState,
-            icons::{self, Icon},
-            palette::{colour_of, icon_of},
-            style,
-        },
+        actions::PanelId,
+        hud::style,
+        icons,
+        input::bindings::{Group, NONE},
         orders::{Order, Orders},
+        panels::{Panel, Panels},
         tools::Tool,
     },
     kernel::element::ElementTable,
     sim::state::Setup,
 };
-use bevy::prelude::{Res, ResMut, Result};
+use bevy::prelude::{App, KeyCode, Local, Res, ResMut, Result};
 use bevy_egui::{
     EguiContexts,
     egui::{self, Color32, vec2},
 };
 
+/// Its name.
+pub const ID: PanelId = PanelId("search");
+
+/// Adds the panel.
+pub fn plugin(app: &mut App) {
+    let panel = Panel {
+        id: ID,
+        title: "Search",
+        icon: icons::question,
+        keys: &[(KeyCode::KeyE, NONE)],
+        group: Group::Choose,
+        help: "search elements and tools",
+        in_bar: false,
+        in_list: None,
+        stays: false,
+    };
+    Panels::add(app, panel, show);
+}
+
 /// Shows the search.
-pub fn show(
+fn show(
     mut contexts: EguiContexts,
-    mut state: ResMut<HudState>,
+    mut panels: ResMut<Panels>,
+    mut text: Local<String>,
     setup: Res<Setup>,
     mut orders: ResMut<Orders>,
 ) -> Result {
-    let Some(mut text) = state.search.clone() else { return Ok(()) };
     let context = contexts.ctx_mut()?;
     let escaped = context.input(|input| input.key_pressed(egui::Key::Escape));
     let entered = context.input(|input| input.key_pressed(egui::Key::Enter));
-    let found = find(setup.elements(), &text);
-    let mut chosen = found.first().copied().filter(|_| entered);
-    let mut open = true;
-    let place = (egui::Align2::CENTER_TOP, context.content_rect().center_top() + vec2(0.0, 120.0));
-    style::window(context, "Search", &mut open, place, |ui| {
+    let screen = context.content_rect();
+    let mut chosen = None;
+    let place = (egui::Align2::CENTER_TOP, screen.center_top() + vec2(0.0, 120.0));
+    style::panel(context, &mut panels, ID, place, |ui| {
         ui.set_width(260.0);
-        let field = egui::TextEdit::singleline(&mut text).hint_text("element or tool").desired_width(f32::INFINITY);
+        let field = egui::TextEdit::singleline(&mut *text).hint_text("element or tool").desired_width(f32::INFINITY);
         ui.add(field.char_limit(40)).request_focus();
+        let found = find(setup.elements(), &text);
+        chosen = found.first().copied().filter(|_| entered);
         ui.spacing_mut().item_spacing.y = 2.0;
-        for tool in &found {
-            if row(ui, *tool, setup.elements(), Some(tool) == found.first()) {
-                chosen = Some(*tool);
+        egui::ScrollArea::vertical().max_height(screen.height() - 320.0).show(ui, |ui| {
+            for tool in &found {
+                if row(ui, *tool, setup.elements(), Some(tool) == found.first()) {
+                    chosen = Some(*tool);
+                }
             }
-        }
+        });
         if found.is_empty() {
             ui.weak("nothing of that name");
         }
     });
-    state.search = (open && !escaped && !entered && chosen.is_none()).then_some(text);
     if let Some(tool) = chosen {
         orders.push(Order::Choose(tool));
+    }
+    if escaped || entered || chosen.is_some() {
+        panels.close(ID);
+    }
+    if !panels.shows(ID) {
+        text.clear();
     }
     Ok(())
 }
@@ -62,12 +88,7 @@ fn row(ui: &mut egui::Ui, tool: Tool, elements: &ElementTable, first: bool) -> b
         let fill = if first { style::ACCENT_FILL } else { style::BUTTON_HOVER };
         ui.painter().rect_filled(rect, style::BUTTON_CORNER, fill);
     }
-    let (icon, colour) = match tool {
-        Tool::Element(id) => (icon_of(elements.get(id)), colour_of(elements.get(id))),
-        Tool::Erase => (Icon::Eraser, style::TEXT),
-        Tool::Wind => (Icon::Wind, style::TEXT),
-        Tool::Pressure => (Icon::Pressure, style::TEXT),
-    };
+    let (icon, colour) = tool.icon(elements);
     icons::draw(ui.painter(), icons::square(rect.left_center() + vec2(18.0, 0.0), 18.0), icon, colour);
     let font = egui::TextStyle::Button.resolve(ui.style());
     let at = rect.left_center() + vec2(36.0, 0.0);
@@ -78,12 +99,8 @@ fn row(ui: &mut egui::Ui, tool: Tool, elements: &ElementTable, first: bool) -> b
 /// Tools whose name holds the text; those that begin with it first.
 fn find(elements: &ElementTable, text: &str) -> Vec<Tool> {
     let text = text.trim().to_lowercase();
-    let mut found: Vec<Tool> = elements
-        .iter()
-        .map(|(id, _)| Tool::Element(id))
-        .chain(Tool::OTHERS)
-        .filter(|tool| tool.name(elements).to_lowercase().contains(&text))
-        .collect();
+    let mut found: Vec<Tool> =
+        Tool::all(elements).filter(|tool| tool.name(elements).to_lowercase().contains(&text)).collect();
     found.sort_by_key(|tool| !tool.name(elements).to_lowercase().starts_with(&text));
     found
 }

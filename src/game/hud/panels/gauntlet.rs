@@ -2,12 +2,12 @@
 
 use crate::{
     game::{
-        hud::{
-            HudState, desk,
-            icons::{self, Icon},
-            style,
-        },
+        actions::PanelId,
+        hud::{panels::desk, style},
+        icons::{self, Icon},
+        input::bindings::{Group, NONE},
         orders::{Order, Orders},
+        panels::{Panel, Panels},
     },
     kernel::params::Preset,
     sim::{
@@ -15,11 +15,14 @@ use crate::{
         state::Setup,
     },
 };
-use bevy::prelude::{Res, ResMut, Result};
+use bevy::prelude::{App, KeyCode, Res, ResMut, Result};
 use bevy_egui::{
     EguiContexts,
     egui::{self, Align2, Color32, RichText, Ui, pos2, vec2},
 };
+
+/// Its name.
+pub const ID: PanelId = PanelId("gauntlet");
 
 /// Width of the window's contents, points.
 const WIDTH: f32 = 620.0;
@@ -32,23 +35,36 @@ const MARKS: f32 = 400.0;
 /// From one mark to the next, points.
 const MARK: f32 = 34.0;
 
+/// Adds the panel.
+pub fn plugin(app: &mut App) {
+    app.init_resource::<GauntletDesk>().init_resource::<Cases>();
+    let panel = Panel {
+        id: ID,
+        title: "Stability gauntlet",
+        icon: icons::shield,
+        keys: &[(KeyCode::F7, NONE)],
+        group: Group::Look,
+        help: "stability gauntlet: hard cases, to watch and to run",
+        in_bar: true,
+        in_list: Some("Hard cases"),
+        stays: false,
+    };
+    Panels::add(app, panel, show);
+}
+
 /// Shows the gauntlet.
-pub fn show(
+fn show(
     mut contexts: EguiContexts,
-    mut state: ResMut<HudState>,
+    mut panels: ResMut<Panels>,
     setup: Res<Setup>,
     cases: Res<Cases>,
     mut desk: ResMut<GauntletDesk>,
     mut orders: ResMut<Orders>,
 ) -> Result {
-    if !state.gauntlet || !state.visible {
-        return Ok(());
-    }
-    let mut open = true;
     let context = contexts.ctx_mut()?;
     let screen = context.content_rect();
     let place = (Align2::CENTER_CENTER, screen.center());
-    style::window(context, "Stability gauntlet", &mut open, place, |ui| {
+    style::panel(context, &mut panels, ID, place, |ui| {
         ui.set_width(WIDTH);
         let about = "What breaks programs of this kind. Click a case to watch it; run them all in the background to see \
                      how they come out.";
@@ -62,9 +78,6 @@ pub fn show(
             orders.push(Order::Watch(name));
         }
     });
-    if !open {
-        state.gauntlet = false;
-    }
     Ok(())
 }
 
@@ -93,7 +106,7 @@ fn list(ui: &mut Ui, cases: &[Entry], rows: &[Row], setup: &Setup, height: f32) 
             icons::draw(
                 ui.painter(),
                 icons::square(rect.left_center() + vec2(11.0, 0.0), 9.0),
-                Icon::Play,
+                icons::play,
                 style::WEAK,
             );
             let font = egui::TextStyle::Body.resolve(ui.style());
@@ -131,8 +144,8 @@ fn about(case: &Entry, rows: &[Row]) -> String {
 /// How a verdict looks.
 fn mark(verdict: Verdict) -> (Icon, Color32) {
     match verdict {
-        Verdict::Pass => (Icon::Check, style::GOOD),
-        Verdict::Known => (Icon::Close, style::WARN),
-        Verdict::Fail => (Icon::Close, style::BAD),
+        Verdict::Pass => (icons::check, style::GOOD),
+        Verdict::Known => (icons::close, style::WARN),
+        Verdict::Fail => (icons::close, style::BAD),
     }
 }

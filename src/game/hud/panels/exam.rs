@@ -1,22 +1,26 @@
 //! The physics exam: its rows as they come, while the game goes on.
 
 use crate::{
-    game::hud::{
-        HudState, desk,
+    game::{
+        actions::PanelId,
+        hud::{panels::desk, stats::grouped, style},
         icons::{self, Icon},
-        stats::grouped,
-        style,
+        input::bindings::{Group, NONE},
+        panels::{Panel, Panels},
     },
     sim::{
         exam::{ExamDesk, Row, Verdict},
         state::Setup,
     },
 };
-use bevy::prelude::{Res, ResMut, Result};
+use bevy::prelude::{App, KeyCode, Res, ResMut, Result};
 use bevy_egui::{
     EguiContexts,
     egui::{self, Align2, Color32, RichText, Ui, pos2, vec2},
 };
+
+/// Its name.
+pub const ID: PanelId = PanelId("exam");
 
 /// Width of the window's contents, points.
 const WIDTH: f32 = 760.0;
@@ -27,21 +31,34 @@ const COLUMNS: [f32; 7] = [24.0, 268.0, 486.0, 566.0, 640.0, 704.0, 750.0];
 /// Their headings.
 const HEADINGS: [&str; 7] = ["", "at", "expected", "got", "error", "allowed", "ms"];
 
+/// Adds the panel.
+pub fn plugin(app: &mut App) {
+    app.init_resource::<ExamDesk>();
+    let panel = Panel {
+        id: ID,
+        title: "Physics exam",
+        icon: icons::check,
+        keys: &[(KeyCode::F6, NONE)],
+        group: Group::Look,
+        help: "physics exam: known answers, computed and compared",
+        in_bar: true,
+        in_list: Some("Physics exam"),
+        stays: false,
+    };
+    Panels::add(app, panel, show);
+}
+
 /// Shows the exam.
-pub fn show(
+fn show(
     mut contexts: EguiContexts,
-    mut state: ResMut<HudState>,
+    mut panels: ResMut<Panels>,
     setup: Res<Setup>,
     mut desk: ResMut<ExamDesk>,
 ) -> Result {
-    if !state.exam || !state.visible {
-        return Ok(());
-    }
-    let mut open = true;
     let context = contexts.ctx_mut()?;
     let screen = context.content_rect();
     let place = (Align2::CENTER_CENTER, screen.center());
-    style::window(context, "Physics exam", &mut open, place, |ui| {
+    style::panel(context, &mut panels, ID, place, |ui| {
         ui.set_width(WIDTH);
         let about = "Known answers of theory and experiment, computed in the background and compared.";
         ui.label(RichText::new(about).color(style::WEAK));
@@ -56,9 +73,6 @@ pub fn show(
             summary(ui, &desk.rows);
         }
     });
-    if !open {
-        state.exam = false;
-    }
     Ok(())
 }
 
@@ -139,9 +153,9 @@ fn put(ui: &Ui, rect: egui::Rect, column: usize, text: &str, font: &egui::FontId
 /// How a verdict looks.
 fn mark(verdict: Verdict) -> (Icon, Color32) {
     match verdict {
-        Verdict::Pass => (Icon::Check, style::GOOD),
-        Verdict::Miss => (Icon::Close, style::WARN),
-        Verdict::Fail => (Icon::Close, style::BAD),
+        Verdict::Pass => (icons::check, style::GOOD),
+        Verdict::Miss => (icons::close, style::WARN),
+        Verdict::Fail => (icons::close, style::BAD),
     }
 }
 

@@ -2,22 +2,29 @@
 
 use crate::{
     game::{
-        hud::{HudState, style},
+        actions::PanelId,
+        hud::style,
+        icons,
+        input::bindings::{Group, NONE},
         orders::{Order, Orders},
+        panels::{Panel, Panels, is_open},
     },
     scene::{self, SceneFile},
     sim::state::Setup,
 };
-use bevy::prelude::{Res, ResMut, Resource, Result};
+use bevy::prelude::{App, IntoScheduleConfigs, KeyCode, Res, ResMut, Resource, Result, Startup, Update, not};
 use bevy_egui::{
     EguiContexts,
     egui::{self, Color32, RichText, Ui, vec2},
 };
 use std::collections::BTreeMap;
 
+/// Its name.
+pub const ID: PanelId = PanelId("scenes");
+
 /// The scenes to choose from.
 #[derive(Resource, Default)]
-pub struct SceneMenu {
+struct SceneMenu {
     scenes: Vec<SceneFile>,
     chosen: Option<usize>,
     values: BTreeMap<String, f64>,
@@ -41,36 +48,54 @@ impl SceneMenu {
 }
 
 /// Reads the scenes that come with the game.
-pub fn list_scenes(mut menu: ResMut<SceneMenu>) {
+fn list_scenes(mut menu: ResMut<SceneMenu>) {
     menu.scenes = scene::builtin_names().into_iter().filter_map(|name| scene::load(name).ok()).collect();
     // The default scene first, the rest by title.
     menu.scenes.sort_by(|a, b| (a.name() != "waterfall", a.title()).cmp(&(b.name() != "waterfall", b.title())));
 }
 
+/// Adds the panel.
+pub fn plugin(app: &mut App) {
+    app.init_resource::<SceneMenu>();
+    let panel = Panel {
+        id: ID,
+        title: "Scenes",
+        icon: icons::scenes,
+        keys: &[(KeyCode::KeyM, NONE)],
+        group: Group::World,
+        help: "scene menu",
+        in_bar: false,
+        in_list: None,
+        stays: false,
+    };
+    Panels::add(app, panel, show);
+    app.add_systems(Startup, list_scenes).add_systems(Update, forget.run_if(not(is_open(ID))));
+}
+
+/// The next time it opens, it is at the scene that is played.
+fn forget(mut menu: ResMut<SceneMenu>) {
+    if menu.chosen.is_some() {
+        menu.chosen = None;
+    }
+}
+
 /// Shows the menu.
-pub fn show(
+fn show(
     mut contexts: EguiContexts,
-    mut state: ResMut<HudState>,
+    mut panels: ResMut<Panels>,
     mut menu: ResMut<SceneMenu>,
     setup: Res<Setup>,
     mut orders: ResMut<Orders>,
 ) -> Result {
-    if !state.scenes {
-        if menu.chosen.is_some() {
-            menu.chosen = None;
-        }
-        return Ok(());
-    }
     if menu.chosen.is_none() {
         let playing = menu.scenes.iter().position(|scene| scene.name() == setup.blueprint.name);
         menu.choose(playing.unwrap_or(0), &setup);
     }
     let context = contexts.ctx_mut()?;
     let screen = context.content_rect();
-    let mut open = true;
     let mut play = false;
     let place = (egui::Align2::CENTER_CENTER, screen.center());
-    style::window(context, "Scenes", &mut open, place, |ui| {
+    style::panel(context, &mut panels, ID, place, |ui| {
         ui.horizontal_top(|ui| {
             ui.vertical(|ui| {
                 ui.set_width(190.0);
@@ -88,10 +113,7 @@ pub fn show(
     if let (true, Some(scene)) = (play, menu.chosen.and_then(|index| menu.scenes.get(index))) {
         let settings = menu.values.iter().map(|(name, value)| (name.clone(), value.to_string())).collect();
         orders.push(Order::Scene { name: scene.name().to_owned(), settings });
-        open = false;
-    }
-    if !open {
-        state.scenes = false;
+        panels.close(ID);
     }
     Ok(())
 }

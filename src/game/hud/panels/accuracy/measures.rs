@@ -1,9 +1,11 @@
 //! All measures of the running world: measured only while they are shown.
 
-use super::weak;
-use crate::sim::{
-    exam::figure,
-    measures::{Measured, Measures},
+use crate::{
+    game::hud::style::weak,
+    sim::{
+        exam::figure,
+        measures::{Measured, Measures},
+    },
 };
 use bevy_egui::egui::{self, Ui};
 

@@ -86,6 +86,11 @@ pub fn short(value: f32) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
+/// An error as a text.
+pub fn percent(error: f32) -> String {
+    format!("{} %", short(100.0 * error))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

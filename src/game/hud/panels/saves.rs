@@ -1,18 +1,25 @@
 //! The list of save files.
 
 use crate::game::{
+    actions::PanelId,
     disk,
-    hud::{HudState, stats::grouped, style},
+    hud::{stats::grouped, style},
+    icons,
+    input::bindings::{CTRL, Group},
     orders::{Order, Orders},
+    panels::{Panel, Panels, is_open},
     saves::{self, LoadError, SaveFolders, Summary},
 };
 use crate::kernel::units::TICKS_PER_SECOND;
-use bevy::prelude::{Res, ResMut, Resource, Result};
+use bevy::prelude::{App, IntoScheduleConfigs, KeyCode, Res, ResMut, Resource, Result, Update, not};
 use bevy_egui::{
     EguiContexts,
     egui::{self, Align2, Color32, RichText, Ui, pos2, vec2},
 };
 use std::path::PathBuf;
+
+/// Its name.
+pub const ID: PanelId = PanelId("saves");
 
 /// Size of a row, points.
 const ROW: egui::Vec2 = vec2(430.0, 42.0);
@@ -38,20 +45,39 @@ struct SaveFile {
     summary: Option<Result<Summary, LoadError>>,
 }
 
+/// Adds the panel.
+pub fn plugin(app: &mut App) {
+    app.init_resource::<SaveMenu>();
+    let panel = Panel {
+        id: ID,
+        title: "Load",
+        icon: icons::load,
+        keys: &[(KeyCode::KeyO, CTRL)],
+        group: Group::World,
+        help: "load a saved world (can be undone)",
+        in_bar: true,
+        in_list: Some("Load"),
+        stays: false,
+    };
+    Panels::add(app, panel, show);
+    app.add_systems(Update, forget.run_if(not(is_open(ID))));
+}
+
+/// The next time it opens, the files are listed anew.
+fn forget(mut menu: ResMut<SaveMenu>) {
+    if menu.open {
+        *menu = SaveMenu::default();
+    }
+}
+
 /// Shows the list.
-pub fn show(
+fn show(
     mut contexts: EguiContexts,
-    mut state: ResMut<HudState>,
+    mut panels: ResMut<Panels>,
     mut menu: ResMut<SaveMenu>,
     folders: Res<SaveFolders>,
     mut orders: ResMut<Orders>,
 ) -> Result {
-    if !state.saves {
-        if menu.open {
-            *menu = SaveMenu::default();
-        }
-        return Ok(());
-    }
     if !menu.open {
         *menu = SaveMenu { open: true, files: list(&folders) };
     }
@@ -61,10 +87,9 @@ pub fn show(
     }
     let context = contexts.ctx_mut()?;
     let screen = context.content_rect();
-    let mut open = true;
     let mut chosen = None;
     let place = (Align2::CENTER_CENTER, screen.center());
-    style::window(context, "Load", &mut open, place, |ui| {
+    style::panel(context, &mut panels, ID, place, |ui| {
         ui.set_width(ROW.x);
         if menu.files.is_empty() {
             ui.label(RichText::new("No saved world yet.").color(style::WEAK));
@@ -83,10 +108,7 @@ pub fn show(
     });
     if let Some(path) = chosen {
         orders.push(Order::Load(path));
-        open = false;
-    }
-    if !open {
-        state.saves = false;
+        panels.close(ID);
     }
     Ok(())
 }

@@ -2,21 +2,23 @@
 //! that measures the curve here and now, the autopilot, the A/B split, what each stage takes of a tick, and on demand all
 //! else that is measured.
 
-mod axis;
-mod measures;
-mod pilot;
-mod plot;
-
 use crate::{
     game::{
+        actions::{Action, PanelId},
         hud::{
-            HudState,
-            bar::{icon_button, quality_name, tip},
-            icons::Icon,
-            style,
+            panels::accuracy::{
+                axis::{percent, short},
+                measures, pilot,
+                plot::{Live, Plot},
+            },
+            stats,
+            style::{self, weak},
+            widgets::{icon_button, quality_name},
         },
-        input::bindings::Action,
+        icons,
+        input::bindings::{Bindings, Group, NONE},
         orders::{Order, Orders},
+        panels::{Panel, Panels},
     },
     scene::blueprint::Blueprint,
     sim::{
@@ -28,14 +30,15 @@ use crate::{
         state::{Clock, Setup},
     },
 };
-pub use axis::short;
-use bevy::prelude::{Res, ResMut, Resource, Result};
+use bevy::prelude::{App, KeyCode, Res, ResMut, Resource, Result};
 use bevy_egui::{
     EguiContexts,
     egui::{self, Color32, RichText, Sense, Ui, vec2},
 };
-use plot::{Live, Plot};
 use std::{collections::BTreeMap, sync::Arc};
+
+/// Its name.
+pub const ID: PanelId = PanelId("accuracy");
 
 /// Width of the panel's contents, points.
 const WIDTH: f32 = 396.0;
@@ -56,7 +59,9 @@ pub struct AccuracyPanel {
     trail: Vec<Live>,
     trail_tick: u64,
     bounds: pilot::Bounds,
-    /// Whether all measures were in sight since they were opened.
+    /// Whether all measures are shown.
+    pub measures: bool,
+    /// Whether all of them were in sight since they were opened.
     measures_seen: bool,
 }
 
@@ -92,27 +97,36 @@ impl AccuracyPanel {
     }
 }
 
-/// An error as a text.
-pub fn percent(error: f32) -> String {
-    format!("{} %", short(100.0 * error))
+/// Adds the panel.
+pub fn plugin(app: &mut App) {
+    app.init_resource::<AccuracyPanel>();
+    let panel = Panel {
+        id: ID,
+        title: "Accuracy",
+        icon: icons::curve,
+        keys: &[(KeyCode::KeyA, NONE)],
+        group: Group::Look,
+        help: "accuracy: what it costs, and the autopilot",
+        in_bar: true,
+        in_list: Some("Accuracy and cost"),
+        stays: true,
+    };
+    Panels::add(app, panel, show);
 }
 
 /// Shows the panel.
-pub fn show(
+fn show(
     mut contexts: EguiContexts,
-    mut state: ResMut<HudState>,
+    mut panels: ResMut<Panels>,
     mut panel: ResMut<AccuracyPanel>,
     setup: Res<Setup>,
     clock: Res<Clock>,
     measured: (Res<PassLedger>, Res<LiveError>, Res<Measures>),
     survey: Res<Survey>,
     autopilot: Res<Autopilot>,
-    split: Res<Split>,
+    (split, bindings): (Res<Split>, Res<Bindings>),
     mut orders: ResMut<Orders>,
 ) -> Result {
-    if !state.accuracy || !state.visible {
-        return Ok(());
-    }
     let (ledger, error, measures) = measured;
     let milliseconds = ledger.tick().median().as_secs_f32() * 1000.0;
     let live = (milliseconds > 0.0).then(|| Live { milliseconds, error: error.mean() });
@@ -120,15 +134,14 @@ pub fn show(
     panel.follow(&survey, &clock, live);
     let context = contexts.ctx_mut()?;
     let screen = context.content_rect();
-    let mut open = true;
     let height = screen.height() - 215.0;
     let place = (egui::Align2::RIGHT_TOP, screen.right_top() + vec2(-14.0, 54.0));
-    style::window(context, "Accuracy", &mut open, place, |ui| {
+    style::panel(context, &mut panels, ID, place, |ui| {
         egui::ScrollArea::vertical().min_scrolled_height(height).max_height(height).show(ui, |ui| {
             ui.set_width(WIDTH.min(screen.width() - 60.0));
             ui.spacing_mut().button_padding = vec2(7.0, 2.0);
             headline(ui, &setup, milliseconds, &error);
-            let AccuracyPanel { curves, trail, bounds, measures_seen: seen, .. } = &mut *panel;
+            let AccuracyPanel { curves, trail, bounds, measures: open, measures_seen: seen, .. } = &mut *panel;
             let curve = curves.get(&scene);
             let scale = curve.and_then(Curve::scale);
             let plot = Plot {
@@ -143,24 +156,17 @@ pub fn show(
             if let Some(preset) = plot.show(ui, size).or(plot.chips(ui)) {
                 orders.push(Order::Quality(preset));
             }
-            measure(ui, &survey, curve, scale, &split, &mut orders);
+            measure(ui, &survey, curve, scale, (&split, &bindings), &mut orders);
             ui.separator();
             pilot::show(ui, &autopilot, bounds, &mut orders);
             pilot::status(ui, &autopilot, &setup, milliseconds, error.mean());
             ui.separator();
             stages(ui, &ledger, &error);
             ui.separator();
-            measures::show(ui, &mut state.measures, seen, &measures);
+            measures::show(ui, open, seen, &measures);
         });
     });
-    if !open {
-        state.accuracy = false;
-    }
     Ok(())
-}
-
-fn weak(text: impl Into<String>) -> RichText {
-    RichText::new(text).color(style::WEAK)
 }
 
 fn headline(ui: &mut Ui, setup: &Setup, milliseconds: f32, error: &LiveError) {
@@ -192,7 +198,7 @@ fn measure(
     survey: &Survey,
     curve: Option<&Curve>,
     scale: Option<f32>,
-    split: &Split,
+    (split, bindings): (&Split, &Bindings),
     orders: &mut Orders,
 ) {
     ui.horizontal(|ui| {
@@ -214,8 +220,8 @@ fn measure(
             }
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if icon_button(ui, Icon::Split, Some("A/B split"), split.is_on())
-                .on_hover_text(tip(Action::Split))
+            if icon_button(ui, icons::split, Some("A/B split"), split.is_on())
+                .on_hover_text(bindings.tip(Action::Split))
                 .clicked()
             {
                 orders.push(Order::Act(Action::Split));
@@ -227,7 +233,7 @@ fn measure(
             Some(scale) if (scale - 1.0).abs() > 0.005 => format!(", times × {} as in the game", short(scale)),
             _ => String::new(),
         };
-        let from = super::stats::grouped(curve.tick);
+        let from = stats::grouped(curve.tick);
         let told = format!("{} from tick {from} on, one thread, all awake{times}", curve.scene);
         ui.label(weak(told).small());
     }

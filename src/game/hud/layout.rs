@@ -1,9 +1,9 @@
-//! The scale of the HUD, and the room that it leaves to the world.
+//! The scale of the HUD, and the space that it leaves to the world.
 
 use crate::{
     game::{
         camera::{Area, WorldCamera},
-        hud::{HudState, style},
+        panels::Panels,
         split,
     },
     sim::split::Split,
@@ -12,14 +12,9 @@ use bevy::{
     prelude::{Query, Res, ResMut, Resource, Result, With},
     window::{PrimaryWindow, Window},
 };
-use bevy_egui::{
-    EguiContexts,
-    egui::{self, RichText},
-};
+use bevy_egui::EguiContexts;
 use glam::Vec2;
 
-/// Scales that the player may choose on top of the automatic one.
-const CHOICES: [f32; 6] = [0.75, 0.9, 1.0, 1.15, 1.3, 1.6];
 /// Window in which the automatic scale is 1, logical pixels.
 const DESIGNED_FOR: Vec2 = Vec2::new(1200.0, 750.0);
 
@@ -38,7 +33,7 @@ impl Default for UiScale {
 
 /// What the bars cover, points.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
-pub struct Room {
+pub struct Bars {
     /// Height of the bar on top.
     pub top: f32,
     /// Height of the palette.
@@ -69,22 +64,22 @@ pub fn scale_to_window(
     Ok(())
 }
 
-/// Gives the world the room between the bars.
-pub fn make_room(
+/// Gives the world the space between the bars.
+pub fn place_world(
     mut contexts: EguiContexts,
-    room: Res<Room>,
+    bars: Res<Bars>,
     split: Res<Split>,
-    state: Res<HudState>,
+    panels: Res<Panels>,
     windows: Query<&Window, With<PrimaryWindow>>,
     mut camera: ResMut<WorldCamera>,
 ) -> Result {
     let Ok(window) = windows.single() else { return Ok(()) };
     let zoom = contexts.ctx_mut()?.zoom_factor();
     let size = window.resolution.size();
-    let free = Area { min: Vec2::new(0.0, room.top * zoom), max: Vec2::new(size.x, size.y - room.bottom * zoom) };
+    let free = Area { min: Vec2::new(0.0, bars.top * zoom), max: Vec2::new(size.x, size.y - bars.bottom * zoom) };
     let (first, others) = match split.is_on() {
         true => {
-            let [first, second, third] = split::areas(free, camera.world(), if state.visible { zoom } else { 0.0 });
+            let [first, second, third] = split::areas(free, camera.world(), if panels.visible { zoom } else { 0.0 });
             (first, Some([second, third]))
         }
         false => (free, None),
@@ -92,32 +87,6 @@ pub fn make_room(
     camera.set_others(others);
     if camera.window() != size || camera.free() != first {
         camera.set_window(size, first);
-    }
-    Ok(())
-}
-
-/// Shows the settings.
-pub fn show(mut contexts: EguiContexts, mut state: ResMut<HudState>, mut scale: ResMut<UiScale>) -> Result {
-    if !state.settings {
-        return Ok(());
-    }
-    let mut open = true;
-    let context = contexts.ctx_mut()?;
-    let place = (egui::Align2::CENTER_CENTER, context.content_rect().center());
-    style::window(context, "Settings", &mut open, place, |ui| {
-        ui.label(RichText::new("Size of the HUD").color(style::WEAK));
-        ui.horizontal(|ui| {
-            for choice in CHOICES {
-                let text = format!("{:.0} %", choice * 100.0);
-                if ui.selectable_label(scale.factor == choice, text).clicked() {
-                    scale.factor = choice;
-                }
-            }
-        });
-        ui.label(RichText::new("100 % follows the size of the window.").small().color(style::WEAK));
-    });
-    if !open {
-        state.settings = false;
     }
     Ok(())
 }

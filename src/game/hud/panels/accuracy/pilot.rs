@@ -1,9 +1,12 @@
 //! The autopilot's part of the panel: what it is to hold, and how it stands with that.
 
-use super::{axis::short, percent};
 use crate::{
     game::{
-        hud::{bar::quality_name, style},
+        hud::{
+            panels::accuracy::axis::{percent, short},
+            style,
+            widgets::quality_name,
+        },
         orders::{Order, Orders},
     },
     sim::{

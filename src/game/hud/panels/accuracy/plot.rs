@@ -1,12 +1,11 @@
 //! Error against time, log–log: the curve that was measured with the presets as buttons on it, the world as it runs now,
 //! and the bound that the autopilot holds. What has a time and no error, for want of liquid, stands on the lower edge.
 
-use super::{
-    axis::{Axis, short},
-    percent,
-};
 use crate::{
-    game::hud::style,
+    game::hud::{
+        panels::accuracy::axis::{Axis, percent, short},
+        style,
+    },
     kernel::params::{Preset, Quality},
     sim::{
         accuracy::{Curve, CurvePoint},
