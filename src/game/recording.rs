@@ -107,7 +107,7 @@ pub fn write_to(folders: &[PathBuf], recorder: &Recorder, suffix: &str, end: End
     let Some(bytes) = recorder.recording(end) else { return Ok(None) };
     let named = recorder.destination();
     let written = match &named {
-        Some(path) => files::write_whole(path, &bytes).map(|()| path.clone()),
+        Some(path) => disk::write_whole(path, &bytes).map(|()| path.clone()),
         None => write_new(folders, recorder, suffix, &bytes),
     };
     written.map(Some).map_err(|error| {

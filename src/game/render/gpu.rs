@@ -4,7 +4,7 @@ use crate::game::render::{
     cost::RenderCost,
     extract::Pictures,
     picture::{Picture, WorldUniform},
-    pipelines::{Layouts, Pipelines},
+    pipelines::{FIELD_FORMAT, Layouts, Pipelines},
 };
 use bevy::platform::time::Instant;
 use bevy::{
@@ -21,8 +21,6 @@ use bevy::{
 use glam::UVec2;
 use std::sync::atomic::Ordering;
 
-/// Format of the field that the liquid is drawn into. Its bytes are sRGB, but it is blended and sampled as they are.
-pub const FIELD_FORMAT: TextureFormat = TextureFormat::Rgba8Unorm;
 /// Texels of the field to one d: enough for a smooth surface; more would only cost.
 const FIELD_TEXELS_PER_D: f32 = 6.0;
 

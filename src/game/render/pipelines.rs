@@ -1,6 +1,6 @@
 //! The five pipelines of the picture, made for the format of the window's target.
 
-use crate::game::render::{gpu::FIELD_FORMAT, picture::WorldUniform};
+use crate::game::render::picture::WorldUniform;
 use bevy::{
     asset::Handle,
     mesh::VertexBufferLayout,
@@ -18,6 +18,9 @@ use bevy::{
     },
     shader::Shader,
 };
+
+/// Format of the field that the liquid is drawn into. Its bytes are sRGB, but it is blended and sampled as they are.
+pub const FIELD_FORMAT: TextureFormat = TextureFormat::Rgba8Unorm;
 
 /// The shader of the picture.
 #[derive(Resource)]
