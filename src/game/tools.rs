@@ -5,7 +5,7 @@ use crate::{
     game::icons::{self, Icon},
     kernel::{
         brush::{BrushShape, Stroke},
-        element::{Element, ElementId, ElementTable},
+        element::{Category, Element, ElementId, ElementTable},
     },
     scene::blueprint::Effect,
     sim::intent::Intent,
@@ -143,9 +143,11 @@ pub enum Tool {
 }
 
 impl Tool {
-    /// Every tool, in the order of the palette: the elements first.
+    /// Every tool, in the order of the palette: the elements first, by their categories.
     pub fn all(elements: &ElementTable) -> impl Iterator<Item = Self> {
-        elements.iter().map(|(id, _)| Self::Element(id)).chain(TOOLS.into_iter().map(Self::Other))
+        let of = |category| elements.iter().filter(move |(_, element)| element.category == category);
+        let ids = Category::ALL.into_iter().flat_map(of).map(|(id, _)| Self::Element(id));
+        ids.chain(TOOLS.into_iter().map(Self::Other))
     }
 
     /// Name in the palette.

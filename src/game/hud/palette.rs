@@ -116,7 +116,7 @@ fn tiles(ui: &mut Ui, row: egui::Rect, shows: &Shows, chosen: Tool) -> Option<To
 /// The key of a tool, if it has one.
 fn key_of(tool: Tool, shows: &Shows) -> String {
     match tool {
-        Tool::Element(id) => shows.setup.elements().get(id).key.to_string(),
+        Tool::Element(id) => shows.setup.elements().get(id).key.map(String::from).unwrap_or_default(),
         Tool::Other(_) => shows.bindings.key(Action::Tool(tool)),
     }
 }
@@ -127,8 +127,8 @@ fn about(tool: Tool, shows: &Shows) -> String {
     let (element, spacing) = (shows.setup.elements().get(id), shows.setup.blueprint.scale.spacing);
     let mass = element.density * spacing * spacing;
     let kind = if element.fixed { "stays where it is" } else { "flows" };
-    let key = key_of(tool, shows);
-    format!("{} ({key}): {kind}, {} kg/m², {mass:.3} kg a particle", element.name, element.density)
+    let key = element.key.map(|key| format!(" ({key})")).unwrap_or_default();
+    format!("{}{key}: {kind}, {} kg/m², {mass:.3} kg a particle", element.name, element.density)
 }
 
 fn tile(ui: &mut Ui, tool: Tool, shows: &Shows, chosen: bool) -> egui::Response {

@@ -5,7 +5,7 @@ use crate::{
         actions::Action,
         camera::{Area, WorldCamera},
         hud::{
-            panels::accuracy::axis::{percent, short},
+            panels::accuracy::axis::percent,
             style,
             widgets::{icon_button, quality_menu, quality_name},
         },
@@ -23,6 +23,7 @@ use crate::{
     sim::{
         accuracy::LiveError,
         ledger::PassLedger,
+        numbers::short,
         split::Split,
         state::{AirGrid, Clock, ParticleStore, Setup},
     },

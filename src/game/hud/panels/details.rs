@@ -6,7 +6,7 @@ use crate::{
         actions::PanelId,
         hud::{
             cost::HudCost,
-            stats::{Readings, grouped},
+            stats::Readings,
             style::{self, weak},
         },
         icons,
@@ -23,6 +23,7 @@ use crate::{
             account::{self, Account, Sleepers},
         },
         ledger::{Pass, PassLedger, PassRecord, Unit},
+        numbers::grouped,
         state::{AirGrid, Clock, ParticleStore, Setup, SleepState},
     },
 };

@@ -3,13 +3,14 @@
 use crate::{
     game::{
         actions::PanelId,
-        hud::{panels::desk, stats::grouped, style},
+        hud::{panels::desk, style},
         icons::{self, Icon},
         input::bindings::{Group, NONE},
         panels::{Panel, Panels},
     },
     sim::{
         exam::{ExamDesk, Row, Verdict},
+        numbers::grouped,
         state::Setup,
     },
 };

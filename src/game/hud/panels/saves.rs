@@ -1,16 +1,19 @@
 //! The list of save files.
 
-use crate::game::{
-    actions::PanelId,
-    disk,
-    hud::{stats::grouped, style},
-    icons,
-    input::bindings::{CTRL, Group},
-    orders::{Order, Orders},
-    panels::{Panel, Panels, is_open},
-    saves::{self, LoadError, SaveFolders, Summary},
+use crate::{
+    game::{
+        actions::PanelId,
+        disk,
+        hud::style,
+        icons,
+        input::bindings::{CTRL, Group},
+        orders::{Order, Orders},
+        panels::{Panel, Panels, is_open},
+        saves::{self, LoadError, SaveFolders, Summary},
+    },
+    kernel::units::TICKS_PER_SECOND,
+    sim::numbers::grouped,
 };
-use crate::kernel::units::TICKS_PER_SECOND;
 use bevy::prelude::{App, IntoScheduleConfigs, KeyCode, Res, ResMut, Resource, Result, Update, not};
 use bevy_egui::{
     EguiContexts,

@@ -3,8 +3,8 @@
 use crate::{
     game::hud::style::weak,
     sim::{
-        exam::figure,
         measures::{Measured, Measures},
+        numbers::figure,
     },
 };
 use bevy_egui::egui::{self, Ui};

@@ -7,11 +7,10 @@ use crate::{
         actions::{Action, PanelId},
         hud::{
             panels::accuracy::{
-                axis::{percent, short},
+                axis::percent,
                 measures, pilot,
                 plot::{Live, Plot},
             },
-            stats,
             style::{self, weak},
             widgets::{icon_button, quality_name},
         },
@@ -26,6 +25,7 @@ use crate::{
         autopilot::Autopilot,
         ledger::{Pass, PassLedger},
         measures::Measures,
+        numbers::{self, short},
         split::Split,
         state::{Clock, Setup},
     },
@@ -233,7 +233,7 @@ fn measure(
             Some(scale) if (scale - 1.0).abs() > 0.005 => format!(", times × {} as in the game", short(scale)),
             _ => String::new(),
         };
-        let from = stats::grouped(curve.tick);
+        let from = numbers::grouped(curve.tick);
         let told = format!("{} from tick {from} on, one thread, all awake{times}", curve.scene);
         ui.label(weak(told).small());
     }

@@ -2,15 +2,12 @@
 
 use crate::{
     game::{
-        hud::{
-            panels::accuracy::axis::{percent, short},
-            style,
-            widgets::quality_name,
-        },
+        hud::{panels::accuracy::axis::percent, style, widgets::quality_name},
         orders::{Order, Orders},
     },
     sim::{
         autopilot::{Autopilot, Goal, controller::Verdict},
+        numbers::short,
         state::Setup,
     },
 };

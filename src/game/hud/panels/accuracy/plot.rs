@@ -3,13 +3,14 @@
 
 use crate::{
     game::hud::{
-        panels::accuracy::axis::{Axis, percent, short},
+        panels::accuracy::axis::{Axis, percent},
         style,
     },
     kernel::params::{Preset, Quality},
     sim::{
         accuracy::{Curve, CurvePoint},
         autopilot::Goal,
+        numbers::short,
     },
 };
 use bevy_egui::egui::{self, Align2, Color32, FontId, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
