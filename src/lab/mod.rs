@@ -4,13 +4,12 @@
 
 pub mod balance;
 pub mod binning;
+pub mod cases;
 #[cfg(all(feature = "charts", not(target_arch = "wasm32")))]
 pub mod chart;
 pub mod coarse;
 pub mod colours;
-mod crew;
 pub mod density;
-mod desk;
 pub mod difference;
 mod drift;
 mod drive;
@@ -19,6 +18,7 @@ pub mod exam;
 pub mod gating;
 pub mod gauntlet;
 pub mod headless;
+pub mod jobs;
 pub mod live;
 pub mod machine;
 pub mod maps;

@@ -2,16 +2,15 @@
 //! follow from it. A new one is a file here and its line below.
 
 pub mod accuracy;
-mod desk;
+pub mod cases;
 pub mod details;
-pub mod exam;
-pub mod gauntlet;
 pub mod help;
 pub mod saves;
 pub mod scenes;
 pub mod search;
 pub mod settings;
 
+use crate::lab::{exam::ExamCase, gauntlet::GauntletCase};
 use bevy::prelude::App;
 
 /// Adds them all; the buttons of the bar stand in this order from the right.
@@ -19,8 +18,8 @@ pub fn plugin(app: &mut App) {
     app.add_plugins((
         help::plugin,
         settings::plugin,
-        exam::plugin,
-        gauntlet::plugin,
+        cases::window::plugin::<ExamCase>,
+        cases::window::plugin::<GauntletCase>,
         details::plugin,
         accuracy::panel::plugin,
         saves::plugin,
