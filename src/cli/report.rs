@@ -1,12 +1,7 @@
 //! What `exam` and `gauntlet` have in common: which cases they run, how far they are, where their rows go.
 
 use crate::{
-    cli::{
-        args::ReportOptions,
-        failure::Failure,
-        output::{self, STDOUT},
-        progress,
-    },
+    cli::{args::ReportOptions, failure::Failure, output, progress},
     kernel::params::Preset,
     lab::machine::processor,
 };
@@ -31,11 +26,10 @@ impl<'a> Report<'a> {
     pub(super) fn new(options: &'a ReportOptions) -> Result<Self, Failure> {
         let (json, markdown) = (options.json.as_deref(), options.markdown.as_deref());
         let files = [json, markdown];
-        if files.iter().all(|file| *file == Some(Path::new(STDOUT))) {
+        if files.into_iter().all(output::is_stdout) {
             return Err(Failure::Usage("--json and --markdown can't both have stdout; allowed: a file for one".into()));
         }
-        let on_disk: Vec<&Path> = files.into_iter().flatten().filter(|file| *file != Path::new(STDOUT)).collect();
-        output::check(&on_disk)?;
+        output::check(&files.into_iter().flatten().collect::<Vec<_>>())?;
         let threads = options.threads.map_or_else(|| available_parallelism().map_or(1, usize::from), |n| n as usize);
         Ok(Self { json, markdown, threads })
     }
@@ -48,19 +42,13 @@ impl<'a> Report<'a> {
         document: impl FnOnce(&str) -> String,
         table: impl FnOnce() -> String,
     ) -> Result<(), Failure> {
-        let to_stdout = |file: Option<&Path>| file == Some(Path::new(STDOUT));
-        if let Some(path) = self.json {
-            output::write_json(path, &json!({ "processor": processor(), "threads": self.threads, "rows": rows }))?;
+        let text = self.markdown.map(|_| document(&processor()));
+        if let (Some(path), Some(text)) = (self.markdown.filter(|path| !output::is_stdout(Some(path))), &text) {
+            output::write(path, |file| file.write_all(text.as_bytes()))?;
         }
-        if let Some(path) = self.markdown {
-            let text = document(&processor());
-            if to_stdout(self.markdown) {
-                output::print(&text)?;
-            } else {
-                output::write(path, |file| file.write_all(text.as_bytes()))?;
-            }
-        }
-        if to_stdout(self.json) || to_stdout(self.markdown) { Ok(()) } else { output::print(&table()) }
+        let value = || json!({ "processor": processor(), "threads": self.threads, "rows": rows });
+        let printed = text.filter(|_| output::is_stdout(self.markdown));
+        output::report(self.json, value, || printed.unwrap_or_else(table))
     }
 }
 

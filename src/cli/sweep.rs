@@ -4,12 +4,15 @@ use crate::{
     cli::{args::SweepArguments, failure::Failure, output, progress, start::Start},
     kernel::simd::InstructionSet,
     lab::{
+        experiment::{
+            ExperimentError,
+            journal::{Journal, JournalFile, OpenError},
+        },
         headless::Headless,
         moment::Moment,
         sweep::{
-            ErrorMeasure, Progress, Sweep, SweepError,
+            ErrorMeasure, Progress, Sweep,
             design::{Scope, other_threads, settings},
-            journal::{Journal, JournalFile, OpenError},
             presets::Order,
             row::Row,
             summary::{self, Subject},
@@ -207,7 +210,7 @@ fn measure(
         line.set_message(what.to_owned());
     });
     let rows = rows.map_err(|error| match error {
-        SweepError::Journal(error) => unwritten(error),
+        ExperimentError::Journal(error) => unwritten(error),
         error => Failure::Outcome(format!("{scene}: {error}")),
     })?;
     drop(line);

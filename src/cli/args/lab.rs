@@ -1,9 +1,12 @@
 //! What measures and judges.
 
-use super::values::{
-    Minutes, cap, exam_case, gauntlet_case, hours, particles, preset, rounds, setting, simd, threads, ticks, warmup,
+use super::{
+    machine::Machine,
+    values::{
+        Minutes, cap, exam_case, gauntlet_case, hours, particles, preset, rounds, setting, threads, ticks, warmup,
+    },
 };
-use crate::kernel::{params::Preset, simd::InstructionSet};
+use crate::kernel::params::Preset;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -131,12 +134,8 @@ pub(in crate::cli) struct SoakArguments {
     /// Write the figures as JSON; `-` is stdout
     #[arg(long, value_name = "FILE.json")]
     pub(in crate::cli) json: Option<PathBuf>,
-    /// Threads of the simulation; they never change the result [default: all]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
-    pub(in crate::cli) threads: Option<u64>,
-    /// Instruction set of the simulation: auto, or a narrower one than the processor's best; it never changes the result
-    #[arg(long, value_name = "SET", default_value = "auto", hide_default_value = true, value_parser = simd)]
-    pub(in crate::cli) simd: InstructionSet,
+    #[command(flatten)]
+    pub(in crate::cli) machine: Machine,
 }
 
 /// `study`.

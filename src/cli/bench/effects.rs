@@ -1,23 +1,26 @@
 //! `bench effects`: what each effect costs, and what it saves to run only those that a scene calls for.
 
 use crate::{
-    cli::{
-        args::BenchArguments,
-        bench::row,
-        failure::Failure,
-        output::{self, STDOUT},
-        progress,
-    },
+    cli::{args::BenchArguments, failure::Failure, output, progress},
     kernel::params::Preset,
     lab::{
-        gating::{self, Plan, SceneCost},
+        gating::{self, EffectCost, SceneCost},
         machine::processor,
+        markdown,
     },
     scene,
-    sim::numbers::grouped,
+    sim::numbers::{fixed, grouped},
 };
 use serde_json::json;
-use std::path::Path;
+
+/// The quality that is measured.
+const PRESET: Preset = Preset::Balanced;
+
+const SCENE_HEADINGS: [&str; 9] =
+    ["scene", "particles", "air cells", "as it is", "everything on", "saved", "same world", "everything off", "spread"];
+
+const EFFECT_HEADINGS: [&str; 6] =
+    ["scene", "effect", "alone, ms", "together, ms", "together, ns a particle", "ns a cell"];
 
 /// Measures every built-in scene and prints the tables.
 pub(super) fn effects(arguments: &BenchArguments) -> Result<(), Failure> {
@@ -28,35 +31,25 @@ pub(super) fn effects(arguments: &BenchArguments) -> Result<(), Failure> {
         )));
     }
     let json = arguments.json.as_deref();
-    let to_stdout = json == Some(Path::new(STDOUT));
-    output::check(&json.into_iter().filter(|_| !to_stdout).collect::<Vec<_>>())?;
-    let plan = Plan { preset: Preset::Balanced, rounds: if arguments.scaling.quick { 1 } else { 5 } };
+    output::check(json.as_slice())?;
+    let rounds = if arguments.scaling.quick { 1 } else { 5 };
     let names = scene::builtin_names();
     let line = progress::bar(names.len() as u64);
     let mut costs = Vec::new();
     for name in names {
         line.set_message(name);
-        costs.push(gating::measure(name, plan)?);
+        costs.push(gating::measure(name, PRESET, rounds)?);
         line.inc(1);
     }
     drop(line);
-    if let Some(path) = json {
-        let report = json!({ "processor": processor(), "quality": plan.preset.name(), "scenes": costs });
-        output::write_json(path, &report)?;
-    }
-    if to_stdout { Ok(()) } else { output::print(&text(&costs, plan)) }
+    let value = || json!({ "processor": processor(), "quality": PRESET.name(), "scenes": costs });
+    output::report(json, value, || text(&costs))
 }
 
 /// The tables in Markdown.
-fn text(costs: &[SceneCost], plan: Plan) -> String {
-    let mut text = format!(
-        "At `{}`, one thread, {}; medians of a tick in ms.\n\n| scene | particles | air cells | as it is | everything on | \
-         saved | same world | everything off | spread |\n|---|---:|---:|---:|---:|---:|---|---:|---:|\n",
-        plan.preset.name(),
-        processor()
-    );
-    for cost in costs {
-        text += &row(&[
+fn text(costs: &[SceneCost]) -> String {
+    let scene = |cost: &SceneCost| {
+        vec![
             format!("`{}`", cost.scene),
             grouped(cost.particles),
             grouped(cost.cells),
@@ -66,22 +59,29 @@ fn text(costs: &[SceneCost], plan: Plan) -> String {
             if cost.same { "yes" } else { "no" }.to_owned(),
             format!("{:.3}", cost.ms_none),
             format!("{:.0} %", 100.0 * cost.spread),
-        ]);
-    }
-    text += "\n| scene | effect | alone, ms | together, ms | together, ns a particle | ns a cell |\n\
-             |---|---|---:|---:|---:|---:|\n";
-    for cost in costs {
-        let each = |ms: f64, of: usize| if of > 0 { format!("{:.1}", 1e6 * ms / of as f64) } else { "–".to_owned() };
-        for effect in &cost.effects {
-            text += &row(&[
+        ]
+    };
+    let each = |ms: f64, of: usize| fixed((of > 0).then(|| 1e6 * ms / of as f64), 1);
+    let effects = |cost: &SceneCost| {
+        let effect = |effect: &EffectCost| {
+            vec![
                 format!("`{}`", cost.scene),
                 format!("`{}`", effect.effect),
                 format!("{:.3}", effect.alone),
                 format!("{:.3}", effect.together),
                 each(effect.together, cost.particles),
                 each(effect.together, cost.cells),
-            ]);
-        }
-    }
-    text
+            ]
+        };
+        cost.effects.iter().map(effect).collect::<Vec<_>>()
+    };
+    let scenes: Vec<Vec<String>> = costs.iter().map(scene).collect();
+    let effects: Vec<Vec<String>> = costs.iter().flat_map(effects).collect();
+    format!(
+        "At `{}`, one thread, {}; medians of a tick in ms.\n\n{}\n{}",
+        PRESET.name(),
+        processor(),
+        markdown::table(&SCENE_HEADINGS, |column| !matches!(column, 0 | 6), &scenes),
+        markdown::table(&EFFECT_HEADINGS, |column| column > 1, &effects)
+    )
 }

@@ -17,8 +17,3 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
         Bench::Scaling => scaling::scaling(arguments),
     }
 }
-
-/// A row of a Markdown table.
-fn row(cells: &[String]) -> String {
-    format!("| {} |\n", cells.join(" | "))
-}

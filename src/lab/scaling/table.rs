@@ -43,7 +43,7 @@ pub fn fits(rows: &[Row]) -> Vec<Fit> {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::lab::scaling::Window;
+    use crate::lab::scaling::measure::Window;
 
     /// A row of a law of costs.
     pub fn row(setting: &'static str, particles: usize, ms: [f64; 2], error: f64) -> Row {

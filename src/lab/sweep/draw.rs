@@ -1,6 +1,6 @@
 //! curve.svg and curve.png: error against time, both logarithmic.
 
-use super::{ErrorMeasure, row::Row, summary::Subject};
+use super::{error::ErrorMeasure, row::Row, summary::Subject};
 use crate::lab::{
     chart::{Axis, Chart, Look, Point, Series},
     machine::processor,

@@ -1,7 +1,7 @@
 //! Whether the presets are what they claim: each exacter and dearer than the one before, and none a bad buy.
 
 use super::{
-    ErrorMeasure,
+    error::ErrorMeasure,
     front::point,
     row::{NEGLIGIBLE, Row},
 };
