@@ -16,10 +16,7 @@ use crate::{
     },
 };
 use serde::Serialize;
-use std::{
-    panic::{self, AssertUnwindSafe},
-    path::Path,
-};
+use std::panic::{self, AssertUnwindSafe};
 
 /// What came out.
 #[derive(Serialize)]

@@ -1,7 +1,7 @@
 //! Tables and paragraphs in Markdown.
 
 /// An aligned table; columns for which `is_figure` holds stand at the right.
-pub(super) fn table(headings: &[&str], is_figure: impl Fn(usize) -> bool, lines: &[Vec<String>]) -> String {
+pub fn table(headings: &[&str], is_figure: impl Fn(usize) -> bool, lines: &[Vec<String>]) -> String {
     let wide = |column: usize| {
         let heading = headings[column].chars().count();
         lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0).max(heading).max(2)
