@@ -41,31 +41,16 @@ fn rest_density(threads: Option<u64>, folder: &Path) -> Result<(), Failure> {
 fn table(outcomes: &[Outcome]) -> String {
     let line = |outcome: &Outcome| {
         let Outcome { quality, ratio, kinetic_energy, jitter, density_bottom, density_top, slope, surface } = outcome;
-        vec![
-            format!("`{quality}`"),
-            format!("{ratio:.2}"),
-            format!("{kinetic_energy:.3}"),
-            format!("{jitter:.4}"),
-            format!("{density_bottom:.2}"),
-            format!("{density_top:.2}"),
-            format!("{slope:+.3}"),
-            format!("{surface:.2}"),
-        ]
+        format!(
+            "`{quality}` | {ratio:.2} | {kinetic_energy:.3} | {jitter:.4} | {density_bottom:.2} | {density_top:.2} | \
+             {slope:+.3} | {surface:.2}"
+        )
     };
-    let headings = [
-        "quality",
-        "ratio",
-        "kinetic energy a particle, J/m",
-        "rms speed, d a tick",
-        "particles a d², lower half",
-        "upper half",
-        "slope",
-        "surface, m",
-    ];
-    let lines: Vec<Vec<String>> = outcomes.iter().map(line).collect();
+    let headings = "quality | >ratio | >kinetic energy a particle, J/m | >rms speed, d a tick | \
+                    >particles a d², lower half | >upper half | >slope | >surface, m";
     format!(
         "Means over {OBSERVED_FOR} s after {SETTLED_AFTER} s; rows of the picture: {}.\n\n{}",
         PRESETS.map(|preset| format!("`{}`", preset.name())).join(", "),
-        markdown::table(&headings, |column| column > 0, &lines)
+        markdown::rows(headings, outcomes.iter().map(line))
     )
 }

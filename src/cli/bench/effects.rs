@@ -16,12 +16,6 @@ use serde_json::json;
 /// The quality that is measured.
 const PRESET: Preset = Preset::Balanced;
 
-const SCENE_HEADINGS: [&str; 9] =
-    ["scene", "particles", "air cells", "as it is", "everything on", "saved", "same world", "everything off", "spread"];
-
-const EFFECT_HEADINGS: [&str; 6] =
-    ["scene", "effect", "alone, ms", "together, ms", "together, ns a particle", "ns a cell"];
-
 /// Measures every built-in scene and prints the tables.
 pub(super) fn effects(arguments: &BenchArguments) -> Result<(), Failure> {
     let other = arguments.scaling.first_given(&["--quick"]).or(arguments.threads.map(|_| "--threads"));
@@ -49,39 +43,30 @@ pub(super) fn effects(arguments: &BenchArguments) -> Result<(), Failure> {
 /// The tables in Markdown.
 fn text(costs: &[SceneCost]) -> String {
     let scene = |cost: &SceneCost| {
-        vec![
-            format!("`{}`", cost.scene),
-            grouped(cost.particles),
-            grouped(cost.cells),
-            format!("{:.3}", cost.ms),
-            format!("{:.3}", cost.ms_all),
-            format!("{:.0} %", 100.0 * cost.saved()),
-            if cost.same { "yes" } else { "no" }.to_owned(),
-            format!("{:.3}", cost.ms_none),
-            format!("{:.0} %", 100.0 * cost.spread),
-        ]
+        let SceneCost { scene, ms, ms_all, ms_none, .. } = cost;
+        let (particles, cells) = (grouped(cost.particles), grouped(cost.cells));
+        let [saved, spread] = [cost.saved(), cost.spread].map(|share| 100.0 * share);
+        let same = if cost.same { "yes" } else { "no" };
+        format!(
+            "`{scene}` | {particles} | {cells} | {ms:.3} | {ms_all:.3} | {saved:.0} % | {same} | {ms_none:.3} | {spread:.0} %"
+        )
     };
-    let each = |ms: f64, of: usize| fixed((of > 0).then(|| 1e6 * ms / of as f64), 1);
     let effects = |cost: &SceneCost| {
-        let effect = |effect: &EffectCost| {
-            vec![
-                format!("`{}`", cost.scene),
-                format!("`{}`", effect.effect),
-                format!("{:.3}", effect.alone),
-                format!("{:.3}", effect.together),
-                each(effect.together, cost.particles),
-                each(effect.together, cost.cells),
-            ]
+        let (name, counts) = (cost.scene, [cost.particles, cost.cells]);
+        let effect = move |&EffectCost { effect, alone, together }: &EffectCost| {
+            let each = counts.map(|count| fixed((count > 0).then(|| 1e6 * together / count as f64), 1)).join(" | ");
+            format!("`{name}` | `{effect}` | {alone:.3} | {together:.3} | {each}")
         };
         cost.effects.iter().map(effect).collect::<Vec<_>>()
     };
-    let scenes: Vec<Vec<String>> = costs.iter().map(scene).collect();
-    let effects: Vec<Vec<String>> = costs.iter().flat_map(effects).collect();
+    let scenes = "scene | >particles | >air cells | >as it is | >everything on | >saved | same world | >everything off | \
+                  >spread";
+    let of_effects = "scene | effect | >alone, ms | >together, ms | >together, ns a particle | >ns a cell";
     format!(
         "At `{}`, one thread, {}; medians of a tick in ms.\n\n{}\n{}",
         PRESET.name(),
         processor(),
-        markdown::table(&SCENE_HEADINGS, |column| !matches!(column, 0 | 6), &scenes),
-        markdown::table(&EFFECT_HEADINGS, |column| column > 1, &effects)
+        markdown::rows(scenes, costs.iter().map(scene)),
+        markdown::rows(of_effects, costs.iter().flat_map(effects))
     )
 }

@@ -10,7 +10,6 @@ use crate::{
     sim::{numbers::grouped, workers::Workers},
 };
 use serde_json::json;
-use std::iter;
 
 /// Measures how many particles a tick may hold, and prints the table.
 pub(super) fn neighbours(arguments: &BenchArguments) -> Result<(), Failure> {
@@ -37,19 +36,19 @@ pub(super) fn neighbours(arguments: &BenchArguments) -> Result<(), Failure> {
 
 /// The table in Markdown.
 fn table(growths: &[Growth]) -> String {
-    let own = growths.iter().map(|growth| growth.name.as_str());
-    let headings: Vec<&str> =
-        ["ticks a second"].into_iter().chain(own).chain(["original: brute force", "original: bins"]).collect();
+    let own: String = growths.iter().map(|growth| format!(" | >{}", growth.name)).collect();
+    let headings = format!(">ticks a second{own} | >original: brute force | >original: bins");
+    let row = |name: &str, cells: Vec<String>| format!("{name} | {}", cells.join(" | "));
     let shown = |count: Option<f64>| count.map_or_else(|| "–".to_owned(), |count| grouped(format!("{count:.0}")));
     let rate = |(k, rate): (usize, &f64)| {
         let ours = growths.iter().map(|growth| growth.particles_at_rate[k]);
         let theirs = ORIGINAL.iter().map(|counts| k.checked_sub(1).map(|k| counts[k]));
-        iter::once(rate.to_string()).chain(ours.chain(theirs).map(shown)).collect::<Vec<_>>()
+        row(&rate.to_string(), ours.chain(theirs).map(shown).collect())
     };
-    let mut lines: Vec<Vec<String>> = RATES.iter().enumerate().map(rate).collect();
     let ours = growths.iter().map(|growth| growth.exponent);
     let theirs = ORIGINAL.iter().map(|counts| binning::exponent_of(&RATES[1..], counts));
-    lines.push(iter::once("cost grows as".to_owned()).chain(ours.chain(theirs).map(power)).collect());
+    let exponents = row("cost grows as", ours.chain(theirs).map(power).collect());
+    let lines = RATES.iter().enumerate().map(rate).chain([exponents]);
     let point = |point: &Point| format!("{}: {:.3}", grouped(point.particles), point.ms);
     let points = |growth: &Growth| growth.points.iter().map(point).collect::<Vec<_>>().join("; ");
     let measured: Vec<String> =
@@ -58,7 +57,7 @@ fn table(growths: &[Growth]) -> String {
         "Particles at a tick rate, quality `{}`, {}:\n\n{}\nMeasured (particles: median ms a tick):\n\n{}",
         PRESET.name(),
         processor(),
-        markdown::table(&headings, |_| true, &lines),
+        markdown::rows(&headings, lines),
         measured.concat()
     )
 }

@@ -68,41 +68,20 @@ fn file(folder: &Path, name: &str) -> PathBuf {
 fn text(rows: &[Row], fits: &[Fit], skipped: &[Skipped], cap: f64) -> String {
     let all = rows.iter().flat_map(|row| &row.threads).copied().max().unwrap_or(1);
     // With one thread there is no ratio.
-    let columns: Vec<usize> = (0..11).filter(|column| all > 1 || !matches!(column, 3 | 4)).collect();
-    let of_all = format!("ms, {all} threads");
-    let headings = [
-        "particles",
-        "quality",
-        "ms, 1 thread",
-        &of_all,
-        "ratio",
-        "error, mean",
-        "error, p99",
-        "bytes a particle",
-        "same hash",
-        "ticks",
-        "runs",
-    ];
-    let headings: Vec<&str> = columns.iter().map(|column| headings[*column]).collect();
-    let shown = |row: &Row| columns.iter().map(|column| cells(row)[*column].clone()).collect::<Vec<_>>();
+    let of_all = if all > 1 { format!("| >ms, {all} threads | >ratio ") } else { String::new() };
+    let headings = format!(
+        ">particles | quality | >ms, 1 thread {of_all}| >error, mean | >error, p99 | >bytes a particle | same hash | >ticks | \
+         >runs"
+    );
     let fit = |Fit { setting, threads, exponent, particles }: &Fit| {
-        let range = particles.map(grouped).join(" … ");
-        vec![format!("`{setting}`"), threads.to_string(), format!("{exponent:.3}"), range]
+        format!("`{setting}` | {threads} | {exponent:.3} | {}", particles.map(grouped).join(" … "))
     };
     let mut text = format!(
         "`{SCENE}`, {}:\n\n{}\nA time is the median of the runs' medians over the ticks; error: what exceeds rest density, \
          over the same ticks.\nCost grows as (least squares over the sizes measured):\n\n{}",
         processor(),
-        markdown::table(
-            &headings,
-            |column| !matches!(columns[column], 1 | 8),
-            &rows.iter().map(shown).collect::<Vec<_>>()
-        ),
-        markdown::table(
-            &["quality", "threads", "exponent", "particles"],
-            |column| matches!(column, 1 | 2),
-            &fits.iter().map(fit).collect::<Vec<_>>()
-        )
+        markdown::rows(&headings, rows.iter().map(|row| line(row, all))),
+        markdown::rows("quality | >threads | >exponent | particles", fits.iter().map(fit))
     );
     if !skipped.is_empty() {
         text += &format!("\nLeft out, since a row may take {cap} s (--cap):\n\n");
@@ -113,19 +92,15 @@ fn text(rows: &[Row], fits: &[Fit], skipped: &[Skipped], cap: f64) -> String {
     text
 }
 
-fn cells(row: &Row) -> [String; 11] {
+fn line(row: &Row, threads: usize) -> String {
     let ms = |k: usize| fixed(row.ms.get(k).copied(), if row.ms.get(k).is_some_and(|ms| *ms < 10.0) { 3 } else { 1 });
-    [
-        grouped(row.particles),
-        format!("`{}`", row.setting),
-        ms(0),
-        ms(1),
-        fixed(row.speedup, 2),
-        fixed(row.error_mean, 4),
-        fixed(row.error_p99, 4),
-        format!("{:.0}", row.bytes_per_particle),
-        if row.same_hash { "yes" } else { "NO" }.to_owned(),
-        format!("{}–{}", row.window.first, row.window.last),
-        row.rounds.to_string(),
-    ]
+    let of_all = if threads > 1 { format!("| {} | {} ", ms(1), fixed(row.speedup, 2)) } else { String::new() };
+    let Row { setting, bytes_per_particle: bytes, window, rounds, .. } = row;
+    let [mean, p99] = [row.error_mean, row.error_p99].map(|error| fixed(error, 4));
+    let same = if row.same_hash { "yes" } else { "NO" };
+    let (particles, one) = (grouped(row.particles), ms(0));
+    let (first, last) = (window.first, window.last);
+    format!(
+        "{particles} | `{setting}` | {one} {of_all}| {mean} | {p99} | {bytes:.0} | {same} | {first}–{last} | {rounds}"
+    )
 }

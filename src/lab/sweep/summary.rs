@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     kernel::params::{Preset, Quality},
-    lab::{machine::processor, markdown::table},
+    lab::{machine::processor, markdown},
     sim::numbers::fixed,
 };
 
@@ -84,18 +84,20 @@ fn budgets(subject: &Subject, rows: &[&Row]) -> String {
         let best = |wanted: &dyn Fn(&Row) -> bool| {
             let fitting = rows.iter().filter(|row| row.is_valid() && row.ms <= budget && wanted(row));
             let best = fitting.min_by(|a, b| a.error.total_cmp(&b.error).then(a.ms.total_cmp(&b.ms)));
-            let figures = |row: &&Row| [name(row), format!("{:.2}", row.ms), format!("{:.5}", row.error)];
-            best.map_or_else(|| ["none", "–", "–"].map(str::to_owned), figures)
+            best.map_or_else(
+                || "none | – | –".to_owned(),
+                |row| format!("{} | {:.2} | {:.5}", name(row), row.ms, row.error),
+            )
         };
         // A setting with coarser air than the presets' own coarsest is no choice for the liquid's sake.
         let coarsest = Preset::Draft.quality().air_cell;
         let any = |row: &Row| {
             subject.measure == ErrorMeasure::Air || !subject.has_air || row.setting.quality.air_cell <= coarsest
         };
-        [vec![budget.to_string()], best(&any).to_vec(), best(&|row| row.setting.preset.is_some()).to_vec()].concat()
+        format!("{budget} | {} | {}", best(&any), best(&|row| row.setting.preset.is_some()))
     });
-    let headings = ["at most, ms", "setting", "ms", "error", "best preset", "ms", "error"];
-    format!("## What to choose\n\n{}", table(&headings, |column| !matches!(column, 1 | 4), &lines))
+    let headings = ">at most, ms | setting | >ms | >error | best preset | >ms | >error";
+    format!("## What to choose\n\n{}", markdown::rows(headings, lines))
 }
 
 fn name(row: &Row) -> String {
@@ -108,36 +110,22 @@ fn name(row: &Row) -> String {
 fn preset_table(subject: &Subject, rows: &[Row]) -> String {
     let find = |preset: Preset| rows.iter().find(|row| row.setting.preset == Some(preset));
     let line = |row: &Row| {
-        let found = &row.found;
-        vec![
-            name(row),
-            format!("{:.3}", row.ms),
-            format!("{:.3} … {:.3}", row.ms_range[0], row.ms_range[1]),
+        let (Row { ms, ms_range: [low, high], found, .. }, distance) = (row, row.found.distance);
+        let figures = [
             fixed(found.error_mean, 5),
             fixed(found.error_p99, 5),
             fixed(found.density_mean, 3),
             fixed(found.energy_gain, 4),
-            fixed(found.distance.share, 3),
-            fixed(found.distance.momentum, 3),
-            fixed(found.distance.air, 3),
-            if row.front { "yes" } else { "no" }.to_owned(),
-        ]
+            fixed(distance.share, 3),
+            fixed(distance.momentum, 3),
+            fixed(distance.air, 3),
+        ];
+        let front = if row.front { "yes" } else { "no" };
+        format!("{} | {ms:.3} | {low:.3} … {high:.3} | {} | {front}", name(row), figures.join(" | "))
     };
-    let headings = [
-        "preset",
-        "ms",
-        "fastest … slowest run",
-        "error mean",
-        "p99",
-        "mean density",
-        "energy gained",
-        "liquid elsewhere",
-        "momentum",
-        "air",
-        "on the front",
-    ];
-    let lines: Vec<Vec<String>> = Preset::ALL.into_iter().filter_map(find).map(line).collect();
-    let table = table(&headings, |column| (1..10).contains(&column), &lines);
+    let headings = "preset | >ms | >fastest … slowest run | >error mean | >p99 | >mean density | >energy gained | \
+                    >liquid elsewhere | >momentum | >air | on the front";
+    let table = markdown::rows(headings, Preset::ALL.into_iter().filter_map(find).map(line));
     format!("## The presets\n\n{table}\n{}", subject.order(rows))
 }
 
@@ -148,23 +136,19 @@ fn knobs(subject: &Subject, rows: &[&Row]) -> String {
         for to in rows {
             let qualities = [from, to].map(|row| effective(row.setting.quality, subject.has_air));
             if let Some(change) = one_change(qualities[0], qualities[1]) {
-                lines.push(vec![
-                    name(from),
-                    change,
-                    format!("{:.2}", to.ms / from.ms),
-                    fixed(Some(to.error / from.error).filter(|ratio| ratio.is_finite()), 2),
-                    to.faults.join(", "),
-                ]);
+                let error = fixed(Some(to.error / from.error).filter(|ratio| ratio.is_finite()), 2);
+                let (name, time, faults) = (name(from), to.ms / from.ms, to.faults.join(", "));
+                lines.push(format!("{name} | {change} | {time:.2} | {error} | {faults}"));
             }
         }
     }
     let what = "## What a knob buys\n\nOne knob turned, the others left: time and error as multiples of the preset's.";
-    section(what, &["from", "to", "time", "error", "not valid"], |column| matches!(column, 2 | 3), &lines)
+    section(what, "from | to | >time | >error | not valid", lines)
 }
 
 /// A table with what stands above it; nothing without lines.
-fn section(above: &str, headings: &[&str], is_figure: impl Fn(usize) -> bool, lines: &[Vec<String>]) -> String {
-    if lines.is_empty() { String::new() } else { format!("{above}\n\n{}", table(headings, is_figure, lines)) }
+fn section(above: &str, headings: &str, lines: Vec<String>) -> String {
+    if lines.is_empty() { String::new() } else { format!("{above}\n\n{}", markdown::rows(headings, lines)) }
 }
 
 /// The knob that differs, if it is one.
@@ -189,20 +173,15 @@ fn threads(rows: &[Row]) -> String {
     let mut lines = Vec::new();
     for from in rows.iter().filter(|row| row.setting.preset.is_some()) {
         for to in rows {
-            if to.setting.quality == from.setting.quality && to.setting.threads != from.setting.threads {
-                lines.push(vec![
-                    name(from),
-                    from.setting.threads.to_string(),
-                    format!("{:.3}", from.ms),
-                    to.setting.threads.to_string(),
-                    format!("{:.3}", to.ms),
-                    format!("{:.2}", from.ms / to.ms),
-                ]);
+            let (one, other) = (from.setting.threads, to.setting.threads);
+            if to.setting.quality == from.setting.quality && other != one {
+                let gain = from.ms / to.ms;
+                lines.push(format!("{} | {one} | {:.3} | {other} | {:.3} | {gain:.2}", name(from), from.ms, to.ms));
             }
         }
     }
-    let headings = ["preset", "threads", "ms", "threads", "ms", "speed-up"];
-    section("## Threads\n\nThe result is the same to the bit.", &headings, |column| column > 0, &lines)
+    let headings = "preset | >threads | >ms | >threads | >ms | >speed-up";
+    section("## Threads\n\nThe result is the same to the bit.", headings, lines)
 }
 
 fn excluded(rows: &[Row]) -> String {
