@@ -29,7 +29,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Ticks that a scene with taps or fans runs before it is measured, so that they have filled it: 4 s.
+/// Ticks that a scene with emitters or wind runs before it is measured, so that they have filled it: 4 s.
 const RUN_IN: u64 = 240;
 
 /// Ticks of a run, and of a quick one.
@@ -83,7 +83,7 @@ impl Opening {
         if moment.is_idle() {
             return Err(Failure::Usage(format!(
                 "{}: nothing moves in this scene, so there is nothing to measure; allowed: scenes with liquid, moving air, \
-                 taps or fans",
+                 emitters or wind",
                 self.name
             )));
         }

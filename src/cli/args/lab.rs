@@ -174,7 +174,7 @@ pub(in crate::cli) struct SweepArguments {
     /// Only this preset; may be repeated [default: all presets and what is around them]
     #[arg(long = "only", value_name = "QUALITY", value_parser = preset)]
     pub(in crate::cli) only: Vec<Preset>,
-    /// End with exit code 1 if the presets are not in order: each dearer and exacter than the one before it, and none
+    /// End with exit code 1 if the presets are not in order: each more expensive and more exact than the one before it, and none
     /// beaten by a margin
     #[arg(long, conflicts_with = "only")]
     pub(in crate::cli) check: bool,
@@ -187,7 +187,7 @@ pub(in crate::cli) struct SweepArguments {
     /// Set a parameter of the scenes, or a number of the liquid
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     pub(in crate::cli) settings: Vec<(String, String)>,
-    /// Ticks of the scene before the moment from which every run sets out [default: 240 with taps or fans, else 0]
+    /// Ticks of the scene before the moment from which every run sets out [default: 240 with emitters or wind, else 0]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = warmup)]
     pub(in crate::cli) start: Option<u64>,
     /// Ticks of a run [default: 300; with --quick 120]

@@ -1,4 +1,4 @@
-//! Whether the presets are what they claim: each exacter and dearer than the one before, and none a bad buy.
+//! Whether the presets are what they claim: each more exact and more expensive than the one before, and none a bad buy.
 
 use super::{
     error::ErrorMeasure,
@@ -79,7 +79,7 @@ pub struct Alike {
 pub enum Order {
     /// These steps were not measured, and without all of them there is no order.
     NotJudged(Vec<Preset>),
-    /// Each step is dearer and exacter than the one before it.
+    /// Each step costs more and is more exact than the one before it.
     Ok {
         /// Those of which that can't be said, as they are as exact.
         alike: Vec<Alike>,
@@ -123,7 +123,7 @@ impl fmt::Display for Order {
                 troubles.iter().try_for_each(|trouble| writeln!(formatter, "- {trouble}"))
             }
             Self::Ok { alike, front } => {
-                let whole = "Order: ok. Each preset is dearer and exacter than the one before it";
+                let whole = "Order: ok. Each preset costs more and is more exact than the one before it";
                 if alike.is_empty() {
                     let front = if *front { ", and no setting beats it by a margin" } else { "" };
                     return writeln!(formatter, "{whole}{front}.");
@@ -164,18 +164,18 @@ pub fn judge(rows: &[Row], measure: ErrorMeasure, air_is_unseen: bool) -> Order 
     let steps: Vec<(Preset, &Row)> = STEPS.into_iter().filter_map(|preset| Some((preset, find(preset)?))).collect();
     let (mut troubles, mut alike) = (Vec::new(), Vec::new());
     for pair in steps.windows(2) {
-        let [(a, cheap), (b, dear)] = [pair[0], pair[1]];
+        let [(a, cheap), (b, costly)] = [pair[0], pair[1]];
         // Two errors that are both next to nothing can't be told apart, nor can times then that are within the margin: the
         // same work was done.
-        let as_exact = cheap.error.max(dear.error) <= NEGLIGIBLE;
-        let in_time = as_exact && (dear.ms / cheap.ms - 1.0).abs() < TIME_MARGIN;
+        let as_exact = cheap.error.max(costly.error) <= NEGLIGIBLE;
+        let in_time = as_exact && (costly.ms / cheap.ms - 1.0).abs() < TIME_MARGIN;
         if as_exact {
             alike.push(Alike { pair: [a, b], in_time });
-        } else if dear.error >= cheap.error {
-            troubles.push(Trouble::ErrorRises { pair: [(a, cheap.error), (b, dear.error)] });
+        } else if costly.error >= cheap.error {
+            troubles.push(Trouble::ErrorRises { pair: [(a, cheap.error), (b, costly.error)] });
         }
-        if dear.ms <= cheap.ms && !in_time {
-            troubles.push(Trouble::TimeFalls { pair: [(a, cheap.ms), (b, dear.ms)] });
+        if costly.ms <= cheap.ms && !in_time {
+            troubles.push(Trouble::TimeFalls { pair: [(a, cheap.ms), (b, costly.ms)] });
         }
     }
     let front = measure == ErrorMeasure::Density;
@@ -245,17 +245,17 @@ mod tests {
     }
 
     #[test]
-    fn errors_of_next_to_nothing_are_in_order_but_not_called_exacter() {
+    fn errors_of_next_to_nothing_are_in_order_but_not_called_more_exact() {
         let order = |rows: &[Row]| judge(rows, ErrorMeasure::Density, false).to_string();
         let mut rows = ladder();
         assert_eq!(
             order(&rows),
-            "Order: ok. Each preset is dearer and exacter than the one before it, and no setting beats it by a margin.\n"
+            "Order: ok. Each preset costs more and is more exact than the one before it, and no setting beats it by a margin.\n"
         );
         (rows[3].error, rows[4].error) = (2e-5, 5e-5);
         assert_eq!(
             order(&rows),
-            "Order: ok. Each preset is dearer and exacter than the one before it, but where both err by less than 0.0001: \
+            "Order: ok. Each preset costs more and is more exact than the one before it, but where both err by less than 0.0001: \
              `reference` is as exact as `fine`. No setting beats one with a larger error by a margin.\n"
         );
         rows[4].ms = 1.45;
@@ -301,7 +301,7 @@ mod tests {
         (rows[5].ms, rows[5].ms_range, rows[5].error) = (0.97, [0.97, 0.97], 0.009);
         assert_eq!(says(&rows), [""; 0], "neither by a margin");
         rows[5].error = 0.008;
-        assert_eq!(says(&rows).len(), 1, "exacter by a margin");
+        assert_eq!(says(&rows).len(), 1, "more exact by a margin");
         (rows[5].ms, rows[5].ms_range) = (0.9, [0.9, 0.9]);
         let about_air = judge(&rows_with(&rows, [1.0, 1.0]), ErrorMeasure::Air, false);
         let ok = Order::Ok { alike: Vec::new(), front: false };
