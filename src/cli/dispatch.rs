@@ -2,9 +2,9 @@
 
 use crate::cli::{
     args::{Arguments, Command},
-    bench, exam,
+    bench,
     failure::{self, Failure},
-    gauntlet, list, output, play, replay, run, soak, study, sweep,
+    judge, list, output, play, replay, run, soak, study, sweep,
 };
 use clap::Parser;
 use std::{ffi::OsString, io::Write, process::ExitCode};
@@ -37,9 +37,9 @@ fn dispatch(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Run(run)) => run::run(&run),
         Some(Command::Replay(replay)) => replay::replay(&replay),
         Some(Command::Bench(bench)) => bench::bench(&bench),
-        Some(Command::Exam(arguments)) => exam::exam(&arguments),
+        Some(Command::Exam(arguments)) => judge::judge(&arguments),
         Some(Command::Soak(arguments)) => soak::soak(&arguments),
-        Some(Command::Gauntlet(arguments)) => gauntlet::gauntlet(&arguments),
+        Some(Command::Gauntlet(arguments)) => judge::judge(&arguments),
         Some(Command::Study(study)) => study::study(&study),
         Some(Command::Sweep(sweep)) => sweep::sweep(&sweep),
         Some(Command::List { what }) => list::list(what),

@@ -4,15 +4,13 @@
 mod args;
 mod bench;
 mod dispatch;
-mod exam;
 mod failure;
-mod gauntlet;
+mod judge;
 mod list;
 mod output;
 mod play;
 mod progress;
 mod replay;
-mod report;
 mod run;
 mod soak;
 mod start;

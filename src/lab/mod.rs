@@ -5,12 +5,11 @@
 pub mod balance;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod binning;
+pub mod cases;
 #[cfg(all(feature = "charts", not(target_arch = "wasm32")))]
 pub mod chart;
 pub mod coarse;
-mod crew;
 pub mod density;
-mod desk;
 mod drift;
 mod drive;
 pub mod exam;
@@ -20,6 +19,7 @@ pub mod experiment;
 pub mod gating;
 pub mod gauntlet;
 pub mod headless;
+pub mod jobs;
 pub mod live;
 pub mod machine;
 pub mod markdown;

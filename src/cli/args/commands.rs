@@ -1,12 +1,13 @@
 //! The commands, and the options of those that open and run worlds.
 
 use super::{
-    lab::{BenchArguments, ExamArguments, GauntletArguments, SoakArguments, StudyArguments, SweepArguments},
+    lab::{BenchArguments, CaseArguments, SoakArguments, StudyArguments, SweepArguments},
     machine::Machine,
     values::{Ticks, effect, hold_error, hold_ms, preset, seconds, setting, ticks, warmup},
 };
 use crate::{
     kernel::params::Preset,
+    lab::{exam::ExamCase, gauntlet::GauntletCase},
     scene::blueprint::{Effect, Mode},
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -34,11 +35,11 @@ pub(in crate::cli) enum Command {
     /// Measure what something costs, and print the table
     Bench(BenchArguments),
     /// Compare the physics with known answers, at each quality
-    Exam(ExamArguments),
+    Exam(CaseArguments<ExamCase>),
     /// Play a scene for hours by a script, and see that nothing grows or gets lost
     Soak(SoakArguments),
     /// Run every hard case at each quality, and judge whether it stays stable
-    Gauntlet(GauntletArguments),
+    Gauntlet(CaseArguments<GauntletCase>),
     /// Repeat an experiment of the report on the original game
     Study(StudyArguments),
     /// Measure what accuracy costs in a scene: curve.csv, curve.svg, curve.png, summary.md

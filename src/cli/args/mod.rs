@@ -7,8 +7,5 @@ mod machine;
 mod values;
 
 pub(super) use commands::{Arguments, Command, Listing, PlayOptions, ReplayArguments, RunArguments};
-pub(super) use lab::{
-    Bench, BenchArguments, ExamArguments, GauntletArguments, ReportOptions, SoakArguments, Study, StudyArguments,
-    SweepArguments,
-};
+pub(super) use lab::{Bench, BenchArguments, CaseArguments, SoakArguments, Study, StudyArguments, SweepArguments};
 pub(super) use values::{Minutes, Ticks};
