@@ -1,7 +1,7 @@
 //! From the command line to the command, and from its outcome to the exit code.
 
 use crate::cli::{
-    args::{Arguments, Command},
+    args::{Arguments, Bench, BenchArguments, Command},
     bench,
     failure::{self, Failure},
     judge, list, output, play, replay, run, soak, study, sweep,
@@ -36,7 +36,11 @@ fn dispatch(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Play(play)) => play::play(play.scene.as_deref(), &play.options),
         Some(Command::Run(run)) => run::run(&run),
         Some(Command::Replay(replay)) => replay::replay(&replay),
-        Some(Command::Bench(bench)) => bench::bench(&bench),
+        Some(Command::Bench(BenchArguments { what, json })) => match what {
+            Bench::Effects { quick } => bench::effects(quick, json.as_deref()),
+            Bench::Neighbours { threads } => bench::neighbours(threads, json.as_deref()),
+            Bench::Scaling(options) => bench::scaling(&options, json.as_deref()),
+        },
         Some(Command::Exam(arguments)) => judge::judge(&arguments),
         Some(Command::Soak(arguments)) => soak::soak(&arguments),
         Some(Command::Gauntlet(arguments)) => judge::judge(&arguments),

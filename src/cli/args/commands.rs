@@ -160,10 +160,22 @@ pub(in crate::cli) struct RunArguments {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
+    use clap::{CommandFactory, error::ErrorKind};
 
     #[test]
     fn the_definition_holds_together() {
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn a_bench_needs_its_table_and_takes_only_what_belongs_to_it() {
+        let kind = |words: &[&str]| {
+            let words = ["powder-master", "bench"].iter().chain(words);
+            Arguments::try_parse_from(words).err().map(|error| error.kind())
+        };
+        assert_eq!(kind(&[]), Some(ErrorKind::MissingSubcommand));
+        assert_eq!(kind(&["effects", "--svg", "."]), Some(ErrorKind::UnknownArgument));
+        assert_eq!(kind(&["neighbours", "--quick"]), Some(ErrorKind::UnknownArgument));
+        assert_eq!(kind(&["scaling", "--quick", "--json", "-", "--svg", "."]), None);
     }
 }

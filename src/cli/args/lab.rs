@@ -5,68 +5,60 @@ use super::{
     values::{Minutes, cap, case, hours, particles, preset, rounds, setting, threads, ticks, warmup},
 };
 use crate::{kernel::params::Preset, lab::cases::Case};
-use clap::{Args, ValueEnum};
+use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 /// `bench`.
 #[derive(Debug, Args)]
+#[command(arg_required_else_help = false, disable_help_subcommand = true)]
 pub(in crate::cli) struct BenchArguments {
-    /// What to measure
+    #[command(subcommand)]
     pub(in crate::cli) what: Bench,
-    /// Threads of the last column [default: all]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
-    pub(in crate::cli) threads: Option<u64>,
     /// Write the table as JSON; `-` is stdout, in place of the table
-    #[arg(long, value_name = "FILE.json")]
+    #[arg(long, value_name = "FILE.json", global = true)]
     pub(in crate::cli) json: Option<PathBuf>,
-    #[command(flatten)]
-    pub(in crate::cli) scaling: ScalingOptions,
 }
 
 /// What can be measured.
-#[derive(Clone, Copy, Debug, ValueEnum)]
+#[derive(Debug, Subcommand)]
 pub(in crate::cli) enum Bench {
     /// What each effect costs in each scene, alone and together, and what running only what is called for saves
-    Effects,
+    Effects {
+        /// Run each choice of effects once
+        #[arg(long)]
+        quick: bool,
+    },
     /// How many particles a tick may hold at a tick rate: brute force, bins on one thread, bins on all
-    Neighbours,
+    Neighbours {
+        /// Threads of the last column [default: all]
+        #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+        threads: Option<u64>,
+    },
     /// What a tick costs and how exact it is, from 1,458 to 999,698 particles, at every quality
-    Scaling,
+    Scaling(ScalingOptions),
 }
 
 /// Options of `bench scaling`.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct ScalingOptions {
-    /// Draw the curves into a folder: scaling-time.svg, scaling-error.svg, scaling-threads.svg (bench scaling)
+    /// Threads beside one [default: all]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+    pub(in crate::cli) threads: Option<u64>,
+    /// Draw the curves into a folder: scaling-time.svg, scaling-error.svg, scaling-threads.svg
     #[arg(long, value_name = "DIR")]
     pub(in crate::cli) svg: Option<PathBuf>,
-    /// Show other programs' figures beside: [{name, figures: [{particles, ms, error_mean, error_p99}]}] (bench scaling)
+    /// Show other programs' figures beside: [{name, figures: [{particles, ms, error_mean, error_p99}]}]
     #[arg(long, value_name = "FILE.json")]
     pub(in crate::cli) beside: Option<PathBuf>,
-    /// Take less than a minute: three sizes, one second of each (bench scaling), or one run of each choice (bench effects)
+    /// Take less than a minute: three sizes, one second of each
     #[arg(long)]
     pub(in crate::cli) quick: bool,
-    /// Leave larger worlds out (bench scaling)
+    /// Leave larger worlds out
     #[arg(long, value_name = "PARTICLES", allow_negative_numbers = true, value_parser = particles)]
     pub(in crate::cli) up_to: Option<u64>,
-    /// Leave a row out that would take longer [default: 40, with --quick 5] (bench scaling)
+    /// Leave a row out that would take longer [default: 40, with --quick 5]
     #[arg(long, value_name = "SECONDS", value_parser = cap, allow_negative_numbers = true)]
     pub(in crate::cli) cap: Option<f64>,
-}
-
-impl ScalingOptions {
-    /// The first of these options that was given, but for what is `allowed`.
-    pub(in crate::cli) fn first_given(&self, allowed: &[&str]) -> Option<&'static str> {
-        let Self { svg, beside, quick, up_to, cap } = self;
-        let given = [
-            ("--svg", svg.is_some()),
-            ("--beside", beside.is_some()),
-            ("--quick", *quick),
-            ("--up-to", up_to.is_some()),
-            ("--cap", cap.is_some()),
-        ];
-        given.into_iter().find(|(name, is_given)| *is_given && !allowed.contains(name)).map(|(name, _)| name)
-    }
 }
 
 /// `exam` and `gauntlet`.

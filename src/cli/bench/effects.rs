@@ -1,7 +1,7 @@
 //! `bench effects`: what each effect costs, and what it saves to run only those that a scene calls for.
 
 use crate::{
-    cli::{args::BenchArguments, failure::Failure, output, progress},
+    cli::{failure::Failure, output, progress},
     kernel::params::Preset,
     lab::{
         gating::{self, EffectCost, SceneCost},
@@ -12,21 +12,15 @@ use crate::{
     sim::numbers::{fixed, grouped},
 };
 use serde_json::json;
+use std::path::Path;
 
 /// The quality that is measured.
 const PRESET: Preset = Preset::Balanced;
 
 /// Measures every built-in scene and prints the tables.
-pub(super) fn effects(arguments: &BenchArguments) -> Result<(), Failure> {
-    let other = arguments.scaling.first_given(&["--quick"]).or(arguments.threads.map(|_| "--threads"));
-    if let Some(option) = other {
-        return Err(Failure::Usage(format!(
-            "{option} does not belong to bench effects; allowed here: --quick, --json"
-        )));
-    }
-    let json = arguments.json.as_deref();
+pub(in crate::cli) fn effects(quick: bool, json: Option<&Path>) -> Result<(), Failure> {
     output::check(json.as_slice())?;
-    let rounds = if arguments.scaling.quick { 1 } else { 5 };
+    let rounds = if quick { 1 } else { 5 };
     let names = scene::builtin_names();
     let line = progress::bar(names.len() as u64);
     let mut costs = Vec::new();

@@ -4,16 +4,6 @@ mod effects;
 mod neighbours;
 mod scaling;
 
-use crate::cli::{
-    args::{Bench, BenchArguments},
-    failure::Failure,
-};
-
-/// Measures a table and prints it.
-pub(super) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
-    match arguments.what {
-        Bench::Effects => effects::effects(arguments),
-        Bench::Neighbours => neighbours::neighbours(arguments),
-        Bench::Scaling => scaling::scaling(arguments),
-    }
-}
+pub(super) use effects::effects;
+pub(super) use neighbours::neighbours;
+pub(super) use scaling::scaling;

@@ -1,7 +1,7 @@
 //! `bench neighbours`: the binning table.
 
 use crate::{
-    cli::{args::BenchArguments, failure::Failure, output, progress, threads},
+    cli::{failure::Failure, output, progress, threads},
     lab::{
         binning::{self, Growth, ORIGINAL, PRESET, Point, RATES},
         machine::processor,
@@ -10,15 +10,12 @@ use crate::{
     sim::{numbers::grouped, workers::Workers},
 };
 use serde_json::json;
+use std::path::Path;
 
 /// Measures how many particles a tick may hold, and prints the table.
-pub(super) fn neighbours(arguments: &BenchArguments) -> Result<(), Failure> {
-    if let Some(option) = arguments.scaling.first_given(&[]) {
-        return Err(Failure::Usage(format!("{option} belongs to bench scaling; allowed here: --threads, --json")));
-    }
-    let json = arguments.json.as_deref();
+pub(in crate::cli) fn neighbours(threads: Option<u64>, json: Option<&Path>) -> Result<(), Failure> {
     output::check(json.as_slice())?;
-    threads::start(arguments.threads)?;
+    threads::start(threads)?;
     let line = progress::status();
     let growths = binning::measure(&Workers::default(), &mut |text| line.set_message(text.to_owned()))?;
     drop(line);

@@ -1,7 +1,7 @@
 //! `bench scaling`: what a tick costs and how exact it is, from a thousand particles to a million.
 
 use crate::{
-    cli::{args::BenchArguments, failure::Failure, output, progress, threads},
+    cli::{args::ScalingOptions, failure::Failure, output, progress, threads},
     lab::{
         machine::processor,
         markdown,
@@ -16,9 +16,7 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 
 /// Measures, draws and prints.
-pub(super) fn scaling(arguments: &BenchArguments) -> Result<(), Failure> {
-    let options = &arguments.scaling;
-    let json = arguments.json.as_deref();
+pub(in crate::cli) fn scaling(options: &ScalingOptions, json: Option<&Path>) -> Result<(), Failure> {
     let beside = match &options.beside {
         None => Vec::new(),
         Some(path) => Beside::read(path).map_err(|error| Failure::Usage(format!("{}: {error}", path.display())))?,
@@ -31,7 +29,7 @@ pub(super) fn scaling(arguments: &BenchArguments) -> Result<(), Failure> {
     if options.svg.is_some() {
         output::note_missing_charts("bench scaling --svg");
     }
-    threads::start(arguments.threads)?;
+    threads::start(options.threads)?;
     let mut plan = if options.quick { Plan::quick() } else { Plan::full() };
     plan = plan.up_to(options.up_to.unwrap_or(u64::MAX));
     plan.cap = options.cap.unwrap_or(plan.cap);
