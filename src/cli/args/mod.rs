@@ -7,5 +7,7 @@ mod machine;
 mod values;
 
 pub(super) use commands::{Arguments, Command, Listing, PlayOptions, ReplayArguments, RunArguments};
-pub(super) use lab::{Bench, BenchArguments, CaseArguments, SoakArguments, Study, StudyArguments, SweepArguments};
+pub(super) use lab::{
+    Bench, BenchArguments, CaseArguments, ScalingOptions, SoakArguments, Study, StudyArguments, SweepArguments,
+};
 pub(super) use values::{Minutes, Ticks};
