@@ -3,6 +3,7 @@
 //! in the page.
 
 pub mod balance;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod binning;
 pub mod cases;
 #[cfg(all(feature = "charts", not(target_arch = "wasm32")))]
@@ -15,6 +16,8 @@ mod drift;
 mod drive;
 pub mod exam;
 #[cfg(not(target_arch = "wasm32"))]
+pub mod experiment;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod gating;
 pub mod gauntlet;
 pub mod headless;
@@ -22,12 +25,12 @@ pub mod jobs;
 pub mod live;
 pub mod machine;
 pub mod maps;
-mod markdown;
+pub mod markdown;
 pub mod metrics;
 pub mod moment;
-pub mod particle_list;
 pub mod picture;
 pub mod reference;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod rest_density;
 pub mod run;
 pub mod sampler;
@@ -39,7 +42,8 @@ mod stage;
 pub mod stats;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod sweep;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod tables;
 #[cfg(test)]
 mod testing;
-pub mod trace;
 pub mod volume;

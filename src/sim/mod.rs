@@ -12,6 +12,7 @@ pub mod mark;
 pub mod measures;
 pub mod numbers;
 pub mod pace;
+pub mod random;
 pub mod recorder;
 pub mod recording;
 pub mod replay;
