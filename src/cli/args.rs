@@ -114,6 +114,9 @@ pub(super) struct PlayOptions {
     /// Record what is played, from the start on, for `replay FILE`
     #[arg(long, value_name = "FILE")]
     pub(super) record: Option<PathBuf>,
+    /// Answer a script: a line of stdin gets a line of stdout (docs/scripts.md)
+    #[arg(long, hide = true)]
+    pub(super) hook: bool,
 }
 
 /// `run`.

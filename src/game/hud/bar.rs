@@ -210,6 +210,7 @@ fn row(ui: &mut Ui, name: &str, about: &str, chosen: bool) -> bool {
     let (left, right) = (rect.left_center() + vec2(9.0, 0.0), rect.right_center() - vec2(9.0, 0.0));
     ui.painter().text(left, egui::Align2::LEFT_CENTER, name, font(egui::TextStyle::Button), colour);
     ui.painter().text(right, egui::Align2::RIGHT_CENTER, about, font(egui::TextStyle::Small), style::WEAK);
+    style::name(&response, name, chosen);
     response.clicked()
 }
 
@@ -241,5 +242,6 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, text: Option<&str>, active: bool) ->
         let at = egui::pos2(rect.left() + 29.0, rect.center().y - galley.size().y / 2.0);
         ui.painter().galley(at, galley, colour);
     }
+    style::name(&response, &format!("{icon:?}"), active);
     response
 }

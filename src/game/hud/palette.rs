@@ -147,6 +147,7 @@ fn tile(ui: &mut Ui, look: Look<'_>, chosen: bool) -> egui::Response {
     painter.text(rect.center_bottom() - vec2(0.0, 4.0), Align2::CENTER_BOTTOM, look.name, font.clone(), text);
     let key = if chosen { style::ACCENT } else { style::WEAK };
     painter.text(rect.right_top() + vec2(-5.0, 3.0), Align2::RIGHT_TOP, look.key, font, key);
+    style::name(&response, look.name, chosen);
     response
 }
 

@@ -97,6 +97,12 @@ pub fn dress(context: &egui::Context) {
     });
 }
 
+/// Gives what is painted by hand a name for scripts and screen readers, and says whether it is chosen.
+pub fn name(response: &egui::Response, name: &str, chosen: bool) {
+    let enabled = response.enabled();
+    response.widget_info(|| egui::WidgetInfo::selected(egui::WidgetType::Button, enabled, chosen, name));
+}
+
 /// A window with a heading of our own; sets `open` to false when it is closed.
 pub fn window(
     context: &egui::Context,
@@ -130,6 +136,7 @@ fn close_button(ui: &mut egui::Ui) -> egui::Response {
     }
     let colour = if response.hovered() { Color32::WHITE } else { WEAK };
     icons::draw(ui.painter(), icons::square(rect.center(), 14.0), Icon::Close, colour);
+    name(&response, "Close", false);
     response.on_hover_text("close (Esc)")
 }
 
@@ -140,6 +147,7 @@ pub fn main_button(ui: &mut egui::Ui, text: &str) -> egui::Response {
     ui.painter().rect_filled(rect, BUTTON_CORNER, fill);
     let font = TextStyle::Button.resolve(ui.style());
     ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, text, font, Color32::WHITE);
+    name(&response, text, false);
     response
 }
 

@@ -146,6 +146,7 @@ fn choose(ui: &mut Ui, unit: f32, setup: &Setup, chosen: Tool, orders: &mut Orde
         let text = if chosen == tool { Color32::WHITE } else { style::TEXT };
         let font = egui::FontId::proportional(11.0 * unit);
         painter.text(rect.center_bottom() - vec2(0.0, 3.0) * unit, Align2::CENTER_BOTTOM, name, font, text);
+        style::name(&response, name, chosen == tool);
         if response.clicked() {
             orders.push(Order::Choose(tool));
         }
@@ -163,6 +164,7 @@ fn button(ui: &mut Ui, unit: f32, icon: Icon, active: bool, enabled: bool) -> bo
         (true, false) => style::TEXT,
     };
     icons::draw(ui.painter(), icons::square(rect.center(), 22.0 * unit), icon, colour);
+    style::name(&response, &format!("{icon:?}"), active);
     enabled && response.clicked()
 }
 
@@ -274,6 +276,7 @@ fn list(
                     let font = egui::FontId::proportional(16.0 * unit);
                     let at = rect.left_center() + vec2(12.0, 0.0) * unit;
                     ui.painter().text(at, Align2::LEFT_CENTER, text, font, Color32::WHITE);
+                    style::name(&response, text, chosen);
                     if response.clicked() {
                         pressed = Some(order);
                     }
