@@ -17,12 +17,16 @@ export async function poll(what, look, good, patience = PATIENCE) {
   }
 }
 
-// The one thing that can be pressed under a name; none if there is no such thing, or it can't be pressed now.
+// The one thing that can be pressed under a name (or a pattern of one); none if there is no such thing, or it can't be
+// pressed now.
 export function pressable(widgets, name) {
-  const named = widgets.filter((widget) => widget.name === name && widget.kind !== 'Label' && widget.kind !== 'Window');
+  const isIt = (other) => (name instanceof RegExp ? name.test(other) : name === other);
+  const named = widgets.filter((widget) => isIt(widget.name) && widget.kind !== 'Label' && widget.kind !== 'Window');
   assert.ok(named.length < 2, `${named.length} things are called ${name}`);
   return named.find(({ enabled }) => enabled);
 }
+
+export const near = ([a, b], [c, d]) => Math.abs(a - c) < 1 && Math.abs(b - d) < 1;
 
 export const middle = ({ place: [x, y, width, height] }) => [Math.round(x + width / 2), Math.round(y + height / 2)];
 

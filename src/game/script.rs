@@ -75,6 +75,8 @@ pub struct Stats {
     /// Logical pixels from the upper left corner of the window.
     pointer: Option<[f32; 2]>,
     paused: bool,
+    /// Whether nothing changes, so that no frame is drawn until something does.
+    rests: bool,
     /// Ticks that were recorded, if there is a recording.
     recording: Option<u64>,
     frames_per_second: f32,
@@ -177,6 +179,7 @@ fn look(world: &World, frame: u64) -> Stats {
         tool: world.resource::<Toolbox>().tool.name(setup.elements()).to_owned(),
         pointer: world.resource::<Pointer>().at.map(Into::into),
         paused: world.resource::<Pace>().paused,
+        rests: tempo.rests,
         recording: world.resource::<Recorder>().ticks(),
         frames_per_second: tempo.frames_per_second,
         ticks_per_second: tempo.ticks_per_second,

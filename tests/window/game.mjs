@@ -6,7 +6,7 @@ import { openSync } from 'node:fs';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { promisify } from 'node:util';
-import { middle, poll, pressable } from '../poll.mjs';
+import { middle, near, poll, pressable } from '../poll.mjs';
 
 const WIDTH = 1280;
 const HEIGHT = 800;
@@ -56,8 +56,7 @@ export async function open(program, display, folder) {
   // Moves the pointer, and waits until the game knows.
   async function move(to) {
     await x('mousemove', ...to);
-    const near = (a, b) => Math.abs(a - b) < 1;
-    await until(`the pointer at ${to}`, ({ pointer }) => pointer !== null && near(pointer[0], to[0]) && near(pointer[1], to[1]));
+    await until(`the pointer at ${to}`, ({ pointer }) => pointer !== null && near(pointer, to));
   }
 
   // Presses what has this name. What moves is followed until it keeps still.

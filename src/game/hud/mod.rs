@@ -28,7 +28,7 @@ use crate::game::{
     input::{bindings::Action, keys::Typing, pointer::HudCover, touch::Fingers},
 };
 use bevy::platform::time::Instant;
-use bevy::prelude::{App, IntoScheduleConfigs, Plugin, PreUpdate, Query, Res, ResMut, Resource, Startup, not};
+use bevy::prelude::{Added, App, IntoScheduleConfigs, Plugin, PreUpdate, Query, Res, ResMut, Resource, Startup, not};
 use bevy_egui::{EguiContext, EguiContexts, EguiInput, EguiPreUpdateSet, EguiPrimaryContextPass, egui};
 use glam::Vec2;
 
@@ -47,6 +47,7 @@ impl Plugin for HudPlugin {
             .init_resource::<crate::sim::gauntlet::Cases>()
             .init_resource::<accuracy::AccuracyPanel>()
             .add_systems(Startup, (scenes::list_scenes, greet))
+            .add_systems(PreUpdate, dress.after(EguiPreUpdateSet::InitContexts).before(EguiPreUpdateSet::BeginPass))
             .add_systems(PreUpdate, mind_the_keys.after(EguiPreUpdateSet::ProcessInput))
             .add_systems(
                 EguiPrimaryContextPass,
@@ -196,12 +197,15 @@ fn greet(mut toasts: ResMut<toast::Toasts>, fingers: Res<Fingers>) {
     });
 }
 
-fn begin(mut cost: ResMut<HudCost>, mut contexts: EguiContexts, mut styled: bevy::prelude::Local<bool>) {
-    cost.begun = Some(Instant::now());
-    if let (false, Ok(context)) = (*styled, contexts.ctx_mut()) {
-        style::dress(context);
-        *styled = true;
+/// egui draws no text before it has fonts, so a context is dressed before its first frame.
+fn dress(mut contexts: Query<&mut EguiContext, Added<EguiContext>>) {
+    for mut context in &mut contexts {
+        style::dress(context.get_mut());
     }
+}
+
+fn begin(mut cost: ResMut<HudCost>) {
+    cost.begun = Some(Instant::now());
 }
 
 fn end(mut cost: ResMut<HudCost>, mut cover: ResMut<HudCover>, mut contexts: EguiContexts) {

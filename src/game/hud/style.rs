@@ -2,8 +2,11 @@
 
 use crate::game::hud::icons::{self, Icon};
 use bevy_egui::egui::{
-    self, Color32, CornerRadius, FontId, Margin, Shadow, Stroke, TextStyle, Vec2, style::ScrollStyle,
+    self, Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle,
+    Vec2, style::ScrollStyle,
 };
+use epaint_default_fonts::{HACK_REGULAR, UBUNTU_LIGHT};
+use std::sync::Arc;
 
 /// Behind bars and windows.
 pub const PANEL: Color32 = Color32::from_rgb(19, 23, 32);
@@ -34,8 +37,9 @@ pub const BUTTON_CORNER: u8 = 6;
 /// Corner of windows.
 pub const WINDOW_CORNER: u8 = 10;
 
-/// Dresses egui.
+/// Dresses egui: fonts, sizes, colours.
 pub fn dress(context: &egui::Context) {
+    context.set_fonts(fonts());
     context.set_theme(egui::Theme::Dark);
     // The frame that a press wakes has the time at which the game fell asleep: no press is too long for a click.
     context.options_mut(|options| options.input_options.max_click_duration = f64::INFINITY);
@@ -95,6 +99,19 @@ pub fn dress(context: &egui::Context) {
         }
         widgets.noninteractive.bg_stroke = Stroke::new(1.0, LINE);
     });
+}
+
+/// The fonts. What one lacks comes from the other; the icons need none.
+fn fonts() -> FontDefinitions {
+    let (ubuntu, hack) = ("Ubuntu-Light", "Hack");
+    let mut fonts = FontDefinitions::empty();
+    for (name, bytes) in [(ubuntu, UBUNTU_LIGHT), (hack, HACK_REGULAR)] {
+        fonts.font_data.insert(name.to_owned(), Arc::new(FontData::from_static(bytes)));
+    }
+    for (family, order) in [(FontFamily::Proportional, [ubuntu, hack]), (FontFamily::Monospace, [hack, ubuntu])] {
+        fonts.families.insert(family, order.map(str::to_owned).into());
+    }
+    fonts
 }
 
 /// Gives what is painted by hand a name for scripts and screen readers, and says whether it is chosen.
