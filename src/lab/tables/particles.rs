@@ -1,4 +1,4 @@
-//! All particles as a table, in the order of their ids: comma separated, SI units.
+//! All particles, in the order of their ids.
 
 use crate::{
     kernel::solids,
@@ -9,10 +9,10 @@ use glam::Vec2;
 use std::io::{self, Write};
 
 /// Names of the columns: id, name of the element, position in m, velocity in m/s (0 for rock).
-pub const COLUMNS: &str = "id,element,x,y,vx,vy";
+pub const COLUMNS: [&str; 6] = ["id", "element", "x", "y", "vx", "vy"];
 
 /// Writes the table.
-pub fn write(world: &World, mut out: impl Write) -> io::Result<()> {
+pub fn write(world: &World, out: impl Write) -> io::Result<()> {
     let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
     let setup = world.resource::<Setup>();
     let movable = (0..particles.len())
@@ -20,10 +20,13 @@ pub fn write(world: &World, mut out: impl Write) -> io::Result<()> {
     let fixed = rock.iter().map(|(cell, element, id)| (id, element, solids::centre(cell), Vec2::ZERO));
     let mut all: Vec<_> = movable.chain(fixed).collect();
     all.sort_unstable_by_key(|(id, ..)| *id);
-    writeln!(out, "{COLUMNS}")?;
+    let mut table = csv::Writer::from_writer(out);
+    table.write_record(COLUMNS)?;
     for (id, element, position, velocity) in all {
         let [p, v] = [position, velocity].map(|vector| setup.blueprint.scale.vec_to_metres(vector));
-        writeln!(out, "{id},{},{},{},{},{}", setup.elements().get(element).name, p.x, p.y, v.x, v.y)?;
+        let figures = [p.x, p.y, v.x, v.y].map(|figure| figure.to_string());
+        let name = setup.elements().get(element).name.as_str();
+        table.write_record([&id.to_string(), name].into_iter().chain(figures.iter().map(String::as_str)))?;
     }
-    out.flush()
+    table.flush()
 }

@@ -1,4 +1,4 @@
-//! A table of the run: one line a tick, comma separated, SI units. A field is empty where there is nothing to measure.
+//! A run, one line a tick.
 
 use crate::{
     kernel::units::TICKS_PER_SECOND,
@@ -30,20 +30,21 @@ pub const COLUMNS: [&str; 12] = [
 
 /// Writes the table.
 pub struct Trace<W: Write> {
-    out: W,
+    table: csv::Writer<W>,
     predictions: u64,
 }
 
 impl<W: Write> Trace<W> {
     /// Begins with the names of the columns.
-    pub fn new(mut out: W) -> io::Result<Self> {
-        writeln!(out, "{}", COLUMNS.join(","))?;
-        Ok(Self { out, predictions: 0 })
+    pub fn new(out: W) -> io::Result<Self> {
+        let mut table = csv::Writer::from_writer(out);
+        table.write_record(COLUMNS)?;
+        Ok(Self { table, predictions: 0 })
     }
 
     /// Ends the table.
     pub fn finish(mut self) -> io::Result<()> {
-        self.out.flush()
+        self.table.flush()
     }
 }
 
@@ -56,20 +57,21 @@ impl<W: Write> Observer for Trace<W> {
         let substeps = predictions - self.predictions;
         self.predictions = predictions;
         let or_empty = |value: Option<f64>| value.map_or_else(String::new, |value| value.to_string());
-        writeln!(
-            self.out,
-            "{tick},{},{},{substeps},{},{},{},{},{},{},{},{}",
-            tick as f64 / f64::from(TICKS_PER_SECOND),
-            ledger.last_tick().as_secs_f64() * 1e3,
-            matter.particles.len() + world.resource::<Rock>().count(),
-            balance.energy(),
-            balance.momentum.x,
-            balance.momentum.y,
+        let record: [String; COLUMNS.len()] = [
+            tick.to_string(),
+            (tick as f64 / f64::from(TICKS_PER_SECOND)).to_string(),
+            (ledger.last_tick().as_secs_f64() * 1e3).to_string(),
+            substeps.to_string(),
+            (matter.particles.len() + world.resource::<Rock>().count()).to_string(),
+            balance.energy().to_string(),
+            balance.momentum.x.to_string(),
+            balance.momentum.y.to_string(),
             or_empty(matter.front()),
             or_empty(matter.surface()),
-            balance.max_speed,
-            air.with_grid(world.resource::<Rock>()).mass(),
-        )
+            balance.max_speed.to_string(),
+            air.with_grid(world.resource::<Rock>()).mass().to_string(),
+        ];
+        Ok(self.table.write_record(record)?)
     }
 
     fn after_warmup(&mut self, _world: &World) {

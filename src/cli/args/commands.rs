@@ -1,35 +1,31 @@
-//! What the command line understands: the commands, and what opens and runs worlds. `lab`: what measures and judges;
-//! `values`: the words that options take.
+//! The commands, and the options of those that open and run worlds.
 
-mod lab;
-mod values;
-
+use super::{
+    lab::{BenchArguments, CaseArguments, SoakArguments, StudyArguments, SweepArguments},
+    machine::Machine,
+    values::{Ticks, effect, hold_error, hold_ms, preset, seconds, setting, ticks, warmup},
+};
 use crate::{
-    kernel::{params::Preset, simd::InstructionSet},
+    kernel::params::Preset,
+    lab::{exam::ExamCase, gauntlet::GauntletCase},
     scene::blueprint::{Effect, Mode},
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
-pub(super) use lab::{
-    Bench, BenchArguments, ExamArguments, GauntletArguments, ReportOptions, SoakArguments, Study, StudyArguments,
-    SweepArguments,
-};
 use std::path::PathBuf;
-pub(super) use values::{Minutes, Ticks};
-use values::{effect, hold_error, hold_ms, preset, seconds, setting, simd, threads, ticks, warmup};
 
 /// A real-time 2-D sandbox of powders and fluids in moving air.
 #[derive(Debug, Parser)]
 #[command(name = "powder-master", version, args_conflicts_with_subcommands = true, disable_help_subcommand = true)]
-pub(super) struct Arguments {
+pub(in crate::cli) struct Arguments {
     #[command(subcommand)]
-    pub(super) command: Option<Command>,
+    pub(in crate::cli) command: Option<Command>,
     #[command(flatten)]
-    pub(super) play: PlayOptions,
+    pub(in crate::cli) play: PlayOptions,
 }
 
 /// A command and what belongs to it.
 #[derive(Debug, Subcommand)]
-pub(super) enum Command {
+pub(in crate::cli) enum Command {
     /// Open the game (the default)
     Play(PlayArguments),
     /// Run a scene without a window, and measure it
@@ -39,11 +35,11 @@ pub(super) enum Command {
     /// Measure what something costs, and print the table
     Bench(BenchArguments),
     /// Compare the physics with known answers, at each quality
-    Exam(ExamArguments),
+    Exam(CaseArguments<ExamCase>),
     /// Play a scene for hours by a script, and see that nothing grows or gets lost
     Soak(SoakArguments),
     /// Run every hard case at each quality, and judge whether it stays stable
-    Gauntlet(GauntletArguments),
+    Gauntlet(CaseArguments<GauntletCase>),
     /// Repeat an experiment of the report on the original game
     Study(StudyArguments),
     /// Measure what accuracy costs in a scene: curve.csv, curve.svg, curve.png, summary.md
@@ -57,24 +53,20 @@ pub(super) enum Command {
 
 /// `replay`.
 #[derive(Debug, Args)]
-pub(super) struct ReplayArguments {
+pub(in crate::cli) struct ReplayArguments {
     /// The recording
     #[arg(value_name = "FILE")]
-    pub(super) file: PathBuf,
-    /// Threads of the simulation; they never change the result [default: all]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
-    pub(super) threads: Option<u64>,
-    /// Instruction set of the simulation: auto, or a narrower one than the processor's best; it never changes the result
-    #[arg(long, value_name = "SET", default_value = "auto", hide_default_value = true, value_parser = simd)]
-    pub(super) simd: InstructionSet,
+    pub(in crate::cli) file: PathBuf,
+    #[command(flatten)]
+    pub(in crate::cli) machine: Machine,
     /// Write the outcome as JSON; `-` is stdout, in place of the line
     #[arg(long, value_name = "FILE.json")]
-    pub(super) json: Option<PathBuf>,
+    pub(in crate::cli) json: Option<PathBuf>,
 }
 
 /// What there is to choose from.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum Listing {
+pub(in crate::cli) enum Listing {
     /// Name, description, parameters with their ranges
     Scenes,
     /// Name and properties
@@ -89,100 +81,104 @@ pub(super) enum Listing {
 
 /// `play`.
 #[derive(Debug, Args)]
-pub(super) struct PlayArguments {
+pub(in crate::cli) struct PlayArguments {
     /// Scene: a name of `list scenes`, or the path of a scene file, a save file or a recording [default: waterfall]
-    pub(super) scene: Option<String>,
+    pub(in crate::cli) scene: Option<String>,
     #[command(flatten)]
-    pub(super) options: PlayOptions,
+    pub(in crate::cli) options: PlayOptions,
 }
 
 /// Options of `play`.
 #[derive(Debug, Args)]
-pub(super) struct PlayOptions {
+pub(in crate::cli) struct PlayOptions {
     /// Quality to start with: a name of `list qualities` [default: the scene's]
     #[arg(long, value_name = "QUALITY", value_parser = preset)]
-    pub(super) quality: Option<Preset>,
+    pub(in crate::cli) quality: Option<Preset>,
     /// Set a parameter of the scene, or a number of the quality or the liquid
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
-    pub(super) settings: Vec<(String, String)>,
-    /// Threads of the simulation [default: all]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
-    pub(super) threads: Option<u64>,
-    /// Instruction set of the simulation: auto, or a narrower one than the processor's best
-    #[arg(long, value_name = "SET", default_value = "auto", hide_default_value = true, value_parser = simd)]
-    pub(super) simd: InstructionSet,
+    pub(in crate::cli) settings: Vec<(String, String)>,
+    #[command(flatten)]
+    pub(in crate::cli) machine: Machine,
     /// Record what is played, from the start on, for `replay FILE`
     #[arg(long, value_name = "FILE")]
-    pub(super) record: Option<PathBuf>,
+    pub(in crate::cli) record: Option<PathBuf>,
     /// Answer a script: a line of stdin gets a line of stdout (docs/scripts.md)
     #[arg(long, hide = true)]
-    pub(super) hook: bool,
+    pub(in crate::cli) hook: bool,
 }
 
 /// `run`.
 #[derive(Debug, Args)]
-pub(super) struct RunArguments {
+pub(in crate::cli) struct RunArguments {
     /// Scene: a name of `list scenes`, or the path of a scene file, a save file or a recording (from its last jump on)
-    pub(super) scene: String,
+    pub(in crate::cli) scene: String,
     /// Simulated time [default: 10, or as long as the recording]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true, conflicts_with = "ticks")]
-    pub(super) seconds: Option<Ticks>,
+    pub(in crate::cli) seconds: Option<Ticks>,
     /// Simulated time in ticks of 1/60 s
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = ticks)]
-    pub(super) ticks: Option<u64>,
+    pub(in crate::cli) ticks: Option<u64>,
     /// Quality: a name of `list qualities` [default: the scene's]
     #[arg(long, value_name = "QUALITY", value_parser = preset)]
-    pub(super) quality: Option<Preset>,
+    pub(in crate::cli) quality: Option<Preset>,
     /// Set a parameter of the scene, or a number of the quality or the liquid
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
-    pub(super) settings: Vec<(String, String)>,
+    pub(in crate::cli) settings: Vec<(String, String)>,
     /// Switch an effect of `list effects`
     #[arg(long = "effect", value_name = "NAME=auto|on|off", value_parser = effect)]
-    pub(super) effects: Vec<(Effect, Mode)>,
-    /// Threads of the simulation; they never change the result [default: all]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
-    pub(super) threads: Option<u64>,
-    /// Instruction set of the simulation: auto, or a narrower one than the processor's best; it never changes the result
-    #[arg(long, value_name = "SET", default_value = "auto", hide_default_value = true, value_parser = simd)]
-    pub(super) simd: InstructionSet,
+    pub(in crate::cli) effects: Vec<(Effect, Mode)>,
+    #[command(flatten)]
+    pub(in crate::cli) machine: Machine,
     /// Ticks at the start that are left out of times and accuracy samples
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true, allow_negative_numbers = true,
           value_parser = warmup)]
-    pub(super) warmup: u64,
+    pub(in crate::cli) warmup: u64,
     /// Write what was measured as JSON; `-` is stdout
     #[arg(long, value_name = "FILE.json")]
-    pub(super) metrics: Option<PathBuf>,
+    pub(in crate::cli) metrics: Option<PathBuf>,
     /// Write all particles at the end: id, element, position, velocity
     #[arg(long, value_name = "FILE.csv")]
-    pub(super) particles: Option<PathBuf>,
+    pub(in crate::cli) particles: Option<PathBuf>,
     /// Write a line for each tick: time, energy, momentum, front, surface
     #[arg(long, value_name = "FILE.csv")]
-    pub(super) trace: Option<PathBuf>,
+    pub(in crate::cli) trace: Option<PathBuf>,
     /// Run the same start at `reference` quality, too, and write the distance to it over time
     #[arg(long, value_name = "FILE.csv")]
-    pub(super) reference: Option<PathBuf>,
+    pub(in crate::cli) reference: Option<PathBuf>,
     /// Draw the world at the end
     #[arg(long, value_name = "FILE.png")]
-    pub(super) png: Option<PathBuf>,
+    pub(in crate::cli) png: Option<PathBuf>,
     /// Save the world at the end, to be run on
     #[arg(long, value_name = "FILE")]
-    pub(super) snapshot: Option<PathBuf>,
+    pub(in crate::cli) snapshot: Option<PathBuf>,
     /// Let the autopilot change the quality to hold so many ms a tick; the hash then depends on the machine
     #[arg(long, value_name = "MS", allow_negative_numbers = true, value_parser = hold_ms,
           conflicts_with = "hold_error")]
-    pub(super) hold_ms: Option<f32>,
+    pub(in crate::cli) hold_ms: Option<f32>,
     /// Let the autopilot change the quality to hold a mean density error, in percent; the hash does not
     #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = hold_error)]
-    pub(super) hold_error: Option<f32>,
+    pub(in crate::cli) hold_error: Option<f32>,
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
+    use clap::{CommandFactory, error::ErrorKind};
 
     #[test]
     fn the_definition_holds_together() {
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn a_bench_needs_its_table_and_takes_only_what_belongs_to_it() {
+        let kind = |words: &[&str]| {
+            let words = ["powder-master", "bench"].iter().chain(words);
+            Arguments::try_parse_from(words).err().map(|error| error.kind())
+        };
+        assert_eq!(kind(&[]), Some(ErrorKind::MissingSubcommand));
+        assert_eq!(kind(&["effects", "--svg", "."]), Some(ErrorKind::UnknownArgument));
+        assert_eq!(kind(&["neighbours", "--quick"]), Some(ErrorKind::UnknownArgument));
+        assert_eq!(kind(&["scaling", "--quick", "--json", "-", "--svg", "."]), None);
     }
 }
