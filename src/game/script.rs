@@ -9,7 +9,7 @@
 //! ```
 
 use crate::{
-    game::{frame::Tempo, hud::toast::Toasts, input::pointer::Pointer, tools::Toolbox},
+    game::{frame::Tempo, input::pointer::Pointer, toasts::Toasts, tools::Toolbox},
     sim::{
         ledger::PassLedger,
         pace::Pace,

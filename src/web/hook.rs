@@ -3,11 +3,11 @@
 
 use crate::{
     game::{
+        actions::Action,
         disk,
-        hud::toast::Toasts,
-        input::bindings::Action,
         orders::{Order, Orders},
         script,
+        toasts::Toasts,
     },
     web::{host, link::Link},
 };

@@ -111,7 +111,7 @@ async function play() {
   });
 
   await test('two qualities side by side', async () => {
-    const split = (chosen) => (all) => all.some((widget) => widget.name === 'Split' && widget.chosen === chosen);
+    const split = (chosen) => (all) => all.some((widget) => widget.name === 'A/B split' && widget.chosen === chosen);
     await game.untilWidgets('there is no split', split(false));
     await game.key('b');
     await game.untilWidgets('there is a split', split(true));

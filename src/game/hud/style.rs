@@ -1,9 +1,13 @@
 //! The look of the HUD: colours, sizes, spacing.
 
-use crate::game::hud::icons::{self, Icon};
-use bevy_egui::egui::{
-    self, Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle,
-    Vec2, style::ScrollStyle,
+use crate::game::{actions::PanelId, icons, panels::Panels};
+use bevy::prelude::{Added, Query};
+use bevy_egui::{
+    EguiContext,
+    egui::{
+        self, Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle,
+        Vec2, style::ScrollStyle,
+    },
 };
 use epaint_default_fonts::{HACK_REGULAR, UBUNTU_LIGHT};
 use std::sync::Arc;
@@ -37,7 +41,14 @@ pub const BUTTON_CORNER: u8 = 6;
 /// Corner of windows.
 pub const WINDOW_CORNER: u8 = 10;
 
-/// Dresses egui: fonts, sizes, colours.
+/// Gives egui this look. It draws no text before it has fonts, so that is done before its first frame.
+pub fn dress_new(mut contexts: Query<&mut EguiContext, Added<EguiContext>>) {
+    for mut context in &mut contexts {
+        dress(context.get_mut());
+    }
+}
+
+/// Fonts, sizes and colours.
 pub fn dress(context: &egui::Context) {
     context.set_fonts(fonts());
     context.set_theme(egui::Theme::Dark);
@@ -146,13 +157,28 @@ pub fn window(
     );
 }
 
+/// The window of a panel; its cross closes the panel.
+pub fn panel(
+    context: &egui::Context,
+    panels: &mut Panels,
+    id: PanelId,
+    place: (egui::Align2, egui::Pos2),
+    add: impl FnOnce(&mut egui::Ui),
+) {
+    let mut open = true;
+    window(context, panels.title(id), &mut open, place, add);
+    if !open {
+        panels.close(id);
+    }
+}
+
 fn close_button(ui: &mut egui::Ui) -> egui::Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(24.0), egui::Sense::click());
     if response.hovered() {
         ui.painter().rect_filled(rect, BUTTON_CORNER, BUTTON_HOVER);
     }
     let colour = if response.hovered() { Color32::WHITE } else { WEAK };
-    icons::draw(ui.painter(), icons::square(rect.center(), 14.0), Icon::Close, colour);
+    icons::draw(ui.painter(), icons::square(rect.center(), 14.0), icons::close, colour);
     name(&response, "Close", false);
     response.on_hover_text("close (Esc)")
 }
@@ -166,6 +192,11 @@ pub fn main_button(ui: &mut egui::Ui, text: &str) -> egui::Response {
     ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, text, font, Color32::WHITE);
     name(&response, text, false);
     response
+}
+
+/// Text of less weight.
+pub fn weak(text: impl Into<String>) -> egui::RichText {
+    egui::RichText::new(text).color(WEAK)
 }
 
 /// Frame of a bar at the edge of the window.

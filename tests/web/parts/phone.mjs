@@ -56,9 +56,9 @@ export async function onAPhone({ host, play, shoot, shootUntil, test }) {
     };
     await still(page);
     const before = await shoot(page, 'phone-tools');
-    await tap('Close');
+    await tap('Hide the tools');
     const hidden = await shootUntil(page, 'phone-no-tools', before, (share) => share > 5);
-    await tap('Drop');
+    await tap('Show the tools');
     const again = await shootUntil(page, 'phone-tools-again', before, (share) => share < 0.5);
     // What the finger drew goes.
     await tap('Undo');
