@@ -6,7 +6,7 @@ mod values;
 
 use crate::{
     kernel::{params::Preset, simd::InstructionSet},
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
 pub(super) use lab::{

@@ -19,7 +19,7 @@ use crate::{
     kernel::{element::ElementId, params::Preset, solids::Solids},
     scene::{
         self,
-        blueprint::{Effect, EffectModes, Mode},
+        effects::{Effect, EffectModes, Mode},
     },
     sim::{
         accuracy::{Survey, SurveyRequest},

@@ -4,7 +4,7 @@
 use crate::{
     kernel::{bins::Neighbours, params::Preset, pbf::Solver, simd::InstructionSet},
     lab::{headless::Headless, stats},
-    scene::{self, SceneError, blueprint::EffectModes},
+    scene::{self, SceneError, effects::EffectModes},
     sim::{ledger::PassLedger, state::SolverState, workers::Workers},
 };
 use serde::Serialize;

@@ -14,7 +14,7 @@ use crate::{
     },
     scene::{
         self, SceneError,
-        blueprint::{Effect, EffectModes, Mode},
+        effects::{Effect, EffectModes, Mode},
     },
     sim::{
         control,

@@ -15,7 +15,7 @@ use powder_master::{
     lab::gauntlet,
     scene::{
         self,
-        blueprint::{Effect, Mode},
+        effects::{Effect, Mode},
     },
     sim::{
         control,

@@ -6,10 +6,7 @@ use crate::{
         units::TICKS_PER_SECOND,
     },
     lab::gauntlet::cases,
-    scene::{
-        self, SceneError,
-        blueprint::{Blueprint, EffectModes},
-    },
+    scene::{self, SceneError, blueprint::Blueprint, effects::EffectModes},
 };
 use bevy::ecs::world::World;
 use glam::DVec2;

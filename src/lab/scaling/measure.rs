@@ -13,10 +13,7 @@ use crate::{
         },
         stats,
     },
-    scene::{
-        self, SceneError,
-        blueprint::{Blueprint, EffectModes},
-    },
+    scene::{self, SceneError, blueprint::Blueprint, effects::EffectModes},
     sim::{control, ledger::PassLedger, workers::Workers},
 };
 use bevy::{ecs::world::World, platform::time::Instant};

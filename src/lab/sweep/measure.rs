@@ -17,7 +17,7 @@ use crate::{
         sampler::{Sampler, ms},
         stats,
     },
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         control,
         effects::Effects,
@@ -121,7 +121,7 @@ impl Observer for Times {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{self, blueprint::EffectModes};
+    use crate::scene::{self, effects::EffectModes};
     use std::sync::Arc;
 
     /// Accuracy of the dam break of 10,082 particles as a sweep measures it.

@@ -10,7 +10,7 @@ use crate::{
         sources::Rect,
         units::Scale,
     },
-    scene::{MOST_COVERED, blueprint::Effect},
+    scene::{MOST_COVERED, effects::Effect},
     sim::state::Clock,
 };
 use glam::Vec2;

@@ -22,7 +22,7 @@ use crate::{
     sim::{
         accuracy::{Curve, LiveError, Survey, SurveyRequest, fingerprint},
         autopilot::Autopilot,
-        ledger::{Pass, PassLedger},
+        ledger::PassLedger,
         measures::Measures,
         split::Split,
         state::{Clock, Setup},
@@ -277,7 +277,10 @@ mod tests {
     use super::*;
     use crate::{
         kernel::params::Preset,
-        scene::{self, blueprint::EffectModes},
+        scene::{
+            self,
+            effects::{EffectModes, Pass},
+        },
     };
 
     #[test]

@@ -7,7 +7,7 @@ use crate::{
         params::Preset,
     },
     lab::gauntlet::case::{Case, Density, Gain, Rules, Size},
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         intent::Intent,
         recorder::Recorder,
