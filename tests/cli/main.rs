@@ -6,6 +6,9 @@ mod judges;
 mod recordings;
 mod run;
 mod sweep;
+// 29,000 ticks: too slow where the solver is not optimised.
+#[cfg(not(debug_assertions))]
+mod unchanged;
 mod usage;
 
 use serde_json::Value;
