@@ -8,7 +8,7 @@ use super::{
 use crate::{
     kernel::params::Preset,
     lab::{exam::ExamCase, gauntlet::GauntletCase},
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
