@@ -5,7 +5,7 @@ use crate::{
     kernel::{element::Element, params::Preset},
     lab::gauntlet,
     scene::{
-        self,
+        self, KNOBS, Part, Tuning,
         effects::{Effect, EffectRow},
     },
 };
@@ -48,18 +48,8 @@ fn effect(effect: Effect) -> String {
 }
 
 fn quality(preset: Preset) -> String {
-    let values = preset.quality();
-    format!(
-        "{}\tsubsteps={} iterations={} kernel_radius={} correction_limit={} air_cell={} air_courant={} air_advection={} gradient={} predictor={}",
-        preset.name(),
-        values.substeps,
-        values.iterations,
-        values.kernel_radius,
-        values.correction_limit,
-        values.air_cell,
-        values.air_courant,
-        values.air_advection.name(),
-        values.gradient.name(),
-        values.predictor
-    )
+    let tuning = Tuning::from(preset.quality());
+    let knobs = KNOBS.iter().filter(|knob| [Part::Solver, Part::Air].contains(&knob.part));
+    let values: String = knobs.map(|knob| format!("{}={} ", knob.name, knob.text(&tuning))).collect();
+    format!("{}\t{values}predictor={}", preset.name(), tuning.quality.predictor)
 }

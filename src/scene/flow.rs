@@ -89,7 +89,7 @@ impl Bounds<'_> {
         }
         let rate = values.number(format_args!("{field}.rate"), &text.rate, Range::real(0.001, 1e6))?;
         let total = text.total.as_ref();
-        let total = total.map(|total| values.number(format_args!("{field}.total"), total, PARTICLE_LIMIT.range));
+        let total = total.map(|total| values.number(format_args!("{field}.total"), total, PARTICLE_LIMIT));
         let start = text.start.as_ref();
         let start = start.map(|start| values.number(format_args!("{field}.start"), start, Range::real(0.0, 1e6)));
         Ok(Emitter {

@@ -15,7 +15,7 @@ use crate::{
         sources::{Drain, Emitter, Wind},
         units::Scale,
     },
-    scene::blueprint::Blueprint,
+    scene::{Tuning, blueprint::Blueprint},
     sim::snapshot::Snapshot,
 };
 use bevy::prelude::{Deref, DerefMut, Resource};
@@ -79,6 +79,12 @@ pub struct Setup {
 }
 
 impl Setup {
+    /// What the knobs stand at.
+    pub fn tuning(&self) -> Tuning {
+        let Blueprint { fluid, particle_limit, .. } = *self.blueprint;
+        Tuning { fluid, quality: self.quality, particle_limit }
+    }
+
     /// The element table.
     pub fn elements(&self) -> &ElementTable {
         &self.blueprint.elements

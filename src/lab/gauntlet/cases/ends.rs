@@ -1,55 +1,45 @@
 //! Every number at the ends of its range, and sizes at the ends of what there is.
 
 use super::BOILS;
-use crate::lab::gauntlet::case::{Case, Density, Gain, Rules, Size};
+use crate::{
+    lab::gauntlet::case::{Case, Density, Gain, Rules, Size},
+    scene::{KNOBS, Knob, Part, Values},
+};
 use glam::Vec2;
 
-/// The knobs that every scene has with the ends of their ranges.
-pub(in crate::lab::gauntlet) const KNOB_ENDS: [(&str, &str, &str); 13] = [
-    ("substeps", "1", "64"),
-    ("iterations", "1", "64"),
-    ("kernel_radius", "2", "4"),
-    ("correction_limit", "0.05", "0.5"),
-    ("air_cell", "1", "32"),
-    ("air_courant", "0.1", "0.9"),
-    ("rest_density", "0.1", "100"),
-    ("relaxation", "0.0001", "10"),
-    ("constraint_floor", "-1", "0"),
-    ("tension_strength", "0", "1"),
-    ("tension_distance", "0.1", "0.3"),
-    ("gradient", "spiky", "rational"),
-    ("air_advection", "first_order", "second_order"),
-];
+/// Number of runs.
+pub(in crate::lab::gauntlet) const RUNS: usize = 7;
 
-type Settings = [(&'static str, &'static str); KNOB_ENDS.len()];
+/// The knobs that are turned: all that have no case of their own, first numbers, then words.
+pub(in crate::lab::gauntlet) fn knobs() -> Vec<&'static Knob> {
+    let mut knobs: Vec<_> = KNOBS.iter().filter(|knob| knob.part != Part::World).collect();
+    knobs.sort_by_key(|knob| matches!(knob.values, Values::Words(_)));
+    knobs
+}
 
-/// The runs: in the first all knobs are at their low end; in the six others each is at its high end in four, and no two
-/// knobs in the same four. So any two knobs meet in all four ways: both low in the first, both high in two sets of four
-/// of six at least, and in turn where the sets differ.
-pub(in crate::lab::gauntlet) const RUNS: [Settings; 7] = {
-    let mut runs = [[("", ""); KNOB_ENDS.len()]; 7];
-    let (mut knob, mut set) = (0, 0_u32);
-    while knob < KNOB_ENDS.len() {
+/// Whether a knob is at its high end in a run. In the first run all are at their low end; in the six others each is at its
+/// high end in four, and no two knobs in the same four. So any two knobs meet in all four ways: both low in the first, both
+/// high in two sets of four of six at least, and in turn where the sets differ.
+pub(in crate::lab::gauntlet) const fn is_high(knob: usize, run: usize) -> bool {
+    let (mut set, mut left) = (0b00_1111_u32, knob);
+    while left > 0 {
         // The next set of four of six, as bits.
-        while set.count_ones() != 4 {
-            set += 1;
+        set += 1;
+        if set.count_ones() == 4 {
+            left -= 1;
         }
-        let (name, low, high) = KNOB_ENDS[knob];
-        let mut run = 0;
-        while run < 7 {
-            let is_high = run > 0 && set >> (run - 1) & 1 == 1;
-            runs[run][knob] = (name, if is_high { high } else { low });
-            run += 1;
-        }
-        (knob, set) = (knob + 1, set + 1);
     }
-    runs
-};
+    run > 0 && set >> (run - 1) & 1 == 1
+}
 
-const fn ends(name: &'static str, title: &'static str, run: usize) -> Case {
+fn settings<const RUN: usize>() -> Vec<(String, String)> {
+    let end = |(k, knob): (usize, &&Knob)| (knob.name.to_owned(), knob.end(is_high(k, RUN)));
+    knobs().iter().enumerate().map(end).collect()
+}
+
+const fn ends<const RUN: usize>(name: &'static str, title: &'static str) -> Case {
     // The runs in which a tick has 64 substeps or iterations take longer.
-    let (substeps, iterations) = (RUNS[run][0].1.len(), RUNS[run][1].1.len());
-    let is_dear = substeps + iterations > 2;
+    let is_long = is_high(0, RUN) || is_high(1, RUN);
     Case {
         name,
         title,
@@ -58,24 +48,24 @@ const fn ends(name: &'static str, title: &'static str, run: usize) -> Case {
         guards: "Pairs of settings that nobody tried together.",
         allowed: "A rest density of 0.1 blows the water up to ten times its area and one of 100 presses it to a hundredth; so \
                   neither its energy nor its density has a bound.",
-        size: if is_dear { Size::Usual } else { Size::Quick },
+        size: if is_long { Size::Usual } else { Size::Quick },
         scene: "(title: \"Ends\", spacing: 0.1, size: (4, 3), contents: [
             (element: \"rock\", shape: Rect(min: (2, 0), max: (2.1, 0.6))),
             (element: \"water\", shape: Rect(min: (0, 0), max: (0.8, 1.2)))])",
-        settings: &RUNS[run],
-        ticks: if is_dear { 12 } else { 60 },
+        settings: settings::<RUN>,
+        ticks: if is_long { 12 } else { 60 },
         rules: Rules { work: 8.0, air: Rules::SEALED, ..Rules::ALWAYS },
         ..Case::USUAL
     }
 }
 
-pub(in crate::lab::gauntlet) const ENDS_1: Case = ends("ends_1", "Ends of the knobs, all low", 0);
-pub(in crate::lab::gauntlet) const ENDS_2: Case = ends("ends_2", "Ends of the knobs, second run", 1);
-pub(in crate::lab::gauntlet) const ENDS_3: Case = ends("ends_3", "Ends of the knobs, third run", 2);
-pub(in crate::lab::gauntlet) const ENDS_4: Case = ends("ends_4", "Ends of the knobs, fourth run", 3);
-pub(in crate::lab::gauntlet) const ENDS_5: Case = ends("ends_5", "Ends of the knobs, fifth run", 4);
-pub(in crate::lab::gauntlet) const ENDS_6: Case = ends("ends_6", "Ends of the knobs, sixth run", 5);
-pub(in crate::lab::gauntlet) const ENDS_7: Case = ends("ends_7", "Ends of the knobs, seventh run", 6);
+pub(in crate::lab::gauntlet) const ENDS_1: Case = ends::<0>("ends_1", "Ends of the knobs, all low");
+pub(in crate::lab::gauntlet) const ENDS_2: Case = ends::<1>("ends_2", "Ends of the knobs, second run");
+pub(in crate::lab::gauntlet) const ENDS_3: Case = ends::<2>("ends_3", "Ends of the knobs, third run");
+pub(in crate::lab::gauntlet) const ENDS_4: Case = ends::<3>("ends_4", "Ends of the knobs, fourth run");
+pub(in crate::lab::gauntlet) const ENDS_5: Case = ends::<4>("ends_5", "Ends of the knobs, fifth run");
+pub(in crate::lab::gauntlet) const ENDS_6: Case = ends::<5>("ends_6", "Ends of the knobs, sixth run");
+pub(in crate::lab::gauntlet) const ENDS_7: Case = ends::<6>("ends_7", "Ends of the knobs, seventh run");
 
 pub(in crate::lab::gauntlet) const SPACING_1_MM: Case = Case {
     name: "spacing_1_mm",
