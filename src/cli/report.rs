@@ -5,7 +5,7 @@ use crate::{
         args::ReportOptions,
         failure::Failure,
         output::{self, STDOUT},
-        progress::StatusLine,
+        progress,
     },
     kernel::params::Preset,
     lab::machine::processor,
@@ -15,7 +15,6 @@ use serde_json::json;
 use std::{
     io::Write,
     path::{Path, PathBuf},
-    sync::Mutex,
     thread::available_parallelism,
 };
 
@@ -67,11 +66,11 @@ impl<'a> Report<'a> {
 
 /// Does a long work that says how many jobs are done, of how many, and which one is begun.
 pub(super) fn watched<R>(work: impl FnOnce(&(dyn Fn(usize, usize, &str) + Sync)) -> R) -> R {
-    let line = Mutex::new(StatusLine::new());
+    let line = progress::bar(0);
     work(&|done, of, title| {
-        if let Ok(line) = line.lock() {
-            line.say(&format!("{:3} %  {done} of {of}, {title}", 100 * done / of));
-        }
+        line.set_length(of as u64);
+        line.set_position(done as u64);
+        line.set_message(title.to_owned());
     })
 }
 

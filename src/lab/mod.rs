@@ -4,6 +4,8 @@
 
 pub mod balance;
 pub mod binning;
+#[cfg(all(feature = "charts", not(target_arch = "wasm32")))]
+pub mod chart;
 pub mod coarse;
 mod crew;
 pub mod density;
@@ -22,8 +24,6 @@ pub mod metrics;
 pub mod moment;
 pub mod particle_list;
 pub mod picture;
-#[cfg(not(target_arch = "wasm32"))]
-pub mod plot;
 pub mod reference;
 pub mod rest_density;
 pub mod run;

@@ -1,8 +1,8 @@
 //! Where the physics exam and the game meet: the game asks for an exam and shows its rows, the lab sits it and writes
 //! them. Neither knows the other.
 
-use crate::sim::desk::Desk;
 pub use crate::sim::desk::Progress;
+use crate::sim::{desk::Desk, numbers::figure};
 use serde::Serialize;
 
 /// How a row came out.
@@ -57,39 +57,5 @@ impl Row {
     }
 }
 
-/// A number to four figures.
-pub(crate) fn figure(value: f64) -> String {
-    match value.abs() {
-        0.0 => "0".to_owned(),
-        size if !size.is_finite() => "none".to_owned(),
-        size if !(1e-3..1e5).contains(&size) => format!("{value:.1e}"),
-        size => {
-            let digits = (3 - size.log10().floor() as i32).clamp(0, 4) as usize;
-            let text = format!("{value:.digits$}");
-            if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-        }
-    }
-}
-
 /// What the game wants of the exam, and what has come of it.
 pub type ExamDesk = Desk<Row>;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn figures_have_four_digits_at_most() {
-        for (value, text) in [
-            (0.0, "0"),
-            (9.81, "9.81"),
-            (1.66666, "1.667"),
-            (-0.012345, "-0.0123"),
-            (12345.6, "12346"),
-            (2e-7, "2.0e-7"),
-            (f64::NAN, "none"),
-        ] {
-            assert_eq!(figure(value), text);
-        }
-    }
-}

@@ -14,6 +14,7 @@ pub mod intent;
 pub mod ledger;
 pub mod mark;
 pub mod measures;
+pub mod numbers;
 pub mod pace;
 pub mod recorder;
 pub mod recording;

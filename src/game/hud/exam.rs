@@ -4,11 +4,11 @@ use crate::{
     game::hud::{
         HudState, desk,
         icons::{self, Icon},
-        stats::grouped,
         style,
     },
     sim::{
         exam::{ExamDesk, Row, Verdict},
+        numbers::grouped,
         state::Setup,
     },
 };

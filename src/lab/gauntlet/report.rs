@@ -6,8 +6,8 @@ use crate::{
         markdown,
     },
     sim::{
-        exam::figure,
         gauntlet::{Row, Verdict},
+        numbers::figure,
     },
 };
 use std::fmt::Write;

@@ -54,10 +54,11 @@ fn cases_have_names_of_their_own_and_say_what_they_are() {
 #[test]
 fn any_two_knobs_meet_at_both_ends() {
     let knobs = ends::knobs();
+    let runs = CASES.iter().filter(|case| case.name.starts_with("ends_")).count();
     assert_eq!(knobs.len(), KNOBS.len() - 1, "only the particle limit has a case of its own");
     for a in 0..knobs.len() {
         for b in 0..a {
-            let mut met: Vec<_> = (0..ends::RUNS).map(|run| (ends::is_high(a, run), ends::is_high(b, run))).collect();
+            let mut met: Vec<_> = (0..runs).map(|run| (ends::is_high(a, run), ends::is_high(b, run))).collect();
             met.sort_unstable();
             met.dedup();
             assert_eq!(met.len(), 4, "{} and {} do not meet in all ways", knobs[a].name, knobs[b].name);

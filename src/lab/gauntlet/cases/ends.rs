@@ -7,9 +7,6 @@ use crate::{
 };
 use glam::Vec2;
 
-/// Number of runs.
-pub(in crate::lab::gauntlet) const RUNS: usize = 7;
-
 /// The knobs that are turned: all that have no case of their own, first numbers, then words.
 pub(in crate::lab::gauntlet) fn knobs() -> Vec<&'static Knob> {
     let mut knobs: Vec<_> = KNOBS.iter().filter(|knob| knob.part != Part::World).collect();
