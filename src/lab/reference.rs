@@ -6,10 +6,11 @@ use crate::{
         units::TICKS_PER_SECOND,
     },
     lab::{
+        balance::matter,
         coarse::{CoarseField, Distance, Magnitude},
         moment::Moment,
         run::{Observer, Plan, run},
-        sampler::{SAMPLE_EVERY, matter},
+        sampler::SAMPLE_EVERY,
     },
     sim::workers::Workers,
 };

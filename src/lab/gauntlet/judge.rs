@@ -3,9 +3,9 @@
 use crate::{
     kernel::{params::Preset, particles::Particles},
     lab::{
+        balance::matter,
         density::density_error,
         gauntlet::case::{Case, Rules},
-        sampler::matter,
         stats,
     },
     sim::{

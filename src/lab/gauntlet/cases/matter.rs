@@ -141,7 +141,7 @@ pub(in crate::lab::gauntlet) const DRAG_LIGHT: Case = Case {
 };
 
 fn slower(world: &bevy::ecs::world::World, most: f64) -> Result<(), String> {
-    let fastest = crate::lab::sampler::matter(world).balance().max_speed;
+    let fastest = crate::lab::balance::matter(world).balance().max_speed;
     if fastest <= most { Ok(()) } else { Err(format!("{fastest:.1} m/s at the end, allowed {most}")) }
 }
 
