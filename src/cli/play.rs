@@ -29,12 +29,12 @@ fn open(
 ) -> Result<(), Failure> {
     use crate::{
         game::{self, GameError, playback},
-        lab::{exam, gauntlet, live::LivePlugin},
+        lab::live::LivePlugin,
     };
     use bevy::app::AppExit;
 
     match game::run(scene, record, |app| {
-        app.add_plugins((exam::plugin, gauntlet::plugin, LivePlugin));
+        app.add_plugins(LivePlugin);
         load(app.world_mut());
         if let Some(recording) = recording {
             playback::begin(app.world_mut(), recording);

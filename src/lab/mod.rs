@@ -4,12 +4,11 @@
 
 pub mod balance;
 pub mod binning;
+pub mod cases;
 #[cfg(all(feature = "charts", not(target_arch = "wasm32")))]
 pub mod chart;
 pub mod coarse;
-mod crew;
 pub mod density;
-mod desk;
 mod drift;
 mod drive;
 pub mod exam;
@@ -17,6 +16,7 @@ pub mod exam;
 pub mod gating;
 pub mod gauntlet;
 pub mod headless;
+pub mod jobs;
 pub mod live;
 pub mod machine;
 mod markdown;

@@ -4,12 +4,9 @@
 pub mod accuracy;
 pub mod autopilot;
 pub mod control;
-pub mod desk;
 pub mod difference;
 pub mod effects;
-pub mod exam;
 pub mod fault;
-pub mod gauntlet;
 pub mod intent;
 pub mod ledger;
 pub mod mark;

@@ -18,7 +18,7 @@ use crate::{
         input::bindings::Action,
         orders::{Order, Orders},
     },
-    scene::blueprint::Blueprint,
+    scene::{blueprint::Blueprint, effects::Pass},
     sim::{
         accuracy::{Curve, LiveError, Survey, SurveyRequest, fingerprint},
         autopilot::Autopilot,
@@ -277,10 +277,7 @@ mod tests {
     use super::*;
     use crate::{
         kernel::params::Preset,
-        scene::{
-            self,
-            effects::{EffectModes, Pass},
-        },
+        scene::{self, effects::EffectModes},
     };
 
     #[test]

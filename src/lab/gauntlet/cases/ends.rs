@@ -1,9 +1,11 @@
 //! Every number at the ends of its range, and sizes at the ends of what there is.
 
-use super::BOILS;
+use super::common::{BOILS, element, intend};
 use crate::{
-    lab::gauntlet::case::{Case, Density, Gain, Rules, Size},
+    kernel::brush::{BrushShape, Stroke},
+    lab::gauntlet::case::{Density, Gain, GauntletCase, Over, Rules, Size},
     scene::{KNOBS, Knob, Part, Values},
+    sim::{intent::Intent, state::Setup},
 };
 use glam::Vec2;
 
@@ -34,10 +36,10 @@ fn settings<const RUN: usize>() -> Vec<(String, String)> {
     knobs().iter().enumerate().map(end).collect()
 }
 
-const fn ends<const RUN: usize>(name: &'static str, title: &'static str) -> Case {
+const fn ends<const RUN: usize>(name: &'static str, title: &'static str) -> GauntletCase {
     // The runs in which a tick has 64 substeps or iterations take longer.
     let is_long = is_high(0, RUN) || is_high(1, RUN);
-    Case {
+    GauntletCase {
         name,
         title,
         what: "A small dam break in air with every knob of scene and quality at an end of its range; in seven such runs any \
@@ -50,21 +52,22 @@ const fn ends<const RUN: usize>(name: &'static str, title: &'static str) -> Case
             (element: \"rock\", shape: Rect(min: (2, 0), max: (2.1, 0.6))),
             (element: \"water\", shape: Rect(min: (0, 0), max: (0.8, 1.2)))])",
         settings: settings::<RUN>,
+        over: Over::Method,
         ticks: if is_long { 12 } else { 60 },
         rules: Rules { work: 8.0, air: Rules::SEALED, ..Rules::ALWAYS },
-        ..Case::USUAL
+        ..GauntletCase::USUAL
     }
 }
 
-pub(in crate::lab::gauntlet) const ENDS_1: Case = ends::<0>("ends_1", "Ends of the knobs, all low");
-pub(in crate::lab::gauntlet) const ENDS_2: Case = ends::<1>("ends_2", "Ends of the knobs, second run");
-pub(in crate::lab::gauntlet) const ENDS_3: Case = ends::<2>("ends_3", "Ends of the knobs, third run");
-pub(in crate::lab::gauntlet) const ENDS_4: Case = ends::<3>("ends_4", "Ends of the knobs, fourth run");
-pub(in crate::lab::gauntlet) const ENDS_5: Case = ends::<4>("ends_5", "Ends of the knobs, fifth run");
-pub(in crate::lab::gauntlet) const ENDS_6: Case = ends::<5>("ends_6", "Ends of the knobs, sixth run");
-pub(in crate::lab::gauntlet) const ENDS_7: Case = ends::<6>("ends_7", "Ends of the knobs, seventh run");
+pub(super) const ENDS_1: GauntletCase = ends::<0>("ends_1", "Ends of the knobs, all low");
+pub(super) const ENDS_2: GauntletCase = ends::<1>("ends_2", "Ends of the knobs, second run");
+pub(super) const ENDS_3: GauntletCase = ends::<2>("ends_3", "Ends of the knobs, third run");
+pub(super) const ENDS_4: GauntletCase = ends::<3>("ends_4", "Ends of the knobs, fourth run");
+pub(super) const ENDS_5: GauntletCase = ends::<4>("ends_5", "Ends of the knobs, fifth run");
+pub(super) const ENDS_6: GauntletCase = ends::<5>("ends_6", "Ends of the knobs, sixth run");
+pub(super) const ENDS_7: GauntletCase = ends::<6>("ends_7", "Ends of the knobs, seventh run");
 
-pub(in crate::lab::gauntlet) const SPACING_1_MM: Case = Case {
+pub(super) const SPACING_1_MM: GauntletCase = GauntletCase {
     name: "spacing_1_mm",
     title: "Particles of a millimetre",
     what: "A dam break of 20 × 40 particles of 1 mm, in air.",
@@ -80,10 +83,10 @@ pub(in crate::lab::gauntlet) const SPACING_1_MM: Case = Case {
         ..Rules::ALWAYS
     },
     known: Some(BOILS),
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const SPACING_10_M: Case = Case {
+pub(super) const SPACING_10_M: GauntletCase = GauntletCase {
     name: "spacing_10_m",
     title: "Particles of ten metres",
     what: "A dam break of 20 × 40 particles of 10 m.",
@@ -99,10 +102,10 @@ pub(in crate::lab::gauntlet) const SPACING_10_M: Case = Case {
         density: Some(Density { shock: 10, worst: 0.2, end: 0.1 }),
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const FAR_AWAY: Case = Case {
+pub(super) const FAR_AWAY: GauntletCase = GauntletCase {
     name: "far_away",
     title: "100 km from the origin",
     what: "A pool of 30 × 12 particles of 10 m between two walls of rock, 100 km (10,000 d) from the world's origin.",
@@ -123,10 +126,10 @@ pub(in crate::lab::gauntlet) const FAR_AWAY: Case = Case {
         work: 1.5,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const MILLION: Case = Case {
+pub(super) const MILLION: GauntletCase = GauntletCase {
     name: "million",
     title: "A million particles",
     what: "A dam break of 707 × 1,414 particles, ten ticks.",
@@ -142,10 +145,10 @@ pub(in crate::lab::gauntlet) const MILLION: Case = Case {
         work: 1.5,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const NOBODY: Case = Case {
+pub(super) const NOBODY: GauntletCase = GauntletCase {
     name: "nobody",
     title: "No particles at all",
     what: "An empty box with every effect on; after half a second one particle, which is erased again.",
@@ -155,11 +158,6 @@ pub(in crate::lab::gauntlet) const NOBODY: Case = Case {
     scene: "(title: \"Nobody\", spacing: 0.1, size: (4, 4),
         effects: {air: on, drag: on, predictor: on, tension: on, viscosity: on, vorticity: on})",
     act: Some(|world, tick| {
-        use super::{element, intend};
-        use crate::{
-            kernel::brush::{BrushShape, Stroke},
-            sim::{intent::Intent, state::Setup},
-        };
         let stroke = Stroke::dab(BrushShape::Disc, Vec2::splat(20.0), 0.0);
         let water = element(world.resource::<Setup>().elements(), "water");
         match tick {
@@ -170,5 +168,5 @@ pub(in crate::lab::gauntlet) const NOBODY: Case = Case {
     }),
     ticks: 60,
     rules: Rules { air: Rules::SEALED, calm: true, ..Rules::ALWAYS },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
