@@ -167,11 +167,13 @@ mod tests {
     use super::*;
     use crate::{
         kernel::brush::{BrushShape, Stroke},
-        lab::headless::Headless,
+        lab::{
+            difference::{Difference, Half},
+            headless::Headless,
+        },
         scene::{self, effects::EffectModes},
         sim::{
             control,
-            difference::{Difference, Half},
             state::{AirGrid, ParticleStore},
         },
     };

@@ -4,11 +4,14 @@ use crate::{
     game::{
         GamePlugin,
         camera::{Area, WorldCamera},
-        hud::{HudState, toast::Toasts},
         input::{keys::Typing, pointer::HudCover},
-        orders::{Order, Orders, Shown},
+        orders::{Order, Orders},
+        panels::Panels,
+        toasts::Toasts,
         tools::{Tool, Toolbox},
+        views::table::{Shown, VIEWS},
     },
+    lab::colours::Reference,
     scene::{
         self,
         effects::{EffectModes, Pass},
@@ -18,7 +21,6 @@ use crate::{
         intent::{Intent, IntentQueue},
         pace::Pace,
         state::{Clock, ParticleStore, Rock, Setup},
-        view::{Reference, View},
     },
 };
 use bevy::{
