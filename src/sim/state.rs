@@ -103,16 +103,16 @@ pub struct Acted {
 }
 
 macro_rules! counters {
-    ($(#[$about:meta])* $($(#[$doc:meta])* $name:ident: $Type:ty, $what:literal, $meaning:literal;)+) => {
+    ($(#[$about:meta])* $Counters:ident; $($(#[$doc:meta])* $name:ident: $Type:ty, $what:literal, $meaning:literal;)+) => {
         $(#[$about])*
         #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Serialize)]
-        pub struct Counters {
+        pub struct $Counters {
             $($(#[$doc])* pub $name: $Type,)+
             /// Most substeps that a tick took.
             pub substeps_max: u32,
         }
 
-        impl Counters {
+        impl $Counters {
             /// The limiters that acted, gravest first.
             pub fn acted(&self) -> impl Iterator<Item = Acted> {
                 [$(Acted { what: $what, meaning: $meaning, count: (self.$name as f64).ceil() as u64 }),+]
@@ -131,6 +131,7 @@ counters! {
     /// Not limiters, because they are part of a method and act on purpose: collision with rock and walls, the drains that a
     /// scene has, constants that keep a division sound (`LEAST_THETA`, `LEAST_DENSITY`), and the snap of still air to rest,
     /// which changes no pressure by more than a rounding.
+    Counters;
 
     /// Particles removed because a coordinate or speed was not a number.
     non_finite: u64, "not a number", "particles removed because a value of theirs was no number";
