@@ -41,13 +41,13 @@ pub(super) struct SceneText {
     /// 10 000. Default: nothing.
     #[serde(default)]
     pub(super) contents: Vec<Placement>,
-    /// Taps, at most 1000, on 64 million cells together. Default: none.
+    /// Emitters, at most 1000, on 64 million cells together. Default: none.
     #[serde(default)]
     pub(super) emitters: Vec<EmitterText>,
-    /// Fans, at most 1000, on 64 million cells together. Default: none.
+    /// Winds, at most 1000, on 64 million cells together. Default: none.
     #[serde(default)]
     pub(super) winds: Vec<WindText>,
-    /// Outlets, at most 1000. Default: none.
+    /// Drains, at most 1000. Default: none.
     #[serde(default)]
     pub(super) drains: Vec<Area>,
     /// Air that starts at another pressure than the surroundings', at most 1000 patches, on 1000 million cells together.
@@ -193,7 +193,7 @@ pub(super) struct Area {
     pub(super) max: Pair,
 }
 
-/// A tap: fills the free sites of its rectangle.
+/// An emitter: fills the free sites of its rectangle.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct EmitterText {
@@ -216,7 +216,7 @@ pub(super) struct EmitterText {
     pub(super) start: Option<Number>,
 }
 
-/// A fan: drives the air in its rectangle towards a velocity.
+/// A wind: drives the air in its rectangle towards a velocity.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WindText {

@@ -18,7 +18,7 @@ use crate::{
 use glam::{DVec2, Vec2};
 use std::fmt::Display;
 
-/// Cells that the taps of a scene may cover together, and its fans: each is looked at in every tick. As many as a box has
+/// Cells that the emitters of a scene may cover together, and its winds: each is looked at in every tick. As many as a box has
 /// at most.
 pub const MOST_COVERED: f64 = 64e6;
 

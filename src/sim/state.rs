@@ -37,11 +37,11 @@ pub struct AirGrid(pub Air);
 /// What the scene keeps adding and taking away. Written by the source stage.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sources {
-    /// Taps.
+    /// Emitters.
     pub emitters: Vec<Emitter>,
-    /// Fans.
+    /// Winds.
     pub winds: Vec<Wind>,
-    /// Outlets.
+    /// Drains.
     pub drains: Vec<Drain>,
 }
 
