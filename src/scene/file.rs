@@ -58,7 +58,7 @@ pub(super) struct SceneText {
     #[serde(default)]
     pub(super) open: OpenSides,
     /// Speed of sound in the air, m/s: 1 … 400. Raising it makes the air stiffer and costs substeps. Real air's 340 is
-    /// dear and looks no different. Default: `40`.
+    /// expensive and looks no different. Default: `40`.
     #[serde(default = "default_sound_speed")]
     pub(super) sound_speed: Number,
     /// Density of the air at pressure 1, kg/m²: 0.01 … 1000. Raising it lets particles drag it along less
