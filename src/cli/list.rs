@@ -5,7 +5,7 @@ use crate::{
     kernel::{element::Element, params::Preset},
     lab::gauntlet,
     scene::{
-        self, KNOBS, Part, Tuning,
+        self, Knob, Tuning,
         effects::{Effect, EffectRow},
     },
 };
@@ -51,7 +51,6 @@ fn effect(effect: Effect) -> String {
 
 fn quality(preset: Preset) -> String {
     let tuning = Tuning::from(preset.quality());
-    let knobs = KNOBS.iter().filter(|knob| [Part::Solver, Part::Air].contains(&knob.part));
-    let values: String = knobs.map(|knob| format!("{}={} ", knob.name, knob.text(&tuning))).collect();
+    let values: String = Knob::of_quality().map(|knob| format!("{}={} ", knob.name, knob.text(&tuning))).collect();
     format!("{}\t{values}predictor={}", preset.name(), tuning.quality.predictor)
 }

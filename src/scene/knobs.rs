@@ -171,6 +171,11 @@ impl Knob {
         KNOBS.iter().find(|knob| knob.name == name)
     }
 
+    /// Those of a quality: all of `Quality` but the predictor, which is the preset's.
+    pub fn of_quality() -> impl Iterator<Item = &'static Self> {
+        KNOBS.iter().filter(|knob| [Part::Solver, Part::Air].contains(&knob.part))
+    }
+
     /// Its value; of a word its index.
     pub fn get(&self, tuning: &Tuning) -> f64 {
         (self.get)(tuning)
@@ -195,7 +200,7 @@ impl Knob {
     }
 
     /// Sets it to a value that is allowed.
-    pub(super) fn set(&self, tuning: &mut Tuning, value: f64) {
+    pub fn set(&self, tuning: &mut Tuning, value: f64) {
         (self.set)(tuning, value);
     }
 
