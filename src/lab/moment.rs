@@ -62,7 +62,7 @@ impl Moment {
         self.mode(Effect::Air) != Mode::Off
     }
 
-    /// Whether nothing but gravity acts from outside: no taps, outlets or fans, and no air that pushes. Then the energy
+    /// Whether nothing but gravity acts from outside: no emitters, drains or winds, and no air that pushes. Then the energy
     /// of the particles can't grow.
     pub fn is_closed(&self) -> bool {
         let sources = &self.snapshot.sources;
@@ -130,7 +130,7 @@ mod tests {
             Moment::of(Headless::new(Arc::new(blueprint), Workers::default()).world())
         };
         assert!(of("dam_break").is_closed() && !of("dam_break").has_air());
-        assert!(!of("rest_density").is_closed(), "a tap lifts water in");
+        assert!(!of("rest_density").is_closed(), "an emitter lifts water in");
         assert!(!of("waterfall").is_closed() && of("waterfall").has_air());
         assert!(!of("sealed_air").is_closed(), "its air pushes drops");
     }

@@ -3,10 +3,11 @@
 use crate::{
     kernel::params::{Preset, Quality},
     lab::{
+        balance::matter,
         coarse::{CoarseField, Distance, Magnitude},
         moment::Moment,
         run::{Observer, Plan, run},
-        sampler::{SAMPLE_EVERY, matter},
+        sampler::SAMPLE_EVERY,
     },
     sim::workers::Workers,
 };

@@ -7,7 +7,7 @@ use crate::{
         particles::Particles,
         units::{Scale, TICKS_PER_SECOND},
     },
-    lab::{headless::Headless, picture::Picture, sampler::matter, stats},
+    lab::{balance::matter, headless::Headless, picture::Picture, stats},
     scene::{self, SceneError, effects::EffectModes},
     sim::workers::Workers,
 };

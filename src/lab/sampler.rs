@@ -3,7 +3,7 @@
 use crate::{
     kernel::units::TICKS_PER_SECOND,
     lab::{
-        balance::Matter,
+        balance::matter,
         density::density_error,
         drift::Drift,
         machine,
@@ -239,17 +239,6 @@ impl Samples {
         self.volume.extend(volume_error(particles, rock, size, rest));
         self.divergence.push(world.resource::<AirGrid>().divergence_rms());
         self.taken += 1;
-    }
-}
-
-/// The movable particles with what mechanics needs to know of them.
-pub(crate) fn matter(world: &World) -> Matter<'_> {
-    let Setup { blueprint, domain, .. } = world.resource::<Setup>();
-    Matter {
-        particles: world.resource::<ParticleStore>(),
-        elements: &blueprint.elements,
-        domain,
-        scale: blueprint.scale,
     }
 }
 

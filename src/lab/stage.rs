@@ -2,7 +2,11 @@
 
 use crate::{
     kernel::{params::Quality, particles::Particles, units::TICKS_PER_SECOND},
-    lab::{balance::Matter, drive::pause, headless::Headless, sampler::matter},
+    lab::{
+        balance::{Matter, matter},
+        drive::pause,
+        headless::Headless,
+    },
     scene::blueprint::Blueprint,
     sim::{
         ledger::PassLedger,

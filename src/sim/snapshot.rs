@@ -22,7 +22,7 @@ pub struct Snapshot {
     pub pressure: Vec<f32>,
     /// Who sleeps, and who may soon.
     pub sleep: SleepRecord,
-    /// Taps, fans and outlets with their state.
+    /// Emitters, winds and drains with their state.
     pub sources: Sources,
     /// Tick, edits, next id.
     pub clock: Clock,

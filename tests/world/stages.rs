@@ -147,9 +147,13 @@ fn taps_flow_and_outlets_drain() {
     blueprint.drains.push(Drain { area: area((0.0, 0.0), (30.0, 2.0)) });
     let mut sandbox = Sandbox::of(blueprint);
     sandbox.tick(10);
-    assert_eq!(sandbox.particles().len(), 50, "the tap flowed before its start, or the drain took what is above it");
+    assert_eq!(
+        sandbox.particles().len(),
+        50,
+        "the emitter flowed before its start, or the drain took what is above it"
+    );
     sandbox.tick(15);
-    assert!(sandbox.particles().id.iter().any(|&id| id >= 50), "the tap is dry");
+    assert!(sandbox.particles().id.iter().any(|&id| id >= 50), "the emitter is dry");
     sandbox.tick(600);
     let left = sandbox.particles().len();
     assert!(left < 20, "{left} of 110 particles are left beside a drain");
@@ -353,7 +357,7 @@ fn a_fan_drives_the_air_and_the_air_carries_water() {
     blueprint.water(Vec2::new(5.0, 10.0), Vec2::ZERO);
     let mut sandbox = Sandbox::of(blueprint);
     sandbox.tick(30);
-    assert!(sandbox.calls(Pass::Air) > 0, "no air moves although a fan blows");
+    assert!(sandbox.calls(Pass::Air) > 0, "no air moves although a wind blows");
     assert!(!sandbox.get::<AirGrid>().is_quiet());
     assert!(sandbox.particles().vx[0] > 1.0, "the wind does not take water along");
 }

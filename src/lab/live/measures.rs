@@ -2,7 +2,8 @@
 //! of the moment.
 
 use crate::{
-    lab::sampler::{air_mass, matter, residual},
+    lab::balance::matter,
+    lab::sampler::{air_mass, residual},
     lab::volume::volume_error,
     scene::effects::{Effect, Mode},
     sim::{

@@ -13,7 +13,7 @@ use crate::{
         units::Scale,
     },
     scene::{
-        MOST_COVERED,
+        MOST_COVERED, Tuning,
         effects::Effect,
         elements::{self, Fault},
     },
@@ -82,15 +82,9 @@ fn numbers(contents: &Contents) -> Verdict {
     let cells = domain.size.ceil();
     within("number of cells", cells.x * cells.y, 16.0, MOST_CELLS)?;
     gravity(domain.gravity, *scale)?;
-    within("rest_density", fluid.rest_density, 0.1, 100.0)?;
-    within("relaxation", fluid.relaxation, 1e-4, 10.0)?;
-    within("constraint_floor", fluid.constraint_floor, -1.0, 0.0)?;
-    within("tension_strength", fluid.tension_strength, 0.0, 1.0)?;
-    within("tension_distance", fluid.tension_distance, 0.1, 0.3)?;
-    self::quality(quality)?;
+    Tuning { fluid: *fluid, quality: *quality, particle_limit: contents.particle_limit }.check()?;
     within("sound_speed", air_params.sound_speed * scale.spacing, 1.0 / ROUNDING, 400.0 * ROUNDING)?;
-    within("air_density", air_params.density, 0.01, 1000.0)?;
-    within("particle_limit", contents.particle_limit as f32, 1.0, 4e6)
+    within("air_density", air_params.density, 0.01, 1000.0)
 }
 
 /// Gravity in d/s² at a spacing: in m/s² it keeps to the range of scenes.
@@ -100,12 +94,7 @@ pub(in crate::sim) fn gravity(gravity: Vec2, scale: Scale) -> Verdict {
 
 /// The numbers of a quality.
 pub(in crate::sim) fn quality(quality: &Quality) -> Verdict {
-    within("substeps", quality.substeps as f32, 1.0, 64.0)?;
-    within("iterations", quality.iterations as f32, 1.0, 64.0)?;
-    within("kernel_radius", quality.kernel_radius, 2.0, 4.0)?;
-    within("correction_limit", quality.correction_limit, 0.05, 0.5)?;
-    within("air_cell", quality.air_cell, 1.0, 32.0)?;
-    within("air_courant", quality.air_courant, 0.1, 0.9)
+    Tuning::from(*quality).check()
 }
 
 fn element_rows(elements: &[Element]) -> Verdict {
