@@ -4,8 +4,6 @@ use crate::{
     cli::{args::PlayOptions, failure::Failure, output, start::Start, threads},
     sim::recording::Recording,
 };
-use bevy::ecs::world::World;
-use std::path::PathBuf;
 
 /// The scene without a name.
 const DEFAULT_SCENE: &str = "waterfall";
@@ -16,26 +14,22 @@ pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Fai
     output::check(options.record.as_deref().as_slice())?;
     let (start, recording) = Start::of_play(scene, options)?;
     threads::start_aside(options.threads)?;
-    let load = |world: &mut World| start.load(world, options.simd);
-    open(scene, options.record.clone(), recording, load)
+    open(scene, options, &start, recording)
 }
 
 #[cfg(feature = "app")]
-fn open(
-    scene: &str,
-    record: Option<PathBuf>,
-    recording: Option<Recording>,
-    load: impl FnOnce(&mut World),
-) -> Result<(), Failure> {
+fn open(scene: &str, options: &PlayOptions, start: &Start, recording: Option<Recording>) -> Result<(), Failure> {
     use crate::{
         game::{self, GameError, playback},
         lab::{exam, gauntlet, live::LivePlugin},
+        sim::state::SolverState,
     };
     use bevy::app::AppExit;
 
-    match game::run(scene, record, |app| {
+    match game::run(scene, options.record.clone(), |app| {
         app.add_plugins((exam::plugin, gauntlet::plugin, LivePlugin));
-        load(app.world_mut());
+        start.checkpoint.restore(app.world_mut());
+        app.world_mut().resource_mut::<SolverState>().instructions = options.simd;
         if let Some(recording) = recording {
             playback::begin(app.world_mut(), recording);
         }
@@ -48,7 +42,7 @@ fn open(
 }
 
 #[cfg(not(feature = "app"))]
-fn open(scene: &str, _: Option<PathBuf>, _: Option<Recording>, _: impl FnOnce(&mut World)) -> Result<(), Failure> {
+fn open(scene: &str, _: &PlayOptions, _: &Start, _: Option<Recording>) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
         "this build has no window (it lacks the cargo feature `app`); `powder-master run {scene}` works without one"
     )))

@@ -10,11 +10,10 @@ use crate::{
         threads,
     },
     lab::{
-        headless::Headless,
         machine::processor,
         soak::{self, Report},
     },
-    sim::{state::Setup, workers::Workers},
+    sim::{simulation::Simulation, state::Setup, workers::Workers},
 };
 use bevy::platform::time::Instant;
 use serde_json::json;
@@ -29,14 +28,14 @@ pub(super) fn soak(arguments: &SoakArguments) -> Result<(), Failure> {
     output::check(&arguments.json.as_deref().into_iter().collect::<Vec<_>>())?;
     let start = Start::of_soak(&arguments.scene, &arguments.settings, arguments.quality)?;
     threads::start(arguments.threads)?;
-    let mut headless = Headless::begin(Workers::default(), |world| start.load(world, arguments.simd));
-    let quality = headless.world().resource::<Setup>().preset.name();
+    let mut simulation = Simulation::resume(&start.checkpoint, Workers::default()).with_instructions(arguments.simd);
+    let quality = simulation.world().resource::<Setup>().preset.name();
     let (minutes, begun, line) = (arguments.hours.0, Instant::now(), StatusLine::new());
     let seconds = || begun.elapsed().as_secs_f64();
     let most = arguments.within.map_or(f64::INFINITY, |Minutes(minutes)| minutes as f64 * 60.0);
     let file = arguments.json.as_deref().filter(|path| *path != Path::new(output::STDOUT));
     let (mut written, mut outcome) = (0, Ok(()));
-    let report = soak::soak(&mut headless, arguments.seed, minutes, PERIODS, |report| {
+    let report = soak::soak(&mut simulation, arguments.seed, minutes, PERIODS, |report| {
         line.say(&format!("{} minute {} of {minutes}", bar(report.minutes as usize, minutes as usize), report.minutes));
         if report.periods.len() > written {
             written = report.periods.len();

@@ -24,6 +24,7 @@ use crate::{
     sim::{
         accuracy::{Survey, SurveyRequest},
         autopilot::{Autopilot, Goal},
+        checkpoint::Checkpoint,
         control,
         effects::Effects,
         gauntlet::Cases,
@@ -187,7 +188,7 @@ fn act(world: &mut World, action: Action) {
 fn play(world: &mut World, name: &str, settings: &[(String, String)], preset: Option<Preset>) {
     match scene::load(name).and_then(|scene| scene.build(settings, preset, &EffectModes::new())) {
         Ok(blueprint) => {
-            control::load(world, Arc::new(blueprint));
+            Checkpoint::of_scene(Arc::new(blueprint)).restore(world);
             world.resource_mut::<History>().clear();
             world.resource_mut::<Epoch>().0 += 1;
         }

@@ -8,7 +8,6 @@ use crate::{
         intent::IntentQueue,
         pace::Pace,
         recording::Recording,
-        save,
         state::{Clock, Setup},
     },
 };
@@ -54,7 +53,7 @@ pub fn feed(world: &mut World) {
     }
     match recording.stretches.get(stretch + 1).map(|next| next.start()) {
         Some(Ok(saved)) => {
-            save::load(world, saved);
+            saved.restore(world);
             world.resource_mut::<Epoch>().0 += 1;
             playback.stretch += 1;
             playback.given = 0;

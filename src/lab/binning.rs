@@ -3,9 +3,9 @@
 
 use crate::{
     kernel::{bins::Neighbours, params::Preset, pbf::Solver, simd::InstructionSet},
-    lab::{headless::Headless, stats},
+    lab::stats,
     scene::{self, SceneError, blueprint::EffectModes},
-    sim::{ledger::PassLedger, state::SolverState, workers::Workers},
+    sim::{ledger::PassLedger, simulation::Simulation, state::SolverState, workers::Workers},
 };
 use serde::Serialize;
 use std::sync::Arc;
@@ -98,14 +98,14 @@ fn median_ms(columns: usize, neighbours: Neighbours, workers: &Workers) -> Resul
     let blueprint = Arc::new(scene::load(SCENE)?.build(&settings, Some(PRESET), &EffectModes::new())?);
     let mut shortest = vec![f64::INFINITY; TICKS as usize];
     for _ in 0..ROUNDS {
-        let mut headless = Headless::new(blueprint.clone(), workers.clone());
-        headless.world_mut().insert_resource(SolverState(Solver::new(InstructionSet::detect(), neighbours)));
+        let mut simulation = Simulation::new(blueprint.clone(), workers.clone());
+        simulation.world_mut().insert_resource(SolverState(Solver::new(InstructionSet::detect(), neighbours)));
         for _ in 0..WARMUP {
-            headless.tick();
+            simulation.tick();
         }
         for shortest in &mut shortest {
-            headless.tick();
-            let time = headless.world().resource::<PassLedger>().last_tick();
+            simulation.tick();
+            let time = simulation.world().resource::<PassLedger>().last_tick();
             *shortest = shortest.min(time.as_secs_f64() * 1e3);
         }
     }

@@ -7,19 +7,17 @@
 
 use crate::{
     kernel::params::Preset,
-    lab::{
-        headless::Headless,
-        moment::Moment,
-        stats::{largest, quantile},
-    },
+    lab::stats::{largest, quantile},
     scene::{
         self, SceneError,
         blueprint::{Effect, EffectModes, Mode},
     },
     sim::{
+        checkpoint::Checkpoint,
         control,
         effects::Effects,
         ledger::PassLedger,
+        simulation::Simulation,
         state::{AirGrid, ParticleStore},
         workers::Workers,
     },
@@ -111,9 +109,9 @@ impl Choice {
 /// If there is no such scene.
 pub fn measure(name: &'static str, plan: Plan) -> Result<SceneCost, SceneError> {
     let blueprint = scene::load(name)?.build(&[], Some(plan.preset), &EffectModes::new())?;
-    let mut world = Headless::new(Arc::new(blueprint), Workers::single());
+    let mut world = Simulation::new(Arc::new(blueprint), Workers::single());
     (0..RUN_IN).for_each(|_| world.tick());
-    let moment = Moment::of(world.world());
+    let start = Checkpoint::of(world.world());
     let effects = world.world().resource::<Effects>();
     let running: Vec<Effect> = Effect::ALL.into_iter().filter(|effect| effects.get(*effect).running).collect();
     let own = effects.modes();
@@ -128,7 +126,7 @@ pub fn measure(name: &'static str, plan: Plan) -> Result<SceneCost, SceneError> 
         choices.push(Choice::new(but(own.clone(), effect, Mode::Off)));
     }
     for _ in 0..plan.rounds {
-        choices.iter_mut().for_each(|choice| time(&moment, plan.preset, choice));
+        choices.iter_mut().for_each(|choice| time(&start, plan.preset, choice));
     }
     let ms: Vec<f64> = choices.iter().map(Choice::median).collect();
     let effects = running.iter().zip(ms[3..].chunks_exact(2)).map(|(effect, pair)| EffectCost {
@@ -150,13 +148,10 @@ pub fn measure(name: &'static str, plan: Plan) -> Result<SceneCost, SceneError> 
     })
 }
 
-/// Goes on from the moment with a choice of effects and notes the median tick.
-fn time(moment: &Moment, preset: Preset, choice: &mut Choice) {
-    let mut run = moment.go_on(preset, preset.quality(), Workers::single());
-    let mut effects = run.world_mut().resource_mut::<Effects>();
-    for (effect, mode) in &choice.modes {
-        effects.get_mut(*effect).mode = *mode;
-    }
+/// Goes on from the start with a choice of effects and notes the median tick.
+fn time(start: &Checkpoint, preset: Preset, choice: &mut Choice) {
+    let start = Checkpoint { modes: choice.modes.clone(), ..start.clone().at_quality(preset, preset.quality()) };
+    let mut run = Simulation::resume(&start, Workers::single());
     let [warmup, timed] = TICKS;
     (0..warmup).for_each(|_| run.tick());
     run.world_mut().resource_mut::<PassLedger>().clear();

@@ -14,12 +14,10 @@ pub mod exam;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod gating;
 pub mod gauntlet;
-pub mod headless;
 pub mod live;
 pub mod machine;
 mod markdown;
 pub mod metrics;
-pub mod moment;
 pub mod particle_list;
 pub mod picture;
 #[cfg(not(target_arch = "wasm32"))]

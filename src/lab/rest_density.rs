@@ -7,9 +7,9 @@ use crate::{
         particles::Particles,
         units::{Scale, TICKS_PER_SECOND},
     },
-    lab::{headless::Headless, picture::Picture, sampler::matter, stats},
+    lab::{picture::Picture, sampler::matter, stats},
     scene::{self, SceneError, blueprint::EffectModes},
-    sim::{view::View, workers::Workers},
+    sim::{simulation::Simulation, view::View, workers::Workers},
 };
 use serde::Serialize;
 use std::sync::Arc;
@@ -77,15 +77,15 @@ pub fn study(workers: &Workers, says: &mut dyn FnMut(&str)) -> Result<Vec<(Outco
 fn observe(preset: Preset, ratio: f64, workers: &Workers) -> Result<(Outcome, Picture), SceneError> {
     let settings = [("ratio".to_owned(), ratio.to_string())];
     let blueprint = scene::load(SCENE)?.build(&settings, Some(preset), &EffectModes::new())?;
-    let mut headless = Headless::new(Arc::new(blueprint), workers.clone());
+    let mut simulation = Simulation::new(Arc::new(blueprint), workers.clone());
     for _ in 0..SETTLED_AFTER * TICKS_PER_SECOND {
-        headless.tick();
+        simulation.tick();
     }
     let mut looks = Vec::new();
     for tick in 1..=OBSERVED_FOR * TICKS_PER_SECOND {
-        headless.tick();
+        simulation.tick();
         if tick.is_multiple_of(OBSERVE_EVERY) {
-            looks.push(look(&headless, preset, ratio));
+            looks.push(look(&simulation, preset, ratio));
         }
     }
     let mean = |of: fn(&Outcome) -> f64| looks.iter().map(of).sum::<f64>() / looks.len() as f64;
@@ -99,12 +99,12 @@ fn observe(preset: Preset, ratio: f64, workers: &Workers) -> Result<(Outcome, Pi
         slope: mean(|look| look.slope),
         surface: mean(|look| look.surface),
     };
-    Ok((outcome, Picture::of_world(headless.world(), View::Elements, PICTURE_SIDE, PICTURE_DISC)))
+    Ok((outcome, Picture::of_world(simulation.world(), View::Elements, PICTURE_SIDE, PICTURE_DISC)))
 }
 
 /// The liquid at one moment.
-fn look(headless: &Headless, preset: Preset, ratio: f64) -> Outcome {
-    let matter = matter(headless.world());
+fn look(simulation: &Simulation, preset: Preset, ratio: f64) -> Outcome {
+    let matter = matter(simulation.world());
     let balance = matter.balance();
     let particles = matter.particles.len().max(1) as f64;
     let Scale { spacing } = matter.scale;

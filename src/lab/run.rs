@@ -1,14 +1,6 @@
 //! A run from one tick to the next, and those who watch it.
 
-use crate::{
-    lab::headless::Headless,
-    sim::{
-        intent::{Intent, IntentQueue},
-        ledger::PassLedger,
-        pace::Pace,
-        state::Clock,
-    },
-};
+use crate::sim::{intent::Intent, ledger::PassLedger, simulation::Simulation, state::Clock};
 use bevy::ecs::world::World;
 use std::io;
 
@@ -35,30 +27,29 @@ pub struct Plan {
 }
 
 /// Runs the plan, showing each tick to the observers.
-pub fn run(headless: &mut Headless, plan: &Plan, observers: &mut [&mut dyn Observer]) -> io::Result<()> {
+pub fn run(simulation: &mut Simulation, plan: &Plan, observers: &mut [&mut dyn Observer]) -> io::Result<()> {
     let mut intents = plan.intents.iter().peekable();
     for tick in 0..plan.ticks {
         if tick == plan.warmup {
-            headless.world_mut().resource_mut::<PassLedger>().clear();
+            simulation.world_mut().resource_mut::<PassLedger>().clear();
             for observer in observers.iter_mut() {
-                observer.after_warmup(headless.world());
+                observer.after_warmup(simulation.world());
             }
         }
-        let now = headless.world().resource::<Clock>().tick;
+        let now = simulation.world().resource::<Clock>().tick;
         while let Some((_, intent)) = intents.next_if(|(due, _)| *due <= now) {
-            headless.world_mut().resource_mut::<IntentQueue>().push(*intent);
+            simulation.push(*intent);
         }
-        headless.tick();
+        simulation.tick();
         for observer in observers.iter_mut() {
-            observer.after_tick(headless.world())?;
+            observer.after_tick(simulation.world())?;
         }
     }
     if plan.complete && intents.peek().is_some() {
-        let world = headless.world_mut();
-        intents.for_each(|(_, intent)| world.resource_mut::<IntentQueue>().push(*intent));
-        let pace = std::mem::replace(&mut *world.resource_mut::<Pace>(), Pace { paused: true, ..Pace::default() });
-        headless.tick();
-        *headless.world_mut().resource_mut::<Pace>() = pace;
+        for (_, intent) in intents {
+            simulation.push(*intent);
+        }
+        simulation.apply_edits();
     }
     Ok(())
 }

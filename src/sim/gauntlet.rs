@@ -4,7 +4,7 @@
 use crate::{
     kernel::params::Preset,
     scene::{SceneError, blueprint::Blueprint},
-    sim::{control, desk::Desk, script::Script, state::Counters},
+    sim::{checkpoint::Checkpoint, desk::Desk, script::Script, state::Counters},
 };
 use bevy::prelude::{Resource, World};
 use serde::Serialize;
@@ -102,7 +102,7 @@ impl Entry {
             Some(act) => world.insert_resource(Script { scene: blueprint.name.clone(), act }),
             None => drop(world.remove_resource::<Script>()),
         }
-        control::load(world, Arc::new(blueprint));
+        Checkpoint::of_scene(Arc::new(blueprint)).restore(world);
     }
 }
 

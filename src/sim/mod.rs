@@ -3,6 +3,7 @@
 
 pub mod accuracy;
 pub mod autopilot;
+pub mod checkpoint;
 pub mod control;
 pub mod desk;
 pub mod difference;
@@ -18,15 +19,15 @@ pub mod pace;
 pub mod recorder;
 pub mod recording;
 pub mod replay;
-pub mod save;
+
 pub mod schedule;
 pub mod script;
+pub mod simulation;
 pub mod snapshot;
 pub mod split;
 pub mod stages;
 pub mod state;
 pub mod tape;
-pub mod twin;
 pub mod view;
 pub mod workers;
 

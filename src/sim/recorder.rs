@@ -5,13 +5,14 @@
 //! `control` thaws) begins a new segment.
 
 use crate::sim::{
-    control,
+    checkpoint::Checkpoint,
+    control::{self, Generation},
     intent::Intent,
     mark::{Mark, Marker},
     recording::{End, Entry},
     schedule::TickSystems,
     state::{AirGrid, Clock, ParticleStore, Rock, Setup},
-    tape::{Start, Tape},
+    tape::Tape,
 };
 use bevy::prelude::{App, FixedUpdate, IntoScheduleConfigs, Res, Resource, World, resource_exists};
 use std::{
@@ -46,8 +47,8 @@ struct Desk {
     /// The file that the recording shall go to, if one was named for it.
     to: Option<PathBuf>,
     marker: Marker,
-    /// Whether the world is another one than that which was written last.
-    jumped: bool,
+    /// Generation of the world that was written last.
+    generation: Option<Generation>,
 }
 
 impl Desk {
@@ -69,7 +70,7 @@ pub struct Cursor {
 #[derive(Clone, Debug)]
 pub struct News {
     /// The state that a new segment begins with, if there is one.
-    pub start: Option<Arc<Start>>,
+    pub start: Option<Checkpoint>,
     /// Intents of the newest segment.
     pub entries: Vec<Entry>,
     /// Marks of the newest segment.
@@ -92,16 +93,11 @@ impl Recorder {
         }
     }
 
-    /// Notes that another state is put in the place of the one at hand, or that something other than an intent or a tick
-    /// has changed it: what is recorded goes on from the state that the next edit stage finds.
-    pub fn jump(&self) {
-        self.desk().jumped = true;
-    }
-
     /// Takes the state of the world where a segment has to begin with it. Before every edit stage.
     pub fn keep_up(&self, world: &World) {
         let mut desk = self.desk();
-        let jumped = std::mem::take(&mut desk.jumped);
+        let generation = world.get_resource::<Generation>().copied();
+        let jumped = std::mem::replace(&mut desk.generation, generation) != generation;
         let full = desk
             .rolling
             .last()
@@ -110,7 +106,7 @@ impl Recorder {
         if !(jumped || full || waits) {
             return;
         }
-        let start = Arc::new(Start::of(world));
+        let start = Checkpoint::of(world);
         desk.rolling.begin(start.clone(), !jumped);
         desk.serial += 1;
         desk.rolling.forget(KEPT_TICKS, KEPT_BYTES);
@@ -125,7 +121,7 @@ impl Recorder {
     /// Takes the mark of the tick that was done, if one was.
     fn mark(&self, particles: &ParticleStore, rock: &Rock, air: &AirGrid, clock: &Clock) {
         let mut desk = self.desk();
-        if desk.jumped || desk.rolling.last().is_none_or(|segment| segment.now() + 1 != clock.tick) {
+        if desk.rolling.last().is_none_or(|segment| segment.now() + 1 != clock.tick) {
             return;
         }
         let mark = desk.marker.mark(particles, rock, air, clock);
@@ -142,7 +138,7 @@ impl Recorder {
 
     /// Name of the scene that is played, and how many ticks of it are done.
     pub fn place(&self) -> Option<(String, u64)> {
-        self.desk().rolling.last().map(|segment| (segment.start.scene().to_owned(), segment.now()))
+        self.desk().rolling.last().map(|segment| (segment.start.setup.blueprint.name.clone(), segment.now()))
     }
 
     /// Begins a recording at the state of the world; `to` is the file that it shall go to, if one is named for it.

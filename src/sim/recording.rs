@@ -4,7 +4,7 @@
 //! "PowderMaster recording\n" │ version, u16 │ chunk …                                  (numbers little-endian)
 //!
 //! chunk:  kind, u8 │ length of the body, u32 │ hash of the body, u64 │ body
-//!   'S'   a state: a save file (`sim::save`). It begins a stretch; one behind another stands where something put another
+//!   'S'   a state: a save file (`sim::checkpoint`). It begins a stretch; one behind another stands where something put another
 //!         world in the place of the one at hand (undo, reset, another scene)
 //!   'T'   ticks: postcard of (the intents that were taken, `Vec<Entry>`; the mark of each tick, `Vec<Mark>`)
 //!   'E'   the end: postcard of `End`. Nothing stands behind it
@@ -20,9 +20,9 @@ mod tests;
 use crate::{
     kernel::{brush::Stroke, units::Scale},
     sim::{
+        checkpoint::{Checkpoint, SaveError, check},
         intent::Intent,
         mark::Mark,
-        save::{self, SaveError, Saved, check},
         snapshot::hash_bytes,
     },
 };
@@ -82,8 +82,8 @@ impl Stretch {
     ///
     /// # Errors
     /// None for a recording that was read: reading looks at every state.
-    pub fn start(&self) -> Result<Saved, SaveError> {
-        save::decode(&self.save)
+    pub fn start(&self) -> Result<Checkpoint, SaveError> {
+        Checkpoint::decode(&self.save)
     }
 }
 
@@ -212,9 +212,9 @@ impl Reader {
     }
 
     fn state(&mut self, body: &[u8]) -> Result<(), RecordingError> {
-        let saved = save::decode(body)?;
-        (self.elements, self.scale) = (saved.elements(), saved.scale());
-        let tick = saved.snapshot().clock.tick;
+        let start = Checkpoint::decode(body)?;
+        (self.elements, self.scale) = (start.setup.elements().len(), start.setup.blueprint.scale);
+        let tick = start.state.clock.tick;
         self.stretches.push(Stretch { save: body.to_vec(), tick, entries: Vec::new(), marks: Vec::new() });
         Ok(())
     }
@@ -223,7 +223,7 @@ impl Reader {
         let Some(stretch) = self.stretches.last_mut() else {
             return Err(RecordingError::Damaged("it does not begin with a state".to_owned()));
         };
-        // The states' ticks are bounded (`save::check`), and so many marks are in no file.
+        // The states' ticks are bounded (`checkpoint::check`), and so many marks are in no file.
         let done = stretch.tick + (stretch.marks.len() + marks.len()) as u64;
         let mut last = stretch.entries.last().map_or(stretch.tick, |entry| entry.tick);
         for entry in &entries {

@@ -3,14 +3,12 @@
 use crate::{
     kernel::simd::InstructionSet,
     sim::{
-        control,
+        checkpoint::SaveError,
         intent::IntentQueue,
         mark::{Mark, Marker},
-        pace::Pace,
         recording::{End, Recording, Stretch},
-        save::SaveError,
+        simulation::Simulation,
         state::{AirGrid, Clock, ParticleStore, Rock},
-        twin::Twin,
         workers::Workers,
     },
 };
@@ -57,7 +55,7 @@ pub struct Replay<'a> {
     instructions: InstructionSet,
     /// The stretch that runs, and the world of it.
     stretch: usize,
-    twin: Twin,
+    simulation: Simulation,
     marker: Marker,
     entries: usize,
     marks: usize,
@@ -91,14 +89,15 @@ impl<'a> Replay<'a> {
         workers: Workers,
         instructions: InstructionSet,
     ) -> Result<Self, SaveError> {
-        let twin = Twin::of_saved(recording.stretches[stretch].start()?, workers.clone(), instructions);
+        let start = recording.stretches[stretch].start()?;
+        let simulation = Simulation::resume(&start, workers.clone()).with_instructions(instructions);
         let marker = Marker::default();
-        Ok(Self { recording, workers, instructions, stretch, twin, marker, entries: 0, marks: 0, done: 0 })
+        Ok(Self { recording, workers, instructions, stretch, simulation, marker, entries: 0, marks: 0, done: 0 })
     }
 
     /// The world.
     pub fn world(&self) -> &World {
-        self.twin.world()
+        self.simulation.world()
     }
 
     /// Ticks that were run.
@@ -119,7 +118,7 @@ impl<'a> Replay<'a> {
         }
         let recorded = self.now().marks[self.marks];
         self.push_due();
-        self.twin.tick();
+        self.simulation.tick();
         self.marks += 1;
         self.done += 1;
         let found = self.mark();
@@ -136,10 +135,8 @@ impl<'a> Replay<'a> {
     /// If it is not what was recorded.
     pub fn finish(&mut self) -> Result<u64, Difference> {
         self.push_due();
-        self.twin.world_mut().resource_mut::<Pace>().paused = true;
-        self.twin.tick();
-        self.twin.world_mut().resource_mut::<Pace>().paused = false;
-        let hash = control::hash(self.world());
+        self.simulation.apply_edits();
+        let hash = self.simulation.hash();
         match self.recording.end {
             Some(End::Stopped { hash: recorded }) if recorded != hash => {
                 let tick = self.world().resource::<Clock>().tick;
@@ -151,7 +148,7 @@ impl<'a> Replay<'a> {
 
     /// Runs one more tick than was recorded: the one in which the program panicked.
     pub fn go_beyond(&mut self) {
-        self.twin.tick();
+        self.simulation.tick();
     }
 
     fn now(&self) -> &'a Stretch {
@@ -160,8 +157,9 @@ impl<'a> Replay<'a> {
 
     fn go_to(&mut self, stretch: usize) {
         // Every state was looked at when the recording was read.
-        if let Ok(saved) = self.recording.stretches[stretch].start() {
-            self.twin = Twin::of_saved(saved, self.workers.clone(), self.instructions);
+        if let Ok(start) = self.recording.stretches[stretch].start() {
+            let simulation = Simulation::resume(&start, self.workers.clone());
+            self.simulation = simulation.with_instructions(self.instructions);
         }
         (self.stretch, self.entries, self.marks) = (stretch, 0, 0);
         self.marker = Marker::default();
@@ -171,7 +169,7 @@ impl<'a> Replay<'a> {
     fn push_due(&mut self) {
         let now = self.now().tick + self.marks as u64;
         let waiting = self.now().entries[self.entries..].iter();
-        let mut queue = self.twin.world_mut().resource_mut::<IntentQueue>();
+        let mut queue = self.simulation.world_mut().resource_mut::<IntentQueue>();
         for entry in waiting.take_while(|entry| entry.tick <= now) {
             queue.push(entry.intent);
             self.entries += 1;
@@ -179,7 +177,7 @@ impl<'a> Replay<'a> {
     }
 
     fn mark(&mut self) -> Mark {
-        let world = self.twin.world();
+        let world = self.simulation.world();
         let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
         self.marker.mark(particles, rock, world.resource::<AirGrid>(), world.resource::<Clock>())
     }

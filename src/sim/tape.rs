@@ -1,65 +1,17 @@
 //! A tape: states of a world, and what happened to it from each of them on. What the recorder writes to.
 
-use crate::{
-    kernel::params::{Domain, Preset, Quality},
-    scene::blueprint::{Blueprint, EffectModes},
-    sim::{
-        control,
-        effects::Effects,
-        mark::Mark,
-        recording::{End, Entry, Writer},
-        save,
-        snapshot::Snapshot,
-        state::Setup,
-    },
+use crate::sim::{
+    checkpoint::Checkpoint,
+    mark::Mark,
+    recording::{End, Entry, Writer},
 };
-use bevy::prelude::World;
-use std::{collections::VecDeque, mem::size_of, sync::Arc};
-
-/// A state with all that it takes to go on from it.
-#[derive(Clone, Debug)]
-pub struct Start {
-    blueprint: Arc<Blueprint>,
-    domain: Domain,
-    quality: (Preset, Quality),
-    effects: EffectModes,
-    state: Snapshot,
-}
-
-impl Start {
-    /// The world as it is.
-    pub fn of(world: &World) -> Self {
-        let setup = world.resource::<Setup>();
-        Self {
-            blueprint: setup.blueprint.clone(),
-            domain: setup.domain,
-            quality: (setup.preset, setup.quality),
-            effects: world.resource::<Effects>().modes(),
-            state: control::freeze(world),
-        }
-    }
-
-    /// Name of the scene that it is a state of.
-    pub fn scene(&self) -> &str {
-        &self.blueprint.name
-    }
-
-    /// The state.
-    pub fn state(&self) -> &Snapshot {
-        &self.state
-    }
-
-    /// It as a save file.
-    pub fn encode(&self) -> Vec<u8> {
-        save::encode_state(&self.blueprint, self.domain, self.quality, &self.effects, self.state.clone())
-    }
-}
+use std::{collections::VecDeque, mem::size_of};
 
 /// What happened from a state on.
 #[derive(Clone, Debug)]
 pub struct Segment {
     /// The state.
-    pub start: Arc<Start>,
+    pub start: Checkpoint,
     /// Whether the state is what the segment before ended with.
     pub follows: bool,
     /// What the edit stage took, oldest first.
@@ -77,7 +29,7 @@ impl Segment {
     /// Bytes that it takes, to a good approximation.
     fn size_in_memory(&self) -> usize {
         let input = self.entries.capacity() * size_of::<Entry>() + self.marks.capacity() * size_of::<Mark>();
-        self.start.state.size_in_memory() + input
+        self.start.bytes() + input
     }
 }
 
@@ -100,7 +52,7 @@ impl Tape {
 
     /// Begins a segment, in the place of one in which nothing has happened. `follows`: at the state that the segment before
     /// has come to.
-    pub fn begin(&mut self, start: Arc<Start>, mut follows: bool) {
+    pub fn begin(&mut self, start: Checkpoint, mut follows: bool) {
         if self.last().is_some_and(|last| last.entries.is_empty() && last.marks.is_empty()) {
             // Where a jump led to the one that goes, it leads to this one.
             follows &= self.segments.pop_back().is_some_and(|replaced| replaced.follows);

@@ -3,17 +3,14 @@
 use crate::{folder, good, metrics, refused};
 use powder_master::{
     kernel::brush::{BrushShape, Stroke},
-    lab::{
-        headless::Headless,
-        run::{self, Plan},
-    },
+    lab::run::{self, Plan},
     scene,
     sim::{
-        control,
+        checkpoint::Checkpoint,
         intent::Intent,
         recorder::{self, Recorder},
         recording::{Recording, Writer},
-        save,
+        simulation::Simulation,
         workers::Workers,
     },
 };
@@ -37,11 +34,11 @@ fn record() -> (Vec<u8>, u64) {
     ];
     intents.extend((5..40).map(|tick| (tick, Intent::Draw { element: water, stroke: tap })));
     intents.sort_by_key(|(tick, _)| *tick);
-    let mut headless =
-        Headless::begin_with(Workers::default(), recorder::plugin, |world| control::load(world, blueprint.clone()));
-    run::run(&mut headless, &Plan { ticks: 60, intents, ..Plan::default() }, &mut []).unwrap();
-    let world = headless.world();
-    (world.resource::<Recorder>().last_minute(recorder::end_now(world)), control::hash(world))
+    let mut simulation =
+        Simulation::with_plugins(&Checkpoint::of_scene(blueprint), Workers::default(), recorder::plugin);
+    run::run(&mut simulation, &Plan { ticks: 60, intents, ..Plan::default() }, &mut []).unwrap();
+    let world = simulation.world();
+    (world.resource::<Recorder>().last_minute(recorder::end_now(world)), simulation.hash())
 }
 
 #[test]
@@ -73,12 +70,7 @@ fn a_replay_names_the_first_tick_that_differs() {
     let here = folder("replay_differs");
     let recording = Recording::decode(&record().0).unwrap();
     let mut writer = Writer::new();
-    writer.start(&save::encode(
-        Headless::begin(Workers::default(), |world| {
-            save::load(world, recording.stretches[0].start().unwrap());
-        })
-        .world(),
-    ));
+    writer.start(&recording.stretches[0].start().unwrap().encode());
     let stretch = &recording.stretches[0];
     // One dab of the poured water is missing: that of tick 23, which makes tick 24.
     let entries: Vec<_> = stretch.entries.iter().filter(|entry| entry.tick != 23).copied().collect();

@@ -10,10 +10,10 @@ use crate::{
     },
     kernel::simd::InstructionSet,
     sim::{
+        checkpoint::Checkpoint,
         pace::Pace,
         recording::{End, RECORDING_ENDING, Recording, Stretch},
         replay::Replay,
-        save::{self, Saved},
         state::SolverState,
         workers::Workers,
     },
@@ -85,7 +85,7 @@ enum Stage {
     Nothing,
     Searching(JoinHandle<Option<Found>>),
     Offered(Found),
-    Restoring(Found, JoinHandle<Option<(Saved, Reach)>>),
+    Restoring(Found, JoinHandle<Option<(Checkpoint, Reach)>>),
 }
 
 /// What is left of an earlier game.
@@ -161,9 +161,9 @@ fn understand(bytes: &[u8]) -> Option<(Recording, String, u64)> {
     let recording = Recording::salvage(bytes).ok()?;
     let last = recording.stretches.last()?;
     let start = last.start().ok()?;
-    let edited = start.snapshot().clock.edits > 0 || !last.entries.is_empty();
+    let edited = start.state.clock.edits > 0 || !last.entries.is_empty();
     let tick = last.tick + last.marks.len() as u64;
-    let title = start.title().to_owned();
+    let title = start.setup.blueprint.title.clone();
     (edited || recording.end == Some(End::Crashed)).then_some((recording, title, tick))
 }
 
@@ -225,7 +225,7 @@ fn remove(world: &mut World, found: &Found) {
 }
 
 /// Runs what was recorded again, as far as the world survives it.
-pub fn restore(recording: &Recording, instructions: InstructionSet, done: &AtomicU64) -> Option<(Saved, Reach)> {
+pub fn restore(recording: &Recording, instructions: InstructionSet, done: &AtomicU64) -> Option<(Checkpoint, Reach)> {
     let run = |reach| {
         let run = || {
             // The game beside it shall not wait for its threads.
@@ -238,7 +238,7 @@ pub fn restore(recording: &Recording, instructions: InstructionSet, done: &Atomi
             if reach == Reach::Whole {
                 let _ = replay.finish();
             }
-            save::decode(&save::encode(replay.world())).ok()
+            Checkpoint::decode(&Checkpoint::of(replay.world()).encode()).ok()
         };
         // A world that a panic went through is not looked at again.
         panic::catch_unwind(AssertUnwindSafe(run)).ok().flatten().map(|saved| (saved, reach))
@@ -248,9 +248,9 @@ pub fn restore(recording: &Recording, instructions: InstructionSet, done: &Atomi
 }
 
 /// Goes on with a world that came back: when somebody says so.
-fn go_on(world: &mut World, saved: Saved, reach: Reach) {
+fn go_on(world: &mut World, saved: Checkpoint, reach: Reach) {
     history::checkpoint(world);
-    save::load(world, saved);
+    saved.restore(world);
     *world.resource_mut::<Pace>() = Pace { paused: true, steps_due: 0, ..*world.resource::<Pace>() };
     world.resource_mut::<Epoch>().0 += 1;
     let key = bindings::of(Action::Pause).map(ToString::to_string).unwrap_or_default();

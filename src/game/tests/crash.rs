@@ -247,9 +247,9 @@ fn what_panics_again_is_restored_as_far_as_it_goes() {
 fn a_file_of_the_last_minute_takes_the_state_that_is_shown() {
     let mut app = game(&folder("jump"));
     (0..20).for_each(|_| app.update());
-    let saved = save::decode(&save::encode(app.world())).expect("its own file");
+    let saved = Checkpoint::decode(&Checkpoint::of(app.world()).encode()).expect("its own file");
     (0..5).for_each(|_| app.update());
-    save::load(app.world_mut(), saved);
+    saved.restore(app.world_mut());
     app.world_mut().resource_mut::<Pace>().paused = true;
     let recorder = app.world().resource::<Recorder>();
     recorder.keep_up(app.world());

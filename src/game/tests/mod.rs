@@ -70,7 +70,7 @@ impl Player {
             .add_systems(FixedUpdate, spy.before(crate::sim::schedule::TickSystems::Edit));
         let scene = scene::load("empty").expect("the scene comes with the game");
         let blueprint = scene.build(&[], None, &EffectModes::new()).expect("its defaults are valid");
-        control::load(app.world_mut(), Arc::new(blueprint));
+        Checkpoint::of_scene(Arc::new(blueprint)).restore(app.world_mut());
         app.finish();
         app.cleanup();
         let mut player = Self(app);

@@ -138,7 +138,7 @@ fn a_recording_goes_on_through_everything_that_puts_another_world_in_place() {
     order(&mut player, Order::Effect(Effect::Viscosity, Mode::On));
     player.frames(3);
     assert_eq!(player.world().resource::<Effects>().get(Effect::Viscosity).mode, Mode::On);
-    let saved = save::encode(player.world());
+    let saved = Checkpoint::of(player.world()).encode();
     let save = file("jumps-save").with_extension("pms");
     fs::write(&save, saved).expect("the folder of temporary files can be written");
     order(&mut player, Order::Scene { name: "dam_break".into(), settings: vec![("columns".into(), "9".into())] });
@@ -232,7 +232,7 @@ fn a_recording_can_be_watched_and_comes_to_the_same_end() {
     let recording = read(&path);
     let mut watcher = Player::new();
     let watch = |watcher: &mut Player| {
-        save::load(watcher.0.world_mut(), recording.stretches[0].start().expect("it was read"));
+        recording.stretches[0].start().expect("it was read").restore(watcher.0.world_mut());
         playback::begin(watcher.0.world_mut(), recording.clone());
     };
     watch(&mut watcher);

@@ -4,7 +4,6 @@
 use crate::{
     kernel::units::TICKS_PER_SECOND,
     lab::{
-        headless::Headless,
         run::{self, Observer},
         sampler::Sampler,
         scaling::{
@@ -17,7 +16,7 @@ use crate::{
         self, SceneError,
         blueprint::{Blueprint, EffectModes},
     },
-    sim::{control, ledger::PassLedger, workers::Workers},
+    sim::{control, ledger::PassLedger, simulation::Simulation, workers::Workers},
 };
 use bevy::{ecs::world::World, platform::time::Instant};
 use serde::Serialize;
@@ -203,21 +202,21 @@ impl Series {
     fn run(&mut self, team: usize, workers: &Workers) {
         let begun = Instant::now();
         let warmup = self.window.first - 1;
-        let mut headless = Headless::new(self.blueprint.clone(), workers.clone());
+        let mut simulation = Simulation::new(self.blueprint.clone(), workers.clone());
         let mut times = Times { ms: Vec::new(), left: warmup };
-        let mut sampler = self.hashes.is_empty().then(|| Sampler::new(headless.world(), warmup));
+        let mut sampler = self.hashes.is_empty().then(|| Sampler::new(simulation.world(), warmup));
         let mut observers: Vec<&mut dyn Observer> = vec![&mut times];
         if let Some(sampler) = &mut sampler {
             observers.push(sampler);
         }
         let plan = run::Plan { ticks: self.window.ticks(), warmup, ..run::Plan::default() };
         // These observers write nowhere.
-        let outcome = run::run(&mut headless, &plan, &mut observers);
+        let outcome = run::run(&mut simulation, &plan, &mut observers);
         debug_assert!(outcome.is_ok(), "nothing to fail: {outcome:?}");
         self.ms[team].extend(stats::quantile(&mut times.ms, 0.5));
-        self.hashes.push(control::hash(headless.world()));
+        self.hashes.push(control::hash(simulation.world()));
         if let Some(sampler) = sampler {
-            let metrics = sampler.finish(headless.world());
+            let metrics = sampler.finish(simulation.world());
             self.error = [metrics.accuracy.density_error_mean, metrics.accuracy.density_error_p99];
             (self.bytes, self.escaped) = (metrics.memory_bytes, metrics.stability.escaped);
         }

@@ -1,4 +1,4 @@
-//! The sweep: what accuracy costs in a scene. From one moment, every setting of a design runs the same ticks; what came out
+//! The sweep: what accuracy costs in a scene. From one checkpoint, every setting of a design runs the same ticks; what came out
 //! is held against what it took.
 //!
 //! ```text
@@ -26,8 +26,8 @@ pub mod table;
 
 use crate::{
     kernel::params::{Preset, Quality},
-    lab::{machine::processor, moment::Moment, run::Plan},
-    sim::workers::Workers,
+    lab::{machine::processor, run::Plan},
+    sim::{checkpoint::Checkpoint, snapshot::hash_bytes, workers::Workers},
 };
 use design::Setting;
 use journal::{Journal, Record};
@@ -51,10 +51,10 @@ const LITTLE_LIQUID: f64 = 0.05;
 
 impl ErrorMeasure {
     /// What the scene is about: its air if that moves and liquid fills less than a twentieth of the box.
-    pub fn of(moment: &Moment) -> Self {
-        let size = moment.blueprint().domain.size;
-        let filled = moment.snapshot().particles.len() as f64 / (f64::from(size.x) * f64::from(size.y));
-        if moment.has_air() && filled < LITTLE_LIQUID { Self::Air } else { Self::Density }
+    pub fn of(start: &Checkpoint) -> Self {
+        let size = start.setup.domain.size;
+        let filled = start.state.particles.len() as f64 / (f64::from(size.x) * f64::from(size.y));
+        if start.has_air() && filled < LITTLE_LIQUID { Self::Air } else { Self::Density }
     }
 
     /// Name with its unit, for the axis.
@@ -69,7 +69,7 @@ impl ErrorMeasure {
 /// A sweep of a scene.
 pub struct Sweep<'a> {
     /// Where every run sets out from.
-    pub moment: &'a Moment,
+    pub start: &'a Checkpoint,
     /// What the error is.
     pub measure: ErrorMeasure,
     /// What is measured.
@@ -110,8 +110,8 @@ pub enum SweepError {
 impl Sweep<'_> {
     /// What the journal knows this sweep's runs by: equal only where the results must be.
     pub fn campaign(&self, program: &str) -> String {
-        let Self { ticks, warmup, moment, .. } = self;
-        format!("{program} {} {:016x} {warmup}/{ticks}", processor(), moment.fingerprint())
+        let Self { ticks, warmup, start, .. } = self;
+        format!("{program} {} {:016x} {warmup}/{ticks}", processor(), hash_bytes(&start.encode()))
     }
 
     /// Runs what the journal doesn't have yet, and puts all together.
@@ -134,11 +134,11 @@ impl Sweep<'_> {
                     let found = journal.found(setting).cloned();
                     if found.is_none() && reference.is_none() {
                         say("the reference");
-                        reference = Some(measure::reference(self.moment, &plan)?);
+                        reference = Some(measure::reference(self.start, &plan)?);
                     }
                     say(&setting.name);
                     let sampled = reference.as_ref().filter(|_| found.is_none());
-                    let record = measure::run(self.moment, &plan, setting, &workers[&setting.threads], sampled)?;
+                    let record = measure::run(self.start, &plan, setting, &workers[&setting.threads], sampled)?;
                     check_repeats(journal, setting, &record)?;
                     journal.add(setting, round, record)?;
                 }
@@ -156,7 +156,7 @@ impl Sweep<'_> {
                 Row::new(setting, self.measure, &records, journal.found(setting)?)
             })
             .collect();
-        front::mark(&mut rows, self.moment.has_air() && self.measure == ErrorMeasure::Density);
+        front::mark(&mut rows, self.start.has_air() && self.measure == ErrorMeasure::Density);
         rows
     }
 }

@@ -6,42 +6,42 @@ use crate::{
         element::ElementId,
         params::{Preset, Quality},
     },
-    lab::headless::Headless,
     scene::{
         self,
         blueprint::{Effect, EffectModes, Mode},
     },
     sim::{
+        checkpoint::Checkpoint,
         control,
         intent::IntentQueue,
         recorder::{self, Recorder},
+        simulation::Simulation,
         workers::Workers,
     },
 };
 use std::sync::Arc;
 
 /// A small world with something of everything, recorded: water, rock, wind, other qualities and effects, a reset.
-fn recorded() -> (Headless, Vec<u8>) {
+fn recorded() -> (Simulation, Vec<u8>) {
     let settings = [("columns", "16"), ("rows", "16")].map(|(key, value)| (key.to_owned(), value.to_owned()));
     let blueprint = scene::load("empty").unwrap().build(&settings, None, &EffectModes::new()).unwrap();
-    let mut headless = Headless::begin_with(Workers::default(), recorder::plugin, |world| {
-        control::load(world, Arc::new(blueprint));
-    });
-    let push = |headless: &mut Headless, intent| headless.world_mut().resource_mut::<IntentQueue>().push(intent);
+    let mut simulation =
+        Simulation::with_plugins(&Checkpoint::of_scene(Arc::new(blueprint)), Workers::default(), recorder::plugin);
+    let push = |simulation: &mut Simulation, intent| simulation.world_mut().resource_mut::<IntentQueue>().push(intent);
     let stroke = Stroke::rectangle(Vec2::new(4.0, 2.0), Vec2::new(8.0, 6.0));
-    push(&mut headless, Intent::Stamp { element: ElementId(1), stroke });
+    push(&mut simulation, Intent::Stamp { element: ElementId(1), stroke });
     let rock = Stroke::rectangle(Vec2::new(10.0, 0.0), Vec2::new(12.0, 2.0));
-    push(&mut headless, Intent::Stamp { element: ElementId(0), stroke: rock });
-    (0..4).for_each(|_| headless.tick());
-    push(&mut headless, Intent::Blow { stroke, velocity: Vec2::new(30.0, 5.0) });
-    push(&mut headless, Intent::Quality { preset: Preset::Fine, quality: Preset::Fine.quality() });
-    push(&mut headless, Intent::Effect { effect: Effect::Viscosity, mode: Mode::On });
-    (0..4).for_each(|_| headless.tick());
-    control::reset(headless.world_mut());
-    push(&mut headless, Intent::Draw { element: ElementId(1), stroke });
-    (0..4).for_each(|_| headless.tick());
-    let bytes = headless.world().resource::<Recorder>().last_minute(recorder::end_now(headless.world()));
-    (headless, bytes)
+    push(&mut simulation, Intent::Stamp { element: ElementId(0), stroke: rock });
+    (0..4).for_each(|_| simulation.tick());
+    push(&mut simulation, Intent::Blow { stroke, velocity: Vec2::new(30.0, 5.0) });
+    push(&mut simulation, Intent::Quality { preset: Preset::Fine, quality: Preset::Fine.quality() });
+    push(&mut simulation, Intent::Effect { effect: Effect::Viscosity, mode: Mode::On });
+    (0..4).for_each(|_| simulation.tick());
+    control::reset(simulation.world_mut());
+    push(&mut simulation, Intent::Draw { element: ElementId(1), stroke });
+    (0..4).for_each(|_| simulation.tick());
+    let bytes = simulation.world().resource::<Recorder>().last_minute(recorder::end_now(simulation.world()));
+    (simulation, bytes)
 }
 
 fn refusal(bytes: &[u8]) -> String {
@@ -63,9 +63,9 @@ fn made_up(entries: &[Entry], marks: usize) -> Vec<u8> {
 
 #[test]
 fn what_was_written_is_read() {
-    let (headless, bytes) = recorded();
+    let (simulation, bytes) = recorded();
     let recording = Recording::decode(&bytes).expect("its own file");
-    assert_eq!(recording.end, Some(End::Stopped { hash: control::hash(headless.world()) }));
+    assert_eq!(recording.end, Some(End::Stopped { hash: control::hash(simulation.world()) }));
     let ticks: Vec<_> = recording.stretches.iter().map(|stretch| (stretch.tick, stretch.marks.len())).collect();
     assert_eq!(ticks, [(0, 8), (0, 4)]);
     let due: Vec<u64> = recording.stretches[0].entries.iter().map(|entry| entry.tick).collect();

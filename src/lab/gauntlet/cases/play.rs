@@ -9,8 +9,8 @@ use crate::{
     lab::gauntlet::case::{Case, Density, Gain, Rules, Size},
     scene::blueprint::{Effect, Mode},
     sim::{
+        control,
         intent::Intent,
-        recorder::Recorder,
         state::{ParticleStore, Setup},
     },
 };
@@ -153,9 +153,7 @@ pub(in crate::lab::gauntlet) const POISON: Case = Case {
                 *victim = *value;
             }
             // No player can do this, so that there is no intent for it.
-            if let Some(recorder) = world.get_resource::<Recorder>() {
-                recorder.jump();
-            }
+            control::count_replacement(world);
         }
     }),
     ticks: 240,
