@@ -1,0 +1,79 @@
+//! Who may import whom, read from the files: kernel ← scene ← sim ← lab ← game ← cli, web, and no cycle of files.
+
+#![expect(clippy::unwrap_used, clippy::expect_used, reason = "a test that can't go on fails")]
+
+mod cycles;
+mod program;
+mod source;
+
+use cycles::cycles;
+use program::{Dependency, Program};
+use std::{collections::BTreeMap, path::Path};
+
+/// Crates: name and folder.
+const CRATES: [(&str, &str); 1] = [("powder_master", "src")];
+
+/// Layers from the lowest on: each may use itself and those before it, and those of one row not each other.
+const LAYERS: [&[&str]; 6] = [&["kernel"], &["scene"], &["sim"], &["lab"], &["game"], &["cli", "web"]];
+
+fn dependencies() -> Vec<Dependency> {
+    let dependencies = Program::read(Path::new(env!("CARGO_MANIFEST_DIR")), &CRATES).dependencies();
+    assert!(dependencies.len() > 1000, "{} dependencies are too few to be all", dependencies.len());
+    dependencies
+}
+
+/// A file of the lab that tests of `sim` still use.
+const KNOWN_VIOLATION: &str = "src/lab/headless.rs";
+
+/// The layer that a file belongs to and its height. `lib.rs` and `main.rs` stand above all.
+fn layer(file: &str) -> (usize, &str) {
+    let name = file.trim_start_matches("src/").split('/').next().unwrap_or_default();
+    (LAYERS.iter().position(|layer| layer.contains(&name)).unwrap_or(LAYERS.len()), name)
+}
+
+fn is_violation(dependency: &Dependency) -> bool {
+    let ((from, user), (to, used)) = (layer(&dependency.from), layer(&dependency.to));
+    to > from || to == from && user != used
+}
+
+#[test]
+fn each_layer_uses_only_those_below_it() {
+    let violations: Vec<_> = dependencies()
+        .iter()
+        .filter(|dependency| is_violation(dependency) && dependency.to != KNOWN_VIOLATION)
+        .map(|dependency| format!("{}:{} uses {}", dependency.from, dependency.line, dependency.to))
+        .collect();
+    assert!(violations.is_empty(), "against the order {LAYERS:?}:\n{}", violations.join("\n"));
+}
+
+/// Files in cycles that are known, by layer: to become fewer until there are none.
+const KNOWN: &[(&str, usize)] = &[("cli", 4), ("game", 34), ("kernel", 31), ("lab", 39), ("scene", 2), ("sim", 10)];
+
+#[test]
+fn no_files_depend_on_each_other() {
+    let dependencies: Vec<_> = dependencies().into_iter().filter(|dependency| !dependency.test).collect();
+    let cycles = cycles(&dependencies);
+    let mut found: BTreeMap<&str, usize> = BTreeMap::new();
+    for file in cycles.iter().flat_map(|cycle| &cycle.files) {
+        *found.entry(layer(file).1).or_default() += 1;
+    }
+    let known: BTreeMap<_, _> = KNOWN.iter().copied().collect();
+    let is_new = found.iter().any(|(layer, files)| *files > known.get(layer).copied().unwrap_or(0));
+    let ways: Vec<_> = cycles.iter().map(|cycle| format!("{} files: {}", cycle.files.len(), cycle.way)).collect();
+    assert!(!is_new, "files that depend on each other: {found:?}, known: {known:?}\n{}", ways.join("\n"));
+}
+
+#[test]
+fn a_violation_is_seen() {
+    let is_violation = |from: &str, to: &str| {
+        let [from, to] = [from, to].map(|file| format!("src/{file}.rs"));
+        is_violation(&Dependency { from, to, line: 1, test: false })
+    };
+    for (from, to) in
+        [("kernel/a", "sim/b"), ("lab/a", "game/mod"), ("cli/a", "web/b"), ("game/a", "lib"), ("sim/mod", "lab/b")]
+    {
+        assert!(is_violation(from, to), "{from} may use {to}");
+        assert!(!is_violation(to, from) || from.starts_with("cli"), "{to} may not use {from}");
+    }
+    assert!(!is_violation("lab/a", "lab/b/mod") && !is_violation("main", "cli/mod"));
+}
