@@ -17,10 +17,10 @@ use crate::{
         simd::InstructionSet,
     },
     sim::{
+        checkpoint::Checkpoint,
         recorder::Recorder,
         recording::{End, Entry, Recording},
         replay::Replay,
-        save,
         workers::Workers,
     },
 };
@@ -228,7 +228,7 @@ fn what_panics_again_is_restored_as_far_as_it_goes() {
     let set = InstructionSet::detect();
     let tick = |recording: &Recording| {
         let restored = remains::restore(recording, set, &AtomicU64::new(0)).expect("there is always something");
-        (restored.0.snapshot().clock.tick, restored.1)
+        (restored.0.state.clock.tick, restored.1)
     };
     let start = good.stretches[0].tick;
     let end = start + good.ticks();

@@ -11,7 +11,9 @@ use crate::{
     },
     scene::{self, blueprint::EffectModes},
     sim::{
-        SimulationPlugin, control,
+        SimulationPlugin,
+        checkpoint::Checkpoint,
+        control,
         intent::{Intent, IntentQueue},
         pace::Pace,
         state::{Clock, ParticleStore, Rock, Setup},

@@ -6,11 +6,11 @@ use crate::{
     kernel::{params::Preset, simd::InstructionSet},
     scene::blueprint::{Effect, Mode},
     sim::{
+        checkpoint::Checkpoint,
         effects::Effects,
         recorder::Recorder,
         recording::{RECORDING_ENDING, Recording},
         replay::Replay,
-        save,
         workers::Workers,
     },
 };
