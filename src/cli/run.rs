@@ -26,7 +26,7 @@ use crate::{
         checkpoint::Checkpoint,
         control,
         intent::Intent,
-        recording::Stretch,
+        recording::Segment,
         simulation::Simulation,
         state::Setup,
         view::View,
@@ -143,8 +143,8 @@ fn check_outputs(arguments: &RunArguments) -> Result<(), Failure> {
 }
 
 /// How far to run, and on what input.
-fn plan(arguments: &RunArguments, stretch: Option<Stretch>) -> Result<Plan, Failure> {
-    let recorded = stretch.as_ref().map(|stretch| stretch.marks.len().max(1) as u64);
+fn plan(arguments: &RunArguments, segment: Option<Segment>) -> Result<Plan, Failure> {
+    let recorded = segment.as_ref().map(|segment| segment.marks.len().max(1) as u64);
     let seconds = arguments.seconds.map(|Ticks(ticks)| ticks);
     let ticks = arguments.ticks.or(seconds).or(recorded).unwrap_or(DEFAULT_TICKS);
     if arguments.warmup >= ticks {
@@ -154,16 +154,15 @@ fn plan(arguments: &RunArguments, stretch: Option<Stretch>) -> Result<Plan, Fail
             ticks - 1
         )));
     }
-    let entries = stretch.map(|stretch| stretch.entries).unwrap_or_default();
+    let entries = segment.map(|segment| segment.entries).unwrap_or_default();
     // Who asks for a quality or for an effect gets it from the first tick to the last.
     let wanted = |intent: &Intent| match intent {
         Intent::Quality { .. } => arguments.quality.is_none(),
         Intent::Effect { effect, .. } => !arguments.effects.iter().any(|(asked, _)| asked == effect),
         _ => true,
     };
-    let intents = entries.into_iter().filter(|entry| wanted(&entry.intent));
-    let intents = intents.map(|entry| (entry.tick, entry.intent)).collect();
-    Ok(Plan { ticks, warmup: arguments.warmup, intents, complete: recorded == Some(ticks) })
+    let input = entries.into_iter().filter(|entry| wanted(&entry.intent)).collect();
+    Ok(Plan { ticks, warmup: arguments.warmup, input, complete: recorded == Some(ticks) })
 }
 
 /// The same start run at `reference` quality.

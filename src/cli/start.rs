@@ -9,7 +9,7 @@ use crate::{
     scene::{self, blueprint::EffectModes},
     sim::{
         checkpoint::{Checkpoint, SaveError},
-        recording::{Recording, RecordingError, Stretch},
+        recording::{Recording, RecordingError, Segment},
     },
 };
 use std::{fmt::Display, fs::File, io::Read, path::Path, sync::Arc};
@@ -24,7 +24,7 @@ pub(super) struct Start {
 
 impl Start {
     /// Reads what `run` names, with the recorded input if it is a recording.
-    pub(super) fn of_run(arguments: &RunArguments) -> Result<(Self, Option<Stretch>), Failure> {
+    pub(super) fn of_run(arguments: &RunArguments) -> Result<(Self, Option<Segment>), Failure> {
         let effects: EffectModes = arguments.effects.iter().copied().collect();
         let RunArguments { scene, settings, quality, .. } = arguments;
         let Some(mut recording) = read_recording(scene)? else {
@@ -38,7 +38,7 @@ impl Start {
         if let Some((option, _)) = unfit.into_iter().find(|(_, is_given)| *is_given) {
             return Err(no_use(scene, "a recording", option));
         }
-        let last = recording.stretches.pop().ok_or_else(|| bad(Path::new(scene), &RecordingError::Foreign))?;
+        let last = recording.segments.pop().ok_or_else(|| bad(Path::new(scene), &RecordingError::Foreign))?;
         let saved = last.start().map_err(|error| bad(Path::new(scene), &error))?;
         Ok((Self::of_saved(saved, *quality, effects), Some(last)))
     }
@@ -52,8 +52,7 @@ impl Start {
         if let Some((option, _)) = unfit.into_iter().find(|(_, is_given)| *is_given) {
             return Err(no_use(name_or_path, "a recording", option));
         }
-        let first =
-            recording.stretches.first().ok_or_else(|| bad(Path::new(name_or_path), &RecordingError::Foreign))?;
+        let first = recording.segments.first().ok_or_else(|| bad(Path::new(name_or_path), &RecordingError::Foreign))?;
         let saved = first.start().map_err(|error| bad(Path::new(name_or_path), &error))?;
         Ok((Self::of_saved(saved, None, EffectModes::new()), Some(recording)))
     }

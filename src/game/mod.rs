@@ -70,7 +70,6 @@ impl Plugin for GamePlugin {
             .init_resource::<input::keys::Typing>()
             .init_resource::<input::touch::Fingers>()
             .init_resource::<input::strokes::Held>()
-            .init_resource::<render::extract::Epoch>()
             .init_resource::<accuracy::Watched>()
             .init_resource::<accuracy::LiveError>()
             .init_resource::<accuracy::Survey>()

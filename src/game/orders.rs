@@ -11,9 +11,7 @@ use crate::{
             bindings::{self, Action},
             pointer::{Pointer, ZOOM_STEP},
         },
-        recording,
-        render::extract::Epoch,
-        saves, screen, split,
+        recording, saves, screen, split,
         tools::{Tool, Toolbox},
     },
     kernel::{element::ElementId, params::Preset, solids::Solids},
@@ -190,7 +188,6 @@ fn play(world: &mut World, name: &str, settings: &[(String, String)], preset: Op
         Ok(blueprint) => {
             Checkpoint::of_scene(Arc::new(blueprint)).restore(world);
             world.resource_mut::<History>().clear();
-            world.resource_mut::<Epoch>().0 += 1;
         }
         Err(error) => world.resource_mut::<Toasts>().warn(error.to_string()),
     }
@@ -204,7 +201,6 @@ fn watch(world: &mut World, name: &str) {
         Ok(blueprint) => {
             case.play(world, blueprint);
             world.resource_mut::<History>().clear();
-            world.resource_mut::<Epoch>().0 += 1;
         }
         Err(error) => world.resource_mut::<Toasts>().warn(error.to_string()),
     }
@@ -266,7 +262,6 @@ fn change_world(world: &mut World, action: Action) {
         Action::Redo if history::redo(world) => "Made again",
         _ => "Nothing to make again",
     };
-    world.resource_mut::<Epoch>().0 += 1;
     world.resource_mut::<Toasts>().say(told);
 }
 

@@ -6,7 +6,6 @@ use crate::{
         files::{self, SAVE_ENDING},
         history,
         hud::toast::Toasts,
-        render::extract::Epoch,
     },
     sim::{
         checkpoint::{Checkpoint, SaveError},
@@ -93,7 +92,6 @@ pub fn load(world: &mut World, path: &Path) {
         Ok(saved) => {
             history::checkpoint(world);
             saved.restore(world);
-            world.resource_mut::<Epoch>().0 += 1;
             world.resource_mut::<Toasts>().say(format!("Loaded: {name} (undo goes back)"));
         }
         Err(error) => world.resource_mut::<Toasts>().warn(format!("{name}: {error}")),

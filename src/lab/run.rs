@@ -1,6 +1,10 @@
 //! A run from one tick to the next, and those who watch it.
 
-use crate::sim::{intent::Intent, ledger::PassLedger, simulation::Simulation, state::Clock};
+use crate::sim::{
+    ledger::PassLedger,
+    recording::{Entry, Input},
+    simulation::Simulation,
+};
 use bevy::ecs::world::World;
 use std::io;
 
@@ -20,15 +24,15 @@ pub struct Plan {
     pub ticks: u64,
     /// Ticks of these that are left out of the times: the pass ledger begins after them.
     pub warmup: u64,
-    /// Input: after how many ticks of the world which intent is due, in order.
-    pub intents: Vec<(u64, Intent)>,
+    /// Input, oldest first.
+    pub input: Vec<Entry>,
     /// Whether to the end of a recording: then what was done after its last tick, to a world that stood, is done, too.
     pub complete: bool,
 }
 
 /// Runs the plan, showing each tick to the observers.
 pub fn run(simulation: &mut Simulation, plan: &Plan, observers: &mut [&mut dyn Observer]) -> io::Result<()> {
-    let mut intents = plan.intents.iter().peekable();
+    let mut input = Input::new(plan.input.clone());
     for tick in 0..plan.ticks {
         if tick == plan.warmup {
             simulation.world_mut().resource_mut::<PassLedger>().clear();
@@ -36,19 +40,13 @@ pub fn run(simulation: &mut Simulation, plan: &Plan, observers: &mut [&mut dyn O
                 observer.after_warmup(simulation.world());
             }
         }
-        let now = simulation.world().resource::<Clock>().tick;
-        while let Some((_, intent)) = intents.next_if(|(due, _)| *due <= now) {
-            simulation.push(*intent);
-        }
+        input.give(simulation.world_mut());
         simulation.tick();
         for observer in observers.iter_mut() {
             observer.after_tick(simulation.world())?;
         }
     }
-    if plan.complete && intents.peek().is_some() {
-        for (_, intent) in intents {
-            simulation.push(*intent);
-        }
+    if plan.complete && input.give(simulation.world_mut()) > 0 {
         simulation.apply_edits();
     }
     Ok(())

@@ -9,6 +9,7 @@ use crate::{
     },
     sim::{
         effects::Effects,
+        generation::Generation,
         intent::IntentQueue,
         ledger::PassLedger,
         snapshot::{Snapshot, hash_state},
@@ -18,7 +19,7 @@ use crate::{
         },
     },
 };
-use bevy::prelude::{Mut, Resource, World};
+use bevy::prelude::{Mut, World};
 
 /// Goes back to the start of the scene (or to the state of the save file that was loaded), and to its gravity.
 pub fn reset(world: &mut World) {
@@ -44,19 +45,9 @@ pub fn freeze(world: &World) -> Snapshot {
     }
 }
 
-/// How often the state of a world was put in the place of another: by undo, reset, another scene, a save file. Whoever
-/// carries on something of the world from one tick to the next begins anew when it changes.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Generation(u64);
-
-/// Counts that the state of the world is another one, which no tick and no intent has made.
-pub fn count_replacement(world: &mut World) {
-    world.get_resource_or_init::<Generation>().0 += 1;
-}
-
 /// Puts a state of the same scene back (undo, redo). Waiting intents are forgotten.
 pub fn thaw(world: &mut World, snapshot: &Snapshot) {
-    count_replacement(world);
+    Generation::count_state(world);
     let air_cell = world.resource::<Setup>().quality.air_cell;
     let mut air = if snapshot.air.cell() == air_cell { snapshot.air.clone() } else { snapshot.air.resized(air_cell) };
     air.set_solids(&snapshot.solids);

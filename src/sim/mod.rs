@@ -11,6 +11,7 @@ pub mod effects;
 pub mod exam;
 pub mod fault;
 pub mod gauntlet;
+pub mod generation;
 pub mod intent;
 pub mod ledger;
 pub mod mark;
@@ -27,7 +28,6 @@ pub mod snapshot;
 pub mod split;
 pub mod stages;
 pub mod state;
-pub mod tape;
 pub mod view;
 pub mod workers;
 
@@ -39,6 +39,7 @@ pub struct SimulationPlugin;
 impl Plugin for SimulationPlugin {
     fn build(&self, app: &mut App) {
         app.init_resource::<pace::Pace>()
+            .init_resource::<generation::Generation>()
             .init_resource::<intent::IntentQueue>()
             .init_resource::<stages::TickPlan>()
             .init_resource::<state::SolverState>()

@@ -4,9 +4,8 @@ use crate::{
     kernel::simd::InstructionSet,
     sim::{
         checkpoint::SaveError,
-        intent::IntentQueue,
         mark::{Mark, Marker},
-        recording::{End, Recording, Stretch},
+        recording::{End, Input, Recording, Segment},
         simulation::Simulation,
         state::{AirGrid, Clock, ParticleStore, Rock},
         workers::Workers,
@@ -51,14 +50,12 @@ impl fmt::Display for Difference {
 /// A recording that runs again.
 pub struct Replay<'a> {
     recording: &'a Recording,
-    workers: Workers,
-    instructions: InstructionSet,
-    /// The stretch that runs, and the world of it.
-    stretch: usize,
+    /// The segment that runs, its world, the input that waits and how many of its ticks are done.
+    segment: usize,
     simulation: Simulation,
-    marker: Marker,
-    entries: usize,
+    input: Input,
     marks: usize,
+    marker: Marker,
     done: u64,
 }
 
@@ -68,10 +65,10 @@ impl<'a> Replay<'a> {
     /// # Errors
     /// If a state can't be read.
     pub fn new(recording: &'a Recording, workers: Workers, instructions: InstructionSet) -> Result<Self, SaveError> {
-        Self::from_stretch(recording, 0, workers, instructions)
+        Self::from_segment(recording, 0, workers, instructions)
     }
 
-    /// The start of its last stretch.
+    /// The start of its last segment.
     ///
     /// # Errors
     /// If a state can't be read.
@@ -80,19 +77,19 @@ impl<'a> Replay<'a> {
         workers: Workers,
         instructions: InstructionSet,
     ) -> Result<Self, SaveError> {
-        Self::from_stretch(recording, recording.stretches.len() - 1, workers, instructions)
+        Self::from_segment(recording, recording.segments.len() - 1, workers, instructions)
     }
 
-    fn from_stretch(
+    fn from_segment(
         recording: &'a Recording,
-        stretch: usize,
+        segment: usize,
         workers: Workers,
         instructions: InstructionSet,
     ) -> Result<Self, SaveError> {
-        let start = recording.stretches[stretch].start()?;
-        let simulation = Simulation::resume(&start, workers.clone()).with_instructions(instructions);
-        let marker = Marker::default();
-        Ok(Self { recording, workers, instructions, stretch, simulation, marker, entries: 0, marks: 0, done: 0 })
+        let start = recording.segments[segment].start()?;
+        let simulation = Simulation::resume(&start, workers).with_instructions(instructions);
+        let input = Input::new(recording.segments[segment].entries.clone());
+        Ok(Self { recording, segment, simulation, input, marks: 0, marker: Marker::default(), done: 0 })
     }
 
     /// The world.
@@ -111,13 +108,13 @@ impl<'a> Replay<'a> {
     /// If it is not what was recorded.
     pub fn tick(&mut self) -> Result<bool, Difference> {
         while self.marks == self.now().marks.len() {
-            if self.stretch + 1 == self.recording.stretches.len() {
+            if self.segment + 1 == self.recording.segments.len() {
                 return Ok(false);
             }
-            self.go_to(self.stretch + 1);
+            self.go_to(self.segment + 1);
         }
         let recorded = self.now().marks[self.marks];
-        self.push_due();
+        self.input.give(self.simulation.world_mut());
         self.simulation.tick();
         self.marks += 1;
         self.done += 1;
@@ -134,7 +131,7 @@ impl<'a> Replay<'a> {
     /// # Errors
     /// If it is not what was recorded.
     pub fn finish(&mut self) -> Result<u64, Difference> {
-        self.push_due();
+        self.input.give(self.simulation.world_mut());
         self.simulation.apply_edits();
         let hash = self.simulation.hash();
         match self.recording.end {
@@ -151,29 +148,18 @@ impl<'a> Replay<'a> {
         self.simulation.tick();
     }
 
-    fn now(&self) -> &'a Stretch {
-        &self.recording.stretches[self.stretch]
+    fn now(&self) -> &'a Segment {
+        &self.recording.segments[self.segment]
     }
 
-    fn go_to(&mut self, stretch: usize) {
+    fn go_to(&mut self, segment: usize) {
         // Every state was looked at when the recording was read.
-        if let Ok(start) = self.recording.stretches[stretch].start() {
-            let simulation = Simulation::resume(&start, self.workers.clone());
-            self.simulation = simulation.with_instructions(self.instructions);
+        if let Ok(start) = self.recording.segments[segment].start() {
+            start.restore(self.simulation.world_mut());
         }
-        (self.stretch, self.entries, self.marks) = (stretch, 0, 0);
+        (self.segment, self.marks) = (segment, 0);
+        self.input = Input::new(self.now().entries.clone());
         self.marker = Marker::default();
-    }
-
-    /// Gives the world the input that is due.
-    fn push_due(&mut self) {
-        let now = self.now().tick + self.marks as u64;
-        let waiting = self.now().entries[self.entries..].iter();
-        let mut queue = self.simulation.world_mut().resource_mut::<IntentQueue>();
-        for entry in waiting.take_while(|entry| entry.tick <= now) {
-            queue.push(entry.intent);
-            self.entries += 1;
-        }
     }
 
     fn mark(&mut self) -> Mark {

@@ -11,6 +11,7 @@ use crate::{
         accuracy::LiveError,
         checkpoint::Checkpoint,
         effects::Effects,
+        generation::Generation,
         intent::{Intent, IntentQueue},
         ledger::PassLedger,
         pace::Pace,
@@ -21,7 +22,7 @@ use crate::{
     },
 };
 use bevy::prelude::{App, FixedUpdate, IntoScheduleConfigs, Mut, Res, Resource, World};
-use std::{sync::Arc, time::Duration};
+use std::time::Duration;
 
 /// The second world, while there is one.
 #[derive(Resource, Default)]
@@ -32,8 +33,9 @@ pub struct Split {
 /// The second world.
 struct Second {
     simulation: Simulation,
-    /// Tick in which it was the same as the first.
+    /// Tick in which it was the same as the first, and which world that was.
     since: u64,
+    generation: Generation,
     /// Whether the first has had its quality since then.
     equal: bool,
 }
@@ -46,7 +48,7 @@ impl Second {
         let mut simulation = simulation.with_instructions(first.resource::<SolverState>().instructions);
         simulation.world_mut().init_resource::<LiveError>();
         let equal = first.resource::<Setup>().quality == quality;
-        Self { simulation, since: first.resource::<Clock>().tick, equal }
+        Self { simulation, since: first.resource::<Clock>().tick, generation: Generation::of(first), equal }
     }
 
     fn setup(&self) -> &Setup {
@@ -123,7 +125,8 @@ pub fn is_on(split: Res<Split>) -> bool {
 fn copy_input(world: &mut World) {
     world.resource_scope(|world, mut split: Mut<Split>| {
         let Some(second) = split.second.as_mut() else { return };
-        if !are_in_step(world, second.simulation.world()) {
+        // After a reset, an undo or another scene.
+        if Generation::of(world) != second.generation {
             second.start_again(world);
         }
         let own = Intent::Quality { preset: second.setup().preset, quality: second.setup().quality };
@@ -140,13 +143,6 @@ fn copy_input(world: &mut World) {
         *simulation.resource_mut::<Pace>() = *world.resource::<Pace>();
         simulation.resource_mut::<Effects>().set_modes(&world.resource::<Effects>().modes());
     });
-}
-
-/// Whether the worlds have seen the same: not after a reset, an undo or another scene.
-fn are_in_step(first: &World, second: &World) -> bool {
-    let same_scene = Arc::ptr_eq(&first.resource::<Setup>().blueprint, &second.resource::<Setup>().blueprint);
-    let seen = |world: &World| world.resource::<Clock>().seen();
-    same_scene && seen(first) == seen(second)
 }
 
 /// Brings the second world as far as the first one went.
@@ -177,6 +173,7 @@ mod tests {
         },
     };
     use glam::Vec2;
+    use std::sync::Arc;
 
     /// A waterfall that has run for a while, with a second world at `preset`.
     fn split(preset: Preset) -> Simulation {

@@ -9,7 +9,7 @@ use powder_master::{
         checkpoint::Checkpoint,
         intent::Intent,
         recorder::{self, Recorder},
-        recording::{Recording, Writer},
+        recording::{Entry, Recording, Writer},
         simulation::Simulation,
         workers::Workers,
     },
@@ -34,9 +34,10 @@ fn record() -> (Vec<u8>, u64) {
     ];
     intents.extend((5..40).map(|tick| (tick, Intent::Draw { element: water, stroke: tap })));
     intents.sort_by_key(|(tick, _)| *tick);
+    let input = intents.into_iter().map(|(tick, intent)| Entry { tick, intent }).collect();
     let mut simulation =
         Simulation::with_plugins(&Checkpoint::of_scene(blueprint), Workers::default(), recorder::plugin);
-    run::run(&mut simulation, &Plan { ticks: 60, intents, ..Plan::default() }, &mut []).unwrap();
+    run::run(&mut simulation, &Plan { ticks: 60, input, ..Plan::default() }, &mut []).unwrap();
     let world = simulation.world();
     (world.resource::<Recorder>().last_minute(recorder::end_now(world)), simulation.hash())
 }
@@ -70,12 +71,12 @@ fn a_replay_names_the_first_tick_that_differs() {
     let here = folder("replay_differs");
     let recording = Recording::decode(&record().0).unwrap();
     let mut writer = Writer::new();
-    writer.start(&recording.stretches[0].start().unwrap().encode());
-    let stretch = &recording.stretches[0];
+    writer.start(&recording.segments[0].start().unwrap().encode());
+    let segment = &recording.segments[0];
     // One dab of the poured water is missing: that of tick 23, which makes tick 24.
-    let entries: Vec<_> = stretch.entries.iter().filter(|entry| entry.tick != 23).copied().collect();
-    assert_eq!(entries.len() + 1, stretch.entries.len());
-    writer.ticks(&entries, &stretch.marks);
+    let entries: Vec<_> = segment.entries.iter().filter(|entry| entry.tick != 23).copied().collect();
+    assert_eq!(entries.len() + 1, segment.entries.len());
+    writer.ticks(&entries, &segment.marks);
     writer.end(recording.end.unwrap());
     std::fs::write(here.join("changed.pmr"), writer.take()).unwrap();
     let says = ["changed.pmr", "tick 24 is the first that differs (number 24 of the recording)"];

@@ -14,7 +14,13 @@ use powder_master::{
         self,
         blueprint::{Blueprint, Effect, EffectModes, Mode},
     },
-    sim::{effects::Effects, intent::Intent, simulation::Simulation, stages::TickPlan},
+    sim::{
+        effects::Effects,
+        intent::Intent,
+        recording::{Entry, Input},
+        simulation::Simulation,
+        stages::TickPlan,
+    },
 };
 use proptest::{
     prelude::*,
@@ -47,15 +53,12 @@ fn run(blueprint: &Blueprint, case: &Case, effect: Effect, mode: Mode) -> Result
     let mut blueprint = blueprint.clone();
     blueprint.effects.insert(effect, mode);
     let mut simulation = Simulation::of(blueprint);
-    let mut deeds = case.deeds.iter().peekable();
+    // What is said of the effect in question is left out.
+    let keeps = |entry: &&Entry| !matches!(entry.intent, Intent::Effect { effect: switched, .. } if switched == effect);
+    let mut input = Input::new(case.input.iter().filter(keeps).copied().collect());
     let calls = |simulation: &Simulation| effect.row().passes.iter().map(|pass| simulation.calls(*pass)).sum::<u64>();
     for tick in 0..case.ticks {
-        while let Some(deed) = deeds.next_if(|deed| deed.tick <= tick) {
-            // The others may be switched by hand.
-            if !matches!(deed.intent, Intent::Effect { effect: switched, .. } if switched == effect) {
-                simulation.push(deed.intent);
-            }
-        }
+        input.give(simulation.world_mut());
         let before = calls(&simulation);
         simulation.run(1);
         let (added, runs) = (calls(&simulation) - before, simulation.get::<Effects>().get(effect).running);
@@ -111,7 +114,7 @@ fn judge(blueprint: &Blueprint, case: &Case, effect: Effect) -> Result<Held, Str
 
 /// A built-in scene as it is, as a case in which nothing is done.
 fn still(ticks: u32) -> Case {
-    Case { scene: String::new(), deeds: Vec::new(), ticks }
+    Case { scene: String::new(), input: Vec::new(), ticks }
 }
 
 #[test]
@@ -144,7 +147,7 @@ fn random() -> impl Strategy<Value = (Case, Effect)> {
     let effect = (0..Effect::ALL.len()).prop_map(|k| Effect::ALL[k]);
     let case = scenes::scene().prop_flat_map(|scene| {
         let ticks = (WORK / scene.work).clamp(TICKS.0, TICKS.1) as u32;
-        hands::deeds(scene.size, ticks).prop_map(move |deeds| Case { scene: scene.text.clone(), deeds, ticks })
+        hands::input(scene.size, ticks).prop_map(move |input| Case { scene: scene.text.clone(), input, ticks })
     });
     (case, effect)
 }

@@ -8,6 +8,7 @@ use powder_master::{
     scene::{self, blueprint::EffectModes},
     sim::{
         intent::Intent,
+        recording::Input,
         simulation::Simulation,
         stages::TickPlan,
         state::{AirGrid, Clock, Setup, Sources},
@@ -28,12 +29,10 @@ pub fn judge(case: &Case) -> Result<bool, Fault> {
     };
     let mut simulation = Simulation::of(blueprint);
     let mut judge = Judge::new(&simulation, case);
-    let mut deeds = case.deeds.iter().peekable();
+    let mut waiting = Input::new(case.input.clone());
     for tick in 0..case.ticks {
-        while let Some(deed) = deeds.next_if(|deed| deed.tick <= tick) {
-            simulation.push(deed.intent);
-        }
-        simulation.run(1);
+        waiting.give(simulation.world_mut());
+        simulation.tick();
         judge.look(&simulation).map_err(|fault| format!("after tick {tick}: {fault}"))?;
     }
     Ok(true)
@@ -64,11 +63,11 @@ impl Judge {
         let open = blueprint.air.open;
         let sealed = !(open.left || open.right || open.bottom || open.top);
         let keeps_air = |intent: &Intent| matches!(intent, Intent::Blow { .. });
-        let air_stays = sealed && case.deeds.iter().all(|deed| keeps_air(&deed.intent));
+        let air_stays = sealed && case.input.iter().all(|entry| keeps_air(&entry.intent));
         // Energy comes in by taps, fans, hands and air that is not at rest; a liquid whose rest density is not that of
         // its lattice stands under pressure from the start, and one that pulls or is pushed by tension has energy of
         // position that nobody counts.
-        let alone = case.deeds.is_empty() && sources.emitters.is_empty() && sources.winds.is_empty();
+        let alone = case.input.is_empty() && sources.emitters.is_empty() && sources.winds.is_empty();
         let fluid = &blueprint.fluid;
         let plain = fluid.rest_density >= 1.0 && fluid.constraint_floor == 0.0 && fluid.tension_strength <= 0.001;
         let known = alone && plain && blueprint.pressures.is_empty();
@@ -194,7 +193,7 @@ fn small() -> Case {
     let scene = "(title: \"T\", spacing: 0.1, size: (2, 1), contents: [
         (element: \"rock\", shape: Rect(min: (1, 0), max: (1.2, 0.5))),
         (element: \"water\", shape: Rect(min: (0, 0), max: (0.8, 0.4)))])";
-    Case { scene: scene.to_owned(), deeds: Vec::new(), ticks: 20 }
+    Case { scene: scene.to_owned(), input: Vec::new(), ticks: 20 }
 }
 
 /// Mass of the air, of which there may be no grid yet.

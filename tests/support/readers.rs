@@ -96,7 +96,7 @@ fn read_recording(bytes: &[u8]) {
             // Each state in it is a save file of its own.
             Ok(recording) => {
                 let mut is_cheap = true;
-                for state in recording.stretches.iter().map(|stretch| stretch.start()) {
+                for state in recording.segments.iter().map(|segment| segment.start()) {
                     match state {
                         Ok(start) => is_cheap &= go_on(&start),
                         Err(error) => one_line(error),

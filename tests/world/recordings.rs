@@ -103,8 +103,8 @@ fn whims_in_every_built_in_scene_are_the_same_again_from_the_middle_on() {
         simulation.get_mut::<Pace>().paused = true;
         simulation.push(whim(&mut random, size)).run(1);
         let recording = read(&file(&simulation));
-        assert_eq!(recording.stretches.len(), 1);
-        assert!(recording.stretches[0].tick == begun && begun > 20, "{name}: it does not begin in the middle");
+        assert_eq!(recording.segments.len(), 1);
+        assert!(recording.segments[0].tick == begun && begun > 20, "{name}: it does not begin in the middle");
         let ticks = simulation.get::<Clock>().tick - begun;
         assert_eq!(same(&recording), (ticks, simulation.hash()), "{name}");
         if k % 3 == 0 {
@@ -115,7 +115,7 @@ fn whims_in_every_built_in_scene_are_the_same_again_from_the_middle_on() {
 }
 
 #[test]
-fn undo_and_reset_begin_a_stretch_and_the_whole_is_the_same_again() {
+fn undo_and_reset_begin_a_segment_and_the_whole_is_the_same_again() {
     let mut simulation = recorded("dam_break", &[("columns", "12")]);
     simulation.get::<Recorder>().begin(simulation.world(), None);
     let pour = |simulation: &mut Simulation, x: f32| {
@@ -130,8 +130,8 @@ fn undo_and_reset_begin_a_stretch_and_the_whole_is_the_same_again() {
     control::reset(simulation.world_mut());
     pour(&mut simulation, 30.0);
     let recording = read(&file(&simulation));
-    let stretches: Vec<_> = recording.stretches.iter().map(|stretch| (stretch.tick, stretch.marks.len())).collect();
-    assert_eq!(stretches, [(0, 24), (12, 12), (0, 12)], "what was undone stays in it");
+    let segments: Vec<_> = recording.segments.iter().map(|segment| (segment.tick, segment.marks.len())).collect();
+    assert_eq!(segments, [(0, 24), (12, 12), (0, 12)], "what was undone stays in it");
     assert_eq!(same(&recording), (48, simulation.hash()));
     assert_eq!(read(&simulation.get::<Recorder>().last_minute(recorder::end_now(simulation.world()))), recording);
 }
@@ -149,7 +149,7 @@ fn a_recording_begun_right_after_a_jump_leaves_the_jump_in_the_last_minute() {
     simulation.get_mut::<Pace>().paused = false;
     simulation.run(10);
     let last_minute = read(&simulation.get::<Recorder>().last_minute(recorder::end_now(simulation.world())));
-    assert_eq!(last_minute.stretches.len(), 2, "the jump is not in it");
+    assert_eq!(last_minute.segments.len(), 2, "the jump is not in it");
     assert_eq!(same(&last_minute), (30, simulation.hash()));
     assert_eq!(same(&read(&file(&simulation))), (10, simulation.hash()));
 }
@@ -172,7 +172,7 @@ fn watched(name: &str, ticks: u32) -> (Simulation, Recording) {
 #[test]
 fn what_a_script_does_to_a_hard_case_is_in_its_recording() {
     let intents = |recording: &Recording, wanted: fn(&Intent) -> bool| {
-        let entries = recording.stretches.iter().flat_map(|stretch| &stretch.entries);
+        let entries = recording.segments.iter().flat_map(|segment| &segment.entries);
         entries.filter(|entry| wanted(&entry.intent)).count()
     };
     let turns = |intent: &Intent| matches!(intent, Intent::Gravity { .. });
@@ -184,16 +184,16 @@ fn what_a_script_does_to_a_hard_case_is_in_its_recording() {
         ("suction", 30, |intent| matches!(intent, Intent::Press { .. }), 10),
     ] {
         let (simulation, recording) = watched(name, ticks);
-        assert_eq!(recording.stretches.len(), 1, "{name}");
+        assert_eq!(recording.segments.len(), 1, "{name}");
         assert_eq!(intents(&recording, wanted), count, "{name}");
         assert_eq!(same(&recording), (u64::from(ticks), simulation.hash()), "{name}");
     }
 }
 
 #[test]
-fn what_a_script_breaks_without_an_intent_begins_a_stretch() {
+fn what_a_script_breaks_without_an_intent_begins_a_segment() {
     let (simulation, recording) = watched("poison", 40);
-    let begins: Vec<u64> = recording.stretches.iter().map(|stretch| stretch.tick).collect();
+    let begins: Vec<u64> = recording.segments.iter().map(|segment| segment.tick).collect();
     assert_eq!(begins, [20, 30, 40], "particles become no number after 20, 30 and 40 ticks");
     assert_eq!(same(&recording), (40, simulation.hash()));
 }
@@ -223,7 +223,7 @@ fn gravity_stays_through_undo_and_saves_and_ends_with_a_reset() {
     assert_eq!(simulation.get::<Setup>().domain.gravity, scenes);
     simulation.run(10);
     let recording = read(&file(&simulation));
-    assert_eq!(recording.stretches.len(), 3, "undo and reset");
+    assert_eq!(recording.segments.len(), 3, "undo and reset");
     assert_eq!(same(&recording), (40, simulation.hash()));
 }
 
@@ -254,12 +254,12 @@ fn a_file_that_was_tampered_with_differs_at_the_tick_where_it_was() {
         let mut changed = good.clone();
         change(&mut changed);
         let mut writer = Writer::new();
-        for stretch in &changed.stretches {
+        for segment in &changed.segments {
             // The state has not changed; this is how it came into the file.
             let mut world = Simulation::scene("dam_break", &[("columns", "12")]);
-            world.run(stretch.tick as u32);
+            world.run(segment.tick as u32);
             writer.start(&Checkpoint::of(world.world()).encode());
-            writer.ticks(&stretch.entries, &stretch.marks);
+            writer.ticks(&segment.entries, &segment.marks);
         }
         writer.end(changed.end.unwrap());
         read(&writer.take())
@@ -268,12 +268,12 @@ fn a_file_that_was_tampered_with_differs_at_the_tick_where_it_was() {
     let differs = |change: &dyn Fn(&mut Recording)| {
         again(&write(change), Workers::default(), InstructionSet::detect()).expect_err("it differs")
     };
-    let found = differs(&|recording| recording.stretches[0].entries.clear());
+    let found = differs(&|recording| recording.segments[0].entries.clear());
     assert_eq!(found.tick, 11, "{found}");
     assert!(found.to_string().contains("288 moving particles, recorded "), "{found}");
-    let found = differs(&|recording| recording.stretches[0].entries[0].tick = 15);
+    let found = differs(&|recording| recording.segments[0].entries[0].tick = 15);
     assert_eq!(found.tick, 11, "{found}");
-    let found = differs(&|recording| recording.stretches[0].marks[24].surroundings ^= 1);
+    let found = differs(&|recording| recording.segments[0].marks[24].surroundings ^= 1);
     assert_eq!(found.tick, 25, "{found}");
     assert!(found.to_string().ends_with("air or rock"), "{found}");
     let found = differs(&|recording| recording.end = Some(End::Stopped { hash: 5 }));
@@ -292,11 +292,11 @@ fn the_last_minute_is_kept_and_no_more_than_a_segment_beyond() {
         let recording = read(&file(&simulation));
         let all = simulation.get::<Clock>().tick;
         let kept = recording.ticks();
-        assert_eq!(recording.stretches.len(), 1, "it follows itself without a jump");
+        assert_eq!(recording.segments.len(), 1, "it follows itself without a jump");
         assert!(kept >= KEPT_TICKS.min(all) && kept < KEPT_TICKS + SEGMENT_TICKS as u64 + 60, "{kept} of {all}");
-        assert_eq!(recording.stretches[0].tick + kept, all);
+        assert_eq!(recording.segments[0].tick + kept, all);
     }
     assert_eq!(same(&read(&file(&simulation))).1, simulation.hash());
-    let bytes = simulation.get::<Recorder>().size_in_memory();
+    let bytes = simulation.get::<Recorder>().bytes();
     assert!(bytes < 1 << 20, "a small world takes {bytes} bytes");
 }

@@ -6,13 +6,12 @@ use crate::{
         history,
         hud::toast::Toasts,
         input::bindings::{self, Action},
-        render::extract::Epoch,
     },
     kernel::simd::InstructionSet,
     sim::{
         checkpoint::Checkpoint,
         pace::Pace,
-        recording::{End, RECORDING_ENDING, Recording, Stretch},
+        recording::{End, RECORDING_ENDING, Recording, Segment},
         replay::Replay,
         state::SolverState,
         workers::Workers,
@@ -47,13 +46,13 @@ pub struct Found {
 }
 
 impl Found {
-    fn last(&self) -> Option<&Stretch> {
-        self.recording.stretches.last()
+    fn last(&self) -> Option<&Segment> {
+        self.recording.segments.last()
     }
 
     /// Ticks that lie between the state that was kept and the end.
     pub fn ticks(&self) -> u64 {
-        self.last().map_or(0, |stretch| stretch.marks.len() as u64)
+        self.last().map_or(0, |segment| segment.marks.len() as u64)
     }
 }
 
@@ -159,7 +158,7 @@ fn find(folder: &Path) -> Option<Found> {
 /// somebody has edited.
 fn understand(bytes: &[u8]) -> Option<(Recording, String, u64)> {
     let recording = Recording::salvage(bytes).ok()?;
-    let last = recording.stretches.last()?;
+    let last = recording.segments.last()?;
     let start = last.start().ok()?;
     let edited = start.state.clock.edits > 0 || !last.entries.is_empty();
     let tick = last.tick + last.marks.len() as u64;
@@ -208,7 +207,7 @@ fn decide(world: &mut World, found: Found, choice: Option<Choice>, done: &Arc<At
                 }
             };
         }
-        Some(Choice::Earlier) => match found.last().map(Stretch::start) {
+        Some(Choice::Earlier) => match found.last().map(Segment::start) {
             Some(Ok(saved)) => go_on(world, saved, Reach::LastState),
             _ => world.resource_mut::<Toasts>().warn("The world can't be restored"),
         },
@@ -243,7 +242,7 @@ pub fn restore(recording: &Recording, instructions: InstructionSet, done: &Atomi
         // A world that a panic went through is not looked at again.
         panic::catch_unwind(AssertUnwindSafe(run)).ok().flatten().map(|saved| (saved, reach))
     };
-    let last_state = || Some((recording.stretches.last()?.start().ok()?, Reach::LastState));
+    let last_state = || Some((recording.segments.last()?.start().ok()?, Reach::LastState));
     run(Reach::Whole).or_else(|| run(Reach::LastTick)).or_else(last_state)
 }
 
@@ -252,7 +251,6 @@ fn go_on(world: &mut World, saved: Checkpoint, reach: Reach) {
     history::checkpoint(world);
     saved.restore(world);
     *world.resource_mut::<Pace>() = Pace { paused: true, steps_due: 0, ..*world.resource::<Pace>() };
-    world.resource_mut::<Epoch>().0 += 1;
     let key = bindings::of(Action::Pause).map(ToString::to_string).unwrap_or_default();
     let how = match reach {
         Reach::Whole => "Restored",

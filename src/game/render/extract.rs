@@ -1,27 +1,6 @@
 //! What a frame needs of the world, copied out once a frame into memory that is used again.
 
-use crate::{
-    game::{
-        camera::{Area, WorldCamera},
-        orders::Shown,
-        render::{
-            RenderCost, air,
-            blobs::{self, ColourBy, ColourTable},
-            stone,
-            wisps::Wisps,
-        },
-    },
-    kernel::units::TICK_SECONDS,
-    scene::blueprint::Blueprint,
-    sim::{
-        difference::{self, Difference, Half},
-        pace::Pace,
-        split::Split,
-        stages::TickPlan,
-        state::{AirGrid, Clock, ParticleStore, PredictorState, Rock, Setup, SolverState},
-        view::{self, BurialMap, DepthMap, Limited, Reference, Rgb, StrainMap, View},
-    },
-};
+use crate::{game::{camera::{Area, WorldCamera}, orders::Shown, render::{RenderCost, air, blobs::{self, ColourBy, ColourTable}, stone, wisps::Wisps}}, kernel::units::TICK_SECONDS, sim::{difference::{self, Difference, Half}, generation::Generation, pace::Pace, split::Split, stages::TickPlan, state::{AirGrid, Clock, ParticleStore, PredictorState, Rock, Setup, SolverState}, view::{self, BurialMap, DepthMap, Limited, Reference, Rgb, StrainMap, View}}};
 use bevy::platform::time::Instant;
 use bevy::{
     math::URect,
@@ -106,8 +85,8 @@ pub struct Picture {
     /// Where limiters act; of the last time that the view showed it.
     strain: StrainMap,
     table: ColourTable,
-    table_of: Option<(View, Arc<Blueprint>)>,
-    stones_of: Option<(u64, Arc<Blueprint>, u32)>,
+    table_of: Option<(View, u64)>,
+    stones_of: Option<(Generation, u64)>,
 }
 
 impl Default for Picture {
@@ -134,17 +113,12 @@ impl Default for Picture {
     }
 }
 
-/// Counts how often the world's state was replaced as a whole: then nothing derived from the old one is valid.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Epoch(pub u32);
-
 /// Where and how everything is seen.
 #[derive(Clone, Copy)]
 struct Sight<'a> {
     window: &'a Window,
     camera: &'a WorldCamera,
     view: View,
-    epoch: u32,
     /// The moment that is drawn, s before the last tick.
     back: f32,
 }
@@ -152,6 +126,7 @@ struct Sight<'a> {
 /// A world, and what is drawn into it.
 #[derive(Clone, Copy)]
 struct Scene<'a> {
+    generation: Generation,
     setup: &'a Setup,
     particles: &'a ParticleStore,
     rock: &'a Rock,
@@ -171,6 +146,7 @@ impl<'a> Scene<'a> {
     /// What there is of the second world of a split.
     fn of(world: &'a World) -> Option<Self> {
         Some(Self {
+            generation: *world.get_resource()?,
             setup: world.get_resource()?,
             particles: world.get_resource()?,
             rock: world.get_resource()?,
@@ -197,7 +173,7 @@ pub fn extract(
     windows: Extract<Query<&Window, With<PrimaryWindow>>>,
     camera: Extract<Res<WorldCamera>>,
     shown: Extract<Res<Shown>>,
-    epoch: Extract<Res<Epoch>>,
+    generation: Extract<Res<Generation>>,
     setup: Extract<Option<Res<Setup>>>,
     particles: Extract<Option<Res<ParticleStore>>>,
     rock: Extract<Option<Res<Rock>>>,
@@ -221,7 +197,7 @@ pub fn extract(
     }
     // Half a tick after a tick the world is drawn half a tick before it: it then moves evenly at any frame rate.
     let back = if pace.paused { 0.0 } else { TICK_SECONDS * (1.0 - time.overstep_fraction().clamp(0.0, 1.0)) };
-    let sight = Sight { window, camera: &camera, view: shown.0, epoch: epoch.0, back };
+    let sight = Sight { window, camera: &camera, view: shown.0, back };
     let solver = solver.as_deref();
     let limited = Limited {
         particles,
@@ -232,7 +208,7 @@ pub fn extract(
         dt: plan.as_deref().map_or(TICK_SECONDS, TickPlan::substep_seconds),
         tick: clock.as_deref().map_or(0, |clock| clock.tick),
     };
-    let first = Scene { setup, particles, rock, air, solver, limited, wisps: Some(&**wisps) };
+    let first = Scene { generation: **generation, setup, particles, rock, air, solver, limited, wisps: Some(&**wisps) };
     let Pictures { panes: [a, b, c], count, difference } = &mut *pictures;
     let areas: Vec<Area> = camera.panes().collect();
     match (split.world().and_then(Scene::of), areas.as_slice()) {
@@ -256,9 +232,10 @@ impl Picture {
     fn fill(&mut self, scene: Scene<'_>, sight: Sight<'_>, area: Area, confined: bool) {
         let (view, blueprint) = (sight.view, &scene.setup.blueprint);
         let reference = Reference::of(&blueprint.domain, &blueprint.air);
-        if self.table_of.as_ref().is_none_or(|(old, of)| *old != view || !Arc::ptr_eq(of, blueprint)) {
+        let table_of = Some((view, scene.generation.scene));
+        if self.table_of != table_of {
             self.table.fill(view, &blueprint.elements);
-            self.table_of = Some((view, blueprint.clone()));
+            self.table_of = table_of;
         }
         if view == View::Stability {
             self.strain.measure(blueprint.domain.size, scene.limited);
@@ -271,7 +248,7 @@ impl Picture {
             _ => ColourBy::Speed,
         };
         blobs::pack(scene.particles, &self.table, reference, by, sight.back, self.blobs.values_mut());
-        self.fill_stones(scene, sight.epoch);
+        self.fill_stones(scene);
         self.depth_new = view == View::Elements;
         if self.depth_new {
             self.depth.measure(blueprint.domain.size, scene.particles);
@@ -290,7 +267,7 @@ impl Picture {
     fn fill_with_difference(&mut self, difference: &Difference, scene: Scene<'_>, sight: Sight<'_>, area: Area) {
         self.blobs.clear();
         self.streaks.clear();
-        self.fill_stones(scene, sight.epoch);
+        self.fill_stones(scene);
         self.depth_new = false;
         difference.texels(&mut self.air.0);
         self.air.1 = UVec2::new(difference.columns() as u32, difference.rows() as u32);
@@ -298,14 +275,13 @@ impl Picture {
         self.place(sight, area, true);
     }
 
-    fn fill_stones(&mut self, scene: Scene<'_>, epoch: u32) {
-        let (rock, blueprint) = (scene.rock, &scene.setup.blueprint);
-        self.stones_new = self.stones_of.as_ref().is_none_or(|(version, of, during)| {
-            *version != rock.version() || !Arc::ptr_eq(of, blueprint) || *during != epoch
-        });
+    fn fill_stones(&mut self, scene: Scene<'_>) {
+        let (rock, elements) = (scene.rock, scene.setup.elements());
+        let stones_of = Some((scene.generation, rock.version()));
+        self.stones_new = self.stones_of != stones_of;
         if self.stones_new {
-            stone::pack(rock, &blueprint.elements, &mut self.burial, self.stones.values_mut());
-            self.stones_of = Some((rock.version(), blueprint.clone(), epoch));
+            stone::pack(rock, elements, &mut self.burial, self.stones.values_mut());
+            self.stones_of = stones_of;
         }
     }
 

@@ -150,7 +150,7 @@ fn a_panic_saves_what_was_played_and_the_next_start_restores_it() {
         assert_eq!(recording.end, Some(End::Crashed), "{name}");
         let (hash, tick) = replayed(&recording);
         assert_eq!(tick, 40, "{name}: all ticks before it are there");
-        assert!(recording.stretches[0].entries.len() >= 13, "{name}: the input, too");
+        assert!(recording.segments[0].entries.len() >= 13, "{name}: the input, too");
 
         // Looking at it decides nothing.
         assert!(next_start(&folder, None, |_| ()).is_some(), "{name}: nothing was offered");
@@ -230,16 +230,16 @@ fn what_panics_again_is_restored_as_far_as_it_goes() {
         let restored = remains::restore(recording, set, &AtomicU64::new(0)).expect("there is always something");
         (restored.0.state.clock.tick, restored.1)
     };
-    let start = good.stretches[0].tick;
+    let start = good.segments[0].tick;
     let end = start + good.ticks();
     assert_eq!(tick(&good), (end, Reach::Whole));
     // No file can hold this: it stands for an edit that the program does not survive.
     let fatal = |tick| Entry { tick, intent: Intent::Fill { element: ElementId(200), at: Vec2::splat(10.0) } };
     let mut bad = good.clone();
-    bad.stretches[0].entries.push(fatal(end));
+    bad.segments[0].entries.push(fatal(end));
     assert_eq!(tick(&bad), (end, Reach::LastTick));
     let mut worse = good.clone();
-    worse.stretches[0].entries.insert(0, fatal(start));
+    worse.segments[0].entries.insert(0, fatal(start));
     assert_eq!(tick(&worse), (start, Reach::LastState));
 }
 

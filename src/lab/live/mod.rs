@@ -42,11 +42,7 @@ impl Plugin for LivePlugin {
                     .after(TickSystems::Measure)
                     .before(autopilot::steer),
             )
-            .add_systems(
-                FixedUpdate,
-                (measures::start.before(TickSystems::Script), measures::follow.after(TickSystems::Measure))
-                    .run_if(measures::is_wanted),
-            )
+            .add_systems(FixedUpdate, measures::start.before(TickSystems::Script).run_if(measures::is_wanted))
             .add_systems(Update, (survey::run, measures::measure.run_if(measures::is_wanted)));
     }
 }

@@ -21,7 +21,7 @@ use crate::{
         measures::{Measured, Measures},
         pace::Pace,
         recorder::{self, Recorder},
-        recording::Recording,
+        recording::{Entry, Recording},
         schedule::TickSystems,
         simulation::Simulation,
         state::{Clock, Setup},
@@ -204,7 +204,7 @@ fn pretend_load(setup: Res<Setup>, clock: Res<Clock>, mut ledger: ResMut<PassLed
 }
 
 /// A recorded world with the autopilot on, after `ticks` ticks: its hash, what was recorded, and the world.
-fn fly(goal: Goal, ticks: u64) -> (u64, Vec<(u64, Intent)>, Simulation) {
+fn fly(goal: Goal, ticks: u64) -> (u64, Vec<Entry>, Simulation) {
     let mut simulation = begin("dam_break", &[("columns", "12")], |app: &mut App| {
         app.add_plugins((LivePlugin, autopilot::plugin));
         app.add_systems(FixedUpdate, pretend_load.after(TickSystems::Measure).before(autopilot::steer));
@@ -216,19 +216,19 @@ fn fly(goal: Goal, ticks: u64) -> (u64, Vec<(u64, Intent)>, Simulation) {
     let world = simulation.world();
     let bytes = world.resource::<Recorder>().last_minute(recorder::end_now(world));
     let recording = Recording::decode(&bytes).unwrap();
-    let intents = recording.stretches[0].entries.iter().map(|entry| (entry.tick, entry.intent)).collect();
-    (control::hash(world), intents, simulation)
+    let input = recording.segments[0].entries.clone();
+    (control::hash(world), input, simulation)
 }
 
 #[test]
 fn a_flight_is_recorded_and_repeats_to_the_bit_without_the_autopilot() {
     for goal in [Goal::Time(16.0), Goal::Error(0.0005)] {
-        let (hash, intents, flown) = fly(goal, 600);
-        let moves = intents.iter().filter(|(_, intent)| matches!(intent, Intent::Quality { .. })).count();
+        let (hash, input, flown) = fly(goal, 600);
+        let moves = input.iter().filter(|entry| matches!(entry.intent, Intent::Quality { .. })).count();
         assert!(moves >= 1, "{goal:?} never moved: nothing is tested");
         assert!(flown.world().resource::<Autopilot>().moves() as usize >= moves);
         let mut again = begin("dam_break", &[("columns", "12")], ());
-        run(&mut again, &Plan { ticks: 600, intents, complete: true, ..Plan::default() }, &mut []).unwrap();
+        run(&mut again, &Plan { ticks: 600, input, complete: true, ..Plan::default() }, &mut []).unwrap();
         assert_eq!(control::hash(again.world()), hash, "{goal:?}");
         assert_eq!(again.world().resource::<Setup>().quality, flown.world().resource::<Setup>().quality);
     }

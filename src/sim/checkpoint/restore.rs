@@ -6,6 +6,7 @@ use crate::{
     sim::{
         control,
         effects::Effects,
+        generation::Generation,
         ledger::PassLedger,
         snapshot::Snapshot,
         state::{Counters, Rates, Setup},
@@ -59,6 +60,7 @@ impl Checkpoint {
         if known {
             world.resource_mut::<Effects>().set_modes(&self.modes);
         } else {
+            Generation::count_scene(world);
             world.insert_resource(Effects::new(&self.modes));
             world.insert_resource(Rates::new(&blueprint.elements, blueprint.scale));
             world.insert_resource(Counters::default());

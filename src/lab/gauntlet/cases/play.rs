@@ -9,7 +9,7 @@ use crate::{
     lab::gauntlet::case::{Case, Density, Gain, Rules, Size},
     scene::blueprint::{Effect, Mode},
     sim::{
-        control,
+        generation::Generation,
         intent::Intent,
         state::{ParticleStore, Setup},
     },
@@ -153,7 +153,7 @@ pub(in crate::lab::gauntlet) const POISON: Case = Case {
                 *victim = *value;
             }
             // No player can do this, so that there is no intent for it.
-            control::count_replacement(world);
+            Generation::count_state(world);
         }
     }),
     ticks: 240,
