@@ -27,8 +27,9 @@
 pub mod cli;
 #[cfg(feature = "app")]
 pub mod game;
-pub mod kernel;
 pub mod lab;
 pub mod scene;
 pub mod sim;
 pub mod web;
+
+pub use powder_kernel as kernel;

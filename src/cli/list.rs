@@ -31,10 +31,12 @@ fn scene(name: &str) -> Result<String, Failure> {
 fn element(row: &Element) -> String {
     let [red, green, blue] = row.colour;
     let kind = if row.fixed { "fixed" } else { "movable" };
-    let Element { name, key, density, viscosity, vorticity, drag, .. } = row;
+    let key = row.key.map_or_else(|| "none".to_owned(), String::from);
+    let Element { name, category, density, viscosity, vorticity, drag, .. } = row;
     format!(
-        "{name}\tkey={key} {kind} colour=#{red:02x}{green:02x}{blue:02x} density={density} viscosity={viscosity} \
-         vorticity={vorticity} drag={drag}"
+        "{name}\tcategory={} key={key} {kind} colour=#{red:02x}{green:02x}{blue:02x} density={density} viscosity={viscosity} \
+         vorticity={vorticity} drag={drag}",
+        category.name()
     )
 }
 

@@ -220,7 +220,9 @@ fn take_up(world: &mut World, tool: Tool) {
 fn choose(world: &mut World, action: Action) {
     let Some(setup) = world.get_resource::<Setup>() else { return };
     let element = match action {
-        Action::Element(digit) => setup.elements().iter().find(|(_, element)| element.key == digit).map(|(id, _)| id),
+        Action::Element(digit) => {
+            setup.elements().iter().find(|(_, element)| element.key == Some(digit)).map(|(id, _)| id)
+        }
         _ => None,
     };
     let mut tools = world.resource_mut::<Toolbox>();

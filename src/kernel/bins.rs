@@ -21,7 +21,7 @@ mod tests;
 pub use rock::RockBins;
 pub(crate) use sort::Strip;
 
-use crate::kernel::{
+use crate::{
     parallel::spread,
     particles::Particles,
     simd::{InstructionSet, Lanes},

@@ -5,7 +5,7 @@
 //! alone, so that every face adds up in the same order whatever the number of threads. Particles that are out of order
 //! (just poured, for example) go last, one after the other.
 
-use crate::kernel::{
+use crate::{
     parallel::{cut, piece, spread},
     simd::{InstructionSet, Lanes, Pass},
 };
@@ -169,7 +169,7 @@ impl<R: Reach> Pass for FindSpans<'_, R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::simd::whole_below;
+    use crate::simd::whole_below;
 
     /// 160 rows, 2.5 d high, with a stencil of two rows at each of two heights half a row apart, as on a staggered grid.
     #[derive(Clone, Copy)]

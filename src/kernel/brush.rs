@@ -1,6 +1,6 @@
 //! The shape that a tool covers while it is dragged.
 
-use crate::kernel::solids::{Solids, centre};
+use crate::solids::{Solids, centre};
 use glam::{IVec2, Vec2};
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 //! Looks over all particles once a tick: what is no longer a number, what is where none may be, how many there are.
 
-use crate::kernel::{element::ElementId, parallel::over, params::Domain, particles::Particles, solids::Solids};
+use crate::{element::ElementId, parallel::over, params::Domain, particles::Particles, solids::Solids};
 use glam::{IVec2, Vec2};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 

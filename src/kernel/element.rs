@@ -13,14 +13,40 @@ impl ElementId {
     }
 }
 
+/// Where an element stands in the palette.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Category {
+    /// What stays in its place.
+    Solids,
+    /// What flows.
+    Liquids,
+}
+
+impl Category {
+    /// All, in the order of the palette.
+    pub const ALL: [Self; 2] = [Self::Solids, Self::Liquids];
+
+    /// Name, as the file of elements writes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Solids => "solids",
+            Self::Liquids => "liquids",
+        }
+    }
+}
+
 /// One row of the element table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Element {
     /// Name in scenes, on the command line and in the palette; unique.
     pub name: String,
-    /// The digit key that selects it, `'0'`–`'9'`; unique.
-    pub key: char,
+    /// Its group in the palette.
+    pub category: Category,
+    /// The digit key that selects it, `'0'`–`'9'`, if it has one; unique.
+    #[serde(default)]
+    pub key: Option<char>,
     /// Colour, sRGB.
     pub colour: [u8; 3],
     /// Fixed elements never move: they stop liquids and air and are stored in the rock grid.
@@ -42,20 +68,66 @@ pub struct Element {
     pub flow: f32,
 }
 
+/// A number of an element and the range that it must be in.
+#[derive(Clone, Copy, Debug)]
+pub struct ElementNumber {
+    /// Name of the field.
+    pub name: &'static str,
+    /// Its value.
+    pub value: f32,
+    /// Lowest that is allowed.
+    pub min: f32,
+    /// Highest that is allowed.
+    pub max: f32,
+}
+
+impl Element {
+    /// All numbers of the row.
+    pub fn numbers(&self) -> [ElementNumber; 5] {
+        let number = |name, value, min, max| ElementNumber { name, value, min, max };
+        [
+            number("density", self.density, 1.0, 100_000.0),
+            number("viscosity", self.viscosity, 0.0, 0.5),
+            number("vorticity", self.vorticity, 0.0, 1.0),
+            number("drag", self.drag, 0.0, 1000.0),
+            number("flow", self.flow, f32::MIN_POSITIVE, 1.0),
+        ]
+    }
+
+    /// An element as heavy as water, with nothing else to it.
+    pub fn plain(name: &str, fixed: bool) -> Self {
+        Self {
+            name: name.into(),
+            category: if fixed { Category::Solids } else { Category::Liquids },
+            key: None,
+            colour: [40, 130, 220],
+            fixed,
+            density: 1000.0,
+            viscosity: 0.0,
+            vorticity: 0.0,
+            drag: 0.0,
+            flow: 1.0,
+        }
+    }
+}
+
 fn one() -> f32 {
     1.0
 }
 
-/// All elements, in the order of the palette. Never empty, at most 255 rows.
+/// All elements, in the order of the palette within their category. Never empty, at most [`ElementTable::MOST`] rows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ElementTable {
     rows: Vec<Element>,
 }
 
 impl ElementTable {
+    /// Most rows: an id is one byte, and the rock grid keeps 255 for "no rock".
+    pub const MOST: usize = 255;
+
     /// A table of already validated rows.
     pub fn new(rows: Vec<Element>) -> Self {
-        debug_assert!(rows.len() <= 255, "an element id is one byte, and one value of it means none");
+        debug_assert!(rows.len() <= Self::MOST, "an element id is one byte, and one value of it means none");
         Self { rows }
     }
 
@@ -82,23 +154,5 @@ impl ElementTable {
     /// Whether there is no row at all.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
-    }
-}
-
-#[cfg(test)]
-impl Element {
-    /// An element for tests: as heavy as water, and nothing else to it.
-    pub(crate) fn plain(name: &str, fixed: bool) -> Self {
-        Self {
-            name: name.into(),
-            key: '1',
-            colour: [40, 130, 220],
-            fixed,
-            density: 1000.0,
-            viscosity: 0.0,
-            vorticity: 0.0,
-            drag: 0.0,
-            flow: 1.0,
-        }
     }
 }

@@ -1,6 +1,6 @@
 //! Gravity and the drag of the air.
 
-use crate::kernel::{
+use crate::{
     air::Air,
     brush::soft_disc,
     element::ElementTable,

@@ -2,7 +2,7 @@
 //!
 //! What an entry gets never depends on where the pieces are cut, so the number of threads does not show in the result.
 
-use crate::kernel::{
+use crate::{
     bins::Group,
     simd::{InstructionSet, Lanes, Pass},
 };
@@ -97,7 +97,7 @@ const POLITENESS: u32 = 64;
 /// Runs `work` in the current rayon pool while up to `watchers` of its other threads look out for the parts that `work`
 /// hands over. Left alone, they would fall asleep between two of them, and waking them takes longer than a small part.
 /// A thread that waits for others in the midst of a part may come to watch, too; that is why no watch lasts.
-pub(crate) fn watched<T: Send>(watchers: usize, work: impl FnOnce() -> T + Send) -> T {
+pub fn watched<T: Send>(watchers: usize, work: impl FnOnce() -> T + Send) -> T {
     if watchers == 0 {
         return work();
     }

@@ -11,7 +11,7 @@ pub struct FluidParams {
     /// other further apart than d, above 1 they stand closer. 0.1 … 100. Default: `1.0`.
     pub rest_density: f32,
     /// Relaxation ε in the denominator of λ (eq. 11), 1/d². Raising it softens the constraint and calms it. Where the
-    /// pressure predictor runs it is at least [`PREDICTED_RELAXATION`](crate::kernel::pbf::PREDICTED_RELAXATION).
+    /// pressure predictor runs it is at least [`PREDICTED_RELAXATION`](crate::pbf::PREDICTED_RELAXATION).
     /// 1e-4 … 10. Default: `0.01`.
     pub relaxation: f32,
     /// Lowest value of the constraint C. 0: the liquid only pushes; lower, it also pulls and holds together, and
@@ -126,7 +126,7 @@ impl AirAdvection {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AirScheme {
     /// Wind plus sound stay below so many cells a substep: 0.1 … 0.9; up to
-    /// [`STABLE_COURANT`](crate::kernel::air::STABLE_COURANT) is taken.
+    /// [`STABLE_COURANT`](crate::air::STABLE_COURANT) is taken.
     pub courant: f32,
     /// How velocity is carried along.
     pub advection: AirAdvection,

@@ -1,6 +1,6 @@
 //! The store of movable particles: one array per quantity, sorted by cell each substep, with ids that survive the sort.
 
-use crate::kernel::element::ElementId;
+use crate::element::ElementId;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;

@@ -1,6 +1,6 @@
 //! Prediction: where the velocities alone would take the particles, without passing through rock or walls.
 
-use crate::kernel::{
+use crate::{
     parallel::{WORTH_A_PIECE, spread},
     params::{Domain, Quality, WALL_GAP},
     particles::Particles,
@@ -173,7 +173,7 @@ fn move_freely(from: &[f32], velocity: &[f32], to: &mut [f32], high: f32, dt: f3
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::{element::ElementId, params::Preset, units::TICK_SECONDS};
+    use crate::{element::ElementId, params::Preset, units::TICK_SECONDS};
 
     #[test]
     fn speeds_are_followed_up_to_the_bound_and_cut_to_it_past_it() {

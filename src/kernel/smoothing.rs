@@ -4,7 +4,7 @@
 //! 315/(64 π h⁹) is wrong here). Gradients use spiky, `∇W = −30/(π h⁵) (h − r)² r̂`, or a rational form close to it.
 //! The passes sum the bare powers and scale the sums once.
 
-use crate::kernel::{params::GradientKernel, simd::Lanes};
+use crate::{params::GradientKernel, simd::Lanes};
 use std::f64::consts::PI;
 
 /// Shape of the rational gradient kernel: `(h − r)²/r ≈ (h² − r²)² / (STEEPNESS h (r² + CORE h²))` for r > 0.3 h.

@@ -3,7 +3,7 @@
 //! A cell with rock is solid as a whole, `[i, i+1) × [j, j+1)` in d. Water collides with the cells (`sweep`), and
 //! the solver reads the particles at their centres for density.
 
-use crate::kernel::element::ElementId;
+use crate::element::ElementId;
 use glam::{IVec2, Vec2};
 
 const EMPTY: u8 = u8::MAX;

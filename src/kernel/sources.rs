@@ -1,6 +1,6 @@
 //! What a scene keeps adding to the world: particles that flow in and air that is driven.
 
-use crate::kernel::element::ElementId;
+use crate::element::ElementId;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 

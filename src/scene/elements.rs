@@ -1,16 +1,13 @@
 //! The element table out of `assets/elements.ron`.
 
 use crate::{
-    kernel::element::{Element, ElementTable},
-    scene::{builtin::ELEMENTS, error::SceneError, file::parse, number::Range},
+    kernel::element::{Element, ElementNumber, ElementTable},
+    scene::{builtin::ELEMENTS, error::SceneError, file::parse},
 };
 use std::sync::Arc;
 
 /// Name of the file in errors.
 const FILE: &str = "assets/elements.ron";
-
-/// Most elements: an id is one byte, and the rock grid keeps 255 for "no rock".
-const MOST: usize = 255;
 
 /// What a scene writes to clear a shape, so no element may be called that.
 pub(super) const NONE: &str = "none";
@@ -22,12 +19,12 @@ pub fn elements() -> Result<Arc<ElementTable>, SceneError> {
 
 pub(super) fn table(bytes: &[u8]) -> Result<ElementTable, SceneError> {
     let rows: Vec<Element> = parse(FILE, bytes)?;
-    if rows.len() > MOST {
-        return Err(SceneError::file(FILE, format!("{} elements; allowed: at most {MOST}", rows.len())));
+    let most = ElementTable::MOST;
+    if rows.len() > most {
+        return Err(SceneError::file(FILE, format!("{} elements; allowed: at most {most}", rows.len())));
     }
-    for (i, row) in rows.iter().enumerate() {
-        check(i, row, &rows[..i])?;
-    }
+    check(&rows)
+        .map_err(|Fault { row, field, what }| SceneError::value(FILE, format_args!("[{row}].{field}"), what))?;
     for fixed in [true, false] {
         if rows.iter().all(|row| row.fixed != fixed) {
             return Err(SceneError::file(FILE, format!("no element with `fixed: {fixed}`; allowed: at least one")));
@@ -36,32 +33,46 @@ pub(super) fn table(bytes: &[u8]) -> Result<ElementTable, SceneError> {
     Ok(ElementTable::new(rows))
 }
 
-fn check(i: usize, row: &Element, before: &[Element]) -> Result<(), SceneError> {
-    let fault = |field: &str, what: String| Err(SceneError::value(FILE, format_args!("[{i}].{field}"), what));
+/// What is wrong with a row.
+pub(crate) struct Fault {
+    /// Index of the row.
+    pub row: usize,
+    /// Field.
+    pub field: &'static str,
+    /// What it is, and what is allowed.
+    pub what: String,
+}
+
+/// Checks every row by itself and beside those before it.
+pub(crate) fn check(rows: &[Element]) -> Result<(), Fault> {
+    for (i, row) in rows.iter().enumerate() {
+        check_row(row, &rows[..i]).map_err(|(field, what)| Fault { row: i, field, what })?;
+    }
+    Ok(())
+}
+
+fn check_row(row: &Element, before: &[Element]) -> Result<(), (&'static str, String)> {
     let word = row.name.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_');
     if row.name.is_empty() || row.name.len() > 32 || !word || row.name == NONE {
         let what = format!("`{}`; allowed: 1 to 32 lower-case letters, digits and `_`, but not `{NONE}`", row.name);
-        return fault("name", what);
+        return Err(("name", what));
     }
     if before.iter().any(|other| other.name == row.name) {
-        return fault("name", format!("`{}` is taken; allowed: a name for each element", row.name));
+        return Err(("name", format!("`{}` is taken; allowed: a name for each element", row.name)));
     }
-    if !row.key.is_ascii_digit() {
-        return fault("key", format!("`{}`; allowed: '0' to '9'", row.key));
+    if let Some(key) = row.key {
+        if !key.is_ascii_digit() {
+            return Err(("key", format!("`{key}`; allowed: '0' to '9', or none")));
+        }
+        if before.iter().any(|other| other.key == row.key) {
+            return Err(("key", format!("`{key}` is taken; allowed: a key of its own, or none")));
+        }
     }
-    if before.iter().any(|other| other.key == row.key) {
-        return fault("key", format!("`{}` is taken; allowed: a key for each element", row.key));
-    }
-    for (field, value, min, max) in [
-        ("density", row.density, 1.0, 100_000.0),
-        ("viscosity", row.viscosity, 0.0, 0.5),
-        ("vorticity", row.vorticity, 0.0, 1.0),
-        ("drag", row.drag, 0.0, 1000.0),
-        ("flow", row.flow, f64::from(f32::MIN_POSITIVE), 1.0),
-    ] {
-        if Range::real(min, max).check(f64::from(value)).is_err() {
-            let above = if field == "flow" { "above 0, at most 1".to_owned() } else { format!("{min} to {max}") };
-            return fault(field, format!("{value} is out of range; allowed: {above}"));
+    for ElementNumber { name, value, min, max } in row.numbers() {
+        if !(min..=max).contains(&value) {
+            let allowed =
+                if min == f32::MIN_POSITIVE { "above 0, at most 1".to_owned() } else { format!("{min} to {max}") };
+            return Err((name, format!("{value} is out of range; allowed: {allowed}")));
         }
     }
     Ok(())
@@ -71,20 +82,12 @@ fn check(i: usize, row: &Element, before: &[Element]) -> Result<(), SceneError> 
 mod tests {
     use super::*;
 
-    const ROCK: &str = "(name: \"rock\", key: '1', colour: (1, 2, 3), fixed: true, density: 2500)";
-    const WATER: &str = "(name: \"water\", key: '2', colour: (1, 2, 3), fixed: false, density: 1000)";
+    const ROCK: &str = "(name: \"rock\", category: solids, key: '1', colour: (1, 2, 3), fixed: true, density: 2500)";
+    const WATER: &str =
+        "(name: \"water\", category: liquids, key: '2', colour: (1, 2, 3), fixed: false, density: 1000)";
 
     fn error(text: &str) -> String {
         table(text.as_bytes()).expect_err(text).to_string()
-    }
-
-    #[test]
-    fn the_built_in_table_has_rock_and_water() {
-        let table = elements().expect("the built-in table");
-        let rock = table.get(table.find("rock").expect("rock"));
-        let water = table.get(table.find("water").expect("water"));
-        assert!(rock.fixed && rock.key == '1');
-        assert!(!water.fixed && water.key == '2' && water.density == 1000.0);
     }
 
     #[test]
@@ -103,7 +106,8 @@ mod tests {
         for (text, expected) in [
             (with("water", "rock"), "assets/elements.ron: [1].name: `rock` is taken"),
             (with("'2'", "'1'"), "[1].key: `1` is taken"),
-            (with("'2'", "'x'"), "[1].key: `x`; allowed: '0' to '9'"),
+            (with("'2'", "'x'"), "[1].key: `x`; allowed: '0' to '9', or none"),
+            (with("liquids", "liquid"), "assets/elements.ron:1:"),
             (with("1000", "0"), "[1].density: 0 is out of range; allowed: 1 to 100000"),
             (with("1000", "NaN"), "[1].density"),
             (with("1000)", "1000, flow: 0)"), "[1].flow: 0 is out of range; allowed: above 0, at most 1"),
@@ -117,8 +121,13 @@ mod tests {
     }
 
     #[test]
-    fn more_rows_than_ids_are_an_error() {
-        let rows = vec![WATER; 256].join(",");
-        assert!(error(&format!("[{rows}]")).contains("256 elements; allowed: at most 255"));
+    fn a_table_may_have_as_many_rows_as_there_are_ids() {
+        let rows = |count: usize| {
+            let rows: Vec<String> =
+                (1..count).map(|row| WATER.replace("water", &format!("w{row}")).replace("'2'", "None")).collect();
+            format!("[{ROCK}, {}]", rows.join(","))
+        };
+        assert_eq!(table(rows(255).as_bytes()).map(|table| table.len()).map_err(|error| error.to_string()), Ok(255));
+        assert!(error(&rows(256)).contains("256 elements; allowed: at most 255"));
     }
 }

@@ -9,7 +9,7 @@
 
 mod build;
 mod builtin;
-mod elements;
+pub(crate) mod elements;
 mod error;
 mod expression;
 mod file;

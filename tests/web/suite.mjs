@@ -1,5 +1,5 @@
-// The library's unit tests as a module under node, side by side. A panic ends an instance of the module; the next one goes
-// on with the next test. Usage: node tests/web/suite.mjs FOLDER-OF-THE-MODULE [PART-OF-A-NAME]
+// The libraries' unit tests as modules under node, side by side. A panic ends an instance of a module; the next one goes on
+// with the next test. Usage: node tests/web/suite.mjs FOLDER-OF-THE-MODULES PART-OF-A-NAME MODULE…
 
 import { readFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
@@ -18,9 +18,18 @@ if (isMainThread) await lead(...process.argv.slice(2));
 else await work(workerData);
 
 // Starts instances until every test is done, and tells what came of them.
-async function lead(folder, part = '') {
-  const module = await WebAssembly.compile(readFileSync(join(folder, 'suite_bg.wasm')));
-  const script = pathToFileURL(resolve(folder, 'suite.mjs')).href;
+async function lead(folder, part, ...names) {
+  let run = 0;
+  for (const name of names) run += await runSuite(folder, part, name);
+  if (run > 0) return;
+  console.log('FAILED: no test was run');
+  process.exitCode = 1;
+}
+
+// Runs the tests of one module; how many it ran.
+async function runSuite(folder, part, name) {
+  const module = await WebAssembly.compile(readFileSync(join(folder, `${name}_bg.wasm`)));
+  const script = pathToFileURL(resolve(folder, `${name}.mjs`)).href;
   const taken = new Int32Array(new SharedArrayBuffer(4));
   const suite = { tests: 0, passed: 0, failed: 0, ignored: 0, left: 0, broken: 0, seconds: [] };
   const begun = performance.now();
@@ -34,13 +43,13 @@ async function lead(folder, part = '') {
   const elsewhere = part ? `, ${suite.left} of other names` : '';
   const seconds = ((performance.now() - begun) / 1000).toFixed(0);
   console.log(
-    `${suite.tests} tests: ${suite.passed} passed, ${suite.failed} failed, ${suite.ignored} ignored${elsewhere}; ${seconds} s`,
+    `${name}: ${suite.tests} tests: ${suite.passed} passed, ${suite.failed} failed, ${suite.ignored} ignored${elsewhere}; ${seconds} s`,
   );
   const done = suite.passed + suite.failed;
-  if (done === 0) console.log('FAILED: no test was run');
   const lost = suite.tests - done - suite.ignored - suite.left;
   if (lost !== 0) console.log(`FAILED: ${lost} tests were begun by nobody, or lost`);
-  process.exitCode = done === 0 || lost !== 0 || suite.failed > 0 || suite.broken > 0 ? 1 : 0;
+  if (lost !== 0 || suite.failed > 0 || suite.broken > 0) process.exitCode = 1;
+  return done;
 }
 
 // Lets an instance run tests; whether it came to an end before the tests did.

@@ -83,7 +83,7 @@ fn tiles(ui: &mut Ui, setup: &Setup, chosen: Tool) -> Option<Tool> {
     ui.spacing_mut().item_spacing.x = 4.0;
     let mut pressed = None;
     for (id, element) in setup.elements().iter() {
-        let key = element.key.to_string();
+        let key = element.key.map(String::from).unwrap_or_default();
         let look = Look { icon: icon_of(element), colour: colour_of(element), name: &element.name, key: &key };
         let tool = Tool::Element(id);
         if tile(ui, look, chosen == tool).on_hover_text(about(element, setup)).clicked() {
@@ -116,7 +116,8 @@ pub fn colour_of(element: &Element) -> Color32 {
 fn about(element: &Element, setup: &Setup) -> String {
     let mass = element.density * setup.blueprint.scale.spacing * setup.blueprint.scale.spacing;
     let kind = if element.fixed { "stays where it is" } else { "flows" };
-    format!("{} ({}): {kind}, {} kg/m², {mass:.3} kg a particle", element.name, element.key, element.density)
+    let key = element.key.map(|key| format!(" ({key})")).unwrap_or_default();
+    format!("{}{key}: {kind}, {} kg/m², {mass:.3} kg a particle", element.name, element.density)
 }
 
 struct Look<'a> {

@@ -1,6 +1,27 @@
 //! What a frame needs of the world, copied out once a frame into memory that is used again.
 
-use crate::{game::{camera::{Area, WorldCamera}, orders::Shown, render::{RenderCost, air, blobs::{self, ColourBy, ColourTable}, stone, wisps::Wisps}}, kernel::units::TICK_SECONDS, sim::{difference::{self, Difference, Half}, generation::Generation, pace::Pace, split::Split, stages::TickPlan, state::{AirGrid, Clock, ParticleStore, PredictorState, Rock, Setup, SolverState}, view::{self, BurialMap, DepthMap, Limited, Reference, Rgb, StrainMap, View}}};
+use crate::{
+    game::{
+        camera::{Area, WorldCamera},
+        orders::Shown,
+        render::{
+            RenderCost, air,
+            blobs::{self, ColourBy, ColourTable},
+            stone,
+            wisps::Wisps,
+        },
+    },
+    kernel::units::TICK_SECONDS,
+    sim::{
+        difference::{self, Difference, Half},
+        generation::Generation,
+        pace::Pace,
+        split::Split,
+        stages::TickPlan,
+        state::{AirGrid, Clock, ParticleStore, PredictorState, Rock, Setup, SolverState},
+        view::{self, BurialMap, DepthMap, Limited, Reference, Rgb, StrainMap, View},
+    },
+};
 use bevy::platform::time::Instant;
 use bevy::{
     math::URect,

@@ -30,17 +30,7 @@ mod tests {
 
     #[test]
     fn open_sides_are_told_from_closed_ones() {
-        let elements = ElementTable::new(vec![Element {
-            name: "rock".into(),
-            key: '2',
-            colour: [120, 110, 100],
-            fixed: true,
-            density: 2500.0,
-            viscosity: 0.0,
-            vorticity: 0.0,
-            drag: 0.0,
-            flow: 1.0,
-        }]);
+        let elements = ElementTable::new(vec![Element::plain("rock", true)]);
         let mut solids = Solids::new(8, 8);
         for (id, cell) in [(0, IVec2::new(0, 3)), (1, IVec2::new(1, 3))] {
             solids.insert(cell, ElementId(0), id);

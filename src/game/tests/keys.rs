@@ -55,7 +55,8 @@ fn keys_choose_views_tools_speed_and_brush() {
     player.chord(&[KeyCode::ShiftLeft, KeyCode::Digit6]);
     assert_eq!(player.world().resource::<Shown>().0, View::Stability);
     player.chord(&[KeyCode::Digit1]);
-    let first = player.world().resource::<Setup>().elements().iter().find(|(_, e)| e.key == '1').map(|(id, _)| id);
+    let first =
+        player.world().resource::<Setup>().elements().iter().find(|(_, e)| e.key == Some('1')).map(|(id, _)| id);
     assert_eq!(player.world().resource::<Toolbox>().element(), first);
     player.chord(&[KeyCode::Minus]);
     assert_eq!(player.world().resource::<Pace>().speed, 0.5);

@@ -26,7 +26,7 @@
 use super::pressure::shifted;
 use super::second_order::{SecondOrder, Shares, starting_there};
 use super::shape::{Corner, Shape};
-use crate::kernel::simd::{Array, Lanes, lane_starts};
+use crate::simd::{Array, Lanes, lane_starts};
 use std::ops::Range;
 
 /// Part κ of the wave solution that a face follows, 0 … ½. Raising it kills alternating pressure sooner and damps

@@ -8,7 +8,7 @@ use super::{
     grid::Peaks,
     pressure::{Push, Pushed},
 };
-use crate::kernel::simd::{Lanes, Pass};
+use crate::simd::{Lanes, Pass};
 use std::ops::Range;
 
 /// Row buffers of a band.

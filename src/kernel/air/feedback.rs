@@ -22,7 +22,7 @@
 use super::grid::Air;
 use super::sample::Stencil;
 use super::step::QUIET_MACH;
-use crate::kernel::{
+use crate::{
     blocks::{Blocks, Reach},
     element::ElementId,
     forces::DragTable,

@@ -15,7 +15,7 @@
 
 use super::grid::Peaks;
 use super::shape::Shape;
-use crate::kernel::simd::{Lanes, lane_starts};
+use crate::simd::{Lanes, lane_starts};
 use std::hint::black_box;
 
 /// Stands in the division of momentum by mass, so that a cell without mass has no velocity and none a division by 0.

@@ -28,7 +28,7 @@
 
 use super::advect::{Source, store_three, three};
 use super::pressure::shifted;
-use crate::kernel::simd::{Array, Lanes, lane_starts};
+use crate::simd::{Array, Lanes, lane_starts};
 use std::ops::Range;
 
 /// A value for u and one for v in each column at hand.

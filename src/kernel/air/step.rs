@@ -6,7 +6,7 @@ use super::grid::{Air, MAX_PRESSURE, Peaks, Scratch};
 use super::pressure::{Push, STILL_MACH, peak};
 use super::shape::Shape;
 use super::tiles::{Block, WATCH};
-use crate::kernel::{
+use crate::{
     parallel::Team,
     params::{AirAdvection, AirScheme},
     simd::InstructionSet,

@@ -15,7 +15,7 @@ use super::grid::{Air, Scratch};
 use super::pressure::peak;
 use super::shape::Shape;
 use super::step::{QUIET_MACH, Room};
-use crate::kernel::sources::Wind;
+use crate::sources::Wind;
 use std::ops::Range;
 
 /// Cells of a tile along x: lanes want long rows. Changing this affects which cells sleep together.

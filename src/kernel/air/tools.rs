@@ -2,7 +2,7 @@
 
 use super::grid::{Air, MAX_PRESSURE, MAX_SPEED, Peaks};
 use super::step::AirReport;
-use crate::kernel::{
+use crate::{
     brush::soft_disc,
     sources::{Rect, Wind},
 };

@@ -4,7 +4,7 @@
 //! out to the nearest open cells; air flows in from the cells beside when rock goes. Both move mass and make none.
 
 use super::grid::{Air, in_ring};
-use crate::kernel::solids::Solids;
+use crate::solids::Solids;
 
 /// Steps from the nearest cell that a flood started from.
 const FAR: u32 = u32::MAX;

@@ -1,6 +1,6 @@
 //! Geometry of the cells.
 
-use crate::kernel::simd::whole_below;
+use crate::simd::whole_below;
 use glam::Vec2;
 use std::ops::Range;
 

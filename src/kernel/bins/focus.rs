@@ -1,6 +1,6 @@
 //! Where the liquid is still too dense: the groups that the solver iterates again.
 
-use crate::kernel::bins::{ALL_LANES, Group, cells::CellGrid};
+use crate::bins::{ALL_LANES, Group, cells::CellGrid};
 use std::ops::Range;
 
 /// Densities that are looked at together: most are fine.

@@ -1,6 +1,6 @@
 //! Runs of sorted particles that the passes work on side by side, with the runs of what may touch any of them.
 
-use crate::kernel::{
+use crate::{
     bins::{ALL_LANES, Group, Run, cells::CellGrid, rock::RockBins, sort::Sort},
     parallel::piece,
 };

@@ -1,6 +1,6 @@
 //! Rock, binned into the same cells as the particles, once for every change of it.
 
-use crate::kernel::{
+use crate::{
     bins::cells::CellGrid,
     solids::{Solids, centre},
 };

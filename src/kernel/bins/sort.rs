@@ -5,7 +5,7 @@
 //! sorted last, so most blocks of them belong to one segment as a whole, and the others are searched. Within a cell the
 //! order stays, so that the result is the same however the work is cut.
 
-use crate::kernel::{
+use crate::{
     bins::cells::CellGrid,
     element::ElementId,
     parallel::{cut, piece},

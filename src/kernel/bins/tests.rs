@@ -1,7 +1,7 @@
 //! Nobody within reach is missed, and everybody is in one group.
 
 use super::*;
-use crate::kernel::{element::ElementId, pbf::tests::random_numbers};
+use crate::{element::ElementId, pbf::tests::random_numbers};
 
 fn scattered(n: usize, size: Vec2) -> Particles {
     let mut random = random_numbers(12345);

@@ -1,9 +1,9 @@
 //! Particles at one point are set apart.
 
-use crate::kernel::{
+use crate::{
     bins::Strip,
     params::Domain,
-    pbf::{mix, unit},
+    random::{mix, unit},
     simd::{InstructionSet, Lanes, Pass},
     solids::Solids,
 };
@@ -90,7 +90,7 @@ impl Separate<'_> {
 #[cfg(test)]
 mod tests {
     use super::LOOK_BACK;
-    use crate::kernel::{
+    use crate::{
         element::ElementId,
         params::{Domain, Preset, WALL_GAP},
         particles::Particles,

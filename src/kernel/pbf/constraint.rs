@@ -1,6 +1,6 @@
 //! The pass for λ.
 
-use crate::kernel::{
+use crate::{
     bins::{Group, MOST_LANES, RockBins},
     params::{Domain, FluidParams},
     pbf::wall_sums,

@@ -1,6 +1,6 @@
 //! The pass for Δx.
 
-use crate::kernel::{
+use crate::{
     bins::{Group, MOST_LANES, RockBins},
     params::{Domain, FluidParams, WALL_GAP},
     pbf::{CorrectionLimit, wall_sums},

@@ -1,9 +1,9 @@
 //! Crowds are scattered.
 
-use crate::kernel::{
+use crate::{
     params::Domain,
     particles::Particles,
-    pbf::{mix, unit},
+    random::{mix, unit},
     solids::Solids,
 };
 use glam::Vec2;
@@ -39,7 +39,7 @@ pub(super) fn scatter(
 
 #[cfg(test)]
 mod tests {
-    use crate::kernel::{
+    use crate::{
         element::ElementId,
         params::{Domain, Preset},
         particles::Particles,
@@ -56,7 +56,7 @@ mod tests {
         let report = solver.bin(&mut particles, solids, &domain, &Preset::Fast.quality(), 1);
         assert!((0..particles.len()).all(|i| inside(particles.position(i))), "scattered through rock");
         assert!((0..particles.len()).all(|i| particles.velocity(i) == Vec2::new(1.0, 2.0)), "it moves no velocity");
-        let candidates = |group: &crate::kernel::bins::Group| -> usize {
+        let candidates = |group: &crate::bins::Group| -> usize {
             group.movable.iter().map(|run| run.range().len()).sum::<usize>() * usize::from(group.len)
         };
         let sum: usize = solver.bins.groups().iter().map(candidates).sum();

@@ -1,6 +1,6 @@
 //! How far iterating may move a particle from where it was predicted to be.
 
-use crate::kernel::{pbf::SolveParams, simd::Lanes};
+use crate::{pbf::SolveParams, simd::Lanes};
 
 /// From this density on, as a multiple of the one aimed at, a correction may be longer, and from the second on the longest.
 const CROWDED: [f32; 2] = [1.5, 2.0];

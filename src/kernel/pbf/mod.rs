@@ -15,7 +15,7 @@ mod limit;
 #[cfg(test)]
 pub(crate) mod tests;
 
-use crate::kernel::{
+use crate::{
     bins::{Bins, Group, Neighbours, RockBins, Strip},
     parallel,
     params::{Domain, FluidParams, GradientKernel, Quality},
@@ -320,20 +320,6 @@ impl Iteration<'_> {
             });
         });
     }
-}
-
-/// Scrambles a number (the finaliser of MurmurHash3), so that neighbouring ids point in unrelated directions.
-pub(crate) fn mix(mut word: u32) -> u32 {
-    word ^= word >> 16;
-    word = word.wrapping_mul(0x85eb_ca6b);
-    word ^= word >> 13;
-    word = word.wrapping_mul(0xc2b2_ae35);
-    word ^ (word >> 16)
-}
-
-/// The low 16 bits as a number in −1 … 1.
-pub(crate) fn unit(bits: u32) -> f32 {
-    (bits & 0xffff) as f32 / 32_767.5 - 1.0
 }
 
 /// What the walls that a kernel at `position` (d) reaches do to a particle there: the density that they add, and the sum of

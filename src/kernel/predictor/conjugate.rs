@@ -1,6 +1,6 @@
 //! Preconditioned conjugate gradients.
 
-use crate::kernel::{
+use crate::{
     parallel::{Rows, Sweep, Team, sweep},
     predictor::{
         PredictorReport,

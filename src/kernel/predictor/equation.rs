@@ -1,6 +1,6 @@
 //! The rows of the pressure equation: what is done to each cell or face of a row, in lanes. The caller walks the rows.
 
-use crate::kernel::predictor::pockets::ROUNDING;
+use crate::predictor::pockets::ROUNDING;
 use std::ops::Range;
 
 /// Nearest that the surface is taken to be to a liquid cell's centre, cells, so that the equation stays bounded. Within

@@ -1,6 +1,6 @@
 //! One level of the pressure equation: the operator, its smoother, and sums over cells.
 
-use crate::kernel::parallel::{Band, Rows, Sweep, Team, sweep};
+use crate::parallel::{Band, Rows, Sweep, Team, sweep};
 use std::ops::Range;
 
 /// Damping of the Jacobi smoother.

@@ -25,7 +25,7 @@ mod stencil;
 mod tests;
 mod transfer;
 
-use crate::kernel::{parallel::Team, params::Domain, particles::Particles, simd::InstructionSet, solids::Solids};
+use crate::{parallel::Team, params::Domain, particles::Particles, simd::InstructionSet, solids::Solids};
 use conjugate::Conjugate;
 use glam::Vec2;
 use grid::MacGrid;

@@ -1,7 +1,7 @@
 //! The multigrid V-cycle that preconditions the pressure equation: damped Jacobi, aggregation of 2 × 2 cells, Galerkin
 //! coarse operators, an over-weighted coarse correction (aggregation underestimates smooth corrections, Braess 1995).
 
-use crate::kernel::{
+use crate::{
     parallel::{Rows, Sweep, Team, sweep},
     predictor::level::{Level, RowSums, WORTH_A_PIECE, damping},
 };

@@ -2,7 +2,7 @@
 //! part of its room, and the faces of the other part are closed: else the pressure would go through the cell from one
 //! side of the wall to the other, as it would at every slanting wall.
 
-use crate::kernel::{predictor::grid::MacGrid, solids::Solids};
+use crate::{predictor::grid::MacGrid, solids::Solids};
 use glam::IVec2;
 
 /// The parts that cut cells stand for.

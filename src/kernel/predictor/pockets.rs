@@ -4,7 +4,7 @@
 //! to 0. The divergences do (what flows out of one cell flows into the next), the density feedback does not: a pocket
 //! that holds too much liquid can't get rid of it. So the mean of the right-hand side is taken out of each pocket.
 
-use crate::kernel::predictor::{grid::MacGrid, level::Level};
+use crate::predictor::{grid::MacGrid, level::Level};
 
 /// Couplings that differ by less than this are equal: rounding of the sums of open shares.
 pub(super) const ROUNDING: f32 = 1e-4;

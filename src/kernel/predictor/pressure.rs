@@ -1,6 +1,6 @@
 //! The pressure equation: divergence and density feedback in, changes of face velocities out.
 
-use crate::kernel::{
+use crate::{
     parallel::{Rows, Sweep, Team, sweep},
     predictor::{
         PredictorReport,

@@ -1,6 +1,6 @@
 //! What rock closes: how much of each face is open, and how much of each cell's neighbourhood is rock.
 
-use crate::kernel::{
+use crate::{
     predictor::{
         grid::MacGrid,
         parts::Parts,

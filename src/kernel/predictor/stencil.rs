@@ -1,6 +1,6 @@
 //! Bilinear weights of the faces around a point.
 
-use crate::kernel::{blocks::Reach, predictor::grid::MacGrid, simd::whole_below};
+use crate::{blocks::Reach, predictor::grid::MacGrid, simd::whole_below};
 
 /// Which faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

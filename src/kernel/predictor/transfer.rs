@@ -1,6 +1,6 @@
 //! Particles to grid and back, with bilinear weights.
 
-use crate::kernel::{
+use crate::{
     blocks::Blocks,
     parallel::{Rows, Sweep, Team, WORTH_A_PIECE, spread, sweep},
     particles::{Particles, extent},

@@ -1,7 +1,7 @@
 //! What has been calm for a second falls asleep.
 
 use super::{Sleep, TURNS};
-use crate::kernel::{particles::Particles, units::TICK_SECONDS};
+use crate::{particles::Particles, units::TICK_SECONDS};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 

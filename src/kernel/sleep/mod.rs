@@ -26,7 +26,7 @@ mod waking;
 pub use falling::{DRIFT, JITTER, LOOK_TICKS};
 pub use waking::BREEZE;
 
-use crate::kernel::particles::Particles;
+use crate::particles::Particles;
 use falling::{Calm, Tally};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};

@@ -1,5 +1,5 @@
 use super::{falling::LOOKS, *};
-use crate::kernel::{
+use crate::{
     air::Air,
     element::ElementId,
     params::{AIR_DENSITY, AirParams, OpenSides},

@@ -1,7 +1,7 @@
 //! What is touched, or about to be, wakes.
 
 use super::{ASLEEP, NEAR, Sleep, TURNS, falling::Calm};
-use crate::kernel::{air::Air, particles::Particles};
+use crate::{air::Air, particles::Particles};
 use glam::Vec2;
 use std::ops::Range;
 

@@ -7,12 +7,12 @@ mod occupancy;
 #[cfg(test)]
 mod tests;
 
-use crate::kernel::{
+use crate::{
     brush::Stroke,
     element::{ElementId, ElementTable},
     params::Domain,
     particles::Particles,
-    pbf::{mix, unit},
+    random::{mix, unit},
     solids::{Solids, centre, is_whole},
     sources::{Drain, Emitter},
 };

@@ -1,6 +1,6 @@
 //! Which sites are taken.
 
-use crate::kernel::{particles::Particles, solids::Solids, spawn::CLEARANCE};
+use crate::{particles::Particles, solids::Solids, spawn::CLEARANCE};
 use glam::{IVec2, Vec2};
 
 /// Which points near a region are taken: particles in lists by cell. Its buffers are used again and again.

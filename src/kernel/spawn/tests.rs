@@ -1,7 +1,7 @@
 //! What placing and taking away must hold to.
 
 use super::*;
-use crate::kernel::{brush::BrushShape, element::Element, sources::Rect};
+use crate::{brush::BrushShape, element::Element, sources::Rect};
 
 struct Bench {
     domain: Domain,

@@ -8,7 +8,7 @@ mod vorticity;
 pub use viscosity::apply_viscosity;
 pub use vorticity::apply_vorticity;
 
-use crate::kernel::{
+use crate::{
     element::ElementId,
     parallel::{WORTH_A_PIECE, spread},
     particles::Particles,

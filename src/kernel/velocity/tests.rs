@@ -1,8 +1,8 @@
 //! Viscosity and vorticity confinement against what is known of them.
 
 use super::*;
-use crate::kernel::predict::longest_move;
-use crate::kernel::{
+use crate::predict::longest_move;
+use crate::{
     params::{GradientKernel, Preset},
     pbf::tests::{Bench, random_numbers},
     units::TICK_SECONDS,

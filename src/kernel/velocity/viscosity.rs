@@ -8,7 +8,7 @@
 //! `Σ w_j ≤ 1` it is an average of old ones, so no speed can rise; differences shrink up to `Σ w_j ≤ 2` and grow past it.
 //! As `Σ m/ρ_j W ≈ 1`, the bound is **`c Δt/tick ≤ 1`**. A coefficient beyond it is cut to it, and counted.
 
-use crate::kernel::{
+use crate::{
     bins::Group,
     element::ElementId,
     parallel,

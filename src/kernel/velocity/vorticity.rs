@@ -16,7 +16,7 @@
 //! sum, is larger by as much as the crowd is denser, and so is the push. No push changes a speed by more than a tenth of
 //! the longest move of a substep; one beyond it is cut to it, and counted.
 
-use crate::kernel::{
+use crate::{
     bins::Group,
     parallel,
     params::GradientKernel,

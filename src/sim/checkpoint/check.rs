@@ -4,13 +4,17 @@ use super::contents::Contents;
 use crate::{
     kernel::{
         air::Air,
-        element::{Element, ElementId},
+        element::{Element, ElementId, ElementTable},
         params::{AirParams, Domain, Preset, Quality},
         solids::Solids,
         sources::Rect,
         units::Scale,
     },
-    scene::{MOST_COVERED, blueprint::Effect},
+    scene::{
+        MOST_COVERED,
+        blueprint::Effect,
+        elements::{self, Fault},
+    },
     sim::state::Clock,
 };
 use glam::Vec2;
@@ -54,7 +58,7 @@ fn finite(name: &str, value: Vec2) -> Verdict {
 pub(super) fn contents(contents: &Contents) -> Verdict {
     texts(contents)?;
     numbers(contents)?;
-    elements(&contents.elements)?;
+    element_rows(&contents.elements)?;
     names(contents)?;
     clock(&contents.clock)?;
     particles(contents)?;
@@ -104,21 +108,9 @@ pub(in crate::sim) fn quality(quality: &Quality) -> Verdict {
     within("air_courant", quality.air_courant, 0.1, 0.9)
 }
 
-fn elements(elements: &[Element]) -> Verdict {
-    within("number of elements", elements.len() as f32, 1.0, 255.0)?;
-    let mut taken = HashSet::new();
-    for element in elements {
-        let word = element.name.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_');
-        demand(word && (1..=32).contains(&element.name.len()), || "an element has no proper name".to_owned())?;
-        demand(taken.insert(&element.name), || format!("two elements are called {}", element.name))?;
-        demand(element.key.is_ascii_digit(), || format!("the key of {} is no digit", element.name))?;
-        within("density", element.density, 1.0, 100_000.0)?;
-        within("viscosity", element.viscosity, 0.0, 0.5)?;
-        within("vorticity", element.vorticity, 0.0, 1.0)?;
-        within("drag", element.drag, 0.0, 1000.0)?;
-        within("flow", element.flow, f32::MIN_POSITIVE, 1.0)?;
-    }
-    Ok(())
+fn element_rows(elements: &[Element]) -> Verdict {
+    within("number of elements", elements.len() as f32, 1.0, ElementTable::MOST as f32)?;
+    elements::check(elements).map_err(|Fault { row, field, what }| format!("{field} of element {row}: {what}"))
 }
 
 fn names(contents: &Contents) -> Verdict {

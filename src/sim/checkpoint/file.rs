@@ -26,7 +26,7 @@ use std::sync::Arc;
 /// What every save file begins with.
 pub(super) const MAGIC: &[u8] = b"PowderMaster\n";
 /// Version of the format. Raise it when [`Contents`] or anything in it changes: old files are refused, not misread.
-const VERSION: u16 = 3;
+const VERSION: u16 = 4;
 
 /// Why a file is not loaded, in one line.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -23,9 +23,9 @@ pub fn bind(module: &Path, places: &Places) -> Result<Bound, Fault> {
     write(bindgen.input_path(module), &places.work, "powder-master")
 }
 
-/// Writes the script that takes the module of the tests into node.
-pub fn bind_suite(module: &Path, places: &Places) -> Result<(), Fault> {
-    let bound = write(Bindgen::new().input_path(module), &places.suite, "suite")?;
+/// Writes the script that takes a module of tests into node; both are called `name`.
+pub fn bind_suite(module: &Path, name: &str, places: &Places) -> Result<(), Fault> {
+    let bound = write(Bindgen::new().input_path(module), &places.suite, name)?;
     // Node takes a script for a module by its ending.
     let script = bound.script.with_extension("mjs");
     fs::rename(&bound.script, &script).map_err(|error| Fault::file(&script, error))

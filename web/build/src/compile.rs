@@ -30,24 +30,27 @@ const ACROSS_CRATES: &str = "-Clto=fat";
 /// compiled in pieces side by side.
 const SUITE: [&str; 2] = ["debug-assertions=true", "codegen-units=16"];
 
+/// The package that is the game.
+const PROGRAM: &str = "powder-master";
+
 /// Compiles the game, for size or soon, and says where its module is.
 pub fn compile(places: &Places, quick: bool) -> Result<PathBuf, Fault> {
     eprintln!("compiling the game for wasm32 (the first time takes a while)");
-    let mut command = cargo("rustc", places);
+    let mut command = cargo("rustc", PROGRAM, places);
     command.args(["--crate-type", "cdylib", "--"]).args(MODULE_FLAGS).args((!quick).then_some(ACROSS_CRATES));
     tool::run(&mut command).map_err(|_| Fault::failed("the game does not compile for wasm32 (see above)"))?;
     Ok(places.target.join("wasm32-unknown-unknown/web/powder_master.wasm"))
 }
 
-/// Compiles the tests of the library, and says where their module is.
-pub fn compile_suite(places: &Places) -> Result<PathBuf, Fault> {
-    eprintln!("compiling the tests for wasm32 (the first time takes a while)");
-    let mut command = cargo("test", places);
+/// Compiles the tests of a package's library, and says where their module is.
+pub fn compile_suite(package: &str, places: &Places) -> Result<PathBuf, Fault> {
+    eprintln!("compiling the tests of {package} for wasm32 (the first time takes a while)");
+    let mut command = cargo("test", package, places);
     // Cargo would compile all crates anew, for tests that unwind, which a module can't.
     command.arg("-Zpanic-abort-tests").args(["--no-run", "--message-format", "json-render-diagnostics"]);
     let flags = format!("rustflags={MODULE_FLAGS:?}");
     for setting in SUITE.into_iter().chain([flags.as_str()]) {
-        command.arg("--config").arg(format!("profile.web.package.powder-master.{setting}"));
+        command.arg("--config").arg(format!("profile.web.package.{package}.{setting}"));
     }
     let messages = tool::output_of_loud(command.arg("-Zprofile-rustflags"))
         .map_err(|_| Fault::failed("the tests do not compile for wasm32 (see above)"))?;
@@ -57,8 +60,8 @@ pub fn compile_suite(places: &Places) -> Result<PathBuf, Fault> {
         .ok_or_else(|| Fault::failed("cargo does not say where the module of the tests is"))
 }
 
-/// A command of cargo about the library for wasm32, with the standard library built along.
-fn cargo(command: &str, places: &Places) -> Command {
+/// A command of cargo about a package's library for wasm32, with the standard library built along.
+fn cargo(command: &str, package: &str, places: &Places) -> Command {
     let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo
         .current_dir(&places.root)
@@ -66,7 +69,7 @@ fn cargo(command: &str, places: &Places) -> Command {
         .env("RUSTC_BOOTSTRAP", "1")
         .env("CARGO_ENCODED_RUSTFLAGS", FLAGS.join("\x1f"))
         .env_remove("RUSTFLAGS")
-        .args([command, "--package", "powder-master", "--lib", "--profile", "web"])
+        .args([command, "--package", package, "--lib", "--profile", "web"])
         // `test` is for the tests; it is not in the game, but so the crates are the same for both.
         .args(["--target", "wasm32-unknown-unknown", "-Zbuild-std=std,panic_abort,test", "--target-dir"])
         .arg(&places.target);

@@ -2,7 +2,7 @@
 
 use super::super::Rousing;
 use super::*;
-use crate::kernel::{
+use crate::{
     forces::{DragTable, apply_drag},
     particles::Particles,
 };

@@ -2,7 +2,7 @@
 
 use super::super::{MAX_PRESSURE, MAX_SPEED, MAX_SUBSTEPS};
 use super::*;
-use crate::kernel::sources::Wind;
+use crate::sources::Wind;
 
 fn assert_mass(air: &Air, mass: f64) {
     assert_sane(air);

@@ -9,12 +9,12 @@ mod walls;
 mod waves;
 
 use super::Air;
-use crate::kernel::element::ElementId;
-use crate::kernel::parallel::{Team, in_pool};
-use crate::kernel::params::{AIR_DENSITY, AirAdvection, AirParams, AirScheme, OpenSides};
-use crate::kernel::simd::InstructionSet;
-use crate::kernel::solids::Solids;
-use crate::kernel::sources::Rect;
+use crate::element::ElementId;
+use crate::parallel::{Team, in_pool};
+use crate::params::{AIR_DENSITY, AirAdvection, AirParams, AirScheme, OpenSides};
+use crate::simd::InstructionSet;
+use crate::solids::Solids;
+use crate::sources::Rect;
 use glam::{IVec2, Vec2};
 
 /// Speed of sound of the tests, d/s.

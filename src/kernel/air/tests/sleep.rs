@@ -2,7 +2,7 @@
 
 use super::super::QUIET_MACH;
 use super::*;
-use crate::kernel::sources::Wind;
+use crate::sources::Wind;
 
 fn sleeping(columns: u32, rows: u32, cell: f32) -> Air {
     let mut air = closed(columns, rows, cell);

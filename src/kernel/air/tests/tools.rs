@@ -1,7 +1,7 @@
 //! Fans, brushes and samples.
 
 use super::*;
-use crate::kernel::sources::Wind;
+use crate::sources::Wind;
 
 #[test]
 fn samples_are_bilinear_between_centres_and_level_beyond_them() {

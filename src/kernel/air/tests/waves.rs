@@ -2,7 +2,7 @@
 
 use super::super::{MAX_SUBSTEPS, QUIET_MACH, STABLE_COURANT};
 use super::*;
-use crate::kernel::sources::Wind;
+use crate::sources::Wind;
 
 /// Column of the highest pressure right of the middle of a row, to a part of a cell (parabola through three).
 fn crest(air: &Air, row: usize) -> f32 {

@@ -4,7 +4,7 @@ mod focus;
 pub(crate) mod reference;
 
 use super::*;
-use crate::kernel::{
+use crate::{
     element::ElementId,
     params::{Preset, WALL_GAP},
 };
@@ -75,17 +75,17 @@ impl Bench {
     pub(crate) fn step(&mut self, tension: bool, dt: f32) {
         let Self { particles, solids, domain, quality, solver, predicted, .. } = self;
         let predicted = *predicted;
-        crate::kernel::predict::predict(particles, solver.instructions, solids, domain, quality, 1, dt);
+        crate::predict::predict(particles, solver.instructions, solids, domain, quality, 1, dt);
         let params = SolveParams { domain, fluid: &self.fluid, quality, tension, predicted, threads: 1 };
         solver.bin(particles, solids, domain, quality, 1);
         solver.solve(particles, &params);
-        crate::kernel::velocity::update_velocities(particles, solver, solids, predicted, 1, dt);
+        crate::velocity::update_velocities(particles, solver, solids, predicted, 1, dt);
     }
 }
 
 /// The same numbers in every run, 0 … 1.
 pub(crate) fn random_numbers(seed: u32) -> impl FnMut() -> f32 {
-    let mut state = mix(seed) | 1;
+    let mut state = crate::random::mix(seed) | 1;
     move || {
         state ^= state << 13;
         state ^= state >> 17;

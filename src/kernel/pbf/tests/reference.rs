@@ -2,7 +2,7 @@
 //! in double precision, with rock and walls as `smoothing` documents them. Slow, and nothing in it is shared with the
 //! passes that it checks.
 
-use crate::kernel::params::{Domain, FluidParams, GradientKernel, Quality};
+use crate::params::{Domain, FluidParams, GradientKernel, Quality};
 use std::f64::consts::PI;
 
 /// A point or a vector, d.

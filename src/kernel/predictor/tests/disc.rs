@@ -5,7 +5,7 @@ use super::{
     rig::{Rig, cells},
     solids,
 };
-use crate::kernel::solids::Solids;
+use crate::solids::Solids;
 use glam::Vec2;
 use std::f64::consts::PI;
 

@@ -11,7 +11,7 @@ mod surface;
 mod transfer;
 mod walls;
 
-use crate::kernel::{
+use crate::{
     element::ElementId,
     parallel::Team,
     particles::Particles,
@@ -19,7 +19,7 @@ use crate::kernel::{
     simd::InstructionSet,
     solids::Solids,
 };
-use crate::kernel::{params::Domain, solids::centre};
+use crate::{params::Domain, solids::centre};
 use glam::{IVec2, Vec2};
 
 /// Edge of a cell as the presets have it, d.

@@ -5,7 +5,7 @@ use super::{
     rig::{Equation, cells},
     solids,
 };
-use crate::kernel::{predictor::pockets::Pockets, solids::Solids};
+use crate::{predictor::pockets::Pockets, solids::Solids};
 use glam::Vec2;
 
 /// Connected liquid as a flood from each cell finds it: the cells of each part and whether it touches air.

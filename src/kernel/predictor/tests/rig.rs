@@ -1,7 +1,7 @@
 //! The pressure equation on its own, and the projection with all its fields in view.
 
 use super::{DT, team};
-use crate::kernel::{
+use crate::{
     particles::Particles,
     predictor::{
         PredictorReport, TARGET_DENSITY,

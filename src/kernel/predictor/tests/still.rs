@@ -1,7 +1,7 @@
 //! Still water needs no correction but for the weight that it carries.
 
 use super::{CELL, DT, LATTICE, lattice, predict, rig::Rig, solids};
-use crate::kernel::{element::ElementId, particles::Particles};
+use crate::{element::ElementId, particles::Particles};
 use glam::Vec2;
 
 /// Gravity of a spacing of 0.1 m, d/s².

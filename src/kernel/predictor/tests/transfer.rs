@@ -1,7 +1,7 @@
 //! Particles to grid and back: constants and linear fields, and the sums that have to stay.
 
 use super::{CELL, DT, LATTICE, lattice, noise, size, solids, team};
-use crate::kernel::{
+use crate::{
     element::ElementId,
     params::Domain,
     particles::Particles,

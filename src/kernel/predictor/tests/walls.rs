@@ -5,7 +5,7 @@ use super::{
     rig::{Rig, cells},
     solids,
 };
-use crate::kernel::{
+use crate::{
     element::ElementId,
     particles::Particles,
     predictor::grid::MacGrid,

@@ -158,7 +158,7 @@ pub(in crate::lab::gauntlet) const HEAVY_ABOVE_LIGHT: Case = Case {
     arrange: Some(|blueprint| {
         let mut rows: Vec<Element> = blueprint.elements.iter().map(|(_, element)| element.clone()).collect();
         let water_row = blueprint.elements.get(element(&blueprint.elements, "water")).clone();
-        rows.push(Element { name: "light".into(), density: 1.0, key: '9', colour: [240, 220, 130], ..water_row });
+        rows.push(Element { name: "light".into(), density: 1.0, key: None, colour: [240, 220, 130], ..water_row });
         blueprint.elements = Arc::new(ElementTable::new(rows));
         let light = element(&blueprint.elements, "light");
         for i in 0..blueprint.particles.len() {

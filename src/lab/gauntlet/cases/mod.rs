@@ -13,7 +13,7 @@ pub(super) mod rock;
 use crate::{
     kernel::{
         element::{Element, ElementId, ElementTable},
-        pbf::{mix, unit},
+        random::{mix, unit},
     },
     scene::blueprint::Blueprint,
     sim::{

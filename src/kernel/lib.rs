@@ -4,6 +4,10 @@
 //! density of liquid is counted in that of its lattice; where masses meet, as in the exchange of liquid and air, they are
 //! kg/m² d², so that a density is the mass of a cell of 1 d². The box is `[0, width] × [0, height]`, y points up.
 
+#![forbid(unsafe_op_in_unsafe_fn)]
+#![cfg_attr(all(test, target_arch = "wasm32"), feature(custom_test_frameworks, test))]
+#![cfg_attr(all(test, target_arch = "wasm32"), test_runner(crate::suite::run))]
+
 pub mod air;
 pub mod bins;
 mod blocks;
@@ -17,6 +21,7 @@ pub mod particles;
 pub mod pbf;
 pub mod predict;
 pub mod predictor;
+pub mod random;
 pub mod simd;
 pub mod sleep;
 pub mod smoothing;
@@ -25,3 +30,7 @@ pub mod sources;
 pub mod spawn;
 pub mod units;
 pub mod velocity;
+
+#[cfg(all(test, target_arch = "wasm32"))]
+#[path = "../web/suite.rs"]
+mod suite;
