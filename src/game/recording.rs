@@ -72,7 +72,7 @@ pub fn keep_last_minute(world: &mut World) {
     if !world.contains_resource::<Setup>() {
         return;
     }
-    // What the last tick changed is on the tape; what was put in the place of the world since then is not yet.
+    // What the last tick changed is recorded; what was put in the place of the world since then is not yet.
     world.resource::<Recorder>().keep_up(world);
     let bytes = world.resource::<Recorder>().last_minute(recorder::end_now(world));
     let written = write_new(&folders(world), world.resource::<Recorder>(), "", &bytes);
@@ -112,7 +112,7 @@ pub fn write_to(folders: &[PathBuf], recorder: &Recorder, suffix: &str, end: End
     let Some(bytes) = recorder.recording(end) else { return Ok(None) };
     let named = recorder.destination();
     let written = match &named {
-        Some(path) => files::write_whole(path, &bytes).map(|()| path.clone()),
+        Some(path) => disk::write_whole(path, &bytes).map(|()| path.clone()),
         None => write_new(folders, recorder, suffix, &bytes),
     };
     written.map(Some).map_err(|error| {

@@ -198,20 +198,20 @@ fn what_a_script_breaks_without_an_intent_begins_a_segment() {
     assert_eq!(same(&recording), (40, simulation.hash()));
 }
 
-/// Gravity is no part of a state that undo puts back, but of the scene that reset begins again.
 #[test]
-fn gravity_stays_through_undo_and_saves_and_ends_with_a_reset() {
+fn undo_gives_gravity_back_a_save_keeps_it_and_a_reset_ends_it() {
     let mut simulation = recorded("dam_break", &[("columns", "12")]);
     let scenes = simulation.get::<Setup>().domain.gravity;
-    let before = control::freeze(simulation.world());
+    let before = Checkpoint::of(simulation.world());
     let up = -2.0 * scenes;
     simulation.push(Intent::Gravity { gravity: up }).run(10);
     assert_eq!(
         (simulation.get::<Setup>().domain.gravity, simulation.get::<Setup>().blueprint.domain.gravity),
         (up, scenes)
     );
-    control::thaw(simulation.world_mut(), &before);
-    simulation.run(10);
+    before.restore(simulation.world_mut());
+    assert_eq!(simulation.get::<Setup>().domain.gravity, scenes);
+    simulation.push(Intent::Gravity { gravity: up }).run(10);
     let saved =
         Checkpoint::decode(&Checkpoint::of(simulation.world()).encode()).unwrap_or_else(|error| panic!("{error}"));
     let mut other = Simulation::scene("empty", &[]);

@@ -109,7 +109,7 @@ fn headers_say_what_is_wrong() {
     assert_eq!(refusal(b"\x89PNG\r\n\x1a\n and more"), SaveError::Foreign.to_string());
     let mut newer = bytes.clone();
     newer[MAGIC.len()] = 200;
-    assert!(refusal(&newer).contains("format 200; this program reads format 3"));
+    assert!(refusal(&newer).contains("format 200; this program reads format 4"));
 }
 
 #[test]
