@@ -6,13 +6,11 @@ mod values;
 
 use crate::{
     kernel::{params::Preset, simd::InstructionSet},
+    lab::{exam::ExamCase, gauntlet::GauntletCase},
     scene::blueprint::{Effect, Mode},
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
-pub(super) use lab::{
-    Bench, BenchArguments, ExamArguments, GauntletArguments, ReportOptions, SoakArguments, Study, StudyArguments,
-    SweepArguments,
-};
+pub(super) use lab::{Bench, BenchArguments, CaseArguments, SoakArguments, Study, StudyArguments, SweepArguments};
 use std::path::PathBuf;
 pub(super) use values::{Minutes, Ticks};
 use values::{effect, hold_error, hold_ms, preset, seconds, setting, simd, threads, ticks, warmup};
@@ -39,11 +37,11 @@ pub(super) enum Command {
     /// Measure what something costs, and print the table
     Bench(BenchArguments),
     /// Compare the physics with known answers, at each quality
-    Exam(ExamArguments),
+    Exam(CaseArguments<ExamCase>),
     /// Play a scene for hours by a script, and see that nothing grows or gets lost
     Soak(SoakArguments),
     /// Run every hard case at each quality, and judge whether it stays stable
-    Gauntlet(GauntletArguments),
+    Gauntlet(CaseArguments<GauntletCase>),
     /// Repeat an experiment of the report on the original game
     Study(StudyArguments),
     /// Measure what accuracy costs in a scene: curve.csv, curve.svg, curve.png, summary.md

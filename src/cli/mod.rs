@@ -3,15 +3,13 @@
 
 mod args;
 mod bench;
-mod exam;
 mod failure;
-mod gauntlet;
+mod judge;
 mod list;
 mod output;
 mod play;
 mod progress;
 mod replay;
-mod report;
 mod run;
 mod soak;
 mod start;
@@ -52,9 +50,9 @@ fn dispatch(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Run(run)) => run::run(&run),
         Some(Command::Replay(replay)) => replay::replay(&replay),
         Some(Command::Bench(bench)) => bench::bench(&bench),
-        Some(Command::Exam(arguments)) => exam::exam(&arguments),
+        Some(Command::Exam(arguments)) => judge::judge(&arguments),
         Some(Command::Soak(arguments)) => soak::soak(&arguments),
-        Some(Command::Gauntlet(arguments)) => gauntlet::gauntlet(&arguments),
+        Some(Command::Gauntlet(arguments)) => judge::judge(&arguments),
         Some(Command::Study(study)) => study::study(&study),
         Some(Command::Sweep(sweep)) => sweep::sweep(&sweep),
         Some(Command::List { what }) => list::list(what),

@@ -51,6 +51,18 @@ pub(super) fn write_json(path: &Path, value: &impl Serialize) -> Result<(), Fail
     if path == Path::new(STDOUT) { print(&text) } else { write(path, |file| file.write_all(text.as_bytes())) }
 }
 
+/// Says how to get charts, where the program can't draw them.
+pub(super) fn note_missing_charts(command: &str) {
+    if cfg!(not(feature = "charts")) {
+        // Nothing depends on whether it is heard.
+        let _ = writeln!(
+            io::stderr(),
+            "powder-master: this build draws no charts (it lacks the cargo feature `charts`); `cargo headless {command} …` \
+             draws them"
+        );
+    }
+}
+
 /// Prints on stdout. A reader that has heard enough is no failure.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();

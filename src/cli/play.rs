@@ -21,13 +21,13 @@ pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Fai
 fn open(scene: &str, options: &PlayOptions, start: &Start, recording: Option<Recording>) -> Result<(), Failure> {
     use crate::{
         game::{self, GameError, playback},
-        lab::{exam, gauntlet, live::LivePlugin},
+        lab::live::LivePlugin,
         sim::state::SolverState,
     };
     use bevy::app::AppExit;
 
     match game::run(scene, options.record.clone(), |app| {
-        app.add_plugins((exam::plugin, gauntlet::plugin, LivePlugin));
+        app.add_plugins(LivePlugin);
         start.checkpoint.restore(app.world_mut());
         app.world_mut().resource_mut::<SolverState>().instructions = options.simd;
         if let Some(recording) = recording {

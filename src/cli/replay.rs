@@ -5,7 +5,7 @@ use crate::{
         args::ReplayArguments,
         failure::Failure,
         output::{self, STDOUT},
-        progress::StatusLine,
+        progress,
         start::{bad, read},
         threads,
     },
@@ -16,16 +16,11 @@ use crate::{
         workers::Workers,
     },
 };
-use bevy::platform::time::Instant;
 use serde::Serialize;
 use std::{
     panic::{self, AssertUnwindSafe},
     path::Path,
-    time::Duration,
 };
-
-/// Time from one word of progress to the next.
-const EVERY: Duration = Duration::from_millis(200);
 
 /// What came out.
 #[derive(Serialize)]
@@ -94,13 +89,9 @@ pub(super) fn replay(arguments: &ReplayArguments) -> Result<(), Failure> {
 
 /// Runs to the end, and on through the tick of a crash; the hash of the world there.
 fn run(replay: &mut Replay, recording: &Recording) -> Result<u64, Stop> {
-    let (line, ticks) = (StatusLine::new(), recording.ticks());
-    let mut shown = Instant::now();
+    let line = progress::bar(recording.ticks());
     while guard(|| replay.tick())? {
-        if shown.elapsed() >= EVERY {
-            shown = Instant::now();
-            line.say(&format!("{:3} %  tick {} of {ticks}", 100 * replay.done() / ticks, replay.done()));
-        }
+        line.set_position(replay.done());
     }
     let hash = guard(|| replay.finish())?;
     if recording.end == Some(End::Crashed) {

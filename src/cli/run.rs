@@ -5,7 +5,7 @@ use crate::{
         args::{RunArguments, Ticks},
         failure::Failure,
         output::{self, STDOUT},
-        progress::Progress,
+        progress,
         start::Start,
         threads,
     },
@@ -167,7 +167,7 @@ fn plan(arguments: &RunArguments, segment: Option<Segment>) -> Result<Plan, Fail
 
 /// The same start run at `reference` quality.
 fn reference(path: &Path, world: &World, plan: &Plan) -> Result<Reference, Failure> {
-    let mut progress = Progress::new(plan.ticks);
+    let mut progress = progress::bar(plan.ticks);
     Reference::record(&Checkpoint::of(world), plan, Workers::default(), &mut progress)
         .map_err(|error| Failure::unwritten(path, &error))
 }
@@ -180,7 +180,7 @@ fn simulate<'a>(
     follower: Option<&mut Follower>,
     mut tracing: Option<Tracing<'a>>,
 ) -> Result<Option<Tracing<'a>>, Failure> {
-    let mut progress = Progress::new(plan.ticks);
+    let mut progress = progress::bar(plan.ticks);
     let mut observers: Vec<&mut dyn Observer> = vec![&mut progress];
     if let Some(sampler) = sampler {
         observers.push(sampler);

@@ -4,9 +4,7 @@ use crate::{
     cli::{
         args::{Study, StudyArguments},
         failure::Failure,
-        output,
-        progress::StatusLine,
-        threads,
+        output, progress, threads,
     },
     lab::{
         picture::Picture,
@@ -30,9 +28,9 @@ fn rest_density(threads: Option<u64>, folder: &Path) -> Result<(), Failure> {
     let path = folder.join("rest-density.png");
     output::check(&[&path])?;
     threads::start(threads)?;
-    let line = StatusLine::new();
+    let line = progress::status();
     let (outcomes, pictures): (Vec<_>, Vec<_>) =
-        rest_density::study(&Workers::default(), &mut |text| line.say(text))?.into_iter().unzip();
+        rest_density::study(&Workers::default(), &mut |text| line.set_message(text.to_owned()))?.into_iter().unzip();
     drop(line);
     let rows: Vec<Picture> = pictures.chunks(RATIOS.len()).map(|row| Picture::row(row, GAP)).collect();
     output::write(&path, |file| Picture::column(&rows).write_png(file))?;

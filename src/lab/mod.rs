@@ -4,24 +4,24 @@
 
 pub mod balance;
 pub mod binning;
+pub mod cases;
+#[cfg(all(feature = "charts", not(target_arch = "wasm32")))]
+pub mod chart;
 pub mod coarse;
-mod crew;
 pub mod density;
-mod desk;
 mod drift;
 mod drive;
 pub mod exam;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod gating;
 pub mod gauntlet;
+pub mod jobs;
 pub mod live;
 pub mod machine;
 mod markdown;
 pub mod metrics;
 pub mod particle_list;
 pub mod picture;
-#[cfg(not(target_arch = "wasm32"))]
-pub mod plot;
 pub mod reference;
 pub mod rest_density;
 pub mod run;

@@ -71,11 +71,11 @@ fn a_particle_that_is_no_number_goes_and_all_others_do_not_notice() {
 #[test]
 fn a_particle_that_turns_bad_during_play_is_as_if_it_had_been_erased() {
     for poison in POISON {
-        let mut sandboxes = [Simulation::of(dam(8)), Simulation::of(dam(8))];
-        for simulation in &mut sandboxes {
+        let mut simulations = [Simulation::of(dam(8)), Simulation::of(dam(8))];
+        for simulation in &mut simulations {
             simulation.run(40);
         }
-        let [clean, poisoned] = &mut sandboxes;
+        let [clean, poisoned] = &mut simulations;
         let victim = poisoned.particles().id[60];
         poisoned.particles_mut().vy[60] = poison;
         clean.particles_mut().retain(|particles, i| particles.id[i] != victim);

@@ -4,7 +4,6 @@ use crate::{
     monkey::whim,
     support::{Random, SimulationExt, WATER, blueprint},
 };
-use bevy::app::App;
 use glam::Vec2;
 use powder_master::{
     kernel::{
@@ -12,7 +11,7 @@ use powder_master::{
         params::Preset,
         simd::InstructionSet,
     },
-    lab::gauntlet,
+    lab::gauntlet::CASES,
     scene::{
         self,
         blueprint::{Effect, Mode},
@@ -20,7 +19,6 @@ use powder_master::{
     sim::{
         checkpoint::Checkpoint,
         control,
-        gauntlet::Cases,
         intent::Intent,
         pace::Pace,
         recorder::{self, KEPT_TICKS, Recorder, SEGMENT_TICKS},
@@ -156,12 +154,9 @@ fn a_recording_begun_right_after_a_jump_leaves_the_jump_in_the_last_minute() {
 
 /// A hard case of the gauntlet with its script, as the game plays it where it is watched, recorded from its 20th tick on.
 fn watched(name: &str, ticks: u32) -> (Simulation, Recording) {
-    let mut lab = App::new();
-    lab.add_plugins(gauntlet::plugin);
-    let case = lab.world().resource::<Cases>().find(name).unwrap_or_else(|| panic!("no case {name}"));
+    let case = CASES.iter().find(|case| case.name == name).unwrap_or_else(|| panic!("no case {name}"));
     let mut simulation = recorded("empty", &[]);
-    let start = (case.start)(Preset::Draft).unwrap_or_else(|error| panic!("{error}"));
-    case.play(simulation.world_mut(), start);
+    case.play(simulation.world_mut(), Preset::Draft).unwrap_or_else(|error| panic!("{error}"));
     simulation.run(20);
     simulation.get::<Recorder>().begin(simulation.world(), None);
     simulation.run(ticks);

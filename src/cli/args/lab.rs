@@ -1,9 +1,10 @@
 //! What measures and judges.
 
-use super::values::{
-    Minutes, cap, exam_case, gauntlet_case, hours, particles, preset, rounds, setting, simd, threads, ticks, warmup,
+use super::values::{Minutes, cap, case, hours, particles, preset, rounds, setting, simd, threads, ticks, warmup};
+use crate::{
+    kernel::{params::Preset, simd::InstructionSet},
+    lab::cases::Case,
 };
-use crate::kernel::{params::Preset, simd::InstructionSet};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -68,9 +69,11 @@ impl ScalingOptions {
     }
 }
 
-/// What `exam` and `gauntlet` have in common.
+/// `exam` and `gauntlet`.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct ReportOptions {
+pub(in crate::cli) struct CaseArguments<C: Case> {
+    #[arg(long = "case", value_name = "NAME", value_parser = case::<C>, help = C::SUITE.which)]
+    pub(in crate::cli) cases: Vec<&'static C>,
     /// Write the rows as JSON; `-` is stdout, in place of the table
     #[arg(long, value_name = "FILE.json")]
     pub(in crate::cli) json: Option<PathBuf>,
@@ -86,26 +89,6 @@ pub(in crate::cli) struct ReportOptions {
     /// Cases at a time, each on one thread; they never change the result [default: one a processor]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
     pub(in crate::cli) threads: Option<u64>,
-}
-
-/// `exam`.
-#[derive(Debug, Args)]
-pub(in crate::cli) struct ExamArguments {
-    /// Case to examine, again for more [default: all]
-    #[arg(long = "case", value_name = "NAME", value_parser = exam_case)]
-    pub(in crate::cli) cases: Vec<String>,
-    #[command(flatten)]
-    pub(in crate::cli) options: ReportOptions,
-}
-
-/// `gauntlet`.
-#[derive(Debug, Args)]
-pub(in crate::cli) struct GauntletArguments {
-    /// Case to run, again for more: a name of `list cases` [default: all]
-    #[arg(long = "case", value_name = "NAME", value_parser = gauntlet_case)]
-    pub(in crate::cli) cases: Vec<String>,
-    #[command(flatten)]
-    pub(in crate::cli) options: ReportOptions,
 }
 
 /// `soak`.

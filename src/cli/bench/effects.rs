@@ -3,10 +3,10 @@
 use crate::{
     cli::{
         args::BenchArguments,
-        bench::{row, thousands},
+        bench::row,
         failure::Failure,
         output::{self, STDOUT},
-        progress::StatusLine,
+        progress,
     },
     kernel::params::Preset,
     lab::{
@@ -14,6 +14,7 @@ use crate::{
         machine::processor,
     },
     scene,
+    sim::numbers::grouped,
 };
 use serde_json::json;
 use std::path::Path;
@@ -30,11 +31,13 @@ pub(super) fn effects(arguments: &BenchArguments) -> Result<(), Failure> {
     let to_stdout = json == Some(Path::new(STDOUT));
     output::check(&json.into_iter().filter(|_| !to_stdout).collect::<Vec<_>>())?;
     let plan = Plan { preset: Preset::Balanced, rounds: if arguments.scaling.quick { 1 } else { 5 } };
-    let line = StatusLine::new();
+    let names = scene::builtin_names();
+    let line = progress::bar(names.len() as u64);
     let mut costs = Vec::new();
-    for name in scene::builtin_names() {
-        line.say(name);
+    for name in names {
+        line.set_message(name);
         costs.push(gating::measure(name, plan)?);
+        line.inc(1);
     }
     drop(line);
     if let Some(path) = json {
@@ -52,12 +55,11 @@ fn text(costs: &[SceneCost], plan: Plan) -> String {
         plan.preset.name(),
         processor()
     );
-    let count = |number: usize| thousands(number as f64);
     for cost in costs {
         text += &row(&[
             format!("`{}`", cost.scene),
-            count(cost.particles),
-            count(cost.cells),
+            grouped(cost.particles),
+            grouped(cost.cells),
             format!("{:.3}", cost.ms),
             format!("{:.3}", cost.ms_all),
             format!("{:.0} %", 100.0 * cost.saved()),

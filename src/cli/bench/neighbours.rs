@@ -3,17 +3,16 @@
 use crate::{
     cli::{
         args::BenchArguments,
-        bench::{row, thousands},
+        bench::row,
         failure::Failure,
         output::{self, STDOUT},
-        progress::StatusLine,
-        threads,
+        progress, threads,
     },
     lab::{
         binning::{self, BinningError, Growth, ORIGINAL, PRESET, RATES},
         machine::processor,
     },
-    sim::workers::Workers,
+    sim::{numbers::grouped, workers::Workers},
 };
 use serde_json::json;
 use std::{fmt::Write, path::Path};
@@ -27,11 +26,14 @@ pub(super) fn neighbours(arguments: &BenchArguments) -> Result<(), Failure> {
     let to_stdout = json == Some(Path::new(STDOUT));
     output::check(json.filter(|_| !to_stdout).as_slice())?;
     threads::start(arguments.threads)?;
-    let line = StatusLine::new();
-    let growths = binning::measure(&Workers::default(), &mut |text| line.say(text)).map_err(|error| match error {
-        BinningError::Scene(error) => Failure::from(error),
-        BinningError::Threads(_) => Failure::Outcome(error.to_string()),
-    })?;
+    let line = progress::status();
+    let growths =
+        binning::measure(&Workers::default(), &mut |text| line.set_message(text.to_owned())).map_err(|error| {
+            match error {
+                BinningError::Scene(error) => Failure::from(error),
+                BinningError::Threads(_) => Failure::Outcome(error.to_string()),
+            }
+        })?;
     drop(line);
     if let Some(path) = json {
         let report = json!({
@@ -53,7 +55,7 @@ fn table(growths: &[Growth]) -> String {
     let names: Vec<&str> = names.collect();
     text += &row(&[&["ticks a second"], &names[..]].concat().iter().map(ToString::to_string).collect::<Vec<_>>());
     text += &format!("|{}\n", "---:|".repeat(names.len() + 1));
-    let shown = |count: Option<f64>| count.map_or_else(|| "–".to_owned(), thousands);
+    let shown = |count: Option<f64>| count.map_or_else(|| "–".to_owned(), |count| grouped(format!("{count:.0}")));
     for (k, rate) in RATES.iter().enumerate() {
         let ours = growths.iter().map(|growth| growth.particles_at_rate[k]);
         let theirs = ORIGINAL.iter().map(|counts| k.checked_sub(1).map(|k| counts[k]));
@@ -65,11 +67,8 @@ fn table(growths: &[Growth]) -> String {
     text += &row(&[&["cost grows as".to_owned()], &exponents[..]].concat());
     text += "\nMeasured (particles: median ms a tick):\n\n";
     for growth in growths {
-        let points: Vec<String> = growth
-            .points
-            .iter()
-            .map(|point| format!("{}: {:.3}", thousands(point.particles as f64), point.ms))
-            .collect();
+        let points: Vec<String> =
+            growth.points.iter().map(|point| format!("{}: {:.3}", grouped(point.particles), point.ms)).collect();
         // Writing to a string does not fail.
         let _ = writeln!(text, "- {}: {}", growth.name, points.join("; "));
     }

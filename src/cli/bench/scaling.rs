@@ -3,23 +3,19 @@
 use crate::{
     cli::{
         args::BenchArguments,
-        bench::{row, thousands},
+        bench::row,
         failure::Failure,
         output::{self, STDOUT},
-        progress::StatusLine,
-        threads,
+        progress, threads,
     },
     lab::{
         machine::processor,
         scaling::{self, Beside, Fit, Plan, Row, SCENE, ScalingError, Skipped},
     },
-    sim::workers::Workers,
+    sim::{numbers::grouped, workers::Workers},
 };
 use serde_json::json;
-use std::{
-    io::Write,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 /// Measures, draws and prints.
 pub(super) fn scaling(arguments: &BenchArguments) -> Result<(), Failure> {
@@ -35,22 +31,26 @@ pub(super) fn scaling(arguments: &BenchArguments) -> Result<(), Failure> {
         (options.svg.iter()).flat_map(|folder| scaling::CHARTS.map(|name| file(folder, name))).collect();
     let outputs = drawings.iter().map(PathBuf::as_path).chain(json.filter(|_| !to_stdout));
     output::check(&outputs.collect::<Vec<_>>())?;
+    if options.svg.is_some() {
+        output::note_missing_charts("bench scaling --svg");
+    }
     threads::start(arguments.threads)?;
     let mut plan = if options.quick { Plan::quick() } else { Plan::full() };
     plan = plan.up_to(options.up_to.unwrap_or(u64::MAX));
     plan.cap = options.cap.unwrap_or(plan.cap);
 
-    let line = StatusLine::new();
-    let (rows, skipped) =
-        scaling::measure(&plan, &Workers::default(), &mut |text| line.say(text)).map_err(|error| match error {
-            ScalingError::Scene(error) => Failure::from(error),
-            ScalingError::Threads(_) => Failure::Outcome(error.to_string()),
-        })?;
+    let line = progress::status();
+    let (rows, skipped) = scaling::measure(&plan, &Workers::default(), &mut |text| line.set_message(text.to_owned()))
+        .map_err(|error| match error {
+        ScalingError::Scene(error) => Failure::from(error),
+        ScalingError::Threads(_) => Failure::Outcome(error.to_string()),
+    })?;
     drop(line);
     let fits = scaling::fits(&rows);
+    #[cfg(feature = "charts")]
     if let Some(folder) = &options.svg {
         for (name, chart) in scaling::charts(&rows, &beside, &format!("{SCENE}, {}", processor())) {
-            output::write(&file(folder, name), |out| out.write_all(chart.svg().as_bytes()))?;
+            output::write(&file(folder, name), |out| std::io::Write::write_all(out, chart.svg()?.as_bytes()))?;
         }
     }
     if let Some(path) = json {
@@ -93,13 +93,13 @@ fn text(rows: &[Row], fits: &[Fit], skipped: &[Skipped], cap: f64) -> String {
     text += "Cost grows as (least squares over the sizes measured):\n\n";
     text += "| quality | threads | exponent | particles |\n|---|---:|---:|---|\n";
     for Fit { setting, threads, exponent, particles } in fits {
-        let range = particles.map(|count| thousands(count as f64)).join(" … ");
+        let range = particles.map(grouped).join(" … ");
         text += &row(&[format!("`{setting}`"), threads.to_string(), format!("{exponent:.3}"), range]);
     }
     if !skipped.is_empty() {
         text += &format!("\nLeft out, since a row may take {cap} s (--cap):\n\n");
         for Skipped { setting, particles, seconds } in skipped {
-            text += &format!("- {} × `{setting}`: about {seconds:.0} s\n", thousands(*particles as f64));
+            text += &format!("- {} × `{setting}`: about {seconds:.0} s\n", grouped(particles));
         }
     }
     text
@@ -113,7 +113,7 @@ fn cells(row: &Row) -> Vec<String> {
     };
     let error = |error: Option<f64>| error.map_or_else(|| "–".to_owned(), |error| format!("{error:.4}"));
     vec![
-        thousands(row.particles as f64),
+        grouped(row.particles),
         format!("`{}`", row.setting),
         ms(0),
         ms(1),

@@ -33,7 +33,7 @@ use bevy::{
     window::{PrimaryWindow, Window},
 };
 use glam::{UVec2, Vec2, Vec4};
-use std::sync::{Arc, atomic::Ordering};
+use std::sync::atomic::Ordering;
 
 /// Radius of a particle's soft disc, d.
 const BLOB_RADIUS: f32 = 1.35;

@@ -13,6 +13,7 @@
 //! accuracy, the others are timed and their worlds compared.
 
 pub mod design;
+#[cfg(feature = "charts")]
 pub mod draw;
 pub mod front;
 pub mod journal;
@@ -87,8 +88,6 @@ pub struct Sweep<'a> {
 pub struct Progress<'a> {
     /// Runs that are done.
     pub done: usize,
-    /// Runs in all.
-    pub runs: usize,
     /// What runs next.
     pub what: &'a str,
 }
@@ -108,6 +107,11 @@ pub enum SweepError {
 }
 
 impl Sweep<'_> {
+    /// Runs in all.
+    pub fn runs(&self) -> usize {
+        self.settings.len() * self.rounds as usize
+    }
+
     /// What the journal knows this sweep's runs by: equal only where the results must be.
     pub fn campaign(&self, program: &str) -> String {
         let Self { ticks, warmup, start, .. } = self;
@@ -122,7 +126,6 @@ impl Sweep<'_> {
         let threads: BTreeSet<usize> = self.settings.iter().map(|setting| setting.threads).collect();
         let pools = threads.into_iter().map(|threads| Ok((threads, Workers::new(threads)?)));
         let workers: BTreeMap<usize, Workers> = pools.collect::<Result<_, rayon::ThreadPoolBuildError>>()?;
-        let runs = self.settings.len() * self.rounds as usize;
         let plan = Plan { ticks: self.ticks, warmup: self.warmup, ..Plan::default() };
         let mut reference = None;
         let mut done = 0;
@@ -130,7 +133,7 @@ impl Sweep<'_> {
             let first = round as usize * self.settings.len() / self.rounds as usize;
             for setting in self.settings[first..].iter().chain(&self.settings[..first]) {
                 if journal.find(setting, round).is_none() {
-                    let mut say = |what: &str| says(Progress { done, runs, what });
+                    let mut say = |what: &str| says(Progress { done, what });
                     let found = journal.found(setting).cloned();
                     if found.is_none() && reference.is_none() {
                         say("the reference");

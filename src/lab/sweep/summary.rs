@@ -8,6 +8,7 @@ use super::{
 use crate::{
     kernel::params::{Preset, Quality},
     lab::machine::processor,
+    sim::numbers::fixed,
 };
 use std::fmt::Write;
 
@@ -126,21 +127,17 @@ fn preset_table(subject: &Subject, rows: &[Row]) -> String {
             row.ms,
             row.ms_range[0],
             row.ms_range[1],
-            figure(found.error_mean, 5),
-            figure(found.error_p99, 5),
-            figure(found.density_mean, 3),
-            figure(found.energy_gain, 4),
-            figure(found.distance.share, 3),
-            figure(found.distance.momentum, 3),
-            figure(found.distance.air, 3),
+            fixed(found.error_mean, 5),
+            fixed(found.error_p99, 5),
+            fixed(found.density_mean, 3),
+            fixed(found.energy_gain, 4),
+            fixed(found.distance.share, 3),
+            fixed(found.distance.momentum, 3),
+            fixed(found.distance.air, 3),
         );
     }
     let _ = write!(text, "\n{}", subject.order(rows));
     text
-}
-
-fn figure(value: Option<f64>, digits: usize) -> String {
-    value.map_or_else(|| "–".to_owned(), |value| format!("{value:.digits$}"))
 }
 
 /// One knob turned, from one row to another.
@@ -155,7 +152,7 @@ fn knobs(subject: &Subject, rows: &[&Row]) -> String {
                     "| {} | {change} | {:.2} | {} | {} |",
                     name(from),
                     to.ms / from.ms,
-                    figure(Some(to.error / from.error).filter(|ratio| ratio.is_finite()), 2),
+                    fixed(Some(to.error / from.error).filter(|ratio| ratio.is_finite()), 2),
                     to.faults.join(", "),
                 );
             }

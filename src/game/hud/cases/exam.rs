@@ -1,25 +1,22 @@
 //! The physics exam: its rows as they come, while the game goes on.
 
 use crate::{
-    game::hud::{
-        HudState, desk,
-        icons::{self, Icon},
-        stats::grouped,
-        style,
+    game::{
+        hud::{
+            HudState,
+            cases::window::{Panel, mark},
+            icons, style,
+        },
+        orders::Order,
     },
-    sim::{
-        exam::{ExamDesk, Row, Verdict},
-        state::Setup,
+    lab::{
+        cases::{Row, Verdict},
+        exam::{Answer, ExamCase},
     },
+    sim::{numbers::grouped, state::Setup},
 };
-use bevy::prelude::{Res, ResMut, Result};
-use bevy_egui::{
-    EguiContexts,
-    egui::{self, Align2, Color32, RichText, Ui, pos2, vec2},
-};
+use bevy_egui::egui::{self, Align2, Color32, RichText, Ui, pos2, vec2};
 
-/// Width of the window's contents, points.
-const WIDTH: f32 = 760.0;
 /// Height of a line, points.
 const LINE: f32 = 19.0;
 /// Where the columns are, points: the first two from their left edge, the figures from their right.
@@ -27,43 +24,30 @@ const COLUMNS: [f32; 7] = [24.0, 268.0, 486.0, 566.0, 640.0, 704.0, 750.0];
 /// Their headings.
 const HEADINGS: [&str; 7] = ["", "at", "expected", "got", "error", "allowed", "ms"];
 
-/// Shows the exam.
-pub fn show(
-    mut contexts: EguiContexts,
-    mut state: ResMut<HudState>,
-    setup: Res<Setup>,
-    mut desk: ResMut<ExamDesk>,
-) -> Result {
-    if !state.exam || !state.visible {
-        return Ok(());
+impl Panel for ExamCase {
+    const TITLE: &'static str = "Physics exam";
+    const PURPOSE: &'static str = "Known answers of theory and experiment, computed in the background and compared.";
+    const BEGIN: &'static str = "Examine";
+    const WIDTH: f32 = 760.0;
+
+    fn is_open(state: &mut HudState) -> &mut bool {
+        &mut state.exam
     }
-    let mut open = true;
-    let context = contexts.ctx_mut()?;
-    let screen = context.content_rect();
-    let place = (Align2::CENTER_CENTER, screen.center());
-    style::window(context, "Physics exam", &mut open, place, |ui| {
-        ui.set_width(WIDTH);
-        let about = "Known answers of theory and experiment, computed in the background and compared.";
-        ui.label(RichText::new(about).color(style::WEAK));
-        if let Some(wanted) = desk::controls(ui, &desk, setup.preset, "Examine") {
-            desk.wanted = wanted;
-        }
-        if !desk.rows.is_empty() {
+
+    fn show(ui: &mut Ui, rows: &[Row<Answer>], _setup: &Setup, height: f32) -> Option<Order> {
+        if !rows.is_empty() {
             ui.separator();
             headings(ui);
-            table(ui, &desk.rows, (screen.height() - 350.0).max(4.0 * LINE));
+            table(ui, rows, (height - 350.0).max(4.0 * LINE));
             ui.separator();
-            summary(ui, &desk.rows);
+            summary(ui, rows);
         }
-    });
-    if !open {
-        state.exam = false;
+        None
     }
-    Ok(())
 }
 
 fn headings(ui: &mut Ui) {
-    let (rect, _) = ui.allocate_exact_size(vec2(WIDTH, LINE), egui::Sense::hover());
+    let (rect, _) = ui.allocate_exact_size(vec2(ExamCase::WIDTH, LINE), egui::Sense::hover());
     let font = egui::TextStyle::Small.resolve(ui.style());
     for (column, heading) in HEADINGS.into_iter().enumerate() {
         put(ui, rect, column, heading, &font, style::WEAK);
@@ -75,11 +59,11 @@ enum Line<'a> {
     /// The case that the rows below belong to.
     Case(&'static str),
     /// A row.
-    Row(&'a Row),
+    Row(&'a Row<Answer>),
 }
 
 /// The rows under the names of their cases.
-fn lines(rows: &[Row]) -> Vec<Line<'_>> {
+fn lines(rows: &[Row<Answer>]) -> Vec<Line<'_>> {
     let mut lines = Vec::new();
     for (k, row) in rows.iter().enumerate() {
         if k == 0 || rows[k - 1].case != row.case {
@@ -91,13 +75,13 @@ fn lines(rows: &[Row]) -> Vec<Line<'_>> {
 }
 
 /// The rows; of a long table only what is seen is laid out.
-fn table(ui: &mut Ui, rows: &[Row], height: f32) {
+fn table(ui: &mut Ui, rows: &[Row<Answer>], height: f32) {
     let lines = lines(rows);
     ui.spacing_mut().item_spacing.y = 0.0;
     let area = egui::ScrollArea::vertical().max_height(height).stick_to_bottom(true);
     area.show_rows(ui, LINE, lines.len(), |ui, seen| {
         for line in &lines[seen] {
-            let (rect, _) = ui.allocate_exact_size(vec2(WIDTH, LINE), egui::Sense::hover());
+            let (rect, _) = ui.allocate_exact_size(vec2(ExamCase::WIDTH, LINE), egui::Sense::hover());
             match line {
                 Line::Case(title) => {
                     let font = egui::TextStyle::Button.resolve(ui.style());
@@ -109,12 +93,12 @@ fn table(ui: &mut Ui, rows: &[Row], height: f32) {
     });
 }
 
-fn show_row(ui: &Ui, rect: egui::Rect, row: &Row) {
+fn show_row(ui: &Ui, rect: egui::Rect, row: &Row<Answer>) {
     let (icon, colour) = mark(row.verdict);
     icons::draw(ui.painter(), icons::square(rect.left_center() + vec2(11.0, 0.0), 11.0), icon, colour);
     let (text, figures) = (egui::TextStyle::Body.resolve(ui.style()), egui::TextStyle::Small.resolve(ui.style()));
-    let [expected, got, error, allowed] = row.figures();
-    put(ui, rect, 0, row.quantity, &text, style::TEXT);
+    let [expected, got, error, allowed] = row.figures.words();
+    put(ui, rect, 0, row.figures.quantity, &text, style::TEXT);
     put(ui, rect, 1, &row.setting, &figures, style::WEAK);
     put(ui, rect, 2, &expected, &figures, style::WEAK);
     put(ui, rect, 3, &got, &figures, style::TEXT);
@@ -124,8 +108,8 @@ fn show_row(ui: &Ui, rect: egui::Rect, row: &Row) {
 }
 
 /// Time that simulating the case took in this setting.
-fn milliseconds(row: &Row) -> String {
-    match row.milliseconds {
+fn milliseconds(row: &Row<Answer>) -> String {
+    match row.figures.milliseconds {
         time if time < 10.0 => format!("{time:.1}"),
         time => grouped(time.round() as u64),
     }
@@ -136,17 +120,8 @@ fn put(ui: &Ui, rect: egui::Rect, column: usize, text: &str, font: &egui::FontId
     ui.painter().text(pos2(rect.left() + COLUMNS[column], rect.center().y), align, text, font.clone(), colour);
 }
 
-/// How a verdict looks.
-fn mark(verdict: Verdict) -> (Icon, Color32) {
-    match verdict {
-        Verdict::Pass => (Icon::Check, style::GOOD),
-        Verdict::Miss => (Icon::Close, style::WARN),
-        Verdict::Fail => (Icon::Close, style::BAD),
-    }
-}
-
 /// How many rows came out how.
-fn summary(ui: &mut Ui, rows: &[Row]) {
+fn summary(ui: &mut Ui, rows: &[Row<Answer>]) {
     ui.horizontal(|ui| {
         for (verdict, name) in
             [(Verdict::Pass, "within"), (Verdict::Miss, "beyond, below balanced"), (Verdict::Fail, "beyond")]
@@ -163,22 +138,27 @@ fn summary(ui: &mut Ui, rows: &[Row]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::params::Preset;
 
     #[test]
     fn each_case_has_one_heading_above_its_rows() {
-        let row = |case: &'static str| Row {
-            case,
-            title: case,
+        let answer = Answer {
             quantity: "q",
-            setting: "fast".into(),
             unit: "m",
             expected: 1.0,
             got: 1.0,
             relative: true,
             error: 0.0,
             tolerance: 0.1,
-            verdict: Verdict::Pass,
             milliseconds: 1.0,
+        };
+        let row = |case: &'static str| Row {
+            case,
+            title: case,
+            setting: "fast".into(),
+            preset: Preset::Fast,
+            verdict: Verdict::Pass,
+            figures: answer.clone(),
         };
         let rows = [row("fall"), row("fall"), row("wave")];
         let headings: Vec<usize> = (lines(&rows).iter().enumerate())
