@@ -2,7 +2,7 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use powder_master::{
-    scene::{self, blueprint::EffectModes},
+    scene::{self, effects::EffectModes},
     sim::{
         checkpoint::Checkpoint,
         mark::Marker,

@@ -3,7 +3,7 @@
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use powder_master::{
     kernel::params::Preset,
-    scene::{self, blueprint::EffectModes},
+    scene::{self, effects::EffectModes},
     sim::{checkpoint::Checkpoint, simulation::Simulation, state::ParticleStore, workers::Workers},
 };
 use std::{sync::Arc, time::Duration};

@@ -4,7 +4,7 @@
 //! On one thread there is none at all. On more, entering the pool costs rayon a block of its waiting list now and then.
 
 use powder_master::{
-    scene::{self, blueprint::EffectModes},
+    scene::{self, effects::EffectModes},
     sim::{simulation::Simulation, workers::Workers},
 };
 use std::{

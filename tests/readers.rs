@@ -12,7 +12,7 @@ use powder_master::{
         params::Preset,
         simd::InstructionSet,
     },
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         checkpoint::Checkpoint,
         intent::{Intent, IntentQueue},

@@ -13,7 +13,7 @@ pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Fai
     let scene = scene.unwrap_or(DEFAULT_SCENE);
     output::check(options.record.as_deref().as_slice())?;
     let (start, recording) = Start::of_play(scene, options)?;
-    threads::start_aside(options.threads)?;
+    threads::start_aside(options.machine.threads)?;
     open(scene, options, &start, recording)
 }
 

@@ -6,7 +6,7 @@ use crate::{
         failure::Failure,
     },
     kernel::params::Preset,
-    scene::{self, blueprint::EffectModes},
+    scene::{self, effects::EffectModes},
     sim::{
         checkpoint::{Checkpoint, SaveError},
         recording::{Recording, RecordingError, Segment},

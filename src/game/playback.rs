@@ -2,7 +2,7 @@
 //! the world goes on from there.
 
 use crate::{
-    game::hud::toast::Toasts,
+    game::toasts::Toasts,
     sim::{
         generation::Generation,
         pace::Pace,

@@ -5,7 +5,7 @@ use crate::{
         disk,
         files::{self, SAVE_ENDING},
         history,
-        hud::toast::Toasts,
+        toasts::Toasts,
     },
     sim::{
         checkpoint::{Checkpoint, SaveError},

@@ -26,7 +26,7 @@
 use crate::{
     kernel::{solids::Solids, units::TICKS_PER_SECOND},
     lab::sampler::matter,
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
         state::{AirGrid, Rock, Setup},
@@ -187,7 +187,7 @@ fn mean_velocity(air: &AirGrid, rock: &Solids, corner: Vec2, size: Vec2) -> DVec
 mod tests {
     use super::*;
     use crate::{
-        scene::{self, blueprint::EffectModes},
+        scene::{self, effects::EffectModes},
         sim::{simulation::Simulation, state::ParticleStore, workers::Workers},
     };
     use std::sync::Arc;

@@ -5,7 +5,6 @@ pub mod accuracy;
 pub mod autopilot;
 pub mod checkpoint;
 pub mod control;
-pub mod difference;
 pub mod effects;
 pub mod fault;
 pub mod generation;
@@ -15,18 +14,16 @@ pub mod mark;
 pub mod measures;
 pub mod numbers;
 pub mod pace;
+pub mod random;
 pub mod recorder;
 pub mod recording;
 pub mod replay;
-
-pub mod schedule;
 pub mod script;
 pub mod simulation;
 pub mod snapshot;
 pub mod split;
 pub mod stages;
 pub mod state;
-pub mod view;
 pub mod workers;
 
 use bevy::prelude::{App, Plugin};

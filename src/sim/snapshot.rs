@@ -9,7 +9,10 @@ use crate::{
         solids::Solids,
         sources::{Drain, Emitter, Wind},
     },
-    scene::blueprint::{Blueprint, Effect, Mode},
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, Mode},
+    },
 };
 use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};

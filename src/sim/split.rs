@@ -7,6 +7,7 @@
 
 use crate::{
     kernel::params::{Preset, Quality},
+    scene::effects::Pass,
     sim::{
         accuracy::LiveError,
         checkpoint::Checkpoint,
@@ -15,7 +16,7 @@ use crate::{
         intent::{Intent, IntentQueue},
         ledger::PassLedger,
         pace::Pace,
-        schedule::TickSystems,
+        script,
         simulation::Simulation,
         state::{Clock, Setup, SolverState},
         workers::Workers,
@@ -110,8 +111,8 @@ pub fn plugin(app: &mut App) {
     app.init_resource::<Split>().add_systems(
         FixedUpdate,
         (
-            copy_input.after(TickSystems::Script).before(TickSystems::Edit).run_if(is_on),
-            tick_second_world.after(TickSystems::Measure).run_if(is_on),
+            copy_input.after(script::run).before(Pass::Edit).run_if(is_on),
+            tick_second_world.after(Pass::Measure).run_if(is_on),
         ),
     );
 }
@@ -164,10 +165,10 @@ mod tests {
     use super::*;
     use crate::{
         kernel::brush::{BrushShape, Stroke},
-        scene::{self, blueprint::EffectModes},
+        lab::difference::{Difference, Half},
+        scene::{self, effects::EffectModes},
         sim::{
             control,
-            difference::{Difference, Half},
             simulation::Simulation,
             state::{AirGrid, ParticleStore},
         },

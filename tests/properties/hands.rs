@@ -8,7 +8,7 @@ use powder_master::{
         element::ElementId,
         params::Preset,
     },
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{intent::Intent, recording::Entry},
 };
 use proptest::prelude::*;

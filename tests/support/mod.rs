@@ -5,10 +5,11 @@ use powder_master::{
     kernel::{element::ElementId, params::Domain, particles::Particles, pbf::Solver, solids::Solids},
     scene::{
         self,
-        blueprint::{Blueprint, EffectModes},
+        blueprint::Blueprint,
+        effects::{EffectModes, Pass},
     },
     sim::{
-        ledger::{Pass, PassLedger},
+        ledger::PassLedger,
         simulation::Simulation,
         state::{Census, Counters, ParticleStore, Rock, SolverState},
         workers::Workers,

@@ -5,7 +5,7 @@
 use bevy::app::Plugins;
 use powder_master::{
     kernel::simd::InstructionSet,
-    scene::{self, SceneError, blueprint::EffectModes, builtin_names, readers},
+    scene::{self, SceneError, builtin_names, effects::EffectModes, readers},
     sim::{
         checkpoint::Checkpoint,
         recording::{Recording, Writer},

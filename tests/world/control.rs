@@ -8,13 +8,16 @@ use powder_master::{
         params::Preset,
         sources::{Emitter, Rect},
     },
-    scene::blueprint::{Blueprint, Effect, Mode},
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, Mode, Pass},
+    },
     sim::{
         checkpoint::Checkpoint,
         control,
         effects::Effects,
         intent::{Intent, IntentQueue},
-        ledger::{Pass, PassLedger},
+        ledger::PassLedger,
         pace::Pace,
         simulation::Simulation,
         state::{AirGrid, Clock, Counters, Setup},

@@ -4,14 +4,17 @@ use crate::support::{Furnish, SimulationExt, empty_box};
 use glam::Vec2;
 use powder_master::{
     kernel::brush::{BrushShape, Stroke},
-    scene::blueprint::{Blueprint, Effect, Mode},
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, Mode, Pass},
+    },
     sim::{
         effects::{
             Effects,
-            account::{self, Account, Sleepers, Standing},
+            status::{self, Activity, EffectStatus, Sleepers},
         },
         intent::Intent,
-        ledger::{Pass, PassLedger, PassRecord},
+        ledger::{PassLedger, PassRecord},
         simulation::Simulation,
         stages::TickPlan,
         state::AirGrid,
@@ -34,12 +37,12 @@ fn ledger(simulation: &Simulation) -> &PassLedger {
     simulation.get()
 }
 
-fn account(simulation: &Simulation, effect: Effect) -> Account {
-    Account::of(effect, simulation.get(), Sleepers::in_world(simulation.world()))
+fn account(simulation: &Simulation, effect: Effect) -> EffectStatus {
+    EffectStatus::of(effect, simulation.get(), Sleepers::in_world(simulation.world()))
 }
 
 fn saving(simulation: &Simulation, effect: Effect) -> Option<f64> {
-    account::saving(effect, simulation.get::<Effects>(), ledger(simulation), PassRecord::saved_last)
+    status::saving(effect, simulation.get::<Effects>(), ledger(simulation), PassRecord::saved_last)
 }
 
 #[test]
@@ -59,7 +62,7 @@ fn who_is_awake_is_worked_on_and_who_sleeps_is_spared() {
 
     for _ in 0..2000 {
         simulation.run(1);
-        if account(&simulation, Effect::Viscosity).standing == Standing::Asleep {
+        if account(&simulation, Effect::Viscosity).activity == Activity::Asleep {
             break;
         }
     }

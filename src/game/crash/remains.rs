@@ -1,12 +1,7 @@
 //! What an earlier game left behind because it did not end well, and what becomes of it.
 
 use crate::{
-    game::{
-        crash::journal::PREFIX,
-        history,
-        hud::toast::Toasts,
-        input::bindings::{self, Action},
-    },
+    game::{actions::Action, crash::journal::PREFIX, history, input::bindings::Bindings, toasts::Toasts},
     kernel::simd::InstructionSet,
     sim::{
         checkpoint::Checkpoint,
@@ -251,7 +246,7 @@ fn go_on(world: &mut World, saved: Checkpoint, reach: Reach) {
     history::checkpoint(world);
     saved.restore(world);
     *world.resource_mut::<Pace>() = Pace { paused: true, steps_due: 0, ..*world.resource::<Pace>() };
-    let key = bindings::of(Action::Pause).map(ToString::to_string).unwrap_or_default();
+    let key = world.resource::<Bindings>().key(Action::Pause);
     let how = match reach {
         Reach::Whole => "Restored",
         Reach::LastTick => "Restored without the last edits, which it does not survive",

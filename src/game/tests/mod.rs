@@ -4,12 +4,18 @@ use crate::{
     game::{
         GamePlugin,
         camera::{Area, WorldCamera},
-        hud::{HudState, toast::Toasts},
         input::{keys::Typing, pointer::HudCover},
-        orders::{Order, Orders, Shown},
+        orders::{Order, Orders},
+        panels::Panels,
+        toasts::Toasts,
         tools::{Tool, Toolbox},
+        views::table::{Shown, VIEWS},
     },
-    scene::{self, blueprint::EffectModes},
+    lab::colours::Reference,
+    scene::{
+        self,
+        effects::{EffectModes, Pass},
+    },
     sim::{
         SimulationPlugin,
         checkpoint::Checkpoint,
@@ -17,7 +23,6 @@ use crate::{
         intent::{Intent, IntentQueue},
         pace::Pace,
         state::{Clock, ParticleStore, Rock, Setup},
-        view::{Reference, View},
     },
 };
 use bevy::{
@@ -69,7 +74,7 @@ impl Player {
             .init_resource::<ButtonInput<KeyCode>>()
             .init_resource::<Seen>()
             .insert_resource(TimeUpdateStrategy::FixedTimesteps(1))
-            .add_systems(FixedUpdate, spy.before(crate::sim::schedule::TickSystems::Edit));
+            .add_systems(FixedUpdate, spy.before(Pass::Edit));
         let scene = scene::load("empty").expect("the scene comes with the game");
         let blueprint = scene.build(&[], None, &EffectModes::new()).expect("its defaults are valid");
         Checkpoint::of_scene(Arc::new(blueprint)).restore(app.world_mut());

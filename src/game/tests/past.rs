@@ -3,7 +3,7 @@
 use super::*;
 use crate::{
     kernel::params::Preset,
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
         intent::{Intent, IntentQueue},

@@ -6,7 +6,7 @@ use crate::{
         sampler::{air_mass, matter, residual},
         volume::volume_error,
     },
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
         measures::{AirMeasured, Measured, Measures},

@@ -8,12 +8,12 @@ use crate::{
         simd::InstructionSet,
     },
     lab::{density::density_error, live::tick_milliseconds, stats},
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         accuracy::{Curve, CurvePoint, Survey, SurveyRequest, fingerprint},
         autopilot::ladder,
         checkpoint::Checkpoint,
-        effects::{Effects, account::Sleepers},
+        effects::{Effects, status::Sleepers},
         ledger::PassLedger,
         simulation::Simulation,
         state::{Clock, ParticleStore, Rock, Setup, SolverState},
@@ -337,7 +337,10 @@ impl Run {
 mod tests {
     use super::*;
     use crate::{
-        scene::{self, blueprint::EffectModes},
+        scene::{
+            self,
+            effects::{EffectModes, Pass},
+        },
         sim::{simulation::Simulation, state::SleepState},
     };
 
@@ -365,8 +368,7 @@ mod tests {
                 let world = run.simulation.world();
                 let name = run.leg.preset.name();
                 assert_eq!(world.resource::<SleepState>().asleep(), 0, "{name} sleeps at tick {}", run.ticks);
-                moved +=
-                    u32::from(world.resource::<PassLedger>().record(crate::sim::ledger::Pass::Solve).last.calls > 0);
+                moved += u32::from(world.resource::<PassLedger>().record(Pass::Solve).last.calls > 0);
             }
         }
         assert!(moved >= Preset::ALL.len() as u32 * (WARMUP + TICKS - 1), "only {moved} ticks were simulated");

@@ -2,25 +2,23 @@
 
 use super::{
     design::Setting,
-    journal::{Found, Record},
+    record::{Found, Record},
 };
 use crate::{
     kernel::params::{Preset, Quality},
     lab::{
         coarse::Distance,
         density::density_error,
+        experiment::time,
         metrics::Metrics,
         reference::{Follower, Reference},
-        run::{Observer, Plan, run as run_plan},
-        sampler::{Sampler, ms},
-        stats,
+        run::Plan,
+        sampler::Sampler,
     },
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         checkpoint::Checkpoint,
-        control,
         effects::Effects,
-        ledger::PassLedger,
         simulation::Simulation,
         state::{ParticleStore, Rock, Setup},
         workers::Workers,
@@ -31,7 +29,7 @@ use std::io;
 
 /// The run that all are compared with, on all threads: its time is not what counts.
 pub(super) fn reference(start: &Checkpoint, plan: &Plan) -> io::Result<Reference> {
-    Reference::record(start, plan, Workers::default(), &mut Times::default())
+    Reference::record(start, plan, Workers::default(), &mut ())
 }
 
 /// Runs a setting from its start on; with a reference it is sampled, too.
@@ -45,34 +43,27 @@ pub(super) fn run(
     // What the preset is called makes no difference to the run.
     let mut simulation = begin(start, setting.preset.unwrap_or(Preset::Fast), setting.quality, workers.clone());
     let density = mean_density(simulation.world());
-    let mut times = Times { warmup: plan.warmup, ..Times::default() };
-    let found = if let Some(reference) = reference {
+    let (run, found) = if let Some(reference) = reference {
         let mut sampler = Sampler::new(simulation.world(), plan.warmup);
         let mut follower = Follower::new(reference);
-        run_plan(&mut simulation, plan, &mut [&mut times, &mut sampler, &mut follower])?;
+        let run = time(&mut simulation, plan, &mut [&mut sampler, &mut follower])?;
         let mut found = found(&sampler.finish(simulation.world()), follower.mean(plan.warmup));
         found.energy_gain = found.energy_gain.filter(|_| start.is_closed()).map(|ratio| {
             // What swells to its target density is lifted by as much; that is not the energy of an unstable world.
             let swelling = found.density_mean.zip(density).map_or(1.0, |(after, before)| after / before);
             ratio * swelling - 1.0
         });
-        Some(found)
+        (run, Some(found))
     } else {
-        run_plan(&mut simulation, plan, &mut [&mut times])?;
-        None
+        (time(&mut simulation, plan, &mut [])?, None)
     };
-    Ok(Record {
-        ms: stats::quantile(&mut times.ms, 0.5).unwrap_or(f64::NAN),
-        ms_p95: stats::quantile(&mut times.ms, 0.95).unwrap_or(f64::NAN),
-        hash: format!("{:016x}", control::hash(simulation.world())),
-        found,
-    })
+    Ok(Record { ms: run.quantile(0.5), ms_p95: run.quantile(0.95), hash: format!("{:016x}", run.hash), found })
 }
 
 /// The world at its start, awake.
 fn begin(start: &Checkpoint, preset: Preset, quality: Quality, workers: Workers) -> Simulation {
     let mut simulation = Simulation::resume(&start.clone().at_quality(preset, quality), workers);
-    // What sleeps costs the same at every quality, and errs by the same: it says nothing of any.
+    // A sleeping particle costs the same and has the same error at every quality, so it says nothing of any of them.
     simulation.world_mut().resource_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off;
     simulation
 }
@@ -100,28 +91,10 @@ fn found(metrics: &Metrics, distance: Distance) -> Found {
     }
 }
 
-/// Notes the time of each tick after the warm-up.
-#[derive(Default)]
-struct Times {
-    warmup: u64,
-    tick: u64,
-    ms: Vec<f64>,
-}
-
-impl Observer for Times {
-    fn after_tick(&mut self, world: &World) -> io::Result<()> {
-        self.tick += 1;
-        if self.tick > self.warmup {
-            self.ms.push(ms(world.resource::<PassLedger>().last_tick()));
-        }
-        Ok(())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{self, blueprint::EffectModes};
+    use crate::scene::{self, effects::EffectModes};
     use std::sync::Arc;
 
     /// Accuracy of the dam break of 10,082 particles as a sweep measures it.
@@ -131,7 +104,7 @@ mod tests {
         let plan = Plan { ticks: 300, warmup: 59, ..Plan::default() };
         let mut simulation = begin(&start, preset, preset.quality(), Workers::default());
         let mut sampler = Sampler::new(simulation.world(), plan.warmup);
-        run_plan(&mut simulation, &plan, &mut [&mut sampler]).unwrap();
+        time(&mut simulation, &plan, &mut [&mut sampler]).unwrap();
         found(&sampler.finish(simulation.world()), Distance::default())
     }
 

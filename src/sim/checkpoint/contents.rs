@@ -9,7 +9,7 @@ use crate::{
         sleep::SleepRecord,
         units::Scale,
     },
-    scene::blueprint::Mode,
+    scene::effects::Mode,
     sim::state::{Clock, Sources},
 };
 use serde::{Deserialize, Serialize};

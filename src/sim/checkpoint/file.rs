@@ -9,7 +9,10 @@
 
 use crate::{
     kernel::{checks::remove_non_finite, element::ElementTable, params::Preset, solids::Solids},
-    scene::blueprint::{Blueprint, Effect, EffectModes},
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, EffectModes},
+    },
     sim::{
         checkpoint::{
             check,

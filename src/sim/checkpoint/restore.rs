@@ -2,7 +2,10 @@
 
 use crate::{
     kernel::params::{Preset, Quality},
-    scene::blueprint::{Blueprint, Effect, EffectModes, Mode},
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, EffectModes, Mode},
+    },
     sim::{
         control,
         effects::Effects,

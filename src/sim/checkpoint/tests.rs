@@ -12,7 +12,7 @@ use crate::{
         sleep::SleepRecord,
         sources::{Drain, Emitter, Rect, Wind},
     },
-    scene::{self, blueprint::EffectModes},
+    scene::{self, effects::EffectModes},
     sim::{
         intent::{Intent, IntentQueue},
         simulation::Simulation,

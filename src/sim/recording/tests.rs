@@ -12,7 +12,7 @@ use crate::{
     },
     scene::{
         self,
-        blueprint::{Effect, EffectModes, Mode},
+        effects::{Effect, EffectModes, Mode},
     },
     sim::{
         checkpoint::Checkpoint,

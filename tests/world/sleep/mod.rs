@@ -12,9 +12,11 @@ use powder_master::{
         sources::{Emitter, Rect},
     },
     lab::coarse::{CoarseField, Distance},
-    scene::blueprint::{Blueprint, Effect, Mode},
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, Mode, Pass},
+    },
     sim::{
-        ledger::Pass,
         simulation::Simulation,
         state::{Setup, SleepState},
     },
