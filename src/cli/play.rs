@@ -29,7 +29,7 @@ fn open(scene: &str, options: &PlayOptions, start: &Start, recording: Option<Rec
     match game::run(scene, options.record.clone(), |app| {
         app.add_plugins(LivePlugin);
         start.checkpoint.restore(app.world_mut());
-        app.world_mut().resource_mut::<SolverState>().instructions = options.simd;
+        app.world_mut().resource_mut::<SolverState>().instructions = options.machine.simd;
         if let Some(recording) = recording {
             playback::begin(app.world_mut(), recording);
         }

@@ -5,7 +5,7 @@ use crate::{
     game::{actions::Action, tools::Tool},
     kernel::params::Preset,
     scene::effects::{Effect, Mode},
-    sim::{accuracy::SurveyRequest, autopilot::Goal, checkpoint::Checkpoint},
+    sim::{accuracy::SurveyRequest, autopilot::Goal},
 };
 use bevy::prelude::Resource;
 use std::path::PathBuf;

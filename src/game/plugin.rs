@@ -2,8 +2,8 @@
 
 use crate::{
     game::{
-        camera, execute, follow, frame, history, hud, input, orders, panels, playback, recording, render, saves, split,
-        toasts, tools, views,
+        camera, execute, follow, frame, history, hud, input, orders, panels, playback, recording, saves, split, toasts,
+        tools, views,
     },
     kernel::units::TICKS_PER_SECOND,
     sim::{accuracy, autopilot, measures, recorder, state::Setup},
