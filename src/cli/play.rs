@@ -20,7 +20,7 @@ pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Fai
 #[cfg(feature = "app")]
 fn open(scene: &str, options: &PlayOptions, start: &Start, recording: Option<Recording>) -> Result<(), Failure> {
     use crate::{
-        game::{self, GameError, playback},
+        game::{self, GameError, playback, script},
         lab::live::LivePlugin,
         sim::state::SolverState,
     };
@@ -32,6 +32,10 @@ fn open(scene: &str, options: &PlayOptions, start: &Start, recording: Option<Rec
         app.world_mut().resource_mut::<SolverState>().instructions = options.machine.simd;
         if let Some(recording) = recording {
             playback::begin(app.world_mut(), recording);
+        }
+        if options.hook {
+            app.add_plugins(script::plugin);
+            script::answer_stdin();
         }
     }) {
         Ok(AppExit::Success) => Ok(()),
