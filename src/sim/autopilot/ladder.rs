@@ -106,7 +106,7 @@ mod tests {
     #[test]
     fn every_rung_is_a_sound_quality() {
         for rung in ladder() {
-            crate::sim::save::check::quality(&rung.quality).unwrap();
+            crate::sim::checkpoint::check::quality(&rung.quality).unwrap();
         }
     }
 
