@@ -74,7 +74,8 @@ impl Chart {
         paper.text(&self.title, (18.0, 28.0), 24.0, INK, HPos::Left)?;
         paper.text(&self.subtitle, (18.0, 52.0), WORDS, PALE_INK, HPos::Left)?;
         let [x, y] = self.spans();
-        let legend = self.series.iter().map(|series| paper.width(&series.name, WORDS)).fold(0.0, f64::max) + 60.0;
+        // Viewers of an SVG may show a wider font than the one that is measured.
+        let legend = 60.0 + 1.06 * self.series.iter().map(|series| paper.width(&series.name)).fold(0.0, f64::max);
         let mut plot = ChartBuilder::on(&paper.area)
             .margin_top(paper.px(70.0))
             .margin_right(paper.px(legend))
@@ -170,8 +171,8 @@ impl<DB: DrawingBackend> Paper<DB> {
         colour.stroke_width((width * self.unit).round() as u32)
     }
 
-    fn width(&self, words: &str, size: f64) -> f64 {
-        let style = TextStyle::from((FAMILY, size * self.unit));
+    fn width(&self, words: &str) -> f64 {
+        let style = TextStyle::from((FAMILY, WORDS * self.unit));
         self.area.estimate_text_size(words, &style).map_or(0.0, |(width, _)| f64::from(width) / self.unit)
     }
 
