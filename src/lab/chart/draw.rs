@@ -308,14 +308,14 @@ impl Ranged for Span {
 impl ValueFormatter<f64> for Span {
     fn format_ext(&self, place: &f64) -> String {
         let is_linear = self.scale == Scale::Linear;
-        let value = if is_linear { *place } else { 10_f64.powf(*place) };
-        if value != 0.0 && !(1e-4..1e7).contains(&value.abs()) {
-            return format!("{value:.0e}").replace('-', "−");
+        let power = (place + 1e-9).floor();
+        if !is_linear && !(-4.0..7.0).contains(&power) {
+            return format!("{:.0}e{power}", 10_f64.powf(place - power)).replace('-', "−");
         }
+        let value = if is_linear { *place } else { 10_f64.powf(*place) };
         // Enough decimals for the step of linear marks, and for the first figure of logarithmic ones.
-        let step = if is_linear { 0.1 * (self.high - self.low) } else { value };
-        let decimals = (-1e-9 - step.log10().floor()).ceil().clamp(0.0, 9.0) as usize;
-        numbers::grouped(numbers::trimmed(value, decimals)).replace('-', "−")
+        let decimals = if is_linear { -(0.1 * (self.high - self.low)).log10().floor() } else { -power };
+        numbers::grouped(numbers::trimmed(value, decimals.clamp(0.0, 9.0) as usize)).replace('-', "−")
     }
 }
 
