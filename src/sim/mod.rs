@@ -4,7 +4,6 @@
 pub mod accuracy;
 pub mod autopilot;
 pub mod control;
-pub mod difference;
 pub mod effects;
 pub mod fault;
 pub mod intent;
@@ -18,7 +17,6 @@ pub mod recorder;
 pub mod recording;
 pub mod replay;
 pub mod save;
-pub mod schedule;
 pub mod script;
 pub mod snapshot;
 pub mod split;
@@ -26,7 +24,6 @@ pub mod stages;
 pub mod state;
 pub mod tape;
 pub mod twin;
-pub mod view;
 pub mod workers;
 
 use bevy::prelude::{App, Plugin};

@@ -4,18 +4,23 @@ use crate::{
     game::{
         GamePlugin,
         camera::{Area, WorldCamera},
-        hud::{HudState, toast::Toasts},
         input::{keys::Typing, pointer::HudCover},
-        orders::{Order, Orders, Shown},
+        orders::{Order, Orders},
+        panels::Panels,
+        toasts::Toasts,
         tools::{Tool, Toolbox},
+        views::table::{Shown, VIEWS},
     },
-    scene::{self, blueprint::EffectModes},
+    lab::colours::Reference,
+    scene::{
+        self,
+        effects::{EffectModes, Pass},
+    },
     sim::{
         SimulationPlugin, control,
         intent::{Intent, IntentQueue},
         pace::Pace,
         state::{Clock, ParticleStore, Rock, Setup},
-        view::{Reference, View},
     },
 };
 use bevy::{
@@ -67,7 +72,7 @@ impl Player {
             .init_resource::<ButtonInput<KeyCode>>()
             .init_resource::<Seen>()
             .insert_resource(TimeUpdateStrategy::FixedTimesteps(1))
-            .add_systems(FixedUpdate, spy.before(crate::sim::schedule::TickSystems::Edit));
+            .add_systems(FixedUpdate, spy.before(Pass::Edit));
         let scene = scene::load("empty").expect("the scene comes with the game");
         let blueprint = scene.build(&[], None, &EffectModes::new()).expect("its defaults are valid");
         control::load(app.world_mut(), Arc::new(blueprint));

@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::{
-    game::{input::bindings::Action, playback, recording, saves::SaveFolders},
+    game::{actions::Action, playback, recording, saves::SaveFolders},
     kernel::{params::Preset, simd::InstructionSet},
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
         recorder::Recorder,
