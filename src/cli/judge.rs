@@ -1,12 +1,7 @@
 //! `exam`: physics against known answers. `gauntlet`: hard cases stay stable.
 
 use crate::{
-    cli::{
-        args::CaseArguments,
-        failure::Failure,
-        output::{self, STDOUT},
-        progress,
-    },
+    cli::{args::CaseArguments, failure::Failure, output, progress},
     kernel::params::Preset,
     lab::{
         cases::{Case, Size, document, failure, jobs, run_all, summary, table},
@@ -14,16 +9,16 @@ use crate::{
     },
 };
 use serde_json::json;
-use std::{
-    io::Write,
-    path::{Path, PathBuf},
-    thread::available_parallelism,
-};
+use std::{io::Write, path::PathBuf, thread::available_parallelism};
 
 /// Runs the cases of a suite and prints their rows. A case that fails fails the command.
 pub(super) fn judge<C: Case>(arguments: &CaseArguments<C>) -> Result<(), Failure> {
     let CaseArguments { json, markdown, .. } = arguments;
-    check_outputs(&[json.as_deref(), markdown.as_deref()])?;
+    let [json, markdown] = [json, markdown].map(Option::as_deref);
+    if [json, markdown].into_iter().all(output::is_stdout) {
+        return Err(Failure::Usage("--json and --markdown can't both have stdout; allowed: a file for one".into()));
+    }
+    output::check(&[json, markdown].into_iter().flatten().collect::<Vec<_>>())?;
     let threads = arguments.threads.map_or_else(|| available_parallelism().map_or(1, usize::from), |n| n as usize);
     let jobs = jobs(C::SUITE.cases, |case| arguments.wants(case), &arguments.presets());
     let bar = progress::bar(jobs.len() as u64);
@@ -32,30 +27,19 @@ pub(super) fn judge<C: Case>(arguments: &CaseArguments<C>) -> Result<(), Failure
         bar.set_message(job.title());
     })?;
     drop(bar);
-    if let Some(path) = json {
-        output::write_json(path, &json!({ "processor": processor(), "threads": threads, "rows": rows }))?;
-    }
+    let mut printed = None;
     if let Some(path) = markdown {
         let text = document::<C>(&rows, &processor(), &arguments.command());
-        if path == Path::new(STDOUT) {
-            output::print(&text)?;
+        if output::is_stdout(markdown) {
+            printed = Some(text);
         } else {
             output::write(path, |file| file.write_all(text.as_bytes()))?;
         }
     }
-    if [json, markdown].into_iter().flatten().all(|path| path != Path::new(STDOUT)) {
-        output::print(&format!("{}\n{}\n", table::<C>(&rows), summary::<C>(&rows)))?;
-    }
+    let value = || json!({ "processor": processor(), "threads": threads, "rows": rows });
+    let text = || printed.unwrap_or_else(|| format!("{}\n{}\n", table::<C>(&rows), summary::<C>(&rows)));
+    output::report(json, value, text)?;
     failure::<C>(&rows).map_or(Ok(()), |failure| Err(Failure::Outcome(failure)))
-}
-
-/// Looks at the files that are asked for before anything is simulated.
-fn check_outputs(files: &[Option<&Path>]) -> Result<(), Failure> {
-    if files.iter().all(|file| *file == Some(Path::new(STDOUT))) {
-        return Err(Failure::Usage("--json and --markdown can't both have stdout; allowed: a file for one".into()));
-    }
-    let on_disk: Vec<&Path> = files.iter().copied().flatten().filter(|file| *file != Path::new(STDOUT)).collect();
-    output::check(&on_disk)
 }
 
 impl<C: Case> CaseArguments<C> {

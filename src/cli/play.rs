@@ -15,8 +15,8 @@ pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Fai
     let scene = scene.unwrap_or(DEFAULT_SCENE);
     output::check(options.record.as_deref().as_slice())?;
     let (start, recording) = Start::of_play(scene, options)?;
-    threads::start_aside(options.threads)?;
-    let load = |world: &mut World| start.load(world, options.simd);
+    threads::start_aside(options.machine.threads)?;
+    let load = |world: &mut World| start.load(world, options.machine.simd);
     open(scene, options.record.clone(), recording, load)
 }
 

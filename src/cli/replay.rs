@@ -4,8 +4,7 @@ use crate::{
     cli::{
         args::ReplayArguments,
         failure::Failure,
-        output::{self, STDOUT},
-        progress,
+        output, progress,
         start::{bad, read},
         threads,
     },
@@ -17,10 +16,7 @@ use crate::{
     },
 };
 use serde::Serialize;
-use std::{
-    panic::{self, AssertUnwindSafe},
-    path::Path,
-};
+use std::panic::{self, AssertUnwindSafe};
 
 /// What came out.
 #[derive(Serialize)]
@@ -52,11 +48,12 @@ enum Stop {
 /// Runs a recording again and compares.
 pub(super) fn replay(arguments: &ReplayArguments) -> Result<(), Failure> {
     let json = arguments.json.as_deref();
-    output::check(json.filter(|path| *path != Path::new(STDOUT)).as_slice())?;
+    output::check(json.as_slice())?;
     let path = &arguments.file;
     let recording = Recording::decode(&read(path)?).map_err(|error| bad(path, &error))?;
-    threads::start(arguments.threads)?;
-    let mut replay = Replay::new(&recording, Workers::default(), arguments.simd).map_err(|error| bad(path, &error))?;
+    threads::start(arguments.machine.threads)?;
+    let mut replay =
+        Replay::new(&recording, Workers::default(), arguments.machine.simd).map_err(|error| bad(path, &error))?;
     // A panic is an outcome here, told in one line.
     fault::watch(false);
     let crashed = recording.end == Some(End::Crashed);
@@ -76,7 +73,7 @@ pub(super) fn replay(arguments: &ReplayArguments) -> Result<(), Failure> {
         )?;
     }
     match outcome {
-        Ok(_) if json == Some(Path::new(STDOUT)) => Ok(()),
+        Ok(_) if output::is_stdout(json) => Ok(()),
         Ok(hash) if crashed => output::print(&format!(
             "same: {done} ticks, hash {hash:016x}; recorded by a crash that does not come again\n"
         )),

@@ -4,12 +4,15 @@ use crate::{
     cli::{args::SweepArguments, failure::Failure, output, progress, start::Start},
     kernel::simd::InstructionSet,
     lab::{
+        experiment::{
+            ExperimentError,
+            journal::{Journal, JournalFile, OpenError},
+        },
         headless::Headless,
         moment::Moment,
         sweep::{
-            ErrorMeasure, Progress, Sweep, SweepError,
+            ErrorMeasure, Progress, Sweep,
             design::{Scope, other_threads, settings},
-            journal::{Journal, JournalFile, OpenError},
             presets::Order,
             row::Row,
             summary::{self, Subject},
@@ -26,7 +29,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Ticks that a scene with taps or fans runs before it is measured, so that they have filled it: 4 s.
+/// Ticks that a scene with emitters or wind runs before it is measured, so that they have filled it: 4 s.
 const RUN_IN: u64 = 240;
 
 /// Ticks of a run, and of a quick one.
@@ -80,7 +83,7 @@ impl Opening {
         if moment.is_idle() {
             return Err(Failure::Usage(format!(
                 "{}: nothing moves in this scene, so there is nothing to measure; allowed: scenes with liquid, moving air, \
-                 taps or fans",
+                 emitters or wind",
                 self.name
             )));
         }
@@ -207,7 +210,7 @@ fn measure(
         line.set_message(what.to_owned());
     });
     let rows = rows.map_err(|error| match error {
-        SweepError::Journal(error) => unwritten(error),
+        ExperimentError::Journal(error) => unwritten(error),
         error => Failure::Outcome(format!("{scene}: {error}")),
     })?;
     drop(line);

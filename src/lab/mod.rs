@@ -3,15 +3,20 @@
 //! in the page.
 
 pub mod balance;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod binning;
 pub mod cases;
 #[cfg(all(feature = "charts", not(target_arch = "wasm32")))]
 pub mod chart;
 pub mod coarse;
+pub mod colours;
 pub mod density;
+pub mod difference;
 mod drift;
 mod drive;
 pub mod exam;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod experiment;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod gating;
 pub mod gauntlet;
@@ -19,12 +24,13 @@ pub mod headless;
 pub mod jobs;
 pub mod live;
 pub mod machine;
-mod markdown;
+pub mod maps;
+pub mod markdown;
 pub mod metrics;
 pub mod moment;
-pub mod particle_list;
 pub mod picture;
 pub mod reference;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod rest_density;
 pub mod run;
 pub mod sampler;
@@ -36,7 +42,8 @@ mod stage;
 pub mod stats;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod sweep;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod tables;
 #[cfg(test)]
 mod testing;
-pub mod trace;
 pub mod volume;

@@ -4,7 +4,6 @@
 pub mod accuracy;
 pub mod autopilot;
 pub mod control;
-pub mod difference;
 pub mod effects;
 pub mod fault;
 pub mod intent;
@@ -13,6 +12,7 @@ pub mod mark;
 pub mod measures;
 pub mod numbers;
 pub mod pace;
+pub mod random;
 pub mod recorder;
 pub mod recording;
 pub mod replay;
@@ -25,7 +25,6 @@ pub mod stages;
 pub mod state;
 pub mod tape;
 pub mod twin;
-pub mod view;
 pub mod workers;
 
 use bevy::prelude::{App, Plugin};

@@ -1,7 +1,7 @@
 //! Draws a chart. All is placed in pixels on axes that are linear in what they show: values or their logarithms.
 
 use super::types::{Axis, Chart, Look, Point, Scale, Series};
-use crate::sim::numbers;
+use crate::{lab::picture::write_png, sim::numbers};
 use plotters::{
     coord::{
         Shift,
@@ -30,21 +30,18 @@ const FAMILY: &str = "Ubuntu Light, Ubuntu, Helvetica, Arial, sans-serif";
 const WORDS: f64 = 16.0;
 
 /// Colours of series, told apart by the colour-blind, too (after Okabe & Ito 2008), dark enough for words on white.
-const HUES: [RGBColor; 7] = [
-    RGBColor(0x00, 0x72, 0xb2),
-    RGBColor(0xd5, 0x5e, 0x00),
-    RGBColor(0x00, 0x8a, 0x64),
-    RGBColor(0xb5, 0x56, 0x8c),
-    RGBColor(0x33, 0x33, 0x33),
-    RGBColor(0xb0, 0x78, 0x00),
-    RGBColor(0x2f, 0x8f, 0xc4),
-];
-const INK: RGBColor = RGBColor(0x22, 0x26, 0x2a);
-const PALE_INK: RGBColor = RGBColor(0x5c, 0x66, 0x70);
-const FAINT: RGBColor = RGBColor(0x8a, 0x93, 0x9b);
-const FRONT: RGBColor = RGBColor(0xc3, 0xcc, 0xd4);
-const GRID: RGBColor = RGBColor(0xdf, 0xe3, 0xe6);
-const FINE_GRID: RGBColor = RGBColor(0xf1, 0xf3, 0xf4);
+const HUES: [u32; 7] = [0x0072b2, 0xd55e00, 0x008a64, 0xb5568c, 0x333333, 0xb07800, 0x2f8fc4];
+const INK: RGBColor = rgb(0x22262a);
+const PALE_INK: RGBColor = rgb(0x5c6670);
+const FAINT: RGBColor = rgb(0x8a939b);
+const FRONT: RGBColor = rgb(0xc3ccd4);
+const GRID: RGBColor = rgb(0xdfe3e6);
+const FINE_GRID: RGBColor = rgb(0xf1f3f4);
+
+const fn rgb(hex: u32) -> RGBColor {
+    let [_, red, green, blue] = hex.to_be_bytes();
+    RGBColor(red, green, blue)
+}
 
 impl Chart {
     /// The chart as SVG. Equal charts give equal bytes.
@@ -66,12 +63,7 @@ impl Chart {
         let mut pixels = vec![0; 3 * (width * height) as usize];
         let backend = BitMapBackend::with_buffer(&mut pixels, (width, height));
         self.draw(backend, f64::from(scale)).map_err(io::Error::other)?;
-        let mut encoder = png::Encoder::new(out, width, height);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        let mut writer = encoder.write_header()?;
-        writer.write_image_data(&pixels)?;
-        Ok(writer.finish()?)
+        write_png(out, width, height, &pixels)
     }
 
     fn draw<DB: DrawingBackend>(&self, backend: DB, unit: f64) -> Outcome<DB> {
@@ -144,7 +136,7 @@ impl Chart {
             let colour = match look {
                 Look::Front => FRONT,
                 Look::Cloud | Look::Faint => FAINT,
-                Look::Scatter | Look::Line | Look::Dashed => HUES[(hues + HUES.len() - 1) % HUES.len()],
+                Look::Scatter | Look::Line | Look::Dashed => rgb(HUES[(hues + HUES.len() - 1) % HUES.len()]),
             };
             Pen { look, colour, shape: faint % 4 }
         };

@@ -5,6 +5,7 @@ use crate::lab::{
     scaling::{
         beside::{Beside, Figure},
         measure::Row,
+        table::settings,
     },
 };
 
@@ -64,12 +65,7 @@ pub fn charts(rows: &[Row], beside: &[Beside], subtitle: &str) -> Vec<(&'static 
 
 /// A series for each setting, in the order of the rows.
 fn ours(rows: &[Row], point: impl Fn(&Row) -> Option<Point>) -> Vec<Series> {
-    let mut names: Vec<&str> = Vec::new();
-    for row in rows {
-        if !names.contains(&row.setting) {
-            names.push(row.setting);
-        }
-    }
+    let names = settings(rows);
     let points = |name: &str| rows.iter().filter(|row| row.setting == name).filter_map(&point).collect::<Vec<_>>();
     // "classic, 4 substeps" is a variant of "classic".
     let is_variant =

@@ -14,12 +14,6 @@ mod table;
 pub use beside::{Beside, BesideError, Figure};
 #[cfg(feature = "charts")]
 pub use charts::charts;
-pub use measure::{Row, ScalingError, Skipped, Window, measure};
-pub use plan::{Plan, Setting, particles};
+pub use measure::{Row, Skipped, Window, measure};
+pub use plan::{CHARTS, Plan, SCENE, Setting, particles};
 pub use table::{Fit, fits};
-
-/// The scene that is measured; its parameter `columns` = c stands for 2 c² particles.
-pub const SCENE: &str = "dam_break";
-
-/// Names of all charts that there may be.
-pub const CHARTS: [&str; 3] = ["scaling-time", "scaling-error", "scaling-threads"];

@@ -1,6 +1,6 @@
 //! curve.svg and curve.png: error against time, both logarithmic.
 
-use super::{ErrorMeasure, row::Row, summary::Subject};
+use super::{error::ErrorMeasure, row::Row, summary::Subject};
 use crate::lab::{
     chart::{Axis, Chart, Look, Point, Series},
     machine::processor,
@@ -43,9 +43,9 @@ fn lower_edge<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {
     front.sort_by(|a, b| a.ms.total_cmp(&b.ms));
     let mut least = f64::INFINITY;
     front.retain(|row| {
-        let exacter = row.error < least;
+        let is_better = row.error < least;
         least = least.min(row.error);
-        exacter
+        is_better
     });
     front
 }
