@@ -44,7 +44,7 @@ const fn ends<const RUN: usize>(name: &'static str, title: &'static str) -> Gaun
         title,
         what: "A small dam break in air with every knob of scene and quality at an end of its range; in seven such runs any \
                two knobs meet in all four ways.",
-        guards: "Pairs of settings that nobody tried together.",
+        guards: "Pairs of settings that were never tried together.",
         allowed: "A rest density of 0.1 blows the water up to ten times its area and one of 100 presses it to a hundredth; so \
                   neither its energy nor its density has a bound.",
         size: if is_long { Size::Usual } else { Size::Quick },

@@ -115,7 +115,7 @@ pub(super) const DRAG_HUGE: GauntletCase = GauntletCase {
     what: "Water with a drag of 10⁹ kg/m, a million times the bound, in a wind of 20 m/s; a drop flies against it at \
            100 m/s.",
     guards: "Explicit drag overshoots where C|v|Δt is above 1, and turns velocities round, larger.",
-    allowed: "Nobody ever faster than the drop came (100 m/s).",
+    allowed: "No particle is ever faster than the drop came (100 m/s).",
     size: Size::Quick,
     scene: WIND,
     arrange: Some(|blueprint| change_water(blueprint, |water| water.drag = 1e9)),
@@ -129,7 +129,7 @@ pub(super) const DRAG_LIGHT: GauntletCase = GauntletCase {
     title: "Drag on next to no mass",
     what: "A liquid of 1 kg/m², the least that an element may have, with a drag of 1,000 kg/m, the most, in the same wind.",
     guards: "The same, by a tiny mass.",
-    allowed: "Nobody ever faster than the drop came (100 m/s).",
+    allowed: "No particle is ever faster than the drop came (100 m/s).",
     size: Size::Quick,
     scene: WIND,
     arrange: Some(|blueprint| {
