@@ -1,6 +1,6 @@
 //! How a command ends if it does not end well: one line and an exit code.
 
-use crate::scene::SceneError;
+use crate::{lab::experiment::ExperimentError, scene::SceneError};
 use std::{fmt, io, path::Path, process::ExitCode};
 
 /// Why a command did not end well.
@@ -38,6 +38,15 @@ impl fmt::Display for Failure {
 impl From<SceneError> for Failure {
     fn from(error: SceneError) -> Self {
         Self::Usage(error.to_string())
+    }
+}
+
+impl From<ExperimentError> for Failure {
+    fn from(error: ExperimentError) -> Self {
+        match error {
+            ExperimentError::Scene(error) => error.into(),
+            error => Self::Outcome(error.to_string()),
+        }
     }
 }
 

@@ -1,17 +1,16 @@
-//! The command line. `args` says what it understands, each command has a room of its own, `failure` is what they end
+//! The command line. `args` says what it understands, each command has a module of its own, `failure` is what they end
 //! with if they don't end well.
 
 mod args;
 mod bench;
-mod exam;
+mod dispatch;
 mod failure;
-mod gauntlet;
+mod judge;
 mod list;
 mod output;
 mod play;
 mod progress;
 mod replay;
-mod report;
 mod run;
 mod soak;
 mod start;
@@ -19,44 +18,4 @@ mod study;
 mod sweep;
 mod threads;
 
-use args::{Arguments, Command};
-use clap::Parser;
-use failure::Failure;
-use std::{ffi::OsString, io::Write, process::ExitCode};
-
-/// Runs the program with `arguments` (the first is its own name).
-///
-/// Exit codes: 0 good, 1 a check failed or an output can't be written, 2 bad usage or input. A failure is one line on
-/// stderr.
-pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let outcome = match Arguments::try_parse_from(arguments) {
-        Ok(arguments) => dispatch(arguments),
-        Err(error) if error.use_stderr() => Err(Failure::Usage(failure::condense(&error))),
-        // Help and version.
-        Err(error) => output::print(&error.render().to_string()),
-    };
-    match outcome {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            // If stderr is gone, too, the exit code has to do.
-            let _ = writeln!(std::io::stderr(), "powder-master: {failure}");
-            failure.exit_code()
-        }
-    }
-}
-
-fn dispatch(arguments: Arguments) -> Result<(), Failure> {
-    match arguments.command {
-        None => play::play(None, &arguments.play),
-        Some(Command::Play(play)) => play::play(play.scene.as_deref(), &play.options),
-        Some(Command::Run(run)) => run::run(&run),
-        Some(Command::Replay(replay)) => replay::replay(&replay),
-        Some(Command::Bench(bench)) => bench::bench(&bench),
-        Some(Command::Exam(arguments)) => exam::exam(&arguments),
-        Some(Command::Soak(arguments)) => soak::soak(&arguments),
-        Some(Command::Gauntlet(arguments)) => gauntlet::gauntlet(&arguments),
-        Some(Command::Study(study)) => study::study(&study),
-        Some(Command::Sweep(sweep)) => sweep::sweep(&sweep),
-        Some(Command::List { what }) => list::list(what),
-    }
-}
+pub use dispatch::main;

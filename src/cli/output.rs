@@ -9,11 +9,16 @@ use std::{
 };
 
 /// The path that means stdout.
-pub(super) const STDOUT: &str = "-";
+const STDOUT: &str = "-";
 
-/// Whether files can be written at these paths: each in a folder that is there, and each for itself.
+/// Whether a path means stdout.
+pub(super) fn is_stdout(path: Option<&Path>) -> bool {
+    path == Some(Path::new(STDOUT))
+}
+
+/// Whether files can be written at these paths: each in a folder that is there, and each for itself. Stdout always can.
 pub(super) fn check(paths: &[&Path]) -> Result<(), Failure> {
-    for (k, path) in paths.iter().enumerate() {
+    for (k, path) in paths.iter().enumerate().filter(|(_, path)| !is_stdout(Some(path))) {
         let bad = |what: String| Err(Failure::Usage(format!("{}: {what}", path.display())));
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         if path.as_os_str().is_empty() {
@@ -48,7 +53,31 @@ pub(super) fn write_json(path: &Path, value: &impl Serialize) -> Result<(), Fail
     let mut text = serde_json::to_string_pretty(value)
         .map_err(|error| Failure::Outcome(format!("{}: can't be written: {error}", path.display())))?;
     text.push('\n');
-    if path == Path::new(STDOUT) { print(&text) } else { write(path, |file| file.write_all(text.as_bytes())) }
+    if is_stdout(Some(path)) { print(&text) } else { write(path, |file| file.write_all(text.as_bytes())) }
+}
+
+/// Writes a report as JSON where that is asked for, and prints it as text unless the JSON has stdout.
+pub(super) fn report(
+    json: Option<&Path>,
+    value: impl FnOnce() -> serde_json::Value,
+    text: impl FnOnce() -> String,
+) -> Result<(), Failure> {
+    if let Some(path) = json {
+        write_json(path, &value())?;
+    }
+    if is_stdout(json) { Ok(()) } else { print(&text()) }
+}
+
+/// Says how to get charts, where the program can't draw them.
+pub(super) fn note_missing_charts(command: &str) {
+    if cfg!(not(feature = "charts")) {
+        // Nothing depends on whether it is heard.
+        let _ = writeln!(
+            io::stderr(),
+            "powder-master: this build draws no charts (it lacks the cargo feature `charts`); `cargo headless {command} …` \
+             draws them"
+        );
+    }
 }
 
 /// Prints on stdout. A reader that has heard enough is no failure.

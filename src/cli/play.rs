@@ -15,8 +15,8 @@ pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Fai
     let scene = scene.unwrap_or(DEFAULT_SCENE);
     output::check(options.record.as_deref().as_slice())?;
     let (start, recording) = Start::of_play(scene, options)?;
-    threads::start_aside(options.threads)?;
-    let load = |world: &mut World| start.load(world, options.simd);
+    threads::start_aside(options.machine.threads)?;
+    let load = |world: &mut World| start.load(world, options.machine.simd);
     open(scene, options.record.clone(), recording, load)
 }
 
@@ -29,12 +29,12 @@ fn open(
 ) -> Result<(), Failure> {
     use crate::{
         game::{self, GameError, playback},
-        lab::{exam, gauntlet, live::LivePlugin},
+        lab::live::LivePlugin,
     };
     use bevy::app::AppExit;
 
     match game::run(scene, record, |app| {
-        app.add_plugins((exam::plugin, gauntlet::plugin, LivePlugin));
+        app.add_plugins(LivePlugin);
         load(app.world_mut());
         if let Some(recording) = recording {
             playback::begin(app.world_mut(), recording);

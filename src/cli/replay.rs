@@ -4,8 +4,7 @@ use crate::{
     cli::{
         args::ReplayArguments,
         failure::Failure,
-        output::{self, STDOUT},
-        progress::StatusLine,
+        output, progress,
         start::{bad, read},
         threads,
     },
@@ -16,16 +15,8 @@ use crate::{
         workers::Workers,
     },
 };
-use bevy::platform::time::Instant;
 use serde::Serialize;
-use std::{
-    panic::{self, AssertUnwindSafe},
-    path::Path,
-    time::Duration,
-};
-
-/// Time from one word of progress to the next.
-const EVERY: Duration = Duration::from_millis(200);
+use std::panic::{self, AssertUnwindSafe};
 
 /// What came out.
 #[derive(Serialize)]
@@ -57,11 +48,12 @@ enum Stop {
 /// Runs a recording again and compares.
 pub(super) fn replay(arguments: &ReplayArguments) -> Result<(), Failure> {
     let json = arguments.json.as_deref();
-    output::check(json.filter(|path| *path != Path::new(STDOUT)).as_slice())?;
+    output::check(json.as_slice())?;
     let path = &arguments.file;
     let recording = Recording::decode(&read(path)?).map_err(|error| bad(path, &error))?;
-    threads::start(arguments.threads)?;
-    let mut replay = Replay::new(&recording, Workers::default(), arguments.simd).map_err(|error| bad(path, &error))?;
+    threads::start(arguments.machine.threads)?;
+    let mut replay =
+        Replay::new(&recording, Workers::default(), arguments.machine.simd).map_err(|error| bad(path, &error))?;
     // A panic is an outcome here, told in one line.
     fault::watch(false);
     let crashed = recording.end == Some(End::Crashed);
@@ -81,7 +73,7 @@ pub(super) fn replay(arguments: &ReplayArguments) -> Result<(), Failure> {
         )?;
     }
     match outcome {
-        Ok(_) if json == Some(Path::new(STDOUT)) => Ok(()),
+        Ok(_) if output::is_stdout(json) => Ok(()),
         Ok(hash) if crashed => output::print(&format!(
             "same: {done} ticks, hash {hash:016x}; recorded by a crash that does not come again\n"
         )),
@@ -96,13 +88,9 @@ pub(super) fn replay(arguments: &ReplayArguments) -> Result<(), Failure> {
 
 /// Runs to the end, and on through the tick of a crash; the hash of the world there.
 fn run(replay: &mut Replay, recording: &Recording) -> Result<u64, Stop> {
-    let (line, ticks) = (StatusLine::new(), recording.ticks());
-    let mut shown = Instant::now();
+    let line = progress::bar(recording.ticks());
     while guard(|| replay.tick())? {
-        if shown.elapsed() >= EVERY {
-            shown = Instant::now();
-            line.say(&format!("{:3} %  tick {} of {ticks}", 100 * replay.done() / ticks, replay.done()));
-        }
+        line.set_position(replay.done());
     }
     let hash = guard(|| replay.finish())?;
     if recording.end == Some(End::Crashed) {

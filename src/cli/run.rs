@@ -4,8 +4,7 @@ use crate::{
     cli::{
         args::{RunArguments, Ticks},
         failure::Failure,
-        output::{self, STDOUT},
-        progress::Progress,
+        output, progress,
         start::Start,
         threads,
     },
@@ -15,12 +14,11 @@ use crate::{
         live::LivePlugin,
         metrics::Metrics,
         moment::Moment,
-        particle_list,
         picture::{DISC_RADIUS, LONG_SIDE, Picture},
-        reference::{Follower, Reference, write_points},
+        reference::{Follower, Reference},
         run::{Observer, Plan},
         sampler::Sampler,
-        trace::Trace,
+        tables::{distances, particles, trace::Trace},
     },
     sim::{
         accuracy::Watched,
@@ -49,7 +47,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     check_outputs(arguments)?;
     let (start, recorded) = Start::of_run(arguments)?;
     let plan = plan(arguments, recorded)?;
-    threads::start(arguments.threads)?;
+    threads::start(arguments.machine.threads)?;
     let trace = arguments.trace.as_deref().map(Tracing::create).transpose()?;
 
     let mut headless = begin(start, arguments);
@@ -66,13 +64,13 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let world = headless.world();
     let mut metrics = sampler.map(|sampler| sampler.finish(world));
     if let (Some(path), Some(follower)) = (&arguments.reference, &follower) {
-        output::write(path, |file| write_points(follower.points(), file))?;
+        output::write(path, |file| distances::write(follower.points(), file))?;
         if let Some(metrics) = &mut metrics {
             metrics.accuracy.distance = Some(follower.mean(plan.warmup));
         }
     }
     write_outputs(arguments, world, metrics.as_ref())?;
-    if arguments.metrics.as_deref() == Some(Path::new(STDOUT)) {
+    if output::is_stdout(arguments.metrics.as_deref()) {
         return Ok(());
     }
     let (ticks, hash) = (plan.ticks, control::hash(world));
@@ -82,7 +80,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
 
 /// The world at its start, with an autopilot if it has a bound to hold.
 fn begin(start: Start, arguments: &RunArguments) -> Headless {
-    let load = |world: &mut World| start.load(world, arguments.simd);
+    let load = |world: &mut World| start.load(world, arguments.machine.simd);
     match goal(arguments) {
         None => Headless::begin(Workers::default(), load),
         Some(goal) => Headless::begin_with(Workers::default(), (LivePlugin, autopilot::plugin), |world| {
@@ -128,9 +126,8 @@ impl<'a> Tracing<'a> {
 }
 
 fn check_outputs(arguments: &RunArguments) -> Result<(), Failure> {
-    let metrics = arguments.metrics.as_deref().filter(|path| *path != Path::new(STDOUT));
     let files = [
-        metrics,
+        arguments.metrics.as_deref(),
         arguments.particles.as_deref(),
         arguments.trace.as_deref(),
         arguments.reference.as_deref(),
@@ -166,7 +163,7 @@ fn plan(arguments: &RunArguments, stretch: Option<Stretch>) -> Result<Plan, Fail
 
 /// The same start run at `reference` quality.
 fn reference(path: &Path, world: &World, plan: &Plan) -> Result<Reference, Failure> {
-    let mut progress = Progress::new(plan.ticks);
+    let mut progress = progress::bar(plan.ticks);
     Reference::record(&Moment::of(world), plan, Workers::default(), &mut progress)
         .map_err(|error| Failure::unwritten(path, &error))
 }
@@ -179,7 +176,7 @@ fn simulate<'a>(
     follower: Option<&mut Follower>,
     mut tracing: Option<Tracing<'a>>,
 ) -> Result<Option<Tracing<'a>>, Failure> {
-    let mut progress = Progress::new(plan.ticks);
+    let mut progress = progress::bar(plan.ticks);
     let mut observers: Vec<&mut dyn Observer> = vec![&mut progress];
     if let Some(sampler) = sampler {
         observers.push(sampler);
@@ -199,7 +196,7 @@ fn simulate<'a>(
 
 fn write_outputs(arguments: &RunArguments, world: &World, metrics: Option<&Metrics>) -> Result<(), Failure> {
     if let Some(path) = &arguments.particles {
-        output::write(path, |file| particle_list::write(world, file))?;
+        output::write(path, |file| particles::write(world, file))?;
     }
     if let Some(path) = &arguments.png {
         let picture = Picture::of_world(world, View::Elements, LONG_SIDE, DISC_RADIUS);

@@ -4,8 +4,7 @@ use crate::{
     cli::{
         args::{Minutes, SoakArguments},
         failure::Failure,
-        output,
-        progress::{StatusLine, bar},
+        output, progress,
         start::Start,
         threads,
     },
@@ -28,16 +27,17 @@ const PERIODS: u64 = 24;
 pub(super) fn soak(arguments: &SoakArguments) -> Result<(), Failure> {
     output::check(&arguments.json.as_deref().into_iter().collect::<Vec<_>>())?;
     let start = Start::of_soak(&arguments.scene, &arguments.settings, arguments.quality)?;
-    threads::start(arguments.threads)?;
-    let mut headless = Headless::begin(Workers::default(), |world| start.load(world, arguments.simd));
+    threads::start(arguments.machine.threads)?;
+    let mut headless = Headless::begin(Workers::default(), |world| start.load(world, arguments.machine.simd));
     let quality = headless.world().resource::<Setup>().preset.name();
-    let (minutes, begun, line) = (arguments.hours.0, Instant::now(), StatusLine::new());
+    let (minutes, begun) = (arguments.hours.0, Instant::now());
+    let line = progress::bar(minutes).with_message("minutes");
     let seconds = || begun.elapsed().as_secs_f64();
     let most = arguments.within.map_or(f64::INFINITY, |Minutes(minutes)| minutes as f64 * 60.0);
-    let file = arguments.json.as_deref().filter(|path| *path != Path::new(output::STDOUT));
+    let file = arguments.json.as_deref().filter(|path| !output::is_stdout(Some(path)));
     let (mut written, mut outcome) = (0, Ok(()));
     let report = soak::soak(&mut headless, arguments.seed, minutes, PERIODS, |report| {
-        line.say(&format!("{} minute {} of {minutes}", bar(report.minutes as usize, minutes as usize), report.minutes));
+        line.set_position(report.minutes);
         if report.periods.len() > written {
             written = report.periods.len();
             outcome = file.map_or(Ok(()), |path| write_json(path, arguments, quality, report, seconds()));

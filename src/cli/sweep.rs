@@ -1,22 +1,18 @@
 //! `sweep`: what accuracy costs in a scene, setting by setting.
 
 use crate::{
-    cli::{
-        args::SweepArguments,
-        failure::Failure,
-        output,
-        progress::{StatusLine, bar},
-        start::Start,
-    },
+    cli::{args::SweepArguments, failure::Failure, output, progress, start::Start},
     kernel::simd::InstructionSet,
     lab::{
+        experiment::{
+            ExperimentError,
+            journal::{Journal, JournalFile, OpenError},
+        },
         headless::Headless,
         moment::Moment,
         sweep::{
-            ErrorMeasure, Progress, Sweep, SweepError,
+            ErrorMeasure, Progress, Sweep,
             design::{Scope, other_threads, settings},
-            draw,
-            journal::{Journal, JournalFile, OpenError},
             presets::Order,
             row::Row,
             summary::{self, Subject},
@@ -26,7 +22,6 @@ use crate::{
     scene::{KNOBS, WORD_KNOBS},
     sim::{snapshot::hash_bytes, state::Sources, workers::Workers},
 };
-use bevy::platform::time::Instant;
 use std::{
     fs,
     io::{self, Write},
@@ -34,7 +29,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Ticks that a scene with taps or fans runs before it is measured, so that they have filled it: 4 s.
+/// Ticks that a scene with emitters or wind runs before it is measured, so that they have filled it: 4 s.
 const RUN_IN: u64 = 240;
 
 /// Ticks of a run, and of a quick one.
@@ -53,6 +48,7 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let starts: Vec<Opening> = starts.collect::<Result<_, Failure>>()?;
     let folders = folders(arguments, &starts)?;
     let journals: Vec<JournalFile> = folders.iter().map(|folder| journal(folder)).collect::<Result<_, _>>()?;
+    output::note_missing_charts("sweep");
     let program = program();
     let mut disorder = Vec::new();
     for ((start, folder), journal) in starts.into_iter().zip(&folders).zip(journals) {
@@ -87,7 +83,7 @@ impl Opening {
         if moment.is_idle() {
             return Err(Failure::Usage(format!(
                 "{}: nothing moves in this scene, so there is nothing to measure; allowed: scenes with liquid, moving air, \
-                 taps or fans",
+                 emitters or wind",
                 self.name
             )));
         }
@@ -169,9 +165,6 @@ fn journal(folder: &Path) -> Result<JournalFile, Failure> {
     })
 }
 
-/// Pixels of the PNG for each of the SVG's.
-const PNG_SCALE: f32 = 2.0;
-
 /// The finished runs.
 const JOURNAL: &str = "runs.jsonl";
 
@@ -189,9 +182,10 @@ fn measure(
     folder: &Path,
     file: JournalFile,
 ) -> Result<Order, Failure> {
-    let line = StatusLine::new();
-    line.say(&format!("{}: to the moment that is measured", start.name));
+    let line = progress::status();
+    line.set_message(format!("{}: to the moment that is measured", start.name));
     let moment = start.run_in(arguments.start)?;
+    drop(line);
     let Opening { name: scene, headless, .. } = start;
     // The run-in's world is not needed any more.
     drop(headless);
@@ -210,10 +204,13 @@ fn measure(
     let path = folder.join(JOURNAL);
     let unwritten = |error: io::Error| Failure::unwritten(&path, &error);
     let mut journal = Journal::read(file, sweep.campaign(program)).map_err(unwritten)?;
-    let mut pace = Pace { begun: Instant::now(), before: None };
-    let rows = sweep.run(&mut journal, &mut |progress| line.say(&pace.text(&scene, progress)));
+    let line = progress::bar(sweep.runs() as u64).with_prefix(format!("{scene} "));
+    let rows = sweep.run(&mut journal, &mut |Progress { done, what }| {
+        line.set_position(done as u64);
+        line.set_message(what.to_owned());
+    });
     let rows = rows.map_err(|error| match error {
-        SweepError::Journal(error) => unwritten(error),
+        ExperimentError::Journal(error) => unwritten(error),
         error => Failure::Outcome(format!("{scene}: {error}")),
     })?;
     drop(line);
@@ -233,32 +230,15 @@ fn measure(
     Ok(subject.order(&rows))
 }
 
-/// Knows how long the rest will take.
-struct Pace {
-    begun: Instant,
-    /// Runs that were done when it began.
-    before: Option<usize>,
-}
-
-impl Pace {
-    fn text(&mut self, scene: &str, Progress { done, runs, what }: Progress) -> String {
-        let before = *self.before.get_or_insert(done);
-        let per_run = self.begun.elapsed().as_secs_f64() / (done - before).max(1) as f64;
-        let left = match (per_run * (runs - done) as f64).round() {
-            _ if done == before => String::new(),
-            seconds if seconds < 100.0 => format!("  {seconds} s left"),
-            seconds => format!("  {:.0} min left", seconds / 60.0),
-        };
-        format!("{scene} {} {done} of {runs}{left}  {what}", bar(done, runs))
-    }
-}
-
 fn write(folder: &Path, subject: &Subject, rows: &[Row]) -> Result<(), Failure> {
     let summary = summary::text(subject, rows);
     output::write(&folder.join("curve.csv"), |file| table::write(rows, file))?;
     output::write(&folder.join("summary.md"), |file| file.write_all(summary.as_bytes()))?;
-    let chart = draw::chart(subject, rows);
-    output::write(&folder.join("curve.svg"), |file| file.write_all(chart.svg().as_bytes()))?;
-    output::write(&folder.join("curve.png"), |file| chart.write_png(file, PNG_SCALE).map_err(io::Error::other))?;
+    #[cfg(feature = "charts")]
+    {
+        let chart = crate::lab::sweep::draw::chart(subject, rows);
+        output::write(&folder.join("curve.svg"), |file| file.write_all(chart.svg()?.as_bytes()))?;
+        output::write(&folder.join("curve.png"), |file| chart.write_png(file, 2))?;
+    }
     output::print(&summary)
 }

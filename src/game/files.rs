@@ -2,7 +2,7 @@
 
 use crate::game::disk;
 use std::{
-    env, fs, io,
+    fs, io,
     path::{Path, PathBuf},
 };
 
@@ -14,18 +14,14 @@ const NAME_LIMIT: usize = 60;
 /// The folders that the game's files may be in: the one that it runs in, and the system's one for a user's data where
 /// that can't be written.
 pub fn folders() -> Vec<PathBuf> {
-    if cfg!(target_arch = "wasm32") {
-        return vec![PathBuf::from("saved worlds")];
-    }
-    let data = |name: &str| env::var_os(name).filter(|path| !path.is_empty()).map(PathBuf::from);
-    let data = if cfg!(windows) {
-        data("APPDATA")
-    } else if cfg!(target_os = "macos") {
-        data("HOME").map(|home| home.join("Library/Application Support"))
-    } else {
-        data("XDG_DATA_HOME").or_else(|| data("HOME").map(|home| home.join(".local/share")))
+    #[cfg(target_arch = "wasm32")]
+    let folders = vec![PathBuf::from("saved worlds")];
+    #[cfg(not(target_arch = "wasm32"))]
+    let folders = {
+        let data = directories::BaseDirs::new().map(|folders| folders.data_dir().join("powder-master"));
+        std::env::current_dir().ok().into_iter().chain(data).collect()
     };
-    env::current_dir().ok().into_iter().chain(data.map(|data| data.join("powder-master"))).collect()
+    folders
 }
 
 /// Writes a new file into the first folder that takes it, and says where.
@@ -75,7 +71,7 @@ mod tests {
     #[test]
     #[cfg_attr(target_arch = "wasm32", ignore = "a module has no files")]
     fn files_never_replace_each_other_and_stay_in_their_folder() {
-        let folder = env::temp_dir().join(format!("powder-files-{}", std::process::id()));
+        let folder = std::env::temp_dir().join(format!("powder-files-{}", std::process::id()));
         let folders = [PathBuf::from("/dev/null/nowhere"), folder.clone()];
         let first = write_new(&folders, "../a b", 7, "pms", b"one").expect("the second folder takes it");
         let second = write_new(&folders, "../a b", 7, "pms", b"two").expect("so it does again");

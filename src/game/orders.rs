@@ -17,6 +17,7 @@ use crate::{
         tools::{Tool, Toolbox},
     },
     kernel::{element::ElementId, params::Preset, solids::Solids},
+    lab::gauntlet::CASES,
     scene::{
         self,
         blueprint::{Effect, EffectModes, Mode},
@@ -26,7 +27,6 @@ use crate::{
         autopilot::{Autopilot, Goal},
         control,
         effects::Effects,
-        gauntlet::Cases,
         intent::{Intent, IntentQueue},
         pace::Pace,
         state::{ParticleStore, Rock, Setup},
@@ -197,11 +197,10 @@ fn play(world: &mut World, name: &str, settings: &[(String, String)], preset: Op
 
 /// Plays a hard case, at the quality that is in force.
 fn watch(world: &mut World, name: &str) {
+    let Some(case) = CASES.iter().find(|case| case.name == name) else { return };
     let preset = world.get_resource::<Setup>().map_or(Preset::Balanced, |setup| setup.preset);
-    let Some(case) = world.get_resource::<Cases>().and_then(|cases| cases.find(name)).cloned() else { return };
-    match (case.start)(preset) {
-        Ok(blueprint) => {
-            case.play(world, blueprint);
+    match case.play(world, preset) {
+        Ok(()) => {
             world.resource_mut::<History>().clear();
             world.resource_mut::<Epoch>().0 += 1;
         }

@@ -8,7 +8,8 @@ use crate::{
         input::strokes::Held,
         orders::Orders,
     },
-    sim::{accuracy::Survey, exam::ExamDesk, gauntlet::GauntletDesk, intent::IntentQueue, pace::Pace},
+    lab::{cases::JobQueue, exam::ExamCase, gauntlet::GauntletCase},
+    sim::{accuracy::Survey, intent::IntentQueue, pace::Pace},
 };
 use bevy::{
     ecs::system::SystemParam,
@@ -46,8 +47,8 @@ struct Signs {
 /// What may be worked out in the background.
 #[derive(SystemParam)]
 struct Background<'w> {
-    exam: Res<'w, ExamDesk>,
-    gauntlet: Res<'w, GauntletDesk>,
+    exam: Res<'w, JobQueue<ExamCase>>,
+    gauntlet: Res<'w, JobQueue<GauntletCase>>,
     survey: Res<'w, Survey>,
     #[cfg(not(target_arch = "wasm32"))]
     remains: Option<Res<'w, crate::game::crash::remains::Remains>>,
@@ -59,7 +60,7 @@ impl Background<'_> {
         let restores = self.remains.as_ref().is_some_and(|remains| remains.is_busy());
         #[cfg(target_arch = "wasm32")]
         let restores = false;
-        restores || self.exam.wanted.is_some() || self.gauntlet.wanted.is_some() || self.survey.is_running()
+        restores || self.exam.is_running() || self.gauntlet.is_running() || self.survey.is_running()
     }
 }
 
@@ -138,17 +139,18 @@ mod tests {
     #[test]
     fn exam_and_gauntlet_are_work() {
         let mut world = World::new();
-        world.init_resource::<ExamDesk>();
-        world.init_resource::<GauntletDesk>();
+        world.init_resource::<JobQueue<ExamCase>>();
+        world.init_resource::<JobQueue<GauntletCase>>();
         world.init_resource::<Survey>();
         let works = |world: &mut World| {
             world.run_system_once(|background: Background| background.works()).expect("all of it is there")
         };
         assert!(!works(&mut world));
-        world.resource_mut::<ExamDesk>().wanted = Some(vec![Preset::Fast]);
+        world.resource_mut::<JobQueue<ExamCase>>().begin(&[Preset::Fast]);
         assert!(works(&mut world));
-        world.insert_resource(ExamDesk::default());
-        world.resource_mut::<GauntletDesk>().wanted = Some(vec![Preset::Fast]);
+        world.resource_mut::<JobQueue<ExamCase>>().stop();
+        assert!(!works(&mut world));
+        world.resource_mut::<JobQueue<GauntletCase>>().begin(&[Preset::Fast]);
         assert!(works(&mut world));
     }
 }

@@ -3,9 +3,14 @@
 
 use crate::{
     kernel::{bins::Neighbours, params::Preset, pbf::Solver, simd::InstructionSet},
-    lab::{headless::Headless, stats},
-    scene::{self, SceneError, blueprint::EffectModes},
-    sim::{ledger::PassLedger, state::SolverState, workers::Workers},
+    lab::{
+        experiment::{ExperimentError, time},
+        headless::Headless,
+        run::Plan,
+        stats,
+    },
+    scene::{self, blueprint::EffectModes},
+    sim::{state::SolverState, workers::Workers},
 };
 use serde::Serialize;
 use std::sync::Arc;
@@ -29,14 +34,14 @@ const FEWEST_COLUMNS: usize = 8;
 const MOST_COLUMNS: usize = 1000;
 
 /// Ticks before the clock counts, and ticks that it counts.
-const WARMUP: u32 = 5;
-const TICKS: u32 = 21;
+const WARMUP: u64 = 5;
+const TICKS: u64 = 21;
 
 /// Rounds of a measurement. Every round has the same work in the same tick and other programs only ever add to it, so
 /// the shortest of the rounds counts for each tick.
 const ROUNDS: u32 = 3;
 
-/// Points of the fit cost at least this share of the dearest one: below, the overhead of a tick bends the line.
+/// Points of the fit cost at least this share of the most expensive one: below, the overhead of a tick bends the line.
 const FIT_SHARE: f64 = 0.1;
 
 /// A measured number of particles.
@@ -64,7 +69,7 @@ pub struct Growth {
 }
 
 /// Measures the three ways: brute force and bins on one thread, bins on `workers`. `says` hears of each measurement.
-pub fn measure(workers: &Workers, says: &mut dyn FnMut(&str)) -> Result<Vec<Growth>, BinningError> {
+pub fn measure(workers: &Workers, says: &mut dyn FnMut(&str)) -> Result<Vec<Growth>, ExperimentError> {
     let one = Workers::new(1)?;
     let all = format!("bins, {} threads", workers.threads());
     [
@@ -82,32 +87,16 @@ pub fn measure(workers: &Workers, says: &mut dyn FnMut(&str)) -> Result<Vec<Grow
     .collect()
 }
 
-/// Why the table can't be measured.
-#[derive(Debug, thiserror::Error)]
-pub enum BinningError {
-    /// The scene can't be built.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// The system gives no threads.
-    #[error("the threads can't be started: {0}")]
-    Threads(#[from] rayon::ThreadPoolBuildError),
-}
-
-fn median_ms(columns: usize, neighbours: Neighbours, workers: &Workers) -> Result<f64, BinningError> {
+fn median_ms(columns: usize, neighbours: Neighbours, workers: &Workers) -> Result<f64, ExperimentError> {
     let settings = [("columns".to_owned(), columns.to_string())];
     let blueprint = Arc::new(scene::load(SCENE)?.build(&settings, Some(PRESET), &EffectModes::new())?);
+    let plan = Plan { ticks: WARMUP + TICKS, warmup: WARMUP, ..Plan::default() };
     let mut shortest = vec![f64::INFINITY; TICKS as usize];
     for _ in 0..ROUNDS {
         let mut headless = Headless::new(blueprint.clone(), workers.clone());
         headless.world_mut().insert_resource(SolverState(Solver::new(InstructionSet::detect(), neighbours)));
-        for _ in 0..WARMUP {
-            headless.tick();
-        }
-        for shortest in &mut shortest {
-            headless.tick();
-            let time = headless.world().resource::<PassLedger>().last_tick();
-            *shortest = shortest.min(time.as_secs_f64() * 1e3);
-        }
+        let run = time(&mut headless, &plan, &mut [])?;
+        shortest.iter_mut().zip(run.ms).for_each(|(shortest, ms)| *shortest = shortest.min(ms));
     }
     Ok(stats::quantile(&mut shortest, 0.5).unwrap_or(f64::NAN))
 }
@@ -147,9 +136,9 @@ pub fn exponent_of(rates: &[f64], counts: &[f64]) -> Option<f64> {
 }
 
 fn exponent(points: &[Point]) -> Option<f64> {
-    let dearest = points.iter().map(|point| point.ms).fold(0.0, f64::max);
+    let most = points.iter().map(|point| point.ms).fold(0.0, f64::max);
     let logarithms: Vec<(f64, f64)> = (points.iter())
-        .filter(|point| point.ms >= FIT_SHARE * dearest)
+        .filter(|point| point.ms >= FIT_SHARE * most)
         .map(|point| ((point.particles as f64).ln(), point.ms.ln()))
         .collect();
     stats::line(&logarithms).map(|(slope, _)| slope)

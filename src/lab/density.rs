@@ -222,14 +222,11 @@ fn sector(dx: f64, dy: f64) -> u8 {
 mod tests {
     use super::*;
     use crate::kernel::element::ElementId;
-    use crate::lab::testing::{lattice, world};
+    use crate::{
+        lab::testing::{lattice, world},
+        sim::random::Random,
+    };
     use glam::IVec2;
-
-    /// Numbers in [0, 1) from a linear congruence.
-    fn noise(seed: &mut u64) -> f32 {
-        *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (*seed >> 40) as f32 / (1_u64 << 24) as f32
-    }
 
     /// The definition, pair by pair.
     fn direct(points: &[Vec2], own: usize) -> Local {
@@ -271,9 +268,9 @@ mod tests {
 
     #[test]
     fn the_grid_finds_what_the_definition_finds() {
-        let mut seed = 7;
+        let mut random = Random::new(7);
         let size = Vec2::new(24.0, 17.0);
-        let mut points: Vec<Vec2> = (0..700).map(|_| Vec2::new(noise(&mut seed), noise(&mut seed)) * size).collect();
+        let mut points: Vec<Vec2> = (0..700).map(|_| Vec2::new(random.share(), random.share()) * size).collect();
         points.extend([Vec2::ZERO, size, Vec2::new(-0.9, 3.0), size + 0.9, points[5]]);
         let mut rock = solids::Solids::new(24, 17);
         for x in 0..24 {

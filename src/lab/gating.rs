@@ -8,39 +8,32 @@
 use crate::{
     kernel::params::Preset,
     lab::{
+        experiment::{ExperimentError, Run, Spread, interleaved, time},
         headless::Headless,
         moment::Moment,
-        stats::{largest, quantile},
+        run::Plan,
     },
     scene::{
-        self, SceneError,
+        self,
         blueprint::{Effect, EffectModes, Mode},
     },
     sim::{
-        control,
         effects::Effects,
-        ledger::PassLedger,
         state::{AirGrid, ParticleStore},
         workers::Workers,
     },
 };
 use serde::Serialize;
-use std::sync::Arc;
+use std::{io, sync::Arc};
 
 /// Ticks before the moment from which all runs set out: 4 s.
 const RUN_IN: u32 = 240;
 
-/// Ticks of a run that are not timed, and ticks that are.
-const TICKS: [u32; 2] = [6, 60];
+/// Ticks at the start of a run that are not timed.
+const WARMUP: u64 = 6;
 
-/// What is measured.
-#[derive(Clone, Copy, Debug)]
-pub struct Plan {
-    /// Quality of all runs.
-    pub preset: Preset,
-    /// Runs of each choice of effects; the median counts.
-    pub rounds: usize,
-}
+/// Ticks of a run that are timed.
+const TIMED: u64 = 60;
 
 /// What effects cost in a scene. Times are medians of a tick, ms.
 #[derive(Clone, Debug, Serialize)]
@@ -83,34 +76,12 @@ pub struct EffectCost {
     pub together: f64,
 }
 
-/// A choice of effects and its times.
-struct Choice {
-    modes: EffectModes,
-    ms: Vec<f64>,
-    hash: u64,
-}
-
-impl Choice {
-    fn new(modes: EffectModes) -> Self {
-        Self { modes, ms: Vec::new(), hash: 0 }
-    }
-
-    fn median(&self) -> f64 {
-        quantile(&mut self.ms.clone(), 0.5).unwrap_or(f64::NAN)
-    }
-
-    fn spread(&self) -> f64 {
-        let least = self.ms.iter().copied().fold(f64::INFINITY, f64::min);
-        (largest(&self.ms).unwrap_or(f64::NAN) - least) / self.median()
-    }
-}
-
-/// Measures a built-in scene.
+/// Measures a built-in scene, each choice of effects in so many rounds.
 ///
 /// # Errors
 /// If there is no such scene.
-pub fn measure(name: &'static str, plan: Plan) -> Result<SceneCost, SceneError> {
-    let blueprint = scene::load(name)?.build(&[], Some(plan.preset), &EffectModes::new())?;
+pub fn measure(name: &'static str, preset: Preset, rounds: usize) -> Result<SceneCost, ExperimentError> {
+    let blueprint = scene::load(name)?.build(&[], Some(preset), &EffectModes::new())?;
     let mut world = Headless::new(Arc::new(blueprint), Workers::single());
     (0..RUN_IN).for_each(|_| world.tick());
     let moment = Moment::of(world.world());
@@ -122,15 +93,18 @@ pub fn measure(name: &'static str, plan: Plan) -> Result<SceneCost, SceneError> 
         modes.insert(effect, mode);
         modes
     };
-    let mut choices = vec![Choice::new(own.clone()), Choice::new(all(Mode::On)), Choice::new(all(Mode::Off))];
+    let mut choices = vec![own.clone(), all(Mode::On), all(Mode::Off)];
     for &effect in &running {
-        choices.push(Choice::new(but(all(Mode::Off), effect, Mode::On)));
-        choices.push(Choice::new(but(own.clone(), effect, Mode::Off)));
+        choices.push(but(all(Mode::Off), effect, Mode::On));
+        choices.push(but(own.clone(), effect, Mode::Off));
     }
-    for _ in 0..plan.rounds {
-        choices.iter_mut().for_each(|choice| time(&moment, plan.preset, choice));
+    let mut runs: Vec<Vec<Run>> = vec![Vec::new(); choices.len()];
+    for (_, k) in interleaved(choices.len(), rounds) {
+        runs[k].push(go_on(&moment, preset, &choices[k])?);
     }
-    let ms: Vec<f64> = choices.iter().map(Choice::median).collect();
+    let times = runs.iter().filter_map(|runs| Spread::of(runs.iter().map(|run| run.quantile(0.5))));
+    let times: Vec<Spread> = times.collect();
+    let ms: Vec<f64> = times.iter().map(|ms| ms.median).collect();
     let effects = running.iter().zip(ms[3..].chunks_exact(2)).map(|(effect, pair)| EffectCost {
         effect: effect.name(),
         alone: pair[0] - ms[2],
@@ -144,25 +118,20 @@ pub fn measure(name: &'static str, plan: Plan) -> Result<SceneCost, SceneError> 
         ms: ms[0],
         ms_all: ms[1],
         ms_none: ms[2],
-        spread: choices.iter().map(Choice::spread).fold(0.0, f64::max),
-        same: choices[0].hash == choices[1].hash,
+        spread: times.iter().map(Spread::share).fold(0.0, f64::max),
+        same: runs[0].iter().chain(&runs[1]).all(|run| run.hash == runs[0][0].hash),
         effects: effects.collect(),
     })
 }
 
-/// Goes on from the moment with a choice of effects and notes the median tick.
-fn time(moment: &Moment, preset: Preset, choice: &mut Choice) {
+/// Goes on from the moment with a choice of effects.
+fn go_on(moment: &Moment, preset: Preset, modes: &EffectModes) -> io::Result<Run> {
     let mut run = moment.go_on(preset, preset.quality(), Workers::single());
     let mut effects = run.world_mut().resource_mut::<Effects>();
-    for (effect, mode) in &choice.modes {
+    for (effect, mode) in modes {
         effects.get_mut(*effect).mode = *mode;
     }
-    let [warmup, timed] = TICKS;
-    (0..warmup).for_each(|_| run.tick());
-    run.world_mut().resource_mut::<PassLedger>().clear();
-    (0..timed).for_each(|_| run.tick());
-    choice.ms.push(run.world().resource::<PassLedger>().tick().median().as_secs_f64() * 1e3);
-    choice.hash = control::hash(run.world());
+    time(&mut run, &Plan { ticks: WARMUP + TIMED, warmup: WARMUP, ..Plan::default() }, &mut [])
 }
 
 #[cfg(test)]
@@ -171,11 +140,10 @@ mod tests {
 
     #[test]
     fn a_scene_without_air_saves_the_air() {
-        let plan = Plan { preset: Preset::Draft, rounds: 1 };
-        let cost = measure("hydrostatic", plan).unwrap();
+        let cost = measure("hydrostatic", Preset::Draft, 1).unwrap();
         assert!(cost.particles > 1000 && cost.ms > 0.0);
         let named = |name: &str| cost.effects.iter().any(|effect| effect.effect == name);
         assert!(named("predictor") && !named("air"), "{:?}", cost.effects);
-        assert!(measure("no such scene", plan).is_err());
+        assert!(measure("no such scene", Preset::Draft, 1).is_err());
     }
 }

@@ -1,7 +1,7 @@
 //! Tables and paragraphs in Markdown.
 
 /// An aligned table; columns for which `is_figure` holds stand at the right.
-pub(super) fn table(headings: &[&str], is_figure: impl Fn(usize) -> bool, lines: &[Vec<String>]) -> String {
+pub fn table(headings: &[&str], is_figure: impl Fn(usize) -> bool, lines: &[Vec<String>]) -> String {
     let wide = |column: usize| {
         let heading = headings[column].chars().count();
         lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0).max(heading).max(2)
@@ -22,6 +22,15 @@ pub(super) fn table(headings: &[&str], is_figure: impl Fn(usize) -> bool, lines:
     text += &format!("|{}|\n", (0..headings.len()).map(rule).collect::<Vec<_>>().join("|"));
     lines.iter().for_each(|cells| text += &line(cells.iter().map(String::as_str).collect()));
     text
+}
+
+/// The same from lines of text: cells are separated by bars, and a column whose heading begins with `>` holds figures.
+pub fn rows(headings: &str, rows: impl IntoIterator<Item = String>) -> String {
+    let headings: Vec<&str> = headings.split(" | ").collect();
+    let names: Vec<&str> = headings.iter().map(|heading| heading.trim_start_matches('>')).collect();
+    let cells = |row: String| row.split(" | ").map(str::to_owned).collect();
+    let lines: Vec<Vec<String>> = rows.into_iter().map(cells).collect();
+    table(&names, |column| headings[column].starts_with('>'), &lines)
 }
 
 /// Breaks a text into lines of at most `width` characters.
@@ -45,6 +54,16 @@ pub(super) fn fill(text: &str, width: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rows_are_aligned() {
+        let text = rows("name | >ms | fault", ["`a` | 1.25 | ".to_owned(), "another | 12.5 | none".to_owned()]);
+        let expected = "| name    |   ms | fault |\n\
+                        |---------|-----:|-------|\n\
+                        | `a`     | 1.25 |       |\n\
+                        | another | 12.5 | none  |\n";
+        assert_eq!(text, expected);
+    }
 
     #[test]
     fn lines_are_filled_and_no_word_is_lost() {

@@ -3,28 +3,31 @@
 //! in the page.
 
 pub mod balance;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod binning;
+pub mod cases;
+#[cfg(all(feature = "charts", not(target_arch = "wasm32")))]
+pub mod chart;
 pub mod coarse;
-mod crew;
 pub mod density;
-mod desk;
 mod drift;
 mod drive;
 pub mod exam;
 #[cfg(not(target_arch = "wasm32"))]
+pub mod experiment;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod gating;
 pub mod gauntlet;
 pub mod headless;
+pub mod jobs;
 pub mod live;
 pub mod machine;
-mod markdown;
+pub mod markdown;
 pub mod metrics;
 pub mod moment;
-pub mod particle_list;
 pub mod picture;
-#[cfg(not(target_arch = "wasm32"))]
-pub mod plot;
 pub mod reference;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod rest_density;
 pub mod run;
 pub mod sampler;
@@ -36,7 +39,8 @@ mod stage;
 pub mod stats;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod sweep;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod tables;
 #[cfg(test)]
 mod testing;
-pub mod trace;
 pub mod volume;

@@ -84,14 +84,19 @@ impl Picture {
 
     /// Writes the picture as PNG.
     pub fn write_png(&self, out: impl Write) -> io::Result<()> {
-        let mut encoder = png::Encoder::new(out, self.width, self.height);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        let bytes: Vec<u8> = self.light.iter().flat_map(|light| light.map(srgb)).collect();
-        let mut writer = encoder.write_header()?;
-        writer.write_image_data(&bytes)?;
-        Ok(writer.finish()?)
+        let pixels: Vec<u8> = self.light.iter().flat_map(|light| light.map(srgb)).collect();
+        write_png(out, self.width, self.height, &pixels)
     }
+}
+
+/// Writes pixels of red, green and blue as PNG, row by row.
+pub(super) fn write_png(out: impl Write, width: u32, height: u32, pixels: &[u8]) -> io::Result<()> {
+    let mut encoder = png::Encoder::new(out, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(pixels)?;
+    Ok(writer.finish()?)
 }
 
 fn light(colour: Rgb) -> [f32; 3] {

@@ -1,10 +1,7 @@
 //! A run at `reference` quality, and how far others that set out from the same moment go from it over time.
 
 use crate::{
-    kernel::{
-        params::{Preset, Quality},
-        units::TICKS_PER_SECOND,
-    },
+    kernel::params::{Preset, Quality},
     lab::{
         coarse::{CoarseField, Distance, Magnitude},
         moment::Moment,
@@ -14,7 +11,7 @@ use crate::{
     sim::workers::Workers,
 };
 use bevy::ecs::world::World;
-use std::io::{self, Write};
+use std::io;
 
 /// What the reference run was like: one sample every [`SAMPLE_EVERY`] ticks and one at the end.
 #[derive(Clone, Debug)]
@@ -134,22 +131,6 @@ impl Observer for Follower<'_> {
     }
 }
 
-/// Names of the columns of [`write_points`]: the parts of the distance are those of [`Distance`].
-pub const COLUMNS: &str = "tick,seconds,share,momentum,air,energy_ratio";
-
-/// Writes the distance over time as a table, comma separated. A field is empty where there is nothing to compare.
-pub fn write_points(points: &[Point], mut out: impl Write) -> io::Result<()> {
-    let field = |value: Option<f64>| value.map_or_else(String::new, |value| value.to_string());
-    writeln!(out, "{COLUMNS}")?;
-    for Point { tick, distance, energy_ratio } in points {
-        let seconds = *tick as f64 / f64::from(TICKS_PER_SECOND);
-        let Distance { share, momentum, air } = *distance;
-        let ratio = field(Some(*energy_ratio).filter(|ratio| ratio.is_finite()));
-        writeln!(out, "{tick},{seconds},{},{},{},{ratio}", field(share), field(momentum), field(air))?;
-    }
-    out.flush()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -159,14 +140,6 @@ mod tests {
         sim::control,
     };
     use std::sync::Arc;
-
-    struct Nobody;
-
-    impl Observer for Nobody {
-        fn after_tick(&mut self, _world: &World) -> io::Result<()> {
-            Ok(())
-        }
-    }
 
     fn small_dam_break() -> Moment {
         let settings = [("columns".to_owned(), "16".to_owned())];
@@ -184,7 +157,7 @@ mod tests {
     #[test]
     fn the_reference_stays_with_itself_and_the_rough_go_far() {
         let (moment, plan) = (small_dam_break(), Plan { ticks: 90, ..Plan::default() });
-        let reference = Reference::record(&moment, &plan, Workers::default(), &mut Nobody).unwrap();
+        let reference = Reference::record(&moment, &plan, Workers::default(), &mut ()).unwrap();
         let (own, _) = follow(&moment, &reference, Reference::quality(), &plan);
         assert_eq!(own.iter().map(|point| point.tick).collect::<Vec<_>>(), [20, 40, 60, 80, 90]);
         let nothing = Distance { share: Some(0.0), momentum: Some(0.0), air: None };
@@ -202,7 +175,7 @@ mod tests {
     #[test]
     fn the_mean_leaves_the_warm_up_out() {
         let (moment, plan) = (small_dam_break(), Plan { ticks: 40, ..Plan::default() });
-        let reference = Reference::record(&moment, &plan, Workers::default(), &mut Nobody).unwrap();
+        let reference = Reference::record(&moment, &plan, Workers::default(), &mut ()).unwrap();
         let mut headless = moment.go_on(Preset::Draft, Preset::Draft.quality(), Workers::default());
         let mut follower = Follower::new(&reference);
         run(&mut headless, &plan, &mut [&mut follower]).unwrap();

@@ -12,7 +12,7 @@ use crate::{
     sim::{view::View, workers::Workers},
 };
 use serde::Serialize;
-use std::sync::Arc;
+use std::{array, sync::Arc};
 
 /// Rest densities as multiples of the one that suits the spacing: 100, 300, 600 and 5000 of the original, where 300 was
 /// found to suit.
@@ -85,45 +85,36 @@ fn observe(preset: Preset, ratio: f64, workers: &Workers) -> Result<(Outcome, Pi
     for tick in 1..=OBSERVED_FOR * TICKS_PER_SECOND {
         headless.tick();
         if tick.is_multiple_of(OBSERVE_EVERY) {
-            looks.push(look(&headless, preset, ratio));
+            looks.push(look(&headless));
         }
     }
-    let mean = |of: fn(&Outcome) -> f64| looks.iter().map(of).sum::<f64>() / looks.len() as f64;
-    let outcome = Outcome {
-        quality: preset.name(),
-        ratio,
-        kinetic_energy: mean(|look| look.kinetic_energy),
-        jitter: mean(|look| look.jitter),
-        density_bottom: mean(|look| look.density_bottom),
-        density_top: mean(|look| look.density_top),
-        slope: mean(|look| look.slope),
-        surface: mean(|look| look.surface),
-    };
+    let [kinetic_energy, jitter, density_bottom, density_top, slope, surface] =
+        array::from_fn(|k| looks.iter().map(|look: &[f64; 6]| look[k]).sum::<f64>() / looks.len() as f64);
+    let quality = preset.name();
+    let outcome = Outcome { quality, ratio, kinetic_energy, jitter, density_bottom, density_top, slope, surface };
     Ok((outcome, Picture::of_world(headless.world(), View::Elements, PICTURE_SIDE, PICTURE_DISC)))
 }
 
-/// The liquid at one moment.
-fn look(headless: &Headless, preset: Preset, ratio: f64) -> Outcome {
+/// The figures of an [`Outcome`] at one moment, in their order.
+fn look(headless: &Headless) -> [f64; 6] {
     let matter = matter(headless.world());
     let balance = matter.balance();
     let particles = matter.particles.len().max(1) as f64;
     let Scale { spacing } = matter.scale;
     let rms_speed = (2.0 * balance.kinetic / balance.mass.max(f64::MIN_POSITIVE)).sqrt();
-    let halves = halves(matter.particles, f64::from(matter.domain.size.x));
+    let [bottom, top] = halves(matter.particles, f64::from(matter.domain.size.x));
     let tops: Vec<(f64, f64)> = (matter.column_tops().into_iter().enumerate())
         .filter(|(_, top)| top.is_finite())
         .map(|(column, top)| (column as f64, top))
         .collect();
-    Outcome {
-        quality: preset.name(),
-        ratio,
-        kinetic_energy: balance.kinetic / particles,
-        jitter: rms_speed / f64::from(spacing) / f64::from(TICKS_PER_SECOND),
-        density_bottom: halves[0],
-        density_top: halves[1],
-        slope: stats::line(&tops).map_or(0.0, |(slope, _)| slope),
-        surface: matter.surface().unwrap_or(0.0),
-    }
+    [
+        balance.kinetic / particles,
+        rms_speed / f64::from(spacing) / f64::from(TICKS_PER_SECOND),
+        bottom,
+        top,
+        stats::line(&tops).map_or(0.0, |(slope, _)| slope),
+        matter.surface().unwrap_or(0.0),
+    ]
 }
 
 /// Particles in each d² of the lower and of the upper half of the liquid. Its height is taken column by column, so that

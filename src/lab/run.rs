@@ -21,6 +21,13 @@ pub trait Observer {
     fn after_warmup(&mut self, _world: &World) {}
 }
 
+/// Looks at nothing.
+impl Observer for () {
+    fn after_tick(&mut self, _world: &World) -> io::Result<()> {
+        Ok(())
+    }
+}
+
 /// How far to run, and on what input.
 #[derive(Clone, Debug, Default)]
 pub struct Plan {

@@ -26,7 +26,7 @@ use std::{
 
 /// What simulating took, ns: what is measured and drawn in between doesn't count.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Clockwork(Arc<AtomicU64>);
+pub struct Clockwork(Arc<AtomicU64>);
 
 impl Clockwork {
     /// Time so far, ms.

@@ -2,7 +2,7 @@
 
 use crate::{
     game::{hud::toast::Toasts, input::touch::Fingers, window},
-    lab::{exam, gauntlet, live::LivePlugin},
+    lab::live::LivePlugin,
     sim::control,
     web::{hook, host, link::Link},
 };
@@ -22,7 +22,7 @@ pub fn start(link: &str, touch: bool) -> Result<(), JsError> {
         Err(error) => (Link::read("[]")?.build()?, Some(error)),
     };
     let mut app = window::build(None, |app| {
-        app.add_plugins((exam::plugin, gauntlet::plugin, LivePlugin));
+        app.add_plugins(LivePlugin);
         control::load(app.world_mut(), Arc::new(blueprint));
     });
     app.add_plugins(hook::plugin);

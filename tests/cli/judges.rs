@@ -35,17 +35,19 @@ fn bench_scaling_writes_table_json_and_curves() {
         assert!(row["error_p99"].as_f64().unwrap() < 0.5);
         let name = row["setting"].as_str().unwrap();
         assert!(
-            table.lines().any(|line| line.starts_with(&format!("| 1,458 | `{name}` |"))),
+            table.lines().any(|line| line.split('|').map(str::trim).take(3).eq(["", "1,458", &format!("`{name}`")])),
             "no row of {name} in\n{table}"
         );
     }
     let error = |name: &str| rows.iter().find(|row| row["setting"] == name).unwrap()["error_p99"].as_f64().unwrap();
     assert!(error("fine") < error("draft") && error("reference") < error("fine"), "accuracy is bought");
-    for name in ["scaling-time.svg", "scaling-error.svg", "scaling-threads.svg"] {
-        let svg = std::fs::read_to_string(here.join(name)).unwrap();
-        assert!(svg.contains("balanced") && svg.ends_with("</svg>\n"), "{name}");
+    if cfg!(feature = "charts") {
+        for name in ["scaling-time.svg", "scaling-error.svg", "scaling-threads.svg"] {
+            let svg = std::fs::read_to_string(here.join(name)).unwrap();
+            assert!(svg.contains("balanced") && svg.trim_end().ends_with("</svg>"), "{name}");
+        }
+        assert!(std::fs::read_to_string(here.join("scaling-time.svg")).unwrap().contains("another program"));
     }
-    assert!(std::fs::read_to_string(here.join("scaling-time.svg")).unwrap().contains("another program"));
 }
 
 #[test]

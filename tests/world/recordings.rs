@@ -4,7 +4,6 @@ use crate::{
     monkey::whim,
     support::{Random, Sandbox, WATER},
 };
-use bevy::app::App;
 use glam::Vec2;
 use powder_master::{
     kernel::{
@@ -12,14 +11,13 @@ use powder_master::{
         params::Preset,
         simd::InstructionSet,
     },
-    lab::gauntlet,
+    lab::gauntlet::CASES,
     scene::{
         self,
         blueprint::{Effect, Mode},
     },
     sim::{
         control,
-        gauntlet::Cases,
         intent::Intent,
         pace::Pace,
         recorder::{self, KEPT_TICKS, Recorder, SEGMENT_TICKS},
@@ -154,12 +152,9 @@ fn a_recording_begun_right_after_a_jump_leaves_the_jump_in_the_last_minute() {
 
 /// A hard case of the gauntlet with its script, as the game plays it where it is watched, recorded from its 20th tick on.
 fn watched(name: &str, ticks: u32) -> (Sandbox, Recording) {
-    let mut lab = App::new();
-    lab.add_plugins(gauntlet::plugin);
-    let case = lab.world().resource::<Cases>().find(name).unwrap_or_else(|| panic!("no case {name}"));
+    let case = CASES.iter().find(|case| case.name == name).unwrap_or_else(|| panic!("no case {name}"));
     let mut sandbox = recorded("empty", &[]);
-    let start = (case.start)(Preset::Draft).unwrap_or_else(|error| panic!("{error}"));
-    case.play(sandbox.app.world_mut(), start);
+    case.play(sandbox.app.world_mut(), Preset::Draft).unwrap_or_else(|error| panic!("{error}"));
     sandbox.tick(20);
     sandbox.get::<Recorder>().begin(sandbox.app.world(), None);
     sandbox.tick(ticks);

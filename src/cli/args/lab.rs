@@ -1,76 +1,71 @@
 //! What measures and judges.
 
-use super::values::{
-    Minutes, cap, exam_case, gauntlet_case, hours, particles, preset, rounds, setting, simd, threads, ticks, warmup,
+use super::{
+    machine::Machine,
+    values::{Minutes, cap, case, hours, particles, preset, rounds, setting, threads, ticks, warmup},
 };
-use crate::kernel::{params::Preset, simd::InstructionSet};
-use clap::{Args, ValueEnum};
+use crate::{kernel::params::Preset, lab::cases::Case};
+use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 /// `bench`.
 #[derive(Debug, Args)]
+#[command(arg_required_else_help = false, disable_help_subcommand = true)]
 pub(in crate::cli) struct BenchArguments {
-    /// What to measure
+    #[command(subcommand)]
     pub(in crate::cli) what: Bench,
-    /// Threads of the last column [default: all]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
-    pub(in crate::cli) threads: Option<u64>,
     /// Write the table as JSON; `-` is stdout, in place of the table
-    #[arg(long, value_name = "FILE.json")]
+    #[arg(long, value_name = "FILE.json", global = true)]
     pub(in crate::cli) json: Option<PathBuf>,
-    #[command(flatten)]
-    pub(in crate::cli) scaling: ScalingOptions,
 }
 
 /// What can be measured.
-#[derive(Clone, Copy, Debug, ValueEnum)]
+#[derive(Debug, Subcommand)]
 pub(in crate::cli) enum Bench {
     /// What each effect costs in each scene, alone and together, and what running only what is called for saves
-    Effects,
+    Effects {
+        /// Run each choice of effects once
+        #[arg(long)]
+        quick: bool,
+    },
     /// How many particles a tick may hold at a tick rate: brute force, bins on one thread, bins on all
-    Neighbours,
+    Neighbours {
+        /// Threads of the last column [default: all]
+        #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+        threads: Option<u64>,
+    },
     /// What a tick costs and how exact it is, from 1,458 to 999,698 particles, at every quality
-    Scaling,
+    Scaling(ScalingOptions),
 }
 
 /// Options of `bench scaling`.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct ScalingOptions {
-    /// Draw the curves into a folder: scaling-time.svg, scaling-error.svg, scaling-threads.svg (bench scaling)
+    /// Threads beside one [default: all]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+    pub(in crate::cli) threads: Option<u64>,
+    /// Draw the curves into a folder: scaling-time.svg, scaling-error.svg, scaling-threads.svg
     #[arg(long, value_name = "DIR")]
     pub(in crate::cli) svg: Option<PathBuf>,
-    /// Show other programs' figures beside: [{name, figures: [{particles, ms, error_mean, error_p99}]}] (bench scaling)
+    /// Show other programs' figures beside: [{name, figures: [{particles, ms, error_mean, error_p99}]}]
     #[arg(long, value_name = "FILE.json")]
     pub(in crate::cli) beside: Option<PathBuf>,
-    /// Take less than a minute: three sizes, one second of each (bench scaling), or one run of each choice (bench effects)
+    /// Take less than a minute: three sizes, one second of each
     #[arg(long)]
     pub(in crate::cli) quick: bool,
-    /// Leave larger worlds out (bench scaling)
+    /// Leave larger worlds out
     #[arg(long, value_name = "PARTICLES", allow_negative_numbers = true, value_parser = particles)]
     pub(in crate::cli) up_to: Option<u64>,
-    /// Leave a row out that would take longer [default: 40, with --quick 5] (bench scaling)
+    /// Leave a row out that would take longer [default: 40, with --quick 5]
     #[arg(long, value_name = "SECONDS", value_parser = cap, allow_negative_numbers = true)]
     pub(in crate::cli) cap: Option<f64>,
 }
 
-impl ScalingOptions {
-    /// The first of these options that was given, but for what is `allowed`.
-    pub(in crate::cli) fn first_given(&self, allowed: &[&str]) -> Option<&'static str> {
-        let Self { svg, beside, quick, up_to, cap } = self;
-        let given = [
-            ("--svg", svg.is_some()),
-            ("--beside", beside.is_some()),
-            ("--quick", *quick),
-            ("--up-to", up_to.is_some()),
-            ("--cap", cap.is_some()),
-        ];
-        given.into_iter().find(|(name, is_given)| *is_given && !allowed.contains(name)).map(|(name, _)| name)
-    }
-}
-
-/// What `exam` and `gauntlet` have in common.
+/// `exam` and `gauntlet`.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct ReportOptions {
+pub(in crate::cli) struct CaseArguments<C: Case> {
+    #[arg(long = "case", value_name = "NAME", value_parser = case::<C>, help = C::SUITE.which)]
+    pub(in crate::cli) cases: Vec<&'static C>,
     /// Write the rows as JSON; `-` is stdout, in place of the table
     #[arg(long, value_name = "FILE.json")]
     pub(in crate::cli) json: Option<PathBuf>,
@@ -86,26 +81,6 @@ pub(in crate::cli) struct ReportOptions {
     /// Cases at a time, each on one thread; they never change the result [default: one a processor]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
     pub(in crate::cli) threads: Option<u64>,
-}
-
-/// `exam`.
-#[derive(Debug, Args)]
-pub(in crate::cli) struct ExamArguments {
-    /// Case to examine, again for more [default: all]
-    #[arg(long = "case", value_name = "NAME", value_parser = exam_case)]
-    pub(in crate::cli) cases: Vec<String>,
-    #[command(flatten)]
-    pub(in crate::cli) options: ReportOptions,
-}
-
-/// `gauntlet`.
-#[derive(Debug, Args)]
-pub(in crate::cli) struct GauntletArguments {
-    /// Case to run, again for more: a name of `list cases` [default: all]
-    #[arg(long = "case", value_name = "NAME", value_parser = gauntlet_case)]
-    pub(in crate::cli) cases: Vec<String>,
-    #[command(flatten)]
-    pub(in crate::cli) options: ReportOptions,
 }
 
 /// `soak`.
@@ -131,12 +106,8 @@ pub(in crate::cli) struct SoakArguments {
     /// Write the figures as JSON; `-` is stdout
     #[arg(long, value_name = "FILE.json")]
     pub(in crate::cli) json: Option<PathBuf>,
-    /// Threads of the simulation; they never change the result [default: all]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
-    pub(in crate::cli) threads: Option<u64>,
-    /// Instruction set of the simulation: auto, or a narrower one than the processor's best; it never changes the result
-    #[arg(long, value_name = "SET", default_value = "auto", hide_default_value = true, value_parser = simd)]
-    pub(in crate::cli) simd: InstructionSet,
+    #[command(flatten)]
+    pub(in crate::cli) machine: Machine,
 }
 
 /// `study`.
@@ -175,7 +146,7 @@ pub(in crate::cli) struct SweepArguments {
     /// Only this preset; may be repeated [default: all presets and what is around them]
     #[arg(long = "only", value_name = "QUALITY", value_parser = preset)]
     pub(in crate::cli) only: Vec<Preset>,
-    /// End with exit code 1 if the presets are not in order: each dearer and exacter than the one before it, and none
+    /// End with exit code 1 if the presets are not in order: each more expensive and more exact than the one before it, and none
     /// beaten by a margin
     #[arg(long, conflicts_with = "only")]
     pub(in crate::cli) check: bool,
@@ -188,7 +159,7 @@ pub(in crate::cli) struct SweepArguments {
     /// Set a parameter of the scenes, or a number of the liquid
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     pub(in crate::cli) settings: Vec<(String, String)>,
-    /// Ticks of the scene before the moment from which every run sets out [default: 240 with taps or fans, else 0]
+    /// Ticks of the scene before the moment from which every run sets out [default: 240 with emitters or wind, else 0]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = warmup)]
     pub(in crate::cli) start: Option<u64>,
     /// Ticks of a run [default: 300; with --quick 120]

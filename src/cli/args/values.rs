@@ -2,7 +2,7 @@
 
 use crate::{
     kernel::{params::Preset, simd::InstructionSet, units::TICKS_PER_SECOND},
-    lab::{exam, gauntlet},
+    lab::cases::Case,
     scene::blueprint::{Effect, Mode},
 };
 
@@ -107,19 +107,10 @@ pub(super) fn preset(text: &str) -> Result<Preset, String> {
     Preset::find(text).ok_or_else(|| format!("allowed: {}", Preset::ALL.map(Preset::name).join(", ")))
 }
 
-pub(super) fn exam_case(text: &str) -> Result<String, String> {
-    name_among(text, exam::CASES.iter().map(|case| case.name))
-}
-
-pub(super) fn gauntlet_case(text: &str) -> Result<String, String> {
-    name_among(text, gauntlet::CASES.iter().map(|case| case.name))
-}
-
-fn name_among(text: &str, names: impl Iterator<Item = &'static str> + Clone) -> Result<String, String> {
-    match names.clone().find(|name| *name == text) {
-        Some(name) => Ok(name.to_owned()),
-        None => Err(format!("allowed: {}", names.collect::<Vec<_>>().join(", "))),
-    }
+pub(super) fn case<C: Case>(text: &str) -> Result<&'static C, String> {
+    let cases = C::SUITE.cases;
+    let names = || cases.iter().map(|case| case.about().name).collect::<Vec<_>>().join(", ");
+    cases.iter().find(|case| case.about().name == text).ok_or_else(|| format!("allowed: {}", names()))
 }
 
 pub(super) fn setting(text: &str) -> Result<(String, String), String> {

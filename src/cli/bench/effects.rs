@@ -1,85 +1,66 @@
 //! `bench effects`: what each effect costs, and what it saves to run only those that a scene calls for.
 
 use crate::{
-    cli::{
-        args::BenchArguments,
-        bench::{row, thousands},
-        failure::Failure,
-        output::{self, STDOUT},
-        progress::StatusLine,
-    },
+    cli::{failure::Failure, output, progress},
     kernel::params::Preset,
     lab::{
-        gating::{self, Plan, SceneCost},
+        gating::{self, EffectCost, SceneCost},
         machine::processor,
+        markdown,
     },
     scene,
+    sim::numbers::{fixed, grouped},
 };
 use serde_json::json;
 use std::path::Path;
 
+/// The quality that is measured.
+const PRESET: Preset = Preset::Balanced;
+
 /// Measures every built-in scene and prints the tables.
-pub(super) fn effects(arguments: &BenchArguments) -> Result<(), Failure> {
-    let other = arguments.scaling.first_given(&["--quick"]).or(arguments.threads.map(|_| "--threads"));
-    if let Some(option) = other {
-        return Err(Failure::Usage(format!(
-            "{option} does not belong to bench effects; allowed here: --quick, --json"
-        )));
-    }
-    let json = arguments.json.as_deref();
-    let to_stdout = json == Some(Path::new(STDOUT));
-    output::check(&json.into_iter().filter(|_| !to_stdout).collect::<Vec<_>>())?;
-    let plan = Plan { preset: Preset::Balanced, rounds: if arguments.scaling.quick { 1 } else { 5 } };
-    let line = StatusLine::new();
+pub(in crate::cli) fn effects(quick: bool, json: Option<&Path>) -> Result<(), Failure> {
+    output::check(json.as_slice())?;
+    let rounds = if quick { 1 } else { 5 };
+    let names = scene::builtin_names();
+    let line = progress::bar(names.len() as u64);
     let mut costs = Vec::new();
-    for name in scene::builtin_names() {
-        line.say(name);
-        costs.push(gating::measure(name, plan)?);
+    for name in names {
+        line.set_message(name);
+        costs.push(gating::measure(name, PRESET, rounds)?);
+        line.inc(1);
     }
     drop(line);
-    if let Some(path) = json {
-        let report = json!({ "processor": processor(), "quality": plan.preset.name(), "scenes": costs });
-        output::write_json(path, &report)?;
-    }
-    if to_stdout { Ok(()) } else { output::print(&text(&costs, plan)) }
+    let value = || json!({ "processor": processor(), "quality": PRESET.name(), "scenes": costs });
+    output::report(json, value, || text(&costs))
 }
 
 /// The tables in Markdown.
-fn text(costs: &[SceneCost], plan: Plan) -> String {
-    let mut text = format!(
-        "At `{}`, one thread, {}; medians of a tick in ms.\n\n| scene | particles | air cells | as it is | everything on | \
-         saved | same world | everything off | spread |\n|---|---:|---:|---:|---:|---:|---|---:|---:|\n",
-        plan.preset.name(),
-        processor()
-    );
-    let count = |number: usize| thousands(number as f64);
-    for cost in costs {
-        text += &row(&[
-            format!("`{}`", cost.scene),
-            count(cost.particles),
-            count(cost.cells),
-            format!("{:.3}", cost.ms),
-            format!("{:.3}", cost.ms_all),
-            format!("{:.0} %", 100.0 * cost.saved()),
-            if cost.same { "yes" } else { "no" }.to_owned(),
-            format!("{:.3}", cost.ms_none),
-            format!("{:.0} %", 100.0 * cost.spread),
-        ]);
-    }
-    text += "\n| scene | effect | alone, ms | together, ms | together, ns a particle | ns a cell |\n\
-             |---|---|---:|---:|---:|---:|\n";
-    for cost in costs {
-        let each = |ms: f64, of: usize| if of > 0 { format!("{:.1}", 1e6 * ms / of as f64) } else { "–".to_owned() };
-        for effect in &cost.effects {
-            text += &row(&[
-                format!("`{}`", cost.scene),
-                format!("`{}`", effect.effect),
-                format!("{:.3}", effect.alone),
-                format!("{:.3}", effect.together),
-                each(effect.together, cost.particles),
-                each(effect.together, cost.cells),
-            ]);
-        }
-    }
-    text
+fn text(costs: &[SceneCost]) -> String {
+    let scene = |cost: &SceneCost| {
+        let SceneCost { scene, ms, ms_all, ms_none, .. } = cost;
+        let (particles, cells) = (grouped(cost.particles), grouped(cost.cells));
+        let [saved, spread] = [cost.saved(), cost.spread].map(|share| 100.0 * share);
+        let same = if cost.same { "yes" } else { "no" };
+        format!(
+            "`{scene}` | {particles} | {cells} | {ms:.3} | {ms_all:.3} | {saved:.0} % | {same} | {ms_none:.3} | {spread:.0} %"
+        )
+    };
+    let effects = |cost: &SceneCost| {
+        let (name, counts) = (cost.scene, [cost.particles, cost.cells]);
+        let effect = move |&EffectCost { effect, alone, together }: &EffectCost| {
+            let each = counts.map(|count| fixed((count > 0).then(|| 1e6 * together / count as f64), 1)).join(" | ");
+            format!("`{name}` | `{effect}` | {alone:.3} | {together:.3} | {each}")
+        };
+        cost.effects.iter().map(effect).collect::<Vec<_>>()
+    };
+    let scenes = "scene | >particles | >air cells | >as it is | >everything on | >saved | same world | >everything off | \
+                  >spread";
+    let of_effects = "scene | effect | >alone, ms | >together, ms | >together, ns a particle | >ns a cell";
+    format!(
+        "At `{}`, one thread, {}; medians of a tick in ms.\n\n{}\n{}",
+        PRESET.name(),
+        processor(),
+        markdown::rows(scenes, costs.iter().map(scene)),
+        markdown::rows(of_effects, costs.iter().flat_map(effects))
+    )
 }

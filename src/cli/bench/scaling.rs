@@ -1,31 +1,22 @@
 //! `bench scaling`: what a tick costs and how exact it is, from a thousand particles to a million.
 
 use crate::{
-    cli::{
-        args::BenchArguments,
-        bench::{row, thousands},
-        failure::Failure,
-        output::{self, STDOUT},
-        progress::StatusLine,
-        threads,
-    },
+    cli::{args::ScalingOptions, failure::Failure, output, progress, threads},
     lab::{
         machine::processor,
-        scaling::{self, Beside, Fit, Plan, Row, SCENE, ScalingError, Skipped},
+        markdown,
+        scaling::{self, Beside, Fit, Plan, Row, SCENE, Skipped},
     },
-    sim::workers::Workers,
+    sim::{
+        numbers::{fixed, grouped},
+        workers::Workers,
+    },
 };
 use serde_json::json;
-use std::{
-    io::Write,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 /// Measures, draws and prints.
-pub(super) fn scaling(arguments: &BenchArguments) -> Result<(), Failure> {
-    let options = &arguments.scaling;
-    let json = arguments.json.as_deref();
-    let to_stdout = json == Some(Path::new(STDOUT));
+pub(in crate::cli) fn scaling(options: &ScalingOptions, json: Option<&Path>) -> Result<(), Failure> {
     let beside = match &options.beside {
         None => Vec::new(),
         Some(path) => Beside::read(path).map_err(|error| Failure::Usage(format!("{}: {error}", path.display())))?,
@@ -33,28 +24,28 @@ pub(super) fn scaling(arguments: &BenchArguments) -> Result<(), Failure> {
     // The names of the pictures are known before anything is measured.
     let drawings: Vec<PathBuf> =
         (options.svg.iter()).flat_map(|folder| scaling::CHARTS.map(|name| file(folder, name))).collect();
-    let outputs = drawings.iter().map(PathBuf::as_path).chain(json.filter(|_| !to_stdout));
+    let outputs = drawings.iter().map(PathBuf::as_path).chain(json);
     output::check(&outputs.collect::<Vec<_>>())?;
-    threads::start(arguments.threads)?;
+    if options.svg.is_some() {
+        output::note_missing_charts("bench scaling --svg");
+    }
+    threads::start(options.threads)?;
     let mut plan = if options.quick { Plan::quick() } else { Plan::full() };
     plan = plan.up_to(options.up_to.unwrap_or(u64::MAX));
     plan.cap = options.cap.unwrap_or(plan.cap);
 
-    let line = StatusLine::new();
-    let (rows, skipped) =
-        scaling::measure(&plan, &Workers::default(), &mut |text| line.say(text)).map_err(|error| match error {
-            ScalingError::Scene(error) => Failure::from(error),
-            ScalingError::Threads(_) => Failure::Outcome(error.to_string()),
-        })?;
+    let line = progress::status();
+    let (rows, skipped) = scaling::measure(&plan, &Workers::default(), &mut |text| line.set_message(text.to_owned()))?;
     drop(line);
     let fits = scaling::fits(&rows);
+    #[cfg(feature = "charts")]
     if let Some(folder) = &options.svg {
         for (name, chart) in scaling::charts(&rows, &beside, &format!("{SCENE}, {}", processor())) {
-            output::write(&file(folder, name), |out| out.write_all(chart.svg().as_bytes()))?;
+            output::write(&file(folder, name), |out| std::io::Write::write_all(out, chart.svg()?.as_bytes()))?;
         }
     }
-    if let Some(path) = json {
-        let report = json!({
+    let value = || {
+        json!({
             "processor": processor(),
             "scene": SCENE,
             "rows": rows,
@@ -62,10 +53,9 @@ pub(super) fn scaling(arguments: &BenchArguments) -> Result<(), Failure> {
             "left_out": skipped,
             "cap_seconds": plan.cap,
             "beside": beside,
-        });
-        output::write_json(path, &report)?;
-    }
-    if to_stdout { Ok(()) } else { output::print(&text(&rows, &fits, &skipped, plan.cap)) }
+        })
+    };
+    output::report(json, value, || text(&rows, &fits, &skipped, plan.cap))
 }
 
 fn file(folder: &Path, name: &str) -> PathBuf {
@@ -75,54 +65,40 @@ fn file(folder: &Path, name: &str) -> PathBuf {
 /// The tables in Markdown.
 fn text(rows: &[Row], fits: &[Fit], skipped: &[Skipped], cap: f64) -> String {
     let all = rows.iter().flat_map(|row| &row.threads).copied().max().unwrap_or(1);
-    let mut text = format!("`{SCENE}`, {}:\n\n", processor());
-    let heads =
-        ["particles", "quality", "ms, 1 thread", &format!("ms, {all} threads"), "ratio", "error, mean", "error, p99"];
-    let more = ["bytes a particle", "same hash", "ticks", "runs"];
-    let columns: Vec<bool> = (0..heads.len() + more.len()).map(|k| all > 1 || !(3..5).contains(&k)).collect();
-    let kept = |cells: Vec<String>| -> String {
-        let cells: Vec<String> =
-            cells.into_iter().zip(&columns).filter(|(_, kept)| **kept).map(|(cell, _)| cell).collect();
-        row(&cells)
+    // With one thread there is no ratio.
+    let of_all = if all > 1 { format!("| >ms, {all} threads | >ratio ") } else { String::new() };
+    let headings = format!(
+        ">particles | quality | >ms, 1 thread {of_all}| >error, mean | >error, p99 | >bytes a particle | same hash | >ticks | \
+         >runs"
+    );
+    let fit = |Fit { setting, threads, exponent, particles }: &Fit| {
+        format!("`{setting}` | {threads} | {exponent:.3} | {}", particles.map(grouped).join(" … "))
     };
-    text += &kept(heads.into_iter().chain(more).map(str::to_owned).collect());
-    let rule = (0..columns.len()).map(|k| if matches!(k, 1 | 8) { "---" } else { "---:" }.to_owned()).collect();
-    text += &kept(rule).replace(' ', "");
-    rows.iter().for_each(|row| text += &kept(cells(row)));
-    text += "\nA time is the median of the runs' medians over the ticks; error: what exceeds rest density, over the same ticks.\n";
-    text += "Cost grows as (least squares over the sizes measured):\n\n";
-    text += "| quality | threads | exponent | particles |\n|---|---:|---:|---|\n";
-    for Fit { setting, threads, exponent, particles } in fits {
-        let range = particles.map(|count| thousands(count as f64)).join(" … ");
-        text += &row(&[format!("`{setting}`"), threads.to_string(), format!("{exponent:.3}"), range]);
-    }
+    let mut text = format!(
+        "`{SCENE}`, {}:\n\n{}\nA time is the median of the runs' medians over the ticks; error: what exceeds rest density, \
+         over the same ticks.\nCost grows as (least squares over the sizes measured):\n\n{}",
+        processor(),
+        markdown::rows(&headings, rows.iter().map(|row| line(row, all))),
+        markdown::rows("quality | >threads | >exponent | particles", fits.iter().map(fit))
+    );
     if !skipped.is_empty() {
         text += &format!("\nLeft out, since a row may take {cap} s (--cap):\n\n");
         for Skipped { setting, particles, seconds } in skipped {
-            text += &format!("- {} × `{setting}`: about {seconds:.0} s\n", thousands(*particles as f64));
+            text += &format!("- {} × `{setting}`: about {seconds:.0} s\n", grouped(particles));
         }
     }
     text
 }
 
-fn cells(row: &Row) -> Vec<String> {
-    let ms = |k: usize| {
-        row.ms
-            .get(k)
-            .map_or_else(|| "–".to_owned(), |ms| if *ms < 10.0 { format!("{ms:.3}") } else { format!("{ms:.1}") })
-    };
-    let error = |error: Option<f64>| error.map_or_else(|| "–".to_owned(), |error| format!("{error:.4}"));
-    vec![
-        thousands(row.particles as f64),
-        format!("`{}`", row.setting),
-        ms(0),
-        ms(1),
-        row.speedup.map_or_else(|| "–".to_owned(), |ratio| format!("{ratio:.2}")),
-        error(row.error_mean),
-        error(row.error_p99),
-        format!("{:.0}", row.bytes_per_particle),
-        if row.same_hash { "yes" } else { "NO" }.to_owned(),
-        format!("{}–{}", row.window.first, row.window.last),
-        row.rounds.to_string(),
-    ]
+fn line(row: &Row, threads: usize) -> String {
+    let ms = |k: usize| fixed(row.ms.get(k).copied(), if row.ms.get(k).is_some_and(|ms| *ms < 10.0) { 3 } else { 1 });
+    let of_all = if threads > 1 { format!("| {} | {} ", ms(1), fixed(row.speedup, 2)) } else { String::new() };
+    let Row { setting, bytes_per_particle: bytes, window, rounds, .. } = row;
+    let [mean, p99] = [row.error_mean, row.error_p99].map(|error| fixed(error, 4));
+    let same = if row.same_hash { "yes" } else { "NO" };
+    let (particles, one) = (grouped(row.particles), ms(0));
+    let (first, last) = (window.first, window.last);
+    format!(
+        "{particles} | `{setting}` | {one} {of_all}| {mean} | {p99} | {bytes:.0} | {same} | {first}–{last} | {rounds}"
+    )
 }

@@ -3,9 +3,10 @@
 use crate::{
     game::{
         crash::remains::{Choice, Remains},
-        hud::{stats::grouped, style},
+        hud::style,
     },
     kernel::units::TICKS_PER_SECOND,
+    sim::numbers::grouped,
 };
 use bevy::prelude::{ResMut, Result};
 use bevy_egui::{

@@ -3,11 +3,7 @@
 
 use crate::{
     game::{
-        hud::{
-            HudCost, HudState,
-            stats::{Readings, grouped},
-            style,
-        },
+        hud::{HudCost, HudState, stats::Readings, style},
         orders::{Order, Orders},
         render::RenderCost,
     },
@@ -18,6 +14,7 @@ use crate::{
             account::{self, Account, Sleepers},
         },
         ledger::{Pass, PassLedger, PassRecord, Unit},
+        numbers::grouped,
         state::{AirGrid, Clock, ParticleStore, Setup, SleepState},
         view::View,
     },

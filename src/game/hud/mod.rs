@@ -4,12 +4,10 @@
 pub mod accuracy;
 pub mod bar;
 pub mod brush;
+pub mod cases;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod crash;
-mod desk;
 pub mod details;
-pub mod exam;
-pub mod gauntlet;
 pub mod help;
 pub mod icons;
 pub mod palette;
@@ -23,9 +21,12 @@ pub mod style;
 pub mod toast;
 pub mod touch;
 
-use crate::game::{
-    camera::Area,
-    input::{bindings::Action, keys::Typing, pointer::HudCover, touch::Fingers},
+use crate::{
+    game::{
+        camera::Area,
+        input::{bindings::Action, keys::Typing, pointer::HudCover, touch::Fingers},
+    },
+    lab::{self, exam::ExamCase, gauntlet::GauntletCase},
 };
 use bevy::platform::time::Instant;
 use bevy::prelude::{App, IntoScheduleConfigs, Plugin, PreUpdate, Query, Res, ResMut, Resource, Startup, not};
@@ -37,14 +38,12 @@ pub struct HudPlugin;
 
 impl Plugin for HudPlugin {
     fn build(&self, app: &mut App) {
-        app.init_resource::<stats::Readings>()
+        app.add_plugins((lab::cases::plugin::<ExamCase>, lab::cases::plugin::<GauntletCase>))
+            .init_resource::<stats::Readings>()
             .init_resource::<settings::UiScale>()
             .init_resource::<HudCost>()
             .init_resource::<scenes::SceneMenu>()
             .init_resource::<saves::SaveMenu>()
-            .init_resource::<crate::sim::exam::ExamDesk>()
-            .init_resource::<crate::sim::gauntlet::GauntletDesk>()
-            .init_resource::<crate::sim::gauntlet::Cases>()
             .init_resource::<accuracy::AccuracyPanel>()
             .add_systems(Startup, (scenes::list_scenes, greet))
             .add_systems(PreUpdate, mind_the_keys.after(EguiPreUpdateSet::ProcessInput))
@@ -62,7 +61,7 @@ impl Plugin for HudPlugin {
                     saves::show,
                     search::show,
                     details::show,
-                    (exam::show, gauntlet::show).chain(),
+                    (cases::show::<ExamCase>, cases::show::<GauntletCase>).chain(),
                     split::show,
                     accuracy::show,
                     settings::show,

@@ -1,12 +1,15 @@
 //! The list of save files.
 
-use crate::game::{
-    disk,
-    hud::{HudState, stats::grouped, style},
-    orders::{Order, Orders},
-    saves::{self, LoadError, SaveFolders, Summary},
+use crate::{
+    game::{
+        disk,
+        hud::{HudState, style},
+        orders::{Order, Orders},
+        saves::{self, LoadError, SaveFolders, Summary},
+    },
+    kernel::units::TICKS_PER_SECOND,
+    sim::numbers::grouped,
 };
-use crate::kernel::units::TICKS_PER_SECOND;
 use bevy::prelude::{Res, ResMut, Resource, Result};
 use bevy_egui::{
     EguiContexts,

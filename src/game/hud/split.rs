@@ -5,7 +5,7 @@ use crate::{
         camera::{Area, WorldCamera},
         hud::{
             HudState,
-            accuracy::{percent, short},
+            accuracy::percent,
             bar::{icon_button, quality_menu, quality_name, tip},
             icons::Icon,
             style,
@@ -22,6 +22,7 @@ use crate::{
         accuracy::LiveError,
         difference::{self, Difference, FULL_SPEED, Half},
         ledger::PassLedger,
+        numbers::short,
         split::Split,
         state::{AirGrid, Clock, ParticleStore, Setup},
     },

@@ -1,6 +1,6 @@
 //! The numbers in the upper left corner: read a few times a second, so that they can be read, and formatted only then.
 
-pub use crate::sim::effects::account::grouped;
+use crate::sim::numbers::grouped;
 use crate::{
     game::{frame::Tempo, hud::style},
     kernel::units::TICKS_PER_SECOND,

@@ -1,24 +1,7 @@
 //! Watching a hard case.
 
 use super::*;
-use crate::sim::gauntlet::{Cases, Entry};
-
-/// A player who is offered a case in which gravity points up from its fourth tick on.
-fn offered() -> Player {
-    let mut player = Player::new();
-    let start = |preset| {
-        let columns = [("columns".to_owned(), "6".to_owned())];
-        scene::load("dam_break")?.build(&columns, Some(preset), &EffectModes::new())
-    };
-    let act = |world: &mut World, tick| {
-        if tick >= 3 {
-            world.resource_mut::<IntentQueue>().push(Intent::Gravity { gravity: Vec2::new(0.0, 50.0) });
-        }
-    };
-    let case = Entry { name: "up", title: "Up", what: "It falls up.", start: Arc::new(start), act: Some(act) };
-    player.0.insert_resource(Cases(vec![case]));
-    player
-}
+use crate::lab::gauntlet::CASES;
 
 fn gravity(player: &Player) -> f32 {
     player.world().resource::<Setup>().domain.gravity.y
@@ -31,11 +14,18 @@ fn order(player: &mut Player, order: Order) {
 
 #[test]
 fn a_case_is_played_with_its_script_until_another_scene_is() {
-    let mut player = offered();
-    order(&mut player, Order::Watch("up"));
-    assert_eq!((player.particles(), gravity(&player) < 0.0), (72, true), "the start of the case");
-    player.frames(10);
-    assert_eq!(gravity(&player), 50.0, "its script acts from the fourth tick on");
+    let mut player = Player::new();
+    let case = CASES.iter().find(|case| case.name == "gravity_flips").expect("it is there");
+    order(&mut player, Order::Watch(case.name));
+    assert!(case.is_played(player.world().resource::<Setup>()));
+    let mut turns = 0;
+    let mut before = gravity(&player);
+    for _ in 0..10 {
+        player.frame();
+        turns += u32::from(gravity(&player) * before < 0.0);
+        before = gravity(&player);
+    }
+    assert!(turns >= 9, "its script turns gravity before each tick");
     order(&mut player, Order::Scene { name: "hydrostatic".to_owned(), settings: vec![] });
     player.frames(10);
     assert!(gravity(&player) < 0.0, "in another scene it does not");
@@ -46,7 +36,7 @@ fn a_case_is_played_with_its_script_until_another_scene_is() {
 
 #[test]
 fn a_key_opens_and_closes_the_list() {
-    let mut player = offered();
+    let mut player = Player::new();
     player.chord(&[KeyCode::F7]);
     assert!(player.world().resource::<HudState>().gauntlet);
     player.chord(&[KeyCode::F7]);

@@ -1,32 +1,20 @@
-//! What a case is: a question with a known answer.
+//! What a case of the exam is: a question with a known answer.
 
+pub(super) use crate::lab::cases::{Over, Setting, Size};
 use crate::{
-    kernel::params::{Preset, Quality},
-    lab::exam::{cases, world::Clockwork},
+    lab::{
+        cases::{Figures, Verdict},
+        stage::Clockwork,
+    },
     scene::SceneError,
+    sim::numbers::figure,
 };
-use std::{future::Future, pin::Pin};
-
-/// All cases, in the order in which they are shown.
-pub const CASES: &[Case] = &[
-    cases::falling::FREE_FALL,
-    cases::falling::BLOB_FALL,
-    cases::drag::WIND,
-    cases::drag::TERMINAL_SPEED,
-    cases::rest::HYDROSTATIC,
-    cases::vessels::VESSELS,
-    cases::dam::DAM_BREAK,
-    cases::sloshing::SLOSHING,
-    cases::orifice::ORIFICE,
-    cases::turning::ROTATING_BLOB,
-    cases::turning::COLLISION,
-    cases::shear::SHEAR_LAYER,
-    cases::vortex::VORTEX,
-    cases::pulse::PULSE,
-];
+use serde::Serialize;
+use std::pin::Pin;
 
 /// A question with a known answer.
-pub struct Case {
+#[derive(Debug)]
+pub struct ExamCase {
     /// Name on the command line.
     pub name: &'static str,
     /// Heading.
@@ -39,66 +27,14 @@ pub struct Case {
     pub tolerance: &'static str,
     /// What it depends on.
     pub over: Over,
-    /// Whether it takes so little time that it belongs to the quick exam.
-    pub quick: bool,
+    /// How long it takes.
+    pub size: Size,
     /// Simulates it.
     pub(super) run: fn(Setting, Clockwork) -> Run,
 }
 
 /// A case at work.
 pub(super) type Run = Pin<Box<dyn Future<Output = Result<Vec<Finding>, SceneError>>>>;
-
-/// What a case depends on, and so is run over.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Over {
-    /// The named qualities.
-    Qualities,
-    /// The air's own settings among these: cell, Courant number and advection.
-    Air,
-}
-
-/// A quality that a case is run at.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Setting {
-    /// How it is called.
-    pub name: String,
-    /// The named quality, the first of those that share the air's settings.
-    pub preset: Preset,
-    /// Whether rows must pass: at `balanced` and better.
-    pub binding: bool,
-}
-
-impl Setting {
-    /// A named quality.
-    pub(super) fn of(preset: Preset) -> Self {
-        Self { name: preset.name().to_owned(), preset, binding: is_binding(preset) }
-    }
-
-    /// The settings of the air that these qualities have, each once.
-    pub(super) fn airs(presets: &[Preset]) -> Vec<Self> {
-        let air = |preset: Preset| {
-            let Quality { air_cell, air_courant, air_advection, .. } = preset.quality();
-            (air_cell, air_courant, air_advection)
-        };
-        let mut settings: Vec<Self> = Vec::new();
-        for &preset in presets {
-            match settings.iter_mut().find(|setting| air(setting.preset) == air(preset)) {
-                Some(setting) => setting.binding |= is_binding(preset),
-                None => {
-                    let (cell, courant, advection) = air(preset);
-                    let name = format!("cell {cell} d, Courant {courant}, {}", advection.words());
-                    settings.push(Self { name, ..Self::of(preset) });
-                }
-            }
-        }
-        settings.sort_by(|a, b| air(b.preset).0.total_cmp(&air(a.preset).0));
-        settings
-    }
-}
-
-fn is_binding(preset: Preset) -> bool {
-    matches!(preset, Preset::Balanced | Preset::Fine | Preset::Reference)
-}
 
 /// How far from the known answer still passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,4 +53,66 @@ pub(super) struct Finding {
     pub expected: f64,
     pub got: f64,
     pub tolerance: Tolerance,
+}
+
+impl Finding {
+    /// How it comes out in a setting.
+    pub fn judge(self, setting: &Setting, milliseconds: f64) -> (Verdict, Answer) {
+        let Self { quantity, unit, expected, got, tolerance } = self;
+        let distance = (got - expected).abs();
+        let (relative, error, tolerance) = match tolerance {
+            Tolerance::Share(share) => (true, distance / expected.abs(), share),
+            Tolerance::Within(within) => (false, distance, within),
+        };
+        // What is no number is beyond every tolerance.
+        let verdict = match error <= tolerance {
+            true => Verdict::Pass,
+            false if setting.binding => Verdict::Fail,
+            false => Verdict::Miss,
+        };
+        (verdict, Answer { quantity, unit, expected, got, relative, error, tolerance, milliseconds })
+    }
+}
+
+/// One quantity of a case: what is known and what came out.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Answer {
+    /// What was measured.
+    pub quantity: &'static str,
+    /// Unit of `expected` and `got`; empty for a ratio.
+    pub unit: &'static str,
+    /// The known answer.
+    pub expected: f64,
+    /// What the program gave.
+    pub got: f64,
+    /// Whether `error` and `tolerance` are shares of `expected`, or else in its unit.
+    pub relative: bool,
+    /// |got − expected|.
+    pub error: f64,
+    /// Largest error that passes.
+    pub tolerance: f64,
+    /// Time that simulating the case took in this setting, ms; the rows of a case share it.
+    pub milliseconds: f64,
+}
+
+impl Answer {
+    /// A value with its unit.
+    pub(super) fn with_unit(&self, value: f64) -> String {
+        format!("{} {}", figure(value), self.unit).trim_end().to_owned()
+    }
+
+    /// A distance from the known answer.
+    pub(super) fn distance(&self, value: f64) -> String {
+        if self.relative { format!("{} %", figure(100.0 * value)) } else { self.with_unit(value) }
+    }
+
+    /// What was expected, what came, the error and the tolerance, in words.
+    pub fn words(&self) -> [String; 4] {
+        let Self { expected, got, error, tolerance, .. } = *self;
+        [self.with_unit(expected), self.with_unit(got), self.distance(error), self.distance(tolerance)]
+    }
+}
+
+impl Figures for Answer {
+    const SETTING: &'static str = "setting";
 }

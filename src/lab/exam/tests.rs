@@ -1,35 +1,38 @@
 //! The quick exam, and that its rows can fail.
 
 use super::{
-    CASES, Case, Job,
-    case::{Finding, Over, Run, Setting, Tolerance},
-    finish, jobs, sit_all,
-    world::Clockwork,
+    Answer, CASES, ExamCase,
+    case::{Finding, Over, Run, Setting, Size, Tolerance},
 };
 use crate::{
     kernel::params::Preset,
-    sim::exam::{Row, Verdict},
+    lab::{
+        cases::{Row, Verdict, jobs, run_all, summary, table},
+        drive::finish,
+        stage::Clockwork,
+    },
 };
 
 #[test]
 fn the_quick_exam_is_passed_at_balanced() {
-    let jobs = jobs(CASES, |case| case.quick, &[Preset::Balanced]);
+    let jobs = jobs(CASES, |case| case.size == Size::Quick, &[Preset::Balanced]);
     assert!(jobs.len() >= 5, "the quick exam is empty");
-    let rows = sit_all(&jobs, 2, |_, _, _| {}).unwrap();
-    let failed: Vec<&Row> = rows.iter().filter(|row| row.verdict != Verdict::Pass).collect();
+    let rows = run_all(&jobs, 2, |_, _| {}).unwrap();
+    let failed: Vec<&Row<Answer>> = rows.iter().filter(|row| row.verdict != Verdict::Pass).collect();
     assert!(failed.is_empty(), "{failed:#?}");
-    assert!(rows.len() > jobs.len() && rows.iter().all(|row| row.milliseconds > 0.0));
+    assert!(rows.len() > jobs.len() && rows.iter().all(|row| row.figures.milliseconds > 0.0));
 }
 
 #[test]
 fn an_exam_has_the_same_rows_side_by_side_and_stopped_and_gone_on_with() {
     let jobs = jobs(CASES, |case| ["free_fall", "pulse"].contains(&case.name), &[Preset::Draft, Preset::Fast]);
-    let answers =
-        |rows: Vec<Row>| rows.into_iter().map(|row| (row.case, row.setting, row.got.to_bits())).collect::<Vec<_>>();
-    let alone = answers(sit_all(&jobs, 1, |_, _, _| {}).unwrap());
-    assert_eq!(alone, answers(sit_all(&jobs, 3, |_, _, _| {}).unwrap()));
+    let answers = |rows: Vec<Row<Answer>>| {
+        rows.into_iter().map(|row| (row.case, row.setting, row.figures.got.to_bits())).collect::<Vec<_>>()
+    };
+    let alone = answers(run_all(&jobs, 1, |_, _| {}).unwrap());
+    assert_eq!(alone, answers(run_all(&jobs, 3, |_, _| {}).unwrap()));
     let mut ticks = 0;
-    let stopped = finish(jobs[0].clone().sit(), || {
+    let stopped = finish(jobs[0].run(), || {
         ticks += 1;
         ticks < 10
     });
@@ -37,10 +40,11 @@ fn an_exam_has_the_same_rows_side_by_side_and_stopped_and_gone_on_with() {
 }
 
 /// Cases that answer where 2 ± 10 % is known: just within, just beyond, and nothing.
-static TOLD: [Case; 3] = [told(|_, _| answer(2.19)), told(|_, _| answer(2.21)), told(|_, _| answer(f64::NAN))];
+static TOLD: [ExamCase; 3] = [told(|_, _| answer(2.19)), told(|_, _| answer(2.21)), told(|_, _| answer(f64::NAN))];
 
-const fn told(run: fn(Setting, Clockwork) -> Run) -> Case {
-    Case { name: "told", title: "", setup: "", answer: "", tolerance: "", over: Over::Qualities, quick: false, run }
+const fn told(run: fn(Setting, Clockwork) -> Run) -> ExamCase {
+    let over = Over::Qualities;
+    ExamCase { name: "told", title: "", setup: "", answer: "", tolerance: "", over, size: Size::Usual, run }
 }
 
 fn answer(got: f64) -> Run {
@@ -51,25 +55,11 @@ fn answer(got: f64) -> Run {
 #[test]
 fn beyond_the_tolerance_is_a_miss_at_low_qualities_and_a_failure_from_balanced_on() {
     use Verdict::{Fail, Miss, Pass};
-    let rows = sit_all(&jobs(&TOLD, |_| true, &Preset::ALL), 1, |_, _, _| {}).unwrap();
+    let rows = run_all(&jobs(&TOLD, |_| true, &Preset::ALL), 1, |_, _| {}).unwrap();
     let verdicts: Vec<Verdict> = rows.iter().map(|row| row.verdict).collect();
     let beyond = [Miss, Miss, Miss, Fail, Fail, Fail];
     // What is no number is beyond every tolerance.
     assert_eq!(verdicts, [[Pass; 6], beyond, beyond].concat());
-}
-
-#[test]
-fn air_is_examined_once_for_each_of_its_settings() {
-    let settings = |presets: &[Preset]| {
-        let jobs: Vec<Job> = jobs(CASES, |case| case.name == "pulse", presets);
-        jobs.into_iter().map(|job| (job.setting.name, job.setting.binding)).collect::<Vec<_>>()
-    };
-    assert_eq!(settings(&[Preset::Fast, Preset::Fast]).len(), 1);
-    assert_eq!(settings(&[Preset::Fast, Preset::Balanced]).len(), 2, "another air is another setting");
-    let same_cells = [Preset::Classic, Preset::Balanced];
-    assert!(same_cells.iter().all(|preset| preset.quality().air_cell == 4.0));
-    assert_eq!(settings(&same_cells).len(), 2, "another advection is another setting");
-    assert_eq!(settings(&same_cells).iter().filter(|setting| setting.1).count(), 1, "classic promises nothing");
 }
 
 #[test]
@@ -78,4 +68,24 @@ fn cases_have_names_of_their_own() {
         assert!(CASES[..k].iter().all(|other| other.name != case.name), "two cases are called {}", case.name);
         assert!([case.title, case.setup, case.answer, case.tolerance].iter().all(|text| !text.is_empty()));
     }
+}
+
+fn row(got: f64, verdict: Verdict) -> Row<Answer> {
+    let setting = Setting { name: "fast".into(), preset: Preset::Fast, binding: false };
+    let finding = Finding { quantity: "speed", unit: "m/s", expected: 9.81, got, tolerance: Tolerance::Share(0.02) };
+    let (_, figures) = finding.judge(&setting, 12.3);
+    Row { case: "free_fall", title: "Free fall", setting: setting.name, preset: setting.preset, verdict, figures }
+}
+
+#[test]
+fn the_table_is_aligned_and_names_what_is_beyond() {
+    let rows = [row(9.81, Verdict::Pass), row(12.0, Verdict::Miss), row(f64::NAN, Verdict::Fail)];
+    let text = table::<ExamCase>(&rows);
+    let lines: Vec<&str> = text.lines().collect();
+    let width = lines[0].chars().count();
+    assert!(lines.iter().all(|line| line.chars().count() == width), "not aligned:\n{text}");
+    assert!(lines[2].contains("| 9.81 m/s | ") && lines[2].contains("| pass |"), "{text}");
+    assert!(lines[3].contains("22.32 %") && lines[3].contains("2 %") && lines[3].contains("miss"), "{text}");
+    assert!(lines[4].contains("none") && lines[4].contains("FAIL"), "{text}");
+    assert_eq!(summary::<ExamCase>(&rows).split(": ").count(), 2);
 }

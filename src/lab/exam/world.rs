@@ -3,7 +3,7 @@
 pub(super) use crate::lab::stage::{Clockwork, Stage};
 use crate::{
     kernel::params::Preset,
-    lab::exam::case::Setting,
+    lab::cases::Setting,
     scene::{
         self, SceneError, SceneFile,
         blueprint::{Blueprint, Effect, EffectModes, Mode},

@@ -1,85 +1,24 @@
 //! What a hard case is: a scene, what is done to it, and what must hold all the while.
 
+pub(super) use crate::lab::cases::{Over, Size};
 use crate::{
     kernel::{
         params::{Preset, Quality},
         units::TICKS_PER_SECOND,
     },
-    lab::gauntlet::cases,
     scene::{
         self, SceneError,
         blueprint::{Blueprint, EffectModes},
     },
+    sim::{control, script::Script, state::Setup},
 };
 use bevy::ecs::world::World;
 use glam::DVec2;
-use std::time::Duration;
-
-/// All cases, in the order in which they are shown.
-pub const CASES: &[Case] = &[
-    cases::crowd::TWO_AT_A_POINT,
-    cases::crowd::POINT_64,
-    cases::crowd::POINT_10000,
-    cases::crowd::GRID_TENTH,
-    cases::crowd::GRID_THIRD,
-    cases::crowd::SPAWN_OVER_WATER,
-    cases::crowd::CLOSE_PAIRS,
-    cases::depth::DAM_BREAK,
-    cases::depth::CLUMPS,
-    cases::depth::POOL,
-    cases::depth::FULL_BOX,
-    cases::depth::DEEP_TANK,
-    cases::depth::SHAFT,
-    cases::depth::NARROW_SHAFT,
-    cases::depth::OVERFULL_SHAFT,
-    cases::depth::CORNER_100G,
-    cases::depth::WEDGE,
-    cases::impact::SHOTS,
-    cases::impact::FALLING_BLOCK,
-    cases::impact::BULLET,
-    cases::gravity::FLIPPING,
-    cases::gravity::TURNING,
-    cases::gravity::WEIGHTLESS,
-    cases::gravity::FLOATING,
-    cases::air::WIND_1000,
-    cases::air::PRESSURE_1E6,
-    cases::air::SUCTION,
-    cases::air::VACUUM,
-    cases::air::ONE_CELL,
-    cases::air::ONE_CELL_HOLE,
-    cases::air::SEALED_ROCK,
-    cases::air::VORTEX,
-    cases::air::OPEN_BOX,
-    cases::matter::VORTICITY_BOUND,
-    cases::matter::VORTICITY_BEYOND,
-    cases::matter::VISCOSITY_BOUND,
-    cases::matter::VISCOSITY_BEYOND,
-    cases::matter::DRAG_HUGE,
-    cases::matter::DRAG_LIGHT,
-    cases::matter::HEAVY_ABOVE_LIGHT,
-    cases::rock::ROCK_OVER_WATER,
-    cases::rock::ROCK_ERASED,
-    cases::ends::ENDS_1,
-    cases::ends::ENDS_2,
-    cases::ends::ENDS_3,
-    cases::ends::ENDS_4,
-    cases::ends::ENDS_5,
-    cases::ends::ENDS_6,
-    cases::ends::ENDS_7,
-    cases::ends::SPACING_1_MM,
-    cases::ends::SPACING_10_M,
-    cases::ends::FAR_AWAY,
-    cases::ends::MILLION,
-    cases::ends::NOBODY,
-    cases::play::HITCHES,
-    cases::play::QUALITY_CHANGES,
-    cases::play::EFFECTS_TOGGLE,
-    cases::play::MOUSE_MINUTE,
-    cases::play::POISON,
-];
+use std::{sync::Arc, time::Duration};
 
 /// A hard case.
-pub struct Case {
+#[derive(Debug)]
+pub struct GauntletCase {
     /// Name on the command line.
     pub name: &'static str,
     /// Heading.
@@ -92,6 +31,8 @@ pub struct Case {
     pub allowed: &'static str,
     /// How long it takes.
     pub size: Size,
+    /// What it depends on.
+    pub over: Over,
     /// The scene.
     pub(super) scene: &'static str,
     /// Knobs of the scene that are turned, on top of the quality.
@@ -110,19 +51,8 @@ pub struct Case {
     pub known: Option<&'static str>,
 }
 
-/// How long a case takes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Size {
-    /// A moment, even in a debug build.
-    Quick,
-    /// Some seconds in a release build.
-    Usual,
-    /// So long that only the command runs it.
-    Long,
-}
-
-/// What must hold in a case. These hold in each: every value is finite, pressures are at least 0, nobody is outside the
-/// box or inside rock, no particle goes missing.
+/// What must hold in a case. These hold in each: every value is finite, pressures are at least 0, no particle is
+/// outside the box or inside rock, none goes missing.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rules {
     /// Where a particle may be, m: beyond it, it has passed through something.
@@ -136,7 +66,7 @@ pub(super) struct Rules {
     pub density: Option<Density>,
     /// The root of the mean square of the speeds in the last tenth, d a tick.
     pub rest: Option<f64>,
-    /// The dearest tick, as a multiple of a calm one.
+    /// The most expensive tick, as a multiple of a calm one.
     pub work: f64,
     /// The most by which the mass of air that is shut in may change, as a share of it.
     pub air: Option<f64>,
@@ -204,7 +134,7 @@ impl Rules {
     };
 }
 
-impl Case {
+impl GauntletCase {
     /// What most cases have in common.
     pub(super) const USUAL: Self = Self {
         name: "",
@@ -213,6 +143,7 @@ impl Case {
         guards: "",
         allowed: "",
         size: Size::Usual,
+        over: Over::Qualities,
         scene: "",
         settings: &[],
         arrange: None,
@@ -223,8 +154,29 @@ impl Case {
         known: None,
     };
 
+    /// Whether it can be watched in the game: it is not too long, and the world tells all of it.
+    pub fn is_watchable(&self) -> bool {
+        self.frames.is_none() && self.size != Size::Long
+    }
+
+    /// Makes `world` the case's at a quality, and lets what is done to it begin.
+    pub fn play(&self, world: &mut World, preset: Preset) -> Result<(), SceneError> {
+        let blueprint = self.blueprint(preset)?;
+        match self.act {
+            Some(act) => world.insert_resource(Script { scene: blueprint.name.clone(), act }),
+            None => drop(world.remove_resource::<Script>()),
+        }
+        control::load(world, Arc::new(blueprint));
+        Ok(())
+    }
+
+    /// Whether it is the case that `setup` is a world of.
+    pub fn is_played(&self, setup: &Setup) -> bool {
+        setup.blueprint.name == self.scene_name()
+    }
+
     /// Name of its scene: none of a built-in one.
-    pub(super) fn scene_name(&self) -> String {
+    fn scene_name(&self) -> String {
         format!("gauntlet_{}", self.name)
     }
 

@@ -1,15 +1,18 @@
-//! The judge: looks at the world after every tick, and says at the end which rules were broken.
+//! The judge: inspects the world after every tick, and says at the end which rules were broken.
 
 use crate::{
-    kernel::{params::Preset, particles::Particles},
+    kernel::{params::Preset, particles::Particles, units::TICKS_PER_SECOND},
     lab::{
+        cases::Verdict,
         density::density_error,
-        gauntlet::case::{Case, Rules},
+        gauntlet::{
+            case::{GauntletCase, Rules},
+            stability::Stability,
+        },
         sampler::matter,
         stats,
     },
     sim::{
-        gauntlet::{Row, Verdict},
         ledger::PassLedger,
         pace::MOST_TICKS,
         stages::TickPlan,
@@ -19,8 +22,8 @@ use crate::{
 use bevy::ecs::world::World;
 use glam::DVec2;
 
-/// Ticks from one look at the density to the next.
-const LOOK_EVERY: u64 = 10;
+/// Ticks from one measurement of the density to the next.
+const DENSITY_EVERY: u64 = 10;
 
 /// Edge of the cells that candidate pairs are counted in, d: as far as the widest kernel of a quality reaches.
 const REACH: f32 = 3.0;
@@ -28,16 +31,16 @@ const REACH: f32 = 3.0;
 /// Candidates of a particle in the resting lattice: the particles of nine cells.
 const CALM_CANDIDATES: f64 = 9.0 * (REACH * REACH) as f64;
 
-/// What there is of what may not get lost.
+/// What may not get lost: how much of it there is.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Books {
+pub(super) struct Totals {
     energy: f64,
     particles: usize,
     air: f64,
 }
 
-impl Books {
-    /// The books of a world as it stands.
+impl Totals {
+    /// The totals of a world.
     pub fn of(world: &World) -> Self {
         Self {
             energy: matter(world).balance().energy(),
@@ -82,20 +85,20 @@ pub(super) struct Judge {
 
 impl Judge {
     /// A judge of the case in its world at the start.
-    pub fn new(case: &Case, world: &World) -> Self {
+    pub fn new(case: &GauntletCase, world: &World) -> Self {
         let quality = world.resource::<Setup>().quality;
-        let books = Books::of(world);
+        let totals = Totals::of(world);
         let spacing = f64::from(matter(world).scale.spacing);
         Self {
             rules: case.rules,
             gain_allowed: case.rules.gain.map(|gain| gain.speed(&quality, spacing)),
             length: u64::from(case.ticks),
             seen: 0,
-            put_in: books.energy,
+            put_in: totals.energy,
             gain: 0.0,
             fastest: 0.0,
             missing: 0,
-            air: (0.0, books.air),
+            air: (0.0, totals.air),
             through: None,
             unsound: None,
             density_worst: None,
@@ -110,20 +113,20 @@ impl Judge {
     }
 
     /// Notes what an edit put in or took out.
-    pub fn edited(&mut self, before: Books, after: Books) {
+    pub fn edited(&mut self, before: Totals, after: Totals) {
         self.put_in += after.energy - before.energy;
         self.air.1 += after.air - before.air;
     }
 
-    /// Looks at the world after `ticks` ticks since the books were `before`.
-    pub fn look(&mut self, before: Books, ticks: u64, world: &World) {
-        let after = Books::of(world);
+    /// Inspects the world after `ticks` ticks since the totals were `before`.
+    pub fn inspect(&mut self, before: Totals, ticks: u64, world: &World) {
+        let after = Totals::of(world);
         self.seen += 1;
         self.late = self.late.max(ticks);
         self.missing += before.particles as i64 - after.particles as i64;
         self.air.0 += after.air - before.air;
         self.ms.push(world.resource::<PassLedger>().last_tick().as_secs_f64() * 1e3);
-        self.look_for_unsound(world);
+        self.check_numbers(world);
         let matter = matter(world);
         let (balance, spacing) = (matter.balance(), f64::from(matter.scale.spacing));
         if balance.mass > 0.0 {
@@ -135,18 +138,18 @@ impl Judge {
             let places = (0..matter.particles.len()).map(|i| matter.particles.position(i).as_dvec2() * spacing);
             self.through = places.into_iter().find(|place| !confines(*place)).map(|place| (self.seen, place));
         }
-        self.look_at_work(world);
+        self.count_pairs(world);
         let ending = self.seen * 10 > self.length * 9;
         if ending {
             let speed = if balance.mass > 0.0 { (2.0 * balance.kinetic / balance.mass).sqrt() } else { 0.0 };
-            self.motion.push(speed / spacing / f64::from(crate::kernel::units::TICKS_PER_SECOND));
+            self.motion.push(speed / spacing / f64::from(TICKS_PER_SECOND));
         }
-        if self.seen.is_multiple_of(LOOK_EVERY) || self.seen == self.length {
-            self.look_at_density(world, ending);
+        if self.seen.is_multiple_of(DENSITY_EVERY) || self.seen == self.length {
+            self.measure_density(world, ending);
         }
     }
 
-    fn look_for_unsound(&mut self, world: &World) {
+    fn check_numbers(&mut self, world: &World) {
         if self.unsound.is_some() {
             return;
         }
@@ -166,7 +169,7 @@ impl Judge {
     }
 
     /// Counts the candidate pairs of the tick. What a tick costs follows from them, and they are the same everywhere.
-    fn look_at_work(&mut self, world: &World) {
+    fn count_pairs(&mut self, world: &World) {
         let particles = &world.resource::<ParticleStore>().0;
         let setup = world.resource::<Setup>();
         let size = setup.blueprint.domain.size;
@@ -188,7 +191,7 @@ impl Judge {
         self.work = self.work.max(pairs as f64 * f64::from(passes) / calm);
     }
 
-    fn look_at_density(&mut self, world: &World, ending: bool) {
+    fn measure_density(&mut self, world: &World, ending: bool) {
         let blueprint = &world.resource::<Setup>().blueprint;
         let rest = f64::from(blueprint.fluid.rest_density);
         let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
@@ -201,8 +204,8 @@ impl Judge {
         }
     }
 
-    /// What is to be said of the case at the end.
-    pub fn row(mut self, case: &Case, preset: Preset, world: &World, ms_total: f64) -> Row {
+    /// The verdict at the end, and what was found. Simulating took `ms_total`.
+    pub fn finish(mut self, case: &GauntletCase, preset: Preset, world: &World, ms_total: f64) -> (Verdict, Stability) {
         let clamps = *world.resource::<Counters>();
         let broken = self.broken(&clamps, world);
         let known = case.known.filter(|_| preset == Preset::Classic);
@@ -211,11 +214,7 @@ impl Judge {
             (false, Some(_)) => Verdict::Known,
             (false, None) => Verdict::Fail,
         };
-        Row {
-            case: case.name,
-            title: case.title,
-            quality: preset.name(),
-            verdict,
+        let stability = Stability {
             broken,
             known,
             ticks: world.resource::<Clock>().tick,
@@ -231,7 +230,8 @@ impl Judge {
             ms_max: stats::largest(&self.ms).unwrap_or(0.0),
             ms_median: stats::quantile(&mut self.ms, 0.5).unwrap_or(0.0),
             ms_total,
-        }
+        };
+        (verdict, stability)
     }
 
     fn broken(&self, counters: &Counters, world: &World) -> Vec<String> {

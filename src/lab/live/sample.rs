@@ -6,6 +6,7 @@
 use crate::{
     kernel::{particles::Particles, solids},
     lab::density::{DensityError, Grid, Lattice, Local, ROCK},
+    sim::random::Random,
 };
 use bevy::prelude::Resource;
 use glam::{IVec2, Vec2};
@@ -52,11 +53,10 @@ impl Scratch {
     fn choose(&mut self, particles: &Particles, lattice: &Lattice, seed: u64) {
         self.chosen.clear();
         let (count, parts) = (particles.len(), particles.len().min(SIZE));
-        let mut state = seed;
+        let mut random = Random::new(seed);
         for part in 0..parts {
             let (first, end) = (part * count / parts, (part + 1) * count / parts);
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            let index = first + (state >> 33) as usize % (end - first);
+            let index = first + (random.number() >> 1) as usize % (end - first);
             if lattice.holds(particles.position(index)) {
                 self.chosen.push(index as u32);
             }

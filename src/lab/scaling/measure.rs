@@ -1,25 +1,21 @@
-//! The runs: sizes in ascending order; at each size all settings in turn, on one thread and on several, round by round, so
-//! that whatever else the machine does falls on all of them alike.
+//! The runs: sizes in ascending order; at each size all settings in interleaved rounds, on one thread and on several.
 
 use crate::{
     kernel::units::TICKS_PER_SECOND,
     lab::{
+        experiment::{ExperimentError, Spread, interleaved, time},
         headless::Headless,
-        run::{self, Observer},
+        run,
         sampler::Sampler,
-        scaling::{
-            SCENE,
-            plan::{Plan, Setting, particles},
-        },
-        stats,
+        scaling::plan::{Plan, SCENE, Setting, particles},
     },
     scene::{
         self, SceneError,
         blueprint::{Blueprint, EffectModes},
     },
-    sim::{control, ledger::PassLedger, workers::Workers},
+    sim::workers::Workers,
 };
-use bevy::{ecs::world::World, platform::time::Instant};
+use bevy::platform::time::Instant;
 use serde::Serialize;
 use std::{io, sync::Arc};
 
@@ -89,17 +85,6 @@ pub struct Skipped {
     pub seconds: f64,
 }
 
-/// Why nothing can be measured.
-#[derive(Debug, thiserror::Error)]
-pub enum ScalingError {
-    /// The scene can't be built.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// The system gives no threads.
-    #[error("the threads can't be started: {0}")]
-    Threads(#[from] rayon::ThreadPoolBuildError),
-}
-
 /// Runs the plan on one thread and on `workers`. `says` hears of each run.
 ///
 /// # Errors
@@ -108,10 +93,10 @@ pub fn measure(
     plan: &Plan,
     workers: &Workers,
     says: &mut dyn FnMut(&str),
-) -> Result<(Vec<Row>, Vec<Skipped>), ScalingError> {
-    let mut teams = vec![Workers::new(1)?];
+) -> Result<(Vec<Row>, Vec<Skipped>), ExperimentError> {
+    let mut pools = vec![Workers::new(1)?];
     if workers.threads() > 1 {
-        teams.push(workers.clone());
+        pools.push(workers.clone());
     }
     let (mut rows, mut skipped) = (Vec::new(), Vec::new());
     // Time that a tick of each setting took at the size before, s, on one thread and on all.
@@ -133,18 +118,15 @@ pub fn measure(
             }
             let rounds = (plan.share / seconds.max(1e-9)).floor().clamp(1.0, plan.rounds as f64) as usize;
             // Medians of an odd number are measured ones.
-            series.push(Series::new(*setting, columns, window, (rounds - 1) / 2 * 2 + 1, teams.len())?);
+            series.push(Series::new(*setting, columns, window, (rounds - 1) / 2 * 2 + 1, pools.len())?);
         }
-        for round in 0..plan.rounds {
-            for series in series.iter_mut().filter(|series| round < series.rounds) {
-                for (k, team) in teams.iter().enumerate() {
-                    says(&format!(
-                        "{count} particles, {}, round {}, threads {}",
-                        series.setting.name,
-                        round + 1,
-                        team.threads()
-                    ));
-                    series.run(k, team);
+        for (round, k) in interleaved(series.len(), plan.rounds) {
+            let series = &mut series[k];
+            if round < series.rounds {
+                for (k, pool) in pools.iter().enumerate() {
+                    let (setting, round, threads) = (series.setting.name, round + 1, pool.threads());
+                    says(&format!("{count} particles, {setting}, round {round}, threads {threads}"));
+                    series.run(k, pool)?;
                 }
             }
         }
@@ -155,7 +137,7 @@ pub fn measure(
             let grown = before.map(|(size, seconds)| seconds / size as f64);
             *before = tick.or(grown.map(|each| each * count as f64)).map(|tick| (count, tick));
         }
-        let threads: Vec<usize> = teams.iter().map(Workers::threads).collect();
+        let threads: Vec<usize> = pools.iter().map(Workers::threads).collect();
         rows.extend(series.into_iter().map(|series| series.finish(&threads)));
     }
     Ok((rows, skipped))
@@ -180,7 +162,7 @@ struct Series {
 }
 
 impl Series {
-    fn new(setting: Setting, columns: u32, window: Window, rounds: usize, teams: usize) -> Result<Self, SceneError> {
+    fn new(setting: Setting, columns: u32, window: Window, rounds: usize, pools: usize) -> Result<Self, SceneError> {
         let mut settings = vec![("columns".to_owned(), columns.to_string())];
         settings.extend(setting.changes.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())));
         let blueprint = scene::load(SCENE)?.build(&settings, Some(setting.preset), &EffectModes::new())?;
@@ -190,7 +172,7 @@ impl Series {
             particles: particles(columns),
             window,
             rounds,
-            ms: vec![Vec::new(); teams],
+            ms: vec![Vec::new(); pools],
             error: [None; 2],
             bytes: 0,
             escaped: 0,
@@ -200,50 +182,44 @@ impl Series {
     }
 
     /// One run. The error is taken from the first: it is the same in all of them.
-    fn run(&mut self, team: usize, workers: &Workers) {
+    fn run(&mut self, pool: usize, workers: &Workers) -> io::Result<()> {
         let begun = Instant::now();
-        let warmup = self.window.first - 1;
+        let plan = run::Plan { ticks: self.window.ticks(), warmup: self.window.first - 1, ..run::Plan::default() };
         let mut headless = Headless::new(self.blueprint.clone(), workers.clone());
-        let mut times = Times { ms: Vec::new(), left: warmup };
-        let mut sampler = self.hashes.is_empty().then(|| Sampler::new(headless.world(), warmup));
-        let mut observers: Vec<&mut dyn Observer> = vec![&mut times];
-        if let Some(sampler) = &mut sampler {
-            observers.push(sampler);
-        }
-        let plan = run::Plan { ticks: self.window.ticks(), warmup, ..run::Plan::default() };
-        // These observers write nowhere.
-        let outcome = run::run(&mut headless, &plan, &mut observers);
-        debug_assert!(outcome.is_ok(), "nothing to fail: {outcome:?}");
-        self.ms[team].extend(stats::quantile(&mut times.ms, 0.5));
-        self.hashes.push(control::hash(headless.world()));
-        if let Some(sampler) = sampler {
+        let run = if self.hashes.is_empty() {
+            let mut sampler = Sampler::new(headless.world(), plan.warmup);
+            let run = time(&mut headless, &plan, &mut [&mut sampler])?;
             let metrics = sampler.finish(headless.world());
             self.error = [metrics.accuracy.density_error_mean, metrics.accuracy.density_error_p99];
             (self.bytes, self.escaped) = (metrics.memory_bytes, metrics.stability.escaped);
-        }
+            run
+        } else {
+            time(&mut headless, &plan, &mut [])?
+        };
+        self.ms[pool].push(run.quantile(0.5));
+        self.hashes.push(run.hash);
         self.seconds += begun.elapsed().as_secs_f64();
+        Ok(())
     }
 
-    /// Time that a tick took on all teams together, s, with all that goes around it.
+    /// Time that a tick took on all pools together, s, with all that goes around it.
     fn tick_seconds(&self) -> f64 {
         self.seconds / self.rounds as f64 / self.window.ticks() as f64
     }
 
-    fn finish(mut self, threads: &[usize]) -> Row {
-        let mut ratios: Vec<f64> = match &self.ms[..] {
-            [one, all, ..] => one.iter().zip(all).map(|(one, all)| one / all).collect(),
-            _ => Vec::new(),
+    fn finish(self, threads: &[usize]) -> Row {
+        let ratios = match &self.ms[..] {
+            [one, all, ..] => Spread::of(one.iter().zip(all).map(|(one, all)| one / all)),
+            _ => None,
         };
-        let ends = |ms: &Vec<f64>| {
-            ms.iter().fold([f64::INFINITY, 0.0_f64], |[least, most], ms| [least.min(*ms), most.max(*ms)])
-        };
+        let ms: Vec<Spread> = self.ms.into_iter().filter_map(Spread::of).collect();
         Row {
             setting: self.setting.name,
             particles: self.particles,
             threads: threads.to_vec(),
-            ms_range: self.ms.iter().map(ends).collect(),
-            ms: self.ms.iter_mut().map(|ms| stats::quantile(ms, 0.5).unwrap_or(f64::NAN)).collect(),
-            speedup: stats::quantile(&mut ratios, 0.5),
+            ms_range: ms.iter().map(|ms| ms.range).collect(),
+            ms: ms.iter().map(|ms| ms.median).collect(),
+            speedup: ratios.map(|ratios| ratios.median),
             error_mean: self.error[0],
             error_p99: self.error[1],
             bytes_per_particle: self.bytes as f64 / self.particles as f64,
@@ -253,23 +229,6 @@ impl Series {
             window: self.window,
             rounds: self.rounds,
         }
-    }
-}
-
-/// Notes the time of each tick after the first `left`.
-struct Times {
-    ms: Vec<f64>,
-    left: u64,
-}
-
-impl Observer for Times {
-    fn after_tick(&mut self, world: &World) -> io::Result<()> {
-        if self.left == 0 {
-            self.ms.push(world.resource::<PassLedger>().last_tick().as_secs_f64() * 1e3);
-        } else {
-            self.left -= 1;
-        }
-        Ok(())
     }
 }
 

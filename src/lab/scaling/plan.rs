@@ -2,6 +2,12 @@
 
 use crate::kernel::params::Preset;
 
+/// The scene that is measured; its parameter `columns` = c stands for 2 c² particles.
+pub const SCENE: &str = "dam_break";
+
+/// Names of all charts that there may be.
+pub const CHARTS: [&str; 3] = ["scaling-time", "scaling-error", "scaling-threads"];
+
 /// A quality, perhaps with numbers of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setting {

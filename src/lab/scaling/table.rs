@@ -16,16 +16,21 @@ pub struct Fit {
     pub particles: [usize; 2],
 }
 
-/// The exponents of all settings that were measured at two sizes or more, in the order of the rows.
-pub fn fits(rows: &[Row]) -> Vec<Fit> {
-    let mut fits = Vec::new();
-    let mut settings: Vec<&'static str> = Vec::new();
+/// The settings of the rows, each once, in their order.
+pub(super) fn settings(rows: &[Row]) -> Vec<&'static str> {
+    let mut settings = Vec::new();
     for row in rows {
         if !settings.contains(&row.setting) {
             settings.push(row.setting);
         }
     }
-    for setting in settings {
+    settings
+}
+
+/// The exponents of all settings that were measured at two sizes or more, in the order of the rows.
+pub fn fits(rows: &[Row]) -> Vec<Fit> {
+    let mut fits = Vec::new();
+    for setting in settings(rows) {
         let own: Vec<&Row> = rows.iter().filter(|row| row.setting == setting).collect();
         for (k, threads) in own[0].threads.iter().enumerate() {
             let points: Vec<(f64, f64)> = own.iter().map(|row| ((row.particles as f64).ln(), row.ms[k].ln())).collect();
@@ -43,7 +48,7 @@ pub fn fits(rows: &[Row]) -> Vec<Fit> {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::lab::scaling::Window;
+    use crate::lab::scaling::measure::Window;
 
     /// A row of a law of costs.
     pub fn row(setting: &'static str, particles: usize, ms: [f64; 2], error: f64) -> Row {

@@ -7,7 +7,7 @@ use crate::{
         solids::Solids,
     },
     scene::blueprint::Blueprint,
-    sim::intent::Intent,
+    sim::{intent::Intent, random::Random},
 };
 use glam::{IVec2, Vec2};
 
@@ -22,7 +22,7 @@ const WALL: Vec2 = Vec2::new(14.0, 2.0);
 /// that taking it away leaves the scene as it was.
 #[derive(Clone, Debug)]
 pub struct Player {
-    state: u64,
+    random: Random,
     size: Vec2,
     ground: Solids,
     movable: Vec<ElementId>,
@@ -38,7 +38,7 @@ impl Player {
             table.iter().filter(|(_, element)| element.fixed == fixed).map(|(id, _)| id).collect()
         };
         Self {
-            state: seed,
+            random: Random::new(seed),
             size: blueprint.domain.size,
             ground: blueprint.solids.clone(),
             movable: of(&blueprint.elements, false),
@@ -63,10 +63,10 @@ impl Player {
 
     fn pour(&mut self) -> Option<Intent> {
         // One tick in four, as a hand dabs; the element of a dab is any that moves.
-        if self.index(4) > 0 || self.movable.is_empty() {
+        if self.random.below(4) > 0 || self.movable.is_empty() {
             return None;
         }
-        let choice = self.index(self.movable.len());
+        let choice = self.random.below(self.movable.len());
         let element = self.movable[choice];
         let stroke = self.drag(3.0);
         Some(Intent::Draw { element, stroke })
@@ -74,14 +74,14 @@ impl Player {
 
     fn build(&mut self) -> Option<Intent> {
         let corner = self.point();
-        let way = if self.index(2) == 0 { WALL } else { Vec2::new(WALL.y, WALL.x) };
+        let way = if self.random.below(2) == 0 { WALL } else { Vec2::new(WALL.y, WALL.x) };
         let stroke = Stroke::rectangle(corner, (corner + way).min(self.size));
         let size = IVec2::new(self.ground.columns(), self.ground.rows());
         if self.fixed.is_empty() || stroke.cells(size).any(|cell| self.ground.is_solid(cell)) {
             return None;
         }
         self.wall = Some(stroke);
-        let choice = self.index(self.fixed.len());
+        let choice = self.random.below(self.fixed.len());
         Some(Intent::Stamp { element: self.fixed[choice], stroke })
     }
 
@@ -92,13 +92,13 @@ impl Player {
     }
 
     fn press(&mut self) -> Intent {
-        let amount = if self.index(2) == 0 { 0.1 } else { -0.1 };
+        let amount = if self.random.below(2) == 0 { 0.1 } else { -0.1 };
         Intent::Press { stroke: self.drag(6.0), amount }
     }
 
     /// A short drag from where the hand is; now and then the hand is lifted and set down elsewhere.
     fn drag(&mut self, radius: f32) -> Stroke {
-        if self.index(20) == 0 {
+        if self.random.below(20) == 0 {
             self.hand = self.point();
         }
         let from = self.hand;
@@ -109,18 +109,7 @@ impl Player {
 
     /// Anywhere in the box, d.
     fn point(&mut self) -> Vec2 {
-        let mut share = || self.next() as f32 / 4_294_967_296.0;
-        Vec2::new(share(), share()) * self.size
-    }
-
-    fn index(&mut self, count: usize) -> usize {
-        self.next() as usize % count
-    }
-
-    /// The upper half of a linear congruential generator (Knuth, MMIX).
-    fn next(&mut self) -> u32 {
-        self.state = self.state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.state >> 32) as u32
+        Vec2::new(self.random.share(), self.random.share()) * self.size
     }
 }
 

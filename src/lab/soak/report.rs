@@ -1,11 +1,13 @@
 //! What a soak showed, and whether it passes.
 
 use crate::{
-    lab::stats::{largest, mean, quantile},
-    sim::state::Counters,
+    lab::{
+        markdown,
+        stats::{largest, mean, quantile},
+    },
+    sim::{numbers::fixed, state::Counters},
 };
 use serde::Serialize;
-use std::fmt::Write;
 
 /// How much more memory the last quarter may need than the second: what an allocator's fragments may, and no leak of a
 /// byte a tick in a day (5 MB).
@@ -148,23 +150,19 @@ impl Report {
 
     /// The periods as a table in Markdown.
     pub fn table(&self) -> String {
-        let mut text = String::from(
-            "| until, h | ms | p99 | particles | kinetic energy, J | peak | energy, kJ | air mass | memory, MB |\n\
-             |---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
-        );
-        for totals in &self.periods {
-            let Totals { until, ms, ms_p99, particles, kinetic, kinetic_peak, energy, air_mass, .. } = *totals;
-            let memory = totals.resident.map_or_else(|| "–".into(), |bytes| format!("{:.1}", bytes / 1e6));
-            // Writing to a string does not fail.
-            let _ = writeln!(
-                text,
-                "| {:.2} | {ms:.3} | {ms_p99:.3} | {particles:.0} | {kinetic:.0} | {kinetic_peak:.0} | {:.1} | \
-                 {air_mass:.1} | {memory} |",
-                until as f64 / 60.0,
-                energy / 1e3
-            );
-        }
-        text
+        let line = |totals: &Totals| {
+            let Totals { until, ms, ms_p99, particles, kinetic, kinetic_peak, energy, air_mass, resident, .. } =
+                *totals;
+            let (hours, energy, memory) =
+                (until as f64 / 60.0, energy / 1e3, fixed(resident.map(|bytes| bytes / 1e6), 1));
+            format!(
+                "{hours:.2} | {ms:.3} | {ms_p99:.3} | {particles:.0} | {kinetic:.0} | {kinetic_peak:.0} | {energy:.1} | \
+                 {air_mass:.1} | {memory}"
+            )
+        };
+        let headings = ">until, h | >ms | >p99 | >particles | >kinetic energy, J | >peak | >energy, kJ | >air mass | \
+                        >memory, MB";
+        markdown::rows(headings, self.periods.iter().map(line))
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a sweep measures: the presets, a plane of substeps × iterations, and around each preset one knob at a time.
 
-use super::{ErrorMeasure, effective};
+use super::error::ErrorMeasure;
 use crate::kernel::params::{AirAdvection, Preset, Quality};
 use std::ops::RangeInclusive;
 
@@ -195,6 +195,12 @@ impl List<'_> {
 pub fn other_threads(chosen: usize, available: usize) -> Vec<usize> {
     let powers = (0..usize::BITS).map(|k| 1 << k).take_while(|threads| *threads < available);
     powers.chain([available]).filter(|threads| *threads != chosen).collect()
+}
+
+/// The knobs that make a difference: without air its own do not.
+pub(super) fn effective(quality: Quality, has_air: bool) -> Quality {
+    let Quality { air_cell, air_courant, air_advection, .. } = Preset::Reference.quality();
+    if has_air { quality } else { Quality { air_cell, air_courant, air_advection, ..quality } }
 }
 
 #[cfg(test)]

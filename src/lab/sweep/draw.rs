@@ -1,9 +1,9 @@
 //! curve.svg and curve.png: error against time, both logarithmic.
 
-use super::{ErrorMeasure, row::Row, summary::Subject};
+use super::{error::ErrorMeasure, row::Row, summary::Subject};
 use crate::lab::{
+    chart::{Axis, Chart, Look, Point, Series},
     machine::processor,
-    plot::{Axis, Chart, Look, Naming, Point, Series},
 };
 
 /// Largest error that is shown: a world that far off is not a little worse but another one.
@@ -18,15 +18,11 @@ pub fn chart(subject: &Subject, rows: &[Row]) -> Chart {
     let points = |rows: &[&Row]| rows.iter().filter_map(|row| point(subject, row)).collect::<Vec<_>>();
     let mut series = vec![Series::new("front", Look::Front, points(&lower_edge(&own)))];
     let (presets, others): (Vec<&Row>, Vec<&Row>) = own.into_iter().partition(|row| row.setting.preset.is_some());
-    // Each by itself, so that no line joins them.
-    for (k, point) in points(&others).into_iter().enumerate() {
-        let naming = if k == 0 { Naming::Legend } else { Naming::Unnamed };
-        series.push(Series::new("other settings", Look::Faint, [point]).named(naming));
-    }
+    series.push(Series::new("other settings", Look::Cloud, points(&others)));
     for row in presets {
         let not_valid = if row.is_valid() { "" } else { " (not valid)" };
         let name = format!("{}{not_valid}", row.setting.name);
-        series.push(Series::new(name, Look::Scatter, point(subject, row)).named(Naming::AtEnd));
+        series.push(Series::new(name, Look::Scatter, point(subject, row)));
     }
     let threads = if subject.threads == 1 { "1 thread".to_owned() } else { format!("{} threads", subject.threads) };
     let errors = || rows.iter().filter_map(|row| point(subject, row)).map(|point| point.y);
@@ -47,9 +43,9 @@ fn lower_edge<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {
     front.sort_by(|a, b| a.ms.total_cmp(&b.ms));
     let mut least = f64::INFINITY;
     front.retain(|row| {
-        let exacter = row.error < least;
+        let is_better = row.error < least;
         least = least.min(row.error);
-        exacter
+        is_better
     });
     front
 }
@@ -61,10 +57,8 @@ fn point(subject: &Subject, row: &Row) -> Option<Point> {
         ErrorMeasure::Density => row.error.max(LEAST_ERROR),
         ErrorMeasure::Air => Some(row.error).filter(|error| *error > 0.0)?,
     };
-    let point = Point::new(row.ms, error);
-    let [low, high] = row.ms_range;
-    let shown = row.error.is_finite() && error <= MOST_ERROR;
-    shown.then(|| if low < high { point.between_x(low, high) } else { point })
+    let x_range = Some(row.ms_range).filter(|[low, high]| low < high);
+    (row.error.is_finite() && error <= MOST_ERROR).then(|| Point { x_range, ..Point::new(row.ms, error) })
 }
 
 #[cfg(test)]

@@ -80,6 +80,7 @@ pub(super) fn mark(rows: &mut [Row], air_is_unseen: bool) {
 #[cfg(test)]
 mod tests {
     use super::{super::row::tests::row, *};
+    use crate::sim::random::Random;
 
     /// The definition, pair by pair.
     fn brute_force(points: &[Point]) -> Vec<bool> {
@@ -92,11 +93,8 @@ mod tests {
 
     #[test]
     fn the_front_is_what_the_definition_says() {
-        let mut seed = 1_u64;
-        let mut draw = |values: u64| {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 33) % values
-        };
+        let mut random = Random::new(1);
+        let mut draw = |values: usize| random.below(values);
         // Few values, so that there are ties and equal points; many, so that there are long fronts.
         for values in [1, 2, 4, 1000] {
             for count in [0, 1, 2, 3, 10, 100] {

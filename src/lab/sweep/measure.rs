@@ -2,26 +2,24 @@
 
 use super::{
     design::Setting,
-    journal::{Found, Record},
+    record::{Found, Record},
 };
 use crate::{
     kernel::params::{Preset, Quality},
     lab::{
         coarse::Distance,
         density::density_error,
+        experiment::time,
         headless::Headless,
         metrics::Metrics,
         moment::Moment,
         reference::{Follower, Reference},
-        run::{Observer, Plan, run as run_plan},
-        sampler::{Sampler, ms},
-        stats,
+        run::Plan,
+        sampler::Sampler,
     },
     scene::blueprint::{Effect, Mode},
     sim::{
-        control,
         effects::Effects,
-        ledger::PassLedger,
         state::{ParticleStore, Rock, Setup},
         workers::Workers,
     },
@@ -31,7 +29,7 @@ use std::io;
 
 /// The run that all are compared with, on all threads: its time is not what counts.
 pub(super) fn reference(moment: &Moment, plan: &Plan) -> io::Result<Reference> {
-    Reference::record(moment, plan, Workers::default(), &mut Times::default())
+    Reference::record(moment, plan, Workers::default(), &mut ())
 }
 
 /// Runs a setting from the moment on; with a reference it is sampled, too.
@@ -45,34 +43,27 @@ pub(super) fn run(
     // What the preset is called makes no difference to the run.
     let mut headless = begin(moment, setting.preset.unwrap_or(Preset::Fast), setting.quality, workers.clone());
     let density = mean_density(headless.world());
-    let mut times = Times { warmup: plan.warmup, ..Times::default() };
-    let found = if let Some(reference) = reference {
+    let (run, found) = if let Some(reference) = reference {
         let mut sampler = Sampler::new(headless.world(), plan.warmup);
         let mut follower = Follower::new(reference);
-        run_plan(&mut headless, plan, &mut [&mut times, &mut sampler, &mut follower])?;
+        let run = time(&mut headless, plan, &mut [&mut sampler, &mut follower])?;
         let mut found = found(&sampler.finish(headless.world()), follower.mean(plan.warmup));
         found.energy_gain = found.energy_gain.filter(|_| moment.is_closed()).map(|ratio| {
             // What swells to its target density is lifted by as much; that is not the energy of an unstable world.
             let swelling = found.density_mean.zip(density).map_or(1.0, |(after, before)| after / before);
             ratio * swelling - 1.0
         });
-        Some(found)
+        (run, Some(found))
     } else {
-        run_plan(&mut headless, plan, &mut [&mut times])?;
-        None
+        (time(&mut headless, plan, &mut [])?, None)
     };
-    Ok(Record {
-        ms: stats::quantile(&mut times.ms, 0.5).unwrap_or(f64::NAN),
-        ms_p95: stats::quantile(&mut times.ms, 0.95).unwrap_or(f64::NAN),
-        hash: format!("{:016x}", control::hash(headless.world())),
-        found,
-    })
+    Ok(Record { ms: run.quantile(0.5), ms_p95: run.quantile(0.95), hash: format!("{:016x}", run.hash), found })
 }
 
 /// The world at its moment, awake.
 fn begin(moment: &Moment, preset: Preset, quality: Quality, workers: Workers) -> Headless {
     let mut headless = moment.go_on(preset, quality, workers);
-    // What sleeps costs the same at every quality, and errs by the same: it says nothing of any.
+    // A sleeping particle costs the same and has the same error at every quality, so it says nothing of any of them.
     headless.world_mut().resource_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off;
     headless
 }
@@ -100,24 +91,6 @@ fn found(metrics: &Metrics, distance: Distance) -> Found {
     }
 }
 
-/// Notes the time of each tick after the warm-up.
-#[derive(Default)]
-struct Times {
-    warmup: u64,
-    tick: u64,
-    ms: Vec<f64>,
-}
-
-impl Observer for Times {
-    fn after_tick(&mut self, world: &World) -> io::Result<()> {
-        self.tick += 1;
-        if self.tick > self.warmup {
-            self.ms.push(ms(world.resource::<PassLedger>().last_tick()));
-        }
-        Ok(())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -131,7 +104,7 @@ mod tests {
         let plan = Plan { ticks: 300, warmup: 59, ..Plan::default() };
         let mut headless = begin(&moment, preset, preset.quality(), Workers::default());
         let mut sampler = Sampler::new(headless.world(), plan.warmup);
-        run_plan(&mut headless, &plan, &mut [&mut sampler]).unwrap();
+        time(&mut headless, &plan, &mut [&mut sampler]).unwrap();
         found(&sampler.finish(headless.world()), Distance::default())
     }
 

@@ -1,7 +1,7 @@
-//! Whether the presets are what they claim: each exacter and dearer than the one before, and none a bad buy.
+//! Whether the presets are what they claim: each more exact and more expensive than the one before, and none a bad buy.
 
 use super::{
-    ErrorMeasure,
+    error::ErrorMeasure,
     front::point,
     row::{NEGLIGIBLE, Row},
 };
@@ -18,76 +18,22 @@ const TIME_MARGIN: f64 = 0.1;
 /// or has this much less error: more than runs of the same flow scatter when air or iterations are changed a little.
 const ERROR_MARGIN: f64 = 0.15;
 
-/// What is wrong with the presets in a scene.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Trouble {
-    /// A step of accuracy takes no more time than the one before it.
-    TimeFalls {
-        /// The two presets and their ms.
-        pair: [(Preset, f64); 2],
-    },
-    /// A step of accuracy has no less error than the one before it.
-    ErrorRises {
-        /// The two presets and their errors.
-        pair: [(Preset, f64); 2],
-    },
-    /// The world does not come out sound.
-    Invalid {
-        /// The preset.
-        preset: Preset,
-        /// What is wrong.
-        faults: String,
-    },
-    /// Another setting is faster in every run, and as exact, and one of the two by a margin; not said of a preset that
-    /// has next to no error.
-    Beaten {
-        /// The preset.
-        preset: Preset,
-        /// The other setting.
-        by: String,
-    },
-}
-
-impl fmt::Display for Trouble {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::TimeFalls { pair: [(a, a_ms), (b, b_ms)] } => {
-                write!(formatter, "`{}` → `{}`: the time falls, {a_ms:.3} → {b_ms:.3} ms", a.name(), b.name())
-            }
-            Self::ErrorRises { pair: [(a, a_error), (b, b_error)] } => {
-                write!(formatter, "`{}` → `{}`: the error rises, {a_error:.5} → {b_error:.5}", a.name(), b.name())
-            }
-            Self::Invalid { preset, faults } => write!(formatter, "`{}` is not valid: {faults}", preset.name()),
-            Self::Beaten { preset, by } => {
-                write!(formatter, "`{}` is not on the front: {by} is faster and as exact", preset.name())
-            }
-        }
-    }
-}
-
-/// A step of accuracy and the one before it that can't be told apart, as both have next to no error.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Alike {
-    /// The two presets.
-    pub pair: [Preset; 2],
-    /// Whether they take as long, too.
-    pub in_time: bool,
-}
-
 /// What is to be said of the presets in a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Order {
     /// These steps were not measured, and without all of them there is no order.
     NotJudged(Vec<Preset>),
-    /// Each step is dearer and exacter than the one before it.
+    /// Each step costs more and is more exact than the one before it.
     Ok {
-        /// Those of which that can't be said, as they are as exact.
-        alike: Vec<Alike>,
+        /// The steps of which that can't be said, as they and the one before have next to no error.
+        alike: Vec<String>,
         /// Whether it was also judged that no setting beats a preset by a margin.
         front: bool,
     },
-    /// Everything that is wrong.
-    NotOk(Vec<Trouble>),
+    /// Everything that is wrong: a step takes no more time or has no less error than the one before it; a world does not
+    /// come out sound; another setting is faster in every run and as exact, and one of the two by a margin (not said of a
+    /// preset that has next to no error).
+    NotOk(Vec<String>),
 }
 
 impl Order {
@@ -98,10 +44,7 @@ impl Order {
             Self::NotJudged(missing) => {
                 Some(format!("the order of the presets is not judged without {}", names(missing)))
             }
-            Self::NotOk(troubles) => {
-                let all: Vec<String> = troubles.iter().map(ToString::to_string).collect();
-                Some(format!("the presets are out of order: {}", all.join(", ")))
-            }
+            Self::NotOk(troubles) => Some(format!("the presets are out of order: {}", troubles.join(", "))),
         }
     }
 }
@@ -123,29 +66,20 @@ impl fmt::Display for Order {
                 troubles.iter().try_for_each(|trouble| writeln!(formatter, "- {trouble}"))
             }
             Self::Ok { alike, front } => {
-                let whole = "Order: ok. Each preset is dearer and exacter than the one before it";
+                let whole = "Order: ok. Each preset costs more and is more exact than the one before it";
                 if alike.is_empty() {
                     let front = if *front { ", and no setting beats it by a margin" } else { "" };
                     return writeln!(formatter, "{whole}{front}.");
                 }
-                let pairs: Vec<String> = alike.iter().map(Alike::text).collect();
                 let told = *front && alike.len() + 1 < STEPS.len();
                 let front = if told { " No setting beats one with a larger error by a margin." } else { "" };
                 writeln!(
                     formatter,
                     "{whole}, but where both err by less than {NEGLIGIBLE}: {}.{front}",
-                    pairs.join(", ")
+                    alike.join(", ")
                 )
             }
         }
-    }
-}
-
-impl Alike {
-    fn text(&self) -> String {
-        let [before, step] = self.pair.map(Preset::name);
-        let time = if self.in_time { " and takes as long" } else { "" };
-        format!("`{step}` is as exact as `{before}`{time}")
     }
 }
 
@@ -164,26 +98,29 @@ pub fn judge(rows: &[Row], measure: ErrorMeasure, air_is_unseen: bool) -> Order 
     let steps: Vec<(Preset, &Row)> = STEPS.into_iter().filter_map(|preset| Some((preset, find(preset)?))).collect();
     let (mut troubles, mut alike) = (Vec::new(), Vec::new());
     for pair in steps.windows(2) {
-        let [(a, cheap), (b, dear)] = [pair[0], pair[1]];
+        let [(a, cheap), (b, costly)] = [pair[0], pair[1]].map(|(preset, row)| (preset.name(), row));
         // Two errors that are both next to nothing can't be told apart, nor can times then that are within the margin: the
         // same work was done.
-        let as_exact = cheap.error.max(dear.error) <= NEGLIGIBLE;
-        let in_time = as_exact && (dear.ms / cheap.ms - 1.0).abs() < TIME_MARGIN;
+        let as_exact = cheap.error.max(costly.error) <= NEGLIGIBLE;
+        let in_time = as_exact && (costly.ms / cheap.ms - 1.0).abs() < TIME_MARGIN;
         if as_exact {
-            alike.push(Alike { pair: [a, b], in_time });
-        } else if dear.error >= cheap.error {
-            troubles.push(Trouble::ErrorRises { pair: [(a, cheap.error), (b, dear.error)] });
+            let time = if in_time { " and takes as long" } else { "" };
+            alike.push(format!("`{b}` is as exact as `{a}`{time}"));
+        } else if costly.error >= cheap.error {
+            let [from, to] = [cheap.error, costly.error];
+            troubles.push(format!("`{a}` → `{b}`: the error rises, {from:.5} → {to:.5}"));
         }
-        if dear.ms <= cheap.ms && !in_time {
-            troubles.push(Trouble::TimeFalls { pair: [(a, cheap.ms), (b, dear.ms)] });
+        if costly.ms <= cheap.ms && !in_time {
+            troubles.push(format!("`{a}` → `{b}`: the time falls, {:.3} → {:.3} ms", cheap.ms, costly.ms));
         }
     }
     let front = measure == ErrorMeasure::Density;
     for (preset, own) in steps {
         if !own.is_valid() {
-            troubles.push(Trouble::Invalid { preset, faults: own.faults.join(", ") });
+            troubles.push(format!("`{}` is not valid: {}", preset.name(), own.faults.join(", ")));
         } else if front && let Some(other) = rows.iter().find(|other| beats_beyond_noise(other, own, air_is_unseen)) {
-            troubles.push(Trouble::Beaten { preset, by: other.setting.name.clone() });
+            let (name, other) = (preset.name(), &other.setting.name);
+            troubles.push(format!("`{name}` is not on the front: {other} is faster and as exact"));
         }
     }
     if troubles.is_empty() { Order::Ok { alike, front } } else { Order::NotOk(troubles) }
@@ -219,7 +156,7 @@ mod tests {
 
     fn says(rows: &[Row]) -> Vec<String> {
         match judge(rows, ErrorMeasure::Density, false) {
-            Order::NotOk(troubles) => troubles.iter().map(ToString::to_string).collect(),
+            Order::NotOk(troubles) => troubles,
             Order::Ok { front: true, .. } => Vec::new(),
             order => panic!("{order}"),
         }
@@ -245,17 +182,17 @@ mod tests {
     }
 
     #[test]
-    fn errors_of_next_to_nothing_are_in_order_but_not_called_exacter() {
+    fn errors_of_next_to_nothing_are_in_order_but_not_called_more_exact() {
         let order = |rows: &[Row]| judge(rows, ErrorMeasure::Density, false).to_string();
         let mut rows = ladder();
         assert_eq!(
             order(&rows),
-            "Order: ok. Each preset is dearer and exacter than the one before it, and no setting beats it by a margin.\n"
+            "Order: ok. Each preset costs more and is more exact than the one before it, and no setting beats it by a margin.\n"
         );
         (rows[3].error, rows[4].error) = (2e-5, 5e-5);
         assert_eq!(
             order(&rows),
-            "Order: ok. Each preset is dearer and exacter than the one before it, but where both err by less than 0.0001: \
+            "Order: ok. Each preset costs more and is more exact than the one before it, but where both err by less than 0.0001: \
              `reference` is as exact as `fine`. No setting beats one with a larger error by a margin.\n"
         );
         rows[4].ms = 1.45;
@@ -301,7 +238,7 @@ mod tests {
         (rows[5].ms, rows[5].ms_range, rows[5].error) = (0.97, [0.97, 0.97], 0.009);
         assert_eq!(says(&rows), [""; 0], "neither by a margin");
         rows[5].error = 0.008;
-        assert_eq!(says(&rows).len(), 1, "exacter by a margin");
+        assert_eq!(says(&rows).len(), 1, "more exact by a margin");
         (rows[5].ms, rows[5].ms_range) = (0.9, [0.9, 0.9]);
         let about_air = judge(&rows_with(&rows, [1.0, 1.0]), ErrorMeasure::Air, false);
         let ok = Order::Ok { alike: Vec::new(), front: false };

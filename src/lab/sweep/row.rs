@@ -1,11 +1,11 @@
 //! A row of the curve: all runs of a setting together.
 
 use super::{
-    ErrorMeasure,
     design::Setting,
-    journal::{Found, Record},
+    error::ErrorMeasure,
+    record::{Found, Record},
 };
-use crate::lab::stats;
+use crate::lab::experiment::Spread;
 
 /// Most that the energy may grow.
 const ENERGY_GAIN: f64 = 0.01;
@@ -44,8 +44,7 @@ pub struct Row {
 impl Row {
     /// The runs of a setting together; `None` without any.
     pub fn new(setting: &Setting, measure: ErrorMeasure, records: &[&Record], found: &Found) -> Option<Self> {
-        let mut times: Vec<f64> = records.iter().map(|record| record.ms).collect();
-        let mut p95: Vec<f64> = records.iter().map(|record| record.ms_p95).collect();
+        let ms = Spread::of(records.iter().map(|record| record.ms))?;
         let error = match measure {
             ErrorMeasure::Density => found.error_p99,
             ErrorMeasure::Air => found.distance.air,
@@ -53,9 +52,9 @@ impl Row {
         Some(Self {
             setting: setting.clone(),
             runs: records.len(),
-            ms_range: [times.iter().copied().min_by(f64::total_cmp)?, stats::largest(&times)?],
-            ms: stats::quantile(&mut times, 0.5)?,
-            ms_p95: stats::quantile(&mut p95, 0.5)?,
+            ms: ms.median,
+            ms_range: ms.range,
+            ms_p95: Spread::of(records.iter().map(|record| record.ms_p95))?.median,
             error: error.unwrap_or(f64::NAN),
             found: found.clone(),
             hash: records.first()?.hash.clone(),

@@ -1,15 +1,16 @@
 //! summary.md: what a reader should choose, and what the knobs buy.
 
 use super::{
-    ErrorMeasure, effective,
+    design::effective,
+    error::ErrorMeasure,
     presets::{self, Order},
     row::Row,
 };
 use crate::{
     kernel::params::{Preset, Quality},
-    lab::machine::processor,
+    lab::{machine::processor, markdown},
+    sim::numbers::fixed,
 };
-use std::fmt::Write;
 
 /// Times that a reader may have, ms a tick.
 pub const BUDGETS: [f64; 5] = [1.0, 2.0, 4.0, 8.0, 16.0];
@@ -56,8 +57,6 @@ pub fn text(subject: &Subject, rows: &[Row]) -> String {
     sections.into_iter().filter(|section| !section.is_empty()).collect::<Vec<_>>().join("\n")
 }
 
-// Writing to a string does not fail: the results of `writeln!` below are dropped.
-
 fn heading(subject: &Subject, rows: &[Row]) -> String {
     let Subject { scene, parameters, start, ticks, warmup, threads, .. } = subject;
     let runs = match rows.iter().map(|row| row.runs).max() {
@@ -81,10 +80,7 @@ fn heading(subject: &Subject, rows: &[Row]) -> String {
 }
 
 fn budgets(subject: &Subject, rows: &[&Row]) -> String {
-    let mut text =
-        "## What to choose\n\n| at most, ms | setting | ms | error | best preset | ms | error |\n|---:|---|---:|---:|---|---:|---:|\n"
-            .to_owned();
-    for budget in BUDGETS {
+    let lines = BUDGETS.map(|budget| {
         let best = |wanted: &dyn Fn(&Row) -> bool| {
             let fitting = rows.iter().filter(|row| row.is_valid() && row.ms <= budget && wanted(row));
             let best = fitting.min_by(|a, b| a.error.total_cmp(&b.error).then(a.ms.total_cmp(&b.ms)));
@@ -98,9 +94,10 @@ fn budgets(subject: &Subject, rows: &[&Row]) -> String {
         let any = |row: &Row| {
             subject.measure == ErrorMeasure::Air || !subject.has_air || row.setting.quality.air_cell <= coarsest
         };
-        let _ = writeln!(text, "| {budget} | {} | {} |", best(&any), best(&|row| row.setting.preset.is_some()));
-    }
-    text
+        format!("{budget} | {} | {}", best(&any), best(&|row| row.setting.preset.is_some()))
+    });
+    let headings = ">at most, ms | setting | >ms | >error | best preset | >ms | >error";
+    format!("## What to choose\n\n{}", markdown::rows(headings, lines))
 }
 
 fn name(row: &Row) -> String {
@@ -111,63 +108,47 @@ fn name(row: &Row) -> String {
 }
 
 fn preset_table(subject: &Subject, rows: &[Row]) -> String {
-    let mut text = "## The presets\n\n\
-         | preset | ms | fastest … slowest run | error mean | p99 | mean density | energy gained | liquid elsewhere | \
-         momentum | air | on the front |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---|\n"
-        .to_owned();
-    for preset in Preset::ALL {
-        let Some(row) = rows.iter().find(|row| row.setting.preset == Some(preset)) else { continue };
-        let found = &row.found;
-        let on_front = if row.front { "yes" } else { "no" };
-        let _ = writeln!(
-            text,
-            "| `{}` | {:.3} | {:.3} … {:.3} | {} | {} | {} | {} | {} | {} | {} | {on_front} |",
-            preset.name(),
-            row.ms,
-            row.ms_range[0],
-            row.ms_range[1],
-            figure(found.error_mean, 5),
-            figure(found.error_p99, 5),
-            figure(found.density_mean, 3),
-            figure(found.energy_gain, 4),
-            figure(found.distance.share, 3),
-            figure(found.distance.momentum, 3),
-            figure(found.distance.air, 3),
-        );
-    }
-    let _ = write!(text, "\n{}", subject.order(rows));
-    text
-}
-
-fn figure(value: Option<f64>, digits: usize) -> String {
-    value.map_or_else(|| "–".to_owned(), |value| format!("{value:.digits$}"))
+    let find = |preset: Preset| rows.iter().find(|row| row.setting.preset == Some(preset));
+    let line = |row: &Row| {
+        let (Row { ms, ms_range: [low, high], found, .. }, distance) = (row, row.found.distance);
+        let figures = [
+            fixed(found.error_mean, 5),
+            fixed(found.error_p99, 5),
+            fixed(found.density_mean, 3),
+            fixed(found.energy_gain, 4),
+            fixed(distance.share, 3),
+            fixed(distance.momentum, 3),
+            fixed(distance.air, 3),
+        ];
+        let front = if row.front { "yes" } else { "no" };
+        format!("{} | {ms:.3} | {low:.3} … {high:.3} | {} | {front}", name(row), figures.join(" | "))
+    };
+    let headings = "preset | >ms | >fastest … slowest run | >error mean | >p99 | >mean density | >energy gained | \
+                    >liquid elsewhere | >momentum | >air | on the front";
+    let table = markdown::rows(headings, Preset::ALL.into_iter().filter_map(find).map(line));
+    format!("## The presets\n\n{table}\n{}", subject.order(rows))
 }
 
 /// One knob turned, from one row to another.
 fn knobs(subject: &Subject, rows: &[&Row]) -> String {
-    let mut text = String::new();
+    let mut lines = Vec::new();
     for from in rows.iter().filter(|row| row.setting.preset.is_some()) {
         for to in rows {
             let qualities = [from, to].map(|row| effective(row.setting.quality, subject.has_air));
             if let Some(change) = one_change(qualities[0], qualities[1]) {
-                let _ = writeln!(
-                    text,
-                    "| {} | {change} | {:.2} | {} | {} |",
-                    name(from),
-                    to.ms / from.ms,
-                    figure(Some(to.error / from.error).filter(|ratio| ratio.is_finite()), 2),
-                    to.faults.join(", "),
-                );
+                let error = fixed(Some(to.error / from.error).filter(|ratio| ratio.is_finite()), 2);
+                let (name, time, faults) = (name(from), to.ms / from.ms, to.faults.join(", "));
+                lines.push(format!("{name} | {change} | {time:.2} | {error} | {faults}"));
             }
         }
     }
-    if text.is_empty() {
-        return text;
-    }
-    "## What a knob buys\n\nOne knob turned, the others left: time and error as multiples of the preset's.\n\n\
-     | from | to | time | error | not valid |\n|---|---|---:|---:|---|\n"
-        .to_owned()
-        + &text
+    let what = "## What a knob buys\n\nOne knob turned, the others left: time and error as multiples of the preset's.";
+    section(what, "from | to | >time | >error | not valid", lines)
+}
+
+/// A table with what stands above it; nothing without lines.
+fn section(above: &str, headings: &str, lines: Vec<String>) -> String {
+    if lines.is_empty() { String::new() } else { format!("{above}\n\n{}", markdown::rows(headings, lines)) }
 }
 
 /// The knob that differs, if it is one.
@@ -189,44 +170,31 @@ fn one_change(from: Quality, to: Quality) -> Option<String> {
 
 /// What threads do to each preset.
 fn threads(rows: &[Row]) -> String {
-    let mut text = String::new();
+    let mut lines = Vec::new();
     for from in rows.iter().filter(|row| row.setting.preset.is_some()) {
         for to in rows {
-            if to.setting.quality == from.setting.quality && to.setting.threads != from.setting.threads {
-                let _ = writeln!(
-                    text,
-                    "| {} | {} | {:.3} | {} | {:.3} | {:.2} |",
-                    name(from),
-                    from.setting.threads,
-                    from.ms,
-                    to.setting.threads,
-                    to.ms,
-                    from.ms / to.ms,
-                );
+            let (one, other) = (from.setting.threads, to.setting.threads);
+            if to.setting.quality == from.setting.quality && other != one {
+                let gain = from.ms / to.ms;
+                lines.push(format!("{} | {one} | {:.3} | {other} | {:.3} | {gain:.2}", name(from), from.ms, to.ms));
             }
         }
     }
-    if text.is_empty() {
-        return text;
-    }
-    "## Threads\n\nThe result is the same to the bit.\n\n| preset | threads | ms | threads | ms | speed-up |\n\
-     |---|---:|---:|---:|---:|---:|\n"
-        .to_owned()
-        + &text
+    let headings = "preset | >threads | >ms | >threads | >ms | >speed-up";
+    section("## Threads\n\nThe result is the same to the bit.", headings, lines)
 }
 
 fn excluded(rows: &[Row]) -> String {
-    let mut text = String::new();
-    for row in rows.iter().filter(|row| !row.is_valid()) {
-        let _ = writeln!(text, "- {} ({:.2} ms, error {:.5}): {}", name(row), row.ms, row.error, row.faults.join(", "));
+    let line =
+        |row: &Row| format!("- {} ({:.2} ms, error {:.5}): {}\n", name(row), row.ms, row.error, row.faults.join(", "));
+    let lines: String = rows.iter().filter(|row| !row.is_valid()).map(line).collect();
+    if lines.is_empty() {
+        return lines;
     }
-    if text.is_empty() {
-        return text;
-    }
-    "## Not valid\n\nError alone misleads: these lose particles, gain energy or stand too thin or too dense, and count for \
-     nothing above.\n\n"
-        .to_owned()
-        + &text
+    format!(
+        "## Not valid\n\nError alone misleads: these lose particles, gain energy or stand too thin or too dense, and count \
+         for nothing above.\n\n{lines}"
+    )
 }
 
 #[cfg(test)]
@@ -247,10 +215,16 @@ mod tests {
             "| 2 | 2×1 | 1.50 | 0.00100 | `fine` | 1.90 | 0.00500 |",
             "- 4×4 (0.90 ms, error 0.00010): energy up by 9.0 %",
         ] {
-            assert!(text.contains(line), "no line {line} in\n{text}");
+            assert!(unpadded(&text).contains(line), "no line {line} in\n{text}");
         }
-        let nothing = text_of_slow();
+        let nothing = unpadded(&text_of_slow());
         assert!(nothing.contains("| 1 | none | – | – | none | – | – |"), "{nothing}");
+    }
+
+    /// The text without what aligns its tables.
+    fn unpadded(text: &str) -> String {
+        let line = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+        text.lines().map(line).collect::<Vec<_>>().join("\n")
     }
 
     fn text_of_slow() -> String {
@@ -264,8 +238,8 @@ mod tests {
         rows[1].setting.quality.kernel_radius = 3.0;
         (rows[2].setting.quality.kernel_radius, rows[2].setting.quality.substeps) = (3.0, 2);
         rows[3].setting.threads = 2;
-        let text = text(&subject(1), &rows);
-        assert!(text.contains("| `fast` | h 3 | 1.30 | 0.50 |  |"), "{text}");
+        let text = unpadded(&text(&subject(1), &rows));
+        assert!(text.contains("| `fast` | h 3 | 1.30 | 0.50 | |"), "{text}");
         assert!(text.contains("| `fast` | 1 | 1.000 | 2 | 0.500 | 2.00 |"), "{text}");
         let rows_of_knobs = text.lines().filter(|line| line.starts_with("| `fast` |") && line.contains("h 3")).count();
         assert_eq!(rows_of_knobs, 1, "two knobs at once tell nothing");

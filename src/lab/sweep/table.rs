@@ -1,4 +1,4 @@
-//! curve.csv: a line for every setting, comma separated. A field is empty where a value does not apply.
+//! curve.csv: a line for every setting. A field is empty where a value does not apply.
 
 use super::row::Row;
 use crate::kernel::params::{Preset, Quality};
@@ -42,14 +42,15 @@ pub const COLUMNS: [(&str, &str); 33] = [
 ];
 
 /// Writes the table, fastest setting first.
-pub fn write(rows: &[Row], mut out: impl Write) -> io::Result<()> {
-    writeln!(out, "{}", COLUMNS.map(|(name, _)| name).join(","))?;
+pub fn write(rows: &[Row], out: impl Write) -> io::Result<()> {
+    let mut table = csv::Writer::from_writer(out);
+    table.write_record(COLUMNS.map(|(name, _)| name))?;
     let mut order: Vec<&Row> = rows.iter().collect();
     order.sort_by(|a, b| a.ms.total_cmp(&b.ms));
     for row in order {
-        writeln!(out, "{}", fields(row).join(","))?;
+        table.write_record(fields(row))?;
     }
-    out.flush()
+    table.flush()
 }
 
 fn fields(row: &Row) -> [String; COLUMNS.len()] {
@@ -68,7 +69,7 @@ fn fields(row: &Row) -> [String; COLUMNS.len()] {
     let ms = |value: f64| format!("{value:.4}");
     let share = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.6}"));
     [
-        quoted(&setting.name),
+        setting.name.clone(),
         setting.preset.map_or("", Preset::name).to_owned(),
         setting.threads.to_string(),
         substeps.to_string(),
@@ -99,14 +100,9 @@ fn fields(row: &Row) -> [String; COLUMNS.len()] {
         share(found.distance.air),
         found.particles.to_string(),
         row.front.to_string(),
-        quoted(&row.faults.join("; ")),
+        row.faults.join("; "),
         row.hash.clone(),
     ]
-}
-
-/// A field that may hold commas.
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use crate::{
     sim::{
         effects::Effects,
         ledger::{Pass, PassLedger, PassRecord},
+        numbers::grouped,
         state::{AirGrid, ParticleStore, SleepState},
     },
 };
@@ -123,19 +124,6 @@ pub fn saving(
     }
 }
 
-/// `12345678` as `12,345,678`.
-pub fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
-    for (k, digit) in digits.chars().enumerate() {
-        if k > 0 && (digits.len() - k).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -156,13 +144,5 @@ mod tests {
         assert_eq!(account(Effect::Viscosity, Mode::On, sleepers), "asleep: all 1,600 particles");
         assert_eq!(account(Effect::Sleep, Mode::On, sleepers), "runs: because");
         assert_eq!(account(Effect::Viscosity, Mode::On, Sleepers::default()), "runs: because");
-    }
-
-    #[test]
-    fn thousands_are_grouped() {
-        assert_eq!(grouped(0), "0");
-        assert_eq!(grouped(999), "999");
-        assert_eq!(grouped(1000), "1,000");
-        assert_eq!(grouped(1_234_567), "1,234,567");
     }
 }

@@ -73,19 +73,6 @@ fn power_of_ten(exponent: i32) -> f32 {
     format!("{value:.0e}").parse().unwrap_or(value)
 }
 
-/// A number with two digits that count, and no more zeros than it takes.
-pub fn short(value: f32) -> String {
-    let digits = match value.abs() {
-        value if value >= 9.95 || value == 0.0 => 0,
-        value if value >= 0.995 => 1,
-        value if value >= 0.0995 => 2,
-        value if value >= 0.00995 => 3,
-        _ => 4,
-    };
-    let text = format!("{value:.digits$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -115,13 +102,5 @@ mod tests {
             let axis = Axis::around(values.iter().copied());
             assert!(axis.share(2.0).is_finite() && axis.marks().len() >= 3, "{values:?}");
         }
-    }
-
-    #[test]
-    fn numbers_are_short() {
-        for (value, text) in [(0.0, "0"), (12.3, "12"), (1.04, "1"), (3.24, "3.2"), (0.312, "0.31"), (0.05, "0.05")] {
-            assert_eq!(short(value), text);
-        }
-        assert_eq!(short(0.0021), "0.0021");
     }
 }

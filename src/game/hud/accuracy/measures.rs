@@ -2,8 +2,8 @@
 
 use super::weak;
 use crate::sim::{
-    exam::figure,
     measures::{Measured, Measures},
+    numbers::figure,
 };
 use bevy_egui::egui::{self, Ui};
 

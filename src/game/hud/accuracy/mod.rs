@@ -24,11 +24,11 @@ use crate::{
         autopilot::Autopilot,
         ledger::{Pass, PassLedger},
         measures::Measures,
+        numbers::{self, short},
         split::Split,
         state::{Clock, Setup},
     },
 };
-pub use axis::short;
 use bevy::prelude::{Res, ResMut, Resource, Result};
 use bevy_egui::{
     EguiContexts,
@@ -227,7 +227,7 @@ fn measure(
             Some(scale) if (scale - 1.0).abs() > 0.005 => format!(", times × {} as in the game", short(scale)),
             _ => String::new(),
         };
-        let from = super::stats::grouped(curve.tick);
+        let from = numbers::grouped(curve.tick);
         let told = format!("{} from tick {from} on, one thread, all awake{times}", curve.scene);
         ui.label(weak(told).small());
     }

@@ -1,6 +1,6 @@
 //! The autopilot's part of the panel: what it is to hold, and how it stands with that.
 
-use super::{axis::short, percent};
+use super::percent;
 use crate::{
     game::{
         hud::{bar::quality_name, style},
@@ -8,6 +8,7 @@ use crate::{
     },
     sim::{
         autopilot::{Autopilot, Goal, controller::Verdict},
+        numbers::short,
         state::Setup,
     },
 };

@@ -1,16 +1,14 @@
 //! Error against time, log–log: the curve that was measured with the presets as buttons on it, the world as it runs now,
 //! and the bound that the autopilot holds. What has a time and no error, for want of liquid, stands on the lower edge.
 
-use super::{
-    axis::{Axis, short},
-    percent,
-};
+use super::{axis::Axis, percent};
 use crate::{
     game::hud::style,
     kernel::params::{Preset, Quality},
     sim::{
         accuracy::{Curve, CurvePoint},
         autopilot::Goal,
+        numbers::short,
     },
 };
 use bevy_egui::egui::{self, Align2, Color32, FontId, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};

@@ -5,7 +5,7 @@ use crate::{
     lab::{
         exam::{
             case::{
-                Case, Finding, Over, Setting,
+                ExamCase, Finding, Over, Setting, Size,
                 Tolerance::{Share, Within},
             },
             fit::between,
@@ -16,7 +16,7 @@ use crate::{
     scene::SceneError,
 };
 
-pub(in crate::lab::exam) const DAM_BREAK: Case = Case {
+pub(super) const DAM_BREAK: ExamCase = ExamCase {
     name: "dam_break",
     title: "Dam break",
     setup: "The scene `dam_break`: a column of 10,082 particles, twice as high as its base a, collapses. \
@@ -29,7 +29,7 @@ pub(in crate::lab::exam) const DAM_BREAK: Case = Case {
                 between its parts; drag at the floor, which the program has not, takes about as much. Height: \
                 0.03; the readings have two digits, and a gate that opens late shifts them by as much.",
     over: Over::Qualities,
-    quick: false,
+    size: Size::Usual,
     run: |setting, clockwork| Box::pin(dam_break(setting, clockwork)),
 };
 

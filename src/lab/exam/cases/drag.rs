@@ -7,7 +7,7 @@ use super::{
 use crate::{
     lab::exam::{
         case::{
-            Case, Finding, Over, Setting,
+            ExamCase, Finding, Over, Setting, Size,
             Tolerance::{Share, Within},
         },
         world::{Clockwork, Stage, own},
@@ -15,7 +15,7 @@ use crate::{
     scene::SceneError,
 };
 
-pub(in crate::lab::exam) const WIND: Case = Case {
+pub(super) const WIND: ExamCase = ExamCase {
     name: "wind",
     title: "A drop in a steady wind",
     setup: "Weightless single drops at rest are put into a wind of 10 m/s that fans keep everywhere \
@@ -25,11 +25,11 @@ pub(in crate::lab::exam) const WIND: Case = Case {
     tolerance: "Speed: each step is the exact solution, so the error is that of the wind and of rounding: 10⁻³. Distance: \
                 first order in the step as in free fall, 1.7 %.",
     over: Over::Qualities,
-    quick: true,
+    size: Size::Quick,
     run: |setting, clockwork| Box::pin(wind(setting, clockwork)),
 };
 
-pub(in crate::lab::exam) const TERMINAL_SPEED: Case = Case {
+pub(super) const TERMINAL_SPEED: ExamCase = ExamCase {
     name: "terminal_speed",
     title: "Terminal speed",
     setup: "A single drop set free in a wind of 5 m/s that blows upwards, moving with it at first \
@@ -40,7 +40,7 @@ pub(in crate::lab::exam) const TERMINAL_SPEED: Case = Case {
                 `√(v∞² + (g Δt/2)²) − g Δt/2`: slow by `g Δt/2`, 0.082 m/s at one step a tick. To that comes the wind \
                 itself, which the fans keep to 10⁻³: 0.005 m/s.",
     over: Over::Qualities,
-    quick: true,
+    size: Size::Quick,
     run: |setting, clockwork| Box::pin(terminal_speed(setting, clockwork)),
 };
 

@@ -4,7 +4,7 @@ use super::GRAVITY;
 use crate::{
     lab::exam::{
         case::{
-            Case, Finding, Over, Setting,
+            ExamCase, Finding, Over, Setting, Size,
             Tolerance::{Share, Within},
         },
         world::{Clockwork, Stage, own},
@@ -13,7 +13,7 @@ use crate::{
 };
 use glam::DVec2;
 
-pub(in crate::lab::exam) const FREE_FALL: Case = Case {
+pub(super) const FREE_FALL: ExamCase = ExamCase {
     name: "free_fall",
     title: "Free fall",
     setup: "Six single drops, at rest or thrown to the side, up and down, fall for 1 s without air \
@@ -23,11 +23,11 @@ pub(in crate::lab::exam) const FREE_FALL: Case = Case {
                 step, so that a fall from rest is ahead by `½ g t Δt`: Δt/t = 1/60 at one step a tick, 1.7 %. The error \
                 falls with the number of substeps.",
     over: Over::Qualities,
-    quick: true,
+    size: Size::Quick,
     run: |setting, clockwork| Box::pin(free_fall(setting, clockwork)),
 };
 
-pub(in crate::lab::exam) const BLOB_FALL: Case = Case {
+pub(super) const BLOB_FALL: ExamCase = ExamCase {
     name: "blob_fall",
     title: "Fall of a blob",
     setup: "A disc of water of 4 m across, thrown to the side with 2 m/s, falls for 1 s without air \
@@ -39,7 +39,7 @@ pub(in crate::lab::exam) const BLOB_FALL: Case = Case {
                 by nothing but its iterations scatter by 0.7 %. Inner motion: 0.02 d a tick (0.12 m/s), which is calm \
                 to the eye.",
     over: Over::Qualities,
-    quick: true,
+    size: Size::Quick,
     run: |setting, clockwork| Box::pin(blob_fall(setting, clockwork)),
 };
 

@@ -1,17 +1,37 @@
-//! The cases, one concept a room. Each says its setup, its answer and why its tolerances are what they are; those texts
+//! The cases, one concept a file. Each says its setup, its answer and why its tolerances are what they are; those texts
 //! stand in docs/exam.md.
 
-pub(super) mod dam;
-pub(super) mod drag;
-pub(super) mod falling;
-pub(super) mod orifice;
-pub(super) mod pulse;
-pub(super) mod rest;
-pub(super) mod shear;
-pub(super) mod sloshing;
-pub(super) mod turning;
-pub(super) mod vessels;
-pub(super) mod vortex;
+mod dam;
+mod drag;
+mod falling;
+mod orifice;
+mod pulse;
+mod rest;
+mod shear;
+mod sloshing;
+mod turning;
+mod vessels;
+mod vortex;
+
+use crate::lab::exam::case::ExamCase;
+
+/// All cases, in the order in which they are shown.
+pub const CASES: &[ExamCase] = &[
+    falling::FREE_FALL,
+    falling::BLOB_FALL,
+    drag::WIND,
+    drag::TERMINAL_SPEED,
+    rest::HYDROSTATIC,
+    vessels::VESSELS,
+    dam::DAM_BREAK,
+    sloshing::SLOSHING,
+    orifice::ORIFICE,
+    turning::ROTATING_BLOB,
+    turning::COLLISION,
+    shear::SHEAR_LAYER,
+    vortex::VORTEX,
+    pulse::PULSE,
+];
 
 /// Acceleration of gravity of the scenes, m/s².
 const GRAVITY: f64 = 9.81;

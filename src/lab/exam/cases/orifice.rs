@@ -3,14 +3,14 @@
 use super::{GRAVITY, vessels::CONTRACTION};
 use crate::{
     lab::exam::{
-        case::{Case, Finding, Over, Setting, Tolerance::Share},
+        case::{ExamCase, Finding, Over, Setting, Size, Tolerance::Share},
         fit::falls_to,
         world::{Clockwork, Stage, own},
     },
     scene::SceneError,
 };
 
-pub(in crate::lab::exam) const ORIFICE: Case = Case {
+pub(super) const ORIFICE: ExamCase = ExamCase {
     name: "orifice",
     title: "Outflow under a gate",
     setup: "A tank of 4 m × 4 m of water runs out under a gate that leaves 0.8 m open (assets/exam/orifice.ron), at d = 0.025 m: the opening is \
@@ -21,7 +21,7 @@ pub(in crate::lab::exam) const ORIFICE: Case = Case {
     tolerance: "10 %: measured contractions of sluice gates lie between 0.59 and 0.64, and the level is that of the whole \
                 tank, also while the flow starts.",
     over: Over::Qualities,
-    quick: false,
+    size: Size::Usual,
     run: |setting, clockwork| Box::pin(orifice(setting, clockwork)),
 };
 

@@ -2,13 +2,13 @@
 
 use crate::{
     lab::exam::{
-        case::{Case, Finding, Over, Setting, Tolerance::Share},
+        case::{ExamCase, Finding, Over, Setting, Size, Tolerance::Share},
         world::{Clockwork, Stage, own},
     },
     scene::SceneError,
 };
 
-pub(in crate::lab::exam) const PULSE: Case = Case {
+pub(super) const PULSE: ExamCase = ExamCase {
     name: "pulse",
     title: "Pulse of pressure",
     setup: "In a closed tube of 60 m the middle 4 m stand at pressure 1.01 (assets/exam/pulse.ron). Two pulses run off; the \
@@ -17,7 +17,7 @@ pub(in crate::lab::exam) const PULSE: Case = Case {
     tolerance: "Speed: 1 %; a pulse of height ε runs faster by up to 0.75 ε, 0.4 %. Mass: 3·10⁻⁶; every step rounds every cell \
                 to 6·10⁻⁸, and some 500 steps add up to 1.3·10⁻⁶ at random, to 3·10⁻⁵ if all went one way.",
     over: Over::Air,
-    quick: true,
+    size: Size::Quick,
     run: |setting, clockwork| Box::pin(pulse(setting, clockwork)),
 };
 

@@ -6,7 +6,7 @@ use crate::{
         density::surroundings,
         exam::{
             case::{
-                Case, Finding, Over, Setting,
+                ExamCase, Finding, Over, Setting, Size,
                 Tolerance::{Share, Within},
             },
             world::{Clockwork, Stage, builtin},
@@ -17,7 +17,7 @@ use crate::{
     sim::state::Rock,
 };
 
-pub(in crate::lab::exam) const HYDROSTATIC: Case = Case {
+pub(super) const HYDROSTATIC: ExamCase = ExamCase {
     name: "hydrostatic",
     title: "Hydrostatic column",
     setup: "The scene `hydrostatic`, 40 particles wide and 60 deep. After 8 s of rest, means over 2 s.",
@@ -26,7 +26,7 @@ pub(in crate::lab::exam) const HYDROSTATIC: Case = Case {
     tolerance: "Density and height: 2 %, the project's bound; the predictor itself aims 1 % under rest density. Motion: \
                 0.02 d a tick, which is calm to the eye.",
     over: Over::Qualities,
-    quick: false,
+    size: Size::Usual,
     run: |setting, clockwork| Box::pin(hydrostatic(setting, clockwork)),
 };
 

@@ -7,7 +7,7 @@ use crate::{
     },
     lab::{
         exam::{
-            case::{Case, Finding, Over, Setting, Tolerance::Share},
+            case::{ExamCase, Finding, Over, Setting, Size, Tolerance::Share},
             world::{Clockwork, Stage, own},
         },
         stats,
@@ -19,7 +19,7 @@ use crate::{
 };
 use std::{f64::consts::PI, sync::Arc};
 
-pub(in crate::lab::exam) const SHEAR_LAYER: Case = Case {
+pub(super) const SHEAR_LAYER: ExamCase = ExamCase {
     name: "shear_layer",
     title: "Shear layer",
     setup: "A full channel of 12 m × 1 m (assets/exam/shear_layer.ron) in which the water runs at `U cos(k y)`, \
@@ -30,7 +30,7 @@ pub(in crate::lab::exam) const SHEAR_LAYER: Case = Case {
              `∫ y² W = h²/10`). The rate is that times the ticks in a second: a kinematic viscosity of `c h²/20` a tick.",
     tolerance: "10 %: the particles leave the lattice that the sum is taken over.",
     over: Over::Qualities,
-    quick: false,
+    size: Size::Usual,
     run: |setting, clockwork| Box::pin(shear_layer(setting, clockwork)),
 };
 

@@ -3,7 +3,7 @@
 use super::GRAVITY;
 use crate::{
     lab::exam::{
-        case::{Case, Finding, Over, Setting, Tolerance::Share},
+        case::{ExamCase, Finding, Over, Setting, Size, Tolerance::Share},
         fit::half_period,
         world::{Clockwork, Stage, own},
     },
@@ -11,7 +11,7 @@ use crate::{
 };
 use std::f64::consts::PI;
 
-pub(in crate::lab::exam) const SLOSHING: Case = Case {
+pub(super) const SLOSHING: ExamCase = ExamCase {
     name: "sloshing",
     title: "Sloshing",
     setup: "A tank of 6 m with water whose surface is tilted at the start is let go (assets/exam/sloshing.ron): 3 m deep \
@@ -21,7 +21,7 @@ pub(in crate::lab::exam) const SLOSHING: Case = Case {
     tolerance: "3 %. Waves of this height are slower than the theory's by `O((a k)²)`, up to 1 %; the surface is made of \
                 particles of 0.1 m, which blurs the depth by half a spacing: 1 % deep, 2.5 % in the shallow tank.",
     over: Over::Qualities,
-    quick: true,
+    size: Size::Quick,
     run: |setting, clockwork| Box::pin(sloshing(setting, clockwork)),
 };
 

@@ -3,7 +3,7 @@
 use crate::{
     lab::exam::{
         case::{
-            Case, Finding, Over, Setting,
+            ExamCase, Finding, Over, Setting, Size,
             Tolerance::{Share, Within},
         },
         world::{Clockwork, Stage, own},
@@ -12,7 +12,7 @@ use crate::{
 };
 use glam::DVec2;
 
-pub(in crate::lab::exam) const ROTATING_BLOB: Case = Case {
+pub(super) const ROTATING_BLOB: ExamCase = ExamCase {
     name: "rotating_blob",
     title: "Rotating blob",
     setup: "A disc of water of 6 m across turns as a whole at 2 /s, free of gravity and air, for 1 s \
@@ -22,11 +22,11 @@ pub(in crate::lab::exam) const ROTATING_BLOB: Case = Case {
                 the mean of those within a cell c, 1.2 times a second; at the rim R that mean is slow by about `ω c/6`, \
                 which takes `0.8 (c/R)²` of the whole a second: 0.6 % at R = 30 d.",
     over: Over::Qualities,
-    quick: true,
+    size: Size::Quick,
     run: |setting, clockwork| Box::pin(rotating_blob(setting, clockwork)),
 };
 
-pub(in crate::lab::exam) const COLLISION: Case = Case {
+pub(super) const COLLISION: ExamCase = ExamCase {
     name: "collision",
     title: "Collision of two blobs",
     setup: "Two discs of water of 4 m across meet at 6 m/s, the one 2.4 m off the other's line, free of gravity and air, and \
@@ -36,7 +36,7 @@ pub(in crate::lab::exam) const COLLISION: Case = Case {
                 push to particles on one side of it, whose middle is up to a third of a cell away, 0.83 d; the arm is 12 d. \
                 Momentum: 1 % of `Σ m |v|`.",
     over: Over::Qualities,
-    quick: false,
+    size: Size::Usual,
     run: |setting, clockwork| Box::pin(collision(setting, clockwork)),
 };
 

@@ -5,7 +5,7 @@ use crate::{
     lab::{
         exam::{
             case::{
-                Case, Finding, Over, Setting,
+                ExamCase, Finding, Over, Setting, Size,
                 Tolerance::{Share, Within},
             },
             fit::falls_to,
@@ -17,7 +17,7 @@ use crate::{
 };
 use std::f64::consts::PI;
 
-pub(in crate::lab::exam) const VESSELS: Case = Case {
+pub(super) const VESSELS: ExamCase = ExamCase {
     name: "vessels",
     title: "Communicating vessels",
     setup: "The scene `communicating_vessels`: tanks of 7 m and 4.4 m width, filled to 5 m and 1.5 m, joined by a slot of \
@@ -34,7 +34,7 @@ pub(in crate::lab::exam) const VESSELS: Case = Case {
                 much water swings along with that in the slot is a guess (none at all: 5 % later), and measured contractions \
                 of such slots lie between 0.59 and 0.65.",
     over: Over::Qualities,
-    quick: false,
+    size: Size::Usual,
     run: |setting, clockwork| Box::pin(vessels(setting, clockwork)),
 };
 

@@ -8,7 +8,7 @@ use crate::{
     lab::{
         exam::{
             case::{
-                Case, Finding, Over, Setting,
+                ExamCase, Finding, Over, Setting, Size,
                 Tolerance::{Share, Within},
             },
             world::{Clockwork, Stage, own},
@@ -21,7 +21,7 @@ use crate::{
 use glam::Vec2;
 use std::f64::consts::PI;
 
-pub(in crate::lab::exam) const VORTEX: Case = Case {
+pub(super) const VORTEX: ExamCase = ExamCase {
     name: "vortex",
     title: "Taylor–Green vortex",
     setup: "`u = U sin(k x) cos(k y)`, `v = −U cos(k x) sin(k y)` in a closed box of 12 m without rock, k = π/12 m, \
@@ -41,7 +41,7 @@ pub(in crate::lab::exam) const VORTEX: Case = Case {
                 and walls take a little energy; order 0.15. Second order: a tenth of the viscosity of the first; an \
                 order of 2 ± 0.5, which a scheme of first order misses.",
     over: Over::Air,
-    quick: true,
+    size: Size::Quick,
     run: |setting, clockwork| Box::pin(vortex(setting, clockwork)),
 };
 

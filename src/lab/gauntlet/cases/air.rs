@@ -1,12 +1,12 @@
 //! Air that is pushed harder than air can be.
 
-use super::{intend, size};
+use super::common::{intend, size};
 use crate::{
     kernel::{
         brush::{BrushShape, Stroke},
         sources::Rect,
     },
-    lab::gauntlet::case::{Case, Density, Rules, Size},
+    lab::gauntlet::case::{Density, GauntletCase, Rules, Size},
     scene::blueprint::PressurePatch,
     sim::{
         intent::Intent,
@@ -31,7 +31,7 @@ const AIR_CARRIES: &str = "The air may give the water any energy that it has; wh
 /// pressure add.
 const FASTEST: f64 = 1000.0;
 
-pub(in crate::lab::gauntlet) const WIND_1000: Case = Case {
+pub(super) const WIND_1000: GauntletCase = GauntletCase {
     name: "wind_1000",
     title: "Wind of 1,000 m/s, on and off",
     what: "A storm of 1,000 m/s is blown over the whole box for a quarter of a second, ceases for as long, and so on for \
@@ -55,10 +55,10 @@ pub(in crate::lab::gauntlet) const WIND_1000: Case = Case {
         air: Rules::SEALED,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const PRESSURE_1E6: Case = Case {
+pub(super) const PRESSURE_1E6: GauntletCase = GauntletCase {
     name: "pressure_1e6",
     title: "A pressure of a million in one cell",
     what: "One cell of the air is set to a million times the pressure of the surroundings, beside water and rock.",
@@ -76,10 +76,10 @@ pub(in crate::lab::gauntlet) const PRESSURE_1E6: Case = Case {
         air: Some(1e-4),
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const SUCTION: Case = Case {
+pub(super) const SUCTION: GauntletCase = GauntletCase {
     name: "suction",
     title: "A pressure of minus a million",
     what: "A million is taken off the pressure of one cell, again and again for half a second.",
@@ -100,7 +100,7 @@ pub(in crate::lab::gauntlet) const SUCTION: Case = Case {
         air: Rules::SEALED,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
 fn press(world: &mut World, tick: u64, amount: f32) {
@@ -110,7 +110,7 @@ fn press(world: &mut World, tick: u64, amount: f32) {
     }
 }
 
-pub(in crate::lab::gauntlet) const VACUUM: Case = Case {
+pub(super) const VACUUM: GauntletCase = GauntletCase {
     name: "vacuum",
     title: "A vacuum",
     what: "The right half of a closed box holds no air at all when the left half's is let in.",
@@ -129,10 +129,10 @@ pub(in crate::lab::gauntlet) const VACUUM: Case = Case {
         air: Rules::SEALED,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const ONE_CELL: Case = Case {
+pub(super) const ONE_CELL: GauntletCase = GauntletCase {
     name: "one_cell",
     title: "Air in a box of one cell",
     what: "A box of one air cell with two particles of water in it; wind, pressure and suction by turns.",
@@ -144,10 +144,10 @@ pub(in crate::lab::gauntlet) const ONE_CELL: Case = Case {
     act: Some(stir),
     ticks: 90,
     rules: Rules { fastest: Some(FASTEST), air: Rules::SEALED, ..Rules::ALWAYS },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const ONE_CELL_HOLE: Case = Case {
+pub(super) const ONE_CELL_HOLE: GauntletCase = GauntletCase {
     name: "one_cell_hole",
     title: "Air in a cell with a hole in its rock",
     what: "A room of one air cell in solid rock; one stone of its wall is missing, and behind it the rock goes on. The \
@@ -175,7 +175,7 @@ pub(in crate::lab::gauntlet) const ONE_CELL_HOLE: Case = Case {
         fastest: Some(FASTEST),
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
 /// Wind, pressure and suction by turns for half a second.
@@ -195,7 +195,7 @@ fn stir(world: &mut World, tick: u64) {
     );
 }
 
-pub(in crate::lab::gauntlet) const SEALED_ROCK: Case = Case {
+pub(super) const SEALED_ROCK: GauntletCase = GauntletCase {
     name: "sealed_rock",
     title: "A pulse among rocks",
     what: "A pulse of pressure runs to and fro in a closed box with rock in it, 1,000 ticks.",
@@ -209,10 +209,10 @@ pub(in crate::lab::gauntlet) const SEALED_ROCK: Case = Case {
         (element: \"rock\", shape: Rect(min: (6.5, 0), max: (6.6, 3)))])",
     ticks: 1000,
     rules: Rules { air: Rules::SEALED, calm: true, ..Rules::ALWAYS },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const VORTEX: Case = Case {
+pub(super) const VORTEX: GauntletCase = GauntletCase {
     name: "air_vortex",
     title: "Wind in the corner of a box",
     what: "A gust of 20 m/s is let loose in a closed box of air, 600 ticks.",
@@ -228,10 +228,10 @@ pub(in crate::lab::gauntlet) const VORTEX: Case = Case {
     }),
     ticks: 600,
     rules: Rules { air: Rules::SEALED, calm: true, also: Some(|world| gust_has_left(world, 0.6)), ..Rules::ALWAYS },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const OPEN_BOX: Case = Case {
+pub(super) const OPEN_BOX: GauntletCase = GauntletCase {
     name: "air_open_box",
     title: "A gust in a box with four open sides",
     what: "A gust of 20 m/s is let loose in a small box of air that is open all around, 1,200 ticks.",
@@ -248,7 +248,7 @@ pub(in crate::lab::gauntlet) const OPEN_BOX: Case = Case {
     }),
     ticks: 1200,
     rules: Rules { calm: true, also: Some(|world| gust_has_left(world, 0.02)), ..Rules::ALWAYS },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
 /// That at most such a share of the energy is left of a gust of 200 d/s: a cone 16 d wide, which holds a sixth of a

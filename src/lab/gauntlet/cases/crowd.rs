@@ -1,9 +1,9 @@
 //! Particles that start too close to each other.
 
-use super::{TREMBLES, noise, water};
+use super::common::{TREMBLES, noise, water};
 use crate::{
     kernel::particles::Particles,
-    lab::gauntlet::case::{Case, Density, Gain, Rules, Size},
+    lab::gauntlet::case::{Density, Gain, GauntletCase, Rules, Size},
     scene::blueprint::Blueprint,
     sim::state::ParticleStore,
 };
@@ -17,7 +17,7 @@ const CORRECTIONS: &str = "Particles inside each other hold energy that no sum o
      corrections, each of at most the correction limit in a substep; these add up as long as they overlap. The bound is a \
      multiple of that speed (0.6 m/s at `draft` to 4.8 m/s at `reference`), the same at every quality.";
 
-pub(in crate::lab::gauntlet) const TWO_AT_A_POINT: Case = Case {
+pub(super) const TWO_AT_A_POINT: GauntletCase = GauntletCase {
     name: "two_at_a_point",
     title: "Two at one point",
     what: "Two particles of water at exactly the same place, in the air and on the floor.",
@@ -38,10 +38,10 @@ pub(in crate::lab::gauntlet) const TWO_AT_A_POINT: Case = Case {
         also: Some(|world| apart(world, 1.0, 0.2)),
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const POINT_64: Case = Case {
+pub(super) const POINT_64: GauntletCase = GauntletCase {
     name: "point_64",
     title: "64 at one point",
     what: "64 particles of water at one point, 84 cm above the floor.",
@@ -59,10 +59,10 @@ pub(in crate::lab::gauntlet) const POINT_64: Case = Case {
         also: Some(|world| apart(world, 0.92, 0.2)),
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const POINT_10000: Case = Case {
+pub(super) const POINT_10000: GauntletCase = GauntletCase {
     name: "point_10000",
     title: "10,000 at one point",
     what: "10,000 particles of water at one point in the middle of a box.",
@@ -78,10 +78,10 @@ pub(in crate::lab::gauntlet) const POINT_10000: Case = Case {
         work: 50.0,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const GRID_TENTH: Case = Case {
+pub(super) const GRID_TENTH: GauntletCase = GauntletCase {
     name: "grid_tenth",
     title: "A grid of 0.1 d",
     what: "A block of 40 × 40 particles, 0.1 d from one to the next: a hundred where there is room for one.",
@@ -96,10 +96,10 @@ pub(in crate::lab::gauntlet) const GRID_TENTH: Case = Case {
         work: 30.0,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const GRID_THIRD: Case = Case {
+pub(super) const GRID_THIRD: GauntletCase = GauntletCase {
     name: "grid_third",
     title: "A grid of 0.3 d",
     what: "A block of 40 × 40 particles, 0.3 d from one to the next: eleven where there is room for one.",
@@ -115,7 +115,7 @@ pub(in crate::lab::gauntlet) const GRID_THIRD: Case = Case {
         work: 10.0,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
 fn grid(blueprint: &mut Blueprint, spacing: f32) {
@@ -125,7 +125,7 @@ fn grid(blueprint: &mut Blueprint, spacing: f32) {
     }
 }
 
-pub(in crate::lab::gauntlet) const SPAWN_OVER_WATER: Case = Case {
+pub(super) const SPAWN_OVER_WATER: GauntletCase = GauntletCase {
     name: "spawn_over_water",
     title: "Spawned over water",
     what: "A pool 60 particles wide and 15 deep, and 300 more at random places inside it.",
@@ -149,10 +149,10 @@ pub(in crate::lab::gauntlet) const SPAWN_OVER_WATER: Case = Case {
         ..Rules::ALWAYS
     },
     known: Some(TREMBLES),
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const CLOSE_PAIRS: Case = Case {
+pub(super) const CLOSE_PAIRS: GauntletCase = GauntletCase {
     name: "close_pairs",
     title: "Pairs at every distance",
     what: "Pairs and triples of particles from 10⁻³⁸ m apart to the edge of the kernel, without gravity, with the tensile \
@@ -180,7 +180,7 @@ pub(in crate::lab::gauntlet) const CLOSE_PAIRS: Case = Case {
     }),
     ticks: 120,
     rules: Rules { gain: Some(Gain::Corrections(4.0)), work: 1.0, ..Rules::ALWAYS },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
 /// Distance of each particle to its nearest neighbour, d, shortest first.

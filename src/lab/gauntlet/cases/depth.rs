@@ -1,14 +1,17 @@
 //! Water under its own weight.
 
-use super::{BOILS, TREMBLES, crowd::apart, water};
+use super::{
+    common::{BOILS, TREMBLES, water},
+    crowd::apart,
+};
 use crate::{
-    lab::gauntlet::case::{Case, Density, Gain, Rules, Size},
+    lab::gauntlet::case::{Density, Gain, GauntletCase, Rules, Size},
     sim::state::ParticleStore,
 };
 use bevy::ecs::world::World;
 use glam::Vec2;
 
-pub(in crate::lab::gauntlet) const DAM_BREAK: Case = Case {
+pub(super) const DAM_BREAK: GauntletCase = GauntletCase {
     name: "dam_break",
     title: "Dam break",
     what: "A column of water 30 particles wide and 60 high collapses in a closed box.",
@@ -25,10 +28,10 @@ pub(in crate::lab::gauntlet) const DAM_BREAK: Case = Case {
         ..Rules::ALWAYS
     },
     known: Some(BOILS),
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const CLUMPS: Case = Case {
+pub(super) const CLUMPS: GauntletCase = GauntletCase {
     name: "clumps",
     title: "No clumps",
     what: "4,970 particles of water fall as a block and settle.",
@@ -45,10 +48,10 @@ pub(in crate::lab::gauntlet) const CLUMPS: Case = Case {
         ..Rules::ALWAYS
     },
     known: Some(BOILS),
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const POOL: Case = Case {
+pub(super) const POOL: GauntletCase = GauntletCase {
     name: "pool",
     title: "A pool at rest",
     what: "Water 30 particles wide and 70 deep, at rest from the start.",
@@ -69,10 +72,10 @@ pub(in crate::lab::gauntlet) const POOL: Case = Case {
         ..Rules::ALWAYS
     },
     known: Some(BOILS),
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const FULL_BOX: Case = Case {
+pub(super) const FULL_BOX: GauntletCase = GauntletCase {
     name: "full_box",
     title: "A box full to the brim",
     what: "A closed box of 40 by 40 particles without room for one more, weightless, at rest from the start.",
@@ -91,10 +94,10 @@ pub(in crate::lab::gauntlet) const FULL_BOX: Case = Case {
         ..Rules::ALWAYS
     },
     known: Some(TREMBLES),
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const DEEP_TANK: Case = Case {
+pub(super) const DEEP_TANK: GauntletCase = GauntletCase {
     name: "deep_tank",
     title: "A tank 40 m deep",
     what: "Water 12 particles wide and 400 deep, at rest from the start.",
@@ -112,10 +115,10 @@ pub(in crate::lab::gauntlet) const DEEP_TANK: Case = Case {
         ..Rules::ALWAYS
     },
     known: Some(BOILS),
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const SHAFT: Case = Case {
+pub(super) const SHAFT: GauntletCase = GauntletCase {
     name: "shaft",
     title: "A shaft one air cell wide",
     what: "A shaft in rock, 4 d wide and 100 deep, closed below and above and full to the lid.",
@@ -134,10 +137,10 @@ pub(in crate::lab::gauntlet) const SHAFT: Case = Case {
         ..Rules::ALWAYS
     },
     known: Some(BOILS),
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const NARROW_SHAFT: Case = Case {
+pub(super) const NARROW_SHAFT: GauntletCase = GauntletCase {
     name: "narrow_shaft",
     title: "A shaft one particle wide",
     what: "The same shaft, 1 d wide: the particles stand in file.",
@@ -157,10 +160,10 @@ pub(in crate::lab::gauntlet) const NARROW_SHAFT: Case = Case {
         ..Rules::ALWAYS
     },
     known: Some(BOILS),
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const OVERFULL_SHAFT: Case = Case {
+pub(super) const OVERFULL_SHAFT: GauntletCase = GauntletCase {
     name: "overfull_shaft",
     title: "A shaft filled over its brim",
     what: "The shaft one air cell wide with a fifth more particles than it has room for.",
@@ -188,10 +191,10 @@ pub(in crate::lab::gauntlet) const OVERFULL_SHAFT: Case = Case {
         ..Rules::ALWAYS
     },
     known: Some(BOILS),
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const CORNER_100G: Case = Case {
+pub(super) const CORNER_100G: GauntletCase = GauntletCase {
     name: "corner_100g",
     title: "A corner under 100 g",
     what: "A block of 40 × 30 particles is pressed into a corner of the box by 981 m/s², along the diagonal.",
@@ -209,10 +212,10 @@ pub(in crate::lab::gauntlet) const CORNER_100G: Case = Case {
         ..Rules::ALWAYS
     },
     known: Some(BOILS),
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const WEDGE: Case = Case {
+pub(super) const WEDGE: GauntletCase = GauntletCase {
     name: "wedge",
     title: "A wedge of 30° under 4 g",
     what: "Some 1,700 particles in a wedge of rock and floor, pressed into its tip by four times gravity.",
@@ -232,7 +235,7 @@ pub(in crate::lab::gauntlet) const WEDGE: Case = Case {
         ..Rules::ALWAYS
     },
     known: Some(BOILS),
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
 /// Whether the water's surface stands at `height` d, to a share of it: twice the mean height of the particles.

@@ -1,7 +1,11 @@
 //! Every number at the ends of its range, and sizes at the ends of what there is.
 
-use super::BOILS;
-use crate::lab::gauntlet::case::{Case, Density, Gain, Rules, Size};
+use super::common::{BOILS, element, intend};
+use crate::{
+    kernel::brush::{BrushShape, Stroke},
+    lab::gauntlet::case::{Density, Gain, GauntletCase, Over, Rules, Size},
+    sim::{intent::Intent, state::Setup},
+};
 use glam::Vec2;
 
 /// The knobs that every scene has with the ends of their ranges.
@@ -46,11 +50,11 @@ pub(in crate::lab::gauntlet) const RUNS: [Settings; 7] = {
     runs
 };
 
-const fn ends(name: &'static str, title: &'static str, run: usize) -> Case {
+const fn ends(name: &'static str, title: &'static str, run: usize) -> GauntletCase {
     // The runs in which a tick has 64 substeps or iterations take longer.
     let (substeps, iterations) = (RUNS[run][0].1.len(), RUNS[run][1].1.len());
-    let is_dear = substeps + iterations > 2;
-    Case {
+    let is_expensive = substeps + iterations > 2;
+    GauntletCase {
         name,
         title,
         what: "A small dam break in air with every knob of scene and quality at an end of its range; in seven such runs any \
@@ -58,26 +62,27 @@ const fn ends(name: &'static str, title: &'static str, run: usize) -> Case {
         guards: "Pairs of settings that nobody tried together.",
         allowed: "A rest density of 0.1 blows the water up to ten times its area and one of 100 presses it to a hundredth; so \
                   neither its energy nor its density has a bound.",
-        size: if is_dear { Size::Usual } else { Size::Quick },
+        size: if is_expensive { Size::Usual } else { Size::Quick },
         scene: "(title: \"Ends\", spacing: 0.1, size: (4, 3), contents: [
             (element: \"rock\", shape: Rect(min: (2, 0), max: (2.1, 0.6))),
             (element: \"water\", shape: Rect(min: (0, 0), max: (0.8, 1.2)))])",
         settings: &RUNS[run],
-        ticks: if is_dear { 12 } else { 60 },
+        over: Over::Method,
+        ticks: if is_expensive { 12 } else { 60 },
         rules: Rules { work: 8.0, air: Rules::SEALED, ..Rules::ALWAYS },
-        ..Case::USUAL
+        ..GauntletCase::USUAL
     }
 }
 
-pub(in crate::lab::gauntlet) const ENDS_1: Case = ends("ends_1", "Ends of the knobs, all low", 0);
-pub(in crate::lab::gauntlet) const ENDS_2: Case = ends("ends_2", "Ends of the knobs, second run", 1);
-pub(in crate::lab::gauntlet) const ENDS_3: Case = ends("ends_3", "Ends of the knobs, third run", 2);
-pub(in crate::lab::gauntlet) const ENDS_4: Case = ends("ends_4", "Ends of the knobs, fourth run", 3);
-pub(in crate::lab::gauntlet) const ENDS_5: Case = ends("ends_5", "Ends of the knobs, fifth run", 4);
-pub(in crate::lab::gauntlet) const ENDS_6: Case = ends("ends_6", "Ends of the knobs, sixth run", 5);
-pub(in crate::lab::gauntlet) const ENDS_7: Case = ends("ends_7", "Ends of the knobs, seventh run", 6);
+pub(super) const ENDS_1: GauntletCase = ends("ends_1", "Ends of the knobs, all low", 0);
+pub(super) const ENDS_2: GauntletCase = ends("ends_2", "Ends of the knobs, second run", 1);
+pub(super) const ENDS_3: GauntletCase = ends("ends_3", "Ends of the knobs, third run", 2);
+pub(super) const ENDS_4: GauntletCase = ends("ends_4", "Ends of the knobs, fourth run", 3);
+pub(super) const ENDS_5: GauntletCase = ends("ends_5", "Ends of the knobs, fifth run", 4);
+pub(super) const ENDS_6: GauntletCase = ends("ends_6", "Ends of the knobs, sixth run", 5);
+pub(super) const ENDS_7: GauntletCase = ends("ends_7", "Ends of the knobs, seventh run", 6);
 
-pub(in crate::lab::gauntlet) const SPACING_1_MM: Case = Case {
+pub(super) const SPACING_1_MM: GauntletCase = GauntletCase {
     name: "spacing_1_mm",
     title: "Particles of a millimetre",
     what: "A dam break of 20 × 40 particles of 1 mm, in air.",
@@ -93,10 +98,10 @@ pub(in crate::lab::gauntlet) const SPACING_1_MM: Case = Case {
         ..Rules::ALWAYS
     },
     known: Some(BOILS),
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const SPACING_10_M: Case = Case {
+pub(super) const SPACING_10_M: GauntletCase = GauntletCase {
     name: "spacing_10_m",
     title: "Particles of ten metres",
     what: "A dam break of 20 × 40 particles of 10 m.",
@@ -112,10 +117,10 @@ pub(in crate::lab::gauntlet) const SPACING_10_M: Case = Case {
         density: Some(Density { shock: 10, worst: 0.2, end: 0.1 }),
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const FAR_AWAY: Case = Case {
+pub(super) const FAR_AWAY: GauntletCase = GauntletCase {
     name: "far_away",
     title: "100 km from the origin",
     what: "A pool of 30 × 12 particles of 10 m between two walls of rock, 100 km (10,000 d) from the world's origin.",
@@ -136,10 +141,10 @@ pub(in crate::lab::gauntlet) const FAR_AWAY: Case = Case {
         work: 1.5,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const MILLION: Case = Case {
+pub(super) const MILLION: GauntletCase = GauntletCase {
     name: "million",
     title: "A million particles",
     what: "A dam break of 707 × 1,414 particles, ten ticks.",
@@ -155,10 +160,10 @@ pub(in crate::lab::gauntlet) const MILLION: Case = Case {
         work: 1.5,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const NOBODY: Case = Case {
+pub(super) const NOBODY: GauntletCase = GauntletCase {
     name: "nobody",
     title: "No particles at all",
     what: "An empty box with every effect on; after half a second one particle, which is erased again.",
@@ -168,11 +173,6 @@ pub(in crate::lab::gauntlet) const NOBODY: Case = Case {
     scene: "(title: \"Nobody\", spacing: 0.1, size: (4, 4),
         effects: {air: on, drag: on, predictor: on, tension: on, viscosity: on, vorticity: on})",
     act: Some(|world, tick| {
-        use super::{element, intend};
-        use crate::{
-            kernel::brush::{BrushShape, Stroke},
-            sim::{intent::Intent, state::Setup},
-        };
         let stroke = Stroke::dab(BrushShape::Disc, Vec2::splat(20.0), 0.0);
         let water = element(world.resource::<Setup>().elements(), "water");
         match tick {
@@ -183,5 +183,5 @@ pub(in crate::lab::gauntlet) const NOBODY: Case = Case {
     }),
     ticks: 60,
     rules: Rules { air: Rules::SEALED, calm: true, ..Rules::ALWAYS },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };

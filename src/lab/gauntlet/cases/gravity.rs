@@ -1,8 +1,8 @@
 //! Gravity that does not stay as it is.
 
-use super::{intend, water};
+use super::common::{intend, water};
 use crate::{
-    lab::gauntlet::case::{Case, Density, Gain, Rules, Size},
+    lab::gauntlet::case::{Density, Gain, GauntletCase, Rules, Size},
     sim::{
         intent::Intent,
         state::{ParticleStore, Setup},
@@ -28,7 +28,7 @@ fn pull(world: &mut World, gravity: Vec2) {
     }
 }
 
-pub(in crate::lab::gauntlet) const FLIPPING: Case = Case {
+pub(super) const FLIPPING: GauntletCase = GauntletCase {
     name: "gravity_flips",
     title: "Gravity that flips every tick",
     what: "A pool whose gravity points down and up in turn, every tick, for 5 s.",
@@ -44,10 +44,10 @@ pub(in crate::lab::gauntlet) const FLIPPING: Case = Case {
         work: 2.0,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const TURNING: Case = Case {
+pub(super) const TURNING: GauntletCase = GauntletCase {
     name: "gravity_turns",
     title: "Gravity that turns in circles",
     what: "A pool whose gravity turns once in 3 s, so that it is poured from wall to wall, for 9 s.",
@@ -85,10 +85,10 @@ pub(in crate::lab::gauntlet) const TURNING: Case = Case {
         work: 2.0,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const WEIGHTLESS: Case = Case {
+pub(super) const WEIGHTLESS: GauntletCase = GauntletCase {
     name: "weightless",
     title: "Drops at rest without gravity",
     what: "120 lone particles of water, up to the walls and corners of the box, at rest and without gravity, with every effect \
@@ -114,10 +114,10 @@ pub(in crate::lab::gauntlet) const WEIGHTLESS: Case = Case {
         also: Some(unmoved),
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const FLOATING: Case = Case {
+pub(super) const FLOATING: GauntletCase = GauntletCase {
     name: "floating",
     title: "A block at rest without gravity",
     what: "A block of 20 × 10 particles on the lattice floats in the middle of the box, without gravity, for 5 s.",
@@ -136,7 +136,7 @@ pub(in crate::lab::gauntlet) const FLOATING: Case = Case {
         work: 1.2,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
 /// Whether everybody stands where the scene put them.

@@ -1,10 +1,10 @@
 //! Fast matter against rock.
 
-use super::{noise, water};
-use crate::lab::gauntlet::case::{Case, Density, Gain, Rules, Size};
+use super::common::{element, noise, water};
+use crate::lab::gauntlet::case::{Density, Gain, GauntletCase, Rules, Size};
 use glam::Vec2;
 
-pub(in crate::lab::gauntlet) const SHOTS: Case = Case {
+pub(super) const SHOTS: GauntletCase = GauntletCase {
     name: "shots",
     title: "Shots at rock one layer thick",
     what: "2,000 particles in a closed room of rock one particle thick: a straight wall, and a stair whose stones only touch \
@@ -15,7 +15,7 @@ pub(in crate::lab::gauntlet) const SHOTS: Case = Case {
     scene: "(title: \"Shots\", spacing: 0.1, size: (10, 10), gravity: (0, 0), effects: {air: off, drag: off})",
     arrange: Some(|blueprint| {
         use glam::IVec2;
-        let rock = super::element(&blueprint.elements, "rock");
+        let rock = element(&blueprint.elements, "rock");
         let stones = (0..100).map(|y| IVec2::new(60, y)).chain((0..60).map(|k| IVec2::new(k, 60 - k)));
         for stone in stones {
             if blueprint.solids.insert(stone, rock, blueprint.next_id) {
@@ -39,10 +39,10 @@ pub(in crate::lab::gauntlet) const SHOTS: Case = Case {
         gain: Some(Gain::Speed(8.0)),
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const FALLING_BLOCK: Case = Case {
+pub(super) const FALLING_BLOCK: GauntletCase = GauntletCase {
     name: "falling_block",
     title: "A block at 100 m/s onto thin rock",
     what: "A block of 20 × 20 particles falls at 100 m/s onto a floor of rock one particle thick.",
@@ -59,10 +59,10 @@ pub(in crate::lab::gauntlet) const FALLING_BLOCK: Case = Case {
         density: Some(Density { shock: 60, worst: 0.5, end: 0.2 }),
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const BULLET: Case = Case {
+pub(super) const BULLET: GauntletCase = GauntletCase {
     name: "bullet",
     title: "A bullet along a wall",
     what: "A bullet of 30 particles flies at 1,000 m/s along a wall of rock with a pool behind it, into a corner.",
@@ -86,5 +86,5 @@ pub(in crate::lab::gauntlet) const BULLET: Case = Case {
         density: Some(Density { shock: 30, worst: 0.3, end: 0.1 }),
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };

@@ -1,9 +1,9 @@
 //! Elements at the ends of what elements can be, and beyond.
 
-use super::{TREMBLES, change_water, element, water};
+use super::common::{TREMBLES, change_water, element, water};
 use crate::{
     kernel::element::{Element, ElementTable},
-    lab::gauntlet::case::{Case, Density, Gain, Rules, Size},
+    lab::gauntlet::case::{Density, Gain, GauntletCase, Rules, Size},
     scene::blueprint::Blueprint,
 };
 use glam::Vec2;
@@ -22,7 +22,7 @@ fn turn(blueprint: &mut Blueprint) {
     }
 }
 
-pub(in crate::lab::gauntlet) const VORTICITY_BOUND: Case = Case {
+pub(super) const VORTICITY_BOUND: GauntletCase = GauntletCase {
     name: "vorticity_bound",
     title: "Vorticity confinement at its bound",
     what: "A disc of water that turns once in 2 s, with a confinement of 1 m/s² for each 1/s, the most that an element may \
@@ -37,10 +37,10 @@ pub(in crate::lab::gauntlet) const VORTICITY_BOUND: Case = Case {
     }),
     ticks: 600,
     rules: Rules { gain: Some(Gain::Speed(2.6)), rest: Some(0.35), ..Rules::ALWAYS },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const VORTICITY_BEYOND: Case = Case {
+pub(super) const VORTICITY_BEYOND: GauntletCase = GauntletCase {
     name: "vorticity_beyond",
     title: "Vorticity confinement a hundred times past its bound",
     what: "The same with 100 m/s² for each 1/s, which no element file can set.",
@@ -55,10 +55,10 @@ pub(in crate::lab::gauntlet) const VORTICITY_BEYOND: Case = Case {
     }),
     ticks: 300,
     rules: Rules { gain: Some(Gain::Speed(10.0)), rest: Some(0.8), ..Rules::ALWAYS },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const VISCOSITY_BOUND: Case = Case {
+pub(super) const VISCOSITY_BOUND: GauntletCase = GauntletCase {
     name: "viscosity_bound",
     title: "Viscosity at its bound",
     what: "A column of water with half of every difference of velocity evened out each tick, the most that an element may \
@@ -75,10 +75,10 @@ pub(in crate::lab::gauntlet) const VISCOSITY_BOUND: Case = Case {
         work: 2.0,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const VISCOSITY_BEYOND: Case = Case {
+pub(super) const VISCOSITY_BEYOND: GauntletCase = GauntletCase {
     name: "viscosity_beyond",
     title: "Viscosity ten times past its bound",
     what: "The same with ten times as much, which no element file can set.",
@@ -94,7 +94,7 @@ pub(in crate::lab::gauntlet) const VISCOSITY_BEYOND: Case = Case {
         work: 2.0,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
 const COLUMN: &str = "(title: \"Column\", spacing: 0.1, size: (8, 5), effects: {air: off, drag: off}, contents: [
@@ -109,7 +109,7 @@ const WIND: &str = "(title: \"Drag\", spacing: 0.1, size: (8, 4), open: (left: t
 /// Fastest that drag may leave anybody: as fast as the fans blow (20 m/s), with what air that is held up by water does.
 const DRAGGED: f64 = 60.0;
 
-pub(in crate::lab::gauntlet) const DRAG_HUGE: Case = Case {
+pub(super) const DRAG_HUGE: GauntletCase = GauntletCase {
     name: "drag_huge",
     title: "Drag with a huge coefficient",
     what: "Water with a drag of 10⁹ kg/m, a million times the bound, in a wind of 20 m/s; a drop flies against it at \
@@ -121,10 +121,10 @@ pub(in crate::lab::gauntlet) const DRAG_HUGE: Case = Case {
     arrange: Some(|blueprint| change_water(blueprint, |water| water.drag = 1e9)),
     ticks: 240,
     rules: Rules { fastest: Some(100.1), also: Some(|world| slower(world, DRAGGED)), ..Rules::ALWAYS },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const DRAG_LIGHT: Case = Case {
+pub(super) const DRAG_LIGHT: GauntletCase = GauntletCase {
     name: "drag_light",
     title: "Drag on next to no mass",
     what: "A liquid of 1 kg/m², the least that an element may have, with a drag of 1,000 kg/m, the most, in the same wind.",
@@ -137,7 +137,7 @@ pub(in crate::lab::gauntlet) const DRAG_LIGHT: Case = Case {
     }),
     ticks: 240,
     rules: Rules { fastest: Some(100.1), also: Some(|world| slower(world, DRAGGED)), ..Rules::ALWAYS },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
 fn slower(world: &bevy::ecs::world::World, most: f64) -> Result<(), String> {
@@ -145,7 +145,7 @@ fn slower(world: &bevy::ecs::world::World, most: f64) -> Result<(), String> {
     if fastest <= most { Ok(()) } else { Err(format!("{fastest:.1} m/s at the end, allowed {most}")) }
 }
 
-pub(in crate::lab::gauntlet) const HEAVY_ABOVE_LIGHT: Case = Case {
+pub(super) const HEAVY_ABOVE_LIGHT: GauntletCase = GauntletCase {
     name: "heavy_above_light",
     title: "Heavy above light, 1000 : 1",
     what: "Water lies on a liquid of a thousandth of its density in a closed box.",
@@ -177,5 +177,5 @@ pub(in crate::lab::gauntlet) const HEAVY_ABOVE_LIGHT: Case = Case {
         ..Rules::ALWAYS
     },
     known: Some(TREMBLES),
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };

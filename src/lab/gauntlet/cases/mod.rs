@@ -1,69 +1,77 @@
 //! The hard cases, by what is hard about them.
 
-pub(super) mod air;
-pub(super) mod crowd;
-pub(super) mod depth;
+mod air;
+mod common;
+mod crowd;
+mod depth;
 pub(super) mod ends;
-pub(super) mod gravity;
-pub(super) mod impact;
-pub(super) mod matter;
-pub(super) mod play;
-pub(super) mod rock;
+mod gravity;
+mod impact;
+mod matter;
+mod play;
+mod rock;
 
-use crate::{
-    kernel::{
-        element::{Element, ElementId, ElementTable},
-        random::{mix, unit},
-    },
-    scene::blueprint::Blueprint,
-    sim::{
-        intent::{Intent, IntentQueue},
-        state::Setup,
-    },
-};
-use bevy::ecs::world::World;
-use glam::Vec2;
-use std::sync::Arc;
+use crate::lab::gauntlet::case::GauntletCase;
 
-/// What plain PBF does to water that is deep or pressed hard.
-const BOILS: &str = "plain PBF carries pressure a few particles down an iteration; water that is deeper than some 27 \
-     particles, or pressed as hard, is crushed and boils";
-
-/// What plain PBF does to water at rest.
-const TREMBLES: &str = "plain PBF takes every correction for motion, and water at rest trembles at .06 to .10 d a tick";
-
-/// The element called `name`; every table has those of the built-in scenes.
-fn element(elements: &ElementTable, name: &str) -> ElementId {
-    elements.find(name).unwrap_or_default()
-}
-
-/// Adds a particle of water, at a place and a velocity in m.
-fn water(blueprint: &mut Blueprint, at: Vec2, velocity: Vec2) {
-    let id = element(&blueprint.elements, "water");
-    let (at, velocity) = (blueprint.scale.vec_to_kernel(at), blueprint.scale.vec_to_kernel(velocity));
-    blueprint.particles.push(blueprint.next_id, id, at, velocity);
-    blueprint.next_id += 1;
-}
-
-/// Changes what water is.
-fn change_water(blueprint: &mut Blueprint, change: impl Fn(&mut Element)) {
-    let mut rows: Vec<Element> = blueprint.elements.iter().map(|(_, element)| element.clone()).collect();
-    rows.iter_mut().filter(|row| row.name == "water").for_each(change);
-    blueprint.elements = Arc::new(ElementTable::new(rows));
-}
-
-/// Two numbers in −½ … ½ that belong to `seed`.
-fn noise(seed: u32) -> Vec2 {
-    let mixed = mix(seed);
-    Vec2::new(unit(mixed), unit(mixed >> 16)) * 0.5
-}
-
-/// Puts an intent in the queue.
-fn intend(world: &mut World, intent: Intent) {
-    world.resource_mut::<IntentQueue>().push(intent);
-}
-
-/// Size of the box, d.
-fn size(world: &World) -> Vec2 {
-    world.resource::<Setup>().blueprint.domain.size
-}
+/// All cases, in the order in which they are shown.
+pub const CASES: &[GauntletCase] = &[
+    crowd::TWO_AT_A_POINT,
+    crowd::POINT_64,
+    crowd::POINT_10000,
+    crowd::GRID_TENTH,
+    crowd::GRID_THIRD,
+    crowd::SPAWN_OVER_WATER,
+    crowd::CLOSE_PAIRS,
+    depth::DAM_BREAK,
+    depth::CLUMPS,
+    depth::POOL,
+    depth::FULL_BOX,
+    depth::DEEP_TANK,
+    depth::SHAFT,
+    depth::NARROW_SHAFT,
+    depth::OVERFULL_SHAFT,
+    depth::CORNER_100G,
+    depth::WEDGE,
+    impact::SHOTS,
+    impact::FALLING_BLOCK,
+    impact::BULLET,
+    gravity::FLIPPING,
+    gravity::TURNING,
+    gravity::WEIGHTLESS,
+    gravity::FLOATING,
+    air::WIND_1000,
+    air::PRESSURE_1E6,
+    air::SUCTION,
+    air::VACUUM,
+    air::ONE_CELL,
+    air::ONE_CELL_HOLE,
+    air::SEALED_ROCK,
+    air::VORTEX,
+    air::OPEN_BOX,
+    matter::VORTICITY_BOUND,
+    matter::VORTICITY_BEYOND,
+    matter::VISCOSITY_BOUND,
+    matter::VISCOSITY_BEYOND,
+    matter::DRAG_HUGE,
+    matter::DRAG_LIGHT,
+    matter::HEAVY_ABOVE_LIGHT,
+    rock::ROCK_OVER_WATER,
+    rock::ROCK_ERASED,
+    ends::ENDS_1,
+    ends::ENDS_2,
+    ends::ENDS_3,
+    ends::ENDS_4,
+    ends::ENDS_5,
+    ends::ENDS_6,
+    ends::ENDS_7,
+    ends::SPACING_1_MM,
+    ends::SPACING_10_M,
+    ends::FAR_AWAY,
+    ends::MILLION,
+    ends::NOBODY,
+    play::HITCHES,
+    play::QUALITY_CHANGES,
+    play::EFFECTS_TOGGLE,
+    play::MOUSE_MINUTE,
+    play::POISON,
+];

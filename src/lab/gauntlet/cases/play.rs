@@ -1,12 +1,12 @@
 //! What players and their machines do.
 
-use super::{element, intend, size};
+use super::common::{element, intend, size};
 use crate::{
     kernel::{
         brush::{BrushShape, Stroke},
         params::Preset,
     },
-    lab::gauntlet::case::{Case, Density, Gain, Rules, Size},
+    lab::gauntlet::case::{Density, Gain, GauntletCase, Over, Rules, Size},
     scene::blueprint::{Effect, Mode},
     sim::{
         intent::Intent,
@@ -22,7 +22,7 @@ const DAM: &str = "(title: \"Dam\", spacing: 0.1, size: (8, 5), contents: [
     (element: \"rock\", shape: Rect(min: (5, 0), max: (5.2, 1))),
     (element: \"water\", shape: Rect(min: (0, 0), max: (2, 4)))])";
 
-pub(in crate::lab::gauntlet) const HITCHES: Case = Case {
+pub(super) const HITCHES: GauntletCase = GauntletCase {
     name: "hitches",
     title: "Frames that come late",
     what: "A dam break in frames of 1/60 s of which every 60th comes 200 ms, 10 s or a day late.",
@@ -44,10 +44,10 @@ pub(in crate::lab::gauntlet) const HITCHES: Case = Case {
         air: Rules::SEALED,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const QUALITY_CHANGES: Case = Case {
+pub(super) const QUALITY_CHANGES: GauntletCase = GauntletCase {
     name: "quality_changes",
     title: "Another quality every tick",
     what: "A dam break with a gust over it; before every tick the next of the six qualities is chosen.",
@@ -55,6 +55,7 @@ pub(in crate::lab::gauntlet) const QUALITY_CHANGES: Case = Case {
              another.",
     allowed: "Energy as in the dam break, 1 m/s; the dearest tick is that of the dearest quality.",
     size: Size::Quick,
+    over: Over::Nothing,
     scene: DAM,
     act: Some(|world, tick| {
         let preset = Preset::ALL[(tick % 6) as usize];
@@ -69,10 +70,10 @@ pub(in crate::lab::gauntlet) const QUALITY_CHANGES: Case = Case {
         air: Rules::SEALED,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const EFFECTS_TOGGLE: Case = Case {
+pub(super) const EFFECTS_TOGGLE: GauntletCase = GauntletCase {
     name: "effects_toggle",
     title: "Effects switched every tick",
     what: "A dam break with a gust over it; before every tick each effect is switched on, off or to auto, in another \
@@ -97,7 +98,7 @@ pub(in crate::lab::gauntlet) const EFFECTS_TOGGLE: Case = Case {
         air: Rules::SEALED,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
 fn gust(world: &mut World, tick: u64) {
@@ -107,7 +108,7 @@ fn gust(world: &mut World, tick: u64) {
     }
 }
 
-pub(in crate::lab::gauntlet) const MOUSE_MINUTE: Case = Case {
+pub(super) const MOUSE_MINUTE: GauntletCase = GauntletCase {
     name: "mouse_minute",
     title: "The mouse held down everywhere for a minute",
     what: "Every tool with a brush as large as the box, at once and every tick for a minute: water is poured, wind is blown, \
@@ -133,10 +134,10 @@ pub(in crate::lab::gauntlet) const MOUSE_MINUTE: Case = Case {
     }),
     ticks: 3600,
     rules: Rules { fastest: Some(1000.0), ..Rules::ALWAYS },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const POISON: Case = Case {
+pub(super) const POISON: GauntletCase = GauntletCase {
     name: "poison",
     title: "Particles that are no number",
     what: "In a dam break a particle's position or velocity becomes NaN, infinite or 10³⁰, once every ten ticks, five times.",
@@ -165,5 +166,5 @@ pub(in crate::lab::gauntlet) const POISON: Case = Case {
         air: Rules::SEALED,
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };

@@ -1,15 +1,15 @@
 //! Rock that comes and goes.
 
-use super::{TREMBLES, element, intend};
+use super::common::{TREMBLES, element, intend};
 use crate::{
     kernel::brush::{BrushShape, Stroke},
-    lab::gauntlet::case::{Case, Density, Gain, Rules, Size},
+    lab::gauntlet::case::{Density, Gain, GauntletCase, Rules, Size},
     sim::{intent::Intent, state::Setup},
 };
 use bevy::ecs::world::World;
 use glam::Vec2;
 
-pub(in crate::lab::gauntlet) const ROCK_OVER_WATER: Case = Case {
+pub(super) const ROCK_OVER_WATER: GauntletCase = GauntletCase {
     name: "rock_over_water",
     title: "Rock painted over water, and removed",
     what: "A bar of rock is painted across a pool and rubbed out again, somewhere else each time, every 6 ticks for 5 s.",
@@ -45,10 +45,10 @@ pub(in crate::lab::gauntlet) const ROCK_OVER_WATER: Case = Case {
         ..Rules::ALWAYS
     },
     known: Some(TREMBLES),
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
-pub(in crate::lab::gauntlet) const ROCK_ERASED: Case = Case {
+pub(super) const ROCK_ERASED: GauntletCase = GauntletCase {
     name: "rock_erased",
     title: "The floor erased under a full tank",
     what: "A full tank of 40 × 40 particles on a floor of rock 2 m above the ground; after half a second the floor is \
@@ -68,7 +68,7 @@ pub(in crate::lab::gauntlet) const ROCK_ERASED: Case = Case {
         density: Some(Density { shock: 0, worst: 0.3, end: 0.1 }),
         ..Rules::ALWAYS
     },
-    ..Case::USUAL
+    ..GauntletCase::USUAL
 };
 
 fn erase_floor(world: &mut World, tick: u64) {

@@ -1,0 +1,181 @@
+//! The commands, and the options of those that open and run worlds.
+
+use super::{
+    lab::{BenchArguments, CaseArguments, SoakArguments, StudyArguments, SweepArguments},
+    machine::Machine,
+    values::{Ticks, effect, hold_error, hold_ms, preset, seconds, setting, ticks, warmup},
+};
+use crate::{
+    kernel::params::Preset,
+    lab::{exam::ExamCase, gauntlet::GauntletCase},
+    scene::blueprint::{Effect, Mode},
+};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// A real-time 2-D sandbox of powders and fluids in moving air.
+#[derive(Debug, Parser)]
+#[command(name = "powder-master", version, args_conflicts_with_subcommands = true, disable_help_subcommand = true)]
+pub(in crate::cli) struct Arguments {
+    #[command(subcommand)]
+    pub(in crate::cli) command: Option<Command>,
+    #[command(flatten)]
+    pub(in crate::cli) play: PlayOptions,
+}
+
+/// A command and what belongs to it.
+#[derive(Debug, Subcommand)]
+pub(in crate::cli) enum Command {
+    /// Open the game (the default)
+    Play(PlayArguments),
+    /// Run a scene without a window, and measure it
+    Run(Box<RunArguments>),
+    /// Run a recording again, and name the first tick that is not what it was
+    Replay(ReplayArguments),
+    /// Measure what something costs, and print the table
+    Bench(BenchArguments),
+    /// Compare the physics with known answers, at each quality
+    Exam(CaseArguments<ExamCase>),
+    /// Play a scene for hours by a script, and see that nothing grows or gets lost
+    Soak(SoakArguments),
+    /// Run every hard case at each quality, and judge whether it stays stable
+    Gauntlet(CaseArguments<GauntletCase>),
+    /// Repeat an experiment of the report on the original game
+    Study(StudyArguments),
+    /// Measure what accuracy costs in a scene: curve.csv, curve.svg, curve.png, summary.md
+    Sweep(SweepArguments),
+    /// Print what there is to choose from, one a line, fields separated by tabs
+    List {
+        /// What to list
+        what: Listing,
+    },
+}
+
+/// `replay`.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct ReplayArguments {
+    /// The recording
+    #[arg(value_name = "FILE")]
+    pub(in crate::cli) file: PathBuf,
+    #[command(flatten)]
+    pub(in crate::cli) machine: Machine,
+    /// Write the outcome as JSON; `-` is stdout, in place of the line
+    #[arg(long, value_name = "FILE.json")]
+    pub(in crate::cli) json: Option<PathBuf>,
+}
+
+/// What there is to choose from.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(in crate::cli) enum Listing {
+    /// Name, description, parameters with their ranges
+    Scenes,
+    /// Name and properties
+    Elements,
+    /// Name and what it is
+    Effects,
+    /// Name and the numbers behind it
+    Qualities,
+    /// Hard cases of `gauntlet`: name, what happens
+    Cases,
+}
+
+/// `play`.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct PlayArguments {
+    /// Scene: a name of `list scenes`, or the path of a scene file, a save file or a recording [default: waterfall]
+    pub(in crate::cli) scene: Option<String>,
+    #[command(flatten)]
+    pub(in crate::cli) options: PlayOptions,
+}
+
+/// Options of `play`.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct PlayOptions {
+    /// Quality to start with: a name of `list qualities` [default: the scene's]
+    #[arg(long, value_name = "QUALITY", value_parser = preset)]
+    pub(in crate::cli) quality: Option<Preset>,
+    /// Set a parameter of the scene, or a number of the quality or the liquid
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    pub(in crate::cli) settings: Vec<(String, String)>,
+    #[command(flatten)]
+    pub(in crate::cli) machine: Machine,
+    /// Record what is played, from the start on, for `replay FILE`
+    #[arg(long, value_name = "FILE")]
+    pub(in crate::cli) record: Option<PathBuf>,
+}
+
+/// `run`.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct RunArguments {
+    /// Scene: a name of `list scenes`, or the path of a scene file, a save file or a recording (from its last jump on)
+    pub(in crate::cli) scene: String,
+    /// Simulated time [default: 10, or as long as the recording]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true, conflicts_with = "ticks")]
+    pub(in crate::cli) seconds: Option<Ticks>,
+    /// Simulated time in ticks of 1/60 s
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = ticks)]
+    pub(in crate::cli) ticks: Option<u64>,
+    /// Quality: a name of `list qualities` [default: the scene's]
+    #[arg(long, value_name = "QUALITY", value_parser = preset)]
+    pub(in crate::cli) quality: Option<Preset>,
+    /// Set a parameter of the scene, or a number of the quality or the liquid
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    pub(in crate::cli) settings: Vec<(String, String)>,
+    /// Switch an effect of `list effects`
+    #[arg(long = "effect", value_name = "NAME=auto|on|off", value_parser = effect)]
+    pub(in crate::cli) effects: Vec<(Effect, Mode)>,
+    #[command(flatten)]
+    pub(in crate::cli) machine: Machine,
+    /// Ticks at the start that are left out of times and accuracy samples
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true, allow_negative_numbers = true,
+          value_parser = warmup)]
+    pub(in crate::cli) warmup: u64,
+    /// Write what was measured as JSON; `-` is stdout
+    #[arg(long, value_name = "FILE.json")]
+    pub(in crate::cli) metrics: Option<PathBuf>,
+    /// Write all particles at the end: id, element, position, velocity
+    #[arg(long, value_name = "FILE.csv")]
+    pub(in crate::cli) particles: Option<PathBuf>,
+    /// Write a line for each tick: time, energy, momentum, front, surface
+    #[arg(long, value_name = "FILE.csv")]
+    pub(in crate::cli) trace: Option<PathBuf>,
+    /// Run the same start at `reference` quality, too, and write the distance to it over time
+    #[arg(long, value_name = "FILE.csv")]
+    pub(in crate::cli) reference: Option<PathBuf>,
+    /// Draw the world at the end
+    #[arg(long, value_name = "FILE.png")]
+    pub(in crate::cli) png: Option<PathBuf>,
+    /// Save the world at the end, to be run on
+    #[arg(long, value_name = "FILE")]
+    pub(in crate::cli) snapshot: Option<PathBuf>,
+    /// Let the autopilot change the quality to hold so many ms a tick; the hash then depends on the machine
+    #[arg(long, value_name = "MS", allow_negative_numbers = true, value_parser = hold_ms,
+          conflicts_with = "hold_error")]
+    pub(in crate::cli) hold_ms: Option<f32>,
+    /// Let the autopilot change the quality to hold a mean density error, in percent; the hash does not
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = hold_error)]
+    pub(in crate::cli) hold_error: Option<f32>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::{CommandFactory, error::ErrorKind};
+
+    #[test]
+    fn the_definition_holds_together() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn a_bench_needs_its_table_and_takes_only_what_belongs_to_it() {
+        let kind = |words: &[&str]| {
+            let words = ["powder-master", "bench"].iter().chain(words);
+            Arguments::try_parse_from(words).err().map(|error| error.kind())
+        };
+        assert_eq!(kind(&[]), Some(ErrorKind::MissingSubcommand));
+        assert_eq!(kind(&["effects", "--svg", "."]), Some(ErrorKind::UnknownArgument));
+        assert_eq!(kind(&["neighbours", "--quick"]), Some(ErrorKind::UnknownArgument));
+        assert_eq!(kind(&["scaling", "--quick", "--json", "-", "--svg", "."]), None);
+    }
+}

@@ -1,0 +1,21 @@
+//! What the physics exam and the stability gauntlet have in common: cases that are simulated at several qualities, judged,
+//! and reported.
+//!
+//! ```text
+//! Case × Setting ─► Job ─► Row (verdict, figures) ─► report: table, JSON, Markdown (the command)
+//!                                                └─► JobQueue (F6 and F7 in the game)
+//! ```
+
+mod case;
+mod job;
+mod queue;
+mod report;
+mod row;
+mod setting;
+
+pub use case::{About, Case, Column, Size, Suite};
+pub use job::{Job, jobs, run_all};
+pub use queue::{JobQueue, Progress, plugin};
+pub use report::{document, failure, summary, table};
+pub use row::{Figures, Row, Verdict};
+pub use setting::{Over, Setting};

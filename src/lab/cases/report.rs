@@ -1,0 +1,74 @@
+//! The rows in words: a table, a summary, the document.
+
+use crate::lab::{
+    cases::{
+        case::{About, Case, Column},
+        row::{Figures, Row, Verdict},
+    },
+    markdown,
+};
+
+/// Width of the document, characters.
+const WIDTH: usize = 120;
+
+/// The rows as an aligned table in Markdown, and under it what broke.
+pub fn table<C: Case>(rows: &[Row<C::Figures>]) -> String {
+    let broken: String = (rows.iter().filter(|row| !row.figures.broken().is_empty()))
+        .map(|row| {
+            let known = row.figures.known().map_or_else(String::new, |known| format!(" (known: {known})"));
+            format!("\n{} at {}: {}{known}", row.case, row.setting, row.figures.broken().join("; "))
+        })
+        .collect();
+    let end = if broken.is_empty() { "" } else { "\n" };
+    align(C::SUITE.columns, rows.iter()) + &broken + end
+}
+
+fn align<'a, F: Figures>(columns: &[Column<F>], rows: impl Iterator<Item = &'a Row<F>>) -> String {
+    let headings: Vec<&str> = columns.iter().map(|column| column.heading).collect();
+    let lines: Vec<Vec<String>> = rows.map(|row| columns.iter().map(|column| (column.cell)(row)).collect()).collect();
+    markdown::table(&headings, |column| columns[column].is_figure, &lines)
+}
+
+/// How many rows came out how, in a line.
+pub fn summary<C: Case>(rows: &[Row<C::Figures>]) -> String {
+    let count = |verdict: Verdict| rows.iter().filter(|row| row.verdict == verdict).count();
+    let (excused, words) = C::SUITE.excused;
+    let (pass, excused, fail) = (count(Verdict::Pass), count(excused), count(Verdict::Fail));
+    format!("{} {}: {pass} pass, {excused} {words}, {fail} fail", rows.len(), C::SUITE.rows)
+}
+
+/// What to say if a row failed: how many, and the first of them.
+pub fn failure<C: Case>(rows: &[Row<C::Figures>]) -> Option<String> {
+    let failed: Vec<_> = rows.iter().filter(|row| row.verdict == Verdict::Fail).collect();
+    let suite = C::SUITE;
+    failed.first().map(|first| {
+        let (count, all, first) = (failed.len(), rows.len(), (suite.failure)(first));
+        format!("{count} of {all} {} fail{}, the first is {first}", suite.rows, suite.failing)
+    })
+}
+
+/// The document: what happens in each case, what it is for, what came out.
+pub fn document<C: Case>(rows: &[Row<C::Figures>], processor: &str, command: &str) -> String {
+    let head = (C::SUITE.introduction)(command, processor);
+    let told =
+        C::SUITE.cases.iter().map(|case| case.about()).filter(|case| rows.iter().any(|row| row.case == case.name));
+    let sections: String = told.map(|case| format!("\n{}", section::<C>(&case, rows))).collect();
+    format!("{head}\n\n{}.\n{sections}", summary::<C>(rows))
+}
+
+fn section<C: Case>(case: &About, rows: &[Row<C::Figures>]) -> String {
+    let own = || rows.iter().filter(|row| row.case == case.name);
+    let About { name, title, what, why, .. } = case;
+    let mut paragraphs = vec![format!("## {title} (`{name}`)"), markdown::fill(what, WIDTH)];
+    for (label, text) in C::SUITE.labels.iter().zip(why) {
+        paragraphs.push(markdown::fill(&format!("**{label}:** {text}"), WIDTH));
+    }
+    paragraphs.push(align(&C::SUITE.columns[1..], own()));
+    let mut text = paragraphs.join("\n\n");
+    for row in own().filter(|row| !row.figures.broken().is_empty()) {
+        let known = row.figures.known().map_or_else(String::new, |known| format!(" Known: {known}"));
+        let broken = format!("At `{}`: {}.{known}", row.setting, row.figures.broken().join("; "));
+        text += &format!("\n{}\n", markdown::fill(&broken, WIDTH));
+    }
+    text
+}

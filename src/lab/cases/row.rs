@@ -1,0 +1,80 @@
+//! What comes of a case.
+
+use crate::kernel::params::Preset;
+use serde::{Serialize, Serializer};
+use std::{collections::BTreeMap, fmt::Debug};
+
+/// How a row came out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Within what is allowed.
+    Pass,
+    /// Beyond it at a quality that promises nothing: `classic`, `draft` or `fast`.
+    Miss,
+    /// Beyond it where the plain method, `classic`, is known to be.
+    Known,
+    /// Beyond it.
+    Fail,
+}
+
+impl Verdict {
+    /// In a table.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Miss => "miss",
+            Self::Known => "known",
+            Self::Fail => "FAIL",
+        }
+    }
+}
+
+/// What the rows of a suite say beside case, setting and verdict.
+pub trait Figures: Clone + Debug + PartialEq + Serialize + Send + Sync + 'static {
+    /// The key of the setting in JSON.
+    const SETTING: &'static str;
+
+    /// What broke, each in a few words with what was allowed.
+    fn broken(&self) -> &[String] {
+        &[]
+    }
+
+    /// Why that was to be expected, if it was.
+    fn known(&self) -> Option<&'static str> {
+        None
+    }
+}
+
+/// A result of a case in a setting.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row<F> {
+    /// Name of the case.
+    pub case: &'static str,
+    /// Heading of the case.
+    pub title: &'static str,
+    /// Name of the setting.
+    pub setting: String,
+    /// The named quality of the setting.
+    pub preset: Preset,
+    /// How it came out.
+    pub verdict: Verdict,
+    /// What was found.
+    pub figures: F,
+}
+
+impl<F: Figures> Serialize for Row<F> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Flat<'a, F> {
+            case: &'static str,
+            verdict: Verdict,
+            #[serde(flatten)]
+            setting: BTreeMap<&'static str, &'a str>,
+            #[serde(flatten)]
+            figures: &'a F,
+        }
+        let setting = BTreeMap::from([(F::SETTING, self.setting.as_str())]);
+        Flat { case: self.case, verdict: self.verdict, setting, figures: &self.figures }.serialize(serializer)
+    }
+}

@@ -1,0 +1,202 @@
+//! Work in the background: on a thread of its own, or, where the system gives none (as in a page), in a slice of each
+//! frame. It is a future that yields often, and tells by messages how far it is.
+
+use crate::lab::drive::{finish, step};
+use bevy::platform::{cell::SyncCell, time::Instant};
+use std::{
+    cell::RefCell,
+    future::Future,
+    pin::Pin,
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicBool, AtomicU64, Ordering},
+        mpsc::{Receiver, Sender, TryRecvError, channel},
+    },
+    thread,
+    time::Duration,
+};
+
+/// Time that a slice takes of a frame. A step that takes longer is not cut.
+const SLICE: Duration = Duration::from_millis(4);
+
+/// How much of its thread's time the work takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Share {
+    /// All of it.
+    Whole,
+    /// Half: it rests as long as it works, so that a game on a machine with few processors does not stutter.
+    Half,
+}
+
+/// Work in the background that sends messages. Dropped, it stops the work at its next pause.
+pub struct Handle<M> {
+    messages: SyncCell<Receiver<M>>,
+    is_over: bool,
+    place: Place,
+}
+
+enum Place {
+    Thread { cancelled: Arc<AtomicBool> },
+    Slices { id: u64 },
+}
+
+type Work = Pin<Box<dyn Future<Output = ()>>>;
+
+thread_local! {
+    /// What runs in slices. A world of its own can't leave its thread, and so can't be in a handle.
+    static SLICED: RefCell<Vec<(u64, Work)>> = const { RefCell::new(Vec::new()) };
+}
+
+impl<M: Send + 'static> Handle<M> {
+    /// Starts what `work` makes of the sender of its messages.
+    pub fn start<W: Future<Output = ()> + 'static>(
+        share: Share,
+        work: impl FnOnce(Sender<M>) -> W + Send + 'static,
+    ) -> Self {
+        let (sender, messages) = channel();
+        let cancelled = Arc::new(AtomicBool::new(false));
+        // Where no thread starts, the work is still here.
+        let slot = Arc::new(Mutex::new(Some((work, sender))));
+        let take = |slot: &Mutex<Option<_>>| slot.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let (theirs, is_cancelled) = (slot.clone(), cancelled.clone());
+        let started = thread::Builder::new().name("background".to_owned()).spawn(move || {
+            let Some((work, sender)) = take(&theirs) else { return };
+            let mut begun = Instant::now();
+            finish(work(sender), || {
+                if share == Share::Half {
+                    thread::sleep(begun.elapsed());
+                    begun = Instant::now();
+                }
+                !is_cancelled.load(Ordering::Relaxed)
+            });
+        });
+        let place = match started.err().and_then(|_| take(&slot)) {
+            Some((work, sender)) => slice(Box::pin(work(sender))),
+            None => Place::Thread { cancelled },
+        };
+        Self { messages: SyncCell::new(messages), is_over: false, place }
+    }
+
+    /// Starts it in slices, as where there are no threads.
+    pub fn sliced<W: Future<Output = ()> + 'static>(work: impl FnOnce(Sender<M>) -> W) -> Self {
+        let (sender, messages) = channel();
+        Self { messages: SyncCell::new(messages), is_over: false, place: slice(Box::pin(work(sender))) }
+    }
+
+    /// Works for a slice where there is no thread, and gives what was told since.
+    pub fn advance(&mut self) -> Vec<M> {
+        if let Place::Slices { id } = self.place
+            && let Some(mut work) = take(id)
+        {
+            let begun = Instant::now();
+            let mut is_ready = false;
+            while !is_ready && begun.elapsed() < SLICE {
+                is_ready = step(work.as_mut()).is_ready();
+            }
+            if !is_ready {
+                SLICED.with_borrow_mut(|sliced| sliced.push((id, work)));
+            }
+        }
+        let mut told = Vec::new();
+        loop {
+            match self.messages.get().try_recv() {
+                Ok(message) => told.push(message),
+                Err(TryRecvError::Empty) => return told,
+                Err(TryRecvError::Disconnected) => {
+                    self.is_over = true;
+                    return told;
+                }
+            }
+        }
+    }
+
+    /// Whether the work came to its end, whatever became of it, and all that it told was given.
+    pub fn is_over(&self) -> bool {
+        self.is_over
+    }
+}
+
+fn slice(work: Work) -> Place {
+    static NEXT: AtomicU64 = AtomicU64::new(0);
+    let id = NEXT.fetch_add(1, Ordering::Relaxed);
+    SLICED.with_borrow_mut(|sliced| sliced.push((id, work)));
+    Place::Slices { id }
+}
+
+/// Takes out what runs in slices as `id`.
+fn take(id: u64) -> Option<Work> {
+    SLICED.with_borrow_mut(|sliced| {
+        let place = sliced.iter().position(|(other, _)| *other == id)?;
+        Some(sliced.swap_remove(place).1)
+    })
+}
+
+impl<M> Drop for Handle<M> {
+    fn drop(&mut self) {
+        match &self.place {
+            Place::Thread { cancelled } => cancelled.store(true, Ordering::Relaxed),
+            Place::Slices { id } => drop(take(*id)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::drive::pause;
+
+    async fn count(to: u32, sender: Sender<u32>) {
+        for k in 0..to {
+            thread::sleep(Duration::from_millis(1));
+            pause().await;
+            if sender.send(k).is_err() {
+                return;
+            }
+        }
+    }
+
+    fn collect(mut handle: Handle<u32>) -> Vec<u32> {
+        let mut told = Vec::new();
+        while !handle.is_over() {
+            told.extend(handle.advance());
+        }
+        told
+    }
+
+    #[test]
+    fn all_messages_come_from_a_thread_and_from_slices() {
+        let expected: Vec<u32> = (0..30).collect();
+        for share in [Share::Whole, Share::Half] {
+            assert_eq!(collect(Handle::start(share, |sender| count(30, sender))), expected);
+        }
+        let mut handle = Handle::sliced(|sender| count(30, sender));
+        assert!(handle.advance().len() < 30, "a slice does not take the whole frame");
+        drop(handle);
+        assert_eq!(collect(Handle::sliced(|sender| count(30, sender))), expected);
+    }
+
+    /// Work that never ends, and holds `kept` as long as it lives.
+    async fn endless(kept: Arc<()>, sender: Sender<u32>) {
+        count(u32::MAX, sender).await;
+        drop(kept);
+    }
+
+    #[test]
+    fn what_is_dropped_stops() {
+        let alive = Arc::new(());
+        let kept = [(); 2].map(|()| alive.clone());
+        let [threaded, sliced] = kept;
+        let handles = [
+            Handle::start(Share::Whole, move |sender| endless(threaded, sender)),
+            Handle::sliced(move |sender| endless(sliced, sender)),
+        ];
+        for mut handle in handles {
+            handle.advance();
+            assert!(!handle.is_over());
+        }
+        let begun = Instant::now();
+        while Arc::strong_count(&alive) > 1 {
+            assert!(begun.elapsed() < Duration::from_secs(20), "it goes on");
+        }
+    }
+}

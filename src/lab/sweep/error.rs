@@ -1,0 +1,32 @@
+//! What counts as the error of a setting.
+
+use crate::lab::moment::Moment;
+
+/// What counts as the error of a setting.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ErrorMeasure {
+    /// 99th percentile of the density error.
+    Density,
+    /// Distance of the air's velocity to the reference's.
+    Air,
+}
+
+/// Liquid that fills less of the box than this, where air moves, is there to show the air.
+const LITTLE_LIQUID: f64 = 0.05;
+
+impl ErrorMeasure {
+    /// What the scene is about: its air if that moves and liquid fills less than a twentieth of the box.
+    pub fn of(moment: &Moment) -> Self {
+        let size = moment.blueprint().domain.size;
+        let filled = moment.snapshot().particles.len() as f64 / (f64::from(size.x) * f64::from(size.y));
+        if moment.has_air() && filled < LITTLE_LIQUID { Self::Air } else { Self::Density }
+    }
+
+    /// Name with its unit, for the axis.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Density => "density error, 99th percentile",
+            Self::Air => "distance of mean air velocity to the reference",
+        }
+    }
+}
