@@ -1,6 +1,6 @@
 // Draws the world: the box and its air, rock, streaks of wind and the liquid's surface.
 //
-// The liquid takes two passes. `blob` adds soft discs into a field texture, blended "over", so that its alpha
+// The liquid takes two passes. `particle` adds soft discs into a field texture, blended "over", so that its alpha
 // 1 - Π(1 - w) never saturates early and its colour is a weighted mean; `liquid` cuts the field where alpha passes a
 // threshold: single particles become drops, many become one body with a smooth surface.
 //
@@ -15,7 +15,7 @@ struct World {
     extent: vec4<f32>,
     // Pixels of one d; opacity of the liquid; 1 if it is shaded by depth and light, else 0; most that depth darkens.
     look: vec4<f32>,
-    // Radius of a blob, d; half-width of a streak, pixels; 1 if the air is shown; scale of lines.
+    // Radius of a particle's disc, d; half-width of a streak, pixels; 1 if the air is shown; scale of lines.
     pen: vec4<f32>,
     surroundings: vec4<f32>,
     box_top: vec4<f32>,
@@ -98,20 +98,20 @@ fn backdrop_fragment(in: Screen) -> @location(0) vec4<f32> {
 
 // ---- particles into the field
 
-struct Blob {
+struct ParticleOut {
     @builtin(position) position: vec4<f32>,
     @location(0) at: vec2<f32>,
     @location(1) colour: vec3<f32>,
 }
 
 @vertex
-fn blob_vertex(
+fn particle_vertex(
     @builtin(vertex_index) vertex: u32,
     @location(0) position: vec2<f32>,
     @location(1) colour: vec4<f32>,
-) -> Blob {
+) -> ParticleOut {
     let at = corner(vertex) * 2.0 - 1.0;
-    var out: Blob;
+    var out: ParticleOut;
     out.position = clip_of(position + at * world.pen.x);
     out.at = at;
     out.colour = colour.rgb;
@@ -119,7 +119,7 @@ fn blob_vertex(
 }
 
 @fragment
-fn blob_fragment(in: Blob) -> @location(0) vec4<f32> {
+fn particle_fragment(in: ParticleOut) -> @location(0) vec4<f32> {
     let fall = max(1.0 - dot(in.at, in.at), 0.0);
     let weight = 0.8 * fall * fall;
     return vec4<f32>(in.colour * weight, weight);

@@ -28,7 +28,6 @@ use crate::{
         recording::Stretch,
         save,
         state::Setup,
-        view::View,
         workers::Workers,
     },
 };
@@ -199,7 +198,7 @@ fn write_outputs(arguments: &RunArguments, world: &World, metrics: Option<&Metri
         output::write(path, |file| particles::write(world, file))?;
     }
     if let Some(path) = &arguments.png {
-        let picture = Picture::of_world(world, View::Elements, LONG_SIDE, DISC_RADIUS);
+        let picture = Picture::of_world(world, LONG_SIDE, DISC_RADIUS);
         output::write(path, |file| picture.write_png(file))?;
     }
     if let Some(path) = &arguments.snapshot {

@@ -2,7 +2,7 @@
 
 use crate::game::disk;
 use std::{
-    fs, io,
+    io,
     path::{Path, PathBuf},
 };
 
@@ -37,19 +37,6 @@ pub fn write_new(folders: &[PathBuf], scene: &str, tick: u64, ending: &str, byte
     Err(refusal)
 }
 
-/// Writes a file so that a failure leaves no half of it behind, and nothing lost that was there.
-pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut part = path.as_os_str().to_owned();
-    part.push(".part");
-    let part = PathBuf::from(part);
-    let written = fs::write(&part, bytes).and_then(|()| fs::rename(&part, path));
-    if written.is_err() {
-        // What matters is why it was not written.
-        let _ = fs::remove_file(&part);
-    }
-    written
-}
-
 /// A name in `folder` that is not taken yet.
 pub fn free_path(folder: &Path, scene: &str, tick: u64, ending: &str) -> PathBuf {
     // A scene may be named anything, a file not.
@@ -67,6 +54,7 @@ pub fn free_path(folder: &Path, scene: &str, tick: u64, ending: &str) -> PathBuf
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     #[test]
     #[cfg_attr(target_arch = "wasm32", ignore = "a module has no files")]

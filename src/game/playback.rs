@@ -2,7 +2,7 @@
 //! a hand in it goes on from there.
 
 use crate::{
-    game::{hud::toast::Toasts, render::extract::Epoch},
+    game::{render::extract::Epoch, toasts::Toasts},
     scene::blueprint::Blueprint,
     sim::{
         intent::IntentQueue,

@@ -2,12 +2,7 @@
 //! names; and the last minute, which is there at any time.
 
 use crate::{
-    game::{
-        disk, files,
-        hud::toast::Toasts,
-        input::bindings::{self, Action},
-        saves::SaveFolders,
-    },
+    game::{actions::Action, disk, files, input::bindings::Bindings, saves::SaveFolders, toasts::Toasts},
     kernel::units::TICKS_PER_SECOND,
     sim::{
         recorder::{self, Recorder},
@@ -39,7 +34,7 @@ pub fn toggle(world: &mut World) {
         return;
     }
     world.resource::<Recorder>().begin(world, None);
-    let key = bindings::of(Action::Record).map(ToString::to_string).unwrap_or_default();
+    let key = world.resource::<Bindings>().key(Action::Record);
     world.resource_mut::<Toasts>().say(format!("Recording from here on; {key} again ends it"));
 }
 
@@ -61,7 +56,7 @@ fn end(world: &mut World, why: &str) {
             world.resource_mut::<Toasts>().say(format!("Recorded {seconds:.1} s: {path}{why}"));
         }
         Err(problem) => {
-            let key = bindings::of(Action::Record).map(ToString::to_string).unwrap_or_default();
+            let key = world.resource::<Bindings>().key(Action::Record);
             world.resource_mut::<Toasts>().warn(format!("{problem}. It ends here, and is kept: {key} tries again."));
         }
     }
@@ -112,7 +107,7 @@ pub fn write_to(folders: &[PathBuf], recorder: &Recorder, suffix: &str, end: End
     let Some(bytes) = recorder.recording(end) else { return Ok(None) };
     let named = recorder.destination();
     let written = match &named {
-        Some(path) => files::write_whole(path, &bytes).map(|()| path.clone()),
+        Some(path) => disk::write_whole(path, &bytes).map(|()| path.clone()),
         None => write_new(folders, recorder, suffix, &bytes),
     };
     written.map(Some).map_err(|error| {

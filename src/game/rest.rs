@@ -4,9 +4,10 @@
 use crate::{
     game::{
         frame::{Tempo, measure_tempo},
-        hud::{saves::SaveMenu, toast::Toasts},
-        input::strokes::Held,
+        hud::panels::saves::SaveMenu,
+        input::strokes::DragState,
         orders::Orders,
+        toasts::Toasts,
     },
     lab::{cases::JobQueue, exam::ExamCase, gauntlet::GauntletCase},
     sim::{accuracy::Survey, intent::IntentQueue, pace::Pace},
@@ -80,13 +81,13 @@ fn rest(
     time: Res<Time<Virtual>>,
     real: Res<Time<Real>>,
     mut events: MessageReader<WindowEvent>,
-    (orders, intents, held): (Res<Orders>, Res<IntentQueue>, Res<Held>),
+    (orders, intents, drag): (Res<Orders>, Res<IntentQueue>, Res<DragState>),
     (toasts, saves, background): (Res<Toasts>, Res<SaveMenu>, Background),
     mut calm: Local<Duration>,
     mut tempo: ResMut<Tempo>,
     mut settings: ResMut<WinitSettings>,
 ) {
-    let touched = events.read().count() > 0 || !orders.is_empty() || !intents.is_empty() || held.pull().is_some();
+    let touched = events.read().count() > 0 || !orders.is_empty() || !intents.is_empty() || drag.current().is_some();
     // A message that is shown is about to go; of the list of saves each frame reads one.
     let stirs = touched || pace.is_changed() || toasts.last().is_some() || saves.is_reading();
     *calm = if stirs { Duration::ZERO } else { (*calm + real.delta()).min(LINGER) };

@@ -5,8 +5,8 @@ use crate::{
         disk,
         files::{self, SAVE_ENDING},
         history,
-        hud::toast::Toasts,
         render::extract::Epoch,
+        toasts::Toasts,
     },
     sim::{
         save::{self, SaveError, Saved},

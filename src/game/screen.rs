@@ -1,7 +1,7 @@
 //! The window as a whole: full screen and screenshots.
 
 use crate::{
-    game::{disk, files, hud::toast::Toasts},
+    game::{disk, files, toasts::Toasts},
     sim::state::{Clock, Setup},
 };
 use bevy::{

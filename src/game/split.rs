@@ -3,7 +3,9 @@
 use crate::{
     game::{
         camera::Area,
-        hud::{HudState, toast::Toasts},
+        hud::panels::accuracy::panel::{AccuracyPanel, ID},
+        panels::Panels,
+        toasts::Toasts,
     },
     kernel::params::Preset,
     sim::{
@@ -44,18 +46,18 @@ pub fn choose(world: &mut World, preset: Preset) {
 
 /// Lets the error of the world be sampled, and all else be measured, while somebody looks at it.
 pub fn watch(
-    hud: Res<HudState>,
+    (panels, accuracy): (Res<Panels>, Res<AccuracyPanel>),
     autopilot: Res<Autopilot>,
     split: Res<Split>,
     mut watched: ResMut<Watched>,
     mut error: ResMut<LiveError>,
     mut measures: ResMut<Measures>,
 ) {
-    let wanted = hud.visible && hud.accuracy && hud.measures;
+    let wanted = panels.shows(ID) && accuracy.measures;
     if measures.wanted() != wanted {
         measures.want(wanted);
     }
-    let looks = (hud.visible && hud.accuracy) || autopilot.goal().is_some() || split.is_on();
+    let looks = panels.shows(ID) || autopilot.goal().is_some() || split.is_on();
     if watched.0 != looks {
         watched.0 = looks;
         // What was measured before somebody looked away is of another time.

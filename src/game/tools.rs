@@ -1,50 +1,224 @@
-//! What the player holds: the chosen tool and the brush.
+//! What the player works with: the one table of tools beside the elements, the chosen tool and the brush. Palette, search,
+//! touch bar, keys and help follow from the table.
 
-use crate::kernel::{
-    brush::{BrushShape, Stroke},
-    element::{ElementId, ElementTable},
+use crate::{
+    game::icons::{self, Icon},
+    kernel::{
+        brush::{BrushShape, Stroke},
+        element::{Category, Element, ElementId, ElementTable},
+    },
+    scene::blueprint::Effect,
+    sim::intent::Intent,
 };
-use bevy::prelude::Resource;
+use bevy::prelude::{KeyCode, Resource};
+use bevy_egui::egui::Color32;
 use glam::Vec2;
+use std::fmt;
 
 /// Smallest and largest brush, half its width in d.
 pub const BRUSH_RANGE: std::ops::RangeInclusive<f32> = 0.5..=40.0;
 /// Factor of one step of brush size.
 const BRUSH_STEP: f32 = 1.25;
-/// The air tools feel like nothing with a small brush: theirs is at least this, d.
+/// A small brush that moves air cannot be felt: theirs is at least this, d.
 const AIR_BRUSH: f32 = 6.0;
+/// Speed of the wind for each unit of drag speed.
+const WIND_GAIN: f32 = 2.5;
+/// Most wind that a drag makes, in units of [`Dab::wind`]: the speed of sound. Water takes off at some two units.
+pub(in crate::game) const WIND_LIMIT: f32 = 5.0;
+/// A drag slower than this makes no wind, in units of [`Dab::wind`].
+const WIND_FLOOR: f32 = 0.02;
+/// Pressure that one tick of the pressure tool adds; the surroundings' is 1.
+const PRESS_STEP: f32 = 0.4;
+
+/// Colour of lines and icons that stand for no element.
+const PLAIN: Color32 = Color32::from_rgb(216, 223, 234);
+/// Outline of a brush that moves air.
+const AIR_PEN: Color32 = Color32::from_rgb(150, 230, 216);
+
+/// The tools beside the elements, in the order of the palette. A new one is a new row.
+pub static TOOLS: [&ToolRow; 3] = [&ERASER, &WIND, &PRESSURE];
+
+/// Takes away what is there.
+pub static ERASER: ToolRow = ToolRow {
+    name: "erase",
+    icon: icons::eraser,
+    pen: Color32::from_rgb(255, 184, 92),
+    key: KeyCode::KeyX,
+    help: "eraser",
+    needs: None,
+    least_radius: 0.0,
+    left: |dab| Some(Intent::Erase { stroke: dab.stroke }),
+    right: |dab| Some(Intent::Erase { stroke: dab.stroke }),
+    shape: Some(|stroke| Intent::Erase { stroke }),
+};
+
+/// Sets the air moving along the drag.
+pub static WIND: ToolRow = ToolRow {
+    name: "wind",
+    icon: icons::wind,
+    pen: AIR_PEN,
+    key: KeyCode::KeyW,
+    help: "wind: drag to blow",
+    needs: Some(Effect::Air),
+    least_radius: AIR_BRUSH,
+    left: |dab| {
+        let velocity = (dab.velocity * WIND_GAIN).clamp_length_max(WIND_LIMIT * dab.wind);
+        (velocity.length() > WIND_FLOOR * dab.wind).then_some(Intent::Blow { stroke: dab.stroke, velocity })
+    },
+    right: |dab| Some(Intent::Erase { stroke: dab.stroke }),
+    shape: None,
+};
+
+/// Adds pressure with the left button, sucks with the right.
+pub static PRESSURE: ToolRow = ToolRow {
+    name: "pressure",
+    icon: icons::pressure,
+    pen: AIR_PEN,
+    key: KeyCode::KeyQ,
+    help: "pressure: left adds, right sucks",
+    needs: Some(Effect::Air),
+    least_radius: AIR_BRUSH,
+    left: |dab| Some(Intent::Press { stroke: dab.stroke, amount: PRESS_STEP * dab.share }),
+    right: |dab| Some(Intent::Press { stroke: dab.stroke, amount: -PRESS_STEP * dab.share }),
+    shape: None,
+};
+
+/// A row of the table.
+pub struct ToolRow {
+    /// Name in the palette; unique.
+    pub name: &'static str,
+    /// Its icon.
+    pub icon: Icon,
+    /// Colour of the brush's outline.
+    pub pen: Color32,
+    /// The key that chooses it.
+    pub key: KeyCode,
+    /// What the help says.
+    pub help: &'static str,
+    /// The effect without which it does nothing.
+    pub needs: Option<Effect>,
+    /// Its brush is at least this, d.
+    pub least_radius: f32,
+    /// What the left button does along a piece of a drag.
+    pub left: fn(&Dab) -> Option<Intent>,
+    /// What the right button does there.
+    pub right: fn(&Dab) -> Option<Intent>,
+    /// What a line or a rectangle does. Without it the tool works along the drag, whichever modifier is held, and takes a
+    /// fast drag as a row of dabs.
+    pub shape: Option<fn(Stroke) -> Intent>,
+}
+
+/// A piece of a drag, within one tick.
+pub struct Dab {
+    /// Where, d.
+    pub stroke: Stroke,
+    /// Smoothed velocity of the drag, d/s.
+    pub velocity: Vec2,
+    /// A strong wind, d/s ([`Reference::wind`](crate::lab::colours::Reference)).
+    pub wind: f32,
+    /// Its share of the tick.
+    pub share: f32,
+}
+
+/// Rows with the same name are the same tool.
+impl PartialEq for ToolRow {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl fmt::Debug for ToolRow {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
+    }
+}
 
 /// What the left button does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tool {
     /// Draws an element.
     Element(ElementId),
-    /// Takes away what is there.
-    Erase,
-    /// Sets the air moving along the drag.
-    Wind,
-    /// Adds pressure with the left button, sucks with the right.
-    Pressure,
+    /// Does what a row of [`TOOLS`] says.
+    Other(&'static ToolRow),
 }
 
 impl Tool {
-    /// The tools beside the elements, in the order of the palette.
-    pub const OTHERS: [Self; 3] = [Self::Erase, Self::Wind, Self::Pressure];
+    /// Every tool, in the order of the palette: the elements first, by their categories.
+    pub fn all(elements: &ElementTable) -> impl Iterator<Item = Self> {
+        let of = |category| elements.iter().filter(move |(_, element)| element.category == category);
+        let ids = Category::ALL.into_iter().flat_map(of).map(|(id, _)| Self::Element(id));
+        ids.chain(TOOLS.into_iter().map(Self::Other))
+    }
 
     /// Name in the palette.
     pub fn name(self, elements: &ElementTable) -> &str {
         match self {
             Self::Element(id) => &elements.get(id).name,
-            Self::Erase => "erase",
-            Self::Wind => "wind",
-            Self::Pressure => "pressure",
+            Self::Other(row) => row.name,
         }
     }
 
-    /// Whether it works on the air.
-    pub fn is_air(self) -> bool {
-        matches!(self, Self::Wind | Self::Pressure)
+    /// Icon and its colour.
+    pub fn icon(self, elements: &ElementTable) -> (Icon, Color32) {
+        match self {
+            Self::Element(id) => {
+                let element = elements.get(id);
+                (if element.fixed { icons::stone } else { icons::droplet }, colour_of(element))
+            }
+            Self::Other(row) => (row.icon, PLAIN),
+        }
     }
+
+    /// Colour of the brush's outline.
+    pub fn pen(self, elements: &ElementTable) -> Color32 {
+        match self {
+            Self::Element(id) => colour_of(elements.get(id)).lerp_to_gamma(Color32::WHITE, 0.35),
+            Self::Other(row) => row.pen,
+        }
+    }
+
+    /// The effect without which it does nothing.
+    pub fn needs(self) -> Option<Effect> {
+        match self {
+            Self::Element(_) => None,
+            Self::Other(row) => row.needs,
+        }
+    }
+
+    /// Whether it works along the drag only: it knows no lines, rectangles and fills.
+    pub fn is_freehand(self) -> bool {
+        matches!(self, Self::Other(row) if row.shape.is_none())
+    }
+
+    /// What the left button does along a piece of a drag.
+    pub fn left(self, dab: &Dab) -> Option<Intent> {
+        match self {
+            Self::Element(element) => Some(Intent::Draw { element, stroke: dab.stroke }),
+            Self::Other(row) => (row.left)(dab),
+        }
+    }
+
+    /// What the right button does there.
+    pub fn right(self, dab: &Dab) -> Option<Intent> {
+        match self {
+            Self::Element(_) => Some(Intent::Erase { stroke: dab.stroke }),
+            Self::Other(row) => (row.right)(dab),
+        }
+    }
+
+    /// What it does with a whole line or rectangle.
+    pub fn shape(self, stroke: Stroke) -> Option<Intent> {
+        match self {
+            Self::Element(element) => Some(Intent::Stamp { element, stroke }),
+            Self::Other(row) => row.shape.map(|shape| shape(stroke)),
+        }
+    }
+}
+
+/// Colour of an element.
+fn colour_of(element: &Element) -> Color32 {
+    let [r, g, b] = element.colour;
+    Color32::from_rgb(r, g, b)
 }
 
 /// The player's choice of tool and brush.
@@ -69,17 +243,12 @@ impl Toolbox {
         Self { tool, ..self }
     }
 
-    /// The chosen element, if the tool is one.
-    pub fn element(&self) -> Option<ElementId> {
-        match self.tool {
-            Tool::Element(element) => Some(element),
-            Tool::Erase | Tool::Wind | Tool::Pressure => None,
-        }
-    }
-
     /// Half the width of the brush of the chosen tool, d.
     pub fn radius(&self) -> f32 {
-        if self.tool.is_air() { self.radius.max(AIR_BRUSH) } else { self.radius }
+        match self.tool {
+            Tool::Element(_) => self.radius,
+            Tool::Other(row) => self.radius.max(row.least_radius),
+        }
     }
 
     /// Sets half the width of the brush, d.
@@ -130,7 +299,14 @@ mod tests {
     fn air_tools_have_a_brush_that_can_be_felt() {
         let mut tools = Toolbox::default();
         tools.set_radius(1.0);
-        tools.tool = Tool::Wind;
+        tools.tool = Tool::Other(&WIND);
         assert_eq!(tools.radius(), AIR_BRUSH);
+    }
+
+    #[test]
+    fn names_of_tools_are_unique() {
+        for (k, row) in TOOLS.iter().enumerate() {
+            assert!(TOOLS[k + 1..].iter().all(|other| row != other), "{row:?} stands twice");
+        }
     }
 }

@@ -3,11 +3,11 @@
 #[cfg(not(target_arch = "wasm32"))]
 use crate::game::crash;
 use crate::{
-    game::{GamePlugin, hud::HudPlugin, hud::settings::Room, recording, render::WorldRenderPlugin, rest},
+    game::{hud::HudPlugin, plugin::GamePlugin, recording, render::WorldRenderPlugin, rest},
+    lab::colours,
     sim::{
         SimulationPlugin, fault,
         state::{Census, Setup},
-        view,
     },
 };
 use bevy::{
@@ -113,7 +113,7 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
         prevent_default_event_handling: false,
         ..Window::default()
     };
-    let [red, green, blue] = view::SURROUNDINGS;
+    let [red, green, blue] = colours::SURROUNDINGS;
     let mut app = App::new();
     app.add_plugins(
         DefaultPlugins
@@ -124,7 +124,6 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
     .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
     .insert_resource(ClearColor(Color::srgb_u8(red, green, blue)))
     .add_plugins(rest::plugin)
-    .init_resource::<Room>()
     .add_systems(Startup, spawn_camera)
     .add_systems(Update, tell_in_title.run_if(on_timer(TITLE_EVERY)));
     furnish(&mut app);

@@ -9,7 +9,9 @@ pub mod cases;
 #[cfg(all(feature = "charts", not(target_arch = "wasm32")))]
 pub mod chart;
 pub mod coarse;
+pub mod colours;
 pub mod density;
+pub mod difference;
 mod drift;
 mod drive;
 pub mod exam;
@@ -22,6 +24,7 @@ pub mod headless;
 pub mod jobs;
 pub mod live;
 pub mod machine;
+pub mod maps;
 pub mod markdown;
 pub mod metrics;
 pub mod moment;

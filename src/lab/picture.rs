@@ -1,11 +1,11 @@
 //! The world as a picture, drawn on the processor: discs for what moves, stone squares for rock, the air as a faint tint.
 
 use crate::{
-    lab::density::surroundings,
-    sim::{
-        state::{AirGrid, ParticleStore, Rock, Setup},
-        view::{self, BurialMap, DepthMap, Limited, Reference, Rgb, Sample, StrainMap, View},
+    lab::{
+        colours::{self, Reference, Rgb},
+        maps::{BurialMap, DepthMap},
     },
+    sim::state::{AirGrid, ParticleStore, Rock, Setup},
 };
 use bevy::ecs::world::World;
 use glam::{IVec2, Vec2};
@@ -17,7 +17,7 @@ pub const LONG_SIDE: u32 = 1280;
 /// Radius of a particle's disc that closes a liquid at rest, d: a little over half.
 pub const DISC_RADIUS: f32 = 0.64;
 
-/// Strength of the wind's tint in a picture of something else.
+/// Strength of the wind's tint.
 const FAINT: f32 = 0.4;
 
 /// Most pixels of a spacing: a picture of a handful of particles stays small.
@@ -42,16 +42,16 @@ impl Picture {
         (self.width, self.height)
     }
 
-    /// The world as `view` shows it, `long_side` pixels along the longer side of its box, with discs of `radius` d.
-    pub fn of_world(world: &World, view: View, long_side: u32, radius: f32) -> Self {
+    /// The world in the colours of its elements, `long_side` pixels along the longer side of its box, with discs of `radius` d.
+    pub fn of_world(world: &World, long_side: u32, radius: f32) -> Self {
         let setup = world.resource::<Setup>();
         let size = setup.blueprint.domain.size;
         let pixels = (long_side as f32 / size.max_element()).min(LARGEST_SPACING);
         let side = |length: f32| ((length * pixels).round() as u32).max(1);
-        let mut canvas = Canvas { picture: Self::plain(side(size.x), side(size.y), view::SURROUNDINGS), pixels };
-        canvas.air(world.resource::<AirGrid>(), setup, view);
+        let mut canvas = Canvas { picture: Self::plain(side(size.x), side(size.y), colours::SURROUNDINGS), pixels };
+        canvas.air(world.resource::<AirGrid>(), setup);
         canvas.rock(world.resource::<Rock>(), setup);
-        canvas.particles(world, setup, view, radius);
+        canvas.particles(world, setup, radius);
         canvas.picture
     }
 
@@ -59,7 +59,7 @@ impl Picture {
     pub fn row(pictures: &[Self], gap: u32) -> Self {
         let width = pictures.iter().map(|picture| picture.width + gap).sum::<u32>() + gap;
         let height = pictures.iter().map(|picture| picture.height).max().unwrap_or(0) + 2 * gap;
-        let mut row = Self::plain(width, height, view::SURROUNDINGS);
+        let mut row = Self::plain(width, height, colours::SURROUNDINGS);
         let mut left = gap;
         for picture in pictures {
             for (y, line) in (gap..).zip(picture.light.chunks_exact(picture.width as usize)) {
@@ -119,23 +119,20 @@ struct Canvas {
 
 impl Canvas {
     /// The empty box with its air.
-    fn air(&mut self, air: &AirGrid, setup: &Setup, view: View) {
+    fn air(&mut self, air: &AirGrid, setup: &Setup) {
         let reference = Reference::of(&setup.blueprint.domain, &setup.blueprint.air);
         let (width, height) = self.picture.size();
         let moves = !air.is_quiet();
-        // Moving air shows in every picture: faintly where it is not the subject.
-        let (tint, faint) = if view.shows_air() { (view, 1.0) } else { (View::Wind, FAINT) };
         for y in 0..height {
             let up = (height - y) as f32 - 0.5;
-            let empty = light(view::box_colour(up / height as f32));
+            let empty = light(colours::box_colour(up / height as f32));
             for x in 0..width {
                 let pixel = &mut self.picture.light[(y * width + x) as usize];
                 *pixel = empty;
                 if moves {
                     let p = Vec2::new(x as f32 + 0.5, up) / self.pixels;
-                    let (pressure, velocity) = (air.sample_pressure(p), air.sample_velocity(p));
-                    let (colour, strength) = view::air_colour(tint, reference, pressure, velocity);
-                    blend(pixel, light(colour), faint * strength);
+                    let (colour, strength) = colours::wind_colour(reference, air.sample_velocity(p));
+                    blend(pixel, light(colour), FAINT * strength);
                 }
             }
         }
@@ -145,32 +142,21 @@ impl Canvas {
         let mut burial = BurialMap::default();
         burial.measure(rock);
         for (cell, element, id) in rock.iter() {
-            let colour = view::rock_colour(setup.elements().get(element), cell, id, burial.at(cell));
+            let colour = colours::rock_colour(setup.elements().get(element), cell, id, burial.at(cell));
             self.fill(cell, light(colour));
         }
     }
 
-    fn particles(&mut self, world: &World, setup: &Setup, view: View, radius: f32) {
-        let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
+    fn particles(&mut self, world: &World, setup: &Setup, radius: f32) {
+        let particles = world.resource::<ParticleStore>();
         let reference = Reference::of(&setup.blueprint.domain, &setup.blueprint.air);
-        let rest = f64::from(setup.blueprint.fluid.rest_density);
-        let locals = match view {
-            View::Density => surroundings(particles, rock, setup.blueprint.domain.size),
-            _ => Vec::new(),
-        };
-        let mut strain = StrainMap::default();
-        if let Some(limited) = Limited::of(world).filter(|_| view == View::Stability) {
-            strain.measure(setup.blueprint.domain.size, limited);
-        }
         let mut depths = DepthMap::default();
         depths.measure(setup.blueprint.domain.size, particles);
         for i in 0..particles.len() {
             let p = particles.position(i);
             let speed = particles.velocity(i).length() / reference.fall;
-            let density_error = locals.get(i).map_or(0.0, |local| (local.density / rest - 1.0) as f32);
-            let strain = strain.shares().get(i).copied().unwrap_or(0.0);
-            let sample = Sample { speed, depth: depths.at(p), density_error, strain };
-            let colour = view::colour(view, setup.elements().get(particles.element[i]), sample);
+            let own = colours::particle_colour(setup.elements().get(particles.element[i]), speed);
+            let colour = colours::darken(own, depths.at(p));
             self.cover(p, radius, colour, disc);
         }
     }
@@ -268,7 +254,7 @@ mod tests {
         let at = |x: usize, y: usize| &pixels[3 * (y * 10 + x)..][..3];
         assert_eq!(at(2, 2), [250, 10, 20]);
         assert_eq!(at(7, 5), [0, 0, 0]);
-        assert_eq!(at(0, 0), view::SURROUNDINGS);
-        assert_eq!(at(2, 4), view::SURROUNDINGS, "the first picture is only two rows high");
+        assert_eq!(at(0, 0), colours::SURROUNDINGS);
+        assert_eq!(at(2, 4), colours::SURROUNDINGS, "the first picture is only two rows high");
     }
 }

@@ -9,7 +9,7 @@ use crate::{
     },
     lab::{headless::Headless, picture::Picture, sampler::matter, stats},
     scene::{self, SceneError, blueprint::EffectModes},
-    sim::{view::View, workers::Workers},
+    sim::workers::Workers,
 };
 use serde::Serialize;
 use std::{array, sync::Arc};
@@ -92,7 +92,7 @@ fn observe(preset: Preset, ratio: f64, workers: &Workers) -> Result<(Outcome, Pi
         array::from_fn(|k| looks.iter().map(|look: &[f64; 6]| look[k]).sum::<f64>() / looks.len() as f64);
     let quality = preset.name();
     let outcome = Outcome { quality, ratio, kinetic_energy, jitter, density_bottom, density_top, slope, surface };
-    Ok((outcome, Picture::of_world(headless.world(), View::Elements, PICTURE_SIDE, PICTURE_DISC)))
+    Ok((outcome, Picture::of_world(headless.world(), PICTURE_SIDE, PICTURE_DISC)))
 }
 
 /// The figures of an [`Outcome`] at one moment, in their order.

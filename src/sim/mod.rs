@@ -4,7 +4,6 @@
 pub mod accuracy;
 pub mod autopilot;
 pub mod control;
-pub mod difference;
 pub mod effects;
 pub mod fault;
 pub mod intent;
@@ -26,7 +25,6 @@ pub mod stages;
 pub mod state;
 pub mod tape;
 pub mod twin;
-pub mod view;
 pub mod workers;
 
 use bevy::prelude::{App, Plugin};

@@ -166,11 +166,13 @@ mod tests {
     use super::*;
     use crate::{
         kernel::brush::{BrushShape, Stroke},
-        lab::headless::Headless,
+        lab::{
+            difference::{Difference, Half},
+            headless::Headless,
+        },
         scene::{self, blueprint::EffectModes},
         sim::{
             control,
-            difference::{Difference, Half},
             state::{AirGrid, ParticleStore},
         },
     };

@@ -5,11 +5,11 @@
 
 use crate::{
     game::{
+        actions::Action,
         disk,
         frame::Tempo,
-        hud::toast::Toasts,
-        input::bindings::Action,
         orders::{Order, Orders},
+        toasts::Toasts,
     },
     sim::{
         ledger::PassLedger,

@@ -1,7 +1,7 @@
 //! Opens the game on the page.
 
 use crate::{
-    game::{hud::toast::Toasts, input::touch::Fingers, window},
+    game::{input::touch::Fingers, toasts::Toasts, window},
     lab::live::LivePlugin,
     sim::control,
     web::{hook, host, link::Link},

@@ -2,11 +2,8 @@
 
 use crate::{
     game::{
-        crash::journal::PREFIX,
-        history,
-        hud::toast::Toasts,
-        input::bindings::{self, Action},
-        render::extract::Epoch,
+        actions::Action, crash::journal::PREFIX, history, input::bindings::Bindings, render::extract::Epoch,
+        toasts::Toasts,
     },
     kernel::simd::InstructionSet,
     sim::{
@@ -253,7 +250,7 @@ fn go_on(world: &mut World, saved: Saved, reach: Reach) {
     save::load(world, saved);
     *world.resource_mut::<Pace>() = Pace { paused: true, steps_due: 0, ..*world.resource::<Pace>() };
     world.resource_mut::<Epoch>().0 += 1;
-    let key = bindings::of(Action::Pause).map(ToString::to_string).unwrap_or_default();
+    let key = world.resource::<Bindings>().key(Action::Pause);
     let how = match reach {
         Reach::Whole => "Restored",
         Reach::LastTick => "Restored without the last edits, which it does not survive",

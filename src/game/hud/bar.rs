@@ -2,23 +2,27 @@
 
 use crate::{
     game::{
+        actions::Action,
         hud::{
-            HudState,
-            icons::{self, Icon},
-            settings::Room,
+            layout::Bars,
+            panels::scenes,
             stats::{Reading, Readings, as_text, show_reading},
             style,
+            widgets::{icon_button, menu, quality_menu, quality_name, row},
         },
-        input::bindings::{self, Action},
-        orders::{Order, Orders, Shown},
+        icons::{self, Icon},
+        input::bindings::Bindings,
+        orders::{Order, Orders},
+        panels::Panels,
+        views::table::{ELEMENTS, Shown, VIEWS},
     },
-    kernel::{
-        params::{Preset, Quality},
-        units::TICKS_PER_SECOND,
-    },
-    sim::{recorder::Recorder, state::Setup, view::View},
+    kernel::units::TICKS_PER_SECOND,
+    sim::{recorder::Recorder, state::Setup},
 };
-use bevy::prelude::{Res, ResMut, Result};
+use bevy::{
+    ecs::system::SystemParam,
+    prelude::{Res, ResMut, Result},
+};
 use bevy_egui::{
     EguiContexts,
     egui::{self, Align, Color32, Layout, RichText, Ui, vec2},
@@ -27,19 +31,21 @@ use bevy_egui::{
 /// Below this width the menus lose their names, points.
 const NARROW: f32 = 1080.0;
 
+/// What the bar shows.
+#[derive(SystemParam)]
+pub struct Shows<'w> {
+    panels: Res<'w, Panels>,
+    readings: Res<'w, Readings>,
+    setup: Res<'w, Setup>,
+    view: Res<'w, Shown>,
+    recorder: Res<'w, Recorder>,
+    bindings: Res<'w, Bindings>,
+}
+
 /// Shows the bar.
-pub fn show(
-    mut contexts: EguiContexts,
-    state: Res<HudState>,
-    readings: Res<Readings>,
-    setup: Res<Setup>,
-    shown: Res<Shown>,
-    recorder: Res<Recorder>,
-    mut room: ResMut<Room>,
-    mut orders: ResMut<Orders>,
-) -> Result {
-    room.top = 0.0;
-    if !state.visible {
+pub fn show(mut contexts: EguiContexts, shows: Shows, mut bars: ResMut<Bars>, mut orders: ResMut<Orders>) -> Result {
+    bars.top = 0.0;
+    if !shows.panels.visible {
         return Ok(());
     }
     let context = contexts.ctx_mut()?;
@@ -54,33 +60,29 @@ pub fn show(
                 ui.horizontal(|ui| {
                     ui.set_height(26.0);
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                        menus(ui, width < NARROW, &state, &setup, shown.0, &mut orders);
+                        menus(ui, width < NARROW, &shows, &mut orders);
                         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                            if let Some(ticks) = recorder.ticks() {
-                                recording(ui, ticks);
+                            if let Some(ticks) = shows.recorder.ticks() {
+                                recording(ui, ticks, &shows.bindings);
                             }
-                            numbers(ui, &readings);
+                            numbers(ui, &shows.readings);
                         });
                     });
                 });
             });
         });
-    room.top = shown_bar.response.rect.bottom();
+    bars.top = shown_bar.response.rect.bottom();
     Ok(())
 }
 
 /// That there is a recording, and how long it is.
-fn recording(ui: &mut Ui, ticks: u64) {
+fn recording(ui: &mut Ui, ticks: u64, bindings: &Bindings) {
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.x = 5.0;
         dot(ui, style::BAD);
         let seconds = ticks / u64::from(TICKS_PER_SECOND);
-        ui.label(RichText::new(format!("{}:{:02}", seconds / 60, seconds % 60)).color(style::BAD)).on_hover_text(
-            format!(
-                "recording ({} ends it)",
-                bindings::of(Action::Record).map(ToString::to_string).unwrap_or_default()
-            ),
-        );
+        ui.label(RichText::new(format!("{}:{:02}", seconds / 60, seconds % 60)).color(style::BAD))
+            .on_hover_text(format!("recording ({} ends it)", bindings.key(Action::Record)));
     });
 }
 
@@ -120,126 +122,34 @@ fn dot(ui: &mut Ui, colour: Color32) {
 }
 
 /// The menus, from right to left.
-fn menus(ui: &mut Ui, narrow: bool, state: &HudState, setup: &Setup, shown: View, orders: &mut Orders) {
+fn menus(ui: &mut Ui, narrow: bool, shows: &Shows, orders: &mut Orders) {
+    let Shows { panels, setup, view: shown, bindings, .. } = shows;
     ui.spacing_mut().item_spacing.x = 6.0;
-    for (icon, action, open) in [
-        (Icon::Question, Action::Help, state.help),
-        (Icon::Gear, Action::Settings, state.settings),
-        (Icon::Check, Action::Exam, state.exam),
-        (Icon::Shield, Action::Gauntlet, state.gauntlet),
-        (Icon::Chart, Action::Details, state.details),
-        (Icon::Curve, Action::Accuracy, state.accuracy),
-        (Icon::Load, Action::Saves, state.saves),
-        (Icon::Save, Action::Save, false),
-    ] {
-        if icon_button(ui, icon, None, open).on_hover_text(tip(action)).clicked() {
+    let buttons = panels.iter().filter(|(panel, _)| panel.in_bar);
+    let buttons = buttons.map(|(panel, open)| (panel.icon, Action::Panel(panel.id), open));
+    for (icon, action, open) in buttons.chain([(icons::save as Icon, Action::Save, false)]) {
+        if icon_button(ui, icon, None, open).on_hover_text(bindings.tip(action)).clicked() {
             orders.push(Order::Act(action));
         }
     }
     let name = |text: &'static str| (!narrow).then_some(text);
     let quality = (!narrow).then(|| quality_name(setup.preset, &setup.quality));
-    let quality = icon_button(ui, Icon::Gauge, quality.as_deref(), false);
+    let quality = icon_button(ui, icons::gauge, quality.as_deref(), false);
     if let Some(preset) = quality_menu(&quality, setup.preset) {
         orders.push(Order::Quality(preset));
     }
-    let view = icon_button(ui, Icon::Eye, name(shown.name()), shown != View::Elements);
+    let view = icon_button(ui, icons::eye, name(shown.0.name), *shown.0 != ELEMENTS);
     menu(&view, "View", |ui| {
-        for view in View::ALL {
-            let key = bindings::of(Action::View(view)).map(ToString::to_string).unwrap_or_default();
-            if row(ui, view.name(), &key, view == shown) {
+        for view in VIEWS {
+            if row(ui, view.name, &bindings.key(Action::View(view)), view == shown.0) {
                 orders.push(Order::Act(Action::View(view)));
             }
         }
     });
     let title = if narrow { None } else { Some(setup.blueprint.title.as_str()) };
-    let scenes = icon_button(ui, Icon::Scenes, title, state.scenes);
-    if scenes.on_hover_text(tip(Action::Scenes)).clicked() {
-        orders.push(Order::Act(Action::Scenes));
+    let action = Action::Panel(scenes::ID);
+    let scenes = icon_button(ui, icons::scenes, title, panels.shows(scenes::ID));
+    if scenes.on_hover_text(bindings.tip(action)).clicked() {
+        orders.push(Order::Act(action));
     }
-}
-
-/// The menu of qualities under a button; says which one is chosen.
-pub fn quality_menu(button: &egui::Response, now: Preset) -> Option<Preset> {
-    let mut chosen = None;
-    menu(button, "Quality", |ui| {
-        for preset in Preset::ALL {
-            if row(ui, preset.name(), about(preset), preset == now) {
-                chosen = Some(preset);
-            }
-        }
-    });
-    chosen
-}
-
-/// A quality on the screen: its name, or substeps × iterations where it lies between two names.
-pub fn quality_name(preset: Preset, quality: &Quality) -> String {
-    if *quality == preset.quality() {
-        return preset.name().to_owned();
-    }
-    format!("{} × {}", quality.substeps, quality.iterations)
-}
-
-fn about(preset: Preset) -> &'static str {
-    match preset {
-        Preset::Classic => "the plain method",
-        Preset::Draft => "for weak machines",
-        Preset::Fast => "cheap and calm",
-        Preset::Balanced => "the default",
-        Preset::Fine => "for deep water",
-        Preset::Reference => "not in real time",
-    }
-}
-
-fn menu(button: &egui::Response, title: &str, add: impl FnOnce(&mut Ui)) {
-    egui::Popup::menu(button).gap(8.0).width(220.0).show(|ui| {
-        ui.label(RichText::new(title).small().color(style::WEAK));
-        ui.spacing_mut().item_spacing.y = 2.0;
-        add(ui);
-    });
-}
-
-/// A line of a menu: a name and something about it.
-fn row(ui: &mut Ui, name: &str, about: &str, chosen: bool) -> bool {
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 26.0), egui::Sense::click());
-    if chosen || response.hovered() {
-        let fill = if chosen { style::ACCENT_FILL } else { style::BUTTON_HOVER };
-        ui.painter().rect_filled(rect, style::BUTTON_CORNER, fill);
-    }
-    let colour = if chosen { Color32::WHITE } else { style::TEXT };
-    let font = |style: egui::TextStyle| style.resolve(ui.style());
-    let (left, right) = (rect.left_center() + vec2(9.0, 0.0), rect.right_center() - vec2(9.0, 0.0));
-    ui.painter().text(left, egui::Align2::LEFT_CENTER, name, font(egui::TextStyle::Button), colour);
-    ui.painter().text(right, egui::Align2::RIGHT_CENTER, about, font(egui::TextStyle::Small), style::WEAK);
-    response.clicked()
-}
-
-/// What an action does, and its key.
-pub fn tip(action: Action) -> String {
-    match bindings::of(action) {
-        Some(binding) => format!("{} ({binding})", binding.help),
-        None => String::new(),
-    }
-}
-
-/// A button with an icon, and a text if there is room.
-pub fn icon_button(ui: &mut Ui, icon: Icon, text: Option<&str>, active: bool) -> egui::Response {
-    let galley = text.map(|text| {
-        let font = egui::TextStyle::Button.resolve(ui.style());
-        ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER)
-    });
-    let width = galley.as_ref().map_or(32.0, |galley| 40.0 + galley.size().x);
-    let (rect, response) = ui.allocate_exact_size(vec2(width, 26.0), egui::Sense::click());
-    let widget = ui.style().interact(&response);
-    let (fill, colour) = match active {
-        true => (style::ACCENT_FILL, style::ACCENT),
-        false => (widget.bg_fill, widget.fg_stroke.color),
-    };
-    ui.painter().rect_filled(rect, style::BUTTON_CORNER, fill);
-    let square = icons::square(rect.left_center() + vec2(16.0, 0.0), 15.0);
-    icons::draw(ui.painter(), square, icon, colour);
-    if let Some(galley) = galley {
-        let at = egui::pos2(rect.left() + 29.0, rect.center().y - galley.size().y / 2.0);
-        ui.painter().galley(at, galley, colour);
-    }
-    response
 }

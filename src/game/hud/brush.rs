@@ -2,14 +2,14 @@
 
 use crate::{
     game::{
+        actions::Gesture,
         camera::WorldCamera,
-        hud::{HudState, palette::colour_of, style},
         input::{
-            bindings::Gesture,
             pointer::{HudCover, Pointer},
-            strokes::Held,
+            strokes::DragState,
         },
-        tools::{Tool, Toolbox},
+        panels::Panels,
+        tools::Toolbox,
     },
     kernel::brush::BrushShape,
     sim::state::Setup,
@@ -23,16 +23,16 @@ use bevy_egui::{
 /// Shows the brush.
 pub fn show(
     mut contexts: EguiContexts,
-    state: Res<HudState>,
+    panels: Res<Panels>,
     pointer: Res<Pointer>,
     cover: Res<HudCover>,
-    held: Res<Held>,
+    drag: Res<DragState>,
     tools: Res<Toolbox>,
     setup: Res<Setup>,
     camera: Res<WorldCamera>,
 ) -> Result {
-    let (Some(pixel), true) = (pointer.at, state.visible) else { return Ok(()) };
-    let straight = held.pull().filter(|pull| matches!(pull.gesture, Gesture::Line | Gesture::Rectangle));
+    let (Some(pixel), true) = (pointer.at, panels.visible) else { return Ok(()) };
+    let straight = drag.current().filter(|drag| matches!(drag.gesture, Gesture::Line | Gesture::Rectangle));
     if cover.covers(pixel) && straight.is_none() {
         return Ok(());
     }
@@ -41,20 +41,16 @@ pub fn show(
     let to_points = 1.0 / context.zoom_factor();
     let at = |pixel: glam::Vec2| pos2(pixel.x * to_points, pixel.y * to_points);
     let radius = tools.radius() * camera.pixels_per_d() * to_points;
-    let colour = match tools.tool {
-        Tool::Element(id) => colour_of(setup.elements().get(id)).lerp_to_gamma(Color32::WHITE, 0.35),
-        Tool::Erase => style::WARN,
-        Tool::Wind | Tool::Pressure => Color32::from_rgb(150, 230, 216),
-    };
+    let colour = tools.tool.pen(setup.elements());
     let pen = Pen { painter, stroke: Stroke::new(1.25, colour) };
     match straight {
-        Some(pull) if pull.gesture == Gesture::Line => {
-            let start = at(camera.to_pixel_beside(pull.start, pixel));
+        Some(drag) if drag.gesture == Gesture::Line => {
+            let start = at(camera.to_pixel_beside(drag.start, pixel));
             pen.line(start, at(pixel));
             pen.brush(tools.shape, start, radius);
             pen.brush(tools.shape, at(pixel), radius);
         }
-        Some(pull) => pen.rectangle(Rect::from_two_pos(at(camera.to_pixel_beside(pull.start, pixel)), at(pixel))),
+        Some(drag) => pen.rectangle(Rect::from_two_pos(at(camera.to_pixel_beside(drag.start, pixel)), at(pixel))),
         None => pen.brush(tools.shape, at(pixel), radius),
     }
     Ok(())

@@ -2,25 +2,26 @@
 
 use crate::{
     game::{
+        actions::Action,
         camera::{Area, WorldCamera},
         hud::{
-            HudState,
-            accuracy::percent,
-            bar::{icon_button, quality_menu, quality_name, tip},
-            icons::Icon,
+            panels::accuracy::axis::percent,
             style,
+            widgets::{icon_button, quality_menu, quality_name},
         },
-        input::bindings::Action,
+        icons,
+        input::bindings::Bindings,
         orders::{Order, Orders},
+        panels::Panels,
         split::LABEL,
     },
     kernel::{
         params::Preset,
         units::{Scale, TICK_SECONDS},
     },
+    lab::difference::{self, Difference, FULL_SPEED, Half},
     sim::{
         accuracy::LiveError,
-        difference::{self, Difference, FULL_SPEED, Half},
         ledger::PassLedger,
         numbers::short,
         split::Split,
@@ -49,7 +50,7 @@ struct Facts<'a> {
 /// Shows the lines.
 pub fn show(
     mut contexts: EguiContexts,
-    state: Res<HudState>,
+    (panels, bindings): (Res<Panels>, Res<Bindings>),
     camera: Res<WorldCamera>,
     split: Res<Split>,
     setup: Res<Setup>,
@@ -60,7 +61,7 @@ pub fn show(
     mut orders: ResMut<Orders>,
 ) -> Result {
     let panes: Vec<Area> = camera.panes().collect();
-    let (Some(second), &[at_a, at_b, at_c], true) = (split.world(), panes.as_slice(), state.visible) else {
+    let (Some(second), &[at_a, at_b, at_c], true) = (split.world(), panes.as_slice(), panels.visible) else {
         return Ok(());
     };
     let context = contexts.ctx_mut()?;
@@ -76,7 +77,7 @@ pub fn show(
                 orders.push(Order::SecondQuality(preset));
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                if icon_button(ui, Icon::Close, None, false).on_hover_text(tip(Action::Split)).clicked() {
+                if icon_button(ui, icons::close, None, false).on_hover_text(bindings.tip(Action::Split)).clicked() {
                     orders.push(Order::Act(Action::Split));
                 }
             });
@@ -124,7 +125,7 @@ fn facts(ui: &mut Ui, facts: &Facts<'_>) -> Option<Preset> {
     let font = egui::TextStyle::Button.resolve(ui.style());
     ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, facts.name, font, Color32::WHITE);
     let name = quality_name(facts.setup.preset, &facts.setup.quality);
-    let button = icon_button(ui, Icon::Gauge, Some(&name), false);
+    let button = icon_button(ui, icons::gauge, Some(&name), false);
     let chosen = quality_menu(&button, facts.setup.preset);
     ui.label(format!("{:.2} ms", facts.ledger.tick().median().as_secs_f32() * 1000.0));
     if let (Some(mean), true) = (facts.error.mean(), ui.available_width() > 130.0) {

@@ -1,8 +1,10 @@
 //! The look of the HUD: colours, sizes, spacing.
 
-use crate::game::hud::icons::{self, Icon};
-use bevy_egui::egui::{
-    self, Color32, CornerRadius, FontId, Margin, Shadow, Stroke, TextStyle, Vec2, style::ScrollStyle,
+use crate::game::{actions::PanelId, icons, panels::Panels};
+use bevy::prelude::Local;
+use bevy_egui::{
+    EguiContexts,
+    egui::{self, Color32, CornerRadius, FontId, Margin, Shadow, Stroke, TextStyle, Vec2, style::ScrollStyle},
 };
 
 /// Behind bars and windows.
@@ -34,8 +36,15 @@ pub const BUTTON_CORNER: u8 = 6;
 /// Corner of windows.
 pub const WINDOW_CORNER: u8 = 10;
 
-/// Dresses egui.
-pub fn dress(context: &egui::Context) {
+/// Gives egui this look, in the first frame.
+pub fn dress_once(mut contexts: EguiContexts, mut dressed: Local<bool>) {
+    if let (false, Ok(context)) = (*dressed, contexts.ctx_mut()) {
+        dress(context);
+        *dressed = true;
+    }
+}
+
+fn dress(context: &egui::Context) {
     context.set_theme(egui::Theme::Dark);
     // The frame that a press wakes has the time at which the game fell asleep: no press is too long for a click.
     context.options_mut(|options| options.input_options.max_click_duration = f64::INFINITY);
@@ -123,13 +132,28 @@ pub fn window(
     );
 }
 
+/// The window of a panel; its cross closes the panel.
+pub fn panel(
+    context: &egui::Context,
+    panels: &mut Panels,
+    id: PanelId,
+    place: (egui::Align2, egui::Pos2),
+    add: impl FnOnce(&mut egui::Ui),
+) {
+    let mut open = true;
+    window(context, panels.title(id), &mut open, place, add);
+    if !open {
+        panels.close(id);
+    }
+}
+
 fn close_button(ui: &mut egui::Ui) -> egui::Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(24.0), egui::Sense::click());
     if response.hovered() {
         ui.painter().rect_filled(rect, BUTTON_CORNER, BUTTON_HOVER);
     }
     let colour = if response.hovered() { Color32::WHITE } else { WEAK };
-    icons::draw(ui.painter(), icons::square(rect.center(), 14.0), Icon::Close, colour);
+    icons::draw(ui.painter(), icons::square(rect.center(), 14.0), icons::close, colour);
     response.on_hover_text("close (Esc)")
 }
 
@@ -141,6 +165,11 @@ pub fn main_button(ui: &mut egui::Ui, text: &str) -> egui::Response {
     let font = TextStyle::Button.resolve(ui.style());
     ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, text, font, Color32::WHITE);
     response
+}
+
+/// Text of less weight.
+pub fn weak(text: impl Into<String>) -> egui::RichText {
+    egui::RichText::new(text).color(WEAK)
 }
 
 /// Frame of a bar at the edge of the window.

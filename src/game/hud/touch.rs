@@ -3,22 +3,23 @@
 
 use crate::{
     game::{
+        actions::Action,
         history::History,
         hud::{
-            HudState,
-            icons::{self, Icon},
-            palette::{colour_of, icon_of},
-            settings::Room,
+            layout::Bars,
             stats::{Reading, Readings},
             style,
         },
-        input::{bindings::Action, touch::Fingers},
-        orders::{Order, Orders, Shown},
+        icons::{self, Icon},
+        input::touch::Fingers,
+        orders::{Order, Orders},
+        panels::Panels,
         tools::{Tool, Toolbox},
+        views::table::{Shown, VIEWS, View},
     },
     kernel::{brush::BrushShape, params::Preset},
     scene,
-    sim::{pace::Pace, state::Setup, view::View},
+    sim::{pace::Pace, state::Setup},
 };
 use bevy::{
     ecs::system::SystemParam,
@@ -33,6 +34,16 @@ use bevy_egui::{
 const TARGET: f32 = 48.0;
 /// Width of a tool, pixels.
 const TILE_WIDTH: f32 = 60.0;
+
+/// What has no button of its own, below the panels in the list.
+const MORE: [(&str, Action); 6] = [
+    ("Save", Action::Save),
+    ("One tick", Action::Step),
+    ("Two qualities side by side", Action::Split),
+    ("Slower", Action::Speed(-1)),
+    ("Faster", Action::Speed(1)),
+    ("Bring the air to rest", Action::ClearAir),
+];
 
 /// A list that is open above the tools.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -53,7 +64,7 @@ pub enum Sheet {
 /// What the tools show.
 #[derive(SystemParam)]
 pub struct Scene<'w> {
-    state: Res<'w, HudState>,
+    panels: Res<'w, Panels>,
     setup: Res<'w, Setup>,
     pace: Res<'w, Pace>,
     history: Res<'w, History>,
@@ -71,21 +82,21 @@ pub fn show(
     mut contexts: EguiContexts,
     scene: Scene,
     mut tools: ResMut<Toolbox>,
-    mut room: ResMut<Room>,
+    mut bars: ResMut<Bars>,
     mut orders: ResMut<Orders>,
     mut sheet: Local<Sheet>,
 ) -> Result {
-    let Scene { state, setup, pace, history, readings, shown } = scene;
-    *room = Room::default();
+    let Scene { panels, setup, pace, history, readings, shown } = scene;
+    *bars = Bars::default();
     let context = contexts.ctx_mut()?;
     let screen = context.content_rect();
     let unit = 1.0 / context.zoom_factor();
-    if !state.visible {
+    if !panels.visible {
         *sheet = Sheet::Closed;
         egui::Area::new("touch again".into()).anchor(Align2::RIGHT_BOTTOM, vec2(-8.0, -8.0) * unit).show(
             context,
             |ui| {
-                if button(ui, unit, Icon::Drop, true, true) {
+                if button(ui, unit, icons::droplet, true, true) {
                     orders.push(Order::Act(Action::Hud));
                 }
             },
@@ -108,10 +119,10 @@ pub fn show(
                 });
             });
         });
-    room.bottom = screen.bottom() - bar.response.rect.top();
+    bars.bottom = screen.bottom() - bar.response.rect.top();
     if *sheet != Sheet::Closed {
         let above = screen.with_max_y(bar.response.rect.top());
-        let lines = lines(&sheet, &state, &setup, shown.0);
+        let lines = lines(&sheet, &panels, &setup, shown.0);
         if list(context, above, unit, lines, &mut orders) {
             *sheet = Sheet::Closed;
         }
@@ -131,13 +142,8 @@ pub fn show(
 }
 
 fn choose(ui: &mut Ui, unit: f32, setup: &Setup, chosen: Tool, orders: &mut Orders) {
-    let elements = setup
-        .elements()
-        .iter()
-        .map(|(id, element)| (Tool::Element(id), icon_of(element), colour_of(element), element.name.as_str()));
-    let others = Tool::OTHERS.into_iter().zip([Icon::Eraser, Icon::Wind, Icon::Pressure]);
-    let others = others.map(|(tool, icon)| (tool, icon, style::TEXT, tool.name(setup.elements())));
-    for (tool, icon, colour, name) in elements.chain(others) {
+    for tool in Tool::all(setup.elements()) {
+        let ((icon, colour), name) = (tool.icon(setup.elements()), tool.name(setup.elements()));
         let (rect, response) = ui.allocate_exact_size(vec2(TILE_WIDTH, TARGET) * unit, egui::Sense::click());
         let fill = if chosen == tool { style::ACCENT_FILL } else { style::BUTTON };
         let painter = ui.painter();
@@ -168,13 +174,13 @@ fn button(ui: &mut Ui, unit: f32, icon: Icon, active: bool, enabled: bool) -> bo
 
 fn act(ui: &mut Ui, unit: f32, pace: &Pace, history: &History, orders: &mut Orders) {
     let (back, forth) = history.reach();
-    let time = if pace.paused { Icon::Play } else { Icon::Pause };
+    let time: Icon = if pace.paused { icons::play } else { icons::pause };
     for (icon, action, active, enabled) in [
-        (Icon::Close, Action::Hud, false, true),
+        (icons::close as Icon, Action::Hud, false, true),
         (time, Action::Pause, pace.paused, true),
-        (Icon::Undo, Action::Undo, false, back),
-        (Icon::Redo, Action::Redo, false, forth),
-        (Icon::Reset, Action::Reset, false, true),
+        (icons::undo, Action::Undo, false, back),
+        (icons::redo, Action::Redo, false, forth),
+        (icons::reset, Action::Reset, false, true),
     ] {
         if button(ui, unit, icon, active, enabled) {
             orders.push(Order::Act(action));
@@ -192,17 +198,19 @@ fn size(ui: &mut Ui, unit: f32, tools: &mut ResMut<Toolbox>) {
     };
     step(ui, "−", -1);
     step(ui, "+", 1);
-    let icon = if tools.shape == BrushShape::Disc { Icon::Round } else { Icon::Square };
+    let icon: Icon = if tools.shape == BrushShape::Disc { icons::round_brush } else { icons::square_brush };
     if button(ui, unit, icon, false, true) {
         tools.turn_shape();
     }
 }
 
 fn menus(ui: &mut Ui, unit: f32, sheet: &mut Sheet) {
-    if button(ui, unit, Icon::Scenes, matches!(sheet, Sheet::Scenes(_)), true) {
+    if button(ui, unit, icons::scenes, matches!(sheet, Sheet::Scenes(_)), true) {
         *sheet = if matches!(sheet, Sheet::Scenes(_)) { Sheet::Closed } else { Sheet::Scenes(titles()) };
     }
-    for (icon, own) in [(Icon::Eye, Sheet::Views), (Icon::Gauge, Sheet::Qualities), (Icon::Gear, Sheet::More)] {
+    for (icon, own) in
+        [(icons::eye as Icon, Sheet::Views), (icons::gauge, Sheet::Qualities), (icons::gear, Sheet::More)]
+    {
         if button(ui, unit, icon, *sheet == own, true) {
             *sheet = if *sheet == own { Sheet::Closed } else { own };
         }
@@ -215,7 +223,7 @@ fn titles() -> Vec<(String, String)> {
 }
 
 /// The lines of a list: text, whether it is what is shown now, and what choosing it asks for.
-fn lines<'a>(sheet: &'a Sheet, state: &HudState, setup: &Setup, shown: View) -> Vec<(&'a str, bool, Order)> {
+fn lines<'a>(sheet: &'a Sheet, panels: &Panels, setup: &Setup, shown: &View) -> Vec<(&'a str, bool, Order)> {
     match sheet {
         Sheet::Closed => Vec::new(),
         Sheet::Scenes(scenes) => scenes
@@ -226,28 +234,20 @@ fn lines<'a>(sheet: &'a Sheet, state: &HudState, setup: &Setup, shown: View) -> 
             })
             .collect(),
         Sheet::Views => {
-            View::ALL.into_iter().map(|view| (view.name(), view == shown, Order::Act(Action::View(view)))).collect()
+            VIEWS.into_iter().map(|view| (view.name, view == shown, Order::Act(Action::View(view)))).collect()
         }
         Sheet::Qualities => {
             let line = |preset: Preset| (preset.name(), preset == setup.preset, Order::Quality(preset));
             Preset::ALL.into_iter().map(line).collect()
         }
-        Sheet::More => [
-            ("Save", false, Action::Save),
-            ("Load", state.saves, Action::Saves),
-            ("One tick", false, Action::Step),
-            ("Accuracy and cost", state.accuracy, Action::Accuracy),
-            ("Details and effects", state.details, Action::Details),
-            ("Two qualities side by side", false, Action::Split),
-            ("Physics exam", state.exam, Action::Exam),
-            ("Hard cases", state.gauntlet, Action::Gauntlet),
-            ("Slower", false, Action::Speed(-1)),
-            ("Faster", false, Action::Speed(1)),
-            ("Bring the air to rest", false, Action::ClearAir),
-            ("Settings", state.settings, Action::Settings),
-        ]
-        .map(|(text, open, action)| (text, open, Order::Act(action)))
-        .into(),
+        Sheet::More => {
+            let panels = panels
+                .iter()
+                .rev()
+                .filter_map(|(panel, open)| Some((panel.in_list?, open, Order::Act(Action::Panel(panel.id)))));
+            let actions = MORE.map(|(text, action)| (text, false, Order::Act(action)));
+            panels.chain(actions).collect()
+        }
     }
 }
 

@@ -1,99 +1,14 @@
-//! The one table of keys and buttons. Input looks actions up in it, help prints it, the palette shows its keys.
+//! The one table of keys and buttons. Input looks actions up in it, help prints it, the palette shows its keys. Tools,
+//! views and panels bring their keys along in their own tables.
 //! Keys are physical: they stand where they stand on a US keyboard, whatever is printed on them.
 
-use crate::{game::tools::Tool, sim::view::View};
-use bevy::prelude::{ButtonInput, KeyCode, MouseButton};
+use crate::game::{
+    actions::{Action, Gesture},
+    tools::{TOOLS, Tool},
+    views::table::VIEWS,
+};
+use bevy::prelude::{ButtonInput, KeyCode, MouseButton, Resource};
 use std::fmt;
-
-/// What a player can do with a key, a button or a click on the HUD.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Action {
-    /// Begins something that lasts while the button is held.
-    Hold(Gesture),
-    /// Chooses the element under the pointer.
-    Sample,
-    /// Chooses the element with this digit.
-    Element(char),
-    /// Chooses a tool that is not an element.
-    Tool(Tool),
-    /// Opens the search for elements.
-    Search,
-    /// Makes the brush larger or smaller by steps.
-    Brush(i32),
-    /// Turns the brush from round to square and back.
-    BrushShape,
-    /// Stops and starts time.
-    Pause,
-    /// Runs one tick.
-    Step,
-    /// Halves (−1) or doubles (+1) the speed.
-    Speed(i32),
-    /// Back to the start of the scene.
-    Reset,
-    /// Takes the last edit back.
-    Undo,
-    /// Makes it again.
-    Redo,
-    /// Brings the air to rest.
-    ClearAir,
-    /// Shows a view.
-    View(View),
-    /// Shows the next view.
-    NextView,
-    /// Zooms at the pointer, in (+1) or out (−1).
-    Zoom(i32),
-    /// Moves the picture while the key is held: right and up count.
-    Pan(i32, i32),
-    /// Shows or hides the HUD.
-    Hud,
-    /// Writes the world into a file.
-    Save,
-    /// Begins a recording, or ends it.
-    Record,
-    /// Writes the last minute as a recording.
-    KeepLastMinute,
-    /// Opens the list of save files.
-    Saves,
-    /// Opens the scene menu.
-    Scenes,
-    /// Opens the settings.
-    Settings,
-    /// Shows the books of the simulation.
-    Details,
-    /// Shows the physics exam.
-    Exam,
-    /// Shows the stability gauntlet.
-    Gauntlet,
-    /// Shows what accuracy costs.
-    Accuracy,
-    /// Puts the world beside itself at another quality, or ends that.
-    Split,
-    /// Shows this table.
-    Help,
-    /// Full screen and back.
-    FullScreen,
-    /// Writes a picture of the window.
-    Screenshot,
-    /// Closes whatever is open.
-    Close,
-}
-
-/// What a held button does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Gesture {
-    /// Works with the chosen tool along the way of the pointer.
-    Use,
-    /// Draws a straight line when released.
-    Line,
-    /// Draws a filled rectangle when released.
-    Rectangle,
-    /// Fills the room around the pointer.
-    Fill,
-    /// Erases along the way of the pointer; with the pressure tool, sucks.
-    Erase,
-    /// Moves the picture; a click without moving samples.
-    Drag,
-}
 
 /// The modifier keys that must be held, and no others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -106,9 +21,12 @@ pub struct Mods {
     pub alt: bool,
 }
 
-const NONE: Mods = Mods { ctrl: false, shift: false, alt: false };
-const CTRL: Mods = Mods { ctrl: true, ..NONE };
-const SHIFT: Mods = Mods { shift: true, ..NONE };
+/// No modifier.
+pub const NONE: Mods = Mods { ctrl: false, shift: false, alt: false };
+/// Ctrl alone.
+pub const CTRL: Mods = Mods { ctrl: true, ..NONE };
+/// Shift alone.
+pub const SHIFT: Mods = Mods { shift: true, ..NONE };
 const ALT: Mods = Mods { alt: true, ..NONE };
 const CTRL_SHIFT: Mods = Mods { ctrl: true, shift: true, ..NONE };
 
@@ -205,22 +123,18 @@ const fn digit(code: KeyCode, digit: char) -> Binding {
     key(code, NONE, Action::Element(digit), Group::Choose, "choose an element")
 }
 
-const fn view(code: KeyCode, view: View) -> Binding {
-    key(code, SHIFT, Action::View(view), Group::Look, "choose a view")
-}
-
-/// Every key, button and turn of the wheel that means something.
+/// The keys and buttons that no tool, view or panel brings along.
 #[rustfmt::skip]
-pub const BINDINGS: &[Binding] = {
+const OWN: &[Binding] = {
     use {Action as A, Gesture as G, Group as H, KeyCode as K, MouseButton as B};
     &[
     button(B::Left, NONE, A::Hold(G::Use), "use the chosen tool: pour, draw, blow"),
     button(B::Right, NONE, A::Hold(G::Erase), "erase (pressure tool: suck)"),
     button(B::Left, SHIFT, A::Hold(G::Line), "draw a line"),
     button(B::Left, CTRL, A::Hold(G::Rectangle), "draw a rectangle"),
-    button(B::Left, CTRL_SHIFT, A::Hold(G::Fill), "fill the room around the pointer"),
+    button(B::Left, CTRL_SHIFT, A::Hold(G::Fill), "fill the space around the pointer"),
     button(B::Left, ALT, A::Sample, "choose the element under the pointer"),
-    button(B::Middle, NONE, A::Hold(G::Drag), "choose the element under the pointer; drag: move the picture"),
+    button(B::Middle, NONE, A::Hold(G::Pan), "choose the element under the pointer; drag: move the picture"),
     wheel(1, NONE, A::Brush(1), H::Draw, "size of the brush"),
     wheel(-1, NONE, A::Brush(-1), H::Draw, "size of the brush"),
     key(K::BracketLeft, NONE, A::Brush(-1), H::Draw, "size of the brush"),
@@ -232,10 +146,6 @@ pub const BINDINGS: &[Binding] = {
 
     digit(K::Digit1, '1'), digit(K::Digit2, '2'), digit(K::Digit3, '3'), digit(K::Digit4, '4'), digit(K::Digit5, '5'),
     digit(K::Digit6, '6'), digit(K::Digit7, '7'), digit(K::Digit8, '8'), digit(K::Digit9, '9'), digit(K::Digit0, '0'),
-    key(K::KeyE, NONE, A::Search, H::Choose, "search elements and tools"),
-    key(K::KeyX, NONE, A::Tool(Tool::Erase), H::Choose, "eraser"),
-    key(K::KeyW, NONE, A::Tool(Tool::Wind), H::Choose, "wind: drag to blow"),
-    key(K::KeyQ, NONE, A::Tool(Tool::Pressure), H::Choose, "pressure: left adds, right sucks"),
 
     key(K::Space, NONE, A::Pause, H::World, "pause"),
     key(K::KeyP, NONE, A::Pause, H::World, "pause"),
@@ -248,14 +158,10 @@ pub const BINDINGS: &[Binding] = {
     key(K::Equal, NONE, A::ClearAir, H::World, "clear the air"),
     key(K::KeyR, NONE, A::Reset, H::World, "reset the scene (can be undone)"),
     key(K::KeyS, CTRL, A::Save, H::World, "save the world"),
-    key(K::KeyO, CTRL, A::Saves, H::World, "load a saved world (can be undone)"),
     key(K::F9, NONE, A::Record, H::World, "record; again: end the recording and write it"),
     key(K::F9, SHIFT, A::KeepLastMinute, H::World, "write the last minute as a recording"),
-    key(K::KeyM, NONE, A::Scenes, H::World, "scene menu"),
 
     key(K::KeyV, NONE, A::NextView, H::Look, "next view"),
-    view(K::Digit1, View::Elements), view(K::Digit2, View::Speed), view(K::Digit3, View::Density),
-    view(K::Digit4, View::Pressure), view(K::Digit5, View::Wind), view(K::Digit6, View::Stability),
     key(K::KeyZ, NONE, A::Zoom(1), H::Look, "zoom in at the pointer"),
     key(K::KeyZ, SHIFT, A::Zoom(-1), H::Look, "zoom out"),
     wheel(1, CTRL, A::Zoom(1), H::Look, "zoom in at the pointer"),
@@ -265,28 +171,55 @@ pub const BINDINGS: &[Binding] = {
     key(K::ArrowUp, NONE, A::Pan(0, 1), H::Look, "move the picture"),
     key(K::ArrowDown, NONE, A::Pan(0, -1), H::Look, "move the picture"),
     key(K::KeyH, NONE, A::Hud, H::Look, "hide the HUD"),
-    key(K::KeyA, NONE, A::Accuracy, H::Look, "accuracy: what it costs, and the autopilot"),
     key(K::KeyB, NONE, A::Split, H::Look, "A/B split: the same world at two qualities"),
-    key(K::F3, NONE, A::Details, H::Look, "details: what runs and what it costs"),
-    key(K::F4, NONE, A::Settings, H::Look, "settings"),
-    key(K::F6, NONE, A::Exam, H::Look, "physics exam: known answers, computed and compared"),
-    key(K::F7, NONE, A::Gauntlet, H::Look, "stability gauntlet: hard cases, to watch and to run"),
-    key(K::F1, NONE, A::Help, H::Look, "this help"),
-    key(K::Slash, SHIFT, A::Help, H::Look, "this help"),
     key(K::F11, NONE, A::FullScreen, H::Look, "full screen"),
     key(K::F2, NONE, A::Screenshot, H::Look, "screenshot"),
     key(K::Escape, NONE, A::Close, H::Look, "close"),
     ]
 };
 
-/// The action bound to a trigger with exactly these modifiers.
-pub fn find(trigger: Trigger, mods: Mods) -> Option<Action> {
-    BINDINGS.iter().find(|binding| binding.trigger == trigger && binding.mods == mods).map(|binding| binding.action)
+/// Every key, button and turn of the wheel that means something.
+#[derive(Resource, Clone, Debug)]
+pub struct Bindings(Vec<Binding>);
+
+impl Default for Bindings {
+    /// All but the panels' own.
+    fn default() -> Self {
+        let tools = TOOLS.map(|row| key(row.key, NONE, Action::Tool(Tool::Other(row)), Group::Choose, row.help));
+        let views = VIEWS.map(|view| key(view.key, SHIFT, Action::View(view), Group::Look, "choose a view"));
+        Self(OWN.iter().copied().chain(tools).chain(views).collect())
+    }
 }
 
-/// The first binding of an action, for tooltips and the palette.
-pub fn of(action: Action) -> Option<&'static Binding> {
-    BINDINGS.iter().find(|binding| binding.action == action)
+impl Bindings {
+    /// One more.
+    pub fn add(&mut self, binding: Binding) {
+        self.0.push(binding);
+    }
+
+    /// All, in the order of the help.
+    pub fn iter(&self) -> std::slice::Iter<'_, Binding> {
+        self.0.iter()
+    }
+
+    /// The action bound to a trigger with exactly these modifiers.
+    pub fn find(&self, trigger: Trigger, mods: Mods) -> Option<Action> {
+        self.iter().find(|binding| binding.trigger == trigger && binding.mods == mods).map(|binding| binding.action)
+    }
+
+    fn of(&self, action: Action) -> Option<&Binding> {
+        self.iter().find(|binding| binding.action == action)
+    }
+
+    /// The first key of an action; nothing if it has none.
+    pub fn key(&self, action: Action) -> String {
+        self.of(action).map(ToString::to_string).unwrap_or_default()
+    }
+
+    /// What an action does, and its key.
+    pub fn tip(&self, action: Action) -> String {
+        self.of(action).map(|binding| format!("{} ({binding})", binding.help)).unwrap_or_default()
+    }
 }
 
 impl fmt::Display for Binding {
@@ -371,11 +304,21 @@ fn key_name(key: KeyCode) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::game::hud;
+    use bevy::prelude::App;
+
+    /// Those of the whole game.
+    fn all() -> Bindings {
+        let mut app = App::new();
+        hud::panels::plugin(&mut app);
+        app.world().resource::<Bindings>().clone()
+    }
 
     #[test]
     fn no_chord_means_two_things() {
-        for (k, a) in BINDINGS.iter().enumerate() {
-            for b in &BINDINGS[k + 1..] {
+        let bindings = all();
+        for (k, a) in bindings.iter().enumerate() {
+            for b in bindings.iter().skip(k + 1) {
                 assert!(
                     a.trigger != b.trigger || a.mods != b.mods,
                     "`{a}` is bound to {:?} and {:?}",
@@ -388,7 +331,7 @@ mod tests {
 
     #[test]
     fn every_binding_has_a_name_and_a_help() {
-        for binding in BINDINGS {
+        for binding in all().iter() {
             assert!(!binding.to_string().contains("unnamed"), "{:?} has no name", binding.trigger);
             assert!(!binding.help.is_empty());
         }
@@ -396,11 +339,11 @@ mod tests {
 
     #[test]
     fn modifiers_must_match_exactly() {
-        let z = Trigger::Key(KeyCode::KeyZ);
-        assert_eq!(find(z, NONE), Some(Action::Zoom(1)));
-        assert_eq!(find(z, CTRL), Some(Action::Undo));
-        assert_eq!(find(z, CTRL_SHIFT), Some(Action::Redo));
-        assert_eq!(find(z, ALT), None);
-        assert_eq!(find(Trigger::Button(MouseButton::Left), SHIFT), Some(Action::Hold(Gesture::Line)));
+        let (bindings, z) = (Bindings::default(), Trigger::Key(KeyCode::KeyZ));
+        assert_eq!(bindings.find(z, NONE), Some(Action::Zoom(1)));
+        assert_eq!(bindings.find(z, CTRL), Some(Action::Undo));
+        assert_eq!(bindings.find(z, CTRL_SHIFT), Some(Action::Redo));
+        assert_eq!(bindings.find(z, ALT), None);
+        assert_eq!(bindings.find(Trigger::Button(MouseButton::Left), SHIFT), Some(Action::Hold(Gesture::Line)));
     }
 }

@@ -1,12 +1,7 @@
 //! Reads keyboard, mouse and fingers once a frame, event by event in the order in which they happened: at a low frame rate a
 //! whole stroke, or a chord of keys, lies between two frames.
 
-use crate::game::input::{
-    bindings::Mods,
-    keys::{self, Typing},
-    pointer::Hand,
-    touch::Fingers,
-};
+use crate::game::input::{bindings::Mods, keys::Typing, pointer::PointerInput, touch::Fingers};
 use bevy::{
     input::ButtonState,
     prelude::{ButtonInput, KeyCode, Local, MessageReader, Real, Res, ResMut, Time},
@@ -21,29 +16,29 @@ pub fn read_devices(
     time: Res<Time<Real>>,
     mut mods: Local<Mods>,
     mut fingers: ResMut<Fingers>,
-    mut hand: Hand,
+    mut pointer: PointerInput,
 ) {
-    hand.begin_frame();
+    pointer.begin_frame();
     for event in events.read() {
         match event {
             WindowEvent::KeyboardInput(key) => {
                 mods.follow(key.key_code, key.state == ButtonState::Pressed);
                 if key.state == ButtonState::Pressed && !key.repeat && !typing.0 {
-                    keys::press(key.key_code, *mods, &mut hand.orders);
+                    pointer.key(key.key_code, *mods);
                 }
             }
-            WindowEvent::CursorMoved(moved) => hand.move_to(moved.position),
-            WindowEvent::CursorLeft(_) => hand.leave(),
+            WindowEvent::CursorMoved(moved) => pointer.move_to(moved.position),
+            WindowEvent::CursorLeft(_) => pointer.leave(),
             WindowEvent::MouseButtonInput(button) => {
                 fingers.in_use = false;
                 match button.state {
-                    ButtonState::Pressed => hand.press(button.button, *mods),
-                    ButtonState::Released => hand.release(button.button),
+                    ButtonState::Pressed => pointer.press(button.button, *mods),
+                    ButtonState::Released => pointer.release(button.button),
                 }
             }
-            WindowEvent::MouseWheel(wheel) => hand.scroll(wheel, *mods),
-            WindowEvent::TouchInput(touch) => fingers.follow(touch, &mut hand),
-            WindowEvent::WindowFocused(focus) if !focus.focused => hand.let_go(),
+            WindowEvent::MouseWheel(wheel) => pointer.scroll(wheel, *mods),
+            WindowEvent::TouchInput(touch) => fingers.follow(touch, &mut pointer),
+            WindowEvent::WindowFocused(focus) if !focus.focused => pointer.let_go(),
             _ => {}
         }
     }
@@ -51,6 +46,6 @@ pub fn read_devices(
     if events.is_empty() {
         *mods = Mods::held(&keyboard);
     }
-    fingers.end_frame(time.delta_secs(), &mut hand);
-    hand.end_frame(time.delta_secs());
+    fingers.end_frame(time.delta_secs(), &mut pointer);
+    pointer.end_frame(time.delta_secs());
 }

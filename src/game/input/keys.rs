@@ -1,9 +1,9 @@
-//! The keyboard: presses become orders, held arrows move the picture.
+//! The keyboard: held arrows move the picture, text fields have the letters.
 
 use crate::game::{
+    actions::Action,
     camera::WorldCamera,
-    input::bindings::{self, Action, BINDINGS, Mods, Trigger},
-    orders::{Order, Orders},
+    input::bindings::{Bindings, Trigger},
 };
 use bevy::prelude::{ButtonInput, KeyCode, Real, Res, ResMut, Resource, Time};
 use glam::Vec2;
@@ -15,24 +15,18 @@ const PAN_SPEED: f32 = 700.0;
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Typing(pub bool);
 
-/// A key goes down.
-pub fn press(key: KeyCode, mods: Mods, orders: &mut Orders) {
-    if let Some(action) = bindings::find(Trigger::Key(key), mods) {
-        orders.push(Order::Act(action));
-    }
-}
-
 /// Moves the picture while an arrow is held.
 pub fn pan(
     keys: Res<ButtonInput<KeyCode>>,
     typing: Res<Typing>,
+    bindings: Res<Bindings>,
     time: Res<Time<Real>>,
     mut camera: ResMut<WorldCamera>,
 ) {
     if typing.0 || camera.zoom() == 1.0 {
         return;
     }
-    for binding in BINDINGS {
+    for binding in bindings.iter() {
         if let (Trigger::Key(key), Action::Pan(right, up)) = (binding.trigger, binding.action)
             && keys.pressed(key)
         {

@@ -2,13 +2,14 @@
 
 use crate::{
     game::{
+        actions::{Action, Gesture},
         camera::{Area, WorldCamera},
         input::{
-            bindings::{self, Action, Gesture, Mods, Trigger},
-            strokes::{Held, Pull},
+            bindings::{Bindings, Mods, Trigger},
+            strokes::{Drag, DragState},
         },
         orders::{Order, Orders},
-        tools::Toolbox,
+        tools::{Tool, Toolbox},
     },
     kernel::brush::Stroke,
     sim::intent::{Intent, IntentQueue},
@@ -16,7 +17,7 @@ use crate::{
 use bevy::{
     ecs::system::SystemParam,
     input::mouse::{MouseScrollUnit, MouseWheel},
-    prelude::{MouseButton, Res, ResMut, Resource},
+    prelude::{KeyCode, MouseButton, Res, ResMut, Resource},
 };
 use glam::Vec2;
 
@@ -52,47 +53,54 @@ impl HudCover {
     }
 }
 
-/// The player's hand: the pointer, what it holds, and what it acts on.
+/// The pointer, what it drags, and what it acts on.
 #[derive(SystemParam)]
-pub struct Hand<'w> {
-    /// Orders that it gives.
-    pub orders: ResMut<'w, Orders>,
+pub struct PointerInput<'w> {
+    orders: ResMut<'w, Orders>,
     pointer: ResMut<'w, Pointer>,
-    held: ResMut<'w, Held>,
+    drag: ResMut<'w, DragState>,
     camera: ResMut<'w, WorldCamera>,
     intents: ResMut<'w, IntentQueue>,
     tools: Res<'w, Toolbox>,
     cover: Res<'w, HudCover>,
+    bindings: Res<'w, Bindings>,
 }
 
-impl Hand<'_> {
+impl PointerInput<'_> {
     /// A frame begins.
     pub fn begin_frame(&mut self) {
-        if let Some(pull) = self.held.pull_mut() {
-            pull.begin_frame();
+        if let Some(drag) = self.drag.current_mut() {
+            drag.begin_frame();
         }
     }
 
     /// A frame of `seconds` ends.
     pub fn end_frame(&mut self, seconds: f32) {
-        if let Some(pull) = self.held.pull_mut() {
-            pull.end_frame(seconds);
+        if let Some(drag) = self.drag.current_mut() {
+            drag.end_frame(seconds);
+        }
+    }
+
+    /// A key goes down.
+    pub fn key(&mut self, key: KeyCode, mods: Mods) {
+        if let Some(action) = self.bindings.find(Trigger::Key(key), mods) {
+            self.orders.push(Order::Act(action));
         }
     }
 
     /// The pointer moves.
     pub fn move_to(&mut self, pixel: Vec2) {
         self.pointer.at = Some(pixel);
-        let Some(pull) = self.held.pull_mut() else { return };
-        if pull.gesture == Gesture::Drag {
-            self.camera.pan(pixel - pull.pixel);
+        let Some(drag) = self.drag.current_mut() else { return };
+        if drag.gesture == Gesture::Pan {
+            self.camera.pan(pixel - drag.pixel);
         }
-        pull.moved |= (pixel - pull.pressed_at).length() > CLICK;
-        pull.pixel = pixel;
-        pull.visit(self.camera.to_world(pixel), !self.cover.covers(pixel));
+        drag.moved |= (pixel - drag.pressed_at).length() > CLICK;
+        drag.pixel = pixel;
+        drag.visit(self.camera.to_world(pixel), !self.cover.covers(pixel));
     }
 
-    /// The pointer leaves the window. What it holds goes on: the system reports a drag beyond the window, too.
+    /// The pointer leaves the window. A drag goes on: the system reports a drag beyond the window, too.
     pub fn leave(&mut self) {
         self.pointer.at = None;
     }
@@ -111,14 +119,14 @@ impl Hand<'_> {
 
     /// The window loses the devices.
     pub fn let_go(&mut self) {
-        self.held.release();
+        self.drag.release();
         self.camera.let_pane_go();
     }
 
     /// A button goes down.
     pub fn press(&mut self, button: MouseButton, mods: Mods) {
         let Some(pixel) = self.pointer.at.filter(|pixel| !self.cover.covers(*pixel)) else { return };
-        match bindings::find(Trigger::Button(button), mods) {
+        match self.bindings.find(Trigger::Button(button), mods) {
             Some(Action::Hold(gesture)) => self.begin(gesture, button, pixel),
             Some(action) => self.orders.push(Order::Act(action)),
             None => {}
@@ -127,41 +135,37 @@ impl Hand<'_> {
 
     fn begin(&mut self, gesture: Gesture, button: MouseButton, pixel: Vec2) {
         let (at, tool) = (self.camera.to_world(pixel), self.tools.tool);
-        if gesture != Gesture::Drag {
+        if gesture != Gesture::Pan {
             self.orders.push(Order::Checkpoint);
         }
-        if gesture != Gesture::Fill && self.held.pull().is_none() {
+        if gesture != Gesture::Fill && self.drag.current().is_none() {
             self.camera.hold_pane(pixel);
         }
-        let freehand = tool.is_air() && matches!(gesture, Gesture::Line | Gesture::Rectangle | Gesture::Fill);
-        match (gesture, self.tools.element()) {
-            // The air tools know no shapes: they blow wherever they are dragged.
-            _ if freehand => self.held.begin(Pull::new(Gesture::Use, tool, button, pixel, at)),
-            (Gesture::Fill, Some(element)) => self.intents.push(Intent::Fill { element, at }),
-            (Gesture::Fill, None) => {}
-            _ => self.held.begin(Pull::new(gesture, tool, button, pixel, at)),
+        let freehand = tool.is_freehand() && matches!(gesture, Gesture::Line | Gesture::Rectangle | Gesture::Fill);
+        match (gesture, tool) {
+            _ if freehand => self.drag.begin(Drag::new(Gesture::Use, tool, button, pixel, at)),
+            (Gesture::Fill, Tool::Element(element)) => self.intents.push(Intent::Fill { element, at }),
+            (Gesture::Fill, Tool::Other(_)) => {}
+            _ => self.drag.begin(Drag::new(gesture, tool, button, pixel, at)),
         }
     }
 
     /// A button goes up.
     pub fn release(&mut self, button: MouseButton) {
-        let Some(pull) = self.held.pull().filter(|pull| pull.button == button) else { return };
-        let tools = self.tools.with(pull.tool);
-        let stroke = match pull.gesture {
-            Gesture::Line => Some(tools.stroke(pull.start, pull.now)),
-            Gesture::Rectangle => Some(Stroke::rectangle(pull.start, pull.now)),
-            Gesture::Use | Gesture::Erase | Gesture::Fill | Gesture::Drag => None,
+        let Some(drag) = self.drag.current().filter(|drag| drag.button == button) else { return };
+        let tools = self.tools.with(drag.tool);
+        let stroke = match drag.gesture {
+            Gesture::Line => Some(tools.stroke(drag.start, drag.now)),
+            Gesture::Rectangle => Some(Stroke::rectangle(drag.start, drag.now)),
+            Gesture::Use | Gesture::Erase | Gesture::Fill | Gesture::Pan => None,
         };
-        if let Some(stroke) = stroke {
-            self.intents.push(match tools.element() {
-                Some(element) => Intent::Stamp { element, stroke },
-                None => Intent::Erase { stroke },
-            });
+        if let Some(intent) = stroke.and_then(|stroke| tools.tool.shape(stroke)) {
+            self.intents.push(intent);
         }
-        if pull.gesture == Gesture::Drag && !pull.moved {
+        if drag.gesture == Gesture::Pan && !drag.moved {
             self.orders.push(Order::Act(Action::Sample));
         }
-        self.held.release();
+        self.drag.release();
         self.camera.let_pane_go();
     }
 
@@ -176,7 +180,7 @@ impl Hand<'_> {
         };
         let notches = self.pointer.turned.trunc();
         self.pointer.turned -= notches;
-        if let Some(action) = bindings::find(Trigger::Wheel(notches.signum() as i32), mods) {
+        if let Some(action) = self.bindings.find(Trigger::Wheel(notches.signum() as i32), mods) {
             for _ in 0..notches.abs().min(20.0) as u32 {
                 self.orders.push(Order::Act(action));
             }

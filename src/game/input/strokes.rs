@@ -1,16 +1,15 @@
-//! What the pointer holds, and the intents that it makes: one lot for each tick, however many frames a tick takes, so
+//! The drag of the pointer, and the intents that it makes: those of one tick at a time, however many frames a tick takes, so
 //! that pouring has a rate of its own on every screen.
 
 use crate::{
     game::{
-        input::bindings::Gesture,
-        tools::{Tool, Toolbox},
+        actions::Gesture,
+        tools::{Dab, Tool, Toolbox},
     },
-    kernel::brush::Stroke,
+    lab::colours::Reference,
     sim::{
         intent::{Intent, IntentQueue},
         state::Setup,
-        view::Reference,
     },
 };
 use bevy::prelude::{MouseButton, Res, ResMut, Resource};
@@ -18,20 +17,12 @@ use glam::Vec2;
 
 /// Time over which the speed of a drag is smoothed, s.
 const DRAG_MEMORY: f32 = 0.09;
-/// Speed of the wind for each unit of drag speed.
-const WIND_GAIN: f32 = 2.5;
-/// Most wind that a drag makes, in units of [`Reference::wind`]: the speed of sound. Water takes off at some two units.
-pub(in crate::game) const WIND_LIMIT: f32 = 5.0;
-/// A drag slower than this makes no wind, in units of [`Reference::wind`].
-const WIND_FLOOR: f32 = 0.02;
-/// Pressure that one tick of the pressure tool adds; the surroundings' is 1.
-const PRESS_STEP: f32 = 0.4;
 /// Points of the way that are kept for a tick.
 const WAY_LIMIT: usize = 64;
 
-/// A held button.
+/// A pressed button and the way of the pointer since.
 #[derive(Clone, Debug)]
-pub struct Pull {
+pub struct Drag {
     /// What it does.
     pub gesture: Gesture,
     /// With which tool: another choice before the release is for the next stroke.
@@ -57,7 +48,7 @@ pub struct Pull {
     released: bool,
 }
 
-impl Pull {
+impl Drag {
     /// A button pressed at a place.
     pub fn new(gesture: Gesture, tool: Tool, button: MouseButton, pixel: Vec2, at: Vec2) -> Self {
         Self {
@@ -105,66 +96,67 @@ impl Pull {
     }
 }
 
-/// The button that is held, if any. It outlives its release until a tick has seen it, so that no click is lost.
+/// The drag that goes on, if any. It outlives its release until a tick has seen it, so that no click is lost.
 #[derive(Resource, Clone, Debug, Default)]
-pub struct Held(Option<Pull>);
+pub struct DragState(Option<Drag>);
 
-impl Held {
+impl DragState {
     /// A button goes down. A second button waits until the first is up.
-    pub fn begin(&mut self, pull: Pull) {
-        if self.0.as_ref().is_none_or(|pull| pull.released) {
-            self.0 = Some(pull);
+    pub fn begin(&mut self, drag: Drag) {
+        if self.0.as_ref().is_none_or(|drag| drag.released) {
+            self.0 = Some(drag);
         }
     }
 
-    /// What is held now.
-    pub fn pull(&self) -> Option<&Pull> {
-        self.0.as_ref().filter(|pull| !pull.released)
+    /// The drag that goes on now.
+    pub fn current(&self) -> Option<&Drag> {
+        self.0.as_ref().filter(|drag| !drag.released)
     }
 
-    /// What is held now, to move it.
-    pub fn pull_mut(&mut self) -> Option<&mut Pull> {
-        self.0.as_mut().filter(|pull| !pull.released)
+    /// The drag that goes on now, to move it.
+    pub fn current_mut(&mut self) -> Option<&mut Drag> {
+        self.0.as_mut().filter(|drag| !drag.released)
     }
 
     /// The button goes up.
     pub fn release(&mut self) {
-        if let Some(pull) = &mut self.0 {
-            pull.released = true;
+        if let Some(drag) = &mut self.0 {
+            drag.released = true;
         }
     }
 }
 
-/// Turns what is held into the intents of one tick.
+/// Turns the drag into the intents of one tick.
 pub fn make_intents(
-    mut held: ResMut<Held>,
+    mut state: ResMut<DragState>,
     tools: Res<Toolbox>,
     setup: Option<Res<Setup>>,
     mut intents: ResMut<IntentQueue>,
 ) {
-    let (Some(pull), Some(setup)) = (&mut held.0, setup) else { return };
-    let tools = tools.with(pull.tool);
-    let reference = Reference::of(&setup.blueprint.domain, &setup.blueprint.air);
-    if tools.tool.is_air() {
-        thicken(&mut pull.way, 0.5 * tools.radius());
+    let (Some(drag), Some(setup)) = (&mut state.0, setup) else { return };
+    let tools = tools.with(drag.tool);
+    let wind = Reference::of(&setup.blueprint.domain, &setup.blueprint.air).wind;
+    if tools.tool.is_freehand() {
+        thicken(&mut drag.way, 0.5 * tools.radius());
     }
-    let strokes = match pull.way.as_slice() {
+    let strokes = match drag.way.as_slice() {
         [] => 0,
         way => way.len().max(2) - 1,
     };
     for k in 0..strokes {
-        let (from, to) = (pull.way[k], pull.way[(k + 1).min(pull.way.len() - 1)]);
-        if let Some(intent) = intent_of(pull, tools.stroke(from, to), &tools, reference, strokes) {
+        let (from, to) = (drag.way[k], drag.way[(k + 1).min(drag.way.len() - 1)]);
+        let dab = Dab { stroke: tools.stroke(from, to), velocity: drag.velocity, wind, share: 1.0 / strokes as f32 };
+        if let Some(intent) = intent_of(drag, &dab) {
             intents.push(intent);
         }
     }
-    pull.way.clear();
-    if pull.over_world {
-        let now = pull.now;
-        pull.way.push(now);
+    drag.way.clear();
+    if drag.over_world {
+        let now = drag.now;
+        drag.way.push(now);
     }
-    if pull.released {
-        held.0 = None;
+    if drag.released {
+        state.0 = None;
     }
 }
 
@@ -181,19 +173,11 @@ fn thicken(way: &mut Vec<Vec2>, gap: f32) {
     *way = thick;
 }
 
-/// What the tool wants along one of the `strokes` strokes of a tick.
-fn intent_of(pull: &Pull, stroke: Stroke, tools: &Toolbox, reference: Reference, strokes: usize) -> Option<Intent> {
-    let amount = PRESS_STEP / strokes as f32;
-    match (pull.gesture, tools.tool) {
-        (Gesture::Use, Tool::Element(element)) => Some(Intent::Draw { element, stroke }),
-        (Gesture::Use, Tool::Erase) => Some(Intent::Erase { stroke }),
-        (Gesture::Use, Tool::Wind) => {
-            let velocity = (pull.velocity * WIND_GAIN).clamp_length_max(WIND_LIMIT * reference.wind);
-            (velocity.length() > WIND_FLOOR * reference.wind).then_some(Intent::Blow { stroke, velocity })
-        }
-        (Gesture::Use, Tool::Pressure) => Some(Intent::Press { stroke, amount }),
-        (Gesture::Erase, Tool::Pressure) => Some(Intent::Press { stroke, amount: -amount }),
-        (Gesture::Erase, _) => Some(Intent::Erase { stroke }),
-        (Gesture::Line | Gesture::Rectangle | Gesture::Fill | Gesture::Drag, _) => None,
+/// What the tool of a drag wants along a piece of it.
+fn intent_of(drag: &Drag, dab: &Dab) -> Option<Intent> {
+    match drag.gesture {
+        Gesture::Use => drag.tool.left(dab),
+        Gesture::Erase => drag.tool.right(dab),
+        Gesture::Line | Gesture::Rectangle | Gesture::Fill | Gesture::Pan => None,
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! A second finger never comes down at the same moment as the first, so the first one waits a moment before it draws.
 
-use crate::game::input::{bindings::Mods, pointer::Hand};
+use crate::game::input::{bindings::Mods, pointer::PointerInput};
 use bevy::{
     input::touch::{TouchInput, TouchPhase},
     prelude::{MouseButton, Resource},
@@ -49,35 +49,35 @@ pub struct Fingers {
 
 impl Fingers {
     /// A finger comes, moves or goes.
-    pub fn follow(&mut self, touch: &TouchInput, hand: &mut Hand) {
+    pub fn follow(&mut self, touch: &TouchInput, pointer: &mut PointerInput) {
         match touch.phase {
-            TouchPhase::Started => self.put(touch.id, touch.position, hand),
-            TouchPhase::Moved => self.slide(touch.id, touch.position, hand),
-            TouchPhase::Ended => self.lift(touch.id, true, hand),
-            TouchPhase::Canceled => self.lift(touch.id, false, hand),
+            TouchPhase::Started => self.put(touch.id, touch.position, pointer),
+            TouchPhase::Moved => self.slide(touch.id, touch.position, pointer),
+            TouchPhase::Ended => self.lift(touch.id, true, pointer),
+            TouchPhase::Canceled => self.lift(touch.id, false, pointer),
         }
     }
 
     /// A frame of `seconds` ends.
-    pub fn end_frame(&mut self, seconds: f32, hand: &mut Hand) {
+    pub fn end_frame(&mut self, seconds: f32, pointer: &mut PointerInput) {
         if let Doing::Waiting(waited) = self.doing {
             self.doing = Doing::Waiting(waited + seconds);
             if waited + seconds > PATIENCE {
-                self.draw(hand);
+                self.draw(pointer);
             }
         }
     }
 
-    fn put(&mut self, id: u64, at: Vec2, hand: &mut Hand) {
+    fn put(&mut self, id: u64, at: Vec2, pointer: &mut PointerInput) {
         self.in_use = true;
         // The end of an earlier touch may have been missed: a page can lose its events.
         self.down.retain(|finger| finger.id != id);
         self.down.push(Finger { id, began: at, at });
         self.doing = match (self.down.len(), self.doing) {
-            (1, _) if hand.is_over_hud(at) => Doing::Other,
+            (1, _) if pointer.is_over_hud(at) => Doing::Other,
             (1, _) => Doing::Waiting(0.0),
             (_, Doing::Drawing) => {
-                hand.let_go();
+                pointer.let_go();
                 Doing::Moving
             }
             (_, Doing::Waiting(_)) => Doing::Moving,
@@ -85,46 +85,46 @@ impl Fingers {
         };
     }
 
-    fn slide(&mut self, id: u64, at: Vec2, hand: &mut Hand) {
+    fn slide(&mut self, id: u64, at: Vec2, pointer: &mut PointerInput) {
         let before = self.pair();
         let Some(finger) = self.down.iter_mut().find(|finger| finger.id == id) else { return };
         finger.at = at;
         let far = finger.began.distance(at) > DECIDED;
         match self.doing {
-            Doing::Waiting(_) if far => self.draw(hand),
-            Doing::Drawing => hand.move_to(at),
+            Doing::Waiting(_) if far => self.draw(pointer),
+            Doing::Drawing => pointer.move_to(at),
             Doing::Moving => {
                 if let (Some((middle, width)), Some((old_middle, old_width))) = (self.pair(), before) {
-                    hand.move_picture(old_middle, middle - old_middle, width / old_width);
+                    pointer.move_picture(old_middle, middle - old_middle, width / old_width);
                 }
             }
             _ => {}
         }
     }
 
-    fn lift(&mut self, id: u64, done: bool, hand: &mut Hand) {
+    fn lift(&mut self, id: u64, done: bool, pointer: &mut PointerInput) {
         if let (Doing::Waiting(_), true) = (self.doing, done) {
-            self.draw(hand);
+            self.draw(pointer);
         }
         self.down.retain(|finger| finger.id != id);
         match self.doing {
-            Doing::Drawing if done => hand.release(MouseButton::Left),
-            Doing::Drawing => hand.let_go(),
+            Doing::Drawing if done => pointer.release(MouseButton::Left),
+            Doing::Drawing => pointer.let_go(),
             Doing::Moving => self.doing = Doing::Other,
             _ => {}
         }
         if self.down.is_empty() {
             self.doing = Doing::Nothing;
-            hand.leave();
+            pointer.leave();
         }
     }
 
     /// The finger that waited begins to draw.
-    fn draw(&mut self, hand: &mut Hand) {
+    fn draw(&mut self, pointer: &mut PointerInput) {
         let Some(finger) = self.down.first() else { return };
-        hand.move_to(finger.began);
-        hand.press(MouseButton::Left, Mods::default());
-        hand.move_to(finger.at);
+        pointer.move_to(finger.began);
+        pointer.press(MouseButton::Left, Mods::default());
+        pointer.move_to(finger.at);
         self.doing = Doing::Drawing;
     }
 

@@ -2,7 +2,7 @@
 
 use crate::{
     kernel::air::Air,
-    sim::view::{Reference, View, air_colour},
+    lab::colours::{Reference, Rgb},
 };
 use glam::Vec2;
 
@@ -15,13 +15,13 @@ pub fn streak(tail: Vec2, head: Vec2, colour: [u8; 4]) -> Streak {
 }
 
 /// Packs the air's colours, premultiplied by their opacity, row by row from the bottom.
-pub fn pack(air: &Air, view: View, reference: Reference, out: &mut Vec<u8>) {
+pub fn pack(air: &Air, colour: fn(Reference, f32, Vec2) -> (Rgb, f32), reference: Reference, out: &mut Vec<u8>) {
     out.clear();
     for row in 0..air.rows() {
         let velocity = air.velocity_x_row(row).iter().zip(air.velocity_y_row(row));
         for (column, (&pressure, (&u, &v))) in air.pressure_row(row).iter().zip(velocity).enumerate() {
             let pressure = if air.is_solid_cell(column, row) { pressure_beside(air, column, row) } else { pressure };
-            let (rgb, opacity) = air_colour(view, reference, pressure, Vec2::new(u, v));
+            let (rgb, opacity) = colour(reference, pressure, Vec2::new(u, v));
             out.extend(rgb.map(|channel| (f32::from(channel) * opacity) as u8));
             out.push((255.0 * opacity) as u8);
         }

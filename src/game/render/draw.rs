@@ -1,8 +1,9 @@
 //! Draws the picture: the field of the liquid first, then everything in the window from back to front.
 
 use crate::game::render::{
-    extract::{Picture, Pictures},
+    extract::Pictures,
     gpu::{GpuPicture, GpuPictures, Layer},
+    picture::Picture,
     pipelines::{Ids, Pipelines},
 };
 use bevy::{
@@ -45,7 +46,7 @@ pub fn draw(
             ..RenderPassDescriptor::default()
         });
         pass.set_bind_group(0, pane.world, &[]);
-        instances(&mut pass, &cache, ids.blobs, pane.picture.blobs.buffer(), pane.picture.blobs.len());
+        instances(&mut pass, &cache, ids.particles, pane.picture.particles.buffer(), pane.picture.particles.len());
     }
     let mut pass = context.begin_tracked_render_pass(RenderPassDescriptor {
         label: Some("world"),
@@ -92,7 +93,7 @@ impl<'a> Pane<'a> {
             instances(pass, cache, ids.streaks, streaks.0, streaks.1);
         }
         screen(pass, cache, ids.liquid);
-        instances(pass, cache, ids.stones, picture.stones.buffer(), picture.stones.len());
+        instances(pass, cache, ids.rock, picture.rock.buffer(), picture.rock.len());
         if picture.streaks_on_top {
             instances(pass, cache, ids.streaks, streaks.0, streaks.1);
         }

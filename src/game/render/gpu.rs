@@ -1,9 +1,10 @@
 //! The picture on the graphics' side: buffers and textures, filled once a frame.
 
 use crate::game::render::{
-    RenderCost,
-    extract::{Picture, Pictures, WorldUniform},
-    pipelines::{Layouts, Pipelines},
+    cost::RenderCost,
+    extract::Pictures,
+    picture::{Picture, WorldUniform},
+    pipelines::{FIELD_FORMAT, Layouts, Pipelines},
 };
 use bevy::platform::time::Instant;
 use bevy::{
@@ -20,8 +21,6 @@ use bevy::{
 use glam::UVec2;
 use std::sync::atomic::Ordering;
 
-/// Format of the field that the liquid is drawn into. Its bytes are sRGB, but it is blended and sampled as they are.
-pub const FIELD_FORMAT: TextureFormat = TextureFormat::Rgba8Unorm;
 /// Texels of the field to one d: enough for a smooth surface; more would only cost.
 const FIELD_TEXELS_PER_D: f32 = 6.0;
 
@@ -85,10 +84,10 @@ pub fn upload(
 }
 
 fn hand_over(picture: &mut Picture, gpu: &mut GpuPicture, device: &RenderDevice, queue: &RenderQueue) {
-    write_growing!(picture.blobs, device, queue);
+    write_growing!(picture.particles, device, queue);
     write_growing!(picture.streaks, device, queue);
-    if picture.stones_new {
-        write_growing!(picture.stones, device, queue);
+    if picture.rock_new {
+        write_growing!(picture.rock, device, queue);
     }
     gpu.uniform.set(picture.uniform);
     gpu.uniform.write_buffer(device, queue);

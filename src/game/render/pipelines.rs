@@ -1,6 +1,6 @@
 //! The five pipelines of the picture, made for the format of the window's target.
 
-use crate::game::render::{extract::WorldUniform, gpu::FIELD_FORMAT};
+use crate::game::render::picture::WorldUniform;
 use bevy::{
     asset::Handle,
     mesh::VertexBufferLayout,
@@ -18,6 +18,9 @@ use bevy::{
     },
     shader::Shader,
 };
+
+/// Format of the field that the liquid is drawn into. Its bytes are sRGB, but it is blended and sampled as they are.
+pub const FIELD_FORMAT: TextureFormat = TextureFormat::Rgba8Unorm;
 
 /// The shader of the picture.
 #[derive(Resource)]
@@ -37,11 +40,11 @@ pub struct Ids {
     /// Box and air.
     pub backdrop: CachedRenderPipelineId,
     /// Particles into the field.
-    pub blobs: CachedRenderPipelineId,
+    pub particles: CachedRenderPipelineId,
     /// The liquid's surface.
     pub liquid: CachedRenderPipelineId,
     /// Rock.
-    pub stones: CachedRenderPipelineId,
+    pub rock: CachedRenderPipelineId,
     /// Streaks of wind.
     pub streaks: CachedRenderPipelineId,
 }
@@ -88,16 +91,16 @@ pub fn prepare(
     use VertexFormat as F;
     let ids = Ids {
         backdrop: maker.make("backdrop", "screen_vertex", screen, vec![], format, None),
-        blobs: maker.make(
-            "blob",
-            "blob_vertex",
+        particles: maker.make(
+            "particle",
+            "particle_vertex",
             quad,
             instances(&[F::Float32x2, F::Unorm8x4]),
             FIELD_FORMAT,
             Some(BlendState::PREMULTIPLIED_ALPHA_BLENDING),
         ),
         liquid: maker.make("liquid", "screen_vertex", screen, vec![], format, alpha),
-        stones: maker.make("rock", "rock_vertex", quad, instances(&[F::Uint16x2, F::Uint8x4]), format, alpha),
+        rock: maker.make("rock", "rock_vertex", quad, instances(&[F::Uint16x2, F::Uint8x4]), format, alpha),
         streaks: maker.make("streak", "streak_vertex", quad, instances(&[F::Float32x4, F::Unorm8x4]), format, alpha),
     };
     pipelines.made = Some((format, ids));
@@ -122,7 +125,7 @@ impl Maker<'_> {
     ) -> CachedRenderPipelineId {
         // The pass that draws into the field must not have the field bound.
         let mut layout = vec![self.layouts.world.clone()];
-        if name != "blob" {
+        if name != "particle" {
             layout.push(self.layouts.textures.clone());
         }
         self.cache.queue_render_pipeline(RenderPipelineDescriptor {

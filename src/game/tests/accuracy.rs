@@ -2,11 +2,12 @@
 
 use super::*;
 use crate::{
+    game::hud::panels::accuracy::panel::{AccuracyPanel, ID},
     kernel::params::Preset,
+    lab::difference::{Difference, Half},
     sim::{
         accuracy::{Survey, SurveyRequest, Watched},
         autopilot::{Autopilot, Goal},
-        difference::{Difference, Half},
         measures::Measures,
         split::Split,
         state::AirGrid,
@@ -36,7 +37,7 @@ fn a_key_opens_the_panel_and_only_then_the_error_is_measured() {
     let mut player = Player::new();
     assert!(!player.world().resource::<Watched>().0);
     player.chord(&[KeyCode::KeyA]);
-    assert!(player.world().resource::<HudState>().accuracy && player.world().resource::<Watched>().0);
+    assert!(player.world().resource::<Panels>().shows(ID) && player.world().resource::<Watched>().0);
     player.chord(&[KeyCode::KeyH]);
     player.frame();
     assert!(!player.world().resource::<Watched>().0, "a hidden panel looks at nothing");
@@ -48,7 +49,7 @@ fn all_is_measured_only_while_its_part_of_the_panel_is_open_and_seen() {
     let wanted = |player: &Player| player.world().resource::<Measures>().wanted();
     player.chord(&[KeyCode::KeyA]);
     assert!(!wanted(&player), "the panel opens with it closed");
-    player.0.world_mut().resource_mut::<HudState>().measures = true;
+    player.0.world_mut().resource_mut::<AccuracyPanel>().measures = true;
     player.frame();
     assert!(wanted(&player));
     player.chord(&[KeyCode::KeyH]);

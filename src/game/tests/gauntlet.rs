@@ -1,7 +1,7 @@
 //! Watching a hard case.
 
 use super::*;
-use crate::lab::gauntlet::CASES;
+use crate::{game::hud::panels::cases::gauntlet::ID, lab::gauntlet::CASES};
 
 fn gravity(player: &Player) -> f32 {
     player.world().resource::<Setup>().domain.gravity.y
@@ -38,7 +38,7 @@ fn a_case_is_played_with_its_script_until_another_scene_is() {
 fn a_key_opens_and_closes_the_list() {
     let mut player = Player::new();
     player.chord(&[KeyCode::F7]);
-    assert!(player.world().resource::<HudState>().gauntlet);
+    assert!(player.world().resource::<Panels>().shows(ID));
     player.chord(&[KeyCode::F7]);
-    assert!(!player.world().resource::<HudState>().gauntlet);
+    assert!(!player.world().resource::<Panels>().shows(ID));
 }

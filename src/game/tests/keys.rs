@@ -49,20 +49,20 @@ fn letters_in_a_text_field_are_no_keys() {
 fn keys_choose_views_tools_speed_and_brush() {
     let mut player = Player::new();
     player.chord(&[KeyCode::ShiftLeft, KeyCode::Digit2]);
-    assert_eq!(player.world().resource::<Shown>().0, View::Speed);
+    assert_eq!(player.world().resource::<Shown>().0, VIEWS[1]);
     player.chord(&[KeyCode::KeyV]);
-    assert_eq!(player.world().resource::<Shown>().0, View::Density);
+    assert_eq!(player.world().resource::<Shown>().0, VIEWS[2]);
     player.chord(&[KeyCode::ShiftLeft, KeyCode::Digit6]);
-    assert_eq!(player.world().resource::<Shown>().0, View::Stability);
+    assert_eq!(player.world().resource::<Shown>().0, VIEWS[5]);
     player.chord(&[KeyCode::Digit1]);
     let first =
         player.world().resource::<Setup>().elements().iter().find(|(_, e)| e.key == Some('1')).map(|(id, _)| id);
-    assert_eq!(player.world().resource::<Toolbox>().element(), first);
+    assert_eq!(player.world().resource::<Toolbox>().tool, Tool::Element(first.expect("one has this key")));
     player.chord(&[KeyCode::Minus]);
     assert_eq!(player.world().resource::<Pace>().speed, 0.5);
     let radius = player.world().resource::<Toolbox>().radius();
     player.chord(&[KeyCode::BracketRight]);
     assert!(player.world().resource::<Toolbox>().radius() > radius);
     player.chord(&[KeyCode::KeyH]);
-    assert!(!player.world().resource::<HudState>().visible);
+    assert!(!player.world().resource::<Panels>().visible);
 }

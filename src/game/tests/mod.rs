@@ -4,18 +4,20 @@ use crate::{
     game::{
         GamePlugin,
         camera::{Area, WorldCamera},
-        hud::{HudState, toast::Toasts},
         input::{keys::Typing, pointer::HudCover},
-        orders::{Order, Orders, Shown},
+        orders::{Order, Orders},
+        panels::Panels,
+        toasts::Toasts,
         tools::{Tool, Toolbox},
+        views::table::{Shown, VIEWS},
     },
+    lab::colours::Reference,
     scene::{self, blueprint::EffectModes},
     sim::{
         SimulationPlugin, control,
         intent::{Intent, IntentQueue},
         pace::Pace,
         state::{Clock, ParticleStore, Rock, Setup},
-        view::{Reference, View},
     },
 };
 use bevy::{

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::{
-    game::{input::bindings::Action, playback, recording, saves::SaveFolders},
+    game::{actions::Action, playback, recording, saves::SaveFolders},
     kernel::{params::Preset, simd::InstructionSet},
     scene::blueprint::{Effect, Mode},
     sim::{

@@ -1,0 +1,81 @@
+//! What a key, a button or a click on the HUD can ask for.
+
+use crate::game::{tools::Tool, views::table::View};
+
+/// What a player can do with a key, a button or a click on the HUD.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Action {
+    /// Begins something that lasts while the button is held.
+    Hold(Gesture),
+    /// Chooses the element under the pointer.
+    Sample,
+    /// Chooses the element with this digit.
+    Element(char),
+    /// Chooses a tool that is not an element.
+    Tool(Tool),
+    /// Makes the brush larger or smaller by steps.
+    Brush(i32),
+    /// Turns the brush from round to square and back.
+    BrushShape,
+    /// Stops and starts time.
+    Pause,
+    /// Runs one tick.
+    Step,
+    /// Halves (−1) or doubles (+1) the speed.
+    Speed(i32),
+    /// Back to the start of the scene.
+    Reset,
+    /// Takes the last edit back.
+    Undo,
+    /// Makes it again.
+    Redo,
+    /// Brings the air to rest.
+    ClearAir,
+    /// Shows a view.
+    View(&'static View),
+    /// Shows the next view.
+    NextView,
+    /// Zooms at the pointer, in (+1) or out (−1).
+    Zoom(i32),
+    /// Moves the picture while the key is held: right and up count.
+    Pan(i32, i32),
+    /// Shows or hides the HUD.
+    Hud,
+    /// Opens or closes a panel.
+    Panel(PanelId),
+    /// Closes whatever is open, but for the panels that stay.
+    Close,
+    /// Writes the world into a file.
+    Save,
+    /// Begins a recording, or ends it.
+    Record,
+    /// Writes the last minute as a recording.
+    KeepLastMinute,
+    /// Puts the world beside itself at another quality, or ends that.
+    Split,
+    /// Full screen and back.
+    FullScreen,
+    /// Writes a picture of the window.
+    Screenshot,
+}
+
+/// What a held button does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gesture {
+    /// Works with the chosen tool along the way of the pointer.
+    Use,
+    /// Draws a straight line when released.
+    Line,
+    /// Draws a filled rectangle when released.
+    Rectangle,
+    /// Fills the free space around the pointer.
+    Fill,
+    /// Erases along the way of the pointer; with the pressure tool, sucks.
+    Erase,
+    /// Moves the picture; a click without moving samples.
+    Pan,
+}
+
+/// Name of a panel of the HUD.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct PanelId(pub &'static str);

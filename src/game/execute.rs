@@ -1,0 +1,225 @@
+//! Carries out the orders of keys and HUD, between ticks.
+
+use crate::{
+    game::{
+        actions::Action,
+        camera::WorldCamera,
+        frame::SPEED_RANGE,
+        history::{self, History},
+        hud::panels::details,
+        input::{
+            bindings::Bindings,
+            pointer::{Pointer, ZOOM_STEP},
+        },
+        orders::{Order, Orders},
+        panels::Panels,
+        recording,
+        render::extract::Epoch,
+        saves, screen, split,
+        toasts::Toasts,
+        tools::{Tool, Toolbox},
+        views::table::Shown,
+    },
+    kernel::{element::ElementId, params::Preset, solids::Solids},
+    lab::gauntlet::CASES,
+    scene::{
+        self,
+        blueprint::{EffectModes, Mode},
+    },
+    sim::{
+        accuracy::Survey,
+        autopilot::Autopilot,
+        control,
+        effects::Effects,
+        intent::{Intent, IntentQueue},
+        pace::Pace,
+        state::{ParticleStore, Rock, Setup},
+    },
+};
+use bevy::prelude::World;
+use glam::Vec2;
+use std::sync::Arc;
+
+/// How far from the pointer a particle can be sampled, d.
+const SAMPLE_REACH: f32 = 1.5;
+
+/// Carries out what waits.
+pub fn carry_out(world: &mut World) {
+    let waiting = world.resource_mut::<Orders>().take();
+    for order in waiting {
+        match order {
+            Order::Act(action) => act(world, action),
+            Order::Checkpoint => history::checkpoint(world),
+            Order::Choose(tool) => take_up(world, tool),
+            Order::Speed(speed) => {
+                world.resource_mut::<Pace>().speed = speed.clamp(*SPEED_RANGE.start(), *SPEED_RANGE.end());
+            }
+            Order::Quality(preset) => {
+                // A choice by hand ends the autopilot.
+                world.resource_mut::<Autopilot>().hold(None);
+                world.resource_mut::<IntentQueue>().push(Intent::Quality { preset, quality: preset.quality() });
+            }
+            Order::SecondQuality(preset) => split::choose(world, preset),
+            Order::Hold(goal) => world.resource_mut::<Autopilot>().hold(goal),
+            Order::Survey(request) => world.resource_mut::<Survey>().request = Some(request),
+            Order::Effect(effect, mode) => {
+                world.resource_mut::<IntentQueue>().push(Intent::Effect { effect, mode });
+            }
+            Order::Load(path) => saves::load(world, &path),
+            Order::Scene { name, settings } => {
+                let preset = world.get_resource::<Setup>().map(|setup| setup.preset);
+                play(world, &name, &settings, preset);
+            }
+            Order::Open { name, settings, quality } => {
+                // Else it would soon go on at another quality.
+                world.resource_mut::<Autopilot>().hold(None);
+                play(world, &name, &settings, quality);
+            }
+            Order::Watch(name) => watch(world, name),
+        }
+    }
+}
+
+fn act(world: &mut World, action: Action) {
+    match action {
+        // The pointer follows held buttons, the keyboard held arrows.
+        Action::Hold(_) | Action::Pan(..) => {}
+        Action::Sample => sample(world),
+        Action::Tool(tool) => take_up(world, tool),
+        Action::Element(_) | Action::Brush(_) | Action::BrushShape => choose(world, action),
+        Action::Pause | Action::Step | Action::Speed(_) => keep_time(world, action),
+        Action::Reset | Action::Undo | Action::Redo | Action::ClearAir => change_world(world, action),
+        Action::View(view) => world.resource_mut::<Shown>().0 = view,
+        Action::NextView => {
+            let mut shown = world.resource_mut::<Shown>();
+            shown.0 = shown.0.next();
+        }
+        Action::Zoom(steps) => {
+            let pixel = world.resource::<Pointer>().at;
+            let mut camera = world.resource_mut::<WorldCamera>();
+            let pixel = pixel.unwrap_or(camera.window() / 2.0);
+            camera.zoom_at(pixel, if steps > 0 { ZOOM_STEP } else { 1.0 / ZOOM_STEP });
+        }
+        Action::Save => {
+            recording::write(world);
+            saves::save(world);
+        }
+        Action::Record => recording::toggle(world),
+        Action::KeepLastMinute => recording::keep_last_minute(world),
+        Action::Panel(id) => world.resource_mut::<Panels>().toggle(id),
+        Action::Hud => world.resource_mut::<Panels>().turn_hud(),
+        Action::Close => world.resource_mut::<Panels>().close_all(),
+        Action::Split => split::toggle(world),
+        Action::FullScreen => screen::toggle_full_screen(world),
+        Action::Screenshot => screen::take_screenshot(world),
+    }
+}
+
+/// Plays another scene; without a `preset` at its own quality.
+fn play(world: &mut World, name: &str, settings: &[(String, String)], preset: Option<Preset>) {
+    match scene::load(name).and_then(|scene| scene.build(settings, preset, &EffectModes::new())) {
+        Ok(blueprint) => {
+            control::load(world, Arc::new(blueprint));
+            world.resource_mut::<History>().clear();
+            world.resource_mut::<Epoch>().0 += 1;
+        }
+        Err(error) => world.resource_mut::<Toasts>().warn(error.to_string()),
+    }
+}
+
+/// Plays a hard case, at the quality that is in force.
+fn watch(world: &mut World, name: &str) {
+    let Some(case) = CASES.iter().find(|case| case.name == name) else { return };
+    let preset = world.get_resource::<Setup>().map_or(Preset::Balanced, |setup| setup.preset);
+    match case.play(world, preset) {
+        Ok(()) => {
+            world.resource_mut::<History>().clear();
+            world.resource_mut::<Epoch>().0 += 1;
+        }
+        Err(error) => world.resource_mut::<Toasts>().warn(error.to_string()),
+    }
+}
+
+fn take_up(world: &mut World, tool: Tool) {
+    world.resource_mut::<Toolbox>().tool = tool;
+    let Some(effect) = tool.needs() else { return };
+    if world.get_resource::<Effects>().is_some_and(|effects| effects.get(effect).mode == Mode::Off) {
+        let (name, key) = (effect.name(), world.resource::<Bindings>().key(Action::Panel(details::ID)));
+        world
+            .resource_mut::<Toasts>()
+            .warn(format!("The {name} is off in this scene: switch it on in the details ({key})"));
+    }
+}
+
+fn choose(world: &mut World, action: Action) {
+    let Some(setup) = world.get_resource::<Setup>() else { return };
+    let element = match action {
+        Action::Element(digit) => {
+            setup.elements().iter().find(|(_, element)| element.key == Some(digit)).map(|(id, _)| id)
+        }
+        _ => None,
+    };
+    let mut tools = world.resource_mut::<Toolbox>();
+    match action {
+        Action::Element(_) => tools.tool = element.map_or(tools.tool, Tool::Element),
+        Action::Brush(steps) => tools.grow(steps),
+        Action::BrushShape => tools.turn_shape(),
+        _ => {}
+    }
+}
+
+fn keep_time(world: &mut World, action: Action) {
+    let mut pace = world.resource_mut::<Pace>();
+    match action {
+        Action::Pause => *pace = Pace { paused: !pace.paused, steps_due: 0, ..*pace },
+        Action::Step => *pace = Pace { paused: true, steps_due: pace.steps_due + 1, ..*pace },
+        Action::Speed(steps) => {
+            let factor = if steps > 0 { 2.0 } else { 0.5 };
+            pace.speed = (pace.speed * factor).clamp(*SPEED_RANGE.start(), *SPEED_RANGE.end());
+        }
+        _ => {}
+    }
+}
+
+fn change_world(world: &mut World, action: Action) {
+    let told = match action {
+        Action::Reset => {
+            history::checkpoint(world);
+            control::reset(world);
+            "Reset"
+        }
+        Action::ClearAir => {
+            history::checkpoint(world);
+            world.resource_mut::<IntentQueue>().push(Intent::ClearAir);
+            "Air cleared"
+        }
+        Action::Undo if history::undo(world) => "Undone",
+        Action::Undo => "Nothing to undo",
+        Action::Redo if history::redo(world) => "Made again",
+        _ => "Nothing to make again",
+    };
+    world.resource_mut::<Epoch>().0 += 1;
+    world.resource_mut::<Toasts>().say(told);
+}
+
+/// Takes up the element under the pointer.
+fn sample(world: &mut World) {
+    let Some(pixel) = world.resource::<Pointer>().at else { return };
+    let at = world.resource::<WorldCamera>().to_world(pixel);
+    if let Some(element) = element_at(world, at) {
+        world.resource_mut::<Toolbox>().tool = Tool::Element(element);
+    }
+}
+
+/// The rock at a point, or else the movable particle that is nearest within reach.
+fn element_at(world: &World, at: Vec2) -> Option<ElementId> {
+    let rock = world.get_resource::<Rock>()?.get(Solids::cell_of(at));
+    let particles = world.get_resource::<ParticleStore>()?;
+    rock.map(|(element, _)| element).or_else(|| {
+        (0..particles.len())
+            .map(|i| (particles.position(i).distance_squared(at), particles.element[i]))
+            .filter(|(distance, _)| *distance < SAMPLE_REACH * SAMPLE_REACH)
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, element)| element)
+    })
+}

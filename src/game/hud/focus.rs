@@ -1,0 +1,43 @@
+//! What belongs to the HUD and what to the world: parts of the window, and keys.
+
+use crate::game::{
+    camera::Area,
+    input::{keys::Typing, pointer::HudCover},
+};
+use bevy::prelude::{Query, ResMut, Result};
+use bevy_egui::{EguiContext, EguiContexts, EguiInput, egui};
+use glam::Vec2;
+
+/// Notes which parts of the window the HUD has.
+pub fn note_cover(mut cover: ResMut<HudCover>, mut contexts: EguiContexts) -> Result {
+    let context = contexts.ctx_mut()?;
+    let zoom = context.zoom_factor();
+    cover.menu = egui::Popup::is_any_open(context);
+    cover.parts.clear();
+    for layer in context.memory(|memory| memory.areas().visible_layer_ids()) {
+        // The root, behind everything, fills the window.
+        if layer.order == egui::Order::Background {
+            continue;
+        }
+        if let Some(area) = egui::AreaState::load(context, layer.id).filter(|area| area.interactable) {
+            let (min, max) = (area.rect().min, area.rect().max);
+            cover.parts.push(Area { min: Vec2::new(min.x, min.y) * zoom, max: Vec2::new(max.x, max.y) * zoom });
+        }
+    }
+    Ok(())
+}
+
+/// Keys belong to the game unless a text field has them; egui would move its focus with Tab and arrows and press what
+/// is focused with Space.
+pub fn keep_keys(mut contexts: Query<(&mut EguiContext, &mut EguiInput)>, mut typing: ResMut<Typing>) {
+    for (mut context, mut input) in &mut contexts {
+        let in_text = context.get_mut().text_edit_focused();
+        typing.0 = in_text;
+        if !in_text {
+            input.events.retain(|event| {
+                !matches!(event, egui::Event::Key { key, .. } if *key != egui::Key::Escape)
+                    && !matches!(event, egui::Event::Text(_))
+            });
+        }
+    }
+}

@@ -1,0 +1,337 @@
+//! The accuracy panel: the running world on the curve of error against time, the presets to choose on it, the survey
+//! that measures the curve here and now, the autopilot, the A/B split, what each stage takes of a tick, and on demand all
+//! else that is measured.
+
+use crate::{
+    game::{
+        actions::{Action, PanelId},
+        hud::{
+            panels::accuracy::{
+                axis::percent,
+                measures, pilot,
+                plot::{Live, Plot},
+            },
+            style::{self, weak},
+            widgets::{icon_button, quality_name},
+        },
+        icons,
+        input::bindings::{Bindings, Group, NONE},
+        orders::{Order, Orders},
+        panels::{Panel, Panels},
+    },
+    scene::blueprint::Blueprint,
+    sim::{
+        accuracy::{Curve, LiveError, Survey, SurveyRequest, fingerprint},
+        autopilot::Autopilot,
+        ledger::{Pass, PassLedger},
+        measures::Measures,
+        numbers::{self, short},
+        split::Split,
+        state::{Clock, Setup},
+    },
+};
+use bevy::prelude::{App, KeyCode, Res, ResMut, Resource, Result};
+use bevy_egui::{
+    EguiContexts,
+    egui::{self, Color32, RichText, Sense, Ui, vec2},
+};
+use std::{collections::BTreeMap, sync::Arc};
+
+/// Its name.
+pub const ID: PanelId = PanelId("accuracy");
+
+/// Width of the panel's contents, points.
+const WIDTH: f32 = 396.0;
+/// Places of the live point that are remembered: two seconds.
+const TRAIL: usize = 40;
+/// Ticks from one of them to the next.
+const TRAIL_EVERY: u64 = 3;
+/// Stages that take less of a tick than this share are summed up.
+const SMALL: f32 = 0.02;
+
+/// What the panel remembers.
+#[derive(Resource, Default)]
+pub struct AccuracyPanel {
+    /// The last curve of each scene, by its fingerprint.
+    curves: BTreeMap<u64, Curve>,
+    /// The scene that is played, and its fingerprint.
+    scene: Option<(Arc<Blueprint>, u64)>,
+    trail: Vec<Live>,
+    trail_tick: u64,
+    bounds: pilot::Bounds,
+    /// Whether all measures are shown.
+    pub measures: bool,
+    /// Whether all of them were in sight since they were opened.
+    measures_seen: bool,
+}
+
+impl AccuracyPanel {
+    /// The fingerprint of the scene that is played; the trail of another ends.
+    fn turn_to(&mut self, blueprint: &Arc<Blueprint>) -> u64 {
+        match &self.scene {
+            Some((known, fingerprint)) if Arc::ptr_eq(known, blueprint) => *fingerprint,
+            _ => {
+                let found = fingerprint(blueprint);
+                self.scene = Some((blueprint.clone(), found));
+                self.trail.clear();
+                found
+            }
+        }
+    }
+
+    /// Takes up what was measured since.
+    fn follow(&mut self, survey: &Survey, clock: &Clock, now: Option<Live>) {
+        if !survey.curve.points.is_empty() && self.curves.get(&survey.curve.of) != Some(&survey.curve) {
+            self.curves.insert(survey.curve.of, survey.curve.clone());
+        }
+        if clock.tick < self.trail_tick || now.is_none() {
+            self.trail.clear();
+        } else if clock.tick < self.trail_tick + TRAIL_EVERY && !self.trail.is_empty() {
+            return;
+        }
+        self.trail_tick = clock.tick;
+        if self.trail.len() == TRAIL {
+            self.trail.remove(0);
+        }
+        self.trail.extend(now);
+    }
+}
+
+/// Adds the panel.
+pub fn plugin(app: &mut App) {
+    app.init_resource::<AccuracyPanel>();
+    let panel = Panel {
+        id: ID,
+        title: "Accuracy",
+        icon: icons::curve,
+        keys: &[(KeyCode::KeyA, NONE)],
+        group: Group::Look,
+        help: "accuracy: what it costs, and the autopilot",
+        in_bar: true,
+        in_list: Some("Accuracy and cost"),
+        stays: true,
+    };
+    Panels::add(app, panel, show);
+}
+
+/// Shows the panel.
+fn show(
+    mut contexts: EguiContexts,
+    mut panels: ResMut<Panels>,
+    mut panel: ResMut<AccuracyPanel>,
+    setup: Res<Setup>,
+    clock: Res<Clock>,
+    measured: (Res<PassLedger>, Res<LiveError>, Res<Measures>),
+    survey: Res<Survey>,
+    autopilot: Res<Autopilot>,
+    (split, bindings): (Res<Split>, Res<Bindings>),
+    mut orders: ResMut<Orders>,
+) -> Result {
+    let (ledger, error, measures) = measured;
+    let milliseconds = ledger.tick().median().as_secs_f32() * 1000.0;
+    let live = (milliseconds > 0.0).then(|| Live { milliseconds, error: error.mean() });
+    let scene = panel.turn_to(&setup.blueprint);
+    panel.follow(&survey, &clock, live);
+    let context = contexts.ctx_mut()?;
+    let screen = context.content_rect();
+    let height = screen.height() - 215.0;
+    let place = (egui::Align2::RIGHT_TOP, screen.right_top() + vec2(-14.0, 54.0));
+    style::panel(context, &mut panels, ID, place, |ui| {
+        egui::ScrollArea::vertical().min_scrolled_height(height).max_height(height).show(ui, |ui| {
+            ui.set_width(WIDTH.min(screen.width() - 60.0));
+            ui.spacing_mut().button_padding = vec2(7.0, 2.0);
+            headline(ui, &setup, milliseconds, &error);
+            let AccuracyPanel { curves, trail, bounds, measures: open, measures_seen: seen, .. } = &mut *panel;
+            let curve = curves.get(&scene);
+            let scale = curve.and_then(Curve::scale);
+            let plot = Plot {
+                curve,
+                scale: scale.unwrap_or(1.0),
+                trail,
+                goal: autopilot.goal(),
+                now: setup.quality,
+                looked: error.latest().is_some(),
+            };
+            let size = vec2(ui.available_width(), (0.34 * screen.height()).clamp(150.0, 240.0));
+            if let Some(preset) = plot.show(ui, size).or(plot.chips(ui)) {
+                orders.push(Order::Quality(preset));
+            }
+            measure(ui, &survey, curve, scale, (&split, &bindings), &mut orders);
+            ui.separator();
+            pilot::show(ui, &autopilot, bounds, &mut orders);
+            pilot::status(ui, &autopilot, &setup, milliseconds, error.mean());
+            ui.separator();
+            stages(ui, &ledger, &error);
+            ui.separator();
+            measures::show(ui, open, seen, &measures);
+        });
+    });
+    Ok(())
+}
+
+fn headline(ui: &mut Ui, setup: &Setup, milliseconds: f32, error: &LiveError) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 5.0;
+        ui.label(RichText::new(format!("{milliseconds:.2}")).heading().color(Color32::WHITE));
+        ui.label(weak("ms a tick"));
+        ui.add_space(10.0);
+        let (mean, p99) = (error.mean(), error.p99());
+        ui.label(RichText::new(mean.map_or("none".into(), percent)).heading().color(Color32::WHITE));
+        ui.label(weak("error"));
+        if let Some(p99) = p99 {
+            ui.label(weak(format!("(p99 {})", percent(p99))));
+        }
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.label(RichText::new(quality_name(setup.preset, &setup.quality)).color(style::ACCENT));
+        });
+    })
+    .response
+    .on_hover_text(
+        "Mean and 99th percentile of how much too dense the liquid stands, from a sample of its particles over half a \
+         second; the time is the median of the last ticks",
+    );
+}
+
+/// The survey, and the split.
+fn measure(
+    ui: &mut Ui,
+    survey: &Survey,
+    curve: Option<&Curve>,
+    scale: Option<f32>,
+    (split, bindings): (&Split, &Bindings),
+    orders: &mut Orders,
+) {
+    ui.horizontal(|ui| {
+        match survey.progress {
+            Some(progress) => {
+                let bar = egui::ProgressBar::new(progress).desired_width(190.0).desired_height(22.0);
+                ui.add(bar.text(format!("measuring, {:.0} %", 100.0 * progress)).fill(style::ACCENT_FILL));
+                if ui.button("cancel").clicked() {
+                    orders.push(Order::Survey(SurveyRequest::Cancel));
+                }
+            }
+            None => {
+                let button = style::main_button(ui, "Measure here");
+                let told = "Takes the world as it is and runs every quality from it for two seconds, on one thread \
+                            beside the game, which plays on";
+                if button.on_hover_text(told).clicked() {
+                    orders.push(Order::Survey(SurveyRequest::Begin));
+                }
+            }
+        }
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if icon_button(ui, icons::split, Some("A/B split"), split.is_on())
+                .on_hover_text(bindings.tip(Action::Split))
+                .clicked()
+            {
+                orders.push(Order::Act(Action::Split));
+            }
+        });
+    });
+    if let Some(curve) = curve {
+        let times = match scale {
+            Some(scale) if (scale - 1.0).abs() > 0.005 => format!(", times × {} as in the game", short(scale)),
+            _ => String::new(),
+        };
+        let from = numbers::grouped(curve.tick);
+        let told = format!("{} from tick {from} on, one thread, all awake{times}", curve.scene);
+        ui.label(weak(told).small());
+    }
+}
+
+/// What the stages take of a tick.
+fn stages(ui: &mut Ui, ledger: &PassLedger, error: &LiveError) {
+    let tick = ledger.tick().median().as_secs_f32() * 1000.0;
+    let times = Pass::ALL.map(|pass| (pass.name(), ledger.record(pass).median().as_secs_f32() * 1000.0));
+    let longest = times.iter().map(|(_, time)| *time).fold(0.0, f32::max);
+    let mut rest = tick;
+    for (name, time) in times {
+        if time >= SMALL * tick && tick > 0.0 {
+            bar(ui, name, time, longest);
+            rest -= time;
+        }
+    }
+    if tick > 0.0 {
+        bar(ui, "others", rest.max(0.0), longest);
+    }
+    ui.label(weak(format!("measuring the error takes {} ms a tick more", short(error.milliseconds_a_tick()))).small());
+}
+
+fn bar(ui: &mut Ui, name: &str, time: f32, longest: f32) {
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 14.0), Sense::hover());
+    let (names, numbers) = (70.0, 52.0);
+    let font = egui::FontId::proportional(12.0);
+    ui.painter().text(rect.left_center(), egui::Align2::LEFT_CENTER, name, font, style::TEXT);
+    let number = format!("{time:.3}");
+    ui.painter().text(
+        rect.left_center() + vec2(names + numbers - 8.0, 0.0),
+        egui::Align2::RIGHT_CENTER,
+        number,
+        egui::FontId::monospace(11.0),
+        style::TEXT,
+    );
+    let room = rect.with_min_x(rect.left() + names + numbers).shrink2(vec2(0.0, 2.0));
+    ui.painter().rect_filled(room, 3.0, style::BUTTON);
+    if longest > 0.0 {
+        let filled = room.with_max_x(room.left() + room.width() * (time / longest).min(1.0));
+        ui.painter().rect_filled(filled, 3.0, style::ACCENT.gamma_multiply(0.75));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        kernel::params::Preset,
+        scene::{self, blueprint::EffectModes},
+    };
+
+    #[test]
+    fn each_scene_and_each_setting_of_it_has_its_own_curve() {
+        let build = |columns: &str, preset| {
+            let settings = [("columns".to_owned(), columns.to_owned())];
+            let scene = scene::load("dam_break").unwrap();
+            Arc::new(scene.build(&settings, preset, &EffectModes::new()).unwrap())
+        };
+        let mut panel = AccuracyPanel::default();
+        let first = build("10", None);
+        let of = panel.turn_to(&first);
+        panel.curves.insert(of, Curve::default());
+        panel.trail.push(Live { milliseconds: 1.0, error: None });
+        let shows = |panel: &mut AccuracyPanel, blueprint: &Arc<Blueprint>| {
+            let scene = panel.turn_to(blueprint);
+            panel.curves.contains_key(&scene)
+        };
+        assert!(shows(&mut panel, &first) && panel.trail.len() == 1);
+        assert!(!shows(&mut panel, &build("12", None)), "the curve of other settings is shown");
+        assert!(panel.trail.is_empty(), "and the trail of another scene");
+        assert!(shows(&mut panel, &build("10", Some(Preset::Fine))), "the same scene again has lost its curve");
+    }
+
+    #[test]
+    fn the_panel_keeps_a_curve_for_each_scene_and_a_short_trail() {
+        let mut panel = AccuracyPanel::default();
+        let live = Some(Live { milliseconds: 1.0, error: Some(0.01) });
+        let point = crate::sim::accuracy::CurvePoint {
+            preset: Preset::Fast,
+            quality: Preset::Fast.quality(),
+            milliseconds: 1.0,
+            error: Some(0.01),
+            p99: None,
+        };
+        let survey =
+            |of: u64| Survey { curve: Curve { of, points: vec![point], ..Curve::default() }, ..Survey::default() };
+        for (scene, ticks) in [(1, 0..300), (2, 0..300)] {
+            for tick in ticks {
+                let clock = Clock { tick, ..Clock::default() };
+                panel.follow(&survey(scene), &clock, live);
+            }
+        }
+        assert_eq!(panel.curves.len(), 2);
+        assert_eq!(panel.trail.len(), TRAIL);
+        panel.follow(&Survey::default(), &Clock::default(), live);
+        assert_eq!(panel.trail.len(), 1, "another history begins a new trail");
+        panel.follow(&Survey::default(), &Clock::default(), None);
+        assert!(panel.trail.is_empty());
+    }
+}

@@ -1,0 +1,115 @@
+//! The autopilot's part of the panel: what it is to hold, and how it stands with that.
+
+use crate::{
+    game::{
+        hud::{panels::accuracy::axis::percent, style, widgets::quality_name},
+        orders::{Order, Orders},
+    },
+    sim::{
+        autopilot::{Autopilot, Goal, controller::Verdict},
+        numbers::short,
+        state::Setup,
+    },
+};
+use bevy_egui::egui::{self, RichText, Ui};
+
+/// Bounds that can be chosen: ms a tick.
+const TIMES: std::ops::RangeInclusive<f32> = 0.2..=33.0;
+/// Bounds that can be chosen: density error, %.
+const PERCENTS: std::ops::RangeInclusive<f32> = 0.005..=20.0;
+
+/// The bounds on the sliders.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// ms a tick.
+    time: f32,
+    /// Density error, %.
+    percent: f32,
+}
+
+impl Default for Bounds {
+    fn default() -> Self {
+        Self { time: 4.0, percent: 0.2 }
+    }
+}
+
+/// Shows it.
+pub fn show(ui: &mut Ui, autopilot: &Autopilot, bounds: &mut Bounds, orders: &mut Orders) {
+    let goal = autopilot.goal();
+    ui.horizontal(|ui| {
+        ui.label("Autopilot");
+        ui.spacing_mut().item_spacing.x = 3.0;
+        let time = matches!(goal, Some(Goal::Time(_)));
+        let error = matches!(goal, Some(Goal::Error(_)));
+        for (chosen, name, wanted) in [
+            (goal.is_none(), "off", None),
+            (time, "hold the time", Some(Goal::Time(bounds.time))),
+            (error, "hold the error", Some(Goal::Error(bounds.percent / 100.0))),
+        ] {
+            if ui.selectable_label(chosen, name).clicked() && !chosen {
+                orders.push(Order::Hold(wanted));
+            }
+        }
+    });
+    let changed = match goal {
+        None => return,
+        Some(Goal::Time(_)) => slider(ui, &mut bounds.time, TIMES, "ms a tick").then_some(Goal::Time(bounds.time)),
+        Some(Goal::Error(_)) => {
+            slider(ui, &mut bounds.percent, PERCENTS, "% density error").then_some(Goal::Error(bounds.percent / 100.0))
+        }
+    };
+    if changed.is_some() {
+        orders.push(Order::Hold(changed));
+    }
+}
+
+fn slider(ui: &mut Ui, value: &mut f32, range: std::ops::RangeInclusive<f32>, unit: &str) -> bool {
+    ui.horizontal(|ui| {
+        ui.label("at most");
+        let slider = egui::Slider::new(value, range).logarithmic(true).custom_formatter(|value, _| short(value as f32));
+        let changed = ui.add(slider).changed();
+        ui.label(unit);
+        changed
+    })
+    .inner
+}
+
+/// How it stands: at what quality, and what that costs in the other coin.
+pub fn status(ui: &mut Ui, autopilot: &Autopilot, setup: &Setup, milliseconds: f32, error: Option<f32>) {
+    let Some(goal) = autopilot.goal() else { return };
+    let (text, warn) =
+        told(goal, autopilot.verdict(), &quality_name(setup.preset, &setup.quality), milliseconds, error);
+    ui.label(RichText::new(text).color(if warn { style::WARN } else { style::WEAK }));
+}
+
+/// The line, and whether it is a warning.
+fn told(goal: Goal, verdict: Verdict, quality: &str, milliseconds: f32, error: Option<f32>) -> (String, bool) {
+    let (time, error) = (short(milliseconds), error.map_or("none".to_owned(), percent));
+    match (verdict, goal) {
+        (Verdict::Settling, _) => (format!("settling, now at {quality}"), false),
+        (Verdict::Holds, Goal::Time(_)) => (format!("held at {quality}: {time} ms, with an error of {error}"), false),
+        (Verdict::Holds, Goal::Error(_)) => (format!("held at {quality}: error {error}, for {time} ms a tick"), false),
+        (Verdict::Beyond, Goal::Time(_)) => (format!("can't be held: {time} ms even at {quality}"), true),
+        (Verdict::Beyond, Goal::Error(_)) => {
+            (format!("can't be held: error {error} even at {quality}, {time} ms"), true)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_pilot_shows_what_it_costs_and_says_when_it_cannot() {
+        let line = |goal, verdict| told(goal, verdict, "fine", 1.64, Some(0.0012));
+        let (text, warn) = line(Goal::Time(2.0), Verdict::Holds);
+        assert!(text.contains("error of 0.12 %") && !warn, "{text}");
+        let (text, warn) = line(Goal::Error(0.002), Verdict::Holds);
+        assert!(text.contains("1.6 ms") && !warn, "{text}");
+        for goal in [Goal::Time(1.0), Goal::Error(0.0001)] {
+            let (text, warn) = line(goal, Verdict::Beyond);
+            assert!(text.starts_with("can't be held") && warn, "{text}");
+        }
+    }
+}

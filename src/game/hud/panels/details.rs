@@ -1,0 +1,255 @@
+//! The statistics of the simulation: what each stage costs, what it works on and is spared, which effects run and why, what the
+//! limiters did.
+
+use crate::{
+    game::{
+        actions::PanelId,
+        hud::{
+            cost::HudCost,
+            stats::Readings,
+            style::{self, weak},
+        },
+        icons,
+        input::bindings::{Group, NONE},
+        orders::{Order, Orders},
+        panels::{Panel, Panels},
+        render::cost::RenderCost,
+        views::table::STABILITY,
+    },
+    scene::blueprint::{Effect, Mode},
+    sim::{
+        effects::{
+            Effects,
+            account::{self, Account, Sleepers},
+        },
+        ledger::{Pass, PassLedger, PassRecord, Unit},
+        numbers::grouped,
+        state::{AirGrid, Clock, ParticleStore, Setup, SleepState},
+    },
+};
+use bevy::prelude::{App, KeyCode, Res, ResMut, Result};
+use bevy_egui::{
+    EguiContexts,
+    egui::{self, RichText, Ui, vec2},
+};
+
+/// Its name.
+pub const ID: PanelId = PanelId("details");
+
+/// Width of the window's contents, points.
+const WIDTH: f32 = 480.0;
+
+/// Adds the panel.
+pub fn plugin(app: &mut App) {
+    let panel = Panel {
+        id: ID,
+        title: "Details",
+        icon: icons::chart,
+        keys: &[(KeyCode::F3, NONE)],
+        group: Group::Look,
+        help: "details: what runs and what it costs",
+        in_bar: true,
+        in_list: Some("Details and effects"),
+        stays: true,
+    };
+    Panels::add(app, panel, show);
+}
+
+/// Shows them.
+fn show(
+    mut contexts: EguiContexts,
+    mut panels: ResMut<Panels>,
+    ledger: Res<PassLedger>,
+    effects: Res<Effects>,
+    setup: Res<Setup>,
+    clock: Res<Clock>,
+    readings: Res<Readings>,
+    costs: (Res<RenderCost>, Res<HudCost>),
+    sleepers: (Res<SleepState>, Res<ParticleStore>, Res<AirGrid>),
+    mut orders: ResMut<Orders>,
+) -> Result {
+    let context = contexts.ctx_mut()?;
+    let screen = context.content_rect();
+    let height = screen.height() - 210.0;
+    let place = (egui::Align2::LEFT_TOP, screen.left_top() + vec2(14.0, 54.0));
+    style::panel(context, &mut panels, ID, place, |ui| {
+        egui::ScrollArea::vertical().min_scrolled_height(height).max_height(height).show(ui, |ui| {
+            ui.set_width(WIDTH);
+            ui.spacing_mut().interact_size.y = 17.0;
+            ui.spacing_mut().button_padding = vec2(6.0, 1.0);
+            world(ui, &setup, &clock);
+            ui.separator();
+            frame(ui, &costs.0, &costs.1);
+            ui.separator();
+            stages(ui, &ledger);
+            ui.separator();
+            let sleepers = Sleepers::of(&sleepers.0, &sleepers.1, &sleepers.2);
+            switches(ui, &effects, &ledger, sleepers, &mut orders);
+            asleep(ui, sleepers);
+            ui.separator();
+            limiters(ui, &readings);
+        });
+    });
+    Ok(())
+}
+
+fn world(ui: &mut Ui, setup: &Setup, clock: &Clock) {
+    let (blueprint, quality) = (&setup.blueprint, &setup.quality);
+    let metres = blueprint.scale.vec_to_metres(blueprint.domain.size);
+    ui.label(weak(format!(
+        "{:.1} × {:.1} m, d = {} m, tick {} ({:.1} s)",
+        metres.x,
+        metres.y,
+        blueprint.scale.spacing,
+        grouped(clock.tick),
+        clock.tick as f32 * crate::kernel::units::TICK_SECONDS,
+    )));
+    ui.label(weak(format!(
+        "{}: substeps × iterations {} × {}, h = {} d, air cell {} d, {}",
+        setup.preset.name(),
+        quality.substeps,
+        quality.iterations,
+        quality.kernel_radius,
+        quality.air_cell,
+        quality.air_advection.words(),
+    )));
+}
+
+fn frame(ui: &mut Ui, render: &RenderCost, hud: &HudCost) {
+    let (extract, upload) = render.milliseconds();
+    ui.label(weak(format!(
+        "a frame: picture {extract:.2} + {upload:.2} ms, HUD {:.2} ms of processor time",
+        hud.milliseconds()
+    )));
+}
+
+/// Columns of the stages, and what they mean.
+const COLUMNS: [(&str, &str); 6] = [
+    ("stage", "a pass over particles or cells"),
+    ("ms a tick", "median of the last second"),
+    ("calls", "in the last tick"),
+    ("worked on", "particles, or cells of the air, in the last tick; each as often as it was worked on"),
+    ("spared", "those that sleep, and all where the stage is not called"),
+    ("saves ms", "what was spared, times what the stage takes for one; ? if it never ran"),
+];
+
+fn stages(ui: &mut Ui, ledger: &PassLedger) {
+    egui::Grid::new("stages").num_columns(COLUMNS.len()).spacing([12.0, 3.0]).show(ui, |ui| {
+        for (heading, meaning) in COLUMNS {
+            ui.label(weak(heading).small()).on_hover_text(meaning);
+        }
+        ui.end_row();
+        for pass in Pass::ALL {
+            stage(ui, pass, ledger.record(pass));
+        }
+        ui.label("tick");
+        ui.monospace(milliseconds(ledger.tick()));
+        for _ in 0..3 {
+            ui.label("");
+        }
+        let saved = Pass::ALL.map(|pass| ledger.record(pass).saved_last());
+        let known: f64 = saved.iter().flatten().sum();
+        let all = saved.iter().all(Option::is_some);
+        ui.monospace(format!("{known:7.3}{}", if all { "" } else { " + ?" }));
+        ui.end_row();
+    });
+}
+
+fn stage(ui: &mut Ui, pass: Pass, record: &PassRecord) {
+    let colour = if record.last.calls > 0 { style::TEXT } else { style::WEAK };
+    let number = |ui: &mut Ui, text: String| ui.label(RichText::new(text).monospace().color(colour));
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let calls = format!("{} calls since the scene began", grouped(record.calls));
+        ui.label(RichText::new(pass.name()).color(colour)).on_hover_text(calls);
+        if pass.unit() != Unit::Particles {
+            ui.label(weak(pass.unit().name()).small());
+        }
+    });
+    number(ui, milliseconds(record));
+    number(ui, format!("{:>4}", record.last.calls));
+    number(ui, format!("{:>9}", grouped(record.last.touched)));
+    number(ui, format!("{:>9}", grouped(record.last.spared)));
+    number(ui, saved(record.saved_last()));
+    ui.end_row();
+}
+
+fn milliseconds(record: &PassRecord) -> String {
+    format!("{:7.3}", record.median().as_secs_f32() * 1000.0)
+}
+
+/// Milliseconds that were saved: nothing where nothing was.
+fn saved(milliseconds: Option<f64>) -> String {
+    match milliseconds {
+        Some(0.0) => format!("{:>7}", "–"),
+        Some(milliseconds) => format!("{milliseconds:7.3}"),
+        None => format!("{:>7}", "?"),
+    }
+}
+
+fn switches(ui: &mut Ui, effects: &Effects, ledger: &PassLedger, sleepers: Sleepers, orders: &mut Orders) {
+    egui::Grid::new("effects").num_columns(4).spacing([12.0, 4.0]).show(ui, |ui| {
+        ui.label(weak("effect").small());
+        ui.label("");
+        let meaning = "what it takes when it runs; of sleep, what those take that sleep; ? if it never ran";
+        ui.label(weak("saves ms").small()).on_hover_text(meaning);
+        ui.end_row();
+        for effect in Effect::ALL {
+            let account = Account::of(effect, effects, sleepers);
+            let colour = if account.works { style::ACCENT } else { style::WEAK };
+            ui.label(RichText::new(effect.name()).color(colour)).on_hover_text(explanation(effect));
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = 2.0;
+                for (mode, name) in [(Mode::Auto, "auto"), (Mode::On, "on"), (Mode::Off, "off")] {
+                    if ui.selectable_label(account.mode == mode, name).clicked() {
+                        orders.push(Order::Effect(effect, mode));
+                    }
+                }
+            });
+            let saving = account::saving(effect, effects, ledger, PassRecord::saved_last);
+            ui.label(RichText::new(saved(saving)).monospace().color(style::WEAK));
+            ui.add(egui::Label::new(weak(account.text())).truncate());
+            ui.end_row();
+        }
+    });
+}
+
+/// What the table says of an effect.
+fn explanation(effect: Effect) -> String {
+    let row = effect.row();
+    let plain = |text: &str| text.replace('`', "");
+    let names: Vec<&str> = row.passes.iter().map(|pass| pass.name()).collect();
+    let stage = row.part_of.map_or_else(|| names.join(", "), |pass| format!("a part of {}", pass.name()));
+    let mut text = format!("{}.\nstage: {stage}\nauto: runs while {}", row.meaning, plain(row.when));
+    text += &format!("\noff: {}", plain(row.off));
+    if !row.parameters.is_empty() {
+        text += &format!("\nparameters: {}", row.parameters.join(", "));
+    }
+    text
+}
+
+/// How much of the world the stages leave alone.
+fn asleep(ui: &mut Ui, sleepers: Sleepers) {
+    let [(asleep, particles), (still, tiles)] =
+        [sleepers.particles, sleepers.tiles].map(|(asleep, all)| (grouped(asleep as u64), grouped(all as u64)));
+    ui.label(weak(format!("asleep: {asleep} of {particles} particles, {still} of {tiles} tiles of air")));
+}
+
+fn limiters(ui: &mut Ui, readings: &Readings) {
+    if readings.limiters.is_empty() {
+        ui.label(weak("No limiter acted."));
+        return;
+    }
+    ui.label(weak(format!("limiters, since the scene began (the view {} shows where)", STABILITY.name)).small());
+    egui::Grid::new("limiters").num_columns(4).spacing([8.0, 3.0]).show(ui, |ui| {
+        for pair in readings.limiters.chunks(2) {
+            for (reading, meaning) in pair {
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    ui.label(RichText::new(&reading.value).monospace().color(style::WARN));
+                });
+                ui.label(&reading.unit).on_hover_text(*meaning);
+            }
+            ui.end_row();
+        }
+    });
+}

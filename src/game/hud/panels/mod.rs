@@ -1,0 +1,29 @@
+//! The panels of the HUD. Each brings its row along ([`Panel`](crate::game::panels::Panel)): keys, help, bar and touch list
+//! follow from it. A new one is a file here and its line below.
+
+pub mod accuracy;
+pub mod cases;
+pub mod details;
+pub mod help;
+pub mod saves;
+pub mod scenes;
+pub mod search;
+pub mod settings;
+
+use crate::lab::{exam::ExamCase, gauntlet::GauntletCase};
+use bevy::prelude::App;
+
+/// Adds them all; the buttons of the bar stand in this order from the right.
+pub fn plugin(app: &mut App) {
+    app.add_plugins((
+        help::plugin,
+        settings::plugin,
+        cases::window::plugin::<ExamCase>,
+        cases::window::plugin::<GauntletCase>,
+        details::plugin,
+        accuracy::panel::plugin,
+        saves::plugin,
+        scenes::plugin,
+        search::plugin,
+    ));
+}

@@ -1,0 +1,184 @@
+//! The list of save files.
+
+use crate::{
+    game::{
+        actions::PanelId,
+        disk,
+        hud::style,
+        icons,
+        input::bindings::{CTRL, Group},
+        orders::{Order, Orders},
+        panels::{Panel, Panels, is_open},
+        saves::{self, LoadError, SaveFolders, Summary},
+    },
+    kernel::units::TICKS_PER_SECOND,
+    sim::numbers::grouped,
+};
+use bevy::prelude::{App, IntoScheduleConfigs, KeyCode, Res, ResMut, Resource, Result, Update, not};
+use bevy_egui::{
+    EguiContexts,
+    egui::{self, Align2, Color32, RichText, Ui, pos2, vec2},
+};
+use std::path::PathBuf;
+
+/// Its name.
+pub const ID: PanelId = PanelId("saves");
+
+/// Size of a row, points.
+const ROW: egui::Vec2 = vec2(430.0, 42.0);
+
+/// The files as they were when the list was opened.
+#[derive(Resource, Default)]
+pub struct SaveMenu {
+    open: bool,
+    files: Vec<SaveFile>,
+}
+
+impl SaveMenu {
+    /// Whether there are files of which it is not known yet what is in them.
+    pub fn is_reading(&self) -> bool {
+        self.files.iter().any(|file| file.summary.is_none())
+    }
+}
+
+struct SaveFile {
+    path: PathBuf,
+    age: String,
+    /// What is in it, once it was read.
+    summary: Option<Result<Summary, LoadError>>,
+}
+
+/// Adds the panel.
+pub fn plugin(app: &mut App) {
+    app.init_resource::<SaveMenu>();
+    let panel = Panel {
+        id: ID,
+        title: "Load",
+        icon: icons::load,
+        keys: &[(KeyCode::KeyO, CTRL)],
+        group: Group::World,
+        help: "load a saved world (can be undone)",
+        in_bar: true,
+        in_list: Some("Load"),
+        stays: false,
+    };
+    Panels::add(app, panel, show);
+    app.add_systems(Update, forget.run_if(not(is_open(ID))));
+}
+
+/// The next time it opens, the files are listed anew.
+fn forget(mut menu: ResMut<SaveMenu>) {
+    if menu.open {
+        *menu = SaveMenu::default();
+    }
+}
+
+/// Shows the list.
+fn show(
+    mut contexts: EguiContexts,
+    mut panels: ResMut<Panels>,
+    mut menu: ResMut<SaveMenu>,
+    folders: Res<SaveFolders>,
+    mut orders: ResMut<Orders>,
+) -> Result {
+    if !menu.open {
+        *menu = SaveMenu { open: true, files: list(&folders) };
+    }
+    // One a frame: a hundred large files must not hold a frame up.
+    if let Some(file) = menu.files.iter_mut().find(|file| file.summary.is_none()) {
+        file.summary = Some(Summary::read(&file.path));
+    }
+    let context = contexts.ctx_mut()?;
+    let screen = context.content_rect();
+    let mut chosen = None;
+    let place = (Align2::CENTER_CENTER, screen.center());
+    style::panel(context, &mut panels, ID, place, |ui| {
+        ui.set_width(ROW.x);
+        if menu.files.is_empty() {
+            ui.label(RichText::new("No saved world yet.").color(style::WEAK));
+        }
+        egui::ScrollArea::vertical().max_height(screen.height() - 220.0).show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 2.0;
+            for file in &menu.files {
+                if row(ui, file) {
+                    chosen = Some(file.path.clone());
+                }
+            }
+        });
+        for folder in &folders.0 {
+            ui.label(RichText::new(folder.display().to_string()).small().color(style::WEAK));
+        }
+    });
+    if let Some(path) = chosen {
+        orders.push(Order::Load(path));
+        panels.close(ID);
+    }
+    Ok(())
+}
+
+fn list(folders: &SaveFolders) -> Vec<SaveFile> {
+    let files = saves::list(&folders.0).into_iter();
+    files
+        .map(|(path, written)| {
+            let age = disk::now().duration_since(written).unwrap_or_default();
+            SaveFile { path, age: age_text(age.as_secs()), summary: None }
+        })
+        .collect()
+}
+
+/// How long ago, in words.
+fn age_text(seconds: u64) -> String {
+    let (number, unit) = match seconds {
+        0..60 => return "just now".into(),
+        60..3600 => (seconds / 60, "minute"),
+        3600..86_400 => (seconds / 3600, "hour"),
+        _ => (seconds / 86_400, "day"),
+    };
+    format!("{number} {unit}{} ago", if number == 1 { "" } else { "s" })
+}
+
+/// A line of the list; `true` if it is clicked.
+fn row(ui: &mut Ui, file: &SaveFile) -> bool {
+    let (rect, response) = ui.allocate_exact_size(ROW, egui::Sense::click());
+    if response.hovered() {
+        ui.painter().rect_filled(rect, style::BUTTON_CORNER, style::BUTTON_HOVER);
+    }
+    let font = |text: egui::TextStyle| text.resolve(ui.style());
+    let (large, small) = (font(egui::TextStyle::Button), font(egui::TextStyle::Small));
+    let name = file.path.file_name().unwrap_or_default().to_string_lossy();
+    let (title, about, colour) = match &file.summary {
+        None => (name.as_ref(), String::new(), style::WEAK),
+        Some(Err(error)) => (name.as_ref(), error.to_string(), style::WARN),
+        Some(Ok(summary)) => {
+            let seconds = summary.tick as f64 / f64::from(TICKS_PER_SECOND);
+            let particles = grouped(summary.particles as u64);
+            let about = format!("tick {} ({seconds:.1} s), {particles} particles", grouped(summary.tick));
+            (summary.title.as_str(), about, Color32::WHITE)
+        }
+    };
+    let painter = ui.painter().with_clip_rect(rect.shrink(2.0));
+    let (left, right) = (rect.left() + 10.0, rect.right() - 10.0);
+    let (upper, lower) = (rect.top() + 13.0, rect.bottom() - 11.0);
+    painter.text(pos2(left, upper), Align2::LEFT_CENTER, title, large, colour);
+    painter.text(pos2(right, upper), Align2::RIGHT_CENTER, &file.age, small.clone(), style::WEAK);
+    painter.text(pos2(left, lower), Align2::LEFT_CENTER, about, small, style::WEAK);
+    response.on_hover_text(name).clicked()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::age_text;
+
+    #[test]
+    fn ages_are_told_in_the_largest_unit() {
+        for (seconds, text) in [
+            (3, "just now"),
+            (60, "1 minute ago"),
+            (7300, "2 hours ago"),
+            (90_000, "1 day ago"),
+            (200_000, "2 days ago"),
+        ] {
+            assert_eq!(age_text(seconds), text);
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! Finds elements and tools by their names.
+
+use crate::{
+    game::{
+        actions::PanelId,
+        hud::style,
+        icons,
+        input::bindings::{Group, NONE},
+        orders::{Order, Orders},
+        panels::{Panel, Panels},
+        tools::Tool,
+    },
+    kernel::element::ElementTable,
+    sim::state::Setup,
+};
+use bevy::prelude::{App, KeyCode, Local, Res, ResMut, Result};
+use bevy_egui::{
+    EguiContexts,
+    egui::{self, Color32, vec2},
+};
+
+/// Its name.
+pub const ID: PanelId = PanelId("search");
+
+/// Adds the panel.
+pub fn plugin(app: &mut App) {
+    let panel = Panel {
+        id: ID,
+        title: "Search",
+        icon: icons::question,
+        keys: &[(KeyCode::KeyE, NONE)],
+        group: Group::Choose,
+        help: "search elements and tools",
+        in_bar: false,
+        in_list: None,
+        stays: false,
+    };
+    Panels::add(app, panel, show);
+}
+
+/// Shows the search.
+fn show(
+    mut contexts: EguiContexts,
+    mut panels: ResMut<Panels>,
+    mut text: Local<String>,
+    setup: Res<Setup>,
+    mut orders: ResMut<Orders>,
+) -> Result {
+    let context = contexts.ctx_mut()?;
+    let escaped = context.input(|input| input.key_pressed(egui::Key::Escape));
+    let entered = context.input(|input| input.key_pressed(egui::Key::Enter));
+    let screen = context.content_rect();
+    let mut chosen = None;
+    let place = (egui::Align2::CENTER_TOP, screen.center_top() + vec2(0.0, 120.0));
+    style::panel(context, &mut panels, ID, place, |ui| {
+        ui.set_width(260.0);
+        let field = egui::TextEdit::singleline(&mut *text).hint_text("element or tool").desired_width(f32::INFINITY);
+        ui.add(field.char_limit(40)).request_focus();
+        let found = find(setup.elements(), &text);
+        chosen = found.first().copied().filter(|_| entered);
+        ui.spacing_mut().item_spacing.y = 2.0;
+        egui::ScrollArea::vertical().max_height(screen.height() - 320.0).show(ui, |ui| {
+            for tool in &found {
+                if row(ui, *tool, setup.elements(), Some(tool) == found.first()) {
+                    chosen = Some(*tool);
+                }
+            }
+        });
+        if found.is_empty() {
+            ui.weak("nothing of that name");
+        }
+    });
+    if let Some(tool) = chosen {
+        orders.push(Order::Choose(tool));
+    }
+    if escaped || entered || chosen.is_some() {
+        panels.close(ID);
+    }
+    if !panels.shows(ID) {
+        text.clear();
+    }
+    Ok(())
+}
+
+fn row(ui: &mut egui::Ui, tool: Tool, elements: &ElementTable, first: bool) -> bool {
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 28.0), egui::Sense::click());
+    if first || response.hovered() {
+        let fill = if first { style::ACCENT_FILL } else { style::BUTTON_HOVER };
+        ui.painter().rect_filled(rect, style::BUTTON_CORNER, fill);
+    }
+    let (icon, colour) = tool.icon(elements);
+    icons::draw(ui.painter(), icons::square(rect.left_center() + vec2(18.0, 0.0), 18.0), icon, colour);
+    let font = egui::TextStyle::Button.resolve(ui.style());
+    let at = rect.left_center() + vec2(36.0, 0.0);
+    ui.painter().text(at, egui::Align2::LEFT_CENTER, tool.name(elements), font, Color32::WHITE);
+    response.clicked()
+}
+
+/// Tools whose name holds the text; those that begin with it first.
+fn find(elements: &ElementTable, text: &str) -> Vec<Tool> {
+    let text = text.trim().to_lowercase();
+    let mut found: Vec<Tool> =
+        Tool::all(elements).filter(|tool| tool.name(elements).to_lowercase().contains(&text)).collect();
+    found.sort_by_key(|tool| !tool.name(elements).to_lowercase().starts_with(&text));
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn search_finds_by_part_and_puts_beginnings_first() {
+        let elements = crate::scene::elements().expect("the table that comes with the game is valid");
+        let names = |text: &str| -> Vec<String> {
+            find(&elements, text).into_iter().map(|tool| tool.name(&elements).to_owned()).collect()
+        };
+        assert_eq!(names("wat")[0], "water");
+        assert_eq!(names("W")[..2], ["water", "wind"]);
+        assert_eq!(names("xyzzy"), [""; 0]);
+    }
+}

@@ -1,0 +1,78 @@
+//! The game without its window.
+
+use crate::{
+    game::{
+        camera, execute, follow, frame, history, hud, input, orders, panels, playback, recording, render, saves, split,
+        toasts, tools, views,
+    },
+    kernel::units::TICKS_PER_SECOND,
+    sim::{accuracy, autopilot, measures, recorder, state::Setup},
+};
+use bevy::{
+    prelude::{
+        App, AppExit, Fixed, FixedPreUpdate, IntoScheduleConfigs, Last, Plugin, RunFixedMainLoop,
+        RunFixedMainLoopSystems, SystemSet, Time, on_message, resource_exists,
+    },
+    time::common_conditions::on_timer,
+    window::WindowEvent,
+};
+
+use std::time::Duration;
+
+/// Reads the devices and carries out orders, before the ticks of a frame.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct InputSystems;
+
+/// Input, tools, orders and pace: all of the game that needs no window.
+pub struct GamePlugin;
+
+impl Plugin for GamePlugin {
+    fn build(&self, app: &mut App) {
+        app.add_message::<WindowEvent>()
+            .insert_resource(Time::<Fixed>::from_hz(f64::from(TICKS_PER_SECOND)))
+            .init_resource::<camera::WorldCamera>()
+            .init_resource::<tools::Toolbox>()
+            .init_resource::<input::bindings::Bindings>()
+            .init_resource::<orders::Orders>()
+            .init_resource::<views::table::Shown>()
+            .init_resource::<history::History>()
+            .init_resource::<saves::SaveFolders>()
+            .init_resource::<frame::Tempo>()
+            .init_resource::<panels::Panels>()
+            .init_resource::<toasts::Toasts>()
+            .init_resource::<input::pointer::Pointer>()
+            .init_resource::<input::pointer::HudCover>()
+            .init_resource::<input::keys::Typing>()
+            .init_resource::<input::touch::Fingers>()
+            .init_resource::<input::strokes::DragState>()
+            .init_resource::<render::extract::Epoch>()
+            .init_resource::<accuracy::Watched>()
+            .init_resource::<accuracy::LiveError>()
+            .init_resource::<accuracy::Survey>()
+            .init_resource::<measures::Measures>()
+            .add_plugins((hud::panels::plugin, autopilot::plugin, crate::sim::split::plugin, recorder::plugin))
+            .add_systems(
+                RunFixedMainLoop,
+                (
+                    follow::follow_scene,
+                    input::keys::pan,
+                    input::devices::read_devices,
+                    execute::carry_out,
+                    split::watch,
+                    frame::set_pace,
+                )
+                    .chain()
+                    .in_set(InputSystems)
+                    .in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop),
+            )
+            .add_systems(FixedPreUpdate, (playback::feed, input::strokes::make_intents).chain())
+            .add_systems(
+                Last,
+                (
+                    frame::measure_tempo,
+                    recording::end_when_full.run_if(resource_exists::<Setup>).run_if(on_timer(Duration::from_secs(1))),
+                    recording::write_at_exit.run_if(on_message::<AppExit>),
+                ),
+            );
+    }
+}

@@ -1,0 +1,317 @@
+//! What a frame needs of a world, packed into memory that is used again.
+
+use crate::{
+    game::{
+        camera::{Area, WorldCamera},
+        render::{
+            air::{self, Streak},
+            particles::{self, ColourTable, ParticleInstance},
+            rock::{self, RockInstance},
+            tracers::Tracers,
+        },
+        views::{
+            strain::{Limited, StrainMap},
+            table::{Layer, PRESSURE, Quantity, Streaks, View, density_share},
+        },
+    },
+    lab::{
+        colours::{self, Reference, Rgb},
+        difference::{self, Difference, Half},
+        maps::{BurialMap, DepthMap},
+    },
+    scene::blueprint::Blueprint,
+    sim::state::{AirGrid, ParticleStore, Rock, Setup, SolverState},
+};
+use bevy::{
+    math::URect,
+    prelude::World,
+    render::render_resource::{BufferUsages, RawBufferVec, ShaderType},
+    window::Window,
+};
+use glam::{UVec2, Vec2, Vec4};
+use std::sync::Arc;
+
+/// Radius of a particle's soft disc, d.
+const DISC_RADIUS: f32 = 1.35;
+/// Spacing of the arrows, logical pixels.
+const ARROW_SPACING: f32 = 30.0;
+
+/// What the shader knows of the world as a whole; the fields are explained there.
+#[derive(Clone, Copy, Debug, Default, ShaderType)]
+pub struct WorldUniform {
+    to_clip: Vec4,
+    size: Vec4,
+    extent: Vec4,
+    look: Vec4,
+    pen: Vec4,
+    surroundings: Vec4,
+    box_top: Vec4,
+    box_bottom: Vec4,
+    frame: Vec4,
+    abyss: Vec4,
+}
+
+/// A picture of a world.
+pub struct Picture {
+    /// Size of the window, physical pixels.
+    pub window: UVec2,
+    /// Physical pixels of one d.
+    pub pixels_per_d: f32,
+    /// The part of the window that it is confined to, physical pixels; the whole if there is none.
+    pub part: Option<URect>,
+    /// The shader's numbers.
+    pub uniform: WorldUniform,
+    /// Movable particles.
+    pub particles: RawBufferVec<ParticleInstance>,
+    /// Rock.
+    pub rock: RawBufferVec<RockInstance>,
+    /// Whether `rock` is new in this frame.
+    pub rock_new: bool,
+    /// Streaks of wind.
+    pub streaks: RawBufferVec<Streak>,
+    /// Whether they lie over the liquid.
+    pub streaks_on_top: bool,
+    /// Texels of the air, and their columns and rows; empty if the view doesn't show it.
+    pub air: (Vec<u8>, UVec2),
+    /// Depth of the liquid; empty if the view doesn't show it.
+    pub depth: DepthMap,
+    /// Whether `depth` is of this frame.
+    pub depth_new: bool,
+    burial: BurialMap,
+    /// Where limiters act; of the last time that the view showed it.
+    strain: StrainMap,
+    table: ColourTable,
+    table_of: Option<(&'static View, Arc<Blueprint>)>,
+    /// What the particles are coloured by.
+    shares: Vec<f32>,
+    rock_of: Option<(u64, Arc<Blueprint>, u32)>,
+}
+
+impl Default for Picture {
+    fn default() -> Self {
+        Self {
+            window: UVec2::ONE,
+            pixels_per_d: 1.0,
+            part: None,
+            uniform: WorldUniform::default(),
+            particles: RawBufferVec::new(BufferUsages::VERTEX),
+            rock: RawBufferVec::new(BufferUsages::VERTEX),
+            rock_new: false,
+            streaks: RawBufferVec::new(BufferUsages::VERTEX),
+            streaks_on_top: false,
+            air: (Vec::new(), UVec2::ONE),
+            depth: DepthMap::default(),
+            depth_new: false,
+            burial: BurialMap::default(),
+            strain: StrainMap::default(),
+            table: ColourTable::default(),
+            table_of: None,
+            shares: Vec::new(),
+            rock_of: None,
+        }
+    }
+}
+
+/// Where and how everything is seen.
+#[derive(Clone, Copy)]
+pub(super) struct Sight<'a> {
+    pub(super) window: &'a Window,
+    pub(super) camera: &'a WorldCamera,
+    pub(super) view: &'static View,
+    pub(super) epoch: u32,
+    /// The moment that is drawn, s before the last tick.
+    pub(super) back: f32,
+}
+
+/// A world, and what is drawn into it.
+#[derive(Clone, Copy)]
+pub(super) struct Scene<'a> {
+    pub(super) setup: &'a Setup,
+    pub(super) particles: &'a ParticleStore,
+    pub(super) rock: &'a Rock,
+    pub(super) air: &'a AirGrid,
+    pub(super) solver: Option<&'a SolverState>,
+    /// What the limiters work on.
+    pub(super) limited: Limited<'a>,
+    pub(super) tracers: Option<&'a Tracers>,
+}
+
+impl<'a> Scene<'a> {
+    /// What is compared with another world.
+    pub(super) fn half(self) -> Half<'a> {
+        Half { particles: self.particles, air: self.air }
+    }
+
+    /// What there is of the second world of a split.
+    pub(super) fn of(world: &'a World) -> Option<Self> {
+        Some(Self {
+            setup: world.get_resource()?,
+            particles: world.get_resource()?,
+            rock: world.get_resource()?,
+            air: world.get_resource()?,
+            solver: world.get_resource(),
+            limited: Limited::of(world)?,
+            tracers: None,
+        })
+    }
+}
+
+impl Picture {
+    /// Draws a world into `area`, and into nothing else if it is `confined`.
+    pub(super) fn fill(&mut self, scene: Scene<'_>, sight: Sight<'_>, area: Area, confined: bool) {
+        let blueprint = &scene.setup.blueprint;
+        let reference = Reference::of(&blueprint.domain, &blueprint.air);
+        self.fill_particles(scene, sight, reference);
+        self.fill_rock(scene, sight.epoch);
+        self.depth_new = sight.view.shaded;
+        if self.depth_new {
+            self.depth.measure(blueprint.domain.size, scene.particles);
+        }
+        self.fill_air(scene, sight, reference);
+        self.fill_streaks(scene, sight, reference);
+        let air = scene.air;
+        let air_extent = match sight.view.air {
+            Layer::Strain => self.strain.extent(),
+            Layer::Air(_) | Layer::Nothing => Vec2::new(air.columns() as f32, air.rows() as f32) * air.cell(),
+        };
+        self.look(scene.setup, sight, sight.view, air_extent);
+        self.place(sight, area, confined);
+    }
+
+    /// Draws how far two worlds are apart, over the rock of one of them.
+    pub(super) fn fill_with_difference(
+        &mut self,
+        difference: &Difference,
+        scene: Scene<'_>,
+        sight: Sight<'_>,
+        area: Area,
+    ) {
+        self.particles.clear();
+        self.streaks.clear();
+        self.fill_rock(scene, sight.epoch);
+        self.depth_new = false;
+        difference.texels(&mut self.air.0);
+        self.air.1 = UVec2::new(difference.columns() as u32, difference.rows() as u32);
+        self.look(scene.setup, sight, &PRESSURE, self.air.1.as_vec2() * difference::CELL);
+        self.place(sight, area, true);
+    }
+
+    fn fill_particles(&mut self, scene: Scene<'_>, sight: Sight<'_>, reference: Reference) {
+        let (view, blueprint) = (sight.view, &scene.setup.blueprint);
+        if self.table_of.as_ref().is_none_or(|(old, of)| *old != view || !Arc::ptr_eq(of, blueprint)) {
+            self.table.fill(view, &blueprint.elements);
+            self.table_of = Some((view, blueprint.clone()));
+        }
+        let shares = match view.quantity {
+            Quantity::Of(measure) => {
+                measure(scene.particles, reference, &mut self.shares);
+                &self.shares
+            }
+            Quantity::Density => {
+                // Densities that do not fit the particles (edited while time stands) are left out.
+                let count = scene.particles.len();
+                let density = scene.solver.map(|solver| &solver.density).filter(|density| density.len() == count);
+                let rest = blueprint.fluid.rest_density;
+                self.shares.clear();
+                self.shares.extend(density.into_iter().flatten().map(|density| density_share(density / rest - 1.0)));
+                self.shares.resize(count, density_share(0.0));
+                &self.shares
+            }
+            Quantity::Strain => {
+                self.strain.measure(blueprint.domain.size, scene.limited);
+                self.strain.shares()
+            }
+        };
+        particles::pack(scene.particles, &self.table, shares, sight.back, self.particles.values_mut());
+    }
+
+    fn fill_rock(&mut self, scene: Scene<'_>, epoch: u32) {
+        let (rock, blueprint) = (scene.rock, &scene.setup.blueprint);
+        self.rock_new = self.rock_of.as_ref().is_none_or(|(version, of, during)| {
+            *version != rock.version() || !Arc::ptr_eq(of, blueprint) || *during != epoch
+        });
+        if self.rock_new {
+            rock::pack(rock, &blueprint.elements, &mut self.burial, self.rock.values_mut());
+            self.rock_of = Some((rock.version(), blueprint.clone(), epoch));
+        }
+    }
+
+    fn fill_air(&mut self, scene: Scene<'_>, sight: Sight<'_>, reference: Reference) {
+        let air = scene.air;
+        self.air.0.clear();
+        match sight.view.air {
+            Layer::Nothing => {}
+            Layer::Air(colour) => {
+                air::pack(air, colour, reference, &mut self.air.0);
+                self.air.1 = UVec2::new(air.columns() as u32, air.rows() as u32);
+            }
+            Layer::Strain => {
+                self.strain.texels(&mut self.air.0);
+                let (columns, rows) = self.strain.dimensions();
+                self.air.1 = UVec2::new(columns as u32, rows as u32);
+            }
+        }
+    }
+
+    fn fill_streaks(&mut self, scene: Scene<'_>, sight: Sight<'_>, reference: Reference) {
+        self.streaks.clear();
+        self.streaks_on_top = sight.view.shows_air();
+        match sight.view.streaks {
+            Streaks::None => {}
+            Streaks::Tracers => {
+                if let Some(tracers) = scene.tracers {
+                    tracers.pack(reference, self.streaks.values_mut());
+                }
+            }
+            Streaks::Arrows => {
+                let spacing = ARROW_SPACING / sight.camera.pixels_per_d();
+                let size = scene.setup.blueprint.domain.size;
+                air::arrows(scene.air, size, spacing, reference, self.streaks.values_mut());
+            }
+        }
+    }
+
+    /// The shader's numbers but for where in the window it is.
+    fn look(&mut self, setup: &Setup, sight: Sight<'_>, view: &View, air_extent: Vec2) {
+        let scale_factor = sight.window.resolution.scale_factor();
+        self.window = sight.window.resolution.physical_size();
+        self.pixels_per_d = sight.camera.pixels_per_d() * scale_factor;
+        // Lines that suit a window of this height.
+        let lines = (self.window.y as f32 / 900.0).max(scale_factor).max(1.0);
+        let flag = |on: bool| if on { 1.0 } else { 0.0 };
+        self.uniform = WorldUniform {
+            to_clip: Vec4::ZERO,
+            size: two(setup.blueprint.domain.size, self.window.as_vec2()),
+            extent: two(self.depth.extent().max(Vec2::ONE), air_extent),
+            look: Vec4::new(
+                self.pixels_per_d,
+                if view.shows_air() { 0.42 } else { 0.97 },
+                flag(view.shaded),
+                colours::DEPTH_SHADE,
+            ),
+            pen: Vec4::new(DISC_RADIUS, 1.5 * lines, flag(!matches!(view.air, Layer::Nothing)), lines),
+            surroundings: srgb(colours::SURROUNDINGS),
+            box_top: srgb(colours::BOX_TOP),
+            box_bottom: srgb(colours::BOX_BOTTOM),
+            frame: srgb(colours::FRAME),
+            abyss: srgb(colours::ABYSS),
+        };
+    }
+
+    fn place(&mut self, sight: Sight<'_>, area: Area, confined: bool) {
+        let (to_clip, offset) = sight.camera.clip_transform(area);
+        self.uniform.to_clip = two(to_clip, offset);
+        let scale_factor = sight.window.resolution.scale_factor();
+        let corner = |pixel: Vec2| (pixel * scale_factor).round().max(Vec2::ZERO).as_uvec2().min(self.window);
+        self.part = confined.then(|| URect::from_corners(corner(area.min), corner(area.max)));
+    }
+}
+
+fn two(a: Vec2, b: Vec2) -> Vec4 {
+    Vec4::new(a.x, a.y, b.x, b.y)
+}
+
+fn srgb(rgb: Rgb) -> Vec4 {
+    let [r, g, b] = rgb.map(|channel| f32::from(channel) / 255.0);
+    Vec4::new(r, g, b, 1.0)
+}

@@ -1,0 +1,226 @@
+//! The one table of views. Keys, menus, help and the picture follow from it.
+
+use crate::{
+    game::views::strain::strain_colour,
+    kernel::{element::Element, particles::Particles},
+    lab::colours::{Reference, Rgb, particle_colour, ramp, wind_colour},
+};
+use bevy::prelude::{KeyCode, Resource};
+use glam::Vec2;
+use std::fmt;
+
+/// Every view, in the order of the menu and of the key that goes through them. A new one is a new row.
+pub static VIEWS: [&View; 6] = [&ELEMENTS, &SPEED, &DENSITY, &PRESSURE, &WIND, &STABILITY];
+
+/// Elements in their own colours.
+pub static ELEMENTS: View = View {
+    name: "Elements",
+    key: KeyCode::Digit1,
+    quantity: Quantity::Of(speeds),
+    colour: particle_colour,
+    air: Layer::Nothing,
+    streaks: Streaks::Tracers,
+    shaded: true,
+};
+
+static SPEED: View = View {
+    name: "Speed",
+    key: KeyCode::Digit2,
+    quantity: Quantity::Of(speeds),
+    colour: |_, speed| ramp(&SPEED_STOPS, speed * 1.25),
+    ..PLAIN
+};
+
+static DENSITY: View = View {
+    name: "Density error",
+    key: KeyCode::Digit3,
+    quantity: Quantity::Density,
+    colour: |_, share| ramp(&DENSITY_STOPS, share),
+    ..PLAIN
+};
+
+/// Pressure of the air.
+pub static PRESSURE: View =
+    View { name: "Air pressure", key: KeyCode::Digit4, air: Layer::Air(pressure_colour), ..PLAIN };
+
+static WIND: View = View {
+    name: "Air velocity",
+    key: KeyCode::Digit5,
+    air: Layer::Air(|reference, _, velocity| wind_colour(reference, velocity)),
+    streaks: Streaks::Arrows,
+    ..PLAIN
+};
+
+/// Where limiters act, and how near to it the particles are.
+pub static STABILITY: View = View {
+    name: "Stability",
+    key: KeyCode::Digit6,
+    quantity: Quantity::Strain,
+    colour: |_, share| strain_colour(share),
+    air: Layer::Strain,
+    ..PLAIN
+};
+
+/// What most views have in common.
+const PLAIN: View = View {
+    name: "",
+    key: KeyCode::Digit0,
+    quantity: Quantity::Of(speeds),
+    colour: particle_colour,
+    air: Layer::Nothing,
+    streaks: Streaks::None,
+    shaded: false,
+};
+
+/// A row of the table: what the colours of the picture mean.
+pub struct View {
+    /// Name in menus.
+    pub name: &'static str,
+    /// The key that shows it, pressed with Shift.
+    pub key: KeyCode,
+    /// What the particles are coloured by.
+    pub quantity: Quantity,
+    /// Colour of a movable particle for a value of the quantity.
+    pub colour: fn(&Element, f32) -> Rgb,
+    /// What lies over the empty box.
+    pub air: Layer,
+    /// Which streaks are drawn.
+    pub streaks: Streaks,
+    /// Whether the liquid is shaded by its depth and by light.
+    pub shaded: bool,
+}
+
+/// What a particle's colour stands for, as a share of a scale, 0 … 1.
+pub enum Quantity {
+    /// What this finds for each particle.
+    Of(fn(&Particles, Reference, &mut Vec<f32>)),
+    /// Density against its rest density, as the solver has it ([`density_share`]).
+    Density,
+    /// Share of the nearest limit, from the map of the limiters.
+    Strain,
+}
+
+/// What lies over the empty box.
+pub enum Layer {
+    /// The box alone is seen.
+    Nothing,
+    /// Colour and opacity (0 … 1) of the air from its pressure and velocity.
+    Air(fn(Reference, f32, Vec2) -> (Rgb, f32)),
+    /// The glow of the places where limiters acted.
+    Strain,
+}
+
+/// Lines that show the wind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Streaks {
+    /// None.
+    None,
+    /// Tracers that drift with the wind, behind the liquid.
+    Tracers,
+    /// Arrows on a lattice, over the liquid.
+    Arrows,
+}
+
+impl View {
+    /// Whether the air is what it shows.
+    pub fn shows_air(&self) -> bool {
+        matches!(self.air, Layer::Air(_))
+    }
+
+    /// The view after this one.
+    pub fn next(&self) -> &'static Self {
+        let place = VIEWS.iter().position(|view| *view == self).unwrap_or(0);
+        VIEWS[(place + 1) % VIEWS.len()]
+    }
+}
+
+/// Two rows are the same view if they have the same name.
+impl PartialEq for View {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl fmt::Debug for View {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+/// The view that is shown.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct Shown(pub &'static View);
+
+impl Default for Shown {
+    fn default() -> Self {
+        Self(&ELEMENTS)
+    }
+}
+
+const SPEED_STOPS: [Rgb; 6] =
+    [[38, 46, 110], [36, 98, 178], [40, 172, 184], [134, 212, 122], [250, 216, 92], [246, 112, 58]];
+const DENSITY_STOPS: [Rgb; 5] = [[46, 86, 190], [96, 148, 206], [206, 212, 218], [236, 140, 84], [206, 40, 48]];
+const LOW_PRESSURE: Rgb = [86, 92, 232];
+const HIGH_PRESSURE: Rgb = [240, 132, 60];
+
+/// Speeds as shares of a fall through the whole box.
+fn speeds(particles: &Particles, reference: Reference, out: &mut Vec<f32>) {
+    let scale = 1.0 / reference.fall;
+    out.clear();
+    out.extend(particles.vx.iter().zip(&particles.vy).map(|(vx, vy)| (vx * vx + vy * vy).sqrt() * scale));
+}
+
+/// Where a density error ρ/ρ₀ − 1 stands on the scale of its colours, 0 … 1: rest in the middle. A surface lacks half of
+/// its neighbours by nature, so the scale reaches to −0.5; compression is an error, and 0.1 of it is the end.
+pub fn density_share(error: f32) -> f32 {
+    (0.5 + if error < 0.0 { error } else { 5.0 * error }).clamp(0.0, 1.0)
+}
+
+fn pressure_colour(_: Reference, pressure: f32, _: Vec2) -> (Rgb, f32) {
+    let x = (pressure - 1.0) / 0.03;
+    let strength = x.abs() / (1.0 + x.abs());
+    (if x < 0.0 { LOW_PRESSURE } else { HIGH_PRESSURE }, 0.85 * strength)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn water() -> Element {
+        Element::plain("water", false)
+    }
+
+    #[test]
+    fn each_view_has_a_name_and_a_key_of_its_own_and_the_next_goes_round() {
+        for (k, view) in VIEWS.iter().enumerate() {
+            assert!(!view.name.is_empty());
+            assert!(VIEWS[k + 1..].iter().all(|other| view != other && view.key != other.key), "{view:?} stands twice");
+            assert_eq!(view.next(), VIEWS[(k + 1) % VIEWS.len()]);
+        }
+    }
+
+    #[test]
+    fn density_error_is_red_above_blue_below_and_neutral_at_rest() {
+        let at = |error| (DENSITY.colour)(&water(), density_share(error));
+        let (low, rest, high) = (at(-0.5), at(0.0), at(0.1));
+        assert!(high[0] > high[2] + 80, "compressed liquid must look red, is {high:?}");
+        assert!(low[2] > low[0] + 80, "stretched liquid must look blue, is {low:?}");
+        assert!(rest.iter().max().unwrap() - rest.iter().min().unwrap() < 24, "rest must be neutral, is {rest:?}");
+    }
+
+    #[test]
+    fn a_particle_at_a_limit_is_red_and_one_far_from_it_is_not() {
+        let at = |strain| (STABILITY.colour)(&water(), strain);
+        let (calm, acted) = (at(0.0), at(1.0));
+        assert!(acted[0] > 230 && acted[0] > 2 * acted[1] && calm[0] < calm[2], "{calm:?} {acted:?}");
+    }
+
+    #[test]
+    fn still_air_is_invisible_and_pressure_has_two_colours() {
+        let reference = Reference { fall: 100.0, wind: 50.0 };
+        let at = |pressure| pressure_colour(reference, pressure, Vec2::ZERO);
+        assert_eq!(at(1.0).1, 0.0);
+        let (high, low) = (at(1.2), at(0.8));
+        assert!(high.0 != low.0 && high.1 > 0.3 && low.1 > 0.3);
+    }
+}
