@@ -11,7 +11,7 @@ use program::{Dependency, Program};
 use std::{collections::BTreeMap, path::Path};
 
 /// Crates: name and folder.
-const CRATES: [(&str, &str); 1] = [("powder_master", "src")];
+const CRATES: [(&str, &str); 2] = [("powder_master", "src"), ("powder_kernel", "src/kernel")];
 
 /// Layers from the lowest on: each may use itself and those before it, and those of one row not each other.
 const LAYERS: [&[&str]; 6] = [&["kernel"], &["scene"], &["sim"], &["lab"], &["game"], &["cli", "web"]];
