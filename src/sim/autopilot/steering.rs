@@ -6,12 +6,11 @@ use super::{
 };
 use crate::{
     kernel::units::TICK_SECONDS,
-    scene::blueprint::Blueprint,
+    scene::{blueprint::Blueprint, effects::Pass},
     sim::{
         accuracy::{LiveError, SAMPLE_EVERY},
         intent::{Intent, IntentQueue},
         ledger::PassLedger,
-        schedule::TickSystems,
         state::{Clock, ParticleStore, Setup, SleepState},
     },
 };
@@ -136,7 +135,7 @@ impl State {
 pub fn plugin(app: &mut App) {
     app.init_resource::<Autopilot>()
         .init_resource::<LiveError>()
-        .add_systems(FixedUpdate, steer.after(TickSystems::Measure).run_if(engaged).run_if(any_awake));
+        .add_systems(FixedUpdate, steer.after(Pass::Measure).run_if(engaged).run_if(any_awake));
 }
 
 /// Run condition: there is something to hold.
