@@ -116,12 +116,9 @@ impl Program {
         if source.items.contains(item) || item == "*" || depth > 9 {
             return Some(file);
         }
-        let mut named = source.imports.iter().filter(|import| import.name == *item);
-        let passed_on = named.find_map(|import| {
-            let target = self.absolute(&module, &module, &import.mention.path, 0)?;
-            self.find(&[&target, &path[length + 1..]].concat(), depth + 1)
-        });
-        passed_on.or(Some(file))
+        let Some(import) = source.imports.iter().find(|import| import.name == *item) else { return Some(file) };
+        let target = self.absolute(&module, &module, &import.mention.path, 0)?;
+        self.find(&[&target, &path[length + 1..]].concat(), depth + 1)
     }
 }
 
