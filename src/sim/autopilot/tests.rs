@@ -272,3 +272,16 @@ fn water_that_comes_to_rest_is_eased_whatever_failed_before() {
     }
     assert!(tried >= 24, "only {tried} flights came to that");
 }
+
+#[test]
+fn each_breach_at_a_level_doubles_its_cool_down_up_to_a_longest() {
+    // The dearest level costs more than the model says, so that it is tried again and again.
+    let cost = |level: usize| if level == 0 { 11.0 } else { 4.0 };
+    let mut controller = Controller::new(10.0, OF_TIME, vec![6.0, 4.0], 0);
+    let log = fly(&mut controller, 1500.0, TICK, 0.0, |_, level| cost(level));
+    let away: Vec<f32> = log.moves.chunks_exact(2).map(|pair| pair[1] - pair[0]).collect();
+    for (away, expected) in away.iter().zip([4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0, 256.0]) {
+        assert!((away - expected).abs() < 0.1 * expected, "it comes back after {away} s, not {expected} s");
+    }
+    assert!(away.len() >= 8, "{away:?}");
+}
