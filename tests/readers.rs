@@ -14,11 +14,11 @@ use powder_master::{
     },
     scene::effects::{Effect, Mode},
     sim::{
+        checkpoint::Checkpoint,
         intent::{Intent, IntentQueue},
         recorder::{self, Recorder},
         recording::Recording,
         replay::Replay,
-        save,
         workers::Workers,
     },
 };
@@ -125,8 +125,8 @@ fn the_seeds_of_saves_and_recordings_are_of_this_format() {
             world.world_mut().resource_mut::<IntentQueue>().push(intent);
             world.tick();
         }
-        let kept = seed(&format!("save/{name}"), &save::encode(world.world()));
-        save::decode(&kept).unwrap_or_else(|error| panic!("{error}"));
+        let kept = seed(&format!("save/{name}"), &Checkpoint::of(world.world()).encode());
+        Checkpoint::decode(&kept).unwrap_or_else(|error| panic!("{error}"));
         let world = world.world();
         let recorded = world.resource::<Recorder>().last_minute(recorder::end_now(world));
         let kept = seed(&format!("recording/{name}"), &recorded);

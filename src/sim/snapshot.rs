@@ -1,13 +1,50 @@
-//! A world frozen between two ticks: what undo, reset and save files hold.
+//! The state of a world between two ticks: what undo, reset and save files hold.
 
 use crate::{
-    kernel::{air::Air, element::ElementId, particles::Particles, sleep::SleepRecord, solids::Solids},
+    kernel::{
+        air::Air,
+        element::ElementId,
+        particles::Particles,
+        sleep::SleepRecord,
+        solids::Solids,
+        sources::{Drain, Emitter, Wind},
+    },
     scene::{
         blueprint::Blueprint,
         effects::{Effect, Mode},
     },
-    sim::state::{Clock, Sources},
 };
+use bevy::prelude::Resource;
+use serde::{Deserialize, Serialize};
+
+/// What the scene keeps adding and taking away. Written by the source stage.
+#[derive(Resource, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Sources {
+    /// Taps.
+    pub emitters: Vec<Emitter>,
+    /// Fans.
+    pub winds: Vec<Wind>,
+    /// Outlets.
+    pub drains: Vec<Drain>,
+}
+
+/// How far the world has come.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Clock {
+    /// Ticks done since the scene began.
+    pub tick: u64,
+    /// Edits applied since the scene began: seeds the choice of sites that pouring fills.
+    pub edits: u64,
+    /// The next free particle id.
+    pub next_id: u32,
+}
+
+impl Clock {
+    /// Ticks and edits: what a world was put through, whatever it made of it.
+    pub fn seen(&self) -> (u64, u64) {
+        (self.tick, self.edits)
+    }
+}
 
 /// Everything in a world that a tick changes. What only an intent changes (gravity, quality, effects) is not in it.
 #[derive(Clone, Debug, PartialEq)]

@@ -12,15 +12,16 @@ use crate::{
         predictor::Predictor,
         sleep::Sleep,
         solids::Solids,
-        sources::{Drain, Emitter, Wind},
         units::Scale,
     },
     scene::blueprint::Blueprint,
     sim::snapshot::Snapshot,
 };
 use bevy::prelude::{Deref, DerefMut, Resource};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::sync::Arc;
+
+pub use crate::sim::snapshot::{Clock, Sources};
 
 /// Movable particles. Written by the edit stage and the substep stages.
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
@@ -33,35 +34,6 @@ pub struct Rock(pub Solids);
 /// The air. Written by the edit stage (tools) and the air stage.
 #[derive(Resource, Deref, DerefMut, Clone, Debug)]
 pub struct AirGrid(pub Air);
-
-/// What the scene keeps adding and taking away. Written by the source stage.
-#[derive(Resource, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Sources {
-    /// Taps.
-    pub emitters: Vec<Emitter>,
-    /// Fans.
-    pub winds: Vec<Wind>,
-    /// Outlets.
-    pub drains: Vec<Drain>,
-}
-
-/// How far the world has come.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Clock {
-    /// Ticks done since the scene began.
-    pub tick: u64,
-    /// Edits applied since the scene began: seeds the choice of sites that pouring fills.
-    pub edits: u64,
-    /// The next free particle id.
-    pub next_id: u32,
-}
-
-impl Clock {
-    /// Ticks and edits: what a world was put through, whatever it made of it.
-    pub fn seen(&self) -> (u64, u64) {
-        (self.tick, self.edits)
-    }
-}
 
 /// The scene that is played and the quality it is played at.
 #[derive(Resource, Clone, Debug)]

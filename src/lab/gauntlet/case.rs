@@ -7,7 +7,7 @@ use crate::{
         units::TICKS_PER_SECOND,
     },
     scene::{self, SceneError, blueprint::Blueprint, effects::EffectModes},
-    sim::{control, script::Script, state::Setup},
+    sim::{checkpoint::Checkpoint, script::Script, state::Setup},
 };
 use bevy::ecs::world::World;
 use glam::DVec2;
@@ -163,7 +163,7 @@ impl GauntletCase {
             Some(act) => world.insert_resource(Script { scene: blueprint.name.clone(), act }),
             None => drop(world.remove_resource::<Script>()),
         }
-        control::load(world, Arc::new(blueprint));
+        Checkpoint::of_scene(Arc::new(blueprint)).restore(world);
         Ok(())
     }
 

@@ -3,16 +3,20 @@
 //! threads, in slices between frames.
 
 use crate::{
-    kernel::params::{Preset, Quality},
+    kernel::{
+        params::{Preset, Quality},
+        simd::InstructionSet,
+    },
     lab::{density::density_error, live::tick_milliseconds, stats},
     scene::effects::{Effect, Mode},
     sim::{
         accuracy::{Curve, CurvePoint, Survey, SurveyRequest, fingerprint},
         autopilot::ladder,
+        checkpoint::Checkpoint,
         effects::{Effects, status::Sleepers},
         ledger::PassLedger,
-        state::{Clock, ParticleStore, Rock, Setup},
-        twin::{Seed, Twin},
+        simulation::Simulation,
+        state::{Clock, ParticleStore, Rock, Setup, SolverState},
         workers::Workers,
     },
 };
@@ -117,7 +121,7 @@ impl Surveyor {
             here: (sleep != Asleep::All).then(|| (setup.quality, tick_milliseconds(world))),
             ..Curve::default()
         };
-        let work = Work::new(Seed::of(world), sleep);
+        let work = Work::new(world, sleep);
         *world.resource_mut::<Survey>() = Survey { request: None, progress: Some(0.0), curve };
         self.job = Some(if self.sliced { Job::Slices(Box::new(work)) } else { start(work) });
     }
@@ -206,7 +210,9 @@ impl Asleep {
 
 /// A survey, tick by tick.
 struct Work {
-    seed: Seed,
+    start: Checkpoint,
+    /// Instructions that the solver uses.
+    instructions: InstructionSet,
     /// What is to be run, the dearest first.
     left: Vec<Leg>,
     run: Option<Run>,
@@ -226,16 +232,17 @@ struct Leg {
 /// The world at one of the qualities.
 struct Run {
     leg: Leg,
-    twin: Twin,
+    simulation: Simulation,
     ticks: u32,
     means: Vec<f64>,
     p99s: Vec<f64>,
 }
 
 impl Work {
-    fn new(seed: Seed, asleep: Asleep) -> Self {
+    fn new(world: &World, asleep: Asleep) -> Self {
+        let start = Checkpoint::of(world);
         let leg = |preset, quality| Leg { preset, quality, sleep: false };
-        let here = leg(seed.setup.preset, seed.setup.quality);
+        let here = leg(start.setup.preset, start.setup.quality);
         let mut left: Vec<_> = Preset::ALL.into_iter().map(|preset| leg(preset, preset.quality())).collect();
         if left.iter().all(|leg| leg.quality != here.quality) {
             left.push(here);
@@ -246,7 +253,8 @@ impl Work {
             left.push(Leg { sleep: true, ..here });
         }
         let total = left.iter().map(|leg| ladder::work(&leg.quality)).sum();
-        Self { seed, left, run: None, done: 0.0, total }
+        let instructions = world.resource::<SolverState>().instructions;
+        Self { start, instructions, left, run: None, done: 0.0, total }
     }
 
     fn is_done(&self) -> bool {
@@ -265,7 +273,7 @@ impl Work {
     /// Does one tick of the work; the result if that finishes a run.
     fn advance(&mut self) -> Option<Done> {
         if self.run.is_none() {
-            self.run = Some(Run::new(&self.seed, self.left.pop()?));
+            self.run = Some(Run::new(&self.start, self.instructions, self.left.pop()?));
         }
         let run = self.run.as_mut()?;
         let result = run.advance()?;
@@ -276,22 +284,23 @@ impl Work {
 }
 
 impl Run {
-    fn new(seed: &Seed, leg: Leg) -> Self {
+    fn new(start: &Checkpoint, instructions: InstructionSet, leg: Leg) -> Self {
         // Without threads, the calling one is all there is.
-        let mut twin = Twin::new(seed, Workers::new(1).unwrap_or_default());
-        twin.set_quality(leg.preset, leg.quality);
+        let start = start.clone().at_quality(leg.preset, leg.quality);
+        let simulation = Simulation::resume(&start, Workers::new(1).unwrap_or_default());
+        let mut simulation = simulation.with_instructions(instructions);
         if !leg.sleep {
             // What sleeps costs the same at every quality, and errs by the same: it says nothing of any.
-            twin.world_mut().resource_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off;
+            simulation.world_mut().resource_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off;
         }
-        Self { leg, twin, ticks: 0, means: Vec::new(), p99s: Vec::new() }
+        Self { leg, simulation, ticks: 0, means: Vec::new(), p99s: Vec::new() }
     }
 
     fn advance(&mut self) -> Option<Done> {
         if self.ticks == WARMUP {
-            self.twin.world_mut().resource_mut::<PassLedger>().clear();
+            self.simulation.world_mut().resource_mut::<PassLedger>().clear();
         }
-        self.twin.tick();
+        self.simulation.tick();
         self.ticks += 1;
         if !self.leg.sleep && self.ticks > WARMUP && self.ticks.is_multiple_of(MEASURE_EVERY) {
             self.measure();
@@ -299,7 +308,7 @@ impl Run {
         if self.ticks < WARMUP + TICKS {
             return None;
         }
-        let milliseconds = tick_milliseconds(self.twin.world());
+        let milliseconds = tick_milliseconds(self.simulation.world());
         if self.leg.sleep {
             return Some(Done::Here(milliseconds));
         }
@@ -313,7 +322,7 @@ impl Run {
     }
 
     fn measure(&mut self) {
-        let world = self.twin.world();
+        let world = self.simulation.world();
         let blueprint = &world.resource::<Setup>().blueprint;
         let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
         let rest = f64::from(blueprint.fluid.rest_density);
@@ -328,36 +337,35 @@ impl Run {
 mod tests {
     use super::*;
     use crate::{
-        lab::headless::Headless,
         scene::{
             self,
             effects::{EffectModes, Pass},
         },
-        sim::state::SleepState,
+        sim::{simulation::Simulation, state::SleepState},
     };
 
     /// A pool whose water and air came to rest.
-    fn pool() -> Headless {
+    fn pool() -> Simulation {
         let settings = [("columns", "16"), ("depth", "10")].map(|(key, value)| (key.to_owned(), value.to_owned()));
         let blueprint = scene::load("hydrostatic").unwrap().build(&settings, None, &EffectModes::new()).unwrap();
-        let mut headless = Headless::new(Arc::new(blueprint), Workers::single());
-        let asleep = |headless: &Headless| Asleep::of(headless.world()) == Asleep::All;
-        while !asleep(&headless) {
-            headless.tick();
-            assert!(headless.world().resource::<Clock>().tick < 3000, "it does not fall asleep");
+        let mut simulation = Simulation::new(Arc::new(blueprint), Workers::single());
+        let asleep = |simulation: &Simulation| Asleep::of(simulation.world()) == Asleep::All;
+        while !asleep(&simulation) {
+            simulation.tick();
+            assert!(simulation.world().resource::<Clock>().tick < 3000, "it does not fall asleep");
         }
-        headless
+        simulation
     }
 
     #[test]
     fn what_sleeps_is_awake_in_every_run_from_the_first_tick_to_the_last() {
-        let headless = pool();
-        let mut work = Work::new(Seed::of(headless.world()), Asleep::of(headless.world()));
+        let simulation = pool();
+        let mut work = Work::new(simulation.world(), Asleep::of(simulation.world()));
         let mut moved = 0;
         while !work.is_done() {
             work.advance();
             if let Some(run) = &work.run {
-                let world = run.twin.world();
+                let world = run.simulation.world();
                 let name = run.leg.preset.name();
                 assert_eq!(world.resource::<SleepState>().asleep(), 0, "{name} sleeps at tick {}", run.ticks);
                 moved += u32::from(world.resource::<PassLedger>().record(Pass::Solve).last.calls > 0);
@@ -368,13 +376,13 @@ mod tests {
 
     #[test]
     fn only_a_world_of_which_a_part_sleeps_is_run_once_more_for_its_time() {
-        let headless = pool();
-        let legs = |asleep| Work::new(Seed::of(headless.world()), asleep).left;
+        let simulation = pool();
+        let legs = |asleep| Work::new(simulation.world(), asleep).left;
         assert_eq!(legs(Asleep::None).len(), Preset::ALL.len());
         assert_eq!(legs(Asleep::All).len(), Preset::ALL.len());
         let some = legs(Asleep::Some);
         assert_eq!(some.iter().filter(|leg| leg.sleep).count(), 1);
         let last = some.last().expect("it is run first");
-        assert!(last.sleep && last.quality == headless.world().resource::<Setup>().quality);
+        assert!(last.sleep && last.quality == simulation.world().resource::<Setup>().quality);
     }
 }

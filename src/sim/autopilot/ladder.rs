@@ -106,7 +106,7 @@ mod tests {
     #[test]
     fn every_level_is_a_sound_quality() {
         for level in ladder() {
-            crate::sim::save::check::quality(&level.quality).unwrap();
+            crate::sim::checkpoint::check::quality(&level.quality).unwrap();
         }
     }
 

@@ -9,8 +9,8 @@ use crate::{
     lab::gauntlet::case::{Density, Gain, GauntletCase, Over, Rules, Size},
     scene::effects::{Effect, Mode},
     sim::{
+        generation::Generation,
         intent::Intent,
-        recorder::Recorder,
         state::{ParticleStore, Setup},
     },
 };
@@ -154,9 +154,7 @@ pub(super) const POISON: GauntletCase = GauntletCase {
                 *victim = *value;
             }
             // No player can do this, so that there is no intent for it.
-            if let Some(recorder) = world.get_resource::<Recorder>() {
-                recorder.jump();
-            }
+            Generation::count_state(world);
         }
     }),
     ticks: 240,

@@ -1,6 +1,6 @@
 //! What a file must keep to before anything is made of it. The ranges are those of scenes and elements.
 
-use super::Contents;
+use super::contents::Contents;
 use crate::{
     kernel::{
         air::Air,
