@@ -3,7 +3,7 @@
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use powder_master::{
     lab::headless::Headless,
-    scene::{self, blueprint::EffectModes},
+    scene::{self, effects::EffectModes},
     sim::{
         mark::Marker,
         state::{AirGrid, Clock, ParticleStore, Rock},

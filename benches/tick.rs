@@ -4,7 +4,7 @@ use bevy::{MinimalPlugins, app::App, time::TimeUpdateStrategy};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use powder_master::{
     kernel::params::Preset,
-    scene::{self, blueprint::EffectModes},
+    scene::{self, effects::EffectModes},
     sim::{SimulationPlugin, control, snapshot::Snapshot, state::ParticleStore, workers::Workers},
 };
 use std::{sync::Arc, time::Duration};

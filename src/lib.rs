@@ -5,9 +5,9 @@
 //! ```text
 //! game::input   mouse and keys ─► intents (sim::intent), in world units
 //!     │
-//!     ▼  60 times a second, in FixedUpdate (sim::schedule, sim::stages)
+//!     ▼  60 times a second, in FixedUpdate (sim::stages)
 //! Script ─► Edit ─► Sources ─► Count ─► Gate ─► Step ─► Measure
-//! cases      intents   taps     census  effects   │      checks, cost
+//! cases      intents  emitters  census  effects   │      checks, cost
 //!                                                 ▼  as often as the speeds call for
 //!             Air ─► Forces ─► Pressure ─► Predict ─► Bin ─► Solve ─► Velocity
 //!             each a thin system over one function of `kernel`

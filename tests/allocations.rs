@@ -5,7 +5,7 @@
 
 use powder_master::{
     lab::headless::Headless,
-    scene::{self, blueprint::EffectModes},
+    scene::{self, effects::EffectModes},
     sim::workers::Workers,
 };
 use std::{

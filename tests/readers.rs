@@ -12,7 +12,7 @@ use powder_master::{
         params::Preset,
         simd::InstructionSet,
     },
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         intent::{Intent, IntentQueue},
         recorder::{self, Recorder},

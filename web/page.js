@@ -181,6 +181,7 @@ function hook(game, ready) {
   return {
     ready,
     stats: () => JSON.parse(game.stats()),
+    widgets: () => JSON.parse(game.widgets()),
     scene: (name, settings = {}) => game.scene(JSON.stringify(
       [['scene', name], ...Object.entries(settings).map(([key, value]) => [key, String(value)])])),
     pause: (paused = true) => game.pause(paused),

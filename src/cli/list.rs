@@ -4,8 +4,10 @@ use crate::{
     cli::{args::Listing, failure::Failure, output},
     kernel::{element::Element, params::Preset},
     lab::gauntlet,
-    scene::{self, blueprint::Effect},
-    sim::effects::table::Row,
+    scene::{
+        self,
+        effects::{Effect, EffectRow},
+    },
 };
 
 /// Prints a list on stdout.
@@ -41,9 +43,8 @@ fn element(row: &Element) -> String {
 }
 
 fn effect(effect: Effect) -> String {
-    let Row { name, meaning, passes, part_of, when, off, parameters, .. } = effect.row();
-    let own: Vec<&str> = passes.iter().map(|pass| pass.name()).collect();
-    let stages = part_of.map_or_else(|| own.join(", "), |pass| format!("in {}", pass.name()));
+    let EffectRow { name, meaning, when, off, parameters, .. } = effect.row();
+    let stages = effect.place("in");
     let parameters = if parameters.is_empty() { "none".to_owned() } else { parameters.join(", ") };
     format!("{name}\t{meaning}\tstages: {stages}\tauto: runs while {when}\toff: {off}\tparameters: {parameters}")
 }

@@ -5,7 +5,6 @@ use crate::{
     sim::recording::Recording,
 };
 use bevy::ecs::world::World;
-use std::path::PathBuf;
 
 /// The scene without a name.
 const DEFAULT_SCENE: &str = "waterfall";
@@ -17,27 +16,31 @@ pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Fai
     let (start, recording) = Start::of_play(scene, options)?;
     threads::start_aside(options.machine.threads)?;
     let load = |world: &mut World| start.load(world, options.machine.simd);
-    open(scene, options.record.clone(), recording, load)
+    open(scene, options, recording, load)
 }
 
 #[cfg(feature = "app")]
 fn open(
     scene: &str,
-    record: Option<PathBuf>,
+    options: &PlayOptions,
     recording: Option<Recording>,
     load: impl FnOnce(&mut World),
 ) -> Result<(), Failure> {
     use crate::{
-        game::{self, GameError, playback},
+        game::{self, GameError, playback, script},
         lab::live::LivePlugin,
     };
     use bevy::app::AppExit;
 
-    match game::run(scene, record, |app| {
+    match game::run(scene, options.record.clone(), |app| {
         app.add_plugins(LivePlugin);
         load(app.world_mut());
         if let Some(recording) = recording {
             playback::begin(app.world_mut(), recording);
+        }
+        if options.hook {
+            app.add_plugins(script::plugin);
+            script::answer_stdin();
         }
     }) {
         Ok(AppExit::Success) => Ok(()),
@@ -48,7 +51,7 @@ fn open(
 }
 
 #[cfg(not(feature = "app"))]
-fn open(scene: &str, _: Option<PathBuf>, _: Option<Recording>, _: impl FnOnce(&mut World)) -> Result<(), Failure> {
+fn open(scene: &str, _: &PlayOptions, _: Option<Recording>, _: impl FnOnce(&mut World)) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
         "this build has no window (it lacks the cargo feature `app`); `powder-master run {scene}` works without one"
     )))

@@ -6,10 +6,7 @@ use crate::{
         failure::Failure,
     },
     kernel::{params::Preset, simd::InstructionSet},
-    scene::{
-        self,
-        blueprint::{Blueprint, EffectModes},
-    },
+    scene::{self, blueprint::Blueprint, effects::EffectModes},
     sim::{
         control,
         effects::Effects,

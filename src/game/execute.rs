@@ -24,7 +24,7 @@ use crate::{
     lab::gauntlet::CASES,
     scene::{
         self,
-        blueprint::{EffectModes, Mode},
+        effects::{EffectModes, Mode},
     },
     sim::{
         accuracy::Survey,

@@ -31,6 +31,7 @@ pub mod render;
 pub mod rest;
 pub mod saves;
 pub mod screen;
+pub mod script;
 pub mod split;
 #[cfg(test)]
 mod tests;

@@ -4,7 +4,7 @@
 use crate::{
     game::{actions::Action, tools::Tool},
     kernel::params::Preset,
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{accuracy::SurveyRequest, autopilot::Goal},
 };
 use bevy::prelude::Resource;

@@ -7,7 +7,7 @@ use crate::{
         brush::{BrushShape, Stroke},
         element::{Category, Element, ElementId, ElementTable},
     },
-    scene::blueprint::Effect,
+    scene::effects::Effect,
     sim::intent::Intent,
 };
 use bevy::prelude::{KeyCode, Resource};

@@ -9,7 +9,7 @@ use crate::{
         run::Plan,
         stats,
     },
-    scene::{self, blueprint::EffectModes},
+    scene::{self, effects::EffectModes},
     sim::{state::SolverState, workers::Workers},
 };
 use serde::Serialize;

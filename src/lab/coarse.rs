@@ -26,7 +26,7 @@
 use crate::{
     kernel::{solids::Solids, units::TICKS_PER_SECOND},
     lab::sampler::matter,
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
         state::{AirGrid, Rock, Setup},
@@ -188,7 +188,7 @@ mod tests {
     use super::*;
     use crate::{
         lab::headless::Headless,
-        scene::{self, blueprint::EffectModes},
+        scene::{self, effects::EffectModes},
         sim::{state::ParticleStore, workers::Workers},
     };
     use std::sync::Arc;

@@ -167,7 +167,7 @@ pub fn colour(heat: f32) -> (Rgb, f32) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{self, blueprint::EffectModes};
+    use crate::scene::{self, effects::EffectModes};
 
     #[test]
     fn no_heat_is_nothing_to_see_and_more_is_brighter() {

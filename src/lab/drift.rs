@@ -6,7 +6,7 @@ use crate::{
         balance::{Balance, floats_free},
         sampler::matter,
     },
-    scene::blueprint::Effect,
+    scene::effects::Effect,
     sim::{
         effects::Effects,
         state::{Rock, Setup},

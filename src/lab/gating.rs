@@ -15,7 +15,7 @@ use crate::{
     },
     scene::{
         self,
-        blueprint::{Effect, EffectModes, Mode},
+        effects::{Effect, EffectModes, Mode},
     },
     sim::{
         effects::Effects,

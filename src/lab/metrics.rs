@@ -3,8 +3,8 @@
 use crate::{
     kernel::params::Quality,
     lab::coarse::Distance,
-    scene::blueprint::Mode,
-    sim::{effects::account::Standing, ledger::Unit, state::Counters},
+    scene::effects::{Mode, Unit},
+    sim::{effects::status::Activity, state::Counters},
 };
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -92,7 +92,7 @@ pub struct Stage {
     pub touched: u64,
     /// How many it was spared because they slept or because it was not called.
     pub spared: u64,
-    /// Time that this saved, ms, reckoned as docs/effects.md says; `null` if the stage never ran.
+    /// Time that this saved, ms, estimated as docs/effects.md says; `null` if the stage never ran.
     pub ms_saved: Option<f64>,
 }
 
@@ -102,7 +102,7 @@ pub struct EffectCost {
     /// What the scene or the command line wanted.
     pub mode: Mode,
     /// Whether it works in the last tick.
-    pub state: Standing,
+    pub state: Activity,
     /// Ticks in which it ran.
     pub active_ticks: u64,
     /// Ticks since the scene began in which `on` may make another world than `auto`.
@@ -111,7 +111,7 @@ pub struct EffectCost {
     pub calls: Option<u64>,
     /// Time of its stage, ms; `null` if it is a part of another's.
     pub ms_total: Option<f64>,
-    /// Time that was saved because it did not run, ms, reckoned; of `sleep`, because what others work on slept. `null` if
+    /// Time that was saved because it did not run, ms, estimated; of `sleep`, because what others work on slept. `null` if
     /// its stage never ran or is another's.
     pub ms_saved: Option<f64>,
     /// Why it ran or not in the last tick, or how much of what it works on slept.

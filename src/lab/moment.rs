@@ -3,7 +3,10 @@
 use crate::{
     kernel::params::{Domain, Preset, Quality},
     lab::headless::Headless,
-    scene::blueprint::{Blueprint, Effect, EffectModes, Mode},
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, EffectModes, Mode},
+    },
     sim::{
         control,
         effects::Effects,

@@ -136,7 +136,7 @@ mod tests {
     use super::*;
     use crate::{
         lab::headless::Headless,
-        scene::{self, blueprint::EffectModes},
+        scene::{self, effects::EffectModes},
         sim::control,
     };
     use std::sync::Arc;

@@ -8,7 +8,7 @@ use crate::{
         units::{Scale, TICKS_PER_SECOND},
     },
     lab::{headless::Headless, picture::Picture, sampler::matter, stats},
-    scene::{self, SceneError, blueprint::EffectModes},
+    scene::{self, SceneError, effects::EffectModes},
     sim::workers::Workers,
 };
 use serde::Serialize;

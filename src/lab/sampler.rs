@@ -12,14 +12,14 @@ use crate::{
         stats,
         volume::volume_error,
     },
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode, Pass},
     sim::{
         control,
         effects::{
             Effects,
-            account::{self, Account, Sleepers},
+            status::{self, EffectStatus, Sleepers},
         },
-        ledger::{Pass, PassLedger, PassRecord},
+        ledger::{PassLedger, PassRecord},
         state::{AirGrid, Counters, ParticleStore, PredictorState, Rock, Setup, SleepState, SolverState},
         workers::Workers,
     },
@@ -143,18 +143,18 @@ impl Sampler {
         let (ledger, effects) = (world.resource::<PassLedger>(), world.resource::<Effects>());
         let sleepers = Sleepers::in_world(world);
         let cost = |effect: Effect| {
-            let Account { mode, standing, why, .. } = Account::of(effect, effects, sleepers);
+            let EffectStatus { mode, activity, why, .. } = EffectStatus::of(effect, effects, sleepers);
             let (state, passes) = (effects.get(effect), effect.row().passes);
             let records = || passes.iter().map(|pass| ledger.record(*pass));
             let has_own = !passes.is_empty();
             let cost = EffectCost {
                 mode,
-                state: standing,
+                state: activity,
                 active_ticks: state.active_ticks - self.active_before[effect as usize],
                 differing_ticks: state.differing_ticks,
                 calls: has_own.then(|| records().map(|record| record.calls).sum()),
                 ms_total: has_own.then(|| records().map(|record| ms(record.total)).sum()),
-                ms_saved: account::saving(effect, effects, ledger, PassRecord::saved),
+                ms_saved: status::saving(effect, effects, ledger, PassRecord::saved),
                 why,
             };
             (effect.name(), cost)
@@ -308,7 +308,7 @@ mod tests {
             headless::Headless,
             run::{Plan, run},
         },
-        scene::{self, blueprint::EffectModes},
+        scene::{self, effects::EffectModes},
         sim::{
             intent::{Intent, IntentQueue},
             workers::Workers,

@@ -1,67 +1,17 @@
 //! The world that a scene describes, ready to run: what the simulation starts from and resets to.
 
-use crate::kernel::{
-    element::ElementTable,
-    params::{AirParams, Domain, FluidParams, Preset, Quality},
-    particles::Particles,
-    solids::Solids,
-    sources::{Drain, Emitter, Rect, Wind},
-    units::Scale,
+use crate::{
+    kernel::{
+        element::ElementTable,
+        params::{AirParams, Domain, FluidParams, Preset, Quality},
+        particles::Particles,
+        solids::Solids,
+        sources::{Drain, Emitter, Rect, Wind},
+        units::Scale,
+    },
+    scene::effects::EffectModes,
 };
-use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, sync::Arc};
-
-/// Name of an effect: a group of stages that a scene can switch. What each is stands in `sim::effects::table`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Effect {
-    /// The air grid moves.
-    Air,
-    /// The air drags particles.
-    Drag,
-    /// Particles drag the air.
-    AirFeedback,
-    /// The pressure predictor.
-    Predictor,
-    /// The tensile correction `s_corr`.
-    Tension,
-    /// XSPH viscosity.
-    Viscosity,
-    /// Vorticity confinement.
-    Vorticity,
-    /// What has come to rest sleeps: bodies of liquid and tiles of air.
-    Sleep,
-}
-
-impl Effect {
-    /// All effects in the order in which their stages run.
-    pub const ALL: [Self; 8] = [
-        Self::Air,
-        Self::Drag,
-        Self::AirFeedback,
-        Self::Predictor,
-        Self::Tension,
-        Self::Viscosity,
-        Self::Vorticity,
-        Self::Sleep,
-    ];
-}
-
-/// What a scene or a player wants of an effect.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Mode {
-    /// Runs only while something in the world calls for it.
-    #[default]
-    Auto,
-    /// Always runs.
-    On,
-    /// Never runs.
-    Off,
-}
-
-/// Wanted mode of each effect; those that are not named are `auto`.
-pub type EffectModes = BTreeMap<Effect, Mode>;
 
 /// Air that starts at another pressure than the surroundings'.
 #[derive(Clone, Copy, Debug, PartialEq)]

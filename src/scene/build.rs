@@ -7,8 +7,9 @@ use crate::{
         units::Scale,
     },
     scene::{
-        blueprint::{Blueprint, EffectModes},
+        blueprint::Blueprint,
         builtin::{self, Origin, Source},
+        effects::EffectModes,
         elements::elements,
         error::{SceneError, choices},
         file::{ParameterSpec, SceneText, parse},

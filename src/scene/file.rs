@@ -6,7 +6,7 @@
 use crate::{
     kernel::params::{AirAdvection, GradientKernel, OpenSides, Preset},
     scene::{
-        blueprint::EffectModes,
+        effects::EffectModes,
         error::SceneError,
         expression::{is_name, is_reserved},
         knobs,

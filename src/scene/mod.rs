@@ -23,6 +23,7 @@ mod shape;
 mod tests;
 
 pub mod blueprint;
+pub mod effects;
 pub mod readers;
 
 pub use build::{SceneFile, from_text, load};

@@ -180,7 +180,7 @@ pub enum SurveyRequest {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{self, blueprint::EffectModes};
+    use crate::scene::{self, effects::EffectModes};
 
     fn sample(tick: u64, mean: Option<f32>) -> ErrorSample {
         ErrorSample { tick, mean, p99: mean, cost: Duration::from_micros(300) }

@@ -7,7 +7,7 @@ use crate::{
         element::ElementId,
         params::{Preset, Quality},
     },
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
 };
 use bevy::prelude::Resource;
 use glam::Vec2;

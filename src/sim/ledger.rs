@@ -1,139 +1,14 @@
 //! The pass ledger: what each stage of a tick cost, what it worked on, and what it was spared. Written by the stages, read
 //! by the HUD and `--metrics`.
 //!
-//! **What it saves** to leave particles or cells alone is never measured, since it does not happen. It is reckoned: what a
+//! **What it saves** to leave particles or cells alone is never measured, since it does not happen. It is estimated: what a
 //! pass was spared times what it took for one of them, by its own clock, when it last had enough of them (docs/effects.md
-//! holds that against worlds in which nothing is left out). A pass that never ran has no such time, and what it would take
+//! compares that with worlds in which nothing is left out). A pass that never ran has no such time, and what it would take
 //! is unknown.
 
-use crate::scene::blueprint::Effect;
+use crate::scene::effects::{Pass, Unit};
 use bevy::prelude::Resource;
-use serde::Serialize;
 use std::time::Duration;
-
-/// A stage of the tick.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Pass {
-    /// Intents change the world.
-    Edit,
-    /// Taps and outlets.
-    Sources,
-    /// The air moves.
-    Air,
-    /// Gravity.
-    Gravity,
-    /// Particles drag the air.
-    Feedback,
-    /// The air drags particles.
-    Drag,
-    /// The pressure predictor.
-    Pressure,
-    /// Positions are predicted and swept against rock and box.
-    Predict,
-    /// Particles are sorted into bins.
-    Bin,
-    /// The density constraint moves particles.
-    Solve,
-    /// Velocities follow from the moves.
-    Velocity,
-    /// XSPH viscosity.
-    Viscosity,
-    /// Vorticity confinement.
-    Vorticity,
-    /// Who sleeps, who wakes.
-    Sleep,
-    /// Checks at the end of the tick.
-    Measure,
-}
-
-impl Pass {
-    /// All passes in the order of the tick.
-    pub const ALL: [Self; 15] = [
-        Self::Edit,
-        Self::Sources,
-        Self::Air,
-        Self::Gravity,
-        Self::Feedback,
-        Self::Drag,
-        Self::Pressure,
-        Self::Predict,
-        Self::Bin,
-        Self::Solve,
-        Self::Velocity,
-        Self::Viscosity,
-        Self::Vorticity,
-        Self::Sleep,
-        Self::Measure,
-    ];
-
-    /// Name in metrics and on the screen.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Edit => "edit",
-            Self::Sources => "sources",
-            Self::Air => "air",
-            Self::Gravity => "gravity",
-            Self::Feedback => "air_feedback",
-            Self::Drag => "drag",
-            Self::Pressure => "pressure",
-            Self::Predict => "predict",
-            Self::Bin => "bin",
-            Self::Solve => "solve",
-            Self::Velocity => "velocity",
-            Self::Viscosity => "viscosity",
-            Self::Vorticity => "vorticity",
-            Self::Sleep => "sleep",
-            Self::Measure => "measure",
-        }
-    }
-
-    /// What it works on.
-    pub fn unit(self) -> Unit {
-        match self {
-            Self::Edit => Unit::Edits,
-            Self::Air => Unit::Cells,
-            _ => Unit::Particles,
-        }
-    }
-
-    /// The effect that it belongs to, if it does to one.
-    pub fn effect(self) -> Option<Effect> {
-        Effect::ALL.into_iter().find(|effect| effect.row().passes.contains(&self))
-    }
-
-    /// What it would work on in a tick in which nothing is left out, where that is not what it worked on.
-    fn whole(self, extent: Extent) -> Option<u64> {
-        match self {
-            // Sleep is not spared by sleep, and the others leave nothing out.
-            Self::Edit | Self::Sources | Self::Sleep | Self::Measure => None,
-            Self::Air => Some(extent.cells),
-            _ => Some(extent.particles),
-        }
-    }
-}
-
-/// What a pass works on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Unit {
-    /// Particles, each once a call.
-    Particles,
-    /// Cells of the air, each once a substep of the air.
-    Cells,
-    /// Edits.
-    Edits,
-}
-
-impl Unit {
-    /// Plural.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Particles => "particles",
-            Self::Cells => "cells",
-            Self::Edits => "edits",
-        }
-    }
-}
 
 /// What a tick works on if nothing is left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -144,8 +19,31 @@ pub struct Extent {
     pub cells: u64,
 }
 
+impl Extent {
+    /// What `pass` works on then, where that is not what it worked on.
+    fn of(self, pass: Pass) -> Option<u64> {
+        let all = if pass.unit() == Unit::Cells { self.cells } else { self.particles };
+        pass.row().each_substep.then_some(all)
+    }
+}
+
+/// What a call of a pass did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Call {
+    /// Particles or cells that it worked on.
+    pub touched: u64,
+    /// Those that it left alone, where they are more than what [`Extent`] tells.
+    pub spared: u64,
+}
+
+impl From<usize> for Call {
+    fn from(touched: usize) -> Self {
+        Self { touched: touched as u64, spared: 0 }
+    }
+}
+
 /// Fewest particles or cells of a tick from which the time for one of them is learnt, where there are as many: with few,
-/// what a call itself takes would be taken for theirs. Changing this affects only what savings are reckoned to.
+/// what a call itself takes would be taken for theirs. Changing this affects only what savings are estimated at.
 const ENOUGH: u64 = 1024;
 
 /// Ticks of which the times are kept for medians.
@@ -261,19 +159,15 @@ impl Default for PassLedger {
 }
 
 impl PassLedger {
-    /// Notes a call of `pass` that worked on so many particles or cells.
-    pub fn note(&mut self, pass: Pass, touched: u64, time: Duration) {
+    /// Notes a call of `pass` that took `time`.
+    pub fn note(&mut self, pass: Pass, call: Call, time: Duration) {
         let record = &mut self.records[pass as usize];
         record.calls += 1;
         record.total += time;
         record.now.calls += 1;
-        record.now.touched += touched;
+        record.now.touched += call.touched;
+        record.now.spared += call.spared;
         record.now.time += time;
-    }
-
-    /// Notes how many cells or particles `pass` left alone, where that is more than what [`Extent`] tells.
-    pub fn spare(&mut self, pass: Pass, spared: u64) {
-        self.records[pass as usize].now.spared += spared;
     }
 
     /// The record of `pass`.
@@ -293,7 +187,7 @@ impl PassLedger {
         self.tick.total += time;
         put(&mut self.tick.recent, slot, time);
         for (pass, record) in Pass::ALL.into_iter().zip(&mut self.records) {
-            record.close(pass.whole(extent), slot);
+            record.close(extent.of(pass), slot);
         }
     }
 
@@ -340,26 +234,30 @@ mod tests {
         let mut ledger = PassLedger::default();
         let extent = Extent { particles: 4000, cells: 0 };
         for _ in 0..3 {
-            ledger.note(Pass::Solve, 2000, ns(20_000));
-            ledger.note(Pass::Solve, 2000, ns(20_000));
+            ledger.note(Pass::Solve, 2000.into(), ns(20_000));
+            ledger.note(Pass::Solve, 2000.into(), ns(20_000));
             ledger.end_tick(extent, ns(50_000));
         }
         assert_eq!(ledger.record(Pass::Solve).saved_last(), Some(0.0), "nothing was spared");
         // A quarter is awake; a few others come at a price that is the call's, not theirs.
-        ledger.note(Pass::Solve, 10, ns(9_000));
+        ledger.note(Pass::Solve, 10.into(), ns(9_000));
         ledger.end_tick(extent, ns(10_000));
         let record = ledger.record(Pass::Solve);
         assert_eq!((record.last.calls, record.last.touched, record.last.spared), (1, 10, 3990));
         assert!((record.saved_last().unwrap() - 3990.0 * 10e-6).abs() < 1e-9, "{:?}", record.saved_last());
         assert_eq!((record.touched, record.spared), (12_010, 3990));
-        assert_eq!(ledger.record(Pass::Viscosity).saved_last(), None, "nobody knows what it would have taken");
+        assert_eq!(
+            ledger.record(Pass::Viscosity).saved_last(),
+            None,
+            "it never ran: what it would have taken is unknown"
+        );
         assert_eq!(ledger.record(Pass::Air).saved_last(), Some(0.0), "there is no air");
     }
 
     #[test]
     fn all_that_there_is_is_enough_to_learn_from() {
         let mut ledger = PassLedger::default();
-        ledger.note(Pass::Bin, 50, ns(1000));
+        ledger.note(Pass::Bin, 50.into(), ns(1000));
         ledger.end_tick(Extent { particles: 50, cells: 0 }, ns(2000));
         assert_eq!(ledger.record(Pass::Bin).each(), Some(20.0));
         ledger.clear();

@@ -17,7 +17,6 @@ pub mod recorder;
 pub mod recording;
 pub mod replay;
 pub mod save;
-pub mod schedule;
 pub mod script;
 pub mod snapshot;
 pub mod split;

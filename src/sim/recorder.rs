@@ -4,14 +4,17 @@
 //! Intents come from the edit stage. A state that is put in the place of another (undo, reset, another scene: all that
 //! `control` thaws) begins a new segment.
 
-use crate::sim::{
-    control,
-    intent::Intent,
-    mark::{Mark, Marker},
-    recording::{End, Entry},
-    schedule::TickSystems,
-    state::{AirGrid, Clock, ParticleStore, Rock, Setup},
-    tape::{Start, Tape},
+use crate::{
+    scene::effects::Pass,
+    sim::{
+        control,
+        intent::Intent,
+        mark::{Mark, Marker},
+        recording::{End, Entry},
+        script,
+        state::{AirGrid, Clock, ParticleStore, Rock, Setup},
+        tape::{Start, Tape},
+    },
 };
 use bevy::prelude::{App, FixedUpdate, IntoScheduleConfigs, Res, Resource, World, resource_exists};
 use std::{
@@ -215,8 +218,8 @@ pub fn plugin(app: &mut App) {
     app.init_resource::<Recorder>().add_systems(
         FixedUpdate,
         (
-            keep_up.after(TickSystems::Script).before(TickSystems::Edit).run_if(resource_exists::<Setup>),
-            mark.after(TickSystems::Measure).run_if(resource_exists::<Setup>),
+            keep_up.after(script::run).before(Pass::Edit).run_if(resource_exists::<Setup>),
+            mark.after(Pass::Measure).run_if(resource_exists::<Setup>),
         ),
     );
 }

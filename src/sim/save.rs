@@ -22,7 +22,10 @@ use crate::{
         solids::Solids,
         units::Scale,
     },
-    scene::blueprint::{Blueprint, Effect, EffectModes, Mode},
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, EffectModes, Mode},
+    },
     sim::{
         control,
         effects::Effects,

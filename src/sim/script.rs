@@ -15,7 +15,7 @@ pub struct Script {
 }
 
 /// Lets the script act.
-pub(super) fn run(world: &mut World) {
+pub(crate) fn run(world: &mut World) {
     let (Some(script), Some(setup)) = (world.get_resource::<Script>(), world.get_resource::<Setup>()) else { return };
     if setup.blueprint.name == script.scene {
         let (act, tick) = (script.act, world.resource::<Clock>().tick);

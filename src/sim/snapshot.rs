@@ -2,7 +2,10 @@
 
 use crate::{
     kernel::{air::Air, element::ElementId, particles::Particles, sleep::SleepRecord, solids::Solids},
-    scene::blueprint::{Blueprint, Effect, Mode},
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, Mode},
+    },
     sim::state::{Clock, Sources},
 };
 

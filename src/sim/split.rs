@@ -7,13 +7,14 @@
 
 use crate::{
     kernel::params::{Preset, Quality},
+    scene::effects::Pass,
     sim::{
         accuracy::LiveError,
         effects::Effects,
         intent::{Intent, IntentQueue},
         ledger::PassLedger,
         pace::Pace,
-        schedule::TickSystems,
+        script,
         state::{Clock, Setup},
         twin::{Seed, Twin},
         workers::Workers,
@@ -106,8 +107,8 @@ pub fn plugin(app: &mut App) {
     app.init_resource::<Split>().add_systems(
         FixedUpdate,
         (
-            copy_input.after(TickSystems::Script).before(TickSystems::Edit).run_if(is_on),
-            tick_second_world.after(TickSystems::Measure).run_if(is_on),
+            copy_input.after(script::run).before(Pass::Edit).run_if(is_on),
+            tick_second_world.after(Pass::Measure).run_if(is_on),
         ),
     );
 }
@@ -170,7 +171,7 @@ mod tests {
             difference::{Difference, Half},
             headless::Headless,
         },
-        scene::{self, blueprint::EffectModes},
+        scene::{self, effects::EffectModes},
         sim::{
             control,
             state::{AirGrid, ParticleStore},

@@ -5,7 +5,7 @@ use crate::{
     kernel::{
         air::{Air, AirReport},
         element::ElementTable,
-        forces::drag_rates,
+        forces::{DragTable, drag_rates},
         params::{Domain, Preset, Quality},
         particles::Particles,
         pbf::Solver,
@@ -218,5 +218,10 @@ impl Rates {
             viscosity: elements.iter().map(|(_, element)| element.viscosity).collect(),
             vorticity: elements.iter().map(|(_, element)| scale.to_kernel(element.vorticity)).collect(),
         }
+    }
+
+    /// What drag reads.
+    pub fn drag_table(&self) -> DragTable<'_> {
+        DragTable { rates: &self.drag, masses: &self.mass }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::{
     kernel::params::{Domain, Preset, Quality},
-    scene::blueprint::{Blueprint, EffectModes},
+    scene::{blueprint::Blueprint, effects::EffectModes},
     sim::{
         control,
         effects::Effects,

@@ -105,7 +105,7 @@ mod tests {
     use super::*;
     use crate::{
         lab::headless::Headless,
-        scene::{self, blueprint::EffectModes},
+        scene::{self, effects::EffectModes},
     };
 
     fn waterfall() -> Headless {

@@ -2,10 +2,7 @@
 
 use crate::{
     kernel::params::Preset,
-    scene::{
-        self, SceneError,
-        blueprint::{Blueprint, EffectModes},
-    },
+    scene::{self, SceneError, blueprint::Blueprint, effects::EffectModes},
 };
 
 /// The scene of a link that names none.

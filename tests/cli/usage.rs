@@ -1,7 +1,7 @@
 //! What the program says to wrong arguments, and to questions about itself.
 
 use crate::{folder, good, refused};
-use powder_master::scene::{self, blueprint::Effect};
+use powder_master::scene::{self, effects::Effect};
 
 #[test]
 fn bad_usage_is_one_line_that_says_what_is_allowed() {

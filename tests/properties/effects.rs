@@ -12,7 +12,8 @@ use powder_master::{
     kernel::params::Preset,
     scene::{
         self,
-        blueprint::{Blueprint, Effect, EffectModes, Mode},
+        blueprint::Blueprint,
+        effects::{Effect, EffectModes, Mode},
     },
     sim::{effects::Effects, intent::Intent, stages::TickPlan},
 };

@@ -9,7 +9,7 @@ use powder_master::{
         element::ElementId,
         params::Preset,
     },
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::intent::Intent,
 };
 use proptest::prelude::*;

@@ -5,7 +5,7 @@ use crate::support::Sandbox;
 use glam::Vec2;
 use powder_master::{
     kernel::{predict::longest_move, solids::Solids},
-    scene::{self, blueprint::EffectModes},
+    scene::{self, effects::EffectModes},
     sim::{
         intent::Intent,
         stages::TickPlan,

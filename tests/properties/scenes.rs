@@ -1,7 +1,7 @@
 //! Random scene files from the whole space of valid ones: every number at both ends of its range and in between.
 
 use glam::Vec2;
-use powder_master::{kernel::params::Preset, scene::blueprint::Effect};
+use powder_master::{kernel::params::Preset, scene::effects::Effect};
 use proptest::prelude::*;
 use std::fmt::Write;
 

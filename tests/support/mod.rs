@@ -14,12 +14,13 @@ use powder_master::{
     },
     scene::{
         self,
-        blueprint::{Blueprint, EffectModes},
+        blueprint::Blueprint,
+        effects::{EffectModes, Pass},
     },
     sim::{
         SimulationPlugin, control,
         intent::{Intent, IntentQueue},
-        ledger::{Pass, PassLedger},
+        ledger::PassLedger,
         state::{Census, Counters, ParticleStore, Rock, SolverState},
         workers::Workers,
     },

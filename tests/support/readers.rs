@@ -6,7 +6,7 @@ use bevy::app::Plugins;
 use powder_master::{
     kernel::simd::InstructionSet,
     lab::headless::Headless,
-    scene::{self, SceneError, blueprint::EffectModes, builtin_names, readers},
+    scene::{self, SceneError, builtin_names, effects::EffectModes, readers},
     sim::{
         control,
         recording::{Recording, Writer},

@@ -3,9 +3,8 @@
 import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { difference, launch, serve } from './browser.mjs';
-
-export const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
+import { middle, near, poll, pressable, sleep } from '../poll.mjs';
+import { difference, launch, serve, water } from './browser.mjs';
 
 // A browser, a server of `dist/`, and what a test needs to play there.
 export async function begin(builder, modules, shots) {
@@ -53,14 +52,12 @@ export async function begin(builder, modules, shots) {
   }
 
   // Shoots until `good` holds for the share, in %, of the picture that differs from `before`.
-  async function shootUntil(page, name, before, good, seconds = 30) {
-    const end = Date.now() + 1000 * seconds;
-    for (;;) {
-      const share = await difference(eyes, before, await shoot(page, name));
-      if (good(share)) return share;
-      assert.ok(Date.now() < end, `${name}: ${share} % of the picture differs after ${seconds} s`);
-    }
-  }
+  const shootUntil = (page, name, before, good) => poll(
+    `${name}: % of the picture that differs`, async () => difference(eyes, before, await shoot(page, name)), good);
+
+  // Shoots until `good` holds for the pixels of water in a part of the picture.
+  const waterUntil = (page, name, part, good) => poll(
+    `${name}: pixels of water`, async () => water(eyes, await shoot(page, name), part), good);
 
   async function test(name, body) {
     const begun = Date.now();
@@ -76,25 +73,45 @@ export async function begin(builder, modules, shots) {
 
   return {
     browser, complaints, end, eyes, host, modules, open, openIn, passed: () => passed, play, shoot, shootUntil, shots, started, test,
+    waterUntil,
   };
 }
 
 export const stats = (page) => page.evaluate(() => window.powderMaster.stats());
 
-export async function until(page, what, good, seconds = 60) {
-  const end = Date.now() + 1000 * seconds;
-  for (;;) {
-    const now = await stats(page);
-    if (good(now)) return now;
-    assert.ok(Date.now() < end, `${what}: not within ${seconds} s: ${JSON.stringify(now)}`);
-    await sleep(100);
+export const until = (page, what, good) => poll(what, () => stats(page), (now) => now !== null && good(now));
+
+export const untilWidgets = (page, what, good) => poll(what, () => page.evaluate(() => window.powderMaster.widgets()), good);
+
+// Where something is that can be pressed, when it has come to keep still.
+export async function find(page, name) {
+  for (let before = ''; ;) {
+    const seen = await untilWidgets(page, `something to press called ${name}`, (all) => pressable(all, name) !== undefined);
+    const at = middle(pressable(seen, name));
+    if (at.join() === before) return at;
+    before = at.join();
+    const { frame } = await stats(page);
+    await until(page, 'the next frame', (now) => now.frame > frame || now.rests);
   }
 }
 
-// Stops the world's time and waits until no message is shown any more, so that the picture keeps still.
+export async function click(page, name) {
+  const at = await find(page, name);
+  await moveTo(page, at);
+  await page.mouse.down();
+  await page.mouse.up();
+}
+
+// Moves the pointer, and waits until the game knows.
+export async function moveTo(page, to) {
+  await page.mouse.move(...to, { steps: 4 });
+  await until(page, `the pointer at ${to}`, ({ pointer }) => pointer !== null && near(pointer, to));
+}
+
+// Stops the world's time and waits until nothing changes any more, so that the picture keeps still.
 export async function still(page) {
   await page.evaluate(() => window.powderMaster.pause());
-  await until(page, 'a still picture', ({ paused, messages }) => paused && messages.length === 0);
+  await until(page, 'a still picture', ({ paused, rests }) => paused && rests);
 }
 
 // Opens what a link asks for by changing what stands behind the `#`.
@@ -109,22 +126,26 @@ export const files = (page) => page.evaluate(() => new Promise((done) => {
   };
 }));
 
-export async function untilKept(page, count) {
-  for (const end = Date.now() + 30_000; ;) {
-    const kept = await files(page);
-    if (kept.length >= count) return kept;
-    assert.ok(Date.now() < end, `the browser keeps ${kept.length} files instead of ${count}`);
-    await sleep(100);
-  }
-}
+export const untilKept = (page, count) => poll(`${count} files that the browser keeps`, () => files(page), ({ length }) => length >= count);
 
 // Holds a button on the way along the given points.
-export async function drag(page, points, button = 'left', pause = 100) {
-  await page.mouse.move(...points[0]);
+export async function drag(page, points, button = 'left') {
+  await moveTo(page, points[0]);
   await page.mouse.down({ button });
-  for (const point of points) {
-    await page.mouse.move(...point, { steps: 4 });
-    await sleep(pause);
-  }
+  for (const point of points.slice(1)) await moveTo(page, point);
   await page.mouse.up({ button });
+}
+
+// Holds a button and goes round along the points until the game says that it is enough.
+export async function dragUntil(page, points, what, good, button = 'left') {
+  await moveTo(page, points[0]);
+  await page.mouse.down({ button });
+  let turn = 0;
+  await poll(what, async () => {
+    turn += 1;
+    await moveTo(page, points[turn % points.length]);
+    return stats(page);
+  }, good);
+  await page.mouse.up({ button });
+  return stats(page);
 }

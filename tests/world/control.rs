@@ -8,12 +8,15 @@ use powder_master::{
         params::Preset,
         sources::{Emitter, Rect},
     },
-    scene::blueprint::{Blueprint, Effect, Mode},
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, Mode, Pass},
+    },
     sim::{
         control,
         effects::Effects,
         intent::{Intent, IntentQueue},
-        ledger::{Pass, PassLedger},
+        ledger::PassLedger,
         pace::Pace,
         state::{AirGrid, Clock, Counters, Setup},
     },

@@ -12,7 +12,8 @@ use powder_master::{
     },
     scene::{
         self,
-        blueprint::{Blueprint, Effect, Mode},
+        blueprint::Blueprint,
+        effects::{Effect, Mode},
     },
     sim::{intent::Intent, state::AirGrid},
 };

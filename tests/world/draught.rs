@@ -8,8 +8,11 @@ use powder_master::{
         params::{OpenSides, Preset},
         sources::{Emitter, Rect, Wind},
     },
-    scene::blueprint::{Blueprint, Effect, Mode},
-    sim::{effects::Effects, intent::Intent, ledger::Pass, state::AirGrid},
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, Mode, Pass},
+    },
+    sim::{effects::Effects, intent::Intent, state::AirGrid},
 };
 
 fn area(min: (f32, f32), max: (f32, f32)) -> Rect {

@@ -4,7 +4,10 @@ use crate::support::{Furnish, Random, Sandbox, WATER, apart, empty_box};
 use glam::Vec2;
 use powder_master::{
     kernel::{params::Preset, particles::Particles, solids::Solids},
-    scene::blueprint::{Blueprint, Effect, Mode},
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, Mode},
+    },
 };
 use std::collections::HashMap;
 

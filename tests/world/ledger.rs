@@ -4,14 +4,17 @@ use crate::support::{Furnish, Sandbox, empty_box};
 use glam::Vec2;
 use powder_master::{
     kernel::brush::{BrushShape, Stroke},
-    scene::blueprint::{Blueprint, Effect, Mode},
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, Mode, Pass},
+    },
     sim::{
         effects::{
             Effects,
-            account::{self, Account, Sleepers, Standing},
+            status::{self, Activity, EffectStatus, Sleepers},
         },
         intent::Intent,
-        ledger::{Pass, PassLedger, PassRecord},
+        ledger::{PassLedger, PassRecord},
         stages::TickPlan,
         state::AirGrid,
     },
@@ -33,12 +36,12 @@ fn ledger(sandbox: &Sandbox) -> &PassLedger {
     sandbox.get()
 }
 
-fn account(sandbox: &Sandbox, effect: Effect) -> Account {
-    Account::of(effect, sandbox.get(), Sleepers::in_world(sandbox.app.world()))
+fn account(sandbox: &Sandbox, effect: Effect) -> EffectStatus {
+    EffectStatus::of(effect, sandbox.get(), Sleepers::in_world(sandbox.app.world()))
 }
 
 fn saving(sandbox: &Sandbox, effect: Effect) -> Option<f64> {
-    account::saving(effect, sandbox.get::<Effects>(), ledger(sandbox), PassRecord::saved_last)
+    status::saving(effect, sandbox.get::<Effects>(), ledger(sandbox), PassRecord::saved_last)
 }
 
 #[test]
@@ -58,7 +61,7 @@ fn who_is_awake_is_worked_on_and_who_sleeps_is_spared() {
 
     for _ in 0..2000 {
         sandbox.tick(1);
-        if account(&sandbox, Effect::Viscosity).standing == Standing::Asleep {
+        if account(&sandbox, Effect::Viscosity).activity == Activity::Asleep {
             break;
         }
     }

@@ -7,7 +7,10 @@ use powder_master::{
         element::{Element, ElementTable},
         params::Preset,
     },
-    scene::blueprint::{Blueprint, Effect, Mode},
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, Mode},
+    },
     sim::stages::TickPlan,
 };
 use std::sync::Arc;

@@ -14,7 +14,7 @@ use powder_master::{
     lab::gauntlet::CASES,
     scene::{
         self,
-        blueprint::{Effect, Mode},
+        effects::{Effect, Mode},
     },
     sim::{
         control,

@@ -4,7 +4,7 @@ use crate::support::{Furnish, Sandbox, blueprint, empty_box};
 use glam::Vec2;
 use powder_master::{
     kernel::params::Preset,
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::state::{Setup, SolverState},
 };
 

@@ -7,7 +7,7 @@ use powder_master::{
         brush::{BrushShape, Stroke},
         params::Preset,
     },
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         control,
         effects::Effects,

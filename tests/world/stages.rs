@@ -12,15 +12,16 @@ use powder_master::{
         params::OpenSides,
         sources::{Drain, Emitter, Rect, Wind},
     },
-    scene::blueprint::{Blueprint, Effect, Mode, PressurePatch},
+    scene::{
+        blueprint::{Blueprint, PressurePatch},
+        effects::{Effect, Mode, Pass},
+    },
     sim::{
         control,
         effects::Effects,
         intent::Intent,
-        ledger::Pass,
         pace::Pace,
-        schedule::Substep,
-        stages::TickPlan,
+        stages::{Substep, TickPlan},
         state::{AirGrid, Clock},
     },
 };
@@ -191,20 +192,6 @@ fn a_pause_leaves_no_trace() {
     assert_eq!(paused.hash(), straight.hash());
 }
 
-/// The pass that an effect is, if it has one of its own.
-fn pass_of(effect: Effect) -> Option<Pass> {
-    match effect {
-        Effect::Air => Some(Pass::Air),
-        Effect::Drag => Some(Pass::Drag),
-        Effect::AirFeedback => Some(Pass::Feedback),
-        Effect::Viscosity => Some(Pass::Viscosity),
-        Effect::Vorticity => Some(Pass::Vorticity),
-        Effect::Predictor => Some(Pass::Pressure),
-        // A part of the solver's pass, and a look now and then.
-        Effect::Tension | Effect::Sleep => None,
-    }
-}
-
 #[test]
 fn an_effect_that_is_off_has_no_call_and_one_that_is_on_has_all() {
     for effect in Effect::ALL {
@@ -216,8 +203,9 @@ fn an_effect_that_is_off_has_no_call_and_one_that_is_on_has_all() {
             let state = sandbox.get::<Effects>().get(effect);
             assert_eq!((state.mode, state.active_ticks), (mode, ticks), "{}", effect.name());
             assert!(!state.why.is_empty());
-            if let Some(pass) = pass_of(effect) {
-                assert_eq!(sandbox.calls(pass), SUBSTEPS * ticks, "{}: {mode:?}", effect.name());
+            // Sleep has none: it looks now and then.
+            for pass in effect.row().passes.iter().filter(|pass| pass.row().each_substep) {
+                assert_eq!(sandbox.calls(*pass), SUBSTEPS * ticks, "{}: {mode:?}", effect.name());
             }
         }
     }

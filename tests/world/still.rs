@@ -3,7 +3,10 @@
 use crate::support::{Sandbox, blueprint};
 use powder_master::{
     kernel::params::Preset,
-    scene::blueprint::{Blueprint, Effect, Mode},
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, Mode},
+    },
     sim::state::SolverState,
 };
 

@@ -4,7 +4,10 @@ use crate::support::{Furnish, Sandbox, apart, empty_box};
 use glam::Vec2;
 use powder_master::{
     kernel::{params::Preset, solids::Solids},
-    scene::blueprint::{Blueprint, Effect, Mode},
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, Mode},
+    },
 };
 
 /// Edge of the box, d.

@@ -8,7 +8,7 @@ use super::{
 use crate::{
     kernel::params::Preset,
     lab::{exam::ExamCase, gauntlet::GauntletCase},
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -102,6 +102,9 @@ pub(in crate::cli) struct PlayOptions {
     /// Record what is played, from the start on, for `replay FILE`
     #[arg(long, value_name = "FILE")]
     pub(in crate::cli) record: Option<PathBuf>,
+    /// Answer a script: a line of stdin gets a line of stdout (docs/scripts.md)
+    #[arg(long, hide = true)]
+    pub(in crate::cli) hook: bool,
 }
 
 /// `run`.

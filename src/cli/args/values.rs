@@ -3,7 +3,7 @@
 use crate::{
     kernel::{params::Preset, simd::InstructionSet, units::TICKS_PER_SECOND},
     lab::cases::Case,
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
 };
 
 /// Longest run, s; about 28 hours.

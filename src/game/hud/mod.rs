@@ -35,13 +35,15 @@ impl Plugin for HudPlugin {
                 (HudSystems::Begin, HudSystems::Bars, HudSystems::Panels, HudSystems::End).chain(),
             )
             .add_systems(Startup, toast::greet)
+            .add_systems(
+                PreUpdate,
+                style::dress_new.after(EguiPreUpdateSet::InitContexts).before(EguiPreUpdateSet::BeginPass),
+            )
             .add_systems(PreUpdate, focus::keep_keys.after(EguiPreUpdateSet::ProcessInput))
             .add_systems(
                 EguiPrimaryContextPass,
                 (
-                    (cost::begin, style::dress_once, layout::scale_to_window, stats::read)
-                        .chain()
-                        .in_set(HudSystems::Begin),
+                    (cost::begin, layout::scale_to_window, stats::read).chain().in_set(HudSystems::Begin),
                     (
                         (bar::show, palette::show).chain().run_if(not(touch::in_use)),
                         touch::show.run_if(touch::in_use),

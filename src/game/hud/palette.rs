@@ -153,6 +153,7 @@ fn tile(ui: &mut Ui, tool: Tool, shows: &Shows, chosen: bool) -> egui::Response 
     painter.text(rect.center_bottom() - vec2(0.0, 4.0), Align2::CENTER_BOTTOM, name, font.clone(), text);
     let key = if chosen { style::ACCENT } else { style::WEAK };
     painter.text(rect.right_top() + vec2(-5.0, 3.0), Align2::RIGHT_TOP, key_of(tool, shows), font, key);
+    style::name(&response, name, chosen);
     response
 }
 

@@ -1,11 +1,16 @@
 //! The look of the HUD: colours, sizes, spacing.
 
 use crate::game::{actions::PanelId, icons, panels::Panels};
-use bevy::prelude::Local;
+use bevy::prelude::{Added, Query};
 use bevy_egui::{
-    EguiContexts,
-    egui::{self, Color32, CornerRadius, FontId, Margin, Shadow, Stroke, TextStyle, Vec2, style::ScrollStyle},
+    EguiContext,
+    egui::{
+        self, Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle,
+        Vec2, style::ScrollStyle,
+    },
 };
+use epaint_default_fonts::{HACK_REGULAR, UBUNTU_LIGHT};
+use std::sync::Arc;
 
 /// Behind bars and windows.
 pub const PANEL: Color32 = Color32::from_rgb(19, 23, 32);
@@ -36,15 +41,16 @@ pub const BUTTON_CORNER: u8 = 6;
 /// Corner of windows.
 pub const WINDOW_CORNER: u8 = 10;
 
-/// Gives egui this look, in the first frame.
-pub fn dress_once(mut contexts: EguiContexts, mut dressed: Local<bool>) {
-    if let (false, Ok(context)) = (*dressed, contexts.ctx_mut()) {
-        dress(context);
-        *dressed = true;
+/// Gives egui this look. It draws no text before it has fonts, so that is done before its first frame.
+pub fn dress_new(mut contexts: Query<&mut EguiContext, Added<EguiContext>>) {
+    for mut context in &mut contexts {
+        dress(context.get_mut());
     }
 }
 
-fn dress(context: &egui::Context) {
+/// Fonts, sizes and colours.
+pub fn dress(context: &egui::Context) {
+    context.set_fonts(fonts());
     context.set_theme(egui::Theme::Dark);
     // The frame that a press wakes has the time at which the game fell asleep: no press is too long for a click.
     context.options_mut(|options| options.input_options.max_click_duration = f64::INFINITY);
@@ -106,6 +112,25 @@ fn dress(context: &egui::Context) {
     });
 }
 
+/// The fonts. What one lacks comes from the other; the icons need none.
+fn fonts() -> FontDefinitions {
+    let (ubuntu, hack) = ("Ubuntu-Light", "Hack");
+    let mut fonts = FontDefinitions::empty();
+    for (name, bytes) in [(ubuntu, UBUNTU_LIGHT), (hack, HACK_REGULAR)] {
+        fonts.font_data.insert(name.to_owned(), Arc::new(FontData::from_static(bytes)));
+    }
+    for (family, order) in [(FontFamily::Proportional, [ubuntu, hack]), (FontFamily::Monospace, [hack, ubuntu])] {
+        fonts.families.insert(family, order.map(str::to_owned).into());
+    }
+    fonts
+}
+
+/// Gives what is painted by hand a name for scripts and screen readers, and says whether it is chosen.
+pub fn name(response: &egui::Response, name: &str, chosen: bool) {
+    let enabled = response.enabled();
+    response.widget_info(|| egui::WidgetInfo::selected(egui::WidgetType::Button, enabled, chosen, name));
+}
+
 /// A window with a heading of our own; sets `open` to false when it is closed.
 pub fn window(
     context: &egui::Context,
@@ -154,6 +179,7 @@ fn close_button(ui: &mut egui::Ui) -> egui::Response {
     }
     let colour = if response.hovered() { Color32::WHITE } else { WEAK };
     icons::draw(ui.painter(), icons::square(rect.center(), 14.0), icons::close, colour);
+    name(&response, "Close", false);
     response.on_hover_text("close (Esc)")
 }
 
@@ -164,6 +190,7 @@ pub fn main_button(ui: &mut egui::Ui, text: &str) -> egui::Response {
     ui.painter().rect_filled(rect, BUTTON_CORNER, fill);
     let font = TextStyle::Button.resolve(ui.style());
     ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, text, font, Color32::WHITE);
+    name(&response, text, false);
     response
 }
 

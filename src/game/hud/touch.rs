@@ -96,7 +96,7 @@ pub fn show(
         egui::Area::new("touch again".into()).anchor(Align2::RIGHT_BOTTOM, vec2(-8.0, -8.0) * unit).show(
             context,
             |ui| {
-                if button(ui, unit, icons::droplet, true, true) {
+                if button(ui, unit, ("Show the tools", icons::droplet), true, true) {
                     orders.push(Order::Act(Action::Hud));
                 }
             },
@@ -152,6 +152,7 @@ fn choose(ui: &mut Ui, unit: f32, setup: &Setup, chosen: Tool, orders: &mut Orde
         let text = if chosen == tool { Color32::WHITE } else { style::TEXT };
         let font = egui::FontId::proportional(11.0 * unit);
         painter.text(rect.center_bottom() - vec2(0.0, 3.0) * unit, Align2::CENTER_BOTTOM, name, font, text);
+        style::name(&response, name, chosen == tool);
         if response.clicked() {
             orders.push(Order::Choose(tool));
         }
@@ -159,7 +160,7 @@ fn choose(ui: &mut Ui, unit: f32, setup: &Setup, chosen: Tool, orders: &mut Orde
 }
 
 /// A button with an icon; whether it is pressed.
-fn button(ui: &mut Ui, unit: f32, icon: Icon, active: bool, enabled: bool) -> bool {
+fn button(ui: &mut Ui, unit: f32, (name, icon): (&str, Icon), active: bool, enabled: bool) -> bool {
     let (rect, response) = ui.allocate_exact_size(vec2(TARGET, TARGET) * unit, egui::Sense::click());
     let fill = if active { style::ACCENT_FILL } else { style::BUTTON };
     ui.painter().rect_filled(rect, style::BUTTON_CORNER, fill);
@@ -169,20 +170,21 @@ fn button(ui: &mut Ui, unit: f32, icon: Icon, active: bool, enabled: bool) -> bo
         (true, false) => style::TEXT,
     };
     icons::draw(ui.painter(), icons::square(rect.center(), 22.0 * unit), icon, colour);
+    style::name(&response, name, active);
     enabled && response.clicked()
 }
 
 fn act(ui: &mut Ui, unit: f32, pace: &Pace, history: &History, orders: &mut Orders) {
     let (back, forth) = history.reach();
     let time: Icon = if pace.paused { icons::play } else { icons::pause };
-    for (icon, action, active, enabled) in [
-        (icons::close as Icon, Action::Hud, false, true),
-        (time, Action::Pause, pace.paused, true),
-        (icons::undo, Action::Undo, false, back),
-        (icons::redo, Action::Redo, false, forth),
-        (icons::reset, Action::Reset, false, true),
+    for (name, icon, action, active, enabled) in [
+        ("Hide the tools", icons::close as Icon, Action::Hud, false, true),
+        ("Pause", time, Action::Pause, pace.paused, true),
+        ("Undo", icons::undo, Action::Undo, false, back),
+        ("Redo", icons::redo, Action::Redo, false, forth),
+        ("Reset", icons::reset, Action::Reset, false, true),
     ] {
-        if button(ui, unit, icon, active, enabled) {
+        if button(ui, unit, (name, icon), active, enabled) {
             orders.push(Order::Act(action));
         }
     }
@@ -199,19 +201,21 @@ fn size(ui: &mut Ui, unit: f32, tools: &mut ResMut<Toolbox>) {
     step(ui, "−", -1);
     step(ui, "+", 1);
     let icon: Icon = if tools.shape == BrushShape::Disc { icons::round_brush } else { icons::square_brush };
-    if button(ui, unit, icon, false, true) {
+    if button(ui, unit, ("Shape of the brush", icon), false, true) {
         tools.turn_shape();
     }
 }
 
 fn menus(ui: &mut Ui, unit: f32, sheet: &mut Sheet) {
-    if button(ui, unit, icons::scenes, matches!(sheet, Sheet::Scenes(_)), true) {
+    if button(ui, unit, ("Scenes", icons::scenes), matches!(sheet, Sheet::Scenes(_)), true) {
         *sheet = if matches!(sheet, Sheet::Scenes(_)) { Sheet::Closed } else { Sheet::Scenes(titles()) };
     }
-    for (icon, own) in
-        [(icons::eye as Icon, Sheet::Views), (icons::gauge, Sheet::Qualities), (icons::gear, Sheet::More)]
-    {
-        if button(ui, unit, icon, *sheet == own, true) {
+    for (name, icon, own) in [
+        ("Views", icons::eye as Icon, Sheet::Views),
+        ("Qualities", icons::gauge, Sheet::Qualities),
+        ("More", icons::gear, Sheet::More),
+    ] {
+        if button(ui, unit, (name, icon), *sheet == own, true) {
             *sheet = if *sheet == own { Sheet::Closed } else { own };
         }
     }
@@ -274,6 +278,7 @@ fn list(
                     let font = egui::FontId::proportional(16.0 * unit);
                     let at = rect.left_center() + vec2(12.0, 0.0) * unit;
                     ui.painter().text(at, Align2::LEFT_CENTER, text, font, Color32::WHITE);
+                    style::name(&response, text, chosen);
                     if response.clicked() {
                         pressed = Some(order);
                     }

@@ -62,6 +62,7 @@ pub fn row(ui: &mut Ui, name: &str, about: &str, chosen: bool) -> bool {
     let (left, right) = (rect.left_center() + vec2(9.0, 0.0), rect.right_center() - vec2(9.0, 0.0));
     ui.painter().text(left, egui::Align2::LEFT_CENTER, name, font(egui::TextStyle::Button), colour);
     ui.painter().text(right, egui::Align2::RIGHT_CENTER, about, font(egui::TextStyle::Small), style::WEAK);
+    style::name(&response, name, chosen);
     response.clicked()
 }
 
@@ -84,6 +85,9 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, text: Option<&str>, active: bool) ->
     if let Some(galley) = galley {
         let at = egui::pos2(rect.left() + 29.0, rect.center().y - galley.size().y / 2.0);
         ui.painter().galley(at, galley, colour);
+    }
+    if let Some(text) = text {
+        style::name(&response, text, active);
     }
     response
 }

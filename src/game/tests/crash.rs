@@ -128,10 +128,10 @@ fn a_panic_saves_what_was_played_and_the_next_start_restores_it() {
     type Add = fn(&mut App);
     let cases: [(&str, Add); 3] = [
         ("tick", |app| {
-            app.add_systems(FixedUpdate, fail_in_a_tick.after(crate::sim::schedule::TickSystems::Gate));
+            app.add_systems(FixedUpdate, fail_in_a_tick.after(Pass::Sources));
         }),
         ("thread", |app| {
-            app.add_systems(FixedUpdate, fail_on_another_thread.after(crate::sim::schedule::TickSystems::Gate));
+            app.add_systems(FixedUpdate, fail_on_another_thread.after(Pass::Sources));
         }),
         ("frame", |app| {
             app.add_systems(Update, fail_in_a_tick);

@@ -12,7 +12,10 @@ use crate::{
         views::table::{Shown, VIEWS},
     },
     lab::colours::Reference,
-    scene::{self, blueprint::EffectModes},
+    scene::{
+        self,
+        effects::{EffectModes, Pass},
+    },
     sim::{
         SimulationPlugin, control,
         intent::{Intent, IntentQueue},
@@ -69,7 +72,7 @@ impl Player {
             .init_resource::<ButtonInput<KeyCode>>()
             .init_resource::<Seen>()
             .insert_resource(TimeUpdateStrategy::FixedTimesteps(1))
-            .add_systems(FixedUpdate, spy.before(crate::sim::schedule::TickSystems::Edit));
+            .add_systems(FixedUpdate, spy.before(Pass::Edit));
         let scene = scene::load("empty").expect("the scene comes with the game");
         let blueprint = scene.build(&[], None, &EffectModes::new()).expect("its defaults are valid");
         control::load(app.world_mut(), Arc::new(blueprint));

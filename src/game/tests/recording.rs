@@ -4,7 +4,7 @@ use super::*;
 use crate::{
     game::{actions::Action, playback, recording, saves::SaveFolders},
     kernel::{params::Preset, simd::InstructionSet},
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
         recorder::Recorder,

@@ -6,7 +6,8 @@ use crate::{
     lab::cases::Setting,
     scene::{
         self, SceneError, SceneFile,
-        blueprint::{Blueprint, Effect, EffectModes, Mode},
+        blueprint::Blueprint,
+        effects::{Effect, EffectModes, Mode},
     },
 };
 

@@ -6,10 +6,7 @@ use crate::{
         params::{Preset, Quality},
         units::TICKS_PER_SECOND,
     },
-    scene::{
-        self, SceneError,
-        blueprint::{Blueprint, EffectModes},
-    },
+    scene::{self, SceneError, blueprint::Blueprint, effects::EffectModes},
     sim::{control, script::Script, state::Setup},
 };
 use bevy::ecs::world::World;

@@ -4,7 +4,7 @@
 use crate::{
     lab::sampler::{air_mass, matter, residual},
     lab::volume::volume_error,
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
         measures::{AirMeasured, Measured, Measures},

@@ -8,13 +8,16 @@ pub mod survey;
 #[cfg(test)]
 mod tests;
 
-use crate::sim::{
-    accuracy::{ErrorSample, LiveError, SAMPLE_EVERY, Survey, Watched},
-    autopilot,
-    measures::Measures,
-    schedule::TickSystems,
-    split::Split,
-    state::{Clock, ParticleStore, Rock, Setup},
+use crate::{
+    scene::effects::Pass,
+    sim::{
+        accuracy::{ErrorSample, LiveError, SAMPLE_EVERY, Survey, Watched},
+        autopilot,
+        measures::Measures,
+        script,
+        split::Split,
+        state::{Clock, ParticleStore, Rock, Setup},
+    },
 };
 use bevy::{
     platform::time::Instant,
@@ -39,12 +42,12 @@ impl Plugin for LivePlugin {
                 (sample_world, sample_second_world)
                     .chain()
                     .run_if(is_watched)
-                    .after(TickSystems::Measure)
+                    .after(Pass::Measure)
                     .before(autopilot::steer),
             )
             .add_systems(
                 FixedUpdate,
-                (measures::start.before(TickSystems::Script), measures::follow.after(TickSystems::Measure))
+                (measures::start.before(script::run), measures::follow.after(Pass::Measure))
                     .run_if(measures::is_wanted),
             )
             .add_systems(Update, (survey::run, measures::measure.run_if(measures::is_wanted)));

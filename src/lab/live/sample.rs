@@ -115,7 +115,7 @@ mod tests {
             headless::Headless,
             testing::{lattice, world},
         },
-        scene::{self, blueprint::EffectModes},
+        scene::{self, effects::EffectModes},
         sim::{
             state::{ParticleStore, Rock, Setup},
             workers::Workers,

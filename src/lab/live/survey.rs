@@ -5,11 +5,11 @@
 use crate::{
     kernel::params::{Preset, Quality},
     lab::{density::density_error, live::tick_milliseconds, stats},
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         accuracy::{Curve, CurvePoint, Survey, SurveyRequest, fingerprint},
         autopilot::ladder,
-        effects::{Effects, account::Sleepers},
+        effects::{Effects, status::Sleepers},
         ledger::PassLedger,
         state::{Clock, ParticleStore, Rock, Setup},
         twin::{Seed, Twin},
@@ -329,7 +329,10 @@ mod tests {
     use super::*;
     use crate::{
         lab::headless::Headless,
-        scene::{self, blueprint::EffectModes},
+        scene::{
+            self,
+            effects::{EffectModes, Pass},
+        },
         sim::state::SleepState,
     };
 
@@ -357,8 +360,7 @@ mod tests {
                 let world = run.twin.world();
                 let name = run.leg.preset.name();
                 assert_eq!(world.resource::<SleepState>().asleep(), 0, "{name} sleeps at tick {}", run.ticks);
-                moved +=
-                    u32::from(world.resource::<PassLedger>().record(crate::sim::ledger::Pass::Solve).last.calls > 0);
+                moved += u32::from(world.resource::<PassLedger>().record(Pass::Solve).last.calls > 0);
             }
         }
         assert!(moved >= Preset::ALL.len() as u32 * (WARMUP + TICKS - 1), "only {moved} ticks were simulated");

@@ -11,7 +11,10 @@ use crate::{
         run::{Plan, run},
         sampler::Sampler,
     },
-    scene::{self, blueprint::EffectModes},
+    scene::{
+        self,
+        effects::{EffectModes, Pass},
+    },
     sim::{
         accuracy::{LiveError, Survey, SurveyRequest, Watched},
         autopilot::{self, Autopilot, Goal, controller::Verdict, ladder},
@@ -22,7 +25,6 @@ use crate::{
         pace::Pace,
         recorder::{self, Recorder},
         recording::Recording,
-        schedule::TickSystems,
         state::{Clock, Setup},
         workers::Workers,
     },
@@ -206,7 +208,7 @@ fn pretend_load(setup: Res<Setup>, clock: Res<Clock>, mut ledger: ResMut<PassLed
 fn fly(goal: Goal, ticks: u64) -> (u64, Vec<(u64, Intent)>, Headless) {
     let mut headless = begin("dam_break", &[("columns", "12")], |app: &mut App| {
         app.add_plugins((LivePlugin, autopilot::plugin));
-        app.add_systems(FixedUpdate, pretend_load.after(TickSystems::Measure).before(autopilot::steer));
+        app.add_systems(FixedUpdate, pretend_load.after(Pass::Measure).before(autopilot::steer));
         recorder::plugin(app);
     });
     headless.world_mut().resource_mut::<Watched>().0 = true;

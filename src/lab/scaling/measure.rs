@@ -9,10 +9,7 @@ use crate::{
         sampler::Sampler,
         scaling::plan::{Plan, SCENE, Setting, particles},
     },
-    scene::{
-        self, SceneError,
-        blueprint::{Blueprint, EffectModes},
-    },
+    scene::{self, SceneError, blueprint::Blueprint, effects::EffectModes},
     sim::workers::Workers,
 };
 use bevy::platform::time::Instant;

@@ -116,7 +116,7 @@ impl Player {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{self, blueprint::EffectModes};
+    use crate::scene::{self, effects::EffectModes};
 
     fn acts(seed: u64, bouts: u64) -> Vec<Intent> {
         let blueprint = scene::load("waterfall").unwrap().build(&[], None, &EffectModes::new()).unwrap();

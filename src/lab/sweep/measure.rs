@@ -17,7 +17,7 @@ use crate::{
         run::Plan,
         sampler::Sampler,
     },
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
         state::{ParticleStore, Rock, Setup},
@@ -94,7 +94,7 @@ fn found(metrics: &Metrics, distance: Distance) -> Found {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{self, blueprint::EffectModes};
+    use crate::scene::{self, effects::EffectModes};
     use std::sync::Arc;
 
     /// Accuracy of the dam break of 10,082 particles as a sweep measures it.

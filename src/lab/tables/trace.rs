@@ -3,8 +3,9 @@
 use crate::{
     kernel::units::TICKS_PER_SECOND,
     lab::{run::Observer, sampler::matter},
+    scene::effects::Pass,
     sim::{
-        ledger::{Pass, PassLedger},
+        ledger::PassLedger,
         state::{AirGrid, Clock, Rock},
     },
 };

@@ -4,8 +4,10 @@ use super::settings;
 use crate::{
     kernel::{params::Preset, solids::Solids},
     scene::{
-        blueprint::{Blueprint, Effect, EffectModes, Mode},
-        builtin_names, load,
+        blueprint::Blueprint,
+        builtin_names,
+        effects::{Effect, EffectModes, Mode},
+        load,
     },
 };
 use glam::Vec2;

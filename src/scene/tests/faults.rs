@@ -1,7 +1,7 @@
 //! A fault in a file or a setting is one line that says where, what is wrong and what is allowed.
 
 use super::{build, read, scene, settings};
-use crate::scene::{blueprint::EffectModes, load};
+use crate::scene::{effects::EffectModes, load};
 
 fn error(text: &str) -> String {
     let error = build(text).err().map(|error| error.to_string());

@@ -6,9 +6,10 @@ mod mutations;
 mod scenes;
 
 use crate::scene::{
-    blueprint::{Blueprint, EffectModes},
+    blueprint::Blueprint,
     build::SceneFile,
     builtin::{Origin, Source},
+    effects::EffectModes,
     error::SceneError,
 };
 use std::{borrow::Cow, path::PathBuf};

@@ -2,9 +2,9 @@
 
 use super::read;
 use crate::scene::{
-    blueprint::EffectModes,
     builtin::{self},
     builtin_names,
+    effects::EffectModes,
 };
 
 /// Mutated files per scene.

@@ -4,7 +4,7 @@ use super::{build, read, scene, settings};
 use crate::{
     kernel::{params::*, sources::Rect},
     scene::{
-        blueprint::{Effect, EffectModes, Mode},
+        effects::{Effect, EffectModes, Mode},
         image::tests::png,
     },
 };

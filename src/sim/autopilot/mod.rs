@@ -12,12 +12,11 @@ mod window;
 
 use crate::{
     kernel::units::TICK_SECONDS,
-    scene::blueprint::Blueprint,
+    scene::{blueprint::Blueprint, effects::Pass},
     sim::{
         accuracy::{LiveError, SAMPLE_EVERY},
         intent::{Intent, IntentQueue},
         ledger::PassLedger,
-        schedule::TickSystems,
         state::{Clock, ParticleStore, Setup, SleepState},
     },
 };
@@ -168,7 +167,7 @@ impl Flight {
 pub fn plugin(app: &mut App) {
     app.init_resource::<Autopilot>()
         .init_resource::<LiveError>()
-        .add_systems(FixedUpdate, steer.after(TickSystems::Measure).run_if(engaged).run_if(anyone_is_awake));
+        .add_systems(FixedUpdate, steer.after(Pass::Measure).run_if(engaged).run_if(anyone_is_awake));
 }
 
 /// Run condition: there is something to hold.

@@ -1,15 +1,7 @@
-//! Effects: the parts of the simulation that a scene may do without.
-//!
-//! | room | has |
-//! |---|---|
-//! | `table` | what there is: name, passes, what calls for it, parameters, what `off` means |
-//! | `facts` | what is known of the world when a tick is planned |
-//! | `states` | what is wanted of each effect, what was decided, how often it ran |
-//! | `account` | what is said of it: whether it runs, why, how much it leaves alone, what that saves |
+//! The effects of a world: what is wanted of each and what was decided (`states`), and what is shown of it (`status`). What
+//! effects there are stands in `scene::effects`.
 
-pub mod account;
-pub mod facts;
 mod states;
-pub mod table;
+pub mod status;
 
 pub use states::{EffectState, Effects, runs};

@@ -1,15 +1,12 @@
-//! Which effects run in this tick, and why. Decided once a tick; the stages obey by run condition.
+//! Which effects run in this tick, and why. Decided once a tick; the stages have run conditions on it.
 
-use crate::{
-    scene::blueprint::{Effect, EffectModes, Mode},
-    sim::effects::facts::Facts,
-};
+use crate::scene::effects::{Effect, EffectModes, Facts, Mode};
 use bevy::prelude::{Res, Resource};
 
 /// Reason until the first tick.
 const NOT_DECIDED: &str = "not decided yet";
 
-/// An effect's wish, decision and record.
+/// What is wanted of an effect, what was decided, and how often it ran.
 #[derive(Clone, Debug)]
 pub struct EffectState {
     /// What the scene or the player wants.
@@ -21,7 +18,7 @@ pub struct EffectState {
     /// Ticks in which it ran, since the scene began.
     pub active_ticks: u64,
     /// Ticks since then in which [`Mode::Auto`] may make another world than [`Mode::On`] (see
-    /// [`Row::differs_from_on`](super::table::Row::differs_from_on)), whatever the mode was.
+    /// [`EffectRow::differs_from_on`](crate::scene::effects::EffectRow::differs_from_on)), whatever the mode was.
     pub differing_ticks: u64,
 }
 
@@ -53,6 +50,11 @@ impl Effects {
         &mut self.states[effect as usize]
     }
 
+    /// Whether the passes of `effect` have something to do in this tick: it runs, and so do those that it needs.
+    pub fn acts(&self, effect: Effect) -> bool {
+        self.get(effect).running && effect.row().needs.iter().all(|needed| self.get(*needed).running)
+    }
+
     /// The wanted modes.
     pub fn modes(&self) -> EffectModes {
         Effect::ALL.into_iter().map(|effect| (effect, self.get(effect).mode)).collect()
@@ -79,16 +81,16 @@ impl Effects {
     }
 
     /// Decides for this tick.
-    pub fn decide(&mut self, facts: &Facts) {
+    pub fn decide(&mut self, facts: &Facts<'_>) {
         for (effect, state) in Effect::ALL.into_iter().zip(&mut self.states) {
-            (state.running, state.why) = facts.decide(effect);
+            (state.running, state.why) = effect.decide(facts);
             state.active_ticks += u64::from(state.running);
             state.differing_ticks += u64::from((effect.row().differs_from_on)(facts));
         }
     }
 }
 
-/// Run condition: the effect runs in this tick.
+/// Run condition of the passes of an effect.
 pub fn runs(effect: Effect) -> impl Fn(Res<Effects>) -> bool + Clone {
-    move |effects| effects.get(effect).running
+    move |effects| effects.acts(effect)
 }

@@ -9,7 +9,7 @@ use crate::{
     lab::headless::Headless,
     scene::{
         self,
-        blueprint::{Effect, EffectModes, Mode},
+        effects::{Effect, EffectModes, Mode},
     },
     sim::{
         control,

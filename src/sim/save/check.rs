@@ -12,7 +12,7 @@ use crate::{
     },
     scene::{
         MOST_COVERED,
-        blueprint::Effect,
+        effects::Effect,
         elements::{self, Fault},
     },
     sim::state::Clock,

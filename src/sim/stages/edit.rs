@@ -8,18 +8,21 @@ use crate::{
         spawn::{EditReport, Matter},
         units::TICK_SECONDS,
     },
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         control::change_quality,
         effects::Effects,
         intent::{Intent, IntentQueue},
-        ledger::{Pass, PassLedger},
         recorder::Recorder,
         state::{AirGrid, Census, Clock, Counters, ParticleStore, Rates, Rock, Setup},
     },
 };
-use bevy::platform::time::Instant;
 use bevy::prelude::{Res, ResMut};
+
+/// Run condition: something is to be done.
+pub(super) fn has_intents(queue: Res<IntentQueue>) -> bool {
+    !queue.is_empty()
+}
 
 /// Applies all waiting intents in order.
 pub(super) fn apply_intents(
@@ -32,12 +35,7 @@ pub(super) fn apply_intents(
     mut clock: ResMut<Clock>,
     mut counters: ResMut<Counters>,
     mut census: ResMut<Census>,
-    mut ledger: ResMut<PassLedger>,
-) {
-    if queue.is_empty() {
-        return;
-    }
-    let start = Instant::now();
+) -> usize {
     let mut refused = 0;
     let mut placed = 0;
     let before = clock.edits;
@@ -104,7 +102,7 @@ pub(super) fn apply_intents(
     if refused > 0 || placed > 0 {
         census.full = refused > 0;
     }
-    ledger.note(Pass::Edit, clock.edits - before, start.elapsed());
+    (clock.edits - before) as usize
 }
 
 /// Whether the air that the hand blows would stop at the first water that it meets. The hand goes on pushing, so what is

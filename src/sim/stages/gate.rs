@@ -1,10 +1,10 @@
 //! Gathers the facts of a tick, lets the table of effects decide by them, and plans how many substeps it takes.
 
 use crate::{
-    kernel::{element::Element, forces::DragTable, predict, units::TICK_SECONDS},
-    scene::blueprint::{Effect, Mode},
+    kernel::{predict, units::TICK_SECONDS},
+    scene::effects::{Effect, Facts, Mode},
     sim::{
-        effects::{Effects, facts::Facts},
+        effects::Effects,
         stages::TickPlan,
         state::{AirGrid, Census, Counters, ParticleStore, Rates, Setup, SleepState, Sources},
     },
@@ -24,12 +24,7 @@ pub(super) fn plan_tick(
     mut counters: ResMut<Counters>,
     mut plan: ResMut<TickPlan>,
 ) {
-    let present = |wanted: fn(&Element) -> bool| {
-        let mut counted = setup.elements().iter().zip(&census.by_element);
-        counted.any(|((_, element), &count)| count > 0 && !element.fixed && wanted(element))
-    };
     let fastest = predict::fastest(&particles.vx, &particles.vy);
-    let drag = DragTable { rates: &rates.drag, masses: &rates.mass };
     let modes = effects.wanted();
     // Air that is switched off stands: a wind that froze would blow for ever.
     if modes[Effect::Air as usize] == Mode::Off && !air.is_quiet() {
@@ -39,15 +34,14 @@ pub(super) fn plan_tick(
         modes,
         preset: setup.preset,
         predicts: setup.quality.predictor,
+        elements: setup.elements(),
+        counts: &census.by_element,
         particles: particles.len(),
         asleep: asleep.asleep(),
-        feels_air: present(|element| element.drag > 0.0),
-        is_viscous: present(|element| element.viscosity > 0.0),
-        keeps_eddies: present(|element| element.vorticity > 0.0),
         has_tension: setup.blueprint.fluid.tension_strength > 0.0,
-        has_fans: !sources.winds.is_empty(),
+        has_winds: !sources.winds.is_empty(),
         air_moves: !air.is_quiet(),
-        stirs_air: air.may_be_roused(drag, fastest, TICK_SECONDS / setup.quality.substeps as f32),
+        stirs_air: air.may_be_roused(rates.drag_table(), fastest, TICK_SECONDS / setup.quality.substeps as f32),
     });
     let wanted = predict::substeps(fastest, &setup.domain, &setup.quality, TICK_SECONDS);
     plan.substeps = wanted.count;

@@ -3,35 +3,40 @@
 use crate::{
     kernel::checks,
     sim::{
-        ledger::{Extent, Pass, PassLedger},
+        ledger::{Extent, PassLedger},
         pace::Pace,
         stages::TickPlan,
         state::{AirGrid, Clock, Counters, ParticleStore, Rock, Setup},
         workers::Workers,
     },
 };
-use bevy::platform::time::Instant;
 use bevy::prelude::{Res, ResMut};
 
-/// Looks for particles that are where none may be, and closes the tick's books.
-pub(super) fn end_tick(
+/// Looks for particles that are where none may be.
+pub(super) fn count_escaped(
     setup: Res<Setup>,
     particles: Res<ParticleStore>,
     rock: Res<Rock>,
-    air: Res<AirGrid>,
-    plan: Res<TickPlan>,
     workers: Res<Workers>,
-    mut pace: ResMut<Pace>,
-    mut clock: ResMut<Clock>,
     mut counters: ResMut<Counters>,
-    mut ledger: ResMut<PassLedger>,
-) {
-    let start = Instant::now();
+) -> usize {
     counters.escaped += workers
         .run_for(particles.len(), |threads| checks::count_escaped(&particles, &rock, &setup.blueprint.domain, threads));
+    particles.len()
+}
+
+/// Counts the tick and closes its records.
+pub(super) fn end_tick(
+    setup: Res<Setup>,
+    particles: Res<ParticleStore>,
+    air: Res<AirGrid>,
+    plan: Res<TickPlan>,
+    mut pace: ResMut<Pace>,
+    mut clock: ResMut<Clock>,
+    mut ledger: ResMut<PassLedger>,
+) {
     clock.tick += 1;
     pace.steps_due = pace.steps_due.saturating_sub(u32::from(pace.paused));
-    ledger.note(Pass::Measure, particles.len() as u64, start.elapsed());
     let air_substeps = air.substeps_at_rest(setup.quality.air_courant, plan.substep_seconds());
     let extent = Extent {
         particles: particles.len() as u64 * u64::from(plan.substeps),

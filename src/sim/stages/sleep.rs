@@ -1,25 +1,23 @@
-//! Water at rest sleeps. The stages look who falls asleep and who wakes; the substeps in between know of no sleepers.
+//! Water at rest sleeps. These stages put particles to sleep and wake them; the passes in between see only those awake.
 
 use crate::{
     kernel::sleep::LOOK_TICKS,
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
-        ledger::{Pass, PassLedger},
         snapshot::hash_bytes,
         state::{AirGrid, Clock, ParticleStore, Rates, Rock, Setup, SleepState, SolverState},
     },
 };
-use bevy::platform::time::Instant;
 use bevy::prelude::{Res, ResMut};
 
-/// Run condition: someone sleeps.
-pub(super) fn anyone_sleeps(sleep: Res<SleepState>) -> bool {
+/// Run condition: some particles sleep.
+pub(super) fn any_asleep(sleep: Res<SleepState>) -> bool {
     sleep.asleep() > 0
 }
 
-/// Run condition of the substeps: someone is awake.
-pub(super) fn anyone_is_awake(particles: Res<ParticleStore>) -> bool {
+/// Run condition of the substeps: some particles are awake.
+pub(super) fn any_awake(particles: Res<ParticleStore>) -> bool {
     !particles.is_empty()
 }
 
@@ -34,16 +32,15 @@ fn lets_water_rest(effects: &Effects, setup: &Setup) -> bool {
     sleep.running && (setup.quality.predictor || sleep.mode == Mode::On)
 }
 
-/// Wakes those whom an edit, a tap or an outlet changed. Runs while paused, too, so that a state which is kept then knows.
+/// Wakes the particles that an edit, an emitter or a drain changed. Runs while paused, too: a state that is kept then has it.
 pub(super) fn check_sleepers(
     mut sleep: ResMut<SleepState>,
     mut particles: ResMut<ParticleStore>,
     rock: Res<Rock>,
-    mut ledger: ResMut<PassLedger>,
-) {
-    let (start, asleep) = (Instant::now(), sleep.asleep() as u64);
+) -> usize {
+    let asleep = sleep.asleep();
     sleep.check(&mut particles, rock.version());
-    ledger.note(Pass::Sleep, asleep, start.elapsed());
+    asleep
 }
 
 /// Wakes all where the conditions changed under which they fell asleep.
@@ -61,7 +58,7 @@ pub(super) fn keep_asleep(mut sleep: ResMut<SleepState>, effects: Res<Effects>, 
         quality.gradient as u32,
         setup.blueprint.fluid.rest_density.to_bits(),
     ];
-    let acting = [Effect::Predictor, Effect::Tension, Effect::Viscosity, Effect::Vorticity];
+    let acting = Effect::ALL.into_iter().filter(|effect| effect.row().wakes);
     for (bytes, number) in bytes.chunks_exact_mut(4).zip(numbers) {
         bytes.copy_from_slice(&number.to_le_bytes());
     }
@@ -79,27 +76,21 @@ pub(super) fn wake_blown(
     air: Res<AirGrid>,
     rates: Res<Rates>,
     setup: Res<Setup>,
-    mut ledger: ResMut<PassLedger>,
-) {
-    let start = Instant::now();
+) -> usize {
     let drag = rates.drag.iter().copied().fold(0.0, f32::max);
     sleep.wake_blown(&mut particles, &air, drag, setup.domain.gravity);
     // It looks at the air over the bodies, and at no particle.
-    ledger.note(Pass::Sleep, 0, start.elapsed());
+    0
 }
 
-/// Wakes the bodies that someone is about to touch.
-pub(super) fn wake_touched(
-    mut sleep: ResMut<SleepState>,
-    mut particles: ResMut<ParticleStore>,
-    mut ledger: ResMut<PassLedger>,
-) {
-    let (start, awake) = (Instant::now(), particles.len() as u64);
+/// Wakes the bodies that an awake particle is about to touch.
+pub(super) fn wake_touched(mut sleep: ResMut<SleepState>, mut particles: ResMut<ParticleStore>) -> usize {
+    let awake = particles.len();
     sleep.wake_touched(&mut particles);
-    ledger.note(Pass::Sleep, awake, start.elapsed());
+    awake
 }
 
-/// Run condition: it is time to look who rests.
+/// Run condition: it is time to look what has come to rest.
 pub(super) fn is_time_to_look(clock: Res<Clock>) -> bool {
     clock.tick.is_multiple_of(LOOK_TICKS)
 }
@@ -111,9 +102,8 @@ pub(super) fn watch(
     mut solver: ResMut<SolverState>,
     rock: Res<Rock>,
     setup: Res<Setup>,
-    mut ledger: ResMut<PassLedger>,
-) {
-    let (start, awake) = (Instant::now(), (particles.len() - sleep.asleep()) as u64);
+) -> usize {
+    let awake = particles.len() - sleep.asleep();
     sleep.watch(&mut particles, &mut solver.density, setup.blueprint.domain.size, rock.version());
-    ledger.note(Pass::Sleep, awake, start.elapsed());
+    awake
 }

@@ -1,4 +1,4 @@
-//! Taps and outlets.
+//! Emitters and drains.
 
 use crate::{
     kernel::{
@@ -7,7 +7,6 @@ use crate::{
         units::TICK_SECONDS,
     },
     sim::{
-        ledger::{Pass, PassLedger},
         stages::TickPlan,
         state::{Clock, Counters, ParticleStore, Rock, Setup, Sources},
         workers::Workers,
@@ -16,7 +15,7 @@ use crate::{
 use bevy::platform::time::Instant;
 use bevy::prelude::{Local, Res, ResMut};
 
-/// Begins the tick: lets taps flow and outlets drain, and takes away what is no longer a number.
+/// Begins the tick: lets emitters flow and drains take, and takes away what is no longer a number.
 pub(super) fn run_sources(
     setup: Res<Setup>,
     mut sources: ResMut<Sources>,
@@ -27,11 +26,9 @@ pub(super) fn run_sources(
     mut plan: ResMut<TickPlan>,
     mut room: Local<Occupancy>,
     mut counters: ResMut<Counters>,
-    mut ledger: ResMut<PassLedger>,
-) {
-    let start = Instant::now();
-    plan.started = start;
-    let count = particles.len() as u64;
+) -> usize {
+    plan.started = Instant::now();
+    let count = particles.len();
     counters.non_finite +=
         workers.run_checks(particles.len(), |threads| remove_non_finite(&mut particles, threads)) as u64;
     let tick = clock.tick;
@@ -52,5 +49,5 @@ pub(super) fn run_sources(
         counters.refused += report.refused;
         counters.taps_blocked += u64::from(report.blocked);
     }
-    ledger.note(Pass::Sources, count, start.elapsed());
+    count
 }

@@ -2,18 +2,22 @@
 
 use crate::{
     kernel::units::TICK_SECONDS,
-    scene::blueprint::Effect,
+    scene::effects::Effect,
     sim::{
         effects::Effects,
-        schedule::Substep,
         state::{ParticleStore, SleepState, SolverState},
         workers::Workers,
     },
 };
 use bevy::{
+    ecs::schedule::ScheduleLabel,
     platform::time::Instant,
     prelude::{Mut, Resource, World},
 };
+
+/// The schedule of one substep.
+#[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Substep;
 
 /// What the gate decided for the tick.
 #[derive(Resource, Clone, Copy, Debug)]

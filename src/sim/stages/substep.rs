@@ -1,23 +1,16 @@
 //! The stages of a substep.
 
 use crate::{
-    kernel::{
-        air::Rousing,
-        forces::{self, DragTable},
-        parallel::Team,
-        params::Preset,
-        pbf, predict, predictor, velocity,
-    },
-    scene::blueprint::{Effect, Mode},
+    kernel::{air::Rousing, forces, parallel::Team, params::Preset, pbf, predict, predictor, velocity},
+    scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
-        ledger::{Pass, PassLedger},
+        ledger::Call,
         stages::TickPlan,
         state::{AirGrid, Counters, ParticleStore, PredictorState, Rates, Rock, Setup, SolverState, Sources},
         workers::Workers,
     },
 };
-use bevy::platform::time::Instant;
 use bevy::prelude::{Res, ResMut};
 
 /// The air moves.
@@ -31,9 +24,7 @@ pub(super) fn step_air(
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
-    mut ledger: ResMut<PassLedger>,
-) {
-    let start = Instant::now();
+) -> Call {
     let dt = plan.substep_seconds();
     if !sources.winds.is_empty() {
         air.build(&rock);
@@ -46,8 +37,7 @@ pub(super) fn step_air(
     });
     counters.add_air(&report);
     let all = u64::from(report.substeps) * (air.columns() * air.rows()) as u64;
-    ledger.spare(Pass::Air, all - report.worked);
-    ledger.note(Pass::Air, report.worked, start.elapsed());
+    Call { touched: report.worked, spared: all - report.worked }
 }
 
 /// Gravity changes velocities.
@@ -56,17 +46,15 @@ pub(super) fn apply_gravity(
     setup: Res<Setup>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
-    mut ledger: ResMut<PassLedger>,
-) {
-    let start = Instant::now();
+) -> usize {
     let (gravity, dt) = (setup.domain.gravity, plan.substep_seconds());
     workers.run_for(particles.len(), |threads| forces::apply_gravity(gravity, &mut particles, threads, dt));
-    ledger.note(Pass::Gravity, particles.len() as u64, start.elapsed());
+    particles.len()
 }
 
-/// The air drags particles, and they the air if that effect runs.
-pub(super) fn apply_drag(
-    mut particles: ResMut<ParticleStore>,
+/// Particles drag the air. How much it is to drag each of them is noted on the way.
+pub(super) fn drag_air(
+    particles: Res<ParticleStore>,
     mut air: ResMut<AirGrid>,
     rates: Res<Rates>,
     solver: Res<SolverState>,
@@ -74,26 +62,31 @@ pub(super) fn apply_drag(
     rock: Res<Rock>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
-    mut ledger: ResMut<PassLedger>,
-) {
-    let start = Instant::now();
-    let (dt, feedback) = (plan.substep_seconds(), effects.get(Effect::AirFeedback));
-    if feedback.running && effects.get(Effect::Air).running {
-        air.build(&rock);
-        let drag = DragTable { rates: &rates.drag, masses: &rates.mass };
-        let rousing = if feedback.mode == Mode::On { Rousing::Breaths } else { Rousing::Gusts };
-        let instructions = solver.instructions;
-        workers.run_for(particles.len(), |threads| {
-            air.meet(drag, &particles, rousing, Team { instructions, threads }, dt);
-        });
-        ledger.note(Pass::Feedback, particles.len() as u64, start.elapsed());
-        let start = Instant::now();
-        workers.run_for(particles.len(), |threads| air.drag_along(drag, &mut particles, threads, dt));
-        ledger.note(Pass::Drag, particles.len() as u64, start.elapsed());
-        return;
-    }
-    workers.run_for(particles.len(), |threads| forces::apply_drag(&air, &rates.drag, &mut particles, threads, dt));
-    ledger.note(Pass::Drag, particles.len() as u64, start.elapsed());
+) -> usize {
+    air.build(&rock);
+    let rousing = if effects.get(Effect::AirFeedback).mode == Mode::On { Rousing::Breaths } else { Rousing::Gusts };
+    let (drag, instructions) = (rates.drag_table(), solver.instructions);
+    workers.run_for(particles.len(), |threads| {
+        air.meet(drag, &particles, rousing, Team { instructions, threads }, plan.substep_seconds());
+    });
+    particles.len()
+}
+
+/// The air drags particles, by what [`drag_air`] noted if they have dragged it.
+pub(super) fn apply_drag(
+    mut particles: ResMut<ParticleStore>,
+    mut air: ResMut<AirGrid>,
+    rates: Res<Rates>,
+    effects: Res<Effects>,
+    plan: Res<TickPlan>,
+    workers: Res<Workers>,
+) -> usize {
+    let (drag, dt, feedback) = (rates.drag_table(), plan.substep_seconds(), effects.acts(Effect::AirFeedback));
+    workers.run_for(particles.len(), |threads| match feedback {
+        true => air.drag_along(drag, &mut particles, threads, dt),
+        false => forces::apply_drag(&air, drag.rates, &mut particles, threads, dt),
+    });
+    particles.len()
 }
 
 /// The pressure predictor makes velocities nearly divergence-free.
@@ -106,9 +99,7 @@ pub(super) fn predict_pressure(
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
-    mut ledger: ResMut<PassLedger>,
-) {
-    let start = Instant::now();
+) -> usize {
     let report = workers.run_for(particles.len(), |threads| {
         let params = predictor::PredictorParams {
             domain: &setup.domain,
@@ -122,7 +113,7 @@ pub(super) fn predict_pressure(
     });
     counters.pressure_clamps += report.cuts;
     counters.pressure_unsolved += u64::from(report.unsolved);
-    ledger.note(Pass::Pressure, particles.len() as u64, start.elapsed());
+    particles.len()
 }
 
 /// Velocities predict positions.
@@ -134,16 +125,14 @@ pub(super) fn predict_positions(
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
-    mut ledger: ResMut<PassLedger>,
-) {
-    let start = Instant::now();
+) -> usize {
     let dt = plan.substep_seconds();
     let domain = &setup.domain;
     let report = workers.run_for(particles.len(), |threads| {
         predict::predict(&mut particles, solver.instructions, &rock, domain, &setup.quality, threads, dt)
     });
     counters.speed_clamps += report.speed_clamps;
-    ledger.note(Pass::Predict, particles.len() as u64, start.elapsed());
+    particles.len()
 }
 
 /// Particles are sorted into bins.
@@ -154,13 +143,11 @@ pub(super) fn sort_into_bins(
     setup: Res<Setup>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
-    mut ledger: ResMut<PassLedger>,
-) {
-    let start = Instant::now();
+) -> usize {
     let report = workers
         .run_for(particles.len(), |threads| solver.bin(&mut particles, &rock, &setup.domain, &setup.quality, threads));
     counters.set_apart += report.set_apart;
-    ledger.note(Pass::Bin, particles.len() as u64, start.elapsed());
+    particles.len()
 }
 
 /// The density constraint corrects positions.
@@ -170,9 +157,7 @@ pub(super) fn solve_density(
     setup: Res<Setup>,
     effects: Res<Effects>,
     workers: Res<Workers>,
-    mut ledger: ResMut<PassLedger>,
-) {
-    let start = Instant::now();
+) -> usize {
     workers.run_for(particles.len(), |threads| {
         let params = pbf::SolveParams {
             domain: &setup.domain,
@@ -184,7 +169,7 @@ pub(super) fn solve_density(
         };
         solver.solve(&particles, &params);
     });
-    ledger.note(Pass::Solve, particles.len() as u64, start.elapsed());
+    particles.len()
 }
 
 /// Velocities follow from the moves.
@@ -196,16 +181,14 @@ pub(super) fn update_velocities(
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
-    mut ledger: ResMut<PassLedger>,
-) {
-    let start = Instant::now();
+) -> usize {
     let dt = plan.substep_seconds();
     let predicted = effects.get(Effect::Predictor).running;
     let report = workers.run_for(particles.len(), |threads| {
         velocity::update_velocities(&mut particles, &mut solver, &rock, predicted, threads, dt)
     });
     counters.position_clamps += report.position_clamps;
-    ledger.note(Pass::Velocity, particles.len() as u64, start.elapsed());
+    particles.len()
 }
 
 /// Viscosity evens velocities out.
@@ -216,15 +199,13 @@ pub(super) fn apply_viscosity(
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
-    mut ledger: ResMut<PassLedger>,
-) {
-    let start = Instant::now();
+) -> usize {
     let dt = plan.substep_seconds();
     let report = workers.run_for(particles.len(), |threads| {
         velocity::apply_viscosity(&mut particles, &mut solver, &rates.viscosity, threads, dt)
     });
     counters.strength_clamps += report.clamps;
-    ledger.note(Pass::Viscosity, particles.len() as u64, start.elapsed());
+    particles.len()
 }
 
 /// Vorticity confinement keeps eddies alive.
@@ -235,13 +216,11 @@ pub(super) fn apply_vorticity(
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
-    mut ledger: ResMut<PassLedger>,
-) {
-    let start = Instant::now();
+) -> usize {
     let dt = plan.substep_seconds();
     let report = workers.run_for(particles.len(), |threads| {
         velocity::apply_vorticity(&mut particles, &mut solver, &rates.vorticity, threads, dt)
     });
     counters.strength_clamps += report.clamps;
-    ledger.note(Pass::Vorticity, particles.len() as u64, start.elapsed());
+    particles.len()
 }

@@ -2,10 +2,13 @@
 
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
-import { difference, water } from '../browser.mjs';
-import { drag, follow, sleep, stats, still, until, untilKept } from '../player.mjs';
+import { poll, sleep } from '../../poll.mjs';
+import { water } from '../browser.mjs';
+import { click, drag, dragUntil, follow, moveTo, stats, still, until, untilKept } from '../player.mjs';
 
+const WORLD = { x: 0, y: 60, width: 1280, height: 660 };
 const FLOOR = { x: 40, y: 690, width: 360, height: 40 };
+const HIGH = [[560, 420], [640, 440], [720, 420], [640, 400]];
 
 export async function onADesktop(player) {
   const page = await player.play(`${player.host.url}#scene=empty`);
@@ -33,45 +36,43 @@ async function atTheStart({ shoot, test }, page) {
   });
 }
 
-async function withTheMouse({ eyes, shoot, shootUntil, test }, page) {
+async function withTheMouse({ eyes, shoot, test, waterUntil }, page) {
   await test('the left button pours', async () => {
     await until(page, 'the greeting goes', ({ messages }) => messages.length === 0);
-    const picture = await shoot(page, 'desktop-empty');
-    await sleep(1000);
-    // What changes by itself: the numbers in the bar.
-    const untouched = await difference(eyes, picture, await shoot(page, 'desktop-untouched'));
-    await drag(page, [[560, 420], [640, 440], [720, 420], [640, 400], [560, 420], [640, 440], [720, 420]]);
-    const now = await until(page, 'pouring', ({ particles, elements }) => particles > 50 && elements.water === particles);
-    const share = await shootUntil(page, 'desktop-poured', picture, (share) => share > untouched + 0.2);
-    return `${now.particles} particles, ${share.toFixed(2)} % of the picture changed, ${untouched.toFixed(2)} % before`;
+    assert.equal(await water(eyes, await shoot(page, 'desktop-empty'), WORLD), 0, 'there is water in the picture');
+    const { particles, elements } = await dragUntil(page, HIGH, '200 particles', (now) => now.particles >= 200);
+    assert.equal(elements.water, particles);
+    const pixels = await waterUntil(page, 'desktop-poured', WORLD, (pixels) => pixels > 300);
+    return `${particles} particles, ${pixels} pixels of water`;
   });
 
   await test('wind blows the water away', async () => {
-    await page.mouse.move(640, 120);
-    const look = async (name) => water(eyes, await shoot(page, name), FLOOR);
-    let [before, calm] = [0, 0];
-    // Until what falls lies on the floor.
-    for (const end = Date.now() + 60_000; calm < 500 || Math.abs(calm - before) > 0.05 * calm;) {
-      assert.ok(Date.now() < end, `water on ${calm} pixels of the floor, ${before} before`);
-      before = calm;
-      await sleep(1000);
-      calm = await look('desktop-calm');
-    }
+    await moveTo(page, [640, 120]);
+    let before = 0;
+    // Until what falls lies on the floor: it is looked at once in a second of the world's time.
+    const calm = await poll('water lies on the floor', async () => {
+      const { tick } = await stats(page);
+      await until(page, 'a second of the world', (now) => now.tick >= tick + 60);
+      const lies = await water(eyes, await shoot(page, 'desktop-calm'), FLOOR);
+      const seen = { lies, settled: lies > 500 && Math.abs(lies - before) < 0.03 * lies };
+      before = lies;
+      return seen;
+    }, ({ settled }) => settled);
     await page.keyboard.press('KeyW');
-    let windy = calm;
-    for (let gust = 0; gust < 20 && 4 * windy >= 3 * calm; gust += 1) {
-      await drag(page, [[50, 715], [130, 715], [210, 715], [290, 715], [370, 715], [450, 715], [530, 715]], 'left', 40);
-      windy = await look('desktop-windy');
-    }
-    assert.ok(4 * windy < 3 * calm, `water on ${windy} pixels of the floor, ${calm} before`);
-    return `water on ${windy} pixels of the floor, ${calm} before`;
+    await until(page, 'the tool is wind', ({ tool }) => tool === 'wind');
+    let gusts = 0;
+    const windy = await poll('a quarter of the water has gone from the left of the floor', async () => {
+      gusts += 1;
+      await drag(page, [50, 130, 210, 290, 370, 450, 530].map((x) => [x, 715]));
+      return water(eyes, await shoot(page, 'desktop-windy'), FLOOR);
+    }, (lies) => 4 * lies < 3 * calm.lies);
+    return `water on ${windy} pixels of the floor after ${gusts} gusts, ${calm.lies} before`;
   });
 
   await test('the right button erases', async () => {
     const before = (await stats(page)).particles;
-    const way = [60, 200, 350, 500, 650, 800, 950, 1100, 1230].map((x) => [x, 715]);
-    await drag(page, way, 'right');
-    const now = await until(page, 'erasing', ({ particles }) => particles < before);
+    const way = [200, 350, 500, 650, 800, 950, 1100, 1230].map((x) => [x, 715]);
+    const now = await dragUntil(page, way, 'erasing', ({ particles }) => particles < before, 'right');
     return `${now.particles} particles, ${before} before`;
   });
 }
@@ -160,7 +161,8 @@ async function asAWindow({ shoot, test }, page) {
       }, [width, height]);
     }
     await page.setViewportSize({ width: 700, height: 500 });
-    await sleep(2000);
+    const { frame } = await stats(page);
+    await until(page, 'it is drawn', (now) => now.frame > frame + 2);
     await shoot(page, 'small-window');
     await page.setViewportSize({ width: 1280, height: 800 });
   });
@@ -171,12 +173,7 @@ async function asAWindow({ shoot, test }, page) {
       document.dispatchEvent(new Event('visibilitychange'));
     }, hidden);
     await hide(true);
-    // A slow frame may still be under way when the page is told.
-    let [tick, since] = [-1, 0];
-    await until(page, 'it stands', (now) => {
-      if (now.tick !== tick) [tick, since] = [now.tick, Date.now()];
-      return Date.now() - since > 3000;
-    });
+    const { tick } = await until(page, 'it stands', ({ rests }) => rests);
     await sleep(2000);
     assert.equal((await stats(page)).tick, tick, 'it went on');
     const back = Date.now();
@@ -199,10 +196,7 @@ async function withSaves({ shoot, shots, started, test }, page) {
     await started(page);
     assert.equal((await stats(page)).scene, 'communicating_vessels', 'that of the link');
     await page.keyboard.press('Control+KeyO');
-    await sleep(3000);
-    await shoot(page, 'desktop-saves');
-    // The newest file is the upper of two lines in the middle of the window.
-    await page.mouse.click(640, 380);
+    await click(page, /^powder-dam_break-/);
     const now = await until(page, 'the saved world', ({ scene }) => scene === 'dam_break');
     assert.deepEqual(now.elements, elements);
     await shoot(page, 'desktop-loaded');

@@ -2,7 +2,8 @@
 
 import assert from 'node:assert/strict';
 import { launch } from '../browser.mjs';
-import { sleep, stats, still, until } from '../player.mjs';
+import { near } from '../../poll.mjs';
+import { find, stats, still, until } from '../player.mjs';
 
 export async function onAPhone({ host, play, shoot, shootUntil, test }) {
   const page = await play(`${host.url}#scene=empty`, {
@@ -12,6 +13,11 @@ export async function onAPhone({ host, play, shoot, shootUntil, test }) {
   const touch = (type, ...points) => devtools.send('Input.dispatchTouchEvent', {
     type, touchPoints: points.map(([x, y], id) => ({ x, y, id })),
   });
+  // Moves one finger, and waits until the game knows.
+  const slide = async (to) => {
+    await touch('touchMove', to);
+    await until(page, `the finger at ${to}`, ({ pointer }) => pointer !== null && near(pointer, to));
+  };
   await test('the canvas of a phone fills its screen', async () => {
     const size = await page.evaluate(() => ['width', 'height'].map((side) => document.getElementById('world')[side]));
     assert.deepEqual(size, [390, 844]);
@@ -19,26 +25,22 @@ export async function onAPhone({ host, play, shoot, shootUntil, test }) {
   });
   await test('one finger draws', async () => {
     await touch('touchStart', [120, 300]);
-    for (let x = 120; x <= 280; x += 8) {
-      await touch('touchMove', [x, 300]);
-      await sleep(40);
-    }
+    for (let x = 128; x <= 280; x += 8) await slide([x, 300]);
     await touch('touchEnd');
     const now = await until(page, 'drawing', ({ particles }) => particles > 30);
-    await sleep(1500);
     await shoot(page, 'phone-drawn');
     return `${now.particles} particles`;
   });
   await test('two fingers zoom and draw nothing', async () => {
     // Water that still moves would differ by itself.
     await still(page);
-    await sleep(1500);
     const before = (await stats(page)).particles;
     const first = await shoot(page, 'phone-before-zoom');
     await touch('touchStart', [180, 300], [210, 300]);
     for (let half = 15; half <= 120; half += 7) {
       await touch('touchMove', [195 - half, 300], [195 + half, 300]);
-      await sleep(40);
+      const { frame } = await stats(page);
+      await until(page, 'the fingers have moved', (now) => now.frame > frame);
     }
     await touch('touchEnd');
     const share = await shootUntil(page, 'phone-zoomed', first, (share) => share > 0.5);
@@ -46,19 +48,20 @@ export async function onAPhone({ host, play, shoot, shootUntil, test }) {
     return `${share.toFixed(1)} % of the picture changed`;
   });
   await test('the tool bar hides and comes back', async () => {
-    const tap = async (x, y) => {
-      await touch('touchStart', [x, y]);
-      await sleep(150);
+    const tap = async (name) => {
+      await touch('touchStart', await find(page, name));
+      const { frame } = await stats(page);
+      await until(page, 'the finger is felt', (now) => now.frame > frame);
       await touch('touchEnd');
     };
-    await sleep(1500);
+    await still(page);
     const before = await shoot(page, 'phone-tools');
-    await tap(28, 844 - 28 - 52);
+    await tap('Hide the tools');
     const hidden = await shootUntil(page, 'phone-no-tools', before, (share) => share > 5);
-    await tap(390 - 30, 844 - 30);
+    await tap('Show the tools');
     const again = await shootUntil(page, 'phone-tools-again', before, (share) => share < 0.5);
-    // Undo is the third button of the upper row: what the finger drew goes.
-    await tap(4 + 2 * 52 + 24, 844 - 28 - 52);
+    // What the finger drew goes.
+    await tap('Undo');
     await until(page, 'undo', ({ particles }) => particles === 0);
     return `${hidden.toFixed(1)} % of the picture gone, all but ${again.toFixed(1)} % back`;
   });
@@ -79,7 +82,6 @@ export async function onADenseScreen({ host, modules, shoot, test }) {
         const all = width === innerWidth * devicePixelRatio && height === innerHeight * devicePixelRatio;
         return all && [width, height];
       });
-      await sleep(2000);
       await shoot(page, 'dense-screen');
       return `${(await size.jsonValue()).join(' × ')} pixels`;
     });

@@ -1,7 +1,7 @@
 // What the page does where it can't run, and where something breaks while it does.
 
 import assert from 'node:assert/strict';
-import { files, stats, still, until, untilKept } from '../player.mjs';
+import { click, files, stats, still, until, untilKept } from '../player.mjs';
 
 export async function whereItCanNot({ host, open, play, shoot, test }) {
   const refused = async (before, why) => {
@@ -104,9 +104,7 @@ async function withGraphics({ host, play, shoot, started, test }) {
     await page.goto(`${host.url}?#scene=empty`);
     await started(page);
     await page.keyboard.press('Control+KeyO');
-    await new Promise((done) => setTimeout(done, 3000));
-    await shoot(page, 'lost-and-found');
-    await page.mouse.click(640, 400);
+    await click(page, /^powder-dam_break-/);
     await until(page, 'the world is back', (now) => now.particles === particles);
     await page.context().close();
   });

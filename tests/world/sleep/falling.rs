@@ -8,8 +8,8 @@ use powder_master::{
         element::{Element, ElementTable},
         params::Preset,
     },
-    scene::blueprint::{Effect, Mode},
-    sim::{ledger::Pass, state::Clock},
+    scene::effects::{Effect, Mode, Pass},
+    sim::state::Clock,
 };
 use std::sync::Arc;
 

@@ -12,11 +12,11 @@ use powder_master::{
         sources::{Emitter, Rect},
     },
     lab::coarse::{CoarseField, Distance},
-    scene::blueprint::{Blueprint, Effect, Mode},
-    sim::{
-        ledger::Pass,
-        state::{Setup, SleepState},
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, Mode, Pass},
     },
+    sim::state::{Setup, SleepState},
 };
 
 /// The passes over particles: what sleep saves.

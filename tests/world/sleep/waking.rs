@@ -9,11 +9,10 @@ use powder_master::{
         params::Preset,
         sources::{Drain, Rect},
     },
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode, Pass},
     sim::{
         effects::Effects,
         intent::Intent,
-        ledger::Pass,
         state::{Clock, Sources},
     },
 };

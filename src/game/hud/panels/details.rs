@@ -16,13 +16,13 @@ use crate::{
         render::cost::RenderCost,
         views::table::STABILITY,
     },
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode, Pass, Unit},
     sim::{
         effects::{
             Effects,
-            account::{self, Account, Sleepers},
+            status::{self, EffectStatus, Sleepers},
         },
-        ledger::{Pass, PassLedger, PassRecord, Unit},
+        ledger::{PassLedger, PassRecord},
         numbers::grouped,
         state::{AirGrid, Clock, ParticleStore, Setup, SleepState},
     },
@@ -195,20 +195,20 @@ fn switches(ui: &mut Ui, effects: &Effects, ledger: &PassLedger, sleepers: Sleep
         ui.label(weak("saves ms").small()).on_hover_text(meaning);
         ui.end_row();
         for effect in Effect::ALL {
-            let account = Account::of(effect, effects, sleepers);
-            let colour = if account.works { style::ACCENT } else { style::WEAK };
+            let status = EffectStatus::of(effect, effects, sleepers);
+            let colour = if status.works { style::ACCENT } else { style::WEAK };
             ui.label(RichText::new(effect.name()).color(colour)).on_hover_text(explanation(effect));
             ui.horizontal(|ui| {
                 ui.spacing_mut().item_spacing.x = 2.0;
                 for (mode, name) in [(Mode::Auto, "auto"), (Mode::On, "on"), (Mode::Off, "off")] {
-                    if ui.selectable_label(account.mode == mode, name).clicked() {
+                    if ui.selectable_label(status.mode == mode, name).clicked() {
                         orders.push(Order::Effect(effect, mode));
                     }
                 }
             });
-            let saving = account::saving(effect, effects, ledger, PassRecord::saved_last);
+            let saving = status::saving(effect, effects, ledger, PassRecord::saved_last);
             ui.label(RichText::new(saved(saving)).monospace().color(style::WEAK));
-            ui.add(egui::Label::new(weak(account.text())).truncate());
+            ui.add(egui::Label::new(weak(status.text())).truncate());
             ui.end_row();
         }
     });
@@ -218,9 +218,8 @@ fn switches(ui: &mut Ui, effects: &Effects, ledger: &PassLedger, sleepers: Sleep
 fn explanation(effect: Effect) -> String {
     let row = effect.row();
     let plain = |text: &str| text.replace('`', "");
-    let names: Vec<&str> = row.passes.iter().map(|pass| pass.name()).collect();
-    let stage = row.part_of.map_or_else(|| names.join(", "), |pass| format!("a part of {}", pass.name()));
-    let mut text = format!("{}.\nstage: {stage}\nauto: runs while {}", row.meaning, plain(row.when));
+    let mut text =
+        format!("{}.\nstage: {}\nauto: runs while {}", row.meaning, effect.place("a part of"), plain(row.when));
     text += &format!("\noff: {}", plain(row.off));
     if !row.parameters.is_empty() {
         text += &format!("\nparameters: {}", row.parameters.join(", "));

@@ -162,6 +162,7 @@ fn row(ui: &mut Ui, file: &SaveFile) -> bool {
     painter.text(pos2(left, upper), Align2::LEFT_CENTER, title, large, colour);
     painter.text(pos2(right, upper), Align2::RIGHT_CENTER, &file.age, small.clone(), style::WEAK);
     painter.text(pos2(left, lower), Align2::LEFT_CENTER, about, small, style::WEAK);
+    style::name(&response, &name, false);
     response.on_hover_text(name).clicked()
 }
 

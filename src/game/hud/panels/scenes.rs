@@ -139,6 +139,7 @@ fn list(ui: &mut Ui, menu: &mut SceneMenu, setup: &Setup) {
         let font = egui::TextStyle::Button.resolve(ui.style());
         let at = rect.left_center() + vec2(10.0, 0.0);
         ui.painter().text(at, egui::Align2::LEFT_CENTER, scene.title(), font, colour);
+        style::name(&response, scene.title(), chosen);
         if response.clicked() {
             clicked = Some(index);
         }

@@ -14,7 +14,7 @@ use crate::{
     },
     scene::{
         SceneError,
-        blueprint::{Effect, Mode},
+        effects::{Effect, Mode},
     },
 };
 use std::{f64::consts::PI, sync::Arc};

@@ -7,7 +7,7 @@ use crate::{
         params::Preset,
     },
     lab::gauntlet::case::{Density, Gain, GauntletCase, Over, Rules, Size},
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode},
     sim::{
         intent::Intent,
         recorder::Recorder,

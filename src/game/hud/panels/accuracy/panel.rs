@@ -19,11 +19,11 @@ use crate::{
         orders::{Order, Orders},
         panels::{Panel, Panels},
     },
-    scene::blueprint::Blueprint,
+    scene::{blueprint::Blueprint, effects::Pass},
     sim::{
         accuracy::{Curve, LiveError, Survey, SurveyRequest, fingerprint},
         autopilot::Autopilot,
-        ledger::{Pass, PassLedger},
+        ledger::PassLedger,
         measures::Measures,
         numbers::{self, short},
         split::Split,
@@ -283,7 +283,7 @@ mod tests {
     use super::*;
     use crate::{
         kernel::params::Preset,
-        scene::{self, blueprint::EffectModes},
+        scene::{self, effects::EffectModes},
     };
 
     #[test]

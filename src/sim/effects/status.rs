@@ -1,11 +1,10 @@
-//! What is said of an effect where someone looks: under F3 and in the metrics. Made from what the gate and the stages have
-//! noted; a tick has no part in it.
+//! What F3 and the metrics show of an effect, from what the gate and the ledger have noted. No tick reads it.
 
 use crate::{
-    scene::blueprint::{Effect, Mode},
+    scene::effects::{Effect, Mode, Pass, Unit},
     sim::{
         effects::Effects,
-        ledger::{Pass, PassLedger, PassRecord},
+        ledger::{PassLedger, PassRecord},
         numbers::grouped,
         state::{AirGrid, ParticleStore, SleepState},
     },
@@ -16,7 +15,7 @@ use serde::Serialize;
 /// Whether an effect works.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Standing {
+pub enum Activity {
     /// On all that there is.
     Runs,
     /// It would, but some of what there is sleeps, or all.
@@ -25,7 +24,7 @@ pub enum Standing {
     Off,
 }
 
-impl Standing {
+impl Activity {
     /// In a word.
     pub fn name(self) -> &'static str {
         match self {
@@ -58,48 +57,48 @@ impl Sleepers {
 
     /// Of what `effect` works on.
     fn of_effect(self, effect: Effect) -> (usize, usize, &'static str) {
-        match effect {
-            Effect::Air => (self.tiles.0, self.tiles.1, "tiles"),
-            // Those who sleep are its work.
-            Effect::Sleep => (0, 0, ""),
+        match effect.row().passes {
+            // What sleeps is its work.
+            [Pass::Sleep] => (0, 0, ""),
+            [pass] if pass.unit() == Unit::Cells => (self.tiles.0, self.tiles.1, "tiles"),
             _ => (self.particles.0, self.particles.1, "particles"),
         }
     }
 }
 
-/// What is said of an effect.
+/// What is shown of an effect.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Account {
+pub struct EffectStatus {
     /// What the scene or the player wants.
     pub mode: Mode,
     /// Whether it works.
-    pub standing: Standing,
+    pub activity: Activity,
     /// Whether any of it works.
     pub works: bool,
     /// Why it does or does not, or how much of what it works on sleeps.
     pub why: String,
 }
 
-impl Account {
+impl EffectStatus {
     /// Of `effect` in a world of which so much sleeps.
     pub fn of(effect: Effect, effects: &Effects, sleepers: Sleepers) -> Self {
         let state = effects.get(effect);
         let (asleep, all, unit) = sleepers.of_effect(effect);
-        let (standing, why) = if !state.running {
-            (Standing::Off, state.why.to_owned())
+        let (activity, why) = if !state.running {
+            (Activity::Off, state.why.to_owned())
         } else if asleep == 0 {
-            (Standing::Runs, state.why.to_owned())
+            (Activity::Runs, state.why.to_owned())
         } else if asleep < all {
-            (Standing::Asleep, format!("{} of {} {unit}", grouped(asleep as u64), grouped(all as u64)))
+            (Activity::Asleep, format!("{} of {} {unit}", grouped(asleep as u64), grouped(all as u64)))
         } else {
-            (Standing::Asleep, format!("all {} {unit}", grouped(all as u64)))
+            (Activity::Asleep, format!("all {} {unit}", grouped(all as u64)))
         };
-        Self { mode: state.mode, standing, works: state.running && (asleep == 0 || asleep < all), why }
+        Self { mode: state.mode, activity, works: state.running && (asleep == 0 || asleep < all), why }
     }
 
     /// It as one text: `off: nothing is viscous`, `asleep: 62 of 64 tiles`.
     pub fn text(&self) -> String {
-        format!("{}: {}", self.standing.name(), self.why)
+        format!("{}: {}", self.activity.name(), self.why)
     }
 }
 
@@ -127,22 +126,22 @@ pub fn saving(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::blueprint::EffectModes;
+    use crate::scene::effects::EffectModes;
 
-    fn account(effect: Effect, mode: Mode, sleepers: Sleepers) -> String {
+    fn status(effect: Effect, mode: Mode, sleepers: Sleepers) -> String {
         let mut effects = Effects::new(&EffectModes::from([(effect, mode)]));
         let state = effects.get_mut(effect);
         (state.running, state.why) = (mode == Mode::On, "because");
-        Account::of(effect, &effects, sleepers).text()
+        EffectStatus::of(effect, &effects, sleepers).text()
     }
 
     #[test]
-    fn who_sleeps_is_said_of_what_an_effect_works_on() {
+    fn what_sleeps_is_told_of_what_an_effect_works_on() {
         let sleepers = Sleepers { particles: (1600, 1600), tiles: (62, 64) };
-        assert_eq!(account(Effect::Air, Mode::On, sleepers), "asleep: 62 of 64 tiles");
-        assert_eq!(account(Effect::Air, Mode::Off, sleepers), "off: because");
-        assert_eq!(account(Effect::Viscosity, Mode::On, sleepers), "asleep: all 1,600 particles");
-        assert_eq!(account(Effect::Sleep, Mode::On, sleepers), "runs: because");
-        assert_eq!(account(Effect::Viscosity, Mode::On, Sleepers::default()), "runs: because");
+        assert_eq!(status(Effect::Air, Mode::On, sleepers), "asleep: 62 of 64 tiles");
+        assert_eq!(status(Effect::Air, Mode::Off, sleepers), "off: because");
+        assert_eq!(status(Effect::Viscosity, Mode::On, sleepers), "asleep: all 1,600 particles");
+        assert_eq!(status(Effect::Sleep, Mode::On, sleepers), "runs: because");
+        assert_eq!(status(Effect::Viscosity, Mode::On, Sleepers::default()), "runs: because");
     }
 }

@@ -1,0 +1,231 @@
+//! The hook for scripts: what a page's script (`web::hook`) or a test of the desktop (`play --hook`) may ask and tell while
+//! the game runs. docs/scripts.md lists all of it.
+//!
+//! The event loop owns the game. So what a script tells waits for the next frame, and what it asks was noted in the last.
+//!
+//! ```text
+//! script ─► tell ─► First: what was told ─► orders, pace, messages
+//!        ◄─ stats, widgets ◄─ Last: note ◄─ the world, egui's tree of widgets
+//! ```
+
+use crate::{
+    game::{frame::Tempo, input::pointer::Pointer, toasts::Toasts, tools::Toolbox},
+    sim::{
+        ledger::PassLedger,
+        pace::Pace,
+        recorder::Recorder,
+        state::{Census, Clock, Setup},
+        workers::Workers,
+    },
+};
+use bevy::{
+    prelude::{App, First, Last, World},
+    winit::{EventLoopProxy, EventLoopProxyWrapper, WinitUserEvent},
+};
+use bevy_egui::{
+    EguiContext, EguiOutput,
+    egui::accesskit::{Node, Role, Toggled},
+};
+use serde::Serialize;
+use std::{
+    collections::BTreeMap,
+    mem,
+    sync::{Mutex, MutexGuard, PoisonError},
+};
+
+/// What is done to the world in the next frame.
+type Told = Box<dyn FnOnce(&mut World) + Send>;
+
+static HOOK: Mutex<Hook> = Mutex::new(Hook::new());
+
+/// What script and game leave for each other.
+struct Hook {
+    told: Vec<Told>,
+    /// The event loop, which sleeps while nothing changes.
+    event_loop: Option<EventLoopProxy<WinitUserEvent>>,
+    stats: Option<Stats>,
+    /// The widgets are only noted from the first time on that a script asks for them.
+    widgets: Option<Vec<Widget>>,
+}
+
+impl Hook {
+    const fn new() -> Self {
+        Self { told: Vec::new(), event_loop: None, stats: None, widgets: None }
+    }
+}
+
+/// Nobody keeps the lock while a frame is drawn, so a page's thread, which may not sleep, never waits for it.
+fn hook() -> MutexGuard<'static, Hook> {
+    HOOK.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The state of the game in the last frame.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Stats {
+    /// Frames since the start.
+    frame: u64,
+    scene: String,
+    title: String,
+    quality: &'static str,
+    tick: u64,
+    particles: u32,
+    elements: BTreeMap<String, u32>,
+    tool: String,
+    /// Logical pixels from the upper left corner of the window.
+    pointer: Option<[f32; 2]>,
+    paused: bool,
+    /// Whether nothing changes, so that no frame is drawn until something does.
+    rests: bool,
+    /// Ticks that were recorded, if there is a recording.
+    recording: Option<u64>,
+    frames_per_second: f32,
+    ticks_per_second: f32,
+    ms_per_tick: f64,
+    threads: usize,
+    /// Texts that are shown for a while.
+    messages: Vec<String>,
+}
+
+/// Something of the HUD that has a name, in the last frame.
+#[derive(Clone, Debug, Serialize)]
+pub struct Widget {
+    name: String,
+    /// What it is: `Button`, `Window`, `Slider` and so on.
+    kind: String,
+    /// Logical pixels from the upper left corner of the window: left, top, width, height.
+    place: [f64; 4],
+    enabled: bool,
+    /// Whether it is chosen or open, if it can be.
+    chosen: Option<bool>,
+}
+
+/// Keeps the hook of this game up to date.
+pub fn plugin(app: &mut App) {
+    app.add_systems(First, listen).add_systems(Last, note);
+    let event_loop = app.world().get_resource::<EventLoopProxyWrapper>().map(|event_loop| (**event_loop).clone());
+    *hook() = Hook { event_loop, ..Hook::new() };
+}
+
+/// Has something done to the world in the next frame, and sees to it that there is one.
+pub fn tell(told: impl FnOnce(&mut World) + Send + 'static) {
+    let mut hook = hook();
+    hook.told.push(Box::new(told));
+    // Before the game runs there is no event loop, and after its end none that could be woken.
+    let _ = hook.event_loop.as_ref().map(|event_loop| event_loop.send_event(WinitUserEvent::WakeUp));
+}
+
+/// Stops the world's time, or lets it go on.
+pub fn pause(paused: bool) {
+    tell(move |world| {
+        let mut pace = world.resource_mut::<Pace>();
+        *pace = Pace { paused, steps_due: 0, ..*pace };
+    });
+}
+
+/// The state of the game in the last frame; none before the first.
+pub fn stats() -> Option<Stats> {
+    hook().stats.clone()
+}
+
+/// The HUD's widgets in the last frame. The first to ask gets none.
+pub fn widgets() -> Vec<Widget> {
+    if let Some(widgets) = &hook().widgets {
+        return widgets.clone();
+    }
+    tell(|world| {
+        hook().widgets = Some(Vec::new());
+        for mut context in world.query::<&mut EguiContext>().iter_mut(world) {
+            context.get_mut().enable_accesskit();
+        }
+    });
+    Vec::new()
+}
+
+fn listen(world: &mut World) {
+    let told = mem::take(&mut hook().told);
+    told.into_iter().for_each(|told| told(world));
+}
+
+fn note(world: &mut World) {
+    let frame = hook().stats.as_ref().map_or(1, |stats| stats.frame + 1);
+    let stats = look(world, frame);
+    let noted = hook().widgets.is_some();
+    let widgets = noted.then(|| {
+        let mut outputs = world.query::<(&mut EguiContext, &EguiOutput)>();
+        outputs
+            .iter_mut(world)
+            .flat_map(|(mut context, output)| named(output, context.get_mut().zoom_factor()))
+            .collect()
+    });
+    let mut hook = hook();
+    hook.stats = Some(stats);
+    hook.widgets = widgets;
+}
+
+fn look(world: &World, frame: u64) -> Stats {
+    let setup = world.resource::<Setup>();
+    let census = world.resource::<Census>();
+    let tempo = world.resource::<Tempo>();
+    let named = setup.elements().iter().map(|(_, element)| element.name.clone());
+    Stats {
+        frame,
+        scene: setup.blueprint.name.clone(),
+        title: setup.blueprint.title.clone(),
+        quality: setup.preset.name(),
+        tick: world.resource::<Clock>().tick,
+        particles: census.total,
+        elements: named.zip(census.by_element.iter().copied()).collect(),
+        tool: world.resource::<Toolbox>().tool.name(setup.elements()).to_owned(),
+        pointer: world.resource::<Pointer>().at.map(Into::into),
+        paused: world.resource::<Pace>().paused,
+        rests: tempo.rests,
+        recording: world.resource::<Recorder>().ticks(),
+        frames_per_second: tempo.frames_per_second,
+        ticks_per_second: tempo.ticks_per_second,
+        ms_per_tick: world.resource::<PassLedger>().tick().median().as_secs_f64() * 1000.0,
+        threads: world.resource::<Workers>().threads(),
+        messages: world.resource::<Toasts>().texts().map(str::to_owned).collect(),
+    }
+}
+
+/// The widgets that have a name, as egui tells them to screen readers.
+fn named(output: &EguiOutput, zoom: f32) -> Vec<Widget> {
+    let update = output.platform_output.accesskit_update.iter();
+    update.flat_map(|update| &update.nodes).filter_map(|(_, node)| widget(node, f64::from(zoom))).collect()
+}
+
+fn widget(node: &Node, zoom: f64) -> Option<Widget> {
+    let name = if node.role() == Role::Label { node.value() } else { node.label() }?.to_owned();
+    let bounds = node.bounds()?;
+    let place = [bounds.x0, bounds.y0, bounds.width(), bounds.height()].map(|points| points * zoom);
+    let chosen = node.toggled().map(|toggled| toggled == Toggled::True);
+    Some(Widget { name, kind: format!("{:?}", node.role()), place, enabled: !node.is_disabled(), chosen })
+}
+
+/// Answers each line of stdin with one on stdout.
+#[cfg(not(target_arch = "wasm32"))]
+pub fn answer_stdin() {
+    use std::io::Write;
+
+    std::thread::spawn(|| {
+        for line in std::io::stdin().lines().map_while(Result::ok) {
+            // A script that has gone needs no answers.
+            if writeln!(std::io::stdout(), "{}", answer(&line)).is_err() {
+                return;
+            }
+        }
+    });
+}
+
+/// What a script asks or tells in a line.
+#[cfg(not(target_arch = "wasm32"))]
+fn answer(line: &str) -> serde_json::Value {
+    match line.trim() {
+        "stats" => serde_json::json!(stats()),
+        "widgets" => serde_json::json!(widgets()),
+        "pause" => serde_json::json!(pause(true)),
+        "go on" => serde_json::json!(pause(false)),
+        other => serde_json::json!({ "error": format!("`{other}`: allowed are stats, widgets, pause, go on") }),
+    }
+}

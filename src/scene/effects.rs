@@ -1,0 +1,486 @@
+//! The passes of a tick, and the effects: the parts of the simulation that a scene can switch. Two tables, a row each; the
+//! gate decides by them, `sim::stages` orders the passes, and the command line, the HUD, the metrics and docs/effects.md say
+//! what stands here.
+
+use crate::kernel::{
+    element::{Element, ElementTable},
+    params::Preset,
+};
+use bevy::prelude::SystemSet;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// An enum whose variants are the rows of a table.
+macro_rules! table {
+    ($(#[$attribute:meta])* $Name:ident: $Row:ident; $($(#[$doc:meta])* $Variant:ident { $($fields:tt)+ })+) => {
+        $(#[$attribute])*
+        pub enum $Name { $($(#[$doc])* $Variant,)+ }
+
+        impl $Name {
+            /// All of them, in the order of the table.
+            pub const ALL: [Self; [$(Self::$Variant),+].len()] = [$(Self::$Variant),+];
+
+            /// Its row of the table.
+            pub fn row(self) -> &'static $Row {
+                static ROWS: [$Row; $Name::ALL.len()] = [$($Row { $($fields)+ }),+];
+                &ROWS[self as usize]
+            }
+
+            /// Its name in scenes, on the command line, in the metrics and on the screen.
+            pub fn name(self) -> &'static str {
+                self.row().name
+            }
+        }
+    };
+}
+
+/// What a pass works on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Unit {
+    /// Particles, each once a call.
+    Particles,
+    /// Cells of the air, each once a substep of the air.
+    Cells,
+    /// Edits.
+    Edits,
+}
+
+impl Unit {
+    /// Plural.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Particles => "particles",
+            Self::Cells => "cells",
+            Self::Edits => "edits",
+        }
+    }
+}
+
+/// A pass.
+#[derive(Debug)]
+pub struct PassRow {
+    /// Name in the metrics and on the screen.
+    pub name: &'static str,
+    /// What it works on.
+    pub unit: Unit,
+    /// Whether every substep has it, so that it is spared whatever it does not work on. The others leave nothing out.
+    pub each_substep: bool,
+}
+
+table! {
+    /// A pass of the tick, which is also the set of its systems. In the order in which they run first; `sim::stages` has
+    /// their systems and conditions.
+    #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    Pass: PassRow;
+
+    /// Intents change the world.
+    Edit { name: "edit", unit: Unit::Edits, each_substep: false }
+    /// Emitters and drains.
+    Sources { name: "sources", unit: Unit::Particles, each_substep: false }
+    /// The air moves.
+    Air { name: "air", unit: Unit::Cells, each_substep: true }
+    /// Gravity changes velocities.
+    Gravity { name: "gravity", unit: Unit::Particles, each_substep: true }
+    /// Particles drag the air.
+    Feedback { name: "air_feedback", unit: Unit::Particles, each_substep: true }
+    /// The air drags particles.
+    Drag { name: "drag", unit: Unit::Particles, each_substep: true }
+    /// The pressure predictor makes velocities nearly divergence-free.
+    Pressure { name: "pressure", unit: Unit::Particles, each_substep: true }
+    /// Positions are predicted from velocities and swept against rock and box.
+    Predict { name: "predict", unit: Unit::Particles, each_substep: true }
+    /// Particles are sorted into bins.
+    Bin { name: "bin", unit: Unit::Particles, each_substep: true }
+    /// The density constraint moves particles.
+    Solve { name: "solve", unit: Unit::Particles, each_substep: true }
+    /// Velocities follow from the moves.
+    Velocity { name: "velocity", unit: Unit::Particles, each_substep: true }
+    /// XSPH viscosity.
+    Viscosity { name: "viscosity", unit: Unit::Particles, each_substep: true }
+    /// Vorticity confinement.
+    Vorticity { name: "vorticity", unit: Unit::Particles, each_substep: true }
+    /// Particles fall asleep and wake.
+    Sleep { name: "sleep", unit: Unit::Particles, each_substep: false }
+    /// Checks at the end of the tick.
+    Measure { name: "measure", unit: Unit::Particles, each_substep: false }
+}
+
+impl Pass {
+    /// What it works on.
+    pub fn unit(self) -> Unit {
+        self.row().unit
+    }
+
+    /// The effect that it belongs to, if it does to one.
+    pub fn effect(self) -> Option<Effect> {
+        Effect::ALL.into_iter().find(|effect| effect.row().passes.contains(&self))
+    }
+}
+
+/// What a scene or a player wants of an effect.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Mode {
+    /// Runs only while something in the world calls for it.
+    #[default]
+    Auto,
+    /// Always runs.
+    On,
+    /// Never runs.
+    Off,
+}
+
+/// Wanted mode of each effect; those that are not named are `auto`.
+pub type EffectModes = BTreeMap<Effect, Mode>;
+
+/// What is known of the world when a tick is planned. The gate gathers it once a tick; the decisions are functions of it and
+/// of nothing else.
+#[derive(Clone, Copy, Debug)]
+pub struct Facts<'a> {
+    /// What is wanted of each effect, in the order of [`Effect::ALL`].
+    pub modes: [Mode; Effect::ALL.len()],
+    /// The named quality in force.
+    pub preset: Preset,
+    /// Whether the quality has the pressure predictor.
+    pub predicts: bool,
+    /// All elements.
+    pub elements: &'a ElementTable,
+    /// How many particles there are of each.
+    pub counts: &'a [u32],
+    /// Movable particles.
+    pub particles: usize,
+    /// How many of them sleep.
+    pub asleep: usize,
+    /// Whether the liquid has a tension.
+    pub has_tension: bool,
+    /// Whether the scene has winds.
+    pub has_winds: bool,
+    /// Whether the air moves.
+    pub air_moves: bool,
+    /// Whether the fastest particle could wake air at rest.
+    pub stirs_air: bool,
+}
+
+impl Facts<'_> {
+    fn mode(&self, effect: Effect) -> Mode {
+        self.modes[effect as usize]
+    }
+
+    fn runs(&self, effect: Effect) -> bool {
+        effect.decide(self).0
+    }
+
+    fn has_liquid(&self) -> bool {
+        self.particles > 0
+    }
+
+    /// Whether a movable particle is there of an element with this property.
+    fn present(&self, property: fn(&Element) -> bool) -> bool {
+        let mut counted = self.elements.iter().zip(self.counts);
+        counted.any(|((_, element), &count)| count > 0 && !element.fixed && property(element))
+    }
+
+    fn feels_air(&self) -> bool {
+        self.present(|element| element.drag > 0.0)
+    }
+}
+
+/// Whether an effect is called for, and why or why not.
+type Verdict = (bool, &'static str);
+
+fn verdict(called: bool, yes: &'static str, no: &'static str) -> Verdict {
+    (called, if called { yes } else { no })
+}
+
+/// An effect.
+#[derive(Debug)]
+pub struct EffectRow {
+    /// Name on the command line, in scenes and on the screen.
+    pub name: &'static str,
+    /// What it does, in half a sentence.
+    pub meaning: &'static str,
+    /// The passes that it adds: nothing else calls them. None where it is a part of another's pass.
+    pub passes: &'static [Pass],
+    /// The pass that it is a part of, where it has none of its own.
+    pub part_of: Option<Pass>,
+    /// The effects without which its passes have nothing to do, and are not called even if it is `on`.
+    pub needs: &'static [Effect],
+    /// When `auto` runs it, after "runs in `auto` while".
+    pub when: &'static str,
+    /// Its parameters, as scene and element files name them.
+    pub parameters: &'static [&'static str],
+    /// What `off` means.
+    pub off: &'static str,
+    /// Whether liquid at rest has to move again to find out where it rests when this starts or stops to run.
+    pub wakes: bool,
+    /// Whether the world calls for it in a tick, and why or why not: what `auto` goes by.
+    pub called_for: fn(&Facts<'_>) -> Verdict,
+    /// When `on` makes another world than `auto`, after "`on` is another world". Empty if never.
+    pub another: &'static str,
+    /// Whether `on` may make another world of a tick than `auto`. Where it may not in any tick of a run, both are the same
+    /// to the bit: either `auto` runs it, or there is nothing for it to do.
+    pub differs_from_on: fn(&Facts<'_>) -> bool,
+}
+
+/// What an effect is in what its row does not say.
+const PLAIN: EffectRow = EffectRow {
+    name: "",
+    meaning: "",
+    passes: &[],
+    part_of: None,
+    needs: &[],
+    when: "",
+    parameters: &[],
+    off: "",
+    wakes: false,
+    called_for: |_| (false, ""),
+    another: "",
+    differs_from_on: |_| false,
+};
+
+table! {
+    /// An effect: a group of passes that a scene can switch. In the order in which their passes run.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    Effect: EffectRow;
+
+    /// The air grid moves.
+    Air {
+        name: "air",
+        meaning: "the air moves",
+        passes: &[Pass::Air],
+        when: "the air moves, a wind drives it, or particles drag it along",
+        parameters: &["winds", "pressures", "open", "sound_speed", "air_cell", "air_courant", "air_advection"],
+        off: "the air stands, whatever moved it before; no grid of it is even built",
+        called_for: |facts| {
+            if facts.has_winds {
+                (true, "a wind drives the air")
+            } else if !facts.air_moves && facts.runs(Effect::AirFeedback) {
+                (true, "particles drag it along")
+            } else {
+                verdict(facts.air_moves, "the air moves", "the air is still")
+            }
+        },
+        ..PLAIN
+    }
+    /// The air drags particles.
+    Drag {
+        name: "drag",
+        meaning: "the air drags particles",
+        passes: &[Pass::Drag],
+        when: "a particle of an element with drag is there",
+        parameters: &["drag of an element"],
+        off: "particles don't feel the air",
+        called_for: |facts| verdict(facts.feels_air(), "particles feel the air", "no particle feels the air"),
+        another: "only particles without drag are in moving air (their velocities are rounded)",
+        differs_from_on: |facts| !facts.feels_air() && facts.has_liquid() && facts.air_moves,
+        ..PLAIN
+    }
+    /// Particles drag the air.
+    AirFeedback {
+        name: "air_feedback",
+        meaning: "particles drag the air: what drag takes from one, the other gets",
+        passes: &[Pass::Feedback],
+        needs: &[Effect::Air, Effect::Drag],
+        when: "particles that feel the air are fast enough to move it, or it moves; never in `classic`",
+        parameters: &["air_density", "density of an element"],
+        off: "the air loses nothing by what it carries",
+        called_for: |facts| {
+            if facts.mode(Effect::Air) == Mode::Off {
+                (false, "the air is switched off")
+            } else if !facts.feels_air() {
+                (false, "no particle feels the air")
+            } else if !facts.runs(Effect::Drag) {
+                (false, "the drag is switched off")
+            } else if facts.preset == Preset::Classic {
+                (false, "not in this quality")
+            } else {
+                verdict(
+                    facts.stirs_air || facts.air_moves,
+                    "the air moves, or particles could move it",
+                    "particles and air are still",
+                )
+            }
+        },
+        another: "a particle feels the air: the faintest breath of it wakes air that sleeps",
+        differs_from_on: |facts| facts.mode(Effect::Air) != Mode::Off && facts.runs(Effect::Drag) && facts.feels_air(),
+        ..PLAIN
+    }
+    /// The pressure predictor.
+    Predictor {
+        name: "predictor",
+        meaning: "pressure is predicted on a coarse grid before the density constraint",
+        passes: &[Pass::Pressure],
+        when: "there is liquid, in every quality but `classic`",
+        parameters: &["kernel_radius", "rest_density"],
+        off: "pressure travels one kernel radius an iteration",
+        wakes: true,
+        called_for: |facts| {
+            if facts.predicts {
+                verdict(facts.has_liquid(), "a liquid is there", "no liquid")
+            } else {
+                (false, "not in this quality")
+            }
+        },
+        another: "there is liquid in `classic`",
+        differs_from_on: |facts| facts.has_liquid() && !facts.predicts,
+        ..PLAIN
+    }
+    /// The tensile correction `s_corr`.
+    Tension {
+        name: "tension",
+        meaning: "particles keep their distance at a surface (s_corr)",
+        part_of: Some(Pass::Solve),
+        when: "there is liquid with a tension",
+        parameters: &["tension_strength", "tension_distance"],
+        off: "no `s_corr`",
+        wakes: true,
+        called_for: |facts| {
+            verdict(facts.has_liquid() && facts.has_tension, "a liquid is there", "no liquid, or its tension is 0")
+        },
+        ..PLAIN
+    }
+    /// XSPH viscosity.
+    Viscosity {
+        name: "viscosity",
+        meaning: "neighbouring particles even out their velocities (XSPH)",
+        passes: &[Pass::Viscosity],
+        when: "an element that has it is there",
+        parameters: &["viscosity of an element"],
+        off: "neighbours keep their own velocities",
+        wakes: true,
+        called_for: |facts| {
+            verdict(facts.present(|element| element.viscosity > 0.0), "a viscous liquid is there", "nothing is viscous")
+        },
+        ..PLAIN
+    }
+    /// Vorticity confinement.
+    Vorticity {
+        name: "vorticity",
+        meaning: "eddies keep turning (vorticity confinement)",
+        passes: &[Pass::Vorticity],
+        when: "an element that has it is there",
+        parameters: &["vorticity of an element"],
+        off: "eddies die away in the solver",
+        wakes: true,
+        called_for: |facts| {
+            let keeps_eddies = facts.present(|element| element.vorticity > 0.0);
+            verdict(keeps_eddies, "a liquid keeps its eddies", "nothing keeps its eddies")
+        },
+        ..PLAIN
+    }
+    /// Bodies of liquid and tiles of air that have come to rest sleep.
+    Sleep {
+        name: "sleep",
+        meaning: "what has come to rest is left alone until something touches it",
+        passes: &[Pass::Sleep],
+        when: "there is liquid or moving air; never in `reference`, and in `classic` only air sleeps",
+        off: "everything is simulated in every tick",
+        called_for: |facts| {
+            if facts.preset == Preset::Reference {
+                (false, "the reference simulates all")
+            } else if facts.particles == 0 {
+                verdict(facts.air_moves, "calm air sleeps by tiles", "nothing moves")
+            } else if !facts.predicts {
+                // The plain method simmers: its water never rests.
+                verdict(facts.air_moves, "calm air sleeps by tiles", "without the predictor nothing rests")
+            } else if facts.asleep == 0 {
+                (true, "nothing rests yet")
+            } else if facts.asleep < facts.particles {
+                (true, "some of the water rests")
+            } else {
+                (true, "all of the water rests")
+            }
+        },
+        another: "there is liquid in `classic`, or anything in `reference`",
+        differs_from_on: |facts| {
+            let is_reference = facts.preset == Preset::Reference;
+            facts.has_liquid() && (is_reference || !facts.predicts)
+                || is_reference && (facts.has_winds || facts.air_moves)
+        },
+        ..PLAIN
+    }
+}
+
+impl Effect {
+    /// The effect called `name`.
+    pub fn find(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|effect| effect.name() == name)
+    }
+
+    /// Whether it runs in a tick with these facts, and why or why not.
+    pub fn decide(self, facts: &Facts<'_>) -> (bool, &'static str) {
+        match facts.mode(self) {
+            Mode::Auto => (self.row().called_for)(facts),
+            Mode::On => (true, "switched on"),
+            Mode::Off => (false, "switched off"),
+        }
+    }
+
+    /// Where its work is done: its own passes, or the one that it is a part of.
+    pub fn place(self, part_of: &str) -> String {
+        let EffectRow { passes, part_of: host, .. } = self.row();
+        let own: Vec<&str> = passes.iter().map(|pass| pass.name()).collect();
+        host.map_or_else(|| own.join(", "), |host| format!("{part_of} {}", host.name()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The table of docs/effects.md.
+    fn document() -> String {
+        let code = |words: &[&str]| words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ");
+        let or_dash = |text: String| if text.is_empty() { "–".to_owned() } else { text };
+        let mut text = "| effect | what it does | passes | needs | runs in `auto` while | `off` means | \
+                        `on` is another world while | parameters |\n|---|---|---|---|---|---|---|---|\n"
+            .to_owned();
+        for effect in Effect::ALL {
+            let EffectRow { name, meaning, passes, part_of, needs, when, parameters, off, another, .. } = effect.row();
+            let names: Vec<&str> = passes.iter().map(|pass| pass.name()).collect();
+            let passes = part_of.map_or_else(|| code(&names), |pass| format!("a part of `{}`", pass.name()));
+            let needs: Vec<&str> = needs.iter().map(|effect| effect.name()).collect();
+            let parameters = parameters.iter().map(|name| match name.split_once(' ') {
+                Some((name, rest)) => format!("`{name}` {rest}"),
+                None => format!("`{name}`"),
+            });
+            let cells = [
+                format!("`{name}`"),
+                (*meaning).to_owned(),
+                passes,
+                or_dash(code(&needs)),
+                (*when).to_owned(),
+                (*off).to_owned(),
+                or_dash((*another).to_owned()),
+                or_dash(parameters.collect::<Vec<_>>().join(", ")),
+            ];
+            text += &format!("| {} |\n", cells.join(" | "));
+        }
+        text
+    }
+
+    #[test]
+    fn the_document_has_the_table() {
+        let table = document();
+        assert!(include_str!("../../docs/effects.md").contains(&table), "docs/effects.md does not have\n{table}");
+    }
+
+    #[test]
+    fn the_names_of_effects_are_those_of_the_files() {
+        for effect in Effect::ALL {
+            assert_eq!(format!("\"{}\"", effect.name()), serde_json::to_string(&effect).unwrap());
+            let row = effect.row();
+            assert!(row.passes.is_empty() == row.part_of.is_some(), "{}: where is its work?", row.name);
+        }
+    }
+
+    #[test]
+    fn no_pass_belongs_to_two_effects() {
+        for pass in Pass::ALL {
+            let owners = Effect::ALL.iter().filter(|effect| effect.row().passes.contains(&pass)).count();
+            assert_eq!(usize::from(pass.effect().is_some()), owners, "{}", pass.name());
+        }
+    }
+}

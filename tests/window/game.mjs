@@ -1,0 +1,144 @@
+// The game in a window of its own X server: mouse and keys by xdotool, what the game says by its hook (docs/scripts.md).
+
+import assert from 'node:assert/strict';
+import { execFile, execFileSync, spawn } from 'node:child_process';
+import { openSync } from 'node:fs';
+import { join } from 'node:path';
+import { createInterface } from 'node:readline';
+import { promisify } from 'node:util';
+import { middle, near, poll, pressable } from '../poll.mjs';
+
+const WIDTH = 1280;
+const HEIGHT = 800;
+const run = promisify(execFile);
+
+// An X server of which nobody else knows.
+export async function display() {
+  const server = spawn('Xvfb', ['-displayfd', '3', '-screen', '0', `${WIDTH}x${HEIGHT}x24`], {
+    stdio: ['ignore', 'ignore', 'ignore', 'pipe'],
+  });
+  const number = await new Promise((found, failed) => {
+    server.stdio[3].once('data', (data) => found(String(data).trim()));
+    server.once('error', failed);
+    server.once('exit', (code) => failed(new Error(`Xvfb ended with ${code}`)));
+  });
+  return { name: `:${number}`, stop: () => server.kill() };
+}
+
+// Opens the game with an empty scene; its files and its log go to `folder`.
+export async function open(program, display, folder) {
+  const { WAYLAND_DISPLAY, ...rest } = process.env;
+  const env = { ...rest, DISPLAY: display, XDG_DATA_HOME: join(folder, 'data') };
+  const log = openSync(join(folder, 'log'), 'a');
+  const child = spawn(program, ['play', 'empty', '--hook'], { cwd: folder, env, stdio: ['pipe', 'pipe', log] });
+  const ended = new Promise((done) => child.once('exit', (code, signal) => done(signal ?? code)));
+  child.stdin.on('error', () => {});
+  const answers = createInterface({ input: child.stdout })[Symbol.asyncIterator]();
+
+  async function ask(words) {
+    child.stdin.write(`${words}\n`);
+    const { value, done } = await answers.next();
+    assert.ok(!done, 'the game ended by itself');
+    return JSON.parse(value);
+  }
+
+  const x = (...words) => run('xdotool', words.map(String), { env });
+  const stats = () => ask('stats');
+  const widgets = () => ask('widgets');
+  const until = (what, good) => poll(what, stats, (now) => now !== null && good(now));
+  const untilWidgets = (what, good) => poll(what, widgets, good);
+
+  await until('the first frame', ({ frame }) => frame > 0);
+  const window = (await x('search', '--sync', '--onlyvisible', '--name', 'Powder Master')).stdout.split('\n')[0];
+  // Without a window manager nobody gives it the keyboard.
+  await x('windowfocus', '--sync', window);
+
+  // Moves the pointer, and waits until the game knows.
+  async function move(to) {
+    await x('mousemove', ...to);
+    await until(`the pointer at ${to}`, ({ pointer }) => pointer !== null && near(pointer, to));
+  }
+
+  // Presses what has this name. What moves is followed until it keeps still.
+  async function click(name) {
+    const seen = await untilWidgets(`something to press called ${name}`, (all) => pressable(all, name) !== undefined);
+    for (let at = middle(pressable(seen, name)); ;) {
+      await move(at);
+      const now = pressable(await widgets(), name);
+      assert.ok(now, `${name} went away under the pointer`);
+      if (middle(now).join() === at.join()) break;
+      at = middle(now);
+    }
+    await x('mousedown', 1, 'mouseup', 1);
+  }
+
+  // Holds a button and goes round along the points until the game says that it is enough.
+  async function drag(button, points, what, good) {
+    await move(points[0]);
+    await x('mousedown', button);
+    let turn = 0;
+    await poll(what, async () => {
+      turn += 1;
+      await move(points[turn % points.length]);
+      return stats();
+    }, good);
+    await x('mouseup', button);
+    return stats();
+  }
+
+  return {
+    click,
+    drag,
+    move,
+    stats,
+    until,
+    untilWidgets,
+    widgets,
+    key: (name) => x('key', name),
+    // One way along the points with a button held.
+    async stroke(button, points) {
+      await move(points[0]);
+      await x('mousedown', button);
+      for (const point of points.slice(1)) await move(point);
+      await x('mouseup', button);
+    },
+    // What the window shows.
+    async picture(name) {
+      const file = join(folder, `${name}.png`);
+      await run('import', ['-silent', '-window', 'root', file], { env });
+      return execFileSync('convert', [file, '-depth', '8', 'rgb:-'], { maxBuffer: 1 << 26 });
+    },
+    async kill(signal = 'SIGTERM') {
+      child.kill(signal);
+      return ended;
+    },
+  };
+}
+
+// Calls `each` with red, green and blue of each pixel of a part of a picture.
+function pixels(picture, { x, y, width, height }, each) {
+  for (let row = y; row < y + height; row += 1) {
+    for (let k = 3 * (row * WIDTH + x), end = k + 3 * width; k < end; k += 3) each(k, picture[k], picture[k + 1], picture[k + 2]);
+  }
+}
+
+// The world, without the bars.
+export const WORLD = { x: 0, y: 60, width: WIDTH, height: HEIGHT - 140 };
+
+// Share of the world's pixels that differ visibly, in percent.
+export function difference(one, other) {
+  let differ = 0;
+  pixels(one, WORLD, (k) => {
+    if ([0, 1, 2].some((c) => Math.abs(one[k + c] - other[k + c]) > 15)) differ += 1;
+  });
+  return 100 * differ / (WORLD.width * WORLD.height);
+}
+
+// Pixels of a part of a picture that are blue, as water is.
+export function water(picture, part) {
+  let blue = 0;
+  pixels(picture, part, (_, red, green, b) => {
+    if (b > 120 && b > 1.5 * red) blue += 1;
+  });
+  return blue;
+}

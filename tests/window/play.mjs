@@ -1,0 +1,196 @@
+// Plays the game in a real window as a person would, with mouse and keys, and looks at what the window shows and what the
+// game says. Usage: node tests/window/play.mjs PATH-OF-powder-master [FOLDER-FOR-SCREENSHOTS]
+// Needs Xvfb, xdotool, import and convert (ImageMagick) and a Vulkan or OpenGL driver (Mesa's software one will do).
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync } from 'node:fs';
+import { join, resolve } from 'node:path';
+import { isOpen, poll } from '../poll.mjs';
+import { difference, display, open, water, WORLD } from './game.mjs';
+
+const program = resolve(process.argv[2]);
+const folder = resolve(process.argv[3] ?? 'target/window-test');
+// What the game writes goes there, too, and what an earlier test has left is no business of this one.
+rmSync(folder, { recursive: true, force: true });
+mkdirSync(folder, { recursive: true });
+
+const FLOOR = { x: 40, y: 690, width: 360, height: 40 };
+const HIGH = [[560, 420], [600, 430], [640, 440], [680, 430], [720, 420], [680, 410], [640, 420], [600, 410]];
+const LOW = [200, 350, 500, 650, 800, 950, 1100, 1230].map((x) => [x, 715]);
+const GUST = [50, 130, 210, 290, 370, 450, 530].map((x) => [x, 715]);
+
+const screen = await display();
+let game;
+let passed = 0;
+
+async function test(name, body) {
+  const begun = Date.now();
+  let told;
+  try {
+    told = await body();
+  } catch (error) {
+    throw new Error(`${name}: ${error.message}`, { cause: error });
+  }
+  passed += 1;
+  console.log(`ok: ${name}${told ? `: ${told}` : ''} (${((Date.now() - begun) / 1000).toFixed(1)} s)`);
+}
+
+const begin = async () => { game = await open(program, screen.name, folder); };
+const quiet = () => game.until('no message is shown', ({ messages }) => messages.length === 0);
+const pour = (least) => game.drag(1, HIGH, `${least} particles of water`, ({ particles }) => particles >= least);
+
+async function play() {
+  let empty;
+  await test('an empty scene is empty', async () => {
+    await begin();
+    const { particles, scene } = await quiet();
+    assert.deepEqual([scene, particles], ['empty', 0]);
+    empty = await game.picture('empty');
+    assert.equal(water(empty, WORLD), 0, 'there is water in the picture');
+  });
+
+  await test('the left button pours', async () => {
+    const { particles } = await pour(400);
+    const picture = await game.picture('poured');
+    assert.ok(water(picture, WORLD) > 500, `${particles} particles are ${water(picture, WORLD)} pixels of water`);
+    return `${particles} particles, ${water(picture, WORLD)} pixels of water`;
+  });
+
+  await test('wind drives the water away', async () => {
+    await game.move([640, 120]);
+    let before = 0;
+    // Until what falls lies on the floor: it is looked at once in a second of the world's time.
+    const calm = await poll('water lies on the floor', async () => {
+      const { tick } = await game.stats();
+      await game.until('a second of the world', (now) => now.tick >= tick + 60);
+      const lies = water(await game.picture('calm'), FLOOR);
+      const seen = { lies, settled: lies > 500 && Math.abs(lies - before) < 0.03 * lies };
+      before = lies;
+      return seen;
+    }, ({ settled }) => settled);
+    await game.key('w');
+    await game.until('the tool is wind', ({ tool }) => tool === 'wind');
+    let gusts = 0;
+    const windy = await poll('a quarter of the water has gone from the left of the floor', async () => {
+      gusts += 1;
+      await game.stroke(1, GUST);
+      return water(await game.picture('windy'), FLOOR);
+    }, (lies) => 4 * lies < 3 * calm.lies);
+    return `water on ${windy} pixels of the floor after ${gusts} gusts, ${calm.lies} before`;
+  });
+
+  await test('the right button erases', async () => {
+    const { particles } = await game.stats();
+    const now = await game.drag(3, LOW, `fewer than ${particles} particles`, (now) => now.particles < particles);
+    await game.picture('erased');
+    return `${now.particles} particles, ${particles} before`;
+  });
+
+  await test('the accuracy panel measures a curve, and a click on it chooses a quality', async () => {
+    await game.key('2');
+    await game.until('the tool is water', ({ tool }) => tool === 'water');
+    // Single drops have no density.
+    await pour((await game.stats()).particles + 800);
+    await game.key('a');
+    await game.untilWidgets('the panel is open', (all) => isOpen(all, 'Accuracy'));
+    await game.click('Measure here');
+    const others = (all) => all.filter(({ name, chosen }) => name.endsWith(' on the curve') && chosen === false);
+    await game.untilWidgets('a curve of the survey', (all) => others(all).length >= 3 && all.some(({ name }) => name === 'Measure here'));
+    // While time stands, the point of the world keeps still, and with it the curve.
+    await game.key('space');
+    await game.until('it stands', ({ paused }) => paused);
+    const [{ name }] = others(await game.widgets()).filter(({ place }, _, all) => all.every((other) => other.place === place || apart(place, other.place)));
+    await game.click(name);
+    const quality = name.split(' ')[0];
+    await game.until(`a click on ${name} chooses ${quality}`, (now) => now.quality === quality);
+    await game.picture('accuracy');
+    await game.key('space');
+    await game.until('it goes on', ({ paused }) => !paused);
+    return `${quality} is chosen`;
+  });
+
+  await test('two qualities side by side', async () => {
+    const split = (chosen) => (all) => all.some((widget) => widget.name === 'A/B split' && widget.chosen === chosen);
+    await game.untilWidgets('there is no split', split(false));
+    await game.key('b');
+    await game.untilWidgets('there is a split', split(true));
+    await game.key('a');
+    await game.untilWidgets('the panel is closed', (all) => !isOpen(all, 'Accuracy'));
+    const sides = ['left', 'right'].map((_, k) => ({ ...WORLD, x: 640 * k, width: 640 }));
+    const seen = await poll('water in both halves', async () => {
+      const picture = await game.picture('split');
+      return sides.map((side) => water(picture, side));
+    }, (pixels) => pixels.every((count) => count > 100));
+    await game.key('b');
+    await game.untilWidgets('the difference is gone', (all) => !all.some(({ name }) => name === 'Difference'));
+    return `${seen.join(' and ')} pixels of water`;
+  });
+
+  await test('R begins the scene again', async () => {
+    await game.key('r');
+    await game.until('an empty scene', ({ particles }) => particles === 0);
+  });
+
+  await test('a recording and the last minute can be replayed', async () => {
+    await game.key('F9');
+    await game.until('it records', ({ recording }) => recording !== null);
+    const { particles } = await game.stats();
+    await pour(particles + 100);
+    await game.key('F9');
+    await game.until('the recording has ended', ({ recording }) => recording === null);
+    const recordings = () => {
+      const place = join(folder, 'recordings');
+      return existsSync(place) ? readdirSync(place).filter((name) => name.endsWith('.pmr')) : [];
+    };
+    await poll('a recording', recordings, ({ length }) => length === 1);
+    await game.key('shift+F9');
+    const files = await poll('the last minute', recordings, ({ length }) => length === 2);
+    const replay = (name) => execFileSync(program, ['replay', join(folder, 'recordings', name)], { encoding: 'utf8' }).trim();
+    return files.map(replay).join('; ');
+  });
+
+  await test('a game that is killed offers its world at the next start', async () => {
+    const journals = join(folder, 'data');
+    const size = () => readdirSync(journals, { recursive: true, withFileTypes: true })
+      .filter((entry) => entry.isFile() && entry.name.startsWith('running-'))
+      .reduce((sum, { parentPath, name }) => sum + statSync(join(parentPath, name)).size, 0);
+    const before = size();
+    await pour((await game.stats()).particles + 100);
+    await poll('what was played is in the journal', size, (now) => now > before);
+    assert.equal(await game.kill('SIGKILL'), 'SIGKILL');
+    await begin();
+    await game.untilWidgets('the offer', (all) => isOpen(all, 'The game ended unexpectedly'));
+    await game.picture('offer');
+    assert.equal((await game.stats()).particles, 0, 'something was restored unasked');
+    await game.click('Restore');
+    const { particles } = await game.until('the world is back', (now) => now.particles > 0);
+    return `${particles} particles`;
+  });
+
+  await test('F1 shows the keys', async () => {
+    const before = await game.picture('before-help');
+    await game.key('F1');
+    await game.untilWidgets('the keys', (all) => isOpen(all, 'Keys and mouse'));
+    const share = await poll('the picture of it', async () => difference(before, await game.picture('help')), (share) => share > 5);
+    return `${share.toFixed(1)} % of the picture changed`;
+  });
+
+  const log = readFileSync(join(folder, 'log'), 'utf8');
+  assert.doesNotMatch(log, /panicked/i, 'the game panicked');
+}
+
+const apart = ([x, y, width, height], [u, v, wide, high]) => x + width <= u || u + wide <= x || y + height <= v || v + high <= y;
+
+try {
+  await play();
+  console.log(`${passed} passed, 0 failed; screenshots in ${folder}`);
+} catch (error) {
+  await game?.picture('failed').catch(() => {});
+  const log = existsSync(join(folder, 'log')) ? readFileSync(join(folder, 'log'), 'utf8') : '';
+  console.error(`FAILED after ${passed} passed: ${error.message}\nlog: ${log}\nscreenshots in ${folder}`);
+  process.exitCode = 1;
+} finally {
+  await game?.kill();
+  screen.stop();
+}
