@@ -125,8 +125,8 @@ fn a_bad_recording_is_refused_in_one_line() {
         ("half", &bytes[..bytes.len() / 2], &["damaged", "breaks off"]),
         ("short", &bytes[..bytes.len() - 1], &["damaged"]),
         ("changed", &changed, &["damaged", "checksum"]),
-        ("newer", &newer, &["format 77; this program reads format 3"]),
-        ("old", b"{\"powder_master_replay\":1,\"scene\":\"empty\"}\n", &["format 1; this program reads format 3"]),
+        ("newer", &newer, &["format 77; this program reads format 4"]),
+        ("old", b"{\"powder_master_replay\":1,\"scene\":\"empty\"}\n", &["format 1; this program reads format 4"]),
         ("huge", &huge, &["damaged", "breaks off"]),
     ] {
         std::fs::write(here.join(name), bytes).unwrap();

@@ -107,10 +107,10 @@ fn headers_say_what_is_wrong() {
     assert_eq!(refusal(b""), RecordingError::Foreign.to_string());
     assert_eq!(refusal(b"PowderMaster\n\x01\x00"), RecordingError::Foreign.to_string(), "a save file");
     let old = refusal(b"{\"powder_master_replay\":1,\"scene\":\"empty\"}\n");
-    assert!(old.contains("format 1; this program reads format 3"), "{old}");
+    assert!(old.contains("format 1; this program reads format 4"), "{old}");
     let mut newer = bytes.clone();
     newer[MAGIC.len()] = 200;
-    assert!(refusal(&newer).contains("format 200; this program reads format 3"));
+    assert!(refusal(&newer).contains("format 200; this program reads format 4"));
     let mut longer = bytes.clone();
     longer.push(0);
     assert!(refusal(&longer).contains("behind its end"));
