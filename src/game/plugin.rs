@@ -49,7 +49,7 @@ impl Plugin for GamePlugin {
             .init_resource::<accuracy::LiveError>()
             .init_resource::<accuracy::Survey>()
             .init_resource::<measures::Measures>()
-            .add_plugins((hud::panels::plugin, autopilot::plugin, crate::sim::split::plugin, recorder::plugin))
+            .add_plugins((hud::panels::plugin, autopilot::plugin, crate::lab::split::plugin, recorder::plugin))
             .add_systems(
                 RunFixedMainLoop,
                 (

@@ -52,13 +52,13 @@ struct Background<'w> {
     gauntlet: Res<'w, JobQueue<GauntletCase>>,
     survey: Res<'w, Survey>,
     #[cfg(not(target_arch = "wasm32"))]
-    remains: Option<Res<'w, crate::game::crash::remains::Remains>>,
+    recovery: Option<Res<'w, crate::game::crash::recovery::Recovery>>,
 }
 
 impl Background<'_> {
     fn works(&self) -> bool {
         #[cfg(not(target_arch = "wasm32"))]
-        let restores = self.remains.as_ref().is_some_and(|remains| remains.is_busy());
+        let restores = self.recovery.as_ref().is_some_and(|recovery| recovery.is_busy());
         #[cfg(target_arch = "wasm32")]
         let restores = false;
         restores || self.exam.is_running() || self.gauntlet.is_running() || self.survey.is_running()

@@ -8,11 +8,11 @@ use crate::{
         toasts::Toasts,
     },
     kernel::params::Preset,
+    lab::split::Split,
     sim::{
         accuracy::{LiveError, Watched},
         autopilot::Autopilot,
         measures::Measures,
-        split::Split,
         state::Setup,
     },
 };

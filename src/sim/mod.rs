@@ -21,7 +21,6 @@ pub mod replay;
 pub mod script;
 pub mod simulation;
 pub mod snapshot;
-pub mod split;
 pub mod stages;
 pub mod state;
 pub mod workers;

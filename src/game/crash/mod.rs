@@ -1,10 +1,10 @@
-//! What is left when the game ends as it should not: by a panic, or killed, or with the machine.
+//! Crash recovery: what is kept for when the game ends as it should not: by a panic, or killed, or with the machine.
 //!
 //! ```text
 //! recorder ─► journal: a thread that keeps the newest state and the input since then in a file, locked while we live
-//!     │           │ killed: the file stays, and nobody holds its lock
+//!     │           │ killed: the file stays, and its lock is free
 //!     │           ▼
-//!     │       remains: at the next start, the world just before the end is offered, or forgotten
+//!     │       recovery: at the next start, the world just before the end is offered, or forgotten
 //!     ▼
 //! panic ─► the last minute as a recording of its own; the journal gets the rest of the input and its end
 //! ```
@@ -14,7 +14,7 @@
 //! on. A page has none of this: a panic there ends the program at once, without a chance to write.
 
 pub mod journal;
-pub mod remains;
+pub mod recovery;
 
 use crate::{
     game::{files, recording},
@@ -52,7 +52,7 @@ pub fn run<T>(mut app: App, journals: Option<PathBuf>, run: impl FnOnce(App) -> 
     let journal = journals.and_then(|folder| {
         // Ours is locked before anything looks for those that are not.
         let journal = Journal::begin(&folder, recorder.clone());
-        remains::search(&mut app, folder);
+        recovery::search(&mut app, folder);
         journal
     });
     if let Some(journal) = &journal {

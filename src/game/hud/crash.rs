@@ -2,7 +2,7 @@
 
 use crate::{
     game::{
-        crash::remains::{Choice, Remains},
+        crash::recovery::{Choice, Recovery},
         hud::style,
     },
     kernel::units::TICKS_PER_SECOND,
@@ -18,9 +18,9 @@ use bevy_egui::{
 const WIDTH: f32 = 400.0;
 
 /// Shows the offer while it stands.
-pub fn show(mut contexts: EguiContexts, remains: Option<ResMut<Remains>>) -> Result {
-    let Some(mut remains) = remains else { return Ok(()) };
-    let Some((found, progress)) = remains.offer() else { return Ok(()) };
+pub fn show(mut contexts: EguiContexts, recovery: Option<ResMut<Recovery>>) -> Result {
+    let Some(mut recovery) = recovery else { return Ok(()) };
+    let Some((found, progress)) = recovery.offer() else { return Ok(()) };
     let (title, tick, ticks) = (found.title.clone(), found.tick, found.ticks());
     let context = contexts.ctx_mut()?;
     let mut choice = None;
@@ -35,9 +35,9 @@ pub fn show(mut contexts: EguiContexts, remains: Option<ResMut<Remains>>) -> Res
     });
     // Closing decides nothing: the next start offers it again.
     if !open {
-        remains.put_off();
+        recovery.put_off();
     } else if choice.is_some() {
-        remains.choice = choice;
+        recovery.choice = choice;
     }
     Ok(())
 }

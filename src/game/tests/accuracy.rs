@@ -4,12 +4,14 @@ use super::*;
 use crate::{
     game::hud::panels::accuracy::panel::{AccuracyPanel, ID},
     kernel::params::Preset,
-    lab::difference::{Difference, Half},
+    lab::{
+        difference::{Difference, Half},
+        split::Split,
+    },
     sim::{
         accuracy::{Survey, SurveyRequest, Watched},
         autopilot::{Autopilot, Goal},
         measures::Measures,
-        split::Split,
         state::AirGrid,
     },
 };

@@ -6,7 +6,7 @@ use crate::{
         crash::{
             self, Crash,
             journal::{self, Journal},
-            remains::{self, Choice, Reach, Remains},
+            recovery::{self, Choice, Reach, Recovery},
         },
         history::History,
         saves::SaveFolders,
@@ -75,21 +75,21 @@ fn next_start<T>(folder: &Path, choice: Option<Choice>, look: impl FnOnce(&mut P
     app.insert_resource(SaveFolders(vec![folder.to_owned()]));
     let outcome = crash::run(app, Some(running(folder)), |app| {
         let mut player = Player(app);
-        let wait = |player: &mut Player, until: &dyn Fn(Option<&Remains>) -> bool| {
+        let wait = |player: &mut Player, until: &dyn Fn(Option<&Recovery>) -> bool| {
             for _ in 0..2000 {
                 player.frame();
-                if until(player.world().get_resource::<Remains>()) {
+                if until(player.world().get_resource::<Recovery>()) {
                     return;
                 }
                 thread::sleep(Duration::from_millis(5));
             }
             panic!("it takes too long");
         };
-        wait(&mut player, &|remains| remains.is_none_or(|remains| remains.offer().is_some()));
-        let offered = player.world().contains_resource::<Remains>();
+        wait(&mut player, &|recovery| recovery.is_none_or(|recovery| recovery.offer().is_some()));
+        let offered = player.world().contains_resource::<Recovery>();
         if let (true, Some(choice)) = (offered, choice) {
-            player.0.world_mut().resource_mut::<Remains>().choice = Some(choice);
-            wait(&mut player, &|remains| remains.is_none());
+            player.0.world_mut().resource_mut::<Recovery>().choice = Some(choice);
+            wait(&mut player, &|recovery| recovery.is_none());
         }
         offered.then(|| look(&mut player))
     });
@@ -227,7 +227,7 @@ fn what_panics_again_is_restored_as_far_as_it_goes() {
     let good = Recording::decode(&bytes).unwrap_or_else(|error| panic!("{error}"));
     let set = InstructionSet::detect();
     let tick = |recording: &Recording| {
-        let restored = remains::restore(recording, set, &AtomicU64::new(0)).expect("there is always something");
+        let restored = recovery::restore(recording, set, &AtomicU64::new(0)).expect("there is always something");
         (restored.0.state.clock.tick, restored.1)
     };
     let start = good.segments[0].tick;

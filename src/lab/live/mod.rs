@@ -9,13 +9,13 @@ pub mod survey;
 mod tests;
 
 use crate::{
+    lab::split::Split,
     scene::effects::Pass,
     sim::{
         accuracy::{ErrorSample, LiveError, SAMPLE_EVERY, Survey, Watched},
         autopilot,
         measures::Measures,
         script,
-        split::Split,
         state::{Clock, ParticleStore, Rock, Setup},
     },
 };

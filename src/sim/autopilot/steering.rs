@@ -6,16 +6,16 @@ use super::{
 };
 use crate::{
     kernel::units::TICK_SECONDS,
-    scene::{blueprint::Blueprint, effects::Pass},
+    scene::effects::Pass,
     sim::{
         accuracy::{LiveError, SAMPLE_EVERY},
+        generation::Generation,
         intent::{Intent, IntentQueue},
         ledger::PassLedger,
         state::{Clock, ParticleStore, Setup, SleepState},
     },
 };
 use bevy::prelude::{App, FixedUpdate, IntoScheduleConfigs, Res, ResMut, Resource};
-use std::sync::Arc;
 
 /// Times of ticks follow the work at once. Single ticks that take much longer are no part of it.
 pub(super) const OF_TIME: Tuning = Tuning { settle: 0.05, quick: 0.6, usual: 0.6, trim: 0.08, doubt: 0.0 };
@@ -56,7 +56,7 @@ pub struct Autopilot {
 struct State {
     controller: Controller,
     ladder: Vec<Level>,
-    blueprint: Arc<Blueprint>,
+    generation: Generation,
     tick: u64,
     sampled: u64,
     moves: u32,
@@ -89,7 +89,7 @@ impl Autopilot {
 }
 
 impl State {
-    fn new(goal: Goal, setup: &Setup, tick: u64) -> Self {
+    fn new(goal: Goal, setup: &Setup, generation: Generation, tick: u64) -> Self {
         let ladder = ladder::ladder();
         let at = ladder::nearest(&ladder, &setup.quality);
         let last = ladder.len() - 1;
@@ -100,7 +100,7 @@ impl State {
             }
             Goal::Error(bound) => Controller::new(bound, OF_ERROR, ladder.iter().map(Level::error).collect(), at),
         };
-        Self { controller, ladder, blueprint: setup.blueprint.clone(), tick, sampled: tick, moves: 0 }
+        Self { controller, ladder, generation, tick, sampled: tick, moves: 0 }
     }
 
     /// Takes what the last tick measured; the level to go to, if any.
@@ -153,7 +153,7 @@ fn any_awake(sleep: Option<Res<SleepState>>, particles: Option<Res<ParticleStore
 /// Looks at the tick that ended and asks for another quality for the next.
 pub fn steer(
     mut autopilot: ResMut<Autopilot>,
-    setup: Res<Setup>,
+    (setup, generation): (Res<Setup>, Res<Generation>),
     clock: Res<Clock>,
     ledger: Res<PassLedger>,
     error: Res<LiveError>,
@@ -161,11 +161,10 @@ pub fn steer(
 ) {
     let Autopilot { goal: Some(goal), state } = &mut *autopilot else { return };
     // Another world, or an earlier state of this one: what was learned is of another situation.
-    let same = |state: &State| Arc::ptr_eq(&state.blueprint, &setup.blueprint) && state.tick <= clock.tick;
-    if !state.as_ref().is_some_and(same) {
+    if state.as_ref().is_some_and(|state| state.generation != *generation) {
         *state = None;
     }
-    let state = state.get_or_insert_with(|| State::new(*goal, &setup, clock.tick));
+    let state = state.get_or_insert_with(|| State::new(*goal, &setup, *generation, clock.tick));
     if let Some(Level { preset, quality, .. }) = state.observe(*goal, clock.tick, &ledger, &error) {
         intents.push(Intent::Quality { preset, quality });
     }

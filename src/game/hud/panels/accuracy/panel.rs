@@ -19,6 +19,7 @@ use crate::{
         orders::{Order, Orders},
         panels::{Panel, Panels},
     },
+    lab::split::Split,
     scene::{blueprint::Blueprint, effects::Pass},
     sim::{
         accuracy::{Curve, LiveError, Survey, SurveyRequest, fingerprint},
@@ -27,7 +28,6 @@ use crate::{
         ledger::PassLedger,
         measures::Measures,
         numbers::{self, short},
-        split::Split,
         state::{Clock, Setup},
     },
 };

@@ -1,4 +1,5 @@
-//! What an earlier game left behind because it did not end well, and what becomes of it.
+//! Recovery at the next start: looks for the journal of an earlier game that did not end well, offers its world and
+//! restores it.
 
 use crate::{
     game::{actions::Action, crash::journal::PREFIX, history, input::bindings::Bindings, toasts::Toasts},
@@ -82,16 +83,16 @@ enum Stage {
     Restoring(Found, JoinHandle<Option<(Checkpoint, Reach)>>),
 }
 
-/// What is left of an earlier game.
+/// The recovery of an earlier game.
 #[derive(Resource, Debug, Default)]
-pub struct Remains {
+pub struct Recovery {
     stage: Stage,
     done: Arc<AtomicU64>,
     /// What the player chose.
     pub choice: Option<Choice>,
 }
 
-impl Remains {
+impl Recovery {
     /// What is offered; and how much of it has run again, 0 … 1, if that has begun.
     pub fn offer(&self) -> Option<(&Found, Option<f32>)> {
         match &self.stage {
@@ -117,13 +118,13 @@ impl Remains {
 
 /// Looks for what is left in a folder, beside the game that begins.
 pub fn search(app: &mut App, folder: PathBuf) {
-    let stage = thread::Builder::new().name("remains".to_owned()).spawn(move || find(&folder));
-    app.insert_resource(Remains { stage: stage.map_or(Stage::Nothing, Stage::Searching), ..Remains::default() });
+    let stage = thread::Builder::new().name("recovery".to_owned()).spawn(move || find(&folder));
+    app.insert_resource(Recovery { stage: stage.map_or(Stage::Nothing, Stage::Searching), ..Recovery::default() });
     app.add_systems(RunFixedMainLoop, attend.in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop));
 }
 
-/// The newest journal in a folder that nobody writes any more and that something is lost with. What is of no use is
-/// removed.
+/// The newest journal in a folder whose game has ended, if something would be lost without it. Journals that hold nothing
+/// of use are deleted.
 fn find(folder: &Path) -> Option<Found> {
     let is_journal = |path: &Path| {
         let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
@@ -163,14 +164,14 @@ fn understand(bytes: &[u8]) -> Option<(Recording, String, u64)> {
 
 /// Goes on with what was begun and does what was chosen.
 pub fn attend(world: &mut World) {
-    let Some(mut remains) = world.remove_resource::<Remains>() else { return };
-    let choice = remains.choice.take();
-    remains.stage = match remains.stage {
+    let Some(mut recovery) = world.remove_resource::<Recovery>() else { return };
+    let choice = recovery.choice.take();
+    recovery.stage = match recovery.stage {
         Stage::Searching(job) if job.is_finished() => job.join().ok().flatten().map_or(Stage::Nothing, Stage::Offered),
-        Stage::Offered(found) => decide(world, found, choice, &remains.done),
+        Stage::Offered(found) => decide(world, found, choice, &recovery.done),
         Stage::Restoring(found, _) if matches!(choice, Some(Choice::Earlier | Choice::Forget)) => {
             // The thread ends by itself; nobody asks it.
-            decide(world, found, choice, &remains.done)
+            decide(world, found, choice, &recovery.done)
         }
         Stage::Restoring(found, job) if job.is_finished() => {
             match job.join().ok().flatten() {
@@ -182,8 +183,8 @@ pub fn attend(world: &mut World) {
         }
         stage => stage,
     };
-    if !matches!(remains.stage, Stage::Nothing) {
-        world.insert_resource(remains);
+    if !matches!(recovery.stage, Stage::Nothing) {
+        world.insert_resource(recovery);
     }
 }
 
