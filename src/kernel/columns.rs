@@ -83,11 +83,17 @@ pub(crate) fn reorder<T: Column>(column: &mut Vec<T>, order: &[u32], spares: &mu
     let spare = T::spare(spares);
     spare.resize(column.len(), T::default());
     spread([&mut spare[..]], WORTH_REORDERING, threads, &|base, [sorted]| {
-        for (value, &from) in sorted.iter_mut().zip(&order[base..]) {
-            *value = column[from as usize];
-        }
+        fetch(sorted, column, &order[base..base + sorted.len()]);
     });
     swap(column, spare);
+}
+
+/// Sets each value to that at its place in `order`. A function of its own, so that the compiler knows of slices that do not
+/// overlap.
+fn fetch<T: Copy>(values: &mut [T], from: &[T], order: &[u32]) {
+    for (value, &place) in values.iter_mut().zip(order) {
+        *value = from[place as usize];
+    }
 }
 
 /// Whether all entries are within all bounds.

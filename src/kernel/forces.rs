@@ -29,7 +29,7 @@ pub fn apply_gravity(gravity: Vec2, particles: &mut Particles, threads: usize, d
 /// explicit step `v (1 − k |v| Δt)` would turn the particle round past **`k |v| Δt = 1`** and speed it up past 2; the
 /// solution has no such bound, so there is nothing to limit.
 pub fn apply_drag(air: &Air, elements: &ElementParams, particles: &mut Particles, threads: usize, dt: f32) {
-    let quiet = air.is_quiet();
+    let (quiet, rates) = (air.is_quiet(), &elements.drag[..]);
     let Particles { x, y, vx, vy, element, .. } = particles;
     spread([&mut vx[..], &mut vy[..]], WORTH_A_PIECE, threads, &|base, [vx, vy]| {
         for (index, (vx, vy)) in vx.chunks_mut(BLOCK).zip(vy.chunks_mut(BLOCK)).enumerate() {
@@ -41,7 +41,7 @@ pub fn apply_drag(air: &Air, elements: &ElementParams, particles: &mut Particles
             }
             for (k, element) in element[own].iter().enumerate() {
                 let wind = Vec2::new(wind_x[k], wind_y[k]);
-                let velocity = dragged(Vec2::new(vx[k], vy[k]), wind, elements.drag[element.index()], dt);
+                let velocity = dragged(Vec2::new(vx[k], vy[k]), wind, rates[element.index()], dt);
                 (vx[k], vy[k]) = (velocity.x, velocity.y);
             }
         }

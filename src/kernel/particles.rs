@@ -6,7 +6,8 @@
 
 use crate::{
     columns::{Column, ColumnVisitor, Spares, are_sound, reorder},
-    element::ElementId,
+    element::{ElementId, ElementTable},
+    units::Scale,
 };
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
@@ -32,6 +33,15 @@ impl Value {
             Self::Id(value) => value.word(),
             Self::Element(value) => value.word(),
             Self::Length(value) | Self::Velocity(value) => value.word(),
+        }
+    }
+
+    /// How tables write it: elements by name, all else in SI units.
+    pub fn text(self, elements: &ElementTable, scale: Scale) -> String {
+        match self {
+            Self::Id(value) => value.to_string(),
+            Self::Element(value) => elements.get(value).name.clone(),
+            Self::Length(value) | Self::Velocity(value) => scale.to_metres(value).to_string(),
         }
     }
 

@@ -54,7 +54,10 @@ pub(crate) fn check(rows: &[Element]) -> Result<(), Fault> {
 fn check_row(row: &Element, before: &[Element]) -> Result<(), (&'static str, String)> {
     let word = row.name.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_');
     if row.name.is_empty() || row.name.len() > 32 || !word || row.name == NONE {
-        let what = format!("`{}`; allowed: 1 to 32 lower-case letters, digits and `_`, but not `{NONE}`", row.name);
+        let what = format!(
+            "`{}`; allowed: 1 to 32 lower-case letters, digits and `_`, but not `{NONE}`",
+            row.name.escape_debug()
+        );
         return Err(("name", what));
     }
     if before.iter().any(|other| other.name == row.name) {
@@ -62,7 +65,7 @@ fn check_row(row: &Element, before: &[Element]) -> Result<(), (&'static str, Str
     }
     if let Some(key) = row.key {
         if !key.is_ascii_digit() {
-            return Err(("key", format!("`{key}`; allowed: '0' to '9', or none")));
+            return Err(("key", format!("`{}`; allowed: '0' to '9', or none", key.escape_debug())));
         }
         if before.iter().any(|other| other.key == row.key) {
             return Err(("key", format!("`{key}` is taken; allowed: a key of its own, or none")));

@@ -21,6 +21,10 @@ use serde::{Deserialize, Serialize};
 const LANES: usize = 8;
 /// Distance of the keys of neighbouring places: 2³² over the golden ratio, odd.
 const STRIDE: u32 = 0x9e37_79b1;
+/// What tells the keys of columns apart.
+const SALT: u32 = 0xc2b2_ae35;
+/// The salt of the air: no column's.
+const AIR: u32 = u32::MAX;
 /// Odd factor that spreads a sum's bits: 2⁶⁴ over the golden ratio.
 const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
 
@@ -48,11 +52,12 @@ impl Marker {
     /// The mark of a state. The rock is looked at only where its version changed: a world that was put in the place of
     /// another needs a new marker.
     pub fn mark(&mut self, particles: &Particles, rock: &Solids, air: &Air, clock: &Clock) -> Mark {
-        let mut matter = Columns(clock.edits.wrapping_mul(SPREAD) ^ u64::from(clock.next_id));
+        let folded = clock.edits.wrapping_mul(SPREAD) ^ u64::from(clock.next_id);
+        let mut matter = Columns { count: 0, folded };
         particles.visit(&mut matter);
         Mark {
             particles: particles.len() as u32,
-            matter: narrow(matter.0),
+            matter: narrow(matter.folded),
             surroundings: narrow(chain(self.rock(rock), self.air(air, clock.edits))),
         }
     }
@@ -86,7 +91,7 @@ impl Marker {
 }
 
 fn fold_air(air: &Air) -> u64 {
-    let mut sums = Sums::default();
+    let mut sums = Sums::new(AIR);
     for row in 0..air.rows() {
         sums.fold(air.pressure_row(row), air.velocity_x_row(row));
         sums.fold_halves(air.velocity_y_row(row));
@@ -95,13 +100,17 @@ fn fold_air(air: &Air) -> u64 {
 }
 
 /// The columns of particles, folded one after the other.
-struct Columns(u64);
+struct Columns {
+    count: u32,
+    folded: u64,
+}
 
 impl ColumnVisitor for Columns {
     fn visit<T: Column>(&mut self, column: &[T]) {
-        let mut sums = Sums::default();
+        self.count += 1;
+        let mut sums = Sums::new(self.count);
         sums.fold_halves(column);
-        self.0 = chain(self.0, sums.total());
+        self.folded = chain(self.folded, sums.total());
     }
 }
 
@@ -111,13 +120,12 @@ struct Sums {
     sums: [u64; LANES],
 }
 
-impl Default for Sums {
-    fn default() -> Self {
-        Self { keys: std::array::from_fn(|lane| (lane as u32).wrapping_mul(STRIDE)), sums: [0; LANES] }
-    }
-}
-
 impl Sums {
+    fn new(salt: u32) -> Self {
+        let key = |lane| (lane as u32).wrapping_mul(STRIDE).wrapping_add(salt.wrapping_mul(SALT));
+        Self { keys: std::array::from_fn(key), sums: [0; LANES] }
+    }
+
     /// Folds two arrays of the same length.
     fn fold<T: Column>(&mut self, a: &[T], b: &[T]) {
         let ((a, last_a), (b, last_b)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());

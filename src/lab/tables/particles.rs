@@ -1,10 +1,7 @@
 //! All particles, in the order of their ids.
 
 use crate::{
-    kernel::{
-        particles::{Particles, Value},
-        solids,
-    },
+    kernel::{particles::Particles, solids},
     sim::state::{ParticleStore, Rock, Setup},
 };
 use bevy::ecs::world::World;
@@ -22,11 +19,8 @@ pub fn write(world: &World, out: impl Write) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
     table.write_record(Particles::COLUMNS)?;
     for i in all.in_id_order() {
-        table.write_record(all.get(i as usize).values().map(|value| match value {
-            Value::Id(id) => id.to_string(),
-            Value::Element(element) => setup.elements().get(element).name.clone(),
-            Value::Length(value) | Value::Velocity(value) => setup.blueprint.scale.to_metres(value).to_string(),
-        }))?;
+        let values = all.get(i as usize).values();
+        table.write_record(values.map(|value| value.text(setup.elements(), setup.blueprint.scale)))?;
     }
     table.flush()
 }

@@ -34,7 +34,7 @@ pub const RECORDING_ENDING: &str = "pmr";
 pub(super) const MAGIC: &[u8] = b"PowderMaster recording\n";
 /// Version of the format. Raise it when anything in the chunks changes: old files are refused, not misread. An intent that
 /// is added behind the others changes nothing in old files.
-const VERSION: u16 = 3;
+const VERSION: u16 = 4;
 /// What a file of format 1 begins with: text, input only, from the start of a scene.
 const TEXT_FORMAT: &[u8] = b"{\"powder_master_replay\":";
 
