@@ -16,7 +16,7 @@
 //! game::render  particles, rock and air, between two ticks      game::hud  counts, cost, tools
 //! ```
 //!
-//! Who may import whom: `kernel ← scene ← sim ← lab`, `sim ← game`, all ← `cli` and `web`. Nothing below `game` knows
+//! Who may import whom: `kernel ← scene ← sim ← lab ← game`, all ← `cli` and `web`. Nothing below `game` knows
 //! egui, a window or a renderer, and builds without them (`--no-default-features`).
 
 #![forbid(unsafe_op_in_unsafe_fn)]
