@@ -2,12 +2,12 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use powder_master::{
-    lab::headless::Headless,
     scene::{self, effects::EffectModes},
     sim::{
+        checkpoint::Checkpoint,
         mark::Marker,
+        simulation::Simulation,
         state::{AirGrid, Clock, ParticleStore, Rock},
-        tape::Start,
         workers::Workers,
     },
 };
@@ -20,9 +20,9 @@ fn recorder(criterion: &mut Criterion) {
         let blueprint = scene::load("dam_break")
             .and_then(|file| file.build(&settings, None, &EffectModes::new()))
             .unwrap_or_else(|error| panic!("{error}"));
-        let mut headless = Headless::new(Arc::new(blueprint), Workers::default());
-        (0..5).for_each(|_| headless.tick());
-        let world = headless.world();
+        let mut simulation = Simulation::new(Arc::new(blueprint), Workers::default());
+        (0..5).for_each(|_| simulation.tick());
+        let world = simulation.world();
         let particles = world.resource::<ParticleStore>();
         let (rock, air, clock) = (world.resource::<Rock>(), world.resource::<AirGrid>(), world.resource::<Clock>());
         group.throughput(Throughput::Elements(particles.len() as u64));
@@ -30,8 +30,8 @@ fn recorder(criterion: &mut Criterion) {
         group.bench_function(format!("mark/{}", particles.len()), |bencher| {
             bencher.iter(|| marker.mark(black_box(particles), rock, air, clock));
         });
-        group.bench_function(format!("start/{}", particles.len()), |bencher| bencher.iter(|| Start::of(world)));
-        let start = Start::of(world);
+        group.bench_function(format!("start/{}", particles.len()), |bencher| bencher.iter(|| Checkpoint::of(world)));
+        let start = Checkpoint::of(world);
         group.bench_function(format!("file/{}", particles.len()), |bencher| bencher.iter(|| start.encode()));
     }
     group.finish();

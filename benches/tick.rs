@@ -1,11 +1,10 @@
 //! A whole tick of `dam_break` in mid-fall, at every preset, on one and on two threads.
 
-use bevy::{MinimalPlugins, app::App, time::TimeUpdateStrategy};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use powder_master::{
     kernel::params::Preset,
     scene::{self, effects::EffectModes},
-    sim::{SimulationPlugin, control, snapshot::Snapshot, state::ParticleStore, workers::Workers},
+    sim::{checkpoint::Checkpoint, simulation::Simulation, state::ParticleStore, workers::Workers},
 };
 use std::{sync::Arc, time::Duration};
 
@@ -14,19 +13,12 @@ const WARM_UP: u32 = 30;
 /// Ticks that are timed before the world goes back to where the timing began.
 const STRETCH: u64 = 20;
 
-fn world(columns: u32, preset: Preset, threads: usize) -> App {
+fn world(columns: u32, preset: Preset, threads: usize) -> Simulation {
     let settings = [("columns".to_owned(), columns.to_string())];
     let blueprint = scene::load("dam_break")
         .and_then(|file| file.build(&settings, Some(preset), &EffectModes::new()))
         .unwrap_or_else(|error| panic!("{error}"));
-    let mut app = App::new();
-    app.add_plugins((MinimalPlugins, SimulationPlugin)).insert_resource(TimeUpdateStrategy::FixedTimesteps(1));
-    app.insert_resource(Workers::new(threads).unwrap_or_else(|error| panic!("{error}")));
-    control::load(app.world_mut(), Arc::new(blueprint));
-    app.finish();
-    app.cleanup();
-    app.update();
-    app
+    Simulation::new(Arc::new(blueprint), Workers::new(threads).unwrap_or_else(|error| panic!("{error}")))
 }
 
 fn ticks(criterion: &mut Criterion) {
@@ -38,28 +30,26 @@ fn ticks(criterion: &mut Criterion) {
                 continue;
             }
             for threads in [1, 2] {
-                let mut app: Option<(App, Snapshot, u64)> = None;
+                let mut kept: Option<(Simulation, Checkpoint, u64)> = None;
                 group.throughput(Throughput::Elements(u64::from(2 * columns * columns)));
                 group.bench_function(format!("{columns}/{}/{threads}", preset.name()), |bencher| {
-                    let (app, start, done) = app.get_or_insert_with(|| {
-                        let mut app = world(columns, preset, threads);
-                        for _ in 0..if columns > 100 { 5 } else { WARM_UP } {
-                            app.update();
-                        }
-                        let start = control::freeze(app.world());
-                        assert_eq!(app.world().resource::<ParticleStore>().len(), (2 * columns * columns) as usize);
-                        (app, start, 0)
+                    let (simulation, start, done) = kept.get_or_insert_with(|| {
+                        let mut simulation = world(columns, preset, threads);
+                        simulation.run(if columns > 100 { 5 } else { WARM_UP });
+                        let start = Checkpoint::of(simulation.world());
+                        assert_eq!(simulation.get::<ParticleStore>().len(), (2 * columns * columns) as usize);
+                        (simulation, start, 0)
                     });
                     bencher.iter_custom(|iterations| {
                         let mut time = Duration::ZERO;
                         for _ in 0..iterations {
                             if *done == STRETCH {
-                                control::thaw(app.world_mut(), start);
+                                start.restore(simulation.world_mut());
                                 *done = 0;
                             }
                             *done += 1;
                             let before = std::time::Instant::now();
-                            app.update();
+                            simulation.tick();
                             time += before.elapsed();
                         }
                         time

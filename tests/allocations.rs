@@ -4,9 +4,8 @@
 //! On one thread there is none at all. On more, entering the pool costs rayon a block of its waiting list now and then.
 
 use powder_master::{
-    lab::headless::Headless,
     scene::{self, effects::EffectModes},
-    sim::workers::Workers,
+    sim::{simulation::Simulation, workers::Workers},
 };
 use std::{
     alloc::{GlobalAlloc, Layout, System},
@@ -75,16 +74,16 @@ fn count(scene: &str, settings: &[(&str, &str)], threads: usize, warm_up: u64) -
     let blueprint = scene::load(scene).and_then(|file| file.build(&settings, None, &EffectModes::new()));
     let blueprint = Arc::new(blueprint.unwrap_or_else(|error| panic!("{error}")));
     let workers = Workers::new(threads).unwrap_or_else(|error| panic!("{error}"));
-    let mut headless = Headless::new(blueprint, workers);
+    let mut simulation = Simulation::new(blueprint, workers);
     for _ in 0..warm_up {
-        headless.tick();
+        simulation.tick();
     }
     // Threads of the pool may begin later than this one, and the warm-up of an empty world is over in a moment.
     thread::sleep(Duration::from_millis(100));
     ALLOCATIONS.store(0, Ordering::Relaxed);
     COUNTS.store(true, Ordering::Relaxed);
     for _ in 0..TICKS {
-        headless.tick();
+        simulation.tick();
     }
     COUNTS.store(false, Ordering::Relaxed);
     (ALLOCATIONS.load(Ordering::Relaxed), FIRST.lock().map(|first| first.clone()).unwrap_or_default())

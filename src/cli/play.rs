@@ -4,7 +4,6 @@ use crate::{
     cli::{args::PlayOptions, failure::Failure, output, start::Start, threads},
     sim::recording::Recording,
 };
-use bevy::ecs::world::World;
 
 /// The scene without a name.
 const DEFAULT_SCENE: &str = "waterfall";
@@ -15,26 +14,22 @@ pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Fai
     output::check(options.record.as_deref().as_slice())?;
     let (start, recording) = Start::of_play(scene, options)?;
     threads::start_aside(options.machine.threads)?;
-    let load = |world: &mut World| start.load(world, options.machine.simd);
-    open(scene, options, recording, load)
+    open(scene, options, &start, recording)
 }
 
 #[cfg(feature = "app")]
-fn open(
-    scene: &str,
-    options: &PlayOptions,
-    recording: Option<Recording>,
-    load: impl FnOnce(&mut World),
-) -> Result<(), Failure> {
+fn open(scene: &str, options: &PlayOptions, start: &Start, recording: Option<Recording>) -> Result<(), Failure> {
     use crate::{
         game::{self, GameError, playback, script},
         lab::live::LivePlugin,
+        sim::state::SolverState,
     };
     use bevy::app::AppExit;
 
     match game::run(scene, options.record.clone(), |app| {
         app.add_plugins(LivePlugin);
-        load(app.world_mut());
+        start.checkpoint.restore(app.world_mut());
+        app.world_mut().resource_mut::<SolverState>().instructions = options.machine.simd;
         if let Some(recording) = recording {
             playback::begin(app.world_mut(), recording);
         }
@@ -51,7 +46,7 @@ fn open(
 }
 
 #[cfg(not(feature = "app"))]
-fn open(scene: &str, _: &PlayOptions, _: Option<Recording>, _: impl FnOnce(&mut World)) -> Result<(), Failure> {
+fn open(scene: &str, _: &PlayOptions, _: &Start, _: Option<Recording>) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
         "this build has no window (it lacks the cargo feature `app`); `powder-master run {scene}` works without one"
     )))

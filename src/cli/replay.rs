@@ -27,8 +27,9 @@ struct Outcome {
     ticks: u64,
     /// Ticks in the recording.
     recorded: u64,
-    /// Stretches in the recording: one more than the jumps in it.
-    stretches: usize,
+    /// Segments in the recording: one more than the jumps in it.
+    #[serde(rename = "stretches")]
+    segments: usize,
     /// Hash of the world at the end.
     hash: Option<String>,
     /// The first tick that differs.
@@ -65,12 +66,9 @@ pub(super) fn replay(arguments: &ReplayArguments) -> Result<(), Failure> {
             Err(Stop::Different(difference)) => (None, Some(*difference), None),
             Err(Stop::Panic(text)) => (None, None, Some(text.clone())),
         };
-        let (recorded, stretches) = (recording.ticks(), recording.stretches.len());
+        let (recorded, segments) = (recording.ticks(), recording.segments.len());
         let same = outcome.is_ok();
-        output::write_json(
-            json,
-            &Outcome { same, ticks: done, recorded, stretches, hash, difference, panic, crashed },
-        )?;
+        output::write_json(json, &Outcome { same, ticks: done, recorded, segments, hash, difference, panic, crashed })?;
     }
     match outcome {
         Ok(_) if output::is_stdout(json) => Ok(()),

@@ -10,10 +10,8 @@ use crate::{
     },
     lab::{
         self,
-        headless::Headless,
         live::LivePlugin,
         metrics::Metrics,
-        moment::Moment,
         picture::{DISC_RADIUS, LONG_SIDE, Picture},
         reference::{Follower, Reference},
         run::{Observer, Plan},
@@ -23,10 +21,11 @@ use crate::{
     sim::{
         accuracy::Watched,
         autopilot::{self, Autopilot, Goal, controller::Verdict},
+        checkpoint::Checkpoint,
         control,
         intent::Intent,
-        recording::Stretch,
-        save,
+        recording::Segment,
+        simulation::Simulation,
         state::Setup,
         workers::Workers,
     },
@@ -49,18 +48,19 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     threads::start(arguments.machine.threads)?;
     let trace = arguments.trace.as_deref().map(Tracing::create).transpose()?;
 
-    let mut headless = begin(start, arguments);
-    let reference = arguments.reference.as_deref().map(|path| reference(path, headless.world(), &plan)).transpose()?;
+    let mut simulation = begin(&start, arguments);
+    let reference =
+        arguments.reference.as_deref().map(|path| reference(path, simulation.world(), &plan)).transpose()?;
     let mut follower = reference.as_ref().map(Follower::new);
     let begun = Instant::now();
-    let mut sampler = arguments.metrics.is_some().then(|| Sampler::new(headless.world(), plan.warmup));
-    let trace = simulate(&mut headless, &plan, sampler.as_mut(), follower.as_mut(), trace)?;
+    let mut sampler = arguments.metrics.is_some().then(|| Sampler::new(simulation.world(), plan.warmup));
+    let trace = simulate(&mut simulation, &plan, sampler.as_mut(), follower.as_mut(), trace)?;
     let seconds = begun.elapsed().as_secs_f64();
 
     if let Some(trace) = trace {
         trace.finish()?;
     }
-    let world = headless.world();
+    let world = simulation.world();
     let mut metrics = sampler.map(|sampler| sampler.finish(world));
     if let (Some(path), Some(follower)) = (&arguments.reference, &follower) {
         output::write(path, |file| distances::write(follower.points(), file))?;
@@ -78,16 +78,18 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
 }
 
 /// The world at its start, with an autopilot if it has a bound to hold.
-fn begin(start: Start, arguments: &RunArguments) -> Headless {
-    let load = |world: &mut World| start.load(world, arguments.machine.simd);
-    match goal(arguments) {
-        None => Headless::begin(Workers::default(), load),
-        Some(goal) => Headless::begin_with(Workers::default(), (LivePlugin, autopilot::plugin), |world| {
-            world.resource_mut::<Watched>().0 = true;
-            world.resource_mut::<Autopilot>().hold(Some(goal));
-            load(world);
-        }),
-    }
+fn begin(start: &Start, arguments: &RunArguments) -> Simulation {
+    let simulation = match goal(arguments) {
+        None => Simulation::resume(&start.checkpoint, Workers::default()),
+        Some(goal) => {
+            let plugins = (LivePlugin, autopilot::plugin);
+            let mut simulation = Simulation::with_plugins(&start.checkpoint, Workers::default(), plugins);
+            simulation.get_mut::<Watched>().0 = true;
+            simulation.get_mut::<Autopilot>().hold(Some(goal));
+            simulation
+        }
+    };
+    simulation.with_instructions(arguments.machine.simd)
 }
 
 /// What the autopilot is to hold.
@@ -137,8 +139,8 @@ fn check_outputs(arguments: &RunArguments) -> Result<(), Failure> {
 }
 
 /// How far to run, and on what input.
-fn plan(arguments: &RunArguments, stretch: Option<Stretch>) -> Result<Plan, Failure> {
-    let recorded = stretch.as_ref().map(|stretch| stretch.marks.len().max(1) as u64);
+fn plan(arguments: &RunArguments, segment: Option<Segment>) -> Result<Plan, Failure> {
+    let recorded = segment.as_ref().map(|segment| segment.marks.len().max(1) as u64);
     let seconds = arguments.seconds.map(|Ticks(ticks)| ticks);
     let ticks = arguments.ticks.or(seconds).or(recorded).unwrap_or(DEFAULT_TICKS);
     if arguments.warmup >= ticks {
@@ -148,28 +150,27 @@ fn plan(arguments: &RunArguments, stretch: Option<Stretch>) -> Result<Plan, Fail
             ticks - 1
         )));
     }
-    let entries = stretch.map(|stretch| stretch.entries).unwrap_or_default();
+    let entries = segment.map(|segment| segment.entries).unwrap_or_default();
     // Who asks for a quality or for an effect gets it from the first tick to the last.
     let wanted = |intent: &Intent| match intent {
         Intent::Quality { .. } => arguments.quality.is_none(),
         Intent::Effect { effect, .. } => !arguments.effects.iter().any(|(asked, _)| asked == effect),
         _ => true,
     };
-    let intents = entries.into_iter().filter(|entry| wanted(&entry.intent));
-    let intents = intents.map(|entry| (entry.tick, entry.intent)).collect();
-    Ok(Plan { ticks, warmup: arguments.warmup, intents, complete: recorded == Some(ticks) })
+    let input = entries.into_iter().filter(|entry| wanted(&entry.intent)).collect();
+    Ok(Plan { ticks, warmup: arguments.warmup, input, complete: recorded == Some(ticks) })
 }
 
 /// The same start run at `reference` quality.
 fn reference(path: &Path, world: &World, plan: &Plan) -> Result<Reference, Failure> {
     let mut progress = progress::bar(plan.ticks);
-    Reference::record(&Moment::of(world), plan, Workers::default(), &mut progress)
+    Reference::record(&Checkpoint::of(world), plan, Workers::default(), &mut progress)
         .map_err(|error| Failure::unwritten(path, &error))
 }
 
 /// Runs the plan; gives the trace back, written up to the end.
 fn simulate<'a>(
-    headless: &mut Headless,
+    simulation: &mut Simulation,
     plan: &Plan,
     sampler: Option<&mut Sampler>,
     follower: Option<&mut Follower>,
@@ -186,7 +187,7 @@ fn simulate<'a>(
     if let Some(tracing) = &mut tracing {
         observers.push(&mut tracing.trace);
     }
-    let outcome = lab::run::run(headless, plan, &mut observers);
+    let outcome = lab::run::run(simulation, plan, &mut observers);
     match (outcome, &tracing) {
         (Err(error), Some(tracing)) => Err(Failure::unwritten(tracing.path, &error)),
         _ => Ok(tracing),
@@ -202,7 +203,7 @@ fn write_outputs(arguments: &RunArguments, world: &World, metrics: Option<&Metri
         output::write(path, |file| picture.write_png(file))?;
     }
     if let Some(path) = &arguments.snapshot {
-        output::write(path, |file| file.write_all(&save::encode(world)))?;
+        output::write(path, |file| file.write_all(&Checkpoint::of(world).encode()))?;
     }
     if let (Some(path), Some(metrics)) = (&arguments.metrics, metrics) {
         output::write_json(path, metrics)?;

@@ -9,11 +9,10 @@ use crate::{
         threads,
     },
     lab::{
-        headless::Headless,
         machine::processor,
         soak::{self, Report},
     },
-    sim::{state::Setup, workers::Workers},
+    sim::{simulation::Simulation, state::Setup, workers::Workers},
 };
 use bevy::platform::time::Instant;
 use serde_json::json;
@@ -28,15 +27,16 @@ pub(super) fn soak(arguments: &SoakArguments) -> Result<(), Failure> {
     output::check(&arguments.json.as_deref().into_iter().collect::<Vec<_>>())?;
     let start = Start::of_soak(&arguments.scene, &arguments.settings, arguments.quality)?;
     threads::start(arguments.machine.threads)?;
-    let mut headless = Headless::begin(Workers::default(), |world| start.load(world, arguments.machine.simd));
-    let quality = headless.world().resource::<Setup>().preset.name();
+    let mut simulation =
+        Simulation::resume(&start.checkpoint, Workers::default()).with_instructions(arguments.machine.simd);
+    let quality = simulation.world().resource::<Setup>().preset.name();
     let (minutes, begun) = (arguments.hours.0, Instant::now());
     let line = progress::bar(minutes).with_message("minutes");
     let seconds = || begun.elapsed().as_secs_f64();
     let most = arguments.within.map_or(f64::INFINITY, |Minutes(minutes)| minutes as f64 * 60.0);
     let file = arguments.json.as_deref().filter(|path| !output::is_stdout(Some(path)));
     let (mut written, mut outcome) = (0, Ok(()));
-    let report = soak::soak(&mut headless, arguments.seed, minutes, PERIODS, |report| {
+    let report = soak::soak(&mut simulation, arguments.seed, minutes, PERIODS, |report| {
         line.set_position(report.minutes);
         if report.periods.len() > written {
             written = report.periods.len();

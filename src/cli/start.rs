@@ -5,36 +5,26 @@ use crate::{
         args::{PlayOptions, RunArguments},
         failure::Failure,
     },
-    kernel::{params::Preset, simd::InstructionSet},
-    scene::{self, blueprint::Blueprint, effects::EffectModes},
+    kernel::params::Preset,
+    scene::{self, effects::EffectModes},
     sim::{
-        control,
-        effects::Effects,
-        recording::{Recording, RecordingError, Stretch},
-        save::{self, SaveError, Saved},
-        state::SolverState,
+        checkpoint::{Checkpoint, SaveError},
+        recording::{Recording, RecordingError, Segment},
     },
 };
-use bevy::ecs::world::World;
 use std::{fmt::Display, fs::File, io::Read, path::Path, sync::Arc};
 
-/// Everything that was read and is ready to run.
-pub(super) enum Start {
-    /// The start of a scene.
-    Scene(Box<Blueprint>),
-    /// A saved world, with what the command line wants otherwise.
-    Saved(Box<Saved>, Wishes),
-}
-
-/// What the command line changes in a saved world.
-pub(super) struct Wishes {
-    quality: Option<Preset>,
-    effects: EffectModes,
+/// The world that a run starts from, and what is to be known of it.
+pub(super) struct Start {
+    /// The world.
+    pub checkpoint: Checkpoint,
+    /// Whether it is the start of a scene, not a saved world.
+    pub is_scene: bool,
 }
 
 impl Start {
     /// Reads what `run` names, with the recorded input if it is a recording.
-    pub(super) fn of_run(arguments: &RunArguments) -> Result<(Self, Option<Stretch>), Failure> {
+    pub(super) fn of_run(arguments: &RunArguments) -> Result<(Self, Option<Segment>), Failure> {
         let effects: EffectModes = arguments.effects.iter().copied().collect();
         let RunArguments { scene, settings, quality, .. } = arguments;
         let Some(mut recording) = read_recording(scene)? else {
@@ -48,9 +38,9 @@ impl Start {
         if let Some((option, _)) = unfit.into_iter().find(|(_, is_given)| *is_given) {
             return Err(no_use(scene, "a recording", option));
         }
-        let last = recording.stretches.pop().ok_or_else(|| bad(Path::new(scene), &RecordingError::Foreign))?;
+        let last = recording.segments.pop().ok_or_else(|| bad(Path::new(scene), &RecordingError::Foreign))?;
         let saved = last.start().map_err(|error| bad(Path::new(scene), &error))?;
-        Ok((Self::Saved(Box::new(saved), Wishes { quality: *quality, effects }), Some(last)))
+        Ok((Self::of_saved(saved, *quality, effects), Some(last)))
     }
 
     /// Reads what `play` names, with the recording if it is one.
@@ -62,11 +52,9 @@ impl Start {
         if let Some((option, _)) = unfit.into_iter().find(|(_, is_given)| *is_given) {
             return Err(no_use(name_or_path, "a recording", option));
         }
-        let first =
-            recording.stretches.first().ok_or_else(|| bad(Path::new(name_or_path), &RecordingError::Foreign))?;
+        let first = recording.segments.first().ok_or_else(|| bad(Path::new(name_or_path), &RecordingError::Foreign))?;
         let saved = first.start().map_err(|error| bad(Path::new(name_or_path), &error))?;
-        let wishes = Wishes { quality: None, effects: EffectModes::new() };
-        Ok((Self::Saved(Box::new(saved), wishes), Some(recording)))
+        Ok((Self::of_saved(saved, None, EffectModes::new()), Some(recording)))
     }
 
     /// Reads what `soak` names.
@@ -76,8 +64,8 @@ impl Start {
         quality: Option<Preset>,
     ) -> Result<Self, Failure> {
         match Self::read(name_or_path, settings, quality, EffectModes::new())? {
-            Self::Saved(..) => Err(no_use(name_or_path, "a save file", "soak")),
-            start => Ok(start),
+            start if start.is_scene => Ok(start),
+            _ => Err(no_use(name_or_path, "a save file", "soak")),
         }
     }
 
@@ -86,17 +74,14 @@ impl Start {
         Self::read(name_or_path, settings, None, EffectModes::new())
     }
 
-    /// Name of the scene.
-    pub(super) fn name(&self) -> &str {
-        match self {
-            Self::Scene(blueprint) => &blueprint.name,
-            Self::Saved(saved, _) => saved.name(),
-        }
-    }
-
-    /// Whether it is the start of a scene.
-    pub(super) fn is_scene(&self) -> bool {
-        matches!(self, Self::Scene(_))
+    /// A saved world, with what the command line wants otherwise.
+    fn of_saved(saved: Checkpoint, quality: Option<Preset>, effects: EffectModes) -> Self {
+        let mut checkpoint = match quality {
+            Some(preset) => saved.at_quality(preset, preset.quality()),
+            None => saved,
+        };
+        checkpoint.modes.extend(effects);
+        Self { checkpoint, is_scene: false }
     }
 
     fn read(
@@ -107,30 +92,12 @@ impl Start {
     ) -> Result<Self, Failure> {
         let Some(saved) = read_save(name_or_path)? else {
             let blueprint = scene::load(name_or_path)?.build(settings, quality, &effects)?;
-            return Ok(Self::Scene(Box::new(blueprint)));
+            return Ok(Self { checkpoint: Checkpoint::of_scene(Arc::new(blueprint)), is_scene: true });
         };
         if !settings.is_empty() {
             return Err(no_use(name_or_path, "a save file", "--set"));
         }
-        Ok(Self::Saved(Box::new(saved), Wishes { quality, effects }))
-    }
-
-    /// Makes `world` the start, to be simulated on the lanes of `instructions`.
-    pub(super) fn load(self, world: &mut World, instructions: InstructionSet) {
-        match self {
-            Self::Scene(blueprint) => control::load(world, Arc::new(*blueprint)),
-            Self::Saved(saved, wishes) => {
-                save::load(world, *saved);
-                if let Some(preset) = wishes.quality {
-                    control::set_quality(world, preset, preset.quality());
-                }
-                let mut effects = world.resource_mut::<Effects>();
-                for (effect, mode) in wishes.effects {
-                    effects.get_mut(effect).mode = mode;
-                }
-            }
-        }
-        world.resource_mut::<SolverState>().instructions = instructions;
+        Ok(Self::of_saved(saved, quality, effects))
     }
 }
 
@@ -144,9 +111,9 @@ pub(super) fn bad(path: &Path, what: &dyn Display) -> Failure {
 }
 
 /// The save file at a path; `None` if the name is a scene's, or of nothing, which the scenes know best to say.
-fn read_save(name_or_path: &str) -> Result<Option<Saved>, Failure> {
+fn read_save(name_or_path: &str) -> Result<Option<Checkpoint>, Failure> {
     let Some(path) = file_beside_scenes(name_or_path) else { return Ok(None) };
-    save::decode(&read(path)?).map(Some).map_err(|error| match error {
+    Checkpoint::decode(&read(path)?).map(Some).map_err(|error| match error {
         SaveError::Foreign => {
             bad(path, &format_args!("{error}; allowed: a scene, a .ron file, a save file or a recording"))
         }

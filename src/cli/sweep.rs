@@ -2,14 +2,11 @@
 
 use crate::{
     cli::{args::SweepArguments, failure::Failure, output, progress, start::Start},
-    kernel::simd::InstructionSet,
     lab::{
         experiment::{
             ExperimentError,
             journal::{Journal, JournalFile, OpenError},
         },
-        headless::Headless,
-        moment::Moment,
         sweep::{
             ErrorMeasure, Progress, Sweep,
             design::{Scope, other_threads, settings},
@@ -19,8 +16,8 @@ use crate::{
             table,
         },
     },
-    scene::{KNOBS, WORD_KNOBS},
-    sim::{snapshot::hash_bytes, state::Sources, workers::Workers},
+    scene::{KNOBS, Knob, Part},
+    sim::{checkpoint::Checkpoint, simulation::Simulation, snapshot::hash_bytes, state::Sources, workers::Workers},
 };
 use std::{
     fs,
@@ -66,39 +63,39 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
 struct Opening {
     name: String,
     is_scene: bool,
-    headless: Headless,
+    simulation: Simulation,
 }
 
 impl Opening {
     fn of(start: Start) -> Result<Self, Failure> {
-        let (name, is_scene) = (start.name().to_owned(), start.is_scene());
-        let headless = Headless::begin(Workers::default(), |world| start.load(world, InstructionSet::detect()));
-        let opening = Self { name, is_scene, headless };
-        opening.moment().map(|_| opening)
+        let Start { checkpoint, is_scene } = start;
+        let simulation = Simulation::resume(&checkpoint, Workers::default());
+        let opening = Self { name: checkpoint.setup.blueprint.name.clone(), is_scene, simulation };
+        opening.checkpoint().map(|_| opening)
     }
 
     /// The world as it is now, if there is something to measure.
-    fn moment(&self) -> Result<Moment, Failure> {
-        let moment = Moment::of(self.headless.world());
-        if moment.is_idle() {
+    fn checkpoint(&self) -> Result<Checkpoint, Failure> {
+        let checkpoint = Checkpoint::of(self.simulation.world());
+        if checkpoint.is_idle() {
             return Err(Failure::Usage(format!(
                 "{}: nothing moves in this scene, so there is nothing to measure; allowed: scenes with liquid, moving air, \
                  emitters or wind",
                 self.name
             )));
         }
-        Ok(moment)
+        Ok(checkpoint)
     }
 
     /// Runs to the moment that all runs set out from.
-    fn run_in(&mut self, asked: Option<u64>) -> Result<Moment, Failure> {
-        let sources = self.headless.world().resource::<Sources>();
+    fn run_in(&mut self, asked: Option<u64>) -> Result<Checkpoint, Failure> {
+        let sources = self.simulation.world().resource::<Sources>();
         let fed = !sources.emitters.is_empty() || !sources.winds.is_empty();
         for _ in 0..asked.unwrap_or(if fed && self.is_scene { RUN_IN } else { 0 }) {
-            self.headless.tick();
+            self.simulation.tick();
         }
         // All that was there may have run out by now.
-        self.moment()
+        self.checkpoint()
     }
 }
 
@@ -121,16 +118,14 @@ fn length(arguments: &SweepArguments) -> Result<Length, Failure> {
 
 /// Refuses to set what the sweep itself varies.
 fn check_settings(settings: &[(String, String)]) -> Result<(), Failure> {
-    let of_liquid = ["rest_density", "relaxation", "constraint_floor", "tension_strength", "tension_distance"];
-    let own = |key: &str| {
-        let is_knob = KNOBS.iter().any(|knob| knob.name == key) || WORD_KNOBS.iter().any(|knob| knob.name == key);
-        is_knob && !of_liquid.contains(&key) && key != "particle_limit"
-    };
-    match settings.iter().find(|(key, _)| own(key)) {
-        Some((key, value)) => Err(Failure::Usage(format!(
-            "--set {key}={value}: the sweep turns this knob itself; allowed: parameters of the scene, {}, particle_limit",
-            of_liquid.join(", ")
-        ))),
+    let is_own = |knob: &Knob| [Part::Solver, Part::Air].contains(&knob.part);
+    match settings.iter().find(|(key, _)| Knob::find(key).is_some_and(is_own)) {
+        Some((key, value)) => {
+            let allowed: Vec<_> = KNOBS.iter().filter(|knob| !is_own(knob)).map(|knob| knob.name).collect();
+            let allowed = allowed.join(", ");
+            let what = "the sweep turns this knob itself; allowed: parameters of the scene";
+            Err(Failure::Usage(format!("--set {key}={value}: {what}, {allowed}")))
+        }
         None => Ok(()),
     }
 }
@@ -184,23 +179,23 @@ fn measure(
 ) -> Result<Order, Failure> {
     let line = progress::status();
     line.set_message(format!("{}: to the moment that is measured", start.name));
-    let moment = start.run_in(arguments.start)?;
+    let checkpoint = start.run_in(arguments.start)?;
     drop(line);
-    let Opening { name: scene, headless, .. } = start;
+    let Opening { name: scene, simulation, .. } = start;
     // The run-in's world is not needed any more.
-    drop(headless);
-    let measure = ErrorMeasure::of(&moment);
+    drop(simulation);
+    let measure = ErrorMeasure::of(&checkpoint);
     let threads = arguments.threads as usize;
     let scope = Scope {
         measure,
-        has_air: moment.has_air(),
+        has_air: checkpoint.has_air(),
         threads,
         other_threads: other_threads(threads, std::thread::available_parallelism().map_or(1, NonZero::get)),
         quick: arguments.quick,
         only: arguments.only.clone(),
     };
     let rounds = arguments.repeat.unwrap_or(if arguments.quick { 1 } else { ROUNDS }) as u32;
-    let sweep = Sweep { moment: &moment, measure, settings: settings(&scope), ticks, warmup, rounds };
+    let sweep = Sweep { start: &checkpoint, measure, settings: settings(&scope), ticks, warmup, rounds };
     let path = folder.join(JOURNAL);
     let unwritten = |error: io::Error| Failure::unwritten(&path, &error);
     let mut journal = Journal::read(file, sweep.campaign(program)).map_err(unwritten)?;
@@ -215,13 +210,13 @@ fn measure(
     })?;
     drop(line);
     let parameters: Vec<String> =
-        moment.blueprint().parameters.iter().map(|(name, value)| format!(", {name} {value}")).collect();
+        checkpoint.setup.blueprint.parameters.iter().map(|(name, value)| format!(", {name} {value}")).collect();
     let subject = Subject {
         scene: &scene,
         parameters: &parameters.concat(),
         measure,
-        has_air: moment.has_air(),
-        start: moment.snapshot().clock.tick,
+        has_air: checkpoint.has_air(),
+        start: checkpoint.state.clock.tick,
         ticks,
         warmup,
         threads,

@@ -13,9 +13,7 @@ use crate::{
         },
         orders::{Order, Orders},
         panels::Panels,
-        recording,
-        render::extract::Epoch,
-        saves, screen, split,
+        recording, saves, screen, split,
         toasts::Toasts,
         tools::{Tool, Toolbox},
         views::table::Shown,
@@ -29,6 +27,7 @@ use crate::{
     sim::{
         accuracy::Survey,
         autopilot::Autopilot,
+        checkpoint::Checkpoint,
         control,
         effects::Effects,
         intent::{Intent, IntentQueue},
@@ -119,9 +118,8 @@ fn act(world: &mut World, action: Action) {
 fn play(world: &mut World, name: &str, settings: &[(String, String)], preset: Option<Preset>) {
     match scene::load(name).and_then(|scene| scene.build(settings, preset, &EffectModes::new())) {
         Ok(blueprint) => {
-            control::load(world, Arc::new(blueprint));
+            Checkpoint::of_scene(Arc::new(blueprint)).restore(world);
             world.resource_mut::<History>().clear();
-            world.resource_mut::<Epoch>().0 += 1;
         }
         Err(error) => world.resource_mut::<Toasts>().warn(error.to_string()),
     }
@@ -134,7 +132,6 @@ fn watch(world: &mut World, name: &str) {
     match case.play(world, preset) {
         Ok(()) => {
             world.resource_mut::<History>().clear();
-            world.resource_mut::<Epoch>().0 += 1;
         }
         Err(error) => world.resource_mut::<Toasts>().warn(error.to_string()),
     }
@@ -198,7 +195,6 @@ fn change_world(world: &mut World, action: Action) {
         Action::Redo if history::redo(world) => "Made again",
         _ => "Nothing to make again",
     };
-    world.resource_mut::<Epoch>().0 += 1;
     world.resource_mut::<Toasts>().say(told);
 }
 

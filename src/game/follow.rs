@@ -5,25 +5,24 @@ use crate::{
         camera::WorldCamera,
         tools::{Tool, Toolbox},
     },
-    scene::blueprint::Blueprint,
-    sim::state::Setup,
+    sim::{generation::Generation, state::Setup},
 };
 use bevy::prelude::{Local, Res, ResMut};
-use std::sync::Arc;
 
 /// Shows the whole of its box, takes up the scene's first element.
 pub fn follow_scene(
     setup: Option<Res<Setup>>,
-    mut seen: Local<Option<Arc<Blueprint>>>,
+    generation: Res<Generation>,
+    mut seen: Local<u64>,
     mut camera: ResMut<WorldCamera>,
     mut tools: ResMut<Toolbox>,
 ) {
     let Some(setup) = setup else { return };
     let blueprint = &setup.blueprint;
-    if seen.as_ref().is_some_and(|seen| Arc::ptr_eq(seen, blueprint)) {
+    if *seen == generation.scene {
         return;
     }
-    *seen = Some(blueprint.clone());
+    *seen = generation.scene;
     camera.set_world(blueprint.domain.size);
     let elements = &blueprint.elements;
     let first = blueprint.first_element.as_deref().and_then(|name| elements.find(name));

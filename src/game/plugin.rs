@@ -2,8 +2,8 @@
 
 use crate::{
     game::{
-        camera, execute, follow, frame, history, hud, input, orders, panels, playback, recording, render, saves, split,
-        toasts, tools, views,
+        camera, execute, follow, frame, history, hud, input, orders, panels, playback, recording, saves, split, toasts,
+        tools, views,
     },
     kernel::units::TICKS_PER_SECOND,
     sim::{accuracy, autopilot, measures, recorder, state::Setup},
@@ -45,7 +45,6 @@ impl Plugin for GamePlugin {
             .init_resource::<input::keys::Typing>()
             .init_resource::<input::touch::Fingers>()
             .init_resource::<input::strokes::DragState>()
-            .init_resource::<render::extract::Epoch>()
             .init_resource::<accuracy::Watched>()
             .init_resource::<accuracy::LiveError>()
             .init_resource::<accuracy::Survey>()

@@ -67,7 +67,7 @@ pub fn keep_last_minute(world: &mut World) {
     if !world.contains_resource::<Setup>() {
         return;
     }
-    // What the last tick changed is on the tape; what was put in the place of the world since then is not yet.
+    // What the last tick changed is recorded; what was put in the place of the world since then is not yet.
     world.resource::<Recorder>().keep_up(world);
     let bytes = world.resource::<Recorder>().last_minute(recorder::end_now(world));
     let written = write_new(&folders(world), world.resource::<Recorder>(), "", &bytes);

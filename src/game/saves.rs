@@ -5,11 +5,10 @@ use crate::{
         disk,
         files::{self, SAVE_ENDING},
         history,
-        render::extract::Epoch,
         toasts::Toasts,
     },
     sim::{
-        save::{self, SaveError, Saved},
+        checkpoint::{Checkpoint, SaveError},
         state::{Clock, Setup},
     },
 };
@@ -56,9 +55,9 @@ impl Summary {
     /// Reads the file at `path` to the end, as loading it would.
     pub fn read(path: &Path) -> Result<Self, LoadError> {
         let saved = read(path)?;
-        let state = saved.snapshot();
+        let state = &saved.state;
         Ok(Self {
-            title: saved.title().to_owned(),
+            title: saved.setup.blueprint.title.clone(),
             tick: state.clock.tick,
             particles: state.particles.len() + state.solids.count(),
         })
@@ -78,7 +77,7 @@ pub fn list(folders: &[PathBuf]) -> Vec<(PathBuf, SystemTime)> {
 pub fn save(world: &mut World) {
     let Some(setup) = world.get_resource::<Setup>() else { return };
     let (folders, tick) = (&world.resource::<SaveFolders>().0, world.resource::<Clock>().tick);
-    let written = files::write_new(folders, &setup.blueprint.name, tick, SAVE_ENDING, &save::encode(world));
+    let written = files::write_new(folders, &setup.blueprint.name, tick, SAVE_ENDING, &Checkpoint::of(world).encode());
     let mut toasts = world.resource_mut::<Toasts>();
     match written {
         Ok(path) => toasts.say(format!("Saved: {}", path.display())),
@@ -92,14 +91,13 @@ pub fn load(world: &mut World, path: &Path) {
     match read(path) {
         Ok(saved) => {
             history::checkpoint(world);
-            save::load(world, saved);
-            world.resource_mut::<Epoch>().0 += 1;
+            saved.restore(world);
             world.resource_mut::<Toasts>().say(format!("Loaded: {name} (undo goes back)"));
         }
         Err(error) => world.resource_mut::<Toasts>().warn(format!("{name}: {error}")),
     }
 }
 
-fn read(path: &Path) -> Result<Saved, LoadError> {
-    Ok(save::decode(&disk::read(path)?)?)
+fn read(path: &Path) -> Result<Checkpoint, LoadError> {
+    Ok(Checkpoint::decode(&disk::read(path)?)?)
 }

@@ -5,12 +5,11 @@ use crate::{
     kernel::{bins::Neighbours, params::Preset, pbf::Solver, simd::InstructionSet},
     lab::{
         experiment::{ExperimentError, time},
-        headless::Headless,
         run::Plan,
         stats,
     },
     scene::{self, effects::EffectModes},
-    sim::{state::SolverState, workers::Workers},
+    sim::{simulation::Simulation, state::SolverState, workers::Workers},
 };
 use serde::Serialize;
 use std::sync::Arc;
@@ -93,9 +92,9 @@ fn median_ms(columns: usize, neighbours: Neighbours, workers: &Workers) -> Resul
     let plan = Plan { ticks: WARMUP + TICKS, warmup: WARMUP, ..Plan::default() };
     let mut shortest = vec![f64::INFINITY; TICKS as usize];
     for _ in 0..ROUNDS {
-        let mut headless = Headless::new(blueprint.clone(), workers.clone());
-        headless.world_mut().insert_resource(SolverState(Solver::new(InstructionSet::detect(), neighbours)));
-        let run = time(&mut headless, &plan, &mut [])?;
+        let mut simulation = Simulation::new(blueprint.clone(), workers.clone());
+        simulation.world_mut().insert_resource(SolverState(Solver::new(InstructionSet::detect(), neighbours)));
+        let run = time(&mut simulation, &plan, &mut [])?;
         shortest.iter_mut().zip(run.ms).for_each(|(shortest, ms)| *shortest = shortest.min(ms));
     }
     Ok(stats::quantile(&mut shortest, 0.5).unwrap_or(f64::NAN))

@@ -25,7 +25,7 @@
 
 use crate::{
     kernel::{solids::Solids, units::TICKS_PER_SECOND},
-    lab::sampler::matter,
+    lab::balance::matter,
     scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
@@ -187,15 +187,14 @@ fn mean_velocity(air: &AirGrid, rock: &Solids, corner: Vec2, size: Vec2) -> DVec
 mod tests {
     use super::*;
     use crate::{
-        lab::headless::Headless,
         scene::{self, effects::EffectModes},
-        sim::{state::ParticleStore, workers::Workers},
+        sim::{simulation::Simulation, state::ParticleStore, workers::Workers},
     };
     use std::sync::Arc;
 
-    fn world(scene: &str) -> Headless {
+    fn world(scene: &str) -> Simulation {
         let blueprint = scene::load(scene).unwrap().build(&[], None, &EffectModes::new()).unwrap();
-        Headless::new(Arc::new(blueprint), Workers::default())
+        Simulation::new(Arc::new(blueprint), Workers::default())
     }
 
     fn to_self(field: &CoarseField, other: &CoarseField) -> Distance {
@@ -204,26 +203,26 @@ mod tests {
 
     #[test]
     fn a_world_is_no_distance_from_itself() {
-        let mut headless = world("sealed_air");
-        (0..20).for_each(|_| headless.tick());
-        let field = CoarseField::of(headless.world());
+        let mut simulation = world("sealed_air");
+        (0..20).for_each(|_| simulation.tick());
+        let field = CoarseField::of(simulation.world());
         let distance = to_self(&field, &field);
         assert_eq!(distance, Distance { share: Some(0.0), momentum: Some(0.0), air: Some(0.0) });
     }
 
     #[test]
     fn liquid_in_other_cells_counts_by_its_share_and_its_order_does_not() {
-        let mut headless = world("dam_break");
-        let before = CoarseField::of(headless.world());
+        let mut simulation = world("dam_break");
+        let before = CoarseField::of(simulation.world());
         assert!((before.area.iter().sum::<f64>() - 10_082.0 * 0.01).abs() < 1e-3, "a hundredth of a m² a particle");
-        let particles = &mut headless.world_mut().resource_mut::<ParticleStore>().into_inner().0;
+        let particles = &mut simulation.world_mut().resource_mut::<ParticleStore>().into_inner().0;
         let half = particles.len() / 2;
         particles.x.swap(0, half);
         particles.y.swap(0, half);
-        assert_eq!(to_self(&CoarseField::of(headless.world()), &before).share, Some(0.0), "no one has a name");
-        let particles = &mut headless.world_mut().resource_mut::<ParticleStore>().into_inner().0;
+        assert_eq!(to_self(&CoarseField::of(simulation.world()), &before).share, Some(0.0), "no one has a name");
+        let particles = &mut simulation.world_mut().resource_mut::<ParticleStore>().into_inner().0;
         particles.x.iter_mut().take(half).for_each(|x| *x += 200.0);
-        let distance = to_self(&CoarseField::of(headless.world()), &before);
+        let distance = to_self(&CoarseField::of(simulation.world()), &before);
         assert!((distance.share.unwrap() - 0.5).abs() < 1e-3, "{distance:?}");
         assert_eq!(distance.momentum, Some(0.0), "all is at rest");
         assert_eq!(distance.air, None, "the scene has no air");
@@ -244,16 +243,16 @@ mod tests {
 
     #[test]
     fn momentum_is_held_against_the_references_or_against_calm() {
-        let mut headless = world("dam_break");
-        let still = CoarseField::of(headless.world());
-        let fall = |headless: &mut Headless, speed: f32| {
-            headless.world_mut().resource_mut::<ParticleStore>().vy.iter_mut().for_each(|vy| *vy = speed);
-            CoarseField::of(headless.world())
+        let mut simulation = world("dam_break");
+        let still = CoarseField::of(simulation.world());
+        let fall = |simulation: &mut Simulation, speed: f32| {
+            simulation.world_mut().resource_mut::<ParticleStore>().vy.iter_mut().for_each(|vy| *vy = speed);
+            CoarseField::of(simulation.world())
         };
-        let (slow, fast) = (fall(&mut headless, -10.0), fall(&mut headless, -11.0));
+        let (slow, fast) = (fall(&mut simulation, -10.0), fall(&mut simulation, -11.0));
         let found = to_self(&fast, &slow).momentum.unwrap();
         assert!((found - 0.1).abs() < 1e-6, "a tenth faster: {found}");
-        let calm = fall(&mut headless, 0.02 * 60.0);
+        let calm = fall(&mut simulation, 0.02 * 60.0);
         let found = to_self(&calm, &still).momentum.unwrap();
         assert!((found - 1.0).abs() < 1e-6, "0.02 d a tick is what rest is held against: {found}");
     }

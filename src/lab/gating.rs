@@ -9,8 +9,6 @@ use crate::{
     kernel::params::Preset,
     lab::{
         experiment::{ExperimentError, Run, Spread, interleaved, time},
-        headless::Headless,
-        moment::Moment,
         run::Plan,
     },
     scene::{
@@ -18,7 +16,9 @@ use crate::{
         effects::{Effect, EffectModes, Mode},
     },
     sim::{
+        checkpoint::Checkpoint,
         effects::Effects,
+        simulation::Simulation,
         state::{AirGrid, ParticleStore},
         workers::Workers,
     },
@@ -82,9 +82,9 @@ pub struct EffectCost {
 /// If there is no such scene.
 pub fn measure(name: &'static str, preset: Preset, rounds: usize) -> Result<SceneCost, ExperimentError> {
     let blueprint = scene::load(name)?.build(&[], Some(preset), &EffectModes::new())?;
-    let mut world = Headless::new(Arc::new(blueprint), Workers::single());
+    let mut world = Simulation::new(Arc::new(blueprint), Workers::single());
     (0..RUN_IN).for_each(|_| world.tick());
-    let moment = Moment::of(world.world());
+    let start = Checkpoint::of(world.world());
     let effects = world.world().resource::<Effects>();
     let running: Vec<Effect> = Effect::ALL.into_iter().filter(|effect| effects.get(*effect).running).collect();
     let own = effects.modes();
@@ -100,7 +100,7 @@ pub fn measure(name: &'static str, preset: Preset, rounds: usize) -> Result<Scen
     }
     let mut runs: Vec<Vec<Run>> = vec![Vec::new(); choices.len()];
     for (_, k) in interleaved(choices.len(), rounds) {
-        runs[k].push(go_on(&moment, preset, &choices[k])?);
+        runs[k].push(go_on(&start, preset, &choices[k])?);
     }
     let times = runs.iter().filter_map(|runs| Spread::of(runs.iter().map(|run| run.quantile(0.5))));
     let times: Vec<Spread> = times.collect();
@@ -124,9 +124,9 @@ pub fn measure(name: &'static str, preset: Preset, rounds: usize) -> Result<Scen
     })
 }
 
-/// Goes on from the moment with a choice of effects.
-fn go_on(moment: &Moment, preset: Preset, modes: &EffectModes) -> io::Result<Run> {
-    let mut run = moment.go_on(preset, preset.quality(), Workers::single());
+/// Goes on from the start with a choice of effects.
+fn go_on(start: &Checkpoint, preset: Preset, modes: &EffectModes) -> io::Result<Run> {
+    let mut run = Simulation::resume(&start.clone().at_quality(preset, preset.quality()), Workers::single());
     let mut effects = run.world_mut().resource_mut::<Effects>();
     for (effect, mode) in modes {
         effects.get_mut(*effect).mode = *mode;

@@ -20,14 +20,12 @@ pub mod experiment;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod gating;
 pub mod gauntlet;
-pub mod headless;
 pub mod jobs;
 pub mod live;
 pub mod machine;
 pub mod maps;
 pub mod markdown;
 pub mod metrics;
-pub mod moment;
 pub mod picture;
 pub mod reference;
 #[cfg(not(target_arch = "wasm32"))]

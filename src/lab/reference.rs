@@ -1,14 +1,14 @@
-//! A run at `reference` quality, and how far others that set out from the same moment go from it over time.
+//! A run at `reference` quality, and how far others that set out from the same checkpoint go from it over time.
 
 use crate::{
     kernel::params::{Preset, Quality},
     lab::{
+        balance::matter,
         coarse::{CoarseField, Distance, Magnitude},
-        moment::Moment,
         run::{Observer, Plan, run},
-        sampler::{SAMPLE_EVERY, matter},
+        sampler::SAMPLE_EVERY,
     },
-    sim::workers::Workers,
+    sim::{checkpoint::Checkpoint, simulation::Simulation, workers::Workers},
 };
 use bevy::ecs::world::World;
 use std::io;
@@ -56,11 +56,11 @@ impl Reference {
         Preset::Reference.quality()
     }
 
-    /// Runs `plan` from `moment` at `reference` quality; `watcher` sees each tick, too.
-    pub fn record(moment: &Moment, plan: &Plan, workers: Workers, watcher: &mut dyn Observer) -> io::Result<Self> {
-        let mut headless = moment.go_on(Preset::Reference, Self::quality(), workers);
+    /// Runs `plan` from `start` at `reference` quality; `watcher` sees each tick, too.
+    pub fn record(start: &Checkpoint, plan: &Plan, workers: Workers, watcher: &mut dyn Observer) -> io::Result<Self> {
+        let mut simulation = Simulation::resume(&start.clone().at_quality(Preset::Reference, Self::quality()), workers);
         let mut recorder = Recorder { tick: 0, ticks: plan.ticks, samples: Vec::new() };
-        run(&mut headless, plan, &mut [&mut recorder, watcher])?;
+        run(&mut simulation, plan, &mut [&mut recorder, watcher])?;
         let fields: Vec<CoarseField> = recorder.samples.iter().map(|sample| sample.field.clone()).collect();
         Ok(Self { ticks: plan.ticks, magnitude: CoarseField::magnitudes(&fields), samples: recorder.samples })
     }
@@ -82,7 +82,7 @@ impl Observer for Recorder {
     }
 }
 
-/// Follows a run that set out from the reference's moment.
+/// Follows a run that set out from the reference's checkpoint.
 pub struct Follower<'a> {
     reference: &'a Reference,
     tick: u64,
@@ -135,50 +135,51 @@ impl Observer for Follower<'_> {
 mod tests {
     use super::*;
     use crate::{
-        lab::headless::Headless,
         scene::{self, effects::EffectModes},
-        sim::control,
+        sim::{control, simulation::Simulation},
     };
     use std::sync::Arc;
 
-    fn small_dam_break() -> Moment {
+    fn small_dam_break() -> Checkpoint {
         let settings = [("columns".to_owned(), "16".to_owned())];
         let blueprint = scene::load("dam_break").unwrap().build(&settings, None, &EffectModes::new()).unwrap();
-        Moment::of(Headless::new(Arc::new(blueprint), Workers::default()).world())
+        Checkpoint::of_scene(Arc::new(blueprint))
     }
 
-    fn follow(moment: &Moment, reference: &Reference, quality: Quality, plan: &Plan) -> (Vec<Point>, u64) {
-        let mut headless = moment.go_on(Preset::Fast, quality, Workers::default());
+    fn follow(start: &Checkpoint, reference: &Reference, quality: Quality, plan: &Plan) -> (Vec<Point>, u64) {
+        let mut simulation = Simulation::resume(&start.clone().at_quality(Preset::Fast, quality), Workers::default());
         let mut follower = Follower::new(reference);
-        run(&mut headless, plan, &mut [&mut follower]).unwrap();
-        (follower.points().to_vec(), control::hash(headless.world()))
+        run(&mut simulation, plan, &mut [&mut follower]).unwrap();
+        (follower.points().to_vec(), control::hash(simulation.world()))
     }
 
     #[test]
     fn the_reference_stays_with_itself_and_the_rough_go_far() {
-        let (moment, plan) = (small_dam_break(), Plan { ticks: 90, ..Plan::default() });
-        let reference = Reference::record(&moment, &plan, Workers::default(), &mut ()).unwrap();
-        let (own, _) = follow(&moment, &reference, Reference::quality(), &plan);
+        let (start, plan) = (small_dam_break(), Plan { ticks: 90, ..Plan::default() });
+        let reference = Reference::record(&start, &plan, Workers::default(), &mut ()).unwrap();
+        let (own, _) = follow(&start, &reference, Reference::quality(), &plan);
         assert_eq!(own.iter().map(|point| point.tick).collect::<Vec<_>>(), [20, 40, 60, 80, 90]);
         let nothing = Distance { share: Some(0.0), momentum: Some(0.0), air: None };
         assert!(own.iter().all(|point| point.distance == nothing && point.energy_ratio == 1.0), "{own:?}");
         let nearly = Quality { substeps: 8, iterations: 2, kernel_radius: 3.0, ..Preset::Fine.quality() };
-        let (fine, _) = follow(&moment, &reference, nearly, &plan);
-        let (rough, hash) = follow(&moment, &reference, Preset::Classic.quality(), &plan);
+        let (fine, _) = follow(&start, &reference, nearly, &plan);
+        let (rough, hash) = follow(&start, &reference, Preset::Classic.quality(), &plan);
         let early = |points: &[Point]| points[1].distance.share.unwrap();
         assert!(early(&fine) > 0.0 && early(&fine) < early(&rough), "{fine:?}\n{rough:?}");
-        let mut alone = moment.go_on(Preset::Fast, Preset::Classic.quality(), Workers::default());
+        let mut alone =
+            Simulation::resume(&start.clone().at_quality(Preset::Fast, Preset::Classic.quality()), Workers::default());
         run(&mut alone, &plan, &mut []).unwrap();
         assert_eq!(control::hash(alone.world()), hash, "to be followed changes nothing");
     }
 
     #[test]
     fn the_mean_leaves_the_warm_up_out() {
-        let (moment, plan) = (small_dam_break(), Plan { ticks: 40, ..Plan::default() });
-        let reference = Reference::record(&moment, &plan, Workers::default(), &mut ()).unwrap();
-        let mut headless = moment.go_on(Preset::Draft, Preset::Draft.quality(), Workers::default());
+        let (start, plan) = (small_dam_break(), Plan { ticks: 40, ..Plan::default() });
+        let reference = Reference::record(&start, &plan, Workers::default(), &mut ()).unwrap();
+        let mut simulation =
+            Simulation::resume(&start.clone().at_quality(Preset::Draft, Preset::Draft.quality()), Workers::default());
         let mut follower = Follower::new(&reference);
-        run(&mut headless, &plan, &mut [&mut follower]).unwrap();
+        run(&mut simulation, &plan, &mut [&mut follower]).unwrap();
         assert_eq!(follower.mean(20), follower.points()[1].distance);
         assert_eq!(follower.mean(40), Distance::default(), "nothing is left");
     }

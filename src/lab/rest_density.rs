@@ -7,9 +7,9 @@ use crate::{
         particles::Particles,
         units::{Scale, TICKS_PER_SECOND},
     },
-    lab::{headless::Headless, picture::Picture, sampler::matter, stats},
+    lab::{balance::matter, picture::Picture, stats},
     scene::{self, SceneError, effects::EffectModes},
-    sim::workers::Workers,
+    sim::{simulation::Simulation, workers::Workers},
 };
 use serde::Serialize;
 use std::{array, sync::Arc};
@@ -77,27 +77,27 @@ pub fn study(workers: &Workers, says: &mut dyn FnMut(&str)) -> Result<Vec<(Outco
 fn observe(preset: Preset, ratio: f64, workers: &Workers) -> Result<(Outcome, Picture), SceneError> {
     let settings = [("ratio".to_owned(), ratio.to_string())];
     let blueprint = scene::load(SCENE)?.build(&settings, Some(preset), &EffectModes::new())?;
-    let mut headless = Headless::new(Arc::new(blueprint), workers.clone());
+    let mut simulation = Simulation::new(Arc::new(blueprint), workers.clone());
     for _ in 0..SETTLED_AFTER * TICKS_PER_SECOND {
-        headless.tick();
+        simulation.tick();
     }
     let mut looks = Vec::new();
     for tick in 1..=OBSERVED_FOR * TICKS_PER_SECOND {
-        headless.tick();
+        simulation.tick();
         if tick.is_multiple_of(OBSERVE_EVERY) {
-            looks.push(look(&headless));
+            looks.push(look(&simulation));
         }
     }
     let [kinetic_energy, jitter, density_bottom, density_top, slope, surface] =
         array::from_fn(|k| looks.iter().map(|look: &[f64; 6]| look[k]).sum::<f64>() / looks.len() as f64);
     let quality = preset.name();
     let outcome = Outcome { quality, ratio, kinetic_energy, jitter, density_bottom, density_top, slope, surface };
-    Ok((outcome, Picture::of_world(headless.world(), PICTURE_SIDE, PICTURE_DISC)))
+    Ok((outcome, Picture::of_world(simulation.world(), PICTURE_SIDE, PICTURE_DISC)))
 }
 
-/// The figures of an [`Outcome`] at one moment, in their order.
-fn look(headless: &Headless) -> [f64; 6] {
-    let matter = matter(headless.world());
+/// The figures of an [`Outcome`] at one start, in their order.
+fn look(simulation: &Simulation) -> [f64; 6] {
+    let matter = matter(simulation.world());
     let balance = matter.balance();
     let particles = matter.particles.len().max(1) as f64;
     let Scale { spacing } = matter.scale;

@@ -1,13 +1,9 @@
 //! A run from one tick to the next, and those who watch it.
 
-use crate::{
-    lab::headless::Headless,
-    sim::{
-        intent::{Intent, IntentQueue},
-        ledger::PassLedger,
-        pace::Pace,
-        state::Clock,
-    },
+use crate::sim::{
+    ledger::PassLedger,
+    recording::{Entry, Input},
+    simulation::Simulation,
 };
 use bevy::ecs::world::World;
 use std::io;
@@ -35,37 +31,30 @@ pub struct Plan {
     pub ticks: u64,
     /// Ticks of these that are left out of the times: the pass ledger begins after them.
     pub warmup: u64,
-    /// Input: after how many ticks of the world which intent is due, in order.
-    pub intents: Vec<(u64, Intent)>,
+    /// Input, oldest first.
+    pub input: Vec<Entry>,
     /// Whether to the end of a recording: then what was done after its last tick, to a world that stood, is done, too.
     pub complete: bool,
 }
 
 /// Runs the plan, showing each tick to the observers.
-pub fn run(headless: &mut Headless, plan: &Plan, observers: &mut [&mut dyn Observer]) -> io::Result<()> {
-    let mut intents = plan.intents.iter().peekable();
+pub fn run(simulation: &mut Simulation, plan: &Plan, observers: &mut [&mut dyn Observer]) -> io::Result<()> {
+    let mut input = Input::new(plan.input.clone());
     for tick in 0..plan.ticks {
         if tick == plan.warmup {
-            headless.world_mut().resource_mut::<PassLedger>().clear();
+            simulation.world_mut().resource_mut::<PassLedger>().clear();
             for observer in observers.iter_mut() {
-                observer.after_warmup(headless.world());
+                observer.after_warmup(simulation.world());
             }
         }
-        let now = headless.world().resource::<Clock>().tick;
-        while let Some((_, intent)) = intents.next_if(|(due, _)| *due <= now) {
-            headless.world_mut().resource_mut::<IntentQueue>().push(*intent);
-        }
-        headless.tick();
+        input.give(simulation.world_mut());
+        simulation.tick();
         for observer in observers.iter_mut() {
-            observer.after_tick(headless.world())?;
+            observer.after_tick(simulation.world())?;
         }
     }
-    if plan.complete && intents.peek().is_some() {
-        let world = headless.world_mut();
-        intents.for_each(|(_, intent)| world.resource_mut::<IntentQueue>().push(*intent));
-        let pace = std::mem::replace(&mut *world.resource_mut::<Pace>(), Pace { paused: true, ..Pace::default() });
-        headless.tick();
-        *headless.world_mut().resource_mut::<Pace>() = pace;
+    if plan.complete && input.give(simulation.world_mut()) > 0 {
+        simulation.apply_edits();
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use crate::{
     kernel::units::TICKS_PER_SECOND,
     lab::{
-        balance::Matter,
+        balance::matter,
         density::density_error,
         drift::Drift,
         machine,
@@ -242,17 +242,6 @@ impl Samples {
     }
 }
 
-/// The movable particles with what mechanics needs to know of them.
-pub(crate) fn matter(world: &World) -> Matter<'_> {
-    let Setup { blueprint, domain, .. } = world.resource::<Setup>();
-    Matter {
-        particles: world.resource::<ParticleStore>(),
-        elements: &blueprint.elements,
-        domain,
-        scale: blueprint.scale,
-    }
-}
-
 /// Mass of the air, d².
 pub(super) fn air_mass(world: &World) -> f64 {
     world.resource::<AirGrid>().with_grid(world.resource::<Rock>()).mass()
@@ -291,8 +280,7 @@ fn memory_bytes(world: &World) -> u64 {
     let air = world.resource::<AirGrid>();
     let solver = world.resource::<SolverState>().memory() + world.resource::<PredictorState>().memory();
     let sleep = world.resource::<SleepState>().memory();
-    let per_particle = 5 * size_of::<f32>() + size_of::<u8>();
-    (solver + sleep + particles.x.capacity() * per_particle + rock.memory() + air.memory_bytes()) as u64
+    (solver + sleep + particles.memory() + rock.memory() + air.memory_bytes()) as u64
 }
 
 pub(super) fn ms(time: Duration) -> f64 {
@@ -304,28 +292,29 @@ mod tests {
     use super::*;
     use crate::kernel::brush::{BrushShape, Stroke};
     use crate::{
-        lab::{
-            headless::Headless,
-            run::{Plan, run},
-        },
+        lab::run::{Plan, run},
         scene::{self, effects::EffectModes},
         sim::{
             intent::{Intent, IntentQueue},
+            simulation::Simulation,
             workers::Workers,
         },
     };
     use std::sync::Arc;
 
-    fn headless(name: &str, settings: &[(&str, &str)], off: &[Effect]) -> Headless {
+    fn simulation(name: &str, settings: &[(&str, &str)], off: &[Effect]) -> Simulation {
         let settings: Vec<_> = settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
         let modes: EffectModes = off.iter().map(|effect| (*effect, Mode::Off)).collect();
-        Headless::new(Arc::new(scene::load(name).unwrap().build(&settings, None, &modes).unwrap()), Workers::default())
+        Simulation::new(
+            Arc::new(scene::load(name).unwrap().build(&settings, None, &modes).unwrap()),
+            Workers::default(),
+        )
     }
 
-    fn measure(headless: &mut Headless, ticks: u64) -> Metrics {
-        let mut sampler = Sampler::new(headless.world(), 0);
-        run(headless, &Plan { ticks, ..Plan::default() }, &mut [&mut sampler]).unwrap();
-        sampler.finish(headless.world())
+    fn measure(simulation: &mut Simulation, ticks: u64) -> Metrics {
+        let mut sampler = Sampler::new(simulation.world(), 0);
+        run(simulation, &Plan { ticks, ..Plan::default() }, &mut [&mut sampler]).unwrap();
+        sampler.finish(simulation.world())
     }
 
     #[test]
@@ -333,11 +322,11 @@ mod tests {
         let still = [Effect::Air, Effect::Drag];
         // The predictor's grid solve is not exact, and neither is its way from particles to grid and back.
         for (off, limit) in [(&[still[0], still[1], Effect::Predictor][..], 1e-4), (&still, 5e-3)] {
-            let mut headless = headless("empty", &[("columns", "100"), ("rows", "100")], off);
-            let water = headless.world().resource::<Setup>().elements().find("water").unwrap();
+            let mut simulation = simulation("empty", &[("columns", "100"), ("rows", "100")], off);
+            let water = simulation.world().resource::<Setup>().elements().find("water").unwrap();
             let stroke = Stroke::dab(BrushShape::Disc, glam::Vec2::new(50.0, 80.0), 8.0);
-            headless.world_mut().resource_mut::<IntentQueue>().push(Intent::Stamp { element: water, stroke });
-            let found = measure(&mut headless, 25);
+            simulation.world_mut().resource_mut::<IntentQueue>().push(Intent::Stamp { element: water, stroke });
+            let found = measure(&mut simulation, 25);
             let drift = found.accuracy.momentum_drift.unwrap();
             assert!(drift < limit, "the liquid pushed itself: {drift}");
             assert!(found.accuracy.momentum[1] < 0.0, "it falls");
@@ -347,7 +336,7 @@ mod tests {
 
     #[test]
     fn water_at_a_wall_has_no_momentum_drift_to_measure() {
-        let found = measure(&mut headless("hydrostatic", &[("columns", "12"), ("depth", "8")], &[]), 20);
+        let found = measure(&mut simulation("hydrostatic", &[("columns", "12"), ("depth", "8")], &[]), 20);
         assert_eq!(found.accuracy.momentum_drift, None);
         assert!(found.accuracy.volume_error.unwrap().abs() < 0.1, "{:?}", found.accuracy);
         assert!(found.accuracy.residual.is_some());
@@ -356,15 +345,18 @@ mod tests {
 
     #[test]
     fn sealed_air_keeps_its_mass_while_it_moves() {
-        let found = measure(&mut headless("sealed_air", &[], &[]), 60);
+        let found = measure(&mut simulation("sealed_air", &[], &[]), 60);
         assert!(found.accuracy.air_mass_drift.unwrap().abs() < 1e-5, "{:?}", found.accuracy);
         assert!(found.accuracy.air_divergence_rms.unwrap() > 0.0, "the pulse travels");
     }
 
     #[test]
     fn memory_grows_by_the_particles() {
-        let bytes = |columns| measure(&mut headless("dam_break", &[("columns", columns)], &[]), 1).memory_bytes;
+        let bytes = |columns| measure(&mut simulation("dam_break", &[("columns", columns)], &[]), 1).memory_bytes;
         let more = bytes("30") - bytes("10");
-        assert!(more > (2 * 30 * 30 - 2 * 10 * 10) * 21, "only {more} bytes more for 1,600 particles");
+        assert!(
+            more > (2 * 30 * 30 - 2 * 10 * 10) * crate::kernel::particles::Particles::BYTES as u64,
+            "only {more} bytes more for 1,600 particles"
+        );
     }
 }

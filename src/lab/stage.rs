@@ -2,20 +2,20 @@
 
 use crate::{
     kernel::{params::Quality, particles::Particles, units::TICKS_PER_SECOND},
-    lab::{balance::Matter, drive::pause, headless::Headless, sampler::matter},
+    lab::{
+        balance::{Matter, matter},
+        drive::pause,
+    },
     scene::blueprint::Blueprint,
     sim::{
         ledger::PassLedger,
-        pace::{Pace, longest_frame},
-        state::{AirGrid, Clock, Setup},
+        pace::longest_frame,
+        simulation::Simulation,
+        state::{AirGrid, Setup},
         workers::Workers,
     },
 };
-use bevy::{
-    ecs::world::World,
-    platform::time::Instant,
-    time::{Fixed, Time, TimeUpdateStrategy, Virtual},
-};
+use bevy::{ecs::world::World, platform::time::Instant};
 use std::{
     sync::{
         Arc,
@@ -44,7 +44,7 @@ impl Clockwork {
 
 /// The world of a case.
 pub(crate) struct Stage {
-    headless: Headless,
+    simulation: Simulation,
     clockwork: Clockwork,
     /// Ticks done.
     pub ticks: u32,
@@ -53,39 +53,32 @@ pub(crate) struct Stage {
 impl Stage {
     /// The world of a blueprint, on one thread: cases run side by side.
     pub fn new(blueprint: Blueprint, clockwork: &Clockwork) -> Self {
-        let headless = clockwork.time(|| Headless::new(Arc::new(blueprint), Workers::single()));
-        Self { headless, clockwork: clockwork.clone(), ticks: 0 }
+        let simulation = clockwork.time(|| Simulation::new(Arc::new(blueprint), Workers::single()));
+        Self { simulation, clockwork: clockwork.clone(), ticks: 0 }
     }
 
     /// Runs a tick.
     pub async fn tick(&mut self) {
-        self.clockwork.time(|| self.headless.tick());
+        self.clockwork.time(|| self.simulation.tick());
         self.ticks += 1;
         pause().await;
     }
 
     /// Runs a frame of the game that comes `late` after the last one, in place of a tick; gives the ticks that it ran.
     pub async fn frame(&mut self, late: Duration) -> u64 {
-        let before = self.world().resource::<Clock>().tick;
         let median = self.world().resource::<PassLedger>().tick().median();
-        let world = self.world_mut();
-        world.insert_resource(Time::<Fixed>::from_hz(f64::from(TICKS_PER_SECOND)));
-        world.resource_mut::<Time<Virtual>>().set_max_delta(longest_frame(median, 1.0));
-        world.insert_resource(TimeUpdateStrategy::ManualDuration(late));
-        self.clockwork.time(|| self.headless.tick());
-        self.world_mut().insert_resource(TimeUpdateStrategy::FixedTimesteps(1));
+        let time = late.min(longest_frame(median, 1.0));
+        let ticks = time.as_nanos() / Duration::from_secs_f64(1.0 / f64::from(TICKS_PER_SECOND)).as_nanos();
+        for _ in 0..ticks {
+            self.clockwork.time(|| self.simulation.tick());
+        }
         pause().await;
-        self.world().resource::<Clock>().tick - before
+        ticks as u64
     }
 
     /// Carries out the intents that wait, without a tick.
     pub fn edit(&mut self) {
-        let pace = std::mem::replace(
-            &mut *self.world_mut().resource_mut::<Pace>(),
-            Pace { paused: true, steps_due: 0, ..Pace::default() },
-        );
-        self.headless.tick();
-        *self.world_mut().resource_mut::<Pace>() = pace;
+        self.simulation.apply_edits();
     }
 
     /// Runs for a simulated time, s.
@@ -101,11 +94,11 @@ impl Stage {
     }
 
     pub fn world(&self) -> &World {
-        self.headless.world()
+        self.simulation.world()
     }
 
     pub fn world_mut(&mut self) -> &mut World {
-        self.headless.world_mut()
+        self.simulation.world_mut()
     }
 
     pub fn matter(&self) -> Matter<'_> {

@@ -1,4 +1,5 @@
-//! What may be done to a world as a whole, between ticks: load, reset, freeze, thaw, change the quality.
+//! What may be done to a world as a whole, between ticks: reset, freeze, thaw, change the quality. Every state that is put
+//! in the place of another goes through [`thaw`], which counts it.
 
 use crate::{
     kernel::{
@@ -6,47 +7,26 @@ use crate::{
         predictor::Predictor,
         sleep::Sleep,
     },
-    scene::blueprint::Blueprint,
     sim::{
         effects::Effects,
+        generation::Generation,
         intent::IntentQueue,
         ledger::PassLedger,
-        recorder::Recorder,
         snapshot::{Snapshot, hash_state},
         state::{
-            AirGrid, Census, Clock, Counters, ParticleStore, PredictorState, Rates, Rock, Setup, SleepState,
-            SolverState, Sources,
+            AirGrid, Census, Clock, Counters, ParticleStore, PredictorState, Rock, Setup, SleepState, SolverState,
+            Sources,
         },
     },
 };
 use bevy::prelude::{Mut, World};
-use std::sync::Arc;
-
-/// Makes `world` the start of the scene.
-pub fn load(world: &mut World, blueprint: Arc<Blueprint>) {
-    let origin = Arc::new(Snapshot::of_blueprint(&blueprint, blueprint.quality.air_cell));
-    world.insert_resource(Effects::new(&blueprint.effects));
-    world.insert_resource(Rates::new(&blueprint.elements, blueprint.scale));
-    world.insert_resource(Setup {
-        preset: blueprint.preset,
-        quality: blueprint.quality,
-        origin: origin.clone(),
-        domain: blueprint.domain,
-        blueprint,
-    });
-    restart(world, &origin);
-}
 
 /// Goes back to the start of the scene (or to the state of the save file that was loaded), and to its gravity.
 pub fn reset(world: &mut World) {
     let mut setup = world.resource_mut::<Setup>();
     setup.domain = setup.blueprint.domain;
     let origin = setup.origin.clone();
-    restart(world, &origin);
-}
-
-fn restart(world: &mut World, origin: &Snapshot) {
-    thaw(world, origin);
+    thaw(world, &origin);
     world.insert_resource(Counters::default());
     world.insert_resource(PassLedger::default());
     world.resource_mut::<Effects>().start_over();
@@ -67,9 +47,7 @@ pub fn freeze(world: &World) -> Snapshot {
 
 /// Puts a state of the same scene back (undo, redo). Waiting intents are forgotten.
 pub fn thaw(world: &mut World, snapshot: &Snapshot) {
-    if let Some(recorder) = world.get_resource::<Recorder>() {
-        recorder.jump();
-    }
+    Generation::count_state(world);
     let air_cell = world.resource::<Setup>().quality.air_cell;
     let mut air = if snapshot.air.cell() == air_cell { snapshot.air.clone() } else { snapshot.air.resized(air_cell) };
     air.set_solids(&snapshot.solids);

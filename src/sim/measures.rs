@@ -1,16 +1,13 @@
 //! All that is measured of the running world besides its density error, on demand: the HUD wants it, `lab::live` writes
 //! it about once a second. Nothing here changes a world.
 
-use crate::{
-    scene::blueprint::Blueprint,
-    sim::state::{Clock, Setup},
-};
+use crate::sim::generation::Generation;
 use bevy::{
     platform::time::Instant,
     prelude::{Resource, World},
 };
 use glam::DVec2;
-use std::{sync::Arc, time::Duration};
+use std::time::Duration;
 
 /// Time from one measurement to the next.
 const INTERVAL: Duration = Duration::from_secs(1);
@@ -59,9 +56,7 @@ pub struct Measures {
 /// What the drift is held against.
 #[derive(Clone, Debug)]
 struct Start {
-    blueprint: Arc<Blueprint>,
-    /// Ticks and edits of the world when it was last looked at: at others it was put in place since.
-    seen: (u64, u64),
+    generation: Generation,
     /// Mass of the air at the start, kg.
     air_mass: f64,
 }
@@ -94,24 +89,13 @@ impl Measures {
 
     /// Whether `world` is the one that was looked at last, and nobody put another in its place or went back.
     pub fn knows(&self, world: &World) -> bool {
-        let (setup, clock) = (world.resource::<Setup>(), world.resource::<Clock>());
-        self.start
-            .as_ref()
-            .is_some_and(|start| Arc::ptr_eq(&start.blueprint, &setup.blueprint) && start.seen == clock.seen())
+        self.start.as_ref().is_some_and(|start| start.generation == Generation::of(world))
     }
 
     /// Begins anew with `world`, in which there is so much air, kg.
     pub fn start(&mut self, world: &World, air_mass: f64) {
-        let blueprint = world.resource::<Setup>().blueprint.clone();
-        self.start = Some(Start { blueprint, seen: world.resource::<Clock>().seen(), air_mass });
+        self.start = Some(Start { generation: Generation::of(world), air_mass });
         self.last = None;
-    }
-
-    /// Goes along with a world that ran a tick or took edits.
-    pub fn follow(&mut self, clock: &Clock) {
-        if let Some(start) = &mut self.start {
-            start.seen = clock.seen();
-        }
     }
 
     /// How much more or less than at the start `air_mass` (kg) is, a share; 0 of none.

@@ -3,9 +3,11 @@
 
 pub mod accuracy;
 pub mod autopilot;
+pub mod checkpoint;
 pub mod control;
 pub mod effects;
 pub mod fault;
+pub mod generation;
 pub mod intent;
 pub mod ledger;
 pub mod mark;
@@ -16,14 +18,12 @@ pub mod random;
 pub mod recorder;
 pub mod recording;
 pub mod replay;
-pub mod save;
 pub mod script;
+pub mod simulation;
 pub mod snapshot;
 pub mod split;
 pub mod stages;
 pub mod state;
-pub mod tape;
-pub mod twin;
 pub mod workers;
 
 use bevy::prelude::{App, Plugin};
@@ -34,6 +34,7 @@ pub struct SimulationPlugin;
 impl Plugin for SimulationPlugin {
     fn build(&self, app: &mut App) {
         app.init_resource::<pace::Pace>()
+            .init_resource::<generation::Generation>()
             .init_resource::<intent::IntentQueue>()
             .init_resource::<stages::TickPlan>()
             .init_resource::<state::SolverState>()

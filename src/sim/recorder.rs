@@ -7,13 +7,14 @@
 use crate::{
     scene::effects::Pass,
     sim::{
+        checkpoint::Checkpoint,
         control,
+        generation::Generation,
         intent::Intent,
         mark::{Mark, Marker},
-        recording::{End, Entry},
+        recording::{End, Entry, Recording},
         script,
         state::{AirGrid, Clock, ParticleStore, Rock, Setup},
-        tape::{Start, Tape},
     },
 };
 use bevy::prelude::{App, FixedUpdate, IntoScheduleConfigs, Res, Resource, World, resource_exists};
@@ -36,27 +37,25 @@ pub const RECORDING_BYTES: usize = 512 << 20;
 
 /// Shared, so that what was recorded outlives the world that it is of.
 #[derive(Resource, Clone, Debug, Default)]
-pub struct Recorder(Arc<Mutex<Desk>>);
+pub struct Recorder(Arc<Mutex<Inner>>);
 
 #[derive(Debug, Default)]
-struct Desk {
-    rolling: Tape,
+struct Inner {
+    rolling: Recording,
     /// How often `rolling` began a segment.
     serial: u64,
-    recording: Option<Tape>,
-    /// How the recording ended, where it takes no more.
-    stopped: Option<End>,
+    recording: Option<Recording>,
     /// The file that the recording shall go to, if one was named for it.
     to: Option<PathBuf>,
     marker: Marker,
-    /// Whether the world is another one than that which was written last.
-    jumped: bool,
+    /// Generation of the world that was written last.
+    generation: Generation,
 }
 
-impl Desk {
+impl Inner {
     /// The recording that takes what happens.
-    fn running(&mut self) -> Option<&mut Tape> {
-        self.recording.as_mut().filter(|_| self.stopped.is_none())
+    fn running(&mut self) -> Option<&mut Recording> {
+        self.recording.as_mut().filter(|recording| recording.end.is_none())
     }
 }
 
@@ -72,7 +71,7 @@ pub struct Cursor {
 #[derive(Clone, Debug)]
 pub struct News {
     /// The state that a new segment begins with, if there is one.
-    pub start: Option<Arc<Start>>,
+    pub start: Option<Checkpoint>,
     /// Intents of the newest segment.
     pub entries: Vec<Entry>,
     /// Marks of the newest segment.
@@ -80,46 +79,42 @@ pub struct News {
 }
 
 impl Recorder {
-    fn desk(&self) -> MutexGuard<'_, Desk> {
+    fn inner(&self) -> MutexGuard<'_, Inner> {
         // A panic elsewhere is what the record is for; nothing here leaves it half written.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Notes that the world takes `intent` after `tick` ticks.
     pub fn note(&self, tick: u64, intent: Intent) {
-        let mut desk = self.desk();
+        let mut inner = self.inner();
         let entry = Entry { tick, intent };
-        desk.rolling.note(entry);
-        if let Some(recording) = desk.running() {
+        inner.rolling.note(entry);
+        if let Some(recording) = inner.running() {
             recording.note(entry);
         }
     }
 
-    /// Notes that another state is put in the place of the one at hand, or that something other than an intent or a tick
-    /// has changed it: what is recorded goes on from the state that the next edit stage finds.
-    pub fn jump(&self) {
-        self.desk().jumped = true;
-    }
-
     /// Takes the state of the world where a segment has to begin with it. Before every edit stage.
     pub fn keep_up(&self, world: &World) {
-        let mut desk = self.desk();
-        let jumped = std::mem::take(&mut desk.jumped);
-        let full = desk
+        let mut inner = self.inner();
+        let generation = Generation::of(world);
+        let jumped = std::mem::replace(&mut inner.generation, generation) != generation;
+        let full = inner
             .rolling
+            .segments
             .last()
             .is_none_or(|segment| segment.marks.len() >= SEGMENT_TICKS || segment.entries.len() >= SEGMENT_ENTRIES);
-        let waits = desk.running().is_some_and(|recording| recording.is_empty());
+        let waits = inner.running().is_some_and(|recording| recording.segments.is_empty());
         if !(jumped || full || waits) {
             return;
         }
-        let start = Arc::new(Start::of(world));
-        desk.rolling.begin(start.clone(), !jumped);
-        desk.serial += 1;
-        desk.rolling.forget(KEPT_TICKS, KEPT_BYTES);
+        let start = Checkpoint::of(world);
+        inner.rolling.begin(start.clone(), !jumped);
+        inner.serial += 1;
+        inner.rolling.forget(KEPT_TICKS, KEPT_BYTES);
         if jumped || waits {
-            desk.marker = Marker::default();
-            if let Some(recording) = desk.running() {
+            inner.marker = Marker::default();
+            if let Some(recording) = inner.running() {
                 recording.begin(start, false);
             }
         }
@@ -127,74 +122,78 @@ impl Recorder {
 
     /// Takes the mark of the tick that was done, if one was.
     fn mark(&self, particles: &ParticleStore, rock: &Rock, air: &AirGrid, clock: &Clock) {
-        let mut desk = self.desk();
-        if desk.jumped || desk.rolling.last().is_none_or(|segment| segment.now() + 1 != clock.tick) {
+        let mut inner = self.inner();
+        if inner.rolling.segments.last().is_none_or(|segment| segment.now() + 1 != clock.tick) {
             return;
         }
-        let mark = desk.marker.mark(particles, rock, air, clock);
-        desk.rolling.mark(mark);
-        if let Some(recording) = desk.running() {
+        let mark = inner.marker.mark(particles, rock, air, clock);
+        inner.rolling.mark(mark);
+        if let Some(recording) = inner.running() {
             recording.mark(mark);
         }
     }
 
     /// The last minute as a recording.
     pub fn last_minute(&self, end: End) -> Vec<u8> {
-        self.desk().rolling.encode(end)
+        self.inner().rolling.encode(end)
     }
 
     /// Name of the scene that is played, and how many ticks of it are done.
     pub fn place(&self) -> Option<(String, u64)> {
-        self.desk().rolling.last().map(|segment| (segment.start.scene().to_owned(), segment.now()))
+        let inner = self.inner();
+        let segment = inner.rolling.segments.last()?;
+        Some((segment.start().ok()?.setup.blueprint.name.clone(), segment.now()))
     }
 
     /// Begins a recording at the state of the world; `to` is the file that it shall go to, if one is named for it.
     pub fn begin(&self, world: &World, to: Option<PathBuf>) {
-        let mut desk = self.desk();
-        (desk.recording, desk.stopped, desk.to) = (Some(Tape::default()), None, to);
-        drop(desk);
+        let mut inner = self.inner();
+        (inner.recording, inner.to) = (Some(Recording::default()), to);
+        drop(inner);
         self.keep_up(world);
     }
 
     /// The file that is named for the recording.
     pub fn destination(&self) -> Option<PathBuf> {
-        self.desk().to.clone()
+        self.inner().to.clone()
     }
 
     /// Whether there is a recording, and how many ticks it holds.
     pub fn ticks(&self) -> Option<u64> {
-        self.desk().recording.as_ref().map(Tape::ticks)
+        self.inner().recording.as_ref().map(Recording::ticks)
     }
 
     /// Whether a recording that runs takes all the memory that it may.
     pub fn is_full(&self) -> bool {
-        self.desk().running().is_some_and(|tape| tape.size_in_memory() > RECORDING_BYTES)
+        self.inner().running().is_some_and(|recording| recording.bytes() > RECORDING_BYTES)
     }
 
     /// The recording so far, which ends with `end` if it still runs.
     pub fn recording(&self, end: End) -> Option<Vec<u8>> {
-        let desk = self.desk();
-        desk.recording.as_ref().map(|tape| tape.encode(desk.stopped.unwrap_or(end)))
+        let inner = self.inner();
+        inner.recording.as_ref().map(|recording| recording.encode(end))
     }
 
     /// Ends the recording, but keeps it until it is written: it takes no more from here on.
     pub fn stop(&self, end: End) {
-        self.desk().stopped.get_or_insert(end);
+        if let Some(recording) = &mut self.inner().recording {
+            recording.end.get_or_insert(end);
+        }
     }
 
     /// Forgets the recording: it is written.
     pub fn forget(&self) {
-        let mut desk = self.desk();
-        (desk.recording, desk.stopped, desk.to) = (None, None, None);
+        let mut inner = self.inner();
+        (inner.recording, inner.to) = (None, None);
     }
 
     /// What was written since `cursor`, if it is anything.
     pub fn news(&self, cursor: &mut Cursor) -> Option<News> {
-        let desk = self.desk();
-        let segment = desk.rolling.last()?;
-        let start = (cursor.serial != desk.serial).then(|| segment.start.clone());
+        let inner = self.inner();
+        let segment = inner.rolling.segments.last()?;
+        let start = if cursor.serial == inner.serial { None } else { segment.start().ok() };
         if start.is_some() {
-            *cursor = Cursor { serial: desk.serial, entries: 0, marks: 0 };
+            *cursor = Cursor { serial: inner.serial, entries: 0, marks: 0 };
         }
         let (entries, marks) = (segment.entries[cursor.entries..].to_vec(), segment.marks[cursor.marks..].to_vec());
         cursor.entries += entries.len();
@@ -203,8 +202,8 @@ impl Recorder {
     }
 
     /// Bytes that the last minute takes, to a good approximation.
-    pub fn size_in_memory(&self) -> usize {
-        self.desk().rolling.size_in_memory()
+    pub fn bytes(&self) -> usize {
+        self.inner().rolling.bytes()
     }
 }
 

@@ -3,14 +3,11 @@
 use crate::{
     kernel::simd::InstructionSet,
     sim::{
-        control,
-        intent::IntentQueue,
+        checkpoint::SaveError,
         mark::{Mark, Marker},
-        pace::Pace,
-        recording::{End, Recording, Stretch},
-        save::SaveError,
+        recording::{End, Input, Recording, Segment},
+        simulation::Simulation,
         state::{AirGrid, Clock, ParticleStore, Rock},
-        twin::Twin,
         workers::Workers,
     },
 };
@@ -53,14 +50,12 @@ impl fmt::Display for Difference {
 /// A recording that runs again.
 pub struct Replay<'a> {
     recording: &'a Recording,
-    workers: Workers,
-    instructions: InstructionSet,
-    /// The stretch that runs, and the world of it.
-    stretch: usize,
-    twin: Twin,
-    marker: Marker,
-    entries: usize,
+    /// The segment that runs, its world, the input that waits and how many of its ticks are done.
+    segment: usize,
+    simulation: Simulation,
+    input: Input,
     marks: usize,
+    marker: Marker,
     done: u64,
 }
 
@@ -70,10 +65,10 @@ impl<'a> Replay<'a> {
     /// # Errors
     /// If a state can't be read.
     pub fn new(recording: &'a Recording, workers: Workers, instructions: InstructionSet) -> Result<Self, SaveError> {
-        Self::from_stretch(recording, 0, workers, instructions)
+        Self::from_segment(recording, 0, workers, instructions)
     }
 
-    /// The start of its last stretch.
+    /// The start of its last segment.
     ///
     /// # Errors
     /// If a state can't be read.
@@ -82,23 +77,24 @@ impl<'a> Replay<'a> {
         workers: Workers,
         instructions: InstructionSet,
     ) -> Result<Self, SaveError> {
-        Self::from_stretch(recording, recording.stretches.len() - 1, workers, instructions)
+        Self::from_segment(recording, recording.segments.len() - 1, workers, instructions)
     }
 
-    fn from_stretch(
+    fn from_segment(
         recording: &'a Recording,
-        stretch: usize,
+        segment: usize,
         workers: Workers,
         instructions: InstructionSet,
     ) -> Result<Self, SaveError> {
-        let twin = Twin::of_saved(recording.stretches[stretch].start()?, workers.clone(), instructions);
-        let marker = Marker::default();
-        Ok(Self { recording, workers, instructions, stretch, twin, marker, entries: 0, marks: 0, done: 0 })
+        let start = recording.segments[segment].start()?;
+        let simulation = Simulation::resume(&start, workers).with_instructions(instructions);
+        let input = Input::new(recording.segments[segment].entries.clone());
+        Ok(Self { recording, segment, simulation, input, marks: 0, marker: Marker::default(), done: 0 })
     }
 
     /// The world.
     pub fn world(&self) -> &World {
-        self.twin.world()
+        self.simulation.world()
     }
 
     /// Ticks that were run.
@@ -112,14 +108,14 @@ impl<'a> Replay<'a> {
     /// If it is not what was recorded.
     pub fn tick(&mut self) -> Result<bool, Difference> {
         while self.marks == self.now().marks.len() {
-            if self.stretch + 1 == self.recording.stretches.len() {
+            if self.segment + 1 == self.recording.segments.len() {
                 return Ok(false);
             }
-            self.go_to(self.stretch + 1);
+            self.go_to(self.segment + 1);
         }
         let recorded = self.now().marks[self.marks];
-        self.push_due();
-        self.twin.tick();
+        self.input.give(self.simulation.world_mut());
+        self.simulation.tick();
         self.marks += 1;
         self.done += 1;
         let found = self.mark();
@@ -135,11 +131,9 @@ impl<'a> Replay<'a> {
     /// # Errors
     /// If it is not what was recorded.
     pub fn finish(&mut self) -> Result<u64, Difference> {
-        self.push_due();
-        self.twin.world_mut().resource_mut::<Pace>().paused = true;
-        self.twin.tick();
-        self.twin.world_mut().resource_mut::<Pace>().paused = false;
-        let hash = control::hash(self.world());
+        self.input.give(self.simulation.world_mut());
+        self.simulation.apply_edits();
+        let hash = self.simulation.hash();
         match self.recording.end {
             Some(End::Stopped { hash: recorded }) if recorded != hash => {
                 let tick = self.world().resource::<Clock>().tick;
@@ -151,35 +145,25 @@ impl<'a> Replay<'a> {
 
     /// Runs one more tick than was recorded: the one in which the program panicked.
     pub fn go_beyond(&mut self) {
-        self.twin.tick();
+        self.simulation.tick();
     }
 
-    fn now(&self) -> &'a Stretch {
-        &self.recording.stretches[self.stretch]
+    fn now(&self) -> &'a Segment {
+        &self.recording.segments[self.segment]
     }
 
-    fn go_to(&mut self, stretch: usize) {
+    fn go_to(&mut self, segment: usize) {
         // Every state was looked at when the recording was read.
-        if let Ok(saved) = self.recording.stretches[stretch].start() {
-            self.twin = Twin::of_saved(saved, self.workers.clone(), self.instructions);
+        if let Ok(start) = self.recording.segments[segment].start() {
+            start.restore(self.simulation.world_mut());
         }
-        (self.stretch, self.entries, self.marks) = (stretch, 0, 0);
+        (self.segment, self.marks) = (segment, 0);
+        self.input = Input::new(self.now().entries.clone());
         self.marker = Marker::default();
     }
 
-    /// Gives the world the input that is due.
-    fn push_due(&mut self) {
-        let now = self.now().tick + self.marks as u64;
-        let waiting = self.now().entries[self.entries..].iter();
-        let mut queue = self.twin.world_mut().resource_mut::<IntentQueue>();
-        for entry in waiting.take_while(|entry| entry.tick <= now) {
-            queue.push(entry.intent);
-            self.entries += 1;
-        }
-    }
-
     fn mark(&mut self) -> Mark {
-        let world = self.twin.world();
+        let world = self.simulation.world();
         let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
         self.marker.mark(particles, rock, world.resource::<AirGrid>(), world.resource::<Clock>())
     }

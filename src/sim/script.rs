@@ -10,7 +10,7 @@ pub struct Script {
     pub scene: String,
     /// What it does, told the ticks that the scene has run. Whatever it does follows from that and the world alone, so
     /// that a scene that is begun again goes the same way. It acts by intents, which a recording holds; what it changes
-    /// by itself it has to tell the recorder ([`Recorder::jump`](crate::sim::recorder::Recorder::jump)).
+    /// by itself it has to count ([`Generation`](crate::sim::generation::Generation)).
     pub act: fn(&mut World, u64),
 }
 

@@ -1,13 +1,50 @@
-//! A world frozen between two ticks: what undo, reset and save files hold.
+//! The state of a world between two ticks: what undo, reset and save files hold.
 
 use crate::{
-    kernel::{air::Air, element::ElementId, particles::Particles, sleep::SleepRecord, solids::Solids},
+    kernel::{
+        air::Air,
+        element::ElementId,
+        particles::Particles,
+        sleep::SleepRecord,
+        solids::Solids,
+        sources::{Drain, Emitter, Wind},
+    },
     scene::{
         blueprint::Blueprint,
         effects::{Effect, Mode},
     },
-    sim::state::{Clock, Sources},
 };
+use bevy::prelude::Resource;
+use serde::{Deserialize, Serialize};
+
+/// What the scene keeps adding and taking away. Written by the source stage.
+#[derive(Resource, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Sources {
+    /// Emitters.
+    pub emitters: Vec<Emitter>,
+    /// Winds.
+    pub winds: Vec<Wind>,
+    /// Drains.
+    pub drains: Vec<Drain>,
+}
+
+/// How far the world has come.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Clock {
+    /// Ticks done since the scene began.
+    pub tick: u64,
+    /// Edits applied since the scene began: seeds the choice of sites that pouring fills.
+    pub edits: u64,
+    /// The next free particle id.
+    pub next_id: u32,
+}
+
+impl Clock {
+    /// Ticks and edits: what a world was put through, whatever it made of it.
+    pub fn seen(&self) -> (u64, u64) {
+        (self.tick, self.edits)
+    }
+}
 
 /// Everything in a world that a tick changes. What only an intent changes (gravity, quality, effects) is not in it.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,7 +59,7 @@ pub struct Snapshot {
     pub pressure: Vec<f32>,
     /// Who sleeps, and who may soon.
     pub sleep: SleepRecord,
-    /// Taps, fans and outlets with their state.
+    /// Emitters, winds and drains with their state.
     pub sources: Sources,
     /// Tick, edits, next id.
     pub clock: Clock,
@@ -57,7 +94,7 @@ impl Snapshot {
     /// Bytes that it takes, to a good approximation.
     pub fn size_in_memory(&self) -> usize {
         let air = self.air.columns() * self.air.rows() * 12;
-        self.particles.len() * 21 + self.solids.memory() + air + self.pressure.len() * 4
+        self.particles.len() * Particles::BYTES + self.solids.memory() + air + self.pressure.len() * 4
     }
 
     /// A hash over the exact bits of the state in the order of the ids (64-bit FNV-1a): equal hashes mean equal
@@ -71,12 +108,7 @@ impl Snapshot {
 pub fn hash_state(particles: &Particles, solids: &Solids, air: &Air) -> u64 {
     let mut hash = Fnv::default();
     for i in particles.in_id_order() {
-        let i = i as usize;
-        hash.word(particles.id[i]);
-        hash.word(u32::from(particles.element[i].0));
-        for value in [particles.x[i], particles.y[i], particles.vx[i], particles.vy[i]] {
-            hash.word(value.to_bits());
-        }
+        particles.get(i as usize).values().into_iter().for_each(|value| hash.word(value.word()));
     }
     for (cell, ElementId(element), id) in solids.iter() {
         for word in [cell.x as u32, cell.y as u32, u32::from(element), id] {

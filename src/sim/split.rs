@@ -10,18 +10,20 @@ use crate::{
     scene::effects::Pass,
     sim::{
         accuracy::LiveError,
+        checkpoint::Checkpoint,
         effects::Effects,
+        generation::Generation,
         intent::{Intent, IntentQueue},
         ledger::PassLedger,
         pace::Pace,
         script,
-        state::{Clock, Setup},
-        twin::{Seed, Twin},
+        simulation::Simulation,
+        state::{Clock, Setup, SolverState},
         workers::Workers,
     },
 };
 use bevy::prelude::{App, FixedUpdate, IntoScheduleConfigs, Mut, Res, Resource, World};
-use std::{sync::Arc, time::Duration};
+use std::time::Duration;
 
 /// The second world, while there is one.
 #[derive(Resource, Default)]
@@ -31,9 +33,10 @@ pub struct Split {
 
 /// The second world.
 struct Second {
-    twin: Twin,
-    /// Tick in which it was the same as the first.
+    simulation: Simulation,
+    /// Tick in which it was the same as the first, and which world that was.
     since: u64,
+    generation: Generation,
     /// Whether the first has had its quality since then.
     equal: bool,
 }
@@ -41,15 +44,16 @@ struct Second {
 impl Second {
     /// A world that goes on from the state of `first` at a quality of its own.
     fn new(first: &World, preset: Preset, quality: Quality) -> Self {
-        let mut twin = Twin::new(&Seed::of(first), first.resource::<Workers>().clone());
-        twin.world_mut().init_resource::<LiveError>();
-        twin.set_quality(preset, quality);
+        let checkpoint = Checkpoint::of(first).at_quality(preset, quality);
+        let simulation = Simulation::resume(&checkpoint, first.resource::<Workers>().clone());
+        let mut simulation = simulation.with_instructions(first.resource::<SolverState>().instructions);
+        simulation.world_mut().init_resource::<LiveError>();
         let equal = first.resource::<Setup>().quality == quality;
-        Self { twin, since: first.resource::<Clock>().tick, equal }
+        Self { simulation, since: first.resource::<Clock>().tick, generation: Generation::of(first), equal }
     }
 
     fn setup(&self) -> &Setup {
-        self.twin.world().resource()
+        self.simulation.world().resource()
     }
 
     /// Both worlds are the same again, but for the quality.
@@ -78,12 +82,12 @@ impl Split {
 
     /// The second world.
     pub fn world(&self) -> Option<&World> {
-        self.second.as_ref().map(|second| second.twin.world())
+        self.second.as_ref().map(|second| second.simulation.world())
     }
 
     /// The second world, to change between ticks.
     pub fn world_mut(&mut self) -> Option<&mut World> {
-        self.second.as_mut().map(|second| second.twin.world_mut())
+        self.second.as_mut().map(|second| second.simulation.world_mut())
     }
 
     /// Name and numbers of its quality.
@@ -122,7 +126,8 @@ pub fn is_on(split: Res<Split>) -> bool {
 fn copy_input(world: &mut World) {
     world.resource_scope(|world, mut split: Mut<Split>| {
         let Some(second) = split.second.as_mut() else { return };
-        if !are_in_step(world, second.twin.world()) {
+        // After a reset, an undo or another scene.
+        if Generation::of(world) != second.generation {
             second.start_again(world);
         }
         let own = Intent::Quality { preset: second.setup().preset, quality: second.setup().quality };
@@ -131,21 +136,14 @@ fn copy_input(world: &mut World) {
         let is_quality = |intent: &Intent| matches!(intent, Intent::Quality { .. });
         // Even there and back leaves traces: air that was carried over to other cells and back is not what it was.
         second.equal &= !input.iter().any(is_quality);
-        let twin = second.twin.world_mut();
-        let mut queue = twin.resource_mut::<IntentQueue>();
+        let simulation = second.simulation.world_mut();
+        let mut queue = simulation.resource_mut::<IntentQueue>();
         for intent in input {
             queue.push(if is_quality(&intent) { own } else { intent });
         }
-        *twin.resource_mut::<Pace>() = *world.resource::<Pace>();
-        twin.resource_mut::<Effects>().take_modes(world.resource::<Effects>());
+        *simulation.resource_mut::<Pace>() = *world.resource::<Pace>();
+        simulation.resource_mut::<Effects>().set_modes(&world.resource::<Effects>().modes());
     });
-}
-
-/// Whether the worlds have seen the same: not after a reset, an undo or another scene.
-fn are_in_step(first: &World, second: &World) -> bool {
-    let same_scene = Arc::ptr_eq(&first.resource::<Setup>().blueprint, &second.resource::<Setup>().blueprint);
-    let seen = |world: &World| world.resource::<Clock>().seen();
-    same_scene && seen(first) == seen(second)
 }
 
 /// Brings the second world as far as the first one went.
@@ -157,7 +155,7 @@ fn tick_second_world(world: &mut World) {
             second.start_again(world);
         } else {
             second.equal = equal;
-            second.twin.tick();
+            second.simulation.tick();
         }
     });
 }
@@ -167,52 +165,50 @@ mod tests {
     use super::*;
     use crate::{
         kernel::brush::{BrushShape, Stroke},
-        lab::{
-            difference::{Difference, Half},
-            headless::Headless,
-        },
+        lab::difference::{Difference, Half},
         scene::{self, effects::EffectModes},
         sim::{
             control,
+            simulation::Simulation,
             state::{AirGrid, ParticleStore},
         },
     };
     use glam::Vec2;
+    use std::sync::Arc;
 
     /// A waterfall that has run for a while, with a second world at `preset`.
-    fn split(preset: Preset) -> Headless {
+    fn split(preset: Preset) -> Simulation {
         let blueprint = scene::load("waterfall").unwrap().build(&[], None, &EffectModes::new()).unwrap();
-        let mut headless = Headless::begin_with(Workers::default(), plugin, |world| {
-            control::load(world, Arc::new(blueprint));
-        });
-        (0..40).for_each(|_| headless.tick());
-        Split::begin(headless.world_mut(), preset, preset.quality());
-        headless
+        let mut simulation =
+            Simulation::with_plugins(&Checkpoint::of_scene(Arc::new(blueprint)), Workers::default(), plugin);
+        (0..40).for_each(|_| simulation.tick());
+        Split::begin(simulation.world_mut(), preset, preset.quality());
+        simulation
     }
 
-    fn push(headless: &mut Headless, intent: Intent) {
-        headless.world_mut().resource_mut::<IntentQueue>().push(intent);
+    fn push(simulation: &mut Simulation, intent: Intent) {
+        simulation.world_mut().resource_mut::<IntentQueue>().push(intent);
     }
 
-    fn play(headless: &mut Headless) {
-        let middle = headless.world().resource::<Setup>().blueprint.domain.size / 2.0;
-        let water = headless.world().resource::<Setup>().elements().find("water").unwrap();
+    fn play(simulation: &mut Simulation) {
+        let middle = simulation.world().resource::<Setup>().blueprint.domain.size / 2.0;
+        let water = simulation.world().resource::<Setup>().elements().find("water").unwrap();
         for k in 0..30 {
             let stroke = Stroke::dab(BrushShape::Disc, middle + Vec2::new(k as f32, 0.0), 4.0);
-            push(headless, Intent::Draw { element: water, stroke });
-            push(headless, Intent::Blow { stroke, velocity: Vec2::new(80.0, 20.0) });
-            headless.tick();
+            push(simulation, Intent::Draw { element: water, stroke });
+            push(simulation, Intent::Blow { stroke, velocity: Vec2::new(80.0, 20.0) });
+            simulation.tick();
         }
     }
 
-    fn hashes(headless: &Headless) -> (u64, u64) {
-        let second = headless.world().resource::<Split>().world().expect("it is on");
-        (control::hash(headless.world()), control::hash(second))
+    fn hashes(simulation: &Simulation) -> (u64, u64) {
+        let second = simulation.world().resource::<Split>().world().expect("it is on");
+        (control::hash(simulation.world()), control::hash(second))
     }
 
-    fn difference(headless: &Headless) -> Difference {
+    fn difference(simulation: &Simulation) -> Difference {
         let mut difference = Difference::default();
-        let (first, second) = (headless.world(), headless.world().resource::<Split>().world().expect("it is on"));
+        let (first, second) = (simulation.world(), simulation.world().resource::<Split>().world().expect("it is on"));
         let half =
             |world| Half { particles: World::resource::<ParticleStore>(world), air: World::resource::<AirGrid>(world) };
         difference.measure(&first.resource::<Setup>().blueprint, half(first), half(second));
@@ -220,13 +216,13 @@ mod tests {
     }
 
     /// Sets the first world's quality.
-    fn set(headless: &mut Headless, preset: Preset) {
-        push(headless, Intent::Quality { preset, quality: preset.quality() });
+    fn set(simulation: &mut Simulation, preset: Preset) {
+        push(simulation, Intent::Quality { preset, quality: preset.quality() });
     }
 
-    fn assert_equal(headless: &Headless) {
-        let (first, second) = hashes(headless);
-        let shown = difference(headless);
+    fn assert_equal(simulation: &Simulation) {
+        let (first, second) = hashes(simulation);
+        let shown = difference(simulation);
         assert_eq!(first, second);
         assert!(shown.is_nothing(), "equal worlds differ by {:?} and {:?}", shown.liquid(), shown.wind());
         assert!(shown.wind().is_some() && shown.columns() * shown.rows() > 100, "there must be a field to compare");
@@ -234,15 +230,15 @@ mod tests {
 
     #[test]
     fn two_equal_settings_show_exactly_nothing() {
-        let mut headless = split(Preset::Balanced);
-        play(&mut headless);
-        assert_equal(&headless);
+        let mut simulation = split(Preset::Balanced);
+        play(&mut simulation);
+        assert_equal(&simulation);
         // There and back in a tick: to other iterations, and through air on other cells.
         for other in [Preset::Classic, Preset::Fine] {
-            set(&mut headless, other);
-            set(&mut headless, Preset::Balanced);
-            play(&mut headless);
-            assert_equal(&headless);
+            set(&mut simulation, other);
+            set(&mut simulation, Preset::Balanced);
+            play(&mut simulation);
+            assert_equal(&simulation);
         }
     }
 
@@ -250,55 +246,54 @@ mod tests {
     fn qualities_that_become_equal_show_nothing_from_then_on() {
         assert_eq!(Preset::Classic.quality().air_cell, Preset::Balanced.quality().air_cell);
         for other in [Preset::Classic, Preset::Draft] {
-            let mut headless = split(other);
-            play(&mut headless);
-            assert!(!difference(&headless).is_nothing(), "there must be a difference to forget");
-            set(&mut headless, other);
-            headless.tick();
-            assert_equal(&headless);
-            play(&mut headless);
-            assert_equal(&headless);
-            let tick = headless.world().resource::<Clock>().tick;
-            assert_eq!(headless.world().resource::<Split>().age(tick), Some(30));
+            let mut simulation = split(other);
+            play(&mut simulation);
+            assert!(!difference(&simulation).is_nothing(), "there must be a difference to forget");
+            set(&mut simulation, other);
+            simulation.tick();
+            assert_equal(&simulation);
+            play(&mut simulation);
+            assert_equal(&simulation);
+            let tick = simulation.world().resource::<Clock>().tick;
+            assert_eq!(simulation.world().resource::<Split>().age(tick), Some(30));
         }
     }
 
     #[test]
     fn a_quality_that_is_chosen_for_the_second_world_starts_it_from_the_first() {
-        let mut headless = split(Preset::Draft);
-        play(&mut headless);
-        let begin = |headless: &mut Headless, preset: Preset| {
-            Split::begin(headless.world_mut(), preset, preset.quality());
+        let mut simulation = split(Preset::Draft);
+        play(&mut simulation);
+        let begin = |simulation: &mut Simulation, preset: Preset| {
+            Split::begin(simulation.world_mut(), preset, preset.quality());
         };
-        begin(&mut headless, Preset::Balanced);
-        assert_equal(&headless);
-        play(&mut headless);
-        assert_equal(&headless);
-        begin(&mut headless, Preset::Classic);
-        assert_equal(&headless);
-        play(&mut headless);
-        assert!(!difference(&headless).is_nothing());
+        begin(&mut simulation, Preset::Balanced);
+        assert_equal(&simulation);
+        play(&mut simulation);
+        assert_equal(&simulation);
+        begin(&mut simulation, Preset::Classic);
+        assert_equal(&simulation);
+        play(&mut simulation);
+        assert!(!difference(&simulation).is_nothing());
     }
 
     #[test]
     fn airs_that_went_other_ways_are_a_difference_without_liquid() {
         let blueprint = scene::load("sealed_air").unwrap().build(&[], None, &EffectModes::new()).unwrap();
-        let mut headless = Headless::begin_with(Workers::default(), plugin, |world| {
-            control::load(world, Arc::new(blueprint));
-        });
-        Split::begin(headless.world_mut(), Preset::Draft, Preset::Draft.quality());
-        (0..20).for_each(|_| headless.tick());
-        let shown = difference(&headless);
+        let mut simulation =
+            Simulation::with_plugins(&Checkpoint::of_scene(Arc::new(blueprint)), Workers::default(), plugin);
+        Split::begin(simulation.world_mut(), Preset::Draft, Preset::Draft.quality());
+        (0..20).for_each(|_| simulation.tick());
+        let shown = difference(&simulation);
         assert!(!shown.is_nothing() && shown.wind().is_some_and(|wind| wind > 0.0), "{:?}", shown.wind());
     }
 
     #[test]
     fn other_settings_show_a_difference_and_the_first_world_does_not_feel_it() {
-        let mut headless = split(Preset::Draft);
-        play(&mut headless);
-        let (first, second) = hashes(&headless);
+        let mut simulation = split(Preset::Draft);
+        play(&mut simulation);
+        let (first, second) = hashes(&simulation);
         assert_ne!(first, second);
-        assert!(!difference(&headless).is_nothing() && difference(&headless).liquid() > Some(0.0));
+        assert!(!difference(&simulation).is_nothing() && difference(&simulation).liquid() > Some(0.0));
         let mut alone = split(Preset::Draft);
         alone.world_mut().resource_mut::<Split>().end();
         play(&mut alone);
@@ -308,32 +303,32 @@ mod tests {
 
     #[test]
     fn what_goes_back_in_the_first_world_starts_both_anew() {
-        let mut headless = split(Preset::Fine);
-        let before = control::freeze(headless.world());
-        play(&mut headless);
-        control::thaw(headless.world_mut(), &before);
-        headless.tick();
-        let second = headless.world().resource::<Split>();
+        let mut simulation = split(Preset::Fine);
+        let before = control::freeze(simulation.world());
+        play(&mut simulation);
+        control::thaw(simulation.world_mut(), &before);
+        simulation.tick();
+        let second = simulation.world().resource::<Split>();
         assert_eq!(second.quality(), Some((Preset::Fine, Preset::Fine.quality())), "it keeps its quality");
         let ticks = |world: &World| world.resource::<Clock>().seen();
-        assert_eq!(ticks(second.world().unwrap()), ticks(headless.world()));
-        control::reset(headless.world_mut());
-        headless.tick();
-        let second = headless.world().resource::<Split>().world().unwrap();
-        assert_eq!(ticks(second), ticks(headless.world()));
+        assert_eq!(ticks(second.world().unwrap()), ticks(simulation.world()));
+        control::reset(simulation.world_mut());
+        simulation.tick();
+        let second = simulation.world().resource::<Split>().world().unwrap();
+        assert_eq!(ticks(second), ticks(simulation.world()));
     }
 
     #[test]
     fn both_stand_while_time_stands_and_take_edits() {
-        let mut headless = split(Preset::Balanced);
-        headless.world_mut().resource_mut::<Pace>().paused = true;
-        let ticks = headless.world().resource::<Clock>().tick;
-        play(&mut headless);
-        headless.world_mut().resource_mut::<Pace>().steps_due = 1;
-        (0..3).for_each(|_| headless.tick());
-        let second = headless.world().resource::<Split>().world().unwrap();
+        let mut simulation = split(Preset::Balanced);
+        simulation.world_mut().resource_mut::<Pace>().paused = true;
+        let ticks = simulation.world().resource::<Clock>().tick;
+        play(&mut simulation);
+        simulation.world_mut().resource_mut::<Pace>().steps_due = 1;
+        (0..3).for_each(|_| simulation.tick());
+        let second = simulation.world().resource::<Split>().world().unwrap();
         assert_eq!(second.resource::<Clock>().tick, ticks + 1);
-        let (first, second) = hashes(&headless);
+        let (first, second) = hashes(&simulation);
         assert_eq!(first, second);
     }
 }

@@ -2,11 +2,10 @@
 
 use crate::{
     lab::{
-        headless::Headless,
         run::{self, Plan},
         sampler::Sampler,
     },
-    sim::workers::Workers,
+    sim::{simulation::Simulation, workers::Workers},
     web::{host, link::Link},
 };
 use std::sync::Arc;
@@ -22,10 +21,10 @@ pub fn measure(link: &str, ticks: f64, warmup: f64) -> Result<String, JsError> {
     host::tell_of_panics();
     let blueprint = Link::read(link)?.build()?;
     let plan = Plan { ticks: count("ticks", ticks)?, warmup: count("warmup", warmup)?, ..Plan::default() };
-    let mut headless = Headless::new(Arc::new(blueprint), Workers::default());
-    let mut sampler = Sampler::new(headless.world(), plan.warmup);
-    run::run(&mut headless, &plan, &mut [&mut sampler])?;
-    Ok(serde_json::to_string(&sampler.finish(headless.world()))?)
+    let mut simulation = Simulation::new(Arc::new(blueprint), Workers::default());
+    let mut sampler = Sampler::new(simulation.world(), plan.warmup);
+    run::run(&mut simulation, &plan, &mut [&mut sampler])?;
+    Ok(serde_json::to_string(&sampler.finish(simulation.world()))?)
 }
 
 /// A number of ticks as a script gives it, which knows only one kind of number.

@@ -3,7 +3,7 @@
 use crate::{
     game::{input::touch::Fingers, toasts::Toasts, window},
     lab::live::LivePlugin,
-    sim::control,
+    sim::checkpoint::Checkpoint,
     web::{hook, host, link::Link},
 };
 use std::sync::Arc;
@@ -23,7 +23,7 @@ pub fn start(link: &str, touch: bool) -> Result<(), JsError> {
     };
     let mut app = window::build(None, |app| {
         app.add_plugins(LivePlugin);
-        control::load(app.world_mut(), Arc::new(blueprint));
+        Checkpoint::of_scene(Arc::new(blueprint)).restore(app.world_mut());
     });
     app.add_plugins(hook::plugin);
     // Bevy has put its own teller in the place.

@@ -3,17 +3,14 @@
 use crate::{folder, good, metrics, refused};
 use powder_master::{
     kernel::brush::{BrushShape, Stroke},
-    lab::{
-        headless::Headless,
-        run::{self, Plan},
-    },
+    lab::run::{self, Plan},
     scene,
     sim::{
-        control,
+        checkpoint::Checkpoint,
         intent::Intent,
         recorder::{self, Recorder},
-        recording::{Recording, Writer},
-        save,
+        recording::{Entry, Recording, Writer},
+        simulation::Simulation,
         workers::Workers,
     },
 };
@@ -37,11 +34,12 @@ fn record() -> (Vec<u8>, u64) {
     ];
     intents.extend((5..40).map(|tick| (tick, Intent::Draw { element: water, stroke: tap })));
     intents.sort_by_key(|(tick, _)| *tick);
-    let mut headless =
-        Headless::begin_with(Workers::default(), recorder::plugin, |world| control::load(world, blueprint.clone()));
-    run::run(&mut headless, &Plan { ticks: 60, intents, ..Plan::default() }, &mut []).unwrap();
-    let world = headless.world();
-    (world.resource::<Recorder>().last_minute(recorder::end_now(world)), control::hash(world))
+    let input = intents.into_iter().map(|(tick, intent)| Entry { tick, intent }).collect();
+    let mut simulation =
+        Simulation::with_plugins(&Checkpoint::of_scene(blueprint), Workers::default(), recorder::plugin);
+    run::run(&mut simulation, &Plan { ticks: 60, input, ..Plan::default() }, &mut []).unwrap();
+    let world = simulation.world();
+    (world.resource::<Recorder>().last_minute(recorder::end_now(world)), simulation.hash())
 }
 
 #[test]
@@ -73,17 +71,12 @@ fn a_replay_names_the_first_tick_that_differs() {
     let here = folder("replay_differs");
     let recording = Recording::decode(&record().0).unwrap();
     let mut writer = Writer::new();
-    writer.start(&save::encode(
-        Headless::begin(Workers::default(), |world| {
-            save::load(world, recording.stretches[0].start().unwrap());
-        })
-        .world(),
-    ));
-    let stretch = &recording.stretches[0];
+    writer.start(&recording.segments[0].start().unwrap().encode());
+    let segment = &recording.segments[0];
     // One dab of the poured water is missing: that of tick 23, which makes tick 24.
-    let entries: Vec<_> = stretch.entries.iter().filter(|entry| entry.tick != 23).copied().collect();
-    assert_eq!(entries.len() + 1, stretch.entries.len());
-    writer.ticks(&entries, &stretch.marks);
+    let entries: Vec<_> = segment.entries.iter().filter(|entry| entry.tick != 23).copied().collect();
+    assert_eq!(entries.len() + 1, segment.entries.len());
+    writer.ticks(&entries, &segment.marks);
     writer.end(recording.end.unwrap());
     std::fs::write(here.join("changed.pmr"), writer.take()).unwrap();
     let says = ["changed.pmr", "tick 24 is the first that differs (number 24 of the recording)"];

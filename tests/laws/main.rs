@@ -11,7 +11,7 @@ use program::{Dependency, Program};
 use std::{collections::BTreeMap, path::Path};
 
 /// Crates: name and folder.
-const CRATES: [(&str, &str); 1] = [("powder_master", "src")];
+const CRATES: [(&str, &str); 2] = [("powder_master", "src"), ("powder_kernel", "src/kernel")];
 
 /// Layers from the lowest on: each may use itself and those before it, and those of one row not each other.
 const LAYERS: [&[&str]; 6] = [&["kernel"], &["scene"], &["sim"], &["lab"], &["game"], &["cli", "web"]];
@@ -22,8 +22,8 @@ fn dependencies() -> Vec<Dependency> {
     dependencies
 }
 
-/// A file of the lab that tests of `sim` still use.
-const KNOWN_VIOLATION: &str = "src/lab/headless.rs";
+/// Files of the lab that tests of `sim` still use.
+const KNOWN_VIOLATIONS: [&str; 2] = ["src/lab/headless.rs", "src/lab/difference.rs"];
 
 /// The layer that a file belongs to and its height. `lib.rs` and `main.rs` stand above all.
 fn layer(file: &str) -> (usize, &str) {
@@ -40,14 +40,14 @@ fn is_violation(dependency: &Dependency) -> bool {
 fn each_layer_uses_only_those_below_it() {
     let violations: Vec<_> = dependencies()
         .iter()
-        .filter(|dependency| is_violation(dependency) && dependency.to != KNOWN_VIOLATION)
+        .filter(|dependency| is_violation(dependency) && !KNOWN_VIOLATIONS.contains(&&*dependency.to))
         .map(|dependency| format!("{}:{} uses {}", dependency.from, dependency.line, dependency.to))
         .collect();
     assert!(violations.is_empty(), "against the order {LAYERS:?}:\n{}", violations.join("\n"));
 }
 
 /// Files in cycles that are known, by layer: to become fewer until there are none.
-const KNOWN: &[(&str, usize)] = &[("cli", 4), ("game", 34), ("kernel", 31), ("lab", 39), ("scene", 2), ("sim", 10)];
+const KNOWN: &[(&str, usize)] = &[("cli", 4), ("kernel", 29), ("lab", 13), ("scene", 2), ("sim", 8)];
 
 #[test]
 fn no_files_depend_on_each_other() {

@@ -116,10 +116,9 @@ impl Program {
         if source.items.contains(item) || item == "*" || depth > 9 {
             return Some(file);
         }
-        let mut named = source.imports.iter().filter(|import| import.name == *item);
-        let passed_on =
-            named.find_map(|import| self.find(&self.absolute(&module, &module, &import.mention.path, 0)?, depth + 1));
-        passed_on.or(Some(file))
+        let Some(import) = source.imports.iter().find(|import| import.name == *item) else { return Some(file) };
+        let target = self.absolute(&module, &module, &import.mention.path, 0)?;
+        self.find(&[&target, &path[length + 1..]].concat(), depth + 1)
     }
 }
 
@@ -180,11 +179,11 @@ fn a_child_that_uses_its_parents_item_needs_it_and_a_list_of_modules_needs_nothi
 #[test]
 fn a_crate_within_another_has_paths_of_its_own() {
     let found = dependencies(&[
-        ("src/lib.rs", ""),
+        ("src/lib.rs", "pub use low as deep;"),
         ("src/low/lib.rs", ""),
         ("src/low/x.rs", "use crate::y::Y;"),
         ("src/low/y.rs", "pub struct Y;"),
-        ("src/z.rs", "use low::y::Y;\nuse std::fmt::Debug;"),
+        ("src/z.rs", "use low::y::Y;\nuse std::fmt::Debug;\nuse crate::deep::y::Y;"),
     ]);
-    assert_eq!(found, ["src/low/x.rs:1 src/low/y.rs", "src/z.rs:1 src/low/y.rs"]);
+    assert_eq!(found, ["src/low/x.rs:1 src/low/y.rs", "src/z.rs:1 src/low/y.rs", "src/z.rs:3 src/low/y.rs"]);
 }

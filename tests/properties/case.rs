@@ -1,24 +1,14 @@
 //! A case: a scene file and what is done to its world. On disk it is `NAME.ron`, which the program itself opens
-//! (`powder-master run tests/cases/NAME.ron`), and beside it, if anything is done, `NAME.jsonl` with one [`Deed`] a line.
+//! (`powder-master run tests/cases/NAME.ron`), and beside it, if anything is done, `NAME.jsonl` with one [`Entry`] a line.
 
-use powder_master::sim::intent::Intent;
-use serde::{Deserialize, Serialize};
+use powder_master::sim::recording::Entry;
 use std::{
     fs, io,
     path::{Path, PathBuf},
 };
 
-/// Ticks that a case from a file without deeds runs.
+/// Ticks that a case from a file without input runs.
 const TICKS: u32 = 60;
-
-/// An intent and when it comes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Deed {
-    /// Ticks done before it.
-    pub tick: u32,
-    /// What is done.
-    pub intent: Intent,
-}
 
 /// A scene and what is done to it.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +16,7 @@ pub struct Case {
     /// Text of the scene file.
     pub scene: String,
     /// What is done, oldest first.
-    pub deeds: Vec<Deed>,
+    pub input: Vec<Entry>,
     /// Ticks to run.
     pub ticks: u32,
 }
@@ -39,32 +29,32 @@ pub fn folder() -> PathBuf {
 impl Case {
     /// Reads the case of a scene file.
     pub fn read(scene: &Path) -> io::Result<Self> {
-        let deeds = match fs::read_to_string(scene.with_extension("jsonl")) {
-            Ok(text) => text.lines().map(serde_json::from_str).collect::<Result<Vec<Deed>, _>>()?,
+        let input = match fs::read_to_string(scene.with_extension("jsonl")) {
+            Ok(text) => text.lines().map(serde_json::from_str).collect::<Result<Vec<Entry>, _>>()?,
             Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
             Err(error) => return Err(error),
         };
-        let ticks = TICKS + deeds.last().map_or(0, |deed| deed.tick);
-        Ok(Self { scene: fs::read_to_string(scene)?, deeds, ticks })
+        let ticks = TICKS + input.last().map_or(0, |entry| entry.tick as u32);
+        Ok(Self { scene: fs::read_to_string(scene)?, input, ticks })
     }
 
     /// Keeps it as `found-HASH`; returns the scene file.
     pub fn keep(&self) -> io::Result<PathBuf> {
-        let mut deeds = String::new();
-        for deed in &self.deeds {
-            deeds += &serde_json::to_string(deed)?;
-            deeds.push('\n');
+        let mut input = String::new();
+        for entry in &self.input {
+            input += &serde_json::to_string(entry)?;
+            input.push('\n');
         }
         // 64-bit FNV-1a: the same failure is kept once.
         let hash =
-            self.scene.bytes().chain(deeds.bytes()).fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+            self.scene.bytes().chain(input.bytes()).fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
                 (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
             });
         let scene = folder().join(format!("found-{hash:016x}.ron"));
         fs::create_dir_all(folder())?;
         fs::write(&scene, &self.scene)?;
-        if !deeds.is_empty() {
-            fs::write(scene.with_extension("jsonl"), deeds)?;
+        if !input.is_empty() {
+            fs::write(scene.with_extension("jsonl"), input)?;
         }
         Ok(scene)
     }

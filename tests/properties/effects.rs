@@ -7,7 +7,7 @@
 //! of that kind must be the same with `on`; one in which the effect never ran, with `off`.
 
 use super::{case::Case, hands, scenes};
-use crate::support::Sandbox;
+use crate::support::SimulationExt;
 use powder_master::{
     kernel::params::Preset,
     scene::{
@@ -15,7 +15,13 @@ use powder_master::{
         blueprint::Blueprint,
         effects::{Effect, EffectModes, Mode},
     },
-    sim::{effects::Effects, intent::Intent, stages::TickPlan},
+    sim::{
+        effects::Effects,
+        intent::Intent,
+        recording::{Entry, Input},
+        simulation::Simulation,
+        stages::TickPlan,
+    },
 };
 use proptest::{
     prelude::*,
@@ -47,28 +53,25 @@ struct Outcome {
 fn run(blueprint: &Blueprint, case: &Case, effect: Effect, mode: Mode) -> Result<Outcome, String> {
     let mut blueprint = blueprint.clone();
     blueprint.effects.insert(effect, mode);
-    let mut sandbox = Sandbox::of(blueprint);
-    let mut deeds = case.deeds.iter().peekable();
-    let calls = |sandbox: &Sandbox| effect.row().passes.iter().map(|pass| sandbox.calls(*pass)).sum::<u64>();
+    let mut simulation = Simulation::of(blueprint);
+    // What is said of the effect in question is left out.
+    let keeps = |entry: &&Entry| !matches!(entry.intent, Intent::Effect { effect: switched, .. } if switched == effect);
+    let mut input = Input::new(case.input.iter().filter(keeps).copied().collect());
+    let calls = |simulation: &Simulation| effect.row().passes.iter().map(|pass| simulation.calls(*pass)).sum::<u64>();
     for tick in 0..case.ticks {
-        while let Some(deed) = deeds.next_if(|deed| deed.tick <= tick) {
-            // The others may be switched by hand.
-            if !matches!(deed.intent, Intent::Effect { effect: switched, .. } if switched == effect) {
-                sandbox.push(deed.intent);
-            }
-        }
-        let before = calls(&sandbox);
-        sandbox.tick(1);
-        let (added, runs) = (calls(&sandbox) - before, sandbox.get::<Effects>().get(effect).running);
+        input.give(simulation.world_mut());
+        let before = calls(&simulation);
+        simulation.run(1);
+        let (added, runs) = (calls(&simulation) - before, simulation.get::<Effects>().get(effect).running);
         // A stage of a substep is called once in each at most; sleep has four of them, and a look at either end.
-        let most = if runs { 4 * u64::from(sandbox.get::<TickPlan>().substeps) + 2 } else { 0 };
+        let most = if runs { 4 * u64::from(simulation.get::<TickPlan>().substeps) + 2 } else { 0 };
         if added > most {
             return Err(format!("{} {mode:?}: {added} calls in tick {tick}, {most} allowed", effect.name()));
         }
     }
-    let state = sandbox.get::<Effects>().get(effect);
+    let state = simulation.get::<Effects>().get(effect);
     let (active, differing) = (state.active_ticks, state.differing_ticks);
-    Ok(Outcome { hash: sandbox.hash(), active, differing, calls: calls(&sandbox) })
+    Ok(Outcome { hash: simulation.hash(), active, differing, calls: calls(&simulation) })
 }
 
 /// Which of the two claims a case was good for.
@@ -112,7 +115,7 @@ fn judge(blueprint: &Blueprint, case: &Case, effect: Effect) -> Result<Held, Str
 
 /// A built-in scene as it is, as a case in which nothing is done.
 fn still(ticks: u32) -> Case {
-    Case { scene: String::new(), deeds: Vec::new(), ticks }
+    Case { scene: String::new(), input: Vec::new(), ticks }
 }
 
 #[test]
@@ -145,7 +148,7 @@ fn random() -> impl Strategy<Value = (Case, Effect)> {
     let effect = (0..Effect::ALL.len()).prop_map(|k| Effect::ALL[k]);
     let case = scenes::scene().prop_flat_map(|scene| {
         let ticks = (WORK / scene.work).clamp(TICKS.0, TICKS.1) as u32;
-        hands::deeds(scene.size, ticks).prop_map(move |deeds| Case { scene: scene.text.clone(), deeds, ticks })
+        hands::input(scene.size, ticks).prop_map(move |input| Case { scene: scene.text.clone(), input, ticks })
     });
     (case, effect)
 }

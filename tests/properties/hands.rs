@@ -1,6 +1,5 @@
 //! Random hands: what tools and keys can ask of a world, sensible or not.
 
-use super::case::Deed;
 use crate::support::{ROCK, WATER};
 use glam::Vec2;
 use powder_master::{
@@ -10,7 +9,7 @@ use powder_master::{
         params::Preset,
     },
     scene::effects::{Effect, Mode},
-    sim::intent::Intent,
+    sim::{intent::Intent, recording::Entry},
 };
 use proptest::prelude::*;
 
@@ -64,10 +63,10 @@ fn mode() -> impl Strategy<Value = Mode> {
 }
 
 /// What is done to a world of `size` d in `ticks` ticks, oldest first.
-pub fn deeds(size: Vec2, ticks: u32) -> impl Strategy<Value = Vec<Deed>> {
-    let deed = (0..ticks.max(1), intent(size)).prop_map(|(tick, intent)| Deed { tick, intent });
-    prop::collection::vec(deed, 0..10).prop_map(|mut deeds| {
-        deeds.sort_by_key(|deed| deed.tick);
-        deeds
+pub fn input(size: Vec2, ticks: u32) -> impl Strategy<Value = Vec<Entry>> {
+    let entry = (0..u64::from(ticks.max(1)), intent(size)).prop_map(|(tick, intent)| Entry { tick, intent });
+    prop::collection::vec(entry, 0..10).prop_map(|mut input| {
+        input.sort_by_key(|entry| entry.tick);
+        input
     })
 }

@@ -31,10 +31,10 @@ fn a_case_survives_its_files() {
     let folder = std::env::temp_dir().join(format!("powder-master-case-{}", std::process::id()));
     fs::create_dir_all(&folder).expect("a temporary folder");
     let file = folder.join("one.ron");
-    let deed = case::Deed { tick: 7, intent: powder_master::sim::intent::Intent::ClearAir };
+    let entry = powder_master::sim::recording::Entry { tick: 7, intent: powder_master::sim::intent::Intent::ClearAir };
     fs::write(&file, "(title: \"One\", spacing: 1, size: (8, 8))").expect("can be written");
-    fs::write(file.with_extension("jsonl"), serde_json::to_string(&deed).expect("JSON")).expect("can be written");
+    fs::write(file.with_extension("jsonl"), serde_json::to_string(&entry).expect("JSON")).expect("can be written");
     let read = Case::read(&file).expect("can be read");
-    assert_eq!((read.deeds, read.ticks), (vec![deed], 67));
+    assert_eq!((read.input, read.ticks), (vec![entry], 67));
     fs::remove_dir_all(folder).expect("can be removed");
 }

@@ -16,7 +16,7 @@ const TICKS: (f64, f64) = (2.0, 90.0);
 fn case() -> impl Strategy<Value = Case> {
     scenes::scene().prop_flat_map(|scene| {
         let ticks = (WORK / scene.work).clamp(TICKS.0, TICKS.1) as u32;
-        hands::deeds(scene.size, ticks).prop_map(move |deeds| Case { scene: scene.text.clone(), deeds, ticks })
+        hands::input(scene.size, ticks).prop_map(move |input| Case { scene: scene.text.clone(), input, ticks })
     })
 }
 
@@ -55,7 +55,7 @@ fn no_scene_and_no_hand_breaks_a_rule() {
         }
         Err(TestError::Fail(fault, case)) => {
             let kept = case.keep().map_or_else(|error| error.to_string(), |path| path.display().to_string());
-            panic!("{fault}\nkept as {kept}\n{}\n{:?}", case.scene, case.deeds);
+            panic!("{fault}\nkept as {kept}\n{}\n{:?}", case.scene, case.input);
         }
         Err(TestError::Abort(why)) => panic!("{why}"),
     }

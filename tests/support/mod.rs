@@ -1,26 +1,16 @@
-//! A headless game to test: the simulation's own plugin in a bare `App`, one tick an update, and what tests keep asking
-//! of it.
+//! Worlds to test, and what tests keep asking of a simulation.
 
-use bevy::{
-    MinimalPlugins,
-    app::App,
-    prelude::{Fixed, Time},
-    time::TimeUpdateStrategy,
-};
 use glam::Vec2;
 use powder_master::{
-    kernel::{
-        element::ElementId, params::Domain, particles::Particles, pbf::Solver, simd::InstructionSet, solids::Solids,
-    },
+    kernel::{element::ElementId, params::Domain, particles::Particles, pbf::Solver, solids::Solids},
     scene::{
         self,
         blueprint::Blueprint,
         effects::{EffectModes, Pass},
     },
     sim::{
-        SimulationPlugin, control,
-        intent::{Intent, IntentQueue},
         ledger::PassLedger,
+        simulation::Simulation,
         state::{Census, Counters, ParticleStore, Rock, SolverState},
         workers::Workers,
     },
@@ -64,7 +54,7 @@ pub trait Furnish {
 pub const NUDGE: f32 = 1e-5;
 
 /// Root of the mean square of the distances of each particle of `other` to that of `one`, taken to its `place`, d.
-pub fn apart(one: &Sandbox, other: &Sandbox, place: impl Fn(Vec2) -> Vec2) -> f64 {
+pub fn apart(one: &Simulation, other: &Simulation, place: impl Fn(Vec2) -> Vec2) -> f64 {
     let (a, b) = (one.particles(), other.particles());
     assert_eq!(a.len(), b.len());
     let square = |(i, j): (u32, u32)| f64::from(place(a.position(i as usize)).distance_squared(b.position(j as usize)));
@@ -106,111 +96,74 @@ impl Furnish for Blueprint {
     }
 }
 
-/// A world that runs.
-pub struct Sandbox {
-    /// The app, for what has no shortcut here.
-    pub app: App,
-}
-
-impl Sandbox {
+/// What tests keep asking of a simulation.
+pub trait SimulationExt: Sized {
     /// The start of a blueprint.
-    pub fn of(blueprint: Blueprint) -> Self {
-        let mut app = App::new();
-        app.add_plugins((MinimalPlugins, SimulationPlugin));
-        app.insert_resource(Time::<Fixed>::from_hz(60.0));
-        app.insert_resource(TimeUpdateStrategy::FixedTimesteps(1));
-        control::load(app.world_mut(), Arc::new(blueprint));
-        app.finish();
-        app.cleanup();
-        // The clock's first update has no time in it and runs no tick.
-        app.update();
-        Self { app }
-    }
-
+    fn of(blueprint: Blueprint) -> Self;
     /// The start of a built-in scene.
-    pub fn scene(scene: &str, settings: &[(&str, &str)]) -> Self {
+    fn scene(scene: &str, settings: &[(&str, &str)]) -> Self {
         Self::of(blueprint(scene, settings))
     }
-
     /// Uses exactly `threads` threads from here on.
-    pub fn with_threads(mut self, threads: usize) -> Self {
-        self.app.insert_resource(Workers::new(threads).unwrap_or_else(|error| panic!("{error}")));
-        self
-    }
-
-    /// Uses the lanes of `set` from here on.
-    pub fn with_lanes(mut self, set: InstructionSet) -> Self {
-        self.app.world_mut().resource_mut::<SolverState>().instructions = set;
-        self
-    }
-
+    fn with_threads(self, threads: usize) -> Self;
     /// Uses another solver from here on.
-    pub fn with_solver(mut self, solver: Solver) -> Self {
-        self.app.insert_resource(SolverState(solver));
-        self
-    }
-
-    /// Runs `ticks` ticks.
-    pub fn tick(&mut self, ticks: u32) -> &mut Self {
-        for _ in 0..ticks {
-            self.app.update();
-        }
-        self
-    }
-
-    /// Queues an intent for the next tick.
-    pub fn push(&mut self, intent: Intent) -> &mut Self {
-        self.app.world_mut().resource_mut::<IntentQueue>().push(intent);
-        self
-    }
-
-    /// Hash of the state.
-    pub fn hash(&self) -> u64 {
-        control::hash(self.app.world())
-    }
-
+    fn with_solver(self, solver: Solver) -> Self;
     /// The movable particles.
-    pub fn particles(&self) -> &Particles {
-        self.app.world().resource::<ParticleStore>()
-    }
-
+    fn particles(&self) -> &Particles;
     /// The movable particles, to change them between ticks.
-    pub fn particles_mut(&mut self) -> &mut Particles {
-        &mut self.app.world_mut().resource_mut::<ParticleStore>().into_inner().0
-    }
-
+    fn particles_mut(&mut self) -> &mut Particles;
     /// The rock.
-    pub fn rock(&self) -> &Rock {
-        self.app.world().resource::<Rock>()
-    }
-
+    fn rock(&self) -> &Rock;
     /// What the limiters did.
-    pub fn counters(&self) -> Counters {
-        *self.app.world().resource::<Counters>()
-    }
-
+    fn counters(&self) -> Counters;
     /// Particles by element.
-    pub fn census(&self) -> &Census {
-        self.app.world().resource::<Census>()
-    }
-
+    fn census(&self) -> &Census;
     /// Calls of a pass since the ledger was cleared.
-    pub fn calls(&self, pass: Pass) -> u64 {
-        self.app.world().resource::<PassLedger>().record(pass).calls
-    }
-
-    /// A resource.
-    pub fn get<R: bevy::prelude::Resource>(&self) -> &R {
-        self.app.world().resource::<R>()
-    }
-
-    /// A resource, to change it between ticks.
-    pub fn get_mut<R: bevy::prelude::Resource<Mutability = bevy::ecs::component::Mutable>>(&mut self) -> &mut R {
-        self.app.world_mut().resource_mut::<R>().into_inner()
-    }
-
+    fn calls(&self, pass: Pass) -> u64;
     /// Root of the mean square of the speeds, d a tick.
-    pub fn rms_speed(&self) -> f64 {
+    fn rms_speed(&self) -> f64;
+}
+
+impl SimulationExt for Simulation {
+    fn of(blueprint: Blueprint) -> Self {
+        Self::new(Arc::new(blueprint), Workers::default())
+    }
+
+    fn with_threads(mut self, threads: usize) -> Self {
+        *self.get_mut::<Workers>() = Workers::new(threads).unwrap_or_else(|error| panic!("{error}"));
+        self
+    }
+
+    fn with_solver(mut self, solver: Solver) -> Self {
+        self.get_mut::<SolverState>().0 = solver;
+        self
+    }
+
+    fn particles(&self) -> &Particles {
+        self.get::<ParticleStore>()
+    }
+
+    fn particles_mut(&mut self) -> &mut Particles {
+        &mut self.get_mut::<ParticleStore>().0
+    }
+
+    fn rock(&self) -> &Rock {
+        self.get()
+    }
+
+    fn counters(&self) -> Counters {
+        *self.get()
+    }
+
+    fn census(&self) -> &Census {
+        self.get()
+    }
+
+    fn calls(&self, pass: Pass) -> u64 {
+        self.get::<PassLedger>().record(pass).calls
+    }
+
+    fn rms_speed(&self) -> f64 {
         let particles = self.particles();
         let sum: f64 = (0..particles.len()).map(|i| f64::from(particles.velocity(i).length_squared())).sum();
         (sum / particles.len().max(1) as f64).sqrt() / 60.0

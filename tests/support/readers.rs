@@ -5,15 +5,13 @@
 use bevy::app::Plugins;
 use powder_master::{
     kernel::simd::InstructionSet,
-    lab::headless::Headless,
     scene::{self, SceneError, builtin_names, effects::EffectModes, readers},
     sim::{
-        control,
+        checkpoint::Checkpoint,
         recording::{Recording, Writer},
         replay::Replay,
-        save,
+        simulation::Simulation,
         snapshot::Snapshot,
-        state::Setup,
         workers::Workers,
     },
     web::link::Link,
@@ -98,9 +96,9 @@ fn read_recording(bytes: &[u8]) {
             // Each state in it is a save file of its own.
             Ok(recording) => {
                 let mut is_cheap = true;
-                for state in recording.stretches.iter().map(|stretch| stretch.start()) {
+                for state in recording.segments.iter().map(|segment| segment.start()) {
                     match state {
-                        Ok(saved) => is_cheap &= go_on(saved),
+                        Ok(start) => is_cheap &= go_on(&start),
                         Err(error) => one_line(error),
                     }
                 }
@@ -163,26 +161,28 @@ const MAGIC: &[u8] = b"PowderMaster\n";
 
 fn empty_save() -> &'static [u8] {
     static EMPTY: std::sync::OnceLock<Vec<u8>> = std::sync::OnceLock::new();
-    EMPTY.get_or_init(|| save::encode(small_world(()).world()))
+    EMPTY.get_or_init(|| Checkpoint::of(small_world(()).world()).encode())
 }
 
 /// The small scene.
-pub fn small_world<M>(plugins: impl Plugins<M>) -> Headless {
+pub fn small_world<M>(plugins: impl Plugins<M>) -> Simulation {
     world_of(SMALL, plugins)
 }
 
 /// A scene with more plugins, not yet run.
-pub fn world_of<M>(text: &'static str, plugins: impl Plugins<M>) -> Headless {
+pub fn world_of<M>(text: &'static str, plugins: impl Plugins<M>) -> Simulation {
     let blueprint = scene::from_text("small", text).and_then(|file| file.build(&[], None, &EffectModes::new()));
     let blueprint = blueprint.unwrap_or_else(|error| panic!("{error}"));
-    Headless::begin_with(Workers::single(), plugins, |world| control::load(world, std::sync::Arc::new(blueprint)))
+    Simulation::with_plugins(&Checkpoint::of_scene(std::sync::Arc::new(blueprint)), Workers::single(), plugins)
 }
 
 /// A whole save file, or what stands behind its header.
 fn read_save(bytes: &[u8]) {
     let whole = if bytes.starts_with(MAGIC) { bytes.to_vec() } else { sealed(bytes) };
-    match save::decode(&whole) {
-        Ok(saved) => drop(go_on(saved)),
+    match Checkpoint::decode(&whole) {
+        Ok(start) => {
+            go_on(&start);
+        }
         Err(error) => one_line(error),
     }
 }
@@ -199,18 +199,18 @@ fn replay(recording: &Recording) {
 }
 
 /// What was accepted must also run, if that is cheap; whether it is.
-fn go_on(saved: save::Saved) -> bool {
-    let Snapshot { particles, solids, air, .. } = saved.snapshot();
+fn go_on(start: &Checkpoint) -> bool {
+    let Snapshot { particles, solids, air, .. } = &*start.state;
     let cells = (solids.columns() * solids.rows()) as usize + air.columns() * air.rows();
     if cells > FEW || particles.len() > 256 {
         return false;
     }
-    let mut world = Headless::begin(Workers::single(), |world| save::load(world, saved));
-    let quality = world.world().resource::<Setup>().quality;
+    let quality = start.setup.quality;
     let is_cheap = quality.substeps * quality.iterations <= 16;
     if is_cheap {
-        world.tick();
-        control::hash(world.world());
+        let mut simulation = Simulation::resume(start, Workers::single());
+        simulation.tick();
+        simulation.hash();
     }
     is_cheap
 }

@@ -1,6 +1,6 @@
 //! The same inputs give the same bits: on every instruction set, on any number of threads, however neighbours are found.
 
-use crate::support::{Furnish, ROCK, Random, Sandbox, WATER, empty_box};
+use crate::support::{Furnish, ROCK, Random, SimulationExt, WATER, empty_box};
 use glam::Vec2;
 use powder_master::{
     kernel::{
@@ -15,7 +15,7 @@ use powder_master::{
         blueprint::Blueprint,
         effects::{Effect, Mode},
     },
-    sim::{intent::Intent, state::AirGrid},
+    sim::{intent::Intent, simulation::Simulation, state::AirGrid},
 };
 
 /// A column of water that falls over a rock, with every effect on.
@@ -34,7 +34,7 @@ fn every_instruction_set_gives_the_same_bits() {
         let run = |set| {
             let mut blueprint = busy(9);
             blueprint.quality.gradient = gradient;
-            (set, Sandbox::of(blueprint).with_lanes(set).tick(600).hash())
+            (set, Simulation::of(blueprint).with_instructions(set).run(600).hash())
         };
         let runs: Vec<(InstructionSet, u64)> = InstructionSet::available().into_iter().map(run).collect();
         assert!(runs.len() >= 2, "one instruction set alone proves nothing");
@@ -45,9 +45,9 @@ fn every_instruction_set_gives_the_same_bits() {
 #[test]
 fn every_number_of_threads_gives_the_same_bits() {
     let run = |threads| {
-        let mut sandbox = Sandbox::of(busy(56)).with_threads(threads);
-        assert!(sandbox.particles().len() >= 6_000, "below the sharing threshold nothing is shared");
-        (threads, sandbox.tick(30).hash())
+        let mut simulation = Simulation::of(busy(56)).with_threads(threads);
+        assert!(simulation.particles().len() >= 6_000, "below the sharing threshold nothing is shared");
+        (threads, simulation.run(30).hash())
     };
     let runs = [1, 2, 3, 8].map(run);
     assert!(runs.iter().all(|run| run.1 == runs[0].1), "hashes differ with the number of threads: {runs:x?}");
@@ -60,7 +60,7 @@ fn binned_neighbours_equal_all_pairs() {
             let mut blueprint = busy(9);
             (blueprint.preset, blueprint.quality) = (preset, preset.quality());
             let solver = Solver::new(InstructionSet::detect(), neighbours);
-            Sandbox::of(blueprint).with_solver(solver).tick(300).hash()
+            Simulation::of(blueprint).with_solver(solver).run(300).hash()
         };
         assert_eq!(
             run(Neighbours::Binned),
@@ -75,17 +75,17 @@ fn binned_neighbours_equal_all_pairs() {
 fn the_same_inputs_give_the_same_world_and_others_another() {
     let run = |seed: u64| {
         let mut random = Random::new(seed);
-        let mut sandbox = Sandbox::of(busy(9));
+        let mut simulation = Simulation::of(busy(9));
         for _ in 0..60 {
             let stroke = Stroke::dab(BrushShape::Disc, random.point(Vec2::new(36.0, 27.0)), random.within(0.0, 3.0));
-            sandbox.push(match random.index(3) {
+            simulation.push(match random.index(3) {
                 0 => Intent::Erase { stroke },
                 1 => Intent::Blow { stroke, velocity: random.point(Vec2::splat(100.0)) },
                 _ => Intent::Draw { element: WATER, stroke },
             });
-            sandbox.tick(1);
+            simulation.run(1);
         }
-        sandbox.hash()
+        simulation.hash()
     };
     assert_eq!(run(1), run(1), "two runs of the same inputs differ");
     assert_ne!(run(1), run(2), "the hash does not see the inputs");
@@ -107,25 +107,25 @@ const STANDARD: [(&str, &[(&str, &str)]); 8] = [
 /// Hash of a standard scene after 600 ticks, and whether threads had anything to share in it. `empty` is built in: water
 /// on a ledge of rock, in wind.
 fn standard_run(scene: &str, settings: &[(&str, &str)], set: InstructionSet, threads: usize) -> (u64, bool) {
-    let mut sandbox = Sandbox::scene(scene, settings).with_threads(threads).with_lanes(set);
+    let mut simulation = Simulation::scene(scene, settings).with_threads(threads).with_instructions(set);
     let at = |x: f32, y: f32| Vec2::new(x, y);
     if scene == "empty" {
         let ledge = Stroke { shape: BrushShape::Square, from: at(500.0, 60.0), to: at(600.0, 60.0), radius: 4.0 };
         let drop = Stroke::dab(BrushShape::Disc, at(560.0, 120.0), 20.0);
-        sandbox.push(Intent::Stamp { element: ROCK, stroke: ledge });
-        sandbox.push(Intent::Stamp { element: WATER, stroke: drop });
+        simulation.push(Intent::Stamp { element: ROCK, stroke: ledge });
+        simulation.push(Intent::Stamp { element: WATER, stroke: drop });
     }
     let mut shared = false;
     for step in 0..20 {
         if scene == "empty" {
             let gust = Stroke::dab(BrushShape::Disc, at(200.0 + 40.0 * step as f32, 200.0), 150.0);
-            sandbox.push(Intent::Blow { stroke: gust, velocity: at(120.0, -40.0) });
+            simulation.push(Intent::Blow { stroke: gust, velocity: at(120.0, -40.0) });
         }
-        sandbox.tick(30);
-        let air = sandbox.get::<AirGrid>();
-        shared |= sandbox.particles().len() >= 6_000 || (air.is_worth_sharing() && !air.is_quiet());
+        simulation.run(30);
+        let air = simulation.get::<AirGrid>();
+        shared |= simulation.particles().len() >= 6_000 || (air.is_worth_sharing() && !air.is_quiet());
     }
-    (sandbox.hash(), shared)
+    (simulation.hash(), shared)
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Particles drag the air along (`air_feedback`).
 
-use crate::support::{Furnish, ROCK, Sandbox, WATER, empty_box};
+use crate::support::{Furnish, ROCK, SimulationExt, WATER, empty_box};
 use glam::{DVec2, Vec2};
 use powder_master::{
     kernel::{
@@ -12,7 +12,7 @@ use powder_master::{
         blueprint::Blueprint,
         effects::{Effect, Mode, Pass},
     },
-    sim::{effects::Effects, intent::Intent, state::AirGrid},
+    sim::{effects::Effects, intent::Intent, simulation::Simulation, state::AirGrid},
 };
 
 fn area(min: (f32, f32), max: (f32, f32)) -> Rect {
@@ -20,8 +20,8 @@ fn area(min: (f32, f32), max: (f32, f32)) -> Rect {
 }
 
 /// Mean velocity of the air in the cells whose centre is in an area, d/s.
-fn wind_in(sandbox: &Sandbox, area: Rect) -> Vec2 {
-    let air = sandbox.get::<AirGrid>();
+fn wind_in(simulation: &Simulation, area: Rect) -> Vec2 {
+    let air = simulation.get::<AirGrid>();
     let (mut sum, mut count) = (Vec2::ZERO, 0.0);
     for row in 0..air.rows() {
         for column in 0..air.columns() {
@@ -39,8 +39,8 @@ fn dab(x: f32, y: f32) -> Stroke {
 }
 
 /// Mean speed there, d/s.
-fn speed_in(sandbox: &Sandbox, area: Rect) -> f32 {
-    let air = sandbox.get::<AirGrid>();
+fn speed_in(simulation: &Simulation, area: Rect) -> f32 {
+    let air = simulation.get::<AirGrid>();
     let cells = (0..air.rows()).flat_map(|row| (0..air.columns()).map(move |column| (column, row)));
     let inside =
         cells.filter(|&(column, row)| area.contains(Vec2::new(column as f32 + 0.5, row as f32 + 0.5) * air.cell()));
@@ -48,9 +48,9 @@ fn speed_in(sandbox: &Sandbox, area: Rect) -> f32 {
     speeds.iter().sum::<f32>() / speeds.len() as f32
 }
 
-fn with_feedback(mut blueprint: Blueprint, mode: Mode) -> Sandbox {
+fn with_feedback(mut blueprint: Blueprint, mode: Mode) -> Simulation {
     blueprint.effects.insert(Effect::AirFeedback, mode);
-    Sandbox::of(blueprint)
+    Simulation::of(blueprint)
 }
 
 #[test]
@@ -63,18 +63,18 @@ fn particles_and_air_keep_their_momentum() {
         let place = Vec2::new(70.0 + (i % 20) as f32 * 1.3, 70.0 + (i / 20) as f32 * 1.3);
         blueprint.water(place, Vec2::new(60.0 + (i % 7) as f32, (i % 11) as f32));
     }
-    let mut sandbox = with_feedback(blueprint, Mode::On);
-    let momentum = |sandbox: &Sandbox| {
-        let (air, particles) = (sandbox.get::<AirGrid>(), sandbox.particles());
+    let mut simulation = with_feedback(blueprint, Mode::On);
+    let momentum = |simulation: &Simulation| {
+        let (air, particles) = (simulation.get::<AirGrid>(), simulation.particles());
         let water = (0..particles.len()).map(|i| particles.velocity(i).as_dvec2() * 1000.0);
         air.momentum() * 1.2 + water.fold(DVec2::ZERO, |sum, part| sum + part)
     };
-    let (start, air_before) = (momentum(&sandbox), sandbox.get::<AirGrid>().momentum());
+    let (start, air_before) = (momentum(&simulation), simulation.get::<AirGrid>().momentum());
     // The sound that they make has not reached a wall yet.
-    sandbox.tick(3);
-    let drift = (momentum(&sandbox) - start).length() / start.length();
+    simulation.run(3);
+    let drift = (momentum(&simulation) - start).length() / start.length();
     assert!(drift < 1e-5, "momentum drifts by {drift}");
-    let gained = (sandbox.get::<AirGrid>().momentum() - air_before).length() * 1.2 / start.length();
+    let gained = (simulation.get::<AirGrid>().momentum() - air_before).length() * 1.2 / start.length();
     assert!(gained > 1e-3, "the air gained {gained} of it: nothing to see");
 }
 
@@ -93,9 +93,9 @@ fn a_spray_drags_a_draught_along() {
             given: 0,
             due: 0.0,
         });
-        let mut sandbox = with_feedback(blueprint, mode);
-        sandbox.tick(60);
-        wind_in(&sandbox, area((30.0, 32.0), (120.0, 48.0))).x
+        let mut simulation = with_feedback(blueprint, mode);
+        simulation.run(60);
+        wind_in(&simulation, area((30.0, 32.0), (120.0, 48.0))).x
     };
     let (off, auto) = (wind(Mode::Off), wind(Mode::Auto));
     assert_eq!(off, 0.0, "the air moves although nothing gives it anything");
@@ -111,12 +111,12 @@ fn water_that_falls_down_a_shaft_pushes_the_air_out_below() {
         blueprint.rock((12, 40), (16, 220));
         blueprint.rock((32, 40), (36, 220));
         blueprint.pool((16, 190), (32, 206));
-        let mut sandbox = with_feedback(blueprint, mode);
+        let mut simulation = with_feedback(blueprint, mode);
         // It falls some 85 d: its lower end is still well inside.
-        sandbox.tick(75);
-        let lowest = sandbox.particles().y.iter().copied().fold(f32::INFINITY, f32::min);
+        simulation.run(75);
+        let lowest = simulation.particles().y.iter().copied().fold(f32::INFINITY, f32::min);
         assert!(lowest > 60.0, "the water is out already: {lowest}");
-        wind_in(&sandbox, area((18.0, 30.0), (30.0, 44.0))).y
+        wind_in(&simulation, area((18.0, 30.0), (30.0, 44.0))).y
     };
     let (off, auto) = (out(Mode::Off), out(Mode::Auto));
     assert_eq!(off, 0.0);
@@ -132,11 +132,11 @@ fn a_pool_shields_its_depth_from_a_gale() {
         blueprint.pool((0, 0), (200, 20));
         let (velocity, rate) = (Vec2::new(150.0, 0.0), 20.0);
         blueprint.winds.push(Wind { area: area((0.0, 24.0), (200.0, 80.0)), velocity, rate });
-        let mut sandbox = with_feedback(blueprint, mode);
-        sandbox.tick(40);
-        let particles = sandbox.particles();
+        let mut simulation = with_feedback(blueprint, mode);
+        simulation.run(40);
+        let particles = simulation.particles();
         let pushed = particles.vx.iter().sum::<f32>() / particles.len() as f32;
-        (speed_in(&sandbox, area((40.0, 0.0), (160.0, 12.0))), pushed)
+        (speed_in(&simulation, area((40.0, 0.0), (160.0, 12.0))), pushed)
     };
     let (off, auto) = (run(Mode::Off), run(Mode::Auto));
     println!("wind in the depth and speed of the water: {off:?} without, {auto:?} with feedback");
@@ -147,24 +147,24 @@ fn a_pool_shields_its_depth_from_a_gale() {
 
 #[test]
 fn no_grid_is_built_where_nothing_moves_the_air() {
-    let built = |sandbox: &Sandbox| sandbox.get::<AirGrid>().is_built();
+    let built = |simulation: &Simulation| simulation.get::<AirGrid>().is_built();
     let mut blueprint = empty_box(100, 60);
     blueprint.domain.gravity = Vec2::new(0.0, -98.1);
     blueprint.pool((0, 0), (100, 10));
     blueprint.rock((40, 10), (44, 30));
-    let mut sandbox = with_feedback(blueprint, Mode::Off);
-    assert!(!built(&sandbox));
-    let hash = sandbox.tick(10).hash();
-    assert!(!built(&sandbox), "a pool at rest has a grid of air");
+    let mut simulation = with_feedback(blueprint, Mode::Off);
+    assert!(!built(&simulation));
+    let hash = simulation.run(10).hash();
+    assert!(!built(&simulation), "a pool at rest has a grid of air");
     // The same world with a grid.
-    let rock = sandbox.rock().0.clone();
-    sandbox.get_mut::<AirGrid>().build(&rock);
-    assert!(built(&sandbox) && sandbox.get::<AirGrid>().is_solid_cell(10, 4));
-    assert_eq!(sandbox.hash(), hash, "a grid at rest shows in the hash");
+    let rock = simulation.rock().0.clone();
+    simulation.get_mut::<AirGrid>().build(&rock);
+    assert!(built(&simulation) && simulation.get::<AirGrid>().is_solid_cell(10, 4));
+    assert_eq!(simulation.hash(), hash, "a grid at rest shows in the hash");
     for scene in ["dam_break", "hydrostatic", "rest_density", "communicating_vessels"] {
-        let mut sandbox = Sandbox::scene(scene, &[]);
-        sandbox.tick(2);
-        assert!(!built(&sandbox), "{scene} has no air, but a grid of it");
+        let mut simulation = Simulation::scene(scene, &[]);
+        simulation.run(2);
+        assert!(!built(&simulation), "{scene} has no air, but a grid of it");
     }
 }
 
@@ -179,17 +179,17 @@ fn air_that_is_built_late_goes_on_as_air_that_was_there_all_along() {
         let run = |early: bool| {
             let mut blueprint = empty_box(100, 60);
             blueprint.rock((40, 10), (44, 30));
-            let mut sandbox = Sandbox::of(blueprint);
+            let mut simulation = Simulation::of(blueprint);
             if early {
-                let rock = sandbox.rock().0.clone();
-                sandbox.get_mut::<AirGrid>().build(&rock);
+                let rock = simulation.rock().0.clone();
+                simulation.get_mut::<AirGrid>().build(&rock);
             }
-            sandbox.tick(3);
-            assert_eq!(sandbox.get::<AirGrid>().is_built(), early);
-            sandbox.push(intent);
-            sandbox.tick(10);
-            assert!(!sandbox.get::<AirGrid>().is_quiet(), "{intent:?} leaves the air at rest");
-            sandbox.hash()
+            simulation.run(3);
+            assert_eq!(simulation.get::<AirGrid>().is_built(), early);
+            simulation.push(intent);
+            simulation.run(10);
+            assert!(!simulation.get::<AirGrid>().is_quiet(), "{intent:?} leaves the air at rest");
+            simulation.hash()
         };
         assert_eq!(run(false), run(true), "{intent:?}");
     }
@@ -201,10 +201,10 @@ fn feedback_runs_where_it_is_called_for_and_not_in_classic() {
         let mut blueprint = empty_box(100, 60);
         (blueprint.preset, blueprint.quality) = (preset, preset.quality());
         blueprint.water(Vec2::new(50.0, 30.0), Vec2::new(speed, 0.0));
-        let mut sandbox = Sandbox::of(blueprint);
-        sandbox.tick(10);
-        let state = sandbox.get::<Effects>().get(Effect::AirFeedback);
-        (state.active_ticks > 0, sandbox.calls(Pass::Feedback) > 0, sandbox.get::<AirGrid>().is_quiet())
+        let mut simulation = Simulation::of(blueprint);
+        simulation.run(10);
+        let state = simulation.get::<Effects>().get(Effect::AirFeedback);
+        (state.active_ticks > 0, simulation.calls(Pass::Feedback) > 0, simulation.get::<AirGrid>().is_quiet())
     };
     assert_eq!(run(Preset::Balanced, 80.0), (true, true, false));
     assert_eq!(run(Preset::Balanced, 0.5), (false, false, true), "a slow drop wakes the air");
@@ -216,16 +216,16 @@ fn left_by_the_hand(mode: Mode) -> f64 {
     let mut blueprint = empty_box(160, 80);
     blueprint.domain.gravity = Vec2::new(0.0, -98.1);
     blueprint.pool((0, 0), (60, 3));
-    let mut sandbox = with_feedback(blueprint, mode);
-    sandbox.tick(30);
+    let mut simulation = with_feedback(blueprint, mode);
+    simulation.run(30);
     for _ in 0..8 {
         for step in 0..20 {
             let stroke = dab(3.0 * step as f32, 3.0);
-            sandbox.push(Intent::Blow { stroke, velocity: Vec2::new(180.0, 0.0) });
-            sandbox.tick(1);
+            simulation.push(Intent::Blow { stroke, velocity: Vec2::new(180.0, 0.0) });
+            simulation.run(1);
         }
     }
-    let x = &sandbox.particles().x;
+    let x = &simulation.particles().x;
     x.iter().filter(|&&x| x < 50.0).count() as f64 / x.len() as f64
 }
 

@@ -1,6 +1,6 @@
 //! What breaks solvers of this kind, each case once.
 
-use crate::support::{Furnish, Random, Sandbox, WATER, apart, empty_box};
+use crate::support::{Furnish, Random, SimulationExt, WATER, apart, empty_box};
 use glam::Vec2;
 use powder_master::{
     kernel::{params::Preset, particles::Particles, solids::Solids},
@@ -8,6 +8,7 @@ use powder_master::{
         blueprint::Blueprint,
         effects::{Effect, Mode},
     },
+    sim::simulation::Simulation,
 };
 use std::collections::HashMap;
 
@@ -45,8 +46,8 @@ const POISON: [f32; 5] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30, -1e3
 
 #[test]
 fn a_particle_that_is_no_number_goes_and_all_others_do_not_notice() {
-    let mut clean = Sandbox::of(dam(8));
-    let mut poisoned = Sandbox::of(dam(8));
+    let mut clean = Simulation::of(dam(8));
+    let mut poisoned = Simulation::of(dam(8));
     // Before, among and behind the others: none of those may lose its place in the order.
     let others = clean.particles().clone();
     let store = poisoned.particles_mut();
@@ -64,8 +65,8 @@ fn a_particle_that_is_no_number_goes_and_all_others_do_not_notice() {
             store.push(others.id[i], others.element[i], others.position(i), others.velocity(i));
         }
     }
-    clean.tick(100);
-    poisoned.tick(100);
+    clean.run(100);
+    poisoned.run(100);
     assert_eq!(poisoned.counters().non_finite, 8 * POISON.len() as u64, "not every bad particle was counted");
     assert_eq!(in_id_order(poisoned.particles()), in_id_order(clean.particles()), "a removed particle left a trace");
 }
@@ -73,16 +74,16 @@ fn a_particle_that_is_no_number_goes_and_all_others_do_not_notice() {
 #[test]
 fn a_particle_that_turns_bad_during_play_is_as_if_it_had_been_erased() {
     for poison in POISON {
-        let mut sandboxes = [Sandbox::of(dam(8)), Sandbox::of(dam(8))];
-        for sandbox in &mut sandboxes {
-            sandbox.tick(40);
+        let mut simulations = [Simulation::of(dam(8)), Simulation::of(dam(8))];
+        for simulation in &mut simulations {
+            simulation.run(40);
         }
-        let [clean, poisoned] = &mut sandboxes;
+        let [clean, poisoned] = &mut simulations;
         let victim = poisoned.particles().id[60];
         poisoned.particles_mut().vy[60] = poison;
         clean.particles_mut().retain(|particles, i| particles.id[i] != victim);
-        clean.tick(40);
-        poisoned.tick(40);
+        clean.run(40);
+        poisoned.run(40);
         assert_eq!(poisoned.counters().non_finite, 1);
         assert_eq!(in_id_order(poisoned.particles()), in_id_order(clean.particles()), "{poison} left a trace");
     }
@@ -97,11 +98,11 @@ fn many_on_one_point_settle_apart_under_gravity() {
         for _ in 0..64 {
             blueprint.water(Vec2::new(6.2, 8.4), Vec2::ZERO);
         }
-        let mut sandbox = Sandbox::of(blueprint);
-        sandbox.tick(120);
-        assert_eq!(sandbox.particles().len(), 64, "{}: particles were lost", preset.name());
+        let mut simulation = Simulation::of(blueprint);
+        simulation.run(120);
+        assert_eq!(simulation.particles().len(), 64, "{}: particles were lost", preset.name());
         // Two pairs may lie closer in a puddle as shallow as this: below the rest density nothing pushes but tension.
-        let gaps = gaps(sandbox.particles());
+        let gaps = gaps(simulation.particles());
         assert!(gaps[4] > 0.2, "{}: still on one point: gaps of {:?}", preset.name(), &gaps[..8]);
     }
 }
@@ -119,18 +120,18 @@ fn pool_error(preset: Preset, offset: f32) -> (f64, f64) {
     blueprint.rock((left, 0), (left + 3, 20));
     blueprint.rock((left + 33, 0), (left + 36, 20));
     blueprint.pool((left + 3, 0), (left + 33, 12));
-    let mut sandbox = Sandbox::of(blueprint);
-    sandbox.tick(120);
+    let mut simulation = Simulation::of(blueprint);
+    simulation.run(120);
     let mut sum = (0.0, 0.0);
     for _ in 0..60 {
-        sandbox.tick(1);
-        let solver = sandbox.get::<powder_master::sim::state::SolverState>();
+        simulation.run(1);
+        let solver = simulation.get::<powder_master::sim::state::SolverState>();
         let mut errors: Vec<f64> = solver.density.iter().map(|&density| f64::from((density - 1.0).max(0.0))).collect();
         errors.sort_unstable_by(f64::total_cmp);
         sum.0 += errors.iter().sum::<f64>() / errors.len() as f64 / 60.0;
         sum.1 += errors[errors.len() * 99 / 100] / 60.0;
     }
-    assert_eq!(sandbox.counters().escaped, 0);
+    assert_eq!(simulation.counters().escaped, 0);
     sum
 }
 
@@ -155,9 +156,9 @@ fn gravity_acts_far_from_the_origin_at_every_quality() {
             blueprint.effects.insert(effect, Mode::Off);
         }
         blueprint.water(Vec2::new(4.0, 6500.0), Vec2::ZERO);
-        let mut sandbox = Sandbox::of(blueprint);
-        sandbox.tick(60);
-        let speed = -sandbox.particles().vy[0];
+        let mut simulation = Simulation::of(blueprint);
+        simulation.run(60);
+        let speed = -simulation.particles().vy[0];
         assert!((speed - GRAVITY).abs() < 0.01 * GRAVITY, "{}: {speed} d/s after a second", preset.name());
     }
 }
@@ -184,17 +185,17 @@ fn no_shot_passes_rock_one_layer_thick() {
                     shots += 1;
                 }
             }
-            let mut sandbox = Sandbox::of(blueprint);
+            let mut simulation = Simulation::of(blueprint);
             for _ in 0..20 {
-                sandbox.tick(1);
-                let particles = sandbox.particles();
+                simulation.run(1);
+                let particles = simulation.particles();
                 let out: Vec<Vec2> =
                     (0..particles.len()).map(|i| particles.position(i)).filter(|&at| !inside(at)).collect();
                 assert!(out.is_empty(), "{}, {per_tick} d a tick: through to {out:?}", preset.name());
             }
-            assert_eq!(sandbox.counters().escaped, 0, "{}, {per_tick} d a tick: inside rock", preset.name());
-            assert_eq!(sandbox.counters().non_finite, 0);
-            assert_eq!(sandbox.particles().len(), 560);
+            assert_eq!(simulation.counters().escaped, 0, "{}, {per_tick} d a tick: inside rock", preset.name());
+            assert_eq!(simulation.counters().non_finite, 0);
+            assert_eq!(simulation.particles().len(), 560);
         }
     }
     assert!(shots >= 10_000, "only {shots} shots");
@@ -216,13 +217,13 @@ fn a_crush_in_a_corner_stays_sound() {
         for x in 0..50 {
             blueprint.pool((x, 0), (x + 1, (x * 7 / 12 + 1).min(30)));
         }
-        let mut sandbox = Sandbox::of(blueprint);
-        sandbox.tick(150);
-        let counters = sandbox.counters();
+        let mut simulation = Simulation::of(blueprint);
+        simulation.run(150);
+        let counters = simulation.counters();
         assert_eq!((counters.escaped, counters.non_finite), (0, 0), "{}: {counters:?}", preset.name());
-        let solver = sandbox.get::<powder_master::sim::state::SolverState>();
+        let solver = simulation.get::<powder_master::sim::state::SolverState>();
         let densest = solver.density.iter().copied().fold(0.0, f32::max);
-        let gaps = gaps(sandbox.particles());
+        let gaps = gaps(simulation.particles());
         // The plain method gives way here; that it stays finite and in its place is all that it promises.
         if preset != Preset::Classic {
             assert!(densest < 1.3, "{}: crushed to a density of {densest}", preset.name());
@@ -233,13 +234,13 @@ fn a_crush_in_a_corner_stays_sound() {
 }
 
 /// A dam of `n` particles' width and its mirror image, and the width of the box.
-fn dam_and_image(n: i32) -> (Sandbox, Sandbox, f32) {
+fn dam_and_image(n: i32) -> (Simulation, Simulation, f32) {
     let (left, mut right) = (dam(n), dam(n));
     let width = right.domain.size.x;
     for x in &mut right.particles.x {
         *x = width - *x;
     }
-    (Sandbox::of(left), Sandbox::of(right), width)
+    (Simulation::of(left), Simulation::of(right), width)
 }
 
 #[test]
@@ -248,12 +249,12 @@ fn a_mirrored_start_stays_mirrored_but_for_rounding() {
     let (mut left, mut right, width) = dam_and_image(n);
     let mut nudged = dam(n);
     nudged.nudge();
-    let mut nudged = Sandbox::of(nudged);
+    let mut nudged = Simulation::of(nudged);
     // Sums run from left to right in both, so that their rounding is not mirrored, and a dam break doubles any
     // difference every two or three ticks. So does it with one that is put in at the start: the two have to go together.
     for tick in 1..=24 {
-        let rounding = apart(left.tick(1), nudged.tick(1), |at| at);
-        let apart = apart(&left, right.tick(1), |at| Vec2::new(width - at.x, at.y));
+        let rounding = apart(left.run(1), nudged.run(1), |at| at);
+        let apart = apart(&left, right.run(1), |at| Vec2::new(width - at.x, at.y));
         assert!(apart < 8.0 * rounding, "tick {tick}: {apart:e} d from its mirror image, rounding makes {rounding:e}");
     }
 }
@@ -265,8 +266,8 @@ fn a_mirrored_start_on_an_odd_grid_stays_mirrored_for_a_while() {
     // times what rounding makes, and doubles as fast: a sixth of a second is as long as it can hold.
     let (mut left, mut right, width) = dam_and_image(12);
     for tick in 1..=10 {
-        left.tick(1);
-        right.tick(1);
+        left.run(1);
+        right.run(1);
         let (a, b) = (left.particles(), right.particles());
         for (i, j) in a.in_id_order().into_iter().zip(b.in_id_order()) {
             let (found, other) = (a.position(i as usize), b.position(j as usize));
@@ -280,10 +281,10 @@ fn a_mirrored_start_on_an_odd_grid_stays_mirrored_for_a_while() {
 fn no_notch_in_the_rock_swallows_a_stream() {
     let mut blueprint = crate::support::blueprint("waterfall", &[]);
     (blueprint.preset, blueprint.quality) = (Preset::Draft, Preset::Draft.quality());
-    let mut sandbox = Sandbox::of(blueprint);
-    sandbox.tick(400);
+    let mut simulation = Simulation::of(blueprint);
+    simulation.run(400);
     let mut crowds = HashMap::new();
-    let particles = sandbox.particles();
+    let particles = simulation.particles();
     for i in 0..particles.len() {
         *crowds.entry(Solids::cell_of(particles.position(i))).or_insert(0) += 1;
     }

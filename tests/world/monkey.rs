@@ -1,6 +1,6 @@
 //! A monkey at the mouse, in every built-in scene: whatever it does, the world stays sound.
 
-use crate::support::{ROCK, Random, Sandbox, WATER};
+use crate::support::{ROCK, Random, SimulationExt, WATER};
 use glam::Vec2;
 use powder_master::{
     kernel::{
@@ -10,8 +10,8 @@ use powder_master::{
     },
     scene,
     sim::{
-        control,
         intent::Intent,
+        simulation::Simulation,
         state::{AirGrid, Setup},
     },
 };
@@ -36,24 +36,24 @@ pub fn whim(random: &mut Random, size: Vec2) -> Intent {
     }
 }
 
-fn assert_sound(sandbox: &Sandbox, what: &str) {
-    let counters = sandbox.counters();
+fn assert_sound(simulation: &Simulation, what: &str) {
+    let counters = simulation.counters();
     assert_eq!(counters.escaped, 0, "{what}: particles left the box or entered rock");
     assert_eq!(counters.non_finite, 0, "{what}: particles stopped being numbers");
-    let particles = sandbox.particles();
-    let size = sandbox.get::<Setup>().blueprint.domain.size;
+    let particles = simulation.particles();
+    let size = simulation.get::<Setup>().blueprint.domain.size;
     for i in 0..particles.len() {
         let (at, velocity) = (particles.position(i), particles.velocity(i));
         assert!(velocity.is_finite(), "{what}: {velocity}");
         let inside = at.cmpge(Vec2::ZERO).all() && at.cmple(size).all();
-        assert!(inside && !sandbox.rock().is_solid(Solids::cell_of(at)), "{what}: a particle at {at}");
+        assert!(inside && !simulation.rock().is_solid(Solids::cell_of(at)), "{what}: a particle at {at}");
     }
     let mut ids = particles.id.clone();
-    ids.extend(sandbox.rock().iter().map(|(.., id)| id));
+    ids.extend(simulation.rock().iter().map(|(.., id)| id));
     ids.sort_unstable();
     assert!(ids.windows(2).all(|pair| pair[0] != pair[1]), "{what}: an id was given twice");
-    assert_eq!(sandbox.census().total as usize, ids.len(), "{what}: the count is wrong");
-    let air = sandbox.get::<AirGrid>();
+    assert_eq!(simulation.census().total as usize, ids.len(), "{what}: the count is wrong");
+    let air = simulation.get::<AirGrid>();
     assert!(air.mass().is_finite() && air.kinetic_energy().is_finite(), "{what}: the air is not finite");
 }
 
@@ -68,23 +68,23 @@ fn no_whim_breaks_a_built_in_scene() {
             "empty" => &[("columns", "100"), ("rows", "60")],
             _ => &[],
         };
-        let mut sandbox = Sandbox::scene(name, settings);
-        let size = sandbox.get::<Setup>().blueprint.domain.size;
+        let mut simulation = Simulation::scene(name, settings);
+        let size = simulation.get::<Setup>().blueprint.domain.size;
         let mut random = Random::new(100 + k as u64);
         for tick in 0..300 {
             for _ in 0..random.index(4) {
-                sandbox.push(whim(&mut random, size));
+                simulation.push(whim(&mut random, size));
             }
             if tick % 60 == 59 {
                 let preset = Preset::ALL[random.index(5)];
-                control::set_quality(sandbox.app.world_mut(), preset, preset.quality());
+                simulation.set_quality(preset, preset.quality());
             }
-            sandbox.tick(1);
+            simulation.run(1);
             if tick % 20 == 0 {
-                assert_sound(&sandbox, &format!("{name}, tick {tick}"));
+                assert_sound(&simulation, &format!("{name}, tick {tick}"));
             }
         }
-        assert_sound(&sandbox, name);
+        assert_sound(&simulation, name);
     }
 }
 
@@ -92,10 +92,10 @@ fn no_whim_breaks_a_built_in_scene() {
 fn left_alone_every_built_in_scene_stays_sound() {
     for name in scene::builtin_names() {
         let settings: &[(&str, &str)] = if name == "dam_break" { &[("columns", "20")] } else { &[] };
-        let mut sandbox = Sandbox::scene(name, settings);
+        let mut simulation = Simulation::scene(name, settings);
         for _ in 0..4 {
-            sandbox.tick(25);
-            assert_sound(&sandbox, name);
+            simulation.run(25);
+            assert_sound(&simulation, name);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Single particles and eddies against known solutions.
 
-use crate::support::{Furnish, Sandbox, WATER, empty_box};
+use crate::support::{Furnish, SimulationExt, WATER, empty_box};
 use glam::Vec2;
 use powder_master::{
     kernel::{
@@ -11,7 +11,7 @@ use powder_master::{
         blueprint::Blueprint,
         effects::{Effect, Mode},
     },
-    sim::stages::TickPlan,
+    sim::{simulation::Simulation, stages::TickPlan},
 };
 use std::sync::Arc;
 
@@ -39,18 +39,18 @@ fn a_throw_without_air_follows_its_parabola() {
         without(&mut blueprint, &[Effect::Air, Effect::Drag]);
         let (start, velocity) = (Vec2::new(20.0, 100.0), Vec2::new(90.0, 120.0));
         blueprint.water(start, velocity);
-        let mut sandbox = Sandbox::of(blueprint);
+        let mut simulation = Simulation::of(blueprint);
         let substep = 1.0 / (60.0 * preset.quality().substeps as f32);
         for tick in 1..=120 {
-            sandbox.tick(1);
+            simulation.run(1);
             let time = tick as f32 / 60.0;
             // Velocities change before positions (symplectic Euler): the fall is that of time t + Δt/2.
             let fall = 0.5 * GRAVITY * time * (time + substep);
             let exact = start + velocity * time - Vec2::new(0.0, fall);
-            let at = sandbox.particles().position(0);
+            let at = simulation.particles().position(0);
             assert!((at - exact).length() < 0.002, "{}: {at} instead of {exact} at tick {tick}", preset.name());
         }
-        assert_eq!(sandbox.counters().speed_clamps, 0, "a throw of 150 d/s was slowed");
+        assert_eq!(simulation.counters().speed_clamps, 0, "a throw of 150 d/s was slowed");
     }
 }
 
@@ -59,9 +59,9 @@ fn without_forces_a_particle_flies_straight_on() {
     let mut blueprint = empty_box(300, 300);
     without(&mut blueprint, &[Effect::Air, Effect::Drag]);
     blueprint.water(Vec2::new(10.0, 200.0), Vec2::new(60.0, -30.0));
-    let mut sandbox = Sandbox::of(blueprint);
-    sandbox.tick(240);
-    let at = sandbox.particles().position(0);
+    let mut simulation = Simulation::of(blueprint);
+    simulation.run(240);
+    let at = simulation.particles().position(0);
     assert!((at - Vec2::new(250.0, 80.0)).length() < 0.02, "{at} instead of (250, 80)");
 }
 
@@ -72,12 +72,12 @@ fn drag_slows_a_particle_as_its_exact_solution_does() {
     let speed = 240.0;
     blueprint.water(Vec2::new(5.0, 20.0), Vec2::new(speed, 0.0));
     let rate = 0.45 / (1000.0 * 0.1);
-    let mut sandbox = Sandbox::of(blueprint);
+    let mut simulation = Simulation::of(blueprint);
     for tick in 1..=60 {
-        sandbox.tick(1);
+        simulation.run(1);
         let time = tick as f32 / 60.0;
         let exact = speed / (1.0 + rate * speed * time);
-        let found = sandbox.particles().vx[0];
+        let found = simulation.particles().vx[0];
         assert!((found - exact).abs() < 1e-3 * exact, "tick {tick}: {found} d/s instead of {exact}");
     }
 }
@@ -91,13 +91,13 @@ fn a_drop_falls_at_its_terminal_speed() {
         without(&mut blueprint, &[Effect::AirFeedback]);
         with_water(&mut blueprint, |water| water.drag = drag);
         blueprint.water(Vec2::new(10.0, 1900.0), Vec2::ZERO);
-        let mut sandbox = Sandbox::of(blueprint);
-        sandbox.tick(600);
+        let mut simulation = Simulation::of(blueprint);
+        simulation.run(600);
         // g = C v²/(ρ d²), in d/s with d = 0.1 m; gravity acts before drag in a substep, which leaves it g Δt/2 slower.
-        let lag = 0.5 * GRAVITY * sandbox.get::<TickPlan>().substep_seconds();
+        let lag = 0.5 * GRAVITY * simulation.get::<TickPlan>().substep_seconds();
         let exact = (9.81_f32 * 1000.0 * 0.01 / drag).sqrt() / 0.1;
         let expected = (exact * exact + lag * lag).sqrt() - lag;
-        let found = -sandbox.particles().vy[0];
+        let found = -simulation.particles().vy[0];
         assert!((found - expected).abs() < 1e-3 * expected, "C = {drag}: {found} d/s instead of {expected}");
     }
 }
@@ -119,12 +119,12 @@ fn vortex(vorticity: f32) -> Blueprint {
 #[test]
 fn confinement_never_raises_the_energy_of_an_eddy_above_its_start() {
     let run = |vorticity: f32, ticks: usize, bound: f64| {
-        let mut sandbox = Sandbox::of(vortex(vorticity));
-        let start = sandbox.rms_speed();
+        let mut simulation = Simulation::of(vortex(vorticity));
+        let start = simulation.rms_speed();
         let mut energies = Vec::new();
         for tick in 1..=ticks {
-            sandbox.tick(1);
-            let energy = (sandbox.rms_speed() / start).powi(2);
+            simulation.run(1);
+            let energy = (simulation.rms_speed() / start).powi(2);
             assert!(energy <= bound, "ε = {vorticity}: energy {energy} of the start's at tick {tick}");
             energies.push(energy);
         }

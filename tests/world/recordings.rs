@@ -2,7 +2,7 @@
 
 use crate::{
     monkey::whim,
-    support::{Random, Sandbox, WATER},
+    support::{Random, SimulationExt, WATER, blueprint},
 };
 use glam::Vec2;
 use powder_master::{
@@ -17,17 +17,20 @@ use powder_master::{
         effects::{Effect, Mode},
     },
     sim::{
+        checkpoint::Checkpoint,
         control,
         intent::Intent,
         pace::Pace,
         recorder::{self, KEPT_TICKS, Recorder, SEGMENT_TICKS},
         recording::{End, Recording, Writer},
         replay::{Difference, Replay},
-        save,
+        simulation::Simulation,
         state::{Clock, Setup},
         workers::Workers,
     },
 };
+
+use std::sync::Arc;
 
 /// Small forms of the largest scenes.
 fn small(name: &str) -> &'static [(&'static str, &'static str)] {
@@ -38,14 +41,13 @@ fn small(name: &str) -> &'static [(&'static str, &'static str)] {
     }
 }
 
-fn recorded(name: &str, settings: &[(&str, &str)]) -> Sandbox {
-    let mut sandbox = Sandbox::scene(name, settings);
-    recorder::plugin(&mut sandbox.app);
-    sandbox
+fn recorded(name: &str, settings: &[(&str, &str)]) -> Simulation {
+    let start = Checkpoint::of_scene(Arc::new(blueprint(name, settings)));
+    Simulation::with_plugins(&start, Workers::default(), recorder::plugin)
 }
 
-fn file(sandbox: &Sandbox) -> Vec<u8> {
-    let world = sandbox.app.world();
+fn file(simulation: &Simulation) -> Vec<u8> {
+    let world = simulation.world();
     let recorder = world.resource::<Recorder>();
     let end = recorder::end_now(world);
     recorder.recording(end).unwrap_or_else(|| recorder.last_minute(end))
@@ -70,102 +72,102 @@ fn same(recording: &Recording) -> (u64, u64) {
 #[test]
 fn whims_in_every_built_in_scene_are_the_same_again_from_the_middle_on() {
     for (k, name) in scene::builtin_names().into_iter().enumerate() {
-        let mut sandbox = recorded(name, small(name));
-        let size = sandbox.get::<Setup>().blueprint.domain.size;
+        let mut simulation = recorded(name, small(name));
+        let size = simulation.get::<Setup>().blueprint.domain.size;
         let mut random = Random::new(300 + k as u64);
-        let mut play = |sandbox: &mut Sandbox, ticks: u32| {
+        let mut play = |simulation: &mut Simulation, ticks: u32| {
             for _ in 0..ticks {
                 for _ in 0..random.index(3) {
-                    sandbox.push(whim(&mut random, size));
+                    simulation.push(whim(&mut random, size));
                 }
                 if random.index(20) == 0 {
                     let preset = Preset::ALL[random.index(5)];
-                    sandbox.push(Intent::Quality { preset, quality: preset.quality() });
+                    simulation.push(Intent::Quality { preset, quality: preset.quality() });
                 }
                 if random.index(15) == 0 {
                     let mode = [Mode::Auto, Mode::On, Mode::Off][random.index(3)];
-                    sandbox.push(Intent::Effect { effect: Effect::ALL[random.index(Effect::ALL.len())], mode });
+                    simulation.push(Intent::Effect { effect: Effect::ALL[random.index(Effect::ALL.len())], mode });
                 }
-                sandbox.get_mut::<Pace>().paused = random.index(6) == 0;
-                sandbox.tick(1);
+                simulation.get_mut::<Pace>().paused = random.index(6) == 0;
+                simulation.run(1);
             }
-            sandbox.get_mut::<Pace>().paused = false;
+            simulation.get_mut::<Pace>().paused = false;
         };
-        play(&mut sandbox, 40);
-        sandbox.get::<Recorder>().begin(sandbox.app.world(), None);
-        let begun = sandbox.get::<Clock>().tick;
-        play(&mut sandbox, 100);
+        play(&mut simulation, 40);
+        simulation.get::<Recorder>().begin(simulation.world(), None);
+        let begun = simulation.get::<Clock>().tick;
+        play(&mut simulation, 100);
         // Edits of a world that stands, at the very end.
-        sandbox.get_mut::<Pace>().paused = true;
-        sandbox.push(whim(&mut random, size)).tick(1);
-        let recording = read(&file(&sandbox));
-        assert_eq!(recording.stretches.len(), 1);
-        assert!(recording.stretches[0].tick == begun && begun > 20, "{name}: it does not begin in the middle");
-        let ticks = sandbox.get::<Clock>().tick - begun;
-        assert_eq!(same(&recording), (ticks, sandbox.hash()), "{name}");
+        simulation.get_mut::<Pace>().paused = true;
+        simulation.push(whim(&mut random, size)).run(1);
+        let recording = read(&file(&simulation));
+        assert_eq!(recording.segments.len(), 1);
+        assert!(recording.segments[0].tick == begun && begun > 20, "{name}: it does not begin in the middle");
+        let ticks = simulation.get::<Clock>().tick - begun;
+        assert_eq!(same(&recording), (ticks, simulation.hash()), "{name}");
         if k % 3 == 0 {
             let other = again(&recording, Workers::new(3).unwrap(), InstructionSet::available()[0]);
-            assert_eq!(other, Ok((ticks, sandbox.hash())), "{name}: other threads and lanes");
+            assert_eq!(other, Ok((ticks, simulation.hash())), "{name}: other threads and lanes");
         }
     }
 }
 
 #[test]
-fn undo_and_reset_begin_a_stretch_and_the_whole_is_the_same_again() {
-    let mut sandbox = recorded("dam_break", &[("columns", "12")]);
-    sandbox.get::<Recorder>().begin(sandbox.app.world(), None);
-    let pour = |sandbox: &mut Sandbox, x: f32| {
+fn undo_and_reset_begin_a_segment_and_the_whole_is_the_same_again() {
+    let mut simulation = recorded("dam_break", &[("columns", "12")]);
+    simulation.get::<Recorder>().begin(simulation.world(), None);
+    let pour = |simulation: &mut Simulation, x: f32| {
         let stroke = Stroke::dab(BrushShape::Disc, Vec2::new(x, 15.0), 2.0);
-        sandbox.push(Intent::Draw { element: WATER, stroke }).tick(12);
+        simulation.push(Intent::Draw { element: WATER, stroke }).run(12);
     };
-    pour(&mut sandbox, 15.0);
-    let before = control::freeze(sandbox.app.world());
-    pour(&mut sandbox, 20.0);
-    control::thaw(sandbox.app.world_mut(), &before);
-    pour(&mut sandbox, 25.0);
-    control::reset(sandbox.app.world_mut());
-    pour(&mut sandbox, 30.0);
-    let recording = read(&file(&sandbox));
-    let stretches: Vec<_> = recording.stretches.iter().map(|stretch| (stretch.tick, stretch.marks.len())).collect();
-    assert_eq!(stretches, [(0, 24), (12, 12), (0, 12)], "what was undone stays in it");
-    assert_eq!(same(&recording), (48, sandbox.hash()));
-    assert_eq!(read(&sandbox.get::<Recorder>().last_minute(recorder::end_now(sandbox.app.world()))), recording);
+    pour(&mut simulation, 15.0);
+    let before = control::freeze(simulation.world());
+    pour(&mut simulation, 20.0);
+    control::thaw(simulation.world_mut(), &before);
+    pour(&mut simulation, 25.0);
+    control::reset(simulation.world_mut());
+    pour(&mut simulation, 30.0);
+    let recording = read(&file(&simulation));
+    let segments: Vec<_> = recording.segments.iter().map(|segment| (segment.tick, segment.marks.len())).collect();
+    assert_eq!(segments, [(0, 24), (12, 12), (0, 12)], "what was undone stays in it");
+    assert_eq!(same(&recording), (48, simulation.hash()));
+    assert_eq!(read(&simulation.get::<Recorder>().last_minute(recorder::end_now(simulation.world()))), recording);
 }
 
 #[test]
 fn a_recording_begun_right_after_a_jump_leaves_the_jump_in_the_last_minute() {
-    let mut sandbox = recorded("dam_break", &[("columns", "12")]);
-    sandbox.tick(10);
-    let before = control::freeze(sandbox.app.world());
-    sandbox.tick(10);
-    control::thaw(sandbox.app.world_mut(), &before);
-    sandbox.get_mut::<Pace>().paused = true;
-    sandbox.tick(1);
-    sandbox.get::<Recorder>().begin(sandbox.app.world(), None);
-    sandbox.get_mut::<Pace>().paused = false;
-    sandbox.tick(10);
-    let last_minute = read(&sandbox.get::<Recorder>().last_minute(recorder::end_now(sandbox.app.world())));
-    assert_eq!(last_minute.stretches.len(), 2, "the jump is not in it");
-    assert_eq!(same(&last_minute), (30, sandbox.hash()));
-    assert_eq!(same(&read(&file(&sandbox))), (10, sandbox.hash()));
+    let mut simulation = recorded("dam_break", &[("columns", "12")]);
+    simulation.run(10);
+    let before = control::freeze(simulation.world());
+    simulation.run(10);
+    control::thaw(simulation.world_mut(), &before);
+    simulation.get_mut::<Pace>().paused = true;
+    simulation.run(1);
+    simulation.get::<Recorder>().begin(simulation.world(), None);
+    simulation.get_mut::<Pace>().paused = false;
+    simulation.run(10);
+    let last_minute = read(&simulation.get::<Recorder>().last_minute(recorder::end_now(simulation.world())));
+    assert_eq!(last_minute.segments.len(), 2, "the jump is not in it");
+    assert_eq!(same(&last_minute), (30, simulation.hash()));
+    assert_eq!(same(&read(&file(&simulation))), (10, simulation.hash()));
 }
 
 /// A hard case of the gauntlet with its script, as the game plays it where it is watched, recorded from its 20th tick on.
-fn watched(name: &str, ticks: u32) -> (Sandbox, Recording) {
+fn watched(name: &str, ticks: u32) -> (Simulation, Recording) {
     let case = CASES.iter().find(|case| case.name == name).unwrap_or_else(|| panic!("no case {name}"));
-    let mut sandbox = recorded("empty", &[]);
-    case.play(sandbox.app.world_mut(), Preset::Draft).unwrap_or_else(|error| panic!("{error}"));
-    sandbox.tick(20);
-    sandbox.get::<Recorder>().begin(sandbox.app.world(), None);
-    sandbox.tick(ticks);
-    let recording = read(&file(&sandbox));
-    (sandbox, recording)
+    let mut simulation = recorded("empty", &[]);
+    case.play(simulation.world_mut(), Preset::Draft).unwrap_or_else(|error| panic!("{error}"));
+    simulation.run(20);
+    simulation.get::<Recorder>().begin(simulation.world(), None);
+    simulation.run(ticks);
+    let recording = read(&file(&simulation));
+    (simulation, recording)
 }
 
 #[test]
 fn what_a_script_does_to_a_hard_case_is_in_its_recording() {
     let intents = |recording: &Recording, wanted: fn(&Intent) -> bool| {
-        let entries = recording.stretches.iter().flat_map(|stretch| &stretch.entries);
+        let entries = recording.segments.iter().flat_map(|segment| &segment.entries);
         entries.filter(|entry| wanted(&entry.intent)).count()
     };
     let turns = |intent: &Intent| matches!(intent, Intent::Gravity { .. });
@@ -176,56 +178,60 @@ fn what_a_script_does_to_a_hard_case_is_in_its_recording() {
         ("quality_changes", 60, |intent| matches!(intent, Intent::Quality { .. }), 60),
         ("suction", 30, |intent| matches!(intent, Intent::Press { .. }), 10),
     ] {
-        let (sandbox, recording) = watched(name, ticks);
-        assert_eq!(recording.stretches.len(), 1, "{name}");
+        let (simulation, recording) = watched(name, ticks);
+        assert_eq!(recording.segments.len(), 1, "{name}");
         assert_eq!(intents(&recording, wanted), count, "{name}");
-        assert_eq!(same(&recording), (u64::from(ticks), sandbox.hash()), "{name}");
+        assert_eq!(same(&recording), (u64::from(ticks), simulation.hash()), "{name}");
     }
 }
 
 #[test]
-fn what_a_script_breaks_without_an_intent_begins_a_stretch() {
-    let (sandbox, recording) = watched("poison", 40);
-    let begins: Vec<u64> = recording.stretches.iter().map(|stretch| stretch.tick).collect();
+fn what_a_script_breaks_without_an_intent_begins_a_segment() {
+    let (simulation, recording) = watched("poison", 40);
+    let begins: Vec<u64> = recording.segments.iter().map(|segment| segment.tick).collect();
     assert_eq!(begins, [20, 30, 40], "particles become no number after 20, 30 and 40 ticks");
-    assert_eq!(same(&recording), (40, sandbox.hash()));
+    assert_eq!(same(&recording), (40, simulation.hash()));
 }
 
-/// Gravity is no part of a state that undo puts back, but of the scene that reset begins again.
 #[test]
-fn gravity_stays_through_undo_and_saves_and_ends_with_a_reset() {
-    let mut sandbox = recorded("dam_break", &[("columns", "12")]);
-    let scenes = sandbox.get::<Setup>().domain.gravity;
-    let before = control::freeze(sandbox.app.world());
+fn undo_gives_gravity_back_a_save_keeps_it_and_a_reset_ends_it() {
+    let mut simulation = recorded("dam_break", &[("columns", "12")]);
+    let scenes = simulation.get::<Setup>().domain.gravity;
+    let before = Checkpoint::of(simulation.world());
     let up = -2.0 * scenes;
-    sandbox.push(Intent::Gravity { gravity: up }).tick(10);
-    assert_eq!((sandbox.get::<Setup>().domain.gravity, sandbox.get::<Setup>().blueprint.domain.gravity), (up, scenes));
-    control::thaw(sandbox.app.world_mut(), &before);
-    sandbox.tick(10);
-    let saved = save::decode(&save::encode(sandbox.app.world())).unwrap_or_else(|error| panic!("{error}"));
-    let mut other = Sandbox::scene("empty", &[]);
-    save::load(other.app.world_mut(), saved);
+    simulation.push(Intent::Gravity { gravity: up }).run(10);
+    assert_eq!(
+        (simulation.get::<Setup>().domain.gravity, simulation.get::<Setup>().blueprint.domain.gravity),
+        (up, scenes)
+    );
+    before.restore(simulation.world_mut());
+    assert_eq!(simulation.get::<Setup>().domain.gravity, scenes);
+    simulation.push(Intent::Gravity { gravity: up }).run(10);
+    let saved =
+        Checkpoint::decode(&Checkpoint::of(simulation.world()).encode()).unwrap_or_else(|error| panic!("{error}"));
+    let mut other = Simulation::scene("empty", &[]);
+    saved.restore(other.world_mut());
     assert_eq!(other.get::<Setup>().domain.gravity, up);
-    sandbox.tick(10);
-    assert_eq!(other.tick(10).hash(), sandbox.hash(), "a saved world falls another way");
-    control::reset(sandbox.app.world_mut());
-    assert_eq!(sandbox.get::<Setup>().domain.gravity, scenes);
-    sandbox.tick(10);
-    let recording = read(&file(&sandbox));
-    assert_eq!(recording.stretches.len(), 3, "undo and reset");
-    assert_eq!(same(&recording), (40, sandbox.hash()));
+    simulation.run(10);
+    assert_eq!(other.run(10).hash(), simulation.hash(), "a saved world falls another way");
+    control::reset(simulation.world_mut());
+    assert_eq!(simulation.get::<Setup>().domain.gravity, scenes);
+    simulation.run(10);
+    let recording = read(&file(&simulation));
+    assert_eq!(recording.segments.len(), 3, "undo and reset");
+    assert_eq!(same(&recording), (40, simulation.hash()));
 }
 
 #[test]
 fn the_first_tick_that_differs_is_named() {
-    let mut sandbox = recorded("waterfall", &[]);
-    sandbox.tick(30);
-    sandbox.get::<Recorder>().begin(sandbox.app.world(), None);
-    sandbox.tick(60);
+    let mut simulation = recorded("waterfall", &[]);
+    simulation.run(30);
+    simulation.get::<Recorder>().begin(simulation.world(), None);
+    simulation.run(60);
     // Something reaches into the world behind the recorder's back, after tick 90.
-    sandbox.particles_mut().vx[17] += 1e-4;
-    sandbox.tick(30);
-    let recording = read(&file(&sandbox));
+    simulation.particles_mut().vx[17] += 1e-4;
+    simulation.run(30);
+    let recording = read(&file(&simulation));
     let found = again(&recording, Workers::default(), InstructionSet::detect()).expect_err("it differs");
     assert_eq!((found.tick, found.nth), (91, 61), "{found}");
     assert!(found.to_string().contains("tick 91 is the first that differs (number 61 of the recording)"), "{found}");
@@ -234,21 +240,21 @@ fn the_first_tick_that_differs_is_named() {
 
 #[test]
 fn a_file_that_was_tampered_with_differs_at_the_tick_where_it_was() {
-    let mut sandbox = recorded("dam_break", &[("columns", "12")]);
+    let mut simulation = recorded("dam_break", &[("columns", "12")]);
     let stroke = Stroke::dab(BrushShape::Disc, Vec2::new(20.0, 15.0), 2.0);
-    sandbox.tick(10);
-    sandbox.push(Intent::Draw { element: WATER, stroke }).tick(20);
-    let good = read(&file(&sandbox));
+    simulation.run(10);
+    simulation.push(Intent::Draw { element: WATER, stroke }).run(20);
+    let good = read(&file(&simulation));
     let write = |change: &dyn Fn(&mut Recording)| {
         let mut changed = good.clone();
         change(&mut changed);
         let mut writer = Writer::new();
-        for stretch in &changed.stretches {
+        for segment in &changed.segments {
             // The state has not changed; this is how it came into the file.
-            let mut world = Sandbox::scene("dam_break", &[("columns", "12")]);
-            world.tick(stretch.tick as u32);
-            writer.start(&save::encode(world.app.world()));
-            writer.ticks(&stretch.entries, &stretch.marks);
+            let mut world = Simulation::scene("dam_break", &[("columns", "12")]);
+            world.run(segment.tick as u32);
+            writer.start(&Checkpoint::of(world.world()).encode());
+            writer.ticks(&segment.entries, &segment.marks);
         }
         writer.end(changed.end.unwrap());
         read(&writer.take())
@@ -257,12 +263,12 @@ fn a_file_that_was_tampered_with_differs_at_the_tick_where_it_was() {
     let differs = |change: &dyn Fn(&mut Recording)| {
         again(&write(change), Workers::default(), InstructionSet::detect()).expect_err("it differs")
     };
-    let found = differs(&|recording| recording.stretches[0].entries.clear());
+    let found = differs(&|recording| recording.segments[0].entries.clear());
     assert_eq!(found.tick, 11, "{found}");
     assert!(found.to_string().contains("288 moving particles, recorded "), "{found}");
-    let found = differs(&|recording| recording.stretches[0].entries[0].tick = 15);
+    let found = differs(&|recording| recording.segments[0].entries[0].tick = 15);
     assert_eq!(found.tick, 11, "{found}");
-    let found = differs(&|recording| recording.stretches[0].marks[24].surroundings ^= 1);
+    let found = differs(&|recording| recording.segments[0].marks[24].surroundings ^= 1);
     assert_eq!(found.tick, 25, "{found}");
     assert!(found.to_string().ends_with("air or rock"), "{found}");
     let found = differs(&|recording| recording.end = Some(End::Stopped { hash: 5 }));
@@ -271,21 +277,21 @@ fn a_file_that_was_tampered_with_differs_at_the_tick_where_it_was() {
 
 #[test]
 fn the_last_minute_is_kept_and_no_more_than_a_segment_beyond() {
-    let mut sandbox = recorded("empty", &[("columns", "16"), ("rows", "16")]);
+    let mut simulation = recorded("empty", &[("columns", "16"), ("rows", "16")]);
     let stroke = Stroke::dab(BrushShape::Disc, Vec2::new(8.0, 8.0), 2.0);
     for second in 0..125 {
         if second % 20 == 3 {
-            sandbox.push(Intent::Draw { element: WATER, stroke });
+            simulation.push(Intent::Draw { element: WATER, stroke });
         }
-        sandbox.tick(60);
-        let recording = read(&file(&sandbox));
-        let all = sandbox.get::<Clock>().tick;
+        simulation.run(60);
+        let recording = read(&file(&simulation));
+        let all = simulation.get::<Clock>().tick;
         let kept = recording.ticks();
-        assert_eq!(recording.stretches.len(), 1, "it follows itself without a jump");
+        assert_eq!(recording.segments.len(), 1, "it follows itself without a jump");
         assert!(kept >= KEPT_TICKS.min(all) && kept < KEPT_TICKS + SEGMENT_TICKS as u64 + 60, "{kept} of {all}");
-        assert_eq!(recording.stretches[0].tick + kept, all);
+        assert_eq!(recording.segments[0].tick + kept, all);
     }
-    assert_eq!(same(&read(&file(&sandbox))).1, sandbox.hash());
-    let bytes = sandbox.get::<Recorder>().size_in_memory();
+    assert_eq!(same(&read(&file(&simulation))).1, simulation.hash());
+    let bytes = simulation.get::<Recorder>().bytes();
     assert!(bytes < 1 << 20, "a small world takes {bytes} bytes");
 }

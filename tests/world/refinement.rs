@@ -1,11 +1,14 @@
 //! Finer is better: with half the substep or half the spacing the errors go down, and nothing becomes unstable.
 
-use crate::support::{Furnish, Sandbox, blueprint, empty_box};
+use crate::support::{Furnish, SimulationExt, blueprint, empty_box};
 use glam::Vec2;
 use powder_master::{
     kernel::params::Preset,
     scene::effects::{Effect, Mode},
-    sim::state::{Setup, SolverState},
+    sim::{
+        simulation::Simulation,
+        state::{Setup, SolverState},
+    },
 };
 
 /// Orders of convergence between neighbours of a sequence of errors.
@@ -14,9 +17,9 @@ fn orders(errors: &[f64]) -> Vec<f64> {
 }
 
 /// Kinetic and potential energy, d²/s² for the mass of a particle.
-fn energy(sandbox: &Sandbox) -> f64 {
-    let gravity = sandbox.get::<Setup>().blueprint.domain.gravity.as_dvec2();
-    let particles = sandbox.particles();
+fn energy(simulation: &Simulation) -> f64 {
+    let gravity = simulation.get::<Setup>().blueprint.domain.gravity.as_dvec2();
+    let particles = simulation.particles();
     let of = |i: usize| {
         0.5 * particles.velocity(i).as_dvec2().length_squared() - gravity.dot(particles.position(i).as_dvec2())
     };
@@ -33,10 +36,10 @@ fn half_the_substep_halves_the_error_of_a_fall() {
             blueprint.effects.insert(effect, Mode::Off);
         }
         blueprint.water(Vec2::new(8.0, 350.0), Vec2::ZERO);
-        let mut sandbox = Sandbox::of(blueprint);
-        sandbox.tick(120);
+        let mut simulation = Simulation::of(blueprint);
+        simulation.run(120);
         // y = y₀ − g t²/2
-        (f64::from(sandbox.particles().y[0]) - (350.0 - 0.5 * 98.1 * 4.0)).abs()
+        (f64::from(simulation.particles().y[0]) - (350.0 - 0.5 * 98.1 * 4.0)).abs()
     };
     let errors: Vec<f64> = [1, 2, 4, 8].map(error).into();
     for order in orders(&errors) {
@@ -54,9 +57,9 @@ fn half_the_substep_lowers_the_error_of_a_throw_through_air() {
         blueprint.effects.insert(Effect::Drag, Mode::On);
         blueprint.effects.insert(Effect::AirFeedback, Mode::Off);
         blueprint.water(Vec2::new(20.0, 200.0), Vec2::new(90.0, 60.0));
-        let mut sandbox = Sandbox::of(blueprint);
-        sandbox.tick(60);
-        sandbox.particles().position(0).as_dvec2()
+        let mut simulation = Simulation::of(blueprint);
+        simulation.run(60);
+        simulation.particles().position(0).as_dvec2()
     };
     let finest = place(64);
     let errors: Vec<f64> = [1, 2, 4, 8].map(|substeps| place(substeps).distance(finest)).into();
@@ -76,20 +79,20 @@ fn pool(preset: Preset, substeps: u32) -> (f64, f64) {
         blueprint.effects.insert(effect, Mode::Off);
     }
     blueprint.pool((0, 0), (16, 22));
-    let mut sandbox = Sandbox::of(blueprint);
-    let start = energy(&sandbox);
+    let mut simulation = Simulation::of(blueprint);
+    let start = energy(&simulation);
     let (mut errors, mut rise) = (Vec::new(), 0.0_f64);
     for tick in 0..180 {
-        sandbox.tick(1);
-        rise = rise.max(energy(&sandbox) - start);
+        simulation.run(1);
+        rise = rise.max(energy(&simulation) - start);
         if tick >= 140 && tick % 4 == 0 {
             let mut found: Vec<f64> =
-                sandbox.get::<SolverState>().density.iter().map(|rho| f64::from((rho - 1.0).max(0.0))).collect();
+                simulation.get::<SolverState>().density.iter().map(|rho| f64::from((rho - 1.0).max(0.0))).collect();
             found.sort_unstable_by(f64::total_cmp);
             errors.push(found[found.len() * 99 / 100]);
         }
     }
-    assert_eq!((sandbox.counters().escaped, sandbox.counters().non_finite), (0, 0));
+    assert_eq!((simulation.counters().escaped, simulation.counters().non_finite), (0, 0));
     (errors.iter().sum::<f64>() / errors.len() as f64, rise / start.abs())
 }
 
@@ -119,13 +122,13 @@ fn half_the_spacing_brings_the_dam_break_closer_to_its_limit() {
     let fronts = |columns: u32| {
         let start = blueprint("dam_break", &[("columns", &columns.to_string())]);
         let unit = (columns as f32 / -start.domain.gravity.y).sqrt();
-        let mut sandbox = Sandbox::of(start);
-        let (begin, mut found, mut last, mut ticks) = (energy(&sandbox), Vec::new(), columns as f32, 0);
+        let mut simulation = Simulation::of(start);
+        let (begin, mut found, mut last, mut ticks) = (energy(&simulation), Vec::new(), columns as f32, 0);
         while found.len() < TIMES.len() {
-            sandbox.tick(1);
+            simulation.run(1);
             ticks += 1;
             let low = 0.25 * columns as f32;
-            let mut foot: Vec<f32> = (sandbox.particles().x.iter().zip(&sandbox.particles().y))
+            let mut foot: Vec<f32> = (simulation.particles().x.iter().zip(&simulation.particles().y))
                 .filter(|(_, y)| **y < low)
                 .map(|(x, _)| x + 0.5)
                 .collect();
@@ -137,7 +140,7 @@ fn half_the_spacing_brings_the_dam_break_closer_to_its_limit() {
                 found.push(f64::from((last + share * (front - last)) / columns as f32));
             }
             last = front;
-            assert!(energy(&sandbox) <= 1.01 * begin, "{columns} columns: energy from nowhere");
+            assert!(energy(&simulation) <= 1.01 * begin, "{columns} columns: energy from nowhere");
         }
         found
     };

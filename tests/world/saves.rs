@@ -1,6 +1,6 @@
 //! Save files of whole worlds: they come back to the bit and go on as if nothing had been.
 
-use crate::support::{Random, Sandbox, WATER, blueprint};
+use crate::support::{Random, SimulationExt, WATER, blueprint};
 use glam::Vec2;
 use powder_master::{
     kernel::{
@@ -9,25 +9,26 @@ use powder_master::{
     },
     scene::effects::{Effect, Mode},
     sim::{
+        checkpoint::Checkpoint,
         control,
         effects::Effects,
         intent::Intent,
-        save,
+        simulation::Simulation,
         state::{Clock, Setup},
     },
 };
 
-fn pour(sandbox: &mut Sandbox, random: &mut Random, size: Vec2) {
+fn pour(simulation: &mut Simulation, random: &mut Random, size: Vec2) {
     let stroke = Stroke::dab(BrushShape::Disc, random.point(size), 3.0);
-    sandbox.push(Intent::Draw { element: WATER, stroke });
-    sandbox.push(Intent::Blow { stroke, velocity: random.point(Vec2::splat(60.0)) });
+    simulation.push(Intent::Draw { element: WATER, stroke });
+    simulation.push(Intent::Blow { stroke, velocity: random.point(Vec2::splat(60.0)) });
 }
 
-fn reload(world: &Sandbox) -> Sandbox {
-    let bytes = save::encode(world.app.world());
-    let mut other = Sandbox::scene("empty", &[("columns", "16"), ("rows", "16")]);
-    other.tick(3);
-    save::load(other.app.world_mut(), save::decode(&bytes).unwrap_or_else(|error| panic!("{error}")));
+fn reload(world: &Simulation) -> Simulation {
+    let bytes = Checkpoint::of(world.world()).encode();
+    let mut other = Simulation::scene("empty", &[("columns", "16"), ("rows", "16")]);
+    other.run(3);
+    Checkpoint::decode(&bytes).unwrap_or_else(|error| panic!("{error}")).restore(other.world_mut());
     other
 }
 
@@ -40,22 +41,22 @@ fn a_loaded_world_goes_on_to_the_bit() {
         ("wind_tunnel", &[]),
         ("sealed_air", &[]),
     ] {
-        let mut world = Sandbox::scene(scene, settings);
+        let mut world = Simulation::scene(scene, settings);
         let size = world.get::<Setup>().blueprint.domain.size;
         let mut random = Random::new(4);
         for _ in 0..5 {
             pour(&mut world, &mut random, size);
-            world.tick(6);
+            world.run(6);
         }
         let mut loaded = reload(&world);
         assert_eq!(loaded.hash(), world.hash(), "{scene}: the round trip changes the world");
         assert_eq!(*loaded.get::<Clock>(), *world.get::<Clock>());
-        for sandbox in [&mut loaded, &mut world] {
+        for simulation in [&mut loaded, &mut world] {
             let mut random = Random::new(5);
-            pour(sandbox, &mut random, size);
-            sandbox.tick(100);
-            pour(sandbox, &mut random, size);
-            sandbox.tick(100);
+            pour(simulation, &mut random, size);
+            simulation.run(100);
+            pour(simulation, &mut random, size);
+            simulation.run(100);
         }
         assert_eq!(loaded.hash(), world.hash(), "{scene}: a loaded world goes another way");
     }
@@ -63,25 +64,25 @@ fn a_loaded_world_goes_on_to_the_bit() {
 
 #[test]
 fn reset_goes_back_to_the_loaded_state() {
-    let mut world = Sandbox::scene("rest_density", &[]);
-    world.tick(50);
+    let mut world = Simulation::scene("rest_density", &[]);
+    world.run(50);
     let mut loaded = reload(&world);
-    loaded.tick(40);
+    loaded.run(40);
     assert_ne!(loaded.hash(), world.hash());
-    control::reset(loaded.app.world_mut());
+    control::reset(loaded.world_mut());
     assert_eq!(loaded.hash(), world.hash(), "reset after a load goes elsewhere than to the loaded state");
-    assert_eq!(loaded.tick(40).hash(), world.tick(40).hash());
+    assert_eq!(loaded.run(40).hash(), world.run(40).hash());
 }
 
 #[test]
 fn a_file_keeps_scene_quality_and_effects() {
     let mut blueprint = blueprint("rest_density", &[("ratio", "2"), ("particle_limit", "1234")]);
     blueprint.effects.insert(Effect::Tension, Mode::Off);
-    let mut world = Sandbox::of(blueprint);
+    let mut world = Simulation::of(blueprint);
     let quality = powder_master::kernel::params::Quality { iterations: 7, ..Preset::Fine.quality() };
-    control::set_quality(world.app.world_mut(), Preset::Fine, quality);
+    world.set_quality(Preset::Fine, quality);
     world.get_mut::<Effects>().get_mut(Effect::Viscosity).mode = Mode::On;
-    world.tick(30);
+    world.run(30);
     let loaded = reload(&world);
     let (before, after) = (world.get::<Setup>(), loaded.get::<Setup>());
     assert_eq!((after.preset, after.quality), (Preset::Fine, quality));
@@ -95,12 +96,12 @@ fn a_file_keeps_scene_quality_and_effects() {
 
 #[test]
 fn a_world_with_a_bad_particle_can_be_saved() {
-    let mut world = Sandbox::scene("dam_break", &[("columns", "6")]);
-    world.tick(5);
+    let mut world = Simulation::scene("dam_break", &[("columns", "6")]);
+    world.run(5);
     world.particles_mut().x[7] = f32::NAN;
     let mut loaded = reload(&world);
     assert_eq!(loaded.particles().len(), 71);
-    assert_eq!(loaded.tick(30).hash(), world.tick(30).hash());
+    assert_eq!(loaded.run(30).hash(), world.run(30).hash());
     let size = world.get::<Setup>().domain.size;
     world.particles_mut().x[3] = -2.0;
     world.particles_mut().y[5] = size.y + 3.0;

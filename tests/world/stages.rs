@@ -1,6 +1,6 @@
 //! Each stage does its job, in its order, and only when it is called for.
 
-use crate::support::{Furnish, ROCK, Sandbox, WATER, blueprint, empty_box};
+use crate::support::{Furnish, ROCK, SimulationExt, WATER, blueprint, empty_box};
 use bevy::{
     ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, Schedules},
     prelude::{FixedUpdate, ResMut},
@@ -21,6 +21,7 @@ use powder_master::{
         effects::Effects,
         intent::Intent,
         pace::Pace,
+        simulation::Simulation,
         stages::{Substep, TickPlan},
         state::{AirGrid, Clock},
     },
@@ -47,8 +48,8 @@ fn area(low: (f32, f32), high: (f32, f32)) -> Rect {
 }
 
 /// Makes an open order an error in the schedule and looks for one.
-fn ambiguity(sandbox: &mut Sandbox, label: impl ScheduleLabel + Clone) -> Option<String> {
-    let world = sandbox.app.world_mut();
+fn ambiguity(simulation: &mut Simulation, label: impl ScheduleLabel + Clone) -> Option<String> {
+    let world = simulation.world_mut();
     let mut schedules = world.resource_mut::<Schedules>();
     let Some(schedule) = schedules.get_mut(label.clone()) else { panic!("no schedule of the tick") };
     schedule.set_build_settings(ScheduleBuildSettings {
@@ -60,75 +61,75 @@ fn ambiguity(sandbox: &mut Sandbox, label: impl ScheduleLabel + Clone) -> Option
 
 #[test]
 fn no_two_systems_of_a_tick_leave_their_order_open() {
-    let mut sandbox = Sandbox::of(puddle());
-    assert_eq!(ambiguity(&mut sandbox, FixedUpdate), None);
-    assert_eq!(ambiguity(&mut sandbox, Substep), None);
+    let mut simulation = Simulation::of(puddle());
+    assert_eq!(ambiguity(&mut simulation, FixedUpdate), None);
+    assert_eq!(ambiguity(&mut simulation, Substep), None);
 }
 
 #[test]
 fn an_open_order_would_be_found() {
     fn write(_: ResMut<Clock>) {}
-    let mut sandbox = Sandbox::of(puddle());
-    sandbox.app.add_systems(FixedUpdate, write);
+    let mut simulation = Simulation::of(puddle());
+    simulation.get_mut::<Schedules>().add_systems(FixedUpdate, write);
     assert!(
-        ambiguity(&mut sandbox, FixedUpdate).is_some(),
+        ambiguity(&mut simulation, FixedUpdate).is_some(),
         "a system that writes the clock at any time is not noticed"
     );
 }
 
 #[test]
-fn the_first_update_has_no_time_and_runs_no_tick() {
-    let mut sandbox = Sandbox::of(puddle());
-    assert_eq!(sandbox.get::<Clock>().tick, 0);
-    sandbox.tick(3);
-    assert_eq!(sandbox.get::<Clock>().tick, 3);
-    assert_eq!(sandbox.get::<powder_master::sim::ledger::PassLedger>().tick().calls, 3);
+fn a_simulation_begins_before_its_first_tick() {
+    let mut simulation = Simulation::of(puddle());
+    assert_eq!(simulation.get::<Clock>().tick, 0);
+    simulation.run(3);
+    assert_eq!(simulation.get::<Clock>().tick, 3);
+    assert_eq!(simulation.get::<powder_master::sim::ledger::PassLedger>().tick().calls, 3);
 }
 
 #[test]
 fn a_tick_calls_each_stage_as_often_as_the_plan_says() {
-    let mut sandbox = Sandbox::of(puddle());
-    sandbox.tick(10);
-    assert_eq!(u64::from(sandbox.get::<TickPlan>().substeps), SUBSTEPS);
+    let mut simulation = Simulation::of(puddle());
+    simulation.run(10);
+    assert_eq!(u64::from(simulation.get::<TickPlan>().substeps), SUBSTEPS);
     for pass in [Pass::Gravity, Pass::Pressure, Pass::Predict, Pass::Bin, Pass::Solve, Pass::Velocity] {
-        assert_eq!(sandbox.calls(pass), 10 * SUBSTEPS, "{}", pass.name());
+        assert_eq!(simulation.calls(pass), 10 * SUBSTEPS, "{}", pass.name());
     }
     for pass in [Pass::Sources, Pass::Measure] {
-        assert_eq!(sandbox.calls(pass), 10, "{}", pass.name());
+        assert_eq!(simulation.calls(pass), 10, "{}", pass.name());
     }
-    assert_eq!(sandbox.calls(Pass::Edit), 0, "edits ran without an intent");
+    assert_eq!(simulation.calls(Pass::Edit), 0, "edits ran without an intent");
 }
 
 #[test]
 fn gravity_pulls_and_the_floor_holds() {
-    let mut sandbox = Sandbox::of(puddle());
-    sandbox.tick(1);
-    assert!(sandbox.particles().vy.iter().all(|&vy| vy < 0.0), "something does not fall");
-    sandbox.tick(720);
-    let particles = sandbox.particles();
+    let mut simulation = Simulation::of(puddle());
+    simulation.run(1);
+    assert!(simulation.particles().vy.iter().all(|&vy| vy < 0.0), "something does not fall");
+    simulation.run(720);
+    let particles = simulation.particles();
     let (low, high) = particles.y.iter().fold((f32::MAX, 0.0_f32), |(low, high), &y| (low.min(y), high.max(y)));
     assert!(low >= 0.25 && high < 5.0, "50 particles on a floor of 30 d stand from {low} to {high}");
 }
 
 #[test]
 fn an_intent_is_done_in_the_tick_after_it_in_order() {
-    let mut sandbox = Sandbox::of(empty_box(30, 20));
-    sandbox.push(Intent::Stamp { element: WATER, stroke: dab(10.0, 10.0, 3.0) });
-    sandbox.push(Intent::Stamp { element: ROCK, stroke: dab(20.0, 10.0, 2.0) });
-    sandbox.push(Intent::Erase { stroke: dab(20.0, 10.0, 0.0) });
-    assert!(sandbox.particles().is_empty());
-    sandbox.tick(1);
-    assert!((25..=32).contains(&sandbox.particles().len()), "{} particles", sandbox.particles().len());
-    let rock = sandbox.rock().count();
+    let mut simulation = Simulation::of(empty_box(30, 20));
+    simulation.push(Intent::Stamp { element: WATER, stroke: dab(10.0, 10.0, 3.0) });
+    simulation.push(Intent::Stamp { element: ROCK, stroke: dab(20.0, 10.0, 2.0) });
+    simulation.push(Intent::Erase { stroke: dab(20.0, 10.0, 0.0) });
+    assert!(simulation.particles().is_empty());
+    simulation.run(1);
+    assert!((25..=32).contains(&simulation.particles().len()), "{} particles", simulation.particles().len());
+    let rock = simulation.rock().count();
     assert!((10..=15).contains(&rock), "{rock} cells of rock");
-    assert!(!sandbox.rock().is_solid(glam::IVec2::new(20, 10)), "erasing did not come after placing");
-    assert_eq!(sandbox.get::<Clock>().edits, 3);
-    assert_eq!(sandbox.calls(Pass::Edit), 1);
-    let census = sandbox.census();
-    assert_eq!(census.by_element, [rock as u32, sandbox.particles().len() as u32]);
-    assert_eq!(census.total as usize, rock + sandbox.particles().len());
-    sandbox.tick(5);
-    assert_eq!(sandbox.calls(Pass::Edit), 1, "an intent was done twice");
+    assert!(!simulation.rock().is_solid(glam::IVec2::new(20, 10)), "erasing did not come after placing");
+    assert_eq!(simulation.get::<Clock>().edits, 3);
+    assert_eq!(simulation.calls(Pass::Edit), 1);
+    let census = simulation.census();
+    assert_eq!(census.by_element, [rock as u32, simulation.particles().len() as u32]);
+    assert_eq!(census.total as usize, rock + simulation.particles().len());
+    simulation.run(5);
+    assert_eq!(simulation.calls(Pass::Edit), 1, "an intent was done twice");
 }
 
 #[test]
@@ -145,50 +146,54 @@ fn taps_flow_and_outlets_drain() {
         due: 0.0,
     });
     blueprint.drains.push(Drain { area: area((0.0, 0.0), (30.0, 2.0)) });
-    let mut sandbox = Sandbox::of(blueprint);
-    sandbox.tick(10);
-    assert_eq!(sandbox.particles().len(), 50, "the tap flowed before its start, or the drain took what is above it");
-    sandbox.tick(15);
-    assert!(sandbox.particles().id.iter().any(|&id| id >= 50), "the tap is dry");
-    sandbox.tick(600);
-    let left = sandbox.particles().len();
+    let mut simulation = Simulation::of(blueprint);
+    simulation.run(10);
+    assert_eq!(simulation.particles().len(), 50, "the emitter flowed early, or the drain took what is above it");
+    simulation.run(15);
+    assert!(simulation.particles().id.iter().any(|&id| id >= 50), "the emitter is dry");
+    simulation.run(600);
+    let left = simulation.particles().len();
     assert!(left < 20, "{left} of 110 particles are left beside a drain");
-    assert!(sandbox.particles().y.iter().all(|&y| y < 4.0));
+    assert!(simulation.particles().y.iter().all(|&y| y < 4.0));
 }
 
 #[test]
 fn a_pause_stops_time_but_not_edits_and_single_steps_count() {
-    let mut sandbox = Sandbox::of(puddle());
-    sandbox.tick(5);
-    sandbox.get_mut::<Pace>().paused = true;
-    let before = sandbox.hash();
-    sandbox.tick(20);
-    assert_eq!(sandbox.hash(), before, "the world moved during the pause");
-    assert_eq!(sandbox.get::<Clock>().tick, 5);
-    sandbox.push(Intent::Stamp { element: WATER, stroke: dab(25.0, 15.0, 1.5) });
-    sandbox.tick(1);
-    let count = sandbox.particles().len();
+    let mut simulation = Simulation::of(puddle());
+    simulation.run(5);
+    simulation.get_mut::<Pace>().paused = true;
+    let before = simulation.hash();
+    simulation.run(20);
+    assert_eq!(simulation.hash(), before, "the world moved during the pause");
+    assert_eq!(simulation.get::<Clock>().tick, 5);
+    simulation.push(Intent::Stamp { element: WATER, stroke: dab(25.0, 15.0, 1.5) });
+    simulation.run(1);
+    let count = simulation.particles().len();
     assert!(count > 50, "an edit during the pause was not done");
-    assert_eq!(sandbox.census().total as usize, count, "the count lags behind an edit during the pause");
-    sandbox.get_mut::<Pace>().steps_due = 3;
-    sandbox.tick(10);
-    assert_eq!((sandbox.get::<Clock>().tick, sandbox.get::<Pace>().steps_due), (8, 0), "three steps are three ticks");
-    sandbox.get_mut::<Pace>().paused = false;
-    sandbox.tick(2);
-    assert_eq!(sandbox.get::<Clock>().tick, 10);
+    assert_eq!(simulation.census().total as usize, count, "the count lags behind an edit during the pause");
+    simulation.get_mut::<Pace>().steps_due = 3;
+    simulation.run(10);
+    assert_eq!(
+        (simulation.get::<Clock>().tick, simulation.get::<Pace>().steps_due),
+        (8, 0),
+        "three steps are three ticks"
+    );
+    simulation.get_mut::<Pace>().paused = false;
+    simulation.run(2);
+    assert_eq!(simulation.get::<Clock>().tick, 10);
 }
 
 #[test]
 fn a_pause_leaves_no_trace() {
-    let (mut straight, mut paused) = (Sandbox::of(puddle()), Sandbox::of(puddle()));
-    straight.tick(40);
-    paused.tick(13);
+    let (mut straight, mut paused) = (Simulation::of(puddle()), Simulation::of(puddle()));
+    straight.run(40);
+    paused.run(13);
     paused.get_mut::<Pace>().paused = true;
-    paused.tick(7);
+    paused.run(7);
     paused.get_mut::<Pace>().steps_due = 2;
-    paused.tick(5);
+    paused.run(5);
     paused.get_mut::<Pace>().paused = false;
-    paused.tick(25);
+    paused.run(25);
     assert_eq!(paused.hash(), straight.hash());
 }
 
@@ -198,14 +203,14 @@ fn an_effect_that_is_off_has_no_call_and_one_that_is_on_has_all() {
         for (mode, ticks) in [(Mode::Off, 0), (Mode::On, 10)] {
             let mut blueprint = puddle();
             blueprint.effects.insert(effect, mode);
-            let mut sandbox = Sandbox::of(blueprint);
-            sandbox.tick(10);
-            let state = sandbox.get::<Effects>().get(effect);
+            let mut simulation = Simulation::of(blueprint);
+            simulation.run(10);
+            let state = simulation.get::<Effects>().get(effect);
             assert_eq!((state.mode, state.active_ticks), (mode, ticks), "{}", effect.name());
             assert!(!state.why.is_empty());
             // Sleep has none: it looks now and then.
             for pass in effect.row().passes.iter().filter(|pass| pass.row().each_substep) {
-                assert_eq!(sandbox.calls(*pass), SUBSTEPS * ticks, "{}: {mode:?}", effect.name());
+                assert_eq!(simulation.calls(*pass), SUBSTEPS * ticks, "{}: {mode:?}", effect.name());
             }
         }
     }
@@ -220,7 +225,7 @@ fn an_effect_changes_the_world_when_it_has_something_to_do() {
             *vx = 60.0;
         }
         blueprint.winds.push(Wind { area: area((0.0, 0.0), (30.0, 20.0)), velocity: Vec2::new(50.0, 0.0), rate: 10.0 });
-        Sandbox::of(blueprint).tick(20).hash()
+        Simulation::of(blueprint).run(20).hash()
     };
     for effect in [Effect::Drag, Effect::Viscosity, Effect::Vorticity, Effect::Tension] {
         assert_ne!(run(effect, Mode::On), run(effect, Mode::Off), "{} does nothing", effect.name());
@@ -229,23 +234,23 @@ fn an_effect_changes_the_world_when_it_has_something_to_do() {
 
 #[test]
 fn auto_runs_an_effect_only_where_something_calls_for_it() {
-    let mut sandbox = Sandbox::of(empty_box(30, 20));
-    sandbox.tick(5);
+    let mut simulation = Simulation::of(empty_box(30, 20));
+    simulation.run(5);
     for effect in Effect::ALL {
-        let state = sandbox.get::<Effects>().get(effect);
+        let state = simulation.get::<Effects>().get(effect);
         assert_eq!(state.active_ticks, 0, "{} ran in an empty box: {}", effect.name(), state.why);
     }
-    sandbox.push(Intent::Stamp { element: WATER, stroke: dab(10.0, 10.0, 3.0) });
-    sandbox.tick(1);
+    simulation.push(Intent::Stamp { element: WATER, stroke: dab(10.0, 10.0, 3.0) });
+    simulation.run(1);
     for effect in [Effect::Drag, Effect::Viscosity, Effect::Vorticity, Effect::Tension] {
-        let state = sandbox.get::<Effects>().get(effect);
+        let state = simulation.get::<Effects>().get(effect);
         assert!(state.running, "{} does not run on water: {}", effect.name(), state.why);
     }
-    assert!(!sandbox.get::<Effects>().get(Effect::Air).running, "still air is moved");
-    sandbox.push(Intent::Erase { stroke: Stroke::rectangle(Vec2::ZERO, Vec2::new(30.0, 20.0)) });
-    sandbox.tick(1);
+    assert!(!simulation.get::<Effects>().get(Effect::Air).running, "still air is moved");
+    simulation.push(Intent::Erase { stroke: Stroke::rectangle(Vec2::ZERO, Vec2::new(30.0, 20.0)) });
+    simulation.run(1);
     for effect in Effect::ALL {
-        assert!(!sandbox.get::<Effects>().get(effect).running, "{} runs on nothing", effect.name());
+        assert!(!simulation.get::<Effects>().get(effect).running, "{} runs on nothing", effect.name());
     }
 }
 
@@ -261,9 +266,9 @@ fn auto_is_on_bit_for_bit_where_there_is_nothing_to_do() {
             blueprint.elements = std::sync::Arc::new(powder_master::kernel::element::ElementTable::new(rows));
             blueprint.fluid.tension_strength = 0.0;
             blueprint.effects.insert(effect, mode);
-            let mut sandbox = Sandbox::of(blueprint);
-            let hash = sandbox.tick(100).hash();
-            (sandbox.get::<Effects>().get(effect).active_ticks, hash)
+            let mut simulation = Simulation::of(blueprint);
+            let hash = simulation.run(100).hash();
+            (simulation.get::<Effects>().get(effect).active_ticks, hash)
         };
         let (auto, on, off) = (run(Mode::Auto), run(Mode::On), run(Mode::Off));
         assert!(auto.0 == 0 && on.0 == 100 && off.0 == 0, "{}: {auto:?} {on:?} {off:?}", effect.name());
@@ -273,12 +278,12 @@ fn auto_is_on_bit_for_bit_where_there_is_nothing_to_do() {
 
 #[test]
 fn modes_can_be_switched_while_it_runs() {
-    let mut sandbox = Sandbox::of(puddle());
-    sandbox.tick(3);
-    sandbox.get_mut::<Effects>().get_mut(Effect::Viscosity).mode = Mode::Off;
-    let calls = sandbox.calls(Pass::Viscosity);
-    sandbox.tick(3);
-    assert_eq!(sandbox.calls(Pass::Viscosity), calls);
+    let mut simulation = Simulation::of(puddle());
+    simulation.run(3);
+    simulation.get_mut::<Effects>().get_mut(Effect::Viscosity).mode = Mode::Off;
+    let calls = simulation.calls(Pass::Viscosity);
+    simulation.run(3);
+    assert_eq!(simulation.calls(Pass::Viscosity), calls);
 }
 
 #[test]
@@ -287,21 +292,21 @@ fn air_that_is_switched_off_stands_whatever_moved_it() {
     let patch = PressurePatch { area: Rect { min: Vec2::ZERO, max: Vec2::splat(9.0) }, pressure: 3.0 };
     let mut never = puddle();
     never.effects.insert(Effect::Air, Mode::Off);
-    let positions = |sandbox: &Sandbox| (sandbox.particles().x.clone(), sandbox.particles().y.clone());
-    let quiet = positions(Sandbox::of(never.clone()).tick(30));
+    let positions = |simulation: &Simulation| (simulation.particles().x.clone(), simulation.particles().y.clone());
+    let quiet = positions(Simulation::of(never.clone()).run(30));
     never.pressures.push(patch);
-    let mut never = Sandbox::of(never);
-    assert_eq!(positions(never.push(wind()).tick(30)), quiet, "wind and pressure move what is in air that stands");
+    let mut never = Simulation::of(never);
+    assert_eq!(positions(never.push(wind()).run(30)), quiet, "wind and pressure move what is in air that stands");
     assert!(!never.get::<AirGrid>().is_built(), "a grid for air that stands");
-    let mut sandbox = Sandbox::of(puddle());
-    sandbox.push(wind()).tick(2);
-    assert!(!sandbox.get::<AirGrid>().is_quiet());
-    let before = control::freeze(sandbox.app.world());
+    let mut simulation = Simulation::of(puddle());
+    simulation.push(wind()).run(2);
+    assert!(!simulation.get::<AirGrid>().is_quiet());
+    let before = control::freeze(simulation.world());
     for _ in 0..2 {
-        sandbox.push(Intent::Effect { effect: Effect::Air, mode: Mode::Off }).tick(1);
-        assert!(sandbox.get::<AirGrid>().is_quiet(), "the wind stays for ever");
+        simulation.push(Intent::Effect { effect: Effect::Air, mode: Mode::Off }).run(1);
+        assert!(simulation.get::<AirGrid>().is_quiet(), "the wind stays for ever");
         // A state from when it blew is put back.
-        control::thaw(sandbox.app.world_mut(), &before);
+        control::thaw(simulation.world_mut(), &before);
     }
 }
 
@@ -312,9 +317,9 @@ fn faster_water_takes_more_substeps_up_to_the_bound_and_is_slowed_past_it() {
         blueprint.quality.substeps = 4;
         blueprint.effects.insert(Effect::Drag, Mode::Off);
         blueprint.water(Vec2::new(10.0, 10.0), Vec2::new(speed, 0.0));
-        let mut sandbox = Sandbox::of(blueprint);
-        sandbox.tick(1);
-        (sandbox.get::<TickPlan>().substeps, sandbox.counters())
+        let mut simulation = Simulation::of(blueprint);
+        simulation.run(1);
+        (simulation.get::<TickPlan>().substeps, simulation.counters())
     };
     // A substep moves at most 4 h = 10 d; 4 substeps at rest, 16 at most.
     let (slow, counters) = run(600.0);
@@ -330,19 +335,19 @@ fn faster_water_takes_more_substeps_up_to_the_bound_and_is_slowed_past_it() {
 fn a_full_world_stops_politely() {
     let mut blueprint = blueprint("empty", &[("particle_limit", "40")]);
     blueprint.domain.gravity = Vec2::ZERO;
-    let mut sandbox = Sandbox::of(blueprint);
-    sandbox.push(Intent::Stamp { element: WATER, stroke: dab(50.0, 50.0, 6.0) });
-    sandbox.tick(1);
-    assert_eq!(sandbox.particles().len(), 40);
-    assert!(sandbox.census().full && sandbox.counters().refused > 0);
-    sandbox.push(Intent::Draw { element: ROCK, stroke: dab(100.0, 50.0, 2.0) });
-    sandbox.tick(1);
-    assert_eq!(sandbox.rock().count(), 0, "rock went past the limit");
-    assert!(sandbox.census().full);
-    sandbox.push(Intent::Erase { stroke: dab(50.0, 50.0, 20.0) });
-    sandbox.push(Intent::Stamp { element: WATER, stroke: dab(50.0, 50.0, 2.0) });
-    sandbox.tick(1);
-    assert!(!sandbox.census().full, "full although there is room again");
+    let mut simulation = Simulation::of(blueprint);
+    simulation.push(Intent::Stamp { element: WATER, stroke: dab(50.0, 50.0, 6.0) });
+    simulation.run(1);
+    assert_eq!(simulation.particles().len(), 40);
+    assert!(simulation.census().full && simulation.counters().refused > 0);
+    simulation.push(Intent::Draw { element: ROCK, stroke: dab(100.0, 50.0, 2.0) });
+    simulation.run(1);
+    assert_eq!(simulation.rock().count(), 0, "rock went past the limit");
+    assert!(simulation.census().full);
+    simulation.push(Intent::Erase { stroke: dab(50.0, 50.0, 20.0) });
+    simulation.push(Intent::Stamp { element: WATER, stroke: dab(50.0, 50.0, 2.0) });
+    simulation.run(1);
+    assert!(!simulation.census().full, "full although there is room again");
 }
 
 #[test]
@@ -351,9 +356,9 @@ fn a_fan_drives_the_air_and_the_air_carries_water() {
     blueprint.air.open = OpenSides { left: true, right: true, ..OpenSides::default() };
     blueprint.winds.push(Wind { area: area((0.0, 0.0), (60.0, 20.0)), velocity: Vec2::new(80.0, 0.0), rate: 20.0 });
     blueprint.water(Vec2::new(5.0, 10.0), Vec2::ZERO);
-    let mut sandbox = Sandbox::of(blueprint);
-    sandbox.tick(30);
-    assert!(sandbox.calls(Pass::Air) > 0, "no air moves although a fan blows");
-    assert!(!sandbox.get::<AirGrid>().is_quiet());
-    assert!(sandbox.particles().vx[0] > 1.0, "the wind does not take water along");
+    let mut simulation = Simulation::of(blueprint);
+    simulation.run(30);
+    assert!(simulation.calls(Pass::Air) > 0, "no air moves although a wind blows");
+    assert!(!simulation.get::<AirGrid>().is_quiet());
+    assert!(simulation.particles().vx[0] > 1.0, "the wind does not take water along");
 }

@@ -1,13 +1,13 @@
 //! Water at rest stays at rest, and water that falls comes to it.
 
-use crate::support::{Sandbox, blueprint};
+use crate::support::{SimulationExt, blueprint};
 use powder_master::{
     kernel::params::Preset,
     scene::{
         blueprint::Blueprint,
         effects::{Effect, Mode},
     },
-    sim::state::SolverState,
+    sim::{simulation::Simulation, state::SolverState},
 };
 
 struct Rest {
@@ -22,35 +22,35 @@ struct Rest {
 }
 
 /// A world that rests by the method alone: what sleeps is still anyway.
-fn awake(mut blueprint: Blueprint) -> Sandbox {
+fn awake(mut blueprint: Blueprint) -> Simulation {
     blueprint.effects.insert(Effect::Sleep, Mode::Off);
-    Sandbox::of(blueprint)
+    Simulation::of(blueprint)
 }
 
 /// A still tank after some seconds.
 fn rest(preset: Preset, columns: u32, depth: u32, ticks: u32) -> Rest {
     let mut blueprint = blueprint("hydrostatic", &[("columns", &columns.to_string()), ("depth", &depth.to_string())]);
     (blueprint.preset, blueprint.quality) = (preset, preset.quality());
-    let mut sandbox = awake(blueprint);
-    sandbox.tick(ticks);
+    let mut simulation = awake(blueprint);
+    simulation.run(ticks);
     let (mut rms, mut height, mut error) = (0.0, 0.0, 0.0);
     for _ in 0..30 {
-        sandbox.tick(1);
-        let particles = sandbox.particles();
-        rms += sandbox.rms_speed() / 30.0;
+        simulation.run(1);
+        let particles = simulation.particles();
+        rms += simulation.rms_speed() / 30.0;
         let mean = particles.y.iter().map(|&y| f64::from(y)).sum::<f64>() / particles.len() as f64;
         height += mean / (0.5 * f64::from(depth)) / 30.0;
-        let density = &sandbox.get::<SolverState>().density;
+        let density = &simulation.get::<SolverState>().density;
         error += density.iter().map(|&d| f64::from((d - 1.0).max(0.0))).sum::<f64>() / density.len() as f64 / 30.0;
     }
-    let particles = sandbox.particles();
+    let particles = simulation.particles();
     let gap = |i: usize| {
         let others = (0..particles.len()).filter(|&j| j != i);
         others.map(|j| particles.position(i).distance(particles.position(j))).fold(f32::MAX, f32::min)
     };
     let mut gaps: Vec<f32> = (0..particles.len()).map(gap).collect();
     gaps.sort_unstable_by(f32::total_cmp);
-    assert_eq!(sandbox.counters().escaped, 0);
+    assert_eq!(simulation.counters().escaped, 0);
     Rest { rms, height, error, gap: gaps[gaps.len() / 100] }
 }
 
@@ -75,11 +75,11 @@ fn a_fallen_column_comes_to_rest_with_a_level_surface() {
     for preset in [Preset::Draft, Preset::Balanced] {
         let mut blueprint = blueprint("dam_break", &[("columns", "14")]);
         (blueprint.preset, blueprint.quality) = (preset, preset.quality());
-        let mut sandbox = awake(blueprint);
+        let mut simulation = awake(blueprint);
         // A wave in a basin of 56 d that is 7 d deep goes on for long: hardly anything slows it.
-        sandbox.tick(2400);
-        let (name, particles) = (preset.name(), sandbox.particles());
-        assert!(sandbox.rms_speed() < 0.1, "{name}: still {} d a tick after 40 s", sandbox.rms_speed());
+        simulation.run(2400);
+        let (name, particles) = (preset.name(), simulation.particles());
+        assert!(simulation.rms_speed() < 0.1, "{name}: still {} d a tick after 40 s", simulation.rms_speed());
         // 14 × 28 particles in a box 56 wide stand 7 high.
         let surface = |low: f32| {
             let column = (0..particles.len()).filter(|&i| (low..low + 7.0).contains(&particles.x[i]));
@@ -94,9 +94,9 @@ fn a_fallen_column_comes_to_rest_with_a_level_surface() {
 
 #[test]
 fn a_pool_at_rest_is_flat_within_a_cell_of_the_pressure_grid() {
-    let mut sandbox = awake(blueprint("hydrostatic", &[("columns", "100"), ("depth", "20")]));
-    sandbox.tick(1200);
-    let particles = sandbox.particles();
+    let mut simulation = awake(blueprint("hydrostatic", &[("columns", "100"), ("depth", "20")]));
+    simulation.run(1200);
+    let particles = simulation.particles();
     // The mean of the four highest particles in each strip of 4 d.
     let tops: Vec<f32> = (0..25)
         .map(|strip| {

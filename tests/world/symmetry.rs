@@ -1,6 +1,6 @@
 //! A world has no favourite direction: turned by a quarter, it runs turned.
 
-use crate::support::{Furnish, Sandbox, apart, empty_box};
+use crate::support::{Furnish, SimulationExt, apart, empty_box};
 use glam::Vec2;
 use powder_master::{
     kernel::{params::Preset, solids::Solids},
@@ -8,6 +8,7 @@ use powder_master::{
         blueprint::Blueprint,
         effects::{Effect, Mode},
     },
+    sim::simulation::Simulation,
 };
 
 /// Edge of the box, d.
@@ -50,18 +51,18 @@ fn dam(preset: Preset, quarters: u32) -> Blueprint {
 #[test]
 fn gravity_turned_by_quarters_gives_the_turned_run() {
     for preset in [Preset::Classic, Preset::Draft, Preset::Balanced] {
-        let mut upright = Sandbox::of(dam(preset, 0));
-        let mut others: Vec<_> = (1..4).map(|quarters| (quarters, Sandbox::of(dam(preset, quarters)))).collect();
+        let mut upright = Simulation::of(dam(preset, 0));
+        let mut others: Vec<_> = (1..4).map(|quarters| (quarters, Simulation::of(dam(preset, quarters)))).collect();
         let mut nudged = dam(preset, 0);
         nudged.nudge();
-        let mut nudged = Sandbox::of(nudged);
+        let mut nudged = Simulation::of(nudged);
         // Sums run in rows in all four, so that their rounding is not turned, and a dam break doubles any difference
         // every two or three ticks. So does it with one that is put in at the start: the two have to go together.
         for tick in 1..=24 {
-            upright.tick(1);
-            let rounding = apart(&upright, nudged.tick(1), |at| at);
+            upright.run(1);
+            let rounding = apart(&upright, nudged.run(1), |at| at);
             for (quarters, other) in &mut others {
-                let apart = apart(&upright, other.tick(1), |at| turned(at, *quarters));
+                let apart = apart(&upright, other.run(1), |at| turned(at, *quarters));
                 assert!(
                     apart < 8.0 * rounding,
                     "{}, {quarters} quarters, tick {tick}: {apart:e} d apart, rounding makes {rounding:e}",
@@ -84,9 +85,9 @@ fn a_drop_thrown_any_way_flies_the_same_way() {
             blueprint.effects.insert(effect, Mode::Off);
         }
         blueprint.water(turned(Vec2::new(5.25, 10.5), quarters), turned_way(Vec2::new(30.0, 60.0), quarters));
-        let mut sandbox = Sandbox::of(blueprint);
-        sandbox.tick(60);
-        (sandbox.particles().position(0), sandbox.particles().velocity(0))
+        let mut simulation = Simulation::of(blueprint);
+        simulation.run(60);
+        (simulation.particles().position(0), simulation.particles().velocity(0))
     };
     let (at, velocity) = run(0);
     assert!(at.distance(Vec2::new(5.25, 10.5)) > 10.0);

@@ -1,16 +1,13 @@
 //! What an earlier game left behind because it did not end well, and what becomes of it.
 
 use crate::{
-    game::{
-        actions::Action, crash::journal::PREFIX, history, input::bindings::Bindings, render::extract::Epoch,
-        toasts::Toasts,
-    },
+    game::{actions::Action, crash::journal::PREFIX, history, input::bindings::Bindings, toasts::Toasts},
     kernel::simd::InstructionSet,
     sim::{
+        checkpoint::Checkpoint,
         pace::Pace,
-        recording::{End, RECORDING_ENDING, Recording, Stretch},
+        recording::{End, RECORDING_ENDING, Recording, Segment},
         replay::Replay,
-        save::{self, Saved},
         state::SolverState,
         workers::Workers,
     },
@@ -44,13 +41,13 @@ pub struct Found {
 }
 
 impl Found {
-    fn last(&self) -> Option<&Stretch> {
-        self.recording.stretches.last()
+    fn last(&self) -> Option<&Segment> {
+        self.recording.segments.last()
     }
 
     /// Ticks that lie between the state that was kept and the end.
     pub fn ticks(&self) -> u64 {
-        self.last().map_or(0, |stretch| stretch.marks.len() as u64)
+        self.last().map_or(0, |segment| segment.marks.len() as u64)
     }
 }
 
@@ -82,7 +79,7 @@ enum Stage {
     Nothing,
     Searching(JoinHandle<Option<Found>>),
     Offered(Found),
-    Restoring(Found, JoinHandle<Option<(Saved, Reach)>>),
+    Restoring(Found, JoinHandle<Option<(Checkpoint, Reach)>>),
 }
 
 /// What is left of an earlier game.
@@ -156,11 +153,11 @@ fn find(folder: &Path) -> Option<Found> {
 /// somebody has edited.
 fn understand(bytes: &[u8]) -> Option<(Recording, String, u64)> {
     let recording = Recording::salvage(bytes).ok()?;
-    let last = recording.stretches.last()?;
+    let last = recording.segments.last()?;
     let start = last.start().ok()?;
-    let edited = start.snapshot().clock.edits > 0 || !last.entries.is_empty();
+    let edited = start.state.clock.edits > 0 || !last.entries.is_empty();
     let tick = last.tick + last.marks.len() as u64;
-    let title = start.title().to_owned();
+    let title = start.setup.blueprint.title.clone();
     (edited || recording.end == Some(End::Crashed)).then_some((recording, title, tick))
 }
 
@@ -205,7 +202,7 @@ fn decide(world: &mut World, found: Found, choice: Option<Choice>, done: &Arc<At
                 }
             };
         }
-        Some(Choice::Earlier) => match found.last().map(Stretch::start) {
+        Some(Choice::Earlier) => match found.last().map(Segment::start) {
             Some(Ok(saved)) => go_on(world, saved, Reach::LastState),
             _ => world.resource_mut::<Toasts>().warn("The world can't be restored"),
         },
@@ -222,7 +219,7 @@ fn remove(world: &mut World, found: &Found) {
 }
 
 /// Runs what was recorded again, as far as the world survives it.
-pub fn restore(recording: &Recording, instructions: InstructionSet, done: &AtomicU64) -> Option<(Saved, Reach)> {
+pub fn restore(recording: &Recording, instructions: InstructionSet, done: &AtomicU64) -> Option<(Checkpoint, Reach)> {
     let run = |reach| {
         let run = || {
             // The game beside it shall not wait for its threads.
@@ -235,21 +232,20 @@ pub fn restore(recording: &Recording, instructions: InstructionSet, done: &Atomi
             if reach == Reach::Whole {
                 let _ = replay.finish();
             }
-            save::decode(&save::encode(replay.world())).ok()
+            Checkpoint::decode(&Checkpoint::of(replay.world()).encode()).ok()
         };
         // A world that a panic went through is not looked at again.
         panic::catch_unwind(AssertUnwindSafe(run)).ok().flatten().map(|saved| (saved, reach))
     };
-    let last_state = || Some((recording.stretches.last()?.start().ok()?, Reach::LastState));
+    let last_state = || Some((recording.segments.last()?.start().ok()?, Reach::LastState));
     run(Reach::Whole).or_else(|| run(Reach::LastTick)).or_else(last_state)
 }
 
 /// Goes on with a world that came back: when somebody says so.
-fn go_on(world: &mut World, saved: Saved, reach: Reach) {
+fn go_on(world: &mut World, saved: Checkpoint, reach: Reach) {
     history::checkpoint(world);
-    save::load(world, saved);
+    saved.restore(world);
     *world.resource_mut::<Pace>() = Pace { paused: true, steps_due: 0, ..*world.resource::<Pace>() };
-    world.resource_mut::<Epoch>().0 += 1;
     let key = world.resource::<Bindings>().key(Action::Pause);
     let how = match reach {
         Reach::Whole => "Restored",

@@ -13,6 +13,7 @@ use crate::{
     kernel::units::TICK_SECONDS,
     lab::difference::Difference,
     sim::{
+        generation::Generation,
         pace::Pace,
         split::Split,
         stages::TickPlan,
@@ -48,10 +49,6 @@ impl Pictures {
     }
 }
 
-/// Counts how often the world's state was replaced as a whole: then nothing derived from the old one is valid.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Epoch(pub u32);
-
 /// What the last tick left besides the world: the predictor's grid, the tick's plan and its number.
 type LastTick<'w, 's> = (
     Extract<'w, 's, Option<Res<'static, PredictorState>>>,
@@ -67,7 +64,7 @@ pub fn extract(
     windows: Extract<Query<&Window, With<PrimaryWindow>>>,
     camera: Extract<Res<WorldCamera>>,
     shown: Extract<Res<Shown>>,
-    epoch: Extract<Res<Epoch>>,
+    generation: Extract<Res<Generation>>,
     setup: Extract<Option<Res<Setup>>>,
     particles: Extract<Option<Res<ParticleStore>>>,
     rock: Extract<Option<Res<Rock>>>,
@@ -91,7 +88,7 @@ pub fn extract(
     }
     // Half a tick after a tick the world is drawn half a tick before it: it then moves evenly at any frame rate.
     let back = if pace.paused { 0.0 } else { TICK_SECONDS * (1.0 - time.overstep_fraction().clamp(0.0, 1.0)) };
-    let sight = Sight { window, camera: &camera, view: shown.0, epoch: epoch.0, back };
+    let sight = Sight { window, camera: &camera, view: shown.0, back };
     let solver = solver.as_deref();
     let limited = Limited {
         particles,
@@ -102,7 +99,8 @@ pub fn extract(
         dt: plan.as_deref().map_or(TICK_SECONDS, TickPlan::substep_seconds),
         tick: clock.as_deref().map_or(0, |clock| clock.tick),
     };
-    let first = Scene { setup, particles, rock, air, solver, limited, tracers: Some(&**tracers) };
+    let first =
+        Scene { generation: **generation, setup, particles, rock, air, solver, limited, tracers: Some(&**tracers) };
     let Pictures { panes: [a, b, c], count, difference } = &mut *pictures;
     let areas: Vec<Area> = camera.panes().collect();
     match (split.world().and_then(Scene::of), areas.as_slice()) {

@@ -19,8 +19,10 @@ use crate::{
         difference::{self, Difference, Half},
         maps::{BurialMap, DepthMap},
     },
-    scene::blueprint::Blueprint,
-    sim::state::{AirGrid, ParticleStore, Rock, Setup, SolverState},
+    sim::{
+        generation::Generation,
+        state::{AirGrid, ParticleStore, Rock, Setup, SolverState},
+    },
 };
 use bevy::{
     math::URect,
@@ -29,7 +31,6 @@ use bevy::{
     window::Window,
 };
 use glam::{UVec2, Vec2, Vec4};
-use std::sync::Arc;
 
 /// Radius of a particle's soft disc, d.
 const DISC_RADIUS: f32 = 1.35;
@@ -81,10 +82,10 @@ pub struct Picture {
     /// Where limiters act; of the last time that the view showed it.
     strain: StrainMap,
     table: ColourTable,
-    table_of: Option<(&'static View, Arc<Blueprint>)>,
+    table_of: Option<(&'static View, u64)>,
     /// What the particles are coloured by.
     shares: Vec<f32>,
-    rock_of: Option<(u64, Arc<Blueprint>, u32)>,
+    rock_of: Option<(Generation, u64)>,
 }
 
 impl Default for Picture {
@@ -118,7 +119,6 @@ pub(super) struct Sight<'a> {
     pub(super) window: &'a Window,
     pub(super) camera: &'a WorldCamera,
     pub(super) view: &'static View,
-    pub(super) epoch: u32,
     /// The moment that is drawn, s before the last tick.
     pub(super) back: f32,
 }
@@ -126,6 +126,7 @@ pub(super) struct Sight<'a> {
 /// A world, and what is drawn into it.
 #[derive(Clone, Copy)]
 pub(super) struct Scene<'a> {
+    pub(super) generation: Generation,
     pub(super) setup: &'a Setup,
     pub(super) particles: &'a ParticleStore,
     pub(super) rock: &'a Rock,
@@ -145,6 +146,7 @@ impl<'a> Scene<'a> {
     /// What there is of the second world of a split.
     pub(super) fn of(world: &'a World) -> Option<Self> {
         Some(Self {
+            generation: *world.get_resource()?,
             setup: world.get_resource()?,
             particles: world.get_resource()?,
             rock: world.get_resource()?,
@@ -162,7 +164,7 @@ impl Picture {
         let blueprint = &scene.setup.blueprint;
         let reference = Reference::of(&blueprint.domain, &blueprint.air);
         self.fill_particles(scene, sight, reference);
-        self.fill_rock(scene, sight.epoch);
+        self.fill_rock(scene);
         self.depth_new = sight.view.shaded;
         if self.depth_new {
             self.depth.measure(blueprint.domain.size, scene.particles);
@@ -188,7 +190,7 @@ impl Picture {
     ) {
         self.particles.clear();
         self.streaks.clear();
-        self.fill_rock(scene, sight.epoch);
+        self.fill_rock(scene);
         self.depth_new = false;
         difference.texels(&mut self.air.0);
         self.air.1 = UVec2::new(difference.columns() as u32, difference.rows() as u32);
@@ -198,9 +200,10 @@ impl Picture {
 
     fn fill_particles(&mut self, scene: Scene<'_>, sight: Sight<'_>, reference: Reference) {
         let (view, blueprint) = (sight.view, &scene.setup.blueprint);
-        if self.table_of.as_ref().is_none_or(|(old, of)| *old != view || !Arc::ptr_eq(of, blueprint)) {
+        let table_of = Some((view, scene.generation.scene));
+        if self.table_of != table_of {
             self.table.fill(view, &blueprint.elements);
-            self.table_of = Some((view, blueprint.clone()));
+            self.table_of = table_of;
         }
         let shares = match view.quantity {
             Quantity::Of(measure) => {
@@ -225,14 +228,12 @@ impl Picture {
         particles::pack(scene.particles, &self.table, shares, sight.back, self.particles.values_mut());
     }
 
-    fn fill_rock(&mut self, scene: Scene<'_>, epoch: u32) {
-        let (rock, blueprint) = (scene.rock, &scene.setup.blueprint);
-        self.rock_new = self.rock_of.as_ref().is_none_or(|(version, of, during)| {
-            *version != rock.version() || !Arc::ptr_eq(of, blueprint) || *during != epoch
-        });
+    fn fill_rock(&mut self, scene: Scene<'_>) {
+        let rock_of = Some((scene.generation, scene.rock.version()));
+        self.rock_new = self.rock_of != rock_of;
         if self.rock_new {
-            rock::pack(rock, &blueprint.elements, &mut self.burial, self.rock.values_mut());
-            self.rock_of = Some((rock.version(), blueprint.clone(), epoch));
+            rock::pack(scene.rock, scene.setup.elements(), &mut self.burial, self.rock.values_mut());
+            self.rock_of = rock_of;
         }
     }
 

@@ -17,10 +17,10 @@ use crate::{
         simd::InstructionSet,
     },
     sim::{
+        checkpoint::Checkpoint,
         recorder::Recorder,
         recording::{End, Entry, Recording},
         replay::Replay,
-        save,
         workers::Workers,
     },
 };
@@ -150,7 +150,7 @@ fn a_panic_saves_what_was_played_and_the_next_start_restores_it() {
         assert_eq!(recording.end, Some(End::Crashed), "{name}");
         let (hash, tick) = replayed(&recording);
         assert_eq!(tick, 40, "{name}: all ticks before it are there");
-        assert!(recording.stretches[0].entries.len() >= 13, "{name}: the input, too");
+        assert!(recording.segments[0].entries.len() >= 13, "{name}: the input, too");
 
         // Looking at it decides nothing.
         assert!(next_start(&folder, None, |_| ()).is_some(), "{name}: nothing was offered");
@@ -228,18 +228,18 @@ fn what_panics_again_is_restored_as_far_as_it_goes() {
     let set = InstructionSet::detect();
     let tick = |recording: &Recording| {
         let restored = remains::restore(recording, set, &AtomicU64::new(0)).expect("there is always something");
-        (restored.0.snapshot().clock.tick, restored.1)
+        (restored.0.state.clock.tick, restored.1)
     };
-    let start = good.stretches[0].tick;
+    let start = good.segments[0].tick;
     let end = start + good.ticks();
     assert_eq!(tick(&good), (end, Reach::Whole));
     // No file can hold this: it stands for an edit that the program does not survive.
     let fatal = |tick| Entry { tick, intent: Intent::Fill { element: ElementId(200), at: Vec2::splat(10.0) } };
     let mut bad = good.clone();
-    bad.stretches[0].entries.push(fatal(end));
+    bad.segments[0].entries.push(fatal(end));
     assert_eq!(tick(&bad), (end, Reach::LastTick));
     let mut worse = good.clone();
-    worse.stretches[0].entries.insert(0, fatal(start));
+    worse.segments[0].entries.insert(0, fatal(start));
     assert_eq!(tick(&worse), (start, Reach::LastState));
 }
 
@@ -247,9 +247,9 @@ fn what_panics_again_is_restored_as_far_as_it_goes() {
 fn a_file_of_the_last_minute_takes_the_state_that_is_shown() {
     let mut app = game(&folder("jump"));
     (0..20).for_each(|_| app.update());
-    let saved = save::decode(&save::encode(app.world())).expect("its own file");
+    let saved = Checkpoint::decode(&Checkpoint::of(app.world()).encode()).expect("its own file");
     (0..5).for_each(|_| app.update());
-    save::load(app.world_mut(), saved);
+    saved.restore(app.world_mut());
     app.world_mut().resource_mut::<Pace>().paused = true;
     let recorder = app.world().resource::<Recorder>();
     recorder.keep_up(app.world());

@@ -17,7 +17,9 @@ use crate::{
         effects::{EffectModes, Pass},
     },
     sim::{
-        SimulationPlugin, control,
+        SimulationPlugin,
+        checkpoint::Checkpoint,
+        control,
         intent::{Intent, IntentQueue},
         pace::Pace,
         state::{Clock, ParticleStore, Rock, Setup},
@@ -75,7 +77,7 @@ impl Player {
             .add_systems(FixedUpdate, spy.before(Pass::Edit));
         let scene = scene::load("empty").expect("the scene comes with the game");
         let blueprint = scene.build(&[], None, &EffectModes::new()).expect("its defaults are valid");
-        control::load(app.world_mut(), Arc::new(blueprint));
+        Checkpoint::of_scene(Arc::new(blueprint)).restore(app.world_mut());
         app.finish();
         app.cleanup();
         let mut player = Self(app);

@@ -1,7 +1,15 @@
 //! Undo, redo, reset, another scene.
 
 use super::*;
-use crate::kernel::params::Preset;
+use crate::{
+    kernel::params::Preset,
+    scene::effects::{Effect, Mode},
+    sim::{
+        effects::Effects,
+        intent::{Intent, IntentQueue},
+        state::Setup,
+    },
+};
 
 #[test]
 fn undo_and_redo_restore_the_exact_state() {
@@ -21,6 +29,31 @@ fn undo_and_redo_restore_the_exact_state() {
     assert_eq!(player.hash(), drawn, "redo");
     player.chord(&[KeyCode::ControlLeft, KeyCode::KeyY]);
     assert_eq!(player.world().resource::<Toasts>().last(), Some("Nothing to make again"));
+}
+
+#[test]
+fn undo_and_redo_give_gravity_quality_and_effects_back() {
+    let mut player = Player::new();
+    player.point_at(player.middle());
+    let of = |player: &Player| {
+        let setup = player.world().resource::<Setup>();
+        (setup.domain.gravity, setup.quality, player.world().resource::<Effects>().modes())
+    };
+    let before = of(&player);
+    player.press();
+    player.frame();
+    player.release();
+    let mut queue = player.0.world_mut().resource_mut::<IntentQueue>();
+    queue.push(Intent::Gravity { gravity: -before.0 });
+    queue.push(Intent::Effect { effect: Effect::Viscosity, mode: Mode::On });
+    queue.push(Intent::Quality { preset: Preset::Draft, quality: Preset::Draft.quality() });
+    player.frames(2);
+    let after = of(&player);
+    assert!(after.0 == -before.0 && after.1 != before.1 && after.2 != before.2, "{after:?}");
+    player.chord(&[KeyCode::ControlLeft, KeyCode::KeyZ]);
+    assert_eq!(of(&player), before, "undo");
+    player.chord(&[KeyCode::ControlLeft, KeyCode::KeyY]);
+    assert_eq!(of(&player), after, "redo");
 }
 
 #[test]

@@ -6,11 +6,11 @@ use crate::{
     kernel::{params::Preset, simd::InstructionSet},
     scene::effects::{Effect, Mode},
     sim::{
+        checkpoint::Checkpoint,
         effects::Effects,
         recorder::Recorder,
         recording::{RECORDING_ENDING, Recording},
         replay::Replay,
-        save,
         workers::Workers,
     },
 };
@@ -138,7 +138,7 @@ fn a_recording_goes_on_through_everything_that_puts_another_world_in_place() {
     order(&mut player, Order::Effect(Effect::Viscosity, Mode::On));
     player.frames(3);
     assert_eq!(player.world().resource::<Effects>().get(Effect::Viscosity).mode, Mode::On);
-    let saved = save::encode(player.world());
+    let saved = Checkpoint::of(player.world()).encode();
     let save = file("jumps-save").with_extension("pms");
     fs::write(&save, saved).expect("the folder of temporary files can be written");
     order(&mut player, Order::Scene { name: "dam_break".into(), settings: vec![("columns".into(), "9".into())] });
@@ -153,7 +153,7 @@ fn a_recording_goes_on_through_everything_that_puts_another_world_in_place() {
     let hash = player.hash();
     player.0.world_mut().write_message(bevy::app::AppExit::Success);
     player.frame();
-    assert_eq!(read(&path).stretches.len(), 5, "start, scene, save file, undo, reset");
+    assert_eq!(read(&path).segments.len(), 5, "start, scene, save file, undo, reset");
     assert_eq!(again(&path), hash);
     fs::remove_file(path).and_then(|()| fs::remove_file(save)).expect("they are ours");
 }
@@ -178,8 +178,8 @@ fn a_key_begins_a_recording_and_ends_it_and_another_keeps_the_last_minute() {
     let told = player.world().resource::<Toasts>().last().expect("it is told").to_owned();
     assert!(told.starts_with("Recorded 0.") && told.ends_with(&path.display().to_string()), "{told}");
     let recording = read(path);
-    assert!(recording.stretches[0].tick.abs_diff(begun) <= 1, "{} is not {begun}", recording.stretches[0].tick);
-    assert_eq!(recording.stretches[0].tick + recording.ticks(), tick);
+    assert!(recording.segments[0].tick.abs_diff(begun) <= 1, "{} is not {begun}", recording.segments[0].tick);
+    assert_eq!(recording.segments[0].tick + recording.ticks(), tick);
     assert_eq!(again(path), hash);
 
     player.chord(&[KeyCode::ShiftLeft, KeyCode::F9]);
@@ -212,7 +212,7 @@ fn a_recording_that_can_not_be_written_ends_and_is_kept_until_it_can() {
     assert_eq!(player.world().resource::<Recorder>().ticks(), None);
     let [path] = &recordings(&folder)[..] else { panic!("one file, not {:?}", recordings(&folder)) };
     let recording = read(path);
-    assert_eq!(recording.stretches[0].tick + recording.ticks(), tick, "it went on");
+    assert_eq!(recording.segments[0].tick + recording.ticks(), tick, "it went on");
     assert_eq!(again(path), hash);
     fs::remove_dir_all(folder).expect("it is ours");
 }
@@ -232,7 +232,7 @@ fn a_recording_can_be_watched_and_comes_to_the_same_end() {
     let recording = read(&path);
     let mut watcher = Player::new();
     let watch = |watcher: &mut Player| {
-        save::load(watcher.0.world_mut(), recording.stretches[0].start().expect("it was read"));
+        recording.segments[0].start().expect("it was read").restore(watcher.0.world_mut());
         playback::begin(watcher.0.world_mut(), recording.clone());
     };
     watch(&mut watcher);

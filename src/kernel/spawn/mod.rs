@@ -1,4 +1,4 @@
-//! Placing and taking away matter: what tools, taps and outlets do.
+//! Placing and taking away matter: what tools, emitters and drains do.
 //!
 //! New particles stand on the sites of the lattice (the centres of the cells), a little off them when poured, and only
 //! where no other particle is near: nothing is ever put into something, nor into a cell that the box cuts.
@@ -49,7 +49,7 @@ pub struct EditReport {
     pub removed: u64,
     /// Particles not placed for want of room under the limit.
     pub refused: u64,
-    /// Whether a tap could not give what was due for want of free sites.
+    /// Whether an emitter could not give what was due for want of free sites.
     pub blocked: bool,
 }
 
@@ -150,7 +150,7 @@ impl Matter<'_> {
         EditReport { removed: removed as u64, ..EditReport::default() }
     }
 
-    /// Lets a tap flow for `dt` s at tick `tick`. `room` is for its use alone, and what it holds does not matter.
+    /// Lets an emitter flow for `dt` s at tick `tick`. `room` is its buffer.
     pub fn emit(&mut self, emitter: &mut Emitter, room: &mut Occupancy, tick: u64, dt: f32) -> EditReport {
         if tick < emitter.start {
             return EditReport::default();
@@ -173,19 +173,19 @@ impl Matter<'_> {
         if count == 0 {
             return EditReport::default();
         }
-        // Start somewhere else each tick, so that a wide tap flows evenly.
+        // Start somewhere else each tick, so that a wide emitter flows evenly.
         let seed = mix(tick as u32);
         let turned = sites().cycle().skip(seed as usize % count).take(count);
         let filling = Filling { share: 1.0, seed, scatter: SCATTER, velocity: emitter.velocity, most };
         let mut report = self.place_movable(emitter.element, Some((low, high)), turned, filling, room);
         report.blocked = report.placed + report.refused < u64::from(most);
-        // A tap without a total is not asked how much it has given.
+        // An emitter without a total is not asked how much it has given.
         emitter.given = emitter.given.saturating_add(report.placed as u32);
         emitter.due = (emitter.due - report.placed as f32).max(0.0);
         report
     }
 
-    /// Takes away the movable particles in an outlet.
+    /// Takes away the movable particles in a drain.
     pub fn drain(&mut self, drain: &Drain) -> EditReport {
         let removed = self.particles.retain(|particles, i| !drain.area.contains(particles.position(i)));
         EditReport { removed: removed as u64, ..EditReport::default() }

@@ -5,7 +5,7 @@
 //! cases ─► ExamCase: scenes (assets/exam, assets/scenes) at a quality ─► world, tick by tick ─► Finding ─► Answer
 //! ```
 //!
-//! A case builds its world as every scene is built (`scene::from_text`, `control::load`) and changes nothing in it
+//! A case builds its world as every scene is built (`scene::from_text`, `Checkpoint::of_scene`) and changes nothing in it
 //! afterwards but what it says. It is a future that yields after each tick, so that the caller can do something else in
 //! between: count, stop, or draw a frame (`drive`). How cases are run and reported is told in [`super::cases`].
 

@@ -2,12 +2,11 @@
 
 use crate::{
     lab::{
-        headless::Headless,
         run::{self, Observer, Plan},
         sampler::ms,
         stats,
     },
-    sim::{control, ledger::PassLedger},
+    sim::{control, ledger::PassLedger, simulation::Simulation},
 };
 use bevy::ecs::world::World;
 use std::io;
@@ -32,14 +31,14 @@ impl Run {
 ///
 /// # Errors
 /// If an observer can't go on.
-pub fn time(headless: &mut Headless, plan: &Plan, others: &mut [&mut dyn Observer]) -> io::Result<Run> {
+pub fn time(simulation: &mut Simulation, plan: &Plan, others: &mut [&mut dyn Observer]) -> io::Result<Run> {
     let mut times = Times { left: plan.warmup, ms: Vec::new() };
     let mut observers: Vec<&mut dyn Observer> = vec![&mut times];
     for other in others {
         observers.push(*other);
     }
-    run::run(headless, plan, &mut observers)?;
-    Ok(Run { ms: times.ms, hash: control::hash(headless.world()) })
+    run::run(simulation, plan, &mut observers)?;
+    Ok(Run { ms: times.ms, hash: control::hash(simulation.world()) })
 }
 
 /// Notes the time of each tick after the warm-up.

@@ -5,7 +5,7 @@
 //! cases ─► GauntletCase: a scene, what is done to it, the rules ─► world, tick by tick ─► Judge ─► Stability
 //! ```
 //!
-//! A case builds its world as every scene is built (`scene::from_text`, `control::load`). What is done to it before each
+//! A case builds its world as every scene is built (`scene::from_text`, `Checkpoint::of_scene`). What is done to it before each
 //! tick is a script (`sim::script`), which runs headless here and in the game where a case is watched. How cases are run and
 //! reported is told in [`super::cases`].
 

@@ -2,8 +2,11 @@
 //! of the moment.
 
 use crate::{
-    lab::sampler::{air_mass, matter, residual},
-    lab::volume::volume_error,
+    lab::{
+        balance::matter,
+        sampler::{air_mass, residual},
+        volume::volume_error,
+    },
     scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
@@ -13,7 +16,7 @@ use crate::{
 };
 use bevy::{
     platform::time::Instant,
-    prelude::{Mut, Res, ResMut, World},
+    prelude::{Mut, Res, World},
 };
 
 /// Run condition: somebody looks.
@@ -30,11 +33,6 @@ fn start_with(measures: &mut Measures, world: &World) {
     if !measures.knows(world) {
         measures.start(world, air_kilograms(world));
     }
-}
-
-/// Goes along with the world.
-pub fn follow(mut measures: ResMut<Measures>, clock: Res<Clock>) {
-    measures.follow(&clock);
 }
 
 /// Measures when it is time.

@@ -45,11 +45,7 @@ impl Plugin for LivePlugin {
                     .after(Pass::Measure)
                     .before(autopilot::steer),
             )
-            .add_systems(
-                FixedUpdate,
-                (measures::start.before(script::run), measures::follow.after(Pass::Measure))
-                    .run_if(measures::is_wanted),
-            )
+            .add_systems(FixedUpdate, measures::start.before(script::run).run_if(measures::is_wanted))
             .add_systems(Update, (survey::run, measures::measure.run_if(measures::is_wanted)));
     }
 }

@@ -112,11 +112,11 @@ mod tests {
         kernel::element::ElementId,
         lab::{
             density::density_error,
-            headless::Headless,
             testing::{lattice, world},
         },
         scene::{self, effects::EffectModes},
         sim::{
+            simulation::Simulation,
             state::{ParticleStore, Rock, Setup},
             workers::Workers,
         },
@@ -140,11 +140,11 @@ mod tests {
     fn a_sample_estimates_the_error_of_a_flowing_scene() {
         let settings = [("columns".to_owned(), "60".to_owned())];
         let blueprint = scene::load("dam_break").unwrap().build(&settings, None, &EffectModes::new()).unwrap();
-        let mut headless = Headless::new(Arc::new(blueprint), Workers::default());
+        let mut simulation = Simulation::new(Arc::new(blueprint), Workers::default());
         let (mut whole, mut sampled, mut scratch) = (Vec::new(), Vec::new(), Scratch::default());
         for tick in 0..120 {
-            headless.tick();
-            let world = headless.world();
+            simulation.tick();
+            let world = simulation.world();
             let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
             let size = world.resource::<Setup>().blueprint.domain.size;
             if tick >= 30 {

@@ -1,33 +1,33 @@
 //! "Measure here": from the world as it is, every preset is run a little way, and its time and error make the curve of
-//! this very moment. Play goes on: the work is done by one thread that rests as long as it works, or, where there are no
-//! threads, in slices between frames.
+//! this very moment. Play goes on: the work is done in the background by half of a thread, or, where there are no threads, in
+//! slices between frames.
 
 use crate::{
-    kernel::params::{Preset, Quality},
-    lab::{density::density_error, live::tick_milliseconds, stats},
+    kernel::{
+        params::{Preset, Quality},
+        simd::InstructionSet,
+    },
+    lab::{
+        density::density_error,
+        drive::pause,
+        jobs::{Handle, Share},
+        live::tick_milliseconds,
+        stats,
+    },
     scene::effects::{Effect, Mode},
     sim::{
         accuracy::{Curve, CurvePoint, Survey, SurveyRequest, fingerprint},
         autopilot::ladder,
+        checkpoint::Checkpoint,
         effects::{Effects, status::Sleepers},
         ledger::PassLedger,
-        state::{Clock, ParticleStore, Rock, Setup},
-        twin::{Seed, Twin},
+        simulation::Simulation,
+        state::{Clock, ParticleStore, Rock, Setup, SolverState},
         workers::Workers,
     },
 };
-use bevy::{
-    platform::time::Instant,
-    prelude::{Mut, Resource, World},
-};
-use std::{
-    sync::{
-        Arc, Mutex, PoisonError,
-        atomic::{AtomicBool, Ordering},
-    },
-    thread,
-    time::Duration,
-};
+use bevy::prelude::{Mut, Resource, World};
+use std::sync::mpsc::Sender;
 
 /// Ticks in which the state gets used to a quality.
 const WARMUP: u32 = 30;
@@ -35,13 +35,11 @@ const WARMUP: u32 = 30;
 const TICKS: u32 = 90;
 /// Ticks from one measurement of the error to the next.
 const MEASURE_EVERY: u32 = 10;
-/// Time that a slice may take of a frame.
-const SLICE: Duration = Duration::from_millis(4);
 
 /// Runs the surveys.
 #[derive(Resource, Default)]
 pub struct Surveyor {
-    job: Option<Job>,
+    handle: Option<Handle<Message>>,
     /// Never on a thread of its own.
     sliced: bool,
 }
@@ -49,27 +47,16 @@ pub struct Surveyor {
 impl Surveyor {
     /// One that works in slices between frames, as where there are no threads.
     pub fn sliced() -> Self {
-        Self { job: None, sliced: true }
+        Self { handle: None, sliced: true }
     }
 }
 
-enum Job {
-    Thread { shared: Arc<Shared> },
-    Slices(Box<Work>),
-}
-
-/// What the thread tells, and is told.
-#[derive(Default)]
-struct Shared {
-    cancelled: AtomicBool,
-    found: Mutex<Found>,
-}
-
-#[derive(Clone, Debug, Default)]
-struct Found {
-    results: Vec<Done>,
+/// What the work tells after each tick.
+struct Message {
+    /// Share that is done, 0 … 1.
     progress: f32,
-    done: bool,
+    /// What a run found, if one came to its end.
+    result: Option<Done>,
 }
 
 /// What a run found.
@@ -82,8 +69,8 @@ enum Done {
 }
 
 impl Done {
-    fn note(self, curve: &mut Curve) {
-        match self {
+    fn note(&self, curve: &mut Curve) {
+        match *self {
             Self::Here(milliseconds) => curve.here_on_one_thread = Some(milliseconds),
             Self::Point(point) => curve.points.push(point),
         }
@@ -96,7 +83,7 @@ pub fn run(world: &mut World) {
         match world.resource_mut::<Survey>().request.take() {
             Some(SurveyRequest::Begin) => surveyor.begin(world),
             Some(SurveyRequest::Cancel) => {
-                surveyor.cancel();
+                surveyor.handle = None;
                 world.resource_mut::<Survey>().progress = None;
             }
             None => {}
@@ -107,7 +94,6 @@ pub fn run(world: &mut World) {
 
 impl Surveyor {
     fn begin(&mut self, world: &mut World) {
-        self.cancel();
         let (setup, clock) = (world.resource::<Setup>(), world.resource::<Clock>());
         let sleep = Asleep::of(world);
         let curve = Curve {
@@ -117,71 +103,23 @@ impl Surveyor {
             here: (sleep != Asleep::All).then(|| (setup.quality, tick_milliseconds(world))),
             ..Curve::default()
         };
-        let work = Work::new(Seed::of(world), sleep);
+        let work = Work::new(world, sleep);
         *world.resource_mut::<Survey>() = Survey { request: None, progress: Some(0.0), curve };
-        self.job = Some(if self.sliced { Job::Slices(Box::new(work)) } else { start(work) });
-    }
-
-    fn cancel(&mut self) {
-        if let Some(Job::Thread { shared }) = self.job.take() {
-            shared.cancelled.store(true, Ordering::Relaxed);
-        }
+        self.handle = Some(match self.sliced {
+            true => Handle::sliced(|messages| work.run(messages)),
+            false => Handle::start(Share::Half, |messages| work.run(messages)),
+        });
     }
 
     fn follow(&mut self, survey: &mut Survey) {
-        let done = match &mut self.job {
-            None => return,
-            Some(Job::Thread { shared }) => {
-                let found = shared.found.lock().unwrap_or_else(PoisonError::into_inner).clone();
-                let known = survey.curve.points.len() + usize::from(survey.curve.here_on_one_thread.is_some());
-                found.results.iter().skip(known).for_each(|result| result.note(&mut survey.curve));
-                survey.progress = Some(found.progress);
-                // A thread that is gone has nothing more to tell, whatever became of it.
-                found.done || Arc::strong_count(shared) == 1
-            }
-            Some(Job::Slices(work)) => {
-                let begun = Instant::now();
-                while !work.is_done() && begun.elapsed() < SLICE {
-                    if let Some(result) = work.advance() {
-                        result.note(&mut survey.curve);
-                    }
-                }
-                survey.progress = Some(work.progress());
-                work.is_done()
-            }
-        };
-        if done {
-            (self.job, survey.progress) = (None, None);
+        let Some(handle) = &mut self.handle else { return };
+        for Message { progress, result } in handle.advance() {
+            survey.progress = Some(progress);
+            result.iter().for_each(|result| result.note(&mut survey.curve));
         }
-    }
-}
-
-/// Starts a thread for the work; without threads it is done in slices.
-fn start(work: Work) -> Job {
-    let shared = Arc::new(Shared::default());
-    let (theirs, slot) = (shared.clone(), Arc::new(Mutex::new(Some(work))));
-    let taken = slot.clone();
-    let started = thread::Builder::new().name("survey".into()).spawn(move || {
-        let work = taken.lock().unwrap_or_else(PoisonError::into_inner).take();
-        if let Some(work) = work {
-            work_aside(work, &theirs);
+        if handle.is_over() {
+            (self.handle, survey.progress) = (None, None);
         }
-    });
-    // Where no thread starts, nobody else wants the work.
-    let left = started.err().and_then(|_| slot.lock().unwrap_or_else(PoisonError::into_inner).take());
-    left.map_or(Job::Thread { shared }, |work| Job::Slices(Box::new(work)))
-}
-
-fn work_aside(mut work: Work, shared: &Shared) {
-    while !work.is_done() && !shared.cancelled.load(Ordering::Relaxed) {
-        let begun = Instant::now();
-        let result = work.advance();
-        let mut found = shared.found.lock().unwrap_or_else(PoisonError::into_inner);
-        found.results.extend(result);
-        (found.progress, found.done) = (work.progress(), work.is_done());
-        drop(found);
-        // Half of the time belongs to the game.
-        thread::sleep(begun.elapsed());
     }
 }
 
@@ -206,7 +144,9 @@ impl Asleep {
 
 /// A survey, tick by tick.
 struct Work {
-    seed: Seed,
+    start: Checkpoint,
+    /// Instructions that the solver uses.
+    instructions: InstructionSet,
     /// What is to be run, the dearest first.
     left: Vec<Leg>,
     run: Option<Run>,
@@ -226,16 +166,17 @@ struct Leg {
 /// The world at one of the qualities.
 struct Run {
     leg: Leg,
-    twin: Twin,
+    simulation: Simulation,
     ticks: u32,
     means: Vec<f64>,
     p99s: Vec<f64>,
 }
 
 impl Work {
-    fn new(seed: Seed, asleep: Asleep) -> Self {
+    fn new(world: &World, asleep: Asleep) -> Self {
+        let start = Checkpoint::of(world);
         let leg = |preset, quality| Leg { preset, quality, sleep: false };
-        let here = leg(seed.setup.preset, seed.setup.quality);
+        let here = leg(start.setup.preset, start.setup.quality);
         let mut left: Vec<_> = Preset::ALL.into_iter().map(|preset| leg(preset, preset.quality())).collect();
         if left.iter().all(|leg| leg.quality != here.quality) {
             left.push(here);
@@ -246,11 +187,23 @@ impl Work {
             left.push(Leg { sleep: true, ..here });
         }
         let total = left.iter().map(|leg| ladder::work(&leg.quality)).sum();
-        Self { seed, left, run: None, done: 0.0, total }
+        let instructions = world.resource::<SolverState>().instructions;
+        Self { start, instructions, left, run: None, done: 0.0, total }
     }
 
     fn is_done(&self) -> bool {
         self.left.is_empty() && self.run.is_none()
+    }
+
+    /// Does all of it, a tick at a time.
+    async fn run(mut self, messages: Sender<Message>) {
+        while !self.is_done() {
+            let result = self.advance();
+            if messages.send(Message { progress: self.progress(), result }).is_err() {
+                return;
+            }
+            pause().await;
+        }
     }
 
     /// Share that is done, 0 … 1.
@@ -265,7 +218,7 @@ impl Work {
     /// Does one tick of the work; the result if that finishes a run.
     fn advance(&mut self) -> Option<Done> {
         if self.run.is_none() {
-            self.run = Some(Run::new(&self.seed, self.left.pop()?));
+            self.run = Some(Run::new(&self.start, self.instructions, self.left.pop()?));
         }
         let run = self.run.as_mut()?;
         let result = run.advance()?;
@@ -276,22 +229,23 @@ impl Work {
 }
 
 impl Run {
-    fn new(seed: &Seed, leg: Leg) -> Self {
+    fn new(start: &Checkpoint, instructions: InstructionSet, leg: Leg) -> Self {
         // Without threads, the calling one is all there is.
-        let mut twin = Twin::new(seed, Workers::new(1).unwrap_or_default());
-        twin.set_quality(leg.preset, leg.quality);
+        let start = start.clone().at_quality(leg.preset, leg.quality);
+        let simulation = Simulation::resume(&start, Workers::new(1).unwrap_or_default());
+        let mut simulation = simulation.with_instructions(instructions);
         if !leg.sleep {
             // What sleeps costs the same at every quality, and errs by the same: it says nothing of any.
-            twin.world_mut().resource_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off;
+            simulation.world_mut().resource_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off;
         }
-        Self { leg, twin, ticks: 0, means: Vec::new(), p99s: Vec::new() }
+        Self { leg, simulation, ticks: 0, means: Vec::new(), p99s: Vec::new() }
     }
 
     fn advance(&mut self) -> Option<Done> {
         if self.ticks == WARMUP {
-            self.twin.world_mut().resource_mut::<PassLedger>().clear();
+            self.simulation.world_mut().resource_mut::<PassLedger>().clear();
         }
-        self.twin.tick();
+        self.simulation.tick();
         self.ticks += 1;
         if !self.leg.sleep && self.ticks > WARMUP && self.ticks.is_multiple_of(MEASURE_EVERY) {
             self.measure();
@@ -299,7 +253,7 @@ impl Run {
         if self.ticks < WARMUP + TICKS {
             return None;
         }
-        let milliseconds = tick_milliseconds(self.twin.world());
+        let milliseconds = tick_milliseconds(self.simulation.world());
         if self.leg.sleep {
             return Some(Done::Here(milliseconds));
         }
@@ -313,7 +267,7 @@ impl Run {
     }
 
     fn measure(&mut self) {
-        let world = self.twin.world();
+        let world = self.simulation.world();
         let blueprint = &world.resource::<Setup>().blueprint;
         let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
         let rest = f64::from(blueprint.fluid.rest_density);
@@ -328,36 +282,36 @@ impl Run {
 mod tests {
     use super::*;
     use crate::{
-        lab::headless::Headless,
         scene::{
             self,
             effects::{EffectModes, Pass},
         },
-        sim::state::SleepState,
+        sim::{simulation::Simulation, state::SleepState},
     };
+    use std::sync::Arc;
 
     /// A pool whose water and air came to rest.
-    fn pool() -> Headless {
+    fn pool() -> Simulation {
         let settings = [("columns", "16"), ("depth", "10")].map(|(key, value)| (key.to_owned(), value.to_owned()));
         let blueprint = scene::load("hydrostatic").unwrap().build(&settings, None, &EffectModes::new()).unwrap();
-        let mut headless = Headless::new(Arc::new(blueprint), Workers::single());
-        let asleep = |headless: &Headless| Asleep::of(headless.world()) == Asleep::All;
-        while !asleep(&headless) {
-            headless.tick();
-            assert!(headless.world().resource::<Clock>().tick < 3000, "it does not fall asleep");
+        let mut simulation = Simulation::new(Arc::new(blueprint), Workers::single());
+        let asleep = |simulation: &Simulation| Asleep::of(simulation.world()) == Asleep::All;
+        while !asleep(&simulation) {
+            simulation.tick();
+            assert!(simulation.world().resource::<Clock>().tick < 3000, "it does not fall asleep");
         }
-        headless
+        simulation
     }
 
     #[test]
     fn what_sleeps_is_awake_in_every_run_from_the_first_tick_to_the_last() {
-        let headless = pool();
-        let mut work = Work::new(Seed::of(headless.world()), Asleep::of(headless.world()));
+        let simulation = pool();
+        let mut work = Work::new(simulation.world(), Asleep::of(simulation.world()));
         let mut moved = 0;
         while !work.is_done() {
             work.advance();
             if let Some(run) = &work.run {
-                let world = run.twin.world();
+                let world = run.simulation.world();
                 let name = run.leg.preset.name();
                 assert_eq!(world.resource::<SleepState>().asleep(), 0, "{name} sleeps at tick {}", run.ticks);
                 moved += u32::from(world.resource::<PassLedger>().record(Pass::Solve).last.calls > 0);
@@ -368,13 +322,13 @@ mod tests {
 
     #[test]
     fn only_a_world_of_which_a_part_sleeps_is_run_once_more_for_its_time() {
-        let headless = pool();
-        let legs = |asleep| Work::new(Seed::of(headless.world()), asleep).left;
+        let simulation = pool();
+        let legs = |asleep| Work::new(simulation.world(), asleep).left;
         assert_eq!(legs(Asleep::None).len(), Preset::ALL.len());
         assert_eq!(legs(Asleep::All).len(), Preset::ALL.len());
         let some = legs(Asleep::Some);
         assert_eq!(some.iter().filter(|leg| leg.sleep).count(), 1);
         let last = some.last().expect("it is run first");
-        assert!(last.sleep && last.quality == headless.world().resource::<Setup>().quality);
+        assert!(last.sleep && last.quality == simulation.world().resource::<Setup>().quality);
     }
 }

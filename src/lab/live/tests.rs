@@ -7,7 +7,6 @@ use crate::{
         params::Preset,
     },
     lab::{
-        headless::Headless,
         run::{Plan, run},
         sampler::Sampler,
     },
@@ -18,13 +17,15 @@ use crate::{
     sim::{
         accuracy::{LiveError, Survey, SurveyRequest, Watched},
         autopilot::{self, Autopilot, Goal, controller::Verdict, ladder},
+        checkpoint::Checkpoint,
         control,
         intent::{Intent, IntentQueue},
         ledger::{Extent, PassLedger},
         measures::{Measured, Measures},
         pace::Pace,
         recorder::{self, Recorder},
-        recording::Recording,
+        recording::{Entry, Recording},
+        simulation::Simulation,
         state::{Clock, Setup},
         workers::Workers,
     },
@@ -36,18 +37,18 @@ use bevy::{
 };
 use std::{sync::Arc, thread, time::Duration};
 
-fn begin<M>(scene: &str, settings: &[(&str, &str)], plugins: impl Plugins<M>) -> Headless {
+fn begin<M>(scene: &str, settings: &[(&str, &str)], plugins: impl Plugins<M>) -> Simulation {
     let settings: Vec<_> = settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
     let blueprint = scene::load(scene).unwrap().build(&settings, None, &EffectModes::new()).unwrap();
-    Headless::begin_with(Workers::single(), plugins, |world| control::load(world, Arc::new(blueprint)))
+    Simulation::with_plugins(&Checkpoint::of_scene(Arc::new(blueprint)), Workers::single(), plugins)
 }
 
-fn survey(headless: &Headless) -> &Survey {
-    headless.world().resource::<Survey>()
+fn survey(simulation: &Simulation) -> &Survey {
+    simulation.world().resource::<Survey>()
 }
 
-fn ask(headless: &mut Headless, request: SurveyRequest) {
-    headless.world_mut().resource_mut::<Survey>().request = Some(request);
+fn ask(simulation: &mut Simulation, request: SurveyRequest) {
+    simulation.world_mut().resource_mut::<Survey>().request = Some(request);
 }
 
 #[test]
@@ -70,30 +71,30 @@ fn a_watched_and_surveyed_world_has_the_hash_of_an_unwatched_one() {
 
 #[test]
 fn what_nobody_looks_at_is_not_measured() {
-    let mut headless = begin("dam_break", &[("columns", "8")], LivePlugin);
-    (0..10).for_each(|_| headless.tick());
-    assert_eq!(headless.world().resource::<LiveError>().latest(), None);
-    assert_eq!(headless.world().resource::<Measures>().latest(), None);
+    let mut simulation = begin("dam_break", &[("columns", "8")], LivePlugin);
+    (0..10).for_each(|_| simulation.tick());
+    assert_eq!(simulation.world().resource::<LiveError>().latest(), None);
+    assert_eq!(simulation.world().resource::<Measures>().latest(), None);
 }
 
 #[test]
 fn a_world_that_stands_is_sampled_when_somebody_looks() {
-    let mut headless = begin("dam_break", &[("columns", "24")], LivePlugin);
-    (0..31).for_each(|_| headless.tick());
-    headless.world_mut().resource_mut::<Pace>().paused = true;
-    headless.world_mut().resource_mut::<Watched>().0 = true;
-    headless.tick();
-    assert_eq!(headless.world().resource::<LiveError>().latest().map(|sample| sample.tick), Some(31));
+    let mut simulation = begin("dam_break", &[("columns", "24")], LivePlugin);
+    (0..31).for_each(|_| simulation.tick());
+    simulation.world_mut().resource_mut::<Pace>().paused = true;
+    simulation.world_mut().resource_mut::<Watched>().0 = true;
+    simulation.tick();
+    assert_eq!(simulation.world().resource::<LiveError>().latest().map(|sample| sample.tick), Some(31));
 }
 
-fn measured(headless: &Headless) -> Measured {
-    *headless.world().resource::<Measures>().latest().expect("somebody looks")
+fn measured(simulation: &Simulation) -> Measured {
+    *simulation.world().resource::<Measures>().latest().expect("somebody looks")
 }
 
 /// Looks away and back, so that the next tick is measured.
-fn look_again(headless: &mut Headless) {
-    headless.world_mut().resource_mut::<Measures>().want(true);
-    headless.tick();
+fn look_again(simulation: &mut Simulation) {
+    simulation.world_mut().resource_mut::<Measures>().want(true);
+    simulation.tick();
 }
 
 #[test]
@@ -121,49 +122,49 @@ fn all_measures_are_those_of_the_metrics_and_change_nothing() {
 
 #[test]
 fn a_measurement_stands_for_a_second_and_the_drift_begins_with_each_world() {
-    let mut headless = begin("sealed_air", &[], LivePlugin);
-    look_again(&mut headless);
-    let first = measured(&headless);
-    headless.tick();
-    assert_eq!(measured(&headless), first, "it is measured every tick");
+    let mut simulation = begin("sealed_air", &[], LivePlugin);
+    look_again(&mut simulation);
+    let first = measured(&simulation);
+    simulation.tick();
+    assert_eq!(measured(&simulation), first, "it is measured every tick");
     assert!(first.air.is_some_and(|air| air.drift.abs() < 1e-6), "a closed box keeps its air: {first:?}");
     thread::sleep(Duration::from_millis(1100));
-    let size = headless.world().resource::<Setup>().blueprint.domain.size;
+    let size = simulation.world().resource::<Setup>().blueprint.domain.size;
     let stroke = Stroke::dab(BrushShape::Disc, size / 2.0, 6.0);
-    headless.world_mut().resource_mut::<IntentQueue>().push(Intent::Press { stroke, amount: 2.0 });
-    headless.tick();
-    let pumped = measured(&headless);
+    simulation.world_mut().resource_mut::<IntentQueue>().push(Intent::Press { stroke, amount: 2.0 });
+    simulation.tick();
+    let pumped = measured(&simulation);
     assert!(pumped.seen.0 == first.seen.0 + 2 && pumped.air.is_some_and(|air| air.drift > 1e-3), "{pumped:?}");
-    control::reset(headless.world_mut());
-    headless.tick();
-    let again = measured(&headless);
+    control::reset(simulation.world_mut());
+    simulation.tick();
+    let again = measured(&simulation);
     assert!(again.seen.0 == 1 && again.air.is_some_and(|air| air.drift.abs() < 1e-6), "{again:?}");
-    headless.world_mut().resource_mut::<Measures>().want(false);
-    headless.tick();
-    assert_eq!(headless.world().resource::<Measures>().latest(), None);
+    simulation.world_mut().resource_mut::<Measures>().want(false);
+    simulation.tick();
+    assert_eq!(simulation.world().resource::<Measures>().latest(), None);
 }
 
 #[test]
 fn a_survey_measures_every_preset_from_this_moment_while_play_goes_on() {
     for sliced in [false, true] {
-        let mut headless = begin("dam_break", &[("columns", "10")], LivePlugin);
+        let mut simulation = begin("dam_break", &[("columns", "10")], LivePlugin);
         if sliced {
-            headless.world_mut().insert_resource(Surveyor::sliced());
+            simulation.world_mut().insert_resource(Surveyor::sliced());
         }
-        (0..25).for_each(|_| headless.tick());
-        ask(&mut headless, SurveyRequest::Begin);
-        headless.tick();
-        assert!(survey(&headless).is_running());
+        (0..25).for_each(|_| simulation.tick());
+        ask(&mut simulation, SurveyRequest::Begin);
+        simulation.tick();
+        assert!(survey(&simulation).is_running());
         let (begun, mut seen) = (Instant::now(), 0.0);
-        while survey(&headless).is_running() {
-            let progress = survey(&headless).progress.unwrap();
+        while survey(&simulation).is_running() {
+            let progress = survey(&simulation).progress.unwrap();
             assert!((seen..=1.0).contains(&progress), "progress went from {seen} to {progress}");
             seen = progress;
-            headless.tick();
+            simulation.tick();
             thread::sleep(Duration::from_millis(1));
             assert!(begun.elapsed() < Duration::from_secs(120), "the survey does not end");
         }
-        let curve = survey(&headless).curve.clone();
+        let curve = survey(&simulation).curve.clone();
         assert_eq!((curve.scene.as_str(), curve.tick), ("dam_break", 26));
         assert_eq!(curve.points.len(), Preset::ALL.len());
         let point = |preset| *curve.point(preset).expect("every preset is measured");
@@ -174,28 +175,28 @@ fn a_survey_measures_every_preset_from_this_moment_while_play_goes_on() {
         assert!(draft.milliseconds < reference.milliseconds, "{curve:?}");
         assert!(draft.error > reference.error, "{curve:?}");
         assert!(curve.scale().is_some_and(|scale| scale > 0.0));
-        assert!(headless.world().resource::<Clock>().tick > 26, "play stood still meanwhile");
+        assert!(simulation.world().resource::<Clock>().tick > 26, "play stood still meanwhile");
     }
 }
 
 #[test]
 fn a_survey_can_be_given_up_and_begun_again() {
-    let mut headless = begin("dam_break", &[("columns", "10")], LivePlugin);
-    (0..3).for_each(|_| headless.tick());
-    ask(&mut headless, SurveyRequest::Begin);
-    headless.tick();
-    ask(&mut headless, SurveyRequest::Cancel);
-    headless.tick();
-    assert!(!survey(&headless).is_running());
+    let mut simulation = begin("dam_break", &[("columns", "10")], LivePlugin);
+    (0..3).for_each(|_| simulation.tick());
+    ask(&mut simulation, SurveyRequest::Begin);
+    simulation.tick();
+    ask(&mut simulation, SurveyRequest::Cancel);
+    simulation.tick();
+    assert!(!survey(&simulation).is_running());
     thread::sleep(Duration::from_millis(60));
-    let before = survey(&headless).curve.clone();
-    headless.tick();
-    assert_eq!(survey(&headless).curve, before, "a survey that was given up goes on");
-    ask(&mut headless, SurveyRequest::Begin);
-    headless.tick();
-    assert!(survey(&headless).is_running() && survey(&headless).curve.tick > before.tick);
-    ask(&mut headless, SurveyRequest::Cancel);
-    headless.tick();
+    let before = survey(&simulation).curve.clone();
+    simulation.tick();
+    assert_eq!(survey(&simulation).curve, before, "a survey that was given up goes on");
+    ask(&mut simulation, SurveyRequest::Begin);
+    simulation.tick();
+    assert!(survey(&simulation).is_running() && survey(&simulation).curve.tick > before.tick);
+    ask(&mut simulation, SurveyRequest::Cancel);
+    simulation.tick();
 }
 
 /// What a tick would cost on a machine where it costs in proportion to the work, and three times as much for a while.
@@ -205,31 +206,31 @@ fn pretend_load(setup: Res<Setup>, clock: Res<Clock>, mut ledger: ResMut<PassLed
 }
 
 /// A recorded world with the autopilot on, after `ticks` ticks: its hash, what was recorded, and the world.
-fn fly(goal: Goal, ticks: u64) -> (u64, Vec<(u64, Intent)>, Headless) {
-    let mut headless = begin("dam_break", &[("columns", "12")], |app: &mut App| {
+fn fly(goal: Goal, ticks: u64) -> (u64, Vec<Entry>, Simulation) {
+    let mut simulation = begin("dam_break", &[("columns", "12")], |app: &mut App| {
         app.add_plugins((LivePlugin, autopilot::plugin));
         app.add_systems(FixedUpdate, pretend_load.after(Pass::Measure).before(autopilot::steer));
         recorder::plugin(app);
     });
-    headless.world_mut().resource_mut::<Watched>().0 = true;
-    headless.world_mut().resource_mut::<Autopilot>().hold(Some(goal));
-    (0..ticks).for_each(|_| headless.tick());
-    let world = headless.world();
+    simulation.world_mut().resource_mut::<Watched>().0 = true;
+    simulation.world_mut().resource_mut::<Autopilot>().hold(Some(goal));
+    (0..ticks).for_each(|_| simulation.tick());
+    let world = simulation.world();
     let bytes = world.resource::<Recorder>().last_minute(recorder::end_now(world));
     let recording = Recording::decode(&bytes).unwrap();
-    let intents = recording.stretches[0].entries.iter().map(|entry| (entry.tick, entry.intent)).collect();
-    (control::hash(world), intents, headless)
+    let input = recording.segments[0].entries.clone();
+    (control::hash(world), input, simulation)
 }
 
 #[test]
 fn a_flight_is_recorded_and_repeats_to_the_bit_without_the_autopilot() {
     for goal in [Goal::Time(16.0), Goal::Error(0.0005)] {
-        let (hash, intents, flown) = fly(goal, 600);
-        let moves = intents.iter().filter(|(_, intent)| matches!(intent, Intent::Quality { .. })).count();
+        let (hash, input, flown) = fly(goal, 600);
+        let moves = input.iter().filter(|entry| matches!(entry.intent, Intent::Quality { .. })).count();
         assert!(moves >= 1, "{goal:?} never moved: nothing is tested");
         assert!(flown.world().resource::<Autopilot>().moves() as usize >= moves);
         let mut again = begin("dam_break", &[("columns", "12")], ());
-        run(&mut again, &Plan { ticks: 600, intents, complete: true, ..Plan::default() }, &mut []).unwrap();
+        run(&mut again, &Plan { ticks: 600, input, complete: true, ..Plan::default() }, &mut []).unwrap();
         assert_eq!(control::hash(again.world()), hash, "{goal:?}");
         assert_eq!(again.world().resource::<Setup>().quality, flown.world().resource::<Setup>().quality);
     }

@@ -4,13 +4,12 @@ use crate::{
     kernel::units::TICKS_PER_SECOND,
     lab::{
         experiment::{ExperimentError, Spread, interleaved, time},
-        headless::Headless,
         run,
         sampler::Sampler,
         scaling::plan::{Plan, SCENE, Setting, particles},
     },
     scene::{self, SceneError, blueprint::Blueprint, effects::EffectModes},
-    sim::workers::Workers,
+    sim::{simulation::Simulation, workers::Workers},
 };
 use bevy::platform::time::Instant;
 use serde::Serialize;
@@ -182,16 +181,16 @@ impl Series {
     fn run(&mut self, pool: usize, workers: &Workers) -> io::Result<()> {
         let begun = Instant::now();
         let plan = run::Plan { ticks: self.window.ticks(), warmup: self.window.first - 1, ..run::Plan::default() };
-        let mut headless = Headless::new(self.blueprint.clone(), workers.clone());
+        let mut simulation = Simulation::new(self.blueprint.clone(), workers.clone());
         let run = if self.hashes.is_empty() {
-            let mut sampler = Sampler::new(headless.world(), plan.warmup);
-            let run = time(&mut headless, &plan, &mut [&mut sampler])?;
-            let metrics = sampler.finish(headless.world());
+            let mut sampler = Sampler::new(simulation.world(), plan.warmup);
+            let run = time(&mut simulation, &plan, &mut [&mut sampler])?;
+            let metrics = sampler.finish(simulation.world());
             self.error = [metrics.accuracy.density_error_mean, metrics.accuracy.density_error_p99];
             (self.bytes, self.escaped) = (metrics.memory_bytes, metrics.stability.escaped);
             run
         } else {
-            time(&mut headless, &plan, &mut [])?
+            time(&mut simulation, &plan, &mut [])?
         };
         self.ms[pool].push(run.quantile(0.5));
         self.hashes.push(run.hash);

@@ -9,10 +9,11 @@ pub use player::{BOUT, Player};
 pub use report::{Period, Report, Totals};
 
 use crate::{
-    lab::{headless::Headless, machine, sampler::matter},
+    lab::{balance::matter, machine},
     sim::{
         intent::IntentQueue,
         ledger::PassLedger,
+        simulation::Simulation,
         state::{AirGrid, Clock, Counters, ParticleStore, Rock, Setup},
     },
 };
@@ -24,33 +25,33 @@ const LOOK_EVERY: u64 = 60;
 /// Plays `bouts` minutes and looks at them, in `periods` of as many minutes each; `go_on` sees after each minute what
 /// there is of the report, and may end it there.
 pub fn soak(
-    headless: &mut Headless,
+    simulation: &mut Simulation,
     seed: u64,
     bouts: u64,
     periods: u64,
     mut go_on: impl FnMut(&Report) -> bool,
 ) -> Report {
-    let mut player = Player::new(&headless.world().resource::<Setup>().blueprint, seed);
-    let rock_before = headless.world().resource::<Rock>().count();
+    let mut player = Player::new(&simulation.world().resource::<Setup>().blueprint, seed);
+    let rock_before = simulation.world().resource::<Rock>().count();
     let per_period = bouts.div_ceil(periods).max(1);
     let mut report = Report { rock_before, rock_after: rock_before, ..Report::default() };
     let mut period = Period::default();
     for bout in 1..=bouts {
         for _ in 0..BOUT {
-            let tick = headless.world().resource::<Clock>().tick;
+            let tick = simulation.world().resource::<Clock>().tick;
             if let Some(intent) = player.act(tick) {
-                headless.world_mut().resource_mut::<IntentQueue>().push(intent);
+                simulation.world_mut().resource_mut::<IntentQueue>().push(intent);
             }
-            headless.tick();
-            let tick_time = headless.world().resource::<PassLedger>().last_tick();
+            simulation.tick();
+            let tick_time = simulation.world().resource::<PassLedger>().last_tick();
             period.tick_ms.push(tick_time.as_secs_f64() * 1e3);
             if (tick + 1).is_multiple_of(LOOK_EVERY) {
-                look(headless.world(), &mut period);
+                look(simulation.world(), &mut period);
             }
         }
         report.minutes = bout;
-        report.rock_after = headless.world().resource::<Rock>().count();
-        report.counters = *headless.world().resource::<Counters>();
+        report.rock_after = simulation.world().resource::<Rock>().count();
+        report.counters = *simulation.world().resource::<Counters>();
         if bout % per_period == 0 || bout == bouts {
             report.periods.push(std::mem::take(&mut period).close(bout));
         }

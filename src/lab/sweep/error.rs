@@ -1,6 +1,6 @@
 //! What counts as the error of a setting.
 
-use crate::lab::moment::Moment;
+use crate::sim::checkpoint::Checkpoint;
 
 /// What counts as the error of a setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,10 +16,10 @@ const LITTLE_LIQUID: f64 = 0.05;
 
 impl ErrorMeasure {
     /// What the scene is about: its air if that moves and liquid fills less than a twentieth of the box.
-    pub fn of(moment: &Moment) -> Self {
-        let size = moment.blueprint().domain.size;
-        let filled = moment.snapshot().particles.len() as f64 / (f64::from(size.x) * f64::from(size.y));
-        if moment.has_air() && filled < LITTLE_LIQUID { Self::Air } else { Self::Density }
+    pub fn of(start: &Checkpoint) -> Self {
+        let size = start.setup.domain.size;
+        let filled = start.state.particles.len() as f64 / (f64::from(size.x) * f64::from(size.y));
+        if start.has_air() && filled < LITTLE_LIQUID { Self::Air } else { Self::Density }
     }
 
     /// Name with its unit, for the axis.

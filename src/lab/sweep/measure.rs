@@ -10,16 +10,16 @@ use crate::{
         coarse::Distance,
         density::density_error,
         experiment::time,
-        headless::Headless,
         metrics::Metrics,
-        moment::Moment,
         reference::{Follower, Reference},
         run::Plan,
         sampler::Sampler,
     },
     scene::effects::{Effect, Mode},
     sim::{
+        checkpoint::Checkpoint,
         effects::Effects,
+        simulation::Simulation,
         state::{ParticleStore, Rock, Setup},
         workers::Workers,
     },
@@ -28,44 +28,44 @@ use bevy::ecs::world::World;
 use std::io;
 
 /// The run that all are compared with, on all threads: its time is not what counts.
-pub(super) fn reference(moment: &Moment, plan: &Plan) -> io::Result<Reference> {
-    Reference::record(moment, plan, Workers::default(), &mut ())
+pub(super) fn reference(start: &Checkpoint, plan: &Plan) -> io::Result<Reference> {
+    Reference::record(start, plan, Workers::default(), &mut ())
 }
 
-/// Runs a setting from the moment on; with a reference it is sampled, too.
+/// Runs a setting from its start on; with a reference it is sampled, too.
 pub(super) fn run(
-    moment: &Moment,
+    start: &Checkpoint,
     plan: &Plan,
     setting: &Setting,
     workers: &Workers,
     reference: Option<&Reference>,
 ) -> io::Result<Record> {
     // What the preset is called makes no difference to the run.
-    let mut headless = begin(moment, setting.preset.unwrap_or(Preset::Fast), setting.quality, workers.clone());
-    let density = mean_density(headless.world());
+    let mut simulation = begin(start, setting.preset.unwrap_or(Preset::Fast), setting.quality, workers.clone());
+    let density = mean_density(simulation.world());
     let (run, found) = if let Some(reference) = reference {
-        let mut sampler = Sampler::new(headless.world(), plan.warmup);
+        let mut sampler = Sampler::new(simulation.world(), plan.warmup);
         let mut follower = Follower::new(reference);
-        let run = time(&mut headless, plan, &mut [&mut sampler, &mut follower])?;
-        let mut found = found(&sampler.finish(headless.world()), follower.mean(plan.warmup));
-        found.energy_gain = found.energy_gain.filter(|_| moment.is_closed()).map(|ratio| {
+        let run = time(&mut simulation, plan, &mut [&mut sampler, &mut follower])?;
+        let mut found = found(&sampler.finish(simulation.world()), follower.mean(plan.warmup));
+        found.energy_gain = found.energy_gain.filter(|_| start.is_closed()).map(|ratio| {
             // What swells to its target density is lifted by as much; that is not the energy of an unstable world.
             let swelling = found.density_mean.zip(density).map_or(1.0, |(after, before)| after / before);
             ratio * swelling - 1.0
         });
         (run, Some(found))
     } else {
-        (time(&mut headless, plan, &mut [])?, None)
+        (time(&mut simulation, plan, &mut [])?, None)
     };
     Ok(Record { ms: run.quantile(0.5), ms_p95: run.quantile(0.95), hash: format!("{:016x}", run.hash), found })
 }
 
-/// The world at its moment, awake.
-fn begin(moment: &Moment, preset: Preset, quality: Quality, workers: Workers) -> Headless {
-    let mut headless = moment.go_on(preset, quality, workers);
+/// The world at its start, awake.
+fn begin(start: &Checkpoint, preset: Preset, quality: Quality, workers: Workers) -> Simulation {
+    let mut simulation = Simulation::resume(&start.clone().at_quality(preset, quality), workers);
     // A sleeping particle costs the same and has the same error at every quality, so it says nothing of any of them.
-    headless.world_mut().resource_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off;
-    headless
+    simulation.world_mut().resource_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off;
+    simulation
 }
 
 /// Mean density of the liquid's interior, 1 at rest density.
@@ -100,12 +100,12 @@ mod tests {
     /// Accuracy of the dam break of 10,082 particles as a sweep measures it.
     fn dam_break(preset: Preset) -> Found {
         let blueprint = scene::load("dam_break").unwrap().build(&[], None, &EffectModes::new()).unwrap();
-        let moment = Moment::of(Headless::new(Arc::new(blueprint), Workers::default()).world());
+        let start = Checkpoint::of_scene(Arc::new(blueprint));
         let plan = Plan { ticks: 300, warmup: 59, ..Plan::default() };
-        let mut headless = begin(&moment, preset, preset.quality(), Workers::default());
-        let mut sampler = Sampler::new(headless.world(), plan.warmup);
-        time(&mut headless, &plan, &mut [&mut sampler]).unwrap();
-        found(&sampler.finish(headless.world()), Distance::default())
+        let mut simulation = begin(&start, preset, preset.quality(), Workers::default());
+        let mut sampler = Sampler::new(simulation.world(), plan.warmup);
+        time(&mut simulation, &plan, &mut [&mut sampler]).unwrap();
+        found(&sampler.finish(simulation.world()), Distance::default())
     }
 
     #[test]

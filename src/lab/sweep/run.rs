@@ -5,17 +5,16 @@ use crate::{
     lab::{
         experiment::{ExperimentError, interleaved, journal::Journal},
         machine::processor,
-        moment::Moment,
         run::Plan,
     },
-    sim::workers::Workers,
+    sim::{checkpoint::Checkpoint, snapshot::hash_bytes, workers::Workers},
 };
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A sweep of a scene.
 pub struct Sweep<'a> {
     /// Where every run starts.
-    pub moment: &'a Moment,
+    pub start: &'a Checkpoint,
     /// What the error is.
     pub measure: ErrorMeasure,
     /// What is measured.
@@ -45,8 +44,8 @@ impl Sweep<'_> {
 
     /// What the journal knows this sweep's runs by: equal only where the results must be.
     pub fn campaign(&self, program: &str) -> String {
-        let Self { ticks, warmup, moment, .. } = self;
-        format!("{program} {} {:016x} {warmup}/{ticks}", processor(), moment.fingerprint())
+        let Self { ticks, warmup, start, .. } = self;
+        format!("{program} {} {:016x} {warmup}/{ticks}", processor(), hash_bytes(&start.encode()))
     }
 
     /// Runs what the journal doesn't have yet, and puts all together.
@@ -73,11 +72,11 @@ impl Sweep<'_> {
             let is_sampled = journal.all(&key).any(|record| record.found.is_some());
             if !is_sampled && reference.is_none() {
                 say("the reference");
-                reference = Some(measure::reference(self.moment, &plan)?);
+                reference = Some(measure::reference(self.start, &plan)?);
             }
             say(&setting.name);
             let sampled = reference.as_ref().filter(|_| !is_sampled);
-            let record = measure::run(self.moment, &plan, setting, &workers[&setting.threads], sampled)?;
+            let record = measure::run(self.start, &plan, setting, &workers[&setting.threads], sampled)?;
             if journal.all(&key).any(|other| other.hash != record.hash) {
                 return Err(ExperimentError::NotRepeatable(setting.name.clone()));
             }
@@ -95,7 +94,7 @@ impl Sweep<'_> {
             Row::new(setting, self.measure, &records, found)
         };
         let mut rows: Vec<Row> = self.settings.iter().filter_map(row).collect();
-        front::mark(&mut rows, self.moment.has_air() && self.measure == ErrorMeasure::Density);
+        front::mark(&mut rows, self.start.has_air() && self.measure == ErrorMeasure::Density);
         rows
     }
 }

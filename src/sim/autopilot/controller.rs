@@ -1,60 +1,48 @@
-//! Holds a measured quantity under a bound by choosing among positions that relieve it more and more. It knows no
-//! clock, no world and no quality: the same observations give the same decisions.
+//! Holds a measured quantity under a bound by choosing a level of a ladder. Each level relieves the quantity more than the
+//! one before it. The controller knows no clock, no world and no quality: the same observations give the same decisions.
 //!
-//! What each position does to the quantity is a model at first and learned from every move. A move aims well below the
-//! bound, and back up only goes what is believed to stay well below it. A position that was left because it did not hold
-//! rests ([`Backoff`]), each time twice as long, unless the quantity itself changes. A quantity that is known from samples
-//! is over the bound only where its mean is by more than its standard error, and changes only by several of them.
+//! - **Up** (more relief): a mean over the bound is a breach. The level goes up to the first that the model expects below
+//!   [`AIM`] of the bound.
+//! - **Down** (less relief): to the first level that the model expects below [`AIM`] of the bound. The room between the two
+//!   is the hysteresis.
+//! - **Cool-down**: a level that was left because of a breach is not tried again for some seconds, twice as many each time.
+//!   All cool-downs end when the quantity itself falls.
 
-use super::{
-    backoff::Backoff,
-    usual::Usual,
-    window::{Estimate, Observations, Window},
-};
-use bevy::math::ops;
+use super::window::{Mean, Window};
 
-/// Over the bound by this factor, the short window decides.
+/// Share of the bound that every move aims at. Higher: closer to the bound, with more breaches and moves.
+const AIM: f32 = 0.7;
+/// Over the bound by this factor, a mean over [`SHORT`] is a breach.
 const GROSS: f32 = 1.25;
-/// Soon after a move, a value over this share of the bound moves it on: what stays is clear of the noise.
-const CLEAR: f32 = 0.87;
-/// Soon after the quantity fell, a move back is made if it is believed to stay below this share of the bound; …
-const EASE: f32 = 0.78;
-/// … otherwise only below this one: noise alone must not move it, nor a move that relieved more than it had to.
-const EASE_LATE: f32 = 0.65;
-/// "Soon" is so much longer than what the first look at a position takes, s.
-const SOON: f32 = 0.3;
-/// A mean whose standard error is below this share of it needs no longer look.
-const WELL_KNOWN: f32 = 0.1;
-/// In another situation what was learned counts less by this share.
-const FORGET: f32 = 0.2;
-/// What one move teaches is at most this factor: it may have met with a change from outside.
-const LESSON: f32 = 2.0;
-
-/// The newest observations, where a change is under way.
-const NEWEST: Window = Window { seconds: 0.06, count: 3 };
+/// Windows of the means, s: for a gross breach, …
+const SHORT: f32 = 0.15;
+/// … for any breach, …
+const LONG: f32 = 0.4;
+/// … and for a move that has no haste.
+const CALM: f32 = 2.0;
+/// Time after a move or a fall in which [`Tuning::quick`] does in place of [`CALM`], s.
+const SOON: f32 = 1.1;
+/// The quantity has fallen if its mean is less by this factor, …
+const FELL: f32 = 1.25;
+/// … and by so many standard errors.
+const SURE: f32 = 4.0;
+/// Cool-down after the first breach at a level, s.
+const FIRST: f32 = 4.0;
+/// The longest cool-down, s.
+const LONGEST: f32 = 256.0;
 
 /// What the quantity is like.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Character {
-    /// Time after a move whose observations still belong to the old position, s.
+pub struct Tuning {
+    /// Time after a move whose observations still belong to the old level, s.
     pub settle: f32,
-    /// Share of the bound that a move which relieves aims at: the less the model is worth, the lower.
-    pub aim: f32,
-    /// Change at one position that is more than noise: a factor.
-    pub drift: f32,
-    /// What a gross breach is seen by.
-    pub short: Window,
-    /// What any other breach is seen by.
-    pub fair: Window,
-    /// What is looked at after a move or a change, where there is no haste.
-    pub patient: Window,
-    /// What is looked at before a move back without a change; not shorter than `patient`.
-    pub calm: Window,
-    /// Time after the first look at a position over which what is usual there is found, s.
+    /// Window of the mean that a move down soon after another one goes by, s. Shorter: faster, more moves by noise.
+    pub quick: f32,
+    /// Window of the means whose fall ends all cool-downs, s. Longer: smaller falls are seen, later.
     pub usual: f32,
     /// Share of the observations that a mean leaves out at either end: for a quantity whose outliers are no part of it.
     pub trim: f32,
-    /// Standard errors that a mean is doubted by: 0 where it is what it is.
+    /// Standard errors by which a mean is doubted. 0: none.
     pub doubt: f32,
 }
 
@@ -66,71 +54,69 @@ pub enum Verdict {
     Settling,
     /// The quantity keeps to the bound.
     Holds,
-    /// No position holds it: the last one is in force.
+    /// No level holds it: the last one is in force.
     Beyond,
 }
 
-/// Chooses the position that relieves least and still holds the bound.
+/// When a level may be tried again.
+#[derive(Clone, Copy, Debug, Default)]
+struct CoolDown {
+    /// Time that is left, s.
+    left: f32,
+    /// The last cool-down, s; 0 without a breach.
+    whole: f32,
+}
+
+/// Chooses the level that relieves least and still holds the bound.
 #[derive(Clone, Debug)]
 pub struct Controller {
     bound: f32,
-    character: Character,
-    /// The quantity at each position in units of its own; falls from each to the next.
+    tuning: Tuning,
+    /// The quantity at each level in units of its own; falls from each to the next.
     model: Vec<f32>,
-    /// The same as learned.
-    believed: Vec<f32>,
-    at: usize,
-    /// Observations since the last move.
-    seen: Observations,
+    level: usize,
+    /// Observations at this level.
+    seen: Window,
     /// Time since the last move, s.
     age: f32,
-    /// Time since the last move or change of the quantity, s.
+    /// Time since the last move, fall or change of the bound, s.
     stirred: f32,
-    /// The position before the last move and the value there, until that has taught something.
-    lesson: Option<(usize, f32)>,
-    usual: Usual,
-    backoff: Backoff,
-    /// Whether the quantity fell of late, so that less relief may do.
-    eager: bool,
-    /// Moves in a row that did not relieve enough.
-    misses: u32,
+    /// The first mean over [`Tuning::usual`] at this level.
+    usual: Option<Mean>,
+    cool_downs: Vec<CoolDown>,
     verdict: Verdict,
 }
 
 impl Controller {
-    /// Holds `bound` from position `at` on. `model` falls strictly and has at least one entry.
-    pub fn new(bound: f32, character: Character, model: Vec<f32>, at: usize) -> Self {
+    /// Holds `bound` from `level` on. `model` falls strictly and has at least one entry.
+    pub fn new(bound: f32, tuning: Tuning, model: Vec<f32>, level: usize) -> Self {
         debug_assert!(!model.is_empty() && model.windows(2).all(|pair| pair[1] < pair[0]), "{model:?}");
         Self {
             bound,
-            character,
-            at: at.min(model.len() - 1),
-            believed: model.clone(),
-            backoff: Backoff::new(model.len()),
+            tuning,
+            level: level.min(model.len() - 1),
+            cool_downs: vec![CoolDown::default(); model.len()],
             model,
-            seen: Observations::default(),
+            seen: Window::default(),
             age: 0.0,
             stirred: 0.0,
-            lesson: None,
-            usual: Usual::default(),
-            eager: true,
-            misses: 0,
+            usual: None,
             verdict: Verdict::Settling,
         }
     }
 
-    /// Holds another bound from now on; what was learned stays, but what failed may hold this one.
+    /// Holds another bound from now on.
     pub fn set_bound(&mut self, bound: f32) {
         if self.bound != bound {
             self.bound = bound;
-            (self.stirred, self.eager, self.misses, self.verdict) = (0.0, true, 0, Verdict::Settling);
-            self.backoff.forget();
+            self.verdict = Verdict::Settling;
+            self.begin_anew();
         }
     }
 
-    /// The position in force.
-    pub fn position(&self) -> usize {
-        self.at
+    /// The level in force.
+    pub fn level(&self) -> usize {
+        self.level
     }
 
     /// How it stands with the bound.
@@ -138,169 +124,94 @@ impl Controller {
         self.verdict
     }
 
-    /// Takes a value that was measured over the last `seconds`; the new position if it moves.
+    /// Takes a value that was measured over the last `seconds`; the new level if it moves.
     pub fn observe(&mut self, value: f32, seconds: f32) -> Option<usize> {
         if !(value.is_finite() && seconds > 0.0) {
             return None;
         }
+        for cool_down in &mut self.cool_downs {
+            cool_down.left = (cool_down.left - seconds).max(0.0);
+        }
         self.age += seconds;
         self.stirred += seconds;
-        self.backoff.pass(seconds);
-        let Character { settle, drift, short, fair, patient, calm, .. } = self.character;
-        if self.age <= settle {
+        if self.age <= self.tuning.settle {
             return None;
         }
-        self.seen.push(value, seconds, Window { seconds: 4.0 * calm.seconds, ..calm });
-        let short = self.estimate(short)?;
+        self.seen.push(value, seconds, self.tuning.usual.max(CALM));
+        let short = self.mean(SHORT)?;
         if self.at_least(short) > GROSS * self.bound {
-            return self.relieve_grossly(short);
+            return self.move_up(short);
         }
-        let fair = self.estimate(fair)?;
-        if self.at_least(fair) > self.bound {
-            return self.relieve(fair);
+        let long = self.mean(LONG)?;
+        if self.at_least(long) > self.bound {
+            return self.move_up(long);
         }
-        (self.verdict, self.misses) = (Verdict::Holds, 0);
-        let long = self.estimate(patient)?;
-        let calm = self.estimate(calm);
-        if let Some(calm) = calm {
-            if self.at_least(calm) > self.bound {
-                return self.relieve(calm);
-            }
-            self.learn(calm.mean);
+        self.verdict = Verdict::Holds;
+        let quick = self.mean(self.tuning.quick)?;
+        self.notice_fall();
+        let mean = if self.stirred < SOON { quick } else { self.mean(CALM)? };
+        if self.at_least(mean) > self.bound {
+            return self.move_up(mean);
         }
-        self.notice_drift(long, seconds);
-        let soon = self.stirred < patient.seconds + SOON;
-        if soon && self.at_least(long) > CLEAR * self.bound && self.at + 1 < self.model.len() {
-            return self.relieve(long);
-        }
-        // While it still falls, the first step back would be too short.
-        if long.mean > drift * fair.mean {
-            return None;
-        }
-        let fell = soon && self.eager;
-        let basis = if fell || long.error < WELL_KNOWN * long.mean { long } else { calm? };
-        let share = if fell { EASE } else { EASE_LATE };
-        self.ease(self.at_most(basis).max(self.at_most(fair)), share)
+        self.move_down(mean.value.max(long.value) + self.tuning.doubt * mean.error)
     }
 
-    fn estimate(&mut self, window: Window) -> Option<Estimate> {
-        self.seen.estimate(window, self.character.trim)
+    fn mean(&mut self, seconds: f32) -> Option<Mean> {
+        self.seen.mean(seconds, self.tuning.trim)
     }
 
-    fn at_least(&self, estimate: Estimate) -> f32 {
-        estimate.mean - self.character.doubt * estimate.error
+    fn at_least(&self, mean: Mean) -> f32 {
+        mean.value - self.tuning.doubt * mean.error
     }
 
-    fn at_most(&self, estimate: Estimate) -> f32 {
-        estimate.mean + self.character.doubt * estimate.error
+    /// The first of `levels` that the model expects well below the bound where `value` is measured at this one.
+    fn first_that_holds(&self, mut levels: impl Iterator<Item = usize>, value: f32) -> Option<usize> {
+        levels.find(|&level| value * self.model[level] / self.model[self.level] <= AIM * self.bound)
     }
 
-    /// What `position` is believed to make of a value that is measured here.
-    fn expect(&self, position: usize, value: f32) -> f32 {
-        value * self.believed[position] / self.believed[self.at]
-    }
-
-    /// Where the last move came from, if that relieved more and nothing was learned of the move yet.
-    fn came_back_from(&self) -> Option<usize> {
-        self.lesson.map(|lesson| lesson.0).filter(|&from| from > self.at)
-    }
-
-    /// Moves on because of the short window, which may reach back to before a change: what is newest counts. Nothing but
-    /// a move back teaches so soon.
-    fn relieve_grossly(&mut self, short: Estimate) -> Option<usize> {
-        if self.came_back_from().is_none() {
-            self.lesson = None;
-        }
-        let newest = self.estimate(NEWEST)?;
-        let moved = self.relieve(if newest.mean > short.mean { newest } else { short });
-        self.lesson = None;
-        moved
-    }
-
-    /// Moves to the first position that is believed to hold, or to the last.
-    fn relieve(&mut self, estimate: Estimate) -> Option<usize> {
-        let held = self.came_back_from();
-        let value = estimate.mean;
-        self.learn(value);
+    /// Moves up after a breach.
+    fn move_up(&mut self, mean: Mean) -> Option<usize> {
         let last = self.model.len() - 1;
-        if self.at == last {
+        if self.level == last {
             self.verdict = Verdict::Beyond;
             return None;
         }
-        self.backoff.fail(self.at);
-        // What fell short once is not trusted as far again.
-        let gross = value > GROSS * self.bound;
-        let aim = self.bound * self.character.aim / if gross { (1 << self.misses.min(8)) as f32 } else { 1.0 };
-        self.misses += u32::from(gross);
-        self.eager = false;
-        let enough = (self.at + 1..last).find(|&position| self.expect(position, value) <= aim).unwrap_or(last);
-        // Where it came from held a moment ago.
-        Some(self.move_to(held.map_or(enough, |held| enough.min(held)), value))
+        let cool_down = &mut self.cool_downs[self.level];
+        cool_down.whole = (2.0 * cool_down.whole).clamp(FIRST, LONGEST);
+        cool_down.left = cool_down.whole;
+        let level = self.first_that_holds(self.level + 1..last, mean.value).unwrap_or(last);
+        Some(self.move_to(level))
     }
 
-    /// Moves back to where less relief is believed to do, if there is such a position that does not rest.
-    fn ease(&mut self, value: f32, share: f32) -> Option<usize> {
-        self.learn(value);
-        let first = self.backoff.first_allowed(self.at);
-        let enough = (first..self.at).find(|&position| self.expect(position, value) <= share * self.bound);
-        enough.map(|position| self.move_to(position, value))
+    /// Moves down if a lower level is expected to hold and has no cool-down. The highest level that had a breach is tried
+    /// before those below it, which relieve less.
+    fn move_down(&mut self, value: f32) -> Option<usize> {
+        let breached = self.cool_downs[..self.level].iter().rposition(|cool_down| cool_down.whole > 0.0);
+        let lowest = breached.map_or(0, |level| level + usize::from(self.cool_downs[level].left > 0.0));
+        let level = self.first_that_holds(lowest..self.level, value)?;
+        Some(self.move_to(level))
     }
 
-    fn move_to(&mut self, position: usize, value: f32) -> usize {
-        self.lesson = Some((self.at, value));
-        self.at = position;
+    fn move_to(&mut self, level: usize) -> usize {
+        self.level = level;
         self.seen.clear();
-        (self.age, self.stirred, self.usual, self.verdict) = (0.0, 0.0, Usual::default(), Verdict::Settling);
-        position
+        (self.age, self.stirred, self.usual, self.verdict) = (0.0, 0.0, None, Verdict::Settling);
+        level
     }
 
-    /// Learns from the last move, once: positions beyond this one are believed to be off by the same factor.
-    fn learn(&mut self, value: f32) {
-        let Some((from, before)) = self.lesson.take() else { return };
-        let expected = before * self.believed[self.at] / self.believed[from];
-        if expected <= 0.0 {
-            return;
-        }
-        let factor = (value / expected).clamp(1.0 / LESSON, LESSON);
-        let distance = self.at.abs_diff(from) as f32;
-        for (position, believed) in self.believed.iter_mut().enumerate() {
-            let beyond = (position > from) == (self.at > from) && position != from;
-            let share = if beyond { (position.abs_diff(from) as f32 / distance).min(1.0) } else { 0.0 };
-            *believed *= ops::powf(factor, share);
+    /// Begins anew if the quantity fell at this level: what had a breach before may hold now.
+    fn notice_fall(&mut self) {
+        let Some(now) = self.mean(self.tuning.usual) else { return };
+        let usual = *self.usual.get_or_insert(now);
+        let noise = SURE * self.tuning.doubt * usual.error;
+        if usual.value > FELL * now.value && usual.value - now.value > noise {
+            self.usual = Some(now);
+            self.begin_anew();
         }
     }
 
-    /// Notices that the value is another than what is usual at this position: then it is looked at as closely as after a
-    /// move, and the model counts more again. If it fell, what failed rests no longer.
-    fn notice_drift(&mut self, long: Estimate, seconds: f32) {
-        let Character { drift, patient, usual, doubt, .. } = self.character;
-        let Some(since) = self.usual.note(long, seconds, usual) else { return };
-        // Longer windows know smaller changes, but none may reach back to what is usual.
-        for windows in [1.0, 2.5, 5.0, 10.0] {
-            let seconds = windows * patient.seconds;
-            if windows > 1.0 && seconds > since.min(2.0 * usual) {
-                return;
-            }
-            let Some(now) = self.estimate(Window { seconds, ..patient }) else { return };
-            if let Some(fell) = self.usual.changed(now.mean, windows, drift, doubt) {
-                self.usual = Usual::default();
-                self.start_anew(fell);
-                return;
-            }
-        }
-    }
-
-    /// Takes what comes for another situation, a better one if the quantity `fell`.
-    fn start_anew(&mut self, fell: bool) {
-        let (here, model_here) = (self.believed[self.at], self.model[self.at]);
-        for (believed, model) in self.believed.iter_mut().zip(&self.model) {
-            let lesson = (*believed / here) / (model / model_here);
-            *believed = here * model / model_here * ops::powf(lesson, 1.0 - FORGET);
-        }
+    fn begin_anew(&mut self) {
         self.stirred = 0.0;
-        if fell {
-            self.eager = true;
-            self.backoff.forget();
-        }
+        self.cool_downs.fill(CoolDown::default());
     }
 }

@@ -7,14 +7,14 @@ use bevy::math::ops;
 const FIXED_WORK: f32 = 2.0;
 /// Work of an iteration that goes only where it is still too dense: 0.13 to 0.25 in `dam_break` and `waterfall`.
 const WORK_AGAIN: f32 = 0.2;
-/// Work from one rung to the next grows at least by this factor.
+/// Work from one level to the next grows at least by this factor.
 const LEAST_STEP: f32 = 1.25;
-/// How fast the density error falls with the work: error ∝ work^−1.5.
-const ERROR_EXPONENT: f32 = -1.5;
+/// How fast the density error falls with the work: error ∝ work^−2.5 in `dam_break`, ^−3.5 in `waterfall`.
+const ERROR_EXPONENT: f32 = -2.5;
 
 /// One quality.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rung {
+pub struct Level {
     /// The preset that it is, or the one below.
     pub preset: Preset,
     /// Its numbers.
@@ -23,7 +23,7 @@ pub struct Rung {
     pub work: f32,
 }
 
-impl Rung {
+impl Level {
     /// Density error in units of that of a work of 1: a first guess.
     pub fn error(&self) -> f32 {
         ops::powf(self.work, ERROR_EXPONENT)
@@ -36,24 +36,24 @@ pub fn work(quality: &Quality) -> f32 {
     quality.substeps as f32 * (FIXED_WORK + 1.0 + again * (quality.iterations as f32 - 1.0))
 }
 
-/// All rungs, the cheapest first; each costs more than the one before.
-pub fn ladder() -> Vec<Rung> {
-    let mut rungs: Vec<Rung> = Vec::new();
+/// All levels, the cheapest first; each costs more than the one before.
+pub fn ladder() -> Vec<Level> {
+    let mut levels: Vec<Level> = Vec::new();
     for preset in Preset::ALL.into_iter().filter(|preset| *preset != Preset::Classic) {
         let quality = preset.quality();
         let mut work = work(&quality);
-        if let Some(&below) = rungs.last() {
-            between(below, work, &mut rungs);
+        if let Some(&below) = levels.last() {
+            between(below, work, &mut levels);
             // A preset that spends its time elsewhere (finer air, a stricter solve) costs more than its iterations say.
-            work = work.max(rungs.last().map_or(0.0, |rung| rung.work) * 1.1);
+            work = work.max(levels.last().map_or(0.0, |level| level.work) * 1.1);
         }
-        rungs.push(Rung { preset, quality, work });
+        levels.push(Level { preset, quality, work });
     }
-    rungs
+    levels
 }
 
 /// Adds what lies between a preset and one of the work `above`: more substeps or iterations of the lower.
-fn between(below: Rung, above: f32, rungs: &mut Vec<Rung>) {
+fn between(below: Level, above: f32, levels: &mut Vec<Level>) {
     let mut choices: Vec<Quality> = Vec::new();
     for substeps in below.quality.substeps..=16 {
         // Where each goes over all of the liquid, fewer will do.
@@ -69,20 +69,20 @@ fn between(below: Rung, above: f32, rungs: &mut Vec<Rung>) {
     for quality in choices {
         let work = work(&quality);
         if work >= last * LEAST_STEP && work * LEAST_STEP <= above {
-            rungs.push(Rung { preset: below.preset, quality, work });
+            levels.push(Level { preset: below.preset, quality, work });
             last = work;
         }
     }
 }
 
-/// The rung whose work is nearest to a quality's.
-pub fn nearest(rungs: &[Rung], quality: &Quality) -> usize {
-    if let Some(same) = rungs.iter().position(|rung| rung.quality == *quality) {
+/// The level whose work is nearest to a quality's.
+pub fn nearest(levels: &[Level], quality: &Quality) -> usize {
+    if let Some(same) = levels.iter().position(|level| level.quality == *quality) {
         return same;
     }
     let wanted = work(quality);
-    let distance = |rung: &Rung| if rung.work > wanted { rung.work / wanted } else { wanted / rung.work };
-    let nearest = rungs.iter().enumerate().min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)));
+    let distance = |level: &Level| if level.work > wanted { level.work / wanted } else { wanted / level.work };
+    let nearest = levels.iter().enumerate().min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)));
     nearest.map_or(0, |(index, _)| index)
 }
 
@@ -92,31 +92,31 @@ mod tests {
 
     #[test]
     fn the_ladder_rises_and_holds_every_preset_but_classic() {
-        let rungs = ladder();
-        assert!(rungs.windows(2).all(|pair| pair[1].work > pair[0].work), "{rungs:?}");
-        assert!(rungs.windows(2).all(|pair| pair[1].error() < pair[0].error()));
+        let levels = ladder();
+        assert!(levels.windows(2).all(|pair| pair[1].work > pair[0].work), "{levels:?}");
+        assert!(levels.windows(2).all(|pair| pair[1].error() < pair[0].error()));
         for preset in Preset::ALL {
-            let found = rungs.iter().any(|rung| rung.quality == preset.quality());
+            let found = levels.iter().any(|level| level.quality == preset.quality());
             assert_eq!(found, preset != Preset::Classic, "{}", preset.name());
         }
-        let steepest = rungs.windows(2).map(|pair| pair[1].work / pair[0].work).fold(0.0, f32::max);
+        let steepest = levels.windows(2).map(|pair| pair[1].work / pair[0].work).fold(0.0, f32::max);
         assert!(steepest <= 1.7, "a step of {steepest} is too high to settle near a bound");
     }
 
     #[test]
-    fn every_rung_is_a_sound_quality() {
-        for rung in ladder() {
-            crate::sim::save::check::quality(&rung.quality).unwrap();
+    fn every_level_is_a_sound_quality() {
+        for level in ladder() {
+            crate::sim::checkpoint::check::quality(&level.quality).unwrap();
         }
     }
 
     #[test]
-    fn a_quality_finds_its_own_rung_or_the_nearest() {
-        let rungs = ladder();
-        for (k, rung) in rungs.iter().enumerate() {
-            assert_eq!(nearest(&rungs, &rung.quality), k);
+    fn a_quality_finds_its_own_level_or_the_nearest() {
+        let levels = ladder();
+        for (k, level) in levels.iter().enumerate() {
+            assert_eq!(nearest(&levels, &level.quality), k);
         }
         let absurd = Quality { substeps: 64, iterations: 64, ..Preset::Fine.quality() };
-        assert_eq!(nearest(&rungs, &absurd), rungs.len() - 1);
+        assert_eq!(nearest(&levels, &absurd), levels.len() - 1);
     }
 }

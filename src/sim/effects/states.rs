@@ -34,9 +34,7 @@ impl Effects {
         let idle =
             EffectState { mode: Mode::Auto, running: false, why: NOT_DECIDED, active_ticks: 0, differing_ticks: 0 };
         let mut effects = Self { states: std::array::from_fn(|_| idle.clone()) };
-        for (effect, mode) in modes {
-            effects.get_mut(*effect).mode = *mode;
-        }
+        effects.set_modes(modes);
         effects
     }
 
@@ -65,10 +63,10 @@ impl Effects {
         self.states.each_ref().map(|state| state.mode)
     }
 
-    /// Wants what `other` wants.
-    pub fn take_modes(&mut self, other: &Self) {
-        for (state, other) in self.states.iter_mut().zip(&other.states) {
-            state.mode = other.mode;
+    /// Wants these modes; an effect that is not among them is wanted as usual.
+    pub fn set_modes(&mut self, modes: &EffectModes) {
+        for effect in Effect::ALL {
+            self.get_mut(effect).mode = modes.get(&effect).copied().unwrap_or_default();
         }
     }
 

@@ -1,47 +1,53 @@
 //! Recordings that were cut, changed or made up.
 
-use super::*;
+use super::{
+    file::{MAGIC, STATE, TICKS},
+    *,
+};
 use crate::{
     kernel::{
+        brush::Stroke,
         element::ElementId,
         params::{Preset, Quality},
     },
-    lab::headless::Headless,
     scene::{
         self,
         effects::{Effect, EffectModes, Mode},
     },
     sim::{
+        checkpoint::Checkpoint,
         control,
-        intent::IntentQueue,
+        intent::{Intent, IntentQueue},
+        mark::Mark,
         recorder::{self, Recorder},
+        simulation::Simulation,
         workers::Workers,
     },
 };
+use glam::Vec2;
 use std::sync::Arc;
 
 /// A small world with something of everything, recorded: water, rock, wind, other qualities and effects, a reset.
-fn recorded() -> (Headless, Vec<u8>) {
+fn recorded() -> (Simulation, Vec<u8>) {
     let settings = [("columns", "16"), ("rows", "16")].map(|(key, value)| (key.to_owned(), value.to_owned()));
     let blueprint = scene::load("empty").unwrap().build(&settings, None, &EffectModes::new()).unwrap();
-    let mut headless = Headless::begin_with(Workers::default(), recorder::plugin, |world| {
-        control::load(world, Arc::new(blueprint));
-    });
-    let push = |headless: &mut Headless, intent| headless.world_mut().resource_mut::<IntentQueue>().push(intent);
+    let mut simulation =
+        Simulation::with_plugins(&Checkpoint::of_scene(Arc::new(blueprint)), Workers::default(), recorder::plugin);
+    let push = |simulation: &mut Simulation, intent| simulation.world_mut().resource_mut::<IntentQueue>().push(intent);
     let stroke = Stroke::rectangle(Vec2::new(4.0, 2.0), Vec2::new(8.0, 6.0));
-    push(&mut headless, Intent::Stamp { element: ElementId(1), stroke });
+    push(&mut simulation, Intent::Stamp { element: ElementId(1), stroke });
     let rock = Stroke::rectangle(Vec2::new(10.0, 0.0), Vec2::new(12.0, 2.0));
-    push(&mut headless, Intent::Stamp { element: ElementId(0), stroke: rock });
-    (0..4).for_each(|_| headless.tick());
-    push(&mut headless, Intent::Blow { stroke, velocity: Vec2::new(30.0, 5.0) });
-    push(&mut headless, Intent::Quality { preset: Preset::Fine, quality: Preset::Fine.quality() });
-    push(&mut headless, Intent::Effect { effect: Effect::Viscosity, mode: Mode::On });
-    (0..4).for_each(|_| headless.tick());
-    control::reset(headless.world_mut());
-    push(&mut headless, Intent::Draw { element: ElementId(1), stroke });
-    (0..4).for_each(|_| headless.tick());
-    let bytes = headless.world().resource::<Recorder>().last_minute(recorder::end_now(headless.world()));
-    (headless, bytes)
+    push(&mut simulation, Intent::Stamp { element: ElementId(0), stroke: rock });
+    (0..4).for_each(|_| simulation.tick());
+    push(&mut simulation, Intent::Blow { stroke, velocity: Vec2::new(30.0, 5.0) });
+    push(&mut simulation, Intent::Quality { preset: Preset::Fine, quality: Preset::Fine.quality() });
+    push(&mut simulation, Intent::Effect { effect: Effect::Viscosity, mode: Mode::On });
+    (0..4).for_each(|_| simulation.tick());
+    control::reset(simulation.world_mut());
+    push(&mut simulation, Intent::Draw { element: ElementId(1), stroke });
+    (0..4).for_each(|_| simulation.tick());
+    let bytes = simulation.world().resource::<Recorder>().last_minute(recorder::end_now(simulation.world()));
+    (simulation, bytes)
 }
 
 fn refusal(bytes: &[u8]) -> String {
@@ -55,7 +61,7 @@ fn made_up(entries: &[Entry], marks: usize) -> Vec<u8> {
     let mark = Mark { particles: 1, matter: 2, surroundings: 3 };
     let good = Recording::decode(&recorded().1).expect("its own file");
     let mut writer = Writer::new();
-    writer.start(&good.stretches[1].save);
+    writer.start(&good.segments[1].save());
     writer.ticks(entries, &vec![mark; marks]);
     writer.end(End::Crashed);
     writer.take()
@@ -63,14 +69,14 @@ fn made_up(entries: &[Entry], marks: usize) -> Vec<u8> {
 
 #[test]
 fn what_was_written_is_read() {
-    let (headless, bytes) = recorded();
+    let (simulation, bytes) = recorded();
     let recording = Recording::decode(&bytes).expect("its own file");
-    assert_eq!(recording.end, Some(End::Stopped { hash: control::hash(headless.world()) }));
-    let ticks: Vec<_> = recording.stretches.iter().map(|stretch| (stretch.tick, stretch.marks.len())).collect();
+    assert_eq!(recording.end, Some(End::Stopped { hash: control::hash(simulation.world()) }));
+    let ticks: Vec<_> = recording.segments.iter().map(|segment| (segment.tick, segment.marks.len())).collect();
     assert_eq!(ticks, [(0, 8), (0, 4)]);
-    let due: Vec<u64> = recording.stretches[0].entries.iter().map(|entry| entry.tick).collect();
+    let due: Vec<u64> = recording.segments[0].entries.iter().map(|entry| entry.tick).collect();
     assert_eq!(due, [0, 0, 4, 4, 4]);
-    assert_eq!(recording.stretches[1].entries.len(), 1);
+    assert_eq!(recording.segments[1].entries.len(), 1);
     assert_eq!(Recording::salvage(&bytes).expect("a whole file"), recording);
 }
 
@@ -84,10 +90,10 @@ fn a_file_cut_anywhere_is_refused_and_what_is_whole_of_it_salvaged() {
         match Recording::salvage(&bytes[..len]) {
             Ok(recording) => {
                 assert_eq!(recording.end, None);
-                assert!(recording.stretches.iter().zip(&whole.stretches).all(|(part, all)| {
+                assert!(recording.segments.iter().zip(&whole.segments).all(|(part, all)| {
                     all.entries.starts_with(&part.entries) && all.marks.starts_with(&part.marks)
                 }));
-                salvaged.insert((recording.stretches.len(), recording.ticks()));
+                salvaged.insert((recording.segments.len(), recording.ticks()));
             }
             Err(error) => assert!(salvaged.is_empty(), "{len} bytes: {error}, but fewer were good"),
         }
@@ -109,7 +115,7 @@ fn headers_say_what_is_wrong() {
     longer.push(0);
     assert!(refusal(&longer).contains("behind its end"));
     let mut endless = Writer::new();
-    endless.start(&Recording::decode(&bytes).unwrap().stretches[0].save);
+    endless.start(&Recording::decode(&bytes).unwrap().segments[0].save());
     assert!(refusal(&endless.take()).contains("no end"));
     let mut blank = Writer::new();
     blank.end(End::Crashed);
@@ -139,14 +145,14 @@ fn huge_counts_behind_a_right_checksum_take_no_memory() {
     for count in [&[0xff, 0xff, 0xff, 0xff, 0x0f][..], &[0xff; 9], &[0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 1]]
     {
         let mut writer = Writer::new();
-        writer.start(&good.stretches[0].save);
+        writer.start(&good.segments[0].save());
         writer.chunk(TICKS, count);
         writer.end(End::Crashed);
         assert!(refusal(&writer.take()).contains("damaged"));
         let mut marks = vec![0];
         marks.extend(count);
         let mut writer = Writer::new();
-        writer.start(&good.stretches[0].save);
+        writer.start(&good.segments[0].save());
         writer.chunk(TICKS, &marks);
         assert!(refusal(&writer.take()).contains("damaged"));
     }

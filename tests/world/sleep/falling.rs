@@ -1,7 +1,7 @@
 //! What comes to rest falls asleep, where it would have come to rest; what moves never does.
 
-use super::{apart, asleep, dry_box, gap, lake, tap, two_ponds, until_asleep, without_sleep, work};
-use crate::support::{Furnish, Sandbox, blueprint};
+use super::{apart, asleep, dry_box, emitter, gap, lake, two_ponds, until_asleep, without_sleep, work};
+use crate::support::{Furnish, SimulationExt, blueprint};
 use glam::Vec2;
 use powder_master::{
     kernel::{
@@ -9,7 +9,7 @@ use powder_master::{
         params::Preset,
     },
     scene::effects::{Effect, Mode, Pass},
-    sim::state::Clock,
+    sim::{simulation::Simulation, state::Clock},
 };
 use std::sync::Arc;
 
@@ -18,13 +18,13 @@ fn a_still_lake_falls_asleep_and_costs_nothing() {
     for preset in [Preset::Draft, Preset::Fast, Preset::Balanced, Preset::Fine] {
         let mut world = lake();
         (world.preset, world.quality) = (preset, preset.quality());
-        let mut sandbox = Sandbox::of(world);
-        until_asleep(&mut sandbox, 400);
-        let (before, hash) = (work(&sandbox), sandbox.hash());
-        sandbox.tick(600);
-        assert_eq!(work(&sandbox), before, "{}: passes run over sleepers", preset.name());
-        assert_eq!(sandbox.hash(), hash, "{}: sleepers move", preset.name());
-        assert_eq!(sandbox.counters().escaped, 0);
+        let mut simulation = Simulation::of(world);
+        until_asleep(&mut simulation, 400);
+        let (before, hash) = (work(&simulation), simulation.hash());
+        simulation.run(600);
+        assert_eq!(work(&simulation), before, "{}: passes run over sleepers", preset.name());
+        assert_eq!(simulation.hash(), hash, "{}: sleepers move", preset.name());
+        assert_eq!(simulation.counters().escaped, 0);
     }
 }
 
@@ -35,10 +35,10 @@ fn what_settles_falls_asleep_level_and_where_it_would_have_come_to_rest() {
     world.effects.insert(Effect::Viscosity, Mode::On);
     let thick = |element: &Element| Element { viscosity: 0.3, ..element.clone() };
     world.elements = Arc::new(ElementTable::new(world.elements.iter().map(|(_, element)| thick(element)).collect()));
-    let (mut sandbox, mut reference) = (Sandbox::of(world.clone()), without_sleep(world));
-    until_asleep(&mut sandbox, 6000);
-    reference.tick(6000);
-    let (share, height) = apart(&sandbox, &reference);
+    let (mut simulation, mut reference) = (Simulation::of(world.clone()), without_sleep(world));
+    until_asleep(&mut simulation, 6000);
+    reference.run(6000);
+    let (share, height) = apart(&simulation, &reference);
     assert!(share < 0.02 && height < 0.5, "a share of {share} is elsewhere, the surface is {height} d off");
 }
 
@@ -49,11 +49,11 @@ fn classic_reference_and_off_never_sleep() {
         world.pool((0, 0), (24, 4));
         (world.preset, world.quality) = (preset, preset.quality());
         world.effects.insert(Effect::Sleep, mode);
-        let mut sandbox = Sandbox::of(world);
-        let before = sandbox.tick(200).calls(Pass::Solve);
-        sandbox.tick(1);
-        assert_eq!(asleep(&sandbox), 0, "{} sleeps", preset.name());
-        assert!(sandbox.calls(Pass::Solve) > before);
+        let mut simulation = Simulation::of(world);
+        let before = simulation.run(200).calls(Pass::Solve);
+        simulation.run(1);
+        assert_eq!(asleep(&simulation), 0, "{} sleeps", preset.name());
+        assert!(simulation.calls(Pass::Solve) > before);
     }
 }
 
@@ -61,37 +61,37 @@ fn classic_reference_and_off_never_sleep() {
 fn sleep_changes_nothing_to_the_bit_where_nothing_rests() {
     // In the waterfall a puddle rests from the start, which nothing can for longer than a second without sleep.
     for (scene, ticks) in [("dam_break", 150), ("waterfall", 50), ("wind_tunnel", 150)] {
-        let mut with = Sandbox::scene(scene, &[]);
+        let mut with = Simulation::scene(scene, &[]);
         let mut without = without_sleep(blueprint(scene, &[]));
-        let hash = with.tick(ticks).hash();
+        let hash = with.run(ticks).hash();
         assert_eq!(asleep(&with), 0, "{scene}: the test is of what is awake");
-        assert_eq!(hash, without.tick(ticks).hash(), "{scene}");
+        assert_eq!(hash, without.run(ticks).hash(), "{scene}");
     }
 }
 
 #[test]
 fn a_body_sleeps_beside_one_that_moves() {
-    let world = |taps: bool| {
+    let world = |emitters: bool| {
         let mut world = two_ponds();
-        if taps {
-            world.emitters.push(tap());
+        if emitters {
+            world.emitters.push(emitter());
         }
         world
     };
-    let (mut sandbox, mut reference) = (Sandbox::of(world(true)), without_sleep(world(true)));
+    let (mut simulation, mut reference) = (Simulation::of(world(true)), without_sleep(world(true)));
     let mut slept = 0;
     for tick in 0..900 {
-        sandbox.tick(1);
-        reference.tick(1);
-        slept += u32::from(asleep(&sandbox) == 800);
-        assert!(asleep(&sandbox) == 0 || gap(&sandbox) > 5.0, "tick {tick}");
+        simulation.run(1);
+        reference.run(1);
+        slept += u32::from(asleep(&simulation) == 800);
+        assert!(asleep(&simulation) == 0 || gap(&simulation) > 5.0, "tick {tick}");
         if tick % 100 == 99 {
-            let (share, _) = apart(&sandbox, &reference);
+            let (share, _) = apart(&simulation, &reference);
             assert!(share < 0.1, "tick {tick}: a share of {share} is elsewhere");
         }
     }
     assert!(slept > 600, "the right pond slept for {slept} ticks only");
-    assert_eq!(sandbox.particles().len(), reference.particles().len());
+    assert_eq!(simulation.particles().len(), reference.particles().len());
 }
 
 #[test]
@@ -99,25 +99,25 @@ fn what_rests_without_gravity_sleeps_where_it_is() {
     let mut world = dry_box(60, 60);
     world.domain.gravity = Vec2::ZERO;
     world.pool((20, 20), (40, 40));
-    let mut sandbox = Sandbox::of(world);
-    until_asleep(&mut sandbox, 400);
-    let hash = sandbox.hash();
-    assert_eq!(sandbox.tick(600).hash(), hash);
-    sandbox.particles_mut().vx[0] = 30.0;
-    sandbox.tick(1);
-    assert_eq!(asleep(&sandbox), 0, "a push does not wake it");
+    let mut simulation = Simulation::of(world);
+    until_asleep(&mut simulation, 400);
+    let hash = simulation.hash();
+    assert_eq!(simulation.run(600).hash(), hash);
+    simulation.particles_mut().vx[0] = 30.0;
+    simulation.run(1);
+    assert_eq!(asleep(&simulation), 0, "a push does not wake it");
 }
 
 #[test]
 fn vessels_fall_asleep_level() {
     let mut world = blueprint("communicating_vessels", &[]);
     (world.preset, world.quality) = (Preset::Draft, Preset::Draft.quality());
-    let mut sandbox = Sandbox::of(world.clone());
-    until_asleep(&mut sandbox, 12_000);
-    let slept = sandbox.get::<Clock>().tick;
+    let mut simulation = Simulation::of(world.clone());
+    until_asleep(&mut simulation, 12_000);
+    let slept = simulation.get::<Clock>().tick;
     let mut reference = without_sleep(world);
-    reference.tick(slept as u32 + 300);
-    let (share, height) = apart(&sandbox, &reference);
+    reference.run(slept as u32 + 300);
+    let (share, height) = apart(&simulation, &reference);
     println!("asleep after {slept} ticks: share {share}, height {height}");
     // Water of 0.01 d a tick that swings from tank to tank at 1.43 /s stands 0.42 d off in the wide one and 0.67 d in the
     // narrow one when it is stopped; without sleep it may be on the other side by then.

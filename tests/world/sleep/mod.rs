@@ -4,7 +4,7 @@ mod falling;
 mod kept;
 mod waking;
 
-use crate::support::{Furnish, Sandbox, WATER, empty_box};
+use crate::support::{Furnish, SimulationExt, WATER, empty_box};
 use glam::Vec2;
 use powder_master::{
     kernel::{
@@ -16,7 +16,10 @@ use powder_master::{
         blueprint::Blueprint,
         effects::{Effect, Mode, Pass},
     },
-    sim::state::{Setup, SleepState},
+    sim::{
+        simulation::Simulation,
+        state::{Setup, SleepState},
+    },
 };
 
 /// The passes over particles: what sleep saves.
@@ -48,28 +51,28 @@ fn lake() -> Blueprint {
     world
 }
 
-fn without_sleep(mut world: Blueprint) -> Sandbox {
+fn without_sleep(mut world: Blueprint) -> Simulation {
     world.effects.insert(Effect::Sleep, Mode::Off);
-    Sandbox::of(world)
+    Simulation::of(world)
 }
 
-fn asleep(sandbox: &Sandbox) -> usize {
-    sandbox.get::<SleepState>().asleep()
+fn asleep(simulation: &Simulation) -> usize {
+    simulation.get::<SleepState>().asleep()
 }
 
 /// Runs until all sleeps, `most` ticks at most.
-fn until_asleep(sandbox: &mut Sandbox, most: u32) {
+fn until_asleep(simulation: &mut Simulation, most: u32) {
     for _ in 0..most {
-        sandbox.tick(1);
-        if asleep(sandbox) == sandbox.particles().len() {
+        simulation.run(1);
+        if asleep(simulation) == simulation.particles().len() {
             return;
         }
     }
-    panic!("after {most} ticks {} of {} particles sleep", asleep(sandbox), sandbox.particles().len());
+    panic!("after {most} ticks {} of {} particles sleep", asleep(simulation), simulation.particles().len());
 }
 
-fn work(sandbox: &Sandbox) -> u64 {
-    PASSES.iter().map(|&pass| sandbox.calls(pass)).sum()
+fn work(simulation: &Simulation) -> u64 {
+    PASSES.iter().map(|&pass| simulation.calls(pass)).sum()
 }
 
 fn disc(at: Vec2, radius: f32) -> Stroke {
@@ -77,17 +80,17 @@ fn disc(at: Vec2, radius: f32) -> Stroke {
 }
 
 /// Distance from the particles that are awake to those that sleep, d.
-fn gap(sandbox: &Sandbox) -> f32 {
-    let (particles, asleep) = (sandbox.particles(), asleep(sandbox));
+fn gap(simulation: &Simulation) -> f32 {
+    let (particles, asleep) = (simulation.particles(), asleep(simulation));
     let awake = asleep..particles.len();
     let nearest = |i: usize| (0..asleep).map(move |j| particles.position(i).distance(particles.position(j)));
     awake.flat_map(nearest).fold(f32::INFINITY, f32::min)
 }
 
 /// Mean height of the four highest particles in each strip of 8 d.
-fn surface(sandbox: &Sandbox) -> Vec<f32> {
-    let particles = sandbox.particles();
-    let strips = (sandbox.get::<Setup>().blueprint.domain.size.x / 8.0) as usize;
+fn surface(simulation: &Simulation) -> Vec<f32> {
+    let particles = simulation.particles();
+    let strips = (simulation.get::<Setup>().blueprint.domain.size.x / 8.0) as usize;
     (0..strips)
         .map(|strip| {
             let inside = |i: &usize| (particles.x[*i] / 8.0) as usize == strip;
@@ -98,13 +101,13 @@ fn surface(sandbox: &Sandbox) -> Vec<f32> {
         .collect()
 }
 
-fn distance(world: &Sandbox, reference: &Sandbox) -> Distance {
-    let [field, reference] = [world, reference].map(|sandbox| CoarseField::of(sandbox.app.world()));
+fn distance(world: &Simulation, reference: &Simulation) -> Distance {
+    let [field, reference] = [world, reference].map(|simulation| CoarseField::of(simulation.world()));
     field.distance(&reference, CoarseField::magnitudes(std::slice::from_ref(&reference)))
 }
 
 /// Share of the water that is in another cell of 8 d than without sleep, and the largest difference of the surfaces, d.
-fn apart(world: &Sandbox, reference: &Sandbox) -> (f64, f32) {
+fn apart(world: &Simulation, reference: &Simulation) -> (f64, f32) {
     let surfaces = surface(world).into_iter().zip(surface(reference));
     let height = surfaces.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
     (distance(world, reference).share.unwrap_or(1.0), height)
@@ -118,7 +121,7 @@ fn lake_in_air() -> Blueprint {
 }
 
 /// A thin jet into the left pond.
-fn tap() -> Emitter {
+fn emitter() -> Emitter {
     Emitter {
         area: Rect { min: Vec2::new(10.0, 33.0), max: Vec2::new(12.0, 35.0) },
         element: WATER,

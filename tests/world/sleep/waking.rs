@@ -1,7 +1,7 @@
 //! Whatever acts on a sleeping body wakes it first, and no other.
 
 use super::{apart, asleep, disc, dry_box, gap, lake, lake_in_air, two_ponds, until_asleep, without_sleep, work};
-use crate::support::{Furnish, ROCK, Sandbox, WATER};
+use crate::support::{Furnish, ROCK, SimulationExt, WATER};
 use glam::Vec2;
 use powder_master::{
     kernel::{
@@ -13,35 +13,36 @@ use powder_master::{
     sim::{
         effects::Effects,
         intent::Intent,
+        simulation::Simulation,
         state::{Clock, Sources},
     },
 };
 
 #[test]
 fn a_drop_wakes_a_lake_that_has_slept_for_an_hour() {
-    let (mut sandbox, mut reference) = (Sandbox::of(lake()), without_sleep(lake()));
-    until_asleep(&mut sandbox, 400);
-    reference.tick(400);
-    let lake = sandbox.particles().len();
-    let before = (work(&sandbox), sandbox.hash());
-    sandbox.tick(60 * 60 * 60);
-    assert_eq!((work(&sandbox), sandbox.hash()), before, "an hour of sleep leaves traces");
+    let (mut simulation, mut reference) = (Simulation::of(lake()), without_sleep(lake()));
+    until_asleep(&mut simulation, 400);
+    reference.run(400);
+    let lake = simulation.particles().len();
+    let before = (work(&simulation), simulation.hash());
+    simulation.run(60 * 60 * 60);
+    assert_eq!((work(&simulation), simulation.hash()), before, "an hour of sleep leaves traces");
     let drop = Intent::Stamp { element: WATER, stroke: disc(Vec2::new(40.0, 60.0), 3.0) };
-    for world in [&mut sandbox, &mut reference] {
+    for world in [&mut simulation, &mut reference] {
         world.push(drop);
     }
     let radius = Preset::Balanced.quality().kernel_radius;
     let mut woke = None;
     for tick in 1..=360 {
-        sandbox.tick(1);
-        reference.tick(1);
-        if asleep(&sandbox) > 0 {
-            assert_eq!(asleep(&sandbox), lake, "the lake is one body");
-            assert!(gap(&sandbox) > 2.0 * radius, "tick {tick}: the drop is in the lake, and it sleeps");
+        simulation.run(1);
+        reference.run(1);
+        if asleep(&simulation) > 0 {
+            assert_eq!(asleep(&simulation), lake, "the lake is one body");
+            assert!(gap(&simulation) > 2.0 * radius, "tick {tick}: the drop is in the lake, and it sleeps");
         } else {
             woke.get_or_insert(tick);
         }
-        let (share, height) = apart(&sandbox, &reference);
+        let (share, height) = apart(&simulation, &reference);
         // The crown of the splash is a few drops, which fly apart.
         assert!(share < 0.06 && height < 6.0, "tick {tick}: a share of {share} is elsewhere, {height} d off");
         if tick == 360 {
@@ -56,43 +57,43 @@ fn a_drop_wakes_a_lake_that_has_slept_for_an_hour() {
 #[test]
 fn the_fastest_shot_does_not_get_in_unseen() {
     for speed in [60.0, 600.0, 3000.0] {
-        let mut sandbox = Sandbox::of(lake());
-        until_asleep(&mut sandbox, 400);
+        let mut simulation = Simulation::of(lake());
+        until_asleep(&mut simulation, 400);
         let at = Vec2::new(40.0, 65.0);
         let id = 1_000_000;
-        sandbox.particles_mut().push(id, WATER, at, Vec2::new(0.0, -speed));
+        simulation.particles_mut().push(id, WATER, at, Vec2::new(0.0, -speed));
         for tick in 0..120 {
-            sandbox.tick(1);
-            if asleep(&sandbox) == 0 {
+            simulation.run(1);
+            if asleep(&simulation) == 0 {
                 break;
             }
-            assert!(gap(&sandbox) > 5.0, "{speed} d/s, tick {tick}: {} d", gap(&sandbox));
+            assert!(gap(&simulation) > 5.0, "{speed} d/s, tick {tick}: {} d", gap(&simulation));
         }
-        assert_eq!(asleep(&sandbox), 0, "{speed} d/s: nothing woke");
+        assert_eq!(asleep(&simulation), 0, "{speed} d/s: nothing woke");
     }
 }
 
 #[test]
 fn a_brush_wakes_the_pond_that_it_takes_from_and_no_other() {
-    let (mut sandbox, mut reference) = (Sandbox::of(two_ponds()), without_sleep(two_ponds()));
-    until_asleep(&mut sandbox, 600);
-    assert_eq!(asleep(&sandbox), 1400);
-    reference.tick(sandbox.get::<Clock>().tick as u32);
+    let (mut simulation, mut reference) = (Simulation::of(two_ponds()), without_sleep(two_ponds()));
+    until_asleep(&mut simulation, 600);
+    assert_eq!(asleep(&simulation), 1400);
+    reference.run(simulation.get::<Clock>().tick as u32);
     let left_alone: Vec<u32> = {
-        let particles = sandbox.particles();
+        let particles = simulation.particles();
         (0..1400).filter(|&i| particles.x[i] > 79.0).map(|i| particles.id[i]).collect()
     };
     let stroke = Stroke::rectangle(Vec2::new(0.0, 10.0), Vec2::new(15.0, 40.0));
-    for world in [&mut sandbox, &mut reference] {
-        world.push(Intent::Erase { stroke }).tick(1);
+    for world in [&mut simulation, &mut reference] {
+        world.push(Intent::Erase { stroke }).run(1);
     }
-    let sleepers = sandbox.particles().id[..asleep(&sandbox)].to_vec();
+    let sleepers = simulation.particles().id[..asleep(&simulation)].to_vec();
     assert_eq!(sleepers, left_alone, "the right pond sleeps on, in its order");
     for _ in 0..6 {
-        sandbox.tick(10);
-        reference.tick(10);
-        assert_eq!(asleep(&sandbox), 800);
-        let (share, _) = apart(&sandbox, &reference);
+        simulation.run(10);
+        reference.run(10);
+        assert_eq!(asleep(&simulation), 800);
+        let (share, _) = apart(&simulation, &reference);
         println!("share {share}");
         assert!(share < 0.08, "a share of {share} is elsewhere");
     }
@@ -100,14 +101,14 @@ fn a_brush_wakes_the_pond_that_it_takes_from_and_no_other() {
 
 #[test]
 fn an_outlet_wakes_the_pond_that_it_drains() {
-    let mut sandbox = Sandbox::of(two_ponds());
-    until_asleep(&mut sandbox, 600);
+    let mut simulation = Simulation::of(two_ponds());
+    until_asleep(&mut simulation, 600);
     let area = Rect { min: Vec2::new(0.0, 0.0), max: Vec2::new(3.0, 3.0) };
-    sandbox.get_mut::<Sources>().drains.push(Drain { area });
-    sandbox.tick(1);
-    assert_eq!(asleep(&sandbox), 800);
-    sandbox.tick(200);
-    let left = sandbox.particles().x.iter().filter(|&&x| x < 30.0).count();
+    simulation.get_mut::<Sources>().drains.push(Drain { area });
+    simulation.run(1);
+    assert_eq!(asleep(&simulation), 800);
+    simulation.run(200);
+    let left = simulation.particles().x.iter().filter(|&&x| x < 30.0).count();
     assert!(left < 400, "{left} of 600 are left");
 }
 
@@ -119,19 +120,19 @@ fn a_lake_whose_wall_is_taken_away_breaks_out_as_if_it_had_never_slept() {
         world.rock((30, 0), (32, 60));
         world
     };
-    let (mut sandbox, mut reference) = (Sandbox::of(world()), without_sleep(world()));
-    until_asleep(&mut sandbox, 600);
-    let ticks = sandbox.get::<Clock>().tick;
-    reference.tick(ticks as u32);
+    let (mut simulation, mut reference) = (Simulation::of(world()), without_sleep(world()));
+    until_asleep(&mut simulation, 600);
+    let ticks = simulation.get::<Clock>().tick;
+    reference.run(ticks as u32);
     let wall = Stroke::rectangle(Vec2::new(29.9, 0.0), Vec2::new(32.1, 60.0));
-    for world in [&mut sandbox, &mut reference] {
-        world.push(Intent::Erase { stroke: wall }).tick(1);
+    for world in [&mut simulation, &mut reference] {
+        world.push(Intent::Erase { stroke: wall }).run(1);
     }
-    assert_eq!(asleep(&sandbox), 0, "the wall is gone, and the lake sleeps");
+    assert_eq!(asleep(&simulation), 0, "the wall is gone, and the lake sleeps");
     for _ in 0..6 {
-        sandbox.tick(10);
-        reference.tick(10);
-        let (share, height) = apart(&sandbox, &reference);
+        simulation.run(10);
+        reference.run(10);
+        let (share, height) = apart(&simulation, &reference);
         println!("share {share}, height {height}");
         assert!(share < 0.08, "a share of {share} is elsewhere, the surface is {height} d off");
     }
@@ -139,42 +140,42 @@ fn a_lake_whose_wall_is_taken_away_breaks_out_as_if_it_had_never_slept() {
 
 #[test]
 fn rock_drawn_into_sleeping_water_wakes_it() {
-    let mut sandbox = Sandbox::of(lake());
-    until_asleep(&mut sandbox, 400);
-    sandbox.push(Intent::Draw { element: ROCK, stroke: disc(Vec2::new(40.0, 60.0), 2.0) }).tick(1);
-    assert_eq!(asleep(&sandbox), 0);
+    let mut simulation = Simulation::of(lake());
+    until_asleep(&mut simulation, 400);
+    simulation.push(Intent::Draw { element: ROCK, stroke: disc(Vec2::new(40.0, 60.0), 2.0) }).run(1);
+    assert_eq!(asleep(&simulation), 0);
 }
 
 #[test]
 fn wind_wakes_a_lake_in_the_tick_in_which_it_blows() {
-    let mut sandbox = Sandbox::of(lake_in_air());
-    until_asleep(&mut sandbox, 2000);
-    let lake = asleep(&sandbox);
+    let mut simulation = Simulation::of(lake_in_air());
+    until_asleep(&mut simulation, 2000);
+    let lake = asleep(&simulation);
     // Too faint to tilt the lake by a thousandth, and far above it.
-    sandbox.push(Intent::Blow { stroke: disc(Vec2::new(40.0, 60.0), 3.0), velocity: Vec2::new(0.01, 0.0) }).tick(3);
-    assert_eq!(asleep(&sandbox), lake, "a breath of air wakes it");
-    sandbox.push(Intent::Blow { stroke: disc(Vec2::new(40.0, 24.0), 6.0), velocity: Vec2::new(120.0, 0.0) }).tick(1);
-    assert_eq!(asleep(&sandbox), 0, "the wind blows, and the lake sleeps");
+    simulation.push(Intent::Blow { stroke: disc(Vec2::new(40.0, 60.0), 3.0), velocity: Vec2::new(0.01, 0.0) }).run(3);
+    assert_eq!(asleep(&simulation), lake, "a breath of air wakes it");
+    simulation.push(Intent::Blow { stroke: disc(Vec2::new(40.0, 24.0), 6.0), velocity: Vec2::new(120.0, 0.0) }).run(1);
+    assert_eq!(asleep(&simulation), 0, "the wind blows, and the lake sleeps");
 }
 
 #[test]
 fn other_conditions_wake_all() {
-    let changes: [fn(&mut Sandbox); 3] = [
-        |sandbox| {
+    let changes: [fn(&mut Simulation); 3] = [
+        |simulation| {
             let quality = Preset::Fine.quality();
-            sandbox.push(Intent::Quality { preset: Preset::Fine, quality });
+            simulation.push(Intent::Quality { preset: Preset::Fine, quality });
         },
-        |sandbox| sandbox.get_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off,
-        |sandbox| {
-            sandbox.push(Intent::Gravity { gravity: Vec2::new(98.1, 0.0) });
+        |simulation| simulation.get_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off,
+        |simulation| {
+            simulation.push(Intent::Gravity { gravity: Vec2::new(98.1, 0.0) });
         },
     ];
     for (k, change) in changes.into_iter().enumerate() {
-        let mut sandbox = Sandbox::of(lake());
-        until_asleep(&mut sandbox, 400);
-        change(&mut sandbox);
-        sandbox.tick(1);
-        assert_eq!(asleep(&sandbox), 0, "change {k}");
-        assert!(sandbox.calls(Pass::Solve) > 0);
+        let mut simulation = Simulation::of(lake());
+        until_asleep(&mut simulation, 400);
+        change(&mut simulation);
+        simulation.run(1);
+        assert_eq!(asleep(&simulation), 0, "change {k}");
+        assert!(simulation.calls(Pass::Solve) > 0);
     }
 }

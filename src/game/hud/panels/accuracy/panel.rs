@@ -23,6 +23,7 @@ use crate::{
     sim::{
         accuracy::{Curve, LiveError, Survey, SurveyRequest, fingerprint},
         autopilot::Autopilot,
+        generation::Generation,
         ledger::PassLedger,
         measures::Measures,
         numbers::{self, short},
@@ -35,7 +36,7 @@ use bevy_egui::{
     EguiContexts,
     egui::{self, Color32, RichText, Sense, Ui, vec2},
 };
-use std::{collections::BTreeMap, sync::Arc};
+use std::collections::BTreeMap;
 
 /// Its name.
 pub const ID: PanelId = PanelId("accuracy");
@@ -54,8 +55,8 @@ const SMALL: f32 = 0.02;
 pub struct AccuracyPanel {
     /// The last curve of each scene, by its fingerprint.
     curves: BTreeMap<u64, Curve>,
-    /// The scene that is played, and its fingerprint.
-    scene: Option<(Arc<Blueprint>, u64)>,
+    /// The scene that is played (`Generation::scene`), and its fingerprint.
+    scene: Option<(u64, u64)>,
     trail: Vec<Live>,
     trail_tick: u64,
     bounds: pilot::Bounds,
@@ -67,12 +68,12 @@ pub struct AccuracyPanel {
 
 impl AccuracyPanel {
     /// The fingerprint of the scene that is played; the trail of another ends.
-    fn turn_to(&mut self, blueprint: &Arc<Blueprint>) -> u64 {
-        match &self.scene {
-            Some((known, fingerprint)) if Arc::ptr_eq(known, blueprint) => *fingerprint,
+    fn turn_to(&mut self, scene: u64, blueprint: &Blueprint) -> u64 {
+        match self.scene {
+            Some((known, fingerprint)) if known == scene => fingerprint,
             _ => {
                 let found = fingerprint(blueprint);
-                self.scene = Some((blueprint.clone(), found));
+                self.scene = Some((scene, found));
                 self.trail.clear();
                 found
             }
@@ -119,7 +120,7 @@ fn show(
     mut contexts: EguiContexts,
     mut panels: ResMut<Panels>,
     mut panel: ResMut<AccuracyPanel>,
-    setup: Res<Setup>,
+    (setup, generation): (Res<Setup>, Res<Generation>),
     clock: Res<Clock>,
     measured: (Res<PassLedger>, Res<LiveError>, Res<Measures>),
     survey: Res<Survey>,
@@ -130,7 +131,7 @@ fn show(
     let (ledger, error, measures) = measured;
     let milliseconds = ledger.tick().median().as_secs_f32() * 1000.0;
     let live = (milliseconds > 0.0).then(|| Live { milliseconds, error: error.mean() });
-    let scene = panel.turn_to(&setup.blueprint);
+    let scene = panel.turn_to(generation.scene, &setup.blueprint);
     panel.follow(&survey, &clock, live);
     let context = contexts.ctx_mut()?;
     let screen = context.content_rect();
@@ -291,21 +292,21 @@ mod tests {
         let build = |columns: &str, preset| {
             let settings = [("columns".to_owned(), columns.to_owned())];
             let scene = scene::load("dam_break").unwrap();
-            Arc::new(scene.build(&settings, preset, &EffectModes::new()).unwrap())
+            scene.build(&settings, preset, &EffectModes::new()).unwrap()
         };
         let mut panel = AccuracyPanel::default();
         let first = build("10", None);
-        let of = panel.turn_to(&first);
+        let of = panel.turn_to(1, &first);
         panel.curves.insert(of, Curve::default());
         panel.trail.push(Live { milliseconds: 1.0, error: None });
-        let shows = |panel: &mut AccuracyPanel, blueprint: &Arc<Blueprint>| {
-            let scene = panel.turn_to(blueprint);
+        let shows = |panel: &mut AccuracyPanel, scene: u64, blueprint: &Blueprint| {
+            let scene = panel.turn_to(scene, blueprint);
             panel.curves.contains_key(&scene)
         };
-        assert!(shows(&mut panel, &first) && panel.trail.len() == 1);
-        assert!(!shows(&mut panel, &build("12", None)), "the curve of other settings is shown");
+        assert!(shows(&mut panel, 1, &first) && panel.trail.len() == 1);
+        assert!(!shows(&mut panel, 2, &build("12", None)), "the curve of other settings is shown");
         assert!(panel.trail.is_empty(), "and the trail of another scene");
-        assert!(shows(&mut panel, &build("10", Some(Preset::Fine))), "the same scene again has lost its curve");
+        assert!(shows(&mut panel, 3, &build("10", Some(Preset::Fine))), "the same scene again has lost its curve");
     }
 
     #[test]

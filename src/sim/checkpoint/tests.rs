@@ -1,55 +1,61 @@
 //! Files that were cut, changed or made up.
 
-use super::*;
+use super::{
+    contents::Contents,
+    file::{MAGIC, seal},
+    *,
+};
 use crate::{
-    kernel::sources::{Drain, Emitter, Rect, Wind},
-    scene,
+    kernel::{
+        air::Air,
+        element::ElementId,
+        sleep::SleepRecord,
+        sources::{Drain, Emitter, Rect, Wind},
+    },
+    scene::{self, effects::EffectModes},
     sim::{
-        SimulationPlugin,
         intent::{Intent, IntentQueue},
-        state::{Counters, ParticleStore, Rock},
+        simulation::Simulation,
+        snapshot::hash_bytes,
+        state::{Clock, Counters, ParticleStore, Rock, Sources},
+        workers::Workers,
     },
 };
-use bevy::{MinimalPlugins, app::App, time::TimeUpdateStrategy};
 use glam::Vec2;
+use std::sync::Arc;
 
-fn start(app_scene: &str, settings: &[(&str, &str)]) -> App {
+fn start(scene: &str, settings: &[(&str, &str)]) -> Simulation {
     let settings: Vec<(String, String)> = settings.iter().map(|&(key, value)| (key.into(), value.into())).collect();
-    let file = scene::load(app_scene).expect("a built-in scene");
+    let file = scene::load(scene).expect("a built-in scene");
     let blueprint = file.build(&settings, None, &EffectModes::new()).expect("its settings");
-    let mut app = App::new();
-    app.add_plugins((MinimalPlugins, SimulationPlugin)).insert_resource(TimeUpdateStrategy::FixedTimesteps(1));
-    control::load(app.world_mut(), Arc::new(blueprint));
-    app.finish();
-    app.cleanup();
-    app.update();
-    app
+    Simulation::new(Arc::new(blueprint), Workers::default())
 }
 
-fn tick(app: &mut App, ticks: u32) {
-    for _ in 0..ticks {
-        app.update();
-    }
+fn encode(simulation: &Simulation) -> Vec<u8> {
+    Checkpoint::of(simulation.world()).encode()
 }
 
 /// A small world with something of everything, a few ticks old.
-fn small() -> App {
-    let mut app = start("empty", &[("columns", "16"), ("rows", "16")]);
+fn small() -> Simulation {
+    let mut simulation = start("empty", &[("columns", "16"), ("rows", "16")]);
     let stroke = crate::kernel::brush::Stroke::rectangle(Vec2::new(4.0, 2.0), Vec2::new(8.0, 6.0));
     let rock = crate::kernel::brush::Stroke::rectangle(Vec2::new(10.0, 0.0), Vec2::new(12.0, 2.0));
-    let mut queue = app.world_mut().resource_mut::<IntentQueue>();
+    let mut queue = simulation.world_mut().resource_mut::<IntentQueue>();
     queue.push(Intent::Stamp { element: ElementId(1), stroke });
     queue.push(Intent::Stamp { element: ElementId(0), stroke: rock });
     let area = Rect { min: Vec2::splat(8.0), max: Vec2::splat(12.0) };
-    let mut sources = app.world_mut().resource_mut::<Sources>();
+    let mut sources = simulation.world_mut().resource_mut::<Sources>();
     let velocity = Vec2::new(1.0, -1.0);
     let (element, rate) = (ElementId(1), 30.0);
     sources.emitters.push(Emitter { element, area, velocity, rate, total: Some(9), start: 1, given: 0, due: 0.0 });
     sources.winds.push(Wind { area, velocity, rate: 2.0 });
     sources.drains.push(Drain { area: Rect { min: Vec2::splat(14.0), max: Vec2::splat(15.0) } });
-    tick(&mut app, 5);
-    assert!(app.world().resource::<ParticleStore>().len() >= 16 && app.world().resource::<Rock>().count() == 4);
-    app
+    simulation.run(5);
+    assert!(
+        simulation.world().resource::<ParticleStore>().len() >= 16
+            && simulation.world().resource::<Rock>().count() == 4
+    );
+    simulation
 }
 
 fn contents(bytes: &[u8]) -> Contents {
@@ -57,26 +63,26 @@ fn contents(bytes: &[u8]) -> Contents {
 }
 
 fn refusal(bytes: &[u8]) -> String {
-    let text = decode(bytes).expect_err("a bad file was read").to_string();
+    let text = Checkpoint::decode(bytes).expect_err("a bad file was read").to_string();
     assert!(!text.contains('\n') && text.len() < 200, "not one clear line: {text}");
     text
 }
 
 #[test]
 fn what_was_written_is_read() {
-    let app = small();
-    let bytes = encode(app.world());
-    let saved = decode(&bytes).expect("its own file");
-    assert_eq!(saved.snapshot().hash(), control::hash(app.world()));
-    assert_eq!((saved.name(), saved.title()), ("empty", "Empty"));
+    let simulation = small();
+    let bytes = encode(&simulation);
+    let saved = Checkpoint::decode(&bytes).expect("its own file");
+    assert_eq!(saved.state.hash(), simulation.hash());
+    assert_eq!((&*saved.setup.blueprint.name, &*saved.setup.blueprint.title), ("empty", "Empty"));
     let mut other = start("dam_break", &[("columns", "4")]);
-    load(other.world_mut(), saved);
-    assert_eq!(encode(other.world()), bytes, "saving a loaded world gives another file");
+    saved.restore(other.world_mut());
+    assert_eq!(encode(&other), bytes, "saving a loaded world gives another file");
 }
 
 #[test]
 fn a_file_cut_anywhere_is_refused() {
-    let bytes = encode(small().world());
+    let bytes = encode(&small());
     for len in 0..bytes.len() {
         refusal(&bytes[..len]);
     }
@@ -98,17 +104,17 @@ fn a_file_cut_anywhere_is_refused() {
 
 #[test]
 fn headers_say_what_is_wrong() {
-    let bytes = encode(small().world());
+    let bytes = encode(&small());
     assert_eq!(refusal(b""), SaveError::Foreign.to_string());
     assert_eq!(refusal(b"\x89PNG\r\n\x1a\n and more"), SaveError::Foreign.to_string());
     let mut newer = bytes.clone();
     newer[MAGIC.len()] = 200;
-    assert!(refusal(&newer).contains("format 200; this program reads format 3"));
+    assert!(refusal(&newer).contains("format 200; this program reads format 4"));
 }
 
 #[test]
 fn every_flipped_bit_is_noticed() {
-    let bytes = encode(small().world());
+    let bytes = encode(&small());
     let mut changed = bytes.clone();
     for bit in 0..8 * bytes.len() {
         changed[bit / 8] ^= 1 << (bit % 8);
@@ -119,9 +125,9 @@ fn every_flipped_bit_is_noticed() {
 
 #[test]
 fn flips_behind_a_right_checksum_neither_panic_nor_make_a_world_that_does() {
-    let bytes = encode(small().world());
+    let bytes = encode(&small());
     let body = &bytes[MAGIC.len() + 10..];
-    let mut app = small();
+    let mut simulation = small();
     let mut state = 99_u32;
     let mut random = || {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -137,7 +143,7 @@ fn flips_behind_a_right_checksum_neither_panic_nor_make_a_world_that_does() {
         let mut file = bytes[..MAGIC.len() + 2].to_vec();
         file.extend(hash_bytes(&changed).to_le_bytes());
         file.extend(&changed);
-        match decode(&file) {
+        match Checkpoint::decode(&file) {
             Err(error) => {
                 assert!(!error.to_string().contains('\n') && error.to_string().len() < 300, "{error}");
                 refused += 1;
@@ -145,11 +151,11 @@ fn flips_behind_a_right_checksum_neither_panic_nor_make_a_world_that_does() {
             Ok(saved) => {
                 read += 1;
                 // What is read must run; a few of them are enough.
-                let cells = saved.blueprint.domain.size.x * saved.blueprint.domain.size.y;
+                let cells = saved.setup.domain.size.x * saved.setup.domain.size.y;
                 assert!(cells < 1e4, "a box of {cells} cells out of a file of {} bytes", file.len());
                 if read % 20 == 0 {
-                    load(app.world_mut(), saved);
-                    tick(&mut app, 3);
+                    saved.restore(simulation.world_mut());
+                    simulation.run(3);
                 }
             }
         }
@@ -159,8 +165,8 @@ fn flips_behind_a_right_checksum_neither_panic_nor_make_a_world_that_does() {
 
 #[test]
 fn made_up_contents_are_refused_by_name() {
-    let good = contents(&encode(small().world()));
-    assert!(decode(&seal(&good)).is_ok());
+    let good = contents(&encode(&small()));
+    assert!(Checkpoint::decode(&seal(&good)).is_ok());
     type Change = fn(&mut Contents);
     let cases: [(&str, Change); 40] = [
         ("spacing", |c| c.scale.spacing = 0.0),
@@ -191,8 +197,8 @@ fn made_up_contents_are_refused_by_name() {
         ("effect has no known name", |c| c.effects[0].0 = "magic".to_owned()),
         ("first element", |c| c.first_element = Some("gold".to_owned())),
         ("differ in length", |c| c.particles.vx.truncate(3)),
-        ("a position is", |c| c.particles.x[2] = f32::NAN),
-        ("a velocity is", |c| c.particles.vy[2] = f32::INFINITY),
+        ("x of a particle is no number", |c| c.particles.x[2] = f32::NAN),
+        ("vy of a particle is no number", |c| c.particles.vy[2] = f32::INFINITY),
         ("outside the box", |c| c.particles.x[2] = 16.5),
         ("outside the box", |c| c.particles.y[2] = -0.5),
         ("inside rock", |c| (c.particles.x[2], c.particles.y[2]) = (11.5, 1.5)),
@@ -241,20 +247,20 @@ fn made_up_contents_are_refused_by_name() {
 /// Counts at the end of their numbers: nothing overflows, and what finds no number any more is refused and counted.
 #[test]
 fn a_world_at_the_end_of_its_numbers_goes_on() {
-    let mut contents = contents(&encode(small().world()));
+    let mut contents = contents(&encode(&small()));
     contents.clock.next_id = u32::MAX - 1;
     (contents.clock.tick, contents.clock.edits) = (1 << 53, 1 << 53);
     contents.sources.emitters[0].total = None;
     contents.sources.emitters[0].given = u32::MAX;
     contents.sources.emitters[0].due = 1e6;
-    let mut app = start("dam_break", &[("columns", "4")]);
-    load(app.world_mut(), decode(&seal(&contents)).expect("it is sound"));
-    app.world_mut().resource_mut::<IntentQueue>().push(Intent::ClearAir);
-    let before = app.world().resource::<ParticleStore>().len();
-    tick(&mut app, 5);
-    assert_eq!(app.world().resource::<ParticleStore>().len(), before + 1, "there was one id left");
-    assert!(app.world().resource::<Counters>().refused > 0);
-    assert_eq!(app.world().resource::<Clock>().tick, (1 << 53) + 5);
+    let mut simulation = start("dam_break", &[("columns", "4")]);
+    Checkpoint::decode(&seal(&contents)).expect("it is sound").restore(simulation.world_mut());
+    simulation.world_mut().resource_mut::<IntentQueue>().push(Intent::ClearAir);
+    let before = simulation.world().resource::<ParticleStore>().len();
+    simulation.run(5);
+    assert_eq!(simulation.world().resource::<ParticleStore>().len(), before + 1, "there was one id left");
+    assert!(simulation.world().resource::<Counters>().refused > 0);
+    assert_eq!(simulation.world().resource::<Clock>().tick, (1 << 53) + 5);
     contents.clock.tick += 5;
     let text = refusal(&seal(&contents));
     assert!(text.contains("its tick"), "{text}");

@@ -1,11 +1,11 @@
-//! Recordings: states of a world, the input that it took from each of them on, and a mark of every tick.
+//! Recordings as files.
 //!
 //! ```text
 //! "PowderMaster recording\n" │ version, u16 │ chunk …                                  (numbers little-endian)
 //!
 //! chunk:  kind, u8 │ length of the body, u32 │ hash of the body, u64 │ body
-//!   'S'   a state: a save file (`sim::save`). It begins a stretch; one behind another stands where something put another
-//!         world in the place of the one at hand (undo, reset, another scene)
+//!   'S'   a state: a save file (`sim::checkpoint`). It begins a segment; one behind another stands where something put
+//!         another world in the place of the one at hand (undo, reset, another scene)
 //!   'T'   ticks: postcard of (the intents that were taken, `Vec<Entry>`; the mark of each tick, `Vec<Mark>`)
 //!   'E'   the end: postcard of `End`. Nothing stands behind it
 //! ```
@@ -14,87 +14,33 @@
 //! it, only one is unfolded at a time. A program that was killed leaves a file without an end: `decode` refuses it,
 //! `salvage` takes what is whole.
 
-#[cfg(test)]
-mod tests;
-
 use crate::{
     kernel::{brush::Stroke, units::Scale},
     sim::{
+        checkpoint::{Checkpoint, SaveError, check},
         intent::Intent,
         mark::Mark,
-        save::{self, SaveError, Saved, check},
+        recording::segment::{End, Entry, Recording, Segment},
         snapshot::hash_bytes,
     },
 };
 use glam::Vec2;
-use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use serde::{Serialize, de::DeserializeOwned};
 use std::ops::RangeInclusive;
 
 /// Ending of recordings.
 pub const RECORDING_ENDING: &str = "pmr";
 /// What every recording begins with.
-const MAGIC: &[u8] = b"PowderMaster recording\n";
+pub(super) const MAGIC: &[u8] = b"PowderMaster recording\n";
 /// Version of the format. Raise it when anything in the chunks changes: old files are refused, not misread. An intent that
 /// is added behind the others changes nothing in old files.
 const VERSION: u16 = 3;
 /// What a file of format 1 begins with: text, input only, from the start of a scene.
 const TEXT_FORMAT: &[u8] = b"{\"powder_master_replay\":";
 
-const STATE: u8 = b'S';
-const TICKS: u8 = b'T';
+pub(super) const STATE: u8 = b'S';
+pub(super) const TICKS: u8 = b'T';
 const END: u8 = b'E';
-
-/// An intent and when it was taken.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Entry {
-    /// Ticks that the world had done.
-    pub tick: u64,
-    /// The intent.
-    pub intent: Intent,
-}
-
-/// How a recording ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum End {
-    /// It was ended.
-    Stopped {
-        /// Hash of the world then (`control::hash`).
-        hash: u64,
-    },
-    /// The program panicked: in the tick after the last one that has a mark, or outside of ticks.
-    Crashed,
-}
-
-/// What happened from a state on, until something put another in its place.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Stretch {
-    save: Vec<u8>,
-    /// Ticks that the state has done.
-    pub tick: u64,
-    /// Input, oldest first.
-    pub entries: Vec<Entry>,
-    /// The mark of each tick.
-    pub marks: Vec<Mark>,
-}
-
-impl Stretch {
-    /// The state.
-    ///
-    /// # Errors
-    /// None for a recording that was read: reading looks at every state.
-    pub fn start(&self) -> Result<Saved, SaveError> {
-        save::decode(&self.save)
-    }
-}
-
-/// A recording that was read. It has a stretch at least.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Recording {
-    /// Its stretches, oldest first.
-    pub stretches: Vec<Stretch>,
-    /// How it ended; nothing if the file breaks off.
-    pub end: Option<End>,
-}
 
 /// Why a file is no recording, in one line.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -145,26 +91,35 @@ impl Recording {
         Self::read(bytes, true)
     }
 
-    /// Ticks in all.
-    pub fn ticks(&self) -> u64 {
-        self.stretches.iter().map(|stretch| stretch.marks.len() as u64).sum()
+    /// It as a file; one that still runs ends with `end`. A segment that follows the one before needs no state of its own
+    /// there.
+    pub fn encode(&self, end: End) -> Vec<u8> {
+        let mut writer = Writer::new();
+        for (nth, segment) in self.segments.iter().enumerate() {
+            if !self.follows(nth) {
+                writer.start(&segment.save());
+            }
+            writer.ticks(&segment.entries, &segment.marks);
+        }
+        writer.end(self.end.unwrap_or(end));
+        writer.take()
     }
 
     fn read(bytes: &[u8], lenient: bool) -> Result<Self, RecordingError> {
         let mut rest = header(bytes)?;
-        let mut reader = Reader { stretches: Vec::new(), elements: 0, scale: Scale { spacing: 1.0 }, end: None };
+        let mut reader = Reader { segments: Vec::new(), elements: 0, scale: Scale { spacing: 1.0 }, end: None };
         while !rest.is_empty() && reader.end.is_none() {
             match reader.chunk(&mut rest) {
-                Err(_) if lenient && !reader.stretches.is_empty() => break,
+                Err(_) if lenient && !reader.segments.is_empty() => break,
                 outcome => outcome?,
             }
         }
-        let Reader { stretches, end, .. } = reader;
+        let Reader { segments, end, .. } = reader;
         let damaged = |what: &str| Err(RecordingError::Damaged(what.to_owned()));
-        match (&stretches[..], end) {
+        match (&segments[..], end) {
             ([], _) => damaged("it holds no state"),
             (_, Some(_)) if !rest.is_empty() && !lenient => damaged("something stands behind its end"),
-            _ => Ok(Self { stretches, end }),
+            _ => Ok(Self { segments, end }),
         }
     }
 }
@@ -190,8 +145,8 @@ fn header(bytes: &[u8]) -> Result<&[u8], RecordingError> {
 
 /// What was read so far.
 struct Reader {
-    stretches: Vec<Stretch>,
-    /// Number of elements of the newest stretch, and its spacing.
+    segments: Vec<Segment>,
+    /// Number of elements of the newest segment, and its spacing.
     elements: usize,
     scale: Scale,
     end: Option<End>,
@@ -212,26 +167,26 @@ impl Reader {
     }
 
     fn state(&mut self, body: &[u8]) -> Result<(), RecordingError> {
-        let saved = save::decode(body)?;
-        (self.elements, self.scale) = (saved.elements(), saved.scale());
-        let tick = saved.snapshot().clock.tick;
-        self.stretches.push(Stretch { save: body.to_vec(), tick, entries: Vec::new(), marks: Vec::new() });
+        let start = Checkpoint::decode(body)?;
+        (self.elements, self.scale) = (start.setup.elements().len(), start.setup.blueprint.scale);
+        let tick = start.state.clock.tick;
+        self.segments.push(Segment::read(body.to_vec(), tick));
         Ok(())
     }
 
     fn ticks(&mut self, (entries, marks): (Vec<Entry>, Vec<Mark>)) -> Result<(), RecordingError> {
-        let Some(stretch) = self.stretches.last_mut() else {
+        let Some(segment) = self.segments.last_mut() else {
             return Err(RecordingError::Damaged("it does not begin with a state".to_owned()));
         };
-        // The states' ticks are bounded (`save::check`), and so many marks are in no file.
-        let done = stretch.tick + (stretch.marks.len() + marks.len()) as u64;
-        let mut last = stretch.entries.last().map_or(stretch.tick, |entry| entry.tick);
+        // The states' ticks are bounded (`checkpoint::check`), and so many marks are in no file.
+        let done = segment.now() + marks.len() as u64;
+        let mut last = segment.entries.last().map_or(segment.tick, |entry| entry.tick);
         for entry in &entries {
             check_entry(entry, last..=done, self.elements, self.scale).map_err(RecordingError::Unsound)?;
             last = entry.tick;
         }
-        stretch.entries.extend(entries);
-        stretch.marks.extend(marks);
+        segment.entries.extend(entries);
+        segment.marks.extend(marks);
         Ok(())
     }
 }
@@ -337,7 +292,7 @@ impl Writer {
         std::mem::take(&mut self.0)
     }
 
-    fn chunk(&mut self, kind: u8, body: &[u8]) {
+    pub(super) fn chunk(&mut self, kind: u8, body: &[u8]) {
         self.0.push(kind);
         self.0.extend((body.len() as u32).to_le_bytes());
         self.0.extend(hash_of(kind, body).to_le_bytes());

@@ -1,0 +1,172 @@
+//! Flies the world: reads the pass ledger or the live error, and asks for the quality that the controller chose.
+
+use super::{
+    controller::{Controller, Tuning, Verdict},
+    ladder::{self, Level},
+};
+use crate::{
+    kernel::units::TICK_SECONDS,
+    scene::{blueprint::Blueprint, effects::Pass},
+    sim::{
+        accuracy::{LiveError, SAMPLE_EVERY},
+        intent::{Intent, IntentQueue},
+        ledger::PassLedger,
+        state::{Clock, ParticleStore, Setup, SleepState},
+    },
+};
+use bevy::prelude::{App, FixedUpdate, IntoScheduleConfigs, Res, ResMut, Resource};
+use std::sync::Arc;
+
+/// Times of ticks follow the work at once. Single ticks that take much longer are no part of it.
+pub(super) const OF_TIME: Tuning = Tuning { settle: 0.05, quick: 0.6, usual: 0.6, trim: 0.08, doubt: 0.0 };
+/// A liquid takes a while to feel another quality. A sample of 320 particles meets few of those that carry the error, so
+/// that single samples are several times the mean, and are a part of it.
+pub(super) const OF_ERROR: Tuning = Tuning { settle: 0.1, quick: 0.8, usual: 8.0, trim: 0.0, doubt: 1.0 };
+
+/// What is to be held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Goal {
+    /// At most so many ms a tick.
+    Time(f32),
+    /// At most this mean density error, a fraction.
+    Error(f32),
+}
+
+impl Goal {
+    fn bound(self) -> f32 {
+        match self {
+            Self::Time(bound) | Self::Error(bound) => bound,
+        }
+    }
+
+    fn same_kind(self, other: Self) -> bool {
+        matches!((self, other), (Self::Time(_), Self::Time(_)) | (Self::Error(_), Self::Error(_)))
+    }
+}
+
+/// The autopilot; off without a goal.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Autopilot {
+    goal: Option<Goal>,
+    state: Option<State>,
+}
+
+/// What it works with from when it takes over.
+#[derive(Clone, Debug)]
+struct State {
+    controller: Controller,
+    ladder: Vec<Level>,
+    blueprint: Arc<Blueprint>,
+    tick: u64,
+    sampled: u64,
+    moves: u32,
+}
+
+impl Autopilot {
+    /// Sets what is to be held; `None` leaves the quality to the player.
+    pub fn hold(&mut self, goal: Option<Goal>) {
+        match (goal, self.goal, &mut self.state) {
+            (Some(new), Some(old), Some(state)) if new.same_kind(old) => state.controller.set_bound(new.bound()),
+            _ => self.state = None,
+        }
+        self.goal = goal;
+    }
+
+    /// What is held.
+    pub fn goal(&self) -> Option<Goal> {
+        self.goal
+    }
+
+    /// How it stands with the bound.
+    pub fn verdict(&self) -> Verdict {
+        self.state.as_ref().map_or(Verdict::Settling, |state| state.controller.verdict())
+    }
+
+    /// Changes of the quality since it took over.
+    pub fn moves(&self) -> u32 {
+        self.state.as_ref().map_or(0, |state| state.moves)
+    }
+}
+
+impl State {
+    fn new(goal: Goal, setup: &Setup, tick: u64) -> Self {
+        let ladder = ladder::ladder();
+        let at = ladder::nearest(&ladder, &setup.quality);
+        let last = ladder.len() - 1;
+        // The controller's levels relieve more and more: time falls down the ladder, the error up it.
+        let controller = match goal {
+            Goal::Time(bound) => {
+                Controller::new(bound, OF_TIME, ladder.iter().rev().map(|level| level.work).collect(), last - at)
+            }
+            Goal::Error(bound) => Controller::new(bound, OF_ERROR, ladder.iter().map(Level::error).collect(), at),
+        };
+        Self { controller, ladder, blueprint: setup.blueprint.clone(), tick, sampled: tick, moves: 0 }
+    }
+
+    /// Takes what the last tick measured; the level to go to, if any.
+    fn observe(&mut self, goal: Goal, tick: u64, ledger: &PassLedger, error: &LiveError) -> Option<Level> {
+        let ticks = tick - self.tick;
+        self.tick = tick;
+        if ticks == 0 {
+            return None;
+        }
+        let chosen = match goal {
+            Goal::Time(_) => {
+                let time = ledger.last_tick().as_secs_f32();
+                self.controller.observe(time * 1000.0, time.max(TICK_SECONDS))
+            }
+            Goal::Error(_) => {
+                let sample = error.latest().filter(|sample| sample.tick > self.sampled)?;
+                self.sampled = sample.tick;
+                // Without a liquid inside there is no error to hold.
+                self.controller.observe(sample.mean.unwrap_or(0.0), SAMPLE_EVERY as f32 * TICK_SECONDS)
+            }
+        }?;
+        self.moves += 1;
+        let index = match goal {
+            Goal::Time(_) => self.ladder.len() - 1 - chosen,
+            Goal::Error(_) => chosen,
+        };
+        self.ladder.get(index).copied()
+    }
+}
+
+/// Adds the autopilot to a simulation.
+pub fn plugin(app: &mut App) {
+    app.init_resource::<Autopilot>()
+        .init_resource::<LiveError>()
+        .add_systems(FixedUpdate, steer.after(Pass::Measure).run_if(engaged).run_if(any_awake));
+}
+
+/// Run condition: there is something to hold.
+fn engaged(autopilot: Res<Autopilot>) -> bool {
+    autopilot.goal.is_some()
+}
+
+/// Run condition: not all particles sleep. The time of a tick in which nothing moves says nothing of a quality, and a
+/// change would wake them.
+fn any_awake(sleep: Option<Res<SleepState>>, particles: Option<Res<ParticleStore>>) -> bool {
+    let asleep = sleep.map_or(0, |sleep| sleep.asleep());
+    asleep == 0 || particles.is_none_or(|particles| asleep < particles.len())
+}
+
+/// Looks at the tick that ended and asks for another quality for the next.
+pub fn steer(
+    mut autopilot: ResMut<Autopilot>,
+    setup: Res<Setup>,
+    clock: Res<Clock>,
+    ledger: Res<PassLedger>,
+    error: Res<LiveError>,
+    mut intents: ResMut<IntentQueue>,
+) {
+    let Autopilot { goal: Some(goal), state } = &mut *autopilot else { return };
+    // Another world, or an earlier state of this one: what was learned is of another situation.
+    let same = |state: &State| Arc::ptr_eq(&state.blueprint, &setup.blueprint) && state.tick <= clock.tick;
+    if !state.as_ref().is_some_and(same) {
+        *state = None;
+    }
+    let state = state.get_or_insert_with(|| State::new(*goal, &setup, clock.tick));
+    if let Some(Level { preset, quality, .. }) = state.observe(*goal, clock.tick, &ledger, &error) {
+        intents.push(Intent::Quality { preset, quality });
+    }
+}

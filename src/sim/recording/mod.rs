@@ -1,0 +1,11 @@
+//! Recordings: states of a world, the input that it took from each of them on, and a mark of every tick.
+
+mod file;
+mod input;
+mod segment;
+#[cfg(test)]
+mod tests;
+
+pub use file::{RECORDING_ENDING, RecordingError, Writer};
+pub use input::Input;
+pub use segment::{End, Entry, Recording, Segment};
