@@ -3,10 +3,10 @@
 
 use crate::{
     kernel::units::TICKS_PER_SECOND,
+    lab::split::Split,
     sim::{
         ledger::PassLedger,
         pace::{Pace, longest_frame},
-        split::Split,
         state::Clock,
     },
 };

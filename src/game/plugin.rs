@@ -6,7 +6,11 @@ use crate::{
         tools, views,
     },
     kernel::units::TICKS_PER_SECOND,
-    sim::{accuracy, autopilot, measures, recorder, state::Setup},
+    lab::{
+        autopilot,
+        live::{accuracy, measures},
+    },
+    sim::{recorder, state::Setup},
 };
 use bevy::{
     prelude::{
@@ -49,7 +53,7 @@ impl Plugin for GamePlugin {
             .init_resource::<accuracy::LiveError>()
             .init_resource::<accuracy::Survey>()
             .init_resource::<measures::Measures>()
-            .add_plugins((hud::panels::plugin, autopilot::plugin, crate::sim::split::plugin, recorder::plugin))
+            .add_plugins((hud::panels::plugin, autopilot::plugin, crate::lab::split::plugin, recorder::plugin))
             .add_systems(
                 RunFixedMainLoop,
                 (

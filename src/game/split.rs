@@ -8,13 +8,15 @@ use crate::{
         toasts::Toasts,
     },
     kernel::params::Preset,
-    sim::{
-        accuracy::{LiveError, Watched},
+    lab::{
         autopilot::Autopilot,
-        measures::Measures,
+        live::{
+            accuracy::{LiveError, Watched},
+            measures::Measures,
+        },
         split::Split,
-        state::Setup,
     },
+    sim::state::Setup,
 };
 use bevy::prelude::{Res, ResMut, World};
 use glam::Vec2;

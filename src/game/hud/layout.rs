@@ -6,7 +6,7 @@ use crate::{
         panels::Panels,
         split,
     },
-    sim::split::Split,
+    lab::split::Split,
 };
 use bevy::{
     prelude::{Query, Res, ResMut, Resource, Result, With},

@@ -19,12 +19,14 @@ use crate::{
         params::Preset,
         units::{Scale, TICK_SECONDS},
     },
-    lab::difference::{self, Difference, FULL_SPEED, Half},
+    lab::{
+        difference::{self, Difference, FULL_SPEED, Half},
+        live::accuracy::LiveError,
+        split::Split,
+    },
     sim::{
-        accuracy::LiveError,
         ledger::PassLedger,
         numbers::short,
-        split::Split,
         state::{AirGrid, Clock, ParticleStore, Setup},
     },
 };

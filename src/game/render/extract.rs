@@ -11,11 +11,10 @@ use crate::{
         views::{strain::Limited, table::Shown},
     },
     kernel::units::TICK_SECONDS,
-    lab::difference::Difference,
+    lab::{difference::Difference, split::Split},
     sim::{
         generation::Generation,
         pace::Pace,
-        split::Split,
         stages::TickPlan,
         state::{AirGrid, Clock, ParticleStore, PredictorState, Rock, Setup, SolverState},
     },

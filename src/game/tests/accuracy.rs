@@ -4,14 +4,16 @@ use super::*;
 use crate::{
     game::hud::panels::accuracy::panel::{AccuracyPanel, ID},
     kernel::params::Preset,
-    lab::difference::{Difference, Half},
-    sim::{
-        accuracy::{Survey, SurveyRequest, Watched},
+    lab::{
         autopilot::{Autopilot, Goal},
-        measures::Measures,
+        difference::{Difference, Half},
+        live::{
+            accuracy::{Survey, SurveyRequest, Watched},
+            measures::Measures,
+        },
         split::Split,
-        state::AirGrid,
     },
+    sim::state::AirGrid,
 };
 
 fn order(player: &mut Player, order: Order) {

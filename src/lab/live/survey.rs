@@ -7,11 +7,14 @@ use crate::{
         params::{Preset, Quality},
         simd::InstructionSet,
     },
-    lab::{density::density_error, live::tick_milliseconds, stats},
+    lab::{
+        autopilot::ladder,
+        density::density_error,
+        live::accuracy::{Curve, CurvePoint, Survey, SurveyRequest, fingerprint},
+        stats,
+    },
     scene::effects::{Effect, Mode},
     sim::{
-        accuracy::{Curve, CurvePoint, Survey, SurveyRequest, fingerprint},
-        autopilot::ladder,
         checkpoint::Checkpoint,
         effects::{Effects, status::Sleepers},
         ledger::PassLedger,
@@ -331,6 +334,11 @@ impl Run {
             self.p99s.push(error.p99);
         }
     }
+}
+
+/// What a tick of the game takes, ms: median over the last ticks.
+fn tick_milliseconds(world: &World) -> f32 {
+    world.resource::<PassLedger>().tick().median().as_secs_f32() * 1000.0
 }
 
 #[cfg(test)]

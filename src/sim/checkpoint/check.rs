@@ -99,7 +99,7 @@ pub(in crate::sim) fn gravity(gravity: Vec2, scale: Scale) -> Verdict {
 }
 
 /// The numbers of a quality.
-pub(in crate::sim) fn quality(quality: &Quality) -> Verdict {
+pub(crate) fn quality(quality: &Quality) -> Verdict {
     within("substeps", quality.substeps as f32, 1.0, 64.0)?;
     within("iterations", quality.iterations as f32, 1.0, 64.0)?;
     within("kernel_radius", quality.kernel_radius, 2.0, 4.0)?;

@@ -6,9 +6,9 @@ use super::{
 };
 use crate::{
     kernel::units::TICK_SECONDS,
+    lab::live::accuracy::{LiveError, SAMPLE_EVERY},
     scene::{blueprint::Blueprint, effects::Pass},
     sim::{
-        accuracy::{LiveError, SAMPLE_EVERY},
         intent::{Intent, IntentQueue},
         ledger::PassLedger,
         state::{Clock, ParticleStore, Setup, SleepState},
