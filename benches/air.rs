@@ -16,8 +16,8 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::{IVec2, Vec2};
 use powder_master::kernel::air::{Air, Rousing};
-use powder_master::kernel::element::ElementId;
-use powder_master::kernel::forces::{DragTable, apply_drag};
+use powder_master::kernel::element::{ElementId, ElementParams};
+use powder_master::kernel::forces::apply_drag;
 use powder_master::kernel::parallel::Team;
 use powder_master::kernel::params::{AIR_DENSITY, AirAdvection, AirParams, AirScheme, OpenSides};
 use powder_master::kernel::particles::Particles;
@@ -127,18 +127,18 @@ fn drag(c: &mut Criterion) {
         let at = Vec2::new((place / 3) as f32 + 0.5, (strip * 3 + place % 3) as f32 + 0.5);
         particles.push(i as u32, ElementId(0), at, Vec2::new((i % 90) as f32, -50.0));
     }
-    let table = DragTable { rates: &[0.0045], masses: &[1000.0] };
+    let water = ElementParams { drag: vec![0.0045], mass: vec![1000.0], ..ElementParams::default() };
     let mut group = c.benchmark_group("drag");
     group.throughput(Throughput::Elements(COUNT as u64));
     group.bench_function("of particles", |bencher| {
         let mut particles = particles.clone();
-        bencher.iter(|| apply_drag(&air, table.rates, &mut particles, 1, 1.0e-6));
+        bencher.iter(|| apply_drag(&air, &water, &mut particles, 1, 1.0e-6));
     });
     group.bench_function("of particles and air", |bencher| {
         let (mut air, mut particles) = (air.clone(), particles.clone());
         bencher.iter(|| {
-            air.meet(table, &particles, Rousing::Gusts, team, 1.0e-6);
-            air.drag_along(table, &mut particles, 1, 1.0e-6);
+            air.meet(&water, &particles, Rousing::Gusts, team, 1.0e-6);
+            air.drag_along(&water, &mut particles, 1, 1.0e-6);
         });
     });
     group.finish();

@@ -7,6 +7,7 @@ use criterion::{BatchSize, Bencher, Criterion, Throughput, criterion_group, crit
 use glam::Vec2;
 use powder_master::kernel::{
     air::Air,
+    element::ElementParams,
     forces,
     params::{AIR_DENSITY, AirParams, OpenSides},
     predictor::{Predictor, PredictorParams},
@@ -25,6 +26,7 @@ fn stages(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("stages");
     group.throughput(Throughput::Elements(u64::from(SIDE * SIDE)));
     let best = InstructionSet::detect();
+    let liquid = ElementParams { drag: vec![0.001], viscosity: vec![0.02], vorticity: vec![0.0], mass: vec![1000.0] };
     group.bench_function("gravity", |b| {
         stage(b, Tank::new(best), |tank| forces::apply_gravity(Vec2::new(0.0, -1e-6), &mut tank.particles, 1, SUBSTEP));
     });
@@ -33,7 +35,7 @@ fn stages(criterion: &mut Criterion) {
         let params = AirParams { sound_speed: 1000.0, density: AIR_DENSITY, open: OpenSides::default() };
         let mut air = Air::new(tank.domain.size, 4.0, params);
         air.blow(Vec2::splat(50.0), 40.0, Vec2::new(30.0, 0.0));
-        stage(b, tank, |tank| forces::apply_drag(&air, &[0.001], &mut tank.particles, 1, SUBSTEP));
+        stage(b, tank, |tank| forces::apply_drag(&air, &liquid, &mut tank.particles, 1, SUBSTEP));
     });
     for set in InstructionSet::available() {
         let name = set.name();
@@ -49,12 +51,12 @@ fn stages(criterion: &mut Criterion) {
         });
         group.bench_function(format!("viscosity/{name}"), |b| {
             stage(b, Tank::new(set), |tank| {
-                velocity::apply_viscosity(&mut tank.particles, &mut tank.solver, &[0.02], 1, SUBSTEP);
+                velocity::apply_viscosity(&mut tank.particles, &mut tank.solver, &liquid, 1, SUBSTEP);
             });
         });
         group.bench_function(format!("vorticity/{name}"), |b| {
             stage(b, Tank::new(set), |tank| {
-                velocity::apply_vorticity(&mut tank.particles, &mut tank.solver, &[0.0], 1, SUBSTEP);
+                velocity::apply_vorticity(&mut tank.particles, &mut tank.solver, &liquid, 1, SUBSTEP);
             });
         });
     }

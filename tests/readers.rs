@@ -87,7 +87,7 @@ fn seed(file: &str, bytes: &[u8]) -> Vec<u8> {
     fs::read(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()))
 }
 
-/// A scene of few cells with a tap, a fan, an outlet, rock, and air that is not at rest.
+/// A scene of few cells with an emitter, a wind, a drain, rock, and air that is not at rest.
 const LIVELY: &str = "(title: \"Lively\", spacing: 0.1, size: (1.2, 0.8), quality: (preset: draft), particle_limit: 60,
     contents: [(element: \"rock\", shape: Rect(min: (0.8, 0), max: (0.9, 0.3))),
         (element: \"water\", shape: Rect(min: (0, 0), max: (0.4, 0.3)))],

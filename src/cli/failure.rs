@@ -62,5 +62,8 @@ pub(super) fn condense(error: &clap::Error) -> String {
         .collect();
     let complaint = complaint.join(" ");
     let complaint = complaint.strip_prefix("error: ").unwrap_or(&complaint);
-    format!("{complaint} (powder-master --help says what there is)")
+    let usage = text.lines().find_map(|line| line.trim().strip_prefix("Usage: ")).unwrap_or("powder-master");
+    let is_name = |word: &&str| word.starts_with(|letter: char| letter.is_ascii_lowercase());
+    let command: Vec<&str> = usage.split(' ').take_while(is_name).collect();
+    format!("{complaint} ({} --help says what there is)", command.join(" "))
 }

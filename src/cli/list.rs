@@ -5,7 +5,7 @@ use crate::{
     kernel::{element::Element, params::Preset},
     lab::gauntlet,
     scene::{
-        self,
+        self, Knob, Tuning,
         effects::{Effect, EffectRow},
     },
 };
@@ -50,18 +50,7 @@ fn effect(effect: Effect) -> String {
 }
 
 fn quality(preset: Preset) -> String {
-    let values = preset.quality();
-    format!(
-        "{}\tsubsteps={} iterations={} kernel_radius={} correction_limit={} air_cell={} air_courant={} air_advection={} gradient={} predictor={}",
-        preset.name(),
-        values.substeps,
-        values.iterations,
-        values.kernel_radius,
-        values.correction_limit,
-        values.air_cell,
-        values.air_courant,
-        values.air_advection.name(),
-        values.gradient.name(),
-        values.predictor
-    )
+    let tuning = Tuning::from(preset.quality());
+    let values: String = Knob::of_quality().map(|knob| format!("{}={} ", knob.name, knob.text(&tuning))).collect();
+    format!("{}\t{values}predictor={}", preset.name(), tuning.quality.predictor)
 }

@@ -16,7 +16,7 @@ use crate::{
             table,
         },
     },
-    scene::{KNOBS, WORD_KNOBS},
+    scene::{KNOBS, Knob, Part},
     sim::{checkpoint::Checkpoint, simulation::Simulation, snapshot::hash_bytes, state::Sources, workers::Workers},
 };
 use std::{
@@ -118,16 +118,14 @@ fn length(arguments: &SweepArguments) -> Result<Length, Failure> {
 
 /// Refuses to set what the sweep itself varies.
 fn check_settings(settings: &[(String, String)]) -> Result<(), Failure> {
-    let of_liquid = ["rest_density", "relaxation", "constraint_floor", "tension_strength", "tension_distance"];
-    let own = |key: &str| {
-        let is_knob = KNOBS.iter().any(|knob| knob.name == key) || WORD_KNOBS.iter().any(|knob| knob.name == key);
-        is_knob && !of_liquid.contains(&key) && key != "particle_limit"
-    };
-    match settings.iter().find(|(key, _)| own(key)) {
-        Some((key, value)) => Err(Failure::Usage(format!(
-            "--set {key}={value}: the sweep turns this knob itself; allowed: parameters of the scene, {}, particle_limit",
-            of_liquid.join(", ")
-        ))),
+    let is_own = |knob: &Knob| [Part::Solver, Part::Air].contains(&knob.part);
+    match settings.iter().find(|(key, _)| Knob::find(key).is_some_and(is_own)) {
+        Some((key, value)) => {
+            let allowed: Vec<_> = KNOBS.iter().filter(|knob| !is_own(knob)).map(|knob| knob.name).collect();
+            let allowed = allowed.join(", ");
+            let what = "the sweep turns this knob itself; allowed: parameters of the scene";
+            Err(Failure::Usage(format!("--set {key}={value}: {what}, {allowed}")))
+        }
         None => Ok(()),
     }
 }

@@ -20,7 +20,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
 
 #[cfg(not(target_arch = "wasm32"))]
 mod native {
-    use super::write_whole;
+    use crate::game::disk::write_whole;
     use std::{
         fs, io,
         path::{Path, PathBuf},

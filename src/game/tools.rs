@@ -24,7 +24,7 @@ const AIR_BRUSH: f32 = 6.0;
 /// Speed of the wind for each unit of drag speed.
 const WIND_GAIN: f32 = 2.5;
 /// Most wind that a drag makes, in units of [`Dab::wind`]: the speed of sound. Water takes off at some two units.
-pub(in crate::game) const WIND_LIMIT: f32 = 5.0;
+pub(crate) const WIND_LIMIT: f32 = 5.0;
 /// A drag slower than this makes no wind, in units of [`Dab::wind`].
 const WIND_FLOOR: f32 = 0.02;
 /// Pressure that one tick of the pressure tool adds; the surroundings' is 1.

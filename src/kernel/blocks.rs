@@ -6,7 +6,7 @@
 //! (just poured, for example) go last, one after the other.
 
 use crate::{
-    parallel::{cut, piece, spread},
+    parallel::{Parts, cut, fork, piece, spread},
     simd::{InstructionSet, Lanes, Pass},
 };
 use std::ops::Range;
@@ -88,16 +88,11 @@ impl Blocks {
     {
         let mut fields = fields;
         for turn in &self.turns {
-            run_blocks(
-                turn,
-                0,
-                fields.each_mut().map(|field| &mut **field),
-                stride,
-                piece(turn.len(), threads, 1),
-                work,
-            );
+            let fields = fields.each_mut().map(|field| &mut **field);
+            let rows = BlockRows { blocks: turn, base: 0, stride, fields };
+            fork(rows, piece(turn.len(), threads, 1), &|part: BlockRows<K, T>| part.run(work));
         }
-        run_one_by_one(&self.rest, 0, fields, stride, work);
+        BlockRows { blocks: &self.rest, base: 0, stride, fields }.run(work);
     }
 
     /// Bytes held.
@@ -107,40 +102,38 @@ impl Blocks {
     }
 }
 
-/// Runs blocks with disjoint rows; `fields` begin with row `base`.
-fn run_blocks<const K: usize, T, F>(
-    blocks: &[Block],
+/// Blocks in the order of their rows, with the rows of `fields` from `base` on.
+struct BlockRows<'a, const K: usize, T> {
+    blocks: &'a [Block],
     base: usize,
-    fields: [&mut [T]; K],
     stride: usize,
-    piece: usize,
-    work: &F,
-) where
-    T: Send,
-    F: Fn(Range<usize>, usize, [&mut [T]; K]) + Sync,
-{
-    if blocks.len() <= piece {
-        return run_one_by_one(blocks, base, fields, stride, work);
-    }
-    let (lower, upper) = blocks.split_at(blocks.len() / 2);
-    let boundary = upper[0].rows.start;
-    let (lower_rows, upper_rows) = cut(fields, (boundary - base) * stride);
-    rayon::join(
-        || run_blocks(lower, base, lower_rows, stride, piece, work),
-        || run_blocks(upper, boundary, upper_rows, stride, piece, work),
-    );
+    fields: [&'a mut [T]; K],
 }
 
-fn run_one_by_one<const K: usize, T>(
-    blocks: &[Block],
-    base: usize,
-    mut fields: [&mut [T]; K],
-    stride: usize,
-    work: &impl Fn(Range<usize>, usize, [&mut [T]; K]),
-) {
-    for block in blocks {
-        let rows = (block.rows.start - base) * stride..(block.rows.end - base) * stride;
-        work(block.particles.clone(), block.rows.start, fields.each_mut().map(|field| &mut field[rows.clone()]));
+impl<const K: usize, T> BlockRows<'_, K, T> {
+    /// Runs one block after the other.
+    fn run(mut self, work: &impl Fn(Range<usize>, usize, [&mut [T]; K])) {
+        for Block { particles, rows } in self.blocks {
+            let own = (rows.start - self.base) * self.stride..(rows.end - self.base) * self.stride;
+            work(particles.clone(), rows.start, self.fields.each_mut().map(|field| &mut field[own.clone()]));
+        }
+    }
+}
+
+impl<const K: usize, T: Send> Parts for BlockRows<'_, K, T> {
+    fn size(&self) -> usize {
+        self.blocks.len()
+    }
+
+    fn halve(self) -> (Self, Self) {
+        let Self { blocks, base, stride, fields } = self;
+        let (lower, upper) = blocks.split_at(blocks.len() / 2);
+        let boundary = upper[0].rows.start;
+        let (lower_rows, upper_rows) = cut(fields, (boundary - base) * stride);
+        (
+            Self { blocks: lower, base, stride, fields: lower_rows },
+            Self { blocks: upper, base: boundary, stride, fields: upper_rows },
+        )
     }
 }
 

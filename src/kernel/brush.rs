@@ -96,7 +96,7 @@ impl Stroke {
     }
 }
 
-/// Share of the hand's wind or pressure that a point gets in a disc of radius R: `(1 − r²/R²)²`, 0 outside.
+/// Share of an air tool's wind or pressure that a point gets in a disc of radius R: `(1 − r²/R²)²`, 0 outside.
 pub fn soft_disc(point: Vec2, centre: Vec2, radius: f32) -> f32 {
     let falloff = (1.0 - point.distance_squared(centre) / (radius * radius)).max(0.0);
     falloff * falloff

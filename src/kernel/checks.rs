@@ -1,6 +1,12 @@
 //! Looks over all particles once a tick: what is no longer a number, what is where none may be, how many there are.
 
-use crate::{element::ElementId, parallel::over, params::Domain, particles::Particles, solids::Solids};
+use crate::{
+    element::ElementId,
+    parallel::over,
+    params::Domain,
+    particles::{Particles, Value},
+    solids::Solids,
+};
 use glam::{IVec2, Vec2};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
@@ -9,30 +15,17 @@ const BLOCK: usize = 256;
 /// Fewer particles than this a piece do not pay for another thread: a look is short.
 const WORTH_A_LOOK: usize = 32_768;
 
-/// Beyond this, in d or d/s, a value is a fault and not a motion.
-const ABSURD: f32 = 1e9;
-
-fn sound(value: f32) -> bool {
-    value.abs() < ABSURD
-}
-
-/// Removes particles whose position or velocity is not a number or beyond all bounds; returns how many.
+/// Removes particles with a value that is no number or beyond all bounds; returns how many.
 pub fn remove_non_finite(particles: &mut Particles, threads: usize) -> usize {
     let all_sound = AtomicBool::new(true);
-    let Particles { x, y, vx, vy, .. } = &*particles;
-    over(x.len(), WORTH_A_LOOK, threads, &|range| {
-        for values in [x, y, vx, vy] {
-            let fine =
-                values[range.clone()].chunks(BLOCK).all(|block| block.iter().fold(true, |all, &v| all & sound(v)));
-            all_sound.fetch_and(fine, Ordering::Relaxed);
-        }
+    let all = &*particles;
+    over(all.len(), WORTH_A_LOOK, threads, &|range| {
+        all_sound.fetch_and(all.are_sound(range), Ordering::Relaxed);
     });
     if all_sound.into_inner() {
         return 0;
     }
-    particles.retain(|particles, i| {
-        [&particles.x, &particles.y, &particles.vx, &particles.vy].into_iter().all(|values| sound(values[i]))
-    })
+    particles.retain(|particles, i| particles.get(i).values().into_iter().all(Value::is_sound))
 }
 
 /// Particles outside the box or inside rock.

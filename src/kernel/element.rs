@@ -1,5 +1,7 @@
-//! What a particle can be made of. The rows come from `assets/elements.ron`; the kernel only looks them up.
+//! What a particle can be made of. The rows come from `assets/elements.ron`; the kernel only looks them up. What its
+//! passes read of them stands in [`ElementParams`].
 
+use crate::units::Scale;
 use serde::{Deserialize, Serialize};
 
 /// Row of an element in the [`ElementTable`]; a particle stores it in one byte.
@@ -154,5 +156,32 @@ impl ElementTable {
     /// Whether there is no row at all.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
+    }
+}
+
+/// What the kernel's passes read of the elements, in kernel units: an entry an element in each array. Built when a scene
+/// opens.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ElementParams {
+    /// Drag as k of `dv/dt = −k |v| v`, 1/d: `C / (ρ d²)` per metre, times d.
+    pub drag: Vec<f32>,
+    /// Mass of a particle, kg/m² d²: its density.
+    pub mass: Vec<f32>,
+    /// XSPH c, a share a tick.
+    pub viscosity: Vec<f32>,
+    /// Vorticity confinement ε, d/s.
+    pub vorticity: Vec<f32>,
+}
+
+impl ElementParams {
+    /// The parameters of all rows of a table at a scale.
+    pub fn new(elements: &ElementTable, scale: Scale) -> Self {
+        let each = |of: &dyn Fn(&Element) -> f32| elements.iter().map(|(_, element)| of(element)).collect();
+        Self {
+            drag: each(&|element| element.drag / (element.density * scale.spacing)),
+            mass: each(&|element| element.density),
+            viscosity: each(&|element| element.viscosity),
+            vorticity: each(&|element| scale.to_kernel(element.vorticity)),
+        }
     }
 }

@@ -3,10 +3,9 @@
 use crate::{
     air::Air,
     brush::soft_disc,
-    element::ElementTable,
+    element::ElementParams,
     parallel::{WORTH_A_PIECE, spread},
     particles::Particles,
-    units::Scale,
 };
 use glam::Vec2;
 
@@ -24,26 +23,12 @@ pub fn apply_gravity(gravity: Vec2, particles: &mut Particles, threads: usize, d
     });
 }
 
-/// Drag of each element as `k` of `dv/dt = −k |v| v`, 1/d: `C / (ρ d²)` per metre, times d.
-pub fn drag_rates(elements: &ElementTable, scale: Scale) -> Vec<f32> {
-    elements.iter().map(|(_, element)| element.drag / (element.density * scale.spacing)).collect()
-}
-
-/// What drag needs to know of the elements, an entry each.
-#[derive(Clone, Copy, Debug)]
-pub struct DragTable<'a> {
-    /// k of `dv/dt = −k |v| v`, 1/d ([`drag_rates`]).
-    pub rates: &'a [f32],
-    /// Mass of a particle, kg/m² d²: its element's density.
-    pub masses: &'a [f32],
-}
-
 /// Drags every particle towards the air at its place with `F = C v²`, v being its velocity relative to the air.
 ///
 /// `dv/dt = −k |v| v` has the exact solution `v / (1 + k |v| Δt)`, which neither overshoots nor reverses at any C. The
 /// explicit step `v (1 − k |v| Δt)` would turn the particle round past **`k |v| Δt = 1`** and speed it up past 2; the
 /// solution has no such bound, so there is nothing to limit.
-pub fn apply_drag(air: &Air, rates: &[f32], particles: &mut Particles, threads: usize, dt: f32) {
+pub fn apply_drag(air: &Air, elements: &ElementParams, particles: &mut Particles, threads: usize, dt: f32) {
     let quiet = air.is_quiet();
     let Particles { x, y, vx, vy, element, .. } = particles;
     spread([&mut vx[..], &mut vy[..]], WORTH_A_PIECE, threads, &|base, [vx, vy]| {
@@ -56,16 +41,23 @@ pub fn apply_drag(air: &Air, rates: &[f32], particles: &mut Particles, threads: 
             }
             for (k, element) in element[own].iter().enumerate() {
                 let wind = Vec2::new(wind_x[k], wind_y[k]);
-                let velocity = dragged(Vec2::new(vx[k], vy[k]), wind, rates[element.index()], dt);
+                let velocity = dragged(Vec2::new(vx[k], vy[k]), wind, elements.drag[element.index()], dt);
                 (vx[k], vy[k]) = (velocity.x, velocity.y);
             }
         }
     });
 }
 
-/// Drags the particles in a soft disc as [`apply_drag`] would in air that has `wind` (d/s) for `dt` s and yields to
-/// nobody: all of it at `centre` (d), nothing from `radius` (d) on ([`soft_disc`]).
-pub fn drag_in_disc(centre: Vec2, radius: f32, wind: Vec2, rates: &[f32], particles: &mut Particles, dt: f32) {
+/// Drags the particles in a soft disc as [`apply_drag`] would in air that has `wind` (d/s) for `dt` s and does
+/// not yield: all of it at `centre` (d), nothing from `radius` (d) on ([`soft_disc`]).
+pub fn drag_in_disc(
+    centre: Vec2,
+    radius: f32,
+    wind: Vec2,
+    elements: &ElementParams,
+    particles: &mut Particles,
+    dt: f32,
+) {
     if !(centre.is_finite() && radius.is_finite() && wind.is_finite()) {
         return;
     }
@@ -74,7 +66,7 @@ pub fn drag_in_disc(centre: Vec2, radius: f32, wind: Vec2, rates: &[f32], partic
         let weight = soft_disc(Vec2::new(*x, *y), centre, radius);
         if weight > 0.0 {
             let before = Vec2::new(vx[i], vy[i]);
-            let after = before + (dragged(before, wind, rates[element[i].index()], dt) - before) * weight;
+            let after = before + (dragged(before, wind, elements.drag[element[i].index()], dt) - before) * weight;
             (vx[i], vy[i]) = (after.x, after.y);
         }
     }

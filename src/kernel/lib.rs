@@ -13,6 +13,7 @@ pub mod bins;
 mod blocks;
 pub mod brush;
 pub mod checks;
+pub mod columns;
 pub mod element;
 pub mod forces;
 pub mod parallel;

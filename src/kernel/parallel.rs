@@ -1,11 +1,8 @@
-//! Hands work to threads: pieces of arrays, and groups with the outputs that belong to them.
+//! Hands work to threads: pieces of arrays and rows of grids.
 //!
 //! What an entry gets never depends on where the pieces are cut, so the number of threads does not show in the result.
 
-use crate::{
-    bins::Group,
-    simd::{InstructionSet, Lanes, Pass},
-};
+use crate::simd::{InstructionSet, Lanes, Pass};
 use std::{
     ops::Range,
     sync::atomic::{AtomicBool, Ordering},
@@ -13,36 +10,26 @@ use std::{
 
 /// Pieces a thread: some are denser than others, so there is something left to steal.
 const PIECES_PER_THREAD: usize = 4;
-/// Fewer groups than this a piece do not pay for handing it over (a hand-over costs some microseconds).
-const FEWEST_GROUPS: usize = 64;
 /// Pieces of arrays begin at multiples of this, so that lanes stay full.
 const ALIGNMENT: usize = 16;
 
-/// Runs `work` over pieces of `groups`, on up to `threads` threads of the current rayon pool. Each call gets its groups,
-/// the index of their first particle, and the outputs from that particle on, up to its last.
-pub(crate) fn split<const K: usize, T, F>(groups: &[Group], outputs: [&mut [T]; K], threads: usize, work: &F)
-where
-    T: Send,
-    F: Fn(&[Group], usize, [&mut [T]; K]) + Sync,
-{
-    split_groups(groups, 0, outputs, piece(groups.len(), threads, FEWEST_GROUPS), work);
+/// Work that can be cut in two.
+pub(crate) trait Parts: Send + Sized {
+    /// How much it is.
+    fn size(&self) -> usize;
+
+    /// Cuts it in about half. Only called where there is more than one part to it.
+    fn halve(self) -> (Self, Self);
 }
 
-fn split_groups<const K: usize, T, F>(groups: &[Group], base: usize, outputs: [&mut [T]; K], piece: usize, work: &F)
-where
-    T: Send,
-    F: Fn(&[Group], usize, [&mut [T]; K]) + Sync,
-{
-    if groups.len() <= piece {
-        return work(groups, base, outputs);
+/// Shares work out to the threads of the current rayon pool: halves it until a part is no more than `most`, and calls `run`
+/// with each part.
+pub(crate) fn fork<P: Parts>(part: P, most: usize, run: &(impl Fn(P) + Sync)) {
+    if part.size() <= most {
+        return run(part);
     }
-    let (left, right) = groups.split_at(groups.len() / 2);
-    let boundary = right[0].first as usize;
-    let (left_outputs, right_outputs) = cut(outputs, boundary - base);
-    rayon::join(
-        || split_groups(left, base, left_outputs, piece, work),
-        || split_groups(right, boundary, right_outputs, piece, work),
-    );
+    let (left, right) = part.halve();
+    rayon::join(|| fork(left, most, run), || fork(right, most, run));
 }
 
 /// Entries that are worth a piece of their own where each takes some nanoseconds; lighter work wants more.
@@ -57,36 +44,42 @@ where
 {
     let len = arrays.first().map_or(0, |array| array.len());
     debug_assert!(arrays.iter().all(|array| array.len() == len), "arrays of one length");
-    spread_from(0, len, arrays, piece(len, threads, fewest), work);
+    let most = piece(len, threads, fewest);
+    fork(ArrayParts { base: 0, arrays }, most, &|part: ArrayParts<K, T>| work(part.base, part.arrays));
 }
 
-fn spread_from<const K: usize, T, F>(base: usize, len: usize, arrays: [&mut [T]; K], piece: usize, work: &F)
-where
-    T: Send,
-    F: Fn(usize, [&mut [T]; K]) + Sync,
-{
-    if len <= piece {
-        return work(base, arrays);
+/// Pieces of arrays from entry `base` on.
+struct ArrayParts<'a, const K: usize, T> {
+    base: usize,
+    arrays: [&'a mut [T]; K],
+}
+
+impl<const K: usize, T: Send> Parts for ArrayParts<'_, K, T> {
+    fn size(&self) -> usize {
+        self.arrays.first().map_or(0, |array| array.len())
     }
-    let half = (len / 2).next_multiple_of(ALIGNMENT);
-    let (left, right) = cut(arrays, half);
-    rayon::join(
-        || spread_from(base, half, left, piece, work),
-        || spread_from(base + half, len - half, right, piece, work),
-    );
+
+    fn halve(self) -> (Self, Self) {
+        let half = (self.size() / 2).next_multiple_of(ALIGNMENT);
+        let (left, right) = cut(self.arrays, half);
+        (Self { base: self.base, arrays: left }, Self { base: self.base + half, arrays: right })
+    }
 }
 
 /// Runs `work` over pieces of `0 … len`, of `fewest` or more, on up to `threads` threads of the current rayon pool.
 pub(crate) fn over(len: usize, fewest: usize, threads: usize, work: &(impl Fn(Range<usize>) + Sync)) {
-    over_from(0..len, piece(len, threads, fewest), work);
+    fork(0..len, piece(len, threads, fewest), work);
 }
 
-fn over_from(range: Range<usize>, piece: usize, work: &(impl Fn(Range<usize>) + Sync)) {
-    if range.len() <= piece {
-        return work(range);
+impl Parts for Range<usize> {
+    fn size(&self) -> usize {
+        self.len()
     }
-    let middle = range.start + range.len() / 2;
-    rayon::join(|| over_from(range.start..middle, piece, work), || over_from(middle..range.end, piece, work));
+
+    fn halve(self) -> (Self, Self) {
+        let middle = self.start + self.len() / 2;
+        (self.start..middle, middle..self.end)
+    }
 }
 
 /// Looks for work in vain, one after the other, after which a watching thread gives up: a millisecond, about.
@@ -207,25 +200,28 @@ pub(crate) fn sweep<B: Band>(
     team: Team,
 ) {
     let most = piece(rows.len() * stride, team.threads, fewest) / stride;
-    sweep_from(work, rows, band, most.max(1), team.instructions);
-}
-
-fn sweep_from<B: Band, S: Sweep<B>>(work: &S, rows: Range<usize>, band: B, most: usize, instructions: InstructionSet) {
-    if rows.len() <= most {
-        return instructions.run(SweepRows { work, rows, band });
-    }
-    let middle = rows.start + rows.len() / 2;
-    let (lower, upper) = band.split(middle - rows.start);
-    rayon::join(
-        || sweep_from(work, rows.start..middle, lower, most, instructions),
-        || sweep_from(work, middle..rows.end, upper, most, instructions),
-    );
+    fork(SweepRows { work, rows, band }, most.max(1), &|part: SweepRows<_, _>| team.instructions.run(part));
 }
 
 struct SweepRows<'a, S, B> {
     work: &'a S,
     rows: Range<usize>,
     band: B,
+}
+
+impl<B: Band, S: Sweep<B>> Parts for SweepRows<'_, S, B> {
+    fn size(&self) -> usize {
+        self.rows.len()
+    }
+
+    fn halve(self) -> (Self, Self) {
+        let (lower_rows, upper_rows) = self.rows.halve();
+        let (lower, upper) = self.band.split(lower_rows.len());
+        (
+            Self { work: self.work, rows: lower_rows, band: lower },
+            Self { work: self.work, rows: upper_rows, band: upper },
+        )
+    }
 }
 
 impl<B, S: Sweep<B>> Pass for SweepRows<'_, S, B> {

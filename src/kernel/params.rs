@@ -142,7 +142,7 @@ pub struct Quality {
     /// of the liquid, and those after it where it is still too dense: they cost a tenth to a third of the first. Otherwise
     /// raising this costs in proportion.
     pub iterations: u32,
-    /// Kernel radius h, d: 2 … 4. 2.5 is the sweet spot; smaller is rougher, larger dearer.
+    /// Kernel radius h, d: 2 … 4. 2.5 is the sweet spot; smaller is rougher, larger more expensive.
     pub kernel_radius: f32,
     /// Furthest that iterating may move a particle from its prediction in a substep along an axis, d: 0.05 … 0.5. With the
     /// predictor, crowded particles may go further ([`Quality::longest_correction`]).
@@ -160,8 +160,8 @@ pub struct Quality {
     pub predictor: bool,
 }
 
-/// The named qualities, cheapest first but for `classic`. The others are steps on the curve of error against time: each is
-/// dearer and exacter than the one before it, and no other setting is a better buy (docs/accuracy.md).
+/// The named qualities, cheapest first but for `classic`. The others are steps on the curve of error against time: each
+/// costs more and is more exact than the one before it, and no other setting gives more for the same cost (docs/accuracy.md).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Preset {

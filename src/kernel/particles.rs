@@ -1,26 +1,150 @@
 //! The store of movable particles: one array per quantity, sorted by cell each substep, with ids that survive the sort.
+//!
+//! The columns are declared once, in the list below. Appending, copying, sorting, hashing, marks, saves, the checks of a
+//! file, the table of particles and the count of memory follow from it. A new column is a line there and one in
+//! [`Particles::push`]; a new type of column implements [`Column`], and a new kind of quantity is a variant of [`Value`].
 
-use crate::element::ElementId;
+use crate::{
+    columns::{Column, ColumnVisitor, Spares, are_sound, reorder},
+    element::ElementId,
+};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// Movable particles. All arrays have one entry per particle, in the same order; the order changes with every sort.
-/// 21 bytes a particle.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Particles {
-    /// Position, d.
-    pub x: Vec<f32>,
-    /// Position, d.
-    pub y: Vec<f32>,
-    /// Velocity, d/s.
-    pub vx: Vec<f32>,
-    /// Velocity, d/s.
-    pub vy: Vec<f32>,
+/// A number of a particle, with what it counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// A number that stays.
+    Id(u32),
+    /// A row of the element table.
+    Element(ElementId),
+    /// A coordinate, d.
+    Length(f32),
+    /// A component of a velocity, d/s.
+    Velocity(f32),
+}
+
+impl Value {
+    /// Its bits.
+    pub fn word(self) -> u32 {
+        match self {
+            Self::Id(value) => value.word(),
+            Self::Element(value) => value.word(),
+            Self::Length(value) | Self::Velocity(value) => value.word(),
+        }
+    }
+
+    /// Whether it is a number within all bounds.
+    pub fn is_sound(self) -> bool {
+        match self {
+            Self::Id(value) => value.is_sound(),
+            Self::Element(value) => value.is_sound(),
+            Self::Length(value) | Self::Velocity(value) => value.is_sound(),
+        }
+    }
+}
+
+/// Declares the columns: `name: type as what it counts`.
+macro_rules! columns {
+    ($($(#[$doc:meta])* $name:ident: $type:ty as $value:ident,)*) => {
+        /// A particle by itself.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Particle {
+            $($(#[$doc])* pub $name: $type,)*
+        }
+
+        impl Particle {
+            /// Its numbers, in the order of [`Particles::COLUMNS`].
+            pub fn values(&self) -> [Value; Particles::COLUMNS.len()] {
+                [$(Value::$value(self.$name)),*]
+            }
+        }
+
+        /// Movable particles. All arrays have one entry per particle, in the same order; the order changes with every
+        /// sort.
+        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+        pub struct Particles {
+            $($(#[$doc])* pub $name: Vec<$type>,)*
+        }
+
+        impl Particles {
+            /// Names of the columns. States are hashed and written in this order.
+            pub const COLUMNS: &[&str] = &[$(stringify!($name)),*];
+            /// Bytes that a particle takes.
+            pub const BYTES: usize = 0 $(+ size_of::<$type>())*;
+
+            /// Particle `i`.
+            pub fn get(&self, i: usize) -> Particle {
+                Particle { $($name: self.$name[i]),* }
+            }
+
+            /// Appends a particle.
+            pub fn add(&mut self, particle: Particle) {
+                $(self.$name.push(particle.$name);)*
+            }
+
+            /// Appends those of `other` in `range`, in their order.
+            pub(crate) fn append(&mut self, other: &Self, range: Range<usize>) {
+                $(self.$name.extend_from_slice(&other.$name[range.clone()]);)*
+            }
+
+            /// Overwrites particle `to` with particle `i`.
+            pub(crate) fn copy(&mut self, i: usize, to: usize) {
+                $(self.$name[to] = self.$name[i];)*
+            }
+
+            /// Overwrites particle `to` with particle `i` of `other`.
+            pub(crate) fn copy_from(&mut self, other: &Self, i: usize, to: usize) {
+                $(self.$name[to] = other.$name[i];)*
+            }
+
+            /// Keeps the first `len`.
+            pub(crate) fn truncate(&mut self, len: usize) {
+                $(self.$name.truncate(len);)*
+            }
+
+            /// Brings the particles into an order: at each place comes the one that was at `order[place]`.
+            pub(crate) fn reorder(&mut self, order: &[u32], mut spares: Spares, threads: usize) {
+                $(reorder(&mut self.$name, order, &mut spares, threads);)*
+            }
+
+            /// Whether all numbers of the particles in `range` are within all bounds.
+            pub(crate) fn are_sound(&self, range: Range<usize>) -> bool {
+                true $(&& are_sound(&self.$name[range.clone()]))*
+            }
+
+            /// Whether all columns are of one length.
+            pub fn has_equal_columns(&self) -> bool {
+                true $(&& self.$name.len() == self.len())*
+            }
+
+            /// Shows all columns, in the order of [`Particles::COLUMNS`].
+            pub fn visit(&self, visitor: &mut impl ColumnVisitor) {
+                $(visitor.visit(&self.$name);)*
+            }
+
+            /// Bytes held.
+            pub fn memory(&self) -> usize {
+                0 $(+ size_of::<$type>() * self.$name.capacity())*
+            }
+        }
+    };
+}
+
+columns! {
     /// Number that stays with the particle for life, unique in its world.
-    pub id: Vec<u32>,
+    id: u32 as Id,
     /// What it is made of.
-    pub element: Vec<ElementId>,
+    element: ElementId as Element,
+    /// Position, d.
+    x: f32 as Length,
+    /// Position, d.
+    y: f32 as Length,
+    /// Velocity, d/s.
+    vx: f32 as Velocity,
+    /// Velocity, d/s.
+    vy: f32 as Velocity,
 }
 
 impl Particles {
@@ -34,14 +158,10 @@ impl Particles {
         self.x.is_empty()
     }
 
-    /// Appends a particle.
+    /// Appends a new particle.
     pub fn push(&mut self, id: u32, element: ElementId, position: Vec2, velocity: Vec2) {
-        self.x.push(position.x);
-        self.y.push(position.y);
-        self.vx.push(velocity.x);
-        self.vy.push(velocity.y);
-        self.id.push(id);
-        self.element.push(element);
+        let (Vec2 { x, y }, Vec2 { x: vx, y: vy }) = (position, velocity);
+        self.add(Particle { id, element, x, y, vx, vy });
     }
 
     /// Position of particle `i`, d.
@@ -71,46 +191,6 @@ impl Particles {
     /// Forgets all.
     pub(crate) fn clear(&mut self) {
         self.truncate(0);
-    }
-
-    /// Appends those of `other` in `range`, in their order.
-    pub(crate) fn append(&mut self, other: &Self, range: Range<usize>) {
-        self.x.extend_from_slice(&other.x[range.clone()]);
-        self.y.extend_from_slice(&other.y[range.clone()]);
-        self.vx.extend_from_slice(&other.vx[range.clone()]);
-        self.vy.extend_from_slice(&other.vy[range.clone()]);
-        self.id.extend_from_slice(&other.id[range.clone()]);
-        self.element.extend_from_slice(&other.element[range]);
-    }
-
-    /// Overwrites particle `to` with particle `i`.
-    pub(crate) fn copy(&mut self, i: usize, to: usize) {
-        self.x[to] = self.x[i];
-        self.y[to] = self.y[i];
-        self.vx[to] = self.vx[i];
-        self.vy[to] = self.vy[i];
-        self.id[to] = self.id[i];
-        self.element[to] = self.element[i];
-    }
-
-    /// Overwrites particle `to` with particle `i` of `other`.
-    pub(crate) fn copy_from(&mut self, other: &Self, i: usize, to: usize) {
-        self.x[to] = other.x[i];
-        self.y[to] = other.y[i];
-        self.vx[to] = other.vx[i];
-        self.vy[to] = other.vy[i];
-        self.id[to] = other.id[i];
-        self.element[to] = other.element[i];
-    }
-
-    /// Keeps the first `len`.
-    pub(crate) fn truncate(&mut self, len: usize) {
-        self.x.truncate(len);
-        self.y.truncate(len);
-        self.vx.truncate(len);
-        self.vy.truncate(len);
-        self.id.truncate(len);
-        self.element.truncate(len);
     }
 
     /// Indices in the order of the ids: the order in which states are hashed and written.

@@ -20,7 +20,7 @@ impl Rect {
     }
 }
 
-/// A tap: fills the free sites of its rectangle with particles until it has given its total.
+/// An emitter: fills the free sites of its rectangle with particles until it has given its total.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Emitter {
     /// What flows.
@@ -41,7 +41,7 @@ pub struct Emitter {
     pub due: f32,
 }
 
-/// A fan: drives the air in its rectangle towards a velocity.
+/// A wind: drives the air in its rectangle towards a velocity.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Wind {
     /// Where, d.
@@ -52,7 +52,7 @@ pub struct Wind {
     pub rate: f32,
 }
 
-/// An outlet: takes away the movable particles that enter its rectangle.
+/// A drain: takes away the movable particles that enter its rectangle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Drain {
     /// Where, d.

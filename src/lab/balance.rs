@@ -9,7 +9,9 @@ use crate::{
         units::Scale,
     },
     lab::stats,
+    sim::state::{ParticleStore, Setup},
 };
+use bevy::ecs::world::World;
 use glam::{DVec2, IVec2, Vec2};
 
 /// The parts of a world that mechanics needs.
@@ -23,6 +25,17 @@ pub struct Matter<'a> {
     pub domain: &'a Domain,
     /// Particle spacing.
     pub scale: Scale,
+}
+
+/// The movable particles with what mechanics needs to know of them.
+pub(crate) fn matter(world: &World) -> Matter<'_> {
+    let Setup { blueprint, domain, .. } = world.resource::<Setup>();
+    Matter {
+        particles: world.resource::<ParticleStore>(),
+        elements: &blueprint.elements,
+        domain,
+        scale: blueprint.scale,
+    }
 }
 
 /// Mass, energy and momentum of the movable particles, for each metre of depth.

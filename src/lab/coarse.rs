@@ -25,7 +25,7 @@
 
 use crate::{
     kernel::{solids::Solids, units::TICKS_PER_SECOND},
-    lab::sampler::matter,
+    lab::balance::matter,
     scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,

@@ -2,10 +2,7 @@
 
 use crate::{
     kernel::{params::Quality, units::TICK_SECONDS},
-    lab::{
-        balance::{Balance, floats_free},
-        sampler::matter,
-    },
+    lab::balance::{Balance, floats_free, matter},
     scene::effects::Effect,
     sim::{
         effects::Effects,

@@ -3,9 +3,10 @@
 use crate::{
     kernel::params::{Preset, Quality},
     lab::{
+        balance::matter,
         coarse::{CoarseField, Distance, Magnitude},
         run::{Observer, Plan, run},
-        sampler::{SAMPLE_EVERY, matter},
+        sampler::SAMPLE_EVERY,
     },
     sim::{checkpoint::Checkpoint, simulation::Simulation, workers::Workers},
 };

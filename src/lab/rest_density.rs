@@ -7,7 +7,7 @@ use crate::{
         particles::Particles,
         units::{Scale, TICKS_PER_SECOND},
     },
-    lab::{picture::Picture, sampler::matter, stats},
+    lab::{balance::matter, picture::Picture, stats},
     scene::{self, SceneError, effects::EffectModes},
     sim::{simulation::Simulation, workers::Workers},
 };

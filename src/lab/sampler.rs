@@ -3,7 +3,7 @@
 use crate::{
     kernel::units::TICKS_PER_SECOND,
     lab::{
-        balance::Matter,
+        balance::matter,
         density::density_error,
         drift::Drift,
         machine,
@@ -242,17 +242,6 @@ impl Samples {
     }
 }
 
-/// The movable particles with what mechanics needs to know of them.
-pub(crate) fn matter(world: &World) -> Matter<'_> {
-    let Setup { blueprint, domain, .. } = world.resource::<Setup>();
-    Matter {
-        particles: world.resource::<ParticleStore>(),
-        elements: &blueprint.elements,
-        domain,
-        scale: blueprint.scale,
-    }
-}
-
 /// Mass of the air, d².
 pub(super) fn air_mass(world: &World) -> f64 {
     world.resource::<AirGrid>().with_grid(world.resource::<Rock>()).mass()
@@ -291,8 +280,7 @@ fn memory_bytes(world: &World) -> u64 {
     let air = world.resource::<AirGrid>();
     let solver = world.resource::<SolverState>().memory() + world.resource::<PredictorState>().memory();
     let sleep = world.resource::<SleepState>().memory();
-    let per_particle = 5 * size_of::<f32>() + size_of::<u8>();
-    (solver + sleep + particles.x.capacity() * per_particle + rock.memory() + air.memory_bytes()) as u64
+    (solver + sleep + particles.memory() + rock.memory() + air.memory_bytes()) as u64
 }
 
 pub(super) fn ms(time: Duration) -> f64 {
@@ -366,6 +354,9 @@ mod tests {
     fn memory_grows_by_the_particles() {
         let bytes = |columns| measure(&mut simulation("dam_break", &[("columns", columns)], &[]), 1).memory_bytes;
         let more = bytes("30") - bytes("10");
-        assert!(more > (2 * 30 * 30 - 2 * 10 * 10) * 21, "only {more} bytes more for 1,600 particles");
+        assert!(
+            more > (2 * 30 * 30 - 2 * 10 * 10) * crate::kernel::particles::Particles::BYTES as u64,
+            "only {more} bytes more for 1,600 particles"
+        );
     }
 }

@@ -2,7 +2,10 @@
 
 use crate::{
     kernel::{params::Quality, particles::Particles, units::TICKS_PER_SECOND},
-    lab::{balance::Matter, drive::pause, sampler::matter},
+    lab::{
+        balance::{Matter, matter},
+        drive::pause,
+    },
     scene::blueprint::Blueprint,
     sim::{
         ledger::PassLedger,

@@ -45,11 +45,11 @@ pub struct Blueprint {
     pub solids: Solids,
     /// The first id that is free.
     pub next_id: u32,
-    /// Taps.
+    /// Emitters.
     pub emitters: Vec<Emitter>,
-    /// Fans.
+    /// Winds.
     pub winds: Vec<Wind>,
-    /// Outlets.
+    /// Drains.
     pub drains: Vec<Drain>,
     /// Air pressure at the start where it is not 1.
     pub pressures: Vec<PressurePatch>,

@@ -3,7 +3,7 @@
 use crate::{
     kernel::{
         element::ElementTable,
-        params::{AirParams, Domain, FluidParams, Preset},
+        params::{AirParams, Domain, Preset},
         units::Scale,
     },
     scene::{
@@ -14,7 +14,7 @@ use crate::{
         error::{SceneError, choices},
         file::{ParameterSpec, SceneText, parse},
         flow::Bounds,
-        knobs::{self, DEFAULT_PARTICLE_LIMIT, KNOBS, Tuning, WORD_KNOBS},
+        knobs::{KNOBS, Knob, PARTICLE_LIMIT, Tuning},
         number::{Evaluator, Range},
         place::{Room, fill},
     },
@@ -55,11 +55,10 @@ pub fn from_text(name: &str, text: impl Into<Cow<'static, str>>) -> Result<Scene
     })
 }
 
-/// The numbers of a scene that `--set` can reach, with those that it did set put in.
+/// What `--set` sets: the scene's parameters (those that it does not set have their defaults), and knobs.
 struct Settings {
     parameters: BTreeMap<String, f64>,
-    tuning: Vec<(&'static knobs::Knob, f64)>,
-    words: Vec<(&'static knobs::WordKnob, usize)>,
+    knobs: Vec<(&'static Knob, f64)>,
 }
 
 impl SceneFile {
@@ -156,22 +155,15 @@ impl SceneFile {
 
     fn read_settings(&self, settings: &[(String, String)]) -> Result<Settings, SceneError> {
         let defaults = self.text.parameters.iter().map(|(name, spec)| (name.clone(), spec.default));
-        let mut read = Settings { parameters: defaults.collect(), tuning: Vec::new(), words: Vec::new() };
+        let mut read = Settings { parameters: defaults.collect(), knobs: Vec::new() };
         for (key, value) in settings {
             let fault = |what: String| SceneError::value(&self.file, format_args!("--set {key}={value}"), what);
-            let number = |range: Range| match value.trim().parse() {
-                Ok(number) => range.check(number).map_err(fault),
-                Err(_) => Err(fault(format!("`{value}` isn't a number; allowed: {range}"))),
-            };
             if let Some(spec) = self.text.parameters.get(key) {
-                read.parameters.insert(key.clone(), number(spec.range())?);
-            } else if let Some(knob) = KNOBS.iter().find(|knob| knob.name == key) {
-                read.tuning.push((knob, number(knob.range)?));
-            } else if let Some(knob) = WORD_KNOBS.iter().find(|knob| knob.name == key) {
-                let word = knob.words.iter().position(|word| *word == value.trim());
-                read.words.push((knob, word.ok_or_else(|| fault(choices(value, knob.words)))?));
+                read.parameters.insert(key.clone(), spec.range().read(value).map_err(fault)?);
+            } else if let Some(knob) = Knob::find(key) {
+                read.knobs.push((knob, knob.read(value).map_err(fault)?));
             } else {
-                let known = self.text.parameters.keys().map(String::as_str).chain(knobs::names());
+                let known = self.text.parameters.keys().map(String::as_str).chain(KNOBS.iter().map(|knob| knob.name));
                 return Err(fault(format!("no parameter or knob `{key}`; {}", choices(key, known))));
             }
         }
@@ -181,14 +173,14 @@ impl SceneFile {
     /// Preset, then what the scene sets, then what the command line sets.
     fn tune(&self, values: &Evaluator<'_>, preset: Preset, settings: &Settings) -> Result<Tuning, SceneError> {
         let text = &self.text;
-        let mut tuning =
-            Tuning { fluid: FluidParams::default(), quality: preset.quality(), particle_limit: DEFAULT_PARTICLE_LIMIT };
-        knobs::apply_scene(values, &text.fluid, &text.quality, text.particle_limit.as_ref(), &mut tuning)?;
-        for (knob, value) in &settings.tuning {
-            knob.turn(&mut tuning, *value);
+        let mut tuning = Tuning::from(preset.quality());
+        text.fluid.apply(values, &mut tuning)?;
+        text.quality.apply(values, &mut tuning)?;
+        if let Some(limit) = &text.particle_limit {
+            tuning.particle_limit = values.number("particle_limit", limit, PARTICLE_LIMIT)? as u32;
         }
-        for (knob, word) in &settings.words {
-            knob.turn(&mut tuning, *word);
+        for (knob, value) in &settings.knobs {
+            knob.set(&mut tuning, *value);
         }
         Ok(tuning)
     }

@@ -4,12 +4,12 @@
 //! Every [`Number`] is a literal or an expression in quotes over the scene's parameters and the spacing `d`.
 
 use crate::{
-    kernel::params::{AirAdvection, GradientKernel, OpenSides, Preset},
+    kernel::params::OpenSides,
     scene::{
         effects::EffectModes,
         error::SceneError,
         expression::{is_name, is_reserved},
-        knobs,
+        knobs::{FluidText, Knob, QualityText},
         number::{Number, Pair, Range},
     },
 };
@@ -41,13 +41,13 @@ pub(super) struct SceneText {
     /// 10 000. Default: nothing.
     #[serde(default)]
     pub(super) contents: Vec<Placement>,
-    /// Taps, at most 1000, on 64 million cells together. Default: none.
+    /// Emitters, at most 1000, on 64 million cells together. Default: none.
     #[serde(default)]
     pub(super) emitters: Vec<EmitterText>,
-    /// Fans, at most 1000, on 64 million cells together. Default: none.
+    /// Winds, at most 1000, on 64 million cells together. Default: none.
     #[serde(default)]
     pub(super) winds: Vec<WindText>,
-    /// Outlets, at most 1000. Default: none.
+    /// Drains, at most 1000. Default: none.
     #[serde(default)]
     pub(super) drains: Vec<Area>,
     /// Air that starts at another pressure than the surroundings', at most 1000 patches, on 1000 million cells together.
@@ -58,20 +58,20 @@ pub(super) struct SceneText {
     #[serde(default)]
     pub(super) open: OpenSides,
     /// Speed of sound in the air, m/s: 1 … 400. Raising it makes the air stiffer and costs substeps. Real air's 340 is
-    /// dear and looks no different. Default: `40`.
+    /// expensive and looks no different. Default: `40`.
     #[serde(default = "default_sound_speed")]
     pub(super) sound_speed: Number,
     /// Density of the air at pressure 1, kg/m²: 0.01 … 1000. Raising it lets particles drag it along less
     /// (`air_feedback`). Default: `1.2`, that of real air 1 m deep.
     #[serde(default = "default_air_density")]
     pub(super) air_density: Number,
-    /// Liquid parameters. Default: those of `FluidParams`.
+    /// Liquid parameters, see `knobs`. Default: those of `FluidParams`.
     #[serde(default)]
     pub(super) fluid: FluidText,
     /// Wanted effects, `auto`, `on` or `off`: `{air: off}`. Default: `auto` each.
     #[serde(default)]
     pub(super) effects: EffectModes,
-    /// Accuracy. Default: the preset `balanced`.
+    /// Accuracy, see `knobs`. Default: the preset `balanced`.
     #[serde(default)]
     pub(super) quality: QualityText,
     /// Most particles, rock included: 1 … 4 000 000. Default: `200000`.
@@ -193,7 +193,7 @@ pub(super) struct Area {
     pub(super) max: Pair,
 }
 
-/// A tap: fills the free sites of its rectangle.
+/// An emitter: fills the free sites of its rectangle.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct EmitterText {
@@ -216,7 +216,7 @@ pub(super) struct EmitterText {
     pub(super) start: Option<Number>,
 }
 
-/// A fan: drives the air in its rectangle towards a velocity.
+/// A wind: drives the air in its rectangle towards a velocity.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WindText {
@@ -240,46 +240,6 @@ pub(super) struct PressureText {
     pub(super) max: Pair,
     /// Pressure as a multiple of the surroundings': 0.1 … 10.
     pub(super) pressure: Number,
-}
-
-/// Liquid parameters; those that aren't given keep the default of `FluidParams`, which has the meanings and ranges.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub(super) struct FluidText {
-    /// Rest density, multiples of the lattice's: 0.1 … 100.
-    pub(super) rest_density: Option<Number>,
-    /// Relaxation ε, 1/d²: 0.0001 … 10.
-    pub(super) relaxation: Option<Number>,
-    /// Lowest value of the constraint: −1 … 0.
-    pub(super) constraint_floor: Option<Number>,
-    /// Strength of the tensile correction: 0 … 1.
-    pub(super) tension_strength: Option<Number>,
-    /// Distance of the tensile correction as a share of the kernel radius: 0.1 … 0.3.
-    pub(super) tension_distance: Option<Number>,
-}
-
-/// A preset and what is different from it. The command line's preset takes the place of this one; the differences stay.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub(super) struct QualityText {
-    /// `classic`, `draft`, `fast`, `balanced`, `fine` or `reference`. Default: `balanced`.
-    pub(super) preset: Option<Preset>,
-    /// Substeps a tick: 1 … 64.
-    pub(super) substeps: Option<Number>,
-    /// Iterations a substep: 1 … 64.
-    pub(super) iterations: Option<Number>,
-    /// Kernel radius, d: 2 … 4.
-    pub(super) kernel_radius: Option<Number>,
-    /// Furthest correction in a substep, d: 0.05 … 0.5.
-    pub(super) correction_limit: Option<Number>,
-    /// Edge of an air cell, d: 1 … 32.
-    pub(super) air_cell: Option<Number>,
-    /// Courant number of the air's substeps: 0.1 … 0.9.
-    pub(super) air_courant: Option<Number>,
-    /// `first_order` or `second_order`.
-    pub(super) air_advection: Option<AirAdvection>,
-    /// `spiky` or `rational`.
-    pub(super) gradient: Option<GradientKernel>,
 }
 
 /// Parses RON; `file` is its name in errors.
@@ -344,7 +304,7 @@ fn check_parameter(file: &str, name: &str, spec: &ParameterSpec) -> Result<(), S
     if !is_name(name) {
         return fault("not a name; allowed: a letter or `_`, then letters, digits and `_`".to_owned());
     }
-    if is_reserved(name) || knobs::names().any(|knob| knob == name) {
+    if is_reserved(name) || Knob::find(name).is_some() {
         return fault(
             "the name has a meaning already; allowed: any name but a knob's, `d`, `min`, `max`, `sqrt`".to_owned(),
         );

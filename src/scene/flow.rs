@@ -18,7 +18,7 @@ use crate::{
 use glam::{DVec2, Vec2};
 use std::fmt::Display;
 
-/// Cells that the taps of a scene may cover together, and its fans: each is looked at in every tick. As many as a box has
+/// Cells that the emitters of a scene may cover together, and its winds: each is looked at in every tick. As many as a box has
 /// at most.
 pub const MOST_COVERED: f64 = 64e6;
 
@@ -89,7 +89,7 @@ impl Bounds<'_> {
         }
         let rate = values.number(format_args!("{field}.rate"), &text.rate, Range::real(0.001, 1e6))?;
         let total = text.total.as_ref();
-        let total = total.map(|total| values.number(format_args!("{field}.total"), total, PARTICLE_LIMIT.range));
+        let total = total.map(|total| values.number(format_args!("{field}.total"), total, PARTICLE_LIMIT));
         let start = text.start.as_ref();
         let start = start.map(|start| values.number(format_args!("{field}.start"), start, Range::real(0.0, 1e6)));
         Ok(Emitter {

@@ -4,7 +4,7 @@
 //! builtin / a path ─► file (the format) ─► build ─► Blueprint
 //!                       │ expression, number    ├ place: shapes → particles and rock (shape, image)
 //!                       └ error: one line each  ├ flow: emitters, winds, drains, pressures
-//!                                               └ knobs: fluid and quality numbers, `--set`
+//!                                               └ knobs: the numbers and words that every scene has, `--set`
 //! ```
 
 mod build;
@@ -32,5 +32,5 @@ pub use elements::elements;
 pub use error::SceneError;
 pub use file::ParameterSpec;
 pub(crate) use flow::MOST_COVERED;
-pub use knobs::{KNOBS, Knob, WORD_KNOBS, WordKnob};
+pub use knobs::{KNOBS, Knob, Part, Tuning, Values};
 pub use number::Range;

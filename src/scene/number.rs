@@ -66,6 +66,12 @@ impl Range {
         Self { min, max, integer: true }
     }
 
+    /// The number that `text` is, if it is in the range, otherwise what is wrong with it and what is allowed.
+    pub(super) fn read(self, text: &str) -> Result<f64, String> {
+        let number = text.trim().parse().map_err(|_| format!("`{text}` isn't a number; allowed: {self}"))?;
+        self.check(number)
+    }
+
     /// `value` if it is in the range, otherwise what is wrong with it and what is allowed.
     pub(super) fn check(self, value: f64) -> Result<f64, String> {
         let fault = if !value.is_finite() {

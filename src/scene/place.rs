@@ -12,7 +12,6 @@ use crate::{
         error::{SceneError, choices},
         file::Placement,
         flow::VELOCITY,
-        knobs::PARTICLE_LIMIT,
         number::Evaluator,
         shape::Region,
     },
@@ -95,8 +94,9 @@ pub(super) fn fill(room: &Room<'_>, values: &Evaluator<'_>, contents: &[Placemen
     let count = lattice.holder.iter().filter(|holder| **holder != 0).count();
     if count > room.particle_limit as usize {
         let what = format!(
-            "{count} particles, but {} is {}; allowed: fewer particles (a larger spacing, smaller shapes) or a higher limit",
-            PARTICLE_LIMIT.name, room.particle_limit
+            "{count} particles, but particle_limit is {}; allowed: fewer particles (a larger spacing, smaller shapes) or a \
+             higher limit",
+            room.particle_limit
         );
         return Err(values.fault("contents", what));
     }

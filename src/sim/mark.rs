@@ -7,7 +7,12 @@
 //! four thousand million ticks; the next tick's mark sees it, too.
 
 use crate::{
-    kernel::{air::Air, particles::Particles, solids::Solids},
+    kernel::{
+        air::Air,
+        columns::{Column, ColumnVisitor},
+        particles::Particles,
+        solids::Solids,
+    },
     sim::state::Clock,
 };
 use serde::{Deserialize, Serialize};
@@ -16,8 +21,6 @@ use serde::{Deserialize, Serialize};
 const LANES: usize = 8;
 /// Distance of the keys of neighbouring places: 2³² over the golden ratio, odd.
 const STRIDE: u32 = 0x9e37_79b1;
-/// What tells the keys of two pairs of arrays apart.
-const SALT: u32 = 0xc2b2_ae35;
 /// Odd factor that spreads a sum's bits: 2⁶⁴ over the golden ratio.
 const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
 
@@ -45,11 +48,12 @@ impl Marker {
     /// The mark of a state. The rock is looked at only where its version changed: a world that was put in the place of
     /// another needs a new marker.
     pub fn mark(&mut self, particles: &Particles, rock: &Solids, air: &Air, clock: &Clock) -> Mark {
-        let counts = clock.edits.wrapping_mul(SPREAD) ^ u64::from(clock.next_id);
+        let mut matter = Columns(clock.edits.wrapping_mul(SPREAD) ^ u64::from(clock.next_id));
+        particles.visit(&mut matter);
         Mark {
             particles: particles.len() as u32,
-            matter: narrow([fold_places(particles), fold(&particles.vx, &particles.vy, 2), counts]),
-            surroundings: narrow([self.rock(rock), self.air(air, clock.edits), 0]),
+            matter: narrow(matter.0),
+            surroundings: narrow(chain(self.rock(rock), self.air(air, clock.edits))),
         }
     }
 
@@ -82,53 +86,22 @@ impl Marker {
 }
 
 fn fold_air(air: &Air) -> u64 {
-    let mut sums = Sums::new(3);
+    let mut sums = Sums::default();
     for row in 0..air.rows() {
-        fold_into(&mut sums, air.pressure_row(row), air.velocity_x_row(row));
-        // A row has three quantities and a product two factors: the third is multiplied with itself, one half of the
-        // row with the other.
-        let up = air.velocity_y_row(row);
-        let half = up.len().div_ceil(2);
-        fold_into(&mut sums, &up[..half], &up[up.len() - half..]);
+        sums.fold(air.pressure_row(row), air.velocity_x_row(row));
+        sums.fold_halves(air.velocity_y_row(row));
     }
     sums.total()
 }
 
-/// Positions, with who and what stands there.
-fn fold_places(particles: &Particles) -> u64 {
-    let Particles { x, y, id, element, .. } = particles;
-    let mut sums = Sums::new(1);
-    let ((x, last_x), (y, last_y)) = (x.as_chunks::<LANES>(), y.as_chunks::<LANES>());
-    let ((id, last_id), (element, last_element)) = (id.as_chunks::<LANES>(), element.as_chunks::<LANES>());
-    for (((x, y), id), element) in x.iter().zip(y).zip(id).zip(element) {
-        for k in 0..LANES {
-            let (a, b) = (x[k].to_bits().wrapping_add(id[k]), y[k].to_bits().wrapping_add(u32::from(element[k].0)));
-            sums.add(k, a, b);
-        }
-    }
-    let rest = last_x.iter().zip(last_y).zip(last_id).zip(last_element);
-    for (k, (((x, y), id), element)) in rest.enumerate() {
-        sums.add(k, x.to_bits().wrapping_add(*id), y.to_bits().wrapping_add(u32::from(element.0)));
-    }
-    sums.total()
-}
+/// The columns of particles, folded one after the other.
+struct Columns(u64);
 
-/// Two arrays of the same length.
-fn fold(a: &[f32], b: &[f32], salt: u32) -> u64 {
-    let mut sums = Sums::new(salt);
-    fold_into(&mut sums, a, b);
-    sums.total()
-}
-
-fn fold_into(sums: &mut Sums, a: &[f32], b: &[f32]) {
-    let ((a, last_a), (b, last_b)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
-    for (a, b) in a.iter().zip(b) {
-        for k in 0..LANES {
-            sums.add(k, a[k].to_bits(), b[k].to_bits());
-        }
-    }
-    for (k, (a, b)) in last_a.iter().zip(last_b).enumerate() {
-        sums.add(k, a.to_bits(), b.to_bits());
+impl ColumnVisitor for Columns {
+    fn visit<T: Column>(&mut self, column: &[T]) {
+        let mut sums = Sums::default();
+        sums.fold_halves(column);
+        self.0 = chain(self.0, sums.total());
     }
 }
 
@@ -138,10 +111,30 @@ struct Sums {
     sums: [u64; LANES],
 }
 
+impl Default for Sums {
+    fn default() -> Self {
+        Self { keys: std::array::from_fn(|lane| (lane as u32).wrapping_mul(STRIDE)), sums: [0; LANES] }
+    }
+}
+
 impl Sums {
-    fn new(salt: u32) -> Self {
-        let key = |lane| (lane as u32).wrapping_mul(STRIDE).wrapping_add(salt.wrapping_mul(SALT));
-        Self { keys: std::array::from_fn(key), sums: [0; LANES] }
+    /// Folds two arrays of the same length.
+    fn fold<T: Column>(&mut self, a: &[T], b: &[T]) {
+        let ((a, last_a), (b, last_b)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
+        for (a, b) in a.iter().zip(b) {
+            for k in 0..LANES {
+                self.add(k, a[k].word(), b[k].word());
+            }
+        }
+        for (k, (a, b)) in last_a.iter().zip(last_b).enumerate() {
+            self.add(k, a.word(), b.word());
+        }
+    }
+
+    /// Folds an array by itself: a product has two factors, so one half is multiplied with the other.
+    fn fold_halves<T: Column>(&mut self, array: &[T]) {
+        let half = array.len().div_ceil(2);
+        self.fold(&array[..half], &array[array.len() - half..]);
     }
 
     #[inline(always)]
@@ -157,8 +150,12 @@ impl Sums {
     }
 }
 
-fn narrow(sums: [u64; 3]) -> u32 {
-    let all = sums.into_iter().fold(0_u64, |all, sum| (all ^ sum).wrapping_mul(SPREAD).rotate_left(32));
+/// Takes a sum up into those before it.
+fn chain(before: u64, sum: u64) -> u64 {
+    (before.rotate_left(32) ^ sum).wrapping_mul(SPREAD)
+}
+
+fn narrow(all: u64) -> u32 {
     (all ^ all >> 32) as u32
 }
 

@@ -20,11 +20,11 @@ use serde::{Deserialize, Serialize};
 /// What the scene keeps adding and taking away. Written by the source stage.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sources {
-    /// Taps.
+    /// Emitters.
     pub emitters: Vec<Emitter>,
-    /// Fans.
+    /// Winds.
     pub winds: Vec<Wind>,
-    /// Outlets.
+    /// Drains.
     pub drains: Vec<Drain>,
 }
 
@@ -59,7 +59,7 @@ pub struct Snapshot {
     pub pressure: Vec<f32>,
     /// Who sleeps, and who may soon.
     pub sleep: SleepRecord,
-    /// Taps, fans and outlets with their state.
+    /// Emitters, winds and drains with their state.
     pub sources: Sources,
     /// Tick, edits, next id.
     pub clock: Clock,
@@ -94,7 +94,7 @@ impl Snapshot {
     /// Bytes that it takes, to a good approximation.
     pub fn size_in_memory(&self) -> usize {
         let air = self.air.columns() * self.air.rows() * 12;
-        self.particles.len() * 21 + self.solids.memory() + air + self.pressure.len() * 4
+        self.particles.len() * Particles::BYTES + self.solids.memory() + air + self.pressure.len() * 4
     }
 
     /// A hash over the exact bits of the state in the order of the ids (64-bit FNV-1a): equal hashes mean equal
@@ -108,12 +108,7 @@ impl Snapshot {
 pub fn hash_state(particles: &Particles, solids: &Solids, air: &Air) -> u64 {
     let mut hash = Fnv::default();
     for i in particles.in_id_order() {
-        let i = i as usize;
-        hash.word(particles.id[i]);
-        hash.word(u32::from(particles.element[i].0));
-        for value in [particles.x[i], particles.y[i], particles.vx[i], particles.vy[i]] {
-            hash.word(value.to_bits());
-        }
+        particles.get(i as usize).values().into_iter().for_each(|value| hash.word(value.word()));
     }
     for (cell, ElementId(element), id) in solids.iter() {
         for word in [cell.x as u32, cell.y as u32, u32::from(element), id] {

@@ -4,17 +4,15 @@
 use crate::{
     kernel::{
         air::{Air, AirReport},
-        element::ElementTable,
-        forces::{DragTable, drag_rates},
+        element::{ElementParams, ElementTable},
         params::{Domain, Preset, Quality},
         particles::Particles,
         pbf::Solver,
         predictor::Predictor,
         sleep::Sleep,
         solids::Solids,
-        units::Scale,
     },
-    scene::blueprint::Blueprint,
+    scene::{Tuning, blueprint::Blueprint},
     sim::snapshot::Snapshot,
 };
 use bevy::prelude::{Deref, DerefMut, Resource};
@@ -51,51 +49,16 @@ pub struct Setup {
 }
 
 impl Setup {
+    /// What the knobs stand at.
+    pub fn tuning(&self) -> Tuning {
+        let Blueprint { fluid, particle_limit, .. } = *self.blueprint;
+        Tuning { fluid, quality: self.quality, particle_limit }
+    }
+
     /// The element table.
     pub fn elements(&self) -> &ElementTable {
         &self.blueprint.elements
     }
-}
-
-/// What the limiters did, since the scene began: whatever the program does to a world besides solving its equations is
-/// counted here. In a calm scene all are zero but `substeps_max`. It is no part of the world's state: nothing reads it
-/// but those who show it. The metrics' `stability` is this.
-///
-/// Not limiters, because they are part of a method and act on purpose: collision with rock and walls, the drains that a
-/// scene has, constants that keep a division sound (`LEAST_THETA`, `LEAST_DENSITY`), and the snap of still air to rest,
-/// which changes no pressure by more than a rounding.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Counters {
-    /// Particles removed because a coordinate or speed was not a number.
-    pub non_finite: u64,
-    /// Particles found outside the box or inside rock at the end of a tick.
-    pub escaped: u64,
-    /// Particle-substeps in which a speed was cut to the limit of the substep count.
-    pub speed_clamps: u64,
-    /// Ticks whose speeds called for more substeps than the limit.
-    pub substeps_short: u64,
-    /// Particle-substeps in which a correction was cut to the correction limit.
-    pub position_clamps: u64,
-    /// Particle-substeps in which a particle was at one point with another and was set apart.
-    pub set_apart: u64,
-    /// Particle-substeps in which an element's viscosity or vorticity confinement was cut to what a substep can take.
-    pub strength_clamps: u64,
-    /// Cell-substeps in which the pressure predictor cut a density error to the range of its feedback.
-    pub pressure_clamps: u64,
-    /// Substeps whose pressure solve stopped above its tolerance.
-    pub pressure_unsolved: u64,
-    /// Air cells whose speed or pressure was cut.
-    pub air_clamps: u64,
-    /// Substeps of the air for which sound was slowed.
-    pub air_slowed: u64,
-    /// Air for which new rock left no place, d² at pressure 1.
-    pub air_buried: f64,
-    /// Particles that were not placed because the world is full.
-    pub refused: u64,
-    /// Tap-ticks in which a tap could not give what was due for want of room.
-    pub taps_blocked: u64,
-    /// Most substeps that a tick took.
-    pub substeps_max: u32,
 }
 
 /// A limiter that acted: what the HUD shows of it.
@@ -109,30 +72,68 @@ pub struct Acted {
     pub count: u64,
 }
 
-impl Counters {
-    /// The limiters that acted, gravest first.
-    pub fn acted(&self) -> impl Iterator<Item = Acted> {
-        let acted = |count, what, meaning| Acted { what, meaning, count };
-        [
-            acted(self.non_finite, "not a number", "particles removed because a value of theirs was no number"),
-            acted(self.escaped, "escaped", "particles found outside the box or inside rock"),
-            acted(self.speed_clamps, "speeds cut", "particles that were faster than the substeps can follow"),
-            acted(self.substeps_short, "ticks short of substeps", "ticks whose speeds called for more substeps"),
-            acted(self.position_clamps, "corrections cut", "corrections of positions that were cut to their limit"),
-            acted(self.set_apart, "set apart", "particles that were at one point with another"),
-            acted(self.strength_clamps, "strengths cut", "viscosity or vorticity beyond what a substep can take"),
-            acted(self.pressure_clamps, "pressure cells cut", "cells too full or too thin to be put right at once"),
-            acted(self.pressure_unsolved, "pressures unsolved", "substeps whose pressure was left above its tolerance"),
-            acted(self.air_clamps, "air cells cut", "cells of air whose wind or pressure was cut"),
-            acted(self.air_slowed, "times sound slowed", "substeps of the air that were too few for its sound"),
-            acted(self.air_buried.ceil() as u64, "d² of air buried", "air for which new rock left no place"),
-            acted(self.refused, "refused: world full", "particles that were not placed at the particle limit"),
-            acted(self.taps_blocked, "taps blocked", "ticks in which a tap had no room for what was due"),
-        ]
-        .into_iter()
-        .filter(|acted| acted.count > 0)
-    }
+macro_rules! counters {
+    ($(#[$about:meta])* $Counters:ident; $($(#[$doc:meta])* $name:ident: $Type:ty, $what:literal, $meaning:literal;)+) => {
+        $(#[$about])*
+        #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Serialize)]
+        pub struct $Counters {
+            $($(#[$doc])* pub $name: $Type,)+
+            /// Most substeps that a tick took.
+            pub substeps_max: u32,
+        }
 
+        impl $Counters {
+            /// The limiters that acted, gravest first.
+            pub fn acted(&self) -> impl Iterator<Item = Acted> {
+                [$(Acted { what: $what, meaning: $meaning, count: (self.$name as f64).ceil() as u64 }),+]
+                    .into_iter()
+                    .filter(|acted| acted.count > 0)
+            }
+        }
+    };
+}
+
+counters! {
+    /// What the limiters did, since the scene began: whatever the program does to a world besides solving its equations is
+    /// counted here. In a calm scene all are zero but `substeps_max`. It is no part of the world's state: nothing reads it
+    /// but those who show it. The metrics' `stability` is this.
+    ///
+    /// Not limiters, because they are part of a method and act on purpose: collision with rock and walls, the drains that a
+    /// scene has, constants that keep a division sound (`LEAST_THETA`, `LEAST_DENSITY`), and the snap of still air to rest,
+    /// which changes no pressure by more than a rounding.
+    Counters;
+
+    /// Particles removed because a coordinate or speed was not a number.
+    non_finite: u64, "not a number", "particles removed because a value of theirs was no number";
+    /// Particles found outside the box or inside rock at the end of a tick.
+    escaped: u64, "escaped", "particles found outside the box or inside rock";
+    /// Particle-substeps in which a speed was cut to the limit of the substep count.
+    speed_clamps: u64, "speeds cut", "particles that were faster than the substeps can follow";
+    /// Ticks whose speeds called for more substeps than the limit.
+    substeps_short: u64, "ticks short of substeps", "ticks whose speeds called for more substeps";
+    /// Particle-substeps in which a correction was cut to the correction limit.
+    position_clamps: u64, "corrections cut", "corrections of positions that were cut to their limit";
+    /// Particle-substeps in which a particle was at one point with another and was set apart.
+    set_apart: u64, "set apart", "particles that were at one point with another";
+    /// Particle-substeps in which an element's viscosity or vorticity confinement was cut to what a substep can take.
+    strength_clamps: u64, "strengths cut", "viscosity or vorticity beyond what a substep can take";
+    /// Cell-substeps in which the pressure predictor cut a density error to the range of its feedback.
+    pressure_clamps: u64, "pressure cells cut", "cells too full or too thin to be put right at once";
+    /// Substeps whose pressure solve stopped above its tolerance.
+    pressure_unsolved: u64, "pressures unsolved", "substeps whose pressure was left above its tolerance";
+    /// Air cells whose speed or pressure was cut.
+    air_clamps: u64, "air cells cut", "cells of air whose wind or pressure was cut";
+    /// Substeps of the air for which sound was slowed.
+    air_slowed: u64, "times sound slowed", "substeps of the air that were too few for its sound";
+    /// Air for which new rock left no place, d² at pressure 1.
+    air_buried: f64, "d² of air buried", "air for which new rock left no place";
+    /// Particles that were not placed because the world is full.
+    refused: u64, "refused: world full", "particles that were not placed at the particle limit";
+    /// Emitter-ticks in which an emitter could not give what was due for want of room.
+    taps_blocked: u64, "emitters blocked", "ticks in which an emitter had no room for what was due";
+}
+
+impl Counters {
     /// Adds what the air did.
     pub(super) fn add_air(&mut self, report: &AirReport) {
         self.air_clamps += report.speed_clamps + report.pressure_clamps;
@@ -168,32 +169,6 @@ pub struct PredictorState(pub Predictor);
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
 pub struct SleepState(pub Sleep);
 
-/// What the elements mean to the kernel's passes, in kernel units, one entry an element.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct Rates {
-    /// k of `dv/dt = −k |v| v`, 1/d.
-    pub drag: Vec<f32>,
-    /// Mass of a particle, kg/m² d².
-    pub mass: Vec<f32>,
-    /// XSPH c.
-    pub viscosity: Vec<f32>,
-    /// Vorticity confinement ε, d/s.
-    pub vorticity: Vec<f32>,
-}
-
-impl Rates {
-    /// The rates of a scene's elements.
-    pub fn new(elements: &ElementTable, scale: Scale) -> Self {
-        Self {
-            drag: drag_rates(elements, scale),
-            mass: elements.iter().map(|(_, element)| element.density).collect(),
-            viscosity: elements.iter().map(|(_, element)| element.viscosity).collect(),
-            vorticity: elements.iter().map(|(_, element)| scale.to_kernel(element.vorticity)).collect(),
-        }
-    }
-
-    /// What drag reads.
-    pub fn drag_table(&self) -> DragTable<'_> {
-        DragTable { rates: &self.drag, masses: &self.mass }
-    }
-}
+/// What the kernel's passes read of the elements. Made when a scene opens.
+#[derive(Resource, Deref, Clone, Debug, Default)]
+pub struct Elements(pub ElementParams);

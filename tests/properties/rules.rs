@@ -64,7 +64,7 @@ impl Judge {
         let sealed = !(open.left || open.right || open.bottom || open.top);
         let keeps_air = |intent: &Intent| matches!(intent, Intent::Blow { .. });
         let air_stays = sealed && case.input.iter().all(|entry| keeps_air(&entry.intent));
-        // Energy comes in by taps, fans, hands and air that is not at rest; a liquid whose rest density is not that of
+        // Energy comes in by emitters, winds, hands and air that is not at rest; a liquid whose rest density is not that of
         // its lattice stands under pressure from the start, and one that pulls or is pushed by tension has energy of
         // position that nobody counts.
         let alone = case.input.is_empty() && sources.emitters.is_empty() && sources.winds.is_empty();
@@ -170,7 +170,7 @@ fn counts(simulation: &Simulation) -> Result<(), Fault> {
     demand(ids.len() <= limit, || format!("{} particles; the limit is {limit}", ids.len()))?;
     for emitter in &simulation.get::<Sources>().emitters {
         let within = emitter.total.is_none_or(|total| emitter.given <= total);
-        demand(within && (0.0..1e6).contains(&emitter.due), || format!("a tap that gave {emitter:?}"))?;
+        demand(within && (0.0..1e6).contains(&emitter.due), || format!("an emitter that gave {emitter:?}"))?;
     }
     Ok(())
 }

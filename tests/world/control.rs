@@ -25,7 +25,7 @@ use powder_master::{
 };
 use std::sync::Arc;
 
-/// A dam of water under a tap, with a rock that stands at `rock`.
+/// A dam of water under an emitter, with a rock that stands at `rock`.
 fn scene(rock: (i32, i32)) -> Blueprint {
     let mut blueprint = empty_box(48, 32);
     blueprint.domain.gravity = Vec2::new(0.0, -98.1);

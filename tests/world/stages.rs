@@ -148,9 +148,9 @@ fn taps_flow_and_outlets_drain() {
     blueprint.drains.push(Drain { area: area((0.0, 0.0), (30.0, 2.0)) });
     let mut simulation = Simulation::of(blueprint);
     simulation.run(10);
-    assert_eq!(simulation.particles().len(), 50, "the tap flowed before its start, or the drain took what is above it");
+    assert_eq!(simulation.particles().len(), 50, "the emitter flowed early, or the drain took what is above it");
     simulation.run(15);
-    assert!(simulation.particles().id.iter().any(|&id| id >= 50), "the tap is dry");
+    assert!(simulation.particles().id.iter().any(|&id| id >= 50), "the emitter is dry");
     simulation.run(600);
     let left = simulation.particles().len();
     assert!(left < 20, "{left} of 110 particles are left beside a drain");
@@ -358,7 +358,7 @@ fn a_fan_drives_the_air_and_the_air_carries_water() {
     blueprint.water(Vec2::new(5.0, 10.0), Vec2::ZERO);
     let mut simulation = Simulation::of(blueprint);
     simulation.run(30);
-    assert!(simulation.calls(Pass::Air) > 0, "no air moves although a fan blows");
+    assert!(simulation.calls(Pass::Air) > 0, "no air moves although a wind blows");
     assert!(!simulation.get::<AirGrid>().is_quiet());
     assert!(simulation.particles().vx[0] > 1.0, "the wind does not take water along");
 }

@@ -100,7 +100,7 @@ pub(in crate::cli) struct SoakArguments {
     /// End at the first minute of simulated time after this much real time, and judge what there is
     #[arg(long, value_name = "HOURS", value_parser = hours, allow_negative_numbers = true)]
     pub(in crate::cli) within: Option<Minutes>,
-    /// Whims of the player: the same number, the same play
+    /// Random choices of the player: the same number, the same play
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(in crate::cli) seed: u64,
     /// Write the figures as JSON; `-` is stdout

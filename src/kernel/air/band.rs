@@ -4,9 +4,9 @@
 //! above its last for itself, and bands can be done in any order and side by side.
 
 use super::{
-    advect::{Advection, Source},
-    grid::Peaks,
-    pressure::{Push, Pushed},
+    advect::Advection,
+    pressure::{Peaks, Push, Pushed},
+    source::Source,
 };
 use crate::simd::{Lanes, Pass};
 use std::ops::Range;

@@ -14,8 +14,7 @@
 //! air that entered at P = 1 and with the sideways speed of the cell it enters, a gust in a box with four open sides grew
 //! to a storm.
 
-use super::advect::FACE_FILTER;
-use super::grid::Air;
+use super::{grid::Air, source::FACE_FILTER};
 
 /// A cell at an open side.
 struct Edge {

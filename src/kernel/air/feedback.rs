@@ -19,13 +19,15 @@
 //! Rock and tiles that sleep are air at rest that doesn't yield, as in plain drag. A sleeping tile wakes when one of its
 //! cells would get a speed above [`QUIET_MACH`].
 
-use super::grid::Air;
-use super::sample::Stencil;
-use super::step::QUIET_MACH;
+use super::{
+    grid::Air,
+    meetings::{Feedback, Meeting},
+    rooms::QUIET_MACH,
+    sample::{Stencil, split},
+};
 use crate::{
-    blocks::{Blocks, Reach},
-    element::ElementId,
-    forces::DragTable,
+    blocks::Reach,
+    element::{ElementId, ElementParams},
     parallel::{Rows, Sweep, Team, WORTH_A_PIECE, spread, sweep},
     particles::{Particles, extent},
 };
@@ -37,29 +39,7 @@ const WORTH_RESOLVING: usize = 8192;
 /// A drag per substep past which a particle has the wind's velocity, whatever the rounding.
 const UTTER: f32 = 1.0e30;
 
-/// Of a cell: the momentum that it meets, x and y, the mass that brings it, kg/m² d²; then its new velocity, d/s.
-type Meeting = [f32; 4];
-
-/// Buffers of the exchange, of which nothing is kept from one to the next.
-#[derive(Debug, Default)]
-pub(super) struct Feedback {
-    blocks: Blocks,
-    /// Columns that any particle reaches, counted with the ring.
-    columns: Range<usize>,
-    /// One entry a cell, with the ring. Beyond the rows and columns that are reached it is left from before.
-    meetings: Vec<Meeting>,
-    /// Tiles that don't sleep.
-    active: Vec<bool>,
-}
-
-impl Feedback {
-    /// Bytes held.
-    pub(super) fn memory_bytes(&self) -> usize {
-        self.blocks.memory() + self.meetings.capacity() * size_of::<Meeting>() + self.active.capacity()
-    }
-}
-
-/// Particles to a d² that a gate reckons with: twice as many as there are in water.
+/// Particles to a d² that a gate counts on: twice as many as there are in water.
 const CROWD: f32 = 2.0;
 
 /// When particles wake air that sleeps.
@@ -81,7 +61,7 @@ struct Along {
 impl Reach for Along {
     #[inline(always)]
     fn rows(self, y: f32) -> [u32; 2] {
-        let (row, _) = super::sample::split(y, self.per_cell, self.last);
+        let (row, _) = split(y, self.per_cell, self.last);
         [row as u32 + 1, row as u32 + 3]
     }
 }
@@ -95,15 +75,16 @@ struct Party {
 
 impl Air {
     /// Whether a crowd of particles of a speed (d/s) could wake air at rest at pressure 1 in a substep of `dt` s.
-    pub fn may_be_roused(&self, drag: DragTable, speed: f32, dt: f32) -> bool {
-        let loads = drag.rates.iter().zip(drag.masses).map(|(rate, mass)| CROWD * mass * (rate * speed * dt).min(1.0));
+    pub fn may_be_roused(&self, elements: &ElementParams, speed: f32, dt: f32) -> bool {
+        let loads =
+            elements.drag.iter().zip(&elements.mass).map(|(rate, mass)| CROWD * mass * (rate * speed * dt).min(1.0));
         let load = loads.fold(0.0, f32::max);
         speed * load / (self.params.density + load) > QUIET_MACH * self.params.sound_speed
     }
 
     /// First half of the exchange over `dt` s: finds the velocity that the air gets. [`Air::drag_along`] must follow with
     /// the same particles. The air must be built. `team` changes the time it takes and not a bit of the result.
-    pub fn meet(&mut self, drag: DragTable, particles: &Particles, rousing: Rousing, team: Team, dt: f32) {
+    pub fn meet(&mut self, elements: &ElementParams, particles: &Particles, rousing: Rousing, team: Team, dt: f32) {
         let mut feedback = std::mem::take(&mut self.scratch.feedback);
         feedback.meetings.resize(self.pressure.len(), Meeting::default());
         let along = |count: usize| Along { per_cell: 1.0 / self.cell, last: (count - 1) as f32 };
@@ -119,8 +100,8 @@ impl Air {
         blocks.share_out([&mut meetings[..]], stride, team.threads, &|range, first, [meetings]| {
             for i in range {
                 let (element, velocity) = (particles.element[i], [particles.vx[i], particles.vy[i]]);
-                let Party { at, share } = air.party(drag, element, [particles.x[i], particles.y[i]], velocity, dt);
-                let brought = share * drag.masses[element.index()];
+                let Party { at, share } = air.party(elements, element, [particles.x[i], particles.y[i]], velocity, dt);
+                let brought = share * elements.mass[element.index()];
                 let meeting = [brought * velocity[0], brought * velocity[1], brought, 0.0];
                 let k = at.k - first * stride;
                 let (left, right) = (1.0 - at.x, at.x);
@@ -143,14 +124,14 @@ impl Air {
     }
 
     /// Second half of the exchange: the particles get their velocities, and the air those that [`Air::meet`] found.
-    pub fn drag_along(&mut self, drag: DragTable, particles: &mut Particles, threads: usize, dt: f32) {
+    pub fn drag_along(&mut self, elements: &ElementParams, particles: &mut Particles, threads: usize, dt: f32) {
         let feedback = std::mem::take(&mut self.scratch.feedback);
         let (air, meetings, stride) = (&*self, &feedback.meetings[..], self.stride());
         let Particles { x, y, vx, vy, element, .. } = particles;
         spread([&mut vx[..], &mut vy[..]], WORTH_A_PIECE, threads, &|base, [vx, vy]| {
             for (i, (vx, vy)) in vx.iter_mut().zip(vy).enumerate() {
                 let i = base + i;
-                let Party { at, share } = air.party(drag, element[i], [x[i], y[i]], [*vx, *vy], dt);
+                let Party { at, share } = air.party(elements, element[i], [x[i], y[i]], [*vx, *vy], dt);
                 let (low, high) = (&meetings[at.k..at.k + 2], &meetings[at.k + stride..at.k + stride + 2]);
                 let wind = |axis: usize| at.mix([low[0][axis], low[1][axis]], [high[0][axis], high[1][axis]]);
                 let (u, v) = (wind(0), wind(1));
@@ -170,10 +151,17 @@ impl Air {
 
     /// Place and share of a particle, by the wind as it is before the exchange.
     #[inline(always)]
-    fn party(&self, drag: DragTable, element: ElementId, place: [f32; 2], velocity: [f32; 2], dt: f32) -> Party {
+    fn party(
+        &self,
+        elements: &ElementParams,
+        element: ElementId,
+        place: [f32; 2],
+        velocity: [f32; 2],
+        dt: f32,
+    ) -> Party {
         let at = self.stencil(place[0], place[1], 1.0 / self.cell);
         let (x, y) = (velocity[0] - self.blend(&self.velocity_x, &at), velocity[1] - self.blend(&self.velocity_y, &at));
-        let slowing = (drag.rates[element.index()] * (x * x + y * y).sqrt() * dt).min(UTTER);
+        let slowing = (elements.drag[element.index()] * (x * x + y * y).sqrt() * dt).min(UTTER);
         Party { at, share: slowing / (1.0 + slowing) }
     }
 
@@ -238,7 +226,7 @@ impl Sweep<Rows<'_, Meeting>> for Agree<'_> {
             for (i, meeting) in meetings[columns.clone()].iter_mut().enumerate() {
                 let [x, y, load, _] = *meeting;
                 let mass = p[i] * cell_mass;
-                // Rock and what nobody meets stay as they are.
+                // Rock and cells without particles stay as they are.
                 let yields = load > 0.0 && !solid[i];
                 let per_mass = 1.0 / if yields { mass + load } else { 1.0 };
                 *meeting = if yields {

@@ -4,13 +4,19 @@
 //! memory. The ring stands at pressure 1; behind an open side it carries the velocity of the air outside (`edges`),
 //! behind a closed one it is solid.
 
-use super::band::Band;
-use super::feedback::Feedback;
-use super::shape::Shape;
-use super::step::{AirReport, Room};
-use super::tiles::{Tiling, Watch};
-use crate::params::{AirParams, OpenSides};
-use crate::solids::Solids;
+use super::{
+    band::Band,
+    layout::{Layout, in_ring},
+    meetings::Feedback,
+    report::AirReport,
+    rooms::Room,
+    shape::Shape,
+    tiling::{Tiling, Watch},
+};
+use crate::{
+    params::{AirParams, OpenSides},
+    solids::Solids,
+};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -19,7 +25,7 @@ use std::borrow::Cow;
 /// sums of pressure stay exact in f32.
 pub const MAX_PRESSURE: f32 = 1.0e6;
 
-/// Highest speed along an axis that a tool or a fan can set, d/s. Changing this affects nothing that a step can follow:
+/// Highest speed along an axis that a tool or a wind can set, d/s. Changing this affects nothing that a step can follow:
 /// its own limit is lower.
 pub const MAX_SPEED: f32 = 1.0e6;
 
@@ -88,24 +94,6 @@ impl PartialEq for Scratch {
     }
 }
 
-/// Largest values of a band or of the grid: what the next substep's length depends on.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Peaks {
-    /// Largest |u|, d/s.
-    pub(super) x: f32,
-    /// Largest |v|, d/s.
-    pub(super) y: f32,
-    /// Largest pressure.
-    pub(super) pressure: f32,
-}
-
-impl Peaks {
-    /// The larger of each.
-    pub(super) fn max(self, other: Self) -> Self {
-        Self { x: self.x.max(other.x), y: self.y.max(other.y), pressure: self.pressure.max(other.pressure) }
-    }
-}
-
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "AirParams")]
 struct StoredParams {
@@ -134,12 +122,6 @@ struct Stored {
     awake: Vec<bool>,
     rests: Vec<f32>,
     pending: AirReport,
-}
-
-/// Whether place `k` of the fields is in the ring around `columns` × `rows` cells.
-pub(super) fn in_ring(k: usize, columns: usize, rows: usize) -> bool {
-    let (i, j) = (k % (columns + 2), k / (columns + 2));
-    i == 0 || j == 0 || i > columns || j > rows
 }
 
 impl TryFrom<Stored> for Air {
@@ -292,7 +274,7 @@ impl Air {
         }
     }
 
-    /// The air with its grid, for those who want to look at every cell.
+    /// The air with its grid, for callers that look at every cell.
     pub fn with_grid(&self, solids: &Solids) -> Cow<'_, Self> {
         if self.is_built() {
             return Cow::Borrowed(self);
@@ -375,6 +357,11 @@ impl Air {
         let shape = self.scratch.shape.as_ref().map_or(0, Shape::memory_bytes);
         let state = cells * 13 + self.outside.len() * 4 + self.awake.len() + self.rests.len() * 4;
         state + buffers * 4 + shape + self.scratch.watch.memory_bytes() + self.scratch.feedback.memory_bytes()
+    }
+
+    /// How the cells lie and which of them are rock.
+    pub(super) fn layout(&self) -> Layout<'_> {
+        Layout { columns: self.columns(), rows: self.rows(), solid: &self.solid, open: self.params.open }
     }
 
     /// Values between a cell and the one above it.

@@ -1,7 +1,6 @@
 //! Sums over the air, in f64 and in the order of the cells. The unit of mass is the air of 1 d² at pressure 1.
 
-use super::grid::Air;
-use super::pressure::peak;
+use super::{grid::Air, pressure::peak};
 use glam::DVec2;
 
 impl Air {

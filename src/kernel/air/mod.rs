@@ -5,19 +5,24 @@
 //! velocity (u, v), d/s, all at its centre. With `Dρ/Dt = −ρ ∇·u` and `Du/Dt = −c² ∇p` this is the gas of `γ = 2`: sound
 //! runs at `c √p`, and the energy `½ Σ p |u|² + ½ c² Σ p²` can only fall in a closed box.
 //!
-//! | room | does | writes | reads |
+//! Types below, what works on them above: `layout`, `tiling` → `shape` → `source`, `rooms` → the passes → `grid` → the rest.
+//!
+//! | module | does | writes | reads |
 //! |---|---|---|---|
 //! | `grid` | the state, who may see it | | |
+//! | `layout`, `tiling` | how the cells lie; how they are cut into tiles | | |
 //! | `shape` | what follows from rock: open faces, corners, rooms | `Shape` | the solid cells |
+//! | `rooms` | what is in each room, and its pressure at rest | `Room` | pressure, `Shape` |
+//! | `source` | what pass 1 reads | | |
 //! | `advect` | pass 1: shares mass and momentum out | rows of new pressure, momentum | pressure, velocity |
 //! | `second_order` | gives each share the velocity of its part of the cell | rows of momentum | velocity, shares |
 //! | `pressure` | pass 2: pushes pairs | new velocity | rows of new pressure, momentum |
 //! | `band` | both passes over some rows | new pressure, new velocity | pressure, velocity |
 //! | `edges` | the open sides | the ring around the box, outermost cells | pressure, velocity |
 //! | `tiles` | which parts are stepped and which sleep | awake tiles, fences in `Shape` | all |
-//! | `step` | counts substeps, orders the passes, puts quiet air to rest | | |
-//! | `feedback` | what particles give the air, and the air them | velocity | particles, pressure |
-//! | `tools` | fans and the hand of the player | velocity, pressure | |
+//! | `step`, `report` | counts substeps, orders the passes, puts quiet air to rest | | |
+//! | `feedback`, `meetings` | what particles give the air, and the air them | velocity | particles, pressure |
+//! | `tools` | winds of the scene and the player's air tools | velocity, pressure | |
 //! | `walls` | rock that comes and goes | solid cells, pressure | `Solids` |
 //! | `sample`, `measure`, `resize` | values at points, sums, another cell size | | all |
 
@@ -26,14 +31,20 @@ mod band;
 mod edges;
 mod feedback;
 mod grid;
+mod layout;
 mod measure;
+mod meetings;
 mod pressure;
+mod report;
 mod resize;
+mod rooms;
 mod sample;
 mod second_order;
 mod shape;
+mod source;
 mod step;
 mod tiles;
+mod tiling;
 mod tools;
 mod walls;
 
@@ -42,4 +53,6 @@ mod tests;
 
 pub use feedback::Rousing;
 pub use grid::{Air, MAX_PRESSURE, MAX_SPEED};
-pub use step::{AirReport, MAX_SUBSTEPS, QUIET_MACH, STABLE_COURANT};
+pub use report::AirReport;
+pub use rooms::QUIET_MACH;
+pub use step::{MAX_SUBSTEPS, STABLE_COURANT};

@@ -13,7 +13,6 @@
 //! 2(s + 2κ)². Hence **`s ≤ √2 − 2κ`**: 1.414 for the plain collocated grid (κ = 0), 1.289 for κ = 1/16. About another
 //! pressure p, c is c√p; wind adds its own part of a cell (`step` counts all three).
 
-use super::grid::Peaks;
 use super::shape::Shape;
 use crate::simd::{Lanes, lane_starts};
 use std::hint::black_box;
@@ -25,6 +24,24 @@ const VACUUM: f32 = 1.0e-30;
 /// Speed, as a part of the speed of sound, below which a velocity is 0: far below f32's resolution of the pressure that
 /// would cause it, far above denormals (which cost a hundred times the time), even when shares multiply it.
 pub(super) const STILL_MACH: f32 = 1.0e-9;
+
+/// Largest values of a band or of the grid: what the next substep's length depends on.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Peaks {
+    /// Largest |u|, d/s.
+    pub(super) x: f32,
+    /// Largest |v|, d/s.
+    pub(super) y: f32,
+    /// Largest pressure.
+    pub(super) pressure: f32,
+}
+
+impl Peaks {
+    /// The larger of each.
+    pub(super) fn max(self, other: Self) -> Self {
+        Self { x: self.x.max(other.x), y: self.y.max(other.y), pressure: self.pressure.max(other.pressure) }
+    }
+}
 
 /// The coefficients of a substep.
 #[derive(Clone, Copy)]

@@ -26,8 +26,10 @@
 //! few cells anyway, and shares of positive parts keep it positive. To air at rest both add terms of second order in its
 //! motion only, so that the stability of sound is what it was (`pressure`).
 
-use super::advect::{Source, store_three, three};
-use super::pressure::shifted;
+use super::{
+    pressure::shifted,
+    source::{Source, store_three, three},
+};
 use crate::simd::{Array, Lanes, lane_starts};
 use std::ops::Range;
 
@@ -177,13 +179,6 @@ impl SecondOrder {
             }
         }
     }
-}
-
-/// Flow `wind` through a face, in cells, of air that starts where it does and not at the face. `stretch` is how many cells
-/// faster the air behind the face is than that before it, 1 at most in size.
-#[inline(always)]
-pub(super) fn starting_there<L: Lanes>(wind: L, stretch: L) -> L {
-    wind * (L::splat(1.0) - stretch)
 }
 
 /// Mass and momentum of the given parts of three cells, of whose velocities `tilted` is the part that slopes add.

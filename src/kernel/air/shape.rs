@@ -1,7 +1,7 @@
 //! What follows from the rock: which faces let air through, where a diagonal share strikes a corner of rock, and which
 //! cells belong to one room. Made anew when the rock changes.
 
-use super::grid::Air;
+use super::layout::Layout;
 
 /// A cell at which diagonal shares that strike rock turn aside: each goes in halves to the two cells beside the rock, the
 /// one above or below its source and the one left or right of it.
@@ -119,10 +119,10 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    pub(super) fn new(air: &Air) -> Self {
-        let stride = air.stride();
-        let (columns, rows) = (air.columns(), air.rows());
-        let cells = air.solid.len();
+    pub(super) fn new(layout: &Layout) -> Self {
+        let stride = layout.stride();
+        let (columns, rows) = (layout.columns, layout.rows);
+        let cells = layout.solid.len();
         let mut shape = Self {
             open_x: vec![0.0; cells],
             open_y: vec![0.0; cells],
@@ -136,14 +136,14 @@ impl Shape {
             fences_y: Vec::new(),
             turns: Vec::new(),
         };
-        let open = air.params.open;
+        let open = layout.open;
         for row in 1..=rows {
             for column in 1..=columns + 1 {
                 let k = row * stride + column;
                 let free = match column {
-                    1 => open.left && !air.solid[k],
-                    _ if column == columns + 1 => open.right && !air.solid[k - 1],
-                    _ => !air.solid[k] && !air.solid[k - 1],
+                    1 => open.left && !layout.solid[k],
+                    _ if column == columns + 1 => open.right && !layout.solid[k - 1],
+                    _ => !layout.solid[k] && !layout.solid[k - 1],
                 };
                 shape.open_x[k] = f32::from(u8::from(free));
             }
@@ -152,15 +152,15 @@ impl Shape {
             for column in 1..=columns {
                 let k = row * stride + column;
                 let free = match row {
-                    1 => open.bottom && !air.solid[k],
-                    _ if row == rows + 1 => open.top && !air.solid[k - stride],
-                    _ => !air.solid[k] && !air.solid[k - stride],
+                    1 => open.bottom && !layout.solid[k],
+                    _ if row == rows + 1 => open.top && !layout.solid[k - stride],
+                    _ => !layout.solid[k] && !layout.solid[k - stride],
                 };
                 shape.open_y[k] = f32::from(u8::from(free));
             }
         }
-        shape.find_corners(air);
-        shape.find_rooms(air);
+        shape.find_corners(layout);
+        shape.find_rooms(layout);
         shape
     }
 
@@ -181,7 +181,7 @@ impl Shape {
     }
 
     /// Closes the faces between active tiles and sleeping ones, and opens those that were closed before for that.
-    pub(super) fn fence(&mut self, air: &Air, active: &[bool]) {
+    pub(super) fn fence(&mut self, layout: &Layout, active: &[bool]) {
         for k in self.fences_x.drain(..) {
             self.open_x[k as usize] = 1.0;
         }
@@ -189,9 +189,9 @@ impl Shape {
             self.open_y[k as usize] = 1.0;
         }
         self.turns.clear();
-        let (tiling, stride) = (air.tiling(), air.stride());
+        let (tiling, stride) = (layout.tiling(), layout.stride());
         let [width, height] = tiling.size();
-        self.find_turns(air, active);
+        self.find_turns(layout, active);
         for tile in 0..tiling.count() {
             let (columns, rows) = (tiling.columns(tile), tiling.rows(tile));
             if tile % width > 0 && active[tile] != active[tile - 1] {
@@ -218,8 +218,8 @@ impl Shape {
     }
 
     /// Finds where one of the four tiles that meet sleeps and the other three don't. Rock there has its own corners.
-    fn find_turns(&mut self, air: &Air, active: &[bool]) {
-        let (tiling, stride) = (air.tiling(), air.stride());
+    fn find_turns(&mut self, layout: &Layout, active: &[bool]) {
+        let (tiling, stride) = (layout.tiling(), layout.stride());
         let [width, height] = tiling.size();
         for (j, i) in (1..height).flat_map(|j| (1..width).map(move |i| (j, i))) {
             let upper_right = j * width + i;
@@ -236,7 +236,7 @@ impl Shape {
             // The faces of the source towards the two others.
             let open =
                 self.open_x[source_row * stride + column] != 0.0 && self.open_y[row * stride + source_column] != 0.0;
-            if open && !air.solid[asleep] {
+            if open && !layout.solid[asleep] {
                 self.turns.push(Turn { row: source_row as u32, column: source_column as u32, right, up });
             }
         }
@@ -248,13 +248,13 @@ impl Shape {
         self.open_x.len() * 12 + corners + self.struck.memory_bytes()
     }
 
-    fn find_corners(&mut self, air: &Air) {
-        let (stride, columns, rows) = (air.stride(), air.columns(), air.rows());
+    fn find_corners(&mut self, layout: &Layout) {
+        let (stride, columns, rows) = (layout.stride(), layout.columns, layout.rows);
         for row in 0..=rows + 1 {
             let cells = if row == 0 || row > rows { 0 } else { columns };
             for column in 1..=cells {
                 let k = row * stride + column;
-                let strikes = |source: usize, right: bool, up: bool| self.strikes(air, source, right, up);
+                let strikes = |source: usize, right: bool, up: bool| self.strikes(layout, source, right, up);
                 let above = [strikes(k, false, true), strikes(k, true, true)];
                 let below = [strikes(k, false, false), strikes(k, true, false)];
                 let from_left = [strikes(k - 1, true, false), strikes(k - 1, true, true)];
@@ -279,23 +279,23 @@ impl Shape {
 
     /// Whether a share of `source` to a diagonal neighbour finds rock there: both faces that it leaves by are open, and
     /// the neighbour is solid. (Outside the box a share is lost, by whichever face it left.)
-    fn strikes(&self, air: &Air, source: usize, right: bool, up: bool) -> bool {
-        let stride = air.stride();
+    fn strikes(&self, layout: &Layout, source: usize, right: bool, up: bool) -> bool {
+        let stride = layout.stride();
         let (x, across) = if right { (source + 1, source + 1) } else { (source, source - 1) };
         let (y, across) = if up { (source + stride, across + stride) } else { (source, across - stride) };
         // The rarest first: this is asked twelve times a cell.
-        air.solid[across]
+        layout.solid[across]
             && self.open_x[x] != 0.0
             && self.open_y[y] != 0.0
-            && !air.in_ring(source)
-            && !air.in_ring(across)
+            && !layout.in_ring(source)
+            && !layout.in_ring(across)
     }
 
-    fn find_rooms(&mut self, air: &Air) {
-        let stride = air.stride();
+    fn find_rooms(&mut self, layout: &Layout) {
+        let stride = layout.stride();
         let mut queue = Vec::new();
-        for seed in 0..air.solid.len() {
-            if air.solid[seed] || self.room[seed] != u32::MAX {
+        for seed in 0..layout.solid.len() {
+            if layout.solid[seed] || self.room[seed] != u32::MAX {
                 continue;
             }
             let room = self.room_open.len() as u32;
@@ -310,7 +310,7 @@ impl Shape {
                     (self.open_y[k + stride], k + stride),
                 ];
                 for (_, next) in faces.into_iter().filter(|(free, _)| *free != 0.0) {
-                    if air.solid[next] {
+                    if layout.solid[next] {
                         open = true;
                     } else if self.room[next] == u32::MAX {
                         self.room[next] = room;

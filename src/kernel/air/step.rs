@@ -1,11 +1,15 @@
 //! A step of the air: how many substeps, in which order, and when the air has come to rest.
 
-use super::advect::{FACE_FILTER, Source};
-use super::band::{Band, BandPass, Target};
-use super::grid::{Air, MAX_PRESSURE, Peaks, Scratch};
-use super::pressure::{Push, STILL_MACH, peak};
-use super::shape::Shape;
-use super::tiles::{Block, WATCH};
+use super::{
+    band::{Band, BandPass, Target},
+    grid::{Air, MAX_PRESSURE, Scratch},
+    pressure::{Peaks, Push, STILL_MACH, peak},
+    report::AirReport,
+    rooms::{QUIET_MACH, Room, count_rooms},
+    shape::Shape,
+    source::{FACE_FILTER, Source},
+    tiling::{Block, WATCH},
+};
 use crate::{
     parallel::Team,
     params::{AirAdvection, AirScheme},
@@ -13,8 +17,6 @@ use crate::{
     sources::Wind,
 };
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
-use std::ops::AddAssign;
 
 /// Most substeps of one step. Past it speeds are clamped and sound is slowed, and both are counted. Changing this affects
 /// the strongest wind that a scene can have, and the longest time that a step can take.
@@ -22,11 +24,6 @@ pub const MAX_SUBSTEPS: u32 = 64;
 
 /// Largest stable Courant number of sound, c√p·dt/cell: `√2 − 2κ`, derived in `pressure`.
 pub const STABLE_COURANT: f32 = std::f32::consts::SQRT_2 - 2.0 * FACE_FILTER;
-
-/// Air is at rest when no velocity and no pressure difference in a room is above this part of the speed of sound and of
-/// the pressure. The dynamic pressure of such wind, `½ Ma²`, is at f32's resolution of the pressure. Changing this
-/// affects when a grid falls asleep.
-pub const QUIET_MACH: f32 = 1.0e-3;
 
 /// Courant number of sound that is kept to when the substeps don't suffice.
 const LIMITED_COURANT: f32 = 1.0;
@@ -40,52 +37,6 @@ const FEWEST_ROWS: usize = 16;
 /// Cells from which on threads gain more than starting them costs (some 30 µs a pass).
 const PARALLEL_CELLS: usize = 32 * 1024;
 
-/// What a step did.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct AirReport {
-    /// Substeps made; 0 if the air was quiet.
-    pub substeps: u32,
-    /// Most cells that a substep did: those of the tiles that are awake and around them; 0 if the air was quiet.
-    pub cells: usize,
-    /// Cells done in all substeps together.
-    #[serde(skip)]
-    pub worked: u64,
-    /// Velocity components that were clamped, by tools since the last step or in this one.
-    pub speed_clamps: u64,
-    /// Substeps for which sound was slowed.
-    #[serde(skip)]
-    pub slowed: u64,
-    /// Pressures that a tool asked for and that were clamped to 0 … [`super::MAX_PRESSURE`], since the last step.
-    pub pressure_clamps: u64,
-    /// Mass of air for which new rock left no place, since the last step, d² at pressure 1.
-    pub buried: f64,
-}
-
-/// Most that a count in a file may be: whatever is counted beside it, the sum is far from the end of the numbers.
-const MOST_COUNTED: u64 = 1 << 53;
-
-impl AirReport {
-    /// Whether it holds what tools and new rock can leave for the next step, and nothing of a step.
-    pub(super) fn is_of_tools(&self) -> bool {
-        let Self { substeps, cells, worked, speed_clamps, slowed, pressure_clamps, buried } = *self;
-        (substeps, cells, worked, slowed) == (0, 0, 0, 0)
-            && speed_clamps.max(pressure_clamps) <= MOST_COUNTED
-            && (0.0..=MOST_COUNTED as f64).contains(&buried)
-    }
-}
-
-impl AddAssign for AirReport {
-    fn add_assign(&mut self, other: Self) {
-        self.substeps += other.substeps;
-        self.cells = self.cells.max(other.cells);
-        self.worked += other.worked;
-        self.speed_clamps += other.speed_clamps;
-        self.slowed += other.slowed;
-        self.pressure_clamps += other.pressure_clamps;
-        self.buried += other.buried;
-    }
-}
-
 impl Scratch {
     fn prepare(&mut self, air: &Air) {
         let cells = air.pressure.len();
@@ -95,38 +46,6 @@ impl Scratch {
             self.next_y = vec![0.0; cells];
             self.watch.forget();
         }
-    }
-}
-
-/// What is in a room of air that rock shuts off from others.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Room {
-    mass: f64,
-    cells: u32,
-    lowest: f32,
-    highest: f32,
-    /// Whether it has an open side of the box.
-    open: bool,
-}
-
-impl Room {
-    fn count(&mut self, pressure: f32) {
-        self.lowest = if self.cells == 0 { pressure } else { self.lowest.min(pressure) };
-        self.highest = self.highest.max(pressure);
-        self.mass += f64::from(pressure);
-        self.cells += 1;
-    }
-
-    /// Pressure at which it comes to rest.
-    pub(super) fn rest(&self) -> f32 {
-        if self.open { 1.0 } else { (self.mass / f64::from(self.cells.max(1))) as f32 }
-    }
-
-    /// Whether no pressure is further from that of rest than the bound.
-    fn is_even(&self) -> bool {
-        let rest = f64::from(self.rest());
-        let tolerance = f64::from(QUIET_MACH) * rest;
-        rest - f64::from(self.lowest) <= tolerance && f64::from(self.highest) - rest <= tolerance
     }
 }
 
@@ -146,7 +65,7 @@ impl Air {
     }
 
     /// Moves the air on by `dt` (s) in as many substeps as the scheme calls for. `team` changes the time it takes and not a
-    /// bit of the result. Quiet air that no fan drives is left untouched, as is air that is not built.
+    /// bit of the result. Quiet air that no wind drives is left untouched, as is air that is not built.
     pub fn step(&mut self, winds: &[Wind], scheme: AirScheme, team: Team, dt: f32) -> AirReport {
         debug_assert!(dt.is_finite() && scheme.courant.is_finite());
         let mut report = std::mem::take(&mut self.pending);
@@ -156,7 +75,7 @@ impl Air {
         }
         self.quiet = false;
         let courant = scheme.courant.clamp(0.01, STABLE_COURANT);
-        let mut shape = self.scratch.shape.take().unwrap_or_else(|| Shape::new(self));
+        let mut shape = self.scratch.shape.take().unwrap_or_else(|| Shape::new(&self.layout()));
         let mut scratch = std::mem::take(&mut self.scratch);
         self.scratch.sleeps = scratch.sleeps;
         scratch.prepare(self);
@@ -165,7 +84,7 @@ impl Air {
         let mut left = dt;
         loop {
             if report.substeps.is_multiple_of(WATCH) {
-                let changed = self.tend(winds, &mut shape, &mut scratch);
+                let changed = self.update_tiles(winds, &mut shape, &mut scratch);
                 if scratch.watch.blocks.is_empty() {
                     self.fall_asleep(&shape, &mut scratch);
                     break;
@@ -179,7 +98,7 @@ impl Air {
             self.refresh_outside(&scratch.watch.active, substep.sound_speed);
             peaks = self.substep(substep, scheme.advection, &shape, &mut scratch, team);
             self.settle_edges(&scratch.watch.active, substep.sound_speed, substep.dt);
-            peaks = peaks.max(self.blow_fans(winds, substep.dt, &mut report));
+            peaks = peaks.max(self.blow_winds(winds, substep.dt, &mut report));
             report.substeps += 1;
             report.worked += scratch.watch.cells() as u64;
             left -= substep.dt;
@@ -189,7 +108,7 @@ impl Air {
         }
         let still = !scratch.sleeps && !driven && peaks.x.max(peaks.y) <= QUIET_MACH * self.params.sound_speed;
         if still {
-            self.count_rooms(&shape, &mut scratch.rooms);
+            count_rooms(&shape, &self.pressure, &mut scratch.rooms);
             if scratch.rooms.iter().all(Room::is_even) {
                 self.fall_asleep(&shape, &mut scratch);
             }
@@ -340,19 +259,10 @@ impl Air {
         peaks
     }
 
-    /// What is in each room.
-    pub(super) fn count_rooms(&self, shape: &Shape, rooms: &mut Vec<Room>) {
-        rooms.clear();
-        rooms.extend(shape.room_open.iter().map(|open| Room { open: *open, ..Room::default() }));
-        for (room, p) in shape.room.iter().zip(&self.pressure).filter(|(room, _)| **room != u32::MAX) {
-            rooms[*room as usize].count(*p);
-        }
-    }
-
     /// Puts the air to rest: velocities become 0 and the pressure of a room its mean (1 if the room is open), so that a
     /// further step would change nothing. Mass is kept to a rounding.
     fn fall_asleep(&mut self, shape: &Shape, scratch: &mut Scratch) {
-        self.count_rooms(shape, &mut scratch.rooms);
+        count_rooms(shape, &self.pressure, &mut scratch.rooms);
         self.rests.clear();
         self.rests.extend(scratch.rooms.iter().map(Room::rest));
         for (k, room) in shape.room.iter().enumerate().filter(|(_, room)| **room != u32::MAX) {

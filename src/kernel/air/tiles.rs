@@ -1,155 +1,25 @@
 //! Tiles: the air sleeps by parts.
 //!
 //! A tile is **awake** when a speed in it, or the difference of a pressure to that at which its room comes to rest, is
-//! above [`QUIET_MACH`] of the speed of sound or of that pressure; when a fan blows in it; or when something has just
+//! above [`QUIET_MACH`] of the speed of sound or of that pressure; when a wind blows in it; or when something has just
 //! touched it. The awake tiles and those around them, sideways and across corners, are **active**: they are stepped. All
 //! others sleep: their air stands still at the pressures that it had, so that no mass comes or goes.
 //!
 //! Faces between active and sleeping tiles are closed (`Shape::fence`): a wave fainter than the bound is thrown back. One
 //! that is not wakes the tile around an awake one on its way through it, before it gets to the far side: tiles are looked
-//! after at least every [`WATCH`] substeps, and a substep reaches two cells.
+//! after at least every `WATCH` substeps, and a substep reaches two cells.
 //!
 //! Which tiles are awake is part of the state. What is active follows from it.
 
-use super::grid::{Air, Scratch};
-use super::pressure::peak;
-use super::shape::Shape;
-use super::step::{QUIET_MACH, Room};
+use super::{
+    grid::{Air, Scratch},
+    pressure::peak,
+    rooms::{QUIET_MACH, Room, count_rooms},
+    shape::Shape,
+    tiling::{Tiling, Watch, cover},
+};
 use crate::sources::Wind;
 use std::ops::Range;
-
-/// Cells of a tile along x: lanes want long rows. Changing this affects which cells sleep together.
-pub(super) const TILE_COLUMNS: usize = 32;
-
-/// Cells of a tile along y. Changing this affects which cells sleep together.
-pub(super) const TILE_ROWS: usize = 16;
-
-/// Most substeps from one look after the tiles to the next.
-pub(super) const WATCH: u32 = TILE_ROWS as u32 / 2;
-
-/// How a grid is cut into tiles, row by row. The last ones of a row and of a column take what is left over.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Tiling {
-    cells: [usize; 2],
-    tiles: [usize; 2],
-}
-
-fn span(tile: usize, tiles: usize, size: usize, cells: usize) -> Range<usize> {
-    tile * size..if tile + 1 == tiles { cells } else { (tile + 1) * size }
-}
-
-impl Tiling {
-    pub(super) fn new(columns: usize, rows: usize) -> Self {
-        Self { cells: [columns, rows], tiles: [(columns / TILE_COLUMNS).max(1), (rows / TILE_ROWS).max(1)] }
-    }
-
-    /// Number of tiles.
-    pub(super) fn count(self) -> usize {
-        self.tiles[0] * self.tiles[1]
-    }
-
-    /// Tiles along x and y.
-    pub(super) fn size(self) -> [usize; 2] {
-        self.tiles
-    }
-
-    /// The tile of a cell.
-    pub(super) fn of(self, column: usize, row: usize) -> usize {
-        let across = (column / TILE_COLUMNS).min(self.tiles[0] - 1);
-        (row / TILE_ROWS).min(self.tiles[1] - 1) * self.tiles[0] + across
-    }
-
-    /// Columns of a tile.
-    pub(super) fn columns(self, tile: usize) -> Range<usize> {
-        span(tile % self.tiles[0], self.tiles[0], TILE_COLUMNS, self.cells[0])
-    }
-
-    /// Rows of a tile.
-    pub(super) fn rows(self, tile: usize) -> Range<usize> {
-        span(tile / self.tiles[0], self.tiles[1], TILE_ROWS, self.cells[1])
-    }
-
-    /// The tiles with those around them.
-    fn widen(self, tiles: &[bool], wider: &mut Vec<bool>) {
-        let [width, height] = self.tiles;
-        wider.clear();
-        wider.resize(self.count(), false);
-        for tile in (0..self.count()).filter(|tile| tiles[*tile]) {
-            let (i, j) = (tile % width, tile / width);
-            for row in j.saturating_sub(1)..(j + 2).min(height) {
-                wider[row * width + i.saturating_sub(1)..row * width + (i + 2).min(width)].fill(true);
-            }
-        }
-    }
-}
-
-/// Cells that are stepped together.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Block {
-    pub(super) rows: Range<usize>,
-    pub(super) columns: Range<usize>,
-}
-
-/// Covers the active tiles with blocks: runs of tiles along x, as high as the same run goes on.
-fn cover(tiling: Tiling, active: &[bool], blocks: &mut Vec<Block>) {
-    blocks.clear();
-    let width = tiling.size()[0];
-    let mut above = 0;
-    for (row, tiles) in active.chunks(width).enumerate() {
-        let (before, first) = (above..blocks.len(), row * width);
-        let rows = tiling.rows(first);
-        let mut next = 0;
-        while let Some(skipped) = tiles[next..].iter().position(|active| *active) {
-            let start = next + skipped;
-            let end = tiles[start..].iter().position(|active| !*active).map_or(width, |length| start + length);
-            let columns = tiling.columns(first + start).start..tiling.columns(first + end - 1).end;
-            blocks.push(Block { rows: rows.clone(), columns });
-            next = end;
-        }
-        above = before.end;
-        let same = before.len() == blocks.len() - before.end
-            && before.clone().zip(before.end..).all(|(old, new)| blocks[old].columns == blocks[new].columns);
-        if same {
-            blocks.truncate(before.end);
-            for block in &mut blocks[before.clone()] {
-                block.rows.end = rows.end;
-            }
-            above = before.start;
-        }
-    }
-}
-
-/// What follows from the tiles that are awake. Kept from look to look.
-#[derive(Debug, Default)]
-pub(super) struct Watch {
-    /// The tiles that are stepped.
-    pub(super) active: Vec<bool>,
-    /// The same as cells.
-    pub(super) blocks: Vec<Block>,
-    /// Pressure at which each cell comes to rest, with the ring; 0 in rock and in the ring.
-    rest: Vec<f32>,
-    /// Tiles that are looked at.
-    looked_at: Vec<bool>,
-    next_active: Vec<bool>,
-}
-
-impl Watch {
-    /// Forgets what followed from the rock.
-    pub(super) fn forget(&mut self) {
-        self.active.clear();
-        self.rest.clear();
-    }
-
-    /// Cells that are stepped.
-    pub(super) fn cells(&self) -> usize {
-        self.blocks.iter().map(|block| block.rows.len() * block.columns.len()).sum()
-    }
-
-    /// Bytes held.
-    pub(super) fn memory_bytes(&self) -> usize {
-        self.rest.len() * 4 + self.active.len() * 3 + self.blocks.capacity() * size_of::<Block>()
-    }
-}
 
 impl Air {
     /// Whether tiles may sleep. If not, all of the grid is stepped until all of it is at rest. `false` at first; not part
@@ -199,9 +69,9 @@ impl Air {
         self.quiet = false;
     }
 
-    /// Looks after the tiles: decides which are awake and brings what follows from that up to date. Returns whether
-    /// another set of tiles than before is active.
-    pub(super) fn tend(&mut self, winds: &[Wind], shape: &mut Shape, scratch: &mut Scratch) -> bool {
+    /// Decides which tiles are awake and brings what follows from that up to date. Returns whether another set of tiles than
+    /// before is active.
+    pub(super) fn update_tiles(&mut self, winds: &[Wind], shape: &mut Shape, scratch: &mut Scratch) -> bool {
         let Scratch { watch, rooms, next_pressure, next_x, next_y, .. } = scratch;
         let tiling = self.tiling();
         if !self.scratch.sleeps {
@@ -211,7 +81,7 @@ impl Air {
             for tile in (0..tiling.count()).filter(|tile| watch.looked_at[*tile]) {
                 self.awake[tile] = self.is_stirred(tile, &watch.rest);
             }
-            self.wake_fans(winds);
+            self.wake_winds(winds);
         }
         let Watch { active, blocks, looked_at, next_active, .. } = watch;
         tiling.widen(&self.awake, next_active);
@@ -235,7 +105,7 @@ impl Air {
         }
         std::mem::swap(active, next_active);
         cover(tiling, active, blocks);
-        shape.fence(self, active);
+        shape.fence(&self.layout(), active);
         true
     }
 
@@ -246,7 +116,7 @@ impl Air {
         let known = self.rests.len() == shape.room_open.len() && !self.rests.is_empty();
         if !known {
             watch.looked_at.fill(true);
-            self.count_rooms(shape, rooms);
+            count_rooms(shape, &self.pressure, rooms);
             self.rests.clear();
             self.rests.extend(rooms.iter().map(Room::rest));
         }

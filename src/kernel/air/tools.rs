@@ -1,7 +1,10 @@
-//! Fans, which a scene has, and the hand of the player: wind, pressure, a fresh start.
+//! The winds of a scene and the player's air tools: wind, pressure, a fresh start.
 
-use super::grid::{Air, MAX_PRESSURE, MAX_SPEED, Peaks};
-use super::step::AirReport;
+use super::{
+    grid::{Air, MAX_PRESSURE, MAX_SPEED},
+    pressure::Peaks,
+    report::AirReport,
+};
 use crate::{
     brush::soft_disc,
     sources::{Rect, Wind},
@@ -101,12 +104,12 @@ impl Air {
         self.set_quiet();
     }
 
-    /// Takes what tools and new rock had to clamp since the last step: nobody waits for a step of air that stays at rest.
+    /// Takes what tools and new rock had to clamp since the last step: air that stays at rest makes no step that could tell.
     pub fn take_report(&mut self) -> AirReport {
         std::mem::take(&mut self.pending)
     }
 
-    /// Whether a fan would change air at rest.
+    /// Whether a wind would change air at rest.
     pub(super) fn is_driven(&self, winds: &[Wind]) -> bool {
         debug_assert!(self.is_built());
         winds.iter().filter(|wind| wind.rate > 0.0 && bounded_velocity(wind.velocity).0 != Vec2::ZERO).any(|wind| {
@@ -115,8 +118,8 @@ impl Air {
         })
     }
 
-    /// Wakes the tiles in which fans blow.
-    pub(super) fn wake_fans(&mut self, winds: &[Wind]) {
+    /// Wakes the tiles in which winds blow.
+    pub(super) fn wake_winds(&mut self, winds: &[Wind]) {
         let tiling = self.tiling();
         for wind in winds {
             if !self.is_driven(std::slice::from_ref(wind)) {
@@ -132,9 +135,9 @@ impl Air {
         }
     }
 
-    /// Drives the air in the fans' areas for a time dt (s): the implicit step of `du/dt = rate (target − u)`, which
+    /// Drives the air in the areas of the winds for a time dt (s): the implicit step of `du/dt = rate (target − u)`, which
     /// can't overshoot. Returns the largest speeds there.
-    pub(super) fn blow_fans(&mut self, winds: &[Wind], dt: f32, report: &mut AirReport) -> Peaks {
+    pub(super) fn blow_winds(&mut self, winds: &[Wind], dt: f32, report: &mut AirReport) -> Peaks {
         let mut peaks = Peaks::default();
         for wind in winds.iter().filter(|wind| wind.rate > 0.0) {
             let (target, cuts) = bounded_velocity(wind.velocity);

@@ -3,7 +3,7 @@
 //! A cell is solid when any rock stands in it, so that a wall one particle thick stops the air. New rock squeezes its air
 //! out to the nearest open cells; air flows in from the cells beside when rock goes. Both move mass and make none.
 
-use super::grid::{Air, in_ring};
+use super::{grid::Air, layout::in_ring};
 use crate::solids::Solids;
 
 /// Steps from the nearest cell that a flood started from.

@@ -1,6 +1,9 @@
 //! Where the liquid is still too dense: the groups that the solver iterates again.
 
-use crate::bins::{ALL_LANES, Group, cells::CellGrid};
+use crate::bins::{
+    cells::CellGrid,
+    group::{ALL_LANES, Group},
+};
 use std::ops::Range;
 
 /// Densities that are looked at together: most are fine.
@@ -18,7 +21,7 @@ enum Tile {
 }
 
 /// The groups in and around the tiles that hold something too dense. Tiles are cells of the world, not runs of particles:
-/// so neither the width of a group nor the number of threads decides on who is in.
+/// so neither the width of a group nor the number of threads decides which particles are in.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Focus {
     /// Those of the strips that hold particles are up to date.

@@ -1,8 +1,13 @@
 //! Runs of sorted particles that the passes work on side by side, with the runs of what may touch any of them.
 
 use crate::{
-    bins::{ALL_LANES, Group, Run, cells::CellGrid, rock::RockBins, sort::Sort},
-    parallel::piece,
+    bins::{
+        cells::CellGrid,
+        group::{ALL_LANES, Group, Run},
+        rock::RockBins,
+        sort::Sort,
+    },
+    parallel::{Parts, fork, piece},
 };
 
 /// A group ends where its particles would spread wider than this many radii: in thin spray a wide group would draw in
@@ -65,22 +70,13 @@ impl Cutter<'_> {
 
     /// Fills the groups of strips in; `groups` begin with those of the first.
     pub fn fill(&self, strips: &[StripGroups], groups: &mut [Group], threads: usize) {
-        self.fill_pieces(strips, groups, piece(groups.len(), threads, WORTH_A_PIECE));
-    }
-
-    fn fill_pieces(&self, strips: &[StripGroups], groups: &mut [Group], piece: usize) {
-        if strips.len() <= 1 || groups.len() <= piece {
-            let mut groups = groups.iter_mut();
-            for strip in strips {
+        let most = piece(groups.len(), threads, WORTH_A_PIECE);
+        fork(Filling { strips, groups }, most, &|part: Filling| {
+            let mut groups = part.groups.iter_mut();
+            for strip in part.strips {
                 self.fill_strip(strip.strip as usize, &mut groups);
             }
-            return;
-        }
-        let half = (groups.len() / 2) as u32 + strips[0].first;
-        let middle = strips.partition_point(|strip| strip.first < half).clamp(1, strips.len() - 1);
-        let (lower, upper) = strips.split_at(middle);
-        let (lower_groups, upper_groups) = groups.split_at_mut((upper[0].first - lower[0].first) as usize);
-        rayon::join(|| self.fill_pieces(lower, lower_groups, piece), || self.fill_pieces(upper, upper_groups, piece));
+        });
     }
 
     fn fill_strip<'g>(&self, strip: usize, groups: &mut impl Iterator<Item = &'g mut Group>) {
@@ -104,5 +100,26 @@ impl Cutter<'_> {
                 };
             }
         });
+    }
+}
+
+/// Strips with their groups.
+struct Filling<'a> {
+    strips: &'a [StripGroups],
+    groups: &'a mut [Group],
+}
+
+impl Parts for Filling<'_> {
+    /// Groups, if they are in several strips.
+    fn size(&self) -> usize {
+        if self.strips.len() > 1 { self.groups.len() } else { 0 }
+    }
+
+    fn halve(self) -> (Self, Self) {
+        let half = (self.groups.len() / 2) as u32 + self.strips[0].first;
+        let middle = self.strips.partition_point(|strip| strip.first < half).clamp(1, self.strips.len() - 1);
+        let (lower, upper) = self.strips.split_at(middle);
+        let (lower_groups, upper_groups) = self.groups.split_at_mut((upper[0].first - lower[0].first) as usize);
+        (Self { strips: lower, groups: lower_groups }, Self { strips: upper, groups: upper_groups })
     }
 }

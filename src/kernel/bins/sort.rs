@@ -1,18 +1,22 @@
-//! The counting sort, in two parallel regions that only write to disjoint pieces of arrays.
+//! The counting sort, in parallel regions that only write to disjoint pieces of arrays.
 //!
-//! First every particle finds its cell. Then the cells are cut into segments of whole strips, and each segment counts,
-//! places and fetches its own particles. It knows where they come from: particles have moved little since they were
-//! sorted last, so most blocks of them belong to one segment as a whole, and the others are searched. Within a cell the
-//! order stays, so that the result is the same however the work is cut.
+//! First every particle finds its cell. Then the cells are cut into segments of whole strips, and each segment counts and
+//! places its own particles. It knows where they come from: particles have moved little since they were sorted last, so
+//! most blocks of them belong to one segment as a whole, and the others are searched. Within a cell the order stays, so that
+//! the result is the same however the work is cut. The columns of the particles then follow one by one.
 
 use crate::{
-    bins::cells::CellGrid,
+    bins::{
+        cells::CellGrid,
+        strip::{Strip, Strips},
+    },
+    columns::Spares,
     element::ElementId,
-    parallel::{cut, piece},
+    parallel::{Parts, fork, piece},
     particles::{Particles, extent},
     simd::{InstructionSet, Lanes, Pass},
 };
-use std::{mem::swap, ops::Range};
+use std::ops::Range;
 
 /// Particles in a block.
 const BLOCK: usize = 256;
@@ -34,7 +38,7 @@ pub(super) struct Sort {
     pub starts: Vec<u32>,
     /// Columns near particles.
     columns: Range<usize>,
-    /// Cell of each particle in the order from before; then room for the sorted ids.
+    /// Cell of each particle in the order from before; then a buffer to reorder a column.
     keys: Vec<u32>,
     /// Lowest and highest cell in each block of particles.
     blocks: Vec<[u32; 2]>,
@@ -51,79 +55,35 @@ struct Segment {
     places: Range<usize>,
 }
 
-/// The sorted positions of a strip, d, to be changed within their cells.
-pub(crate) struct Strip<'a> {
-    grid: &'a CellGrid,
-    /// Ids in the order from before.
-    ids: &'a [u32],
-    source: &'a [u32],
-    pub x: &'a mut [f32],
-    pub y: &'a mut [f32],
-}
-
-impl Strip<'_> {
-    /// The id of a particle of the strip.
-    pub fn id(&self, i: usize) -> u32 {
-        self.ids[self.source[i] as usize]
-    }
-
-    /// An offset, or its mirror image in either coordinate, that leaves a particle of the strip in its cell and in a place
-    /// that is `free`; 0 in a coordinate in which there is none.
-    pub fn turn_inwards(&self, i: usize, offset: glam::Vec2, free: impl Fn(glam::Vec2) -> bool) -> glam::Vec2 {
-        let from = glam::Vec2::new(self.x[i], self.y[i]);
-        let own = self.grid.cell(from.x, from.y);
-        let stays = |to: glam::Vec2| self.grid.cell(to.x, to.y) == own && free(to);
-        let turn = |offset: glam::Vec2| {
-            let ways = [offset, -offset];
-            ways.into_iter().find(|way| stays(from + way)).unwrap_or_default()
-        };
-        turn(glam::Vec2::new(offset.x, 0.0)) + turn(glam::Vec2::new(0.0, offset.y))
-    }
-}
-
 impl Sort {
-    /// Sorts all of the particles but their ids by cell. `spare` is room for x, y, vx and vy, and is left with what they
-    /// held. `settle` may then change the positions of each strip within their cells.
-    pub fn sort(
-        &mut self,
-        grid: &CellGrid,
-        particles: &mut Particles,
-        spare: [&mut Vec<f32>; 4],
-        instructions: InstructionSet,
-        threads: usize,
-        settle: &(impl Fn(Strip) + Sync),
-    ) {
-        let Particles { x, y, vx, vy, id, element } = particles;
+    /// Finds the order of the particles by cell: where each cell's begin, and for each place which particle comes there.
+    pub fn place(&mut self, grid: &CellGrid, x: &[f32], y: &[f32], instructions: InstructionSet, threads: usize) {
         let found = self.find_cells(grid, x, y, instructions, threads);
         self.cut_into_segments(grid, found, x.len(), threads);
         self.columns = grid.columns_near(extent(x));
-        let Self { starts, columns, keys, blocks, source, spare_elements, segments, .. } = self;
-        source.resize(x.len(), 0);
-        spare_elements.resize(x.len(), ElementId(0));
-        let mut values = [x, y, vx, vy];
-        let mut sorted = spare;
-        sorted.iter_mut().for_each(|sorted| sorted.resize(values[0].len(), 0.0));
-        let unsorted = Unsorted {
-            grid,
-            columns,
-            keys,
-            blocks,
-            values: values.each_ref().map(|values| &values[..]),
-            ids: id,
-            elements: element,
-        };
-        let outputs = Sorted {
-            ends: &mut starts[1..],
-            source,
-            values: sorted.each_mut().map(|values| &mut values[..]),
-            elements: spare_elements,
-        };
+        self.source.resize(x.len(), 0);
+        let Self { starts, columns, keys, blocks, source, segments, .. } = self;
         if let Some(first) = segments.first() {
-            let (_, outputs) = outputs.split(first.cells.start, 0);
-            fill_segments(segments, &unsorted, outputs, settle);
+            let ends = &mut starts[1 + first.cells.start..];
+            let unsorted = Unsorted { stride: grid.columns, columns, keys, blocks };
+            fork(Placing { segments, ends, source }, 1, &|part: Placing| {
+                part.segments.iter().for_each(|segment| segment.place(&unsorted, part.ends, part.source));
+            });
         }
-        values.iter_mut().zip(&mut sorted).for_each(|(values, sorted)| swap(*values, *sorted));
-        swap(element, spare_elements);
+    }
+
+    /// Brings all columns of the particles into the order that was found. `floats` is a buffer for one of them, and is left with
+    /// what one of them held.
+    pub fn reorder(&mut self, particles: &mut Particles, floats: &mut Vec<f32>, threads: usize) {
+        let Self { source, keys: words, spare_elements: elements, .. } = self;
+        particles.reorder(source, Spares { floats, words, elements }, threads);
+    }
+
+    /// Lets `settle` change the positions of each strip of the sorted particles within their cells.
+    pub fn settle(&self, grid: &CellGrid, particles: &mut Particles, threads: usize, settle: &(impl Fn(Strip) + Sync)) {
+        let Particles { x, y, id, .. } = particles;
+        let strips = Strips { grid, starts: &self.starts, strips: self.strips.clone(), base: 0, id, x, y };
+        fork(strips, piece(id.len(), threads, WORTH_A_SEGMENT), &|part: Strips| part.each(settle));
     }
 
     /// Finds the cell of every particle; returns the strips that hold any.
@@ -137,8 +97,9 @@ impl Sort {
     ) -> Range<usize> {
         self.keys.resize(x.len(), 0);
         self.blocks.resize(x.len().div_ceil(BLOCK), [0; 2]);
-        let pieces = Pieces { keys: &mut self.keys, blocks: &mut self.blocks };
-        pieces.spread(threads, &|first, Pieces { keys, blocks }| {
+        let pieces = Pieces { first: 0, keys: &mut self.keys, blocks: &mut self.blocks };
+        let most = piece(pieces.size(), threads, WORTH_A_LOOK);
+        fork(pieces, most, &|Pieces { first, keys, blocks }| {
             let own = first * BLOCK..first * BLOCK + keys.len();
             instructions.run(FindCells { grid, x: &x[own.clone()], y: &y[own], keys, blocks });
         });
@@ -195,16 +156,6 @@ impl Sort {
         places.filter(|places| places.len() >= CROWD * BLOCK)
     }
 
-    /// The ids in their new order, to be written by pieces; the sort is over with [`Sort::keep_names`].
-    pub fn names(&mut self) -> (&[u32], &mut [u32]) {
-        (&self.source, &mut self.keys)
-    }
-
-    /// Takes the ids over that were written to [`Sort::names`].
-    pub fn keep_names(&mut self, ids: &mut Vec<u32>) {
-        swap(ids, &mut self.keys);
-    }
-
     /// Bytes held.
     pub fn memory(&self) -> usize {
         4 * (self.starts.capacity() + self.keys.capacity() + self.source.capacity())
@@ -230,28 +181,24 @@ fn count_below(keys: &[u32], blocks: &[[u32; 2]], cell: u32) -> usize {
 
 /// Whole blocks of particles.
 struct Pieces<'a> {
+    first: usize,
     keys: &'a mut [u32],
     blocks: &'a mut [[u32; 2]],
 }
 
-impl Pieces<'_> {
-    /// Calls `work` with the index of the first block and some blocks.
-    fn spread(self, threads: usize, work: &(impl Fn(usize, Pieces) + Sync)) {
-        let most = piece(self.blocks.len(), threads, WORTH_A_LOOK);
-        self.spread_from(0, most, work);
+impl Parts for Pieces<'_> {
+    fn size(&self) -> usize {
+        self.blocks.len()
     }
 
-    fn spread_from(self, first: usize, most: usize, work: &(impl Fn(usize, Pieces) + Sync)) {
-        if self.blocks.len() <= most {
-            return work(first, Pieces { keys: self.keys, blocks: self.blocks });
-        }
+    fn halve(self) -> (Self, Self) {
         let half = self.blocks.len() / 2;
         let (left_keys, right_keys) = self.keys.split_at_mut(half * BLOCK);
         let (left_blocks, right_blocks) = self.blocks.split_at_mut(half);
-        rayon::join(
-            || Pieces { keys: left_keys, blocks: left_blocks }.spread_from(first, most, work),
-            || Pieces { keys: right_keys, blocks: right_blocks }.spread_from(first + half, most, work),
-        );
+        (
+            Self { first: self.first, keys: left_keys, blocks: left_blocks },
+            Self { first: self.first + half, keys: right_keys, blocks: right_blocks },
+        )
     }
 }
 
@@ -283,88 +230,50 @@ impl Pass for FindCells<'_> {
 
 /// The particles as they were.
 struct Unsorted<'a> {
-    grid: &'a CellGrid,
+    /// Cells in a strip.
+    stride: usize,
     /// Columns near particles.
     columns: &'a Range<usize>,
     keys: &'a [u32],
     blocks: &'a [[u32; 2]],
-    values: [&'a [f32]; 4],
-    ids: &'a [u32],
-    elements: &'a [ElementId],
 }
 
-/// What the sort fills, from some cell and place on.
-struct Sorted<'a> {
+/// Segments with what they fill.
+struct Placing<'a> {
+    segments: &'a [Segment],
     /// End of each cell's particles.
     ends: &'a mut [u32],
     source: &'a mut [u32],
-    values: [&'a mut [f32]; 4],
-    elements: &'a mut [ElementId],
 }
 
-impl<'a> Sorted<'a> {
-    fn split(self, cells: usize, places: usize) -> (Self, Self) {
-        let (left_ends, right_ends) = self.ends.split_at_mut(cells);
-        let (left_source, right_source) = self.source.split_at_mut(places);
-        let (left_values, right_values) = cut(self.values, places);
-        let (left_elements, right_elements) = self.elements.split_at_mut(places);
+impl Parts for Placing<'_> {
+    fn size(&self) -> usize {
+        self.segments.len()
+    }
+
+    fn halve(self) -> (Self, Self) {
+        let (left, right) = self.segments.split_at(self.segments.len() / 2);
+        let (left_ends, right_ends) = self.ends.split_at_mut(right[0].cells.start - left[0].cells.start);
+        let (left_source, right_source) = self.source.split_at_mut(right[0].places.start - left[0].places.start);
         (
-            Self { ends: left_ends, source: left_source, values: left_values, elements: left_elements },
-            Self { ends: right_ends, source: right_source, values: right_values, elements: right_elements },
+            Self { segments: left, ends: left_ends, source: left_source },
+            Self { segments: right, ends: right_ends, source: right_source },
         )
     }
 }
 
-/// Fills segments; `sorted` begins with the first of them.
-fn fill_segments(segments: &[Segment], unsorted: &Unsorted, sorted: Sorted, settle: &(impl Fn(Strip) + Sync)) {
-    if let [segment] = segments {
-        return segment.fill(unsorted, sorted, settle);
-    }
-    let (left, right) = segments.split_at(segments.len() / 2);
-    let cells = right[0].cells.start - left[0].cells.start;
-    let places = right[0].places.start - left[0].places.start;
-    let (left_sorted, right_sorted) = sorted.split(cells, places);
-    rayon::join(
-        || fill_segments(left, unsorted, left_sorted, settle),
-        || fill_segments(right, unsorted, right_sorted, settle),
-    );
-}
-
 impl Segment {
-    fn fill(&self, unsorted: &Unsorted, sorted: Sorted, settle: &(impl Fn(Strip) + Sync)) {
-        let Sorted { ends, source, values, elements } = sorted;
-        let (ends, len) = (&mut ends[..self.cells.len()], self.places.len());
-        let source = &mut source[..len];
-        self.place(unsorted, ends, source);
-        let mut values = values.map(|values| &mut values[..len]);
-        for (values, from) in values.iter_mut().zip(unsorted.values) {
-            fetch(values, from, source);
-        }
-        fetch(&mut elements[..len], unsorted.elements, source);
-        let [x, y, ..] = values;
-        let mut first = 0;
-        for strip_ends in ends.chunks(unsorted.grid.columns) {
-            let end = strip_ends.last().map_or(first, |end| *end as usize - self.places.start);
-            settle(Strip {
-                grid: unsorted.grid,
-                ids: unsorted.ids,
-                source: &source[first..end],
-                x: &mut x[first..end],
-                y: &mut y[first..end],
-            });
-            first = end;
-        }
-    }
-
-    /// Finds the end of each cell's particles and where each particle comes from.
+    /// Finds the end of each cell's particles and where each particle comes from. `ends` and `source` begin with the
+    /// segment's own.
     fn place(&self, unsorted: &Unsorted, ends: &mut [u32], source: &mut [u32]) {
         let (base, columns) = (self.places.start as u32, unsorted.columns);
-        for strip in ends.chunks_mut(unsorted.grid.columns) {
+        let (ends, source) = (&mut ends[..self.cells.len()], &mut source[..self.places.len()]);
+        for strip in ends.chunks_mut(unsorted.stride) {
             strip[columns.clone()].fill(0);
         }
         self.for_each_own(unsorted, |cell, _| ends[cell] += 1);
         let mut sum = base;
-        for strip in ends.chunks_mut(unsorted.grid.columns) {
+        for strip in ends.chunks_mut(unsorted.stride) {
             // Where the first of the columns begins, the cell before it ends.
             if let Some(before) = columns.start.checked_sub(1) {
                 strip[before] = sum;
@@ -400,16 +309,4 @@ impl Segment {
             }
         }
     }
-}
-
-/// Sets each value to that of its source.
-fn fetch<T: Copy>(values: &mut [T], from: &[T], source: &[u32]) {
-    for (value, &source) in values.iter_mut().zip(source) {
-        *value = from[source as usize];
-    }
-}
-
-/// Writes the sorted ids from place `first` on.
-pub(super) fn fetch_names(names: &mut [u32], ids: &[u32], source: &[u32]) {
-    fetch(names, ids, source);
 }

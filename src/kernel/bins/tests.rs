@@ -1,7 +1,10 @@
-//! Nobody within reach is missed, and everybody is in one group.
+//! No particle within reach is missed, and each is in one group.
 
-use super::*;
-use crate::{element::ElementId, pbf::tests::random_numbers};
+use super::{Bins, Neighbours, Strip, cells::CellGrid, search::MARGIN_ROUNDING};
+use crate::{
+    element::ElementId, particles::Particles, pbf::tests::random_numbers, simd::InstructionSet, solids::Solids,
+};
+use glam::Vec2;
 
 fn scattered(n: usize, size: Vec2) -> Particles {
     let mut random = random_numbers(12345);
@@ -15,9 +18,9 @@ fn scattered(n: usize, size: Vec2) -> Particles {
 
 /// Sorts, without touching positions.
 fn sort(bins: &mut Bins, particles: &mut Particles, threads: usize) {
-    let mut spare: [Vec<f32>; 4] = Default::default();
+    let mut spare = Vec::new();
     let instructions = InstructionSet::Baseline;
-    bins.bin(particles, spare.each_mut(), Neighbours::Binned, instructions, threads, &|_| ());
+    bins.bin(particles, &mut spare, Neighbours::Binned, instructions, threads, &|_| ());
 }
 
 fn sorted(n: usize, size: Vec2, width: usize) -> (Bins, Particles) {
@@ -27,7 +30,7 @@ fn sorted(n: usize, size: Vec2, width: usize) -> (Bins, Particles) {
     for k in 0..10 {
         solids.insert(glam::IVec2::new(k, k / 2), ElementId(0), k as u32);
     }
-    bins.lay(size, 2.5, 0.1, &solids);
+    bins.resize(size, 2.5, 0.1, &solids);
     sort(&mut bins, &mut particles, 1);
     bins.group(&particles.x, width, 1);
     (bins, particles)
@@ -88,7 +91,7 @@ fn the_sort_is_stable_and_takes_everything_along() {
         let size = Vec2::new(60.0, 40.0);
         let before = scattered(n, size);
         let (mut bins, mut after) = (Bins::default(), before.clone());
-        bins.lay(size, 2.5, 0.1, &Solids::new(60, 40));
+        bins.resize(size, 2.5, 0.1, &Solids::new(60, 40));
         sort(&mut bins, &mut after, threads);
         let keys: Vec<_> = cells(&bins, &after).into_iter().zip(after.id.iter().copied()).collect();
         // Ids count up in the order from before.
@@ -106,7 +109,7 @@ fn the_sort_does_not_depend_on_how_it_is_cut() {
     let size = Vec2::new(90.0, 70.0);
     let run = |threads: usize| {
         let (mut bins, mut particles) = (Bins::default(), scattered(9000, size));
-        bins.lay(size, 2.5, 0.1, &Solids::new(90, 70));
+        bins.resize(size, 2.5, 0.1, &Solids::new(90, 70));
         let mut random = random_numbers(77);
         for step in 0..6 {
             for y in &mut particles.y {
@@ -136,8 +139,8 @@ fn the_sort_does_not_depend_on_how_it_is_cut() {
 fn what_is_turned_inwards_stays_in_its_cell() {
     let size = Vec2::new(40.0, 40.0);
     let (mut bins, mut particles) = (Bins::default(), scattered(3000, size));
-    bins.lay(size, 2.5, 0.1, &Solids::new(40, 40));
-    let mut spare: [Vec<f32>; 4] = Default::default();
+    bins.resize(size, 2.5, 0.1, &Solids::new(40, 40));
+    let mut spare = Vec::new();
     let grid = CellGrid::new(size, 2.7 + MARGIN_ROUNDING);
     let settle = |strip: Strip| {
         for i in 0..strip.x.len() {
@@ -149,5 +152,5 @@ fn what_is_turned_inwards_stays_in_its_cell() {
             }
         }
     };
-    bins.bin(&mut particles, spare.each_mut(), Neighbours::Binned, InstructionSet::Baseline, 1, &settle);
+    bins.bin(&mut particles, &mut spare, Neighbours::Binned, InstructionSet::Baseline, 1, &settle);
 }

@@ -3,7 +3,7 @@
 use crate::{
     bins::{Group, MOST_LANES, RockBins},
     params::{Domain, FluidParams},
-    pbf::wall_sums,
+    pbf::walls::wall_sums,
     simd::{Lanes, Pass},
     smoothing::{Gradient, Smoothing},
 };

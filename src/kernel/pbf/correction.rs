@@ -3,7 +3,7 @@
 use crate::{
     bins::{Group, MOST_LANES, RockBins},
     params::{Domain, FluidParams, WALL_GAP},
-    pbf::{CorrectionLimit, wall_sums},
+    pbf::{limit::CorrectionLimit, walls::wall_sums},
     simd::{Lanes, Pass},
     smoothing::{Gradient, Smoothing},
 };

@@ -1,6 +1,6 @@
 //! How far iterating may move a particle from where it was predicted to be.
 
-use crate::{pbf::SolveParams, simd::Lanes};
+use crate::{pbf::params::SolveParams, simd::Lanes};
 
 /// From this density on, as a multiple of the one aimed at, a correction may be longer, and from the second on the longest.
 const CROWDED: [f32; 2] = [1.5, 2.0];
@@ -8,7 +8,7 @@ const CROWDED: [f32; 2] = [1.5, 2.0];
 /// The correction limit of each particle, by its density.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct CorrectionLimit {
-    /// Of who is not crowded, d along each axis.
+    /// Of a particle that is not crowded, d along each axis.
     usual: f32,
     /// What the most crowded may go further, d.
     further: f32,

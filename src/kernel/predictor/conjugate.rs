@@ -3,9 +3,9 @@
 use crate::{
     parallel::{Rows, Sweep, Team, sweep},
     predictor::{
-        PredictorReport,
         level::{RowSums, SUM_LANES, WORTH_A_PIECE, clear_around, row_dot},
         multigrid::Hierarchy,
+        report::PredictorReport,
     },
 };
 use std::ops::Range;

@@ -6,7 +6,7 @@ use std::ops::Range;
 /// Nearest that the surface is taken to be to a liquid cell's centre, cells, so that the equation stays bounded. Within
 /// this the pressure does not follow the surface, and a wave there meets the wrong resistance: at 0.25 the period of
 /// sloshing was off by up to 16 % at h = 2.5 d and 33 % at 3 d, depending on where in its cell the surface stood; at 0.05
-/// by up to 2.7 %, and nothing is dearer (docs/accuracy.md, "The surface").
+/// by up to 2.7 %, and nothing costs more (docs/accuracy.md, "The surface").
 const LEAST_THETA: f32 = 0.05;
 /// Most that a cell's density is taken to be too high, and too low inside the liquid: pulls harder than this make noise.
 const FEEDBACK_RANGE: (f32, f32) = (-0.1, 0.3);

@@ -7,7 +7,7 @@
 //! change of velocity comes back to the particles (Zhu & Bridson 2005, "Animating sand as a fluid"; McAdams et al. 2010
 //! for the solver). A few iterations of the constraint then do the detail, whatever the depth.
 //!
-//! Rooms: `grid` the geometry, `rock` what is closed, `parts` cells that a wall cuts, `stencil` and `transfer` particles to
+//! Modules: `steps` the whole, `grid` the geometry, `rock` what is closed, `parts` cells that a wall cuts, `stencil` and `transfer` particles to
 //! grid and back, `pressure` and `equation` the equation, `pockets` where it is singular, `level`, `multigrid`
 //! and `conjugate` its solver.
 
@@ -19,148 +19,13 @@ mod multigrid;
 mod parts;
 mod pockets;
 mod pressure;
+mod report;
 mod rock;
 mod stencil;
+mod steps;
 #[cfg(test)]
 mod tests;
 mod transfer;
 
-use crate::{parallel::Team, params::Domain, particles::Particles, simd::InstructionSet, solids::Solids};
-use conjugate::Conjugate;
-use glam::Vec2;
-use grid::MacGrid;
-use multigrid::Hierarchy;
-use pockets::Pockets;
-use rock::ClosedFaces;
-use transfer::Faces;
-
-/// Share of its volume that liquid is given in all: particles strive for a density 1 % under rest, so that the error
-/// that is left stays below rest density, too.
-pub const TARGET_DENSITY: f32 = 0.99;
-
-/// Share of the difference to the grid's velocity that a particle gives up in a second. It damps what the grid can't
-/// see; 0.02 a tick.
-const BLEND_PER_SECOND: f32 = 1.2;
-
-/// What a prediction did.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PredictorReport {
-    /// Whether anything was liquid. Where nothing is (single drops, spray), velocities stay as they are.
-    pub liquid: bool,
-    /// Iterations of conjugate gradients.
-    pub iterations: u32,
-    /// Residual that is left, relative to the right-hand side.
-    pub residual: f32,
-    /// Whether the solve stopped above its tolerance: at the most iterations, or because it came no further.
-    pub unsolved: bool,
-    /// Liquid cells whose density error was cut to the feedback's range.
-    pub cuts: u64,
-}
-
-/// Grid fields and solver of the predictor. Buffers are kept from substep to substep; the pressure, too, as the first
-/// guess of the next solve.
-#[derive(Clone, Debug, Default)]
-pub struct Predictor {
-    grid: MacGrid,
-    closed: ClosedFaces,
-    faces: Faces,
-    hierarchy: Hierarchy,
-    conjugate: Conjugate,
-    pockets: Pockets,
-}
-
-/// What the prediction is told.
-#[derive(Clone, Copy, Debug)]
-pub struct PredictorParams<'a> {
-    /// Box.
-    pub domain: &'a Domain,
-    /// Edge of a cell that is aimed at, d: about the kernel radius.
-    pub cell: f32,
-    /// Rest density as a multiple of the lattice's.
-    pub rest_density: f32,
-    /// Lanes in use.
-    pub instructions: InstructionSet,
-    /// Threads to use.
-    pub threads: usize,
-    /// Substep, s.
-    pub dt: f32,
-}
-
-impl Predictor {
-    /// A predictor that takes `pressure` (see [`Predictor::pressure`]) as the first guess of its first run.
-    pub fn resume(pressure: Vec<f32>) -> Self {
-        let mut predictor = Self::default();
-        predictor.conjugate.solution = pressure;
-        predictor
-    }
-
-    /// The pressure of the last run, which the next one sets out from. A world that is put back goes on to the bit only
-    /// together with it.
-    pub fn pressure(&self) -> &[f32] {
-        &self.conjugate.solution
-    }
-
-    /// Makes the particles' velocities nearly divergence-free where they are liquid.
-    pub fn run(&mut self, particles: &mut Particles, solids: &Solids, params: &PredictorParams) -> PredictorReport {
-        let grid = MacGrid::new(params.domain.size, params.cell);
-        if self.grid != grid {
-            let pressure = std::mem::take(&mut self.conjugate.solution);
-            let is_resumed = self.grid == MacGrid::default() && pressure.len() == grid.len();
-            *self = Self { grid, hierarchy: Hierarchy::new(grid.columns, grid.rows), ..Self::default() };
-            if is_resumed {
-                self.conjugate.resume(pressure, 1..grid.rows + 1, 1..grid.columns + 1);
-            }
-        }
-        self.closed.update(&grid, solids);
-        self.faces.collect(&grid, particles, params.instructions, params.threads);
-        let mut report = PredictorReport::default();
-        params.instructions.run(pressure::Projection {
-            grid: &grid,
-            closed: &self.closed,
-            faces: &mut self.faces,
-            hierarchy: &mut self.hierarchy,
-            conjugate: &mut self.conjugate,
-            pockets: &mut self.pockets,
-            target: TARGET_DENSITY * params.rest_density,
-            tolerance: conjugate::tolerance(params.dt),
-            team: Team { instructions: params.instructions, threads: params.threads },
-            report: &mut report,
-        });
-        if report.liquid {
-            self.faces.hand_back(
-                &grid,
-                particles,
-                params.instructions,
-                params.threads,
-                (BLEND_PER_SECOND * params.dt).min(1.0),
-            );
-        }
-        report
-    }
-
-    /// Shows `visit` the centre (d) of every liquid cell of the last run, and how much of the feedback's range its density
-    /// error uses: past 1 it was cut.
-    pub fn limit_shares(&self, mut visit: impl FnMut(Vec2, f32)) {
-        let Self { grid, closed, faces, conjugate, .. } = self;
-        if conjugate.rows.is_empty() || faces.filled.len() != grid.len() {
-            return;
-        }
-        pressure::feedback_shares(grid, closed, faces, conjugate, |[column, row], share| {
-            visit((Vec2::new(column as f32, row as f32) + 0.5) * grid.cell, share);
-        });
-    }
-
-    /// Edge of a cell, d; 0 before the first run.
-    pub fn cell(&self) -> f32 {
-        self.grid.cell
-    }
-
-    /// Bytes held.
-    pub fn memory(&self) -> usize {
-        self.closed.memory()
-            + self.faces.memory()
-            + self.hierarchy.memory()
-            + self.conjugate.memory()
-            + self.pockets.memory()
-    }
-}
+pub use report::PredictorReport;
+pub use steps::{Predictor, PredictorParams, TARGET_DENSITY};

@@ -216,7 +216,7 @@ struct Assemble<'a> {
     /// Columns that are solved for.
     span: &'a Range<usize>,
     /// Out: whether any liquid may be sealed off. It is not if all that is under no liquid is open to air on some side:
-    /// whoever goes up from any cell, as far as there is liquid, ends at such a cell.
+    /// the way up from any cell, as far as there is liquid, ends at such a cell.
     sealed: &'a AtomicBool,
     /// Counts the cells in which the feedback was cut.
     cuts: &'a AtomicU64,

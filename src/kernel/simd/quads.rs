@@ -1,7 +1,7 @@
 //! Lanes for the browser: four numbers to a 128-bit register of WebAssembly. Left to plain arrays the compiler puts too
 //! few of the operations into registers: a pass takes two to three times as long.
 
-use crate::simd::{Lanes, too_short};
+use super::lanes::{Lanes, too_short};
 use core::arch::wasm32::{
     f32x4_add, f32x4_div, f32x4_lt, f32x4_mul, f32x4_pmax, f32x4_pmin, f32x4_splat, f32x4_sqrt, f32x4_sub, v128,
     v128_bitselect, v128_load, v128_store,

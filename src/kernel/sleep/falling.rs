@@ -1,61 +1,17 @@
 //! What has been calm for a second falls asleep.
 
-use super::{Sleep, TURNS};
-use crate::{particles::Particles, units::TICK_SECONDS};
+use super::{
+    calm::{Calm, LOOKS, Tally},
+    state::{CHANGES, Sleep},
+};
+use crate::particles::Particles;
 use glam::Vec2;
-use serde::{Deserialize, Serialize};
-
-/// Ticks from one look at what is awake to the next. Raising it makes looking cheaper and sleep come later.
-pub const LOOK_TICKS: u64 = 8;
-/// Looks in a row at which all of a body must be found calm: a second.
-pub(super) const LOOKS: u8 = 8;
-/// Weight of the last look in a tile's drift, so that it is a mean over about as many ticks as [`LOOKS`] takes.
-const LAST_LOOK: f32 = 1.0 / LOOKS as f32;
-/// Root mean square speed up to which the particles of a tile are calm, d a tick. In a pool at rest the solver leaves
-/// 0.005 to 0.02, and in a tile that holds a few particles of its surface up to 0.05. Raising it lets water sleep that
-/// visibly moves.
-pub const JITTER: f32 = 0.06;
-/// Mean speed of a tile over a second up to which it is calm, d a tick. It bounds the slow motion that sleep stops: waves,
-/// eddies, a level that still sinks.
-pub const DRIFT: f32 = 0.01;
-/// How calm a tile has been.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Calm {
-    /// Mean velocity over the last looks, d a tick.
-    pub(super) drift: [f32; 2],
-    /// Looks in a row at which its whole body was calm.
-    looks: u8,
-}
-
-/// What a look finds in a tile.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Tally {
-    count: u32,
-    momentum: [f32; 2],
-    /// Σ v².
-    square: f32,
-}
-
-impl Tally {
-    /// Follows the tile's drift; returns whether it is calm now.
-    fn judge(&self, calm: &mut Calm) -> bool {
-        // d/s to d a tick.
-        let per = TICK_SECONDS / self.count as f32;
-        // The first look sets the mean: to begin at 0 would be to take a new tile for calm.
-        let weight = if *calm == Calm::default() { 1.0 } else { LAST_LOOK };
-        for (drift, momentum) in calm.drift.iter_mut().zip(self.momentum) {
-            *drift += weight * (momentum * per - *drift);
-        }
-        let [x, y] = calm.drift;
-        self.square * per * TICK_SECONDS <= JITTER * JITTER && x * x + y * y <= DRIFT * DRIFT
-    }
-}
 
 impl Sleep {
     /// Looks at the particles that are awake, and lets the bodies sleep that have been calm long enough. `density` goes
     /// with the particles where it is theirs; the rock is of version `rock_version`. Returns how many fell asleep.
     pub fn watch(&mut self, particles: &mut Particles, density: &mut [f32], size: Vec2, rock_version: u64) -> usize {
-        self.lay(size);
+        self.resize(size);
         self.rock = rock_version;
         self.look(particles);
         let Self { grid, record, tally, flags, waiting, body, .. } = &mut *self;
@@ -83,7 +39,7 @@ impl Sleep {
             }
             if looks >= LOOKS {
                 falls_asleep = true;
-                body.iter().for_each(|&tile| flags[tile as usize] |= TURNS);
+                body.iter().for_each(|&tile| flags[tile as usize] |= CHANGES);
             }
         }
         if falls_asleep { self.let_sleep(particles, density) } else { 0 }
@@ -105,7 +61,7 @@ impl Sleep {
         empty.for_each(|(calm, _)| *calm = Calm::default());
     }
 
-    /// Puts what is in the tiles that turn behind the sleepers, at rest.
+    /// Puts what is in the marked tiles behind the sleepers, at rest.
     fn let_sleep(&mut self, particles: &mut Particles, density: &mut [f32]) -> usize {
         let (before, is_known) = (self.asleep(), density.len() == particles.len());
         self.room.clear();
@@ -113,7 +69,7 @@ impl Sleep {
         let mut end = before;
         for i in before..particles.len() {
             let own = if is_known { density[i] } else { 1.0 };
-            if self.flags[self.grid.tile(particles.x[i], particles.y[i])] & TURNS != 0 {
+            if self.flags[self.grid.tile(particles.x[i], particles.y[i])] & CHANGES != 0 {
                 particles.copy(i, end);
                 (particles.vx[end], particles.vy[end]) = (0.0, 0.0);
                 self.density.push(own);

@@ -1,9 +1,11 @@
-use super::{falling::LOOKS, *};
+use super::{calm::LOOKS, *};
 use crate::{
     air::Air,
     element::ElementId,
     params::{AIR_DENSITY, AirParams, OpenSides},
+    particles::Particles,
 };
+use glam::Vec2;
 
 const SIZE: Vec2 = Vec2::new(120.0, 40.0);
 

@@ -1,6 +1,9 @@
 //! What is touched, or about to be, wakes.
 
-use super::{ASLEEP, NEAR, Sleep, TURNS, falling::Calm};
+use super::{
+    calm::Calm,
+    state::{ASLEEP, CHANGES, NEAR, Sleep},
+};
 use crate::{air::Air, particles::Particles};
 use glam::Vec2;
 use std::ops::Range;
@@ -19,7 +22,7 @@ impl Sleep {
         self.id.clear();
     }
 
-    /// Looks whether anyone touched the sleepers since the last tick, as brushes, outlets and a change of the rock do, and
+    /// Looks whether anything touched the sleepers since the last tick, as brushes, drains and a change of the rock do, and
     /// wakes the bodies that are concerned. What was taken away is found by its gap in the order, which removing keeps.
     pub fn check(&mut self, particles: &mut Particles, rock_version: u64) {
         if self.rock != rock_version {
@@ -42,7 +45,7 @@ impl Sleep {
             let is_same =
                 is_there && (particles.x[left], particles.y[left]) == (x, y) && particles.velocity(left) == Vec2::ZERO;
             if !is_same {
-                self.turn_around(self.grid.tile(x, y));
+                self.mark_around(self.grid.tile(x, y));
             }
             if is_there {
                 // Where it fell asleep says which body it belongs to.
@@ -51,7 +54,7 @@ impl Sleep {
             }
         }
         self.record.asleep = left as u32;
-        self.wake_turned(particles);
+        self.wake_marked(particles);
     }
 
     /// While the sleepers are aside: wakes the bodies that the wind reaches, to which `particles` are added. `drag` is the
@@ -65,13 +68,13 @@ impl Sleep {
         let mut any = false;
         for k in 0..self.tiles.len() {
             let tile = self.tiles[k] as usize;
-            if self.flags[tile] & TURNS == 0 && is_felt(fastest2(air, self.grid.area(tile))) {
-                self.turn_body(tile);
+            if self.flags[tile] & CHANGES == 0 && is_felt(fastest2(air, self.grid.area(tile))) {
+                self.mark_body(tile);
                 any = true;
             }
         }
         if any {
-            self.wake_turned_aside(particles);
+            self.wake_marked_aside(particles);
         }
     }
 
@@ -88,42 +91,42 @@ impl Sleep {
         for i in 0..particles.len() {
             let tile = self.grid.tile(particles.x[i], particles.y[i]);
             if self.flags[tile] & NEAR != 0 {
-                self.turn_around(tile);
+                self.mark_around(tile);
             }
         }
-        self.wake_turned_aside(particles);
+        self.wake_marked_aside(particles);
     }
 
-    /// The bodies in a tile or beside it are to wake.
-    fn turn_around(&mut self, tile: usize) {
+    /// Marks the bodies in a tile or beside it as to wake.
+    fn mark_around(&mut self, tile: usize) {
         for near in self.grid.around(tile) {
-            if self.flags[near] & (ASLEEP | TURNS) == ASLEEP {
-                self.turn_body(near);
+            if self.flags[near] & (ASLEEP | CHANGES) == ASLEEP {
+                self.mark_body(near);
             }
         }
     }
 
-    /// The body that has a tile is to wake.
-    fn turn_body(&mut self, tile: usize) {
+    /// Marks the body that has a tile as to wake.
+    fn mark_body(&mut self, tile: usize) {
         let Self { grid, flags, waiting, .. } = self;
         grid.flood(tile, waiting, |tile| {
-            let enters = flags[tile] & (ASLEEP | TURNS) == ASLEEP;
-            flags[tile] |= if enters { TURNS } else { 0 };
+            let enters = flags[tile] & (ASLEEP | CHANGES) == ASLEEP;
+            flags[tile] |= if enters { CHANGES } else { 0 };
             enters
         });
     }
 
     /// Wakes the bodies that are to: moves them behind the other sleepers at the front of `particles`, each in their order.
     /// Returns where they are then.
-    fn wake_turned(&mut self, particles: &mut Particles) -> Range<usize> {
+    fn wake_marked(&mut self, particles: &mut Particles) -> Range<usize> {
         let end = self.asleep();
         let mut kept = 0;
         // What woke is not calm because it was so before.
-        let turned = self.record.tiles.iter_mut().zip(&self.flags).filter(|(_, flags)| **flags & TURNS != 0);
-        turned.for_each(|(calm, _)| *calm = Calm::default());
+        let marked = self.record.tiles.iter_mut().zip(&self.flags).filter(|(_, flags)| **flags & CHANGES != 0);
+        marked.for_each(|(calm, _)| *calm = Calm::default());
         self.room.clear();
         for i in 0..end {
-            if self.flags[self.grid.tile(self.x[i], self.y[i])] & TURNS != 0 {
+            if self.flags[self.grid.tile(self.x[i], self.y[i])] & CHANGES != 0 {
                 self.room.append(particles, i..i + 1);
             } else {
                 particles.copy(i, kept);
@@ -143,9 +146,9 @@ impl Sleep {
     }
 
     /// The same while they are aside: the woken join the `particles` that are awake.
-    fn wake_turned_aside(&mut self, particles: &mut Particles) {
+    fn wake_marked_aside(&mut self, particles: &mut Particles) {
         let mut aside = std::mem::take(&mut self.aside);
-        let woken = self.wake_turned(&mut aside);
+        let woken = self.wake_marked(&mut aside);
         particles.append(&aside, woken);
         self.aside = aside;
     }

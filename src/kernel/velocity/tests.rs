@@ -3,10 +3,19 @@
 use super::*;
 use crate::predict::longest_move;
 use crate::{
+    element::ElementParams,
     params::{GradientKernel, Preset},
     pbf::tests::{Bench, random_numbers},
     units::TICK_SECONDS,
 };
+
+fn viscosity(coefficient: f32) -> ElementParams {
+    ElementParams { viscosity: vec![coefficient], ..ElementParams::default() }
+}
+
+fn vorticity(strength: f32) -> ElementParams {
+    ElementParams { vorticity: vec![strength], ..ElementParams::default() }
+}
 
 /// A square of 20 × 20 particles on the lattice, `jitter` d off it at random, with velocities from `velocity`.
 fn square(jitter: f32, velocity: impl Fn(Vec2) -> Vec2) -> Bench {
@@ -31,7 +40,7 @@ fn rigid_rotation_has_a_vorticity_of_twice_its_rate() {
         let mut bench = square(0.0, |at| rate * (at - middle).perp());
         bench.quality.gradient = gradient;
         bench.solve(false);
-        apply_vorticity(&mut bench.particles, &mut bench.solver, &[0.0], 1, 0.01);
+        apply_vorticity(&mut bench.particles, &mut bench.solver, &vorticity(0.0), 1, 0.01);
         for i in 0..400 {
             let inner = (bench.particles.position(i) - middle).abs().max_element() < 6.0;
             let vorticity = bench.solver.lambda[i];
@@ -51,7 +60,7 @@ fn confinement_of_strength_zero_changes_nothing() {
     let mut bench = square(0.3, |at| Vec2::new(at.y, at.x - at.y));
     bench.solve(false);
     let before = bench.particles.clone();
-    apply_vorticity(&mut bench.particles, &mut bench.solver, &[0.0], 1, 0.01);
+    apply_vorticity(&mut bench.particles, &mut bench.solver, &vorticity(0.0), 1, 0.01);
     assert_eq!(before, bench.particles);
 }
 
@@ -66,7 +75,7 @@ fn confinement_pushes_across_the_slope_of_the_vorticity() {
     let mut bench = square(0.0, eddy);
     bench.solve(false);
     let before = bench.particles.clone();
-    apply_vorticity(&mut bench.particles, &mut bench.solver, &[1.0], 1, 0.01);
+    apply_vorticity(&mut bench.particles, &mut bench.solver, &vorticity(1.0), 1, 0.01);
     for i in 0..400 {
         let from = before.position(i) - middle;
         let push = bench.particles.velocity(i) - before.velocity(i);
@@ -92,7 +101,7 @@ fn viscosity_never_raises_the_kinetic_energy_or_a_speed() {
             for pass in 0..20 {
                 let fastest = |p: &Particles| (0..p.len()).map(|i| p.velocity(i).length()).fold(0.0, f32::max);
                 let (energy, speed) = (kinetic_energy(&bench.particles), fastest(&bench.particles));
-                apply_viscosity(&mut bench.particles, &mut bench.solver, &[coefficient], 1, TICK_SECONDS);
+                apply_viscosity(&mut bench.particles, &mut bench.solver, &viscosity(coefficient), 1, TICK_SECONDS);
                 let (after, speed_after) = (kinetic_energy(&bench.particles), fastest(&bench.particles));
                 assert!(after < energy, "jitter {jitter}, c {coefficient}, pass {pass}: energy {energy} → {after}");
                 assert!(
@@ -117,7 +126,7 @@ fn viscosity_damps_a_shear_layer_and_keeps_its_momentum() {
     };
     assert!((step(&bench) - 10.0).abs() < 1e-3);
     for _ in 0..50 {
-        apply_viscosity(&mut bench.particles, &mut bench.solver, &[0.1], 1, TICK_SECONDS);
+        apply_viscosity(&mut bench.particles, &mut bench.solver, &viscosity(0.1), 1, TICK_SECONDS);
     }
     let left = step(&bench);
     assert!((0.1..4.0).contains(&left), "the step of the shear layer went from 10 to {left} d/s");
@@ -132,7 +141,7 @@ fn an_even_flow_feels_no_viscosity() {
     let mut bench = square(0.3, |_| Vec2::new(3.0, -4.0));
     bench.solve(false);
     let before = bench.particles.clone();
-    apply_viscosity(&mut bench.particles, &mut bench.solver, &[0.5], 1, TICK_SECONDS);
+    apply_viscosity(&mut bench.particles, &mut bench.solver, &viscosity(0.5), 1, TICK_SECONDS);
     assert_eq!(before, bench.particles);
 }
 
@@ -210,7 +219,7 @@ fn a_liquid_is_as_thick_at_many_substeps_as_at_one() {
         bench.solve(false);
         for _ in 0..40 * substeps {
             let dt = TICK_SECONDS / f32::from(substeps);
-            apply_viscosity(&mut bench.particles, &mut bench.solver, &[0.1], 1, dt);
+            apply_viscosity(&mut bench.particles, &mut bench.solver, &viscosity(0.1), 1, dt);
         }
         kinetic_energy(&bench.particles)
     };
@@ -229,13 +238,15 @@ fn viscosity_is_stable_up_to_its_bound_and_cut_to_it_past_it() {
         bench.solve(false);
         for pass in 0..50 {
             let before = kinetic_energy(&bench.particles);
-            let report = apply_viscosity(&mut bench.particles, &mut bench.solver, &[coefficient], 1, TICK_SECONDS);
+            let report =
+                apply_viscosity(&mut bench.particles, &mut bench.solver, &viscosity(coefficient), 1, TICK_SECONDS);
             let after = kinetic_energy(&bench.particles);
             assert_eq!(report.clamps, cut, "c {coefficient}: particles whose coefficient was cut");
             assert!(after <= before, "c {coefficient}, pass {pass}: energy {before} → {after}");
         }
         // Many substeps take small shares each: the same coefficient is within the bound of one.
-        let report = apply_viscosity(&mut bench.particles, &mut bench.solver, &[coefficient], 1, TICK_SECONDS / 16.0);
+        let report =
+            apply_viscosity(&mut bench.particles, &mut bench.solver, &viscosity(coefficient), 1, TICK_SECONDS / 16.0);
         assert_eq!(report.clamps, 0);
     }
 }
@@ -253,7 +264,7 @@ fn confinement_makes_no_wave_grow_faster_than_its_bound_says_whatever_its_streng
             bench.solve(false);
             for pass in 0..20 {
                 let before = kinetic_energy(&bench.particles);
-                let report = apply_vorticity(&mut bench.particles, &mut bench.solver, &[strength], 1, 0.01);
+                let report = apply_vorticity(&mut bench.particles, &mut bench.solver, &vorticity(strength), 1, 0.01);
                 let growth = (kinetic_energy(&bench.particles) / before).sqrt();
                 assert_eq!(report.clamps, cut, "ε {strength}: particles whose strength was cut");
                 assert!(
@@ -279,7 +290,7 @@ fn confinement_pushes_no_crowd_further_than_its_cap() {
         }
         bench.solve(false);
         let before = bench.particles.clone();
-        let report = apply_vorticity(&mut bench.particles, &mut bench.solver, &[strength], 1, dt);
+        let report = apply_vorticity(&mut bench.particles, &mut bench.solver, &vorticity(strength), 1, dt);
         let changes = (0..400).map(|i| bench.particles.velocity(i).distance(before.velocity(i)));
         let furthest = changes.fold(0.0, f32::max);
         assert!(furthest <= 1.0001 * cap, "{furthest} d/s; the cap is {cap}");

@@ -9,9 +9,8 @@
 //! As `Σ m/ρ_j W ≈ 1`, the bound is **`c Δt/tick ≤ 1`**. A coefficient beyond it is cut to it, and counted.
 
 use crate::{
-    bins::Group,
-    element::ElementId,
-    parallel,
+    bins::{self, Group},
+    element::{ElementId, ElementParams},
     particles::Particles,
     pbf::Solver,
     simd::{Lanes, Pass},
@@ -26,21 +25,22 @@ const LEAST_DENSITY: f32 = 0.1;
 /// Largest share of its difference to its neighbours that a particle may give up in a substep: the bound.
 const MOST_SHARE: f32 = 1.0;
 
-/// Applies viscosity over `dt` s; `coefficients` gives c for each element.
+/// Applies viscosity over `dt` s; c is the elements'.
 pub fn apply_viscosity(
     particles: &mut Particles,
     solver: &mut Solver,
-    coefficients: &[f32],
+    elements: &ElementParams,
     threads: usize,
     dt: f32,
 ) -> StrengthReport {
+    let coefficients = &elements.viscosity[..];
     // One substep a tick takes exactly c.
     let part = dt / TICK_SECONDS;
     let most = MOST_SHARE / part;
     let report = StrengthReport::of(&particles.element, coefficients, most);
     let Solver { bins, smoothing, instructions, density, next_x, next_y, .. } = solver;
     let read = &*particles;
-    parallel::split(bins.groups(), [&mut next_x[..], &mut next_y[..]], threads, &|groups, base, out| {
+    bins::split(bins.groups(), [&mut next_x[..], &mut next_y[..]], threads, &|groups, base, out| {
         instructions.run(ViscosityPass {
             smoothing,
             particles: read,

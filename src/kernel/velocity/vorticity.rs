@@ -17,8 +17,8 @@
 //! the longest move of a substep; one beyond it is cut to it, and counted.
 
 use crate::{
-    bins::Group,
-    parallel,
+    bins::{self, Group},
+    element::ElementParams,
     params::GradientKernel,
     particles::Particles,
     pbf::Solver,
@@ -41,14 +41,15 @@ const MOST_GAIN: f32 = 0.07;
 /// Largest change of a particle's speed, longest moves a substep.
 const MOST_CHANGE: f32 = 0.1;
 
-/// Applies vorticity confinement over `dt` s; `strengths` gives ε for each element, d/s.
+/// Applies vorticity confinement over `dt` s, with the ε of the elements.
 pub fn apply_vorticity(
     particles: &mut Particles,
     solver: &mut Solver,
-    strengths: &[f32],
+    elements: &ElementParams,
     threads: usize,
     dt: f32,
 ) -> StrengthReport {
+    let strengths = &elements.vorticity[..];
     let mut report = StrengthReport::of(&particles.element, strengths, most_strength(solver, dt));
     report.clamps += match solver.smoothing.gradient {
         GradientKernel::Spiky => confine::<Spiky>(particles, solver, strengths, threads, dt),
@@ -76,12 +77,12 @@ fn confine<G: Gradient>(
     // ω lives in the array of λ, which is free between two solves.
     let Solver { bins, smoothing, instructions, next_x, next_y, lambda: vorticity, .. } = solver;
     let read = &*particles;
-    parallel::split(bins.groups(), [&mut vorticity[..]], threads, &|groups, base, [out]| {
+    bins::split(bins.groups(), [&mut vorticity[..]], threads, &|groups, base, [out]| {
         let gradient = PhantomData::<G>;
         instructions.run(CurlPass { smoothing, particles: read, groups, base, out, gradient });
     });
     let outputs = [&mut next_x[..], &mut next_y[..]];
-    parallel::split(bins.groups(), outputs, threads, &|groups, base, out| {
+    bins::split(bins.groups(), outputs, threads, &|groups, base, out| {
         let gradient = PhantomData::<G>;
         let mut own_cuts = 0;
         instructions.run(ConfinementPass {

@@ -74,7 +74,8 @@ impl Chart {
         paper.text(&self.title, (18.0, 28.0), 24.0, INK, HPos::Left)?;
         paper.text(&self.subtitle, (18.0, 52.0), WORDS, PALE_INK, HPos::Left)?;
         let [x, y] = self.spans();
-        let legend = self.series.iter().map(|series| paper.width(&series.name, WORDS)).fold(0.0, f64::max) + 60.0;
+        // Viewers of an SVG may show a wider font than the one that is measured.
+        let legend = 60.0 + 1.06 * self.series.iter().map(|series| paper.width(&series.name)).fold(0.0, f64::max);
         let mut plot = ChartBuilder::on(&paper.area)
             .margin_top(paper.px(70.0))
             .margin_right(paper.px(legend))
@@ -170,8 +171,8 @@ impl<DB: DrawingBackend> Paper<DB> {
         colour.stroke_width((width * self.unit).round() as u32)
     }
 
-    fn width(&self, words: &str, size: f64) -> f64 {
-        let style = TextStyle::from((FAMILY, size * self.unit));
+    fn width(&self, words: &str) -> f64 {
+        let style = TextStyle::from((FAMILY, WORDS * self.unit));
         self.area.estimate_text_size(words, &style).map_or(0.0, |(width, _)| f64::from(width) / self.unit)
     }
 
@@ -307,14 +308,14 @@ impl Ranged for Span {
 impl ValueFormatter<f64> for Span {
     fn format_ext(&self, place: &f64) -> String {
         let is_linear = self.scale == Scale::Linear;
-        let value = if is_linear { *place } else { 10_f64.powf(*place) };
-        if value != 0.0 && !(1e-4..1e7).contains(&value.abs()) {
-            return format!("{value:.0e}").replace('-', "−");
+        let power = (place + 1e-9).floor();
+        if !is_linear && !(-4.0..7.0).contains(&power) {
+            return format!("{:.0}e{power}", 10_f64.powf(place - power)).replace('-', "−");
         }
+        let value = if is_linear { *place } else { 10_f64.powf(*place) };
         // Enough decimals for the step of linear marks, and for the first figure of logarithmic ones.
-        let step = if is_linear { 0.1 * (self.high - self.low) } else { value };
-        let decimals = (-1e-9 - step.log10().floor()).ceil().clamp(0.0, 9.0) as usize;
-        numbers::grouped(numbers::trimmed(value, decimals)).replace('-', "−")
+        let decimals = if is_linear { -(0.1 * (self.high - self.low)).log10().floor() } else { -power };
+        numbers::grouped(numbers::trimmed(value, decimals.clamp(0.0, 9.0) as usize)).replace('-', "−")
     }
 }
 

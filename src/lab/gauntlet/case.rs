@@ -33,7 +33,7 @@ pub struct GauntletCase {
     /// The scene.
     pub(super) scene: &'static str,
     /// Knobs of the scene that are turned, on top of the quality.
-    pub(super) settings: &'static [(&'static str, &'static str)],
+    pub(super) settings: fn() -> Vec<(String, String)>,
     /// What the start has that a scene's text can't say.
     pub(super) arrange: Option<fn(&mut Blueprint)>,
     /// What is done before each tick.
@@ -142,7 +142,7 @@ impl GauntletCase {
         size: Size::Usual,
         over: Over::Qualities,
         scene: "",
-        settings: &[],
+        settings: Vec::new,
         arrange: None,
         act: None,
         frames: None,
@@ -179,8 +179,7 @@ impl GauntletCase {
 
     /// Its world at a quality.
     pub(super) fn blueprint(&self, preset: Preset) -> Result<Blueprint, SceneError> {
-        let settings: Vec<_> =
-            self.settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+        let settings = (self.settings)();
         let mut blueprint =
             scene::from_text(&self.scene_name(), self.scene)?.build(&settings, Some(preset), &EffectModes::new())?;
         if let Some(arrange) = self.arrange {

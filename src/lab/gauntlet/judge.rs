@@ -3,13 +3,13 @@
 use crate::{
     kernel::{params::Preset, particles::Particles, units::TICKS_PER_SECOND},
     lab::{
+        balance::matter,
         cases::Verdict,
         density::density_error,
         gauntlet::{
             case::{GauntletCase, Rules},
             stability::Stability,
         },
-        sampler::matter,
         stats,
     },
     sim::{

@@ -93,11 +93,13 @@ fn introduction(command: &str, processor: &str) -> String {
          leaves open is told in [stability.md](stability.md).\n\n\
          *gain*: kinetic and potential energy above what was there and was put in, as the speed that all particles \
          together would have of it. *density*: 99th percentile of the density error, the worst after the shock and over \
-         the last tenth of the case. *motion*: rms speed over the last tenth, d a tick. *work*: the dearest tick as a \
-         multiple of a calm one (candidate pairs a particle × substeps × iterations; the same on every machine). *clamps*: \
-         what all limiters did, summed over particles, cells and substeps. *ms*: median and longest tick, one thread \
-         ({processor}, all processors busy).\n\n\
-         In every case: every value is finite and no pressure below 0 after every tick, nobody is ever outside the box or \
-         inside rock, no particle gets lost."
+         the last tenth of the case. *motion*: rms speed over the last tenth, d a tick. *work*: the most expensive tick as \
+         a multiple of a calm one (candidate pairs a particle × substeps × iterations; the same on every machine). \
+         *clamps*: what all limiters did, summed over particles, cells and substeps. *ms*: median and longest tick, one \
+         thread ({processor}, all processors busy).\n\n\
+         In every case: every value is finite and no pressure below 0 after every tick, no particle is ever outside the \
+         box or inside rock, and none gets lost. Runs that differ in nothing are done once: `ends_1` to `ends_7` set every \
+         number of the quality, so that they stand for all qualities from `draft` on, and `quality_changes` chooses its \
+         qualities by itself."
     )
 }

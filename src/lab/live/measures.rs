@@ -3,7 +3,8 @@
 
 use crate::{
     lab::{
-        sampler::{air_mass, matter, residual},
+        balance::matter,
+        sampler::{air_mass, residual},
         volume::volume_error,
     },
     scene::effects::{Effect, Mode},

@@ -1,6 +1,6 @@
 //! "Measure here": from the world as it is, every preset is run a little way, and its time and error make the curve of
-//! this very moment. Play goes on: the work is done by one thread that rests as long as it works, or, where there are no
-//! threads, in slices between frames.
+//! this very moment. Play goes on: the work is done in the background by half of a thread, or, where there are no threads, in
+//! slices between frames.
 
 use crate::{
     kernel::{
@@ -10,6 +10,8 @@ use crate::{
     lab::{
         autopilot::ladder,
         density::density_error,
+        drive::pause,
+        jobs::{Handle, Share},
         live::accuracy::{Curve, CurvePoint, Survey, SurveyRequest, fingerprint},
         stats,
     },
@@ -23,18 +25,8 @@ use crate::{
         workers::Workers,
     },
 };
-use bevy::{
-    platform::time::Instant,
-    prelude::{Mut, Resource, World},
-};
-use std::{
-    sync::{
-        Arc, Mutex, PoisonError,
-        atomic::{AtomicBool, Ordering},
-    },
-    thread,
-    time::Duration,
-};
+use bevy::prelude::{Mut, Resource, World};
+use std::sync::mpsc::Sender;
 
 /// Ticks in which the state gets used to a quality.
 const WARMUP: u32 = 30;
@@ -42,13 +34,11 @@ const WARMUP: u32 = 30;
 const TICKS: u32 = 90;
 /// Ticks from one measurement of the error to the next.
 const MEASURE_EVERY: u32 = 10;
-/// Time that a slice may take of a frame.
-const SLICE: Duration = Duration::from_millis(4);
 
 /// Runs the surveys.
 #[derive(Resource, Default)]
 pub struct Surveyor {
-    job: Option<Job>,
+    handle: Option<Handle<Message>>,
     /// Never on a thread of its own.
     sliced: bool,
 }
@@ -56,27 +46,16 @@ pub struct Surveyor {
 impl Surveyor {
     /// One that works in slices between frames, as where there are no threads.
     pub fn sliced() -> Self {
-        Self { job: None, sliced: true }
+        Self { handle: None, sliced: true }
     }
 }
 
-enum Job {
-    Thread { shared: Arc<Shared> },
-    Slices(Box<Work>),
-}
-
-/// What the thread tells, and is told.
-#[derive(Default)]
-struct Shared {
-    cancelled: AtomicBool,
-    found: Mutex<Found>,
-}
-
-#[derive(Clone, Debug, Default)]
-struct Found {
-    results: Vec<Done>,
+/// What the work tells after each tick.
+struct Message {
+    /// Share that is done, 0 … 1.
     progress: f32,
-    done: bool,
+    /// What a run found, if one came to its end.
+    result: Option<Done>,
 }
 
 /// What a run found.
@@ -89,8 +68,8 @@ enum Done {
 }
 
 impl Done {
-    fn note(self, curve: &mut Curve) {
-        match self {
+    fn note(&self, curve: &mut Curve) {
+        match *self {
             Self::Here(milliseconds) => curve.here_on_one_thread = Some(milliseconds),
             Self::Point(point) => curve.points.push(point),
         }
@@ -103,7 +82,7 @@ pub fn run(world: &mut World) {
         match world.resource_mut::<Survey>().request.take() {
             Some(SurveyRequest::Begin) => surveyor.begin(world),
             Some(SurveyRequest::Cancel) => {
-                surveyor.cancel();
+                surveyor.handle = None;
                 world.resource_mut::<Survey>().progress = None;
             }
             None => {}
@@ -114,7 +93,6 @@ pub fn run(world: &mut World) {
 
 impl Surveyor {
     fn begin(&mut self, world: &mut World) {
-        self.cancel();
         let (setup, clock) = (world.resource::<Setup>(), world.resource::<Clock>());
         let sleep = Asleep::of(world);
         let curve = Curve {
@@ -126,69 +104,21 @@ impl Surveyor {
         };
         let work = Work::new(world, sleep);
         *world.resource_mut::<Survey>() = Survey { request: None, progress: Some(0.0), curve };
-        self.job = Some(if self.sliced { Job::Slices(Box::new(work)) } else { start(work) });
-    }
-
-    fn cancel(&mut self) {
-        if let Some(Job::Thread { shared }) = self.job.take() {
-            shared.cancelled.store(true, Ordering::Relaxed);
-        }
+        self.handle = Some(match self.sliced {
+            true => Handle::sliced(|messages| work.run(messages)),
+            false => Handle::start(Share::Half, |messages| work.run(messages)),
+        });
     }
 
     fn follow(&mut self, survey: &mut Survey) {
-        let done = match &mut self.job {
-            None => return,
-            Some(Job::Thread { shared }) => {
-                let found = shared.found.lock().unwrap_or_else(PoisonError::into_inner).clone();
-                let known = survey.curve.points.len() + usize::from(survey.curve.here_on_one_thread.is_some());
-                found.results.iter().skip(known).for_each(|result| result.note(&mut survey.curve));
-                survey.progress = Some(found.progress);
-                // A thread that is gone has nothing more to tell, whatever became of it.
-                found.done || Arc::strong_count(shared) == 1
-            }
-            Some(Job::Slices(work)) => {
-                let begun = Instant::now();
-                while !work.is_done() && begun.elapsed() < SLICE {
-                    if let Some(result) = work.advance() {
-                        result.note(&mut survey.curve);
-                    }
-                }
-                survey.progress = Some(work.progress());
-                work.is_done()
-            }
-        };
-        if done {
-            (self.job, survey.progress) = (None, None);
+        let Some(handle) = &mut self.handle else { return };
+        for Message { progress, result } in handle.advance() {
+            survey.progress = Some(progress);
+            result.iter().for_each(|result| result.note(&mut survey.curve));
         }
-    }
-}
-
-/// Starts a thread for the work; without threads it is done in slices.
-fn start(work: Work) -> Job {
-    let shared = Arc::new(Shared::default());
-    let (theirs, slot) = (shared.clone(), Arc::new(Mutex::new(Some(work))));
-    let taken = slot.clone();
-    let started = thread::Builder::new().name("survey".into()).spawn(move || {
-        let work = taken.lock().unwrap_or_else(PoisonError::into_inner).take();
-        if let Some(work) = work {
-            work_aside(work, &theirs);
+        if handle.is_over() {
+            (self.handle, survey.progress) = (None, None);
         }
-    });
-    // Where no thread starts, nobody else wants the work.
-    let left = started.err().and_then(|_| slot.lock().unwrap_or_else(PoisonError::into_inner).take());
-    left.map_or(Job::Thread { shared }, |work| Job::Slices(Box::new(work)))
-}
-
-fn work_aside(mut work: Work, shared: &Shared) {
-    while !work.is_done() && !shared.cancelled.load(Ordering::Relaxed) {
-        let begun = Instant::now();
-        let result = work.advance();
-        let mut found = shared.found.lock().unwrap_or_else(PoisonError::into_inner);
-        found.results.extend(result);
-        (found.progress, found.done) = (work.progress(), work.is_done());
-        drop(found);
-        // Half of the time belongs to the game.
-        thread::sleep(begun.elapsed());
     }
 }
 
@@ -262,6 +192,17 @@ impl Work {
 
     fn is_done(&self) -> bool {
         self.left.is_empty() && self.run.is_none()
+    }
+
+    /// Does all of it, a tick at a time.
+    async fn run(mut self, messages: Sender<Message>) {
+        while !self.is_done() {
+            let result = self.advance();
+            if messages.send(Message { progress: self.progress(), result }).is_err() {
+                return;
+            }
+            pause().await;
+        }
     }
 
     /// Share that is done, 0 … 1.
@@ -351,6 +292,7 @@ mod tests {
         },
         sim::{simulation::Simulation, state::SleepState},
     };
+    use std::sync::Arc;
 
     /// A pool whose water and air came to rest.
     fn pool() -> Simulation {

@@ -9,7 +9,7 @@ pub use player::{BOUT, Player};
 pub use report::{Period, Report, Totals};
 
 use crate::{
-    lab::{machine, sampler::matter},
+    lab::{balance::matter, machine},
     sim::{
         intent::IntentQueue,
         ledger::PassLedger,

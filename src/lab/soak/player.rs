@@ -1,4 +1,4 @@
-//! A player by script: the same whims for the same seed.
+//! A player by script: the same play for the same seed.
 
 use crate::{
     kernel::{
@@ -18,7 +18,7 @@ pub const BOUT: u64 = 3600;
 const WALL: Vec2 = Vec2::new(14.0, 2.0);
 
 /// Plays in bouts of a minute: pours for some seconds here and there, builds a wall, blows and sucks, and takes the wall
-/// away again. Between its hands' work the world is left alone. What it builds stands where the scene has no rock, so
+/// away again. Between these the world is left alone. What it builds stands where the scene has no rock, so
 /// that taking it away leaves the scene as it was.
 #[derive(Clone, Debug)]
 pub struct Player {
@@ -28,11 +28,11 @@ pub struct Player {
     movable: Vec<ElementId>,
     fixed: Vec<ElementId>,
     wall: Option<Stroke>,
-    hand: Vec2,
+    at: Vec2,
 }
 
 impl Player {
-    /// A player of the scene whose whims are those of `seed`.
+    /// A player of the scene, with random choices by `seed`.
     pub fn new(blueprint: &Blueprint, seed: u64) -> Self {
         let of = |table: &ElementTable, fixed: bool| {
             table.iter().filter(|(_, element)| element.fixed == fixed).map(|(id, _)| id).collect()
@@ -44,7 +44,7 @@ impl Player {
             movable: of(&blueprint.elements, false),
             fixed: of(&blueprint.elements, true),
             wall: None,
-            hand: 0.5 * blueprint.domain.size,
+            at: 0.5 * blueprint.domain.size,
         }
     }
 
@@ -99,12 +99,12 @@ impl Player {
     /// A short drag from where the hand is; now and then the hand is lifted and set down elsewhere.
     fn drag(&mut self, radius: f32) -> Stroke {
         if self.random.below(20) == 0 {
-            self.hand = self.point();
+            self.at = self.point();
         }
-        let from = self.hand;
+        let from = self.at;
         let step = (self.point() / self.size - 0.5) * 8.0;
-        self.hand = (from + step).clamp(Vec2::ZERO, self.size);
-        Stroke { shape: BrushShape::Disc, from, to: self.hand, radius }
+        self.at = (from + step).clamp(Vec2::ZERO, self.size);
+        Stroke { shape: BrushShape::Disc, from, to: self.at, radius }
     }
 
     /// Anywhere in the box, d.
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_seed_has_the_same_whims_and_all_of_them() {
+    fn the_same_seed_plays_the_same_and_does_everything() {
         let played = acts(1, 20);
         assert_eq!(played, acts(1, 20));
         assert_ne!(played, acts(2, 20));

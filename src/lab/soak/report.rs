@@ -20,7 +20,7 @@ const COUNT_DRIFT: f64 = 0.05;
 /// How many times the mean kinetic energy of the second quarter that of the last may be.
 const ENERGY_GROWTH: f64 = 2.0;
 
-/// Looks of a stretch of time.
+/// The samples of a period.
 #[derive(Clone, Debug, Default)]
 pub struct Period {
     /// Times of the ticks, ms.
@@ -59,7 +59,7 @@ impl Period {
     }
 }
 
-/// What is kept of a stretch of time.
+/// What is kept of a period.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Totals {
     /// Minutes from the start of the soak to its end.

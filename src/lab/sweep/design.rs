@@ -1,7 +1,10 @@
 //! What a sweep measures: the presets, a plane of substeps × iterations, and around each preset one knob at a time.
 
 use super::error::ErrorMeasure;
-use crate::kernel::params::{AirAdvection, Preset, Quality};
+use crate::{
+    kernel::params::{AirAdvection, Preset, Quality},
+    scene::{KNOBS, Knob, Part, Tuning},
+};
 use std::ops::RangeInclusive;
 
 /// The presets that are meant to run in real time: the ones whose neighbours are measured.
@@ -45,23 +48,9 @@ impl Setting {
 
     /// The knobs in one word, exact: what the journal knows it by.
     pub fn key(&self) -> String {
-        let Quality {
-            substeps,
-            iterations,
-            kernel_radius,
-            correction_limit,
-            air_cell,
-            air_courant,
-            air_advection,
-            gradient,
-            predictor,
-        } = self.quality;
-        let threads = self.threads;
-        format!(
-            "{substeps}x{iterations} h{kernel_radius} c{correction_limit} {gradient:?} p{predictor} a{air_cell} \
-             C{air_courant} \
-             {air_advection:?} t{threads}"
-        )
+        let tuning = Tuning::from(self.quality);
+        let knobs: String = Knob::of_quality().map(|knob| format!("{} {} ", knob.name, knob.text(&tuning))).collect();
+        format!("{knobs}predictor {} threads {}", self.quality.predictor, self.threads)
     }
 }
 
@@ -199,8 +188,11 @@ pub fn other_threads(chosen: usize, available: usize) -> Vec<usize> {
 
 /// The knobs that make a difference: without air its own do not.
 pub(super) fn effective(quality: Quality, has_air: bool) -> Quality {
-    let Quality { air_cell, air_courant, air_advection, .. } = Preset::Reference.quality();
-    if has_air { quality } else { Quality { air_cell, air_courant, air_advection, ..quality } }
+    let (mut tuning, any) = (Tuning::from(quality), Tuning::from(Preset::Reference.quality()));
+    for knob in KNOBS.iter().filter(|knob| !has_air && knob.part == Part::Air) {
+        knob.set(&mut tuning, knob.get(&any));
+    }
+    tuning.quality
 }
 
 #[cfg(test)]

@@ -1,108 +1,120 @@
 //! curve.csv: a line for every setting. A field is empty where a value does not apply.
 
 use super::row::Row;
-use crate::kernel::params::{Preset, Quality};
+use crate::{
+    kernel::params::Preset,
+    scene::{KNOBS, Knob, Part, Tuning},
+};
 use std::io::{self, Write};
 
-/// Names of the columns with what they hold.
-pub const COLUMNS: [(&str, &str); 33] = [
-    ("setting", "name of the setting, unique in the table"),
-    ("preset", "name of the preset that it is"),
-    ("threads", "threads of the kernel"),
-    ("substeps", "substeps a tick"),
-    ("iterations", "solver iterations a substep"),
-    ("kernel_radius", "kernel radius h, d"),
-    ("gradient", "gradient kernel: spiky or rational"),
-    ("correction_limit", "furthest correction in a substep, d"),
-    ("predictor", "whether the pressure predictor runs: true or false"),
-    ("air_cell", "edge of an air cell, d"),
-    ("air_courant", "Courant number of the air's substeps"),
-    ("air_advection", "advection of the air: first_order or second_order"),
-    ("runs", "number of runs"),
-    ("ms", "time of a tick, ms: the median over the runs of their medians"),
-    ("ms_low", "median of the fastest run, ms"),
-    ("ms_high", "median of the slowest run, ms"),
-    ("ms_p95", "95th percentile of the ticks, ms: the median over the runs"),
-    ("error", "the error that counts: error_p99, or distance_air in a scene about air"),
-    ("error_mean", "density error: mean over the interior particles, a fraction"),
-    ("error_p99", "density error: 99th percentile, a fraction"),
-    ("error_max", "density error: largest, a fraction"),
-    ("density_mean", "mean density of the interior particles, 1 at rest density"),
-    ("volume_error", "room that the liquid takes too much, a fraction"),
-    ("residual", "the solver's own mean constraint where it is violated, in the last iteration"),
-    ("energy_gain", "highest energy against the start's less 1, without what swelling takes; only in closed scenes"),
-    ("lost", "particles that were not finite, and particle-ticks outside the box or in rock"),
-    ("distance_share", "distance to the reference: liquid in another coarse cell, a fraction"),
-    ("distance_momentum", "distance to the reference: momentum"),
-    ("distance_air", "distance to the reference: mean air velocity"),
-    ("particles", "particles at the end, rock included"),
-    ("front", "whether no valid setting beats it: true or false"),
-    ("faults", "what makes the row invalid, separated by semicolons"),
-    ("hash", "hash of the final state"),
+/// A column: its name, what it holds, and its field.
+type Column = (&'static str, &'static str, Field);
+
+/// What makes the field of a column.
+enum Field {
+    /// The value of a knob.
+    Knob(&'static Knob),
+    /// This.
+    Of(fn(&Row) -> String),
+}
+use Field::Of;
+
+const SETTING: [Column; 3] = [
+    ("setting", "name of the setting, unique in the table", Of(|row| row.setting.name.clone())),
+    ("preset", "name of the preset that it is", Of(|row| row.setting.preset.map_or("", Preset::name).to_owned())),
+    ("threads", "threads of the kernel", Of(|row| row.setting.threads.to_string())),
 ];
+
+const PREDICTOR: Column = (
+    "predictor",
+    "whether the pressure predictor runs: true or false",
+    Of(|row| row.setting.quality.predictor.to_string()),
+);
+
+const RESULTS: [Column; 21] = [
+    ("runs", "number of runs", Of(|row| row.runs.to_string())),
+    ("ms", "time of a tick, ms: the median over the runs of their medians", Of(|row| ms(row.ms))),
+    ("ms_low", "median of the fastest run, ms", Of(|row| ms(row.ms_range[0]))),
+    ("ms_high", "median of the slowest run, ms", Of(|row| ms(row.ms_range[1]))),
+    ("ms_p95", "95th percentile of the ticks, ms: the median over the runs", Of(|row| ms(row.ms_p95))),
+    (
+        "error",
+        "the error that counts: error_p99, or distance_air in a scene about air",
+        Of(|row| share(Some(row.error).filter(|error| error.is_finite()))),
+    ),
+    (
+        "error_mean",
+        "density error: mean over the interior particles, a fraction",
+        Of(|row| share(row.found.error_mean)),
+    ),
+    ("error_p99", "density error: 99th percentile, a fraction", Of(|row| share(row.found.error_p99))),
+    ("error_max", "density error: largest, a fraction", Of(|row| share(row.found.error_max))),
+    (
+        "density_mean",
+        "mean density of the interior particles, 1 at rest density",
+        Of(|row| share(row.found.density_mean)),
+    ),
+    ("volume_error", "room that the liquid takes too much, a fraction", Of(|row| share(row.found.volume_error))),
+    (
+        "residual",
+        "the solver's own mean constraint where it is violated, in the last iteration",
+        Of(|row| share(row.found.residual)),
+    ),
+    (
+        "energy_gain",
+        "highest energy against the start's less 1, without what swelling takes; only in closed scenes",
+        Of(|row| share(row.found.energy_gain)),
+    ),
+    (
+        "lost",
+        "particles that were not finite, and particle-ticks outside the box or in rock",
+        Of(|row| row.found.lost.to_string()),
+    ),
+    (
+        "distance_share",
+        "distance to the reference: liquid in another coarse cell, a fraction",
+        Of(|row| share(row.found.distance.share)),
+    ),
+    ("distance_momentum", "distance to the reference: momentum", Of(|row| share(row.found.distance.momentum))),
+    ("distance_air", "distance to the reference: mean air velocity", Of(|row| share(row.found.distance.air))),
+    ("particles", "particles at the end, rock included", Of(|row| row.found.particles.to_string())),
+    ("front", "whether no valid setting beats it: true or false", Of(|row| row.front.to_string())),
+    ("faults", "what makes the row invalid, separated by semicolons", Of(|row| row.faults.join("; "))),
+    ("hash", "hash of the final state", Of(|row| row.hash.clone())),
+];
+
+/// All columns in their order.
+fn columns() -> Vec<Column> {
+    let knobs = |part: Part| {
+        let knobs = KNOBS.iter().filter(move |knob| knob.part == part);
+        knobs.map(|knob| (knob.name, knob.meaning, Field::Knob(knob)))
+    };
+    SETTING.into_iter().chain(knobs(Part::Solver)).chain([PREDICTOR]).chain(knobs(Part::Air)).chain(RESULTS).collect()
+}
+
+fn ms(value: f64) -> String {
+    format!("{value:.4}")
+}
+
+fn share(value: Option<f64>) -> String {
+    value.map_or_else(String::new, |value| format!("{value:.6}"))
+}
 
 /// Writes the table, fastest setting first.
 pub fn write(rows: &[Row], out: impl Write) -> io::Result<()> {
+    let columns = columns();
     let mut table = csv::Writer::from_writer(out);
-    table.write_record(COLUMNS.map(|(name, _)| name))?;
+    table.write_record(columns.iter().map(|(name, ..)| name))?;
     let mut order: Vec<&Row> = rows.iter().collect();
     order.sort_by(|a, b| a.ms.total_cmp(&b.ms));
     for row in order {
-        table.write_record(fields(row))?;
+        let tuning = Tuning::from(row.setting.quality);
+        table.write_record(columns.iter().map(|(.., field)| match field {
+            Field::Knob(knob) => knob.text(&tuning),
+            Of(text) => text(row),
+        }))?;
     }
     table.flush()
-}
-
-fn fields(row: &Row) -> [String; COLUMNS.len()] {
-    let Row { setting, found, .. } = row;
-    let Quality {
-        substeps,
-        iterations,
-        kernel_radius,
-        correction_limit,
-        air_cell,
-        air_courant,
-        air_advection,
-        gradient,
-        predictor,
-    } = setting.quality;
-    let ms = |value: f64| format!("{value:.4}");
-    let share = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.6}"));
-    [
-        setting.name.clone(),
-        setting.preset.map_or("", Preset::name).to_owned(),
-        setting.threads.to_string(),
-        substeps.to_string(),
-        iterations.to_string(),
-        kernel_radius.to_string(),
-        gradient.name().to_owned(),
-        correction_limit.to_string(),
-        predictor.to_string(),
-        air_cell.to_string(),
-        air_courant.to_string(),
-        air_advection.name().to_owned(),
-        row.runs.to_string(),
-        ms(row.ms),
-        ms(row.ms_range[0]),
-        ms(row.ms_range[1]),
-        ms(row.ms_p95),
-        share(Some(row.error).filter(|error| error.is_finite())),
-        share(found.error_mean),
-        share(found.error_p99),
-        share(found.error_max),
-        share(found.density_mean),
-        share(found.volume_error),
-        share(found.residual),
-        share(found.energy_gain),
-        found.lost.to_string(),
-        share(found.distance.share),
-        share(found.distance.momentum),
-        share(found.distance.air),
-        found.particles.to_string(),
-        row.front.to_string(),
-        row.faults.join("; "),
-        row.hash.clone(),
-    ]
 }
 
 #[cfg(test)]
@@ -112,7 +124,7 @@ mod tests {
     #[test]
     fn the_document_says_what_every_column_holds() {
         let document = include_str!("../../../docs/accuracy.md");
-        for (name, meaning) in COLUMNS {
+        for (name, meaning, _) in columns() {
             let line = format!("| `{name}` | {meaning} |");
             assert!(document.contains(&line), "docs/accuracy.md has no line {line}");
         }
@@ -131,6 +143,6 @@ mod tests {
         assert!(lines[1].contains("energy up by 2.0 %; mean density 0.970"), "{}", lines[1]);
         assert!(lines[2].starts_with("fine,fine,1,"), "{}", lines[2]);
         assert!(lines[2].contains(",1.5000,1.5000,1.5000,1.5000,0.005000,,0.005000,,0.990000,"), "{}", lines[2]);
-        assert_eq!(lines[2].split(',').count(), COLUMNS.len());
+        assert_eq!(lines[2].split(',').count(), columns().len());
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::{
     kernel::units::TICKS_PER_SECOND,
-    lab::{run::Observer, sampler::matter},
+    lab::{balance::matter, run::Observer},
     scene::effects::Pass,
     sim::{
         ledger::PassLedger,

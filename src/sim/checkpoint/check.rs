@@ -4,14 +4,16 @@ use super::contents::Contents;
 use crate::{
     kernel::{
         air::Air,
+        columns::ABSURD,
         element::{Element, ElementId, ElementTable},
         params::{AirParams, Domain, Preset, Quality},
+        particles::Particles,
         solids::Solids,
         sources::Rect,
         units::Scale,
     },
     scene::{
-        MOST_COVERED,
+        MOST_COVERED, Tuning,
         effects::Effect,
         elements::{self, Fault},
     },
@@ -26,8 +28,6 @@ const MOST_CELLS: f32 = 64e6;
 const LONGEST_SIDE: f32 = 32_768.0;
 /// Highest pressure of the predictor, d/s: that of the fastest moves over the longest side in cells, and more.
 const ABSURD_POTENTIAL: f32 = 1e12;
-/// Furthest that anything lies and fastest that anything moves, d and d/s.
-const ABSURD: f32 = 1e9;
 /// Most ticks and edits that a world has seen, and ticks until a tap flows: some five million years, and far from where
 /// counting on would come to the end of the numbers.
 const LAST_TICK: u64 = 1 << 53;
@@ -82,15 +82,9 @@ fn numbers(contents: &Contents) -> Verdict {
     let cells = domain.size.ceil();
     within("number of cells", cells.x * cells.y, 16.0, MOST_CELLS)?;
     gravity(domain.gravity, *scale)?;
-    within("rest_density", fluid.rest_density, 0.1, 100.0)?;
-    within("relaxation", fluid.relaxation, 1e-4, 10.0)?;
-    within("constraint_floor", fluid.constraint_floor, -1.0, 0.0)?;
-    within("tension_strength", fluid.tension_strength, 0.0, 1.0)?;
-    within("tension_distance", fluid.tension_distance, 0.1, 0.3)?;
-    self::quality(quality)?;
+    Tuning { fluid: *fluid, quality: *quality, particle_limit: contents.particle_limit }.check()?;
     within("sound_speed", air_params.sound_speed * scale.spacing, 1.0 / ROUNDING, 400.0 * ROUNDING)?;
-    within("air_density", air_params.density, 0.01, 1000.0)?;
-    within("particle_limit", contents.particle_limit as f32, 1.0, 4e6)
+    within("air_density", air_params.density, 0.01, 1000.0)
 }
 
 /// Gravity in d/s² at a spacing: in m/s² it keeps to the range of scenes.
@@ -100,12 +94,7 @@ pub(in crate::sim) fn gravity(gravity: Vec2, scale: Scale) -> Verdict {
 
 /// The numbers of a quality.
 pub(crate) fn quality(quality: &Quality) -> Verdict {
-    within("substeps", quality.substeps as f32, 1.0, 64.0)?;
-    within("iterations", quality.iterations as f32, 1.0, 64.0)?;
-    within("kernel_radius", quality.kernel_radius, 2.0, 4.0)?;
-    within("correction_limit", quality.correction_limit, 0.05, 0.5)?;
-    within("air_cell", quality.air_cell, 1.0, 32.0)?;
-    within("air_courant", quality.air_courant, 0.1, 0.9)
+    Tuning::from(*quality).check()
 }
 
 fn element_rows(elements: &[Element]) -> Verdict {
@@ -136,17 +125,14 @@ fn is_movable(contents: &Contents, element: ElementId) -> bool {
 
 fn particles(contents: &Contents) -> Verdict {
     let (particles, rock, clock) = (&contents.particles, &contents.rock, &contents.clock);
-    let lengths =
-        [particles.x.len(), particles.y.len(), particles.vx.len(), particles.vy.len(), particles.element.len()];
-    demand(lengths.iter().all(|&len| len == particles.id.len()), || {
-        "the particles' arrays differ in length".to_owned()
-    })?;
+    demand(particles.has_equal_columns(), || "the particles' arrays differ in length".to_owned())?;
     let total = particles.len() + rock.len();
     demand(total <= contents.particle_limit as usize, || format!("{total} particles are more than its limit"))?;
+    // Places are checked against the cells of the box, where there are some.
     for i in 0..particles.len() {
-        // Places are checked against the cells of the box, where there are some.
-        finite("a position", particles.position(i))?;
-        finite("a velocity", particles.velocity(i))?;
+        for (name, value) in Particles::COLUMNS.iter().zip(particles.get(i).values()) {
+            demand(value.is_sound(), || format!("{name} of a particle is no number, or {ABSURD:e} and more"))?;
+        }
     }
     let known = particles.element.iter().all(|&element| is_movable(contents, element));
     demand(known, || "a particle is of no movable element".to_owned())?;

@@ -1,7 +1,10 @@
 //! A world between two ticks: taken, and put back.
 
 use crate::{
-    kernel::params::{Preset, Quality},
+    kernel::{
+        element::ElementParams,
+        params::{Preset, Quality},
+    },
     scene::{
         blueprint::Blueprint,
         effects::{Effect, EffectModes, Mode},
@@ -12,7 +15,7 @@ use crate::{
         generation::Generation,
         ledger::PassLedger,
         snapshot::Snapshot,
-        state::{Counters, Rates, Setup},
+        state::{Counters, Elements, Setup},
     },
 };
 use bevy::prelude::World;
@@ -65,7 +68,7 @@ impl Checkpoint {
         } else {
             Generation::count_scene(world);
             world.insert_resource(Effects::new(&self.modes));
-            world.insert_resource(Rates::new(&blueprint.elements, blueprint.scale));
+            world.insert_resource(Elements(ElementParams::new(&blueprint.elements, blueprint.scale)));
             world.insert_resource(Counters::default());
             world.insert_resource(PassLedger::default());
         }

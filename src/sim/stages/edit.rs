@@ -14,7 +14,7 @@ use crate::{
         effects::Effects,
         intent::{Intent, IntentQueue},
         recorder::Recorder,
-        state::{AirGrid, Census, Clock, Counters, ParticleStore, Rates, Rock, Setup},
+        state::{AirGrid, Census, Clock, Counters, Elements, ParticleStore, Rock, Setup},
     },
 };
 use bevy::prelude::{Res, ResMut};
@@ -31,7 +31,7 @@ pub(super) fn apply_intents(
     mut particles: ResMut<ParticleStore>,
     mut rock: ResMut<Rock>,
     mut air: ResMut<AirGrid>,
-    rates: Res<Rates>,
+    elements: Res<Elements>,
     mut clock: ResMut<Clock>,
     mut counters: ResMut<Counters>,
     mut census: ResMut<Census>,
@@ -67,7 +67,7 @@ pub(super) fn apply_intents(
                 let wind = air.blow(stroke.to, stroke.radius, velocity);
                 if air_may_yield(&setup, &effects) {
                     let radius = stroke.radius.max(air.cell());
-                    forces::drag_in_disc(stroke.to, radius, wind, &rates.drag, &mut particles, TICK_SECONDS);
+                    forces::drag_in_disc(stroke.to, radius, wind, &elements, &mut particles, TICK_SECONDS);
                 }
                 EditReport::default()
             }

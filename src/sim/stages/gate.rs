@@ -6,7 +6,7 @@ use crate::{
     sim::{
         effects::Effects,
         stages::TickPlan,
-        state::{AirGrid, Census, Counters, ParticleStore, Rates, Setup, SleepState, Sources},
+        state::{AirGrid, Census, Counters, Elements, ParticleStore, Setup, SleepState, Sources},
     },
 };
 use bevy::prelude::{Res, ResMut};
@@ -19,7 +19,7 @@ pub(super) fn plan_tick(
     sources: Res<Sources>,
     census: Res<Census>,
     asleep: Res<SleepState>,
-    rates: Res<Rates>,
+    elements: Res<Elements>,
     mut effects: ResMut<Effects>,
     mut counters: ResMut<Counters>,
     mut plan: ResMut<TickPlan>,
@@ -41,7 +41,7 @@ pub(super) fn plan_tick(
         has_tension: setup.blueprint.fluid.tension_strength > 0.0,
         has_winds: !sources.winds.is_empty(),
         air_moves: !air.is_quiet(),
-        stirs_air: air.may_be_roused(rates.drag_table(), fastest, TICK_SECONDS / setup.quality.substeps as f32),
+        stirs_air: air.may_be_roused(&elements, fastest, TICK_SECONDS / setup.quality.substeps as f32),
     });
     let wanted = predict::substeps(fastest, &setup.domain, &setup.quality, TICK_SECONDS);
     plan.substeps = wanted.count;

@@ -2,11 +2,14 @@
 
 use crate::{
     kernel::sleep::LOOK_TICKS,
-    scene::effects::{Effect, Mode},
+    scene::{
+        KNOBS, Part,
+        effects::{Effect, Mode},
+    },
     sim::{
         effects::Effects,
         snapshot::hash_bytes,
-        state::{AirGrid, Clock, ParticleStore, Rates, Rock, Setup, SleepState, SolverState},
+        state::{AirGrid, Clock, Elements, ParticleStore, Rock, Setup, SleepState, SolverState},
     },
 };
 use bevy::prelude::{Res, ResMut};
@@ -43,30 +46,18 @@ pub(super) fn check_sleepers(
     asleep
 }
 
-/// Wakes all where the conditions changed under which they fell asleep.
+/// Wakes all where the conditions changed under which they fell asleep: gravity, what the solver goes by, and the effects.
 pub(super) fn keep_asleep(mut sleep: ResMut<SleepState>, effects: Res<Effects>, setup: Res<Setup>) {
-    let mut bytes = [0; 64];
-    let quality = &setup.quality;
-    let gravity = setup.domain.gravity;
-    let numbers = [
-        gravity.x.to_bits(),
-        gravity.y.to_bits(),
-        quality.substeps,
-        quality.iterations,
-        quality.kernel_radius.to_bits(),
-        quality.correction_limit.to_bits(),
-        quality.gradient as u32,
-        setup.blueprint.fluid.rest_density.to_bits(),
-    ];
+    let gravity = setup.domain.gravity.to_array().map(f64::from);
+    let knobs = KNOBS.iter().filter(|knob| [Part::Solver, Part::Liquid].contains(&knob.part));
     let acting = Effect::ALL.into_iter().filter(|effect| effect.row().wakes);
-    for (bytes, number) in bytes.chunks_exact_mut(4).zip(numbers) {
-        bytes.copy_from_slice(&number.to_le_bytes());
-    }
-    bytes[32] = u8::from(lets_water_rest(&effects, &setup));
-    for (byte, effect) in bytes[33..].iter_mut().zip(acting) {
-        *byte = u8::from(effects.get(effect).running);
-    }
-    sleep.keep_under(hash_bytes(&bytes));
+    let conditions = (gravity.into_iter())
+        .chain(knobs.map(|knob| knob.get(&setup.tuning())))
+        .chain([f64::from(lets_water_rest(&effects, &setup))])
+        .chain(acting.map(|effect| f64::from(effects.get(effect).running)));
+    let hash = conditions
+        .fold(0, |hash: u64, condition| hash_bytes([hash.to_le_bytes(), condition.to_le_bytes()].as_flattened()));
+    sleep.keep_under(hash);
 }
 
 /// Wakes the bodies that the wind reaches.
@@ -74,10 +65,10 @@ pub(super) fn wake_blown(
     mut sleep: ResMut<SleepState>,
     mut particles: ResMut<ParticleStore>,
     air: Res<AirGrid>,
-    rates: Res<Rates>,
+    elements: Res<Elements>,
     setup: Res<Setup>,
 ) -> usize {
-    let drag = rates.drag.iter().copied().fold(0.0, f32::max);
+    let drag = elements.drag.iter().copied().fold(0.0, f32::max);
     sleep.wake_blown(&mut particles, &air, drag, setup.domain.gravity);
     // It looks at the air over the bodies, and at no particle.
     0

@@ -7,7 +7,7 @@ use crate::{
         effects::Effects,
         ledger::Call,
         stages::TickPlan,
-        state::{AirGrid, Counters, ParticleStore, PredictorState, Rates, Rock, Setup, SolverState, Sources},
+        state::{AirGrid, Counters, Elements, ParticleStore, PredictorState, Rock, Setup, SolverState, Sources},
         workers::Workers,
     },
 };
@@ -56,7 +56,7 @@ pub(super) fn apply_gravity(
 pub(super) fn drag_air(
     particles: Res<ParticleStore>,
     mut air: ResMut<AirGrid>,
-    rates: Res<Rates>,
+    elements: Res<Elements>,
     solver: Res<SolverState>,
     effects: Res<Effects>,
     rock: Res<Rock>,
@@ -65,9 +65,9 @@ pub(super) fn drag_air(
 ) -> usize {
     air.build(&rock);
     let rousing = if effects.get(Effect::AirFeedback).mode == Mode::On { Rousing::Breaths } else { Rousing::Gusts };
-    let (drag, instructions) = (rates.drag_table(), solver.instructions);
+    let instructions = solver.instructions;
     workers.run_for(particles.len(), |threads| {
-        air.meet(drag, &particles, rousing, Team { instructions, threads }, plan.substep_seconds());
+        air.meet(&elements, &particles, rousing, Team { instructions, threads }, plan.substep_seconds());
     });
     particles.len()
 }
@@ -76,15 +76,15 @@ pub(super) fn drag_air(
 pub(super) fn apply_drag(
     mut particles: ResMut<ParticleStore>,
     mut air: ResMut<AirGrid>,
-    rates: Res<Rates>,
+    elements: Res<Elements>,
     effects: Res<Effects>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
 ) -> usize {
-    let (drag, dt, feedback) = (rates.drag_table(), plan.substep_seconds(), effects.acts(Effect::AirFeedback));
+    let (dt, feedback) = (plan.substep_seconds(), effects.acts(Effect::AirFeedback));
     workers.run_for(particles.len(), |threads| match feedback {
-        true => air.drag_along(drag, &mut particles, threads, dt),
-        false => forces::apply_drag(&air, drag.rates, &mut particles, threads, dt),
+        true => air.drag_along(&elements, &mut particles, threads, dt),
+        false => forces::apply_drag(&air, &elements, &mut particles, threads, dt),
     });
     particles.len()
 }
@@ -195,14 +195,14 @@ pub(super) fn update_velocities(
 pub(super) fn apply_viscosity(
     mut particles: ResMut<ParticleStore>,
     mut solver: ResMut<SolverState>,
-    rates: Res<Rates>,
+    elements: Res<Elements>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
 ) -> usize {
     let dt = plan.substep_seconds();
     let report = workers.run_for(particles.len(), |threads| {
-        velocity::apply_viscosity(&mut particles, &mut solver, &rates.viscosity, threads, dt)
+        velocity::apply_viscosity(&mut particles, &mut solver, &elements, threads, dt)
     });
     counters.strength_clamps += report.clamps;
     particles.len()
@@ -212,14 +212,14 @@ pub(super) fn apply_viscosity(
 pub(super) fn apply_vorticity(
     mut particles: ResMut<ParticleStore>,
     mut solver: ResMut<SolverState>,
-    rates: Res<Rates>,
+    elements: Res<Elements>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
 ) -> usize {
     let dt = plan.substep_seconds();
     let report = workers.run_for(particles.len(), |threads| {
-        velocity::apply_vorticity(&mut particles, &mut solver, &rates.vorticity, threads, dt)
+        velocity::apply_vorticity(&mut particles, &mut solver, &elements, threads, dt)
     });
     counters.strength_clamps += report.clamps;
     particles.len()

@@ -4,7 +4,7 @@ use crate::tank::{SUBSTEP, Tank};
 use glam::{IVec2, Vec2};
 use powder_master::kernel::{
     air::Air,
-    element::ElementId,
+    element::{ElementId, ElementParams},
     forces,
     parallel::Team,
     params::{AIR_DENSITY, AirAdvection, AirParams, AirScheme, OpenSides},
@@ -32,6 +32,7 @@ pub fn counted<S>(state: &mut S, kernel: impl FnOnce(&mut S)) {
 /// Runs a kernel once on its state. `false` if there is none of that name.
 pub fn run(name: &str, set: InstructionSet) -> bool {
     let mut tank = Tank::new(set);
+    let liquid = ElementParams { drag: vec![0.001], viscosity: vec![0.02], vorticity: vec![0.01], mass: vec![1000.0] };
     match name {
         "bin" => {
             // Sorting what is sorted is cheaper than what a tick does.
@@ -43,10 +44,10 @@ pub fn run(name: &str, set: InstructionSet) -> bool {
             velocity::update_velocities(particles, solver, solids, true, 1, SUBSTEP);
         }),
         "viscosity" => counted(&mut tank, |tank| {
-            velocity::apply_viscosity(&mut tank.particles, &mut tank.solver, &[0.02], 1, SUBSTEP);
+            velocity::apply_viscosity(&mut tank.particles, &mut tank.solver, &liquid, 1, SUBSTEP);
         }),
         "vorticity" => counted(&mut tank, |tank| {
-            velocity::apply_vorticity(&mut tank.particles, &mut tank.solver, &[0.01], 1, SUBSTEP);
+            velocity::apply_vorticity(&mut tank.particles, &mut tank.solver, &liquid, 1, SUBSTEP);
         }),
         "predictor" => {
             let mut predictor = Predictor::default();
@@ -64,7 +65,7 @@ pub fn run(name: &str, set: InstructionSet) -> bool {
         }
         "drag" => {
             let air = windy();
-            counted(&mut tank, |tank| forces::apply_drag(&air, &[0.001], &mut tank.particles, 1, SUBSTEP));
+            counted(&mut tank, |tank| forces::apply_drag(&air, &liquid, &mut tank.particles, 1, SUBSTEP));
         }
         "air" => counted(&mut windy(), |air| {
             let scheme = AirScheme { courant: 0.7, advection: AirAdvection::SecondOrder };

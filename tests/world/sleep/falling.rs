@@ -1,6 +1,6 @@
 //! What comes to rest falls asleep, where it would have come to rest; what moves never does.
 
-use super::{apart, asleep, dry_box, gap, lake, tap, two_ponds, until_asleep, without_sleep, work};
+use super::{apart, asleep, dry_box, emitter, gap, lake, two_ponds, until_asleep, without_sleep, work};
 use crate::support::{Furnish, SimulationExt, blueprint};
 use glam::Vec2;
 use powder_master::{
@@ -71,10 +71,10 @@ fn sleep_changes_nothing_to_the_bit_where_nothing_rests() {
 
 #[test]
 fn a_body_sleeps_beside_one_that_moves() {
-    let world = |taps: bool| {
+    let world = |emitters: bool| {
         let mut world = two_ponds();
-        if taps {
-            world.emitters.push(tap());
+        if emitters {
+            world.emitters.push(emitter());
         }
         world
     };

@@ -1,6 +1,6 @@
 //! Sleep is a part of the world: saved, put back, and the same on every processor.
 
-use super::{asleep, disc, dry_box, lake, tap, two_ponds, until_asleep};
+use super::{asleep, disc, dry_box, emitter, lake, two_ponds, until_asleep};
 use crate::support::{Furnish, ROCK, SimulationExt, WATER};
 use glam::Vec2;
 use powder_master::{
@@ -11,7 +11,7 @@ use powder_master::{
 #[test]
 fn a_world_put_back_or_loaded_while_it_sleeps_goes_on_to_the_bit() {
     let mut world = two_ponds();
-    world.emitters.push(tap());
+    world.emitters.push(emitter());
     let mut simulation = Simulation::of(world.clone());
     simulation.run(240);
     assert_eq!(asleep(&simulation), 800, "one pond sleeps, the other moves");

@@ -121,7 +121,7 @@ fn lake_in_air() -> Blueprint {
 }
 
 /// A thin jet into the left pond.
-fn tap() -> Emitter {
+fn emitter() -> Emitter {
     Emitter {
         area: Rect { min: Vec2::new(10.0, 33.0), max: Vec2::new(12.0, 35.0) },
         element: WATER,

@@ -2,14 +2,17 @@
 
 use super::super::Rousing;
 use super::*;
-use crate::{
-    forces::{DragTable, apply_drag},
-    particles::Particles,
-};
+use crate::{element::ElementParams, forces::apply_drag, particles::Particles};
 use glam::DVec2;
 
+fn elements(drag: [f32; 2], mass: [f32; 2]) -> ElementParams {
+    ElementParams { drag: drag.to_vec(), mass: mass.to_vec(), ..ElementParams::default() }
+}
+
 /// Water of 0.1 m, and something that is light and mostly drag.
-const DRAG: DragTable = DragTable { rates: &[0.0045, 1.0e5], masses: &[1000.0, 1.0e-3] };
+fn water_and_fluff() -> ElementParams {
+    elements([0.0045, 1.0e5], [1000.0, 1.0e-3])
+}
 
 /// `count` particles in `area` at up to `speed` d/s, of both kinds in turn.
 fn swarm(area: Rect, count: usize, speed: f32, noise: &mut Noise) -> Particles {
@@ -22,17 +25,17 @@ fn swarm(area: Rect, count: usize, speed: f32, noise: &mut Noise) -> Particles {
     particles
 }
 
-fn exchange(air: &mut Air, drag: DragTable, particles: &mut Particles, team: Team) {
-    air.meet(drag, particles, Rousing::Breaths, team, DT);
-    air.drag_along(drag, particles, team.threads, DT);
+fn exchange(air: &mut Air, elements: &ElementParams, particles: &mut Particles, team: Team) {
+    air.meet(elements, particles, Rousing::Breaths, team, DT);
+    air.drag_along(elements, particles, team.threads, DT);
 }
 
 /// Momentum and energy of motion of both.
-fn sums(air: &Air, drag: DragTable, particles: &Particles) -> (DVec2, f64) {
+fn sums(air: &Air, elements: &ElementParams, particles: &Particles) -> (DVec2, f64) {
     let density = f64::from(air.params.density);
     let (mut momentum, mut energy) = (air.momentum() * density, air.kinetic_energy() * density);
     for i in 0..particles.len() {
-        let (mass, v) = (f64::from(drag.masses[particles.element[i].index()]), particles.velocity(i).as_dvec2());
+        let (mass, v) = (f64::from(elements.mass[particles.element[i].index()]), particles.velocity(i).as_dvec2());
         momentum += v * mass;
         energy += 0.5 * mass * v.length_squared();
     }
@@ -43,18 +46,18 @@ fn sums(air: &Air, drag: DragTable, particles: &Particles) -> (DVec2, f64) {
 fn momentum_is_kept_and_energy_only_falls_at_any_load() {
     let mut noise = Noise(5);
     let tables = [
-        DRAG,
+        water_and_fluff(),
         // Heavy and rough, weightless and smooth.
-        DragTable { rates: &[1.0e5, 1.0e-6], masses: &[1.0e5, 1.0e-3] },
-        DragTable { rates: &[0.0, 0.3], masses: &[1000.0, 1000.0] },
+        elements([1.0e5, 1.0e-6], [1.0e5, 1.0e-3]),
+        elements([0.0, 0.3], [1000.0, 1000.0]),
     ];
     for (area, count) in [(rect(0.0, 0.0, 160.0, 96.0), 3000), (rect(40.5, 40.5, 43.5, 43.5), 10_000)] {
-        for drag in tables {
+        for drag in &tables {
             let mut air = closed(40, 24, 4.0);
             stir(&mut air, 0.3, 60.0, &mut noise);
             let mut particles = swarm(area, count, 150.0, &mut noise);
             let (momentum, mut energy) = sums(&air, drag, &particles);
-            let scale = (2.0 * energy * particles.len() as f64 * f64::from(drag.masses[0].max(drag.masses[1]))).sqrt();
+            let scale = (2.0 * energy * particles.len() as f64 * f64::from(drag.mass[0].max(drag.mass[1]))).sqrt();
             let fastest = 160.0_f32.hypot(160.0);
             for _ in 0..60 {
                 exchange(&mut air, drag, &mut particles, ALONE);
@@ -77,8 +80,8 @@ fn heavy_air_drags_as_air_that_nothing_moves() {
     air.params.density = 1.0e7;
     let mut particles = swarm(rect(0.0, 0.0, 80.0, 80.0), 500, 100.0, &mut noise);
     let mut plain = particles.clone();
-    exchange(&mut air, DRAG, &mut particles, ALONE);
-    apply_drag(&air, DRAG.rates, &mut plain, 1, DT);
+    exchange(&mut air, &water_and_fluff(), &mut particles, ALONE);
+    apply_drag(&air, &water_and_fluff(), &mut plain, 1, DT);
     for (got, expected) in particles.vx.iter().zip(&plain.vx) {
         assert!((got - expected).abs() < 2e-3, "{got} instead of {expected}");
     }
@@ -89,7 +92,7 @@ fn one_drop_and_one_cell_meet_at_their_common_speed() {
     let mut air = closed(9, 9, 4.0);
     let mut particles = Particles::default();
     particles.push(0, ElementId(0), air.centre(4, 4), Vec2::new(50.0, 0.0));
-    exchange(&mut air, DRAG, &mut particles, ALONE);
+    exchange(&mut air, &water_and_fluff(), &mut particles, ALONE);
     let slowing = 0.0045 * 50.0 * DT;
     let (share, mass) = (slowing / (1.0 + slowing), 1.2 * 16.0);
     let common = share * 1000.0 * 50.0 / (mass + share * 1000.0);
@@ -111,7 +114,7 @@ fn threads_and_instruction_sets_do_not_show() {
         order[..25_000].sort_by_key(|i| (particles.y[*i] / 3.0) as u32);
         particles.x = order.iter().map(|i| particles.x[*i]).collect();
         particles.y = order.iter().map(|i| particles.y[*i]).collect();
-        in_pool(team.threads, || (0..3).for_each(|_| exchange(&mut air, DRAG, &mut particles, team)));
+        in_pool(team.threads, || (0..3).for_each(|_| exchange(&mut air, &water_and_fluff(), &mut particles, team)));
         let speeds = particles.vx.iter().chain(&particles.vy).map(|v| v.to_bits());
         (bits(&air), speeds.collect::<Vec<_>>())
     };
@@ -134,9 +137,9 @@ fn only_gusts_wake_sleeping_air_and_what_sleeps_does_not_yield() {
             particles.push(id, ElementId(0), place, Vec2::new(speed, 0.0));
         }
         let mut plain = particles.clone();
-        apply_drag(&air, DRAG.rates, &mut plain, 1, DT);
-        air.meet(DRAG, &particles, Rousing::Gusts, ALONE, DT);
-        air.drag_along(DRAG, &mut particles, 1, DT);
+        apply_drag(&air, &water_and_fluff(), &mut plain, 1, DT);
+        air.meet(&water_and_fluff(), &particles, Rousing::Gusts, ALONE, DT);
+        air.drag_along(&water_and_fluff(), &mut particles, 1, DT);
         assert_eq!(!air.is_quiet(), wakes, "{speed} d/s");
         assert_eq!(air.awake_tiles().0, usize::from(wakes));
         let close = particles.vx.iter().zip(&plain.vx).all(|(got, plain)| (got - plain).abs() < 1e-5 * speed);

@@ -1,7 +1,7 @@
 //! The passes themselves: against a plain scatter, mirrored, turned, in parallel, at rest.
 
 use super::super::MAX_PRESSURE;
-use super::super::advect::FACE_FILTER;
+use super::super::source::FACE_FILTER;
 use super::*;
 
 /// The slope of a field in a cell along `step` by its definition: 0 at a peak, else of the three differences the least.

@@ -91,14 +91,14 @@ fn a_wave_wakes_what_lies_ahead_in_time() {
 fn no_mass_goes_round_the_corner_of_a_sleeping_tile() {
     // Three tiles around the corner of a fourth: wind blows across the corner.
     let mut air = sleeping(160, 80, 4.0);
-    let mut shape = super::super::shape::Shape::new(&air);
+    let mut shape = super::super::shape::Shape::new(&air.layout());
     let tiling = air.tiling();
     let active: Vec<bool> = (0..tiling.count()).map(|tile| tile % 5 < 2 && tile / 5 < 2 && tile != 6).collect();
-    shape.fence(&air, &active);
+    shape.fence(&air.layout(), &active);
     assert_eq!(shape.turns_of(16).len(), 1, "one corner");
     let all = vec![true; tiling.count()];
-    shape.fence(&air, &all);
-    let fresh = super::super::shape::Shape::new(&air);
+    shape.fence(&air.layout(), &all);
+    let fresh = super::super::shape::Shape::new(&air.layout());
     assert!(shape.open_x == fresh.open_x && shape.open_y == fresh.open_y && shape.turns_of(16).is_empty());
     // Gusts in an L, blown towards the corner, for as long as only part of the grid is awake.
     let mass = air.mass();

@@ -5,9 +5,14 @@ pub(crate) mod reference;
 
 use super::*;
 use crate::{
+    bins::Neighbours,
     element::ElementId,
-    params::{Preset, WALL_GAP},
+    params::{Domain, FluidParams, GradientKernel, Preset, Quality, WALL_GAP},
+    particles::Particles,
+    simd::InstructionSet,
+    solids::Solids,
 };
+use glam::Vec2;
 use reference::{Question, Vector};
 
 /// A box with particles and rock in it, ready to be solved.

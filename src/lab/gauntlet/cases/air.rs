@@ -24,8 +24,8 @@ const SEALED: &str = "(title: \"Air\", spacing: 0.1, size: (8, 6), contents: [
     (element: \"water\", shape: Disc(centre: (2.5, 4.5), radius: 0.4))])";
 
 /// Why the energy of the water is not bounded where air carries it.
-const AIR_CARRIES: &str = "The air may give the water any energy that it has; what is bounded is its speed: nobody is faster \
-     than the air can be.";
+const AIR_CARRIES: &str = "The air may give the water any energy that it has; what is bounded is its speed: no \
+     particle is faster than the air can be.";
 
 /// Fastest that air moves, m/s: the limiter of the air's step, at the sound speed of these scenes, with what gravity and
 /// pressure add.
@@ -64,8 +64,8 @@ pub(super) const PRESSURE_1E6: GauntletCase = GauntletCase {
     what: "One cell of the air is set to a million times the pressure of the surroundings, beside water and rock.",
     guards: "A shock that no time step resolves: sound a thousand times faster than the grid's.",
     allowed: "The box then holds air of some hundreds of atmospheres, in which a storm goes on that carries the water along \
-              and presses it against rock: it may be four times too dense. Nobody is faster than the air can be. The mass \
-              of the air may be off by 10⁻⁴: each substep keeps it to f32's rounding and no better, and in a storm that \
+              and presses it against rock: it may be four times too dense. No particle is faster than the air can be. The \
+              mass of the air may be off by 10⁻⁴: each substep keeps it to f32's rounding and no better, and in a storm that \
               hardly changes, neither do the roundings, so that those of up to 150,000 substeps add up.",
     scene: SEALED,
     act: Some(|world, tick| press(world, tick, 1e6)),

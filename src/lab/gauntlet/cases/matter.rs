@@ -100,13 +100,13 @@ pub(super) const VISCOSITY_BEYOND: GauntletCase = GauntletCase {
 const COLUMN: &str = "(title: \"Column\", spacing: 0.1, size: (8, 5), effects: {air: off, drag: off}, contents: [
     (element: \"water\", shape: Rect(min: (0, 0), max: (2, 4)))])";
 
-/// Water in the wind of fans.
+/// Water in a wind.
 const WIND: &str = "(title: \"Drag\", spacing: 0.1, size: (8, 4), open: (left: true, right: true),
     winds: [(min: (0, 0), max: (8, 4), velocity: (20, 0), rate: 100)], contents: [
     (element: \"water\", shape: Rect(min: (0, 0), max: (3, 1))),
     (element: \"water\", shape: Rect(min: (1, 3), max: (1.1, 3.1)), velocity: (-100, 0))])";
 
-/// Fastest that drag may leave anybody: as fast as the fans blow (20 m/s), with what air that is held up by water does.
+/// Fastest that drag may leave any particle: as fast as the wind blows (20 m/s), with what air that is held up by water does.
 const DRAGGED: f64 = 60.0;
 
 pub(super) const DRAG_HUGE: GauntletCase = GauntletCase {
@@ -115,7 +115,7 @@ pub(super) const DRAG_HUGE: GauntletCase = GauntletCase {
     what: "Water with a drag of 10⁹ kg/m, a million times the bound, in a wind of 20 m/s; a drop flies against it at \
            100 m/s.",
     guards: "Explicit drag overshoots where C|v|Δt is above 1, and turns velocities round, larger.",
-    allowed: "Nobody ever faster than the drop came (100 m/s).",
+    allowed: "No particle is ever faster than the drop came (100 m/s).",
     size: Size::Quick,
     scene: WIND,
     arrange: Some(|blueprint| change_water(blueprint, |water| water.drag = 1e9)),
@@ -129,7 +129,7 @@ pub(super) const DRAG_LIGHT: GauntletCase = GauntletCase {
     title: "Drag on next to no mass",
     what: "A liquid of 1 kg/m², the least that an element may have, with a drag of 1,000 kg/m, the most, in the same wind.",
     guards: "The same, by a tiny mass.",
-    allowed: "Nobody ever faster than the drop came (100 m/s).",
+    allowed: "No particle is ever faster than the drop came (100 m/s).",
     size: Size::Quick,
     scene: WIND,
     arrange: Some(|blueprint| {
@@ -141,7 +141,7 @@ pub(super) const DRAG_LIGHT: GauntletCase = GauntletCase {
 };
 
 fn slower(world: &bevy::ecs::world::World, most: f64) -> Result<(), String> {
-    let fastest = crate::lab::sampler::matter(world).balance().max_speed;
+    let fastest = crate::lab::balance::matter(world).balance().max_speed;
     if fastest <= most { Ok(()) } else { Err(format!("{fastest:.1} m/s at the end, allowed {most}")) }
 }
 

@@ -53,7 +53,7 @@ pub(super) const QUALITY_CHANGES: GauntletCase = GauntletCase {
     what: "A dam break with a gust over it; before every tick the next of the six qualities is chosen.",
     guards: "State that belongs to one quality (kernel radius, air cells, the predictor's pressure) and is taken over by \
              another.",
-    allowed: "Energy as in the dam break, 1 m/s; the dearest tick is that of the dearest quality.",
+    allowed: "Energy as in the dam break, 1 m/s; the most expensive tick is that of the most expensive quality.",
     size: Size::Quick,
     over: Over::Nothing,
     scene: DAM,
@@ -142,7 +142,7 @@ pub(super) const POISON: GauntletCase = GauntletCase {
     title: "Particles that are no number",
     what: "In a dam break a particle's position or velocity becomes NaN, infinite or 10³⁰, once every ten ticks, five times.",
     guards: "One bad number that spreads to every neighbour, and theirs.",
-    allowed: "Each is taken away and counted, and nobody else.",
+    allowed: "Each is taken away and counted, and no other.",
     size: Size::Quick,
     scene: DAM,
     act: Some(|world, tick| {

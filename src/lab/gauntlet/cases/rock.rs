@@ -14,7 +14,7 @@ pub(super) const ROCK_OVER_WATER: GauntletCase = GauntletCase {
     title: "Rock painted over water, and removed",
     what: "A bar of rock is painted across a pool and rubbed out again, somewhere else each time, every 6 ticks for 5 s.",
     guards: "Water that finds itself in rock, and pressure that belongs to rock which is gone.",
-    allowed: "Rock takes the place of the water that it is painted over; nobody else may get lost. Energy: 1 m/s.",
+    allowed: "Rock takes the place of the water that it is painted over; no other may get lost. Energy: 1 m/s.",
     size: Size::Quick,
     scene: "(title: \"Painted\", spacing: 0.1, size: (6, 5), effects: {air: off, drag: off}, contents: [
         (element: \"water\", shape: Rect(min: (0, 0), max: (6, 3)))])",

@@ -1,19 +1,6 @@
-//! Lanes: one source for every width of vector registers, and the choice of the width at run time.
-//!
-//! A pass over particles is written once, generic over [`Lanes`]. Lanes are plain arrays; inside a function with
-//! `#[target_feature]` the compiler turns them into vector registers. Every operation is the IEEE one on each lane (no
-//! fused multiply-add, no estimates), so every width gives the same bits.
-
-#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
-mod quads;
+//! Numbers that are computed side by side, as plain arrays.
 
 use std::ops::{Add, Div, Mul, Sub};
-
-/// Lanes of [`InstructionSet::Baseline`].
-#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
-type BaselineLanes = quads::Quads;
-#[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
-type BaselineLanes = Array<8>;
 
 /// `WIDTH` numbers that are computed side by side.
 pub(crate) trait Lanes:
@@ -167,7 +154,7 @@ impl<const N: usize> Lanes for Array<N> {
 
 #[cold]
 #[inline(never)]
-fn too_short() -> ! {
+pub(super) fn too_short() -> ! {
     panic!("the row ends within the lanes");
 }
 
@@ -196,132 +183,4 @@ pub(crate) fn whole_below(at: f32, low: u32, high: u32) -> (u32, f32) {
     let middle = if middle < high { middle } else { high };
     let sum = middle + ONES;
     (sum.to_bits() - ONES.to_bits(), at - (sum - ONES))
-}
-
-/// Work that is generic over the lane width.
-pub(crate) trait Pass {
-    /// Does the work. Implementations are `#[inline(always)]`, so that they are compiled for the caller's registers.
-    fn run<L: Lanes>(self);
-}
-
-/// Name of what every processor of the target has.
-const BASELINE: &str = if cfg!(target_arch = "x86_64") {
-    "sse2"
-} else if cfg!(target_arch = "aarch64") {
-    "neon"
-} else if cfg!(all(target_arch = "wasm32", target_feature = "simd128")) {
-    "simd128"
-} else {
-    "baseline"
-};
-
-/// Instruction set that the passes are compiled for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InstructionSet {
-    /// 16 lanes. Nobody else can name it, as it may only be had where the processor has it.
-    #[cfg(target_arch = "x86_64")]
-    #[non_exhaustive]
-    Avx512,
-    /// 8 lanes; the same.
-    #[cfg(target_arch = "x86_64")]
-    #[non_exhaustive]
-    Avx2,
-    /// What every processor of the target has; 8 lanes in registers of its own width.
-    Baseline,
-    /// One lane: the slow reference.
-    Scalar,
-}
-
-impl InstructionSet {
-    /// The widest that this processor has.
-    pub fn detect() -> Self {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if is_x86_feature_detected!("avx512f") {
-                return Self::Avx512;
-            }
-            if is_x86_feature_detected!("avx2") {
-                return Self::Avx2;
-            }
-        }
-        Self::Baseline
-    }
-
-    /// All sets that this processor has, widest first.
-    pub fn available() -> Vec<Self> {
-        let mut sets = Vec::new();
-        #[cfg(target_arch = "x86_64")]
-        {
-            if is_x86_feature_detected!("avx512f") {
-                sets.push(Self::Avx512);
-            }
-            if is_x86_feature_detected!("avx2") {
-                sets.push(Self::Avx2);
-            }
-        }
-        sets.extend([Self::Baseline, Self::Scalar]);
-        sets
-    }
-
-    /// Its name, as the command line takes it and the metrics give it.
-    pub fn name(self) -> &'static str {
-        match self {
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx512 => "avx512",
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => "avx2",
-            Self::Baseline => BASELINE,
-            Self::Scalar => "scalar",
-        }
-    }
-
-    /// Particles that a pass works on side by side.
-    pub(crate) fn width(self) -> usize {
-        match self {
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx512 => 16,
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => 8,
-            Self::Baseline => BaselineLanes::WIDTH,
-            Self::Scalar => 1,
-        }
-    }
-
-    /// Runs `pass` on the lanes of this set. The processor must have it: sets come from [`Self::detect`] and
-    /// [`Self::available`].
-    #[inline]
-    pub(crate) fn run(self, pass: impl Pass) {
-        match self {
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: `Avx512` is only made where the processor reports AVX-512F.
-            Self::Avx512 => unsafe { run_avx512(pass) },
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: `Avx2` is only made where the processor reports AVX2.
-            Self::Avx2 => unsafe { run_avx2(pass) },
-            Self::Baseline => pass.run::<BaselineLanes>(),
-            Self::Scalar => pass.run::<Array<1>>(),
-        }
-    }
-
-    /// [`Self::run`] for a pass that needs so many registers at a time that it has no use for two to a number: on lanes
-    /// that fill one register of this set.
-    #[inline]
-    pub(crate) fn run_by_register(self, pass: impl Pass) {
-        match self {
-            Self::Baseline => pass.run::<Array<4>>(),
-            _ => self.run(pass),
-        }
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f")]
-fn run_avx512(pass: impl Pass) {
-    pass.run::<Array<16>>();
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn run_avx2(pass: impl Pass) {
-    pass.run::<Array<8>>();
 }

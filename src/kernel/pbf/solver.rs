@@ -1,0 +1,263 @@
+//! The solver: its buffers, and the order of its passes.
+
+use crate::{
+    bins::{self, Bins, Group, Neighbours, RockBins, Strip},
+    params::{Domain, GradientKernel, Quality},
+    particles::Particles,
+    pbf::{
+        coincident::separate_coincident, constraint::ConstraintPass, correction::CorrectionPass, crowd,
+        limit::CorrectionLimit, params::SolveParams,
+    },
+    simd::InstructionSet,
+    smoothing::{Gradient, Rational, Smoothing, Spiky},
+    solids::Solids,
+};
+use glam::Vec2;
+use std::sync::atomic::AtomicU64;
+
+/// Share of its limit up to which what lies between two positions is taken for a correction: more than rounding.
+const MOST_SHARE: f32 = 1.01;
+
+/// Positions under correction, densities, bins: what the solver keeps beside the particles. 24 bytes a particle and the
+/// bins. The arrays follow the order of the particles.
+#[derive(Clone, Debug)]
+pub struct Solver {
+    /// Cells and groups of the last [`Solver::bin`].
+    pub bins: Bins,
+    /// The smoothing kernels in use.
+    pub smoothing: Smoothing,
+    /// Lanes in use.
+    pub instructions: InstructionSet,
+    /// How neighbours are found.
+    pub neighbours: Neighbours,
+    /// Density ρ in units of the lattice's, as of the last iteration.
+    pub density: Vec<f32>,
+    /// Corrected positions, d, as of the last iteration. The particles themselves stay where they were predicted to be:
+    /// corrections keep within the correction limit of that.
+    pub(crate) x: Vec<f32>,
+    pub(crate) y: Vec<f32>,
+    /// Outputs of a pass.
+    pub(crate) next_x: Vec<f32>,
+    pub(crate) next_y: Vec<f32>,
+    /// Output of a pass, and a buffer of the sort.
+    pub(crate) lambda: Vec<f32>,
+    /// Limit of the last corrections; none before the first.
+    pub(crate) limit: Option<CorrectionLimit>,
+    /// Density that the last solve aimed at, 1 on the lattice.
+    aim: f32,
+}
+
+/// What [`Solver::bin`] did besides sorting.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BinReport {
+    /// Particles that were at one point with another and set apart.
+    pub set_apart: u64,
+}
+
+impl Default for Solver {
+    fn default() -> Self {
+        Self::new(InstructionSet::detect(), Neighbours::Binned)
+    }
+}
+
+impl Solver {
+    /// An empty solver.
+    pub fn new(instructions: InstructionSet, neighbours: Neighbours) -> Self {
+        Self {
+            bins: Bins::default(),
+            smoothing: Smoothing::new(2.5, GradientKernel::Rational),
+            instructions,
+            neighbours,
+            density: Vec::new(),
+            x: Vec::new(),
+            y: Vec::new(),
+            next_x: Vec::new(),
+            next_y: Vec::new(),
+            lambda: Vec::new(),
+            limit: None,
+            aim: 1.0,
+        }
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        let floats = [&self.density, &self.x, &self.y, &self.next_x, &self.next_y, &self.lambda];
+        4 * floats.iter().map(|array| array.capacity()).sum::<usize>() + self.bins.memory()
+    }
+
+    /// Sorts the particles by cell, sets those at one point apart, scatters crowds and builds the groups.
+    pub fn bin(
+        &mut self,
+        particles: &mut Particles,
+        solids: &Solids,
+        domain: &Domain,
+        quality: &Quality,
+        threads: usize,
+    ) -> BinReport {
+        if (self.smoothing.radius, self.smoothing.gradient) != (quality.kernel_radius, quality.gradient) {
+            self.smoothing = Smoothing::new(quality.kernel_radius, quality.gradient);
+        }
+        let Self { bins, instructions, neighbours, lambda, .. } = self;
+        bins.resize(domain.size, quality.kernel_radius, quality.longest_correction(), solids);
+        let set_apart = AtomicU64::new(0);
+        let settle = |strip: Strip| separate_coincident(strip, *instructions, domain, solids, &set_apart);
+        let mut bin = |bins: &mut Bins, particles: &mut Particles| {
+            bins.bin(particles, lambda, *neighbours, *instructions, threads, &settle);
+        };
+        bin(bins, particles);
+        let mut scattered = 0;
+        if bins.is_crowded() {
+            scattered = crowd::scatter(particles, bins.crowds(), domain, solids);
+            bin(bins, particles);
+        }
+        BinReport { set_apart: scattered + set_apart.into_inner() }
+    }
+
+    /// The constraint C (eq. 1) of each particle that is too dense, as it was in the particle's last iteration.
+    pub fn violations(&self) -> impl Iterator<Item = f32> {
+        self.density.iter().map(|density| density / self.aim - 1.0).filter(|constraint| *constraint > 0.0)
+    }
+
+    /// By how much of its correction limit the last substep moved the particle that is number `i` and `at` now; `None` if
+    /// it was not solved, as those that sleep. Nor of particles that came or went since: one that is further from there than
+    /// any correction leads is another one.
+    pub fn correction_share(&self, i: usize, at: Vec2) -> Option<f32> {
+        // Sleepers are in front, with a density but without a prediction.
+        let k = i.checked_sub(self.density.len().checked_sub(self.x.len())?)?;
+        let predicted = Vec2::new(*self.x.get(k)?, *self.y.get(k)?);
+        let share = (at - predicted).abs().max_element() / self.limit?.at(self.density[i]);
+        (share <= MOST_SHARE).then_some(share)
+    }
+
+    /// Iterates the density constraint on the binned particles: once over all of them, and then, where the predictor ran,
+    /// only where they are still too dense.
+    pub fn solve(&mut self, particles: &Particles, params: &SolveParams) {
+        let count = particles.len();
+        for array in [&mut self.density, &mut self.lambda, &mut self.x, &mut self.y, &mut self.next_x, &mut self.next_y]
+        {
+            array.resize(count, 0.0);
+        }
+        (self.limit, self.aim) = (Some(CorrectionLimit::new(params)), params.rest_density());
+        let anchor = [&particles.x[..], &particles.y[..]];
+        for iteration in 0..params.quality.iterations {
+            let reach = match params.iterate_above() {
+                _ if iteration == 0 => Reach::First,
+                None => Reach::All,
+                Some(bound) => {
+                    self.bins.focus(anchor, &self.density, bound);
+                    Reach::Focused
+                }
+            };
+            if reach == Reach::Focused && self.bins.focused().is_empty() {
+                return;
+            }
+            match params.quality.gradient {
+                GradientKernel::Spiky => self.iterate::<Spiky>(anchor, reach, params),
+                GradientKernel::Rational => self.iterate::<Rational>(anchor, reach, params),
+            }
+        }
+    }
+
+    fn iterate<G: Gradient>(&mut self, anchor: [&[f32]; 2], reach: Reach, params: &SolveParams) {
+        let Self { bins, smoothing, instructions, density, x, y, next_x, next_y, lambda, .. } = self;
+        let pass = Iteration {
+            groups: if reach == Reach::Focused { bins.focused() } else { bins.groups() },
+            rock: bins.rock(),
+            smoothing,
+            instructions: *instructions,
+            params,
+            anchor,
+            at: if reach == Reach::First { anchor } else { [&x[..], &y[..]] },
+        };
+        pass.find_lambda::<G>(lambda, density);
+        let density = &density[..];
+        if reach == Reach::Focused {
+            next_x.copy_from_slice(x);
+            next_y.copy_from_slice(y);
+        }
+        let next = [&mut next_x[..], &mut next_y[..]];
+        match (params.tension, params.predicted) {
+            (false, false) => pass.correct::<G, false, false>(lambda, density, next),
+            (false, true) => pass.correct::<G, false, true>(lambda, density, next),
+            (true, false) => pass.correct::<G, true, false>(lambda, density, next),
+            (true, true) => pass.correct::<G, true, true>(lambda, density, next),
+        }
+        std::mem::swap(x, next_x);
+        std::mem::swap(y, next_y);
+    }
+}
+
+/// What an iteration goes over.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Reach {
+    /// All, and sets out from the prediction itself.
+    First,
+    /// All.
+    All,
+    /// What is still too dense, and what is around it.
+    Focused,
+}
+
+/// What the two passes of an iteration read.
+struct Iteration<'a> {
+    groups: &'a [Group],
+    rock: &'a RockBins,
+    smoothing: &'a Smoothing,
+    instructions: InstructionSet,
+    params: &'a SolveParams<'a>,
+    /// Predicted positions, d.
+    anchor: [&'a [f32]; 2],
+    /// Positions before the iteration, d.
+    at: [&'a [f32]; 2],
+}
+
+impl Iteration<'_> {
+    fn find_lambda<G: Gradient>(&self, lambda: &mut [f32], density: &mut [f32]) {
+        let Self { groups, rock, smoothing, instructions, params, at: [x, y], .. } = *self;
+        bins::split(groups, [lambda, density], params.threads, &|groups, base, [lambda, density]| {
+            instructions.run(ConstraintPass::<G> {
+                smoothing,
+                domain: params.domain,
+                fluid: params.fluid,
+                rest_density: params.rest_density(),
+                relaxation: params.relaxation(),
+                x,
+                y,
+                rock,
+                groups,
+                base,
+                lambda,
+                density,
+                gradient: std::marker::PhantomData,
+            });
+        });
+    }
+
+    fn correct<G: Gradient, const TENSION: bool, const APART: bool>(
+        &self,
+        lambda: &[f32],
+        density: &[f32],
+        next: [&mut [f32]; 2],
+    ) {
+        let Self { groups, rock, smoothing, instructions, params, anchor, at: [x, y] } = *self;
+        bins::split(groups, next, params.threads, &|groups, base, next| {
+            instructions.run(CorrectionPass::<G, TENSION, APART> {
+                smoothing,
+                domain: params.domain,
+                fluid: params.fluid,
+                rest_density: params.rest_density(),
+                limit: CorrectionLimit::new(params),
+                density,
+                x,
+                y,
+                anchor,
+                lambda,
+                rock,
+                groups,
+                base,
+                next,
+                gradient: std::marker::PhantomData,
+            });
+        });
+    }
+}
