@@ -1,6 +1,6 @@
 //! What placing and taking away must hold to.
 
-use super::*;
+use super::{occupancy::CLEARANCE, *};
 use crate::{
     brush::{BrushShape, Stroke},
     element::{Element, ElementId, ElementTable},
