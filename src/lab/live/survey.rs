@@ -61,7 +61,7 @@ struct Message {
 /// What a run found.
 #[derive(Clone, Copy, Debug)]
 enum Done {
-    /// What a tick takes at the quality in force on one thread, with those asleep who sleep, ms.
+    /// What a tick takes at the quality in force on one thread, with the same particles asleep, ms.
     Here(f32),
     /// A quality.
     Point(CurvePoint),
@@ -158,7 +158,7 @@ struct Work {
 struct Leg {
     preset: Preset,
     quality: Quality,
-    /// Whether those may sleep who do in the game.
+    /// Whether the particles that sleep in the game may sleep.
     sleep: bool,
 }
 
