@@ -7,11 +7,11 @@ use crate::{
         style,
     },
     kernel::params::{Preset, Quality},
-    sim::{
-        accuracy::{Curve, CurvePoint},
+    lab::{
         autopilot::Goal,
-        numbers::short,
+        live::accuracy::{Curve, CurvePoint},
     },
+    sim::numbers::short,
 };
 use bevy_egui::egui::{self, Align2, Color32, FontId, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 
