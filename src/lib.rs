@@ -1,4 +1,10 @@
-//! Powder Master: a real-time 2-D sandbox of powders and fluids in moving air.
+//! Powder Master: a real-time 2-D sandbox of powders and fluids in moving air. In an app of your own (examples/minimal.rs):
+//!
+#![doc = concat!("```ignore\n", include_str!("../examples/minimal.rs"), "```")]
+//!
+//! Public for such apps are what the example uses and what stands beside it: [`sim::SimulationPlugin`], [`scene`],
+//! [`sim::checkpoint`], [`sim::intent`], [`sim::pace`], [`sim::simulation`], [`sim::state`], and of [`kernel`] the types in
+//! their signatures. The rest is public for the parts of this program only, and changes without notice.
 //!
 //! How data flows from the mouse to the screen:
 //!
@@ -16,8 +22,9 @@
 //! game::render  particles, rock and air, between two ticks      game::hud  counts, cost, tools
 //! ```
 //!
-//! Who may import whom: `kernel ← scene ← sim ← lab`, `sim ← game`, all ← `cli` and `web`. Nothing below `game` knows
-//! egui, a window or a renderer, and builds without them (`--no-default-features`).
+//! Who may import whom: `kernel ← scene ← sim ← lab ← game ← cli, web`, and no two files each other (tests/laws). Nothing
+//! below `game` knows egui, a window or a renderer, and builds without them (`--no-default-features`). The words stand in
+//! docs/glossary.md; docs/adding.md says which files an addition takes.
 
 #![forbid(unsafe_op_in_unsafe_fn)]
 #![cfg_attr(all(test, target_arch = "wasm32"), feature(custom_test_frameworks, test))]

@@ -10,7 +10,8 @@ use crate::{
     },
     lab::{
         self,
-        live::LivePlugin,
+        autopilot::{self, Autopilot, Goal, controller::Verdict},
+        live::{LivePlugin, accuracy::Watched},
         metrics::Metrics,
         picture::{DISC_RADIUS, LONG_SIDE, Picture},
         reference::{Follower, Reference},
@@ -19,14 +20,7 @@ use crate::{
         tables::{distances, particles, trace::Trace},
     },
     sim::{
-        accuracy::Watched,
-        autopilot::{self, Autopilot, Goal, controller::Verdict},
-        checkpoint::Checkpoint,
-        control,
-        intent::Intent,
-        recording::Segment,
-        simulation::Simulation,
-        state::Setup,
+        checkpoint::Checkpoint, control, intent::Intent, recording::Segment, simulation::Simulation, state::Setup,
         workers::Workers,
     },
 };

@@ -26,7 +26,7 @@ impl Area {
     }
 }
 
-/// The player's eye on the world.
+/// The part of the world that the window shows.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct WorldCamera {
     /// Size of the window, logical pixels.
@@ -41,8 +41,8 @@ pub struct WorldCamera {
     centre: Vec2,
     /// Further areas of the same size that show the same part of the box (an A/B split).
     others: Option<[Area; 2]>,
-    /// The area that the pointer took hold of, while it holds something: 0 is the free one.
-    held: Option<usize>,
+    /// The area in which a drag began, while it goes on: 0 is the free one.
+    dragged: Option<usize>,
 }
 
 impl Default for WorldCamera {
@@ -61,7 +61,7 @@ impl WorldCamera {
             zoom: 1.0,
             centre: world / 2.0,
             others: None,
-            held: None,
+            dragged: None,
         }
     }
 
@@ -116,7 +116,7 @@ impl WorldCamera {
     /// Shows the same in two more areas of the size of the free one, or in that alone.
     pub fn set_others(&mut self, others: Option<[Area; 2]>) {
         if self.others != others {
-            (self.others, self.held) = (others, None);
+            (self.others, self.dragged) = (others, None);
         }
     }
 
@@ -125,26 +125,26 @@ impl WorldCamera {
         std::iter::once(self.free).chain(self.others.into_iter().flatten())
     }
 
-    /// Until it is let go, the pointer is where it is in the area of `pixel`, wherever it is dragged.
-    pub fn hold_pane(&mut self, pixel: Vec2) {
-        self.held = self.panes().position(|pane| pane.contains(pixel));
+    /// A drag begins at `pixel`: until its end, the pointer counts as in the area of that pixel.
+    pub fn begin_drag(&mut self, pixel: Vec2) {
+        self.dragged = self.panes().position(|pane| pane.contains(pixel));
     }
 
-    /// The pointer is in whatever area it is over.
-    pub fn let_pane_go(&mut self) {
-        self.held = None;
+    /// The drag ends: the pointer is in the area that it is over.
+    pub fn end_drag(&mut self) {
+        self.dragged = None;
     }
 
-    /// How far the area that the pointer is in, or holds, lies from the free one, pixels.
+    /// How far the area that the pointer is in, or began its drag in, lies from the free one, pixels.
     fn shift(&self, pixel: Vec2) -> Vec2 {
-        let pane = match self.held {
-            Some(held) => self.panes().nth(held),
+        let pane = match self.dragged {
+            Some(pane) => self.panes().nth(pane),
             None => self.panes().find(|pane| pane.contains(pixel)),
         };
         pane.map_or(Vec2::ZERO, |pane| pane.min - self.free.min)
     }
 
-    /// The pixel at which a point of the world stands in the area that the pointer is in, or holds.
+    /// The pixel at which a point of the world stands in the area that the pointer is in, or began its drag in.
     pub fn to_pixel_beside(&self, point: Vec2, pointer: Vec2) -> Vec2 {
         self.to_pixel(point) + self.shift(pointer)
     }
@@ -164,9 +164,9 @@ impl WorldCamera {
 
     /// Zooms by `factor`; the point of the world under `pixel` stays there as far as the box allows.
     pub fn zoom_at(&mut self, pixel: Vec2, factor: f32) {
-        let held = self.to_world(pixel);
+        let point = self.to_world(pixel);
         self.zoom = (self.zoom * factor).clamp(1.0, ZOOM_LIMIT);
-        self.centre += held - self.to_world(pixel);
+        self.centre += point - self.to_world(pixel);
         self.settle();
     }
 
@@ -264,9 +264,9 @@ mod tests {
         let (first, second) = (Vec2::new(100.0, 290.0), Vec2::new(370.0, 290.0));
         assert!((camera.to_world(first) - camera.to_world(second)).length() < 1e-3);
         assert!((camera.to_pixel_beside(camera.to_world(second), second) - second).length() < 1e-2);
-        camera.hold_pane(first);
+        camera.begin_drag(first);
         assert!(camera.to_world(second).x > camera.to_world(first).x + 10.0, "a drag must not jump at the divider");
-        camera.let_pane_go();
+        camera.end_drag();
         let point = camera.to_world(second);
         camera.zoom_at(second, 2.0);
         assert!((camera.to_world(second) - point).length() < 1e-3, "zoom holds the point under the pointer");

@@ -19,14 +19,12 @@ use crate::{
         views::table::Shown,
     },
     kernel::{element::ElementId, params::Preset, solids::Solids},
-    lab::gauntlet::CASES,
+    lab::{autopilot::Autopilot, gauntlet::CASES, live::accuracy::Survey},
     scene::{
         self,
         effects::{EffectModes, Mode},
     },
     sim::{
-        accuracy::Survey,
-        autopilot::Autopilot,
         checkpoint::Checkpoint,
         control,
         effects::Effects,

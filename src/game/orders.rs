@@ -4,8 +4,8 @@
 use crate::{
     game::{actions::Action, tools::Tool},
     kernel::params::Preset,
+    lab::{autopilot::Goal, live::accuracy::SurveyRequest},
     scene::effects::{Effect, Mode},
-    sim::{accuracy::SurveyRequest, autopilot::Goal},
 };
 use bevy::prelude::Resource;
 use std::path::PathBuf;

@@ -6,7 +6,11 @@ use crate::{
         tools, views,
     },
     kernel::units::TICKS_PER_SECOND,
-    sim::{accuracy, autopilot, measures, recorder, state::Setup},
+    lab::{
+        autopilot,
+        live::{accuracy, measures},
+    },
+    sim::{recorder, state::Setup},
 };
 use bevy::{
     prelude::{

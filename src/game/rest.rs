@@ -9,8 +9,8 @@ use crate::{
         orders::Orders,
         toasts::Toasts,
     },
-    lab::{cases::JobQueue, exam::ExamCase, gauntlet::GauntletCase},
-    sim::{accuracy::Survey, intent::IntentQueue, pace::Pace},
+    lab::{cases::JobQueue, exam::ExamCase, gauntlet::GauntletCase, live::accuracy::Survey},
+    sim::{intent::IntentQueue, pace::Pace},
 };
 use bevy::{
     ecs::system::SystemParam,

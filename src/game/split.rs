@@ -8,13 +8,15 @@ use crate::{
         toasts::Toasts,
     },
     kernel::params::Preset,
-    lab::split::Split,
-    sim::{
-        accuracy::{LiveError, Watched},
+    lab::{
         autopilot::Autopilot,
-        measures::Measures,
-        state::Setup,
+        live::{
+            accuracy::{LiveError, Watched},
+            measures::Measures,
+        },
+        split::Split,
     },
+    sim::state::Setup,
 };
 use bevy::prelude::{Res, ResMut, World};
 use glam::Vec2;

@@ -61,7 +61,7 @@ pub enum GameError {
 }
 
 /// Plays in a window until it is closed; whatever ends it otherwise, the world can be had back (see `crash`). `furnish`
-/// adds what the game does not know and makes the world; `scene` is what `run` would call it; what the player does goes to
+/// adds what belongs to the program around it and makes the world; `scene` is what `run` would call it; what the player does goes to
 /// `record`.
 pub fn run(scene: &str, record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> Result<AppExit, GameError> {
     let scene = scene.to_owned();
@@ -107,7 +107,7 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
         resolution: WindowResolution::from(WINDOW_SIZE),
         present_mode: PresentMode::AutoVsync,
         resize_constraints: constraints(),
-        // In a page: its canvas. Which of the browser's own keys to keep back is the page's business.
+        // In a page: its canvas. The page decides which of the browser's own keys to keep back.
         canvas: Some("#world".into()),
         fit_canvas_to_parent: true,
         prevent_default_event_handling: false,
@@ -142,7 +142,7 @@ fn constraints() -> WindowResizeConstraints {
 /// How often the title is looked after.
 const TITLE_EVERY: Duration = Duration::from_millis(500);
 
-/// Keeps scene and particle count in the title, where a task bar (and a test) reads them.
+/// Keeps scene and particle count in the title, for the task bar and for tests.
 fn tell_in_title(setup: Res<Setup>, census: Res<Census>, mut window: Single<&mut Window, With<PrimaryWindow>>) {
     let title = format!("Powder Master: {}, {} particles", setup.blueprint.title, census.total);
     if window.title != title {
@@ -150,7 +150,7 @@ fn tell_in_title(setup: Res<Setup>, census: Res<Census>, mut window: Single<&mut
     }
 }
 
-/// The camera that window and HUD are drawn for; where it looks is `WorldCamera`'s business.
+/// The camera that window and HUD are drawn for; `WorldCamera` says where it looks.
 fn spawn_camera(mut commands: Commands) {
     commands.spawn((Camera2d, Msaa::Off));
 }

@@ -90,7 +90,7 @@ impl DensityError {
 }
 
 /// What stands around each movable particle, in the order of the store. Particles that are not finite or further than d
-/// outside the box have no surroundings and are nobody's neighbour.
+/// outside the box have no neighbours and are no neighbours of others.
 pub fn surroundings(particles: &Particles, rock: &solids::Solids, size: Vec2) -> Vec<Local> {
     let lattice = Lattice::new(size);
     let movable = (0..particles.len()).map(|i| (particles.position(i), i as u32));

@@ -6,7 +6,7 @@ use std::{
     task::{Context, Poll, Waker},
 };
 
-/// Lets whoever drives the future do something else once.
+/// Lets the code that drives the future do something else once.
 pub(crate) fn pause() -> Pause {
     Pause { paused: false }
 }

@@ -9,7 +9,7 @@ pub struct Memory {
     pub peak: u64,
 }
 
-/// Memory of this process, from Linux's own books; only there.
+/// Memory of this process, as Linux counts it; only there.
 pub fn memory() -> Option<Memory> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let bytes = |name: &str| {

@@ -2,6 +2,7 @@
 //! changes none, so that a measured world has the hash of an unmeasured one. What only the command line asks for is not
 //! in the page.
 
+pub mod autopilot;
 pub mod balance;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod binning;

@@ -1,4 +1,4 @@
-//! A run from one tick to the next, and those who watch it.
+//! A run from one tick to the next, and its observers.
 
 use crate::sim::{
     ledger::PassLedger,
@@ -8,7 +8,7 @@ use crate::sim::{
 use bevy::ecs::world::World;
 use std::io;
 
-/// Someone who looks at the world after each tick.
+/// Looks at the world after each tick.
 pub trait Observer {
     /// The world after a tick.
     fn after_tick(&mut self, world: &World) -> io::Result<()>;

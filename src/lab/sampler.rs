@@ -209,7 +209,7 @@ impl Observer for Sampler {
     }
 }
 
-/// The samples of what is too dear for every tick.
+/// The samples of what costs too much for every tick.
 #[derive(Default)]
 struct Samples {
     taken: usize,

@@ -7,9 +7,9 @@
 
 use crate::{
     kernel::params::{Preset, Quality},
+    lab::live::accuracy::LiveError,
     scene::effects::Pass,
     sim::{
-        accuracy::LiveError,
         checkpoint::Checkpoint,
         effects::Effects,
         generation::Generation,

@@ -1,8 +1,6 @@
 //! The Bevy side of the kernel: its data as resources, its passes as ordered systems, and what may be done to it from
 //! outside (`intent`, `control`).
 
-pub mod accuracy;
-pub mod autopilot;
 pub mod checkpoint;
 pub mod control;
 pub mod effects;
@@ -11,7 +9,6 @@ pub mod generation;
 pub mod intent;
 pub mod ledger;
 pub mod mark;
-pub mod measures;
 pub mod numbers;
 pub mod pace;
 pub mod random;

@@ -57,7 +57,7 @@ pub struct Snapshot {
     pub air: Air,
     /// The predictor's pressure, d/s: the first guess of its next solve, empty before its first.
     pub pressure: Vec<f32>,
-    /// Who sleeps, and who may soon.
+    /// Which particles and tiles sleep, and which may soon.
     pub sleep: SleepRecord,
     /// Emitters, winds and drains with their state.
     pub sources: Sources,

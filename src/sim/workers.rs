@@ -20,7 +20,7 @@ static CORES: LazyLock<usize> = LazyLock::new(|| std::thread::available_parallel
 #[derive(Resource, Clone, Default)]
 pub struct Workers {
     pool: Option<Arc<rayon::ThreadPool>>,
-    /// Whether there is no pool: all is done by whoever asks.
+    /// Whether there is no pool: the calling thread does all.
     alone: bool,
 }
 

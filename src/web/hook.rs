@@ -57,7 +57,7 @@ pub fn scene(link: &str) -> Result<(), JsError> {
     let link = Link::read(link)?;
     link.build()?;
     let Link { scene: name, settings, quality } = link;
-    script::tell(|world| world.resource_mut::<Orders>().push(Order::Open { name, settings, quality }));
+    script::tell(move |world| world.resource_mut::<Orders>().push(Order::Open { name, settings, quality }));
     Ok(())
 }
 
@@ -79,7 +79,7 @@ pub fn hidden(hidden: bool) {
 /// Tells the player that something went wrong.
 #[wasm_bindgen]
 pub fn warn(text: String) {
-    script::tell(|world| toasts(world).warn(text));
+    script::tell(move |world| toasts(world).warn(text));
 }
 
 /// Saves the world and stops its time: the player can no longer see it.

@@ -1,7 +1,10 @@
 //! Cycles of files: sets in which each file depends on each other one, directly or through others.
 
 use crate::program::Dependency;
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::{
+    collections::{BTreeMap, BTreeSet, VecDeque},
+    fmt::{self, Display, Formatter},
+};
 
 /// Files that a file depends on, with one line at which it does.
 type Graph<'a> = BTreeMap<&'a str, BTreeMap<&'a str, usize>>;
@@ -12,6 +15,12 @@ pub struct Cycle {
     pub files: Vec<String>,
     /// One way round, with the line of each step.
     pub way: String,
+}
+
+impl Display for Cycle {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{} files: {}", self.files.len(), self.way)
+    }
 }
 
 /// All cycles of more than one file.

@@ -21,10 +21,10 @@ use crate::{
     },
     lab::{
         difference::{self, Difference, FULL_SPEED, Half},
+        live::accuracy::LiveError,
         split::Split,
     },
     sim::{
-        accuracy::LiveError,
         ledger::PassLedger,
         numbers::short,
         state::{AirGrid, Clock, ParticleStore, Setup},

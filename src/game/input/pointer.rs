@@ -120,7 +120,7 @@ impl PointerInput<'_> {
     /// The window loses the devices.
     pub fn let_go(&mut self) {
         self.drag.release();
-        self.camera.let_pane_go();
+        self.camera.end_drag();
     }
 
     /// A button goes down.
@@ -139,7 +139,7 @@ impl PointerInput<'_> {
             self.orders.push(Order::Checkpoint);
         }
         if gesture != Gesture::Fill && self.drag.current().is_none() {
-            self.camera.hold_pane(pixel);
+            self.camera.begin_drag(pixel);
         }
         let freehand = tool.is_freehand() && matches!(gesture, Gesture::Line | Gesture::Rectangle | Gesture::Fill);
         match (gesture, tool) {
@@ -166,7 +166,7 @@ impl PointerInput<'_> {
             self.orders.push(Order::Act(Action::Sample));
         }
         self.drag.release();
-        self.camera.let_pane_go();
+        self.camera.end_drag();
     }
 
     /// The wheel turns: brush size, or zoom with Ctrl.

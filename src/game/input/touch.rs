@@ -10,9 +10,9 @@ use bevy::{
 use glam::Vec2;
 
 /// Time that the first finger waits for a second, s.
-const PATIENCE: f32 = 0.08;
+const WAIT: f32 = 0.08;
 /// A finger that moves this far draws at once, pixels.
-const DECIDED: f32 = 8.0;
+const MOVED: f32 = 8.0;
 /// Fingers closer than this don't zoom, pixels.
 const CLOSEST: f32 = 16.0;
 
@@ -34,7 +34,7 @@ enum Doing {
     Waiting(f32),
     Drawing,
     Moving,
-    /// What is begun over the HUD is the HUD's, and what is left of two fingers is nobody's.
+    /// The touch began over the HUD, or one of two fingers is left: it draws nothing.
     Other,
 }
 
@@ -62,7 +62,7 @@ impl Fingers {
     pub fn end_frame(&mut self, seconds: f32, pointer: &mut PointerInput) {
         if let Doing::Waiting(waited) = self.doing {
             self.doing = Doing::Waiting(waited + seconds);
-            if waited + seconds > PATIENCE {
+            if waited + seconds > WAIT {
                 self.draw(pointer);
             }
         }
@@ -89,7 +89,7 @@ impl Fingers {
         let before = self.pair();
         let Some(finger) = self.down.iter_mut().find(|finger| finger.id == id) else { return };
         finger.at = at;
-        let far = finger.began.distance(at) > DECIDED;
+        let far = finger.began.distance(at) > MOVED;
         match self.doing {
             Doing::Waiting(_) if far => self.draw(pointer),
             Doing::Drawing => pointer.move_to(at),

@@ -5,15 +5,15 @@ use crate::{
     game::hud::panels::accuracy::panel::{AccuracyPanel, ID},
     kernel::params::Preset,
     lab::{
+        autopilot::{Autopilot, Goal},
         difference::{Difference, Half},
+        live::{
+            accuracy::{Survey, SurveyRequest, Watched},
+            measures::Measures,
+        },
         split::Split,
     },
-    sim::{
-        accuracy::{Survey, SurveyRequest, Watched},
-        autopilot::{Autopilot, Goal},
-        measures::Measures,
-        state::AirGrid,
-    },
+    sim::state::AirGrid,
 };
 
 fn order(player: &mut Player, order: Order) {

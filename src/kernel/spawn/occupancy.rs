@@ -1,7 +1,10 @@
 //! Which sites are taken.
 
-use crate::{particles::Particles, solids::Solids, spawn::CLEARANCE};
+use crate::{particles::Particles, solids::Solids};
 use glam::{IVec2, Vec2};
+
+/// A site is free if no particle is nearer than this, d.
+pub(super) const CLEARANCE: f32 = 0.8;
 
 /// Which points near a region are taken: particles in lists by cell. Its buffers are used again and again.
 #[derive(Debug, Default)]

@@ -1,7 +1,15 @@
 //! What placing and taking away must hold to.
 
-use super::*;
-use crate::{brush::BrushShape, element::Element, sources::Rect};
+use super::{occupancy::CLEARANCE, *};
+use crate::{
+    brush::{BrushShape, Stroke},
+    element::{Element, ElementId, ElementTable},
+    params::Domain,
+    particles::Particles,
+    solids::Solids,
+    sources::{Drain, Emitter, Rect},
+};
+use glam::{IVec2, Vec2};
 
 struct Bench {
     domain: Domain,

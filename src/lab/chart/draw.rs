@@ -255,9 +255,10 @@ impl Span {
             None => places(&mut { values }),
         };
         let (low, high) = if low <= high { (low, high) } else { (0.0, 1.0) };
-        // Some room around what is there; room in any case.
-        let room =
-            if range.is_some() && low < high { 0.0 } else { (0.04 * (high - low)).max(0.01 * high.abs()).max(0.01) };
+        // Some room around what is there; on a logarithmic axis enough for a mark with a label in any case.
+        let around = if range.is_some() { 0.0 } else { 0.04 * (high - low) };
+        let least = if scale == Scale::Logarithmic { 0.5 * (0.31 - (high - low)) } else { 0.0 };
+        let room = if low < high { around.max(least) } else { least.max(0.01 * high.abs()).max(0.01) };
         Self { scale, low: low - room, high: high + room }
     }
 

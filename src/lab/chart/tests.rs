@@ -81,6 +81,15 @@ fn points_stand_where_their_values_are() {
 }
 
 #[test]
+fn a_short_axis_has_a_label() {
+    let series = vec![Series::new("", Look::Scatter, [Point::new(0.017, 1.3), Point::new(0.0195, 1.4)])];
+    let (x, y) = (Axis::logarithmic(""), Axis::logarithmic("").within(1.3, 1.4));
+    let mut words = words(&Chart { title: String::new(), subtitle: String::new(), x, y, series });
+    words.retain(|word| !word.is_empty());
+    assert_eq!(words, ["1", "0.02"], "of y and of x");
+}
+
+#[test]
 fn what_has_no_place_is_left_out_and_said() {
     let odd = [f64::NAN, f64::INFINITY, 0.0, -1.0, 1e308, 1e-308];
     let odd = odd.map(|v| Point { x_range: Some([v, -v]), y_range: Some([-v, v]), ..Point::new(v, v) });

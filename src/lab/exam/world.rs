@@ -11,6 +11,9 @@ use crate::{
     },
 };
 
+/// Acceleration of gravity of the scenes, m/s².
+pub(super) const GRAVITY: f64 = 9.81;
+
 /// A scene of the game's menu, with settings put in.
 pub(super) fn builtin(name: &str, settings: &[(&str, f64)], setting: &Setting) -> Result<Blueprint, SceneError> {
     build(&scene::load(name)?, settings, setting.preset)

@@ -8,16 +8,15 @@ use crate::{
         simd::InstructionSet,
     },
     lab::{
+        autopilot::ladder,
         density::density_error,
         drive::pause,
         jobs::{Handle, Share},
-        live::tick_milliseconds,
+        live::accuracy::{Curve, CurvePoint, Survey, SurveyRequest, fingerprint},
         stats,
     },
     scene::effects::{Effect, Mode},
     sim::{
-        accuracy::{Curve, CurvePoint, Survey, SurveyRequest, fingerprint},
-        autopilot::ladder,
         checkpoint::Checkpoint,
         effects::{Effects, status::Sleepers},
         ledger::PassLedger,
@@ -62,7 +61,7 @@ struct Message {
 /// What a run found.
 #[derive(Clone, Copy, Debug)]
 enum Done {
-    /// What a tick takes at the quality in force on one thread, with those asleep who sleep, ms.
+    /// What a tick takes at the quality in force on one thread, with the same particles asleep, ms.
     Here(f32),
     /// A quality.
     Point(CurvePoint),
@@ -159,7 +158,7 @@ struct Work {
 struct Leg {
     preset: Preset,
     quality: Quality,
-    /// Whether those may sleep who do in the game.
+    /// Whether the particles that sleep in the game may sleep.
     sleep: bool,
 }
 
@@ -276,6 +275,11 @@ impl Run {
             self.p99s.push(error.p99);
         }
     }
+}
+
+/// What a tick of the game takes, ms: median over the last ticks.
+fn tick_milliseconds(world: &World) -> f32 {
+    world.resource::<PassLedger>().tick().median().as_secs_f32() * 1000.0
 }
 
 #[cfg(test)]

@@ -7,6 +7,11 @@ use crate::{
         params::Preset,
     },
     lab::{
+        autopilot::{self, Autopilot, Goal, controller::Verdict, ladder},
+        live::{
+            accuracy::{LiveError, Survey, SurveyRequest, Watched},
+            measures::{Measured, Measures},
+        },
         run::{Plan, run},
         sampler::Sampler,
     },
@@ -15,13 +20,10 @@ use crate::{
         effects::{EffectModes, Pass},
     },
     sim::{
-        accuracy::{LiveError, Survey, SurveyRequest, Watched},
-        autopilot::{self, Autopilot, Goal, controller::Verdict, ladder},
         checkpoint::Checkpoint,
         control,
         intent::{Intent, IntentQueue},
         ledger::{Extent, PassLedger},
-        measures::{Measured, Measures},
         pace::Pace,
         recorder::{self, Recorder},
         recording::{Entry, Recording},

@@ -96,7 +96,7 @@ impl Player {
         Intent::Press { stroke: self.drag(6.0), amount }
     }
 
-    /// A short drag from where the hand is; now and then the hand is lifted and set down elsewhere.
+    /// A short drag from where the pointer is; now and then the pointer is lifted and set down elsewhere.
     fn drag(&mut self, radius: f32) -> Stroke {
         if self.random.below(20) == 0 {
             self.at = self.point();

@@ -24,6 +24,7 @@ pub fn chart(subject: &Subject, rows: &[Row]) -> Chart {
         let name = format!("{}{not_valid}", row.setting.name);
         series.push(Series::new(name, Look::Scatter, point(subject, row)));
     }
+    series.retain(|series| !series.points.is_empty());
     let threads = if subject.threads == 1 { "1 thread".to_owned() } else { format!("{} threads", subject.threads) };
     let errors = || rows.iter().filter_map(|row| point(subject, row)).map(|point| point.y);
     let (low, high) = (errors().fold(MOST_ERROR, f64::min), errors().fold(LEAST_ERROR, f64::max));

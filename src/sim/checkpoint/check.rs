@@ -93,7 +93,7 @@ pub(in crate::sim) fn gravity(gravity: Vec2, scale: Scale) -> Verdict {
 }
 
 /// The numbers of a quality.
-pub(in crate::sim) fn quality(quality: &Quality) -> Verdict {
+pub(crate) fn quality(quality: &Quality) -> Verdict {
     Tuning::from(*quality).check()
 }
 

@@ -1,7 +1,7 @@
 //! A world with all that it takes to go on from it: what undo, saves, recordings, crash recovery, the A/B split, surveys
 //! and sweeps set out from; and its form as a save file.
 
-pub(in crate::sim) mod check;
+pub(crate) mod check;
 mod contents;
 mod file;
 mod restore;

@@ -105,8 +105,8 @@ pub(super) fn apply_intents(
     (clock.edits - before) as usize
 }
 
-/// Whether the air that the hand blows would stop at the first water that it meets. The hand goes on pushing, so what is
-/// under it gets the wind of the tick at once, and the hand gives the momentum for it.
+/// Whether the air that the wind tool blows would stop at the first water that it meets. The tool goes on pushing, so
+/// what is under it gets the wind of the tick at once, and the tool gives the momentum for it.
 fn air_may_yield(setup: &Setup, effects: &Effects) -> bool {
     let runs = |effect: Effect| effects.get(effect).mode != Mode::Off;
     let yields = effects.get(Effect::AirFeedback).mode == Mode::On || setup.preset != Preset::Classic;

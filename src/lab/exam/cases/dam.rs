@@ -1,6 +1,6 @@
 //! The dam break of Martin and Moyce.
 
-use super::{GRAVITY, falling::worst};
+use super::falling::worst;
 use crate::{
     lab::{
         exam::{
@@ -9,7 +9,7 @@ use crate::{
                 Tolerance::{Share, Within},
             },
             fit::between,
-            world::{Clockwork, Stage, builtin},
+            world::{Clockwork, GRAVITY, Stage, builtin},
         },
         stats,
     },

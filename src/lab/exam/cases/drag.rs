@@ -1,16 +1,13 @@
 //! Drops in a steady wind.
 
-use super::{
-    GRAVITY,
-    falling::{drops, worst},
-};
+use super::falling::{drops, worst};
 use crate::{
     lab::exam::{
         case::{
             ExamCase, Finding, Over, Setting, Size,
             Tolerance::{Share, Within},
         },
-        world::{Clockwork, Stage, own},
+        world::{Clockwork, GRAVITY, Stage, own},
     },
     scene::SceneError,
 };

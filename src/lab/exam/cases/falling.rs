@@ -1,13 +1,12 @@
 //! Free fall, of single drops and of a blob.
 
-use super::GRAVITY;
 use crate::{
     lab::exam::{
         case::{
             ExamCase, Finding, Over, Setting, Size,
             Tolerance::{Share, Within},
         },
-        world::{Clockwork, Stage, own},
+        world::{Clockwork, GRAVITY, Stage, own},
     },
     scene::SceneError,
 };

@@ -32,6 +32,3 @@ pub const CASES: &[ExamCase] = &[
     vortex::VORTEX,
     pulse::PULSE,
 ];
-
-/// Acceleration of gravity of the scenes, m/s².
-const GRAVITY: f64 = 9.81;

@@ -1,11 +1,11 @@
 //! Outflow under a gate.
 
-use super::{GRAVITY, vessels::CONTRACTION};
+use super::vessels::CONTRACTION;
 use crate::{
     lab::exam::{
         case::{ExamCase, Finding, Over, Setting, Size, Tolerance::Share},
         fit::falls_to,
-        world::{Clockwork, Stage, own},
+        world::{Clockwork, GRAVITY, Stage, own},
     },
     scene::SceneError,
 };

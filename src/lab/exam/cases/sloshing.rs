@@ -1,11 +1,10 @@
 //! Sloshing in a tank.
 
-use super::GRAVITY;
 use crate::{
     lab::exam::{
         case::{ExamCase, Finding, Over, Setting, Size, Tolerance::Share},
         fit::half_period,
-        world::{Clockwork, Stage, own},
+        world::{Clockwork, GRAVITY, Stage, own},
     },
     scene::SceneError,
 };

@@ -1,6 +1,5 @@
 //! Communicating vessels.
 
-use super::GRAVITY;
 use crate::{
     lab::{
         exam::{
@@ -9,7 +8,7 @@ use crate::{
                 Tolerance::{Share, Within},
             },
             fit::falls_to,
-            world::{Clockwork, Stage, builtin, own},
+            world::{Clockwork, GRAVITY, Stage, builtin, own},
         },
         stats,
     },

@@ -2,10 +2,8 @@
 
 use crate::{
     game::hud::style::weak,
-    sim::{
-        measures::{Measured, Measures},
-        numbers::figure,
-    },
+    lab::live::measures::{Measured, Measures},
+    sim::numbers::figure,
 };
 use bevy_egui::egui::{self, Ui};
 
@@ -90,7 +88,7 @@ fn lines(measured: &Measured) -> Vec<Line> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::measures::AirMeasured;
+    use crate::lab::live::measures::AirMeasured;
     use glam::DVec2;
     use std::time::Duration;
 

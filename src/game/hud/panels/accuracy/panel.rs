@@ -19,14 +19,18 @@ use crate::{
         orders::{Order, Orders},
         panels::{Panel, Panels},
     },
-    lab::split::Split,
+    lab::{
+        autopilot::Autopilot,
+        live::{
+            accuracy::{Curve, LiveError, Survey, SurveyRequest, fingerprint},
+            measures::Measures,
+        },
+        split::Split,
+    },
     scene::{blueprint::Blueprint, effects::Pass},
     sim::{
-        accuracy::{Curve, LiveError, Survey, SurveyRequest, fingerprint},
-        autopilot::Autopilot,
         generation::Generation,
         ledger::PassLedger,
-        measures::Measures,
         numbers::{self, short},
         state::{Clock, Setup},
     },
@@ -313,7 +317,7 @@ mod tests {
     fn the_panel_keeps_a_curve_for_each_scene_and_a_short_trail() {
         let mut panel = AccuracyPanel::default();
         let live = Some(Live { milliseconds: 1.0, error: Some(0.01) });
-        let point = crate::sim::accuracy::CurvePoint {
+        let point = crate::lab::live::accuracy::CurvePoint {
             preset: Preset::Fast,
             quality: Preset::Fast.quality(),
             milliseconds: 1.0,

@@ -5,11 +5,8 @@ use crate::{
         hud::{panels::accuracy::axis::percent, style, widgets::quality_name},
         orders::{Order, Orders},
     },
-    sim::{
-        autopilot::{Autopilot, Goal, controller::Verdict},
-        numbers::short,
-        state::Setup,
-    },
+    lab::autopilot::{Autopilot, Goal, controller::Verdict},
+    sim::{numbers::short, state::Setup},
 };
 use bevy_egui::egui::{self, RichText, Ui};
 

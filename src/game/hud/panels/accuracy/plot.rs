@@ -7,11 +7,11 @@ use crate::{
         style,
     },
     kernel::params::{Preset, Quality},
-    sim::{
-        accuracy::{Curve, CurvePoint},
+    lab::{
         autopilot::Goal,
-        numbers::short,
+        live::accuracy::{Curve, CurvePoint},
     },
+    sim::numbers::short,
 };
 use bevy_egui::egui::{self, Align2, Color32, FontId, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 
@@ -316,7 +316,7 @@ mod tests {
         Plot { curve, scale: 1.0, trail, goal: None, now: Preset::Fast.quality(), looked: true }
     }
 
-    /// A curve of all presets, each twice as dear as the one before it and half as wrong; `error` is the first one's.
+    /// A curve of all presets, each with twice the cost and half the error of the one before it; `error` is the first one's.
     fn curve(error: Option<f32>) -> Curve {
         let point = |preset: Preset| {
             let factor = f32::from(1_u8 << preset as u8);

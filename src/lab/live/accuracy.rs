@@ -1,5 +1,5 @@
-//! What the game knows of its own accuracy: the density error of the running world, and the curve of error against time
-//! measured from a moment of it. `lab::live` writes, the HUD and the autopilot read; nothing here changes a world.
+//! What is known of the accuracy of the running world: its density error, and the curve of error against time that was
+//! measured from one of its states. The systems of this module write, HUD and autopilot read; nothing changes a world.
 
 use crate::{
     kernel::{
@@ -18,7 +18,7 @@ pub const SAMPLE_EVERY: u64 = 3;
 /// Samples that the shown error is the mean of: half a second.
 const RECENT: usize = 10;
 
-/// Whether somebody looks at the error of the running world: without one, it is not sampled and costs nothing.
+/// Whether the error of the running world is shown or held. Otherwise it is not sampled and costs nothing.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Watched(pub bool);
 
@@ -112,7 +112,7 @@ pub struct Curve {
     /// The quality that was in force, and what a tick of the game took at it, ms; `None` where all slept: that says
     /// nothing of a quality.
     pub here: Option<(Quality, f32)>,
-    /// What such a tick took on one thread with those asleep who slept, ms; `None` where nobody did.
+    /// What such a tick took on one thread with the same particles asleep, ms; `None` where none slept.
     pub here_on_one_thread: Option<f32>,
     /// One point a preset that is done, the cheapest first; and the quality that was in force, if it is no preset.
     pub points: Vec<CurvePoint>,
@@ -150,7 +150,7 @@ pub fn fingerprint(blueprint: &Blueprint) -> u64 {
 /// Edge of an air cell where only whether there is air counts, d.
 const COARSE: f32 = 32.0;
 
-/// "Measure here": asked for by the HUD, done by the lab.
+/// "Measure here": asked for by the HUD, done by `survey`.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct Survey {
     /// What is to be done next.
@@ -168,7 +168,7 @@ impl Survey {
     }
 }
 
-/// What the lab is asked for.
+/// What the survey is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SurveyRequest {
     /// Measure from the world as it is. One that is under way is given up.
@@ -206,7 +206,7 @@ mod tests {
             let scene = scene::from_text("pool", text.to_owned()).unwrap();
             fingerprint(&scene.build(&settings, preset, &EffectModes::new()).unwrap())
         };
-        let text = include_str!("../../assets/scenes/dam_break.ron");
+        let text = include_str!("../../../assets/scenes/dam_break.ron");
         let usual = build(text, "24", None);
         assert_eq!(usual, build(text, "24", Some(Preset::Reference)), "the quality is what the curve is over");
         assert_ne!(usual, build(text, "25", None), "a parameter");

@@ -6,9 +6,9 @@ use super::{
 };
 use crate::{
     kernel::units::TICK_SECONDS,
+    lab::live::accuracy::{LiveError, SAMPLE_EVERY},
     scene::effects::Pass,
     sim::{
-        accuracy::{LiveError, SAMPLE_EVERY},
         generation::Generation,
         intent::{Intent, IntentQueue},
         ledger::PassLedger,
