@@ -55,7 +55,7 @@ pub fn darken(colour: Rgb, depth: f32) -> Rgb {
     mix(colour, ABYSS, DEPTH_SHADE * depth)
 }
 
-/// Colour of the rock in `cell`: light at its surface, darker inside ([`BurialMap`]). Neighbouring cells share broad
+/// Colour of the rock in `cell`: light at its surface, darker inside (`BurialMap` of the game). Neighbouring cells share broad
 /// bands, each cell has its own grain.
 pub fn rock_colour(element: &Element, cell: IVec2, id: u32, burial: f32) -> Rgb {
     let at = cell.as_vec2();

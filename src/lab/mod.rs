@@ -38,7 +38,6 @@ pub mod scaling;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod soak;
 pub mod split;
-mod stage;
 pub mod stats;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod sweep;

@@ -1,12 +1,10 @@
 //! What a case is.
 
 use crate::{
-    lab::{
-        cases::{
-            row::{Figures, Row, Verdict},
-            setting::{Over, Setting},
-        },
-        stage::Clockwork,
+    lab::cases::{
+        row::{Figures, Row, Verdict},
+        setting::{Over, Setting},
+        simulation::Stopwatch,
     },
     scene::SceneError,
 };
@@ -28,8 +26,8 @@ pub trait Case: Debug + Send + Sync + Sized + 'static {
     fn run(
         &'static self,
         setting: &Setting,
-        stopwatch: &Clockwork,
-    ) -> impl Future<Output = Result<Vec<(Verdict, Self::Figures)>, SceneError>>;
+        stopwatch: &Stopwatch,
+    ) -> impl Future<Output = Result<Vec<(Verdict, Self::Figures)>, SceneError>> + Send;
 
     /// How long it takes, against others of its size.
     fn length(&self) -> u64 {

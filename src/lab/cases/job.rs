@@ -3,10 +3,9 @@
 use crate::{
     kernel::params::Preset,
     lab::{
-        cases::{case::Case, row::Row, setting::Setting},
+        cases::{case::Case, row::Row, setting::Setting, simulation::Stopwatch},
         drive::finish,
         jobs::pool,
-        stage::Clockwork,
     },
     scene::SceneError,
 };
@@ -35,7 +34,7 @@ impl<C: Case> Job<C> {
     /// Simulates the case and judges. Yields after each tick.
     pub async fn run(&self) -> Result<Vec<Row<C::Figures>>, SceneError> {
         let about = self.case.about();
-        let found = self.case.run(&self.setting, &Clockwork::default()).await?;
+        let found = self.case.run(&self.setting, &Stopwatch::default()).await?;
         let row = |(verdict, figures)| Row {
             case: about.name,
             title: about.title,

@@ -12,6 +12,7 @@ mod queue;
 mod report;
 mod row;
 mod setting;
+mod simulation;
 
 pub use case::{About, Case, Column, Size, Suite};
 pub use job::{Job, jobs, run_all};
@@ -19,3 +20,4 @@ pub use queue::{JobQueue, Progress, plugin};
 pub use report::{document, failure, summary, table};
 pub use row::{Figures, Row, Verdict};
 pub use setting::{Over, Setting};
+pub use simulation::{CaseSimulation, Stopwatch};

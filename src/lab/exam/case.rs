@@ -2,10 +2,7 @@
 
 pub(super) use crate::lab::cases::{Over, Setting, Size};
 use crate::{
-    lab::{
-        cases::{Figures, Verdict},
-        stage::Clockwork,
-    },
+    lab::cases::{Figures, Stopwatch, Verdict},
     scene::SceneError,
     sim::numbers::figure,
 };
@@ -30,11 +27,11 @@ pub struct ExamCase {
     /// How long it takes.
     pub size: Size,
     /// Simulates it.
-    pub(super) run: fn(Setting, Clockwork) -> Run,
+    pub(super) run: fn(Setting, Stopwatch) -> Run,
 }
 
 /// A case at work.
-pub(super) type Run = Pin<Box<dyn Future<Output = Result<Vec<Finding>, SceneError>>>>;
+pub(super) type Run = Pin<Box<dyn Future<Output = Result<Vec<Finding>, SceneError>> + Send>>;
 
 /// How far from the known answer still passes.
 #[derive(Clone, Copy, Debug, PartialEq)]

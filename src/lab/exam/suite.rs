@@ -2,9 +2,8 @@
 
 use crate::{
     lab::{
-        cases::{About, Case, Column, Row, Setting, Suite, Verdict},
+        cases::{About, Case, Column, Row, Setting, Stopwatch, Suite, Verdict},
         exam::{Answer, CASES, ExamCase},
-        stage::Clockwork,
     },
     scene::SceneError,
 };
@@ -43,7 +42,7 @@ impl Case for ExamCase {
     async fn run(
         &'static self,
         setting: &Setting,
-        stopwatch: &Clockwork,
+        stopwatch: &Stopwatch,
     ) -> Result<Vec<(Verdict, Answer)>, SceneError> {
         let findings = (self.run)(setting.clone(), stopwatch.clone()).await?;
         Ok(findings.into_iter().map(|finding| finding.judge(setting, stopwatch.milliseconds())).collect())

@@ -7,9 +7,8 @@ use super::{
 use crate::{
     kernel::params::Preset,
     lab::{
-        cases::{Row, Verdict, jobs, run_all, summary, table},
+        cases::{Row, Stopwatch, Verdict, jobs, run_all, summary, table},
         drive::finish,
-        stage::Clockwork,
     },
 };
 
@@ -42,7 +41,7 @@ fn an_exam_has_the_same_rows_side_by_side_and_stopped_and_gone_on_with() {
 /// Cases that answer where 2 ± 10 % is known: just within, just beyond, and nothing.
 static TOLD: [ExamCase; 3] = [told(|_, _| answer(2.19)), told(|_, _| answer(2.21)), told(|_, _| answer(f64::NAN))];
 
-const fn told(run: fn(Setting, Clockwork) -> Run) -> ExamCase {
+const fn told(run: fn(Setting, Stopwatch) -> Run) -> ExamCase {
     let over = Over::Qualities;
     ExamCase { name: "told", title: "", setup: "", answer: "", tolerance: "", over, size: Size::Usual, run }
 }

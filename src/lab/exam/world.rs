@@ -1,6 +1,6 @@
 //! The worlds of the cases: scenes at a quality.
 
-pub(super) use crate::lab::stage::{Clockwork, Stage};
+pub(super) use crate::lab::cases::{CaseSimulation, Stopwatch};
 use crate::{
     kernel::params::Preset,
     lab::cases::Setting,

@@ -2,12 +2,11 @@
 
 use crate::{
     lab::{
-        cases::{About, Case, Column, Row, Setting, Suite, Verdict},
+        cases::{About, Case, CaseSimulation, Column, Row, Setting, Stopwatch, Suite, Verdict},
         gauntlet::{
             CASES, GauntletCase, Stability,
             judge::{Judge, Totals},
         },
-        stage::{Clockwork, Stage},
     },
     scene::SceneError,
     sim::numbers::figure,
@@ -51,29 +50,29 @@ impl Case for GauntletCase {
     async fn run(
         &'static self,
         setting: &Setting,
-        stopwatch: &Clockwork,
+        stopwatch: &Stopwatch,
     ) -> Result<Vec<(Verdict, Stability)>, SceneError> {
-        let mut stage = Stage::new(self.blueprint(setting.preset)?, stopwatch);
-        let mut judge = Judge::new(self, stage.world());
+        let mut simulation = CaseSimulation::new(self.blueprint(setting.preset)?, stopwatch);
+        let mut judge = Judge::new(self, simulation.world());
         for tick in 0..u64::from(self.ticks) {
             if let Some(act) = self.act {
                 // What the script and its intents put in is told from what the tick does with it.
-                let before = Totals::of(stage.world());
-                act(stage.world_mut(), tick);
-                stage.edit();
-                judge.edited(before, Totals::of(stage.world()));
+                let before = Totals::of(simulation.world());
+                act(simulation.world_mut(), tick);
+                simulation.edit();
+                judge.edited(before, Totals::of(simulation.world()));
             }
-            let before = Totals::of(stage.world());
+            let before = Totals::of(simulation.world());
             let ticks = match self.frames {
-                Some(frames) => stage.frame(frames(tick)).await,
+                Some(frames) => simulation.frame(frames(tick)).await,
                 None => {
-                    stage.tick().await;
+                    simulation.tick().await;
                     1
                 }
             };
-            judge.inspect(before, ticks, stage.world());
+            judge.inspect(before, ticks, simulation.world());
         }
-        Ok(vec![judge.finish(self, setting.preset, stage.world(), stopwatch.milliseconds())])
+        Ok(vec![judge.finish(self, setting.preset, simulation.world(), stopwatch.milliseconds())])
     }
 
     fn length(&self) -> u64 {

@@ -4,12 +4,11 @@
 use crate::lab::drive::{finish, step};
 use bevy::platform::{cell::SyncCell, time::Instant};
 use std::{
-    cell::RefCell,
     future::Future,
     pin::Pin,
     sync::{
         Arc, Mutex, PoisonError,
-        atomic::{AtomicBool, AtomicU64, Ordering},
+        atomic::{AtomicBool, Ordering},
         mpsc::{Receiver, Sender, TryRecvError, channel},
     },
     thread,
@@ -37,32 +36,24 @@ pub struct Handle<M> {
 
 enum Place {
     Thread { cancelled: Arc<AtomicBool> },
-    Slices { id: u64 },
+    Slices(SyncCell<Work>),
 }
 
-type Work = Pin<Box<dyn Future<Output = ()>>>;
-
-thread_local! {
-    /// What runs in slices. A world of its own can't leave its thread, and so can't be in a handle.
-    static SLICED: RefCell<Vec<(u64, Work)>> = const { RefCell::new(Vec::new()) };
-}
+type Work = Pin<Box<dyn Future<Output = ()> + Send>>;
 
 impl<M: Send + 'static> Handle<M> {
     /// Starts what `work` makes of the sender of its messages.
-    pub fn start<W: Future<Output = ()> + 'static>(
-        share: Share,
-        work: impl FnOnce(Sender<M>) -> W + Send + 'static,
-    ) -> Self {
+    pub fn start<W: Future<Output = ()> + Send + 'static>(share: Share, work: impl FnOnce(Sender<M>) -> W) -> Self {
         let (sender, messages) = channel();
-        let cancelled = Arc::new(AtomicBool::new(false));
         // Where no thread starts, the work is still here.
-        let slot = Arc::new(Mutex::new(Some((work, sender))));
-        let take = |slot: &Mutex<Option<_>>| slot.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let slot: Arc<Mutex<Option<Work>>> = Arc::new(Mutex::new(Some(Box::pin(work(sender)))));
+        let take = |slot: &Mutex<Option<Work>>| slot.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let cancelled = Arc::new(AtomicBool::new(false));
         let (theirs, is_cancelled) = (slot.clone(), cancelled.clone());
         let started = thread::Builder::new().name("background".to_owned()).spawn(move || {
-            let Some((work, sender)) = take(&theirs) else { return };
+            let Some(work) = take(&theirs) else { return };
             let mut begun = Instant::now();
-            finish(work(sender), || {
+            finish(work, || {
                 if share == Share::Half {
                     thread::sleep(begun.elapsed());
                     begun = Instant::now();
@@ -71,39 +62,33 @@ impl<M: Send + 'static> Handle<M> {
             });
         });
         let place = match started.err().and_then(|_| take(&slot)) {
-            Some((work, sender)) => slice(Box::pin(work(sender))),
+            Some(work) => Place::Slices(SyncCell::new(work)),
             None => Place::Thread { cancelled },
         };
         Self { messages: SyncCell::new(messages), is_over: false, place }
     }
 
     /// Starts it in slices, as where there are no threads.
-    pub fn sliced<W: Future<Output = ()> + 'static>(work: impl FnOnce(Sender<M>) -> W) -> Self {
+    pub fn sliced<W: Future<Output = ()> + Send + 'static>(work: impl FnOnce(Sender<M>) -> W) -> Self {
         let (sender, messages) = channel();
-        Self { messages: SyncCell::new(messages), is_over: false, place: slice(Box::pin(work(sender))) }
+        let place = Place::Slices(SyncCell::new(Box::pin(work(sender))));
+        Self { messages: SyncCell::new(messages), is_over: false, place }
     }
 
     /// Works for a slice where there is no thread, and gives what was told since.
     pub fn advance(&mut self) -> Vec<M> {
-        if let Place::Slices { id } = self.place
-            && let Some(mut work) = take(id)
-        {
+        if let Place::Slices(work) = &mut self.place {
             let begun = Instant::now();
-            let mut is_ready = false;
-            while !is_ready && begun.elapsed() < SLICE {
-                is_ready = step(work.as_mut()).is_ready();
-            }
-            if !is_ready {
-                SLICED.with_borrow_mut(|sliced| sliced.push((id, work)));
+            while begun.elapsed() < SLICE && !self.is_over {
+                self.is_over = step(work.get().as_mut()).is_ready();
             }
         }
         let mut told = Vec::new();
         loop {
             match self.messages.get().try_recv() {
                 Ok(message) => told.push(message),
-                Err(TryRecvError::Empty) => return told,
-                Err(TryRecvError::Disconnected) => {
-                    self.is_over = true;
+                Err(error) => {
+                    self.is_over |= error == TryRecvError::Disconnected;
                     return told;
                 }
             }
@@ -116,26 +101,10 @@ impl<M: Send + 'static> Handle<M> {
     }
 }
 
-fn slice(work: Work) -> Place {
-    static NEXT: AtomicU64 = AtomicU64::new(0);
-    let id = NEXT.fetch_add(1, Ordering::Relaxed);
-    SLICED.with_borrow_mut(|sliced| sliced.push((id, work)));
-    Place::Slices { id }
-}
-
-/// Takes out what runs in slices as `id`.
-fn take(id: u64) -> Option<Work> {
-    SLICED.with_borrow_mut(|sliced| {
-        let place = sliced.iter().position(|(other, _)| *other == id)?;
-        Some(sliced.swap_remove(place).1)
-    })
-}
-
 impl<M> Drop for Handle<M> {
     fn drop(&mut self) {
-        match &self.place {
-            Place::Thread { cancelled } => cancelled.store(true, Ordering::Relaxed),
-            Place::Slices { id } => drop(take(*id)),
+        if let Place::Thread { cancelled } = &self.place {
+            cancelled.store(true, Ordering::Relaxed);
         }
     }
 }

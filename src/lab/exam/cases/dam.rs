@@ -9,7 +9,7 @@ use crate::{
                 Tolerance::{Share, Within},
             },
             fit::between,
-            world::{Clockwork, GRAVITY, Stage, builtin},
+            world::{CaseSimulation, GRAVITY, Stopwatch, builtin},
         },
         stats,
     },
@@ -30,7 +30,7 @@ pub(super) const DAM_BREAK: ExamCase = ExamCase {
                 0.03; the readings have two digits, and a gate that opens late shifts them by as much.",
     over: Over::Qualities,
     size: Size::Usual,
-    run: |setting, clockwork| Box::pin(dam_break(setting, clockwork)),
+    run: |setting, stopwatch| Box::pin(dam_break(setting, stopwatch)),
 };
 
 /// Particles along the base.
@@ -71,16 +71,16 @@ const HEIGHT: [(f64, f64); 14] = [
 /// Times T over which the slope of the front is taken.
 const FRONT_OVER: (f64, f64) = (1.602, 2.950);
 
-async fn dam_break(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, SceneError> {
-    let mut stage = Stage::new(builtin("dam_break", &[("columns", COLUMNS)], &setting)?, &clockwork);
-    let base = COLUMNS * stage.spacing();
+async fn dam_break(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Finding>, SceneError> {
+    let mut simulation = CaseSimulation::new(builtin("dam_break", &[("columns", COLUMNS)], &setting)?, &stopwatch);
+    let base = COLUMNS * simulation.spacing();
     let per_second = (GRAVITY / base).sqrt();
     let (mut front, mut height) = (Vec::new(), Vec::new());
     while height.last().is_none_or(|(time, _)| *time < HEIGHT[HEIGHT.len() - 1].0) {
-        stage.tick().await;
-        let time = stage.seconds() * per_second;
-        front.push((time * std::f64::consts::SQRT_2, stage.matter().front().unwrap_or(f64::NAN) / base));
-        height.push((time, at_wall(&stage) / (2.0 * base)));
+        simulation.tick().await;
+        let time = simulation.seconds() * per_second;
+        front.push((time * std::f64::consts::SQRT_2, simulation.matter().front().unwrap_or(f64::NAN) / base));
+        height.push((time, at_wall(&simulation) / (2.0 * base)));
     }
     let (from, to) = FRONT_OVER;
     let apart = HEIGHT.iter().map(|(time, known)| at(&height, *time) - known);
@@ -114,11 +114,11 @@ fn slope(points: &[(f64, f64)]) -> f64 {
 
 /// Height of the liquid at the left wall, m: how far up the particles within six spacings of it follow each other
 /// without a gap of two. What was splashed higher does not count.
-fn at_wall(stage: &Stage) -> f64 {
-    let particles = stage.particles();
+fn at_wall(simulation: &CaseSimulation) -> f64 {
+    let particles = simulation.particles();
     let near = particles.x.iter().zip(&particles.y).filter(|(x, _)| **x < 6.0);
     let mut heights: Vec<f64> = near.map(|(_, y)| f64::from(*y)).collect();
     heights.sort_unstable_by(f64::total_cmp);
     let top = heights.iter().fold(0.0, |top, &y| if y - top < 2.0 { y } else { top });
-    (top + 0.5) * stage.spacing()
+    (top + 0.5) * simulation.spacing()
 }

@@ -7,7 +7,7 @@ use crate::{
             ExamCase, Finding, Over, Setting, Size,
             Tolerance::{Share, Within},
         },
-        world::{Clockwork, GRAVITY, Stage, own},
+        world::{CaseSimulation, GRAVITY, Stopwatch, own},
     },
     scene::SceneError,
 };
@@ -23,7 +23,7 @@ pub(super) const WIND: ExamCase = ExamCase {
                 first order in the step as in free fall, 1.7 %.",
     over: Over::Qualities,
     size: Size::Quick,
-    run: |setting, clockwork| Box::pin(wind(setting, clockwork)),
+    run: |setting, stopwatch| Box::pin(wind(setting, stopwatch)),
 };
 
 pub(super) const TERMINAL_SPEED: ExamCase = ExamCase {
@@ -38,7 +38,7 @@ pub(super) const TERMINAL_SPEED: ExamCase = ExamCase {
                 itself, which the fans keep to 10⁻³: 0.005 m/s.",
     over: Over::Qualities,
     size: Size::Quick,
-    run: |setting, clockwork| Box::pin(terminal_speed(setting, clockwork)),
+    run: |setting, stopwatch| Box::pin(terminal_speed(setting, stopwatch)),
 };
 
 /// Wind, m/s.
@@ -47,29 +47,29 @@ const SPEED: f64 = 10.0;
 const UPDRAUGHT: f64 = 5.0;
 
 /// k of `dv/dt = −k |v| v` for water, 1/m.
-fn drag(stage: &Stage) -> f64 {
-    let matter = stage.matter();
+fn drag(simulation: &CaseSimulation) -> f64 {
+    let matter = simulation.matter();
     let water = matter.elements.iter().find(|(_, element)| element.name == "water");
-    let d = stage.spacing();
+    let d = simulation.spacing();
     water.map_or(f64::NAN, |(_, water)| f64::from(water.drag) / (f64::from(water.density) * d * d))
 }
 
 /// Runs until the taps have let their drops out. The drops have done one tick then.
-async fn wait_for_drops(stage: &mut Stage) {
-    while stage.particles().is_empty() && stage.seconds() < 10.0 {
-        stage.tick().await;
+async fn wait_for_drops(simulation: &mut CaseSimulation) {
+    while simulation.particles().is_empty() && simulation.seconds() < 10.0 {
+        simulation.tick().await;
     }
 }
 
-async fn wind(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, SceneError> {
+async fn wind(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Finding>, SceneError> {
     let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/exam/wind.ron"));
-    let mut stage = Stage::new(own("wind", text, &[], &setting)?, &clockwork);
-    wait_for_drops(&mut stage).await;
-    let (k, begun, start) = (drag(&stage), stage.ticks - 1, drops(&stage));
+    let mut simulation = CaseSimulation::new(own("wind", text, &[], &setting)?, &stopwatch);
+    wait_for_drops(&mut simulation).await;
+    let (k, begun, start) = (drag(&simulation), simulation.ticks - 1, drops(&simulation));
     let from = start.iter().map(|(position, velocity)| position.x - velocity.x / 60.0).collect::<Vec<_>>();
-    stage.run(59.0 / 60.0).await;
-    let t = f64::from(stage.ticks - begun) / 60.0;
-    let end = drops(&stage);
+    simulation.run(59.0 / 60.0).await;
+    let t = f64::from(simulation.ticks - begun) / 60.0;
+    let end = drops(&simulation);
     let speed = SPEED - SPEED / (1.0 + k * SPEED * t);
     let distance = SPEED * t - (k * SPEED * t).ln_1p() / k;
     Ok(vec![
@@ -90,18 +90,18 @@ async fn wind(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, Sc
     ])
 }
 
-async fn terminal_speed(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, SceneError> {
+async fn terminal_speed(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Finding>, SceneError> {
     let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/exam/updraught.ron"));
-    let mut stage = Stage::new(own("updraught", text, &[], &setting)?, &clockwork);
-    wait_for_drops(&mut stage).await;
-    let (k, begun) = (drag(&stage), stage.ticks - 1);
+    let mut simulation = CaseSimulation::new(own("updraught", text, &[], &setting)?, &stopwatch);
+    wait_for_drops(&mut simulation).await;
+    let (k, begun) = (drag(&simulation), simulation.ticks - 1);
     let terminal = (GRAVITY / k).sqrt();
     let mut look = async |seconds: u32, quantity| {
-        while stage.ticks - begun < 60 * seconds {
-            stage.tick().await;
+        while simulation.ticks - begun < 60 * seconds {
+            simulation.tick().await;
         }
         let expected = terminal * (GRAVITY * f64::from(seconds) / terminal).tanh() - UPDRAUGHT;
-        let got = worst(drops(&stage).iter().map(|(_, velocity)| -velocity.y), expected);
+        let got = worst(drops(&simulation).iter().map(|(_, velocity)| -velocity.y), expected);
         Finding { quantity, unit: "m/s", expected, got, tolerance: Within(0.5 * GRAVITY / 60.0 + 1e-3 * UPDRAUGHT) }
     };
     Ok(vec![look(1, "speed after 1 s").await, look(6, "speed after 6 s").await])

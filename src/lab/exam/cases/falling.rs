@@ -6,7 +6,7 @@ use crate::{
             ExamCase, Finding, Over, Setting, Size,
             Tolerance::{Share, Within},
         },
-        world::{Clockwork, GRAVITY, Stage, own},
+        world::{CaseSimulation, GRAVITY, Stopwatch, own},
     },
     scene::SceneError,
 };
@@ -23,7 +23,7 @@ pub(super) const FREE_FALL: ExamCase = ExamCase {
                 falls with the number of substeps.",
     over: Over::Qualities,
     size: Size::Quick,
-    run: |setting, clockwork| Box::pin(free_fall(setting, clockwork)),
+    run: |setting, stopwatch| Box::pin(free_fall(setting, stopwatch)),
 };
 
 pub(super) const BLOB_FALL: ExamCase = ExamCase {
@@ -39,15 +39,15 @@ pub(super) const BLOB_FALL: ExamCase = ExamCase {
                 to the eye.",
     over: Over::Qualities,
     size: Size::Quick,
-    run: |setting, clockwork| Box::pin(blob_fall(setting, clockwork)),
+    run: |setting, stopwatch| Box::pin(blob_fall(setting, stopwatch)),
 };
 
-async fn free_fall(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, SceneError> {
+async fn free_fall(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Finding>, SceneError> {
     let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/exam/free_fall.ron"));
-    let mut stage = Stage::new(own("free_fall", text, &[], &setting)?, &clockwork);
-    let start = drops(&stage);
-    stage.run(1.0).await;
-    let (t, end) = (stage.seconds(), drops(&stage));
+    let mut simulation = CaseSimulation::new(own("free_fall", text, &[], &setting)?, &stopwatch);
+    let start = drops(&simulation);
+    simulation.run(1.0).await;
+    let (t, end) = (simulation.seconds(), drops(&simulation));
     let gained = worst(start.iter().zip(&end).map(|(start, end)| start.1.y - end.1.y), GRAVITY * t);
     let fallen =
         worst(start.iter().zip(&end).map(|(start, end)| start.0.y + start.1.y * t - end.0.y), 0.5 * GRAVITY * t * t);
@@ -77,12 +77,12 @@ async fn free_fall(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding
     ])
 }
 
-async fn blob_fall(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, SceneError> {
+async fn blob_fall(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Finding>, SceneError> {
     let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/exam/blob_fall.ron"));
-    let mut stage = Stage::new(own("blob_fall", text, &[], &setting)?, &clockwork);
-    let start = stage.matter().balance();
-    stage.run(1.0).await;
-    let end = stage.matter().balance();
+    let mut simulation = CaseSimulation::new(own("blob_fall", text, &[], &setting)?, &stopwatch);
+    let start = simulation.matter().balance();
+    simulation.run(1.0).await;
+    let end = simulation.matter().balance();
     let gained = (end.momentum - start.momentum) / end.mass;
     let centre = end.momentum / end.mass;
     let inner = 2.0 * end.kinetic / end.mass - centre.length_squared();
@@ -90,7 +90,7 @@ async fn blob_fall(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding
         Finding {
             quantity: "speed gained by the centre of mass",
             unit: "m/s",
-            expected: GRAVITY * stage.seconds(),
+            expected: GRAVITY * simulation.seconds(),
             got: -gained.y,
             tolerance: Share(0.01),
         },
@@ -112,8 +112,8 @@ async fn blob_fall(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding
 }
 
 /// Position (m) and velocity (m/s) of each particle, by id.
-pub(super) fn drops(stage: &Stage) -> Vec<(DVec2, DVec2)> {
-    let (particles, d) = (stage.particles(), stage.spacing());
+pub(super) fn drops(simulation: &CaseSimulation) -> Vec<(DVec2, DVec2)> {
+    let (particles, d) = (simulation.particles(), simulation.spacing());
     let of = |i: u32| {
         let i = i as usize;
         (particles.position(i).as_dvec2() * d, particles.velocity(i).as_dvec2() * d)

@@ -5,7 +5,7 @@ use crate::{
     lab::exam::{
         case::{ExamCase, Finding, Over, Setting, Size, Tolerance::Share},
         fit::falls_to,
-        world::{Clockwork, GRAVITY, Stage, own},
+        world::{CaseSimulation, GRAVITY, Stopwatch, own},
     },
     scene::SceneError,
 };
@@ -22,7 +22,7 @@ pub(super) const ORIFICE: ExamCase = ExamCase {
                 tank, also while the flow starts.",
     over: Over::Qualities,
     size: Size::Usual,
-    run: |setting, clockwork| Box::pin(orifice(setting, clockwork)),
+    run: |setting, stopwatch| Box::pin(orifice(setting, stopwatch)),
 };
 
 /// Width of the tank and height of the opening, m.
@@ -32,15 +32,15 @@ const OPENING: f64 = 0.8;
 const FROM: f64 = 3.6;
 const TO: f64 = 2.4;
 
-async fn orifice(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, SceneError> {
+async fn orifice(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Finding>, SceneError> {
     let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/exam/orifice.ron"));
-    let mut stage = Stage::new(own("orifice", text, &[], &setting)?, &clockwork);
+    let mut simulation = CaseSimulation::new(own("orifice", text, &[], &setting)?, &stopwatch);
     let mut curve = Vec::new();
-    while stage.seconds() < 10.0 && curve.last().is_none_or(|(_, level)| *level > TO) {
-        stage.tick().await;
-        let d = stage.spacing();
-        let left = stage.particles().x.iter().filter(|x| f64::from(**x) * d < WIDTH).count();
-        curve.push((stage.seconds(), left as f64 * d * d / WIDTH));
+    while simulation.seconds() < 10.0 && curve.last().is_none_or(|(_, level)| *level > TO) {
+        simulation.tick().await;
+        let d = simulation.spacing();
+        let left = simulation.particles().x.iter().filter(|x| f64::from(**x) * d < WIDTH).count();
+        curve.push((simulation.seconds(), left as f64 * d * d / WIDTH));
     }
     let got = falls_to(&curve, TO).zip(falls_to(&curve, FROM)).map_or(f64::NAN, |(end, start)| end - start);
     Ok(vec![Finding {

@@ -3,7 +3,7 @@
 use crate::{
     lab::exam::{
         case::{ExamCase, Finding, Over, Setting, Size, Tolerance::Share},
-        world::{Clockwork, Stage, own},
+        world::{CaseSimulation, Stopwatch, own},
     },
     scene::SceneError,
 };
@@ -18,36 +18,36 @@ pub(super) const PULSE: ExamCase = ExamCase {
                 to 6·10⁻⁸, and some 500 steps add up to 1.3·10⁻⁶ at random, to 3·10⁻⁵ if all went one way.",
     over: Over::Air,
     size: Size::Quick,
-    run: |setting, clockwork| Box::pin(pulse(setting, clockwork)),
+    run: |setting, stopwatch| Box::pin(pulse(setting, stopwatch)),
 };
 
 /// Speed of sound, m/s.
 const SOUND: f64 = 40.0;
 
-async fn pulse(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, SceneError> {
+async fn pulse(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Finding>, SceneError> {
     let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/exam/pulse.ron"));
-    let mut stage = Stage::new(own("pulse", text, &[], &setting)?, &clockwork);
-    let mass = stage.air().mass();
-    stage.run(0.2).await;
-    let (begun, from) = (stage.seconds(), centre(&stage));
-    stage.run(0.4).await;
-    let speed = (centre(&stage) - from) / (stage.seconds() - begun);
+    let mut simulation = CaseSimulation::new(own("pulse", text, &[], &setting)?, &stopwatch);
+    let mass = simulation.air().mass();
+    simulation.run(0.2).await;
+    let (begun, from) = (simulation.seconds(), centre(&simulation));
+    simulation.run(0.4).await;
+    let speed = (centre(&simulation) - from) / (simulation.seconds() - begun);
     Ok(vec![
         Finding { quantity: "speed", unit: "m/s", expected: SOUND, got: speed, tolerance: Share(0.01) },
         Finding {
             quantity: "air that is left",
             unit: "",
             expected: 1.0,
-            got: stage.air().mass() / mass,
+            got: simulation.air().mass() / mass,
             tolerance: Share(3e-6),
         },
     ])
 }
 
 /// Centre of mass of what is above pressure 1 in the right half of the tube, m.
-fn centre(stage: &Stage) -> f64 {
-    let air = stage.air();
-    let cell = f64::from(air.cell()) * stage.spacing();
+fn centre(simulation: &CaseSimulation) -> f64 {
+    let air = simulation.air();
+    let cell = f64::from(air.cell()) * simulation.spacing();
     let (mut sum, mut moment) = (0.0, 0.0);
     for row in 0..air.rows() {
         for (column, p) in air.pressure_row(row).iter().enumerate().skip(air.columns() / 2) {

@@ -9,7 +9,7 @@ use crate::{
                 ExamCase, Finding, Over, Setting, Size,
                 Tolerance::{Share, Within},
             },
-            world::{Clockwork, Stage, builtin},
+            world::{CaseSimulation, Stopwatch, builtin},
         },
         stats,
     },
@@ -27,33 +27,33 @@ pub(super) const HYDROSTATIC: ExamCase = ExamCase {
                 0.02 d a tick, which is calm to the eye.",
     over: Over::Qualities,
     size: Size::Usual,
-    run: |setting, clockwork| Box::pin(hydrostatic(setting, clockwork)),
+    run: |setting, stopwatch| Box::pin(hydrostatic(setting, stopwatch)),
 };
 
 /// Particles along the width and the depth.
 const SIZE: (u32, u32) = (40, 60);
 
-async fn hydrostatic(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, SceneError> {
+async fn hydrostatic(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Finding>, SceneError> {
     let (columns, depth) = (f64::from(SIZE.0), f64::from(SIZE.1));
     let blueprint = builtin("hydrostatic", &[("columns", columns), ("depth", depth)], &setting)?;
-    let mut stage = Stage::new(blueprint, &clockwork);
-    stage.run(8.0).await;
+    let mut simulation = CaseSimulation::new(blueprint, &stopwatch);
+    simulation.run(8.0).await;
     let (mut surface, mut motion, mut low, mut high) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for _ in 0..12 {
-        stage.run(1.0 / 6.0).await;
-        let matter = stage.matter();
+        simulation.run(1.0 / 6.0).await;
+        let matter = simulation.matter();
         surface.push(matter.surface().unwrap_or(f64::NAN));
         let balance = matter.balance();
-        motion.push((2.0 * balance.kinetic / balance.mass).sqrt() / stage.spacing() / f64::from(TICKS_PER_SECOND));
-        low.push(density(&stage, 0.0, depth / 3.0));
-        high.push(density(&stage, depth * 2.0 / 3.0, depth));
+        motion.push((2.0 * balance.kinetic / balance.mass).sqrt() / simulation.spacing() / f64::from(TICKS_PER_SECOND));
+        low.push(density(&simulation, 0.0, depth / 3.0));
+        high.push(density(&simulation, depth * 2.0 / 3.0, depth));
     }
     let mean = |values: &[f64]| stats::mean(values).unwrap_or(f64::NAN);
     Ok(vec![
         Finding {
             quantity: "height of the surface",
             unit: "m",
-            expected: depth * stage.spacing(),
+            expected: depth * simulation.spacing(),
             got: mean(&surface),
             tolerance: Share(0.02),
         },
@@ -70,9 +70,9 @@ async fn hydrostatic(setting: Setting, clockwork: Clockwork) -> Result<Vec<Findi
 }
 
 /// Mean density of the particles inside the liquid between two heights, d.
-fn density(stage: &Stage, from: f64, to: f64) -> f64 {
-    let matter = stage.matter();
-    let locals = surroundings(matter.particles, stage.world().resource::<Rock>(), matter.domain.size);
+fn density(simulation: &CaseSimulation, from: f64, to: f64) -> f64 {
+    let matter = simulation.matter();
+    let locals = surroundings(matter.particles, simulation.world().resource::<Rock>(), matter.domain.size);
     let inside = (locals.iter().zip(&matter.particles.y))
         .filter(|(local, y)| local.interior && (from..to).contains(&f64::from(**y)))
         .map(|(local, _)| local.density);

@@ -8,7 +8,7 @@ use crate::{
     lab::{
         exam::{
             case::{ExamCase, Finding, Over, Setting, Size, Tolerance::Share},
-            world::{Clockwork, Stage, own},
+            world::{CaseSimulation, Stopwatch, own},
         },
         stats,
     },
@@ -31,7 +31,7 @@ pub(super) const SHEAR_LAYER: ExamCase = ExamCase {
     tolerance: "10 %: the particles leave the lattice that the sum is taken over.",
     over: Over::Qualities,
     size: Size::Usual,
-    run: |setting, clockwork| Box::pin(shear_layer(setting, clockwork)),
+    run: |setting, stopwatch| Box::pin(shear_layer(setting, stopwatch)),
 };
 
 /// Speed at the start, d/s, and height of the channel, d.
@@ -43,7 +43,7 @@ const SETTLE: f64 = 0.1;
 /// XSPH viscosity c: so thick that the particles finding their places does not matter beside it.
 const VISCOSITY: f32 = 0.5;
 
-async fn shear_layer(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, SceneError> {
+async fn shear_layer(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Finding>, SceneError> {
     let mut rates = [0.0; 2];
     let mut expected = f64::NAN;
     for (rate, mode) in rates.iter_mut().zip([Mode::On, Mode::Off]) {
@@ -56,16 +56,16 @@ async fn shear_layer(setting: Setting, clockwork: Clockwork) -> Result<Vec<Findi
         for i in 0..particles.len() {
             particles.vx[i] = SPEED * (PI * f64::from(particles.y[i]) / HEIGHT).cos() as f32;
         }
-        let mut stage = Stage::new(blueprint, &clockwork);
+        let mut simulation = CaseSimulation::new(blueprint, &stopwatch);
         let mut curve = Vec::new();
-        while stage.seconds() < SECONDS {
-            stage.tick().await;
-            if stage.seconds() >= SETTLE {
-                curve.push((stage.seconds(), amplitude(&stage).ln()));
+        while simulation.seconds() < SECONDS {
+            simulation.tick().await;
+            if simulation.seconds() >= SETTLE {
+                curve.push((simulation.seconds(), amplitude(&simulation).ln()));
             }
         }
         *rate = stats::line(&curve).map_or(f64::NAN, |(slope, _)| -slope);
-        expected = theory(&stage);
+        expected = theory(&simulation);
     }
     Ok(vec![Finding {
         quantity: "rate at which XSPH damps it",
@@ -77,8 +77,8 @@ async fn shear_layer(setting: Setting, clockwork: Clockwork) -> Result<Vec<Findi
 }
 
 /// Amplitude of `cos(k y)` in the velocity along the channel, d/s.
-fn amplitude(stage: &Stage) -> f64 {
-    let matter = stage.matter();
+fn amplitude(simulation: &CaseSimulation) -> f64 {
+    let matter = simulation.matter();
     let (particles, width) = (matter.particles, matter.domain.size.x);
     let (mut sum, mut norm) = (0.0, 0.0);
     for i in (0..particles.len()).filter(|&i| (width / 3.0..width * 2.0 / 3.0).contains(&particles.x[i])) {
@@ -90,8 +90,8 @@ fn amplitude(stage: &Stage) -> f64 {
 }
 
 /// The rate by the sum over the lattice, 1/s.
-fn theory(stage: &Stage) -> f64 {
-    let h = f64::from(stage.quality().kernel_radius);
+fn theory(simulation: &CaseSimulation) -> f64 {
+    let h = f64::from(simulation.quality().kernel_radius);
     let (mut loss, mut norm) = (0.0, 0.0);
     for x in -4..=4 {
         for y in -4..=4 {

@@ -4,7 +4,7 @@ use crate::{
     lab::exam::{
         case::{ExamCase, Finding, Over, Setting, Size, Tolerance::Share},
         fit::half_period,
-        world::{Clockwork, GRAVITY, Stage, own},
+        world::{CaseSimulation, GRAVITY, Stopwatch, own},
     },
     scene::SceneError,
 };
@@ -21,13 +21,13 @@ pub(super) const SLOSHING: ExamCase = ExamCase {
                 particles of 0.1 m, which blurs the depth by half a spacing: 1 % deep, 2.5 % in the shallow tank.",
     over: Over::Qualities,
     size: Size::Quick,
-    run: |setting, clockwork| Box::pin(sloshing(setting, clockwork)),
+    run: |setting, stopwatch| Box::pin(sloshing(setting, stopwatch)),
 };
 
 /// Length of the tank, m.
 const LENGTH: f64 = 6.0;
 
-async fn sloshing(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, SceneError> {
+async fn sloshing(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Finding>, SceneError> {
     let mut findings = Vec::new();
     for (quantity, depth, tilt) in
         [("period, 3 m deep", 3.0, 0.3), ("period, 1 m deep", 1.0, 0.15), ("period, 1.1 m deep", 1.1, 0.15)]
@@ -35,22 +35,22 @@ async fn sloshing(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>
         let wave = PI / LENGTH;
         let omega = (GRAVITY * wave * (wave * depth).tanh()).sqrt();
         let expected = 2.0 * PI / omega;
-        let got = 2.0 * swing(depth, tilt, &setting, &clockwork).await?.unwrap_or(f64::NAN);
+        let got = 2.0 * swing(depth, tilt, &setting, &stopwatch).await?.unwrap_or(f64::NAN);
         findings.push(Finding { quantity, unit: "s", expected, got, tolerance: Share(0.03) });
     }
     Ok(findings)
 }
 
-async fn swing(depth: f64, tilt: f64, setting: &Setting, clockwork: &Clockwork) -> Result<Option<f64>, SceneError> {
+async fn swing(depth: f64, tilt: f64, setting: &Setting, stopwatch: &Stopwatch) -> Result<Option<f64>, SceneError> {
     let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/exam/sloshing.ron"));
     let blueprint = own("sloshing", text, &[("depth", depth), ("tilt", tilt)], setting)?;
-    let mut stage = Stage::new(blueprint, clockwork);
+    let mut simulation = CaseSimulation::new(blueprint, stopwatch);
     let mut curve = Vec::new();
     for _ in 0..12 * 60 {
-        stage.tick().await;
-        let x = &stage.particles().x;
-        let centre = x.iter().map(|x| f64::from(*x)).sum::<f64>() / x.len() as f64 * stage.spacing();
-        curve.push((stage.seconds(), centre - 0.5 * LENGTH));
+        simulation.tick().await;
+        let x = &simulation.particles().x;
+        let centre = x.iter().map(|x| f64::from(*x)).sum::<f64>() / x.len() as f64 * simulation.spacing();
+        curve.push((simulation.seconds(), centre - 0.5 * LENGTH));
     }
     Ok(half_period(&curve))
 }

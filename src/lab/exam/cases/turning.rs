@@ -6,7 +6,7 @@ use crate::{
             ExamCase, Finding, Over, Setting, Size,
             Tolerance::{Share, Within},
         },
-        world::{Clockwork, Stage, own},
+        world::{CaseSimulation, Stopwatch, own},
     },
     scene::SceneError,
 };
@@ -23,7 +23,7 @@ pub(super) const ROTATING_BLOB: ExamCase = ExamCase {
                 which takes `0.8 (c/R)²` of the whole a second: 0.6 % at R = 30 d.",
     over: Over::Qualities,
     size: Size::Quick,
-    run: |setting, clockwork| Box::pin(rotating_blob(setting, clockwork)),
+    run: |setting, stopwatch| Box::pin(rotating_blob(setting, stopwatch)),
 };
 
 pub(super) const COLLISION: ExamCase = ExamCase {
@@ -37,13 +37,13 @@ pub(super) const COLLISION: ExamCase = ExamCase {
                 Momentum: 1 % of `Σ m |v|`.",
     over: Over::Qualities,
     size: Size::Usual,
-    run: |setting, clockwork| Box::pin(collision(setting, clockwork)),
+    run: |setting, stopwatch| Box::pin(collision(setting, stopwatch)),
 };
 
 /// Angular speed, 1/s.
 const TURN: f32 = 2.0;
 
-async fn rotating_blob(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, SceneError> {
+async fn rotating_blob(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Finding>, SceneError> {
     let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/exam/rotating_blob.ron"));
     let mut blueprint = own("rotating_blob", text, &[], &setting)?;
     let centre = blueprint.domain.size * 0.5;
@@ -52,44 +52,44 @@ async fn rotating_blob(setting: Setting, clockwork: Clockwork) -> Result<Vec<Fin
         let velocity = (particles.position(i) - centre).perp() * TURN;
         (particles.vx[i], particles.vy[i]) = (velocity.x, velocity.y);
     }
-    let mut stage = Stage::new(blueprint, &clockwork);
-    let start = angular_momentum(&stage);
-    stage.run(1.0).await;
+    let mut simulation = CaseSimulation::new(blueprint, &stopwatch);
+    let start = angular_momentum(&simulation);
+    simulation.run(1.0).await;
     Ok(vec![Finding {
         quantity: "angular momentum after 1 s",
         unit: "t m²/s",
         expected: start,
-        got: angular_momentum(&stage),
+        got: angular_momentum(&simulation),
         tolerance: Share(0.01),
     }])
 }
 
-async fn collision(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, SceneError> {
+async fn collision(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Finding>, SceneError> {
     let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/exam/collision.ron"));
-    let mut stage = Stage::new(own("collision", text, &[], &setting)?, &clockwork);
-    let (start, impetus) = (angular_momentum(&stage), stage.matter().balance().impetus);
-    stage.run(2.0).await;
+    let mut simulation = CaseSimulation::new(own("collision", text, &[], &setting)?, &stopwatch);
+    let (start, impetus) = (angular_momentum(&simulation), simulation.matter().balance().impetus);
+    simulation.run(2.0).await;
     Ok(vec![
         Finding {
             quantity: "angular momentum after 2 s",
             unit: "t m²/s",
             expected: start,
-            got: angular_momentum(&stage),
+            got: angular_momentum(&simulation),
             tolerance: Share(0.07),
         },
         Finding {
             quantity: "momentum as a share of Σ m |v|",
             unit: "",
             expected: 0.0,
-            got: stage.matter().balance().momentum.length() / impetus,
+            got: simulation.matter().balance().momentum.length() / impetus,
             tolerance: Within(0.01),
         },
     ])
 }
 
 /// Angular momentum of the particles about the middle of the box, t m²/s for each metre of depth.
-fn angular_momentum(stage: &Stage) -> f64 {
-    let (matter, d) = (stage.matter(), stage.spacing());
+fn angular_momentum(simulation: &CaseSimulation) -> f64 {
+    let (matter, d) = (simulation.matter(), simulation.spacing());
     let (particles, mass) = (matter.particles, f64::from(matter.scale.particle_mass()) / 1000.0);
     let centre = matter.domain.size.as_dvec2() * 0.5;
     let of = |i: usize| -> f64 {

@@ -8,7 +8,7 @@ use crate::{
                 Tolerance::{Share, Within},
             },
             fit::falls_to,
-            world::{Clockwork, GRAVITY, Stage, builtin, own},
+            world::{CaseSimulation, GRAVITY, Stopwatch, builtin, own},
         },
         stats,
     },
@@ -34,7 +34,7 @@ pub(super) const VESSELS: ExamCase = ExamCase {
                 of such slots lie between 0.59 and 0.65.",
     over: Over::Qualities,
     size: Size::Usual,
-    run: |setting, clockwork| Box::pin(vessels(setting, clockwork)),
+    run: |setting, stopwatch| Box::pin(vessels(setting, stopwatch)),
 };
 
 /// Widths of the tanks, of the wall and of the slot, m.
@@ -47,18 +47,18 @@ const START: (f64, f64) = (5.0, 1.5);
 /// Contraction of a jet out of a slot.
 pub(super) const CONTRACTION: f64 = PI / (PI + 2.0);
 
-async fn vessels(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, SceneError> {
+async fn vessels(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Finding>, SceneError> {
     let blueprint = builtin("communicating_vessels", &[("left", START.0), ("right", START.1)], &setting)?;
-    let mut stage = Stage::new(blueprint, &clockwork);
-    stage.run(13.0).await;
+    let mut simulation = CaseSimulation::new(blueprint, &stopwatch);
+    simulation.run(13.0).await;
     let (mut left, mut right) = (0.0, 0.0);
     for look in 0..LOOKS {
-        stage.run(1.0 / 6.0).await;
-        let tops = stage.matter().column_tops();
+        simulation.run(1.0 / 6.0).await;
+        let tops = simulation.matter().column_tops();
         // The weights add up to 1.
         let weight = 2.0 / f64::from(LOOKS) * (PI * (f64::from(look) + 0.5) / f64::from(LOOKS)).sin().powi(2);
-        left += weight * level(&tops, 0.0, LEFT, stage.spacing());
-        right += weight * level(&tops, LEFT + WALL, LEFT + WALL + RIGHT, stage.spacing());
+        left += weight * level(&tops, 0.0, LEFT, simulation.spacing());
+        right += weight * level(&tops, LEFT + WALL, LEFT + WALL + RIGHT, simulation.spacing());
     }
     let volume = LEFT * START.0 + RIGHT * START.1;
     Ok(vec![
@@ -67,7 +67,7 @@ async fn vessels(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>,
             unit: "m",
             expected: 0.0,
             got: left - right,
-            tolerance: Within(0.5 * stage.spacing()),
+            tolerance: Within(0.5 * simulation.spacing()),
         },
         Finding {
             quantity: "level",
@@ -80,7 +80,7 @@ async fn vessels(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>,
             quantity: "time to half the difference",
             unit: "s",
             expected: theory(),
-            got: time_to_half(&setting, &clockwork).await?,
+            got: time_to_half(&setting, &stopwatch).await?,
             tolerance: Share(0.15),
         },
     ])
@@ -92,23 +92,23 @@ const LOOKS: u32 = 78;
 const HALF: f64 = 0.5 * (START.0 - START.1);
 
 /// When half of the difference is gone in the finer tanks, s.
-async fn time_to_half(setting: &Setting, clockwork: &Clockwork) -> Result<f64, SceneError> {
+async fn time_to_half(setting: &Setting, stopwatch: &Stopwatch) -> Result<f64, SceneError> {
     let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/exam/vessels.ron"));
-    let mut stage = Stage::new(own("vessels", text, &[], setting)?, clockwork);
+    let mut simulation = CaseSimulation::new(own("vessels", text, &[], setting)?, stopwatch);
     let mut differences = vec![(0.0, START.0 - START.1)];
-    while stage.seconds() < 10.0 && differences.last().is_some_and(|(_, difference)| *difference > HALF) {
-        stage.tick().await;
-        differences.push((stage.seconds(), filled(&stage)));
+    while simulation.seconds() < 10.0 && differences.last().is_some_and(|(_, difference)| *difference > HALF) {
+        simulation.tick().await;
+        differences.push((simulation.seconds(), filled(&simulation)));
     }
     Ok(falls_to(&differences, HALF).unwrap_or(f64::NAN))
 }
 
 /// Difference of the levels by the number of particles in the tanks, m: what splashes does not matter.
-fn filled(stage: &Stage) -> f64 {
-    let d = stage.spacing();
+fn filled(simulation: &CaseSimulation) -> f64 {
+    let d = simulation.spacing();
     let count = |from: f64, to: f64| {
         let inside = |x: &&f32| (from..to).contains(&(f64::from(**x) * d));
-        stage.particles().x.iter().filter(inside).count() as f64 * d * d / (to - from)
+        simulation.particles().x.iter().filter(inside).count() as f64 * d * d / (to - from)
     };
     count(0.0, LEFT) - count(LEFT + WALL, LEFT + WALL + RIGHT)
 }

@@ -11,7 +11,7 @@ use crate::{
                 ExamCase, Finding, Over, Setting, Size,
                 Tolerance::{Share, Within},
             },
-            world::{Clockwork, Stage, own},
+            world::{CaseSimulation, Stopwatch, own},
         },
         stats,
     },
@@ -42,7 +42,7 @@ pub(super) const VORTEX: ExamCase = ExamCase {
                 order of 2 ± 0.5, which a scheme of first order misses.",
     over: Over::Air,
     size: Size::Quick,
-    run: |setting, clockwork| Box::pin(vortex(setting, clockwork)),
+    run: |setting, stopwatch| Box::pin(vortex(setting, stopwatch)),
 };
 
 /// Speed U, m/s, and edge of the box, m.
@@ -53,10 +53,10 @@ const SECONDS: f64 = EDGE / SPEED;
 /// Edge of the cells from which the order is judged, to half of it, d.
 const COARSE: f32 = 8.0;
 
-async fn vortex(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, SceneError> {
-    let (cell, own) = viscosity(setting.preset.quality().air_cell, &setting, &clockwork).await?;
-    let (_, coarse) = viscosity(COARSE, &setting, &clockwork).await?;
-    let (_, half) = viscosity(0.5 * COARSE, &setting, &clockwork).await?;
+async fn vortex(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Finding>, SceneError> {
+    let (cell, own) = viscosity(setting.preset.quality().air_cell, &setting, &stopwatch).await?;
+    let (_, coarse) = viscosity(COARSE, &setting, &stopwatch).await?;
+    let (_, half) = viscosity(0.5 * COARSE, &setting, &stopwatch).await?;
     let shares = 2.0 * (2.0 / (3.0 * PI)) * (4.0 / (3.0 * PI));
     let upwind = shares * SPEED * cell;
     let (viscosity, order) = match setting.preset.quality().air_advection {
@@ -71,7 +71,7 @@ async fn vortex(setting: Setting, clockwork: Clockwork) -> Result<Vec<Finding>, 
 }
 
 /// Edge of a cell, m, and viscosity on it, m²/s, with cells of `air_cell` d.
-async fn viscosity(air_cell: f32, setting: &Setting, clockwork: &Clockwork) -> Result<(f64, f64), SceneError> {
+async fn viscosity(air_cell: f32, setting: &Setting, stopwatch: &Stopwatch) -> Result<(f64, f64), SceneError> {
     let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/exam/vortex.ron"));
     let mut blueprint = own("vortex", text, &[], setting)?;
     blueprint.quality.air_cell = air_cell;
@@ -89,15 +89,15 @@ async fn viscosity(air_cell: f32, setting: &Setting, clockwork: &Clockwork) -> R
         }
     }
     let d = f64::from(blueprint.scale.spacing);
-    let mut stage = Stage::new(blueprint, clockwork);
-    stage.tick().await;
-    stage.world_mut().resource_mut::<Sources>().winds.clear();
-    let start = stage.air().kinetic_energy();
-    let (begun, wave) = (stage.seconds(), PI / EDGE);
+    let mut simulation = CaseSimulation::new(blueprint, stopwatch);
+    simulation.tick().await;
+    simulation.world_mut().resource_mut::<Sources>().winds.clear();
+    let start = simulation.air().kinetic_energy();
+    let (begun, wave) = (simulation.seconds(), PI / EDGE);
     let mut curve = vec![(0.0, 0.0)];
-    while stage.seconds() - begun < SECONDS {
-        stage.tick().await;
-        curve.push((stage.seconds() - begun, (start / stage.air().kinetic_energy()).sqrt() - 1.0));
+    while simulation.seconds() - begun < SECONDS {
+        simulation.tick().await;
+        curve.push((simulation.seconds() - begun, (start / simulation.air().kinetic_energy()).sqrt() - 1.0));
     }
     let slope = stats::line(&curve).map_or(f64::NAN, |(slope, _)| slope);
     Ok((f64::from(cell) * d, slope / (2.0 * wave * wave)))

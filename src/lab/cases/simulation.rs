@@ -1,4 +1,4 @@
-//! A world that is simulated beside others, as the exam and the gauntlet do: ticked, with a clock beside it.
+//! The simulation of a case: it yields after each tick, and a stopwatch counts what simulating takes.
 
 use crate::{
     kernel::{params::Quality, particles::Particles, units::TICKS_PER_SECOND},
@@ -24,11 +24,11 @@ use std::{
     time::Duration,
 };
 
-/// What simulating took, ns: what is measured and drawn in between doesn't count.
+/// Time that simulating took, ns: what is measured and drawn in between doesn't count.
 #[derive(Clone, Debug, Default)]
-pub struct Clockwork(Arc<AtomicU64>);
+pub struct Stopwatch(Arc<AtomicU64>);
 
-impl Clockwork {
+impl Stopwatch {
     /// Time so far, ms.
     pub fn milliseconds(&self) -> f64 {
         Duration::from_nanos(self.0.load(Ordering::Relaxed)).as_secs_f64() * 1e3
@@ -42,24 +42,24 @@ impl Clockwork {
     }
 }
 
-/// The world of a case.
-pub(crate) struct Stage {
+/// The simulation of a case.
+pub struct CaseSimulation {
     simulation: Simulation,
-    clockwork: Clockwork,
+    stopwatch: Stopwatch,
     /// Ticks done.
     pub ticks: u32,
 }
 
-impl Stage {
+impl CaseSimulation {
     /// The world of a blueprint, on one thread: cases run side by side.
-    pub fn new(blueprint: Blueprint, clockwork: &Clockwork) -> Self {
-        let simulation = clockwork.time(|| Simulation::new(Arc::new(blueprint), Workers::single()));
-        Self { simulation, clockwork: clockwork.clone(), ticks: 0 }
+    pub fn new(blueprint: Blueprint, stopwatch: &Stopwatch) -> Self {
+        let simulation = stopwatch.time(|| Simulation::new(Arc::new(blueprint), Workers::single()));
+        Self { simulation, stopwatch: stopwatch.clone(), ticks: 0 }
     }
 
     /// Runs a tick.
     pub async fn tick(&mut self) {
-        self.clockwork.time(|| self.simulation.tick());
+        self.stopwatch.time(|| self.simulation.tick());
         self.ticks += 1;
         pause().await;
     }
@@ -70,7 +70,7 @@ impl Stage {
         let time = late.min(longest_frame(median, 1.0));
         let ticks = time.as_nanos() / Duration::from_secs_f64(1.0 / f64::from(TICKS_PER_SECOND)).as_nanos();
         for _ in 0..ticks {
-            self.clockwork.time(|| self.simulation.tick());
+            self.stopwatch.time(|| self.simulation.tick());
         }
         pause().await;
         ticks as u64
@@ -93,26 +93,32 @@ impl Stage {
         f64::from(self.ticks) / f64::from(TICKS_PER_SECOND)
     }
 
+    /// The world, to read.
     pub fn world(&self) -> &World {
         self.simulation.world()
     }
 
+    /// The world, to change between ticks.
     pub fn world_mut(&mut self) -> &mut World {
         self.simulation.world_mut()
     }
 
+    /// Its particles.
     pub fn matter(&self) -> Matter<'_> {
         matter(self.world())
     }
 
+    /// Arrays of the particles.
     pub fn particles(&self) -> &Particles {
         self.matter().particles
     }
 
+    /// Its air.
     pub fn air(&self) -> &AirGrid {
         self.world().resource()
     }
 
+    /// The quality in force.
     pub fn quality(&self) -> Quality {
         self.world().resource::<Setup>().quality
     }
