@@ -90,9 +90,10 @@ fn tiles(ui: &mut Ui, row: egui::Rect, shows: &Shows, chosen: Tool) -> Option<To
     let elements = shows.setup.elements();
     let places = (((row.width() - SCROLL_BAR) / (TILE.x + GAP)) as usize).max(1);
     let rows = (elements.len() + TOOLS.len()).div_ceil(places);
-    // One row has its separator between elements and tools, and no scroll bar; narrow windows scroll it.
     let height = rows.min(MOST_ROWS) as f32 * (TILE.y + GAP) - GAP;
-    ui.allocate_space(vec2(0.0, height - TILE.y));
+    if rows > 1 {
+        ui.allocate_space(vec2(0.0, height - TILE.y - ui.spacing().item_spacing.y));
+    }
     let place = egui::UiBuilder::new().max_rect(row.with_max_y(row.top() + height));
     let mut pressed = None;
     ui.scope_builder(place.layout(Layout::left_to_right(Align::Min)), |ui| {
