@@ -252,7 +252,7 @@ fn samples_with_a_heavy_tail_do_not_make_it_swing() {
             assert!(mean < 0.5 * bound, "{bound} %, seed {seed}: a mean of {mean} %");
             assert!(place < level + 0.75, "{bound} %, seed {seed}: at level {place} on average, {level} does");
         }
-        assert!(3 * late <= 2 * early, "{bound} %: {early} moves, and then still {late}");
+        assert!(late == 0 || 3 * late < 2 * early, "{bound} %: {early} moves, and then still {late}");
     }
 }
 
