@@ -20,7 +20,7 @@ pub(super) fn judge<C: Case>(arguments: &CaseArguments<C>) -> Result<(), Failure
     }
     output::check(&[json, markdown].into_iter().flatten().collect::<Vec<_>>())?;
     let threads = arguments.threads.map_or_else(|| available_parallelism().map_or(1, usize::from), |n| n as usize);
-    let jobs = jobs(C::SUITE.cases, |case| arguments.wants(case), &arguments.presets());
+    let jobs = jobs((C::SUITE.cases)(), |case| arguments.wants(case), &arguments.presets());
     let bar = progress::bar(jobs.len() as u64);
     let rows = run_all(&jobs, threads, |done, job| {
         bar.set_position(done as u64);

@@ -8,7 +8,7 @@ use crate::{
             journal::{Journal, JournalFile, OpenError},
         },
         sweep::{
-            ErrorMeasure, Progress, Sweep,
+            ErrorMeasure, Sweep,
             design::{Scope, other_threads, settings},
             presets::Order,
             row::Row,
@@ -200,7 +200,7 @@ fn measure(
     let unwritten = |error: io::Error| Failure::unwritten(&path, &error);
     let mut journal = Journal::read(file, sweep.campaign(program)).map_err(unwritten)?;
     let line = progress::bar(sweep.runs() as u64).with_prefix(format!("{scene} "));
-    let rows = sweep.run(&mut journal, &mut |Progress { done, what }| {
+    let rows = sweep.run(&mut journal, &mut |done, what| {
         line.set_position(done as u64);
         line.set_message(what.to_owned());
     });

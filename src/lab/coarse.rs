@@ -25,7 +25,7 @@
 
 use crate::{
     kernel::{solids::Solids, units::TICKS_PER_SECOND},
-    lab::balance::matter,
+    lab::{balance::matter, stats},
     scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
@@ -78,8 +78,7 @@ pub struct Distance {
 impl Distance {
     /// The mean of several, each part over those that have it.
     pub fn mean(distances: &[Self]) -> Self {
-        let part =
-            |part: fn(&Self) -> Option<f64>| super::stats::mean(&distances.iter().filter_map(part).collect::<Vec<_>>());
+        let part = |part: fn(&Self) -> Option<f64>| stats::mean(distances.iter().filter_map(part));
         Self { share: part(|d| d.share), momentum: part(|d| d.momentum), air: part(|d| d.air) }
     }
 }

@@ -8,7 +8,9 @@
 use crate::{
     kernel::{particles::Particles, solids},
     lab::stats,
+    sim::state::{ParticleStore, Rock, Setup},
 };
+use bevy::ecs::world::World;
 use glam::Vec2;
 use rayon::prelude::*;
 
@@ -73,6 +75,13 @@ pub fn density_error(
 }
 
 impl DensityError {
+    /// The error of a world as it is. `None` without interior particles.
+    pub fn of_world(world: &World) -> Option<Self> {
+        let blueprint = &world.resource::<Setup>().blueprint;
+        let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
+        density_error(particles, rock, blueprint.domain.size, f64::from(blueprint.fluid.rest_density))
+    }
+
     /// The error over the interior ones of `locals`; `None` if there are none.
     pub(super) fn of(locals: &[Local], rest_density: f64) -> Option<Self> {
         let interior = locals.iter().filter(|local| local.interior);

@@ -6,7 +6,7 @@ use crate::{
     scene::effects::{Mode, Unit},
     sim::{effects::status::Activity, state::Counters},
 };
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 use std::collections::BTreeMap;
 
 /// Everything that is measured of a run.
@@ -118,8 +118,8 @@ pub struct EffectCost {
     pub why: String,
 }
 
-/// How true the result is. Means are over the samples.
-#[derive(Clone, Copy, Debug, Serialize)]
+/// How true the result is. Means are over the samples. What may be no number is not read back.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
     /// Samples taken: one every 20 ticks after the warm-up, or one at the end of a shorter run.
     pub samples: usize,
@@ -137,12 +137,16 @@ pub struct Accuracy {
     pub volume_error: Option<f64>,
     /// Kinetic and potential energy of the movable particles at the end, J for each metre of depth (`--trace` has it for
     /// every tick).
+    #[serde(skip_deserializing)]
     pub energy: f64,
     /// The same at the start of the run.
+    #[serde(skip_deserializing)]
     pub energy_start: f64,
     /// The highest of the samples.
+    #[serde(skip_deserializing)]
     pub energy_peak: f64,
     /// Their momentum at the end, kg m/s for each metre of depth.
+    #[serde(skip_deserializing)]
     pub momentum: [f64; 2],
     /// Change of the air's mass since the start, as a share of it.
     pub air_mass_drift: Option<f64>,

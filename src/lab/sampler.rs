@@ -4,7 +4,7 @@ use crate::{
     kernel::units::TICKS_PER_SECOND,
     lab::{
         balance::matter,
-        density::density_error,
+        density::DensityError,
         drift::Drift,
         machine,
         metrics::{Accuracy, EffectCost, Metrics, ParticleCount, Sampling, Stage, TickTimes},
@@ -167,12 +167,13 @@ impl Sampler {
         let air_is_there = world.resource::<Effects>().get(Effect::Air).mode != Mode::Off;
         let mass = air_mass(world);
         let drift = (mass - self.air_mass_before) / self.air_mass_before;
+        let density = || self.samples.density.iter();
         Accuracy {
             samples: self.samples.taken,
-            density_error_mean: stats::mean(&self.samples.density_mean),
-            density_error_p99: stats::mean(&self.samples.density_p99),
-            density_error_max: stats::largest(&self.samples.density_max),
-            density_mean: stats::mean(&self.samples.density),
+            density_error_mean: stats::mean(density().map(|error| error.mean)),
+            density_error_p99: stats::mean(density().map(|error| error.p99)),
+            density_error_max: stats::largest(density().map(|error| error.max)),
+            density_mean: stats::mean(density().map(|error| error.density)),
             residual: residual(world),
             volume_error: stats::mean(&self.samples.volume),
             energy: balance.energy(),
@@ -213,10 +214,7 @@ impl Observer for Sampler {
 #[derive(Default)]
 struct Samples {
     taken: usize,
-    density_mean: Vec<f64>,
-    density_p99: Vec<f64>,
-    density_max: Vec<f64>,
-    density: Vec<f64>,
+    density: Vec<DensityError>,
     energy: Vec<f64>,
     /// Time of each.
     ms: Vec<f64>,
@@ -229,12 +227,7 @@ impl Samples {
         let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
         let blueprint = &world.resource::<Setup>().blueprint;
         let (size, rest) = (blueprint.domain.size, f64::from(blueprint.fluid.rest_density));
-        if let Some(error) = density_error(particles, rock, size, rest) {
-            self.density_mean.push(error.mean);
-            self.density_p99.push(error.p99);
-            self.density_max.push(error.max);
-            self.density.push(error.density);
-        }
+        self.density.extend(DensityError::of_world(world));
         self.energy.push(matter(world).balance().energy());
         self.volume.extend(volume_error(particles, rock, size, rest));
         self.divergence.push(world.resource::<AirGrid>().divergence_rms());
@@ -271,8 +264,7 @@ fn count(world: &World) -> ParticleCount {
 /// Mean constraint over the particles where it is violated, as the solver saw it in its last iteration.
 pub(super) fn residual(world: &World) -> Option<f64> {
     let solver = world.resource::<SolverState>();
-    let violations: Vec<f64> = solver.violations().map(f64::from).collect();
-    (!solver.density.is_empty()).then(|| stats::mean(&violations).unwrap_or(0.0))
+    (!solver.density.is_empty()).then(|| stats::mean(solver.violations().map(f64::from)).unwrap_or(0.0))
 }
 
 fn memory_bytes(world: &World) -> u64 {

@@ -1,4 +1,6 @@
-//! Order statistics in f64. Sums run in the order of the slice.
+//! Order statistics in f64. Sums run in the order of the values.
+
+use std::borrow::Borrow;
 
 /// The `q`-quantile of `values`, 0 ≤ q ≤ 1, between the two nearest values in proportion; `None` of
 /// nothing. Changes the order of `values`.
@@ -12,13 +14,15 @@ pub fn quantile(values: &mut [f64], q: f64) -> Option<f64> {
 }
 
 /// The mean of `values`, `None` of nothing.
-pub fn mean(values: &[f64]) -> Option<f64> {
-    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+pub fn mean(values: impl IntoIterator<Item: Borrow<f64>>) -> Option<f64> {
+    let mut count = 0.0;
+    let sum: f64 = values.into_iter().inspect(|_| count += 1.0).map(|value| *value.borrow()).sum();
+    (count > 0.0).then(|| sum / count)
 }
 
 /// The largest of `values`, `None` of nothing.
-pub fn largest(values: &[f64]) -> Option<f64> {
-    values.iter().copied().max_by(f64::total_cmp)
+pub fn largest(values: impl IntoIterator<Item: Borrow<f64>>) -> Option<f64> {
+    values.into_iter().map(|value| *value.borrow()).max_by(f64::total_cmp)
 }
 
 /// Least-squares line through the points `(x, y)`: slope and intercept. Needs two different x.

@@ -108,7 +108,7 @@ pub(super) fn preset(text: &str) -> Result<Preset, String> {
 }
 
 pub(super) fn case<C: Case>(text: &str) -> Result<&'static C, String> {
-    let cases = C::SUITE.cases;
+    let cases = (C::SUITE.cases)();
     let names = || cases.iter().map(|case| case.about().name).collect::<Vec<_>>().join(", ");
     cases.iter().find(|case| case.about().name == text).ok_or_else(|| format!("allowed: {}", names()))
 }

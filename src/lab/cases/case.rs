@@ -8,6 +8,7 @@ use crate::{
     },
     scene::SceneError,
 };
+use serde::Deserialize;
 use std::fmt::Debug;
 
 /// A case of a suite: of the physics exam or of the stability gauntlet. A new one is a constant of such a type and a line
@@ -53,11 +54,12 @@ pub struct About {
 }
 
 /// How long a case takes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 pub enum Size {
     /// So little, even in a debug build, that it belongs to the quick cases.
     Quick,
     /// Some seconds in a release build.
+    #[default]
     Usual,
     /// So long that only the command runs it.
     Long,
@@ -70,7 +72,7 @@ pub struct Suite<C: Case> {
     /// What the command says of the option that names a case.
     pub which: &'static str,
     /// All of them, in the order in which they are shown.
-    pub cases: &'static [C],
+    pub cases: fn() -> &'static [C],
     /// The head of the document, for a command and a processor.
     pub introduction: fn(command: &str, processor: &str) -> String,
     /// What the texts in [`About::why`] are called.

@@ -9,6 +9,7 @@
 mod case;
 mod job;
 mod queue;
+mod read;
 mod report;
 mod row;
 mod setting;
@@ -17,6 +18,7 @@ mod simulation;
 pub use case::{About, Case, Column, Size, Suite};
 pub use job::{Job, jobs, run_all};
 pub use queue::{JobQueue, Progress, plugin};
+pub(super) use read::{line, read};
 pub use report::{document, failure, summary, table};
 pub use row::{Figures, Row, Verdict};
 pub use setting::{Over, Setting};

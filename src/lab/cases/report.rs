@@ -51,7 +51,7 @@ pub fn failure<C: Case>(rows: &[Row<C::Figures>]) -> Option<String> {
 pub fn document<C: Case>(rows: &[Row<C::Figures>], processor: &str, command: &str) -> String {
     let head = (C::SUITE.introduction)(command, processor);
     let told =
-        C::SUITE.cases.iter().map(|case| case.about()).filter(|case| rows.iter().any(|row| row.case == case.name));
+        (C::SUITE.cases)().iter().map(|case| case.about()).filter(|case| rows.iter().any(|row| row.case == case.name));
     let sections: String = told.map(|case| format!("\n{}", section::<C>(&case, rows))).collect();
     format!("{head}\n\n{}.\n{sections}", summary::<C>(rows))
 }

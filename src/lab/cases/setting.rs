@@ -1,11 +1,13 @@
 //! The qualities that a case is run at.
 
 use crate::kernel::params::{AirAdvection, Preset, Quality};
+use serde::Deserialize;
 
 /// What a case depends on. Runs that differ in nothing else are the same run, and done once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 pub enum Over {
     /// The named qualities.
+    #[default]
     Qualities,
     /// The air's own settings among these: cell, Courant number and advection.
     Air,

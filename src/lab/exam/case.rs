@@ -1,46 +1,42 @@
 //! What a case of the exam is: a question with a known answer.
 
-pub(super) use crate::lab::cases::{Over, Setting, Size};
 use crate::{
-    lab::cases::{Figures, Stopwatch, Verdict},
+    lab::cases::{Figures, Over, Setting, Size, Verdict, line, read},
     scene::SceneError,
     sim::numbers::figure,
 };
-use serde::Serialize;
-use std::pin::Pin;
+use serde::{Deserialize, Serialize};
+use std::sync::LazyLock;
 
-/// A question with a known answer.
-#[derive(Debug)]
+/// All cases, in the order in which they are shown.
+pub static CASES: LazyLock<Vec<ExamCase>> =
+    LazyLock::new(|| read("assets/exam/cases.ron", include_str!("../../../assets/exam/cases.ron")));
+
+/// A question with a known answer, as `assets/exam/cases.ron` has it.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct ExamCase {
     /// Name on the command line.
     pub name: &'static str,
     /// Heading.
     pub title: &'static str,
     /// The setup and what is measured, in Markdown.
+    #[serde(deserialize_with = "line")]
     pub setup: &'static str,
     /// The known answer and where it comes from, in Markdown.
+    #[serde(deserialize_with = "line")]
     pub answer: &'static str,
     /// Why the tolerances are what they are, in Markdown.
+    #[serde(deserialize_with = "line")]
     pub tolerance: &'static str,
     /// What it depends on.
     pub over: Over,
     /// How long it takes.
     pub size: Size,
-    /// Simulates it.
-    pub(super) run: fn(Setting, Stopwatch) -> Run,
 }
 
-/// A case at work.
-pub(super) type Run = Pin<Box<dyn Future<Output = Result<Vec<Finding>, SceneError>> + Send>>;
-
-/// How far from the known answer still passes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Tolerance {
-    /// A share of the answer.
-    Share(f64),
-    /// In the unit of the answer.
-    Within(f64),
-}
+/// What a case found out.
+pub(super) type Findings = Result<Vec<Finding>, SceneError>;
 
 /// What a case found out about one quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,18 +45,27 @@ pub(super) struct Finding {
     pub unit: &'static str,
     pub expected: f64,
     pub got: f64,
-    pub tolerance: Tolerance,
+    /// Whether `tolerance` is a share of what is expected, or else in its unit.
+    pub relative: bool,
+    pub tolerance: f64,
+}
+
+/// A finding that may be off by a share of what is expected.
+pub(super) fn share(quantity: &'static str, unit: &'static str, expected: f64, got: f64, share: f64) -> Finding {
+    Finding { quantity, unit, expected, got, relative: true, tolerance: share }
+}
+
+/// A finding that may be off by so much, in its unit.
+pub(super) fn within(quantity: &'static str, unit: &'static str, expected: f64, got: f64, most: f64) -> Finding {
+    Finding { quantity, unit, expected, got, relative: false, tolerance: most }
 }
 
 impl Finding {
     /// How it comes out in a setting.
     pub fn judge(self, setting: &Setting, milliseconds: f64) -> (Verdict, Answer) {
-        let Self { quantity, unit, expected, got, tolerance } = self;
+        let Self { quantity, unit, expected, got, relative, tolerance } = self;
         let distance = (got - expected).abs();
-        let (relative, error, tolerance) = match tolerance {
-            Tolerance::Share(share) => (true, distance / expected.abs(), share),
-            Tolerance::Within(within) => (false, distance, within),
-        };
+        let error = if relative { distance / expected.abs() } else { distance };
         // What is no number is beyond every tolerance.
         let verdict = match error <= tolerance {
             true => Verdict::Pass,

@@ -2,7 +2,8 @@
 //! compared.
 //!
 //! ```text
-//! cases ─► ExamCase: scenes (assets/exam, assets/scenes) at a quality ─► world, tick by tick ─► Finding ─► Answer
+//! assets/exam/cases.ron ─► ExamCase ┐
+//! cases ────────────────────────────┴► scenes (assets/exam, assets/scenes) at a quality ─► Finding ─► Answer
 //! ```
 //!
 //! A case builds its world as every scene is built (`scene::from_text`, `Checkpoint::of_scene`) and changes nothing in it
@@ -12,10 +13,9 @@
 mod case;
 mod cases;
 mod fit;
+mod set_up;
 mod suite;
 #[cfg(test)]
 mod tests;
-mod world;
 
-pub use case::{Answer, ExamCase};
-pub use cases::CASES;
+pub use case::{Answer, CASES, ExamCase};

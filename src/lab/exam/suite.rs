@@ -3,7 +3,7 @@
 use crate::{
     lab::{
         cases::{About, Case, Column, Row, Setting, Stopwatch, Suite, Verdict},
-        exam::{Answer, CASES, ExamCase},
+        exam::{Answer, CASES, ExamCase, cases::RUNS, set_up::SetUp},
     },
     scene::SceneError,
 };
@@ -14,7 +14,7 @@ impl Case for ExamCase {
     const SUITE: Suite<Self> = Suite {
         command: "exam",
         which: "Case to examine, again for more [default: all]",
-        cases: CASES,
+        cases: || &CASES,
         introduction,
         labels: ["Known", "Tolerance"],
         columns: &[
@@ -44,7 +44,12 @@ impl Case for ExamCase {
         setting: &Setting,
         stopwatch: &Stopwatch,
     ) -> Result<Vec<(Verdict, Answer)>, SceneError> {
-        let findings = (self.run)(setting.clone(), stopwatch.clone()).await?;
+        let set_up = SetUp { setting: setting.clone(), stopwatch: stopwatch.clone() };
+        let run = RUNS.iter().find(|(name, _)| *name == self.name).map(|(_, run)| run(set_up));
+        let findings = match run {
+            Some(run) => run.await?,
+            None => Vec::new(),
+        };
         Ok(findings.into_iter().map(|finding| finding.judge(setting, stopwatch.milliseconds())).collect())
     }
 }

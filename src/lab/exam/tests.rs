@@ -1,20 +1,17 @@
 //! The quick exam, and that its rows can fail.
 
-use super::{
-    Answer, CASES, ExamCase,
-    case::{Finding, Over, Run, Setting, Size, Tolerance},
-};
+use super::{Answer, CASES, ExamCase, case::share, cases::RUNS};
 use crate::{
     kernel::params::Preset,
     lab::{
-        cases::{Row, Stopwatch, Verdict, jobs, run_all, summary, table},
+        cases::{Row, Setting, Size, Verdict, jobs, run_all, summary, table},
         drive::finish,
     },
 };
 
 #[test]
 fn the_quick_exam_is_passed_at_balanced() {
-    let jobs = jobs(CASES, |case| case.size == Size::Quick, &[Preset::Balanced]);
+    let jobs = jobs(&CASES, |case| case.size == Size::Quick, &[Preset::Balanced]);
     assert!(jobs.len() >= 5, "the quick exam is empty");
     let rows = run_all(&jobs, 2, |_, _| {}).unwrap();
     let failed: Vec<&Row<Answer>> = rows.iter().filter(|row| row.verdict != Verdict::Pass).collect();
@@ -24,7 +21,7 @@ fn the_quick_exam_is_passed_at_balanced() {
 
 #[test]
 fn an_exam_has_the_same_rows_side_by_side_and_stopped_and_gone_on_with() {
-    let jobs = jobs(CASES, |case| ["free_fall", "pulse"].contains(&case.name), &[Preset::Draft, Preset::Fast]);
+    let jobs = jobs(&CASES, |case| ["free_fall", "pulse"].contains(&case.name), &[Preset::Draft, Preset::Fast]);
     let answers = |rows: Vec<Row<Answer>>| {
         rows.into_iter().map(|row| (row.case, row.setting, row.figures.got.to_bits())).collect::<Vec<_>>()
     };
@@ -38,27 +35,19 @@ fn an_exam_has_the_same_rows_side_by_side_and_stopped_and_gone_on_with() {
     assert!(stopped.is_none() && ticks == 10, "it yields after each tick");
 }
 
-/// Cases that answer where 2 ± 10 % is known: just within, just beyond, and nothing.
-static TOLD: [ExamCase; 3] = [told(|_, _| answer(2.19)), told(|_, _| answer(2.21)), told(|_, _| answer(f64::NAN))];
-
-const fn told(run: fn(Setting, Stopwatch) -> Run) -> ExamCase {
-    let over = Over::Qualities;
-    ExamCase { name: "told", title: "", setup: "", answer: "", tolerance: "", over, size: Size::Usual, run }
-}
-
-fn answer(got: f64) -> Run {
-    let finding = Finding { quantity: "number", unit: "", expected: 2.0, got, tolerance: Tolerance::Share(0.1) };
-    Box::pin(async move { Ok(vec![finding]) })
-}
-
 #[test]
 fn beyond_the_tolerance_is_a_miss_at_low_qualities_and_a_failure_from_balanced_on() {
     use Verdict::{Fail, Miss, Pass};
-    let rows = run_all(&jobs(&TOLD, |_| true, &Preset::ALL), 1, |_, _| {}).unwrap();
-    let verdicts: Vec<Verdict> = rows.iter().map(|row| row.verdict).collect();
-    let beyond = [Miss, Miss, Miss, Fail, Fail, Fail];
+    let jobs = jobs(&CASES, |case| case.name == "free_fall", &Preset::ALL);
+    let verdicts = |got: f64| {
+        let judged = jobs.iter().map(|job| share("number", "", 2.0, got, 0.1).judge(&job.setting, 1.0).0);
+        judged.collect::<Vec<_>>()
+    };
+    assert_eq!(verdicts(2.19), [Pass; 6]);
     // What is no number is beyond every tolerance.
-    assert_eq!(verdicts, [[Pass; 6], beyond, beyond].concat());
+    for got in [2.21, f64::NAN] {
+        assert_eq!(verdicts(got), [Miss, Miss, Miss, Fail, Fail, Fail]);
+    }
 }
 
 #[test]
@@ -66,13 +55,14 @@ fn cases_have_names_of_their_own() {
     for (k, case) in CASES.iter().enumerate() {
         assert!(CASES[..k].iter().all(|other| other.name != case.name), "two cases are called {}", case.name);
         assert!([case.title, case.setup, case.answer, case.tolerance].iter().all(|text| !text.is_empty()));
+        assert!(RUNS.iter().any(|(name, _)| *name == case.name), "nothing runs {}", case.name);
     }
+    assert_eq!(RUNS.len(), CASES.len());
 }
 
 fn row(got: f64, verdict: Verdict) -> Row<Answer> {
     let setting = Setting { name: "fast".into(), preset: Preset::Fast, binding: false };
-    let finding = Finding { quantity: "speed", unit: "m/s", expected: 9.81, got, tolerance: Tolerance::Share(0.02) };
-    let (_, figures) = finding.judge(&setting, 12.3);
+    let (_, figures) = share("speed", "m/s", 9.81, got, 0.02).judge(&setting, 12.3);
     Row { case: "free_fall", title: "Free fall", setting: setting.name, preset: setting.preset, verdict, figures }
 }
 

@@ -1,59 +1,92 @@
 //! What a hard case is: a scene, what is done to it, and what must hold all the while.
 
-pub(super) use crate::lab::cases::{Over, Size};
 use crate::{
     kernel::{
         params::{Preset, Quality},
         units::TICKS_PER_SECOND,
+    },
+    lab::{
+        cases::{Over, Size, line},
+        gauntlet::{arrange::arrange, end::End, ends},
     },
     scene::{self, SceneError, blueprint::Blueprint, effects::EffectModes},
     sim::{checkpoint::Checkpoint, script::Script, state::Setup},
 };
 use bevy::ecs::world::World;
 use glam::DVec2;
-use std::{sync::Arc, time::Duration};
+use serde::Deserialize;
+use std::{collections::BTreeMap, sync::Arc, time::Duration};
 
-/// A hard case.
-#[derive(Debug)]
+/// A hard case, as `assets/gauntlet/KIND.ron` has it.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct GauntletCase {
     /// Name on the command line.
     pub name: &'static str,
     /// Heading.
     pub title: &'static str,
     /// What happens, in Markdown.
+    #[serde(deserialize_with = "line")]
     pub what: &'static str,
     /// What it guards against, in Markdown.
+    #[serde(deserialize_with = "line")]
     pub guards: &'static str,
     /// Why the rules allow what they allow, in Markdown.
+    #[serde(deserialize_with = "line")]
     pub allowed: &'static str,
     /// How long it takes.
     pub size: Size,
     /// What it depends on.
     pub over: Over,
-    /// The scene.
+    /// Why `classic`, the original's plain method, is known to break a rule here, if it is.
+    pub(super) known: Option<Known>,
+    /// The text of the scene. What that can't say is added by `arrange`.
     pub(super) scene: &'static str,
-    /// Knobs of the scene that are turned, on top of the quality.
-    pub(super) settings: fn() -> Vec<(String, String)>,
-    /// What the start has that a scene's text can't say.
-    pub(super) arrange: Option<fn(&mut Blueprint)>,
-    /// What is done before each tick.
+    /// The run in which every knob of the scene is at an end of its range (see `ends`).
+    #[serde(skip)]
+    pub(super) ends: Option<usize>,
+    /// Frames of the game in place of ticks that come in time: those that come late, and the time since the one before, s.
+    pub(super) late: Option<BTreeMap<u64, f64>>,
+    /// What is done before each tick, told the ticks that were done: by default what `script` has under its name.
+    #[serde(skip)]
     pub(super) act: Option<fn(&mut World, u64)>,
-    /// Time since the last frame, for each frame of the game that it stands for; without it, ticks come in time.
-    pub(super) frames: Option<fn(u64) -> Duration>,
-    /// How long it runs, ticks (frames where these are given). What shall be at rest is so in the last tenth.
+    /// How long it runs, ticks (frames where some come late). What shall be at rest is so in the last tenth.
     pub(super) ticks: u32,
     /// What must hold.
     pub(super) rules: Rules,
-    /// Why `classic`, the original's plain method, is known to break a rule here, if it is.
-    pub known: Option<&'static str>,
+}
+
+/// What the plain method is known to do.
+#[derive(Clone, Copy, Debug, Deserialize)]
+pub(super) enum Known {
+    /// To water that is deep or pressed hard.
+    Boils,
+    /// To water at rest.
+    Trembles,
+}
+
+impl Known {
+    /// In words.
+    pub(super) fn why(self) -> &'static str {
+        match self {
+            Self::Boils => {
+                "plain PBF carries pressure a few particles down an iteration; water that is deeper than some 27 \
+                 particles, or pressed as hard, is crushed and boils"
+            }
+            Self::Trembles => {
+                "plain PBF takes every correction for motion, and water at rest trembles at .06 to .10 d a tick"
+            }
+        }
+    }
 }
 
 /// What must hold in a case. These hold in each: every value is finite, pressures are at least 0, no particle is
 /// outside the box or inside rock, none goes missing.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub(super) struct Rules {
-    /// Where a particle may be, m: beyond it, it has passed through something.
-    pub confines: Option<fn(DVec2) -> bool>,
+    /// Where a particle may be: beyond it, it has passed through something.
+    pub confines: Option<Confines>,
     /// The most that kinetic and potential energy may be above what was there and was put in, as the speed that all
     /// particles together would have of it.
     pub gain: Option<Gain>,
@@ -63,20 +96,52 @@ pub(super) struct Rules {
     pub density: Option<Density>,
     /// The root of the mean square of the speeds in the last tenth, d a tick.
     pub rest: Option<f64>,
-    /// The most expensive tick, as a multiple of a calm one.
-    pub work: f64,
-    /// The most by which the mass of air that is shut in may change, as a share of it.
+    /// The most expensive tick, as a multiple of a calm one. Default: [`Rules::WORK`].
+    pub work: Option<f64>,
+    /// The most by which the mass of air that is shut in may change, as a share of it: 10⁻⁵ is its rounding.
     pub air: Option<f64>,
     /// Whether no limiter may act.
     pub calm: bool,
     /// Particles that are no number and have to be taken away.
     pub removed: u64,
-    /// What else must hold at the end; else what broke.
-    pub also: Option<Look>,
+    /// What else must hold at the end.
+    pub end: Option<End>,
+}
+
+impl Rules {
+    /// The most expensive tick of a case that does not say, as a multiple of a calm one.
+    const WORK: f64 = 8.0;
+
+    /// The most expensive tick that is allowed, as a multiple of a calm one.
+    pub fn most_work(&self) -> f64 {
+        self.work.unwrap_or(Self::WORK)
+    }
+}
+
+/// Where particles may be, m.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) enum Confines {
+    /// In a rectangle.
+    Inside { min: (f64, f64), max: (f64, f64) },
+    /// Not inside a rectangle.
+    Outside { min: (f64, f64), max: (f64, f64) },
+    /// Where `a x + b y ≥ c` for each of these (a, b, c).
+    Sides(Vec<(f64, f64, f64)>),
+}
+
+impl Confines {
+    /// Whether a particle may be there.
+    pub fn hold(&self, at: DVec2) -> bool {
+        match self {
+            Self::Inside { min, max } => (min.0..=max.0).contains(&at.x) && (min.1..=max.1).contains(&at.y),
+            Self::Outside { min, max } => at.x <= min.0 || at.x >= max.0 || at.y <= min.1 || at.y >= max.1,
+            Self::Sides(sides) => sides.iter().all(|(a, b, c)| a * at.x + b * at.y >= *c),
+        }
+    }
 }
 
 /// A bound on the energy gained.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Deserialize)]
 pub(super) enum Gain {
     /// A speed, m/s.
     Speed(f64),
@@ -99,7 +164,7 @@ impl Gain {
 }
 
 /// Bounds of the 99th percentile of the density error.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Deserialize)]
 pub(super) struct Density {
     /// Ticks after which the shock is over.
     pub shock: u64,
@@ -109,51 +174,10 @@ pub(super) struct Density {
     pub end: f64,
 }
 
-/// Looks at a world; what is wrong with it is the error.
-pub type Look = fn(&World) -> Result<(), String>;
-
-impl Rules {
-    /// Rounding of the air's mass where it is shut in.
-    pub const SEALED: Option<f64> = Some(1e-5);
-
-    /// What must hold in every case.
-    pub const ALWAYS: Self = Self {
-        confines: None,
-        gain: None,
-        fastest: None,
-        density: None,
-        rest: None,
-        work: 8.0,
-        air: None,
-        calm: false,
-        removed: 0,
-        also: None,
-    };
-}
-
 impl GauntletCase {
-    /// What most cases have in common.
-    pub(super) const USUAL: Self = Self {
-        name: "",
-        title: "",
-        what: "",
-        guards: "",
-        allowed: "",
-        size: Size::Usual,
-        over: Over::Qualities,
-        scene: "",
-        settings: Vec::new,
-        arrange: None,
-        act: None,
-        frames: None,
-        ticks: 0,
-        rules: Rules::ALWAYS,
-        known: None,
-    };
-
     /// Whether it can be watched in the game: it is not too long, and the world tells all of it.
     pub fn is_watchable(&self) -> bool {
-        self.frames.is_none() && self.size != Size::Long
+        self.late.is_none() && self.size != Size::Long
     }
 
     /// Makes `world` the case's at a quality, and lets what is done to it begin.
@@ -179,12 +203,17 @@ impl GauntletCase {
 
     /// Its world at a quality.
     pub(super) fn blueprint(&self, preset: Preset) -> Result<Blueprint, SceneError> {
-        let settings = (self.settings)();
-        let mut blueprint =
-            scene::from_text(&self.scene_name(), self.scene)?.build(&settings, Some(preset), &EffectModes::new())?;
-        if let Some(arrange) = self.arrange {
-            arrange(&mut blueprint);
-        }
+        let settings = self.ends.map(ends::settings).unwrap_or_default();
+        let scene = scene::from_text(&self.scene_name(), self.scene)?;
+        let mut blueprint = scene.build(&settings, Some(preset), &EffectModes::new())?;
+        arrange(self.name, &mut blueprint);
         Ok(blueprint)
+    }
+
+    /// Time from a frame to the one before; `None` where ticks come in time.
+    pub(super) fn frame(&self, frame: u64) -> Option<Duration> {
+        let late = self.late.as_ref()?;
+        let usual = 1.0 / f64::from(TICKS_PER_SECOND);
+        Some(Duration::from_secs_f64(late.get(&frame).copied().unwrap_or(usual)))
     }
 }

@@ -5,9 +5,9 @@ use crate::{
     lab::{
         balance::matter,
         cases::Verdict,
-        density::density_error,
+        density::DensityError,
         gauntlet::{
-            case::{GauntletCase, Rules},
+            case::{GauntletCase, Known, Rules},
             stability::Stability,
         },
         stats,
@@ -51,6 +51,7 @@ impl Totals {
 }
 
 /// What the judge has seen of a case.
+#[derive(Default)]
 pub(super) struct Judge {
     rules: Rules,
     /// The most energy that may be gained, as a speed, m/s.
@@ -90,25 +91,13 @@ impl Judge {
         let totals = Totals::of(world);
         let spacing = f64::from(matter(world).scale.spacing);
         Self {
-            rules: case.rules,
+            rules: case.rules.clone(),
             gain_allowed: case.rules.gain.map(|gain| gain.speed(&quality, spacing)),
             length: u64::from(case.ticks),
-            seen: 0,
             put_in: totals.energy,
-            gain: 0.0,
-            fastest: 0.0,
-            missing: 0,
             air: (0.0, totals.air),
-            through: None,
-            unsound: None,
-            density_worst: None,
-            density_end: Vec::new(),
-            motion: Vec::new(),
-            work: 0.0,
             calm_passes: f64::from(quality.substeps * quality.iterations),
-            counts: Vec::new(),
-            late: 0,
-            ms: Vec::new(),
+            ..Self::default()
         }
     }
 
@@ -134,9 +123,9 @@ impl Judge {
             self.gain = self.gain.max(gain);
             self.fastest = self.fastest.max(balance.max_speed);
         }
-        if let (Some(confines), None) = (self.rules.confines, self.through) {
+        if let (Some(confines), None) = (&self.rules.confines, self.through) {
             let places = (0..matter.particles.len()).map(|i| matter.particles.position(i).as_dvec2() * spacing);
-            self.through = places.into_iter().find(|place| !confines(*place)).map(|place| (self.seen, place));
+            self.through = places.into_iter().find(|place| !confines.hold(*place)).map(|place| (self.seen, place));
         }
         self.count_pairs(world);
         let ending = self.seen * 10 > self.length * 9;
@@ -192,10 +181,7 @@ impl Judge {
     }
 
     fn measure_density(&mut self, world: &World, ending: bool) {
-        let blueprint = &world.resource::<Setup>().blueprint;
-        let rest = f64::from(blueprint.fluid.rest_density);
-        let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
-        let Some(error) = density_error(particles, rock, blueprint.domain.size, rest) else { return };
+        let Some(error) = DensityError::of_world(world) else { return };
         if self.seen >= self.rules.density.map_or(0, |density| density.shock) {
             self.density_worst = Some(self.density_worst.map_or(error.p99, |worst| worst.max(error.p99)));
         }
@@ -208,7 +194,7 @@ impl Judge {
     pub fn finish(mut self, case: &GauntletCase, preset: Preset, world: &World, ms_total: f64) -> (Verdict, Stability) {
         let clamps = *world.resource::<Counters>();
         let broken = self.broken(&clamps, world);
-        let known = case.known.filter(|_| preset == Preset::Classic);
+        let known = case.known.filter(|_| preset == Preset::Classic).map(Known::why);
         let verdict = match (broken.is_empty(), known) {
             (true, _) => Verdict::Pass,
             (false, Some(_)) => Verdict::Known,
@@ -225,7 +211,7 @@ impl Judge {
             density_end: stats::mean(&self.density_end),
             motion: stats::mean(&self.motion).unwrap_or(0.0),
             work: self.work,
-            work_allowed: self.rules.work,
+            work_allowed: self.rules.most_work(),
             clamps,
             ms_max: stats::largest(&self.ms).unwrap_or(0.0),
             ms_median: stats::quantile(&mut self.ms, 0.5).unwrap_or(0.0),
@@ -260,7 +246,7 @@ impl Judge {
             bound("density error at the end", seen(stats::mean(&self.density_end)), Some(density.end));
         }
         bound("motion, d a tick:", stats::mean(&self.motion).unwrap_or(0.0), rules.rest);
-        bound("work of a tick", self.work, Some(rules.work));
+        bound("work of a tick", self.work, Some(rules.most_work()));
         bound("ticks in a frame", self.late as f64, Some(f64::from(MOST_TICKS)));
         if let Some(allowed) = rules.air {
             let drift = (self.air.0 / self.air.1).abs();
@@ -275,7 +261,7 @@ impl Judge {
         if rules.calm {
             broken.extend(counters.acted().map(|acted| format!("{} {}", acted.count, acted.what)));
         }
-        if let Some(Err(what)) = rules.also.map(|also| also(world)) {
+        if let Some(Err(what)) = rules.end.map(|end| end.check(world)) {
             broken.push(what);
         }
         broken

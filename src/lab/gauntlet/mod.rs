@@ -2,21 +2,26 @@
 //! at every quality, and judged by one judge.
 //!
 //! ```text
-//! cases ─► GauntletCase: a scene, what is done to it, the rules ─► world, tick by tick ─► Judge ─► Stability
+//! assets/gauntlet ─► GauntletCase: a scene, what is done to it, the rules ─► world, tick by tick ─► Judge ─► Stability
+//! arrange, script ─┘
 //! ```
 //!
 //! A case builds its world as every scene is built (`scene::from_text`, `Checkpoint::of_scene`). What is done to it before each
 //! tick is a script (`sim::script`), which runs headless here and in the game where a case is watched. How cases are run and
 //! reported is told in [`super::cases`].
 
+mod arrange;
 mod case;
-mod cases;
+mod end;
+mod ends;
 mod judge;
+mod list;
+mod script;
 mod stability;
 mod suite;
 #[cfg(test)]
 mod tests;
 
 pub use case::GauntletCase;
-pub use cases::CASES;
+pub use list::CASES;
 pub use stability::Stability;

@@ -18,7 +18,7 @@ impl Case for GauntletCase {
     const SUITE: Suite<Self> = Suite {
         command: "gauntlet",
         which: "Case to run, again for more: a name of `list cases` [default: all]",
-        cases: CASES,
+        cases: || &CASES,
         introduction,
         labels: ["Guards against", "Allowed"],
         columns: &[
@@ -63,8 +63,8 @@ impl Case for GauntletCase {
                 judge.edited(before, Totals::of(simulation.world()));
             }
             let before = Totals::of(simulation.world());
-            let ticks = match self.frames {
-                Some(frames) => simulation.frame(frames(tick)).await,
+            let ticks = match self.frame(tick) {
+                Some(time) => simulation.frame(time).await,
                 None => {
                     simulation.tick().await;
                     1

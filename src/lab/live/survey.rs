@@ -9,7 +9,7 @@ use crate::{
     },
     lab::{
         autopilot::ladder,
-        density::density_error,
+        density::DensityError,
         drive::pause,
         jobs::{Handle, Share},
         live::accuracy::{Curve, CurvePoint, Survey, SurveyRequest, fingerprint},
@@ -21,7 +21,7 @@ use crate::{
         effects::{Effects, status::Sleepers},
         ledger::PassLedger,
         simulation::Simulation,
-        state::{Clock, ParticleStore, Rock, Setup, SolverState},
+        state::{Clock, Setup, SolverState},
         workers::Workers,
     },
 };
@@ -167,8 +167,7 @@ struct Run {
     leg: Leg,
     simulation: Simulation,
     ticks: u32,
-    means: Vec<f64>,
-    p99s: Vec<f64>,
+    errors: Vec<DensityError>,
 }
 
 impl Work {
@@ -237,7 +236,7 @@ impl Run {
             // What sleeps costs the same at every quality, and errs by the same: it says nothing of any.
             simulation.world_mut().resource_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off;
         }
-        Self { leg, simulation, ticks: 0, means: Vec::new(), p99s: Vec::new() }
+        Self { leg, simulation, ticks: 0, errors: Vec::new() }
     }
 
     fn advance(&mut self) -> Option<Done> {
@@ -247,7 +246,7 @@ impl Run {
         self.simulation.tick();
         self.ticks += 1;
         if !self.leg.sleep && self.ticks > WARMUP && self.ticks.is_multiple_of(MEASURE_EVERY) {
-            self.measure();
+            self.errors.extend(DensityError::of_world(self.simulation.world()));
         }
         if self.ticks < WARMUP + TICKS {
             return None;
@@ -260,20 +259,9 @@ impl Run {
             preset: self.leg.preset,
             quality: self.leg.quality,
             milliseconds,
-            error: stats::mean(&self.means).map(|mean| mean as f32),
-            p99: stats::mean(&self.p99s).map(|p99| p99 as f32),
+            error: stats::mean(self.errors.iter().map(|error| error.mean)).map(|mean| mean as f32),
+            p99: stats::mean(self.errors.iter().map(|error| error.p99)).map(|p99| p99 as f32),
         }))
-    }
-
-    fn measure(&mut self) {
-        let world = self.simulation.world();
-        let blueprint = &world.resource::<Setup>().blueprint;
-        let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
-        let rest = f64::from(blueprint.fluid.rest_density);
-        if let Some(error) = density_error(particles, rock, blueprint.domain.size, rest) {
-            self.means.push(error.mean);
-            self.p99s.push(error.p99);
-        }
     }
 }
 

@@ -120,12 +120,9 @@ impl Report {
         let quarter = self.periods.len() / 4;
         if quarter > 0 {
             let (second, last) = (&self.periods[quarter..2 * quarter], &self.periods[self.periods.len() - quarter..]);
-            let of = |periods: &[Totals], what: fn(&Totals) -> f64| {
-                mean(&periods.iter().map(what).collect::<Vec<_>>()).unwrap_or_default()
-            };
-            let peak = |periods: &[Totals], what: fn(&Totals) -> f64| {
-                largest(&periods.iter().map(what).collect::<Vec<_>>()).unwrap_or_default()
-            };
+            let of = |periods: &[Totals], what: fn(&Totals) -> f64| mean(periods.iter().map(what)).unwrap_or_default();
+            let peak =
+                |periods: &[Totals], what: fn(&Totals) -> f64| largest(periods.iter().map(what)).unwrap_or_default();
             let count = |totals: &Totals| totals.particles;
             let (early, late) = (of(second, count), of(last, count));
             expect(

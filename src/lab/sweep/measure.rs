@@ -7,8 +7,7 @@ use super::{
 use crate::{
     kernel::params::{Preset, Quality},
     lab::{
-        coarse::Distance,
-        density::density_error,
+        density::DensityError,
         experiment::time,
         metrics::Metrics,
         reference::{Follower, Reference},
@@ -16,15 +15,8 @@ use crate::{
         sampler::Sampler,
     },
     scene::effects::{Effect, Mode},
-    sim::{
-        checkpoint::Checkpoint,
-        effects::Effects,
-        simulation::Simulation,
-        state::{ParticleStore, Rock, Setup},
-        workers::Workers,
-    },
+    sim::{checkpoint::Checkpoint, effects::Effects, simulation::Simulation, workers::Workers},
 };
-use bevy::ecs::world::World;
 use std::io;
 
 /// The run that all are compared with, on all threads: its time is not what counts.
@@ -42,15 +34,16 @@ pub(super) fn run(
 ) -> io::Result<Record> {
     // What the preset is called makes no difference to the run.
     let mut simulation = begin(start, setting.preset.unwrap_or(Preset::Fast), setting.quality, workers.clone());
-    let density = mean_density(simulation.world());
+    let density = DensityError::of_world(simulation.world()).map(|error| error.density);
     let (run, found) = if let Some(reference) = reference {
         let mut sampler = Sampler::new(simulation.world(), plan.warmup);
         let mut follower = Follower::new(reference);
         let run = time(&mut simulation, plan, &mut [&mut sampler, &mut follower])?;
-        let mut found = found(&sampler.finish(simulation.world()), follower.mean(plan.warmup));
+        let mut found = found(&sampler.finish(simulation.world()));
+        found.accuracy.distance = Some(follower.mean(plan.warmup));
         found.energy_gain = found.energy_gain.filter(|_| start.is_closed()).map(|ratio| {
             // What swells to its target density is lifted by as much; that is not the energy of an unstable world.
-            let swelling = found.density_mean.zip(density).map_or(1.0, |(after, before)| after / before);
+            let swelling = found.accuracy.density_mean.zip(density).map_or(1.0, |(after, before)| after / before);
             ratio * swelling - 1.0
         });
         (run, Some(found))
@@ -68,26 +61,13 @@ fn begin(start: &Checkpoint, preset: Preset, quality: Quality, workers: Workers)
     simulation
 }
 
-/// Mean density of the liquid's interior, 1 at rest density.
-fn mean_density(world: &World) -> Option<f64> {
-    let blueprint = &world.resource::<Setup>().blueprint;
-    let (size, rest) = (blueprint.domain.size, f64::from(blueprint.fluid.rest_density));
-    density_error(world.resource::<ParticleStore>(), world.resource::<Rock>(), size, rest).map(|error| error.density)
-}
-
-fn found(metrics: &Metrics, distance: Distance) -> Found {
-    let (accuracy, stability) = (&metrics.accuracy, &metrics.stability);
+fn found(metrics: &Metrics) -> Found {
+    let (accuracy, stability) = (metrics.accuracy, &metrics.stability);
     Found {
         particles: metrics.particles.total,
-        error_mean: accuracy.density_error_mean,
-        error_p99: accuracy.density_error_p99,
-        error_max: accuracy.density_error_max,
-        density_mean: accuracy.density_mean,
-        volume_error: accuracy.volume_error,
-        residual: accuracy.residual,
-        energy_gain: Some(accuracy.energy_peak / accuracy.energy_start).filter(|ratio| ratio.is_finite()),
         lost: stability.non_finite + stability.escaped,
-        distance,
+        energy_gain: Some(accuracy.energy_peak / accuracy.energy_start).filter(|ratio| ratio.is_finite()),
+        accuracy,
     }
 }
 
@@ -105,7 +85,7 @@ mod tests {
         let mut simulation = begin(&start, preset, preset.quality(), Workers::default());
         let mut sampler = Sampler::new(simulation.world(), plan.warmup);
         time(&mut simulation, &plan, &mut [&mut sampler]).unwrap();
-        found(&sampler.finish(simulation.world()), Distance::default())
+        found(&sampler.finish(simulation.world()))
     }
 
     #[test]
@@ -114,9 +94,10 @@ mod tests {
         for (preset, [mean, p99]) in [(Preset::Balanced, [0.003, 0.035]), (Preset::Fine, [0.0005, 0.01])] {
             let found = dam_break(preset);
             assert_eq!((found.particles, found.lost), (10_082, 0));
-            assert!(found.error_mean.unwrap() <= mean && found.error_p99.unwrap() <= p99, "{preset:?}: {found:?}");
+            let errors = [found.accuracy.density_error_mean, found.accuracy.density_error_p99].map(Option::unwrap);
+            assert!(errors[0] <= mean && errors[1] <= p99, "{preset:?}: {found:?}");
             // A liquid that stands thin has little error.
-            assert!((found.density_mean.unwrap() - 1.0).abs() <= 0.02, "{preset:?}: {found:?}");
+            assert!((found.accuracy.density_mean.unwrap() - 1.0).abs() <= 0.02, "{preset:?}: {found:?}");
         }
     }
 }

@@ -26,4 +26,4 @@ pub mod summary;
 pub mod table;
 
 pub use error::ErrorMeasure;
-pub use run::{Progress, Sweep};
+pub use run::Sweep;

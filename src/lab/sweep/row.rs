@@ -46,8 +46,8 @@ impl Row {
     pub fn new(setting: &Setting, measure: ErrorMeasure, records: &[&Record], found: &Found) -> Option<Self> {
         let ms = Spread::of(records.iter().map(|record| record.ms))?;
         let error = match measure {
-            ErrorMeasure::Density => found.error_p99,
-            ErrorMeasure::Air => found.distance.air,
+            ErrorMeasure::Density => found.accuracy.density_error_p99,
+            ErrorMeasure::Air => found.accuracy.distance.and_then(|distance| distance.air),
         };
         Some(Self {
             setting: setting.clone(),
@@ -76,16 +76,15 @@ fn faults(measure: ErrorMeasure, found: &Found) -> Vec<String> {
         faults.push(format!("{} particles lost or outside", found.lost));
     }
     if measure == ErrorMeasure::Air {
-        if found.distance.air.is_none() {
+        if found.accuracy.distance.is_none_or(|distance| distance.air.is_none()) {
             faults.push("no air to compare".to_owned());
         }
         return faults;
     }
-    match found.energy_gain {
-        Some(gain) if gain > ENERGY_GAIN => faults.push(format!("energy up by {:.1} %", 100.0 * gain)),
-        _ => (),
+    if let Some(gain) = found.energy_gain.filter(|gain| *gain > ENERGY_GAIN) {
+        faults.push(format!("energy up by {:.1} %", 100.0 * gain));
     }
-    match found.density_mean {
+    match found.accuracy.density_mean {
         None => faults.push("no liquid with an inside".to_owned()),
         Some(density) if (density - 1.0).abs() <= DENSITY_OFF => (),
         Some(density) => faults.push(format!("mean density {density:.3}")),
@@ -96,7 +95,7 @@ fn faults(measure: ErrorMeasure, found: &Found) -> Vec<String> {
 #[cfg(test)]
 pub(super) mod tests {
     use super::{super::summary::Subject, *};
-    use crate::kernel::params::Preset;
+    use crate::{kernel::params::Preset, lab::metrics::Accuracy};
 
     /// A sweep of `dam_break`.
     pub(in crate::lab::sweep) fn subject(threads: usize) -> Subject<'static> {
@@ -117,7 +116,8 @@ pub(super) mod tests {
         let preset = Preset::find(name);
         let quality = preset.unwrap_or(Preset::Fast).quality();
         let setting = Setting { name: name.to_owned(), preset, quality, threads: 1 };
-        let sound = Found { error_p99: Some(error), density_mean: Some(0.99), ..Found::default() };
+        let accuracy = Accuracy { density_error_p99: Some(error), density_mean: Some(0.99), ..Accuracy::default() };
+        let sound = Found { accuracy, ..Found::default() };
         let record = Record { ms, ms_p95: ms, hash: String::new(), found: None };
         Row::new(&setting, ErrorMeasure::Density, &[&record], &sound).unwrap()
     }
@@ -135,15 +135,20 @@ pub(super) mod tests {
 
     #[test]
     fn a_world_that_is_not_sound_is_not_valid() {
-        let sound = Found { density_mean: Some(0.985), energy_gain: Some(0.002), ..Found::default() };
+        let stands = |density_mean| Found {
+            energy_gain: Some(0.002),
+            accuracy: Accuracy { density_mean, ..Accuracy::default() },
+            ..Found::default()
+        };
+        let sound = stands(Some(0.985));
         assert_eq!(faults(ErrorMeasure::Density, &sound), [""; 0]);
         for (bad, says) in [
             (Found { lost: 3, ..sound.clone() }, "3 particles"),
             (Found { energy_gain: Some(0.013), ..sound.clone() }, "1.3 %"),
-            (Found { density_mean: Some(0.97), ..sound.clone() }, "0.970"),
-            (Found { density_mean: Some(1.05), ..sound.clone() }, "1.050"),
-            (Found { density_mean: Some(f64::NAN), ..sound.clone() }, "NaN"),
-            (Found { density_mean: None, ..sound.clone() }, "no liquid"),
+            (stands(Some(0.97)), "0.970"),
+            (stands(Some(1.05)), "1.050"),
+            (stands(Some(f64::NAN)), "NaN"),
+            (stands(None), "no liquid"),
         ] {
             let faults = faults(ErrorMeasure::Density, &bad);
             assert!(faults.len() == 1 && faults[0].contains(says), "{faults:?} does not say {says}");

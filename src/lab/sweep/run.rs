@@ -27,15 +27,6 @@ pub struct Sweep<'a> {
     pub rounds: u32,
 }
 
-/// How far a sweep is.
-#[derive(Clone, Copy, Debug)]
-pub struct Progress<'a> {
-    /// Runs that are done.
-    pub done: usize,
-    /// What runs next.
-    pub what: &'a str,
-}
-
 impl Sweep<'_> {
     /// Runs in all.
     pub fn runs(&self) -> usize {
@@ -48,14 +39,15 @@ impl Sweep<'_> {
         format!("{program} {} {:016x} {warmup}/{ticks}", processor(), hash_bytes(&start.encode()))
     }
 
-    /// Runs what the journal doesn't have yet, and puts all together.
+    /// Runs what the journal doesn't have yet, and puts all together. `says` hears how many runs are done, and what runs
+    /// next.
     ///
     /// # Errors
     /// If threads can't be had, the journal can't be written, or a world does not come out the same twice.
     pub fn run(
         &self,
         journal: &mut Journal<Record>,
-        says: &mut dyn FnMut(Progress),
+        says: &mut dyn FnMut(usize, &str),
     ) -> Result<Vec<Row>, ExperimentError> {
         let threads: BTreeSet<usize> = self.settings.iter().map(|setting| setting.threads).collect();
         let pools = threads.into_iter().map(|threads| Ok((threads, Workers::new(threads)?)));
@@ -68,7 +60,7 @@ impl Sweep<'_> {
             if journal.find(&key, round).is_some() {
                 continue;
             }
-            let mut say = |what: &str| says(Progress { done, what });
+            let mut say = |what: &str| says(done, what);
             let is_sampled = journal.all(&key).any(|record| record.found.is_some());
             if !is_sampled && reference.is_none() {
                 say("the reference");

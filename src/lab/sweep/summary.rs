@@ -110,11 +110,12 @@ fn name(row: &Row) -> String {
 fn preset_table(subject: &Subject, rows: &[Row]) -> String {
     let find = |preset: Preset| rows.iter().find(|row| row.setting.preset == Some(preset));
     let line = |row: &Row| {
-        let (Row { ms, ms_range: [low, high], found, .. }, distance) = (row, row.found.distance);
+        let Row { ms, ms_range: [low, high], found, .. } = row;
+        let (accuracy, distance) = (found.accuracy, found.accuracy.distance.unwrap_or_default());
         let figures = [
-            fixed(found.error_mean, 5),
-            fixed(found.error_p99, 5),
-            fixed(found.density_mean, 3),
+            fixed(accuracy.density_error_mean, 5),
+            fixed(accuracy.density_error_p99, 5),
+            fixed(accuracy.density_mean, 3),
             fixed(found.energy_gain, 4),
             fixed(distance.share, 3),
             fixed(distance.momentum, 3),

@@ -3,6 +3,7 @@
 use super::row::Row;
 use crate::{
     kernel::params::Preset,
+    lab::metrics::Accuracy,
     scene::{KNOBS, Knob, Part, Tuning},
 };
 use std::io::{self, Write};
@@ -14,73 +15,67 @@ type Column = (&'static str, &'static str, Field);
 enum Field {
     /// The value of a knob.
     Knob(&'static Knob),
-    /// This.
-    Of(fn(&Row) -> String),
+    /// This text.
+    Text(fn(&Row) -> String),
+    /// This share, if it applies, to six digits.
+    Share(fn(&Accuracy) -> Option<f64>),
 }
-use Field::Of;
+use Field::{Share, Text};
 
 const SETTING: [Column; 3] = [
-    ("setting", "name of the setting, unique in the table", Of(|row| row.setting.name.clone())),
-    ("preset", "name of the preset that it is", Of(|row| row.setting.preset.map_or("", Preset::name).to_owned())),
-    ("threads", "threads of the kernel", Of(|row| row.setting.threads.to_string())),
+    ("setting", "name of the setting, unique in the table", Text(|row| row.setting.name.clone())),
+    ("preset", "name of the preset that it is", Text(|row| row.setting.preset.map_or("", Preset::name).to_owned())),
+    ("threads", "threads of the kernel", Text(|row| row.setting.threads.to_string())),
 ];
 
 const PREDICTOR: Column = (
     "predictor",
     "whether the pressure predictor runs: true or false",
-    Of(|row| row.setting.quality.predictor.to_string()),
+    Text(|row| row.setting.quality.predictor.to_string()),
 );
 
 const RESULTS: [Column; 21] = [
-    ("runs", "number of runs", Of(|row| row.runs.to_string())),
-    ("ms", "time of a tick, ms: the median over the runs of their medians", Of(|row| ms(row.ms))),
-    ("ms_low", "median of the fastest run, ms", Of(|row| ms(row.ms_range[0]))),
-    ("ms_high", "median of the slowest run, ms", Of(|row| ms(row.ms_range[1]))),
-    ("ms_p95", "95th percentile of the ticks, ms: the median over the runs", Of(|row| ms(row.ms_p95))),
+    ("runs", "number of runs", Text(|row| row.runs.to_string())),
+    ("ms", "time of a tick, ms: the median over the runs of their medians", Text(|row| ms(row.ms))),
+    ("ms_low", "median of the fastest run, ms", Text(|row| ms(row.ms_range[0]))),
+    ("ms_high", "median of the slowest run, ms", Text(|row| ms(row.ms_range[1]))),
+    ("ms_p95", "95th percentile of the ticks, ms: the median over the runs", Text(|row| ms(row.ms_p95))),
     (
         "error",
         "the error that counts: error_p99, or distance_air in a scene about air",
-        Of(|row| share(Some(row.error).filter(|error| error.is_finite()))),
+        Text(|row| share(Some(row.error).filter(|error| error.is_finite()))),
     ),
-    (
-        "error_mean",
-        "density error: mean over the interior particles, a fraction",
-        Of(|row| share(row.found.error_mean)),
-    ),
-    ("error_p99", "density error: 99th percentile, a fraction", Of(|row| share(row.found.error_p99))),
-    ("error_max", "density error: largest, a fraction", Of(|row| share(row.found.error_max))),
-    (
-        "density_mean",
-        "mean density of the interior particles, 1 at rest density",
-        Of(|row| share(row.found.density_mean)),
-    ),
-    ("volume_error", "room that the liquid takes too much, a fraction", Of(|row| share(row.found.volume_error))),
+    ("error_mean", "density error: mean over the interior particles, a fraction", Share(|of| of.density_error_mean)),
+    ("error_p99", "density error: 99th percentile, a fraction", Share(|of| of.density_error_p99)),
+    ("error_max", "density error: largest, a fraction", Share(|of| of.density_error_max)),
+    ("density_mean", "mean density of the interior particles, 1 at rest density", Share(|of| of.density_mean)),
+    ("volume_error", "room that the liquid takes too much, a fraction", Share(|of| of.volume_error)),
     (
         "residual",
         "the solver's own mean constraint where it is violated, in the last iteration",
-        Of(|row| share(row.found.residual)),
+        Share(|of| of.residual),
     ),
     (
         "energy_gain",
         "highest energy against the start's less 1, without what swelling takes; only in closed scenes",
-        Of(|row| share(row.found.energy_gain)),
+        Text(|row| share(row.found.energy_gain)),
     ),
     (
         "lost",
         "particles that were not finite, and particle-ticks outside the box or in rock",
-        Of(|row| row.found.lost.to_string()),
+        Text(|row| row.found.lost.to_string()),
     ),
     (
         "distance_share",
         "distance to the reference: liquid in another coarse cell, a fraction",
-        Of(|row| share(row.found.distance.share)),
+        Share(|of| of.distance?.share),
     ),
-    ("distance_momentum", "distance to the reference: momentum", Of(|row| share(row.found.distance.momentum))),
-    ("distance_air", "distance to the reference: mean air velocity", Of(|row| share(row.found.distance.air))),
-    ("particles", "particles at the end, rock included", Of(|row| row.found.particles.to_string())),
-    ("front", "whether no valid setting beats it: true or false", Of(|row| row.front.to_string())),
-    ("faults", "what makes the row invalid, separated by semicolons", Of(|row| row.faults.join("; "))),
-    ("hash", "hash of the final state", Of(|row| row.hash.clone())),
+    ("distance_momentum", "distance to the reference: momentum", Share(|of| of.distance?.momentum)),
+    ("distance_air", "distance to the reference: mean air velocity", Share(|of| of.distance?.air)),
+    ("particles", "particles at the end, rock included", Text(|row| row.found.particles.to_string())),
+    ("front", "whether no valid setting beats it: true or false", Text(|row| row.front.to_string())),
+    ("faults", "what makes the row invalid, separated by semicolons", Text(|row| row.faults.join("; "))),
+    ("hash", "hash of the final state", Text(|row| row.hash.clone())),
 ];
 
 /// All columns in their order.
@@ -111,7 +106,8 @@ pub fn write(rows: &[Row], out: impl Write) -> io::Result<()> {
         let tuning = Tuning::from(row.setting.quality);
         table.write_record(columns.iter().map(|(.., field)| match field {
             Field::Knob(knob) => knob.text(&tuning),
-            Of(text) => text(row),
+            Text(text) => text(row),
+            Share(of) => share(of(&row.found.accuracy)),
         }))?;
     }
     table.flush()

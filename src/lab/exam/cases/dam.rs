@@ -1,36 +1,13 @@
 //! The dam break of Martin and Moyce.
 
 use super::falling::worst;
-use crate::{
-    lab::{
-        exam::{
-            case::{
-                ExamCase, Finding, Over, Setting, Size,
-                Tolerance::{Share, Within},
-            },
-            fit::between,
-            world::{CaseSimulation, GRAVITY, Stopwatch, builtin},
-        },
-        stats,
+use crate::lab::{
+    exam::{
+        case::{Findings, share, within},
+        fit::between,
+        set_up::{CaseSimulation, GRAVITY, SetUp},
     },
-    scene::SceneError,
-};
-
-pub(super) const DAM_BREAK: ExamCase = ExamCase {
-    name: "dam_break",
-    title: "Dam break",
-    setup: "The scene `dam_break`: a column of 10,082 particles, twice as high as its base a, collapses. \
-            `Z = x/a` is the front over `T = t √(2g/a)`, `H = η/2a` the height at the wall over `τ = t √(g/a)`.",
-    answer: "J. C. Martin and W. J. Moyce, An experimental study of the collapse of liquid columns on a rigid horizontal \
-             plane, Phil. Trans. R. Soc. A 244 (1952): Z and H for n² = 2. The gate of the experiment takes time to open and \
-             shifts T, so the slope of the front counts: of Z over T = 1.602 … 2.950 (a = 1.125 in). H is compared point by \
-             point over τ = 0.56 … 3.44.",
-    tolerance: "Front: 6 %. The experiments with a = 1.125 in and 2.25 in differ by 1 % in this slope, the first by 3 % \
-                between its parts; drag at the floor, which the program has not, takes about as much. Height: \
-                0.03; the readings have two digits, and a gate that opens late shifts them by as much.",
-    over: Over::Qualities,
-    size: Size::Usual,
-    run: |setting, stopwatch| Box::pin(dam_break(setting, stopwatch)),
+    stats,
 };
 
 /// Particles along the base.
@@ -71,8 +48,8 @@ const HEIGHT: [(f64, f64); 14] = [
 /// Times T over which the slope of the front is taken.
 const FRONT_OVER: (f64, f64) = (1.602, 2.950);
 
-async fn dam_break(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Finding>, SceneError> {
-    let mut simulation = CaseSimulation::new(builtin("dam_break", &[("columns", COLUMNS)], &setting)?, &stopwatch);
+pub(super) async fn dam_break(set_up: SetUp) -> Findings {
+    let mut simulation = set_up.open("dam_break", &[("columns", COLUMNS)])?;
     let base = COLUMNS * simulation.spacing();
     let per_second = (GRAVITY / base).sqrt();
     let (mut front, mut height) = (Vec::new(), Vec::new());
@@ -85,20 +62,14 @@ async fn dam_break(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Finding
     let (from, to) = FRONT_OVER;
     let apart = HEIGHT.iter().map(|(time, known)| at(&height, *time) - known);
     Ok(vec![
-        Finding {
-            quantity: "slope of the front, dZ/dT",
-            unit: "",
-            expected: slope(&between(&FRONT, from, to)),
-            got: slope(&between(&front, from, to)),
-            tolerance: Share(0.06),
-        },
-        Finding {
-            quantity: "height at the wall H, largest error",
-            unit: "",
-            expected: 0.0,
-            got: worst(apart, 0.0),
-            tolerance: Within(0.03),
-        },
+        share(
+            "slope of the front, dZ/dT",
+            "",
+            slope(&between(&FRONT, from, to)),
+            slope(&between(&front, from, to)),
+            0.06,
+        ),
+        within("height at the wall H, largest error", "", 0.0, worst(apart, 0.0), 0.03),
     ])
 }
 

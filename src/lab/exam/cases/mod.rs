@@ -1,5 +1,5 @@
-//! The cases, one concept a file. Each says its setup, its answer and why its tolerances are what they are; those texts
-//! stand in docs/exam.md.
+//! How each case is simulated, one concept a file. What it sets up, its answer and why its tolerances are what they are stands
+//! in assets/exam/cases.ron.
 
 mod dam;
 mod drag;
@@ -13,22 +13,26 @@ mod turning;
 mod vessels;
 mod vortex;
 
-use crate::lab::exam::case::ExamCase;
+use crate::lab::exam::{case::Findings, set_up::SetUp};
+use std::pin::Pin;
 
-/// All cases, in the order in which they are shown.
-pub const CASES: &[ExamCase] = &[
-    falling::FREE_FALL,
-    falling::BLOB_FALL,
-    drag::WIND,
-    drag::TERMINAL_SPEED,
-    rest::HYDROSTATIC,
-    vessels::VESSELS,
-    dam::DAM_BREAK,
-    sloshing::SLOSHING,
-    orifice::ORIFICE,
-    turning::ROTATING_BLOB,
-    turning::COLLISION,
-    shear::SHEAR_LAYER,
-    vortex::VORTEX,
-    pulse::PULSE,
+/// A case at work.
+type Run = Pin<Box<dyn Future<Output = Findings> + Send>>;
+
+/// What runs the cases, by their names.
+pub(super) const RUNS: [(&str, fn(SetUp) -> Run); 14] = [
+    ("free_fall", |set_up| Box::pin(falling::free_fall(set_up))),
+    ("falling_drop", |set_up| Box::pin(falling::falling_drop(set_up))),
+    ("wind", |set_up| Box::pin(drag::wind(set_up))),
+    ("terminal_speed", |set_up| Box::pin(drag::terminal_speed(set_up))),
+    ("hydrostatic", |set_up| Box::pin(rest::hydrostatic(set_up))),
+    ("vessels", |set_up| Box::pin(vessels::vessels(set_up))),
+    ("dam_break", |set_up| Box::pin(dam::dam_break(set_up))),
+    ("sloshing", |set_up| Box::pin(sloshing::sloshing(set_up))),
+    ("orifice", |set_up| Box::pin(orifice::orifice(set_up))),
+    ("rotating_drop", |set_up| Box::pin(turning::rotating_drop(set_up))),
+    ("collision", |set_up| Box::pin(turning::collision(set_up))),
+    ("shear_layer", |set_up| Box::pin(shear::shear_layer(set_up))),
+    ("vortex", |set_up| Box::pin(vortex::vortex(set_up))),
+    ("pulse", |set_up| Box::pin(pulse::pulse(set_up))),
 ];

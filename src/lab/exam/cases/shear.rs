@@ -7,32 +7,14 @@ use crate::{
     },
     lab::{
         exam::{
-            case::{ExamCase, Finding, Over, Setting, Size, Tolerance::Share},
-            world::{CaseSimulation, Stopwatch, own},
+            case::{Findings, share},
+            set_up::{CaseSimulation, SetUp},
         },
         stats,
     },
-    scene::{
-        SceneError,
-        effects::{Effect, Mode},
-    },
+    scene::effects::{Effect, Mode},
 };
 use std::{f64::consts::PI, sync::Arc};
-
-pub(super) const SHEAR_LAYER: ExamCase = ExamCase {
-    name: "shear_layer",
-    title: "Shear layer",
-    setup: "A full channel of 12 m × 1 m (assets/exam/shear_layer.ron) in which the water runs at `U cos(k y)`, \
-            U = 0.1 m/s, k = π/1 m; it is thick (XSPH c = 0.5). How fast U falls in the middle third from 0.1 s to 1 s, with \
-            viscosity and without; the difference of the two rates is the viscosity's.",
-    answer: "Each tick XSPH replaces v by its mean with the weights `c W`: a wave `cos(k y)` keeps the share \
-             `1 − c Σ W (1 − cos k y)` over the lattice's neighbours, in the continuum `1 − c k² h²/20` (for poly6 \
-             `∫ y² W = h²/10`). The rate is that times the ticks in a second: a kinematic viscosity of `c h²/20` a tick.",
-    tolerance: "10 %: the particles leave the lattice that the sum is taken over.",
-    over: Over::Qualities,
-    size: Size::Usual,
-    run: |setting, stopwatch| Box::pin(shear_layer(setting, stopwatch)),
-};
 
 /// Speed at the start, d/s, and height of the channel, d.
 const SPEED: f32 = 1.0;
@@ -43,12 +25,11 @@ const SETTLE: f64 = 0.1;
 /// XSPH viscosity c: so thick that the particles finding their places does not matter beside it.
 const VISCOSITY: f32 = 0.5;
 
-async fn shear_layer(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Finding>, SceneError> {
+pub(super) async fn shear_layer(set_up: SetUp) -> Findings {
     let mut rates = [0.0; 2];
     let mut expected = f64::NAN;
     for (rate, mode) in rates.iter_mut().zip([Mode::On, Mode::Off]) {
-        let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/exam/shear_layer.ron"));
-        let mut blueprint = own("shear_layer", text, &[], &setting)?;
+        let mut blueprint = set_up.blueprint("shear_layer", &[])?;
         blueprint.effects.insert(Effect::Viscosity, mode);
         let thick = |(_, element): (_, &Element)| Element { viscosity: VISCOSITY, ..element.clone() };
         blueprint.elements = Arc::new(ElementTable::new(blueprint.elements.iter().map(thick).collect()));
@@ -56,7 +37,7 @@ async fn shear_layer(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Findi
         for i in 0..particles.len() {
             particles.vx[i] = SPEED * (PI * f64::from(particles.y[i]) / HEIGHT).cos() as f32;
         }
-        let mut simulation = CaseSimulation::new(blueprint, &stopwatch);
+        let mut simulation = set_up.simulation(blueprint);
         let mut curve = Vec::new();
         while simulation.seconds() < SECONDS {
             simulation.tick().await;
@@ -67,13 +48,7 @@ async fn shear_layer(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Findi
         *rate = stats::line(&curve).map_or(f64::NAN, |(slope, _)| -slope);
         expected = theory(&simulation);
     }
-    Ok(vec![Finding {
-        quantity: "rate at which XSPH damps it",
-        unit: "1/s",
-        expected,
-        got: rates[0] - rates[1],
-        tolerance: Share(0.10),
-    }])
+    Ok(vec![share("rate at which XSPH damps it", "1/s", expected, rates[0] - rates[1], 0.10)])
 }
 
 /// Amplitude of `cos(k y)` in the velocity along the channel, d/s.

@@ -7,11 +7,8 @@ use crate::{
     },
     lab::{
         exam::{
-            case::{
-                ExamCase, Finding, Over, Setting, Size,
-                Tolerance::{Share, Within},
-            },
-            world::{CaseSimulation, Stopwatch, own},
+            case::{Findings, share, within},
+            set_up::SetUp,
         },
         stats,
     },
@@ -21,30 +18,6 @@ use crate::{
 use glam::Vec2;
 use std::f64::consts::PI;
 
-pub(super) const VORTEX: ExamCase = ExamCase {
-    name: "vortex",
-    title: "Taylor–Green vortex",
-    setup: "`u = U sin(k x) cos(k y)`, `v = −U cos(k x) sin(k y)` in a closed box of 12 m without rock, k = π/12 m, \
-            U = 5 m/s = c/8. A fan in every cell brings the air to that speed in one tick; then the fans are taken away \
-            (assets/exam/vortex.ron). Its energy is followed for 2.4 s: on cells of the quality, and for the order on cells of 8 d and of 4 d.",
-    answer: "Without viscosity the vortex would last. First-order advection is an upwind scheme: along each axis it diffuses \
-             with ½ |u| Δx. Averaged over the vortex, `dE/dt = −Δx U³ k² (⟨|s|c²⟩⟨|c|³⟩ + ⟨|s|³⟩⟨|c|s²⟩) = −0.180 Δx U³ k²`, \
-             which a viscosity `ν = 0.180 U Δx` would do, too (`dE/dt = −4 ν k² E`, E = ¼ U²). It falls with U: \
-             `√(E₀/E) = 1 + 2 ν₀ k² t`. Half the cell has half the viscosity: order 1. \
-             With second-order advection none of it is left. What is, comes from mass, which is shared out to first order \
-             and which the faces' filter κ evens out: mass that creeps along the vortex's own pressure `U²/4c²` does \
-             the work `κ Δx k² U⁴/4c`, a viscosity of `κ U/4c · U Δx = 0.002 U Δx`, and its shares half as much again; and \
-             from limited slopes at the peaks, which fall with the square of Δx or faster. From 8 d to 4 d the slopes are most \
-             of it, and the order is 2. On finer cells what mass leaves takes over (1.5 from 4 d to 2 d, 1.0 from 1 d to \
-             0.5 d), so the order is judged on the coarse ones.",
-    tolerance: "First order: viscosity 10 %; the terms of second order, `½ u² Δt`, take 4 % off at this Courant number, sound \
-                and walls take a little energy; order 0.15. Second order: a tenth of the viscosity of the first; an \
-                order of 2 ± 0.5, which a scheme of first order misses.",
-    over: Over::Air,
-    size: Size::Quick,
-    run: |setting, stopwatch| Box::pin(vortex(setting, stopwatch)),
-};
-
 /// Speed U, m/s, and edge of the box, m.
 const SPEED: f64 = 5.0;
 const EDGE: f64 = 12.0;
@@ -53,27 +26,24 @@ const SECONDS: f64 = EDGE / SPEED;
 /// Edge of the cells from which the order is judged, to half of it, d.
 const COARSE: f32 = 8.0;
 
-async fn vortex(setting: Setting, stopwatch: Stopwatch) -> Result<Vec<Finding>, SceneError> {
-    let (cell, own) = viscosity(setting.preset.quality().air_cell, &setting, &stopwatch).await?;
-    let (_, coarse) = viscosity(COARSE, &setting, &stopwatch).await?;
-    let (_, half) = viscosity(0.5 * COARSE, &setting, &stopwatch).await?;
+pub(super) async fn vortex(set_up: SetUp) -> Findings {
+    let quality = set_up.setting.preset.quality();
+    let (cell, own) = viscosity(quality.air_cell, &set_up).await?;
+    let (_, coarse) = viscosity(COARSE, &set_up).await?;
+    let (_, half) = viscosity(0.5 * COARSE, &set_up).await?;
     let shares = 2.0 * (2.0 / (3.0 * PI)) * (4.0 / (3.0 * PI));
     let upwind = shares * SPEED * cell;
-    let (viscosity, order) = match setting.preset.quality().air_advection {
-        AirAdvection::FirstOrder => ((upwind, Share(0.10)), (1.0, Within(0.15))),
-        AirAdvection::SecondOrder => ((0.0, Within(0.10 * upwind)), (2.0, Within(0.5))),
+    let (name, unit) = ("numerical viscosity", "m²/s");
+    let (viscosity, order, off) = match quality.air_advection {
+        AirAdvection::FirstOrder => (share(name, unit, upwind, own, 0.10), 1.0, 0.15),
+        AirAdvection::SecondOrder => (within(name, unit, 0.0, own, 0.10 * upwind), 2.0, 0.5),
     };
-    let finding = |quantity, unit, (expected, tolerance), got| Finding { quantity, unit, expected, got, tolerance };
-    Ok(vec![
-        finding("numerical viscosity", "m²/s", viscosity, own),
-        finding("order from 8 d to 4 d", "", order, (coarse / half).log2()),
-    ])
+    Ok(vec![viscosity, within("order from 8 d to 4 d", "", order, (coarse / half).log2(), off)])
 }
 
 /// Edge of a cell, m, and viscosity on it, m²/s, with cells of `air_cell` d.
-async fn viscosity(air_cell: f32, setting: &Setting, stopwatch: &Stopwatch) -> Result<(f64, f64), SceneError> {
-    let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/exam/vortex.ron"));
-    let mut blueprint = own("vortex", text, &[], setting)?;
+async fn viscosity(air_cell: f32, set_up: &SetUp) -> Result<(f64, f64), SceneError> {
+    let mut blueprint = set_up.blueprint("vortex", &[])?;
     blueprint.quality.air_cell = air_cell;
     let (cell, size) = (blueprint.quality.air_cell, blueprint.domain.size);
     let speed = blueprint.scale.to_kernel(SPEED as f32);
@@ -84,12 +54,12 @@ async fn viscosity(air_cell: f32, setting: &Setting, stopwatch: &Stopwatch) -> R
             let place = (min + 0.5 * cell).as_dvec2() / size.as_dvec2() * PI;
             let velocity = Vec2::new((place.x.sin() * place.y.cos()) as f32, -(place.x.cos() * place.y.sin()) as f32);
             // So strong that the air is at its speed after one tick.
-            let fan = Wind { area: Rect { min, max: min + cell }, velocity: velocity * speed, rate: 1e6 };
-            blueprint.winds.push(fan);
+            let wind = Wind { area: Rect { min, max: min + cell }, velocity: velocity * speed, rate: 1e6 };
+            blueprint.winds.push(wind);
         }
     }
     let d = f64::from(blueprint.scale.spacing);
-    let mut simulation = CaseSimulation::new(blueprint, stopwatch);
+    let mut simulation = set_up.simulation(blueprint);
     simulation.tick().await;
     simulation.world_mut().resource_mut::<Sources>().winds.clear();
     let start = simulation.air().kinetic_energy();

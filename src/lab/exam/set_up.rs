@@ -1,0 +1,48 @@
+//! The worlds of the cases: scenes at a quality.
+
+pub(super) use crate::lab::cases::CaseSimulation;
+use crate::{
+    lab::cases::{Setting, Stopwatch},
+    scene::{
+        self, SceneError,
+        blueprint::Blueprint,
+        effects::{Effect, EffectModes, Mode},
+    },
+};
+use include_dir::{Dir, include_dir};
+
+/// Acceleration of gravity of the scenes, m/s².
+pub(super) const GRAVITY: f64 = 9.81;
+
+/// The scenes of the exam's own.
+static SCENES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/assets/exam");
+
+/// What the world of a case is made with.
+pub(super) struct SetUp {
+    pub setting: Setting,
+    pub stopwatch: Stopwatch,
+}
+
+impl SetUp {
+    /// A scene of `assets/exam`, or else of the game's menu, with these parameters.
+    pub fn blueprint(&self, name: &str, parameters: &[(&str, f64)]) -> Result<Blueprint, SceneError> {
+        let file = match SCENES.get_file(format!("{name}.ron")).and_then(|file| file.contents_utf8()) {
+            Some(text) => scene::from_text(name, text)?,
+            None => scene::load(name)?,
+        };
+        let settings: Vec<_> = parameters.iter().map(|(key, value)| ((*key).to_owned(), value.to_string())).collect();
+        // What rests has to come to rest, and stay there, by the method alone.
+        let awake = EffectModes::from([(Effect::Sleep, Mode::Off)]);
+        file.build(&settings, Some(self.setting.preset), &awake)
+    }
+
+    /// The world of a blueprint.
+    pub fn simulation(&self, blueprint: Blueprint) -> CaseSimulation {
+        CaseSimulation::new(blueprint, &self.stopwatch)
+    }
+
+    /// The world of a scene, with these parameters.
+    pub fn open(&self, name: &str, parameters: &[(&str, f64)]) -> Result<CaseSimulation, SceneError> {
+        Ok(self.simulation(self.blueprint(name, parameters)?))
+    }
+}

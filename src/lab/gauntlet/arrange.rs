@@ -1,0 +1,175 @@
+//! What the start of a case has that its scene's text can't say.
+
+use crate::{
+    kernel::{
+        element::{Element, ElementId, ElementTable},
+        random::{mix, unit},
+        sources::Rect,
+    },
+    scene::blueprint::{Blueprint, PressurePatch},
+};
+use glam::{IVec2, Vec2};
+use std::sync::Arc;
+
+/// By the names of the cases.
+pub(super) const STARTS: [(&str, fn(&mut Blueprint)); 20] = [
+    ("two_at_a_point", |blueprint| {
+        for at in [Vec2::new(2.0, 1.0), Vec2::new(4.03, 0.025)] {
+            (0..2).for_each(|_| water(blueprint, at, Vec2::ZERO));
+        }
+    }),
+    ("point_64", |blueprint| (0..64).for_each(|_| water(blueprint, Vec2::new(3.02, 0.84), Vec2::ZERO))),
+    ("point_10000", |blueprint| (0..10_000).for_each(|_| water(blueprint, Vec2::new(9.02, 7.04), Vec2::ZERO))),
+    ("grid_tenth", |blueprint| grid(blueprint, 0.01)),
+    ("grid_third", |blueprint| grid(blueprint, 0.03)),
+    ("spawn_over_water", |blueprint| {
+        for k in 0..300 {
+            let at = Vec2::new(3.0, 0.75) + noise(k) * Vec2::new(5.9, 1.4);
+            water(blueprint, at, Vec2::ZERO);
+        }
+    }),
+    ("close_pairs", close_pairs),
+    ("overfull_shaft", |blueprint| {
+        for k in 0..80 {
+            let at = Vec2::new(1.1 + 0.1 * (k % 3) as f32, 1.1 + 9.8 * k as f32 / 80.0);
+            water(blueprint, at, Vec2::ZERO);
+        }
+    }),
+    ("shots", shots),
+    ("bullet", |blueprint| {
+        for k in 0..30 {
+            let at = Vec2::new(0.5 + 0.1 * (k / 3) as f32, 2.15 + 0.1 * (k % 3) as f32);
+            water(blueprint, at, Vec2::new(1000.0, 0.0));
+        }
+    }),
+    ("weightless", |blueprint| {
+        for k in 0..120 {
+            let cell = Vec2::new((k % 12) as f32, (k / 12) as f32);
+            water(blueprint, Vec2::splat(0.05) + Vec2::new(0.535, 0.54) * cell, Vec2::ZERO);
+        }
+    }),
+    ("vacuum", |blueprint| {
+        let area = Rect { min: Vec2::new(40.0, 0.0), max: Vec2::new(80.0, 60.0) };
+        blueprint.pressures.push(PressurePatch { area, pressure: 0.0 });
+    }),
+    ("one_cell_hole", |blueprint| {
+        for y in 8..12 {
+            for x in 8..13 {
+                if x < 12 || y == 9 {
+                    blueprint.solids.remove(IVec2::new(x, y));
+                }
+            }
+        }
+    }),
+    ("vorticity_bound", |blueprint| {
+        change_water(blueprint, |water| water.vorticity = 1.0);
+        turn(blueprint);
+    }),
+    ("vorticity_beyond", |blueprint| {
+        change_water(blueprint, |water| water.vorticity = 100.0);
+        turn(blueprint);
+    }),
+    ("viscosity_bound", |blueprint| change_water(blueprint, |water| water.viscosity = 0.5)),
+    ("viscosity_beyond", |blueprint| change_water(blueprint, |water| water.viscosity = 5.0)),
+    ("drag_huge", |blueprint| change_water(blueprint, |water| water.drag = 1e9)),
+    ("drag_light", |blueprint| change_water(blueprint, |water| (water.density, water.drag) = (1.0, 1000.0))),
+    ("heavy_above_light", heavy_above_light),
+];
+
+/// Adds to the start of a case what belongs to it.
+pub(super) fn arrange(case: &str, blueprint: &mut Blueprint) {
+    STARTS.iter().filter(|(name, _)| *name == case).for_each(|(_, start)| start(blueprint));
+}
+
+/// The element called `name`; every table has those of the built-in scenes.
+pub(super) fn element(elements: &ElementTable, name: &str) -> ElementId {
+    elements.find(name).unwrap_or_default()
+}
+
+/// Adds a particle of water, at a place and a velocity in m.
+fn water(blueprint: &mut Blueprint, at: Vec2, velocity: Vec2) {
+    let id = element(&blueprint.elements, "water");
+    let (at, velocity) = (blueprint.scale.vec_to_kernel(at), blueprint.scale.vec_to_kernel(velocity));
+    blueprint.particles.push(blueprint.next_id, id, at, velocity);
+    blueprint.next_id += 1;
+}
+
+/// Changes what water is.
+fn change_water(blueprint: &mut Blueprint, change: impl Fn(&mut Element)) {
+    let mut rows: Vec<Element> = blueprint.elements.iter().map(|(_, element)| element.clone()).collect();
+    rows.iter_mut().filter(|row| row.name == "water").for_each(change);
+    blueprint.elements = Arc::new(ElementTable::new(rows));
+}
+
+/// Two numbers in −½ … ½ that belong to `seed`.
+fn noise(seed: u32) -> Vec2 {
+    let mixed = mix(seed);
+    Vec2::new(unit(mixed), unit(mixed >> 16)) * 0.5
+}
+
+/// A block of 40 × 40 particles, `spacing` m apart.
+fn grid(blueprint: &mut Blueprint, spacing: f32) {
+    for k in 0..1600 {
+        let cell = Vec2::new((k % 40) as f32 - 19.5, (k / 40) as f32 - 19.5);
+        water(blueprint, Vec2::new(3.0, 2.0) + spacing * cell, Vec2::ZERO);
+    }
+}
+
+fn close_pairs(blueprint: &mut Blueprint) {
+    let gaps = [1e-38, 1e-30, 1e-20, 1e-12, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.05, 0.1, 0.2, 0.249, 0.25, 0.3];
+    for (k, gap) in gaps.into_iter().enumerate() {
+        // At the left wall's corner such gaps are not rounded away.
+        for (row, way) in [Vec2::X, Vec2::Y, Vec2::new(0.6, 0.8)].into_iter().enumerate() {
+            let at = Vec2::new(0.5 + 1.1 * k as f32, 1.5 + 2.0 * row as f32);
+            water(blueprint, at, Vec2::ZERO);
+            water(blueprint, at + gap * way, Vec2::ZERO);
+            if row == 2 {
+                water(blueprint, at - gap * way, Vec2::ZERO);
+            }
+        }
+    }
+}
+
+fn shots(blueprint: &mut Blueprint) {
+    let rock = element(&blueprint.elements, "rock");
+    let wall = (0..100).map(|y| IVec2::new(60, y)).chain((0..60).map(|k| IVec2::new(k, 60 - k)));
+    for cell in wall {
+        if blueprint.solids.insert(cell, rock, blueprint.next_id) {
+            blueprint.next_id += 1;
+        }
+    }
+    let mut seed = 0;
+    while blueprint.particles.len() < 2000 {
+        let at = Vec2::splat(5.0) + 9.8 * noise(seed);
+        let way = noise(seed + 1).normalize_or(Vec2::X);
+        seed += 2;
+        if at.x < 5.95 && at.x + at.y > 6.25 {
+            let per_tick = [0.5, 1.0, 3.0, 7.0, 20.0, 50.0][seed as usize / 2 % 6];
+            water(blueprint, at, way * per_tick * 0.1 * 60.0);
+        }
+    }
+}
+
+/// Turns all water about the middle of the box, once in 2 s.
+fn turn(blueprint: &mut Blueprint) {
+    for i in 0..blueprint.particles.len() {
+        let arm = blueprint.particles.position(i) - Vec2::splat(40.0);
+        let velocity = std::f32::consts::PI * arm.perp();
+        (blueprint.particles.vx[i], blueprint.particles.vy[i]) = (velocity.x, velocity.y);
+    }
+}
+
+/// Makes the lower half of the water a liquid of a thousandth of its density.
+fn heavy_above_light(blueprint: &mut Blueprint) {
+    let mut rows: Vec<Element> = blueprint.elements.iter().map(|(_, element)| element.clone()).collect();
+    let water_row = blueprint.elements.get(element(&blueprint.elements, "water")).clone();
+    rows.push(Element { name: "light".into(), density: 1.0, key: None, colour: [240, 220, 130], ..water_row });
+    blueprint.elements = Arc::new(ElementTable::new(rows));
+    let light = element(&blueprint.elements, "light");
+    for i in 0..blueprint.particles.len() {
+        if blueprint.particles.y[i] < 10.0 {
+            blueprint.particles.element[i] = light;
+        }
+    }
+    water(blueprint, Vec2::new(2.05, 2.55), Vec2::ZERO);
+}
