@@ -14,12 +14,11 @@ pub mod colours;
 pub mod density;
 pub mod difference;
 mod drift;
-mod drive;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod effect_cost;
 pub mod exam;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod experiment;
-#[cfg(not(target_arch = "wasm32"))]
-pub mod gating;
 pub mod gauntlet;
 pub mod jobs;
 pub mod live;

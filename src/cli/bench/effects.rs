@@ -4,7 +4,7 @@ use crate::{
     cli::{failure::Failure, output, progress},
     kernel::params::Preset,
     lab::{
-        gating::{self, EffectCost, SceneCost},
+        effect_cost::{self, EffectCost, SceneCost},
         machine::processor,
         markdown,
     },
@@ -26,7 +26,7 @@ pub(in crate::cli) fn effects(quick: bool, json: Option<&Path>) -> Result<(), Fa
     let mut costs = Vec::new();
     for name in names {
         line.set_message(name);
-        costs.push(gating::measure(name, PRESET, rounds)?);
+        costs.push(effect_cost::measure(name, PRESET, rounds)?);
         line.inc(1);
     }
     drop(line);

@@ -4,8 +4,7 @@ use crate::{
     kernel::params::Preset,
     lab::{
         cases::{case::Case, row::Row, setting::Setting, simulation::Stopwatch},
-        drive::finish,
-        jobs::pool,
+        jobs::{finish, pool},
     },
     scene::SceneError,
 };

@@ -4,7 +4,7 @@ use crate::{
     kernel::{params::Quality, particles::Particles, units::TICKS_PER_SECOND},
     lab::{
         balance::{Matter, matter},
-        drive::pause,
+        jobs::pause,
     },
     scene::blueprint::Blueprint,
     sim::{

@@ -1,12 +1,15 @@
 //! What a case of the exam is: a question with a known answer.
 
 use crate::{
-    lab::cases::{Figures, Over, Setting, Size, Verdict, line, read},
+    lab::{
+        cases::{Figures, Over, Setting, Size, Verdict, line, read},
+        exam::set_up::SetUp,
+    },
     scene::SceneError,
     sim::numbers::figure,
 };
 use serde::{Deserialize, Serialize};
-use std::sync::LazyLock;
+use std::{pin::Pin, sync::LazyLock};
 
 /// All cases, in the order in which they are shown.
 pub static CASES: LazyLock<Vec<ExamCase>> =
@@ -37,6 +40,9 @@ pub struct ExamCase {
 
 /// What a case found out.
 pub(super) type Findings = Result<Vec<Finding>, SceneError>;
+
+/// What runs a case.
+pub(super) type Run = fn(SetUp) -> Pin<Box<dyn Future<Output = Findings> + Send>>;
 
 /// What a case found out about one quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use crate::{
     lab::{
         cases::{About, Case, Column, Row, Setting, Stopwatch, Suite, Verdict},
-        exam::{Answer, CASES, ExamCase, cases::RUNS, set_up::SetUp},
+        exam::{Answer, CASES, ExamCase, cases::runs, set_up::SetUp},
     },
     scene::SceneError,
 };
@@ -45,7 +45,7 @@ impl Case for ExamCase {
         stopwatch: &Stopwatch,
     ) -> Result<Vec<(Verdict, Answer)>, SceneError> {
         let set_up = SetUp { setting: setting.clone(), stopwatch: stopwatch.clone() };
-        let run = RUNS.iter().find(|(name, _)| *name == self.name).map(|(_, run)| run(set_up));
+        let run = runs().find(|(name, _)| *name == self.name).map(|(_, run)| run(set_up));
         let findings = match run {
             Some(run) => run.await?,
             None => Vec::new(),

@@ -1,7 +1,7 @@
 //! Work in the background: on a thread of its own, or, where the system gives none (as in a page), in a slice of each
 //! frame. It is a future that yields often, and tells by messages how far it is.
 
-use crate::lab::drive::{finish, step};
+use crate::lab::jobs::drive::{finish, step};
 use bevy::platform::{cell::SyncCell, time::Instant};
 use std::{
     future::Future,
@@ -112,7 +112,7 @@ impl<M> Drop for Handle<M> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::drive::pause;
+    use crate::lab::jobs::drive::pause;
 
     async fn count(to: u32, sender: Sender<u32>) {
         for k in 0..to {

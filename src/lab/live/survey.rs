@@ -10,8 +10,7 @@ use crate::{
     lab::{
         autopilot::ladder,
         density::DensityError,
-        drive::pause,
-        jobs::{Handle, Share},
+        jobs::{Handle, Share, pause},
         live::accuracy::{Curve, CurvePoint, Survey, SurveyRequest, fingerprint},
         stats,
     },

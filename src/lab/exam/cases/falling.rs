@@ -1,12 +1,19 @@
-//! Free fall, of single particles and of a drop.
+//! Free fall, of single particles and of a drop; single particles in a steady wind.
 
 use crate::lab::exam::{
-    case::{Findings, share, within},
+    case::{Findings, Run, share, within},
     set_up::{CaseSimulation, GRAVITY, SetUp},
 };
 use glam::DVec2;
 
-pub(super) async fn free_fall(set_up: SetUp) -> Findings {
+pub(super) const RUNS: &[(&str, Run)] = &[
+    ("free_fall", |set_up| Box::pin(free_fall(set_up))),
+    ("falling_drop", |set_up| Box::pin(falling_drop(set_up))),
+    ("wind", |set_up| Box::pin(wind(set_up))),
+    ("terminal_speed", |set_up| Box::pin(terminal_speed(set_up))),
+];
+
+async fn free_fall(set_up: SetUp) -> Findings {
     let mut simulation = set_up.open("free_fall", &[])?;
     let start = particles(&simulation);
     simulation.run(1.0).await;
@@ -22,7 +29,7 @@ pub(super) async fn free_fall(set_up: SetUp) -> Findings {
     ])
 }
 
-pub(super) async fn falling_drop(set_up: SetUp) -> Findings {
+async fn falling_drop(set_up: SetUp) -> Findings {
     let mut simulation = set_up.open("falling_drop", &[])?;
     let start = simulation.matter().balance();
     simulation.run(1.0).await;
@@ -38,7 +45,7 @@ pub(super) async fn falling_drop(set_up: SetUp) -> Findings {
 }
 
 /// Position (m) and velocity (m/s) of each particle, by id.
-pub(super) fn particles(simulation: &CaseSimulation) -> Vec<(DVec2, DVec2)> {
+fn particles(simulation: &CaseSimulation) -> Vec<(DVec2, DVec2)> {
     let (particles, d) = (simulation.particles(), simulation.spacing());
     let of = |i: u32| {
         let i = i as usize;
@@ -50,4 +57,57 @@ pub(super) fn particles(simulation: &CaseSimulation) -> Vec<(DVec2, DVec2)> {
 /// The value that is furthest from what is expected; no number without any.
 pub(super) fn worst(values: impl Iterator<Item = f64>, expected: f64) -> f64 {
     values.max_by(|a, b| (a - expected).abs().total_cmp(&(b - expected).abs())).unwrap_or(f64::NAN)
+}
+
+/// Wind, m/s.
+const WIND_SPEED: f64 = 10.0;
+/// The wind that blows upwards, m/s.
+const UPDRAUGHT: f64 = 5.0;
+
+/// k of `dv/dt = −k |v| v` for water, 1/m.
+fn drag(simulation: &CaseSimulation) -> f64 {
+    let matter = simulation.matter();
+    let water = matter.elements.iter().find(|(_, element)| element.name == "water");
+    let d = simulation.spacing();
+    water.map_or(f64::NAN, |(_, water)| f64::from(water.drag) / (f64::from(water.density) * d * d))
+}
+
+/// Runs until the emitters have let their particles out. These have done one tick then.
+async fn wait_for_particles(simulation: &mut CaseSimulation) {
+    while simulation.particles().is_empty() && simulation.seconds() < 10.0 {
+        simulation.tick().await;
+    }
+}
+
+async fn wind(set_up: SetUp) -> Findings {
+    let mut simulation = set_up.open("wind", &[])?;
+    wait_for_particles(&mut simulation).await;
+    let (k, begun, start) = (drag(&simulation), simulation.ticks - 1, particles(&simulation));
+    let from = start.iter().map(|(position, velocity)| position.x - velocity.x / 60.0).collect::<Vec<_>>();
+    simulation.run(59.0 / 60.0).await;
+    let t = f64::from(simulation.ticks - begun) / 60.0;
+    let end = particles(&simulation);
+    let speed = WIND_SPEED - WIND_SPEED / (1.0 + k * WIND_SPEED * t);
+    let distance = WIND_SPEED * t - (k * WIND_SPEED * t).ln_1p() / k;
+    let moved = end.iter().zip(&from).map(|((position, _), from)| position.x - from);
+    Ok(vec![
+        share("speed after 1 s", "m/s", speed, worst(end.iter().map(|(_, velocity)| velocity.x), speed), 1e-3),
+        share("distance after 1 s", "m", distance, worst(moved, distance), 0.017),
+    ])
+}
+
+async fn terminal_speed(set_up: SetUp) -> Findings {
+    let mut simulation = set_up.open("updraught", &[])?;
+    wait_for_particles(&mut simulation).await;
+    let (k, begun) = (drag(&simulation), simulation.ticks - 1);
+    let terminal = (GRAVITY / k).sqrt();
+    let mut look = async |seconds: u32, quantity| {
+        while simulation.ticks - begun < 60 * seconds {
+            simulation.tick().await;
+        }
+        let expected = terminal * (GRAVITY * f64::from(seconds) / terminal).tanh() - UPDRAUGHT;
+        let got = worst(particles(&simulation).iter().map(|(_, velocity)| -velocity.y), expected);
+        within(quantity, "m/s", expected, got, 0.5 * GRAVITY / 60.0 + 1e-3 * UPDRAUGHT)
+    };
+    Ok(vec![look(1, "speed after 1 s").await, look(6, "speed after 6 s").await])
 }

@@ -1,4 +1,4 @@
-//! A Taylor–Green vortex in the air.
+//! Air alone: a Taylor–Green vortex, and a pulse of pressure.
 
 use crate::{
     kernel::{
@@ -7,8 +7,8 @@ use crate::{
     },
     lab::{
         exam::{
-            case::{Findings, share, within},
-            set_up::SetUp,
+            case::{Findings, Run, share, within},
+            set_up::{CaseSimulation, SetUp},
         },
         stats,
     },
@@ -18,21 +18,24 @@ use crate::{
 use glam::Vec2;
 use std::f64::consts::PI;
 
-/// Speed U, m/s, and edge of the box, m.
-const SPEED: f64 = 5.0;
-const EDGE: f64 = 12.0;
-/// Time over which it is followed, s: that in which U crosses the box.
-const SECONDS: f64 = EDGE / SPEED;
-/// Edge of the cells from which the order is judged, to half of it, d.
-const COARSE: f32 = 8.0;
+pub(super) const RUNS: &[(&str, Run)] =
+    &[("vortex", |set_up| Box::pin(vortex(set_up))), ("pulse", |set_up| Box::pin(pulse(set_up)))];
 
-pub(super) async fn vortex(set_up: SetUp) -> Findings {
+/// Speed U, m/s, and edge of the box, m.
+const VORTEX_SPEED: f64 = 5.0;
+const VORTEX_BOX: f64 = 12.0;
+/// Time over which it is followed, s: that in which U crosses the box.
+const VORTEX_SECONDS: f64 = VORTEX_BOX / VORTEX_SPEED;
+/// Edge of the cells from which the order is judged, to half of it, d.
+const COARSE_CELL: f32 = 8.0;
+
+async fn vortex(set_up: SetUp) -> Findings {
     let quality = set_up.setting.preset.quality();
     let (cell, own) = viscosity(quality.air_cell, &set_up).await?;
-    let (_, coarse) = viscosity(COARSE, &set_up).await?;
-    let (_, half) = viscosity(0.5 * COARSE, &set_up).await?;
+    let (_, coarse) = viscosity(COARSE_CELL, &set_up).await?;
+    let (_, half) = viscosity(0.5 * COARSE_CELL, &set_up).await?;
     let shares = 2.0 * (2.0 / (3.0 * PI)) * (4.0 / (3.0 * PI));
-    let upwind = shares * SPEED * cell;
+    let upwind = shares * VORTEX_SPEED * cell;
     let (name, unit) = ("numerical viscosity", "m²/s");
     let (viscosity, order, off) = match quality.air_advection {
         AirAdvection::FirstOrder => (share(name, unit, upwind, own, 0.10), 1.0, 0.15),
@@ -46,7 +49,7 @@ async fn viscosity(air_cell: f32, set_up: &SetUp) -> Result<(f64, f64), SceneErr
     let mut blueprint = set_up.blueprint("vortex", &[])?;
     blueprint.quality.air_cell = air_cell;
     let (cell, size) = (blueprint.quality.air_cell, blueprint.domain.size);
-    let speed = blueprint.scale.to_kernel(SPEED as f32);
+    let speed = blueprint.scale.to_kernel(VORTEX_SPEED as f32);
     let cells = (size / cell).round().as_ivec2();
     for row in 0..cells.y {
         for column in 0..cells.x {
@@ -63,12 +66,42 @@ async fn viscosity(air_cell: f32, set_up: &SetUp) -> Result<(f64, f64), SceneErr
     simulation.tick().await;
     simulation.world_mut().resource_mut::<Sources>().winds.clear();
     let start = simulation.air().kinetic_energy();
-    let (begun, wave) = (simulation.seconds(), PI / EDGE);
+    let (begun, wave) = (simulation.seconds(), PI / VORTEX_BOX);
     let mut curve = vec![(0.0, 0.0)];
-    while simulation.seconds() - begun < SECONDS {
+    while simulation.seconds() - begun < VORTEX_SECONDS {
         simulation.tick().await;
         curve.push((simulation.seconds() - begun, (start / simulation.air().kinetic_energy()).sqrt() - 1.0));
     }
     let slope = stats::line(&curve).map_or(f64::NAN, |(slope, _)| slope);
     Ok((f64::from(cell) * d, slope / (2.0 * wave * wave)))
+}
+
+/// Speed of sound, m/s.
+const SOUND: f64 = 40.0;
+
+async fn pulse(set_up: SetUp) -> Findings {
+    let mut simulation = set_up.open("pulse", &[])?;
+    let mass = simulation.air().mass();
+    simulation.run(0.2).await;
+    let (begun, from) = (simulation.seconds(), centre(&simulation));
+    simulation.run(0.4).await;
+    let speed = (centre(&simulation) - from) / (simulation.seconds() - begun);
+    Ok(vec![
+        share("speed", "m/s", SOUND, speed, 0.01),
+        share("air that is left", "", 1.0, simulation.air().mass() / mass, 3e-6),
+    ])
+}
+
+/// Centre of mass of what is above pressure 1 in the right half of the tube, m.
+fn centre(simulation: &CaseSimulation) -> f64 {
+    let air = simulation.air();
+    let cell = f64::from(air.cell()) * simulation.spacing();
+    let (mut sum, mut moment) = (0.0, 0.0);
+    for row in 0..air.rows() {
+        for (column, p) in air.pressure_row(row).iter().enumerate().skip(air.columns() / 2) {
+            sum += f64::from(*p) - 1.0;
+            moment += (f64::from(*p) - 1.0) * (column as f64 + 0.5) * cell;
+        }
+    }
+    moment / sum
 }

@@ -1,23 +1,28 @@
-//! Water at rest in a tank.
+//! Water in a tank: at rest, and sloshing.
 
 use crate::{
     kernel::units::TICKS_PER_SECOND,
     lab::{
         density::surroundings,
         exam::{
-            case::{Findings, share, within},
-            set_up::{CaseSimulation, SetUp},
+            case::{Findings, Run, share, within},
+            fit::half_period,
+            set_up::{CaseSimulation, GRAVITY, SetUp},
         },
         stats,
     },
     sim::state::Rock,
 };
+use std::f64::consts::PI;
+
+pub(super) const RUNS: &[(&str, Run)] =
+    &[("hydrostatic", |set_up| Box::pin(hydrostatic(set_up))), ("sloshing", |set_up| Box::pin(sloshing(set_up)))];
 
 /// Particles along the width and the depth.
-const SIZE: (u32, u32) = (40, 60);
+const COLUMN_SIZE: (u32, u32) = (40, 60);
 
-pub(super) async fn hydrostatic(set_up: SetUp) -> Findings {
-    let (columns, depth) = (f64::from(SIZE.0), f64::from(SIZE.1));
+async fn hydrostatic(set_up: SetUp) -> Findings {
+    let (columns, depth) = (f64::from(COLUMN_SIZE.0), f64::from(COLUMN_SIZE.1));
     let blueprint = set_up.blueprint("hydrostatic", &[("columns", columns), ("depth", depth)])?;
     let mut simulation = set_up.simulation(blueprint);
     simulation.run(8.0).await;
@@ -48,4 +53,28 @@ fn density(simulation: &CaseSimulation, from: f64, to: f64) -> f64 {
         .filter(|(local, y)| local.interior && (from..to).contains(&f64::from(**y)))
         .map(|(local, _)| local.density);
     stats::mean(inside).unwrap_or(f64::NAN)
+}
+
+/// Length of the tank, m.
+const SLOSHING_LENGTH: f64 = 6.0;
+
+async fn sloshing(set_up: SetUp) -> Findings {
+    let mut findings = Vec::new();
+    for (quantity, depth, tilt) in
+        [("period, 3 m deep", 3.0, 0.3), ("period, 1 m deep", 1.0, 0.15), ("period, 1.1 m deep", 1.1, 0.15)]
+    {
+        let wave = PI / SLOSHING_LENGTH;
+        let omega = (GRAVITY * wave * (wave * depth).tanh()).sqrt();
+        let mut simulation = set_up.open("sloshing", &[("depth", depth), ("tilt", tilt)])?;
+        let mut curve = Vec::new();
+        for _ in 0..12 * 60 {
+            simulation.tick().await;
+            let x = &simulation.particles().x;
+            let centre = x.iter().map(|x| f64::from(*x)).sum::<f64>() / x.len() as f64 * simulation.spacing();
+            curve.push((simulation.seconds(), centre - 0.5 * SLOSHING_LENGTH));
+        }
+        let period = half_period(&curve).map_or(f64::NAN, |half| 2.0 * half);
+        findings.push(share(quantity, "s", 2.0 * PI / omega, period, 0.03));
+    }
+    Ok(findings)
 }

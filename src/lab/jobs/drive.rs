@@ -30,7 +30,7 @@ pub(crate) fn step<F: Future + ?Sized>(future: Pin<&mut F>) -> Poll<F::Output> {
 }
 
 /// Drives a future to its end, asking at each pause whether to go on; `None` if not.
-pub fn finish<T>(future: impl Future<Output = T>, mut go_on: impl FnMut() -> bool) -> Option<T> {
+pub(crate) fn finish<T>(future: impl Future<Output = T>, mut go_on: impl FnMut() -> bool) -> Option<T> {
     let mut future = pin!(future);
     loop {
         match step(future.as_mut()) {

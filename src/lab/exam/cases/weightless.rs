@@ -1,0 +1,131 @@
+//! Liquid without gravity: drops that turn, and a shear layer damped by XSPH viscosity.
+
+use crate::{
+    kernel::{
+        element::{Element, ElementTable},
+        units::TICKS_PER_SECOND,
+    },
+    lab::{
+        exam::{
+            case::{Findings, Run, share, within},
+            set_up::{CaseSimulation, SetUp},
+        },
+        stats,
+    },
+    scene::effects::{Effect, Mode},
+};
+use glam::DVec2;
+use std::{f64::consts::PI, sync::Arc};
+
+pub(super) const RUNS: &[(&str, Run)] = &[
+    ("rotating_drop", |set_up| Box::pin(rotating_drop(set_up))),
+    ("collision", |set_up| Box::pin(collision(set_up))),
+    ("shear_layer", |set_up| Box::pin(shear_layer(set_up))),
+];
+
+/// Angular speed, 1/s.
+const TURN: f32 = 2.0;
+
+async fn rotating_drop(set_up: SetUp) -> Findings {
+    let mut blueprint = set_up.blueprint("rotating_drop", &[])?;
+    let centre = blueprint.domain.size * 0.5;
+    let particles = &mut blueprint.particles;
+    for i in 0..particles.len() {
+        let velocity = (particles.position(i) - centre).perp() * TURN;
+        (particles.vx[i], particles.vy[i]) = (velocity.x, velocity.y);
+    }
+    let mut simulation = set_up.simulation(blueprint);
+    let start = angular_momentum(&simulation);
+    simulation.run(1.0).await;
+    Ok(vec![share("angular momentum after 1 s", "t m²/s", start, angular_momentum(&simulation), 0.01)])
+}
+
+async fn collision(set_up: SetUp) -> Findings {
+    let mut simulation = set_up.open("collision", &[])?;
+    let (start, impetus) = (angular_momentum(&simulation), simulation.matter().balance().impetus);
+    simulation.run(2.0).await;
+    Ok(vec![
+        share("angular momentum after 2 s", "t m²/s", start, angular_momentum(&simulation), 0.07),
+        within(
+            "momentum as a share of Σ m |v|",
+            "",
+            0.0,
+            simulation.matter().balance().momentum.length() / impetus,
+            0.01,
+        ),
+    ])
+}
+
+/// Angular momentum of the particles about the middle of the box, t m²/s for each metre of depth.
+fn angular_momentum(simulation: &CaseSimulation) -> f64 {
+    let (matter, d) = (simulation.matter(), simulation.spacing());
+    let (particles, mass) = (matter.particles, f64::from(matter.scale.particle_mass()) / 1000.0);
+    let centre = matter.domain.size.as_dvec2() * 0.5;
+    let of = |i: usize| -> f64 {
+        let arm: DVec2 = particles.position(i).as_dvec2() - centre;
+        arm.perp_dot(particles.velocity(i).as_dvec2())
+    };
+    (0..particles.len()).map(of).sum::<f64>() * mass * d * d
+}
+
+/// Speed at the start, d/s, and height of the channel, d.
+const SHEAR_SPEED: f32 = 1.0;
+const CHANNEL: f64 = 10.0;
+/// Simulated time, s, of which the first part is left to the particles to find their places.
+const SHEAR_SECONDS: f64 = 1.0;
+const SHEAR_SETTLES: f64 = 0.1;
+/// XSPH viscosity c: so thick that the particles finding their places does not matter beside it.
+const VISCOSITY: f32 = 0.5;
+
+async fn shear_layer(set_up: SetUp) -> Findings {
+    let mut rates = [0.0; 2];
+    let mut expected = f64::NAN;
+    for (rate, mode) in rates.iter_mut().zip([Mode::On, Mode::Off]) {
+        let mut blueprint = set_up.blueprint("shear_layer", &[])?;
+        blueprint.effects.insert(Effect::Viscosity, mode);
+        let thick = |(_, element): (_, &Element)| Element { viscosity: VISCOSITY, ..element.clone() };
+        blueprint.elements = Arc::new(ElementTable::new(blueprint.elements.iter().map(thick).collect()));
+        let particles = &mut blueprint.particles;
+        for i in 0..particles.len() {
+            particles.vx[i] = SHEAR_SPEED * (PI * f64::from(particles.y[i]) / CHANNEL).cos() as f32;
+        }
+        let mut simulation = set_up.simulation(blueprint);
+        let mut curve = Vec::new();
+        while simulation.seconds() < SHEAR_SECONDS {
+            simulation.tick().await;
+            if simulation.seconds() >= SHEAR_SETTLES {
+                curve.push((simulation.seconds(), amplitude(&simulation).ln()));
+            }
+        }
+        *rate = stats::line(&curve).map_or(f64::NAN, |(slope, _)| -slope);
+        expected = shear_theory(&simulation);
+    }
+    Ok(vec![share("rate at which XSPH damps it", "1/s", expected, rates[0] - rates[1], 0.10)])
+}
+
+/// Amplitude of `cos(k y)` in the velocity along the channel, d/s.
+fn amplitude(simulation: &CaseSimulation) -> f64 {
+    let matter = simulation.matter();
+    let (particles, width) = (matter.particles, matter.domain.size.x);
+    let (mut sum, mut norm) = (0.0, 0.0);
+    for i in (0..particles.len()).filter(|&i| (width / 3.0..width * 2.0 / 3.0).contains(&particles.x[i])) {
+        let wave = (PI * f64::from(particles.y[i]) / CHANNEL).cos();
+        sum += f64::from(particles.vx[i]) * wave;
+        norm += wave * wave;
+    }
+    sum / norm
+}
+
+/// The rate by the sum over the lattice, 1/s.
+fn shear_theory(simulation: &CaseSimulation) -> f64 {
+    let h = f64::from(simulation.quality().kernel_radius);
+    let (mut loss, mut norm) = (0.0, 0.0);
+    for x in -4..=4 {
+        for y in -4..=4 {
+            let w = (h * h - f64::from(x * x + y * y)).max(0.0).powi(3);
+            loss += w * (1.0 - (PI / CHANNEL * f64::from(y)).cos());
+            norm += w;
+        }
+    }
+    -(1.0 - f64::from(VISCOSITY) * loss / norm).ln() * f64::from(TICKS_PER_SECOND)
+}
