@@ -27,7 +27,7 @@ use crate::{
 use bevy::{ecs::world::World, platform::time::Instant};
 use std::{
     fs::File,
-    io::{BufWriter, Write},
+    io::{self, BufWriter, Write},
     path::Path,
 };
 
@@ -40,7 +40,10 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let (start, recorded) = Start::of_run(arguments)?;
     let plan = plan(arguments, recorded)?;
     threads::start(arguments.machine.threads)?;
-    let trace = arguments.trace.as_deref().map(Tracing::create).transpose()?;
+    let mut trace = match &arguments.trace {
+        Some(path) => Some(Trace::new(output::create(path)?).map_err(|error| Failure::unwritten(path, &error))?),
+        None => None,
+    };
 
     let mut simulation = begin(&start, arguments);
     let reference =
@@ -48,11 +51,15 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let mut follower = reference.as_ref().map(Follower::new);
     let begun = Instant::now();
     let mut sampler = arguments.metrics.is_some().then(|| Sampler::new(simulation.world(), plan.warmup));
-    let trace = simulate(&mut simulation, &plan, sampler.as_mut(), follower.as_mut(), trace)?;
+    let mut outcome = simulate(&mut simulation, &plan, sampler.as_mut(), follower.as_mut(), trace.as_mut());
     let seconds = begun.elapsed().as_secs_f64();
 
     if let Some(trace) = trace {
-        trace.finish()?;
+        outcome = outcome.and_then(|()| trace.finish());
+    }
+    // Only the trace can't be written.
+    if let Some(path) = &arguments.trace {
+        outcome.map_err(|error| Failure::unwritten(path, &error))?;
     }
     let world = simulation.world();
     let mut metrics = sampler.map(|sampler| sampler.finish(world));
@@ -103,23 +110,6 @@ fn flown(world: &World) -> String {
     format!(" held={held} moves={} quality={}x{}", autopilot.moves(), quality.substeps, quality.iterations)
 }
 
-/// The trace and its path, for what is to be said if it can't be written.
-struct Tracing<'a> {
-    path: &'a Path,
-    trace: Trace<BufWriter<File>>,
-}
-
-impl<'a> Tracing<'a> {
-    fn create(path: &'a Path) -> Result<Self, Failure> {
-        let trace = Trace::new(output::create(path)?).map_err(|error| Failure::unwritten(path, &error))?;
-        Ok(Self { path, trace })
-    }
-
-    fn finish(self) -> Result<(), Failure> {
-        self.trace.finish().map_err(|error| Failure::unwritten(self.path, &error))
-    }
-}
-
 fn check_outputs(arguments: &RunArguments) -> Result<(), Failure> {
     let files = [
         arguments.metrics.as_deref(),
@@ -162,30 +152,20 @@ fn reference(path: &Path, world: &World, plan: &Plan) -> Result<Reference, Failu
         .map_err(|error| Failure::unwritten(path, &error))
 }
 
-/// Runs the plan; gives the trace back, written up to the end.
-fn simulate<'a>(
+/// Runs the plan before all that watch it.
+fn simulate(
     simulation: &mut Simulation,
     plan: &Plan,
     sampler: Option<&mut Sampler>,
     follower: Option<&mut Follower>,
-    mut tracing: Option<Tracing<'a>>,
-) -> Result<Option<Tracing<'a>>, Failure> {
+    trace: Option<&mut Trace<BufWriter<File>>>,
+) -> io::Result<()> {
     let mut progress = progress::bar(plan.ticks);
     let mut observers: Vec<&mut dyn Observer> = vec![&mut progress];
-    if let Some(sampler) = sampler {
-        observers.push(sampler);
-    }
-    if let Some(follower) = follower {
-        observers.push(follower);
-    }
-    if let Some(tracing) = &mut tracing {
-        observers.push(&mut tracing.trace);
-    }
-    let outcome = lab::run::run(simulation, plan, &mut observers);
-    match (outcome, &tracing) {
-        (Err(error), Some(tracing)) => Err(Failure::unwritten(tracing.path, &error)),
-        _ => Ok(tracing),
-    }
+    observers.extend(sampler.map(|sampler| sampler as &mut dyn Observer));
+    observers.extend(follower.map(|follower| follower as &mut dyn Observer));
+    observers.extend(trace.map(|trace| trace as &mut dyn Observer));
+    lab::run::run(simulation, plan, &mut observers)
 }
 
 fn write_outputs(arguments: &RunArguments, world: &World, metrics: Option<&Metrics>) -> Result<(), Failure> {

@@ -27,34 +27,27 @@ impl Start {
     pub(super) fn of_run(arguments: &RunArguments) -> Result<(Self, Option<Segment>), Failure> {
         let effects: EffectModes = arguments.effects.iter().copied().collect();
         let RunArguments { scene, settings, quality, .. } = arguments;
-        let Some(mut recording) = read_recording(scene)? else {
-            return Ok((Self::read(scene, settings, *quality, effects)?, None));
-        };
         let unfit = [
             ("--set", !settings.is_empty()),
             ("--hold-ms", arguments.hold_ms.is_some()),
             ("--hold-error", arguments.hold_error.is_some()),
         ];
-        if let Some((option, _)) = unfit.into_iter().find(|(_, is_given)| *is_given) {
-            return Err(no_use(scene, "a recording", option));
-        }
-        let last = recording.segments.pop().ok_or_else(|| bad(Path::new(scene), &RecordingError::Foreign))?;
-        let saved = last.start().map_err(|error| bad(Path::new(scene), &error))?;
-        Ok((Self::of_saved(saved, *quality, effects), Some(last)))
+        let Some(mut recording) = read_recording(scene, &unfit)? else {
+            return Ok((Self::read(scene, settings, *quality, effects)?, None));
+        };
+        let last = recording.segments.pop();
+        Ok((Self::of_segment(scene, last.as_ref(), *quality, effects)?, last))
     }
 
     /// Reads what `play` names, with the recording if it is one.
-    pub(super) fn of_play(name_or_path: &str, options: &PlayOptions) -> Result<(Self, Option<Recording>), Failure> {
-        let Some(recording) = read_recording(name_or_path)? else {
-            return Ok((Self::read(name_or_path, &options.settings, options.quality, EffectModes::new())?, None));
+    pub(super) fn of_play(scene: &str, options: &PlayOptions) -> Result<(Self, Option<Recording>), Failure> {
+        let PlayOptions { settings, quality, .. } = options;
+        let unfit = [("--set", !settings.is_empty()), ("--quality", quality.is_some())];
+        let Some(recording) = read_recording(scene, &unfit)? else {
+            return Ok((Self::read(scene, settings, *quality, EffectModes::new())?, None));
         };
-        let unfit = [("--set", !options.settings.is_empty()), ("--quality", options.quality.is_some())];
-        if let Some((option, _)) = unfit.into_iter().find(|(_, is_given)| *is_given) {
-            return Err(no_use(name_or_path, "a recording", option));
-        }
-        let first = recording.segments.first().ok_or_else(|| bad(Path::new(name_or_path), &RecordingError::Foreign))?;
-        let saved = first.start().map_err(|error| bad(Path::new(name_or_path), &error))?;
-        Ok((Self::of_saved(saved, None, EffectModes::new()), Some(recording)))
+        let start = Self::of_segment(scene, recording.segments.first(), None, EffectModes::new())?;
+        Ok((start, Some(recording)))
     }
 
     /// Reads what `soak` names.
@@ -69,9 +62,16 @@ impl Start {
         }
     }
 
-    /// Reads what `sweep` names.
-    pub(super) fn of_sweep(name_or_path: &str, settings: &[(String, String)]) -> Result<Self, Failure> {
-        Self::read(name_or_path, settings, None, EffectModes::new())
+    /// The state that a segment of a recording begins with.
+    fn of_segment(
+        path: &str,
+        segment: Option<&Segment>,
+        quality: Option<Preset>,
+        effects: EffectModes,
+    ) -> Result<Self, Failure> {
+        let path = Path::new(path);
+        let segment = segment.ok_or_else(|| bad(path, &RecordingError::Foreign))?;
+        Ok(Self::of_saved(segment.start().map_err(|error| bad(path, &error))?, quality, effects))
     }
 
     /// A saved world, with what the command line wants otherwise.
@@ -84,7 +84,8 @@ impl Start {
         Self { checkpoint, is_scene: false }
     }
 
-    fn read(
+    /// Reads a scene or a save file.
+    pub(super) fn read(
         name_or_path: &str,
         settings: &[(String, String)],
         quality: Option<Preset>,
@@ -121,14 +122,19 @@ fn read_save(name_or_path: &str) -> Result<Option<Checkpoint>, Failure> {
     })
 }
 
-/// The recording at a path; `None` if there is something else, or nothing.
-fn read_recording(name_or_path: &str) -> Result<Option<Recording>, Failure> {
+/// The recording at a path; `None` if there is something else, or nothing. Of the options in `unfit` none may be given
+/// with it.
+fn read_recording(name_or_path: &str, unfit: &[(&str, bool)]) -> Result<Option<Recording>, Failure> {
     let Some(path) = file_beside_scenes(name_or_path) else { return Ok(None) };
     let bytes = read(path)?;
     if !Recording::is_meant(&bytes) {
         return Ok(None);
     }
-    Recording::decode(&bytes).map(Some).map_err(|error| bad(path, &error))
+    let recording = Recording::decode(&bytes).map_err(|error| bad(path, &error))?;
+    match unfit.iter().find(|(_, is_given)| *is_given) {
+        Some((option, _)) => Err(no_use(name_or_path, "a recording", option)),
+        None => Ok(Some(recording)),
+    }
 }
 
 /// The file that a name stands for, if it is no scene.

@@ -16,7 +16,7 @@ use crate::{
             table,
         },
     },
-    scene::{KNOBS, Knob, Part},
+    scene::{KNOBS, Knob, Part, effects::EffectModes},
     sim::{checkpoint::Checkpoint, simulation::Simulation, snapshot::hash_bytes, state::Sources, workers::Workers},
 };
 use std::{
@@ -41,7 +41,8 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let length = length(arguments)?;
     // What can be refused is refused before anything is simulated or written, and what can't be written before anything is
     // simulated.
-    let starts = (arguments.scenes.iter()).map(|scene| Opening::of(Start::of_sweep(scene, &arguments.settings)?));
+    let starts = (arguments.scenes.iter())
+        .map(|scene| Opening::of(Start::read(scene, &arguments.settings, None, EffectModes::new())?));
     let starts: Vec<Opening> = starts.collect::<Result<_, Failure>>()?;
     let folders = folders(arguments, &starts)?;
     let journals: Vec<JournalFile> = folders.iter().map(|folder| journal(folder)).collect::<Result<_, _>>()?;

@@ -5,6 +5,7 @@ use crate::{
     lab::cases::Case,
     scene::effects::{Effect, Mode},
 };
+use std::{fmt::Display, ops::RangeInclusive, str::FromStr};
 
 /// Longest run, s; about 28 hours.
 const MOST_SECONDS: f64 = 100_000.0;
@@ -13,7 +14,7 @@ const MOST_SECONDS: f64 = 100_000.0;
 const MOST_TICKS: u64 = MOST_SECONDS as u64 * TICKS_PER_SECOND as u64;
 
 /// Longest soak, h.
-const MOST_HOURS: f64 = 1000.0;
+const MOST_HOURS: u64 = 1000;
 
 /// Most threads that can be asked for.
 const MOST_THREADS: u64 = 256;
@@ -26,13 +27,8 @@ const MOST_ROUNDS: u64 = 1000;
 pub(in crate::cli) struct Ticks(pub(in crate::cli) u64);
 
 pub(super) fn seconds(text: &str) -> Result<Ticks, String> {
-    let ticks = text.parse().map_or(f64::NAN, |seconds: f64| seconds * f64::from(TICKS_PER_SECOND));
-    // Written so that a NaN is refused, too.
-    if (0.999..=MOST_TICKS as f64).contains(&ticks) {
-        Ok(Ticks(ticks.round() as u64))
-    } else {
-        Err(format!("allowed: seconds from 1/{TICKS_PER_SECOND} (one tick) to {MOST_SECONDS}"))
-    }
+    let allowed = || format!("allowed: seconds from 1/{TICKS_PER_SECOND} (one tick) to {MOST_SECONDS}");
+    parts(text, f64::from(TICKS_PER_SECOND), MOST_TICKS).map(Ticks).ok_or_else(allowed)
 }
 
 /// A simulated time, in minutes.
@@ -40,43 +36,55 @@ pub(super) fn seconds(text: &str) -> Result<Ticks, String> {
 pub(in crate::cli) struct Minutes(pub(in crate::cli) u64);
 
 pub(super) fn hours(text: &str) -> Result<Minutes, String> {
-    let minutes = text.parse().map_or(f64::NAN, |hours: f64| hours * 60.0);
-    // Written so that a NaN is refused, too.
-    if (0.999..=MOST_HOURS * 60.0).contains(&minutes) {
-        Ok(Minutes(minutes.round() as u64))
-    } else {
-        Err(format!("allowed: hours from 1/60 (a minute) to {MOST_HOURS}"))
-    }
+    let allowed = || format!("allowed: hours from 1/60 (a minute) to {MOST_HOURS}");
+    parts(text, 60.0, 60 * MOST_HOURS).map(Minutes).ok_or_else(allowed)
 }
 
-fn whole(text: &str, range: std::ops::RangeInclusive<u64>) -> Result<u64, String> {
-    let number = text.parse().ok().filter(|number| range.contains(number));
-    number.ok_or_else(|| format!("allowed: whole numbers from {} to {}", range.start(), range.end()))
+/// A number of wholes as parts, from one to `most` of them.
+fn parts(text: &str, of_a_whole: f64, most: u64) -> Option<u64> {
+    let parts = text.parse::<f64>().ok()? * of_a_whole;
+    (0.999..=most as f64).contains(&parts).then(|| parts.round() as u64)
 }
+
+/// A number in a range; `kind` says of what kind.
+fn number<T: FromStr + PartialOrd + Display>(text: &str, kind: &str, range: RangeInclusive<T>) -> Result<T, String> {
+    let number = text.parse().ok().filter(|number| range.contains(number));
+    number.ok_or_else(|| format!("allowed: {kind} from {} to {}", range.start(), range.end()))
+}
+
+/// What is said of numbers that count.
+const WHOLE: &str = "whole numbers";
 
 pub(super) fn ticks(text: &str) -> Result<u64, String> {
-    whole(text, 1..=MOST_TICKS)
+    number(text, WHOLE, 1..=MOST_TICKS)
 }
 
 pub(super) fn warmup(text: &str) -> Result<u64, String> {
-    whole(text, 0..=MOST_TICKS - 1)
+    number(text, WHOLE, 0..=MOST_TICKS - 1)
 }
 
 pub(super) fn rounds(text: &str) -> Result<u64, String> {
-    whole(text, 1..=MOST_ROUNDS)
+    number(text, WHOLE, 1..=MOST_ROUNDS)
 }
 
 pub(super) fn threads(text: &str) -> Result<u64, String> {
-    whole(text, 1..=MOST_THREADS)
+    number(text, WHOLE, 1..=MOST_THREADS)
 }
 
 pub(super) fn particles(text: &str) -> Result<u64, String> {
-    whole(text, 1_458..=100_000_000)
+    number(text, WHOLE, 1_458..=100_000_000)
 }
 
 pub(super) fn cap(text: &str) -> Result<f64, String> {
-    let seconds = text.parse().ok().filter(|seconds| (0.0..=MOST_SECONDS).contains(seconds));
-    seconds.ok_or_else(|| format!("allowed: seconds from 0 to {MOST_SECONDS}"))
+    number(text, "seconds", 0.0..=MOST_SECONDS)
+}
+
+pub(super) fn hold_ms(text: &str) -> Result<f32, String> {
+    number(text, "numbers", 0.01..=10_000.0)
+}
+
+pub(super) fn hold_error(text: &str) -> Result<f32, String> {
+    number(text, "numbers", 0.0001..=100.0)
 }
 
 pub(super) fn simd(text: &str) -> Result<InstructionSet, String> {
@@ -88,19 +96,6 @@ pub(super) fn simd(text: &str) -> Result<InstructionSet, String> {
         let names: Vec<&str> = sets.into_iter().map(InstructionSet::name).collect();
         format!("allowed on this processor: auto, {}", names.join(", "))
     })
-}
-
-pub(super) fn hold_ms(text: &str) -> Result<f32, String> {
-    number(text, 0.01..=10_000.0)
-}
-
-pub(super) fn hold_error(text: &str) -> Result<f32, String> {
-    number(text, 0.0001..=100.0)
-}
-
-fn number(text: &str, range: std::ops::RangeInclusive<f32>) -> Result<f32, String> {
-    let number = text.parse().ok().filter(|number| range.contains(number));
-    number.ok_or_else(|| format!("allowed: numbers from {} to {}", range.start(), range.end()))
 }
 
 pub(super) fn preset(text: &str) -> Result<Preset, String> {
@@ -122,12 +117,8 @@ pub(super) fn setting(text: &str) -> Result<(String, String), String> {
 
 pub(super) fn effect(text: &str) -> Result<(Effect, Mode), String> {
     let (name, mode) = text.split_once('=').unwrap_or((text, ""));
-    let mode = match mode {
-        "auto" => Some(Mode::Auto),
-        "on" => Some(Mode::On),
-        "off" => Some(Mode::Off),
-        _ => None,
-    };
+    let modes = [("auto", Mode::Auto), ("on", Mode::On), ("off", Mode::Off)];
+    let mode = modes.into_iter().find(|(word, _)| *word == mode).map(|(_, mode)| mode);
     Effect::find(name).zip(mode).ok_or_else(|| {
         format!("allowed: NAME=auto, NAME=on or NAME=off; NAME is one of {}", Effect::ALL.map(Effect::name).join(", "))
     })

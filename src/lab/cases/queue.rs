@@ -52,17 +52,8 @@ impl<C: Case> Default for JobQueue<C> {
     }
 }
 
-/// What the work tells.
-enum Message<C: Case> {
-    /// A job is begun: how many are done, of how many, what it is.
-    Begun(usize, usize, String),
-    /// A job is done.
-    Rows(Vec<Row<C::Figures>>),
-    /// All are done.
-    Done,
-    /// It can't go on.
-    Broken(String),
-}
+/// What the work tells: how far it is, and the rows that came since.
+type Message<C> = (Progress, Vec<Row<<C as Case>::Figures>>);
 
 /// Keeps a queue of the suite's jobs.
 pub fn plugin<C: Case>(app: &mut App) {
@@ -103,13 +94,9 @@ impl<C: Case> JobQueue<C> {
     /// Works a slice where there is no thread, and takes in what the work tells.
     fn advance(&mut self) {
         let Some(handle) = &mut self.handle else { return };
-        for message in handle.advance() {
-            match message {
-                Message::Begun(done, of, now) => self.progress = Progress::Running { done, of, now },
-                Message::Rows(rows) => self.rows.extend(rows),
-                Message::Done => self.progress = Progress::Done,
-                Message::Broken(why) => self.progress = Progress::Broken(why),
-            }
+        for (progress, rows) in handle.advance() {
+            self.progress = progress;
+            self.rows.extend(rows);
         }
         if handle.is_over() {
             self.handle = None;
@@ -126,20 +113,22 @@ fn follow<C: Case>(mut queue: ResMut<JobQueue<C>>) {
 
 /// Runs the jobs one after the other.
 async fn run<C: Case>(jobs: Vec<Job<C>>, messages: Sender<Message<C>>) {
-    // A message that is not received has lost its reader: then the rest is not needed either.
     let of = jobs.len();
+    let mut rows = Vec::new();
     for (done, job) in jobs.into_iter().enumerate() {
-        if messages.send(Message::Begun(done, of, job.title())).is_err() {
+        // A message that is not received has lost its reader: then the rest is not needed either.
+        if messages.send((Progress::Running { done, of, now: job.title() }, std::mem::take(&mut rows))).is_err() {
             return;
         }
-        let rows = job.run().await;
-        let failed = rows.is_err();
-        let message = rows.map_or_else(|error| Message::Broken(error.to_string()), Message::Rows);
-        if messages.send(message).is_err() || failed {
-            return;
+        match job.run().await {
+            Ok(found) => rows = found,
+            Err(error) => {
+                let _ = messages.send((Progress::Broken(error.to_string()), rows));
+                return;
+            }
         }
     }
-    let _ = messages.send(Message::Done);
+    let _ = messages.send((Progress::Done, rows));
 }
 
 #[cfg(test)]
