@@ -1,7 +1,7 @@
 //! A run at `reference` quality, and how far others that set out from the same checkpoint go from it over time.
 
 use crate::{
-    kernel::params::{Preset, Quality},
+    kernel::params::Preset,
     lab::{
         balance::matter,
         coarse::{CoarseField, Distance, Magnitude},
@@ -51,14 +51,10 @@ fn is_due(tick: u64, ticks: u64) -> bool {
 }
 
 impl Reference {
-    /// The quality that is the reference.
-    pub fn quality() -> Quality {
-        Preset::Reference.quality()
-    }
-
     /// Runs `plan` from `start` at `reference` quality; `watcher` sees each tick, too.
     pub fn record(start: &Checkpoint, plan: &Plan, workers: Workers, watcher: &mut dyn Observer) -> io::Result<Self> {
-        let mut simulation = Simulation::resume(&start.clone().at_quality(Preset::Reference, Self::quality()), workers);
+        let mut simulation =
+            Simulation::resume(&start.clone().at_quality(Preset::Reference, Preset::Reference.quality()), workers);
         let mut recorder = Recorder { tick: 0, ticks: plan.ticks, samples: Vec::new() };
         run(&mut simulation, plan, &mut [&mut recorder, watcher])?;
         let fields: Vec<CoarseField> = recorder.samples.iter().map(|sample| sample.field.clone()).collect();
@@ -135,6 +131,7 @@ impl Observer for Follower<'_> {
 mod tests {
     use super::*;
     use crate::{
+        kernel::params::Quality,
         scene::{self, effects::EffectModes},
         sim::{control, simulation::Simulation},
     };
@@ -157,7 +154,7 @@ mod tests {
     fn the_reference_stays_with_itself_and_the_rough_go_far() {
         let (start, plan) = (small_dam_break(), Plan { ticks: 90, ..Plan::default() });
         let reference = Reference::record(&start, &plan, Workers::default(), &mut ()).unwrap();
-        let (own, _) = follow(&start, &reference, Reference::quality(), &plan);
+        let (own, _) = follow(&start, &reference, Preset::Reference.quality(), &plan);
         assert_eq!(own.iter().map(|point| point.tick).collect::<Vec<_>>(), [20, 40, 60, 80, 90]);
         let nothing = Distance { share: Some(0.0), momentum: Some(0.0), air: None };
         assert!(own.iter().all(|point| point.distance == nothing && point.energy_ratio == 1.0), "{own:?}");

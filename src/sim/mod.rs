@@ -11,7 +11,6 @@ pub mod ledger;
 pub mod mark;
 pub mod numbers;
 pub mod pace;
-pub mod random;
 pub mod recorder;
 pub mod recording;
 pub mod replay;

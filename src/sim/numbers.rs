@@ -14,26 +14,25 @@ pub fn grouped(number: impl ToString) -> String {
     text
 }
 
-/// A number to four figures.
+/// A number to four figures; a very large or small one with its power of ten.
 pub fn figure(value: f64) -> String {
     match value.abs() {
         0.0 => "0".to_owned(),
         size if !size.is_finite() => "none".to_owned(),
         size if !(1e-3..1e5).contains(&size) => format!("{value:.1e}"),
-        size => trimmed(value, (3 - size.log10().floor() as i32).clamp(0, 4) as usize),
+        _ => figures(value, 4),
     }
 }
 
 /// A number to two figures.
 pub fn short(value: f32) -> String {
-    let decimals = match value.abs() {
-        value if value >= 9.95 || value == 0.0 => 0,
-        value if value >= 0.995 => 1,
-        value if value >= 0.0995 => 2,
-        value if value >= 0.00995 => 3,
-        _ => 4,
-    };
-    trimmed(f64::from(value), decimals)
+    figures(f64::from(value), 2)
+}
+
+/// A number to so many figures, but at most four decimals.
+fn figures(value: f64, figures: i32) -> String {
+    let before_the_point = value.abs().log10().floor() as i32;
+    trimmed(value, figures.saturating_sub(1).saturating_sub(before_the_point).clamp(0, 4) as usize)
 }
 
 /// A number with so many decimals; a dash where there is none.

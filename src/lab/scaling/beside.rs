@@ -1,7 +1,7 @@
 //! Figures of other programs on the same scene, brought along in a file.
 
 use serde::{Deserialize, Serialize};
-use std::{fs, io, path::Path};
+use std::{fs, path::Path};
 
 /// Another program in one setting.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
@@ -27,25 +27,12 @@ pub struct Figure {
     pub error_p99: Option<f64>,
 }
 
-/// Why there are no figures.
-#[derive(Debug, thiserror::Error)]
-pub enum BesideError {
-    /// The file can't be read.
-    #[error("can't be read: {0}")]
-    Unread(#[from] io::Error),
-    /// It is no list of figures.
-    #[error(
-        "{0}; allowed: [{{\"name\": …, \"figures\": [{{\"particles\": …, \"ms\": …, \"error_mean\": …, \"error_p99\": …}}]}}]"
-    )]
-    Malformed(#[from] serde_json::Error),
-}
-
 impl Beside {
-    /// The programs in a JSON file.
-    ///
-    /// # Errors
-    /// If it can't be read or is no list of figures.
-    pub fn read(path: &Path) -> Result<Vec<Self>, BesideError> {
-        Ok(serde_json::from_str(&fs::read_to_string(path)?)?)
+    /// The programs in a JSON file. The error says why there are none.
+    pub fn read(path: &Path) -> Result<Vec<Self>, String> {
+        let text = fs::read_to_string(path).map_err(|error| format!("can't be read: {error}"))?;
+        let allowed =
+            "[{\"name\": …, \"figures\": [{\"particles\": …, \"ms\": …, \"error_mean\": …, \"error_p99\": …}]}]";
+        serde_json::from_str(&text).map_err(|error| format!("{error}; allowed: {allowed}"))
     }
 }

@@ -11,54 +11,30 @@ use crate::lab::{
 
 /// Names of the files and what they show. `subtitle` says where and when.
 pub fn charts(rows: &[Row], beside: &[Beside], subtitle: &str) -> Vec<(&'static str, Chart)> {
-    let particles = || Axis::logarithmic("particles");
-    let chart = |title: &str, x: Axis, y: Axis, series| Chart {
+    let chart = |title: &str, y: Axis, series: [Vec<Series>; 2]| Chart {
         title: title.to_owned(),
         subtitle: subtitle.to_owned(),
-        x,
+        x: Axis::logarithmic("particles"),
         y,
-        series,
+        series: series.concat(),
     };
-    let time = Axis::logarithmic("time of a tick of 1/60 s, ms");
-    let error = Axis::logarithmic("density error, 99th percentile");
-    let all = rows.iter().flat_map(|row| &row.threads).copied().max().unwrap_or(1);
-    let mut charts = vec![
-        (
-            "scaling-time",
-            chart(
-                "Time of a tick against particles, one thread",
-                particles(),
-                time.clone(),
-                [
-                    others(beside, |figure| Some((figure.particles as f64, figure.ms))),
-                    ours(rows, |row| {
-                        Some(Point { y_range: Some(row.ms_range[0]), ..Point::new(row.particles as f64, row.ms[0]) })
-                    }),
-                ]
-                .concat(),
-            ),
-        ),
-        (
-            "scaling-error",
-            chart(
-                "Density error against particles",
-                particles(),
-                error.clone(),
-                [
-                    others(beside, |figure| Some((figure.particles as f64, figure.error_p99?))),
-                    ours(rows, |row| Some(Point::new(row.particles as f64, row.error_p99?))),
-                ]
-                .concat(),
-            ),
-        ),
+    let times = [
+        others(beside, |figure| Some(figure.ms)),
+        ours(rows, |row| Some(Point { y_range: Some(row.ms_range[0]), ..Point::new(row.particles as f64, row.ms[0]) })),
     ];
+    let time =
+        chart("Time of a tick against particles, one thread", Axis::logarithmic("time of a tick of 1/60 s, ms"), times);
+    let errors = [
+        others(beside, |figure| figure.error_p99),
+        ours(rows, |row| Some(Point::new(row.particles as f64, row.error_p99?))),
+    ];
+    let error = chart("Density error against particles", Axis::logarithmic("density error, 99th percentile"), errors);
+    let mut charts = vec![("scaling-time", time), ("scaling-error", error)];
+    let all = rows.iter().flat_map(|row| &row.threads).copied().max().unwrap_or(1);
     if all > 1 {
-        let title = format!("Speed-up of {all} threads against particles");
-        let series = ours(rows, |row| Some(Point::new(row.particles as f64, row.speedup?)));
-        charts.push((
-            "scaling-threads",
-            chart(&title, particles(), Axis::linear("one thread's time over that of all"), series),
-        ));
+        let series = [Vec::new(), ours(rows, |row| Some(Point::new(row.particles as f64, row.speedup?)))];
+        let axis = Axis::linear("one thread's time over that of all");
+        charts.push(("scaling-threads", chart(&format!("Speed-up of {all} threads against particles"), axis, series)));
     }
     charts
 }
@@ -74,11 +50,11 @@ fn ours(rows: &[Row], point: impl Fn(&Row) -> Option<Point>) -> Vec<Series> {
     names.iter().map(|name| Series::new(*name, look(name), points(name))).collect()
 }
 
-fn others(beside: &[Beside], point: impl Fn(&Figure) -> Option<(f64, f64)>) -> Vec<Series> {
-    let series = |program: &Beside| {
-        let points = program.figures.iter().filter_map(&point).map(|(x, y)| Point::new(x, y));
-        Series::new(program.name.as_str(), Look::Faint, points)
-    };
+/// A series for each other program.
+fn others(beside: &[Beside], value: impl Fn(&Figure) -> Option<f64>) -> Vec<Series> {
+    let point = |figure: &Figure| Some(Point::new(figure.particles as f64, value(figure)?));
+    let series =
+        |program: &Beside| Series::new(program.name.as_str(), Look::Faint, program.figures.iter().filter_map(point));
     beside.iter().map(series).collect()
 }
 

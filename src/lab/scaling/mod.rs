@@ -11,7 +11,7 @@ mod measure;
 mod plan;
 mod table;
 
-pub use beside::{Beside, BesideError, Figure};
+pub use beside::{Beside, Figure};
 #[cfg(feature = "charts")]
 pub use charts::charts;
 pub use measure::{Row, Skipped, Window, measure};
