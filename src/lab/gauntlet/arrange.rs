@@ -11,8 +11,11 @@ use crate::{
 use glam::{IVec2, Vec2};
 use std::sync::Arc;
 
+/// Changes a start.
+type Arrange = fn(&mut Blueprint);
+
 /// By the names of the cases.
-pub(super) const STARTS: [(&str, fn(&mut Blueprint)); 20] = [
+pub(super) const STARTS: [(&str, Arrange); 20] = [
     ("two_at_a_point", |blueprint| {
         for at in [Vec2::new(2.0, 1.0), Vec2::new(4.03, 0.025)] {
             (0..2).for_each(|_| water(blueprint, at, Vec2::ZERO));

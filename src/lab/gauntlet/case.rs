@@ -7,7 +7,7 @@ use crate::{
     },
     lab::{
         cases::{Over, Size, line},
-        gauntlet::{arrange::arrange, end::End, ends},
+        gauntlet::{arrange::arrange, end::End, ends, script::Act},
     },
     scene::{self, SceneError, blueprint::Blueprint, effects::EffectModes},
     sim::{checkpoint::Checkpoint, script::Script, state::Setup},
@@ -47,9 +47,9 @@ pub struct GauntletCase {
     pub(super) ends: Option<usize>,
     /// Frames of the game in place of ticks that come in time: those that come late, and the time since the one before, s.
     pub(super) late: Option<BTreeMap<u64, f64>>,
-    /// What is done before each tick, told the ticks that were done: by default what `script` has under its name.
+    /// What is done before each tick: by default what `script` has under its name.
     #[serde(skip)]
-    pub(super) act: Option<fn(&mut World, u64)>,
+    pub(super) act: Option<Act>,
     /// How long it runs, ticks (frames where some come late). What shall be at rest is so in the last tenth.
     pub(super) ticks: u32,
     /// What must hold.

@@ -16,8 +16,11 @@ use crate::{
 use bevy::ecs::world::World;
 use glam::Vec2;
 
+/// What is done, told the ticks that were done.
+pub(super) type Act = fn(&mut World, u64);
+
 /// By the names of the cases.
-pub(super) const SCRIPTS: [(&str, fn(&mut World, u64)); 16] = [
+pub(super) const SCRIPTS: [(&str, Act); 16] = [
     ("gravity_flips", |world, tick| set_gravity(world, Vec2::new(0.0, if tick % 2 == 0 { -G } else { G }))),
     ("gravity_turns", |world, tick| {
         let (x, y) = TURN[(tick * 16 / 180 % 16) as usize];
@@ -89,7 +92,7 @@ pub(super) const SCRIPTS: [(&str, fn(&mut World, u64)); 16] = [
 ];
 
 /// What is done in a case; `None` of one in which nothing is.
-pub(super) fn of(case: &str) -> Option<fn(&mut World, u64)> {
+pub(super) fn of(case: &str) -> Option<Act> {
     SCRIPTS.iter().find(|(name, _)| *name == case).map(|(_, act)| *act)
 }
 
@@ -181,12 +184,12 @@ fn use_every_tool(world: &mut World, tick: u64) {
     let stroke = everywhere(world);
     let spot = Vec2::new((tick * 7 % 30) as f32, (tick * 3 % 20) as f32);
     let (rock, water) = (named(world, "rock"), named(world, "water"));
-    let turn = if tick / 20 % 2 == 0 { 300.0 } else { -300.0 };
+    let turn = if (tick / 20).is_multiple_of(2) { 300.0 } else { -300.0 };
     intend(world, Intent::Draw { element: water, stroke });
     intend(world, Intent::Blow { stroke, velocity: Vec2::new(turn, 0.5 * turn) });
     intend(world, Intent::Press { stroke, amount: 0.5 * turn / 300.0 });
     intend(world, Intent::Stamp { element: rock, stroke: Stroke::dab(BrushShape::Square, spot, 2.0) });
-    if tick % 4 == 0 {
+    if tick.is_multiple_of(4) {
         let half = Stroke::dab(BrushShape::Disc, Vec2::new(30.0 - spot.x, 20.0 - spot.y), 9.0);
         intend(world, Intent::Erase { stroke: half });
     }
@@ -197,7 +200,7 @@ fn poison(world: &mut World, tick: u64) {
     let poison = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30, -1e30];
     if let (0, Some(value)) = (tick % 10, poison.get(tick as usize / 10)) {
         let particles = &mut world.resource_mut::<ParticleStore>().0;
-        let field = if tick % 20 == 0 { &mut particles.x } else { &mut particles.vy };
+        let field = if tick.is_multiple_of(20) { &mut particles.x } else { &mut particles.vy };
         if let Some(poisoned) = field.get_mut(100 + tick as usize) {
             *poisoned = *value;
         }
