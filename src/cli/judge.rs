@@ -52,7 +52,7 @@ impl<C: Case> CaseArguments<C> {
         }
     }
 
-    /// The qualities that were asked for, in their order; none stands for all, or with `quick` for `balanced`.
+    /// The qualities that were asked for, in their order; none means all, or with `quick` `balanced`.
     fn presets(&self) -> Vec<Preset> {
         let default = if self.quick { &[Preset::Balanced][..] } else { &Preset::ALL[..] };
         let asked = if self.qualities.is_empty() { default } else { &self.qualities };

@@ -71,7 +71,7 @@ pub(super) fn report(
 /// Says how to get charts, where the program can't draw them.
 pub(super) fn note_missing_charts(command: &str) {
     if cfg!(not(feature = "charts")) {
-        // Nothing depends on whether it is heard.
+        // A note that can't be written is no failure.
         let _ = writeln!(
             io::stderr(),
             "powder-master: this build draws no charts (it lacks the cargo feature `charts`); `cargo headless {command} …` \
@@ -80,7 +80,7 @@ pub(super) fn note_missing_charts(command: &str) {
     }
 }
 
-/// Prints on stdout. A reader that has heard enough is no failure.
+/// Prints on stdout. A pipe that its reader has closed is no failure.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {

@@ -55,7 +55,7 @@ pub(super) fn replay(arguments: &ReplayArguments) -> Result<(), Failure> {
     threads::start(arguments.machine.threads)?;
     let mut replay =
         Replay::new(&recording, Workers::default(), arguments.machine.simd).map_err(|error| bad(path, &error))?;
-    // A panic is an outcome here, told in one line.
+    // A panic is an outcome here, and gets one line.
     fault::watch(false);
     let crashed = recording.end == Some(End::Crashed);
     let outcome = run(&mut replay, &recording);

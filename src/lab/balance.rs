@@ -49,8 +49,8 @@ pub struct Balance {
     pub potential: f64,
     /// Momentum, kg m/s.
     pub momentum: DVec2,
-    /// Σ m |v|: what a momentum is small or large against, kg m/s.
-    pub impetus: f64,
+    /// Σ m |v|, what a momentum is compared with, kg m/s.
+    pub momentum_sum: f64,
     /// Highest speed, m/s.
     pub max_speed: f64,
 }
@@ -77,7 +77,7 @@ impl Matter<'_> {
             sum.kinetic += 0.5 * mass * speed * speed;
             sum.potential -= mass * gravity.dot(p);
             sum.momentum += mass * v;
-            sum.impetus += mass * speed;
+            sum.momentum_sum += mass * speed;
             sum.max_speed = sum.max_speed.max(speed);
         }
         sum
@@ -167,7 +167,7 @@ mod tests {
         assert!(near(balance.kinetic, 0.5 * 10.0 * 4.0 + 0.5 * 5.0 * 16.0), "{balance:?}");
         assert!(near(balance.potential, 98.1), "{balance:?}");
         assert!(near(balance.momentum.x, 20.0) && near(balance.momentum.y, -20.0), "{balance:?}");
-        assert!(near(balance.impetus, 40.0) && near(balance.max_speed, 4.0), "{balance:?}");
+        assert!(near(balance.momentum_sum, 40.0) && near(balance.max_speed, 4.0), "{balance:?}");
     }
 
     #[test]

@@ -67,8 +67,9 @@ pub struct Growth {
     pub points: Vec<Point>,
 }
 
-/// Measures the three ways: brute force and bins on one thread, bins on `workers`. `says` hears of each measurement.
-pub fn measure(workers: &Workers, says: &mut dyn FnMut(&str)) -> Result<Vec<Growth>, ExperimentError> {
+/// Measures the three ways: brute force and bins on one thread, bins on `workers`. `report` is called with the name of each
+/// measurement.
+pub fn measure(workers: &Workers, report: &mut dyn FnMut(&str)) -> Result<Vec<Growth>, ExperimentError> {
     let one = Workers::new(1)?;
     let all = format!("bins, {} threads", workers.threads());
     [
@@ -79,7 +80,7 @@ pub fn measure(workers: &Workers, says: &mut dyn FnMut(&str)) -> Result<Vec<Grow
     .into_iter()
     .map(|(name, neighbours, workers)| {
         grow(name, workers.threads(), |columns| {
-            says(&format!("{name}: {} particles", 2 * columns * columns));
+            report(&format!("{name}: {} particles", 2 * columns * columns));
             Ok(Point { particles: 2 * columns * columns, ms: median_ms(columns, neighbours, workers)? })
         })
     })

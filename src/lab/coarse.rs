@@ -218,7 +218,11 @@ mod tests {
         let half = particles.len() / 2;
         particles.x.swap(0, half);
         particles.y.swap(0, half);
-        assert_eq!(to_self(&CoarseField::of(simulation.world()), &before).share, Some(0.0), "no one has a name");
+        assert_eq!(
+            to_self(&CoarseField::of(simulation.world()), &before).share,
+            Some(0.0),
+            "particles are interchangeable"
+        );
         let particles = &mut simulation.world_mut().resource_mut::<ParticleStore>().into_inner().0;
         particles.x.iter_mut().take(half).for_each(|x| *x += 200.0);
         let distance = to_self(&CoarseField::of(simulation.world()), &before);

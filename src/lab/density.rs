@@ -59,8 +59,8 @@ pub struct DensityError {
     pub p99: f64,
     /// Largest.
     pub max: f64,
-    /// Mean density of the interior particles, 1 at rest density. A liquid that stands too thin has no error, but this
-    /// tells.
+    /// Mean density of the interior particles, 1 at rest density. A liquid that stands too thin has no error, but a
+    /// low density.
     pub density: f64,
 }
 
@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn particles_that_are_not_finite_or_far_outside_harm_nobody() {
+    fn particles_that_are_not_finite_or_far_outside_do_no_harm() {
         let size = Vec2::new(20.0, 20.0);
         let rock = solids::Solids::new(20, 20);
         let mut points = lattice(20, 20, 1.0);

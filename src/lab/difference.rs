@@ -83,7 +83,7 @@ pub struct Difference {
     fields: [Field; 2],
     /// Of the liquid, 0 (none) … 1 (the end of the scale).
     liquid: Vec<f32>,
-    /// The same, and of the air where neither world has liquid: what air liquid drags along says nothing more of it.
+    /// The same, and of the air where neither world has liquid: elsewhere the air only follows the liquid.
     heat: Vec<f32>,
 }
 

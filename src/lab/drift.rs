@@ -1,4 +1,4 @@
-//! The momentum drift: momentum that the liquid gets from nowhere.
+//! The momentum drift: by how much the liquid's momentum changes without a force from outside.
 
 use crate::{
     kernel::{params::Quality, units::TICK_SECONDS},
@@ -17,7 +17,7 @@ use glam::DVec2;
 pub(super) struct Drift {
     before: Option<(Balance, usize)>,
     sum: DVec2,
-    impetus: f64,
+    momentum_sum: f64,
     ticks: u64,
 }
 
@@ -31,7 +31,7 @@ impl Drift {
             let matter = matter(world);
             let gravity = matter.domain.gravity.as_dvec2() * f64::from(matter.scale.spacing);
             self.sum += after.momentum - before.momentum - after.mass * gravity * f64::from(TICK_SECONDS);
-            self.impetus = self.impetus.max(after.impetus);
+            self.momentum_sum = self.momentum_sum.max(after.momentum_sum);
             self.ticks += 1;
         }
         self.before = now;
@@ -50,8 +50,8 @@ impl Drift {
         (!near(kernel_radius + step + 1.0)).then_some((balance, matter.particles.len()))
     }
 
-    /// Momentum from nowhere as a share of the largest Σ m |v|; `None` if there was no tick to tell.
+    /// The drift as a share of the largest Σ m |v|; `None` without such a tick.
     pub(super) fn share(&self) -> Option<f64> {
-        (self.ticks > 0 && self.impetus > 0.0).then(|| self.sum.length() / self.impetus)
+        (self.ticks > 0 && self.momentum_sum > 0.0).then(|| self.sum.length() / self.momentum_sum)
     }
 }

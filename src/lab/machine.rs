@@ -19,7 +19,7 @@ pub fn memory() -> Option<Memory> {
     Some(Memory { resident: bytes("VmRSS:")?, peak: bytes("VmHWM:")? })
 }
 
-/// Name of the processor, with its family and model where those are told: different ones go by the same name. Only on
+/// Name of the processor, with its family and model where the system has them: different processors have the same name. Only on
 /// Linux.
 pub fn processor() -> String {
     let found = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| name(&text));

@@ -172,7 +172,7 @@ impl Canvas {
         }
     }
 
-    /// Blends a shape of half-width `radius` (d) around `p` into the picture. `coverage` tells from a pixel's distance to
+    /// Blends a shape of half-width `radius` (d) around `p` into the picture. `coverage` gives, from a pixel's distance to
     /// the centre and the half-width, both in pixels, how much of the pixel lies in the shape.
     fn cover(&mut self, p: Vec2, radius: f32, colour: Rgb, coverage: fn(Vec2, f32) -> f32) {
         if !p.is_finite() {

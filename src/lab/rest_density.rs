@@ -62,13 +62,13 @@ pub struct Outcome {
     pub surface: f64,
 }
 
-/// Runs the study: what became of the liquid for each quality and ratio, with a picture of its last tick. `says` hears of
-/// each run.
-pub fn study(workers: &Workers, says: &mut dyn FnMut(&str)) -> Result<Vec<(Outcome, Picture)>, SceneError> {
+/// Runs the study: what became of the liquid for each quality and ratio, with a picture of its last tick. `report` is
+/// called with the name of each run.
+pub fn study(workers: &Workers, report: &mut dyn FnMut(&str)) -> Result<Vec<(Outcome, Picture)>, SceneError> {
     let cases = PRESETS.into_iter().flat_map(|preset| RATIOS.map(|ratio| (preset, ratio)));
     cases
         .map(|(preset, ratio)| {
-            says(&format!("{}, ratio {ratio:.2}", preset.name()));
+            report(&format!("{}, ratio {ratio:.2}", preset.name()));
             observe(preset, ratio, workers)
         })
         .collect()

@@ -69,7 +69,7 @@ pub enum Size {
 pub struct Suite<C: Case> {
     /// The command that runs them.
     pub command: &'static str,
-    /// What the command says of the option that names a case.
+    /// Help text of the option `--case`.
     pub which: &'static str,
     /// All of them, in the order in which they are shown.
     pub cases: fn() -> &'static [C],
@@ -79,11 +79,11 @@ pub struct Suite<C: Case> {
     pub labels: [&'static str; 2],
     /// Columns of the table. The first is the case.
     pub columns: &'static [Column<C::Figures>],
-    /// What is said of one that failed.
+    /// How a failed row is named.
     pub failure: fn(&Row<C::Figures>) -> String,
-    /// What rows are called.
+    /// What rows are called in the summary.
     pub rows: &'static str,
-    /// The verdict on what is beyond the allowed and no failure, and what is said of it.
+    /// The verdict of rows beyond their bound that don't fail, and what they are called in the summary.
     pub excused: (Verdict, &'static str),
     /// Where failures count, if not everywhere.
     pub failing: &'static str,

@@ -53,14 +53,14 @@ impl<C: Case> Job<C> {
     }
 }
 
-/// Runs all jobs, `threads` at a time, and gives their rows in the order of the jobs. `says` hears how many are done,
-/// and which one is begun.
+/// Runs all jobs, `threads` at a time, and gives their rows in the order of the jobs. `report` is called with how
+/// many are done, and with the one that begins.
 pub fn run_all<C: Case>(
     jobs: &[Job<C>],
     threads: usize,
-    says: impl Fn(usize, &Job<C>) + Sync,
+    report: impl Fn(usize, &Job<C>) + Sync,
 ) -> Result<Vec<Row<C::Figures>>, SceneError> {
-    let results = pool::run(jobs, threads, Job::cost, says, |job| finish(job.run(), || true));
+    let results = pool::run(jobs, threads, Job::cost, report, |job| finish(job.run(), || true));
     let mut rows = Vec::new();
     // None is stopped: each has its rows.
     for result in results.into_iter().flatten() {

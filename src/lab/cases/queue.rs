@@ -52,7 +52,7 @@ impl<C: Case> Default for JobQueue<C> {
     }
 }
 
-/// What the work tells: how far it is, and the rows that came since.
+/// What the work reports: how far it is, and the rows since the last message.
 type Message<C> = (Progress, Vec<Row<<C as Case>::Figures>>);
 
 /// Keeps a queue of the suite's jobs.
@@ -91,7 +91,7 @@ impl<C: Case> JobQueue<C> {
         &self.rows
     }
 
-    /// Works a slice where there is no thread, and takes in what the work tells.
+    /// Works a slice where there is no thread, and takes in the messages.
     fn advance(&mut self) {
         let Some(handle) = &mut self.handle else { return };
         for (progress, rows) in handle.advance() {
@@ -116,7 +116,7 @@ async fn run<C: Case>(jobs: Vec<Job<C>>, messages: Sender<Message<C>>) {
     let of = jobs.len();
     let mut rows = Vec::new();
     for (done, job) in jobs.into_iter().enumerate() {
-        // A message that is not received has lost its reader: then the rest is not needed either.
+        // Without a receiver the work was stopped.
         if messages.send((Progress::Running { done, of, now: job.title() }, std::mem::take(&mut rows))).is_err() {
             return;
         }

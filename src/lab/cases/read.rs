@@ -3,7 +3,7 @@
 use ron::{Options, extensions::Extensions};
 use serde::{Deserialize, Deserializer};
 
-/// What a RON text of the program says.
+/// Reads a RON text of the program.
 ///
 /// # Panics
 /// If it can't be read; a test reads each.

@@ -50,9 +50,9 @@ pub fn failure<C: Case>(rows: &[Row<C::Figures>]) -> Option<String> {
 /// The document: what happens in each case, what it is for, what came out.
 pub fn document<C: Case>(rows: &[Row<C::Figures>], processor: &str, command: &str) -> String {
     let head = (C::SUITE.introduction)(command, processor);
-    let told =
+    let run =
         (C::SUITE.cases)().iter().map(|case| case.about()).filter(|case| rows.iter().any(|row| row.case == case.name));
-    let sections: String = told.map(|case| format!("\n{}", section::<C>(&case, rows))).collect();
+    let sections: String = run.map(|case| format!("\n{}", section::<C>(&case, rows))).collect();
     format!("{head}\n\n{}.\n{sections}", summary::<C>(rows))
 }
 

@@ -8,7 +8,7 @@
 //!
 //! A case builds its world as every scene is built (`scene::from_text`, `Checkpoint::of_scene`) and changes nothing in it
 //! afterwards but what it says. It is a future that yields after each tick, so that the caller can do something else in
-//! between: count, stop, or draw a frame (`jobs`). How cases are run and reported is told in [`super::cases`].
+//! between: count, stop, or draw a frame (`jobs`). [`super::cases`] runs and reports them.
 
 mod case;
 mod cases;

@@ -175,7 +175,7 @@ pub(super) struct Density {
 }
 
 impl GauntletCase {
-    /// Whether it can be watched in the game: it is not too long, and the world tells all of it.
+    /// Whether it can be watched in the game: it is not too long, and ticks come in time.
     pub fn is_watchable(&self) -> bool {
         self.late.is_none() && self.size != Size::Long
     }

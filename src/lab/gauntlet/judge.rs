@@ -1,4 +1,4 @@
-//! The judge: inspects the world after every tick, and says at the end which rules were broken.
+//! The judge: inspects the world after every tick, and reports at the end which rules were broken.
 
 use crate::{
     kernel::{params::Preset, particles::Particles, units::TICKS_PER_SECOND},

@@ -7,8 +7,8 @@
 //! ```
 //!
 //! A case builds its world as every scene is built (`scene::from_text`, `Checkpoint::of_scene`). What is done to it before each
-//! tick is a script (`sim::script`), which runs headless here and in the game where a case is watched. How cases are run and
-//! reported is told in [`super::cases`].
+//! tick is a script (`sim::script`), which runs headless here and in the game where a case is watched. [`super::cases`] runs
+//! and reports them.
 
 mod arrange;
 mod case;

@@ -1,4 +1,4 @@
-//! What is done in a case before each tick, told the ticks that were done.
+//! What is done in a case before each tick.
 
 use crate::{
     kernel::{
@@ -16,7 +16,7 @@ use crate::{
 use bevy::ecs::world::World;
 use glam::Vec2;
 
-/// What is done, told the ticks that were done.
+/// What is done, given the number of ticks that were done.
 pub(super) type Act = fn(&mut World, u64);
 
 /// By the names of the cases.

@@ -56,7 +56,7 @@ impl Case for GauntletCase {
         let mut judge = Judge::new(self, simulation.world());
         for tick in 0..u64::from(self.ticks) {
             if let Some(act) = self.act {
-                // What the script and its intents put in is told from what the tick does with it.
+                // What the script puts in is counted apart from what the tick does with it.
                 let before = Totals::of(simulation.world());
                 act(simulation.world_mut(), tick);
                 simulation.edit();
@@ -89,7 +89,7 @@ fn introduction(command: &str, processor: &str) -> String {
         "# The gauntlet\n\n\
          Every hard case at every quality, run by the program as it is shipped. `{command}` writes this file; \
          `powder-master gauntlet` prints the table and ends with exit code 1 if a case fails. What it is for and what it \
-         leaves open is told in [stability.md](stability.md).\n\n\
+         leaves open stands in [stability.md](stability.md).\n\n\
          *gain*: kinetic and potential energy above what was there and was put in, as the speed that all particles \
          together would have of it. *density*: 99th percentile of the density error, the worst after the shock and over \
          the last tenth of the case. *motion*: rms speed over the last tenth, d a tick. *work*: the most expensive tick as \

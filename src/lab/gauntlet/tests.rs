@@ -51,7 +51,7 @@ fn cases_have_names_of_their_own_and_say_what_they_are() {
     for (k, case) in CASES.iter().enumerate() {
         assert!(CASES[..k].iter().all(|other| other.name != case.name), "two cases are called {}", case.name);
         let texts = [case.title, case.what, case.guards, case.allowed];
-        assert!(texts.iter().all(|text| !text.is_empty()), "{} is told by half", case.name);
+        assert!(texts.iter().all(|text| !text.is_empty()), "{} lacks a text", case.name);
         assert!(case.ticks > 0);
     }
     let is_case = |name: &str| CASES.iter().any(|case| case.name == name);
@@ -97,8 +97,8 @@ fn sabotaged(name: &'static str, rules: Rules, act: fn(&mut World, u64)) -> Gaun
     GauntletCase { name, scene: POOL, act: Some(act), ticks: 40, rules, ..GauntletCase::default() }
 }
 
-/// Changes of the particles between the totals of an edit and those of a tick can't be told from an edit; so what a kernel
-/// does wrong is played by rules that a sound kernel breaks.
+/// A script's changes count as edits, so a fault of the kernel can't be played by a script; rules that a sound kernel breaks
+/// stand in for it.
 static SABOTAGED: LazyLock<[GauntletCase; 10]> = LazyLock::new(|| {
     [
         sabotaged("sound", Rules { gain: Some(Gain::Speed(1.0)), ..Rules::default() }, |_, _| {}),

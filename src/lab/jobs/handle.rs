@@ -1,5 +1,5 @@
 //! Work in the background: on a thread of its own, or, where the system gives none (as in a page), in a slice of each
-//! frame. It is a future that yields often, and tells by messages how far it is.
+//! frame. It is a future that yields often, and reports by messages how far it is.
 
 use crate::lab::jobs::drive::{finish, step};
 use bevy::platform::{cell::SyncCell, time::Instant};
@@ -75,7 +75,7 @@ impl<M: Send + 'static> Handle<M> {
         Self { messages: SyncCell::new(messages), is_over: false, place }
     }
 
-    /// Works for a slice where there is no thread, and gives what was told since.
+    /// Works for a slice where there is no thread, and gives the messages since the last call.
     pub fn advance(&mut self) -> Vec<M> {
         if let Place::Slices(work) = &mut self.place {
             let begun = Instant::now();
@@ -83,19 +83,19 @@ impl<M: Send + 'static> Handle<M> {
                 self.is_over = step(work.get().as_mut()).is_ready();
             }
         }
-        let mut told = Vec::new();
+        let mut received = Vec::new();
         loop {
             match self.messages.get().try_recv() {
-                Ok(message) => told.push(message),
+                Ok(message) => received.push(message),
                 Err(error) => {
                     self.is_over |= error == TryRecvError::Disconnected;
-                    return told;
+                    return received;
                 }
             }
         }
     }
 
-    /// Whether the work came to its end, whatever became of it, and all that it told was given.
+    /// Whether the work has ended, well or not, and all its messages were given.
     pub fn is_over(&self) -> bool {
         self.is_over
     }
@@ -125,11 +125,11 @@ mod tests {
     }
 
     fn collect(mut handle: Handle<u32>) -> Vec<u32> {
-        let mut told = Vec::new();
+        let mut received = Vec::new();
         while !handle.is_over() {
-            told.extend(handle.advance());
+            received.extend(handle.advance());
         }
-        told
+        received
     }
 
     #[test]

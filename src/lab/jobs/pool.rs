@@ -7,20 +7,20 @@ use rayon::{
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Runs all jobs, `threads` at a time, and gives what came of them in their order. The most expensive by `cost` are begun
-/// first, so that nothing long is left for the end. `says` hears how many are done, and which
-/// one is begun.
+/// first, so that nothing long is left for the end. `report` is called with how many are
+/// done, and with the one that begins.
 pub fn run<J: Sync, R: Send>(
     jobs: &[J],
     threads: usize,
     cost: impl Fn(&J) -> u64,
-    says: impl Fn(usize, &J) + Sync,
+    report: impl Fn(usize, &J) + Sync,
     run: impl Fn(&J) -> R + Sync,
 ) -> Vec<R> {
     let mut order: Vec<usize> = (0..jobs.len()).collect();
     order.sort_by_key(|&k| std::cmp::Reverse(cost(&jobs[k])));
     let done = AtomicUsize::new(0);
     let one = |k: usize| {
-        says(done.load(Ordering::Relaxed), &jobs[k]);
+        report(done.load(Ordering::Relaxed), &jobs[k]);
         let result = run(&jobs[k]);
         done.fetch_add(1, Ordering::Relaxed);
         (k, result)

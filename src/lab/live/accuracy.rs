@@ -109,8 +109,8 @@ pub struct Curve {
     pub of: u64,
     /// The world's tick.
     pub tick: u64,
-    /// The quality that was in force, and what a tick of the game took at it, ms; `None` where all slept: that says
-    /// nothing of a quality.
+    /// The quality that was in force, and what a tick of the game took at it, ms; `None` where all slept: such a
+    /// time belongs to no quality.
     pub here: Option<(Quality, f32)>,
     /// What such a tick took on one thread with the same particles asleep, ms; `None` where none slept.
     pub here_on_one_thread: Option<f32>,
@@ -229,7 +229,7 @@ mod tests {
         assert_eq!(curve.scale(), Some(0.25));
         let half_asleep = Curve { here_on_one_thread: Some(2.0), ..curve.clone() };
         assert_eq!(half_asleep.scale(), Some(0.5), "four threads of an awake world are not two and sleep");
-        assert_eq!(Curve { here: None, ..curve }.scale(), None, "what all sleep in says nothing");
+        assert_eq!(Curve { here: None, ..curve }.scale(), None, "a tick in which all sleep has no quality");
     }
 
     #[test]

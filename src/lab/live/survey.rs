@@ -49,7 +49,7 @@ impl Surveyor {
     }
 }
 
-/// What the work tells after each tick.
+/// What the work reports after each tick.
 struct Message {
     /// Share that is done, 0 … 1.
     progress: f32,
@@ -145,7 +145,7 @@ struct Work {
     start: Checkpoint,
     /// Instructions that the solver uses.
     instructions: InstructionSet,
-    /// What is to be run, the dearest first.
+    /// What is to be run, the most expensive first.
     left: Vec<Leg>,
     run: Option<Run>,
     done: f32,
@@ -232,7 +232,7 @@ impl Run {
         let simulation = Simulation::resume(&start, Workers::new(1).unwrap_or_default());
         let mut simulation = simulation.with_instructions(instructions);
         if !leg.sleep {
-            // What sleeps costs the same at every quality, and errs by the same: it says nothing of any.
+            // A sleeping particle costs the same and has the same error at every quality.
             simulation.world_mut().resource_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off;
         }
         Self { leg, simulation, ticks: 0, errors: Vec::new() }

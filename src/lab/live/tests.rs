@@ -72,7 +72,7 @@ fn a_watched_and_surveyed_world_has_the_hash_of_an_unwatched_one() {
 }
 
 #[test]
-fn what_nobody_looks_at_is_not_measured() {
+fn what_is_not_shown_is_not_measured() {
     let mut simulation = begin("dam_break", &[("columns", "8")], LivePlugin);
     (0..10).for_each(|_| simulation.tick());
     assert_eq!(simulation.world().resource::<LiveError>().latest(), None);
@@ -80,7 +80,7 @@ fn what_nobody_looks_at_is_not_measured() {
 }
 
 #[test]
-fn a_world_that_stands_is_sampled_when_somebody_looks() {
+fn a_world_that_stands_is_sampled_when_it_is_watched() {
     let mut simulation = begin("dam_break", &[("columns", "24")], LivePlugin);
     (0..31).for_each(|_| simulation.tick());
     simulation.world_mut().resource_mut::<Pace>().paused = true;
@@ -90,7 +90,7 @@ fn a_world_that_stands_is_sampled_when_somebody_looks() {
 }
 
 fn measured(simulation: &Simulation) -> Measured {
-    *simulation.world().resource::<Measures>().latest().expect("somebody looks")
+    *simulation.world().resource::<Measures>().latest().expect("it is measured")
 }
 
 /// Looks away and back, so that the next tick is measured.
@@ -242,7 +242,7 @@ fn a_flight_is_recorded_and_repeats_to_the_bit_without_the_autopilot() {
 fn a_flight_keeps_to_its_time_and_says_when_it_cannot() {
     let (_, _, flown) = fly(Goal::Time(16.0), 390);
     let (setup, autopilot) = (flown.world().resource::<Setup>(), flown.world().resource::<Autopilot>());
-    assert!(3.0 * ladder::work(&setup.quality) <= 16.0, "{:?} is too dear under the load", setup.quality);
+    assert!(3.0 * ladder::work(&setup.quality) <= 16.0, "{:?} is too expensive under the load", setup.quality);
     assert_eq!(autopilot.verdict(), Verdict::Holds);
     let (_, _, flown) = fly(Goal::Time(16.0), 600);
     let work = ladder::work(&flown.world().resource::<Setup>().quality);

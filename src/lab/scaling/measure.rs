@@ -81,14 +81,14 @@ pub struct Skipped {
     pub seconds: f64,
 }
 
-/// Runs the plan on one thread and on `workers`. `says` hears of each run.
+/// Runs the plan on one thread and on `workers`. `report` is called with the name of each run.
 ///
 /// # Errors
 /// If the scene can't be built or one thread can't be started.
 pub fn measure(
     plan: &Plan,
     workers: &Workers,
-    says: &mut dyn FnMut(&str),
+    report: &mut dyn FnMut(&str),
 ) -> Result<(Vec<Row>, Vec<Skipped>), ExperimentError> {
     let mut pools = vec![Workers::new(1)?];
     if workers.threads() > 1 {
@@ -121,7 +121,7 @@ pub fn measure(
             if round < series.rounds {
                 for (k, pool) in pools.iter().enumerate() {
                     let (setting, round, threads) = (series.setting.name, round + 1, pool.threads());
-                    says(&format!("{count} particles, {setting}, round {round}, threads {threads}"));
+                    report(&format!("{count} particles, {setting}, round {round}, threads {threads}"));
                     series.run(k, pool)?;
                 }
             }

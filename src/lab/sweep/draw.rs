@@ -6,7 +6,7 @@ use crate::lab::{
     machine::processor,
 };
 
-/// Largest error that is shown: a world that far off is not a little worse but another one.
+/// Largest error that is shown: a world that is further off has little in common with the reference.
 const MOST_ERROR: f64 = 1.0;
 
 /// Least density error that is shown; what has less stands there, too.
@@ -51,8 +51,8 @@ fn lower_edge<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {
     front
 }
 
-/// A row as a point with its spread; `None` where it has no place. What is no distance from the reference is the
-/// reference.
+/// A row as a point with its spread; `None` where it has no place. A row without any distance
+/// to the reference is the reference itself.
 fn point(subject: &Subject, row: &Row) -> Option<Point> {
     let error = match subject.measure {
         ErrorMeasure::Density => row.error.max(LEAST_ERROR),

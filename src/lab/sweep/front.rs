@@ -29,7 +29,7 @@ impl Point {
 pub fn front(points: &[Point]) -> Vec<bool> {
     let comparable = |point: &Point| point.ms.is_finite() && point.error.is_finite();
     let mut order: Vec<usize> = (0..points.len()).filter(|k| comparable(&points[*k])).collect();
-    // Who beats a point stands before it in this order.
+    // A point that beats another stands before it in this order.
     order.sort_by(|a, b| {
         let (a, b) = (&points[*a], &points[*b]);
         a.ms.total_cmp(&b.ms).then(a.error.total_cmp(&b.error)).then(a.coarseness.total_cmp(&b.coarseness))

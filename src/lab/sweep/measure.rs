@@ -56,7 +56,7 @@ pub(super) fn run(
 /// The world at its start, awake.
 fn begin(start: &Checkpoint, preset: Preset, quality: Quality, workers: Workers) -> Simulation {
     let mut simulation = Simulation::resume(&start.clone().at_quality(preset, quality), workers);
-    // A sleeping particle costs the same and has the same error at every quality, so it says nothing of any of them.
+    // A sleeping particle costs the same and has the same error at every quality.
     simulation.world_mut().resource_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off;
     simulation
 }

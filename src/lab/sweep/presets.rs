@@ -11,14 +11,15 @@ use std::fmt;
 /// The presets that are steps of accuracy, cheapest first.
 pub const STEPS: [Preset; 5] = [Preset::Draft, Preset::Fast, Preset::Balanced, Preset::Fine, Preset::Reference];
 
-/// A row is a better buy by a margin if it takes this much less time, as a share: along the front from `draft` to
-/// `balanced` the error goes with the time to the power of -1.4, so that this buys what the other margin is,
+/// A row beats another by a margin if it takes this much less time, as a share. Along the front from `draft` to `balanced`
+/// the error goes with the time to the power of −1.4, so this is worth as much as [`ERROR_MARGIN`].
 const TIME_MARGIN: f64 = 0.1;
 
-/// or has this much less error: more than runs of the same flow scatter when air or iterations are changed a little.
+/// Or if it has this much less error, as a share: more than runs of the same flow scatter when air or iterations are changed
+/// a little.
 const ERROR_MARGIN: f64 = 0.15;
 
-/// What is to be said of the presets in a scene.
+/// Whether the presets are in order in a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Order {
     /// These steps were not measured, and without all of them there is no order.
@@ -37,7 +38,7 @@ pub enum Order {
 }
 
 impl Order {
-    /// What there is to complain of, in a line; `None` if the order is ok.
+    /// What is wrong, in a line; `None` if the order is ok.
     pub fn complaint(&self) -> Option<String> {
         match self {
             Self::Ok { .. } => None,
@@ -71,8 +72,8 @@ impl fmt::Display for Order {
                     let front = if *front { ", and no setting beats it by a margin" } else { "" };
                     return writeln!(formatter, "{whole}{front}.");
                 }
-                let told = *front && alike.len() + 1 < STEPS.len();
-                let front = if told { " No setting beats one with a larger error by a margin." } else { "" };
+                let is_judged = *front && alike.len() + 1 < STEPS.len();
+                let front = if is_judged { " No setting beats one with a larger error by a margin." } else { "" };
                 writeln!(
                     formatter,
                     "{whole}, but where both err by less than {NEGLIGIBLE}: {}.{front}",

@@ -39,15 +39,15 @@ impl Sweep<'_> {
         format!("{program} {} {:016x} {warmup}/{ticks}", processor(), hash_bytes(&start.encode()))
     }
 
-    /// Runs what the journal doesn't have yet, and puts all together. `says` hears how many runs are done, and what runs
-    /// next.
+    /// Runs what the journal doesn't have yet, and puts all together. `report` is called with how many runs are done and the name
+    /// of the next.
     ///
     /// # Errors
     /// If threads can't be had, the journal can't be written, or a world does not come out the same twice.
     pub fn run(
         &self,
         journal: &mut Journal<Record>,
-        says: &mut dyn FnMut(usize, &str),
+        report: &mut dyn FnMut(usize, &str),
     ) -> Result<Vec<Row>, ExperimentError> {
         let threads: BTreeSet<usize> = self.settings.iter().map(|setting| setting.threads).collect();
         let pools = threads.into_iter().map(|threads| Ok((threads, Workers::new(threads)?)));
@@ -60,7 +60,7 @@ impl Sweep<'_> {
             if journal.find(&key, round).is_some() {
                 continue;
             }
-            let mut say = |what: &str| says(done, what);
+            let mut say = |what: &str| report(done, what);
             let is_sampled = journal.all(&key).any(|record| record.found.is_some());
             if !is_sampled && reference.is_none() {
                 say("the reference");

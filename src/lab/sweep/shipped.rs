@@ -51,7 +51,7 @@ fn in_the_dam_break_and_in_the_waterfall_each_preset_takes_longer_and_errs_less_
         assert!(matches!(order, Order::Ok { front: true, .. }), "{scene}: {order}");
         let error = |preset| rows.iter().find(|row| row.setting.preset == Some(preset)).unwrap().error;
         let errors = presets::STEPS.map(error);
-        // What the real-time presets are told apart by is more than what can't be told.
+        // The real-time presets differ by more than the smallest difference that can be measured.
         assert!(errors[..4].is_sorted_by(|a, b| a > b), "{scene}: {errors:?}");
     }
 }

@@ -37,7 +37,7 @@ pub struct Subject<'a> {
 }
 
 impl Subject<'_> {
-    /// What is to be said of the presets.
+    /// Whether the presets are in order.
     pub fn order(&self, rows: &[Row]) -> Order {
         presets::judge(rows, self.measure, self.has_air && self.measure == ErrorMeasure::Density)
     }

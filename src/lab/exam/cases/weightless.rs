@@ -42,7 +42,7 @@ async fn rotating_drop(set_up: SetUp) -> Findings {
 
 async fn collision(set_up: SetUp) -> Findings {
     let mut simulation = set_up.open("collision", &[])?;
-    let (start, impetus) = (angular_momentum(&simulation), simulation.matter().balance().impetus);
+    let (start, momentum_sum) = (angular_momentum(&simulation), simulation.matter().balance().momentum_sum);
     simulation.run(2.0).await;
     Ok(vec![
         share("angular momentum after 2 s", "t m²/s", start, angular_momentum(&simulation), 0.07),
@@ -50,7 +50,7 @@ async fn collision(set_up: SetUp) -> Findings {
             "momentum as a share of Σ m |v|",
             "",
             0.0,
-            simulation.matter().balance().momentum.length() / impetus,
+            simulation.matter().balance().momentum.length() / momentum_sum,
             0.01,
         ),
     ])
