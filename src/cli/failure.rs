@@ -50,6 +50,15 @@ impl From<ExperimentError> for Failure {
     }
 }
 
+/// Refuses a warm-up that is as long as the run.
+pub(super) fn check_warmup(warmup: u64, ticks: u64) -> Result<(), Failure> {
+    if warmup < ticks {
+        return Ok(());
+    }
+    let most = ticks - 1;
+    Err(Failure::Usage(format!("--warmup {warmup} leaves nothing of the {ticks} ticks; allowed: 0 to {most}")))
+}
+
 /// The parser's complaint, which takes several lines, as one.
 pub(super) fn condense(error: &clap::Error) -> String {
     let text = error.render().to_string();

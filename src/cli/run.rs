@@ -3,7 +3,7 @@
 use crate::{
     cli::{
         args::{RunArguments, Ticks},
-        failure::Failure,
+        failure::{self, Failure},
         output, progress,
         start::Start,
         threads,
@@ -127,13 +127,7 @@ fn plan(arguments: &RunArguments, segment: Option<Segment>) -> Result<Plan, Fail
     let recorded = segment.as_ref().map(|segment| segment.marks.len().max(1) as u64);
     let seconds = arguments.seconds.map(|Ticks(ticks)| ticks);
     let ticks = arguments.ticks.or(seconds).or(recorded).unwrap_or(DEFAULT_TICKS);
-    if arguments.warmup >= ticks {
-        return Err(Failure::Usage(format!(
-            "--warmup {} leaves nothing of the {ticks} ticks; allowed: 0 to {}",
-            arguments.warmup,
-            ticks - 1
-        )));
-    }
+    failure::check_warmup(arguments.warmup, ticks)?;
     let entries = segment.map(|segment| segment.entries).unwrap_or_default();
     // Who asks for a quality or for an effect gets it from the first tick to the last.
     let wanted = |intent: &Intent| match intent {

@@ -1,7 +1,12 @@
 //! `sweep`: what accuracy costs in a scene, setting by setting.
 
 use crate::{
-    cli::{args::SweepArguments, failure::Failure, output, progress, start::Start},
+    cli::{
+        args::SweepArguments,
+        failure::{self, Failure},
+        output, progress,
+        start::Start,
+    },
     lab::{
         experiment::{
             ExperimentError,
@@ -101,20 +106,11 @@ impl Opening {
 }
 
 /// Ticks of a run, and those of them that are left out.
-#[derive(Clone, Copy)]
-struct Length {
-    ticks: u64,
-    warmup: u64,
-}
-
-fn length(arguments: &SweepArguments) -> Result<Length, Failure> {
+fn length(arguments: &SweepArguments) -> Result<(u64, u64), Failure> {
     let ticks = arguments.ticks.unwrap_or(TICKS[usize::from(arguments.quick)]);
     let warmup = arguments.warmup.unwrap_or((ticks / 5).saturating_sub(1));
-    if warmup < ticks {
-        return Ok(Length { ticks, warmup });
-    }
-    let most = ticks - 1;
-    Err(Failure::Usage(format!("--warmup {warmup} leaves nothing of the {ticks} ticks; allowed: 0 to {most}")))
+    failure::check_warmup(warmup, ticks)?;
+    Ok((ticks, warmup))
 }
 
 /// Refuses to set what the sweep itself varies.
@@ -172,7 +168,7 @@ fn program() -> String {
 
 fn measure(
     arguments: &SweepArguments,
-    Length { ticks, warmup }: Length,
+    (ticks, warmup): (u64, u64),
     program: &str,
     mut start: Opening,
     folder: &Path,
@@ -210,11 +206,11 @@ fn measure(
         error => Failure::Outcome(format!("{scene}: {error}")),
     })?;
     drop(line);
-    let parameters: Vec<String> =
-        checkpoint.setup.blueprint.parameters.iter().map(|(name, value)| format!(", {name} {value}")).collect();
+    let parameters = checkpoint.setup.blueprint.parameters.iter();
+    let parameters: String = parameters.map(|(name, value)| format!(", {name} {value}")).collect();
     let subject = Subject {
         scene: &scene,
-        parameters: &parameters.concat(),
+        parameters: &parameters,
         measure,
         has_air: checkpoint.has_air(),
         start: checkpoint.state.clock.tick,

@@ -94,20 +94,13 @@ impl Measures {
         self.last.as_ref().is_none_or(|(last, at)| last.seen != seen && at.elapsed() >= INTERVAL)
     }
 
-    /// Notes a measurement.
-    fn note(&mut self, measured: Measured) {
-        self.last = Some((measured, Instant::now()));
-    }
-
-    /// Whether `world` is still the one that measuring began with.
-    fn knows(&self, world: &World) -> bool {
-        self.start.as_ref().is_some_and(|start| start.generation == Generation::of(world))
-    }
-
-    /// Begins anew with `world`, in which there is so much air, kg.
-    fn start(&mut self, world: &World, air_mass: f64) {
-        self.start = Some(Start { generation: Generation::of(world), air_mass });
-        self.last = None;
+    /// Begins anew if `world` is not the one that measuring began with.
+    fn follow(&mut self, world: &World) {
+        let generation = Generation::of(world);
+        if self.start.as_ref().is_none_or(|start| start.generation != generation) {
+            self.start = Some(Start { generation, air_mass: air_kilograms(world) });
+            self.last = None;
+        }
     }
 
     /// How much more or less than at the start `air_mass` (kg) is, a share; 0 of none.
@@ -124,22 +117,15 @@ pub fn is_wanted(measures: Res<Measures>) -> bool {
 
 /// Begins anew if the world was replaced since the last tick.
 pub fn start(world: &mut World) {
-    world.resource_scope(|world, mut measures: Mut<Measures>| start_with(&mut measures, world));
-}
-
-fn start_with(measures: &mut Measures, world: &World) {
-    if !measures.knows(world) {
-        measures.start(world, air_kilograms(world));
-    }
+    world.resource_scope(|world, mut measures: Mut<Measures>| measures.follow(world));
 }
 
 /// Measures when it is time.
 pub fn measure(world: &mut World) {
     world.resource_scope(|world, mut measures: Mut<Measures>| {
-        start_with(&mut measures, world);
+        measures.follow(world);
         if measures.is_due(world.resource::<Clock>().seen()) {
-            let measured = take(world, &measures);
-            measures.note(measured);
+            measures.last = Some((take(world, &measures), Instant::now()));
         }
     });
 }

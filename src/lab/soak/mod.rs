@@ -6,5 +6,5 @@ mod player;
 mod report;
 mod run;
 
-pub use report::{Report, Totals};
+pub use report::Report;
 pub use run::soak;

@@ -20,41 +20,47 @@ const COUNT_DRIFT: f64 = 0.05;
 /// How many times the mean kinetic energy of the second quarter that of the last may be.
 const ENERGY_GROWTH: f64 = 2.0;
 
+/// What is measured of a world once a second.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Look {
+    /// Movable particles.
+    pub particles: f64,
+    /// Kinetic energy of the particles, J for each metre of depth.
+    pub kinetic: f64,
+    /// The same with the potential energy, J for each metre of depth.
+    pub energy: f64,
+    /// Mass of the air, in cells at the surroundings' pressure.
+    pub air_mass: f64,
+    /// Kinetic energy of the air, in its own units.
+    pub air_energy: f64,
+    /// Memory of the process, bytes; only on Linux.
+    pub resident: Option<f64>,
+}
+
 /// The samples of a period.
 #[derive(Clone, Debug, Default)]
-pub struct Period {
+pub(super) struct Period {
     /// Times of the ticks, ms.
     pub tick_ms: Vec<f64>,
-    /// Movable particles.
-    pub particles: Vec<f64>,
-    /// Kinetic energy of the particles, J for each metre of depth.
-    pub kinetic: Vec<f64>,
-    /// The same with the potential energy, J for each metre of depth.
-    pub energy: Vec<f64>,
-    /// Mass of the air, in cells at the surroundings' pressure.
-    pub air_mass: Vec<f64>,
-    /// Kinetic energy of the air, in its own units.
-    pub air_energy: Vec<f64>,
-    /// Memory of the process, bytes; only on Linux.
-    pub resident: Vec<f64>,
+    /// The world, once a second.
+    pub looks: Vec<Look>,
 }
 
 impl Period {
     /// What is kept of it, if it ends after `minutes` of the soak.
     pub fn close(mut self, minutes: u64) -> Totals {
-        let of = |values: &[f64]| mean(values).unwrap_or_default();
-        let peak = |values: &[f64]| largest(values).unwrap_or_default();
+        let of = |what: fn(&Look) -> f64| mean(self.looks.iter().map(what)).unwrap_or_default();
         Totals {
             until: minutes,
+            particles: of(|look| look.particles),
+            kinetic: of(|look| look.kinetic),
+            kinetic_peak: largest(self.looks.iter().map(|look| look.kinetic)).unwrap_or_default(),
+            energy: of(|look| look.energy),
+            air_mass: of(|look| look.air_mass),
+            air_energy: of(|look| look.air_energy),
+            resident: largest(self.looks.iter().filter_map(|look| look.resident)),
             ms: quantile(&mut self.tick_ms, 0.5).unwrap_or_default(),
             ms_p99: quantile(&mut self.tick_ms, 0.99).unwrap_or_default(),
-            particles: of(&self.particles),
-            kinetic: of(&self.kinetic),
-            kinetic_peak: peak(&self.kinetic),
-            energy: of(&self.energy),
-            air_mass: of(&self.air_mass),
-            air_energy: of(&self.air_energy),
-            resident: largest(&self.resident),
         }
     }
 }
@@ -120,23 +126,21 @@ impl Report {
         let quarter = self.periods.len() / 4;
         if quarter > 0 {
             let (second, last) = (&self.periods[quarter..2 * quarter], &self.periods[self.periods.len() - quarter..]);
-            let of = |periods: &[Totals], what: fn(&Totals) -> f64| mean(periods.iter().map(what)).unwrap_or_default();
-            let peak =
-                |periods: &[Totals], what: fn(&Totals) -> f64| largest(periods.iter().map(what)).unwrap_or_default();
-            let count = |totals: &Totals| totals.particles;
-            let (early, late) = (of(second, count), of(last, count));
+            let of = |what: fn(&Totals) -> f64| {
+                [second, last].map(|periods| mean(periods.iter().map(what)).unwrap_or_default())
+            };
+            let [early, late] = of(|totals| totals.particles);
             expect(
                 (late - early).abs() <= COUNT_DRIFT * early.max(1.0),
                 format!("{early:.0} particles in the second quarter became {late:.0} in the last"),
             );
-            let resident = |totals: &Totals| totals.resident.unwrap_or_default();
-            let (early, late) = (peak(second, resident), peak(last, resident));
+            let most = |periods: &[Totals]| largest(periods.iter().filter_map(|totals| totals.resident));
+            let [early, late] = [second, last].map(|periods| most(periods).unwrap_or_default());
             expect(
                 late <= early + MEMORY_GROWTH,
                 format!("{:.1} MB in the second quarter became {:.1} in the last", early / 1e6, late / 1e6),
             );
-            let kinetic = |totals: &Totals| totals.kinetic;
-            let (early, late) = (of(second, kinetic), of(last, kinetic));
+            let [early, late] = of(|totals| totals.kinetic);
             expect(
                 late <= ENERGY_GROWTH * early,
                 format!("a kinetic energy of {early:.0} J in the second quarter became {late:.0} J in the last"),

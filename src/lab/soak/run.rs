@@ -6,7 +6,7 @@ use crate::{
         machine,
         soak::{
             player::{BOUT, Player},
-            report::{Period, Report},
+            report::{Look, Period, Report},
         },
     },
     sim::{
@@ -45,7 +45,7 @@ pub fn soak(
             let tick_time = simulation.world().resource::<PassLedger>().last_tick();
             period.tick_ms.push(tick_time.as_secs_f64() * 1e3);
             if (tick + 1).is_multiple_of(LOOK_EVERY) {
-                look(simulation.world(), &mut period);
+                period.looks.push(look(simulation.world()));
             }
         }
         report.minutes = bout;
@@ -59,19 +59,21 @@ pub fn soak(
         }
     }
     // One that was ended early.
-    if !period.particles.is_empty() {
+    if !period.looks.is_empty() {
         report.periods.push(period.close(report.minutes));
     }
     report
 }
 
-fn look(world: &World, period: &mut Period) {
+fn look(world: &World) -> Look {
     let air = world.resource::<AirGrid>().with_grid(world.resource::<Rock>());
     let liquid = matter(world).balance();
-    period.particles.push(world.resource::<ParticleStore>().len() as f64);
-    period.kinetic.push(liquid.kinetic);
-    period.energy.push(liquid.energy());
-    period.air_mass.push(air.mass());
-    period.air_energy.push(air.kinetic_energy());
-    period.resident.extend(machine::memory().map(|memory| memory.resident as f64));
+    Look {
+        particles: world.resource::<ParticleStore>().len() as f64,
+        kinetic: liquid.kinetic,
+        energy: liquid.energy(),
+        air_mass: air.mass(),
+        air_energy: air.kinetic_energy(),
+        resident: machine::memory().map(|memory| memory.resident as f64),
+    }
 }

@@ -5,7 +5,7 @@ use crate::{
     kernel::params::{AirAdvection, Preset, Quality},
     scene::{KNOBS, Knob, Part, Tuning},
 };
-use std::ops::RangeInclusive;
+use std::{fmt::Display, ops::RangeInclusive};
 
 /// The presets that are meant to run in real time: the ones whose neighbours are measured.
 pub const REAL_TIME: [Preset; 4] = [Preset::Draft, Preset::Fast, Preset::Balanced, Preset::Fine];
@@ -74,110 +74,101 @@ pub struct Scope {
 /// The settings of a sweep, each once.
 pub fn settings(scope: &Scope) -> Vec<Setting> {
     let presets = if scope.only.is_empty() { &Preset::ALL[..] } else { &scope.only };
-    let mut list = List { scope, settings: Vec::new() };
-    for preset in presets {
-        list.add(Setting::preset(*preset, scope.threads));
-    }
+    let mut all: Vec<Setting> = presets.iter().map(|preset| Setting::preset(*preset, scope.threads)).collect();
     if scope.only.is_empty() {
-        match scope.measure {
-            ErrorMeasure::Density => list.add_liquid(),
-            ErrorMeasure::Air => list.add_air(),
+        let named = match scope.measure {
+            ErrorMeasure::Density => liquid(scope),
+            ErrorMeasure::Air => air(scope.quick),
+        };
+        let setting = |(name, quality)| Setting { name, preset: None, quality, threads: scope.threads };
+        all.extend(named.into_iter().map(setting));
+        if !scope.quick {
+            all.extend(threads(scope));
         }
     }
-    list.settings
+    let effect = |setting: &Setting| (effective(setting.quality, scope.has_air), setting.threads);
+    let mut settings: Vec<Setting> = Vec::new();
+    for setting in all {
+        if !settings.iter().any(|other| effect(other) == effect(&setting)) {
+            settings.push(setting);
+        }
+    }
+    settings
 }
 
-struct List<'a> {
-    scope: &'a Scope,
-    settings: Vec<Setting>,
-}
+/// A quality and its name.
+type Named = (String, Quality);
 
-impl List<'_> {
-    /// Adds a setting unless one with the same effect is there.
-    fn add(&mut self, setting: Setting) {
-        let effect = |setting: &Setting| (effective(setting.quality, self.scope.has_air), setting.threads);
-        if !self.settings.iter().any(|other| effect(other) == effect(&setting)) {
-            self.settings.push(setting);
+fn liquid(scope: &Scope) -> Vec<Named> {
+    let fast = Preset::Fast.quality();
+    let (most_substeps, most_iterations) = if scope.quick { (2, 3) } else { (u32::MAX, u32::MAX) };
+    let mut named = Vec::new();
+    for substeps in SUBSTEPS.into_iter().filter(|substeps| *substeps <= most_substeps) {
+        for iterations in ITERATIONS.filter(|iterations| *iterations <= most_iterations) {
+            named.push((format!("{substeps}×{iterations}"), Quality { substeps, iterations, ..fast }));
         }
     }
-
-    fn add_named(&mut self, name: String, quality: Quality) {
-        self.add(Setting { name, preset: None, quality, threads: self.scope.threads });
-    }
-
-    fn add_liquid(&mut self) {
-        let fast = Preset::Fast.quality();
-        let (most_substeps, most_iterations) = if self.scope.quick { (2, 3) } else { (u32::MAX, u32::MAX) };
-        for substeps in SUBSTEPS.into_iter().filter(|substeps| *substeps <= most_substeps) {
-            for iterations in ITERATIONS.filter(|iterations| *iterations <= most_iterations) {
-                self.add_named(format!("{substeps}×{iterations}"), Quality { substeps, iterations, ..fast });
-            }
-        }
-        if self.scope.quick {
-            return;
-        }
-        for (substeps, iterations) in PLAIN {
+    if !scope.quick {
+        named.extend(PLAIN.map(|(substeps, iterations)| {
             let quality = Quality { substeps, iterations, ..Preset::Classic.quality() };
-            self.add_named(format!("classic, {substeps}×{iterations}"), quality);
-        }
-        for preset in REAL_TIME {
-            self.add_neighbours(preset);
-        }
-        self.add_threads();
+            (format!("classic, {substeps}×{iterations}"), quality)
+        }));
+        named.extend(REAL_TIME.into_iter().flat_map(|preset| neighbours(preset, scope.has_air)));
     }
+    named
+}
 
-    /// One knob at a time around a preset.
-    fn add_neighbours(&mut self, preset: Preset) {
-        let (name, own) = (preset.name(), preset.quality());
-        for iterations in [own.iterations - 1, own.iterations + 1].into_iter().filter(|iterations| *iterations > 0) {
-            self.add_named(format!("{name}, {iterations} iterations"), Quality { iterations, ..own });
+/// One knob at a time around a preset.
+fn neighbours(preset: Preset, has_air: bool) -> Vec<Named> {
+    let own = preset.quality();
+    let mut named = Vec::new();
+    let mut add = |what: String, quality: Quality| named.push((format!("{}, {what}", preset.name()), quality));
+    for iterations in [own.iterations - 1, own.iterations + 1].into_iter().filter(|iterations| *iterations > 0) {
+        add(format!("{iterations} iterations"), Quality { iterations, ..own });
+    }
+    let substeps = 2 * own.substeps;
+    add(format!("{substeps} substeps"), Quality { substeps, ..own });
+    for kernel_radius in RADII {
+        add(format!("h {kernel_radius}"), Quality { kernel_radius, ..own });
+    }
+    add("no predictor".to_owned(), Quality { predictor: false, ..own });
+    if has_air {
+        for air_cell in [2.0 * own.air_cell, 0.5 * own.air_cell] {
+            add(format!("air cell {air_cell}"), Quality { air_cell, ..own });
         }
-        let substeps = 2 * own.substeps;
-        self.add_named(format!("{name}, {substeps} substeps"), Quality { substeps, ..own });
-        for kernel_radius in RADII {
-            self.add_named(format!("{name}, h {kernel_radius}"), Quality { kernel_radius, ..own });
+        for air_courant in COURANTS {
+            add(format!("Courant {air_courant}"), Quality { air_courant, ..own });
         }
-        self.add_named(format!("{name}, no predictor"), Quality { predictor: false, ..own });
-        if self.scope.has_air {
-            for air_cell in [2.0 * own.air_cell, 0.5 * own.air_cell] {
-                self.add_named(format!("{name}, air cell {air_cell}"), Quality { air_cell, ..own });
-            }
-            for air_courant in COURANTS {
-                self.add_named(format!("{name}, Courant {air_courant}"), Quality { air_courant, ..own });
-            }
-            for air_advection in AirAdvection::ALL {
-                let name = format!("{name}, {}", air_advection.words());
-                self.add_named(name, Quality { air_advection, ..own });
-            }
+        for air_advection in AirAdvection::ALL {
+            add(air_advection.words().to_owned(), Quality { air_advection, ..own });
         }
     }
+    named
+}
 
-    fn add_air(&mut self) {
-        let fast = Preset::Fast.quality();
-        for air_cell in AIR_CELLS.into_iter().filter(|cell| !self.scope.quick || cell.fract() == 0.0) {
-            let quality = Quality { air_cell, ..fast };
-            for air_advection in AirAdvection::ALL {
-                let name = format!("air cell {air_cell}, {}", air_advection.words());
-                self.add_named(name, Quality { air_advection, ..quality });
-            }
-            for air_courant in COURANTS.into_iter().filter(|_| !self.scope.quick) {
-                let name = format!("air cell {air_cell}, Courant {air_courant}");
-                self.add_named(name, Quality { air_courant, ..quality });
-            }
+fn air(quick: bool) -> Vec<Named> {
+    let mut named = Vec::new();
+    for air_cell in AIR_CELLS.into_iter().filter(|cell| !quick || cell.fract() == 0.0) {
+        let quality = Quality { air_cell, ..Preset::Fast.quality() };
+        let mut add = |what: &dyn Display, quality| named.push((format!("air cell {air_cell}, {what}"), quality));
+        for air_advection in AirAdvection::ALL {
+            add(&air_advection.words(), Quality { air_advection, ..quality });
         }
-        if !self.scope.quick {
-            self.add_threads();
+        for air_courant in COURANTS.into_iter().filter(|_| !quick) {
+            add(&format_args!("Courant {air_courant}"), Quality { air_courant, ..quality });
         }
     }
+    named
+}
 
-    fn add_threads(&mut self) {
-        for preset in REAL_TIME {
-            for &threads in &self.scope.other_threads {
-                let name = format!("{}, {threads} thread{}", preset.name(), if threads == 1 { "" } else { "s" });
-                self.add(Setting { name, preset: None, ..Setting::preset(preset, threads) });
-            }
-        }
-    }
+/// The presets on other numbers of threads.
+fn threads(scope: &Scope) -> impl Iterator<Item = Setting> {
+    REAL_TIME.into_iter().flat_map(|preset| {
+        scope.other_threads.iter().map(move |&threads| {
+            let name = format!("{}, {threads} thread{}", preset.name(), if threads == 1 { "" } else { "s" });
+            Setting { name, preset: None, ..Setting::preset(preset, threads) }
+        })
+    })
 }
 
 /// Numbers of threads worth a look beside `chosen`: 1, 2, 4, … and all of `available`.
