@@ -49,7 +49,8 @@ pub fn failure<C: Case>(rows: &[Row<C::Figures>]) -> Option<String> {
 
 /// The document: what happens in each case, what it is for, what came out.
 pub fn document<C: Case>(rows: &[Row<C::Figures>], processor: &str, command: &str) -> String {
-    let head = (C::SUITE.introduction)(command, processor);
+    let introduction = (C::SUITE.introduction)(command, processor);
+    let head = introduction.split("\n\n").map(|text| markdown::fill(text, WIDTH)).collect::<Vec<_>>().join("\n\n");
     let run =
         (C::SUITE.cases)().iter().map(|case| case.about()).filter(|case| rows.iter().any(|row| row.case == case.name));
     let sections: String = run.map(|case| format!("\n{}", section::<C>(&case, rows))).collect();
