@@ -2,7 +2,7 @@
 
 use crate::lab::{
     cases::{Size, line, read},
-    gauntlet::{GauntletCase, ends, script},
+    gauntlet::{case::GauntletCase, ends, script},
 };
 use serde::Deserialize;
 use std::{collections::BTreeMap, sync::LazyLock};

@@ -53,6 +53,8 @@ fn cases_have_names_of_their_own_and_say_what_they_are() {
         let texts = [case.title, case.what, case.guards, case.allowed];
         assert!(texts.iter().all(|text| !text.is_empty()), "{} lacks a text", case.name);
         assert!(case.ticks > 0);
+        // No name of a shared text that is not there.
+        assert!(case.scene.starts_with('(') && case.allowed.contains(' '), "{} names what is not shared", case.name);
     }
     let is_case = |name: &str| CASES.iter().any(|case| case.name == name);
     assert!(STARTS.iter().all(|(name, _)| is_case(name)), "a start belongs to no case");

@@ -7,8 +7,7 @@ use rayon::{
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Runs all jobs, `threads` at a time, and gives what came of them in their order. The most expensive by `cost` are begun
-/// first, so that nothing long is left for the end. `report` is called with how many are
-/// done, and with the one that begins.
+/// first, so that nothing long is left for the end. `report` is called with how many are done, and with the one that begins.
 pub fn run<J: Sync, R: Send>(
     jobs: &[J],
     threads: usize,
