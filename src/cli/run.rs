@@ -40,10 +40,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let (start, recorded) = Start::of_run(arguments)?;
     let plan = plan(arguments, recorded)?;
     threads::start(arguments.machine.threads)?;
-    let mut trace = match &arguments.trace {
-        Some(path) => Some(Trace::new(output::create(path)?).map_err(|error| Failure::unwritten(path, &error))?),
-        None => None,
-    };
+    let mut trace = arguments.trace.as_deref().map(output::create).transpose()?.map(Trace::new);
 
     let mut simulation = begin(&start, arguments);
     let reference =

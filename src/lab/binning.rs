@@ -131,16 +131,18 @@ fn crossing(points: &[Point], ms: f64) -> Option<f64> {
 
 /// b of `1/rate = a nᵇ` through a table of tick rates and particle counts.
 pub fn exponent_of(rates: &[f64], counts: &[f64]) -> Option<f64> {
-    let logarithms: Vec<(f64, f64)> = counts.iter().zip(rates).map(|(count, rate)| (count.ln(), -rate.ln())).collect();
-    stats::line(&logarithms).map(|(slope, _)| slope)
+    power(counts.iter().zip(rates).map(|(count, rate)| (*count, 1.0 / rate)))
 }
 
 fn exponent(points: &[Point]) -> Option<f64> {
     let most = points.iter().map(|point| point.ms).fold(0.0, f64::max);
-    let logarithms: Vec<(f64, f64)> = (points.iter())
-        .filter(|point| point.ms >= FIT_SHARE * most)
-        .map(|point| ((point.particles as f64).ln(), point.ms.ln()))
-        .collect();
+    let costly = points.iter().filter(|point| point.ms >= FIT_SHARE * most);
+    power(costly.map(|point| (point.particles as f64, point.ms)))
+}
+
+/// b of `y = a xᵇ` through points, least squares on the logarithms.
+fn power(points: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
+    let logarithms: Vec<(f64, f64)> = points.map(|(x, y)| (x.ln(), y.ln())).collect();
     stats::line(&logarithms).map(|(slope, _)| slope)
 }
 

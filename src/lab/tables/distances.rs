@@ -6,16 +6,13 @@ use crate::{
 };
 use std::io::{self, Write};
 
-/// Names of the columns: the parts of the distance are those of [`Distance`].
-pub const COLUMNS: [&str; 6] = ["tick", "seconds", "share", "momentum", "air", "energy_ratio"];
-
-/// Writes the table.
+/// Writes the table; the parts of the distance are those of [`Distance`].
 ///
 /// # Errors
 /// If it can't be written.
 pub fn write(points: &[Point], out: impl Write) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
-    table.write_record(COLUMNS)?;
+    table.write_record(["tick", "seconds", "share", "momentum", "air", "energy_ratio"])?;
     for Point { tick, distance: Distance { share, momentum, air }, energy_ratio } in points {
         let seconds = *tick as f64 / f64::from(TICKS_PER_SECOND);
         let ratio = Some(*energy_ratio).filter(|ratio| ratio.is_finite());

@@ -12,35 +12,19 @@ use crate::{
 use bevy::ecs::world::World;
 use std::io::{self, Write};
 
-/// Names of the columns. Times in s and ms, lengths in m, speeds in m/s; energy (J), momentum (kg m/s) of the movable
-/// particles for each metre of depth; the air's mass in its own unit (one cell of air at rest is 1).
-pub const COLUMNS: [&str; 12] = [
-    "tick",
-    "seconds",
-    "ms",
-    "substeps",
-    "particles",
-    "energy",
-    "momentum_x",
-    "momentum_y",
-    "front_x",
-    "surface_y",
-    "max_speed",
-    "air_mass",
-];
-
-/// Writes the table.
+/// Writes the table. Times in s and ms, lengths in m, speeds in m/s; energy (J), momentum (kg m/s) of the movable particles
+/// for each metre of depth; the air's mass in its own unit (one cell of air at rest is 1).
 pub struct Trace<W: Write> {
     table: csv::Writer<W>,
+    /// Whether the names of the columns are written.
+    is_begun: bool,
     predictions: u64,
 }
 
 impl<W: Write> Trace<W> {
-    /// Begins with the names of the columns.
-    pub fn new(out: W) -> io::Result<Self> {
-        let mut table = csv::Writer::from_writer(out);
-        table.write_record(COLUMNS)?;
-        Ok(Self { table, predictions: 0 })
+    /// A table without lines.
+    pub fn new(out: W) -> Self {
+        Self { table: csv::Writer::from_writer(out), is_begun: false, predictions: 0 }
     }
 
     /// Ends the table.
@@ -52,27 +36,29 @@ impl<W: Write> Trace<W> {
 impl<W: Write> Observer for Trace<W> {
     fn after_tick(&mut self, world: &World) -> io::Result<()> {
         let (ledger, tick) = (world.resource::<PassLedger>(), world.resource::<Clock>().tick);
-        let (matter, air) = (matter(world), world.resource::<AirGrid>());
+        let (matter, rock) = (matter(world), world.resource::<Rock>());
         let balance = matter.balance();
         let predictions = ledger.record(Pass::Predict).calls;
-        let substeps = predictions - self.predictions;
-        self.predictions = predictions;
         let or_empty = |value: Option<f64>| value.map_or_else(String::new, |value| value.to_string());
-        let record: [String; COLUMNS.len()] = [
-            tick.to_string(),
-            (tick as f64 / f64::from(TICKS_PER_SECOND)).to_string(),
-            (ledger.last_tick().as_secs_f64() * 1e3).to_string(),
-            substeps.to_string(),
-            (matter.particles.len() + world.resource::<Rock>().count()).to_string(),
-            balance.energy().to_string(),
-            balance.momentum.x.to_string(),
-            balance.momentum.y.to_string(),
-            or_empty(matter.front()),
-            or_empty(matter.surface()),
-            balance.max_speed.to_string(),
-            air.with_grid(world.resource::<Rock>()).mass().to_string(),
+        let columns = [
+            ("tick", tick.to_string()),
+            ("seconds", (tick as f64 / f64::from(TICKS_PER_SECOND)).to_string()),
+            ("ms", (ledger.last_tick().as_secs_f64() * 1e3).to_string()),
+            ("substeps", (predictions - self.predictions).to_string()),
+            ("particles", (matter.particles.len() + rock.count()).to_string()),
+            ("energy", balance.energy().to_string()),
+            ("momentum_x", balance.momentum.x.to_string()),
+            ("momentum_y", balance.momentum.y.to_string()),
+            ("front_x", or_empty(matter.front())),
+            ("surface_y", or_empty(matter.surface())),
+            ("max_speed", balance.max_speed.to_string()),
+            ("air_mass", world.resource::<AirGrid>().with_grid(rock).mass().to_string()),
         ];
-        Ok(self.table.write_record(record)?)
+        self.predictions = predictions;
+        if !std::mem::replace(&mut self.is_begun, true) {
+            self.table.write_record(columns.each_ref().map(|(name, _)| name))?;
+        }
+        Ok(self.table.write_record(columns.each_ref().map(|(_, value)| value))?)
     }
 
     fn after_warmup(&mut self, _world: &World) {
