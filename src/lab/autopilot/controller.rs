@@ -2,8 +2,8 @@
 //! one before it. The controller knows no clock, no world and no quality: the same observations give the same decisions.
 //!
 //! - **Up** (more relief): a mean that is surely over the bound is a breach. The level goes up to the first that the model
-//!   expects below [`AIM`] of the bound.
-//! - **Down** (less relief): to the first level that the model expects below [`AIM`] of the bound. The room between the two
+//!   expects below [`Tuning::aim`] of the bound.
+//! - **Down** (less relief): to the first level that the model expects below [`Tuning::aim`] of the bound. The room between the two
 //!   is the hysteresis.
 //! - **Cool-down**: a level that was left because of a breach is not tried again for some seconds, twice as many each time.
 //! - **Budget**: the time that the quantity may still be over the bound. It earns a small share of the time that passes and
@@ -14,8 +14,6 @@
 
 use super::window::{Mean, Window};
 
-/// Share of the bound that every move aims at. Higher: closer to the bound, with more breaches and moves.
-const AIM: f32 = 0.6;
 /// Over the bound by this factor, a mean over [`SHORT`] is a breach.
 const GROSS: f32 = 1.25;
 /// Windows of the means, s: for a gross breach, …
@@ -54,6 +52,8 @@ pub struct Tuning {
     pub usual: f32,
     /// Share of the observations that a mean leaves out at either end: for a quantity whose outliers are no part of it.
     pub trim: f32,
+    /// Share of the bound that every move aims at. Higher: closer to the bound, with more breaches and moves.
+    pub aim: f32,
     /// Standard errors by which a mean is doubted. 0: none.
     pub doubt: f32,
     /// Share of the time in which it may be over the bound. Higher: cheaper levels, more moves. 1: the budget never falls.
@@ -200,7 +200,7 @@ impl Controller {
 
     /// The first of `levels` that the model expects well below the bound where `value` is measured at this one.
     fn first_that_holds(&self, mut levels: impl Iterator<Item = usize>, value: f32) -> Option<usize> {
-        levels.find(|&level| value * self.model[level] / self.model[self.level] <= AIM * self.bound)
+        levels.find(|&level| value * self.model[level] / self.model[self.level] <= self.tuning.aim * self.bound)
     }
 
     /// Moves up after a breach.
