@@ -1,33 +1,43 @@
 //! Holds a measured quantity under a bound by choosing a level of a ladder. Each level relieves the quantity more than the
 //! one before it. The controller knows no clock, no world and no quality: the same observations give the same decisions.
 //!
-//! - **Up** (more relief): a mean over the bound is a breach. The level goes up to the first that the model expects below
-//!   [`AIM`] of the bound.
-//! - **Down** (less relief): to the first level that the model expects below [`AIM`] of the bound. The room between the two
+//! - **Up** (more relief): a mean that is surely over the bound is a breach. The level goes up to the first that the model
+//!   expects below [`Tuning::aim`] of the bound.
+//! - **Down** (less relief): to the first level that the model expects below [`Tuning::aim`] of the bound. The room between the two
 //!   is the hysteresis.
 //! - **Cool-down**: a level that was left because of a breach is not tried again for some seconds, twice as many each time.
-//!   All cool-downs end when the quantity itself falls.
+//! - **Budget**: the time that the quantity may still be over the bound. It earns a small share of the time that passes and
+//!   pays for the time over the bound. A move down waits until the budget holds the price of a failure ([`PRICE`]). When the
+//!   budget is spent, and soon after a move, the quantity need not be surely over the bound: over it is a breach.
+//!
+//! When the quantity itself falls, all cool-downs end and the budget holds that price at once.
 
 use super::window::{Mean, Window};
 
-/// Share of the bound that every move aims at. Higher: closer to the bound, with more breaches and moves.
-const AIM: f32 = 0.7;
 /// Over the bound by this factor, a mean over [`SHORT`] is a breach.
 const GROSS: f32 = 1.25;
 /// Windows of the means, s: for a gross breach, …
 const SHORT: f32 = 0.15;
 /// … for any breach, …
 const LONG: f32 = 0.4;
-/// … and for a move that has no haste.
+/// … and for a move that has no haste. For so long after a move, over the bound is a breach.
 const CALM: f32 = 2.0;
 /// Time after a move or a fall in which [`Tuning::quick`] does in place of [`CALM`], s.
 const SOON: f32 = 1.1;
+/// Time after a move in which the quantity still comes to what is usual at the level, s.
+const SETTLED: f32 = 1.0;
 /// The quantity has fallen if its mean is less by this factor, …
 const FELL: f32 = 1.25;
-/// … and by so many standard errors.
-const SURE: f32 = 4.0;
-/// Cool-down after the first breach at a level, s.
-const FIRST: f32 = 4.0;
+/// … and by so many times what both means are doubted by.
+const SURE: f32 = 2.7;
+/// Window of the mean that is to stay under the bound, s.
+const HELD: f32 = 0.5;
+/// Budget that a move down waits for, s: about the time over the bound if it fails. Higher: later and rarer moves down.
+const PRICE: f32 = 0.5;
+/// The largest budget, s. Higher: more failures in a row after a long time under the bound. The smallest is -[`PRICE`].
+const LARGEST: f32 = 2.0;
+/// Levels that a move down goes at most: of those farther away the model knows less.
+const FARTHEST: usize = 2;
 /// The longest cool-down, s.
 const LONGEST: f32 = 256.0;
 
@@ -38,12 +48,18 @@ pub struct Tuning {
     pub settle: f32,
     /// Window of the mean that a move down soon after another one goes by, s. Shorter: faster, more moves by noise.
     pub quick: f32,
-    /// Window of the means whose fall ends all cool-downs, s. Longer: smaller falls are seen, later.
+    /// Window of the means whose fall ends all cool-downs, beside [`CALM`], s. Longer: smaller falls are seen, later.
     pub usual: f32,
     /// Share of the observations that a mean leaves out at either end: for a quantity whose outliers are no part of it.
     pub trim: f32,
+    /// Share of the bound that every move aims at. Higher: closer to the bound, with more breaches and moves.
+    pub aim: f32,
     /// Standard errors by which a mean is doubted. 0: none.
     pub doubt: f32,
+    /// Share of the time in which it may be over the bound. Higher: cheaper levels, more moves. 1: the budget never falls.
+    pub allowed: f32,
+    /// Cool-down after the first breach at a level, s.
+    pub first: f32,
 }
 
 /// How it stands with the bound.
@@ -81,9 +97,13 @@ pub struct Controller {
     age: f32,
     /// Time since the last move, fall or change of the bound, s.
     stirred: f32,
-    /// The first mean over [`Tuning::usual`] at this level.
-    usual: Option<Mean>,
+    /// The first settled means at this level, over [`CALM`] and [`Tuning::usual`].
+    usual: [Option<Mean>; 2],
     cool_downs: Vec<CoolDown>,
+    /// Observations of the last [`HELD`] seconds, whatever the level.
+    held: Window,
+    /// Time for which it may still be over the bound, s.
+    budget: f32,
     verdict: Verdict,
 }
 
@@ -100,7 +120,9 @@ impl Controller {
             seen: Window::default(),
             age: 0.0,
             stirred: 0.0,
-            usual: None,
+            usual: [None; 2],
+            held: Window::default(),
+            budget: 0.0,
             verdict: Verdict::Settling,
         }
     }
@@ -132,6 +154,7 @@ impl Controller {
         for cool_down in &mut self.cool_downs {
             cool_down.left = (cool_down.left - seconds).max(0.0);
         }
+        let over = self.keep_account(value, seconds);
         self.age += seconds;
         self.stirred += seconds;
         if self.age <= self.tuning.settle {
@@ -143,17 +166,28 @@ impl Controller {
             return self.move_up(short);
         }
         let long = self.mean(LONG)?;
-        if self.at_least(long) > self.bound {
+        let strict = self.budget <= 0.0 || self.age < CALM;
+        if self.at_least(long) > self.bound || over && strict {
             return self.move_up(long);
         }
         self.verdict = Verdict::Holds;
         let quick = self.mean(self.tuning.quick)?;
         self.notice_fall();
-        let mean = if self.stirred < SOON { quick } else { self.mean(CALM)? };
+        let hasty = self.stirred < SOON && self.budget >= PRICE;
+        let mean = if hasty { quick } else { self.mean(CALM)? };
         if self.at_least(mean) > self.bound {
             return self.move_up(mean);
         }
         self.move_down(mean.value.max(long.value) + self.tuning.doubt * mean.error)
+    }
+
+    /// Adds to the budget, or takes from it; whether the quantity is over the bound.
+    fn keep_account(&mut self, value: f32, seconds: f32) -> bool {
+        self.held.push(value, seconds, HELD);
+        let over = self.held.mean(HELD, self.tuning.trim).is_some_and(|mean| mean.value > self.bound);
+        let spent = if over { seconds } else { 0.0 };
+        self.budget = (self.budget + self.tuning.allowed * seconds - spent).clamp(-PRICE, LARGEST);
+        over
     }
 
     fn mean(&mut self, seconds: f32) -> Option<Mean> {
@@ -166,7 +200,7 @@ impl Controller {
 
     /// The first of `levels` that the model expects well below the bound where `value` is measured at this one.
     fn first_that_holds(&self, mut levels: impl Iterator<Item = usize>, value: f32) -> Option<usize> {
-        levels.find(|&level| value * self.model[level] / self.model[self.level] <= AIM * self.bound)
+        levels.find(|&level| value * self.model[level] / self.model[self.level] <= self.tuning.aim * self.bound)
     }
 
     /// Moves up after a breach.
@@ -177,17 +211,23 @@ impl Controller {
             return None;
         }
         let cool_down = &mut self.cool_downs[self.level];
-        cool_down.whole = (2.0 * cool_down.whole).clamp(FIRST, LONGEST);
+        cool_down.whole = (2.0 * cool_down.whole).clamp(self.tuning.first, LONGEST);
         cool_down.left = cool_down.whole;
         let level = self.first_that_holds(self.level + 1..last, mean.value).unwrap_or(last);
         Some(self.move_to(level))
     }
 
     /// Moves down if a lower level is expected to hold and has no cool-down. The highest level that had a breach is tried
-    /// before those below it, which relieve less.
+    /// before those below it, which relieve less. While the budget holds less than the price, it goes down only from a level
+    /// that relieves more than it had to: one level at a time, and not to the one next to that breach.
     fn move_down(&mut self, value: f32) -> Option<usize> {
         let breached = self.cool_downs[..self.level].iter().rposition(|cool_down| cool_down.whole > 0.0);
-        let lowest = breached.map_or(0, |level| level + usize::from(self.cool_downs[level].left > 0.0));
+        let lowest = if self.budget >= PRICE {
+            breached.map_or(0, |level| level + usize::from(self.cool_downs[level].left > 0.0))
+        } else {
+            self.level.checked_sub(1).filter(|next| breached.is_some_and(|breached| breached + 1 < *next))?
+        };
+        let lowest = lowest.max(self.level.saturating_sub(FARTHEST));
         let level = self.first_that_holds(lowest..self.level, value)?;
         Some(self.move_to(level))
     }
@@ -195,23 +235,27 @@ impl Controller {
     fn move_to(&mut self, level: usize) -> usize {
         self.level = level;
         self.seen.clear();
-        (self.age, self.stirred, self.usual, self.verdict) = (0.0, 0.0, None, Verdict::Settling);
+        (self.age, self.stirred, self.usual, self.verdict) = (0.0, 0.0, [None; 2], Verdict::Settling);
         level
     }
 
     /// Begins anew if the quantity fell at this level: what had a breach before may hold now.
     fn notice_fall(&mut self) {
-        let Some(now) = self.mean(self.tuning.usual) else { return };
-        let usual = *self.usual.get_or_insert(now);
-        let noise = SURE * self.tuning.doubt * usual.error;
-        if usual.value > FELL * now.value && usual.value - now.value > noise {
-            self.usual = Some(now);
-            self.begin_anew();
+        for (k, window) in [CALM, self.tuning.usual].into_iter().enumerate() {
+            let Some(now) = self.mean(window).filter(|_| self.age > SETTLED + window) else { return };
+            let usual = *self.usual[k].get_or_insert(now);
+            let noise = SURE * self.tuning.doubt * (usual.error + now.error);
+            if usual.value > FELL * now.value && usual.value - now.value > noise {
+                self.usual = [None; 2];
+                self.begin_anew();
+                return;
+            }
         }
     }
 
     fn begin_anew(&mut self) {
         self.stirred = 0.0;
+        self.budget = self.budget.max(PRICE);
         self.cool_downs.fill(CoolDown::default());
     }
 }

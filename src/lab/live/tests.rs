@@ -226,7 +226,7 @@ fn fly(goal: Goal, ticks: u64) -> (u64, Vec<Entry>, Simulation) {
 
 #[test]
 fn a_flight_is_recorded_and_repeats_to_the_bit_without_the_autopilot() {
-    for goal in [Goal::Time(16.0), Goal::Error(0.0005)] {
+    for goal in [Goal::Time(16.0), Goal::Error(0.00001)] {
         let (hash, input, flown) = fly(goal, 600);
         let moves = input.iter().filter(|entry| matches!(entry.intent, Intent::Quality { .. })).count();
         assert!(moves >= 1, "{goal:?} never moved: nothing is tested");

@@ -1,6 +1,6 @@
 //! The controller over synthetic plants: what it promises, held against a load that is known.
 
-use super::{
+use crate::lab::autopilot::{
     controller::{Controller, Verdict},
     ladder::{self, Level},
     steering::{OF_ERROR, OF_TIME},
@@ -284,4 +284,30 @@ fn each_breach_at_a_level_doubles_its_cool_down_up_to_a_longest() {
         assert!((away - expected).abs() < 0.1 * expected, "it comes back after {away} s, not {expected} s");
     }
     assert!(away.len() >= 8, "{away:?}");
+}
+
+#[test]
+fn without_a_breach_it_waits_for_the_price_of_a_failure_before_it_moves_down() {
+    let mut controller = Controller::new(0.005, OF_ERROR, errors(), 4);
+    let log = fly(&mut controller, 60.0, SAMPLE, 0.0, |_, _| 0.0);
+    let waited = 0.5 / OF_ERROR.allowed;
+    assert!(log.moves.first().is_some_and(|first| (first - waited).abs() < 1.0), "{:?}, not {waited} s", log.moves);
+    assert_eq!(log.at(59.0).1, 0);
+}
+
+#[test]
+fn bursts_put_it_over_the_bound_for_no_more_than_the_allowed_share_of_the_time() {
+    for phase in 0..8 {
+        // Each burst puts the shown error over the bound for half a second and more; finer levels have none.
+        let error = |time: f32, level: usize| {
+            let period = [4.0, 6.0, 9.0, 13.0].get(level).copied().unwrap_or(f32::INFINITY);
+            if (time + phase as f32) % period < 0.2 { 0.03 } else { 0.0003 }
+        };
+        let mut controller = Controller::new(0.005, OF_ERROR, errors(), 2);
+        let log = fly(&mut controller, 300.0, SAMPLE, 0.3, error);
+        let shown = |steps: &[(f32, f32, usize, Verdict)]| steps.iter().map(|step| step.1).sum::<f32>() / 10.0;
+        let over = log.steps.windows(10).filter(|steps| shown(steps) > 0.005).count();
+        let share = over as f32 / log.steps.len() as f32;
+        assert!(share <= 0.02, "over for {share} of the time from {phase} s on: {:?}", log.moves);
+    }
 }
