@@ -8,8 +8,9 @@ use crate::{
     kernel::params::Preset,
     scene::{self, effects::EffectModes},
     sim::{
-        checkpoint::{Checkpoint, SaveError},
-        recording::{Recording, RecordingError, Segment},
+        checkpoint::Checkpoint,
+        file::FileError,
+        recording::{Recording, Segment},
     },
 };
 use std::{fmt::Display, fs::File, io::Read, path::Path, sync::Arc};
@@ -38,7 +39,7 @@ impl Start {
         if let Some((option, _)) = unfit.into_iter().find(|(_, is_given)| *is_given) {
             return Err(no_use(scene, "a recording", option));
         }
-        let last = recording.segments.pop().ok_or_else(|| bad(Path::new(scene), &RecordingError::Foreign))?;
+        let last = recording.segments.pop().ok_or_else(|| bad(Path::new(scene), &FileError::Foreign("recording")))?;
         let saved = last.start().map_err(|error| bad(Path::new(scene), &error))?;
         Ok((Self::of_saved(saved, *quality, effects), Some(last)))
     }
@@ -52,7 +53,8 @@ impl Start {
         if let Some((option, _)) = unfit.into_iter().find(|(_, is_given)| *is_given) {
             return Err(no_use(name_or_path, "a recording", option));
         }
-        let first = recording.segments.first().ok_or_else(|| bad(Path::new(name_or_path), &RecordingError::Foreign))?;
+        let first =
+            recording.segments.first().ok_or_else(|| bad(Path::new(name_or_path), &FileError::Foreign("recording")))?;
         let saved = first.start().map_err(|error| bad(Path::new(name_or_path), &error))?;
         Ok((Self::of_saved(saved, None, EffectModes::new()), Some(recording)))
     }
@@ -114,7 +116,7 @@ pub(super) fn bad(path: &Path, what: &dyn Display) -> Failure {
 fn read_save(name_or_path: &str) -> Result<Option<Checkpoint>, Failure> {
     let Some(path) = file_beside_scenes(name_or_path) else { return Ok(None) };
     Checkpoint::decode(&read(path)?).map(Some).map_err(|error| match error {
-        SaveError::Foreign => {
+        FileError::Foreign(_) => {
             bad(path, &format_args!("{error}; allowed: a scene, a .ron file, a save file or a recording"))
         }
         _ => bad(path, &error),

@@ -221,10 +221,9 @@ fn sector(dx: f64, dy: f64) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::element::ElementId;
     use crate::{
+        kernel::{element::ElementId, random::Random},
         lab::testing::{lattice, world},
-        sim::random::Random,
     };
     use glam::IVec2;
 

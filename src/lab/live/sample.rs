@@ -4,9 +4,8 @@
 //! over the liquid); one pass over the others finds their neighbours.
 
 use crate::{
-    kernel::{particles::Particles, solids},
+    kernel::{particles::Particles, random::Random, solids},
     lab::density::{DensityError, Grid, Lattice, Local, ROCK},
-    sim::random::Random,
 };
 use bevy::prelude::Resource;
 use glam::{IVec2, Vec2};

@@ -4,10 +4,11 @@ use crate::{
     kernel::{
         brush::{BrushShape, Stroke},
         element::{ElementId, ElementTable},
+        random::Random,
         solids::Solids,
     },
     scene::blueprint::Blueprint,
-    sim::{intent::Intent, random::Random},
+    sim::intent::Intent,
 };
 use glam::{IVec2, Vec2};
 

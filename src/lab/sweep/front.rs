@@ -80,7 +80,7 @@ pub(super) fn mark(rows: &mut [Row], air_is_unseen: bool) {
 #[cfg(test)]
 mod tests {
     use super::{super::row::tests::row, *};
-    use crate::sim::random::Random;
+    use crate::kernel::random::Random;
 
     /// The definition, pair by pair.
     fn brute_force(points: &[Point]) -> Vec<bool> {
