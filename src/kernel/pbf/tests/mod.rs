@@ -90,8 +90,13 @@ impl Bench {
 
 /// The same numbers in every run, 0 … 1.
 pub(crate) fn random_numbers(seed: u32) -> impl FnMut() -> f32 {
-    let mut random = crate::random::Random::new(crate::random::mix(seed).into());
-    move || random.share()
+    let mut state = crate::random::mix(seed) | 1;
+    move || {
+        state ^= state << 13;
+        state ^= state >> 17;
+        state ^= state << 5;
+        (state >> 8) as f32 / (1 << 24) as f32
+    }
 }
 
 /// Sets of positions in a box of 24 × 18 with rock in it, each with its name.
