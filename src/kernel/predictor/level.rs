@@ -83,11 +83,24 @@ impl Level {
         self.span.start.div_ceil(2)..self.span.end / 2 + 1
     }
 
+    /// The operator and the right-hand side.
+    fn equation(&self) -> Equation<'_> {
+        Equation {
+            span: self.span.clone(),
+            stride: self.stride,
+            diagonal: &self.diagonal,
+            damped: &self.damped,
+            right: &self.right,
+            upper: &self.upper,
+            b: &self.b,
+        }
+    }
+
     /// Sets `work` to A x; returns x · A x.
     pub fn apply(&mut self, x: &[f32], sums: &mut RowSums, team: Team) -> f64 {
         let mut work = std::mem::take(&mut self.work);
         let band = (Rows::new(&mut work, self.stride, &self.rows), sums.rows(&self.rows));
-        self.sweep(&Apply { level: self, x }, band, team);
+        self.sweep(&Apply { equation: self.equation(), x }, band, team);
         self.work = work;
         sums.total(&self.rows)
     }
@@ -97,7 +110,7 @@ impl Level {
         let mut b = std::mem::take(&mut self.b);
         let [before, after] = sums;
         let band = (Rows::new(&mut b, self.stride, &self.rows), (before.rows(&self.rows), after.rows(&self.rows)));
-        self.sweep(&TakeProductOff { level: self, x }, band, team);
+        self.sweep(&TakeProductOff { equation: self.equation(), x }, band, team);
         self.b = b;
         [before, after].map(|sums| sums.total(&self.rows))
     }
@@ -106,7 +119,7 @@ impl Level {
     pub fn smooth_from_zero(&mut self, team: Team) {
         let mut x = std::mem::take(&mut self.x);
         let band = Rows::new(&mut x, self.stride, &self.rows);
-        self.sweep(&SmoothFromZero(self), band, team);
+        self.sweep(&SmoothFromZero(self.equation()), band, team);
         self.x = x;
     }
 
@@ -114,7 +127,7 @@ impl Level {
     pub fn smooth(&mut self, team: Team) {
         let mut next = std::mem::take(&mut self.work);
         let band = Rows::new(&mut next, self.stride, &self.rows);
-        self.sweep(&Smooth(self), band, team);
+        self.sweep(&Smooth { equation: self.equation(), x: &self.x }, band, team);
         self.work = std::mem::replace(&mut self.x, next);
     }
 
@@ -122,7 +135,7 @@ impl Level {
     pub fn smooth_and_sum(&mut self, sums: &mut RowSums, team: Team) -> f64 {
         let mut next = std::mem::take(&mut self.work);
         let band = (Rows::new(&mut next, self.stride, &self.rows), sums.rows(&self.rows));
-        self.sweep(&Smooth(self), band, team);
+        self.sweep(&Smooth { equation: self.equation(), x: &self.x }, band, team);
         self.work = std::mem::replace(&mut self.x, next);
         sums.total(&self.rows)
     }
@@ -130,7 +143,8 @@ impl Level {
     /// The residual's sums over 2 × 2 cells become the right-hand side of the next coarser level.
     pub fn restrict(&self, coarse: &mut Self, team: Team) {
         let band = Rows::new(&mut coarse.b, coarse.stride, &coarse.rows);
-        let work = Restrict { fine: self, span: &coarse.span };
+        let (rows, columns) = (self.rows.clone(), self.columns);
+        let work = Restrict { equation: self.equation(), rows, columns, span: coarse.span.clone(), x: &self.x };
         sweep(&work, coarse.rows.clone(), band, 4 * coarse.span.len(), WORTH_A_PIECE, team);
     }
 
@@ -169,13 +183,24 @@ pub(super) fn damping(diagonal: f32) -> f32 {
     if diagonal > LEAST_DIAGONAL { DAMPING / diagonal } else { 0.0 }
 }
 
-// What sweeps read. The field that they write has been taken out.
-impl Level {
+/// The equation as sweeps read it.
+struct Equation<'a> {
+    span: Range<usize>,
+    stride: usize,
+    diagonal: &'a [f32],
+    damped: &'a [f32],
+    right: &'a [f32],
+    upper: &'a [f32],
+    b: &'a [f32],
+}
+
+impl Equation<'_> {
     /// Calls `take(i, (A x)_i)` for the `len` cells from index `first` on.
     #[inline(always)]
     fn products(&self, x: &[f32], first: usize, len: usize, mut take: impl FnMut(usize, f32)) {
         let (o, n, s) = (first, len, self.stride);
-        let [centre, left, right, lower, upper] = and_around(x, o..o + n, s);
+        let (centre, left, right) = (&x[o..o + n], &x[o - 1..o - 1 + n], &x[o + 1..o + 1 + n]);
+        let (lower, upper) = (&x[o - s..o - s + n], &x[o + s..o + s + n]);
         let diagonal = &self.diagonal[o..o + n];
         let (to_right, to_left) = (&self.right[o..o + n], &self.right[o - 1..o - 1 + n]);
         let (to_upper, to_lower) = (&self.upper[o..o + n], &self.upper[o - s..o - s + n]);
@@ -191,13 +216,13 @@ impl Level {
 
     /// The cells of a row that are solved for.
     #[inline(always)]
-    fn cells_of(&self, row: usize) -> Range<usize> {
+    fn cells(&self, row: usize) -> Range<usize> {
         row * self.stride + self.span.start..row * self.stride + self.span.end
     }
 }
 
 struct Apply<'a> {
-    level: &'a Level,
+    equation: Equation<'a>,
     x: &'a [f32],
 }
 
@@ -205,16 +230,16 @@ impl<'b> Sweep<(Rows<'b, f32>, Rows<'b, f64>)> for Apply<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, (mut out, sums): (Rows<f32>, Rows<f64>)) {
         for ((j, out), sum) in rows.zip(out.each()).zip(sums.field) {
-            let cells = self.level.cells_of(j);
-            let out = &mut out[self.level.span.clone()];
-            self.level.products(self.x, cells.start, cells.len(), |i, product| out[i] = product);
+            let cells = self.equation.cells(j);
+            let out = &mut out[self.equation.span.clone()];
+            self.equation.products(self.x, cells.start, cells.len(), |i, product| out[i] = product);
             *sum = row_dot(out, &self.x[cells]);
         }
     }
 }
 
 struct TakeProductOff<'a> {
-    level: &'a Level,
+    equation: Equation<'a>,
     x: &'a [f32],
 }
 
@@ -222,32 +247,32 @@ impl<'b> Sweep<(Rows<'b, f32>, (Rows<'b, f64>, Rows<'b, f64>))> for TakeProductO
     #[inline(always)]
     fn run(&self, rows: Range<usize>, (mut b, (before, after)): (Rows<f32>, (Rows<f64>, Rows<f64>))) {
         for (((j, b), before), after) in rows.zip(b.each()).zip(before.field).zip(after.field) {
-            let cells = self.level.cells_of(j);
-            let b = &mut b[self.level.span.clone()];
+            let cells = self.equation.cells(j);
+            let b = &mut b[self.equation.span.clone()];
             *before = row_dot(b, b);
-            self.level.products(self.x, cells.start, cells.len(), |i, product| b[i] -= product);
+            self.equation.products(self.x, cells.start, cells.len(), |i, product| b[i] -= product);
             *after = row_dot(b, b);
         }
     }
 }
 
-struct SmoothFromZero<'a>(&'a Level);
+struct SmoothFromZero<'a>(Equation<'a>);
 
 impl Sweep<Rows<'_, f32>> for SmoothFromZero<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut out: Rows<f32>) {
-        let level = self.0;
-        let s = level.stride;
+        let equation = &self.0;
+        let s = equation.stride;
         for (j, out) in rows.zip(out.each()) {
-            let cells = level.cells_of(j);
+            let cells = equation.cells(j);
             let (o, n) = (cells.start, cells.len());
-            let out = &mut out[level.span.clone()];
+            let out = &mut out[equation.span.clone()];
             // The first step alone is damping times right-hand side, of a cell and of those around it.
-            let [damped, d_left, d_right, d_lower, d_upper] = and_around(&level.damped, cells.clone(), s);
-            let [b, b_left, b_right, b_lower, b_upper] = and_around(&level.b, cells.clone(), s);
-            let diagonal = &level.diagonal[cells.clone()];
-            let (to_right, to_left) = (&level.right[cells.clone()], &level.right[o - 1..o - 1 + n]);
-            let (to_upper, to_lower) = (&level.upper[cells], &level.upper[o - s..o - s + n]);
+            let [damped, d_left, d_right, d_lower, d_upper] = and_around(equation.damped, cells.clone(), s);
+            let [b, b_left, b_right, b_lower, b_upper] = and_around(equation.b, cells.clone(), s);
+            let diagonal = &equation.diagonal[cells.clone()];
+            let (to_right, to_left) = (&equation.right[cells.clone()], &equation.right[o - 1..o - 1 + n]);
+            let (to_upper, to_lower) = (&equation.upper[cells], &equation.upper[o - s..o - s + n]);
             for i in 0..n {
                 let first = damped[i] * b[i];
                 let product = diagonal[i] * first
@@ -274,15 +299,19 @@ fn and_around(field: &[f32], cells: Range<usize>, stride: usize) -> [&[f32]; 5] 
     ]
 }
 
-struct Smooth<'a>(&'a Level);
+struct Smooth<'a> {
+    equation: Equation<'a>,
+    x: &'a [f32],
+}
 
 impl Smooth<'_> {
     #[inline(always)]
     fn row(&self, row: usize, out: &mut [f32]) {
-        let (level, cells) = (self.0, self.0.cells_of(row));
-        let [x, damped, b] = [&level.x, &level.damped, &level.b].map(|field| &field[cells.clone()]);
-        let out = &mut out[level.span.clone()];
-        level.products(&level.x, cells.start, cells.len(), |i, product| {
+        let cells = self.equation.cells(row);
+        let (x, damped) = (&self.x[cells.clone()], &self.equation.damped[cells.clone()]);
+        let b = &self.equation.b[cells.clone()];
+        let out = &mut out[self.equation.span.clone()];
+        self.equation.products(self.x, cells.start, cells.len(), |i, product| {
             out[i] = x[i] + damped[i] * (b[i] - product);
         });
     }
@@ -302,7 +331,8 @@ impl<'b> Sweep<(Rows<'b, f32>, Rows<'b, f64>)> for Smooth<'_> {
     fn run(&self, rows: Range<usize>, (mut out, sums): (Rows<f32>, Rows<f64>)) {
         for ((j, out), sum) in rows.zip(out.each()).zip(sums.field) {
             self.row(j, out);
-            *sum = row_dot(&out[self.0.span.clone()], &self.0.b[self.0.cells_of(j)]);
+            let cells = self.equation.cells(j);
+            *sum = row_dot(&out[self.equation.span.clone()], &self.equation.b[cells]);
         }
     }
 }
@@ -311,26 +341,31 @@ impl<'b> Sweep<(Rows<'b, f32>, Rows<'b, f64>)> for Smooth<'_> {
 const CHUNK: usize = 64;
 
 struct Restrict<'a> {
-    fine: &'a Level,
+    equation: Equation<'a>,
+    /// Fine rows that are solved for.
+    rows: Range<usize>,
+    /// Fine columns that there are.
+    columns: usize,
     /// Coarse columns that are solved for.
-    span: &'a Range<usize>,
+    span: Range<usize>,
+    x: &'a [f32],
 }
 
 impl Sweep<Rows<'_, f32>> for Restrict<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut out: Rows<f32>) {
-        let level = self.fine;
+        let equation = &self.equation;
         for (j, out) in rows.zip(out.each()) {
             // Of a pair that the span cuts, what is outside is 0.
-            let end = (2 * self.span.end - 1).min(level.columns + 1);
+            let end = (2 * self.span.end - 1).min(self.columns + 1);
             for first in (2 * self.span.start - 1..end).step_by(CHUNK) {
                 let n = CHUNK.min(end - first);
                 let mut residuals = [[0.0_f32; CHUNK]; 2];
                 for (fine, residual) in [2 * j - 1, 2 * j].into_iter().zip(&mut residuals) {
-                    if level.rows.contains(&fine) {
-                        let start = fine * level.stride + first;
-                        let (b, residual) = (&level.b[start..start + n], &mut residual[..n]);
-                        level.products(&level.x, start, n, |i, product| residual[i] = b[i] - product);
+                    if self.rows.contains(&fine) {
+                        let start = fine * equation.stride + first;
+                        let (b, residual) = (&equation.b[start..start + n], &mut residual[..n]);
+                        equation.products(self.x, start, n, |i, product| residual[i] = b[i] - product);
                     }
                 }
                 let (lower, upper) = (residuals[0].as_chunks::<2>().0, residuals[1].as_chunks::<2>().0);
