@@ -21,6 +21,7 @@ use powder_master::kernel::forces::apply_drag;
 use powder_master::kernel::parallel::Team;
 use powder_master::kernel::params::{AIR_DENSITY, AirAdvection, AirParams, AirScheme, OpenSides};
 use powder_master::kernel::particles::Particles;
+use powder_master::kernel::random::Random;
 use powder_master::kernel::simd::InstructionSet;
 use powder_master::kernel::solids::Solids;
 use powder_master::kernel::units::TICK_SECONDS;
@@ -30,21 +31,23 @@ const CELL: f32 = 4.0;
 const SOUND: f32 = 1000.0;
 const SCHEME: AirScheme = AirScheme { courant: 0.7, advection: AirAdvection::SecondOrder };
 
+fn params() -> AirParams {
+    AirParams { sound_speed: SOUND, density: AIR_DENSITY, open: OpenSides::default() }
+}
+
 /// A windy box with a tenth of its cells rock: two walls with gaps and lone particles.
 fn windy(columns: usize, rows: usize) -> Air {
     let mut solids = Solids::new(columns as u32 * 4, rows as u32 * 4);
-    let mut seed = 1_u32;
+    let mut random = Random::new(1);
     for k in 0..columns * rows {
         let (column, row) = (k % columns, k / columns);
-        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         let wall = (column == columns / 3 && row % 16 > 3) || (row == rows / 2 && column % 20 > 4);
-        if wall || seed >> 24 < 18 {
+        if random.below(256) < 18 || wall {
             solids.insert(IVec2::new(column as i32, row as i32) * 4, ElementId(0), 0);
         }
     }
     let size = Vec2::new(columns as f32, rows as f32) * CELL;
-    let mut air =
-        Air::new(size, CELL, AirParams { sound_speed: SOUND, density: AIR_DENSITY, open: OpenSides::default() });
+    let mut air = Air::new(size, CELL, params());
     air.set_solids(&solids);
     stir(&mut air, size);
     air
@@ -94,8 +97,7 @@ fn gust(c: &mut Criterion) {
             bencher.iter_custom(|iterations| {
                 let (mut ticks, mut spent) = (0, Duration::ZERO);
                 while ticks < iterations {
-                    let params = AirParams { sound_speed: SOUND, density: AIR_DENSITY, open: OpenSides::default() };
-                    let mut air = Air::new(Vec2::splat(512.0 * CELL), CELL, params);
+                    let mut air = Air::new(Vec2::splat(512.0 * CELL), CELL, params());
                     air.allow_sleep(sleeps);
                     air.blow(Vec2::splat(100.0), 40.0, Vec2::new(6.0, 3.0));
                     let start = Instant::now();
@@ -117,8 +119,7 @@ fn drag(c: &mut Criterion) {
     const COUNT: usize = 50_000;
     let team = Team { instructions: InstructionSet::detect(), threads: 1 };
     let size = Vec2::new(500.0, 300.0);
-    let params = AirParams { sound_speed: SOUND, density: AIR_DENSITY, open: OpenSides::default() };
-    let mut air = Air::new(size, CELL, params);
+    let mut air = Air::new(size, CELL, params());
     air.blow(size * 0.5, 400.0, Vec2::new(60.0, 20.0));
     air.step(&[], SCHEME, team, TICK_SECONDS);
     let mut particles = Particles::default();

@@ -8,6 +8,7 @@ use powder_master::kernel::{
     particles::Particles,
     pbf::{SolveParams, Solver},
     predict,
+    random::Random,
     simd::InstructionSet,
     solids::Solids,
 };
@@ -43,11 +44,8 @@ impl Tank {
             quality: Preset::Balanced.quality(),
             solver: Solver::new(instructions, Neighbours::Binned),
         };
-        let mut state = 1_u32;
-        let mut random = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (state >> 8) as f32 / (1 << 24) as f32 - 0.5
-        };
+        let mut random = Random::new(1);
+        let mut random = || random.share() - 0.5;
         for id in 0..SIDE * SIDE {
             let site = Vec2::new((id % SIDE) as f32 + 0.5, (id / SIDE) as f32 + 0.5);
             let at = site + 0.3 * Vec2::new(random(), random());

@@ -8,8 +8,9 @@ use crate::{
     kernel::params::Preset,
     scene::{self, effects::EffectModes},
     sim::{
-        checkpoint::{Checkpoint, SaveError},
-        recording::{Recording, RecordingError, Segment},
+        checkpoint::Checkpoint,
+        file::FileError,
+        recording::{Recording, Segment},
     },
 };
 use std::{fmt::Display, fs::File, io::Read, path::Path, sync::Arc};
@@ -70,7 +71,7 @@ impl Start {
         effects: EffectModes,
     ) -> Result<Self, Failure> {
         let path = Path::new(path);
-        let segment = segment.ok_or_else(|| bad(path, &RecordingError::Foreign))?;
+        let segment = segment.ok_or_else(|| bad(path, &FileError::Foreign("recording")))?;
         Ok(Self::of_saved(segment.start().map_err(|error| bad(path, &error))?, quality, effects))
     }
 
@@ -115,7 +116,7 @@ pub(super) fn bad(path: &Path, what: &dyn Display) -> Failure {
 fn read_save(name_or_path: &str) -> Result<Option<Checkpoint>, Failure> {
     let Some(path) = file_beside_scenes(name_or_path) else { return Ok(None) };
     Checkpoint::decode(&read(path)?).map(Some).map_err(|error| match error {
-        SaveError::Foreign => {
+        FileError::Foreign(_) => {
             bad(path, &format_args!("{error}; allowed: a scene, a .ron file, a save file or a recording"))
         }
         _ => bad(path, &error),

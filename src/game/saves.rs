@@ -8,7 +8,8 @@ use crate::{
         toasts::Toasts,
     },
     sim::{
-        checkpoint::{Checkpoint, SaveError},
+        checkpoint::Checkpoint,
+        file::FileError,
         state::{Clock, Setup},
     },
 };
@@ -37,7 +38,7 @@ pub enum LoadError {
     Unread(#[from] io::Error),
     /// It is no sound save file.
     #[error(transparent)]
-    Bad(#[from] SaveError),
+    Bad(#[from] FileError),
 }
 
 /// What a save file holds, for the list.

@@ -1,7 +1,7 @@
 //! What a particle can be made of. The rows come from `assets/elements.ron`; the kernel only looks them up. What its
 //! passes read of them stands in [`ElementParams`].
 
-use crate::units::Scale;
+use crate::{params::named, units::Scale};
 use serde::{Deserialize, Serialize};
 
 /// Row of an element in the [`ElementTable`]; a particle stores it in one byte.
@@ -15,27 +15,15 @@ impl ElementId {
     }
 }
 
-/// Where an element stands in the palette.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Category {
+named! {
+    /// Where an element stands in the palette.
+    #[derive(PartialOrd, Ord)]
+    Category:
+
     /// What stays in its place.
-    Solids,
+    Solids = "solids",
     /// What flows.
-    Liquids,
-}
-
-impl Category {
-    /// All, in the order of the palette.
-    pub const ALL: [Self; 2] = [Self::Solids, Self::Liquids];
-
-    /// Name, as the file of elements writes it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Solids => "solids",
-            Self::Liquids => "liquids",
-        }
-    }
+    Liquids = "liquids",
 }
 
 /// One row of the element table.
@@ -47,7 +35,6 @@ pub struct Element {
     /// Its group in the palette.
     pub category: Category,
     /// The digit key that selects it, `'0'`–`'9'`, if it has one; unique.
-    #[serde(default)]
     pub key: Option<char>,
     /// Colour, sRGB.
     pub colour: [u8; 3],

@@ -94,34 +94,16 @@ pub fn watched<T: Send>(watchers: usize, work: impl FnOnce() -> T + Send) -> T {
     if watchers == 0 {
         return work();
     }
-    let watch = Watch { done: AtomicBool::new(false), leader: rayon::current_thread_index() };
+    // The thread that hands work over. Were it to watch for itself, nothing would come.
+    let (done, leader) = (AtomicBool::new(false), rayon::current_thread_index());
     let lead = || {
         let result = work();
-        watch.done.store(true, Ordering::Release);
+        done.store(true, Ordering::Release);
         result
     };
-    rayon::join(lead, || watch.share(watchers)).0
-}
-
-/// What watching threads know.
-struct Watch {
-    done: AtomicBool,
-    /// The thread that hands work over. Were it to watch for itself, nothing would come.
-    leader: Option<usize>,
-}
-
-impl Watch {
-    fn share(&self, watchers: usize) {
-        if watchers > 1 {
-            rayon::join(|| self.look_out(), || self.share(watchers - 1));
-        } else {
-            self.look_out();
-        }
-    }
-
-    fn look_out(&self) {
+    let look_out = |_: Range<usize>| {
         let mut in_vain = 0;
-        while in_vain < PATIENCE && !self.done.load(Ordering::Acquire) && rayon::current_thread_index() != self.leader {
+        while in_vain < PATIENCE && !done.load(Ordering::Acquire) && rayon::current_thread_index() != leader {
             if rayon::yield_now() == Some(rayon::Yield::Executed) {
                 in_vain = 0;
             } else {
@@ -132,10 +114,11 @@ impl Watch {
                 }
             }
         }
-    }
+    };
+    rayon::join(lead, || fork(0..watchers, 1, &look_out)).0
 }
 
-/// Who does the work.
+/// What a pass may use.
 #[derive(Clone, Copy, Debug)]
 pub struct Team {
     /// Lanes in use.
@@ -150,7 +133,7 @@ pub(crate) trait Band: Send + Sized {
     fn split(self, rows: usize) -> (Self, Self);
 }
 
-/// Rows of a field of `stride` entries each.
+/// Rows of a field of `stride` entries each; the last may be shorter where no sweep goes over it.
 pub(crate) struct Rows<'a, T> {
     pub field: &'a mut [T],
     pub stride: usize,
@@ -200,28 +183,26 @@ pub(crate) fn sweep<B: Band>(
     team: Team,
 ) {
     let most = piece(rows.len() * stride, team.threads, fewest) / stride;
-    fork(SweepRows { work, rows, band }, most.max(1), &|part: SweepRows<_, _>| team.instructions.run(part));
+    fork((rows, band), most.max(1), &|(rows, band)| team.instructions.run(SweepRows { work, rows, band }));
+}
+
+/// Rows of a grid with what belongs to them.
+impl<B: Band> Parts for (Range<usize>, B) {
+    fn size(&self) -> usize {
+        self.0.len()
+    }
+
+    fn halve(self) -> (Self, Self) {
+        let (lower_rows, upper_rows) = self.0.halve();
+        let (lower, upper) = self.1.split(lower_rows.len());
+        ((lower_rows, lower), (upper_rows, upper))
+    }
 }
 
 struct SweepRows<'a, S, B> {
     work: &'a S,
     rows: Range<usize>,
     band: B,
-}
-
-impl<B: Band, S: Sweep<B>> Parts for SweepRows<'_, S, B> {
-    fn size(&self) -> usize {
-        self.rows.len()
-    }
-
-    fn halve(self) -> (Self, Self) {
-        let (lower_rows, upper_rows) = self.rows.halve();
-        let (lower, upper) = self.band.split(lower_rows.len());
-        (
-            Self { work: self.work, rows: lower_rows, band: lower },
-            Self { work: self.work, rows: upper_rows, band: upper },
-        )
-    }
 }
 
 impl<B, S: Sweep<B>> Pass for SweepRows<'_, S, B> {

@@ -1,4 +1,5 @@
-//! Every number that a scene or a quality can set, with its meaning, range and default.
+//! Every number that a scene or a quality can set, with its meaning and default. The ranges of those that have a knob stand
+//! in the table of knobs (`src/scene/knobs.rs`).
 
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
@@ -8,19 +9,19 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields, default)]
 pub struct FluidParams {
     /// Rest density as a multiple of the density of the square lattice of spacing d. Below 1 the particles push each
-    /// other further apart than d, above 1 they stand closer. 0.1 … 100. Default: `1.0`.
+    /// other further apart than d, above 1 they stand closer. Default: `1.0`.
     pub rest_density: f32,
     /// Relaxation ε in the denominator of λ (eq. 11), 1/d². Raising it softens the constraint and calms it. Where the
     /// pressure predictor runs it is at least [`PREDICTED_RELAXATION`](crate::pbf::PREDICTED_RELAXATION).
-    /// 1e-4 … 10. Default: `0.01`.
+    /// Default: `0.01`.
     pub relaxation: f32,
     /// Lowest value of the constraint C. 0: the liquid only pushes; lower, it also pulls and holds together, and
-    /// particles clump. −1 … 0. Default: `0.0`.
+    /// particles clump. Default: `0.0`.
     pub constraint_floor: f32,
     /// Strength k of the tensile correction `s_corr` (eq. 13), in the unit of λ. Raising it keeps particles apart at
-    /// free surfaces. 0 … 1. Default: `0.001`.
+    /// free surfaces. Default: `0.001`.
     pub tension_strength: f32,
-    /// Distance Δq of `s_corr` as a share of the kernel radius, 0.1 … 0.3. Default: `0.2`.
+    /// Distance Δq of `s_corr` as a share of the kernel radius. Default: `0.2`.
     pub tension_distance: f32,
 }
 
@@ -65,54 +66,52 @@ pub struct AirParams {
 /// Density of real air of a depth of 1 m at pressure 1, kg/m².
 pub const AIR_DENSITY: f32 = 1.2;
 
-/// The gradient kernel of the density constraint.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum GradientKernel {
+/// An enum whose variants have names.
+macro_rules! named {
+    ($(#[$about:meta])* $Enum:ident: $($(#[$doc:meta])* $Variant:ident = $name:literal,)+) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+        pub enum $Enum { $($(#[$doc])* #[serde(rename = $name)] $Variant,)+ }
+
+        impl $Enum {
+            /// All, in the order in which they are shown.
+            pub const ALL: [Self; [$($name),+].len()] = [$(Self::$Variant),+];
+
+            /// Name in files, on the command line and on the screen.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$Variant => $name,)+
+                }
+            }
+        }
+    };
+}
+pub(crate) use named;
+
+named! {
+    /// The gradient kernel of the density constraint.
+    GradientKernel:
+
     /// `−30/(π h⁵) (h − r)² r̂`, the paper's: a square root and a division a pair.
-    Spiky,
+    Spiky = "spiky",
     /// `(h² − r²)² / (3.84 h (r² + 0.043 h²))` in place of `(h − r)²/r`: within 3 % of spiky for r > 0.3 h, zero and
     /// smooth at r = 0, one division a pair.
-    Rational,
+    Rational = "rational",
 }
 
-impl GradientKernel {
-    /// Both, the paper's first.
-    pub const ALL: [Self; 2] = [Self::Spiky, Self::Rational];
+named! {
+    /// How the air's velocity is carried along with it.
+    AirAdvection:
 
-    /// Name in scenes, on the command line and in tables.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Spiky => "spiky",
-            Self::Rational => "rational",
-        }
-    }
-}
-
-/// How the air's velocity is carried along with it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum AirAdvection {
     /// The original's: what leaves a cell has the cell's mean velocity. Cheapest, and smears an eddy as a viscosity of
     /// 0.18 times its speed times a cell's edge would.
-    FirstOrder,
+    FirstOrder = "first_order",
     /// What leaves a cell has the velocity of the part of the cell that leaves (limited slopes, van Leer 1979). A step costs
     /// twice as much and smears a thirtieth of that at cells of 4 d (docs/accuracy.md).
-    SecondOrder,
+    SecondOrder = "second_order",
 }
 
 impl AirAdvection {
-    /// Both, the original's first.
-    pub const ALL: [Self; 2] = [Self::FirstOrder, Self::SecondOrder];
-
-    /// Name in scenes, on the command line and in tables.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::FirstOrder => "first_order",
-            Self::SecondOrder => "second_order",
-        }
-    }
-
     /// What it is called on the screen and in texts.
     pub const fn words(self) -> &'static str {
         match self {
@@ -125,7 +124,7 @@ impl AirAdvection {
 /// How the air is moved on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AirScheme {
-    /// Wind plus sound stay below so many cells a substep: 0.1 … 0.9; up to
+    /// Wind plus sound stay below so many cells a substep; up to
     /// [`STABLE_COURANT`](crate::air::STABLE_COURANT) is taken.
     pub courant: f32,
     /// How velocity is carried along.
@@ -135,21 +134,21 @@ pub struct AirScheme {
 /// What accuracy is bought with. A preset is a full set of these.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Quality {
-    /// Substeps a tick, 1 … 64; more in a tick whose speeds call for it. Raising it costs in proportion and lowers the
+    /// Substeps a tick; more in a tick whose speeds call for it. Raising it costs in proportion and lowers the
     /// density error more than iterations do.
     pub substeps: u32,
-    /// Solver iterations a substep at most, 1 … 64. With the predictor and up to five substeps only the first goes over all
+    /// Solver iterations a substep at most. With the predictor and up to five substeps only the first goes over all
     /// of the liquid, and those after it where it is still too dense: they cost a tenth to a third of the first. Otherwise
     /// raising this costs in proportion.
     pub iterations: u32,
-    /// Kernel radius h, d: 2 … 4. 2.5 is the sweet spot; smaller is rougher, larger more expensive.
+    /// Kernel radius h, d. 2.5 serves best; smaller is rougher, larger more expensive.
     pub kernel_radius: f32,
-    /// Furthest that iterating may move a particle from its prediction in a substep along an axis, d: 0.05 … 0.5. With the
+    /// Furthest that iterating may move a particle from its prediction in a substep along an axis, d. With the
     /// predictor, crowded particles may go further ([`Quality::longest_correction`]).
     pub correction_limit: f32,
-    /// Edge of an air cell, d: 1 … 32. Smaller sees finer eddies and costs with the inverse cube.
+    /// Edge of an air cell, d. Smaller sees finer eddies and costs with the inverse cube.
     pub air_cell: f32,
-    /// Courant number that the air's substeps keep to, 0.1 … 0.9: share of a cell that sound and wind cross in one.
+    /// Courant number that the air's substeps keep to: share of a cell that sound and wind cross in one.
     pub air_courant: f32,
     /// Advection of the air.
     pub air_advection: AirAdvection,
@@ -160,23 +159,25 @@ pub struct Quality {
     pub predictor: bool,
 }
 
-/// The named qualities, cheapest first but for `classic`. The others are steps on the curve of error against time: each
-/// costs more and is more exact than the one before it, and no other setting gives more for the same cost (docs/accuracy.md).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Preset {
+named! {
+    /// The named qualities, cheapest first but for `classic`. The others are steps on the curve of error against time: each
+    /// costs more and is more exact than the one before it, and no other setting gives more for the same cost
+    /// (docs/accuracy.md).
+    #[derive(Hash)]
+    Preset:
+
     /// The original's plain method: one substep, four iterations, the exact spiky kernel.
-    Classic,
+    Classic = "classic",
     /// For the weakest machine: one substep of one iteration, coarse air.
-    Draft,
+    Draft = "draft",
     /// Up to four iterations.
-    Fast,
+    Fast = "fast",
     /// The default. A second substep, of one iteration.
-    Balanced,
+    Balanced = "balanced",
     /// Two substeps of up to four iterations, finer air.
-    Fine,
+    Fine = "fine",
     /// What the others are compared with; not meant to run in real time.
-    Reference,
+    Reference = "reference",
 }
 
 /// How many times the correction limit a crowded particle may move where the pressure predictor runs. In a corner that a
@@ -212,21 +213,6 @@ impl Quality {
 }
 
 impl Preset {
-    /// All presets in the order in which they are shown.
-    pub const ALL: [Self; 6] = [Self::Classic, Self::Draft, Self::Fast, Self::Balanced, Self::Fine, Self::Reference];
-
-    /// Name on the command line, in scenes and on the screen.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Classic => "classic",
-            Self::Draft => "draft",
-            Self::Fast => "fast",
-            Self::Balanced => "balanced",
-            Self::Fine => "fine",
-            Self::Reference => "reference",
-        }
-    }
-
     /// The preset called `name`.
     pub fn find(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|preset| preset.name() == name)

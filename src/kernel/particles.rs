@@ -48,8 +48,7 @@ impl Value {
     /// Whether it is a number within all bounds.
     pub fn is_sound(self) -> bool {
         match self {
-            Self::Id(value) => value.is_sound(),
-            Self::Element(value) => value.is_sound(),
+            Self::Id(_) | Self::Element(_) => true,
             Self::Length(value) | Self::Velocity(value) => value.is_sound(),
         }
     }

@@ -9,7 +9,7 @@ use glam::{IVec2, Vec2};
 const EMPTY: u8 = u8::MAX;
 
 /// Which cells of the box are rock. Cells outside the box count as solid.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Solids {
     columns: i32,
     rows: i32,
@@ -141,17 +141,15 @@ impl Solids {
         }
         let (mut at, mut target) = (from, to);
         for _ in 0..TURNS {
-            match self.first_face(at, target) {
-                None => return target,
-                Some(Face::Vertical(point)) => (at, target) = (point, Vec2::new(point.x, target.y)),
-                Some(Face::Horizontal(point)) => (at, target) = (point, Vec2::new(target.x, point.y)),
-            }
+            let Some(turned) = self.first_face(at, target) else { return target };
+            (at, target) = turned;
         }
         at
     }
 
-    /// The first face of a solid cell between two points (Amanatides & Woo 1987), as the point just before it.
-    fn first_face(&self, from: Vec2, to: Vec2) -> Option<Face> {
+    /// The first face of a solid cell between two points (Amanatides & Woo 1987): the point just before it, and where a
+    /// point goes on to along it.
+    fn first_face(&self, from: Vec2, to: Vec2) -> Option<(Vec2, Vec2)> {
         let (mut cell, last) = (Self::cell_of(from), Self::cell_of(to));
         let way = to - from;
         let step = IVec2::new(if way.x > 0.0 { 1 } else { -1 }, if way.y > 0.0 { 1 } else { -1 });
@@ -170,23 +168,17 @@ impl Solids {
                 let inside = |at: f32, cell: i32| at.clamp(cell as f32 + FACE_GAP, (cell + 1) as f32 - FACE_GAP);
                 let before = |cell: i32, step: i32| (cell + (step + 1) / 2) as f32 - step as f32 * FACE_GAP;
                 return Some(if vertical {
-                    Face::Vertical(Vec2::new(before(cell.x, step.x), inside(hit.y, cell.y)))
+                    let point = Vec2::new(before(cell.x, step.x), inside(hit.y, cell.y));
+                    (point, Vec2::new(point.x, to.y))
                 } else {
-                    Face::Horizontal(Vec2::new(inside(hit.x, cell.x), before(cell.y, step.y)))
+                    let point = Vec2::new(inside(hit.x, cell.x), before(cell.y, step.y));
+                    (point, Vec2::new(to.x, point.y))
                 });
             }
             cell = next;
         }
         None
     }
-}
-
-/// A face met on the way, with the point just before it.
-enum Face {
-    /// Normal along x.
-    Vertical(Vec2),
-    /// Normal along y.
-    Horizontal(Vec2),
 }
 
 /// A cell that sticks out of the box by no more than this is inside, d.
@@ -232,11 +224,8 @@ mod tests {
     fn nothing_tunnels_through_a_wall_one_cell_thick() {
         let wall: Vec<(i32, i32)> = (0..100).map(|y| (50, y)).collect();
         let solids = with_rock(&wall);
-        let mut state = 7_u32;
-        let mut random = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (state >> 8) as f32 / (1 << 24) as f32
-        };
+        let mut random = crate::random::Random::new(7);
+        let mut random = || random.share();
         for _ in 0..10_000 {
             let from = Vec2::new(50.0 * random() * 0.999, 1.0 + 98.0 * random());
             let to = Vec2::new(50.0 + 50.0 * random(), 100.0 * random());

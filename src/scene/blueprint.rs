@@ -11,6 +11,7 @@ use crate::{
     },
     scene::effects::EffectModes,
 };
+use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, sync::Arc};
 
 /// Air that starts at another pressure than the surroundings'.
@@ -22,8 +23,9 @@ pub struct PressurePatch {
     pub pressure: f32,
 }
 
-/// A validated scene with its parameters put in. Lengths in d, times in s unless said otherwise.
-#[derive(Clone, Debug)]
+/// A validated scene with its parameters put in. Lengths in d, times in s unless said otherwise. In a save file it stands
+/// without its elements and without what it starts with: the world that is saved has these.
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Blueprint {
     /// Name under `assets/scenes`, or the file's stem.
     pub name: String,
@@ -38,26 +40,35 @@ pub struct Blueprint {
     /// Box and gravity.
     pub domain: Domain,
     /// All elements.
+    #[serde(skip)]
     pub elements: Arc<ElementTable>,
     /// Movable particles at the start.
+    #[serde(skip)]
     pub particles: Particles,
     /// Rock at the start.
+    #[serde(skip)]
     pub solids: Solids,
     /// The first id that is free.
+    #[serde(skip)]
     pub next_id: u32,
     /// Emitters.
+    #[serde(skip)]
     pub emitters: Vec<Emitter>,
     /// Winds.
+    #[serde(skip)]
     pub winds: Vec<Wind>,
     /// Drains.
+    #[serde(skip)]
     pub drains: Vec<Drain>,
     /// Air pressure at the start where it is not 1.
+    #[serde(skip)]
     pub pressures: Vec<PressurePatch>,
     /// Liquid parameters.
     pub fluid: FluidParams,
     /// Air parameters.
     pub air: AirParams,
     /// Wanted effects.
+    #[serde(skip)]
     pub effects: EffectModes,
     /// The named quality that `quality` came from.
     pub preset: Preset,

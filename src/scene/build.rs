@@ -43,16 +43,13 @@ pub fn load(name_or_path: &str) -> Result<SceneFile, SceneError> {
 
 /// The scene with this text, called `name`. It can't name pictures.
 pub fn from_text(name: &str, text: impl Into<Cow<'static, str>>) -> Result<SceneFile, SceneError> {
-    let bytes = match text.into() {
-        Cow::Borrowed(text) => Cow::Borrowed(text.as_bytes()),
-        Cow::Owned(text) => Cow::Owned(text.into_bytes()),
-    };
-    SceneFile::from_source(Source {
-        name: name.to_owned(),
-        file: format!("{name}.ron"),
-        bytes,
-        origin: Origin::Builtin,
-    })
+    SceneFile::from_bytes(
+        name,
+        match text.into() {
+            Cow::Borrowed(text) => Cow::Borrowed(text.as_bytes()),
+            Cow::Owned(text) => Cow::Owned(text.into_bytes()),
+        },
+    )
 }
 
 /// What `--set` sets: the scene's parameters (those that it does not set have their defaults), and knobs.
@@ -66,6 +63,12 @@ impl SceneFile {
         let text: SceneText = parse(&source.file, &source.bytes)?;
         text.check(&source.file)?;
         Ok(Self { name: source.name, file: source.file, origin: source.origin, text })
+    }
+
+    /// The scene called `name` that `bytes` are the file of. It can't name pictures.
+    pub(super) fn from_bytes(name: &str, bytes: Cow<'static, [u8]>) -> Result<Self, SceneError> {
+        let (name, file) = (name.to_owned(), format!("{name}.ron"));
+        Self::from_source(Source { name, file, bytes, origin: Origin::Builtin })
     }
 
     /// Name under `assets/scenes`, or the file's stem.

@@ -2,53 +2,28 @@
 
 use std::fmt::Display;
 
-/// A fault in a scene, in the elements or in a setting. `Display` is one line that says where, what is wrong and what
-/// is allowed.
+/// A fault in a scene, in the elements or in a setting: one line that says where, what is wrong and what is allowed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum SceneError {
-    /// The text isn't what the format asks for.
-    #[error("{file}:{line}:{column}: {what}")]
-    Text {
-        /// Path, or `assets/scenes/NAME.ron`.
-        file: String,
-        /// Line, from 1.
-        line: usize,
-        /// Column in characters, from 1.
-        column: usize,
-        /// What is wrong and what is allowed.
-        what: String,
-    },
-    /// A value isn't allowed.
-    #[error("{file}: {field}: {what}")]
-    Value {
-        /// Path, or `assets/scenes/NAME.ron`.
-        file: String,
-        /// Path of the field, such as `contents[2].disc.radius`, or `--set KEY=VALUE`.
-        field: String,
-        /// What is wrong and what is allowed.
-        what: String,
-    },
-    /// The file can't be read.
-    #[error("{file}: {what}")]
-    File {
-        /// Path, or `assets/scenes/NAME.ron`.
-        file: String,
-        /// What is wrong and what is allowed.
-        what: String,
-    },
+#[error("{place}: {what}")]
+pub struct SceneError {
+    place: String,
+    what: String,
 }
 
 impl SceneError {
+    /// The text is not what the format asks for, at a line and a column in characters, from 1.
     pub(super) fn text(file: &str, line: usize, column: usize, what: impl Display) -> Self {
-        Self::Text { file: one_line(file), line, column, what: one_line(what) }
+        Self::file(format_args!("{file}:{line}:{column}"), what)
     }
 
+    /// A value is not allowed. `field` is its path, such as `contents[2].disc.radius`, or `--set KEY=VALUE`.
     pub(super) fn value(file: &str, field: impl Display, what: impl Display) -> Self {
-        Self::Value { file: one_line(file), field: one_line(field), what: one_line(what) }
+        Self::file(format_args!("{file}: {field}"), what)
     }
 
-    pub(super) fn file(file: impl Display, what: impl Display) -> Self {
-        Self::File { file: one_line(file), what: one_line(what) }
+    /// The file can't be taken.
+    pub(super) fn file(place: impl Display, what: impl Display) -> Self {
+        Self { place: one_line(place), what: one_line(what) }
     }
 }
 

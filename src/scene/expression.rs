@@ -4,8 +4,8 @@
 //! platform, so that a scene has the same bits everywhere. The general libraries bring sines and powers along, which
 //! don't have them.
 //!
-//! An expression is kept in postfix order, so that evaluating needs a stack of numbers instead of recursion; parsing
-//! recurses into parentheses and signs, [`DEEPEST`] levels at most.
+//! An expression is kept as its text and read again for its value. Reading recurses into parentheses and signs,
+//! [`DEEPEST`] levels at most.
 
 /// Longest expression, bytes.
 const LONGEST: usize = 1000;
@@ -13,8 +13,12 @@ const LONGEST: usize = 1000;
 /// Most parentheses and signs within each other.
 const DEEPEST: usize = 64;
 
+/// What is made of two numbers, or of the first of them.
+type Operation = fn(f64, f64) -> f64;
+
 /// The functions, with their number of arguments.
-const FUNCTIONS: [(&str, usize, Step); 3] = [("min", 2, Step::Min), ("max", 2, Step::Max), ("sqrt", 1, Step::Sqrt)];
+const FUNCTIONS: [(&str, usize, Operation); 3] =
+    [("min", 2, f64::min), ("max", 2, f64::max), ("sqrt", 1, |number, _| number.sqrt())];
 
 /// Whether a parameter must not have this name because expressions give it a meaning.
 pub(super) fn is_reserved(name: &str) -> bool {
@@ -35,153 +39,115 @@ fn continues_name(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }
 
+/// A well-formed expression.
 #[derive(Clone, Debug, PartialEq)]
-enum Step {
-    Number(f64),
-    Name(String),
-    Negate,
-    Add,
-    Subtract,
-    Multiply,
-    Divide,
-    Min,
-    Max,
-    Sqrt,
-}
-
-/// A parsed expression.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Expression {
-    steps: Vec<Step>,
-}
+pub(super) struct Expression(String);
 
 impl Expression {
-    /// Parses the text; the error says what is wrong and at which character.
+    /// Checks the text; the error says what is wrong and at which character.
     pub(super) fn parse(text: &str) -> Result<Self, String> {
         if text.len() > LONGEST {
             return Err(format!("an expression of {} bytes; at most {LONGEST} are allowed", text.len()));
         }
-        let mut parser = Parser { text, at: 0, depth: 0, steps: Vec::new() };
-        parser.sum().and_then(|()| parser.end()).map_err(|what| {
-            let column = 1 + text.get(..parser.at).map_or(parser.at, |before| before.chars().count());
+        let mut reader = Reader { text, at: 0, depth: 0, value_of: &|_| None, fault: None };
+        reader.whole().map_err(|what| {
+            let column = 1 + text.get(..reader.at).map_or(reader.at, |before| before.chars().count());
             format!("expression \"{text}\", character {column}: {what}")
         })?;
-        Ok(Self { steps: parser.steps })
+        Ok(Self(text.to_owned()))
     }
 
     /// The value, with names looked up by `value_of`; an error names what has no finite value.
     pub(super) fn evaluate(&self, value_of: impl Fn(&str) -> Option<f64>) -> Result<f64, Fault> {
-        let mut stack: Vec<f64> = Vec::new();
-        for step in &self.steps {
-            let result = match step {
-                Step::Number(value) => *value,
-                Step::Name(name) => value_of(name).ok_or_else(|| Fault::UnknownName(name.clone()))?,
-                Step::Negate => -pop(&mut stack),
-                Step::Sqrt => pop(&mut stack).sqrt(),
-                binary => {
-                    let right = pop(&mut stack);
-                    let left = pop(&mut stack);
-                    match binary {
-                        Step::Add => left + right,
-                        Step::Subtract => left - right,
-                        Step::Multiply => left * right,
-                        Step::Divide if right == 0.0 => return Err(Fault::DivisionByZero),
-                        Step::Divide => left / right,
-                        Step::Min => left.min(right),
-                        _ => left.max(right),
-                    }
-                }
-            };
-            if !result.is_finite() {
-                return Err(Fault::NotFinite);
-            }
-            stack.push(result);
-        }
-        Ok(pop(&mut stack))
+        let mut reader = Reader { text: &self.0, at: 0, depth: 0, value_of: &value_of, fault: None };
+        // It is well-formed, so that there is a value or a fault.
+        let value = reader.whole().unwrap_or(f64::NAN);
+        reader.fault.map_or(Ok(value), Err)
     }
 }
 
-/// The parser leaves an operand for every operator, so the stack never runs dry.
-fn pop(stack: &mut Vec<f64>) -> f64 {
-    debug_assert!(!stack.is_empty(), "an operator without an operand");
-    stack.pop().unwrap_or(f64::NAN)
-}
-
 /// Why an expression has no value.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub(super) enum Fault {
+    #[error("no parameter `{0}`")]
     UnknownName(String),
+    #[error("the expression divides by zero")]
     DivisionByZero,
+    #[error("the expression has no finite value")]
     NotFinite,
 }
 
 /// Recursive descent: `sum = product {(+|-) product}`, `product = factor {(*|/) factor}`,
-/// `factor = [+|-] factor | number | name | name(sum, …) | (sum)`. Appends the steps in postfix order.
-struct Parser<'a> {
+/// `factor = [+|-] factor | number | name | name(sum, …) | (sum)`. Each returns its value; an error is one of form.
+struct Reader<'a> {
     text: &'a str,
     at: usize,
     depth: usize,
-    steps: Vec<Step>,
+    value_of: &'a dyn Fn(&str) -> Option<f64>,
+    /// The first thing that has no value. What comes of it is no number.
+    fault: Option<Fault>,
 }
 
-impl Parser<'_> {
-    fn sum(&mut self) -> Result<(), String> {
-        self.product()?;
-        loop {
-            let step = match self.peek() {
-                Some(b'+') => Step::Add,
-                Some(b'-') => Step::Subtract,
-                _ => return Ok(()),
-            };
-            self.at += 1;
-            self.product()?;
-            self.steps.push(step);
-        }
+impl Reader<'_> {
+    fn whole(&mut self) -> Result<f64, String> {
+        let value = self.sum()?;
+        if self.peek().is_some() { Err("expected an operator or the end".to_owned()) } else { Ok(value) }
     }
 
-    fn product(&mut self) -> Result<(), String> {
-        self.factor()?;
-        loop {
-            let step = match self.peek() {
-                Some(b'*') => Step::Multiply,
-                Some(b'/') => Step::Divide,
-                _ => return Ok(()),
-            };
-            self.at += 1;
-            self.factor()?;
-            self.steps.push(step);
-        }
+    fn sum(&mut self) -> Result<f64, String> {
+        self.chain([(b'+', |left, right| left + right), (b'-', |left, right| left - right)], Self::product)
     }
 
-    fn factor(&mut self) -> Result<(), String> {
+    fn product(&mut self) -> Result<f64, String> {
+        self.chain([(b'*', |left, right| left * right), (b'/', |left, right| left / right)], Self::factor)
+    }
+
+    /// Operands with operators between them, from left to right.
+    fn chain(
+        &mut self,
+        operators: [(u8, Operation); 2],
+        operand: fn(&mut Self) -> Result<f64, String>,
+    ) -> Result<f64, String> {
+        let mut left = operand(self)?;
+        while let Some(next) = self.peek()
+            && let Some((_, operation)) = operators.into_iter().find(|(byte, _)| *byte == next)
+        {
+            self.at += 1;
+            let right = operand(self)?;
+            if next == b'/' && right == 0.0 {
+                self.fault.get_or_insert(Fault::DivisionByZero);
+            }
+            left = self.finite(operation(left, right));
+        }
+        Ok(left)
+    }
+
+    fn factor(&mut self) -> Result<f64, String> {
         self.depth += 1;
         if self.depth > DEEPEST {
             return Err(format!("nested too deeply; at most {DEEPEST} levels are allowed"));
         }
-        match self.peek() {
-            Some(b'-') => {
+        let value = match self.peek() {
+            Some(sign @ (b'-' | b'+')) => {
                 self.at += 1;
-                self.factor()?;
-                self.steps.push(Step::Negate);
-            }
-            Some(b'+') => {
-                self.at += 1;
-                self.factor()?;
+                let value = self.factor()?;
+                if sign == b'-' { -value } else { value }
             }
             Some(b'(') => {
                 self.at += 1;
-                self.sum()?;
+                let value = self.sum()?;
                 self.expect(b')')?;
+                value
             }
             Some(byte) if byte.is_ascii_digit() || byte == b'.' => self.number()?,
             Some(byte) if starts_name(byte) => self.name_or_call()?,
             _ => return Err("expected a number, a name, a function or `(`".to_owned()),
-        }
+        };
         self.depth -= 1;
-        Ok(())
+        Ok(value)
     }
 
-    fn number(&mut self) -> Result<(), String> {
+    fn number(&mut self) -> Result<f64, String> {
         let start = self.at;
         while let Some(byte) = self.byte() {
             let exponent_sign = matches!(byte, b'+' | b'-')
@@ -193,34 +159,43 @@ impl Parser<'_> {
             self.at += 1;
         }
         let digits = &self.text[start..self.at];
-        let value: f64 = digits.parse().map_err(|_| format!("`{digits}` isn't a number"))?;
-        self.steps.push(Step::Number(value));
-        Ok(())
+        let value = digits.parse().map_err(|_| format!("`{digits}` isn't a number"))?;
+        Ok(self.finite(value))
     }
 
-    fn name_or_call(&mut self) -> Result<(), String> {
+    fn name_or_call(&mut self) -> Result<f64, String> {
         let start = self.at;
         while self.byte().is_some_and(continues_name) {
             self.at += 1;
         }
         let name = &self.text[start..self.at];
         if self.peek() != Some(b'(') {
-            self.steps.push(Step::Name(name.to_owned()));
-            return Ok(());
+            let value = (self.value_of)(name).unwrap_or_else(|| {
+                self.fault.get_or_insert_with(|| Fault::UnknownName(name.to_owned()));
+                f64::NAN
+            });
+            return Ok(self.finite(value));
         }
-        let Some((_, arguments, step)) = FUNCTIONS.iter().find(|(function, ..)| *function == name) else {
+        let Some((_, arguments, function)) = FUNCTIONS.into_iter().find(|(function, ..)| *function == name) else {
             return Err(format!("no function `{name}`; allowed: min(a, b), max(a, b), sqrt(a)"));
         };
         self.at += 1;
-        for argument in 0..*arguments {
-            if argument > 0 {
-                self.expect(b',')?;
-            }
-            self.sum()?;
+        let first = self.sum()?;
+        let mut second = first;
+        if arguments > 1 {
+            self.expect(b',')?;
+            second = self.sum()?;
         }
         self.expect(b')')?;
-        self.steps.push(step.clone());
-        Ok(())
+        Ok(self.finite(function(first, second)))
+    }
+
+    /// Notes a value that is not finite.
+    fn finite(&mut self, value: f64) -> f64 {
+        if !value.is_finite() {
+            self.fault.get_or_insert(Fault::NotFinite);
+        }
+        value
     }
 
     fn expect(&mut self, byte: u8) -> Result<(), String> {
@@ -229,13 +204,6 @@ impl Parser<'_> {
             Ok(())
         } else {
             Err(format!("expected `{}`", char::from(byte)))
-        }
-    }
-
-    fn end(&mut self) -> Result<(), String> {
-        match self.peek() {
-            None => Ok(()),
-            Some(_) => Err("expected an operator or the end".to_owned()),
         }
     }
 

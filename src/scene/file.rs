@@ -75,10 +75,8 @@ pub(super) struct SceneText {
     #[serde(default)]
     pub(super) quality: QualityText,
     /// Most particles, rock included: 1 … 4 000 000. Default: `200000`.
-    #[serde(default)]
     pub(super) particle_limit: Option<Number>,
     /// The element that the palette starts with. Default: the palette's first.
-    #[serde(default)]
     pub(super) first_element: Option<String>,
 }
 
@@ -209,10 +207,8 @@ pub(super) struct EmitterText {
     /// Particles a second at most: 0.001 … 1 000 000.
     pub(super) rate: Number,
     /// Particles in all: a whole number, 1 … 4 000 000. Default: no end.
-    #[serde(default)]
     pub(super) total: Option<Number>,
     /// When it starts to flow, s: 0 … 1 000 000. Default: `0`.
-    #[serde(default)]
     pub(super) start: Option<Number>,
 }
 

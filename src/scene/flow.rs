@@ -57,20 +57,28 @@ impl Bounds<'_> {
         Ok((velocity / self.spacing).as_vec2())
     }
 
-    pub(super) fn emitters(&self, elements: &ElementTable, texts: &[EmitterText]) -> Result<Vec<Emitter>, SceneError> {
-        let emitter = |(i, text)| self.emitter(elements, &format_args!("emitters[{i}]"), text);
-        let emitters: Vec<Emitter> = texts.iter().enumerate().map(emitter).collect::<Result<_, _>>()?;
-        self.check_cover("emitters", emitters.iter().map(|emitter| emitter.area), MOST_COVERED)?;
-        Ok(emitters)
-    }
-
-    /// All the areas of a list together.
-    fn check_cover(&self, list: &str, areas: impl Iterator<Item = Rect>, most: f64) -> Result<(), SceneError> {
+    /// The entries of a list, which together may cover `most` cells.
+    fn list<T, U>(
+        &self,
+        name: &str,
+        texts: &[T],
+        read: impl Fn(&dyn Display, &T) -> Result<U, SceneError>,
+        area: fn(&U) -> Rect,
+        most: f64,
+    ) -> Result<Vec<U>, SceneError> {
+        let entry = |(i, text)| read(&format_args!("{name}[{i}]"), text);
+        let entries: Vec<U> = texts.iter().enumerate().map(entry).collect::<Result<_, _>>()?;
+        let areas = entries.iter().map(area);
         let cells: f64 = areas.map(|area| (area.max - area.min).as_dvec2().element_product()).sum();
         if cells <= most {
-            return Ok(());
+            return Ok(entries);
         }
-        Err(self.values.fault(list, format!("they cover {cells:.0} cells; allowed: at most {most} together")))
+        Err(self.values.fault(name, format!("they cover {cells:.0} cells; allowed: at most {most} together")))
+    }
+
+    pub(super) fn emitters(&self, elements: &ElementTable, texts: &[EmitterText]) -> Result<Vec<Emitter>, SceneError> {
+        let emitter = |field: &dyn Display, text: &EmitterText| self.emitter(elements, field, text);
+        self.list("emitters", texts, emitter, |emitter| emitter.area, MOST_COVERED)
     }
 
     fn emitter(&self, elements: &ElementTable, field: &dyn Display, text: &EmitterText) -> Result<Emitter, SceneError> {
@@ -105,36 +113,28 @@ impl Bounds<'_> {
     }
 
     pub(super) fn winds(&self, texts: &[WindText]) -> Result<Vec<Wind>, SceneError> {
-        let wind = |(i, text): (usize, &WindText)| {
-            let field = format!("winds[{i}]");
+        let wind = |field: &dyn Display, text: &WindText| {
             Ok(Wind {
-                area: self.area(&field, &text.min, &text.max, 0.0)?,
-                velocity: self.velocity(&field, &text.velocity)?,
+                area: self.area(field, &text.min, &text.max, 0.0)?,
+                velocity: self.velocity(field, &text.velocity)?,
                 rate: self.values.number(format_args!("{field}.rate"), &text.rate, Range::real(0.001, 1000.0))? as f32,
             })
         };
-        let winds: Vec<Wind> = texts.iter().enumerate().map(wind).collect::<Result<_, SceneError>>()?;
-        self.check_cover("winds", winds.iter().map(|wind| wind.area), MOST_COVERED)?;
-        Ok(winds)
+        self.list("winds", texts, wind, |wind| wind.area, MOST_COVERED)
     }
 
     /// Drains may reach past the box by a spacing, so that they hold what lies at its wall.
     pub(super) fn drains(&self, texts: &[Area]) -> Result<Vec<Drain>, SceneError> {
-        let drain = |(i, text): (usize, &Area)| {
-            Ok(Drain { area: self.area(&format_args!("drains[{i}]"), &text.min, &text.max, 1.0)? })
-        };
-        texts.iter().enumerate().map(drain).collect()
+        let drain = |field: &dyn Display, text: &Area| Ok(Drain { area: self.area(field, &text.min, &text.max, 1.0)? });
+        self.list("drains", texts, drain, |drain| drain.area, f64::INFINITY)
     }
 
     pub(super) fn pressures(&self, texts: &[PressureText]) -> Result<Vec<PressurePatch>, SceneError> {
-        let patch = |(i, text): (usize, &PressureText)| {
-            let field = format!("pressures[{i}]");
-            let pressure =
-                self.values.number(format_args!("{field}.pressure"), &text.pressure, Range::real(0.1, 10.0))?;
-            Ok(PressurePatch { area: self.area(&field, &text.min, &text.max, 0.0)?, pressure: pressure as f32 })
+        let patch = |field: &dyn Display, text: &PressureText| {
+            let path = format_args!("{field}.pressure");
+            let pressure = self.values.number(path, &text.pressure, Range::real(0.1, 10.0))? as f32;
+            Ok(PressurePatch { area: self.area(field, &text.min, &text.max, 0.0)?, pressure })
         };
-        let patches: Vec<PressurePatch> = texts.iter().enumerate().map(patch).collect::<Result<_, SceneError>>()?;
-        self.check_cover("pressures", patches.iter().map(|patch| patch.area), MOST_FILLED)?;
-        Ok(patches)
+        self.list("pressures", texts, patch, |patch| patch.area, MOST_FILLED)
     }
 }

@@ -114,18 +114,12 @@ impl Evaluator<'_> {
             Number::Literal(value) => Ok(*value),
             Number::Expression(expression) => expression.evaluate(|name| self.names.get(name).copied()),
         };
-        let what = match value {
-            Ok(value) => match range.check(value) {
-                Ok(value) => return Ok(value),
-                Err(what) => what,
-            },
-            Err(Fault::DivisionByZero) => "the expression divides by zero".to_owned(),
-            Err(Fault::NotFinite) => format!("the expression has no finite value; allowed: {range}"),
-            Err(Fault::UnknownName(name)) => {
-                format!("no parameter `{name}`; {}", choices(&name, self.names.keys().map(String::as_str)))
-            }
-        };
-        Err(self.fault(field, what))
+        let value = value.map_err(|fault| match &fault {
+            Fault::DivisionByZero => fault.to_string(),
+            Fault::NotFinite => format!("{fault}; allowed: {range}"),
+            Fault::UnknownName(name) => format!("{fault}; {}", choices(name, self.names.keys().map(String::as_str))),
+        });
+        value.and_then(|value| range.check(value)).map_err(|what| self.fault(field, what))
     }
 
     /// The values of both numbers, each in `range`.

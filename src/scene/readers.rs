@@ -3,28 +3,15 @@
 
 use crate::{
     kernel::element::ElementTable,
-    scene::{
-        build::SceneFile,
-        builtin::{Origin, Source},
-        elements,
-        error::SceneError,
-        expression::{Expression, Fault},
-        image::Mask,
-    },
+    scene::{build::SceneFile, elements, error::SceneError, expression::Expression, image::Mask},
 };
-use std::borrow::Cow;
 
 /// Reads a scene file. It can't name pictures of its own.
 ///
 /// # Errors
 /// If it is not what the format asks for.
 pub fn scene(bytes: &[u8]) -> Result<SceneFile, SceneError> {
-    SceneFile::from_source(Source {
-        name: "scene".to_owned(),
-        file: "scene.ron".to_owned(),
-        bytes: Cow::Owned(bytes.to_vec()),
-        origin: Origin::Builtin,
-    })
+    SceneFile::from_bytes("scene", bytes.to_vec().into())
 }
 
 /// Reads an element table.
@@ -40,11 +27,7 @@ pub fn element_table(bytes: &[u8]) -> Result<ElementTable, SceneError> {
 /// # Errors
 /// If it is no expression, or has no finite value.
 pub fn expression(text: &str, value: f64) -> Result<f64, String> {
-    Expression::parse(text)?.evaluate(|_| Some(value)).map_err(|fault| match fault {
-        Fault::UnknownName(name) => format!("no parameter `{name}`"),
-        Fault::DivisionByZero => "the expression divides by zero".to_owned(),
-        Fault::NotFinite => "the expression has no finite value".to_owned(),
-    })
+    Expression::parse(text)?.evaluate(|_| Some(value)).map_err(|fault| fault.to_string())
 }
 
 /// Reads a picture; whether the middle of it is dark.

@@ -6,9 +6,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Numbers that were given so far. They only have to differ, in every world of this process.
 static GIVEN: AtomicU64 = AtomicU64::new(0);
 
-/// Changes when the state of a world is put in the place of another: by undo, reset, another scene, a save file. Whoever
-/// carries something of a world on from tick to tick, or derives something from it, begins anew when it changes. No two
-/// worlds share one.
+/// Changes when the state of a world is put in the place of another: by undo, reset, another scene, a save file. All that is
+/// carried on from tick to tick, or derived from a world, begins anew when it changes. No two worlds share one.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Generation {
     /// Changes with every scene that is opened, and with every state of another scene.

@@ -13,7 +13,7 @@ use bevy::prelude::Resource;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
-/// One wish. Lengths in d, velocities in d/s. In recordings they go by their order: new ones stand behind the others.
+/// A change that is asked for. Lengths in d, velocities in d/s. In recordings they go by their order: new ones stand behind the others.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Intent {
     /// Pour or place an element under the stroke. Movable elements fill free sites at their flow; fixed ones take the
@@ -59,7 +59,7 @@ pub enum Intent {
     },
     /// Bring the air to rest at the surroundings' pressure.
     ClearAir,
-    /// Go on at another quality: chosen by the player, or by the autopilot, whose decisions are recorded like everybody's.
+    /// Go on at another quality: chosen by the player, or by the autopilot, whose decisions are recorded like a player's.
     Quality {
         /// Its name; for numbers between two names the nearest below.
         preset: Preset,

@@ -8,7 +8,7 @@
 
 use crate::scene::effects::{Pass, Unit};
 use bevy::prelude::Resource;
-use std::time::Duration;
+use std::{cmp::Ordering, time::Duration};
 
 /// What a tick works on if nothing is left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -50,7 +50,7 @@ const ENOUGH: u64 = 1024;
 const HISTORY: usize = 64;
 
 /// What one pass cost.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct PassRecord {
     /// Calls since the ledger was cleared.
     pub calls: u64,
@@ -64,8 +64,8 @@ pub struct PassRecord {
     pub last: Work,
     now: Work,
     recent: Vec<Duration>,
-    /// Time for a particle or cell in the ticks with enough of them, ns, in turns.
-    each: [f32; HISTORY],
+    /// Time for a particle or cell in the last ticks with enough of them, ns.
+    each: Vec<f32>,
     /// Number of those ticks.
     learnt: usize,
 }
@@ -82,35 +82,16 @@ pub struct Work {
     time: Duration,
 }
 
-impl Default for PassRecord {
-    fn default() -> Self {
-        Self {
-            calls: 0,
-            total: Duration::ZERO,
-            touched: 0,
-            spared: 0,
-            last: Work::default(),
-            now: Work::default(),
-            recent: Vec::new(),
-            each: [0.0; HISTORY],
-            learnt: 0,
-        }
-    }
-}
-
 impl PassRecord {
     /// Median time a tick over the last ticks (64 at most) since the ledger was cleared.
     pub fn median(&self) -> Duration {
-        median(&self.recent)
+        median(&self.recent, Duration::cmp).unwrap_or_default()
     }
 
     /// Time for a particle or cell, ns: median over the last ticks (64 at most) in which there were enough of them. `None`
     /// if there never were.
     pub fn each(&self) -> Option<f64> {
-        let mut sorted = self.each;
-        let known = &mut sorted[..self.learnt.min(HISTORY)];
-        known.sort_unstable_by(f32::total_cmp);
-        known.get(known.len() / 2).map(|each| f64::from(*each))
+        median(&self.each, f32::total_cmp).map(f64::from)
     }
 
     /// What it saved in the last tick to leave alone what was left alone, ms; `None` if that is unknown.
@@ -128,34 +109,29 @@ impl PassRecord {
     }
 
     /// Closes a tick in which it would have worked on `whole` if nothing had been left out.
-    fn close(&mut self, whole: Option<u64>, slot: usize) {
+    fn close(&mut self, whole: Option<u64>, tick: usize) {
         let work = &mut self.now;
         if let Some(whole) = whole {
             work.spared = work.spared.max(whole.saturating_sub(work.touched));
         }
         let enough = work.touched > 0 && work.touched >= ENOUGH.min(work.touched + work.spared);
         if enough {
-            self.each[self.learnt % HISTORY] = (work.time.as_nanos() as f64 / work.touched as f64) as f32;
+            let each = (work.time.as_nanos() as f64 / work.touched as f64) as f32;
+            put(&mut self.each, self.learnt, each);
             self.learnt += 1;
         }
         self.touched += work.touched;
         self.spared += work.spared;
-        put(&mut self.recent, slot, work.time);
+        put(&mut self.recent, tick, work.time);
         self.last = std::mem::take(work);
     }
 }
 
 /// Cost of every pass and of the ticks as a whole.
-#[derive(Resource, Clone, Debug)]
+#[derive(Resource, Clone, Debug, Default)]
 pub struct PassLedger {
     records: [PassRecord; Pass::ALL.len()],
     tick: PassRecord,
-}
-
-impl Default for PassLedger {
-    fn default() -> Self {
-        Self { records: std::array::from_fn(|_| PassRecord::default()), tick: PassRecord::default() }
-    }
 }
 
 impl PassLedger {
@@ -182,12 +158,12 @@ impl PassLedger {
 
     /// Closes a tick that took `time` in all.
     pub fn end_tick(&mut self, extent: Extent, time: Duration) {
-        let slot = self.tick.calls as usize % HISTORY;
+        let tick = self.tick.calls as usize;
         self.tick.calls += 1;
         self.tick.total += time;
-        put(&mut self.tick.recent, slot, time);
+        put(&mut self.tick.recent, tick, time);
         for (pass, record) in Pass::ALL.into_iter().zip(&mut self.records) {
-            record.close(extent.of(pass), slot);
+            record.close(extent.of(pass), tick);
         }
     }
 
@@ -206,19 +182,18 @@ impl PassLedger {
     }
 }
 
-/// Keeps a time in place of the oldest.
-fn put(recent: &mut Vec<Duration>, slot: usize, time: Duration) {
-    if recent.len() <= slot {
-        recent.push(time);
-    } else {
-        recent[slot] = time;
+/// Keeps the `nth` value, in place of the oldest.
+fn put<T>(recent: &mut Vec<T>, nth: usize, value: T) {
+    match recent.get_mut(nth % HISTORY) {
+        Some(oldest) => *oldest = value,
+        None => recent.push(value),
     }
 }
 
-fn median(times: &[Duration]) -> Duration {
-    let mut sorted = times.to_vec();
-    sorted.sort_unstable();
-    sorted.get(sorted.len() / 2).copied().unwrap_or_default()
+fn median<T: Copy>(values: &[T], order: impl Fn(&T, &T) -> Ordering) -> Option<T> {
+    let mut sorted = values.to_vec();
+    sorted.sort_unstable_by(order);
+    sorted.get(sorted.len() / 2).copied()
 }
 
 #[cfg(test)]

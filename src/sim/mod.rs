@@ -5,6 +5,7 @@ pub mod checkpoint;
 pub mod control;
 pub mod effects;
 pub mod fault;
+pub mod file;
 pub mod generation;
 pub mod intent;
 pub mod ledger;

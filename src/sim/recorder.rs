@@ -1,5 +1,5 @@
 //! The recorder: keeps what happens to the world as states, input and marks. The last minute always, within a bound on
-//! memory, so that any surprise can be kept; and from a moment on whatever a recording is asked to hold.
+//! memory, so that any surprise can be kept; and a recording from when it is begun.
 //!
 //! Intents come from the edit stage. A state that is put in the place of another (undo, reset, another scene: all that
 //! `control` thaws) begins a new segment.
@@ -25,9 +25,9 @@ use std::{
 
 /// What is always kept, ticks: a minute of the world's time.
 pub const KEPT_TICKS: u64 = 3600;
-/// Ticks from one state of the last minute to the next: so much has to be run again to come to any moment of it.
+/// Ticks from one state of the last minute to the next: at most so many are run again to come to any tick of it.
 pub const SEGMENT_TICKS: usize = 1800;
-/// Most intents before another state is taken: someone may draw for hours in a world that stands.
+/// Most intents before another state is taken: a player may draw for hours in a world that is paused.
 const SEGMENT_ENTRIES: usize = 20_000;
 /// Most memory that the last minute may take, bytes. Three states of a million particles are within it; of larger worlds
 /// less is kept, at least the newest state.

@@ -3,7 +3,7 @@
 use crate::{
     kernel::simd::InstructionSet,
     sim::{
-        checkpoint::SaveError,
+        file::FileError,
         mark::{Mark, Marker},
         recording::{End, Input, Recording, Segment},
         simulation::Simulation,
@@ -64,7 +64,7 @@ impl<'a> Replay<'a> {
     ///
     /// # Errors
     /// If a state can't be read.
-    pub fn new(recording: &'a Recording, workers: Workers, instructions: InstructionSet) -> Result<Self, SaveError> {
+    pub fn new(recording: &'a Recording, workers: Workers, instructions: InstructionSet) -> Result<Self, FileError> {
         Self::from_segment(recording, 0, workers, instructions)
     }
 
@@ -76,7 +76,7 @@ impl<'a> Replay<'a> {
         recording: &'a Recording,
         workers: Workers,
         instructions: InstructionSet,
-    ) -> Result<Self, SaveError> {
+    ) -> Result<Self, FileError> {
         Self::from_segment(recording, recording.segments.len() - 1, workers, instructions)
     }
 
@@ -85,7 +85,7 @@ impl<'a> Replay<'a> {
         segment: usize,
         workers: Workers,
         instructions: InstructionSet,
-    ) -> Result<Self, SaveError> {
+    ) -> Result<Self, FileError> {
         let start = recording.segments[segment].start()?;
         let simulation = Simulation::resume(&start, workers).with_instructions(instructions);
         let input = Input::new(recording.segments[segment].entries.clone());

@@ -3,7 +3,7 @@
 use crate::sim::state::{Clock, Setup};
 use bevy::prelude::{Resource, World};
 
-/// Acts on the world before each tick of its scene, as a player with more hands would. In any other scene it does nothing.
+/// Acts on the world before each tick of its scene, like a player. In any other scene it does nothing.
 #[derive(Resource, Clone, Debug)]
 pub struct Script {
     /// Name of the scene that it belongs to.

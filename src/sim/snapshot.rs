@@ -106,52 +106,32 @@ impl Snapshot {
 
 /// [`Snapshot::hash`] of the parts, without copying them.
 pub fn hash_state(particles: &Particles, solids: &Solids, air: &Air) -> u64 {
-    let mut hash = Fnv::default();
+    let mut hash = EMPTY;
+    let mut take = |word: u32| hash = word.to_le_bytes().into_iter().fold(hash, fnv);
     for i in particles.in_id_order() {
-        particles.get(i as usize).values().into_iter().for_each(|value| hash.word(value.word()));
+        particles.get(i as usize).values().into_iter().for_each(|value| take(value.word()));
     }
     for (cell, ElementId(element), id) in solids.iter() {
-        for word in [cell.x as u32, cell.y as u32, u32::from(element), id] {
-            hash.word(word);
-        }
+        [cell.x as u32, cell.y as u32, u32::from(element), id].into_iter().for_each(&mut take);
     }
     // Air that is at rest has one hash, with a grid or without.
     let air = air.with_grid(solids);
     for row in 0..air.rows() {
-        for field in [air.pressure_row(row), air.velocity_x_row(row), air.velocity_y_row(row)] {
-            for value in field {
-                hash.word(value.to_bits());
-            }
-        }
+        let fields = [air.pressure_row(row), air.velocity_x_row(row), air.velocity_y_row(row)];
+        fields.into_iter().flatten().for_each(|value| take(value.to_bits()));
     }
-    hash.0
+    hash
 }
 
 /// The same hash over bytes.
 pub(crate) fn hash_bytes(bytes: &[u8]) -> u64 {
-    let mut hash = Fnv::default();
-    for &byte in bytes {
-        hash.byte(byte);
-    }
-    hash.0
+    bytes.iter().copied().fold(EMPTY, fnv)
 }
 
-struct Fnv(u64);
+/// The hash of nothing.
+const EMPTY: u64 = 0xcbf2_9ce4_8422_2325;
 
-impl Default for Fnv {
-    fn default() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-}
-
-impl Fnv {
-    fn word(&mut self, word: u32) {
-        for byte in word.to_le_bytes() {
-            self.byte(byte);
-        }
-    }
-
-    fn byte(&mut self, byte: u8) {
-        self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-    }
+/// A hash with one more byte (FNV-1a).
+fn fnv(hash: u64, byte: u8) -> u64 {
+    (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
 }

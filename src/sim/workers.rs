@@ -31,7 +31,7 @@ impl Workers {
     /// If the system gives no threads.
     pub fn new(threads: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.max(1)).build()?;
-        // A thread that is still starting would do so in somebody's tick.
+        // A thread that is still starting would slow a tick down.
         pool.broadcast(|_| ());
         Ok(Self { pool: Some(Arc::new(pool)), alone: false })
     }

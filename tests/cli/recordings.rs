@@ -116,7 +116,7 @@ fn a_bad_recording_is_refused_in_one_line() {
     let mut changed = bytes.clone();
     changed[2000] ^= 4;
     let mut newer = bytes.clone();
-    newer[23] = 77;
+    (newer[23], newer[24]) = (77, 0);
     let mut huge = bytes[..25].to_vec();
     huge.extend(b"S\xff\xff\xff\xff and then nothing");
     for (name, bytes, says) in [
@@ -125,8 +125,8 @@ fn a_bad_recording_is_refused_in_one_line() {
         ("half", &bytes[..bytes.len() / 2], &["damaged", "breaks off"]),
         ("short", &bytes[..bytes.len() - 1], &["damaged"]),
         ("changed", &changed, &["damaged", "checksum"]),
-        ("newer", &newer, &["format 77; this program reads format 4"]),
-        ("old", b"{\"powder_master_replay\":1,\"scene\":\"empty\"}\n", &["format 1; this program reads format 4"]),
+        ("newer", &newer, &["format 77; this program reads format "]),
+        ("old", b"{\"powder_master_replay\":1,\"scene\":\"empty\"}\n", &["format 1; this program reads format "]),
         ("huge", &huge, &["damaged", "breaks off"]),
     ] {
         std::fs::write(here.join(name), bytes).unwrap();

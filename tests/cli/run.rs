@@ -1,6 +1,7 @@
 //! `run`: its metrics, tables and pictures, and that watching changes nothing.
 
 use crate::{folder, good, metrics};
+use powder_master::kernel::particles::Particles;
 use serde_json::Value;
 
 const SMALL: [&str; 8] = ["run", "dam_break", "--set", "columns=8", "--ticks", "45", "--effect", "viscosity=on"];
@@ -75,7 +76,7 @@ fn tables_have_their_columns_and_the_picture_is_a_picture() {
 
     let particles = read("p.csv");
     let mut lines = particles.lines();
-    assert_eq!(lines.next(), Some("id,element,x,y,vx,vy"));
+    assert_eq!(lines.next(), Some(&*Particles::COLUMNS.join(",")));
     let rows: Vec<&str> = lines.collect();
     assert_eq!(rows.len(), 128);
     let (width, height) = (4.0 * 0.8, 2.1 * 0.8);

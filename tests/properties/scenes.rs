@@ -1,7 +1,10 @@
 //! Random scene files from the whole space of valid ones: every number at both ends of its range and in between.
 
 use glam::Vec2;
-use powder_master::{kernel::params::Preset, scene::effects::Effect};
+use powder_master::{
+    kernel::params::Preset,
+    scene::{KNOBS, Knob, Part, Range, Values, effects::Effect},
+};
 use proptest::prelude::*;
 use std::fmt::Write;
 
@@ -148,32 +151,43 @@ fn effects() -> BoxedStrategy<String> {
         .boxed()
 }
 
+/// A value of a knob as a scene has it.
+fn value(knob: &'static Knob) -> BoxedStrategy<String> {
+    let Range { min, max, integer } = knob.values.range();
+    match knob.values {
+        Values::Words(words) => prop::sample::select(words).prop_map(str::to_owned).boxed(),
+        Values::Number(_) if integer => whole(min as u32, max as u32).prop_map(|value| value.to_string()).boxed(),
+        Values::Number(_) => number(min, max).prop_map(|value| format!("{value:?}")).boxed(),
+    }
+}
+
+/// Values of knobs, each left out half the time.
+fn knobs(knobs: impl Iterator<Item = &'static Knob>) -> BoxedStrategy<String> {
+    let named = |knob: &'static Knob| value(knob).prop_map(|value| format!("{}: {value}, ", knob.name));
+    fields(knobs.map(|knob| prop_oneof![Just(String::new()), named(knob)].boxed()).collect())
+}
+
 fn fluid() -> BoxedStrategy<String> {
-    fields(vec![
-        field("rest_density", prop_oneof![2 => Just(1.0), 1 => number(0.1, 100.0)].boxed()),
-        field("relaxation", number(1e-4, 10.0)),
-        field("constraint_floor", number(-1.0, 0.0)),
-        field("tension_strength", number(0.0, 1.0)),
-        field("tension_distance", number(0.1, 0.3)),
-    ])
-    .prop_map(|fields| format!("    fluid: ({fields}),\n"))
-    .boxed()
+    let liquid = KNOBS.iter().filter(|knob| knob.part == Part::Liquid);
+    // Most liquids have the density of the lattice.
+    (knobs(liquid), 0..3)
+        .prop_map(|(fields, usual)| {
+            let fields = fields.split_inclusive(", ").filter(|field| usual == 0 || !field.starts_with("rest_density"));
+            format!("    fluid: ({}),\n", fields.collect::<String>())
+        })
+        .boxed()
 }
 
 /// A quality and the work of a tick for each particle: substeps at most, times passes.
 fn quality() -> BoxedStrategy<(String, f64, f64)> {
+    const COSTLY: [&str; 3] = ["substeps", "iterations", "air_cell"];
+    let [substeps, iterations, air_cell] =
+        COSTLY.map(|name| Knob::find(name).unwrap_or_else(|| panic!("{name}")).values.range());
+    let count = |range: Range| whole(range.min as u32, range.max as u32);
     let preset = (0..Preset::ALL.len()).prop_map(|k| Preset::ALL[k]);
-    let counts = prop_oneof![3 => Just(None), 1 => (whole(1, 64), whole(1, 64)).prop_map(Some)];
-    let cell = prop_oneof![2 => Just(None), 1 => number(1.0, 32.0).prop_map(Some)];
-    let rest = fields(vec![
-        field("kernel_radius", number(2.0, 4.0)),
-        field("correction_limit", number(0.05, 0.5)),
-        field("air_courant", number(0.1, 0.9)),
-        prop_oneof![Just(""), Just("gradient: spiky, "), Just("gradient: rational, ")].prop_map(str::to_owned).boxed(),
-        prop_oneof![Just(""), Just("air_advection: first_order, "), Just("air_advection: second_order, ")]
-            .prop_map(str::to_owned)
-            .boxed(),
-    ]);
+    let counts = prop_oneof![3 => Just(None), 1 => (count(substeps), count(iterations)).prop_map(Some)];
+    let cell = prop_oneof![2 => Just(None), 1 => number(air_cell.min, air_cell.max).prop_map(Some)];
+    let rest = knobs(Knob::of_quality().filter(|knob| !COSTLY.contains(&knob.name)));
     (preset, counts, cell, rest)
         .prop_map(|(preset, counts, cell, rest)| {
             let mut text = format!("    quality: (preset: {}, {rest}", preset.name());

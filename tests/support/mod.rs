@@ -2,7 +2,7 @@
 
 use glam::Vec2;
 use powder_master::{
-    kernel::{element::ElementId, params::Domain, particles::Particles, pbf::Solver, solids::Solids},
+    kernel::{element::ElementId, params::Domain, particles::Particles, pbf::Solver, random, solids::Solids},
     scene::{
         self,
         blueprint::Blueprint,
@@ -170,31 +170,23 @@ impl SimulationExt for Simulation {
     }
 }
 
-/// Marsaglia's xorshift: the same numbers in every run.
-pub struct Random(u64);
+/// The same numbers in every run.
+pub struct Random(random::Random);
 
 impl Random {
     /// Numbers that belong to `seed`.
     pub fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
-    }
-
-    /// The next 64 bits.
-    pub fn bits(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
+        Self(random::Random::new(seed))
     }
 
     /// A number in `low … high`.
     pub fn within(&mut self, low: f32, high: f32) -> f32 {
-        low + (high - low) * (self.bits() >> 40) as f32 / (1_u64 << 24) as f32
+        low + (high - low) * self.0.share()
     }
 
     /// One of `0 … count`, count not included.
     pub fn index(&mut self, count: usize) -> usize {
-        (self.bits() >> 11) as usize % count
+        self.0.below(count)
     }
 
     /// A point in `[0, size.x] × [0, size.y]`.

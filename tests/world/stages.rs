@@ -126,14 +126,14 @@ fn an_intent_is_done_in_the_tick_after_it_in_order() {
     assert_eq!(simulation.get::<Clock>().edits, 3);
     assert_eq!(simulation.calls(Pass::Edit), 1);
     let census = simulation.census();
-    assert_eq!(census.by_element, [rock as u32, simulation.particles().len() as u32]);
+    assert_eq!(census.by_element[..2], [rock as u32, simulation.particles().len() as u32]);
     assert_eq!(census.total as usize, rock + simulation.particles().len());
     simulation.run(5);
     assert_eq!(simulation.calls(Pass::Edit), 1, "an intent was done twice");
 }
 
 #[test]
-fn taps_flow_and_outlets_drain() {
+fn emitters_flow_and_drains_take() {
     let mut blueprint = puddle();
     blueprint.emitters.push(Emitter {
         element: WATER,
@@ -351,7 +351,7 @@ fn a_full_world_stops_politely() {
 }
 
 #[test]
-fn a_fan_drives_the_air_and_the_air_carries_water() {
+fn a_wind_drives_the_air_and_the_air_carries_water() {
     let mut blueprint = empty_box(60, 20);
     blueprint.air.open = OpenSides { left: true, right: true, ..OpenSides::default() };
     blueprint.winds.push(Wind { area: area((0.0, 0.0), (60.0, 20.0)), velocity: Vec2::new(80.0, 0.0), rate: 20.0 });

@@ -3,7 +3,7 @@
 
 use crate::{
     game::render::air::{Streak, streak},
-    kernel::units::TICK_SECONDS,
+    kernel::{random::Random, units::TICK_SECONDS},
     lab::colours::Reference,
     sim::{
         pace::Pace,
@@ -33,18 +33,12 @@ struct Tracer {
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Tracers {
     all: Vec<Tracer>,
-    seed: u32,
+    random: Random,
     /// Whether any of them moves.
     awake: bool,
 }
 
 impl Tracers {
-    /// A number in 0 … 1, another each time.
-    fn chance(&mut self) -> f32 {
-        self.seed = self.seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (self.seed >> 8) as f32 / (1 << 24) as f32
-    }
-
     /// Streaks of those that the wind moves.
     pub fn pack(&self, reference: Reference, out: &mut Vec<Streak>) {
         if !self.awake {
@@ -86,8 +80,12 @@ pub fn drift(
         let outside = tracer.at.cmplt(Vec2::ZERO).any() || tracer.at.cmpgt(size).any();
         if tracer.age >= LIFE || outside {
             // The first generation starts at all ages, so that they don't blink together.
-            let age = if tracer.at == Vec2::ZERO { LIFE * tracers.chance() } else { 0.0 };
-            tracer = Tracer { at: Vec2::new(tracers.chance(), tracers.chance()) * size, age, velocity: Vec2::ZERO };
+            let age = if tracer.at == Vec2::ZERO { LIFE * tracers.random.share() } else { 0.0 };
+            tracer = Tracer {
+                at: Vec2::new(tracers.random.share(), tracers.random.share()) * size,
+                age,
+                velocity: Vec2::ZERO,
+            };
         }
         tracer.velocity = air.sample_velocity(tracer.at);
         tracers.all[k] = tracer;

@@ -27,7 +27,7 @@ use super::{
     pressure::shifted,
     second_order::{SecondOrder, Shares},
     shape::Corner,
-    source::{Source, store_three, three},
+    source::{Source, product, store_three, sum, three},
 };
 use crate::simd::{Array, Lanes, lane_starts};
 use std::ops::Range;
@@ -243,15 +243,14 @@ impl Advection {
     fn turn_corners(&mut self, source: Source, row: usize, u: &[f32], v: &[f32]) {
         let Source { shape, left: first, width, .. } = source;
         let Self { right, left, up, down, .. } = self;
-        for Corner { column, weights } in shape.above.row_within(row, first, width) {
-            let k = *column as usize - first;
-            let mass = up[k] * (weights[0] * left[k] + weights[1] * right[k + 1]);
-            self.carry_up[0].add(k - 1, mass, u[k], v[k]);
-        }
-        for Corner { column, weights } in shape.below.row_within(row, first, width) {
-            let k = *column as usize - first;
-            let mass = down[k] * (weights[0] * left[k] + weights[1] * right[k + 1]);
-            self.carry_down.add(k - 1, mass, u[k], v[k]);
+        for (corners, part, carry) in
+            [(&shape.above, &*up, &mut self.carry_up[0]), (&shape.below, &*down, &mut self.carry_down)]
+        {
+            for Corner { column, weights } in corners.row_within(row, first, width) {
+                let k = *column as usize - first;
+                let mass = part[k] * (weights[0] * left[k] + weights[1] * right[k + 1]);
+                carry.add(k - 1, mass, u[k], v[k]);
+            }
         }
         let level = &mut self.carry_level[0];
         for Corner { column, weights } in shape.beside.row_within(row, first, width) {
@@ -314,10 +313,6 @@ impl Advection {
 /// Mass and momentum of the given parts of three cells, from left to right: middle + (left + right).
 #[inline(always)]
 fn sum_three<L: Lanes>(mass: [L; 3], parts: [L; 3], u: [L; 3], v: [L; 3]) -> [L; 3] {
-    let from = [mass[0] * parts[0], mass[1] * parts[1], mass[2] * parts[2]];
-    [
-        from[1] + (from[0] + from[2]),
-        from[1] * u[1] + (from[0] * u[0] + from[2] * u[2]),
-        from[1] * v[1] + (from[0] * v[0] + from[2] * v[2]),
-    ]
+    let from = product(mass, parts);
+    [sum(from), sum(product(from, u)), sum(product(from, v))]
 }

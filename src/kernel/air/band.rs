@@ -24,13 +24,6 @@ pub(super) struct Band {
     pub(super) peaks: Peaks,
 }
 
-/// What a substep writes: whole rows, with the ring, of which only the cells of the box are touched.
-pub(super) struct Target<'a> {
-    pub(super) pressure: &'a mut [f32],
-    pub(super) velocity_x: &'a mut [f32],
-    pub(super) velocity_y: &'a mut [f32],
-}
-
 impl Band {
     pub(super) fn new(stride: usize) -> Self {
         let row = |value| vec![value; stride];
@@ -83,7 +76,8 @@ pub(super) struct BandPass<'a> {
     pub(super) rows: Range<usize>,
     /// The row that the target begins with, counted with the ring.
     pub(super) first: usize,
-    pub(super) target: Target<'a>,
+    /// Out: pressure and velocity. Whole rows, with the ring, of which only the cells of the box are touched.
+    pub(super) target: [&'a mut [f32]; 3],
 }
 
 impl BandPass<'_> {
@@ -102,7 +96,7 @@ impl BandPass<'_> {
             start: self.source.start(row),
             stride,
         };
-        let Target { pressure, velocity_x, velocity_y } = &mut self.target;
+        let [pressure, velocity_x, velocity_y] = &mut self.target;
         let peaks = self.push.run::<L>(from, [&mut velocity_x[out.clone()], &mut velocity_y[out.clone()]]);
         pressure[out][1..=width - 2].copy_from_slice(&here[1..=width - 2]);
         self.band.peaks = self.band.peaks.max(peaks);

@@ -36,8 +36,8 @@ use std::ops::Range;
 /// Fewer cells than this are not handed to another thread.
 const WORTH_RESOLVING: usize = 8192;
 
-/// A drag per substep past which a particle has the wind's velocity, whatever the rounding.
-const UTTER: f32 = 1.0e30;
+/// A drag per substep from which on a particle has the wind's velocity, whatever the rounding.
+const MOST_DRAG: f32 = 1.0e30;
 
 /// Particles to a d² that a gate counts on: twice as many as there are in water.
 const CROWD: f32 = 2.0;
@@ -66,8 +66,8 @@ impl Reach for Along {
     }
 }
 
-/// What a particle brings to the exchange.
-struct Party {
+/// How a particle takes part in the exchange.
+struct Coupling {
     at: Stencil,
     /// α.
     share: f32,
@@ -100,25 +100,18 @@ impl Air {
         blocks.share_out([&mut meetings[..]], stride, team.threads, &|range, first, [meetings]| {
             for i in range {
                 let (element, velocity) = (particles.element[i], [particles.vx[i], particles.vy[i]]);
-                let Party { at, share } = air.party(elements, element, [particles.x[i], particles.y[i]], velocity, dt);
+                let Coupling { at, share } =
+                    air.coupling(elements, element, [particles.x[i], particles.y[i]], velocity, dt);
                 let brought = share * elements.mass[element.index()];
                 let meeting = [brought * velocity[0], brought * velocity[1], brought, 0.0];
-                let k = at.k - first * stride;
-                let (left, right) = (1.0 - at.x, at.x);
-                let corners = [
-                    (k, left * (1.0 - at.y)),
-                    (k + 1, right * (1.0 - at.y)),
-                    (k + stride, left * at.y),
-                    (k + stride + 1, right * at.y),
-                ];
-                for (k, weight) in corners {
-                    for (sum, value) in meetings[k].iter_mut().zip(meeting) {
+                for (k, weight) in at.corners(stride) {
+                    for (sum, value) in meetings[k - first * stride].iter_mut().zip(meeting) {
                         *sum += weight * value;
                     }
                 }
             }
         });
-        self.agree(&mut feedback, team);
+        self.resolve(&mut feedback, team);
         self.rouse(&mut feedback, rousing);
         self.scratch.feedback = feedback;
     }
@@ -131,7 +124,7 @@ impl Air {
         spread([&mut vx[..], &mut vy[..]], WORTH_A_PIECE, threads, &|base, [vx, vy]| {
             for (i, (vx, vy)) in vx.iter_mut().zip(vy).enumerate() {
                 let i = base + i;
-                let Party { at, share } = air.party(elements, element[i], [x[i], y[i]], [*vx, *vy], dt);
+                let Coupling { at, share } = air.coupling(elements, element[i], [x[i], y[i]], [*vx, *vy], dt);
                 let (low, high) = (&meetings[at.k..at.k + 2], &meetings[at.k + stride..at.k + stride + 2]);
                 let wind = |axis: usize| at.mix([low[0][axis], low[1][axis]], [high[0][axis], high[1][axis]]);
                 let (u, v) = (wind(0), wind(1));
@@ -151,26 +144,26 @@ impl Air {
 
     /// Place and share of a particle, by the wind as it is before the exchange.
     #[inline(always)]
-    fn party(
+    fn coupling(
         &self,
         elements: &ElementParams,
         element: ElementId,
         place: [f32; 2],
         velocity: [f32; 2],
         dt: f32,
-    ) -> Party {
+    ) -> Coupling {
         let at = self.stencil(place[0], place[1], 1.0 / self.cell);
         let (x, y) = (velocity[0] - self.blend(&self.velocity_x, &at), velocity[1] - self.blend(&self.velocity_y, &at));
-        let slowing = (elements.drag[element.index()] * (x * x + y * y).sqrt() * dt).min(UTTER);
-        Party { at, share: slowing / (1.0 + slowing) }
+        let slowing = (elements.drag[element.index()] * (x * x + y * y).sqrt() * dt).min(MOST_DRAG);
+        Coupling { at, share: slowing / (1.0 + slowing) }
     }
 
-    /// From what cells meet to the velocity that they get.
-    fn agree(&self, feedback: &mut Feedback, team: Team) {
+    /// Finds the velocity that each cell gets from what the particles bring.
+    fn resolve(&self, feedback: &mut Feedback, team: Team) {
         let Feedback { blocks, columns, meetings, .. } = feedback;
         let (rows, stride) = (blocks.reached(), self.stride());
         let band = Rows::new(meetings, stride, &rows);
-        let work = Agree { air: self, columns, cell_mass: self.params.density * (self.cell * self.cell) };
+        let work = Resolve { air: self, columns, cell_mass: self.params.density * (self.cell * self.cell) };
         sweep(&work, rows, band, columns.len().max(1), WORTH_RESOLVING, team);
     }
 
@@ -208,14 +201,14 @@ impl Air {
     }
 }
 
-struct Agree<'a> {
+struct Resolve<'a> {
     air: &'a Air,
     columns: &'a Range<usize>,
     /// Mass of a cell of air at pressure 1, kg/m² d².
     cell_mass: f32,
 }
 
-impl Sweep<Rows<'_, Meeting>> for Agree<'_> {
+impl Sweep<Rows<'_, Meeting>> for Resolve<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut meetings: Rows<Meeting>) {
         let Self { air, columns, cell_mass } = *self;

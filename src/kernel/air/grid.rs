@@ -6,17 +6,13 @@
 
 use super::{
     band::Band,
-    layout::{Layout, in_ring},
     meetings::Feedback,
     report::AirReport,
     rooms::Room,
     shape::Shape,
     tiling::{Tiling, Watch},
 };
-use crate::{
-    params::{AirParams, OpenSides},
-    solids::Solids,
-};
+use crate::{params::AirParams, solids::Solids};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -34,11 +30,9 @@ pub const MAX_SPEED: f32 = 1.0e6;
 /// Air that nothing has ever moved needs no grid: it is [`Air::unbuilt`], and its fields hold one row, which stands for
 /// all of them. [`Air::build`] makes the grid once something is about to move it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Stored")]
 pub struct Air {
     pub(super) size: Vec2,
     pub(super) cell: f32,
-    #[serde(with = "StoredParams")]
     pub(super) params: AirParams,
     pub(super) columns: u32,
     pub(super) rows: u32,
@@ -94,159 +88,92 @@ impl PartialEq for Scratch {
     }
 }
 
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "AirParams")]
-struct StoredParams {
-    sound_speed: f32,
-    density: f32,
-    open: OpenSides,
-}
-
-/// The air as a file has it, not yet checked.
-#[derive(Deserialize)]
-struct Stored {
-    size: Vec2,
-    cell: f32,
-    #[serde(with = "StoredParams")]
-    params: AirParams,
-    columns: u32,
-    rows: u32,
-    pressure: Vec<f32>,
-    velocity_x: Vec<f32>,
-    velocity_y: Vec<f32>,
-    solid: Vec<bool>,
-    outside: Vec<f32>,
-    solids_version: Option<u64>,
-    keep_mass: bool,
-    quiet: bool,
-    awake: Vec<bool>,
-    rests: Vec<f32>,
-    pending: AirReport,
-}
-
-impl TryFrom<Stored> for Air {
-    type Error = String;
-
-    fn try_from(stored: Stored) -> Result<Self, String> {
-        let (columns, rows) = (stored.columns as usize, stored.rows as usize);
+impl Air {
+    /// Whether air that was read from a file is sound, or what is wrong with it. All that goes from cell to cell relies on it.
+    pub fn check(&self) -> Result<(), String> {
+        let (columns, rows) = (self.columns(), self.rows());
         let still =
             |field: &[f32], value: f32| field.len() == columns.saturating_add(2) && field.iter().all(|v| *v == value);
-        let unbuilt = stored.quiet
-            && still(&stored.pressure, 1.0)
-            && still(&stored.velocity_x, 0.0)
-            && still(&stored.velocity_y, 0.0)
-            && stored.solid == vec![false; stored.pressure.len()]
-            && stored.outside.is_empty()
-            && stored.awake.is_empty()
-            && stored.solids_version.is_none();
-        let cells = (columns + 2).saturating_mul(rows + 2);
-        let fields = [&stored.pressure, &stored.velocity_x, &stored.velocity_y];
-        let whole = stored.solid.len() == cells && fields.iter().all(|field| field.len() == cells);
+        let unbuilt = self.quiet
+            && still(&self.pressure, 1.0)
+            && still(&self.velocity_x, 0.0)
+            && still(&self.velocity_y, 0.0)
+            && self.solid == vec![false; self.pressure.len()]
+            && self.outside.is_empty()
+            && self.awake.is_empty()
+            && self.solids_version.is_none();
+        let (tiling, cells) = (self.tiling(), (columns + 2).saturating_mul(rows + 2));
+        let fields = [&self.pressure, &self.velocity_x, &self.velocity_y];
+        let whole = self.solid.len() == cells && fields.iter().all(|field| field.len() == cells);
         if columns == 0 || rows == 0 || !(whole || unbuilt) {
             return Err(format!("air: {columns} × {rows} cells need {cells} values a field, with the ring"));
         }
-        // Whoever walks from cell to cell relies on it to stop there.
-        if !unbuilt && (0..cells).any(|k| in_ring(k, columns, rows) && !stored.solid[k]) {
+        if !unbuilt && (0..cells).any(|k| tiling.in_ring(k) && !self.solid[k]) {
             return Err("air: the ring around its cells must be solid".to_owned());
         }
-        if stored.outside.len() != 2 * (columns + rows) && !unbuilt {
+        if self.outside.len() != 2 * (columns + rows) && !unbuilt {
             return Err(format!("air: outside needs {} values", 2 * (columns + rows)));
         }
-        if fields.into_iter().chain([&stored.outside]).flatten().any(|value| !value.is_finite()) {
+        if fields.into_iter().chain([&self.outside]).flatten().any(|value| !value.is_finite()) {
             return Err("air: every pressure and velocity must be finite".to_owned());
         }
-        if stored.pressure.iter().any(|p| *p < 0.0) {
+        if self.pressure.iter().any(|p| *p < 0.0) {
             return Err("air: every pressure must be 0 or more".to_owned());
         }
-        if stored.awake.len() != Tiling::new(columns, rows).count() && !unbuilt {
-            return Err(format!("air: {} values tell which tiles are awake", stored.awake.len()));
+        if self.awake.len() != tiling.count() && !unbuilt {
+            return Err(format!("air: {} values tell which tiles are awake", self.awake.len()));
         }
-        if stored.rests.len() > cells || stored.rests.iter().any(|rest| !rest.is_finite() || *rest < 0.0) {
+        if self.rests.len() > cells || self.rests.iter().any(|rest| !rest.is_finite() || *rest < 0.0) {
             return Err("air: every pressure of rest must be finite and 0 or more".to_owned());
         }
-        if !stored.pending.is_of_tools() {
+        if !self.pending.is_of_tools() {
             return Err("air: what tools had to clamp is no count of a world's".to_owned());
         }
-        let lengths = [stored.cell, stored.size.x, stored.size.y, stored.params.sound_speed, stored.params.density];
+        let lengths = [self.cell, self.size.x, self.size.y, self.params.sound_speed, self.params.density];
         if lengths.iter().any(|length| !length.is_finite() || *length <= 0.0) {
             return Err("air: size, cell, sound_speed and density must be finite and positive".to_owned());
         }
         // The size is what a change of cells goes by.
-        let expected = (stored.size / stored.cell).ceil().max(Vec2::ONE);
+        let expected = (self.size / self.cell).ceil().max(Vec2::ONE);
         if expected != Vec2::new(columns as f32, rows as f32) {
-            return Err(format!(
-                "air: a box of {} d has no {columns} × {rows} cells of {} d",
-                stored.size, stored.cell
-            ));
+            return Err(format!("air: a box of {} d has no {columns} × {rows} cells of {} d", self.size, self.cell));
         }
-        Ok(Self {
-            size: stored.size,
-            cell: stored.cell,
-            params: stored.params,
-            columns: stored.columns,
-            rows: stored.rows,
-            pressure: stored.pressure,
-            velocity_x: stored.velocity_x,
-            velocity_y: stored.velocity_y,
-            solid: stored.solid,
-            outside: stored.outside,
-            solids_version: stored.solids_version,
-            keep_mass: stored.keep_mass,
-            quiet: stored.quiet,
-            awake: stored.awake,
-            rests: stored.rests,
-            pending: stored.pending,
-            scratch: Scratch::default(),
-        })
+        Ok(())
     }
-}
 
-impl Air {
     /// Air at rest at pressure 1 in a box of `size` (d) on cells of edge `cell` (d). The box is covered whole: the last
     /// column and row may reach beyond it.
     pub fn new(size: Vec2, cell: f32, params: AirParams) -> Self {
-        debug_assert!(size.is_finite() && size.min_element() > 0.0 && cell.is_finite() && cell > 0.0);
-        debug_assert!(params.sound_speed.is_finite() && params.sound_speed > 0.0);
-        let columns = ((size.x / cell).ceil() as usize).max(1);
-        let rows = ((size.y / cell).ceil() as usize).max(1);
-        let stride = columns + 2;
-        let cells = stride * (rows + 2);
+        let air = Self::unbuilt(size, cell, params);
+        let (tiling, cells) = (air.tiling(), air.stride() * (air.rows() + 2));
         Self {
-            size,
-            cell,
-            params,
-            columns: columns as u32,
-            rows: rows as u32,
             pressure: vec![1.0; cells],
             velocity_x: vec![0.0; cells],
             velocity_y: vec![0.0; cells],
-            solid: (0..cells).map(|k| in_ring(k, columns, rows)).collect(),
-            outside: vec![0.0; 2 * (columns + rows)],
-            solids_version: None,
-            keep_mass: false,
-            quiet: true,
-            awake: vec![false; Tiling::new(columns, rows).count()],
-            rests: Vec::new(),
-            pending: AirReport::default(),
-            scratch: Scratch::default(),
+            solid: (0..cells).map(|k| tiling.in_ring(k)).collect(),
+            outside: vec![0.0; 2 * (air.columns() + air.rows())],
+            awake: vec![false; tiling.count()],
+            ..air
         }
     }
 
     /// The same without a grid yet. It knows no rock and all of its rows read as air at rest; nothing but
     /// [`Air::build`] changes that.
     pub fn unbuilt(size: Vec2, cell: f32, params: AirParams) -> Self {
-        let columns = ((size.x / cell).ceil() as usize).max(1);
-        let rows = ((size.y / cell).ceil() as usize).max(1);
+        debug_assert!(size.is_finite() && size.min_element() > 0.0 && cell.is_finite() && cell > 0.0);
+        debug_assert!(params.sound_speed.is_finite() && params.sound_speed > 0.0);
+        let [columns, rows] = (size / cell).to_array().map(|cells| (cells.ceil() as u32).max(1));
+        let stride = columns as usize + 2;
         Self {
             size,
             cell,
             params,
-            columns: columns as u32,
-            rows: rows as u32,
-            pressure: vec![1.0; columns + 2],
-            velocity_x: vec![0.0; columns + 2],
-            velocity_y: vec![0.0; columns + 2],
-            solid: vec![false; columns + 2],
+            columns,
+            rows,
+            pressure: vec![1.0; stride],
+            velocity_x: vec![0.0; stride],
+            velocity_y: vec![0.0; stride],
+            solid: vec![false; stride],
             outside: Vec::new(),
             solids_version: None,
             keep_mass: false,
@@ -359,9 +286,9 @@ impl Air {
         state + buffers * 4 + shape + self.scratch.watch.memory_bytes() + self.scratch.feedback.memory_bytes()
     }
 
-    /// How the cells lie and which of them are rock.
-    pub(super) fn layout(&self) -> Layout<'_> {
-        Layout { columns: self.columns(), rows: self.rows(), solid: &self.solid, open: self.params.open }
+    /// How the cells lie, and the tiles.
+    pub(super) fn tiling(&self) -> Tiling {
+        Tiling::new(self.columns(), self.rows())
     }
 
     /// Values between a cell and the one above it.
@@ -379,6 +306,12 @@ impl Air {
         assert!(row < self.rows(), "row {row} of {}", self.rows);
         let start = if self.is_built() { self.index(0, row) } else { 1 };
         start..start + self.columns()
+    }
+
+    /// Where all cells of the box stand in the fields, row by row.
+    pub(super) fn cells(&self) -> impl Iterator<Item = usize> + use<> {
+        let (first, step) = (self.row_range(0), if self.is_built() { self.stride() } else { 0 });
+        (0..self.rows()).flat_map(move |row| first.start + row * step..first.end + row * step)
     }
 
     /// Centre of a cell, d.

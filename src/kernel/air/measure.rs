@@ -10,13 +10,12 @@ impl Air {
     }
 
     fn open_cells(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.rows()).flat_map(|row| self.row_range(row)).filter(|k| !self.solid[*k])
+        self.cells().filter(|k| !self.solid[*k])
     }
 
     /// Mass of the cells of the box for which `wanted` holds.
     pub(super) fn mass_where(&self, wanted: impl Fn(usize) -> bool) -> f64 {
-        let inner = (0..self.rows()).flat_map(|row| self.row_range(row));
-        inner.filter(|k| wanted(*k)).map(|k| f64::from(self.pressure[k])).sum::<f64>() * self.cell_area()
+        self.cells().filter(|k| wanted(*k)).map(|k| f64::from(self.pressure[k])).sum::<f64>() * self.cell_area()
     }
 
     /// Mass: pressure of the open cells times their area, d². It doesn't depend on the size of the cells.

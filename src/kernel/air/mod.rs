@@ -5,12 +5,12 @@
 //! velocity (u, v), d/s, all at its centre. With `Dρ/Dt = −ρ ∇·u` and `Du/Dt = −c² ∇p` this is the gas of `γ = 2`: sound
 //! runs at `c √p`, and the energy `½ Σ p |u|² + ½ c² Σ p²` can only fall in a closed box.
 //!
-//! Types below, what works on them above: `layout`, `tiling` → `shape` → `source`, `rooms` → the passes → `grid` → the rest.
+//! Types below, what works on them above: `tiling` → `shape` → `source`, `rooms` → the passes → `grid` → the rest.
 //!
 //! | module | does | writes | reads |
 //! |---|---|---|---|
-//! | `grid` | the state, who may see it | | |
-//! | `layout`, `tiling` | how the cells lie; how they are cut into tiles | | |
+//! | `grid` | the state, and how it is read and checked | | |
+//! | `tiling` | how the cells lie and how they are cut into tiles | | |
 //! | `shape` | what follows from rock: open faces, corners, rooms | `Shape` | the solid cells |
 //! | `rooms` | what is in each room, and its pressure at rest | `Room` | pressure, `Shape` |
 //! | `source` | what pass 1 reads | | |
@@ -31,7 +31,6 @@ mod band;
 mod edges;
 mod feedback;
 mod grid;
-mod layout;
 mod measure;
 mod meetings;
 mod pressure;

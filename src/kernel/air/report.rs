@@ -1,7 +1,6 @@
 //! What a step of the air did.
 
 use serde::{Deserialize, Serialize};
-use std::ops::AddAssign;
 
 /// What a step did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -34,17 +33,5 @@ impl AirReport {
         (substeps, cells, worked, slowed) == (0, 0, 0, 0)
             && speed_clamps.max(pressure_clamps) <= MOST_COUNTED
             && (0.0..=MOST_COUNTED as f64).contains(&buried)
-    }
-}
-
-impl AddAssign for AirReport {
-    fn add_assign(&mut self, other: Self) {
-        self.substeps += other.substeps;
-        self.cells = self.cells.max(other.cells);
-        self.worked += other.worked;
-        self.speed_clamps += other.speed_clamps;
-        self.slowed += other.slowed;
-        self.pressure_clamps += other.pressure_clamps;
-        self.buried += other.buried;
     }
 }

@@ -61,15 +61,11 @@ impl Air {
     /// Velocity of the air outside, from the old edge cell at the middle of each new one.
     fn copy_outside(&self, air: &mut Air) {
         let nearest = |k: usize, count: usize| (((k as f32 + 0.5) * air.cell / self.cell) as usize).min(count - 1);
-        let (rows, columns) = (air.rows(), air.columns());
-        let mut outside = Vec::with_capacity(air.outside.len());
-        for side in 0..2 {
-            outside.extend((0..rows).map(|row| self.outside[side * self.rows() + nearest(row, self.rows())]));
-        }
-        let first = 2 * self.rows();
-        for side in 0..2 {
-            let start = first + side * self.columns();
-            outside.extend((0..columns).map(|column| self.outside[start + nearest(column, self.columns())]));
+        let (rows, columns) = ((self.rows(), air.rows()), (self.columns(), air.columns()));
+        let (mut outside, mut first) = (Vec::with_capacity(air.outside.len()), 0);
+        for (count, wanted) in [rows, rows, columns, columns] {
+            outside.extend((0..wanted).map(|k| self.outside[first + nearest(k, count)]));
+            first += count;
         }
         air.outside = outside;
     }

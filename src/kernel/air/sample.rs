@@ -14,6 +14,18 @@ pub(super) struct Stencil {
 }
 
 impl Stencil {
+    /// The four cells, in the fields, and how much of each.
+    #[inline(always)]
+    pub(super) fn corners(&self, stride: usize) -> [(usize, f32); 4] {
+        let (left, lower) = (1.0 - self.x, 1.0 - self.y);
+        [
+            (self.k, left * lower),
+            (self.k + 1, self.x * lower),
+            (self.k + stride, left * self.y),
+            (self.k + stride + 1, self.x * self.y),
+        ]
+    }
+
     /// Blend of the lower two cells and the upper two, each from left to right.
     #[inline(always)]
     pub(super) fn mix(&self, low: [f32; 2], high: [f32; 2]) -> f32 {
@@ -74,25 +86,5 @@ impl Air {
             *u = self.blend(&self.velocity_x, &at);
             *v = self.blend(&self.velocity_y, &at);
         }
-    }
-
-    /// Pressure at a point (d): bilinear between the centres of open cells; 0 where all cells around are rock.
-    pub fn sample_pressure(&self, p: Vec2) -> f32 {
-        if !self.is_built() {
-            return 1.0;
-        }
-        let at = self.stencil(p.x, p.y, 1.0 / self.cell);
-        let corners = [
-            (at.k, (1.0 - at.x) * (1.0 - at.y)),
-            (at.k + 1, at.x * (1.0 - at.y)),
-            (at.k + self.stride(), (1.0 - at.x) * at.y),
-            (at.k + self.stride() + 1, at.x * at.y),
-        ];
-        let (mut sum, mut weights) = (0.0, 0.0);
-        for (k, weight) in corners.into_iter().filter(|(k, _)| !self.solid[*k]) {
-            sum += weight * self.pressure[k];
-            weights += weight;
-        }
-        if weights > 0.0 { sum / weights } else { 0.0 }
     }
 }

@@ -28,7 +28,7 @@
 
 use super::{
     pressure::shifted,
-    source::{Source, store_three, three},
+    source::{Source, product, store_three, sum, three},
 };
 use crate::simd::{Array, Lanes, lane_starts};
 use std::ops::Range;
@@ -196,17 +196,6 @@ fn gather<L: Lanes>(
         sum(product(three(u, i), parts)) + sum(product(mass, tilted_u)),
         sum(product(three(v, i), parts)) + sum(product(mass, tilted_v)),
     ]
-}
-
-#[inline(always)]
-fn product<L: Lanes>(a: [L; 3], b: [L; 3]) -> [L; 3] {
-    [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
-}
-
-/// From left to right, so paired that a mirror image has the same bits.
-#[inline(always)]
-fn sum<L: Lanes>([left, middle, right]: [L; 3]) -> L {
-    middle + (left + right)
 }
 
 /// The slope in the middle one of three cells whose faces are open (1) or closed (0).

@@ -1,7 +1,8 @@
 //! What follows from the rock: which faces let air through, where a diagonal share strikes a corner of rock, and which
 //! cells belong to one room. Made anew when the rock changes.
 
-use super::layout::Layout;
+use super::tiling::Tiling;
+use crate::params::OpenSides;
 
 /// A cell at which diagonal shares that strike rock turn aside: each goes in halves to the two cells beside the rock, the
 /// one above or below its source and the one left or right of it.
@@ -91,6 +92,12 @@ fn close(faces: impl Iterator<Item = usize>, open: &mut [f32], fences: &mut Vec<
     }
 }
 
+/// Which of four it is that alone `holds`, if there is one.
+fn the_only(holds: impl Fn(usize) -> bool) -> Option<usize> {
+    let mut places = (0..4).filter(|place| holds(*place));
+    places.next().filter(|_| places.next().is_none())
+}
+
 /// Faces, corners and rooms of a grid.
 #[derive(Debug)]
 pub(super) struct Shape {
@@ -119,48 +126,40 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    pub(super) fn new(layout: &Layout) -> Self {
-        let stride = layout.stride();
-        let (columns, rows) = (layout.columns, layout.rows);
-        let cells = layout.solid.len();
+    /// Of a grid with rock in the cells that are `solid`, as all of the ring counts.
+    pub(super) fn new(tiling: Tiling, solid: &[bool], open: OpenSides) -> Self {
+        let (stride, [columns, rows]) = (tiling.stride(), tiling.cells());
         let mut shape = Self {
-            open_x: vec![0.0; cells],
-            open_y: vec![0.0; cells],
+            open_x: vec![0.0; solid.len()],
+            open_y: vec![0.0; solid.len()],
             above: ByRow::new(),
             below: ByRow::new(),
             beside: ByRow::new(),
             struck: ByRow::new(),
-            room: vec![u32::MAX; cells],
+            room: vec![u32::MAX; solid.len()],
             room_open: Vec::new(),
             fences_x: Vec::new(),
             fences_y: Vec::new(),
             turns: Vec::new(),
         };
-        let open = layout.open;
+        // Whether air passes a face between two places, of which either may be beyond a side that is open.
+        let share = |[low, high]: [usize; 2], [open_low, open_high]: [bool; 2]| {
+            f32::from(u8::from((open_low || !solid[low]) && (open_high || !solid[high])))
+        };
         for row in 1..=rows {
             for column in 1..=columns + 1 {
-                let k = row * stride + column;
-                let free = match column {
-                    1 => open.left && !layout.solid[k],
-                    _ if column == columns + 1 => open.right && !layout.solid[k - 1],
-                    _ => !layout.solid[k] && !layout.solid[k - 1],
-                };
-                shape.open_x[k] = f32::from(u8::from(free));
+                let (k, sides) = (row * stride + column, [column == 1 && open.left, column > columns && open.right]);
+                shape.open_x[k] = share([k - 1, k], sides);
             }
         }
         for row in 1..=rows + 1 {
             for column in 1..=columns {
-                let k = row * stride + column;
-                let free = match row {
-                    1 => open.bottom && !layout.solid[k],
-                    _ if row == rows + 1 => open.top && !layout.solid[k - stride],
-                    _ => !layout.solid[k] && !layout.solid[k - stride],
-                };
-                shape.open_y[k] = f32::from(u8::from(free));
+                let (k, sides) = (row * stride + column, [row == 1 && open.bottom, row > rows && open.top]);
+                shape.open_y[k] = share([k - stride, k], sides);
             }
         }
-        shape.find_corners(layout);
-        shape.find_rooms(layout);
+        shape.find_corners(tiling, solid);
+        shape.find_rooms(stride, solid);
         shape
     }
 
@@ -181,62 +180,49 @@ impl Shape {
     }
 
     /// Closes the faces between active tiles and sleeping ones, and opens those that were closed before for that.
-    pub(super) fn fence(&mut self, layout: &Layout, active: &[bool]) {
-        for k in self.fences_x.drain(..) {
-            self.open_x[k as usize] = 1.0;
+    pub(super) fn fence(&mut self, tiling: Tiling, solid: &[bool], active: &[bool]) {
+        for (fences, open) in [(&mut self.fences_x, &mut self.open_x), (&mut self.fences_y, &mut self.open_y)] {
+            fences.drain(..).for_each(|k| open[k as usize] = 1.0);
         }
-        for k in self.fences_y.drain(..) {
-            self.open_y[k as usize] = 1.0;
-        }
-        self.turns.clear();
-        let (tiling, stride) = (layout.tiling(), layout.stride());
-        let [width, height] = tiling.size();
-        self.find_turns(layout, active);
+        self.find_turns(tiling, solid, active);
+        let (stride, width) = (tiling.stride(), tiling.size()[0]);
         for tile in 0..tiling.count() {
             let (columns, rows) = (tiling.columns(tile), tiling.rows(tile));
+            let first = (rows.start + 1) * stride;
             if tile % width > 0 && active[tile] != active[tile - 1] {
                 let faces = rows.map(|row| (row + 1) * stride + columns.start + 1);
                 close(faces, &mut self.open_x, &mut self.fences_x);
             }
             if tile >= width && active[tile] != active[tile - width] {
-                let first = (tiling.rows(tile).start + 1) * stride;
                 close(columns.map(|column| first + column + 1), &mut self.open_y, &mut self.fences_y);
             }
         }
         // Where one of the four tiles that meet is active, the sleeping cell across from its own must not send it
         // anything, for it would give nothing away: no share goes both ways if it can't go sideways.
-        for (j, i) in (1..height).flat_map(|j| (1..width).map(move |i| (j, i))) {
-            let upper_right = j * width + i;
-            let around = [upper_right - width - 1, upper_right - width, upper_right - 1, upper_right];
-            let mut awake = (0..4).filter(|place| active[around[*place]]);
-            if let (Some(place), None) = (awake.next(), awake.next()) {
-                let row = tiling.rows(upper_right).start + usize::from(place / 2 == 0);
-                let face = row * stride + tiling.columns(upper_right).start + 1;
+        for around in tiling.meeting() {
+            if let Some(place) = the_only(|place| active[around[place]]) {
+                let row = tiling.rows(around[3]).start + usize::from(place / 2 == 0);
+                let face = row * stride + tiling.columns(around[3]).start + 1;
                 close(std::iter::once(face), &mut self.open_x, &mut self.fences_x);
             }
         }
     }
 
     /// Finds where one of the four tiles that meet sleeps and the other three don't. Rock there has its own corners.
-    fn find_turns(&mut self, layout: &Layout, active: &[bool]) {
-        let (tiling, stride) = (layout.tiling(), layout.stride());
-        let [width, height] = tiling.size();
-        for (j, i) in (1..height).flat_map(|j| (1..width).map(move |i| (j, i))) {
-            let upper_right = j * width + i;
-            let around = [upper_right - width - 1, upper_right - width, upper_right - 1, upper_right];
-            let mut asleep = (0..4).filter(|place| !active[around[*place]]);
-            let (Some(place), None) = (asleep.next(), asleep.next()) else {
-                continue;
-            };
+    fn find_turns(&mut self, tiling: Tiling, solid: &[bool], active: &[bool]) {
+        let stride = tiling.stride();
+        self.turns.clear();
+        for around in tiling.meeting() {
+            let Some(place) = the_only(|place| !active[around[place]]) else { continue };
             // Of the four cells that meet, the sleeping one, counted with the ring, and the one across.
-            let (row, column) = (tiling.rows(upper_right).start + 1, tiling.columns(upper_right).start + 1);
+            let (row, column) = (tiling.rows(around[3]).start + 1, tiling.columns(around[3]).start + 1);
             let (right, up) = (place % 2 == 1, place / 2 == 1);
             let asleep = (row - usize::from(!up)) * stride + column - usize::from(!right);
             let (source_row, source_column) = (row - usize::from(up), column - usize::from(right));
             // The faces of the source towards the two others.
             let open =
                 self.open_x[source_row * stride + column] != 0.0 && self.open_y[row * stride + source_column] != 0.0;
-            if open && !layout.solid[asleep] {
+            if open && !solid[asleep] {
                 self.turns.push(Turn { row: source_row as u32, column: source_column as u32, right, up });
             }
         }
@@ -248,13 +234,13 @@ impl Shape {
         self.open_x.len() * 12 + corners + self.struck.memory_bytes()
     }
 
-    fn find_corners(&mut self, layout: &Layout) {
-        let (stride, columns, rows) = (layout.stride(), layout.columns, layout.rows);
+    fn find_corners(&mut self, tiling: Tiling, solid: &[bool]) {
+        let (stride, [columns, rows]) = (tiling.stride(), tiling.cells());
         for row in 0..=rows + 1 {
             let cells = if row == 0 || row > rows { 0 } else { columns };
             for column in 1..=cells {
                 let k = row * stride + column;
-                let strikes = |source: usize, right: bool, up: bool| self.strikes(layout, source, right, up);
+                let strikes = |source, right, up| self.strikes(tiling, solid, source, right, up);
                 let above = [strikes(k, false, true), strikes(k, true, true)];
                 let below = [strikes(k, false, false), strikes(k, true, false)];
                 let from_left = [strikes(k - 1, true, false), strikes(k - 1, true, true)];
@@ -279,23 +265,22 @@ impl Shape {
 
     /// Whether a share of `source` to a diagonal neighbour finds rock there: both faces that it leaves by are open, and
     /// the neighbour is solid. (Outside the box a share is lost, by whichever face it left.)
-    fn strikes(&self, layout: &Layout, source: usize, right: bool, up: bool) -> bool {
-        let stride = layout.stride();
+    fn strikes(&self, tiling: Tiling, solid: &[bool], source: usize, right: bool, up: bool) -> bool {
+        let stride = tiling.stride();
         let (x, across) = if right { (source + 1, source + 1) } else { (source, source - 1) };
         let (y, across) = if up { (source + stride, across + stride) } else { (source, across - stride) };
         // The rarest first: this is asked twelve times a cell.
-        layout.solid[across]
+        solid[across]
             && self.open_x[x] != 0.0
             && self.open_y[y] != 0.0
-            && !layout.in_ring(source)
-            && !layout.in_ring(across)
+            && !tiling.in_ring(source)
+            && !tiling.in_ring(across)
     }
 
-    fn find_rooms(&mut self, layout: &Layout) {
-        let stride = layout.stride();
+    fn find_rooms(&mut self, stride: usize, solid: &[bool]) {
         let mut queue = Vec::new();
-        for seed in 0..layout.solid.len() {
-            if layout.solid[seed] || self.room[seed] != u32::MAX {
+        for seed in 0..solid.len() {
+            if solid[seed] || self.room[seed] != u32::MAX {
                 continue;
             }
             let room = self.room_open.len() as u32;
@@ -310,7 +295,7 @@ impl Shape {
                     (self.open_y[k + stride], k + stride),
                 ];
                 for (_, next) in faces.into_iter().filter(|(free, _)| *free != 0.0) {
-                    if layout.solid[next] {
+                    if solid[next] {
                         open = true;
                     } else if self.room[next] == u32::MAX {
                         self.room[next] = room;

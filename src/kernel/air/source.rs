@@ -74,6 +74,18 @@ pub(super) fn store_three<L: Lanes>([mass, x, y]: [L; 3], [to_mass, to_x, to_y]:
     y.put(to_y, i);
 }
 
+/// Lane by lane.
+#[inline(always)]
+pub(super) fn product<L: Lanes>(a: [L; 3], b: [L; 3]) -> [L; 3] {
+    [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
+}
+
+/// Sum of what is from left to right, so paired that a mirror image has the same bits.
+#[inline(always)]
+pub(super) fn sum<L: Lanes>([left, middle, right]: [L; 3]) -> L {
+    middle + (left + right)
+}
+
 /// Flow `wind` through a face, in cells, of air that starts where it does and not at the face. `stretch` is how many cells
 /// faster the air behind the face is than that before it, 1 at most in size.
 #[inline(always)]

@@ -1,7 +1,7 @@
 //! A step of the air: how many substeps, in which order, and when the air has come to rest.
 
 use super::{
-    band::{Band, BandPass, Target},
+    band::{Band, BandPass},
     grid::{Air, MAX_PRESSURE, Scratch},
     pressure::{Peaks, Push, STILL_MACH, peak},
     report::AirReport,
@@ -11,12 +11,11 @@ use super::{
     tiling::{Block, WATCH},
 };
 use crate::{
-    parallel::Team,
+    parallel::{Rows, Team, fork},
     params::{AirAdvection, AirScheme},
     simd::InstructionSet,
     sources::Wind,
 };
-use rayon::prelude::*;
 
 /// Most substeps of one step. Past it speeds are clamped and sound is slowed, and both are counted. Changing this affects
 /// the strongest wind that a scene can have, and the longest time that a step can take.
@@ -75,7 +74,8 @@ impl Air {
         }
         self.quiet = false;
         let courant = scheme.courant.clamp(0.01, STABLE_COURANT);
-        let mut shape = self.scratch.shape.take().unwrap_or_else(|| Shape::new(&self.layout()));
+        let shape = self.scratch.shape.take();
+        let mut shape = shape.unwrap_or_else(|| Shape::new(self.tiling(), &self.solid, self.params.open));
         let mut scratch = std::mem::take(&mut self.scratch);
         self.scratch.sleeps = scratch.sleeps;
         scratch.prepare(self);
@@ -211,19 +211,19 @@ impl Air {
         }
         let Scratch { next_pressure, next_x, next_y, bands, watch, .. } = scratch;
         let (inner, chunk) = (stride..stride * (self.rows as usize + 1), band_rows * stride);
-        let [pressure, x, y] = [&mut *next_pressure, &mut *next_x, &mut *next_y].map(|field| &mut field[inner.clone()]);
-        let (bands, blocks) = (&mut bands[..count], &watch.blocks);
-        type Rows<'a> = (((&'a mut [f32], &'a mut [f32]), &'a mut [f32]), &'a mut Band);
-        let work = |(k, (((pressure, velocity_x), velocity_y), band)): (usize, Rows)| {
+        let [pressure, x, y] = [&mut *next_pressure, &mut *next_x, &mut *next_y]
+            .map(|field| Rows { field: &mut field[inner.clone()], stride: chunk });
+        let parts = ((pressure, x), (y, Rows { field: &mut bands[..count], stride: 1 }));
+        fork((0..count, parts), 1, &|(nth, ((pressure, velocity_x), (velocity_y, bands)))| {
+            let [band] = bands.field else { return };
             // Counted with the ring.
-            let first = 1 + k * band_rows;
-            let end = first + pressure.len() / stride;
+            let first = 1 + nth.start * band_rows;
+            let end = first + pressure.field.len() / stride;
             let mut peaks = Peaks::default();
-            for Block { rows, columns } in blocks {
+            for Block { rows, columns } in &watch.blocks {
                 let rows = (rows.start + 1).max(first)..(rows.end + 1).min(end);
                 if !rows.is_empty() {
-                    let target =
-                        Target { pressure: &mut *pressure, velocity_x: &mut *velocity_x, velocity_y: &mut *velocity_y };
+                    let target = [&mut *pressure.field, &mut *velocity_x.field, &mut *velocity_y.field];
                     let source = Source { left: columns.start, width: columns.len() + 2, ..source };
                     let band = &mut *band;
                     instructions.run_by_register(BandPass { band, source, push, rows, first, target });
@@ -231,17 +231,11 @@ impl Air {
                 }
             }
             band.peaks = peaks;
-        };
-        if let [band] = bands {
-            work((0, (((pressure, x), y), band)));
-        } else {
-            let targets = pressure.par_chunks_mut(chunk).zip(x.par_chunks_mut(chunk)).zip(y.par_chunks_mut(chunk));
-            targets.zip(bands.par_iter_mut()).enumerate().for_each(work);
-        }
+        });
         std::mem::swap(&mut self.pressure, next_pressure);
         std::mem::swap(&mut self.velocity_x, next_x);
         std::mem::swap(&mut self.velocity_y, next_y);
-        bands.iter().map(|band| band.peaks).fold(Peaks::default(), Peaks::max)
+        bands[..count].iter().map(|band| band.peaks).fold(Peaks::default(), Peaks::max)
     }
 
     /// Largest values of the blocks as they stand.
@@ -268,15 +262,15 @@ impl Air {
         for (k, room) in shape.room.iter().enumerate().filter(|(_, room)| **room != u32::MAX) {
             self.pressure[k] = self.rests[*room as usize];
         }
-        for velocity in [&mut self.velocity_x, &mut self.velocity_y, &mut self.outside] {
-            velocity.fill(0.0);
-        }
-        self.set_quiet();
+        self.stop();
         scratch.watch.forget();
     }
 
-    /// From now on nothing moves.
-    pub(super) fn set_quiet(&mut self) {
+    /// Stops all wind: from now on nothing moves.
+    pub(super) fn stop(&mut self) {
+        for velocity in [&mut self.velocity_x, &mut self.velocity_y, &mut self.outside] {
+            velocity.fill(0.0);
+        }
         self.quiet = true;
         self.awake.fill(false);
         self.scratch.watch.forget();

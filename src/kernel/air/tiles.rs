@@ -16,7 +16,7 @@ use super::{
     pressure::peak,
     rooms::{QUIET_MACH, Room, count_rooms},
     shape::Shape,
-    tiling::{Tiling, Watch, cover},
+    tiling::{Watch, cover},
 };
 use crate::sources::Wind;
 use std::ops::Range;
@@ -39,10 +39,6 @@ impl Air {
         let active = &self.scratch.watch.active;
         let stepped = if active.len() == self.awake.len() { active } else { &self.awake };
         (stepped.iter().filter(|stepped| !**stepped).count(), self.awake.len())
-    }
-
-    pub(super) fn tiling(&self) -> Tiling {
-        Tiling::new(self.columns(), self.rows())
     }
 
     /// The tiles that the next step will do, as things stand.
@@ -91,9 +87,7 @@ impl Air {
             let left = |tile: &usize| !next_active[*tile] && (fresh || looked_at[*tile] || active[*tile]);
             for tile in (0..tiling.count()).filter(left) {
                 self.still(tile);
-                let columns = tiling.columns(tile);
-                for row in tiling.rows(tile) {
-                    let cells = self.index(columns.start, row)..self.index(columns.start, row) + columns.len();
+                for cells in tiling.cells_of(tile) {
                     next_pressure[cells.clone()].copy_from_slice(&self.pressure[cells.clone()]);
                     next_x[cells.clone()].fill(0.0);
                     next_y[cells].fill(0.0);
@@ -105,7 +99,7 @@ impl Air {
         }
         std::mem::swap(active, next_active);
         cover(tiling, active, blocks);
-        shape.fence(&self.layout(), active);
+        shape.fence(tiling, &self.solid, active);
         true
     }
 
@@ -130,14 +124,11 @@ impl Air {
     /// Whether anything in a tile is above the bound.
     fn is_stirred(&self, tile: usize, rest: &[f32]) -> bool {
         let bound = QUIET_MACH * self.params.sound_speed;
-        let (tiling, stride) = (self.tiling(), self.stride());
-        let columns = tiling.columns(tile);
-        let stirs = |row: usize| {
-            let cells = (row + 1) * stride + columns.start + 1..(row + 1) * stride + columns.end + 1;
+        let stirs = |cells: Range<usize>| {
             let speeds = [&self.velocity_x, &self.velocity_y].map(|field| peak(&field[cells.clone()]));
             speeds[0].max(speeds[1]) > bound || is_uneven(&self.pressure[cells.clone()], &rest[cells])
         };
-        tiling.rows(tile).any(stirs)
+        self.tiling().cells_of(tile).any(stirs)
             || self.slots_beside(tile).into_iter().any(|slots| peak(&self.outside[slots]) > bound)
     }
 
@@ -159,10 +150,7 @@ impl Air {
 
     /// Stops the wind in a tile.
     fn still(&mut self, tile: usize) {
-        let (tiling, stride) = (self.tiling(), self.stride());
-        let columns = tiling.columns(tile);
-        for row in tiling.rows(tile) {
-            let cells = (row + 1) * stride + columns.start + 1..(row + 1) * stride + columns.end + 1;
+        for cells in self.tiling().cells_of(tile) {
             self.velocity_x[cells.clone()].fill(0.0);
             self.velocity_y[cells].fill(0.0);
         }

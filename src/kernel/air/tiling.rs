@@ -1,4 +1,4 @@
-//! How the grid is cut into tiles, and what follows from those that are awake (`tiles`).
+//! How the cells of a grid lie, how it is cut into tiles, and what follows from those that are awake (`tiles`).
 
 use std::ops::Range;
 
@@ -11,7 +11,7 @@ pub(super) const TILE_ROWS: usize = 16;
 /// Most substeps from one look after the tiles to the next.
 pub(super) const WATCH: u32 = TILE_ROWS as u32 / 2;
 
-/// How a grid is cut into tiles, row by row. The last ones of a row and of a column take what is left over.
+/// How the cells of a grid lie, with a ring of one around them, and how they are cut into tiles, row by row. The last ones of a row and of a column take what is left over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Tiling {
     cells: [usize; 2],
@@ -27,6 +27,17 @@ impl Tiling {
         Self { cells: [columns, rows], tiles: [(columns / TILE_COLUMNS).max(1), (rows / TILE_ROWS).max(1)] }
     }
 
+    /// Values between a cell and the one above it.
+    pub(super) fn stride(self) -> usize {
+        self.cells[0] + 2
+    }
+
+    /// Whether place `k` of the fields is in the ring.
+    pub(super) fn in_ring(self, k: usize) -> bool {
+        let (i, j) = (k % self.stride(), k / self.stride());
+        i == 0 || j == 0 || i > self.cells[0] || j > self.cells[1]
+    }
+
     /// Number of tiles.
     pub(super) fn count(self) -> usize {
         self.tiles[0] * self.tiles[1]
@@ -35,6 +46,19 @@ impl Tiling {
     /// Tiles along x and y.
     pub(super) fn size(self) -> [usize; 2] {
         self.tiles
+    }
+
+    /// Cells along x and y.
+    pub(super) fn cells(self) -> [usize; 2] {
+        self.cells
+    }
+
+    /// The four tiles around each point where four meet: the lower left one and that beside it, and those above them.
+    pub(super) fn meeting(self) -> impl Iterator<Item = [usize; 4]> {
+        let [width, height] = self.tiles;
+        (1..height)
+            .flat_map(move |j| (1..width).map(move |i| j * width + i))
+            .map(move |k| [k - width - 1, k - width, k - 1, k])
     }
 
     /// The tile of a cell.
@@ -51,6 +75,14 @@ impl Tiling {
     /// Rows of a tile.
     pub(super) fn rows(self, tile: usize) -> Range<usize> {
         span(tile / self.tiles[0], self.tiles[1], TILE_ROWS, self.cells[1])
+    }
+
+    /// Where the rows of a tile's cells stand in the fields.
+    pub(super) fn cells_of(self, tile: usize) -> impl Iterator<Item = Range<usize>> {
+        let (columns, stride) = (self.columns(tile), self.stride());
+        self.rows(tile)
+            .map(move |row| (row + 1) * stride)
+            .map(move |start| start + columns.start + 1..start + columns.end + 1)
     }
 
     /// The tiles with those around them.

@@ -12,22 +12,10 @@ use crate::{
 use glam::Vec2;
 use std::ops::Range;
 
-/// Cells of a box of cells, by column and row.
-struct Window {
-    columns: Range<usize>,
-    rows: Range<usize>,
-}
-
-/// The value within ±[`MAX_SPEED`], 0 for what is no number, and whether that changed it.
-fn bounded_speed(speed: f32) -> (f32, bool) {
-    let bounded = if speed.is_nan() { 0.0 } else { speed.clamp(-MAX_SPEED, MAX_SPEED) };
-    (bounded, bounded != speed)
-}
-
-/// Both components by [`bounded_speed`], and how many it changed.
+/// Both components within ±[`MAX_SPEED`], 0 for what is no number, and how many that changed.
 fn bounded_velocity(velocity: Vec2) -> (Vec2, u64) {
-    let ((x, cut_x), (y, cut_y)) = (bounded_speed(velocity.x), bounded_speed(velocity.y));
-    (Vec2::new(x, y), u64::from(cut_x) + u64::from(cut_y))
+    let bounded = velocity.map(|speed| if speed.is_nan() { 0.0 } else { speed.clamp(-MAX_SPEED, MAX_SPEED) });
+    (bounded, bounded.cmpne(velocity).bitmask().count_ones().into())
 }
 
 impl Air {
@@ -74,9 +62,9 @@ impl Air {
         if !self.is_built() {
             return;
         }
-        let window = self.window(area);
-        for row in window.rows {
-            for column in window.columns.clone() {
+        let [columns, rows] = self.window(area);
+        for row in rows {
+            for column in columns.clone() {
                 let k = self.index(column, row);
                 if !self.solid[k] {
                     self.pending.pressure_clamps += u64::from(cut);
@@ -92,16 +80,11 @@ impl Air {
 
     /// Stops all wind and sets the pressure of all open cells to 1.
     pub fn clear(&mut self) {
-        for velocity in [&mut self.velocity_x, &mut self.velocity_y, &mut self.outside] {
-            velocity.fill(0.0);
-        }
-        for row in 0..self.rows() {
-            for k in self.row_range(row) {
-                self.pressure[k] = if self.solid[k] { 0.0 } else { 1.0 };
-            }
+        for k in self.cells() {
+            self.pressure[k] = if self.solid[k] { 0.0 } else { 1.0 };
         }
         self.rests.clear();
-        self.set_quiet();
+        self.stop();
     }
 
     /// Takes what tools and new rock had to clamp since the last step: air that stays at rest makes no step that could tell.
@@ -113,7 +96,7 @@ impl Air {
     pub(super) fn is_driven(&self, winds: &[Wind]) -> bool {
         debug_assert!(self.is_built());
         winds.iter().filter(|wind| wind.rate > 0.0 && bounded_velocity(wind.velocity).0 != Vec2::ZERO).any(|wind| {
-            let Window { columns, rows } = self.window(wind.area);
+            let [columns, rows] = self.window(wind.area);
             rows.into_iter().any(|row| columns.clone().any(|column| !self.solid[self.index(column, row)]))
         })
     }
@@ -125,7 +108,7 @@ impl Air {
             if !self.is_driven(std::slice::from_ref(wind)) {
                 continue;
             }
-            let Window { columns, rows } = self.window(wind.area);
+            let [columns, rows] = self.window(wind.area);
             for tile in 0..tiling.count() {
                 let overlaps = |a: &Range<usize>, b: Range<usize>| a.start.max(b.start) < a.end.min(b.end);
                 if overlaps(&columns, tiling.columns(tile)) && overlaps(&rows, tiling.rows(tile)) {
@@ -145,7 +128,7 @@ impl Air {
             let pull = wind.rate.min(f32::MAX) * dt;
             // From here on 1/pull is lost in rounding, and pull/(1 + pull) may not be a number.
             let part = if pull < 1.0e9 { pull / (1.0 + pull) } else { 1.0 };
-            let Window { columns, rows } = self.window(wind.area);
+            let [columns, rows] = self.window(wind.area);
             for row in rows {
                 for column in columns.clone() {
                     let k = self.index(column, row);
@@ -162,15 +145,15 @@ impl Air {
         peaks
     }
 
-    /// Cells whose centre is in the area.
-    fn window(&self, area: Rect) -> Window {
+    /// Columns and rows of the cells whose centre is in the area.
+    fn window(&self, area: Rect) -> [Range<usize>; 2] {
         // The cell k has its centre at (k + ½)·cell, so the first at or after x is ceil(x/cell − ½). `as` keeps to the
         // range of the type and makes 0 of what is no number.
         let first = |x: f32, count: usize| ((x / self.cell - 0.5).ceil() as usize).min(count);
-        Window {
-            columns: first(area.min.x, self.columns())..first(area.max.x, self.columns()),
-            rows: first(area.min.y, self.rows())..first(area.max.y, self.rows()),
-        }
+        [
+            first(area.min.x, self.columns())..first(area.max.x, self.columns()),
+            first(area.min.y, self.rows())..first(area.max.y, self.rows()),
+        ]
     }
 
     /// Calls `act` for each open cell of a disc with its weight ([`soft_disc`]); it says whether it changed the cell.
@@ -179,7 +162,7 @@ impl Air {
             return;
         }
         let radius = radius.max(self.cell);
-        let Window { columns, rows } =
+        let [columns, rows] =
             self.window(Rect { min: centre - Vec2::splat(radius), max: centre + Vec2::splat(radius) });
         for row in rows {
             for column in columns.clone() {

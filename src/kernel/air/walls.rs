@@ -3,7 +3,7 @@
 //! A cell is solid when any rock stands in it, so that a wall one particle thick stops the air. New rock squeezes its air
 //! out to the nearest open cells; air flows in from the cells beside when rock goes. Both move mass and make none.
 
-use super::{grid::Air, layout::in_ring};
+use super::grid::Air;
 use crate::solids::Solids;
 
 /// Steps from the nearest cell that a flood started from.
@@ -27,9 +27,7 @@ impl Air {
         let first = self.solids_version.is_none();
         self.solids_version = Some(solids.version());
         let mut next = self.solid.clone();
-        for row in 0..self.rows() {
-            next[self.row_range(row)].fill(false);
-        }
+        self.cells().for_each(|k| next[k] = false);
         self.mark(solids, &mut next);
         if next == self.solid {
             self.keep_mass = false;
@@ -45,12 +43,8 @@ impl Air {
             self.squeeze(&before);
             self.draw(&before);
         }
-        for k in 0..self.solid.len() {
-            if self.solid[k] && !self.in_ring(k) {
-                self.pressure[k] = 0.0;
-                self.velocity_x[k] = 0.0;
-                self.velocity_y[k] = 0.0;
-            }
+        for k in self.cells().filter(|k| self.solid[*k]) {
+            (self.pressure[k], self.velocity_x[k], self.velocity_y[k]) = (0.0, 0.0, 0.0);
         }
     }
 
@@ -71,7 +65,7 @@ impl Air {
     }
 
     pub(super) fn in_ring(&self, k: usize) -> bool {
-        in_ring(k, self.columns(), self.rows())
+        self.tiling().in_ring(k)
     }
 
     fn beside(&self, k: usize) -> [usize; 4] {
@@ -81,9 +75,8 @@ impl Air {
     /// Breadth-first distance of each cell in `region` from the cells in `seeds` (whose own is 0), sideways and up and
     /// down only, and the cells in the order in which they were reached.
     fn flood(&self, seeds: impl Fn(usize) -> bool, region: impl Fn(usize) -> bool) -> (Vec<u32>, Vec<usize>) {
-        let inner = (0..self.rows()).flat_map(|row| self.row_range(row));
         let mut distance = vec![FAR; self.solid.len()];
-        let mut queue: Vec<usize> = inner.filter(|k| seeds(*k)).collect();
+        let mut queue: Vec<usize> = self.cells().filter(|k| seeds(*k)).collect();
         for k in &queue {
             distance[*k] = 0;
         }

@@ -21,18 +21,9 @@ pub struct RockBins {
 impl RockBins {
     /// Follows the rock and the cells.
     pub(super) fn follow(&mut self, grid: &CellGrid, solids: &Solids) {
-        if self.built_for != Some((*grid, solids.version())) {
-            self.build(grid, solids);
+        if self.built_for.replace((*grid, solids.version())) == Some((*grid, solids.version())) {
+            return;
         }
-    }
-
-    /// Bins anew next time.
-    pub(super) fn forget(&mut self) {
-        self.built_for = None;
-    }
-
-    fn build(&mut self, grid: &CellGrid, solids: &Solids) {
-        self.built_for = Some((*grid, solids.version()));
         self.starts.clear();
         self.x.clear();
         self.y.clear();

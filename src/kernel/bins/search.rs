@@ -53,7 +53,7 @@ impl Bins {
 
     /// Bins the rock anew next time, whatever its version: another world's rock may have the same.
     pub fn forget_rock(&mut self) {
-        self.rock.forget();
+        self.rock = RockBins::default();
     }
 
     /// Sorts the particles by cell and builds the groups over them, as wide as the lanes. Within a cell the order stays.

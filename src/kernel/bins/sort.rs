@@ -12,7 +12,7 @@ use crate::{
     },
     columns::Spares,
     element::ElementId,
-    parallel::{Parts, fork, piece},
+    parallel::{Parts, Rows, fork, piece},
     particles::{Particles, extent},
     simd::{InstructionSet, Lanes, Pass},
 };
@@ -82,7 +82,7 @@ impl Sort {
     /// Lets `settle` change the positions of each strip of the sorted particles within their cells.
     pub fn settle(&self, grid: &CellGrid, particles: &mut Particles, threads: usize, settle: &(impl Fn(Strip) + Sync)) {
         let Particles { x, y, id, .. } = particles;
-        let strips = Strips { grid, starts: &self.starts, strips: self.strips.clone(), base: 0, id, x, y };
+        let strips = Strips { grid, starts: &self.starts, strips: self.strips.clone(), base: 0, id, at: [x, y] };
         fork(strips, piece(id.len(), threads, WORTH_A_SEGMENT), &|part: Strips| part.each(settle));
     }
 
@@ -97,11 +97,17 @@ impl Sort {
     ) -> Range<usize> {
         self.keys.resize(x.len(), 0);
         self.blocks.resize(x.len().div_ceil(BLOCK), [0; 2]);
-        let pieces = Pieces { first: 0, keys: &mut self.keys, blocks: &mut self.blocks };
-        let most = piece(pieces.size(), threads, WORTH_A_LOOK);
-        fork(pieces, most, &|Pieces { first, keys, blocks }| {
-            let own = first * BLOCK..first * BLOCK + keys.len();
-            instructions.run(FindCells { grid, x: &x[own.clone()], y: &y[own], keys, blocks });
+        let count = self.blocks.len();
+        let band = (Rows { field: &mut self.keys[..], stride: BLOCK }, Rows { field: &mut self.blocks[..], stride: 1 });
+        fork((0..count, band), piece(count, threads, WORTH_A_LOOK), &|(whole, (keys, blocks))| {
+            let own = whole.start * BLOCK..whole.start * BLOCK + keys.field.len();
+            instructions.run(FindCells {
+                grid,
+                x: &x[own.clone()],
+                y: &y[own],
+                keys: keys.field,
+                blocks: blocks.field,
+            });
         });
         let lowest = self.blocks.iter().map(|block| block[0]).min();
         let highest = self.blocks.iter().map(|block| block[1]).max();
@@ -177,29 +183,6 @@ fn count_below(keys: &[u32], blocks: &[[u32; 2]], cell: u32) -> usize {
         }
     };
     keys.chunks(BLOCK).zip(blocks).map(count).sum()
-}
-
-/// Whole blocks of particles.
-struct Pieces<'a> {
-    first: usize,
-    keys: &'a mut [u32],
-    blocks: &'a mut [[u32; 2]],
-}
-
-impl Parts for Pieces<'_> {
-    fn size(&self) -> usize {
-        self.blocks.len()
-    }
-
-    fn halve(self) -> (Self, Self) {
-        let half = self.blocks.len() / 2;
-        let (left_keys, right_keys) = self.keys.split_at_mut(half * BLOCK);
-        let (left_blocks, right_blocks) = self.blocks.split_at_mut(half);
-        (
-            Self { first: self.first, keys: left_keys, blocks: left_blocks },
-            Self { first: self.first + half, keys: right_keys, blocks: right_blocks },
-        )
-    }
 }
 
 /// Finds the cells of some blocks of particles.

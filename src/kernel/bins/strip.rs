@@ -1,6 +1,9 @@
 //! Strips of sorted particles, whose positions may be changed within their cells.
 
-use crate::{bins::cells::CellGrid, parallel::Parts};
+use crate::{
+    bins::cells::CellGrid,
+    parallel::{Parts, cut},
+};
 use glam::Vec2;
 use std::ops::Range;
 
@@ -41,8 +44,8 @@ pub(super) struct Strips<'a> {
     /// Index of the first particle at hand.
     pub base: usize,
     pub id: &'a [u32],
-    pub x: &'a mut [f32],
-    pub y: &'a mut [f32],
+    /// Positions, d.
+    pub at: [&'a mut [f32]; 2],
 }
 
 impl Strips<'_> {
@@ -52,11 +55,11 @@ impl Strips<'_> {
     }
 
     /// Calls `work` with each strip.
-    pub fn each(self, work: &impl Fn(Strip)) {
+    pub fn each(mut self, work: &impl Fn(Strip)) {
         for strip in self.strips.clone() {
             let own = self.start(strip)..self.start(strip + 1);
-            let (ids, x, y) = (&self.id[own.clone()], &mut self.x[own.clone()], &mut self.y[own]);
-            work(Strip { grid: self.grid, ids, x, y });
+            let [x, y] = self.at.each_mut().map(|at| &mut at[own.clone()]);
+            work(Strip { grid: self.grid, ids: &self.id[own], x, y });
         }
     }
 }
@@ -64,29 +67,20 @@ impl Strips<'_> {
 impl Parts for Strips<'_> {
     /// Particles, if they are in several strips.
     fn size(&self) -> usize {
-        if self.strips.len() > 1 { self.x.len() } else { 0 }
+        if self.strips.len() > 1 { self.id.len() } else { 0 }
     }
 
     fn halve(self) -> (Self, Self) {
         let (grid, starts, base) = (self.grid, self.starts, self.base);
-        let half = self.x.len() / 2;
+        let half = self.id.len() / 2;
         let before = self.strips.clone().take_while(|strip| self.start(*strip) < half).count();
         let middle = self.strips.start + before.clamp(1, self.strips.len() - 1);
         let at = self.start(middle);
-        let (left_id, right_id) = self.id.split_at(at);
-        let (left_x, right_x) = self.x.split_at_mut(at);
-        let (left_y, right_y) = self.y.split_at_mut(at);
+        let (lower, upper) = (self.strips.start..middle, middle..self.strips.end);
+        let ((lower_id, upper_id), (lower_at, upper_at)) = (self.id.split_at(at), cut(self.at, at));
         (
-            Self { grid, starts, strips: self.strips.start..middle, base, id: left_id, x: left_x, y: left_y },
-            Self {
-                grid,
-                starts,
-                strips: middle..self.strips.end,
-                base: base + at,
-                id: right_id,
-                x: right_x,
-                y: right_y,
-            },
+            Self { grid, starts, strips: lower, base, id: lower_id, at: lower_at },
+            Self { grid, starts, strips: upper, base: base + at, id: upper_id, at: upper_at },
         )
     }
 }

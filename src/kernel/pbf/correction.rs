@@ -92,7 +92,7 @@ impl<G: Gradient, const TENSION: bool, const APART: bool> Pass for CorrectionPas
                     let (dx, dy) = (xi - L::splat(xj), yi - L::splat(yj));
                     let r2 = dx * dx + dy * dy;
                     let w = (h2 - r2).max(zero);
-                    // Rock has no λ of its own: it mirrors the pressure of whom it pushes.
+                    // Rock has no λ of its own: it mirrors the pressure of the particle that it pushes.
                     let g = G::weight(h, core, r2, w * w) * both;
                     (sum_x, sum_y) = (sum_x + g * dx, sum_y + g * dy);
                 }

@@ -4,7 +4,7 @@
 //! (eq. 11), `Δx_i = 1/ρ₀ Σ (λ_i + λ_j + s_corr) ∇W` (eqs. 12–14). One iteration is a pass for λ over all particles and a
 //! pass for Δx (Jacobi: every particle reads the positions from before the pass).
 //!
-//! Who writes what: `predict` moves the particles to their predicted positions, [`Solver::bin`] sorts them by cell,
+//! What writes what: `predict` moves the particles to their predicted positions, [`Solver::bin`] sorts them by cell,
 //! [`Solver::solve`] leaves corrected positions beside them, to which `velocity` moves them.
 
 mod coincident;

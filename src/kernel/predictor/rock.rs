@@ -53,6 +53,10 @@ impl ClosedFaces {
         self.rows[j] as usize
     }
 
+    fn fields(&mut self) -> [&mut Vec<f32>; 4] {
+        [&mut self.open_u, &mut self.open_v, &mut self.rock, &mut self.liquid_from]
+    }
+
     /// Stores rows that are like the one below them only once.
     fn share_rows(&mut self, grid: &MacGrid) {
         self.rows.clear();
@@ -60,21 +64,21 @@ impl ClosedFaces {
         for j in 0..grid.rows + 3 {
             let own = grid.rows(j..j + 1);
             let last = stored..stored + grid.stride;
-            let fields = [&mut self.open_u, &mut self.open_v, &mut self.rock, &mut self.liquid_from];
+            let fields = self.fields();
             if j == 0 || fields.iter().any(|field| field[own.clone()] != field[last.clone()]) {
                 stored += if j == 0 { 0 } else { grid.stride };
                 fields.into_iter().for_each(|field| field.copy_within(own.clone(), stored));
             }
             self.rows.push(stored as u32);
         }
-        for field in [&mut self.open_u, &mut self.open_v, &mut self.rock, &mut self.liquid_from] {
+        for field in self.fields() {
             field.truncate(stored + grid.stride);
             field.shrink_to_fit();
         }
     }
 
     fn build(&mut self, grid: &MacGrid, solids: &Solids) {
-        for field in [&mut self.open_u, &mut self.open_v, &mut self.rock, &mut self.liquid_from] {
+        for field in self.fields() {
             field.clear();
             field.resize(grid.len(), 0.0);
         }
@@ -119,17 +123,17 @@ impl ClosedFaces {
         if solids.count() == 0 {
             return;
         }
-        let (mut u, mut v) = (vec![0.0; grid.len()], vec![0.0; grid.len()]);
+        let (mut u, mut v) = (vec![[0.0; 2]; grid.len()], vec![[0.0; 2]; grid.len()]);
         for (cell, ..) in solids.iter() {
             let at = centre(cell);
-            faces_around(grid, at.x, at.y, Axis::U, |face, weight| u[face] += weight);
-            faces_around(grid, at.x, at.y, Axis::V, |face, weight| v[face] += weight);
+            faces_around(grid, at.x, at.y, Axis::U, |face, weight| u[face][0] += weight);
+            faces_around(grid, at.x, at.y, Axis::V, |face, weight| v[face][0] += weight);
         }
         fold_at_walls(grid, 0..grid.rows + 2, 0..grid.stride, &mut u, &mut v);
         let share = 0.25 * grid.per_cell * grid.per_cell;
         for j in 1..=grid.rows {
             for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
-                let sum: f32 = u[k] + u[k + 1] + v[k] + v[k + grid.stride];
+                let sum = u[k][0] + u[k + 1][0] + v[k][0] + v[k + grid.stride][0];
                 self.rock[k] = (share * sum).min(1.0);
             }
         }
@@ -138,7 +142,7 @@ impl ClosedFaces {
     /// Bytes held.
     pub fn memory(&self) -> usize {
         let fields = [&self.open_u, &self.open_v, &self.rock, &self.liquid_from];
-        4 * (fields.iter().map(|field| field.capacity()).sum::<usize>() + self.rows.capacity())
+        4 * (fields.map(Vec::capacity).iter().sum::<usize>() + self.rows.capacity())
     }
 }
 
@@ -168,65 +172,40 @@ fn open_share(
 
 /// What was shared out beyond a wall belongs to this side of it; a face on the wall sees only half of its surroundings.
 /// `reached` are the rows that were shared out to, `across` the columns, with the padding.
-pub(super) fn fold_at_walls<T: Foldable>(
+pub(super) fn fold_at_walls(
     grid: &MacGrid,
     reached: Range<usize>,
     across: Range<usize>,
-    u: &mut [T],
-    v: &mut [T],
+    u: &mut [[f32; 2]],
+    v: &mut [[f32; 2]],
 ) {
+    let fold = |faces: &mut [[f32; 2]], beyond: usize, onto: usize| {
+        let [weight, momentum] = faces[beyond];
+        faces[onto][0] += weight;
+        faces[onto][1] += momentum;
+    };
+    let double = |face: &mut [f32; 2]| *face = face.map(|deposit| 2.0 * deposit);
     let (s, columns, rows) = (grid.stride, grid.columns, grid.rows);
     for i in across.clone() {
         if reached.start == 0 {
-            u[s + i].add(u[i]);
+            fold(u, i, s + i);
         }
         if reached.end > rows + 1 {
-            let beyond = u[(rows + 1) * s + i];
-            u[rows * s + i].add(beyond);
+            fold(u, (rows + 1) * s + i, rows * s + i);
         }
     }
     for j in reached.clone() {
         if across.start == 0 {
-            let beyond = v[j * s];
-            v[j * s + 1].add(beyond);
-            u[j * s + 1].double();
+            fold(v, j * s, j * s + 1);
+            double(&mut u[j * s + 1]);
         }
         if across.end == s {
-            let beyond = v[j * s + columns + 1];
-            v[j * s + columns].add(beyond);
-            u[j * s + columns + 1].double();
+            fold(v, j * s + columns + 1, j * s + columns);
+            double(&mut u[j * s + columns + 1]);
         }
     }
     for wall in [1, rows + 1].into_iter().filter(|wall| reached.contains(wall)) {
         let cells = across.start.max(1)..across.end.min(columns + 1);
-        v[wall * s..][cells].iter_mut().for_each(Foldable::double);
-    }
-}
-
-/// A deposit on a face.
-pub(super) trait Foldable: Copy {
-    /// Adds another deposit.
-    fn add(&mut self, other: Self);
-    /// Doubles it.
-    fn double(&mut self);
-}
-
-impl Foldable for f32 {
-    fn add(&mut self, other: Self) {
-        *self += other;
-    }
-    fn double(&mut self) {
-        *self *= 2.0;
-    }
-}
-
-impl Foldable for [f32; 2] {
-    fn add(&mut self, other: Self) {
-        self[0] += other[0];
-        self[1] += other[1];
-    }
-    fn double(&mut self) {
-        self[0] *= 2.0;
-        self[1] *= 2.0;
+        v[wall * s..][cells].iter_mut().for_each(double);
     }
 }

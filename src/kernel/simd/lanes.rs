@@ -55,37 +55,25 @@ impl<const N: usize> Array<N> {
     }
 }
 
-impl<const N: usize> Add for Array<N> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        self.zip(other, |a, b| a + b)
-    }
+/// An operator of lanes, from that of two numbers or registers.
+macro_rules! operator {
+    ($Operator:ident $name:ident [$($generics:tt)*] $Lanes:ty, $of_two:expr) => {
+        impl $($generics)* $Operator for $Lanes {
+            type Output = Self;
+            #[inline(always)]
+            fn $name(self, other: Self) -> Self {
+                self.zip(other, $of_two)
+            }
+        }
+    };
 }
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+pub(super) use operator;
 
-impl<const N: usize> Sub for Array<N> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        self.zip(other, |a, b| a - b)
-    }
-}
-
-impl<const N: usize> Mul for Array<N> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        self.zip(other, |a, b| a * b)
-    }
-}
-
-impl<const N: usize> Div for Array<N> {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        self.zip(other, |a, b| a / b)
-    }
-}
+operator!(Add add [<const N: usize>] Array<N>, |a, b| a + b);
+operator!(Sub sub [<const N: usize>] Array<N>, |a, b| a - b);
+operator!(Mul mul [<const N: usize>] Array<N>, |a, b| a * b);
+operator!(Div div [<const N: usize>] Array<N>, |a, b| a / b);
 
 impl<const N: usize> Lanes for Array<N> {
     const WIDTH: usize = N;

@@ -1,7 +1,7 @@
 //! Lanes for the browser: four numbers to a 128-bit register of WebAssembly. Left to plain arrays the compiler puts too
 //! few of the operations into registers: a pass takes two to three times as long.
 
-use super::lanes::{Lanes, too_short};
+use super::lanes::{Lanes, operator, too_short};
 use core::arch::wasm32::{
     f32x4_add, f32x4_div, f32x4_lt, f32x4_mul, f32x4_pmax, f32x4_pmin, f32x4_splat, f32x4_sqrt, f32x4_sub, v128,
     v128_bitselect, v128_load, v128_store,
@@ -36,37 +36,10 @@ impl Quads {
     }
 }
 
-impl Add for Quads {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        self.zip(other, |a, b| f32x4_add(a, b))
-    }
-}
-
-impl Sub for Quads {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        self.zip(other, |a, b| f32x4_sub(a, b))
-    }
-}
-
-impl Mul for Quads {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        self.zip(other, |a, b| f32x4_mul(a, b))
-    }
-}
-
-impl Div for Quads {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        self.zip(other, |a, b| f32x4_div(a, b))
-    }
-}
+operator!(Add add [] Quads, |a, b| f32x4_add(a, b));
+operator!(Sub sub [] Quads, |a, b| f32x4_sub(a, b));
+operator!(Mul mul [] Quads, |a, b| f32x4_mul(a, b));
+operator!(Div div [] Quads, |a, b| f32x4_div(a, b));
 
 impl Lanes for Quads {
     const WIDTH: usize = 8;

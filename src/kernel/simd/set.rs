@@ -30,7 +30,7 @@ const BASELINE: &str = if cfg!(target_arch = "x86_64") {
 /// Instruction set that the passes are compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InstructionSet {
-    /// 16 lanes. Nobody else can name it, as it may only be had where the processor has it.
+    /// 16 lanes. Other modules can not make it: it exists only where the processor has it.
     #[cfg(target_arch = "x86_64")]
     #[non_exhaustive]
     Avx512,
@@ -47,16 +47,7 @@ pub enum InstructionSet {
 impl InstructionSet {
     /// The widest that this processor has.
     pub fn detect() -> Self {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if is_x86_feature_detected!("avx512f") {
-                return Self::Avx512;
-            }
-            if is_x86_feature_detected!("avx2") {
-                return Self::Avx2;
-            }
-        }
-        Self::Baseline
+        Self::available()[0]
     }
 
     /// All sets that this processor has, widest first.

@@ -89,11 +89,6 @@ impl Sleep {
         self.record.asleep as usize
     }
 
-    /// Number of tiles that sleep.
-    pub fn tiles_asleep(&self) -> usize {
-        self.tiles.len()
-    }
-
     /// Bytes held.
     pub fn memory(&self) -> usize {
         self.flags.capacity()

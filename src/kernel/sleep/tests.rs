@@ -136,7 +136,7 @@ fn a_record_fits_its_world_and_no_other() {
     assert!(!record.fits(&particles, 2.0 * SIZE));
     assert!(!record.fits(&Particles::default(), SIZE));
     let resumed = Sleep::resume(record.clone(), &particles, SIZE, 3);
-    assert_eq!((resumed.asleep(), resumed.record(), resumed.tiles_asleep()), (300, &record, sleep.tiles_asleep()));
+    assert_eq!((resumed.asleep(), resumed.record(), resumed.tiles.len()), (300, &record, sleep.tiles.len()));
     particles.vx[299] = 1.0;
     assert!(!record.fits(&particles, SIZE), "a sleeper moves");
 }

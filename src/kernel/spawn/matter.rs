@@ -62,33 +62,21 @@ struct Filling {
 impl Matter<'_> {
     /// Pours under the stroke at the element's flow. Fixed elements fill it at once and take the place of what is there.
     pub fn pour(&mut self, element: ElementId, stroke: &Stroke, seed: u64) -> EditReport {
-        let row = self.elements.get(element);
-        if row.fixed {
-            return self.place_fixed(element, stroke);
-        }
-        let filling = Filling {
-            share: row.flow,
-            seed: mix(seed as u32 ^ (seed >> 32) as u32),
-            scatter: SCATTER,
-            velocity: Vec2::ZERO,
-            most: u32::MAX,
-        };
-        self.place_movable(
-            element,
-            stroke.bounds(self.size()),
-            stroke.cells(self.size()),
-            filling,
-            &mut Occupancy::default(),
-        )
+        let (share, seed) = (self.elements.get(element).flow, mix(seed as u32 ^ (seed >> 32) as u32));
+        self.place(element, stroke, Filling { share, seed, scatter: SCATTER, ..Filling::all() })
     }
 
     /// Fills all free sites under the stroke at once, each particle right on its site.
     pub fn stamp(&mut self, element: ElementId, stroke: &Stroke) -> EditReport {
+        self.place(element, stroke, Filling::all())
+    }
+
+    fn place(&mut self, element: ElementId, stroke: &Stroke, filling: Filling) -> EditReport {
         if self.elements.get(element).fixed {
             return self.place_fixed(element, stroke);
         }
-        let cells = stroke.cells(self.size());
-        self.place_movable(element, stroke.bounds(self.size()), cells, Filling::all(), &mut Occupancy::default())
+        let (bounds, cells) = (stroke.bounds(self.size()), stroke.cells(self.size()));
+        self.place_movable(element, bounds, cells, filling, &mut Occupancy::default())
     }
 
     /// Fills the connected free cells around a point.

@@ -134,9 +134,9 @@ fn filling_stops_at_rock() {
 }
 
 #[test]
-fn a_tap_keeps_its_rate_and_its_total() {
+fn an_emitter_keeps_its_rate_and_its_total() {
     let mut bench = Bench::new();
-    let mut emitter = Emitter { velocity: Vec2::new(0.0, -1.0), total: Some(40), start: 10, ..tap(30.0) };
+    let mut emitter = Emitter { velocity: Vec2::new(0.0, -1.0), total: Some(40), start: 10, ..emitter(30.0) };
     let area = emitter.area;
     for tick in 0..10 {
         bench.matter().emit(&mut emitter, &mut Occupancy::default(), tick, 1.0 / 60.0);
@@ -154,8 +154,8 @@ fn a_tap_keeps_its_rate_and_its_total() {
     assert_eq!(bench.matter().drain(&Drain { area }).removed, 40);
 }
 
-/// A tap of 20 × 4 sites.
-fn tap(rate: f32) -> Emitter {
+/// An emitter of 20 × 4 sites.
+fn emitter(rate: f32) -> Emitter {
     let area = Rect { min: Vec2::new(10.0, 30.0), max: Vec2::new(30.0, 34.0) };
     Emitter { element: WATER, area, velocity: Vec2::ZERO, rate, total: None, start: 0, given: 0, due: 0.0 }
 }
@@ -168,8 +168,8 @@ fn what_moves_is_never_placed_in_a_cell_that_the_box_cuts() {
         |matter| (0..200).for_each(|seed| _ = matter.pour(WATER, &disc(58.0, 38.0, 6.0), seed)),
         |matter| {
             let area = Rect { min: Vec2::new(50.0, 30.0), max: Vec2::new(60.0, 40.0) };
-            let mut tap = Emitter { area, ..tap(6000.0) };
-            (0..60).for_each(|tick| _ = matter.emit(&mut tap, &mut Occupancy::default(), tick, 1.0 / 60.0));
+            let mut emitter = Emitter { area, ..emitter(6000.0) };
+            (0..60).for_each(|tick| _ = matter.emit(&mut emitter, &mut Occupancy::default(), tick, 1.0 / 60.0));
         },
     ];
     for (k, place) in places.into_iter().enumerate() {
@@ -184,10 +184,10 @@ fn what_moves_is_never_placed_in_a_cell_that_the_box_cuts() {
 }
 
 #[test]
-fn a_tap_in_a_full_world_refuses_what_is_due_and_no_more() {
+fn an_emitter_in_a_full_world_refuses_what_is_due_and_no_more() {
     let mut bench = Bench::new();
     bench.limit = 0;
-    let mut tap = tap(90.0);
-    let report = bench.matter().emit(&mut tap, &mut Occupancy::default(), 0, 1.0 / 60.0);
+    let mut emitter = emitter(90.0);
+    let report = bench.matter().emit(&mut emitter, &mut Occupancy::default(), 0, 1.0 / 60.0);
     assert_eq!((report.placed, report.refused, report.blocked), (0, 1, false));
 }

@@ -113,7 +113,7 @@ fn flows_that_cover_too_much_are_refused() {
 
 #[test]
 fn unknown_elements_are_named_with_the_known_ones() {
-    let fault = "contents[0].element: no element `watr`; did you mean `water`? allowed: rock, water, none";
+    let fault = "contents[0].element: no element `watr`; did you mean `water`? allowed: rock, water, ";
     check("contents: [(element: \"watr\", shape: Disc(centre: (1, 1), radius: 1))]", fault);
     let flow = "min: (1, 1), max: (2, 2), rate: 9";
     check(

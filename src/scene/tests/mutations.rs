@@ -1,26 +1,13 @@
 //! No text makes the program panic: whatever happens to a scene file, it builds or says one line.
 
 use super::read;
-use crate::scene::{
-    builtin::{self},
-    builtin_names,
-    effects::EffectModes,
+use crate::{
+    kernel::random::Random,
+    scene::{builtin, builtin_names, effects::EffectModes},
 };
 
 /// Mutated files per scene.
 const ROUNDS: u32 = 400;
-
-/// Marsaglia's xorshift32.
-struct Random(u32);
-
-impl Random {
-    fn below(&mut self, bound: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 17;
-        self.0 ^= self.0 << 5;
-        self.0 as usize % bound.max(1)
-    }
-}
 
 /// What replaces numbers and lands between other things.
 const TOKENS: [&str; 22] = [
@@ -49,7 +36,7 @@ const TOKENS: [&str; 22] = [
 ];
 
 fn mutate(text: &mut Vec<u8>, random: &mut Random) {
-    let at = random.below(text.len());
+    let at = random.below(text.len().max(1));
     let end = (at + 1 + random.below(40)).min(text.len());
     let token = TOKENS[random.below(TOKENS.len())].bytes();
     match random.below(6) {
@@ -57,7 +44,7 @@ fn mutate(text: &mut Vec<u8>, random: &mut Random) {
         1 => drop(text.drain(at..end)),
         2 => {
             let copy = text[at..end].to_vec();
-            let to = random.below(text.len());
+            let to = random.below(text.len().max(1));
             text.splice(to..to, copy);
         }
         3 => drop(text.splice(at..at, token)),
@@ -73,7 +60,7 @@ fn mutate(text: &mut Vec<u8>, random: &mut Random) {
 
 #[test]
 fn a_damaged_scene_is_an_error_and_never_a_panic() {
-    let mut random = Random(0x2545_F491);
+    let mut random = Random::new(0x2545_F491);
     let (mut built, mut refused) = (0, 0);
     for name in builtin_names() {
         let original = builtin::find(name).expect(name).bytes.into_owned();

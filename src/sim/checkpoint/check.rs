@@ -5,8 +5,8 @@ use crate::{
     kernel::{
         air::Air,
         columns::ABSURD,
-        element::{Element, ElementId, ElementTable},
-        params::{AirParams, Domain, Preset, Quality},
+        element::{ElementId, ElementTable},
+        params::{AirParams, Domain, Quality},
         particles::Particles,
         solids::Solids,
         sources::Rect,
@@ -14,7 +14,7 @@ use crate::{
     },
     scene::{
         MOST_COVERED, Tuning,
-        effects::Effect,
+        blueprint::Blueprint,
         elements::{self, Fault},
     },
     sim::state::Clock,
@@ -28,10 +28,10 @@ const MOST_CELLS: f32 = 64e6;
 const LONGEST_SIDE: f32 = 32_768.0;
 /// Highest pressure of the predictor, d/s: that of the fastest moves over the longest side in cells, and more.
 const ABSURD_POTENTIAL: f32 = 1e12;
-/// Most ticks and edits that a world has seen, and ticks until a tap flows: some five million years, and far from where
+/// Most ticks and edits that a world has seen, and ticks until an emitter flows: some five million years, and far from where
 /// counting on would come to the end of the numbers.
 const LAST_TICK: u64 = 1 << 53;
-/// Most taps, fans and outlets of each kind, and parameters: as many as a scene may have.
+/// Most emitters, winds and drains each, and parameters: as many as a scene may have.
 const MOST_ENTRIES: usize = 1000;
 /// Longest text, bytes.
 const LONGEST_TEXT: usize = 10_000;
@@ -58,8 +58,7 @@ fn finite(name: &str, value: Vec2) -> Verdict {
 pub(super) fn contents(contents: &Contents) -> Verdict {
     texts(contents)?;
     numbers(contents)?;
-    element_rows(&contents.elements)?;
-    names(contents)?;
+    element_rows(contents)?;
     clock(&contents.clock)?;
     particles(contents)?;
     sources(contents)?;
@@ -67,24 +66,26 @@ pub(super) fn contents(contents: &Contents) -> Verdict {
 }
 
 fn texts(contents: &Contents) -> Verdict {
-    for text in [&contents.name, &contents.title, &contents.description] {
+    let Blueprint { name, title, description, parameters, .. } = &*contents.scene;
+    for text in [name, title, description] {
         demand(text.len() <= LONGEST_TEXT, || format!("a text of {} bytes; allowed: {LONGEST_TEXT}", text.len()))?;
     }
-    demand(contents.parameters.len() <= MOST_ENTRIES, || "too many parameters".to_owned())?;
-    demand(contents.parameters.values().all(|value| value.is_finite()), || "a parameter is not a number".to_owned())
+    demand(parameters.len() <= MOST_ENTRIES, || "too many parameters".to_owned())?;
+    demand(parameters.values().all(|value| value.is_finite()), || "a parameter is not a number".to_owned())
 }
 
 fn numbers(contents: &Contents) -> Verdict {
-    let Contents { scale, domain, fluid, quality, air_params, .. } = contents;
+    let Contents { scene, domain, quality, .. } = contents;
+    let Blueprint { scale, fluid, air, particle_limit, .. } = **scene;
     within("spacing", scale.spacing, 0.001 / ROUNDING, 100.0 * ROUNDING)?;
     within("width", domain.size.x, 4.0, LONGEST_SIDE)?;
     within("height", domain.size.y, 4.0, LONGEST_SIDE)?;
     let cells = domain.size.ceil();
     within("number of cells", cells.x * cells.y, 16.0, MOST_CELLS)?;
-    gravity(domain.gravity, *scale)?;
-    Tuning { fluid: *fluid, quality: *quality, particle_limit: contents.particle_limit }.check()?;
-    within("sound_speed", air_params.sound_speed * scale.spacing, 1.0 / ROUNDING, 400.0 * ROUNDING)?;
-    within("air_density", air_params.density, 0.01, 1000.0)
+    gravity(domain.gravity, scale)?;
+    Tuning { fluid, quality: *quality, particle_limit }.check()?;
+    within("sound_speed", air.sound_speed * scale.spacing, 1.0 / ROUNDING, 400.0 * ROUNDING)?;
+    within("air_density", air.density, 0.01, 1000.0)
 }
 
 /// Gravity in d/s² at a spacing: in m/s² it keeps to the range of scenes.
@@ -97,17 +98,11 @@ pub(crate) fn quality(quality: &Quality) -> Verdict {
     Tuning::from(*quality).check()
 }
 
-fn element_rows(elements: &[Element]) -> Verdict {
+fn element_rows(contents: &Contents) -> Verdict {
+    let (elements, first) = (&contents.elements, &contents.scene.first_element);
     within("number of elements", elements.len() as f32, 1.0, ElementTable::MOST as f32)?;
-    elements::check(elements).map_err(|Fault { row, field, what }| format!("{field} of element {row}: {what}"))
-}
-
-fn names(contents: &Contents) -> Verdict {
-    demand(Preset::find(&contents.preset).is_some(), || "its quality has no known name".to_owned())?;
-    let known = contents.effects.iter().all(|(name, _)| Effect::find(name).is_some());
-    demand(known, || "an effect has no known name".to_owned())?;
-    let first = contents.first_element.as_ref();
-    let known = first.is_none_or(|first| contents.elements.iter().any(|element| element.name == *first));
+    elements::check(elements).map_err(|Fault { row, field, what }| format!("{field} of element {row}: {what}"))?;
+    let known = first.as_ref().is_none_or(|first| elements.iter().any(|element| element.name == *first));
     demand(known, || "its first element is none of its elements".to_owned())
 }
 
@@ -127,7 +122,7 @@ fn particles(contents: &Contents) -> Verdict {
     let (particles, rock, clock) = (&contents.particles, &contents.rock, &contents.clock);
     demand(particles.has_equal_columns(), || "the particles' arrays differ in length".to_owned())?;
     let total = particles.len() + rock.len();
-    demand(total <= contents.particle_limit as usize, || format!("{total} particles are more than its limit"))?;
+    demand(total <= contents.scene.particle_limit as usize, || format!("{total} particles are more than its limit"))?;
     // Places are checked against the cells of the box, where there are some.
     for i in 0..particles.len() {
         for (name, value) in Particles::COLUMNS.iter().zip(particles.get(i).values()) {
@@ -154,7 +149,7 @@ fn particles(contents: &Contents) -> Verdict {
 fn sources(contents: &Contents) -> Verdict {
     let sources = &contents.sources;
     let lengths = [sources.emitters.len(), sources.winds.len(), sources.drains.len()];
-    demand(lengths.iter().all(|&len| len <= MOST_ENTRIES), || "too many taps, fans or outlets".to_owned())?;
+    demand(lengths.iter().all(|&len| len <= MOST_ENTRIES), || "too many emitters, winds or drains".to_owned())?;
     let area = |area: &Rect| {
         finite("a corner of an area", area.min)?;
         finite("a corner of an area", area.max)?;
@@ -162,35 +157,35 @@ fn sources(contents: &Contents) -> Verdict {
     };
     for emitter in &sources.emitters {
         area(&emitter.area)?;
-        finite("the velocity of a tap", emitter.velocity)?;
-        within("the rate of a tap", emitter.rate, 0.0, 1e6 * ROUNDING)?;
-        within("what is due of a tap", emitter.due, 0.0, 1e6)?;
+        finite("the velocity of an emitter", emitter.velocity)?;
+        within("the rate of an emitter", emitter.rate, 0.0, 1e6 * ROUNDING)?;
+        within("what is due of an emitter", emitter.due, 0.0, 1e6)?;
         demand(emitter.start <= LAST_TICK, || {
-            format!("the start of a tap is tick {}; allowed: 0 to {LAST_TICK}", emitter.start)
+            format!("the start of an emitter is tick {}; allowed: 0 to {LAST_TICK}", emitter.start)
         })?;
-        demand(is_movable(contents, emitter.element), || "a tap gives no movable element".to_owned())?;
+        demand(is_movable(contents, emitter.element), || "an emitter gives no movable element".to_owned())?;
     }
     for wind in &sources.winds {
         area(&wind.area)?;
-        finite("the velocity of a fan", wind.velocity)?;
-        within("the rate of a fan", wind.rate, 0.0, 1000.0 * ROUNDING)?;
+        finite("the velocity of a wind", wind.velocity)?;
+        within("the rate of a wind", wind.rate, 0.0, 1000.0 * ROUNDING)?;
     }
     sources.drains.iter().try_for_each(|drain| area(&drain.area))?;
     let cover = |areas: &mut dyn Iterator<Item = Rect>| -> f64 {
         let inside = |at: Vec2| at.clamp(Vec2::ZERO, contents.domain.size).as_dvec2();
         areas.map(|area| (inside(area.max) - inside(area.min)).element_product()).sum()
     };
-    let taps = cover(&mut sources.emitters.iter().map(|emitter| emitter.area));
-    let fans = cover(&mut sources.winds.iter().map(|wind| wind.area));
-    let most = taps.max(fans);
-    demand(most <= MOST_COVERED, || format!("taps or fans cover {most:.0} cells; allowed: at most {MOST_COVERED}"))
+    let emitters = cover(&mut sources.emitters.iter().map(|emitter| emitter.area));
+    let winds = cover(&mut sources.winds.iter().map(|wind| wind.area));
+    let most = emitters.max(winds);
+    demand(most <= MOST_COVERED, || format!("emitters or winds cover {most:.0} cells; allowed: at most {MOST_COVERED}"))
 }
 
 fn air(contents: &Contents) -> Verdict {
     let Contents { air, domain, quality, .. } = contents;
-    // That its cells fit its size is checked where it is read.
+    air.check()?;
     demand(air.cell() == quality.air_cell, || "its air stands on other cells than its quality's".to_owned())?;
-    demand(*air.params() == contents.air_params, || "its air has other parameters than its scene".to_owned())?;
+    demand(*air.params() == contents.scene.air, || "its air has other parameters than its scene".to_owned())?;
     demand(air.size() == domain.size, || {
         format!("its air fills a box of {} d, its scene has one of {} d", air.size(), domain.size)
     })?;

@@ -4,34 +4,26 @@ use crate::{
     kernel::{
         air::Air,
         element::{Element, ElementId},
-        params::{AirParams, Domain, FluidParams, Quality},
+        params::{Domain, Preset, Quality},
         particles::Particles,
         sleep::SleepRecord,
-        units::Scale,
     },
-    scene::effects::Mode,
+    scene::{blueprint::Blueprint, effects::EffectModes},
     sim::state::{Clock, Sources},
 };
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::borrow::Cow;
 
-/// What the file holds. Effects and the preset go by name, so that new ones don't shift the old.
+/// What the file holds.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(super) struct Contents {
-    pub name: String,
-    pub title: String,
-    pub description: String,
-    pub parameters: BTreeMap<String, f64>,
-    pub scale: Scale,
+pub(super) struct Contents<'a> {
+    pub scene: Cow<'a, Blueprint>,
+    /// In the place of the scene's own, as are those that follow.
     pub domain: Domain,
-    pub elements: Vec<Element>,
-    pub fluid: FluidParams,
-    pub air_params: AirParams,
-    pub effects: Vec<(String, Mode)>,
-    pub preset: String,
+    pub effects: EffectModes,
+    pub preset: Preset,
     pub quality: Quality,
-    pub particle_limit: u32,
-    pub first_element: Option<String>,
+    pub elements: Vec<Element>,
     pub particles: Particles,
     pub rock: Vec<RockCell>,
     pub air: Air,

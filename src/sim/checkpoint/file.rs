@@ -8,48 +8,24 @@
 //! and no more than its box may have.
 
 use crate::{
-    kernel::{checks::remove_non_finite, element::ElementTable, params::Preset, solids::Solids},
-    scene::{
-        blueprint::Blueprint,
-        effects::{Effect, EffectModes},
-    },
+    kernel::{checks::remove_non_finite, element::ElementTable, solids::Solids},
+    scene::blueprint::Blueprint,
     sim::{
         checkpoint::{
             check,
             contents::{Contents, RockCell},
             restore::Checkpoint,
         },
+        file::{FileError, Kind},
         snapshot::{Snapshot, hash_bytes},
         state::{Setup, Sources},
     },
 };
 use glam::IVec2;
-use std::sync::Arc;
+use std::{borrow::Cow, sync::Arc};
 
-/// What every save file begins with.
-pub(super) const MAGIC: &[u8] = b"PowderMaster\n";
-/// Version of the format. Raise it when [`Contents`] or anything in it changes: old files are refused, not misread.
-const VERSION: u16 = 4;
-
-/// Why a file is not loaded, in one line.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum SaveError {
-    /// Something else.
-    #[error("not a save file of Powder Master")]
-    Foreign,
-    /// Written by another version.
-    #[error("a save file of format {found}; this program reads format {VERSION}")]
-    Version {
-        /// Its format.
-        found: u16,
-    },
-    /// Cut or changed.
-    #[error("the save file is damaged: {0}")]
-    Damaged(String),
-    /// A value that no world has.
-    #[error("the save file is not sound: {0}")]
-    Unsound(String),
-}
+/// A save file.
+pub(super) const SAVE: Kind = Kind { name: "save file", magic: b"PowderMaster\n" };
 
 impl Checkpoint {
     /// It as a save file.
@@ -67,20 +43,12 @@ impl Checkpoint {
         });
         let Setup { blueprint, domain, preset, quality, .. } = &self.setup;
         seal(&Contents {
-            name: blueprint.name.clone(),
-            title: blueprint.title.clone(),
-            description: blueprint.description.clone(),
-            parameters: blueprint.parameters.clone(),
-            scale: blueprint.scale,
+            scene: Cow::Borrowed(blueprint),
             domain: *domain,
-            elements: blueprint.elements.iter().map(|(_, element)| element.clone()).collect(),
-            fluid: blueprint.fluid,
-            air_params: blueprint.air,
-            effects: self.modes.iter().map(|(effect, mode)| (effect.name().to_owned(), *mode)).collect(),
-            preset: preset.name().to_owned(),
+            effects: self.modes.clone(),
+            preset: *preset,
             quality: *quality,
-            particle_limit: blueprint.particle_limit,
-            first_element: blueprint.first_element.clone(),
+            elements: blueprint.elements.iter().map(|(_, element)| element.clone()).collect(),
             particles,
             rock: rock.collect(),
             air,
@@ -95,39 +63,24 @@ impl Checkpoint {
     ///
     /// # Errors
     /// If it is not one, was cut or changed, or holds what no world can.
-    pub fn decode(bytes: &[u8]) -> Result<Self, SaveError> {
-        let damaged = |what: &str| SaveError::Damaged(what.to_owned());
-        let rest = bytes.strip_prefix(MAGIC).ok_or_else(|| {
-            if !bytes.is_empty() && MAGIC.starts_with(bytes) {
-                damaged("it ends in its first line")
-            } else {
-                SaveError::Foreign
-            }
-        })?;
-        let (version, rest) = rest.split_first_chunk().ok_or_else(|| damaged("it ends in its header"))?;
-        let found = u16::from_le_bytes(*version);
-        if found != VERSION {
-            return Err(SaveError::Version { found });
-        }
-        let (hash, body) = rest.split_first_chunk().ok_or_else(|| damaged("it ends in its header"))?;
+    pub fn decode(bytes: &[u8]) -> Result<Self, FileError> {
+        let rest = SAVE.open(bytes)?;
+        let (hash, body) = rest.split_first_chunk().ok_or_else(|| SAVE.damaged("it ends in its header"))?;
         if u64::from_le_bytes(*hash) != hash_bytes(body) {
-            return Err(damaged("its contents do not fit its checksum"));
+            return Err(SAVE.damaged("its contents do not fit its checksum"));
         }
-        let (contents, left) =
-            postcard::take_from_bytes::<Contents>(body).map_err(|error| damaged(&error.to_string()))?;
+        let (contents, left) = postcard::take_from_bytes::<Contents>(body).map_err(|error| SAVE.damaged(error))?;
         if !left.is_empty() {
-            return Err(damaged("something stands behind its end"));
+            return Err(SAVE.damaged("something stands behind its end"));
         }
-        check::contents(&contents).map_err(SaveError::Unsound)?;
-        open(contents).map_err(SaveError::Unsound)
+        check::contents(&contents).and_then(|()| open(contents)).map_err(|what| SAVE.unsound(what))
     }
 }
 
 pub(super) fn seal(contents: &Contents) -> Vec<u8> {
     // Writing to memory has no way to fail, and every length is known.
     let body = postcard::to_stdvec(contents).unwrap_or_default();
-    let mut bytes = MAGIC.to_vec();
-    bytes.extend(VERSION.to_le_bytes());
+    let mut bytes = SAVE.begin();
     bytes.extend(hash_bytes(&body).to_le_bytes());
     bytes.extend(body);
     bytes
@@ -135,7 +88,8 @@ pub(super) fn seal(contents: &Contents) -> Vec<u8> {
 
 /// Turns checked contents into a world. What needs the whole rock is checked here.
 fn open(contents: Contents) -> Result<Checkpoint, String> {
-    let Contents { particles, rock, air, pressure, sleep, sources, clock, domain, quality, .. } = contents;
+    let Contents { scene, domain, effects, preset, quality, elements, .. } = contents;
+    let Contents { particles, rock, mut air, pressure, sleep, sources, clock, .. } = contents;
     let cells = domain.size.ceil().as_uvec2();
     let mut solids = Solids::new(cells.x, cells.y);
     for RockCell { column, row, element, id } in rock {
@@ -147,38 +101,24 @@ fn open(contents: Contents) -> Result<Checkpoint, String> {
     if let Some(i) = (0..particles.len()).find(|&i| solids.is_solid(Solids::cell_of(particles.position(i)))) {
         return Err(format!("particle {} is inside rock or outside the box", particles.id[i]));
     }
-    check::air_follows_rock(&air, &solids, &domain, contents.air_params)?;
-    let elements = Arc::new(ElementTable::new(contents.elements));
-    let effects: EffectModes =
-        contents.effects.iter().filter_map(|(name, mode)| Some((Effect::find(name)?, *mode))).collect();
+    check::air_follows_rock(&air, &solids, &domain, scene.air)?;
+    air.set_solids(&solids);
     let Sources { emitters, winds, drains } = sources.clone();
-    let mut snapshot = Snapshot { particles, solids, air, pressure, sleep, sources, clock };
-    snapshot.air.set_solids(&snapshot.solids);
-    let preset = Preset::find(&contents.preset).unwrap_or(Preset::Balanced);
     let blueprint = Blueprint {
-        name: contents.name,
-        title: contents.title,
-        description: contents.description,
-        parameters: contents.parameters,
-        scale: contents.scale,
         domain,
-        elements,
-        particles: snapshot.particles.clone(),
-        solids: snapshot.solids.clone(),
+        elements: Arc::new(ElementTable::new(elements)),
+        particles: particles.clone(),
+        solids: solids.clone(),
         next_id: clock.next_id,
         emitters,
         winds,
         drains,
-        pressures: Vec::new(),
-        fluid: contents.fluid,
-        air: contents.air_params,
         effects: effects.clone(),
         preset,
         quality,
-        particle_limit: contents.particle_limit,
-        first_element: contents.first_element,
+        ..scene.into_owned()
     };
-    let state = Arc::new(snapshot);
+    let state = Arc::new(Snapshot { particles, solids, air, pressure, sleep, sources, clock });
     Ok(Checkpoint {
         setup: Setup { blueprint: Arc::new(blueprint), domain, preset, quality, origin: state.clone() },
         modes: effects,

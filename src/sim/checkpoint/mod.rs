@@ -8,5 +8,4 @@ mod restore;
 #[cfg(test)]
 mod tests;
 
-pub use file::SaveError;
 pub use restore::Checkpoint;

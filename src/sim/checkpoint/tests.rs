@@ -2,18 +2,20 @@
 
 use super::{
     contents::Contents,
-    file::{MAGIC, seal},
+    file::{SAVE, seal},
     *,
 };
 use crate::{
     kernel::{
         air::Air,
         element::ElementId,
+        random::Random,
         sleep::SleepRecord,
         sources::{Drain, Emitter, Rect, Wind},
     },
     scene::{self, effects::EffectModes},
     sim::{
+        file::{FileError, VERSION},
         intent::{Intent, IntentQueue},
         simulation::Simulation,
         snapshot::hash_bytes,
@@ -58,8 +60,8 @@ fn small() -> Simulation {
     simulation
 }
 
-fn contents(bytes: &[u8]) -> Contents {
-    postcard::from_bytes(&bytes[MAGIC.len() + 10..]).expect("the contents of a good file")
+fn contents(bytes: &[u8]) -> Contents<'static> {
+    postcard::from_bytes(&bytes[SAVE.magic.len() + 10..]).expect("the contents of a good file")
 }
 
 fn refusal(bytes: &[u8]) -> String {
@@ -87,16 +89,16 @@ fn a_file_cut_anywhere_is_refused() {
         refusal(&bytes[..len]);
     }
     // The same with a header that fits what is left.
-    let body = &bytes[MAGIC.len() + 10..];
+    let body = &bytes[SAVE.magic.len() + 10..];
     for len in 0..body.len() {
-        let mut cut = bytes[..MAGIC.len() + 2].to_vec();
+        let mut cut = bytes[..SAVE.magic.len() + 2].to_vec();
         cut.extend(hash_bytes(&body[..len]).to_le_bytes());
         cut.extend(&body[..len]);
         refusal(&cut);
     }
     let mut longer = body.to_vec();
     longer.push(0);
-    let mut file = bytes[..MAGIC.len() + 2].to_vec();
+    let mut file = bytes[..SAVE.magic.len() + 2].to_vec();
     file.extend(hash_bytes(&longer).to_le_bytes());
     file.extend(&longer);
     assert!(refusal(&file).contains("behind its end"));
@@ -105,11 +107,12 @@ fn a_file_cut_anywhere_is_refused() {
 #[test]
 fn headers_say_what_is_wrong() {
     let bytes = encode(&small());
-    assert_eq!(refusal(b""), SaveError::Foreign.to_string());
-    assert_eq!(refusal(b"\x89PNG\r\n\x1a\n and more"), SaveError::Foreign.to_string());
+    assert_eq!(refusal(b""), FileError::Foreign("save file").to_string());
+    assert_eq!(refusal(b"\x89PNG\r\n\x1a\n and more"), FileError::Foreign("save file").to_string());
     let mut newer = bytes.clone();
-    newer[MAGIC.len()] = 200;
-    assert!(refusal(&newer).contains("format 200; this program reads format 4"));
+    newer[SAVE.magic.len()] = 200;
+    newer[SAVE.magic.len() + 1] = 0;
+    assert!(refusal(&newer).contains(&format!("format 200; this program reads format {VERSION}")));
 }
 
 #[test]
@@ -126,13 +129,10 @@ fn every_flipped_bit_is_noticed() {
 #[test]
 fn flips_behind_a_right_checksum_neither_panic_nor_make_a_world_that_does() {
     let bytes = encode(&small());
-    let body = &bytes[MAGIC.len() + 10..];
+    let body = &bytes[SAVE.magic.len() + 10..];
     let mut simulation = small();
-    let mut state = 99_u32;
-    let mut random = || {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (state >> 8) as usize
-    };
+    let mut random = Random::new(99);
+    let mut random = || random.number() as usize;
     let (mut read, mut refused) = (0, 0);
     for _ in 0..6000 {
         let mut changed = body.to_vec();
@@ -140,7 +140,7 @@ fn flips_behind_a_right_checksum_neither_panic_nor_make_a_world_that_does() {
             let at = random() % changed.len();
             changed[at] = if random() % 2 == 0 { changed[at] ^ 1 << (random() % 8) } else { random() as u8 };
         }
-        let mut file = bytes[..MAGIC.len() + 2].to_vec();
+        let mut file = bytes[..SAVE.magic.len() + 2].to_vec();
         file.extend(hash_bytes(&changed).to_le_bytes());
         file.extend(&changed);
         match Checkpoint::decode(&file) {
@@ -168,15 +168,15 @@ fn made_up_contents_are_refused_by_name() {
     let good = contents(&encode(&small()));
     assert!(Checkpoint::decode(&seal(&good)).is_ok());
     type Change = fn(&mut Contents);
-    let cases: [(&str, Change); 40] = [
-        ("spacing", |c| c.scale.spacing = 0.0),
-        ("spacing", |c| c.scale.spacing = f32::NAN),
+    let cases: [(&str, Change); 38] = [
+        ("spacing", |c| c.scene.to_mut().scale.spacing = 0.0),
+        ("spacing", |c| c.scene.to_mut().scale.spacing = f32::NAN),
         ("width", |c| c.domain.size.x = 1e9),
         ("height", |c| c.domain.size.y = f32::NAN),
         ("number of cells", |c| c.domain.size = Vec2::splat(32_000.0)),
         ("gravity", |c| c.domain.gravity.x = f32::INFINITY),
-        ("rest_density", |c| c.fluid.rest_density = 0.0),
-        ("relaxation", |c| c.fluid.relaxation = -1.0),
+        ("rest_density", |c| c.scene.to_mut().fluid.rest_density = 0.0),
+        ("relaxation", |c| c.scene.to_mut().fluid.relaxation = -1.0),
         ("substeps", |c| c.quality.substeps = 0),
         ("substeps", |c| c.quality.substeps = u32::MAX),
         ("iterations", |c| c.quality.iterations = 65),
@@ -184,18 +184,16 @@ fn made_up_contents_are_refused_by_name() {
         ("correction_limit", |c| c.quality.correction_limit = f32::NAN),
         ("air_cell", |c| c.quality.air_cell = 0.001),
         ("air stands on other cells", |c| c.quality.air_cell = 3.5),
-        ("sound_speed", |c| c.air_params.sound_speed = 0.0),
-        ("other parameters", |c| c.air_params.sound_speed *= 1.5),
-        ("particle_limit", |c| c.particle_limit = 0),
-        ("more than its limit", |c| c.particle_limit = 3),
+        ("sound_speed", |c| c.scene.to_mut().air.sound_speed = 0.0),
+        ("other parameters", |c| c.scene.to_mut().air.sound_speed *= 1.5),
+        ("particle_limit", |c| c.scene.to_mut().particle_limit = 0),
+        ("more than its limit", |c| c.scene.to_mut().particle_limit = 3),
         ("number of elements", |c| c.elements.clear()),
         ("name of element 0", |c| c.elements[0].name = "a\nb".to_owned()),
         ("name of element 1: `rock` is taken", |c| c.elements[1].name = "rock".to_owned()),
         ("density of element 1: 0 is out of range", |c| c.elements[1].density = 0.0),
         ("flow", |c| c.elements[1].flow = f32::NAN),
-        ("quality has no known name", |c| c.preset = "best".to_owned()),
-        ("effect has no known name", |c| c.effects[0].0 = "magic".to_owned()),
-        ("first element", |c| c.first_element = Some("gold".to_owned())),
+        ("first element", |c| c.scene.to_mut().first_element = Some("gold".to_owned())),
         ("differ in length", |c| c.particles.vx.truncate(3)),
         ("x of a particle is no number", |c| c.particles.x[2] = f32::NAN),
         ("vy of a particle is no number", |c| c.particles.vy[2] = f32::INFINITY),
@@ -213,24 +211,24 @@ fn made_up_contents_are_refused_by_name() {
     let more: [(&str, Change); 16] = [
         ("an area", |c| c.sources.winds[0].area.min.x = 1e6),
         ("a corner", |c| c.sources.drains[0].area.max.y = f32::NAN),
-        ("the rate of a tap", |c| c.sources.emitters[0].rate = f32::NAN),
-        ("due of a tap", |c| c.sources.emitters[0].due = -1.0),
-        ("tap gives", |c| c.sources.emitters[0].element = ElementId(0)),
+        ("the rate of an emitter", |c| c.sources.emitters[0].rate = f32::NAN),
+        ("due of an emitter", |c| c.sources.emitters[0].due = -1.0),
+        ("emitter gives", |c| c.sources.emitters[0].element = ElementId(0)),
         ("its air fills a box of [40, 40]", |c| {
-            c.air = Air::new(Vec2::splat(40.0), c.quality.air_cell, c.air_params);
+            c.air = Air::new(Vec2::splat(40.0), c.quality.air_cell, c.scene.air);
         }),
         ("does not follow its rock", |c| c.rock.clear()),
-        ("a parameter", |c| c.parameters.values_mut().for_each(|value| *value = f64::NAN)),
+        ("a parameter", |c| c.scene.to_mut().parameters.values_mut().for_each(|value| *value = f64::NAN)),
         ("a pressure of its water", |c| c.pressure = vec![f32::NAN]),
         ("a pressure of its water", |c| c.pressure = vec![1e13]),
         ("its tick is 18446744073709551615; allowed: 0 to 9007199254740992", |c| c.clock.tick = u64::MAX),
         ("its number of edits", |c| c.clock.edits = u64::MAX),
-        ("the start of a tap", |c| c.sources.emitters[0].start = u64::MAX),
-        ("too many taps", |c| c.sources.drains = vec![c.sources.drains[0]; 1001]),
+        ("the start of an emitter", |c| c.sources.emitters[0].start = u64::MAX),
+        ("too many emitters", |c| c.sources.drains = vec![c.sources.drains[0]; 1001]),
         ("its air fills a box of [15.5, 16]", |c| {
-            c.air = Air::new(Vec2::new(15.5, 16.0), c.quality.air_cell, c.air_params);
+            c.air = Air::new(Vec2::new(15.5, 16.0), c.quality.air_cell, c.scene.air);
         }),
-        ("taps or fans cover 128000000 cells; allowed: at most 64000000", |c| {
+        ("emitters or winds cover 128000000 cells; allowed: at most 64000000", |c| {
             (c.domain.size, c.sleep) = (Vec2::splat(8000.0), SleepRecord::default());
             let area = Rect { min: Vec2::splat(-9.0), max: Vec2::splat(9000.0) };
             c.sources.winds = vec![Wind { area, ..c.sources.winds[0] }; 2];

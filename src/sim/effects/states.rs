@@ -3,9 +3,6 @@
 use crate::scene::effects::{Effect, EffectModes, Facts, Mode};
 use bevy::prelude::{Res, Resource};
 
-/// Reason until the first tick.
-const NOT_DECIDED: &str = "not decided yet";
-
 /// What is wanted of an effect, what was decided, and how often it ran.
 #[derive(Clone, Debug)]
 pub struct EffectState {
@@ -31,8 +28,13 @@ pub struct Effects {
 impl Effects {
     /// Effects with the wanted modes; none has run yet.
     pub fn new(modes: &EffectModes) -> Self {
-        let idle =
-            EffectState { mode: Mode::Auto, running: false, why: NOT_DECIDED, active_ticks: 0, differing_ticks: 0 };
+        let idle = EffectState {
+            mode: Mode::Auto,
+            running: false,
+            why: "not decided yet",
+            active_ticks: 0,
+            differing_ticks: 0,
+        };
         let mut effects = Self { states: std::array::from_fn(|_| idle.clone()) };
         effects.set_modes(modes);
         effects
@@ -72,10 +74,7 @@ impl Effects {
 
     /// Forgets what ran; the modes stay.
     pub fn start_over(&mut self) {
-        for state in &mut self.states {
-            (state.running, state.why) = (false, NOT_DECIDED);
-            (state.active_ticks, state.differing_ticks) = (0, 0);
-        }
+        *self = Self::new(&self.modes());
     }
 
     /// Decides for this tick.

@@ -17,7 +17,8 @@
 use crate::{
     kernel::{brush::Stroke, units::Scale},
     sim::{
-        checkpoint::{Checkpoint, SaveError, check},
+        checkpoint::{Checkpoint, check},
+        file::{FileError, Kind},
         intent::Intent,
         mark::Mark,
         recording::segment::{End, Entry, Recording, Segment},
@@ -30,11 +31,8 @@ use std::ops::RangeInclusive;
 
 /// Ending of recordings.
 pub const RECORDING_ENDING: &str = "pmr";
-/// What every recording begins with.
-pub(super) const MAGIC: &[u8] = b"PowderMaster recording\n";
-/// Version of the format. Raise it when anything in the chunks changes: old files are refused, not misread. An intent that
-/// is added behind the others changes nothing in old files.
-const VERSION: u16 = 4;
+/// A recording.
+pub(super) const RECORDING: Kind = Kind { name: "recording", magic: b"PowderMaster recording\n" };
 /// What a file of format 1 begins with: text, input only, from the start of a scene.
 const TEXT_FORMAT: &[u8] = b"{\"powder_master_replay\":";
 
@@ -42,52 +40,26 @@ pub(super) const STATE: u8 = b'S';
 pub(super) const TICKS: u8 = b'T';
 const END: u8 = b'E';
 
-/// Why a file is no recording, in one line.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum RecordingError {
-    /// Something else.
-    #[error("not a recording of Powder Master")]
-    Foreign,
-    /// Written by another version.
-    #[error("a recording of format {found}; this program reads format {VERSION}")]
-    Version {
-        /// Its format.
-        found: u16,
-    },
-    /// Cut or changed.
-    #[error("the recording is damaged: {0}")]
-    Damaged(String),
-    /// It says what can't have been.
-    #[error("the recording is not sound: {0}")]
-    Unsound(String),
-    /// A state in it is not sound.
-    #[error("a state in the recording: {0}")]
-    State(#[from] SaveError),
-}
-
 impl Recording {
     /// Whether bytes are meant to be a recording, of whatever format.
     pub fn is_meant(bytes: &[u8]) -> bool {
-        bytes.starts_with(MAGIC) || bytes.starts_with(TEXT_FORMAT)
+        bytes.starts_with(RECORDING.magic) || bytes.starts_with(TEXT_FORMAT)
     }
 
     /// Reads a whole recording.
     ///
     /// # Errors
     /// If it is not one, was cut or changed, or holds what can't have been.
-    pub fn decode(bytes: &[u8]) -> Result<Self, RecordingError> {
+    pub fn decode(bytes: &[u8]) -> Result<Self, FileError> {
         let recording = Self::read(bytes, false)?;
-        match recording.end {
-            Some(_) => Ok(recording),
-            None => Err(RecordingError::Damaged("it has no end".to_owned())),
-        }
+        if recording.end.is_some() { Ok(recording) } else { Err(RECORDING.damaged("it has no end")) }
     }
 
     /// Reads what is whole of a recording that may break off.
     ///
     /// # Errors
     /// If not even its first state is whole.
-    pub fn salvage(bytes: &[u8]) -> Result<Self, RecordingError> {
+    pub fn salvage(bytes: &[u8]) -> Result<Self, FileError> {
         Self::read(bytes, true)
     }
 
@@ -105,8 +77,11 @@ impl Recording {
         writer.take()
     }
 
-    fn read(bytes: &[u8], lenient: bool) -> Result<Self, RecordingError> {
-        let mut rest = header(bytes)?;
+    fn read(bytes: &[u8], lenient: bool) -> Result<Self, FileError> {
+        if bytes.starts_with(TEXT_FORMAT) {
+            return Err(FileError::Version(RECORDING.name, 1));
+        }
+        let mut rest = RECORDING.open(bytes)?;
         let mut reader = Reader { segments: Vec::new(), elements: 0, scale: Scale { spacing: 1.0 }, end: None };
         while !rest.is_empty() && reader.end.is_none() {
             match reader.chunk(&mut rest) {
@@ -115,31 +90,11 @@ impl Recording {
             }
         }
         let Reader { segments, end, .. } = reader;
-        let damaged = |what: &str| Err(RecordingError::Damaged(what.to_owned()));
         match (&segments[..], end) {
-            ([], _) => damaged("it holds no state"),
-            (_, Some(_)) if !rest.is_empty() && !lenient => damaged("something stands behind its end"),
+            ([], _) => Err(RECORDING.damaged("it holds no state")),
+            (_, Some(_)) if !rest.is_empty() && !lenient => Err(RECORDING.damaged("something stands behind its end")),
             _ => Ok(Self { segments, end }),
         }
-    }
-}
-
-fn header(bytes: &[u8]) -> Result<&[u8], RecordingError> {
-    if bytes.starts_with(TEXT_FORMAT) {
-        return Err(RecordingError::Version { found: 1 });
-    }
-    let damaged = |what: &str| RecordingError::Damaged(what.to_owned());
-    let rest = bytes.strip_prefix(MAGIC).ok_or_else(|| {
-        if !bytes.is_empty() && MAGIC.starts_with(bytes) {
-            damaged("it ends in its first line")
-        } else {
-            RecordingError::Foreign
-        }
-    })?;
-    let (version, rest) = rest.split_first_chunk().ok_or_else(|| damaged("it ends in its header"))?;
-    match u16::from_le_bytes(*version) {
-        VERSION => Ok(rest),
-        found => Err(RecordingError::Version { found }),
     }
 }
 
@@ -154,35 +109,35 @@ struct Reader {
 
 impl Reader {
     /// Reads a chunk; nothing changes if it is not good.
-    fn chunk(&mut self, rest: &mut &[u8]) -> Result<(), RecordingError> {
+    fn chunk(&mut self, rest: &mut &[u8]) -> Result<(), FileError> {
         let (kind, body, behind) = cut_chunk(rest)?;
         match kind {
             STATE => self.state(body)?,
             TICKS => self.ticks(parse(body)?)?,
             END => self.end = Some(parse(body)?),
-            _ => return Err(RecordingError::Damaged(format!("a part of the unknown kind {kind}"))),
+            _ => return Err(RECORDING.damaged(format_args!("a part of the unknown kind {kind}"))),
         }
         *rest = behind;
         Ok(())
     }
 
-    fn state(&mut self, body: &[u8]) -> Result<(), RecordingError> {
-        let start = Checkpoint::decode(body)?;
+    fn state(&mut self, body: &[u8]) -> Result<(), FileError> {
+        let start = Checkpoint::decode(body).map_err(|error| FileError::State(Box::new(error)))?;
         (self.elements, self.scale) = (start.setup.elements().len(), start.setup.blueprint.scale);
         let tick = start.state.clock.tick;
         self.segments.push(Segment::read(body.to_vec(), tick));
         Ok(())
     }
 
-    fn ticks(&mut self, (entries, marks): (Vec<Entry>, Vec<Mark>)) -> Result<(), RecordingError> {
+    fn ticks(&mut self, (entries, marks): (Vec<Entry>, Vec<Mark>)) -> Result<(), FileError> {
         let Some(segment) = self.segments.last_mut() else {
-            return Err(RecordingError::Damaged("it does not begin with a state".to_owned()));
+            return Err(RECORDING.damaged("it does not begin with a state"));
         };
         // The states' ticks are bounded (`checkpoint::check`), and so many marks are in no file.
         let done = segment.now() + marks.len() as u64;
         let mut last = segment.entries.last().map_or(segment.tick, |entry| entry.tick);
         for entry in &entries {
-            check_entry(entry, last..=done, self.elements, self.scale).map_err(RecordingError::Unsound)?;
+            check_entry(entry, last..=done, self.elements, self.scale).map_err(|what| RECORDING.unsound(what))?;
             last = entry.tick;
         }
         segment.entries.extend(entries);
@@ -192,15 +147,14 @@ impl Reader {
 }
 
 /// Kind and body of the first chunk, and what stands behind it.
-fn cut_chunk(bytes: &[u8]) -> Result<(u8, &[u8], &[u8]), RecordingError> {
-    let damaged = |what: &str| RecordingError::Damaged(what.to_owned());
-    let short = || damaged("it breaks off");
+fn cut_chunk(bytes: &[u8]) -> Result<(u8, &[u8], &[u8]), FileError> {
+    let short = || RECORDING.damaged("it breaks off");
     let (&[kind], bytes) = bytes.split_first_chunk().ok_or_else(short)?;
     let (length, bytes) = bytes.split_first_chunk().ok_or_else(short)?;
     let (hash, bytes) = bytes.split_first_chunk().ok_or_else(short)?;
     let (body, behind) = bytes.split_at_checked(u32::from_le_bytes(*length) as usize).ok_or_else(short)?;
     if u64::from_le_bytes(*hash) != hash_of(kind, body) {
-        return Err(damaged("a part does not fit its checksum"));
+        return Err(RECORDING.damaged("a part does not fit its checksum"));
     }
     Ok((kind, body, behind))
 }
@@ -210,11 +164,11 @@ fn hash_of(kind: u8, body: &[u8]) -> u64 {
     hash_bytes(body) ^ u64::from(kind)
 }
 
-fn parse<T: DeserializeOwned>(body: &[u8]) -> Result<T, RecordingError> {
+fn parse<T: DeserializeOwned>(body: &[u8]) -> Result<T, FileError> {
     match postcard::take_from_bytes(body) {
         Ok((value, [])) => Ok(value),
-        Ok(_) => Err(RecordingError::Damaged("a part is longer than what it holds".to_owned())),
-        Err(error) => Err(RecordingError::Damaged(error.to_string())),
+        Ok(_) => Err(RECORDING.damaged("a part is longer than what it holds")),
+        Err(error) => Err(RECORDING.damaged(error)),
     }
 }
 
@@ -265,9 +219,7 @@ impl Default for Writer {
 impl Writer {
     /// The beginning of a file.
     pub fn new() -> Self {
-        let mut bytes = MAGIC.to_vec();
-        bytes.extend(VERSION.to_le_bytes());
-        Self(bytes)
+        Self(RECORDING.begin())
     }
 
     /// A state, given as a save file.

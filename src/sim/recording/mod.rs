@@ -6,6 +6,6 @@ mod segment;
 #[cfg(test)]
 mod tests;
 
-pub use file::{RECORDING_ENDING, RecordingError, Writer};
+pub use file::{RECORDING_ENDING, Writer};
 pub use input::Input;
 pub use segment::{End, Entry, Recording, Segment};

@@ -1,10 +1,6 @@
 //! What a recording consists of, in memory as on disk.
 
-use crate::sim::{
-    checkpoint::{Checkpoint, SaveError},
-    intent::Intent,
-    mark::Mark,
-};
+use crate::sim::{checkpoint::Checkpoint, file::FileError, intent::Intent, mark::Mark};
 use serde::{Deserialize, Serialize};
 use std::{borrow::Cow, mem::size_of};
 
@@ -81,7 +77,7 @@ impl Segment {
     ///
     /// # Errors
     /// None for a recording that was read: reading looks at every state.
-    pub fn start(&self) -> Result<Checkpoint, SaveError> {
+    pub fn start(&self) -> Result<Checkpoint, FileError> {
         match &self.start {
             Start::Taken(checkpoint) => Ok(checkpoint.clone()),
             Start::Read(save) => Checkpoint::decode(save),

@@ -1,7 +1,7 @@
 //! Recordings that were cut, changed or made up.
 
 use super::{
-    file::{MAGIC, STATE, TICKS},
+    file::{RECORDING, STATE, TICKS},
     *,
 };
 use crate::{
@@ -17,6 +17,7 @@ use crate::{
     sim::{
         checkpoint::Checkpoint,
         control,
+        file::{FileError, VERSION},
         intent::{Intent, IntentQueue},
         mark::Mark,
         recorder::{self, Recorder},
@@ -104,13 +105,14 @@ fn a_file_cut_anywhere_is_refused_and_what_is_whole_of_it_salvaged() {
 #[test]
 fn headers_say_what_is_wrong() {
     let (_, bytes) = recorded();
-    assert_eq!(refusal(b""), RecordingError::Foreign.to_string());
-    assert_eq!(refusal(b"PowderMaster\n\x01\x00"), RecordingError::Foreign.to_string(), "a save file");
+    assert_eq!(refusal(b""), FileError::Foreign("recording").to_string());
+    assert_eq!(refusal(b"PowderMaster\n\x01\x00"), FileError::Foreign("recording").to_string(), "a save file");
     let old = refusal(b"{\"powder_master_replay\":1,\"scene\":\"empty\"}\n");
-    assert!(old.contains("format 1; this program reads format 4"), "{old}");
+    assert!(old.contains(&format!("format 1; this program reads format {VERSION}")), "{old}");
     let mut newer = bytes.clone();
-    newer[MAGIC.len()] = 200;
-    assert!(refusal(&newer).contains("format 200; this program reads format 4"));
+    newer[RECORDING.magic.len()] = 200;
+    newer[RECORDING.magic.len() + 1] = 0;
+    assert!(refusal(&newer).contains(&format!("format 200; this program reads format {VERSION}")));
     let mut longer = bytes.clone();
     longer.push(0);
     assert!(refusal(&longer).contains("behind its end"));

@@ -57,41 +57,26 @@ pub(super) fn apply_intents(
             next_id: &mut clock.next_id,
             limit: setup.blueprint.particle_limit,
         };
-        let report = match intent {
-            Intent::Draw { element, stroke } => matter.pour(element, &stroke, seed),
-            Intent::Stamp { element, stroke } => matter.stamp(element, &stroke),
-            Intent::Fill { element, at } => matter.fill(element, at),
-            Intent::Erase { stroke } => matter.erase(&stroke),
-            Intent::Blow { .. } | Intent::Press { .. } if air_stands => EditReport::default(),
+        let mut report = EditReport::default();
+        match intent {
+            Intent::Draw { element, stroke } => report = matter.pour(element, &stroke, seed),
+            Intent::Stamp { element, stroke } => report = matter.stamp(element, &stroke),
+            Intent::Fill { element, at } => report = matter.fill(element, at),
+            Intent::Erase { stroke } => report = matter.erase(&stroke),
+            Intent::Blow { .. } | Intent::Press { .. } if air_stands => {}
             Intent::Blow { stroke, velocity } => {
                 let wind = air.blow(stroke.to, stroke.radius, velocity);
                 if air_may_yield(&setup, &effects) {
                     let radius = stroke.radius.max(air.cell());
                     forces::drag_in_disc(stroke.to, radius, wind, &elements, &mut particles, TICK_SECONDS);
                 }
-                EditReport::default()
             }
-            Intent::Press { stroke, amount } => {
-                air.press(stroke.to, stroke.radius, amount);
-                EditReport::default()
-            }
-            Intent::ClearAir => {
-                air.clear();
-                EditReport::default()
-            }
-            Intent::Quality { preset, quality } => {
-                change_quality(&mut setup, &mut air, &rock, preset, quality);
-                EditReport::default()
-            }
-            Intent::Effect { effect, mode } => {
-                effects.get_mut(effect).mode = mode;
-                EditReport::default()
-            }
-            Intent::Gravity { gravity } => {
-                setup.domain.gravity = gravity;
-                EditReport::default()
-            }
-        };
+            Intent::Press { stroke, amount } => air.press(stroke.to, stroke.radius, amount),
+            Intent::ClearAir => air.clear(),
+            Intent::Quality { preset, quality } => change_quality(&mut setup, &mut air, &rock, preset, quality),
+            Intent::Effect { effect, mode } => effects.get_mut(effect).mode = mode,
+            Intent::Gravity { gravity } => setup.domain.gravity = gravity,
+        }
         // After each one, so that it makes no difference which of them came in the same tick.
         air.set_solids(&rock);
         refused += report.refused;

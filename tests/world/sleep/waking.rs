@@ -100,7 +100,7 @@ fn a_brush_wakes_the_pond_that_it_takes_from_and_no_other() {
 }
 
 #[test]
-fn an_outlet_wakes_the_pond_that_it_drains() {
+fn a_drain_wakes_the_pond_that_it_empties() {
     let mut simulation = Simulation::of(two_ponds());
     until_asleep(&mut simulation, 600);
     let area = Rect { min: Vec2::new(0.0, 0.0), max: Vec2::new(3.0, 3.0) };

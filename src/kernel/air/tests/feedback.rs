@@ -15,11 +15,11 @@ fn water_and_fluff() -> ElementParams {
 }
 
 /// `count` particles in `area` at up to `speed` d/s, of both kinds in turn.
-fn swarm(area: Rect, count: usize, speed: f32, noise: &mut Noise) -> Particles {
+fn swarm(area: Rect, count: usize, speed: f32, noise: &mut Random) -> Particles {
     let mut particles = Particles::default();
     for id in 0..count {
-        let part = Vec2::new(noise.next(), noise.next()) * 0.5 + Vec2::splat(0.5);
-        let velocity = Vec2::new(noise.next(), noise.next()) * speed;
+        let part = Vec2::new(noise.offset(), noise.offset()) * 0.5 + Vec2::splat(0.5);
+        let velocity = Vec2::new(noise.offset(), noise.offset()) * speed;
         particles.push(id as u32, ElementId((id % 2) as u8), area.min + (area.max - area.min) * part, velocity);
     }
     particles
@@ -44,7 +44,7 @@ fn sums(air: &Air, elements: &ElementParams, particles: &Particles) -> (DVec2, f
 
 #[test]
 fn momentum_is_kept_and_energy_only_falls_at_any_load() {
-    let mut noise = Noise(5);
+    let mut noise = Random::new(5);
     let tables = [
         water_and_fluff(),
         // Heavy and rough, weightless and smooth.
@@ -74,7 +74,7 @@ fn momentum_is_kept_and_energy_only_falls_at_any_load() {
 
 #[test]
 fn heavy_air_drags_as_air_that_nothing_moves() {
-    let mut noise = Noise(6);
+    let mut noise = Random::new(6);
     let mut air = closed(20, 20, 4.0);
     stir(&mut air, 0.1, 30.0, &mut noise);
     air.params.density = 1.0e7;
@@ -104,7 +104,7 @@ fn one_drop_and_one_cell_meet_at_their_common_speed() {
 #[test]
 fn threads_and_instruction_sets_do_not_show() {
     let run = |team: Team| {
-        let mut noise = Noise(7);
+        let mut noise = Random::new(7);
         let mut air = closed(150, 220, 4.0);
         air.set_solids(&rock(600, 880, |x, y| x / 40 == 5 && y % 90 > 20));
         stir(&mut air, 0.1, 50.0, &mut noise);

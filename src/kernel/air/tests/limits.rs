@@ -12,12 +12,12 @@ fn assert_mass(air: &Air, mass: f64) {
 #[test]
 fn a_hurricane_is_clamped_and_counted() {
     // 1,000 m/s at d = 1 cm.
-    let fan = Wind { area: rect(20.0, 20.0, 60.0, 60.0), velocity: Vec2::new(1e5, -1e5), rate: 100.0 };
+    let wind = Wind { area: rect(20.0, 20.0, 60.0, 60.0), velocity: Vec2::new(1e5, -1e5), rate: 100.0 };
     let mut air = closed(24, 24, 4.0);
     let mass = air.mass();
     let mut clamps = 0;
     for _ in 0..100 {
-        let report = air.step(&[fan], SCHEME, ALONE, DT);
+        let report = air.step(&[wind], SCHEME, ALONE, DT);
         clamps += report.speed_clamps;
         assert!(report.substeps <= MAX_SUBSTEPS);
         assert_mass(&air, mass);
@@ -72,7 +72,6 @@ fn boxes_of_one_cell_and_one_row_work() {
             run(&mut air, 1);
             assert_mass(&air, mass);
             assert!(air.sample_velocity(Vec2::new(1.0, 3.0)).is_finite());
-            assert!(air.sample_pressure(Vec2::new(1.0, 3.0)) > 0.0);
         }
         let all = OpenSides { left: true, right: true, bottom: true, top: true };
         let mut open = Air::new(Vec2::new(columns as f32, rows as f32), 1.0, params(all));
@@ -103,8 +102,8 @@ fn paint_that_is_no_number_or_absurd_is_clamped_and_counted() {
     air.blow(Vec2::splat(f32::NAN), f32::NAN, Vec2::splat(1.0));
     air.fill_pressure(Rect { min: Vec2::splat(f32::NAN), max: Vec2::splat(f32::NAN) }, 3.0);
     assert!(air.max_speed() <= MAX_SPEED && air.pressure.iter().all(|p| (0.0..=MAX_PRESSURE).contains(p)));
-    let fan = Wind { area: rect(0.0, 0.0, 16.0, 16.0), velocity: Vec2::new(f32::NAN, 1.0), rate: f32::INFINITY };
-    let report = air.step(&[fan], SCHEME, ALONE, DT);
+    let wind = Wind { area: rect(0.0, 0.0, 16.0, 16.0), velocity: Vec2::new(f32::NAN, 1.0), rate: f32::INFINITY };
+    let report = air.step(&[wind], SCHEME, ALONE, DT);
     assert!(report.speed_clamps > 2 && report.pressure_clamps >= 3, "{report:?}");
     assert_sane(&air);
     let later = air.step(&[], SCHEME, ALONE, 1e-5);
@@ -120,8 +119,8 @@ fn quiet_air_is_not_stepped() {
     let outside = Wind { area: rect(90.0, 0.0, 99.0, 9.0), velocity: Vec2::ONE, rate: 5.0 };
     assert_eq!(air.step(&[still, outside], SCHEME, ALONE, DT).substeps, 0);
     assert_eq!(bits(&air), bits(&before));
-    let fan = Wind { area: rect(0.0, 0.0, 9.0, 9.0), velocity: Vec2::ONE, rate: 5.0 };
-    assert!(air.step(&[fan], SCHEME, ALONE, DT).substeps > 0);
+    let wind = Wind { area: rect(0.0, 0.0, 9.0, 9.0), velocity: Vec2::ONE, rate: 5.0 };
+    assert!(air.step(&[wind], SCHEME, ALONE, DT).substeps > 0);
     assert!(!air.is_quiet());
 }
 
@@ -160,7 +159,7 @@ fn open_sides_feed_no_wind() {
             let [left, right, bottom, top] = is_open;
             let size = cells as f32;
             let mut air = Air::new(Vec2::splat(size), 1.0, params(OpenSides { left, right, bottom, top }));
-            stir(&mut air, 0.1, 100.0, &mut Noise(5));
+            stir(&mut air, 0.1, 100.0, &mut Random::new(5));
             air.blow(Vec2::new(0.8, 0.5) * size, 0.3 * size, Vec2::new(60.0, 100.0));
             let mut left = Vec::new();
             for _ in 0..8 {

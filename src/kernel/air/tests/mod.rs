@@ -12,6 +12,7 @@ use super::Air;
 use crate::element::ElementId;
 use crate::parallel::{Team, in_pool};
 use crate::params::{AIR_DENSITY, AirAdvection, AirParams, AirScheme, OpenSides};
+use crate::random::Random;
 use crate::simd::InstructionSet;
 use crate::solids::Solids;
 use crate::sources::Rect;
@@ -32,24 +33,14 @@ fn closed(columns: u32, rows: u32, cell: f32) -> Air {
     Air::new(Vec2::new(columns as f32, rows as f32) * cell, cell, params(OpenSides::default()))
 }
 
-/// Repeatable noise, −1 … 1.
-struct Noise(u64);
-
-impl Noise {
-    fn next(&mut self) -> f32 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 40) as f32 / (1_u64 << 23) as f32 - 1.0
-    }
-}
-
 /// Random pressures 1 ± `pressure` and velocities ± `speed` in the open cells.
-fn stir(air: &mut Air, pressure: f32, speed: f32, noise: &mut Noise) {
+fn stir(air: &mut Air, pressure: f32, speed: f32, noise: &mut Random) {
     for row in 0..air.rows() {
         for k in air.row_range(row) {
             if !air.solid[k] {
-                air.pressure[k] = 1.0 + pressure * noise.next();
-                air.velocity_x[k] = speed * noise.next();
-                air.velocity_y[k] = speed * noise.next();
+                air.pressure[k] = 1.0 + pressure * noise.offset();
+                air.velocity_x[k] = speed * noise.offset();
+                air.velocity_y[k] = speed * noise.offset();
             }
         }
     }

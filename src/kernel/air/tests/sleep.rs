@@ -35,7 +35,7 @@ fn a_gust_in_a_corner_costs_by_its_size() {
 
 #[test]
 fn air_that_sleeps_in_part_stays_within_the_bound() {
-    // Gusts, pulses and a fan for two seconds, then none.
+    // Gusts, pulses and a wind for two seconds, then none.
     let mut pair = [false, true].map(|sleeps| {
         let mut air = closed(160, 96, 4.0);
         air.set_solids(&walls(160, 96));
@@ -43,11 +43,11 @@ fn air_that_sleeps_in_part_stays_within_the_bound() {
         air
     });
     let mass = pair[0].mass();
-    let mut noise = Noise(3);
+    let mut noise = Random::new(3);
     let (mut furthest, mut asleep, mut most_drift) = (0.0_f32, 0, (0.0_f64, 0.0_f64));
     for tick in 0..1800 {
         if tick % 60 == 0 && tick < 120 {
-            let place = Vec2::new(noise.next() * 40.0 + 80.0, noise.next() * 100.0 + 200.0);
+            let place = Vec2::new(noise.offset() * 40.0 + 80.0, noise.offset() * 100.0 + 200.0);
             for air in &mut pair {
                 air.blow(place, 40.0, Vec2::new(20.0, 10.0));
             }
@@ -91,14 +91,14 @@ fn a_wave_wakes_what_lies_ahead_in_time() {
 fn no_mass_goes_round_the_corner_of_a_sleeping_tile() {
     // Three tiles around the corner of a fourth: wind blows across the corner.
     let mut air = sleeping(160, 80, 4.0);
-    let mut shape = super::super::shape::Shape::new(&air.layout());
+    let mut shape = super::super::shape::Shape::new(air.tiling(), &air.solid, air.params.open);
     let tiling = air.tiling();
     let active: Vec<bool> = (0..tiling.count()).map(|tile| tile % 5 < 2 && tile / 5 < 2 && tile != 6).collect();
-    shape.fence(&air.layout(), &active);
+    shape.fence(air.tiling(), &air.solid, &active);
     assert_eq!(shape.turns_of(16).len(), 1, "one corner");
     let all = vec![true; tiling.count()];
-    shape.fence(&air.layout(), &all);
-    let fresh = super::super::shape::Shape::new(&air.layout());
+    shape.fence(air.tiling(), &air.solid, &all);
+    let fresh = super::super::shape::Shape::new(air.tiling(), &air.solid, air.params.open);
     assert!(shape.open_x == fresh.open_x && shape.open_y == fresh.open_y && shape.turns_of(16).is_empty());
     // Gusts in an L, blown towards the corner, for as long as only part of the grid is awake.
     let mass = air.mass();
@@ -116,7 +116,7 @@ fn sleep_shows_no_threads_lanes_or_copies() {
     let run = |team: Team, copies: bool| {
         let mut air = sleeping(300, 200, 4.0);
         air.set_solids(&walls(300, 200));
-        let fan = Wind { area: rect(20.0, 20.0, 60.0, 60.0), velocity: Vec2::new(80.0, 40.0), rate: 5.0 };
+        let wind = Wind { area: rect(20.0, 20.0, 60.0, 60.0), velocity: Vec2::new(80.0, 40.0), rate: 5.0 };
         in_pool(team.threads, || {
             let mut partly = 0;
             for tick in 0..90 {
@@ -126,7 +126,7 @@ fn sleep_shows_no_threads_lanes_or_copies() {
                 if tick == 50 {
                     air.press(Vec2::new(600.0, 60.0), 20.0, 0.3);
                 }
-                air.step(if tick < 30 { std::slice::from_ref(&fan) } else { &[] }, SCHEME, team, DT);
+                air.step(if tick < 30 { std::slice::from_ref(&wind) } else { &[] }, SCHEME, team, DT);
                 if copies && tick % 7 == 0 {
                     air = air.clone();
                 }
@@ -152,7 +152,7 @@ fn where_nothing_sleeps_sleep_changes_nothing() {
     let run = |sleeps: bool| {
         let mut air = closed(100, 60, 4.0);
         air.allow_sleep(sleeps);
-        stir(&mut air, 0.2, 60.0, &mut Noise(9));
+        stir(&mut air, 0.2, 60.0, &mut Random::new(9));
         air.wake_all();
         for _ in 0..5 {
             air.step(&[], SCHEME, ALONE, DT);

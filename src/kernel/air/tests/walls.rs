@@ -5,8 +5,8 @@ use super::*;
 #[test]
 fn mass_is_kept_and_pressure_stays_positive_over_a_thousand_steps_with_rock() {
     for (cell, share) in [(1.0, 0.3), (4.0, 0.02), (2.5, 0.1)] {
-        let mut noise = Noise(21);
-        let solids = rock(80, 60, |_, _| noise.next() > 1.0 - 2.0 * share);
+        let mut noise = Random::new(21);
+        let solids = rock(80, 60, |_, _| noise.offset() > 1.0 - 2.0 * share);
         let mut air = Air::new(Vec2::new(80.0, 60.0), cell, params(OpenSides::default()));
         air.set_solids(&solids);
         stir(&mut air, 0.99, 800.0, &mut noise);
@@ -15,7 +15,7 @@ fn mass_is_kept_and_pressure_stays_positive_over_a_thousand_steps_with_rock() {
             air.step(&[], SCHEME, ALONE, cell * 5e-4);
             // Keep it stirred, so that the thousandth step has as much to do as the first.
             for velocity in air.velocity_x.iter_mut().zip(&air.solid).filter(|(_, solid)| !**solid) {
-                *velocity.0 += 20.0 * noise.next();
+                *velocity.0 += 20.0 * noise.offset();
             }
             assert_sane(&air);
         }
@@ -111,11 +111,11 @@ fn rock_that_comes_and_goes_keeps_the_mass() {
     let mut air = closed(30, 30, 2.0);
     let mut solids = Solids::new(60, 60);
     air.set_solids(&solids);
-    let mut noise = Noise(31);
+    let mut noise = Random::new(31);
     stir(&mut air, 0.5, 100.0, &mut noise);
     let mass = air.mass();
     for round in 0..40 {
-        let corner = IVec2::new((noise.next() * 20.0) as i32 + 20, (noise.next() * 20.0) as i32 + 20);
+        let corner = IVec2::new((noise.offset() * 20.0) as i32 + 20, (noise.offset() * 20.0) as i32 + 20);
         for site in (0..144).map(|k| corner + IVec2::new(k % 12, k / 12)) {
             if round % 2 == 0 {
                 solids.insert(site, ElementId(0), 0);
@@ -144,8 +144,8 @@ fn air_without_a_way_out_is_counted_as_buried() {
 #[test]
 fn air_keeps_its_mass_on_cells_of_another_size() {
     for open in [false, true] {
-        let mut noise = Noise(17);
-        let solids = rock(100, 70, |_, y| y == 30 || noise.next() > 0.97);
+        let mut noise = Random::new(17);
+        let solids = rock(100, 70, |_, y| y == 30 || noise.offset() > 0.97);
         let mut air = Air::new(Vec2::new(100.0, 70.0), 3.0, params(OpenSides { left: open, ..OpenSides::default() }));
         air.set_solids(&solids);
         stir(&mut air, 0.5, 100.0, &mut noise);

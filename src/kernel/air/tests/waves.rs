@@ -70,7 +70,7 @@ fn alternating_pressure_dies_out() {
 fn faint_noise_does_not_grow_in_still_air_nor_in_wind() {
     for wind in [0.0, 20.0, 100.0] {
         let mut air = Air::new(Vec2::new(128.0, 64.0), 2.0, params(OpenSides::default()));
-        stir(&mut air, 1e-3, 0.5, &mut Noise(5));
+        stir(&mut air, 1e-3, 0.5, &mut Random::new(5));
         for velocity in &mut air.velocity_x {
             *velocity += wind;
         }
@@ -84,12 +84,12 @@ fn faint_noise_does_not_grow_in_still_air_nor_in_wind() {
 
 #[test]
 fn energy_never_grows_in_a_closed_box_with_rock() {
-    let mut noise = Noise(11);
-    let solids = rock(96, 96, |_, _| noise.next() > 0.8);
+    let mut noise = Random::new(11);
+    let solids = rock(96, 96, |_, _| noise.offset() > 0.8);
     for (pressure, speed) in [(0.5, 0.0), (0.0, 300.0), (0.9, 2000.0)] {
         let mut air = closed(48, 48, 2.0);
         air.set_solids(&solids);
-        stir(&mut air, pressure, speed, &mut Noise(7));
+        stir(&mut air, pressure, speed, &mut Random::new(7));
         let start = energy(&air);
         for tick in 0..100 {
             run(&mut air, 1);
@@ -117,7 +117,7 @@ fn wind_against_a_wall_loses_its_speed() {
 fn it_is_stable_just_below_the_bound() {
     let mut air = closed(40, 40, 4.0);
     let dt = 0.99 * STABLE_COURANT * 4.0 / SOUND;
-    stir(&mut air, 1e-4, 0.1, &mut Noise(3));
+    stir(&mut air, 1e-4, 0.1, &mut Random::new(3));
     let start = energy(&air);
     let mut substeps = 0;
     for _ in 0..2000 {
@@ -150,13 +150,13 @@ fn an_open_box_evens_out_with_the_surroundings() {
 
 #[test]
 fn a_wind_tunnel_reaches_a_steady_even_stream() {
-    // So strong a fan that what it takes to bring air from rest to its speed within it, ½ u²/16 d, slows it by 1 d/s.
+    // So strong a wind that what it takes to bring air from rest to its speed within it, ½ u²/16 d, slows it by 1 d/s.
     let sides = OpenSides { left: true, right: true, ..OpenSides::default() };
     let mut air = Air::new(Vec2::new(160.0, 48.0), 4.0, params(sides));
-    let fan = Wind { area: rect(0.0, 0.0, 16.0, 48.0), velocity: Vec2::new(100.0, 0.0), rate: 300.0 };
+    let wind = Wind { area: rect(0.0, 0.0, 16.0, 48.0), velocity: Vec2::new(100.0, 0.0), rate: 300.0 };
     let blow = |air: &mut Air, ticks: u32| {
         for _ in 0..ticks {
-            air.step(&[fan], SCHEME, ALONE, DT);
+            air.step(&[wind], SCHEME, ALONE, DT);
         }
     };
     blow(&mut air, 600);
@@ -198,7 +198,7 @@ fn ten_times_past_the_bound_sound_is_slowed_and_nothing_grows() {
     let mut air = closed(40, 40, 4.0);
     // All substeps that there are would have to go ten times as far as is stable.
     let dt = 10.0 * STABLE_COURANT * 4.0 / SOUND * MAX_SUBSTEPS as f32;
-    stir(&mut air, 1e-4, 0.1, &mut Noise(3));
+    stir(&mut air, 1e-4, 0.1, &mut Random::new(3));
     let start = energy(&air);
     for _ in 0..50 {
         let report = air.step(&[], AirScheme { courant: STABLE_COURANT, ..SCHEME }, ALONE, dt);

@@ -57,7 +57,7 @@ impl Question<'_> {
         Answer { density, lambda, moves }
     }
 
-    /// Eq. 14. Rock and walls mirror the λ of whom they push.
+    /// Eq. 14. Rock and walls mirror the λ of the particle that they push.
     fn correction(&self, i: usize, lambda: &[f64]) -> Vector {
         let at = self.particles[i];
         let (_, wall_push) = self.walls(at);

@@ -16,6 +16,7 @@ use crate::{
     parallel::Team,
     particles::Particles,
     predictor::{Predictor, PredictorParams, PredictorReport, TARGET_DENSITY},
+    random::Random,
     simd::InstructionSet,
     solids::Solids,
 };
@@ -80,11 +81,8 @@ fn predict(particles: &mut Particles, solids: &Solids, rest_density: f32) -> Pre
 
 /// Numbers from −1 to 1 that look random and are always the same.
 fn noise(seed: u32) -> impl FnMut() -> f32 {
-    let mut state = seed;
-    move || {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (state >> 8) as f32 / (1 << 23) as f32 - 1.0
-    }
+    let mut random = Random::new(seed.into());
+    move || random.offset()
 }
 
 /// Order of convergence from errors on grids of which each is twice as fine as the one before: the least of the steps.

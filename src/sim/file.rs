@@ -1,0 +1,71 @@
+//! What save files and recordings have in common: a first line, a version, and what can be wrong with them.
+
+use crate::{
+    kernel::particles::Particles,
+    scene::{KNOBS, effects::Effect},
+};
+
+/// Version of the format of save files and of recordings. Columns, effects and knobs that are added raise it by themselves;
+/// raise the first number when anything else that they hold changes. Old files are refused, not misread.
+pub(super) const VERSION: u16 = 500 + (Particles::COLUMNS.len() + Effect::ALL.len() + KNOBS.len()) as u16;
+
+/// Why a file is not taken, in one line. The text is what kind of file it is.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FileError {
+    /// Something else.
+    #[error("not a {0} of Powder Master")]
+    Foreign(&'static str),
+    /// Written by another version, of this format.
+    #[error("a {0} of format {1}; this program reads format {VERSION}")]
+    Version(&'static str, u16),
+    /// Cut or changed.
+    #[error("the {0} is damaged: {1}")]
+    Damaged(&'static str, String),
+    /// It holds what no world has, or what can't have been.
+    #[error("the {0} is not sound: {1}")]
+    Unsound(&'static str, String),
+    /// A state in a recording is no good save file.
+    #[error("a state in the recording: {0}")]
+    State(Box<FileError>),
+}
+
+/// A kind of file.
+pub(super) struct Kind {
+    /// Its name in messages.
+    pub name: &'static str,
+    /// Its first line.
+    pub magic: &'static [u8],
+}
+
+impl Kind {
+    /// The beginning of a file.
+    pub fn begin(&self) -> Vec<u8> {
+        [self.magic, &VERSION.to_le_bytes()].concat()
+    }
+
+    /// What stands behind the beginning of a file.
+    pub fn open<'a>(&self, bytes: &'a [u8]) -> Result<&'a [u8], FileError> {
+        let rest = bytes.strip_prefix(self.magic).ok_or_else(|| {
+            if !bytes.is_empty() && self.magic.starts_with(bytes) {
+                self.damaged("it ends in its first line")
+            } else {
+                FileError::Foreign(self.name)
+            }
+        })?;
+        let (version, rest) = rest.split_first_chunk().ok_or_else(|| self.damaged("it ends in its header"))?;
+        match u16::from_le_bytes(*version) {
+            VERSION => Ok(rest),
+            found => Err(FileError::Version(self.name, found)),
+        }
+    }
+
+    /// The error for a file that was cut or changed.
+    pub fn damaged(&self, what: impl ToString) -> FileError {
+        FileError::Damaged(self.name, what.to_string())
+    }
+
+    /// The error for a file that holds what can't be.
+    pub fn unsound(&self, what: String) -> FileError {
+        FileError::Unsound(self.name, what)
+    }
+}
