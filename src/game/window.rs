@@ -51,13 +51,9 @@ pub enum GameError {
         scene: String,
     },
     /// It panicked.
-    #[error("the game crashed: {what}; {saved}")]
-    Crashed {
-        /// What the panic said, and where.
-        what: String,
-        /// What was saved of the world, and where.
-        saved: String,
-    },
+    #[cfg(not(target_arch = "wasm32"))]
+    #[error(transparent)]
+    Crashed(#[from] crash::Crash),
 }
 
 /// Plays in a window until it is closed; whatever ends it otherwise, the world can be had back (see `crash`). `furnish`
@@ -75,8 +71,7 @@ pub fn run(scene: &str, record: Option<PathBuf>, furnish: impl FnOnce(&mut App))
     panic::set_hook(hook);
     match built {
         #[cfg(not(target_arch = "wasm32"))]
-        Ok(app) => crash::run(app, crash::folder(), |mut app| app.run())
-            .map_err(|crash::Crash { what, saved }| GameError::Crashed { what, saved }),
+        Ok(app) => Ok(crash::run(app, crash::folder(), |mut app| app.run())?),
         #[cfg(target_arch = "wasm32")]
         Ok(mut app) => Ok(app.run()),
         Err(cause) => Err(explain(&fault::message(&*cause), scene)),

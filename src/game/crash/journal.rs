@@ -122,6 +122,7 @@ impl SharedJournal {
     }
 
     /// Where it is.
+    #[cfg(test)]
     pub fn path(&self) -> PathBuf {
         self.lock().path.clone()
     }

@@ -29,7 +29,8 @@ use std::{
 };
 
 /// What a crash left behind, in one line.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the game crashed: {what}; {saved}")]
 pub struct Crash {
     /// What the panic said, and where.
     pub what: String,

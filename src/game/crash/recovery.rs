@@ -2,7 +2,7 @@
 //! restores it.
 
 use crate::{
-    game::{actions::Action, crash::journal::PREFIX, history, input::bindings::Bindings, toasts::Toasts},
+    game::{actions::Action, crash::journal::PREFIX, disk, history, input::bindings::Bindings, toasts::Toasts},
     kernel::simd::InstructionSet,
     sim::{
         checkpoint::Checkpoint,
@@ -24,7 +24,6 @@ use std::{
         atomic::{AtomicU64, Ordering},
     },
     thread::{self, JoinHandle},
-    time::SystemTime,
 };
 
 /// A game that did not end well. As long as this is there, its file is locked: no other game offers it.
@@ -37,8 +36,6 @@ pub struct Found {
     pub title: String,
     /// Ticks that the world had done at the end.
     pub tick: u64,
-    /// When the journal was written last.
-    pub written: SystemTime,
 }
 
 impl Found {
@@ -130,11 +127,10 @@ fn find(folder: &Path) -> Option<Found> {
         let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         name.starts_with(PREFIX) && path.extension().is_some_and(|ending| ending == RECORDING_ENDING)
     };
-    let entries = fs::read_dir(folder).ok()?.flatten().filter(|entry| is_journal(&entry.path()));
-    let mut journals: Vec<(SystemTime, PathBuf)> =
-        entries.filter_map(|entry| Some((entry.metadata().ok()?.modified().ok()?, entry.path()))).collect();
-    journals.sort();
-    journals.into_iter().rev().find_map(|(written, path)| {
+    let mut journals = disk::list(folder);
+    journals.retain(|(path, _)| is_journal(path));
+    journals.sort_by(|(a, written_a), (b, written_b)| (written_b, b).cmp(&(written_a, a)));
+    journals.into_iter().find_map(|(path, _)| {
         let mut file = OpenOptions::new().read(true).write(true).open(&path).ok()?;
         // Another game lives, or has been offered it.
         file.try_lock().ok()?;
@@ -146,7 +142,7 @@ fn find(folder: &Path) -> Option<Found> {
             let _ = fs::remove_file(&path);
         }
         let (recording, title, tick) = found?;
-        Some(Found { path, _lock: file, recording: Arc::new(recording), title, tick, written })
+        Some(Found { path, _lock: file, recording: Arc::new(recording), title, tick })
     })
 }
 

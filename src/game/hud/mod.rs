@@ -16,6 +16,7 @@ pub mod style;
 pub mod toast;
 pub mod touch;
 pub mod widgets;
+pub mod window;
 
 use crate::game::panels::HudSystems;
 use bevy::prelude::{App, IntoScheduleConfigs, Plugin, PreUpdate, Startup, not};

@@ -143,7 +143,7 @@ impl<'a> Scene<'a> {
         Half { particles: self.particles, air: self.air }
     }
 
-    /// What there is of the second world of a split.
+    /// What there is of a world, if it has been loaded.
     pub(super) fn of(world: &'a World) -> Option<Self> {
         Some(Self {
             generation: *world.get_resource()?,
@@ -153,7 +153,7 @@ impl<'a> Scene<'a> {
             air: world.get_resource()?,
             solver: world.get_resource(),
             limited: Limited::of(world)?,
-            tracers: None,
+            tracers: world.get_resource(),
         })
     }
 }

@@ -4,6 +4,7 @@
 use crate::{
     kernel::{
         air::Air, params::Quality, particles::Particles, pbf::Solver, predict::longest_move, predictor::Predictor,
+        units::TICK_SECONDS,
     },
     lab::colours::{Rgb, ramp},
     sim::{
@@ -52,7 +53,7 @@ impl<'a> Limited<'a> {
             predictor: world.get_resource::<PredictorState>().map(|predictor| &predictor.0),
             air: world.get_resource::<AirGrid>()?,
             quality: &world.get_resource::<Setup>()?.quality,
-            dt: world.get_resource::<TickPlan>()?.substep_seconds(),
+            dt: world.get_resource::<TickPlan>().map_or(TICK_SECONDS, TickPlan::substep_seconds),
             tick: world.get_resource::<Clock>()?.tick,
         })
     }
@@ -154,7 +155,8 @@ impl StrainMap {
     }
 
     /// How brightly the cell of a point glows, 0 … 1.
-    pub fn glow_at(&self, point: Vec2) -> f32 {
+    #[cfg(test)]
+    fn glow_at(&self, point: Vec2) -> f32 {
         let at = (point / CELL).max(Vec2::ZERO);
         let (column, row) = (at.x as usize, at.y as usize);
         if column < self.columns && row < self.rows { self.glow[row * self.columns + column] } else { 0.0 }

@@ -2,16 +2,16 @@
 
 use crate::game::{
     actions::PanelId,
-    hud::{layout::UiScale, style},
+    hud::{
+        layout::UiScale,
+        style::weak,
+        window::{MIDDLE, PanelWindow},
+    },
     icons,
     input::bindings::{Group, NONE},
     panels::{Panel, Panels},
 };
 use bevy::prelude::{App, KeyCode, ResMut, Result};
-use bevy_egui::{
-    EguiContexts,
-    egui::{self, RichText},
-};
 
 /// Its name.
 pub const ID: PanelId = PanelId("settings");
@@ -36,20 +36,14 @@ pub fn plugin(app: &mut App) {
 }
 
 /// Shows the settings.
-fn show(mut contexts: EguiContexts, mut panels: ResMut<Panels>, mut scale: ResMut<UiScale>) -> Result {
-    let context = contexts.ctx_mut()?;
-    let place = (egui::Align2::CENTER_CENTER, context.content_rect().center());
-    style::panel(context, &mut panels, ID, place, |ui| {
-        ui.label(RichText::new("Size of the HUD").color(style::WEAK));
+fn show(mut window: PanelWindow, mut scale: ResMut<UiScale>) -> Result {
+    window.show(ID, MIDDLE, |ui| {
+        ui.label(weak("Size of the HUD"));
         ui.horizontal(|ui| {
             for choice in CHOICES {
-                let text = format!("{:.0} %", choice * 100.0);
-                if ui.selectable_label(scale.factor == choice, text).clicked() {
-                    scale.factor = choice;
-                }
+                ui.selectable_value(&mut scale.factor, choice, format!("{:.0} %", choice * 100.0));
             }
         });
-        ui.label(RichText::new("100 % follows the size of the window.").small().color(style::WEAK));
-    });
-    Ok(())
+        ui.label(weak("100 % follows the size of the window.").small());
+    })
 }

@@ -4,7 +4,7 @@
 use crate::{
     game::hud::{
         panels::accuracy::axis::{Axis, percent},
-        style,
+        style, widgets,
     },
     kernel::params::{Preset, Quality},
     lab::{
@@ -193,7 +193,7 @@ impl Plot<'_> {
             let id = ui.id().with(("preset", point.preset.name()));
             // Button and dot, and not what lies between them: another's button may.
             let response = ui.interact(button, id, Sense::click());
-            style::name(&response, &format!("{} on the curve", point.preset.name()), in_force);
+            widgets::name(&response, &format!("{} on the curve", point.preset.name()), in_force);
             let response = response | ui.interact(Rect::from_center_size(dot, TOUCHED), id.with("dot"), Sense::click());
             let (fill, colour) = match (in_force, response.hovered()) {
                 (true, _) => (style::ACCENT_FILL, Color32::WHITE),
