@@ -134,7 +134,7 @@ fn take_up(world: &mut World, tool: Tool) {
     world.resource_mut::<Toolbox>().tool = tool;
     let Some(effect) = tool.needs() else { return };
     if world.get_resource::<Effects>().is_some_and(|effects| effects.get(effect).mode == Mode::Off) {
-        let (name, key) = (effect.name(), world.resource::<Bindings>().key(Action::Panel(details::ID)));
+        let (name, key) = (effect.name(), world.resource::<Bindings>().key(Action::Panel(details::PANEL.id)));
         world
             .resource_mut::<Toasts>()
             .warn(format!("The {name} is off in this scene: switch it on in the details ({key})"));

@@ -134,6 +134,64 @@ async function play() {
     await game.until('an empty scene', ({ particles }) => particles === 0);
   });
 
+  await test('tiles and buttons do what they are called', async () => {
+    await game.click('rock');
+    await game.until('the tile chooses rock', ({ tool }) => tool === 'rock');
+    await game.stroke(1, [[300, 300], [400, 300], [500, 300]]);
+    const { elements } = await game.until('rock is drawn', (now) => now.elements.rock > 0);
+    assert.equal(elements.water, 0, 'rock was drawn, and there is water');
+    await game.click('undo');
+    await game.until('the button undoes', (now) => now.elements.rock === 0);
+    await game.click('redo');
+    await game.until('the button makes it again', (now) => now.elements.rock === elements.rock);
+    await game.click('pause');
+    const { tick } = await game.until('the button stops time', ({ paused }) => paused);
+    await game.click('one tick');
+    await game.until('the button runs one tick', (now) => now.tick === tick + 1);
+    await game.click('faster');
+    await game.until('the button doubles the speed', ({ speed }) => speed === 2);
+    await game.click('slower');
+    await game.until('the button halves the speed', ({ speed }) => speed === 1);
+    await game.click('pause');
+    await game.until('the button lets time go on', (now) => !now.paused && now.tick > tick + 1);
+  });
+
+  await test('sliders and settings have an effect', async () => {
+    const { brush } = await game.stats();
+    const [x, y, width, height] = (await game.widgets()).find(({ name }) => name === 'size of the brush').place;
+    await game.stroke(1, [[x + width / 2, y + height / 2], [x + 0.9 * width, y + height / 2]].map((at) => at.map(Math.round)));
+    await game.until('the slider makes the brush larger', (now) => now.brush > 2 * brush);
+    const widthOf = (all, wanted) => all.find(({ name }) => name === wanted)?.place[2] ?? 0;
+    const before = widthOf(await game.widgets(), 'rock');
+    await game.click('settings');
+    await game.click('130 %');
+    await game.untilWidgets('the HUD is larger', (all) => widthOf(all, 'rock') > 1.2 * before);
+    await game.click('100 %');
+    await game.untilWidgets('the HUD is as it was', (all) => widthOf(all, 'rock') === before);
+    return `a tile of ${before} pixels`;
+  });
+
+  await test('what is closed or hidden goes', async () => {
+    await game.key('Escape');
+    await game.untilWidgets('Esc closes the settings', (all) => !isOpen(all, 'Settings'));
+    await game.key('F3');
+    await game.untilWidgets('the details are open', (all) => isOpen(all, 'Details'));
+    await game.click('Close');
+    await game.untilWidgets('the cross closes the details', (all) => !isOpen(all, 'Details'));
+    await game.key('a');
+    await game.untilWidgets('the panel is open', (all) => isOpen(all, 'Accuracy'));
+    await game.key('h');
+    await game.untilWidgets('H hides panels and bars', (all) => !isOpen(all, 'Accuracy') && !all.some(({ name }) => name === 'rock'));
+    await game.key('h');
+    await game.untilWidgets('H brings them back', (all) => isOpen(all, 'Accuracy') && all.some(({ name }) => name === 'rock'));
+    await game.click('accuracy: what it costs, and the autopilot');
+    await game.untilWidgets('the button of the bar closes the panel', (all) => !isOpen(all, 'Accuracy'));
+    await game.key('r');
+    await game.until('an empty scene again', ({ elements }) => elements.rock === 0);
+    await game.key('2');
+    await game.until('the tool is water again', ({ tool }) => tool === 'water');
+  });
+
   await test('a recording and the last minute can be replayed', async () => {
     await game.key('F9');
     await game.until('it records', ({ recording }) => recording !== null);

@@ -143,6 +143,6 @@ fn menus(ui: &mut Ui, narrow: bool, shows: &Shows, orders: &mut Orders) {
             }
         }
     });
-    let (title, open) = (text(&setup.blueprint.title), panels.shows(scenes::ID));
-    action_button(ui, icons::scenes, title, Action::Panel(scenes::ID), open, (bindings, orders));
+    let (title, open) = (text(&setup.blueprint.title), panels.shows(scenes::PANEL.id));
+    action_button(ui, icons::scenes, title, Action::Panel(scenes::PANEL.id), open, (bindings, orders));
 }

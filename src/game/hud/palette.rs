@@ -137,7 +137,9 @@ fn brush(ui: &mut Ui, narrow: bool, tools: &mut ResMut<Toolbox>, bindings: &Bind
         let mut radius = tools.radius();
         ui.spacing_mut().slider_width = 90.0;
         let slider = egui::Slider::new(&mut radius, BRUSH_RANGE).logarithmic(true).show_value(false);
-        if ui.add(slider).on_hover_text("size of the brush (wheel, [ and ])").changed() {
+        let slider = ui.add(slider).on_hover_text("size of the brush (wheel, [ and ])");
+        slider.widget_info(|| egui::WidgetInfo::slider(true, f64::from(radius), "size of the brush"));
+        if slider.changed() {
             tools.set_radius(radius);
         }
     }

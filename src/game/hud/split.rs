@@ -73,8 +73,20 @@ pub fn show(
     let of_second = Half { particles: second.resource::<ParticleStore>(), air: second.resource::<AirGrid>() };
     difference.measure(&setup.blueprint, Half { particles: &particles, air: &air }, of_second);
     let equal = split.quality().is_some_and(|(_, quality)| quality == setup.quality);
-    let apart = Apart { difference: &difference, equal, scale: setup.blueprint.scale, age: split.age(clock.tick) };
-    line(context, "split difference", at_c, |ui| apart.show(ui));
+    let apart = apart(&difference, equal, setup.blueprint.scale, split.age(clock.tick));
+    line(context, "split difference", at_c, |ui| {
+        ui.label("Difference");
+        ui.label(weak(apart)).on_hover_text(format!(
+            "In each cell of 4 d: liquid that one world has there and the other not, or flow in another way, on average; \
+             and the air's velocity, root mean square. Full heat: all the liquid, or {} % of the speed of a fall through \
+             the box; where there is no liquid, a strong wind.\nB starts again from A when you choose its quality, or \
+             both come to have the same.",
+            100.0 * FULL_SPEED
+        ));
+        if ui.available_width() > SCALE.x + 20.0 {
+            ui.with_layout(Layout::right_to_left(Align::Center), scale);
+        }
+    });
     Ok(())
 }
 
@@ -112,43 +124,16 @@ fn facts(ui: &mut Ui, name: &str, setup: &Setup, ledger: &PassLedger, error: &Li
     chosen
 }
 
-/// How far the worlds are apart.
-struct Apart<'a> {
-    difference: &'a Difference,
-    /// Whether their qualities are equal.
-    equal: bool,
-    scale: Scale,
-    /// Ticks since they were the same.
-    age: Option<u64>,
-}
-
-impl Apart<'_> {
-    /// It in words.
-    fn text(&self) -> String {
-        if self.difference.is_nothing() {
-            return if self.equal { "none, the qualities are equal".to_owned() } else { "none".to_owned() };
-        }
-        let liquid = self.difference.liquid().map(|mean| format!("liquid {}", percent(mean)));
-        let wind = self.difference.wind().map(|wind| self.scale.to_metres(wind));
-        let air = wind.map(|wind| format!("air {} m/s", short(wind)));
-        let age = self.age.map(|ticks| format!("after {:.1} s", ticks as f32 * TICK_SECONDS));
-        let parts: Vec<String> = [liquid, air, age].into_iter().flatten().collect();
-        parts.join(", ")
+/// How far the worlds are apart, in words, if their qualities are `equal` or not, `age` ticks after they were the same.
+fn apart(difference: &Difference, equal: bool, scale: Scale, age: Option<u64>) -> String {
+    if difference.is_nothing() {
+        return if equal { "none, the qualities are equal".to_owned() } else { "none".to_owned() };
     }
-
-    /// Shows it, and what the colours mean.
-    fn show(&self, ui: &mut Ui) {
-        ui.label("Difference");
-        ui.label(weak(self.text())).on_hover_text(format!(
-            "In each cell of 4 d: liquid that one world has there and the other not, or flow in another way, on average; \
-             and the air's velocity, root mean square. Full heat: all the liquid, or {} % of the speed of a fall through \
-             the box; where there is no liquid, a strong wind.\nB starts again from A when you choose its quality, or both come to have the same.",
-            100.0 * FULL_SPEED
-        ));
-        if ui.available_width() > SCALE.x + 20.0 {
-            ui.with_layout(Layout::right_to_left(Align::Center), scale);
-        }
-    }
+    let liquid = difference.liquid().map(|mean| format!("liquid {}", percent(mean)));
+    let air = difference.wind().map(|wind| format!("air {} m/s", short(scale.to_metres(wind))));
+    let age = age.map(|ticks| format!("after {:.1} s", ticks as f32 * TICK_SECONDS));
+    let parts: Vec<String> = [liquid, air, age].into_iter().flatten().collect();
+    parts.join(", ")
 }
 
 /// The colours of the heat map, from a little to all.

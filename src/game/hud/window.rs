@@ -7,7 +7,7 @@ use crate::game::{
         widgets::{LINE, field},
     },
     icons,
-    panels::Panels,
+    panels::{Panel, Panels},
 };
 use bevy::{
     ecs::system::SystemParam,
@@ -33,10 +33,10 @@ pub struct PanelWindow<'w, 's> {
 
 impl PanelWindow<'_, '_> {
     /// Shows the window of a panel; its cross closes the panel.
-    pub fn show(&mut self, id: PanelId, place: Place, add: impl FnOnce(&mut Ui)) -> Result {
-        let open = window(self.contexts.ctx_mut()?, self.panels.title(id), place, add);
+    pub fn show(&mut self, panel: &Panel, place: Place, add: impl FnOnce(&mut Ui)) -> Result {
+        let open = window(self.contexts.ctx_mut()?, panel.title, place, add);
         if !open {
-            self.panels.close(id);
+            self.panels.close(panel.id);
         }
         Ok(())
     }

@@ -13,7 +13,7 @@ use crate::{
     },
 };
 use bevy::prelude::World;
-use glam::Vec2;
+use glam::{UVec2, Vec2};
 
 /// Edge of a cell of the map, d.
 const CELL: f32 = 4.0;
@@ -145,13 +145,13 @@ impl StrainMap {
     }
 
     /// Columns and rows of the map.
-    pub fn dimensions(&self) -> (usize, usize) {
-        (self.columns, self.rows)
+    pub fn dimensions(&self) -> UVec2 {
+        UVec2::new(self.columns as u32, self.rows as u32)
     }
 
     /// What the map covers, d: the box rounded up to whole cells.
     pub fn extent(&self) -> Vec2 {
-        Vec2::new(self.columns as f32, self.rows as f32) * CELL
+        self.dimensions().as_vec2() * CELL
     }
 
     /// How brightly the cell of a point glows, 0 … 1.

@@ -13,7 +13,7 @@ use crate::{
         icons,
         input::bindings::{Group, NONE},
         orders::{Order, Orders},
-        panels::{Panel, Panels},
+        panels::Panel,
         render::cost::RenderCost,
         views::table::STABILITY,
     },
@@ -28,33 +28,27 @@ use crate::{
         state::{Acted, AirGrid, Clock, ParticleStore, Setup, SleepState},
     },
 };
-use bevy::prelude::{App, KeyCode, Res, ResMut, Result};
+use bevy::prelude::{KeyCode, Res, ResMut, Result};
 use bevy_egui::egui::{self, Align2, RichText, Ui, vec2};
-
-/// Its name.
-pub const ID: PanelId = PanelId("details");
 
 /// Width of the window's contents, points.
 const WIDTH: f32 = 480.0;
 
-/// Adds the panel.
-pub fn plugin(app: &mut App) {
-    let panel = Panel {
-        id: ID,
-        title: "Details",
-        icon: icons::chart,
-        keys: &[(KeyCode::F3, NONE)],
-        group: Group::Look,
-        help: "details: what runs and what it costs",
-        in_bar: true,
-        in_list: Some("Details and effects"),
-        stays: true,
-    };
-    Panels::add(app, panel, show);
-}
+/// Its row.
+pub const PANEL: Panel = Panel {
+    id: PanelId("details"),
+    title: "Details",
+    icon: icons::chart,
+    keys: &[(KeyCode::F3, NONE)],
+    group: Group::Look,
+    help: "details: what runs and what it costs",
+    in_bar: true,
+    in_list: Some("Details and effects"),
+    stays: true,
+};
 
 /// Shows them.
-fn show(
+pub fn show(
     mut window: PanelWindow,
     ledger: Res<PassLedger>,
     effects: Res<Effects>,
@@ -65,7 +59,7 @@ fn show(
     sleepers: (Res<SleepState>, Res<ParticleStore>, Res<AirGrid>),
     mut orders: ResMut<Orders>,
 ) -> Result {
-    window.show(ID, (Align2::LEFT_TOP, vec2(14.0, 54.0)), |ui| {
+    window.show(&PANEL, (Align2::LEFT_TOP, vec2(14.0, 54.0)), |ui| {
         scroll(ui, 210.0, |ui| {
             ui.set_width(WIDTH);
             ui.spacing_mut().interact_size.y = 17.0;

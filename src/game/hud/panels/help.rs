@@ -8,36 +8,30 @@ use crate::game::{
     },
     icons,
     input::bindings::{Bindings, Group, NONE, SHIFT},
-    panels::{Panel, Panels},
+    panels::Panel,
 };
-use bevy::prelude::{App, KeyCode, Res, Result};
+use bevy::prelude::{KeyCode, Res, Result};
 use bevy_egui::egui::{self, RichText, Ui};
-
-/// Its name.
-pub const ID: PanelId = PanelId("help");
 
 /// Width of the column of keys, points.
 const KEYS_WIDTH: f32 = 132.0;
 
-/// Adds the panel.
-pub fn plugin(app: &mut App) {
-    let panel = Panel {
-        id: ID,
-        title: "Keys and mouse",
-        icon: icons::question,
-        keys: &[(KeyCode::F1, NONE), (KeyCode::Slash, SHIFT)],
-        group: Group::Look,
-        help: "this help",
-        in_bar: true,
-        in_list: None,
-        stays: false,
-    };
-    Panels::add(app, panel, show);
-}
+/// Its row.
+pub const PANEL: Panel = Panel {
+    id: PanelId("help"),
+    title: "Keys and mouse",
+    icon: icons::question,
+    keys: &[(KeyCode::F1, NONE), (KeyCode::Slash, SHIFT)],
+    group: Group::Look,
+    help: "this help",
+    in_bar: true,
+    in_list: None,
+    stays: false,
+};
 
 /// Shows the help.
-fn show(mut window: PanelWindow, bindings: Res<Bindings>) -> Result {
-    window.show(ID, MIDDLE, |ui| {
+pub fn show(mut window: PanelWindow, bindings: Res<Bindings>) -> Result {
+    window.show(&PANEL, MIDDLE, |ui| {
         ui.spacing_mut().interact_size.y = 17.0;
         scroll(ui, 190.0, |ui| {
             ui.horizontal_top(|ui| {
@@ -90,6 +84,7 @@ fn rows(bindings: &Bindings, group: Group) -> Vec<(String, &'static str)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bevy::prelude::App;
 
     #[test]
     fn help_names_every_binding_once_by_its_meaning() {

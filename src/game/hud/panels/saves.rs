@@ -22,9 +22,6 @@ use bevy::prelude::{App, IntoScheduleConfigs, KeyCode, Res, ResMut, Resource, Re
 use bevy_egui::egui::{self, Align2, Color32, TextStyle, Ui, pos2, vec2};
 use std::path::PathBuf;
 
-/// Its name.
-pub const ID: PanelId = PanelId("saves");
-
 /// Size of a row, points.
 const ROW: egui::Vec2 = vec2(430.0, 42.0);
 
@@ -49,22 +46,24 @@ struct SaveFile {
     summary: Option<Result<Summary, LoadError>>,
 }
 
+/// Its row.
+pub const PANEL: Panel = Panel {
+    id: PanelId("saves"),
+    title: "Load",
+    icon: icons::load,
+    keys: &[(KeyCode::KeyO, CTRL)],
+    group: Group::World,
+    help: "load a saved world (can be undone)",
+    in_bar: true,
+    in_list: Some("Load"),
+    stays: false,
+};
+
 /// Adds the panel.
 pub fn plugin(app: &mut App) {
     app.init_resource::<SaveMenu>();
-    let panel = Panel {
-        id: ID,
-        title: "Load",
-        icon: icons::load,
-        keys: &[(KeyCode::KeyO, CTRL)],
-        group: Group::World,
-        help: "load a saved world (can be undone)",
-        in_bar: true,
-        in_list: Some("Load"),
-        stays: false,
-    };
-    Panels::add(app, panel, show);
-    app.add_systems(Update, forget.run_if(not(is_open(ID))));
+    Panels::add(app, PANEL, show);
+    app.add_systems(Update, forget.run_if(not(is_open(PANEL.id))));
 }
 
 /// The next time it opens, the files are listed anew.
@@ -89,7 +88,7 @@ fn show(
         file.summary = Some(Summary::read(&file.path));
     }
     let mut chosen = None;
-    window.show(ID, MIDDLE, |ui| {
+    window.show(&PANEL, MIDDLE, |ui| {
         ui.set_width(ROW.x);
         if menu.files.is_empty() {
             ui.label(weak("No saved world yet."));
@@ -108,7 +107,7 @@ fn show(
     })?;
     if let Some(path) = chosen {
         orders.push(Order::Load(path));
-        window.close(ID);
+        window.close(PANEL.id);
     }
     Ok(())
 }

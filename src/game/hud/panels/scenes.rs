@@ -20,9 +20,6 @@ use bevy::prelude::{App, IntoScheduleConfigs, KeyCode, Res, ResMut, Resource, Re
 use bevy_egui::egui::{self, Color32, RichText, Ui};
 use std::collections::BTreeMap;
 
-/// Its name.
-pub const ID: PanelId = PanelId("scenes");
-
 /// The scenes to choose from.
 #[derive(Resource, Default)]
 pub struct SceneMenu {
@@ -60,22 +57,24 @@ fn list_scenes(mut menu: ResMut<SceneMenu>) {
     menu.scenes.sort_by(|a, b| (a.name() != "waterfall", a.title()).cmp(&(b.name() != "waterfall", b.title())));
 }
 
+/// Its row.
+pub const PANEL: Panel = Panel {
+    id: PanelId("scenes"),
+    title: "Scenes",
+    icon: icons::scenes,
+    keys: &[(KeyCode::KeyM, NONE)],
+    group: Group::World,
+    help: "scene menu",
+    in_bar: false,
+    in_list: None,
+    stays: false,
+};
+
 /// Adds the panel.
 pub fn plugin(app: &mut App) {
     app.init_resource::<SceneMenu>();
-    let panel = Panel {
-        id: ID,
-        title: "Scenes",
-        icon: icons::scenes,
-        keys: &[(KeyCode::KeyM, NONE)],
-        group: Group::World,
-        help: "scene menu",
-        in_bar: false,
-        in_list: None,
-        stays: false,
-    };
-    Panels::add(app, panel, show);
-    app.add_systems(Startup, list_scenes).add_systems(Update, forget.run_if(not(is_open(ID))));
+    Panels::add(app, PANEL, show);
+    app.add_systems(Startup, list_scenes).add_systems(Update, forget.run_if(not(is_open(PANEL.id))));
 }
 
 /// The next time it opens, it is at the scene that is played.
@@ -92,7 +91,7 @@ fn show(mut window: PanelWindow, mut menu: ResMut<SceneMenu>, setup: Res<Setup>,
         menu.choose(playing.unwrap_or(0), &setup);
     }
     let mut play = false;
-    window.show(ID, MIDDLE, |ui| {
+    window.show(&PANEL, MIDDLE, |ui| {
         ui.horizontal_top(|ui| {
             ui.vertical(|ui| {
                 ui.set_width(190.0);
@@ -110,7 +109,7 @@ fn show(mut window: PanelWindow, mut menu: ResMut<SceneMenu>, setup: Res<Setup>,
     if let (true, Some(scene)) = (play, menu.chosen.and_then(|index| menu.scenes.get(index))) {
         let settings = menu.values.iter().map(|(name, value)| (name.clone(), value.to_string())).collect();
         orders.push(Order::Scene { name: scene.name().to_owned(), settings });
-        window.close(ID);
+        window.close(PANEL.id);
     }
     Ok(())
 }

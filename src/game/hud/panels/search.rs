@@ -7,38 +7,32 @@ use crate::{
         icons,
         input::bindings::{Group, NONE},
         orders::{Order, Orders},
-        panels::{Panel, Panels},
+        panels::Panel,
         tools::Tool,
     },
     kernel::element::ElementTable,
     sim::state::Setup,
 };
-use bevy::prelude::{App, KeyCode, Local, Res, ResMut, Result};
+use bevy::prelude::{KeyCode, Local, Res, ResMut, Result};
 use bevy_egui::egui::{self, Align2, Color32, Key, Ui, vec2};
 
-/// Its name.
-pub const ID: PanelId = PanelId("search");
-
-/// Adds the panel.
-pub fn plugin(app: &mut App) {
-    let panel = Panel {
-        id: ID,
-        title: "Search",
-        icon: icons::question,
-        keys: &[(KeyCode::KeyE, NONE)],
-        group: Group::Choose,
-        help: "search elements and tools",
-        in_bar: false,
-        in_list: None,
-        stays: false,
-    };
-    Panels::add(app, panel, show);
-}
+/// Its row.
+pub const PANEL: Panel = Panel {
+    id: PanelId("search"),
+    title: "Search",
+    icon: icons::question,
+    keys: &[(KeyCode::KeyE, NONE)],
+    group: Group::Choose,
+    help: "search elements and tools",
+    in_bar: false,
+    in_list: None,
+    stays: false,
+};
 
 /// Shows the search.
-fn show(mut window: PanelWindow, mut text: Local<String>, setup: Res<Setup>, mut orders: ResMut<Orders>) -> Result {
+pub fn show(mut window: PanelWindow, mut text: Local<String>, setup: Res<Setup>, mut orders: ResMut<Orders>) -> Result {
     let mut done = false;
-    window.show(ID, (Align2::CENTER_TOP, vec2(0.0, 120.0)), |ui| {
+    window.show(&PANEL, (Align2::CENTER_TOP, vec2(0.0, 120.0)), |ui| {
         ui.set_width(260.0);
         let field = egui::TextEdit::singleline(&mut *text).hint_text("element or tool").desired_width(f32::INFINITY);
         ui.add(field.char_limit(40)).request_focus();
@@ -60,9 +54,9 @@ fn show(mut window: PanelWindow, mut text: Local<String>, setup: Res<Setup>, mut
         done = entered || chosen.is_some() || ui.input(|input| input.key_pressed(Key::Escape));
     })?;
     if done {
-        window.close(ID);
+        window.close(PANEL.id);
     }
-    if !window.is_open(ID) {
+    if !window.is_open(PANEL.id) {
         text.clear();
     }
     Ok(())

@@ -9,35 +9,29 @@ use crate::game::{
     },
     icons,
     input::bindings::{Group, NONE},
-    panels::{Panel, Panels},
+    panels::Panel,
 };
-use bevy::prelude::{App, KeyCode, ResMut, Result};
-
-/// Its name.
-pub const ID: PanelId = PanelId("settings");
+use bevy::prelude::{KeyCode, ResMut, Result};
 
 /// Scales that the player may choose on top of the automatic one.
 const CHOICES: [f32; 6] = [0.75, 0.9, 1.0, 1.15, 1.3, 1.6];
 
-/// Adds the panel.
-pub fn plugin(app: &mut App) {
-    let panel = Panel {
-        id: ID,
-        title: "Settings",
-        icon: icons::gear,
-        keys: &[(KeyCode::F4, NONE)],
-        group: Group::Look,
-        help: "settings",
-        in_bar: true,
-        in_list: Some("Settings"),
-        stays: false,
-    };
-    Panels::add(app, panel, show);
-}
+/// Its row.
+pub const PANEL: Panel = Panel {
+    id: PanelId("settings"),
+    title: "Settings",
+    icon: icons::gear,
+    keys: &[(KeyCode::F4, NONE)],
+    group: Group::Look,
+    help: "settings",
+    in_bar: true,
+    in_list: Some("Settings"),
+    stays: false,
+};
 
 /// Shows the settings.
-fn show(mut window: PanelWindow, mut scale: ResMut<UiScale>) -> Result {
-    window.show(ID, MIDDLE, |ui| {
+pub fn show(mut window: PanelWindow, mut scale: ResMut<UiScale>) -> Result {
+    window.show(&PANEL, MIDDLE, |ui| {
         ui.label(weak("Size of the HUD"));
         ui.horizontal(|ui| {
             for choice in CHOICES {

@@ -40,9 +40,6 @@ use bevy::prelude::{App, KeyCode, Res, ResMut, Resource, Result};
 use bevy_egui::egui::{self, Align2, Color32, FontId, RichText, Sense, Ui, vec2};
 use std::collections::BTreeMap;
 
-/// Its name.
-pub const ID: PanelId = PanelId("accuracy");
-
 /// Width of the panel's contents, points.
 const WIDTH: f32 = 396.0;
 /// Places of the live point that are remembered: two seconds.
@@ -100,21 +97,23 @@ impl AccuracyPanel {
     }
 }
 
+/// Its row.
+pub const PANEL: Panel = Panel {
+    id: PanelId("accuracy"),
+    title: "Accuracy",
+    icon: icons::curve,
+    keys: &[(KeyCode::KeyA, NONE)],
+    group: Group::Look,
+    help: "accuracy: what it costs, and the autopilot",
+    in_bar: true,
+    in_list: Some("Accuracy and cost"),
+    stays: true,
+};
+
 /// Adds the panel.
 pub fn plugin(app: &mut App) {
     app.init_resource::<AccuracyPanel>();
-    let panel = Panel {
-        id: ID,
-        title: "Accuracy",
-        icon: icons::curve,
-        keys: &[(KeyCode::KeyA, NONE)],
-        group: Group::Look,
-        help: "accuracy: what it costs, and the autopilot",
-        in_bar: true,
-        in_list: Some("Accuracy and cost"),
-        stays: true,
-    };
-    Panels::add(app, panel, show);
+    Panels::add(app, PANEL, show);
 }
 
 /// Shows the panel.
@@ -134,7 +133,7 @@ fn show(
     let live = (milliseconds > 0.0).then(|| Live { milliseconds, error: error.mean() });
     let scene = panel.turn_to(generation.scene, &setup.blueprint);
     panel.follow(&survey, &clock, live);
-    window.show(ID, (Align2::RIGHT_TOP, vec2(-14.0, 54.0)), |ui| {
+    window.show(&PANEL, (Align2::RIGHT_TOP, vec2(-14.0, 54.0)), |ui| {
         let screen = ui.ctx().content_rect();
         scroll(ui, 215.0, |ui| {
             ui.set_width(WIDTH.min(screen.width() - 60.0));

@@ -32,12 +32,9 @@ const MARKS: f32 = 400.0;
 /// From one mark to the next, points.
 const MARK: f32 = 34.0;
 
-/// Name of the panel.
-pub const ID: PanelId = PanelId("gauntlet");
-
 impl Suite for GauntletCase {
     const PANEL: Panel = Panel {
-        id: ID,
+        id: PanelId("gauntlet"),
         title: "Stability gauntlet",
         icon: icons::shield,
         keys: &[(KeyCode::F7, NONE)],

@@ -46,7 +46,7 @@ fn show<C: Suite>(
     mut queue: ResMut<JobQueue<C>>,
     mut orders: ResMut<Orders>,
 ) -> Result {
-    window.show(C::PANEL.id, MIDDLE, |ui| {
+    window.show(&C::PANEL, MIDDLE, |ui| {
         ui.set_width(C::WIDTH);
         ui.label(weak(C::PURPOSE));
         ui.horizontal(|ui| {
