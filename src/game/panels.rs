@@ -113,7 +113,7 @@ impl Panels {
         self.all.iter_mut().for_each(|(panel, open)| *open &= panel.stays);
     }
 
-    /// Shows the HUD, or hides it; not behind the back of a panel that waits for an answer.
+    /// Shows the HUD, or hides it; not while a panel is open that Esc would close.
     pub fn turn_hud(&mut self) {
         self.visible = !self.visible || self.all.iter().any(|(panel, open)| *open && !panel.stays);
     }

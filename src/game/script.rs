@@ -56,7 +56,7 @@ impl Hook {
     }
 }
 
-/// Nobody keeps the lock while a frame is drawn, so a page's thread, which may not sleep, never waits for it.
+/// The lock is never held while a frame is drawn, so a page's thread, which may not sleep, never waits for it.
 fn hook() -> MutexGuard<'static, Hook> {
     HOOK.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -41,14 +41,14 @@ pub const BUTTON_CORNER: u8 = 6;
 pub const WINDOW_CORNER: u8 = 10;
 
 /// Gives egui this look. It draws no text before it has fonts, so that is done before its first frame.
-pub fn dress_new(mut contexts: Query<&mut EguiContext, Added<EguiContext>>) {
+pub fn apply_to_new(mut contexts: Query<&mut EguiContext, Added<EguiContext>>) {
     for mut context in &mut contexts {
-        dress(context.get_mut());
+        apply(context.get_mut());
     }
 }
 
 /// Fonts, sizes and colours.
-pub fn dress(context: &egui::Context) {
+pub fn apply(context: &egui::Context) {
     context.set_fonts(fonts());
     context.set_theme(egui::Theme::Dark);
     // The frame that a press wakes has the time at which the game fell asleep: no press is too long for a click.

@@ -329,7 +329,7 @@ mod tests {
     /// What the plot and its chips write in a window, and which preset a click on the words `on` chooses.
     fn press(plot: &Plot<'_>, on: &str) -> (Vec<String>, Option<Preset>) {
         let context = egui::Context::default();
-        style::dress(&context);
+        style::apply(&context);
         let (mut words, mut chosen, mut target) = (Vec::new(), None, None);
         for step in 0..6 {
             let button = |pressed, pos| egui::Event::PointerButton {
