@@ -20,7 +20,7 @@ use crate::{
 };
 use bevy::{
     ecs::system::SystemParam,
-    prelude::{Res, ResMut, Result},
+    prelude::{Local, Res, ResMut, Result},
 };
 use bevy_egui::{
     EguiContexts,
@@ -55,6 +55,7 @@ pub fn show(
     mut tools: ResMut<Toolbox>,
     mut bars: ResMut<Bars>,
     mut orders: ResMut<Orders>,
+    mut seen: Local<Option<Tool>>,
 ) -> Result {
     bars.bottom = 0.0;
     if !shows.panels.visible {
@@ -78,7 +79,8 @@ pub fn show(
                     ui.separator();
                 });
                 let left = row.with_max_x(right.response.rect.left() - 6.0);
-                tiles(ui, left, &shows, tools.tool, &mut orders);
+                let new = seen.replace(tools.tool) != Some(tools.tool);
+                tiles(ui, left, &shows, (tools.tool, new), &mut orders);
             });
         });
     bars.bottom = screen.bottom() - shown.response.rect.top();
@@ -86,8 +88,8 @@ pub fn show(
 }
 
 /// The elements and the other tools, in as many rows as it takes. `row` is the space of the first row. More rows than
-/// [`MOST_ROWS`] scroll.
-fn tiles(ui: &mut Ui, row: egui::Rect, shows: &Shows, chosen: Tool, orders: &mut Orders) {
+/// [`MOST_ROWS`] scroll, and what is chosen is scrolled into sight when it is new.
+fn tiles(ui: &mut Ui, row: egui::Rect, shows: &Shows, (chosen, new): (Tool, bool), orders: &mut Orders) {
     let elements = shows.setup.elements();
     let places = (((row.width() - SCROLL_BAR) / (TILE.x + GAP)) as usize).max(1);
     let rows = (elements.len() + TOOLS.len()).div_ceil(places);
@@ -109,6 +111,9 @@ fn tiles(ui: &mut Ui, row: egui::Rect, shows: &Shows, chosen: Tool, orders: &mut
                     let colour = if tool == chosen { style::ACCENT } else { style::WEAK };
                     let at = rect.right_top() + vec2(-5.0, 3.0);
                     ui.painter().text(at, Align2::RIGHT_TOP, key, egui::FontId::proportional(11.0), colour);
+                    if new && tool == chosen {
+                        response.scroll_to_me(None);
+                    }
                     if response.on_hover_text(about).clicked() {
                         orders.push(Order::Act(Action::Tool(tool)));
                     }

@@ -143,6 +143,11 @@ pub fn tile(ui: &mut Ui, size: Vec2, unit: f32, tool: Tool, elements: &ElementTa
     icons::draw(painter, icons::square(rect.center() - vec2(0.0, 7.0) * unit, 24.0 * unit), icon, colour);
     let text = if chosen { Color32::WHITE } else { style::TEXT };
     let at = rect.center_bottom() - vec2(0.0, 4.0) * unit;
-    painter.text(at, Align2::CENTER_BOTTOM, name, FontId::proportional(11.0 * unit), text);
+    // A long name is written smaller.
+    let fit = |font: f32| painter.layout_no_wrap(name.to_owned(), FontId::proportional(font), text);
+    let name = fit(11.0 * unit);
+    let name =
+        if name.size().x > rect.width() - 4.0 { fit(11.0 * unit * (rect.width() - 4.0) / name.size().x) } else { name };
+    painter.galley(at - vec2(name.size().x / 2.0, name.size().y), name, text);
     (rect, response)
 }
