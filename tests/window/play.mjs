@@ -67,7 +67,7 @@ async function play() {
       const { tick } = await game.stats();
       await game.until('a second of the world', (now) => now.tick >= tick + 60);
       const lies = water(await game.picture('calm'), FLOOR);
-      const seen = { lies, settled: lies > 500 && Math.abs(lies - before) < 0.03 * lies };
+      const seen = { lies, settled: lies > 500 && Math.abs(lies - before) < 0.1 * lies };
       before = lies;
       return seen;
     }, ({ settled }) => settled);
