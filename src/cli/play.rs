@@ -40,7 +40,7 @@ fn open(scene: &str, options: &PlayOptions, start: &Start, recording: Option<Rec
     }) {
         Ok(AppExit::Success) => Ok(()),
         Ok(AppExit::Error(code)) => Err(Failure::Outcome(format!("the game ended with error {code}"))),
-        Err(error @ GameError::Crashed { .. }) => Err(Failure::Outcome(error.to_string())),
+        Err(error @ GameError::Crashed(_)) => Err(Failure::Outcome(error.to_string())),
         Err(error) => Err(Failure::Usage(error.to_string())),
     }
 }

@@ -27,10 +27,7 @@ mod native {
         time::SystemTime,
     };
 
-    /// The bytes of a file.
-    pub fn read(path: &Path) -> io::Result<Vec<u8>> {
-        fs::read(path)
-    }
+    pub use std::fs::read;
 
     /// Writes a file into a folder, which is made if there is none.
     pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {

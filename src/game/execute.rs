@@ -35,22 +35,17 @@ use crate::{
 };
 use bevy::prelude::World;
 use glam::Vec2;
-use std::sync::Arc;
+use std::{mem, sync::Arc};
 
 /// How far from the pointer a particle can be sampled, d.
 const SAMPLE_REACH: f32 = 1.5;
 
 /// Carries out what waits.
 pub fn carry_out(world: &mut World) {
-    let waiting = world.resource_mut::<Orders>().take();
-    for order in waiting {
+    for order in mem::take(&mut **world.resource_mut::<Orders>()) {
         match order {
             Order::Act(action) => act(world, action),
             Order::Checkpoint => history::checkpoint(world),
-            Order::Choose(tool) => take_up(world, tool),
-            Order::Speed(speed) => {
-                world.resource_mut::<Pace>().speed = speed.clamp(*SPEED_RANGE.start(), *SPEED_RANGE.end());
-            }
             Order::Quality(preset) => {
                 // A choice by hand ends the autopilot.
                 world.resource_mut::<Autopilot>().hold(None);
@@ -83,8 +78,10 @@ fn act(world: &mut World, action: Action) {
         Action::Hold(_) | Action::Pan(..) => {}
         Action::Sample => sample(world),
         Action::Tool(tool) => take_up(world, tool),
-        Action::Element(_) | Action::Brush(_) | Action::BrushShape => choose(world, action),
-        Action::Pause | Action::Step | Action::Speed(_) => keep_time(world, action),
+        Action::Element(digit) => take_up_element(world, digit),
+        Action::Brush(steps) => world.resource_mut::<Toolbox>().grow(steps),
+        Action::BrushShape => world.resource_mut::<Toolbox>().turn_shape(),
+        Action::Pause | Action::Step | Action::Speed(_) => keep_time(&mut world.resource_mut(), action),
         Action::Reset | Action::Undo | Action::Redo | Action::ClearAir => change_world(world, action),
         Action::View(view) => world.resource_mut::<Shown>().0 = view,
         Action::NextView => {
@@ -128,9 +125,7 @@ fn watch(world: &mut World, name: &str) {
     let Some(case) = CASES.iter().find(|case| case.name == name) else { return };
     let preset = world.get_resource::<Setup>().map_or(Preset::Balanced, |setup| setup.preset);
     match case.play(world, preset) {
-        Ok(()) => {
-            world.resource_mut::<History>().clear();
-        }
+        Ok(()) => world.resource_mut::<History>().clear(),
         Err(error) => world.resource_mut::<Toasts>().warn(error.to_string()),
     }
 }
@@ -139,40 +134,31 @@ fn take_up(world: &mut World, tool: Tool) {
     world.resource_mut::<Toolbox>().tool = tool;
     let Some(effect) = tool.needs() else { return };
     if world.get_resource::<Effects>().is_some_and(|effects| effects.get(effect).mode == Mode::Off) {
-        let (name, key) = (effect.name(), world.resource::<Bindings>().key(Action::Panel(details::ID)));
+        let (name, key) = (effect.name(), world.resource::<Bindings>().key(Action::Panel(details::PANEL.id)));
         world
             .resource_mut::<Toasts>()
             .warn(format!("The {name} is off in this scene: switch it on in the details ({key})"));
     }
 }
 
-fn choose(world: &mut World, action: Action) {
-    let Some(setup) = world.get_resource::<Setup>() else { return };
-    let element = match action {
-        Action::Element(digit) => {
-            setup.elements().iter().find(|(_, element)| element.key == Some(digit)).map(|(id, _)| id)
-        }
-        _ => None,
-    };
-    let mut tools = world.resource_mut::<Toolbox>();
-    match action {
-        Action::Element(_) => tools.tool = element.map_or(tools.tool, Tool::Element),
-        Action::Brush(steps) => tools.grow(steps),
-        Action::BrushShape => tools.turn_shape(),
-        _ => {}
+fn take_up_element(world: &mut World, digit: char) {
+    let element = world.get_resource::<Setup>().and_then(|setup| {
+        let mut elements = setup.elements().iter();
+        elements.find(|(_, element)| element.key == Some(digit)).map(|(id, _)| id)
+    });
+    if let Some(element) = element {
+        world.resource_mut::<Toolbox>().tool = Tool::Element(element);
     }
 }
 
-fn keep_time(world: &mut World, action: Action) {
-    let mut pace = world.resource_mut::<Pace>();
+fn keep_time(pace: &mut Pace, action: Action) {
     match action {
         Action::Pause => *pace = Pace { paused: !pace.paused, steps_due: 0, ..*pace },
-        Action::Step => *pace = Pace { paused: true, steps_due: pace.steps_due + 1, ..*pace },
         Action::Speed(steps) => {
             let factor = if steps > 0 { 2.0 } else { 0.5 };
             pace.speed = (pace.speed * factor).clamp(*SPEED_RANGE.start(), *SPEED_RANGE.end());
         }
-        _ => {}
+        _ => *pace = Pace { paused: true, steps_due: pace.steps_due + 1, ..*pace },
     }
 }
 

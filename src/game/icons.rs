@@ -36,7 +36,17 @@ impl Pen<'_> {
 
     /// Fills a convex outline.
     pub fn fill(&self, points: &[(f32, f32)]) {
-        self.painter.add(Shape::convex_polygon(self.points(points), self.colour, Stroke::NONE));
+        self.fill_in(self.colour, points);
+    }
+
+    /// Fills a convex outline in another colour.
+    fn fill_in(&self, colour: Color32, points: &[(f32, f32)]) {
+        self.painter.add(Shape::convex_polygon(self.points(points), colour, Stroke::NONE));
+    }
+
+    /// Fills a disc.
+    pub fn disc(&self, x: f32, y: f32, radius: f32) {
+        self.painter.circle_filled(self.at(x, y), radius * self.side, self.colour);
     }
 
     /// Draws a line through points.
@@ -59,13 +69,6 @@ impl Pen<'_> {
                 (x + radius * cos, y + radius * sin)
             })
             .collect()
-    }
-
-    fn turn_back(&self, radius: f32, way: f32) {
-        self.line(&self.arc(0.5, 0.52, radius, -0.12 * way, 0.66 * way), 0.1);
-        let (sin, cos) = sin_cos(-0.12 * way);
-        let (x, y) = (0.5 + radius * cos, 0.52 + radius * sin);
-        self.fill(&[(x - 0.2, y + 0.04), (x + 0.13, y + 0.1), (x + 0.06, y - 0.24)]);
     }
 
     /// An arrow that bends back, to the left (1) or to the right (−1).
@@ -110,11 +113,9 @@ pub fn droplet(pen: &Pen<'_>) {
 pub fn stone(pen: &Pen<'_>) {
     pen.fill(&[(0.1, 0.72), (0.2, 0.38), (0.46, 0.2), (0.74, 0.28), (0.92, 0.6), (0.84, 0.8), (0.2, 0.82)]);
     let light = pen.colour.lerp_to_gamma(Color32::WHITE, 0.28);
-    let lit = pen.points(&[(0.2, 0.38), (0.46, 0.2), (0.74, 0.28), (0.54, 0.46)]);
-    pen.painter.add(Shape::convex_polygon(lit, light, Stroke::NONE));
+    pen.fill_in(light, &[(0.2, 0.38), (0.46, 0.2), (0.74, 0.28), (0.54, 0.46)]);
     let dark = pen.colour.lerp_to_gamma(Color32::BLACK, 0.3);
-    let shade = pen.points(&[(0.54, 0.46), (0.74, 0.28), (0.92, 0.6), (0.84, 0.8), (0.6, 0.81)]);
-    pen.painter.add(Shape::convex_polygon(shade, dark, Stroke::NONE));
+    pen.fill_in(dark, &[(0.54, 0.46), (0.74, 0.28), (0.92, 0.6), (0.84, 0.8), (0.6, 0.81)]);
 }
 
 /// Wind.
@@ -129,7 +130,7 @@ pub fn wind(pen: &Pen<'_>) {
 
 /// Pressure: arrows from a middle.
 pub fn pressure(pen: &Pen<'_>) {
-    pen.painter.circle_filled(pen.at(0.5, 0.5), 0.1 * pen.side, pen.colour);
+    pen.disc(0.5, 0.5, 0.1);
     for turn in [0.125, 0.375, 0.625, 0.875] {
         let (sin, cos) = sin_cos(turn);
         let point = |along: f32, across: f32| (0.5 + cos * along - sin * across, 0.5 + sin * along + cos * across);
@@ -142,8 +143,7 @@ pub fn pressure(pen: &Pen<'_>) {
 pub fn eraser(pen: &Pen<'_>) {
     pen.fill(&[(0.56, 0.16), (0.86, 0.42), (0.66, 0.64), (0.36, 0.38)]);
     let pale = pen.colour.gamma_multiply(0.55);
-    let tip = pen.points(&[(0.33, 0.415), (0.63, 0.675), (0.5, 0.82), (0.34, 0.82), (0.16, 0.66), (0.16, 0.6)]);
-    pen.painter.add(Shape::convex_polygon(tip, pale, Stroke::NONE));
+    pen.fill_in(pale, &[(0.33, 0.415), (0.63, 0.675), (0.5, 0.82), (0.34, 0.82), (0.16, 0.66), (0.16, 0.6)]);
     pen.line(&[(0.5, 0.86), (0.9, 0.86)], 0.08);
 }
 
@@ -164,9 +164,24 @@ pub fn step(pen: &Pen<'_>) {
     pen.bar(0.68, 0.18, 0.14, 0.64);
 }
 
+/// More.
+pub fn plus(pen: &Pen<'_>) {
+    pen.bar(0.44, 0.22, 0.12, 0.56);
+    minus(pen);
+}
+
+/// Less.
+pub fn minus(pen: &Pen<'_>) {
+    pen.bar(0.22, 0.44, 0.56, 0.12);
+}
+
 /// Back to the start.
 pub fn reset(pen: &Pen<'_>) {
-    pen.turn_back(0.34, 1.0);
+    let radius = 0.34;
+    pen.line(&pen.arc(0.5, 0.52, radius, -0.12, 0.66), 0.1);
+    let (sin, cos) = sin_cos(-0.12);
+    let (x, y) = (0.5 + radius * cos, 0.52 + radius * sin);
+    pen.fill(&[(x - 0.2, y + 0.04), (x + 0.13, y + 0.1), (x + 0.06, y - 0.24)]);
 }
 
 /// Take back.
@@ -202,14 +217,14 @@ pub fn eye(pen: &Pen<'_>) {
     outline.extend(pen.arc(0.5, 0.14, 0.52, 0.11, 0.39));
     outline.push(outline[0]);
     pen.line(&outline, 0.08);
-    pen.painter.circle_filled(pen.at(0.5, 0.5), 0.14 * pen.side, pen.colour);
+    pen.disc(0.5, 0.5, 0.14);
 }
 
 /// Quality.
 pub fn gauge(pen: &Pen<'_>) {
     pen.line(&pen.arc(0.5, 0.6, 0.38, -0.55, 0.05), 0.1);
     pen.line(&[(0.5, 0.6), (0.7, 0.36)], 0.09);
-    pen.painter.circle_filled(pen.at(0.5, 0.6), 0.08 * pen.side, pen.colour);
+    pen.disc(0.5, 0.6, 0.08);
 }
 
 /// Settings.
@@ -232,7 +247,7 @@ pub fn chart(pen: &Pen<'_>) {
 pub fn curve(pen: &Pen<'_>) {
     pen.line(&[(0.14, 0.1), (0.14, 0.86), (0.92, 0.86)], 0.09);
     pen.line(&[(0.26, 0.18), (0.34, 0.46), (0.52, 0.62), (0.9, 0.7)], 0.09);
-    pen.painter.circle_filled(pen.at(0.44, 0.56), 0.12 * pen.side, pen.colour);
+    pen.disc(0.44, 0.56, 0.12);
 }
 
 /// Two halves.
@@ -248,7 +263,7 @@ pub fn question(pen: &Pen<'_>) {
     let mut hook = pen.arc(0.5, 0.34, 0.19, -0.5, 0.14);
     hook.extend([(0.5, 0.55), (0.5, 0.64)]);
     pen.line(&hook, 0.11);
-    pen.painter.circle_filled(pen.at(0.5, 0.82), 0.07 * pen.side, pen.colour);
+    pen.disc(0.5, 0.82, 0.07);
 }
 
 /// Round brush.

@@ -2,12 +2,12 @@
 //! between ticks.
 
 use crate::{
-    game::{actions::Action, tools::Tool},
+    game::actions::Action,
     kernel::params::Preset,
     lab::{autopilot::Goal, live::accuracy::SurveyRequest},
     scene::effects::{Effect, Mode},
 };
-use bevy::prelude::Resource;
+use bevy::prelude::{Deref, DerefMut, Resource};
 use std::path::PathBuf;
 
 /// One thing to do.
@@ -17,10 +17,6 @@ pub enum Order {
     Act(Action),
     /// Remember the state before an edit.
     Checkpoint,
-    /// Take up a tool.
-    Choose(Tool),
-    /// Run at another speed.
-    Speed(f32),
     /// Go on at another quality.
     Quality(Preset),
     /// Start the second world of the split again from the first, at this quality.
@@ -53,23 +49,6 @@ pub enum Order {
     Watch(&'static str),
 }
 
-/// Orders that wait.
-#[derive(Resource, Debug, Default)]
+/// Orders that wait, oldest first.
+#[derive(Resource, Deref, DerefMut, Debug, Default)]
 pub struct Orders(Vec<Order>);
-
-impl Orders {
-    /// Whether none waits.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    /// Takes all that wait, oldest first.
-    pub fn take(&mut self) -> Vec<Order> {
-        std::mem::take(&mut self.0)
-    }
-
-    /// Queues an order.
-    pub fn push(&mut self, order: Order) {
-        self.0.push(order);
-    }
-}

@@ -92,11 +92,6 @@ impl Panels {
         self.all.iter().map(|(panel, open)| (panel, *open))
     }
 
-    /// Heading of a panel's window.
-    pub fn title(&self, id: PanelId) -> &'static str {
-        self.all.iter().find(|(panel, _)| panel.id == id).map_or("", |(panel, _)| panel.title)
-    }
-
     /// Whether a panel is open, and the HUD with it is shown.
     pub fn shows(&self, id: PanelId) -> bool {
         self.visible && self.all.iter().any(|(panel, open)| panel.id == id && *open)
@@ -118,7 +113,7 @@ impl Panels {
         self.all.iter_mut().for_each(|(panel, open)| *open &= panel.stays);
     }
 
-    /// Shows the HUD, or hides it; not behind the back of a panel that waits for an answer.
+    /// Shows the HUD, or hides it; not while a panel is open that Esc would close.
     pub fn turn_hud(&mut self) {
         self.visible = !self.visible || self.all.iter().any(|(panel, open)| *open && !panel.stays);
     }

@@ -19,11 +19,6 @@ use std::{
 /// The folder beside save files that recordings go to.
 const FOLDER: &str = "recordings";
 
-/// Records from now on into a file.
-pub fn begin_into(world: &World, path: PathBuf) {
-    world.resource::<Recorder>().begin(world, Some(path));
-}
-
 /// Begins a recording, or ends it and writes it.
 pub fn toggle(world: &mut World) {
     if !world.contains_resource::<Setup>() {

@@ -37,14 +37,6 @@ pub fn plugin(app: &mut App) {
     app.add_systems(Last, stand_while_unseen);
 }
 
-/// What keeps the game awake.
-struct Signs {
-    /// The world's time moves.
-    moves: bool,
-    /// Something is worked out in the background, and its progress shown.
-    works: bool,
-}
-
 /// What may be worked out in the background.
 #[derive(SystemParam)]
 struct Background<'w> {
@@ -65,14 +57,15 @@ impl Background<'_> {
     }
 }
 
-/// How the event loop goes on, after `calm` without a sign of change.
-fn mode(signs: &Signs, calm: Duration) -> UpdateMode {
+/// How the event loop goes on while the world `moves` or not and something `works` in the background or not, after `calm`
+/// without a sign of change.
+fn mode(moves: bool, works: bool, calm: Duration) -> UpdateMode {
     // In a page the frames do the work, a slice each.
-    let works_by_frames = signs.works && cfg!(target_arch = "wasm32");
-    if signs.moves || works_by_frames || calm < LINGER {
+    let works_by_frames = works && cfg!(target_arch = "wasm32");
+    if moves || works_by_frames || calm < LINGER {
         UpdateMode::Continuous
     } else {
-        UpdateMode::reactive_low_power(if signs.works { WATCH } else { NAP })
+        UpdateMode::reactive_low_power(if works { WATCH } else { NAP })
     }
 }
 
@@ -91,8 +84,7 @@ fn rest(
     // A message that is shown is about to go; of the list of saves each frame reads one.
     let stirs = touched || pace.is_changed() || toasts.last().is_some() || saves.is_reading();
     *calm = if stirs { Duration::ZERO } else { (*calm + real.delta()).min(LINGER) };
-    let signs = Signs { moves: pace.ticks() && !time.is_paused(), works: background.works() };
-    let focused = mode(&signs, *calm);
+    let focused = mode(pace.ticks() && !time.is_paused(), background.works(), *calm);
     tempo.rests = focused != UpdateMode::Continuous;
     // Out of focus a game that runs keeps to the rate of a screen, as Bevy has it.
     let unfocused = if tempo.rests { focused } else { WinitSettings::game().unfocused_mode };
@@ -117,24 +109,22 @@ mod tests {
     use crate::kernel::params::Preset;
     use bevy::{ecs::system::RunSystemOnce, prelude::World};
 
-    const STILL: Signs = Signs { moves: false, works: false };
-
     #[test]
     fn a_world_that_moves_never_rests() {
-        assert_eq!(mode(&Signs { moves: true, ..STILL }, Duration::from_secs(100)), UpdateMode::Continuous);
+        assert_eq!(mode(true, false, Duration::from_secs(100)), UpdateMode::Continuous);
     }
 
     #[test]
     fn a_world_that_stands_rests_after_a_moment() {
-        assert_eq!(mode(&STILL, Duration::ZERO), UpdateMode::Continuous, "the last change must reach the screen");
-        assert_eq!(mode(&STILL, LINGER), UpdateMode::reactive_low_power(NAP));
+        assert_eq!(mode(false, false, Duration::ZERO), UpdateMode::Continuous, "the last change must reach the screen");
+        assert_eq!(mode(false, false, LINGER), UpdateMode::reactive_low_power(NAP));
     }
 
     #[test]
     fn what_works_in_the_background_is_watched_or_in_a_page_done() {
         let expected =
             if cfg!(target_arch = "wasm32") { UpdateMode::Continuous } else { UpdateMode::reactive_low_power(WATCH) };
-        assert_eq!(mode(&Signs { works: true, ..STILL }, LINGER), expected);
+        assert_eq!(mode(false, true, LINGER), expected);
     }
 
     #[test]

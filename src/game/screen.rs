@@ -5,11 +5,12 @@ use crate::{
     sim::state::{Clock, Setup},
 };
 use bevy::{
+    image::Image,
     prelude::{On, ResMut, With, World},
     render::view::screenshot::{Screenshot, ScreenshotCaptured},
     window::{MonitorSelection, PrimaryWindow, Window, WindowMode},
 };
-use std::{env, path::PathBuf};
+use std::{env, error::Error, path::PathBuf};
 
 /// Covers the monitor, or goes back to a window.
 pub fn toggle_full_screen(world: &mut World) {
@@ -30,17 +31,12 @@ pub fn take_screenshot(world: &mut World) {
     let path = files::free_path(&folder, scene, tick, "png");
     world.spawn(Screenshot::primary_window()).observe(
         move |captured: On<ScreenshotCaptured>, mut toasts: ResMut<Toasts>| {
-            let written = captured
-                .image
-                .clone()
-                .try_into_dynamic()
-                .map_err(|error| error.to_string())
-                .and_then(|image| {
-                    let image = image.to_rgb8();
-                    encode(image.width(), image.height(), &image).map_err(|error| error.to_string())
-                })
-                .and_then(|bytes| disk::give(&path, &bytes).map_err(|error| error.to_string()));
-            match written {
+            let write = |image: Image| -> Result<(), Box<dyn Error>> {
+                let image = image.try_into_dynamic()?.to_rgb8();
+                let bytes = encode(image.width(), image.height(), &image)?;
+                Ok(disk::give(&path, &bytes)?)
+            };
+            match write(captured.image.clone()) {
                 Ok(()) => toasts.say(format!("Screenshot: {}", path.display())),
                 Err(error) => toasts.warn(format!("No screenshot: {error}")),
             }

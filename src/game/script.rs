@@ -26,7 +26,7 @@ use bevy_egui::{
     EguiContext, EguiOutput,
     egui::accesskit::{Node, Role, Toggled},
 };
-use serde::Serialize;
+use serde_json::{Value, json};
 use std::{
     collections::BTreeMap,
     mem,
@@ -43,61 +43,22 @@ struct Hook {
     told: Vec<Told>,
     /// The event loop, which sleeps while nothing changes.
     event_loop: Option<EventLoopProxy<WinitUserEvent>>,
-    stats: Option<Stats>,
+    /// Frames since the start, and the state of the game in the last of them; `null` before the first.
+    frame: u64,
+    stats: Value,
     /// The widgets are only noted from the first time on that a script asks for them.
-    widgets: Option<Vec<Widget>>,
+    widgets: Option<Value>,
 }
 
 impl Hook {
     const fn new() -> Self {
-        Self { told: Vec::new(), event_loop: None, stats: None, widgets: None }
+        Self { told: Vec::new(), event_loop: None, frame: 0, stats: Value::Null, widgets: None }
     }
 }
 
-/// Nobody keeps the lock while a frame is drawn, so a page's thread, which may not sleep, never waits for it.
+/// The lock is never held while a frame is drawn, so a page's thread, which may not sleep, never waits for it.
 fn hook() -> MutexGuard<'static, Hook> {
     HOOK.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// The state of the game in the last frame.
-#[derive(Clone, Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
-pub struct Stats {
-    /// Frames since the start.
-    frame: u64,
-    scene: String,
-    title: String,
-    quality: &'static str,
-    tick: u64,
-    particles: u32,
-    elements: BTreeMap<String, u32>,
-    tool: String,
-    /// Logical pixels from the upper left corner of the window.
-    pointer: Option<[f32; 2]>,
-    paused: bool,
-    /// Whether nothing changes, so that no frame is drawn until something does.
-    rests: bool,
-    /// Ticks that were recorded, if there is a recording.
-    recording: Option<u64>,
-    frames_per_second: f32,
-    ticks_per_second: f32,
-    ms_per_tick: f64,
-    threads: usize,
-    /// Texts that are shown for a while.
-    messages: Vec<String>,
-}
-
-/// Something of the HUD that has a name, in the last frame.
-#[derive(Clone, Debug, Serialize)]
-pub struct Widget {
-    name: String,
-    /// What it is: `Button`, `Window`, `Slider` and so on.
-    kind: String,
-    /// Logical pixels from the upper left corner of the window: left, top, width, height.
-    place: [f64; 4],
-    enabled: bool,
-    /// Whether it is chosen or open, if it can be.
-    chosen: Option<bool>,
 }
 
 /// Keeps the hook of this game up to date.
@@ -123,23 +84,23 @@ pub fn pause(paused: bool) {
     });
 }
 
-/// The state of the game in the last frame; none before the first.
-pub fn stats() -> Option<Stats> {
+/// The state of the game in the last frame; `null` before the first.
+pub fn stats() -> Value {
     hook().stats.clone()
 }
 
 /// The HUD's widgets in the last frame. The first to ask gets none.
-pub fn widgets() -> Vec<Widget> {
+pub fn widgets() -> Value {
     if let Some(widgets) = &hook().widgets {
         return widgets.clone();
     }
     tell(|world| {
-        hook().widgets = Some(Vec::new());
+        hook().widgets = Some(json!([]));
         for mut context in world.query::<&mut EguiContext>().iter_mut(world) {
             context.get_mut().enable_accesskit();
         }
     });
-    Vec::new()
+    json!([])
 }
 
 fn listen(world: &mut World) {
@@ -148,8 +109,7 @@ fn listen(world: &mut World) {
 }
 
 fn note(world: &mut World) {
-    let frame = hook().stats.as_ref().map_or(1, |stats| stats.frame + 1);
-    let stats = look(world, frame);
+    let stats = look(world);
     let noted = hook().widgets.is_some();
     let widgets = noted.then(|| {
         let mut outputs = world.query::<(&mut EguiContext, &EguiOutput)>();
@@ -159,48 +119,57 @@ fn note(world: &mut World) {
             .collect()
     });
     let mut hook = hook();
-    hook.stats = Some(stats);
+    hook.frame += 1;
+    hook.stats = stats;
+    hook.stats["frame"] = hook.frame.into();
     hook.widgets = widgets;
 }
 
-fn look(world: &World, frame: u64) -> Stats {
+/// The state of the game: docs/scripts.md says what each number means.
+fn look(world: &World) -> Value {
     let setup = world.resource::<Setup>();
     let census = world.resource::<Census>();
     let tempo = world.resource::<Tempo>();
-    let named = setup.elements().iter().map(|(_, element)| element.name.clone());
-    Stats {
-        frame,
-        scene: setup.blueprint.name.clone(),
-        title: setup.blueprint.title.clone(),
-        quality: setup.preset.name(),
-        tick: world.resource::<Clock>().tick,
-        particles: census.total,
-        elements: named.zip(census.by_element.iter().copied()).collect(),
-        tool: world.resource::<Toolbox>().tool.name(setup.elements()).to_owned(),
-        pointer: world.resource::<Pointer>().at.map(Into::into),
-        paused: world.resource::<Pace>().paused,
-        rests: tempo.rests,
-        recording: world.resource::<Recorder>().ticks(),
-        frames_per_second: tempo.frames_per_second,
-        ticks_per_second: tempo.ticks_per_second,
-        ms_per_tick: world.resource::<PassLedger>().tick().median().as_secs_f64() * 1000.0,
-        threads: world.resource::<Workers>().threads(),
-        messages: world.resource::<Toasts>().texts().map(str::to_owned).collect(),
-    }
+    let names = setup.elements().iter().map(|(_, element)| &element.name);
+    json!({
+        "scene": setup.blueprint.name,
+        "title": setup.blueprint.title,
+        "quality": setup.preset.name(),
+        "tick": world.resource::<Clock>().tick,
+        "particles": census.total,
+        "elements": names.zip(&census.by_element).collect::<BTreeMap<_, _>>(),
+        "tool": world.resource::<Toolbox>().tool.name(setup.elements()),
+        "pointer": world.resource::<Pointer>().at.map(<[f32; 2]>::from),
+        "brush": 2.0 * world.resource::<Toolbox>().radius(),
+        "paused": world.resource::<Pace>().paused,
+        "speed": world.resource::<Pace>().speed,
+        "rests": tempo.rests,
+        "recording": world.resource::<Recorder>().ticks(),
+        "framesPerSecond": tempo.frames_per_second,
+        "ticksPerSecond": tempo.ticks_per_second,
+        "msPerTick": world.resource::<PassLedger>().tick().median().as_secs_f64() * 1000.0,
+        "threads": world.resource::<Workers>().threads(),
+        "messages": world.resource::<Toasts>().texts().collect::<Vec<_>>(),
+    })
 }
 
 /// The widgets that have a name, as egui tells them to screen readers.
-fn named(output: &EguiOutput, zoom: f32) -> Vec<Widget> {
+fn named(output: &EguiOutput, zoom: f32) -> Vec<Value> {
     let update = output.platform_output.accesskit_update.iter();
     update.flat_map(|update| &update.nodes).filter_map(|(_, node)| widget(node, f64::from(zoom))).collect()
 }
 
-fn widget(node: &Node, zoom: f64) -> Option<Widget> {
-    let name = if node.role() == Role::Label { node.value() } else { node.label() }?.to_owned();
+fn widget(node: &Node, zoom: f64) -> Option<Value> {
+    let name = if node.role() == Role::Label { node.value() } else { node.label() }?;
     let bounds = node.bounds()?;
-    let place = [bounds.x0, bounds.y0, bounds.width(), bounds.height()].map(|points| points * zoom);
-    let chosen = node.toggled().map(|toggled| toggled == Toggled::True);
-    Some(Widget { name, kind: format!("{:?}", node.role()), place, enabled: !node.is_disabled(), chosen })
+    let place = [bounds.x0, bounds.y0, bounds.width(), bounds.height()];
+    Some(json!({
+        "name": name,
+        "kind": format!("{:?}", node.role()),
+        "place": place.map(|points| points * zoom),
+        "enabled": !node.is_disabled(),
+        "chosen": node.toggled().map(|toggled| toggled == Toggled::True),
+    }))
 }
 
 /// Answers each line of stdin with one on stdout.
@@ -220,12 +189,12 @@ pub fn answer_stdin() {
 
 /// What a script asks or tells in a line.
 #[cfg(not(target_arch = "wasm32"))]
-fn answer(line: &str) -> serde_json::Value {
+fn answer(line: &str) -> Value {
     match line.trim() {
-        "stats" => serde_json::json!(stats()),
-        "widgets" => serde_json::json!(widgets()),
-        "pause" => serde_json::json!(pause(true)),
-        "go on" => serde_json::json!(pause(false)),
-        other => serde_json::json!({ "error": format!("`{other}`: allowed are stats, widgets, pause, go on") }),
+        "stats" => stats(),
+        "widgets" => widgets(),
+        "pause" => json!(pause(true)),
+        "go on" => json!(pause(false)),
+        other => json!({ "error": format!("`{other}`: allowed are stats, widgets, pause, go on") }),
     }
 }

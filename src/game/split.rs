@@ -3,7 +3,7 @@
 use crate::{
     game::{
         camera::Area,
-        hud::panels::accuracy::panel::{AccuracyPanel, ID},
+        hud::panels::accuracy::panel::{AccuracyPanel, PANEL},
         panels::Panels,
         toasts::Toasts,
     },
@@ -55,11 +55,11 @@ pub fn watch(
     mut error: ResMut<LiveError>,
     mut measures: ResMut<Measures>,
 ) {
-    let wanted = panels.shows(ID) && accuracy.measures;
+    let wanted = panels.shows(PANEL.id) && accuracy.measures;
     if measures.wanted() != wanted {
         measures.want(wanted);
     }
-    let looks = panels.shows(ID) || autopilot.goal().is_some() || split.is_on();
+    let looks = panels.shows(PANEL.id) || autopilot.goal().is_some() || split.is_on();
     if watched.0 != looks {
         watched.0 = looks;
         // What was measured before somebody looked away is of another time.

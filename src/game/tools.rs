@@ -273,6 +273,11 @@ impl Toolbox {
         };
     }
 
+    /// The icon of the outline.
+    pub fn shape_icon(&self) -> Icon {
+        if self.shape == BrushShape::Disc { icons::round_brush } else { icons::square_brush }
+    }
+
     /// The brush dragged from one point to another.
     pub fn stroke(&self, from: Vec2, to: Vec2) -> Stroke {
         Stroke { shape: self.shape, from, to, radius: self.radius() }

@@ -3,10 +3,11 @@
 #[cfg(not(target_arch = "wasm32"))]
 use crate::game::crash;
 use crate::{
-    game::{hud::HudPlugin, plugin::GamePlugin, recording, render::WorldRenderPlugin, rest},
+    game::{hud::HudPlugin, plugin::GamePlugin, render::WorldRenderPlugin, rest},
     lab::colours,
     sim::{
         SimulationPlugin, fault,
+        recorder::Recorder,
         state::{Census, Setup},
     },
 };
@@ -34,30 +35,18 @@ const WINDOW_SIZE: (u32, u32) = (1280, 800);
 /// Why there is no game.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GameError {
-    /// There is nowhere to show a window.
-    #[error("no display: {reason}; set DISPLAY, or use `powder-master run {scene}` to run without a window")]
-    NoDisplay {
-        /// What is missing.
-        reason: String,
-        /// The scene that was asked for.
-        scene: String,
-    },
-    /// The window or the graphics can't be set up.
-    #[error("can't open a window: {reason}; use `powder-master run {scene}` to run without one")]
+    /// There is nowhere to show a window, or the graphics can't be set up.
+    #[error("{reason}; `powder-master run {scene}` runs it without a window")]
     NoWindow {
-        /// What went wrong.
+        /// What is missing, or what went wrong.
         reason: String,
         /// The scene that was asked for.
         scene: String,
     },
     /// It panicked.
-    #[error("the game crashed: {what}; {saved}")]
-    Crashed {
-        /// What the panic said, and where.
-        what: String,
-        /// What was saved of the world, and where.
-        saved: String,
-    },
+    #[cfg(not(target_arch = "wasm32"))]
+    #[error(transparent)]
+    Crashed(#[from] crash::Crash),
 }
 
 /// Plays in a window until it is closed; whatever ends it otherwise, the world can be had back (see `crash`). `furnish`
@@ -66,7 +55,7 @@ pub enum GameError {
 pub fn run(scene: &str, record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> Result<AppExit, GameError> {
     let scene = scene.to_owned();
     if let Some(reason) = missing_display(|name| std::env::var(name).ok()) {
-        return Err(GameError::NoDisplay { reason, scene });
+        return Err(GameError::NoWindow { reason, scene });
     }
     // Setting the window up panics where it fails (winit can't reach the display, there is no graphics adapter).
     let hook = panic::take_hook();
@@ -75,11 +64,10 @@ pub fn run(scene: &str, record: Option<PathBuf>, furnish: impl FnOnce(&mut App))
     panic::set_hook(hook);
     match built {
         #[cfg(not(target_arch = "wasm32"))]
-        Ok(app) => crash::run(app, crash::folder(), |mut app| app.run())
-            .map_err(|crash::Crash { what, saved }| GameError::Crashed { what, saved }),
+        Ok(app) => Ok(crash::run(app, crash::folder(), |mut app| app.run())?),
         #[cfg(target_arch = "wasm32")]
         Ok(mut app) => Ok(app.run()),
-        Err(cause) => Err(explain(&fault::message(&*cause), scene)),
+        Err(cause) => Err(GameError::NoWindow { reason: explain(&fault::message(&*cause)), scene }),
     }
 }
 
@@ -88,16 +76,16 @@ fn missing_display(variable: impl Fn(&str) -> Option<String>) -> Option<String> 
     let named = |name: &str| variable(name).is_some_and(|value| !value.is_empty());
     let needed = cfg!(all(unix, not(target_os = "macos"), not(target_arch = "wasm32")));
     (needed && !named("DISPLAY") && !named("WAYLAND_DISPLAY") && !named("WAYLAND_SOCKET"))
-        .then(|| "neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned())
+        .then(|| "no display: neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned())
 }
 
 /// One line for what went wrong.
-fn explain(panic: &str, scene: String) -> GameError {
+fn explain(panic: &str) -> String {
     if panic.contains("event loop") || panic.contains("EventLoop") {
         let display = std::env::var("DISPLAY").or_else(|_| std::env::var("WAYLAND_DISPLAY")).unwrap_or_default();
-        return GameError::NoDisplay { reason: format!("`{display}` can't be reached"), scene };
+        return format!("no display: `{display}` can't be reached");
     }
-    GameError::NoWindow { reason: panic.lines().next().unwrap_or("unknown reason").to_owned(), scene }
+    format!("can't open a window: {}", panic.lines().next().unwrap_or("unknown reason"))
 }
 
 pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> App {
@@ -128,7 +116,7 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
     .add_systems(Update, tell_in_title.run_if(on_timer(TITLE_EVERY)));
     furnish(&mut app);
     if let Some(path) = record {
-        recording::begin_into(app.world(), path);
+        app.world().resource::<Recorder>().begin(app.world(), Some(path));
     }
     app
 }
@@ -166,15 +154,14 @@ mod tests {
         assert!(missing_display(|name| (name == "DISPLAY").then(String::new)).is_some());
         assert_eq!(missing_display(|name| (name == "DISPLAY").then(|| ":0".into())), None);
         assert_eq!(missing_display(|name| (name == "WAYLAND_DISPLAY").then(|| "wayland-0".into())), None);
-        let error = GameError::NoDisplay { reason: "none".into(), scene: "waterfall".into() };
+        let error = GameError::NoWindow { reason: "none".into(), scene: "waterfall".into() };
         assert!(error.to_string().contains("powder-master run waterfall"));
     }
 
     #[test]
     fn a_failed_window_is_explained_in_one_line() {
-        let error = explain("Failed to build event loop: Os(OsError)", "empty".into());
-        assert!(matches!(&error, GameError::NoDisplay { scene, .. } if scene == "empty"), "{error}");
-        let error = explain("Unable to find a GPU!\nMore.", "empty".into());
-        assert!(error.to_string().lines().count() == 1 && error.to_string().contains("GPU"), "{error}");
+        assert!(explain("Failed to build event loop: Os(OsError)").starts_with("no display"));
+        let reason = explain("Unable to find a GPU!\nMore.");
+        assert!(reason.lines().count() == 1 && reason.contains("GPU"), "{reason}");
     }
 }

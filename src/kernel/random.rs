@@ -1,33 +1,6 @@
 //! Numbers that look random and are the same each time and everywhere: made of a number, so that no order and no thread
 //! shows in them, or in a sequence.
 
-/// A sequence of numbers, known by the number that it begins with: a linear congruential generator (Knuth, MMIX).
-#[derive(Clone, Debug)]
-pub struct Random(u64);
-
-impl Random {
-    /// The sequence of a number.
-    pub fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    /// Any number: the upper half of the state, as the lower bits of such a generator repeat soon.
-    pub fn number(&mut self) -> u32 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 32) as u32
-    }
-
-    /// A whole number from 0 to below `count`.
-    pub fn below(&mut self, count: usize) -> usize {
-        self.number() as usize % count
-    }
-
-    /// A number from 0 to 1.
-    pub fn share(&mut self) -> f32 {
-        self.number() as f32 / 4_294_967_296.0
-    }
-}
-
 /// Scrambles a number (the finaliser of MurmurHash3): neighbouring numbers become unrelated ones.
 pub fn mix(mut word: u32) -> u32 {
     word ^= word >> 16;

@@ -31,21 +31,15 @@ fn tell_of_the_first_frame(mut painted: Local<bool>) {
 }
 
 /// The state of the game in the last frame, as JSON.
-///
-/// # Errors
-/// Never: it is made of numbers and names.
 #[wasm_bindgen]
-pub fn stats() -> Result<String, JsError> {
-    Ok(serde_json::to_string(&script::stats())?)
+pub fn stats() -> String {
+    script::stats().to_string()
 }
 
 /// What of the HUD has a name, as JSON.
-///
-/// # Errors
-/// Never: it is made of numbers and names.
 #[wasm_bindgen]
-pub fn widgets() -> Result<String, JsError> {
-    Ok(serde_json::to_string(&script::widgets())?)
+pub fn widgets() -> String {
+    script::widgets().to_string()
 }
 
 /// Plays what a link asks for (a JSON list of pairs).

@@ -1,5 +1,5 @@
-//! Runs a library's tests in a module, for `tests/web/suite.mjs`; the kernel includes this file, too. libtest would end with
-//! the first panic, which here ends the instance, and would say so to an output that is not there.
+//! Runs a library's tests in a module, for `tests/web/suite.mjs`; the kernel includes this file, too. Rust's own runner
+//! catches panics and writes to standard output: a module can do neither.
 
 extern crate test;
 

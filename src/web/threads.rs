@@ -41,7 +41,7 @@ pub fn build_pool(workers: usize) -> Result<(), JsError> {
     Ok(())
 }
 
-/// A worker's life: waits for a thread of the pool, then runs it.
+/// What a worker does: it waits for a thread of the pool, then runs it.
 #[wasm_bindgen]
 pub fn work() {
     host::tell_of_panics();
@@ -54,11 +54,11 @@ pub fn work() {
     }
 }
 
-/// Tells the page, in the name of a worker whose work ended in the middle, why. The page's thread waits for that work for
-/// ever and does nothing else but other work: so it is told by such.
+/// A worker's script calls this when its thread panicked. The page's thread would wait for that thread's work for ever, and
+/// runs nothing but work of the pool meanwhile; so it gets the message, and ends, as work of the pool.
 #[wasm_bindgen]
 pub fn fallen(message: String) {
-    // Outside the pool nobody waits.
+    // A thread outside the pool has no work that anything waits for.
     if rayon::current_thread_index().is_none() {
         return;
     }

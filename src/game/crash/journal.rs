@@ -26,12 +26,12 @@ use std::{
 
 /// What the names of journals begin with.
 pub const PREFIX: &str = "running-";
-/// Games of one user that may run at once.
+/// Most games of one user that may run at once.
 const MOST_GAMES: u32 = 64;
 /// Time from one writing to the next: so much input is lost with the machine.
 const EVERY: Duration = Duration::from_millis(500);
 
-enum Word {
+enum Message {
     News(Box<News>),
     End(End),
 }
@@ -42,7 +42,7 @@ pub struct Journal {
     recorder: Recorder,
     cursor: Cursor,
     path: PathBuf,
-    sender: Option<Sender<Word>>,
+    sender: Option<Sender<Message>>,
     thread: Option<JoinHandle<io::Result<()>>>,
     written: Instant,
 }
@@ -61,9 +61,9 @@ impl Journal {
                 return None;
             }
         };
-        let (sender, words) = channel();
+        let (sender, messages) = channel();
         let place = path.clone();
-        let thread = thread::Builder::new().name("journal".to_owned()).spawn(move || write(&place, file, &words));
+        let thread = thread::Builder::new().name("journal".to_owned()).spawn(move || write(&place, file, &messages));
         let thread = thread.map_err(|error| error!("the journal can't be kept: {error}")).ok()?;
         let (sender, thread) = (Some(sender), Some(thread));
         let journal = Self { recorder, cursor: Cursor::default(), path, sender, thread, written: Instant::now() };
@@ -74,13 +74,13 @@ impl Journal {
     fn tell_news(&mut self) {
         self.written = Instant::now();
         if let Some(news) = self.recorder.news(&mut self.cursor) {
-            self.tell(Word::News(Box::new(news)));
+            self.tell(Message::News(Box::new(news)));
         }
     }
 
-    fn tell(&mut self, word: Word) {
+    fn tell(&mut self, message: Message) {
         // A thread that is gone met an error, which is told when it is joined.
-        if self.sender.as_ref().is_some_and(|sender| sender.send(word).is_err()) {
+        if self.sender.as_ref().is_some_and(|sender| sender.send(message).is_err()) {
             self.join();
         }
     }
@@ -117,11 +117,12 @@ impl SharedJournal {
     pub fn close(&self) -> bool {
         let mut journal = self.lock();
         journal.tell_news();
-        journal.tell(Word::End(End::Crashed));
+        journal.tell(Message::End(End::Crashed));
         journal.join()
     }
 
     /// Where it is.
+    #[cfg(test)]
     pub fn path(&self) -> PathBuf {
         self.lock().path.clone()
     }
@@ -155,12 +156,12 @@ fn claim(folder: &Path) -> io::Result<(PathBuf, File)> {
     Err(io::Error::other("too many games run, or were left"))
 }
 
-/// Writes what it is told until nobody tells more.
-fn write(path: &Path, mut file: File, words: &Receiver<Word>) -> io::Result<()> {
+/// Writes what it is sent, to the last message.
+fn write(path: &Path, mut file: File, messages: &Receiver<Message>) -> io::Result<()> {
     let mut writer = Writer::new();
-    while let Ok(word) = words.recv() {
-        match word {
-            Word::News(news) => {
+    while let Ok(message) = messages.recv() {
+        match message {
+            Message::News(news) => {
                 let News { start, entries, marks } = *news;
                 let Some(start) = start else {
                     writer.ticks(&entries, &marks);
@@ -172,7 +173,7 @@ fn write(path: &Path, mut file: File, words: &Receiver<Word>) -> io::Result<()> 
                 writer.ticks(&entries, &marks);
                 file = replace(path, &writer.take())?;
             }
-            Word::End(end) => {
+            Message::End(end) => {
                 writer.end(end);
                 file.write_all(&writer.take())?;
             }

@@ -2,7 +2,7 @@
 //! restores it.
 
 use crate::{
-    game::{actions::Action, crash::journal::PREFIX, history, input::bindings::Bindings, toasts::Toasts},
+    game::{actions::Action, crash::journal::PREFIX, disk, history, input::bindings::Bindings, toasts::Toasts},
     kernel::simd::InstructionSet,
     sim::{
         checkpoint::Checkpoint,
@@ -24,7 +24,6 @@ use std::{
         atomic::{AtomicU64, Ordering},
     },
     thread::{self, JoinHandle},
-    time::SystemTime,
 };
 
 /// A game that did not end well. As long as this is there, its file is locked: no other game offers it.
@@ -37,8 +36,6 @@ pub struct Found {
     pub title: String,
     /// Ticks that the world had done at the end.
     pub tick: u64,
-    /// When the journal was written last.
-    pub written: SystemTime,
 }
 
 impl Found {
@@ -120,7 +117,7 @@ impl Recovery {
 pub fn search(app: &mut App, folder: PathBuf) {
     let stage = thread::Builder::new().name("recovery".to_owned()).spawn(move || find(&folder));
     app.insert_resource(Recovery { stage: stage.map_or(Stage::Nothing, Stage::Searching), ..Recovery::default() });
-    app.add_systems(RunFixedMainLoop, attend.in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop));
+    app.add_systems(RunFixedMainLoop, update.in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop));
 }
 
 /// The newest journal in a folder whose game has ended, if something would be lost without it. Journals that hold nothing
@@ -130,29 +127,28 @@ fn find(folder: &Path) -> Option<Found> {
         let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         name.starts_with(PREFIX) && path.extension().is_some_and(|ending| ending == RECORDING_ENDING)
     };
-    let entries = fs::read_dir(folder).ok()?.flatten().filter(|entry| is_journal(&entry.path()));
-    let mut journals: Vec<(SystemTime, PathBuf)> =
-        entries.filter_map(|entry| Some((entry.metadata().ok()?.modified().ok()?, entry.path()))).collect();
-    journals.sort();
-    journals.into_iter().rev().find_map(|(written, path)| {
+    let mut journals = disk::list(folder);
+    journals.retain(|(path, _)| is_journal(path));
+    journals.sort_by(|(a, written_a), (b, written_b)| (written_b, b).cmp(&(written_a, a)));
+    journals.into_iter().find_map(|(path, _)| {
         let mut file = OpenOptions::new().read(true).write(true).open(&path).ok()?;
-        // Another game lives, or has been offered it.
+        // It is of a game that runs, or that has offered it.
         file.try_lock().ok()?;
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).ok()?;
-        let found = understand(&bytes);
+        let found = read(&bytes);
         if found.is_none() {
             // Nothing can be done about it if it stays.
             let _ = fs::remove_file(&path);
         }
         let (recording, title, tick) = found?;
-        Some(Found { path, _lock: file, recording: Arc::new(recording), title, tick, written })
+        Some(Found { path, _lock: file, recording: Arc::new(recording), title, tick })
     })
 }
 
-/// The recording in a journal, with title and last tick, if something is lost with it: a crash in any case, else what
-/// somebody has edited.
-fn understand(bytes: &[u8]) -> Option<(Recording, String, u64)> {
+/// The recording in a journal, with title and last tick, if something would be lost with it: after a crash in any case, else
+/// if the world was edited.
+fn read(bytes: &[u8]) -> Option<(Recording, String, u64)> {
     let recording = Recording::salvage(bytes).ok()?;
     let last = recording.segments.last()?;
     let start = last.start().ok()?;
@@ -163,14 +159,14 @@ fn understand(bytes: &[u8]) -> Option<(Recording, String, u64)> {
 }
 
 /// Goes on with what was begun and does what was chosen.
-pub fn attend(world: &mut World) {
+pub fn update(world: &mut World) {
     let Some(mut recovery) = world.remove_resource::<Recovery>() else { return };
     let choice = recovery.choice.take();
     recovery.stage = match recovery.stage {
         Stage::Searching(job) if job.is_finished() => job.join().ok().flatten().map_or(Stage::Nothing, Stage::Offered),
         Stage::Offered(found) => decide(world, found, choice, &recovery.done),
         Stage::Restoring(found, _) if matches!(choice, Some(Choice::Earlier | Choice::Forget)) => {
-            // The thread ends by itself; nobody asks it.
+            // The thread ends by itself, and its result is dropped.
             decide(world, found, choice, &recovery.done)
         }
         Stage::Restoring(found, job) if job.is_finished() => {
@@ -242,7 +238,7 @@ pub fn restore(recording: &Recording, instructions: InstructionSet, done: &Atomi
     run(Reach::Whole).or_else(|| run(Reach::LastTick)).or_else(last_state)
 }
 
-/// Goes on with a world that came back: when somebody says so.
+/// Goes on with a world that was restored: paused, until the player lets time go on.
 fn go_on(world: &mut World, saved: Checkpoint, reach: Reach) {
     history::checkpoint(world);
     saved.restore(world);

@@ -8,9 +8,9 @@ use crate::{
             panels::scenes,
             stats::{Reading, Readings, as_text, show_reading},
             style,
-            widgets::{icon_button, menu, quality_menu, quality_name, row},
+            widgets::{action_button, icon_button, menu, quality_menu, quality_name, row},
         },
-        icons::{self, Icon},
+        icons,
         input::bindings::Bindings,
         orders::{Order, Orders},
         panels::Panels,
@@ -125,20 +125,17 @@ fn dot(ui: &mut Ui, colour: Color32) {
 fn menus(ui: &mut Ui, narrow: bool, shows: &Shows, orders: &mut Orders) {
     let Shows { panels, setup, view: shown, bindings, .. } = shows;
     ui.spacing_mut().item_spacing.x = 6.0;
-    let buttons = panels.iter().filter(|(panel, _)| panel.in_bar);
-    let buttons = buttons.map(|(panel, open)| (panel.icon, Action::Panel(panel.id), open));
-    for (icon, action, open) in buttons.chain([(icons::save as Icon, Action::Save, false)]) {
-        if icon_button(ui, icon, None, open).on_hover_text(bindings.tip(action)).clicked() {
-            orders.push(Order::Act(action));
-        }
+    let text = |text| if narrow { "" } else { text };
+    for (panel, open) in panels.iter().filter(|(panel, _)| panel.in_bar) {
+        action_button(ui, panel.icon, "", Action::Panel(panel.id), open, (bindings, orders));
     }
-    let name = |text: &'static str| (!narrow).then_some(text);
-    let quality = (!narrow).then(|| quality_name(setup.preset, &setup.quality));
-    let quality = icon_button(ui, icons::gauge, quality.as_deref(), false);
+    action_button(ui, icons::save, "", Action::Save, false, (bindings, orders));
+    let quality = quality_name(setup.preset, &setup.quality);
+    let quality = icon_button(ui, (icons::gauge, "quality"), text(&quality), false);
     if let Some(preset) = quality_menu(&quality, setup.preset) {
         orders.push(Order::Quality(preset));
     }
-    let view = icon_button(ui, icons::eye, name(shown.0.name), *shown.0 != ELEMENTS);
+    let view = icon_button(ui, (icons::eye, "view"), text(shown.0.name), *shown.0 != ELEMENTS);
     menu(&view, "View", |ui| {
         for view in VIEWS {
             if row(ui, view.name, &bindings.key(Action::View(view)), view == shown.0) {
@@ -146,10 +143,6 @@ fn menus(ui: &mut Ui, narrow: bool, shows: &Shows, orders: &mut Orders) {
             }
         }
     });
-    let title = if narrow { None } else { Some(setup.blueprint.title.as_str()) };
-    let action = Action::Panel(scenes::ID);
-    let scenes = icon_button(ui, icons::scenes, title, panels.shows(scenes::ID));
-    if scenes.on_hover_text(bindings.tip(action)).clicked() {
-        orders.push(Order::Act(action));
-    }
+    let (title, open) = (text(&setup.blueprint.title), panels.shows(scenes::PANEL.id));
+    action_button(ui, icons::scenes, title, Action::Panel(scenes::PANEL.id), open, (bindings, orders));
 }

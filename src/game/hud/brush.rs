@@ -17,7 +17,7 @@ use crate::{
 use bevy::prelude::{Res, Result};
 use bevy_egui::{
     EguiContexts,
-    egui::{self, Color32, Pos2, Rect, Stroke, StrokeKind, Vec2, pos2},
+    egui::{self, Color32, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, pos2},
 };
 
 /// Shows the brush.
@@ -37,55 +37,28 @@ pub fn show(
         return Ok(());
     }
     let context = contexts.ctx_mut()?;
-    let painter = context.layer_painter(egui::LayerId::background());
     let to_points = 1.0 / context.zoom_factor();
     let at = |pixel: glam::Vec2| pos2(pixel.x * to_points, pixel.y * to_points);
     let radius = tools.radius() * camera.pixels_per_d() * to_points;
-    let colour = tools.tool.pen(setup.elements());
-    let pen = Pen { painter, stroke: Stroke::new(1.25, colour) };
-    match straight {
-        Some(drag) if drag.gesture == Gesture::Line => {
-            let start = at(camera.to_pixel_beside(drag.start, pixel));
-            pen.line(start, at(pixel));
-            pen.brush(tools.shape, start, radius);
-            pen.brush(tools.shape, at(pixel), radius);
+    let rectangle = |rect: Rect, pen: Stroke| Shape::rect_stroke(rect, 0.0, pen, StrokeKind::Middle);
+    let brush = |centre: Pos2, pen: Stroke| match tools.shape {
+        BrushShape::Disc => Shape::circle_stroke(centre, radius, pen),
+        BrushShape::Square | BrushShape::Rectangle => {
+            rectangle(Rect::from_center_size(centre, Vec2::splat(2.0 * radius)), pen)
         }
-        Some(drag) => pen.rectangle(Rect::from_two_pos(at(camera.to_pixel_beside(drag.start, pixel)), at(pixel))),
-        None => pen.brush(tools.shape, at(pixel), radius),
-    }
+    };
+    let shapes = |pen: Stroke| {
+        let Some(drag) = straight else { return vec![brush(at(pixel), pen)] };
+        let (start, end) = (at(camera.to_pixel_beside(drag.start, pixel)), at(pixel));
+        match drag.gesture {
+            Gesture::Line => vec![Shape::line_segment([start, end], pen), brush(start, pen), brush(end, pen)],
+            _ => vec![rectangle(Rect::from_two_pos(start, end), pen)],
+        }
+    };
+    // An outline that can be seen on light and on dark.
+    let pen = Stroke::new(1.25, tools.tool.pen(setup.elements()));
+    let shadow = Stroke::new(pen.width + 1.6, Color32::from_black_alpha(120));
+    let painter = context.layer_painter(egui::LayerId::background());
+    [shadow, pen].into_iter().for_each(|pen| painter.extend(shapes(pen)));
     Ok(())
-}
-
-/// Draws outlines that can be seen on light and on dark.
-struct Pen {
-    painter: egui::Painter,
-    stroke: Stroke,
-}
-
-impl Pen {
-    fn shadow(&self) -> Stroke {
-        Stroke::new(self.stroke.width + 1.6, Color32::from_black_alpha(120))
-    }
-
-    fn brush(&self, shape: BrushShape, centre: Pos2, radius: f32) {
-        match shape {
-            BrushShape::Disc => {
-                self.painter.circle_stroke(centre, radius, self.shadow());
-                self.painter.circle_stroke(centre, radius, self.stroke);
-            }
-            BrushShape::Square | BrushShape::Rectangle => {
-                self.rectangle(Rect::from_center_size(centre, Vec2::splat(2.0 * radius)));
-            }
-        }
-    }
-
-    fn rectangle(&self, rect: Rect) {
-        self.painter.rect_stroke(rect, 0.0, self.shadow(), StrokeKind::Middle);
-        self.painter.rect_stroke(rect, 0.0, self.stroke, StrokeKind::Middle);
-    }
-
-    fn line(&self, from: Pos2, to: Pos2) {
-        self.painter.line_segment([from, to], self.shadow());
-        self.painter.line_segment([from, to], self.stroke);
-    }
 }

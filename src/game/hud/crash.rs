@@ -3,7 +3,11 @@
 use crate::{
     game::{
         crash::recovery::{Choice, Recovery},
-        hud::style,
+        hud::{
+            style::weak,
+            widgets::main_button,
+            window::{MIDDLE, window},
+        },
     },
     kernel::units::TICKS_PER_SECOND,
     sim::numbers::grouped,
@@ -11,7 +15,7 @@ use crate::{
 use bevy::prelude::{ResMut, Result};
 use bevy_egui::{
     EguiContexts,
-    egui::{self, Align2, RichText, Ui},
+    egui::{self, Ui},
 };
 
 /// Width of the window, points.
@@ -22,11 +26,8 @@ pub fn show(mut contexts: EguiContexts, recovery: Option<ResMut<Recovery>>) -> R
     let Some(mut recovery) = recovery else { return Ok(()) };
     let Some((found, progress)) = recovery.offer() else { return Ok(()) };
     let (title, tick, ticks) = (found.title.clone(), found.tick, found.ticks());
-    let context = contexts.ctx_mut()?;
     let mut choice = None;
-    let mut open = true;
-    let place = (Align2::CENTER_CENTER, context.content_rect().center());
-    style::window(context, "The game ended unexpectedly", &mut open, place, |ui| {
+    let open = window(contexts.ctx_mut()?, "The game ended unexpectedly", MIDDLE, |ui| {
         ui.set_width(WIDTH);
         let seconds = tick as f64 / f64::from(TICKS_PER_SECOND);
         ui.label(format!("{title}, tick {} ({seconds:.1} s), can be restored; it will be paused.", grouped(tick)));
@@ -50,7 +51,7 @@ fn buttons(ui: &mut Ui, progress: Option<f32>, ticks: u64) -> Option<Choice> {
                 ui.add(egui::ProgressBar::new(share).desired_width(120.0).show_percentage());
             }
             None => {
-                if style::main_button(ui, "Restore").on_hover_text("the world just before the end").clicked() {
+                if main_button(ui, "Restore").on_hover_text("the world just before the end").clicked() {
                     choice = Some(Choice::Restore);
                 }
             }
@@ -60,7 +61,7 @@ fn buttons(ui: &mut Ui, progress: Option<f32>, ticks: u64) -> Option<Choice> {
         if ticks > 0 && ui.button(format!("{seconds:.0} s earlier")).on_hover_text(why).clicked() {
             choice = Some(Choice::Earlier);
         }
-        if ui.button(RichText::new("Forget").color(style::WEAK)).on_hover_text("delete it").clicked() {
+        if ui.button(weak("Forget")).on_hover_text("delete it").clicked() {
             choice = Some(Choice::Forget);
         }
     });

@@ -16,6 +16,7 @@ pub mod style;
 pub mod toast;
 pub mod touch;
 pub mod widgets;
+pub mod window;
 
 use crate::game::panels::HudSystems;
 use bevy::prelude::{App, IntoScheduleConfigs, Plugin, PreUpdate, Startup, not};
@@ -37,7 +38,7 @@ impl Plugin for HudPlugin {
             .add_systems(Startup, toast::greet)
             .add_systems(
                 PreUpdate,
-                style::dress_new.after(EguiPreUpdateSet::InitContexts).before(EguiPreUpdateSet::BeginPass),
+                style::apply_to_new.after(EguiPreUpdateSet::InitContexts).before(EguiPreUpdateSet::BeginPass),
             )
             .add_systems(PreUpdate, focus::keep_keys.after(EguiPreUpdateSet::ProcessInput))
             .add_systems(

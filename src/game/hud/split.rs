@@ -6,8 +6,8 @@ use crate::{
         camera::{Area, WorldCamera},
         hud::{
             panels::accuracy::axis::percent,
-            style,
-            widgets::{icon_button, quality_menu, quality_name},
+            style::{self, weak},
+            widgets::{action_button, icon_button, quality_menu, quality_name},
         },
         icons,
         input::bindings::Bindings,
@@ -30,24 +30,16 @@ use crate::{
         state::{AirGrid, Clock, ParticleStore, Setup},
     },
 };
-use bevy::prelude::{Local, Res, ResMut, Result, World};
+use bevy::prelude::{Local, Res, ResMut, Result};
 use bevy_egui::{
     EguiContexts,
-    egui::{self, Align, Color32, Layout, RichText, Sense, Ui, vec2},
+    egui::{self, Align, Color32, Layout, Sense, Ui, vec2},
 };
 
 /// Size of the scale of the heat map, points.
 const SCALE: egui::Vec2 = vec2(96.0, 9.0);
 /// Shades of it that are drawn.
 const SHADES: usize = 24;
-
-/// What a line says of a world.
-struct Facts<'a> {
-    name: &'static str,
-    setup: &'a Setup,
-    ledger: &'a PassLedger,
-    error: &'a LiveError,
-}
 
 /// Shows the lines.
 pub fn show(
@@ -67,37 +59,35 @@ pub fn show(
         return Ok(());
     };
     let context = contexts.ctx_mut()?;
-    let first = Facts { name: "A", setup: &setup, ledger: &ledger, error: &error };
     line(context, "split a", at_a, |ui| {
-        if let Some(preset) = facts(ui, &first) {
-            orders.push(Order::Quality(preset));
-        }
+        orders.extend(facts(ui, "A", &setup, &ledger, &error).map(Order::Quality));
     });
-    if let Some(facts_of_second) = Facts::of("B", second) {
-        line(context, "split b", at_b, |ui| {
-            if let Some(preset) = facts(ui, &facts_of_second) {
-                orders.push(Order::SecondQuality(preset));
-            }
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                if icon_button(ui, icons::close, None, false).on_hover_text(bindings.tip(Action::Split)).clicked() {
-                    orders.push(Order::Act(Action::Split));
-                }
-            });
+    line(context, "split b", at_b, |ui| {
+        let chosen = facts(ui, "B", second.resource(), second.resource(), second.resource());
+        orders.extend(chosen.map(Order::SecondQuality));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            action_button(ui, icons::close, "", Action::Split, false, (&bindings, &mut orders));
         });
-    }
+    });
     let (particles, air, clock) = contents;
     let of_second = Half { particles: second.resource::<ParticleStore>(), air: second.resource::<AirGrid>() };
     difference.measure(&setup.blueprint, Half { particles: &particles, air: &air }, of_second);
     let equal = split.quality().is_some_and(|(_, quality)| quality == setup.quality);
-    let apart = Apart { difference: &difference, equal, scale: setup.blueprint.scale, age: split.age(clock.tick) };
-    line(context, "split difference", at_c, |ui| apart.show(ui));
+    let apart = apart(&difference, equal, setup.blueprint.scale, split.age(clock.tick));
+    line(context, "split difference", at_c, |ui| {
+        ui.label("Difference");
+        ui.label(weak(apart)).on_hover_text(format!(
+            "In each cell of 4 d: liquid that one world has there and the other not, or flow in another way, on average; \
+             and the air's velocity, root mean square. Full heat: all the liquid, or {} % of the speed of a fall through \
+             the box; where there is no liquid, a strong wind.\nB starts again from A when you choose its quality, or \
+             both come to have the same.",
+            100.0 * FULL_SPEED
+        ));
+        if ui.available_width() > SCALE.x + 20.0 {
+            ui.with_layout(Layout::right_to_left(Align::Center), scale);
+        }
+    });
     Ok(())
-}
-
-impl<'a> Facts<'a> {
-    fn of(name: &'static str, world: &'a World) -> Option<Self> {
-        Some(Self { name, setup: world.get_resource()?, ledger: world.get_resource()?, error: world.get_resource()? })
-    }
 }
 
 /// A bar over a part.
@@ -105,75 +95,45 @@ fn line(context: &egui::Context, id: &'static str, area: Area, add: impl FnOnce(
     let zoom = context.zoom_factor();
     let (left, top) = (area.min.x / zoom, area.min.y / zoom - LABEL);
     let width = (area.max.x - area.min.x) / zoom;
-    egui::Area::new(id.into()).fixed_pos(egui::pos2(left, top)).order(egui::Order::Middle).constrain(false).show(
-        context,
-        |ui| {
-            egui::Frame::new().fill(style::PANEL).inner_margin(egui::Margin::symmetric(8, 2)).show(ui, |ui| {
-                ui.set_width(width - 16.0);
-                ui.horizontal(|ui| {
-                    ui.set_height(LABEL - 4.0);
-                    ui.spacing_mut().item_spacing.x = 10.0;
-                    add(ui);
-                });
+    let bar = egui::Area::new(id.into()).fixed_pos(egui::pos2(left, top)).order(egui::Order::Middle).constrain(false);
+    bar.show(context, |ui| {
+        egui::Frame::new().fill(style::PANEL).inner_margin(egui::Margin::symmetric(8, 2)).show(ui, |ui| {
+            ui.set_width(width - 16.0);
+            ui.horizontal(|ui| {
+                ui.set_height(LABEL - 4.0);
+                ui.spacing_mut().item_spacing.x = 10.0;
+                add(ui);
             });
-        },
-    );
+        });
+    });
 }
 
 /// Name, quality and cost of a world; the quality that is chosen for it, if one is.
-fn facts(ui: &mut Ui, facts: &Facts<'_>) -> Option<Preset> {
+fn facts(ui: &mut Ui, name: &str, setup: &Setup, ledger: &PassLedger, error: &LiveError) -> Option<Preset> {
     let (rect, _) = ui.allocate_exact_size(vec2(22.0, 22.0), Sense::hover());
     ui.painter().rect_filled(rect, style::BUTTON_CORNER, style::ACCENT_FILL);
     let font = egui::TextStyle::Button.resolve(ui.style());
-    ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, facts.name, font, Color32::WHITE);
-    let name = quality_name(facts.setup.preset, &facts.setup.quality);
-    let button = icon_button(ui, icons::gauge, Some(&name), false);
-    let chosen = quality_menu(&button, facts.setup.preset);
-    ui.label(format!("{:.2} ms", facts.ledger.tick().median().as_secs_f32() * 1000.0));
-    if let (Some(mean), true) = (facts.error.mean(), ui.available_width() > 130.0) {
-        let text = format!("error {}", percent(mean));
-        ui.label(RichText::new(text).color(style::WEAK));
+    ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, name, font, Color32::WHITE);
+    let quality = quality_name(setup.preset, &setup.quality);
+    let button = icon_button(ui, (icons::gauge, &format!("quality of {name}")), &quality, false);
+    let chosen = quality_menu(&button, setup.preset);
+    ui.label(format!("{:.2} ms", ledger.tick().median().as_secs_f32() * 1000.0));
+    if let (Some(mean), true) = (error.mean(), ui.available_width() > 130.0) {
+        ui.label(weak(format!("error {}", percent(mean))));
     }
     chosen
 }
 
-/// How far the worlds are apart.
-struct Apart<'a> {
-    difference: &'a Difference,
-    /// Whether their qualities are equal.
-    equal: bool,
-    scale: Scale,
-    /// Ticks since they were the same.
-    age: Option<u64>,
-}
-
-impl Apart<'_> {
-    /// It in words.
-    fn text(&self) -> String {
-        if self.difference.is_nothing() {
-            return if self.equal { "none, the qualities are equal".to_owned() } else { "none".to_owned() };
-        }
-        let liquid = self.difference.liquid().map(|mean| format!("liquid {}", percent(mean)));
-        let wind = self.difference.wind().map(|wind| self.scale.to_metres(wind));
-        let air = wind.map(|wind| format!("air {} m/s", short(wind)));
-        let age = self.age.map(|ticks| format!("after {:.1} s", ticks as f32 * TICK_SECONDS));
-        let parts: Vec<String> = [liquid, air, age].into_iter().flatten().collect();
-        parts.join(", ")
+/// How far the worlds are apart, in words, if their qualities are `equal` or not, `age` ticks after they were the same.
+fn apart(difference: &Difference, equal: bool, scale: Scale, age: Option<u64>) -> String {
+    if difference.is_nothing() {
+        return if equal { "none, the qualities are equal".to_owned() } else { "none".to_owned() };
     }
-
-    /// Shows it, and what the colours mean.
-    fn show(&self, ui: &mut Ui) {
-        ui.label("Difference");
-        ui.label(RichText::new(self.text()).color(style::WEAK)).on_hover_text(format!(
-            "In each cell of 4 d: liquid that one world has there and the other not, or flow in another way, on average; \
-             and the air's velocity, root mean square. Full heat: all the liquid, or {} % of the speed of a fall through \
-             the box; where there is no liquid, a strong wind.\nB starts again from A when you choose its quality, or both come to have the same.",
-            100.0 * FULL_SPEED
-        ));
-        if ui.available_width() > SCALE.x + 20.0 {
-            ui.with_layout(Layout::right_to_left(Align::Center), scale);
-        }
-    }
+    let liquid = difference.liquid().map(|mean| format!("liquid {}", percent(mean)));
+    let air = difference.wind().map(|wind| format!("air {} m/s", short(scale.to_metres(wind))));
+    let age = age.map(|ticks| format!("after {:.1} s", ticks as f32 * TICK_SECONDS));
+    let parts: Vec<String> = [liquid, air, age].into_iter().flatten().collect();
+    parts.join(", ")
 }
 
 /// The colours of the heat map, from a little to all.

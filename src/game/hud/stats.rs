@@ -1,18 +1,17 @@
 //! The numbers in the upper left corner: read a few times a second, so that they can be read, and formatted only then.
 
-use crate::sim::numbers::grouped;
 use crate::{
     game::{frame::Tempo, hud::style},
     kernel::units::TICKS_PER_SECOND,
     sim::{
         ledger::PassLedger,
+        numbers::grouped,
         pace::Pace,
         state::{Acted, Census, Counters, Setup},
     },
 };
 use bevy::prelude::{DetectChanges, Real, Res, ResMut, Resource, Time};
 use bevy_egui::egui::{Color32, RichText, Ui};
-use std::fmt::Write;
 
 /// Time between two readings, s.
 const INTERVAL: f32 = 0.25;
@@ -37,8 +36,8 @@ pub struct Readings {
     pub total: Reading,
     /// Particles of each element that there are any of: colour, name, number.
     pub elements: Vec<([u8; 3], Reading)>,
-    /// What the limiters did, where it is not zero, each with what it means.
-    pub limiters: Vec<(Reading, &'static str)>,
+    /// The limiters that acted.
+    pub limiters: Vec<Acted>,
     next: f32,
 }
 
@@ -69,7 +68,7 @@ pub fn read(
             readings.elements.push((element.colour, reading));
         }
     }
-    readings.limiters = limiter_readings(&counters, &tempo);
+    readings.limiters = limiters(&counters, &tempo);
 }
 
 fn pace_readings(tempo: &Tempo, pace: &Pace, tick_ms: f32) -> Vec<Reading> {
@@ -94,17 +93,10 @@ fn pace_readings(tempo: &Tempo, pace: &Pace, tick_ms: f32) -> Vec<Reading> {
     readings
 }
 
-fn limiter_readings(counters: &Counters, tempo: &Tempo) -> Vec<(Reading, &'static str)> {
-    let late = tempo.dropped() as u64;
-    let hitch =
-        Acted { what: "ticks dropped", meaning: "ticks that late frames left out: the world ran slower", count: late };
-    counters
-        .acted()
-        .chain((late > 0).then_some(hitch))
-        .map(|Acted { what, meaning, count }| {
-            (Reading { value: grouped(count), unit: what.into(), warning: true }, meaning)
-        })
-        .collect()
+fn limiters(counters: &Counters, tempo: &Tempo) -> Vec<Acted> {
+    let (what, meaning) = ("ticks dropped", "ticks that late frames left out: the world ran slower");
+    let late = Acted { what, meaning, count: tempo.dropped() as u64 };
+    counters.acted().chain((late.count > 0).then_some(late)).collect()
 }
 
 /// Shows one number.
@@ -119,13 +111,10 @@ pub fn show_reading(ui: &mut Ui, reading: &Reading) {
     });
 }
 
-/// The readings as one text, for a window too narrow for them.
+/// The elements as one text, for a window too narrow for them.
 pub fn as_text(readings: &Readings) -> String {
-    let mut text = String::new();
-    for (_, reading) in &readings.elements {
-        let _ = writeln!(text, "{} {}", reading.value, reading.unit);
-    }
-    text.trim_end().to_owned()
+    let lines = readings.elements.iter().map(|(_, reading)| format!("{} {}", reading.value, reading.unit));
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 #[cfg(test)]
@@ -143,11 +132,10 @@ mod tests {
 
     #[test]
     fn only_limiters_that_did_something_are_shown() {
-        assert_eq!(limiter_readings(&Counters { substeps_max: 4, ..Counters::default() }, &Tempo::default()), []);
+        assert_eq!(limiters(&Counters { substeps_max: 4, ..Counters::default() }, &Tempo::default()), []);
         let counters = Counters { escaped: 3, speed_clamps: 1200, ..Counters::default() };
-        let shown = limiter_readings(&counters, &Tempo::default());
-        let texts: Vec<String> =
-            shown.iter().map(|(reading, _)| format!("{} {}", reading.value, reading.unit)).collect();
-        assert_eq!(texts, ["3 escaped", "1,200 speeds cut"]);
+        let shown = limiters(&counters, &Tempo::default());
+        let texts: Vec<String> = shown.iter().map(|acted| format!("{} {}", acted.count, acted.what)).collect();
+        assert_eq!(texts, ["3 escaped", "1200 speeds cut"]);
     }
 }

@@ -1,6 +1,5 @@
 //! The look of the HUD: colours, sizes, spacing.
 
-use crate::game::{actions::PanelId, icons, panels::Panels};
 use bevy::prelude::{Added, Query};
 use bevy_egui::{
     EguiContext,
@@ -42,14 +41,14 @@ pub const BUTTON_CORNER: u8 = 6;
 pub const WINDOW_CORNER: u8 = 10;
 
 /// Gives egui this look. It draws no text before it has fonts, so that is done before its first frame.
-pub fn dress_new(mut contexts: Query<&mut EguiContext, Added<EguiContext>>) {
+pub fn apply_to_new(mut contexts: Query<&mut EguiContext, Added<EguiContext>>) {
     for mut context in &mut contexts {
-        dress(context.get_mut());
+        apply(context.get_mut());
     }
 }
 
 /// Fonts, sizes and colours.
-pub fn dress(context: &egui::Context) {
+pub fn apply(context: &egui::Context) {
     context.set_fonts(fonts());
     context.set_theme(egui::Theme::Dark);
     // The frame that a press wakes has the time at which the game fell asleep: no press is too long for a click.
@@ -123,75 +122,6 @@ fn fonts() -> FontDefinitions {
         fonts.families.insert(family, order.map(str::to_owned).into());
     }
     fonts
-}
-
-/// Gives what is painted by hand a name for scripts and screen readers, and says whether it is chosen.
-pub fn name(response: &egui::Response, name: &str, chosen: bool) {
-    let enabled = response.enabled();
-    response.widget_info(|| egui::WidgetInfo::selected(egui::WidgetType::Button, enabled, chosen, name));
-}
-
-/// A window with a heading of our own; sets `open` to false when it is closed.
-pub fn window(
-    context: &egui::Context,
-    title: &str,
-    open: &mut bool,
-    place: (egui::Align2, egui::Pos2),
-    add: impl FnOnce(&mut egui::Ui),
-) {
-    egui::Window::new(title).title_bar(false).resizable(false).pivot(place.0).default_pos(place.1).show(
-        context,
-        |ui| {
-            egui::Sides::new().show(
-                ui,
-                |ui| ui.label(egui::RichText::new(title).heading().color(Color32::WHITE)),
-                |ui| {
-                    if close_button(ui).clicked() {
-                        *open = false;
-                    }
-                },
-            );
-            ui.add_space(6.0);
-            add(ui);
-        },
-    );
-}
-
-/// The window of a panel; its cross closes the panel.
-pub fn panel(
-    context: &egui::Context,
-    panels: &mut Panels,
-    id: PanelId,
-    place: (egui::Align2, egui::Pos2),
-    add: impl FnOnce(&mut egui::Ui),
-) {
-    let mut open = true;
-    window(context, panels.title(id), &mut open, place, add);
-    if !open {
-        panels.close(id);
-    }
-}
-
-fn close_button(ui: &mut egui::Ui) -> egui::Response {
-    let (rect, response) = ui.allocate_exact_size(Vec2::splat(24.0), egui::Sense::click());
-    if response.hovered() {
-        ui.painter().rect_filled(rect, BUTTON_CORNER, BUTTON_HOVER);
-    }
-    let colour = if response.hovered() { Color32::WHITE } else { WEAK };
-    icons::draw(ui.painter(), icons::square(rect.center(), 14.0), icons::close, colour);
-    name(&response, "Close", false);
-    response.on_hover_text("close (Esc)")
-}
-
-/// The button that a window is about.
-pub fn main_button(ui: &mut egui::Ui, text: &str) -> egui::Response {
-    let (rect, response) = ui.allocate_exact_size(Vec2::new(120.0, 32.0), egui::Sense::click());
-    let fill = if response.hovered() { ACCENT } else { ACCENT.gamma_multiply(0.8) };
-    ui.painter().rect_filled(rect, BUTTON_CORNER, fill);
-    let font = TextStyle::Button.resolve(ui.style());
-    ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, text, font, Color32::WHITE);
-    name(&response, text, false);
-    response
 }
 
 /// Text of less weight.

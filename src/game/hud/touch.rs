@@ -7,18 +7,20 @@ use crate::{
         history::History,
         hud::{
             layout::Bars,
+            panels::scenes::SceneMenu,
             stats::{Reading, Readings},
-            style,
+            style::{self, weak},
+            widgets::{BUTTON, field, tile},
         },
         icons::{self, Icon},
         input::touch::Fingers,
         orders::{Order, Orders},
-        panels::Panels,
+        panels::{Panel, Panels},
         tools::{Tool, Toolbox},
-        views::table::{Shown, VIEWS, View},
+        views::table::{Shown, VIEWS},
     },
-    kernel::{brush::BrushShape, params::Preset},
-    scene,
+    kernel::params::Preset,
+    scene::SceneFile,
     sim::{pace::Pace, state::Setup},
 };
 use bevy::{
@@ -46,13 +48,13 @@ const MORE: [(&str, Action); 6] = [
 ];
 
 /// A list that is open above the tools.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Sheet {
     /// None.
     #[default]
     Closed,
-    /// The scenes: name and title.
-    Scenes(Vec<(String, String)>),
+    /// The scenes.
+    Scenes,
     /// The views.
     Views,
     /// The qualities.
@@ -70,6 +72,7 @@ pub struct Scene<'w> {
     history: Res<'w, History>,
     readings: Res<'w, Readings>,
     shown: Res<'w, Shown>,
+    menu: Res<'w, SceneMenu>,
 }
 
 /// Run condition: the player uses fingers.
@@ -86,21 +89,19 @@ pub fn show(
     mut orders: ResMut<Orders>,
     mut sheet: Local<Sheet>,
 ) -> Result {
-    let Scene { panels, setup, pace, history, readings, shown } = scene;
+    let Scene { panels, setup, pace, history, readings, .. } = &scene;
     *bars = Bars::default();
     let context = contexts.ctx_mut()?;
     let screen = context.content_rect();
     let unit = 1.0 / context.zoom_factor();
     if !panels.visible {
         *sheet = Sheet::Closed;
-        egui::Area::new("touch again".into()).anchor(Align2::RIGHT_BOTTOM, vec2(-8.0, -8.0) * unit).show(
-            context,
-            |ui| {
-                if button(ui, unit, ("Show the tools", icons::droplet), true, true) {
-                    orders.push(Order::Act(Action::Hud));
-                }
-            },
-        );
+        let corner = egui::Area::new("touch again".into()).anchor(Align2::RIGHT_BOTTOM, vec2(-8.0, -8.0) * unit);
+        corner.show(context, |ui| {
+            if button(ui, unit, ("Show the tools", icons::droplet), true, true) {
+                orders.push(Order::Act(Action::Hud));
+            }
+        });
         return Ok(());
     }
     let bar = egui::Area::new("touch".into())
@@ -111,9 +112,9 @@ pub fn show(
             egui::Frame::new().fill(style::PANEL).inner_margin(4.0).show(ui, |ui| {
                 ui.set_width(screen.width() - 8.0);
                 ui.spacing_mut().item_spacing = vec2(4.0, 4.0) * unit;
-                ui.horizontal_wrapped(|ui| choose(ui, unit, &setup, tools.tool, &mut orders));
+                ui.horizontal_wrapped(|ui| choose(ui, unit, setup, tools.tool, &mut orders));
                 ui.horizontal_wrapped(|ui| {
-                    act(ui, unit, &pace, &history, &mut orders);
+                    act(ui, unit, pace, history, &mut orders);
                     size(ui, unit, &mut tools);
                     menus(ui, unit, &mut sheet);
                 });
@@ -122,8 +123,7 @@ pub fn show(
     bars.bottom = screen.bottom() - bar.response.rect.top();
     if *sheet != Sheet::Closed {
         let above = screen.with_max_y(bar.response.rect.top());
-        let lines = lines(&sheet, &panels, &setup, shown.0);
-        if list(context, above, unit, lines, &mut orders) {
+        if list(context, above, unit, lines(*sheet, &scene), &mut orders) {
             *sheet = Sheet::Closed;
         }
     }
@@ -132,7 +132,7 @@ pub fn show(
         ui.spacing_mut().item_spacing = vec2(10.0, 2.0) * unit;
         ui.horizontal_wrapped(|ui| {
             for Reading { value, unit: what, .. } in [&readings.total].into_iter().chain(&readings.pace) {
-                let text = RichText::new(format!("{value} {what}")).size(12.0 * unit).color(style::WEAK);
+                let text = weak(format!("{value} {what}")).size(12.0 * unit);
                 // A number stays with its unit.
                 ui.add(egui::Label::new(text).extend());
             }
@@ -143,34 +143,22 @@ pub fn show(
 
 fn choose(ui: &mut Ui, unit: f32, setup: &Setup, chosen: Tool, orders: &mut Orders) {
     for tool in Tool::all(setup.elements()) {
-        let ((icon, colour), name) = (tool.icon(setup.elements()), tool.name(setup.elements()));
-        let (rect, response) = ui.allocate_exact_size(vec2(TILE_WIDTH, TARGET) * unit, egui::Sense::click());
-        let fill = if chosen == tool { style::ACCENT_FILL } else { style::BUTTON };
-        let painter = ui.painter();
-        painter.rect_filled(rect, style::BUTTON_CORNER, fill);
-        icons::draw(painter, icons::square(rect.center() - vec2(0.0, 7.0) * unit, 22.0 * unit), icon, colour);
-        let text = if chosen == tool { Color32::WHITE } else { style::TEXT };
-        let font = egui::FontId::proportional(11.0 * unit);
-        painter.text(rect.center_bottom() - vec2(0.0, 3.0) * unit, Align2::CENTER_BOTTOM, name, font, text);
-        style::name(&response, name, chosen == tool);
-        if response.clicked() {
-            orders.push(Order::Choose(tool));
+        let size = vec2(TILE_WIDTH, TARGET);
+        if tile(ui, size, unit, tool, setup.elements(), chosen == tool).1.clicked() {
+            orders.push(Order::Act(Action::Tool(tool)));
         }
     }
 }
 
 /// A button with an icon; whether it is pressed.
 fn button(ui: &mut Ui, unit: f32, (name, icon): (&str, Icon), active: bool, enabled: bool) -> bool {
-    let (rect, response) = ui.allocate_exact_size(vec2(TARGET, TARGET) * unit, egui::Sense::click());
-    let fill = if active { style::ACCENT_FILL } else { style::BUTTON };
-    ui.painter().rect_filled(rect, style::BUTTON_CORNER, fill);
+    let (rect, response) = field(ui, vec2(TARGET, TARGET) * unit, name, active, BUTTON);
     let colour = match (enabled, active) {
         (false, _) => style::LINE,
         (true, true) => style::ACCENT,
         (true, false) => style::TEXT,
     };
     icons::draw(ui.painter(), icons::square(rect.center(), 22.0 * unit), icon, colour);
-    style::name(&response, name, active);
     enabled && response.clicked()
 }
 
@@ -200,18 +188,15 @@ fn size(ui: &mut Ui, unit: f32, tools: &mut ResMut<Toolbox>) {
     };
     step(ui, "−", -1);
     step(ui, "+", 1);
-    let icon: Icon = if tools.shape == BrushShape::Disc { icons::round_brush } else { icons::square_brush };
-    if button(ui, unit, ("Shape of the brush", icon), false, true) {
+    if button(ui, unit, ("Shape of the brush", tools.shape_icon()), false, true) {
         tools.turn_shape();
     }
 }
 
 fn menus(ui: &mut Ui, unit: f32, sheet: &mut Sheet) {
-    if button(ui, unit, ("Scenes", icons::scenes), matches!(sheet, Sheet::Scenes(_)), true) {
-        *sheet = if matches!(sheet, Sheet::Scenes(_)) { Sheet::Closed } else { Sheet::Scenes(titles()) };
-    }
     for (name, icon, own) in [
-        ("Views", icons::eye as Icon, Sheet::Views),
+        ("Scenes", icons::scenes as Icon, Sheet::Scenes),
+        ("Views", icons::eye, Sheet::Views),
         ("Qualities", icons::gauge, Sheet::Qualities),
         ("More", icons::gear, Sheet::More),
     ] {
@@ -221,36 +206,29 @@ fn menus(ui: &mut Ui, unit: f32, sheet: &mut Sheet) {
     }
 }
 
-fn titles() -> Vec<(String, String)> {
-    let scenes = scene::builtin_names().into_iter().filter_map(|name| scene::load(name).ok());
-    scenes.map(|scene| (scene.name().to_owned(), scene.title().to_owned())).collect()
-}
-
 /// The lines of a list: text, whether it is what is shown now, and what choosing it asks for.
-fn lines<'a>(sheet: &'a Sheet, panels: &Panels, setup: &Setup, shown: &View) -> Vec<(&'a str, bool, Order)> {
+fn lines<'a>(sheet: Sheet, scene: &'a Scene) -> Vec<(&'a str, bool, Order)> {
     match sheet {
         Sheet::Closed => Vec::new(),
-        Sheet::Scenes(scenes) => scenes
-            .iter()
-            .map(|(name, title)| {
-                let order = Order::Scene { name: name.clone(), settings: Vec::new() };
-                (title.as_str(), *name == setup.blueprint.name, order)
-            })
-            .collect(),
+        Sheet::Scenes => {
+            let line = |file: &'a SceneFile| {
+                let order = Order::Scene { name: file.name().to_owned(), settings: Vec::new() };
+                (file.title(), file.name() == scene.setup.blueprint.name, order)
+            };
+            scene.menu.scenes().iter().map(line).collect()
+        }
         Sheet::Views => {
-            VIEWS.into_iter().map(|view| (view.name, view == shown, Order::Act(Action::View(view)))).collect()
+            VIEWS.into_iter().map(|view| (view.name, view == scene.shown.0, Order::Act(Action::View(view)))).collect()
         }
         Sheet::Qualities => {
-            let line = |preset: Preset| (preset.name(), preset == setup.preset, Order::Quality(preset));
+            let line = |preset: Preset| (preset.name(), preset == scene.setup.preset, Order::Quality(preset));
             Preset::ALL.into_iter().map(line).collect()
         }
         Sheet::More => {
-            let panels = panels
-                .iter()
-                .rev()
-                .filter_map(|(panel, open)| Some((panel.in_list?, open, Order::Act(Action::Panel(panel.id)))));
+            let line =
+                |(panel, open): (&Panel, bool)| Some((panel.in_list?, open, Order::Act(Action::Panel(panel.id))));
             let actions = MORE.map(|(text, action)| (text, false, Order::Act(action)));
-            panels.chain(actions).collect()
+            scene.panels.iter().rev().filter_map(line).chain(actions).collect()
         }
     }
 }
@@ -272,13 +250,10 @@ fn list(
             egui::ScrollArea::vertical().max_height(above.height() - 48.0 * unit).show(ui, |ui| {
                 for (text, chosen, order) in lines {
                     let size = vec2((above.width() - 64.0 * unit).min(320.0 * unit), TARGET * unit);
-                    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
-                    let fill = if chosen { style::ACCENT_FILL } else { style::BUTTON };
-                    ui.painter().rect_filled(rect, style::BUTTON_CORNER, fill);
+                    let (rect, response) = field(ui, size, text, chosen, BUTTON);
                     let font = egui::FontId::proportional(16.0 * unit);
                     let at = rect.left_center() + vec2(12.0, 0.0) * unit;
                     ui.painter().text(at, Align2::LEFT_CENTER, text, font, Color32::WHITE);
-                    style::name(&response, text, chosen);
                     if response.clicked() {
                         pressed = Some(order);
                     }
@@ -287,6 +262,6 @@ fn list(
         });
     });
     let chosen = pressed.is_some();
-    pressed.into_iter().for_each(|order| orders.push(order));
+    orders.extend(pressed);
     chosen
 }

@@ -1,16 +1,52 @@
-//! Buttons and menus that several parts of the HUD have.
+//! Buttons, lines and menus that several parts of the HUD have. What is painted by hand gets its name for scripts and screen
+//! readers here.
 
 use crate::{
     game::{
+        actions::Action,
         hud::style,
         icons::{self, Icon},
+        input::bindings::Bindings,
+        orders::{Order, Orders},
+        tools::Tool,
     },
-    kernel::params::{Preset, Quality},
+    kernel::{
+        element::ElementTable,
+        params::{Preset, Quality},
+    },
 };
-use bevy_egui::egui::{self, Color32, RichText, Ui, vec2};
+use bevy_egui::egui::{self, Align2, Color32, FontId, Rect, Response, RichText, TextStyle, Ui, Vec2, vec2};
+
+/// What a line of a list is filled with, and what under the pointer.
+pub const LINE: [Color32; 2] = [Color32::TRANSPARENT, style::BUTTON_HOVER];
+/// The same of a button.
+pub const BUTTON: [Color32; 2] = [style::BUTTON, style::BUTTON_HOVER];
+
+/// Gives what is painted by hand a name for scripts and screen readers, and says whether it is chosen.
+pub fn name(response: &Response, name: &str, chosen: bool) {
+    let enabled = response.enabled();
+    response.widget_info(|| egui::WidgetInfo::selected(egui::WidgetType::Button, enabled, chosen, name));
+}
+
+/// An empty field to press, of `size` points.
+pub fn field(ui: &mut Ui, size: Vec2, called: &str, chosen: bool, [rest, hovered]: [Color32; 2]) -> (Rect, Response) {
+    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
+    let fill = if response.hovered() { hovered } else { rest };
+    ui.painter().rect_filled(rect, style::BUTTON_CORNER, if chosen { style::ACCENT_FILL } else { fill });
+    name(&response, called, chosen);
+    (rect, response)
+}
+
+/// A line of a list, `height` points high, with its text `indent` points from the left.
+pub fn line(ui: &mut Ui, height: f32, indent: f32, (text, colour): (&str, Color32), chosen: bool) -> (Rect, Response) {
+    let (rect, response) = field(ui, vec2(ui.available_width(), height), text, chosen, LINE);
+    let font = TextStyle::Button.resolve(ui.style());
+    ui.painter().text(rect.left_center() + vec2(indent, 0.0), Align2::LEFT_CENTER, text, font, colour);
+    (rect, response)
+}
 
 /// The menu of qualities under a button; says which one is chosen.
-pub fn quality_menu(button: &egui::Response, now: Preset) -> Option<Preset> {
+pub fn quality_menu(button: &Response, now: Preset) -> Option<Preset> {
     let mut chosen = None;
     menu(button, "Quality", |ui| {
         for preset in Preset::ALL {
@@ -42,7 +78,7 @@ fn about(preset: Preset) -> &'static str {
 }
 
 /// A menu under a button.
-pub fn menu(button: &egui::Response, title: &str, add: impl FnOnce(&mut Ui)) {
+pub fn menu(button: &Response, title: &str, add: impl FnOnce(&mut Ui)) {
     egui::Popup::menu(button).gap(8.0).width(220.0).show(|ui| {
         ui.label(RichText::new(title).small().color(style::WEAK));
         ui.spacing_mut().item_spacing.y = 2.0;
@@ -50,44 +86,68 @@ pub fn menu(button: &egui::Response, title: &str, add: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// A line of a menu: a name and something about it.
+/// A line of a menu: a name and something about it. Whether it was pressed.
 pub fn row(ui: &mut Ui, name: &str, about: &str, chosen: bool) -> bool {
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 26.0), egui::Sense::click());
-    if chosen || response.hovered() {
-        let fill = if chosen { style::ACCENT_FILL } else { style::BUTTON_HOVER };
-        ui.painter().rect_filled(rect, style::BUTTON_CORNER, fill);
-    }
     let colour = if chosen { Color32::WHITE } else { style::TEXT };
-    let font = |style: egui::TextStyle| style.resolve(ui.style());
-    let (left, right) = (rect.left_center() + vec2(9.0, 0.0), rect.right_center() - vec2(9.0, 0.0));
-    ui.painter().text(left, egui::Align2::LEFT_CENTER, name, font(egui::TextStyle::Button), colour);
-    ui.painter().text(right, egui::Align2::RIGHT_CENTER, about, font(egui::TextStyle::Small), style::WEAK);
-    style::name(&response, name, chosen);
+    let (rect, response) = line(ui, 26.0, 9.0, (name, colour), chosen);
+    let font = TextStyle::Small.resolve(ui.style());
+    ui.painter().text(rect.right_center() - vec2(9.0, 0.0), Align2::RIGHT_CENTER, about, font, style::WEAK);
     response.clicked()
 }
 
-/// A button with an icon, and a text if there is room.
-pub fn icon_button(ui: &mut Ui, icon: Icon, text: Option<&str>, active: bool) -> egui::Response {
-    let galley = text.map(|text| {
-        let font = egui::TextStyle::Button.resolve(ui.style());
-        ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER)
-    });
-    let width = galley.as_ref().map_or(32.0, |galley| 40.0 + galley.size().x);
-    let (rect, response) = ui.allocate_exact_size(vec2(width, 26.0), egui::Sense::click());
-    let widget = ui.style().interact(&response);
-    let (fill, colour) = match active {
-        true => (style::ACCENT_FILL, style::ACCENT),
-        false => (widget.bg_fill, widget.fg_stroke.color),
-    };
-    ui.painter().rect_filled(rect, style::BUTTON_CORNER, fill);
-    let square = icons::square(rect.left_center() + vec2(16.0, 0.0), 15.0);
-    icons::draw(ui.painter(), square, icon, colour);
-    if let Some(galley) = galley {
-        let at = egui::pos2(rect.left() + 29.0, rect.center().y - galley.size().y / 2.0);
-        ui.painter().galley(at, galley, colour);
-    }
-    if let Some(text) = text {
-        style::name(&response, text, active);
-    }
+/// The button that a window is about.
+pub fn main_button(ui: &mut Ui, text: &str) -> Response {
+    let (rect, response) =
+        field(ui, vec2(120.0, 32.0), text, false, [style::ACCENT.gamma_multiply(0.8), style::ACCENT]);
+    let font = TextStyle::Button.resolve(ui.style());
+    ui.painter().text(rect.center(), Align2::CENTER_CENTER, text, font, Color32::WHITE);
     response
+}
+
+/// A button with an icon and a name, and a text if that is not empty.
+pub fn icon_button(ui: &mut Ui, (icon, name): (Icon, &str), text: &str, active: bool) -> Response {
+    let font = TextStyle::Button.resolve(ui.style());
+    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
+    let width = if text.is_empty() { 32.0 } else { 40.0 + galley.size().x };
+    let (rect, response) = field(ui, vec2(width, 26.0), name, active, BUTTON);
+    let colour = if active { style::ACCENT } else { ui.style().interact(&response).fg_stroke.color };
+    icons::draw(ui.painter(), icons::square(rect.left_center() + vec2(16.0, 0.0), 15.0), icon, colour);
+    ui.painter().galley(rect.left_center() + vec2(29.0, -galley.size().y / 2.0), galley, colour);
+    response
+}
+
+/// A button for what a key does, too: the table of keys says what it is called.
+pub fn action_button(
+    ui: &mut Ui,
+    icon: Icon,
+    text: &str,
+    action: Action,
+    active: bool,
+    (bindings, orders): (&Bindings, &mut Orders),
+) {
+    let button = icon_button(ui, (icon, bindings.help(action)), text, active);
+    if button.on_hover_text(bindings.tip(action)).clicked() {
+        orders.push(Order::Act(action));
+    }
+}
+
+/// A tile for a tool: its icon and its name. Lengths are times `unit` points.
+pub fn tile(ui: &mut Ui, size: Vec2, unit: f32, tool: Tool, elements: &ElementTable, chosen: bool) -> (Rect, Response) {
+    let ((icon, colour), name) = (tool.icon(elements), tool.name(elements));
+    let (rect, response) = field(ui, size * unit, name, chosen, BUTTON);
+    let painter = ui.painter();
+    if chosen {
+        let stroke = egui::Stroke::new(1.5 * unit, style::ACCENT);
+        painter.rect_stroke(rect, style::BUTTON_CORNER, stroke, egui::StrokeKind::Inside);
+    }
+    icons::draw(painter, icons::square(rect.center() - vec2(0.0, 7.0) * unit, 24.0 * unit), icon, colour);
+    let text = if chosen { Color32::WHITE } else { style::TEXT };
+    let at = rect.center_bottom() - vec2(0.0, 4.0) * unit;
+    // A long name is written smaller.
+    let fit = |font: f32| painter.layout_no_wrap(name.to_owned(), FontId::proportional(font), text);
+    let name = fit(11.0 * unit);
+    let name =
+        if name.size().x > rect.width() - 4.0 { fit(11.0 * unit * (rect.width() - 4.0) / name.size().x) } else { name };
+    painter.galley(at - vec2(name.size().x / 2.0, name.size().y), name, text);
+    (rect, response)
 }

@@ -216,6 +216,11 @@ impl Bindings {
         self.of(action).map(ToString::to_string).unwrap_or_default()
     }
 
+    /// What an action does; nothing if it has no key.
+    pub fn help(&self, action: Action) -> &'static str {
+        self.of(action).map_or("", |binding| binding.help)
+    }
+
     /// What an action does, and its key.
     pub fn tip(&self, action: Action) -> String {
         self.of(action).map(|binding| format!("{} ({binding})", binding.help)).unwrap_or_default()
@@ -236,7 +241,7 @@ impl fmt::Display for Binding {
             }
         }
         match self.trigger {
-            Trigger::Key(key) => f.write_str(key_name(key)),
+            Trigger::Key(key) => f.write_str(&key_name(key)),
             Trigger::Button(MouseButton::Left) => f.write_str("left button"),
             Trigger::Button(MouseButton::Right) => f.write_str("right button"),
             Trigger::Button(_) => f.write_str("middle button"),
@@ -245,60 +250,24 @@ impl fmt::Display for Binding {
     }
 }
 
-/// What is printed on a key of a US keyboard.
-fn key_name(key: KeyCode) -> &'static str {
-    use KeyCode as K;
-    match key {
-        K::KeyA => "A",
-        K::KeyB => "B",
-        K::KeyE => "E",
-        K::KeyF => "F",
-        K::KeyH => "H",
-        K::KeyM => "M",
-        K::KeyO => "O",
-        K::KeyP => "P",
-        K::KeyQ => "Q",
-        K::KeyR => "R",
-        K::KeyS => "S",
-        K::KeyV => "V",
-        K::KeyW => "W",
-        K::KeyX => "X",
-        K::KeyY => "Y",
-        K::KeyZ => "Z",
-        K::Digit0 => "0",
-        K::Digit1 => "1",
-        K::Digit2 => "2",
-        K::Digit3 => "3",
-        K::Digit4 => "4",
-        K::Digit5 => "5",
-        K::Digit6 => "6",
-        K::Digit7 => "7",
-        K::Digit8 => "8",
-        K::Digit9 => "9",
-        K::F1 => "F1",
-        K::F2 => "F2",
-        K::F3 => "F3",
-        K::F4 => "F4",
-        K::F6 => "F6",
-        K::F7 => "F7",
-        K::F9 => "F9",
-        K::F11 => "F11",
-        K::Space => "Space",
-        K::Tab => "Tab",
-        K::Escape => "Esc",
-        K::Period => ".",
-        K::Minus | K::NumpadSubtract => "-",
-        K::Equal => "=",
-        K::NumpadAdd => "+",
-        K::Slash => "/",
-        K::BracketLeft => "[",
-        K::BracketRight => "]",
-        K::ArrowLeft => "left",
-        K::ArrowRight => "right",
-        K::ArrowUp => "up",
-        K::ArrowDown => "down",
-        _ => "unnamed",
-    }
+/// What is printed on a key of a US keyboard. The keys have the names of the W3C: `KeyA`, `Digit1`, `F1`, `ArrowLeft`.
+fn key_name(key: KeyCode) -> String {
+    let name = format!("{key:?}");
+    let sign = match name.as_str() {
+        "Escape" => "Esc",
+        "Period" => ".",
+        "Minus" | "NumpadSubtract" => "-",
+        "Equal" => "=",
+        "NumpadAdd" => "+",
+        "Slash" => "/",
+        "BracketLeft" => "[",
+        "BracketRight" => "]",
+        _ => match name.strip_prefix("Arrow") {
+            Some(way) => return way.to_lowercase(),
+            None => name.trim_start_matches("Key").trim_start_matches("Digit"),
+        },
+    };
+    sign.to_owned()
 }
 
 #[cfg(test)]
@@ -332,7 +301,11 @@ mod tests {
     #[test]
     fn every_binding_has_a_name_and_a_help() {
         for binding in all().iter() {
-            assert!(!binding.to_string().contains("unnamed"), "{:?} has no name", binding.trigger);
+            let name = binding.to_string();
+            assert!(
+                !["Key", "Digit", "Arrow", "Numpad", "Bracket"].iter().any(|word| name.contains(word)),
+                "`{name}` is no key's name"
+            );
             assert!(!binding.help.is_empty());
         }
     }

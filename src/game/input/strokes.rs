@@ -7,10 +7,7 @@ use crate::{
         tools::{Dab, Tool, Toolbox},
     },
     lab::colours::Reference,
-    sim::{
-        intent::{Intent, IntentQueue},
-        state::Setup,
-    },
+    sim::{intent::IntentQueue, state::Setup},
 };
 use bevy::prelude::{MouseButton, Res, ResMut, Resource};
 use glam::Vec2;
@@ -146,9 +143,12 @@ pub fn make_intents(
     for k in 0..strokes {
         let (from, to) = (drag.way[k], drag.way[(k + 1).min(drag.way.len() - 1)]);
         let dab = Dab { stroke: tools.stroke(from, to), velocity: drag.velocity, wind, share: 1.0 / strokes as f32 };
-        if let Some(intent) = intent_of(drag, &dab) {
-            intents.push(intent);
-        }
+        let intent = match drag.gesture {
+            Gesture::Use => drag.tool.left(&dab),
+            Gesture::Erase => drag.tool.right(&dab),
+            Gesture::Line | Gesture::Rectangle | Gesture::Fill | Gesture::Pan => None,
+        };
+        intent.into_iter().for_each(|intent| intents.push(intent));
     }
     drag.way.clear();
     if drag.over_world {
@@ -171,13 +171,4 @@ fn thicken(way: &mut Vec<Vec2>, gap: f32) {
         last = next;
     }
     *way = thick;
-}
-
-/// What the tool of a drag wants along a piece of it.
-fn intent_of(drag: &Drag, dab: &Dab) -> Option<Intent> {
-    match drag.gesture {
-        Gesture::Use => drag.tool.left(dab),
-        Gesture::Erase => drag.tool.right(dab),
-        Gesture::Line | Gesture::Rectangle | Gesture::Fill | Gesture::Pan => None,
-    }
 }

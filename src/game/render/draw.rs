@@ -2,7 +2,7 @@
 
 use crate::game::render::{
     extract::Pictures,
-    gpu::{GpuPicture, GpuPictures, Layer},
+    gpu::{GpuPicture, GpuPictures},
     picture::Picture,
     pipelines::{Ids, Pipelines},
 };
@@ -12,7 +12,7 @@ use bevy::{
         render_phase::TrackedRenderPass,
         render_resource::{
             BindGroup, Buffer, CachedRenderPipelineId, LoadOp, Operations, PipelineCache, RenderPassColorAttachment,
-            RenderPassDescriptor, StoreOp,
+            RenderPassDescriptor, StoreOp, TextureView,
         },
         renderer::{RenderContext, ViewQuery},
         view::ViewTarget,
@@ -38,15 +38,15 @@ pub fn draw(
         let mut pass = context.begin_tracked_render_pass(RenderPassDescriptor {
             label: Some("liquid field"),
             color_attachments: &[Some(RenderPassColorAttachment {
-                view: &pane.field.view,
+                view: pane.field,
                 depth_slice: None,
                 resolve_target: None,
                 ops: Operations { load: LoadOp::Clear(Default::default()), store: StoreOp::Store },
             })],
             ..RenderPassDescriptor::default()
         });
-        pass.set_bind_group(0, pane.world, &[]);
-        instances(&mut pass, &cache, ids.particles, pane.picture.particles.buffer(), pane.picture.particles.len());
+        pass.set_bind_group(0, &pane.groups[0], &[]);
+        instances(&mut pass, &cache, ids.particles, (pane.picture.particles.buffer(), pane.picture.particles.len()));
     }
     let mut pass = context.begin_tracked_render_pass(RenderPassDescriptor {
         label: Some("world"),
@@ -61,19 +61,13 @@ pub fn draw(
 /// A picture that has everything to be drawn.
 struct Pane<'a> {
     picture: &'a Picture,
-    world: &'a BindGroup,
-    textures: &'a BindGroup,
-    field: &'a Layer,
+    field: &'a TextureView,
+    groups: &'a [BindGroup; 2],
 }
 
 impl<'a> Pane<'a> {
     fn new((picture, gpu): (&'a Picture, &'a GpuPicture)) -> Option<Self> {
-        Some(Self {
-            picture,
-            world: gpu.world_group.as_ref()?,
-            textures: gpu.texture_group.as_ref()?,
-            field: gpu.field.as_ref()?,
-        })
+        gpu.parts().map(|(field, groups)| Self { picture, field, groups })
     }
 
     fn draw(&self, pass: &mut TrackedRenderPass<'a>, cache: &'a PipelineCache, ids: Ids) {
@@ -85,17 +79,18 @@ impl<'a> Pane<'a> {
             }
             pass.set_scissor_rect(part.min.x, part.min.y, size.x, size.y);
         }
-        pass.set_bind_group(0, self.world, &[]);
-        pass.set_bind_group(1, self.textures, &[]);
+        for (k, group) in self.groups.iter().enumerate() {
+            pass.set_bind_group(k, group, &[]);
+        }
         screen(pass, cache, ids.backdrop);
         let streaks = (picture.streaks.buffer(), picture.streaks.len());
         if !picture.streaks_on_top {
-            instances(pass, cache, ids.streaks, streaks.0, streaks.1);
+            instances(pass, cache, ids.streaks, streaks);
         }
         screen(pass, cache, ids.liquid);
-        instances(pass, cache, ids.rock, picture.rock.buffer(), picture.rock.len());
+        instances(pass, cache, ids.rock, (picture.rock.buffer(), picture.rock.len()));
         if picture.streaks_on_top {
-            instances(pass, cache, ids.streaks, streaks.0, streaks.1);
+            instances(pass, cache, ids.streaks, streaks);
         }
     }
 }
@@ -113,8 +108,7 @@ fn instances<'a>(
     pass: &mut TrackedRenderPass<'a>,
     cache: &'a PipelineCache,
     id: CachedRenderPipelineId,
-    buffer: Option<&'a Buffer>,
-    count: usize,
+    (buffer, count): (Option<&'a Buffer>, usize),
 ) {
     if let (Some(pipeline), Some(buffer), true) = (cache.get_render_pipeline(id), buffer, count > 0) {
         pass.set_render_pipeline(pipeline);

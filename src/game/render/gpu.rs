@@ -4,18 +4,18 @@ use crate::game::render::{
     cost::RenderCost,
     extract::Pictures,
     picture::{Picture, WorldUniform},
-    pipelines::{FIELD_FORMAT, Layouts, Pipelines},
+    pipelines::{FIELD_FORMAT, Layouts},
 };
-use bevy::platform::time::Instant;
 use bevy::{
+    platform::time::Instant,
     prelude::{Res, ResMut, Resource},
     render::{
         render_resource::{
-            AddressMode, BindGroup, BindGroupEntries, Extent3d, FilterMode, Origin3d, PipelineCache, Sampler,
-            SamplerDescriptor, TexelCopyBufferLayout, TexelCopyTextureInfo, Texture, TextureAspect, TextureDescriptor,
-            TextureDimension, TextureFormat, TextureUsages, TextureView, TextureViewDescriptor, UniformBuffer,
+            BindGroup, BindGroupEntries, Extent3d, PipelineCache, TexelCopyBufferLayout, Texture, TextureDescriptor,
+            TextureDimension, TextureFormat, TextureUsages, TextureView, UniformBuffer,
         },
         renderer::{RenderDevice, RenderQueue},
+        texture::{CachedTexture, TextureCache},
     },
 };
 use glam::UVec2;
@@ -23,14 +23,6 @@ use std::sync::atomic::Ordering;
 
 /// Texels of the field to one d: enough for a smooth surface; more would only cost.
 const FIELD_TEXELS_PER_D: f32 = 6.0;
-
-/// A texture with its view and size.
-pub struct Layer {
-    texture: Texture,
-    /// What passes read or draw.
-    pub view: TextureView,
-    size: UVec2,
-}
 
 /// The pictures of a frame, in the order of [`Pictures::shown`].
 #[derive(Resource, Default)]
@@ -43,20 +35,22 @@ impl GpuPictures {
     }
 }
 
-/// Buffers, textures and bind groups of a picture.
+/// Uniform, textures and bind groups of a picture.
 #[derive(Default)]
 pub struct GpuPicture {
     uniform: UniformBuffer<WorldUniform>,
-    air: Option<Layer>,
-    depth: Option<Layer>,
-    /// Field of the liquid.
-    pub field: Option<Layer>,
-    sampler: Option<Sampler>,
-    /// Group 0: the uniform.
-    pub world_group: Option<BindGroup>,
-    /// Group 1: sampler, air, depth, field.
-    pub texture_group: Option<BindGroup>,
-    stale: bool,
+    /// Air, depth and field of the liquid, of this frame.
+    textures: Option<[CachedTexture; 3]>,
+    /// Group 0 (the uniform) and group 1 (sampler, air, depth, field).
+    groups: Option<[BindGroup; 2]>,
+}
+
+impl GpuPicture {
+    /// The field of the liquid, and the groups 0 and 1; all that drawing needs, once it is there.
+    pub fn parts(&self) -> Option<(&TextureView, &[BindGroup; 2])> {
+        let [_, _, field] = self.textures.as_ref()?;
+        Some((&field.default_view, self.groups.as_ref()?))
+    }
 }
 
 /// Writes a buffer; grows it in powers of two, so that pouring doesn't make a new one each frame.
@@ -74,16 +68,23 @@ pub fn upload(
     mut gpu: ResMut<GpuPictures>,
     device: Res<RenderDevice>,
     queue: Res<RenderQueue>,
+    mut textures: ResMut<TextureCache>,
     cost: Res<RenderCost>,
 ) {
     let begin = Instant::now();
     for (picture, gpu) in pictures.shown_mut().iter_mut().zip(&mut gpu.0) {
-        hand_over(picture, gpu, &device, &queue);
+        hand_over(picture, gpu, &mut textures, &device, &queue);
     }
     cost.upload.store(begin.elapsed().as_micros() as u32, Ordering::Relaxed);
 }
 
-fn hand_over(picture: &mut Picture, gpu: &mut GpuPicture, device: &RenderDevice, queue: &RenderQueue) {
+fn hand_over(
+    picture: &mut Picture,
+    gpu: &mut GpuPicture,
+    textures: &mut TextureCache,
+    device: &RenderDevice,
+    queue: &RenderQueue,
+) {
     write_growing!(picture.particles, device, queue);
     write_growing!(picture.streaks, device, queue);
     if picture.rock_new {
@@ -92,100 +93,52 @@ fn hand_over(picture: &mut Picture, gpu: &mut GpuPicture, device: &RenderDevice,
     gpu.uniform.set(picture.uniform);
     gpu.uniform.write_buffer(device, queue);
 
+    let mut texture = |label, size: UVec2, format, usage: TextureUsages| {
+        let size = size.max(UVec2::ONE);
+        let descriptor = TextureDescriptor {
+            label: Some(label),
+            size: Extent3d { width: size.x, height: size.y, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: TextureDimension::D2,
+            format,
+            usage: usage | TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        };
+        textures.get(device, descriptor)
+    };
     let (texels, size) = (&picture.air.0, if picture.air.0.is_empty() { UVec2::ONE } else { picture.air.1 });
-    gpu.stale |= fit(&mut gpu.air, "air", size, TextureFormat::Rgba8Unorm, TextureUsages::COPY_DST, device);
-    if let (Some(layer), false) = (&gpu.air, texels.is_empty()) {
-        write_texels(layer, texels, 4, queue);
-    }
+    let air = texture("air", size, TextureFormat::Rgba8Unorm, TextureUsages::COPY_DST);
+    write_texels(&air.texture, texels, queue);
     let (columns, rows) = picture.depth.dimensions();
-    let size = UVec2::new(columns as u32, rows as u32).max(UVec2::ONE);
-    gpu.stale |= fit(&mut gpu.depth, "depth", size, TextureFormat::R8Unorm, TextureUsages::COPY_DST, device);
-    if let (Some(layer), true) = (&gpu.depth, picture.depth_new) {
-        write_texels(layer, picture.depth.shares(), 1, queue);
-    }
+    let size = UVec2::new(columns as u32, rows as u32);
+    let depth = texture("depth", size, TextureFormat::R8Unorm, TextureUsages::COPY_DST);
+    write_texels(&depth.texture, if picture.depth_new { picture.depth.shares() } else { &[] }, queue);
     let share = (FIELD_TEXELS_PER_D / picture.pixels_per_d).min(1.0);
-    let size = (picture.window.as_vec2() * share).ceil().as_uvec2().max(UVec2::ONE);
-    gpu.stale |= fit(&mut gpu.field, "liquid", size, FIELD_FORMAT, TextureUsages::RENDER_ATTACHMENT, device);
+    let size = (picture.window.as_vec2() * share).ceil().as_uvec2();
+    let field = texture("liquid", size, FIELD_FORMAT, TextureUsages::RENDER_ATTACHMENT);
+    gpu.textures = Some([air, depth, field]);
 }
 
-/// Makes the texture if there is none of this size; says whether it is new.
-fn fit(
-    layer: &mut Option<Layer>,
-    label: &'static str,
-    size: UVec2,
-    format: TextureFormat,
-    usage: TextureUsages,
-    device: &RenderDevice,
-) -> bool {
-    if layer.as_ref().is_some_and(|layer| layer.size == size) {
-        return false;
+/// Fills a texture, if there are texels.
+fn write_texels(texture: &Texture, texels: &[u8], queue: &RenderQueue) {
+    if !texels.is_empty() {
+        let bytes_per_row = Some(texels.len() as u32 / texture.height());
+        let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row, rows_per_image: None };
+        queue.write_texture(texture.as_image_copy(), texels, layout, texture.size());
     }
-    let texture = device.create_texture(&TextureDescriptor {
-        label: Some(label),
-        size: Extent3d { width: size.x, height: size.y, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: TextureDimension::D2,
-        format,
-        usage: usage | TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    });
-    let view = texture.create_view(&TextureViewDescriptor::default());
-    *layer = Some(Layer { texture, view, size });
-    true
 }
 
-fn write_texels(layer: &Layer, texels: &[u8], bytes_per_texel: u32, queue: &RenderQueue) {
-    debug_assert_eq!(texels.len() as u32, layer.size.x * layer.size.y * bytes_per_texel, "one texel a cell");
-    queue.write_texture(
-        TexelCopyTextureInfo {
-            texture: &layer.texture,
-            mip_level: 0,
-            origin: Origin3d::ZERO,
-            aspect: TextureAspect::All,
-        },
-        texels,
-        TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(layer.size.x * bytes_per_texel), rows_per_image: None },
-        Extent3d { width: layer.size.x, height: layer.size.y, depth_or_array_layers: 1 },
-    );
-}
-
-/// Makes the bind groups that are missing or bound to textures of the past.
-pub fn bind(
-    mut gpu: ResMut<GpuPictures>,
-    pipelines: Res<Pipelines>,
-    cache: Res<PipelineCache>,
-    device: Res<RenderDevice>,
-) {
-    let Some(layouts) = pipelines.layouts() else { return };
+/// Makes the bind groups of the frame.
+pub fn bind(mut gpu: ResMut<GpuPictures>, layouts: Res<Layouts>, cache: Res<PipelineCache>, device: Res<RenderDevice>) {
+    let [world, textures] = [&layouts.world, &layouts.textures].map(|layout| cache.get_bind_group_layout(layout));
     for gpu in &mut gpu.0 {
-        bind_one(gpu, layouts, &cache, &device);
-    }
-}
-
-fn bind_one(gpu: &mut GpuPicture, layouts: &Layouts, cache: &PipelineCache, device: &RenderDevice) {
-    if gpu.world_group.is_none()
-        && let Some(uniform) = gpu.uniform.binding()
-    {
-        let layout = cache.get_bind_group_layout(&layouts.world);
-        gpu.world_group = Some(device.create_bind_group("world", &layout, &BindGroupEntries::single(uniform)));
-    }
-    if !gpu.stale {
-        return;
-    }
-    let sampler = gpu.sampler.get_or_insert_with(|| {
-        device.create_sampler(&SamplerDescriptor {
-            address_mode_u: AddressMode::ClampToEdge,
-            address_mode_v: AddressMode::ClampToEdge,
-            mag_filter: FilterMode::Linear,
-            min_filter: FilterMode::Linear,
-            ..SamplerDescriptor::default()
-        })
-    });
-    if let (Some(air), Some(depth), Some(field)) = (&gpu.air, &gpu.depth, &gpu.field) {
-        let layout = cache.get_bind_group_layout(&layouts.textures);
-        let entries = BindGroupEntries::sequential((&*sampler, &air.view, &depth.view, &field.view));
-        gpu.texture_group = Some(device.create_bind_group("world textures", &layout, &entries));
-        gpu.stale = false;
+        let (Some(uniform), Some(all)) = (gpu.uniform.binding(), &gpu.textures) else { continue };
+        let [air, depth, field] = all.each_ref().map(|texture| &texture.default_view);
+        let entries = BindGroupEntries::sequential((&layouts.sampler, air, depth, field));
+        gpu.groups = Some([
+            device.create_bind_group("world", &world, &BindGroupEntries::single(uniform)),
+            device.create_bind_group("world textures", &textures, &entries),
+        ]);
     }
 }

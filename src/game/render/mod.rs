@@ -20,7 +20,7 @@ use bevy::{
     asset::Assets,
     core_pipeline::{Core2d, Core2dSystems, core_2d::main_transparent_pass_2d},
     prelude::{App, ExtractSchedule, IntoScheduleConfigs, Plugin, PostUpdate},
-    render::{Render, RenderApp, RenderSystems},
+    render::{Render, RenderApp, RenderStartup, RenderSystems},
     shader::Shader,
 };
 
@@ -40,6 +40,7 @@ impl Plugin for WorldRenderPlugin {
             .init_resource::<extract::Pictures>()
             .init_resource::<gpu::GpuPictures>()
             .init_resource::<pipelines::Pipelines>()
+            .add_systems(RenderStartup, pipelines::make_layouts)
             .add_systems(ExtractSchedule, extract::extract)
             .add_systems(
                 Render,

@@ -143,7 +143,7 @@ impl<'a> Scene<'a> {
         Half { particles: self.particles, air: self.air }
     }
 
-    /// What there is of the second world of a split.
+    /// What there is of a world, if it has been loaded.
     pub(super) fn of(world: &'a World) -> Option<Self> {
         Some(Self {
             generation: *world.get_resource()?,
@@ -153,7 +153,7 @@ impl<'a> Scene<'a> {
             air: world.get_resource()?,
             solver: world.get_resource(),
             limited: Limited::of(world)?,
-            tracers: None,
+            tracers: world.get_resource(),
         })
     }
 }
@@ -169,15 +169,9 @@ impl Picture {
         if self.depth_new {
             self.depth.measure(blueprint.domain.size, scene.particles);
         }
-        self.fill_air(scene, sight, reference);
+        let air_extent = self.fill_air(scene, sight, reference);
         self.fill_streaks(scene, sight, reference);
-        let air = scene.air;
-        let air_extent = match sight.view.air {
-            Layer::Strain => self.strain.extent(),
-            Layer::Air(_) | Layer::Nothing => Vec2::new(air.columns() as f32, air.rows() as f32) * air.cell(),
-        };
-        self.look(scene.setup, sight, sight.view, air_extent);
-        self.place(sight, area, confined);
+        self.look(scene.setup, sight, sight.view, air_extent, (area, confined));
     }
 
     /// Draws how far two worlds are apart, over the rock of one of them.
@@ -194,8 +188,7 @@ impl Picture {
         self.depth_new = false;
         difference.texels(&mut self.air.0);
         self.air.1 = UVec2::new(difference.columns() as u32, difference.rows() as u32);
-        self.look(scene.setup, sight, &PRESSURE, self.air.1.as_vec2() * difference::CELL);
-        self.place(sight, area, true);
+        self.look(scene.setup, sight, &PRESSURE, self.air.1.as_vec2() * difference::CELL, (area, true));
     }
 
     fn fill_particles(&mut self, scene: Scene<'_>, sight: Sight<'_>, reference: Reference) {
@@ -237,21 +230,20 @@ impl Picture {
         }
     }
 
-    fn fill_air(&mut self, scene: Scene<'_>, sight: Sight<'_>, reference: Reference) {
+    /// Fills the texels of the air, and says what they cover, d.
+    fn fill_air(&mut self, scene: Scene<'_>, sight: Sight<'_>, reference: Reference) -> Vec2 {
         let air = scene.air;
         self.air.0.clear();
-        match sight.view.air {
-            Layer::Nothing => {}
-            Layer::Air(colour) => {
-                air::pack(air, colour, reference, &mut self.air.0);
-                self.air.1 = UVec2::new(air.columns() as u32, air.rows() as u32);
-            }
-            Layer::Strain => {
-                self.strain.texels(&mut self.air.0);
-                let (columns, rows) = self.strain.dimensions();
-                self.air.1 = UVec2::new(columns as u32, rows as u32);
-            }
+        if matches!(sight.view.air, Layer::Strain) {
+            self.strain.texels(&mut self.air.0);
+            self.air.1 = self.strain.dimensions();
+            return self.strain.extent();
         }
+        if let Layer::Air(colour) = sight.view.air {
+            air::pack(air, colour, reference, &mut self.air.0);
+        }
+        self.air.1 = UVec2::new(air.columns() as u32, air.rows() as u32);
+        self.air.1.as_vec2() * air.cell()
     }
 
     fn fill_streaks(&mut self, scene: Scene<'_>, sight: Sight<'_>, reference: Reference) {
@@ -272,39 +264,29 @@ impl Picture {
         }
     }
 
-    /// The shader's numbers but for where in the window it is.
-    fn look(&mut self, setup: &Setup, sight: Sight<'_>, view: &View, air_extent: Vec2) {
+    /// The shader's numbers, and the part of the window that is drawn into.
+    fn look(&mut self, setup: &Setup, sight: Sight<'_>, view: &View, air_extent: Vec2, (area, confined): (Area, bool)) {
         let scale_factor = sight.window.resolution.scale_factor();
         self.window = sight.window.resolution.physical_size();
         self.pixels_per_d = sight.camera.pixels_per_d() * scale_factor;
+        let corner = |pixel: Vec2| (pixel * scale_factor).round().max(Vec2::ZERO).as_uvec2().min(self.window);
+        self.part = confined.then(|| URect::from_corners(corner(area.min), corner(area.max)));
         // Lines that suit a window of this height.
         let lines = (self.window.y as f32 / 900.0).max(scale_factor).max(1.0);
-        let flag = |on: bool| if on { 1.0 } else { 0.0 };
+        let (to_clip, offset) = sight.camera.clip_transform(area);
+        let dim = if view.shows_air() { 0.42 } else { 0.97 };
         self.uniform = WorldUniform {
-            to_clip: Vec4::ZERO,
+            to_clip: two(to_clip, offset),
             size: two(setup.blueprint.domain.size, self.window.as_vec2()),
             extent: two(self.depth.extent().max(Vec2::ONE), air_extent),
-            look: Vec4::new(
-                self.pixels_per_d,
-                if view.shows_air() { 0.42 } else { 0.97 },
-                flag(view.shaded),
-                colours::DEPTH_SHADE,
-            ),
-            pen: Vec4::new(DISC_RADIUS, 1.5 * lines, flag(!matches!(view.air, Layer::Nothing)), lines),
+            look: Vec4::new(self.pixels_per_d, dim, f32::from(view.shaded), colours::DEPTH_SHADE),
+            pen: Vec4::new(DISC_RADIUS, 1.5 * lines, f32::from(!matches!(view.air, Layer::Nothing)), lines),
             surroundings: srgb(colours::SURROUNDINGS),
             box_top: srgb(colours::BOX_TOP),
             box_bottom: srgb(colours::BOX_BOTTOM),
             frame: srgb(colours::FRAME),
             abyss: srgb(colours::ABYSS),
         };
-    }
-
-    fn place(&mut self, sight: Sight<'_>, area: Area, confined: bool) {
-        let (to_clip, offset) = sight.camera.clip_transform(area);
-        self.uniform.to_clip = two(to_clip, offset);
-        let scale_factor = sight.window.resolution.scale_factor();
-        let corner = |pixel: Vec2| (pixel * scale_factor).round().max(Vec2::ZERO).as_uvec2().min(self.window);
-        self.part = confined.then(|| URect::from_corners(corner(area.min), corner(area.max)));
     }
 }
 

@@ -4,16 +4,17 @@ use crate::game::render::picture::WorldUniform;
 use bevy::{
     asset::Handle,
     mesh::VertexBufferLayout,
-    prelude::{Query, Res, ResMut, Resource, With},
+    prelude::{Commands, Query, Res, ResMut, Resource, With},
     render::{
         camera::ExtractedCamera,
         render_resource::{
             BindGroupLayoutDescriptor, BindGroupLayoutEntries, BlendState, CachedRenderPipelineId, ColorTargetState,
-            ColorWrites, FragmentState, PipelineCache, PrimitiveState, PrimitiveTopology, RenderPipelineDescriptor,
-            SamplerBindingType, ShaderStages, TextureFormat, TextureSampleType, VertexFormat, VertexState,
-            VertexStepMode,
+            ColorWrites, FilterMode, FragmentState, PipelineCache, PrimitiveState, PrimitiveTopology,
+            RenderPipelineDescriptor, Sampler, SamplerBindingType, SamplerDescriptor, ShaderStages, TextureFormat,
+            TextureSampleType, VertexFormat, VertexState, VertexStepMode,
             binding_types::{sampler, texture_2d, uniform_buffer},
         },
+        renderer::RenderDevice,
         view::ViewTarget,
     },
     shader::Shader,
@@ -26,12 +27,15 @@ pub const FIELD_FORMAT: TextureFormat = TextureFormat::Rgba8Unorm;
 #[derive(Resource)]
 pub struct WorldShader(pub Handle<Shader>);
 
-/// Layouts of the two bind groups.
+/// Layouts of the two bind groups, and the sampler that is in one of them.
+#[derive(Resource)]
 pub struct Layouts {
     /// Group 0: the uniform.
     pub world: BindGroupLayoutDescriptor,
     /// Group 1: sampler, air, depth, field.
     pub textures: BindGroupLayoutDescriptor,
+    /// Samples between texels, up to the edge.
+    pub sampler: Sampler,
 }
 
 /// The pipelines' ids in the cache.
@@ -49,109 +53,21 @@ pub struct Ids {
     pub streaks: CachedRenderPipelineId,
 }
 
-/// Pipelines and their layouts.
+/// The pipelines, once there are any, and the format that they are made for.
 #[derive(Resource, Default)]
-pub struct Pipelines {
-    layouts: Option<Layouts>,
-    made: Option<(TextureFormat, Ids)>,
-}
+pub struct Pipelines(Option<(TextureFormat, Ids)>);
 
 impl Pipelines {
-    /// The bind groups' layouts, once there are any.
-    pub fn layouts(&self) -> Option<&Layouts> {
-        self.layouts.as_ref()
-    }
-
-    /// The pipelines, once there are any.
+    /// Their ids, once there are any.
     pub fn ids(&self) -> Option<Ids> {
-        self.made.map(|(_, ids)| ids)
+        self.0.map(|(_, ids)| ids)
     }
 }
 
-/// Makes the pipelines when the window's format is known or has changed.
-pub fn prepare(
-    mut pipelines: ResMut<Pipelines>,
-    cache: Res<PipelineCache>,
-    shader: Res<WorldShader>,
-    targets: Query<&ViewTarget, With<ExtractedCamera>>,
-) {
-    let Some(target) = targets.iter().next() else { return };
-    let format = target.main_texture_format();
-    if pipelines.made.is_some_and(|(of, _)| of == format) {
-        return;
-    }
-    let layouts = pipelines.layouts.get_or_insert_with(make_layouts);
-    let maker = Maker { cache: &cache, shader: &shader.0, layouts };
-    let quad = PrimitiveTopology::TriangleStrip;
-    let screen = PrimitiveTopology::TriangleList;
-    let alpha = Some(BlendState::ALPHA_BLENDING);
-    let instances = |formats: &[VertexFormat]| {
-        vec![VertexBufferLayout::from_vertex_formats(VertexStepMode::Instance, formats.iter().copied())]
-    };
-    use VertexFormat as F;
-    let ids = Ids {
-        backdrop: maker.make("backdrop", "screen_vertex", screen, vec![], format, None),
-        particles: maker.make(
-            "particle",
-            "particle_vertex",
-            quad,
-            instances(&[F::Float32x2, F::Unorm8x4]),
-            FIELD_FORMAT,
-            Some(BlendState::PREMULTIPLIED_ALPHA_BLENDING),
-        ),
-        liquid: maker.make("liquid", "screen_vertex", screen, vec![], format, alpha),
-        rock: maker.make("rock", "rock_vertex", quad, instances(&[F::Uint16x2, F::Uint8x4]), format, alpha),
-        streaks: maker.make("streak", "streak_vertex", quad, instances(&[F::Float32x4, F::Unorm8x4]), format, alpha),
-    };
-    pipelines.made = Some((format, ids));
-}
-
-struct Maker<'a> {
-    cache: &'a PipelineCache,
-    shader: &'a Handle<Shader>,
-    layouts: &'a Layouts,
-}
-
-impl Maker<'_> {
-    /// Queues the pipeline whose fragment shader is `{name}_fragment`.
-    fn make(
-        &self,
-        name: &'static str,
-        vertex: &'static str,
-        topology: PrimitiveTopology,
-        buffers: Vec<VertexBufferLayout>,
-        format: TextureFormat,
-        blend: Option<BlendState>,
-    ) -> CachedRenderPipelineId {
-        // The pass that draws into the field must not have the field bound.
-        let mut layout = vec![self.layouts.world.clone()];
-        if name != "particle" {
-            layout.push(self.layouts.textures.clone());
-        }
-        self.cache.queue_render_pipeline(RenderPipelineDescriptor {
-            label: Some(name.into()),
-            layout,
-            vertex: VertexState {
-                shader: self.shader.clone(),
-                shader_defs: vec![],
-                entry_point: Some(vertex.into()),
-                buffers,
-            },
-            primitive: PrimitiveState { topology, ..PrimitiveState::default() },
-            fragment: Some(FragmentState {
-                shader: self.shader.clone(),
-                shader_defs: vec![],
-                entry_point: Some(format!("{name}_fragment").into()),
-                targets: vec![Some(ColorTargetState { format, blend, write_mask: ColorWrites::ALL })],
-            }),
-            ..RenderPipelineDescriptor::default()
-        })
-    }
-}
-
-fn make_layouts() -> Layouts {
+/// Makes the layouts and the sampler.
+pub fn make_layouts(mut commands: Commands, device: Res<RenderDevice>) {
     let texture = || texture_2d(TextureSampleType::Float { filterable: true });
-    Layouts {
+    commands.insert_resource(Layouts {
         world: BindGroupLayoutDescriptor::new(
             "world",
             &BindGroupLayoutEntries::single(ShaderStages::VERTEX_FRAGMENT, uniform_buffer::<WorldUniform>(false)),
@@ -163,5 +79,62 @@ fn make_layouts() -> Layouts {
                 (sampler(SamplerBindingType::Filtering), texture(), texture(), texture()),
             ),
         ),
+        sampler: device.create_sampler(&SamplerDescriptor {
+            mag_filter: FilterMode::Linear,
+            min_filter: FilterMode::Linear,
+            ..SamplerDescriptor::default()
+        }),
+    });
+}
+
+/// Makes the pipelines when the window's format is known or has changed.
+pub fn prepare(
+    mut pipelines: ResMut<Pipelines>,
+    layouts: Res<Layouts>,
+    cache: Res<PipelineCache>,
+    shader: Res<WorldShader>,
+    targets: Query<&ViewTarget, With<ExtractedCamera>>,
+) {
+    let Some(format) = targets.iter().next().map(ViewTarget::main_texture_format) else { return };
+    if pipelines.0.is_some_and(|(of, _)| of == format) {
+        return;
     }
+    // The pipeline of a quad for each instance of these formats, or of the whole screen if there are none.
+    let make = |name: &'static str, instance: &[VertexFormat], format, blend| {
+        // The pass that draws into the field must not have the field bound.
+        let textures = (name != "particle").then(|| layouts.textures.clone());
+        let (vertex, topology) = match instance {
+            [] => ("screen", PrimitiveTopology::TriangleList),
+            _ => (name, PrimitiveTopology::TriangleStrip),
+        };
+        let buffer = VertexBufferLayout::from_vertex_formats(VertexStepMode::Instance, instance.iter().copied());
+        cache.queue_render_pipeline(RenderPipelineDescriptor {
+            label: Some(name.into()),
+            layout: [layouts.world.clone()].into_iter().chain(textures).collect(),
+            vertex: VertexState {
+                shader: shader.0.clone(),
+                shader_defs: vec![],
+                entry_point: Some(format!("{vertex}_vertex").into()),
+                buffers: if instance.is_empty() { vec![] } else { vec![buffer] },
+            },
+            primitive: PrimitiveState { topology, ..PrimitiveState::default() },
+            fragment: Some(FragmentState {
+                shader: shader.0.clone(),
+                shader_defs: vec![],
+                entry_point: Some(format!("{name}_fragment").into()),
+                targets: vec![Some(ColorTargetState { format, blend, write_mask: ColorWrites::ALL })],
+            }),
+            ..RenderPipelineDescriptor::default()
+        })
+    };
+    use VertexFormat as F;
+    let (alpha, premultiplied) = (BlendState::ALPHA_BLENDING, BlendState::PREMULTIPLIED_ALPHA_BLENDING);
+    let ids = Ids {
+        backdrop: make("backdrop", &[], format, None),
+        particles: make("particle", &[F::Float32x2, F::Unorm8x4], FIELD_FORMAT, Some(premultiplied)),
+        liquid: make("liquid", &[], format, Some(alpha)),
+        rock: make("rock", &[F::Uint16x2, F::Uint8x4], format, Some(alpha)),
+        streaks: make("streak", &[F::Float32x4, F::Unorm8x4], format, Some(alpha)),
+    };
+    pipelines.0 = Some((format, ids));
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::{
-    game::hud::panels::accuracy::panel::{AccuracyPanel, ID},
+    game::hud::panels::accuracy::panel::{AccuracyPanel, PANEL},
     kernel::params::Preset,
     lab::{
         autopilot::{Autopilot, Goal},
@@ -39,7 +39,7 @@ fn a_key_opens_the_panel_and_only_then_the_error_is_measured() {
     let mut player = Player::new();
     assert!(!player.world().resource::<Watched>().0);
     player.chord(&[KeyCode::KeyA]);
-    assert!(player.world().resource::<Panels>().shows(ID) && player.world().resource::<Watched>().0);
+    assert!(player.world().resource::<Panels>().shows(PANEL.id) && player.world().resource::<Watched>().0);
     player.chord(&[KeyCode::KeyH]);
     player.frame();
     assert!(!player.world().resource::<Watched>().0, "a hidden panel looks at nothing");

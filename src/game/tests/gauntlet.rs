@@ -1,7 +1,10 @@
 //! Watching a hard case.
 
 use super::*;
-use crate::{game::hud::panels::cases::gauntlet::ID, lab::gauntlet::CASES};
+use crate::{
+    game::hud::panels::cases::window::Suite,
+    lab::gauntlet::{CASES, GauntletCase},
+};
 
 fn gravity(player: &Player) -> f32 {
     player.world().resource::<Setup>().domain.gravity.y
@@ -38,7 +41,7 @@ fn a_case_is_played_with_its_script_until_another_scene_is() {
 fn a_key_opens_and_closes_the_list() {
     let mut player = Player::new();
     player.chord(&[KeyCode::F7]);
-    assert!(player.world().resource::<Panels>().shows(ID));
+    assert!(player.world().resource::<Panels>().shows(GauntletCase::PANEL.id));
     player.chord(&[KeyCode::F7]);
-    assert!(!player.world().resource::<Panels>().shows(ID));
+    assert!(!player.world().resource::<Panels>().shows(GauntletCase::PANEL.id));
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::{
-    game::{actions::Action, playback, recording, saves::SaveFolders},
+    game::{actions::Action, playback, saves::SaveFolders},
     kernel::{params::Preset, simd::InstructionSet},
     scene::effects::{Effect, Mode},
     sim::{
@@ -27,7 +27,7 @@ fn file(name: &str) -> PathBuf {
 fn recorded(path: &Path) -> Player {
     let mut player = Player::new();
     control::reset(player.0.world_mut());
-    recording::begin_into(player.0.world(), path.to_owned());
+    player.world().resource::<Recorder>().begin(player.world(), Some(path.to_owned()));
     player
 }
 

@@ -4,6 +4,7 @@
 use crate::{
     kernel::{
         air::Air, params::Quality, particles::Particles, pbf::Solver, predict::longest_move, predictor::Predictor,
+        units::TICK_SECONDS,
     },
     lab::colours::{Rgb, ramp},
     sim::{
@@ -12,7 +13,7 @@ use crate::{
     },
 };
 use bevy::prelude::World;
-use glam::Vec2;
+use glam::{UVec2, Vec2};
 
 /// Edge of a cell of the map, d.
 const CELL: f32 = 4.0;
@@ -52,7 +53,7 @@ impl<'a> Limited<'a> {
             predictor: world.get_resource::<PredictorState>().map(|predictor| &predictor.0),
             air: world.get_resource::<AirGrid>()?,
             quality: &world.get_resource::<Setup>()?.quality,
-            dt: world.get_resource::<TickPlan>()?.substep_seconds(),
+            dt: world.get_resource::<TickPlan>().map_or(TICK_SECONDS, TickPlan::substep_seconds),
             tick: world.get_resource::<Clock>()?.tick,
         })
     }
@@ -144,17 +145,18 @@ impl StrainMap {
     }
 
     /// Columns and rows of the map.
-    pub fn dimensions(&self) -> (usize, usize) {
-        (self.columns, self.rows)
+    pub fn dimensions(&self) -> UVec2 {
+        UVec2::new(self.columns as u32, self.rows as u32)
     }
 
     /// What the map covers, d: the box rounded up to whole cells.
     pub fn extent(&self) -> Vec2 {
-        Vec2::new(self.columns as f32, self.rows as f32) * CELL
+        self.dimensions().as_vec2() * CELL
     }
 
     /// How brightly the cell of a point glows, 0 … 1.
-    pub fn glow_at(&self, point: Vec2) -> f32 {
+    #[cfg(test)]
+    fn glow_at(&self, point: Vec2) -> f32 {
         let at = (point / CELL).max(Vec2::ZERO);
         let (column, row) = (at.x as usize, at.y as usize);
         if column < self.columns && row < self.rows { self.glow[row * self.columns + column] } else { 0.0 }

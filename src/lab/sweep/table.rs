@@ -120,7 +120,7 @@ mod tests {
     #[test]
     fn the_document_says_what_every_column_holds() {
         let document = include_str!("../../../docs/accuracy.md");
-        for (name, meaning, _) in columns().into_iter().filter(|(.., field)| matches!(field, Of(_))) {
+        for (name, meaning, _) in columns().into_iter().filter(|(.., field)| !matches!(field, Field::Knob(_))) {
             let line = format!("| `{name}` | {meaning} |");
             assert!(document.contains(&line), "docs/accuracy.md has no line {line}");
         }

@@ -54,7 +54,7 @@ async function withTheMouse({ eyes, shoot, test, waterUntil }, page) {
       const { tick } = await stats(page);
       await until(page, 'a second of the world', (now) => now.tick >= tick + 60);
       const lies = await water(eyes, await shoot(page, 'desktop-calm'), FLOOR);
-      const seen = { lies, settled: lies > 500 && Math.abs(lies - before) < 0.03 * lies };
+      const seen = { lies, settled: lies > 500 && Math.abs(lies - before) < 0.1 * lies };
       before = lies;
       return seen;
     }, ({ settled }) => settled);

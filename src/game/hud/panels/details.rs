@@ -8,11 +8,12 @@ use crate::{
             cost::HudCost,
             stats::Readings,
             style::{self, weak},
+            window::{PanelWindow, scroll},
         },
         icons,
         input::bindings::{Group, NONE},
         orders::{Order, Orders},
-        panels::{Panel, Panels},
+        panels::Panel,
         render::cost::RenderCost,
         views::table::STABILITY,
     },
@@ -24,41 +25,31 @@ use crate::{
         },
         ledger::{PassLedger, PassRecord},
         numbers::grouped,
-        state::{AirGrid, Clock, ParticleStore, Setup, SleepState},
+        state::{Acted, AirGrid, Clock, ParticleStore, Setup, SleepState},
     },
 };
-use bevy::prelude::{App, KeyCode, Res, ResMut, Result};
-use bevy_egui::{
-    EguiContexts,
-    egui::{self, RichText, Ui, vec2},
-};
-
-/// Its name.
-pub const ID: PanelId = PanelId("details");
+use bevy::prelude::{KeyCode, Res, ResMut, Result};
+use bevy_egui::egui::{self, Align2, RichText, Ui, vec2};
 
 /// Width of the window's contents, points.
 const WIDTH: f32 = 480.0;
 
-/// Adds the panel.
-pub fn plugin(app: &mut App) {
-    let panel = Panel {
-        id: ID,
-        title: "Details",
-        icon: icons::chart,
-        keys: &[(KeyCode::F3, NONE)],
-        group: Group::Look,
-        help: "details: what runs and what it costs",
-        in_bar: true,
-        in_list: Some("Details and effects"),
-        stays: true,
-    };
-    Panels::add(app, panel, show);
-}
+/// Its row.
+pub const PANEL: Panel = Panel {
+    id: PanelId("details"),
+    title: "Details",
+    icon: icons::chart,
+    keys: &[(KeyCode::F3, NONE)],
+    group: Group::Look,
+    help: "details: what runs and what it costs",
+    in_bar: true,
+    in_list: Some("Details and effects"),
+    stays: true,
+};
 
 /// Shows them.
-fn show(
-    mut contexts: EguiContexts,
-    mut panels: ResMut<Panels>,
+pub fn show(
+    mut window: PanelWindow,
     ledger: Res<PassLedger>,
     effects: Res<Effects>,
     setup: Res<Setup>,
@@ -68,12 +59,8 @@ fn show(
     sleepers: (Res<SleepState>, Res<ParticleStore>, Res<AirGrid>),
     mut orders: ResMut<Orders>,
 ) -> Result {
-    let context = contexts.ctx_mut()?;
-    let screen = context.content_rect();
-    let height = screen.height() - 210.0;
-    let place = (egui::Align2::LEFT_TOP, screen.left_top() + vec2(14.0, 54.0));
-    style::panel(context, &mut panels, ID, place, |ui| {
-        egui::ScrollArea::vertical().min_scrolled_height(height).max_height(height).show(ui, |ui| {
+    window.show(&PANEL, (Align2::LEFT_TOP, vec2(14.0, 54.0)), |ui| {
+        scroll(ui, 210.0, |ui| {
             ui.set_width(WIDTH);
             ui.spacing_mut().interact_size.y = 17.0;
             ui.spacing_mut().button_padding = vec2(6.0, 1.0);
@@ -89,8 +76,7 @@ fn show(
             ui.separator();
             limiters(ui, &readings);
         });
-    });
-    Ok(())
+    })
 }
 
 fn world(ui: &mut Ui, setup: &Setup, clock: &Clock) {
@@ -242,11 +228,11 @@ fn limiters(ui: &mut Ui, readings: &Readings) {
     ui.label(weak(format!("limiters, since the scene began (the view {} shows where)", STABILITY.name)).small());
     egui::Grid::new("limiters").num_columns(4).spacing([8.0, 3.0]).show(ui, |ui| {
         for pair in readings.limiters.chunks(2) {
-            for (reading, meaning) in pair {
+            for Acted { what, meaning, count } in pair {
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    ui.label(RichText::new(&reading.value).monospace().color(style::WARN));
+                    ui.label(RichText::new(grouped(*count)).monospace().color(style::WARN));
                 });
-                ui.label(&reading.unit).on_hover_text(*meaning);
+                ui.label(*what).on_hover_text(*meaning);
             }
             ui.end_row();
         }

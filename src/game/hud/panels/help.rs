@@ -2,61 +2,46 @@
 
 use crate::game::{
     actions::PanelId,
-    hud::style,
+    hud::{
+        style::{self, weak},
+        window::{MIDDLE, PanelWindow, scroll},
+    },
     icons,
     input::bindings::{Bindings, Group, NONE, SHIFT},
-    panels::{Panel, Panels},
+    panels::Panel,
 };
-use bevy::prelude::{App, KeyCode, Res, ResMut, Result};
-use bevy_egui::{
-    EguiContexts,
-    egui::{self, RichText, Ui},
-};
-
-/// Its name.
-pub const ID: PanelId = PanelId("help");
+use bevy::prelude::{KeyCode, Res, Result};
+use bevy_egui::egui::{self, RichText, Ui};
 
 /// Width of the column of keys, points.
 const KEYS_WIDTH: f32 = 132.0;
 
-/// Adds the panel.
-pub fn plugin(app: &mut App) {
-    let panel = Panel {
-        id: ID,
-        title: "Keys and mouse",
-        icon: icons::question,
-        keys: &[(KeyCode::F1, NONE), (KeyCode::Slash, SHIFT)],
-        group: Group::Look,
-        help: "this help",
-        in_bar: true,
-        in_list: None,
-        stays: false,
-    };
-    Panels::add(app, panel, show);
-}
+/// Its row.
+pub const PANEL: Panel = Panel {
+    id: PanelId("help"),
+    title: "Keys and mouse",
+    icon: icons::question,
+    keys: &[(KeyCode::F1, NONE), (KeyCode::Slash, SHIFT)],
+    group: Group::Look,
+    help: "this help",
+    in_bar: true,
+    in_list: None,
+    stays: false,
+};
 
 /// Shows the help.
-fn show(mut contexts: EguiContexts, mut panels: ResMut<Panels>, bindings: Res<Bindings>) -> Result {
-    let context = contexts.ctx_mut()?;
-    let screen = context.content_rect();
-    let height = screen.height() - 190.0;
-    let place = (egui::Align2::CENTER_CENTER, screen.center());
-    style::panel(context, &mut panels, ID, place, |ui| {
+pub fn show(mut window: PanelWindow, bindings: Res<Bindings>) -> Result {
+    window.show(&PANEL, MIDDLE, |ui| {
         ui.spacing_mut().interact_size.y = 17.0;
-        egui::ScrollArea::vertical().min_scrolled_height(height).max_height(height).show(ui, |ui| {
+        scroll(ui, 190.0, |ui| {
             ui.horizontal_top(|ui| {
                 ui.spacing_mut().item_spacing.x = 28.0;
                 for groups in [&Group::ALL[..2], &Group::ALL[2..]] {
-                    ui.vertical(|ui| {
-                        for group in groups {
-                            section(ui, &bindings, *group);
-                        }
-                    });
+                    ui.vertical(|ui| groups.iter().for_each(|group| section(ui, &bindings, *group)));
                 }
             });
         });
-    });
-    Ok(())
+    })
 }
 
 fn section(ui: &mut Ui, bindings: &Bindings, group: Group) {
@@ -64,8 +49,8 @@ fn section(ui: &mut Ui, bindings: &Bindings, group: Group) {
     ui.label(RichText::new(group.title()).heading().color(style::ACCENT));
     egui::Grid::new(group.title()).num_columns(2).min_col_width(KEYS_WIDTH).spacing([14.0, 4.0]).show(ui, |ui| {
         for (keys, help) in rows(bindings, group) {
-            ui.label(RichText::new(keys).color(style::TEXT));
-            ui.label(RichText::new(help).color(style::WEAK));
+            ui.label(keys);
+            ui.label(weak(help));
             ui.end_row();
         }
     });
@@ -99,6 +84,7 @@ fn rows(bindings: &Bindings, group: Group) -> Vec<(String, &'static str)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bevy::prelude::App;
 
     #[test]
     fn help_names_every_binding_once_by_its_meaning() {

@@ -10,20 +10,18 @@ pub mod scenes;
 pub mod search;
 pub mod settings;
 
-use crate::lab::{exam::ExamCase, gauntlet::GauntletCase};
+use crate::{
+    game::panels::Panels,
+    lab::{exam::ExamCase, gauntlet::GauntletCase},
+};
 use bevy::prelude::App;
 
 /// Adds them all; the buttons of the bar stand in this order from the right.
 pub fn plugin(app: &mut App) {
-    app.add_plugins((
-        help::plugin,
-        settings::plugin,
-        cases::window::plugin::<ExamCase>,
-        cases::window::plugin::<GauntletCase>,
-        details::plugin,
-        accuracy::panel::plugin,
-        saves::plugin,
-        scenes::plugin,
-        search::plugin,
-    ));
+    Panels::add(app, help::PANEL, help::show);
+    Panels::add(app, settings::PANEL, settings::show);
+    app.add_plugins((cases::window::plugin::<ExamCase>, cases::window::plugin::<GauntletCase>));
+    Panels::add(app, details::PANEL, details::show);
+    app.add_plugins((accuracy::panel::plugin, saves::plugin, scenes::plugin));
+    Panels::add(app, search::PANEL, search::show);
 }

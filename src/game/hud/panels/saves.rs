@@ -4,7 +4,11 @@ use crate::{
     game::{
         actions::PanelId,
         disk,
-        hud::style,
+        hud::{
+            style::{self, weak},
+            widgets::{LINE, field},
+            window::{MIDDLE, PanelWindow},
+        },
         icons,
         input::bindings::{CTRL, Group},
         orders::{Order, Orders},
@@ -15,14 +19,8 @@ use crate::{
     sim::numbers::grouped,
 };
 use bevy::prelude::{App, IntoScheduleConfigs, KeyCode, Res, ResMut, Resource, Result, Update, not};
-use bevy_egui::{
-    EguiContexts,
-    egui::{self, Align2, Color32, RichText, Ui, pos2, vec2},
-};
+use bevy_egui::egui::{self, Align2, Color32, TextStyle, Ui, pos2, vec2};
 use std::path::PathBuf;
-
-/// Its name.
-pub const ID: PanelId = PanelId("saves");
 
 /// Size of a row, points.
 const ROW: egui::Vec2 = vec2(430.0, 42.0);
@@ -48,22 +46,24 @@ struct SaveFile {
     summary: Option<Result<Summary, LoadError>>,
 }
 
+/// Its row.
+pub const PANEL: Panel = Panel {
+    id: PanelId("saves"),
+    title: "Load",
+    icon: icons::load,
+    keys: &[(KeyCode::KeyO, CTRL)],
+    group: Group::World,
+    help: "load a saved world (can be undone)",
+    in_bar: true,
+    in_list: Some("Load"),
+    stays: false,
+};
+
 /// Adds the panel.
 pub fn plugin(app: &mut App) {
     app.init_resource::<SaveMenu>();
-    let panel = Panel {
-        id: ID,
-        title: "Load",
-        icon: icons::load,
-        keys: &[(KeyCode::KeyO, CTRL)],
-        group: Group::World,
-        help: "load a saved world (can be undone)",
-        in_bar: true,
-        in_list: Some("Load"),
-        stays: false,
-    };
-    Panels::add(app, panel, show);
-    app.add_systems(Update, forget.run_if(not(is_open(ID))));
+    Panels::add(app, PANEL, show);
+    app.add_systems(Update, forget.run_if(not(is_open(PANEL.id))));
 }
 
 /// The next time it opens, the files are listed anew.
@@ -75,8 +75,7 @@ fn forget(mut menu: ResMut<SaveMenu>) {
 
 /// Shows the list.
 fn show(
-    mut contexts: EguiContexts,
-    mut panels: ResMut<Panels>,
+    mut window: PanelWindow,
     mut menu: ResMut<SaveMenu>,
     folders: Res<SaveFolders>,
     mut orders: ResMut<Orders>,
@@ -88,16 +87,13 @@ fn show(
     if let Some(file) = menu.files.iter_mut().find(|file| file.summary.is_none()) {
         file.summary = Some(Summary::read(&file.path));
     }
-    let context = contexts.ctx_mut()?;
-    let screen = context.content_rect();
     let mut chosen = None;
-    let place = (Align2::CENTER_CENTER, screen.center());
-    style::panel(context, &mut panels, ID, place, |ui| {
+    window.show(&PANEL, MIDDLE, |ui| {
         ui.set_width(ROW.x);
         if menu.files.is_empty() {
-            ui.label(RichText::new("No saved world yet.").color(style::WEAK));
+            ui.label(weak("No saved world yet."));
         }
-        egui::ScrollArea::vertical().max_height(screen.height() - 220.0).show(ui, |ui| {
+        egui::ScrollArea::vertical().max_height(ui.ctx().content_rect().height() - 220.0).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 2.0;
             for file in &menu.files {
                 if row(ui, file) {
@@ -106,12 +102,12 @@ fn show(
             }
         });
         for folder in &folders.0 {
-            ui.label(RichText::new(folder.display().to_string()).small().color(style::WEAK));
+            ui.label(weak(folder.display().to_string()).small());
         }
-    });
+    })?;
     if let Some(path) = chosen {
         orders.push(Order::Load(path));
-        panels.close(ID);
+        window.close(PANEL.id);
     }
     Ok(())
 }
@@ -139,13 +135,10 @@ fn age_text(seconds: u64) -> String {
 
 /// A line of the list; `true` if it is clicked.
 fn row(ui: &mut Ui, file: &SaveFile) -> bool {
-    let (rect, response) = ui.allocate_exact_size(ROW, egui::Sense::click());
-    if response.hovered() {
-        ui.painter().rect_filled(rect, style::BUTTON_CORNER, style::BUTTON_HOVER);
-    }
-    let font = |text: egui::TextStyle| text.resolve(ui.style());
-    let (large, small) = (font(egui::TextStyle::Button), font(egui::TextStyle::Small));
     let name = file.path.file_name().unwrap_or_default().to_string_lossy();
+    let (rect, response) = field(ui, ROW, &name, false, LINE);
+    let font = |text: TextStyle| text.resolve(ui.style());
+    let (large, small) = (font(TextStyle::Button), font(TextStyle::Small));
     let (title, about, colour) = match &file.summary {
         None => (name.as_ref(), String::new(), style::WEAK),
         Some(Err(error)) => (name.as_ref(), error.to_string(), style::WARN),
@@ -162,7 +155,6 @@ fn row(ui: &mut Ui, file: &SaveFile) -> bool {
     painter.text(pos2(left, upper), Align2::LEFT_CENTER, title, large, colour);
     painter.text(pos2(right, upper), Align2::RIGHT_CENTER, &file.age, small.clone(), style::WEAK);
     painter.text(pos2(left, lower), Align2::LEFT_CENTER, about, small, style::WEAK);
-    style::name(&response, &name, false);
     response.on_hover_text(name).clicked()
 }
 

@@ -3,7 +3,11 @@
 use crate::{
     game::{
         actions::PanelId,
-        hud::style,
+        hud::{
+            style::{self, weak},
+            widgets::{line, main_button},
+            window::{MIDDLE, PanelWindow},
+        },
         icons,
         input::bindings::{Group, NONE},
         orders::{Order, Orders},
@@ -13,24 +17,23 @@ use crate::{
     sim::state::Setup,
 };
 use bevy::prelude::{App, IntoScheduleConfigs, KeyCode, Res, ResMut, Resource, Result, Startup, Update, not};
-use bevy_egui::{
-    EguiContexts,
-    egui::{self, Color32, RichText, Ui, vec2},
-};
+use bevy_egui::egui::{self, Color32, RichText, Ui};
 use std::collections::BTreeMap;
-
-/// Its name.
-pub const ID: PanelId = PanelId("scenes");
 
 /// The scenes to choose from.
 #[derive(Resource, Default)]
-struct SceneMenu {
+pub struct SceneMenu {
     scenes: Vec<SceneFile>,
     chosen: Option<usize>,
     values: BTreeMap<String, f64>,
 }
 
 impl SceneMenu {
+    /// The scenes that come with the game, the default one first, the others by title.
+    pub fn scenes(&self) -> &[SceneFile] {
+        &self.scenes
+    }
+
     /// Looks at a scene, with its parameters as they are in force or by default.
     fn choose(&mut self, index: usize, setup: &Setup) {
         let Some(scene) = self.scenes.get(index) else { return };
@@ -54,22 +57,24 @@ fn list_scenes(mut menu: ResMut<SceneMenu>) {
     menu.scenes.sort_by(|a, b| (a.name() != "waterfall", a.title()).cmp(&(b.name() != "waterfall", b.title())));
 }
 
+/// Its row.
+pub const PANEL: Panel = Panel {
+    id: PanelId("scenes"),
+    title: "Scenes",
+    icon: icons::scenes,
+    keys: &[(KeyCode::KeyM, NONE)],
+    group: Group::World,
+    help: "scene menu",
+    in_bar: false,
+    in_list: None,
+    stays: false,
+};
+
 /// Adds the panel.
 pub fn plugin(app: &mut App) {
     app.init_resource::<SceneMenu>();
-    let panel = Panel {
-        id: ID,
-        title: "Scenes",
-        icon: icons::scenes,
-        keys: &[(KeyCode::KeyM, NONE)],
-        group: Group::World,
-        help: "scene menu",
-        in_bar: false,
-        in_list: None,
-        stays: false,
-    };
-    Panels::add(app, panel, show);
-    app.add_systems(Startup, list_scenes).add_systems(Update, forget.run_if(not(is_open(ID))));
+    Panels::add(app, PANEL, show);
+    app.add_systems(Startup, list_scenes).add_systems(Update, forget.run_if(not(is_open(PANEL.id))));
 }
 
 /// The next time it opens, it is at the scene that is played.
@@ -80,28 +85,19 @@ fn forget(mut menu: ResMut<SceneMenu>) {
 }
 
 /// Shows the menu.
-fn show(
-    mut contexts: EguiContexts,
-    mut panels: ResMut<Panels>,
-    mut menu: ResMut<SceneMenu>,
-    setup: Res<Setup>,
-    mut orders: ResMut<Orders>,
-) -> Result {
+fn show(mut window: PanelWindow, mut menu: ResMut<SceneMenu>, setup: Res<Setup>, mut orders: ResMut<Orders>) -> Result {
     if menu.chosen.is_none() {
         let playing = menu.scenes.iter().position(|scene| scene.name() == setup.blueprint.name);
         menu.choose(playing.unwrap_or(0), &setup);
     }
-    let context = contexts.ctx_mut()?;
-    let screen = context.content_rect();
     let mut play = false;
-    let place = (egui::Align2::CENTER_CENTER, screen.center());
-    style::panel(context, &mut panels, ID, place, |ui| {
+    window.show(&PANEL, MIDDLE, |ui| {
         ui.horizontal_top(|ui| {
             ui.vertical(|ui| {
                 ui.set_width(190.0);
-                egui::ScrollArea::vertical().id_salt("list").max_height(screen.height() - 200.0).show(ui, |ui| {
-                    list(ui, &mut menu, &setup);
-                });
+                let height = ui.ctx().content_rect().height() - 200.0;
+                let area = egui::ScrollArea::vertical().id_salt("list").max_height(height);
+                area.show(ui, |ui| list(ui, &mut menu, &setup));
             });
             ui.separator();
             ui.vertical(|ui| {
@@ -109,11 +105,11 @@ fn show(
                 play = sheet(ui, &mut menu);
             });
         });
-    });
+    })?;
     if let (true, Some(scene)) = (play, menu.chosen.and_then(|index| menu.scenes.get(index))) {
         let settings = menu.values.iter().map(|(name, value)| (name.clone(), value.to_string())).collect();
         orders.push(Order::Scene { name: scene.name().to_owned(), settings });
-        panels.close(ID);
+        window.close(PANEL.id);
     }
     Ok(())
 }
@@ -122,25 +118,13 @@ fn list(ui: &mut Ui, menu: &mut SceneMenu, setup: &Setup) {
     ui.spacing_mut().item_spacing.y = 2.0;
     let mut clicked = None;
     for (index, scene) in menu.scenes.iter().enumerate() {
-        let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 30.0), egui::Sense::click());
         let chosen = menu.chosen == Some(index);
-        if chosen || response.hovered() {
-            let fill = if chosen { style::ACCENT_FILL } else { style::BUTTON_HOVER };
-            ui.painter().rect_filled(rect, style::BUTTON_CORNER, fill);
-        }
-        let playing = scene.name() == setup.blueprint.name;
-        let colour = if playing {
-            style::ACCENT
-        } else if chosen {
-            Color32::WHITE
-        } else {
-            style::TEXT
+        let colour = match scene.name() == setup.blueprint.name {
+            true => style::ACCENT,
+            false if chosen => Color32::WHITE,
+            false => style::TEXT,
         };
-        let font = egui::TextStyle::Button.resolve(ui.style());
-        let at = rect.left_center() + vec2(10.0, 0.0);
-        ui.painter().text(at, egui::Align2::LEFT_CENTER, scene.title(), font, colour);
-        style::name(&response, scene.title(), chosen);
-        if response.clicked() {
+        if line(ui, 30.0, 10.0, (scene.title(), colour), chosen).1.clicked() {
             clicked = Some(index);
         }
     }
@@ -153,11 +137,11 @@ fn list(ui: &mut Ui, menu: &mut SceneMenu, setup: &Setup) {
 fn sheet(ui: &mut Ui, menu: &mut SceneMenu) -> bool {
     let Some(scene) = menu.chosen.and_then(|index| menu.scenes.get(index)) else { return false };
     ui.label(RichText::new(scene.title()).heading().color(Color32::WHITE));
-    ui.label(RichText::new(scene.description()).color(style::WEAK));
+    ui.label(weak(scene.description()));
     ui.add_space(8.0);
     for (name, spec) in scene.parameters() {
         let Some(value) = menu.values.get_mut(name) else { continue };
-        ui.label(RichText::new(&spec.description).small().color(style::WEAK));
+        ui.label(weak(&spec.description).small());
         let mut slider = egui::Slider::new(value, spec.min..=spec.max).text(name.as_str());
         if spec.integer {
             slider = slider.integer();
@@ -166,5 +150,5 @@ fn sheet(ui: &mut Ui, menu: &mut SceneMenu) -> bool {
         ui.add(slider.logarithmic(spec.min > 0.0 && spec.max / spec.min > 100.0));
     }
     ui.add_space(10.0);
-    style::main_button(ui, "Play").clicked()
+    main_button(ui, "Play").clicked()
 }

@@ -2,97 +2,70 @@
 
 use crate::{
     game::{
-        actions::PanelId,
-        hud::style,
+        actions::{Action, PanelId},
+        hud::{widgets::line, window::PanelWindow},
         icons,
         input::bindings::{Group, NONE},
         orders::{Order, Orders},
-        panels::{Panel, Panels},
+        panels::Panel,
         tools::Tool,
     },
     kernel::element::ElementTable,
     sim::state::Setup,
 };
-use bevy::prelude::{App, KeyCode, Local, Res, ResMut, Result};
-use bevy_egui::{
-    EguiContexts,
-    egui::{self, Color32, vec2},
+use bevy::prelude::{KeyCode, Local, Res, ResMut, Result};
+use bevy_egui::egui::{self, Align2, Color32, Key, Ui, vec2};
+
+/// Its row.
+pub const PANEL: Panel = Panel {
+    id: PanelId("search"),
+    title: "Search",
+    icon: icons::question,
+    keys: &[(KeyCode::KeyE, NONE)],
+    group: Group::Choose,
+    help: "search elements and tools",
+    in_bar: false,
+    in_list: None,
+    stays: false,
 };
 
-/// Its name.
-pub const ID: PanelId = PanelId("search");
-
-/// Adds the panel.
-pub fn plugin(app: &mut App) {
-    let panel = Panel {
-        id: ID,
-        title: "Search",
-        icon: icons::question,
-        keys: &[(KeyCode::KeyE, NONE)],
-        group: Group::Choose,
-        help: "search elements and tools",
-        in_bar: false,
-        in_list: None,
-        stays: false,
-    };
-    Panels::add(app, panel, show);
-}
-
 /// Shows the search.
-fn show(
-    mut contexts: EguiContexts,
-    mut panels: ResMut<Panels>,
-    mut text: Local<String>,
-    setup: Res<Setup>,
-    mut orders: ResMut<Orders>,
-) -> Result {
-    let context = contexts.ctx_mut()?;
-    let escaped = context.input(|input| input.key_pressed(egui::Key::Escape));
-    let entered = context.input(|input| input.key_pressed(egui::Key::Enter));
-    let screen = context.content_rect();
-    let mut chosen = None;
-    let place = (egui::Align2::CENTER_TOP, screen.center_top() + vec2(0.0, 120.0));
-    style::panel(context, &mut panels, ID, place, |ui| {
+pub fn show(mut window: PanelWindow, mut text: Local<String>, setup: Res<Setup>, mut orders: ResMut<Orders>) -> Result {
+    let mut done = false;
+    window.show(&PANEL, (Align2::CENTER_TOP, vec2(0.0, 120.0)), |ui| {
         ui.set_width(260.0);
         let field = egui::TextEdit::singleline(&mut *text).hint_text("element or tool").desired_width(f32::INFINITY);
         ui.add(field.char_limit(40)).request_focus();
         let found = find(setup.elements(), &text);
-        chosen = found.first().copied().filter(|_| entered);
+        let entered = ui.input(|input| input.key_pressed(Key::Enter));
+        let mut chosen = found.first().filter(|_| entered);
         ui.spacing_mut().item_spacing.y = 2.0;
-        egui::ScrollArea::vertical().max_height(screen.height() - 320.0).show(ui, |ui| {
+        egui::ScrollArea::vertical().max_height(ui.ctx().content_rect().height() - 320.0).show(ui, |ui| {
             for tool in &found {
                 if row(ui, *tool, setup.elements(), Some(tool) == found.first()) {
-                    chosen = Some(*tool);
+                    chosen = Some(tool);
                 }
             }
         });
         if found.is_empty() {
             ui.weak("nothing of that name");
         }
-    });
-    if let Some(tool) = chosen {
-        orders.push(Order::Choose(tool));
+        orders.extend(chosen.map(|tool| Order::Act(Action::Tool(*tool))));
+        done = entered || chosen.is_some() || ui.input(|input| input.key_pressed(Key::Escape));
+    })?;
+    if done {
+        window.close(PANEL.id);
     }
-    if escaped || entered || chosen.is_some() {
-        panels.close(ID);
-    }
-    if !panels.shows(ID) {
+    if !window.is_open(PANEL.id) {
         text.clear();
     }
     Ok(())
 }
 
-fn row(ui: &mut egui::Ui, tool: Tool, elements: &ElementTable, first: bool) -> bool {
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 28.0), egui::Sense::click());
-    if first || response.hovered() {
-        let fill = if first { style::ACCENT_FILL } else { style::BUTTON_HOVER };
-        ui.painter().rect_filled(rect, style::BUTTON_CORNER, fill);
-    }
+fn row(ui: &mut Ui, tool: Tool, elements: &ElementTable, first: bool) -> bool {
+    let (rect, response) = line(ui, 28.0, 36.0, (tool.name(elements), Color32::WHITE), first);
     let (icon, colour) = tool.icon(elements);
     icons::draw(ui.painter(), icons::square(rect.left_center() + vec2(18.0, 0.0), 18.0), icon, colour);
-    let font = egui::TextStyle::Button.resolve(ui.style());
-    let at = rect.left_center() + vec2(36.0, 0.0);
-    ui.painter().text(at, egui::Align2::LEFT_CENTER, tool.name(elements), font, Color32::WHITE);
     response.clicked()
 }
 

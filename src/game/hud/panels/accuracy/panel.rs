@@ -12,7 +12,8 @@ use crate::{
                 plot::{Live, Plot},
             },
             style::{self, weak},
-            widgets::{icon_button, quality_name},
+            widgets::{icon_button, main_button, quality_name},
+            window::{PanelWindow, scroll},
         },
         icons,
         input::bindings::{Bindings, Group, NONE},
@@ -36,14 +37,8 @@ use crate::{
     },
 };
 use bevy::prelude::{App, KeyCode, Res, ResMut, Resource, Result};
-use bevy_egui::{
-    EguiContexts,
-    egui::{self, Color32, RichText, Sense, Ui, vec2},
-};
+use bevy_egui::egui::{self, Align2, Color32, FontId, RichText, Sense, Ui, vec2};
 use std::collections::BTreeMap;
-
-/// Its name.
-pub const ID: PanelId = PanelId("accuracy");
 
 /// Width of the panel's contents, points.
 const WIDTH: f32 = 396.0;
@@ -102,27 +97,28 @@ impl AccuracyPanel {
     }
 }
 
+/// Its row.
+pub const PANEL: Panel = Panel {
+    id: PanelId("accuracy"),
+    title: "Accuracy",
+    icon: icons::curve,
+    keys: &[(KeyCode::KeyA, NONE)],
+    group: Group::Look,
+    help: "accuracy: what it costs, and the autopilot",
+    in_bar: true,
+    in_list: Some("Accuracy and cost"),
+    stays: true,
+};
+
 /// Adds the panel.
 pub fn plugin(app: &mut App) {
     app.init_resource::<AccuracyPanel>();
-    let panel = Panel {
-        id: ID,
-        title: "Accuracy",
-        icon: icons::curve,
-        keys: &[(KeyCode::KeyA, NONE)],
-        group: Group::Look,
-        help: "accuracy: what it costs, and the autopilot",
-        in_bar: true,
-        in_list: Some("Accuracy and cost"),
-        stays: true,
-    };
-    Panels::add(app, panel, show);
+    Panels::add(app, PANEL, show);
 }
 
 /// Shows the panel.
 fn show(
-    mut contexts: EguiContexts,
-    mut panels: ResMut<Panels>,
+    mut window: PanelWindow,
     mut panel: ResMut<AccuracyPanel>,
     (setup, generation): (Res<Setup>, Res<Generation>),
     clock: Res<Clock>,
@@ -137,12 +133,9 @@ fn show(
     let live = (milliseconds > 0.0).then(|| Live { milliseconds, error: error.mean() });
     let scene = panel.turn_to(generation.scene, &setup.blueprint);
     panel.follow(&survey, &clock, live);
-    let context = contexts.ctx_mut()?;
-    let screen = context.content_rect();
-    let height = screen.height() - 215.0;
-    let place = (egui::Align2::RIGHT_TOP, screen.right_top() + vec2(-14.0, 54.0));
-    style::panel(context, &mut panels, ID, place, |ui| {
-        egui::ScrollArea::vertical().min_scrolled_height(height).max_height(height).show(ui, |ui| {
+    window.show(&PANEL, (Align2::RIGHT_TOP, vec2(-14.0, 54.0)), |ui| {
+        let screen = ui.ctx().content_rect();
+        scroll(ui, 215.0, |ui| {
             ui.set_width(WIDTH.min(screen.width() - 60.0));
             ui.spacing_mut().button_padding = vec2(7.0, 2.0);
             headline(ui, &setup, milliseconds, &error);
@@ -158,9 +151,7 @@ fn show(
                 looked: error.latest().is_some(),
             };
             let size = vec2(ui.available_width(), (0.34 * screen.height()).clamp(150.0, 240.0));
-            if let Some(preset) = plot.show(ui, size).or(plot.chips(ui)) {
-                orders.push(Order::Quality(preset));
-            }
+            orders.extend(plot.show(ui, size).or(plot.chips(ui)).map(Order::Quality));
             measure(ui, &survey, curve, scale, (&split, &bindings), &mut orders);
             ui.separator();
             pilot::show(ui, &autopilot, bounds, &mut orders);
@@ -170,8 +161,7 @@ fn show(
             ui.separator();
             measures::show(ui, open, seen, &measures);
         });
-    });
-    Ok(())
+    })
 }
 
 fn headline(ui: &mut Ui, setup: &Setup, milliseconds: f32, error: &LiveError) {
@@ -216,7 +206,7 @@ fn measure(
                 }
             }
             None => {
-                let button = style::main_button(ui, "Measure here");
+                let button = main_button(ui, "Measure here");
                 let told = "Takes the world as it is and runs every quality from it for two seconds, on one thread \
                             beside the game, which plays on";
                 if button.on_hover_text(told).clicked() {
@@ -225,7 +215,7 @@ fn measure(
             }
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if icon_button(ui, icons::split, Some("A/B split"), split.is_on())
+            if icon_button(ui, (icons::split, "A/B split"), "A/B split", split.is_on())
                 .on_hover_text(bindings.tip(Action::Split))
                 .clicked()
             {
@@ -265,16 +255,10 @@ fn stages(ui: &mut Ui, ledger: &PassLedger, error: &LiveError) {
 fn bar(ui: &mut Ui, name: &str, time: f32, longest: f32) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 14.0), Sense::hover());
     let (names, numbers) = (70.0, 52.0);
-    let font = egui::FontId::proportional(12.0);
-    ui.painter().text(rect.left_center(), egui::Align2::LEFT_CENTER, name, font, style::TEXT);
-    let number = format!("{time:.3}");
-    ui.painter().text(
-        rect.left_center() + vec2(names + numbers - 8.0, 0.0),
-        egui::Align2::RIGHT_CENTER,
-        number,
-        egui::FontId::monospace(11.0),
-        style::TEXT,
-    );
+    let (painter, left) = (ui.painter(), rect.left_center());
+    painter.text(left, Align2::LEFT_CENTER, name, FontId::proportional(12.0), style::TEXT);
+    let (number, end) = (format!("{time:.3}"), left + vec2(names + numbers - 8.0, 0.0));
+    painter.text(end, Align2::RIGHT_CENTER, number, FontId::monospace(11.0), style::TEXT);
     let room = rect.with_min_x(rect.left() + names + numbers).shrink2(vec2(0.0, 2.0));
     ui.painter().rect_filled(room, 3.0, style::BUTTON);
     if longest > 0.0 {

@@ -61,12 +61,11 @@ pub fn show(ui: &mut Ui, autopilot: &Autopilot, bounds: &mut Bounds, orders: &mu
 }
 
 fn slider(ui: &mut Ui, value: &mut f32, range: std::ops::RangeInclusive<f32>, unit: &str) -> bool {
+    let slider = egui::Slider::new(value, range).logarithmic(true).text(unit);
+    let slider = slider.custom_formatter(|value, _| short(value as f32));
     ui.horizontal(|ui| {
         ui.label("at most");
-        let slider = egui::Slider::new(value, range).logarithmic(true).custom_formatter(|value, _| short(value as f32));
-        let changed = ui.add(slider).changed();
-        ui.label(unit);
-        changed
+        ui.add(slider).changed()
     })
     .inner
 }

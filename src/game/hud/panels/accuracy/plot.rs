@@ -4,7 +4,7 @@
 use crate::{
     game::hud::{
         panels::accuracy::axis::{Axis, percent},
-        style,
+        style, widgets,
     },
     kernel::params::{Preset, Quality},
     lab::{
@@ -193,7 +193,7 @@ impl Plot<'_> {
             let id = ui.id().with(("preset", point.preset.name()));
             // Button and dot, and not what lies between them: another's button may.
             let response = ui.interact(button, id, Sense::click());
-            style::name(&response, &format!("{} on the curve", point.preset.name()), in_force);
+            widgets::name(&response, &format!("{} on the curve", point.preset.name()), in_force);
             let response = response | ui.interact(Rect::from_center_size(dot, TOUCHED), id.with("dot"), Sense::click());
             let (fill, colour) = match (in_force, response.hovered()) {
                 (true, _) => (style::ACCENT_FILL, Color32::WHITE),
@@ -329,7 +329,7 @@ mod tests {
     /// What the plot and its chips write in a window, and which preset a click on the words `on` chooses.
     fn press(plot: &Plot<'_>, on: &str) -> (Vec<String>, Option<Preset>) {
         let context = egui::Context::default();
-        style::dress(&context);
+        style::apply(&context);
         let (mut words, mut chosen, mut target) = (Vec::new(), None, None);
         for step in 0..6 {
             let button = |pressed, pos| egui::Event::PointerButton {

@@ -6,6 +6,7 @@ use crate::{
         hud::{
             panels::cases::window::{Suite, mark},
             style,
+            widgets::{self, field},
         },
         icons,
         input::bindings::{Group, NONE},
@@ -31,12 +32,9 @@ const MARKS: f32 = 400.0;
 /// From one mark to the next, points.
 const MARK: f32 = 34.0;
 
-/// Name of the panel.
-pub const ID: PanelId = PanelId("gauntlet");
-
 impl Suite for GauntletCase {
     const PANEL: Panel = Panel {
-        id: ID,
+        id: PanelId("gauntlet"),
         title: "Stability gauntlet",
         icon: icons::shield,
         keys: &[(KeyCode::F7, NONE)],
@@ -75,17 +73,10 @@ fn list(ui: &mut Ui, rows: &[Row<Stability>], setup: &Setup, height: f32) -> Opt
     let mut clicked = None;
     egui::ScrollArea::vertical().max_height(height).show_rows(ui, LINE, cases.len(), |ui, seen| {
         for &case in &cases[seen] {
-            let (rect, response) = ui.allocate_exact_size(vec2(GauntletCase::WIDTH, LINE), egui::Sense::click());
-            if response.hovered() {
-                ui.painter().rect_filled(rect, style::BUTTON_CORNER, style::BUTTON_HOVER);
-            }
+            let (rect, response) = field(ui, vec2(GauntletCase::WIDTH, LINE), case.title, false, widgets::LINE);
             let colour = if case.is_played(setup) { style::ACCENT } else { style::TEXT };
-            icons::draw(
-                ui.painter(),
-                icons::square(rect.left_center() + vec2(11.0, 0.0), 9.0),
-                icons::play,
-                style::WEAK,
-            );
+            let triangle = icons::square(rect.left_center() + vec2(11.0, 0.0), 9.0);
+            icons::draw(ui.painter(), triangle, icons::play, style::WEAK);
             let font = egui::TextStyle::Body.resolve(ui.style());
             let at = pos2(rect.left() + TITLE, rect.center().y);
             ui.painter().text(at, Align2::LEFT_CENTER, case.title, font, colour);

@@ -1,5 +1,5 @@
 //! The panels of the physics exam and of the stability gauntlet.
 
 mod exam;
-pub mod gauntlet;
+mod gauntlet;
 pub mod window;

@@ -2,7 +2,11 @@
 
 use crate::{
     game::{
-        hud::style,
+        hud::{
+            style::{self, weak},
+            widgets::main_button,
+            window::{MIDDLE, PanelWindow},
+        },
         icons::{self, Icon},
         orders::{Order, Orders},
         panels::{Panel, Panels},
@@ -12,10 +16,7 @@ use crate::{
     sim::state::Setup,
 };
 use bevy::prelude::{App, Res, ResMut, Result};
-use bevy_egui::{
-    EguiContexts,
-    egui::{self, Align2, Color32, RichText, Ui},
-};
+use bevy_egui::egui::{self, Color32, RichText, Ui};
 
 /// What is particular to the window of a suite.
 pub trait Suite: Case {
@@ -40,38 +41,32 @@ pub fn plugin<C: Suite>(app: &mut App) {
 
 /// Shows the window of a suite.
 fn show<C: Suite>(
-    mut contexts: EguiContexts,
-    mut panels: ResMut<Panels>,
+    mut window: PanelWindow,
     setup: Res<Setup>,
     mut queue: ResMut<JobQueue<C>>,
     mut orders: ResMut<Orders>,
 ) -> Result {
-    let context = contexts.ctx_mut()?;
-    let screen = context.content_rect();
-    let place = (Align2::CENTER_CENTER, screen.center());
-    style::panel(context, &mut panels, C::PANEL.id, place, |ui| {
+    window.show(&C::PANEL, MIDDLE, |ui| {
         ui.set_width(C::WIDTH);
-        ui.label(RichText::new(C::PURPOSE).color(style::WEAK));
+        ui.label(weak(C::PURPOSE));
         ui.horizontal(|ui| {
             buttons(ui, &mut queue, setup.preset);
             progress(ui, queue.progress());
         });
-        if let Some(order) = C::show(ui, queue.rows(), &setup, screen.height()) {
-            orders.push(order);
-        }
-    });
-    Ok(())
+        let height = ui.ctx().content_rect().height();
+        orders.extend(C::show(ui, queue.rows(), &setup, height));
+    })
 }
 
 /// Begins and stops.
 fn buttons<C: Suite>(ui: &mut Ui, queue: &mut JobQueue<C>, preset: Preset) {
     if queue.is_running() {
-        if style::main_button(ui, "Stop").clicked() {
+        if main_button(ui, "Stop").clicked() {
             queue.stop();
         }
         return;
     }
-    if style::main_button(ui, C::BEGIN).on_hover_text("the quality that is played at").clicked() {
+    if main_button(ui, C::BEGIN).on_hover_text("the quality that is played at").clicked() {
         queue.begin(&[preset]);
     }
     if ui.button("all qualities").on_hover_text("takes some minutes").clicked() {
@@ -85,10 +80,10 @@ fn progress(ui: &mut Ui, progress: &Progress) {
         Progress::Running { done, of, now } => {
             let share = *done as f32 / (*of).max(1) as f32;
             ui.add(egui::ProgressBar::new(share).desired_width(160.0).text(format!("{done} of {of}")));
-            ui.label(RichText::new(now).small().color(style::WEAK));
+            ui.label(weak(now).small());
         }
-        Progress::Done => drop(ui.label(RichText::new("done").color(style::WEAK))),
-        Progress::Stopped => drop(ui.label(RichText::new("stopped").color(style::WEAK))),
+        Progress::Done => drop(ui.label(weak("done"))),
+        Progress::Stopped => drop(ui.label(weak("stopped"))),
         Progress::Broken(why) => drop(ui.label(RichText::new(why).color(style::WARN))),
     }
 }
