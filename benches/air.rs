@@ -17,7 +17,7 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use glam::{IVec2, Vec2};
 use powder_master::kernel::air::{Air, Rousing};
 use powder_master::kernel::element::{ElementId, ElementParams};
-use powder_master::kernel::forces::apply_drag;
+use powder_master::kernel::forces::{LaterDrag, apply_drag};
 use powder_master::kernel::parallel::Team;
 use powder_master::kernel::params::{AIR_DENSITY, AirAdvection, AirParams, AirScheme, OpenSides};
 use powder_master::kernel::particles::Particles;
@@ -129,17 +129,18 @@ fn drag(c: &mut Criterion) {
         particles.push(i as u32, ElementId(0), at, Vec2::new((i % 90) as f32, -50.0));
     }
     let water = ElementParams { drag: vec![0.0045], mass: vec![1000.0], ..ElementParams::default() };
+    let mut later = LaterDrag::default();
     let mut group = c.benchmark_group("drag");
     group.throughput(Throughput::Elements(COUNT as u64));
     group.bench_function("of particles", |bencher| {
         let mut particles = particles.clone();
-        bencher.iter(|| apply_drag(&air, &water, &mut particles, 1, 1.0e-6));
+        bencher.iter(|| apply_drag(&air, &water, &mut particles, &mut later, 1, 1.0e-6));
     });
     group.bench_function("of particles and air", |bencher| {
         let (mut air, mut particles) = (air.clone(), particles.clone());
         bencher.iter(|| {
             air.meet(&water, &particles, Rousing::Gusts, team, 1.0e-6);
-            air.drag_along(&water, &mut particles, 1, 1.0e-6);
+            air.drag_along(&water, &mut particles, &mut later, 1, 1.0e-6);
         });
     });
     group.finish();

@@ -8,7 +8,7 @@ use glam::Vec2;
 use powder_master::kernel::{
     air::Air,
     element::ElementParams,
-    forces,
+    forces::{self, LaterDrag},
     params::{AIR_DENSITY, AirParams, OpenSides},
     predictor::{Predictor, PredictorParams},
     simd::InstructionSet,
@@ -28,14 +28,16 @@ fn stages(criterion: &mut Criterion) {
     let best = InstructionSet::detect();
     let liquid = ElementParams { drag: vec![0.001], viscosity: vec![0.02], vorticity: vec![0.0], mass: vec![1000.0] };
     group.bench_function("gravity", |b| {
-        stage(b, Tank::new(best), |tank| forces::apply_gravity(Vec2::new(0.0, -1e-6), &mut tank.particles, 1, SUBSTEP));
+        stage(b, Tank::new(best), |tank| forces::begin_kick(Vec2::new(0.0, -1e-6), &mut tank.particles, 1, SUBSTEP));
     });
     group.bench_function("drag", |b| {
         let tank = Tank::new(best);
         let params = AirParams { sound_speed: 1000.0, density: AIR_DENSITY, open: OpenSides::default() };
         let mut air = Air::new(tank.domain.size, 4.0, params);
         air.blow(Vec2::splat(50.0), 40.0, Vec2::new(30.0, 0.0));
-        stage(b, tank, |tank| forces::apply_drag(&air, &liquid, &mut tank.particles, 1, SUBSTEP));
+        stage(b, tank, |tank| {
+            forces::apply_drag(&air, &liquid, &mut tank.particles, &mut LaterDrag::default(), 1, SUBSTEP);
+        });
     });
     for set in InstructionSet::available() {
         let name = set.name();
@@ -46,7 +48,7 @@ fn stages(criterion: &mut Criterion) {
         group.bench_function(format!("velocity/{name}"), |b| {
             stage(b, Tank::new(set), |tank| {
                 let Tank { particles, solids, solver, .. } = tank;
-                velocity::update_velocities(particles, solver, solids, true, 1, SUBSTEP);
+                velocity::update_velocities(particles, solver, solids, Vec2::ZERO, true, 1, SUBSTEP);
             });
         });
         group.bench_function(format!("viscosity/{name}"), |b| {

@@ -9,18 +9,72 @@ use crate::{
 };
 use glam::Vec2;
 
-/// Fewer particles than this a piece do not pay for another thread: gravity is one addition.
-const WORTH_GRAVITY: usize = 65_536;
 /// Particles whose wind is looked up at a time.
 const BLOCK: usize = 64;
 
-/// Adds gravity (d/s²) over `dt` s.
-pub fn apply_gravity(gravity: Vec2, particles: &mut Particles, threads: usize, dt: f32) {
-    let change = gravity * dt;
-    spread([&mut particles.vx[..], &mut particles.vy[..]], WORTH_GRAVITY, threads, &|_, [vx, vy]| {
-        vx.iter_mut().for_each(|vx| *vx += change.x);
-        vy.iter_mut().for_each(|vy| *vy += change.y);
-    });
+/// Begins a substep of `dt` s: half of gravity (d/s²), whose other half [`end_kick`] adds after the move.
+///
+/// That is the leapfrog (velocity Verlet): with `x += v Δt` in between, a fall is exact at any Δt, in way and in speed.
+/// Pressure and contact act at the middle of a substep, too. They are known only once the substep is solved; so that the
+/// velocity that is stored is that of the substep's end, as much as they changed it by from its start to its middle is
+/// added after the move (`push`), and taken back here: the pressure solve sets out from the velocity in the middle of the
+/// last substep, and finds the whole change.
+pub fn begin_kick(gravity: Vec2, particles: &mut Particles, threads: usize, dt: f32) {
+    let change = 0.5 * dt * gravity;
+    let Particles { vx, vy, push_x, push_y, .. } = particles;
+    for (velocity, push, change) in [(vx, push_x, change.x), (vy, push_y, change.y)] {
+        spread([&mut velocity[..], push], WORTH_A_PIECE, threads, &|_, [velocity, push]| {
+            for (velocity, push) in velocity.iter_mut().zip(push) {
+                *velocity += change - *push;
+                *push = 0.0;
+            }
+        });
+    }
+}
+
+/// What is left of a `kick` (d/s) where contact changed the velocity by `stop` (d/s): what rests on something is held by it
+/// until the substep's end, too. Contact takes away no more of the kick than it took of the motion, and gives nothing back.
+#[inline(always)]
+pub(crate) fn held(kick: Vec2, stop: Vec2) -> Vec2 {
+    let against = -(kick.x * stop.x + kick.y * stop.y);
+    let stop2 = stop.x * stop.x + stop.y * stop.y;
+    let share = if against < stop2 { against } else { stop2 };
+    let share = if against > 0.0 { share / stop2 } else { 0.0 };
+    Vec2::new(kick.x + share * stop.x, kick.y + share * stop.y)
+}
+
+/// The half of the drag that comes after the move, d/s for each particle; empty where nothing drags.
+#[derive(Clone, Debug, Default)]
+pub struct LaterDrag {
+    x: Vec<f32>,
+    y: Vec<f32>,
+}
+
+impl LaterDrag {
+    /// Room for `count` particles.
+    pub(crate) fn of(&mut self, count: usize) -> [&mut [f32]; 2] {
+        self.x.resize(count, 0.0);
+        self.y.resize(count, 0.0);
+        [&mut self.x, &mut self.y]
+    }
+
+    /// Adds it to the velocities, up to the speed `most` (d/s), and is empty. The particles must be the same.
+    pub fn end(&mut self, particles: &mut Particles, threads: usize, most: f32) {
+        if self.x.is_empty() {
+            return;
+        }
+        let Particles { vx, vy, .. } = particles;
+        spread([&mut vx[..], vy, &mut self.x, &mut self.y], WORTH_A_PIECE, threads, &|_, [vx, vy, x, y]| {
+            for k in 0..vx.len() {
+                let velocity = Vec2::new(vx[k] + x[k], vy[k] + y[k]);
+                let speed2 = velocity.x * velocity.x + velocity.y * velocity.y;
+                let share = if speed2 > most * most { most / speed2.sqrt() } else { 1.0 };
+                (vx[k], vy[k]) = (velocity.x * share, velocity.y * share);
+            }
+        });
+        self.x.clear();
+        self.y.clear();
+    }
 }
 
 /// Drags every particle towards the air at its place with `F = C v²`, v being its velocity relative to the air.
@@ -28,12 +82,23 @@ pub fn apply_gravity(gravity: Vec2, particles: &mut Particles, threads: usize, d
 /// `dv/dt = −k |v| v` has the exact solution `v / (1 + k |v| Δt)`, which neither overshoots nor reverses at any C. The
 /// explicit step `v (1 − k |v| Δt)` would turn the particle round past **`k |v| Δt = 1`** and speed it up past 2; the
 /// solution has no such bound, so there is nothing to limit.
-pub fn apply_drag(air: &Air, elements: &ElementParams, particles: &mut Particles, threads: usize, dt: f32) {
+///
+/// The velocity gets half of the change, `later` the other half (d/s): it comes after the move.
+pub fn apply_drag(
+    air: &Air,
+    elements: &ElementParams,
+    particles: &mut Particles,
+    later: &mut LaterDrag,
+    threads: usize,
+    dt: f32,
+) {
     let (quiet, rates) = (air.is_quiet(), &elements.drag[..]);
     let Particles { x, y, vx, vy, element, .. } = particles;
-    spread([&mut vx[..], &mut vy[..]], WORTH_A_PIECE, threads, &|base, [vx, vy]| {
+    let [later_x, later_y] = later.of(x.len());
+    spread([&mut vx[..], vy, later_x, later_y], WORTH_A_PIECE, threads, &|base, [vx, vy, later_x, later_y]| {
         for (index, (vx, vy)) in vx.chunks_mut(BLOCK).zip(vy.chunks_mut(BLOCK)).enumerate() {
-            let own = base + index * BLOCK..base + index * BLOCK + vx.len();
+            let first = index * BLOCK;
+            let own = base + first..base + first + vx.len();
             let (mut wind_x, mut wind_y) = ([0.0; BLOCK], [0.0; BLOCK]);
             if !quiet {
                 let (wind_x, wind_y) = (&mut wind_x[..vx.len()], &mut wind_y[..vx.len()]);
@@ -41,8 +106,10 @@ pub fn apply_drag(air: &Air, elements: &ElementParams, particles: &mut Particles
             }
             for (k, element) in element[own].iter().enumerate() {
                 let wind = Vec2::new(wind_x[k], wind_y[k]);
-                let velocity = dragged(Vec2::new(vx[k], vy[k]), wind, rates[element.index()], dt);
-                (vx[k], vy[k]) = (velocity.x, velocity.y);
+                let before = Vec2::new(vx[k], vy[k]);
+                let half = 0.5 * (dragged(before, wind, rates[element.index()], dt) - before);
+                (vx[k], vy[k]) = (before.x + half.x, before.y + half.y);
+                (later_x[first + k], later_y[first + k]) = (half.x, half.y);
             }
         }
     });

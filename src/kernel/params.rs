@@ -244,9 +244,7 @@ impl Preset {
             Self::Fast => Quality { iterations: 4, air_cell: 6.0, ..base },
             Self::Balanced => Quality { substeps: 2, ..base },
             Self::Fine => Quality { substeps: 2, iterations: 4, air_cell: 3.0, ..base },
-            Self::Reference => {
-                Quality { substeps: 8, iterations: 4, kernel_radius: 3.0, air_cell: 1.0, air_courant: 0.5, ..base }
-            }
+            Self::Reference => Quality { substeps: 8, iterations: 4, air_cell: 1.0, air_courant: 0.5, ..base },
         }
     }
 }

@@ -154,6 +154,11 @@ columns! {
     vx: f32 as Velocity,
     /// Velocity, d/s.
     vy: f32 as Velocity,
+    /// What pressure and contact add to the velocity in the second half of a substep, d/s: as much as in the first. The
+    /// next substep begins without it (see [`forces::begin_kick`](crate::forces::begin_kick)).
+    push_x: f32 as Velocity,
+    /// The same along y, d/s.
+    push_y: f32 as Velocity,
 }
 
 impl Particles {
@@ -170,7 +175,7 @@ impl Particles {
     /// Appends a new particle.
     pub fn push(&mut self, id: u32, element: ElementId, position: Vec2, velocity: Vec2) {
         let (Vec2 { x, y }, Vec2 { x: vx, y: vy }) = (position, velocity);
-        self.add(Particle { id, element, x, y, vx, vy });
+        self.add(Particle { id, element, x, y, vx, vy, push_x: 0.0, push_y: 0.0 });
     }
 
     /// Position of particle `i`, d.

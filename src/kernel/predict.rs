@@ -1,6 +1,7 @@
 //! Prediction: where the velocities alone would take the particles, without passing through rock or walls.
 
 use crate::{
+    forces::held,
     parallel::{WORTH_A_PIECE, spread},
     params::{Domain, Quality, WALL_GAP},
     particles::Particles,
@@ -68,7 +69,8 @@ pub fn fastest(vx: &[f32], vy: &[f32]) -> f32 {
 }
 
 /// Moves the particles to `x + v Δt`, cut to the longest move and swept against rock and box. Where that changed the
-/// move, the velocity becomes that of the move that is left.
+/// move, the velocity becomes that of the move that is left, and what was to push against the obstacle after the move
+/// is held by it ([`held`]).
 pub fn predict(
     particles: &mut Particles,
     instructions: InstructionSet,
@@ -80,11 +82,12 @@ pub fn predict(
 ) -> PredictReport {
     let rock = (solids.count() > 0).then_some(solids);
     let longest = longest_move(quality);
-    let Particles { x, y, vx, vy, .. } = particles;
+    let Particles { x, y, vx, vy, push_x, push_y, .. } = particles;
     let clamps = AtomicU64::new(0);
-    spread([&mut x[..], y, vx, vy], WORTH_A_PIECE, threads, &|_, [x, y, vx, vy]| {
-        let clamps = &clamps;
-        instructions.run(Prediction { domain, rock, longest, dt, position: [x, y], velocity: [vx, vy], clamps });
+    let arrays = [&mut x[..], y, vx, vy, push_x, push_y];
+    spread(arrays, WORTH_A_PIECE, threads, &|_, [x, y, vx, vy, push_x, push_y]| {
+        let (position, velocity, push, clamps) = ([x, y], [vx, vy], [push_x, push_y], &clamps);
+        instructions.run(Prediction { domain, rock, longest, dt, position, velocity, push, clamps });
     });
     PredictReport { speed_clamps: clamps.into_inner() }
 }
@@ -101,6 +104,8 @@ struct Prediction<'a> {
     position: [&'a mut [f32]; 2],
     /// In and out: velocities, d/s; cut where they were too fast.
     velocity: [&'a mut [f32]; 2],
+    /// In and out: what is to be added to the velocities after the move besides gravity, d/s.
+    push: [&'a mut [f32]; 2],
     /// Counts the particles that were too fast.
     clamps: &'a AtomicU64,
 }
@@ -108,12 +113,14 @@ struct Prediction<'a> {
 impl Pass for Prediction<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { domain, rock, longest, dt, position: [x, y], velocity: [vx, vy], clamps } = self;
-        let high = domain.highest();
+        let Self { domain, rock, longest, dt, position: [x, y], velocity: [vx, vy], push: [push_x, push_y], clamps } =
+            self;
+        let (high, half) = (domain.highest(), 0.5 * dt * domain.gravity);
         let (mut from_x, mut from_y) = ([0.0_f32; BLOCK], [0.0_f32; BLOCK]);
         for first in (0..x.len()).step_by(BLOCK) {
             let own = first..x.len().min(first + BLOCK);
             let (vx, vy) = (&mut vx[own.clone()], &mut vy[own.clone()]);
+            let (push_x, push_y) = (&mut push_x[own.clone()], &mut push_y[own.clone()]);
             let (to_x, to_y) = (&mut x[own.clone()], &mut y[own]);
             let (x, y) = (&mut from_x[..vx.len()], &mut from_y[..vx.len()]);
             x.copy_from_slice(to_x);
@@ -132,7 +139,10 @@ impl Pass for Prediction<'_> {
             if stopped_x | stopped_y | rock.is_some() {
                 for k in 0..x.len() {
                     if to_x[k] != x[k] + vx[k] * dt || to_y[k] != y[k] + vy[k] * dt {
-                        (vx[k], vy[k]) = ((to_x[k] - x[k]) / dt, (to_y[k] - y[k]) / dt);
+                        let left = Vec2::new((to_x[k] - x[k]) / dt, (to_y[k] - y[k]) / dt);
+                        let kick = half + Vec2::new(push_x[k], push_y[k]);
+                        let push = held(kick, left - Vec2::new(vx[k], vy[k])) - half;
+                        (vx[k], vy[k], push_x[k], push_y[k]) = (left.x, left.y, push.x, push.y);
                     }
                 }
             }

@@ -35,6 +35,7 @@ impl Plugin for SimulationPlugin {
             .init_resource::<stages::TickPlan>()
             .init_resource::<state::SolverState>()
             .init_resource::<state::PredictorState>()
+            .init_resource::<state::DragState>()
             .init_resource::<state::SleepState>()
             .init_resource::<workers::Workers>()
             .add_plugins(stages::plugin);

@@ -5,6 +5,7 @@ use crate::{
     kernel::{
         air::{Air, AirReport},
         element::{ElementParams, ElementTable},
+        forces::LaterDrag,
         params::{Domain, Preset, Quality},
         particles::Particles,
         pbf::Solver,
@@ -164,6 +165,10 @@ pub struct SolverState(pub Solver);
 /// The pressure predictor's grid. Written by the pressure stage.
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
 pub struct PredictorState(pub Predictor);
+
+/// The half of the drag that comes after the move. Written by the drag stage, taken by the prediction.
+#[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
+pub struct DragState(pub LaterDrag);
 
 /// Who sleeps. Written by the sleep stages.
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]

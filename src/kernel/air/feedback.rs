@@ -28,6 +28,7 @@ use super::{
 use crate::{
     blocks::Reach,
     element::{ElementId, ElementParams},
+    forces::LaterDrag,
     parallel::{Rows, Sweep, Team, WORTH_A_PIECE, spread, sweep},
     particles::{Particles, extent},
 };
@@ -116,20 +117,29 @@ impl Air {
         self.scratch.feedback = feedback;
     }
 
-    /// Second half of the exchange: the particles get their velocities, and the air those that [`Air::meet`] found.
-    pub fn drag_along(&mut self, elements: &ElementParams, particles: &mut Particles, threads: usize, dt: f32) {
+    /// Second half of the exchange: the air gets the velocities that [`Air::meet`] found, the particles half of their
+    /// changes, and `later` the other half (d/s), which comes after the move.
+    pub fn drag_along(
+        &mut self,
+        elements: &ElementParams,
+        particles: &mut Particles,
+        later: &mut LaterDrag,
+        threads: usize,
+        dt: f32,
+    ) {
         let feedback = std::mem::take(&mut self.scratch.feedback);
         let (air, meetings, stride) = (&*self, &feedback.meetings[..], self.stride());
         let Particles { x, y, vx, vy, element, .. } = particles;
-        spread([&mut vx[..], &mut vy[..]], WORTH_A_PIECE, threads, &|base, [vx, vy]| {
-            for (i, (vx, vy)) in vx.iter_mut().zip(vy).enumerate() {
-                let i = base + i;
-                let Coupling { at, share } = air.coupling(elements, element[i], [x[i], y[i]], [*vx, *vy], dt);
+        let [later_x, later_y] = later.of(x.len());
+        spread([&mut vx[..], vy, later_x, later_y], WORTH_A_PIECE, threads, &|base, [vx, vy, later_x, later_y]| {
+            for k in 0..vx.len() {
+                let i = base + k;
+                let Coupling { at, share } = air.coupling(elements, element[i], [x[i], y[i]], [vx[k], vy[k]], dt);
                 let (low, high) = (&meetings[at.k..at.k + 2], &meetings[at.k + stride..at.k + stride + 2]);
                 let wind = |axis: usize| at.mix([low[0][axis], low[1][axis]], [high[0][axis], high[1][axis]]);
                 let (u, v) = (wind(0), wind(1));
-                *vx += share * (u - *vx);
-                *vy += share * (v - *vy);
+                (later_x[k], later_y[k]) = (0.5 * share * (u - vx[k]), 0.5 * share * (v - vy[k]));
+                (vx[k], vy[k]) = (vx[k] + later_x[k], vy[k] + later_y[k]);
             }
         });
         for row in feedback.blocks.reached() {

@@ -1,11 +1,9 @@
 //! What the solver is told.
 
-use crate::{
-    params::{Domain, FluidParams, Quality},
-    predictor::TARGET_DENSITY,
-};
+use crate::params::{Domain, FluidParams, Quality};
 
-/// Least relaxation ε where the pressure predictor ran, 1/d². A Jacobi step corrects each particle as if its neighbours
+/// Least relaxation ε where the pressure predictor ran, for each substep of a tick, 1/d²: with as many more substeps the
+/// constraint pushes as much less in each, so that it does not expand the liquid the more the finer the time. A Jacobi step corrects each particle as if its neighbours
 /// stood still, so where all are too dense at once, as in a vessel without a free surface, the finest waves of the error are
 /// corrected by more than twice what they are: they change sign from iteration to iteration and grow until the correction
 /// limit holds them, and the liquid boils. With this much relaxation they die out. The bulk of the pressure is the
@@ -24,8 +22,7 @@ pub struct SolveParams<'a> {
     pub quality: &'a Quality,
     /// Whether the tensile correction is added.
     pub tension: bool,
-    /// Whether the pressure predictor ran: then the constraint aims at its target density, and pairs that are too close
-    /// are set apart.
+    /// Whether the pressure predictor ran: then the constraint is relaxed, and pairs that are too close are set apart.
     pub predicted: bool,
     /// Threads to use.
     pub threads: usize,
@@ -34,7 +31,7 @@ pub struct SolveParams<'a> {
 impl SolveParams<'_> {
     /// Density that the constraint aims at, 1 on the lattice.
     pub(super) fn rest_density(&self) -> f32 {
-        self.fluid.rest_density * if self.predicted { TARGET_DENSITY } else { 1.0 }
+        self.fluid.rest_density
     }
 
     /// Density from which on liquid is iterated again, 1 on the lattice; `None`: whatever it is.
@@ -44,6 +41,7 @@ impl SolveParams<'_> {
 
     /// ε of eq. 11 in force, 1/d².
     pub(super) fn relaxation(&self) -> f32 {
-        if self.predicted { self.fluid.relaxation.max(PREDICTED_RELAXATION) } else { self.fluid.relaxation }
+        let least = if self.predicted { PREDICTED_RELAXATION * self.quality.substeps as f32 } else { 0.0 };
+        self.fluid.relaxation.max(least)
     }
 }

@@ -34,8 +34,10 @@ pub(super) struct Conjugate {
     pub span: Range<usize>,
     /// 1 in liquid cells, else 0.
     pub liquid: Vec<f32>,
-    /// In: first guess. Out: solution, d/s.
+    /// The last pressure, d/s, which the next solve sets out from.
     pub solution: Vec<f32>,
+    /// Room for the potential of the density feedback; all 0.
+    pub potential: Vec<f32>,
     /// Columns near particles; in the others `liquid` and `solution` are 0.
     pub area: Range<usize>,
     /// Columns of each row from the first to the last liquid cell.
@@ -47,7 +49,7 @@ pub(super) struct Conjugate {
 impl Conjugate {
     /// Makes room for a grid.
     pub fn resize(&mut self, len: usize) {
-        for field in [&mut self.liquid, &mut self.solution, &mut self.direction] {
+        for field in [&mut self.liquid, &mut self.solution, &mut self.potential, &mut self.direction] {
             field.resize(len, 0.0);
         }
     }
@@ -58,9 +60,16 @@ impl Conjugate {
         (self.solution, self.rows, self.area) = (solution, rows, columns);
     }
 
-    /// Solves the equation of the hierarchy's finest level, whose right-hand side becomes the residual, up to `tolerance`.
-    pub fn solve(&mut self, hierarchy: &mut Hierarchy, tolerance: f64, team: Team) -> PredictorReport {
-        let Self { solution, direction, sums: [sums, after], .. } = self;
+    /// Solves the equation of the hierarchy's finest level, whose right-hand side becomes the residual, up to `tolerance`,
+    /// setting out from what stands in `solution` (d/s).
+    pub fn solve(
+        &mut self,
+        hierarchy: &mut Hierarchy,
+        solution: &mut [f32],
+        tolerance: f64,
+        team: Team,
+    ) -> PredictorReport {
+        let Self { direction, sums: [sums, after], .. } = self;
         let finest = hierarchy.finest();
         let (stride, rows, span, cells) = (finest.stride, finest.rows.clone(), finest.span.clone(), finest.cells());
         // The operator reads one cell further.
@@ -99,9 +108,16 @@ impl Conjugate {
         PredictorReport { liquid: true, iterations, residual: (left / scale).sqrt() as f32, unsolved, cuts: 0 }
     }
 
+    /// Clears what a solve wrote.
+    pub fn clear(&self, solution: &mut [f32], stride: usize) {
+        for j in self.rows.clone() {
+            solution[j * stride..][self.span.clone()].fill(0.0);
+        }
+    }
+
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        let fields = [&self.liquid, &self.solution, &self.direction];
+        let fields = [&self.liquid, &self.solution, &self.potential, &self.direction];
         4 * fields.iter().map(|field| field.capacity()).sum::<usize>()
     }
 }

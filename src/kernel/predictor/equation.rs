@@ -172,7 +172,7 @@ pub(super) fn feed_back(right_side: &mut [f32], liquid: Around, rock: Around, fi
         let wanted = filled[i] - 1.0;
         let error = if wanted > least { wanted } else { least };
         let error = if error < most { error } else { most };
-        right_side[i] = feedback * error;
+        right_side[i] = liquid.centre[i] * feedback * error;
         // A surface is no error: what is missing there is air.
         let cut = (wanted > most) | ((wanted < FEEDBACK_RANGE.0) & !at_surface);
         cuts += u32::from(cut & (liquid.centre[i] > 0.0));
@@ -189,6 +189,54 @@ pub(super) fn feedback_share(liquid: Around, rock: Around, filled: &[f32], i: us
         _ if liquid.touches_air(rock, i) => 0.0,
         error => error / FEEDBACK_RANGE.0,
     }
+}
+
+/// Most by which a cell may be asked to make up for the change of volume that a move of a substep brings with it.
+const MOST_MADE_UP: f32 = 0.1;
+
+/// Asks for the divergence that keeps volumes. A move `x + Δt u` changes a volume by
+/// `det(1 + Δt ∇u) = 1 + Δt ∇·u + Δt² det ∇u`, so that not `∇·u = 0` keeps it but `∇·u = −Δt det ∇u`: what turns moves on
+/// along its tangents, and would swell, what is sheared apart would shrink. With it the pressure is the one that takes a
+/// turning body round (`∇²p = 2 ρ det ∇u`), and the leapfrog is of second order in flows, too. The feedback would have to
+/// do it otherwise, too late, and at the cost of angular momentum.
+///
+/// `faces`: weights and mean velocities (d/s) of left and lower faces. A slope is taken from the neighbours that have
+/// `whole` particles or more.
+#[inline(always)]
+pub(super) fn keep_volumes(
+    right_side: &mut [f32],
+    [u, v]: [&[[f32; 2]]; 2],
+    cells: Range<usize>,
+    stride: usize,
+    dt_per_cell: f32,
+    whole: f32,
+) {
+    let n = right_side.len();
+    let Range { start, end } = cells;
+    let [below, own, above] = [start - stride, start, start + stride].map(|at| &u[at..at + n + 1]);
+    let [lower, upper] = [start - 1..end + 1, start - 1 + stride..end + 1 + stride].map(|row| &v[row]);
+    let most = MOST_MADE_UP / dt_per_cell;
+    for i in 0..n {
+        // Differences across the cell, d/s; the trace is left out: the divergence is to go.
+        let stretch = 0.5 * ((own[i + 1][1] - own[i][1]) - (upper[i + 1][1] - lower[i + 1][1]));
+        let along_y = slope([below[i], below[i + 1]], [own[i], own[i + 1]], [above[i], above[i + 1]], whole);
+        let along_x = slope([lower[i], upper[i]], [lower[i + 1], upper[i + 1]], [lower[i + 2], upper[i + 2]], whole);
+        let wanted = dt_per_cell * (stretch * stretch + along_x * along_y);
+        let wanted = if wanted < most { wanted } else { most };
+        right_side[i] = if wanted > -most { wanted } else { -most };
+    }
+}
+
+/// Difference of the velocity across a cell, from the faces before it, on it and after it: the mean of those to either
+/// side that are known.
+#[inline(always)]
+fn slope(before: [[f32; 2]; 2], own: [[f32; 2]; 2], after: [[f32; 2]; 2], whole: f32) -> f32 {
+    let mean = |[a, b]: [[f32; 2]; 2]| 0.5 * (a[1] + b[1]);
+    let known = |[a, b]: [[f32; 2]; 2]| if (a[0] >= whole) & (b[0] >= whole) { 1.0 } else { 0.0 };
+    let (has_before, has_after): (f32, f32) = (known(before), known(after));
+    let sum = has_before * (mean(own) - mean(before)) + has_after * (mean(after) - mean(own));
+    let count = has_before + has_after;
+    sum / if count > 1.0 { count } else { 1.0 }
 }
 
 /// Takes the divergence of the velocities off the right-hand side of liquid cells; 0 in the others.
@@ -211,25 +259,26 @@ pub(super) fn touch(
     p: [&[f32]; 2],
     open_and_steep: [&[f32]; 2],
     old: &[[f32; 2]],
+    moved: f32,
 ) {
     let ([liquid_before, liquid], [p_before, p], [open, steep]) = (liquid, p, open_and_steep);
     for i in 0..known.len() {
         let touches = if liquid_before[i] + liquid[i] > 0.0 { 1.0 } else { 0.0 };
-        let gained = if open[i] > 0.0 { steep[i] * (p_before[i] - p[i]) } else { -old[i][1] };
+        let gained = if open[i] > 0.0 { steep[i] * (p_before[i] - p[i]) } else { -moved * old[i][1] };
         known[i] = touches;
         change[i] = touches * gained;
     }
 }
 
-/// Turns weight and velocity of faces into change and new velocity; where the change is not known it is the mean of the
-/// neighbours'.
+/// Turns the first number of faces into the change, and adds the share `moved` of it to the second; where the change is
+/// not known it is the mean of the neighbours'.
 #[inline(always)]
-pub(super) fn fill_in(faces: &mut [[f32; 2]], change: Around, known: Around) {
+pub(super) fn fill_in(faces: &mut [[f32; 2]], change: Around, known: Around, moved: f32) {
     for i in 0..faces.len() {
         let around = (known.left[i] + known.right[i]) + (known.lower[i] + known.upper[i]);
         let sum = (change.left[i] + change.right[i]) + (change.lower[i] + change.upper[i]);
         let filled = sum / if around > 0.5 { around } else { 0.5 };
         let gained = if known.centre[i] > 0.0 { change.centre[i] } else { filled };
-        faces[i] = [gained, faces[i][1] + gained];
+        faces[i] = [gained, faces[i][1] + moved * gained];
     }
 }

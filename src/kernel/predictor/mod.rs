@@ -28,4 +28,4 @@ mod tests;
 mod transfer;
 
 pub use report::PredictorReport;
-pub use steps::{Predictor, PredictorParams, TARGET_DENSITY};
+pub use steps::{Predictor, PredictorParams};

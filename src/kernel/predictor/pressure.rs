@@ -4,17 +4,17 @@ use crate::{
     parallel::{Rows, Sweep, Team, sweep},
     predictor::{
         PredictorReport,
-        conjugate::Conjugate,
+        conjugate::{Conjugate, tolerance},
         equation::{
-            Around, Sides, couple, feed_back, feedback_share, fill, fill_in, mark, may_be_sealed, steepen,
-            subtract_divergence, touch,
+            Around, Sides, couple, feed_back, feedback_share, fill, fill_in, keep_volumes, mark, may_be_sealed,
+            steepen, subtract_divergence, touch,
         },
         grid::MacGrid,
         level::{Level, WORTH_A_PIECE, damping},
         multigrid::Hierarchy,
         pockets::Pockets,
         rock::ClosedFaces,
-        transfer::Faces,
+        transfer::{Faces, Pair},
     },
     simd::{Lanes, Pass},
 };
@@ -23,14 +23,20 @@ use std::{
     sync::atomic::{AtomicBool, AtomicU64, Ordering},
 };
 
-/// Rate at which a density error is to be taken away, 1/s: a fifth of it in a tick, however many substeps that has. Per
-/// substep it would work eight times as hard at eight of them, and stir a still pool.
+/// Rate at which a density error is to be taken away, 1/s: four fifths of it in a tick, however many substeps that has.
+/// It moves particles and gives them no speed: through velocities the same feedback made the flow lag, and stirred still
+/// pools.
 ///
 /// **The bound.** The divergence f e that is asked for moves matter for Δt: `e' = e − (1 + e) f Δt e`, to first order
 /// `e' = (1 − f Δt) e`. That shrinks for `f Δt ≤ 2` and without a change of sign for **`f Δt ≤ 1`**. A substep is a tick
-/// at most, so f Δt ≤ 12/60 = 0.2 always. The errors themselves are cut to `FEEDBACK_RANGE`, so that even past the
+/// at most, so f Δt ≤ 48/60 = 0.8 always. The errors themselves are cut to `FEEDBACK_RANGE`, so that even past the
 /// bound no more than f · 0.3 is asked for; every cell in which that acts is counted.
-const FEEDBACK_PER_SECOND: f32 = 12.0;
+const FEEDBACK_PER_SECOND: f32 = 48.0;
+/// Residual, relative to the right-hand side, up to which the feedback is solved for.
+const FEEDBACK_TOLERANCE: f64 = 0.1;
+/// Share of a full face's particles from which on they stand on both sides of it, so that their mean velocity is the
+/// face's. At a free surface a face that is half full has its particles on one side.
+const WHOLE: f32 = 0.64;
 
 /// One projection. `p` is counted in d/s: a face gains `p_left − p_right`.
 pub(super) struct Projection<'a> {
@@ -42,8 +48,8 @@ pub(super) struct Projection<'a> {
     pub pockets: &'a mut Pockets,
     /// Density that is aimed at, particles per d².
     pub target: f32,
-    /// Residual, relative to the right-hand side, that may be left.
-    pub tolerance: f64,
+    /// Substep, s.
+    pub dt: f32,
     pub team: Team,
     pub report: &'a mut PredictorReport,
 }
@@ -54,20 +60,36 @@ const CHUNK: usize = 64;
 impl Pass for Projection<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { grid, closed, faces, hierarchy, conjugate, pockets, target, tolerance, team, report } = self;
+        let Self { grid, closed, faces, hierarchy, conjugate, pockets, target, dt, team, report } = self;
         conjugate.resize(grid.len());
         mark_liquid(grid, closed, faces, conjugate, target, team);
-        find_means(grid, faces, team);
+        let whole = WHOLE * target * grid.cell * grid.cell;
+        find_means(grid, faces, whole, team);
         if conjugate.rows.is_empty() {
             return;
         }
-        let (sealed, cuts) = assemble(grid, closed, faces, hierarchy.finest(), conjugate, team);
+        let sealed = assemble(grid, closed, faces, hierarchy.finest(), conjugate, (dt, whole), team);
         if sealed {
             pockets.balance(grid, hierarchy.finest());
         }
         hierarchy.coarsen(team);
-        *report = PredictorReport { cuts, ..conjugate.solve(hierarchy, tolerance, team) };
-        change_velocities(grid, closed, faces, hierarchy.finest(), conjugate, team);
+        let mut pressure = std::mem::take(&mut conjugate.solution);
+        let velocities = conjugate.solve(hierarchy, &mut pressure, tolerance(dt), team);
+        let Faces { u, v, drift: [drift_u, drift_v], filled, reached, area, .. } = faces;
+        let near = Near { grid, closed, filled, reached, area };
+        change_faces(&near, [u, v], 1.0, hierarchy.finest(), conjugate, &pressure, team);
+        conjugate.solution = pressure;
+
+        let cuts = feed_back_densities(&near, hierarchy.finest(), conjugate, team);
+        if sealed {
+            pockets.balance(grid, hierarchy.finest());
+        }
+        let mut potential = std::mem::take(&mut conjugate.potential);
+        let drift = conjugate.solve(hierarchy, &mut potential, FEEDBACK_TOLERANCE, team);
+        change_faces(&near, [drift_u, drift_v], 0.0, hierarchy.finest(), conjugate, &potential, team);
+        conjugate.clear(&mut potential, grid.stride);
+        conjugate.potential = potential;
+        *report = PredictorReport { unsolved: velocities.unsolved | drift.unsolved, cuts, ..velocities };
     }
 }
 
@@ -162,50 +184,54 @@ fn ends(liquid: &[f32], start: usize) -> Range<u32> {
     ends.map_or(0..0, |(first, last)| (start + first) as u32..(start + last + 1) as u32)
 }
 
-/// Turns momenta into velocities.
-fn find_means(grid: &MacGrid, faces: &mut Faces, team: Team) {
-    let Faces { u, v, reached, area, .. } = faces;
-    let band = (Rows::new(u, grid.stride, reached), Rows::new(v, grid.stride, reached));
-    let work = Divide { columns: grid.padded(area) };
+/// Turns momenta into velocities, and notes which faces have `whole` particles or more.
+fn find_means(grid: &MacGrid, faces: &mut Faces, whole: f32, team: Team) {
+    let Faces { u, v, drift: [drift_u, drift_v], reached, area, .. } = faces;
+    let band = |field| Rows::new(field, grid.stride, reached);
+    let band = ((band(u), band(v)), (band(drift_u), band(drift_v)));
+    let work = Divide { columns: grid.padded(area), whole };
     sweep(&work, reached.clone(), band, area.len(), WORTH_A_PIECE, team);
 }
 
 struct Divide {
     columns: Range<usize>,
+    whole: f32,
 }
 
-impl<'b> Sweep<(Rows<'b, [f32; 2]>, Rows<'b, [f32; 2]>)> for Divide {
+impl<'b> Sweep<(Pair<'b>, Pair<'b>)> for Divide {
     #[inline(always)]
-    fn run(&self, _: Range<usize>, (mut u, mut v): (Rows<[f32; 2]>, Rows<[f32; 2]>)) {
-        for row in u.each().chain(v.each()) {
-            for face in &mut row[self.columns.clone()] {
+    fn run(&self, _: Range<usize>, ((mut u, mut v), (mut drift_u, mut drift_v)): (Pair, Pair)) {
+        for (row, drift) in u.each().zip(drift_u.each()).chain(v.each().zip(drift_v.each())) {
+            for (face, drift) in row[self.columns.clone()].iter_mut().zip(&mut drift[self.columns.clone()]) {
                 let weight = if face[0] > 1e-12 { face[0] } else { 1e-12 };
                 face[1] /= weight;
+                drift[1] = if face[0] < self.whole { 0.0 } else { 1.0 };
             }
         }
     }
 }
 
-/// Sets up `Σ_f w_f s_f (p_c − p_n) = −Σ ± w_f u_f + feedback` over the liquid cells; p = 0 in the air, and s_f is how
-/// much steeper than between liquid cells the pressure falls at the face. Returns whether any of it may be sealed off, and
-/// in how many cells the feedback was cut.
+/// Sets up `Σ_f w_f s_f (p_c − p_n) = −Σ ± w_f u_f − Δt c det ∇u` over the liquid cells of edge c; p = 0 in the air, and s_f
+/// is how much steeper than between liquid cells the pressure falls at the face. The last term is that of
+/// [`keep_volumes`]. Returns whether any of it may be sealed off.
 fn assemble(
     grid: &MacGrid,
     closed: &ClosedFaces,
     faces: &Faces,
     finest: &mut Level,
     conjugate: &Conjugate,
+    (dt, whole): (f32, f32),
     team: Team,
-) -> (bool, u64) {
+) -> bool {
     let Conjugate { rows, span, liquid, .. } = conjugate;
     finest.take(rows.clone(), span.clone());
-    let (sealed, cuts) = (AtomicBool::new(false), AtomicU64::new(0));
-    let work = Assemble { grid, closed, faces, liquid, span, sealed: &sealed, cuts: &cuts };
+    let sealed = AtomicBool::new(false);
+    let work = Assemble { grid, closed, faces, liquid, span, dt, whole, sealed: &sealed };
     let Level { diagonal, damped, right, upper, b, .. } = finest;
     let band = |field| Rows::new(field, grid.stride, rows);
     let band = ((band(diagonal), band(damped)), ((band(right), band(upper)), band(b)));
     sweep(&work, rows.clone(), band, span.len(), WORTH_A_PIECE, team);
-    (sealed.into_inner(), cuts.into_inner())
+    sealed.into_inner()
 }
 
 struct Assemble<'a> {
@@ -215,11 +241,13 @@ struct Assemble<'a> {
     liquid: &'a [f32],
     /// Columns that are solved for.
     span: &'a Range<usize>,
+    /// Substep, s.
+    dt: f32,
+    /// Particles from which on a face has them on both sides.
+    whole: f32,
     /// Out: whether any liquid may be sealed off. It is not if all that is under no liquid is open to air on some side:
     /// the way up from any cell, as far as there is liquid, ends at such a cell.
     sealed: &'a AtomicBool,
-    /// Counts the cells in which the feedback was cut.
-    cuts: &'a AtomicU64,
 }
 
 /// Rows of diagonal and damping, of the couplings to the right and up, and of the right-hand side.
@@ -228,10 +256,10 @@ type System<'a> = ((Rows<'a, f32>, Rows<'a, f32>), ((Rows<'a, f32>, Rows<'a, f32
 impl Sweep<System<'_>> for Assemble<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, system: System) {
-        let Self { grid, closed, faces, liquid, span, sealed, cuts } = *self;
+        let Self { grid, closed, faces, liquid, span, dt, whole, sealed } = *self;
         let ((mut diagonal, mut damped), ((mut right, mut upper), mut b)) = system;
-        let (stride, feedback) = (grid.stride, FEEDBACK_PER_SECOND * grid.cell);
-        let (mut any_sealed, mut cut) = (false, 0);
+        let stride = grid.stride;
+        let mut any_sealed = false;
         let out = diagonal.each().zip(damped.each()).zip(right.each().zip(upper.each())).zip(b.each());
         for (j, (((diagonal, damped), (right, upper)), b)) in rows.zip(out) {
             let end = grid.row(j) + span.end;
@@ -244,11 +272,9 @@ impl Sweep<System<'_>> for Assemble<'_> {
                 steepness(&mut steep_lower[..n], of, start, stride);
                 steepness(&mut steep_upper[..n], of, start + stride, stride);
                 let around = Around::new(liquid, cells.clone(), stride);
-                let [below, at, above] = [j - 1, j, j + 1].map(|j| closed.row(j) + own.start);
+                let [at, above] = [j, j + 1].map(|j| closed.row(j) + own.start);
                 let (open_u, open_v) = (&closed.open_u[at..at + n + 1], &closed.open_v);
                 let open = Sides::of_rows(open_u, &open_v[at..at + n], &open_v[above..above + n]);
-                let rock = &closed.rock;
-                let rock = Around::of_rows(&rock[below..below + n], &rock[at - 1..at + n + 1], &rock[above..above + n]);
                 let steep = Sides::of_rows(&steep_u[..n + 1], &steep_lower[..n], &steep_upper[..n]);
                 let (diagonal, to_right) = (&mut diagonal[own.clone()], &mut right[own.clone()]);
                 let to_upper = &mut upper[own.clone()];
@@ -258,13 +284,48 @@ impl Sweep<System<'_>> for Assemble<'_> {
                     damped[i] = damping(diagonal[i]);
                 }
                 any_sealed |= may_be_sealed(diagonal, to_right, to_upper, around, open);
-                let (right_side, filled) = (&mut b[own], &faces.filled[cells.clone()]);
-                cut += feed_back(right_side, around, rock, filled, feedback);
+                let right_side = &mut b[own];
+                keep_volumes(right_side, [&faces.u, &faces.v], cells.clone(), stride, dt / grid.cell, whole);
                 let velocities = Sides::new(&faces.u, &faces.v, cells, stride);
                 subtract_divergence(right_side, around.centre, open, velocities);
             }
         }
         sealed.fetch_or(any_sealed, Ordering::Relaxed);
+    }
+}
+
+/// Puts the density feedback of the liquid cells on the right-hand side. Returns in how many it was cut.
+fn feed_back_densities(near: &Near, finest: &mut Level, conjugate: &Conjugate, team: Team) -> u64 {
+    let Conjugate { rows, span, liquid, .. } = conjugate;
+    let cuts = AtomicU64::new(0);
+    let work = FeedBack { near, liquid, span, cuts: &cuts };
+    let band = Rows::new(&mut finest.b, near.grid.stride, rows);
+    sweep(&work, rows.clone(), band, span.len(), WORTH_A_PIECE, team);
+    cuts.into_inner()
+}
+
+struct FeedBack<'a> {
+    near: &'a Near<'a>,
+    liquid: &'a [f32],
+    /// Columns that are solved for.
+    span: &'a Range<usize>,
+    /// Counts the cells in which the feedback was cut.
+    cuts: &'a AtomicU64,
+}
+
+impl Sweep<Rows<'_, f32>> for FeedBack<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, mut b: Rows<f32>) {
+        let Self { near: Near { grid, closed, filled, .. }, liquid, span, cuts } = *self;
+        let mut cut = 0;
+        for (j, b) in rows.zip(b.each()) {
+            let cells = grid.row(j) + span.start..grid.row(j) + span.end;
+            let [below, at, above] = [j - 1, j, j + 1].map(|j| closed.row(j) + span.start);
+            let (n, rock) = (span.len(), &closed.rock);
+            let rock = Around::of_rows(&rock[below..below + n], &rock[at - 1..at + n + 1], &rock[above..above + n]);
+            let liquid = Around::new(liquid, cells.clone(), grid.stride);
+            cut += feed_back(&mut b[span.clone()], liquid, rock, &filled[cells], FEEDBACK_PER_SECOND * grid.cell);
+        }
         cuts.fetch_add(u64::from(cut), Ordering::Relaxed);
     }
 }
@@ -299,17 +360,32 @@ fn steepness(out: &mut [f32], (liquid, filled): (&[f32], &[f32]), first: usize, 
     steepen(out, [&liquid[before.clone()], &liquid[own.clone()]], [&filled[before], &filled[own]]);
 }
 
-/// Finds the change on every face that touches liquid, and fills one layer around them in from its neighbours.
-fn change_velocities(
-    grid: &MacGrid,
-    closed: &ClosedFaces,
-    faces: &mut Faces,
+/// The grid near the particles.
+struct Near<'a> {
+    grid: &'a MacGrid,
+    closed: &'a ClosedFaces,
+    /// How full the cells are.
+    filled: &'a [f32],
+    /// Rows that a particle reaches.
+    reached: &'a Range<usize>,
+    /// Columns of cells near particles.
+    area: &'a Range<usize>,
+}
+
+/// Finds the change on every face that touches liquid from the potential p, and fills one layer around them in from its
+/// neighbours. The first number of the left and lower faces becomes the change. With `moved` 1 the second is a velocity
+/// that it is added to, and that closed faces stop; with 0 it stays.
+fn change_faces(
+    near: &Near,
+    [u, v]: [&mut [[f32; 2]]; 2],
+    moved: f32,
     finest: &mut Level,
     conjugate: &Conjugate,
+    p: &[f32],
     team: Team,
 ) {
-    let Conjugate { liquid, solution: p, rows, .. } = conjugate;
-    let Faces { u, v, filled, reached, area, .. } = faces;
+    let Near { grid, closed, filled, reached, area } = *near;
+    let Conjugate { liquid, rows, .. } = conjugate;
     let columns = &grid.padded(area);
     // The change on each face and whether it is known (1) or to be filled in from its neighbours (0). The solver is done
     // with these.
@@ -319,12 +395,12 @@ fn change_velocities(
     let near = (rows.start - 1).max(1)..(rows.end + 2).min(grid.rows + 2);
     let around = near.start - 1..near.end + 1;
     let all = reached.start.min(near.start)..reached.end.max(near.end);
-    let along = (u, &closed.open_u, 1);
-    for (face, open, step) in [along, (v, &closed.open_v, grid.stride)] {
-        let work = Touch { grid, touching: &touching, columns, liquid, p, filled, closed, open, old: face, step };
+    for (face, open, step) in [(u, &closed.open_u, 1), (v, &closed.open_v, grid.stride)] {
+        let work =
+            Touch { grid, touching: &touching, columns, liquid, p, filled, closed, open, old: face, moved, step };
         let band = (Rows::new(known, grid.stride, &around), Rows::new(change, grid.stride, &around));
         sweep(&work, around.clone(), band, columns.len(), WORTH_A_PIECE, team);
-        let work = FillIn { grid, near: &near, columns, known, change };
+        let work = FillIn { grid, near: &near, columns, known, change, moved };
         sweep(&work, all.clone(), Rows::new(face, grid.stride, &all), columns.len(), WORTH_A_PIECE, team);
     }
     // The solver expects its padding empty.
@@ -346,6 +422,8 @@ struct Touch<'a> {
     open: &'a [f32],
     /// Velocities from before the solve.
     old: &'a [[f32; 2]],
+    /// Share of them that closed faces stop.
+    moved: f32,
     /// From the cell after a face to that before it.
     step: usize,
 }
@@ -353,7 +431,7 @@ struct Touch<'a> {
 impl<'b> Sweep<(Rows<'b, f32>, Rows<'b, f32>)> for Touch<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, (mut known, mut change): (Rows<f32>, Rows<f32>)) {
-        let Self { grid, touching, columns, liquid, p, filled, closed, open, old, step } = *self;
+        let Self { grid, touching, columns, liquid, p, filled, closed, open, old, moved, step } = *self;
         for (j, (known, change)) in rows.zip(known.each().zip(change.each())) {
             // What is filled in reads one face further.
             let around = columns.start.saturating_sub(1)..(columns.end + 1).min(grid.stride);
@@ -376,7 +454,7 @@ impl<'b> Sweep<(Rows<'b, f32>, Rows<'b, f32>)> for Touch<'_> {
                 let steep = &mut steep[..cells.len()];
                 steepness(steep, (self.liquid, filled), start, step);
                 let open = &open[closed.row(j) + own.start..closed.row(j) + own.end];
-                touch(&mut known[own.clone()], &mut change[own], liquid, p, [open, steep], &old[cells]);
+                touch(&mut known[own.clone()], &mut change[own], liquid, p, [open, steep], &old[cells], moved);
             }
         }
     }
@@ -389,23 +467,25 @@ struct FillIn<'a> {
     columns: &'a Range<usize>,
     known: &'a [f32],
     change: &'a [f32],
+    /// Share of the change that is added to the second number of the faces.
+    moved: f32,
 }
 
 impl Sweep<Rows<'_, [f32; 2]>> for FillIn<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut faces: Rows<[f32; 2]>) {
-        let Self { grid, near, columns, known, change } = *self;
+        let Self { grid, near, columns, known, change, moved } = *self;
         for (j, faces) in rows.zip(faces.each()) {
             let faces = &mut faces[columns.clone()];
             if near.contains(&j) {
                 let cells = grid.row(j) + columns.start..grid.row(j) + columns.end;
                 let around = |field| Around::new(field, cells.clone(), grid.stride);
-                fill_in(faces, around(change), around(known));
+                fill_in(faces, around(change), around(known), moved);
             } else if j == 0 && near.start == 1 {
                 // Beyond the floor stands what stands above it, as `fill_in` finds it beyond the other walls: particles
                 // within half a cell of a wall take a part of their velocity along it from there.
                 for (face, gained) in faces.iter_mut().zip(&change[grid.row(1)..][columns.clone()]) {
-                    *face = [*gained, face[1] + gained];
+                    *face = [*gained, face[1] + moved * gained];
                 }
             } else {
                 // Away from the liquid nothing changes.

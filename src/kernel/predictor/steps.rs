@@ -5,26 +5,22 @@ use crate::{
     params::Domain,
     particles::Particles,
     predictor::{
-        conjugate::{self, Conjugate},
+        conjugate::Conjugate,
         grid::MacGrid,
         multigrid::Hierarchy,
         pockets::Pockets,
         pressure,
         report::PredictorReport,
         rock::ClosedFaces,
-        transfer::Faces,
+        transfer::{Faces, WayBack},
     },
     simd::InstructionSet,
     solids::Solids,
 };
 use glam::Vec2;
 
-/// Share of its volume that liquid is given in all: particles strive for a density 1 % under rest, so that the error
-/// that is left stays below rest density, too.
-pub const TARGET_DENSITY: f32 = 0.99;
-
 /// Share of the difference to the grid's velocity that a particle gives up in a second. It damps what the grid can't
-/// see; 0.02 a tick.
+/// see; 0.02 a tick. At a surface the mean of one side is no velocity to be drawn to: it would brake what turns.
 const BLEND_PER_SECOND: f32 = 1.2;
 
 /// Grid fields and solver of the predictor. Buffers are kept from substep to substep; the pressure, too, as the first
@@ -70,7 +66,8 @@ impl Predictor {
         &self.conjugate.solution
     }
 
-    /// Makes the particles' velocities nearly divergence-free where they are liquid.
+    /// Makes the moves of the particles nearly keep the volume where they are liquid, by their velocities, and moves them
+    /// to where it is too thin from where it is too dense, which leaves velocities as they are.
     pub fn run(&mut self, particles: &mut Particles, solids: &Solids, params: &PredictorParams) -> PredictorReport {
         let grid = MacGrid::new(params.domain.size, params.cell);
         if self.grid != grid {
@@ -81,6 +78,7 @@ impl Predictor {
                 self.conjugate.resume(pressure, 1..grid.rows + 1, 1..grid.columns + 1);
             }
         }
+        let team = Team { instructions: params.instructions, threads: params.threads };
         self.closed.update(&grid, solids);
         self.faces.collect(&grid, particles, params.instructions, params.threads);
         let mut report = PredictorReport::default();
@@ -91,19 +89,15 @@ impl Predictor {
             hierarchy: &mut self.hierarchy,
             conjugate: &mut self.conjugate,
             pockets: &mut self.pockets,
-            target: TARGET_DENSITY * params.rest_density,
-            tolerance: conjugate::tolerance(params.dt),
-            team: Team { instructions: params.instructions, threads: params.threads },
+            target: params.rest_density,
+            dt: params.dt,
+            team,
             report: &mut report,
         });
         if report.liquid {
-            self.faces.hand_back(
-                &grid,
-                particles,
-                params.instructions,
-                params.threads,
-                (BLEND_PER_SECOND * params.dt).min(1.0),
-            );
+            let PredictorParams { domain, dt, .. } = *params;
+            let way = WayBack { blend: (BLEND_PER_SECOND * dt).min(1.0), dt, domain, solids };
+            self.faces.hand_back(&grid, particles, &way, team);
         }
         report
     }

@@ -3,6 +3,7 @@
 use crate::{
     blocks::Blocks,
     parallel::{Rows, Sweep, Team, WORTH_A_PIECE, spread, sweep},
+    params::Domain,
     particles::{Particles, extent},
     predictor::{
         grid::MacGrid,
@@ -10,8 +11,9 @@ use crate::{
         stencil::{Axis, LANES, Stencils},
     },
     simd::{InstructionSet, Lanes, Pass},
+    solids::Solids,
 };
-use glam::{Vec4, Vec4Swizzles};
+use glam::{Vec2, Vec4, Vec4Swizzles};
 use std::ops::Range;
 
 /// Fewer faces than this are not handed to another thread to be cleared.
@@ -25,6 +27,9 @@ pub(super) struct Faces {
     pub u: Vec<[f32; 2]>,
     /// The same at the lower faces.
     pub v: Vec<[f32; 2]>,
+    /// At the left and at the lower faces, after the solve: velocity at which the density feedback moves particles, d/s,
+    /// and 1 where particles stand on both sides of the face, 0 elsewhere.
+    pub drift: [Vec<[f32; 2]>; 2],
     /// How full the cells are of liquid and rock, 1 at the density aimed at.
     pub filled: Vec<f32>,
     /// Rows that a particle reaches. `u` and `v` are 0 in the two rows on either side; what is in all fields beyond is
@@ -38,19 +43,20 @@ pub(super) struct Faces {
 impl Faces {
     /// Shares out the particles' velocities on the faces.
     pub fn collect(&mut self, grid: &MacGrid, particles: &Particles, instructions: InstructionSet, threads: usize) {
-        let Self { u, v, filled, reached, area, blocks } = self;
+        let Self { u, v, drift: [drift_u, drift_v], filled, reached, area, blocks } = self;
         let Particles { x, y, vx, vy, .. } = particles;
         blocks.partition(grid, y, instructions, threads);
         *reached = blocks.reached();
         let near = reached.start.saturating_sub(2)..(reached.end + 2).min(grid.rows + 3);
-        for field in [&mut *u, v] {
+        for field in [&mut *u, v, drift_u, drift_v] {
             field.resize(grid.len(), [0.0; 2]);
         }
         filled.resize(grid.len(), 0.0);
         *area = grid.columns_near(extent(x));
         let columns = grid.padded(area);
         let work = Clear { columns: columns.start..(columns.end + 1).min(grid.stride) };
-        let band = (Rows::new(u, grid.stride, &near), Rows::new(v, grid.stride, &near));
+        let band = |field| Rows::new(field, grid.stride, &near);
+        let band = ((band(u), band(v)), (band(drift_u), band(drift_v)));
         sweep(&work, near, band, columns.len(), WORTH_CLEARING, Team { instructions, threads });
         blocks.share_out([&mut u[..], &mut v[..]], grid.stride, threads, &|particles, row, [u, v]| {
             let [x, y, vx, vy] = [x, y, vx, vy].map(|values| &values[particles.clone()]);
@@ -59,25 +65,21 @@ impl Faces {
         fold_at_walls(grid, reached.clone(), columns, u, v);
     }
 
-    /// Adds the change of velocity at each particle, and moves its velocity towards the grid's by the share `blend`.
-    pub fn hand_back(
-        &self,
-        grid: &MacGrid,
-        particles: &mut Particles,
-        instructions: InstructionSet,
-        threads: usize,
-        blend: f32,
-    ) {
-        let Particles { x, y, vx, vy, .. } = particles;
-        spread([&mut vx[..], &mut vy[..]], WORTH_A_PIECE, threads, &|base, [vx, vy]| {
-            let [x, y] = [&*x, &*y].map(|values| &values[base..base + vx.len()]);
-            instructions.run(HandBack { grid, faces: self, blend, x, y, vx, vy });
+    /// Adds the change of velocity at each particle, and half of it to what is added after the move; moves the velocity
+    /// towards the grid's by the share `blend`, and the particle as the density feedback wants it.
+    pub fn hand_back(&self, grid: &MacGrid, particles: &mut Particles, way: &WayBack, team: Team) {
+        let Particles { x, y, vx, vy, push_x, push_y, .. } = particles;
+        let arrays = [&mut x[..], y, vx, vy, push_x, push_y];
+        spread(arrays, WORTH_A_PIECE, team.threads, &|_, [x, y, vx, vy, push_x, push_y]| {
+            let (position, velocity, push) = ([x, y], [vx, vy], [push_x, push_y]);
+            team.instructions.run(HandBack { grid, faces: self, way, position, velocity, push });
         });
     }
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        let pairs = self.u.capacity() + self.v.capacity();
+        let [drift_u, drift_v] = &self.drift;
+        let pairs: usize = [&self.u, &self.v, drift_u, drift_v].map(Vec::capacity).into_iter().sum();
         8 * pairs + 4 * self.filled.capacity() + self.blocks.memory()
     }
 }
@@ -86,10 +88,14 @@ struct Clear {
     columns: Range<usize>,
 }
 
-impl<'b> Sweep<(Rows<'b, [f32; 2]>, Rows<'b, [f32; 2]>)> for Clear {
+/// Rows of two fields on the faces.
+pub(super) type Pair<'a> = (Rows<'a, [f32; 2]>, Rows<'a, [f32; 2]>);
+
+impl<'b> Sweep<(Pair<'b>, Pair<'b>)> for Clear {
     #[inline(always)]
-    fn run(&self, _: Range<usize>, (mut u, mut v): (Rows<[f32; 2]>, Rows<[f32; 2]>)) {
-        u.each().chain(v.each()).for_each(|row| row[self.columns.clone()].fill([0.0; 2]));
+    fn run(&self, _: Range<usize>, ((mut u, mut v), (mut drift_u, mut drift_v)): (Pair, Pair)) {
+        let rows = u.each().chain(v.each()).chain(drift_u.each()).chain(drift_v.each());
+        rows.for_each(|row| row[self.columns.clone()].fill([0.0; 2]));
     }
 }
 
@@ -176,33 +182,60 @@ fn add_to_pair(field: &mut [[f32; 2]], at: usize, shares: &[f32; 4]) {
     *right = [right[0] + shares[2], right[1] + shares[3]];
 }
 
-/// Changes the particles' velocities as the faces around them say.
+/// How the particles follow the faces.
+pub(super) struct WayBack<'a> {
+    /// Share of the difference to the grid's velocity that a particle gives up.
+    pub blend: f32,
+    /// Substep, s.
+    pub dt: f32,
+    pub domain: &'a Domain,
+    pub solids: &'a Solids,
+}
+
+/// Longest move of the density feedback in a substep, d. It is no motion and has no speed, so that no harm comes of it
+/// but that particles get among others; half a spacing keeps them beside their neighbours.
+const LONGEST_DRIFT: f32 = 0.5;
+
+/// Changes particles as the faces around them say.
 struct HandBack<'a> {
     grid: &'a MacGrid,
     faces: &'a Faces,
-    blend: f32,
-    x: &'a [f32],
-    y: &'a [f32],
-    vx: &'a mut [f32],
-    vy: &'a mut [f32],
+    way: &'a WayBack<'a>,
+    position: [&'a mut [f32]; 2],
+    velocity: [&'a mut [f32]; 2],
+    push: [&'a mut [f32]; 2],
 }
 
 impl Pass for HandBack<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { grid, faces, blend, .. } = self;
-        for at in (0..self.x.len()).step_by(LANES) {
-            let (x, y) = (lanes(self.x, at), lanes(self.y, at));
-            let count = (self.x.len() - at).min(LANES);
-            let gained = mean_of_faces(&faces.u, grid, &Stencils::new(grid, &x, &y, Axis::U), count);
-            change(&mut self.vx[at..at + count], &gained, blend);
-            let gained = mean_of_faces(&faces.v, grid, &Stencils::new(grid, &x, &y, Axis::V), count);
-            change(&mut self.vy[at..at + count], &gained, blend);
+        let Self { grid, faces, way, position: [x, y], velocity: [vx, vy], push: [push_x, push_y] } = self;
+        let WayBack { blend, dt, domain, solids } = *way;
+        let rock = (solids.count() > 0).then_some(solids);
+        for at in (0..x.len()).step_by(LANES) {
+            let (from_x, from_y) = (lanes(x, at), lanes(y, at));
+            let count = (x.len() - at).min(LANES);
+            let own = at..at + count;
+            let stencils = [Axis::U, Axis::V].map(|axis| Stencils::new(grid, &from_x, &from_y, axis));
+            let drift_x = mean_of_faces(&faces.drift[0], grid, &stencils[0], count);
+            let drift_y = mean_of_faces(&faces.drift[1], grid, &stencils[1], count);
+            let gained = mean_of_faces(&faces.u, grid, &stencils[0], count);
+            change(&mut vx[own.clone()], &mut push_x[own.clone()], &gained, &drift_x, blend);
+            let gained = mean_of_faces(&faces.v, grid, &stencils[1], count);
+            change(&mut vy[own.clone()], &mut push_y[own.clone()], &gained, &drift_y, blend);
+            for (k, (x, y)) in x[own.clone()].iter_mut().zip(&mut y[own]).enumerate() {
+                let way = Vec2::new(drift_x[k][0], drift_y[k][0]) * dt;
+                if way != Vec2::ZERO {
+                    let from = Vec2::new(*x, *y);
+                    let to = domain.keep_inside(from + way.clamp_length_max(LONGEST_DRIFT));
+                    (*x, *y) = rock.map_or(to, |rock| rock.sweep(from, to)).into();
+                }
+            }
         }
     }
 }
 
-/// Change of velocity and new velocity at the first `count` points: the bilinear means of the faces around them.
+/// Both numbers at the first `count` points: the bilinear means of the faces around them.
 #[inline(always)]
 fn mean_of_faces(field: &[[f32; 2]], grid: &MacGrid, stencils: &Stencils, count: usize) -> [[f32; 2]; LANES] {
     let mut means = [[0.0; 2]; LANES];
@@ -225,11 +258,13 @@ fn pair(field: &[[f32; 2]], at: usize) -> Vec4 {
     Vec4::from_slice(field[at..at + 2].as_flattened())
 }
 
-/// Adds the change to velocities and moves them towards the grid's.
+/// Adds the change to velocities, and half of it to the pushes; moves the velocities towards the grid's as far as the faces
+/// around have particles on both sides.
 #[inline(always)]
-fn change(velocity: &mut [f32], means: &[[f32; 2]; LANES], blend: f32) {
-    for (velocity, [gained, grid]) in velocity.iter_mut().zip(means) {
+fn change(velocity: &mut [f32], push: &mut [f32], means: &[[f32; 2]; LANES], drift: &[[f32; 2]; LANES], blend: f32) {
+    for ((velocity, push), ([gained, grid], [_, known])) in velocity.iter_mut().zip(push).zip(means.iter().zip(drift)) {
         let moved = *velocity + gained;
-        *velocity = moved + blend * (grid - moved);
+        *velocity = moved + blend * known * (grid - moved);
+        *push += 0.5 * gained;
     }
 }

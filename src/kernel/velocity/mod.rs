@@ -10,6 +10,7 @@ pub use vorticity::apply_vorticity;
 
 use crate::{
     element::ElementId,
+    forces::held,
     parallel::{WORTH_A_PIECE, spread},
     particles::Particles,
     pbf::{CorrectionLimit, Solver},
@@ -47,7 +48,7 @@ impl StrengthReport {
 /// Correction of a substep that goes into the velocity by half, d, where the pressure predictor ran. Its velocities are
 /// nearly right; the small corrections that are left are the particles finding their places, and to take them for motion
 /// would make a still pool simmer.
-const QUIET_CORRECTION: f32 = 0.05;
+const QUIET_CORRECTION: f32 = 0.2;
 
 /// Share of its limit from which on a correction counts as cut: less the rounding of (anchor + limit) − anchor.
 const CUT: f32 = 0.999;
@@ -57,27 +58,34 @@ const CUT: f32 = 0.999;
 /// same: a free particle keeps its velocity to the last bit, where the difference of two large positions would round it
 /// to whole ulps of the position over Δt (at 2,048 d and 16 substeps a tick that swallows gravity). Where the pressure
 /// predictor ran (`predicted`), the velocity follows a correction a by the share `a²/(a² + QUIET_CORRECTION²)`.
+///
+/// Then the second half of the kick that [`begin_kick`](crate::forces::begin_kick) began: gravity (d/s²) and what pressure
+/// and contact add. Where corrections hold a particle up they hold it against the kick, too ([`held`]).
 pub fn update_velocities(
     particles: &mut Particles,
     solver: &mut Solver,
     solids: &Solids,
+    gravity: Vec2,
     predicted: bool,
     threads: usize,
     dt: f32,
 ) -> MoveReport {
     let Solver { instructions, x: to_x, y: to_y, density, limit, .. } = solver;
     let clamps = AtomicU64::new(0);
-    let Particles { x, y, vx, vy, .. } = particles;
-    spread([&mut vx[..], vy, to_x, to_y], WORTH_A_PIECE, threads, &|base, [vx, vy, to_x, to_y]| {
+    let Particles { x, y, vx, vy, push_x, push_y, .. } = particles;
+    let arrays = [&mut vx[..], vy, push_x, push_y, to_x, to_y];
+    spread(arrays, WORTH_A_PIECE, threads, &|base, [vx, vy, push_x, push_y, to_x, to_y]| {
         let anchor = [&*x, &*y].map(|anchor| &anchor[base..base + vx.len()]);
         instructions.run(Move {
             rock: (solids.count() > 0).then_some(solids),
             limit: limit.map(|limit| (limit, &density[base..base + vx.len()])),
             quiet: if predicted { QUIET_CORRECTION } else { 0.0 },
+            half: 0.5 * dt * gravity,
             dt,
             anchor,
             corrected: [to_x, to_y],
             velocity: [vx, vy],
+            push: [push_x, push_y],
             clamps: &clamps,
         });
     });
@@ -94,6 +102,8 @@ struct Move<'a> {
     limit: Option<(CorrectionLimit, &'a [f32])>,
     /// Correction that goes into the velocity by half, d.
     quiet: f32,
+    /// What gravity adds in the second half of the substep, d/s.
+    half: Vec2,
     dt: f32,
     /// Predicted positions, d.
     anchor: [&'a [f32]; 2],
@@ -101,6 +111,8 @@ struct Move<'a> {
     corrected: [&'a mut [f32]; 2],
     /// In and out: velocities, d/s.
     velocity: [&'a mut [f32]; 2],
+    /// In and out: what is added besides gravity, d/s.
+    push: [&'a mut [f32]; 2],
     /// Counts the corrections that were cut.
     clamps: &'a AtomicU64,
 }
@@ -108,8 +120,8 @@ struct Move<'a> {
 impl Pass for Move<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { rock, limit, quiet, dt, anchor: [from_x, from_y], clamps, .. } = self;
-        let ([to_x, to_y], [vx, vy]) = (self.corrected, self.velocity);
+        let Self { rock, limit, quiet, half, dt, anchor: [from_x, from_y], clamps, .. } = self;
+        let ([to_x, to_y], [vx, vy], [push_x, push_y]) = (self.corrected, self.velocity, self.push);
         let per_dt = 1.0 / dt;
         let quiet = quiet * per_dt;
         if let Some((limit, density)) = limit {
@@ -131,7 +143,10 @@ impl Pass for Move<'_> {
             let (change_x, change_y) = ((to_x[k] - from_x[k]) * per_dt, (to_y[k] - from_y[k]) * per_dt);
             let change2 = change_x * change_x + change_y * change_y;
             let share = if quiet > 0.0 { change2 / (change2 + quiet * quiet) } else { 1.0 };
-            (vx[k], vy[k]) = (vx[k] + change_x * share, vy[k] + change_y * share);
+            let (change_x, change_y) = (change_x * share, change_y * share);
+            let kick = held(Vec2::new(half.x + push_x[k], half.y + push_y[k]), Vec2::new(change_x, change_y));
+            (vx[k], vy[k]) = (vx[k] + change_x + kick.x, vy[k] + change_y + kick.y);
+            (push_x[k], push_y[k]) = (kick.x - half.x, kick.y - half.y);
         }
     }
 }

@@ -167,7 +167,7 @@ fn velocities_follow_from_the_moves_and_cut_corrections_are_counted() {
         };
     }
     let before = bench.particles.clone();
-    let report = update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, false, 1, 0.01);
+    let report = update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, Vec2::ZERO, false, 1, 0.01);
     assert_eq!(report.position_clamps, 9, "corrections at their limit");
     let shares = |i| bench.solver.correction_share(i, bench.particles.position(i)).unwrap();
     assert!((shares(3) - 1.0).abs() < 1e-3 && (shares(8) - 1.0).abs() < 1e-3 && shares(10) < 0.6 && shares(20) < 0.2);
@@ -184,13 +184,13 @@ fn after_the_predictor_small_corrections_move_particles_but_hardly_speed_them_up
     let mut bench = square(0.0, |_| Vec2::new(2.0, 0.0));
     bench.bin();
     for i in 0..400 {
-        bench.solver.y[i] += if i % 2 == 0 { 0.005 } else { 0.1 };
+        bench.solver.y[i] += if i % 2 == 0 { 0.02 } else { 0.4 };
     }
     let before = bench.particles.clone();
-    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, true, 1, 0.01);
+    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, Vec2::ZERO, true, 1, 0.01);
     for i in 0..400 {
-        // a²/(a² + 0.05²) of a/Δt
-        let expected = if i % 2 == 0 { 0.5 / 101.0 } else { 10.0 * 0.8 };
+        // a²/(a² + 0.2²) of a/Δt
+        let expected = if i % 2 == 0 { 2.0 / 101.0 } else { 40.0 * 0.8 };
         let found = bench.particles.velocity(i);
         assert!((found.y - expected).abs() < 1e-3 && found.x == 2.0, "{found} after a correction, not {expected}");
         assert!(bench.particles.y[i] > before.y[i] + 0.004, "the correction itself was lost");
@@ -205,7 +205,7 @@ fn a_correction_into_rock_stops_at_its_face() {
     for i in 0..400 {
         bench.solver.x[i] += 0.6;
     }
-    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, false, 1, 0.01);
+    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, Vec2::ZERO, false, 1, 0.01);
     for i in 0..400 {
         let at = bench.particles.position(i);
         assert!(!bench.solids.is_solid(Solids::cell_of(at)), "particle {i} was moved into rock, to {at}");

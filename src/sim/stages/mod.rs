@@ -69,7 +69,7 @@ fn substep() -> Schedule {
             timed(Pass::Air, substep::step_air).run_if(runs(Effect::Air)),
             timed(Pass::Sleep, sleep::wake_blown).run_if(runs(Effect::Drag)).run_if(sleep::any_asleep),
             (
-                timed(Pass::Gravity, substep::apply_gravity),
+                timed(Pass::Gravity, substep::begin_kick),
                 timed(Pass::Feedback, substep::drag_air).run_if(runs(Effect::AirFeedback)),
                 timed(Pass::Drag, substep::apply_drag).run_if(runs(Effect::Drag)),
                 timed(Pass::Pressure, substep::predict_pressure).run_if(runs(Effect::Predictor)),

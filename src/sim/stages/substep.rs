@@ -7,7 +7,9 @@ use crate::{
         effects::Effects,
         ledger::Call,
         stages::TickPlan,
-        state::{AirGrid, Counters, Elements, ParticleStore, PredictorState, Rock, Setup, SolverState, Sources},
+        state::{
+            AirGrid, Counters, DragState, Elements, ParticleStore, PredictorState, Rock, Setup, SolverState, Sources,
+        },
         workers::Workers,
     },
 };
@@ -40,15 +42,15 @@ pub(super) fn step_air(
     Call { touched: report.worked, spared: all - report.worked }
 }
 
-/// Gravity changes velocities.
-pub(super) fn apply_gravity(
+/// Gravity changes velocities: the first half of the kick.
+pub(super) fn begin_kick(
     mut particles: ResMut<ParticleStore>,
     setup: Res<Setup>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
 ) -> usize {
     let (gravity, dt) = (setup.domain.gravity, plan.substep_seconds());
-    workers.run_for(particles.len(), |threads| forces::apply_gravity(gravity, &mut particles, threads, dt));
+    workers.run_for(particles.len(), |threads| forces::begin_kick(gravity, &mut particles, threads, dt));
     particles.len()
 }
 
@@ -72,10 +74,11 @@ pub(super) fn drag_air(
     particles.len()
 }
 
-/// The air drags particles, by what [`drag_air`] noted if they have dragged it.
+/// The air drags particles, by what [`drag_air`] noted if they have dragged it. Half of it comes after the move.
 pub(super) fn apply_drag(
     mut particles: ResMut<ParticleStore>,
     mut air: ResMut<AirGrid>,
+    mut later: ResMut<DragState>,
     elements: Res<Elements>,
     effects: Res<Effects>,
     plan: Res<TickPlan>,
@@ -83,8 +86,8 @@ pub(super) fn apply_drag(
 ) -> usize {
     let (dt, feedback) = (plan.substep_seconds(), effects.acts(Effect::AirFeedback));
     workers.run_for(particles.len(), |threads| match feedback {
-        true => air.drag_along(&elements, &mut particles, threads, dt),
-        false => forces::apply_drag(&air, &elements, &mut particles, threads, dt),
+        true => air.drag_along(&elements, &mut particles, &mut later, threads, dt),
+        false => forces::apply_drag(&air, &elements, &mut particles, &mut later, threads, dt),
     });
     particles.len()
 }
@@ -116,9 +119,10 @@ pub(super) fn predict_pressure(
     particles.len()
 }
 
-/// Velocities predict positions.
+/// Velocities predict positions, and change by what was put off until then.
 pub(super) fn predict_positions(
     mut particles: ResMut<ParticleStore>,
+    mut later: ResMut<DragState>,
     solver: Res<SolverState>,
     rock: Res<Rock>,
     setup: Res<Setup>,
@@ -129,7 +133,9 @@ pub(super) fn predict_positions(
     let dt = plan.substep_seconds();
     let domain = &setup.domain;
     let report = workers.run_for(particles.len(), |threads| {
-        predict::predict(&mut particles, solver.instructions, &rock, domain, &setup.quality, threads, dt)
+        let report = predict::predict(&mut particles, solver.instructions, &rock, domain, &setup.quality, threads, dt);
+        later.end(&mut particles, threads, predict::longest_move(&setup.quality) / dt);
+        report
     });
     counters.speed_clamps += report.speed_clamps;
     particles.len()
@@ -177,15 +183,16 @@ pub(super) fn update_velocities(
     mut particles: ResMut<ParticleStore>,
     mut solver: ResMut<SolverState>,
     rock: Res<Rock>,
+    setup: Res<Setup>,
     effects: Res<Effects>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
 ) -> usize {
-    let dt = plan.substep_seconds();
+    let (gravity, dt) = (setup.domain.gravity, plan.substep_seconds());
     let predicted = effects.get(Effect::Predictor).running;
     let report = workers.run_for(particles.len(), |threads| {
-        velocity::update_velocities(&mut particles, &mut solver, &rock, predicted, threads, dt)
+        velocity::update_velocities(&mut particles, &mut solver, &rock, gravity, predicted, threads, dt)
     });
     counters.position_clamps += report.position_clamps;
     particles.len()

@@ -5,7 +5,7 @@ use glam::{IVec2, Vec2};
 use powder_master::kernel::{
     air::Air,
     element::{ElementId, ElementParams},
-    forces,
+    forces::{self, LaterDrag},
     parallel::Team,
     params::{AIR_DENSITY, AirAdvection, AirParams, AirScheme, OpenSides},
     predictor::{Predictor, PredictorParams},
@@ -41,7 +41,7 @@ pub fn run(name: &str, set: InstructionSet) -> bool {
         }
         "solve" => counted(&mut tank, |tank| tank.solve(1)),
         "velocity" => counted(&mut tank, |Tank { particles, solids, solver, .. }| {
-            velocity::update_velocities(particles, solver, solids, true, 1, SUBSTEP);
+            velocity::update_velocities(particles, solver, solids, Vec2::ZERO, true, 1, SUBSTEP);
         }),
         "viscosity" => counted(&mut tank, |tank| {
             velocity::apply_viscosity(&mut tank.particles, &mut tank.solver, &liquid, 1, SUBSTEP);
@@ -65,7 +65,9 @@ pub fn run(name: &str, set: InstructionSet) -> bool {
         }
         "drag" => {
             let air = windy();
-            counted(&mut tank, |tank| forces::apply_drag(&air, &liquid, &mut tank.particles, 1, SUBSTEP));
+            counted(&mut tank, |tank| {
+                forces::apply_drag(&air, &liquid, &mut tank.particles, &mut LaterDrag::default(), 1, SUBSTEP);
+            });
         }
         "air" => counted(&mut windy(), |air| {
             let scheme = AirScheme { courant: 0.7, advection: AirAdvection::SecondOrder };

@@ -2,7 +2,11 @@
 
 use super::super::Rousing;
 use super::*;
-use crate::{element::ElementParams, forces::apply_drag, particles::Particles};
+use crate::{
+    element::ElementParams,
+    forces::{LaterDrag, apply_drag},
+    particles::Particles,
+};
 use glam::DVec2;
 
 fn elements(drag: [f32; 2], mass: [f32; 2]) -> ElementParams {
@@ -25,9 +29,22 @@ fn swarm(area: Rect, count: usize, speed: f32, noise: &mut Random) -> Particles 
     particles
 }
 
+fn drag_along(air: &mut Air, elements: &ElementParams, particles: &mut Particles, team: Team) {
+    let mut later = LaterDrag::default();
+    air.drag_along(elements, particles, &mut later, team.threads, DT);
+    later.end(particles, 1, f32::INFINITY);
+}
+
+/// What drag does where the air does not yield.
+fn drag(air: &Air, elements: &ElementParams, particles: &mut Particles) {
+    let mut later = LaterDrag::default();
+    apply_drag(air, elements, particles, &mut later, 1, DT);
+    later.end(particles, 1, f32::INFINITY);
+}
+
 fn exchange(air: &mut Air, elements: &ElementParams, particles: &mut Particles, team: Team) {
     air.meet(elements, particles, Rousing::Breaths, team, DT);
-    air.drag_along(elements, particles, team.threads, DT);
+    drag_along(air, elements, particles, team);
 }
 
 /// Momentum and energy of motion of both.
@@ -81,7 +98,7 @@ fn heavy_air_drags_as_air_that_nothing_moves() {
     let mut particles = swarm(rect(0.0, 0.0, 80.0, 80.0), 500, 100.0, &mut noise);
     let mut plain = particles.clone();
     exchange(&mut air, &water_and_fluff(), &mut particles, ALONE);
-    apply_drag(&air, &water_and_fluff(), &mut plain, 1, DT);
+    drag(&air, &water_and_fluff(), &mut plain);
     for (got, expected) in particles.vx.iter().zip(&plain.vx) {
         assert!((got - expected).abs() < 2e-3, "{got} instead of {expected}");
     }
@@ -137,9 +154,9 @@ fn only_gusts_wake_sleeping_air_and_what_sleeps_does_not_yield() {
             particles.push(id, ElementId(0), place, Vec2::new(speed, 0.0));
         }
         let mut plain = particles.clone();
-        apply_drag(&air, &water_and_fluff(), &mut plain, 1, DT);
+        drag(&air, &water_and_fluff(), &mut plain);
         air.meet(&water_and_fluff(), &particles, Rousing::Gusts, ALONE, DT);
-        air.drag_along(&water_and_fluff(), &mut particles, 1, DT);
+        drag_along(&mut air, &water_and_fluff(), &mut particles, ALONE);
         assert_eq!(!air.is_quiet(), wakes, "{speed} d/s");
         assert_eq!(air.awake_tiles().0, usize::from(wakes));
         let close = particles.vx.iter().zip(&plain.vx).all(|(got, plain)| (got - plain).abs() < 1e-5 * speed);

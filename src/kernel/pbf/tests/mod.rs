@@ -84,7 +84,7 @@ impl Bench {
         let params = SolveParams { domain, fluid: &self.fluid, quality, tension, predicted, threads: 1 };
         solver.bin(particles, solids, domain, quality, 1);
         solver.solve(particles, &params);
-        crate::velocity::update_velocities(particles, solver, solids, predicted, 1, dt);
+        crate::velocity::update_velocities(particles, solver, solids, Vec2::ZERO, predicted, 1, dt);
     }
 }
 
@@ -155,7 +155,7 @@ fn check(set: (&str, &[Vec2]), gradient: GradientKernel, tension: bool, predicte
     let largest = answer.lambda.iter().fold(1e-3_f64, |most, value| most.max(value.abs()));
     let size = domain.size.as_dvec2().to_array();
     let [usual, longest] = [quality.correction_limit, quality.longest_correction()].map(f64::from);
-    let aim = f64::from(fluid.rest_density) * if predicted { 0.99 } else { 1.0 };
+    let aim = f64::from(fluid.rest_density);
     // A wall is felt at first hand and, in Δx, by way of a neighbour's λ.
     let near = |at: Vector, reach: f64| (0..2).any(|axis| at[axis] < reach || size[axis] - at[axis] < reach);
     for (i, &anchor) in anchors.iter().enumerate() {

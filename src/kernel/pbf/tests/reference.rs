@@ -51,7 +51,15 @@ impl Question<'_> {
             }
             squares += own[0] * own[0] + own[1] * own[1];
             let relaxation = f64::from(self.fluid.relaxation);
-            lambda.push(-constraint / (squares + if self.predicted { relaxation.max(0.2) } else { relaxation }));
+            lambda.push(
+                -constraint
+                    / (squares
+                        + if self.predicted {
+                            relaxation.max(0.2 * f64::from(self.quality.substeps))
+                        } else {
+                            relaxation
+                        }),
+            );
         }
         let moves = (0..self.particles.len()).map(|i| self.correction(i, &lambda)).collect();
         Answer { density, lambda, moves }
@@ -84,7 +92,7 @@ impl Question<'_> {
 
     /// After the predictor the constraint aims 1 % lower.
     fn rest_density(&self) -> f64 {
-        f64::from(self.fluid.rest_density) * if self.predicted { 0.99 } else { 1.0 }
+        f64::from(self.fluid.rest_density)
     }
 
     fn h(&self) -> f64 {

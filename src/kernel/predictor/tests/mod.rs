@@ -15,7 +15,7 @@ use crate::{
     element::ElementId,
     parallel::Team,
     particles::Particles,
-    predictor::{Predictor, PredictorParams, PredictorReport, TARGET_DENSITY},
+    predictor::{Predictor, PredictorParams, PredictorReport},
     random::Random,
     simd::InstructionSet,
     solids::Solids,
@@ -31,7 +31,7 @@ const DT: f32 = 1.0 / 60.0;
 
 /// The rest density at which a lattice of spacing d is just as dense as the predictor wants it, so that all that is left
 /// to do is the divergence.
-const LATTICE: f32 = 1.0 / TARGET_DENSITY;
+const LATTICE: f32 = 1.0;
 
 fn team() -> Team {
     Team { instructions: InstructionSet::detect(), threads: 1 }

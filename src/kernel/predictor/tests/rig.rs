@@ -4,7 +4,7 @@ use super::{DT, team};
 use crate::{
     particles::Particles,
     predictor::{
-        PredictorReport, TARGET_DENSITY,
+        PredictorReport,
         conjugate::{Conjugate, tolerance},
         equation::{Around, Sides, couple, steepen},
         grid::MacGrid,
@@ -121,9 +121,9 @@ impl Equation {
     /// One call of the solver from 0.
     pub fn solve_once(&mut self, b: &[f64]) -> (Vec<f64>, PredictorReport) {
         self.hierarchy.finest().b.iter_mut().zip(b).for_each(|(single, double)| *single = *double as f32);
-        self.conjugate.solution.fill(0.0);
-        let report = self.conjugate.solve(&mut self.hierarchy, tolerance(DT), team());
-        (self.conjugate.solution.iter().map(|x| f64::from(*x)).collect(), report)
+        let mut solution = vec![0.0; b.len()];
+        let report = self.conjugate.solve(&mut self.hierarchy, &mut solution, tolerance(DT), team());
+        (solution.iter().map(|x| f64::from(*x)).collect(), report)
     }
 
     /// The solution to double precision. `is_sealed`: nothing of it touches air, so that only its differences count.
@@ -202,6 +202,8 @@ pub(super) struct Rig {
     pub faces: Faces,
     pub hierarchy: Hierarchy,
     pub conjugate: Conjugate,
+    /// Substep, s.
+    pub dt: f32,
 }
 
 impl Rig {
@@ -213,7 +215,7 @@ impl Rig {
         closed.update(&grid, solids);
         faces.collect(&grid, particles, team().instructions, 1);
         let open = Open::new(&grid, &closed);
-        Self { grid, closed, open, faces, hierarchy, conjugate: Conjugate::default() }
+        Self { grid, closed, open, faces, hierarchy, conjugate: Conjugate::default(), dt: DT }
     }
 
     /// Projects once, as a tick does.
@@ -226,8 +228,8 @@ impl Rig {
             hierarchy: &mut self.hierarchy,
             conjugate: &mut self.conjugate,
             pockets: &mut Pockets::default(),
-            target: TARGET_DENSITY * rest_density,
-            tolerance: tolerance(DT),
+            target: rest_density,
+            dt: self.dt,
             team: team(),
             report: &mut report,
         });

@@ -21,7 +21,8 @@ fn a_still_column_without_weight_is_not_touched() {
     predict(&mut particles, &walls, LATTICE);
     let most = fastest(&particles, 50.0, 0.0);
     assert!(most < 1e-3, "still water without weight moves at {most} d/s");
-    assert_eq!((&particles.x, &particles.y), (&before.x, &before.y), "a prediction changes velocities only");
+    let moved = (0..particles.len()).map(|i| particles.position(i).distance(before.position(i))).fold(0.0, f32::max);
+    assert!(moved < 1e-4, "what is as dense as it should be moves {moved} d");
 }
 
 #[test]

@@ -5,7 +5,12 @@ use crate::{
     element::ElementId,
     params::Domain,
     particles::Particles,
-    predictor::{Predictor, PredictorParams, grid::MacGrid, transfer::Faces},
+    predictor::{
+        Predictor, PredictorParams,
+        grid::MacGrid,
+        transfer::{Faces, WayBack},
+    },
+    solids::Solids,
 };
 use glam::Vec2;
 
@@ -25,6 +30,17 @@ fn collect(grid: &MacGrid, particles: &Particles) -> Faces {
     let mut faces = Faces::default();
     faces.collect(grid, particles, team().instructions, 1);
     faces
+}
+
+fn hand_back(faces: &Faces, grid: &MacGrid, particles: &mut Particles) {
+    let size = Vec2::new(grid.columns as f32, grid.rows as f32) * grid.cell;
+    let domain = Domain { size, gravity: Vec2::ZERO };
+    faces.hand_back(
+        grid,
+        particles,
+        &WayBack { blend: 0.0, dt: DT, domain: &domain, solids: &Solids::new(1, 1) },
+        team(),
+    );
 }
 
 /// Points of the left and of the lower face of a cell, d.
@@ -108,7 +124,7 @@ fn a_linear_flow_is_linear_on_the_grid_and_back() {
         }
     }
     let mut particles = cloud(3000, size(&walls), CELL, |_| Vec2::ZERO);
-    faces.hand_back(&grid, &mut particles, team().instructions, 1, 0.0);
+    hand_back(&faces, &grid, &mut particles);
     for i in 0..particles.len() {
         let (found, expected) = (particles.velocity(i), flow(particles.position(i)));
         assert!(found.distance(expected) < 1e-3, "{found} and not {expected} at {}", particles.position(i));
@@ -131,7 +147,7 @@ fn what_the_faces_give_is_what_the_particles_get() {
             *face = [change, 0.0];
         }
     }
-    faces.hand_back(&grid, &mut particles, team().instructions, 1, 0.0);
+    hand_back(&faces, &grid, &mut particles);
     for (given, velocity) in given.into_iter().zip([&particles.vx, &particles.vy]) {
         let got: f64 = velocity.iter().map(|v| f64::from(*v)).sum();
         assert!((given - got).abs() < 1e-2, "{given} given, {got} got");
