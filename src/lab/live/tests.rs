@@ -225,7 +225,7 @@ fn fly(goal: Goal, ticks: u64) -> (u64, Vec<Entry>, Simulation) {
 }
 
 #[test]
-fn a_flight_is_recorded_and_repeats_to_the_bit_without_the_autopilot() {
+fn a_run_under_it_is_recorded_and_repeats_to_the_bit_without_the_autopilot() {
     for goal in [Goal::Time(16.0), Goal::Error(0.00001)] {
         let (hash, input, flown) = fly(goal, 600);
         let moves = input.iter().filter(|entry| matches!(entry.intent, Intent::Quality { .. })).count();
@@ -239,7 +239,7 @@ fn a_flight_is_recorded_and_repeats_to_the_bit_without_the_autopilot() {
 }
 
 #[test]
-fn a_flight_keeps_to_its_time_and_says_when_it_cannot() {
+fn a_run_under_it_keeps_to_its_time_and_says_when_it_cannot() {
     let (_, _, flown) = fly(Goal::Time(16.0), 390);
     let (setup, autopilot) = (flown.world().resource::<Setup>(), flown.world().resource::<Autopilot>());
     assert!(3.0 * ladder::work(&setup.quality) <= 16.0, "{:?} is too expensive under the load", setup.quality);

@@ -1,5 +1,5 @@
 //! The autopilot over plants of a known load, and in real scenes.
 
-#[cfg(not(debug_assertions))]
-mod flights;
 mod plants;
+#[cfg(not(debug_assertions))]
+mod worlds;

@@ -19,7 +19,7 @@ impl Noise {
     }
 }
 
-/// A flight over a plant: what was in force when.
+/// A run over a plant: what was in force when.
 struct Log {
     /// Seconds, true value without noise, position, verdict.
     steps: Vec<(f32, f32, usize, Verdict)>,
@@ -270,7 +270,7 @@ fn water_that_comes_to_rest_is_eased_whatever_failed_before() {
             }
         }
     }
-    assert!(tried >= 24, "only {tried} flights came to that");
+    assert!(tried >= 24, "only {tried} runs came to that");
 }
 
 #[test]

@@ -19,9 +19,9 @@ const MINUTE: u64 = 3600;
 /// Ticks that it is given to begin: the first second.
 const BEGUN: u64 = 60;
 
-/// What came of a flight.
+/// What came of a run under the autopilot.
 #[derive(Debug)]
-struct Flight {
+struct Held {
     /// Share of the samples after the first second whose shown error, the mean over half a second, is over the bound.
     over: f32,
     /// The longest time over the bound without a break, s.
@@ -33,7 +33,7 @@ struct Flight {
 }
 
 /// Holds `percent` of density error in a scene from its start on, for so many minutes.
-fn fly(scene: &str, percent: f32, minutes: u64) -> Flight {
+fn hold(scene: &str, percent: f32, minutes: u64) -> Held {
     let ticks = minutes * MINUTE;
     let bound = percent / 100.0;
     let blueprint = scene::load(scene).unwrap().build(&[], None, &EffectModes::new()).unwrap();
@@ -41,11 +41,11 @@ fn fly(scene: &str, percent: f32, minutes: u64) -> Flight {
     let mut simulation = Simulation::with_plugins(&start, Workers::single(), (LivePlugin, plugin));
     simulation.get_mut::<Watched>().0 = true;
     simulation.get_mut::<Autopilot>().hold(Some(Goal::Error(bound)));
-    let mut flight = Flight { over: 0.0, longest: 0.0, late_moves: 0.0, work: 0.0 };
+    let mut held = Held { over: 0.0, longest: 0.0, late_moves: 0.0, work: 0.0 };
     let (mut samples, mut over, mut in_a_row, mut early_moves) = (0, 0, 0, 0);
     for tick in 1..=ticks {
         simulation.tick();
-        flight.work += ladder::work(&simulation.get::<Setup>().quality) / ticks as f32;
+        held.work += ladder::work(&simulation.get::<Setup>().quality) / ticks as f32;
         if tick == ticks / 2 {
             early_moves = simulation.get::<Autopilot>().moves();
         }
@@ -56,22 +56,22 @@ fn fly(scene: &str, percent: f32, minutes: u64) -> Flight {
         in_a_row = if is_over { in_a_row + 1 } else { 0 };
         samples += 1;
         over += u32::from(is_over);
-        flight.longest = flight.longest.max(in_a_row as f32 * SAMPLE_EVERY as f32 * TICK_SECONDS);
+        held.longest = held.longest.max(in_a_row as f32 * SAMPLE_EVERY as f32 * TICK_SECONDS);
     }
     let autopilot = simulation.get::<Autopilot>();
     assert_ne!(autopilot.verdict(), Verdict::Beyond, "the last level holds this bound all the time");
-    flight.over = over as f32 / samples as f32;
-    flight.late_moves = 2.0 * (autopilot.moves() - early_moves) as f32 / minutes as f32;
-    flight
+    held.over = over as f32 / samples as f32;
+    held.late_moves = 2.0 * (autopilot.moves() - early_moves) as f32 / minutes as f32;
+    held
 }
 
 /// Holds the error of a scene; the work may be `most_work` on average.
 fn check(scene: &str, percent: f32, minutes: u64, most_work: f32) {
-    let flight = fly(scene, percent, minutes);
-    assert!(flight.over <= 0.02, "{flight:?}");
-    assert!(flight.longest <= 0.5 + 1e-3, "{flight:?}");
-    assert!(flight.late_moves <= 6.0, "{flight:?}");
-    assert!(flight.work <= most_work, "{flight:?}");
+    let held = hold(scene, percent, minutes);
+    assert!(held.over <= 0.02, "{held:?}");
+    assert!(held.longest <= 0.5 + 1e-3, "{held:?}");
+    assert!(held.late_moves <= 6.0, "{held:?}");
+    assert!(held.work <= most_work, "{held:?}");
 }
 
 #[test]
