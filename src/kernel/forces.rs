@@ -6,6 +6,7 @@ use crate::{
     element::ElementParams,
     parallel::{WORTH_A_PIECE, spread},
     particles::Particles,
+    predict::drop_pushes,
 };
 use glam::Vec2;
 
@@ -63,14 +64,16 @@ impl LaterDrag {
         if self.x.is_empty() {
             return;
         }
-        let Particles { vx, vy, .. } = particles;
-        spread([&mut vx[..], vy, &mut self.x, &mut self.y], WORTH_A_PIECE, threads, &|_, [vx, vy, x, y]| {
+        let Particles { vx, vy, push_x, push_y, .. } = particles;
+        let arrays = [&mut vx[..], vy, push_x, push_y, &mut self.x, &mut self.y];
+        spread(arrays, WORTH_A_PIECE, threads, &|_, [vx, vy, push_x, push_y, x, y]| {
             for k in 0..vx.len() {
                 let velocity = Vec2::new(vx[k] + x[k], vy[k] + y[k]);
                 let speed2 = velocity.x * velocity.x + velocity.y * velocity.y;
                 let share = if speed2 > most * most { most / speed2.sqrt() } else { 1.0 };
                 (vx[k], vy[k]) = (velocity.x * share, velocity.y * share);
             }
+            drop_pushes([vx, vy], [push_x, push_y], most);
         });
         self.x.clear();
         self.y.clear();

@@ -181,8 +181,10 @@ fn speeds(simulation: &Simulation) -> Result<(), Fault> {
     let (plan, setup) = (simulation.get::<TickPlan>(), simulation.get::<Setup>());
     let dt = plan.substep_seconds();
     let correction = std::f32::consts::SQRT_2 * setup.quality.longest_correction();
-    // Confinement adds a tenth of the longest move. The next substep cuts it again.
-    let most = (1.1 * longest_move(&setup.quality) + correction) / dt;
+    // Confinement adds a tenth of the longest move, and the second half of gravity comes after the cut. The next substep
+    // cuts both again.
+    let gravity = 0.5 * setup.domain.gravity.length() * dt;
+    let most = (1.1 * longest_move(&setup.quality) + correction) / dt + gravity;
     let particles = simulation.particles();
     let fastest = (0..particles.len()).map(|i| particles.velocity(i).length()).fold(0.0, f32::max);
     demand(fastest <= most, || format!("a speed of {fastest} d/s; the limiters leave {most}"))

@@ -2,7 +2,14 @@
 
 use glam::Vec2;
 use powder_master::{
-    kernel::{element::ElementId, params::Domain, particles::Particles, pbf::Solver, random, solids::Solids},
+    kernel::{
+        element::{Element, ElementId, ElementTable},
+        params::Domain,
+        particles::Particles,
+        pbf::Solver,
+        random,
+        solids::Solids,
+    },
     scene::{
         self,
         blueprint::Blueprint,
@@ -193,4 +200,11 @@ impl Random {
     pub fn point(&mut self, size: Vec2) -> Vec2 {
         Vec2::new(self.within(0.0, size.x), self.within(0.0, size.y))
     }
+}
+
+/// The element table with the water changed.
+pub fn with_water(blueprint: &mut Blueprint, change: impl Fn(&mut Element)) {
+    let mut rows: Vec<Element> = blueprint.elements.iter().map(|(_, element)| element.clone()).collect();
+    change(&mut rows[WATER.index()]);
+    blueprint.elements = Arc::new(ElementTable::new(rows));
 }

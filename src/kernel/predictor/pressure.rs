@@ -36,7 +36,7 @@ const FEEDBACK_PER_SECOND: f32 = 48.0;
 const FEEDBACK_TOLERANCE: f64 = 0.1;
 /// Share of a full face's particles from which on they stand on both sides of it, so that their mean velocity is the
 /// face's. At a free surface a face that is half full has its particles on one side.
-const WHOLE: f32 = 0.64;
+const WHOLE: f32 = 0.5;
 
 /// One projection. `p` is counted in d/s: a face gains `p_left − p_right`.
 pub(super) struct Projection<'a> {
