@@ -6,7 +6,6 @@ use crate::{
     element::ElementParams,
     parallel::{WORTH_A_PIECE, spread},
     particles::Particles,
-    predict::drop_pushes,
 };
 use glam::Vec2;
 
@@ -42,6 +41,16 @@ pub(crate) fn held(kick: Vec2, stop: Vec2) -> Vec2 {
     let share = if against < stop2 { against } else { stop2 };
     let share = if against > 0.0 { share / stop2 } else { 0.0 };
     Vec2::new(kick.x + share * stop.x, kick.y + share * stop.y)
+}
+
+/// Leaves those pushes out that would take a speed past `most` d/s.
+#[inline(always)]
+pub(crate) fn drop_pushes([vx, vy]: [&[f32]; 2], [push_x, push_y]: [&mut [f32]; 2], most: f32) {
+    for k in 0..vx.len() {
+        let (x, y) = (vx[k] + push_x[k], vy[k] + push_y[k]);
+        let keep = if x * x + y * y > most * most { 0.0 } else { 1.0 };
+        (push_x[k], push_y[k]) = (keep * push_x[k], keep * push_y[k]);
+    }
 }
 
 /// The half of the drag that comes after the move, d/s for each particle; empty where nothing drags.

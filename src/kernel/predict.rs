@@ -1,7 +1,7 @@
 //! Prediction: where the velocities alone would take the particles, without passing through rock or walls.
 
 use crate::{
-    forces::held,
+    forces::{drop_pushes, held},
     parallel::{WORTH_A_PIECE, spread},
     params::{Domain, Quality, WALL_GAP},
     particles::Particles,
@@ -166,16 +166,6 @@ fn cut_speeds(vx: &mut [f32], vy: &mut [f32], longest: f32, dt: f32) -> u64 {
         count += 1;
     }
     count
-}
-
-/// Leaves those pushes out that would take a speed past `most` d/s.
-#[inline(always)]
-pub(crate) fn drop_pushes([vx, vy]: [&[f32]; 2], [push_x, push_y]: [&mut [f32]; 2], most: f32) {
-    for k in 0..vx.len() {
-        let (x, y) = (vx[k] + push_x[k], vy[k] + push_y[k]);
-        let keep = if x * x + y * y > most * most { 0.0 } else { 1.0 };
-        (push_x[k], push_y[k]) = (keep * push_x[k], keep * push_y[k]);
-    }
 }
 
 /// Where velocities take coordinates, kept inside the box; returns whether a wall stopped any.
