@@ -3,7 +3,7 @@
 use crate::{
     blocks::Blocks,
     parallel::{Rows, Sweep, Team, WORTH_A_PIECE, spread, sweep},
-    params::Domain,
+    params::{Domain, WALL_GAP},
     particles::{Particles, extent},
     predictor::{
         grid::MacGrid,
@@ -192,9 +192,22 @@ pub(super) struct WayBack<'a> {
     pub solids: &'a Solids,
 }
 
-/// Longest move of the density feedback in a substep, d. It is no motion and has no speed, so that no harm comes of it
+/// Longest move of the density feedback along an axis in a substep, d. It is no motion and has no speed, so that no harm comes of it
 /// but that particles get among others; half a spacing keeps them beside their neighbours.
 const LONGEST_DRIFT: f32 = 0.5;
+
+/// A coordinate of a way, cut to [`LONGEST_DRIFT`].
+#[inline(always)]
+fn shorten(way: f32) -> f32 {
+    keep(way, -LONGEST_DRIFT, LONGEST_DRIFT)
+}
+
+/// A number, cut to `low … high`.
+#[inline(always)]
+fn keep(number: f32, low: f32, high: f32) -> f32 {
+    let number = if number > low { number } else { low };
+    if number < high { number } else { high }
+}
 
 /// Changes particles as the faces around them say.
 struct HandBack<'a> {
@@ -223,12 +236,16 @@ impl Pass for HandBack<'_> {
             change(&mut vx[own.clone()], &mut push_x[own.clone()], &gained, &drift_x, blend);
             let gained = mean_of_faces(&faces.v, grid, &stencils[1], count);
             change(&mut vy[own.clone()], &mut push_y[own.clone()], &gained, &drift_y, blend);
-            for (k, (x, y)) in x[own.clone()].iter_mut().zip(&mut y[own]).enumerate() {
-                let way = Vec2::new(drift_x[k][0], drift_y[k][0]) * dt;
-                if way != Vec2::ZERO {
-                    let from = Vec2::new(*x, *y);
-                    let to = domain.keep_inside(from + way.clamp_length_max(LONGEST_DRIFT));
-                    (*x, *y) = rock.map_or(to, |rock| rock.sweep(from, to)).into();
+            let (low, high) = (Vec2::splat(WALL_GAP), domain.highest());
+            let (x, y) = (&mut x[own.clone()], &mut y[own]);
+            for k in 0..count {
+                x[k] = keep(from_x[k] + shorten(drift_x[k][0] * dt), low.x, high.x);
+                y[k] = keep(from_y[k] + shorten(drift_y[k][0] * dt), low.y, high.y);
+            }
+            if let Some(rock) = rock {
+                for k in 0..count {
+                    let to = rock.sweep(Vec2::new(from_x[k], from_y[k]), Vec2::new(x[k], y[k]));
+                    (x[k], y[k]) = (to.x, to.y);
                 }
             }
         }
