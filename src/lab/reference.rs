@@ -158,7 +158,7 @@ mod tests {
         assert_eq!(own.iter().map(|point| point.tick).collect::<Vec<_>>(), [20, 40, 60, 80, 90]);
         let nothing = Distance { share: Some(0.0), momentum: Some(0.0), air: None };
         assert!(own.iter().all(|point| point.distance == nothing && point.energy_ratio == 1.0), "{own:?}");
-        let nearly = Quality { substeps: 8, iterations: 2, kernel_radius: 3.0, ..Preset::Fine.quality() };
+        let nearly = Quality { iterations: 3, ..Preset::Reference.quality() };
         let (fine, _) = follow(&start, &reference, nearly, &plan);
         let (rough, hash) = follow(&start, &reference, Preset::Classic.quality(), &plan);
         let early = |points: &[Point]| points[1].distance.share.unwrap();

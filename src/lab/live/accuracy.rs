@@ -27,7 +27,7 @@ pub struct Watched(pub bool);
 pub struct ErrorSample {
     /// Ticks that the world had done.
     pub tick: u64,
-    /// Mean of max(0, ρ/ρ₀ − 1) over the sampled interior particles; `None` if there were none.
+    /// Mean density error (see `lab::density`) of the sampled interior particles; `None` if there were none.
     pub mean: Option<f32>,
     /// Its 99th percentile.
     pub p99: Option<f32>,
