@@ -42,7 +42,7 @@ pub(super) fn run(
         let mut found = found(&sampler.finish(simulation.world()));
         found.accuracy.distance = Some(follower.mean(plan.warmup));
         found.energy_gain = found.energy_gain.filter(|_| start.is_closed()).map(|ratio| {
-            // What swells to its target density is lifted by as much; that is not the energy of an unstable world.
+            // What swells to its rest density is lifted by as much; that is not the energy of an unstable world.
             let swelling = found.accuracy.density_mean.zip(density).map_or(1.0, |(after, before)| after / before);
             ratio * swelling - 1.0
         });
