@@ -15,6 +15,19 @@ use crate::{
 };
 use std::{fmt::Display, fs::File, io::Read, path::Path, sync::Arc};
 
+/// What the command line wants of the world that it names.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Wanted<'a> {
+    /// Parameters of the scene, and knobs.
+    pub settings: &'a [(String, String)],
+    /// The quality, if not the scene's own.
+    pub quality: Option<Preset>,
+    /// The detail, if not the scene's own.
+    pub detail: Option<f64>,
+    /// Modes of effects that are not the scene's.
+    pub effects: EffectModes,
+}
+
 /// The world that a run starts from, and what is to be known of it.
 pub(super) struct Start {
     /// The world.
@@ -27,14 +40,16 @@ impl Start {
     /// Reads what `run` names, with the recorded input if it is a recording.
     pub(super) fn of_run(arguments: &RunArguments) -> Result<(Self, Option<Segment>), Failure> {
         let effects: EffectModes = arguments.effects.iter().copied().collect();
-        let RunArguments { scene, settings, quality, .. } = arguments;
+        let RunArguments { scene, settings, quality, detail, .. } = arguments;
         let unfit = [
             ("--set", !settings.is_empty()),
+            ("--detail", detail.is_some()),
             ("--hold-ms", arguments.hold_ms.is_some()),
             ("--hold-error", arguments.hold_error.is_some()),
         ];
         let Some(mut recording) = read_recording(scene, &unfit)? else {
-            return Ok((Self::read(scene, settings, *quality, effects)?, None));
+            let wanted = Wanted { settings, quality: *quality, detail: *detail, effects };
+            return Ok((Self::read(scene, wanted)?, None));
         };
         let last = recording.segments.pop();
         Ok((Self::of_segment(scene, last.as_ref(), *quality, effects)?, last))
@@ -42,22 +57,19 @@ impl Start {
 
     /// Reads what `play` names, with the recording if it is one.
     pub(super) fn of_play(scene: &str, options: &PlayOptions) -> Result<(Self, Option<Recording>), Failure> {
-        let PlayOptions { settings, quality, .. } = options;
-        let unfit = [("--set", !settings.is_empty()), ("--quality", quality.is_some())];
+        let PlayOptions { settings, quality, detail, .. } = options;
+        let unfit = [("--set", !settings.is_empty()), ("--quality", quality.is_some()), ("--detail", detail.is_some())];
         let Some(recording) = read_recording(scene, &unfit)? else {
-            return Ok((Self::read(scene, settings, *quality, EffectModes::new())?, None));
+            let wanted = Wanted { settings, quality: *quality, detail: *detail, ..Wanted::default() };
+            return Ok((Self::read(scene, wanted)?, None));
         };
         let start = Self::of_segment(scene, recording.segments.first(), None, EffectModes::new())?;
         Ok((start, Some(recording)))
     }
 
     /// Reads what `soak` names.
-    pub(super) fn of_soak(
-        name_or_path: &str,
-        settings: &[(String, String)],
-        quality: Option<Preset>,
-    ) -> Result<Self, Failure> {
-        match Self::read(name_or_path, settings, quality, EffectModes::new())? {
+    pub(super) fn of_soak(name_or_path: &str, wanted: Wanted<'_>) -> Result<Self, Failure> {
+        match Self::read(name_or_path, wanted)? {
             start if start.is_scene => Ok(start),
             _ => Err(no_use(name_or_path, "a save file", "soak")),
         }
@@ -86,18 +98,18 @@ impl Start {
     }
 
     /// Reads a scene or a save file.
-    pub(super) fn read(
-        name_or_path: &str,
-        settings: &[(String, String)],
-        quality: Option<Preset>,
-        effects: EffectModes,
-    ) -> Result<Self, Failure> {
+    pub(super) fn read(name_or_path: &str, wanted: Wanted<'_>) -> Result<Self, Failure> {
+        let Wanted { settings, quality, detail, effects } = wanted;
         let Some(saved) = read_save(name_or_path)? else {
-            let blueprint = scene::load(name_or_path)?.build(settings, quality, &effects)?;
+            let scene = scene::load(name_or_path)?.at_detail(detail.unwrap_or(1.0));
+            let blueprint = scene.build(settings, quality, &effects)?;
             return Ok(Self { checkpoint: Checkpoint::of_scene(Arc::new(blueprint)), is_scene: true });
         };
         if !settings.is_empty() {
             return Err(no_use(name_or_path, "a save file", "--set"));
+        }
+        if detail.is_some() {
+            return Err(no_use(name_or_path, "a save file", "--detail"));
         }
         Ok(Self::of_saved(saved, quality, effects))
     }

@@ -28,11 +28,19 @@ const MOST_FILLED: f64 = 1e9;
 /// Velocities that a file may give, m/s.
 pub(super) const VELOCITY: Range = Range::real(-300.0, 300.0);
 
+/// The number of particles that stand for as much matter at a detail as `count` of the scene's own spacing, 1 … 4 000 000:
+/// more no world holds.
+pub(super) fn scaled_count(count: u32, detail: f64) -> u32 {
+    (f64::from(count) * detail * detail).round().clamp(PARTICLE_LIMIT.min, PARTICLE_LIMIT.max) as u32
+}
+
 /// The box that flows are cut to.
 pub(super) struct Bounds<'a> {
     pub(super) values: &'a Evaluator<'a>,
-    /// Spacing d, m.
+    /// Spacing d of the run, m.
     pub(super) spacing: f64,
+    /// The scene's own spacing over it.
+    pub(super) detail: f64,
     /// Size of the box, d.
     pub(super) size: Vec2,
 }
@@ -104,8 +112,9 @@ impl Bounds<'_> {
             element,
             area,
             velocity: self.velocity(field, &text.velocity)?,
-            rate: rate as f32,
-            total: total.transpose()?.map(|total| total as u32),
+            // In particles of the run: the same area a second, and in all.
+            rate: (rate * self.detail * self.detail) as f32,
+            total: total.transpose()?.map(|total| scaled_count(total as u32, self.detail)),
             start: (start.transpose()?.unwrap_or(0.0) * f64::from(TICKS_PER_SECOND)).round() as u64,
             given: 0,
             due: 0.0,

@@ -26,7 +26,7 @@ pub mod blueprint;
 pub mod effects;
 pub mod readers;
 
-pub use build::{SceneFile, from_text, load};
+pub use build::{DETAIL, SceneFile, from_text, load};
 pub use builtin::builtin_names;
 pub use elements::elements;
 pub use error::SceneError;

@@ -13,7 +13,7 @@ use crate::{
         units::Scale,
     },
     scene::{
-        MOST_COVERED, Tuning,
+        DETAIL, MOST_COVERED, Tuning,
         blueprint::Blueprint,
         elements::{self, Fault},
     },
@@ -22,6 +22,8 @@ use crate::{
 use glam::Vec2;
 use std::collections::HashSet;
 
+/// Highest detail: the highest that a run may ask for at the finest preset.
+const MOST_DETAIL: f32 = 16.0;
 /// Most cells of a box.
 const MOST_CELLS: f32 = 64e6;
 /// Longest side of a box, d.
@@ -77,7 +79,8 @@ fn texts(contents: &Contents) -> Verdict {
 fn numbers(contents: &Contents) -> Verdict {
     let Contents { scene, domain, quality, .. } = contents;
     let Blueprint { scale, fluid, air, particle_limit, .. } = **scene;
-    within("spacing", scale.spacing, 0.001 / ROUNDING, 100.0 * ROUNDING)?;
+    within("detail", scale.detail, DETAIL.min as f32 / ROUNDING, MOST_DETAIL * ROUNDING)?;
+    within("spacing", scale.own_spacing(), 0.001 / ROUNDING, 100.0 * ROUNDING)?;
     within("width", domain.size.x, 4.0, LONGEST_SIDE)?;
     within("height", domain.size.y, 4.0, LONGEST_SIDE)?;
     let cells = domain.size.ceil();
@@ -158,7 +161,8 @@ fn sources(contents: &Contents) -> Verdict {
     for emitter in &sources.emitters {
         area(&emitter.area)?;
         finite("the velocity of an emitter", emitter.velocity)?;
-        within("the rate of an emitter", emitter.rate, 0.0, 1e6 * ROUNDING)?;
+        let most = 1e6 * contents.scene.scale.particles_per_own() * ROUNDING;
+        within("the rate of an emitter", emitter.rate, 0.0, most)?;
         within("what is due of an emitter", emitter.due, 0.0, 1e6)?;
         demand(emitter.start <= LAST_TICK, || {
             format!("the start of an emitter is tick {}; allowed: 0 to {LAST_TICK}", emitter.start)

@@ -82,7 +82,7 @@ impl Recording {
             return Err(FileError::Version(RECORDING.name, 1));
         }
         let mut rest = RECORDING.open(bytes)?;
-        let mut reader = Reader { segments: Vec::new(), elements: 0, scale: Scale { spacing: 1.0 }, end: None };
+        let mut reader = Reader { segments: Vec::new(), elements: 0, scale: Scale::own(1.0), end: None };
         while !rest.is_empty() && reader.end.is_none() {
             match reader.chunk(&mut rest) {
                 Err(_) if lenient && !reader.segments.is_empty() => break,
