@@ -37,8 +37,8 @@ pub(super) struct Start {
 }
 
 impl Start {
-    /// Reads what `run` names, with the recorded input if it is a recording.
-    pub(super) fn of_run(arguments: &RunArguments) -> Result<(Self, Option<Segment>), Failure> {
+    /// Reads what `run` names, with the recorded input and the quality that it begins at if it is a recording.
+    pub(super) fn of_run(arguments: &RunArguments) -> Result<(Self, Option<(Segment, Preset)>), Failure> {
         let effects: EffectModes = arguments.effects.iter().copied().collect();
         let RunArguments { scene, settings, quality, detail, .. } = arguments;
         let unfit = [
@@ -51,8 +51,13 @@ impl Start {
             let wanted = Wanted { settings, quality: *quality, detail: *detail, effects };
             return Ok((Self::read(scene, wanted)?, None));
         };
-        let last = recording.segments.pop();
-        Ok((Self::of_segment(scene, last.as_ref(), *quality, effects)?, last))
+        let Some(last) = recording.segments.pop() else {
+            return Err(bad(Path::new(scene), &FileError::Foreign("recording")));
+        };
+        let saved = last.start().map_err(|error| bad(Path::new(scene), &error))?;
+        let preset = saved.setup.preset;
+        let start = Self::of_saved(Path::new(scene), saved, *quality, None, effects)?;
+        Ok((start, Some((last, preset))))
     }
 
     /// Reads what `play` names, with the recording if it is one.
@@ -63,7 +68,7 @@ impl Start {
             let wanted = Wanted { settings, quality: *quality, detail: *detail, ..Wanted::default() };
             return Ok((Self::read(scene, wanted)?, None));
         };
-        let start = Self::of_segment(scene, recording.segments.first(), None, EffectModes::new())?;
+        let start = Self::of_segment(scene, recording.segments.first())?;
         Ok((start, Some(recording)))
     }
 
@@ -76,25 +81,30 @@ impl Start {
     }
 
     /// The state that a segment of a recording begins with.
-    fn of_segment(
-        path: &str,
-        segment: Option<&Segment>,
-        quality: Option<Preset>,
-        effects: EffectModes,
-    ) -> Result<Self, Failure> {
+    fn of_segment(path: &str, segment: Option<&Segment>) -> Result<Self, Failure> {
         let path = Path::new(path);
         let segment = segment.ok_or_else(|| bad(path, &FileError::Foreign("recording")))?;
-        Ok(Self::of_saved(segment.start().map_err(|error| bad(path, &error))?, quality, effects))
+        let saved = segment.start().map_err(|error| bad(path, &error))?;
+        Self::of_saved(path, saved, None, None, EffectModes::new())
     }
 
     /// A saved world, with what the command line wants otherwise.
-    fn of_saved(saved: Checkpoint, quality: Option<Preset>, effects: EffectModes) -> Self {
-        let mut checkpoint = match quality {
-            Some(preset) => saved.at_quality(preset, preset.quality()),
-            None => saved,
-        };
+    fn of_saved(
+        path: &Path,
+        mut checkpoint: Checkpoint,
+        quality: Option<Preset>,
+        detail: Option<f64>,
+        effects: EffectModes,
+    ) -> Result<Self, Failure> {
+        let unfit = |what: String| bad(path, &what);
+        if let Some(detail) = detail {
+            checkpoint = checkpoint.at_detail(detail).map_err(unfit)?;
+        }
+        if let Some(preset) = quality {
+            checkpoint = checkpoint.at_quality(preset, preset.quality()).map_err(unfit)?;
+        }
         checkpoint.modes.extend(effects);
-        Self { checkpoint, is_scene: false }
+        Ok(Self { checkpoint, is_scene: false })
     }
 
     /// Reads a scene or a save file.
@@ -108,10 +118,7 @@ impl Start {
         if !settings.is_empty() {
             return Err(no_use(name_or_path, "a save file", "--set"));
         }
-        if detail.is_some() {
-            return Err(no_use(name_or_path, "a save file", "--detail"));
-        }
-        Ok(Self::of_saved(saved, quality, effects))
+        Self::of_saved(Path::new(name_or_path), saved, quality, detail, effects)
     }
 }
 

@@ -19,16 +19,23 @@ use crate::{
         place::{Room, fill},
     },
 };
-use std::{borrow::Cow, collections::BTreeMap};
+use std::{
+    borrow::Cow,
+    collections::BTreeMap,
+    hash::{DefaultHasher, Hash, Hasher},
+};
 
 /// Most cells of a box.
-const MOST_CELLS: f64 = 64e6;
+pub(crate) const MOST_CELLS: f64 = 64e6;
 
 /// Cells along a side of the box. Beyond 32 768 a position in f32 is coarser than 1/500 of a spacing.
-const SIDE: Range = Range::real(4.0, 32_768.0);
+pub(crate) const SIDE: Range = Range::real(4.0, 32_768.0);
 
 /// Details that a run may ask for: how many times finer than the scene's own its particle spacing is.
 pub const DETAIL: Range = Range::real(0.125, 8.0);
+
+/// The highest detail of a run: the highest that may be asked for at the finest preset.
+pub(crate) const MOST_DETAIL: f64 = 2.0 * DETAIL.max;
 
 /// A scene file that was read and is well-formed; what depends on its parameters is checked by [`SceneFile::build`].
 #[derive(Clone, Debug)]
@@ -37,6 +44,8 @@ pub struct SceneFile {
     file: String,
     origin: Origin,
     text: SceneText,
+    /// Of the text: see [`Blueprint::origin`].
+    mark: u64,
     detail: f64,
 }
 
@@ -66,7 +75,10 @@ impl SceneFile {
     pub(super) fn from_source(source: Source) -> Result<Self, SceneError> {
         let text: SceneText = parse(&source.file, &source.bytes)?;
         text.check(&source.file)?;
-        Ok(Self { name: source.name, file: source.file, origin: source.origin, text, detail: 1.0 })
+        let mut hasher = DefaultHasher::new();
+        source.bytes.hash(&mut hasher);
+        let mark = hasher.finish();
+        Ok(Self { name: source.name, file: source.file, origin: source.origin, text, mark, detail: 1.0 })
     }
 
     /// The scene called `name` that `bytes` are the file of. It can't name pictures.
@@ -126,8 +138,7 @@ impl SceneFile {
         let detail = DETAIL.check(self.detail).map_err(|what| values.fault("detail", what))? * preset.detail();
         let spacing = own_spacing / detail;
         let scale = Scale { spacing: spacing as f32, detail: detail as f32 };
-        let mut tuning = self.tune(&values, preset, &settings)?;
-        tuning.particle_limit = scaled_count(tuning.particle_limit, detail);
+        let tuning = self.tune(&values, preset, &settings)?;
         let domain = self.domain(&values, spacing)?;
         let sound_speed = values.number("sound_speed", &text.sound_speed, Range::real(1.0, 400.0))?;
         let air_density = values.number("air_density", &text.air_density, Range::real(0.01, 1000.0))?;
@@ -141,7 +152,7 @@ impl SceneFile {
                 origin: &self.origin,
                 spacing,
                 size: domain.size,
-                particle_limit: tuning.particle_limit,
+                particle_limit: scaled_count(tuning.particle_limit, detail),
             },
             &values,
             &text.contents,
@@ -171,6 +182,7 @@ impl SceneFile {
             preset,
             quality: tuning.quality,
             particle_limit: tuning.particle_limit,
+            origin: self.mark,
             first_element: text.first_element.clone(),
         })
     }

@@ -30,7 +30,7 @@ pub(super) const VELOCITY: Range = Range::real(-300.0, 300.0);
 
 /// The number of particles that stand for as much matter at a detail as `count` of the scene's own spacing, 1 … 4 000 000:
 /// more no world holds.
-pub(super) fn scaled_count(count: u32, detail: f64) -> u32 {
+pub(crate) fn scaled_count(count: u32, detail: f64) -> u32 {
     (f64::from(count) * detail * detail).round().clamp(PARTICLE_LIMIT.min, PARTICLE_LIMIT.max) as u32
 }
 

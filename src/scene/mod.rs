@@ -27,10 +27,11 @@ pub mod effects;
 pub mod readers;
 
 pub use build::{DETAIL, SceneFile, from_text, load};
+pub(crate) use build::{MOST_CELLS, MOST_DETAIL, SIDE};
 pub use builtin::builtin_names;
 pub use elements::elements;
 pub use error::SceneError;
 pub use file::ParameterSpec;
-pub(crate) use flow::MOST_COVERED;
+pub(crate) use flow::{MOST_COVERED, scaled_count};
 pub use knobs::{KNOBS, Knob, Part, Tuning, Values};
 pub use number::Range;

@@ -125,7 +125,7 @@ fn a_change_of_quality_keeps_the_world() {
     simulation.run(5);
     let (before, mass) = (control::freeze(simulation.world()), simulation.get::<AirGrid>().mass());
     for preset in Preset::ALL {
-        simulation.set_quality(preset, preset.quality());
+        simulation.set_quality(preset, preset.quality()).unwrap();
         let after = control::freeze(simulation.world());
         assert_eq!(after.particles, before.particles, "{}", preset.name());
         assert_eq!((after.solids, after.clock), (before.solids.clone(), before.clock), "{}", preset.name());
@@ -144,7 +144,7 @@ fn a_change_of_quality_keeps_the_world() {
 fn reset_keeps_the_quality_that_the_player_chose() {
     let mut simulation = Simulation::of(scene((20, 0)));
     simulation.run(5);
-    simulation.set_quality(Preset::Draft, Preset::Draft.quality());
+    simulation.set_quality(Preset::Draft, Preset::Draft.quality()).unwrap();
     control::reset(simulation.world_mut());
     assert_eq!(simulation.get::<Setup>().quality, Preset::Draft.quality());
     assert_eq!(simulation.get::<AirGrid>().cell(), Preset::Draft.quality().air_cell);

@@ -140,7 +140,7 @@ pub(super) struct Scene<'a> {
 impl<'a> Scene<'a> {
     /// What is compared with another world.
     pub(super) fn half(self) -> Half<'a> {
-        Half { particles: self.particles, air: self.air }
+        Half { particles: self.particles, air: self.air, scale: self.setup.blueprint.scale }
     }
 
     /// What there is of a world, if it has been loaded.

@@ -50,7 +50,8 @@ fn what_is_physical_keeps_its_metres_and_what_is_counted_its_matter() {
         assert_eq!((tap.area.min, tap.velocity), (finer * own_tap.area.min, finer * own_tap.velocity));
         assert_eq!((tap.rate, tap.start), (finer * finer * own_tap.rate, own_tap.start));
         let total = (7.0 * finer * finer).round() as u32;
-        assert_eq!((tap.total, world.particle_limit), (Some(total), (5000.0 * finer * finer) as u32));
+        assert_eq!((tap.total, world.particle_limit), (Some(total), 5000));
+        assert_eq!(world.most_particles(), (5000.0 * finer * finer) as u32);
         assert_eq!((world.winds[0].velocity, world.winds[0].rate), (finer * own.winds[0].velocity, own.winds[0].rate));
         assert_eq!(world.pressures[0].area.max, finer * own.pressures[0].area.max);
         // A drain reaches past the box by a spacing of the run.
@@ -126,7 +127,7 @@ fn a_detail_that_does_not_fit_is_one_clear_line() {
     assert!(error(wide, 2.0).contains("16000 × 10000 cells of 0.5 m; allowed: at most 64000000 cells"));
     // What no world may hold is not allowed by a scene's limit times detail² either.
     let most = at("(title: \"x\", spacing: 1, size: (8, 8), particle_limit: 4000000)", 2.0).expect("a box");
-    assert_eq!(most.particle_limit, 4_000_000);
+    assert_eq!(most.most_particles(), 4_000_000);
     let tap = |detail| at(&scene("emitters: [(element: \"water\", min: (1, 1), max: (2, 2), rate: 1)]"), detail);
     assert!(tap(1.0).is_ok() && tap(8.0).is_ok());
 }

@@ -13,7 +13,7 @@ use crate::{
         units::Scale,
     },
     scene::{
-        DETAIL, MOST_COVERED, Tuning,
+        DETAIL, MOST_COVERED, MOST_DETAIL, Tuning,
         blueprint::Blueprint,
         elements::{self, Fault},
     },
@@ -22,8 +22,6 @@ use crate::{
 use glam::Vec2;
 use std::collections::HashSet;
 
-/// Highest detail: the highest that a run may ask for at the finest preset.
-const MOST_DETAIL: f32 = 16.0;
 /// Most cells of a box.
 const MOST_CELLS: f32 = 64e6;
 /// Longest side of a box, d.
@@ -79,7 +77,7 @@ fn texts(contents: &Contents) -> Verdict {
 fn numbers(contents: &Contents) -> Verdict {
     let Contents { scene, domain, quality, .. } = contents;
     let Blueprint { scale, fluid, air, particle_limit, .. } = **scene;
-    within("detail", scale.detail, DETAIL.min as f32 / ROUNDING, MOST_DETAIL * ROUNDING)?;
+    within("detail", scale.detail, DETAIL.min as f32 / ROUNDING, MOST_DETAIL as f32 * ROUNDING)?;
     within("spacing", scale.own_spacing(), 0.001 / ROUNDING, 100.0 * ROUNDING)?;
     within("width", domain.size.x, 4.0, LONGEST_SIDE)?;
     within("height", domain.size.y, 4.0, LONGEST_SIDE)?;
@@ -125,7 +123,7 @@ fn particles(contents: &Contents) -> Verdict {
     let (particles, rock, clock) = (&contents.particles, &contents.rock, &contents.clock);
     demand(particles.has_equal_columns(), || "the particles' arrays differ in length".to_owned())?;
     let total = particles.len() + rock.len();
-    demand(total <= contents.scene.particle_limit as usize, || format!("{total} particles are more than its limit"))?;
+    demand(total <= contents.scene.most_particles() as usize, || format!("{total} particles are more than its limit"))?;
     // Places are checked against the cells of the box, where there are some.
     for i in 0..particles.len() {
         for (name, value) in Particles::COLUMNS.iter().zip(particles.get(i).values()) {

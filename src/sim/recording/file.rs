@@ -16,6 +16,7 @@
 
 use crate::{
     kernel::{brush::Stroke, units::Scale},
+    scene::{DETAIL, MOST_DETAIL},
     sim::{
         checkpoint::{Checkpoint, check},
         file::{FileError, Kind},
@@ -191,7 +192,14 @@ fn check_entry(entry: &Entry, ticks: RangeInclusive<u64>, elements: usize, scale
         Intent::Press { stroke, amount } => (None, &places(stroke), &[stroke.radius, *amount]),
         Intent::ClearAir | Intent::Effect { .. } => (None, &[], &[]),
         Intent::Quality { quality, .. } => return check::quality(quality),
-        Intent::Gravity { gravity } => return check::gravity(*gravity, scale),
+        // Of whichever detail is in force by then: at the highest the d is shortest.
+        Intent::Gravity { gravity } => {
+            return check::gravity(*gravity, Scale { spacing: scale.own_spacing() / MOST_DETAIL as f32, ..scale });
+        }
+        Intent::Detail { detail } => {
+            let holds = (DETAIL.min..=DETAIL.max).contains(detail);
+            return if holds { Ok(()) } else { Err(format!("detail {detail}; allowed: {DETAIL}")) };
+        }
     };
     if let Some(element) = element.filter(|element| element.index() >= elements) {
         return Err(format!("element {} is not one of the {elements} elements (0 … {})", element.0, elements - 1));
