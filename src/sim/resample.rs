@@ -4,8 +4,10 @@
 use crate::{
     kernel::{
         params::{AirParams, Domain, Preset},
-        resample::{resample_particles, resample_rock},
+        particles::Particles,
+        resample::{resample_particles, resample_rock, settle},
         sleep::SleepRecord,
+        solids::Solids,
         sources::{Drain, Emitter, Rect, Wind},
         units::Scale,
     },
@@ -16,8 +18,10 @@ use crate::{
     },
 };
 use glam::Vec2;
-use std::sync::Arc;
+use std::{borrow::Cow, sync::Arc};
 
+/// The largest factor that is done at once.
+const LARGEST_STEP: f64 = 2.0;
 /// From here on ids count from 0 again, so that no number of changes comes to their end.
 const LAST_ID: u32 = u32::MAX / 2;
 
@@ -143,7 +147,7 @@ impl Snapshot {
         count_at(self.particles.len() + self.solids.count(), from, to)?;
         let mut next_id = if self.clock.next_id < LAST_ID { self.clock.next_id } else { 0 };
         let solids = resample_rock(&self.solids, factor, to.domain.size, &mut next_id);
-        let particles = resample_particles(&self.particles, factor, &solids, &to.domain, &mut next_id);
+        let particles = self.particles_in(factor, &solids, to, &mut next_id);
         let mut air = self.air.rescaled(factor as f32, to.domain.size, to.air).resized(air_cell);
         air.set_solids(&solids);
         Ok(Self {
@@ -155,5 +159,29 @@ impl Snapshot {
             sources: rescaled_sources(&self.sources, factor),
             clock: Clock { next_id, ..self.clock },
         })
+    }
+
+    /// The particles among the rock of another set-up. Where each becomes more than four, this is done in steps: a crowd as
+    /// wide as a step is settled in as many rounds whatever the factor.
+    fn particles_in(&self, factor: f64, solids: &Solids, to: &Blueprint, next_id: &mut u32) -> Particles {
+        let steps = (factor / LARGEST_STEP).log2().ceil().max(0.0) as i32;
+        let mut done = factor / LARGEST_STEP.powi(steps);
+        let mut particles = Cow::Borrowed(&self.particles);
+        for step in 0..=steps {
+            let part = if step == 0 { done } else { LARGEST_STEP };
+            done = if step == 0 { done } else { done * LARGEST_STEP };
+            let size = (to.domain.size.as_dvec2() * (done / factor)).as_vec2();
+            let domain = Domain { size, ..to.domain };
+            let is_last = step == steps;
+            // Ids on the way are nobody's.
+            let (mut rock_id, mut id) = (0, 0);
+            let between = (!is_last).then(|| resample_rock(&self.solids, done, size, &mut rock_id));
+            let rock = between.as_ref().unwrap_or(solids);
+            let ids = if is_last { &mut *next_id } else { &mut id };
+            let mut next = resample_particles(&particles, part, rock, &domain, ids);
+            settle(&mut next, rock, &domain, &to.fluid);
+            particles = Cow::Owned(next);
+        }
+        particles.into_owned()
     }
 }

@@ -7,9 +7,11 @@
 mod curve;
 mod pieces;
 mod rock;
+mod settle;
 
 pub use pieces::resample_particles;
 pub use rock::resample_rock;
+pub use settle::settle;
 
 #[cfg(test)]
 mod tests;
