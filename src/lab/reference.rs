@@ -143,9 +143,14 @@ mod tests {
         Checkpoint::of_scene(Arc::new(blueprint))
     }
 
-    fn follow(start: &Checkpoint, reference: &Reference, quality: Quality, plan: &Plan) -> (Vec<Point>, u64) {
+    fn follow(
+        start: &Checkpoint,
+        reference: &Reference,
+        (preset, quality): (Preset, Quality),
+        plan: &Plan,
+    ) -> (Vec<Point>, u64) {
         let mut simulation =
-            Simulation::resume(&start.clone().at_quality(Preset::Fast, quality).unwrap(), Workers::default());
+            Simulation::resume(&start.clone().at_quality(preset, quality).unwrap(), Workers::default());
         let mut follower = Follower::new(reference);
         run(&mut simulation, plan, &mut [&mut follower]).unwrap();
         (follower.points().to_vec(), control::hash(simulation.world()))
@@ -155,13 +160,13 @@ mod tests {
     fn the_reference_stays_with_itself_and_the_rough_go_far() {
         let (start, plan) = (small_dam_break(), Plan { ticks: 90, ..Plan::default() });
         let reference = Reference::record(&start, &plan, Workers::default(), &mut ()).unwrap();
-        let (own, _) = follow(&start, &reference, Preset::Reference.quality(), &plan);
+        let (own, _) = follow(&start, &reference, (Preset::Reference, Preset::Reference.quality()), &plan);
         assert_eq!(own.iter().map(|point| point.tick).collect::<Vec<_>>(), [20, 40, 60, 80, 90]);
         let nothing = Distance { share: Some(0.0), momentum: Some(0.0), air: None };
         assert!(own.iter().all(|point| point.distance == nothing && point.energy_ratio == 1.0), "{own:?}");
-        let nearly = Quality { substeps: 8, iterations: 2, kernel_radius: 3.0, ..Preset::Fine.quality() };
-        let (fine, _) = follow(&start, &reference, nearly, &plan);
-        let (rough, hash) = follow(&start, &reference, Preset::Classic.quality(), &plan);
+        let nearly = Quality { iterations: 3, ..Preset::Reference.quality() };
+        let (fine, _) = follow(&start, &reference, (Preset::Reference, nearly), &plan);
+        let (rough, hash) = follow(&start, &reference, (Preset::Fast, Preset::Classic.quality()), &plan);
         let early = |points: &[Point]| points[1].distance.share.unwrap();
         assert!(early(&fine) > 0.0 && early(&fine) < early(&rough), "{fine:?}\n{rough:?}");
         let mut alone = Simulation::resume(

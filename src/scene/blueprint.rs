@@ -9,7 +9,7 @@ use crate::{
         sources::{Drain, Emitter, Rect, Wind},
         units::Scale,
     },
-    scene::{effects::EffectModes, flow::scaled_count},
+    scene::{effects::EffectModes, knobs::PARTICLE_LIMIT},
 };
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, sync::Arc};
@@ -89,4 +89,10 @@ impl Blueprint {
     pub fn most_particles(&self) -> u32 {
         scaled_count(self.particle_limit, f64::from(self.scale.detail))
     }
+}
+
+/// The number of particles that stand for as much matter at a detail as `count` of the scene's own spacing, 1 … 4 000 000:
+/// more no world holds.
+pub(crate) fn scaled_count(count: u32, detail: f64) -> u32 {
+    (f64::from(count) * detail * detail).round().clamp(PARTICLE_LIMIT.min, PARTICLE_LIMIT.max) as u32
 }

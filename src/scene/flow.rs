@@ -7,7 +7,7 @@ use crate::{
         units::TICKS_PER_SECOND,
     },
     scene::{
-        blueprint::PressurePatch,
+        blueprint::{PressurePatch, scaled_count},
         error::{SceneError, choices},
         file::{Area, EmitterText, PressureText, WindText},
         knobs::PARTICLE_LIMIT,
@@ -27,12 +27,6 @@ const MOST_FILLED: f64 = 1e9;
 
 /// Velocities that a file may give, m/s.
 pub(super) const VELOCITY: Range = Range::real(-300.0, 300.0);
-
-/// The number of particles that stand for as much matter at a detail as `count` of the scene's own spacing, 1 … 4 000 000:
-/// more no world holds.
-pub(crate) fn scaled_count(count: u32, detail: f64) -> u32 {
-    (f64::from(count) * detail * detail).round().clamp(PARTICLE_LIMIT.min, PARTICLE_LIMIT.max) as u32
-}
 
 /// The box that flows are cut to.
 pub(super) struct Bounds<'a> {

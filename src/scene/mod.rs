@@ -32,6 +32,6 @@ pub use builtin::builtin_names;
 pub use elements::elements;
 pub use error::SceneError;
 pub use file::ParameterSpec;
-pub(crate) use flow::{MOST_COVERED, scaled_count};
+pub(crate) use flow::MOST_COVERED;
 pub use knobs::{KNOBS, Knob, Part, Tuning, Values};
 pub use number::Range;

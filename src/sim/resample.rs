@@ -11,7 +11,10 @@ use crate::{
         sources::{Drain, Emitter, Rect, Wind},
         units::Scale,
     },
-    scene::{DETAIL, MOST_CELLS, MOST_DETAIL, SIDE, blueprint::Blueprint, scaled_count},
+    scene::{
+        DETAIL, MOST_CELLS, MOST_DETAIL, SIDE,
+        blueprint::{Blueprint, scaled_count},
+    },
     sim::{
         snapshot::{Clock, Snapshot, Sources},
         state::Setup,

@@ -124,7 +124,8 @@ fn a_change_of_quality_keeps_the_world() {
     simulation.push(Intent::Press { stroke: Stroke::dab(BrushShape::Disc, Vec2::new(30.0, 20.0), 6.0), amount: 0.5 });
     simulation.run(5);
     let (before, mass) = (control::freeze(simulation.world()), simulation.get::<AirGrid>().mass());
-    for preset in Preset::ALL {
+    // One of another detail makes other particles of it: `resampling`.
+    for preset in Preset::ALL.into_iter().filter(|preset| preset.detail() == 1.0) {
         simulation.set_quality(preset, preset.quality()).unwrap();
         let after = control::freeze(simulation.world());
         assert_eq!(after.particles, before.particles, "{}", preset.name());
