@@ -11,7 +11,7 @@ use bevy::ecs::world::World;
 use glam::Vec2;
 
 /// Edge of a cell, d of the coarser world.
-pub const CELL: f32 = 4.0;
+const CELL: f32 = 4.0;
 
 /// A difference of all the liquid that a cell holds, or of this share of a long fall's speed, is the end of the scale; in
 /// the air, one of a strong wind ([`Reference`]).
@@ -105,6 +105,8 @@ fn mean_wind(air: &Air, edge: f32, cell: Vec2) -> Vec2 {
 /// The difference between two worlds.
 #[derive(Clone, Debug, Default)]
 pub struct Difference {
+    /// Edge of a cell, d of the first world.
+    edge: f32,
     columns: usize,
     rows: usize,
     fields: [Field; 2],
@@ -120,7 +122,7 @@ impl Difference {
         let own = first.scale.spacing;
         let edge = CELL * (second.scale.spacing / own).max(1.0);
         let cells = (blueprint.domain.size / edge).ceil().max(Vec2::ONE);
-        (self.columns, self.rows) = (cells.x as usize, cells.y as usize);
+        (self.edge, self.columns, self.rows) = (edge, cells.x as usize, cells.y as usize);
         for (field, half) in self.fields.iter_mut().zip([first, second]) {
             let unit = half.scale.spacing / own;
             field.measure(half, Cells { edge: edge / unit, columns: self.columns, rows: self.rows, unit });
@@ -139,6 +141,11 @@ impl Difference {
             let is_dry = a.share[cell] == 0.0 && b.share[cell] == 0.0;
             if is_dry { (a.wind[cell].distance(b.wind[cell]) / reference.wind).min(1.0) } else { *liquid }
         }));
+    }
+
+    /// Edge of a cell, d of the first world.
+    pub fn edge(&self) -> f32 {
+        self.edge
     }
 
     /// Cells beside each other.

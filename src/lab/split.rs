@@ -188,11 +188,7 @@ mod tests {
         kernel::brush::{BrushShape, Stroke},
         lab::difference::{Difference, Half},
         scene::{self, effects::EffectModes},
-        sim::{
-            control,
-            simulation::Simulation,
-            state::{AirGrid, ParticleStore},
-        },
+        sim::{control, simulation::Simulation, state::AirGrid},
     };
     use glam::Vec2;
     use std::sync::Arc;

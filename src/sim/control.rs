@@ -12,6 +12,7 @@ use crate::{
         generation::Generation,
         intent::IntentQueue,
         ledger::PassLedger,
+        pace::Pace,
         resample::count_at,
         snapshot::{Snapshot, hash_state},
         state::{
@@ -20,7 +21,10 @@ use crate::{
         },
     },
 };
-use bevy::prelude::{Mut, World};
+use bevy::{
+    app::FixedUpdate,
+    prelude::{Mut, World},
+};
 
 /// Goes back to the start of the scene (or to the state of the save file that was loaded), and to its gravity.
 pub fn reset(world: &mut World) {
@@ -98,6 +102,14 @@ pub(super) fn change_quality(setup: &mut Setup, air: &mut AirGrid, rock: &Rock, 
         air.0 = air.resized(quality.air_cell);
         air.set_solids(rock);
     }
+}
+
+/// Carries out the intents that wait, without a tick.
+pub fn apply_edits(world: &mut World) {
+    let paused = Pace { paused: true, steps_due: 0, ..Pace::default() };
+    let pace = std::mem::replace(&mut *world.resource_mut::<Pace>(), paused);
+    world.run_schedule(FixedUpdate);
+    *world.resource_mut::<Pace>() = pace;
 }
 
 /// Hash of the state as it is (see [`Snapshot::hash`]).

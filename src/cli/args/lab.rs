@@ -34,7 +34,7 @@ pub(in crate::cli) enum Bench {
         #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
         threads: Option<u64>,
     },
-    /// What a tick costs and how exact it is, from 1,458 to 999,698 particles, at every quality
+    /// What a tick costs and how exact it is, from 1,458 to 999,698 particles, at every quality of detail 1
     Scaling(ScalingOptions),
 }
 

@@ -9,7 +9,7 @@ use crate::{
 use glam::Vec2;
 
 /// Rounds of binning and solving. The error falls to a third in each of the first; after three it is that of a running
-/// liquid (docs/accuracy.md, "Another detail").
+/// liquid (docs/detail.md).
 const ROUNDS: u32 = 3;
 
 /// Moves particles that were just cut or joined apart, as the solver does between prediction and velocity, and leaves their
