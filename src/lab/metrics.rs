@@ -14,6 +14,8 @@ use std::collections::BTreeMap;
 pub struct Metrics {
     /// Name of the scene.
     pub scene: String,
+    /// The scene's own particle spacing over the run's: what `--detail` asked for times the quality's own.
+    pub detail: f32,
     /// Name of the quality.
     pub quality: &'static str,
     /// The numbers in force, which `--set` may have moved away from the name's.

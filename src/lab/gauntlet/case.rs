@@ -146,7 +146,8 @@ pub(super) enum Gain {
     /// A speed, m/s.
     Speed(f64),
     /// A multiple of the speed that corrections can give: the correction limit in each of the quality's substeps. It is
-    /// 6 d/s for `draft` and `fast`, 12 for `balanced` and `fine`, 48 for `reference` and 30 for `classic`.
+    /// 6 d/s for `draft` and `fast`, 12 for `balanced`, `fine` and `reference` (of its own, shorter d), and 30 for
+    /// `classic`.
     Corrections(f64),
 }
 

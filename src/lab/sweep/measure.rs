@@ -33,7 +33,7 @@ pub(super) fn run(
     reference: Option<&Reference>,
 ) -> io::Result<Record> {
     // What the preset is called makes no difference to the run.
-    let mut simulation = begin(start, setting.preset.unwrap_or(Preset::Fast), setting.quality, workers.clone());
+    let mut simulation = begin(start, setting.preset.unwrap_or(Preset::Fast), setting.quality, workers.clone())?;
     let density = DensityError::of_world(simulation.world()).map(|error| error.density);
     let (run, found) = if let Some(reference) = reference {
         let mut sampler = Sampler::new(simulation.world(), plan.warmup);
@@ -54,11 +54,12 @@ pub(super) fn run(
 }
 
 /// The world at its start, awake.
-fn begin(start: &Checkpoint, preset: Preset, quality: Quality, workers: Workers) -> Simulation {
-    let mut simulation = Simulation::resume(&start.clone().at_quality(preset, quality), workers);
+fn begin(start: &Checkpoint, preset: Preset, quality: Quality, workers: Workers) -> io::Result<Simulation> {
+    let start = start.clone().at_quality(preset, quality).map_err(io::Error::other)?;
+    let mut simulation = Simulation::resume(&start, workers);
     // A sleeping particle costs the same and has the same error at every quality.
     simulation.world_mut().resource_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off;
-    simulation
+    Ok(simulation)
 }
 
 fn found(metrics: &Metrics) -> Found {
@@ -85,7 +86,7 @@ mod tests {
         let blueprint = scene::load("dam_break").unwrap().build(&[], None, &EffectModes::new()).unwrap();
         let start = Checkpoint::of_scene(Arc::new(blueprint));
         let plan = Plan { ticks: 300, warmup: 59, ..Plan::default() };
-        let mut simulation = begin(&start, preset, preset.quality(), Workers::default());
+        let mut simulation = begin(&start, preset, preset.quality(), Workers::default()).unwrap();
         let mut sampler = Sampler::new(simulation.world(), plan.warmup);
         time(&mut simulation, &plan, &mut [&mut sampler]).unwrap();
         found(&sampler.finish(simulation.world()))
