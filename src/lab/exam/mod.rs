@@ -12,10 +12,12 @@
 
 mod case;
 mod cases;
+mod finding;
 mod fit;
 mod set_up;
 mod suite;
 #[cfg(test)]
 mod tests;
 
-pub use case::{Answer, CASES, ExamCase};
+pub use case::{Bound, CASES, ExamCase, KnownMiss, RowBound};
+pub use finding::Answer;

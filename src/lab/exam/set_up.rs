@@ -46,3 +46,29 @@ impl SetUp {
         Ok(self.simulation(self.blueprint(name, parameters)?))
     }
 }
+
+/// How the particles of a start stand. Runs that differ in nothing else are of equal accuracy: how far they come apart is
+/// the floor of what can be measured with them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Start {
+    /// On the square lattice, as a scene places them.
+    Lattice,
+    /// Every other row half a spacing beside it: the same particles, the same density, other neighbours.
+    Staggered,
+}
+
+impl Start {
+    /// Both.
+    pub const BOTH: [Self; 2] = [Self::Lattice, Self::Staggered];
+
+    /// Moves the particles of a start on the lattice.
+    pub fn arrange(self, blueprint: &mut Blueprint) {
+        if self == Self::Staggered {
+            let particles = &mut blueprint.particles;
+            for (x, y) in particles.x.iter_mut().zip(&particles.y) {
+                // A quarter to one side or to the other, so that the first and the last stay inside the walls.
+                *x += if (*y as i32) % 2 == 0 { 0.25 } else { -0.25 };
+            }
+        }
+    }
+}

@@ -2,14 +2,15 @@
 //! assets/exam/cases.ron.
 
 mod air;
+mod dam;
 mod falling;
-mod flow;
+mod outflow;
 mod tank;
 mod weightless;
 
-use crate::lab::exam::case::Run;
+use crate::lab::exam::finding::Run;
 
 /// What runs each case, by its name.
 pub(super) fn runs() -> impl Iterator<Item = &'static (&'static str, Run)> {
-    [air::RUNS, falling::RUNS, flow::RUNS, tank::RUNS, weightless::RUNS].into_iter().flatten()
+    [air::RUNS, dam::RUNS, falling::RUNS, outflow::RUNS, tank::RUNS, weightless::RUNS].into_iter().flatten()
 }
