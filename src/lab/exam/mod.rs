@@ -14,7 +14,9 @@ mod case;
 mod cases;
 mod finding;
 mod fit;
+mod refinement;
 mod set_up;
+mod shares;
 mod suite;
 #[cfg(test)]
 mod tests;

@@ -2,6 +2,7 @@
 
 pub(super) use crate::lab::cases::CaseSimulation;
 use crate::{
+    kernel::params::Preset,
     lab::cases::{Setting, Stopwatch},
     scene::{
         self, SceneError,
@@ -24,6 +25,12 @@ pub(super) struct SetUp {
 }
 
 impl SetUp {
+    /// At the quality whose runs at a finer spacing stand for the truth, also for those of another: `balanced`.
+    pub fn of_the_truth(&self) -> Self {
+        let setting = Setting { preset: Preset::Balanced, ..self.setting.clone() };
+        Self { setting, stopwatch: self.stopwatch.clone() }
+    }
+
     /// A scene of `assets/exam`, or else of the game's menu, with these parameters.
     pub fn blueprint(&self, name: &str, parameters: &[(&str, f64)]) -> Result<Blueprint, SceneError> {
         let file = match SCENES.get_file(format!("{name}.ron")).and_then(|file| file.contents_utf8()) {

@@ -4,6 +4,7 @@
 mod air;
 mod dam;
 mod falling;
+mod order;
 mod outflow;
 mod tank;
 mod weightless;
@@ -12,5 +13,7 @@ use crate::lab::exam::finding::Run;
 
 /// What runs each case, by its name.
 pub(super) fn runs() -> impl Iterator<Item = &'static (&'static str, Run)> {
-    [air::RUNS, dam::RUNS, falling::RUNS, outflow::RUNS, tank::RUNS, weightless::RUNS].into_iter().flatten()
+    [air::RUNS, dam::RUNS, falling::RUNS, order::RUNS, outflow::RUNS, tank::RUNS, weightless::RUNS]
+        .into_iter()
+        .flatten()
 }
