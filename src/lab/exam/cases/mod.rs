@@ -4,6 +4,7 @@
 mod air;
 mod dam;
 mod falling;
+mod field;
 mod order;
 mod outflow;
 mod tank;
@@ -13,7 +14,7 @@ use crate::lab::exam::finding::Run;
 
 /// What runs each case, by its name.
 pub(super) fn runs() -> impl Iterator<Item = &'static (&'static str, Run)> {
-    [air::RUNS, dam::RUNS, falling::RUNS, order::RUNS, outflow::RUNS, tank::RUNS, weightless::RUNS]
+    [air::RUNS, dam::RUNS, falling::RUNS, field::RUNS, order::RUNS, outflow::RUNS, tank::RUNS, weightless::RUNS]
         .into_iter()
         .flatten()
 }
