@@ -79,3 +79,23 @@ impl Start {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::effects::EffectModes;
+
+    #[test]
+    fn the_staggered_start_has_the_same_rows_and_stays_inside() {
+        let build = || scene::load("dam_break").unwrap().build(&[], None, &EffectModes::new()).unwrap();
+        let (lattice, mut staggered) = (build(), build());
+        Start::Lattice.arrange(&mut staggered);
+        assert_eq!(staggered.particles.x, lattice.particles.x);
+        Start::Staggered.arrange(&mut staggered);
+        assert_eq!(staggered.particles.y, lattice.particles.y);
+        let moved: Vec<f32> = staggered.particles.x.iter().zip(&lattice.particles.x).map(|(a, b)| a - b).collect();
+        assert!(moved.iter().all(|by| by.abs() == 0.25), "a quarter to either side");
+        assert_eq!(moved.iter().sum::<f32>(), 0.0, "as many to one side as to the other");
+        assert!(staggered.particles.x.iter().all(|x| (0.25..=70.75).contains(x)), "inside the block");
+    }
+}

@@ -71,9 +71,16 @@ fn introduction(command: &str, processor: &str) -> String {
          at `balanced` or better is beyond its tolerance and not a known miss. Rows beyond it at `classic`, `draft` or \
          `fast` are marked `miss` and stay.\n\n\
          Tolerances are derived from theory or measurement before a run, as each case says, and only ever get tighter: \
-         tests/exam/tolerances.ron has the history of each, and tests hold assets/exam/cases.ron to it. A row that is \
-         beyond its tolerance where that is known is a *known miss*: it is listed there with the reason, and a test fails \
-         when one is new or cured. Where a row says *d = 0.1 m*, a row above it is the same at a finer spacing.\n\n\
+         tests/exam/tolerances.ron has the history of each, and a test holds assets/exam/cases.ron to it. A row that is \
+         known to be beyond its tolerance is a *known miss*: it is listed there with the reason, which stands below its \
+         table. A test runs every case at `balanced` and the quick ones at every quality, and fails when a miss is new or \
+         cured.\n\n\
+         Where a row says *d = 0.1 m*, the game's own spacing, the row above it is the same at a finer one.\n\n\
+         The rows *order of the error in the spacing* say how the error falls when particles get finer: the slope of \
+         log error over log spacing, by least squares over runs whose lengths grow with the number of particles and whose \
+         times with its root (Froude's scaling, the spacing stays). Each spacing is run from two starts of equal accuracy; \
+         their distance over √2 is the floor below which nothing is claimed. At least 1 is wanted at `balanced`; `classic` \
+         is shown beside and not judged. Errors and floors stand below each table.\n\n\
          Lengths in m; d = 0.1 m is the spacing of the particles, a tick is 1/60 s. *ms* is the processor time of one \
          thread for the whole simulation of a case in one setting ({processor}, all processors busy); the rows of a case \
          share it."

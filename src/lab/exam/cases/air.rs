@@ -7,13 +7,13 @@ use crate::{
     },
     lab::{
         exam::{
-            finding::{Findings, Run, found},
+            finding::{Finding, Findings, Run, found},
             set_up::{CaseSimulation, SetUp},
         },
         stats,
     },
     scene::SceneError,
-    sim::state::Sources,
+    sim::{numbers::figure, state::Sources},
 };
 use glam::Vec2;
 use std::f64::consts::PI;
@@ -37,13 +37,14 @@ async fn vortex(set_up: SetUp) -> Findings {
     let shares = 2.0 * (2.0 / (3.0 * PI)) * (4.0 / (3.0 * PI));
     let upwind = shares * VORTEX_SPEED * cell;
     let order = (coarse / half).log2();
+    let note = format!("{} m²/s over {} m²/s.", figure(own), figure(upwind));
     Ok(match quality.air_advection {
         AirAdvection::FirstOrder => vec![
-            found("viscosity over an upwind scheme's, first order", 1.0, own / upwind),
+            Finding { note, ..found("viscosity over an upwind scheme's, first order", 1.0, own / upwind) },
             found("order from 8 d to 4 d, first order", 1.0, order),
         ],
         AirAdvection::SecondOrder => vec![
-            found("viscosity over an upwind scheme's, second order", 0.0, own / upwind),
+            Finding { note, ..found("viscosity over an upwind scheme's, second order", 0.0, own / upwind) },
             found("order from 8 d to 4 d, second order", 2.0, order),
         ],
     })
