@@ -4,7 +4,7 @@ use powder_master::{
     kernel::params::Preset,
     lab::{
         cases::{Over, Row, Size, Verdict, jobs, run_all, table},
-        exam::{Answer, CASES, ExamCase},
+        exam::{Answer, CASES, ExamCase, KnownMiss},
     },
 };
 use std::{collections::BTreeSet, thread::available_parallelism};
@@ -32,6 +32,22 @@ fn unlisted(cases: &[ExamCase], rows: &[Row<Answer>]) -> Vec<String> {
         }
     }
     faults
+}
+
+#[test]
+fn a_new_miss_and_a_cured_one_are_found() {
+    let jobs = jobs(&CASES, |case| case.name == "free_fall", &[Preset::Draft]);
+    let rows = run_all(&jobs, 1, |_, _| {}).expect("the scene can be built");
+    let mut case = ExamCase { name: "free_fall", ..ExamCase::default() };
+    case.rows = jobs[0].case.rows.clone();
+    assert_eq!(unlisted(std::slice::from_ref(&case), &rows), [""; 0]);
+    let with = |verdict: Verdict| vec![Row { verdict, ..rows[0].clone() }];
+    for verdict in [Verdict::Miss, Verdict::Fail] {
+        assert!(unlisted(std::slice::from_ref(&case), &with(verdict))[0].starts_with("a new miss. free_fall, speed"));
+    }
+    case.rows[0].misses = vec![KnownMiss { at: Preset::Draft, why: "it is told to" }];
+    assert!(unlisted(std::slice::from_ref(&case), &rows)[0].starts_with("cured"));
+    assert_eq!(unlisted(&[case], &with(Verdict::Known)), [""; 0]);
 }
 
 #[test]
