@@ -83,8 +83,8 @@ pub struct Suite<C: Case> {
     pub failure: fn(&Row<C::Figures>) -> String,
     /// What rows are called in the summary.
     pub rows: &'static str,
-    /// The verdict of rows beyond their bound that don't fail, and what they are called in the summary.
-    pub excused: (Verdict, &'static str),
+    /// The verdicts of rows that neither pass nor fail, and what these are called in the summary.
+    pub excused: &'static [(Verdict, &'static str)],
     /// Where failures count, if not everywhere.
     pub failing: &'static str,
 }

@@ -19,8 +19,11 @@ pub fn table<C: Case>(rows: &[Row<C::Figures>]) -> String {
             format!("\n{} at {}: {}{known}", row.case, row.setting, row.figures.broken().join("; "))
         })
         .collect();
-    let end = if broken.is_empty() { "" } else { "\n" };
-    align(C::SUITE.columns, rows.iter()) + &broken + end
+    let remarks: String = (rows.iter())
+        .filter_map(|row| Some(format!("\n{} at {}, {}", row.case, row.setting, row.figures.remark()?)))
+        .collect();
+    let end = if broken.is_empty() && remarks.is_empty() { "" } else { "\n" };
+    align(C::SUITE.columns, rows.iter()) + &broken + &remarks + end
 }
 
 fn align<'a, F: Figures>(columns: &[Column<F>], rows: impl Iterator<Item = &'a Row<F>>) -> String {
@@ -32,9 +35,9 @@ fn align<'a, F: Figures>(columns: &[Column<F>], rows: impl Iterator<Item = &'a R
 /// How many rows came out how, in a line.
 pub fn summary<C: Case>(rows: &[Row<C::Figures>]) -> String {
     let count = |verdict: Verdict| rows.iter().filter(|row| row.verdict == verdict).count();
-    let (excused, words) = C::SUITE.excused;
-    let (pass, excused, fail) = (count(Verdict::Pass), count(excused), count(Verdict::Fail));
-    format!("{} {}: {pass} pass, {excused} {words}, {fail} fail", rows.len(), C::SUITE.rows)
+    let excused = C::SUITE.excused.iter().map(|(verdict, words)| format!("{} {words}, ", count(*verdict)));
+    let (pass, excused, fail) = (count(Verdict::Pass), excused.collect::<String>(), count(Verdict::Fail));
+    format!("{} {}: {pass} pass, {excused}{fail} fail", rows.len(), C::SUITE.rows)
 }
 
 /// What to say if a row failed: how many, and the first of them.
@@ -70,6 +73,11 @@ fn section<C: Case>(case: &About, rows: &[Row<C::Figures>]) -> String {
         let known = row.figures.known().map_or_else(String::new, |known| format!(" Known: {known}"));
         let broken = format!("At `{}`: {}.{known}", row.setting, row.figures.broken().join("; "));
         text += &format!("\n{}\n", markdown::fill(&broken, WIDTH));
+    }
+    for row in own() {
+        if let Some(remark) = row.figures.remark() {
+            text += &format!("\n{}\n", markdown::fill(&format!("At `{}`, {remark}", row.setting), WIDTH));
+        }
     }
     text
 }

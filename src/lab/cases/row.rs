@@ -12,8 +12,10 @@ pub enum Verdict {
     Pass,
     /// Beyond it at a quality that promises nothing: `classic`, `draft` or `fast`.
     Miss,
-    /// Beyond it where the plain method, `classic`, is known to be.
+    /// Beyond it where that is known: written down with the reason.
     Known,
+    /// Not judged: shown to be compared with.
+    Shown,
     /// Beyond it.
     Fail,
 }
@@ -25,6 +27,7 @@ impl Verdict {
             Self::Pass => "pass",
             Self::Miss => "miss",
             Self::Known => "known",
+            Self::Shown => "–",
             Self::Fail => "FAIL",
         }
     }
@@ -38,6 +41,11 @@ pub trait Figures: Clone + Debug + PartialEq + Serialize + Send + Sync + 'static
     /// What broke, each in a few words with what was allowed.
     fn broken(&self) -> &[String] {
         &[]
+    }
+
+    /// What is to be said about the row beside its figures.
+    fn remark(&self) -> Option<String> {
+        None
     }
 
     /// Why that was to be expected, if it was.

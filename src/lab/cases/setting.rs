@@ -13,6 +13,8 @@ pub enum Over {
     Air,
     /// Whether it is `classic`, which solves no pressure beforehand: the case sets every number of the quality.
     Method,
+    /// The spacing: `balanced`, and `classic` beside it, which promises nothing.
+    Refinement,
     /// Nothing: the case chooses its qualities by itself.
     Nothing,
 }
@@ -32,7 +34,7 @@ impl Over {
     /// Whether a case has the same runs at both qualities.
     pub fn same(self, a: Preset, b: Preset) -> bool {
         match self {
-            Self::Qualities => a == b,
+            Self::Qualities | Self::Refinement => a == b,
             Self::Air => air(a) == air(b),
             Self::Method => (a == Preset::Classic) == (b == Preset::Classic),
             Self::Nothing => true,
@@ -42,7 +44,9 @@ impl Over {
     /// The settings that these qualities make, each once.
     pub(super) fn settings(self, presets: &[Preset]) -> Vec<Setting> {
         let mut settings: Vec<Setting> = Vec::new();
-        for &preset in presets {
+        let wanted =
+            |preset: &&Preset| self != Self::Refinement || [Preset::Classic, Preset::Balanced].contains(preset);
+        for &preset in presets.iter().filter(wanted) {
             let binding = matches!(preset, Preset::Balanced | Preset::Fine | Preset::Reference);
             match settings.iter_mut().find(|setting| self.same(setting.preset, preset)) {
                 Some(setting) => setting.binding |= binding,
@@ -96,5 +100,7 @@ mod tests {
         assert_eq!(names(Over::Method, &Preset::ALL), ["classic", "draft"]);
         assert_eq!(names(Over::Method, &[Preset::Fine, Preset::Reference]), ["fine"]);
         assert_eq!(names(Over::Nothing, &Preset::ALL), ["classic"]);
+        assert_eq!(names(Over::Refinement, &Preset::ALL), ["classic", "balanced"]);
+        assert_eq!(names(Over::Refinement, &[Preset::Fine]), [""; 0]);
     }
 }

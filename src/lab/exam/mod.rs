@@ -12,10 +12,14 @@
 
 mod case;
 mod cases;
+mod finding;
 mod fit;
+mod refinement;
 mod set_up;
+mod shares;
 mod suite;
 #[cfg(test)]
 mod tests;
 
-pub use case::{Answer, CASES, ExamCase};
+pub use case::{Bound, CASES, ExamCase, KnownMiss, RowBound};
+pub use finding::Answer;

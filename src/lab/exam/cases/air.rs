@@ -7,13 +7,13 @@ use crate::{
     },
     lab::{
         exam::{
-            case::{Findings, Run, share, within},
+            finding::{Finding, Findings, Run, found},
             set_up::{CaseSimulation, SetUp},
         },
         stats,
     },
     scene::SceneError,
-    sim::state::Sources,
+    sim::{numbers::figure, state::Sources},
 };
 use glam::Vec2;
 use std::f64::consts::PI;
@@ -36,12 +36,18 @@ async fn vortex(set_up: SetUp) -> Findings {
     let (_, half) = viscosity(0.5 * COARSE_CELL, &set_up).await?;
     let shares = 2.0 * (2.0 / (3.0 * PI)) * (4.0 / (3.0 * PI));
     let upwind = shares * VORTEX_SPEED * cell;
-    let (name, unit) = ("numerical viscosity", "m²/s");
-    let (viscosity, order, off) = match quality.air_advection {
-        AirAdvection::FirstOrder => (share(name, unit, upwind, own, 0.10), 1.0, 0.15),
-        AirAdvection::SecondOrder => (within(name, unit, 0.0, own, 0.10 * upwind), 2.0, 0.5),
-    };
-    Ok(vec![viscosity, within("order from 8 d to 4 d", "", order, (coarse / half).log2(), off)])
+    let order = (coarse / half).log2();
+    let note = format!("{} m²/s over {} m²/s.", figure(own), figure(upwind));
+    Ok(match quality.air_advection {
+        AirAdvection::FirstOrder => vec![
+            Finding { note, ..found("viscosity over an upwind scheme's, first order", 1.0, own / upwind) },
+            found("order from 8 d to 4 d, first order", 1.0, order),
+        ],
+        AirAdvection::SecondOrder => vec![
+            Finding { note, ..found("viscosity over an upwind scheme's, second order", 0.0, own / upwind) },
+            found("order from 8 d to 4 d, second order", 2.0, order),
+        ],
+    })
 }
 
 /// Edge of a cell, m, and viscosity on it, m²/s, with cells of `air_cell` d.
@@ -86,10 +92,7 @@ async fn pulse(set_up: SetUp) -> Findings {
     let (begun, from) = (simulation.seconds(), centre(&simulation));
     simulation.run(0.4).await;
     let speed = (centre(&simulation) - from) / (simulation.seconds() - begun);
-    Ok(vec![
-        share("speed", "m/s", SOUND, speed, 0.01),
-        share("air that is left", "", 1.0, simulation.air().mass() / mass, 3e-6),
-    ])
+    Ok(vec![found("speed", SOUND, speed), found("air that is left", 1.0, simulation.air().mass() / mass)])
 }
 
 /// Centre of mass of what is above pressure 1 in the right half of the tube, m.

@@ -2,14 +2,19 @@
 //! assets/exam/cases.ron.
 
 mod air;
+mod dam;
 mod falling;
-mod flow;
+mod field;
+mod order;
+mod outflow;
 mod tank;
 mod weightless;
 
-use crate::lab::exam::case::Run;
+use crate::lab::exam::finding::Run;
 
 /// What runs each case, by its name.
 pub(super) fn runs() -> impl Iterator<Item = &'static (&'static str, Run)> {
-    [air::RUNS, falling::RUNS, flow::RUNS, tank::RUNS, weightless::RUNS].into_iter().flatten()
+    [air::RUNS, dam::RUNS, falling::RUNS, field::RUNS, order::RUNS, outflow::RUNS, tank::RUNS, weightless::RUNS]
+        .into_iter()
+        .flatten()
 }

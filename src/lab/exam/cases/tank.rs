@@ -5,7 +5,7 @@ use crate::{
     lab::{
         density::surroundings,
         exam::{
-            case::{Findings, Run, share, within},
+            finding::{Findings, Run, found},
             fit::half_period,
             set_up::{CaseSimulation, GRAVITY, SetUp},
         },
@@ -26,12 +26,15 @@ async fn hydrostatic(set_up: SetUp) -> Findings {
     let blueprint = set_up.blueprint("hydrostatic", &[("columns", columns), ("depth", depth)])?;
     let mut simulation = set_up.simulation(blueprint);
     simulation.run(8.0).await;
-    let (mut surface, mut motion, mut low, mut high) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (mut surface, mut middle, mut motion, mut low, mut high) =
+        <(Vec<_>, Vec<_>, Vec<_>, Vec<_>, Vec<_>)>::default();
     for _ in 0..12 {
         simulation.run(1.0 / 6.0).await;
         let matter = simulation.matter();
         surface.push(matter.surface().unwrap_or(f64::NAN));
         let balance = matter.balance();
+        // The middle of a full tank stands at half its height.
+        middle.push(2.0 * balance.potential / (balance.mass * GRAVITY));
         motion.push((2.0 * balance.kinetic / balance.mass).sqrt() / simulation.spacing() / f64::from(TICKS_PER_SECOND));
         let top = depth * simulation.own_spacing() / simulation.spacing();
         low.push(density(&simulation, 0.0, top / 3.0));
@@ -39,10 +42,11 @@ async fn hydrostatic(set_up: SetUp) -> Findings {
     }
     let mean = |values: &[f64]| stats::mean(values).unwrap_or(f64::NAN);
     Ok(vec![
-        share("height of the surface", "m", depth * simulation.own_spacing(), mean(&surface), 0.02),
-        share("density, lowest third", "", 1.0, mean(&low), 0.02),
-        share("density, highest third", "", 1.0, mean(&high), 0.02),
-        within("rms speed", "d/tick", 0.0, mean(&motion), 0.02),
+        found("height of the surface", depth * simulation.own_spacing(), mean(&surface)),
+        found("height by the centre of mass", depth * simulation.own_spacing(), mean(&middle)),
+        found("density, lowest third", 1.0, mean(&low)),
+        found("density, highest third", 1.0, mean(&high)),
+        found("rms speed", 0.0, mean(&motion)),
     ])
 }
 
@@ -75,7 +79,7 @@ async fn sloshing(set_up: SetUp) -> Findings {
             curve.push((simulation.seconds(), centre - 0.5 * SLOSHING_LENGTH));
         }
         let period = half_period(&curve).map_or(f64::NAN, |half| 2.0 * half);
-        findings.push(share(quantity, "s", 2.0 * PI / omega, period, 0.03));
+        findings.push(found(quantity, 2.0 * PI / omega, period));
     }
     Ok(findings)
 }

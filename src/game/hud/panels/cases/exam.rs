@@ -133,9 +133,12 @@ fn put(ui: &Ui, rect: egui::Rect, column: usize, text: &str, font: &egui::FontId
 /// How many rows came out how.
 fn summary(ui: &mut Ui, rows: &[Row<Answer>]) {
     ui.horizontal(|ui| {
-        for (verdict, name) in
-            [(Verdict::Pass, "within"), (Verdict::Miss, "beyond, below balanced"), (Verdict::Fail, "beyond")]
-        {
+        for (verdict, name) in [
+            (Verdict::Pass, "within"),
+            (Verdict::Miss, "beyond, below balanced"),
+            (Verdict::Known, "beyond, as is known"),
+            (Verdict::Fail, "beyond"),
+        ] {
             let count = rows.iter().filter(|row| row.verdict == verdict).count();
             let (icon, colour) = mark(verdict);
             let (rect, _) = ui.allocate_exact_size(vec2(12.0, LINE), egui::Sense::hover());
@@ -160,6 +163,8 @@ mod tests {
             relative: true,
             error: 0.0,
             tolerance: 0.1,
+            note: String::new(),
+            known: None,
             milliseconds: 1.0,
         };
         let row = |case: &'static str| Row {

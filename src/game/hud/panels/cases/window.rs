@@ -92,6 +92,7 @@ fn progress(ui: &mut Ui, progress: &Progress) {
 pub(super) fn mark(verdict: Verdict) -> (Icon, Color32) {
     match verdict {
         Verdict::Pass => (icons::check, style::GOOD),
+        Verdict::Shown => (icons::check, style::WEAK),
         Verdict::Miss | Verdict::Known => (icons::close, style::WARN),
         Verdict::Fail => (icons::close, style::BAD),
     }
