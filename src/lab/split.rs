@@ -188,7 +188,7 @@ mod tests {
         kernel::brush::{BrushShape, Stroke},
         lab::difference::{Difference, Half},
         scene::{self, effects::EffectModes},
-        sim::{control, simulation::Simulation, state::AirGrid},
+        sim::{control, simulation::Simulation},
     };
     use glam::Vec2;
     use std::sync::Arc;
