@@ -52,5 +52,5 @@ fn effect(effect: Effect) -> String {
 fn quality(preset: Preset) -> String {
     let tuning = Tuning::from(preset.quality());
     let values: String = Knob::of_quality().map(|knob| format!("{}={} ", knob.name, knob.text(&tuning))).collect();
-    format!("{}\t{values}predictor={}", preset.name(), tuning.quality.predictor)
+    format!("{}\t{values}predictor={} detail={}", preset.name(), tuning.quality.predictor, preset.detail())
 }

@@ -8,6 +8,7 @@ use crate::{
         start::Start,
         threads,
     },
+    kernel::params::Preset,
     lab::{
         self,
         autopilot::{self, Autopilot, Goal, controller::Verdict},
@@ -20,7 +21,12 @@ use crate::{
         tables::{distances, particles, trace::Trace},
     },
     sim::{
-        checkpoint::Checkpoint, control, intent::Intent, recording::Segment, simulation::Simulation, state::Setup,
+        checkpoint::Checkpoint,
+        control,
+        intent::Intent,
+        recording::{Entry, Segment},
+        simulation::Simulation,
+        state::Setup,
         workers::Workers,
     },
 };
@@ -119,8 +125,9 @@ fn check_outputs(arguments: &RunArguments) -> Result<(), Failure> {
     output::check(&files.into_iter().flatten().collect::<Vec<_>>())
 }
 
-/// How far to run, and on what input.
-fn plan(arguments: &RunArguments, segment: Option<Segment>) -> Result<Plan, Failure> {
+/// How far to run, and on what input; `recorded` has the quality that the recording begins at.
+fn plan(arguments: &RunArguments, recorded: Option<(Segment, Preset)>) -> Result<Plan, Failure> {
+    let (segment, quality) = recorded.unzip();
     let recorded = segment.as_ref().map(|segment| segment.marks.len().max(1) as u64);
     let seconds = arguments.seconds.map(|Ticks(ticks)| ticks);
     let ticks = arguments.ticks.or(seconds).or(recorded).unwrap_or(DEFAULT_TICKS);
@@ -132,7 +139,16 @@ fn plan(arguments: &RunArguments, segment: Option<Segment>) -> Result<Plan, Fail
         Intent::Effect { effect, .. } => !arguments.effects.iter().any(|(asked, _)| asked == effect),
         _ => true,
     };
-    let input = entries.into_iter().filter(|entry| wanted(&entry.intent)).collect();
+    // Lengths were in the d of the quality that was in force: beside the detail that was asked for, presets have their own.
+    let mut detail = quality.map_or(1.0, Preset::detail);
+    let mut own = |entry: Entry| {
+        if let Intent::Quality { preset, .. } = entry.intent {
+            detail = preset.detail();
+        }
+        let factor = arguments.quality.map_or(1.0, |preset| preset.detail() / detail);
+        Entry { intent: entry.intent.scaled(factor as f32), ..entry }
+    };
+    let input = entries.into_iter().map(&mut own).filter(|entry| wanted(&entry.intent)).collect();
     Ok(Plan { ticks, warmup: arguments.warmup, input, complete: recorded == Some(ticks) })
 }
 

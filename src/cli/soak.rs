@@ -5,7 +5,7 @@ use crate::{
         args::{Minutes, SoakArguments},
         failure::Failure,
         output, progress,
-        start::Start,
+        start::{Start, Wanted},
         threads,
     },
     lab::{
@@ -25,7 +25,9 @@ const PERIODS: u64 = 24;
 /// end of each period, so that a soak that is stopped leaves what it has seen.
 pub(super) fn soak(arguments: &SoakArguments) -> Result<(), Failure> {
     output::check(&arguments.json.as_deref().into_iter().collect::<Vec<_>>())?;
-    let start = Start::of_soak(&arguments.scene, &arguments.settings, arguments.quality)?;
+    let SoakArguments { settings, quality, detail, .. } = arguments;
+    let wanted = Wanted { settings, quality: *quality, detail: *detail, ..Wanted::default() };
+    let start = Start::of_soak(&arguments.scene, wanted)?;
     threads::start(arguments.machine.threads)?;
     let mut simulation =
         Simulation::resume(&start.checkpoint, Workers::default()).with_instructions(arguments.machine.simd);

@@ -15,6 +15,19 @@ use crate::{
 };
 use std::{fmt::Display, fs::File, io::Read, path::Path, sync::Arc};
 
+/// What the command line wants of the world that it names.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Wanted<'a> {
+    /// Parameters of the scene, and knobs.
+    pub settings: &'a [(String, String)],
+    /// The quality, if not the scene's own.
+    pub quality: Option<Preset>,
+    /// The detail, if not the scene's own.
+    pub detail: Option<f64>,
+    /// Modes of effects that are not the scene's.
+    pub effects: EffectModes,
+}
+
 /// The world that a run starts from, and what is to be known of it.
 pub(super) struct Start {
     /// The world.
@@ -24,82 +37,88 @@ pub(super) struct Start {
 }
 
 impl Start {
-    /// Reads what `run` names, with the recorded input if it is a recording.
-    pub(super) fn of_run(arguments: &RunArguments) -> Result<(Self, Option<Segment>), Failure> {
+    /// Reads what `run` names, with the recorded input and the quality that it begins at if it is a recording.
+    pub(super) fn of_run(arguments: &RunArguments) -> Result<(Self, Option<(Segment, Preset)>), Failure> {
         let effects: EffectModes = arguments.effects.iter().copied().collect();
-        let RunArguments { scene, settings, quality, .. } = arguments;
+        let RunArguments { scene, settings, quality, detail, .. } = arguments;
         let unfit = [
             ("--set", !settings.is_empty()),
+            ("--detail", detail.is_some()),
             ("--hold-ms", arguments.hold_ms.is_some()),
             ("--hold-error", arguments.hold_error.is_some()),
         ];
         let Some(mut recording) = read_recording(scene, &unfit)? else {
-            return Ok((Self::read(scene, settings, *quality, effects)?, None));
+            let wanted = Wanted { settings, quality: *quality, detail: *detail, effects };
+            return Ok((Self::read(scene, wanted)?, None));
         };
-        let last = recording.segments.pop();
-        Ok((Self::of_segment(scene, last.as_ref(), *quality, effects)?, last))
+        let Some(last) = recording.segments.pop() else {
+            return Err(bad(Path::new(scene), &FileError::Foreign("recording")));
+        };
+        let saved = last.start().map_err(|error| bad(Path::new(scene), &error))?;
+        let preset = saved.setup.preset;
+        let start = Self::of_saved(Path::new(scene), saved, *quality, None, effects)?;
+        Ok((start, Some((last, preset))))
     }
 
     /// Reads what `play` names, with the recording if it is one.
     pub(super) fn of_play(scene: &str, options: &PlayOptions) -> Result<(Self, Option<Recording>), Failure> {
-        let PlayOptions { settings, quality, .. } = options;
-        let unfit = [("--set", !settings.is_empty()), ("--quality", quality.is_some())];
+        let PlayOptions { settings, quality, detail, .. } = options;
+        let unfit = [("--set", !settings.is_empty()), ("--quality", quality.is_some()), ("--detail", detail.is_some())];
         let Some(recording) = read_recording(scene, &unfit)? else {
-            return Ok((Self::read(scene, settings, *quality, EffectModes::new())?, None));
+            let wanted = Wanted { settings, quality: *quality, detail: *detail, ..Wanted::default() };
+            return Ok((Self::read(scene, wanted)?, None));
         };
-        let start = Self::of_segment(scene, recording.segments.first(), None, EffectModes::new())?;
+        let start = Self::of_segment(scene, recording.segments.first())?;
         Ok((start, Some(recording)))
     }
 
     /// Reads what `soak` names.
-    pub(super) fn of_soak(
-        name_or_path: &str,
-        settings: &[(String, String)],
-        quality: Option<Preset>,
-    ) -> Result<Self, Failure> {
-        match Self::read(name_or_path, settings, quality, EffectModes::new())? {
+    pub(super) fn of_soak(name_or_path: &str, wanted: Wanted<'_>) -> Result<Self, Failure> {
+        match Self::read(name_or_path, wanted)? {
             start if start.is_scene => Ok(start),
             _ => Err(no_use(name_or_path, "a save file", "soak")),
         }
     }
 
     /// The state that a segment of a recording begins with.
-    fn of_segment(
-        path: &str,
-        segment: Option<&Segment>,
-        quality: Option<Preset>,
-        effects: EffectModes,
-    ) -> Result<Self, Failure> {
+    fn of_segment(path: &str, segment: Option<&Segment>) -> Result<Self, Failure> {
         let path = Path::new(path);
         let segment = segment.ok_or_else(|| bad(path, &FileError::Foreign("recording")))?;
-        Ok(Self::of_saved(segment.start().map_err(|error| bad(path, &error))?, quality, effects))
+        let saved = segment.start().map_err(|error| bad(path, &error))?;
+        Self::of_saved(path, saved, None, None, EffectModes::new())
     }
 
     /// A saved world, with what the command line wants otherwise.
-    fn of_saved(saved: Checkpoint, quality: Option<Preset>, effects: EffectModes) -> Self {
-        let mut checkpoint = match quality {
-            Some(preset) => saved.at_quality(preset, preset.quality()),
-            None => saved,
-        };
+    fn of_saved(
+        path: &Path,
+        mut checkpoint: Checkpoint,
+        quality: Option<Preset>,
+        detail: Option<f64>,
+        effects: EffectModes,
+    ) -> Result<Self, Failure> {
+        let unfit = |what: String| bad(path, &what);
+        if let Some(detail) = detail {
+            checkpoint = checkpoint.at_detail(detail).map_err(unfit)?;
+        }
+        if let Some(preset) = quality {
+            checkpoint = checkpoint.at_quality(preset, preset.quality()).map_err(unfit)?;
+        }
         checkpoint.modes.extend(effects);
-        Self { checkpoint, is_scene: false }
+        Ok(Self { checkpoint, is_scene: false })
     }
 
     /// Reads a scene or a save file.
-    pub(super) fn read(
-        name_or_path: &str,
-        settings: &[(String, String)],
-        quality: Option<Preset>,
-        effects: EffectModes,
-    ) -> Result<Self, Failure> {
+    pub(super) fn read(name_or_path: &str, wanted: Wanted<'_>) -> Result<Self, Failure> {
+        let Wanted { settings, quality, detail, effects } = wanted;
         let Some(saved) = read_save(name_or_path)? else {
-            let blueprint = scene::load(name_or_path)?.build(settings, quality, &effects)?;
+            let scene = scene::load(name_or_path)?.at_detail(detail.unwrap_or(1.0));
+            let blueprint = scene.build(settings, quality, &effects)?;
             return Ok(Self { checkpoint: Checkpoint::of_scene(Arc::new(blueprint)), is_scene: true });
         };
         if !settings.is_empty() {
             return Err(no_use(name_or_path, "a save file", "--set"));
         }
-        Ok(Self::of_saved(saved, quality, effects))
+        Self::of_saved(Path::new(name_or_path), saved, quality, detail, effects)
     }
 }
 

@@ -5,7 +5,7 @@ use crate::{
         args::SweepArguments,
         failure::{self, Failure},
         output, progress,
-        start::Start,
+        start::{Start, Wanted},
     },
     lab::{
         experiment::{
@@ -21,7 +21,7 @@ use crate::{
             table,
         },
     },
-    scene::{KNOBS, Knob, Part, effects::EffectModes},
+    scene::{KNOBS, Knob, Part},
     sim::{checkpoint::Checkpoint, simulation::Simulation, snapshot::hash_bytes, state::Sources, workers::Workers},
 };
 use std::{
@@ -46,8 +46,9 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let length = length(arguments)?;
     // What can be refused is refused before anything is simulated or written, and what can't be written before anything is
     // simulated.
-    let starts = (arguments.scenes.iter())
-        .map(|scene| Opening::of(Start::read(scene, &arguments.settings, None, EffectModes::new())?));
+    let SweepArguments { settings, detail, .. } = arguments;
+    let wanted = Wanted { settings, detail: *detail, ..Wanted::default() };
+    let starts = arguments.scenes.iter().map(|scene| Opening::of(Start::read(scene, wanted.clone())?));
     let starts: Vec<Opening> = starts.collect::<Result<_, Failure>>()?;
     let folders = folders(arguments, &starts)?;
     let journals: Vec<JournalFile> = folders.iter().map(|folder| journal(folder)).collect::<Result<_, _>>()?;

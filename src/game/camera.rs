@@ -87,6 +87,12 @@ impl WorldCamera {
         }
     }
 
+    /// Shows the same part of the same box where that has `factor` new d in one old, and `world` new d in all.
+    pub fn rescale(&mut self, world: Vec2, factor: f32) {
+        (self.world, self.centre) = (world, self.centre * factor);
+        self.settle();
+    }
+
     /// Size of the window, logical pixels.
     pub fn window(&self) -> Vec2 {
         self.window

@@ -4,6 +4,7 @@ use crate::{
     game::{
         actions::Action,
         camera::WorldCamera,
+        follow,
         frame::SPEED_RANGE,
         history::{self, History},
         hud::panels::details,
@@ -29,6 +30,7 @@ use crate::{
         control,
         effects::Effects,
         intent::{Intent, IntentQueue},
+        numbers::grouped,
         pace::Pace,
         state::{ParticleStore, Rock, Setup},
     },
@@ -49,7 +51,11 @@ pub fn carry_out(world: &mut World) {
             Order::Quality(preset) => {
                 // A choice by hand ends the autopilot.
                 world.resource_mut::<Autopilot>().hold(None);
-                world.resource_mut::<IntentQueue>().push(Intent::Quality { preset, quality: preset.quality() });
+                choose_quality(world, preset);
+            }
+            Order::Detail(detail) => {
+                let preset = world.resource::<Setup>().preset;
+                change_detail(world, detail, preset, Intent::Detail { detail });
             }
             Order::SecondQuality(preset) => split::choose(world, preset),
             Order::Hold(goal) => world.resource_mut::<Autopilot>().hold(goal),
@@ -58,18 +64,45 @@ pub fn carry_out(world: &mut World) {
                 world.resource_mut::<IntentQueue>().push(Intent::Effect { effect, mode });
             }
             Order::Load(path) => saves::load(world, &path),
-            Order::Scene { name, settings } => {
+            Order::Scene { name, settings, detail } => {
                 let preset = world.get_resource::<Setup>().map(|setup| setup.preset);
-                play(world, &name, &settings, preset);
+                play(world, &name, &settings, preset, detail);
             }
             Order::Open { name, settings, quality } => {
                 // Else it would soon go on at another quality.
                 world.resource_mut::<Autopilot>().hold(None);
-                play(world, &name, &settings, quality);
+                play(world, &name, &settings, quality, 1.0);
             }
             Order::Watch(name) => watch(world, name),
         }
+        // An undo may have been to another detail.
+        follow::follow_detail(world);
     }
+}
+
+/// Goes on at another quality; to one of another detail the world is resampled.
+fn choose_quality(world: &mut World, preset: Preset) {
+    let intent = Intent::Quality { preset, quality: preset.quality() };
+    let setup = world.resource::<Setup>();
+    if preset.detail() == setup.preset.detail() {
+        world.resource_mut::<IntentQueue>().push(intent);
+    } else {
+        change_detail(world, setup.asked_detail(), preset, intent);
+    }
+}
+
+/// Goes on at another detail, which can be undone; or says why that is not possible. It is done at once: what the pointer does
+/// next is in the new d.
+fn change_detail(world: &mut World, detail: f64, preset: Preset, intent: Intent) {
+    if let Err(error) = control::check_detail(world, detail, preset) {
+        world.resource_mut::<Toasts>().warn(error);
+        return;
+    }
+    history::checkpoint(world);
+    world.resource_mut::<IntentQueue>().push(intent);
+    control::apply_edits(world);
+    let count = world.resource::<ParticleStore>().len() + world.resource::<Rock>().count();
+    world.resource_mut::<Toasts>().say(format!("Detail {detail}: {} particles", grouped(count)));
 }
 
 fn act(world: &mut World, action: Action) {
@@ -109,9 +142,10 @@ fn act(world: &mut World, action: Action) {
     }
 }
 
-/// Plays another scene; without a `preset` at its own quality.
-fn play(world: &mut World, name: &str, settings: &[(String, String)], preset: Option<Preset>) {
-    match scene::load(name).and_then(|scene| scene.build(settings, preset, &EffectModes::new())) {
+/// Plays another scene at a detail; without a `preset` at its own quality.
+fn play(world: &mut World, name: &str, settings: &[(String, String)], preset: Option<Preset>, detail: f64) {
+    let scene = scene::load(name).map(|scene| scene.at_detail(detail));
+    match scene.and_then(|scene| scene.build(settings, preset, &EffectModes::new())) {
         Ok(blueprint) => {
             Checkpoint::of_scene(Arc::new(blueprint)).restore(world);
             world.resource_mut::<History>().clear();

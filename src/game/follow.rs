@@ -1,33 +1,55 @@
-//! What the game does when another scene begins.
+//! What the game does when another scene begins, or the same goes on at another detail.
 
 use crate::{
     game::{
         camera::WorldCamera,
+        input::strokes::DragState,
         tools::{Tool, Toolbox},
     },
     sim::{generation::Generation, state::Setup},
 };
-use bevy::prelude::{Local, Res, ResMut};
+use bevy::prelude::{Res, ResMut, Resource, World};
+
+/// The scene that the camera and the tools follow.
+#[derive(Resource, Default)]
+pub struct Followed(u64);
 
 /// Shows the whole of its box, takes up the scene's first element.
 pub fn follow_scene(
     setup: Option<Res<Setup>>,
     generation: Res<Generation>,
-    mut seen: Local<u64>,
+    mut followed: ResMut<Followed>,
     mut camera: ResMut<WorldCamera>,
     mut tools: ResMut<Toolbox>,
 ) {
     let Some(setup) = setup else { return };
     let blueprint = &setup.blueprint;
-    if *seen == generation.scene {
+    if followed.0 == generation.scene {
         return;
     }
-    *seen = generation.scene;
+    followed.0 = generation.scene;
     camera.set_world(blueprint.domain.size);
+    tools.unit = blueprint.scale.detail;
     let elements = &blueprint.elements;
     let first = blueprint.first_element.as_deref().and_then(|name| elements.find(name));
     let movable = || elements.iter().find(|(_, element)| !element.fixed).map(|(id, _)| id);
     if let Some(element) = first.or_else(movable) {
         tools.tool = Tool::Element(element);
     }
+}
+
+/// Where the d of the scene is another one, what is in d goes on in that: the picture, the brush and the drag stay in their
+/// place.
+pub fn follow_detail(world: &mut World) {
+    let (size, detail) = match world.get_resource::<Setup>() {
+        Some(setup) => (setup.blueprint.domain.size, setup.blueprint.scale.detail),
+        None => return,
+    };
+    let factor = detail / world.resource::<Toolbox>().unit;
+    if world.resource::<Followed>().0 != Generation::of(world).scene || factor == 1.0 {
+        return;
+    }
+    world.resource_mut::<WorldCamera>().rescale(size, factor);
+    world.resource_mut::<Toolbox>().unit = detail;
+    world.resource_mut::<DragState>().rescale(factor);
 }

@@ -19,6 +19,8 @@ pub enum Order {
     Checkpoint,
     /// Go on at another quality.
     Quality(Preset),
+    /// Go on at another detail, beside which the quality may have its own.
+    Detail(f64),
     /// Start the second world of the split again from the first, at this quality.
     SecondQuality(Preset),
     /// Let the autopilot hold something, or nothing.
@@ -35,6 +37,8 @@ pub enum Order {
         name: String,
         /// Its parameters.
         settings: Vec<(String, String)>,
+        /// Its detail, beside which the quality may have its own.
+        detail: f64,
     },
     /// Play a scene as if the game began with it, whatever is in force.
     Open {

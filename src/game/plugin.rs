@@ -39,6 +39,7 @@ impl Plugin for GamePlugin {
             .init_resource::<input::bindings::Bindings>()
             .init_resource::<orders::Orders>()
             .init_resource::<views::table::Shown>()
+            .init_resource::<follow::Followed>()
             .init_resource::<history::History>()
             .init_resource::<saves::SaveFolders>()
             .init_resource::<frame::Tempo>()

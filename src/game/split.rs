@@ -34,15 +34,22 @@ pub fn toggle(world: &mut World) {
     }
     let Some(setup) = world.get_resource::<Setup>() else { return };
     let preset = if setup.preset == Preset::Draft { Preset::Fine } else { Preset::Draft };
-    Split::begin(world, preset, preset.quality());
-    world.resource_mut::<Toasts>().say("The same world at two qualities; B again goes on with A alone");
+    begin(world, preset, "The same world at two qualities; B again goes on with A alone");
 }
 
 /// Starts the second world again from the first, at this quality.
 pub fn choose(world: &mut World, preset: Preset) {
     if world.resource::<Split>().is_on() {
-        Split::begin(world, preset, preset.quality());
-        world.resource_mut::<Toasts>().say("B starts again from A as it is now");
+        begin(world, preset, "B starts again from A as it is now");
+    }
+}
+
+fn begin(world: &mut World, preset: Preset, told: &str) {
+    let begun = Split::begin(world, preset, preset.quality());
+    let mut toasts = world.resource_mut::<Toasts>();
+    match begun {
+        Ok(()) => toasts.say(told),
+        Err(error) => toasts.warn(error),
     }
 }
 

@@ -97,7 +97,7 @@ pub struct ToolRow {
     pub help: &'static str,
     /// The effect without which it does nothing.
     pub needs: Option<Effect>,
-    /// Its brush is at least this, d.
+    /// Its brush is at least this, in the scene's own spacings.
     pub least_radius: f32,
     /// What the left button does along a piece of a drag.
     pub left: fn(&Dab) -> Option<Intent>,
@@ -228,12 +228,15 @@ pub struct Toolbox {
     pub tool: Tool,
     /// Outline of the brush.
     pub shape: BrushShape,
+    /// Half the width of the brush, in the scene's own spacings.
     radius: f32,
+    /// The scene's own spacing, d: a brush is as wide in metres at every detail.
+    pub unit: f32,
 }
 
 impl Default for Toolbox {
     fn default() -> Self {
-        Self { tool: Tool::Element(ElementId(0)), shape: BrushShape::Disc, radius: 4.0 }
+        Self { tool: Tool::Element(ElementId(0)), shape: BrushShape::Disc, radius: 4.0, unit: 1.0 }
     }
 }
 
@@ -243,7 +246,7 @@ impl Toolbox {
         Self { tool, ..self }
     }
 
-    /// Half the width of the brush of the chosen tool, d.
+    /// Half the width of the brush of the chosen tool, in the scene's own spacings.
     pub fn radius(&self) -> f32 {
         match self.tool {
             Tool::Element(_) => self.radius,
@@ -251,7 +254,12 @@ impl Toolbox {
         }
     }
 
-    /// Sets half the width of the brush, d.
+    /// Half the width of the brush of the chosen tool, d.
+    pub fn reach(&self) -> f32 {
+        self.radius() * self.unit
+    }
+
+    /// Sets half the width of the brush, in the scene's own spacings.
     pub fn set_radius(&mut self, radius: f32) {
         self.radius = radius.clamp(*BRUSH_RANGE.start(), *BRUSH_RANGE.end());
     }
@@ -280,7 +288,7 @@ impl Toolbox {
 
     /// The brush dragged from one point to another.
     pub fn stroke(&self, from: Vec2, to: Vec2) -> Stroke {
-        Stroke { shape: self.shape, from, to, radius: self.radius() }
+        Stroke { shape: self.shape, from, to, radius: self.reach() }
     }
 }
 

@@ -40,6 +40,12 @@ impl Stroke {
         Self { shape: BrushShape::Rectangle, from: a.min(b), to: a.max(b), radius: 0.0 }
     }
 
+    /// The same stroke with its lengths times `factor`: in d of another length.
+    #[must_use]
+    pub fn scaled(self, factor: f32) -> Self {
+        Self { shape: self.shape, from: self.from * factor, to: self.to * factor, radius: self.radius * factor }
+    }
+
     /// Whether the point is under the brush.
     pub fn covers(&self, point: Vec2) -> bool {
         let (way, from) = (self.to - self.from, point - self.from);

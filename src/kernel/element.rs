@@ -43,13 +43,18 @@ pub struct Element {
     /// Density, kg/m²; 1 … 100 000. Weighs the particle in energy, momentum and drag.
     pub density: f32,
     /// XSPH viscosity c (Macklin & Müller 2013, eq. 17): share of the velocity difference to its neighbours that a
-    /// particle gives up each tick, however many substeps that has; raising it makes the liquid thicker. 0 … 0.5.
+    /// particle of the scene's own spacing gives up each tick, however many substeps that has; raising it makes the
+    /// liquid thicker. 0 … 0.5. It is a property of the liquid: its kinematic viscosity goes with c d², so a run of
+    /// another detail has its c times detail² (cut to 1 in a substep) and the same viscosity in m²/s.
     #[serde(default)]
     pub viscosity: f32,
-    /// Vorticity confinement ε (eq. 16), m/s² for each 1/s of vorticity; raising it keeps eddies alive longer. 0 … 1.
+    /// Vorticity confinement ε (eq. 16), m/s² for each 1/s of vorticity, whatever the detail; raising it keeps eddies
+    /// alive longer. 0 … 1.
     #[serde(default)]
     pub vorticity: f32,
-    /// Drag coefficient C of F = C v², kg/m. Raising it lets the air carry the particle more. 0 … 1000.
+    /// Drag coefficient C of F = C v² of a particle of the scene's own spacing, kg/m. Raising it lets the air carry the
+    /// particle more. 0 … 1000. It belongs to the matter: at another detail the particles that stand for this one share
+    /// it, so that the wind carries the same water as far.
     #[serde(default)]
     pub drag: f32,
     /// Share of the free sites under the brush that one tick of pouring fills. 0 < flow ≤ 1.
@@ -150,11 +155,11 @@ impl ElementTable {
 /// opens.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ElementParams {
-    /// Drag as k of `dv/dt = −k |v| v`, 1/d: `C / (ρ d²)` per metre, times d.
+    /// Drag as k of `dv/dt = −k |v| v`, 1/d: `C / (ρ D²)` per metre, times d, with the scene's own spacing D.
     pub drag: Vec<f32>,
     /// Mass of a particle, kg/m² d²: its density.
     pub mass: Vec<f32>,
-    /// XSPH c, a share a tick.
+    /// XSPH c, a share a tick at the spacing of the run; beyond 1 in a substep it is cut where it is used.
     pub viscosity: Vec<f32>,
     /// Vorticity confinement ε, d/s.
     pub vorticity: Vec<f32>,
@@ -165,9 +170,9 @@ impl ElementParams {
     pub fn new(elements: &ElementTable, scale: Scale) -> Self {
         let each = |of: &dyn Fn(&Element) -> f32| elements.iter().map(|(_, element)| of(element)).collect();
         Self {
-            drag: each(&|element| element.drag / (element.density * scale.spacing)),
+            drag: each(&|element| element.drag / (element.density * scale.spacing * scale.particles_per_own())),
             mass: each(&|element| element.density),
-            viscosity: each(&|element| element.viscosity),
+            viscosity: each(&|element| element.viscosity * scale.particles_per_own()),
             vorticity: each(&|element| scale.to_kernel(element.vorticity)),
         }
     }

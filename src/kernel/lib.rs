@@ -23,6 +23,7 @@ pub mod pbf;
 pub mod predict;
 pub mod predictor;
 pub mod random;
+pub mod resample;
 pub mod simd;
 pub mod sleep;
 pub mod smoothing;

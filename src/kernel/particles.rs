@@ -7,6 +7,7 @@
 use crate::{
     columns::{Column, ColumnVisitor, Spares, are_sound, reorder},
     element::{ElementId, ElementTable},
+    simd::{InstructionSet, Lanes, MOST_LANES, Pass},
     units::Scale,
 };
 use glam::Vec2;
@@ -215,19 +216,33 @@ impl Particles {
     }
 }
 
-/// Numbers that are compared side by side.
-const EXTENT_LANES: usize = 16;
-
 /// The lowest and the highest of some numbers; the other way round if there is none.
-pub(crate) fn extent(numbers: &[f32]) -> [f32; 2] {
-    let (blocks, rest) = numbers.as_chunks::<EXTENT_LANES>();
-    let (mut low, mut high) = ([f32::MAX; EXTENT_LANES], [f32::MIN; EXTENT_LANES]);
-    for block in blocks {
-        for lane in 0..EXTENT_LANES {
-            low[lane] = low[lane].min(block[lane]);
-            high[lane] = high[lane].max(block[lane]);
+pub(crate) fn extent(numbers: &[f32], instructions: InstructionSet) -> [f32; 2] {
+    let mut ends = [f32::MAX, f32::MIN];
+    instructions.run(Extent { numbers, ends: &mut ends });
+    ends
+}
+
+struct Extent<'a> {
+    numbers: &'a [f32],
+    /// Out: the lowest and the highest.
+    ends: &'a mut [f32; 2],
+}
+
+impl Pass for Extent<'_> {
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let (mut low, mut high) = (L::splat(f32::MAX), L::splat(f32::MIN));
+        let blocks = self.numbers.chunks_exact(L::WIDTH);
+        let rest = blocks.remainder();
+        for block in blocks {
+            let block = L::load(block);
+            (low, high) = (low.min(block), high.max(block));
         }
+        let mut lanes = [[0.0; MOST_LANES]; 2];
+        low.store(&mut lanes[0]);
+        high.store(&mut lanes[1]);
+        let [low, high] = lanes.map(|lanes| lanes.into_iter().take(L::WIDTH).chain(rest.iter().copied()));
+        *self.ends = [low.fold(f32::MAX, f32::min), high.fold(f32::MIN, f32::max)];
     }
-    let low = low.iter().chain(rest).fold(f32::MAX, |low, x| low.min(*x));
-    [low, high.iter().chain(rest).fold(f32::MIN, |high, x| high.max(*x))]
 }

@@ -14,8 +14,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Longest move of a substep, in kernel radii. Collision with rock is exact at any speed; what this bounds is how deep
 /// two streams can enter each other before the density constraint sees them: up to two kernel diameters each.
 pub(crate) const MOVE_RADII: f32 = 4.0;
-/// Substeps that a fast tick may take, as a multiple of the quality's.
-const SUBSTEP_GROWTH: u32 = 4;
+/// Substeps that a fast tick may take at the scene's own spacing, as a multiple of the quality's. A finer run may take as
+/// many times more as it is finer, so that the speed at which matter is cut stays the same in m/s.
+const SUBSTEP_GROWTH: f32 = 4.0;
 
 /// Particles that are done at a time.
 const BLOCK: usize = 64;
@@ -37,16 +38,16 @@ pub struct Substeps {
 }
 
 /// Substeps for a tick of `tick` s: the quality's, more if the fastest particle (d/s) would move too far in one, up to
-/// four times the quality's.
+/// four times the quality's and, beyond detail 1, so many times more as the run is finer.
 ///
 /// **The bound.** A move is explicit, `x + v Δt`, and exact whatever its length as far as rock and walls go (`sweep`).
 /// What bounds it is that two streams must not pass through each other unseen: each moves at most `MOVE_RADII` h, so with
 /// the fastest speed v and gravity g a tick T takes `n ≥ (v + g T) T / (MOVE_RADII h)` substeps. Past the limit
 /// the speed itself is cut to `MOVE_RADII h / Δt` and counted, so that the bound holds at any speed.
-pub fn substeps(fastest: f32, domain: &Domain, quality: &Quality, tick: f32) -> Substeps {
+pub fn substeps(fastest: f32, domain: &Domain, quality: &Quality, detail: f32, tick: f32) -> Substeps {
     let fastest = fastest + domain.gravity.length() * tick;
     let wanted = (fastest * tick / longest_move(quality)).ceil();
-    let most = quality.substeps * SUBSTEP_GROWTH;
+    let most = (quality.substeps as f32 * SUBSTEP_GROWTH * detail.max(1.0)).ceil() as u32;
     // A cast saturates, so that any speed gives a number.
     Substeps { count: (wanted as u32).clamp(quality.substeps, most), short: wanted > most as f32 }
 }
@@ -189,14 +190,18 @@ mod tests {
     #[test]
     fn speeds_are_followed_up_to_the_bound_and_cut_to_it_past_it() {
         let quality = Preset::Balanced.quality();
-        let most = quality.substeps * SUBSTEP_GROWTH;
-        let bound = longest_move(&quality) * most as f32 / TICK_SECONDS;
+        let usual = quality.substeps * SUBSTEP_GROWTH as u32;
+        let bound = longest_move(&quality) * usual as f32 / TICK_SECONDS;
         let domain = Domain { size: Vec2::splat(1000.0), gravity: Vec2::ZERO };
         let solids = Solids::new(1000, 1000);
-        for (speed, short) in [(0.99 * bound, false), (10.0 * bound, true)] {
+        // The same speed in m/s is twice as many d/s at detail 2.
+        for (detail, part, short) in [(1.0, 0.99, false), (1.0, 10.0, true), (2.0, 0.99, false), (0.5, 10.0, true)] {
+            let finer = f32::max(detail, 1.0);
+            let (bound, most) = (bound * finer, usual * finer as u32);
+            let speed = part * bound;
             let mut particles = Particles::default();
             particles.push(0, ElementId(0), Vec2::splat(500.0), Vec2::new(0.6, -0.8) * speed);
-            let wanted = substeps(fastest(&particles.vx, &particles.vy), &domain, &quality, TICK_SECONDS);
+            let wanted = substeps(fastest(&particles.vx, &particles.vy), &domain, &quality, detail, TICK_SECONDS);
             assert_eq!(wanted, Substeps { count: most, short });
             let dt = TICK_SECONDS / wanted.count as f32;
             let report = predict(&mut particles, InstructionSet::Baseline, &solids, &domain, &quality, 1, dt);

@@ -14,11 +14,28 @@ pub const REFERENCE_DENSITY: f32 = 1000.0;
 /// Converts between SI units and the kernel's, in which the particle spacing is 1.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Scale {
-    /// Particle spacing d, m.
+    /// Particle spacing d of the run, m.
     pub spacing: f32,
+    /// The scene's own spacing over the run's, 1/8 … 16: at 2 a particle stands for a quarter of the matter.
+    pub detail: f32,
 }
 
 impl Scale {
+    /// The scale of a scene at its own spacing, m.
+    pub fn own(spacing: f32) -> Self {
+        Self { spacing, detail: 1.0 }
+    }
+
+    /// The scene's own spacing, m.
+    pub fn own_spacing(self) -> f32 {
+        self.spacing * self.detail
+    }
+
+    /// Particles of the run in the area of one of the scene's own.
+    pub fn particles_per_own(self) -> f32 {
+        self.detail * self.detail
+    }
+
     /// Metres (or m/s, m/s²) to spacings (d/s, d/s²).
     pub fn to_kernel(self, metres: f32) -> f32 {
         metres / self.spacing

@@ -159,8 +159,7 @@ mod tests {
         particles.push(1, ElementId(1), Vec2::new(5.0, 0.0), Vec2::new(0.0, -40.0));
         let (elements, domain) = (table(), domain());
         // d = 0.1 m: 10 kg and 5 kg, 1 m and 0 m high, 2 m/s and 4 m/s fast, g = 9.81 m/s².
-        let matter =
-            Matter { particles: &particles, elements: &elements, domain: &domain, scale: Scale { spacing: 0.1 } };
+        let matter = Matter { particles: &particles, elements: &elements, domain: &domain, scale: Scale::own(0.1) };
         let balance = matter.balance();
         let near = |a: f64, b: f64| (a - b).abs() < 1e-4 * b.abs().max(1.0);
         assert!(near(balance.mass, 15.0), "{balance:?}");
@@ -178,8 +177,7 @@ mod tests {
             particles.push(k as u32, ElementId(0), centre(cell), Vec2::ZERO);
         }
         let (elements, domain) = (table(), domain());
-        let matter =
-            Matter { particles: &particles, elements: &elements, domain: &domain, scale: Scale { spacing: 0.1 } };
+        let matter = Matter { particles: &particles, elements: &elements, domain: &domain, scale: Scale::own(0.1) };
         assert!((matter.front().unwrap() - 1.0).abs() < 1e-6);
         assert!((matter.surface().unwrap() - 2.0).abs() < 1e-6);
         let nothing = Particles::default();

@@ -36,13 +36,17 @@ use bevy::ecs::world::World;
 use glam::{DVec2, Vec2};
 use serde::{Deserialize, Serialize};
 
-/// Edge of a cell, d: three kernel radii, two air cells of `balanced`.
+/// Edge of a cell, in the scene's own spacings: three kernel radii, two air cells of `balanced`. Runs of any detail are
+/// compared on the same cells.
 pub const CELL: f32 = 8.0;
+
+/// A box that reaches into a cell by no more than this share of it, a rounding, has not that cell.
+const SLACK: f32 = 1e-4;
 
 /// Points of a cell along each axis at which the air is looked at.
 const POINTS: u32 = 4;
 
-/// Speed that is calm to the eye, d a tick.
+/// Speed that is calm to the eye, of the scene's own spacings a tick.
 const CALM: f64 = 0.02;
 
 /// A world seen coarsely.
@@ -89,19 +93,20 @@ impl CoarseField {
         let matter = matter(world);
         let d = f64::from(matter.scale.spacing);
         let fluid = &world.resource::<Setup>().blueprint.fluid;
-        let cells = (matter.domain.size / CELL).ceil().as_uvec2();
+        let edge = CELL * matter.scale.detail;
+        let cells = (matter.domain.size / edge - SLACK).ceil().as_uvec2();
         let count = (cells.x * cells.y) as usize;
         let mut field = Self {
             area: vec![0.0; count],
             momentum: vec![DVec2::ZERO; count],
-            calm: CALM * f64::from(TICKS_PER_SECOND) * d,
+            calm: CALM * f64::from(TICKS_PER_SECOND) * f64::from(matter.scale.own_spacing()),
             ..Self::default()
         };
         let area = d * d / f64::from(fluid.rest_density);
         let masses: Vec<f64> = matter.elements.iter().map(|(_, element)| f64::from(element.density) * d * d).collect();
         for i in 0..matter.particles.len() {
             let (position, velocity) = (matter.particles.position(i), matter.particles.velocity(i));
-            let cell = (position / CELL).floor();
+            let cell = (position / edge).floor();
             let inside = cell.cmpge(Vec2::ZERO).all() && cell.cmplt(cells.as_vec2()).all();
             if inside && velocity.is_finite() {
                 let k = (cell.y as u32 * cells.x + cell.x as u32) as usize;
@@ -113,8 +118,8 @@ impl CoarseField {
         }
         if world.resource::<Effects>().get(Effect::Air).mode != Mode::Off {
             let (air, rock) = (world.resource::<AirGrid>(), world.resource::<Rock>());
-            let places = (0..cells.y).flat_map(|y| (0..cells.x).map(move |x| Vec2::new(x as f32, y as f32) * CELL));
-            field.air = places.map(|corner| mean_velocity(air, rock, corner, matter.domain.size) * d).collect();
+            let places = (0..cells.y).flat_map(|y| (0..cells.x).map(move |x| Vec2::new(x as f32, y as f32) * edge));
+            field.air = places.map(|corner| mean_velocity(air, rock, corner, edge, matter.domain.size) * d).collect();
         }
         field
     }
@@ -169,11 +174,11 @@ impl CoarseField {
     }
 }
 
-/// Mean velocity of the air in the cell at `corner`, d/s.
-fn mean_velocity(air: &AirGrid, rock: &Solids, corner: Vec2, size: Vec2) -> DVec2 {
+/// Mean velocity of the air in the cell of edge `edge` (d) at `corner`, d/s.
+fn mean_velocity(air: &AirGrid, rock: &Solids, corner: Vec2, edge: f32, size: Vec2) -> DVec2 {
     let (mut sum, mut count) = (DVec2::ZERO, 0.0);
     for k in 0..POINTS * POINTS {
-        let at = corner + (Vec2::new((k % POINTS) as f32, (k / POINTS) as f32) + 0.5) * (CELL / POINTS as f32);
+        let at = corner + (Vec2::new((k % POINTS) as f32, (k / POINTS) as f32) + 0.5) * (edge / POINTS as f32);
         if at.cmplt(size).all() && !rock.is_solid(Solids::cell_of(at)) {
             sum += air.sample_velocity(at).as_dvec2();
             count += 1.0;

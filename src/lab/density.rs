@@ -6,6 +6,10 @@
 //! more (and less than R) in each of the eight 45° sectors. The surface is so far away then that what the sum misses beyond
 //! it is little: of the lattice's sum 4 % come from 2 d on in each half plane. Rock is a neighbour like any other; the walls
 //! of the box are none.
+//!
+//! What is missing may be missing beyond rock, which may be thin, or in a bubble. So liquid is too thin only where it is all
+//! around: where each sector has a neighbour that is no rock, and each quarter one nearer than 2 d. Elsewhere it may be too
+//! dense, but not too thin.
 
 use crate::{
     kernel::{particles::Particles, solids},
@@ -26,6 +30,8 @@ const FAR: f64 = 2.0;
 
 /// All eight sectors seen.
 const ALL_SECTORS: u8 = u8::MAX;
+/// The first sector of each quarter.
+const ALL_QUARTERS: u8 = 0b0101_0101;
 
 /// Σ (R² − r²)³ over the square lattice of spacing 1 around one of its points, itself included.
 const LATTICE_SUM: f64 = {
@@ -53,6 +59,8 @@ pub struct Local {
     pub density: f64,
     /// Whether there is a neighbour at [`FAR`] or more in each of the eight sectors.
     pub interior: bool,
+    /// Whether there is one that is liquid in each, and a nearer one in each quarter.
+    pub immersed: bool,
 }
 
 /// The density error of a world at one moment, as fractions.
@@ -62,6 +70,8 @@ pub struct DensityError {
     pub mean: f64,
     /// 99th percentile.
     pub p99: f64,
+    /// 99th percentile of what is too dense alone: how far the liquid is pressed together.
+    pub pressed: f64,
     /// Largest.
     pub max: f64,
     /// Mean density of the interior particles, 1 at rest density.
@@ -88,16 +98,19 @@ impl DensityError {
 
     /// The error over the interior ones of `locals`; `None` if there are none.
     pub(super) fn of(locals: &[Local], rest_density: f64) -> Option<Self> {
-        let interior = locals.iter().filter(|local| local.interior);
-        let mut densities: Vec<f64> = interior.map(|local| local.density / rest_density).collect();
-        let density = stats::mean(&densities)?;
-        densities.iter_mut().for_each(|density| *density = (*density - 1.0).abs());
-        let mut errors = densities;
+        let (mut errors, mut pressed, mut sum) = (Vec::new(), Vec::new(), 0.0);
+        for local in locals.iter().filter(|local| local.interior) {
+            let excess = local.density / rest_density - 1.0;
+            sum += excess;
+            pressed.push(excess.max(0.0));
+            errors.push(if local.immersed { excess.abs() } else { excess.max(0.0) });
+        }
         Some(Self {
-            density,
+            density: 1.0 + sum / errors.len() as f64,
             mean: stats::mean(&errors)?,
             max: stats::largest(&errors)?,
             p99: stats::quantile(&mut errors, 0.99)?,
+            pressed: stats::quantile(&mut pressed, 0.99)?,
         })
     }
 }
@@ -119,8 +132,10 @@ pub fn surroundings(particles: &Particles, rock: &solids::Solids, size: Vec2) ->
     locals
 }
 
-/// Source of a point that is only a neighbour, such as rock.
+/// Source of a point of rock.
 pub(super) const ROCK: u32 = u32::MAX;
+/// Source of a particle that is only a neighbour.
+pub(super) const NEIGHBOUR: u32 = u32::MAX - 1;
 
 /// Square cells of edge R over the box and d around it.
 pub(super) struct Lattice {
@@ -161,7 +176,7 @@ pub(super) struct Grid {
     start: Vec<u32>,
     x: Vec<f64>,
     y: Vec<f64>,
-    /// Index in the particle store, or [`ROCK`].
+    /// Index in the particle store, [`NEIGHBOUR`] or [`ROCK`].
     pub(super) source: Vec<u32>,
 }
 
@@ -197,7 +212,7 @@ impl Grid {
 
     /// What stands around point `k`, unless that is only a neighbour itself.
     pub(super) fn look_around(&self, k: usize) -> Local {
-        if self.source[k] == ROCK {
+        if self.source[k] >= NEIGHBOUR {
             return Local::default();
         }
         let (x, y) = (self.x[k], self.y[k]);
@@ -205,20 +220,28 @@ impl Grid {
         let (column, row) = (along(x, self.columns), along(y, self.rows));
         let (left, right) = (column.saturating_sub(1), (column + 1).min(self.columns - 1));
         let mut sum = 0.0;
-        let mut sectors = 0;
+        let (mut sectors, mut liquid, mut near) = (0, 0, 0);
         for row in row.saturating_sub(1)..=(row + 1).min(self.rows - 1) {
             let first = self.start[row * self.columns + left] as usize;
             let end = self.start[row * self.columns + right + 1] as usize;
-            for (xj, yj) in self.x[first..end].iter().zip(&self.y[first..end]) {
-                let (dx, dy) = (xj - x, yj - y);
+            for j in first..end {
+                let (dx, dy) = (self.x[j] - x, self.y[j] - y);
                 let q = R2 - (dx * dx + dy * dy);
                 if q > 0.0 {
                     sum += q * q * q;
-                    sectors |= if q <= R2 - FAR * FAR { sector(dx, dy) } else { 0 };
+                    let (seen, is_far) = (sector(dx, dy), q <= R2 - FAR * FAR);
+                    let seen_liquid = if self.source[j] == ROCK { 0 } else { seen };
+                    sectors |= if is_far { seen } else { 0 };
+                    liquid |= if is_far { seen_liquid } else { 0 };
+                    near |= if is_far { 0 } else { seen_liquid };
                 }
             }
         }
-        Local { density: sum / LATTICE_SUM, interior: sectors == ALL_SECTORS }
+        Local {
+            density: sum / LATTICE_SUM,
+            interior: sectors == ALL_SECTORS,
+            immersed: liquid == ALL_SECTORS && (near | near >> 1) & ALL_QUARTERS == ALL_QUARTERS,
+        }
     }
 }
 
@@ -241,9 +264,9 @@ mod tests {
     use glam::IVec2;
 
     /// The definition, pair by pair.
-    fn direct(points: &[Vec2], own: usize) -> Local {
+    fn direct(points: &[Vec2], movable: usize, own: usize) -> Local {
         let mut sum = 0.0;
-        let mut seen = [false; 8];
+        let (mut seen, mut liquid, mut near) = ([false; 8], [false; 8], [false; 4]);
         for (j, p) in points.iter().enumerate() {
             let d = (p.as_dvec2() - points[own].as_dvec2()).to_array();
             let r2 = d[0] * d[0] + d[1] * d[1];
@@ -251,16 +274,21 @@ mod tests {
                 continue;
             }
             sum += (9.0 - r2).powi(3);
+            let turn = d[1].atan2(d[0]) / std::f64::consts::FRAC_PI_4;
+            let sector = (turn.floor() as i32).rem_euclid(8) as usize;
             if r2 >= 4.0 {
-                let turn = d[1].atan2(d[0]) / std::f64::consts::FRAC_PI_4;
-                seen[(turn.floor() as i32).rem_euclid(8) as usize] = true;
+                seen[sector] = true;
+                liquid[sector] |= j < movable;
+            } else if r2 > 0.0 {
+                near[sector / 2] |= j < movable;
             }
         }
         let reference: f64 = lattice(7, 7, 1.0)
             .iter()
             .map(|p| (9.0 - f64::from(p.distance_squared(Vec2::splat(3.5)))).max(0.0).powi(3))
             .sum();
-        Local { density: sum / reference, interior: seen.into_iter().all(|seen| seen) }
+        let all = |seen: &[bool]| seen.iter().all(|seen| *seen);
+        Local { density: sum / reference, interior: all(&seen), immersed: all(&liquid) && all(&near) }
     }
 
     #[test]
@@ -296,9 +324,10 @@ mod tests {
         points.extend(rock.iter().map(|(cell, _, _)| solids::centre(cell)));
         assert!(found.iter().any(|local| local.interior) && !found.iter().all(|local| local.interior));
         for (i, local) in found.iter().enumerate().take(movable) {
-            let expected = direct(&points, i);
+            let expected = direct(&points, movable, i);
             assert!((local.density - expected.density).abs() < 1e-9, "{i}: {local:?} is not {expected:?}");
-            assert_eq!(local.interior, expected.interior, "{i} at {}", points[i]);
+            let sides = |local: &Local| [local.interior, local.immersed];
+            assert_eq!(sides(local), sides(&expected), "{i} at {}", points[i]);
         }
     }
 
@@ -312,7 +341,11 @@ mod tests {
         for x in 0..9 {
             rock.insert(IVec2::new(x, 5), ElementId(1), 100 + x as u32);
         }
-        assert!(surroundings(&particles, &rock, size)[top_middle].interior, "rock is a neighbour");
+        let local = surroundings(&particles, &rock, size)[top_middle];
+        assert!(local.interior && !local.immersed, "rock is a neighbour, and no liquid: {local:?}");
+        // What is missing may be missing beyond the rock.
+        let error = DensityError::of(&[Local { density: 0.9, ..local }], 1.0).unwrap();
+        assert_eq!((error.max, error.density), (0.0, 0.9));
     }
 
     #[test]

@@ -2,14 +2,16 @@
 //! square cells. A flow is chaotic, particles soon stand elsewhere; what they add up to is compared.
 
 use crate::{
-    kernel::{air::Air, particles::Particles},
+    kernel::{air::Air, particles::Particles, units::Scale},
     lab::colours::{Reference, Rgb, ramp},
     scene::blueprint::Blueprint,
+    sim::state::{AirGrid, ParticleStore, Setup},
 };
+use bevy::ecs::world::World;
 use glam::Vec2;
 
-/// Edge of a cell, d.
-pub const CELL: f32 = 4.0;
+/// Edge of a cell, d of the coarser world.
+const CELL: f32 = 4.0;
 
 /// A difference of all the liquid that a cell holds, or of this share of a long fall's speed, is the end of the scale; in
 /// the air, one of a strong wind ([`Reference`]).
@@ -27,6 +29,30 @@ pub struct Half<'a> {
     pub particles: &'a Particles,
     /// The air, on cells of any size.
     pub air: &'a Air,
+    /// Its d.
+    pub scale: Scale,
+}
+
+impl<'a> Half<'a> {
+    /// That of a world.
+    pub fn of(world: &'a World) -> Self {
+        Self {
+            particles: world.resource::<ParticleStore>(),
+            air: world.resource::<AirGrid>(),
+            scale: world.resource::<Setup>().blueprint.scale,
+        }
+    }
+}
+
+/// Square cells over a box.
+#[derive(Clone, Copy)]
+struct Cells {
+    /// Edge in d of the world that is measured.
+    edge: f32,
+    columns: usize,
+    rows: usize,
+    /// d of the world that is measured, in d of the one that it is compared in.
+    unit: f32,
 }
 
 /// What one world adds up to, cell by cell.
@@ -41,43 +67,46 @@ struct Field {
 }
 
 impl Field {
-    fn measure(&mut self, Half { particles, air }: Half<'_>, columns: usize, rows: usize) {
+    fn measure(&mut self, Half { particles, air, .. }: Half<'_>, cells: Cells) {
+        let Cells { edge, columns, rows, unit } = cells;
         self.share.clear();
         self.share.resize(columns * rows, 0.0);
         self.flow.clear();
         self.flow.resize(columns * rows, Vec2::ZERO);
         for i in 0..particles.len() {
-            let place = particles.position(i) / CELL;
+            let place = particles.position(i) / edge;
             let (column, row) = ((place.x as usize).min(columns - 1), (place.y as usize).min(rows - 1));
             let cell = row * columns + column;
             self.share[cell] += 1.0;
-            self.flow[cell] += particles.velocity(i);
+            self.flow[cell] += unit * particles.velocity(i);
         }
-        let full = CELL * CELL;
+        let full = edge * edge;
         self.share.iter_mut().for_each(|share| *share /= full);
         self.flow.iter_mut().for_each(|flow| *flow /= full);
         self.wind.clear();
         self.wind.resize(columns * rows, Vec2::ZERO);
         if !air.is_quiet() {
             for (cell, wind) in self.wind.iter_mut().enumerate() {
-                *wind = mean_wind(air, Vec2::new((cell % columns) as f32, (cell / columns) as f32));
+                *wind = unit * mean_wind(air, edge, Vec2::new((cell % columns) as f32, (cell / columns) as f32));
             }
         }
     }
 }
 
-/// Mean velocity of the air in a cell, d/s, from one point or, where the air's cells are finer, four.
-fn mean_wind(air: &Air, cell: Vec2) -> Vec2 {
-    let points = (CELL / air.cell()).round().clamp(1.0, MOST_POINTS);
+/// Mean velocity of the air in a cell of edge `edge` (d), d/s, from one point or, where the air's cells are finer, four.
+fn mean_wind(air: &Air, edge: f32, cell: Vec2) -> Vec2 {
+    let points = (edge / air.cell()).round().clamp(1.0, MOST_POINTS);
     let along = 0..points as usize;
     let at = |k: usize| (k as f32 + 0.5) / points;
     let winds = along.clone().flat_map(|y| along.clone().map(move |x| Vec2::new(at(x), at(y))));
-    winds.map(|part| air.sample_velocity((cell + part) * CELL)).sum::<Vec2>() / (points * points)
+    winds.map(|part| air.sample_velocity((cell + part) * edge)).sum::<Vec2>() / (points * points)
 }
 
 /// The difference between two worlds.
 #[derive(Clone, Debug, Default)]
 pub struct Difference {
+    /// Edge of a cell, d of the first world.
+    edge: f32,
     columns: usize,
     rows: usize,
     fields: [Field; 2],
@@ -88,12 +117,15 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// Compares two worlds of the same scene.
+    /// Compares two worlds of the same scene, in the d of the first, which is `blueprint`'s. They may be of different details.
     pub fn measure(&mut self, blueprint: &Blueprint, first: Half<'_>, second: Half<'_>) {
-        let cells = (blueprint.domain.size / CELL).ceil().max(Vec2::ONE);
-        (self.columns, self.rows) = (cells.x as usize, cells.y as usize);
+        let own = first.scale.spacing;
+        let edge = CELL * (second.scale.spacing / own).max(1.0);
+        let cells = (blueprint.domain.size / edge).ceil().max(Vec2::ONE);
+        (self.edge, self.columns, self.rows) = (edge, cells.x as usize, cells.y as usize);
         for (field, half) in self.fields.iter_mut().zip([first, second]) {
-            field.measure(half, self.columns, self.rows);
+            let unit = half.scale.spacing / own;
+            field.measure(half, Cells { edge: edge / unit, columns: self.columns, rows: self.rows, unit });
         }
         let reference = Reference::of(&blueprint.domain, &blueprint.air);
         let speed = FULL_SPEED * reference.fall;
@@ -109,6 +141,11 @@ impl Difference {
             let is_dry = a.share[cell] == 0.0 && b.share[cell] == 0.0;
             if is_dry { (a.wind[cell].distance(b.wind[cell]) / reference.wind).min(1.0) } else { *liquid }
         }));
+    }
+
+    /// Edge of a cell, d of the first world.
+    pub fn edge(&self) -> f32 {
+        self.edge
     }
 
     /// Cells beside each other.
@@ -195,7 +232,7 @@ mod tests {
         let mut difference = Difference::default();
         let strong = Reference::of(&blueprint.domain, &blueprint.air).wind;
         let mut measure = |first: &Air, second: &Air| {
-            let half = |air| Half { particles: &particles, air };
+            let half = |air| Half { particles: &particles, air, scale: blueprint.scale };
             difference.measure(&blueprint, half(first), half(second));
             difference.clone()
         };

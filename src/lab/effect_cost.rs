@@ -126,7 +126,10 @@ pub fn measure(name: &'static str, preset: Preset, rounds: usize) -> Result<Scen
 
 /// Goes on from the start with a choice of effects.
 fn go_on(start: &Checkpoint, preset: Preset, modes: &EffectModes) -> io::Result<Run> {
-    let mut run = Simulation::resume(&start.clone().at_quality(preset, preset.quality()), Workers::single());
+    let mut run = Simulation::resume(
+        &start.clone().at_quality(preset, preset.quality()).map_err(io::Error::other)?,
+        Workers::single(),
+    );
     let mut effects = run.world_mut().resource_mut::<Effects>();
     for (effect, mode) in modes {
         effects.get_mut(*effect).mode = *mode;

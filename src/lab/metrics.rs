@@ -14,6 +14,8 @@ use std::collections::BTreeMap;
 pub struct Metrics {
     /// Name of the scene.
     pub scene: String,
+    /// The scene's own particle spacing over the run's: what `--detail` asked for times the quality's own.
+    pub detail: f32,
     /// Name of the quality.
     pub quality: &'static str,
     /// The numbers in force, which `--set` may have moved away from the name's.
@@ -123,13 +125,13 @@ pub struct EffectCost {
 pub struct Accuracy {
     /// Samples taken: one every 20 ticks after the warm-up, or one at the end of a shorter run.
     pub samples: usize,
-    /// Mean of max(0, ρ/ρ₀ − 1) over the interior particles (see `lab::density`).
+    /// Mean density error of the interior particles (see `lab::density`).
     pub density_error_mean: Option<f64>,
     /// Mean of its 99th percentile.
     pub density_error_p99: Option<f64>,
     /// Its maximum over all samples.
     pub density_error_max: Option<f64>,
-    /// Mean density of the interior particles, 1 at rest density: a liquid that stands too thin has no error.
+    /// Mean density of the interior particles, 1 at rest density.
     pub density_mean: Option<f64>,
     /// The solver's own mean constraint C over the particles with C > 0, in its last iteration of the run.
     pub residual: Option<f64>,

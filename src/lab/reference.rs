@@ -53,8 +53,8 @@ fn is_due(tick: u64, ticks: u64) -> bool {
 impl Reference {
     /// Runs `plan` from `start` at `reference` quality; `watcher` sees each tick, too.
     pub fn record(start: &Checkpoint, plan: &Plan, workers: Workers, watcher: &mut dyn Observer) -> io::Result<Self> {
-        let mut simulation =
-            Simulation::resume(&start.clone().at_quality(Preset::Reference, Preset::Reference.quality()), workers);
+        let start = start.clone().at_quality(Preset::Reference, Preset::Reference.quality());
+        let mut simulation = Simulation::resume(&start.map_err(io::Error::other)?, workers);
         let mut recorder = Recorder { tick: 0, ticks: plan.ticks, samples: Vec::new() };
         run(&mut simulation, plan, &mut [&mut recorder, watcher])?;
         let fields: Vec<CoarseField> = recorder.samples.iter().map(|sample| sample.field.clone()).collect();
@@ -143,8 +143,14 @@ mod tests {
         Checkpoint::of_scene(Arc::new(blueprint))
     }
 
-    fn follow(start: &Checkpoint, reference: &Reference, quality: Quality, plan: &Plan) -> (Vec<Point>, u64) {
-        let mut simulation = Simulation::resume(&start.clone().at_quality(Preset::Fast, quality), Workers::default());
+    fn follow(
+        start: &Checkpoint,
+        reference: &Reference,
+        (preset, quality): (Preset, Quality),
+        plan: &Plan,
+    ) -> (Vec<Point>, u64) {
+        let mut simulation =
+            Simulation::resume(&start.clone().at_quality(preset, quality).unwrap(), Workers::default());
         let mut follower = Follower::new(reference);
         run(&mut simulation, plan, &mut [&mut follower]).unwrap();
         (follower.points().to_vec(), control::hash(simulation.world()))
@@ -154,17 +160,19 @@ mod tests {
     fn the_reference_stays_with_itself_and_the_rough_go_far() {
         let (start, plan) = (small_dam_break(), Plan { ticks: 90, ..Plan::default() });
         let reference = Reference::record(&start, &plan, Workers::default(), &mut ()).unwrap();
-        let (own, _) = follow(&start, &reference, Preset::Reference.quality(), &plan);
+        let (own, _) = follow(&start, &reference, (Preset::Reference, Preset::Reference.quality()), &plan);
         assert_eq!(own.iter().map(|point| point.tick).collect::<Vec<_>>(), [20, 40, 60, 80, 90]);
         let nothing = Distance { share: Some(0.0), momentum: Some(0.0), air: None };
         assert!(own.iter().all(|point| point.distance == nothing && point.energy_ratio == 1.0), "{own:?}");
-        let nearly = Quality { substeps: 8, iterations: 2, kernel_radius: 3.0, ..Preset::Fine.quality() };
-        let (fine, _) = follow(&start, &reference, nearly, &plan);
-        let (rough, hash) = follow(&start, &reference, Preset::Classic.quality(), &plan);
+        let nearly = Quality { iterations: 3, ..Preset::Reference.quality() };
+        let (fine, _) = follow(&start, &reference, (Preset::Reference, nearly), &plan);
+        let (rough, hash) = follow(&start, &reference, (Preset::Fast, Preset::Classic.quality()), &plan);
         let early = |points: &[Point]| points[1].distance.share.unwrap();
         assert!(early(&fine) > 0.0 && early(&fine) < early(&rough), "{fine:?}\n{rough:?}");
-        let mut alone =
-            Simulation::resume(&start.clone().at_quality(Preset::Fast, Preset::Classic.quality()), Workers::default());
+        let mut alone = Simulation::resume(
+            &start.clone().at_quality(Preset::Fast, Preset::Classic.quality()).unwrap(),
+            Workers::default(),
+        );
         run(&mut alone, &plan, &mut []).unwrap();
         assert_eq!(control::hash(alone.world()), hash, "to be followed changes nothing");
     }
@@ -173,8 +181,10 @@ mod tests {
     fn the_mean_leaves_the_warm_up_out() {
         let (start, plan) = (small_dam_break(), Plan { ticks: 40, ..Plan::default() });
         let reference = Reference::record(&start, &plan, Workers::default(), &mut ()).unwrap();
-        let mut simulation =
-            Simulation::resume(&start.clone().at_quality(Preset::Draft, Preset::Draft.quality()), Workers::default());
+        let mut simulation = Simulation::resume(
+            &start.clone().at_quality(Preset::Draft, Preset::Draft.quality()).unwrap(),
+            Workers::default(),
+        );
         let mut follower = Follower::new(&reference);
         run(&mut simulation, &plan, &mut [&mut follower]).unwrap();
         assert_eq!(follower.mean(20), follower.points()[1].distance);

@@ -100,7 +100,7 @@ fn look(simulation: &Simulation) -> [f64; 6] {
     let matter = matter(simulation.world());
     let balance = matter.balance();
     let particles = matter.particles.len().max(1) as f64;
-    let Scale { spacing } = matter.scale;
+    let Scale { spacing, .. } = matter.scale;
     let rms_speed = (2.0 * balance.kinetic / balance.mass.max(f64::MIN_POSITIVE)).sqrt();
     let [bottom, top] = halves(matter.particles, f64::from(matter.domain.size.x));
     let tops: Vec<(f64, f64)> = (matter.column_tops().into_iter().enumerate())

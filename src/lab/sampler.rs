@@ -75,6 +75,7 @@ impl Sampler {
         let setup = world.resource::<Setup>();
         Metrics {
             scene: setup.blueprint.name.clone(),
+            detail: setup.blueprint.scale.detail,
             quality: setup.preset.name(),
             quality_values: setup.quality,
             parameters: setup.blueprint.parameters.clone(),

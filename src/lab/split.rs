@@ -43,31 +43,43 @@ struct Second {
 
 impl Second {
     /// A world that goes on from the state of `first` at a quality of its own.
-    fn new(first: &World, preset: Preset, quality: Quality) -> Self {
-        let checkpoint = Checkpoint::of(first).at_quality(preset, quality);
+    fn new(first: &World, preset: Preset, quality: Quality) -> Result<Self, String> {
+        let checkpoint = Checkpoint::of(first).at_quality(preset, quality)?;
         let simulation = Simulation::resume(&checkpoint, first.resource::<Workers>().clone());
         let mut simulation = simulation.with_instructions(first.resource::<SolverState>().instructions);
         simulation.world_mut().init_resource::<LiveError>();
-        let equal = first.resource::<Setup>().quality == quality;
-        Self { simulation, since: first.resource::<Clock>().tick, generation: Generation::of(first), equal }
+        let (since, generation) = (first.resource::<Clock>().tick, Generation::of(first));
+        let mut second = Self { simulation, since, generation, equal: false };
+        second.equal = second.is_like(first);
+        Ok(second)
+    }
+
+    /// Whether both are of the same quality and detail.
+    fn is_like(&self, first: &World) -> bool {
+        let (own, first) = (self.setup(), first.resource::<Setup>());
+        (own.quality, own.blueprint.scale) == (first.quality, first.blueprint.scale)
     }
 
     fn setup(&self) -> &Setup {
         self.simulation.world().resource()
     }
 
-    /// Both worlds are the same again, but for the quality.
-    fn start_again(&mut self, first: &World) {
+    /// Both worlds are the same again, but for the quality; none if the first does not fit its detail.
+    fn start_again(&self, first: &World) -> Option<Self> {
         let Setup { preset, quality, .. } = *self.setup();
-        *self = Self::new(first, preset, quality);
+        Self::new(first, preset, quality).ok()
     }
 }
 
 impl Split {
     /// Puts a second world beside `world`, from its state on; in the place of the one that is there, if one is.
-    pub fn begin(world: &mut World, preset: Preset, quality: Quality) {
-        let second = Second::new(world, preset, quality);
+    ///
+    /// # Errors
+    /// If it does not fit the preset's detail: one line that says why, and what is allowed.
+    pub fn begin(world: &mut World, preset: Preset, quality: Quality) -> Result<(), String> {
+        let second = Second::new(world, preset, quality)?;
         world.resource_mut::<Self>().second = Some(second);
+        Ok(())
     }
 
     /// Lets the second world go.
@@ -125,21 +137,30 @@ pub fn is_on(split: Res<Split>) -> bool {
 /// Gives the second world what the first is about to take.
 fn copy_input(world: &mut World) {
     world.resource_scope(|world, mut split: Mut<Split>| {
-        let Some(second) = split.second.as_mut() else { return };
         // After a reset, an undo or another scene.
-        if Generation::of(world) != second.generation {
-            second.start_again(world);
+        if let Some(second) = &split.second
+            && Generation::of(world) != second.generation
+        {
+            split.second = second.start_again(world);
         }
+        let Some(second) = split.second.as_mut() else { return };
         let own = Intent::Quality { preset: second.setup().preset, quality: second.setup().quality };
         // A change of the first one's quality is an edit to be counted, no more: edits choose the sites of pouring.
         let input: Vec<Intent> = world.resource::<IntentQueue>().iter().copied().collect();
         let is_quality = |intent: &Intent| matches!(intent, Intent::Quality { .. });
         // Even there and back leaves traces: air that was carried over to other cells and back is not what it was.
         second.equal &= !input.iter().any(is_quality);
+        // Both have the detail that is asked for, and beside it their presets' own: lengths are in d of the first.
+        let (mut preset, own_preset) = (world.resource::<Setup>().preset, second.setup().preset);
         let simulation = second.simulation.world_mut();
         let mut queue = simulation.resource_mut::<IntentQueue>();
         for intent in input {
-            queue.push(if is_quality(&intent) { own } else { intent });
+            if let Intent::Quality { preset: next, .. } = intent {
+                preset = next;
+                queue.push(own);
+            } else {
+                queue.push(intent.scaled((own_preset.detail() / preset.detail()) as f32));
+            }
         }
         *simulation.resource_mut::<Pace>() = *world.resource::<Pace>();
         simulation.resource_mut::<Effects>().set_modes(&world.resource::<Effects>().modes());
@@ -150,9 +171,9 @@ fn copy_input(world: &mut World) {
 fn tick_second_world(world: &mut World) {
     world.resource_scope(|world, mut split: Mut<Split>| {
         let Some(second) = split.second.as_mut() else { return };
-        let equal = world.resource::<Setup>().quality == second.setup().quality;
+        let equal = second.is_like(world);
         if equal && !second.equal {
-            second.start_again(world);
+            split.second = second.start_again(world);
         } else {
             second.equal = equal;
             second.simulation.tick();
@@ -167,11 +188,7 @@ mod tests {
         kernel::brush::{BrushShape, Stroke},
         lab::difference::{Difference, Half},
         scene::{self, effects::EffectModes},
-        sim::{
-            control,
-            simulation::Simulation,
-            state::{AirGrid, ParticleStore},
-        },
+        sim::{control, simulation::Simulation, state::AirGrid},
     };
     use glam::Vec2;
     use std::sync::Arc;
@@ -182,7 +199,7 @@ mod tests {
         let mut simulation =
             Simulation::with_plugins(&Checkpoint::of_scene(Arc::new(blueprint)), Workers::default(), plugin);
         (0..40).for_each(|_| simulation.tick());
-        Split::begin(simulation.world_mut(), preset, preset.quality());
+        Split::begin(simulation.world_mut(), preset, preset.quality()).unwrap();
         simulation
     }
 
@@ -209,9 +226,7 @@ mod tests {
     fn difference(simulation: &Simulation) -> Difference {
         let mut difference = Difference::default();
         let (first, second) = (simulation.world(), simulation.world().resource::<Split>().world().expect("it is on"));
-        let half =
-            |world| Half { particles: World::resource::<ParticleStore>(world), air: World::resource::<AirGrid>(world) };
-        difference.measure(&first.resource::<Setup>().blueprint, half(first), half(second));
+        difference.measure(&first.resource::<Setup>().blueprint, Half::of(first), Half::of(second));
         difference
     }
 
@@ -264,7 +279,7 @@ mod tests {
         let mut simulation = split(Preset::Draft);
         play(&mut simulation);
         let begin = |simulation: &mut Simulation, preset: Preset| {
-            Split::begin(simulation.world_mut(), preset, preset.quality());
+            Split::begin(simulation.world_mut(), preset, preset.quality()).unwrap();
         };
         begin(&mut simulation, Preset::Balanced);
         assert_equal(&simulation);
@@ -281,7 +296,7 @@ mod tests {
         let blueprint = scene::load("sealed_air").unwrap().build(&[], None, &EffectModes::new()).unwrap();
         let mut simulation =
             Simulation::with_plugins(&Checkpoint::of_scene(Arc::new(blueprint)), Workers::default(), plugin);
-        Split::begin(simulation.world_mut(), Preset::Draft, Preset::Draft.quality());
+        Split::begin(simulation.world_mut(), Preset::Draft, Preset::Draft.quality()).unwrap();
         (0..20).for_each(|_| simulation.tick());
         let shown = difference(&simulation);
         assert!(!shown.is_nothing() && shown.wind().is_some_and(|wind| wind > 0.0), "{:?}", shown.wind());

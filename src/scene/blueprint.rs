@@ -9,7 +9,7 @@ use crate::{
         sources::{Drain, Emitter, Rect, Wind},
         units::Scale,
     },
-    scene::effects::EffectModes,
+    scene::{effects::EffectModes, knobs::PARTICLE_LIMIT},
 };
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, sync::Arc};
@@ -74,8 +74,25 @@ pub struct Blueprint {
     pub preset: Preset,
     /// Accuracy settings, with those that the scene or the command line set on top of the preset.
     pub quality: Quality,
-    /// Most particles (rock included) that the world may hold.
+    /// Most particles of the scene's own spacing (rock included) that the world may hold.
     pub particle_limit: u32,
+    /// A mark of the scene file's text, or of the save file: worlds with the same one began the same, but for their parameters
+    /// and what the command line set.
+    #[serde(skip)]
+    pub origin: u64,
     /// The element that the palette starts with.
     pub first_element: Option<String>,
+}
+
+impl Blueprint {
+    /// Most particles of the run (rock included) that the world may hold.
+    pub fn most_particles(&self) -> u32 {
+        scaled_count(self.particle_limit, f64::from(self.scale.detail))
+    }
+}
+
+/// The number of particles that stand for as much matter at a detail as `count` of the scene's own spacing, 1 … 4 000 000:
+/// more no world holds.
+pub(crate) fn scaled_count(count: u32, detail: f64) -> u32 {
+    (f64::from(count) * detail * detail).round().clamp(PARTICLE_LIMIT.min, PARTICLE_LIMIT.max) as u32
 }

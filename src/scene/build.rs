@@ -7,7 +7,7 @@ use crate::{
         units::Scale,
     },
     scene::{
-        blueprint::Blueprint,
+        blueprint::{Blueprint, scaled_count},
         builtin::{self, Origin, Source},
         effects::EffectModes,
         elements::elements,
@@ -19,13 +19,23 @@ use crate::{
         place::{Room, fill},
     },
 };
-use std::{borrow::Cow, collections::BTreeMap};
+use std::{
+    borrow::Cow,
+    collections::BTreeMap,
+    hash::{DefaultHasher, Hash, Hasher},
+};
 
 /// Most cells of a box.
-const MOST_CELLS: f64 = 64e6;
+pub(crate) const MOST_CELLS: f64 = 64e6;
 
 /// Cells along a side of the box. Beyond 32 768 a position in f32 is coarser than 1/500 of a spacing.
-const SIDE: Range = Range::real(4.0, 32_768.0);
+pub(crate) const SIDE: Range = Range::real(4.0, 32_768.0);
+
+/// Details that a run may ask for: how many times finer than the scene's own its particle spacing is.
+pub const DETAIL: Range = Range::real(0.125, 8.0);
+
+/// The highest detail of a run: the highest that may be asked for at the finest preset.
+pub(crate) const MOST_DETAIL: f64 = 2.0 * DETAIL.max;
 
 /// A scene file that was read and is well-formed; what depends on its parameters is checked by [`SceneFile::build`].
 #[derive(Clone, Debug)]
@@ -34,6 +44,9 @@ pub struct SceneFile {
     file: String,
     origin: Origin,
     text: SceneText,
+    /// Of the text: see [`Blueprint::origin`].
+    mark: u64,
+    detail: f64,
 }
 
 /// Reads the scene called `name_or_path`: a name of [`builtin_names`](crate::scene::builtin_names) or a path to a `.ron` file.
@@ -62,13 +75,27 @@ impl SceneFile {
     pub(super) fn from_source(source: Source) -> Result<Self, SceneError> {
         let text: SceneText = parse(&source.file, &source.bytes)?;
         text.check(&source.file)?;
-        Ok(Self { name: source.name, file: source.file, origin: source.origin, text })
+        let mut hasher = DefaultHasher::new();
+        source.bytes.hash(&mut hasher);
+        let mark = hasher.finish();
+        Ok(Self { name: source.name, file: source.file, origin: source.origin, text, mark, detail: 1.0 })
     }
 
     /// The scene called `name` that `bytes` are the file of. It can't name pictures.
     pub(super) fn from_bytes(name: &str, bytes: Cow<'static, [u8]>) -> Result<Self, SceneError> {
         let (name, file) = (name.to_owned(), format!("{name}.ron"));
         Self::from_source(Source { name, file, bytes, origin: Origin::Builtin })
+    }
+
+    /// The same scene at another detail, see [`DETAIL`]: at 2 with half the particle spacing and four times the particles,
+    /// all else equal. The preset's own detail comes on top of it ([`Preset::detail`]).
+    ///
+    /// The file keeps its meaning: its `spacing`, and `d` in its expressions, stay the scene's own, and so do the numbers
+    /// that it counts in particles (an emitter's `rate` and `total`, `particle_limit`): they stand for the same matter, of
+    /// detail² as many particles. What a quality gives in d (kernel radius, correction limit, air cell) is resolution and
+    /// goes with the spacing of the run.
+    pub fn at_detail(self, detail: f64) -> Self {
+        Self { detail, ..self }
     }
 
     /// Name under `assets/scenes`, or the file's stem.
@@ -104,15 +131,18 @@ impl SceneFile {
         let elements = elements()?;
         let settings = self.read_settings(settings)?;
         let mut values = Evaluator { file: &self.file, names: settings.parameters.clone() };
-        let spacing = values.number("spacing", &text.spacing, Range::real(0.001, 100.0))?;
-        values.names.insert("d".to_owned(), spacing);
+        let own_spacing = values.number("spacing", &text.spacing, Range::real(0.001, 100.0))?;
+        values.names.insert("d".to_owned(), own_spacing);
 
         let preset = preset.or(text.quality.preset).unwrap_or(Preset::Balanced);
+        let detail = DETAIL.check(self.detail).map_err(|what| values.fault("detail", what))? * preset.detail();
+        let spacing = own_spacing / detail;
+        let scale = Scale { spacing: spacing as f32, detail: detail as f32 };
         let tuning = self.tune(&values, preset, &settings)?;
         let domain = self.domain(&values, spacing)?;
         let sound_speed = values.number("sound_speed", &text.sound_speed, Range::real(1.0, 400.0))?;
         let air_density = values.number("air_density", &text.air_density, Range::real(0.01, 1000.0))?;
-        let bounds = Bounds { values: &values, spacing, size: domain.size };
+        let bounds = Bounds { values: &values, spacing, detail, size: domain.size };
         let (winds, drains) = (bounds.winds(&text.winds)?, bounds.drains(&text.drains)?);
         let (emitters, pressures) = (bounds.emitters(&elements, &text.emitters)?, bounds.pressures(&text.pressures)?);
         self.check_first_element(&values, &elements)?;
@@ -122,7 +152,7 @@ impl SceneFile {
                 origin: &self.origin,
                 spacing,
                 size: domain.size,
-                particle_limit: tuning.particle_limit,
+                particle_limit: scaled_count(tuning.particle_limit, detail),
             },
             &values,
             &text.contents,
@@ -132,7 +162,7 @@ impl SceneFile {
             title: text.title.clone(),
             description: text.description.clone(),
             parameters: settings.parameters,
-            scale: Scale { spacing: spacing as f32 },
+            scale,
             domain,
             elements,
             particles: filled.particles,
@@ -152,6 +182,7 @@ impl SceneFile {
             preset,
             quality: tuning.quality,
             particle_limit: tuning.particle_limit,
+            origin: self.mark,
             first_element: text.first_element.clone(),
         })
     }
@@ -193,7 +224,8 @@ impl SceneFile {
         // "4 * columns * d" over d may miss the whole number by a rounding error.
         let cells = (metres / spacing * 1e6).round() / 1e6;
         for (axis, cells) in [("x", cells.x), ("y", cells.y)] {
-            let fault = |what: String| values.fault(format_args!("size.{axis}"), format!("in spacings, {what}"));
+            let fault =
+                |what: String| values.fault(format_args!("size.{axis}"), format!("in spacings of {spacing} m, {what}"));
             SIDE.check(cells).map_err(fault)?;
         }
         let size = cells.as_vec2();

@@ -1,7 +1,11 @@
 //! The scene format: what stands in `assets/scenes/*.ron`. Lengths in m, times in s; x points right, y up, and (0, 0) is
 //! the lower left corner of the box.
 //!
-//! Every [`Number`] is a literal or an expression in quotes over the scene's parameters and the spacing `d`.
+//! Every [`Number`] is a literal or an expression in quotes over the scene's parameters and the spacing `d`. All
+//! numbers keep their meaning when the scene is run at another detail ([`SceneFile::at_detail`]): `d` and what is counted in
+//! particles are of the scene's own spacing.
+//!
+//! [`SceneFile::at_detail`]: crate::scene::SceneFile::at_detail
 
 use crate::{
     kernel::params::OpenSides,
@@ -30,9 +34,9 @@ pub(super) struct SceneText {
     /// neither a knob's nor `d`, `min`, `max`, `sqrt`. At most 32. Default: none.
     #[serde(default)]
     pub(super) parameters: BTreeMap<String, ParameterSpec>,
-    /// Particle spacing d, m: 0.001 … 100. The only number whose expression can't use `d`.
+    /// The scene's own particle spacing d, m: 0.001 … 100. The only number whose expression can't use `d`.
     pub(super) spacing: Number,
-    /// Width and height of the box, m; each 4 … 32 768 spacings, together at most 64 million cells.
+    /// Width and height of the box, m; each 4 … 32 768 spacings of the run, together at most 64 million cells.
     pub(super) size: Pair,
     /// Gravity, m/s²: −1000 … 1000 each. Default: `(0, -9.81)`.
     #[serde(default = "earth")]
@@ -74,7 +78,8 @@ pub(super) struct SceneText {
     /// Accuracy, see `knobs`. Default: the preset `balanced`.
     #[serde(default)]
     pub(super) quality: QualityText,
-    /// Most particles, rock included: 1 … 4 000 000. Default: `200000`.
+    /// Most particles of the scene's own spacing, rock included: 1 … 4 000 000. Default: `200000`. A run of another detail
+    /// may have detail² times as many, up to 4 000 000.
     pub(super) particle_limit: Option<Number>,
     /// The element that the palette starts with. Default: the palette's first.
     pub(super) first_element: Option<String>,
@@ -204,9 +209,9 @@ pub(super) struct EmitterText {
     /// Velocity of a new particle, m/s: −300 … 300 each. Default: `(0, 0)`.
     #[serde(default = "zero")]
     pub(super) velocity: Pair,
-    /// Particles a second at most: 0.001 … 1 000 000.
+    /// Particles of the scene's own spacing a second at most: 0.001 … 1 000 000.
     pub(super) rate: Number,
-    /// Particles in all: a whole number, 1 … 4 000 000. Default: no end.
+    /// Particles of the scene's own spacing in all: a whole number, 1 … 4 000 000. Default: no end.
     pub(super) total: Option<Number>,
     /// When it starts to flow, s: 0 … 1 000 000. Default: `0`.
     pub(super) start: Option<Number>,

@@ -7,7 +7,7 @@ use crate::{
         units::TICKS_PER_SECOND,
     },
     scene::{
-        blueprint::PressurePatch,
+        blueprint::{PressurePatch, scaled_count},
         error::{SceneError, choices},
         file::{Area, EmitterText, PressureText, WindText},
         knobs::PARTICLE_LIMIT,
@@ -31,8 +31,10 @@ pub(super) const VELOCITY: Range = Range::real(-300.0, 300.0);
 /// The box that flows are cut to.
 pub(super) struct Bounds<'a> {
     pub(super) values: &'a Evaluator<'a>,
-    /// Spacing d, m.
+    /// Spacing d of the run, m.
     pub(super) spacing: f64,
+    /// The scene's own spacing over it.
+    pub(super) detail: f64,
     /// Size of the box, d.
     pub(super) size: Vec2,
 }
@@ -104,8 +106,9 @@ impl Bounds<'_> {
             element,
             area,
             velocity: self.velocity(field, &text.velocity)?,
-            rate: rate as f32,
-            total: total.transpose()?.map(|total| total as u32),
+            // In particles of the run: the same area a second, and in all.
+            rate: (rate * self.detail * self.detail) as f32,
+            total: total.transpose()?.map(|total| scaled_count(total as u32, self.detail)),
             start: (start.transpose()?.unwrap_or(0.0) * f64::from(TICKS_PER_SECOND)).round() as u64,
             given: 0,
             due: 0.0,

@@ -134,7 +134,7 @@ macro_rules! knobs {
                 name: "particle_limit",
                 part: Part::World,
                 values: Values::Number(PARTICLE_LIMIT),
-                meaning: "most particles, rock included",
+                meaning: "most particles of the scene's own spacing, rock included",
                 get: |tuning| f64::from(tuning.particle_limit),
                 set: |tuning, value| tuning.particle_limit = value as u32,
             },

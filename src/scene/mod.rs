@@ -26,7 +26,8 @@ pub mod blueprint;
 pub mod effects;
 pub mod readers;
 
-pub use build::{SceneFile, from_text, load};
+pub use build::{DETAIL, SceneFile, from_text, load};
+pub(crate) use build::{MOST_CELLS, MOST_DETAIL, SIDE};
 pub use builtin::builtin_names;
 pub use elements::elements;
 pub use error::SceneError;

@@ -87,15 +87,16 @@ pub(super) fn fill(room: &Room<'_>, values: &Evaluator<'_>, contents: &[Placemen
             let what = format!("the pictures up to it have {pixels} pixels; allowed: at most {MOST_PIXELS} in a scene");
             return Err(values.fault(format_args!("contents[{i}].image"), what));
         }
-        claim(room, &mut lattice, i, &placement, &mut work)
-            .map_err(|()| values.fault(format_args!("contents[{i}]"), "too many large shapes; allowed: fewer"))?;
+        claim(room, &mut lattice, i, &placement, &mut work).map_err(|()| {
+            values.fault(format_args!("contents[{i}]"), "too many large shapes; allowed: fewer, or a lower detail")
+        })?;
         prepared.push(placement);
     }
     let count = lattice.holder.iter().filter(|holder| **holder != 0).count();
     if count > room.particle_limit as usize {
         let what = format!(
-            "{count} particles, but particle_limit is {}; allowed: fewer particles (a larger spacing, smaller shapes) or a \
-             higher limit",
+            "{count} particles, but particle_limit is {}; allowed: fewer particles (a larger spacing or lower \
+             detail, smaller shapes) or a higher limit",
             room.particle_limit
         );
         return Err(values.fault("contents", what));

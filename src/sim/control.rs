@@ -12,6 +12,8 @@ use crate::{
         generation::Generation,
         intent::IntentQueue,
         ledger::PassLedger,
+        pace::Pace,
+        resample::count_at,
         snapshot::{Snapshot, hash_state},
         state::{
             AirGrid, Census, Clock, Counters, ParticleStore, PredictorState, Rock, Setup, SleepState, SolverState,
@@ -19,13 +21,16 @@ use crate::{
         },
     },
 };
-use bevy::prelude::{Mut, World};
+use bevy::{
+    app::FixedUpdate,
+    prelude::{Mut, World},
+};
 
 /// Goes back to the start of the scene (or to the state of the save file that was loaded), and to its gravity.
 pub fn reset(world: &mut World) {
     let mut setup = world.resource_mut::<Setup>();
     setup.domain = setup.blueprint.domain;
-    let origin = setup.origin.clone();
+    let origin = setup.start();
     thaw(world, &origin);
     world.insert_resource(Counters::default());
     world.insert_resource(PassLedger::default());
@@ -70,7 +75,18 @@ pub fn thaw(world: &mut World, snapshot: &Snapshot) {
     world.get_resource_or_init::<IntentQueue>().clear();
 }
 
-/// Goes on at another quality. The air is carried over to its new cells.
+/// Whether the world can go on at a detail that is asked for, at a preset that may have its own.
+///
+/// # Errors
+/// If not: one line that says why, and what is allowed.
+pub fn check_detail(world: &World, detail: f64, preset: Preset) -> Result<(), String> {
+    let setup = world.resource::<Setup>();
+    let to = setup.at_detail(detail, preset)?;
+    let count = world.resource::<ParticleStore>().len() + world.resource::<Rock>().count();
+    count_at(count, &setup.blueprint, &to.blueprint).map(drop)
+}
+
+/// Goes on at another quality of the same detail. The air is carried over to its new cells.
 pub fn set_quality(world: &mut World, preset: Preset, quality: Quality) {
     world.resource_scope(|world, mut air: Mut<AirGrid>| {
         world.resource_scope(|world, mut setup: Mut<Setup>| {
@@ -86,6 +102,14 @@ pub(super) fn change_quality(setup: &mut Setup, air: &mut AirGrid, rock: &Rock, 
         air.0 = air.resized(quality.air_cell);
         air.set_solids(rock);
     }
+}
+
+/// Carries out the intents that wait, without a tick.
+pub fn apply_edits(world: &mut World) {
+    let paused = Pace { paused: true, steps_due: 0, ..Pace::default() };
+    let pace = std::mem::replace(&mut *world.resource_mut::<Pace>(), paused);
+    world.run_schedule(FixedUpdate);
+    *world.resource_mut::<Pace>() = pace;
 }
 
 /// Hash of the state as it is (see [`Snapshot::hash`]).

@@ -59,7 +59,8 @@ pub enum Intent {
     },
     /// Bring the air to rest at the surroundings' pressure.
     ClearAir,
-    /// Go on at another quality: chosen by the player, or by the autopilot, whose decisions are recorded like a player's.
+    /// Go on at another quality: chosen by the player, or by the autopilot, whose decisions are recorded like a player's. To a
+    /// preset of another detail the world changes as by [`Intent::Detail`]; where that does not fit, it stays at its own.
     Quality {
         /// Its name; for numbers between two names the nearest below.
         preset: Preset,
@@ -78,6 +79,30 @@ pub enum Intent {
         /// Which way and how fast, d/s².
         gravity: Vec2,
     },
+    /// Go on at another detail: with particles of another size. Lengths of the intents behind it are in the d from then on.
+    Detail {
+        /// The scene's own spacing over that from here on, without what the quality brings along.
+        detail: f64,
+    },
+}
+
+impl Intent {
+    /// The same in a world whose d is `factor` times shorter.
+    #[must_use]
+    pub fn scaled(self, factor: f32) -> Self {
+        match self {
+            Self::Draw { element, stroke } => Self::Draw { element, stroke: stroke.scaled(factor) },
+            Self::Stamp { element, stroke } => Self::Stamp { element, stroke: stroke.scaled(factor) },
+            Self::Fill { element, at } => Self::Fill { element, at: at * factor },
+            Self::Erase { stroke } => Self::Erase { stroke: stroke.scaled(factor) },
+            Self::Blow { stroke, velocity } => {
+                Self::Blow { stroke: stroke.scaled(factor), velocity: velocity * factor }
+            }
+            Self::Press { stroke, amount } => Self::Press { stroke: stroke.scaled(factor), amount },
+            Self::Gravity { gravity } => Self::Gravity { gravity: gravity * factor },
+            Self::ClearAir | Self::Quality { .. } | Self::Effect { .. } | Self::Detail { .. } => self,
+        }
+    }
 }
 
 /// Intents that wait for the next edit stage.

@@ -15,6 +15,7 @@ pub mod pace;
 pub mod recorder;
 pub mod recording;
 pub mod replay;
+mod resample;
 pub mod script;
 pub mod simulation;
 pub mod snapshot;

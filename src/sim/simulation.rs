@@ -13,7 +13,7 @@ use crate::{
         control,
         intent::{Intent, IntentQueue},
         pace::Pace,
-        state::SolverState,
+        state::{Setup, SolverState},
         workers::Workers,
     },
 };
@@ -97,9 +97,17 @@ impl Simulation {
         self
     }
 
-    /// Goes on at another quality.
-    pub fn set_quality(&mut self, preset: Preset, quality: Quality) {
-        control::set_quality(&mut self.world, preset, quality);
+    /// Goes on at another quality. To a preset of another detail all is resampled, and waiting intents are forgotten.
+    ///
+    /// # Errors
+    /// If the world does not fit the preset's detail: one line that says why, and what is allowed.
+    pub fn set_quality(&mut self, preset: Preset, quality: Quality) -> Result<(), String> {
+        if preset.detail() == self.get::<Setup>().preset.detail() {
+            control::set_quality(&mut self.world, preset, quality);
+            return Ok(());
+        }
+        Checkpoint::of(&self.world).at_quality(preset, quality)?.restore(&mut self.world);
+        Ok(())
     }
 
     /// Hash of the state.

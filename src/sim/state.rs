@@ -37,15 +37,17 @@ pub struct AirGrid(pub Air);
 /// The scene that is played and the quality it is played at.
 #[derive(Resource, Clone, Debug)]
 pub struct Setup {
-    /// The scene as it was built.
+    /// The scene at the detail in force. At another than it was opened at it has nothing to start with.
     pub blueprint: Arc<Blueprint>,
+    /// The scene as it was opened.
+    pub opened: Arc<Blueprint>,
     /// The scene's box, with the gravity in force.
     pub domain: Domain,
     /// The named quality in force.
     pub preset: Preset,
     /// The numbers in force.
     pub quality: Quality,
-    /// The state that `control::reset` goes back to: the scene's start, or the save file's.
+    /// The state that `control::reset` goes back to: the scene's start, or the save file's, at the detail it was opened at.
     pub origin: Arc<Snapshot>,
 }
 

@@ -30,7 +30,7 @@ fn bench_scaling_writes_table_json_and_curves() {
     let table = good(&here, &[&["bench", "scaling"], &options[..]].concat());
     let report: Value = serde_json::from_slice(&std::fs::read(here.join("out.json")).unwrap()).unwrap();
     let rows = report["rows"].as_array().unwrap();
-    assert_eq!(rows.len(), 7, "the presets and the plain method at its best");
+    assert_eq!(rows.len(), 6, "the presets and the plain method at its best");
     for row in rows {
         assert_eq!(row["particles"], 1458);
         assert_eq!(row["threads"], serde_json::json!([1, 2]));
@@ -45,7 +45,7 @@ fn bench_scaling_writes_table_json_and_curves() {
         );
     }
     let error = |name: &str| rows.iter().find(|row| row["setting"] == name).unwrap()["error_p99"].as_f64().unwrap();
-    assert!(error("fine") < error("draft") && error("reference") < error("fine"), "accuracy is bought");
+    assert!(error("fine") < error("draft"), "accuracy is bought");
     if cfg!(feature = "charts") {
         for name in ["scaling-time.svg", "scaling-error.svg", "scaling-threads.svg"] {
             let svg = std::fs::read_to_string(here.join(name)).unwrap();

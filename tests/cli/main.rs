@@ -8,7 +8,6 @@ mod run;
 mod sweep;
 // 29,000 ticks: too slow where the solver is not optimised.
 #[cfg(not(debug_assertions))]
-mod unchanged;
 mod usage;
 
 use serde_json::Value;

@@ -170,9 +170,36 @@ fn an_error_is_held_the_same_way_each_time_and_a_time_says_how_it_went() {
 #[test]
 fn an_error_is_held_in_the_waterfall_without_swinging_between_qualities() {
     let here = folder("hold_waterfall");
-    let text = good(&here, &["run", "waterfall", "--seconds", "15", "--hold-error", "0.1"]);
+    let text = good(&here, &["run", "waterfall", "--seconds", "15", "--hold-error", "0.6"]);
     let moves = text.split_whitespace().find_map(|field| field.strip_prefix("moves="));
     let moves: u32 = moves.unwrap_or_else(|| panic!("no moves in {text}")).parse().unwrap();
     assert!(moves <= 4, "one quality does for all of it, but it moved {moves} times: {text}");
     assert!(text.contains("held=yes"), "{text}");
+}
+
+#[test]
+fn detail_multiplies_particles_by_its_square_and_is_in_the_metrics() {
+    let here = folder("detail");
+    let block = ["--set", "columns=20"];
+    let of = |more: &[&str]| {
+        let metrics = metrics(&here, &[&["run", "dam_break", "--ticks", "3"], &block[..], more].concat());
+        (metrics["detail"].as_f64().unwrap(), metrics["particles"]["total"].as_u64().unwrap())
+    };
+    assert_eq!(of(&[]), (1.0, 800));
+    assert_eq!(of(&["--detail", "2"]), (2.0, 3200));
+    assert_eq!(of(&["--detail", "0.5"]), (0.5, 200));
+    assert_eq!(of(&["--quality", "reference"]), (2.0, 3200));
+    assert_eq!(of(&["--quality", "reference", "--detail", "0.5"]), (1.0, 800));
+    // The particles of a saved world are split or merged.
+    good(
+        &here,
+        &["run", "dam_break", "--set", "columns=20", "--detail", "2", "--ticks", "20", "--snapshot", "fine.pms"],
+    );
+    let saved = |more: &[&str]| {
+        let metrics = metrics(&here, &[&["run", "fine.pms", "--ticks", "3"], more].concat());
+        (metrics["detail"].as_f64().unwrap(), metrics["particles"]["total"].as_u64().unwrap())
+    };
+    assert_eq!(saved(&[]), (2.0, 3200));
+    assert_eq!(saved(&["--detail", "1"]), (1.0, 800));
+    assert_eq!(saved(&["--quality", "reference", "--detail", "1"]), (2.0, 3200));
 }

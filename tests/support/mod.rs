@@ -53,7 +53,7 @@ pub trait Furnish {
     /// Puts rock into the cells `low … high` (high not included).
     fn rock(&mut self, low: (i32, i32), high: (i32, i32));
     /// Moves every particle by up to [`NUDGE`] in each coordinate.
-    fn nudge(&mut self);
+    fn nudge(&mut self, seed: u64);
 }
 
 /// Some roundings of a position in a box of a few dozen cells, d: what two runs may differ by that ought to be the same
@@ -95,8 +95,8 @@ impl Furnish for Blueprint {
         }
     }
 
-    fn nudge(&mut self) {
-        let mut random = Random::new(7);
+    fn nudge(&mut self, seed: u64) {
+        let mut random = Random::new(seed);
         for at in self.particles.x.iter_mut().chain(&mut self.particles.y) {
             *at += random.within(-NUDGE, NUDGE);
         }

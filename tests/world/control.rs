@@ -124,8 +124,9 @@ fn a_change_of_quality_keeps_the_world() {
     simulation.push(Intent::Press { stroke: Stroke::dab(BrushShape::Disc, Vec2::new(30.0, 20.0), 6.0), amount: 0.5 });
     simulation.run(5);
     let (before, mass) = (control::freeze(simulation.world()), simulation.get::<AirGrid>().mass());
-    for preset in Preset::ALL {
-        simulation.set_quality(preset, preset.quality());
+    // One of another detail makes other particles of it: `resampling`.
+    for preset in Preset::ALL.into_iter().filter(|preset| preset.detail() == 1.0) {
+        simulation.set_quality(preset, preset.quality()).unwrap();
         let after = control::freeze(simulation.world());
         assert_eq!(after.particles, before.particles, "{}", preset.name());
         assert_eq!((after.solids, after.clock), (before.solids.clone(), before.clock), "{}", preset.name());
@@ -144,7 +145,7 @@ fn a_change_of_quality_keeps_the_world() {
 fn reset_keeps_the_quality_that_the_player_chose() {
     let mut simulation = Simulation::of(scene((20, 0)));
     simulation.run(5);
-    simulation.set_quality(Preset::Draft, Preset::Draft.quality());
+    simulation.set_quality(Preset::Draft, Preset::Draft.quality()).unwrap();
     control::reset(simulation.world_mut());
     assert_eq!(simulation.get::<Setup>().quality, Preset::Draft.quality());
     assert_eq!(simulation.get::<AirGrid>().cell(), Preset::Draft.quality().air_cell);

@@ -14,6 +14,7 @@ mod motion;
 mod properties;
 mod recordings;
 mod refinement;
+mod resampling;
 mod saves;
 mod sleep;
 mod stages;

@@ -77,7 +77,7 @@ fn no_whim_breaks_a_built_in_scene() {
             }
             if tick % 60 == 59 {
                 let preset = Preset::ALL[random.index(5)];
-                simulation.set_quality(preset, preset.quality());
+                simulation.set_quality(preset, preset.quality()).unwrap();
             }
             simulation.run(1);
             if tick % 20 == 0 {

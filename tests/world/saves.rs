@@ -80,7 +80,7 @@ fn a_file_keeps_scene_quality_and_effects() {
     blueprint.effects.insert(Effect::Tension, Mode::Off);
     let mut world = Simulation::of(blueprint);
     let quality = powder_master::kernel::params::Quality { iterations: 7, ..Preset::Fine.quality() };
-    world.set_quality(Preset::Fine, quality);
+    world.set_quality(Preset::Fine, quality).unwrap();
     world.get_mut::<Effects>().get_mut(Effect::Viscosity).mode = Mode::On;
     world.run(30);
     let loaded = reload(&world);

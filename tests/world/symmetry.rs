@@ -53,14 +53,18 @@ fn gravity_turned_by_quarters_gives_the_turned_run() {
     for preset in [Preset::Classic, Preset::Draft, Preset::Balanced] {
         let mut upright = Simulation::of(dam(preset, 0));
         let mut others: Vec<_> = (1..4).map(|quarters| (quarters, Simulation::of(dam(preset, quarters)))).collect();
-        let mut nudged = dam(preset, 0);
-        nudged.nudge();
-        let mut nudged = Simulation::of(nudged);
+        let nudged = |seed: u64| {
+            let mut nudged = dam(preset, 0);
+            nudged.nudge(seed);
+            Simulation::of(nudged)
+        };
+        let mut nudged: Vec<Simulation> = (0..3).map(nudged).collect();
         // Sums run in rows in all four, so that their rounding is not turned, and a dam break doubles any difference
-        // every two or three ticks. So does it with one that is put in at the start: the two have to go together.
+        // every two or three ticks. So does it with one that is put in at the start: the two have to go together. How
+        // fast it grows is a matter of luck: the largest of three counts.
         for tick in 1..=24 {
             upright.run(1);
-            let rounding = apart(&upright, nudged.run(1), |at| at);
+            let rounding = nudged.iter_mut().map(|nudged| apart(&upright, nudged.run(1), |at| at)).fold(0.0, f64::max);
             for (quarters, other) in &mut others {
                 let apart = apart(&upright, other.run(1), |at| turned(at, *quarters));
                 assert!(

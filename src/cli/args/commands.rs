@@ -3,7 +3,7 @@
 use super::{
     lab::{BenchArguments, CaseArguments, SoakArguments, StudyArguments, SweepArguments},
     machine::Machine,
-    values::{Ticks, effect, hold_error, hold_ms, preset, seconds, setting, ticks, warmup},
+    values::{Ticks, detail, effect, hold_error, hold_ms, preset, seconds, setting, ticks, warmup},
 };
 use crate::{
     kernel::params::Preset,
@@ -94,6 +94,9 @@ pub(in crate::cli) struct PlayOptions {
     /// Quality to start with: a name of `list qualities` [default: the scene's]
     #[arg(long, value_name = "QUALITY", value_parser = preset)]
     pub(in crate::cli) quality: Option<Preset>,
+    /// Detail: how many times finer than the scene's own the particle spacing is, 0.125 to 8; 2 takes four times the particles
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = detail)]
+    pub(in crate::cli) detail: Option<f64>,
     /// Set a parameter of the scene, or a number of the quality or the liquid
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     pub(in crate::cli) settings: Vec<(String, String)>,
@@ -121,6 +124,9 @@ pub(in crate::cli) struct RunArguments {
     /// Quality: a name of `list qualities` [default: the scene's]
     #[arg(long, value_name = "QUALITY", value_parser = preset)]
     pub(in crate::cli) quality: Option<Preset>,
+    /// Detail: how many times finer than the scene's own the particle spacing is, 0.125 to 8; 2 takes four times the particles
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = detail)]
+    pub(in crate::cli) detail: Option<f64>,
     /// Set a parameter of the scene, or a number of the quality or the liquid
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     pub(in crate::cli) settings: Vec<(String, String)>,

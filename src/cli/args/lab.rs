@@ -2,7 +2,7 @@
 
 use super::{
     machine::Machine,
-    values::{Minutes, cap, case, hours, particles, preset, rounds, setting, threads, ticks, warmup},
+    values::{Minutes, cap, case, detail, hours, particles, preset, rounds, setting, threads, ticks, warmup},
 };
 use crate::{kernel::params::Preset, lab::cases::Case};
 use clap::{Args, Subcommand, ValueEnum};
@@ -34,7 +34,7 @@ pub(in crate::cli) enum Bench {
         #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
         threads: Option<u64>,
     },
-    /// What a tick costs and how exact it is, from 1,458 to 999,698 particles, at every quality
+    /// What a tick costs and how exact it is, from 1,458 to 999,698 particles, at every quality of detail 1
     Scaling(ScalingOptions),
 }
 
@@ -94,6 +94,9 @@ pub(in crate::cli) struct SoakArguments {
     /// Quality: a name of `list qualities` [default: the scene's]
     #[arg(long, value_name = "QUALITY", value_parser = preset)]
     pub(in crate::cli) quality: Option<Preset>,
+    /// Detail: how many times finer than the scene's own the particle spacing is, 0.125 to 8; 2 takes four times the particles
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = detail)]
+    pub(in crate::cli) detail: Option<f64>,
     /// Set a parameter of the scene, or a number of the quality or the liquid
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     pub(in crate::cli) settings: Vec<(String, String)>,
@@ -156,6 +159,9 @@ pub(in crate::cli) struct SweepArguments {
     /// Threads of the settings that don't stand for a number of threads
     #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true, value_parser = threads)]
     pub(in crate::cli) threads: u64,
+    /// Detail: how many times finer than a scene's own the particle spacing is, 0.125 to 8; 2 takes four times the particles
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = detail)]
+    pub(in crate::cli) detail: Option<f64>,
     /// Set a parameter of the scenes, or a number of the liquid
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     pub(in crate::cli) settings: Vec<(String, String)>,

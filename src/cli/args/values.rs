@@ -3,7 +3,10 @@
 use crate::{
     kernel::{params::Preset, simd::InstructionSet, units::TICKS_PER_SECOND},
     lab::cases::Case,
-    scene::effects::{Effect, Mode},
+    scene::{
+        DETAIL,
+        effects::{Effect, Mode},
+    },
 };
 use std::{fmt::Display, ops::RangeInclusive, str::FromStr};
 
@@ -85,6 +88,10 @@ pub(super) fn hold_ms(text: &str) -> Result<f32, String> {
 
 pub(super) fn hold_error(text: &str) -> Result<f32, String> {
     number(text, "numbers", 0.0001..=100.0)
+}
+
+pub(super) fn detail(text: &str) -> Result<f64, String> {
+    number(text, "numbers", DETAIL.min..=DETAIL.max)
 }
 
 pub(super) fn simd(text: &str) -> Result<InstructionSet, String> {

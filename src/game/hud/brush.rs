@@ -39,7 +39,7 @@ pub fn show(
     let context = contexts.ctx_mut()?;
     let to_points = 1.0 / context.zoom_factor();
     let at = |pixel: glam::Vec2| pos2(pixel.x * to_points, pixel.y * to_points);
-    let radius = tools.radius() * camera.pixels_per_d() * to_points;
+    let radius = tools.reach() * camera.pixels_per_d() * to_points;
     let rectangle = |rect: Rect, pen: Stroke| Shape::rect_stroke(rect, 0.0, pen, StrokeKind::Middle);
     let brush = |centre: Pos2, pen: Stroke| match tools.shape {
         BrushShape::Disc => Shape::circle_stroke(centre, radius, pen),

@@ -70,9 +70,10 @@ pub fn show(
         });
     });
     let (particles, air, clock) = contents;
-    let of_second = Half { particles: second.resource::<ParticleStore>(), air: second.resource::<AirGrid>() };
-    difference.measure(&setup.blueprint, Half { particles: &particles, air: &air }, of_second);
-    let equal = split.quality().is_some_and(|(_, quality)| quality == setup.quality);
+    let of_first = Half { particles: &particles, air: &air, scale: setup.blueprint.scale };
+    difference.measure(&setup.blueprint, of_first, Half::of(second));
+    let own: &Setup = second.resource();
+    let equal = (own.quality, own.blueprint.scale) == (setup.quality, setup.blueprint.scale);
     let apart = apart(&difference, equal, setup.blueprint.scale, split.age(clock.tick));
     line(context, "split difference", at_c, |ui| {
         ui.label("Difference");

@@ -212,7 +212,7 @@ fn lines<'a>(sheet: Sheet, scene: &'a Scene) -> Vec<(&'a str, bool, Order)> {
         Sheet::Closed => Vec::new(),
         Sheet::Scenes => {
             let line = |file: &'a SceneFile| {
-                let order = Order::Scene { name: file.name().to_owned(), settings: Vec::new() };
+                let order = Order::Scene { name: file.name().to_owned(), settings: Vec::new(), detail: 1.0 };
                 (file.title(), file.name() == scene.setup.blueprint.name, order)
             };
             scene.menu.scenes().iter().map(line).collect()

@@ -4,7 +4,7 @@
 use crate::{
     game::{
         actions::Action,
-        hud::style,
+        hud::style::{self, weak},
         icons::{self, Icon},
         input::bindings::Bindings,
         orders::{Order, Orders},
@@ -73,8 +73,30 @@ fn about(preset: Preset) -> &'static str {
         Preset::Fast => "cheap and calm",
         Preset::Balanced => "the default",
         Preset::Fine => "for deep water",
-        Preset::Reference => "not in real time",
+        Preset::Reference => "fine, twice the detail",
     }
+}
+
+/// Details to choose from, beside which a quality may have its own.
+const DETAILS: [(f64, &str); 5] = [(0.25, "¼"), (0.5, "½"), (1.0, "1"), (2.0, "2"), (4.0, "4")];
+
+/// The row of details; says which one is chosen.
+pub fn detail_row(ui: &mut Ui, now: f64) -> Option<f64> {
+    let mut chosen = None;
+    ui.horizontal(|ui| {
+        ui.label(weak("Detail")).on_hover_text(
+            "How many times finer than the scene's own the particles are. Twice the detail takes four times the particles, and \
+             time eight times as much or more; the error of the shape falls to a quarter at best",
+        );
+        for (detail, text) in DETAILS {
+            let response = ui.selectable_label((now / detail - 1.0).abs() < 1e-3, text);
+            name(&response, &format!("detail {text}"), false);
+            if response.clicked() {
+                chosen = Some(detail);
+            }
+        }
+    });
+    chosen
 }
 
 /// A menu under a button.

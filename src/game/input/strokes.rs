@@ -65,6 +65,12 @@ impl Drag {
         }
     }
 
+    /// The same drag where there are `factor` new d in one old.
+    fn rescale(&mut self, factor: f32) {
+        let Self { start, now, at_frame_start, velocity, way, .. } = self;
+        [start, now, at_frame_start, velocity].into_iter().chain(way).for_each(|place| *place *= factor);
+    }
+
     /// A frame begins.
     pub fn begin_frame(&mut self) {
         self.at_frame_start = self.now;
@@ -105,6 +111,13 @@ impl DragState {
         }
     }
 
+    /// The drag goes on where there are `factor` new d in one old.
+    pub fn rescale(&mut self, factor: f32) {
+        if let Some(drag) = &mut self.0 {
+            drag.rescale(factor);
+        }
+    }
+
     /// The drag that goes on now.
     pub fn current(&self) -> Option<&Drag> {
         self.0.as_ref().filter(|drag| !drag.released)
@@ -134,7 +147,7 @@ pub fn make_intents(
     let tools = tools.with(drag.tool);
     let wind = Reference::of(&setup.blueprint.domain, &setup.blueprint.air).wind;
     if tools.tool.is_freehand() {
-        thicken(&mut drag.way, 0.5 * tools.radius());
+        thicken(&mut drag.way, 0.5 * tools.reach());
     }
     let strokes = match drag.way.as_slice() {
         [] => 0,

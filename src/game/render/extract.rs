@@ -62,7 +62,11 @@ pub fn extract(main: Res<MainWorld>, mut pictures: ResMut<Pictures>, cost: Res<R
     match (main.resource::<Split>().world().and_then(Scene::of), areas.as_slice()) {
         (Some(second), &[at_a, at_b, at_c]) => {
             a.fill(Scene { tracers: None, ..first }, sight, at_a, true);
-            b.fill(second, sight, at_b, true);
+            // Its d may be another one.
+            let (size, factor) = (second.setup.blueprint.domain.size, second.setup.blueprint.scale.detail);
+            let mut own = *camera;
+            own.rescale(size, factor / first.setup.blueprint.scale.detail);
+            b.fill(second, Sight { camera: &own, ..sight }, at_b, true);
             difference.measure(&first.setup.blueprint, first.half(), second.half());
             c.fill_with_difference(difference, first, sight, at_c);
             *count = 3;

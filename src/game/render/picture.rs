@@ -85,7 +85,7 @@ pub struct Picture {
     table_of: Option<(&'static View, u64)>,
     /// What the particles are coloured by.
     shares: Vec<f32>,
-    rock_of: Option<(Generation, u64)>,
+    rock_of: Option<(Generation, u64, f32)>,
 }
 
 impl Default for Picture {
@@ -140,7 +140,7 @@ pub(super) struct Scene<'a> {
 impl<'a> Scene<'a> {
     /// What is compared with another world.
     pub(super) fn half(self) -> Half<'a> {
-        Half { particles: self.particles, air: self.air }
+        Half { particles: self.particles, air: self.air, scale: self.setup.blueprint.scale }
     }
 
     /// What there is of a world, if it has been loaded.
@@ -188,7 +188,7 @@ impl Picture {
         self.depth_new = false;
         difference.texels(&mut self.air.0);
         self.air.1 = UVec2::new(difference.columns() as u32, difference.rows() as u32);
-        self.look(scene.setup, sight, &PRESSURE, self.air.1.as_vec2() * difference::CELL, (area, true));
+        self.look(scene.setup, sight, &PRESSURE, self.air.1.as_vec2() * difference.edge(), (area, true));
     }
 
     fn fill_particles(&mut self, scene: Scene<'_>, sight: Sight<'_>, reference: Reference) {
@@ -222,7 +222,7 @@ impl Picture {
     }
 
     fn fill_rock(&mut self, scene: Scene<'_>) {
-        let rock_of = Some((scene.generation, scene.rock.version()));
+        let rock_of = Some((scene.generation, scene.rock.version(), scene.setup.blueprint.scale.spacing));
         self.rock_new = self.rock_of != rock_of;
         if self.rock_new {
             rock::pack(scene.rock, scene.setup.elements(), &mut self.burial, self.rock.values_mut());

@@ -27,10 +27,8 @@ fn second(player: &Player) -> &World {
 
 fn apart(player: &Player) -> Difference {
     let mut difference = Difference::default();
-    let half =
-        |world| Half { particles: World::resource::<ParticleStore>(world), air: World::resource::<AirGrid>(world) };
     let blueprint = &player.world().resource::<Setup>().blueprint;
-    difference.measure(blueprint, half(player.world()), half(second(player)));
+    difference.measure(blueprint, Half::of(player.world()), Half::of(second(player)));
     difference
 }
 

@@ -29,7 +29,7 @@ fn a_case_is_played_with_its_script_until_another_scene_is() {
         before = gravity(&player);
     }
     assert!(turns >= 9, "its script turns gravity before each tick");
-    order(&mut player, Order::Scene { name: "hydrostatic".to_owned(), settings: vec![] });
+    order(&mut player, Order::Scene { name: "hydrostatic".to_owned(), settings: vec![], detail: 1.0 });
     player.frames(10);
     assert!(gravity(&player) < 0.0, "in another scene it does not");
     let tick = player.tick();

@@ -81,7 +81,11 @@ fn another_scene_forgets_the_past_and_shows_its_own_box() {
     player.release();
     player.frame();
     let settings = vec![("columns".to_owned(), "12".to_owned())];
-    player.0.world_mut().resource_mut::<Orders>().push(Order::Scene { name: "dam_break".into(), settings });
+    player.0.world_mut().resource_mut::<Orders>().push(Order::Scene {
+        name: "dam_break".into(),
+        settings,
+        detail: 1.0,
+    });
     player.frames(2);
     let setup = player.world().resource::<Setup>();
     assert_eq!(setup.blueprint.name, "dam_break");
@@ -89,7 +93,11 @@ fn another_scene_forgets_the_past_and_shows_its_own_box() {
     assert_eq!(player.particles(), 2 * 12 * 12);
     player.chord(&[KeyCode::ControlLeft, KeyCode::KeyZ]);
     assert_eq!(player.world().resource::<Toasts>().last(), Some("Nothing to undo"));
-    player.0.world_mut().resource_mut::<Orders>().push(Order::Scene { name: "nowhere".into(), settings: vec![] });
+    player.0.world_mut().resource_mut::<Orders>().push(Order::Scene {
+        name: "nowhere".into(),
+        settings: vec![],
+        detail: 1.0,
+    });
     player.frames(2);
     assert!(player.world().resource::<Toasts>().last().is_some_and(|text| text.contains("nowhere")));
     assert_eq!(

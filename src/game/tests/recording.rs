@@ -141,7 +141,10 @@ fn a_recording_goes_on_through_everything_that_puts_another_world_in_place() {
     let saved = Checkpoint::of(player.world()).encode();
     let save = file("jumps-save").with_extension("pms");
     fs::write(&save, saved).expect("the folder of temporary files can be written");
-    order(&mut player, Order::Scene { name: "dam_break".into(), settings: vec![("columns".into(), "9".into())] });
+    order(
+        &mut player,
+        Order::Scene { name: "dam_break".into(), settings: vec![("columns".into(), "9".into())], detail: 1.0 },
+    );
     player.frames(5);
     order(&mut player, Order::Load(save.clone()));
     player.frames(5);

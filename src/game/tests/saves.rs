@@ -43,7 +43,7 @@ fn a_saved_world_comes_back_and_loading_can_be_undone() {
     assert_eq!((summary.tick, summary.particles), (tick, particles));
 
     let name = "dam_break".to_owned();
-    player.0.world_mut().resource_mut::<Orders>().push(Order::Scene { name, settings: vec![] });
+    player.0.world_mut().resource_mut::<Orders>().push(Order::Scene { name, settings: vec![], detail: 1.0 });
     player.frame();
     let dam = player.hash();
     load(&mut player, path);

@@ -90,7 +90,7 @@ impl Air {
         feedback.meetings.resize(self.pressure.len(), Meeting::default());
         let along = |count: usize| Along { per_cell: 1.0 / self.cell, last: (count - 1) as f32 };
         feedback.blocks.partition(along(self.rows()), &particles.y, team.instructions, team.threads);
-        let [low, high] = extent(&particles.x).map(|x| along(self.columns()).rows(x));
+        let [low, high] = extent(&particles.x, team.instructions).map(|x| along(self.columns()).rows(x));
         feedback.columns = low[0] as usize..high[1] as usize;
         let stride = self.stride();
         for row in feedback.blocks.reached() {

@@ -1,6 +1,8 @@
 //! The same air on cells of another size, for a change of quality while playing.
 
 use super::grid::Air;
+use crate::params::AirParams;
+use glam::Vec2;
 
 /// Cells of a line that a stretch of it overlaps, with the length of the overlap, d.
 fn overlaps(low: f64, high: f64, cell: f64, count: usize) -> impl Iterator<Item = (usize, f64)> {
@@ -56,6 +58,21 @@ impl Air {
         air.scratch.sleeps = self.scratch.sleeps;
         air.pending = self.pending;
         air
+    }
+
+    /// The same air in a world with `factor` new d in one old, whose box is of `size`: the same pressures, and velocities and
+    /// cells of the same m/s and m. Their number is no longer that of cells in the box: call [`Air::resized`] next.
+    pub fn rescaled(&self, factor: f32, size: Vec2, params: AirParams) -> Air {
+        let scaled = |values: &[f32]| values.iter().map(|value| value * factor).collect();
+        Self {
+            size,
+            cell: self.cell * factor,
+            params,
+            velocity_x: scaled(&self.velocity_x),
+            velocity_y: scaled(&self.velocity_y),
+            outside: scaled(&self.outside),
+            ..self.clone()
+        }
     }
 
     /// Velocity of the air outside, from the old edge cell at the middle of each new one.

@@ -2,7 +2,7 @@
 
 use crate::{
     parallel::{Parts, cut, fork, piece},
-    simd::Lanes,
+    simd::{Lanes, MOST_LANES},
 };
 use std::ops::Range;
 
@@ -11,15 +11,13 @@ const FEWEST_GROUPS: usize = 64;
 
 /// [`Group::lanes`] of a group of which all are worked on.
 pub(crate) const ALL_LANES: u16 = u16::MAX;
-/// Most lanes of any instruction set.
-pub(crate) const MOST_LANES: usize = u16::BITS as usize;
 
 /// A run of consecutive particles with the runs of candidates that may touch any of them. 56 bytes.
 #[derive(Clone, Debug, Default)]
 pub struct Group {
     /// First particle.
     pub first: u32,
-    /// Lanes that are worked on, the lowest bit for the first particle; [`ALL_LANES`] for all that there are.
+    /// Lanes that are worked on, the lowest bit for the first of [`MOST_LANES`] particles; [`ALL_LANES`] for all that there are.
     pub lanes: u16,
     /// Number of particles, at most the lane width.
     pub len: u8,

@@ -22,8 +22,8 @@ mod strip;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use group::split;
 pub use group::{Group, Run};
-pub(crate) use group::{MOST_LANES, split};
 pub use rock::RockBins;
 pub use search::{Bins, Neighbours};
 pub(crate) use strip::Strip;

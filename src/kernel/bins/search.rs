@@ -20,7 +20,7 @@ use std::ops::Range;
 /// Rounding allowance of the search margin, d.
 pub(super) const MARGIN_ROUNDING: f32 = 1e-3;
 /// The buffer of groups has one in so many to spare: their number changes a little from tick to tick.
-const SPARE_GROUPS: usize = 8;
+const SPARE_GROUPS: usize = 4;
 
 /// How neighbours are found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

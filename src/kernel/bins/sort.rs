@@ -60,7 +60,7 @@ impl Sort {
     pub fn place(&mut self, grid: &CellGrid, x: &[f32], y: &[f32], instructions: InstructionSet, threads: usize) {
         let found = self.find_cells(grid, x, y, instructions, threads);
         self.cut_into_segments(grid, found, x.len(), threads);
-        self.columns = grid.columns_near(extent(x));
+        self.columns = grid.columns_near(extent(x, instructions));
         self.source.resize(x.len(), 0);
         let Self { starts, columns, keys, blocks, source, segments, .. } = self;
         if let Some(first) = segments.first() {

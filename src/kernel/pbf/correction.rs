@@ -1,10 +1,10 @@
 //! The pass for Δx.
 
 use crate::{
-    bins::{Group, MOST_LANES, RockBins},
+    bins::{Group, RockBins},
     params::{Domain, FluidParams, WALL_GAP},
     pbf::{limit::CorrectionLimit, walls::wall_sums},
-    simd::{Lanes, Pass},
+    simd::{Lanes, MOST_LANES, Pass},
     smoothing::{Gradient, Smoothing},
 };
 use glam::Vec2;

@@ -1,6 +1,6 @@
 //! The rows of the pressure equation: what is done to each cell or face of a row, in lanes. The caller walks the rows.
 
-use crate::predictor::pockets::ROUNDING;
+use crate::predictor::{pockets::ROUNDING, transfer::Way};
 use std::ops::Range;
 
 /// Nearest that the surface is taken to be to a liquid cell's centre, cells, so that the equation stays bounded. Within
@@ -10,6 +10,9 @@ use std::ops::Range;
 const LEAST_THETA: f32 = 0.05;
 /// Most that a cell's density is taken to be too high, and too low inside the liquid: pulls harder than this make noise.
 const FEEDBACK_RANGE: (f32, f32) = (-0.1, 0.3);
+
+/// Cells of a row that are done together where values are made on the way.
+pub(super) const CHUNK: usize = 64;
 
 /// A row of cells, and its neighbours to all sides.
 #[derive(Clone, Copy)]
@@ -33,6 +36,15 @@ impl<'a> Around<'a> {
             lower: &field[start - stride..end - stride],
             upper: &field[start + stride..end + stride],
         }
+    }
+}
+
+impl<'a> Around<'a> {
+    /// The first `n` entries. The compiler sees from it that all are as long.
+    #[inline(always)]
+    fn first(self, n: usize) -> Self {
+        let Self { centre, left, right, lower, upper } = self;
+        Self { centre: &centre[..n], left: &left[..n], right: &right[..n], lower: &lower[..n], upper: &upper[..n] }
     }
 }
 
@@ -112,10 +124,18 @@ pub(super) fn mark(liquid: &mut [f32], filled: &[f32], liquid_from: &[f32]) -> b
 /// How steeply the pressure falls at faces between the cells before and after each: 1 between liquid cells, 1/θ between
 /// a liquid one and air, where the surface (p = 0) lies θ cells from the liquid cell's centre (Enright et al. 2003; a
 /// second-order surface). Without it all surfaces within one cell would be level, and a pool could rest with bumps.
+///
+/// The faces are those from `first` on, each between a cell and the one `step` before it. Of the cells it wants to know
+/// whether they are liquid and how full they are.
 #[inline(always)]
-pub(super) fn steepen(steep: &mut [f32], liquid: [&[f32]; 2], filled: [&[f32]; 2]) {
-    let ([liquid_before, liquid], [filled_before, filled]) = (liquid, filled);
-    for i in 0..steep.len() {
+pub(super) fn steepness(steep: &mut [f32], (liquid, filled): (&[f32], &[f32]), first: usize, step: usize) {
+    let (own, before) = (first..first + steep.len(), first - step..first - step + steep.len());
+    let [liquid_before, liquid] = [before.clone(), own.clone()].map(|cells| &liquid[cells]);
+    let [filled_before, filled] = [before, own].map(|cells| &filled[cells]);
+    let n = steep.len();
+    let (liquid_before, liquid, filled_before, filled) =
+        (&liquid_before[..n], &liquid[..n], &filled_before[..n], &filled[..n]);
+    for i in 0..n {
         let theta = filled_before[i] + filled[i] - 0.5;
         let theta = if theta > LEAST_THETA { theta } else { LEAST_THETA };
         let theta = if theta < 1.0 { theta } else { 1.0 };
@@ -250,35 +270,44 @@ pub(super) fn subtract_divergence(right_side: &mut [f32], liquid: &[f32], open: 
     }
 }
 
-/// The change on faces between the cells before and after each; known where either is liquid.
+/// What a potential changes on faces between the cells before and after each. Closed faces stop the share `stopped` of what
+/// they had.
 #[inline(always)]
 pub(super) fn touch(
-    known: &mut [f32],
     change: &mut [f32],
-    liquid: [&[f32]; 2],
-    p: [&[f32]; 2],
-    open_and_steep: [&[f32]; 2],
-    old: &[[f32; 2]],
-    moved: f32,
+    [before, after]: [&[f32]; 2],
+    open: &[f32],
+    steep: &[f32],
+    means: &[[f32; 2]],
+    stopped: f32,
 ) {
-    let ([liquid_before, liquid], [p_before, p], [open, steep]) = (liquid, p, open_and_steep);
-    for i in 0..known.len() {
-        let touches = if liquid_before[i] + liquid[i] > 0.0 { 1.0 } else { 0.0 };
-        let gained = if open[i] > 0.0 { steep[i] * (p_before[i] - p[i]) } else { -moved * old[i][1] };
-        known[i] = touches;
-        change[i] = touches * gained;
+    let n = change.len();
+    let (before, after, open, steep, means) = (&before[..n], &after[..n], &open[..n], &steep[..n], &means[..n]);
+    for i in 0..n {
+        let (gained, lost) = (steep[i] * (before[i] - after[i]), stopped * means[i][1]);
+        change[i] = if open[i] > 0.0 { gained } else { -lost };
     }
 }
 
-/// Turns the first number of faces into the change, and adds the share `moved` of it to the second; where the change is
-/// not known it is the mean of the neighbours'.
+/// The ways: both changes, or the means of the neighbours' where they are not known, and the mean velocities of the faces
+/// that have `whole` particles or more.
 #[inline(always)]
-pub(super) fn fill_in(faces: &mut [[f32; 2]], change: Around, known: Around, moved: f32) {
-    for i in 0..faces.len() {
+pub(super) fn fill_in(ways: &mut [Way], changes: [Around; 2], known: Around, means: &[[f32; 2]], whole: f32) {
+    let n = ways.len();
+    let ([gained, drift], known, means) = (changes.map(|change| change.first(n)), known.first(n), &means[..n]);
+    for i in 0..n {
         let around = (known.left[i] + known.right[i]) + (known.lower[i] + known.upper[i]);
-        let sum = (change.left[i] + change.right[i]) + (change.lower[i] + change.upper[i]);
-        let filled = sum / if around > 0.5 { around } else { 0.5 };
-        let gained = if known.centre[i] > 0.0 { change.centre[i] } else { filled };
-        faces[i] = [gained, faces[i][1] + moved * gained];
+        let share = 1.0 / if around > 0.5 { around } else { 0.5 };
+        let by_pressure = share * ((gained.left[i] + gained.right[i]) + (gained.lower[i] + gained.upper[i]));
+        let by_potential = share * ((drift.left[i] + drift.right[i]) + (drift.lower[i] + drift.upper[i]));
+        let (own, is_known) = ([gained.centre[i], drift.centre[i]], known.centre[i] > 0.0);
+        let [weight, mean] = means[i];
+        let is_whole = if weight < whole { 0.0 } else { 1.0 };
+        ways[i] = [
+            if is_known { own[0] } else { by_pressure },
+            is_whole * mean,
+            is_whole,
+            if is_known { own[1] } else { by_potential },
+        ];
     }
 }

@@ -7,10 +7,11 @@
 //! change of velocity comes back to the particles (Zhu & Bridson 2005, "Animating sand as a fluid"; McAdams et al. 2010
 //! for the solver). A few iterations of the constraint then do the detail, whatever the depth.
 //!
-//! Modules: `steps` the whole, `grid` the geometry, `rock` what is closed, `parts` cells that a wall cuts, `stencil` and `transfer` particles to
-//! grid and back, `pressure` and `equation` the equation, `pockets` where it is singular, `level`, `multigrid`
-//! and `conjugate` its solver.
+//! Modules: `steps` the whole, `grid` the geometry, `rock` what is closed, `parts` cells that a wall cuts, `stencil`,
+//! `transfer` and `way_back` particles to grid and back, `pressure` and `equation` the equation, `changes` what follows
+//! from its solution on the faces, `pockets` where it is singular, `level`, `multigrid` and `conjugate` its solver.
 
+mod changes;
 mod conjugate;
 mod equation;
 mod grid;
@@ -26,6 +27,7 @@ mod steps;
 #[cfg(test)]
 mod tests;
 mod transfer;
+mod way_back;
 
 pub use report::PredictorReport;
 pub use steps::{Predictor, PredictorParams};

@@ -33,8 +33,8 @@ struct Part {
 const OPEN: u32 = u32::MAX;
 
 impl Pockets {
-    /// Takes the mean of the right-hand side out of every pocket.
-    pub fn balance(&mut self, grid: &MacGrid, level: &mut Level) {
+    /// Takes the mean of the right-hand side out of every pocket. Returns whether there is any.
+    pub fn balance(&mut self, grid: &MacGrid, level: &mut Level) -> bool {
         self.parts.clear();
         let s = grid.stride;
         for j in level.rows.clone() {
@@ -59,7 +59,7 @@ impl Pockets {
         }
         self.gather();
         if self.parts.iter().all(|part| part.cells == OPEN) {
-            return;
+            return false;
         }
         for j in level.rows.clone() {
             for k in grid.row(j) + level.span.start..grid.row(j) + level.span.end {
@@ -72,6 +72,7 @@ impl Pockets {
                 }
             }
         }
+        true
     }
 
     fn found(&mut self) -> u32 {

@@ -4,10 +4,11 @@ use crate::{
     parallel::{Rows, Sweep, Team, sweep},
     predictor::{
         PredictorReport,
+        changes::Changes,
         conjugate::{Conjugate, tolerance},
         equation::{
-            Around, Sides, couple, feed_back, feedback_share, fill, fill_in, keep_volumes, mark, may_be_sealed,
-            steepen, subtract_divergence, touch,
+            Around, CHUNK, Sides, couple, feed_back, feedback_share, fill, keep_volumes, mark, may_be_sealed,
+            steepness, subtract_divergence,
         },
         grid::MacGrid,
         level::{Level, WORTH_A_PIECE, damping},
@@ -32,8 +33,8 @@ use std::{
 /// at most, so f Δt ≤ 48/60 = 0.8 always. The errors themselves are cut to `FEEDBACK_RANGE`, so that even past the
 /// bound no more than f · 0.3 is asked for; every cell in which that acts is counted.
 const FEEDBACK_PER_SECOND: f32 = 48.0;
-/// Residual, relative to the right-hand side, up to which the feedback is solved for.
-const FEEDBACK_TOLERANCE: f64 = 0.1;
+/// Residual, relative to the right-hand side, up to which the feedback is solved for: a fifth, as much as the rate leaves.
+const FEEDBACK_TOLERANCE: f64 = 0.2;
 /// Share of a full face's particles from which on they stand on both sides of it, so that their mean velocity is the
 /// face's. At a free surface a face that is half full has its particles on one side.
 const WHOLE: f32 = 0.5;
@@ -54,9 +55,6 @@ pub(super) struct Projection<'a> {
     pub report: &'a mut PredictorReport,
 }
 
-/// Cells of a row that are done together where values are made on the way.
-const CHUNK: usize = 64;
-
 impl Pass for Projection<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
@@ -64,29 +62,25 @@ impl Pass for Projection<'_> {
         conjugate.resize(grid.len());
         mark_liquid(grid, closed, faces, conjugate, target, team);
         let whole = WHOLE * target * grid.cell * grid.cell;
-        find_means(grid, faces, whole, team);
+        find_means(grid, faces, team);
         if conjugate.rows.is_empty() {
             return;
         }
         let sealed = assemble(grid, closed, faces, hierarchy.finest(), conjugate, (dt, whole), team);
-        if sealed {
-            pockets.balance(grid, hierarchy.finest());
-        }
+        let has_pockets = sealed && pockets.balance(grid, hierarchy.finest());
         hierarchy.coarsen(team);
         let mut pressure = std::mem::take(&mut conjugate.solution);
         let velocities = conjugate.solve(hierarchy, &mut pressure, tolerance(dt), team);
-        let Faces { u, v, drift: [drift_u, drift_v], filled, reached, area, .. } = faces;
-        let near = Near { grid, closed, filled, reached, area };
-        change_faces(&near, [u, v], 1.0, hierarchy.finest(), conjugate, &pressure, team);
         conjugate.solution = pressure;
 
-        let cuts = feed_back_densities(&near, hierarchy.finest(), conjugate, team);
-        if sealed {
+        let cuts = feed_back_densities(grid, closed, &faces.filled, hierarchy.finest(), conjugate, team);
+        if has_pockets {
             pockets.balance(grid, hierarchy.finest());
         }
         let mut potential = std::mem::take(&mut conjugate.potential);
         let drift = conjugate.solve(hierarchy, &mut potential, FEEDBACK_TOLERANCE, team);
-        change_faces(&near, [drift_u, drift_v], 0.0, hierarchy.finest(), conjugate, &potential, team);
+        let potentials = [&conjugate.solution[..], &potential];
+        Changes { grid, closed, conjugate, potentials, whole, team }.find(faces, hierarchy.finest());
         conjugate.clear(&mut potential, grid.stride);
         conjugate.potential = potential;
         *report = PredictorReport { unsolved: velocities.unsolved | drift.unsolved, cuts, ..velocities };
@@ -184,28 +178,24 @@ fn ends(liquid: &[f32], start: usize) -> Range<u32> {
     ends.map_or(0..0, |(first, last)| (start + first) as u32..(start + last + 1) as u32)
 }
 
-/// Turns momenta into velocities, and notes which faces have `whole` particles or more.
-fn find_means(grid: &MacGrid, faces: &mut Faces, whole: f32, team: Team) {
-    let Faces { u, v, drift: [drift_u, drift_v], reached, area, .. } = faces;
-    let band = |field| Rows::new(field, grid.stride, reached);
-    let band = ((band(u), band(v)), (band(drift_u), band(drift_v)));
-    let work = Divide { columns: grid.padded(area), whole };
+/// Turns momenta into mean velocities.
+fn find_means(grid: &MacGrid, faces: &mut Faces, team: Team) {
+    let Faces { u, v, reached, area, .. } = faces;
+    let band = (Rows::new(u, grid.stride, reached), Rows::new(v, grid.stride, reached));
+    let work = Divide { columns: grid.padded(area) };
     sweep(&work, reached.clone(), band, area.len(), WORTH_A_PIECE, team);
 }
 
 struct Divide {
     columns: Range<usize>,
-    whole: f32,
 }
 
-impl<'b> Sweep<(Pair<'b>, Pair<'b>)> for Divide {
+impl<'b> Sweep<Pair<'b>> for Divide {
     #[inline(always)]
-    fn run(&self, _: Range<usize>, ((mut u, mut v), (mut drift_u, mut drift_v)): (Pair, Pair)) {
-        for (row, drift) in u.each().zip(drift_u.each()).chain(v.each().zip(drift_v.each())) {
-            for (face, drift) in row[self.columns.clone()].iter_mut().zip(&mut drift[self.columns.clone()]) {
-                let weight = if face[0] > 1e-12 { face[0] } else { 1e-12 };
-                face[1] /= weight;
-                drift[1] = if face[0] < self.whole { 0.0 } else { 1.0 };
+    fn run(&self, _: Range<usize>, (mut u, mut v): Pair) {
+        for row in u.each().chain(v.each()) {
+            for face in &mut row[self.columns.clone()] {
+                face[1] /= if face[0] > 1e-12 { face[0] } else { 1e-12 };
             }
         }
     }
@@ -295,17 +285,26 @@ impl Sweep<System<'_>> for Assemble<'_> {
 }
 
 /// Puts the density feedback of the liquid cells on the right-hand side. Returns in how many it was cut.
-fn feed_back_densities(near: &Near, finest: &mut Level, conjugate: &Conjugate, team: Team) -> u64 {
+fn feed_back_densities(
+    grid: &MacGrid,
+    closed: &ClosedFaces,
+    filled: &[f32],
+    finest: &mut Level,
+    conjugate: &Conjugate,
+    team: Team,
+) -> u64 {
     let Conjugate { rows, span, liquid, .. } = conjugate;
     let cuts = AtomicU64::new(0);
-    let work = FeedBack { near, liquid, span, cuts: &cuts };
-    let band = Rows::new(&mut finest.b, near.grid.stride, rows);
+    let work = FeedBack { grid, closed, filled, liquid, span, cuts: &cuts };
+    let band = Rows::new(&mut finest.b, grid.stride, rows);
     sweep(&work, rows.clone(), band, span.len(), WORTH_A_PIECE, team);
     cuts.into_inner()
 }
 
 struct FeedBack<'a> {
-    near: &'a Near<'a>,
+    grid: &'a MacGrid,
+    closed: &'a ClosedFaces,
+    filled: &'a [f32],
     liquid: &'a [f32],
     /// Columns that are solved for.
     span: &'a Range<usize>,
@@ -316,7 +315,7 @@ struct FeedBack<'a> {
 impl Sweep<Rows<'_, f32>> for FeedBack<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut b: Rows<f32>) {
-        let Self { near: Near { grid, closed, filled, .. }, liquid, span, cuts } = *self;
+        let Self { grid, closed, filled, liquid, span, cuts } = *self;
         let mut cut = 0;
         for (j, b) in rows.zip(b.each()) {
             let cells = grid.row(j) + span.start..grid.row(j) + span.end;
@@ -348,149 +347,6 @@ pub(super) fn feedback_shares(
         let liquid = Around::new(&conjugate.liquid, cells.clone(), grid.stride);
         for i in (0..n).filter(|i| liquid.centre[*i] > 0.0) {
             visit([i, j - 1], feedback_share(liquid, rock, &faces.filled[cells.clone()], i));
-        }
-    }
-}
-
-/// How steeply the pressure falls at the faces from `first` on, between each cell and the one `step` before it. Of the
-/// cells it wants to know whether they are liquid and how full they are.
-#[inline(always)]
-fn steepness(out: &mut [f32], (liquid, filled): (&[f32], &[f32]), first: usize, step: usize) {
-    let (own, before) = (first..first + out.len(), first - step..first - step + out.len());
-    steepen(out, [&liquid[before.clone()], &liquid[own.clone()]], [&filled[before], &filled[own]]);
-}
-
-/// The grid near the particles.
-struct Near<'a> {
-    grid: &'a MacGrid,
-    closed: &'a ClosedFaces,
-    /// How full the cells are.
-    filled: &'a [f32],
-    /// Rows that a particle reaches.
-    reached: &'a Range<usize>,
-    /// Columns of cells near particles.
-    area: &'a Range<usize>,
-}
-
-/// Finds the change on every face that touches liquid from the potential p, and fills one layer around them in from its
-/// neighbours. The first number of the left and lower faces becomes the change. With `moved` 1 the second is a velocity
-/// that it is added to, and that closed faces stop; with 0 it stays.
-fn change_faces(
-    near: &Near,
-    [u, v]: [&mut [[f32; 2]]; 2],
-    moved: f32,
-    finest: &mut Level,
-    conjugate: &Conjugate,
-    p: &[f32],
-    team: Team,
-) {
-    let Near { grid, closed, filled, reached, area } = *near;
-    let Conjugate { liquid, rows, .. } = conjugate;
-    let columns = &grid.padded(area);
-    // The change on each face and whether it is known (1) or to be filled in from its neighbours (0). The solver is done
-    // with these.
-    let Level { x: change, work: known, .. } = finest;
-    // Rows of faces that touch liquid, with the layer around them, and with what is read around that.
-    let touching = rows.start..rows.end + 1;
-    let near = (rows.start - 1).max(1)..(rows.end + 2).min(grid.rows + 2);
-    let around = near.start - 1..near.end + 1;
-    let all = reached.start.min(near.start)..reached.end.max(near.end);
-    for (face, open, step) in [(u, &closed.open_u, 1), (v, &closed.open_v, grid.stride)] {
-        let work =
-            Touch { grid, touching: &touching, columns, liquid, p, filled, closed, open, old: face, moved, step };
-        let band = (Rows::new(known, grid.stride, &around), Rows::new(change, grid.stride, &around));
-        sweep(&work, around.clone(), band, columns.len(), WORTH_A_PIECE, team);
-        let work = FillIn { grid, near: &near, columns, known, change, moved };
-        sweep(&work, all.clone(), Rows::new(face, grid.stride, &all), columns.len(), WORTH_A_PIECE, team);
-    }
-    // The solver expects its padding empty.
-    for j in around {
-        (change[grid.row(j) + grid.columns + 1], known[grid.row(j) + grid.columns + 1]) = (0.0, 0.0);
-    }
-}
-
-struct Touch<'a> {
-    grid: &'a MacGrid,
-    touching: &'a Range<usize>,
-    /// Columns that are looked at, with the padding.
-    columns: &'a Range<usize>,
-    liquid: &'a [f32],
-    p: &'a [f32],
-    filled: &'a [f32],
-    closed: &'a ClosedFaces,
-    /// Open shares, as `closed` stores them.
-    open: &'a [f32],
-    /// Velocities from before the solve.
-    old: &'a [[f32; 2]],
-    /// Share of them that closed faces stop.
-    moved: f32,
-    /// From the cell after a face to that before it.
-    step: usize,
-}
-
-impl<'b> Sweep<(Rows<'b, f32>, Rows<'b, f32>)> for Touch<'_> {
-    #[inline(always)]
-    fn run(&self, rows: Range<usize>, (mut known, mut change): (Rows<f32>, Rows<f32>)) {
-        let Self { grid, touching, columns, liquid, p, filled, closed, open, old, moved, step } = *self;
-        for (j, (known, change)) in rows.zip(known.each().zip(change.each())) {
-            // What is filled in reads one face further.
-            let around = columns.start.saturating_sub(1)..(columns.end + 1).min(grid.stride);
-            if !touching.contains(&j) {
-                known[around.clone()].fill(0.0);
-                change[around].fill(0.0);
-                continue;
-            }
-            for beside in [around.start, around.end - 1] {
-                (known[beside], change[beside]) = (0.0, 0.0);
-            }
-            let end = grid.row(j) + columns.end;
-            for start in (grid.row(j) + columns.start.max(1)..end).step_by(CHUNK) {
-                let cells = start..end.min(start + CHUNK);
-                let before = cells.start - step..cells.end - step;
-                let own = start - grid.row(j)..start - grid.row(j) + cells.len();
-                let (liquid, p) =
-                    ([&liquid[before.clone()], &liquid[cells.clone()]], [&p[before.clone()], &p[cells.clone()]]);
-                let mut steep = [0.0_f32; CHUNK];
-                let steep = &mut steep[..cells.len()];
-                steepness(steep, (self.liquid, filled), start, step);
-                let open = &open[closed.row(j) + own.start..closed.row(j) + own.end];
-                touch(&mut known[own.clone()], &mut change[own], liquid, p, [open, steep], &old[cells], moved);
-            }
-        }
-    }
-}
-
-struct FillIn<'a> {
-    grid: &'a MacGrid,
-    near: &'a Range<usize>,
-    /// Columns that are looked at, with the padding.
-    columns: &'a Range<usize>,
-    known: &'a [f32],
-    change: &'a [f32],
-    /// Share of the change that is added to the second number of the faces.
-    moved: f32,
-}
-
-impl Sweep<Rows<'_, [f32; 2]>> for FillIn<'_> {
-    #[inline(always)]
-    fn run(&self, rows: Range<usize>, mut faces: Rows<[f32; 2]>) {
-        let Self { grid, near, columns, known, change, moved } = *self;
-        for (j, faces) in rows.zip(faces.each()) {
-            let faces = &mut faces[columns.clone()];
-            if near.contains(&j) {
-                let cells = grid.row(j) + columns.start..grid.row(j) + columns.end;
-                let around = |field| Around::new(field, cells.clone(), grid.stride);
-                fill_in(faces, around(change), around(known), moved);
-            } else if j == 0 && near.start == 1 {
-                // Beyond the floor stands what stands above it, as `fill_in` finds it beyond the other walls: particles
-                // within half a cell of a wall take a part of their velocity along it from there.
-                for (face, gained) in faces.iter_mut().zip(&change[grid.row(1)..][columns.clone()]) {
-                    *face = [*gained, face[1] + moved * gained];
-                }
-            } else {
-                // Away from the liquid nothing changes.
-                faces.iter_mut().for_each(|face| face[0] = 0.0);
-            }
         }
     }
 }

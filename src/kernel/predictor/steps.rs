@@ -12,7 +12,8 @@ use crate::{
         pressure,
         report::PredictorReport,
         rock::ClosedFaces,
-        transfer::{Faces, WayBack},
+        transfer::Faces,
+        way_back::{WayBack, hand_back},
     },
     simd::InstructionSet,
     solids::Solids,
@@ -97,7 +98,7 @@ impl Predictor {
         if report.liquid {
             let PredictorParams { domain, dt, .. } = *params;
             let way = WayBack { blend: (BLEND_PER_SECOND * dt).min(1.0), dt, domain, solids };
-            self.faces.hand_back(&grid, particles, &way, team);
+            hand_back(&self.faces, &grid, particles, &way, team);
         }
         report
     }

@@ -2,6 +2,9 @@
 
 use std::ops::{Add, Div, Mul, Sub};
 
+/// Most lanes of any instruction set.
+pub(crate) const MOST_LANES: usize = 16;
+
 /// `WIDTH` numbers that are computed side by side.
 pub(crate) trait Lanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>

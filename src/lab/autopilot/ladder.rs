@@ -1,4 +1,5 @@
-//! The qualities that the autopilot chooses from, cheapest first: the presets and what lies between two of them.
+//! The qualities that the autopilot chooses from, cheapest first: the presets and what lies between two of them. It keeps the
+//! detail: `classic` and presets of another detail are no levels.
 
 use crate::kernel::params::{Preset, Quality};
 use bevy::math::ops;
@@ -7,6 +8,8 @@ use bevy::math::ops;
 const FIXED_WORK: f32 = 2.0;
 /// Work of an iteration that goes only where it is still too dense: 0.13 to 0.25 in `dam_break` and `waterfall`.
 const WORK_AGAIN: f32 = 0.2;
+/// Substeps of the highest level, which is otherwise as the finest preset: what holds an error that no preset does.
+const MOST_SUBSTEPS: u32 = 8;
 /// Work from one level to the next grows at least by this factor.
 const LEAST_STEP: f32 = 1.25;
 /// How fast the density error falls with the work: error ∝ work^−2.5 in `dam_break`, ^−3.5 in `waterfall`.
@@ -39,8 +42,9 @@ pub fn work(quality: &Quality) -> f32 {
 /// All levels, the cheapest first; each costs more than the one before.
 pub fn ladder() -> Vec<Level> {
     let mut levels: Vec<Level> = Vec::new();
-    for preset in Preset::ALL.into_iter().filter(|preset| *preset != Preset::Classic) {
-        let quality = preset.quality();
+    let presets = || Preset::ALL.into_iter().filter(is_level).map(|preset| (preset, preset.quality()));
+    let top = presets().last().map(|(preset, quality)| (preset, Quality { substeps: MOST_SUBSTEPS, ..quality }));
+    for (preset, quality) in presets().chain(top) {
         let mut work = work(&quality);
         if let Some(&below) = levels.last() {
             between(below, work, &mut levels);
@@ -50,6 +54,11 @@ pub fn ladder() -> Vec<Level> {
         levels.push(Level { preset, quality, work });
     }
     levels
+}
+
+/// Whether a preset is a level.
+fn is_level(preset: &Preset) -> bool {
+    *preset != Preset::Classic && preset.detail() == 1.0
 }
 
 /// Adds what lies between a preset and one of the work `above`: more substeps or iterations of the lower.
@@ -96,8 +105,8 @@ mod tests {
         assert!(levels.windows(2).all(|pair| pair[1].work > pair[0].work), "{levels:?}");
         assert!(levels.windows(2).all(|pair| pair[1].error() < pair[0].error()));
         for preset in Preset::ALL {
-            let found = levels.iter().any(|level| level.quality == preset.quality());
-            assert_eq!(found, preset != Preset::Classic, "{}", preset.name());
+            let found = levels.iter().any(|level| level.preset == preset && level.quality == preset.quality());
+            assert_eq!(found, is_level(&preset), "{}", preset.name());
         }
         let steepest = levels.windows(2).map(|pair| pair[1].work / pair[0].work).fold(0.0, f32::max);
         assert!(steepest <= 1.7, "a step of {steepest} is too high to settle near a bound");

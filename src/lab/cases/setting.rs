@@ -69,9 +69,10 @@ impl Over {
     }
 }
 
+/// Edge of a cell in the scene's own spacings, Courant number and advection.
 fn air(preset: Preset) -> (f32, f32, AirAdvection) {
     let Quality { air_cell, air_courant, air_advection, .. } = preset.quality();
-    (air_cell, air_courant, air_advection)
+    (air_cell / preset.detail() as f32, air_courant, air_advection)
 }
 
 #[cfg(test)]

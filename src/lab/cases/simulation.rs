@@ -127,4 +127,9 @@ impl CaseSimulation {
     pub fn spacing(&self) -> f64 {
         f64::from(self.matter().scale.spacing)
     }
+
+    /// The scene's own spacing, m: the spacing at a quality of detail 1.
+    pub fn own_spacing(&self) -> f64 {
+        f64::from(self.matter().scale.own_spacing())
+    }
 }

@@ -1,4 +1,5 @@
-//! What the start of a case has that its scene's text can't say.
+//! What the start of a case has that its scene's text can't say. Lengths are in m or in the scene's own spacings, so that a
+//! quality of another detail has the same start.
 
 use crate::{
     kernel::{
@@ -52,14 +53,17 @@ pub(super) const STARTS: [(&str, Arrange); 20] = [
         }
     }),
     ("vacuum", |blueprint| {
-        let area = Rect { min: Vec2::new(40.0, 0.0), max: Vec2::new(80.0, 60.0) };
+        let d = blueprint.scale.detail;
+        let area = Rect { min: d * Vec2::new(40.0, 0.0), max: d * Vec2::new(80.0, 60.0) };
         blueprint.pressures.push(PressurePatch { area, pressure: 0.0 });
     }),
     ("one_cell_hole", |blueprint| {
         for y in 8..12 {
             for x in 8..13 {
                 if x < 12 || y == 9 {
-                    blueprint.solids.remove(IVec2::new(x, y));
+                    for cell in finer(blueprint, IVec2::new(x, y)) {
+                        blueprint.solids.remove(cell);
+                    }
                 }
             }
         }
@@ -87,6 +91,13 @@ pub(super) fn arrange(case: &str, blueprint: &mut Blueprint) {
 /// The element called `name`; every table has those of the built-in scenes.
 pub(super) fn element(elements: &ElementTable, name: &str) -> ElementId {
     elements.find(name).unwrap_or_default()
+}
+
+/// The cells of the run that a cell of the scene's own spacing covers, at least in part.
+fn finer(blueprint: &Blueprint, cell: IVec2) -> impl Iterator<Item = IVec2> + use<> {
+    let d = blueprint.scale.detail;
+    let (low, high) = ((cell.as_vec2() * d).floor().as_ivec2(), ((cell + 1).as_vec2() * d).ceil().as_ivec2());
+    (low.y..high.y).flat_map(move |y| (low.x..high.x).map(move |x| IVec2::new(x, y)))
 }
 
 /// Adds a particle of water, at a place and a velocity in m.
@@ -136,7 +147,7 @@ fn close_pairs(blueprint: &mut Blueprint) {
 fn shots(blueprint: &mut Blueprint) {
     let rock = element(&blueprint.elements, "rock");
     let wall = (0..100).map(|y| IVec2::new(60, y)).chain((0..60).map(|k| IVec2::new(k, 60 - k)));
-    for cell in wall {
+    for cell in wall.flat_map(|cell| finer(blueprint, cell)).collect::<Vec<_>>() {
         if blueprint.solids.insert(cell, rock, blueprint.next_id) {
             blueprint.next_id += 1;
         }
@@ -156,7 +167,7 @@ fn shots(blueprint: &mut Blueprint) {
 /// Turns all water about the middle of the box, once in 2 s.
 fn turn(blueprint: &mut Blueprint) {
     for i in 0..blueprint.particles.len() {
-        let arm = blueprint.particles.position(i) - Vec2::splat(40.0);
+        let arm = blueprint.particles.position(i) - blueprint.scale.detail * Vec2::splat(40.0);
         let velocity = std::f32::consts::PI * arm.perp();
         (blueprint.particles.vx[i], blueprint.particles.vy[i]) = (velocity.x, velocity.y);
     }
@@ -170,7 +181,7 @@ fn heavy_above_light(blueprint: &mut Blueprint) {
     blueprint.elements = Arc::new(ElementTable::new(rows));
     let light = element(&blueprint.elements, "light");
     for i in 0..blueprint.particles.len() {
-        if blueprint.particles.y[i] < 10.0 {
+        if blueprint.particles.y[i] < 10.0 * blueprint.scale.detail {
             blueprint.particles.element[i] = light;
         }
     }

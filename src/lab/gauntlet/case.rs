@@ -92,7 +92,7 @@ pub(super) struct Rules {
     pub gain: Option<Gain>,
     /// The fastest that a particle may be, m/s.
     pub fastest: Option<f64>,
-    /// The density error after the shock.
+    /// How far the liquid is too dense after the shock.
     pub density: Option<Density>,
     /// The root of the mean square of the speeds in the last tenth, d a tick.
     pub rest: Option<f64>,
@@ -146,7 +146,8 @@ pub(super) enum Gain {
     /// A speed, m/s.
     Speed(f64),
     /// A multiple of the speed that corrections can give: the correction limit in each of the quality's substeps. It is
-    /// 6 d/s for `draft` and `fast`, 12 for `balanced` and `fine`, 48 for `reference` and 30 for `classic`.
+    /// 6 d/s for `draft` and `fast`, 12 for `balanced`, `fine` and `reference` (of its own, shorter d), and 30 for
+    /// `classic`.
     Corrections(f64),
 }
 
@@ -163,7 +164,8 @@ impl Gain {
     }
 }
 
-/// Bounds of the 99th percentile of the density error.
+/// Bounds of the 99th percentile of how far the liquid is too dense (see `lab::density`): what is pressed together is what
+/// flies apart, where what was torn apart only has bubbles in it.
 #[derive(Clone, Copy, Debug, Deserialize)]
 pub(super) struct Density {
     /// Ticks after which the shock is over.

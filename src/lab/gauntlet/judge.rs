@@ -183,10 +183,10 @@ impl Judge {
     fn measure_density(&mut self, world: &World, ending: bool) {
         let Some(error) = DensityError::of_world(world) else { return };
         if self.seen >= self.rules.density.map_or(0, |density| density.shock) {
-            self.density_worst = Some(self.density_worst.map_or(error.p99, |worst| worst.max(error.p99)));
+            self.density_worst = Some(self.density_worst.map_or(error.pressed, |worst| worst.max(error.pressed)));
         }
         if ending {
-            self.density_end.push(error.p99);
+            self.density_end.push(error.pressed);
         }
     }
 

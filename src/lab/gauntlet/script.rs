@@ -28,7 +28,7 @@ pub(super) const SCRIPTS: [(&str, Act); 16] = [
     }),
     ("wind_1000", |world, tick| {
         if tick < 240 && tick / 15 % 2 == 0 {
-            let velocity = world.resource::<Setup>().blueprint.scale.vec_to_kernel(Vec2::new(1000.0, 200.0));
+            let velocity = own_spacings(world, Vec2::new(1000.0, 200.0));
             let stroke = everywhere(world);
             intend(world, Intent::Blow { stroke, velocity });
         }
@@ -120,9 +120,15 @@ const TURN: [(f32, f32); 16] = [
 ];
 const EVEN: f32 = std::f32::consts::FRAC_1_SQRT_2;
 
-/// Puts an intent in the queue.
+/// Puts an intent in the queue. Its lengths are the scene's own spacings: at any detail the same is done.
 fn intend(world: &mut World, intent: Intent) {
-    world.resource_mut::<IntentQueue>().push(intent);
+    let detail = world.resource::<Setup>().blueprint.scale.detail;
+    world.resource_mut::<IntentQueue>().push(intent.scaled(detail));
+}
+
+/// Metres (or m/s, m/s²) in the scene's own spacings.
+fn own_spacings(world: &World, metres: Vec2) -> Vec2 {
+    metres / world.resource::<Setup>().blueprint.scale.own_spacing()
 }
 
 /// The element called `name` in the world's table.
@@ -130,9 +136,10 @@ fn named(world: &World, name: &str) -> crate::kernel::element::ElementId {
     element(world.resource::<Setup>().elements(), name)
 }
 
-/// Size of the box, d.
+/// Size of the box, in the scene's own spacings.
 fn size(world: &World) -> Vec2 {
-    world.resource::<Setup>().blueprint.domain.size
+    let blueprint = &world.resource::<Setup>().blueprint;
+    blueprint.domain.size / blueprint.scale.detail
 }
 
 /// A brush as large as the box.
@@ -142,8 +149,9 @@ fn everywhere(world: &World) -> Stroke {
 
 /// Sets gravity, m/s², if it is another one.
 fn set_gravity(world: &mut World, gravity: Vec2) {
-    let gravity = world.resource::<Setup>().blueprint.scale.vec_to_kernel(gravity);
-    if world.resource::<Setup>().domain.gravity != gravity {
+    let gravity = own_spacings(world, gravity);
+    let Setup { blueprint, domain, .. } = world.resource::<Setup>();
+    if domain.gravity != gravity * blueprint.scale.detail {
         intend(world, Intent::Gravity { gravity });
     }
 }
@@ -154,7 +162,7 @@ fn press(world: &mut World, amount: f32) {
     intend(world, Intent::Press { stroke, amount });
 }
 
-/// A gust at a place (d) with a radius (d) and a velocity (d/s), when it is time for it.
+/// A gust at a place with a radius and a velocity, when it is time for it.
 fn blow(world: &mut World, is_time: bool, at: (f32, f32), radius: f32, velocity: (f32, f32)) {
     if is_time {
         let stroke = Stroke::dab(BrushShape::Disc, at.into(), radius);

@@ -2,12 +2,9 @@
 //! measured from one of its states. The systems of this module write, HUD and autopilot read; nothing changes a world.
 
 use crate::{
-    kernel::{
-        air::Air,
-        params::{Preset, Quality},
-    },
+    kernel::params::{Preset, Quality},
     scene::blueprint::Blueprint,
-    sim::snapshot::{hash_bytes, hash_state},
+    sim::snapshot::hash_bytes,
 };
 use bevy::prelude::Resource;
 use std::{collections::VecDeque, time::Duration};
@@ -27,7 +24,7 @@ pub struct Watched(pub bool);
 pub struct ErrorSample {
     /// Ticks that the world had done.
     pub tick: u64,
-    /// Mean of max(0, ρ/ρ₀ − 1) over the sampled interior particles; `None` if there were none.
+    /// Mean density error (see `lab::density`) of the sampled interior particles; `None` if there were none.
     pub mean: Option<f32>,
     /// Its 99th percentile.
     pub p99: Option<f32>,
@@ -134,21 +131,15 @@ impl Curve {
     }
 }
 
-/// A hash over everything that a scene starts with but its quality: two scenes with the same one have the same curves.
+/// A hash over everything that a scene starts with but its quality: two scenes with the same one have the same curves. The
+/// detail that a preset brings along belongs to the quality, that which was asked for does not.
 pub fn fingerprint(blueprint: &Blueprint) -> u64 {
+    let Blueprint { name, origin, parameters, fluid, elements, effects, particle_limit, .. } = blueprint;
+    let detail = f64::from(blueprint.scale.detail) / blueprint.preset.detail();
     // Debug writes a number in as many digits as it takes to read it back, so other values are other texts.
-    let rules = (&blueprint.parameters, blueprint.scale, blueprint.domain, blueprint.fluid, blueprint.air);
-    let contents =
-        (&blueprint.elements, &blueprint.emitters, &blueprint.winds, &blueprint.drains, &blueprint.pressures);
-    let text = format!("{} {rules:?} {contents:?} {:?}", blueprint.name, blueprint.effects);
-    // The air's cells belong to the quality; what is not yet built is at rest whatever they are.
-    let still = Air::unbuilt(blueprint.domain.size, COARSE, blueprint.air);
-    let state = hash_state(&blueprint.particles, &blueprint.solids, &still);
-    hash_bytes(&[text.as_bytes(), &state.to_le_bytes()].concat())
+    let text = format!("{name} {origin} {parameters:?} {detail} {fluid:?} {elements:?} {effects:?} {particle_limit}");
+    hash_bytes(text.as_bytes())
 }
-
-/// Edge of an air cell where only whether there is air counts, d.
-const COARSE: f32 = 32.0;
 
 /// "Measure here": asked for by the HUD, done by `survey`.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]

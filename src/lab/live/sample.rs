@@ -5,7 +5,7 @@
 
 use crate::{
     kernel::{particles::Particles, random::Random, solids},
-    lab::density::{DensityError, Grid, Lattice, Local, ROCK},
+    lab::density::{DensityError, Grid, Lattice, Local, NEIGHBOUR, ROCK},
 };
 use bevy::prelude::Resource;
 use glam::{IVec2, Vec2};
@@ -43,7 +43,7 @@ impl Scratch {
         self.gather(particles, rock, &lattice);
         let grid = Grid::new(&lattice, std::mem::take(&mut self.points));
         self.locals.clear();
-        let looked_at = (0..grid.source.len()).filter(|&k| grid.source[k] != ROCK);
+        let looked_at = (0..grid.source.len()).filter(|&k| grid.source[k] < NEIGHBOUR);
         self.locals.extend(looked_at.map(|k| grid.look_around(k)));
         // In the order of the store, whatever cells they are in, so that the sums do not depend on the lattice.
         DensityError::of(&self.locals, rest_density)
@@ -85,7 +85,7 @@ impl Scratch {
             }
             let (column, row) = lattice.place(position);
             if self.wanted[row * lattice.columns + column] {
-                let source = chosen.next_if_eq(&(index as u32)).unwrap_or(ROCK);
+                let source = chosen.next_if_eq(&(index as u32)).unwrap_or(NEIGHBOUR);
                 self.points.push((position, source));
             }
         }

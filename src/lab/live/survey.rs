@@ -214,8 +214,9 @@ impl Work {
 
     /// Does one tick of the work; the result if that finishes a run.
     fn advance(&mut self) -> Option<Done> {
-        if self.run.is_none() {
-            self.run = Some(Run::new(&self.start, self.instructions, self.left.pop()?));
+        while self.run.is_none() {
+            // A world that does not fit a preset's detail has no point there.
+            self.run = Run::new(&self.start, self.instructions, self.left.pop()?);
         }
         let run = self.run.as_mut()?;
         let result = run.advance()?;
@@ -226,16 +227,16 @@ impl Work {
 }
 
 impl Run {
-    fn new(start: &Checkpoint, instructions: InstructionSet, leg: Leg) -> Self {
+    fn new(start: &Checkpoint, instructions: InstructionSet, leg: Leg) -> Option<Self> {
         // Without threads, the calling one is all there is.
-        let start = start.clone().at_quality(leg.preset, leg.quality);
+        let start = start.clone().at_quality(leg.preset, leg.quality).ok()?;
         let simulation = Simulation::resume(&start, Workers::new(1).unwrap_or_default());
         let mut simulation = simulation.with_instructions(instructions);
         if !leg.sleep {
             // A sleeping particle costs the same and has the same error at every quality.
             simulation.world_mut().resource_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off;
         }
-        Self { leg, simulation, ticks: 0, errors: Vec::new() }
+        Some(Self { leg, simulation, ticks: 0, errors: Vec::new() })
     }
 
     fn advance(&mut self) -> Option<Done> {

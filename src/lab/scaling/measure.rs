@@ -235,7 +235,7 @@ mod tests {
     use super::*;
 
     fn plan(cap: f64) -> Plan {
-        let mut plan = Plan { sizes: vec![4, 6], rounds: 2, cap, ..Plan::quick() };
+        let mut plan = Plan { sizes: vec![12, 16], rounds: 2, cap, ..Plan::quick() };
         plan.settings.retain(|setting| ["classic", "draft"].contains(&setting.name));
         plan
     }
@@ -246,7 +246,7 @@ mod tests {
         let (rows, skipped) = measure(&plan(10.0), &Workers::new(2).unwrap(), &mut |_| runs += 1).unwrap();
         assert!(skipped.is_empty());
         let names: Vec<_> = rows.iter().map(|row| (row.setting, row.particles)).collect();
-        assert_eq!(names, [("classic", 32), ("draft", 32), ("classic", 72), ("draft", 72)]);
+        assert_eq!(names, [("classic", 288), ("draft", 288), ("classic", 512), ("draft", 512)]);
         for row in &rows {
             assert_eq!(
                 (row.threads.as_slice(), row.ms.len(), row.rounds),
@@ -268,7 +268,7 @@ mod tests {
         assert!(rows.iter().all(|row| row.threads == [1] && row.speedup.is_none()));
         assert_eq!(
             skipped.iter().map(|row| (row.setting, row.particles)).collect::<Vec<_>>(),
-            [("classic", 72), ("draft", 72)]
+            [("classic", 512), ("draft", 512)]
         );
         assert!(skipped.iter().all(|row| row.seconds > 0.0));
     }

@@ -15,16 +15,20 @@ use glam::{IVec2, Vec2};
 /// Ticks from one bout to the next: a minute.
 pub const BOUT: u64 = 3600;
 
-/// Longest wall that the player builds, and its thickness, d.
+/// Longest wall that the player builds, and its thickness, in the scene's own spacings.
 const WALL: Vec2 = Vec2::new(14.0, 2.0);
+/// Thinnest wall, d: two cells of it stop what comes.
+const THINNEST: f32 = 2.0;
 
 /// Plays in bouts of a minute: pours for some seconds here and there, builds a wall, blows and sucks, and takes the wall
 /// away again. Between these the world is left alone. What it builds stands where the scene has no rock, so
-/// that taking it away leaves the scene as it was.
+/// that taking it away leaves the scene as it was. At another detail it does the same in metres.
 #[derive(Clone, Debug)]
 pub struct Player {
     random: Random,
     size: Vec2,
+    /// The scene's own spacing, d.
+    unit: f32,
     ground: Solids,
     movable: Vec<ElementId>,
     fixed: Vec<ElementId>,
@@ -41,6 +45,7 @@ impl Player {
         Self {
             random: Random::new(seed),
             size: blueprint.domain.size,
+            unit: blueprint.scale.detail,
             ground: blueprint.solids.clone(),
             movable: of(&blueprint.elements, false),
             fixed: of(&blueprint.elements, true),
@@ -75,7 +80,8 @@ impl Player {
 
     fn build(&mut self) -> Option<Intent> {
         let corner = self.point();
-        let way = if self.random.below(2) == 0 { WALL } else { Vec2::new(WALL.y, WALL.x) };
+        let wall = (WALL * self.unit).max(Vec2::splat(THINNEST));
+        let way = if self.random.below(2) == 0 { wall } else { Vec2::new(wall.y, wall.x) };
         let stroke = Stroke::rectangle(corner, (corner + way).min(self.size));
         let size = IVec2::new(self.ground.columns(), self.ground.rows());
         if self.fixed.is_empty() || stroke.cells(size).any(|cell| self.ground.is_solid(cell)) {
@@ -88,7 +94,7 @@ impl Player {
 
     fn blow(&mut self) -> Intent {
         let stroke = self.drag(8.0);
-        let velocity = (self.point() / self.size - 0.5) * 800.0;
+        let velocity = (self.point() / self.size - 0.5) * 800.0 * self.unit;
         Intent::Blow { stroke, velocity }
     }
 
@@ -97,15 +103,15 @@ impl Player {
         Intent::Press { stroke: self.drag(6.0), amount }
     }
 
-    /// A short drag from where the pointer is; now and then the pointer is lifted and set down elsewhere.
+    /// A short drag of a brush of a radius in the scene's own spacings, from where the pointer is; now and then the pointer is lifted and set down elsewhere.
     fn drag(&mut self, radius: f32) -> Stroke {
         if self.random.below(20) == 0 {
             self.at = self.point();
         }
         let from = self.at;
-        let step = (self.point() / self.size - 0.5) * 8.0;
+        let step = (self.point() / self.size - 0.5) * 8.0 * self.unit;
         self.at = (from + step).clamp(Vec2::ZERO, self.size);
-        Stroke { shape: BrushShape::Disc, from, to: self.at, radius }
+        Stroke { shape: BrushShape::Disc, from, to: self.at, radius: radius * self.unit }
     }
 
     /// Anywhere in the box, d.

@@ -50,7 +50,12 @@ impl Setting {
     pub fn key(&self) -> String {
         let tuning = Tuning::from(self.quality);
         let knobs: String = Knob::of_quality().map(|knob| format!("{} {} ", knob.name, knob.text(&tuning))).collect();
-        format!("{knobs}predictor {} threads {}", self.quality.predictor, self.threads)
+        format!("{knobs}predictor {} detail {} threads {}", self.quality.predictor, self.detail(), self.threads)
+    }
+
+    /// How many times finer than the start of the sweep it is.
+    pub fn detail(&self) -> f64 {
+        self.preset.map_or(1.0, Preset::detail)
     }
 }
 
@@ -86,7 +91,7 @@ pub fn settings(scope: &Scope) -> Vec<Setting> {
             all.extend(threads(scope));
         }
     }
-    let effect = |setting: &Setting| (effective(setting.quality, scope.has_air), setting.threads);
+    let effect = |setting: &Setting| (effective(setting.quality, scope.has_air), setting.detail(), setting.threads);
     let mut settings: Vec<Setting> = Vec::new();
     for setting in all {
         if !settings.iter().any(|other| effect(other) == effect(&setting)) {

@@ -33,7 +33,7 @@ pub(super) fn run(
     reference: Option<&Reference>,
 ) -> io::Result<Record> {
     // What the preset is called makes no difference to the run.
-    let mut simulation = begin(start, setting.preset.unwrap_or(Preset::Fast), setting.quality, workers.clone());
+    let mut simulation = begin(start, setting.preset.unwrap_or(Preset::Fast), setting.quality, workers.clone())?;
     let density = DensityError::of_world(simulation.world()).map(|error| error.density);
     let (run, found) = if let Some(reference) = reference {
         let mut sampler = Sampler::new(simulation.world(), plan.warmup);
@@ -42,7 +42,7 @@ pub(super) fn run(
         let mut found = found(&sampler.finish(simulation.world()));
         found.accuracy.distance = Some(follower.mean(plan.warmup));
         found.energy_gain = found.energy_gain.filter(|_| start.is_closed()).map(|ratio| {
-            // What swells to its target density is lifted by as much; that is not the energy of an unstable world.
+            // What swells to its rest density is lifted by as much; that is not the energy of an unstable world.
             let swelling = found.accuracy.density_mean.zip(density).map_or(1.0, |(after, before)| after / before);
             ratio * swelling - 1.0
         });
@@ -54,11 +54,12 @@ pub(super) fn run(
 }
 
 /// The world at its start, awake.
-fn begin(start: &Checkpoint, preset: Preset, quality: Quality, workers: Workers) -> Simulation {
-    let mut simulation = Simulation::resume(&start.clone().at_quality(preset, quality), workers);
+fn begin(start: &Checkpoint, preset: Preset, quality: Quality, workers: Workers) -> io::Result<Simulation> {
+    let start = start.clone().at_quality(preset, quality).map_err(io::Error::other)?;
+    let mut simulation = Simulation::resume(&start, workers);
     // A sleeping particle costs the same and has the same error at every quality.
     simulation.world_mut().resource_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off;
-    simulation
+    Ok(simulation)
 }
 
 fn found(metrics: &Metrics) -> Found {
@@ -74,7 +75,10 @@ fn found(metrics: &Metrics) -> Found {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{self, effects::EffectModes};
+    use crate::{
+        lab::metrics::Accuracy,
+        scene::{self, effects::EffectModes},
+    };
     use std::sync::Arc;
 
     /// Accuracy of the dam break of 10,082 particles as a sweep measures it.
@@ -82,22 +86,26 @@ mod tests {
         let blueprint = scene::load("dam_break").unwrap().build(&[], None, &EffectModes::new()).unwrap();
         let start = Checkpoint::of_scene(Arc::new(blueprint));
         let plan = Plan { ticks: 300, warmup: 59, ..Plan::default() };
-        let mut simulation = begin(&start, preset, preset.quality(), Workers::default());
+        let mut simulation = begin(&start, preset, preset.quality(), Workers::default()).unwrap();
         let mut sampler = Sampler::new(simulation.world(), plan.warmup);
         time(&mut simulation, &plan, &mut [&mut sampler]).unwrap();
         found(&sampler.finish(simulation.world()))
     }
 
     #[test]
-    fn the_dam_break_is_as_exact_as_was_asked_for() {
-        // Mean and 99th percentile of the density error; what they take is in docs/accuracy.md, as it is the machine's.
-        for (preset, [mean, p99]) in [(Preset::Balanced, [0.003, 0.035]), (Preset::Fine, [0.0005, 0.01])] {
+    fn each_preset_is_more_exact_in_the_dam_break_and_all_are_as_exact_as_can_be_seen() {
+        // A hundredth of the liquid's area, and a twentieth where it is worst, are next to nothing to the eye: a hundredth of
+        // a pool 70 deep is less than a particle.
+        let mut last = f64::MAX;
+        for preset in [Preset::Draft, Preset::Fast, Preset::Balanced, Preset::Fine] {
             let found = dam_break(preset);
             assert_eq!((found.particles, found.lost), (10_082, 0));
-            let errors = [found.accuracy.density_error_mean, found.accuracy.density_error_p99].map(Option::unwrap);
-            assert!(errors[0] <= mean && errors[1] <= p99, "{preset:?}: {found:?}");
-            // A liquid that stands thin has little error.
-            assert!((found.accuracy.density_mean.unwrap() - 1.0).abs() <= 0.02, "{preset:?}: {found:?}");
+            let Accuracy { density_error_mean: mean, density_error_p99: p99, density_mean: density, .. } =
+                found.accuracy;
+            let [mean, p99, density] = [mean, p99, density].map(|value| value.unwrap_or(f64::NAN));
+            assert!(mean <= 0.01 && p99 <= 0.05 && (density - 1.0).abs() <= 0.01, "{preset:?}: {found:?}");
+            assert!(mean < last, "{preset:?}: an error of {mean} and not below {last}");
+            last = mean;
         }
     }
 }

@@ -10,7 +10,7 @@ pub struct Found {
     pub particles: usize,
     /// Particles that were not finite, and particle-ticks outside the box or in rock.
     pub lost: u64,
-    /// Highest energy of the particles against the start's, less 1 and less what swelling to the target density takes;
+    /// Highest energy of the particles against the start's, less 1 and less what swelling to the rest density takes;
     /// only in a closed scene.
     pub energy_gain: Option<f64>,
     /// What else was measured, with the distance to the reference.

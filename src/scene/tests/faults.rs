@@ -156,9 +156,10 @@ fn worlds_too_large_are_refused_before_they_take_memory() {
         large("0.001", "(20, 20)").contains("size: 20000 × 20000 cells of 0.001 m; allowed: at most 64000000 cells")
     );
     assert!(
-        large("0.001", "(1e9, 1)").contains("size.x: in spacings, 1000000000000 is out of range; allowed: 4 to 32768")
+        large("0.001", "(1e9, 1)")
+            .contains("size.x: in spacings of 0.001 m, 1000000000000 is out of range; allowed: 4 to 32768")
     );
-    assert!(large("1", "(5, 3)").contains("size.y: in spacings, 3 is out of range"));
+    assert!(large("1", "(5, 3)").contains("size.y: in spacings of 1 m, 3 is out of range"));
     assert!(large("0", "(5, 3)").contains("spacing: 0 is out of range; allowed: 0.001 to 100"));
     let rock = "contents: [(element: \"rock\", shape: Rect(min: (0, 0), max: (5, 4)))], particle_limit: ";
     assert!(build(&scene(&format!("{rock}80"))).is_ok());

@@ -1,6 +1,7 @@
 //! Tests of the whole way from text to blueprint.
 
 mod builtins;
+mod detail;
 mod effects;
 mod faults;
 mod mutations;

@@ -13,7 +13,7 @@ use crate::{
         units::Scale,
     },
     scene::{
-        MOST_COVERED, Tuning,
+        DETAIL, MOST_COVERED, MOST_DETAIL, Tuning,
         blueprint::Blueprint,
         elements::{self, Fault},
     },
@@ -77,7 +77,8 @@ fn texts(contents: &Contents) -> Verdict {
 fn numbers(contents: &Contents) -> Verdict {
     let Contents { scene, domain, quality, .. } = contents;
     let Blueprint { scale, fluid, air, particle_limit, .. } = **scene;
-    within("spacing", scale.spacing, 0.001 / ROUNDING, 100.0 * ROUNDING)?;
+    within("detail", scale.detail, DETAIL.min as f32 / ROUNDING, MOST_DETAIL as f32 * ROUNDING)?;
+    within("spacing", scale.own_spacing(), 0.001 / ROUNDING, 100.0 * ROUNDING)?;
     within("width", domain.size.x, 4.0, LONGEST_SIDE)?;
     within("height", domain.size.y, 4.0, LONGEST_SIDE)?;
     let cells = domain.size.ceil();
@@ -122,7 +123,7 @@ fn particles(contents: &Contents) -> Verdict {
     let (particles, rock, clock) = (&contents.particles, &contents.rock, &contents.clock);
     demand(particles.has_equal_columns(), || "the particles' arrays differ in length".to_owned())?;
     let total = particles.len() + rock.len();
-    demand(total <= contents.scene.particle_limit as usize, || format!("{total} particles are more than its limit"))?;
+    demand(total <= contents.scene.most_particles() as usize, || format!("{total} particles are more than its limit"))?;
     // Places are checked against the cells of the box, where there are some.
     for i in 0..particles.len() {
         for (name, value) in Particles::COLUMNS.iter().zip(particles.get(i).values()) {
@@ -158,7 +159,8 @@ fn sources(contents: &Contents) -> Verdict {
     for emitter in &sources.emitters {
         area(&emitter.area)?;
         finite("the velocity of an emitter", emitter.velocity)?;
-        within("the rate of an emitter", emitter.rate, 0.0, 1e6 * ROUNDING)?;
+        let most = 1e6 * contents.scene.scale.particles_per_own() * ROUNDING;
+        within("the rate of an emitter", emitter.rate, 0.0, most)?;
         within("what is due of an emitter", emitter.due, 0.0, 1e6)?;
         demand(emitter.start <= LAST_TICK, || {
             format!("the start of an emitter is tick {}; allowed: 0 to {LAST_TICK}", emitter.start)

@@ -73,7 +73,9 @@ impl Checkpoint {
         if !left.is_empty() {
             return Err(SAVE.damaged("something stands behind its end"));
         }
-        check::contents(&contents).and_then(|()| open(contents)).map_err(|what| SAVE.unsound(what))
+        check::contents(&contents)
+            .and_then(|()| open(contents, u64::from_le_bytes(*hash)))
+            .map_err(|what| SAVE.unsound(what))
     }
 }
 
@@ -86,8 +88,8 @@ pub(super) fn seal(contents: &Contents) -> Vec<u8> {
     bytes
 }
 
-/// Turns checked contents into a world. What needs the whole rock is checked here.
-fn open(contents: Contents) -> Result<Checkpoint, String> {
+/// Turns checked contents into a world that is marked as of this file. What needs the whole rock is checked here.
+fn open(contents: Contents, origin: u64) -> Result<Checkpoint, String> {
     let Contents { scene, domain, effects, preset, quality, elements, .. } = contents;
     let Contents { particles, rock, mut air, pressure, sleep, sources, clock, .. } = contents;
     let cells = domain.size.ceil().as_uvec2();
@@ -116,11 +118,13 @@ fn open(contents: Contents) -> Result<Checkpoint, String> {
         effects: effects.clone(),
         preset,
         quality,
+        origin,
         ..scene.into_owned()
     };
     let state = Arc::new(Snapshot { particles, solids, air, pressure, sleep, sources, clock });
+    let blueprint = Arc::new(blueprint);
     Ok(Checkpoint {
-        setup: Setup { blueprint: Arc::new(blueprint), domain, preset, quality, origin: state.clone() },
+        setup: Setup { opened: blueprint.clone(), blueprint, domain, preset, quality, origin: state.clone() },
         modes: effects,
         state,
     })

@@ -52,6 +52,7 @@ impl Checkpoint {
                 quality: blueprint.quality,
                 origin: state.clone(),
                 domain: blueprint.domain,
+                opened: blueprint.clone(),
                 blueprint,
             },
             state,
@@ -62,13 +63,14 @@ impl Checkpoint {
     /// begins anew with another. Waiting intents are forgotten.
     pub fn restore(&self, world: &mut World) {
         let blueprint = &self.setup.blueprint;
-        let known = world.get_resource::<Setup>().is_some_and(|setup| Arc::ptr_eq(&setup.blueprint, blueprint));
+        let known = world.get_resource::<Setup>().is_some_and(|setup| Arc::ptr_eq(&setup.opened, &self.setup.opened));
+        // They follow the scale.
+        world.insert_resource(Elements(ElementParams::new(&blueprint.elements, blueprint.scale)));
         if known {
             world.resource_mut::<Effects>().set_modes(&self.modes);
         } else {
             Generation::count_scene(world);
             world.insert_resource(Effects::new(&self.modes));
-            world.insert_resource(Elements(ElementParams::new(&blueprint.elements, blueprint.scale)));
             world.insert_resource(Counters::default());
             world.insert_resource(PassLedger::default());
         }
@@ -76,10 +78,32 @@ impl Checkpoint {
         control::thaw(world, &self.state);
     }
 
-    /// The same world, to go on at another quality.
-    pub fn at_quality(mut self, preset: Preset, quality: Quality) -> Self {
+    /// The same world, to go on at another quality. To a preset of another detail it is resampled.
+    ///
+    /// # Errors
+    /// If it does not fit the detail: one line that says why, and what is allowed.
+    pub fn at_quality(mut self, preset: Preset, quality: Quality) -> Result<Self, String> {
+        if preset.detail() != self.setup.preset.detail() {
+            let asked = self.setup.asked_detail();
+            self = self.resampled(asked, preset)?;
+        }
         (self.setup.preset, self.setup.quality) = (preset, quality);
-        self
+        Ok(self)
+    }
+
+    /// The same world at another detail, beside which a preset has its own.
+    ///
+    /// # Errors
+    /// If it does not fit the detail: one line that says why, and what is allowed.
+    pub fn at_detail(self, detail: f64) -> Result<Self, String> {
+        let preset = self.setup.preset;
+        self.resampled(detail, preset)
+    }
+
+    fn resampled(self, detail: f64, preset: Preset) -> Result<Self, String> {
+        let setup = self.setup.at_detail(detail, preset)?;
+        let state = self.state.resampled(&self.setup.blueprint, &setup.blueprint, self.state.air.cell())?;
+        Ok(Self { setup, state: Arc::new(state), ..self })
     }
 
     /// Bytes that it takes, to a good approximation, without what it shares with others: the scene and its start.

@@ -16,6 +16,7 @@
 
 use crate::{
     kernel::{brush::Stroke, units::Scale},
+    scene::{DETAIL, MOST_DETAIL},
     sim::{
         checkpoint::{Checkpoint, check},
         file::{FileError, Kind},
@@ -82,7 +83,7 @@ impl Recording {
             return Err(FileError::Version(RECORDING.name, 1));
         }
         let mut rest = RECORDING.open(bytes)?;
-        let mut reader = Reader { segments: Vec::new(), elements: 0, scale: Scale { spacing: 1.0 }, end: None };
+        let mut reader = Reader { segments: Vec::new(), elements: 0, scale: Scale::own(1.0), end: None };
         while !rest.is_empty() && reader.end.is_none() {
             match reader.chunk(&mut rest) {
                 Err(_) if lenient && !reader.segments.is_empty() => break,
@@ -191,7 +192,14 @@ fn check_entry(entry: &Entry, ticks: RangeInclusive<u64>, elements: usize, scale
         Intent::Press { stroke, amount } => (None, &places(stroke), &[stroke.radius, *amount]),
         Intent::ClearAir | Intent::Effect { .. } => (None, &[], &[]),
         Intent::Quality { quality, .. } => return check::quality(quality),
-        Intent::Gravity { gravity } => return check::gravity(*gravity, scale),
+        // Of whichever detail is in force by then: at the highest the d is shortest.
+        Intent::Gravity { gravity } => {
+            return check::gravity(*gravity, Scale { spacing: scale.own_spacing() / MOST_DETAIL as f32, ..scale });
+        }
+        Intent::Detail { detail } => {
+            let holds = (DETAIL.min..=DETAIL.max).contains(detail);
+            return if holds { Ok(()) } else { Err(format!("detail {detail}; allowed: {DETAIL}")) };
+        }
     };
     if let Some(element) = element.filter(|element| element.index() >= elements) {
         return Err(format!("element {} is not one of the {elements} elements (0 … {})", element.0, elements - 1));

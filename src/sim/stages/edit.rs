@@ -2,9 +2,10 @@
 
 use crate::{
     kernel::{
-        element::ElementTable,
+        element::{ElementParams, ElementTable},
         forces,
         params::Preset,
+        sleep::{Sleep, SleepRecord},
         spawn::{EditReport, Matter},
         units::TICK_SECONDS,
     },
@@ -14,14 +15,31 @@ use crate::{
         effects::Effects,
         intent::{Intent, IntentQueue},
         recorder::Recorder,
-        state::{AirGrid, Census, Clock, Counters, Elements, ParticleStore, Rock, Setup},
+        snapshot::Snapshot,
+        state::{
+            AirGrid, Census, Clock, Counters, Elements, ParticleStore, PredictorState, Rock, Setup, SleepState,
+            SolverState, Sources,
+        },
     },
 };
-use bevy::prelude::{Res, ResMut};
+use bevy::{
+    ecs::system::SystemParam,
+    prelude::{Res, ResMut},
+};
 
 /// Run condition: something is to be done.
 pub(super) fn has_intents(queue: Res<IntentQueue>) -> bool {
     !queue.is_empty()
+}
+
+/// What else changes with the detail.
+#[derive(SystemParam)]
+pub(super) struct Derived<'w> {
+    elements: ResMut<'w, Elements>,
+    sources: ResMut<'w, Sources>,
+    predictor: ResMut<'w, PredictorState>,
+    sleep: ResMut<'w, SleepState>,
+    solver: ResMut<'w, SolverState>,
 }
 
 /// Applies all waiting intents in order.
@@ -31,7 +49,7 @@ pub(super) fn apply_intents(
     mut particles: ResMut<ParticleStore>,
     mut rock: ResMut<Rock>,
     mut air: ResMut<AirGrid>,
-    elements: Res<Elements>,
+    mut derived: Derived,
     mut clock: ResMut<Clock>,
     mut counters: ResMut<Counters>,
     mut census: ResMut<Census>,
@@ -45,6 +63,27 @@ pub(super) fn apply_intents(
             recorder.note(clock.tick, intent);
         }
         clock.edits += 1;
+        let wanted = match intent {
+            Intent::Detail { detail } => Some((detail, setup.preset)),
+            Intent::Quality { preset, .. } if preset.detail() != setup.preset.detail() => {
+                Some((setup.asked_detail(), preset))
+            }
+            _ => None,
+        };
+        if let Some((detail, preset)) = wanted {
+            let mut world = Parts {
+                setup: &mut setup,
+                particles: &mut particles,
+                rock: &mut rock,
+                air: &mut air,
+                clock: &mut clock,
+                derived: &mut derived,
+            };
+            if !world.change_detail(detail, preset) {
+                continue;
+            }
+            *census = Census::default();
+        }
         let air_stands = effects.get(Effect::Air).mode == Mode::Off;
         if !air_stands && moves_air(&intent, setup.elements(), &rock) {
             air.build(&rock);
@@ -55,7 +94,7 @@ pub(super) fn apply_intents(
             particles: &mut particles,
             solids: &mut rock,
             next_id: &mut clock.next_id,
-            limit: setup.blueprint.particle_limit,
+            limit: setup.blueprint.most_particles(),
         };
         let mut report = EditReport::default();
         match intent {
@@ -68,7 +107,7 @@ pub(super) fn apply_intents(
                 let wind = air.blow(stroke.to, stroke.radius, velocity);
                 if air_may_yield(&setup, &effects) {
                     let radius = stroke.radius.max(air.cell());
-                    forces::drag_in_disc(stroke.to, radius, wind, &elements, &mut particles, TICK_SECONDS);
+                    forces::drag_in_disc(stroke.to, radius, wind, &derived.elements, &mut particles, TICK_SECONDS);
                 }
             }
             Intent::Press { stroke, amount } => air.press(stroke.to, stroke.radius, amount),
@@ -76,6 +115,7 @@ pub(super) fn apply_intents(
             Intent::Quality { preset, quality } => change_quality(&mut setup, &mut air, &rock, preset, quality),
             Intent::Effect { effect, mode } => effects.get_mut(effect).mode = mode,
             Intent::Gravity { gravity } => setup.domain.gravity = gravity,
+            Intent::Detail { .. } => {}
         }
         // After each one, so that it makes no difference which of them came in the same tick.
         air.set_solids(&rock);
@@ -88,6 +128,45 @@ pub(super) fn apply_intents(
         census.full = refused > 0;
     }
     (clock.edits - before) as usize
+}
+
+/// The parts of a world that change with its detail.
+struct Parts<'a, 'w> {
+    setup: &'a mut Setup,
+    particles: &'a mut ParticleStore,
+    rock: &'a mut Rock,
+    air: &'a mut AirGrid,
+    clock: &'a mut Clock,
+    derived: &'a mut Derived<'w>,
+}
+
+impl Parts<'_, '_> {
+    /// Goes on at a detail that is asked for, at a preset that may have its own; `false` if the world does not fit it, and
+    /// stays what it is. A player was told before (`control::check_detail`).
+    fn change_detail(&mut self, detail: f64, preset: Preset) -> bool {
+        let Ok(setup) = self.setup.at_detail(detail, preset) else { return false };
+        let Derived { elements, sources, predictor, sleep, solver } = &mut *self.derived;
+        let before = Snapshot {
+            particles: self.particles.0.clone(),
+            solids: self.rock.0.clone(),
+            air: self.air.0.clone(),
+            pressure: Vec::new(),
+            sleep: SleepRecord::default(),
+            sources: sources.clone(),
+            clock: *self.clock,
+        };
+        let Ok(after) = before.resampled(&self.setup.blueprint, &setup.blueprint, setup.quality.air_cell) else {
+            return false;
+        };
+        elements.0 = ElementParams::new(&setup.blueprint.elements, setup.blueprint.scale);
+        **predictor = PredictorState::default();
+        let (size, version) = (setup.domain.size, after.solids.version());
+        **sleep = SleepState(Sleep::resume(after.sleep, &after.particles, size, version));
+        solver.bins.forget_rock();
+        (self.particles.0, self.rock.0, self.air.0) = (after.particles, after.solids, after.air);
+        (**sources, *self.clock, *self.setup) = (after.sources, after.clock, setup);
+        true
+    }
 }
 
 /// Whether the air that the wind tool blows would stop at the first water that it meets. The tool goes on pushing, so
@@ -106,6 +185,10 @@ fn moves_air(intent: &Intent, elements: &ElementTable, rock: &Rock) -> bool {
             elements.get(*element).fixed
         }
         Intent::Erase { .. } => rock.count() > 0,
-        Intent::ClearAir | Intent::Quality { .. } | Intent::Effect { .. } | Intent::Gravity { .. } => false,
+        Intent::ClearAir
+        | Intent::Quality { .. }
+        | Intent::Effect { .. }
+        | Intent::Gravity { .. }
+        | Intent::Detail { .. } => false,
     }
 }

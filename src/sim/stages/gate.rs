@@ -43,7 +43,7 @@ pub(super) fn plan_tick(
         air_moves: !air.is_quiet(),
         stirs_air: air.may_be_roused(&elements, fastest, TICK_SECONDS / setup.quality.substeps as f32),
     });
-    let wanted = predict::substeps(fastest, &setup.domain, &setup.quality, TICK_SECONDS);
+    let wanted = predict::substeps(fastest, &setup.domain, &setup.quality, setup.blueprint.scale.detail, TICK_SECONDS);
     plan.substeps = wanted.count;
     counters.substeps_short += u64::from(wanted.short);
     counters.substeps_max = counters.substeps_max.max(plan.substeps);

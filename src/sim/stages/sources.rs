@@ -39,7 +39,7 @@ pub(super) fn run_sources(
         particles: &mut particles,
         solids: &mut rock,
         next_id: &mut clock.next_id,
-        limit: setup.blueprint.particle_limit,
+        limit: setup.blueprint.most_particles(),
     };
     for drain in drains.iter() {
         matter.drain(drain);

@@ -1,17 +1,16 @@
 //! What comes to rest falls asleep, where it would have come to rest; what moves never does.
 
 use super::{apart, asleep, dry_box, emitter, gap, lake, two_ponds, until_asleep, without_sleep, work};
-use crate::support::{Furnish, SimulationExt, blueprint};
+use crate::support::{Furnish, SimulationExt, blueprint, with_water};
 use glam::Vec2;
 use powder_master::{
-    kernel::{
-        element::{Element, ElementTable},
-        params::Preset,
+    kernel::params::Preset,
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, Mode, Pass},
     },
-    scene::effects::{Effect, Mode, Pass},
     sim::{simulation::Simulation, state::Clock},
 };
-use std::sync::Arc;
 
 #[test]
 fn a_still_lake_falls_asleep_and_costs_nothing() {
@@ -28,13 +27,17 @@ fn a_still_lake_falls_asleep_and_costs_nothing() {
     }
 }
 
+/// Water of that thickness swings for seconds where water as it is swings for minutes.
+fn thick(mut world: Blueprint) -> Blueprint {
+    world.effects.insert(Effect::Viscosity, Mode::On);
+    with_water(&mut world, |water| water.viscosity = 0.3);
+    world
+}
+
 #[test]
 fn what_settles_falls_asleep_level_and_where_it_would_have_come_to_rest() {
     // A block that falls over, thick enough to settle soon.
-    let mut world = blueprint("dam_break", &[("columns", "14")]);
-    world.effects.insert(Effect::Viscosity, Mode::On);
-    let thick = |element: &Element| Element { viscosity: 0.3, ..element.clone() };
-    world.elements = Arc::new(ElementTable::new(world.elements.iter().map(|(_, element)| thick(element)).collect()));
+    let world = thick(blueprint("dam_break", &[("columns", "14")]));
     let (mut simulation, mut reference) = (Simulation::of(world.clone()), without_sleep(world));
     until_asleep(&mut simulation, 6000);
     reference.run(6000);
@@ -110,7 +113,7 @@ fn what_rests_without_gravity_sleeps_where_it_is() {
 
 #[test]
 fn vessels_fall_asleep_level() {
-    let mut world = blueprint("communicating_vessels", &[]);
+    let mut world = thick(blueprint("communicating_vessels", &[]));
     (world.preset, world.quality) = (Preset::Draft, Preset::Draft.quality());
     let mut simulation = Simulation::of(world.clone());
     until_asleep(&mut simulation, 12_000);

@@ -83,10 +83,11 @@ fn world(ui: &mut Ui, setup: &Setup, clock: &Clock) {
     let (blueprint, quality) = (&setup.blueprint, &setup.quality);
     let metres = blueprint.scale.vec_to_metres(blueprint.domain.size);
     ui.label(weak(format!(
-        "{:.1} × {:.1} m, d = {} m, tick {} ({:.1} s)",
+        "{:.1} × {:.1} m, d = {} m (detail {}), tick {} ({:.1} s)",
         metres.x,
         metres.y,
         blueprint.scale.spacing,
+        blueprint.scale.detail,
         grouped(clock.tick),
         clock.tick as f32 * crate::kernel::units::TICK_SECONDS,
     )));

@@ -5,7 +5,7 @@ use crate::{
         actions::PanelId,
         hud::{
             style::{self, weak},
-            widgets::{line, main_button},
+            widgets::{detail_row, line, main_button},
             window::{MIDDLE, PanelWindow},
         },
         icons,
@@ -26,6 +26,7 @@ pub struct SceneMenu {
     scenes: Vec<SceneFile>,
     chosen: Option<usize>,
     values: BTreeMap<String, f64>,
+    detail: f64,
 }
 
 impl SceneMenu {
@@ -46,6 +47,7 @@ impl SceneMenu {
                 (name.clone(), now.unwrap_or(spec.default))
             })
             .collect();
+        self.detail = if playing { setup.asked_detail() } else { 1.0 };
         self.chosen = Some(index);
     }
 }
@@ -108,7 +110,7 @@ fn show(mut window: PanelWindow, mut menu: ResMut<SceneMenu>, setup: Res<Setup>,
     })?;
     if let (true, Some(scene)) = (play, menu.chosen.and_then(|index| menu.scenes.get(index))) {
         let settings = menu.values.iter().map(|(name, value)| (name.clone(), value.to_string())).collect();
-        orders.push(Order::Scene { name: scene.name().to_owned(), settings });
+        orders.push(Order::Scene { name: scene.name().to_owned(), settings, detail: menu.detail });
         window.close(PANEL.id);
     }
     Ok(())
@@ -148,6 +150,9 @@ fn sheet(ui: &mut Ui, menu: &mut SceneMenu) -> bool {
         }
         // A range over orders of magnitude is felt by its logarithm.
         ui.add(slider.logarithmic(spec.min > 0.0 && spec.max / spec.min > 100.0));
+    }
+    if let Some(detail) = detail_row(ui, menu.detail) {
+        menu.detail = detail;
     }
     ui.add_space(10.0);
     main_button(ui, "Play").clicked()

@@ -6,7 +6,7 @@ use crate::{
     predictor::{
         PredictorReport,
         conjugate::{Conjugate, tolerance},
-        equation::{Around, Sides, couple, steepen},
+        equation::{Around, Sides, couple, steepness},
         grid::MacGrid,
         level::{RowSums, damping},
         multigrid::Hierarchy,
@@ -58,9 +58,8 @@ impl Equation {
         for (steep, step) in [(&mut steep_u, 1), (&mut steep_v, stride)] {
             for j in 1..grid.rows + 2 {
                 let after = grid.row(j) + 1..grid.row(j) + 2 + grid.columns;
-                let before = after.start - step..after.end - step;
-                let liquid = [&conjugate.liquid[before.clone()], &conjugate.liquid[after.clone()]];
-                steepen(&mut steep[after.clone()], liquid, [&fill[before], &fill[after]]);
+                let first = after.start;
+                steepness(&mut steep[after], (&conjugate.liquid, &fill), first, step);
             }
         }
         for j in 1..grid.rows + 1 {
@@ -218,7 +217,7 @@ impl Rig {
         Self { grid, closed, open, faces, hierarchy, conjugate: Conjugate::default(), dt: DT }
     }
 
-    /// Projects once, as a tick does.
+    /// Projects once, as a tick does. What comes out is `faces.u[k][1]` and `faces.v[k][1]`, the new velocities.
     pub fn project(&mut self, rest_density: f32) -> PredictorReport {
         let mut report = PredictorReport::default();
         team().instructions.run(Projection {
@@ -233,11 +232,14 @@ impl Rig {
             team: team(),
             report: &mut report,
         });
+        let Faces { u, v, ways: [ways_u, ways_v], .. } = &mut self.faces;
+        for (face, way) in u.iter_mut().zip(ways_u).chain(v.iter_mut().zip(ways_v)) {
+            face[1] += way[0];
+        }
         report
     }
 
-    /// Projects the velocities on the grid again and again, until only rounding is left. What comes out first is
-    /// `faces.u[k][1]`, the new velocity.
+    /// Projects the velocities on the grid again and again, until only rounding is left.
     pub fn project_exactly(&mut self, rest_density: f32) {
         let weights = [&self.faces.u, &self.faces.v].map(|faces| faces.iter().map(|face| face[0].max(1e-6)).collect());
         let weights: [Vec<f32>; 2] = weights;

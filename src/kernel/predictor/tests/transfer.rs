@@ -8,7 +8,8 @@ use crate::{
     predictor::{
         Predictor, PredictorParams,
         grid::MacGrid,
-        transfer::{Faces, WayBack},
+        transfer::Faces,
+        way_back::{self, WayBack},
     },
     solids::Solids,
 };
@@ -35,12 +36,8 @@ fn collect(grid: &MacGrid, particles: &Particles) -> Faces {
 fn hand_back(faces: &Faces, grid: &MacGrid, particles: &mut Particles) {
     let size = Vec2::new(grid.columns as f32, grid.rows as f32) * grid.cell;
     let domain = Domain { size, gravity: Vec2::ZERO };
-    faces.hand_back(
-        grid,
-        particles,
-        &WayBack { blend: 0.0, dt: DT, domain: &domain, solids: &Solids::new(1, 1) },
-        team(),
-    );
+    let way = WayBack { blend: 0.0, dt: DT, domain: &domain, solids: &Solids::new(1, 1) };
+    way_back::hand_back(faces, grid, particles, &way, team());
 }
 
 /// Points of the left and of the lower face of a cell, d.
@@ -120,7 +117,7 @@ fn a_linear_flow_is_linear_on_the_grid_and_back() {
         for column in 0..grid.columns + 1 {
             let [left, lower] = face_points(&grid, column, row).map(flow);
             let k = grid.row(row + 1) + column + 1;
-            (faces.u[k], faces.v[k]) = ([left.x, 0.0], [lower.y, 0.0]);
+            (faces.ways[0][k], faces.ways[1][k]) = ([left.x, 0.0, 0.0, 0.0], [lower.y, 0.0, 0.0, 0.0]);
         }
     }
     let mut particles = cloud(3000, size(&walls), CELL, |_| Vec2::ZERO);
@@ -140,11 +137,12 @@ fn what_the_faces_give_is_what_the_particles_get() {
     let mut particles = cloud(3000, box_size, CELL, |_| Vec2::ZERO);
     let mut faces = collect(&grid, &particles);
     let mut given = [0.0; 2];
-    for (sum, field) in given.iter_mut().zip([&mut faces.u, &mut faces.v]) {
-        for face in field {
+    let [ways_u, ways_v] = &mut faces.ways;
+    for (sum, (field, ways)) in given.iter_mut().zip([(&faces.u, ways_u), (&faces.v, ways_v)]) {
+        for ([weight, _], way) in field.iter().zip(ways) {
             let change = random();
-            *sum += f64::from(face[0]) * f64::from(change);
-            *face = [change, 0.0];
+            *sum += f64::from(*weight) * f64::from(change);
+            *way = [change, 0.0, 0.0, 0.0];
         }
     }
     hand_back(&faces, &grid, &mut particles);

@@ -12,7 +12,7 @@ use crate::lab::{
 
 pub(super) const RUNS: &[(&str, Run)] = &[("dam_break", |set_up| Box::pin(dam_break(set_up)))];
 
-/// Particles along the base.
+/// Particles of the scene's own spacing along the base.
 const DAM_COLUMNS: f64 = 71.0;
 
 /// Front Z over T.
@@ -52,7 +52,7 @@ const FRONT_OVER: (f64, f64) = (1.602, 2.950);
 
 async fn dam_break(set_up: SetUp) -> Findings {
     let mut simulation = set_up.open("dam_break", &[("columns", DAM_COLUMNS)])?;
-    let base = DAM_COLUMNS * simulation.spacing();
+    let base = DAM_COLUMNS * simulation.own_spacing();
     let per_second = (GRAVITY / base).sqrt();
     let (mut front, mut height) = (Vec::new(), Vec::new());
     while height.last().is_none_or(|(time, _)| *time < HEIGHT[HEIGHT.len() - 1].0) {

@@ -68,7 +68,7 @@ const UPDRAUGHT: f64 = 5.0;
 fn drag(simulation: &CaseSimulation) -> f64 {
     let matter = simulation.matter();
     let water = matter.elements.iter().find(|(_, element)| element.name == "water");
-    let d = simulation.spacing();
+    let d = simulation.own_spacing();
     water.map_or(f64::NAN, |(_, water)| f64::from(water.drag) / (f64::from(water.density) * d * d))
 }
 

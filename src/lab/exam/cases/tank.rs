@@ -18,7 +18,7 @@ use std::f64::consts::PI;
 pub(super) const RUNS: &[(&str, Run)] =
     &[("hydrostatic", |set_up| Box::pin(hydrostatic(set_up))), ("sloshing", |set_up| Box::pin(sloshing(set_up)))];
 
-/// Particles along the width and the depth.
+/// Particles of the scene's own spacing along the width and the depth.
 const COLUMN_SIZE: (u32, u32) = (40, 60);
 
 async fn hydrostatic(set_up: SetUp) -> Findings {
@@ -36,13 +36,14 @@ async fn hydrostatic(set_up: SetUp) -> Findings {
         // The middle of a full tank stands at half its height.
         middle.push(2.0 * balance.potential / (balance.mass * GRAVITY));
         motion.push((2.0 * balance.kinetic / balance.mass).sqrt() / simulation.spacing() / f64::from(TICKS_PER_SECOND));
-        low.push(density(&simulation, 0.0, depth / 3.0));
-        high.push(density(&simulation, depth * 2.0 / 3.0, depth));
+        let top = depth * simulation.own_spacing() / simulation.spacing();
+        low.push(density(&simulation, 0.0, top / 3.0));
+        high.push(density(&simulation, top * 2.0 / 3.0, top));
     }
     let mean = |values: &[f64]| stats::mean(values).unwrap_or(f64::NAN);
     Ok(vec![
-        found("height of the surface", depth * simulation.spacing(), mean(&surface)),
-        found("height by the centre of mass", depth * simulation.spacing(), mean(&middle)),
+        found("height of the surface", depth * simulation.own_spacing(), mean(&surface)),
+        found("height by the centre of mass", depth * simulation.own_spacing(), mean(&middle)),
         found("density, lowest third", 1.0, mean(&low)),
         found("density, highest third", 1.0, mean(&high)),
         found("rms speed", 0.0, mean(&motion)),

@@ -3,7 +3,7 @@
 use crate::{
     kernel::{
         element::{Element, ElementTable},
-        units::TICKS_PER_SECOND,
+        units::{Scale, TICKS_PER_SECOND},
     },
     lab::{
         exam::{
@@ -62,13 +62,13 @@ fn angular_momentum(simulation: &CaseSimulation) -> f64 {
     (0..particles.len()).map(of).sum::<f64>() * mass * d * d
 }
 
-/// Speed at the start, d/s, and height of the channel, d.
+/// Speed at the start, d/s, and height of the channel, in the scene's own spacings.
 const SHEAR_SPEED: f32 = 1.0;
 const CHANNEL: f64 = 10.0;
 /// Simulated time, s, of which the first part is left to the particles to find their places.
 const SHEAR_SECONDS: f64 = 1.0;
 const SHEAR_SETTLES: f64 = 0.1;
-/// XSPH viscosity c: so thick that the particles finding their places does not matter beside it.
+/// XSPH viscosity c at the spacing of the run: so thick that the particles finding their places does not matter beside it.
 const VISCOSITY: f32 = 0.5;
 
 async fn shear_layer(set_up: SetUp) -> Findings {
@@ -77,11 +77,13 @@ async fn shear_layer(set_up: SetUp) -> Findings {
     for (rate, mode) in rates.iter_mut().zip([Mode::On, Mode::Off]) {
         let mut blueprint = set_up.blueprint("shear_layer", &[])?;
         blueprint.effects.insert(Effect::Viscosity, mode);
-        let thick = |(_, element): (_, &Element)| Element { viscosity: VISCOSITY, ..element.clone() };
+        // An element's c is that of the scene's own spacing.
+        let viscosity = VISCOSITY / blueprint.scale.particles_per_own();
+        let thick = |(_, element): (_, &Element)| Element { viscosity, ..element.clone() };
         blueprint.elements = Arc::new(ElementTable::new(blueprint.elements.iter().map(thick).collect()));
-        let particles = &mut blueprint.particles;
+        let (particles, height) = (&mut blueprint.particles, channel(blueprint.scale));
         for i in 0..particles.len() {
-            particles.vx[i] = SHEAR_SPEED * (PI * f64::from(particles.y[i]) / CHANNEL).cos() as f32;
+            particles.vx[i] = SHEAR_SPEED * (PI * f64::from(particles.y[i]) / height).cos() as f32;
         }
         let mut simulation = set_up.simulation(blueprint);
         let mut curve = Vec::new();
@@ -97,13 +99,18 @@ async fn shear_layer(set_up: SetUp) -> Findings {
     Ok(vec![found("rate at which XSPH damps it", expected, rates[0] - rates[1])])
 }
 
+/// Height of the channel, d.
+fn channel(scale: Scale) -> f64 {
+    CHANNEL * f64::from(scale.detail)
+}
+
 /// Amplitude of `cos(k y)` in the velocity along the channel, d/s.
 fn amplitude(simulation: &CaseSimulation) -> f64 {
     let matter = simulation.matter();
-    let (particles, width) = (matter.particles, matter.domain.size.x);
+    let (particles, width, height) = (matter.particles, matter.domain.size.x, channel(matter.scale));
     let (mut sum, mut norm) = (0.0, 0.0);
     for i in (0..particles.len()).filter(|&i| (width / 3.0..width * 2.0 / 3.0).contains(&particles.x[i])) {
-        let wave = (PI * f64::from(particles.y[i]) / CHANNEL).cos();
+        let wave = (PI * f64::from(particles.y[i]) / height).cos();
         sum += f64::from(particles.vx[i]) * wave;
         norm += wave * wave;
     }
@@ -112,7 +119,7 @@ fn amplitude(simulation: &CaseSimulation) -> f64 {
 
 /// The rate by the kernel's integral, 1/s.
 fn shear_theory(simulation: &CaseSimulation) -> f64 {
-    let q = PI / CHANNEL * f64::from(simulation.quality().kernel_radius);
+    let q = PI / channel(simulation.matter().scale) * f64::from(simulation.quality().kernel_radius);
     // `1 − Ŵ(q)`, term by term: each is the last times −(q/2)²/(m (m + 4)).
     let (mut term, mut loss) = (-1.0, 0.0);
     for m in 1..=10 {

@@ -12,7 +12,7 @@ use crate::{
                 plot::{Live, Plot},
             },
             style::{self, weak},
-            widgets::{icon_button, main_button, quality_name},
+            widgets::{detail_row, icon_button, main_button, quality_name},
             window::{PanelWindow, scroll},
         },
         icons,
@@ -54,8 +54,8 @@ const SMALL: f32 = 0.02;
 pub struct AccuracyPanel {
     /// The last curve of each scene, by its fingerprint.
     curves: BTreeMap<u64, Curve>,
-    /// The scene that is played (`Generation::scene`), and its fingerprint.
-    scene: Option<(u64, u64)>,
+    /// The scene that is played (`Generation::scene`) with its d (m), and its fingerprint.
+    scene: Option<((u64, f32), u64)>,
     trail: Vec<Live>,
     trail_tick: u64,
     bounds: pilot::Bounds,
@@ -68,11 +68,12 @@ pub struct AccuracyPanel {
 impl AccuracyPanel {
     /// The fingerprint of the scene that is played; the trail of another ends.
     fn turn_to(&mut self, scene: u64, blueprint: &Blueprint) -> u64 {
+        let played = (scene, blueprint.scale.spacing);
         match self.scene {
-            Some((known, fingerprint)) if known == scene => fingerprint,
+            Some((known, fingerprint)) if known == played => fingerprint,
             _ => {
                 let found = fingerprint(blueprint);
-                self.scene = Some((scene, found));
+                self.scene = Some((played, found));
                 self.trail.clear();
                 found
             }
@@ -147,11 +148,12 @@ fn show(
                 scale: scale.unwrap_or(1.0),
                 trail,
                 goal: autopilot.goal(),
-                now: setup.quality,
+                now: (setup.preset, setup.quality),
                 looked: error.latest().is_some(),
             };
             let size = vec2(ui.available_width(), (0.34 * screen.height()).clamp(150.0, 240.0));
             orders.extend(plot.show(ui, size).or(plot.chips(ui)).map(Order::Quality));
+            orders.extend(detail_row(ui, setup.asked_detail()).map(Order::Detail));
             measure(ui, &survey, curve, scale, (&split, &bindings), &mut orders);
             ui.separator();
             pilot::show(ui, &autopilot, bounds, &mut orders);

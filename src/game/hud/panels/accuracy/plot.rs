@@ -41,7 +41,7 @@ pub struct Plot<'a> {
     /// What the autopilot holds.
     pub goal: Option<Goal>,
     /// The quality in force.
-    pub now: Quality,
+    pub now: (Preset, Quality),
     /// Whether the error was looked for: then, where there is none, there is no liquid to have one.
     pub looked: bool,
 }
@@ -149,7 +149,7 @@ impl Plot<'_> {
                 let measured = point(preset);
                 let time = measured.map(|point| format!("  {} ms", short(self.scale * point.milliseconds)));
                 let text = format!("{}{}", preset.name(), time.unwrap_or_default());
-                let chip = ui.add(egui::Button::new(text).selected(preset.quality() == self.now));
+                let chip = ui.add(egui::Button::new(text).selected(self.is_now(preset, preset.quality())));
                 let told = measured.map_or_else(|| "click to go on at it".to_owned(), |point| self.about(point));
                 if chip.on_hover_text(told).clicked() {
                     chosen = Some(preset);
@@ -180,7 +180,7 @@ impl Plot<'_> {
         let live = self.trail.last().map(|live| canvas.place(live.milliseconds, live.error));
         taken.extend(live.map(|live| Rect::from_center_size(live, vec2(14.0, 14.0))));
         for (point, dot) in dots {
-            let in_force = point.quality == self.now;
+            let in_force = self.is_now(point.preset, point.quality);
             // What has no error has its button below.
             if point.quality != point.preset.quality() || point.error.is_none() {
                 canvas.painter.circle_stroke(dot, DOT - 1.0, Stroke::new(1.5, style::ACCENT));
@@ -211,6 +211,11 @@ impl Plot<'_> {
             }
         }
         chosen
+    }
+
+    /// Whether a quality is in force; two presets that differ in nothing but their detail are two.
+    fn is_now(&self, preset: Preset, quality: Quality) -> bool {
+        (preset.detail(), quality) == (self.now.0.detail(), self.now.1)
     }
 
     fn about(&self, point: &CurvePoint) -> String {
@@ -313,7 +318,7 @@ mod tests {
     use super::*;
 
     fn plot<'a>(curve: Option<&'a Curve>, trail: &'a [Live]) -> Plot<'a> {
-        Plot { curve, scale: 1.0, trail, goal: None, now: Preset::Fast.quality(), looked: true }
+        Plot { curve, scale: 1.0, trail, goal: None, now: (Preset::Fast, Preset::Fast.quality()), looked: true }
     }
 
     /// A curve of all presets, each with twice the cost and half the error of the one before it; `error` is the first one's.

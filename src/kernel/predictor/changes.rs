@@ -1,0 +1,170 @@
+//! From the potentials to the faces: what the pressure changes there, and how the density feedback moves what is near.
+
+use crate::{
+    parallel::{Rows, Sweep, Team, sweep},
+    predictor::{
+        conjugate::Conjugate,
+        equation::{Around, CHUNK, fill_in, steepness, touch},
+        grid::MacGrid,
+        level::{Level, WORTH_A_PIECE},
+        rock::ClosedFaces,
+        transfer::{Faces, Way},
+    },
+};
+use std::ops::Range;
+
+/// Finds what the faces do to particles.
+pub(super) struct Changes<'a> {
+    pub grid: &'a MacGrid,
+    pub closed: &'a ClosedFaces,
+    pub conjugate: &'a Conjugate,
+    /// Pressure and potential of the density feedback, d/s; 0 where there is no liquid.
+    pub potentials: [&'a [f32]; 2],
+    /// Particles from which on a face has them on both sides.
+    pub whole: f32,
+    pub team: Team,
+}
+
+impl Changes<'_> {
+    /// Finds the change on every face that touches liquid, and fills one layer around them in from its neighbours. Of
+    /// `finest`, the solver is done with the unknowns, the right-hand side and the products: they are used up.
+    pub fn find(&self, faces: &mut Faces, finest: &mut Level) {
+        let Self { grid, closed, conjugate: Conjugate { liquid, rows, .. }, potentials, whole, team } = *self;
+        let Faces { u, v, ways: [ways_u, ways_v], filled, reached, area, .. } = faces;
+        let columns = &grid.padded(area);
+        // The changes on each face, and whether they are known (1) or to be filled in from its neighbours (0).
+        let Level { x: gained, b: drift, work: known, .. } = finest;
+        // Rows of faces that touch liquid, with the layer around them, and with what is read around that.
+        let touching = rows.start..rows.end + 1;
+        let near = (rows.start - 1).max(1)..(rows.end + 2).min(grid.rows + 2);
+        let around = near.start - 1..near.end + 1;
+        let all = reached.start.min(near.start)..reached.end.max(near.end);
+        for (means, ways, open, step) in [(&*u, ways_u, &closed.open_u, 1), (&*v, ways_v, &closed.open_v, grid.stride)]
+        {
+            let (touching, near) = (&touching, &near);
+            let work = Touch { grid, touching, columns, liquid, potentials, filled, closed, open, means, step };
+            let band = |field| Rows::new(field, grid.stride, &around);
+            let band = (band(known), (band(gained), band(drift)));
+            sweep(&work, around.clone(), band, columns.len(), WORTH_A_PIECE, team);
+            let work = FillIn { grid, near, columns, known, changes: [gained, drift], means, whole };
+            sweep(&work, all.clone(), Rows::new(ways, grid.stride, &all), columns.len(), WORTH_A_PIECE, team);
+        }
+        // The solver expects its padding empty.
+        for j in around {
+            let padding = grid.row(j) + grid.columns + 1;
+            (gained[padding], drift[padding], known[padding]) = (0.0, 0.0, 0.0);
+        }
+    }
+}
+
+/// Fields on faces: what is known of them, and the changes by both potentials.
+type Touched<'a> = (Rows<'a, f32>, (Rows<'a, f32>, Rows<'a, f32>));
+
+struct Touch<'a> {
+    grid: &'a MacGrid,
+    touching: &'a Range<usize>,
+    /// Columns that are looked at, with the padding.
+    columns: &'a Range<usize>,
+    liquid: &'a [f32],
+    potentials: [&'a [f32]; 2],
+    filled: &'a [f32],
+    closed: &'a ClosedFaces,
+    /// Open shares, as `closed` stores them.
+    open: &'a [f32],
+    /// Velocities from before the solve, which closed faces stop.
+    means: &'a [[f32; 2]],
+    /// From the cell after a face to that before it.
+    step: usize,
+}
+
+impl Sweep<Touched<'_>> for Touch<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, (mut known, (mut gained, mut drift)): Touched) {
+        let Self { grid, touching, columns, liquid, potentials, filled, closed, open, means, step } = *self;
+        // What is filled in reads one face further.
+        let around = columns.start.saturating_sub(1)..(columns.end + 1).min(grid.stride);
+        let out = known.each().zip(gained.each().zip(drift.each()));
+        for (j, (known, (gained, drift))) in rows.zip(out) {
+            let fields = [&mut *known, gained, drift];
+            if !touching.contains(&j) {
+                fields.into_iter().for_each(|field| field[around.clone()].fill(0.0));
+                continue;
+            }
+            for field in fields {
+                (field[around.start], field[around.end - 1]) = (0.0, 0.0);
+            }
+            let end = grid.row(j) + columns.end;
+            for start in (grid.row(j) + columns.start.max(1)..end).step_by(CHUNK) {
+                let cells = start..end.min(start + CHUNK);
+                let own = start - grid.row(j)..start - grid.row(j) + cells.len();
+                let before = cells.start - step..cells.end - step;
+                let beside = [before, cells.clone()];
+                // On the stack, so that nothing that is read can be what is written.
+                let (n, mut out) = (own.len(), [[0.0_f32; CHUNK]; 4]);
+                let [steep, touches, velocity, way] = out.each_mut().map(|field| &mut field[..n]);
+                let [dry, wet] = beside.clone().map(|cells| &liquid[cells]);
+                for i in 0..n {
+                    touches[i] = if dry[i] + wet[i] > 0.0 { 1.0 } else { 0.0 };
+                }
+                steepness(steep, (liquid, filled), start, step);
+                let (open, means) = (&open[closed.row(j) + own.start..closed.row(j) + own.end], &means[cells]);
+                let [pressure, potential] = potentials.map(|field| beside.clone().map(|cells| &field[cells]));
+                touch(velocity, pressure, open, steep, means, 1.0);
+                touch(way, potential, open, steep, means, 0.0);
+                for i in 0..n {
+                    (velocity[i], way[i]) = (touches[i] * velocity[i], touches[i] * way[i]);
+                }
+                known[own.clone()].copy_from_slice(touches);
+                gained[own.clone()].copy_from_slice(velocity);
+                drift[own].copy_from_slice(way);
+            }
+        }
+    }
+}
+
+struct FillIn<'a> {
+    grid: &'a MacGrid,
+    near: &'a Range<usize>,
+    /// Columns that are looked at, with the padding.
+    columns: &'a Range<usize>,
+    known: &'a [f32],
+    changes: [&'a [f32]; 2],
+    /// Weights and mean velocities.
+    means: &'a [[f32; 2]],
+    /// Particles from which on a face has them on both sides.
+    whole: f32,
+}
+
+impl Sweep<Rows<'_, Way>> for FillIn<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, mut ways: Rows<Way>) {
+        let Self { grid, near, columns, known, changes, means, whole } = *self;
+        for (j, ways) in rows.zip(ways.each()) {
+            let ways = &mut ways[columns.clone()];
+            let faces = grid.row(j) + columns.start..grid.row(j) + columns.end;
+            if near.contains(&j) {
+                for start in faces.clone().step_by(CHUNK) {
+                    let faces = start..faces.end.min(start + CHUNK);
+                    let own = start - grid.row(j) - columns.start..faces.end - grid.row(j) - columns.start;
+                    let around = |field| Around::new(field, faces.clone(), grid.stride);
+                    let mut out = [[0.0; 4]; CHUNK];
+                    let out = &mut out[..faces.len()];
+                    fill_in(out, changes.map(around), around(known), &means[faces.clone()], whole);
+                    ways[own].copy_from_slice(out);
+                }
+                continue;
+            }
+            let means = &means[faces];
+            // Beyond the floor stands what stands above it, as `fill_in` finds it beyond the other walls: particles within
+            // half a cell of a wall take a part of their velocity along it from there. Elsewhere away from the liquid
+            // nothing changes.
+            let share = if j == 0 && near.start == 1 { 1.0 } else { 0.0 };
+            let [gained, drift] = changes.map(|field| &field[grid.row(1)..][columns.clone()]);
+            for (i, way) in ways.iter_mut().enumerate() {
+                let [weight, mean] = means[i];
+                let is_whole = if weight < whole { 0.0 } else { 1.0 };
+                *way = [share * gained[i], is_whole * mean, is_whole, share * drift[i]];
+            }
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Grid to particles: what the faces around each do to it, with bilinear weights.
+
+use crate::{
+    parallel::{Team, WORTH_A_PIECE, spread},
+    params::{Domain, WALL_GAP},
+    particles::Particles,
+    predictor::{
+        grid::MacGrid,
+        stencil::{Axis, LANES, Stencils},
+        transfer::{Faces, Way, lanes},
+    },
+    simd::{Lanes, Pass},
+    solids::Solids,
+};
+use glam::{Vec2, Vec4};
+
+/// How the particles follow the faces.
+pub(super) struct WayBack<'a> {
+    /// Share of the difference to the grid's velocity that a particle gives up.
+    pub blend: f32,
+    /// Substep, s.
+    pub dt: f32,
+    pub domain: &'a Domain,
+    pub solids: &'a Solids,
+}
+
+/// Longest move of the density feedback along an axis in a substep, d. It is no motion and has no speed, so that no harm
+/// comes of it but that particles get among others; half a spacing keeps them beside their neighbours.
+const LONGEST_DRIFT: f32 = 0.5;
+
+/// A coordinate of a way, cut to [`LONGEST_DRIFT`].
+#[inline(always)]
+fn shorten(way: f32) -> f32 {
+    keep(way, -LONGEST_DRIFT, LONGEST_DRIFT)
+}
+
+/// A number, cut to `low … high`.
+#[inline(always)]
+fn keep(number: f32, low: f32, high: f32) -> f32 {
+    let number = if number > low { number } else { low };
+    if number < high { number } else { high }
+}
+
+/// Adds the change of velocity at each particle, and half of it to what is added after the move; moves the velocity
+/// towards the grid's by the share `blend`, and the particle as the density feedback wants it.
+pub(super) fn hand_back(faces: &Faces, grid: &MacGrid, particles: &mut Particles, way: &WayBack, team: Team) {
+    let Particles { x, y, vx, vy, push_x, push_y, .. } = particles;
+    let arrays = [&mut x[..], y, vx, vy, push_x, push_y];
+    spread(arrays, WORTH_A_PIECE, team.threads, &|_, [x, y, vx, vy, push_x, push_y]| {
+        let (position, velocity, push) = ([x, y], [vx, vy], [push_x, push_y]);
+        team.instructions.run(HandBack { grid, ways: &faces.ways, way, position, velocity, push });
+    });
+}
+
+/// Changes particles as the faces around them say.
+struct HandBack<'a> {
+    grid: &'a MacGrid,
+    ways: &'a [Vec<Way>; 2],
+    way: &'a WayBack<'a>,
+    position: [&'a mut [f32]; 2],
+    velocity: [&'a mut [f32]; 2],
+    push: [&'a mut [f32]; 2],
+}
+
+impl Pass for HandBack<'_> {
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Self { grid, ways, way, position: [x, y], velocity: [vx, vy], push: [push_x, push_y] } = self;
+        let (low, high) = (Vec2::splat(WALL_GAP), way.domain.highest());
+        let rock = (way.solids.count() > 0).then_some(way.solids);
+        for at in (0..x.len()).step_by(LANES) {
+            let (from_x, from_y) = (lanes(x, at), lanes(y, at));
+            let own = at..x.len().min(at + LANES);
+            let count = own.len();
+            let around = |axis| Stencils::new(grid, &from_x, &from_y, axis);
+            let means_x = mean_of_faces(&ways[0], grid, &around(Axis::U), count);
+            let means_y = mean_of_faces(&ways[1], grid, &around(Axis::V), count);
+            let (x, y) = (&mut x[own.clone()], &mut y[own.clone()]);
+            change(&means_x, [x, &mut vx[own.clone()], &mut push_x[own.clone()]], way, [low.x, high.x]);
+            change(&means_y, [y, &mut vy[own.clone()], &mut push_y[own]], way, [low.y, high.y]);
+            if let Some(rock) = rock {
+                for k in 0..count {
+                    let to = rock.sweep(Vec2::new(from_x[k], from_y[k]), Vec2::new(x[k], y[k]));
+                    (x[k], y[k]) = (to.x, to.y);
+                }
+            }
+        }
+    }
+}
+
+/// The bilinear means of the faces around the first `count` points.
+#[inline(always)]
+fn mean_of_faces(field: &[Way], grid: &MacGrid, stencils: &Stencils, count: usize) -> [Way; LANES] {
+    let mut means = [[0.0; 4]; LANES];
+    for lane in 0..count {
+        let corner = stencils.corner[lane] as usize;
+        let (right, upper) = (stencils.right[lane], stencils.upper[lane]);
+        let (left, lower) = (1.0 - right, 1.0 - upper);
+        let (below, above) = (pair(field, corner), pair(field, corner + grid.stride));
+        let on_left = lower * below[0] + upper * above[0];
+        let on_right = lower * below[1] + upper * above[1];
+        means[lane] = (left * on_left + right * on_right).to_array();
+    }
+    means
+}
+
+/// Two faces side by side.
+#[inline(always)]
+fn pair(field: &[Way], at: usize) -> [Vec4; 2] {
+    let [left, right] = &field[at..at + 2] else { return [Vec4::ZERO; 2] };
+    [Vec4::from_array(*left), Vec4::from_array(*right)]
+}
+
+/// Changes one coordinate of some particles: position, velocity and push.
+#[inline(always)]
+fn change(means: &[Way; LANES], particles: [&mut [f32]; 3], way: &WayBack, [low, high]: [f32; 2]) {
+    let [at, velocity, push] = particles;
+    for (((at, velocity), push), mean) in at.iter_mut().zip(velocity).zip(push).zip(means) {
+        let [gained, grid, known, drift] = *mean;
+        *velocity += gained + way.blend * (grid - known * *velocity);
+        *push += 0.5 * gained;
+        *at = keep(*at + shorten(drift * way.dt), low, high);
+    }
+}

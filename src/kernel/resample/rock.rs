@@ -1,0 +1,53 @@
+//! Rock on cells of another size.
+
+use crate::{element::ElementId, solids::Solids};
+use glam::{IVec2, Vec2};
+use std::collections::BTreeMap;
+
+/// Share of a cell that must be rock.
+const HALF: f64 = 0.5;
+/// Rounding of a length, d.
+const SLACK: f64 = 1e-6;
+
+/// The rock of `old` in a box of `size` (new d): a cell is rock if at least half of what it has in the box was, of the
+/// element that most of that was of. With a whole factor that is exactly the old rock. Ids count from `next_id` on.
+pub fn resample_rock(old: &Solids, factor: f64, size: Vec2, next_id: &mut u32) -> Solids {
+    let cells = size.ceil().as_uvec2();
+    let mut new = Solids::new(cells.x, cells.y);
+    if old.count() == 0 {
+        return new;
+    }
+    let axis = |k: u32, end: f32, count: i32| -> Vec<(i32, f64)> {
+        let (low, high) = (f64::from(k) / factor, f64::from(k + 1).min(f64::from(end)) / factor);
+        let (first, last) = ((low + SLACK).floor() as i32, (high - SLACK).ceil() as i32);
+        let overlap = |k: i32| (k, high.min(f64::from(k + 1)) - low.max(f64::from(k)));
+        (first..last.max(first + 1)).filter(|k| *k < count).map(overlap).collect()
+    };
+    let columns: Vec<_> = (0..cells.x).map(|x| axis(x, size.x, old.columns())).collect();
+    for y in 0..cells.y {
+        let rows = axis(y, size.y, old.rows());
+        for (x, columns) in columns.iter().enumerate() {
+            if let Some(element) = mostly(old, columns, &rows) {
+                new.insert(IVec2::new(x as i32, y as i32), element, *next_id);
+                *next_id += 1;
+            }
+        }
+    }
+    new
+}
+
+/// What a cell is of, by the parts of old cells that it covers.
+fn mostly(old: &Solids, columns: &[(i32, f64)], rows: &[(i32, f64)]) -> Option<ElementId> {
+    let mut rock: BTreeMap<ElementId, f64> = BTreeMap::new();
+    let mut whole = 0.0;
+    for (y, height) in rows {
+        for (x, width) in columns {
+            whole += width * height;
+            if let Some((element, _)) = old.get(IVec2::new(*x, *y)) {
+                *rock.entry(element).or_default() += width * height;
+            }
+        }
+    }
+    let most = rock.iter().max_by(|a, b| a.1.total_cmp(b.1)).map(|(element, _)| *element);
+    most.filter(|_| rock.values().sum::<f64>() >= (HALF - SLACK) * whole)
+}
