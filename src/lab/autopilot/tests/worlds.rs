@@ -87,7 +87,7 @@ fn the_error_of_the_dam_break_is_held() {
 
 #[test]
 fn the_error_of_the_wind_tunnel_is_held_at_a_bound_that_droplets_can_keep() {
-    // There is little inside of droplets, and what there is stands a few per cent too thin at any quality: a bound below that
-    // sends the autopilot up in vain (docs/accuracy.md).
-    check("wind_tunnel", 4.0, 2, 8.0);
+    // There is little inside of droplets, and what there is stands a few per cent too thin at any quality. A twentieth can't be
+    // seen in a droplet, and `balanced`, of a work of 6, has to do for it.
+    check("wind_tunnel", 5.0, 2, 6.0);
 }
