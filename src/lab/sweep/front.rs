@@ -71,8 +71,10 @@ pub(super) fn mark(rows: &mut [Row], air_is_unseen: bool) {
         let valid = |row: &&mut Row| row.setting.threads == threads && row.is_valid();
         let mut own: Vec<&mut Row> = rows.iter_mut().filter(valid).collect();
         let points: Vec<Point> = own.iter().map(|row| point(row, air_is_unseen)).collect();
-        for (row, on_front) in own.iter_mut().zip(front(&points)) {
-            row.front = on_front;
+        let truth = |row: &&mut Row| Point { error: row.true_error().unwrap_or(f64::NAN), ..point(row, false) };
+        let true_points: Vec<Point> = own.iter().map(truth).collect();
+        for ((row, on_front), on_true_front) in own.iter_mut().zip(front(&points)).zip(front(&true_points)) {
+            (row.front, row.true_front) = (on_front, on_true_front);
         }
     }
 }

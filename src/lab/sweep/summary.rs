@@ -5,6 +5,7 @@ use super::{
     error::ErrorMeasure,
     presets::{self, Order},
     row::Row,
+    truth,
 };
 use crate::{
     kernel::params::{Preset, Quality},
@@ -50,6 +51,7 @@ pub fn text(subject: &Subject, rows: &[Row]) -> String {
         heading(subject, rows),
         budgets(subject, &own),
         preset_table(subject, rows),
+        truth::text(&own),
         knobs(subject, &own),
         threads(rows),
         excluded(rows),
@@ -100,7 +102,7 @@ fn budgets(subject: &Subject, rows: &[&Row]) -> String {
     format!("## What to choose\n\n{}", markdown::rows(headings, lines))
 }
 
-fn name(row: &Row) -> String {
+pub(super) fn name(row: &Row) -> String {
     match row.setting.preset {
         Some(preset) => format!("`{}`", preset.name()),
         None => row.setting.name.clone(),

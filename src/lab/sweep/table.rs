@@ -22,9 +22,10 @@ enum Field {
 }
 use Field::{Share, Text};
 
-const SETTING: [Column; 3] = [
+const SETTING: [Column; 4] = [
     ("setting", "name of the setting, unique in the table", Text(|row| row.setting.name.clone())),
     ("preset", "name of the preset that it is", Text(|row| row.setting.preset.map_or("", Preset::name).to_owned())),
+    ("detail", "how many times finer than the scene it is", Text(|row| row.setting.detail().to_string())),
     ("threads", "threads of the kernel", Text(|row| row.setting.threads.to_string())),
 ];
 
@@ -34,7 +35,7 @@ const PREDICTOR: Column = (
     Text(|row| row.setting.quality.predictor.to_string()),
 );
 
-const RESULTS: [Column; 21] = [
+const RESULTS: [Column; 23] = [
     ("runs", "number of runs", Text(|row| row.runs.to_string())),
     ("ms", "time of a tick, ms: the median over the runs of their medians", Text(|row| ms(row.ms))),
     ("ms_low", "median of the fastest run, ms", Text(|row| ms(row.ms_range[0]))),
@@ -66,14 +67,16 @@ const RESULTS: [Column; 21] = [
         Text(|row| row.found.lost.to_string()),
     ),
     (
-        "distance_share",
-        "distance to the reference: liquid in another coarse cell, a fraction",
-        Share(|of| of.distance?.share),
+        "true_error",
+        "share of the liquid that stands elsewhere than in the converged run",
+        Text(|row| share(row.true_error())),
     ),
-    ("distance_momentum", "distance to the reference: momentum", Share(|of| of.distance?.momentum)),
-    ("distance_air", "distance to the reference: mean air velocity", Share(|of| of.distance?.air)),
+    ("true_floor", "what of it may be the converged run's own", Text(|row| share(row.found.floor))),
+    ("distance_momentum", "distance to the converged run: momentum", Share(|of| of.distance?.momentum)),
+    ("distance_air", "distance to the converged run: mean air velocity", Share(|of| of.distance?.air)),
     ("particles", "particles at the end, rock included", Text(|row| row.found.particles.to_string())),
     ("front", "whether no valid setting beats it: true or false", Text(|row| row.front.to_string())),
+    ("true_front", "whether none does by the true error: true or false", Text(|row| row.true_front.to_string())),
     ("faults", "what makes the row invalid, separated by semicolons", Text(|row| row.faults.join("; "))),
     ("hash", "hash of the final state", Text(|row| row.hash.clone())),
 ];
