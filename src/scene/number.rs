@@ -73,7 +73,7 @@ impl Range {
     }
 
     /// `value` if it is in the range, otherwise what is wrong with it and what is allowed.
-    pub(super) fn check(self, value: f64) -> Result<f64, String> {
+    pub(crate) fn check(self, value: f64) -> Result<f64, String> {
         let fault = if !value.is_finite() {
             "isn't finite"
         } else if value < self.min || value > self.max {

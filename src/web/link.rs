@@ -1,20 +1,22 @@
-//! What the part of a link after `#` asks for: `scene=dam_break&columns=71&quality=fine`.
+//! What the part of a link after `#` asks for: `scene=dam_break&columns=71&quality=fine&detail=2`.
 
 use crate::{
     kernel::params::Preset,
-    scene::{self, SceneError, blueprint::Blueprint, effects::EffectModes},
+    scene::{self, DETAIL, SceneError, blueprint::Blueprint, effects::EffectModes},
 };
 
 /// The scene of a link that names none.
 const DEFAULT_SCENE: &str = "waterfall";
 
 /// What a link asks for.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Link {
     /// Name of the scene.
     pub scene: String,
     /// The quality, if it is not to be the scene's own.
     pub quality: Option<Preset>,
+    /// How many times finer than the scene's own its particles are; 1 if the link does not say.
+    pub detail: f64,
     /// Parameters of the scene, and numbers of quality and liquid: what `--set` takes.
     pub settings: Vec<(String, String)>,
 }
@@ -31,23 +33,33 @@ pub enum LinkError {
         /// What the link calls it.
         name: String,
     },
+    /// The detail.
+    #[error("detail `{text}`; allowed: {DETAIL}")]
+    Detail {
+        /// What the link says.
+        text: String,
+    },
     /// The page's script passed something else than a list of pairs.
     #[error("not a list of names and values: {0}")]
     Form(#[from] serde_json::Error),
 }
 
 impl Link {
-    /// Reads names and values, decoded, as a JSON list of pairs of strings. `scene` and `quality` are the link's own
-    /// words, all others the scene's.
+    /// Reads names and values, decoded, as a JSON list of pairs of strings. `scene`, `quality` and `detail` are the
+    /// link's own words, all others the scene's.
     ///
     /// # Errors
-    /// If it is no such list, or the quality does not exist.
+    /// If it is no such list, or the quality or the detail does not exist.
     pub fn read(pairs: &str) -> Result<Self, LinkError> {
-        let mut link = Self { scene: DEFAULT_SCENE.to_owned(), quality: None, settings: Vec::new() };
+        let mut link = Self { scene: DEFAULT_SCENE.to_owned(), quality: None, detail: 1.0, settings: Vec::new() };
         for (name, value) in serde_json::from_str::<Vec<(String, String)>>(pairs)? {
             match name.as_str() {
                 "scene" => link.scene = value,
                 "quality" => link.quality = Some(Preset::find(&value).ok_or(LinkError::Quality { name: value })?),
+                "detail" => {
+                    let number = value.parse().ok().filter(|number| DETAIL.check(*number).is_ok());
+                    link.detail = number.ok_or(LinkError::Detail { text: value })?;
+                }
                 _ => link.settings.push((name, value)),
             }
         }
@@ -59,7 +71,7 @@ impl Link {
     /// # Errors
     /// If there is no such scene, or it does not take a setting.
     pub fn build(&self) -> Result<Blueprint, LinkError> {
-        Ok(scene::load(&self.scene)?.build(&self.settings, self.quality, &EffectModes::new())?)
+        Ok(scene::load(&self.scene)?.at_detail(self.detail).build(&self.settings, self.quality, &EffectModes::new())?)
     }
 }
 
@@ -73,10 +85,11 @@ mod tests {
 
     #[test]
     fn a_link_names_scene_quality_and_parameters() {
-        let link = Link::read(r#"[["scene","dam_break"],["columns","9"],["quality","fine"]]"#).expect("is sound");
+        let link = Link::read(r#"[["scene","dam_break"],["columns","9"],["quality","fine"],["detail","2"]]"#)
+            .expect("is sound");
         let blueprint = link.build().expect("exists");
         assert_eq!((blueprint.name.as_str(), blueprint.preset), ("dam_break", Preset::Fine));
-        assert_eq!(blueprint.parameters["columns"], 9.0);
+        assert_eq!((blueprint.parameters["columns"], blueprint.particles.len()), (9.0, 4 * 2 * 9 * 9));
     }
 
     #[test]
@@ -90,6 +103,7 @@ mod tests {
             (r#"[["scene","nowhere"]]"#, "nowhere"),
             (r#"[["scene","dam_break"],["columns","many"]]"#, "columns"),
             (r#"[["scene","dam_break"],["colums","9"]]"#, "colums"),
+            (r#"[["detail","nan"]]"#, "allowed: 0.125 to 8"),
             (r#"[["quality","perfect"]]"#, "allowed: classic, draft"),
             ("scene=empty", "list"),
         ] {

@@ -47,7 +47,7 @@ impl Totals {
 }
 
 fn error(simulation: &Simulation) -> f64 {
-    DensityError::of_world(simulation.world()).map_or(0.0, |error| f64::from(error.mean))
+    DensityError::of_world(simulation.world()).map_or(0.0, |error| error.mean)
 }
 
 fn at(start: &Checkpoint, detail: f64) -> Simulation {

@@ -16,7 +16,7 @@ use crate::{
     },
     lab::{
         colours::{self, Reference, Rgb},
-        difference::{self, Difference, Half},
+        difference::{Difference, Half},
         maps::{BurialMap, DepthMap},
     },
     sim::{

@@ -13,7 +13,6 @@ use crate::{
         },
         split::Split,
     },
-    sim::state::AirGrid,
 };
 
 fn order(player: &mut Player, order: Order) {

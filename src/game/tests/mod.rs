@@ -44,6 +44,7 @@ mod accuracy;
 mod air;
 #[cfg(not(target_arch = "wasm32"))]
 mod crash;
+mod detail;
 mod draw;
 mod gauntlet;
 mod keys;

@@ -15,7 +15,7 @@ pub fn along(place: Vec2) -> u64 {
     let mut way = 0;
     for bit in (0..BITS).rev() {
         let (right, upper) = (x >> bit & 1, y >> bit & 1);
-        way = way << 2 | u64::from(3 * right ^ upper);
+        way = way << 2 | u64::from((3 * right) ^ upper);
         if upper == 0 {
             if right == 1 {
                 (x, y) = (most - x, most - y);

@@ -43,7 +43,7 @@ pub fn work(quality: &Quality) -> f32 {
 pub fn ladder() -> Vec<Level> {
     let mut levels: Vec<Level> = Vec::new();
     let presets = || Preset::ALL.into_iter().filter(is_level).map(|preset| (preset, preset.quality()));
-    let top = presets().last().map(|(preset, quality)| (preset, Quality { substeps: MOST_SUBSTEPS, ..quality }));
+    let top = presets().next_back().map(|(preset, quality)| (preset, Quality { substeps: MOST_SUBSTEPS, ..quality }));
     for (preset, quality) in presets().chain(top) {
         let mut work = work(&quality);
         if let Some(&below) = levels.last() {

@@ -75,8 +75,8 @@ fn introduction(command: &str, processor: &str) -> String {
          known to be beyond its tolerance is a *known miss*: it is listed there with the reason, which stands below its \
          table. A test runs every case at `balanced` and the quick ones at every quality, and fails when a miss is new or \
          cured.\n\n\
-         Where a row says *d = 0.1 m*, the game's own spacing, the row above it is the same at a finer one. `reference` is \
-         `fine` at twice the detail: all its spacings are half of what a case says.\n\n\
+         Where a row says *d = 0.1 m*, the game's own spacing, the row above it is the same at a finer one; `reference`, \
+         of twice the detail, halves both.\n\n\
          The rows *order of the error in the spacing* say how the error falls when particles get finer: the slope of \
          log error over log spacing, by least squares over runs whose lengths grow with the number of particles and whose \
          times with its root (Froude's scaling, the spacing stays). Each spacing is run from two starts of equal accuracy; \

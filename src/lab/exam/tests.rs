@@ -68,6 +68,8 @@ fn a_known_miss_says_why_and_classic_is_only_shown_where_the_spacing_is_judged()
     let (_, answer) = told(Over::Qualities).judge(found("number", 2.0, 3.0), &setting(Preset::Fine), 1.0);
     assert_eq!(answer.known, Some("it is told to"));
     assert_eq!(answer.remark().unwrap(), "number: a known miss. it is told to");
+    let (_, cured) = told(Over::Qualities).judge(found("number", 2.0, 2.0), &setting(Preset::Fine), 1.0);
+    assert!(cured.remark().unwrap().contains("its line has to go"), "{cured:?}");
     let verdict = |preset| told(Over::Refinement).judge(found("number", 2.0, 3.0), &setting(preset), 1.0).0;
     assert_eq!([Preset::Classic, Preset::Balanced].map(verdict), [Verdict::Shown, Verdict::Fail]);
 }

@@ -94,7 +94,8 @@ pub(super) struct Rules {
     pub fastest: Option<f64>,
     /// How far the liquid is too dense after the shock.
     pub density: Option<Density>,
-    /// The root of the mean square of the speeds in the last tenth, d a tick.
+    /// The root of the mean square of the speeds in the last tenth, in the scene's own spacings a tick: what is calm to the eye
+    /// is so at every detail.
     pub rest: Option<f64>,
     /// The most expensive tick, as a multiple of a calm one. Default: [`Rules::WORK`].
     pub work: Option<f64>,

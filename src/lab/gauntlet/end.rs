@@ -16,9 +16,9 @@ const HEIGHT_OFF: f64 = 0.02;
 pub(super) enum End {
     /// This share of the particles has its nearest neighbour at least so far away, d.
     Apart { share: f64, least: f32 },
-    /// The water's surface stands at this height, d, to 2 %: twice the mean height of the particles.
+    /// The water's surface stands at this height, in the scene's own spacings, to 2 %: twice the mean height of the particles.
     Stands { height: f64 },
-    /// At most such a share is left of the energy of a gust of 200 d/s.
+    /// At most such a share is left of the energy of a gust of 200 of the scene's own spacings a second.
     GustLeft(f64),
     /// No particle is faster, m/s.
     Slower(f64),
@@ -30,6 +30,7 @@ impl End {
     /// Looks at the world; the error is what does not hold.
     pub fn check(self, world: &World) -> Result<(), String> {
         let particles = &world.resource::<ParticleStore>().0;
+        let detail = f64::from(matter(world).scale.detail);
         let (holds, found) = match self {
             Self::Apart { share, least } => {
                 let gaps = gaps(particles);
@@ -40,14 +41,15 @@ impl End {
                 (gap >= least, format!("{found} {percent} in a hundred is within {gap:.3} d, allowed {least}"))
             }
             Self::Stands { height } => {
-                let mean = particles.y.iter().map(|y| f64::from(*y)).sum::<f64>() / particles.len().max(1) as f64;
+                let sum = particles.y.iter().map(|y| f64::from(*y)).sum::<f64>();
+                let mean = sum / detail / particles.len().max(1) as f64;
                 let found = format!("stands {:.2} d high, allowed {height} ± {}", 2.0 * mean, HEIGHT_OFF * height);
                 ((2.0 * mean / height - 1.0).abs() <= HEIGHT_OFF, found)
             }
             Self::GustLeft(share) => {
                 let air = world.resource::<AirGrid>();
-                // The gust is a cone 16 d wide, which holds a sixth of a cylinder's ½ v² π r².
-                let gust = 0.5 * 200.0 * 200.0 * 804.0 / 6.0;
+                // The gust is a cone 16 wide, which holds a sixth of a cylinder's ½ v² π r²; in d, detail⁴ times as much.
+                let gust = 0.5 * 200.0 * 200.0 * 804.0 / 6.0 * detail.powi(4);
                 let left = (air.kinetic_energy() + air.pressure_energy()) / gust;
                 (left <= share, format!("{left:.3} of the gust's energy left"))
             }

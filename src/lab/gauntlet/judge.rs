@@ -131,7 +131,8 @@ impl Judge {
         let ending = self.seen * 10 > self.length * 9;
         if ending {
             let speed = if balance.mass > 0.0 { (2.0 * balance.kinetic / balance.mass).sqrt() } else { 0.0 };
-            self.motion.push(speed / spacing / f64::from(TICKS_PER_SECOND));
+            let own_spacing = f64::from(matter.scale.own_spacing());
+            self.motion.push(speed / own_spacing / f64::from(TICKS_PER_SECOND));
         }
         if self.seen.is_multiple_of(DENSITY_EVERY) || self.seen == self.length {
             self.measure_density(world, ending);

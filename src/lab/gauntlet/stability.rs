@@ -22,7 +22,7 @@ pub struct Stability {
     pub density_worst: Option<f64>,
     /// The same over the last tenth of the case.
     pub density_end: Option<f64>,
-    /// Root of the mean square of the speeds over the last tenth, d a tick.
+    /// Root of the mean square of the speeds over the last tenth, in the scene's own spacings a tick.
     pub motion: f64,
     /// The most expensive tick, as a multiple of a calm one: candidate pairs a particle, times substeps and iterations.
     pub work: f64,
