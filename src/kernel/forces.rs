@@ -12,7 +12,7 @@ use glam::Vec2;
 /// Particles whose wind is looked up at a time.
 const BLOCK: usize = 64;
 
-/// Begins a substep of `dt` s: half of gravity (d/s²), whose other half [`end_kick`] adds after the move.
+/// Begins a substep of `dt` s: half of gravity (d/s²), whose other half comes after the move (`velocity`).
 ///
 /// That is the leapfrog (velocity Verlet): with `x += v Δt` in between, a fall is exact at any Δt, in way and in speed.
 /// Pressure and contact act at the middle of a substep, too. They are known only once the substep is solved; so that the

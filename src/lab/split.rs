@@ -188,7 +188,7 @@ mod tests {
         kernel::brush::{BrushShape, Stroke},
         lab::difference::{Difference, Half},
         scene::{self, effects::EffectModes},
-        sim::{control, simulation::Simulation},
+        sim::{control, simulation::Simulation, state::ParticleStore},
     };
     use glam::Vec2;
     use std::sync::Arc;
@@ -289,6 +289,36 @@ mod tests {
         assert_equal(&simulation);
         play(&mut simulation);
         assert!(!difference(&simulation).is_nothing());
+    }
+
+    #[test]
+    fn worlds_of_two_details_take_the_same_input_in_metres() {
+        let mut simulation = split(Preset::Balanced);
+        Split::begin(simulation.world_mut(), Preset::Reference, Preset::Reference.quality()).unwrap();
+        let apart = difference(&simulation).liquid().expect("water is there");
+        // Nothing but where the pieces of a particle lie: half a particle in a cell of 16, at a surface.
+        assert!(apart < 0.03, "the same moment differs by {apart}");
+        let areas = |simulation: &Simulation| {
+            let second = simulation.world().resource::<Split>().world().expect("it is on");
+            [simulation.world(), second].map(|world| {
+                let d = f64::from(world.resource::<Setup>().blueprint.scale.spacing);
+                world.resource::<ParticleStore>().len() as f64 * d * d
+            })
+        };
+        let before = areas(&simulation);
+        let middle = simulation.world().resource::<Setup>().blueprint.domain.size / 2.0;
+        let water = simulation.world().resource::<Setup>().elements().find("water").unwrap();
+        let stroke = Stroke::dab(BrushShape::Disc, middle + Vec2::new(60.0, 40.0), 12.0);
+        push(&mut simulation, Intent::Stamp { element: water, stroke });
+        simulation.tick();
+        let [first, second] = [0, 1].map(|k| areas(&simulation)[k] - before[k]);
+        // A disc of 24 d: sites at its edge, and what the spring gave in the tick.
+        assert!(first > 2.0 && (second / first - 1.0).abs() < 0.05, "{first} m² and {second} m²");
+        push(&mut simulation, Intent::Detail { detail: 0.5 });
+        simulation.tick();
+        let details = |world: &World| world.resource::<Setup>().blueprint.scale.detail;
+        let other = details(simulation.world().resource::<Split>().world().expect("it is on"));
+        assert_eq!((details(simulation.world()), other), (0.5, 1.0), "each goes to half of its own");
     }
 
     #[test]

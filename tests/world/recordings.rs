@@ -295,3 +295,20 @@ fn the_last_minute_is_kept_and_no_more_than_a_segment_beyond() {
     let bytes = simulation.get::<Recorder>().bytes();
     assert!(bytes < 1 << 20, "a small world takes {bytes} bytes");
 }
+
+#[test]
+fn changes_of_detail_are_the_same_again_on_other_threads() {
+    let mut simulation = recorded("waterfall", &[]);
+    simulation.run(20);
+    let stroke = Stroke::dab(BrushShape::Disc, Vec2::new(120.0, 150.0), 6.0);
+    // In one tick: lengths of what follows are in the new d.
+    simulation.push(Intent::Draw { element: WATER, stroke }).push(Intent::Detail { detail: 1.5 });
+    simulation.push(Intent::Draw { element: WATER, stroke: stroke.scaled(1.5) }).run(5);
+    simulation.push(Intent::Quality { preset: Preset::Reference, quality: Preset::Reference.quality() }).run(3);
+    simulation.push(Intent::Quality { preset: Preset::Draft, quality: Preset::Draft.quality() });
+    simulation.push(Intent::Detail { detail: 0.5 }).run(5);
+    let recording = read(&file(&simulation));
+    let hash = simulation.hash();
+    assert_eq!(again(&recording, Workers::single(), InstructionSet::Baseline).expect("the same"), (33, hash));
+    assert_eq!(same(&recording), (33, hash));
+}

@@ -24,9 +24,7 @@ pub(super) type Way = [f32; 4];
 /// Fields on the faces.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Faces {
-    /// At the left faces: number of particles (as weights) and their momentum, d/s; after [`find_means`] mean velocity.
-    ///
-    /// [`find_means`]: super::pressure
+    /// At the left faces: number of particles (as weights) and their momentum, d/s; in the projection their mean velocity.
     pub u: Vec<[f32; 2]>,
     /// The same at the lower faces.
     pub v: Vec<[f32; 2]>,
