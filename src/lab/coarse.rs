@@ -255,11 +255,8 @@ mod tests {
         let half = particles.len() / 2;
         particles.x.swap(0, half);
         particles.y.swap(0, half);
-        assert_eq!(
-            to_self(&CoarseField::of(simulation.world()), &before).share,
-            Some(0.0),
-            "particles are interchangeable"
-        );
+        let share = to_self(&CoarseField::of(simulation.world()), &before).share;
+        assert!(share.is_some_and(|share| share < 1e-15), "particles are interchangeable, but {share:?}");
         let particles = &mut simulation.world_mut().resource_mut::<ParticleStore>().into_inner().0;
         particles.x.iter_mut().take(half).for_each(|x| *x += 200.0);
         let distance = to_self(&CoarseField::of(simulation.world()), &before);
