@@ -47,12 +47,14 @@ impl Subject<'_> {
 /// The summary in Markdown.
 pub fn text(subject: &Subject, rows: &[Row]) -> String {
     let own: Vec<&Row> = rows.iter().filter(|row| row.setting.threads == subject.threads).collect();
+    // Density errors are shares of the run's own spacing: those of finer and coarser runs are of something else.
+    let as_fine: Vec<&Row> = own.iter().copied().filter(|row| row.setting.detail() == 1.0).collect();
     let sections = [
         heading(subject, rows),
-        budgets(subject, &own),
+        budgets(subject, &as_fine),
         preset_table(subject, rows),
         truth::text(&own),
-        knobs(subject, &own),
+        knobs(subject, &as_fine),
         threads(rows),
         excluded(rows),
     ];
