@@ -139,7 +139,8 @@ fn folders(arguments: &SweepArguments, starts: &[Opening]) -> Result<Vec<PathBuf
     for folder in &folders {
         fs::create_dir_all(folder)
             .map_err(|error| Failure::Usage(format!("{}: can't be made a folder: {error}", folder.display())))?;
-        let files = [JOURNAL, "curve.csv", "curve.svg", "curve.png", "summary.md"].map(|name| folder.join(name));
+        let files = [JOURNAL, "curve.csv", "curve.svg", "curve.png", "truth.svg", "truth.png", "summary.md"]
+            .map(|name| folder.join(name));
         output::check(&files.each_ref().map(PathBuf::as_path))?;
     }
     Ok(folders)
@@ -229,9 +230,15 @@ fn write(folder: &Path, subject: &Subject, rows: &[Row]) -> Result<(), Failure> 
     output::write(&folder.join("summary.md"), |file| file.write_all(summary.as_bytes()))?;
     #[cfg(feature = "charts")]
     {
-        let chart = crate::lab::sweep::draw::chart(subject, rows);
-        output::write(&folder.join("curve.svg"), |file| file.write_all(chart.svg()?.as_bytes()))?;
-        output::write(&folder.join("curve.png"), |file| chart.write_png(file, 2))?;
+        use crate::lab::sweep::draw;
+        let mut charts = vec![("curve", draw::chart(subject, rows))];
+        if rows.iter().any(|row| row.true_error().is_some()) {
+            charts.push(("truth", draw::chart_of_truth(subject, rows)));
+        }
+        for (name, chart) in charts {
+            output::write(&folder.join(name).with_extension("svg"), |file| file.write_all(chart.svg()?.as_bytes()))?;
+            output::write(&folder.join(name).with_extension("png"), |file| chart.write_png(file, 2))?;
+        }
     }
     output::print(&summary)
 }

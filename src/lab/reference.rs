@@ -1,14 +1,15 @@
-//! A run at `reference` quality, and how far others that set out from the same checkpoint go from it over time.
+//! A run that others are held against, at `reference` quality or finer, and how far others that set out from the same
+//! checkpoint go from it over time.
 
 use crate::{
-    kernel::params::Preset,
+    kernel::{params::Preset, random::Random, units::TICKS_PER_SECOND},
     lab::{
         balance::matter,
         coarse::{CoarseField, Distance, Magnitude},
         run::{Observer, Plan, run},
         sampler::SAMPLE_EVERY,
     },
-    sim::{checkpoint::Checkpoint, simulation::Simulation, workers::Workers},
+    sim::{checkpoint::Checkpoint, simulation::Simulation, state::ParticleStore, workers::Workers},
 };
 use bevy::ecs::world::World;
 use std::io;
@@ -19,7 +20,14 @@ pub struct Reference {
     ticks: u64,
     samples: Vec<Sample>,
     magnitude: Magnitude,
+    floor: Distance,
 }
+
+/// How many times finer than the start a converged run is.
+pub const CONVERGED_DETAIL: f64 = 4.0;
+
+/// Speed by which the second of the converged runs is shaken at the start, along each axis, d/s: what is calm to the eye.
+const SHAKEN: f32 = 0.02 * TICKS_PER_SECOND as f32;
 
 #[derive(Clone, Debug)]
 struct Sample {
@@ -55,11 +63,53 @@ impl Reference {
     pub fn record(start: &Checkpoint, plan: &Plan, workers: Workers, watcher: &mut dyn Observer) -> io::Result<Self> {
         let start = start.clone().at_quality(Preset::Reference, Preset::Reference.quality());
         let mut simulation = Simulation::resume(&start.map_err(io::Error::other)?, workers);
-        let mut recorder = Recorder { tick: 0, ticks: plan.ticks, samples: Vec::new() };
-        run(&mut simulation, plan, &mut [&mut recorder, watcher])?;
-        let fields: Vec<CoarseField> = recorder.samples.iter().map(|sample| sample.field.clone()).collect();
-        Ok(Self { ticks: plan.ticks, magnitude: CoarseField::magnitudes(&fields), samples: recorder.samples })
+        let samples = record(&mut simulation, plan, watcher)?;
+        Ok(Self::of(samples, plan, Distance::default()))
     }
+
+    /// What stands for the truth: the mean of two runs at `fine`, [`CONVERGED_DETAIL`] times as fine as the start, that are
+    /// equally good. All velocities of the second are shaken a little at its start, so that where the flow is chaotic they
+    /// come apart. The warm-up counts for the floor alone: it is the mean after it.
+    pub fn converged(start: &Checkpoint, plan: &Plan, workers: &Workers) -> io::Result<Self> {
+        let detail = CONVERGED_DETAIL * start.setup.asked_detail();
+        let start = start.clone().at_quality(Preset::Fine, Preset::Fine.quality());
+        let start = start.and_then(|start| start.at_detail(detail)).map_err(io::Error::other)?;
+        let mut simulation = Simulation::resume(&start, workers.clone());
+        let first = Self::of(record(&mut simulation, plan, &mut ())?, plan, Distance::default());
+        let mut simulation = Simulation::resume(&start, workers.clone());
+        let mut random = Random::new(1);
+        let particles = &mut simulation.world_mut().resource_mut::<ParticleStore>().into_inner().0;
+        for velocity in particles.vx.iter_mut().chain(&mut particles.vy) {
+            *velocity += SHAKEN * (2.0 * random.share() - 1.0);
+        }
+        let mut follower = Follower::new(&first);
+        let samples = record(&mut simulation, plan, &mut follower)?;
+        let apart = follower.mean(plan.warmup);
+        // Two that are each off by as much, each its own way, are √2 of that apart, and their mean is off by a half of it.
+        let half = |distance: Option<f64>| distance.map(|distance| 0.5 * distance);
+        let floor = Distance { share: half(apart.share), momentum: half(apart.momentum), air: half(apart.air) };
+        let mean =
+            |(a, b): (&Sample, &Sample)| Sample { field: a.field.mean(&b.field), energy: 0.5 * (a.energy + b.energy) };
+        Ok(Self::of(first.samples.iter().zip(&samples).map(mean).collect(), plan, floor))
+    }
+
+    fn of(samples: Vec<Sample>, plan: &Plan, floor: Distance) -> Self {
+        let fields: Vec<CoarseField> = samples.iter().map(|sample| sample.field.clone()).collect();
+        Self { ticks: plan.ticks, magnitude: CoarseField::magnitudes(&fields), samples, floor }
+    }
+
+    /// How far it may itself be from the truth by chance: below that no difference is told from none. Nothing is known of a
+    /// single run.
+    pub fn floor(&self) -> Distance {
+        self.floor
+    }
+}
+
+/// Runs the plan; returns a sample every [`SAMPLE_EVERY`] ticks and one at the end.
+fn record(simulation: &mut Simulation, plan: &Plan, watcher: &mut dyn Observer) -> io::Result<Vec<Sample>> {
+    let mut recorder = Recorder { tick: 0, ticks: plan.ticks, samples: Vec::new() };
+    run(simulation, plan, &mut [&mut recorder, watcher])?;
+    Ok(recorder.samples)
 }
 
 struct Recorder {

@@ -22,6 +22,9 @@ const ITERATIONS: RangeInclusive<u32> = 1..=4;
 /// Substeps and iterations of the plain method, beside those of `classic`.
 const PLAIN: [(u32, u32); 5] = [(1, 8), (2, 2), (2, 4), (4, 2), (4, 4)];
 
+/// Details at which the presets are measured beside their own, coarsest first.
+const DETAILS: [f64; 3] = [0.5, 1.5, 2.0];
+
 /// Air cells where air is what counts, d.
 const AIR_CELLS: [f32; 8] = [16.0, 12.0, 8.0, 6.0, 4.0, 3.0, 2.0, 1.5];
 
@@ -35,6 +38,8 @@ pub struct Setting {
     pub name: String,
     /// The preset that it is.
     pub preset: Option<Preset>,
+    /// How many times finer than the start of the sweep it is, beside what its preset brings along.
+    pub detail: f64,
     /// The knobs.
     pub quality: Quality,
     /// Threads of the kernel.
@@ -42,8 +47,9 @@ pub struct Setting {
 }
 
 impl Setting {
-    fn preset(preset: Preset, threads: usize) -> Self {
-        Self { name: preset.name().to_owned(), preset: Some(preset), quality: preset.quality(), threads }
+    /// A preset by its name.
+    pub(super) fn preset(preset: Preset, threads: usize) -> Self {
+        Self { name: preset.name().to_owned(), preset: Some(preset), detail: 1.0, quality: preset.quality(), threads }
     }
 
     /// The knobs in one word, exact: what the journal knows it by.
@@ -55,7 +61,7 @@ impl Setting {
 
     /// How many times finer than the start of the sweep it is.
     pub fn detail(&self) -> f64 {
-        self.preset.map_or(1.0, Preset::detail)
+        self.detail * self.preset.map_or(1.0, Preset::detail)
     }
 }
 
@@ -85,8 +91,9 @@ pub fn settings(scope: &Scope) -> Vec<Setting> {
             ErrorMeasure::Density => liquid(scope),
             ErrorMeasure::Air => air(scope.quick),
         };
-        let setting = |(name, quality)| Setting { name, preset: None, quality, threads: scope.threads };
+        let setting = |(name, quality)| Setting { name, preset: None, detail: 1.0, quality, threads: scope.threads };
         all.extend(named.into_iter().map(setting));
+        all.extend(details(scope));
         if !scope.quick {
             all.extend(threads(scope));
         }
@@ -164,6 +171,17 @@ fn air(quick: bool) -> Vec<Named> {
         }
     }
     named
+}
+
+/// The presets at other details.
+fn details(scope: &Scope) -> impl Iterator<Item = Setting> {
+    let (details, threads) = (if scope.quick { &DETAILS[..1] } else { &DETAILS[..] }, scope.threads);
+    REAL_TIME.into_iter().flat_map(move |preset| {
+        details.iter().map(move |&detail| {
+            let name = format!("{}, detail {detail}", preset.name());
+            Setting { name, preset: None, detail, ..Setting::preset(preset, threads) }
+        })
+    })
 }
 
 /// The presets on other numbers of threads.

@@ -37,6 +37,40 @@ pub fn chart(subject: &Subject, rows: &[Row]) -> Chart {
     }
 }
 
+/// The true error against time: its front, and the presets at each detail.
+pub fn chart_of_truth(subject: &Subject, rows: &[Row]) -> Chart {
+    let mut own: Vec<&Row> = rows.iter().filter(|row| row.setting.threads == subject.threads).collect();
+    own.sort_by(|a, b| a.ms.total_cmp(&b.ms));
+    let point = |row: &Row| {
+        let error = row.true_error().filter(|error| *error > 0.0)?;
+        let x_range = Some(row.ms_range).filter(|[low, high]| low < high);
+        Some(Point { x_range, ..Point::new(row.ms, error) })
+    };
+    let points = |wanted: &dyn Fn(&Row) -> bool| {
+        own.iter().filter(|row| wanted(row)).filter_map(|row| point(row)).collect::<Vec<_>>()
+    };
+    let named = |row: &Row| row.setting.preset.is_some() || row.setting.detail != 1.0;
+    let mut details: Vec<f64> = own.iter().filter(|row| named(row)).map(|row| row.setting.detail()).collect();
+    details.sort_by(f64::total_cmp);
+    details.dedup();
+    let mut series = vec![
+        Series::new("front", Look::Front, points(&|row| row.true_front)),
+        Series::new("other settings", Look::Cloud, points(&|row| !named(row))),
+    ];
+    series.extend(details.into_iter().map(|detail| {
+        let of_it = points(&|row| named(row) && row.setting.detail() == detail);
+        Series::new(format!("presets at detail {detail}"), Look::Scatter, of_it)
+    }));
+    series.retain(|series| !series.points.is_empty());
+    Chart {
+        title: format!("{}: what truth costs", subject.scene),
+        subtitle: processor().to_owned(),
+        x: Axis::logarithmic("ms a tick"),
+        y: Axis::logarithmic("share of the liquid elsewhere than in a converged run"),
+        series,
+    }
+}
+
 /// The rows of the front of which none is faster and as exact, fastest first: what is left when only time and error
 /// count.
 fn lower_edge<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {

@@ -6,6 +6,7 @@
 
 use super::row::Row;
 use crate::kernel::params::{AirAdvection, Quality};
+use std::collections::BTreeMap;
 
 /// What rows are compared by; less is better in each.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,25 +63,36 @@ fn air_viscosity(quality: &Quality) -> f32 {
     }
 }
 
-/// Marks the rows on the front, those of each number of threads by themselves: threads change no error.
+/// Marks the rows on both fronts, those of each number of threads by themselves: threads change no error. Density errors are
+/// shares of the run's own spacing, and compared at the same detail only.
 pub(super) fn mark(rows: &mut [Row], air_is_unseen: bool) {
-    let mut threads: Vec<usize> = rows.iter().map(|row| row.setting.threads).collect();
-    threads.sort_unstable();
-    threads.dedup();
-    for threads in threads {
-        let valid = |row: &&mut Row| row.setting.threads == threads && row.is_valid();
-        let mut own: Vec<&mut Row> = rows.iter_mut().filter(valid).collect();
-        let points: Vec<Point> = own.iter().map(|row| point(row, air_is_unseen)).collect();
-        for (row, on_front) in own.iter_mut().zip(front(&points)) {
-            row.front = on_front;
-        }
+    let of_detail = |row: &Row| (row.setting.threads, row.setting.detail().to_bits());
+    let by_density = on_front(rows, of_detail, |row| point(row, air_is_unseen));
+    let truth = |row: &Row| Point { error: row.true_error().unwrap_or(f64::NAN), ..point(row, false) };
+    let by_truth = on_front(rows, |row| row.setting.threads, truth);
+    for ((row, by_density), by_truth) in rows.iter_mut().zip(by_density).zip(by_truth) {
+        (row.front, row.true_front) = (by_density, by_truth);
     }
+}
+
+/// Which rows are on the front of those that they are compared with.
+fn on_front<K: Ord>(rows: &[Row], group: impl Fn(&Row) -> K, point: impl Fn(&Row) -> Point) -> Vec<bool> {
+    let mut groups: BTreeMap<K, Vec<usize>> = BTreeMap::new();
+    for (k, row) in rows.iter().enumerate().filter(|(_, row)| row.is_valid()) {
+        groups.entry(group(row)).or_default().push(k);
+    }
+    let mut marks = vec![false; rows.len()];
+    for own in groups.values() {
+        let points: Vec<Point> = own.iter().map(|k| point(&rows[*k])).collect();
+        own.iter().zip(front(&points)).for_each(|(k, mark)| marks[*k] = mark);
+    }
+    marks
 }
 
 #[cfg(test)]
 mod tests {
     use super::{super::row::tests::row, *};
-    use crate::kernel::random::Random;
+    use crate::{kernel::random::Random, lab::coarse::Distance};
 
     /// The definition, pair by pair.
     fn brute_force(points: &[Point]) -> Vec<bool> {
@@ -125,6 +137,23 @@ mod tests {
         rows[2].setting.threads = 2;
         mark(&mut rows, false);
         assert_eq!(rows.map(|row| row.front), [true, false, true, false]);
+    }
+
+    #[test]
+    fn density_is_compared_at_one_detail_and_truth_at_all() {
+        let known = |name: &str, detail: f64, ms: f64, truth: f64| {
+            let mut row = row(name, ms, 0.01);
+            row.setting.detail = detail;
+            row.found.accuracy.distance = Some(Distance { share: Some(truth), ..Distance::default() });
+            row
+        };
+        let mut rows = [known("coarse", 0.5, 0.2, 0.01), known("own", 1.0, 1.0, 0.002), known("slow", 1.0, 2.0, 0.003)];
+        mark(&mut rows, false);
+        assert_eq!(rows.each_ref().map(|row| row.front), [true, true, false]);
+        assert_eq!(rows.each_ref().map(|row| row.true_front), [true, true, false]);
+        rows[0].found.accuracy.distance = rows[1].found.accuracy.distance;
+        mark(&mut rows, false);
+        assert_eq!(rows.map(|row| row.true_front), [true, false, false]);
     }
 
     #[test]

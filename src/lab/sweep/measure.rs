@@ -5,7 +5,7 @@ use super::{
     record::{Found, Record},
 };
 use crate::{
-    kernel::params::{Preset, Quality},
+    kernel::params::Preset,
     lab::{
         density::DensityError,
         experiment::time,
@@ -19,11 +19,6 @@ use crate::{
 };
 use std::io;
 
-/// The run that all are compared with, on all threads: its time is not what counts.
-pub(super) fn reference(start: &Checkpoint, plan: &Plan) -> io::Result<Reference> {
-    Reference::record(start, plan, Workers::default(), &mut ())
-}
-
 /// Runs a setting from its start on; with a reference it is sampled, too.
 pub(super) fn run(
     start: &Checkpoint,
@@ -32,8 +27,7 @@ pub(super) fn run(
     workers: &Workers,
     reference: Option<&Reference>,
 ) -> io::Result<Record> {
-    // What the preset is called makes no difference to the run.
-    let mut simulation = begin(start, setting.preset.unwrap_or(Preset::Fast), setting.quality, workers.clone())?;
+    let mut simulation = begin(start, setting, workers.clone())?;
     let density = DensityError::of_world(simulation.world()).map(|error| error.density);
     let (run, found) = if let Some(reference) = reference {
         let mut sampler = Sampler::new(simulation.world(), plan.warmup);
@@ -41,6 +35,7 @@ pub(super) fn run(
         let run = time(&mut simulation, plan, &mut [&mut sampler, &mut follower])?;
         let mut found = found(&sampler.finish(simulation.world()));
         found.accuracy.distance = Some(follower.mean(plan.warmup));
+        found.floor = reference.floor().share;
         found.energy_gain = found.energy_gain.filter(|_| start.is_closed()).map(|ratio| {
             // What swells to its rest density is lifted by as much; that is not the energy of an unstable world.
             let swelling = found.accuracy.density_mean.zip(density).map_or(1.0, |(after, before)| after / before);
@@ -54,8 +49,13 @@ pub(super) fn run(
 }
 
 /// The world at its start, awake.
-fn begin(start: &Checkpoint, preset: Preset, quality: Quality, workers: Workers) -> io::Result<Simulation> {
-    let start = start.clone().at_quality(preset, quality).map_err(io::Error::other)?;
+fn begin(start: &Checkpoint, setting: &Setting, workers: Workers) -> io::Result<Simulation> {
+    let detail = setting.detail * start.setup.asked_detail();
+    // What the preset is called makes no difference to the run.
+    let preset = setting.preset.unwrap_or(Preset::Fast);
+    let start = start.clone().at_quality(preset, setting.quality);
+    let start = if setting.detail == 1.0 { start } else { start.and_then(|start| start.at_detail(detail)) };
+    let start = start.map_err(io::Error::other)?;
     let mut simulation = Simulation::resume(&start, workers);
     // A sleeping particle costs the same and has the same error at every quality.
     simulation.world_mut().resource_mut::<Effects>().get_mut(Effect::Sleep).mode = Mode::Off;
@@ -68,6 +68,7 @@ fn found(metrics: &Metrics) -> Found {
         particles: metrics.particles.total,
         lost: stability.non_finite + stability.escaped,
         energy_gain: Some(accuracy.energy_peak / accuracy.energy_start).filter(|ratio| ratio.is_finite()),
+        floor: None,
         accuracy,
     }
 }
@@ -86,7 +87,7 @@ mod tests {
         let blueprint = scene::load("dam_break").unwrap().build(&[], None, &EffectModes::new()).unwrap();
         let start = Checkpoint::of_scene(Arc::new(blueprint));
         let plan = Plan { ticks: 300, warmup: 59, ..Plan::default() };
-        let mut simulation = begin(&start, preset, preset.quality(), Workers::default()).unwrap();
+        let mut simulation = begin(&start, &Setting::preset(preset, 1), Workers::default()).unwrap();
         let mut sampler = Sampler::new(simulation.world(), plan.warmup);
         time(&mut simulation, &plan, &mut [&mut sampler]).unwrap();
         found(&sampler.finish(simulation.world()))

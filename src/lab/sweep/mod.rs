@@ -5,7 +5,8 @@
 //! design ─► Setting… ─► measure (a run, timed and sampled) ─► journal (kept, so that a sweep goes on where it stopped)
 //!                                                               │
 //!             table (curve.csv) ◄─ row (runs of a setting together, what is wrong with them) ◄─┘
-//!             summary (summary.md) ◄─ front (which settings are beaten by others), presets (are they in order)
+//!             summary (summary.md) ◄─ front (which settings are beaten by others), presets (are they in order),
+//!                                     truth (which are truest)
 //! ```
 //!
 //! Only the first run of a setting is sampled for accuracy; the others are timed and their worlds compared.
@@ -24,6 +25,7 @@ mod run;
 mod shipped;
 pub mod summary;
 pub mod table;
+mod truth;
 
 pub use error::ErrorMeasure;
 pub use run::Sweep;

@@ -100,16 +100,23 @@ pub fn judge(rows: &[Row], measure: ErrorMeasure, air_is_unseen: bool) -> Order 
     let (mut troubles, mut alike) = (Vec::new(), Vec::new());
     for pair in steps.windows(2) {
         let [(a, cheap), (b, costly)] = [pair[0], pair[1]].map(|(preset, row)| (preset.name(), row));
+        // Density errors are shares of the run's own spacing: where it differs, the true error alone can tell.
+        let is_as_fine = cheap.setting.detail() == costly.setting.detail();
         // Two errors that are both next to nothing can't be told apart, nor can times then that are within the margin: the
         // same work was done.
-        let as_exact = cheap.error.max(costly.error) <= NEGLIGIBLE;
+        let as_exact = is_as_fine && cheap.error.max(costly.error) <= NEGLIGIBLE;
         let in_time = as_exact && (costly.ms / cheap.ms - 1.0).abs() < TIME_MARGIN;
         if as_exact {
             let time = if in_time { " and takes as long" } else { "" };
             alike.push(format!("`{b}` is as exact as `{a}`{time}"));
-        } else if costly.error >= cheap.error {
+        } else if is_as_fine && costly.error >= cheap.error {
             let [from, to] = [cheap.error, costly.error];
             troubles.push(format!("`{a}` → `{b}`: the error rises, {from:.5} → {to:.5}"));
+        }
+        // By so much two true errors may differ that are the same.
+        let floor = 2.0 * cheap.found.floor.unwrap_or(0.0);
+        if let Some((from, to)) = cheap.true_error().zip(costly.true_error()).filter(|(from, to)| *to > from + floor) {
+            troubles.push(format!("`{a}` → `{b}`: the true error rises, {from:.5} → {to:.5}"));
         }
         if costly.ms <= cheap.ms && !in_time {
             troubles.push(format!("`{a}` → `{b}`: the time falls, {:.3} → {:.3} ms", cheap.ms, costly.ms));
@@ -133,6 +140,7 @@ fn beats_beyond_noise(row: &Row, other: &Row, air_is_unseen: bool) -> bool {
     row.is_valid()
         && other.error > NEGLIGIBLE
         && row.setting.threads == other.setting.threads
+        && row.setting.detail() == other.setting.detail()
         && row.ms_range[1] < other.ms_range[0]
         && (a.ms <= (1.0 - TIME_MARGIN) * b.ms || a.error <= (1.0 - ERROR_MARGIN) * b.error)
         && a.error <= b.error
@@ -142,6 +150,7 @@ fn beats_beyond_noise(row: &Row, other: &Row, air_is_unseen: bool) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{super::row::tests::row, *};
+    use crate::lab::coarse::Distance;
 
     fn ladder() -> Vec<Row> {
         [
@@ -190,16 +199,29 @@ mod tests {
             order(&rows),
             "Order: ok. Each preset costs more and is more exact than the one before it, and no setting beats it by a margin.\n"
         );
-        (rows[3].error, rows[4].error) = (2e-5, 5e-5);
+        (rows[2].error, rows[3].error) = (2e-5, 5e-5);
         assert_eq!(
             order(&rows),
             "Order: ok. Each preset costs more and is more exact than the one before it, but where both err by less than 0.0001: \
-             `reference` is as exact as `fine`. No setting beats one with a larger error by a margin.\n"
+             `fine` is as exact as `balanced`. No setting beats one with a larger error by a margin.\n"
         );
-        rows[4].ms = 1.45;
-        assert!(order(&rows).contains("`reference` is as exact as `fine` and takes as long."), "{}", order(&rows));
-        rows[4].ms = 1.3;
-        assert_eq!(says(&rows), ["`fine` → `reference`: the time falls, 1.500 → 1.300 ms"]);
+        rows[3].ms = 1.05;
+        assert!(order(&rows).contains("`fine` is as exact as `balanced` and takes as long."), "{}", order(&rows));
+        rows[3].ms = 0.85;
+        assert_eq!(says(&rows), ["`balanced` → `fine`: the time falls, 1.000 → 0.850 ms"]);
+    }
+
+    #[test]
+    fn a_true_error_that_rises_beyond_the_floor_is_named_and_alone_tells_runs_of_another_detail_apart() {
+        let mut rows = ladder();
+        for (row, truth) in rows.iter_mut().zip([0.020, 0.021, 0.018, 0.018, 0.004]) {
+            row.found.floor = Some(0.001);
+            row.found.accuracy.distance = Some(Distance { share: Some(truth), ..Distance::default() });
+        }
+        rows[4].error = 0.5;
+        assert_eq!(says(&rows), [""; 0], "within the floor, and of another spacing");
+        rows[4].found.accuracy.distance = Some(Distance { share: Some(0.05), ..Distance::default() });
+        assert_eq!(says(&rows), ["`fine` → `reference`: the true error rises, 0.01800 → 0.05000"]);
     }
 
     #[test]

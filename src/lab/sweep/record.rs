@@ -13,7 +13,9 @@ pub struct Found {
     /// Highest energy of the particles against the start's, less 1 and less what swelling to the rest density takes;
     /// only in a closed scene.
     pub energy_gain: Option<f64>,
-    /// What else was measured, with the distance to the reference.
+    /// Share of the liquid by which the converged run may itself stand elsewhere than the truth.
+    pub floor: Option<f64>,
+    /// What else was measured, with the distance to the converged run.
     pub accuracy: Accuracy,
 }
 

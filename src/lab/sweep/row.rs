@@ -39,6 +39,8 @@ pub struct Row {
     pub faults: Vec<String>,
     /// Whether no valid row beats it.
     pub front: bool,
+    /// Whether no valid row takes less time and has less of a true error.
+    pub true_front: bool,
 }
 
 impl Row {
@@ -60,7 +62,13 @@ impl Row {
             hash: records.first()?.hash.clone(),
             faults: faults(measure, found),
             front: false,
+            true_front: false,
         })
+    }
+
+    /// The true error: share of the liquid that stands elsewhere than in the converged run.
+    pub fn true_error(&self) -> Option<f64> {
+        self.found.accuracy.distance?.share
     }
 
     /// Whether its world is sound, so that its error means something.
@@ -115,7 +123,7 @@ pub(super) mod tests {
     pub(in crate::lab::sweep) fn row(name: &str, ms: f64, error: f64) -> Row {
         let preset = Preset::find(name);
         let quality = preset.unwrap_or(Preset::Fast).quality();
-        let setting = Setting { name: name.to_owned(), preset, quality, threads: 1 };
+        let setting = Setting { name: name.to_owned(), preset, detail: 1.0, quality, threads: 1 };
         let accuracy = Accuracy { density_error_p99: Some(error), density_mean: Some(0.99), ..Accuracy::default() };
         let sound = Found { accuracy, ..Found::default() };
         let record = Record { ms, ms_p95: ms, hash: String::new(), found: None };

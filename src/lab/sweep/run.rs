@@ -5,6 +5,7 @@ use crate::{
     lab::{
         experiment::{ExperimentError, interleaved, journal::Journal},
         machine::processor,
+        reference::Reference,
         run::Plan,
     },
     sim::{checkpoint::Checkpoint, snapshot::hash_bytes, workers::Workers},
@@ -63,8 +64,9 @@ impl Sweep<'_> {
             let mut say = |what: &str| report(done, what);
             let is_sampled = journal.all(&key).any(|record| record.found.is_some());
             if !is_sampled && reference.is_none() {
-                say("the reference");
-                reference = Some(measure::reference(self.start, &plan)?);
+                say("the converged run");
+                // On all threads: its time is not what counts.
+                reference = Some(Reference::converged(self.start, &plan, &Workers::default())?);
             }
             say(&setting.name);
             let sampled = reference.as_ref().filter(|_| !is_sampled);

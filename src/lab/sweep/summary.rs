@@ -5,6 +5,7 @@ use super::{
     error::ErrorMeasure,
     presets::{self, Order},
     row::Row,
+    truth,
 };
 use crate::{
     kernel::params::{Preset, Quality},
@@ -46,11 +47,14 @@ impl Subject<'_> {
 /// The summary in Markdown.
 pub fn text(subject: &Subject, rows: &[Row]) -> String {
     let own: Vec<&Row> = rows.iter().filter(|row| row.setting.threads == subject.threads).collect();
+    // Density errors are shares of the run's own spacing: those of finer and coarser runs are of something else.
+    let as_fine: Vec<&Row> = own.iter().copied().filter(|row| row.setting.detail() == 1.0).collect();
     let sections = [
         heading(subject, rows),
-        budgets(subject, &own),
+        budgets(subject, &as_fine),
         preset_table(subject, rows),
-        knobs(subject, &own),
+        truth::text(&own),
+        knobs(subject, &as_fine),
         threads(rows),
         excluded(rows),
     ];
@@ -100,7 +104,7 @@ fn budgets(subject: &Subject, rows: &[&Row]) -> String {
     format!("## What to choose\n\n{}", markdown::rows(headings, lines))
 }
 
-fn name(row: &Row) -> String {
+pub(super) fn name(row: &Row) -> String {
     match row.setting.preset {
         Some(preset) => format!("`{}`", preset.name()),
         None => row.setting.name.clone(),

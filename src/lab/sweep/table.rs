@@ -22,9 +22,10 @@ enum Field {
 }
 use Field::{Share, Text};
 
-const SETTING: [Column; 3] = [
+const SETTING: [Column; 4] = [
     ("setting", "name of the setting, unique in the table", Text(|row| row.setting.name.clone())),
     ("preset", "name of the preset that it is", Text(|row| row.setting.preset.map_or("", Preset::name).to_owned())),
+    ("detail", "how many times finer than the scene it is", Text(|row| row.setting.detail().to_string())),
     ("threads", "threads of the kernel", Text(|row| row.setting.threads.to_string())),
 ];
 
@@ -34,7 +35,7 @@ const PREDICTOR: Column = (
     Text(|row| row.setting.quality.predictor.to_string()),
 );
 
-const RESULTS: [Column; 21] = [
+const RESULTS: [Column; 23] = [
     ("runs", "number of runs", Text(|row| row.runs.to_string())),
     ("ms", "time of a tick, ms: the median over the runs of their medians", Text(|row| ms(row.ms))),
     ("ms_low", "median of the fastest run, ms", Text(|row| ms(row.ms_range[0]))),
@@ -66,14 +67,16 @@ const RESULTS: [Column; 21] = [
         Text(|row| row.found.lost.to_string()),
     ),
     (
-        "distance_share",
-        "distance to the reference: liquid in another coarse cell, a fraction",
-        Share(|of| of.distance?.share),
+        "true_error",
+        "share of the liquid that stands elsewhere than in the converged run",
+        Text(|row| share(row.true_error())),
     ),
-    ("distance_momentum", "distance to the reference: momentum", Share(|of| of.distance?.momentum)),
-    ("distance_air", "distance to the reference: mean air velocity", Share(|of| of.distance?.air)),
+    ("true_floor", "what of it may be the converged run's own", Text(|row| share(row.found.floor))),
+    ("distance_momentum", "distance to the converged run: momentum", Share(|of| of.distance?.momentum)),
+    ("distance_air", "distance to the converged run: mean air velocity", Share(|of| of.distance?.air)),
     ("particles", "particles at the end, rock included", Text(|row| row.found.particles.to_string())),
     ("front", "whether no valid setting beats it: true or false", Text(|row| row.front.to_string())),
+    ("true_front", "whether none does by the true error: true or false", Text(|row| row.true_front.to_string())),
     ("faults", "what makes the row invalid, separated by semicolons", Text(|row| row.faults.join("; "))),
     ("hash", "hash of the final state", Text(|row| row.hash.clone())),
 ];
@@ -135,9 +138,9 @@ mod tests {
         let text = String::from_utf8(text).unwrap();
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(lines.len(), 3);
-        assert!(lines[1].starts_with("\"fast, h 3\",,1,1,4,2.5,rational,0.1,"), "{}", lines[1]);
+        assert!(lines[1].starts_with("\"fast, h 3\",,1,1,1,4,2.5,rational,0.1,"), "{}", lines[1]);
         assert!(lines[1].contains("energy up by 2.0 %; mean density 0.970"), "{}", lines[1]);
-        assert!(lines[2].starts_with("fine,fine,1,"), "{}", lines[2]);
+        assert!(lines[2].starts_with("fine,fine,1,1,"), "{}", lines[2]);
         assert!(lines[2].contains(",1.5000,1.5000,1.5000,1.5000,0.005000,,0.005000,,0.990000,"), "{}", lines[2]);
         assert_eq!(lines[2].split(',').count(), columns().len());
     }
