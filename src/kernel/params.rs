@@ -19,7 +19,7 @@ pub struct FluidParams {
     /// particles clump. Default: `0.0`.
     pub constraint_floor: f32,
     /// Strength k of the tensile correction `s_corr` (eq. 13), in the unit of λ. Raising it keeps particles apart at
-    /// free surfaces. Default: `0.001`.
+    /// free surfaces. The paper's 0.1 swells them (docs/deviations.md). Default: `0.001`.
     pub tension_strength: f32,
     /// Distance Δq of `s_corr` as a share of the kernel radius. Default: `0.2`.
     pub tension_distance: f32,
