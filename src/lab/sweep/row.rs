@@ -66,6 +66,14 @@ impl Row {
         })
     }
 
+    /// What it is called in texts.
+    pub fn title(&self) -> String {
+        match self.setting.preset {
+            Some(preset) => format!("`{}`", preset.name()),
+            None => self.setting.name.clone(),
+        }
+    }
+
     /// The true error: share of the liquid that stands elsewhere than in the converged run.
     pub fn true_error(&self) -> Option<f64> {
         self.found.accuracy.distance?.share

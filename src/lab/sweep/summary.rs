@@ -53,7 +53,7 @@ pub fn text(subject: &Subject, rows: &[Row]) -> String {
         heading(subject, rows),
         budgets(subject, &as_fine),
         preset_table(subject, rows),
-        truth::text(&own),
+        truth::text(&own, &BUDGETS),
         knobs(subject, &as_fine),
         threads(rows),
         excluded(rows),
@@ -90,7 +90,7 @@ fn budgets(subject: &Subject, rows: &[&Row]) -> String {
             let best = fitting.min_by(|a, b| a.error.total_cmp(&b.error).then(a.ms.total_cmp(&b.ms)));
             best.map_or_else(
                 || "none | – | –".to_owned(),
-                |row| format!("{} | {:.2} | {:.5}", name(row), row.ms, row.error),
+                |row| format!("{} | {:.2} | {:.5}", row.title(), row.ms, row.error),
             )
         };
         // A setting with coarser air than the presets' own coarsest is no choice for the liquid's sake.
@@ -102,13 +102,6 @@ fn budgets(subject: &Subject, rows: &[&Row]) -> String {
     });
     let headings = ">at most, ms | setting | >ms | >error | best preset | >ms | >error";
     format!("## What to choose\n\n{}", markdown::rows(headings, lines))
-}
-
-pub(super) fn name(row: &Row) -> String {
-    match row.setting.preset {
-        Some(preset) => format!("`{}`", preset.name()),
-        None => row.setting.name.clone(),
-    }
 }
 
 fn preset_table(subject: &Subject, rows: &[Row]) -> String {
@@ -126,7 +119,7 @@ fn preset_table(subject: &Subject, rows: &[Row]) -> String {
             fixed(distance.air, 3),
         ];
         let front = if row.front { "yes" } else { "no" };
-        format!("{} | {ms:.3} | {low:.3} … {high:.3} | {} | {front}", name(row), figures.join(" | "))
+        format!("{} | {ms:.3} | {low:.3} … {high:.3} | {} | {front}", row.title(), figures.join(" | "))
     };
     let headings = "preset | >ms | >fastest … slowest run | >error mean | >p99 | >mean density | >energy gained | \
                     >liquid elsewhere | >momentum | >air | on the front";
@@ -142,7 +135,7 @@ fn knobs(subject: &Subject, rows: &[&Row]) -> String {
             let qualities = [from, to].map(|row| effective(row.setting.quality, subject.has_air));
             if let Some(change) = one_change(qualities[0], qualities[1]) {
                 let error = fixed(Some(to.error / from.error).filter(|ratio| ratio.is_finite()), 2);
-                let (name, time, faults) = (name(from), to.ms / from.ms, to.faults.join(", "));
+                let (name, time, faults) = (from.title(), to.ms / from.ms, to.faults.join(", "));
                 lines.push(format!("{name} | {change} | {time:.2} | {error} | {faults}"));
             }
         }
@@ -181,7 +174,7 @@ fn threads(rows: &[Row]) -> String {
             let (one, other) = (from.setting.threads, to.setting.threads);
             if to.setting.quality == from.setting.quality && other != one {
                 let gain = from.ms / to.ms;
-                lines.push(format!("{} | {one} | {:.3} | {other} | {:.3} | {gain:.2}", name(from), from.ms, to.ms));
+                lines.push(format!("{} | {one} | {:.3} | {other} | {:.3} | {gain:.2}", from.title(), from.ms, to.ms));
             }
         }
     }
@@ -190,8 +183,9 @@ fn threads(rows: &[Row]) -> String {
 }
 
 fn excluded(rows: &[Row]) -> String {
-    let line =
-        |row: &Row| format!("- {} ({:.2} ms, error {:.5}): {}\n", name(row), row.ms, row.error, row.faults.join(", "));
+    let line = |row: &Row| {
+        format!("- {} ({:.2} ms, error {:.5}): {}\n", row.title(), row.ms, row.error, row.faults.join(", "))
+    };
     let lines: String = rows.iter().filter(|row| !row.is_valid()).map(line).collect();
     if lines.is_empty() {
         return lines;

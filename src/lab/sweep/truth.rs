@@ -1,9 +1,6 @@
 //! The true error in the summary: how far settings, coarse and fine, are from a converged run, and where time buys most of it.
 
-use super::{
-    row::Row,
-    summary::{BUDGETS, name},
-};
+use super::row::Row;
 use crate::{
     lab::{markdown, reference::CONVERGED_DETAIL},
     sim::numbers::fixed,
@@ -12,8 +9,8 @@ use crate::{
 /// A row with its true error.
 type Known<'a> = (&'a Row, f64);
 
-/// The section; nothing where there is no liquid to compare.
-pub(super) fn text(rows: &[&Row]) -> String {
+/// The section, with the truest setting for each of these times (ms a tick); nothing where there is no liquid to compare.
+pub(super) fn text(rows: &[&Row], times: &[f64]) -> String {
     let mut known: Vec<Known> = rows.iter().filter_map(|row| Some((*row, row.true_error()?))).collect();
     if known.is_empty() {
         return String::new();
@@ -29,19 +26,19 @@ pub(super) fn text(rows: &[&Row]) -> String {
     format!(
         "## True error\n\nShare of the liquid that stands elsewhere than in a converged run (`fine` at {CONVERGED_DETAIL} times the \
          detail, the mean of two), on cells of 8 spacings of the scene's own.{below}\n\n{}\n{}\n{}",
-        budgets(&known),
+        budgets(&known, times),
         details(&known),
         advice(&known, floor.unwrap_or(0.0))
     )
 }
 
-fn budgets(known: &[Known]) -> String {
-    let lines = BUDGETS.map(|budget| {
-        let fitting = known.iter().filter(|(row, _)| row.is_valid() && row.ms <= budget);
+fn budgets(known: &[Known], times: &[f64]) -> String {
+    let lines = times.iter().map(|budget| {
+        let fitting = known.iter().filter(|(row, _)| row.is_valid() && row.ms <= *budget);
         let best = fitting.min_by(|a, b| a.1.total_cmp(&b.1));
         best.map_or_else(
             || format!("{budget} | none | – | –"),
-            |(row, error)| format!("{budget} | {} | {:.2} | {error:.5}", name(row), row.ms),
+            |(row, error)| format!("{budget} | {} | {:.2} | {error:.5}", row.title(), row.ms),
         )
     });
     markdown::rows(">at most, ms | truest setting | >ms | >true error", lines)
@@ -54,7 +51,7 @@ fn details(known: &[Known]) -> String {
         let front = if row.true_front { "yes" } else { "no" };
         format!(
             "{} | {} | {} | {:.3} | {error:.5} | {} | {front}",
-            name(row),
+            row.title(),
             row.setting.detail(),
             row.found.particles,
             row.ms,
@@ -73,7 +70,7 @@ fn advice(known: &[Known], floor: f64) -> String {
         let gain = |(row, truer): &&&Known| (error - truer) / (row.ms - from.ms);
         let truer = front[k + 1..].iter().filter(|(_, truer)| error - truer > floor);
         let (to, truer) = truer.max_by(|a, b| gain(a).total_cmp(&gain(b)))?;
-        Some(format!("{} | {:.3} | {} | {:.3} | {:.2}", name(from), from.ms, name(to), to.ms, truer / error))
+        Some(format!("{} | {:.3} | {} | {:.3} | {:.2}", from.title(), from.ms, to.title(), to.ms, truer / error))
     });
     let table = markdown::rows("from | >ms | the next millisecond buys most at | >ms | >error left", lines);
     format!("Along the front of the true error:\n\n{table}")
@@ -101,7 +98,7 @@ mod tests {
             known("fine", 1.0, 1.3, 0.0195),
             known("fine, detail 2", 2.0, 6.0, 0.0035),
         ];
-        let text = text(&rows.iter().collect::<Vec<_>>());
+        let text = text(&rows.iter().collect::<Vec<_>>(), &[1.0, 4.0]);
         let text: String = text
             .split_inclusive('\n')
             .map(|line| line.split_whitespace().collect::<Vec<_>>().join(" ") + "\n")
@@ -115,6 +112,6 @@ mod tests {
             assert!(text.contains(line), "no {line} in\n{text}");
         }
         assert!(!text.contains("| draft, detail 2 | 2.500 | fine"), "what the floor hides buys nothing:\n{text}");
-        assert_eq!(super::text(&[&row("draft", 1.0, 0.1)]), "", "nothing to compare");
+        assert_eq!(super::text(&[&row("draft", 1.0, 0.1)], &[1.0]), "", "nothing to compare");
     }
 }
