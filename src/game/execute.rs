@@ -68,10 +68,10 @@ pub fn carry_out(world: &mut World) {
                 let preset = world.get_resource::<Setup>().map(|setup| setup.preset);
                 play(world, &name, &settings, preset, detail);
             }
-            Order::Open { name, settings, quality } => {
+            Order::Open { name, settings, quality, detail } => {
                 // Else it would soon go on at another quality.
                 world.resource_mut::<Autopilot>().hold(None);
-                play(world, &name, &settings, quality, 1.0);
+                play(world, &name, &settings, quality, detail);
             }
             Order::Watch(name) => watch(world, name),
         }

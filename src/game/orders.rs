@@ -48,6 +48,8 @@ pub enum Order {
         settings: Vec<(String, String)>,
         /// The quality, if it is not to be the scene's own.
         quality: Option<Preset>,
+        /// How many times finer than the scene's own its particles are.
+        detail: f64,
     },
     /// Play a hard case of the stability gauntlet.
     Watch(&'static str),

@@ -50,8 +50,8 @@ pub fn widgets() -> String {
 pub fn scene(link: &str) -> Result<(), JsError> {
     let link = Link::read(link)?;
     link.build()?;
-    let Link { scene: name, settings, quality } = link;
-    script::tell(move |world| world.resource_mut::<Orders>().push(Order::Open { name, settings, quality }));
+    let Link { scene: name, settings, quality, detail } = link;
+    script::tell(move |world| world.resource_mut::<Orders>().push(Order::Open { name, settings, quality, detail }));
     Ok(())
 }
 

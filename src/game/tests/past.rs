@@ -112,7 +112,7 @@ fn a_scene_that_is_opened_has_its_own_quality_and_settings_whatever_is_in_force(
     let open = |player: &mut Player, quality| {
         let settings =
             [("columns", "12"), ("iterations", "7")].map(|(name, value)| (name.to_owned(), value.to_owned()));
-        let order = Order::Open { name: "dam_break".into(), settings: settings.into(), quality };
+        let order = Order::Open { name: "dam_break".into(), settings: settings.into(), quality, detail: 1.0 };
         player.0.world_mut().resource_mut::<Orders>().push(order);
         player.frames(2);
         let setup = player.world().resource::<Setup>();
