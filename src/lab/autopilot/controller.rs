@@ -3,8 +3,8 @@
 //!
 //! - **Up** (more relief): a mean that is surely over the bound is a breach. The level goes up to the first that the model
 //!   expects below [`Tuning::aim`] of the bound.
-//! - **Down** (less relief): to the first level that the model expects below [`Tuning::aim`] of the bound. The room between the two
-//!   is the hysteresis.
+//! - **Down** (less relief): to the first level that the model expects below [`Tuning::aim`] of the bound. The room between
+//!   the two is the hysteresis.
 //! - **Cool-down**: a level that was left because of a breach is not tried again for some seconds, twice as many each time.
 //! - **Budget**: the time that the quantity may still be over the bound. It earns a small share of the time that passes and
 //!   pays for the time over the bound. A move down waits until the budget holds the price of a failure ([`PRICE`]). When the
@@ -218,8 +218,8 @@ impl Controller {
     }
 
     /// Moves down if a lower level is expected to hold and has no cool-down. The highest level that had a breach is tried
-    /// before those below it, which relieve less. While the budget holds less than the price, it goes down only from a level
-    /// that relieves more than it had to: one level at a time, and not to the one next to that breach.
+    /// before those below it, which relieve less. While the budget holds less than the price, it goes down only from a
+    /// level that relieves more than it had to: one level at a time, and not to the one next to that breach.
     fn move_down(&mut self, value: f32) -> Option<usize> {
         let breached = self.cool_downs[..self.level].iter().rposition(|cool_down| cool_down.whole > 0.0);
         let lowest = if self.budget >= PRICE {

@@ -49,7 +49,8 @@ async function withTheMouse({ eyes, shoot, test, waterUntil }, page) {
   await test('wind blows the water away', async () => {
     await moveTo(page, [640, 120]);
     let before = 0;
-    // Until what falls lies on the floor: it is looked at once in a second of the world's time.
+    // Until what falls lies on the floor: it is looked at once in a second of the world's time. Small waves go on for
+    // long; a tenth is less than half of what the wind has to take, so that they can't be taken for its doing.
     const calm = await poll('water lies on the floor', async () => {
       const { tick } = await stats(page);
       await until(page, 'a second of the world', (now) => now.tick >= tick + 60);
