@@ -91,7 +91,7 @@ fn introduction(command: &str, processor: &str) -> String {
          `powder-master gauntlet` prints the table and ends with exit code 1 if a case fails. What it is for and what it \
          leaves open stands in [stability.md](stability.md).\n\n\
          *gain*: kinetic and potential energy above what was there and was put in, as the speed that all particles \
-         together would have of it. *density*: 99th percentile of the density error, the worst after the shock and over \
+         together would have of it. *density*: 99th percentile of how far it is too dense, the worst after the shock and over \
          the last tenth of the case. *motion*: rms speed over the last tenth, d a tick. *work*: the most expensive tick as \
          a multiple of a calm one (candidate pairs a particle × substeps × iterations; the same on every machine). \
          *clamps*: what all limiters did, summed over particles, cells and substeps. *ms*: median and longest tick, one \
