@@ -139,7 +139,8 @@ fn plan(arguments: &RunArguments, recorded: Option<(Segment, Preset)>) -> Result
         Intent::Effect { effect, .. } => !arguments.effects.iter().any(|(asked, _)| asked == effect),
         _ => true,
     };
-    // Lengths were in the d of the quality that was in force: beside the detail that was asked for, presets have their own.
+    // Lengths were in the d of the quality that was in force: beside the detail that was asked for, presets have their
+    // own.
     let mut detail = quality.map_or(1.0, Preset::detail);
     let mut own = |entry: Entry| {
         if let Intent::Quality { preset, .. } = entry.intent {

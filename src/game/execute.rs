@@ -91,8 +91,8 @@ fn choose_quality(world: &mut World, preset: Preset) {
     }
 }
 
-/// Goes on at another detail, which can be undone; or says why that is not possible. It is done at once: what the pointer does
-/// next is in the new d.
+/// Goes on at another detail, which can be undone; or says why that is not possible. It is done at once: what the
+/// pointer does next is in the new d.
 fn change_detail(world: &mut World, detail: f64, preset: Preset, intent: Intent) {
     if let Err(error) = control::check_detail(world, detail, preset) {
         world.resource_mut::<Toasts>().warn(error);

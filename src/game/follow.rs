@@ -38,8 +38,8 @@ pub fn follow_scene(
     }
 }
 
-/// Where the d of the scene is another one, what is in d goes on in that: the picture, the brush and the drag stay in their
-/// place.
+/// Where the d of the scene is another one, what is in d goes on in that: the picture, the brush and the drag stay in
+/// their place.
 pub fn follow_detail(world: &mut World) {
     let (size, detail) = match world.get_resource::<Setup>() {
         Some(setup) => (setup.blueprint.domain.size, setup.blueprint.scale.detail),

@@ -15,10 +15,10 @@ const BLOCK: usize = 64;
 /// Begins a substep of `dt` s: half of gravity (d/s²), whose other half comes after the move (`velocity`).
 ///
 /// That is the leapfrog (velocity Verlet): with `x += v Δt` in between, a fall is exact at any Δt, in way and in speed.
-/// Pressure and contact act at the middle of a substep, too. They are known only once the substep is solved; so that the
-/// velocity that is stored is that of the substep's end, as much as they changed it by from its start to its middle is
-/// added after the move (`push`), and taken back here: the pressure solve sets out from the velocity in the middle of the
-/// last substep, and finds the whole change.
+/// Pressure and contact act at the middle of a substep, too. They are known only once the substep is solved; so that
+/// the velocity that is stored is that of the substep's end, as much as they changed it by from its start to its middle
+/// is added after the move (`push`), and taken back here: the pressure solve sets out from the velocity in the middle
+/// of the last substep, and finds the whole change.
 pub fn begin_kick(gravity: Vec2, particles: &mut Particles, threads: usize, dt: f32) {
     let change = 0.5 * dt * gravity;
     let Particles { vx, vy, push_x, push_y, .. } = particles;
@@ -32,8 +32,9 @@ pub fn begin_kick(gravity: Vec2, particles: &mut Particles, threads: usize, dt: 
     }
 }
 
-/// What is left of a `kick` (d/s) where contact changed the velocity by `stop` (d/s): what rests on something is held by it
-/// until the substep's end, too. Contact takes away no more of the kick than it took of the motion, and gives nothing back.
+/// What is left of a `kick` (d/s) where contact changed the velocity by `stop` (d/s): what rests on something is held
+/// by it until the substep's end, too. Contact takes away no more of the kick than it took of the motion, and gives
+/// nothing back.
 #[inline(always)]
 pub(crate) fn held(kick: Vec2, stop: Vec2) -> Vec2 {
     let against = -(kick.x * stop.x + kick.y * stop.y);

@@ -176,8 +176,8 @@ named! {
     Balanced = "balanced",
     /// Two substeps of up to four iterations, finer air.
     Fine = "fine",
-    /// What the others are compared with; not meant to run in real time: `fine` at twice the detail. More substeps and a
-    /// wider kernel cost more and were hardly truer.
+    /// What the others are compared with; not meant to run in real time: `fine` at twice the detail. More substeps and
+    /// a wider kernel cost more and were hardly truer.
     Reference = "reference",
 }
 
@@ -219,7 +219,8 @@ impl Preset {
         Self::ALL.into_iter().find(|preset| preset.name() == name)
     }
 
-    /// Detail that the preset adds to the run's: it multiplies the particles along each axis. 2 for `reference`, else 1.
+    /// Detail that the preset adds to the run's: it multiplies the particles along each axis. 2 for `reference`, else
+    /// 1.
     pub const fn detail(self) -> f64 {
         match self {
             Self::Reference => 2.0,

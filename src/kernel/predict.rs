@@ -14,8 +14,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Longest move of a substep, in kernel radii. Collision with rock is exact at any speed; what this bounds is how deep
 /// two streams can enter each other before the density constraint sees them: up to two kernel diameters each.
 pub(crate) const MOVE_RADII: f32 = 4.0;
-/// Substeps that a fast tick may take at the scene's own spacing, as a multiple of the quality's. A finer run may take as
-/// many times more as it is finer, so that the speed at which matter is cut stays the same in m/s.
+/// Substeps that a fast tick may take at the scene's own spacing, as a multiple of the quality's. A finer run may take
+/// as many times more as it is finer, so that the speed at which matter is cut stays the same in m/s.
 const SUBSTEP_GROWTH: f32 = 4.0;
 
 /// Particles that are done at a time.

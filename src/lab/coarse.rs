@@ -5,8 +5,8 @@
 //! corner on. A cell holds
 //!
 //! - the area of liquid in it, m² (d²/ρ₀ a particle),
-//! - the momentum of the particles in it, kg m/s for each metre of depth, both shared out to the four cells whose middles are
-//!   around a particle, bilinearly, so that one that crosses an edge makes no step,
+//! - the momentum of the particles in it, kg m/s for each metre of depth, both shared out to the four cells whose
+//!   middles are around a particle, bilinearly, so that one that crosses an edge makes no step,
 //! - the mean velocity of the air in it, m/s: over 4 × 4 points, bilinear, those in rock left out.
 //!
 //! The distance of a field to a reference's is, from 0 to 1 for the first and around 1 for "nothing in common" in the
@@ -188,8 +188,8 @@ impl CoarseField {
     }
 }
 
-/// The cells whose middles are around a place (in cells from the lower left corner of the box), and how much of what is there
-/// belongs to each. Beyond the outermost middles it all belongs to the cell itself.
+/// The cells whose middles are around a place (in cells from the lower left corner of the box), and how much of what is
+/// there belongs to each. Beyond the outermost middles it all belongs to the cell itself.
 fn around(at: Vec2, cells: UVec2) -> impl Iterator<Item = (usize, f64)> {
     let last = cells.as_vec2() - 1.0;
     let at = (at - 0.5).clamp(Vec2::ZERO, last);

@@ -3,13 +3,13 @@
 //!
 //! ρᵢ = Σⱼ (R² − r²)³ with R = 3 d, over the same sum in the square lattice of spacing d. The error of a particle is
 //! |ρ/ρ₀ − 1|, ρ₀ being the scene's rest density. Only particles inside the liquid count: those with a neighbour at 2 d or
-//! more (and less than R) in each of the eight 45° sectors. The surface is so far away then that what the sum misses beyond
-//! it is little: of the lattice's sum 4 % come from 2 d on in each half plane. Rock is a neighbour like any other; the walls
-//! of the box are none.
+//! more (and less than R) in each of the eight 45° sectors. The surface is so far away then that what the sum misses
+//! beyond it is little: of the lattice's sum 4 % come from 2 d on in each half plane. Rock is a neighbour like any
+//! other; the walls of the box are none.
 //!
-//! What is missing may be missing beyond rock, which may be thin, or in a bubble. So liquid is too thin only where it is all
-//! around: where each sector has a neighbour that is no rock, and each quarter one nearer than 2 d. Elsewhere it may be too
-//! dense, but not too thin.
+//! What is missing may be missing beyond rock, which may be thin, or in a bubble. So liquid is too thin only where it
+//! is all around: where each sector has a neighbour that is no rock, and each quarter one nearer than 2 d. Elsewhere it
+//! may be too dense, but not too thin.
 
 use crate::{
     kernel::{particles::Particles, solids},

@@ -93,7 +93,8 @@ impl Field {
     }
 }
 
-/// Mean velocity of the air in a cell of edge `edge` (d), d/s, from one point or, where the air's cells are finer, four.
+/// Mean velocity of the air in a cell of edge `edge` (d), d/s, from one point or, where the air's cells are finer,
+/// four.
 fn mean_wind(air: &Air, edge: f32, cell: Vec2) -> Vec2 {
     let points = (edge / air.cell()).round().clamp(1.0, MOST_POINTS);
     let along = 0..points as usize;
@@ -117,7 +118,8 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// Compares two worlds of the same scene, in the d of the first, which is `blueprint`'s. They may be of different details.
+    /// Compares two worlds of the same scene, in the d of the first, which is `blueprint`'s. They may be of different
+    /// details.
     pub fn measure(&mut self, blueprint: &Blueprint, first: Half<'_>, second: Half<'_>) {
         let own = first.scale.spacing;
         let edge = CELL * (second.scale.spacing / own).max(1.0);

@@ -26,7 +26,8 @@ pub struct Reference {
 /// How many times finer than the start a converged run is.
 pub const CONVERGED_DETAIL: f64 = 4.0;
 
-/// Speed by which the second of the converged runs is shaken at the start, along each axis, d/s: what is calm to the eye.
+/// Speed by which the second of the converged runs is shaken at the start, along each axis, d/s: what is calm to the
+/// eye.
 const SHAKEN: f32 = 0.02 * TICKS_PER_SECOND as f32;
 
 #[derive(Clone, Debug)]
@@ -67,9 +68,9 @@ impl Reference {
         Ok(Self::of(samples, plan, Distance::default()))
     }
 
-    /// What stands for the truth: the mean of two runs at `fine`, [`CONVERGED_DETAIL`] times as fine as the start, that are
-    /// equally good. All velocities of the second are shaken a little at its start, so that where the flow is chaotic they
-    /// come apart. The warm-up counts for the floor alone: it is the mean after it.
+    /// What stands for the truth: the mean of two runs at `fine`, [`CONVERGED_DETAIL`] times as fine as the start, that
+    /// are equally good. All velocities of the second are shaken a little at its start, so that where the flow is
+    /// chaotic they come apart. The warm-up counts for the floor alone: it is the mean after it.
     pub fn converged(start: &Checkpoint, plan: &Plan, workers: &Workers) -> io::Result<Self> {
         let detail = CONVERGED_DETAIL * start.setup.asked_detail();
         let start = start.clone().at_quality(Preset::Fine, Preset::Fine.quality());
@@ -85,7 +86,8 @@ impl Reference {
         let mut follower = Follower::new(&first);
         let samples = record(&mut simulation, plan, &mut follower)?;
         let apart = follower.mean(plan.warmup);
-        // Two that are each off by as much, each its own way, are √2 of that apart, and their mean is off by a half of it.
+        // Two that are each off by as much, each its own way, are √2 of that apart, and their mean is off by a half of
+        // it.
         let half = |distance: Option<f64>| distance.map(|distance| 0.5 * distance);
         let floor = Distance { share: half(apart.share), momentum: half(apart.momentum), air: half(apart.air) };
         let mean =
@@ -98,8 +100,8 @@ impl Reference {
         Self { ticks: plan.ticks, magnitude: CoarseField::magnitudes(&fields), samples, floor }
     }
 
-    /// How far it may itself be from the truth by chance: below that no difference is told from none. Nothing is known of a
-    /// single run.
+    /// How far it may itself be from the truth by chance: below that no difference is told from none. Nothing is known
+    /// of a single run.
     pub fn floor(&self) -> Distance {
         self.floor
     }

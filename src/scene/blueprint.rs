@@ -76,8 +76,8 @@ pub struct Blueprint {
     pub quality: Quality,
     /// Most particles of the scene's own spacing (rock included) that the world may hold.
     pub particle_limit: u32,
-    /// A mark of the scene file's text, or of the save file: worlds with the same one began the same, but for their parameters
-    /// and what the command line set.
+    /// A mark of the scene file's text, or of the save file: worlds with the same one began the same, but for their
+    /// parameters and what the command line set.
     #[serde(skip)]
     pub origin: u64,
     /// The element that the palette starts with.
@@ -91,8 +91,8 @@ impl Blueprint {
     }
 }
 
-/// The number of particles that stand for as much matter at a detail as `count` of the scene's own spacing, 1 … 4 000 000:
-/// more no world holds.
+/// The number of particles that stand for as much matter at a detail as `count` of the scene's own spacing, 1 … 4 000
+/// 000: more no world holds.
 pub(crate) fn scaled_count(count: u32, detail: f64) -> u32 {
     (f64::from(count) * detail * detail).round().clamp(PARTICLE_LIMIT.min, PARTICLE_LIMIT.max) as u32
 }

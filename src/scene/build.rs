@@ -87,13 +87,13 @@ impl SceneFile {
         Self::from_source(Source { name, file, bytes, origin: Origin::Builtin })
     }
 
-    /// The same scene at another detail, see [`DETAIL`]: at 2 with half the particle spacing and four times the particles,
-    /// all else equal. The preset's own detail comes on top of it ([`Preset::detail`]).
+    /// The same scene at another detail, see [`DETAIL`]: at 2 with half the particle spacing and four times the
+    /// particles, all else equal. The preset's own detail comes on top of it ([`Preset::detail`]).
     ///
-    /// The file keeps its meaning: its `spacing`, and `d` in its expressions, stay the scene's own, and so do the numbers
-    /// that it counts in particles (an emitter's `rate` and `total`, `particle_limit`): they stand for the same matter, of
-    /// detail² as many particles. What a quality gives in d (kernel radius, correction limit, air cell) is resolution and
-    /// goes with the spacing of the run.
+    /// The file keeps its meaning: its `spacing`, and `d` in its expressions, stay the scene's own, and so do the
+    /// numbers that it counts in particles (an emitter's `rate` and `total`, `particle_limit`): they stand for the same
+    /// matter, of detail² as many particles. What a quality gives in d (kernel radius, correction limit, air cell) is
+    /// resolution and goes with the spacing of the run.
     pub fn at_detail(self, detail: f64) -> Self {
         Self { detail, ..self }
     }

@@ -2,8 +2,8 @@
 //! the lower left corner of the box.
 //!
 //! Every [`Number`] is a literal or an expression in quotes over the scene's parameters and the spacing `d`. All
-//! numbers keep their meaning when the scene is run at another detail ([`SceneFile::at_detail`]): `d` and what is counted in
-//! particles are of the scene's own spacing.
+//! numbers keep their meaning when the scene is run at another detail ([`SceneFile::at_detail`]): `d` and what is
+//! counted in particles are of the scene's own spacing.
 //!
 //! [`SceneFile::at_detail`]: crate::scene::SceneFile::at_detail
 
@@ -78,8 +78,8 @@ pub(super) struct SceneText {
     /// Accuracy, see `knobs`. Default: the preset `balanced`.
     #[serde(default)]
     pub(super) quality: QualityText,
-    /// Most particles of the scene's own spacing, rock included: 1 … 4 000 000. Default: `200000`. A run of another detail
-    /// may have detail² times as many, up to 4 000 000.
+    /// Most particles of the scene's own spacing, rock included: 1 … 4 000 000. Default: `200000`. A run of another
+    /// detail may have detail² times as many, up to 4 000 000.
     pub(super) particle_limit: Option<Number>,
     /// The element that the palette starts with. Default: the palette's first.
     pub(super) first_element: Option<String>,

@@ -59,8 +59,9 @@ pub enum Intent {
     },
     /// Bring the air to rest at the surroundings' pressure.
     ClearAir,
-    /// Go on at another quality: chosen by the player, or by the autopilot, whose decisions are recorded like a player's. To a
-    /// preset of another detail the world changes as by [`Intent::Detail`]; where that does not fit, it stays at its own.
+    /// Go on at another quality: chosen by the player, or by the autopilot, whose decisions are recorded like a
+    /// player's. To a preset of another detail the world changes as by [`Intent::Detail`]; where that does not fit, it
+    /// stays at its own.
     Quality {
         /// Its name; for numbers between two names the nearest below.
         preset: Preset,
@@ -79,7 +80,8 @@ pub enum Intent {
         /// Which way and how fast, d/s².
         gravity: Vec2,
     },
-    /// Go on at another detail: with particles of another size. Lengths of the intents behind it are in the d from then on.
+    /// Go on at another detail: with particles of another size. Lengths of the intents behind it are in the d from then
+    /// on.
     Detail {
         /// The scene's own spacing over that from here on, without what the quality brings along.
         detail: f64,

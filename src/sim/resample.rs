@@ -1,5 +1,5 @@
-//! A world at another detail: the scene, the state, and what holds both together. The kernel carries particles, rock and air
-//! over (`kernel::resample`); here are the limits, the sources and what has to begin anew.
+//! A world at another detail: the scene, the state, and what holds both together. The kernel carries particles, rock
+//! and air over (`kernel::resample`); here are the limits, the sources and what has to begin anew.
 
 use crate::{
     kernel::{
@@ -34,11 +34,12 @@ impl Setup {
         f64::from(self.blueprint.scale.detail) / self.preset.detail()
     }
 
-    /// The set-up at a preset whose own detail comes on top of one that is `asked` for; the numbers of the quality are left
-    /// to the caller.
+    /// The set-up at a preset whose own detail comes on top of one that is `asked` for; the numbers of the quality are
+    /// left to the caller.
     ///
     /// # Errors
-    /// If there is no such detail, or the box would have too many or too few cells at it: one line that says what is allowed.
+    /// If there is no such detail, or the box would have too many or too few cells at it: one line that says what is
+    /// allowed.
     pub(super) fn at_detail(&self, asked: f64, preset: Preset) -> Result<Self, String> {
         let factor = self.factor(asked, preset)?;
         let own = asked * preset.detail();
@@ -139,8 +140,8 @@ pub(super) fn count_at(count: usize, from: &Blueprint, to: &Blueprint) -> Result
 impl Snapshot {
     /// The same state from one set-up of a scene in another, with the air on cells of `air_cell` d.
     ///
-    /// Matter, momentum, rock, air, and what the sources gave are carried over; ids are fresh, all is awake, and the first
-    /// guess of the pressure is none.
+    /// Matter, momentum, rock, air, and what the sources gave are carried over; ids are fresh, all is awake, and the
+    /// first guess of the pressure is none.
     ///
     /// # Errors
     /// If there would be more particles than the world may hold: one line that says what is allowed.
@@ -164,8 +165,8 @@ impl Snapshot {
         })
     }
 
-    /// The particles among the rock of another set-up. Where each becomes more than four, this is done in steps: a crowd as
-    /// wide as a step is settled in as many rounds whatever the factor.
+    /// The particles among the rock of another set-up. Where each becomes more than four, this is done in steps: a
+    /// crowd as wide as a step is settled in as many rounds whatever the factor.
     fn particles_in(&self, factor: f64, solids: &Solids, to: &Blueprint, next_id: &mut u32) -> Particles {
         let steps = (factor / LARGEST_STEP).log2().ceil().max(0.0) as i32;
         let mut done = factor / LARGEST_STEP.powi(steps);

@@ -47,7 +47,8 @@ pub struct Setup {
     pub preset: Preset,
     /// The numbers in force.
     pub quality: Quality,
-    /// The state that `control::reset` goes back to: the scene's start, or the save file's, at the detail it was opened at.
+    /// The state that `control::reset` goes back to: the scene's start, or the save file's, at the detail it was opened
+    /// at.
     pub origin: Arc<Snapshot>,
 }
 

@@ -181,8 +181,8 @@ fn speeds(simulation: &Simulation) -> Result<(), Fault> {
     let (plan, setup) = (simulation.get::<TickPlan>(), simulation.get::<Setup>());
     let dt = plan.substep_seconds();
     let correction = std::f32::consts::SQRT_2 * setup.quality.longest_correction();
-    // Confinement adds a tenth of the longest move, and the second half of gravity comes after the cut. The next substep
-    // cuts both again.
+    // Confinement adds a tenth of the longest move, and the second half of gravity comes after the cut. The next
+    // substep cuts both again.
     let gravity = 0.5 * setup.domain.gravity.length() * dt;
     let most = (1.1 * longest_move(&setup.quality) + correction) / dt + gravity;
     let particles = simulation.particles();

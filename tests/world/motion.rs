@@ -104,8 +104,9 @@ fn vortex(vorticity: f32) -> Blueprint {
 
 #[test]
 fn confinement_feeds_an_eddy_the_more_the_stronger_it_is_and_no_faster_than_its_bound() {
-    // No wave grows faster than by 1.45 ε/h a second (`kernel::velocity::vorticity`), its energy twice as fast; h = 2.5 d.
-    // Water's own ε is so weak that the grid takes more than it gives: to within half a percent the energy never rises.
+    // No wave grows faster than by 1.45 ε/h a second (`kernel::velocity::vorticity`), its energy twice as fast; h = 2.5
+    // d. Water's own ε is so weak that the grid takes more than it gives: to within half a percent the energy never
+    // rises.
     let fastest = |vorticity: f32, tick: usize| {
         let grown = (2.0 * 1.45 * f64::from(vorticity) / 2.5 * tick as f64 / 60.0).exp();
         if vorticity <= 0.02 { 1.005 } else { grown }

@@ -51,7 +51,8 @@ fn a_fall_is_exact_at_any_substep() {
 
 #[test]
 fn half_the_substep_quarters_the_error_of_a_throw_through_air() {
-    // Still air, C v², of something light, so that rounding does not show: what is left is the splitting of drag and gravity.
+    // Still air, C v², of something light, so that rounding does not show: what is left is the splitting of drag and
+    // gravity.
     let place = |substeps: u32| {
         let mut blueprint = empty_box(200, 300);
         blueprint.domain.gravity = Vec2::new(0.0, -98.1);

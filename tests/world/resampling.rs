@@ -71,12 +71,12 @@ fn assert_in_the_open(simulation: &Simulation) {
     assert!(ids.last().is_none_or(|last| *last < simulation.get::<Clock>().next_id), "an id is not given yet");
 }
 
-/// Momentum is a sum of numbers that are rounded once more: n roundings of 2⁻²⁴, at random, are far below 10⁻⁶ of Σ m |v|.
-/// Area goes by whole particles. The density error may be half a percent above that of the world that goes on as it is (a
-/// quarter of a percent of a spacing, less than what a preset gives up to the next) once the solver had ten ticks, and two and
-/// a half times that before. A jolt is what energy gives beyond what
-/// the world that goes on as it is gains in that time: as the speed of all matter together it stays below the 0.02 d a
-/// tick that is calm to the eye (`lab::coarse`), of the coarser world's d.
+/// Momentum is a sum of numbers that are rounded once more: n roundings of 2⁻²⁴, at random, are far below 10⁻⁶ of Σ m
+/// |v|. Area goes by whole particles. The density error may be half a percent above that of the world that goes on as
+/// it is (a quarter of a percent of a spacing, less than what a preset gives up to the next) once the solver had ten
+/// ticks, and two and a half times that before. A jolt is what energy gives beyond what the world that goes on as it is
+/// gains in that time: as the speed of all matter together it stays below the 0.02 d a tick that is calm to the eye
+/// (`lab::coarse`), of the coarser world's d.
 #[test]
 fn mass_momentum_and_calm_are_kept_at_every_detail() {
     for (scene, ticks) in [("dam_break", 90), ("hydrostatic", 200)] {

@@ -94,7 +94,8 @@ pub(in crate::cli) struct PlayOptions {
     /// Quality to start with: a name of `list qualities` [default: the scene's]
     #[arg(long, value_name = "QUALITY", value_parser = preset)]
     pub(in crate::cli) quality: Option<Preset>,
-    /// Detail: how many times finer than the scene's own the particle spacing is, 0.125 to 8; 2 takes four times the particles
+    /// Detail: how many times finer than the scene's own the particle spacing is, 0.125 to 8; 2 takes four times the
+    /// particles
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = detail)]
     pub(in crate::cli) detail: Option<f64>,
     /// Set a parameter of the scene, or a number of the quality or the liquid
@@ -124,7 +125,8 @@ pub(in crate::cli) struct RunArguments {
     /// Quality: a name of `list qualities` [default: the scene's]
     #[arg(long, value_name = "QUALITY", value_parser = preset)]
     pub(in crate::cli) quality: Option<Preset>,
-    /// Detail: how many times finer than the scene's own the particle spacing is, 0.125 to 8; 2 takes four times the particles
+    /// Detail: how many times finer than the scene's own the particle spacing is, 0.125 to 8; 2 takes four times the
+    /// particles
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = detail)]
     pub(in crate::cli) detail: Option<f64>,
     /// Set a parameter of the scene, or a number of the quality or the liquid

@@ -94,7 +94,8 @@ pub(in crate::cli) struct SoakArguments {
     /// Quality: a name of `list qualities` [default: the scene's]
     #[arg(long, value_name = "QUALITY", value_parser = preset)]
     pub(in crate::cli) quality: Option<Preset>,
-    /// Detail: how many times finer than the scene's own the particle spacing is, 0.125 to 8; 2 takes four times the particles
+    /// Detail: how many times finer than the scene's own the particle spacing is, 0.125 to 8; 2 takes four times the
+    /// particles
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = detail)]
     pub(in crate::cli) detail: Option<f64>,
     /// Set a parameter of the scene, or a number of the quality or the liquid
@@ -159,7 +160,8 @@ pub(in crate::cli) struct SweepArguments {
     /// Threads of the settings that don't stand for a number of threads
     #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true, value_parser = threads)]
     pub(in crate::cli) threads: u64,
-    /// Detail: how many times finer than a scene's own the particle spacing is, 0.125 to 8; 2 takes four times the particles
+    /// Detail: how many times finer than a scene's own the particle spacing is, 0.125 to 8; 2 takes four times the
+    /// particles
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = detail)]
     pub(in crate::cli) detail: Option<f64>,
     /// Set a parameter of the scenes, or a number of the liquid

@@ -60,8 +60,9 @@ impl Air {
         air
     }
 
-    /// The same air in a world with `factor` new d in one old, whose box is of `size`: the same pressures, and velocities and
-    /// cells of the same m/s and m. Their number is no longer that of cells in the box: call [`Air::resized`] next.
+    /// The same air in a world with `factor` new d in one old, whose box is of `size`: the same pressures, and
+    /// velocities and cells of the same m/s and m. Their number is no longer that of cells in the box: call
+    /// [`Air::resized`] next.
     pub fn rescaled(&self, factor: f32, size: Vec2, params: AirParams) -> Air {
         let scaled = |values: &[f32]| values.iter().map(|value| value * factor).collect();
         Self {

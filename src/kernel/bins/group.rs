@@ -17,7 +17,8 @@ pub(crate) const ALL_LANES: u16 = u16::MAX;
 pub struct Group {
     /// First particle.
     pub first: u32,
-    /// Lanes that are worked on, the lowest bit for the first of [`MOST_LANES`] particles; [`ALL_LANES`] for all that there are.
+    /// Lanes that are worked on, the lowest bit for the first of [`MOST_LANES`] particles; [`ALL_LANES`] for all that
+    /// there are.
     pub lanes: u16,
     /// Number of particles, at most the lane width.
     pub len: u8,

@@ -2,13 +2,13 @@
 
 use crate::params::{Domain, FluidParams, Quality};
 
-/// Least relaxation ε where the pressure predictor ran, for each substep of a tick, 1/d²: with as many more substeps the
-/// constraint pushes as much less in each, so that it does not expand the liquid the more the finer the time. A Jacobi step corrects each particle as if its neighbours
-/// stood still, so where all are too dense at once, as in a vessel without a free surface, the finest waves of the error are
-/// corrected by more than twice what they are: they change sign from iteration to iteration and grow until the correction
-/// limit holds them, and the liquid boils. With this much relaxation they die out. The bulk of the pressure is the
-/// predictor's by then, so that softening the constraint costs no accuracy (docs/accuracy.md, "Relaxation"); without the
-/// predictor it would.
+/// Least relaxation ε where the pressure predictor ran, for each substep of a tick, 1/d²: with as many more substeps
+/// the constraint pushes as much less in each, so that it does not expand the liquid the more the finer the time. A
+/// Jacobi step corrects each particle as if its neighbours stood still, so where all are too dense at once, as in a
+/// vessel without a free surface, the finest waves of the error are corrected by more than twice what they are: they
+/// change sign from iteration to iteration and grow until the correction limit holds them, and the liquid boils. With
+/// this much relaxation they die out. The bulk of the pressure is the predictor's by then, so that softening the
+/// constraint costs no accuracy (docs/accuracy.md, "Relaxation"); without the predictor it would.
 pub const PREDICTED_RELAXATION: f32 = 0.2;
 
 /// What `Solver::solve` is told besides the particles.

@@ -4,7 +4,7 @@ use crate::{
     parallel::{Rows, Sweep, Team, sweep},
     predictor::{
         conjugate::Conjugate,
-        equation::{Around, CHUNK, fill_in, steepness, touch},
+        equation::{Around, CHUNK, fill_in, steepness, touch, way},
         grid::MacGrid,
         level::{Level, WORTH_A_PIECE},
         rock::ClosedFaces,
@@ -101,7 +101,7 @@ impl Sweep<Touched<'_>> for Touch<'_> {
                 let beside = [before, cells.clone()];
                 // On the stack, so that nothing that is read can be what is written.
                 let (n, mut out) = (own.len(), [[0.0_f32; CHUNK]; 4]);
-                let [steep, touches, velocity, way] = out.each_mut().map(|field| &mut field[..n]);
+                let [steep, touches, velocity, shift] = out.each_mut().map(|field| &mut field[..n]);
                 let [dry, wet] = beside.clone().map(|cells| &liquid[cells]);
                 for i in 0..n {
                     touches[i] = if dry[i] + wet[i] > 0.0 { 1.0 } else { 0.0 };
@@ -110,13 +110,13 @@ impl Sweep<Touched<'_>> for Touch<'_> {
                 let (open, means) = (&open[closed.row(j) + own.start..closed.row(j) + own.end], &means[cells]);
                 let [pressure, potential] = potentials.map(|field| beside.clone().map(|cells| &field[cells]));
                 touch(velocity, pressure, open, steep, means, 1.0);
-                touch(way, potential, open, steep, means, 0.0);
+                touch(shift, potential, open, steep, means, 0.0);
                 for i in 0..n {
-                    (velocity[i], way[i]) = (touches[i] * velocity[i], touches[i] * way[i]);
+                    (velocity[i], shift[i]) = (touches[i] * velocity[i], touches[i] * shift[i]);
                 }
                 known[own.clone()].copy_from_slice(touches);
                 gained[own.clone()].copy_from_slice(velocity);
-                drift[own].copy_from_slice(way);
+                drift[own].copy_from_slice(shift);
             }
         }
     }
@@ -155,15 +155,13 @@ impl Sweep<Rows<'_, Way>> for FillIn<'_> {
                 continue;
             }
             let means = &means[faces];
-            // Beyond the floor stands what stands above it, as `fill_in` finds it beyond the other walls: particles within
-            // half a cell of a wall take a part of their velocity along it from there. Elsewhere away from the liquid
-            // nothing changes.
+            // Beyond the floor stands what stands above it, as `fill_in` finds it beyond the other walls: particles
+            // within half a cell of a wall take a part of their velocity along it from there. Elsewhere away from the
+            // liquid nothing changes.
             let share = if j == 0 && near.start == 1 { 1.0 } else { 0.0 };
             let [gained, drift] = changes.map(|field| &field[grid.row(1)..][columns.clone()]);
-            for (i, way) in ways.iter_mut().enumerate() {
-                let [weight, mean] = means[i];
-                let is_whole = if weight < whole { 0.0 } else { 1.0 };
-                *way = [share * gained[i], is_whole * mean, is_whole, share * drift[i]];
+            for (i, at) in ways.iter_mut().enumerate() {
+                *at = way([share * gained[i], share * drift[i]], means[i], whole);
             }
         }
     }

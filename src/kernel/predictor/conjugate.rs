@@ -60,8 +60,8 @@ impl Conjugate {
         (self.solution, self.rows, self.area) = (solution, rows, columns);
     }
 
-    /// Solves the equation of the hierarchy's finest level, whose right-hand side becomes the residual, up to `tolerance`,
-    /// setting out from what stands in `solution` (d/s).
+    /// Solves the equation of the hierarchy's finest level, whose right-hand side becomes the residual, up to
+    /// `tolerance`, setting out from what stands in `solution` (d/s).
     pub fn solve(
         &mut self,
         hierarchy: &mut Hierarchy,

@@ -214,11 +214,11 @@ pub(super) fn feedback_share(liquid: Around, rock: Around, filled: &[f32], i: us
 /// Most by which a cell may be asked to make up for the change of volume that a move of a substep brings with it.
 const MOST_MADE_UP: f32 = 0.1;
 
-/// Asks for the divergence that keeps volumes. A move `x + Δt u` changes a volume by
-/// `det(1 + Δt ∇u) = 1 + Δt ∇·u + Δt² det ∇u`, so that not `∇·u = 0` keeps it but `∇·u = −Δt det ∇u`: what turns moves on
-/// along its tangents, and would swell, what is sheared apart would shrink. With it the pressure is the one that takes a
-/// turning body round (`∇²p = 2 ρ det ∇u`), and the leapfrog is of second order in flows, too. The feedback would have to
-/// do it otherwise, too late, and at the cost of angular momentum.
+/// Asks for the divergence that keeps volumes. A move `x + Δt u` changes a volume by `det(1 + Δt ∇u) = 1 + Δt ∇·u + Δt²
+/// det ∇u`, so that not `∇·u = 0` keeps it but `∇·u = −Δt det ∇u`: what turns moves on along its tangents, and would
+/// swell, what is sheared apart would shrink. With it the pressure is the one that takes a turning body round (`∇²p = 2
+/// ρ det ∇u`), and the leapfrog is of second order in flows, too. The feedback would have to do it otherwise, too late,
+/// and at the cost of angular momentum.
 ///
 /// `faces`: weights and mean velocities (d/s) of left and lower faces. A slope is taken from the neighbours that have
 /// `whole` particles or more.
@@ -270,8 +270,8 @@ pub(super) fn subtract_divergence(right_side: &mut [f32], liquid: &[f32], open: 
     }
 }
 
-/// What a potential changes on faces between the cells before and after each. Closed faces stop the share `stopped` of what
-/// they had.
+/// What a potential changes on faces between the cells before and after each. Closed faces stop the share `stopped` of
+/// what they had.
 #[inline(always)]
 pub(super) fn touch(
     change: &mut [f32],
@@ -289,8 +289,8 @@ pub(super) fn touch(
     }
 }
 
-/// The ways: both changes, or the means of the neighbours' where they are not known, and the mean velocities of the faces
-/// that have `whole` particles or more.
+/// The ways: both changes, or the means of the neighbours' where they are not known, and the mean velocities of the
+/// faces that have `whole` particles or more.
 #[inline(always)]
 pub(super) fn fill_in(ways: &mut [Way], changes: [Around; 2], known: Around, means: &[[f32; 2]], whole: f32) {
     let n = ways.len();
@@ -301,13 +301,15 @@ pub(super) fn fill_in(ways: &mut [Way], changes: [Around; 2], known: Around, mea
         let by_pressure = share * ((gained.left[i] + gained.right[i]) + (gained.lower[i] + gained.upper[i]));
         let by_potential = share * ((drift.left[i] + drift.right[i]) + (drift.lower[i] + drift.upper[i]));
         let (own, is_known) = ([gained.centre[i], drift.centre[i]], known.centre[i] > 0.0);
-        let [weight, mean] = means[i];
-        let is_whole = if weight < whole { 0.0 } else { 1.0 };
-        ways[i] = [
-            if is_known { own[0] } else { by_pressure },
-            is_whole * mean,
-            is_whole,
-            if is_known { own[1] } else { by_potential },
-        ];
+        let gained = if is_known { own[0] } else { by_pressure };
+        let drift = if is_known { own[1] } else { by_potential };
+        ways[i] = way([gained, drift], means[i], whole);
     }
+}
+
+/// The way of a face with both changes, and with its mean velocity if it has `whole` particles or more.
+#[inline(always)]
+pub(super) fn way([gained, drift]: [f32; 2], [weight, mean]: [f32; 2], whole: f32) -> Way {
+    let is_whole = if weight < whole { 0.0 } else { 1.0 };
+    [gained, is_whole * mean, is_whole, drift]
 }

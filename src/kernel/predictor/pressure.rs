@@ -25,15 +25,16 @@ use std::{
 };
 
 /// Rate at which a density error is to be taken away, 1/s: four fifths of it in a tick, however many substeps that has.
-/// It moves particles and gives them no speed: through velocities the same feedback made the flow lag, and stirred still
-/// pools.
+/// It moves particles and gives them no speed: through velocities the same feedback made the flow lag, and stirred
+/// still pools.
 ///
 /// **The bound.** The divergence f e that is asked for moves matter for Δt: `e' = e − (1 + e) f Δt e`, to first order
 /// `e' = (1 − f Δt) e`. That shrinks for `f Δt ≤ 2` and without a change of sign for **`f Δt ≤ 1`**. A substep is a tick
 /// at most, so f Δt ≤ 48/60 = 0.8 always. The errors themselves are cut to `FEEDBACK_RANGE`, so that even past the
 /// bound no more than f · 0.3 is asked for; every cell in which that acts is counted.
 const FEEDBACK_PER_SECOND: f32 = 48.0;
-/// Residual, relative to the right-hand side, up to which the feedback is solved for: a fifth, as much as the rate leaves.
+/// Residual, relative to the right-hand side, up to which the feedback is solved for: a fifth, as much as the rate
+/// leaves.
 const FEEDBACK_TOLERANCE: f64 = 0.2;
 /// Share of a full face's particles from which on they stand on both sides of it, so that their mean velocity is the
 /// face's. At a free surface a face that is half full has its particles on one side.
@@ -201,8 +202,8 @@ impl<'b> Sweep<Pair<'b>> for Divide {
     }
 }
 
-/// Sets up `Σ_f w_f s_f (p_c − p_n) = −Σ ± w_f u_f − Δt c det ∇u` over the liquid cells of edge c; p = 0 in the air, and s_f
-/// is how much steeper than between liquid cells the pressure falls at the face. The last term is that of
+/// Sets up `Σ_f w_f s_f (p_c − p_n) = −Σ ± w_f u_f − Δt c det ∇u` over the liquid cells of edge c; p = 0 in the air,
+/// and s_f is how much steeper than between liquid cells the pressure falls at the face. The last term is that of
 /// [`keep_volumes`]. Returns whether any of it may be sealed off.
 fn assemble(
     grid: &MacGrid,

@@ -67,8 +67,8 @@ impl Predictor {
         &self.conjugate.solution
     }
 
-    /// Makes the moves of the particles nearly keep the volume where they are liquid, by their velocities, and moves them
-    /// to where it is too thin from where it is too dense, which leaves velocities as they are.
+    /// Makes the moves of the particles nearly keep the volume where they are liquid, by their velocities, and moves
+    /// them to where it is too thin from where it is too dense, which leaves velocities as they are.
     pub fn run(&mut self, particles: &mut Particles, solids: &Solids, params: &PredictorParams) -> PredictorReport {
         let grid = MacGrid::new(params.domain.size, params.cell);
         if self.grid != grid {

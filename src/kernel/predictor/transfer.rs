@@ -24,7 +24,8 @@ pub(super) type Way = [f32; 4];
 /// Fields on the faces.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Faces {
-    /// At the left faces: number of particles (as weights) and their momentum, d/s; in the projection their mean velocity.
+    /// At the left faces: number of particles (as weights) and their momentum, d/s; in the projection their mean
+    /// velocity.
     pub u: Vec<[f32; 2]>,
     /// The same at the lower faces.
     pub v: Vec<[f32; 2]>,
@@ -157,8 +158,8 @@ impl Deposits {
         Self { corner: stencils.corner, lower, upper }
     }
 
-    /// Face by face, left and right ones in turn: a sum that is read again at once is then just what was written last, for
-    /// which the processor need not wait as it has to for a part of two faces that were written together.
+    /// Face by face, left and right ones in turn: a sum that is read again at once is then just what was written last,
+    /// for which the processor need not wait as it has to for a part of two faces that were written together.
     #[inline(always)]
     fn add(&self, field: &mut [[f32; 2]], first: usize, stride: usize, lane: usize) {
         let corner = self.corner[lane] as usize - first;

@@ -24,8 +24,8 @@ pub(super) struct WayBack<'a> {
     pub solids: &'a Solids,
 }
 
-/// Longest move of the density feedback along an axis in a substep, d. It is no motion and has no speed, so that no harm
-/// comes of it but that particles get among others; half a spacing keeps them beside their neighbours.
+/// Longest move of the density feedback along an axis in a substep, d. It is no motion and has no speed, so that no
+/// harm comes of it but that particles get among others; half a spacing keeps them beside their neighbours.
 const LONGEST_DRIFT: f32 = 0.5;
 
 /// A coordinate of a way, cut to [`LONGEST_DRIFT`].

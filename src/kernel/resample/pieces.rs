@@ -59,11 +59,11 @@ impl Heap {
 /// The same matter in particles of another size, in a box `domain` with `solids`, both of the new d. Ids count from
 /// `next_id` on.
 ///
-/// With a whole factor n each particle becomes n × n in a square around it: mass, momentum and centre of mass are the same to
-/// the rounding of a sum, but for those that rock or a wall moves aside. Otherwise the pieces of ⌈factor⌉² each are joined in
-/// the order of a Hilbert curve, element by element, a piece being cut where a particle is full: mass and momentum are carried
-/// from particle to particle and none is lost. What is left over at the end is a particle if it is half of one, else its
-/// momentum goes to the one before.
+/// With a whole factor n each particle becomes n × n in a square around it: mass, momentum and centre of mass are the
+/// same to the rounding of a sum, but for those that rock or a wall moves aside. Otherwise the pieces of ⌈factor⌉² each
+/// are joined in the order of a Hilbert curve, element by element, a piece being cut where a particle is full: mass and
+/// momentum are carried from particle to particle and none is lost. What is left over at the end is a particle if it is
+/// half of one, else its momentum goes to the one before.
 pub fn resample_particles(
     old: &Particles,
     factor: f64,

@@ -12,9 +12,9 @@ use glam::Vec2;
 /// liquid (docs/detail.md).
 const ROUNDS: u32 = 3;
 
-/// Moves particles that were just cut or joined apart, as the solver does between prediction and velocity, and leaves their
-/// velocities as they are: so the error of their places does not become speed. Corrections are mutual, so away from walls
-/// and rock the centre of mass stays.
+/// Moves particles that were just cut or joined apart, as the solver does between prediction and velocity, and leaves
+/// their velocities as they are: so the error of their places does not become speed. Corrections are mutual, so away
+/// from walls and rock the centre of mass stays.
 pub fn settle(particles: &mut Particles, solids: &Solids, domain: &Domain, fluid: &FluidParams) {
     let quality = Preset::Fine.quality();
     let params = SolveParams { domain, fluid, quality: &quality, tension: false, predicted: true, threads: 1 };

@@ -22,8 +22,8 @@ fn world() -> (Particles, Solids, Domain) {
     (particles, solids, domain)
 }
 
-/// Number, momentum (of velocities and pushes) and centre of the particles of an element, in the d that `factor` of go into
-/// one old d.
+/// Number, momentum (of velocities and pushes) and centre of the particles of an element, in the d that `factor` of go
+/// into one old d.
 fn totals(particles: &Particles, element: u8, factor: f64) -> (f64, DVec2, DVec2, DVec2) {
     let of = (0..particles.len()).filter(|&i| particles.element[i] == ElementId(element));
     let (mut area, mut momentum, mut push, mut centre) = (0.0, DVec2::ZERO, DVec2::ZERO, DVec2::ZERO);
@@ -52,8 +52,8 @@ fn mass_and_momentum_are_kept_and_nothing_is_in_rock() {
             // Each number is rounded to f32 once: at most 2⁻²⁴ of 40 d/s for each of 1500, far below this.
             assert!(after.1.distance(before.1) < 1e-3, "{factor}: momentum {} → {}", before.1, after.1);
             assert!(after.2.distance(before.2) < 1e-4, "{factor}: pushes {} → {}", before.2, after.2);
-            // What a particle stands for moves by about a d of the coarser world, each way: the mean of n such moves has a
-            // standard deviation of 1/√n of one, and is hardly ever more than three times that.
+            // What a particle stands for moves by about a d of the coarser world, each way: the mean of n such moves
+            // has a standard deviation of 1/√n of one, and is hardly ever more than three times that.
             let coarser = f64::max(1.0, 1.0 / factor);
             let count = f64::min(after.0 * factor * factor, before.0);
             assert!(

@@ -59,8 +59,8 @@ const CUT: f32 = 0.999;
 /// to whole ulps of the position over Δt (at 2,048 d and 16 substeps a tick that swallows gravity). Where the pressure
 /// predictor ran (`predicted`), the velocity follows a correction a by the share `a²/(a² + QUIET_CORRECTION²)`.
 ///
-/// Then the second half of the kick that [`begin_kick`](crate::forces::begin_kick) began: gravity (d/s²) and what pressure
-/// and contact add. Where corrections hold a particle up they hold it against the kick, too ([`held`]).
+/// Then the second half of the kick that [`begin_kick`](crate::forces::begin_kick) began: gravity (d/s²) and what
+/// pressure and contact add. Where corrections hold a particle up they hold it against the kick, too ([`held`]).
 pub fn update_velocities(
     particles: &mut Particles,
     solver: &mut Solver,

@@ -3,8 +3,8 @@
 //!
 //! - **Up** (more relief): a mean that is surely over the bound is a breach. The level goes up to the first that the model
 //!   expects below [`Tuning::aim`] of the bound.
-//! - **Down** (less relief): to the first level that the model expects below [`Tuning::aim`] of the bound. The room between
-//!   the two is the hysteresis.
+//! - **Down** (less relief): to the first level that the model expects below [`Tuning::aim`] of the bound. The room
+//!   between the two is the hysteresis.
 //! - **Cool-down**: a level that was left because of a breach is not tried again for some seconds, twice as many each time.
 //! - **Budget**: the time that the quantity may still be over the bound. It earns a small share of the time that passes and
 //!   pays for the time over the bound. A move down waits until the budget holds the price of a failure ([`PRICE`]). When the

@@ -1,5 +1,5 @@
-//! The qualities that the autopilot chooses from, cheapest first: the presets and what lies between two of them. It keeps the
-//! detail: `classic` and presets of another detail are no levels.
+//! The qualities that the autopilot chooses from, cheapest first: the presets and what lies between two of them. It
+//! keeps the detail: `classic` and presets of another detail are no levels.
 
 use crate::kernel::params::{Preset, Quality};
 use bevy::math::ops;

@@ -1,10 +1,10 @@
 //! The order of an error in the particle spacing, from runs at several.
 //!
-//! Each spacing is run from two starts of equal accuracy ([`Start`](super::set_up::Start)). The mean of their errors is the
-//! error. Errors of equal size that are due to chance alone, and so have nothing in common, come apart by √2 of that size:
-//! the distance of the two over √2 is the floor of the measure, and an error that is not above it is not told from none.
-//! The order is the slope of the error over the spacing, by least squares on logarithms, over the spacings above their
-//! floors.
+//! Each spacing is run from two starts of equal accuracy ([`Start`](super::set_up::Start)). The mean of their errors is
+//! the error. Errors of equal size that are due to chance alone, and so have nothing in common, come apart by √2 of
+//! that size: the distance of the two over √2 is the floor of the measure, and an error that is not above it is not
+//! told from none. The order is the slope of the error over the spacing, by least squares on logarithms, over the
+//! spacings above their floors.
 
 use crate::{
     lab::{exam::finding::Finding, stats},

@@ -54,8 +54,8 @@ impl SetUp {
     }
 }
 
-/// How the particles of a start stand. Runs that differ in nothing else are of equal accuracy: how far they come apart is
-/// the floor of what can be measured with them.
+/// How the particles of a start stand. Runs that differ in nothing else are of equal accuracy: how far they come apart
+/// is the floor of what can be measured with them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Start {
     /// On the square lattice, as a scene places them.

@@ -1,5 +1,5 @@
-//! What the start of a case has that its scene's text can't say. Lengths are in m or in the scene's own spacings, so that a
-//! quality of another detail has the same start.
+//! What the start of a case has that its scene's text can't say. Lengths are in m or in the scene's own spacings, so
+//! that a quality of another detail has the same start.
 
 use crate::{
     kernel::{

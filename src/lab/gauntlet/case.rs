@@ -94,8 +94,8 @@ pub(super) struct Rules {
     pub fastest: Option<f64>,
     /// How far the liquid is too dense after the shock.
     pub density: Option<Density>,
-    /// The root of the mean square of the speeds in the last tenth, in the scene's own spacings a tick: what is calm to the eye
-    /// is so at every detail.
+    /// The root of the mean square of the speeds in the last tenth, in the scene's own spacings a tick: what is calm to
+    /// the eye is so at every detail.
     pub rest: Option<f64>,
     /// The most expensive tick, as a multiple of a calm one. Default: [`Rules::WORK`].
     pub work: Option<f64>,
@@ -165,8 +165,8 @@ impl Gain {
     }
 }
 
-/// Bounds of the 99th percentile of how far the liquid is too dense (see `lab::density`): what is pressed together is what
-/// flies apart, where what was torn apart only has bubbles in it.
+/// Bounds of the 99th percentile of how far the liquid is too dense (see `lab::density`): what is pressed together is
+/// what flies apart, where what was torn apart only has bubbles in it.
 #[derive(Clone, Copy, Debug, Deserialize)]
 pub(super) struct Density {
     /// Ticks after which the shock is over.

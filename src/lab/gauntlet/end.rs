@@ -16,7 +16,8 @@ const HEIGHT_OFF: f64 = 0.02;
 pub(super) enum End {
     /// This share of the particles has its nearest neighbour at least so far away, d.
     Apart { share: f64, least: f32 },
-    /// The water's surface stands at this height, in the scene's own spacings, to 2 %: twice the mean height of the particles.
+    /// The water's surface stands at this height, in the scene's own spacings, to 2 %: twice the mean height of the
+    /// particles.
     Stands { height: f64 },
     /// At most such a share is left of the energy of a gust of 200 of the scene's own spacings a second.
     GustLeft(f64),
@@ -48,7 +49,8 @@ impl End {
             }
             Self::GustLeft(share) => {
                 let air = world.resource::<AirGrid>();
-                // The gust is a cone 16 wide, which holds a sixth of a cylinder's ½ v² π r²; in d, detail⁴ times as much.
+                // The gust is a cone 16 wide, which holds a sixth of a cylinder's ½ v² π r²; in d, detail⁴ times as
+                // much.
                 let gust = 0.5 * 200.0 * 200.0 * 804.0 / 6.0 * detail.powi(4);
                 let left = (air.kinetic_energy() + air.pressure_energy()) / gust;
                 (left <= share, format!("{left:.3} of the gust's energy left"))

@@ -18,7 +18,8 @@ pub struct Stability {
     pub gain: f64,
     /// Most of that which is allowed.
     pub gain_allowed: Option<f64>,
-    /// 99th percentile of how far the liquid is too dense: the worst after the shock. `None` without a particle inside a liquid.
+    /// 99th percentile of how far the liquid is too dense: the worst after the shock. `None` without a particle inside
+    /// a liquid.
     pub density_worst: Option<f64>,
     /// The same over the last tenth of the case.
     pub density_end: Option<f64>,

@@ -131,8 +131,8 @@ impl Curve {
     }
 }
 
-/// A hash over everything that a scene starts with but its quality: two scenes with the same one have the same curves. The
-/// detail that a preset brings along belongs to the quality, that which was asked for does not.
+/// A hash over everything that a scene starts with but its quality: two scenes with the same one have the same curves.
+/// The detail that a preset brings along belongs to the quality, that which was asked for does not.
 pub fn fingerprint(blueprint: &Blueprint) -> u64 {
     let Blueprint { name, origin, parameters, fluid, elements, effects, particle_limit, .. } = blueprint;
     let detail = f64::from(blueprint.scale.detail) / blueprint.preset.detail();

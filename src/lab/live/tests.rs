@@ -226,7 +226,8 @@ fn fly(goal: Goal, ticks: u64) -> (u64, Vec<Entry>, Simulation) {
 
 #[test]
 fn a_run_under_it_is_recorded_and_repeats_to_the_bit_without_the_autopilot() {
-    // An error that is over its bound at the start, so that there are moves in ten seconds: moves down wait for half a minute.
+    // An error that is over its bound at the start, so that there are moves in ten seconds: moves down wait for half a
+    // minute.
     for goal in [Goal::Time(16.0), Goal::Error(0.00001)] {
         let (hash, input, flown) = fly(goal, 600);
         let moves = input.iter().filter(|entry| matches!(entry.intent, Intent::Quality { .. })).count();

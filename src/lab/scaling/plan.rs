@@ -25,8 +25,8 @@ impl Setting {
     }
 }
 
-/// All settings: the presets, and the plain method where it is at its best. Not `reference`: at a number of particles it is
-/// `fine`.
+/// All settings: the presets, and the plain method where it is at its best. Not `reference`: at a number of particles
+/// it is `fine`.
 const SETTINGS: [Setting; 6] = [
     Setting::plain("classic", Preset::Classic),
     Setting {

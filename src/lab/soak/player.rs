@@ -103,7 +103,8 @@ impl Player {
         Intent::Press { stroke: self.drag(6.0), amount }
     }
 
-    /// A short drag of a brush of a radius in the scene's own spacings, from where the pointer is; now and then the pointer is lifted and set down elsewhere.
+    /// A short drag of a brush of a radius in the scene's own spacings, from where the pointer is; now and then the
+    /// pointer is lifted and set down elsewhere.
     fn drag(&mut self, radius: f32) -> Stroke {
         if self.random.below(20) == 0 {
             self.at = self.point();

@@ -39,7 +39,7 @@ pub struct Setting {
     /// The preset that it is.
     pub preset: Option<Preset>,
     /// How many times finer than the start of the sweep it is, beside what its preset brings along.
-    pub detail: f64,
+    pub asked_detail: f64,
     /// The knobs.
     pub quality: Quality,
     /// Threads of the kernel.
@@ -49,7 +49,13 @@ pub struct Setting {
 impl Setting {
     /// A preset by its name.
     pub(super) fn preset(preset: Preset, threads: usize) -> Self {
-        Self { name: preset.name().to_owned(), preset: Some(preset), detail: 1.0, quality: preset.quality(), threads }
+        Self {
+            name: preset.name().to_owned(),
+            preset: Some(preset),
+            asked_detail: 1.0,
+            quality: preset.quality(),
+            threads,
+        }
     }
 
     /// The knobs in one word, exact: what the journal knows it by.
@@ -61,7 +67,7 @@ impl Setting {
 
     /// How many times finer than the start of the sweep it is.
     pub fn detail(&self) -> f64 {
-        self.detail * self.preset.map_or(1.0, Preset::detail)
+        self.asked_detail * self.preset.map_or(1.0, Preset::detail)
     }
 }
 
@@ -91,7 +97,8 @@ pub fn settings(scope: &Scope) -> Vec<Setting> {
             ErrorMeasure::Density => liquid(scope),
             ErrorMeasure::Air => air(scope.quick),
         };
-        let setting = |(name, quality)| Setting { name, preset: None, detail: 1.0, quality, threads: scope.threads };
+        let setting =
+            |(name, quality)| Setting { name, preset: None, asked_detail: 1.0, quality, threads: scope.threads };
         all.extend(named.into_iter().map(setting));
         all.extend(details(scope));
         if !scope.quick {
@@ -179,7 +186,7 @@ fn details(scope: &Scope) -> impl Iterator<Item = Setting> {
     REAL_TIME.into_iter().flat_map(move |preset| {
         details.iter().map(move |&detail| {
             let name = format!("{}, detail {detail}", preset.name());
-            Setting { name, preset: None, detail, ..Setting::preset(preset, threads) }
+            Setting { name, preset: None, asked_detail: detail, ..Setting::preset(preset, threads) }
         })
     })
 }

@@ -49,7 +49,7 @@ pub fn chart_of_truth(subject: &Subject, rows: &[Row]) -> Chart {
     let points = |wanted: &dyn Fn(&Row) -> bool| {
         own.iter().filter(|row| wanted(row)).filter_map(|row| point(row)).collect::<Vec<_>>()
     };
-    let named = |row: &Row| row.setting.preset.is_some() || row.setting.detail != 1.0;
+    let named = |row: &Row| row.setting.preset.is_some() || row.setting.asked_detail != 1.0;
     let mut details: Vec<f64> = own.iter().filter(|row| named(row)).map(|row| row.setting.detail()).collect();
     details.sort_by(f64::total_cmp);
     details.dedup();

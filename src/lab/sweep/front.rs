@@ -63,8 +63,8 @@ fn air_viscosity(quality: &Quality) -> f32 {
     }
 }
 
-/// Marks the rows on both fronts, those of each number of threads by themselves: threads change no error. Density errors are
-/// shares of the run's own spacing, and compared at the same detail only.
+/// Marks the rows on both fronts, those of each number of threads by themselves: threads change no error. Density
+/// errors are shares of the run's own spacing, and compared at the same detail only.
 pub(super) fn mark(rows: &mut [Row], air_is_unseen: bool) {
     let of_detail = |row: &Row| (row.setting.threads, row.setting.detail().to_bits());
     let by_density = on_front(rows, of_detail, |row| point(row, air_is_unseen));
@@ -143,7 +143,7 @@ mod tests {
     fn density_is_compared_at_one_detail_and_truth_at_all() {
         let known = |name: &str, detail: f64, ms: f64, truth: f64| {
             let mut row = row(name, ms, 0.01);
-            row.setting.detail = detail;
+            row.setting.asked_detail = detail;
             row.found.accuracy.distance = Some(Distance { share: Some(truth), ..Distance::default() });
             row
         };

@@ -131,7 +131,7 @@ pub(super) mod tests {
     pub(in crate::lab::sweep) fn row(name: &str, ms: f64, error: f64) -> Row {
         let preset = Preset::find(name);
         let quality = preset.unwrap_or(Preset::Fast).quality();
-        let setting = Setting { name: name.to_owned(), preset, detail: 1.0, quality, threads: 1 };
+        let setting = Setting { name: name.to_owned(), preset, asked_detail: 1.0, quality, threads: 1 };
         let accuracy = Accuracy { density_error_p99: Some(error), density_mean: Some(0.99), ..Accuracy::default() };
         let sound = Found { accuracy, ..Found::default() };
         let record = Record { ms, ms_p95: ms, hash: String::new(), found: None };

@@ -1,4 +1,5 @@
-//! The true error in the summary: how far settings, coarse and fine, are from a converged run, and where time buys most of it.
+//! The true error in the summary: how far settings, coarse and fine, are from a converged run, and where time buys most
+//! of it.
 
 use super::row::Row;
 use crate::{
@@ -9,7 +10,8 @@ use crate::{
 /// A row with its true error.
 type Known<'a> = (&'a Row, f64);
 
-/// The section, with the truest setting for each of these times (ms a tick); nothing where there is no liquid to compare.
+/// The section, with the truest setting for each of these times (ms a tick); nothing where there is no liquid to
+/// compare.
 pub(super) fn text(rows: &[&Row], times: &[f64]) -> String {
     let mut known: Vec<Known> = rows.iter().filter_map(|row| Some((*row, row.true_error()?))).collect();
     if known.is_empty() {
@@ -46,7 +48,7 @@ fn budgets(known: &[Known], times: &[f64]) -> String {
 
 /// The presets at each detail.
 fn details(known: &[Known]) -> String {
-    let of_details = known.iter().filter(|(row, _)| row.setting.preset.is_some() || row.setting.detail != 1.0);
+    let of_details = known.iter().filter(|(row, _)| row.setting.preset.is_some() || row.setting.asked_detail != 1.0);
     let lines = of_details.map(|(row, error)| {
         let front = if row.true_front { "yes" } else { "no" };
         format!(
@@ -84,7 +86,7 @@ mod tests {
     /// A row with this true error.
     fn known(name: &str, detail: f64, ms: f64, error: f64) -> Row {
         let mut row = row(name, ms, 0.01);
-        (row.setting.detail, row.true_front) = (detail, true);
+        (row.setting.asked_detail, row.true_front) = (detail, true);
         row.found.floor = Some(0.001);
         row.found.accuracy.distance = Some(Distance { share: Some(error), ..Distance::default() });
         row

@@ -141,8 +141,8 @@ struct Parts<'a, 'w> {
 }
 
 impl Parts<'_, '_> {
-    /// Goes on at a detail that is asked for, at a preset that may have its own; `false` if the world does not fit it, and
-    /// stays what it is. A player was told before (`control::check_detail`).
+    /// Goes on at a detail that is asked for, at a preset that may have its own; `false` if the world does not fit it,
+    /// and stays what it is. A player was told before (`control::check_detail`).
     fn change_detail(&mut self, detail: f64, preset: Preset) -> bool {
         let Ok(setup) = self.setup.at_detail(detail, preset) else { return false };
         let Derived { elements, sources, predictor, sleep, solver } = &mut *self.derived;

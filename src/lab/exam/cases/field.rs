@@ -1,5 +1,5 @@
-//! Cases by which others in the field examine their methods: a drop that is drawn out, a dam break on a wet bed, still water
-//! over a wedge.
+//! Cases by which others in the field examine their methods: a drop that is drawn out, a dam break on a wet bed, still
+//! water over a wedge.
 
 use crate::{
     kernel::units::TICKS_PER_SECOND,
@@ -53,8 +53,8 @@ fn semi_axes(simulation: &CaseSimulation) -> [f64; 2] {
     })
 }
 
-/// Semi-axes of the ellipse after `seconds`, of the radius at the start: `a' = −A a`, `b' = A b`, `A' = A² (a² − b²)/(a² +
-/// b²)`, by the midpoint rule.
+/// Semi-axes of the ellipse after `seconds`, of the radius at the start: `a' = −A a`, `b' = A b`, `A' = A² (a² −
+/// b²)/(a² + b²)`, by the midpoint rule.
 fn ellipse(seconds: f64) -> [f64; 2] {
     let steps = 10_000;
     let dt = seconds / f64::from(steps);

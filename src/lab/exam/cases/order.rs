@@ -1,5 +1,5 @@
-//! How errors fall with the spacing. A run of more columns is Froude's model of one of fewer: d stays, lengths grow with the
-//! columns, times with their square root, so that substeps get finer, too.
+//! How errors fall with the spacing. A run of more columns is Froude's model of one of fewer: d stays, lengths grow
+//! with the columns, times with their square root, so that substeps get finer, too.
 
 use crate::{
     kernel::units::TICKS_PER_SECOND,

@@ -68,7 +68,8 @@ const CHANNEL: f64 = 10.0;
 /// Simulated time, s, of which the first part is left to the particles to find their places.
 const SHEAR_SECONDS: f64 = 1.0;
 const SHEAR_SETTLES: f64 = 0.1;
-/// XSPH viscosity c at the spacing of the run: so thick that the particles finding their places does not matter beside it.
+/// XSPH viscosity c at the spacing of the run: so thick that the particles finding their places does not matter beside
+/// it.
 const VISCOSITY: f32 = 0.5;
 
 async fn shear_layer(set_up: SetUp) -> Findings {
