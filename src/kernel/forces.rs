@@ -164,6 +164,16 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_substep_begins_with_half_of_gravity_and_without_the_push_of_the_last() {
+        let mut particles = Particles::default();
+        particles.push(0, crate::element::ElementId(0), Vec2::ONE, Vec2::new(3.0, 5.0));
+        (particles.push_x[0], particles.push_y[0]) = (1.0, -2.0);
+        begin_kick(Vec2::new(0.0, -8.0), &mut particles, 1, 0.25);
+        assert_eq!(particles.velocity(0), Vec2::new(2.0, 6.0));
+        assert_eq!((particles.push_x[0], particles.push_y[0]), (0.0, 0.0));
+    }
+
+    #[test]
     fn drag_never_reverses_and_follows_its_solution() {
         // 1 is the bound of an explicit step.
         for product in [0.1, 0.99, 1.0, 9.9, 10.0, 100.0, 1000.0] {
