@@ -4,7 +4,7 @@ use crate::{
     cli::{args::CaseArguments, failure::Failure, output, progress},
     kernel::params::Preset,
     lab::{
-        cases::{Case, Size, document, failure, jobs, run_all, summary, table},
+        cases::{Case, Size, about_detail, document, failure, jobs, run_all, summary, table},
         machine::processor,
     },
 };
@@ -13,14 +13,14 @@ use std::{io::Write, path::PathBuf, thread::available_parallelism};
 
 /// Runs the cases of a suite and prints their rows. A case that fails fails the command.
 pub(super) fn judge<C: Case>(arguments: &CaseArguments<C>) -> Result<(), Failure> {
-    let CaseArguments { json, markdown, .. } = arguments;
+    let CaseArguments { json, markdown, detail, .. } = arguments;
     let [json, markdown] = [json, markdown].map(Option::as_deref);
     if [json, markdown].into_iter().all(output::is_stdout) {
         return Err(Failure::Usage("--json and --markdown can't both have stdout; allowed: a file for one".into()));
     }
     output::check(&[json, markdown].into_iter().flatten().collect::<Vec<_>>())?;
     let threads = arguments.threads.map_or_else(|| available_parallelism().map_or(1, usize::from), |n| n as usize);
-    let jobs = jobs((C::SUITE.cases)(), |case| arguments.wants(case), &arguments.presets());
+    let jobs = jobs((C::SUITE.cases)(), |case| arguments.wants(case), &arguments.presets(), *detail);
     let bar = progress::bar(jobs.len() as u64);
     let rows = run_all(&jobs, threads, |done, job| {
         bar.set_position(done as u64);
@@ -29,15 +29,16 @@ pub(super) fn judge<C: Case>(arguments: &CaseArguments<C>) -> Result<(), Failure
     drop(bar);
     let mut printed = None;
     if let Some(path) = markdown {
-        let text = document::<C>(&rows, &processor(), &arguments.command());
+        let text = document::<C>(&rows, &processor(), &arguments.command(), *detail);
         if output::is_stdout(markdown) {
             printed = Some(text);
         } else {
             output::write(path, |file| file.write_all(text.as_bytes()))?;
         }
     }
-    let value = || json!({ "processor": processor(), "threads": threads, "rows": rows });
-    let text = || printed.unwrap_or_else(|| format!("{}\n{}\n", table::<C>(&rows), summary::<C>(&rows)));
+    let value = || json!({ "processor": processor(), "threads": threads, "detail": detail, "rows": rows });
+    let head = about_detail(*detail).map_or_else(String::new, |text| format!("{text}\n\n"));
+    let text = || printed.unwrap_or_else(|| format!("{head}{}\n{}\n", table::<C>(&rows), summary::<C>(&rows)));
     output::report(json, value, text)?;
     failure::<C>(&rows).map_or(Ok(()), |failure| Err(Failure::Outcome(failure)))
 }
@@ -71,10 +72,14 @@ impl<C: Case> CaseArguments<C> {
         let path = |file: &Option<PathBuf>| file.as_ref().map(|path| path.display().to_string());
         self.cases.iter().for_each(|case| option("--case", case.about().name));
         self.qualities.iter().for_each(|quality| option("--quality", quality.name()));
+        let detail = (self.detail != 1.0).then(|| self.detail.to_string());
         let threads = self.threads.map(|threads| threads.to_string());
-        for (name, value) in
-            [("--threads", threads), ("--json", path(&self.json)), ("--markdown", path(&self.markdown))]
-        {
+        for (name, value) in [
+            ("--detail", detail),
+            ("--threads", threads),
+            ("--json", path(&self.json)),
+            ("--markdown", path(&self.markdown)),
+        ] {
             value.iter().for_each(|value| option(name, value));
         }
         if self.quick {

@@ -83,6 +83,34 @@ fn the_exam_prints_its_rows_and_fails_if_one_does() {
 }
 
 #[test]
+fn cases_run_at_another_detail_and_say_so() {
+    let here = folder("case_detail");
+    let rows = |arguments: &[&str]| {
+        let json: Value = serde_json::from_str(&good(&here, &[arguments, &["--json", "-"]].concat())).unwrap();
+        (json["detail"].as_f64().unwrap(), json["rows"].as_array().unwrap().clone())
+    };
+    let gauntlet = ["gauntlet", "--case", "falling_block", "--quality", "balanced", "--quality", "reference"];
+    let (own, finer) = (rows(&gauntlet), rows(&[&gauntlet[..], &["--detail", "2"]].concat()));
+    assert_eq!((own.0, finer.0), (1.0, 2.0));
+    let particles = |rows: &[Value]| rows.iter().map(|row| row["particles"].as_u64().unwrap()).collect::<Vec<_>>();
+    let (own, finer) = (particles(&own.1), particles(&finer.1));
+    assert_eq!(finer, own.iter().map(|count| 4 * count).collect::<Vec<_>>(), "four for each");
+    assert_eq!(own[1], 4 * own[0], "reference has its own detail on top");
+    let exam = ["exam", "--case", "hydrostatic", "--quality", "draft"];
+    let (_, own) = rows(&exam);
+    let (_, finer) = rows(&[&exam[..], &["--detail", "2"]].concat());
+    assert_ne!(own[0]["got"], finer[0]["got"], "another world");
+    assert_eq!(own[0]["expected"], finer[0]["expected"], "of the same size");
+    let document = good(&here, &[&exam[..], &["--detail", "0.5", "--markdown", "-"]].concat());
+    let document = on_one_line(&document);
+    assert!(document.contains("--quality draft --detail 0.5 --markdown -` writes this file"), "{document}");
+    assert!(document.contains("At detail 0.5: particles 2 times as wide and 0.25 times as many"), "{document}");
+    for bad in ["0", "9", "-1", "nan", "two"] {
+        refused(&here, &["exam", "--quick", "--detail", bad], 2, &["allowed: numbers from 0.125 to 8"]);
+    }
+}
+
+#[test]
 fn the_gauntlet_prints_its_rows_and_writes_them() {
     let here = folder("gauntlet");
     let arguments =

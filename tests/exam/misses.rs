@@ -36,7 +36,7 @@ fn unlisted(cases: &[ExamCase], rows: &[Row<Answer>]) -> Vec<String> {
 
 #[test]
 fn a_new_miss_and_a_cured_one_are_found() {
-    let jobs = jobs(&CASES, |case| case.name == "free_fall", &[Preset::Draft]);
+    let jobs = jobs(&CASES, |case| case.name == "free_fall", &[Preset::Draft], 1.0);
     let rows = run_all(&jobs, 1, |_, _| {}).expect("the scene can be built");
     let mut case = ExamCase { name: "free_fall", ..ExamCase::default() };
     case.rows = jobs[0].case.rows.clone();
@@ -52,8 +52,8 @@ fn a_new_miss_and_a_cured_one_are_found() {
 
 #[test]
 fn what_misses_is_listed_and_what_is_listed_misses() {
-    let mut jobs: Vec<_> = jobs(&CASES, |case| case.size == Size::Quick, &Preset::ALL);
-    jobs.extend(self::jobs(&CASES, |case| case.size != Size::Quick, &[Preset::Balanced]));
+    let mut jobs: Vec<_> = jobs(&CASES, |case| case.size == Size::Quick, &Preset::ALL, 1.0);
+    jobs.extend(self::jobs(&CASES, |case| case.size != Size::Quick, &[Preset::Balanced], 1.0));
     let threads = available_parallelism().map_or(1, usize::from);
     let rows = run_all(&jobs, threads, |_, _| {}).expect("every scene can be built");
     for case in CASES.iter() {

@@ -120,14 +120,19 @@ fn show(root: &Path, entry: &Entry, recipe: &Recipe, output: &str, stamp: &Stamp
     if figures.trim().is_empty() {
         return Err(Fault::Outcome(format!("{}: its commands gave nothing to show", entry.name)));
     }
-    let stamp = stamp.to_string();
-    let parts = match recipe.shows {
-        Shows::Document => [stamp.as_str(), region::without_title(&figures)],
-        _ => [figures.as_str(), &stamp],
-    };
+    let folder = entry.page.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
+    let shown =
+        |(words, file): &(String, String)| format!("![{words}]({})", file.strip_prefix(&folder).unwrap_or(file));
+    // A chart of what a scene does not have is not drawn.
+    let drawn = recipe.pictures.iter().filter(|(_, file)| root.join(file).exists());
+    let mut parts: Vec<String> = drawn.map(shown).collect();
+    match recipe.shows {
+        Shows::Document => parts.extend([stamp.to_string(), region::without_title(&figures).to_owned()]),
+        _ => parts.extend([figures, stamp.to_string()]),
+    }
     let path = root.join(&entry.page);
     let text = read(&path)?;
-    write(&path, &region(&entry.page, &text, &entry.name)?.replaced(&text, parts))
+    write(&path, &region(&entry.page, &text, &entry.name)?.replaced(&text, &parts))
 }
 
 fn section(path: PathBuf, heading: &str, entry: &Entry) -> Result<String, Fault> {

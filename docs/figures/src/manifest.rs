@@ -59,6 +59,9 @@ pub struct Recipe {
     /// Files and folders that the commands write. What they write in Markdown gets the stamp, too.
     #[serde(default)]
     pub files: Vec<String>,
+    /// Charts among these that stand above the rest of the region: words for those who don't see them, and the file.
+    #[serde(default)]
+    pub pictures: Vec<(String, String)>,
     /// How long it takes on the machine that made what stands there.
     pub takes: String,
     /// What is to be said in the stamp beside commit, machine and date: threads, rounds.

@@ -73,15 +73,11 @@ pub fn region(page: &str, text: &str, name: &str) -> Result<Region, Fault> {
 }
 
 impl Region {
-    /// The text with other parts in this region: figures and stamp. Pictures at its beginning stay: commands write their files,
-    /// not the lines that show them.
-    pub fn replaced(&self, text: &str, parts: [&str; 2]) -> String {
+    /// The text with other parts in this region.
+    pub fn replaced(&self, text: &str, parts: &[String]) -> String {
         let lines: Vec<&str> = text.lines().collect();
-        let is_head = |line: &&&str| line.trim().is_empty() || line.trim_start().starts_with("![");
-        let head: Vec<&str> = lines[self.lines.clone()].iter().take_while(is_head).copied().collect();
-        let head = head.join("\n");
-        let parts = [head.as_str(), parts[0], parts[1]].map(str::trim);
-        let body = parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n\n");
+        let parts = parts.iter().map(|part| part.trim()).filter(|part| !part.is_empty());
+        let body = parts.collect::<Vec<_>>().join("\n\n");
         let [before, after] = [&lines[..self.lines.start], &lines[self.lines.end..]].map(|part| part.join("\n"));
         format!("{before}\n\n{body}\n\n{after}\n")
     }
@@ -124,16 +120,16 @@ mod tests {
     fn figures_are_replaced_and_nothing_else() {
         let one = region("p.md", PAGE, "one").unwrap();
         assert_eq!(one.stamp(PAGE).and_then(|stamp| stamp.commit), Some("abc1234".to_owned()));
-        let stamp = "*Commit def5678; any.*";
-        let text = one.replaced(PAGE, ["\n| a |\n|---|\n| 2 |\n", stamp]);
+        let parts = ["![Curve](curve.svg)", "\n| a |\n|---|\n| 2 |\n", "*Commit def5678; any.*"].map(str::to_owned);
+        let text = one.replaced(PAGE, &parts);
         let expected = "# Page\n\n<!-- figures: one -->\n\n![Curve](curve.svg)\n\n| a |\n|---|\n| 2 |\n\n*Commit def5678; any.*\n\n\
                         <!-- end of figures -->\n\nProse.\n\n<!-- figures: two -->\n<!-- end of figures -->\n";
         assert_eq!(text, expected);
-        assert_eq!(region("p.md", &text, "one").unwrap().replaced(&text, ["| a |\n|---|\n| 2 |", stamp]), expected);
+        assert_eq!(region("p.md", &text, "one").unwrap().replaced(&text, &parts), expected);
         let two = region("p.md", &text, "two").unwrap();
         assert_eq!(two.stamp(&text), None, "the stamp of another region is not its own");
         assert!(
-            two.replaced(&text, ["3", stamp])
+            two.replaced(&text, &["3".to_owned(), parts[2].clone()])
                 .ends_with("-->\n\n3\n\n*Commit def5678; any.*\n\n<!-- end of figures -->\n")
         );
     }

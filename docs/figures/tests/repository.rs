@@ -19,7 +19,8 @@ const MANIFEST: &str = r#"(
     entries: [
         (
             name: "count", page: "docs/page.md", sources: ["@physics", "scene.ron"], quoted: ["README.md"],
-            how: Made((commands: ["sh make.sh"], shows: Output, files: ["docs/out.md"], takes: "1 s", note: "1 thread")),
+            how: Made((commands: ["sh make.sh"], shows: Output, files: ["docs/out.md", "docs/x.svg"],
+                pictures: [("Words", "docs/x.svg"), ("None", "docs/y.svg")], takes: "1 s", note: "1 thread")),
         ),
         (
             name: "part", page: "docs/page.md", sources: ["scene.ron"],
@@ -33,8 +34,7 @@ const PAGE: &str = "# Page\n\n<!-- figures: count -->\n*Commit not noted.*\n<!--
                     <!-- figures: part -->\n<!-- end of figures -->\n\n\
                     <!-- figures: old -->\n*Commit 1234567; a machine.*\n<!-- end of figures -->\n";
 
-const SCRIPT: &str =
-    "cat src/a.rs\nprintf '# Out\\n\\n## Wanted\\n\\nWords.\\n\\n| a |\\n|---|\\n| 7 |\\n' > docs/out.md\n";
+const SCRIPT: &str = "cat src/a.rs\necho x > docs/x.svg\nprintf '# Out\\n\\n## Wanted\\n\\nWords.\\n\\n| a |\\n|---|\\n| 7 |\\n' > docs/out.md\n";
 
 /// A repository with one commit; removed at the end.
 struct Place(PathBuf);
@@ -113,7 +113,10 @@ fn figures_are_made_with_their_commit_and_are_stale_when_their_sources_change() 
     assert_eq!(place.make(&["count"], false), Ok(vec![]));
     assert_eq!(place.make(&[], false), Ok(vec![]));
     let page = place.read("docs/page.md");
-    assert!(page.contains(&format!("<!-- figures: count -->\n\none\n\n*Commit {first}; ")), "{page}");
+    assert!(
+        page.contains(&format!("<!-- figures: count -->\n\n![Words](x.svg)\n\none\n\n*Commit {first}; ")),
+        "{page}"
+    );
     assert!(page.contains("; 1 thread"), "{page}");
     assert!(page.contains("<!-- figures: part -->\n\n| a |\n|---|\n| 7 |\n\n*Commit "), "without the words: {page}");
     assert!(page.ends_with("*Commit 1234567; a machine.*\n<!-- end of figures -->\n"), "what is made by hand stays");

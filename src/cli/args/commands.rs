@@ -40,7 +40,7 @@ pub(in crate::cli) enum Command {
     Soak(SoakArguments),
     /// Run every hard case at each quality, and judge whether it stays stable
     Gauntlet(CaseArguments<GauntletCase>),
-    /// Repeat an experiment of the report on the original game
+    /// Make an experiment: a table and pictures
     Study(StudyArguments),
     /// Measure what accuracy costs in a scene: curve.csv, curve.svg, curve.png, summary.md
     Sweep(SweepArguments),

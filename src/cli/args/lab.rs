@@ -75,6 +75,10 @@ pub(in crate::cli) struct CaseArguments<C: Case> {
     /// Quality to run at, again for more: a name of `list qualities` [default: all]
     #[arg(long = "quality", value_name = "QUALITY", value_parser = preset)]
     pub(in crate::cli) qualities: Vec<Preset>,
+    /// Detail: how many times finer than each case's own the particle spacing is, 0.125 to 8; 2 takes four times the
+    /// particles. The detail of a quality comes on top of it
+    #[arg(long, value_name = "N", default_value_t = 1.0, allow_negative_numbers = true, value_parser = detail)]
+    pub(in crate::cli) detail: f64,
     /// The cases that take a moment, at `balanced`
     #[arg(long)]
     pub(in crate::cli) quick: bool,
@@ -122,16 +126,22 @@ pub(in crate::cli) struct StudyArguments {
     /// Folder for its pictures
     #[arg(long, value_name = "DIR")]
     pub(in crate::cli) out: PathBuf,
-    /// Threads of the simulation [default: all]
+    /// Threads of `rest-density` [default: all]; `truth` runs on one
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
     pub(in crate::cli) threads: Option<u64>,
+    /// Show other programs' true errors in `truth`:
+    /// [{name, source, figures: [{columns, percent: [at T = 1, 1.75, 2.5]}]}]
+    #[arg(long, value_name = "FILE.json")]
+    pub(in crate::cli) beside: Option<PathBuf>,
 }
 
-/// Experiments of the report on the original game.
-#[derive(Clone, Copy, Debug, ValueEnum)]
+/// Experiments that end in a table and pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum Study {
     /// What a rest density that does not suit the spacing does to a liquid: rest-density.png
     RestDensity,
+    /// How far the dam break is from a converged run, at each quality and four spacings: truth-particles.svg, truth-time.svg
+    Truth,
 }
 
 /// `sweep`.

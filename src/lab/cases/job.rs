@@ -17,10 +17,11 @@ pub struct Job<C: 'static> {
     pub setting: Setting,
 }
 
-/// The cases for which `wanted` holds at these qualities, case by case.
-pub fn jobs<C: Case>(cases: &'static [C], wanted: impl Fn(&C) -> bool, presets: &[Preset]) -> Vec<Job<C>> {
-    let of =
-        |case: &'static C| case.about().over.settings(presets).into_iter().map(move |setting| Job { case, setting });
+/// The cases for which `wanted` holds at these qualities and this detail, case by case.
+pub fn jobs<C: Case>(cases: &'static [C], wanted: impl Fn(&C) -> bool, presets: &[Preset], detail: f64) -> Vec<Job<C>> {
+    let of = |case: &'static C| {
+        case.about().over.settings(presets, detail).into_iter().map(move |setting| Job { case, setting })
+    };
     cases.iter().filter(|case| wanted(case)).flat_map(of).collect()
 }
 

@@ -19,7 +19,7 @@ pub use case::{About, Case, Column, Size, Suite};
 pub use job::{Job, jobs, run_all};
 pub use queue::{JobQueue, Progress, plugin};
 pub(super) use read::{line, read};
-pub use report::{document, failure, summary, table};
+pub use report::{about_detail, document, failure, summary, table};
 pub use row::{Figures, Row, Verdict};
 pub use setting::{Over, Setting};
 pub use simulation::{CaseSimulation, Stopwatch};

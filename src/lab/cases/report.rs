@@ -1,11 +1,14 @@
 //! The rows in words: a table, a summary, the document.
 
-use crate::lab::{
-    cases::{
-        case::{About, Case, Column},
-        row::{Figures, Row, Verdict},
+use crate::{
+    lab::{
+        cases::{
+            case::{About, Case, Column},
+            row::{Figures, Row, Verdict},
+        },
+        markdown,
     },
-    markdown,
+    sim::numbers::figure,
 };
 
 /// Width of the document, characters.
@@ -50,9 +53,21 @@ pub fn failure<C: Case>(rows: &[Row<C::Figures>]) -> Option<String> {
     })
 }
 
+/// What is to be said of a detail that is not the cases' own.
+pub fn about_detail(detail: f64) -> Option<String> {
+    let [width, count] = [1.0 / detail, detail * detail].map(figure);
+    (detail != 1.0).then(|| {
+        format!(
+            "At detail {detail}: particles {width} times as wide and {count} times as many as otherwise, all else equal. \
+             Tolerances and bounds are those of detail 1."
+        )
+    })
+}
+
 /// The document: what happens in each case, what it is for, what came out.
-pub fn document<C: Case>(rows: &[Row<C::Figures>], processor: &str, command: &str) -> String {
-    let introduction = (C::SUITE.introduction)(command, processor);
+pub fn document<C: Case>(rows: &[Row<C::Figures>], processor: &str, command: &str, detail: f64) -> String {
+    let mut introduction = (C::SUITE.introduction)(command, processor);
+    introduction.extend(about_detail(detail).map(|text| format!("\n\n{text}")));
     let head = introduction.split("\n\n").map(|text| markdown::fill(text, WIDTH)).collect::<Vec<_>>().join("\n\n");
     let run =
         (C::SUITE.cases)().iter().map(|case| case.about()).filter(|case| rows.iter().any(|row| row.case == case.name));

@@ -26,6 +26,9 @@ pub struct Setting {
     pub name: String,
     /// The named quality, the first of those that make no difference to the case.
     pub preset: Preset,
+    /// How many times finer than its own the spacing of each scene is, beside what the quality brings along
+    /// ([`Preset::detail`]).
+    pub detail: f64,
     /// Whether the case must hold: at `balanced` and better.
     pub binding: bool,
 }
@@ -41,8 +44,8 @@ impl Over {
         }
     }
 
-    /// The settings that these qualities make, each once.
-    pub(super) fn settings(self, presets: &[Preset]) -> Vec<Setting> {
+    /// The settings that these qualities make at a detail, each once.
+    pub(super) fn settings(self, presets: &[Preset], detail: f64) -> Vec<Setting> {
         let mut settings: Vec<Setting> = Vec::new();
         let wanted =
             |preset: &&Preset| self != Self::Refinement || [Preset::Classic, Preset::Balanced].contains(preset);
@@ -50,7 +53,7 @@ impl Over {
             let binding = matches!(preset, Preset::Balanced | Preset::Fine | Preset::Reference);
             match settings.iter_mut().find(|setting| self.same(setting.preset, preset)) {
                 Some(setting) => setting.binding |= binding,
-                None => settings.push(Setting { name: self.name(preset), preset, binding }),
+                None => settings.push(Setting { name: self.name(preset, detail), preset, detail, binding }),
             }
         }
         if self == Self::Air {
@@ -59,10 +62,10 @@ impl Over {
         settings
     }
 
-    fn name(self, preset: Preset) -> String {
+    fn name(self, preset: Preset, detail: f64) -> String {
         match (self, air(preset)) {
             (Self::Air, (cell, courant, advection)) => {
-                format!("cell {cell} d, Courant {courant}, {}", advection.words())
+                format!("cell {} d, Courant {courant}, {}", f64::from(cell) / detail, advection.words())
             }
             _ => preset.name().to_owned(),
         }
@@ -81,20 +84,20 @@ mod tests {
 
     #[test]
     fn air_is_examined_once_for_each_of_its_settings() {
-        let count = |presets: &[Preset]| Over::Air.settings(presets).len();
+        let count = |presets: &[Preset]| Over::Air.settings(presets, 1.0).len();
         assert_eq!(count(&[Preset::Fast, Preset::Fast]), 1);
         assert_eq!(count(&[Preset::Fast, Preset::Balanced]), 2, "another air is another setting");
         let same_cells = [Preset::Classic, Preset::Balanced];
         assert!(same_cells.iter().all(|preset| preset.quality().air_cell == 4.0));
         assert_eq!(count(&same_cells), 2, "another advection is another setting");
-        let binding = Over::Air.settings(&same_cells).iter().filter(|setting| setting.binding).count();
+        let binding = Over::Air.settings(&same_cells, 1.0).iter().filter(|setting| setting.binding).count();
         assert_eq!(binding, 1, "classic promises nothing");
     }
 
     #[test]
     fn what_makes_no_difference_is_run_once() {
         let names = |over: Over, presets: &[Preset]| {
-            over.settings(presets).into_iter().map(|setting| setting.name).collect::<Vec<_>>()
+            over.settings(presets, 1.0).into_iter().map(|setting| setting.name).collect::<Vec<_>>()
         };
         assert_eq!(names(Over::Qualities, &Preset::ALL), Preset::ALL.map(Preset::name));
         assert_eq!(names(Over::Method, &Preset::ALL), ["classic", "draft"]);

@@ -12,6 +12,7 @@
 
 mod case;
 mod cases;
+mod dam_truth;
 mod finding;
 mod fit;
 mod refinement;
@@ -20,6 +21,10 @@ mod shares;
 mod suite;
 #[cfg(test)]
 mod tests;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod truth;
+#[cfg(all(feature = "charts", not(target_arch = "wasm32")))]
+pub mod truth_charts;
 
 pub use case::{Bound, CASES, ExamCase, KnownMiss, RowBound};
 pub use finding::Answer;

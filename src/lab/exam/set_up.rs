@@ -40,7 +40,7 @@ impl SetUp {
         let settings: Vec<_> = parameters.iter().map(|(key, value)| ((*key).to_owned(), value.to_string())).collect();
         // What rests has to come to rest, and stay there, by the method alone.
         let awake = EffectModes::from([(Effect::Sleep, Mode::Off)]);
-        file.build(&settings, Some(self.setting.preset), &awake)
+        file.at_detail(self.setting.detail).build(&settings, Some(self.setting.preset), &awake)
     }
 
     /// The world of a blueprint.
@@ -51,6 +51,18 @@ impl SetUp {
     /// The world of a scene, with these parameters.
     pub fn open(&self, name: &str, parameters: &[(&str, f64)]) -> Result<CaseSimulation, SceneError> {
         Ok(self.simulation(self.blueprint(name, parameters)?))
+    }
+
+    /// The same from this start.
+    pub fn open_from(
+        &self,
+        name: &str,
+        parameters: &[(&str, f64)],
+        start: Start,
+    ) -> Result<CaseSimulation, SceneError> {
+        let mut blueprint = self.blueprint(name, parameters)?;
+        start.arrange(&mut blueprint);
+        Ok(self.simulation(blueprint))
     }
 }
 

@@ -15,7 +15,7 @@ use crate::{
 
 #[test]
 fn the_quick_exam_is_passed_at_balanced() {
-    let jobs = jobs(&CASES, |case| case.size == Size::Quick, &[Preset::Balanced]);
+    let jobs = jobs(&CASES, |case| case.size == Size::Quick, &[Preset::Balanced], 1.0);
     assert!(jobs.len() >= 5, "the quick exam is empty");
     let rows = run_all(&jobs, 2, |_, _| {}).unwrap();
     let failed: Vec<&Row<Answer>> = rows.iter().filter(|row| row.verdict == Verdict::Fail).collect();
@@ -25,7 +25,7 @@ fn the_quick_exam_is_passed_at_balanced() {
 
 #[test]
 fn an_exam_has_the_same_rows_side_by_side_and_stopped_and_gone_on_with() {
-    let jobs = jobs(&CASES, |case| ["free_fall", "pulse"].contains(&case.name), &[Preset::Draft, Preset::Fast]);
+    let jobs = jobs(&CASES, |case| ["free_fall", "pulse"].contains(&case.name), &[Preset::Draft, Preset::Fast], 1.0);
     let answers = |rows: Vec<Row<Answer>>| {
         rows.into_iter().map(|row| (row.case, row.setting, row.figures.got.to_bits())).collect::<Vec<_>>()
     };
@@ -50,7 +50,8 @@ fn told(over: Over) -> ExamCase {
 fn beyond_the_tolerance_is_a_miss_at_low_qualities_and_a_failure_from_balanced_on_unless_it_is_known() {
     use Verdict::{Fail, Known, Miss, Pass};
     let verdicts = |quantity: &'static str, got: f64| {
-        let settings = jobs(&CASES, |case| case.name == "free_fall", &Preset::ALL).into_iter().map(|job| job.setting);
+        let settings =
+            jobs(&CASES, |case| case.name == "free_fall", &Preset::ALL, 1.0).into_iter().map(|job| job.setting);
         let judge = |setting| told(Over::Qualities).judge(found(quantity, 2.0, got), &setting, 1.0);
         settings.map(|setting| judge(setting).0).collect::<Vec<_>>()
     };
@@ -64,7 +65,7 @@ fn beyond_the_tolerance_is_a_miss_at_low_qualities_and_a_failure_from_balanced_o
 
 #[test]
 fn a_known_miss_says_why_and_classic_is_only_shown_where_the_spacing_is_judged() {
-    let setting = |preset: Preset| Setting { name: preset.name().to_owned(), preset, binding: true };
+    let setting = |preset: Preset| Setting { name: preset.name().to_owned(), preset, detail: 1.0, binding: true };
     let (_, answer) = told(Over::Qualities).judge(found("number", 2.0, 3.0), &setting(Preset::Fine), 1.0);
     assert_eq!(answer.known, Some("it is told to"));
     assert_eq!(answer.remark().unwrap(), "number: a known miss. it is told to");
@@ -81,7 +82,7 @@ fn errors_are_shares_or_distances_and_more_than_expected_is_not_short() {
     assert_eq!([1.0, 2.0, 3.0].map(|got| Bound::Short(1.0).error(2.0, got)), [1.0, 0.0, 0.0]);
     assert!(Bound::Short(1.0).error(2.0, f64::NAN).is_nan());
     let at_the_floor = Finding { at_the_floor: true, ..found("number", 2.0, f64::NAN) };
-    let setting = Setting { name: "draft".into(), preset: Preset::Draft, binding: false };
+    let setting = Setting { name: "draft".into(), preset: Preset::Draft, detail: 1.0, binding: false };
     assert_eq!(told(Over::Qualities).judge(at_the_floor, &setting, 1.0).0, Verdict::Pass);
 }
 
@@ -101,7 +102,7 @@ fn cases_have_names_of_their_own() {
 }
 
 fn row(got: f64, verdict: Verdict) -> Row<Answer> {
-    let setting = Setting { name: "fast".into(), preset: Preset::Fast, binding: false };
+    let setting = Setting { name: "fast".into(), preset: Preset::Fast, detail: 1.0, binding: false };
     let bound = RowBound { quantity: "speed", unit: "m/s", bound: Bound::Share(0.02), misses: Vec::new() };
     let case = ExamCase { rows: vec![bound], ..ExamCase::default() };
     let (_, figures) = case.judge(found("speed", 9.81, got), &setting, 12.3);

@@ -185,7 +185,7 @@ impl GauntletCase {
 
     /// Makes `world` the case's at a quality, and lets what is done to it begin.
     pub fn play(&self, world: &mut World, preset: Preset) -> Result<(), SceneError> {
-        let blueprint = self.blueprint(preset)?;
+        let blueprint = self.blueprint(preset, 1.0)?;
         match self.act {
             Some(act) => world.insert_resource(Script { scene: blueprint.name.clone(), act }),
             None => drop(world.remove_resource::<Script>()),
@@ -204,10 +204,10 @@ impl GauntletCase {
         format!("gauntlet_{}", self.name)
     }
 
-    /// Its world at a quality.
-    pub(super) fn blueprint(&self, preset: Preset) -> Result<Blueprint, SceneError> {
+    /// Its world at a quality, `detail` times finer than its own spacing.
+    pub(super) fn blueprint(&self, preset: Preset, detail: f64) -> Result<Blueprint, SceneError> {
         let settings = self.ends.map(ends::settings).unwrap_or_default();
-        let scene = scene::from_text(&self.scene_name(), self.scene)?;
+        let scene = scene::from_text(&self.scene_name(), self.scene)?.at_detail(detail);
         let mut blueprint = scene.build(&settings, Some(preset), &EffectModes::new())?;
         arrange(self.name, &mut blueprint);
         Ok(blueprint)

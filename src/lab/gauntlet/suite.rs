@@ -52,7 +52,7 @@ impl Case for GauntletCase {
         setting: &Setting,
         stopwatch: &Stopwatch,
     ) -> Result<Vec<(Verdict, Stability)>, SceneError> {
-        let mut simulation = CaseSimulation::new(self.blueprint(setting.preset)?, stopwatch);
+        let mut simulation = CaseSimulation::new(self.blueprint(setting.preset, setting.detail)?, stopwatch);
         let mut judge = Judge::new(self, simulation.world());
         for tick in 0..u64::from(self.ticks) {
             if let Some(act) = self.act {

@@ -19,7 +19,7 @@ use glam::Vec2;
 use std::sync::LazyLock;
 
 fn run(case: &'static [GauntletCase], presets: &[Preset]) -> Vec<Row<Stability>> {
-    run_all(&jobs(case, |_| true, presets), 2, |_, _| {}).unwrap()
+    run_all(&jobs(case, |_| true, presets, 1.0), 2, |_, _| {}).unwrap()
 }
 
 /// A debug build, which takes ten times as long, runs the quick cases at one quality; a release build runs every case but
@@ -30,7 +30,7 @@ fn every_case_holds() {
         true => (Size::Quick, &[Preset::Balanced][..]),
         false => (Size::Usual, &Preset::ALL[..]),
     };
-    let rows = run_all(&jobs(&CASES, |case| case.size <= most, presets), 2, |_, _| {}).unwrap();
+    let rows = run_all(&jobs(&CASES, |case| case.size <= most, presets, 1.0), 2, |_, _| {}).unwrap();
     let failed: Vec<String> = (rows.iter().filter(|row| row.verdict == Verdict::Fail))
         .map(|row| format!("{} at {}: {}", row.case, row.setting, row.figures.broken.join("; ")))
         .collect();
@@ -40,7 +40,7 @@ fn every_case_holds() {
 #[test]
 fn the_ends_of_the_knobs_are_the_same_at_all_qualities_but_classic() {
     let qualities = |case: &GauntletCase| {
-        Preset::ALL.map(|preset| case.blueprint(preset).map(|blueprint| blueprint.quality).unwrap())
+        Preset::ALL.map(|preset| case.blueprint(preset, 1.0).map(|blueprint| blueprint.quality).unwrap())
     };
     let mut cases = CASES.iter().filter(|case| case.over == Over::Method);
     assert!(cases.clone().count() == 7 && cases.all(|case| qualities(case)[1..] == [qualities(case)[1]; 5]));
@@ -78,7 +78,7 @@ fn any_two_knobs_meet_at_both_ends() {
 
 #[test]
 fn a_row_is_the_same_side_by_side_and_alone_but_for_its_times() {
-    let jobs = jobs(&CASES, |case| ["shots", "suction"].contains(&case.name), &[Preset::Draft, Preset::Fast]);
+    let jobs = jobs(&CASES, |case| ["shots", "suction"].contains(&case.name), &[Preset::Draft, Preset::Fast], 1.0);
     let timeless = |side_by_side| {
         let rows = run_all(&jobs, side_by_side, |_, _| {}).unwrap();
         let timeless = |row: Row<Stability>| Row {

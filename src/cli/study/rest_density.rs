@@ -1,11 +1,7 @@
-//! `study`: experiments of the original report, repeated.
+//! `study rest-density`.
 
 use crate::{
-    cli::{
-        args::{Study, StudyArguments},
-        failure::Failure,
-        output, progress, threads,
-    },
+    cli::{failure::Failure, output, progress, threads},
     lab::{
         markdown,
         picture::Picture,
@@ -18,14 +14,8 @@ use std::path::Path;
 /// Gap between the pictures of a study, pixels.
 const GAP: u32 = 12;
 
-/// Runs a study and prints what it found.
-pub(super) fn study(arguments: &StudyArguments) -> Result<(), Failure> {
-    match arguments.what {
-        Study::RestDensity => rest_density(arguments.threads, &arguments.out),
-    }
-}
-
-fn rest_density(threads: Option<u64>, folder: &Path) -> Result<(), Failure> {
+/// Runs the study and prints what it found.
+pub(super) fn rest_density(threads: Option<u64>, folder: &Path) -> Result<(), Failure> {
     let path = folder.join("rest-density.png");
     output::check(&[&path])?;
     threads::start(threads)?;
