@@ -10,8 +10,8 @@ use bevy::log::warn;
 use csv::{Reader, StringRecord};
 use serde::Deserialize;
 
-/// Bytes of a summary that are kept: those in which it says what it was measured on.
-const HEAD: usize = 512;
+/// Bytes of either end of a summary that are kept: at its begin it says what it was measured on, at its end of which commit.
+const KEPT: usize = 512;
 
 /// A table that is shipped.
 struct Table {
@@ -19,8 +19,8 @@ struct Table {
     scene: &'static str,
     /// Its `curve.csv`.
     rows: &'static str,
-    /// How its `summary.md` begins.
-    head: &'static [u8; HEAD],
+    /// How its `summary.md` begins and ends.
+    summary: &'static [[u8; KEPT]; 2],
 }
 
 macro_rules! tables {
@@ -28,8 +28,8 @@ macro_rules! tables {
         [$(Table {
             scene: $scene,
             rows: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/accuracy/", $scene, "/curve.csv")),
-            head: &const {
-                head(include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/accuracy/", $scene, "/summary.md")))
+            summary: &const {
+                ends(include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/accuracy/", $scene, "/summary.md")))
             },
         }),+]
     };
@@ -37,14 +37,16 @@ macro_rules! tables {
 
 static TABLES: [Table; 4] = tables!["dam_break", "hydrostatic", "waterfall", "wind_tunnel"];
 
-/// The first bytes of a text, so that the program does not hold the rest.
-const fn head(text: &[u8]) -> [u8; HEAD] {
-    let (mut head, mut k) = ([b' '; HEAD], 0);
-    while k < HEAD && k < text.len() {
-        head[k] = text[k];
+/// The first and the last bytes of a text, so that the program does not hold the rest.
+const fn ends(text: &[u8]) -> [[u8; KEPT]; 2] {
+    let mut ends = [[b' '; KEPT]; 2];
+    let mut k = 0;
+    while k < KEPT && k < text.len() {
+        ends[0][k] = text[k];
+        ends[1][KEPT - 1 - k] = text[text.len() - 1 - k];
         k += 1;
     }
-    head
+    ends
 }
 
 /// What is read of a row. Tables that were measured before there was a detail or a true error have no columns for them.
@@ -76,7 +78,7 @@ pub fn curve(blueprint: &Blueprint) -> Option<Curve> {
             of,
             points,
             floor,
-            shipped: Some(measured_on(table.head)),
+            shipped: Some(measured_on(table.summary)),
             ..Curve::default()
         }),
         Err(error) => {
@@ -86,11 +88,14 @@ pub fn curve(blueprint: &Blueprint) -> Option<Curve> {
     }
 }
 
-/// What a summary says that it was measured on: what stands before the first semicolon of its first sentence.
-fn measured_on(head: &[u8]) -> String {
-    let text = String::from_utf8_lossy(head);
-    let line = text.lines().find(|line| !line.is_empty() && !line.starts_with('#')).unwrap_or_default();
-    line.split([';', '.']).next().unwrap_or_default().trim().to_owned()
+/// What a summary says that it was measured on, which stands before the first semicolon of its first sentence; and of
+/// which commit, if that is noted at its end.
+fn measured_on([first, last]: &[[u8; KEPT]; 2]) -> String {
+    let (first, last) = (String::from_utf8_lossy(first), String::from_utf8_lossy(last));
+    let line = first.lines().find(|line| !line.is_empty() && !line.starts_with('#')).unwrap_or_default();
+    let on = line.split([';', '.']).next().unwrap_or_default().trim();
+    let commit = last.lines().find_map(|line| line.strip_prefix("*Commit ")?.get(..7));
+    commit.map_or_else(|| on.to_owned(), |commit| format!("{on}, commit {commit}"))
 }
 
 /// The presets in a table, at each detail and on as many threads as those that go by their names, the fastest first; and
@@ -168,15 +173,20 @@ mod tests {
         scene::load(name).unwrap().at_detail(detail).build(&settings, None, &EffectModes::new()).unwrap()
     }
 
+    // A page has no files.
+    #[cfg(not(target_arch = "wasm32"))]
     #[test]
-    fn every_table_in_the_documents_is_shipped_can_be_read_and_says_what_it_was_measured_on() {
+    fn every_table_in_the_documents_is_shipped() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/accuracy");
-        #[cfg(not(target_arch = "wasm32"))]
         for entry in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
             let name = entry.file_name().unwrap().to_string_lossy().into_owned();
             let is_shipped = TABLES.iter().any(|table| table.scene == name);
             assert_eq!(entry.join("curve.csv").exists(), is_shipped, "{folder}/{name}");
         }
+    }
+
+    #[test]
+    fn every_shipped_table_can_be_read_and_says_what_it_was_measured_on() {
         for table in &TABLES {
             let curve = curve(&built(table.scene, &[], 1.0)).expect(table.scene);
             for preset in [Preset::Draft, Preset::Fast, Preset::Balanced, Preset::Fine] {
@@ -242,9 +252,11 @@ mod tests {
     }
 
     #[test]
-    fn what_it_was_measured_on_is_the_first_thing_that_a_summary_says() {
-        let text = "# pool: what accuracy costs\n\nAMD EPYC (family 26), 1 thread, commit 1234567; 9 particles. More.";
-        assert_eq!(measured_on(&head(text.as_bytes())), "AMD EPYC (family 26), 1 thread, commit 1234567");
-        assert_eq!(measured_on(b""), "");
+    fn what_it_was_measured_on_is_what_a_summary_says_first_and_last() {
+        let text = "# pool: what accuracy costs\n\nAMD EPYC (family 26), 1 thread; 9 particles. More.\n";
+        assert_eq!(measured_on(&ends(text.as_bytes())), "AMD EPYC (family 26), 1 thread");
+        let stamped = format!("{text}{}\n*Commit 0123456789; AMD EPYC; today.*\n", "x ".repeat(KEPT));
+        assert_eq!(measured_on(&ends(stamped.as_bytes())), "AMD EPYC (family 26), 1 thread, commit 0123456");
+        assert_eq!(measured_on(&ends(b"")), "");
     }
 }

@@ -104,7 +104,7 @@ impl Curves {
         if ticks < self.steady.since + SETTLED || here.milliseconds <= 0.0 {
             return;
         }
-        let before = std::mem::replace(&mut curve.here, Some(here));
+        let before = curve.here.replace(here);
         let (scale, last) = (curve.scale(), Curve { here: before, ..curve.clone() }.scale());
         let is_near = |scale: f32| last.is_some_and(|last| (scale / last - 1.0).abs() < FOLLOWED);
         // A setting that is not on the curve says nothing about it.

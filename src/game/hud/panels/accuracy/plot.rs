@@ -117,7 +117,9 @@ impl Plot<'_> {
             canvas.floor(floor);
         }
         canvas.limits(time_bound, error_bound);
-        self.lines(&canvas);
+        let mut taken = self.dots(&canvas);
+        let pressed = self.kinds(ui, field, &mut taken);
+        self.lines(&canvas, &mut taken);
         match (self.kind, self.trail.last()) {
             (ErrorKind::Density, _) => canvas.trail(self.trail),
             (ErrorKind::True, Some(live)) => {
@@ -127,8 +129,8 @@ impl Plot<'_> {
             }
             (ErrorKind::True, None) => {}
         }
-        let pressed = self.kinds(ui, field).or(self.marks(ui, &canvas));
-        let pressed = self.presets(ui, &canvas).map(Pressed::Preset).or(pressed);
+        let pressed = pressed.or(self.marks(ui, &canvas));
+        let pressed = self.presets(ui, &canvas, taken).map(Pressed::Preset).or(pressed);
         for (k, text) in self.hints().into_iter().enumerate() {
             let at = field.center_top() + vec2(0.0, 32.0 + 15.0 * k as f32);
             canvas.text(at, Align2::CENTER_CENTER, text, style::WEAK);
@@ -153,8 +155,8 @@ impl Plot<'_> {
         self.curve.iter().flat_map(|curve| &curve.points)
     }
 
-    /// Names of the errors that can be shown; the other one, if it was pressed.
-    fn kinds(&self, ui: &mut Ui, field: Rect) -> Option<Pressed> {
+    /// Names of the errors that can be shown, and what they cover; the other one, if it was pressed.
+    fn kinds(&self, ui: &mut Ui, field: Rect, taken: &mut Vec<Rect>) -> Option<Pressed> {
         let mut right = field.right_top() + vec2(-6.0, 5.0);
         let mut pressed = None;
         for kind in [ErrorKind::Density, ErrorKind::True] {
@@ -166,6 +168,7 @@ impl Plot<'_> {
             let text = ui.painter().layout_no_wrap(kind.name().to_owned(), FontId::proportional(10.5), colour);
             let room = Rect::from_min_size(right - vec2(text.size().x, 0.0), text.size());
             right.x = room.left() - 14.0;
+            taken.push(room.expand2(vec2(5.0, 2.5)));
             let sense = if self.has_both { Sense::click() } else { Sense::hover() };
             let response = ui.interact(room.expand(4.0), ui.id().with(("error", kind.name())), sense);
             if self.has_both {
@@ -225,8 +228,17 @@ impl Plot<'_> {
         chosen
     }
 
-    /// A line for each detail at which presets have an error, by their time; the plain method stands apart.
-    fn lines(&self, canvas: &Canvas<'_>) {
+    /// What points and the world as it runs cover.
+    fn dots(&self, canvas: &Canvas<'_>) -> Vec<Rect> {
+        let dots = self.points().map(|point| Rect::from_center_size(self.place(canvas, point), TOUCHED));
+        let live = self.trail.last().filter(|_| self.kind == ErrorKind::Density);
+        let live = live.map(|live| canvas.place(live.milliseconds, live.error));
+        dots.chain(live.map(|live| Rect::from_center_size(live, vec2(14.0, 14.0)))).collect()
+    }
+
+    /// A line for each detail at which presets have an error, by their time; the plain method stands apart. Those of other
+    /// details are called by them, over nothing that is `taken`.
+    fn lines(&self, canvas: &Canvas<'_>, taken: &mut Vec<Rect>) {
         let on_line = |point: &&CurvePoint| {
             point.preset != Preset::Classic && point.quality == point.preset.quality() && point.is_sound
         };
@@ -241,6 +253,15 @@ impl Plot<'_> {
             let places: Vec<Pos2> = line.iter().map(place).collect();
             let is_own = is_same_detail(detail, self.detail);
             let colour = if is_own { style::ACCENT.gamma_multiply(0.7) } else { style::WEAK.gamma_multiply(0.55) };
+            // The end that is furthest from the line of the detail in force.
+            let end = if detail < self.detail { places.first() } else { places.last() };
+            if let Some(end) = end.filter(|_| !is_own) {
+                let (text, font) = (format!("detail {}", short(detail as f32)), FontId::proportional(10.5));
+                let text = canvas.painter.layout_no_wrap(text, font, style::TEXT);
+                let room = place_beside(*end, text.size(), canvas.field, taken);
+                canvas.painter.galley(room.min, text, style::TEXT);
+                taken.push(room);
+            }
             canvas.painter.add(Shape::line(places, Stroke::new(1.5, colour)));
         }
     }
@@ -279,14 +300,11 @@ impl Plot<'_> {
         pressed
     }
 
-    fn presets(&self, ui: &Ui, canvas: &Canvas<'_>) -> Option<Preset> {
+    /// The presets at the detail that is asked for, as buttons over nothing that is `taken`; the one that was pressed.
+    fn presets(&self, ui: &Ui, canvas: &Canvas<'_>, mut taken: Vec<Rect>) -> Option<Preset> {
         let mut chosen = None;
-        let dots: Vec<(&CurvePoint, Pos2)> = self.points().map(|point| (point, self.place(canvas, point))).collect();
-        let mut taken: Vec<Rect> = dots.iter().map(|(_, dot)| Rect::from_center_size(*dot, TOUCHED)).collect();
-        let live = self.trail.last().filter(|_| self.kind == ErrorKind::Density);
-        let live = live.map(|live| canvas.place(live.milliseconds, live.error));
-        taken.extend(live.map(|live| Rect::from_center_size(live, vec2(14.0, 14.0))));
-        for (point, dot) in dots.into_iter().filter(|(point, _)| self.has_button(point)) {
+        for point in self.points().filter(|point| self.has_button(point)) {
+            let dot = self.place(canvas, point);
             let in_force = self.is_now(point.preset, point.quality);
             // What has no error has its button below.
             if self.kind.of(point).is_none() {
@@ -370,6 +388,11 @@ mod tests {
 
     /// What the plot and its chips write in a window, and what a click on the words `on` presses.
     fn press(plot: &Plot<'_>, on: &str) -> (Vec<String>, Option<Pressed>) {
+        press_on(plot, |shape| matches!(shape, Shape::Text(text) if text.galley.text().starts_with(on)))
+    }
+
+    /// The same of a click on the last of the shapes that are `it`.
+    fn press_on(plot: &Plot<'_>, it: impl Fn(&Shape) -> bool) -> (Vec<String>, Option<Pressed>) {
         let context = egui::Context::default();
         style::apply(&context);
         let (mut words, mut chosen, mut target) = (Vec::new(), None, None);
@@ -393,13 +416,12 @@ mod tests {
                 chosen = chosen.or(pressed);
             });
             words.clear();
-            for shape in output.shapes {
-                if let Shape::Text(text) = shape.shape {
-                    let written = text.galley.text().to_owned();
-                    if written.starts_with(on) {
-                        target = Some(text.visual_bounding_rect().center());
-                    }
-                    words.push(written);
+            for shape in output.shapes.into_iter().map(|clipped| clipped.shape) {
+                if it(&shape) {
+                    target = Some(shape.visual_bounding_rect().center());
+                }
+                if let Shape::Text(text) = shape {
+                    words.push(text.galley.text().to_owned());
                 }
             }
         }
@@ -462,37 +484,8 @@ mod tests {
         let draft = both.points[1];
         both.points.push(CurvePoint { detail: 0.5, milliseconds: 0.25, error: Some(0.5), ..draft });
         let shown = plot(Some(&both), &[]);
-        assert_eq!(both.points.iter().filter(|point| !shown.has_button(point)).count(), 1);
-        let canvas_size = vec2(396.0, 200.0);
-        let context = egui::Context::default();
-        let place = std::cell::Cell::new(None);
-        let mut pressed = None;
-        for step in 0..5 {
-            let button = |pressed, pos| egui::Event::PointerButton {
-                pos,
-                button: egui::PointerButton::Primary,
-                pressed,
-                modifiers: egui::Modifiers::NONE,
-            };
-            let events = match (step, place.get()) {
-                (2, Some(at)) => vec![egui::Event::PointerMoved(at)],
-                (3, Some(at)) => vec![button(true, at)],
-                (4, Some(at)) => vec![button(false, at)],
-                _ => Vec::new(),
-            };
-            let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, vec2(440.0, 400.0)));
-            let input = egui::RawInput { events, screen_rect, ..egui::RawInput::default() };
-            let _ = context.run_ui(input, |ui| {
-                let corner = ui.cursor().min;
-                let field =
-                    Rect::from_min_max(corner + vec2(MARGIN.x, 8.0), corner + canvas_size - vec2(10.0, MARGIN.y));
-                let (x, y) = shown.axes(None, None);
-                let painter = ui.painter().clone();
-                let canvas = Canvas { painter: &painter, field, x, y };
-                place.set(Some(canvas.at(0.25, 0.5)));
-                pressed = pressed.or(shown.show(ui, canvas_size));
-            });
-        }
+        let (words, pressed) = press_on(&shown, |shape| matches!(shape, Shape::Path(path) if path.closed));
+        assert_eq!(words.iter().filter(|word| *word == "draft").count(), 1, "{words:?}");
         assert_eq!(pressed, Some(Pressed::Detail(Preset::Draft, 0.5)));
     }
 }
