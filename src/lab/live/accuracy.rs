@@ -173,8 +173,8 @@ pub fn is_same_detail(a: f64, b: f64) -> bool {
     (a / b - 1.0).abs() < 1e-3
 }
 
-/// A hash over everything that a scene starts with but its quality and its detail: two scenes with the same one have the
-/// same curves, which go over both.
+/// A hash over everything that a scene starts with but its quality and its detail: two scenes with the same one have
+/// the same curves, which go over both.
 pub fn fingerprint(blueprint: &Blueprint) -> u64 {
     let Blueprint { name, origin, parameters, fluid, elements, effects, particle_limit, .. } = blueprint;
     // Debug writes a number in as many digits as it takes to read it back, so other values are other texts.

@@ -1,5 +1,5 @@
-//! What a survey runs: the presets at the detail in force, and the ends of those that run in real time at half and at twice
-//! of it, as far as that can be afforded.
+//! What a survey runs: the presets at the detail in force, and the ends of those that run in real time at half and at
+//! twice of it, as far as that can be afforded.
 
 use crate::{
     kernel::params::{Preset, Quality},
@@ -11,8 +11,8 @@ use crate::{
 const ENDS: [Preset; 2] = [Preset::Draft, Preset::Fine];
 /// Details at which they are, multiples of the one that was asked for.
 const DETAILS: [f64; 2] = [0.5, 2.0];
-/// Most particles, rock included, of a run of them. With as many a tick of `fine` takes some 8 ms, and the run 2 s of work
-/// when half a thread does it (6.5 ms at 40,328 particles, docs/accuracy.md).
+/// Most particles, rock included, of a run of them. With as many a tick of `fine` takes some 8 ms, and the run 1 s of
+/// work for which half a thread takes twice as long (AMD EPYC: 6.5 ms at 40,328 particles).
 const MOST: f64 = 50_000.0;
 /// Most particles of any run that is finer than the world, in a survey that nobody asked for.
 const MOST_QUIETLY: f64 = 15_000.0;

@@ -1,5 +1,5 @@
-//! The curves that are shipped: what `sweep` wrote into docs/accuracy is in the program as it stands there. Of a table the
-//! presets are read, at every detail at which they were measured, as far as their numbers are those of today.
+//! The curves that are shipped: what `sweep` wrote into docs/accuracy is in the program as it stands there. Of a table
+//! the presets are read, at every detail at which they were measured, as far as their numbers are those of today.
 
 use crate::{
     kernel::params::Preset,
@@ -10,7 +10,8 @@ use bevy::log::warn;
 use csv::{Reader, StringRecord};
 use serde::Deserialize;
 
-/// Bytes of either end of a summary that are kept: at its begin it says what it was measured on, at its end of which commit.
+/// Bytes of either end of a summary that are kept: at its begin it says what it was measured on, at its end of which
+/// commit.
 const KEPT: usize = 512;
 
 /// A table that is shipped.
@@ -98,8 +99,8 @@ fn measured_on([first, last]: &[[u8; KEPT]; 2]) -> String {
     commit.map_or_else(|| on.to_owned(), |commit| format!("{on}, commit {commit}"))
 }
 
-/// The presets in a table, at each detail and on as many threads as those that go by their names, the fastest first; and
-/// the floor of the true error. An error names the file, and the line.
+/// The presets in a table, at each detail and on as many threads as those that go by their names, the fastest first;
+/// and the floor of the true error. An error names the file, and the line.
 fn points(file: &str, text: &str) -> Result<(Vec<CurvePoint>, Option<f32>), String> {
     let fault = |what: &dyn std::fmt::Display| format!("{file}: {what}");
     let mut table = Reader::from_reader(text.as_bytes());
@@ -160,8 +161,8 @@ fn has_numbers_of(preset: Preset, columns: &StringRecord, record: &StringRecord)
 mod tests {
     use super::*;
 
-    const HEADER: &str = "setting,preset,detail,threads,substeps,iterations,kernel_radius,gradient,predictor,air_cell,ms,\
-                          error_mean,error_p99,true_error,true_floor,faults";
+    const HEADER: &str = "setting,preset,detail,threads,substeps,iterations,kernel_radius,gradient,predictor,\
+                          air_cell,ms,error_mean,error_p99,true_error,true_floor,faults";
 
     /// A table of these rows.
     fn table(rows: &[&str]) -> Result<(Vec<CurvePoint>, Option<f32>), String> {

@@ -1,6 +1,7 @@
-//! "Measure here": from the world as it is, every preset is run a little way, some of them at half and at twice the detail,
-//! too, and their times and errors make the curve of this very moment. Play goes on: the work is done in the background by
-//! half of a thread (a quarter, where nobody asked for it), or, where there are no threads, in slices between frames.
+//! "Measure here": from the world as it is, every preset is run a little way, some of them at half and at twice the
+//! detail, too, and their times and errors make the curve of this very moment. Play goes on: the work is done in the
+//! background by half of a thread (a quarter, where nobody asked for it), or, where there are no threads, in slices
+//! between frames.
 
 use crate::{
     kernel::simd::InstructionSet,

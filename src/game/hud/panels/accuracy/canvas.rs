@@ -1,5 +1,5 @@
-//! What the plot is drawn on: the field with its grid, what lies beyond a bound or below the floor, the world as it runs,
-//! and places for what stands beside a point.
+//! What the plot is drawn on: the field with its grid, what lies beyond a bound or below the floor, the world as it
+//! runs, and places for what stands beside a point.
 
 use crate::{
     game::hud::{

@@ -1,5 +1,5 @@
-//! Which curve the panel shows: of each scene the one that was measured in this game, the shipped one of the scene that is
-//! played, its times scaled to this machine, and where there is neither, a survey that begins of its own accord.
+//! Which curve the panel shows: of each scene the one that was measured in this game, the shipped one of the scene that
+//! is played, its times scaled to this machine, and where there is neither, a survey that begins of its own accord.
 
 use crate::{
     game::hud::panels::accuracy::plot::ErrorKind,
@@ -139,8 +139,9 @@ impl Curves {
         self.wanted = Some(kind);
     }
 
-    /// The curve of the scene that is played, which of its errors is shown, and whether there is another. The true error
-    /// is known of shipped curves only; the density error is that of the curve that was measured here, if there is one.
+    /// The curve of the scene that is played, which of its errors is shown, and whether there is another. The true
+    /// error is known of shipped curves only; the density error is that of the curve that was measured here, if there
+    /// is one.
     pub fn shown(&self) -> (Option<&Curve>, ErrorKind, bool) {
         let Some((scene, shipped)) = &self.played else { return (None, ErrorKind::Density, false) };
         let true_one = shipped.as_ref().filter(|curve| curve.points.iter().any(|point| point.truth.is_some()));

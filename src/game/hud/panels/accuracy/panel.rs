@@ -221,8 +221,9 @@ fn measure(
             }
             None => {
                 let button = main_button(ui, "Measure here");
-                let told = "Takes the world as it is and runs every quality from it for two seconds, the ends of them at half \
-                            and at twice the detail, too, on one thread beside the game, which plays on";
+                let told = "Takes the world as it is and runs every quality from it for two seconds, the \
+                            ends of them at half and at twice the detail, too, on one thread beside the game, \
+                            which plays on";
                 if button.on_hover_text(told).clicked() {
                     orders.push(Order::Survey(SurveyRequest::Begin));
                 }

@@ -1,6 +1,6 @@
-//! Error against time, log–log: the curve with the presets as buttons on it, what is known of other details as marks, the
-//! world as it runs now, and the bound that the autopilot holds. The error is that of density, or the true one where that is
-//! known. What has a time and no error, for want of liquid, stands on the lower edge.
+//! Error against time, log–log: the curve with the presets as buttons on it, what is known of other details as marks,
+//! the world as it runs now, and the bound that the autopilot holds. The error is that of density, or the true one
+//! where that is known. What has a time and no error, for want of liquid, stands on the lower edge.
 
 use crate::{
     game::hud::{
@@ -236,8 +236,8 @@ impl Plot<'_> {
         dots.chain(live.map(|live| Rect::from_center_size(live, vec2(14.0, 14.0)))).collect()
     }
 
-    /// A line for each detail at which presets have an error, by their time; the plain method stands apart. Those of other
-    /// details are called by them, over nothing that is `taken`.
+    /// A line for each detail at which presets have an error, by their time; the plain method stands apart. Those of
+    /// other details are called by them, over nothing that is `taken`.
     fn lines(&self, canvas: &Canvas<'_>, taken: &mut Vec<Rect>) {
         let on_line = |point: &&CurvePoint| {
             point.preset != Preset::Classic && point.quality == point.preset.quality() && point.is_sound
@@ -351,7 +351,8 @@ impl Plot<'_> {
         let truth = point.truth.map_or_else(String::new, |truth| format!(", true error {}", percent(truth)));
         let sound = if point.is_sound { "" } else { "; its world came out unsound, so errors mean little" };
         format!(
-            "{name}{at}: {time} ms a tick{truth}, density error {error} (99th percentile {p99}){sound}; click to go on at it"
+            "{name}{at}: {time} ms a tick{truth}, density error {error} (99th percentile {p99}){sound}; click to go on \
+             at it"
         )
     }
 }
@@ -375,7 +376,8 @@ mod tests {
         }
     }
 
-    /// A curve of all presets, each with twice the cost and half the error of the one before it; `error` is the first one's.
+    /// A curve of all presets, each with twice the cost and half the error of the one before it; `error` is the first
+    /// one's.
     fn curve(error: Option<f32>) -> Curve {
         let point = |preset: Preset| {
             let factor = f32::from(1_u8 << preset as u8);
