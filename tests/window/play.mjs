@@ -90,16 +90,19 @@ async function play() {
     return `${now.particles} particles, ${particles} before`;
   });
 
-  await test('the accuracy panel measures a curve, and a click on it chooses a quality', async () => {
+  await test('the accuracy panel measures a curve by itself and when asked, and a click on it chooses a quality', async () => {
     await game.key('2');
     await game.until('the tool is water', ({ tool }) => tool === 'water');
     // Single drops have no density.
     await pour((await game.stats()).particles + 800);
     await game.key('a');
     await game.untilWidgets('the panel is open', (all) => isOpen(all, 'Accuracy'));
-    await game.click('Measure here');
     const others = (all) => all.filter(({ name, chosen }) => name.endsWith(' on the curve') && chosen === false);
-    await game.untilWidgets('a curve of the survey', (all) => others(all).length >= 3 && all.some(({ name }) => name === 'Measure here'));
+    const measured = (all) => others(all).length >= 3 && all.some(({ name }) => name === 'Measure here');
+    await game.untilWidgets('a curve that nobody asked for', measured);
+    await game.click('Measure here');
+    await game.untilWidgets('a survey', (all) => all.some(({ name }) => name === 'cancel'));
+    await game.untilWidgets('a curve of the survey', measured);
     // While time stands, the point of the world keeps still, and with it the curve.
     await game.key('space');
     await game.until('it stands', ({ paused }) => paused);

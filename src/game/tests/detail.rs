@@ -55,6 +55,22 @@ fn a_detail_is_chosen_while_the_world_runs_and_undone() {
 }
 
 #[test]
+fn a_point_of_another_detail_is_chosen_and_undone_in_one_step() {
+    let mut player = at_the_dam();
+    player.chord(&[KeyCode::Space]);
+    let at = |player: &Player| (player.hash(), player.world().resource::<Setup>().preset, detail(player.world()));
+    let before = at(&player);
+    assert_ne!(before.1, Preset::Draft);
+    // What a mark on the accuracy panel's plot orders.
+    player.0.world_mut().resource_mut::<Orders>().extend([Order::Detail(0.5), Order::Quality(Preset::Draft)]);
+    player.frames(2);
+    let (_, preset, detail) = at(&player);
+    assert_eq!((preset, detail), (Preset::Draft, 0.5));
+    player.chord(&[KeyCode::ControlLeft, KeyCode::KeyZ]);
+    assert_eq!(at(&player), before);
+}
+
+#[test]
 fn the_reference_quality_splits_and_a_lower_one_merges() {
     let mut player = at_the_dam();
     let count = player.particles();

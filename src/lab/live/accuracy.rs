@@ -89,12 +89,37 @@ pub struct CurvePoint {
     pub preset: Preset,
     /// Its numbers.
     pub quality: Quality,
-    /// Median time of a tick on one thread, ms.
+    /// Detail of the run: what was asked for times what the preset brings along.
+    pub detail: f64,
+    /// Median time of a tick, ms: on one thread, where it is not a shipped curve's.
     pub milliseconds: f32,
-    /// Mean density error, a fraction; `None` without a liquid inside.
+    /// Mean density error, a fraction of the run's own: to be compared at one detail only. `None` without a liquid
+    /// inside.
     pub error: Option<f32>,
     /// Its 99th percentile.
     pub p99: Option<f32>,
+    /// Share of the liquid that stands elsewhere than in a converged run, where that is known.
+    pub truth: Option<f32>,
+    /// Whether the world came out sound (see `lab::sweep`), so that its errors mean something.
+    pub is_sound: bool,
+}
+
+impl CurvePoint {
+    /// The detail that is asked for to have it.
+    pub fn asked_detail(&self) -> f64 {
+        self.detail / self.preset.detail()
+    }
+}
+
+/// The setting that a world runs at, and what a tick takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Here {
+    /// The quality.
+    pub quality: Quality,
+    /// Detail of the run, with what the quality brings along.
+    pub detail: f64,
+    /// Time of a tick, ms.
+    pub milliseconds: f32,
 }
 
 /// Error against time of the presets, all from the same state of a world in which nothing sleeps.
@@ -106,42 +131,58 @@ pub struct Curve {
     pub of: u64,
     /// The world's tick.
     pub tick: u64,
-    /// The quality that was in force, and what a tick of the game took at it, ms; `None` where all slept: such a
-    /// time belongs to no quality.
-    pub here: Option<(Quality, f32)>,
+    /// The setting that was in force, and what a tick of the game took at it; `None` where all slept: such a time
+    /// belongs to no quality. Of a shipped curve, the setting that is in force now and what a tick would take if
+    /// nothing slept; `None` until that is known.
+    pub here: Option<Here>,
     /// What such a tick took on one thread with the same particles asleep, ms; `None` where none slept.
     pub here_on_one_thread: Option<f32>,
-    /// One point a preset that is done, the cheapest first; and the quality that was in force, if it is no preset.
+    /// A point for each preset that is done, the cheapest first; some at other details, too; and the quality that was
+    /// in force, if it is no preset.
     pub points: Vec<CurvePoint>,
+    /// True errors below this are not told apart.
+    pub floor: Option<f32>,
+    /// Where a curve that was not measured here comes from.
+    pub shipped: Option<String>,
 }
 
 impl Curve {
-    /// The point of a preset, if it is done.
-    pub fn point(&self, preset: Preset) -> Option<&CurvePoint> {
-        self.points.iter().find(|point| point.preset == preset && point.quality == preset.quality())
+    /// The point of a preset at a detail that is asked for, if it is done.
+    pub fn point(&self, preset: Preset, asked_detail: f64) -> Option<&CurvePoint> {
+        let is_it = |point: &&CurvePoint| point.preset == preset && point.quality == preset.quality();
+        self.points.iter().filter(is_it).find(|point| is_same_detail(point.asked_detail(), asked_detail))
+    }
+
+    /// The point of a setting, whatever it is called.
+    pub fn point_of(&self, quality: &Quality, detail: f64) -> Option<&CurvePoint> {
+        self.points.iter().find(|point| point.quality == *quality && is_same_detail(point.detail, detail))
     }
 
     /// What the measured times are multiplied by to stand for ticks of the game, which may have more threads: the
-    /// quality that was in force is known from both. `None` until it is measured.
+    /// setting that was in force is known from both. `None` until it is measured.
     pub fn scale(&self) -> Option<f32> {
-        let (quality, milliseconds) = self.here?;
-        let same = || self.points.iter().find(|point| point.quality == quality).map(|point| point.milliseconds);
-        let one_thread = self.here_on_one_thread.or_else(same)?;
-        (milliseconds > 0.0 && one_thread > 0.0).then(|| milliseconds / one_thread)
+        let Here { quality, detail, milliseconds } = self.here?;
+        let same = || self.point_of(&quality, detail).map(|point| point.milliseconds);
+        let measured = self.here_on_one_thread.or_else(same)?;
+        (milliseconds > 0.0 && measured > 0.0).then(|| milliseconds / measured)
     }
 }
 
-/// A hash over everything that a scene starts with but its quality: two scenes with the same one have the same curves.
-/// The detail that a preset brings along belongs to the quality, that which was asked for does not.
+/// Whether two details are one, but for the rounding of a spacing.
+pub fn is_same_detail(a: f64, b: f64) -> bool {
+    (a / b - 1.0).abs() < 1e-3
+}
+
+/// A hash over everything that a scene starts with but its quality and its detail: two scenes with the same one have
+/// the same curves, which go over both.
 pub fn fingerprint(blueprint: &Blueprint) -> u64 {
     let Blueprint { name, origin, parameters, fluid, elements, effects, particle_limit, .. } = blueprint;
-    let detail = f64::from(blueprint.scale.detail) / blueprint.preset.detail();
     // Debug writes a number in as many digits as it takes to read it back, so other values are other texts.
-    let text = format!("{name} {origin} {parameters:?} {detail} {fluid:?} {elements:?} {effects:?} {particle_limit}");
+    let text = format!("{name} {origin} {parameters:?} {fluid:?} {elements:?} {effects:?} {particle_limit}");
     hash_bytes(text.as_bytes())
 }
 
-/// "Measure here": asked for by the HUD, done by `survey`.
+/// "Measure here", or of its own accord where there is no curve: asked for by the HUD, done by `survey`.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct Survey {
     /// What is to be done next.
@@ -164,6 +205,9 @@ impl Survey {
 pub enum SurveyRequest {
     /// Measure from the world as it is. One that is under way is given up.
     Begin,
+    /// The same with less of the machine and of the finer details, as nobody asked for it; not where there is no thread
+    /// to spare.
+    BeginQuietly,
     /// Give up.
     Cancel,
 }
@@ -192,35 +236,47 @@ mod tests {
 
     #[test]
     fn a_scene_with_other_settings_is_another_and_at_another_quality_the_same() {
-        let build = |text: &str, columns: &str, preset| {
+        let build = |text: &str, columns: &str, preset, detail| {
             let settings = [("columns".to_owned(), columns.to_owned())];
-            let scene = scene::from_text("pool", text.to_owned()).unwrap();
+            let scene = scene::from_text("pool", text.to_owned()).unwrap().at_detail(detail);
             fingerprint(&scene.build(&settings, preset, &EffectModes::new()).unwrap())
         };
         let text = include_str!("../../../assets/scenes/dam_break.ron");
-        let usual = build(text, "24", None);
-        assert_eq!(usual, build(text, "24", Some(Preset::Reference)), "the quality is what the curve is over");
-        assert_ne!(usual, build(text, "25", None), "a parameter");
+        let usual = build(text, "24", None, 1.0);
+        assert_eq!(usual, build(text, "24", Some(Preset::Reference), 1.0), "the quality is what the curve is over");
+        assert_eq!(usual, build(text, "24", None, 0.7), "and so is the detail");
+        assert_ne!(usual, build(text, "25", None, 1.0), "a parameter");
         let lower = text.replacen("2 * columns * d", "columns * d", 1);
         assert_ne!(lower, text, "there is no block to change");
-        assert_ne!(usual, build(&lower, "24", None), "another file of that name");
+        assert_ne!(usual, build(&lower, "24", None, 1.0), "another file of that name");
+    }
+
+    /// A point of a preset at a detail of the run.
+    fn point(preset: Preset, detail: f64, milliseconds: f32) -> CurvePoint {
+        let quality = preset.quality();
+        CurvePoint { preset, quality, detail, milliseconds, error: None, p99: None, truth: None, is_sound: true }
     }
 
     #[test]
     fn the_scale_is_of_ticks_in_which_the_same_sleep() {
-        let point = |milliseconds| CurvePoint {
-            preset: Preset::Fast,
-            quality: Preset::Fast.quality(),
-            milliseconds,
-            error: None,
-            p99: None,
-        };
-        let here = Some((Preset::Fast.quality(), 1.0));
-        let curve = Curve { here, points: vec![point(4.0)], ..Curve::default() };
+        let here = Some(Here { quality: Preset::Fast.quality(), detail: 1.0, milliseconds: 1.0 });
+        let curve = Curve { here, points: vec![point(Preset::Fast, 1.0, 4.0)], ..Curve::default() };
         assert_eq!(curve.scale(), Some(0.25));
         let half_asleep = Curve { here_on_one_thread: Some(2.0), ..curve.clone() };
         assert_eq!(half_asleep.scale(), Some(0.5), "four threads of an awake world are not two and sleep");
         assert_eq!(Curve { here: None, ..curve }.scale(), None, "a tick in which all sleep has no quality");
+    }
+
+    #[test]
+    fn settings_that_differ_in_their_detail_alone_are_told_apart() {
+        let points = vec![point(Preset::Fine, 1.0, 2.0), point(Preset::Reference, 2.0, 8.0)];
+        let at = |detail| Some(Here { quality: Preset::Fine.quality(), detail, milliseconds: 4.0 });
+        let curve = Curve { here: at(2.0), points, ..Curve::default() };
+        assert_eq!(curve.scale(), Some(0.5), "`fine` at twice the detail is `reference`");
+        assert_eq!(Curve { here: at(1.0), ..curve.clone() }.scale(), Some(2.0));
+        assert_eq!(Curve { here: at(0.5), ..curve.clone() }.scale(), None, "what is not on the curve has no scale");
+        assert_eq!(curve.point(Preset::Reference, 1.0).map(|point| point.milliseconds), Some(8.0));
+        assert_eq!((curve.point(Preset::Fine, 2.0), curve.point(Preset::Reference, 2.0)), (None, None));
     }
 
     #[test]

@@ -1,17 +1,17 @@
-//! "Measure here": from the world as it is, every preset is run a little way, and its time and error make the curve of
-//! this very moment. Play goes on: the work is done in the background by half of a thread, or, where there are no threads, in
-//! slices between frames.
+//! "Measure here": from the world as it is, every preset is run a little way, some of them at half and at twice the
+//! detail, too, and their times and errors make the curve of this very moment. Play goes on: the work is done in the
+//! background by half of a thread (a quarter, where nobody asked for it), or, where there are no threads, in slices
+//! between frames.
 
 use crate::{
-    kernel::{
-        params::{Preset, Quality},
-        simd::InstructionSet,
-    },
+    kernel::simd::InstructionSet,
     lab::{
-        autopilot::ladder,
         density::DensityError,
         jobs::{Handle, Share, pause},
-        live::accuracy::{Curve, CurvePoint, Survey, SurveyRequest, fingerprint},
+        live::{
+            accuracy::{Curve, CurvePoint, Here, Survey, SurveyRequest, fingerprint, is_same_detail},
+            legs::{Leg, legs},
+        },
         stats,
     },
     scene::effects::{Effect, Mode},
@@ -20,7 +20,7 @@ use crate::{
         effects::{Effects, status::Sleepers},
         ledger::PassLedger,
         simulation::Simulation,
-        state::{Clock, Setup, SolverState},
+        state::{Clock, ParticleStore, Rock, Setup, SolverState},
         workers::Workers,
     },
 };
@@ -79,7 +79,10 @@ impl Done {
 pub fn run(world: &mut World) {
     world.resource_scope(|world, mut surveyor: Mut<Surveyor>| {
         match world.resource_mut::<Survey>().request.take() {
-            Some(SurveyRequest::Begin) => surveyor.begin(world),
+            Some(SurveyRequest::Begin) => surveyor.begin(world, false),
+            // Slices are time of the game's frames.
+            Some(SurveyRequest::BeginQuietly) if surveyor.has_thread() => surveyor.begin(world, true),
+            Some(SurveyRequest::BeginQuietly) => {}
             Some(SurveyRequest::Cancel) => {
                 surveyor.handle = None;
                 world.resource_mut::<Survey>().progress = None;
@@ -91,21 +94,30 @@ pub fn run(world: &mut World) {
 }
 
 impl Surveyor {
-    fn begin(&mut self, world: &mut World) {
+    fn has_thread(&self) -> bool {
+        !self.sliced && !cfg!(target_arch = "wasm32")
+    }
+
+    fn begin(&mut self, world: &mut World, quietly: bool) {
         let (setup, clock) = (world.resource::<Setup>(), world.resource::<Clock>());
         let sleep = Asleep::of(world);
         let curve = Curve {
             scene: setup.blueprint.name.clone(),
             of: fingerprint(&setup.blueprint),
             tick: clock.tick,
-            here: (sleep != Asleep::All).then(|| (setup.quality, tick_milliseconds(world))),
+            here: (sleep != Asleep::All).then(|| Here {
+                quality: setup.quality,
+                detail: f64::from(setup.blueprint.scale.detail),
+                milliseconds: tick_milliseconds(world),
+            }),
             ..Curve::default()
         };
-        let work = Work::new(world, sleep);
+        let work = Work::new(world, sleep, quietly);
+        let share = if quietly { Share::Quarter } else { Share::Half };
         *world.resource_mut::<Survey>() = Survey { request: None, progress: Some(0.0), curve };
         self.handle = Some(match self.sliced {
             true => Handle::sliced(|messages| work.run(messages)),
-            false => Handle::start(Share::Half, |messages| work.run(messages)),
+            false => Handle::start(share, |messages| work.run(messages)),
         });
     }
 
@@ -152,16 +164,7 @@ struct Work {
     total: f32,
 }
 
-/// A quality to run.
-#[derive(Clone, Copy)]
-struct Leg {
-    preset: Preset,
-    quality: Quality,
-    /// Whether the particles that sleep in the game may sleep.
-    sleep: bool,
-}
-
-/// The world at one of the qualities.
+/// The world at one of the settings.
 struct Run {
     leg: Leg,
     simulation: Simulation,
@@ -170,20 +173,16 @@ struct Run {
 }
 
 impl Work {
-    fn new(world: &World, asleep: Asleep) -> Self {
+    fn new(world: &World, asleep: Asleep, quietly: bool) -> Self {
         let start = Checkpoint::of(world);
-        let leg = |preset, quality| Leg { preset, quality, sleep: false };
-        let here = leg(start.setup.preset, start.setup.quality);
-        let mut left: Vec<_> = Preset::ALL.into_iter().map(|preset| leg(preset, preset.quality())).collect();
-        if left.iter().all(|leg| leg.quality != here.quality) {
-            left.push(here);
-        }
-        left.sort_by(|a, b| ladder::work(&b.quality).total_cmp(&ladder::work(&a.quality)));
+        let count = world.resource::<ParticleStore>().len() + world.resource::<Rock>().count();
+        let mut left = legs(&start.setup, count as f64, quietly);
+        left.sort_by(|a, b| b.work().total_cmp(&a.work()));
         // The game's own time is of a world with sleepers: what its threads make of it shows against the same world.
         if asleep == Asleep::Some {
-            left.push(Leg { sleep: true, ..here });
+            left.push(Leg { sleep: true, ..Leg::in_force(&start.setup) });
         }
-        let total = left.iter().map(|leg| ladder::work(&leg.quality)).sum();
+        let total = left.iter().map(Leg::work).sum();
         let instructions = world.resource::<SolverState>().instructions;
         Self { start, instructions, left, run: None, done: 0.0, total }
     }
@@ -205,22 +204,24 @@ impl Work {
 
     /// Share that is done, 0 … 1.
     fn progress(&self) -> f32 {
-        let under_way = self
-            .run
-            .as_ref()
-            .map_or(0.0, |run| ladder::work(&run.leg.quality) * run.ticks as f32 / (WARMUP + TICKS) as f32);
+        let under_way =
+            self.run.as_ref().map_or(0.0, |run| run.leg.work() * run.ticks as f32 / (WARMUP + TICKS) as f32);
         ((self.done + under_way) / self.total).min(1.0)
     }
 
     /// Does one tick of the work; the result if that finishes a run.
     fn advance(&mut self) -> Option<Done> {
         while self.run.is_none() {
-            // A world that does not fit a preset's detail has no point there.
-            self.run = Run::new(&self.start, self.instructions, self.left.pop()?);
+            let leg = self.left.pop()?;
+            self.run = Run::new(&self.start, self.instructions, leg);
+            if self.run.is_none() {
+                // A world that does not fit a detail has no point there.
+                self.done += leg.work();
+            }
         }
         let run = self.run.as_mut()?;
         let result = run.advance()?;
-        self.done += ladder::work(&run.leg.quality);
+        self.done += run.leg.work();
         self.run = None;
         Some(result)
     }
@@ -229,7 +230,10 @@ impl Work {
 impl Run {
     fn new(start: &Checkpoint, instructions: InstructionSet, leg: Leg) -> Option<Self> {
         // Without threads, the calling one is all there is.
-        let start = start.clone().at_quality(leg.preset, leg.quality).ok()?;
+        let mut start = start.clone().at_quality(leg.preset, leg.quality).ok()?;
+        if !is_same_detail(start.setup.asked_detail(), leg.asked_detail) {
+            start = start.at_detail(leg.asked_detail).ok()?;
+        }
         let simulation = Simulation::resume(&start, Workers::new(1).unwrap_or_default());
         let mut simulation = simulation.with_instructions(instructions);
         if !leg.sleep {
@@ -258,9 +262,12 @@ impl Run {
         Some(Done::Point(CurvePoint {
             preset: self.leg.preset,
             quality: self.leg.quality,
+            detail: self.leg.detail(),
             milliseconds,
             error: stats::mean(self.errors.iter().map(|error| error.mean)).map(|mean| mean as f32),
             p99: stats::mean(self.errors.iter().map(|error| error.p99)).map(|p99| p99 as f32),
+            truth: None,
+            is_sound: true,
         }))
     }
 }
@@ -274,6 +281,7 @@ fn tick_milliseconds(world: &World) -> f32 {
 mod tests {
     use super::*;
     use crate::{
+        kernel::params::Preset,
         scene::{
             self,
             effects::{EffectModes, Pass},
@@ -298,26 +306,26 @@ mod tests {
     #[test]
     fn what_sleeps_is_awake_in_every_run_from_the_first_tick_to_the_last() {
         let simulation = pool();
-        let mut work = Work::new(simulation.world(), Asleep::of(simulation.world()));
-        let mut moved = 0;
+        let mut work = Work::new(simulation.world(), Asleep::of(simulation.world()), false);
+        let (legs, mut moved) = (work.left.len() as u32, 0);
+        assert!(legs > Preset::ALL.len() as u32, "no other detail");
         while !work.is_done() {
             work.advance();
             if let Some(run) = &work.run {
                 let world = run.simulation.world();
-                let name = run.leg.preset.name();
-                assert_eq!(world.resource::<SleepState>().asleep(), 0, "{name} sleeps at tick {}", run.ticks);
+                assert_eq!(world.resource::<SleepState>().asleep(), 0, "{:?} sleeps at tick {}", run.leg, run.ticks);
                 moved += u32::from(world.resource::<PassLedger>().record(Pass::Solve).last.calls > 0);
             }
         }
-        assert!(moved >= Preset::ALL.len() as u32 * (WARMUP + TICKS - 1), "only {moved} ticks were simulated");
+        assert!(moved >= legs * (WARMUP + TICKS - 1), "only {moved} ticks were simulated");
     }
 
     #[test]
     fn only_a_world_of_which_a_part_sleeps_is_run_once_more_for_its_time() {
         let simulation = pool();
-        let legs = |asleep| Work::new(simulation.world(), asleep).left;
-        assert_eq!(legs(Asleep::None).len(), Preset::ALL.len());
-        assert_eq!(legs(Asleep::All).len(), Preset::ALL.len());
+        let legs = |asleep| Work::new(simulation.world(), asleep, false).left;
+        let sleepers = |asleep| legs(asleep).iter().filter(|leg| leg.sleep).count();
+        assert_eq!((sleepers(Asleep::None), sleepers(Asleep::All)), (0, 0));
         let some = legs(Asleep::Some);
         assert_eq!(some.iter().filter(|leg| leg.sleep).count(), 1);
         let last = some.last().expect("it is run first");

@@ -168,14 +168,17 @@ fn a_survey_measures_every_preset_from_this_moment_while_play_goes_on() {
         }
         let curve = survey(&simulation).curve.clone();
         assert_eq!((curve.scene.as_str(), curve.tick), ("dam_break", 26));
-        assert_eq!(curve.points.len(), Preset::ALL.len());
-        let point = |preset| *curve.point(preset).expect("every preset is measured");
+        assert_eq!(curve.points.len(), Preset::ALL.len() + 3, "the presets, and three at other details");
+        let point = |preset| *curve.point(preset, 1.0).expect("every preset is measured");
         for preset in Preset::ALL {
             assert!(point(preset).milliseconds > 0.0 && point(preset).error.is_some(), "{}", preset.name());
         }
         let (draft, reference) = (point(Preset::Draft), point(Preset::Reference));
         assert!(draft.milliseconds < reference.milliseconds, "{curve:?}");
         assert!(draft.error > reference.error, "{curve:?}");
+        let coarse = curve.point(Preset::Fine, 0.5).expect("at half the detail, too");
+        let fine = point(Preset::Fine).milliseconds;
+        assert!(coarse.error.is_some() && coarse.milliseconds < fine, "a quarter of the particles: {curve:?}");
         assert!(curve.scale().is_some_and(|scale| scale > 0.0));
         assert!(simulation.world().resource::<Clock>().tick > 26, "play stood still meanwhile");
     }
@@ -199,6 +202,23 @@ fn a_survey_can_be_given_up_and_begun_again() {
     assert!(survey(&simulation).is_running() && survey(&simulation).curve.tick > before.tick);
     ask(&mut simulation, SurveyRequest::Cancel);
     simulation.tick();
+}
+
+#[test]
+fn nobody_is_made_to_wait_for_a_survey_that_nobody_asked_for() {
+    let mut simulation = begin("dam_break", &[("columns", "10")], LivePlugin);
+    simulation.world_mut().insert_resource(Surveyor::sliced());
+    simulation.tick();
+    ask(&mut simulation, SurveyRequest::BeginQuietly);
+    simulation.tick();
+    assert!(!survey(&simulation).is_running(), "slices are time of the game's frames");
+    simulation.world_mut().insert_resource(Surveyor::default());
+    ask(&mut simulation, SurveyRequest::BeginQuietly);
+    simulation.tick();
+    assert!(survey(&simulation).is_running());
+    ask(&mut simulation, SurveyRequest::Cancel);
+    simulation.tick();
+    assert!(!survey(&simulation).is_running());
 }
 
 /// What a tick would cost on a machine where it costs in proportion to the work, and three times as much for a while.

@@ -3,6 +3,8 @@
 //! else that is measured.
 
 pub mod axis;
+mod canvas;
+mod curves;
 mod measures;
 pub mod panel;
 mod pilot;

@@ -8,8 +8,10 @@ use crate::{
         hud::{
             panels::accuracy::{
                 axis::percent,
+                canvas::Live,
+                curves::{Curves, Situation, source},
                 measures, pilot,
-                plot::{Live, Plot},
+                plot::{Plot, Pressed},
             },
             style::{self, weak},
             widgets::{detail_row, icon_button, main_button, quality_name},
@@ -30,15 +32,16 @@ use crate::{
     },
     scene::{blueprint::Blueprint, effects::Pass},
     sim::{
+        effects::Effects,
         generation::Generation,
         ledger::PassLedger,
-        numbers::{self, short},
-        state::{Clock, Setup},
+        numbers::short,
+        pace::Pace,
+        state::{Clock, ParticleStore, Setup},
     },
 };
 use bevy::prelude::{App, KeyCode, Res, ResMut, Resource, Result};
 use bevy_egui::egui::{self, Align2, Color32, FontId, RichText, Sense, Ui, vec2};
-use std::collections::BTreeMap;
 
 /// Width of the panel's contents, points.
 const WIDTH: f32 = 396.0;
@@ -52,10 +55,9 @@ const SMALL: f32 = 0.02;
 /// What the panel remembers.
 #[derive(Resource, Default)]
 pub struct AccuracyPanel {
-    /// The last curve of each scene, by its fingerprint.
-    curves: BTreeMap<u64, Curve>,
-    /// The scene that is played (`Generation::scene`) with its d (m), and its fingerprint.
-    scene: Option<((u64, f32), u64)>,
+    curves: Curves,
+    /// The scene that is played (`Generation::scene`), with its d (m).
+    scene: Option<(u64, f32)>,
     trail: Vec<Live>,
     trail_tick: u64,
     bounds: pilot::Bounds,
@@ -66,25 +68,19 @@ pub struct AccuracyPanel {
 }
 
 impl AccuracyPanel {
-    /// The fingerprint of the scene that is played; the trail of another ends.
-    fn turn_to(&mut self, scene: u64, blueprint: &Blueprint) -> u64 {
-        let played = (scene, blueprint.scale.spacing);
-        match self.scene {
-            Some((known, fingerprint)) if known == played => fingerprint,
-            _ => {
-                let found = fingerprint(blueprint);
-                self.scene = Some((played, found));
-                self.trail.clear();
-                found
-            }
+    /// Takes up the scene that is played; the trail of another, or of another detail, ends.
+    fn turn_to(&mut self, scene: u64, blueprint: &Blueprint) {
+        let played = Some((scene, blueprint.scale.spacing));
+        if self.scene != played {
+            self.scene = played;
+            self.trail.clear();
+            self.curves.turn_to(fingerprint(blueprint), blueprint);
         }
     }
 
     /// Takes up what was measured since.
     fn follow(&mut self, survey: &Survey, clock: &Clock, now: Option<Live>) {
-        if !survey.curve.points.is_empty() && self.curves.get(&survey.curve.of) != Some(&survey.curve) {
-            self.curves.insert(survey.curve.of, survey.curve.clone());
-        }
+        self.curves.follow(survey);
         if clock.tick < self.trail_tick || now.is_none() {
             self.trail.clear();
         } else if clock.tick < self.trail_tick + TRAIL_EVERY && !self.trail.is_empty() {
@@ -122,7 +118,7 @@ fn show(
     mut window: PanelWindow,
     mut panel: ResMut<AccuracyPanel>,
     (setup, generation): (Res<Setup>, Res<Generation>),
-    clock: Res<Clock>,
+    (clock, pace, particles, effects): (Res<Clock>, Res<Pace>, Res<ParticleStore>, Res<Effects>),
     measured: (Res<PassLedger>, Res<LiveError>, Res<Measures>),
     survey: Res<Survey>,
     autopilot: Res<Autopilot>,
@@ -132,8 +128,11 @@ fn show(
     let (ledger, error, measures) = measured;
     let milliseconds = ledger.tick().median().as_secs_f32() * 1000.0;
     let live = (milliseconds > 0.0).then(|| Live { milliseconds, error: error.mean() });
-    let scene = panel.turn_to(generation.scene, &setup.blueprint);
+    panel.turn_to(generation.scene, &setup.blueprint);
     panel.follow(&survey, &clock, live);
+    panel.curves.calibrate(&setup, &ledger, &effects);
+    let situation = Situation { runs: !pace.paused, particles: particles.len(), timed: ledger.tick().calls };
+    orders.extend(panel.curves.wants(&survey, situation).map(Order::Survey));
     window.show(&PANEL, (Align2::RIGHT_TOP, vec2(-14.0, 54.0)), |ui| {
         let screen = ui.ctx().content_rect();
         scroll(ui, 215.0, |ui| {
@@ -141,20 +140,33 @@ fn show(
             ui.spacing_mut().button_padding = vec2(7.0, 2.0);
             headline(ui, &setup, milliseconds, &error);
             let AccuracyPanel { curves, trail, bounds, measures: open, measures_seen: seen, .. } = &mut *panel;
-            let curve = curves.get(&scene);
+            let (curve, kind, has_both) = curves.shown();
             let scale = curve.and_then(Curve::scale);
             let plot = Plot {
                 curve,
                 scale: scale.unwrap_or(1.0),
+                kind,
+                has_both,
                 trail,
                 goal: autopilot.goal(),
                 now: (setup.preset, setup.quality),
+                detail: setup.asked_detail(),
                 looked: error.latest().is_some(),
+                is_measuring: survey.is_running(),
             };
             let size = vec2(ui.available_width(), (0.34 * screen.height()).clamp(150.0, 240.0));
-            orders.extend(plot.show(ui, size).or(plot.chips(ui)).map(Order::Quality));
+            let pressed = plot.show(ui, size).or(plot.chips(ui).map(Pressed::Preset));
             orders.extend(detail_row(ui, setup.asked_detail()).map(Order::Detail));
             measure(ui, &survey, curve, scale, (&split, &bindings), &mut orders);
+            match pressed {
+                Some(Pressed::Preset(preset)) => orders.push(Order::Quality(preset)),
+                // The detail first: both are undone in one step then.
+                Some(Pressed::Detail(preset, detail)) => {
+                    orders.extend([Order::Detail(detail), Order::Quality(preset)]);
+                }
+                Some(Pressed::Kind(kind)) => curves.want(kind),
+                None => {}
+            }
             ui.separator();
             pilot::show(ui, &autopilot, bounds, &mut orders);
             pilot::status(ui, &autopilot, &setup, milliseconds, error.mean());
@@ -209,8 +221,9 @@ fn measure(
             }
             None => {
                 let button = main_button(ui, "Measure here");
-                let told = "Takes the world as it is and runs every quality from it for two seconds, on one thread \
-                            beside the game, which plays on";
+                let told = "Takes the world as it is and runs every quality from it for two seconds, the \
+                            ends of them at half and at twice the detail, too, on one thread beside the game, \
+                            which plays on";
                 if button.on_hover_text(told).clicked() {
                     orders.push(Order::Survey(SurveyRequest::Begin));
                 }
@@ -226,13 +239,7 @@ fn measure(
         });
     });
     if let Some(curve) = curve {
-        let times = match scale {
-            Some(scale) if (scale - 1.0).abs() > 0.005 => format!(", times × {} as in the game", short(scale)),
-            _ => String::new(),
-        };
-        let from = numbers::grouped(curve.tick);
-        let told = format!("{} from tick {from} on, one thread, all awake{times}", curve.scene);
-        ui.label(weak(told).small());
+        ui.label(weak(source(curve, scale)).small());
     }
 }
 
@@ -274,51 +281,64 @@ mod tests {
     use super::*;
     use crate::{
         kernel::params::Preset,
+        lab::live::accuracy::CurvePoint,
         scene::{self, effects::EffectModes},
     };
 
-    #[test]
-    fn each_scene_and_each_setting_of_it_has_its_own_curve() {
-        let build = |columns: &str, preset| {
-            let settings = [("columns".to_owned(), columns.to_owned())];
-            let scene = scene::load("dam_break").unwrap();
-            scene.build(&settings, preset, &EffectModes::new()).unwrap()
-        };
-        let mut panel = AccuracyPanel::default();
-        let first = build("10", None);
-        let of = panel.turn_to(1, &first);
-        panel.curves.insert(of, Curve::default());
-        panel.trail.push(Live { milliseconds: 1.0, error: None });
-        let shows = |panel: &mut AccuracyPanel, scene: u64, blueprint: &Blueprint| {
-            let scene = panel.turn_to(scene, blueprint);
-            panel.curves.contains_key(&scene)
-        };
-        assert!(shows(&mut panel, 1, &first) && panel.trail.len() == 1);
-        assert!(!shows(&mut panel, 2, &build("12", None)), "the curve of other settings is shown");
-        assert!(panel.trail.is_empty(), "and the trail of another scene");
-        assert!(shows(&mut panel, 3, &build("10", Some(Preset::Fine))), "the same scene again has lost its curve");
+    fn build(columns: &str, preset: Option<Preset>, detail: f64) -> Blueprint {
+        let settings = [("columns".to_owned(), columns.to_owned())];
+        let scene = scene::load("dam_break").unwrap().at_detail(detail);
+        scene.build(&settings, preset, &EffectModes::new()).unwrap()
+    }
+
+    /// What a survey leaves that has measured one point.
+    fn surveyed(of: u64) -> Survey {
+        let (preset, quality) = (Preset::Fast, Preset::Fast.quality());
+        let (error, p99) = (Some(0.01), None);
+        let point =
+            CurvePoint { preset, quality, detail: 1.0, milliseconds: 1.0, error, p99, truth: None, is_sound: true };
+        Survey { curve: Curve { of, points: vec![point], ..Curve::default() }, ..Survey::default() }
     }
 
     #[test]
-    fn the_panel_keeps_a_curve_for_each_scene_and_a_short_trail() {
+    fn each_scene_and_each_setting_of_it_has_its_own_curve() {
+        let mut panel = AccuracyPanel::default();
+        let first = build("10", None, 1.0);
+        panel.turn_to(1, &first);
+        panel.follow(&surveyed(fingerprint(&first)), &Clock::default(), None);
+        panel.trail.push(Live { milliseconds: 1.0, error: None });
+        let shows = |panel: &mut AccuracyPanel, scene: u64, blueprint: &Blueprint| {
+            panel.turn_to(scene, blueprint);
+            panel.curves.shown().0.is_some()
+        };
+        assert!(shows(&mut panel, 1, &first) && panel.trail.len() == 1);
+        assert!(!shows(&mut panel, 2, &build("12", None, 1.0)), "the curve of other settings is shown");
+        assert!(panel.trail.is_empty(), "and the trail of another scene");
+        assert!(shows(&mut panel, 3, &build("10", Some(Preset::Fine), 1.0)), "the same scene again has lost its curve");
+        panel.trail.push(Live { milliseconds: 1.0, error: None });
+        assert!(shows(&mut panel, 3, &build("10", None, 0.5)), "a click on another detail has lost the curve");
+        assert!(panel.trail.is_empty(), "errors of another detail are others");
+    }
+
+    #[test]
+    fn a_scene_that_comes_with_a_curve_shows_it_at_once() {
+        let mut panel = AccuracyPanel::default();
+        let scene = scene::load("dam_break").unwrap();
+        panel.turn_to(1, &scene.build(&[], None, &EffectModes::new()).unwrap());
+        let (curve, ..) = panel.curves.shown();
+        assert!(curve.is_some_and(|curve| curve.shipped.is_some() && curve.point(Preset::Balanced, 1.0).is_some()));
+    }
+
+    #[test]
+    fn the_panel_keeps_a_short_trail() {
         let mut panel = AccuracyPanel::default();
         let live = Some(Live { milliseconds: 1.0, error: Some(0.01) });
-        let point = crate::lab::live::accuracy::CurvePoint {
-            preset: Preset::Fast,
-            quality: Preset::Fast.quality(),
-            milliseconds: 1.0,
-            error: Some(0.01),
-            p99: None,
-        };
-        let survey =
-            |of: u64| Survey { curve: Curve { of, points: vec![point], ..Curve::default() }, ..Survey::default() };
         for (scene, ticks) in [(1, 0..300), (2, 0..300)] {
             for tick in ticks {
                 let clock = Clock { tick, ..Clock::default() };
-                panel.follow(&survey(scene), &clock, live);
+                panel.follow(&surveyed(scene), &clock, live);
             }
         }
-        assert_eq!(panel.curves.len(), 2);
         assert_eq!(panel.trail.len(), TRAIL);
         panel.follow(&Survey::default(), &Clock::default(), live);
         assert_eq!(panel.trail.len(), 1, "another history begins a new trail");

@@ -1,23 +1,25 @@
-//! Error against time, log–log: the curve that was measured with the presets as buttons on it, the world as it runs now,
-//! and the bound that the autopilot holds. What has a time and no error, for want of liquid, stands on the lower edge.
+//! Error against time, log–log: the curve with the presets as buttons on it, what is known of other details as marks,
+//! the world as it runs now, and the bound that the autopilot holds. The error is that of density, or the true one
+//! where that is known. What has a time and no error, for want of liquid, stands on the lower edge.
 
 use crate::{
     game::hud::{
-        panels::accuracy::axis::{Axis, percent},
+        panels::accuracy::{
+            axis::{Axis, percent},
+            canvas::{Canvas, LEAST, Live, place_beside},
+        },
         style, widgets,
     },
     kernel::params::{Preset, Quality},
     lab::{
         autopilot::Goal,
-        live::accuracy::{Curve, CurvePoint},
+        live::accuracy::{Curve, CurvePoint, is_same_detail},
     },
     sim::numbers::short,
 };
-use bevy_egui::egui::{self, Align2, Color32, FontId, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
+use bevy_egui::egui::{self, Align2, Color32, FontId, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, vec2};
 
-/// Errors below this are drawn at it: a logarithm has no 0.
-const FLOOR: f32 = 1e-5;
-/// Density errors of usual scenes, from calm to violent.
+/// Errors of usual scenes, from calm to violent.
 const USUAL: [f32; 2] = [1e-4, 1e-2];
 /// Radius of a measured point, points.
 const DOT: f32 = 4.0;
@@ -27,119 +29,186 @@ const TOUCHED: egui::Vec2 = vec2(9.0, 9.0);
 const MARGIN: egui::Vec2 = vec2(46.0, 30.0);
 /// Room around the text of a preset's button, points.
 const PADDING: egui::Vec2 = vec2(6.0, 3.0);
-/// What is lately.
-const LIVE: Color32 = Color32::from_rgb(255, 206, 92);
+
+/// Which error the plot shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ErrorKind {
+    /// The share of the liquid that stands elsewhere than in a converged run.
+    True,
+    /// How far the density is off: a share of the run's own, to be compared at one detail only.
+    Density,
+}
+
+impl ErrorKind {
+    fn name(self) -> &'static str {
+        match self {
+            Self::True => "true error",
+            Self::Density => "density error",
+        }
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::True => {
+                "Share of the liquid that stands elsewhere than in a converged run: comparable over all details"
+            }
+            Self::Density => "How much too dense or too thin the liquid stands: comparable at one detail only",
+        }
+    }
+
+    fn of(self, point: &CurvePoint) -> Option<f32> {
+        match self {
+            Self::True => point.truth,
+            Self::Density => point.error,
+        }
+    }
+}
 
 /// What is shown.
 pub struct Plot<'a> {
-    /// The curve of the scene, if it was measured.
+    /// The curve of the scene, if there is one.
     pub curve: Option<&'a Curve>,
     /// What its times are multiplied by.
     pub scale: f32,
+    /// Which error.
+    pub kind: ErrorKind,
+    /// Whether there is another to show.
+    pub has_both: bool,
     /// The world of late, oldest first; the last is now.
     pub trail: &'a [Live],
     /// What the autopilot holds.
     pub goal: Option<Goal>,
     /// The quality in force.
     pub now: (Preset, Quality),
+    /// The detail that is asked for.
+    pub detail: f64,
     /// Whether the error was looked for: then, where there is none, there is no liquid to have one.
     pub looked: bool,
+    /// Whether a curve is being measured.
+    pub is_measuring: bool,
 }
 
-/// The world as it ran at a time.
+/// What was pressed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Live {
-    /// Time of a tick, ms.
-    pub milliseconds: f32,
-    /// Density error; `None` without a liquid inside.
-    pub error: Option<f32>,
-}
-
-/// Lines and places of the plot.
-struct Canvas<'a> {
-    painter: &'a egui::Painter,
-    field: Rect,
-    x: Axis,
-    y: Axis,
-}
-
-impl Canvas<'_> {
-    fn place(&self, milliseconds: f32, error: Option<f32>) -> Pos2 {
-        error.map_or_else(
-            || pos2(self.at(milliseconds, FLOOR).x, self.field.bottom()),
-            |error| self.at(milliseconds, error),
-        )
-    }
-
-    fn at(&self, milliseconds: f32, error: f32) -> Pos2 {
-        pos2(
-            self.field.left() + self.field.width() * self.x.share(milliseconds),
-            self.field.bottom() - self.field.height() * self.y.share(error.max(FLOOR)),
-        )
-    }
-
-    fn text(&self, at: Pos2, align: Align2, text: &str, colour: Color32) {
-        self.painter.text(at, align, text, FontId::proportional(10.5), colour);
-    }
+pub enum Pressed {
+    /// The button of a preset.
+    Preset(Preset),
+    /// The mark of a preset at another detail that is asked for.
+    Detail(Preset, f64),
+    /// The other error.
+    Kind(ErrorKind),
 }
 
 impl Plot<'_> {
-    /// Shows it in `size`; the preset whose button was pressed.
-    pub fn show(&self, ui: &mut Ui, size: egui::Vec2) -> Option<Preset> {
+    /// Shows it in `size`; what was pressed.
+    pub fn show(&self, ui: &mut Ui, size: egui::Vec2) -> Option<Pressed> {
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
         let field = Rect::from_min_max(rect.min + vec2(MARGIN.x, 8.0), rect.max - vec2(10.0, MARGIN.y));
         let painter = ui.painter_at(rect.expand(2.0));
-        let points: Vec<&CurvePoint> = self.curve.iter().flat_map(|curve| &curve.points).collect();
-        let times = points
-            .iter()
-            .map(|point| self.scale * point.milliseconds)
-            .chain(self.trail.iter().map(|live| live.milliseconds));
-        let bound = |wanted: fn(Goal) -> Option<f32>| self.goal.and_then(wanted);
-        let time_bound = bound(|goal| if let Goal::Time(bound) = goal { Some(bound) } else { None });
-        let error_bound = bound(|goal| if let Goal::Error(bound) = goal { Some(bound) } else { None });
-        let errors =
-            points.iter().filter_map(|point| point.error).chain(self.trail.iter().filter_map(|live| live.error));
-        // Without any error the axis shows where errors usually are.
-        let errors: Vec<f32> = errors.chain(error_bound).collect();
-        let errors = if errors.is_empty() { USUAL.to_vec() } else { errors };
-        let canvas = Canvas {
-            painter: &painter,
-            field,
-            x: Axis::around(times.chain(time_bound)),
-            y: Axis::around(errors.iter().map(|error| error.max(FLOOR))),
-        };
-        grid(&canvas);
-        limits(&canvas, time_bound, error_bound);
-        self.line(&canvas);
-        trail(&canvas, self.trail);
-        let chosen = self.presets(ui, &canvas);
+        let goal = |wanted: fn(Goal) -> Option<f32>| self.goal.and_then(wanted);
+        let time_bound = goal(|goal| if let Goal::Time(bound) = goal { Some(bound) } else { None });
+        let error_bound = goal(|goal| if let Goal::Error(bound) = goal { Some(bound) } else { None });
+        let error_bound = error_bound.filter(|_| self.kind == ErrorKind::Density);
+        let floor = self.curve.and_then(|curve| curve.floor).filter(|_| self.kind == ErrorKind::True);
+        let (x, y) = self.axes(time_bound, error_bound.or(floor));
+        let canvas = Canvas { painter: &painter, field, x, y };
+        canvas.grid();
+        if let Some(floor) = floor {
+            canvas.floor(floor);
+        }
+        canvas.limits(time_bound, error_bound);
+        let mut taken = self.dots(&canvas);
+        let pressed = self.kinds(ui, field, &mut taken);
+        self.lines(&canvas, &mut taken);
+        match (self.kind, self.trail.last()) {
+            (ErrorKind::Density, _) => canvas.trail(self.trail),
+            (ErrorKind::True, Some(live)) => {
+                let own = self.detail * self.now.0.detail();
+                let point = self.curve.and_then(|curve| curve.point_of(&self.now.1, own));
+                canvas.now(live, point.and_then(|point| point.truth));
+            }
+            (ErrorKind::True, None) => {}
+        }
+        let pressed = pressed.or(self.marks(ui, &canvas));
+        let pressed = self.presets(ui, &canvas, taken).map(Pressed::Preset).or(pressed);
         for (k, text) in self.hints().into_iter().enumerate() {
-            let at = field.center_top() + vec2(0.0, 26.0 + 15.0 * k as f32);
+            let at = field.center_top() + vec2(0.0, 32.0 + 15.0 * k as f32);
             canvas.text(at, Align2::CENTER_CENTER, text, style::WEAK);
         }
-        chosen
+        pressed
+    }
+
+    /// The axes that hold everything, with a bound of time and an error that are to be seen, too.
+    fn axes(&self, time: Option<f32>, error: Option<f32>) -> (Axis, Axis) {
+        let trail = || self.trail.iter();
+        let times = self.points().map(|point| self.scale * point.milliseconds);
+        let times = times.chain(trail().map(|live| live.milliseconds)).chain(time);
+        let lived = trail().filter_map(|live| live.error).filter(|_| self.kind == ErrorKind::Density);
+        let errors: Vec<f32> =
+            self.points().filter_map(|point| self.kind.of(point)).chain(lived).chain(error).collect();
+        // Without any error the axis shows where errors usually are.
+        let errors = if errors.is_empty() { USUAL.to_vec() } else { errors };
+        (Axis::around(times), Axis::around(errors.iter().map(|error| error.max(LEAST))))
+    }
+
+    fn points(&self) -> impl Iterator<Item = &CurvePoint> {
+        self.curve.iter().flat_map(|curve| &curve.points)
+    }
+
+    /// Names of the errors that can be shown, and what they cover; the other one, if it was pressed.
+    fn kinds(&self, ui: &mut Ui, field: Rect, taken: &mut Vec<Rect>) -> Option<Pressed> {
+        let mut right = field.right_top() + vec2(-6.0, 5.0);
+        let mut pressed = None;
+        for kind in [ErrorKind::Density, ErrorKind::True] {
+            let is_shown = kind == self.kind;
+            if !is_shown && !self.has_both {
+                continue;
+            }
+            let colour = if is_shown && self.has_both { Color32::WHITE } else { style::WEAK };
+            let text = ui.painter().layout_no_wrap(kind.name().to_owned(), FontId::proportional(10.5), colour);
+            let room = Rect::from_min_size(right - vec2(text.size().x, 0.0), text.size());
+            right.x = room.left() - 14.0;
+            taken.push(room.expand2(vec2(5.0, 2.5)));
+            let sense = if self.has_both { Sense::click() } else { Sense::hover() };
+            let response = ui.interact(room.expand(4.0), ui.id().with(("error", kind.name())), sense);
+            if self.has_both {
+                widgets::name(&response, kind.name(), is_shown);
+                let fill = match (is_shown, response.hovered()) {
+                    (true, _) => style::ACCENT_FILL,
+                    (false, true) => style::BUTTON_HOVER,
+                    (false, false) => style::BUTTON,
+                };
+                ui.painter().rect_filled(room.expand2(vec2(5.0, 2.5)), 4.0, fill);
+            }
+            ui.painter().galley(room.min, text, colour);
+            if response.on_hover_text(kind.about()).clicked() && !is_shown {
+                pressed = Some(Pressed::Kind(kind));
+            }
+        }
+        pressed
     }
 
     /// What there is to say where something is missing.
     fn hints(&self) -> Vec<&'static str> {
-        let points = self.curve.map_or(&[][..], |curve| &curve.points);
-        let errs = points.iter().any(|point| point.error.is_some());
+        let any = self.points().next().is_some();
+        let errs = self.points().any(|point| point.error.is_some());
         let mut hints = Vec::new();
         if !errs && self.looked && self.trail.last().is_none_or(|live| live.error.is_none()) {
             hints.push("no density error to measure: no particle has liquid all around");
         }
-        match points {
-            [] => hints.push("no curve of this scene yet: measure here"),
-            _ if !errs => hints.push("the curve has times only"),
-            _ => {}
+        match (any, self.is_measuring) {
+            (false, false) => hints.push("no curve of this scene yet: measure here"),
+            (false, true) => hints.push("no curve of this scene yet: it is being measured"),
+            (true, _) if !errs => hints.push("the curve has times only"),
+            (true, _) => {}
         }
         hints
     }
 
     /// The presets as buttons below, as long as one of them has none on the curve; the one that was pressed.
     pub fn chips(&self, ui: &mut Ui) -> Option<Preset> {
-        let point = |preset| self.curve.and_then(|curve| curve.point(preset));
-        if Preset::ALL.into_iter().all(|preset| point(preset).is_some_and(|point| point.error.is_some())) {
+        let point = |preset| self.curve.and_then(|curve| curve.point(preset, self.detail));
+        if Preset::ALL.into_iter().all(|preset| point(preset).is_some_and(|point| self.kind.of(point).is_some())) {
             return None;
         }
         let mut chosen = None;
@@ -159,30 +228,86 @@ impl Plot<'_> {
         chosen
     }
 
-    /// The presets that have an error, by their time; the plain method stands apart.
-    fn line(&self, canvas: &Canvas<'_>) {
-        let curve = self.curve.iter().flat_map(|curve| &curve.points);
-        let mut line: Vec<(f32, f32)> = curve
-            .filter(|point| point.preset != Preset::Classic && point.quality == point.preset.quality())
-            .filter_map(|point| Some((self.scale * point.milliseconds, point.error?)))
-            .collect();
-        line.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let places = line.iter().map(|&(time, error)| canvas.at(time, error)).collect();
-        canvas.painter.add(Shape::line(places, Stroke::new(1.5, style::ACCENT.gamma_multiply(0.7))));
+    /// What points and the world as it runs cover.
+    fn dots(&self, canvas: &Canvas<'_>) -> Vec<Rect> {
+        let dots = self.points().map(|point| Rect::from_center_size(self.place(canvas, point), TOUCHED));
+        let live = self.trail.last().filter(|_| self.kind == ErrorKind::Density);
+        let live = live.map(|live| canvas.place(live.milliseconds, live.error));
+        dots.chain(live.map(|live| Rect::from_center_size(live, vec2(14.0, 14.0)))).collect()
     }
 
-    fn presets(&self, ui: &Ui, canvas: &Canvas<'_>) -> Option<Preset> {
+    /// A line for each detail at which presets have an error, by their time; the plain method stands apart. Those of
+    /// other details are called by them, over nothing that is `taken`.
+    fn lines(&self, canvas: &Canvas<'_>, taken: &mut Vec<Rect>) {
+        let on_line = |point: &&CurvePoint| {
+            point.preset != Preset::Classic && point.quality == point.preset.quality() && point.is_sound
+        };
+        let mut left: Vec<&CurvePoint> = self.points().filter(on_line).collect();
+        left.retain(|point| self.kind.of(point).is_some());
+        left.sort_by(|a, b| a.milliseconds.total_cmp(&b.milliseconds));
+        while let Some(detail) = left.first().map(|point| point.detail) {
+            let (line, others): (Vec<_>, Vec<_>) =
+                left.into_iter().partition(|point| is_same_detail(point.detail, detail));
+            left = others;
+            let place = |point: &&CurvePoint| canvas.place(self.scale * point.milliseconds, self.kind.of(point));
+            let places: Vec<Pos2> = line.iter().map(place).collect();
+            let is_own = is_same_detail(detail, self.detail);
+            let colour = if is_own { style::ACCENT.gamma_multiply(0.7) } else { style::WEAK.gamma_multiply(0.55) };
+            // The end that is furthest from the line of the detail in force.
+            let end = if detail < self.detail { places.first() } else { places.last() };
+            if let Some(end) = end.filter(|_| !is_own) {
+                let (text, font) = (format!("detail {}", short(detail as f32)), FontId::proportional(10.5));
+                let text = canvas.painter.layout_no_wrap(text, font, style::TEXT);
+                let room = place_beside(*end, text.size(), canvas.field, taken);
+                canvas.painter.galley(room.min, text, style::TEXT);
+                taken.push(room);
+            }
+            canvas.painter.add(Shape::line(places, Stroke::new(1.5, colour)));
+        }
+    }
+
+    /// Whether a point has its button on the plot: it is a preset at the detail that is asked for.
+    fn has_button(&self, point: &CurvePoint) -> bool {
+        point.quality == point.preset.quality() && is_same_detail(point.asked_detail(), self.detail)
+    }
+
+    /// Where a point stands.
+    fn place(&self, canvas: &Canvas<'_>, point: &CurvePoint) -> Pos2 {
+        canvas.place(self.scale * point.milliseconds, self.kind.of(point))
+    }
+
+    /// The presets at other details, which can be pressed, and what is no preset.
+    fn marks(&self, ui: &Ui, canvas: &Canvas<'_>) -> Option<Pressed> {
+        let mut pressed = None;
+        for point in self.points().filter(|point| !self.has_button(point)) {
+            let dot = self.place(canvas, point);
+            if point.quality != point.preset.quality() {
+                canvas.painter.circle_stroke(dot, DOT - 1.0, Stroke::new(1.5, style::ACCENT));
+                continue;
+            }
+            let detail = point.asked_detail();
+            let called = format!("{} at detail {}", point.preset.name(), short(detail as f32));
+            let id = ui.id().with(&called);
+            let response = ui.interact(Rect::from_center_size(dot, TOUCHED), id, Sense::click());
+            widgets::name(&response, &called, false);
+            let colour = if response.hovered() { Color32::WHITE } else { style::WEAK };
+            let corners = [vec2(0.0, -DOT), vec2(DOT, 0.0), vec2(0.0, DOT), vec2(-DOT, 0.0)].map(|way| dot + way);
+            canvas.painter.add(Shape::convex_polygon(corners.into(), colour, Stroke::NONE));
+            if response.on_hover_text(self.about(point)).clicked() {
+                pressed = Some(Pressed::Detail(point.preset, detail));
+            }
+        }
+        pressed
+    }
+
+    /// The presets at the detail that is asked for, as buttons over nothing that is `taken`; the one that was pressed.
+    fn presets(&self, ui: &Ui, canvas: &Canvas<'_>, mut taken: Vec<Rect>) -> Option<Preset> {
         let mut chosen = None;
-        let points = self.curve.iter().flat_map(|curve| &curve.points);
-        let dots: Vec<(&CurvePoint, Pos2)> =
-            points.map(|point| (point, canvas.place(self.scale * point.milliseconds, point.error))).collect();
-        let mut taken: Vec<Rect> = dots.iter().map(|(_, dot)| Rect::from_center_size(*dot, TOUCHED)).collect();
-        let live = self.trail.last().map(|live| canvas.place(live.milliseconds, live.error));
-        taken.extend(live.map(|live| Rect::from_center_size(live, vec2(14.0, 14.0))));
-        for (point, dot) in dots {
+        for point in self.points().filter(|point| self.has_button(point)) {
+            let dot = self.place(canvas, point);
             let in_force = self.is_now(point.preset, point.quality);
             // What has no error has its button below.
-            if point.quality != point.preset.quality() || point.error.is_none() {
+            if self.kind.of(point).is_none() {
                 canvas.painter.circle_stroke(dot, DOT - 1.0, Stroke::new(1.5, style::ACCENT));
                 continue;
             }
@@ -221,96 +346,15 @@ impl Plot<'_> {
     fn about(&self, point: &CurvePoint) -> String {
         let time = short(self.scale * point.milliseconds);
         let (error, p99) = (point.error.map_or("none".into(), percent), point.p99.map_or("none".into(), percent));
+        let (name, asked) = (point.preset.name(), point.asked_detail());
+        let at = if is_same_detail(asked, self.detail) { String::new() } else { format!(" at detail {asked}") };
+        let truth = point.truth.map_or_else(String::new, |truth| format!(", true error {}", percent(truth)));
+        let sound = if point.is_sound { "" } else { "; its world came out unsound, so errors mean little" };
         format!(
-            "{}: {time} ms a tick, density error {error} (99th percentile {p99}); click to go on at it",
-            point.preset.name()
+            "{name}{at}: {time} ms a tick{truth}, density error {error} (99th percentile {p99}){sound}; click to go on \
+             at it"
         )
     }
-}
-
-fn grid(canvas: &Canvas<'_>) {
-    let field = canvas.field;
-    canvas.painter.rect_filled(field, 4.0, Color32::from_rgb(12, 15, 21));
-    let line = |power| Stroke::new(1.0, if power { style::LINE } else { style::LINE.gamma_multiply(0.45) });
-    for mark in canvas.x.marks() {
-        let x = canvas.at(mark.value, 1.0).x;
-        canvas.painter.vline(x, field.y_range(), line(mark.power));
-        if mark.labelled {
-            canvas.text(pos2(x, field.bottom() + 3.0), Align2::CENTER_TOP, &short(mark.value), style::WEAK);
-        }
-    }
-    for mark in canvas.y.marks().into_iter().filter(|mark| mark.value >= FLOOR) {
-        let y = canvas.at(1.0, mark.value).y;
-        canvas.painter.hline(field.x_range(), y, line(mark.power));
-        if mark.labelled {
-            canvas.text(pos2(field.left() - 5.0, y), Align2::RIGHT_CENTER, &percent(mark.value), style::WEAK);
-        }
-    }
-    let below = pos2(field.center().x, field.bottom() + 17.0);
-    canvas.text(below, Align2::CENTER_TOP, "ms a tick", style::WEAK);
-    canvas.text(field.right_top() + vec2(-6.0, 5.0), Align2::RIGHT_TOP, "density error", style::WEAK);
-}
-
-/// What lies beyond the autopilot's bound.
-fn limits(canvas: &Canvas<'_>, time: Option<f32>, error: Option<f32>) {
-    let (field, shade) = (canvas.field, style::WARN.gamma_multiply(0.08));
-    let pen = Stroke::new(1.5, style::WARN.gamma_multiply(0.8));
-    if let Some(time) = time {
-        let x = canvas.at(time, 1.0).x;
-        canvas.painter.rect_filled(field.with_min_x(x), 0.0, shade);
-        canvas.painter.extend(Shape::dashed_line(&[pos2(x, field.top()), pos2(x, field.bottom())], pen, 5.0, 4.0));
-    }
-    if let Some(error) = error {
-        let y = canvas.at(1.0, error).y;
-        canvas.painter.rect_filled(field.with_max_y(y), 0.0, shade);
-        canvas.painter.extend(Shape::dashed_line(&[pos2(field.left(), y), pos2(field.right(), y)], pen, 5.0, 4.0));
-    }
-}
-
-/// The world as it runs, and where it was.
-fn trail(canvas: &Canvas<'_>, trail: &[Live]) {
-    for (k, live) in trail.iter().enumerate() {
-        let age = (k + 1) as f32 / trail.len() as f32;
-        let at = canvas.place(live.milliseconds, live.error);
-        canvas.painter.circle_filled(at, 1.5, LIVE.gamma_multiply(0.45 * age * age));
-    }
-    if let Some(live) = trail.last() {
-        let at = canvas.place(live.milliseconds, live.error);
-        canvas.painter.circle_filled(at, 7.0, LIVE.gamma_multiply(0.25));
-        canvas.painter.circle_filled(at, 3.5, LIVE);
-    }
-}
-
-/// A place for something of `size` beside a dot: inside the field, and over nothing that is `taken` if that can be.
-fn place_beside(dot: Pos2, size: egui::Vec2, field: Rect, taken: &[Rect]) -> Rect {
-    let (near, far) = (8.0 + size.x / 2.0, 9.0 + size.y / 2.0);
-    let places = [
-        vec2(0.0, -far),
-        vec2(0.0, far),
-        vec2(near, 0.0),
-        vec2(-near, 0.0),
-        vec2(near, -far * 0.8),
-        vec2(-near, far * 0.8),
-        vec2(near, far * 0.8),
-        vec2(-near, -far * 0.8),
-        vec2(near, -far * 1.9),
-        vec2(-near, far * 1.9),
-        vec2(near, far * 1.9),
-        vec2(-near, -far * 1.9),
-        vec2(0.0, -far * 2.2),
-        vec2(0.0, far * 2.2),
-        vec2(near, -far * 3.0),
-        vec2(-near, -far * 3.0),
-        vec2(near, far * 3.0),
-        vec2(-near, far * 3.0),
-    ];
-    let rects = places.map(|place| Rect::from_center_size(dot + place, size));
-    let free = |rect: &&Rect| field.contains_rect(**rect) && taken.iter().all(|other| !other.intersects(**rect));
-    rects
-        .iter()
-        .find(free)
-        .or_else(|| rects.iter().find(|rect| field.contains_rect(**rect)))
-        .map_or(rects[0], |rect| *rect)
 }
 
 #[cfg(test)]
@@ -318,21 +362,39 @@ mod tests {
     use super::*;
 
     fn plot<'a>(curve: Option<&'a Curve>, trail: &'a [Live]) -> Plot<'a> {
-        Plot { curve, scale: 1.0, trail, goal: None, now: (Preset::Fast, Preset::Fast.quality()), looked: true }
+        Plot {
+            curve,
+            scale: 1.0,
+            kind: ErrorKind::Density,
+            has_both: false,
+            trail,
+            goal: None,
+            now: (Preset::Fast, Preset::Fast.quality()),
+            detail: 1.0,
+            looked: true,
+            is_measuring: false,
+        }
     }
 
-    /// A curve of all presets, each with twice the cost and half the error of the one before it; `error` is the first one's.
+    /// A curve of all presets, each with twice the cost and half the error of the one before it; `error` is the first
+    /// one's.
     fn curve(error: Option<f32>) -> Curve {
         let point = |preset: Preset| {
             let factor = f32::from(1_u8 << preset as u8);
             let error = error.map(|error| error / factor);
-            CurvePoint { preset, quality: preset.quality(), milliseconds: factor, error, p99: error }
+            let (quality, detail) = (preset.quality(), preset.detail());
+            CurvePoint { preset, quality, detail, milliseconds: factor, error, p99: error, truth: None, is_sound: true }
         };
         Curve { points: Preset::ALL.map(point).into(), ..Curve::default() }
     }
 
-    /// What the plot and its chips write in a window, and which preset a click on the words `on` chooses.
-    fn press(plot: &Plot<'_>, on: &str) -> (Vec<String>, Option<Preset>) {
+    /// What the plot and its chips write in a window, and what a click on the words `on` presses.
+    fn press(plot: &Plot<'_>, on: &str) -> (Vec<String>, Option<Pressed>) {
+        press_on(plot, |shape| matches!(shape, Shape::Text(text) if text.galley.text().starts_with(on)))
+    }
+
+    /// The same of a click on the last of the shapes that are `it`.
+    fn press_on(plot: &Plot<'_>, it: impl Fn(&Shape) -> bool) -> (Vec<String>, Option<Pressed>) {
         let context = egui::Context::default();
         style::apply(&context);
         let (mut words, mut chosen, mut target) = (Vec::new(), None, None);
@@ -352,17 +414,16 @@ mod tests {
             let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, vec2(440.0, 400.0)));
             let input = egui::RawInput { events, screen_rect, ..egui::RawInput::default() };
             let output = context.run_ui(input, |ui| {
-                let pressed = plot.show(ui, vec2(396.0, 200.0)).or(plot.chips(ui));
+                let pressed = plot.show(ui, vec2(396.0, 200.0)).or(plot.chips(ui).map(Pressed::Preset));
                 chosen = chosen.or(pressed);
             });
             words.clear();
-            for shape in output.shapes {
-                if let Shape::Text(text) = shape.shape {
-                    let written = text.galley.text().to_owned();
-                    if written.starts_with(on) {
-                        target = Some(text.visual_bounding_rect().center());
-                    }
-                    words.push(written);
+            for shape in output.shapes.into_iter().map(|clipped| clipped.shape) {
+                if it(&shape) {
+                    target = Some(shape.visual_bounding_rect().center());
+                }
+                if let Shape::Text(text) = shape {
+                    words.push(text.galley.text().to_owned());
                 }
             }
         }
@@ -376,7 +437,7 @@ mod tests {
         for curve in [None, Some(&full), Some(&times)] {
             for preset in Preset::ALL {
                 let (words, chosen) = press(&plot(curve, &live), preset.name());
-                assert_eq!(chosen, Some(preset), "{words:?}");
+                assert_eq!(chosen, Some(Pressed::Preset(preset)), "{words:?}");
             }
         }
     }
@@ -391,24 +452,42 @@ mod tests {
         let empty = hints(None, &[dry]);
         assert!(empty.starts_with("no density error to measure") && empty.ends_with("measure here"), "{empty}");
         assert!(hints(Some(&times), &[dry]).ends_with("times only"));
+        let measuring = Plot { is_measuring: true, ..plot(None, &[]) };
+        assert!(measuring.hints().join("; ").ends_with("it is being measured"));
     }
 
     #[test]
-    fn buttons_avoid_each_other_and_stay_inside() {
-        let field = Rect::from_min_size(pos2(0.0, 0.0), vec2(340.0, 200.0));
-        let mut taken: Vec<Rect> = Vec::new();
-        for dot in [
-            pos2(60.0, 40.0),
-            pos2(75.0, 60.0),
-            pos2(82.0, 66.0),
-            pos2(83.0, 66.0),
-            pos2(150.0, 100.0),
-            pos2(335.0, 195.0),
-        ] {
-            let rect = place_beside(dot, vec2(62.0, 20.0), field, &taken);
-            assert!(field.contains_rect(rect), "{rect:?} sticks out");
-            assert!(taken.iter().all(|other| !other.intersects(rect)), "{rect:?} covers another");
-            taken.push(rect);
-        }
+    fn the_other_error_can_be_chosen_where_there_is_one() {
+        let full = curve(Some(0.1));
+        let live = [Live { milliseconds: 2.0, error: Some(0.1) }];
+        let (words, pressed) = press(&plot(Some(&full), &live), "density error");
+        assert!(pressed.is_none() && !words.contains(&"true error".to_owned()), "{words:?}");
+        let both = Plot { has_both: true, ..plot(Some(&full), &live) };
+        assert_eq!(press(&both, "true error").1, Some(Pressed::Kind(ErrorKind::True)));
+        assert_eq!(press(&both, "density error").1, None, "it is shown");
+    }
+
+    #[test]
+    fn where_the_true_error_is_known_it_is_drawn_over_its_floor() {
+        let mut known = curve(Some(0.1));
+        known.floor = Some(0.002);
+        known.points.iter_mut().for_each(|point| point.truth = point.error);
+        let truth = Plot { kind: ErrorKind::True, has_both: true, ..plot(Some(&known), &[]) };
+        let (words, pressed) = press(&truth, "fine");
+        assert!(words.iter().any(|word| word.starts_with("floor")), "{words:?}");
+        assert_eq!(pressed, Some(Pressed::Preset(Preset::Fine)));
+        let (words, _) = press(&plot(Some(&known), &[]), "fine");
+        assert!(!words.iter().any(|word| word.starts_with("floor")), "the density error has none: {words:?}");
+    }
+
+    #[test]
+    fn what_is_of_another_detail_is_a_mark_that_asks_for_it() {
+        let mut both = curve(Some(0.1));
+        let draft = both.points[1];
+        both.points.push(CurvePoint { detail: 0.5, milliseconds: 0.25, error: Some(0.5), ..draft });
+        let shown = plot(Some(&both), &[]);
+        let (words, pressed) = press_on(&shown, |shape| matches!(shape, Shape::Path(path) if path.closed));
+        assert_eq!(words.iter().filter(|word| *word == "draft").count(), 1, "{words:?}");
+        assert_eq!(pressed, Some(Pressed::Detail(Preset::Draft, 0.5)));
     }
 }
