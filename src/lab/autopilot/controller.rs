@@ -16,7 +16,9 @@ use super::window::{Mean, Window};
 
 /// Over the bound by this factor, a mean over [`SHORT`] is a breach.
 const GROSS: f32 = 1.25;
-/// Windows of the means, s: for a gross breach, …
+/// Windows of the means, s: for how far a move up goes, so that what was before a sudden change has no part in it, …
+const NEWEST: f32 = 0.1;
+/// … for a gross breach, …
 const SHORT: f32 = 0.15;
 /// … for any breach, …
 const LONG: f32 = 0.4;
@@ -213,7 +215,8 @@ impl Controller {
         let cool_down = &mut self.cool_downs[self.level];
         cool_down.whole = (2.0 * cool_down.whole).clamp(self.tuning.first, LONGEST);
         cool_down.left = cool_down.whole;
-        let level = self.first_that_holds(self.level + 1..last, mean.value).unwrap_or(last);
+        let newest = self.mean(NEWEST).map_or(0.0, |newest| self.at_least(newest));
+        let level = self.first_that_holds(self.level + 1..last, mean.value.max(newest)).unwrap_or(last);
         Some(self.move_to(level))
     }
 

@@ -8,8 +8,8 @@ use crate::{
         simd::InstructionSet,
     },
     lab::{
-        autopilot::ladder,
         density::DensityError,
+        dial,
         jobs::{Handle, Share, pause},
         live::accuracy::{Curve, CurvePoint, Survey, SurveyRequest, fingerprint},
         stats,
@@ -178,12 +178,12 @@ impl Work {
         if left.iter().all(|leg| leg.quality != here.quality) {
             left.push(here);
         }
-        left.sort_by(|a, b| ladder::work(&b.quality).total_cmp(&ladder::work(&a.quality)));
+        left.sort_by(|a, b| dial::work(&b.quality).total_cmp(&dial::work(&a.quality)));
         // The game's own time is of a world with sleepers: what its threads make of it shows against the same world.
         if asleep == Asleep::Some {
             left.push(Leg { sleep: true, ..here });
         }
-        let total = left.iter().map(|leg| ladder::work(&leg.quality)).sum();
+        let total = left.iter().map(|leg| dial::work(&leg.quality)).sum();
         let instructions = world.resource::<SolverState>().instructions;
         Self { start, instructions, left, run: None, done: 0.0, total }
     }
@@ -208,7 +208,7 @@ impl Work {
         let under_way = self
             .run
             .as_ref()
-            .map_or(0.0, |run| ladder::work(&run.leg.quality) * run.ticks as f32 / (WARMUP + TICKS) as f32);
+            .map_or(0.0, |run| dial::work(&run.leg.quality) * run.ticks as f32 / (WARMUP + TICKS) as f32);
         ((self.done + under_way) / self.total).min(1.0)
     }
 
@@ -220,7 +220,7 @@ impl Work {
         }
         let run = self.run.as_mut()?;
         let result = run.advance()?;
-        self.done += ladder::work(&run.leg.quality);
+        self.done += dial::work(&run.leg.quality);
         self.run = None;
         Some(result)
     }

@@ -3,6 +3,7 @@
 //! else that is measured.
 
 pub mod axis;
+pub mod dial;
 mod measures;
 pub mod panel;
 mod pilot;

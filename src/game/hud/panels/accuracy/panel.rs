@@ -8,7 +8,7 @@ use crate::{
         hud::{
             panels::accuracy::{
                 axis::percent,
-                measures, pilot,
+                dial, measures, pilot,
                 plot::{Live, Plot},
             },
             style::{self, weak},
@@ -140,6 +140,7 @@ fn show(
             ui.set_width(WIDTH.min(screen.width() - 60.0));
             ui.spacing_mut().button_padding = vec2(7.0, 2.0);
             headline(ui, &setup, milliseconds, &error);
+            dial::show(ui, &setup, autopilot.goal().is_some(), &mut orders);
             let AccuracyPanel { curves, trail, bounds, measures: open, measures_seen: seen, .. } = &mut *panel;
             let curve = curves.get(&scene);
             let scale = curve.and_then(Curve::scale);
