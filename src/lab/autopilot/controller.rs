@@ -101,6 +101,8 @@ pub struct Controller {
     stirred: f32,
     /// The first settled means at this level, over [`CALM`] and [`Tuning::usual`].
     usual: [Option<Mean>; 2],
+    /// What the model expected of this level when it was moved down to; else 0. Much less is a fall, too.
+    expected: f32,
     cool_downs: Vec<CoolDown>,
     /// Observations of the last [`HELD`] seconds, whatever the level.
     held: Window,
@@ -123,6 +125,7 @@ impl Controller {
             age: 0.0,
             stirred: 0.0,
             usual: [None; 2],
+            expected: 0.0,
             held: Window::default(),
             budget: 0.0,
             verdict: Verdict::Settling,
@@ -232,13 +235,17 @@ impl Controller {
         };
         let lowest = lowest.max(self.level.saturating_sub(FARTHEST));
         let level = self.first_that_holds(lowest..self.level, value)?;
-        Some(self.move_to(level))
+        let expected = value * self.model[level] / self.model[self.level];
+        self.move_to(level);
+        self.expected = expected;
+        Some(level)
     }
 
     fn move_to(&mut self, level: usize) -> usize {
         self.level = level;
         self.seen.clear();
         (self.age, self.stirred, self.usual, self.verdict) = (0.0, 0.0, [None; 2], Verdict::Settling);
+        self.expected = 0.0;
         level
     }
 
@@ -246,7 +253,9 @@ impl Controller {
     fn notice_fall(&mut self) {
         for (k, window) in [CALM, self.tuning.usual].into_iter().enumerate() {
             let Some(now) = self.mean(window).filter(|_| self.age > SETTLED + window) else { return };
-            let usual = *self.usual[k].get_or_insert(now);
+            // What was expected may be off by as much as a fall is.
+            let first = Mean { value: now.value.max(self.expected / FELL), ..now };
+            let usual = *self.usual[k].get_or_insert(first);
             let noise = SURE * self.tuning.doubt * (usual.error + now.error);
             if usual.value > FELL * now.value && usual.value - now.value > noise {
                 self.usual = [None; 2];

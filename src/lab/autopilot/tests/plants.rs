@@ -150,7 +150,7 @@ fn an_error_bound_is_held_with_the_least_work() {
         let calm = 0.0035 / real(3);
         let mut now = calm * real(0);
         let mut controller = Controller::new(0.005, OF_ERROR, errors(), 0);
-        let log = fly(&mut controller, 30.0, SAMPLE, 0.15, |time, position| {
+        let log = fly(&mut controller, 60.0, SAMPLE, 0.15, |time, position| {
             let splash = if (10.0..15.0).contains(&time) { 1.5 } else { 1.0 };
             now += (calm * real(position) * splash - now) * 0.6;
             now
@@ -160,20 +160,17 @@ fn an_error_bound_is_held_with_the_least_work() {
             assert!(log.longest_over(0.005) <= 0.5, "x{exponent}: over for {} s", log.longest_over(0.005));
         }
         assert_eq!(log.at(9.0).2, Verdict::Holds);
-        // Two levels a move: after the splash it is back in as many moves as that takes.
+        // Half a second until a breach is met, and two more until a move that went too far is taken back. Two levels a
+        // move: after the splash it is back in as many moves as that takes.
         assert!(
-            log.moves_between(2.0, 10.0) == 0 && log.moves_between(15.0, 30.0) <= model.len().div_ceil(2),
+            log.moves_between(3.0, 10.0) == 0 && log.moves_between(15.0, 60.0) <= model.len().div_ceil(2),
             "x{exponent}: {:?}",
             log.moves
         );
-        let level = log.at(29.0).1;
+        // By then the budget has earned the price of a failure.
+        let level = log.at(59.0).1;
         let cheaper = if level > 1 { calm * real(level - 2) } else { f32::INFINITY };
-        assert!(
-            cheaper > 0.95 * OF_ERROR.aim * 0.005,
-            "x{exponent}: it stays at level {level} for nothing: {:?} {:?}",
-            log.moves,
-            log.steps.iter().step_by(10).map(|s| (s.0, s.1, s.2)).collect::<Vec<_>>()
-        );
+        assert!(cheaper > 0.95 * OF_ERROR.aim * 0.005, "x{exponent}: it stays at level {level} for nothing");
     }
 }
 
@@ -226,8 +223,9 @@ fn a_tighter_bound_is_met_at_once_and_a_wider_one_used() {
 const WATERFALL: [(f32, f32); 6] =
     [(0.862, 0.13), (0.722, 0.14), (0.663, 0.14), (0.455, 0.17), (0.414, 0.19), (0.410, 0.20)];
 
-/// Bounds, %, and the first of these levels whose error is less than what the controller aims at.
-const BOUNDS: [(f32, f32); 4] = [(0.6, 3.0), (0.85, 2.0), (0.91, 1.0), (1.1, 0.0)];
+/// Bounds, %, and the first of these levels that the controller is sure to find: its error with a fifth more, by which the
+/// model may err, is less than what it aims at.
+const BOUNDS: [(f32, f32); 4] = [(0.7, 3.0), (1.0, 2.0), (1.1, 1.0), (1.3, 0.0)];
 
 /// Flies over samples of the waterfall's error: `rest(time)` is the share of it that is left.
 fn fly_over_samples(bound: f32, seed: u64, seconds: f32, rest: impl Fn(f32) -> f32) -> Log {

@@ -39,10 +39,12 @@ pub fn show(ui: &mut Ui, setup: &Setup, piloted: bool, orders: &mut Orders) {
     response.widget_info(|| egui::WidgetInfo::slider(true, f64::from(accuracy.place()), "smooth to exact"));
     let text = match looked_at {
         Some(step) => about(STEPS[step]),
-        None if piloted => format!("{now}; the autopilot goes on from here until a step is chosen"),
+        None if piloted => format!("{now}; to choose a step ends the autopilot"),
         None => now,
     };
     ui.label(weak(text).small());
+    // Where an autopilot stands now, too, is a choice.
+    let chosen = chosen.filter(|step| piloted || accuracy.step() != Some(*step));
     orders.extend(chosen.map(|step| Order::Accuracy(STEPS[step])));
 }
 
@@ -69,7 +71,6 @@ fn track(ui: &mut Ui, accuracy: Accuracy) -> Shown {
     // A finger that goes over details would have the world resampled at each.
     let let_go = response.clicked() || response.drag_stopped();
     let chosen = pointed.filter(|_| let_go).or_else(|| by_key(ui, &response, accuracy));
-    let chosen = chosen.filter(|step| accuracy.step() != Some(*step));
     let place = if is_held { pointed.map(|step| step as f32) } else { None };
     let exact = is_held || accuracy.step().is_some();
     scale.draw(ui.painter(), named, place.unwrap_or(accuracy.place()), exact);
@@ -182,7 +183,7 @@ mod tests {
     }
 
     /// A player in front of the dial: what it shows, and what is ordered by each frame of events.
-    fn play(setup: &Setup, frames: &[Vec<egui::Event>]) -> (Vec<String>, Vec<Order>) {
+    fn play(setup: &Setup, piloted: bool, frames: &[Vec<egui::Event>]) -> (Vec<String>, Vec<Order>) {
         let context = egui::Context::default();
         style::apply(&context);
         let (mut orders, mut words) = (Orders::default(), Vec::new());
@@ -190,7 +191,7 @@ mod tests {
         for events in blank.iter().chain(frames) {
             let screen_rect = Some(egui::Rect::from_min_size(Pos2::ZERO, vec2(412.0, 90.0)));
             let input = egui::RawInput { events: events.clone(), screen_rect, ..egui::RawInput::default() };
-            let output = context.run_ui(input, |ui| show(ui, setup, false, &mut orders));
+            let output = context.run_ui(input, |ui| show(ui, setup, piloted, &mut orders));
             words = output.shapes.iter().filter_map(|shape| text_of(&shape.shape)).collect();
         }
         (words, std::mem::take(&mut *orders))
@@ -216,12 +217,16 @@ mod tests {
     #[test]
     fn a_press_at_the_ends_orders_the_ends_and_where_it_stands_nothing() {
         let at_fine = world(Preset::Fine, 1.0);
-        let press =
-            |x| play(at_fine.get::<Setup>(), &[vec![moved(x)], vec![button(x, true)], vec![button(x, false)]]).1;
-        assert_eq!(press(40.0), [Order::Accuracy(STEPS[0])]);
-        assert_eq!(press(380.0), [Order::Accuracy(STEPS[5])]);
+        let press = |x, piloted| {
+            let frames = [vec![moved(x)], vec![button(x, true)], vec![button(x, false)]];
+            play(at_fine.get::<Setup>(), piloted, &frames).1
+        };
+        assert_eq!(press(40.0, false), [Order::Accuracy(STEPS[0])]);
+        assert_eq!(press(380.0, false), [Order::Accuracy(STEPS[5])]);
         let (left, right) = (8.0 + ENDS, 404.0 - ENDS);
-        assert_eq!(press(left + 0.8 * (right - left)), [], "it is there");
+        let there = left + 0.8 * (right - left);
+        assert_eq!(press(there, false), [], "it is there");
+        assert_eq!(press(there, true), [Order::Accuracy(STEPS[4])], "to stay there, which the autopilot would not");
     }
 
     #[test]
@@ -230,19 +235,19 @@ mod tests {
         let mut frames = vec![vec![moved(64.0)], vec![button(64.0, true)]];
         frames.extend((1..=30).map(|k| vec![moved(64.0 + 10.0 * k as f32)]));
         frames.push(vec![button(364.0, false)]);
-        assert_eq!(play(at_draft.get::<Setup>(), &frames).1, [Order::Accuracy(STEPS[5])]);
+        assert_eq!(play(at_draft.get::<Setup>(), false, &frames).1, [Order::Accuracy(STEPS[5])]);
     }
 
     #[test]
     fn arrows_go_step_by_step_once_it_has_been_pressed() {
         let at_fast = world(Preset::Fast, 1.0);
         let setup = at_fast.get::<Setup>();
-        assert_eq!(play(setup, &[vec![key(Key::ArrowRight)]]).1, [], "not in focus");
+        assert_eq!(play(setup, false, &[vec![key(Key::ArrowRight)]]).1, [], "not in focus");
         let x = 8.0 + ENDS + 0.4 * (396.0 - 2.0 * ENDS);
         let focus = [vec![moved(x)], vec![button(x, true)], vec![button(x, false)]];
         for (pressed, expected) in [(Key::ArrowRight, 3), (Key::ArrowLeft, 1), (Key::ArrowUp, 3), (Key::ArrowDown, 1)] {
             let frames: Vec<_> = focus.iter().cloned().chain([vec![key(pressed)]]).collect();
-            assert_eq!(play(setup, &frames).1, [Order::Accuracy(STEPS[expected])], "{pressed:?}");
+            assert_eq!(play(setup, false, &frames).1, [Order::Accuracy(STEPS[expected])], "{pressed:?}");
         }
     }
 
@@ -254,7 +259,7 @@ mod tests {
 
     #[test]
     fn it_says_where_it_stands_and_what_that_takes() {
-        let says = |preset, detail| play(world(preset, detail).get::<Setup>(), &[]).0.pop().unwrap();
+        let says = |preset, detail| play(world(preset, detail).get::<Setup>(), false, &[]).0.pop().unwrap();
         assert_eq!(says(Preset::Draft, 0.5), "draft at detail ½: ¼ of the particles");
         assert_eq!(says(Preset::Fast, 1.0), "fast, at the scene's own detail");
         assert_eq!(says(Preset::Reference, 1.0), "reference, which is fine at detail 2: 4 × the particles");

@@ -158,7 +158,7 @@ fn show(
             measure(ui, &survey, curve, scale, (&split, &bindings), &mut orders);
             ui.separator();
             pilot::show(ui, &autopilot, bounds, &mut orders);
-            pilot::status(ui, &autopilot, &setup, milliseconds, error.mean());
+            pilot::status(ui, &autopilot, &setup, (milliseconds, error.mean()), &mut orders);
             ui.separator();
             stages(ui, &ledger, &error);
             ui.separator();
