@@ -1,5 +1,5 @@
-//! The dial from smooth to exact: qualities and details in one order, each step dearer than the one before it and truer.
-//! The autopilots' ladder stands on the same steps.
+//! The dial from smooth to exact: qualities and details in one order, each step dearer than the one before it and
+//! truer. The autopilots' ladder stands on the same steps.
 
 use crate::{
     kernel::params::{Preset, Quality},
@@ -79,8 +79,8 @@ impl Accuracy {
         })
     }
 
-    /// Where it stands on the dial: the number of its step; what is none stands by its work, between two of them or at an
-    /// end.
+    /// Where it stands on the dial: the number of its step; what is none stands by its work, between two of them or at
+    /// an end.
     pub fn place(self) -> f32 {
         if let Some(step) = self.step() {
             return step as f32;
@@ -95,8 +95,8 @@ impl Accuracy {
         }
     }
 
-    /// Work of a tick, in units of an iteration over the particles that the scene has at detail 1. Where motion is fast,
-    /// a finer detail takes more substeps, too.
+    /// Work of a tick, in units of an iteration over the particles that the scene has at detail 1. Where motion is
+    /// fast, a finer detail takes more substeps, too.
     fn work(self) -> f32 {
         work(&self.quality) * (self.detail * self.detail) as f32
     }

@@ -27,8 +27,8 @@ pub fn note_cover(mut cover: ResMut<HudCover>, mut contexts: EguiContexts) -> Re
     Ok(())
 }
 
-/// Keys belong to the game unless a text field has them; egui would move its focus with Tab and press what is focused with
-/// Space. What else is in focus has the arrows.
+/// Keys belong to the game unless a text field has them; egui would move its focus with Tab and press what is focused
+/// with Space. What else is in focus has the arrows.
 pub fn keep_keys(mut contexts: Query<(&mut EguiContext, &mut EguiInput)>, mut hud: ResMut<HudKeys>) {
     for (mut context, mut input) in &mut contexts {
         let context = context.get_mut();

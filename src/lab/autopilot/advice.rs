@@ -1,5 +1,6 @@
-//! What the autopilot advises and leaves to the player: another detail, where the time can't be held at this one, or where
-//! there is time for a finer one, which buys more truth than any quality. It never changes the detail itself (docs/detail.md).
+//! What the autopilot advises and leaves to the player: another detail, where the time can't be held at this one, or
+//! where there is time for a finer one, which buys more truth than any quality. It never changes the detail itself
+//! (docs/detail.md).
 
 use crate::{
     kernel::params::{Preset, Quality},
@@ -9,7 +10,8 @@ use crate::{
 
 /// The coarsest detail that is advised: at a quarter a wall of a single cell is lost.
 const COARSEST: f64 = 0.5;
-/// Time of a tick at twice the detail over that at the same quality: four times the particles, in up to twice the substeps.
+/// Time of a tick at twice the detail over that at the same quality: four times the particles, in up to twice the
+/// substeps.
 const FINER: f32 = 8.0;
 /// The same at half of it: a quarter of the particles, in as many substeps if none was for fast motion.
 const COARSER: f32 = 0.25;
@@ -69,8 +71,8 @@ mod tests {
 
     #[test]
     fn what_is_advised_is_not_taken_back_by_the_next_advice() {
-        // From the finer detail, at what was expected or half of it, the coarser is not advised unless that can't be held;
-        // from the coarser one the finer only where it would take less than what could not be held.
+        // From the finer detail, at what was expected or half of it, the coarser is not advised unless that can't be
+        // held; from the coarser one the finer only where it would take less than what could not be held.
         for milliseconds in [9.0, 20.0, 80.0] {
             let Some(there) = coarser(now(Preset::Draft, milliseconds, 1.0)) else {
                 panic!("none from {milliseconds}")

@@ -1,14 +1,17 @@
-//! Holds a measured quantity under a bound by choosing a level of a ladder. Each level relieves the quantity more than the
-//! one before it. The controller knows no clock, no world and no quality: the same observations give the same decisions.
+//! Holds a measured quantity under a bound by choosing a level of a ladder. Each level relieves the quantity more than
+//! the one before it. The controller knows no clock, no world and no quality: the same observations give the same
+//! decisions.
 //!
-//! - **Up** (more relief): a mean that is surely over the bound is a breach. The level goes up to the first that the model
-//!   expects below [`Tuning::aim`] of the bound.
+//! - **Up** (more relief): a mean that is surely over the bound is a breach. The level goes up to the first that the
+//!   model expects below [`Tuning::aim`] of the bound.
 //! - **Down** (less relief): to the first level that the model expects below [`Tuning::aim`] of the bound. The room
 //!   between the two is the hysteresis.
-//! - **Cool-down**: a level that was left because of a breach is not tried again for some seconds, twice as many each time.
-//! - **Budget**: the time that the quantity may still be over the bound. It earns a small share of the time that passes and
-//!   pays for the time over the bound. A move down waits until the budget holds the price of a failure ([`PRICE`]). When the
-//!   budget is spent, and soon after a move, the quantity need not be surely over the bound: over it is a breach.
+//! - **Cool-down**: a level that was left because of a breach is not tried again for some seconds, twice as many each
+//!   time.
+//! - **Budget**: the time that the quantity may still be over the bound. It earns a small share of the time that passes
+//!   and pays for the time over the bound. A move down waits until the budget holds the price of a failure ([`PRICE`]).
+//!   When the budget is spent, and soon after a move, the quantity need not be surely over the bound: over it is a
+//!   breach.
 //!
 //! When the quantity itself falls, all cool-downs end and the budget holds that price at once.
 
@@ -58,7 +61,8 @@ pub struct Tuning {
     pub aim: f32,
     /// Standard errors by which a mean is doubted. 0: none.
     pub doubt: f32,
-    /// Share of the time in which it may be over the bound. Higher: cheaper levels, more moves. 1: the budget never falls.
+    /// Share of the time in which it may be over the bound. Higher: cheaper levels, more moves. 1: the budget never
+    /// falls.
     pub allowed: f32,
     /// Cool-down after the first breach at a level, s.
     pub first: f32,
@@ -223,9 +227,9 @@ impl Controller {
         Some(self.move_to(level))
     }
 
-    /// Moves down if a lower level is expected to hold and has no cool-down. The highest level that had a breach is tried
-    /// before those below it, which relieve less. While the budget holds less than the price, it goes down only from a
-    /// level that relieves more than it had to: one level at a time, and not to the one next to that breach.
+    /// Moves down if a lower level is expected to hold and has no cool-down. The highest level that had a breach is
+    /// tried before those below it, which relieve less. While the budget holds less than the price, it goes down only
+    /// from a level that relieves more than it had to: one level at a time, and not to the one next to that breach.
     fn move_down(&mut self, value: f32) -> Option<usize> {
         let breached = self.cool_downs[..self.level].iter().rposition(|cool_down| cool_down.whole > 0.0);
         let lowest = if self.budget >= PRICE {

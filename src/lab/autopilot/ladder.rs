@@ -1,5 +1,5 @@
-//! The qualities that the autopilot chooses from, cheapest first: the steps of the dial that keep the detail, and what lies
-//! between two of them.
+//! The qualities that the autopilot chooses from, cheapest first: the steps of the dial that keep the detail, and what
+//! lies between two of them.
 
 use crate::{
     kernel::params::{Preset, Quality},
@@ -7,19 +7,19 @@ use crate::{
 };
 use bevy::math::ops;
 
-/// Substeps of the highest level, which is otherwise as the finest preset: what holds an error that no preset does. More of
-/// them cost more and err as much (see [`ERROR_EXPONENT`]).
+/// Substeps of the highest level, which is otherwise as the finest preset: what holds an error that no preset does.
+/// More of them cost more and err as much (see [`ERROR_EXPONENT`]).
 const MOST_SUBSTEPS: u32 = 4;
 /// Work from one level to the next grows at least by this factor.
 const LEAST_STEP: f32 = 1.25;
-/// How fast the density error falls with the work. Mean error of seconds 1 to 15 at a work of 3, 3.6, 6, 7.2, 10.8, 14.4
-/// and then 18, 30 and 48 (commit 7739fb9, the same on every machine), %:
+/// How fast the density error falls with the work. Mean error of seconds 1 to 15 at a work of 3, 3.6, 6, 7.2, 10.8,
+/// 14.4 and then 18, 30 and 48 (commit 7739fb9, the same on every machine), %:
 ///
 /// - `dam_break`: 0.69, 0.58, 0.56, 0.46, 0.41, 0.40, then 0.42, 0.41, 0.42;
 /// - `waterfall`: 0.75, 0.61, 0.57, 0.40, 0.37, 0.37, then 0.35, 0.36, 0.35.
 ///
-/// Least squares up to 14.4: error ∝ work^−0.34 and ^−0.47. Between neighbours and over two levels this guess errs by at
-/// most a fifth on the way up.
+/// Least squares up to 14.4: error ∝ work^−0.34 and ^−0.47. Between neighbours and over two levels this guess errs by
+/// at most a fifth on the way up.
 const ERROR_EXPONENT: f32 = -0.4;
 
 /// One quality.

@@ -18,16 +18,16 @@ use crate::{
 };
 use bevy::prelude::{App, FixedUpdate, IntoScheduleConfigs, Res, ResMut, Resource};
 
-/// Times of ticks follow the work at once. Single ticks that take much longer are no part of it. A time over the bound is
-/// soon seen and soon over: no budget.
+/// Times of ticks follow the work at once. Single ticks that take much longer are no part of it. A time over the bound
+/// is soon seen and soon over: no budget.
 pub(super) const OF_TIME: Tuning =
     Tuning { settle: 0.05, quick: 0.6, usual: 0.6, trim: 0.08, aim: 0.7, doubt: 0.0, allowed: 1.0, first: 4.0 };
-/// A liquid takes a while to feel another quality. A sample of 320 particles meets few of those that carry the error, so
-/// that single samples are several times the mean, and are a part of it. It is to be over its bound for at most 2 % of the
-/// time; less is allowed here, so that there is room for the first breaches.
+/// A liquid takes a while to feel another quality. A sample of 320 particles meets few of those that carry the error,
+/// so that single samples are several times the mean, and are a part of it. It is to be over its bound for at most 2 %
+/// of the time; less is allowed here, so that there is room for the first breaches.
 ///
-/// It aims at four fifths, as the guess of what a level does errs by a fifth (`ladder::ERROR_EXPONENT`); at less, no level
-/// would do for a bound that half of them hold.
+/// It aims at four fifths, as the guess of what a level does errs by a fifth (`ladder::ERROR_EXPONENT`); at less, no
+/// level would do for a bound that half of them hold.
 pub(super) const OF_ERROR: Tuning =
     Tuning { settle: 0.1, quick: 0.8, usual: 8.0, trim: 0.0, aim: 0.8, doubt: 1.5, allowed: 0.015, first: 8.0 };
 

@@ -223,8 +223,8 @@ fn a_tighter_bound_is_met_at_once_and_a_wider_one_used() {
 const WATERFALL: [(f32, f32); 6] =
     [(0.862, 0.13), (0.722, 0.14), (0.663, 0.14), (0.455, 0.17), (0.414, 0.19), (0.410, 0.20)];
 
-/// Bounds, %, and the first of these levels that the controller is sure to find: its error with a fifth more, by which the
-/// model may err, is less than what it aims at.
+/// Bounds, %, and the first of these levels that the controller is sure to find: its error with a fifth more, by which
+/// the model may err, is less than what it aims at.
 const BOUNDS: [(f32, f32); 4] = [(0.7, 3.0), (1.0, 2.0), (1.1, 1.0), (1.3, 0.0)];
 
 /// Flies over samples of the waterfall's error: `rest(time)` is the share of it that is left.

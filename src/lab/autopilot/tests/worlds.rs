@@ -1,5 +1,5 @@
-//! The autopilot in real scenes: for how long error and time are over their bound, how often the quality changes, and what
-//! it costs. The time is counted work, so that it is the same on every machine.
+//! The autopilot in real scenes: for how long error and time are over their bound, how often the quality changes, and
+//! what it costs. The time is counted work, so that it is the same on every machine.
 
 use crate::{
     kernel::units::{TICK_SECONDS, TICKS_PER_SECOND},
@@ -30,7 +30,8 @@ use std::{collections::VecDeque, sync::Arc, time::Duration};
 const MINUTE: u64 = 3600;
 /// Ticks that it is given to begin: the first second.
 const BEGUN: u64 = 60;
-/// What a substep of an air cell takes, in iterations of a particle: 0.15 by the ledger in `waterfall` and `wind_tunnel`.
+/// What a substep of an air cell takes, in iterations of a particle: 0.15 by the ledger in `waterfall` and
+/// `wind_tunnel`.
 const AIR_CELL: f32 = 0.15;
 /// ms that the bound on a tick's work stands for.
 const BOUND_MS: f32 = 8.0;
@@ -106,9 +107,9 @@ fn check(scene: &str, percent: f32, minutes: u64, most_work: f32) {
     assert!(held.work <= most_work, "{held:?}");
 }
 
-// The bounds lie between what `draft` and `fine` leave in these scenes (docs/accuracy.md): 0.77 and 0.44 % in the waterfall, 0.63
-// and 0.46 % in the dam break. The level above `fine`, three substeps of four iterations, takes a work of 10.8: a tenth more is
-// given for what it takes to find that it is enough.
+// The bounds lie between what `draft` and `fine` leave in these scenes (docs/accuracy.md): 0.77 and 0.44 % in the
+// waterfall, 0.63 and 0.46 % in the dam break. The level above `fine`, three substeps of four iterations, takes a work
+// of 10.8: a tenth more is given for what it takes to find that it is enough.
 #[test]
 fn the_error_of_the_waterfall_is_held_at_a_tight_bound() {
     check("waterfall", 0.6, 1, 11.9);
@@ -121,8 +122,9 @@ fn the_error_of_the_dam_break_is_held() {
 
 #[test]
 fn the_error_of_the_wind_tunnel_is_held_at_a_bound_that_droplets_can_keep() {
-    // There is little inside of droplets, and what there is stands a few per cent too thin at any quality. A twentieth can't be
-    // seen in a droplet, and no more than the dearest preset in real time, `fine` of a work of 7.2, may be spent on it.
+    // There is little inside of droplets, and what there is stands a few per cent too thin at any quality. A twentieth
+    // can't be seen in a droplet, and no more than the dearest preset in real time, `fine` of a work of 7.2, may be
+    // spent on it.
     check("wind_tunnel", 5.0, 2, 7.2);
 }
 
@@ -164,8 +166,9 @@ fn check_time(scene: &str, bound: f32) {
     assert!(held.used >= 0.7 / 1.67, "the time is not used: {held:?}");
 }
 
-// The bounds of the time lie between what `draft` and `fine` take, so that there are levels on both sides. In the dam break,
-// 10,082 particles, that is 30,000 and 73,000, and the scene's own `balanced`, 60,000, is over the bound at once.
+// The bounds of the time lie between what `draft` and `fine` take, so that there are levels on both sides. In the dam
+// break, 10,082 particles, that is 30,000 and 73,000, and the scene's own `balanced`, 60,000, is over the bound at
+// once.
 #[test]
 fn the_time_of_the_dam_break_is_held() {
     check_time("dam_break", 50_000.0);

@@ -90,8 +90,8 @@ pub fn status(
     ui.horizontal_wrapped(|ui| {
         let (detail, time) = (detail_name(advice.detail), short(advice.milliseconds));
         ui.label(weak(format!("detail {detail} would take some {time} ms")));
-        let told = "The autopilot keeps the detail: rock and drops are not the same after a change and back. The change can \
-                    be undone";
+        let told = "The autopilot keeps the detail: rock and drops are not the same after a change and back. The \
+                    change can be undone";
         if ui.button(format!("go to detail {detail}")).on_hover_text(told).clicked() {
             orders.push(Order::Detail(advice.detail));
         }
