@@ -20,7 +20,7 @@ use crate::{
         views::table::Shown,
     },
     kernel::{element::ElementId, params::Preset, solids::Solids},
-    lab::{autopilot::Autopilot, gauntlet::CASES, live::accuracy::Survey},
+    lab::{autopilot::Autopilot, dial::Step, gauntlet::CASES, live::accuracy::Survey},
     scene::{
         self,
         effects::{EffectModes, Mode},
@@ -55,7 +55,11 @@ pub fn carry_out(world: &mut World) {
             }
             Order::Detail(detail) => {
                 let preset = world.resource::<Setup>().preset;
-                change_detail(world, detail, preset, Intent::Detail { detail });
+                change_detail(world, Step { preset, detail }, &[Intent::Detail { detail }]);
+            }
+            Order::Accuracy(step) => {
+                world.resource_mut::<Autopilot>().hold(None);
+                go_to(world, step);
             }
             Order::SecondQuality(preset) => split::choose(world, preset),
             Order::Hold(goal) => world.resource_mut::<Autopilot>().hold(goal),
@@ -87,19 +91,41 @@ fn choose_quality(world: &mut World, preset: Preset) {
     if preset.detail() == setup.preset.detail() {
         world.resource_mut::<IntentQueue>().push(intent);
     } else {
-        change_detail(world, setup.asked_detail(), preset, intent);
+        let detail = setup.asked_detail();
+        change_detail(world, Step { preset, detail }, &[intent]);
+    }
+}
+
+/// Goes on at a step of the dial, which is undone as one where the world is resampled.
+fn go_to(world: &mut World, step: Step) {
+    let Step { preset, detail } = step;
+    let setup = world.resource::<Setup>();
+    let (now, asked) = (setup.preset, setup.asked_detail());
+    if (asked / detail - 1.0).abs() < 1e-6 {
+        return choose_quality(world, preset);
+    }
+    let intents = [Intent::Detail { detail }, Intent::Quality { preset, quality: preset.quality() }];
+    // Of the two ways that by the finer world, which loses no rock, if that fits.
+    let detail_first = detail * now.detail() >= asked * preset.detail();
+    let between = if detail_first { (detail, now) } else { (asked, preset) };
+    let fits = control::check_detail(world, between.0, between.1).is_ok();
+    if detail_first == fits {
+        change_detail(world, step, &intents);
+    } else {
+        let [first, second] = intents;
+        change_detail(world, step, &[second, first]);
     }
 }
 
 /// Goes on at another detail, which can be undone; or says why that is not possible. It is done at once: what the
 /// pointer does next is in the new d.
-fn change_detail(world: &mut World, detail: f64, preset: Preset, intent: Intent) {
+fn change_detail(world: &mut World, Step { preset, detail }: Step, intents: &[Intent]) {
     if let Err(error) = control::check_detail(world, detail, preset) {
         world.resource_mut::<Toasts>().warn(error);
         return;
     }
     history::checkpoint(world);
-    world.resource_mut::<IntentQueue>().push(intent);
+    intents.iter().for_each(|intent| world.resource_mut::<IntentQueue>().push(*intent));
     control::apply_edits(world);
     let count = world.resource::<ParticleStore>().len() + world.resource::<Rock>().count();
     world.resource_mut::<Toasts>().say(format!("Detail {detail}: {} particles", grouped(count)));

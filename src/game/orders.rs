@@ -4,7 +4,7 @@
 use crate::{
     game::actions::Action,
     kernel::params::Preset,
-    lab::{autopilot::Goal, live::accuracy::SurveyRequest},
+    lab::{autopilot::Goal, dial::Step, live::accuracy::SurveyRequest},
     scene::effects::{Effect, Mode},
 };
 use bevy::prelude::{Deref, DerefMut, Resource};
@@ -21,6 +21,8 @@ pub enum Order {
     Quality(Preset),
     /// Go on at another detail, beside which the quality may have its own.
     Detail(f64),
+    /// Go on at a step of the dial: at another quality and another detail.
+    Accuracy(Step),
     /// Start the second world of the split again from the first, at this quality.
     SecondQuality(Preset),
     /// Let the autopilot hold something, or nothing.

@@ -47,7 +47,7 @@ impl Plugin for GamePlugin {
             .init_resource::<toasts::Toasts>()
             .init_resource::<input::pointer::Pointer>()
             .init_resource::<input::pointer::HudCover>()
-            .init_resource::<input::keys::Typing>()
+            .init_resource::<input::keys::HudKeys>()
             .init_resource::<input::touch::Fingers>()
             .init_resource::<input::strokes::DragState>()
             .init_resource::<accuracy::Watched>()

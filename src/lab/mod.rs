@@ -12,6 +12,7 @@ pub mod chart;
 pub mod coarse;
 pub mod colours;
 pub mod density;
+pub mod dial;
 pub mod difference;
 mod drift;
 #[cfg(not(target_arch = "wasm32"))]

@@ -2,7 +2,7 @@
 
 use crate::game::{
     camera::Area,
-    input::{keys::Typing, pointer::HudCover},
+    input::{keys::HudKeys, pointer::HudCover},
 };
 use bevy::prelude::{Query, ResMut, Result};
 use bevy_egui::{EguiContext, EguiContexts, EguiInput, egui};
@@ -27,17 +27,27 @@ pub fn note_cover(mut cover: ResMut<HudCover>, mut contexts: EguiContexts) -> Re
     Ok(())
 }
 
-/// Keys belong to the game unless a text field has them; egui would move its focus with Tab and arrows and press what
-/// is focused with Space.
-pub fn keep_keys(mut contexts: Query<(&mut EguiContext, &mut EguiInput)>, mut typing: ResMut<Typing>) {
+/// Keys belong to the game unless a text field has them; egui would move its focus with Tab and press what is focused
+/// with Space. What else is in focus has the arrows.
+pub fn keep_keys(mut contexts: Query<(&mut EguiContext, &mut EguiInput)>, mut hud: ResMut<HudKeys>) {
     for (mut context, mut input) in &mut contexts {
-        let in_text = context.get_mut().text_edit_focused();
-        typing.0 = in_text;
-        if !in_text {
-            input.events.retain(|event| {
-                !matches!(event, egui::Event::Key { key, .. } if *key != egui::Key::Escape)
-                    && !matches!(event, egui::Event::Text(_))
-            });
+        let context = context.get_mut();
+        *hud = match context.memory(|memory| memory.focused()) {
+            _ if context.text_edit_focused() => HudKeys::All,
+            Some(_) => HudKeys::Arrows,
+            None => HudKeys::None,
+        };
+        let is_kept = |event: &egui::Event| match event {
+            egui::Event::Key { key, .. } => *key == egui::Key::Escape || *hud == HudKeys::Arrows && is_arrow(*key),
+            egui::Event::Text(_) => false,
+            _ => true,
+        };
+        if *hud != HudKeys::All {
+            input.events.retain(is_kept);
         }
     }
+}
+
+fn is_arrow(key: egui::Key) -> bool {
+    matches!(key, egui::Key::ArrowLeft | egui::Key::ArrowRight | egui::Key::ArrowUp | egui::Key::ArrowDown)
 }

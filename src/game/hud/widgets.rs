@@ -14,6 +14,7 @@ use crate::{
         element::ElementTable,
         params::{Preset, Quality},
     },
+    sim::numbers,
 };
 use bevy_egui::egui::{self, Align2, Color32, FontId, Rect, Response, RichText, TextStyle, Ui, Vec2, vec2};
 
@@ -79,6 +80,12 @@ fn about(preset: Preset) -> &'static str {
 
 /// Details to choose from, beside which a quality may have its own.
 const DETAILS: [(f64, &str); 5] = [(0.25, "¼"), (0.5, "½"), (1.0, "1"), (2.0, "2"), (4.0, "4")];
+
+/// A detail on the screen.
+pub fn detail_name(detail: f64) -> String {
+    let known = DETAILS.iter().find(|(known, _)| (detail / known - 1.0).abs() < 1e-3);
+    known.map_or_else(|| numbers::short(detail as f32), |(_, name)| (*name).to_owned())
+}
 
 /// The row of details; says which one is chosen.
 pub fn detail_row(ui: &mut Ui, now: f64) -> Option<f64> {

@@ -1,7 +1,7 @@
 //! Reads keyboard, mouse and fingers once a frame, event by event in the order in which they happened: at a low frame rate a
 //! whole stroke, or a chord of keys, lies between two frames.
 
-use crate::game::input::{bindings::Mods, keys::Typing, pointer::PointerInput, touch::Fingers};
+use crate::game::input::{bindings::Mods, keys::HudKeys, pointer::PointerInput, touch::Fingers};
 use bevy::{
     input::ButtonState,
     prelude::{ButtonInput, KeyCode, Local, MessageReader, Real, Res, ResMut, Time},
@@ -12,7 +12,7 @@ use bevy::{
 pub fn read_devices(
     mut events: MessageReader<WindowEvent>,
     keyboard: Res<ButtonInput<KeyCode>>,
-    typing: Res<Typing>,
+    hud: Res<HudKeys>,
     time: Res<Time<Real>>,
     mut mods: Local<Mods>,
     mut fingers: ResMut<Fingers>,
@@ -23,7 +23,7 @@ pub fn read_devices(
         match event {
             WindowEvent::KeyboardInput(key) => {
                 mods.follow(key.key_code, key.state == ButtonState::Pressed);
-                if key.state == ButtonState::Pressed && !key.repeat && !typing.0 {
+                if key.state == ButtonState::Pressed && !key.repeat && *hud != HudKeys::All {
                     pointer.key(key.key_code, *mods);
                 }
             }

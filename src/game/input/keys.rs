@@ -11,19 +11,27 @@ use glam::Vec2;
 /// Speed of the picture under a held arrow, pixels a second.
 const PAN_SPEED: f32 = 700.0;
 
-/// Whether the player is typing into a text field: then keys are letters.
+/// Which keys the HUD has for now; the others are the game's.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Typing(pub bool);
+pub enum HudKeys {
+    /// None.
+    #[default]
+    None,
+    /// The arrows: they move what is in focus.
+    Arrows,
+    /// All: the player is typing into a text field.
+    All,
+}
 
 /// Moves the picture while an arrow is held.
 pub fn pan(
     keys: Res<ButtonInput<KeyCode>>,
-    typing: Res<Typing>,
+    hud: Res<HudKeys>,
     bindings: Res<Bindings>,
     time: Res<Time<Real>>,
     mut camera: ResMut<WorldCamera>,
 ) {
-    if typing.0 || camera.zoom() == 1.0 {
+    if *hud != HudKeys::None || camera.zoom() == 1.0 {
         return;
     }
     for binding in bindings.iter() {

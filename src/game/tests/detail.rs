@@ -9,7 +9,11 @@ use crate::{
         tools::Toolbox,
     },
     kernel::params::Preset,
-    lab::split::Split,
+    lab::{
+        autopilot::{Autopilot, Goal},
+        dial::{Accuracy, STEPS, Step},
+        split::Split,
+    },
     sim::{
         intent::Intent,
         state::{ParticleStore, Setup},
@@ -128,4 +132,36 @@ fn worlds_of_two_details_stand_side_by_side_and_take_the_same_input() {
     order(&mut player, Order::Detail(0.5));
     player.frames(3);
     assert_eq!((player.particles(), second(&player)), (count / 4, (count, 1.0)), "both go to half of theirs");
+}
+
+#[test]
+fn a_step_of_the_dial_changes_quality_and_detail_in_one_and_is_undone_in_one() {
+    let mut player = at_the_dam();
+    player.chord(&[KeyCode::Space]);
+    let now = |player: &Player| (player.world().resource::<Setup>().preset, detail(player.world()), player.particles());
+    let (start, hash, count) = (now(&player), player.hash(), player.particles());
+    player.0.world_mut().resource_mut::<Autopilot>().hold(Some(Goal::Time(4.0)));
+    for step in [STEPS[0], STEPS[5], STEPS[4]] {
+        order(&mut player, Order::Accuracy(step));
+        let particles = (count as f64 * step.particles()) as usize;
+        assert_eq!(now(&player), (step.preset, step.own_detail() as f32, particles));
+        assert_eq!(Accuracy::of(player.world().resource::<Setup>()).step().map(|found| STEPS[found]), Some(step));
+    }
+    assert_eq!(player.world().resource::<Autopilot>().goal(), None, "a choice by hand ends the autopilot");
+    for _ in 0..3 {
+        player.chord(&[KeyCode::ControlLeft, KeyCode::KeyZ]);
+    }
+    assert_eq!((now(&player), player.hash()), (start, hash), "three orders, three times undone");
+}
+
+#[test]
+fn a_step_of_the_dial_of_the_same_detail_by_another_name_keeps_all_matter() {
+    let mut player = at_the_dam();
+    let count = player.particles();
+    // The reference at half the detail has as many particles as any other quality at detail 1.
+    order(&mut player, Order::Accuracy(Step { preset: Preset::Reference, detail: 0.5 }));
+    assert_eq!(player.particles(), count);
+    order(&mut player, Order::Accuracy(STEPS[2]));
+    assert_eq!((player.particles(), player.world().resource::<Setup>().preset), (count, Preset::Fast));
+    assert_eq!(detail(player.world()), 1.0);
 }

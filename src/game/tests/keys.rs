@@ -40,9 +40,31 @@ fn sampling_takes_up_what_is_under_the_pointer() {
 #[test]
 fn letters_in_a_text_field_are_no_keys() {
     let mut player = Player::new();
-    player.0.insert_resource(Typing(true));
+    player.0.insert_resource(HudKeys::All);
     player.chord(&[KeyCode::KeyP]);
     assert!(!player.world().resource::<Pace>().paused);
+}
+
+#[test]
+fn a_slider_in_focus_has_the_arrows_and_the_game_all_other_keys() {
+    let mut player = Player::new();
+    player.0.world_mut().resource_mut::<Orders>().push(Order::Act(crate::game::actions::Action::Zoom(3)));
+    player.frame();
+    let seen = |player: &Player| player.world().resource::<WorldCamera>().to_world(Vec2::new(300.0, 200.0));
+    let mut pan = |keys: HudKeys| {
+        player.0.insert_resource(keys);
+        let before = seen(&player);
+        player.key(KeyCode::ArrowRight, ButtonState::Pressed);
+        player.0.world_mut().resource_mut::<ButtonInput<KeyCode>>().press(KeyCode::ArrowRight);
+        player.frames(3);
+        player.0.world_mut().resource_mut::<ButtonInput<KeyCode>>().release(KeyCode::ArrowRight);
+        player.key(KeyCode::ArrowRight, ButtonState::Released);
+        player.frame();
+        seen(&player) != before
+    };
+    assert!(pan(HudKeys::None) && !pan(HudKeys::Arrows));
+    player.chord(&[KeyCode::KeyP]);
+    assert!(player.world().resource::<Pace>().paused);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use crate::{
     game::{
         GamePlugin,
         camera::{Area, WorldCamera},
-        input::{keys::Typing, pointer::HudCover},
+        input::{keys::HudKeys, pointer::HudCover},
         orders::{Order, Orders},
         panels::Panels,
         toasts::Toasts,

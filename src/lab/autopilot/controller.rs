@@ -1,14 +1,17 @@
-//! Holds a measured quantity under a bound by choosing a level of a ladder. Each level relieves the quantity more than the
-//! one before it. The controller knows no clock, no world and no quality: the same observations give the same decisions.
+//! Holds a measured quantity under a bound by choosing a level of a ladder. Each level relieves the quantity more than
+//! the one before it. The controller knows no clock, no world and no quality: the same observations give the same
+//! decisions.
 //!
-//! - **Up** (more relief): a mean that is surely over the bound is a breach. The level goes up to the first that the model
-//!   expects below [`Tuning::aim`] of the bound.
+//! - **Up** (more relief): a mean that is surely over the bound is a breach. The level goes up to the first that the
+//!   model expects below [`Tuning::aim`] of the bound.
 //! - **Down** (less relief): to the first level that the model expects below [`Tuning::aim`] of the bound. The room
 //!   between the two is the hysteresis.
-//! - **Cool-down**: a level that was left because of a breach is not tried again for some seconds, twice as many each time.
-//! - **Budget**: the time that the quantity may still be over the bound. It earns a small share of the time that passes and
-//!   pays for the time over the bound. A move down waits until the budget holds the price of a failure ([`PRICE`]). When the
-//!   budget is spent, and soon after a move, the quantity need not be surely over the bound: over it is a breach.
+//! - **Cool-down**: a level that was left because of a breach is not tried again for some seconds, twice as many each
+//!   time.
+//! - **Budget**: the time that the quantity may still be over the bound. It earns a small share of the time that passes
+//!   and pays for the time over the bound. A move down waits until the budget holds the price of a failure ([`PRICE`]).
+//!   When the budget is spent, and soon after a move, the quantity need not be surely over the bound: over it is a
+//!   breach.
 //!
 //! When the quantity itself falls, all cool-downs end and the budget holds that price at once.
 
@@ -16,7 +19,9 @@ use super::window::{Mean, Window};
 
 /// Over the bound by this factor, a mean over [`SHORT`] is a breach.
 const GROSS: f32 = 1.25;
-/// Windows of the means, s: for a gross breach, …
+/// Windows of the means, s: for how far a move up goes, so that what was before a sudden change has no part in it, …
+const NEWEST: f32 = 0.1;
+/// … for a gross breach, …
 const SHORT: f32 = 0.15;
 /// … for any breach, …
 const LONG: f32 = 0.4;
@@ -56,7 +61,8 @@ pub struct Tuning {
     pub aim: f32,
     /// Standard errors by which a mean is doubted. 0: none.
     pub doubt: f32,
-    /// Share of the time in which it may be over the bound. Higher: cheaper levels, more moves. 1: the budget never falls.
+    /// Share of the time in which it may be over the bound. Higher: cheaper levels, more moves. 1: the budget never
+    /// falls.
     pub allowed: f32,
     /// Cool-down after the first breach at a level, s.
     pub first: f32,
@@ -99,6 +105,8 @@ pub struct Controller {
     stirred: f32,
     /// The first settled means at this level, over [`CALM`] and [`Tuning::usual`].
     usual: [Option<Mean>; 2],
+    /// What the model expected of this level when it was moved down to; else 0. Much less is a fall, too.
+    expected: f32,
     cool_downs: Vec<CoolDown>,
     /// Observations of the last [`HELD`] seconds, whatever the level.
     held: Window,
@@ -121,6 +129,7 @@ impl Controller {
             age: 0.0,
             stirred: 0.0,
             usual: [None; 2],
+            expected: 0.0,
             held: Window::default(),
             budget: 0.0,
             verdict: Verdict::Settling,
@@ -213,13 +222,14 @@ impl Controller {
         let cool_down = &mut self.cool_downs[self.level];
         cool_down.whole = (2.0 * cool_down.whole).clamp(self.tuning.first, LONGEST);
         cool_down.left = cool_down.whole;
-        let level = self.first_that_holds(self.level + 1..last, mean.value).unwrap_or(last);
+        let newest = self.mean(NEWEST).map_or(0.0, |newest| self.at_least(newest));
+        let level = self.first_that_holds(self.level + 1..last, mean.value.max(newest)).unwrap_or(last);
         Some(self.move_to(level))
     }
 
-    /// Moves down if a lower level is expected to hold and has no cool-down. The highest level that had a breach is tried
-    /// before those below it, which relieve less. While the budget holds less than the price, it goes down only from a
-    /// level that relieves more than it had to: one level at a time, and not to the one next to that breach.
+    /// Moves down if a lower level is expected to hold and has no cool-down. The highest level that had a breach is
+    /// tried before those below it, which relieve less. While the budget holds less than the price, it goes down only
+    /// from a level that relieves more than it had to: one level at a time, and not to the one next to that breach.
     fn move_down(&mut self, value: f32) -> Option<usize> {
         let breached = self.cool_downs[..self.level].iter().rposition(|cool_down| cool_down.whole > 0.0);
         let lowest = if self.budget >= PRICE {
@@ -229,13 +239,17 @@ impl Controller {
         };
         let lowest = lowest.max(self.level.saturating_sub(FARTHEST));
         let level = self.first_that_holds(lowest..self.level, value)?;
-        Some(self.move_to(level))
+        let expected = value * self.model[level] / self.model[self.level];
+        self.move_to(level);
+        self.expected = expected;
+        Some(level)
     }
 
     fn move_to(&mut self, level: usize) -> usize {
         self.level = level;
         self.seen.clear();
         (self.age, self.stirred, self.usual, self.verdict) = (0.0, 0.0, [None; 2], Verdict::Settling);
+        self.expected = 0.0;
         level
     }
 
@@ -243,7 +257,9 @@ impl Controller {
     fn notice_fall(&mut self) {
         for (k, window) in [CALM, self.tuning.usual].into_iter().enumerate() {
             let Some(now) = self.mean(window).filter(|_| self.age > SETTLED + window) else { return };
-            let usual = *self.usual[k].get_or_insert(now);
+            // What was expected may be off by as much as a fall is.
+            let first = Mean { value: now.value.max(self.expected / FELL), ..now };
+            let usual = *self.usual[k].get_or_insert(first);
             let noise = SURE * self.tuning.doubt * (usual.error + now.error);
             if usual.value > FELL * now.value && usual.value - now.value > noise {
                 self.usual = [None; 2];

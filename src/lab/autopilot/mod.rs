@@ -2,6 +2,7 @@
 //! ([`controller`]) among the levels of the [`ladder`], and gives its decision as an intent like any player's
 //! ([`steering`]): a recording holds it, and a replay needs no autopilot.
 
+pub mod advice;
 pub mod controller;
 pub mod ladder;
 pub mod steering;

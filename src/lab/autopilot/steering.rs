@@ -1,6 +1,7 @@
 //! Flies the world: reads the pass ledger or the live error, and asks for the quality that the controller chose.
 
 use super::{
+    advice::{self, Advice, Now},
     controller::{Controller, Tuning, Verdict},
     ladder::{self, Level},
 };
@@ -17,15 +18,23 @@ use crate::{
 };
 use bevy::prelude::{App, FixedUpdate, IntoScheduleConfigs, Res, ResMut, Resource};
 
-/// Times of ticks follow the work at once. Single ticks that take much longer are no part of it. A time over the bound is
-/// soon seen and soon over: no budget.
+/// Times of ticks follow the work at once. Single ticks that take much longer are no part of it. A time over the bound
+/// is soon seen and soon over: no budget.
 pub(super) const OF_TIME: Tuning =
     Tuning { settle: 0.05, quick: 0.6, usual: 0.6, trim: 0.08, aim: 0.7, doubt: 0.0, allowed: 1.0, first: 4.0 };
-/// A liquid takes a while to feel another quality. A sample of 320 particles meets few of those that carry the error, so
-/// that single samples are several times the mean, and are a part of it. It is to be over its bound for at most 2 % of the
-/// time; less is allowed here, so that there is room for the first breaches.
+/// A liquid takes a while to feel another quality. A sample of 320 particles meets few of those that carry the error,
+/// so that single samples are several times the mean, and are a part of it. It is to be over its bound for at most 2 %
+/// of the time; less is allowed here, so that there is room for the first breaches.
+///
+/// It aims at four fifths, as the guess of what a level does errs by a fifth (`ladder::ERROR_EXPONENT`); at less, no
+/// level would do for a bound that half of them hold.
 pub(super) const OF_ERROR: Tuning =
-    Tuning { settle: 0.1, quick: 0.8, usual: 8.0, trim: 0.0, aim: 0.6, doubt: 1.5, allowed: 0.015, first: 8.0 };
+    Tuning { settle: 0.1, quick: 0.8, usual: 8.0, trim: 0.0, aim: 0.8, doubt: 1.5, allowed: 0.015, first: 8.0 };
+
+/// Ticks after a move until it advises: as many as the ledger's median is of.
+const ADVISE_AFTER: u64 = 64;
+/// Ticks from one look for advice to the next.
+const ADVISE_EVERY: u64 = 30;
 
 /// What is to be held.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,6 +73,11 @@ struct State {
     tick: u64,
     sampled: u64,
     moves: u32,
+    /// The tick of the last move.
+    moved: u64,
+    /// The detail that it took over at.
+    detail: f32,
+    advice: Option<Advice>,
 }
 
 impl Autopilot {
@@ -86,6 +100,11 @@ impl Autopilot {
         self.state.as_ref().map_or(Verdict::Settling, |state| state.controller.verdict())
     }
 
+    /// The detail at which it would do better, if it knows of one.
+    pub fn advice(&self) -> Option<Advice> {
+        self.state.as_ref().and_then(|state| state.advice)
+    }
+
     /// Changes of the quality since it took over.
     pub fn moves(&self) -> u32 {
         self.state.as_ref().map_or(0, |state| state.moves)
@@ -104,7 +123,8 @@ impl State {
             }
             Goal::Error(bound) => Controller::new(bound, OF_ERROR, ladder.iter().map(Level::error).collect(), at),
         };
-        Self { controller, ladder, generation, tick, sampled: tick, moves: 0 }
+        let detail = setup.blueprint.scale.detail;
+        Self { controller, ladder, generation, tick, sampled: tick, moves: 0, moved: tick, detail, advice: None }
     }
 
     /// Takes what the last tick measured; the level to go to, if any.
@@ -127,11 +147,33 @@ impl State {
             }
         }?;
         self.moves += 1;
+        self.moved = tick;
         let index = match goal {
             Goal::Time(_) => self.ladder.len() - 1 - chosen,
             Goal::Error(_) => chosen,
         };
         self.ladder.get(index).copied()
+    }
+
+    /// Looks for a better detail once the median of the ticks is of this quality alone.
+    fn advise(&mut self, goal: Goal, setup: &Setup, ledger: &PassLedger) {
+        let Goal::Time(bound) = goal else { return };
+        if self.tick < self.moved + ADVISE_AFTER || !self.tick.is_multiple_of(ADVISE_EVERY) {
+            self.advice = self.advice.filter(|_| self.tick > self.moved);
+            return;
+        }
+        let now = Now {
+            milliseconds: ledger.tick().median().as_secs_f32() * 1000.0,
+            quality: setup.quality,
+            detail: setup.asked_detail(),
+        };
+        // What sleeps takes no time now, and would be awake then.
+        let all_awake = ledger.record(Pass::Solve).last.spared == 0;
+        self.advice = match self.controller.verdict() {
+            Verdict::Beyond => advice::coarser(now),
+            Verdict::Holds if all_awake => advice::finer(now, OF_TIME.aim * bound),
+            _ => None,
+        };
     }
 }
 
@@ -164,12 +206,14 @@ pub fn steer(
     mut intents: ResMut<IntentQueue>,
 ) {
     let Autopilot { goal: Some(goal), state } = &mut *autopilot else { return };
-    // Another world, or an earlier state of this one: what was learned is of another situation.
-    if state.as_ref().is_some_and(|state| state.generation != *generation) {
+    // Another world, an earlier state of this one, or another detail: what was learned is of another situation.
+    let detail = setup.blueprint.scale.detail;
+    if state.as_ref().is_some_and(|state| state.generation != *generation || state.detail != detail) {
         *state = None;
     }
     let state = state.get_or_insert_with(|| State::new(*goal, &setup, *generation, clock.tick));
     if let Some(Level { preset, quality, .. }) = state.observe(*goal, clock.tick, &ledger, &error) {
         intents.push(Intent::Quality { preset, quality });
     }
+    state.advise(*goal, &setup, &ledger);
 }

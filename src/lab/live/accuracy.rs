@@ -3,6 +3,7 @@
 
 use crate::{
     kernel::params::{Preset, Quality},
+    lab::dial::is_same_detail,
     scene::blueprint::Blueprint,
     sim::snapshot::hash_bytes,
 };
@@ -166,11 +167,6 @@ impl Curve {
         let measured = self.here_on_one_thread.or_else(same)?;
         (milliseconds > 0.0 && measured > 0.0).then(|| milliseconds / measured)
     }
-}
-
-/// Whether two details are one, but for the rounding of a spacing.
-pub fn is_same_detail(a: f64, b: f64) -> bool {
-    (a / b - 1.0).abs() < 1e-3
 }
 
 /// A hash over everything that a scene starts with but its quality and its detail: two scenes with the same one have

@@ -3,7 +3,7 @@
 
 use crate::{
     kernel::params::{Preset, Quality},
-    lab::{autopilot::ladder, live::accuracy::is_same_detail},
+    lab::dial::{self, is_same_detail},
     sim::state::Setup,
 };
 
@@ -44,7 +44,7 @@ impl Leg {
 
     /// Work of it, in units of an iteration over the particles of detail 1.
     pub fn work(&self) -> f32 {
-        ladder::work(&self.quality) * (self.detail() * self.detail()) as f32
+        dial::work(&self.quality) * (self.detail() * self.detail()) as f32
     }
 
     /// Whether it is the same run.

@@ -3,7 +3,10 @@
 
 use crate::{
     kernel::params::Preset,
-    lab::live::accuracy::{Curve, CurvePoint, fingerprint, is_same_detail},
+    lab::{
+        dial::is_same_detail,
+        live::accuracy::{Curve, CurvePoint, fingerprint},
+    },
     scene::{self, Knob, Tuning, blueprint::Blueprint, effects::EffectModes},
 };
 use bevy::log::warn;

@@ -7,9 +7,10 @@ use crate::{
     kernel::simd::InstructionSet,
     lab::{
         density::DensityError,
+        dial::is_same_detail,
         jobs::{Handle, Share, pause},
         live::{
-            accuracy::{Curve, CurvePoint, Here, Survey, SurveyRequest, fingerprint, is_same_detail},
+            accuracy::{Curve, CurvePoint, Here, Survey, SurveyRequest, fingerprint},
             legs::{Leg, legs},
         },
         stats,

@@ -7,7 +7,8 @@ use crate::{
         params::Preset,
     },
     lab::{
-        autopilot::{self, Autopilot, Goal, controller::Verdict, ladder},
+        autopilot::{self, Autopilot, Goal, controller::Verdict},
+        dial,
         live::{
             accuracy::{LiveError, Survey, SurveyRequest, Watched},
             measures::{Measured, Measures},
@@ -224,7 +225,7 @@ fn nobody_is_made_to_wait_for_a_survey_that_nobody_asked_for() {
 /// What a tick would cost on a machine where it costs in proportion to the work, and three times as much for a while.
 fn pretend_load(setup: Res<Setup>, clock: Res<Clock>, mut ledger: ResMut<PassLedger>) {
     let load = if (200..400).contains(&clock.tick) { 3.0 } else { 1.0 };
-    ledger.end_tick(Extent::default(), Duration::from_secs_f32(load * ladder::work(&setup.quality) / 1000.0));
+    ledger.end_tick(Extent::default(), Duration::from_secs_f32(load * dial::work(&setup.quality) / 1000.0));
 }
 
 /// A recorded world with the autopilot on, after `ticks` ticks: its hash, what was recorded, and the world.
@@ -264,10 +265,10 @@ fn a_run_under_it_is_recorded_and_repeats_to_the_bit_without_the_autopilot() {
 fn a_run_under_it_keeps_to_its_time_and_says_when_it_cannot() {
     let (_, _, flown) = fly(Goal::Time(16.0), 390);
     let (setup, autopilot) = (flown.world().resource::<Setup>(), flown.world().resource::<Autopilot>());
-    assert!(3.0 * ladder::work(&setup.quality) <= 16.0, "{:?} is too expensive under the load", setup.quality);
+    assert!(3.0 * dial::work(&setup.quality) <= 16.0, "{:?} is too expensive under the load", setup.quality);
     assert_eq!(autopilot.verdict(), Verdict::Holds);
     let (_, _, flown) = fly(Goal::Time(16.0), 600);
-    let work = ladder::work(&flown.world().resource::<Setup>().quality);
+    let work = dial::work(&flown.world().resource::<Setup>().quality);
     assert!(work <= 16.0 && work > 9.0, "after the load it goes back to {work} of 16 ms");
     let (_, _, flown) = fly(Goal::Time(0.5), 100);
     assert_eq!(flown.world().resource::<Autopilot>().verdict(), Verdict::Beyond);

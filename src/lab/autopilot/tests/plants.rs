@@ -142,47 +142,52 @@ fn a_bound_that_cannot_be_held_is_said_and_found_again() {
 
 #[test]
 fn an_error_bound_is_held_with_the_least_work() {
-    for exponent in [1.1, 1.5, 1.9] {
-        // A splash at 10 s quadruples the error for 5 s; it follows a change of the quality with some inertia.
+    for exponent in [0.75, 1.0, 1.25] {
+        // A splash at 10 s raises the error by half for 5 s, which the dearest level just relieves; the error follows a
+        // change of the quality with some inertia. What levels really do is more or less than the model says.
         let model = errors();
-        let real = |position: usize| bevy::math::ops::powf(model[position], exponent / 1.5);
-        let calm = 0.004 / real(3);
+        let real = |position: usize| bevy::math::ops::powf(model[position], exponent);
+        let calm = 0.0035 / real(3);
         let mut now = calm * real(0);
         let mut controller = Controller::new(0.005, OF_ERROR, errors(), 0);
-        let log = fly(&mut controller, 30.0, SAMPLE, 0.15, |time, position| {
-            let splash = if (10.0..15.0).contains(&time) { 4.0 } else { 1.0 };
+        let log = fly(&mut controller, 60.0, SAMPLE, 0.15, |time, position| {
+            let splash = if (10.0..15.0).contains(&time) { 1.5 } else { 1.0 };
             now += (calm * real(position) * splash - now) * 0.6;
             now
         });
-        let held = (0..model.len()).any(|position| 4.0 * calm * real(position) <= 0.85 * 0.005);
+        let held = (0..model.len()).any(|position| 1.5 * calm * real(position) <= 0.85 * 0.005);
         if held {
             assert!(log.longest_over(0.005) <= 0.5, "x{exponent}: over for {} s", log.longest_over(0.005));
         }
         assert_eq!(log.at(9.0).2, Verdict::Holds);
+        // Half a second until a breach is met, and two more until a move that went too far is taken back. Two levels a
+        // move: after the splash it is back in as many moves as that takes.
         assert!(
-            log.moves_between(2.0, 10.0) == 0 && log.moves_between(17.0, 30.0) == 0,
+            log.moves_between(3.0, 10.0) == 0 && log.moves_between(15.0, 60.0) <= model.len().div_ceil(2),
             "x{exponent}: {:?}",
             log.moves
         );
-        let level = log.at(29.0).1;
+        // By then the budget has earned the price of a failure.
+        let level = log.at(59.0).1;
         let cheaper = if level > 1 { calm * real(level - 2) } else { f32::INFINITY };
-        assert!(cheaper > 0.65 * 0.005, "x{exponent}: it stays at level {level} for nothing");
+        assert!(cheaper > 0.95 * OF_ERROR.aim * 0.005, "x{exponent}: it stays at level {level} for nothing");
     }
 }
 
 #[test]
 fn slow_ticks_are_counted_by_their_time() {
     // 60 ms a tick at the start: few observations have to do.
+    let unit = 60.0 / times()[0];
     let mut controller = Controller::new(20.0, OF_TIME, times(), 0);
     let (mut time, mut moved) = (0.0, Vec::new());
     for _ in 0..200 {
-        let value = times()[controller.level()] * 1.25;
+        let value = times()[controller.level()] * unit;
         time += (value / 1000.0).max(TICK);
         if controller.observe(value, (value / 1000.0).max(TICK)).is_some() {
             moved.push(time);
         }
     }
-    assert!(times()[controller.level()] * 1.25 <= 20.0);
+    assert!(times()[controller.level()] * unit <= 20.0);
     assert!(moved.last().is_some_and(|last| *last <= 2.0), "{moved:?}");
     assert!(moved[0] <= 0.5, "{moved:?}");
 }
@@ -213,21 +218,27 @@ fn a_tighter_bound_is_met_at_once_and_a_wider_one_used() {
     assert!(plant(0.0, controller.level()) > 5.5, "the wider bound is not used");
 }
 
-/// Mean density error of the levels in `waterfall`, %, and the power that its tail goes with.
-const WATERFALL: [(f32, f32); 5] = [(0.27, 1.0), (0.143, 1.0), (0.037, 2.0), (0.0094, 12.0), (0.0003, 40.0)];
+/// Mean density error of the levels in `waterfall`, %, and by what share of it a sample is off (standard deviation), of
+/// seconds 10 to 30 at commit 7739fb9.
+const WATERFALL: [(f32, f32); 6] =
+    [(0.862, 0.13), (0.722, 0.14), (0.663, 0.14), (0.455, 0.17), (0.414, 0.19), (0.410, 0.20)];
 
-/// Flies over samples of an error with a heavy tail: `rest(time)` is the share that is left of the waterfall's.
+/// Bounds, %, and the first of these levels that the controller is sure to find: its error with a fifth more, by which
+/// the model may err, is less than what it aims at.
+const BOUNDS: [(f32, f32); 4] = [(0.7, 3.0), (1.0, 2.0), (1.1, 1.0), (1.3, 0.0)];
+
+/// Flies over samples of the waterfall's error: `rest(time)` is the share of it that is left.
 fn fly_over_samples(bound: f32, seed: u64, seconds: f32, rest: impl Fn(f32) -> f32) -> Log {
     let mut random = Noise(seed);
     let mut controller = Controller::new(bound, OF_ERROR, errors(), 2);
     let mut log = Log { steps: Vec::new(), moves: Vec::new() };
     for k in 0..(seconds / SAMPLE) as u32 {
         let time = k as f32 * SAMPLE;
-        let (mean, power) = *WATERFALL.get(controller.level()).unwrap_or(&(0.0, 1.0));
-        // (p + 1) uᵖ has the mean 1; its standard deviation is 0.6, 0.9, 2.4 and 4.5 for the powers here.
-        let uniform = 0.5 * (random.next() + 1.0);
-        let sample = mean * rest(time) * (power + 1.0) * bevy::math::ops::powf(uniform, power);
-        log.steps.push((time, mean * rest(time), controller.level(), controller.verdict()));
+        let (mean, spread) = WATERFALL[controller.level()];
+        let mean = mean * rest(time);
+        // Of even chance between −1 and 1, the standard deviation is 1/√3.
+        let sample = mean * (1.0 + 3.0_f32.sqrt() * spread * random.next());
+        log.steps.push((time, mean, controller.level(), controller.verdict()));
         if controller.observe(sample, SAMPLE).is_some() {
             log.moves.push(time);
         }
@@ -236,9 +247,8 @@ fn fly_over_samples(bound: f32, seed: u64, seconds: f32, rest: impl Fn(f32) -> f
 }
 
 #[test]
-fn samples_with_a_heavy_tail_do_not_make_it_swing() {
-    // With each bound a level that holds it with room to spare.
-    for (bound, level) in [(0.03, 3.0), (0.05, 3.0), (0.1, 2.0), (0.2, 2.0)] {
+fn the_noise_of_samples_does_not_make_it_swing() {
+    for (bound, level) in BOUNDS {
         let (mut early, mut late) = (0, 0);
         for seed in 1..=8 {
             let log = fly_over_samples(bound, seed, 600.0, |_| 1.0);
@@ -246,10 +256,10 @@ fn samples_with_a_heavy_tail_do_not_make_it_swing() {
             early += log.moves_between(0.0, 300.0);
             late += log.moves_between(300.0, 600.0);
             let settled: Vec<_> = log.steps.iter().filter(|step| step.0 > 30.0).collect();
-            let mean_of = |sum: f32| sum / settled.len() as f32;
-            let mean = mean_of(settled.iter().map(|step| step.1).sum());
-            let place = mean_of(settled.iter().map(|step| step.2 as f32).sum());
-            assert!(mean < 0.5 * bound, "{bound} %, seed {seed}: a mean of {mean} %");
+            let share_of = |count: usize| count as f32 / settled.len() as f32;
+            let over = share_of(settled.iter().filter(|step| step.1 > bound).count());
+            let place = settled.iter().map(|step| step.2 as f32).sum::<f32>() / settled.len() as f32;
+            assert!(over <= 0.02, "{bound} %, seed {seed}: over for {over} of the time");
             assert!(place < level + 0.75, "{bound} %, seed {seed}: at level {place} on average, {level} does");
         }
         assert!(late == 0 || 3 * late < 2 * early, "{bound} %: {early} moves, and then still {late}");
@@ -259,13 +269,12 @@ fn samples_with_a_heavy_tail_do_not_make_it_swing() {
 #[test]
 fn water_that_comes_to_rest_is_eased_whatever_failed_before() {
     let mut tried = 0;
-    for bound in [0.03, 0.05, 0.1, 0.2] {
+    for (bound, _) in BOUNDS {
         for seed in 1..=12 {
             let log = fly_over_samples(bound, seed, 180.0, |time| if time < 150.0 { 1.0 } else { 0.01 });
-            // What is usual has to be known, and of levels finer than this the samples say nothing: pauses end the stay.
-            let before = log.at(149.9).1;
-            if before <= 3 && log.moves_between(140.0, 150.0) == 0 {
-                assert_eq!(log.at(165.0).1, 0, "{bound} %, seed {seed}: from level {before}: {:?}", log.moves);
+            // What is usual has to be known.
+            if log.moves_between(140.0, 150.0) == 0 {
+                assert_eq!(log.at(165.0).1, 0, "{bound} %, seed {seed}: {:?}", log.moves);
                 tried += 1;
             }
         }

@@ -5,6 +5,7 @@
 pub mod axis;
 mod canvas;
 mod curves;
+pub mod dial;
 mod measures;
 pub mod panel;
 mod pilot;

@@ -10,7 +10,7 @@ use crate::{
                 axis::percent,
                 canvas::Live,
                 curves::{Curves, Situation, source},
-                measures, pilot,
+                dial, measures, pilot,
                 plot::{Plot, Pressed},
             },
             style::{self, weak},
@@ -24,6 +24,7 @@ use crate::{
     },
     lab::{
         autopilot::Autopilot,
+        dial::Step,
         live::{
             accuracy::{Curve, LiveError, Survey, SurveyRequest, fingerprint},
             measures::Measures,
@@ -139,6 +140,7 @@ fn show(
             ui.set_width(WIDTH.min(screen.width() - 60.0));
             ui.spacing_mut().button_padding = vec2(7.0, 2.0);
             headline(ui, &setup, milliseconds, &error);
+            dial::show(ui, &setup, autopilot.goal().is_some(), &mut orders);
             let AccuracyPanel { curves, trail, bounds, measures: open, measures_seen: seen, .. } = &mut *panel;
             let (curve, kind, has_both) = curves.shown();
             let scale = curve.and_then(Curve::scale);
@@ -160,16 +162,13 @@ fn show(
             measure(ui, &survey, curve, scale, (&split, &bindings), &mut orders);
             match pressed {
                 Some(Pressed::Preset(preset)) => orders.push(Order::Quality(preset)),
-                // The detail first: both are undone in one step then.
-                Some(Pressed::Detail(preset, detail)) => {
-                    orders.extend([Order::Detail(detail), Order::Quality(preset)]);
-                }
+                Some(Pressed::Detail(preset, detail)) => orders.push(Order::Accuracy(Step { preset, detail })),
                 Some(Pressed::Kind(kind)) => curves.want(kind),
                 None => {}
             }
             ui.separator();
             pilot::show(ui, &autopilot, bounds, &mut orders);
-            pilot::status(ui, &autopilot, &setup, milliseconds, error.mean());
+            pilot::status(ui, &autopilot, &setup, (milliseconds, error.mean()), &mut orders);
             ui.separator();
             stages(ui, &ledger, &error);
             ui.separator();

@@ -2,7 +2,11 @@
 
 use crate::{
     game::{
-        hud::{panels::accuracy::axis::percent, style, widgets::quality_name},
+        hud::{
+            panels::accuracy::axis::percent,
+            style::{self, weak},
+            widgets::{detail_name, quality_name},
+        },
         orders::{Order, Orders},
     },
     lab::autopilot::{Autopilot, Goal, controller::Verdict},
@@ -71,11 +75,27 @@ fn slider(ui: &mut Ui, value: &mut f32, range: std::ops::RangeInclusive<f32>, un
 }
 
 /// How it stands: at what quality, and what that costs in the other coin.
-pub fn status(ui: &mut Ui, autopilot: &Autopilot, setup: &Setup, milliseconds: f32, error: Option<f32>) {
+pub fn status(
+    ui: &mut Ui,
+    autopilot: &Autopilot,
+    setup: &Setup,
+    (milliseconds, error): (f32, Option<f32>),
+    orders: &mut Orders,
+) {
     let Some(goal) = autopilot.goal() else { return };
     let (text, warn) =
         told(goal, autopilot.verdict(), &quality_name(setup.preset, &setup.quality), milliseconds, error);
     ui.label(RichText::new(text).color(if warn { style::WARN } else { style::WEAK }));
+    let Some(advice) = autopilot.advice() else { return };
+    ui.horizontal_wrapped(|ui| {
+        let (detail, time) = (detail_name(advice.detail), short(advice.milliseconds));
+        ui.label(weak(format!("detail {detail} would take some {time} ms")));
+        let told = "The autopilot keeps the detail: rock and drops are not the same after a change and back. The \
+                    change can be undone";
+        if ui.button(format!("go to detail {detail}")).on_hover_text(told).clicked() {
+            orders.push(Order::Detail(advice.detail));
+        }
+    });
 }
 
 /// The line, and whether it is a warning.

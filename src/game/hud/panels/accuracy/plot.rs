@@ -13,7 +13,8 @@ use crate::{
     kernel::params::{Preset, Quality},
     lab::{
         autopilot::Goal,
-        live::accuracy::{Curve, CurvePoint, is_same_detail},
+        dial::is_same_detail,
+        live::accuracy::{Curve, CurvePoint},
     },
     sim::numbers::short,
 };
