@@ -2,7 +2,11 @@
 //! checkpoint go from it over time.
 
 use crate::{
-    kernel::{params::Preset, random::Random, units::TICKS_PER_SECOND},
+    kernel::{
+        params::{Preset, Quality},
+        random::Random,
+        units::TICKS_PER_SECOND,
+    },
     lab::{
         balance::matter,
         coarse::{CoarseField, Distance, Magnitude},
@@ -68,12 +72,15 @@ impl Reference {
         Ok(Self::of(samples, plan, Distance::default()))
     }
 
-    /// What stands for the truth: the mean of two runs at `fine`, [`CONVERGED_DETAIL`] times as fine as the start, that
-    /// are equally good. All velocities of the second are shaken a little at its start, so that where the flow is
+    /// What stands for the truth: the mean of two runs at `fine`, [`CONVERGED_DETAIL`] times as fine as the start and with as
+    /// many more substeps, that are equally good: nothing goes further in a substep, in spacings, than it does at `fine`
+    /// (with `fine`'s substeps a dam break goes on otherwise after its impact on the far wall). All velocities of the second are shaken a little at its start, so that where the flow is
     /// chaotic they come apart. The warm-up counts for the floor alone: it is the mean after it.
     pub fn converged(start: &Checkpoint, plan: &Plan, workers: &Workers) -> io::Result<Self> {
         let detail = CONVERGED_DETAIL * start.setup.asked_detail();
-        let start = start.clone().at_quality(Preset::Fine, Preset::Fine.quality());
+        let fine = Preset::Fine.quality();
+        let quality = Quality { substeps: fine.substeps * CONVERGED_DETAIL as u32, ..fine };
+        let start = start.clone().at_quality(Preset::Fine, quality);
         let start = start.and_then(|start| start.at_detail(detail)).map_err(io::Error::other)?;
         let mut simulation = Simulation::resume(&start, workers.clone());
         let first = Self::of(record(&mut simulation, plan, &mut ())?, plan, Distance::default());
@@ -183,7 +190,6 @@ impl Observer for Follower<'_> {
 mod tests {
     use super::*;
     use crate::{
-        kernel::params::Quality,
         scene::{self, effects::EffectModes},
         sim::{control, simulation::Simulation},
     };

@@ -15,6 +15,7 @@ mod changes;
 mod conjugate;
 mod equation;
 mod grid;
+mod letting_go;
 mod level;
 mod multigrid;
 mod parts;

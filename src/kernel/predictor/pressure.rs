@@ -11,6 +11,7 @@ use crate::{
             steepness, subtract_divergence,
         },
         grid::MacGrid,
+        letting_go::LettingGo,
         level::{Level, WORTH_A_PIECE, damping},
         multigrid::Hierarchy,
         pockets::Pockets,
@@ -48,6 +49,7 @@ pub(super) struct Projection<'a> {
     pub hierarchy: &'a mut Hierarchy,
     pub conjugate: &'a mut Conjugate,
     pub pockets: &'a mut Pockets,
+    pub letting_go: &'a mut LettingGo,
     /// Density that is aimed at, particles per d².
     pub target: f32,
     /// Substep, s.
@@ -59,7 +61,7 @@ pub(super) struct Projection<'a> {
 impl Pass for Projection<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { grid, closed, faces, hierarchy, conjugate, pockets, target, dt, team, report } = self;
+        let Self { grid, closed, faces, hierarchy, conjugate, pockets, letting_go, target, dt, team, report } = self;
         conjugate.resize(grid.len());
         mark_liquid(grid, closed, faces, conjugate, target, team);
         let whole = WHOLE * target * grid.cell * grid.cell;
@@ -67,6 +69,7 @@ impl Pass for Projection<'_> {
         if conjugate.rows.is_empty() {
             return;
         }
+        letting_go.run(grid, closed, faces, conjugate);
         let sealed = assemble(grid, closed, faces, hierarchy.finest(), conjugate, (dt, whole), team);
         let has_pockets = sealed && pockets.balance(grid, hierarchy.finest());
         hierarchy.coarsen(team);
@@ -82,6 +85,7 @@ impl Pass for Projection<'_> {
         let drift = conjugate.solve(hierarchy, &mut potential, FEEDBACK_TOLERANCE, team);
         let potentials = [&conjugate.solution[..], &potential];
         Changes { grid, closed, conjugate, potentials, whole, team }.find(faces, hierarchy.finest());
+        letting_go.note(&mut conjugate.solution);
         conjugate.clear(&mut potential, grid.stride);
         conjugate.potential = potential;
         *report = PredictorReport { unsolved: velocities.unsolved | drift.unsolved, cuts, ..velocities };

@@ -4,11 +4,12 @@ use crate::{
     predictor::{
         grid::MacGrid,
         parts::Parts,
+        pockets::ROUNDING,
         stencil::{Axis, faces_around},
     },
     solids::{Solids, centre},
 };
-use glam::IVec2;
+use glam::{IVec2, Vec2};
 use std::ops::Range;
 
 /// A face that is less open than this is closed: the equation would be stiff, and nothing passes.
@@ -35,6 +36,8 @@ pub(super) struct ClosedFaces {
     pub rock: Vec<f32>,
     /// Share of each cell from which it is liquid, its rock counted in; infinite where there is nothing to solve.
     pub liquid_from: Vec<f32>,
+    /// Cells beside a wall, those of the grid's index in order: a face of theirs is closed, or a part of it.
+    pub beside_walls: Vec<u32>,
 }
 
 impl ClosedFaces {
@@ -82,25 +85,11 @@ impl ClosedFaces {
             field.clear();
             field.resize(grid.len(), 0.0);
         }
-        let parts = Parts::new(grid, solids);
+        let faces = OpenShares { grid, solids, parts: &Parts::new(grid, solids) };
         for j in 1..=grid.rows + 1 {
-            for i in 1..=grid.columns + 1 {
-                let (x, y) = ((i - 1) as f32 * grid.cell, (j - 1) as f32 * grid.cell);
-                let k = grid.row(j) + i;
-                if j <= grid.rows {
-                    let solid = |along, across| solids.is_solid(IVec2::new(across, along));
-                    let joins = |along, [before, after]: [i32; 2]| {
-                        parts.has(k - 1, IVec2::new(before, along)) && parts.has(k, IVec2::new(after, along))
-                    };
-                    self.open_u[k] = open_share(grid, y, solid, joins, x);
-                }
-                if i <= grid.columns {
-                    let solid = |along, across| solids.is_solid(IVec2::new(along, across));
-                    let joins = |along, [before, after]: [i32; 2]| {
-                        parts.has(k - grid.stride, IVec2::new(along, before)) && parts.has(k, IVec2::new(along, after))
-                    };
-                    self.open_v[k] = open_share(grid, x, solid, joins, y);
-                }
+            for k in grid.row(j) + 1..=grid.row(j) + grid.columns + 1 {
+                self.open_u[k] = if j <= grid.rows { faces.left(k, TO_CENTRES) } else { 0.0 };
+                self.open_v[k] = if k <= grid.row(j) + grid.columns { faces.lower(k, TO_CENTRES) } else { 0.0 };
             }
         }
         self.rock.fill(1.0);
@@ -108,26 +97,63 @@ impl ClosedFaces {
             self.rock[grid.row(j) + 1..=grid.row(j) + grid.columns].fill(0.0);
         }
         self.smear_rock(grid, solids);
+        self.open_slivers(&faces);
+        self.beside_walls.clear();
         for j in 1..=grid.rows {
             for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
                 let room = self.open_u[k] + self.open_u[k + 1] + self.open_v[k] + self.open_v[k + grid.stride];
                 let solved = self.rock[k] < ROCK_SHARE && room >= LEAST_ROOM;
                 let least = LIQUID_SHARE * (1.0 - self.rock[k]) + self.rock[k];
                 self.liquid_from[k] = if solved { least } else { f32::INFINITY };
+                if solved && room < 4.0 - ROUNDING {
+                    self.beside_walls.push(k as u32);
+                }
+            }
+        }
+    }
+
+    /// Opens the cells of which a level or upright wall leaves less than half to the cells that their room belongs to: the
+    /// lines between the centres are no measure of it, as they end in the wall. On its own such a cell would hold the
+    /// liquid in it, and stop what passes.
+    fn open_slivers(&mut self, faces: &OpenShares) {
+        let (grid, stride) = (faces.grid, faces.grid.stride);
+        let is_mostly_rock = |k: usize| self.rock[k] > 0.5;
+        for j in 1..=grid.rows {
+            for k in (grid.row(j) + 1..=grid.row(j) + grid.columns).filter(|k| is_mostly_rock(*k)) {
+                if self.open_u[k] + self.open_u[k + 1] == 0.0 {
+                    for (face, other) in [(k, k - 1), (k + 1, k + 1)] {
+                        if !is_mostly_rock(other) {
+                            self.open_u[face] = faces.left(face, 0.0);
+                        }
+                    }
+                }
+                if self.open_v[k] + self.open_v[k + stride] == 0.0 {
+                    for (face, other) in [(k, k - stride), (k + stride, k + stride)] {
+                        if !is_mostly_rock(other) {
+                            self.open_v[face] = faces.lower(face, 0.0);
+                        }
+                    }
+                }
             }
         }
     }
 
     /// Rock particles share out their volume as liquid particles do, so that rock and liquid side by side add up to 1.
+    /// What of the last row of cells lies past the lid is rock, too.
     fn smear_rock(&mut self, grid: &MacGrid, solids: &Solids) {
-        if solids.count() == 0 {
+        let edge = grid.rows as f32 * grid.cell;
+        let past_lid = (solids.rows()..edge.ceil() as i32).flat_map(|y| {
+            let height = (edge - y as f32).min(1.0);
+            (0..solids.columns()).map(move |x| (Vec2::new(x as f32 + 0.5, y as f32 + 0.5 * height), height))
+        });
+        let mut rock = solids.iter().map(|(cell, ..)| (centre(cell), 1.0)).chain(past_lid).peekable();
+        if rock.peek().is_none() {
             return;
         }
         let (mut u, mut v) = (vec![[0.0; 2]; grid.len()], vec![[0.0; 2]; grid.len()]);
-        for (cell, ..) in solids.iter() {
-            let at = centre(cell);
-            faces_around(grid, at.x, at.y, Axis::U, |face, weight| u[face][0] += weight);
-            faces_around(grid, at.x, at.y, Axis::V, |face, weight| v[face][0] += weight);
+        for (at, volume) in rock {
+            faces_around(grid, at.x, at.y, Axis::U, |face, weight| u[face][0] += volume * weight);
+            faces_around(grid, at.x, at.y, Axis::V, |face, weight| v[face][0] += volume * weight);
         }
         fold_at_walls(grid, 0..grid.rows + 2, 0..grid.stride, &mut u, &mut v);
         let share = 0.25 * grid.per_cell * grid.per_cell;
@@ -142,32 +168,73 @@ impl ClosedFaces {
     /// Bytes held.
     pub fn memory(&self) -> usize {
         let fields = [&self.open_u, &self.open_v, &self.rock, &self.liquid_from];
-        4 * (fields.map(Vec::capacity).iter().sum::<usize>() + self.rows.capacity())
+        4 * (fields.map(Vec::capacity).iter().sum::<usize>() + self.rows.capacity() + self.beside_walls.capacity())
     }
 }
 
-/// Open share of a face that lies at `plane` across its normal and reaches from `start` one cell along itself: the
-/// share of the lines from cell centre to cell centre that meet no rock and join the parts that the two cells stand for.
-/// A wall one particle thick closes every line, a lone rock only its own. `solid(along, across)` tells whether a rock
-/// cell is solid, `joins(along, [before, after])` whether those before and after the plane are in their cells' parts.
-fn open_share(
-    grid: &MacGrid,
-    start: f32,
-    solid: impl Fn(i32, i32) -> bool,
-    joins: impl Fn(i32, [i32; 2]) -> bool,
-    plane: f32,
-) -> f32 {
-    let end = start + grid.cell;
-    let (near, far) = (plane - 0.5 * grid.cell, plane + 0.5 * grid.cell);
-    let sides = [plane.ceil() as i32 - 1, plane.floor() as i32];
-    let mut open = 0.0;
-    for along in start.floor() as i32..end.ceil() as i32 {
-        let width = (end.min((along + 1) as f32) - start.max(along as f32)).max(0.0);
-        let blocked = (near.floor() as i32..far.ceil() as i32).any(|across| solid(along, across));
-        open += if blocked || !joins(along, sides) { 0.0 } else { width };
+/// Half the length of the lines from cell centre to cell centre, cells.
+const TO_CENTRES: f32 = 0.5;
+
+/// Finds how much of a face is open.
+struct OpenShares<'a> {
+    grid: &'a MacGrid,
+    solids: &'a Solids,
+    parts: &'a Parts,
+}
+
+impl OpenShares<'_> {
+    /// Of the left face of cell `k`, by lines that reach so far (cells) to either side.
+    fn left(&self, k: usize, reach: f32) -> f32 {
+        let solid = |along, across| self.solids.is_solid(IVec2::new(across, along));
+        let joins = |along, [before, after]: [i32; 2]| {
+            self.parts.has(k - 1, IVec2::new(before, along)) && self.parts.has(k, IVec2::new(after, along))
+        };
+        let [x, y] = self.corner(k);
+        self.share(y, solid, joins, (x, reach))
     }
-    let share = (open * grid.per_cell).min(1.0);
-    if share < LEAST_OPEN { 0.0 } else { share }
+
+    /// Of the lower face of cell `k`, likewise.
+    fn lower(&self, k: usize, reach: f32) -> f32 {
+        let solid = |along, across| self.solids.is_solid(IVec2::new(along, across));
+        let joins = |along, [before, after]: [i32; 2]| {
+            let below = k - self.grid.stride;
+            self.parts.has(below, IVec2::new(along, before)) && self.parts.has(k, IVec2::new(along, after))
+        };
+        let [x, y] = self.corner(k);
+        self.share(x, solid, joins, (y, reach))
+    }
+
+    /// Lower left corner of cell `k`, d.
+    fn corner(&self, k: usize) -> [f32; 2] {
+        [k % self.grid.stride, k / self.grid.stride].map(|at| (at - 1) as f32 * self.grid.cell)
+    }
+
+    /// Open share of a face that lies at `plane` across its normal and reaches from `start` one cell along itself: the
+    /// share of the lines across it, `reach` cells to either side, that meet no rock and join the parts that the two cells
+    /// stand for. A wall one particle thick closes every line, a lone rock only its own. `solid(along, across)` tells whether
+    /// a rock cell is solid, `joins(along, [before, after])` whether those before and after the plane are in their cells'
+    /// parts.
+    fn share(
+        &self,
+        start: f32,
+        solid: impl Fn(i32, i32) -> bool,
+        joins: impl Fn(i32, [i32; 2]) -> bool,
+        (plane, reach): (f32, f32),
+    ) -> f32 {
+        let MacGrid { cell, per_cell, .. } = *self.grid;
+        let end = start + cell;
+        let sides = [plane.ceil() as i32 - 1, plane.floor() as i32];
+        let met = ((plane - reach * cell).floor() as i32).min(sides[0])
+            ..((plane + reach * cell).ceil() as i32).max(sides[1] + 1);
+        let mut open = 0.0;
+        for along in start.floor() as i32..end.ceil() as i32 {
+            let width = (end.min((along + 1) as f32) - start.max(along as f32)).max(0.0);
+            let blocked = met.clone().any(|across| solid(along, across));
+            open += if blocked || !joins(along, sides) { 0.0 } else { width };
+        }
+        let share = (open * per_cell).min(1.0);
+        if share < LEAST_OPEN { 0.0 } else { share }
+    }
 }
 
 /// What was shared out beyond a wall belongs to this side of it; a face on the wall sees only half of its surroundings.

@@ -7,6 +7,7 @@ use crate::{
     predictor::{
         conjugate::Conjugate,
         grid::MacGrid,
+        letting_go::LettingGo,
         multigrid::Hierarchy,
         pockets::Pockets,
         pressure,
@@ -34,6 +35,7 @@ pub struct Predictor {
     hierarchy: Hierarchy,
     conjugate: Conjugate,
     pockets: Pockets,
+    letting_go: LettingGo,
 }
 
 /// What the prediction is told.
@@ -90,6 +92,7 @@ impl Predictor {
             hierarchy: &mut self.hierarchy,
             conjugate: &mut self.conjugate,
             pockets: &mut self.pockets,
+            letting_go: &mut self.letting_go,
             target: params.rest_density,
             dt: params.dt,
             team,
@@ -127,5 +130,6 @@ impl Predictor {
             + self.hierarchy.memory()
             + self.conjugate.memory()
             + self.pockets.memory()
+            + self.letting_go.memory()
     }
 }

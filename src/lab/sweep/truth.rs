@@ -27,7 +27,7 @@ pub(super) fn text(rows: &[&Row], times: &[f64]) -> String {
     });
     format!(
         "## True error\n\nShare of the liquid that stands elsewhere than in a converged run (`fine` at {CONVERGED_DETAIL} times the \
-         detail, the mean of two), on cells of 8 spacings of the scene's own.{below}\n\n{}\n{}\n{}",
+         detail and the substeps, the mean of two), on cells of 8 spacings of the scene's own.{below}\n\n{}\n{}\n{}",
         budgets(&known, times),
         details(&known),
         advice(&known, floor.unwrap_or(0.0))

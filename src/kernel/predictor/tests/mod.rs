@@ -3,6 +3,7 @@
 mod disc;
 mod equation;
 mod feedback;
+mod letting_go;
 mod multigrid;
 mod pockets;
 mod rig;
