@@ -105,7 +105,8 @@ fn main() {
         ("dam_break", &[("columns", "30")], 600),
         ("empty", &[], 100),
         ("hydrostatic", &[], 400),
-        ("rest_density", &[], 400),
+        // All is poured in after 510.
+        ("rest_density", &[], 600),
         ("sealed_air", &[], 300),
         ("waterfall", &[], 1500),
         ("wind_tunnel", &[], 600),

@@ -34,6 +34,10 @@ impl LettingGo {
         let Conjugate { rows, liquid, solution, .. } = conjugate;
         let Self { leaving, reached } = self;
         leaving.clear();
+        reached.clear();
+        // As many as there can be: room is made when rock changes, not when water moves.
+        leaving.reserve(closed.beside_walls.len());
+        reached.reserve(closed.beside_walls.len());
         let row_of = |k: u32| k as usize / grid.stride;
         let walls = &closed.beside_walls;
         let of_rows =
@@ -52,7 +56,6 @@ impl LettingGo {
         let is_near_air = |cell: &&u32| {
             sides(**cell as usize).any(|k| liquid[k] == 0.0 || sides(k).any(|other| liquid[other] == 0.0))
         };
-        reached.clear();
         reached.extend(leaving.iter().filter(is_near_air));
         for cell in &*reached {
             liquid[*cell as usize] = 0.0;

@@ -9,7 +9,7 @@ use crate::{
     },
     solids::{Solids, centre},
 };
-use glam::{IVec2, Vec2};
+use glam::IVec2;
 use std::ops::Range;
 
 /// A face that is less open than this is closed: the equation would be stiff, and nothing passes.
@@ -139,21 +139,15 @@ impl ClosedFaces {
     }
 
     /// Rock particles share out their volume as liquid particles do, so that rock and liquid side by side add up to 1.
-    /// What of the last row of cells lies past the lid is rock, too.
     fn smear_rock(&mut self, grid: &MacGrid, solids: &Solids) {
-        let edge = grid.rows as f32 * grid.cell;
-        let past_lid = (solids.rows()..edge.ceil() as i32).flat_map(|y| {
-            let height = (edge - y as f32).min(1.0);
-            (0..solids.columns()).map(move |x| (Vec2::new(x as f32 + 0.5, y as f32 + 0.5 * height), height))
-        });
-        let mut rock = solids.iter().map(|(cell, ..)| (centre(cell), 1.0)).chain(past_lid).peekable();
-        if rock.peek().is_none() {
+        if solids.count() == 0 {
             return;
         }
         let (mut u, mut v) = (vec![[0.0; 2]; grid.len()], vec![[0.0; 2]; grid.len()]);
-        for (at, volume) in rock {
-            faces_around(grid, at.x, at.y, Axis::U, |face, weight| u[face][0] += volume * weight);
-            faces_around(grid, at.x, at.y, Axis::V, |face, weight| v[face][0] += volume * weight);
+        for (cell, ..) in solids.iter() {
+            let at = centre(cell);
+            faces_around(grid, at.x, at.y, Axis::U, |face, weight| u[face][0] += weight);
+            faces_around(grid, at.x, at.y, Axis::V, |face, weight| v[face][0] += weight);
         }
         fold_at_walls(grid, 0..grid.rows + 2, 0..grid.stride, &mut u, &mut v);
         let share = 0.25 * grid.per_cell * grid.per_cell;

@@ -118,7 +118,7 @@ static SABOTAGED: LazyLock<[GauntletCase; 10]> = LazyLock::new(|| {
         sabotaged("density", Rules { density: Some(DENSE), ..Rules::default() }, |world, _| {
             // Half of the water, pressed together again before every tick.
             let particles = &mut world.resource_mut::<ParticleStore>().0;
-            particles.x.iter_mut().enumerate().for_each(|(i, x)| *x = 5.0 + 0.5 * (i % 20) as f32);
+            particles.x.iter_mut().enumerate().for_each(|(i, x)| *x = 5.0 + 0.25 * (i % 20) as f32);
         }),
         sabotaged("rest", Rules { rest: Some(1e-3), ..Rules::default() }, |world, _| {
             world.resource_mut::<ParticleStore>().0.vx.iter_mut().for_each(|speed| *speed = 10.0);
