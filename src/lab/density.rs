@@ -76,6 +76,8 @@ pub struct DensityError {
     pub max: f64,
     /// Mean density of the interior particles, 1 at rest density.
     pub density: f64,
+    /// How many these are.
+    pub interior: usize,
 }
 
 /// The density error, `rest_density` (a multiple of the lattice's) counting as none. `None` without interior particles.
@@ -106,6 +108,7 @@ impl DensityError {
             errors.push(if local.immersed { excess.abs() } else { excess.max(0.0) });
         }
         Some(Self {
+            interior: errors.len(),
             density: 1.0 + sum / errors.len() as f64,
             mean: stats::mean(&errors)?,
             max: stats::largest(&errors)?,

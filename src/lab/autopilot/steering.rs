@@ -143,7 +143,8 @@ impl State {
                 let sample = error.latest().filter(|sample| sample.tick > self.sampled)?;
                 self.sampled = sample.tick;
                 // Without a liquid inside there is no error to hold.
-                self.controller.observe(sample.mean.unwrap_or(0.0), SAMPLE_EVERY as f32 * TICK_SECONDS)
+                let value = error.mean().and(sample.mean).unwrap_or(0.0);
+                self.controller.observe(value, SAMPLE_EVERY as f32 * TICK_SECONDS)
             }
         }?;
         self.moves += 1;

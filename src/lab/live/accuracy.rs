@@ -16,6 +16,11 @@ pub const SAMPLE_EVERY: u64 = 3;
 /// Samples that the shown error is the mean of: half a second.
 const RECENT: usize = 10;
 
+/// Interior particles in these samples below which there is no error to speak of: one a sample. The errors of single
+/// particles scatter by as much as they are, so that of fewer the mean is unknown by a third and more; and these are
+/// droplets, each with a particle inside for a moment.
+const FEWEST: usize = RECENT;
+
 /// Whether the error of the running world is shown or held. Otherwise it is not sampled and costs nothing.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Watched(pub bool);
@@ -29,6 +34,8 @@ pub struct ErrorSample {
     pub mean: Option<f32>,
     /// Its 99th percentile.
     pub p99: Option<f32>,
+    /// How many interior particles were in the sample.
+    pub interior: usize,
     /// Time that taking the sample took.
     pub cost: Duration,
 }
@@ -61,14 +68,24 @@ impl LiveError {
         self.recent.back()
     }
 
-    /// Mean density error; `None` without a liquid inside.
+    /// Mean density error over the particles that were sampled; `None` if fewer than [`FEWEST`] of them were inside of
+    /// a liquid.
     pub fn mean(&self) -> Option<f32> {
-        average(self.recent.iter().filter_map(|sample| sample.mean))
+        self.over_particles(|sample| sample.mean)
     }
 
-    /// 99th percentile of the density error.
+    /// 99th percentile of the density error, its mean over the samples likewise.
     pub fn p99(&self) -> Option<f32> {
-        average(self.recent.iter().filter_map(|sample| sample.p99))
+        self.over_particles(|sample| sample.p99)
+    }
+
+    fn over_particles(&self, of: impl Fn(&ErrorSample) -> Option<f32>) -> Option<f32> {
+        let (mut sum, mut count) = (0.0, 0);
+        for sample in &self.recent {
+            sum += of(sample).unwrap_or(0.0) * sample.interior as f32;
+            count += sample.interior;
+        }
+        (count >= FEWEST).then(|| sum / count as f32)
     }
 
     /// What sampling costs, ms a tick.
@@ -214,7 +231,8 @@ mod tests {
     use crate::scene::{self, effects::EffectModes};
 
     fn sample(tick: u64, mean: Option<f32>) -> ErrorSample {
-        ErrorSample { tick, mean, p99: mean, cost: Duration::from_micros(300) }
+        let interior = if mean.is_some() { 20 } else { 0 };
+        ErrorSample { tick, mean, p99: mean, interior, cost: Duration::from_micros(300) }
     }
 
     #[test]
@@ -228,6 +246,16 @@ mod tests {
         assert!((live.milliseconds_a_tick() - 0.1).abs() < 1e-4);
         live.note(sample(40, None));
         assert_eq!(live.mean(), Some(1.0), "a moment without liquid inside has no error");
+    }
+
+    #[test]
+    fn the_live_error_is_one_of_particles_and_of_enough_of_them() {
+        let mut live = LiveError::default();
+        live.note(ErrorSample { interior: FEWEST - 1, ..sample(0, Some(0.01)) });
+        assert_eq!(live.mean(), None, "a few particles are no liquid");
+        live.note(ErrorSample { interior: 1, ..sample(3, Some(0.51)) });
+        let expected = (0.01 * (FEWEST - 1) as f32 + 0.51) / FEWEST as f32;
+        assert!(live.mean().is_some_and(|mean| (mean - expected).abs() < 1e-6), "{:?} is not {expected}", live.mean());
     }
 
     #[test]

@@ -74,6 +74,7 @@ fn sample_world(world: &mut World, scratch: &mut Scratch) {
         tick,
         mean: found.map(|error| error.mean as f32),
         p99: found.map(|error| error.p99 as f32),
+        interior: found.map_or(0, |error| error.interior),
         cost: start.elapsed(),
     };
     world.resource_mut::<LiveError>().note(sample);
