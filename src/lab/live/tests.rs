@@ -206,6 +206,7 @@ fn a_survey_can_be_given_up_and_begun_again() {
 }
 
 #[test]
+#[cfg_attr(target_arch = "wasm32", ignore = "a module has no threads: there it never begins")]
 fn nobody_is_made_to_wait_for_a_survey_that_nobody_asked_for() {
     let mut simulation = begin("dam_break", &[("columns", "10")], LivePlugin);
     simulation.world_mut().insert_resource(Surveyor::sliced());
