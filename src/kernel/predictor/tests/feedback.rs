@@ -30,20 +30,6 @@ fn divergence(before: &Particles, after: &Particles, dt: f32) -> f32 {
     2.0 * sums.0 / sums.1
 }
 
-/// Predictions of a substep of `dt` s.
-fn predict_over(particles: &mut Particles, solids: &Solids, dt: f32) -> PredictorReport {
-    let domain = Domain { size: size(solids), gravity: Vec2::ZERO };
-    let params = PredictorParams {
-        domain: &domain,
-        cell: CELL,
-        rest_density: LATTICE,
-        instructions: InstructionSet::detect(),
-        threads: 1,
-        dt,
-    };
-    Predictor::default().run(particles, solids, &params)
-}
-
 #[test]
 fn the_pull_follows_the_error_up_to_its_range_and_no_further() {
     // 0.99 of the range, and ten times it. So short that no move is longer than the feedback's longest.
@@ -51,7 +37,7 @@ fn the_pull_follows_the_error_up_to_its_range_and_no_further() {
     for (error, expected, cut) in [(0.297, 48.0 * 0.297, false), (3.0, 48.0 * 0.3, true)] {
         let (mut particles, solids) = drop(error);
         let before = particles.clone();
-        let report = predict_over(&mut particles, &solids, dt);
+        let report = go_on(&mut Predictor::default(), &mut particles, &solids, (LATTICE, dt));
         let found = divergence(&before, &particles, dt);
         assert!(report.liquid && (report.cuts > 20) == cut, "error {error}: {report:?}");
         assert!((found / expected - 1.0).abs() < 0.2, "error {error}: a divergence of {found}/s, not {expected}");
@@ -68,7 +54,7 @@ fn an_error_shrinks_just_below_the_bound_and_stays_bounded_past_it() {
         let mut errors = Vec::new();
         for _ in 0..6 {
             let before = particles.clone();
-            predict_over(&mut particles, &solids, dt);
+            go_on(&mut Predictor::default(), &mut particles, &solids, (LATTICE, dt));
             for i in 0..particles.len() {
                 let moved = particles.position(i).distance(before.position(i));
                 assert!(moved < 0.708, "f Δt = {product}: thrown {moved} d");

@@ -68,16 +68,20 @@ fn size(solids: &Solids) -> Vec2 {
 
 /// One prediction as a tick has it.
 fn predict(particles: &mut Particles, solids: &Solids, rest_density: f32) -> PredictorReport {
+    go_on(&mut Predictor::default(), particles, solids, (rest_density, DT))
+}
+
+/// One prediction over a substep (s) more by a predictor that there is, at a rest density as a multiple of the lattice's.
+fn go_on(
+    predictor: &mut Predictor,
+    particles: &mut Particles,
+    solids: &Solids,
+    (rest_density, dt): (f32, f32),
+) -> PredictorReport {
     let domain = Domain { size: size(solids), gravity: Vec2::ZERO };
-    let params = PredictorParams {
-        domain: &domain,
-        cell: CELL,
-        rest_density,
-        instructions: InstructionSet::detect(),
-        threads: 1,
-        dt: DT,
-    };
-    Predictor::default().run(particles, solids, &params)
+    let instructions = InstructionSet::detect();
+    let params = PredictorParams { domain: &domain, cell: CELL, rest_density, instructions, threads: 1, dt };
+    predictor.run(particles, solids, &params)
 }
 
 /// Numbers from −1 to 1 that look random and are always the same.
