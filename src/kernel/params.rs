@@ -170,11 +170,11 @@ named! {
     Classic = "classic",
     /// For the weakest machine: one substep of one iteration, coarse air.
     Draft = "draft",
-    /// Up to four iterations.
+    /// A second iteration, finer air.
     Fast = "fast",
-    /// The default. A second substep, of one iteration.
+    /// The default. Up to four iterations, finer air.
     Balanced = "balanced",
-    /// Two substeps of up to four iterations, finer air.
+    /// A second substep, finer air.
     Fine = "fine",
     /// What the others are compared with; not meant to run in real time: `fine` at twice the detail. More substeps and
     /// a wider kernel cost more and were hardly truer.
@@ -250,9 +250,9 @@ impl Preset {
                 predictor: false,
                 ..base
             },
-            Self::Draft => Quality { air_cell: 8.0, ..base },
-            Self::Fast => Quality { iterations: 4, air_cell: 6.0, ..base },
-            Self::Balanced => Quality { substeps: 2, ..base },
+            Self::Draft => Quality { air_cell: 6.0, ..base },
+            Self::Fast => Quality { iterations: 2, air_cell: 5.0, ..base },
+            Self::Balanced => Quality { iterations: 4, ..base },
             Self::Fine | Self::Reference => Quality { substeps: 2, iterations: 4, air_cell: 3.0, ..base },
         }
     }

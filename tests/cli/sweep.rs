@@ -133,11 +133,11 @@ fn a_sweep_from_a_save_file_counts_from_its_tick() {
 #[test]
 fn presets_out_of_order_fail_the_sweep_only_if_that_is_asked_for() {
     let here = folder("sweep_check");
-    // So little water is mostly surface, where more iterations buy more than another substep.
+    // So little water is mostly surface, where another iteration buys nothing.
     let thin = ["sweep", "dam_break", "--set", "columns=20", "--quick", "--out", "thin"];
     assert!(good(&here, &thin).contains("\nOrder: not ok.\n"));
     let summary = fs::read_to_string(here.join("thin/summary.md")).unwrap();
-    let says = ["dam_break: the presets are out of order", "`fast` → `balanced`: the error rises"];
+    let says = ["dam_break: the presets are out of order", "`draft` → `fast`: the error rises"];
     let output = crate::program(&here, &[&thin[..], &["--check"]].concat());
     let stderr = String::from_utf8(output.stderr).unwrap();
     // A build without charts says so in a line of its own.

@@ -50,11 +50,17 @@ fn dam(preset: Preset, quarters: u32) -> Blueprint {
 
 #[test]
 fn gravity_turned_by_quarters_gives_the_turned_run() {
-    for preset in [Preset::Classic, Preset::Draft, Preset::Balanced] {
-        let mut upright = Simulation::of(dam(preset, 0));
-        let mut others: Vec<_> = (1..4).map(|quarters| (quarters, Simulation::of(dam(preset, quarters)))).collect();
+    // Not where liquid is iterated again only where it is too dense: that goes by bins, which begin at the left and below.
+    for (preset, substeps) in [(Preset::Classic, 1), (Preset::Draft, 1), (Preset::Draft, 2)] {
+        let dam = |quarters| {
+            let mut dam = dam(preset, quarters);
+            dam.quality.substeps = substeps;
+            dam
+        };
+        let mut upright = Simulation::of(dam(0));
+        let mut others: Vec<_> = (1..4).map(|quarters| (quarters, Simulation::of(dam(quarters)))).collect();
         let nudged = |seed: u64| {
-            let mut nudged = dam(preset, 0);
+            let mut nudged = dam(0);
             nudged.nudge(seed);
             Simulation::of(nudged)
         };
@@ -69,7 +75,7 @@ fn gravity_turned_by_quarters_gives_the_turned_run() {
                 let apart = apart(&upright, other.run(1), |at| turned(at, *quarters));
                 assert!(
                     apart < 8.0 * rounding,
-                    "{}, {quarters} quarters, tick {tick}: {apart:e} d apart, rounding makes {rounding:e}",
+                    "{} × {substeps}, {quarters} quarters, tick {tick}: {apart:e} d apart, rounding makes {rounding:e}",
                     preset.name()
                 );
             }

@@ -12,14 +12,14 @@ use bevy::math::ops;
 const MOST_SUBSTEPS: u32 = 4;
 /// Work from one level to the next grows at least by this factor.
 const LEAST_STEP: f32 = 1.25;
-/// How fast the density error falls with the work. Mean error of seconds 1 to 15 at a work of 3, 3.6, 6, 7.2, 10.8,
-/// 14.4 and then 18, 30 and 48 (commit 7739fb9, the same on every machine), %:
+/// How fast the density error falls with the work. Mean error of seconds 1 to 15 at the works of the levels, 3, 3.3,
+/// 3.6, 7.2, 10.8 and 14.4 (commit COMMIT, the same on every machine), %:
 ///
-/// - `dam_break`: 0.69, 0.58, 0.56, 0.46, 0.41, 0.40, then 0.42, 0.41, 0.42;
-/// - `waterfall`: 0.75, 0.61, 0.57, 0.40, 0.37, 0.37, then 0.35, 0.36, 0.35.
+/// - `dam_break`: 0.74, 0.61, 0.60, 0.47, 0.42, 0.41;
+/// - `waterfall`: 0.80, 0.68, 0.65, 0.42, 0.39, 0.38.
 ///
-/// Least squares up to 14.4: error ∝ work^−0.34 and ^−0.47. Between neighbours and over two levels this guess errs by
-/// at most a fifth on the way up.
+/// Least squares: error ∝ work^−0.34 and ^−0.48. Between neighbours and over two levels this guess errs by at most a
+/// fifth on the way up.
 const ERROR_EXPONENT: f32 = -0.4;
 
 /// One quality.
@@ -107,7 +107,9 @@ mod tests {
             assert_eq!(found, keeps_detail, "{}", preset.name());
         }
         let steepest = levels.windows(2).map(|pair| pair[1].work / pair[0].work).fold(0.0, f32::max);
-        assert!(steepest <= 1.7, "a step of {steepest} is too high to settle near a bound");
+        // Between one substep and two there is nothing worth its time: a second substep of one iteration takes 1.7 times
+        // the work of `balanced` for 0.93 times its error, and 1.2 times that take 0.75 times that.
+        assert!(steepest <= 2.0, "a step of {steepest} is too high to settle near a bound");
     }
 
     #[test]

@@ -216,13 +216,13 @@ mod tests {
     #[test]
     fn presets_are_known_by_their_numbers_at_every_detail() {
         let (points, floor) = table(&[
-            "\"draft, 2 threads\",,1,2,1,1,2.5,rational,true,8,0.3,0.006,0.04,0.045,0.002,",
-            "draft,draft,1,1,1,1,2.5,rational,true,8,0.6,0.006,0.04,0.045,0.002,",
-            "\"draft, h 2\",,1,1,1,1,2,rational,true,8,0.5,0.006,0.04,0.045,0.002,",
+            "\"draft, 2 threads\",,1,2,1,1,2.5,rational,true,6,0.3,0.006,0.04,0.045,0.002,",
+            "draft,draft,1,1,1,1,2.5,rational,true,6,0.6,0.006,0.04,0.045,0.002,",
+            "\"draft, h 2\",,1,1,1,1,2,rational,true,6,0.5,0.006,0.04,0.045,0.002,",
             "fine,fine,1,1,2,4,2.5,rational,true,3,1.5,0.004,0.03,0.046,0.002,energy up by 2.0 %",
             "reference,reference,2,1,2,4,2.5,rational,true,3,6.5,,,0.043,0.002,",
-            "\"draft, detail 0.5\",,0.5,1,1,1,2.5,rational,true,8,0.2,0.008,0.05,0.08,0.002,",
-            "fast,fast,1,1,9,9,2.5,rational,true,6,1.1,0.005,0.03,0.04,0.002,",
+            "\"draft, detail 0.5\",,0.5,1,1,1,2.5,rational,true,6,0.2,0.008,0.05,0.08,0.002,",
+            "fast,fast,1,1,9,9,2.5,rational,true,5,1.1,0.005,0.03,0.04,0.002,",
         ])
         .unwrap();
         let found: Vec<_> =
@@ -234,14 +234,14 @@ mod tests {
 
     #[test]
     fn a_table_from_before_there_was_a_true_error_has_none() {
-        let old = "setting,preset,threads,substeps,iterations,ms,error_mean\nfast,fast,1,1,4,0.7,0.005\n";
+        let old = "setting,preset,threads,substeps,iterations,ms,error_mean\nfast,fast,1,1,2,0.7,0.005\n";
         let (points, floor) = points("a.csv", old).unwrap();
         assert_eq!((points.len(), points[0].detail, points[0].truth, floor), (1, 1.0, None, None));
     }
 
     #[test]
     fn a_broken_table_is_refused_with_its_line() {
-        let row = |preset: &str, ms: &str| table(&[&format!("x,{preset},1,1,1,1,2.5,rational,true,8,{ms},,,,,")]);
+        let row = |preset: &str, ms: &str| table(&[&format!("x,{preset},1,1,1,1,2.5,rational,true,6,{ms},,,,,")]);
         for (found, says) in [
             (row("draft", "soon"), "line: 2"),
             (row("draft", "0"), "line 2: ms is 0; allowed: above 0"),

@@ -237,7 +237,7 @@ mod tests {
             let keys: BTreeSet<String> = settings.iter().map(Setting::key).collect();
             let names: BTreeSet<&str> = settings.iter().map(|setting| setting.name.as_str()).collect();
             assert_eq!((keys.len(), names.len()), (settings.len(), settings.len()), "{scope:?}");
-            assert!(settings.len() < 80, "{} settings for {scope:?}", settings.len());
+            assert!(settings.len() < 90, "{} settings for {scope:?}", settings.len());
             let presets = settings.iter().filter(|setting| setting.preset.is_some()).count();
             assert_eq!(presets, Preset::ALL.len(), "every preset is there by its name");
         }
