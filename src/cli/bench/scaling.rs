@@ -75,7 +75,7 @@ fn text(rows: &[Row], fits: &[Fit], skipped: &[Skipped], cap: f64) -> String {
         format!("`{setting}` | {threads} | {exponent:.3} | {}", particles.map(grouped).join(" … "))
     };
     let mut text = format!(
-        "`{SCENE}`, {}:\n\n{}\nA time is the median of the runs' medians over the ticks; error: what exceeds rest density, \
+        "`{SCENE}`, {}:\n\n{}\nA time is the median of the runs' medians over the ticks; error: that of the density, \
          over the same ticks.\nCost grows as (least squares over the sizes measured):\n\n{}",
         processor(),
         markdown::rows(&headings, rows.iter().map(|row| line(row, all))),

@@ -50,7 +50,7 @@ pub fn text(subject: &Subject, rows: &[Row]) -> String {
     // Density errors are shares of the run's own spacing: those of finer and coarser runs are of something else.
     let as_fine: Vec<&Row> = own.iter().copied().filter(|row| row.setting.detail() == 1.0).collect();
     let sections = [
-        heading(subject, rows),
+        heading(subject, &as_fine),
         budgets(subject, &as_fine),
         preset_table(subject, rows),
         truth::text(&own, &BUDGETS),
@@ -61,7 +61,7 @@ pub fn text(subject: &Subject, rows: &[Row]) -> String {
     sections.into_iter().filter(|section| !section.is_empty()).collect::<Vec<_>>().join("\n")
 }
 
-fn heading(subject: &Subject, rows: &[Row]) -> String {
+fn heading(subject: &Subject, rows: &[&Row]) -> String {
     let Subject { scene, parameters, start, ticks, warmup, threads, .. } = subject;
     let runs = match rows.iter().map(|row| row.runs).max() {
         Some(runs @ 2..) => format!("{runs} times"),
@@ -170,7 +170,7 @@ fn one_change(from: Quality, to: Quality) -> Option<String> {
 fn threads(rows: &[Row]) -> String {
     let mut lines = Vec::new();
     for from in rows.iter().filter(|row| row.setting.preset.is_some()) {
-        for to in rows {
+        for to in rows.iter().filter(|to| to.setting.detail() == from.setting.detail()) {
             let (one, other) = (from.setting.threads, to.setting.threads);
             if to.setting.quality == from.setting.quality && other != one {
                 let gain = from.ms / to.ms;
@@ -232,14 +232,16 @@ mod tests {
 
     #[test]
     fn a_turned_knob_and_other_threads_show_as_ratios() {
-        let mut rows =
-            [row("fast", 1.0, 0.02), row("fast, h 3", 1.3, 0.01), row("both", 2.0, 0.01), row("t", 0.5, 0.02)];
+        let mut rows = ["fast", "fast, h 3", "both", "t", "finer"].map(|name| row(name, 1.0, 0.02));
+        (rows[1].ms, rows[1].error, rows[3].ms) = (1.3, 0.01, 0.5);
         rows[1].setting.quality.kernel_radius = 3.0;
         (rows[2].setting.quality.kernel_radius, rows[2].setting.quality.substeps) = (3.0, 2);
         rows[3].setting.threads = 2;
+        (rows[4].setting.threads, rows[4].setting.asked_detail) = (2, 2.0);
         let text = unpadded(&text(&subject(1), &rows));
         assert!(text.contains("| `fast` | h 3 | 1.30 | 0.50 | |"), "{text}");
         assert!(text.contains("| `fast` | 1 | 1.000 | 2 | 0.500 | 2.00 |"), "{text}");
+        assert!(!text.contains("| `fast` | 1 | 1.000 | 2 | 1.000 |"), "another detail is another world: {text}");
         let rows_of_knobs = text.lines().filter(|line| line.starts_with("| `fast` |") && line.contains("h 3")).count();
         assert_eq!(rows_of_knobs, 1, "two knobs at once tell nothing");
     }

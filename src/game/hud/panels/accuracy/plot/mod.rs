@@ -2,6 +2,12 @@
 //! the world as it runs now, and the bound that the autopilot holds. The error is that of density, or the true one
 //! where that is known. What has a time and no error, for want of liquid, stands on the lower edge.
 
+mod kind;
+#[cfg(test)]
+mod tests;
+
+pub use kind::ErrorKind;
+
 use crate::{
     game::hud::{
         panels::accuracy::{
@@ -30,40 +36,6 @@ const TOUCHED: egui::Vec2 = vec2(9.0, 9.0);
 const MARGIN: egui::Vec2 = vec2(46.0, 30.0);
 /// Room around the text of a preset's button, points.
 const PADDING: egui::Vec2 = vec2(6.0, 3.0);
-
-/// Which error the plot shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ErrorKind {
-    /// The share of the liquid that stands elsewhere than in a converged run.
-    True,
-    /// How far the density is off: a share of the run's own, to be compared at one detail only.
-    Density,
-}
-
-impl ErrorKind {
-    fn name(self) -> &'static str {
-        match self {
-            Self::True => "true error",
-            Self::Density => "density error",
-        }
-    }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::True => {
-                "Share of the liquid that stands elsewhere than in a converged run: comparable over all details"
-            }
-            Self::Density => "How much too dense or too thin the liquid stands: comparable at one detail only",
-        }
-    }
-
-    fn of(self, point: &CurvePoint) -> Option<f32> {
-        match self {
-            Self::True => point.truth,
-            Self::Density => point.error,
-        }
-    }
-}
 
 /// What is shown.
 pub struct Plot<'a> {
@@ -119,7 +91,7 @@ impl Plot<'_> {
         }
         canvas.limits(time_bound, error_bound);
         let mut taken = self.dots(&canvas);
-        let pressed = self.kinds(ui, field, &mut taken);
+        let pressed = self.kind.choose(ui, field, self.has_both, &mut taken).map(Pressed::Kind);
         self.lines(&canvas, &mut taken);
         match (self.kind, self.trail.last()) {
             (ErrorKind::Density, _) => canvas.trail(self.trail),
@@ -154,39 +126,6 @@ impl Plot<'_> {
 
     fn points(&self) -> impl Iterator<Item = &CurvePoint> {
         self.curve.iter().flat_map(|curve| &curve.points)
-    }
-
-    /// Names of the errors that can be shown, and what they cover; the other one, if it was pressed.
-    fn kinds(&self, ui: &mut Ui, field: Rect, taken: &mut Vec<Rect>) -> Option<Pressed> {
-        let mut right = field.right_top() + vec2(-6.0, 5.0);
-        let mut pressed = None;
-        for kind in [ErrorKind::Density, ErrorKind::True] {
-            let is_shown = kind == self.kind;
-            if !is_shown && !self.has_both {
-                continue;
-            }
-            let colour = if is_shown && self.has_both { Color32::WHITE } else { style::WEAK };
-            let text = ui.painter().layout_no_wrap(kind.name().to_owned(), FontId::proportional(10.5), colour);
-            let room = Rect::from_min_size(right - vec2(text.size().x, 0.0), text.size());
-            right.x = room.left() - 14.0;
-            taken.push(room.expand2(vec2(5.0, 2.5)));
-            let sense = if self.has_both { Sense::click() } else { Sense::hover() };
-            let response = ui.interact(room.expand(4.0), ui.id().with(("error", kind.name())), sense);
-            if self.has_both {
-                widgets::name(&response, kind.name(), is_shown);
-                let fill = match (is_shown, response.hovered()) {
-                    (true, _) => style::ACCENT_FILL,
-                    (false, true) => style::BUTTON_HOVER,
-                    (false, false) => style::BUTTON,
-                };
-                ui.painter().rect_filled(room.expand2(vec2(5.0, 2.5)), 4.0, fill);
-            }
-            ui.painter().galley(room.min, text, colour);
-            if response.on_hover_text(kind.about()).clicked() && !is_shown {
-                pressed = Some(Pressed::Kind(kind));
-            }
-        }
-        pressed
     }
 
     /// What there is to say where something is missing.
@@ -355,140 +294,5 @@ impl Plot<'_> {
             "{name}{at}: {time} ms a tick{truth}, density error {error} (99th percentile {p99}){sound}; click to go on \
              at it"
         )
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn plot<'a>(curve: Option<&'a Curve>, trail: &'a [Live]) -> Plot<'a> {
-        Plot {
-            curve,
-            scale: 1.0,
-            kind: ErrorKind::Density,
-            has_both: false,
-            trail,
-            goal: None,
-            now: (Preset::Fast, Preset::Fast.quality()),
-            detail: 1.0,
-            looked: true,
-            is_measuring: false,
-        }
-    }
-
-    /// A curve of all presets, each with twice the cost and half the error of the one before it; `error` is the first
-    /// one's.
-    fn curve(error: Option<f32>) -> Curve {
-        let point = |preset: Preset| {
-            let factor = f32::from(1_u8 << preset as u8);
-            let error = error.map(|error| error / factor);
-            let (quality, detail) = (preset.quality(), preset.detail());
-            CurvePoint { preset, quality, detail, milliseconds: factor, error, p99: error, truth: None, is_sound: true }
-        };
-        Curve { points: Preset::ALL.map(point).into(), ..Curve::default() }
-    }
-
-    /// What the plot and its chips write in a window, and what a click on the words `on` presses.
-    fn press(plot: &Plot<'_>, on: &str) -> (Vec<String>, Option<Pressed>) {
-        press_on(plot, |shape| matches!(shape, Shape::Text(text) if text.galley.text().starts_with(on)))
-    }
-
-    /// The same of a click on the last of the shapes that are `it`.
-    fn press_on(plot: &Plot<'_>, it: impl Fn(&Shape) -> bool) -> (Vec<String>, Option<Pressed>) {
-        let context = egui::Context::default();
-        style::apply(&context);
-        let (mut words, mut chosen, mut target) = (Vec::new(), None, None);
-        for step in 0..6 {
-            let button = |pressed, pos| egui::Event::PointerButton {
-                pos,
-                button: egui::PointerButton::Primary,
-                pressed,
-                modifiers: egui::Modifiers::NONE,
-            };
-            let events = match (step, target) {
-                (3, Some(at)) => vec![egui::Event::PointerMoved(at)],
-                (4, Some(at)) => vec![button(true, at)],
-                (5, Some(at)) => vec![button(false, at)],
-                _ => Vec::new(),
-            };
-            let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, vec2(440.0, 400.0)));
-            let input = egui::RawInput { events, screen_rect, ..egui::RawInput::default() };
-            let output = context.run_ui(input, |ui| {
-                let pressed = plot.show(ui, vec2(396.0, 200.0)).or(plot.chips(ui).map(Pressed::Preset));
-                chosen = chosen.or(pressed);
-            });
-            words.clear();
-            for shape in output.shapes.into_iter().map(|clipped| clipped.shape) {
-                if it(&shape) {
-                    target = Some(shape.visual_bounding_rect().center());
-                }
-                if let Shape::Text(text) = shape {
-                    words.push(text.galley.text().to_owned());
-                }
-            }
-        }
-        (words, chosen)
-    }
-
-    #[test]
-    fn every_preset_can_be_pressed_with_a_curve_without_and_without_liquid() {
-        let (full, times) = (curve(Some(0.1)), curve(None));
-        let live = [Live { milliseconds: 2.0, error: None }];
-        for curve in [None, Some(&full), Some(&times)] {
-            for preset in Preset::ALL {
-                let (words, chosen) = press(&plot(curve, &live), preset.name());
-                assert_eq!(chosen, Some(Pressed::Preset(preset)), "{words:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn what_is_missing_is_said() {
-        let (full, times) = (curve(Some(0.01)), curve(None));
-        let (wet, dry) = (Live { milliseconds: 2.0, error: Some(0.1) }, Live { milliseconds: 2.0, error: None });
-        let hints = |curve, live: &[Live]| plot(curve, live).hints().join("; ");
-        assert_eq!(hints(Some(&full), &[wet]), "");
-        assert!(hints(None, &[wet]).starts_with("no curve of this scene yet"));
-        let empty = hints(None, &[dry]);
-        assert!(empty.starts_with("no density error to measure") && empty.ends_with("measure here"), "{empty}");
-        assert!(hints(Some(&times), &[dry]).ends_with("times only"));
-        let measuring = Plot { is_measuring: true, ..plot(None, &[]) };
-        assert!(measuring.hints().join("; ").ends_with("it is being measured"));
-    }
-
-    #[test]
-    fn the_other_error_can_be_chosen_where_there_is_one() {
-        let full = curve(Some(0.1));
-        let live = [Live { milliseconds: 2.0, error: Some(0.1) }];
-        let (words, pressed) = press(&plot(Some(&full), &live), "density error");
-        assert!(pressed.is_none() && !words.contains(&"true error".to_owned()), "{words:?}");
-        let both = Plot { has_both: true, ..plot(Some(&full), &live) };
-        assert_eq!(press(&both, "true error").1, Some(Pressed::Kind(ErrorKind::True)));
-        assert_eq!(press(&both, "density error").1, None, "it is shown");
-    }
-
-    #[test]
-    fn where_the_true_error_is_known_it_is_drawn_over_its_floor() {
-        let mut known = curve(Some(0.1));
-        known.floor = Some(0.002);
-        known.points.iter_mut().for_each(|point| point.truth = point.error);
-        let truth = Plot { kind: ErrorKind::True, has_both: true, ..plot(Some(&known), &[]) };
-        let (words, pressed) = press(&truth, "fine");
-        assert!(words.iter().any(|word| word.starts_with("floor")), "{words:?}");
-        assert_eq!(pressed, Some(Pressed::Preset(Preset::Fine)));
-        let (words, _) = press(&plot(Some(&known), &[]), "fine");
-        assert!(!words.iter().any(|word| word.starts_with("floor")), "the density error has none: {words:?}");
-    }
-
-    #[test]
-    fn what_is_of_another_detail_is_a_mark_that_asks_for_it() {
-        let mut both = curve(Some(0.1));
-        let draft = both.points[1];
-        both.points.push(CurvePoint { detail: 0.5, milliseconds: 0.25, error: Some(0.5), ..draft });
-        let shown = plot(Some(&both), &[]);
-        let (words, pressed) = press_on(&shown, |shape| matches!(shape, Shape::Path(path) if path.closed));
-        assert_eq!(words.iter().filter(|word| *word == "draft").count(), 1, "{words:?}");
-        assert_eq!(pressed, Some(Pressed::Detail(Preset::Draft, 0.5)));
     }
 }
