@@ -5,7 +5,10 @@ use super::{
     presets::{self, Order},
     row::{Row, tests::row},
 };
-use crate::kernel::params::{AirAdvection, Preset};
+use crate::{
+    kernel::params::{AirAdvection, Preset},
+    lab::coarse::Distance,
+};
 use serde::Deserialize;
 
 /// What the judge looks at.
@@ -13,15 +16,16 @@ use serde::Deserialize;
 struct Line {
     setting: String,
     preset: String,
+    detail: f64,
     threads: usize,
     air_cell: f32,
-    // A curve without air that was measured before there was a choice of its scheme has no column for it.
-    #[serde(default)]
     air_advection: String,
     ms: f64,
     ms_low: f64,
     ms_high: f64,
     error: Option<f64>,
+    true_error: Option<f64>,
+    true_floor: Option<f64>,
     faults: String,
 }
 
@@ -30,9 +34,12 @@ fn read(table: &str) -> Vec<Row> {
     let row = |line: Line| {
         let mut row = row(&line.setting, line.ms, line.error.unwrap_or(f64::NAN));
         (row.setting.preset, row.setting.threads) = (Preset::find(&line.preset), line.threads);
+        row.setting.asked_detail = line.detail / row.setting.preset.map_or(1.0, Preset::detail);
         row.setting.quality.air_cell = line.air_cell;
         let scheme = AirAdvection::ALL.into_iter().find(|scheme| scheme.name() == line.air_advection);
-        row.setting.quality.air_advection = scheme.unwrap_or(Preset::Balanced.quality().air_advection);
+        row.setting.quality.air_advection = scheme.expect("a scheme of today");
+        row.found.accuracy.distance = Some(Distance { share: line.true_error, ..Distance::default() });
+        row.found.floor = line.true_floor;
         row.ms_range = [line.ms_low, line.ms_high];
         row.faults = line.faults.split("; ").filter(|fault| !fault.is_empty()).map(str::to_owned).collect();
         row
