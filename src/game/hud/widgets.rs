@@ -73,7 +73,7 @@ fn about(preset: Preset) -> &'static str {
         Preset::Draft => "for weak machines",
         Preset::Fast => "cheap and calm",
         Preset::Balanced => "the default",
-        Preset::Fine => "for deep water",
+        Preset::Fine => "even density, fine air",
         Preset::Reference => "fine, twice the detail",
     }
 }

@@ -19,8 +19,8 @@ const SUBSTEPS: [u32; 3] = [1, 2, 4];
 /// Iterations of the plane.
 const ITERATIONS: RangeInclusive<u32> = 1..=4;
 
-/// Substeps and iterations of the plain method, beside those of `classic`.
-const PLAIN: [(u32, u32); 5] = [(1, 8), (2, 2), (2, 4), (4, 2), (4, 4)];
+/// Substeps and iterations of the plain method: those of `classic` with one of the two turned.
+const PLAIN: [(u32, u32); 3] = [(1, 8), (2, 4), (4, 4)];
 
 /// Details at which the presets are measured beside their own, coarsest first.
 const DETAILS: [f64; 3] = [0.5, 1.5, 2.0];
@@ -237,7 +237,7 @@ mod tests {
             let keys: BTreeSet<String> = settings.iter().map(Setting::key).collect();
             let names: BTreeSet<&str> = settings.iter().map(|setting| setting.name.as_str()).collect();
             assert_eq!((keys.len(), names.len()), (settings.len(), settings.len()), "{scope:?}");
-            assert!(settings.len() < 90, "{} settings for {scope:?}", settings.len());
+            assert!(settings.len() < 80, "{} settings for {scope:?}", settings.len());
             let presets = settings.iter().filter(|setting| setting.preset.is_some()).count();
             assert_eq!(presets, Preset::ALL.len(), "every preset is there by its name");
         }

@@ -238,10 +238,12 @@ mod tests {
         (rows[2].setting.quality.kernel_radius, rows[2].setting.quality.substeps) = (3.0, 2);
         rows[3].setting.threads = 2;
         (rows[4].setting.threads, rows[4].setting.asked_detail) = (2, 2.0);
+        (rows[0].found.particles, rows[4].found.particles) = (10, 40);
         let text = unpadded(&text(&subject(1), &rows));
         assert!(text.contains("| `fast` | h 3 | 1.30 | 0.50 | |"), "{text}");
         assert!(text.contains("| `fast` | 1 | 1.000 | 2 | 0.500 | 2.00 |"), "{text}");
         assert!(!text.contains("| `fast` | 1 | 1.000 | 2 | 1.000 |"), "another detail is another world: {text}");
+        assert!(text.contains("; 10 particles, rock included"), "the scene's own: {text}");
         let rows_of_knobs = text.lines().filter(|line| line.starts_with("| `fast` |") && line.contains("h 3")).count();
         assert_eq!(rows_of_knobs, 1, "two knobs at once tell nothing");
     }
