@@ -107,7 +107,7 @@ fn main() {
         ("hydrostatic", &[], 400),
         // All is poured in after 510.
         ("rest_density", &[], 600),
-        ("sealed_air", &[], 300),
+        ("sealed_air", &[], 600),
         ("waterfall", &[], 1500),
         ("wind_tunnel", &[], 600),
     ];

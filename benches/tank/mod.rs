@@ -8,9 +8,11 @@ use powder_master::kernel::{
     particles::Particles,
     pbf::{SolveParams, Solver},
     predict,
+    predictor::{Predictor, PredictorParams},
     random::Random,
     simd::InstructionSet,
     solids::Solids,
+    velocity,
 };
 
 /// Particles along each edge of the tank.
@@ -31,6 +33,8 @@ pub struct Tank {
     pub quality: Quality,
     /// Binned for the particles as they stand.
     pub solver: Solver,
+    /// Run once on the water as it stood before it was predicted.
+    pub predictor: Predictor,
 }
 
 impl Tank {
@@ -43,6 +47,7 @@ impl Tank {
             domain: Domain { size, gravity: Vec2::new(0.0, -98.1) },
             quality: Preset::Balanced.quality(),
             solver: Solver::new(instructions, Neighbours::Binned),
+            predictor: Predictor::default(),
         };
         let mut random = Random::new(1);
         let mut random = || random.share() - 0.5;
@@ -51,21 +56,42 @@ impl Tank {
             let at = site + 0.3 * Vec2::new(random(), random());
             tank.particles.push(id, ElementId(0), at, 10.0 * Vec2::new(random(), random()));
         }
+        tank.project();
         tank.predict();
         tank.bin();
         tank.solve(2);
         tank
     }
 
+    /// Solves for the pressure.
+    pub fn project(&mut self) {
+        let Self { particles, solids, domain, quality, solver, predictor } = self;
+        let params = PredictorParams {
+            domain,
+            cell: quality.kernel_radius,
+            rest_density: 1.0,
+            instructions: solver.instructions,
+            threads: 1,
+            dt: SUBSTEP,
+        };
+        predictor.run(particles, solids, &params);
+    }
+
+    /// Velocities follow from the moves.
+    pub fn update_velocities(&mut self) {
+        let Self { particles, solids, solver, predictor, .. } = self;
+        velocity::update_velocities(particles, solver, solids, Vec2::ZERO, Some(predictor.flow()), 1, SUBSTEP);
+    }
+
     /// Predicts positions.
     pub fn predict(&mut self) {
-        let Self { particles, solids, domain, quality, solver } = self;
+        let Self { particles, solids, domain, quality, solver, .. } = self;
         predict::predict(particles, solver.instructions, solids, domain, quality, 1, SUBSTEP);
     }
 
     /// Sorts into bins.
     pub fn bin(&mut self) {
-        self.solver.bin(&mut self.particles, &self.solids, &self.domain, &self.quality, 1);
+        self.solver.bin(&mut self.particles, &self.solids, &self.domain, &self.quality, 1.0, 1);
     }
 
     /// Iterates the density constraint.

@@ -4,7 +4,7 @@ use crate::cli::{
     args::{Arguments, Bench, BenchArguments, Command},
     bench,
     failure::{self, Failure},
-    judge, list, output, play, replay, run, soak, study, sweep,
+    judge, list, merge, output, play, random, replay, run, soak, study, sweep,
 };
 use clap::Parser;
 use std::{ffi::OsString, io::Write, process::ExitCode};
@@ -41,9 +41,13 @@ fn dispatch(arguments: Arguments) -> Result<(), Failure> {
             Bench::Neighbours { threads } => bench::neighbours(threads, json.as_deref()),
             Bench::Scaling(options) => bench::scaling(&options, json.as_deref()),
         },
-        Some(Command::Exam(arguments)) => judge::judge(&arguments),
+        Some(Command::Exam(arguments)) => judge::judge(&arguments, false),
         Some(Command::Soak(arguments)) => soak::soak(&arguments),
-        Some(Command::Gauntlet(arguments)) => judge::judge(&arguments),
+        Some(Command::Gauntlet(arguments)) => match arguments.random {
+            None => judge::judge(&arguments.cases, arguments.timed),
+            Some(count) => random::random(&arguments, count),
+        },
+        Some(Command::Merge(arguments)) => merge::merge(&arguments),
         Some(Command::Study(study)) => study::study(&study),
         Some(Command::Sweep(sweep)) => sweep::sweep(&sweep),
         Some(Command::List { what }) => list::list(what),

@@ -1,6 +1,6 @@
 //! How a command ends if it does not end well: one line and an exit code.
 
-use crate::{lab::experiment::ExperimentError, scene::SceneError};
+use crate::{lab::experiment::ExperimentError, scene::SceneError, sim::new_file::Unwritten};
 use std::{fmt, io, path::Path, process::ExitCode};
 
 /// Why a command did not end well.
@@ -14,8 +14,8 @@ pub(super) enum Failure {
 
 impl Failure {
     /// An output that can't be written.
-    pub(super) fn unwritten(path: &Path, error: &io::Error) -> Self {
-        Self::Outcome(format!("{}: can't be written: {error}", path.display()))
+    pub(super) fn unwritten(path: &Path, error: io::Error) -> Self {
+        Self::Outcome(Unwritten { path: path.to_owned(), error }.to_string())
     }
 
     /// The exit code of the program.

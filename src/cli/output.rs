@@ -1,10 +1,9 @@
 //! Where results go. Paths are looked at before anything is simulated.
 
-use crate::cli::failure::Failure;
+use crate::{cli::failure::Failure, sim::new_file::NewFile};
 use serde::Serialize;
 use std::{
-    fs::File,
-    io::{self, BufWriter, Write},
+    io::{self, Write},
     path::Path,
 };
 
@@ -38,14 +37,16 @@ pub(super) fn check(paths: &[&Path]) -> Result<(), Failure> {
 }
 
 /// A file to write.
-pub(super) fn create(path: &Path) -> Result<BufWriter<File>, Failure> {
-    File::create(path).map(BufWriter::new).map_err(|error| Failure::unwritten(path, &error))
+pub(super) fn create(path: &Path) -> Result<NewFile, Failure> {
+    NewFile::create(path).map_err(|error| Failure::unwritten(path, error))
 }
 
-/// Writes a file.
-pub(super) fn write(path: &Path, content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), Failure> {
+/// Writes a file. What was there is lost only if all of the new one is written.
+pub(super) fn write(path: &Path, content: impl FnOnce(&mut NewFile) -> io::Result<()>) -> Result<(), Failure> {
     let mut file = create(path)?;
-    content(&mut file).and_then(|()| file.flush()).map_err(|error| Failure::unwritten(path, &error))
+    let written = content(&mut file);
+    let written = file.fault().map_or(written, Err);
+    written.and_then(|()| file.finish()).map(drop).map_err(|error| Failure::unwritten(path, error))
 }
 
 /// Writes a value as JSON, to a file or to stdout.
@@ -56,16 +57,53 @@ pub(super) fn write_json(path: &Path, value: &impl Serialize) -> Result<(), Fail
     if is_stdout(Some(path)) { print(&text) } else { write(path, |file| file.write_all(text.as_bytes())) }
 }
 
-/// Writes a report as JSON where that is asked for, and prints it as text unless the JSON has stdout.
+/// Writes a report as JSON where that is asked for, and prints it as text unless the JSON has stdout: also if the JSON can't
+/// be written, for it may be the result of hours.
 pub(super) fn report(
     json: Option<&Path>,
     value: impl FnOnce() -> serde_json::Value,
     text: impl FnOnce() -> String,
 ) -> Result<(), Failure> {
-    if let Some(path) = json {
-        write_json(path, &value())?;
+    let written = json.map_or(Ok(()), |path| write_json(path, &value()));
+    let printed = if is_stdout(json) { Ok(()) } else { print(&text()) };
+    written.and(printed)
+}
+
+/// Where the results of a command go that writes JSON, a document and a table.
+pub(super) struct Outputs<'a> {
+    json: Option<&'a Path>,
+    markdown: Option<&'a Path>,
+}
+
+impl<'a> Outputs<'a> {
+    /// These files, if they can be written.
+    pub(super) fn new(json: Option<&'a Path>, markdown: Option<&'a Path>) -> Result<Self, Failure> {
+        if [json, markdown].into_iter().all(is_stdout) {
+            return Err(Failure::Usage("--json and --markdown can't both have stdout; allowed: a file for one".into()));
+        }
+        check(&[json, markdown].into_iter().flatten().collect::<Vec<_>>())?;
+        Ok(Self { json, markdown })
     }
-    if is_stdout(json) { Ok(()) } else { print(&text()) }
+
+    /// Writes JSON and document where these are asked for, and prints the table unless one of them has stdout. A file that
+    /// can't be written keeps none of the others from being so.
+    pub(super) fn write(
+        &self,
+        value: impl FnOnce() -> serde_json::Value,
+        document: impl FnOnce() -> String,
+        table: impl FnOnce() -> String,
+    ) -> Result<(), Failure> {
+        let (mut printed, mut written) = (None, Ok(()));
+        if let Some(path) = self.markdown {
+            let text = document();
+            if is_stdout(self.markdown) {
+                printed = Some(text);
+            } else {
+                written = write(path, |file| file.write_all(text.as_bytes()));
+            }
+        }
+        written.and(report(self.json, value, || printed.unwrap_or_else(table)))
+    }
 }
 
 /// Says how to get charts, where the program can't draw them.

@@ -6,7 +6,7 @@ use crate::{
 };
 
 /// The scene without a name.
-const DEFAULT_SCENE: &str = "waterfall";
+pub(super) const DEFAULT_SCENE: &str = "waterfall";
 
 /// Opens the game with a scene, a saved world or a recording.
 pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Failure> {

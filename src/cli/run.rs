@@ -24,6 +24,7 @@ use crate::{
         checkpoint::Checkpoint,
         control,
         intent::Intent,
+        new_file::NewFile,
         recording::{Entry, Segment},
         simulation::Simulation,
         state::Setup,
@@ -32,8 +33,7 @@ use crate::{
 };
 use bevy::{ecs::world::World, platform::time::Instant};
 use std::{
-    fs::File,
-    io::{self, BufWriter, Write},
+    io::{self, Write},
     path::Path,
 };
 
@@ -54,25 +54,27 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let mut follower = reference.as_ref().map(Follower::new);
     let begun = Instant::now();
     let mut sampler = arguments.metrics.is_some().then(|| Sampler::new(simulation.world(), plan.warmup));
-    let mut outcome = simulate(&mut simulation, &plan, sampler.as_mut(), follower.as_mut(), trace.as_mut());
+    let ran = simulate(&mut simulation, &plan, sampler.as_mut(), follower.as_mut(), trace.as_mut());
     let seconds = begun.elapsed().as_secs_f64();
 
-    if let Some(trace) = trace {
-        outcome = outcome.and_then(|()| trace.finish());
-    }
-    // Only the trace can't be written.
-    if let Some(path) = &arguments.trace {
-        outcome.map_err(|error| Failure::unwritten(path, &error))?;
-    }
     let world = simulation.world();
     let mut metrics = sampler.map(|sampler| sampler.finish(world));
-    if let (Some(path), Some(follower)) = (&arguments.reference, &follower) {
-        output::write(path, |file| distances::write(follower.points(), file))?;
-        if let Some(metrics) = &mut metrics {
-            metrics.accuracy.distance = Some(follower.mean(plan.warmup));
-        }
+    if let (Some(metrics), Some(follower)) = (&mut metrics, &follower) {
+        metrics.accuracy.distance = Some(follower.mean(plan.warmup));
     }
-    write_outputs(arguments, world, metrics.as_ref())?;
+    // What can be written is, whatever can't: it may be the result of hours.
+    let traced = match (&arguments.trace, trace) {
+        (Some(path), Some(trace)) => {
+            ran.and_then(|()| trace.finish()?.finish()).map(drop).map_err(|error| Failure::unwritten(path, error))
+        }
+        _ => Ok(()),
+    };
+    let compared = match (&arguments.reference, &follower) {
+        (Some(path), Some(follower)) => output::write(path, |file| distances::write(follower.points(), file)),
+        _ => Ok(()),
+    };
+    let written = write_outputs(arguments, world, metrics.as_ref());
+    traced.and(compared).and(written)?;
     if output::is_stdout(arguments.metrics.as_deref()) {
         return Ok(());
     }
@@ -157,7 +159,7 @@ fn plan(arguments: &RunArguments, recorded: Option<(Segment, Preset)>) -> Result
 fn reference(path: &Path, world: &World, plan: &Plan) -> Result<Reference, Failure> {
     let mut progress = progress::bar(plan.ticks);
     Reference::record(&Checkpoint::of(world), plan, Workers::default(), &mut progress)
-        .map_err(|error| Failure::unwritten(path, &error))
+        .map_err(|error| Failure::unwritten(path, error))
 }
 
 /// Runs the plan before all that watch it.
@@ -166,7 +168,7 @@ fn simulate(
     plan: &Plan,
     sampler: Option<&mut Sampler>,
     follower: Option<&mut Follower>,
-    trace: Option<&mut Trace<BufWriter<File>>>,
+    trace: Option<&mut Trace<NewFile>>,
 ) -> io::Result<()> {
     let mut progress = progress::bar(plan.ticks);
     let mut observers: Vec<&mut dyn Observer> = vec![&mut progress];
@@ -176,19 +178,21 @@ fn simulate(
     lab::run::run(simulation, plan, &mut observers)
 }
 
+/// Writes each file that can be; the first that can't is the failure.
 fn write_outputs(arguments: &RunArguments, world: &World, metrics: Option<&Metrics>) -> Result<(), Failure> {
+    let mut outcome = Ok(());
     if let Some(path) = &arguments.particles {
-        output::write(path, |file| particles::write(world, file))?;
+        outcome = outcome.and(output::write(path, |file| particles::write(world, file)));
     }
     if let Some(path) = &arguments.png {
         let picture = Picture::of_world(world, LONG_SIDE, DISC_RADIUS);
-        output::write(path, |file| picture.write_png(file))?;
+        outcome = outcome.and(output::write(path, |file| picture.write_png(file)));
     }
     if let Some(path) = &arguments.snapshot {
-        output::write(path, |file| file.write_all(&Checkpoint::of(world).encode()))?;
+        outcome = outcome.and(output::write(path, |file| file.write_all(&Checkpoint::of(world).encode())));
     }
     if let (Some(path), Some(metrics)) = (&arguments.metrics, metrics) {
-        output::write_json(path, metrics)?;
+        outcome = outcome.and(output::write_json(path, metrics));
     }
-    Ok(())
+    outcome
 }

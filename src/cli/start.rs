@@ -91,18 +91,14 @@ impl Start {
     /// A saved world, with what the command line wants otherwise.
     fn of_saved(
         path: &Path,
-        mut checkpoint: Checkpoint,
+        saved: Checkpoint,
         quality: Option<Preset>,
         detail: Option<f64>,
         effects: EffectModes,
     ) -> Result<Self, Failure> {
-        let unfit = |what: String| bad(path, &what);
-        if let Some(detail) = detail {
-            checkpoint = checkpoint.at_detail(detail).map_err(unfit)?;
-        }
-        if let Some(preset) = quality {
-            checkpoint = checkpoint.at_quality(preset, preset.quality()).map_err(unfit)?;
-        }
+        let (own, asked) = (&saved.setup, saved.setup.asked_detail());
+        let (preset, numbers) = quality.map_or((own.preset, own.quality), |preset| (preset, preset.quality()));
+        let mut checkpoint = saved.at(preset, numbers, detail.unwrap_or(asked)).map_err(|what| bad(path, &what))?;
         checkpoint.modes.extend(effects);
         Ok(Self { checkpoint, is_scene: false })
     }

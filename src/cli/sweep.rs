@@ -4,7 +4,7 @@ use crate::{
     cli::{
         args::SweepArguments,
         failure::{self, Failure},
-        output, progress,
+        journal, output, progress,
         start::{Start, Wanted},
     },
     lab::{
@@ -14,7 +14,7 @@ use crate::{
         },
         sweep::{
             ErrorMeasure, Sweep,
-            design::{Scope, other_threads, settings},
+            design::{Scope, Setting, other_threads, settings},
             presets::Order,
             row::Row,
             summary::{self, Subject},
@@ -22,7 +22,7 @@ use crate::{
         },
     },
     scene::{KNOBS, Knob, Part},
-    sim::{checkpoint::Checkpoint, simulation::Simulation, snapshot::hash_bytes, state::Sources, workers::Workers},
+    sim::{checkpoint::Checkpoint, simulation::Simulation, state::Sources, workers::Workers},
 };
 use std::{
     fs,
@@ -51,9 +51,9 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let starts = arguments.scenes.iter().map(|scene| Opening::of(Start::read(scene, wanted.clone())?));
     let starts: Vec<Opening> = starts.collect::<Result<_, Failure>>()?;
     let folders = folders(arguments, &starts)?;
-    let journals: Vec<JournalFile> = folders.iter().map(|folder| journal(folder)).collect::<Result<_, _>>()?;
+    let journals: Vec<JournalFile> = folders.iter().map(|folder| journal_in(folder)).collect::<Result<_, _>>()?;
     output::note_missing_charts("sweep");
-    let program = program();
+    let program = journal::program();
     let mut disorder = Vec::new();
     for ((start, folder), journal) in starts.into_iter().zip(&folders).zip(journals) {
         let name = start.name.clone();
@@ -147,7 +147,7 @@ fn folders(arguments: &SweepArguments, starts: &[Opening]) -> Result<Vec<PathBuf
 }
 
 /// The journal in a folder, which no other sweep may write as long as this one runs.
-fn journal(folder: &Path) -> Result<JournalFile, Failure> {
+fn journal_in(folder: &Path) -> Result<JournalFile, Failure> {
     let path = folder.join(JOURNAL);
     JournalFile::open(&path).map_err(|error| match error {
         OpenError::InUse => Failure::Usage(format!(
@@ -155,18 +155,12 @@ fn journal(folder: &Path) -> Result<JournalFile, Failure> {
              another --out",
             path.display()
         )),
-        OpenError::Io(error) => Failure::unwritten(&path, &error),
+        OpenError::Io(error) => Failure::unwritten(&path, error),
     })
 }
 
 /// The finished runs.
 const JOURNAL: &str = "runs.jsonl";
-
-/// What the journal knows this build by: results of another are not mixed with its own.
-fn program() -> String {
-    let build = std::env::current_exe().and_then(fs::read).map_or(0, |bytes| hash_bytes(&bytes));
-    format!("{} {build:016x}", env!("CARGO_PKG_VERSION"))
-}
 
 fn measure(
     arguments: &SweepArguments,
@@ -194,9 +188,11 @@ fn measure(
         only: arguments.only.clone(),
     };
     let rounds = arguments.repeat.unwrap_or(if arguments.quick { 1 } else { ROUNDS }) as u32;
-    let sweep = Sweep { start: &checkpoint, measure, settings: settings(&scope), ticks, warmup, rounds };
+    let own = |(k, _): &(u64, Setting)| arguments.shard.is_none_or(|shard| shard.has(*k));
+    let settings = (0..).zip(settings(&scope)).filter(own).map(|(_, setting)| setting).collect();
+    let sweep = Sweep { start: &checkpoint, measure, settings, ticks, warmup, rounds };
     let path = folder.join(JOURNAL);
-    let unwritten = |error: io::Error| Failure::unwritten(&path, &error);
+    let unwritten = |error: io::Error| Failure::unwritten(&path, error);
     let mut journal = Journal::read(file, sweep.campaign(program)).map_err(unwritten)?;
     let line = progress::bar(sweep.runs() as u64).with_prefix(format!("{scene} "));
     let rows = sweep.run(&mut journal, &mut |done, what| {

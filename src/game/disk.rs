@@ -1,26 +1,8 @@
 //! Where the game's files are: a disk, or in a page the browser's own storage.
 
-use std::{
-    fs, io,
-    path::{Path, PathBuf},
-};
-
-/// Writes a file so that a failure leaves no half of it behind, and nothing lost that was there.
-pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut part = path.as_os_str().to_owned();
-    part.push(".part");
-    let part = PathBuf::from(part);
-    let written = fs::write(&part, bytes).and_then(|()| fs::rename(&part, path));
-    if written.is_err() {
-        // What matters is why it was not written.
-        let _ = fs::remove_file(&part);
-    }
-    written
-}
-
 #[cfg(not(target_arch = "wasm32"))]
 mod native {
-    use crate::game::disk::write_whole;
+    use crate::sim::new_file::write_whole;
     use std::{
         fs, io,
         path::{Path, PathBuf},

@@ -1,6 +1,6 @@
 //! The files that the game writes by itself: where they go and what they are called.
 
-use crate::game::disk;
+use crate::{game::disk, sim::new_file::Unwritten};
 use std::{
     io,
     path::{Path, PathBuf},
@@ -24,14 +24,20 @@ pub fn folders() -> Vec<PathBuf> {
     folders
 }
 
-/// Writes a new file into the first folder that takes it, and says where.
-pub fn write_new(folders: &[PathBuf], scene: &str, tick: u64, ending: &str, bytes: &[u8]) -> io::Result<PathBuf> {
-    let mut refusal = io::Error::new(io::ErrorKind::NotFound, "there is no folder to write to");
+/// Writes a new file into the first folder that takes it, and says where; or why the last one does not.
+pub fn write_new(
+    folders: &[PathBuf],
+    scene: &str,
+    tick: u64,
+    ending: &str,
+    bytes: &[u8],
+) -> Result<PathBuf, Unwritten> {
+    let mut refusal = Unwritten { path: PathBuf::new(), error: io::Error::other("there is no folder to write to") };
     for folder in folders {
         let path = free_path(folder, scene, tick, ending);
         match disk::write(&path, bytes) {
             Ok(()) => return Ok(path),
-            Err(error) => refusal = error,
+            Err(error) => refusal = Unwritten { path, error },
         }
     }
     Err(refusal)

@@ -5,16 +5,14 @@ use crate::{
     game::{actions::Action, disk, files, input::bindings::Bindings, saves::SaveFolders, toasts::Toasts},
     kernel::units::TICKS_PER_SECOND,
     sim::{
+        new_file::{Unwritten, write_whole},
         recorder::{self, Recorder},
         recording::{End, RECORDING_ENDING},
         state::Setup,
     },
 };
 use bevy::{log::error, prelude::World};
-use std::{
-    io,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 /// The folder beside save files that recordings go to.
 const FOLDER: &str = "recordings";
@@ -52,7 +50,8 @@ fn end(world: &mut World, why: &str) {
         }
         Err(problem) => {
             let key = world.resource::<Bindings>().key(Action::Record);
-            world.resource_mut::<Toasts>().warn(format!("{problem}. It ends here, and is kept: {key} tries again."));
+            let told = format!("Not written: {problem}. The recording ends here, and is kept: {key} tries again.");
+            world.resource_mut::<Toasts>().warn(told);
         }
     }
 }
@@ -69,7 +68,7 @@ pub fn keep_last_minute(world: &mut World) {
     let mut toasts = world.resource_mut::<Toasts>();
     match written {
         Ok(path) => toasts.say(format!("The last minute: {}", path.display())),
-        Err(error) => toasts.warn(format!("The last minute can't be written: {error}")),
+        Err(error) => toasts.warn(format!("The last minute is not kept: {error}")),
     }
 }
 
@@ -79,7 +78,7 @@ pub fn write(world: &mut World) {
         return;
     }
     if let Err(problem) = write_recording(world, recorder::end_now(world)) {
-        world.resource_mut::<Toasts>().warn(problem);
+        world.resource_mut::<Toasts>().warn(format!("The recording is not written: {problem}"));
     }
 }
 
@@ -89,35 +88,42 @@ pub fn write_at_exit(world: &mut World) {
         return;
     }
     if let Err(problem) = write_recording(world, recorder::end_now(world)) {
-        error!("{problem}");
+        error!("the recording is not written: {problem}");
     }
 }
 
-fn write_recording(world: &World, end: End) -> Result<Option<PathBuf>, String> {
+fn write_recording(world: &World, end: End) -> Result<Option<PathBuf>, Unwritten> {
     write_to(&folders(world), world.resource::<Recorder>(), "", end)
 }
 
 /// Writes the recording, if there is one, into the file that is named for it, or a new one.
-pub fn write_to(folders: &[PathBuf], recorder: &Recorder, suffix: &str, end: End) -> Result<Option<PathBuf>, String> {
+pub fn write_to(
+    folders: &[PathBuf],
+    recorder: &Recorder,
+    suffix: &str,
+    end: End,
+) -> Result<Option<PathBuf>, Unwritten> {
     let Some(bytes) = recorder.recording(end) else { return Ok(None) };
     let named = recorder.destination();
-    let written = match &named {
-        Some(path) => disk::write_whole(path, &bytes).map(|()| path.clone()),
-        None => write_new(folders, recorder, suffix, &bytes),
-    };
-    written.map(Some).map_err(|error| {
-        let path = named.map_or(String::new(), |path| format!("{}: ", path.display()));
-        format!("{path}the recording can't be written: {error}")
-    })
+    match named {
+        Some(path) => match write_whole(&path, &bytes) {
+            Ok(()) => Ok(Some(path)),
+            Err(error) => Err(Unwritten { path, error }),
+        },
+        None => write_new(folders, recorder, suffix, &bytes).map(Some),
+    }
 }
 
 /// Writes a new file that is called after the scene and the tick.
-pub fn write_new(folders: &[PathBuf], recorder: &Recorder, suffix: &str, bytes: &[u8]) -> io::Result<PathBuf> {
+pub fn write_new(folders: &[PathBuf], recorder: &Recorder, suffix: &str, bytes: &[u8]) -> Result<PathBuf, Unwritten> {
     let (scene, tick) = recorder.place().unwrap_or_else(|| ("world".to_owned(), 0));
     let scene = scene + suffix;
     if cfg!(target_arch = "wasm32") {
         let path = files::free_path(Path::new(""), &scene, tick, RECORDING_ENDING);
-        return disk::give(&path, bytes).map(|()| path);
+        return match disk::give(&path, bytes) {
+            Ok(()) => Ok(path),
+            Err(error) => Err(Unwritten { path, error }),
+        };
     }
     files::write_new(folders, &scene, tick, RECORDING_ENDING, bytes)
 }

@@ -2,7 +2,10 @@
 
 use crate::{
     game::{disk, files, toasts::Toasts},
-    sim::state::{Clock, Setup},
+    sim::{
+        new_file::Unwritten,
+        state::{Clock, Setup},
+    },
 };
 use bevy::{
     image::Image,
@@ -34,7 +37,7 @@ pub fn take_screenshot(world: &mut World) {
             let write = |image: Image| -> Result<(), Box<dyn Error>> {
                 let image = image.try_into_dynamic()?.to_rgb8();
                 let bytes = encode(image.width(), image.height(), &image)?;
-                Ok(disk::give(&path, &bytes)?)
+                Ok(disk::give(&path, &bytes).map_err(|error| Unwritten { path: path.clone(), error })?)
             };
             match write(captured.image.clone()) {
                 Ok(()) => toasts.say(format!("Screenshot: {}", path.display())),

@@ -40,7 +40,8 @@ pub(crate) fn held(kick: Vec2, stop: Vec2) -> Vec2 {
     let against = -(kick.x * stop.x + kick.y * stop.y);
     let stop2 = stop.x * stop.x + stop.y * stop.y;
     let share = if against < stop2 { against } else { stop2 };
-    let share = if against > 0.0 { share / stop2 } else { 0.0 };
+    // A stop whose square is too small for a number stops nothing.
+    let share = if against > 0.0 && stop2 > 0.0 { share / stop2 } else { 0.0 };
     Vec2::new(kick.x + share * stop.x, kick.y + share * stop.y)
 }
 
@@ -171,6 +172,14 @@ mod tests {
         begin_kick(Vec2::new(0.0, -8.0), &mut particles, 1, 0.25);
         assert_eq!(particles.velocity(0), Vec2::new(2.0, 6.0));
         assert_eq!((particles.push_x[0], particles.push_y[0]), (0.0, 0.0));
+    }
+
+    #[test]
+    fn what_is_next_to_nothing_stops_nothing() {
+        let kick = Vec2::new(0.0, -1e-2);
+        assert_eq!(held(kick, Vec2::new(0.0, 1e-25)), kick, "its square is 0");
+        assert_eq!(held(kick, Vec2::new(0.0, 1.0)), Vec2::ZERO);
+        assert_eq!(held(kick, Vec2::new(0.0, -1.0)), kick, "it acts the same way");
     }
 
     #[test]

@@ -14,6 +14,7 @@ mod blocks;
 pub mod brush;
 pub mod checks;
 pub mod columns;
+pub mod crowding;
 pub mod element;
 pub mod forces;
 pub mod parallel;

@@ -14,9 +14,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Longest move of a substep, in kernel radii. Collision with rock is exact at any speed; what this bounds is how deep
 /// two streams can enter each other before the density constraint sees them: up to two kernel diameters each.
 pub(crate) const MOVE_RADII: f32 = 4.0;
-/// Substeps that a fast tick may take at the scene's own spacing, as a multiple of the quality's. A finer run may take
-/// as many times more as it is finer, so that the speed at which matter is cut stays the same in m/s.
-const SUBSTEP_GROWTH: f32 = 4.0;
+/// Substeps that a fast tick may take at the scene's own spacing, as a multiple of the quality's: in a storm, with all iterations
+/// called for and the air in motion, each takes the time of up to three calm ones, and ten calm ticks are what a game has that is
+/// never late. A finer run may take as many times more as it is finer, so that the speed at which matter is cut stays the same
+/// in m/s.
+const SUBSTEP_GROWTH: f32 = 3.0;
+/// Most that a tick may take over matter that is heaped, calm ticks of counted work: what is left of ten for the air.
+const MOST_WORK: f32 = 8.0;
 
 /// Particles that are done at a time.
 const BLOCK: usize = 64;
@@ -38,18 +42,32 @@ pub struct Substeps {
 }
 
 /// Substeps for a tick of `tick` s: the quality's, more if the fastest particle (d/s) would move too far in one, up to
-/// four times the quality's and, beyond detail 1, so many times more as the run is finer.
+/// three times the quality's and, beyond detail 1, so many times more as the run is finer.
 ///
 /// **The bound.** A move is explicit, `x + v Δt`, and exact whatever its length as far as rock and walls go (`sweep`).
 /// What bounds it is that two streams must not pass through each other unseen: each moves at most `MOVE_RADII` h, so with
 /// the fastest speed v and gravity g a tick T takes `n ≥ (v + g T) T / (MOVE_RADII h)` substeps. Past the limit
 /// the speed itself is cut to `MOVE_RADII h / Δt` and counted, so that the bound holds at any speed.
-pub fn substeps(fastest: f32, domain: &Domain, quality: &Quality, detail: f32, tick: f32) -> Substeps {
+///
+/// **The cost.** Where matter is heaped, each substep is as much dearer as `crowding` says (times as many neighbours). Such a tick
+/// takes no more than eight calm ones ([`MOST_WORK`]) by taking fewer substeps: what is both so fast and so dense is past all
+/// bounds of accuracy, and what is left of its speed is cut.
+pub fn substeps(
+    fastest: f32,
+    domain: &Domain,
+    quality: &Quality,
+    (detail, tick): (f32, f32),
+    crowding: impl FnOnce() -> f32,
+) -> Substeps {
     let fastest = fastest + domain.gravity.length() * tick;
     let wanted = (fastest * tick / longest_move(quality)).ceil();
-    let most = (quality.substeps as f32 * SUBSTEP_GROWTH * detail.max(1.0)).ceil() as u32;
-    // A cast saturates, so that any speed gives a number.
-    Substeps { count: (wanted as u32).clamp(quality.substeps, most), short: wanted > most as f32 }
+    let usual = quality.substeps as f32;
+    if wanted.max(usual) == usual {
+        return Substeps { count: quality.substeps, short: false };
+    }
+    let growth = SUBSTEP_GROWTH * detail.max(1.0);
+    let most = (usual * growth).ceil().min((usual * growth.max(MOST_WORK) / crowding()).floor()).max(usual);
+    Substeps { count: wanted.min(most) as u32, short: wanted > most }
 }
 
 /// Furthest that a particle may move in a substep, d: faster ones are cut to it.
@@ -201,7 +219,8 @@ mod tests {
             let speed = part * bound;
             let mut particles = Particles::default();
             particles.push(0, ElementId(0), Vec2::splat(500.0), Vec2::new(0.6, -0.8) * speed);
-            let wanted = substeps(fastest(&particles.vx, &particles.vy), &domain, &quality, detail, TICK_SECONDS);
+            let speed = fastest(&particles.vx, &particles.vy);
+            let wanted = substeps(speed, &domain, &quality, (detail, TICK_SECONDS), || 1.0);
             assert_eq!(wanted, Substeps { count: most, short });
             let dt = TICK_SECONDS / wanted.count as f32;
             let report = predict(&mut particles, InstructionSet::Baseline, &solids, &domain, &quality, 1, dt);
@@ -212,5 +231,22 @@ mod tests {
             assert!((left.normalize() - Vec2::new(0.6, -0.8)).length() < 1e-4, "the way has changed: {left}");
             assert!(moved <= longest_move(&quality) * 1.0001, "moved {moved} d");
         }
+    }
+
+    #[test]
+    fn crowded_matter_takes_fewer_substeps() {
+        let quality = Preset::Balanced.quality();
+        let domain = Domain { size: Vec2::splat(1000.0), gravity: Vec2::ZERO };
+        let count = |crowding: f32| substeps(1e6, &domain, &quality, (1.0, TICK_SECONDS), || crowding);
+        let usual = quality.substeps;
+        for (crowding, most) in [(1.0, 3 * usual), (2.6, 3 * usual), (4.0, 2 * usual), (8.0, usual), (100.0, usual)] {
+            assert_eq!(count(crowding), Substeps { count: most, short: true }, "{crowding} times as crowded");
+        }
+        let calm = substeps(0.0, &domain, &quality, (1.0, TICK_SECONDS), || panic!("calm matter is not looked at"));
+        assert_eq!(calm, Substeps { count: usual, short: false });
+        assert_eq!(substeps(f32::NAN, &domain, &quality, (1.0, TICK_SECONDS), || 1.0).count, usual);
+        // A finer run takes as many more as it is finer, where nothing is crowded.
+        let finer = substeps(1e6, &domain, &quality, (4.0, TICK_SECONDS), || 1.0);
+        assert_eq!(finer.count, 12 * usual);
     }
 }

@@ -1,6 +1,8 @@
 //! Numbers that look random and are the same each time and everywhere: made of a number, so that no order and no thread
 //! shows in them, or in a sequence.
 
+use serde::{Deserialize, Serialize};
+
 /// Scrambles a number (the finaliser of MurmurHash3): neighbouring numbers become unrelated ones.
 pub fn mix(mut word: u32) -> u32 {
     word ^= word >> 16;
@@ -16,7 +18,7 @@ pub fn unit(bits: u32) -> f32 {
 }
 
 /// A sequence of numbers, known by the number that it begins with: a linear congruential generator (Knuth, MMIX).
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Random(u64);
 
 impl Random {

@@ -39,6 +39,7 @@ pub mod scaling;
 pub mod soak;
 pub mod split;
 pub mod stats;
+pub mod student;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod sweep;
 #[cfg(not(target_arch = "wasm32"))]

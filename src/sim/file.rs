@@ -1,9 +1,11 @@
-//! What save files and recordings have in common: a first line, a version, and what can be wrong with them.
+//! What the files of worlds have in common: a first line, a version, a checksum, and what can be wrong with them.
 
 use crate::{
     kernel::particles::Particles,
     scene::{KNOBS, effects::Effect},
+    sim::snapshot::hash_bytes,
 };
+use serde::{Serialize, de::DeserializeOwned};
 
 /// Version of the format of save files and of recordings. Columns, effects and knobs that are added raise it by themselves;
 /// raise the first number when anything else that they hold changes. Old files are refused, not misread.
@@ -30,7 +32,7 @@ pub enum FileError {
 }
 
 /// A kind of file.
-pub(super) struct Kind {
+pub(crate) struct Kind {
     /// Its name in messages.
     pub name: &'static str,
     /// Its first line.
@@ -57,6 +59,31 @@ impl Kind {
             VERSION => Ok(rest),
             found => Err(FileError::Version(self.name, found)),
         }
+    }
+
+    /// A file that holds `contents` behind a checksum.
+    pub fn seal(&self, contents: &impl Serialize) -> Vec<u8> {
+        // Writing to memory has no way to fail, and every length is known.
+        let body = postcard::to_stdvec(contents).unwrap_or_default();
+        let mut bytes = self.begin();
+        bytes.extend(hash_bytes(&body).to_le_bytes());
+        bytes.extend(body);
+        bytes
+    }
+
+    /// What [`Self::seal`] put into a file, and its checksum.
+    pub fn unseal<T: DeserializeOwned>(&self, bytes: &[u8]) -> Result<(T, u64), FileError> {
+        let rest = self.open(bytes)?;
+        let (hash, body) = rest.split_first_chunk().ok_or_else(|| self.damaged("it ends in its header"))?;
+        let hash = u64::from_le_bytes(*hash);
+        if hash != hash_bytes(body) {
+            return Err(self.damaged("its contents do not fit its checksum"));
+        }
+        let (contents, left) = postcard::take_from_bytes(body).map_err(|error| self.damaged(error))?;
+        if !left.is_empty() {
+            return Err(self.damaged("something stands behind its end"));
+        }
+        Ok((contents, hash))
     }
 
     /// The error for a file that was cut or changed.

@@ -10,6 +10,7 @@ pub mod generation;
 pub mod intent;
 pub mod ledger;
 pub mod mark;
+pub mod new_file;
 pub mod numbers;
 pub mod pace;
 pub mod recorder;
@@ -37,6 +38,7 @@ impl Plugin for SimulationPlugin {
             .init_resource::<state::SolverState>()
             .init_resource::<state::PredictorState>()
             .init_resource::<state::DragState>()
+            .init_resource::<state::StartEnergy>()
             .init_resource::<state::SleepState>()
             .init_resource::<workers::Workers>()
             .add_plugins(stages::plugin);

@@ -5,7 +5,7 @@ use crate::{
     kernel::{
         params::{AirParams, Domain, Preset},
         particles::Particles,
-        resample::{resample_particles, resample_rock, settle},
+        resample::{make_room, resample_particles, resample_rock, settle},
         sleep::SleepRecord,
         solids::Solids,
         sources::{Drain, Emitter, Rect, Wind},
@@ -150,7 +150,8 @@ impl Snapshot {
         // Looked at before memory is taken.
         count_at(self.particles.len() + self.solids.count(), from, to)?;
         let mut next_id = if self.clock.next_id < LAST_ID { self.clock.next_id } else { 0 };
-        let solids = resample_rock(&self.solids, factor, to.domain.size, &mut next_id);
+        let mut solids = resample_rock(&self.solids, factor, to.domain.size, &mut next_id);
+        make_room(&mut solids, &self.particles, factor, &to.domain);
         let particles = self.particles_in(factor, &solids, to, &mut next_id);
         let mut air = self.air.rescaled(factor as f32, to.domain.size, to.air).resized(air_cell);
         air.set_solids(&solids);

@@ -17,7 +17,7 @@ use crate::{
     sim::snapshot::Snapshot,
 };
 use bevy::prelude::{Deref, DerefMut, Resource};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 pub use crate::sim::snapshot::{Clock, Sources};
@@ -79,7 +79,7 @@ pub struct Acted {
 macro_rules! counters {
     ($(#[$about:meta])* $Counters:ident; $($(#[$doc:meta])* $name:ident: $Type:ty, $what:literal, $meaning:literal;)+) => {
         $(#[$about])*
-        #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Serialize)]
+        #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
         pub struct $Counters {
             $($(#[$doc])* pub $name: $Type,)+
             /// Most substeps that a tick took.
@@ -172,6 +172,11 @@ pub struct PredictorState(pub Predictor);
 /// The half of the drag that comes after the move. Written by the drag stage, taken by the prediction.
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
 pub struct DragState(pub LaterDrag);
+
+/// Energy of the particles at the start of the substep (`kernel::velocity::energy`), where vorticity confinement runs: it
+/// may give back what the substep loses of it. Written before the first stage that moves particles.
+#[derive(Resource, Clone, Copy, Debug, Default)]
+pub struct StartEnergy(pub f64);
 
 /// Who sleeps. Written by the sleep stages.
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]

@@ -2,9 +2,12 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that can't go on fails")]
 
+mod full_disk;
 mod judges;
 mod recordings;
 mod run;
+mod shards;
+mod soak;
 mod sweep;
 // 29,000 ticks: too slow where the solver is not optimised.
 #[cfg(not(debug_assertions))]

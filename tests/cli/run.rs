@@ -114,6 +114,8 @@ fn watching_and_threads_never_change_the_world() {
     assert_eq!(hash(&[]), plain, "twice the same");
     assert_eq!(hash(&["--threads", "1"]), plain);
     assert_eq!(hash(&["--threads", "3"]), plain);
+    let cores = std::thread::available_parallelism().unwrap().get();
+    assert_eq!(hash(&["--threads", &(cores + 2).to_string()]), plain, "two threads more than cores");
     assert_eq!(hash(&["--simd", "auto"]), plain);
     assert_eq!(hash(&["--simd", "scalar"]), plain);
     let watched = hash(

@@ -1,4 +1,5 @@
-//! The physics exam as a whole: its tolerances, and every case at `balanced`.
+//! What is allowed: the tolerances of the physics exam and its misses, and the bounds of the gauntlet.
 
+mod bounds;
 mod history;
 mod misses;

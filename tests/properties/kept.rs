@@ -1,14 +1,19 @@
 //! Every case under `tests/cases`, for ever.
 
-use super::{
-    case::{self, Case},
-    rules,
+use powder_master::lab::gauntlet::random::{Case, examine};
+use std::{
+    fs,
+    path::{Path, PathBuf},
 };
-use std::fs;
+
+/// Where cases are kept.
+pub fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases")
+}
 
 #[test]
 fn every_case_that_was_kept_holds() {
-    let mut files: Vec<_> = fs::read_dir(case::folder())
+    let mut files: Vec<_> = fs::read_dir(folder())
         .expect("tests/cases is there")
         .map(|entry| entry.expect("an entry").path())
         .filter(|path| path.extension().is_some_and(|extension| extension == "ron"))
@@ -19,22 +24,8 @@ fn every_case_that_was_kept_holds() {
     for file in files {
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let case = Case::read(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
-        if let Err(fault) = rules::judge(&case) {
-            failed.push(format!("{name}: {fault}"));
-        }
+        let found = examine(&case);
+        failed.extend(found.faults().into_iter().map(|fault| format!("{name}: {fault}")));
     }
     assert!(failed.is_empty(), "{}", failed.join("\n"));
-}
-
-#[test]
-fn a_case_survives_its_files() {
-    let folder = std::env::temp_dir().join(format!("powder-master-case-{}", std::process::id()));
-    fs::create_dir_all(&folder).expect("a temporary folder");
-    let file = folder.join("one.ron");
-    let entry = powder_master::sim::recording::Entry { tick: 7, intent: powder_master::sim::intent::Intent::ClearAir };
-    fs::write(&file, "(title: \"One\", spacing: 1, size: (8, 8))").expect("can be written");
-    fs::write(file.with_extension("jsonl"), serde_json::to_string(&entry).expect("JSON")).expect("can be written");
-    let read = Case::read(&file).expect("can be read");
-    assert_eq!((read.input, read.ticks), (vec![entry], 67));
-    fs::remove_dir_all(folder).expect("can be removed");
 }

@@ -25,12 +25,12 @@ export async function display() {
   return { name: `:${number}`, stop: () => server.kill() };
 }
 
-// Opens the game with an empty scene; its files and its log go to `folder`.
-export async function open(program, display, folder) {
+// Opens the game with a scene; its files and its log go to `folder`.
+export async function open(program, display, folder, scene = ['empty']) {
   const { WAYLAND_DISPLAY, ...rest } = process.env;
   const env = { ...rest, DISPLAY: display, XDG_DATA_HOME: join(folder, 'data') };
   const log = openSync(join(folder, 'log'), 'a');
-  const child = spawn(program, ['play', 'empty', '--hook'], { cwd: folder, env, stdio: ['pipe', 'pipe', log] });
+  const child = spawn(program, ['play', ...scene, '--hook'], { cwd: folder, env, stdio: ['pipe', 'pipe', log] });
   const ended = new Promise((done) => child.once('exit', (code, signal) => done(signal ?? code)));
   child.stdin.on('error', () => {});
   const answers = createInterface({ input: child.stdout })[Symbol.asyncIterator]();
@@ -51,7 +51,8 @@ export async function open(program, display, folder) {
   await until('the first frame', ({ frame }) => frame > 0);
   const window = (await x('search', '--sync', '--onlyvisible', '--name', 'Powder Master')).stdout.split('\n')[0];
   // Without a window manager nobody gives it the keyboard.
-  await x('windowfocus', '--sync', window);
+  const focus = () => x('windowfocus', '--sync', window);
+  await focus();
 
   // Moves the pointer, and waits until the game knows.
   async function move(to) {
@@ -89,12 +90,23 @@ export async function open(program, display, folder) {
   return {
     click,
     drag,
+    focus,
     move,
     stats,
     until,
     untilWidgets,
     widgets,
     key: (name) => x('key', name),
+    // Makes the window another size; unless it shall not wait, until the X server has it so.
+    async resize(size, wait = true) {
+      await x('windowsize', window, ...size);
+      const has = async () => (await x('getwindowgeometry', '--shell', window)).stdout;
+      const wanted = ([width, height]) => new RegExp(`WIDTH=${width}\nHEIGHT=${height}\n`);
+      if (wait) await poll(`a window of ${size}`, has, (now) => wanted(size).test(now));
+    },
+    hide: () => x('windowunmap', '--sync', window),
+    show: () => x('windowmap', '--sync', window),
+    tell: ask,
     // One way along the points with a button held.
     async stroke(button, points) {
       await move(points[0]);

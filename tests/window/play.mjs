@@ -8,6 +8,7 @@ import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync } fr
 import { join, resolve } from 'node:path';
 import { isOpen, poll } from '../poll.mjs';
 import { difference, display, open, water, WORLD } from './game.mjs';
+import { resizeWhileLate } from './late.mjs';
 
 const program = resolve(process.argv[2]);
 const folder = resolve(process.argv[3] ?? 'target/window-test');
@@ -253,6 +254,8 @@ async function play() {
 
   const log = readFileSync(join(folder, 'log'), 'utf8');
   assert.doesNotMatch(log, /panicked/i, 'the game panicked');
+
+  await test('a window that changes size and goes away while ticks are late', () => resizeWhileLate(program, join(folder, 'late')));
 }
 
 const apart = ([x, y, width, height], [u, v, wide, high]) => x + width <= u || u + wide <= x || y + height <= v || v + high <= y;

@@ -54,6 +54,27 @@ fn every_number_of_threads_gives_the_same_bits() {
 }
 
 #[test]
+fn more_threads_than_cores_give_the_same_sound_world_and_come_to_an_end() {
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let run = |threads: usize| {
+        let mut simulation = Simulation::of(busy(56)).with_threads(threads);
+        let count = simulation.particles().len();
+        simulation.run(120);
+        let counters = simulation.counters();
+        assert_eq!((counters.escaped, counters.non_finite), (0, 0), "{threads} threads");
+        assert_eq!(simulation.particles().len(), count, "{threads} threads");
+        simulation.hash()
+    };
+    let alone = run(1);
+    // Threads that wait for one another on too few cores may wait for ever: that shall fail, not hang.
+    let (sender, outcome) = std::sync::mpsc::channel();
+    std::thread::spawn(move || sender.send(run(cores + 2)));
+    // 120 ticks of 6,272 particles take some seconds; a machine that is busy with much else gets a hundred times that.
+    let crowded = outcome.recv_timeout(std::time::Duration::from_secs(600));
+    assert_eq!(crowded, Ok(alone), "{} threads on {cores} cores", cores + 2);
+}
+
+#[test]
 fn binned_neighbours_equal_all_pairs() {
     for preset in [Preset::Classic, Preset::Draft, Preset::Balanced] {
         let run = |neighbours| {

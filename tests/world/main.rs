@@ -10,6 +10,7 @@ mod hard_cases;
 mod ledger;
 mod monkey;
 mod motion;
+mod other_quality;
 #[path = "../properties/mod.rs"]
 mod properties;
 mod recordings;

@@ -321,13 +321,13 @@ fn faster_water_takes_more_substeps_up_to_the_bound_and_is_slowed_past_it() {
         simulation.run(1);
         (simulation.get::<TickPlan>().substeps, simulation.counters())
     };
-    // A substep moves at most 4 h = 10 d; 4 substeps at rest, 16 at most.
+    // A substep moves at most 4 h = 10 d; 4 substeps at rest, 12 at most.
     let (slow, counters) = run(600.0);
     assert_eq!((slow, counters.speed_clamps, counters.substeps_max), (4, 0, 4));
     let (fast, counters) = run(3000.0);
     assert_eq!((fast, counters.speed_clamps), (6, 0));
     let (fastest, counters) = run(60_000.0);
-    assert_eq!((fastest, counters.substeps_max), (16, 16));
+    assert_eq!((fastest, counters.substeps_max), (12, 12));
     assert!(counters.speed_clamps > 0, "a speed past the bound was neither cut nor counted");
 }
 

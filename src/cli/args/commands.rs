@@ -1,13 +1,15 @@
 //! The commands, and the options of those that open and run worlds.
 
 use super::{
-    lab::{BenchArguments, CaseArguments, SoakArguments, StudyArguments, SweepArguments},
+    lab::{
+        BenchArguments, CaseArguments, GauntletArguments, MergeArguments, SoakArguments, StudyArguments, SweepArguments,
+    },
     machine::Machine,
     values::{Ticks, detail, effect, hold_error, hold_ms, preset, seconds, setting, ticks, warmup},
 };
 use crate::{
     kernel::params::Preset,
-    lab::{exam::ExamCase, gauntlet::GauntletCase},
+    lab::exam::ExamCase,
     scene::effects::{Effect, Mode},
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -38,8 +40,10 @@ pub(in crate::cli) enum Command {
     Exam(CaseArguments<ExamCase>),
     /// Play a scene for hours by a script, and see that nothing grows or gets lost
     Soak(SoakArguments),
-    /// Run every hard case at each quality, and judge whether it stays stable
-    Gauntlet(CaseArguments<GauntletCase>),
+    /// Run every hard case at each quality, or random worlds, and judge whether they stay stable
+    Gauntlet(GauntletArguments),
+    /// Put the JSON of all shards of an exam or a gauntlet together
+    Merge(MergeArguments),
     /// Make an experiment: a table and pictures
     Study(StudyArguments),
     /// Measure what accuracy costs in a scene: curve.csv, curve.svg, curve.png, summary.md

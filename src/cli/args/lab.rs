@@ -2,9 +2,18 @@
 
 use super::{
     machine::Machine,
-    values::{Minutes, cap, case, detail, hours, particles, preset, rounds, setting, threads, ticks, warmup},
+    values::{
+        Minutes, cap, case, detail, hours, particles, preset, rounds, seed, setting, shard, threads, ticks, warmup,
+        worlds,
+    },
 };
-use crate::{kernel::params::Preset, lab::cases::Case};
+use crate::{
+    kernel::params::Preset,
+    lab::{
+        cases::{Case, Shard},
+        gauntlet::GauntletCase,
+    },
+};
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -85,13 +94,50 @@ pub(in crate::cli) struct CaseArguments<C: Case> {
     /// Cases at a time, each on one thread; they never change the result [default: one a processor]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
     pub(in crate::cli) threads: Option<u64>,
+    /// Run a part only: every Nth run (or random world) from the Kth on; `merge` puts the JSON of all parts together
+    #[arg(long, value_name = "K/N", value_parser = shard)]
+    pub(in crate::cli) shard: Option<Shard>,
+}
+
+/// `gauntlet`.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct GauntletArguments {
+    #[command(flatten)]
+    pub(in crate::cli) cases: CaseArguments<GauntletCase>,
+    /// Judge so many random worlds in place of the cases
+    #[arg(long, value_name = "COUNT", allow_negative_numbers = true, value_parser = worlds,
+          conflicts_with_all = ["cases", "quick", "detail"])]
+    pub(in crate::cli) random: Option<u64>,
+    /// Count a tick that takes too long as a fault, too: on a machine that does nothing else
+    #[arg(long, conflicts_with = "random")]
+    pub(in crate::cli) timed: bool,
+    /// What the random worlds are made from: the same number, the same worlds [default: a new one, which is printed]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = seed, requires = "random")]
+    pub(in crate::cli) seed: Option<u64>,
+    /// Folder for the random worlds that break a rule, made if it is needed [default: found]
+    #[arg(long, value_name = "DIR", requires = "random")]
+    pub(in crate::cli) keep: Option<PathBuf>,
+}
+
+/// `merge`.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct MergeArguments {
+    /// The JSON that all shards of a run wrote
+    #[arg(required = true, value_name = "FILE.json")]
+    pub(in crate::cli) files: Vec<PathBuf>,
+    /// Write the whole as JSON; `-` is stdout, in place of the table
+    #[arg(long, value_name = "FILE.json")]
+    pub(in crate::cli) json: Option<PathBuf>,
+    /// Write the whole as a document; `-` is stdout, in place of the table
+    #[arg(long, value_name = "FILE.md")]
+    pub(in crate::cli) markdown: Option<PathBuf>,
 }
 
 /// `soak`.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct SoakArguments {
-    /// Scene: a name of `list scenes`, or the path of a scene file
-    pub(in crate::cli) scene: String,
+    /// Scene: a name of `list scenes`, or the path of a scene file [default: waterfall]
+    pub(in crate::cli) scene: Option<String>,
     /// Simulated time
     #[arg(long, value_name = "HOURS", value_parser = hours, default_value = "24", allow_negative_numbers = true)]
     pub(in crate::cli) hours: Minutes,
@@ -111,9 +157,13 @@ pub(in crate::cli) struct SoakArguments {
     /// Random choices of the player: the same number, the same play
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(in crate::cli) seed: u64,
-    /// Write the figures as JSON; `-` is stdout
+    /// Write the figures as JSON; `-` is stdout, in place of the table
     #[arg(long, value_name = "FILE.json")]
     pub(in crate::cli) json: Option<PathBuf>,
+    /// Keep in this file what it takes to go on, at least once an hour of simulated time: a soak that was stopped, however
+    /// that was, goes on from there by the same command, and comes to the same bits
+    #[arg(long, value_name = "FILE")]
+    pub(in crate::cli) journal: Option<PathBuf>,
     #[command(flatten)]
     pub(in crate::cli) machine: Machine,
 }
@@ -160,9 +210,13 @@ pub(in crate::cli) struct SweepArguments {
     /// Only this preset; may be repeated [default: all presets and what is around them]
     #[arg(long = "only", value_name = "QUALITY", value_parser = preset)]
     pub(in crate::cli) only: Vec<Preset>,
+    /// Measure a part only: every Nth setting from the Kth on. What all parts leave in `runs.jsonl`, put together in
+    /// another folder, is all that a sweep into that folder needs
+    #[arg(long, value_name = "K/N", value_parser = shard)]
+    pub(in crate::cli) shard: Option<Shard>,
     /// End with exit code 1 if the presets are not in order: each more expensive and more exact than the one before it, and none
     /// beaten by a margin
-    #[arg(long, conflicts_with = "only")]
+    #[arg(long, conflicts_with_all = ["only", "shard"])]
     pub(in crate::cli) check: bool,
     /// Runs of each setting, interleaved [default: 3; with --quick 1]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = rounds)]

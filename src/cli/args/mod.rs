@@ -8,6 +8,7 @@ mod values;
 
 pub(super) use commands::{Arguments, Command, Listing, PlayOptions, ReplayArguments, RunArguments};
 pub(super) use lab::{
-    Bench, BenchArguments, CaseArguments, ScalingOptions, SoakArguments, Study, StudyArguments, SweepArguments,
+    Bench, BenchArguments, CaseArguments, GauntletArguments, MergeArguments, ScalingOptions, SoakArguments, Study,
+    StudyArguments, SweepArguments,
 };
 pub(super) use values::{Minutes, Ticks};

@@ -2,7 +2,7 @@
 
 use crate::{
     kernel::{params::Preset, simd::InstructionSet, units::TICKS_PER_SECOND},
-    lab::cases::Case,
+    lab::cases::{Case, Shard},
     scene::{
         DETAIL,
         effects::{Effect, Mode},
@@ -55,6 +55,9 @@ fn number<T: FromStr + PartialOrd + Display>(text: &str, kind: &str, range: Rang
     number.ok_or_else(|| format!("allowed: {kind} from {} to {}", range.start(), range.end()))
 }
 
+/// Most random worlds that can be asked for.
+const MOST_WORLDS: u64 = 1_000_000_000;
+
 /// What is said of numbers that count.
 const WHOLE: &str = "whole numbers";
 
@@ -68,6 +71,18 @@ pub(super) fn warmup(text: &str) -> Result<u64, String> {
 
 pub(super) fn rounds(text: &str) -> Result<u64, String> {
     number(text, WHOLE, 1..=MOST_ROUNDS)
+}
+
+pub(super) fn worlds(text: &str) -> Result<u64, String> {
+    number(text, WHOLE, 1..=MOST_WORLDS)
+}
+
+pub(super) fn seed(text: &str) -> Result<u64, String> {
+    number(text, WHOLE, 0..=u64::MAX)
+}
+
+pub(super) fn shard(text: &str) -> Result<Shard, String> {
+    Shard::read(text)
 }
 
 pub(super) fn threads(text: &str) -> Result<u64, String> {

@@ -73,12 +73,12 @@ fn save(
     let last_minute = recorder.last_minute(End::Crashed);
     let mut saved = match recording::write_new(folders, recorder, "-crash", &last_minute) {
         Ok(path) => format!("the last minute is in {}", path.display()),
-        Err(error) => format!("the last minute can't be written: {error}"),
+        Err(error) => format!("the last minute is lost: {error}"),
     };
     match recording::write_to(folders, recorder, "-crash", End::Crashed) {
         Ok(Some(path)) => saved += &format!(", the recording in {}", path.display()),
         Ok(None) => {}
-        Err(problem) => saved += &format!("; {problem}"),
+        Err(error) => saved += &format!(", the recording is lost: {error}"),
     }
     if journal.is_some_and(SharedJournal::close) {
         saved += "; the next start offers to restore the world";

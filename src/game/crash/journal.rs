@@ -2,19 +2,25 @@
 //! the last half second. Written by a thread of its own; the game only copies what is new.
 //!
 //! A state comes every 30 s of the world's time (see `sim::recorder`) and takes the place of the one before in one step.
-//! The file is locked as long as the game lives, so that another game knows whose it is.
+//! The file is locked as long as the game lives, so that another game knows whose it is. While the disk is full it stays as
+//! it was; the first state for which there is room again goes on.
 
-use crate::sim::{
-    recorder::{Cursor, News, Recorder},
-    recording::{End, RECORDING_ENDING, Writer},
+use crate::{
+    game::toasts::Toasts,
+    sim::{
+        new_file::{NewFile, Unwritten},
+        recorder::{Cursor, News, Recorder},
+        recording::{End, RECORDING_ENDING, Writer},
+    },
 };
 use bevy::{
     log::error,
-    prelude::{App, Last, Res, Resource},
+    prelude::{App, Last, Res, ResMut, Resource},
 };
 use std::{
     fs::{self, File, OpenOptions},
     io::{self, Write},
+    mem,
     path::{Path, PathBuf},
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
@@ -43,7 +49,9 @@ pub struct Journal {
     cursor: Cursor,
     path: PathBuf,
     sender: Option<Sender<Message>>,
-    thread: Option<JoinHandle<io::Result<()>>>,
+    thread: Option<JoinHandle<bool>>,
+    /// Why the thread can't write, until that is told.
+    fault: Arc<Mutex<Option<Unwritten>>>,
     written: Instant,
 }
 
@@ -62,11 +70,13 @@ impl Journal {
             }
         };
         let (sender, messages) = channel();
-        let place = path.clone();
-        let thread = thread::Builder::new().name("journal".to_owned()).spawn(move || write(&place, file, &messages));
+        let fault = Arc::<Mutex<Option<Unwritten>>>::default();
+        let pen = Pen { path: path.clone(), file, writer: Writer::new(), whole: true, fault: fault.clone() };
+        let thread = thread::Builder::new().name("journal".to_owned()).spawn(move || pen.write(&messages));
         let thread = thread.map_err(|error| error!("the journal can't be kept: {error}")).ok()?;
         let (sender, thread) = (Some(sender), Some(thread));
-        let journal = Self { recorder, cursor: Cursor::default(), path, sender, thread, written: Instant::now() };
+        let journal =
+            Self { recorder, cursor: Cursor::default(), path, sender, thread, fault, written: Instant::now() };
         Some(SharedJournal(Arc::new(Mutex::new(journal))))
     }
 
@@ -79,23 +89,19 @@ impl Journal {
     }
 
     fn tell(&mut self, message: Message) {
-        // A thread that is gone met an error, which is told when it is joined.
-        if self.sender.as_ref().is_some_and(|sender| sender.send(message).is_err()) {
-            self.join();
-        }
+        // The thread is there as long as the sender is, unless it panicked: then there is nobody to tell.
+        let _ = self.sender.as_ref().map(|sender| sender.send(message));
     }
 
     /// Waits until all is written and the lock is free; whether it could be.
     fn join(&mut self) -> bool {
         self.sender = None;
-        match self.thread.take().map(JoinHandle::join) {
-            Some(Ok(Ok(()))) => true,
-            Some(Ok(Err(error))) => {
-                error!("{}: the journal can't be written: {error}", self.path.display());
-                false
-            }
-            _ => false,
-        }
+        self.thread.take().is_some_and(|thread| thread.join().unwrap_or(false))
+    }
+
+    /// Why it can't be written, once.
+    fn fault(&self) -> Option<Unwritten> {
+        self.fault.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 }
 
@@ -133,10 +139,13 @@ pub fn follow(app: &mut App) {
     app.add_systems(Last, keep_up);
 }
 
-fn keep_up(journal: Res<SharedJournal>) {
+fn keep_up(journal: Res<SharedJournal>, mut toasts: ResMut<Toasts>) {
     let mut journal = journal.lock();
     if journal.written.elapsed() >= EVERY {
         journal.tell_news();
+    }
+    if let Some(fault) = journal.fault() {
+        toasts.warn(format!("Played on, but a crash would lose it: {fault}"));
     }
 }
 
@@ -156,38 +165,59 @@ fn claim(folder: &Path) -> io::Result<(PathBuf, File)> {
     Err(io::Error::other("too many games run, or were left"))
 }
 
-/// Writes what it is sent, to the last message.
-fn write(path: &Path, mut file: File, messages: &Receiver<Message>) -> io::Result<()> {
-    let mut writer = Writer::new();
-    while let Ok(message) = messages.recv() {
+/// What the thread has in hand.
+struct Pen {
+    path: PathBuf,
+    /// Locked.
+    file: File,
+    writer: Writer,
+    /// Whether all that came is in the file.
+    whole: bool,
+    fault: Arc<Mutex<Option<Unwritten>>>,
+}
+
+impl Pen {
+    /// Writes what it is sent, to the last message; whether the file has all of it.
+    fn write(mut self, messages: &Receiver<Message>) -> bool {
+        while let Ok(message) = messages.recv() {
+            if let Err(error) = self.take(message)
+                // It is told once until it is whole again.
+                && mem::replace(&mut self.whole, false)
+            {
+                let fault = Unwritten { path: self.path.clone(), error };
+                error!("{fault}");
+                *self.fault.lock().unwrap_or_else(PoisonError::into_inner) = Some(fault);
+            }
+        }
+        self.whole
+    }
+
+    fn take(&mut self, message: Message) -> io::Result<()> {
         match message {
             Message::News(news) => {
                 let News { start, entries, marks } = *news;
-                let Some(start) = start else {
-                    writer.ticks(&entries, &marks);
-                    file.write_all(&writer.take())?;
-                    continue;
-                };
-                writer = Writer::new();
-                writer.start(&start.encode());
-                writer.ticks(&entries, &marks);
-                file = replace(path, &writer.take())?;
+                if let Some(start) = start {
+                    self.writer = Writer::new();
+                    self.writer.start(&start.encode());
+                    self.writer.ticks(&entries, &marks);
+                    self.file = replace(&self.path, &self.writer.take())?;
+                    self.whole = true;
+                    return Ok(());
+                }
+                self.writer.ticks(&entries, &marks);
             }
-            Message::End(end) => {
-                writer.end(end);
-                file.write_all(&writer.take())?;
-            }
+            Message::End(end) => self.writer.end(end),
         }
+        let bytes = self.writer.take();
+        // What follows on a gap is of no use.
+        if self.whole { self.file.write_all(&bytes) } else { Ok(()) }
     }
-    Ok(())
 }
 
 /// Puts a new file in the place of the old one, in one step, and keeps it open and locked.
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<File> {
-    let part = path.with_extension("part");
-    let mut file = File::create(&part)?;
-    file.try_lock()?;
+    let mut file = NewFile::create(path)?;
+    file.file().try_lock()?;
     file.write_all(bytes)?;
-    fs::rename(&part, path)?;
-    Ok(file)
+    file.finish()
 }

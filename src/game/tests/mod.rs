@@ -46,6 +46,8 @@ mod air;
 mod crash;
 mod detail;
 mod draw;
+#[cfg(not(target_arch = "wasm32"))]
+mod full_disk;
 mod gauntlet;
 mod keys;
 mod past;

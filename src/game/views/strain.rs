@@ -84,7 +84,7 @@ impl StrainMap {
         let faded = (limited.tick.saturating_sub(self.tick)) as f32 / GLOW;
         self.tick = limited.tick;
         self.glow.iter_mut().for_each(|glow| *glow = (*glow - faded).max(0.0));
-        self.look_at_air(limited.air, limited.dt);
+        self.look_at_air(limited.air, limited.quality.air_courant, limited.dt);
         if let Some(predictor) = limited.predictor {
             let reach = 0.5 * predictor.cell();
             predictor.limit_shares(|centre, share| {
@@ -96,13 +96,13 @@ impl StrainMap {
         self.look_at_particles(limited);
     }
 
-    fn look_at_air(&mut self, air: &Air, dt: f32) {
+    fn look_at_air(&mut self, air: &Air, courant: f32, dt: f32) {
         if air.is_quiet() {
             return;
         }
         for row in 0..air.rows() {
             for column in 0..air.columns() {
-                if air.limit_share(column, row, dt) >= ACTS {
+                if air.limit_share(column, row, courant, dt) >= ACTS {
                     let low = Vec2::new(column as f32, row as f32) * air.cell();
                     self.light(low, low + air.cell());
                 }

@@ -24,6 +24,7 @@
 //! an order that a mirror image shares (middle + (one side + other side)), so that mirrored air has mirrored bits.
 
 use super::{
+    law::heads,
     pressure::shifted,
     second_order::{SecondOrder, Shares},
     shape::Corner,
@@ -73,6 +74,8 @@ pub(super) struct Advection {
     down: Vec<f32>,
     level: Vec<f32>,
     up: Vec<f32>,
+    /// Heads of this row and of the one above it, in strong air.
+    heads: [Vec<f32>; 2],
     second_order: SecondOrder,
     carry_down: Carry,
     /// Of this row of sources and the one below.
@@ -93,6 +96,7 @@ impl Advection {
             down: row(),
             level: row(),
             up: row(),
+            heads: [row(), row()],
             second_order: SecondOrder::default(),
             carry_down: carry(),
             carry_level: [carry(), carry()],
@@ -102,12 +106,16 @@ impl Advection {
 
     /// Values held.
     pub(super) fn values(&self) -> usize {
-        self.right.len() * 8 + self.carry_down.mass.len() * 18 + self.second_order.values()
+        self.right.len() * 10 + self.carry_down.mass.len() * 18 + self.second_order.values()
     }
 
     /// Begins with a row of sources of which only the shares that go up are wanted.
-    pub(super) fn begin(&mut self) {
+    #[inline(always)]
+    pub(super) fn begin(&mut self, source: Source, row: usize) {
         self.sinking[0].fill(0.0);
+        if let Some(instructions) = source.strong {
+            heads(instructions, source.pressures(row), &mut self.heads[0]);
+        }
     }
 
     /// Shares out a row of sources (counted with the ring). What lies above it is left out for the last one, of which
@@ -116,6 +124,9 @@ impl Advection {
     pub(super) fn share<L: Lanes>(&mut self, source: Source, row: usize, above: bool) {
         self.share_sideways::<L>(source, row);
         if above {
+            if let Some(instructions) = source.strong {
+                heads(instructions, source.pressures(row + 1), &mut self.heads[1]);
+            }
             self.share_upright::<L>(source, row);
         } else {
             self.share_down::<L>(source, row);
@@ -137,6 +148,7 @@ impl Advection {
         self.carry_level.rotate_right(1);
         self.carry_up.rotate_right(1);
         self.sinking.swap(0, 1);
+        self.heads.swap(0, 1);
     }
 
     /// Sideways shares of a row of sources.
@@ -156,14 +168,15 @@ impl Advection {
     fn share_faces<L: Lanes>(&mut self, source: Source, row: usize, faces: Range<usize>) {
         let behind = source.start(row) + faces.start;
         let (before, n) = (behind - 1, faces.len());
-        let [p0, u0] = [source.pressure, source.velocity_x].map(|field| &field[before..before + n]);
-        let [p1, u1, open] =
-            [source.pressure, source.velocity_x, &source.shape.open_x].map(|field| &field[behind..behind + n]);
+        let u0 = &source.velocity_x[before..before + n];
+        let [u1, open] = [source.velocity_x, &source.shape.open_x].map(|field| &field[behind..behind + n]);
+        let head = if source.strong.is_some() { &self.heads[0] } else { source.pressures(row) };
+        let (h0, h1) = (&head[faces.start - 1..][..n], &head[faces.start..][..n]);
         let (right, left) = (&mut self.right[faces.clone()], &mut self.left[faces]);
         let zero = L::splat(0.0);
         for i in lane_starts::<L>(n) {
             let velocities = [L::of(u0, i), L::of(u1, i)];
-            let flow = source.face_flow(L::of(open, i), velocities, L::of(p0, i) - L::of(p1, i));
+            let flow = source.face_flow(L::of(open, i), velocities, L::of(h0, i) - L::of(h1, i));
             flow.max(zero).put(right, i);
             (zero - flow).max(zero).put(left, i);
         }
@@ -176,15 +189,19 @@ impl Advection {
         let n = source.width;
         let (start, above) = (source.start(row), source.start(row + 1));
         let [p0, v0] = [source.pressure, source.velocity_y].map(|field| &field[start..start + n]);
-        let [p1, v1, open] =
-            [source.pressure, source.velocity_y, &source.shape.open_y].map(|field| &field[above..above + n]);
+        let [v1, open] = [source.velocity_y, &source.shape.open_y].map(|field| &field[above..above + n]);
+        let [h0, h1] = if source.strong.is_some() {
+            self.heads.each_ref().map(|row| &row[..n])
+        } else {
+            [row, row + 1].map(|row| source.pressures(row))
+        };
         let [sinking, sinking_next] = &mut self.sinking;
         let (sinking, sinking_next, rises) = (&sinking[..n], &mut sinking_next[..n], &mut self.rising[..n]);
         let (down, level, up) = (&mut self.down[..n], &mut self.level[..n], &mut self.up[..n]);
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         for i in lane_starts::<L>(n) {
             let p = L::of(p0, i);
-            let flow = source.face_flow(L::of(open, i), [L::of(v0, i), L::of(v1, i)], p - L::of(p1, i));
+            let flow = source.face_flow(L::of(open, i), [L::of(v0, i), L::of(v1, i)], L::of(h0, i) - L::of(h1, i));
             let (rising, sinks) = (flow.max(zero), L::of(sinking, i));
             (zero - flow).max(zero).put(sinking_next, i);
             rising.put(rises, i);

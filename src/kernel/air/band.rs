@@ -5,6 +5,7 @@
 
 use super::{
     advect::Advection,
+    law::heads,
     pressure::{Peaks, Push, Pushed},
     source::Source,
 };
@@ -17,6 +18,8 @@ pub(super) struct Band {
     advection: Advection,
     /// New pressure: of the row made last and the two below it, with the ring, which stands at 1.
     pressure: [Vec<f32>; 3],
+    /// Their heads, in strong air.
+    heads: [Vec<f32>; 3],
     /// Momentum of the row made last and the one below it.
     momentum_x: [Vec<f32>; 2],
     momentum_y: [Vec<f32>; 2],
@@ -30,25 +33,28 @@ impl Band {
         Self {
             advection: Advection::new(stride),
             pressure: [row(1.0), row(1.0), row(1.0)],
+            heads: [row(1.0), row(1.0), row(1.0)],
             momentum_x: [row(0.0), row(0.0)],
             momentum_y: [row(0.0), row(0.0)],
             peaks: Peaks::default(),
         }
     }
 
-    /// Gets ready for rows of `width` columns, with the one on either side.
-    fn begin(&mut self, width: usize) {
+    /// Gets ready for the columns of the source; `row` is the first row of sources.
+    #[inline(always)]
+    fn begin(&mut self, source: Source, row: usize) {
         self.pressure[0].fill(1.0);
+        self.heads[0].fill(1.0);
         for row in &mut self.pressure[1..] {
-            (row[0], row[width - 1]) = (1.0, 1.0);
+            (row[0], row[source.width - 1]) = (1.0, 1.0);
         }
-        self.advection.begin();
+        self.advection.begin(source, row);
         self.peaks = Peaks::default();
     }
 
     /// Values held.
     pub(super) fn values(&self) -> usize {
-        self.advection.values() + self.pressure[0].len() * 7
+        self.advection.values() + self.pressure[0].len() * 10
     }
 
     /// Makes the next row of new pressure and momentum.
@@ -57,10 +63,14 @@ impl Band {
         self.rotate();
         let targets = [&mut self.pressure[0], &mut self.momentum_x[0], &mut self.momentum_y[0]];
         self.advection.sum_up::<L>(source, row, targets.map(|row| &mut row[..source.width]));
+        if let Some(instructions) = source.strong {
+            heads(instructions, &self.pressure[0][..source.width], &mut self.heads[0]);
+        }
     }
 
     fn rotate(&mut self) {
         self.pressure.rotate_right(1);
+        self.heads.rotate_right(1);
         self.momentum_x.swap(0, 1);
         self.momentum_y.swap(0, 1);
     }
@@ -84,12 +94,15 @@ impl BandPass<'_> {
     /// Pass 2 for a row, once the row above it is made.
     #[inline(always)]
     fn follow<L: Lanes>(&mut self, row: usize) {
-        let Source { stride, left, width, shape, .. } = self.source;
+        let Source { stride, left, width, shape, strong, .. } = self.source;
         let start = (row - self.first) * stride + left;
         let out = start..start + width;
-        let Band { pressure: [above, here, below], momentum_x, momentum_y, .. } = &*self.band;
+        let Band { pressure, heads, momentum_x, momentum_y, .. } = &*self.band;
+        let here = &pressure[1];
+        let [above, level, below] = if strong.is_some() { heads } else { pressure };
         let from = Pushed {
-            pressure: [&below[..width], &here[..width], &above[..width]],
+            pressure: &here[..width],
+            heads: [&below[..width], &level[..width], &above[..width]],
             momentum_x: &momentum_x[1][..width],
             momentum_y: &momentum_y[1][..width],
             shape,
@@ -109,7 +122,7 @@ impl Pass for BandPass<'_> {
         let (source, Range { start: first, end }) = (self.source, self.rows.clone());
         let rows = source.pressure.len() / source.stride - 2;
         let (low, high) = ((first - 1).max(1), end.min(rows));
-        self.band.begin(source.width);
+        self.band.begin(source, low - 1);
         // A row of sources completes the targets below it, and these the push of the row below them.
         for row in low - 1..=high + 1 {
             self.band.advection.share::<L>(source, row, row <= high);
@@ -124,6 +137,7 @@ impl Pass for BandPass<'_> {
         if end > rows {
             self.band.rotate();
             self.band.pressure[0].fill(1.0);
+            self.band.heads[0].fill(1.0);
             self.follow::<L>(rows);
         }
     }

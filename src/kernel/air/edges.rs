@@ -14,7 +14,7 @@
 //! air that entered at P = 1 and with the sideways speed of the cell it enters, a gust in a box with four open sides grew
 //! to a storm.
 
-use super::{grid::Air, source::FACE_FILTER};
+use super::{grid::Air, law::head, source::FACE_FILTER};
 
 /// A cell at an open side.
 struct Edge {
@@ -38,7 +38,8 @@ impl Air {
         self.for_each_edge(active, |air, edge| {
             let Edge { inside, ring, slot, along_x, outward } = edge;
             let suction = suction(air.outside[slot], sound_speed);
-            let normal = (air.outside[slot] + lift * (air.pressure[inside] - 1.0) + sound_speed * suction) * outward;
+            let normal =
+                (air.outside[slot] + lift * (head(air.pressure[inside]) - 1.0) + sound_speed * suction) * outward;
             air.velocity_x[ring] = if along_x { normal } else { 0.0 };
             air.velocity_y[ring] = if along_x { 0.0 } else { normal };
         });

@@ -6,6 +6,7 @@
 
 use super::{
     band::Band,
+    ledger::Ledger,
     meetings::Feedback,
     report::AirReport,
     rooms::Room,
@@ -73,6 +74,7 @@ pub(super) struct Scratch {
     /// Whether tiles may sleep: a wish, which a copy keeps.
     pub(super) sleeps: bool,
     pub(super) watch: Watch,
+    pub(super) ledger: Ledger,
     pub(super) feedback: Feedback,
 }
 
@@ -283,7 +285,8 @@ impl Air {
         let buffers = self.scratch.next_pressure.len() * 3 + self.scratch.bands.iter().map(Band::values).sum::<usize>();
         let shape = self.scratch.shape.as_ref().map_or(0, Shape::memory_bytes);
         let state = cells * 13 + self.outside.len() * 4 + self.awake.len() + self.rests.len() * 4;
-        state + buffers * 4 + shape + self.scratch.watch.memory_bytes() + self.scratch.feedback.memory_bytes()
+        let Scratch { watch, ledger, feedback, .. } = &self.scratch;
+        state + buffers * 4 + shape + watch.memory_bytes() + ledger.memory_bytes() + feedback.memory_bytes()
     }
 
     /// How the cells lie, and the tiles.

@@ -1,6 +1,6 @@
 //! Sums over the air, in f64 and in the order of the cells. The unit of mass is the air of 1 d² at pressure 1.
 
-use super::{grid::Air, pressure::peak};
+use super::{grid::Air, law::inner_energy, pressure::peak};
 use glam::DVec2;
 
 impl Air {
@@ -41,13 +41,11 @@ impl Air {
         cells.sum::<f64>() * self.cell_area()
     }
 
-    /// Energy of pressure above that of even pressure 1 at the same mass: the sum of `½ c² (p − 1)²` over the area,
-    /// d⁴/s². Together with the kinetic energy it can only fall in a closed box.
+    /// Energy of pressure above that of even pressure 1 at the same mass: the sum of `½ c² (p − 1)²` over the area, less
+    /// in strong air (`law`), d⁴/s². Together with the kinetic energy it can only fall in a closed box.
     pub fn pressure_energy(&self) -> f64 {
         let stiffness = 0.5 * f64::from(self.params.sound_speed) * f64::from(self.params.sound_speed);
-        self.open_cells().map(|k| (f64::from(self.pressure[k]) - 1.0).powi(2)).sum::<f64>()
-            * stiffness
-            * self.cell_area()
+        self.open_cells().map(|k| inner_energy(f64::from(self.pressure[k]))).sum::<f64>() * stiffness * self.cell_area()
     }
 
     /// Root of the mean square of the divergence of the velocity over the open cells, 1/s, from the velocities at the

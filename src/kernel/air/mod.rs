@@ -3,7 +3,8 @@
 //!
 //! Each cell holds a pressure p (the surroundings are 1, and as in the report pressure and density are one thing) and a
 //! velocity (u, v), d/s, all at its centre. With `Dρ/Dt = −ρ ∇·u` and `Du/Dt = −c² ∇p` this is the gas of `γ = 2`: sound
-//! runs at `c √p`, and the energy `½ Σ p |u|² + ½ c² Σ p²` can only fall in a closed box.
+//! runs at `c √p`, and the energy `½ Σ p |u|² + ½ c² Σ p²` can only fall in a closed box. Far above the pressures of play
+//! it is another gas, whose sound gets no faster (`law`).
 //!
 //! Types below, what works on them above: `tiling` → `shape` → `source`, `rooms` → the passes → `grid` → the rest.
 //!
@@ -12,6 +13,7 @@
 //! | `grid` | the state, and how it is read and checked | | |
 //! | `tiling` | how the cells lie and how they are cut into tiles | | |
 //! | `shape` | what follows from rock: open faces, corners, rooms | `Shape` | the solid cells |
+//! | `law` | what pressure does, however high it is | | |
 //! | `rooms` | what is in each room, and its pressure at rest | `Room` | pressure, `Shape` |
 //! | `source` | what pass 1 reads | | |
 //! | `advect` | pass 1: shares mass and momentum out | rows of new pressure, momentum | pressure, velocity |
@@ -21,16 +23,21 @@
 //! | `edges` | the open sides | the ring around the box, outermost cells | pressure, velocity |
 //! | `tiles` | which parts are stepped and which sleep | awake tiles, fences in `Shape` | all |
 //! | `step`, `report` | counts substeps, orders the passes, puts quiet air to rest | | |
+//! | `ledger` | the mass of each room in each tile | | pressure, `Shape` |
+//! | `balance` | keeps the mass of shut rooms | pressure | pressure, `Shape`, pressures at rest |
 //! | `feedback`, `meetings` | what particles give the air, and the air them | velocity | particles, pressure |
 //! | `tools` | winds of the scene and the player's air tools | velocity, pressure | |
 //! | `walls` | rock that comes and goes | solid cells, pressure | `Solids` |
 //! | `sample`, `measure`, `resize` | values at points, sums, another cell size | | all |
 
 mod advect;
+mod balance;
 mod band;
 mod edges;
 mod feedback;
 mod grid;
+mod law;
+mod ledger;
 mod measure;
 mod meetings;
 mod pressure;

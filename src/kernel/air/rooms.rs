@@ -1,6 +1,6 @@
 //! Rooms of air that rock shuts off from each other, and the pressures at which they come to rest.
 
-use super::shape::Shape;
+use super::{ledger::MOST_DRIFT, shape::Shape};
 
 /// Air is at rest when no velocity and no pressure difference in a room is above this part of the speed of sound and of
 /// the pressure. The dynamic pressure of such wind, `½ Ma²`, is at f32's resolution of the pressure. Changing this
@@ -29,6 +29,14 @@ impl Room {
     /// Pressure at which it comes to rest.
     pub(super) fn rest(&self) -> f32 {
         if self.open { 1.0 } else { (self.mass / f64::from(self.cells.max(1))) as f32 }
+    }
+
+    /// Pressure that all of it gets when it falls asleep, where it should come to rest at `rest`: its mean, unless its mass has
+    /// drifted.
+    pub(super) fn settled(&self, rest: f32) -> f32 {
+        let mean = self.rest();
+        let drift = (f64::from(mean) - f64::from(rest)).abs();
+        if drift > MOST_DRIFT * f64::from(rest) { rest } else { mean }
     }
 
     /// Whether no pressure is further from that of rest than the bound.

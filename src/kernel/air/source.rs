@@ -1,7 +1,7 @@
 //! What pass 1 reads, and the flow through a face.
 
 use super::shape::Shape;
-use crate::simd::Lanes;
+use crate::simd::{InstructionSet, Lanes};
 
 /// Part κ of the wave solution that a face follows, 0 … ½. Raising it kills alternating pressure sooner and damps
 /// sound: a wave of 20 cells loses `κ` × 0.8 of its height a wavelength. Changing this affects the stability limit
@@ -27,13 +27,21 @@ pub(super) struct Source<'a> {
     pub(super) filter: f32,
     /// Whether shares know how the velocity changes within their cell.
     pub(super) second_order: bool,
+    /// Where a pressure may be so high that its head is not the pressure itself (`law`): what heads are found on.
+    pub(super) strong: Option<InstructionSet>,
 }
 
-impl Source<'_> {
+impl<'a> Source<'a> {
     /// Where the columns at hand of a row begin in the fields.
     #[inline(always)]
     pub(super) fn start(&self, row: usize) -> usize {
         row * self.stride + self.left
+    }
+
+    /// Pressures of the columns at hand of a row.
+    #[inline(always)]
+    pub(super) fn pressures(&self, row: usize) -> &'a [f32] {
+        &self.pressure[self.start(row)..][..self.width]
     }
 
     /// Flow through faces from the velocities before and behind them, in cells a substep. No face lets more than half a cell

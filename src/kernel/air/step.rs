@@ -3,7 +3,8 @@
 use super::{
     band::{Band, BandPass},
     grid::{Air, MAX_PRESSURE, Scratch},
-    pressure::{Peaks, Push, STILL_MACH, peak},
+    law::{self, SURELY_PLAIN},
+    pressure::{Peaks, Push, STILL_MACH, peak, stable_courant},
     report::AirReport,
     rooms::{QUIET_MACH, Room, count_rooms},
     shape::Shape,
@@ -15,17 +16,26 @@ use crate::{
     params::{AirAdvection, AirScheme},
     simd::InstructionSet,
     sources::Wind,
+    units::TICKS_PER_SECOND,
 };
 
-/// Most substeps of one step. Past it speeds are clamped and sound is slowed, and both are counted. Changing this affects
-/// the strongest wind that a scene can have, and the longest time that a step can take.
+/// Most substeps of one step, whatever [`STRONGEST`] allows. Changing this affects the longest time that a step can take.
 pub const MAX_SUBSTEPS: u32 = 64;
 
-/// Largest stable Courant number of sound, c√p·dt/cell: `√2 − 2κ`, derived in `pressure`.
+/// Most substeps of strong air, in those of air at rest; where these are fewer than one a tick, in that. Past it speeds are
+/// clamped and sound is slowed, and both are counted. So all that shares a world with a storm waits for it no longer than
+/// for eight quiet airs, however the tick is divided; with what fast particles ask for, a tick stays within ten calm ones.
+/// Sound needs no more than half of it (`law`), the rest is for winds. Those that are clamped keep half a cell a substep
+/// along either axis, at a Courant number of .7 six times the speed of sound. Changing this affects the strongest wind
+/// that a scene can have, and what a storm costs.
+const STRONGEST: f32 = 8.0;
+
+/// Largest stable Courant number of sound, c·dt/cell, in air at rest at pressure 1 ([`stable_courant`]).
 pub const STABLE_COURANT: f32 = std::f32::consts::SQRT_2 - 2.0 * FACE_FILTER;
 
-/// Courant number of sound that is kept to when the substeps don't suffice.
-const LIMITED_COURANT: f32 = 1.0;
+/// Courant number of sound that is kept to when the substeps don't suffice: what is stable beside any wind that is left
+/// then, half a cell a substep along both axes (`pressure`).
+const LIMITED_COURANT: f32 = 0.5;
 
 /// Bands that a thread gets: one may be held up. Changing this affects speed only.
 const BANDS_PER_THREAD: usize = 2;
@@ -81,7 +91,7 @@ impl Air {
         scratch.prepare(self);
 
         let mut peaks = Peaks::default();
-        let mut left = dt;
+        let (mut left, most) = (dt, self.most_substeps(courant, dt));
         loop {
             if report.substeps.is_multiple_of(WATCH) {
                 let changed = self.update_tiles(winds, &mut shape, &mut scratch);
@@ -94,9 +104,10 @@ impl Air {
                 }
                 report.cells = report.cells.max(scratch.watch.cells());
             }
-            let (count, substep) = self.next_substep(peaks, courant, left, &mut report);
+            let (count, substep) = self.next_substep(peaks, courant, left, most, &mut report);
+            let strong = peaks.pressure > SURELY_PLAIN;
             self.refresh_outside(&scratch.watch.active, substep.sound_speed);
-            peaks = self.substep(substep, scheme.advection, &shape, &mut scratch, team);
+            peaks = self.substep(substep, scheme.advection, strong, &shape, &mut scratch, team);
             self.settle_edges(&scratch.watch.active, substep.sound_speed, substep.dt);
             peaks = peaks.max(self.blow_winds(winds, substep.dt, &mut report));
             report.substeps += 1;
@@ -105,6 +116,9 @@ impl Air {
             if count == 1 {
                 break;
             }
+        }
+        if !self.quiet {
+            self.balance(&shape, &mut scratch);
         }
         let still = !scratch.sleeps && !driven && peaks.x.max(peaks.y) <= QUIET_MACH * self.params.sound_speed;
         if still {
@@ -124,10 +138,16 @@ impl Air {
         (dt * rate).ceil().clamp(1.0, MAX_SUBSTEPS as f32) as u32
     }
 
-    /// The lanes for blocks, which must fill them, and the rows of a band.
+    /// Most substeps that a step of `dt` s may take with such a `courant`. Rounded down, so that many short steps have no
+    /// more between them than one.
+    pub fn most_substeps(&self, courant: f32, dt: f32) -> u32 {
+        let at_rest = self.params.sound_speed / (courant.clamp(0.01, STABLE_COURANT) * self.cell);
+        (STRONGEST * dt * at_rest.max(TICKS_PER_SECOND as f32)).clamp(1.0, MAX_SUBSTEPS as f32) as u32
+    }
+
+    /// The lanes for blocks, which must fill a register, and the rows of a band.
     fn division(&self, team: Team, cells: usize) -> (InstructionSet, usize) {
-        let instructions =
-            if self.columns() < team.instructions.width() { InstructionSet::Scalar } else { team.instructions };
+        let instructions = team.instructions.filled_by(self.columns());
         let shared = team.threads > 1 && cells >= PARALLEL_CELLS;
         let bands = if shared { team.threads * BANDS_PER_THREAD } else { 1 };
         (instructions, self.rows().div_ceil(bands).max(FEWEST_ROWS))
@@ -136,11 +156,19 @@ impl Air {
     /// Substeps still to make in the time `left`, and the next of them. In one of them sound and wind may cross
     /// `courant` cells together, and no velocity more than half a cell, so that two faces of a cell can't give away more
     /// than it has. Past the limit of substeps velocities are clamped to that, and sound is slowed to what is stable.
-    fn next_substep(&mut self, peaks: Peaks, courant: f32, left: f32, report: &mut AirReport) -> (u32, Substep) {
+    fn next_substep(
+        &mut self,
+        peaks: Peaks,
+        courant: f32,
+        left: f32,
+        most: u32,
+        report: &mut AirReport,
+    ) -> (u32, Substep) {
         let sound_speed = self.params.sound_speed;
-        let sound = sound_speed * peaks.pressure.max(1.0).sqrt();
+        let sound = sound_speed * law::sound(peaks.pressure);
+        let courant = courant.min(stable_courant(peaks.pressure));
         let rate = ((peaks.x + peaks.y + sound) / courant).max(2.0 * peaks.x.max(peaks.y)) / self.cell;
-        let budget = MAX_SUBSTEPS.saturating_sub(report.substeps).max(1);
+        let budget = most.saturating_sub(report.substeps).max(1);
         let wanted = (left * rate).ceil().max(1.0);
         if wanted <= budget as f32 {
             let count = wanted as u32;
@@ -155,13 +183,13 @@ impl Air {
         (budget, Substep { dt, sound_speed })
     }
 
-    /// How much of what a step of `dt` s can follow a cell uses: 1 where a limiter acts. Of its wind and its sound at
-    /// the most substeps, and of the highest pressure, whichever comes nearest.
-    pub fn limit_share(&self, column: usize, row: usize, dt: f32) -> f32 {
-        let crossing = dt / (MAX_SUBSTEPS as f32 * self.cell);
+    /// How much of what a step of `dt` s with such a `courant` can follow a cell uses: 1 where a limiter acts. Of its wind
+    /// and its sound at the most substeps, and of the highest pressure, whichever comes nearest.
+    pub fn limit_share(&self, column: usize, row: usize, courant: f32, dt: f32) -> f32 {
+        let crossing = dt / (self.most_substeps(courant, dt) as f32 * self.cell);
         let (pressure, velocity) = (self.pressure_at_cell(column, row), self.velocity_at_cell(column, row));
         let wind = 2.0 * velocity.abs().max_element() * crossing;
-        let sound = self.params.sound_speed * pressure.sqrt() * crossing / LIMITED_COURANT;
+        let sound = self.params.sound_speed * law::sound(pressure) * crossing / LIMITED_COURANT;
         wind.max(sound).max(pressure / MAX_PRESSURE)
     }
 
@@ -181,6 +209,7 @@ impl Air {
         &mut self,
         substep: Substep,
         advection: AirAdvection,
+        strong: bool,
         shape: &Shape,
         scratch: &mut Scratch,
         team: Team,
@@ -199,6 +228,7 @@ impl Air {
             half: 0.5 * crossing,
             filter: FACE_FILTER * substep.sound_speed * crossing,
             second_order: advection == AirAdvection::SecondOrder,
+            strong: strong.then_some(instructions),
         };
         let push = Push {
             gain: 0.5 * substep.sound_speed * substep.sound_speed * crossing,
@@ -254,16 +284,18 @@ impl Air {
     }
 
     /// Puts the air to rest: velocities become 0 and the pressure of a room its mean (1 if the room is open), so that a
-    /// further step would change nothing. Mass is kept to a rounding.
+    /// further step would change nothing. Mass is kept to a rounding, and to what it should be where it has drifted from that
+    /// (`balance`).
     fn fall_asleep(&mut self, shape: &Shape, scratch: &mut Scratch) {
+        self.know_rests(shape, &mut scratch.rooms);
         count_rooms(shape, &self.pressure, &mut scratch.rooms);
-        self.rests.clear();
-        self.rests.extend(scratch.rooms.iter().map(Room::rest));
         for (k, room) in shape.room.iter().enumerate().filter(|(_, room)| **room != u32::MAX) {
-            self.pressure[k] = self.rests[*room as usize];
+            let room = *room as usize;
+            self.pressure[k] = scratch.rooms[room].settled(self.rests[room]);
         }
         self.stop();
         scratch.watch.forget();
+        scratch.ledger.forget();
     }
 
     /// Stops all wind: from now on nothing moves.

@@ -68,12 +68,16 @@ impl Air {
     /// Decides which tiles are awake and brings what follows from that up to date. Returns whether another set of tiles than
     /// before is active.
     pub(super) fn update_tiles(&mut self, winds: &[Wind], shape: &mut Shape, scratch: &mut Scratch) -> bool {
-        let Scratch { watch, rooms, next_pressure, next_x, next_y, .. } = scratch;
+        let Scratch { watch, rooms, ledger, next_pressure, next_x, next_y, .. } = scratch;
         let tiling = self.tiling();
+        let known = self.know_rests(shape, rooms);
+        if !known {
+            ledger.forget();
+        }
         if !self.scratch.sleeps {
             self.awake.fill(true);
         } else {
-            self.find_rest(shape, watch, rooms);
+            self.find_rest(shape, watch, known);
             for tile in (0..tiling.count()).filter(|tile| watch.looked_at[*tile]) {
                 self.awake[tile] = self.is_stirred(tile, &watch.rest);
             }
@@ -94,6 +98,7 @@ impl Air {
                 }
             }
         }
+        ledger.note(next_active);
         if !fresh && active == next_active {
             return false;
         }
@@ -103,16 +108,22 @@ impl Air {
         true
     }
 
-    /// Makes sure that the pressures of rest are known, and marks the tiles that must be looked at: those that may move,
-    /// or all if the rest has changed.
-    fn find_rest(&mut self, shape: &Shape, watch: &mut Watch, rooms: &mut Vec<Room>) {
-        self.tiling().widen(&self.awake, &mut watch.looked_at);
+    /// Makes sure that the pressures of rest are known. Returns whether they were.
+    pub(super) fn know_rests(&mut self, shape: &Shape, rooms: &mut Vec<Room>) -> bool {
         let known = self.rests.len() == shape.room_open.len() && !self.rests.is_empty();
         if !known {
-            watch.looked_at.fill(true);
             count_rooms(shape, &self.pressure, rooms);
             self.rests.clear();
             self.rests.extend(rooms.iter().map(Room::rest));
+        }
+        known
+    }
+
+    /// Marks the tiles that must be looked at: those that may move, or all if the rest was not `known`.
+    fn find_rest(&mut self, shape: &Shape, watch: &mut Watch, known: bool) {
+        self.tiling().widen(&self.awake, &mut watch.looked_at);
+        if !known {
+            watch.looked_at.fill(true);
         }
         if !known || watch.rest.len() != self.pressure.len() {
             let rests = &self.rests;

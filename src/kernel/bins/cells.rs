@@ -9,7 +9,9 @@ const COLUMNS_PER_RADIUS: u32 = 3;
 /// Columns of a tile, which so is as wide as it is high.
 const COLUMNS_PER_TILE: u32 = COLUMNS_PER_RADIUS;
 
-/// Strips as high as the search reaches, cut into thin columns: one empty strip below and one above the box.
+/// Strips as high as the search reaches, cut into thin columns: one empty strip below and one above the box. Strips, columns
+/// and tiles stand symmetrically about the middle of the box, so that what is decided by them is mirrored where the world
+/// is: they overhang the box by as much on either side.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct CellGrid {
     /// Size of the box, d.
@@ -22,20 +24,18 @@ pub(super) struct CellGrid {
     pub reach: f32,
     per_column: f32,
     per_row: f32,
+    /// How far they overhang the box on either side: columns along x, strips along y.
+    over: Vec2,
 }
 
 impl CellGrid {
     /// Cells over a box of `size` d for a search that reaches `reach` d far.
     pub fn new(size: Vec2, reach: f32) -> Self {
         let column = reach / COLUMNS_PER_RADIUS as f32;
-        Self {
-            size,
-            columns: (size.x / column) as usize + 1,
-            rows: (size.y / reach) as usize + 3,
-            reach,
-            per_column: 1.0 / column,
-            per_row: 1.0 / reach,
-        }
+        let columns = ((size.x / column) as usize + 1).next_multiple_of(COLUMNS_PER_TILE as usize);
+        let strips = (size.y / reach) as usize + 1;
+        let over = Vec2::new(columns as f32 - size.x / column, strips as f32 - size.y / reach) / 2.0;
+        Self { size, columns, rows: strips + 2, reach, per_column: 1.0 / column, per_row: 1.0 / reach, over }
     }
 
     /// Number of cells.
@@ -43,10 +43,15 @@ impl CellGrid {
         self.columns * self.rows
     }
 
+    /// Area of a cell, d².
+    pub fn cell_area(&self) -> f32 {
+        self.reach * self.reach / COLUMNS_PER_RADIUS as f32
+    }
+
     /// Column of a coordinate, d. It never falls where x rises.
     #[inline(always)]
     pub fn column(&self, x: f32) -> u32 {
-        whole_below(x * self.per_column, 0, self.columns as u32 - 1).0
+        whole_below(x * self.per_column + self.over.x, 0, self.columns as u32 - 1).0
     }
 
     /// Cell of a point, d.
@@ -57,7 +62,7 @@ impl CellGrid {
 
     #[inline(always)]
     fn row(&self, y: f32) -> u32 {
-        whole_below(y * self.per_row + 1.0, 1, self.rows as u32 - 2).0
+        whole_below(y * self.per_row + (1.0 + self.over.y), 1, self.rows as u32 - 2).0
     }
 
     /// Tiles along x, of which the first and the last are empty.
@@ -92,13 +97,14 @@ impl CellGrid {
     /// Whether what is in the strip `row` may be within reach of the bottom or the top of the box.
     pub fn is_near_floor_or_top(&self, row: usize) -> bool {
         // The strip reaches from `bottom` to one reach above it.
-        let bottom = (row as f32 - 1.0) * self.reach;
+        let bottom = (row as f32 - 1.0 - self.over.y) * self.reach;
         bottom < self.reach || bottom + 2.0 * self.reach > self.size.y
     }
 
     /// Whether what is in the columns `first … last` may be within reach of the left or the right side of the box.
     #[inline(always)]
     pub fn is_near_side(&self, first: u32, last: u32) -> bool {
-        first <= COLUMNS_PER_RADIUS || last + COLUMNS_PER_RADIUS + 2 >= self.columns as u32
+        let near = COLUMNS_PER_RADIUS + self.over.x.ceil() as u32;
+        first <= near || self.columns as u32 - 1 - last <= near
     }
 }

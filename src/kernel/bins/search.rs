@@ -21,6 +21,8 @@ use std::ops::Range;
 pub(super) const MARGIN_ROUNDING: f32 = 1e-3;
 /// The buffer of groups has one in so many to spare: their number changes a little from tick to tick.
 const SPARE_GROUPS: usize = 4;
+/// Fewer particles than this are no crowd, however much room they ask for.
+const LEAST_CROWD: usize = 8;
 
 /// How neighbours are found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -101,14 +103,10 @@ impl Bins {
         }));
     }
 
-    /// Whether a cell may hold a crowd. Costs nothing: it follows from what the sort found.
-    pub(crate) fn is_crowded(&self) -> bool {
-        self.sort.is_crowded()
-    }
-
-    /// The particles of each crowded cell.
-    pub(crate) fn crowds(&self) -> impl Iterator<Item = Range<usize>> {
-        self.sort.crowds(&self.grid)
+    /// The particles of each cell in which there are `fill` or more to a d², and eight at least.
+    pub(crate) fn crowds(&self, fill: f32) -> impl Iterator<Item = Range<usize>> {
+        let most = (fill * self.grid.cell_area()).ceil() as usize;
+        self.sort.crowds(&self.grid, most.max(LEAST_CROWD))
     }
 
     /// The groups, in the order of their particles; together they hold each particle once.

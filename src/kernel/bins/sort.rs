@@ -20,9 +20,6 @@ use std::ops::Range;
 
 /// Particles in a block.
 const BLOCK: usize = 256;
-/// Blocks of one and the same cell in a row that are a crowd: 1,024 particles where some two have room. A liquid of the
-/// highest rest density, 100, has 450 of them there in the largest cells.
-const CROWD: usize = 4;
 /// Fewer blocks than this a piece do not pay for another thread when their cells are looked up.
 const WORTH_A_LOOK: usize = 32;
 /// Fewer particles than this do not pay for a segment of their own.
@@ -146,20 +143,17 @@ impl Sort {
         *strips = found;
     }
 
-    /// Whether a crowd was found: so many particles of one cell that whole blocks of the order from before were. One that
-    /// formed since then is found the next time, when it has been sorted together.
-    pub fn is_crowded(&self) -> bool {
-        let full = self.source.len() / BLOCK;
-        let blocks = &self.blocks[..full.min(self.blocks.len())];
-        blocks.windows(CROWD).any(|run| run.iter().flatten().all(|cell| *cell == run[0][0]))
-    }
-
-    /// The places of the particles of each cell that holds a crowd.
-    pub fn crowds(&self, grid: &CellGrid) -> impl Iterator<Item = Range<usize>> {
+    /// The places of the particles of each cell that has `most` of them or more.
+    pub fn crowds(&self, grid: &CellGrid, most: usize) -> impl Iterator<Item = Range<usize>> {
         let cells = |strip: usize| strip * grid.columns + self.columns.start..=strip * grid.columns + self.columns.end;
-        let ends = self.strips.clone().flat_map(move |strip| self.starts[cells(strip)].windows(2));
-        let places = ends.map(|ends| ends[0] as usize..ends[1] as usize);
-        places.filter(|places| places.len() >= CROWD * BLOCK)
+        let strips = self.strips.clone().map(move |strip| &self.starts[cells(strip)]);
+        // Most strips have none, and that is seen faster than where one is.
+        let is_crowded = move |starts: &&[u32]| {
+            let counts = starts.iter().zip(&starts[1..]).map(|(start, end)| end - start);
+            counts.fold(false, |any, count| any | (count as usize >= most))
+        };
+        let places = strips.filter(is_crowded).flat_map(|starts| starts.windows(2));
+        places.map(|ends| ends[0] as usize..ends[1] as usize).filter(move |places| places.len() >= most)
     }
 
     /// Bytes held.

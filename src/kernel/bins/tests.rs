@@ -154,3 +154,33 @@ fn what_is_turned_inwards_stays_in_its_cell() {
     };
     bins.bin(&mut particles, &mut spare, Neighbours::Binned, InstructionSet::Baseline, 1, &settle);
 }
+
+#[test]
+fn cells_and_tiles_stand_symmetrically_about_the_middle() {
+    let mut random = random_numbers(5);
+    for size in [Vec2::new(40.0, 40.0), Vec2::new(37.3, 11.9), Vec2::new(4.0, 200.5), Vec2::new(2.7, 2.7)] {
+        let grid = CellGrid::new(size, 2.7 + MARGIN_ROUNDING);
+        let (columns, rows, stride) = (grid.columns as u32, grid.rows as u32, grid.tile_columns());
+        let mut tried = 0;
+        while tried < 1000 {
+            let at = Vec2::new(random(), random()) * size;
+            let around = [at - 1e-4, at + 1e-4].map(|at| grid.cell(at.x, at.y));
+            // At an edge rounding decides.
+            if around[0] != around[1] {
+                continue;
+            }
+            tried += 1;
+            let image = size - at;
+            let (cell, turned) = (grid.cell(at.x, at.y), grid.cell(image.x, image.y));
+            assert_eq!(cell % columns + turned % columns, columns - 1, "{at} in {size}");
+            assert_eq!(cell / columns + turned / columns, rows - 1, "{at} in {size}");
+            let (tile, turned) = (grid.tile(at.x, at.y), grid.tile(image.x, image.y));
+            assert_eq!(tile % stride + turned % stride, stride - 1, "{at} in {size}");
+            // Square tiles in a square box: turned by a quarter they are the same.
+            let quarter = grid.tile(at.y, at.x);
+            if size.x == size.y {
+                assert_eq!((tile % stride, tile / stride), (quarter / stride, quarter % stride), "{at}");
+            }
+        }
+    }
+}

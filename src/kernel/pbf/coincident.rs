@@ -104,7 +104,7 @@ mod tests {
         let (mut particles, mut solver) = (Particles::default(), Solver::default());
         (0..40).for_each(|id| particles.push(id, ElementId(0), corner, Vec2::ZERO));
         let domain = Domain { size: Vec2::splat(20.0), gravity: Vec2::ZERO };
-        solver.bin(&mut particles, solids, &domain, &Preset::Fast.quality(), 1);
+        solver.bin(&mut particles, solids, &domain, &Preset::Fast.quality(), 1.0, 1);
         (0..particles.len()).filter(|&i| particles.position(i).distance(corner) < 1e-3).count()
     }
 

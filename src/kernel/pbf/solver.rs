@@ -44,7 +44,9 @@ pub struct Solver {
     /// Limit of the last corrections; none before the first.
     pub(crate) limit: Option<CorrectionLimit>,
     /// Density that the last solve aimed at, 1 on the lattice.
-    aim: f32,
+    pub(crate) aim: f32,
+    /// Substeps of a calm tick at the last solve's quality.
+    pub(crate) substeps: u32,
 }
 
 /// What [`Solver::bin`] did besides sorting.
@@ -76,6 +78,7 @@ impl Solver {
             lambda: Vec::new(),
             limit: None,
             aim: 1.0,
+            substeps: 1,
         }
     }
 
@@ -92,6 +95,7 @@ impl Solver {
         solids: &Solids,
         domain: &Domain,
         quality: &Quality,
+        rest_density: f32,
         threads: usize,
     ) -> BinReport {
         if (self.smoothing.radius, self.smoothing.gradient) != (quality.kernel_radius, quality.gradient) {
@@ -105,9 +109,9 @@ impl Solver {
             bins.bin(particles, lambda, *neighbours, *instructions, threads, &settle);
         };
         bin(bins, particles);
-        let mut scattered = 0;
-        if bins.is_crowded() {
-            scattered = crowd::scatter(particles, bins.crowds(), domain, solids);
+        let scattered =
+            crowd::scatter(particles, bins.crowds(crowd::FILL * rest_density), rest_density, domain, solids);
+        if scattered > 0 {
             bin(bins, particles);
         }
         BinReport { set_apart: scattered + set_apart.into_inner() }
@@ -138,6 +142,7 @@ impl Solver {
             array.resize(count, 0.0);
         }
         (self.limit, self.aim) = (Some(CorrectionLimit::new(params)), params.rest_density());
+        self.substeps = params.quality.substeps;
         let anchor = [&particles.x[..], &particles.y[..]];
         for iteration in 0..params.quality.iterations {
             let reach = match params.iterate_above() {

@@ -8,6 +8,7 @@ use crate::{
         grid::MacGrid,
         level::{Level, WORTH_A_PIECE},
         rock::ClosedFaces,
+        stencil::Axis,
         transfer::{Faces, Way},
     },
 };
@@ -39,10 +40,11 @@ impl Changes<'_> {
         let near = (rows.start - 1).max(1)..(rows.end + 2).min(grid.rows + 2);
         let around = near.start - 1..near.end + 1;
         let all = reached.start.min(near.start)..reached.end.max(near.end);
-        for (means, ways, open, step) in [(&*u, ways_u, &closed.open_u, 1), (&*v, ways_v, &closed.open_v, grid.stride)]
+        for (axis, means, ways, open) in
+            [(Axis::U, &*u, ways_u, &closed.open_u), (Axis::V, &*v, ways_v, &closed.open_v)]
         {
             let (touching, near) = (&touching, &near);
-            let work = Touch { grid, touching, columns, liquid, potentials, filled, closed, open, means, step };
+            let work = Touch { grid, touching, columns, liquid, potentials, filled, closed, open, means, axis };
             let band = |field| Rows::new(field, grid.stride, &around);
             let band = (band(known), (band(gained), band(drift)));
             sweep(&work, around.clone(), band, columns.len(), WORTH_A_PIECE, team);
@@ -73,14 +75,14 @@ struct Touch<'a> {
     open: &'a [f32],
     /// Velocities from before the solve, which closed faces stop.
     means: &'a [[f32; 2]],
-    /// From the cell after a face to that before it.
-    step: usize,
+    axis: Axis,
 }
 
 impl Sweep<Touched<'_>> for Touch<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, (mut known, (mut gained, mut drift)): Touched) {
-        let Self { grid, touching, columns, liquid, potentials, filled, closed, open, means, step } = *self;
+        let Self { grid, touching, columns, liquid, potentials, filled, closed, open, means, axis } = *self;
+        let step = axis.step(grid);
         // What is filled in reads one face further.
         let around = columns.start.saturating_sub(1)..(columns.end + 1).min(grid.stride);
         let out = known.each().zip(gained.each().zip(drift.each()));
@@ -106,7 +108,8 @@ impl Sweep<Touched<'_>> for Touch<'_> {
                 for i in 0..n {
                     touches[i] = if dry[i] + wet[i] > 0.0 { 1.0 } else { 0.0 };
                 }
-                steepness(steep, (liquid, filled), start, step);
+                let filled = beside.clone().map(|cells| &filled[cells]);
+                steepness(steep, [dry, wet], filled, closed.beside(grid, axis, start, n));
                 let (open, means) = (&open[closed.row(j) + own.start..closed.row(j) + own.end], &means[cells]);
                 let [pressure, potential] = potentials.map(|field| beside.clone().map(|cells| &field[cells]));
                 touch(velocity, pressure, open, steep, means, 1.0);

@@ -1,6 +1,6 @@
 //! The rows of the pressure equation: what is done to each cell or face of a row, in lanes. The caller walks the rows.
 
-use crate::predictor::{pockets::ROUNDING, transfer::Way};
+use crate::predictor::{pockets::ROUNDING, rock::Beside, transfer::Way};
 use std::ops::Range;
 
 /// Nearest that the surface is taken to be to a liquid cell's centre, cells, so that the equation stays bounded. Within
@@ -57,6 +57,18 @@ impl Around<'_> {
             | is_free(self.right[i], rock.right[i])
             | is_free(self.lower[i], rock.lower[i])
             | is_free(self.upper[i], rock.upper[i])
+    }
+
+    /// Whether the pressure of liquid cell `i` falls to 0 before a side of it where no liquid is, if it falls on as it falls
+    /// towards the cell from the other side: the surface is in the cell.
+    #[inline(always)]
+    fn ends_within(self, liquid: Around, i: usize) -> bool {
+        let ends =
+            |wet: f32, from: f32, to: f32| (wet > 0.5) & (from > 0.0) & (from > 3.0 * self.centre[i]) & (to < 0.5);
+        ends(liquid.lower[i], self.lower[i], liquid.upper[i])
+            | ends(liquid.upper[i], self.upper[i], liquid.lower[i])
+            | ends(liquid.left[i], self.left[i], liquid.right[i])
+            | ends(liquid.right[i], self.right[i], liquid.left[i])
     }
 }
 
@@ -125,21 +137,24 @@ pub(super) fn mark(liquid: &mut [f32], filled: &[f32], liquid_from: &[f32]) -> b
 /// a liquid one and air, where the surface (p = 0) lies θ cells from the liquid cell's centre (Enright et al. 2003; a
 /// second-order surface). Without it all surfaces within one cell would be level, and a pool could rest with bumps.
 ///
-/// The faces are those from `first` on, each between a cell and the one `step` before it. Of the cells it wants to know
-/// whether they are liquid and how full they are.
+/// Liquid that ends at the face fills the two cells by 1 and by the rock beyond the face: above it, where the liquid is below.
+/// That rock is no liquid; counted as such it would lift the surface under a ledge, and water would climb to it.
+///
+/// Of the cells before and after each face it wants to know whether they are liquid and how full they are.
 #[inline(always)]
-pub(super) fn steepness(steep: &mut [f32], (liquid, filled): (&[f32], &[f32]), first: usize, step: usize) {
-    let (own, before) = (first..first + steep.len(), first - step..first - step + steep.len());
-    let [liquid_before, liquid] = [before.clone(), own.clone()].map(|cells| &liquid[cells]);
-    let [filled_before, filled] = [before, own].map(|cells| &filled[cells]);
+pub(super) fn steepness(steep: &mut [f32], liquid: [&[f32]; 2], filled: [&[f32]; 2], beside: Beside) {
     let n = steep.len();
-    let (liquid_before, liquid, filled_before, filled) =
-        (&liquid_before[..n], &liquid[..n], &filled_before[..n], &filled[..n]);
+    let Beside { rock, after } = beside;
+    let ([wet, wet_after], [filled_before, filled_after]) = (liquid, filled);
+    let [rock_before, rock_after] = rock.map(|rock| &rock[..n]);
+    let (wet, wet_after, filled_before, filled_after, after) =
+        (&wet[..n], &wet_after[..n], &filled_before[..n], &filled_after[..n], &after[..n]);
     for i in 0..n {
-        let theta = filled_before[i] + filled[i] - 0.5;
+        let beyond = if wet[i] > 0.0 { after[i] } else { rock_before[i] + rock_after[i] - after[i] };
+        let theta = filled_before[i] + filled_after[i] - 0.5 - beyond;
         let theta = if theta > LEAST_THETA { theta } else { LEAST_THETA };
         let theta = if theta < 1.0 { theta } else { 1.0 };
-        steep[i] = if liquid_before[i] * liquid[i] > 0.0 { 1.0 } else { 1.0 / theta };
+        steep[i] = if wet[i] * wet_after[i] > 0.0 { 1.0 } else { 1.0 / theta };
     }
 }
 
@@ -184,10 +199,16 @@ pub(super) fn may_be_sealed(
 /// Asks for a divergence that takes the density error away. Returns in how many liquid cells the error is out of
 /// [`FEEDBACK_RANGE`] and was cut to it.
 #[inline(always)]
-pub(super) fn feed_back(right_side: &mut [f32], liquid: Around, rock: Around, filled: &[f32], feedback: f32) -> u32 {
+pub(super) fn feed_back(
+    right_side: &mut [f32],
+    (liquid, pressure): (Around, Around),
+    rock: Around,
+    filled: &[f32],
+    feedback: f32,
+) -> u32 {
     let mut cuts = 0;
     for i in 0..right_side.len() {
-        let at_surface = liquid.touches_air(rock, i);
+        let at_surface = liquid.touches_air(rock, i) | pressure.ends_within(liquid, i);
         let (least, most) = (if at_surface { 0.0 } else { FEEDBACK_RANGE.0 }, FEEDBACK_RANGE.1);
         let wanted = filled[i] - 1.0;
         let error = if wanted > least { wanted } else { least };
@@ -201,12 +222,12 @@ pub(super) fn feed_back(right_side: &mut [f32], liquid: Around, rock: Around, fi
 }
 
 /// How much of [`FEEDBACK_RANGE`] the error of a cell uses: past 1 it is cut. `i` counts within the row.
-pub(super) fn feedback_share(liquid: Around, rock: Around, filled: &[f32], i: usize) -> f32 {
+pub(super) fn feedback_share((liquid, pressure): (Around, Around), rock: Around, filled: &[f32], i: usize) -> f32 {
     let error = filled[i] - 1.0;
     match error {
         _ if liquid.centre[i] == 0.0 => 0.0,
         error if error > 0.0 => error / FEEDBACK_RANGE.1,
-        _ if liquid.touches_air(rock, i) => 0.0,
+        _ if liquid.touches_air(rock, i) | pressure.ends_within(liquid, i) => 0.0,
         error => error / FEEDBACK_RANGE.0,
     }
 }

@@ -9,11 +9,13 @@
 //!
 //! Modules: `steps` the whole, `grid` the geometry, `rock` what is closed, `parts` cells that a wall cuts, `stencil`,
 //! `transfer` and `way_back` particles to grid and back, `pressure` and `equation` the equation, `changes` what follows
-//! from its solution on the faces, `pockets` where it is singular, `level`, `multigrid` and `conjugate` its solver.
+//! from its solution on the faces, `flow` the velocity that comes of it, `pockets` where it is singular, `level`,
+//! `multigrid` and `conjugate` its solver.
 
 mod changes;
 mod conjugate;
 mod equation;
+mod flow;
 mod grid;
 mod letting_go;
 mod level;
@@ -30,5 +32,6 @@ mod tests;
 mod transfer;
 mod way_back;
 
+pub use flow::Flow;
 pub use report::PredictorReport;
 pub use steps::{Predictor, PredictorParams};

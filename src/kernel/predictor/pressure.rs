@@ -16,6 +16,7 @@ use crate::{
         multigrid::Hierarchy,
         pockets::Pockets,
         rock::ClosedFaces,
+        stencil::Axis,
         transfer::{Faces, Pair},
     },
     simd::{Lanes, Pass},
@@ -262,10 +263,15 @@ impl Sweep<System<'_>> for Assemble<'_> {
                 let cells = start..end.min(start + CHUNK);
                 let (n, own) = (cells.len(), start - grid.row(j)..start - grid.row(j) + cells.len());
                 let [mut steep_u, mut steep_lower, mut steep_upper] = [[0.0_f32; CHUNK + 1]; 3];
-                let of = (liquid, &faces.filled[..]);
-                steepness(&mut steep_u[..n + 1], of, start, 1);
-                steepness(&mut steep_lower[..n], of, start, stride);
-                steepness(&mut steep_upper[..n], of, start + stride, stride);
+                for (axis, first, steep) in [
+                    (Axis::U, start, &mut steep_u[..n + 1]),
+                    (Axis::V, start, &mut steep_lower[..n]),
+                    (Axis::V, start + stride, &mut steep_upper[..n]),
+                ] {
+                    let n = steep.len();
+                    let of = |field| beside(field, first, n, axis.step(grid));
+                    steepness(steep, of(liquid), of(&faces.filled), closed.beside(grid, axis, first, n));
+                }
                 let around = Around::new(liquid, cells.clone(), stride);
                 let [at, above] = [j, j + 1].map(|j| closed.row(j) + own.start);
                 let (open_u, open_v) = (&closed.open_u[at..at + n + 1], &closed.open_v);
@@ -289,6 +295,12 @@ impl Sweep<System<'_>> for Assemble<'_> {
     }
 }
 
+/// The cells before and after `n` faces from `first` on.
+#[inline(always)]
+pub(super) fn beside(field: &[f32], first: usize, n: usize, step: usize) -> [&[f32]; 2] {
+    [&field[first - step..first - step + n], &field[first..first + n]]
+}
+
 /// Puts the density feedback of the liquid cells on the right-hand side. Returns in how many it was cut.
 fn feed_back_densities(
     grid: &MacGrid,
@@ -298,9 +310,9 @@ fn feed_back_densities(
     conjugate: &Conjugate,
     team: Team,
 ) -> u64 {
-    let Conjugate { rows, span, liquid, .. } = conjugate;
+    let Conjugate { rows, span, liquid, solution: pressure, .. } = conjugate;
     let cuts = AtomicU64::new(0);
-    let work = FeedBack { grid, closed, filled, liquid, span, cuts: &cuts };
+    let work = FeedBack { grid, closed, filled, liquid, pressure, span, cuts: &cuts };
     let band = Rows::new(&mut finest.b, grid.stride, rows);
     sweep(&work, rows.clone(), band, span.len(), WORTH_A_PIECE, team);
     cuts.into_inner()
@@ -311,6 +323,7 @@ struct FeedBack<'a> {
     closed: &'a ClosedFaces,
     filled: &'a [f32],
     liquid: &'a [f32],
+    pressure: &'a [f32],
     /// Columns that are solved for.
     span: &'a Range<usize>,
     /// Counts the cells in which the feedback was cut.
@@ -320,15 +333,21 @@ struct FeedBack<'a> {
 impl Sweep<Rows<'_, f32>> for FeedBack<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut b: Rows<f32>) {
-        let Self { grid, closed, filled, liquid, span, cuts } = *self;
+        let Self { grid, closed, filled, liquid, pressure, span, cuts } = *self;
         let mut cut = 0;
         for (j, b) in rows.zip(b.each()) {
             let cells = grid.row(j) + span.start..grid.row(j) + span.end;
             let [below, at, above] = [j - 1, j, j + 1].map(|j| closed.row(j) + span.start);
             let (n, rock) = (span.len(), &closed.rock);
             let rock = Around::of_rows(&rock[below..below + n], &rock[at - 1..at + n + 1], &rock[above..above + n]);
-            let liquid = Around::new(liquid, cells.clone(), grid.stride);
-            cut += feed_back(&mut b[span.clone()], liquid, rock, &filled[cells], FEEDBACK_PER_SECOND * grid.cell);
+            let [liquid, pressure] = [liquid, pressure].map(|field| Around::new(field, cells.clone(), grid.stride));
+            cut += feed_back(
+                &mut b[span.clone()],
+                (liquid, pressure),
+                rock,
+                &filled[cells],
+                FEEDBACK_PER_SECOND * grid.cell,
+            );
         }
         cuts.fetch_add(u64::from(cut), Ordering::Relaxed);
     }
@@ -349,9 +368,10 @@ pub(super) fn feedback_shares(
         let [below, at, above] = [j - 1, j, j + 1].map(|j| closed.row(j) + 1);
         let rock = &closed.rock;
         let rock = Around::of_rows(&rock[below..below + n], &rock[at - 1..at + n + 1], &rock[above..above + n]);
-        let liquid = Around::new(&conjugate.liquid, cells.clone(), grid.stride);
+        let [liquid, pressure] =
+            [&conjugate.liquid, &conjugate.solution].map(|field| Around::new(field, cells.clone(), grid.stride));
         for i in (0..n).filter(|i| liquid.centre[*i] > 0.0) {
-            visit([i, j - 1], feedback_share(liquid, rock, &faces.filled[cells.clone()], i));
+            visit([i, j - 1], feedback_share((liquid, pressure), rock, &faces.filled[cells.clone()], i));
         }
     }
 }

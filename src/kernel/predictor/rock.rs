@@ -9,7 +9,7 @@ use crate::{
     },
     solids::{Solids, centre},
 };
-use glam::IVec2;
+use glam::{IVec2, Vec2};
 use std::ops::Range;
 
 /// A face that is less open than this is closed: the equation would be stiff, and nothing passes.
@@ -34,6 +34,10 @@ pub(super) struct ClosedFaces {
     pub open_v: Vec<f32>,
     /// Share of rock around each cell, smeared as the liquid's density is, 0 … 1; 1 in the padding.
     pub rock: Vec<f32>,
+    /// Of the rock of the two cells beside each left face, what stands to its right.
+    right_of_u: Vec<f32>,
+    /// Of the rock of the two cells beside each lower face, what stands above it.
+    above_v: Vec<f32>,
     /// Share of each cell from which it is liquid, its rock counted in; infinite where there is nothing to solve.
     pub liquid_from: Vec<f32>,
     /// Cells beside a wall, those of the grid's index in order: a face of theirs is closed, or a part of it.
@@ -56,8 +60,30 @@ impl ClosedFaces {
         self.rows[j] as usize
     }
 
-    fn fields(&mut self) -> [&mut Vec<f32>; 4] {
-        [&mut self.open_u, &mut self.open_v, &mut self.rock, &mut self.liquid_from]
+    /// The rock around the faces `first … first + n` of a row.
+    #[inline(always)]
+    pub fn beside(&self, grid: &MacGrid, axis: Axis, first: usize, n: usize) -> Beside<'_> {
+        let (j, column) = (first / grid.stride, first % grid.stride);
+        let own = self.row(j) + column;
+        let (before, after) = match axis {
+            Axis::U => (own - 1, &self.right_of_u),
+            Axis::V => (self.row(j - 1) + column, &self.above_v),
+        };
+        let rock = [before, own].map(|at| &self.rock[at..at + n]);
+        Beside { rock, after: &after[own..own + n] }
+    }
+
+    /// Whether any of a cell's faces is closed, or a part of it.
+    #[inline(always)]
+    pub fn has_wall(&self, grid: &MacGrid, k: usize) -> bool {
+        let [own, above] = [k, k + grid.stride].map(|k| self.row(k / grid.stride) + k % grid.stride);
+        let open = self.open_u[own] + self.open_u[own + 1] + self.open_v[own] + self.open_v[above];
+        open < 4.0 - ROUNDING
+    }
+
+    fn fields(&mut self) -> [&mut Vec<f32>; 6] {
+        let Self { open_u, open_v, rock, right_of_u, above_v, liquid_from, .. } = self;
+        [open_u, open_v, rock, right_of_u, above_v, liquid_from]
     }
 
     /// Stores rows that are like the one below them only once.
@@ -92,11 +118,12 @@ impl ClosedFaces {
                 self.open_v[k] = if k <= grid.row(j) + grid.columns { faces.lower(k, TO_CENTRES) } else { 0.0 };
             }
         }
-        self.rock.fill(1.0);
-        for j in 1..=grid.rows {
-            self.rock[grid.row(j) + 1..=grid.row(j) + grid.columns].fill(0.0);
-        }
         self.smear_rock(grid, solids);
+        let is_inside =
+            |k: usize| (1..=grid.columns).contains(&(k % grid.stride)) && (1..=grid.rows).contains(&(k / grid.stride));
+        for k in (0..grid.len()).filter(|k| !is_inside(*k)) {
+            self.rock[k] = 1.0;
+        }
         self.open_slivers(&faces);
         self.beside_walls.clear();
         for j in 1..=grid.rows {
@@ -140,30 +167,46 @@ impl ClosedFaces {
 
     /// Rock particles share out their volume as liquid particles do, so that rock and liquid side by side add up to 1.
     fn smear_rock(&mut self, grid: &MacGrid, solids: &Solids) {
-        if solids.count() == 0 {
-            return;
-        }
-        let (mut u, mut v) = (vec![[0.0; 2]; grid.len()], vec![[0.0; 2]; grid.len()]);
+        let share = 0.25 * grid.per_cell * grid.per_cell;
         for (cell, ..) in solids.iter() {
             let at = centre(cell);
-            faces_around(grid, at.x, at.y, Axis::U, |face, weight| u[face][0] += weight);
-            faces_around(grid, at.x, at.y, Axis::V, |face, weight| v[face][0] += weight);
-        }
-        fold_at_walls(grid, 0..grid.rows + 2, 0..grid.stride, &mut u, &mut v);
-        let share = 0.25 * grid.per_cell * grid.per_cell;
-        for j in 1..=grid.rows {
-            for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
-                let sum = u[k][0] + u[k + 1][0] + v[k][0] + v[k + grid.stride][0];
-                self.rock[k] = (share * sum).min(1.0);
+            for axis in [Axis::U, Axis::V] {
+                faces_around(grid, at.x, at.y, axis, |face, weight| {
+                    let (face, weight) = fold(grid, axis, face, weight);
+                    for k in [face - axis.step(grid), face] {
+                        self.add_rock(grid, k, at, share * weight);
+                    }
+                });
             }
+        }
+        self.rock.iter_mut().for_each(|rock| *rock = rock.min(1.0));
+    }
+
+    /// Adds a share of a rock particle to cell `k` and, where it stands beyond one of the cell's faces, to that.
+    fn add_rock(&mut self, grid: &MacGrid, k: usize, at: Vec2, share: f32) {
+        let (column, row) = (k % grid.stride, k / grid.stride);
+        self.rock[k] += share;
+        let beyond = |at: f32, line: usize| (at + 0.5 - (line as f32 - 1.0) * grid.cell).clamp(0.0, 1.0);
+        for side in 0..2 {
+            self.right_of_u[k + side] += share * beyond(at.x, column + side);
+            self.above_v[k + side * grid.stride] += share * beyond(at.y, row + side);
         }
     }
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        let fields = [&self.open_u, &self.open_v, &self.rock, &self.liquid_from];
+        let fields = [&self.open_u, &self.open_v, &self.rock, &self.right_of_u, &self.above_v, &self.liquid_from];
         4 * (fields.map(Vec::capacity).iter().sum::<usize>() + self.rows.capacity() + self.beside_walls.capacity())
     }
+}
+
+/// The rock around some faces of a row.
+#[derive(Clone, Copy)]
+pub(super) struct Beside<'a> {
+    /// Share of rock of the cells before the faces, and of those after them.
+    pub rock: [&'a [f32]; 2],
+    /// Of both, what stands after the face.
+    pub after: &'a [f32],
 }
 
 /// Half the length of the lines from cell centre to cell centre, cells.
@@ -229,6 +272,17 @@ impl OpenShares<'_> {
         let share = (open * per_cell).min(1.0);
         if share < LEAST_OPEN { 0.0 } else { share }
     }
+}
+
+/// The face that a share of matter at `face` belongs to, and the share: what was shared out beyond a wall of the box belongs to
+/// this side of it, and a face on the wall sees only half of its surroundings.
+fn fold(grid: &MacGrid, axis: Axis, face: usize, share: f32) -> (usize, f32) {
+    let (column, row) = (face % grid.stride, face / grid.stride);
+    let (column, row, on_wall) = match axis {
+        Axis::U => (column, row.clamp(1, grid.rows), column == 1 || column == grid.columns + 1),
+        Axis::V => (column.clamp(1, grid.columns), row, row == 1 || row == grid.rows + 1),
+    };
+    (grid.row(row) + column, if on_wall { 2.0 * share } else { share })
 }
 
 /// What was shared out beyond a wall belongs to this side of it; a face on the wall sees only half of its surroundings.

@@ -12,6 +12,15 @@ pub(super) enum Axis {
 }
 
 impl Axis {
+    /// From the cell before a face to the one after it.
+    #[inline(always)]
+    pub fn step(self, grid: &MacGrid) -> usize {
+        match self {
+            Self::U => 1,
+            Self::V => grid.stride,
+        }
+    }
+
     /// Index along x of the faces to the left of a point, and the share of those to the right.
     #[inline(always)]
     pub fn column(self, grid: &MacGrid, x: f32) -> (u32, f32) {

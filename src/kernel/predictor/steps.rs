@@ -6,6 +6,7 @@ use crate::{
     particles::Particles,
     predictor::{
         conjugate::Conjugate,
+        flow::Flow,
         grid::MacGrid,
         letting_go::LettingGo,
         multigrid::Hierarchy,
@@ -36,6 +37,8 @@ pub struct Predictor {
     conjugate: Conjugate,
     pockets: Pockets,
     letting_go: LettingGo,
+    /// Whether the last run found liquid.
+    liquid: bool,
 }
 
 /// What the prediction is told.
@@ -98,12 +101,18 @@ impl Predictor {
             team,
             report: &mut report,
         });
+        self.liquid = report.liquid;
         if report.liquid {
             let PredictorParams { domain, dt, .. } = *params;
             let way = WayBack { blend: (BLEND_PER_SECOND * dt).min(1.0), dt, domain, solids };
             hand_back(&self.faces, &grid, particles, &way, team);
         }
         report
+    }
+
+    /// What the liquid does around a place, as the last run left it.
+    pub fn flow(&self) -> Flow<'_> {
+        Flow::new(&self.grid, &self.closed, &self.faces, self.liquid.then_some(&self.conjugate.liquid))
     }
 
     /// Shows `visit` the centre (d) of every liquid cell of the last run, and how much of the feedback's range its density

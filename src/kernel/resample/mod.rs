@@ -10,7 +10,7 @@ mod rock;
 mod settle;
 
 pub use pieces::resample_particles;
-pub use rock::resample_rock;
+pub use rock::{make_room, resample_rock};
 pub use settle::settle;
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Rock on cells of another size.
 
-use crate::{element::ElementId, solids::Solids};
+use crate::{element::ElementId, params::Domain, particles::Particles, solids::Solids};
 use glam::{IVec2, Vec2};
 use std::collections::BTreeMap;
 
@@ -34,6 +34,18 @@ pub fn resample_rock(old: &Solids, factor: f64, size: Vec2, next_id: &mut u32) -
         }
     }
     new
+}
+
+/// Rock of which no cell is free gives way where there are `particles` (old d): half a cell of water among rock would have no
+/// place in the new one.
+pub fn make_room(solids: &mut Solids, particles: &Particles, factor: f64, domain: &Domain) {
+    if solids.count() < (solids.columns() * solids.rows()) as usize {
+        return;
+    }
+    for i in 0..particles.len() {
+        let at = (particles.position(i).as_dvec2() * factor).as_vec2();
+        solids.remove(Solids::cell_of(domain.keep_inside(at)));
+    }
 }
 
 /// What a cell is of, by the parts of old cells that it covers.

@@ -20,7 +20,7 @@ pub fn settle(particles: &mut Particles, solids: &Solids, domain: &Domain, fluid
     let params = SolveParams { domain, fluid, quality: &quality, tension: false, predicted: true, threads: 1 };
     let mut solver = Solver::default();
     for _ in 0..ROUNDS {
-        solver.bin(particles, solids, domain, &quality, 1);
+        solver.bin(particles, solids, domain, &quality, fluid.rest_density, 1);
         solver.solve(particles, &params);
         for i in 0..particles.len() {
             let target = domain.keep_inside(Vec2::new(solver.x[i], solver.y[i]));

@@ -133,3 +133,30 @@ fn the_curve_goes_on_from_neighbour_to_neighbour() {
     sites.sort_by_key(|site| along((site.as_vec2() + 0.5) / 32.0));
     assert!(sites.windows(2).all(|pair| (pair[1] - pair[0]).abs().element_sum() == 1), "a step goes to a neighbour");
 }
+
+#[test]
+fn water_walled_in_by_rock_has_room_at_another_spacing() {
+    let full = |particles: &Particles| {
+        let mut solids = Solids::new(20, 20);
+        for k in 0..400 {
+            let cell = IVec2::new(k % 20, k / 20);
+            if (0..particles.len()).all(|i| Solids::cell_of(particles.position(i)) != cell) {
+                assert!(solids.insert(cell, ElementId(0), 1000 + k as u32));
+            }
+        }
+        solids
+    };
+    let mut drops = Particles::default();
+    drops.push(0, ElementId(1), Vec2::new(7.3, 12.6), Vec2::ZERO);
+    drops.push(1, ElementId(1), Vec2::new(11.5, 3.5), Vec2::ZERO);
+    let (old, mut id) = (full(&drops), 0);
+    for factor in [0.5, 0.8, 2.0] {
+        let domain = Domain { size: Vec2::splat(20.0 * factor as f32), gravity: Vec2::ZERO };
+        let mut solids = resample_rock(&old, factor, domain.size, &mut id);
+        make_room(&mut solids, &drops, factor, &domain);
+        let mut particles = resample_particles(&drops, factor, &solids, &domain, &mut id);
+        settle(&mut particles, &solids, &domain, &crate::params::FluidParams::default());
+        let astray = (0..particles.len()).find(|i| solids.is_solid(Solids::cell_of(particles.position(*i))));
+        assert!(!particles.is_empty() && astray.is_none(), "at a factor of {factor} {astray:?} is in rock");
+    }
+}

@@ -10,6 +10,9 @@ type BaselineLanes = quads::Quads;
 #[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
 type BaselineLanes = Array<8>;
 
+/// Lanes that fill one of its registers.
+const REGISTER: usize = 4;
+
 /// Work that is generic over the lane width.
 pub(crate) trait Pass {
     /// Does the work. Implementations are `#[inline(always)]`, so that they are compiled for the caller's registers.
@@ -106,12 +109,24 @@ impl InstructionSet {
         }
     }
 
+    /// The widest set of those that this one includes whose registers `entries` fill.
+    pub(crate) fn filled_by(self, entries: usize) -> Self {
+        match self {
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 if entries < 16 && is_x86_feature_detected!("avx2") => Self::Avx2.filled_by(entries),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 | Self::Avx2 if entries < self.width() => Self::Baseline.filled_by(entries),
+            Self::Baseline if entries < REGISTER => Self::Scalar,
+            _ => self,
+        }
+    }
+
     /// [`Self::run`] for a pass that needs so many registers at a time that it has no use for two to a number: on lanes
     /// that fill one register of this set.
     #[inline]
     pub(crate) fn run_by_register(self, pass: impl Pass) {
         match self {
-            Self::Baseline => pass.run::<Array<4>>(),
+            Self::Baseline => pass.run::<Array<REGISTER>>(),
             _ => self.run(pass),
         }
     }

@@ -1,10 +1,12 @@
 //! Velocities after the solve: what the moves imply, then viscosity and vorticity confinement.
 
+mod energy;
 #[cfg(test)]
 mod tests;
 mod viscosity;
 mod vorticity;
 
+pub use energy::energy;
 pub use viscosity::apply_viscosity;
 pub use vorticity::apply_vorticity;
 
@@ -14,6 +16,7 @@ use crate::{
     parallel::{WORTH_A_PIECE, spread},
     particles::Particles,
     pbf::{CorrectionLimit, Solver},
+    predictor::Flow,
     simd::{Lanes, Pass},
     solids::Solids,
 };
@@ -45,10 +48,22 @@ impl StrengthReport {
     }
 }
 
-/// Correction of a substep that goes into the velocity by half, d, where the pressure predictor ran. Its velocities are
-/// nearly right; the small corrections that are left are the particles finding their places, and to take them for motion
-/// would make a still pool simmer.
-const QUIET_CORRECTION: f32 = 0.2;
+/// How far liquid is too dense, as a share of the density aimed at, from which on it counts as pressed together where the
+/// pressure predictor ran, and where it does so in full: shared by the substeps of a quality, as what iterating goes by is.
+/// Below are the particles that find their places: at rest the sum over the neighbours differs by a hundredth or two from
+/// one to the next, and to take that for motion would make a still pool simmer and brake what flows.
+const PRESSED: [f32; 2] = [0.02, 0.07];
+
+/// Density, as a multiple of the one aimed at, from which on a particle is held by its crowd and not by the flow: as that
+/// from which on corrections may be longer.
+const CROWDED: f32 = 1.5;
+
+/// Density, as a multiple of the one aimed at, below which a particle may be on its own, of which the flow knows nothing: less
+/// of its kernel is filled than at a level surface.
+const SPRAY: f32 = 0.6;
+
+/// Particles that are looked through at a time.
+const BLOCK: usize = 64;
 
 /// Share of its limit from which on a correction counts as cut: less the rounding of (anchor + limit) − anchor.
 const CUT: f32 = 0.999;
@@ -56,8 +71,16 @@ const CUT: f32 = 0.999;
 /// Moves the particles to their corrected positions, stopped by rock, and sets `v = (x* − x)/Δt` (Macklin & Müller 2013,
 /// algorithm 1, line 21), as the predicted velocity and the correction's: `v + (x* − (x + v Δt))/Δt`. In f32 that is not the
 /// same: a free particle keeps its velocity to the last bit, where the difference of two large positions would round it
-/// to whole ulps of the position over Δt (at 2,048 d and 16 substeps a tick that swallows gravity). Where the pressure
-/// predictor ran (`predicted`), the velocity follows a correction a by the share `a²/(a² + QUIET_CORRECTION²)`.
+/// to whole ulps of the position over Δt (at 2,048 d and 16 substeps a tick that swallows gravity).
+///
+/// Where the pressure predictor ran (`flow`), velocities are its business, and a correction only ends what motion it missed:
+/// where liquid is pressed together ([`PRESSED`]), a particle loses what runs against its correction of its motion beside
+/// the flow around it, as matter does that meets and does not bounce. So a correction brings no particle beyond the flow:
+/// however deep particles lie inside one another, they are set apart, and not shot apart, and the finer the substeps the
+/// less. In a crowd ([`CROWDED`]) all motion against the correction ends, not only that beside the flow: what lies inside
+/// others moves with them, and a crowd that the floor holds up would keep the speed of a fall that has ended. So it does,
+/// however dense it is, where a wall is near and no liquid: a few drops in a crevice are their own flow, and gravity would make
+/// them faster and faster as corrections hold them up.
 ///
 /// Then the second half of the kick that [`begin_kick`](crate::forces::begin_kick) began: gravity (d/s²) and what
 /// pressure and contact add. Where corrections hold a particle up they hold it against the kick, too ([`held`]).
@@ -66,11 +89,12 @@ pub fn update_velocities(
     solver: &mut Solver,
     solids: &Solids,
     gravity: Vec2,
-    predicted: bool,
+    flow: Option<Flow>,
     threads: usize,
     dt: f32,
 ) -> MoveReport {
-    let Solver { instructions, x: to_x, y: to_y, density, limit, .. } = solver;
+    let Solver { instructions, x: to_x, y: to_y, density, limit, aim, substeps, .. } = solver;
+    let pressed = PRESSED.map(|share| 1.0 + share / *substeps as f32);
     let clamps = AtomicU64::new(0);
     let Particles { x, y, vx, vy, push_x, push_y, .. } = particles;
     let arrays = [&mut vx[..], vy, push_x, push_y, to_x, to_y];
@@ -79,7 +103,9 @@ pub fn update_velocities(
         instructions.run(Move {
             rock: (solids.count() > 0).then_some(solids),
             limit: limit.map(|limit| (limit, &density[base..base + vx.len()])),
-            quiet: if predicted { QUIET_CORRECTION } else { 0.0 },
+            flow,
+            aim: *aim,
+            pressed,
             half: 0.5 * dt * gravity,
             dt,
             anchor,
@@ -100,8 +126,12 @@ struct Move<'a> {
     rock: Option<&'a Solids>,
     /// Limit of the corrections and the densities that it goes by, if there were any.
     limit: Option<(CorrectionLimit, &'a [f32])>,
-    /// Correction that goes into the velocity by half, d.
-    quiet: f32,
+    /// What the liquid does around a particle, if the predictor ran.
+    flow: Option<Flow<'a>>,
+    /// Density aimed at, 1 on the lattice.
+    aim: f32,
+    /// Multiples of it from which on liquid counts as pressed together, and in full.
+    pressed: [f32; 2],
     /// What gravity adds in the second half of the substep, d/s.
     half: Vec2,
     dt: f32,
@@ -120,10 +150,9 @@ struct Move<'a> {
 impl Pass for Move<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { rock, limit, quiet, half, dt, anchor: [from_x, from_y], clamps, .. } = self;
+        let Self { rock, limit, flow, aim, pressed, half, dt, anchor: [from_x, from_y], clamps, .. } = self;
         let ([to_x, to_y], [vx, vy], [push_x, push_y]) = (self.corrected, self.velocity, self.push);
         let per_dt = 1.0 / dt;
-        let quiet = quiet * per_dt;
         if let Some((limit, density)) = limit {
             let mut cuts = 0_u32;
             for k in 0..from_x.len() {
@@ -139,14 +168,66 @@ impl Pass for Move<'_> {
                 (to_x[k], to_y[k]) = (to.x, to.y);
             }
         }
-        for k in 0..from_x.len() {
-            let (change_x, change_y) = ((to_x[k] - from_x[k]) * per_dt, (to_y[k] - from_y[k]) * per_dt);
-            let change2 = change_x * change_x + change_y * change_y;
-            let share = if quiet > 0.0 { change2 / (change2 + quiet * quiet) } else { 1.0 };
-            let (change_x, change_y) = (change_x * share, change_y * share);
-            let kick = held(Vec2::new(half.x + push_x[k], half.y + push_y[k]), Vec2::new(change_x, change_y));
-            (vx[k], vy[k]) = (vx[k] + change_x + kick.x, vy[k] + change_y + kick.y);
-            (push_x[k], push_y[k]) = (kick.x - half.x, kick.y - half.y);
+        let (mut change_x, mut change_y) = ([0.0; BLOCK], [0.0; BLOCK]);
+        for first in (0..from_x.len()).step_by(BLOCK) {
+            let own = first..from_x.len().min(first + BLOCK);
+            let count = own.len();
+            let (change_x, change_y) = (&mut change_x[..count], &mut change_y[..count]);
+            let (vx, vy) = (&mut vx[own.clone()], &mut vy[own.clone()]);
+            for (change, to, from) in [(&mut *change_x, &*to_x, from_x), (&mut *change_y, &*to_y, from_y)] {
+                let ways = to[own.clone()].iter().zip(&from[own.clone()]);
+                change.iter_mut().zip(ways).for_each(|(change, (to, from))| *change = (to - from) * per_dt);
+            }
+            if let Some(flow) = flow {
+                let density = limit.map_or(&[][..], |(_, density)| &density[own.clone()]);
+                let at = [&from_x[own.clone()], &from_y[own.clone()]];
+                follow(flow, (aim, pressed), density, at, [vx, vy], [change_x, change_y]);
+            }
+            let (push_x, push_y) = (&mut push_x[own.clone()], &mut push_y[own]);
+            for k in 0..count {
+                let kick = held(Vec2::new(half.x + push_x[k], half.y + push_y[k]), Vec2::new(change_x[k], change_y[k]));
+                (vx[k], vy[k]) = (vx[k] + change_x[k] + kick.x, vy[k] + change_y[k] + kick.y);
+                (push_x[k], push_y[k]) = (kick.x - half.x, kick.y - half.y);
+            }
         }
+    }
+}
+
+/// Leaves of the changes of velocity (d/s) that corrections would be what ends the motion beside the flow.
+#[inline(always)]
+fn follow(
+    flow: Flow,
+    (aim, pressed): (f32, [f32; 2]),
+    density: &[f32],
+    [x, y]: [&[f32]; 2],
+    [vx, vy]: [&[f32]; 2],
+    [change_x, change_y]: [&mut [f32]; 2],
+) {
+    let [from, to] = pressed.map(|density| density * aim);
+    let per_density = 1.0 / (to - from);
+    let thin = SPRAY * aim;
+    let is_held = density.iter().fold(false, |any, density| any | (*density > from) | (*density < thin));
+    if !is_held {
+        change_x.fill(0.0);
+        change_y.fill(0.0);
+        return;
+    }
+    for (k, density) in density.iter().enumerate() {
+        let change = Vec2::new(change_x[k], change_y[k]);
+        let length = change.length();
+        let mut left = Vec2::ZERO;
+        let (is_pressed, is_thin) = (*density > from, *density < thin);
+        if (is_pressed | is_thin) && length > 0.0 {
+            let (at, velocity) = (Vec2::new(x[k], y[k]), Vec2::new(vx[k], vy[k]));
+            let is_held = *density > CROWDED * aim || flow.is_at_wall(at);
+            // What of the motion runs against the correction, and how much of the correction may end of it.
+            let (motion, share) = match is_held {
+                true => (-velocity, 1.0),
+                false if is_pressed => (flow.beside(at, velocity), ((density - from) * per_density).min(1.0)),
+                false => (Vec2::ZERO, 0.0),
+            };
+            left = change * ((share * length).min((motion.dot(change) / length).max(0.0)) / length);
+        }
+        (change_x[k], change_y[k]) = (left.x, left.y);
     }
 }

@@ -1,11 +1,13 @@
 //! Viscosity and vorticity confinement against what is known of them.
 
 use super::*;
-use crate::predict::longest_move;
+
 use crate::{
     element::ElementParams,
     params::{GradientKernel, Preset},
     pbf::tests::{Bench, random_numbers},
+    predict::longest_move,
+    predictor::{Predictor, PredictorParams},
     units::TICK_SECONDS,
 };
 
@@ -14,7 +16,7 @@ fn viscosity(coefficient: f32) -> ElementParams {
 }
 
 fn vorticity(strength: f32) -> ElementParams {
-    ElementParams { vorticity: vec![strength], ..ElementParams::default() }
+    ElementParams { vorticity: vec![strength], mass: vec![1000.0], ..ElementParams::default() }
 }
 
 /// A square of 20 × 20 particles on the lattice, `jitter` d off it at random, with velocities from `velocity`.
@@ -40,7 +42,7 @@ fn rigid_rotation_has_a_vorticity_of_twice_its_rate() {
         let mut bench = square(0.0, |at| rate * (at - middle).perp());
         bench.quality.gradient = gradient;
         bench.solve(false);
-        apply_vorticity(&mut bench.particles, &mut bench.solver, &vorticity(0.0), 1, 0.01);
+        apply_vorticity(&mut bench.particles, &mut bench.solver, &vorticity(0.0), f64::MAX, 1, 0.01);
         for i in 0..400 {
             let inner = (bench.particles.position(i) - middle).abs().max_element() < 6.0;
             let vorticity = bench.solver.lambda[i];
@@ -60,7 +62,7 @@ fn confinement_of_strength_zero_changes_nothing() {
     let mut bench = square(0.3, |at| Vec2::new(at.y, at.x - at.y));
     bench.solve(false);
     let before = bench.particles.clone();
-    apply_vorticity(&mut bench.particles, &mut bench.solver, &vorticity(0.0), 1, 0.01);
+    apply_vorticity(&mut bench.particles, &mut bench.solver, &vorticity(0.0), f64::MAX, 1, 0.01);
     assert_eq!(before, bench.particles);
 }
 
@@ -75,7 +77,7 @@ fn confinement_pushes_across_the_slope_of_the_vorticity() {
     let mut bench = square(0.0, eddy);
     bench.solve(false);
     let before = bench.particles.clone();
-    apply_vorticity(&mut bench.particles, &mut bench.solver, &vorticity(1.0), 1, 0.01);
+    apply_vorticity(&mut bench.particles, &mut bench.solver, &vorticity(1.0), f64::MAX, 1, 0.01);
     for i in 0..400 {
         let from = before.position(i) - middle;
         let push = bench.particles.velocity(i) - before.velocity(i);
@@ -167,7 +169,7 @@ fn velocities_follow_from_the_moves_and_cut_corrections_are_counted() {
         };
     }
     let before = bench.particles.clone();
-    let report = update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, Vec2::ZERO, false, 1, 0.01);
+    let report = update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, Vec2::ZERO, None, 1, 0.01);
     assert_eq!(report.position_clamps, 9, "corrections at their limit");
     let shares = |i| bench.solver.correction_share(i, bench.particles.position(i)).unwrap();
     assert!((shares(3) - 1.0).abs() < 1e-3 && (shares(8) - 1.0).abs() < 1e-3 && shares(10) < 0.6 && shares(20) < 0.2);
@@ -179,22 +181,84 @@ fn velocities_follow_from_the_moves_and_cut_corrections_are_counted() {
     }
 }
 
-#[test]
-fn after_the_predictor_small_corrections_move_particles_but_hardly_speed_them_up() {
+/// A substep, s.
+const SUBSTEP: f32 = 2.0 / 3.0 * TICK_SECONDS;
+
+/// Change of velocity of a particle inside a square that flows at (2, 0) d/s while it sinks through it at 3 d/s, and of
+/// one that flows with it, where all have `density` and the pressure predictor ran before corrections of `way` d upwards.
+fn after_a_correction(density: f32, way: f32) -> [Vec2; 2] {
     let mut bench = square(0.0, |_| Vec2::new(2.0, 0.0));
-    bench.bin();
-    for i in 0..400 {
-        bench.solver.y[i] += if i % 2 == 0 { 0.02 } else { 0.4 };
-    }
+    bench.particles.vy[210] = -3.0;
+    after_corrections(bench, [210, 205], density, way, true)
+}
+
+/// Change of velocity of two particles whose world is liquid or not: see [`after_a_correction`].
+fn after_corrections(mut bench: Bench, ids: [usize; 2], density: f32, way: f32, is_liquid: bool) -> [Vec2; 2] {
+    let mut predictor = Predictor::default();
+    let params = PredictorParams {
+        domain: &bench.domain,
+        cell: bench.quality.kernel_radius,
+        rest_density: 1.0,
+        instructions: bench.solver.instructions,
+        threads: 1,
+        dt: SUBSTEP,
+    };
+    assert_eq!(predictor.run(&mut bench.particles, &bench.solids, &params).liquid, is_liquid);
+    bench.predicted = true;
+    bench.particles.push_x.fill(0.0);
+    bench.particles.push_y.fill(0.0);
+    bench.solve(false);
+    bench.solver.density.fill(density);
+    bench.solver.x.clone_from(&bench.particles.x);
+    bench.solver.y.clone_from(&bench.particles.y);
+    bench.solver.y.iter_mut().for_each(|y| *y += way);
     let before = bench.particles.clone();
-    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, Vec2::ZERO, true, 1, 0.01);
-    for i in 0..400 {
-        // a²/(a² + 0.2²) of a/Δt
-        let expected = if i % 2 == 0 { 2.0 / 101.0 } else { 40.0 * 0.8 };
-        let found = bench.particles.velocity(i);
-        assert!((found.y - expected).abs() < 1e-3 && found.x == 2.0, "{found} after a correction, not {expected}");
-        assert!(bench.particles.y[i] > before.y[i] + 0.004, "the correction itself was lost");
+    let flow = Some(predictor.flow());
+    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, Vec2::ZERO, flow, 1, SUBSTEP);
+    ids.map(|id| {
+        let i = before.id.iter().position(|own| *own == id as u32).unwrap();
+        assert!((bench.particles.y[i] - before.y[i] - way).abs() < 1e-4, "the correction itself was lost");
+        bench.particles.velocity(i) - before.velocity(i)
+    })
+}
+
+#[test]
+fn after_the_predictor_a_correction_ends_motion_beside_the_flow_and_makes_none() {
+    let [from, to] = PRESSED.map(|share| 1.0 + share / Preset::Balanced.quality().substeps as f32);
+    // What is not pressed together finds its place, and no more.
+    assert_eq!(after_a_correction(from - 1e-4, 0.2), [Vec2::ZERO; 2]);
+    // A tenth of a spacing in 0.011 s is 9 d/s, of which no more than the way back to the flow is taken.
+    for way in [0.1, 0.4] {
+        let [sinking, flowing] = after_a_correction(1.2, way);
+        assert!((2.5..=3.0).contains(&sinking.y) && sinking.x == 0.0, "{sinking} of 3 d/s after {way} d");
+        assert!(flowing.length() < 0.1, "{flowing} beyond the flow after {way} d");
     }
+    // A short one takes its own speed, or the share of it by which the liquid is pressed.
+    let way = 0.01;
+    let [sinking, _] = after_a_correction(1.2, way);
+    assert!((sinking.y - way / SUBSTEP).abs() < 1e-3, "{sinking}");
+    let [sinking, _] = after_a_correction((from + to) / 2.0, way);
+    assert!((sinking.y - 0.5 * way / SUBSTEP).abs() < 1e-3, "{sinking}");
+    // And none that goes along with the motion adds to it.
+    assert_eq!(after_a_correction(1.2, -0.1)[0], Vec2::ZERO);
+}
+
+#[test]
+fn a_correction_holds_up_a_drop_at_a_wall_and_leaves_spray_alone() {
+    let drops = || {
+        let mut bench = Bench::new(60, 60, Preset::Balanced);
+        for at in [Vec2::new(0.6, 0.4), Vec2::new(30.0, 30.0)] {
+            bench.add(at, Vec2::new(0.0, -3.0));
+        }
+        bench
+    };
+    // However thin it is; 0.4 d are more than it takes.
+    let [held, spray] = after_corrections(drops(), [0, 1], 0.1, 0.4, false);
+    assert_eq!((held, spray), (Vec2::new(0.0, 3.0), Vec2::ZERO));
+    // Not more than the correction's own speed, and nothing of one along with the motion.
+    let [held, _] = after_corrections(drops(), [0, 1], 0.1, 0.01, false);
+    assert!((held.y - 0.01 / SUBSTEP).abs() < 1e-3, "{held}");
+    assert_eq!(after_corrections(drops(), [0, 1], 0.1, -0.1, false)[0], Vec2::ZERO);
 }
 
 #[test]
@@ -205,7 +269,7 @@ fn a_correction_into_rock_stops_at_its_face() {
     for i in 0..400 {
         bench.solver.x[i] += 0.6;
     }
-    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, Vec2::ZERO, false, 1, 0.01);
+    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, Vec2::ZERO, None, 1, 0.01);
     for i in 0..400 {
         let at = bench.particles.position(i);
         assert!(!bench.solids.is_solid(Solids::cell_of(at)), "particle {i} was moved into rock, to {at}");
@@ -264,7 +328,8 @@ fn confinement_makes_no_wave_grow_faster_than_its_bound_says_whatever_its_streng
             bench.solve(false);
             for pass in 0..20 {
                 let before = kinetic_energy(&bench.particles);
-                let report = apply_vorticity(&mut bench.particles, &mut bench.solver, &vorticity(strength), 1, 0.01);
+                let report =
+                    apply_vorticity(&mut bench.particles, &mut bench.solver, &vorticity(strength), f64::MAX, 1, 0.01);
                 let growth = (kinetic_energy(&bench.particles) / before).sqrt();
                 assert_eq!(report.clamps, cut, "ε {strength}: particles whose strength was cut");
                 assert!(
@@ -290,10 +355,45 @@ fn confinement_pushes_no_crowd_further_than_its_cap() {
         }
         bench.solve(false);
         let before = bench.particles.clone();
-        let report = apply_vorticity(&mut bench.particles, &mut bench.solver, &vorticity(strength), 1, dt);
+        let report = apply_vorticity(&mut bench.particles, &mut bench.solver, &vorticity(strength), f64::MAX, 1, dt);
         let changes = (0..400).map(|i| bench.particles.velocity(i).distance(before.velocity(i)));
         let furthest = changes.fold(0.0, f32::max);
         assert!(furthest <= 1.0001 * cap, "{furthest} d/s; the cap is {cap}");
         assert_eq!(report.clamps > 0, is_crowd, "{} pushes were cut, the largest is {furthest}", report.clamps);
+    }
+}
+
+#[test]
+fn confinement_gives_no_more_energy_than_it_may() {
+    let strength = 0.06 * Preset::Balanced.quality().kernel_radius / 0.01;
+    // A round eddy, and a crowd that turns.
+    for across in [20.0, 4.0] {
+        let mut random = random_numbers(17);
+        let mut bench = Bench::new(60, 60, Preset::Balanced);
+        for _ in 0..400 {
+            let from = across * (Vec2::new(random(), random()) - 0.5);
+            bench.add(Vec2::splat(30.0) + from, 60.0 * from.perp() / (4.0 + from.length_squared()));
+        }
+        bench.solve(false);
+        let elements = vorticity(strength);
+        let added = |most: f64| {
+            let mut bench = Bench {
+                solver: bench.solver.clone(),
+                particles: bench.particles.clone(),
+                ..square(0.0, |_| Vec2::ZERO)
+            };
+            let before = energy(&bench.particles, &elements, Vec2::ZERO);
+            apply_vorticity(&mut bench.particles, &mut bench.solver, &elements, most, 1, 0.01);
+            (energy(&bench.particles, &elements, Vec2::ZERO) - before, bench.particles)
+        };
+        let (freely, free) = added(f64::MAX);
+        assert!(freely > 0.0, "it has nothing to bound");
+        for share in [0.9, 0.1, 1e-3] {
+            let (bounded, _) = added(share * freely);
+            assert!((bounded / freely - share).abs() < 1e-5, "{bounded} of {freely}, not the share {share}");
+        }
+        // Where nothing was lost, nothing is given; not even if more was gained.
+        assert!(added(0.0).0.abs() < 1e-6 * freely && added(-freely).0.abs() < 1e-6 * freely);
+        assert_eq!(added(1.001 * freely).1, free, "what is within the bound is not touched");
     }
 }

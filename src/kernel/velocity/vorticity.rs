@@ -7,12 +7,15 @@
 //! **The bound.** A shear wave `v = V sin(kx) ŷ` has `ω = k Ŵ(k) V cos(kx)`, Ŵ being the smoothing of the kernel, and the
 //! push on it is `ε Δt k Ŵ V sign(sin kx) |cos kx|`, of which `2/π` is along the wave itself: a substep makes it
 //! `1 + (2/π) ε Δt k Ŵ` times as high. For spiky `∫ r² W = h²/7`, so `Ŵ ≈ e^{−k²h²/28}`, and `k Ŵ` is largest, `2.27/h`,
-//! at a wavelength of 1.7 h: no wave grows faster than by `1.45 ε Δt/h` of itself. That growth is what confinement is
-//! for, and no step makes it neutral; viscosity c takes `c (1 − Ŵ₆) ≈ ½ c` a tick off the same wave and so wins, short
+//! at a wavelength of 1.7 h: no wave grows faster than by `1.45 ε Δt/h` of itself. Viscosity c takes `c (1 − Ŵ₆) ≈ ½ c` a tick off the same wave and so wins, short
 //! waves over long, for `ε ≤ 0.34 c h/tick`. What a step must not do is to make more of a wave than a small part of it:
 //! **`ε Δt ≤ 0.07 h`**, a tenth. A strength beyond it is cut to it, and counted.
 //!
-//! That holds where particles stand as far apart as the liquid's density has it. In a crowd that is pressed together ω, a
+//! **Energy.** That growth is what confinement is for: it gives eddies back what solving took from them. It gives no more
+//! than that: the pushes of a substep are shortened together until the energy that they add is no more than what the
+//! substep lost before. So the energy of the liquid never rises by confinement, at any strength, in crowds and in shear.
+//!
+//! That bound on ε Δt holds where particles stand as far apart as the liquid's density has it. In a crowd that is pressed together ω, a
 //! sum, is larger by as much as the crowd is denser, and so is the push. No push changes a speed by more than a tenth of
 //! the longest move of a substep; one beyond it is cut to it, and counted.
 
@@ -25,7 +28,7 @@ use crate::{
     predict::MOVE_RADII,
     simd::{Lanes, Pass},
     smoothing::{Gradient, Rational, Smoothing, Spiky},
-    velocity::{StrengthReport, viscosity::share_of},
+    velocity::{StrengthReport, energy, viscosity::share_of},
 };
 use std::{
     marker::PhantomData,
@@ -41,11 +44,13 @@ const MOST_GAIN: f32 = 0.07;
 /// Largest change of a particle's speed, longest moves a substep.
 const MOST_CHANGE: f32 = 0.1;
 
-/// Applies vorticity confinement over `dt` s, with the ε of the elements.
+/// Applies vorticity confinement over `dt` s, with the ε of the elements, and adds no more than the energy `most` (as
+/// [`energy()`](crate::velocity::energy()) counts it).
 pub fn apply_vorticity(
     particles: &mut Particles,
     solver: &mut Solver,
     elements: &ElementParams,
+    most: f64,
     threads: usize,
     dt: f32,
 ) -> StrengthReport {
@@ -55,7 +60,29 @@ pub fn apply_vorticity(
         GradientKernel::Spiky => confine::<Spiky>(particles, solver, strengths, threads, dt),
         GradientKernel::Rational => confine::<Rational>(particles, solver, strengths, threads, dt),
     };
+    let Solver { next_x, next_y, .. } = solver;
+    let changed = energy::change(particles, elements, [&particles.vx, &particles.vy], [next_x, next_y]);
+    let share = share_within(changed, most) as f32;
+    if share < 1.0 {
+        for (before, after) in [(&particles.vx, &mut *next_x), (&particles.vy, &mut *next_y)] {
+            after.iter_mut().zip(before).for_each(|(after, before)| *after = before + share * (*after - before));
+        }
+    }
+    std::mem::swap(&mut particles.vx, next_x);
+    std::mem::swap(&mut particles.vy, next_y);
     report
+}
+
+/// Largest share s ≤ 1 of a change for which `s first + s² second` is at most `most`; `second` is not below 0.
+fn share_within([first, second]: [f64; 2], most: f64) -> f64 {
+    let most = most.max(0.0);
+    if first + second <= most {
+        return 1.0;
+    }
+    // The larger root of s² second + s first = most. Where `first` is above 0, the form that loses no digits.
+    let root = (first * first + 4.0 * second * most).sqrt();
+    let share = if first > 0.0 { 2.0 * most / (first + root) } else { (root - first) / (2.0 * second) };
+    share.clamp(0.0, 1.0)
 }
 
 /// Largest ε, d/s.
@@ -63,23 +90,16 @@ fn most_strength(solver: &Solver, dt: f32) -> f32 {
     MOST_GAIN * solver.smoothing.radius / dt
 }
 
-/// Confines, and counts the particles whose push was cut.
-fn confine<G: Gradient>(
-    particles: &mut Particles,
-    solver: &mut Solver,
-    strengths: &[f32],
-    threads: usize,
-    dt: f32,
-) -> u64 {
+/// Leaves the velocities after confinement in the solver's `next` arrays; counts the particles whose push was cut.
+fn confine<G: Gradient>(particles: &Particles, solver: &mut Solver, strengths: &[f32], threads: usize, dt: f32) -> u64 {
     let most = most_strength(solver, dt);
     let most_change = MOST_CHANGE * MOVE_RADII * solver.smoothing.radius / dt;
     let cuts = AtomicU64::new(0);
     // ω lives in the array of λ, which is free between two solves.
     let Solver { bins, smoothing, instructions, next_x, next_y, lambda: vorticity, .. } = solver;
-    let read = &*particles;
     bins::split(bins.groups(), [&mut vorticity[..]], threads, &|groups, base, [out]| {
         let gradient = PhantomData::<G>;
-        instructions.run(CurlPass { smoothing, particles: read, groups, base, out, gradient });
+        instructions.run(CurlPass { smoothing, particles, groups, base, out, gradient });
     });
     let outputs = [&mut next_x[..], &mut next_y[..]];
     bins::split(bins.groups(), outputs, threads, &|groups, base, out| {
@@ -87,7 +107,7 @@ fn confine<G: Gradient>(
         let mut own_cuts = 0;
         instructions.run(ConfinementPass {
             smoothing,
-            particles: read,
+            particles,
             vorticity,
             strengths,
             most,
@@ -101,8 +121,6 @@ fn confine<G: Gradient>(
         });
         cuts.fetch_add(own_cuts, Ordering::Relaxed);
     });
-    std::mem::swap(&mut particles.vx, next_x);
-    std::mem::swap(&mut particles.vy, next_y);
     cuts.into_inner()
 }
 

@@ -63,6 +63,8 @@ pub enum Size {
     Usual,
     /// So long that only the command runs it.
     Long,
+    /// An hour and more: only the command runs it, and only by its name.
+    Hours,
 }
 
 /// What the cases of a suite have in common.

@@ -8,18 +8,23 @@
 
 mod case;
 mod job;
+mod merge;
 mod queue;
 mod read;
 mod report;
 mod row;
 mod setting;
+mod shard;
 mod simulation;
 
 pub use case::{About, Case, Column, Size, Suite};
 pub use job::{Job, jobs, run_all};
+pub use merge::read_rows;
 pub use queue::{JobQueue, Progress, plugin};
-pub(super) use read::{line, read};
+pub use read::Text;
+pub(super) use read::{figure_or_nan, line, read, reason};
 pub use report::{about_detail, document, failure, summary, table};
 pub use row::{Figures, Row, Verdict};
 pub use setting::{Over, Setting};
+pub use shard::Shard;
 pub use simulation::{CaseSimulation, Stopwatch};

@@ -1,11 +1,11 @@
 //! What comes of a case.
 
 use crate::kernel::params::Preset;
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer, de::DeserializeOwned};
 use std::{collections::BTreeMap, fmt::Debug};
 
 /// How a row came out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// Within what is allowed.
@@ -34,13 +34,18 @@ impl Verdict {
 }
 
 /// What the rows of a suite say beside case, setting and verdict.
-pub trait Figures: Clone + Debug + PartialEq + Serialize + Send + Sync + 'static {
+pub trait Figures: Clone + Debug + PartialEq + Serialize + DeserializeOwned + Send + Sync + 'static {
     /// The key of the setting in JSON.
     const SETTING: &'static str;
 
     /// What broke, each in a few words with what was allowed.
     fn broken(&self) -> &[String] {
         &[]
+    }
+
+    /// Counts what took too long among what broke, on a machine that does nothing else; whether anything did.
+    fn count_time(&mut self) -> bool {
+        false
     }
 
     /// What is to be said about the row beside its figures.

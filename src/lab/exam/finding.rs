@@ -3,13 +3,13 @@
 use crate::{
     kernel::params::Preset,
     lab::{
-        cases::{Figures, Over, Setting, Verdict},
+        cases::{Figures, Over, Setting, Text, Verdict, figure_or_nan, line, reason},
         exam::{Bound, ExamCase, set_up::SetUp},
     },
     scene::SceneError,
     sim::numbers::figure,
 };
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::pin::Pin;
 
 /// What a case found out.
@@ -73,26 +73,33 @@ impl ExamCase {
 }
 
 /// One quantity of a case: what is known and what came out.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Answer {
     /// What was measured.
-    pub quantity: &'static str,
+    #[serde(deserialize_with = "line")]
+    pub quantity: Text,
     /// Unit of `expected` and `got`; empty for a ratio.
-    pub unit: &'static str,
+    #[serde(deserialize_with = "line")]
+    pub unit: Text,
     /// The known answer.
+    #[serde(deserialize_with = "figure_or_nan")]
     pub expected: f64,
     /// What the program gave.
+    #[serde(deserialize_with = "figure_or_nan")]
     pub got: f64,
     /// Whether `error` and `tolerance` are shares of `expected`, or else in its unit.
     pub relative: bool,
     /// |got − expected|, or how far `got` is short of it; 0 where nothing can be told from the truth.
+    #[serde(deserialize_with = "figure_or_nan")]
     pub error: f64,
     /// Largest error that passes.
+    #[serde(deserialize_with = "figure_or_nan")]
     pub tolerance: f64,
     /// What it was made of, in words; empty where there is nothing to say.
     pub note: String,
     /// Why it is beyond, where that is a known miss.
-    pub known: Option<&'static str>,
+    #[serde(deserialize_with = "reason")]
+    pub known: Option<Text>,
     /// Time that simulating the case took in this setting, ms; the rows of a case share it.
     pub milliseconds: f64,
 }

@@ -16,7 +16,7 @@ use std::sync::Arc;
 type Arrange = fn(&mut Blueprint);
 
 /// By the names of the cases.
-pub(super) const STARTS: [(&str, Arrange); 20] = [
+pub(super) const STARTS: [(&str, Arrange); 21] = [
     ("two_at_a_point", |blueprint| {
         for at in [Vec2::new(2.0, 1.0), Vec2::new(4.03, 0.025)] {
             (0..2).for_each(|_| water(blueprint, at, Vec2::ZERO));
@@ -37,6 +37,11 @@ pub(super) const STARTS: [(&str, Arrange); 20] = [
         for k in 0..80 {
             let at = Vec2::new(1.1 + 0.1 * (k % 3) as f32, 1.1 + 9.8 * k as f32 / 80.0);
             water(blueprint, at, Vec2::ZERO);
+        }
+    }),
+    ("overfull_file", |blueprint| {
+        for k in 0..20 {
+            water(blueprint, Vec2::new(1.05, 1.1 + 9.8 * k as f32 / 20.0), Vec2::ZERO);
         }
     }),
     ("shots", shots),

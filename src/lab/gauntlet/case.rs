@@ -1,19 +1,27 @@
 //! What a hard case is: a scene, what is done to it, and what must hold all the while.
 
 use crate::{
-    kernel::{
-        params::{Preset, Quality},
-        units::TICKS_PER_SECOND,
-    },
+    kernel::{params::Preset, units::TICKS_PER_SECOND},
     lab::{
         cases::{Over, Size, line},
-        gauntlet::{arrange::arrange, end::End, ends, script::Act},
+        gauntlet::{
+            arrange::arrange,
+            confines::Confines,
+            end::End,
+            ends,
+            examiner::Terms,
+            rule::{Rule, SWOLLEN},
+            script::Act,
+        },
     },
-    scene::{self, SceneError, blueprint::Blueprint, effects::EffectModes},
-    sim::{checkpoint::Checkpoint, script::Script, state::Setup},
+    scene::{
+        self, SceneError,
+        blueprint::Blueprint,
+        effects::{Effect, EffectModes, Mode},
+    },
+    sim::{checkpoint::Checkpoint, numbers::figure, script::Script, state::Setup},
 };
 use bevy::ecs::world::World;
-use glam::DVec2;
 use serde::Deserialize;
 use std::{collections::BTreeMap, sync::Arc, time::Duration};
 
@@ -31,15 +39,13 @@ pub struct GauntletCase {
     /// What it guards against, in Markdown.
     #[serde(deserialize_with = "line")]
     pub guards: &'static str,
-    /// Why the rules allow what they allow, in Markdown.
-    #[serde(deserialize_with = "line")]
+    /// What it is allowed beyond the rules that hold everywhere, and why, in Markdown. Made of what follows.
+    #[serde(skip)]
     pub allowed: &'static str,
     /// How long it takes.
     pub size: Size,
     /// What it depends on.
     pub over: Over,
-    /// Why `classic`, the original's plain method, is known to break a rule here, if it is.
-    pub(super) known: Option<Known>,
     /// The text of the scene. What that can't say is added by `arrange`.
     pub(super) scene: &'static str,
     /// The run in which every knob of the scene is at an end of its range (see `ends`).
@@ -52,17 +58,52 @@ pub struct GauntletCase {
     pub(super) act: Option<Act>,
     /// How long it runs, ticks (frames where some come late). What shall be at rest is so in the last tenth.
     pub(super) ticks: u32,
-    /// What must hold.
-    pub(super) rules: Rules,
+    /// Why it may move at its end, in a word or two; without, it must be at rest.
+    pub(super) moves: Option<&'static str>,
+    /// Ticks after which the shock of its start is over.
+    pub(super) shock: u64,
+    /// Bounds of its own.
+    pub(super) bounds: BTreeMap<Rule, Bound>,
+    /// The fastest that a particle may be, m/s, where that is less than the limiters leave.
+    pub(super) fastest: Option<Bound>,
+    /// Rules that can't apply, and why, in a word or two.
+    pub(super) waived: BTreeMap<Rule, &'static str>,
+    /// What `classic`, the original's plain method, is known to do, by the rule that it breaks.
+    pub(super) known: BTreeMap<Rule, Known>,
+    /// What `classic` is known to do that breaks what is the case's own: its end, or that no limiter acts.
+    pub(super) known_own: Option<Known>,
+    /// Where a particle may be: beyond it, it has passed through something.
+    pub(super) confines: Option<Confines>,
+    /// Whether no limiter may act.
+    pub(super) calm: bool,
+    /// Particles that are no number and have to be taken away.
+    pub(super) removed: u64,
+    /// What else must hold at the end.
+    pub(super) end: Option<End>,
+    /// Whether what is at rest may sleep, as it does in the game. All other cases are judged awake.
+    pub(super) sleeps: bool,
+}
+
+/// A bound of a case's own.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Bound {
+    /// The most that is allowed, in the unit of the rule.
+    pub most: f64,
+    /// Where it follows from, in Markdown.
+    #[serde(deserialize_with = "line")]
+    pub why: &'static str,
 }
 
 /// What the plain method is known to do.
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 pub(super) enum Known {
     /// To water that is deep or pressed hard.
     Boils,
     /// To water at rest.
     Trembles,
+    /// To particles inside one another.
+    Bursts,
 }
 
 impl Known {
@@ -76,111 +117,17 @@ impl Known {
             Self::Trembles => {
                 "plain PBF takes every correction for motion, and water at rest trembles at .06 to .10 d a tick"
             }
-        }
-    }
-}
-
-/// What must hold in a case. These hold in each: every value is finite, pressures are at least 0, no particle is
-/// outside the box or inside rock, none goes missing.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub(super) struct Rules {
-    /// Where a particle may be: beyond it, it has passed through something.
-    pub confines: Option<Confines>,
-    /// The most that kinetic and potential energy may be above what was there and was put in, as the speed that all
-    /// particles together would have of it.
-    pub gain: Option<Gain>,
-    /// The fastest that a particle may be, m/s.
-    pub fastest: Option<f64>,
-    /// How far the liquid is too dense after the shock.
-    pub density: Option<Density>,
-    /// The root of the mean square of the speeds in the last tenth, in the scene's own spacings a tick: what is calm to
-    /// the eye is so at every detail.
-    pub rest: Option<f64>,
-    /// The most expensive tick, as a multiple of a calm one. Default: [`Rules::WORK`].
-    pub work: Option<f64>,
-    /// The most by which the mass of air that is shut in may change, as a share of it: 10⁻⁵ is its rounding.
-    pub air: Option<f64>,
-    /// Whether no limiter may act.
-    pub calm: bool,
-    /// Particles that are no number and have to be taken away.
-    pub removed: u64,
-    /// What else must hold at the end.
-    pub end: Option<End>,
-}
-
-impl Rules {
-    /// The most expensive tick of a case that does not say, as a multiple of a calm one.
-    const WORK: f64 = 8.0;
-
-    /// The most expensive tick that is allowed, as a multiple of a calm one.
-    pub fn most_work(&self) -> f64 {
-        self.work.unwrap_or(Self::WORK)
-    }
-}
-
-/// Where particles may be, m.
-#[derive(Clone, Debug, Deserialize)]
-pub(super) enum Confines {
-    /// In a rectangle.
-    Inside { min: (f64, f64), max: (f64, f64) },
-    /// Not inside a rectangle.
-    Outside { min: (f64, f64), max: (f64, f64) },
-    /// Where `a x + b y ≥ c` for each of these (a, b, c).
-    Sides(Vec<(f64, f64, f64)>),
-}
-
-impl Confines {
-    /// Whether a particle may be there.
-    pub fn hold(&self, at: DVec2) -> bool {
-        match self {
-            Self::Inside { min, max } => (min.0..=max.0).contains(&at.x) && (min.1..=max.1).contains(&at.y),
-            Self::Outside { min, max } => at.x <= min.0 || at.x >= max.0 || at.y <= min.1 || at.y >= max.1,
-            Self::Sides(sides) => sides.iter().all(|(a, b, c)| a * at.x + b * at.y >= *c),
-        }
-    }
-}
-
-/// A bound on the energy gained.
-#[derive(Clone, Copy, Debug, Deserialize)]
-pub(super) enum Gain {
-    /// A speed, m/s.
-    Speed(f64),
-    /// A multiple of the speed that corrections can give: the correction limit in each of the quality's substeps. It is
-    /// 6 d/s for `draft` and `fast`, 12 for `balanced`, `fine` and `reference` (of its own, shorter d), and 30 for
-    /// `classic`.
-    Corrections(f64),
-}
-
-impl Gain {
-    /// In m/s, at a quality and a spacing (m).
-    pub fn speed(self, quality: &Quality, spacing: f64) -> f64 {
-        match self {
-            Self::Speed(speed) => speed,
-            Self::Corrections(multiple) => {
-                let per_tick = f64::from(quality.correction_limit) * f64::from(quality.substeps);
-                multiple * per_tick * f64::from(TICKS_PER_SECOND) * spacing
+            Self::Bursts => {
+                "plain PBF takes every correction for motion, and what is set apart by up to .5 d a tick flies apart"
             }
         }
     }
 }
 
-/// Bounds of the 99th percentile of how far the liquid is too dense (see `lab::density`): what is pressed together is
-/// what flies apart, where what was torn apart only has bubbles in it.
-#[derive(Clone, Copy, Debug, Deserialize)]
-pub(super) struct Density {
-    /// Ticks after which the shock is over.
-    pub shock: u64,
-    /// Bound from there on.
-    pub worst: f64,
-    /// Bound in the last tenth.
-    pub end: f64,
-}
-
 impl GauntletCase {
     /// Whether it can be watched in the game: it is not too long, and ticks come in time.
     pub fn is_watchable(&self) -> bool {
-        self.late.is_none() && self.size != Size::Long
+        self.late.is_none() && self.size < Size::Long
     }
 
     /// Makes `world` the case's at a quality, and lets what is done to it begin.
@@ -210,7 +157,40 @@ impl GauntletCase {
         let scene = scene::from_text(&self.scene_name(), self.scene)?.at_detail(detail);
         let mut blueprint = scene.build(&settings, Some(preset), &EffectModes::new())?;
         arrange(self.name, &mut blueprint);
+        if !self.sleeps {
+            // Whether something is at rest is seen only where nothing is held still.
+            blueprint.effects.insert(Effect::Sleep, Mode::Off);
+        }
         Ok(blueprint)
+    }
+
+    /// On what terms its world is judged, where particles are `spacing` m apart.
+    pub(super) fn terms(&self, spacing: f64) -> Terms {
+        let fastest = self.fastest.map(|bound| (Rule::Speed, bound.most / spacing));
+        Terms {
+            length: u64::from(self.ticks),
+            restless: self.moves.map_or(Ok(()), Err),
+            shock: self.shock,
+            given_back: SWOLLEN,
+            bounds: self.bounds.iter().map(|(rule, bound)| (*rule, bound.most)).chain(fastest).collect(),
+            waived: self.waived.clone(),
+            confines: self.confines.clone(),
+            removed: self.removed,
+            lenient: false,
+        }
+    }
+
+    /// What it is allowed beyond the rules that hold everywhere, and why.
+    pub(super) fn exceptions(&self) -> String {
+        let moves = self.moves.map(|why| (Rule::Rest, why));
+        let waived = self.waived.iter().map(|(rule, why)| (*rule, *why)).chain(moves);
+        let bounds = self.bounds.iter().map(|(rule, Bound { most, why })| {
+            format!("*{}* up to {} {}: {why}", rule.name(), figure(*most), rule.value())
+        });
+        let fastest = self.fastest.map(|Bound { most, why }| format!("*speed* up to {} m/s: {why}", figure(most)));
+        let waived = waived.map(|(rule, why)| format!("*{}* is not judged: {why}.", rule.name()));
+        let own: Vec<String> = bounds.chain(fastest).chain(waived).collect();
+        if own.is_empty() { "The bounds that hold everywhere.".to_owned() } else { own.join(" ") }
     }
 
     /// Time from a frame to the one before; `None` where ticks come in time.

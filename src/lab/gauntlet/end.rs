@@ -25,6 +25,11 @@ pub(super) enum End {
     Slower(f64),
     /// Every particle stands where the scene put it, to the bit.
     Unmoved,
+    /// There is as much movable matter as the scene began with, give or take so many particles of its own spacing.
+    Amount {
+        /// How many.
+        off: f64,
+    },
 }
 
 impl End {
@@ -65,6 +70,13 @@ impl End {
                     .filter(|&(i, j)| particles.position(i as usize) != start.position(j as usize))
                     .count();
                 (moved == 0, format!("{moved} particles moved"))
+            }
+            Self::Amount { off } => {
+                let Setup { origin, opened, .. } = world.resource::<Setup>();
+                let own = |count: usize, detail: f64| count as f64 / detail.powi(2);
+                let start = own(origin.particles.len(), f64::from(opened.scale.detail));
+                let found = own(particles.len(), detail);
+                ((found - start).abs() <= off, format!("{found:.1} particles' worth of {start:.1}, allowed ± {off}"))
             }
         };
         if holds { Ok(()) } else { Err(found) }

@@ -2,8 +2,11 @@
 //! at every quality, and judged by one judge.
 //!
 //! ```text
-//! assets/gauntlet ─► GauntletCase: a scene, what is done to it, the rules ─► world, tick by tick ─► Judge ─► Stability
-//! arrange, script ─┘
+//! assets/gauntlet ─► GauntletCase: a scene, what is done to it ─► world, tick by tick ─► judge ─► Stability
+//! arrange, script ─┘                                                                       │
+//!                                                  examiner: every rule, by what `measure` finds
+//!                                                                                          │
+//! random: worlds that nobody thought of, under random hands ─► world, tick by tick ────────┘
 //! ```
 //!
 //! A case builds its world as every scene is built (`scene::from_text`, `Checkpoint::of_scene`). What is done to it before each
@@ -11,17 +14,26 @@
 //! and reports them.
 
 mod arrange;
+mod bounds;
+mod calm;
 mod case;
+mod confines;
 mod end;
 mod ends;
+mod examiner;
 mod judge;
 mod list;
+mod measure;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod random;
+mod rule;
 mod script;
 mod stability;
 mod suite;
 #[cfg(test)]
 mod tests;
 
+pub use bounds::{Bound, bounds};
 pub use case::GauntletCase;
 pub use list::CASES;
 pub use stability::Stability;

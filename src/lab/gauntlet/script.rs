@@ -20,7 +20,7 @@ use glam::Vec2;
 pub(super) type Act = fn(&mut World, u64);
 
 /// By the names of the cases.
-pub(super) const SCRIPTS: [(&str, Act); 16] = [
+pub(super) const SCRIPTS: [(&str, Act); 18] = [
     ("gravity_flips", |world, tick| set_gravity(world, Vec2::new(0.0, if tick % 2 == 0 { -G } else { G }))),
     ("gravity_turns", |world, tick| {
         let (x, y) = TURN[(tick * 16 / 180 % 16) as usize];
@@ -65,6 +65,12 @@ pub(super) const SCRIPTS: [(&str, Act); 16] = [
             intend(world, Intent::Erase { stroke: floor });
         }
     }),
+    ("pool_asleep", |world, tick| {
+        if tick == 240 {
+            let element = named(world, "water");
+            intend(world, Intent::Stamp { element, stroke: Stroke::dab(BrushShape::Disc, Vec2::new(15.0, 60.0), 0.0) });
+        }
+    }),
     ("no_particles", |world, tick| {
         let stroke = Stroke::dab(BrushShape::Disc, Vec2::splat(20.0), 0.0);
         let element = named(world, "water");
@@ -78,6 +84,16 @@ pub(super) const SCRIPTS: [(&str, Act); 16] = [
         let preset = Preset::ALL[(tick % 6) as usize];
         intend(world, Intent::Quality { preset, quality: preset.quality() });
         blow(world, tick == 10, (50.0, 30.0), 15.0, (-50.0, 0.0));
+    }),
+    ("quality_and_detail_changes", |world, tick| {
+        // Twelve in a second, more than a hand can press; six qualities and five details meet in all ways.
+        if tick % 5 == 0 {
+            let change = (tick / 5) as usize;
+            let (preset, detail) = (Preset::ALL[change % 6], [1.0, 0.5, 2.0, 0.73, 1.37][change % 5]);
+            intend(world, Intent::Detail { detail });
+            intend(world, Intent::Quality { preset, quality: preset.quality() });
+        }
+        blow(world, tick == 12, (50.0, 30.0), 15.0, (-50.0, 0.0));
     }),
     ("effects_toggle", |world, tick| {
         let mut digits = tick * 5 % 6561;

@@ -11,9 +11,10 @@ use crate::{
     sim::intent::Intent,
 };
 use glam::{IVec2, Vec2};
+use serde::{Deserialize, Serialize};
 
 /// Ticks from one bout to the next: a minute.
-pub const BOUT: u64 = 3600;
+pub(super) const BOUT: u64 = 3600;
 
 /// Longest wall that the player builds, and its thickness, in the scene's own spacings.
 const WALL: Vec2 = Vec2::new(14.0, 2.0);
@@ -24,33 +25,40 @@ const THINNEST: f32 = 2.0;
 /// away again. Between these the world is left alone. What it builds stands where the scene has no rock, so
 /// that taking it away leaves the scene as it was. At another detail it does the same in metres.
 #[derive(Clone, Debug)]
-pub struct Player {
-    random: Random,
+pub(super) struct Player {
+    /// What changes as it plays.
+    pub hand: Hand,
     size: Vec2,
     /// The scene's own spacing, d.
     unit: f32,
     ground: Solids,
     movable: Vec<ElementId>,
     fixed: Vec<ElementId>,
+}
+
+/// The player's hand: with it and the scene's start, a player goes on as if it had never stopped.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Hand {
+    random: Random,
+    /// The wall that stands.
     wall: Option<Stroke>,
+    /// Where the pointer is, d.
     at: Vec2,
 }
 
 impl Player {
-    /// A player of the scene, with random choices by `seed`.
+    /// A player of the scene at its start, with random choices by `seed`.
     pub fn new(blueprint: &Blueprint, seed: u64) -> Self {
         let of = |table: &ElementTable, fixed: bool| {
             table.iter().filter(|(_, element)| element.fixed == fixed).map(|(id, _)| id).collect()
         };
         Self {
-            random: Random::new(seed),
+            hand: Hand { random: Random::new(seed), wall: None, at: 0.5 * blueprint.domain.size },
             size: blueprint.domain.size,
             unit: blueprint.scale.detail,
             ground: blueprint.solids.clone(),
             movable: of(&blueprint.elements, false),
             fixed: of(&blueprint.elements, true),
-            wall: None,
-            at: 0.5 * blueprint.domain.size,
         }
     }
 
@@ -61,7 +69,7 @@ impl Player {
             600 => self.build(),
             900..1080 => Some(self.blow()),
             1200..1212 => Some(self.press()),
-            1800 => self.wall.take().map(|stroke| Intent::Erase { stroke }),
+            1800 => self.hand.wall.take().map(|stroke| Intent::Erase { stroke }),
             2000 => Some(Intent::ClearAir),
             _ => None,
         }
@@ -69,10 +77,10 @@ impl Player {
 
     fn pour(&mut self) -> Option<Intent> {
         // One tick in four, as a hand dabs; the element of a dab is any that moves.
-        if self.random.below(4) > 0 || self.movable.is_empty() {
+        if self.hand.random.below(4) > 0 || self.movable.is_empty() {
             return None;
         }
-        let choice = self.random.below(self.movable.len());
+        let choice = self.hand.random.below(self.movable.len());
         let element = self.movable[choice];
         let stroke = self.drag(3.0);
         Some(Intent::Draw { element, stroke })
@@ -81,14 +89,14 @@ impl Player {
     fn build(&mut self) -> Option<Intent> {
         let corner = self.point();
         let wall = (WALL * self.unit).max(Vec2::splat(THINNEST));
-        let way = if self.random.below(2) == 0 { wall } else { Vec2::new(wall.y, wall.x) };
+        let way = if self.hand.random.below(2) == 0 { wall } else { Vec2::new(wall.y, wall.x) };
         let stroke = Stroke::rectangle(corner, (corner + way).min(self.size));
         let size = IVec2::new(self.ground.columns(), self.ground.rows());
         if self.fixed.is_empty() || stroke.cells(size).any(|cell| self.ground.is_solid(cell)) {
             return None;
         }
-        self.wall = Some(stroke);
-        let choice = self.random.below(self.fixed.len());
+        self.hand.wall = Some(stroke);
+        let choice = self.hand.random.below(self.fixed.len());
         Some(Intent::Stamp { element: self.fixed[choice], stroke })
     }
 
@@ -99,25 +107,25 @@ impl Player {
     }
 
     fn press(&mut self) -> Intent {
-        let amount = if self.random.below(2) == 0 { 0.1 } else { -0.1 };
+        let amount = if self.hand.random.below(2) == 0 { 0.1 } else { -0.1 };
         Intent::Press { stroke: self.drag(6.0), amount }
     }
 
     /// A short drag of a brush of a radius in the scene's own spacings, from where the pointer is; now and then the
     /// pointer is lifted and set down elsewhere.
     fn drag(&mut self, radius: f32) -> Stroke {
-        if self.random.below(20) == 0 {
-            self.at = self.point();
+        if self.hand.random.below(20) == 0 {
+            self.hand.at = self.point();
         }
-        let from = self.at;
+        let from = self.hand.at;
         let step = (self.point() / self.size - 0.5) * 8.0 * self.unit;
-        self.at = (from + step).clamp(Vec2::ZERO, self.size);
-        Stroke { shape: BrushShape::Disc, from, to: self.at, radius: radius * self.unit }
+        self.hand.at = (from + step).clamp(Vec2::ZERO, self.size);
+        Stroke { shape: BrushShape::Disc, from, to: self.hand.at, radius: radius * self.unit }
     }
 
     /// Anywhere in the box, d.
     fn point(&mut self) -> Vec2 {
-        Vec2::new(self.random.share(), self.random.share()) * self.size
+        Vec2::new(self.hand.random.share(), self.hand.random.share()) * self.size
     }
 }
 

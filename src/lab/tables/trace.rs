@@ -10,7 +10,10 @@ use crate::{
     },
 };
 use bevy::ecs::world::World;
-use std::io::{self, Write};
+use std::{
+    io::{self, Write},
+    mem,
+};
 
 /// Writes the table. Times in s and ms, lengths in m, speeds in m/s; energy (J), momentum (kg m/s) of the movable particles
 /// for each metre of depth; the air's mass in its own unit (one cell of air at rest is 1).
@@ -19,17 +22,32 @@ pub struct Trace<W: Write> {
     /// Whether the names of the columns are written.
     is_begun: bool,
     predictions: u64,
+    /// Why it can't be written on. The world goes on, for what else is to be known of it.
+    fault: Option<io::Error>,
 }
 
 impl<W: Write> Trace<W> {
     /// A table without lines.
     pub fn new(out: W) -> Self {
-        Self { table: csv::Writer::from_writer(out), is_begun: false, predictions: 0 }
+        Self { table: csv::Writer::from_writer(out), is_begun: false, predictions: 0, fault: None }
     }
 
-    /// Ends the table.
-    pub fn finish(mut self) -> io::Result<()> {
-        self.table.flush()
+    /// Ends the table and returns what it was written to.
+    ///
+    /// # Errors
+    /// If it could not be written.
+    pub fn finish(self) -> io::Result<W> {
+        match self.fault {
+            Some(fault) => Err(fault),
+            None => self.table.into_inner().map_err(csv::IntoInnerError::into_error),
+        }
+    }
+
+    fn write(&mut self, columns: &[(&str, String)]) -> csv::Result<()> {
+        if !mem::replace(&mut self.is_begun, true) {
+            self.table.write_record(columns.iter().map(|(name, _)| name))?;
+        }
+        self.table.write_record(columns.iter().map(|(_, value)| value))
     }
 }
 
@@ -55,10 +73,13 @@ impl<W: Write> Observer for Trace<W> {
             ("air_mass", world.resource::<AirGrid>().with_grid(rock).mass().to_string()),
         ];
         self.predictions = predictions;
-        if !std::mem::replace(&mut self.is_begun, true) {
-            self.table.write_record(columns.each_ref().map(|(name, _)| name))?;
+        if self.fault.is_none() {
+            self.fault = self.write(&columns).err().map(|error| match error.into_kind() {
+                csv::ErrorKind::Io(fault) => fault,
+                kind => io::Error::other(format!("{kind:?}")),
+            });
         }
-        Ok(self.table.write_record(columns.each_ref().map(|(_, value)| value))?)
+        Ok(())
     }
 
     fn after_warmup(&mut self, _world: &World) {

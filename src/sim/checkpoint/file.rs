@@ -17,7 +17,7 @@ use crate::{
             restore::Checkpoint,
         },
         file::{FileError, Kind},
-        snapshot::{Snapshot, hash_bytes},
+        snapshot::Snapshot,
         state::{Setup, Sources},
     },
 };
@@ -64,28 +64,13 @@ impl Checkpoint {
     /// # Errors
     /// If it is not one, was cut or changed, or holds what no world can.
     pub fn decode(bytes: &[u8]) -> Result<Self, FileError> {
-        let rest = SAVE.open(bytes)?;
-        let (hash, body) = rest.split_first_chunk().ok_or_else(|| SAVE.damaged("it ends in its header"))?;
-        if u64::from_le_bytes(*hash) != hash_bytes(body) {
-            return Err(SAVE.damaged("its contents do not fit its checksum"));
-        }
-        let (contents, left) = postcard::take_from_bytes::<Contents>(body).map_err(|error| SAVE.damaged(error))?;
-        if !left.is_empty() {
-            return Err(SAVE.damaged("something stands behind its end"));
-        }
-        check::contents(&contents)
-            .and_then(|()| open(contents, u64::from_le_bytes(*hash)))
-            .map_err(|what| SAVE.unsound(what))
+        let (contents, hash) = SAVE.unseal::<Contents>(bytes)?;
+        check::contents(&contents).and_then(|()| open(contents, hash)).map_err(|what| SAVE.unsound(what))
     }
 }
 
 pub(super) fn seal(contents: &Contents) -> Vec<u8> {
-    // Writing to memory has no way to fail, and every length is known.
-    let body = postcard::to_stdvec(contents).unwrap_or_default();
-    let mut bytes = SAVE.begin();
-    bytes.extend(hash_bytes(&body).to_le_bytes());
-    bytes.extend(body);
-    bytes
+    SAVE.seal(contents)
 }
 
 /// Turns checked contents into a world that is marked as of this file. What needs the whole rock is checked here.

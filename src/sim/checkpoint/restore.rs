@@ -91,6 +91,22 @@ impl Checkpoint {
         Ok(self)
     }
 
+    /// The same world, to go on at another quality and another detail, beside which the preset has its own. It is resampled
+    /// once, straight to what both come to, and not at all where that is the detail that it has: on a way by a coarser
+    /// world matter and walls would get lost.
+    ///
+    /// # Errors
+    /// If it does not fit the detail: one line that says why, and what is allowed.
+    pub fn at(mut self, preset: Preset, quality: Quality, detail: f64) -> Result<Self, String> {
+        let setup = self.setup.at_detail(detail, preset)?;
+        let [to, from] = [&setup, &self.setup].map(|setup| f64::from(setup.blueprint.scale.detail));
+        if (to / from - 1.0).abs() > 1e-6 {
+            self = self.resampled(detail, preset)?;
+        }
+        (self.setup.preset, self.setup.quality) = (preset, quality);
+        Ok(self)
+    }
+
     /// The same world at another detail, beside which a preset has its own.
     ///
     /// # Errors

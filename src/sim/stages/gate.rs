@@ -1,7 +1,7 @@
-//! Gathers the facts of a tick, lets the table of effects decide by them, and plans how many substeps it takes.
+//! Gathers the facts of a tick and lets the table of effects decide by them, and plans how many substeps it takes.
 
 use crate::{
-    kernel::{predict, units::TICK_SECONDS},
+    kernel::{crowding::Crowding, predict, units::TICK_SECONDS},
     scene::effects::{Effect, Facts, Mode},
     sim::{
         effects::Effects,
@@ -9,7 +9,7 @@ use crate::{
         state::{AirGrid, Census, Counters, Elements, ParticleStore, Setup, SleepState, Sources},
     },
 };
-use bevy::prelude::{Res, ResMut};
+use bevy::prelude::{Local, Res, ResMut};
 
 /// Plans the tick from facts that are there already.
 pub(super) fn plan_tick(
@@ -21,8 +21,6 @@ pub(super) fn plan_tick(
     asleep: Res<SleepState>,
     elements: Res<Elements>,
     mut effects: ResMut<Effects>,
-    mut counters: ResMut<Counters>,
-    mut plan: ResMut<TickPlan>,
 ) {
     let fastest = predict::fastest(&particles.vx, &particles.vy);
     let modes = effects.wanted();
@@ -43,7 +41,22 @@ pub(super) fn plan_tick(
         air_moves: !air.is_quiet(),
         stirs_air: air.may_be_roused(&elements, fastest, TICK_SECONDS / setup.quality.substeps as f32),
     });
-    let wanted = predict::substeps(fastest, &setup.domain, &setup.quality, setup.blueprint.scale.detail, TICK_SECONDS);
+}
+
+/// Plans how many substeps the tick takes.
+pub(super) fn plan_substeps(
+    setup: Res<Setup>,
+    particles: Res<ParticleStore>,
+    mut counters: ResMut<Counters>,
+    mut plan: ResMut<TickPlan>,
+    mut crowding: Local<Crowding>,
+) {
+    let fastest = predict::fastest(&particles.vx, &particles.vy);
+    // The substeps of a preset make up for the detail of its own.
+    let finer = f64::from(setup.blueprint.scale.detail) / setup.preset.detail();
+    let length = (finer as f32, TICK_SECONDS);
+    let crowding = || crowding.of(&particles, setup.domain.size);
+    let wanted = predict::substeps(fastest, &setup.domain, &setup.quality, length, crowding);
     plan.substeps = wanted.count;
     counters.substeps_short += u64::from(wanted.short);
     counters.substeps_max = counters.substeps_max.max(plan.substeps);

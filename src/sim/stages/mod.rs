@@ -44,6 +44,7 @@ pub(super) fn plugin(app: &mut App) {
             count::count_particles,
             (
                 gate::plan_tick,
+                gate::plan_substeps,
                 sleep::keep_asleep,
                 step::run_substeps,
                 timed(Pass::Sleep, sleep::watch).run_if(sleep::water_may_rest).run_if(sleep::is_time_to_look),

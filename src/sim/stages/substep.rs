@@ -9,6 +9,7 @@ use crate::{
         stages::TickPlan,
         state::{
             AirGrid, Counters, DragState, Elements, ParticleStore, PredictorState, Rock, Setup, SolverState, Sources,
+            StartEnergy,
         },
         workers::Workers,
     },
@@ -42,14 +43,21 @@ pub(super) fn step_air(
     Call { touched: report.worked, spared: all - report.worked }
 }
 
-/// Gravity changes velocities: the first half of the kick.
+/// Gravity changes velocities: the first half of the kick. From here on the energy is counted that vorticity confinement
+/// may give back.
 pub(super) fn begin_kick(
     mut particles: ResMut<ParticleStore>,
+    mut start: ResMut<StartEnergy>,
+    elements: Res<Elements>,
     setup: Res<Setup>,
+    effects: Res<Effects>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
 ) -> usize {
     let (gravity, dt) = (setup.domain.gravity, plan.substep_seconds());
+    if effects.get(Effect::Vorticity).running {
+        start.0 = velocity::energy(&particles, &elements, gravity);
+    }
     workers.run_for(particles.len(), |threads| forces::begin_kick(gravity, &mut particles, threads, dt));
     particles.len()
 }
@@ -150,8 +158,10 @@ pub(super) fn sort_into_bins(
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
 ) -> usize {
-    let report = workers
-        .run_for(particles.len(), |threads| solver.bin(&mut particles, &rock, &setup.domain, &setup.quality, threads));
+    let rest_density = setup.blueprint.fluid.rest_density;
+    let report = workers.run_for(particles.len(), |threads| {
+        solver.bin(&mut particles, &rock, &setup.domain, &setup.quality, rest_density, threads)
+    });
     counters.set_apart += report.set_apart;
     particles.len()
 }
@@ -184,15 +194,16 @@ pub(super) fn update_velocities(
     mut solver: ResMut<SolverState>,
     rock: Res<Rock>,
     setup: Res<Setup>,
+    predictor: Res<PredictorState>,
     effects: Res<Effects>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
 ) -> usize {
     let (gravity, dt) = (setup.domain.gravity, plan.substep_seconds());
-    let predicted = effects.get(Effect::Predictor).running;
+    let flow = effects.get(Effect::Predictor).running.then(|| predictor.flow());
     let report = workers.run_for(particles.len(), |threads| {
-        velocity::update_velocities(&mut particles, &mut solver, &rock, gravity, predicted, threads, dt)
+        velocity::update_velocities(&mut particles, &mut solver, &rock, gravity, flow, threads, dt)
     });
     counters.position_clamps += report.position_clamps;
     particles.len()
@@ -220,13 +231,16 @@ pub(super) fn apply_vorticity(
     mut particles: ResMut<ParticleStore>,
     mut solver: ResMut<SolverState>,
     elements: Res<Elements>,
+    setup: Res<Setup>,
+    start: Res<StartEnergy>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
 ) -> usize {
     let dt = plan.substep_seconds();
     let report = workers.run_for(particles.len(), |threads| {
-        velocity::apply_vorticity(&mut particles, &mut solver, &elements, threads, dt)
+        let lost = start.0 - velocity::energy(&particles, &elements, setup.domain.gravity);
+        velocity::apply_vorticity(&mut particles, &mut solver, &elements, lost, threads, dt)
     });
     counters.strength_clamps += report.clamps;
     particles.len()

@@ -8,7 +8,7 @@ use powder_master::kernel::{
     forces::{self, LaterDrag},
     parallel::Team,
     params::{AIR_DENSITY, AirAdvection, AirParams, AirScheme, OpenSides},
-    predictor::{Predictor, PredictorParams},
+    predictor::Predictor,
     simd::InstructionSet,
     solids::Solids,
     velocity,
@@ -40,28 +40,17 @@ pub fn run(name: &str, set: InstructionSet) -> bool {
             counted(&mut tank, Tank::bin);
         }
         "solve" => counted(&mut tank, |tank| tank.solve(1)),
-        "velocity" => counted(&mut tank, |Tank { particles, solids, solver, .. }| {
-            velocity::update_velocities(particles, solver, solids, Vec2::ZERO, true, 1, SUBSTEP);
-        }),
+        "velocity" => counted(&mut tank, Tank::update_velocities),
         "viscosity" => counted(&mut tank, |tank| {
             velocity::apply_viscosity(&mut tank.particles, &mut tank.solver, &liquid, 1, SUBSTEP);
         }),
         "vorticity" => counted(&mut tank, |tank| {
-            velocity::apply_vorticity(&mut tank.particles, &mut tank.solver, &liquid, 1, SUBSTEP);
+            velocity::apply_vorticity(&mut tank.particles, &mut tank.solver, &liquid, f64::MAX, 1, SUBSTEP);
         }),
+        // The first run sets out from no pressure.
         "predictor" => {
-            let mut predictor = Predictor::default();
-            counted(&mut tank, |Tank { particles, solids, domain, quality, .. }| {
-                let params = PredictorParams {
-                    domain,
-                    cell: quality.kernel_radius,
-                    rest_density: 1.0,
-                    instructions: set,
-                    threads: 1,
-                    dt: SUBSTEP,
-                };
-                predictor.run(particles, solids, &params);
-            });
+            tank.predictor = Predictor::default();
+            counted(&mut tank, Tank::project);
         }
         "drag" => {
             let air = windy();

@@ -1,12 +1,16 @@
 //! Tests of the air as a whole: each name says what would be wrong if it failed.
 
+mod balance;
+mod energy;
 mod feedback;
+mod law;
 mod limits;
 mod scheme;
 mod sleep;
 mod tools;
 mod walls;
 mod waves;
+mod work;
 
 use super::Air;
 use crate::element::ElementId;

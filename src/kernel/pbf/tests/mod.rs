@@ -9,6 +9,7 @@ use crate::{
     element::ElementId,
     params::{Domain, FluidParams, GradientKernel, Preset, Quality, WALL_GAP},
     particles::Particles,
+    predictor::Predictor,
     simd::InstructionSet,
     solids::Solids,
 };
@@ -57,7 +58,7 @@ impl Bench {
 
     /// Bins the particles where they are; there are no corrections yet.
     pub(crate) fn bin(&mut self) {
-        self.solver.bin(&mut self.particles, &self.solids, &self.domain, &self.quality, 1);
+        self.solver.bin(&mut self.particles, &self.solids, &self.domain, &self.quality, CROWDS_STAY, 1);
         self.solver.x.clone_from(&self.particles.x);
         self.solver.y.clone_from(&self.particles.y);
     }
@@ -79,14 +80,19 @@ impl Bench {
     /// Predicts over `dt` s, solves and moves.
     pub(crate) fn step(&mut self, tension: bool, dt: f32) {
         let Self { particles, solids, domain, quality, solver, predicted, .. } = self;
-        let predicted = *predicted;
+        // Of the flow nothing is known.
+        let (predicted, predictor) = (*predicted, Predictor::default());
         crate::predict::predict(particles, solver.instructions, solids, domain, quality, 1, dt);
         let params = SolveParams { domain, fluid: &self.fluid, quality, tension, predicted, threads: 1 };
-        solver.bin(particles, solids, domain, quality, 1);
+        solver.bin(particles, solids, domain, quality, CROWDS_STAY, 1);
         solver.solve(particles, &params);
-        crate::velocity::update_velocities(particles, solver, solids, Vec2::ZERO, predicted, 1, dt);
+        let flow = predicted.then(|| predictor.flow());
+        crate::velocity::update_velocities(particles, solver, solids, Vec2::ZERO, flow, 1, dt);
     }
 }
+
+/// A rest density at which no cell is crowded: the equations are to hold for crowds, too.
+const CROWDS_STAY: f32 = 1e6;
 
 /// The same numbers in every run, 0 … 1.
 pub(crate) fn random_numbers(seed: u32) -> impl FnMut() -> f32 {

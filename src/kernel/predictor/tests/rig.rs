@@ -12,8 +12,9 @@ use crate::{
         level::{RowSums, damping},
         multigrid::Hierarchy,
         pockets::Pockets,
-        pressure::Projection,
+        pressure::{Projection, beside},
         rock::ClosedFaces,
+        stencil::Axis,
         transfer::Faces,
     },
     solids::Solids,
@@ -56,11 +57,12 @@ impl Equation {
         let mut hierarchy = Hierarchy::new(grid.columns, grid.rows);
         let (finest, stride) = (hierarchy.finest(), grid.stride);
         finest.take(conjugate.rows.clone(), 1..grid.columns + 1);
-        for (steep, step) in [(&mut steep_u, 1), (&mut steep_v, stride)] {
+        for (axis, steep) in [(Axis::U, &mut steep_u), (Axis::V, &mut steep_v)] {
             for j in 1..grid.rows + 2 {
-                let after = grid.row(j) + 1..grid.row(j) + 2 + grid.columns;
-                let first = after.start;
-                steepness(&mut steep[after], (&conjugate.liquid, &fill), first, step);
+                let (first, n) = (grid.row(j) + 1, grid.columns + 1);
+                let of = |field| beside(field, first, n, axis.step(&grid));
+                let around = closed.beside(&grid, axis, first, n);
+                steepness(&mut steep[first..first + n], of(&conjugate.liquid), of(&fill), around);
             }
         }
         for j in 1..grid.rows + 1 {

@@ -76,3 +76,23 @@ fn a_lattice_at_any_rest_density_is_as_still() {
         );
     }
 }
+
+#[test]
+fn rock_over_a_pool_and_beside_it_does_not_move_its_surface() {
+    // A ledge that ends over the pool, up to a cell above the water, and a pillar that stands in it, wherever they are within
+    // their cells. What pressure gives along the surface shows where it is taken to be.
+    let rock = [
+        ("a ledge", (|at, gap| at.x > 20.0 && at.y > 21.0 + gap && at.y < 30.0 + gap) as fn(Vec2, f32) -> bool),
+        ("a pillar", |at, gap| at.x > 20.0 + gap && at.x < 24.0 + gap && at.y > 5.0),
+    ];
+    for (name, is_rock) in rock {
+        for gap in [0.0, 1.0, 2.0] {
+            let walls = solids(50, 60, |at| is_rock(at, gap));
+            let fall = Vec2::new(0.0, -GRAVITY * DT);
+            let mut particles = lattice(&walls, |at| (at.y < 20.0).then_some(fall));
+            predict(&mut particles, &walls, LATTICE);
+            let aside = particles.vx.iter().fold(0.0_f32, |most, vx| most.max(vx.abs())) / -fall.y;
+            assert!(aside < 0.1, "{name}, {gap} d off: still water is pushed aside with {aside} of what gravity adds");
+        }
+    }
+}

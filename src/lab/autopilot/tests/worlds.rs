@@ -107,9 +107,8 @@ fn check(scene: &str, percent: f32, minutes: u64, most_work: f32) {
     assert!(held.work <= most_work, "{held:?}");
 }
 
-// The bounds lie between what `draft` and `fine` leave in these scenes (docs/accuracy.md): 0.77 and 0.44 % in the
-// waterfall, 0.63 and 0.46 % in the dam break. The level above `fine`, three substeps of four iterations, takes a work
-// of 10.8: a tenth more is given for what it takes to find that it is enough.
+// The bounds lie between what `draft` and `fine` leave in these scenes (docs/accuracy.md). The level above `fine`, three
+// substeps of four iterations, takes a work of 10.8: a tenth more is given for what it takes to find that it is enough.
 #[test]
 fn the_error_of_the_waterfall_is_held_at_a_tight_bound() {
     check("waterfall", 0.6, 1, 11.9);

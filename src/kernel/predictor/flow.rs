@@ -1,0 +1,67 @@
+//! What the liquid does around a place, as the last solve left it.
+
+use crate::predictor::{
+    grid::MacGrid,
+    rock::ClosedFaces,
+    stencil::{Axis, faces_around},
+    transfer::Faces,
+};
+use glam::Vec2;
+
+/// The grid's velocity after the solve: on faces that particles reach, their mean velocity and what pressure changed of it. On
+/// others nothing is known of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Flow<'a> {
+    grid: &'a MacGrid,
+    closed: &'a ClosedFaces,
+    faces: &'a Faces,
+    /// Which cells are liquid (1); `None` if none is.
+    liquid: Option<&'a [f32]>,
+}
+
+impl<'a> Flow<'a> {
+    pub(super) fn new(grid: &'a MacGrid, closed: &'a ClosedFaces, faces: &'a Faces, liquid: Option<&'a [f32]>) -> Self {
+        Self { grid, closed, faces, liquid }
+    }
+
+    /// Whether a wall or rock is beside the cell of a place (d) and no liquid: what the particle meets there is at rest.
+    #[inline(always)]
+    pub fn is_at_wall(&self, at: Vec2) -> bool {
+        let Self { grid, closed, liquid, .. } = *self;
+        let cell = |at: f32, cells: usize| ((at * grid.per_cell) as usize + 1).min(cells);
+        let k = grid.row(cell(at.y, grid.rows)) + cell(at.x, grid.columns);
+        let (stride, is_wet) = (grid.stride, |liquid: &[f32], k: usize| liquid[k] > 0.0);
+        let is_near = |liquid| [k, k - 1, k + 1, k - stride, k + stride].into_iter().any(|k| is_wet(liquid, k));
+        !liquid.is_some_and(is_near) && closed.has_wall(grid, k)
+    }
+
+    /// By how much the flow around a place (d) differs from a particle's velocity, d/s: as far as it is known, between 0
+    /// and the whole difference.
+    #[inline(always)]
+    pub fn beside(&self, at: Vec2, velocity: Vec2) -> Vec2 {
+        let along = |axis, velocity| self.along(axis, at, velocity);
+        Vec2::new(along(Axis::U, velocity.x), along(Axis::V, velocity.y))
+    }
+
+    #[inline(always)]
+    fn along(&self, axis: Axis, at: Vec2, velocity: f32) -> f32 {
+        let Self { grid, faces: Faces { u, v, ways, reached, area, .. }, liquid, .. } = *self;
+        if liquid.is_none() {
+            return 0.0;
+        }
+        let (column, row) = (axis.column(grid, at.x).0 as usize, axis.row(grid, at.y).0 as usize);
+        // Beyond the rows and columns that particles reached lies what is left from before.
+        let columns = grid.padded(area);
+        let is_reached = columns.contains(&column) && column + 1 < columns.end;
+        if !(is_reached && reached.contains(&row) && row + 1 < reached.end) {
+            return 0.0;
+        }
+        let (means, ways) = (if axis == Axis::U { u } else { v }, &ways[axis as usize]);
+        let mut difference = 0.0;
+        faces_around(grid, at.x, at.y, axis, |face, weight| {
+            let ([count, mean], [gained, ..]) = (means[face], ways[face]);
+            difference += if count > 0.0 { weight * (mean + gained - velocity) } else { 0.0 };
+        });
+        difference
+    }
+}

@@ -1,0 +1,59 @@
+//! The mass of air that is shut in.
+
+use crate::{
+    lab::gauntlet::rule::AIR_ROUNDINGS,
+    scene::effects::{Effect, Mode},
+    sim::{
+        effects::Effects,
+        state::{AirGrid, Rock},
+    },
+};
+use bevy::ecs::world::World;
+
+/// Most by which the mass of air that is shut in may differ from what it was, as a share of it: 2⁻²⁰.
+const MOST_DRIFT: f64 = AIR_ROUNDINGS / (1 << 24) as f64;
+
+/// What is made of the mass of air in a world.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::lab::gauntlet) struct AirMass {
+    /// Share of the mass that ticks made, each of what there was before it: edits change no share.
+    drift: f64,
+    /// How often hands changed the air, or it was switched on: from then on its mass is kept anew.
+    begun: u32,
+    /// Whether it was off.
+    was_off: bool,
+}
+
+impl AirMass {
+    /// Notes a tick before which there was a mass of `before`. Air that is switched off stands, and is brought to rest at
+    /// the pressure around: what that makes is the hand's that switched it.
+    pub fn ticked(&mut self, before: f64, world: &World) {
+        let is_off = world.resource::<Effects>().get(Effect::Air).mode == Mode::Off;
+        self.begun += u32::from(self.was_off && !is_off);
+        self.was_off = is_off;
+        if before == 0.0 || is_off {
+            return;
+        }
+        self.drift += mass(world) / before - 1.0;
+    }
+
+    /// Notes that hands changed the air.
+    pub fn edited(&mut self) {
+        self.begun += 1;
+    }
+
+    /// The most that the drift may be by now.
+    pub fn most(&self) -> f64 {
+        MOST_DRIFT * f64::from(1 + self.begun)
+    }
+
+    /// The share that ticks made of it so far.
+    pub fn drift(&self) -> f64 {
+        self.drift.abs()
+    }
+}
+
+/// Mass of the air, of which there may be no grid yet, d² at pressure 1.
+pub(in crate::lab::gauntlet) fn mass(world: &World) -> f64 {
+    world.resource::<AirGrid>().with_grid(world.resource::<Rock>()).mass()
+}

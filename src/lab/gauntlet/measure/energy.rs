@@ -1,0 +1,192 @@
+//! The book of energy: what a world has, and what was put into it.
+//!
+//! Matter has kinetic and potential energy, air has that of motion and of pressure (`Air::pressure_energy`): with `∂u/∂t =
+//! −c² ∇p` and `∂p/∂t = −∇(p u)` the sum of `½ p u² + ½ c² (p − 1)²` can only fall, in a closed box and in one that is open
+//! to air at rest at pressure 1. So no matter can have more than
+//!
+//! - what matter and air had at the start,
+//! - what edits put into both and take out of matter, measured around each edit,
+//! - what emitters give: the kinetic energy of what they let in, at the highest place of their area; drains take theirs,
+//! - what winds give: at most `½ p w² · rate · T` a tick over their area, the power that brings air to `w` anew all the time,
+//! - where the air does not yield to the particles that it drags (no feedback), what it gives them: a drag that closes a
+//!   share s of the way from v to the wind w adds `½ m s (w² − v²)` at most, the square being convex.
+
+use crate::{
+    kernel::units::TICK_SECONDS,
+    lab::balance::matter,
+    scene::effects::Effect,
+    sim::{
+        effects::Effects,
+        stages::TickPlan,
+        state::{AirGrid, Elements, ParticleStore, Rock, Setup, Sources},
+    },
+};
+use bevy::ecs::world::World;
+use glam::{DVec2, Vec2};
+
+/// Energy, J.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::lab::gauntlet) struct Stored {
+    /// Of matter.
+    matter: f64,
+    /// Of air.
+    pub air: f64,
+}
+
+impl Stored {
+    /// What a world has.
+    pub fn of(world: &World) -> Self {
+        let matter = matter(world);
+        let air = world.resource::<AirGrid>().with_grid(world.resource::<Rock>());
+        let d = f64::from(matter.scale.spacing);
+        // The unit of the air's mass is d² at pressure 1.
+        let joule = f64::from(air.params().density) * d * d * d * d;
+        Self { matter: matter.balance().energy(), air: joule * (air.kinetic_energy() + air.pressure_energy()) }
+    }
+
+    /// Notes what an edit put in, and what it took out of matter. What it takes out of the air stays in the book: where sound
+    /// was slowed ([`AirReport`](crate::kernel::air::AirReport)) the air has less than its pressure says.
+    pub fn edited(&mut self, before: Self, after: Self) {
+        self.matter += after.matter - before.matter;
+        self.air += (after.air - before.air).max(0.0);
+    }
+
+    /// Notes what a tick put in.
+    pub fn add(&mut self, put_in: f64) {
+        self.matter += put_in;
+    }
+
+    /// All of it.
+    pub fn all(self) -> f64 {
+        self.matter + self.air
+    }
+}
+
+/// What is known before a tick of what the tick may put in.
+#[derive(Clone, Debug)]
+pub(in crate::lab::gauntlet) struct Due {
+    /// Energy of what drains take, J.
+    drained: f64,
+    /// What each emitter gave so far.
+    given: Vec<u32>,
+    /// Energy that winds give at the pressures before the tick, J.
+    winds: f64,
+    /// Fastest wind, d/s.
+    wind: f64,
+    /// Masses (kg) and speeds (m/s) of the particles, with their rates of drag (1/d).
+    dragged: Vec<[f64; 3]>,
+}
+
+impl Due {
+    /// Looks at a world whose next tick begins.
+    pub fn of(world: &World) -> Self {
+        let matter = matter(world);
+        let (sources, rates) = (world.resource::<Sources>(), &world.resource::<Elements>().0.drag);
+        let d = f64::from(matter.scale.spacing);
+        let gravity = matter.domain.gravity.as_dvec2() * d;
+        let particles = matter.particles;
+        let mass = |i: usize| f64::from(matter.elements.get(particles.element[i]).density) * d * d;
+        let speed = |i: usize| particles.velocity(i).as_dvec2().length() * d;
+        let energy =
+            |i: usize| mass(i) * (0.5 * speed(i) * speed(i) - gravity.dot(particles.position(i).as_dvec2() * d));
+        let drains = |i: &usize| sources.drains.iter().any(|drain| drain.area.contains(particles.position(*i)));
+        let rate = |i: usize| f64::from(rates[particles.element[i].index()]);
+        Self {
+            drained: (0..particles.len()).filter(drains).map(energy).sum(),
+            given: sources.emitters.iter().map(|emitter| emitter.given).collect(),
+            winds: winds(world),
+            wind: fastest_wind(world),
+            dragged: (0..particles.len()).map(|i| [mass(i), speed(i), rate(i)]).collect(),
+        }
+    }
+
+    /// The most that the tick put in, J, now that it is over.
+    pub fn put_in(self, world: &World) -> f64 {
+        let winds = self.winds.max(winds(world));
+        self.emitted(world) - self.drained + winds + self.dragged(world)
+    }
+
+    fn emitted(&self, world: &World) -> f64 {
+        let matter = matter(world);
+        let d = f64::from(matter.scale.spacing);
+        let gravity = matter.domain.gravity.as_dvec2() * d;
+        let emitters = world.resource::<Sources>().emitters.iter().zip(&self.given);
+        emitters
+            .map(|(emitter, before)| {
+                let mass = f64::from(matter.elements.get(emitter.element).density) * d * d;
+                let speed = emitter.velocity.as_dvec2().length() * d;
+                let far = |gravity: f64, low: f32, high: f32| f64::from(if gravity > 0.0 { low } else { high });
+                let highest = DVec2::new(
+                    far(gravity.x, emitter.area.min.x, emitter.area.max.x),
+                    far(gravity.y, emitter.area.min.y, emitter.area.max.y),
+                ) * d;
+                f64::from(emitter.given - before) * mass * (0.5 * speed * speed - gravity.dot(highest))
+            })
+            .sum()
+    }
+
+    fn dragged(&self, world: &World) -> f64 {
+        let (effects, plan) = (world.resource::<Effects>(), world.resource::<TickPlan>());
+        if !effects.get(Effect::Drag).running || effects.acts(Effect::AirFeedback) {
+            return 0.0;
+        }
+        let d = f64::from(matter(world).scale.spacing);
+        let wind = self.wind.max(fastest_wind(world)) * d;
+        let (dt, substeps) = (f64::from(plan.substep_seconds()), f64::from(plan.substeps));
+        let given = |[mass, speed, rate]: &[f64; 3]| {
+            let closed = rate / d * (wind + speed) * dt;
+            0.5 * mass * closed / (1.0 + closed) * (wind * wind - speed * speed).max(0.0)
+        };
+        substeps * self.dragged.iter().map(given).sum::<f64>()
+    }
+}
+
+/// The most that the scene's winds can give in a tick, J.
+fn winds(world: &World) -> f64 {
+    let sources = world.resource::<Sources>();
+    if sources.winds.is_empty() {
+        return 0.0;
+    }
+    let air = world.resource::<AirGrid>();
+    let d = f64::from(matter(world).scale.spacing);
+    let (cell, joule) = (f64::from(air.cell()), f64::from(air.params().density) * d * d * d * d);
+    let mut sum = 0.0;
+    for wind in &sources.winds {
+        let power = 0.5 * f64::from(wind.velocity.length_squared()) * f64::from(wind.rate);
+        for row in 0..air.rows() {
+            for (column, pressure) in air.pressure_row(row).iter().enumerate() {
+                let at = Vec2::new(column as f32 + 0.5, row as f32 + 0.5) * air.cell();
+                // A cell that the area only touches may be driven, too.
+                let near = at.cmpge(wind.area.min - air.cell()).all() && at.cmple(wind.area.max + air.cell()).all();
+                sum += if near { power * f64::from(*pressure) * cell * cell } else { 0.0 };
+            }
+        }
+    }
+    sum * joule * f64::from(TICK_SECONDS)
+}
+
+/// The fastest wind in the box, d/s.
+fn fastest_wind(world: &World) -> f64 {
+    std::f64::consts::SQRT_2 * f64::from(world.resource::<AirGrid>().max_speed())
+}
+
+/// Energy of all matter of a world if it lay in the lowest corner of the box, J: what is above that can become motion.
+pub(in crate::lab::gauntlet) fn lowest(world: &World) -> f64 {
+    let matter = matter(world);
+    let d = f64::from(matter.scale.spacing);
+    let gravity = matter.domain.gravity.as_dvec2() * d;
+    let corner = |gravity: f64, size: f32| if gravity > 0.0 { f64::from(size) * d } else { 0.0 };
+    let size = matter.domain.size;
+    let corner = DVec2::new(corner(gravity.x, size.x), corner(gravity.y, size.y));
+    -matter.balance().mass * gravity.dot(corner)
+}
+
+/// Largest acceleration of matter by gravity and wind, d/s².
+pub(in crate::lab::gauntlet) fn load(world: &World) -> f64 {
+    let gravity = f64::from(world.resource::<Setup>().domain.gravity.length());
+    let particles = &world.resource::<ParticleStore>().0;
+    let drags = world.resource::<Effects>().get(Effect::Drag).running && !particles.is_empty();
+    let rate = world.resource::<Elements>().0.drag.iter().copied().filter(|rate| rate.is_finite()).fold(0.0, f32::max);
+    let wind = if drags { fastest_wind(world) } else { 0.0 };
+    gravity + f64::from(rate) * wind * wind
+}
