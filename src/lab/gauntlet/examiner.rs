@@ -34,8 +34,8 @@ const DENSITY_EVERY: u64 = 10;
 pub(super) const SHOCK: u64 = 30;
 /// Fewest particles inside a liquid of which one in a hundred can be told.
 const ENOUGH: usize = 100;
-/// Fewer particles than this are drops: as many as a kernel of 2.5 d holds.
-const DROPS: usize = 20;
+/// Fewer particles than this are drops: as many as fill a cell of the predictor's grid, which is 2.5 d wide.
+const DROPS: usize = 7;
 /// Share of the free room that liquid may fill and still have room to give way.
 const FULL: f64 = 0.9;
 
@@ -209,7 +209,7 @@ impl Examiner {
             self.note(Rule::Lost, measured);
         }
         let is_drops = self.terms.lenient && world.resource::<ParticleStore>().len() < DROPS;
-        let restless = if is_drops { Err("a few drops") } else { self.terms.restless };
+        let restless = self.terms.restless.and(if is_drops { Err("a few drops") } else { Ok(()) });
         match (restless, stats::mean(&self.motion)) {
             (Ok(()), Some(motion)) => self.note(Rule::Rest, self.measured(motion, STILL)),
             (Err(why), _) => self.waive(Rule::Rest, why),

@@ -57,17 +57,17 @@ rules! {
         "5 d/s is what overlaps may part with: half a metre a second at 0.1 m, which rises by less than a particle's width. \
          Of the energy E of its height, for each kg, water holds a share s by standing too high: 1 %, as much as its mean \
          density may be off; in random worlds, whose hands press it to the bound of its density, 14 % of all that can become \
-         motion. What \
-         comes to a stop within a substep does so half of gravity's kick early or late. What is taken away takes along what it \
-         has, and the gain stays in the book: held against it is the most that was allowed so far.";
+         motion. What comes to a stop within a substep does so half of gravity's kick early or late. What is taken away takes \
+         along what it has, and the gain stays in the book: held against it is the most that was allowed so far.";
     /// Liquid is not pressed together once the shock is over.
     Density: "density", "share too dense, 99th percentile", "0.14; still water 0.02",
         "0.14 is a particle's own share of the density where it stands: below, less than one particle too many stands around 99 \
          of a hundred. Still water may be as much too dense as its surface may stand off.";
     /// What has no reason to move rests, with sleep off.
     Rest: "rest", "d a tick, rms", "0.02",
-        "With 17 pixels a particle, as in the game's window, one pixel in three frames. Fewer particles than a kernel holds are \
-         drops, which nothing keeps from running down a slope, and in random worlds not judged.";
+        "With 17 pixels a particle, as in the game's window, one pixel in three frames. Fewer particles than fill a cell of \
+         the predictor's grid, 7, are drops: they have no pressure, nothing keeps them on a slope, and in random worlds they \
+         are not judged.";
     /// No tick takes much more than a calm one.
     Cost: "cost", "calm ticks", "10",
         "A game whose calm tick takes a tenth of its time, to have room for what players do, is never late.";
