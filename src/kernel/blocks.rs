@@ -50,7 +50,11 @@ impl Blocks {
             instructions.run(FindSpans { grid, y: &y[first * SPAN..], spans });
         });
         let Self { spans, turns, rest } = self;
-        turns.iter_mut().chain([&mut *rest]).for_each(Vec::clear);
+        for blocks in turns.iter_mut().chain([&mut *rest]) {
+            blocks.clear();
+            // As many as there can be: room is made when particles come, not when they move.
+            blocks.reserve(spans.len());
+        }
         let end_of = |block: Option<&Block>| block.map_or(0, |block| block.rows.end);
         // The turn of the block at hand, and whether it may grow.
         let (mut turn, mut grows) = (1, false);

@@ -4,7 +4,7 @@
 use super::kept::folder;
 use powder_master::{
     kernel::params::Preset,
-    lab::gauntlet::random::{Plan, Rule, run},
+    lab::gauntlet::random::{Failure, Plan, Rule, run},
 };
 use std::{
     env,
@@ -14,9 +14,35 @@ use std::{
 /// Worlds of a run that nobody asked more of.
 const WORLDS: u64 = 200;
 
-/// Rules that three worlds in a thousand are known to miss today (docs/stability.md, "What limits remain"), by less than this
-/// many times what is allowed. They are judged, counted and shown all the same; what misses them by less is no failure here.
-const KNOWN: ([Rule; 4], f64) = ([Rule::Energy, Rule::Density, Rule::Rest, Rule::Cost], 3.0);
+/// Rules that worlds are known to miss today (docs/stability.md, "What limits remain"). They are judged and shown all the same;
+/// what a test can hold them to is how many do.
+const KNOWN: [Rule; 4] = [Rule::Energy, Rule::Density, Rule::Rest, Rule::Cost];
+
+/// Share of worlds that miss them (docs/random.md: 10,000 worlds).
+const KNOWN_SHARE: f64 = 0.002;
+
+/// Chance with which a run fails though no more worlds miss a rule than did: once in 10,000 runs.
+const FALSE_ALARM: f64 = 1e-4;
+
+/// Most worlds of `count` that may miss a known rule: more than that have a chance of [`FALSE_ALARM`] at most (Poisson's law for
+/// events that are rare and know nothing of each other).
+fn most_known(count: u64) -> usize {
+    let mean = KNOWN_SHARE * count as f64;
+    let (mut term, mut most) = ((-mean).exp(), 0);
+    let mut beyond = 1.0 - term;
+    while beyond > FALSE_ALARM {
+        most += 1;
+        term *= mean / most as f64;
+        beyond -= term;
+    }
+    most
+}
+
+#[test]
+fn no_more_may_miss_a_rule_than_chance_has_it() {
+    // Tables of the law at a mean of 0.4 and of 2: .99994 up to 4, .9998 up to 8, .99995 up to 9.
+    assert_eq!([200, 1000].map(most_known), [4, 9]);
+}
 
 /// A number that the environment gives, or else another.
 fn given(variable: &str, or: impl FnOnce() -> u64) -> u64 {
@@ -42,8 +68,12 @@ fn no_scene_and_no_hand_breaks_a_rule() {
     let passing = env::temp_dir().join(format!("powder-master-found-{}", std::process::id()));
     let tally = run(&plan, &passing, |_, _| {}).expect("a temporary folder");
     println!("{}\n{}\n{}", tally.table(), tally.failed().join("\n"), tally.notes().join("\n"));
-    let is_new = |(rule, share): &(Rule, f64)| !(KNOWN.0.contains(rule) && *share < KNOWN.1);
-    let new: Vec<_> = tally.failures.iter().filter(|failure| failure.rules.iter().any(is_new)).collect();
+    let is_known = |failure: &&Failure| failure.rules.iter().all(|(rule, _)| KNOWN.contains(rule));
+    let (known, mut new): (Vec<_>, Vec<_>) = tally.failures.iter().partition(is_known);
+    if known.len() > most_known(count) {
+        println!("{} worlds miss a known rule; chance has {} at most", known.len(), most_known(count));
+        new.extend(known);
+    }
     let kept = |file: &str| {
         let file = std::path::Path::new(file);
         for part in [file.to_owned(), file.with_extension("jsonl")] {

@@ -24,15 +24,21 @@ impl<'a> Flow<'a> {
         Self { grid, closed, faces, liquid }
     }
 
-    /// Whether a wall or rock is beside the cell of a place (d) and no liquid: what the particle meets there is at rest.
+    /// How far only a wall holds a particle at a place (d) that is pushed along `way` (of any length but 0): 0 where its cell has
+    /// pressure, or no wall beside it. As far as the wall is what it is pushed away from where a cell beside has pressure;
+    /// 1 between walls, and where no pressure is near.
     #[inline(always)]
-    pub fn is_at_wall(&self, at: Vec2) -> bool {
+    pub fn held_by_wall(&self, at: Vec2, way: Vec2) -> f32 {
         let Self { grid, closed, liquid, .. } = *self;
         let cell = |at: f32, cells: usize| ((at * grid.per_cell) as usize + 1).min(cells);
         let k = grid.row(cell(at.y, grid.rows)) + cell(at.x, grid.columns);
-        let (stride, is_wet) = (grid.stride, |liquid: &[f32], k: usize| liquid[k] > 0.0);
-        let is_near = |liquid| [k, k - 1, k + 1, k - stride, k + stride].into_iter().any(|k| is_wet(liquid, k));
-        !liquid.is_some_and(is_near) && closed.has_wall(grid, k)
+        let (stride, is_wet) = (grid.stride, |k: usize| liquid.is_some_and(|liquid| liquid[k] > 0.0));
+        if is_wet(k) || !closed.has_wall(grid, k) {
+            return 0.0;
+        }
+        let away = closed.away(grid, k);
+        let is_near_pressure = [k - 1, k + 1, k - stride, k + stride].into_iter().any(is_wet);
+        if is_near_pressure && away != Vec2::ZERO { away.normalize().dot(way.normalize()).max(0.0) } else { 1.0 }
     }
 
     /// By how much the flow around a place (d) differs from a particle's velocity, d/s: as far as it is known, between 0

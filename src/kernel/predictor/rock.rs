@@ -81,6 +81,13 @@ impl ClosedFaces {
         open < 4.0 - ROUNDING
     }
 
+    /// Away from the closed faces of a cell: the difference of the open shares along x and along y.
+    #[inline(always)]
+    pub fn away(&self, grid: &MacGrid, k: usize) -> Vec2 {
+        let [own, above] = [k, k + grid.stride].map(|k| self.row(k / grid.stride) + k % grid.stride);
+        Vec2::new(self.open_u[own + 1] - self.open_u[own], self.open_v[above] - self.open_v[own])
+    }
+
     fn fields(&mut self) -> [&mut Vec<f32>; 6] {
         let Self { open_u, open_v, rock, right_of_u, above_v, liquid_from, .. } = self;
         [open_u, open_v, rock, right_of_u, above_v, liquid_from]

@@ -153,11 +153,16 @@ impl Sleep {
     /// Notes how the sleepers lie.
     pub(super) fn remember(&mut self, particles: &Particles) {
         let asleep = self.asleep();
+        // Room for all at once, and not anew for each that falls asleep.
+        let all = particles.len();
         for (copy, from) in [(&mut self.x, &particles.x), (&mut self.y, &particles.y)] {
             copy.clear();
+            copy.reserve(all);
             copy.extend_from_slice(&from[..asleep]);
         }
         self.id.clear();
+        self.id.reserve(all);
+        self.density.reserve(all.saturating_sub(self.density.len()));
         self.id.extend_from_slice(&particles.id[..asleep]);
         // Of sleepers that were restored, nothing is known but that they are at rest.
         self.density.resize(asleep, 1.0);

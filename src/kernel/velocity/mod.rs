@@ -58,10 +58,6 @@ const PRESSED: [f32; 2] = [0.02, 0.07];
 /// from which on corrections may be longer.
 const CROWDED: f32 = 1.5;
 
-/// Density, as a multiple of the one aimed at, below which a particle may be on its own, of which the flow knows nothing: less
-/// of its kernel is filled than at a level surface.
-const SPRAY: f32 = 0.6;
-
 /// Particles that are looked through at a time.
 const BLOCK: usize = 64;
 
@@ -78,9 +74,11 @@ const CUT: f32 = 0.999;
 /// the flow around it, as matter does that meets and does not bounce. So a correction brings no particle beyond the flow:
 /// however deep particles lie inside one another, they are set apart, and not shot apart, and the finer the substeps the
 /// less. In a crowd ([`CROWDED`]) all motion against the correction ends, not only that beside the flow: what lies inside
-/// others moves with them, and a crowd that the floor holds up would keep the speed of a fall that has ended. So it does,
-/// however dense it is, where a wall is near and no liquid: a few drops in a crevice are their own flow, and gravity would make
-/// them faster and faster as corrections hold them up.
+/// others moves with them, and a crowd that the floor holds up would keep the speed of a fall that has ended.
+///
+/// In a cell beside a wall that has no pressure ([`Flow::held_by_wall`]) only corrections hold matter up, and gravity would make it faster
+/// and faster meanwhile. So at any density a correction there ends motion as far as it points away from the wall, that of a film
+/// above all; between walls, and of a few drops in a crevice, which are their own flow, it ends all that runs against it.
 ///
 /// Then the second half of the kick that [`begin_kick`](crate::forces::begin_kick) began: gravity (d/s²) and what
 /// pressure and contact add. Where corrections hold a particle up they hold it against the kick, too ([`held`]).
@@ -205,9 +203,7 @@ fn follow(
 ) {
     let [from, to] = pressed.map(|density| density * aim);
     let per_density = 1.0 / (to - from);
-    let thin = SPRAY * aim;
-    let is_held = density.iter().fold(false, |any, density| any | (*density > from) | (*density < thin));
-    if !is_held {
+    if density.is_empty() {
         change_x.fill(0.0);
         change_y.fill(0.0);
         return;
@@ -215,19 +211,21 @@ fn follow(
     for (k, density) in density.iter().enumerate() {
         let change = Vec2::new(change_x[k], change_y[k]);
         let length = change.length();
-        let mut left = Vec2::ZERO;
-        let (is_pressed, is_thin) = (*density > from, *density < thin);
-        if (is_pressed | is_thin) && length > 0.0 {
-            let (at, velocity) = (Vec2::new(x[k], y[k]), Vec2::new(vx[k], vy[k]));
-            let is_held = *density > CROWDED * aim || flow.is_at_wall(at);
-            // What of the motion runs against the correction, and how much of the correction may end of it.
-            let (motion, share) = match is_held {
-                true => (-velocity, 1.0),
-                false if is_pressed => (flow.beside(at, velocity), ((density - from) * per_density).min(1.0)),
-                false => (Vec2::ZERO, 0.0),
-            };
-            left = change * ((share * length).min((motion.dot(change) / length).max(0.0)) / length);
+        if length == 0.0 {
+            // One whose square is too small for a number ends nothing.
+            (change_x[k], change_y[k]) = (0.0, 0.0);
+            continue;
         }
+        let (at, velocity) = (Vec2::new(x[k], y[k]), Vec2::new(vx[k], vy[k]));
+        let along = |motion: Vec2| motion.dot(change) / length;
+        // How much of the correction may end of the motion, and what runs against it.
+        let held = if *density > CROWDED * aim { 1.0 } else { flow.held_by_wall(at, change) };
+        let mut most = (held * length).min(along(-velocity));
+        if held < 1.0 && *density > from {
+            let share = ((density - from) * per_density).min(1.0);
+            most = most.max((share * length).min(along(flow.beside(at, velocity))));
+        }
+        let left = change * (most.max(0.0) / length);
         (change_x[k], change_y[k]) = (left.x, left.y);
     }
 }

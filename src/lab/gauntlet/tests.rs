@@ -162,7 +162,10 @@ static SABOTAGED: LazyLock<[GauntletCase; 11]> = LazyLock::new(|| {
         sabotaged(
             "cost",
             |world, _| world.resource_mut::<ParticleStore>().0.vx[0] = 2000.0,
-            |case| (case.moves, _) = (Some("shot"), bound(case, Rule::Cost, 1.2)),
+            |case| {
+                (case.moves, _) = (Some("shot"), bound(case, Rule::Cost, 1.2));
+                case.waived.insert(Rule::Density, "shot");
+            },
         ),
         sabotaged("lost", poison, |_| {}),
         sabotaged(

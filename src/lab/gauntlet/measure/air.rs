@@ -18,8 +18,10 @@ const MOST_DRIFT: f64 = AIR_ROUNDINGS / (1 << 24) as f64;
 pub(in crate::lab::gauntlet) struct AirMass {
     /// Share of the mass that ticks made, each of what there was before it: edits change no share.
     drift: f64,
-    /// How often hands changed the air, or it was switched on: from then on its mass is kept anew.
+    /// How often hands changed the air or rock, or it was switched on: from then on its mass is kept anew.
     begun: u32,
+    /// The rock's version after the last tick; the air follows new rock in the tick after it.
+    rock: Option<u64>,
     /// Whether it was off.
     was_off: bool,
 }
@@ -31,6 +33,8 @@ impl AirMass {
         let is_off = world.resource::<Effects>().get(Effect::Air).mode == Mode::Off;
         self.begun += u32::from(self.was_off && !is_off);
         self.was_off = is_off;
+        let rock = world.resource::<Rock>().version();
+        self.begun += u32::from(self.rock.replace(rock).is_some_and(|before| before != rock));
         if before == 0.0 || is_off {
             return;
         }

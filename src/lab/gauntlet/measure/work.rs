@@ -35,9 +35,14 @@ impl Work {
         if solved == 0 { 0.0 } else { candidates(&world.resource::<SolverState>().bins) * passes }
     }
 
-    /// Candidate pairs of a particle in the resting lattice, in one pass.
+    /// Candidate pairs of a particle at rest, in one pass: on the lattice, or as dense as the liquid rests if that is denser.
     pub(super) fn calm(&mut self, world: &World) -> f64 {
-        let quality = world.resource::<Setup>().quality;
+        let setup = world.resource::<Setup>();
+        let (quality, density) = (setup.quality, f64::from(setup.blueprint.fluid.rest_density.max(1.0)));
+        density * self.on_the_lattice(world, quality)
+    }
+
+    fn on_the_lattice(&mut self, world: &World, quality: Quality) -> f64 {
         match self.calm {
             Some((of, candidates)) if of == quality => candidates,
             _ => self.calm.insert((quality, in_a_pool(world, &quality))).1,

@@ -112,23 +112,14 @@ fn usual(dice: &mut Dice, preset: Preset) -> (Scene, Vec2, f64) {
     let size = Vec2::new(dice.whole(24, 64) as f32, dice.whole(16, 40) as f32);
     let mut contents = some(dice, 4, size, placement);
     contents.push(pool(dice, 0.5 * size));
-    let scene = Scene {
-        head: String::new(),
-        spacing: "0.1".to_owned(),
-        size: size_of(size),
-        preset: preset.name(),
-        lists: lists(
-            [
-                contents,
-                some(dice, 1, size, emitter),
-                some(dice, 1, size, wind),
-                some(dice, 1, size, drain),
-                some(dice, 1, size, pressure),
-            ],
-            [tuning::sides(dice), Vec::new(), Vec::new(), Vec::new()],
-        ),
-    };
-    (scene, size, tuning::passes(preset, preset.quality()))
+    let contents = [
+        contents,
+        some(dice, 1, size, emitter),
+        some(dice, 1, size, wind),
+        some(dice, 1, size, drain),
+        some(dice, 1, size, pressure),
+    ];
+    untuned(preset, size, lists(contents, [tuning::sides(dice), Vec::new(), Vec::new(), Vec::new()]))
 }
 
 /// The parts of a scene: contents, emitters, winds, drains, pressures; fields, liquid, effects, quality.
@@ -154,16 +145,14 @@ fn still(dice: &mut Dice, preset: Preset) -> (Scene, Vec2, f64) {
     contents.push(pool(dice, size));
     let gravity = format!("gravity: (0, {:?})", -dice.within(0.0, 20.0));
     let none = || Vec::new();
-    let scene = Scene {
-        head: String::new(),
-        spacing: "0.1".to_owned(),
-        size: size_of(size),
-        preset: preset.name(),
-        lists: lists(
-            [contents, none(), none(), none(), none()],
-            [vec![gravity], none(), vec!["sleep: off".to_owned()], none()],
-        ),
-    };
+    let awake = vec!["sleep: off".to_owned()];
+    untuned(preset, size, lists([contents, none(), none(), none(), none()], [vec![gravity], none(), awake, none()]))
+}
+
+/// A scene in spacings of 0.1 m, of which all numbers of the quality are the preset's.
+fn untuned(preset: Preset, size: Vec2, lists: [Entries; 9]) -> (Scene, Vec2, f64) {
+    let spacing = "0.1".to_owned();
+    let scene = Scene { head: String::new(), spacing, size: size_of(size), preset: preset.name(), lists };
     (scene, size, tuning::passes(preset, preset.quality()))
 }
 
