@@ -181,6 +181,14 @@ impl Facts<'_> {
         counted.any(|((_, element), &count)| count > 0 && !element.fixed && property(element))
     }
 
+    /// Whether movable particles of different densities are there.
+    fn differs_in_mass(&self) -> bool {
+        let present = |((_, element), count): &((_, &Element), &u32)| **count > 0 && !element.fixed;
+        let mut densities =
+            self.elements.iter().zip(self.counts).filter(present).map(|((_, element), _)| element.density);
+        densities.next().is_some_and(|first| densities.any(|other| other != first))
+    }
+
     fn feels_air(&self) -> bool {
         self.present(|element| element.drag > 0.0)
     }
@@ -325,6 +333,18 @@ table! {
         },
         another: "there is liquid in `classic`",
         differs_from_on: |facts| facts.has_liquid() && !facts.predicts,
+        ..PLAIN
+    }
+    /// Masses in pressure and constraint.
+    Masses {
+        name: "masses",
+        meaning: "what is heavier sinks: pressure and contact move particles by their masses",
+        part_of: Some(Pass::Solve),
+        when: "movable particles of different densities are there",
+        parameters: &["density of an element"],
+        off: "all that moves is as heavy, and lies where it came to lie",
+        wakes: true,
+        called_for: |facts| verdict(facts.differs_in_mass(), "densities differ", "all that moves is as heavy"),
         ..PLAIN
     }
     /// The tensile correction `s_corr`.

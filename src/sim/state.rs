@@ -178,6 +178,18 @@ pub struct DragState(pub LaterDrag);
 #[derive(Resource, Clone, Copy, Debug, Default)]
 pub struct StartEnergy(pub f64);
 
+/// Masses of the elements as shares of the heaviest that is there, where the effect `masses` runs; else empty. Written by
+/// the gate.
+#[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
+pub struct MassShares(pub Vec<f32>);
+
+impl MassShares {
+    /// They, if the effect runs.
+    pub fn get(&self) -> Option<&[f32]> {
+        (!self.0.is_empty()).then_some(&self.0[..])
+    }
+}
+
 /// Who sleeps. Written by the sleep stages.
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
 pub struct SleepState(pub Sleep);

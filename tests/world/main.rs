@@ -7,6 +7,7 @@ mod control;
 mod determinism;
 mod draught;
 mod hard_cases;
+mod layers;
 mod ledger;
 mod monkey;
 mod motion;

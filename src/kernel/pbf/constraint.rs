@@ -11,7 +11,7 @@ use glam::Vec2;
 use std::marker::PhantomData;
 
 /// Finds density and λ of the particles of `groups`.
-pub(super) struct ConstraintPass<'a, G> {
+pub(super) struct ConstraintPass<'a, G, const MASSES: bool> {
     pub smoothing: &'a Smoothing,
     pub domain: &'a Domain,
     pub fluid: &'a FluidParams,
@@ -22,6 +22,8 @@ pub(super) struct ConstraintPass<'a, G> {
     /// Positions, d.
     pub x: &'a [f32],
     pub y: &'a [f32],
+    /// Masses, as shares of the heaviest; not read without `MASSES`.
+    pub masses: &'a [f32],
     pub rock: &'a RockBins,
     pub groups: &'a [Group],
     /// Particle that the outputs begin with.
@@ -41,9 +43,14 @@ struct Sums<L> {
     gradient: [L; 2],
     /// Σ g² r² over movable neighbours: their own gradients of C_i.
     others: L,
+    /// The same, each times its inverse mass.
+    light: L,
 }
 
-impl<G: Gradient> Pass for ConstraintPass<'_, G> {
+/// Squared slope that stands in for that of a particle without neighbours, 1/d², so that its mean inverse mass is its own.
+const LEAST_SLOPE: f32 = 1e-6;
+
+impl<G: Gradient, const MASSES: bool> Pass for ConstraintPass<'_, G, MASSES> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let (h, zero) = (L::splat(self.smoothing.radius), L::splat(0.0));
@@ -55,10 +62,10 @@ impl<G: Gradient> Pass for ConstraintPass<'_, G> {
         for group in self.groups {
             let own = group.particles();
             let (xi, yi) = (L::load(&self.x[own.start..]), L::load(&self.y[own.start..]));
-            let mut sums = Sums { density: zero, gradient: [zero; 2], others: zero };
+            let mut sums = Sums { density: zero, gradient: [zero; 2], others: zero, light: zero };
             macro_rules! add {
-                ($xs:expr, $ys:expr, $movable:expr) => {
-                    for (&xj, &yj) in $xs.iter().zip($ys) {
+                ($neighbours:expr, $movable:expr) => {
+                    for (xj, yj, mass) in $neighbours {
                         let (dx, dy) = (xi - L::splat(xj), yi - L::splat(yj));
                         let r2 = dx * dx + dy * dy;
                         let w = (h2 - r2).max(zero);
@@ -68,16 +75,27 @@ impl<G: Gradient> Pass for ConstraintPass<'_, G> {
                         let (gx, gy) = (g * dx, g * dy);
                         sums.gradient = [sums.gradient[0] + gx, sums.gradient[1] + gy];
                         if $movable {
-                            sums.others = sums.others + g * g * r2;
+                            let own = g * g * r2;
+                            sums.others = sums.others + own;
+                            if MASSES {
+                                sums.light = sums.light + own * L::splat(1.0 / mass);
+                            }
                         }
                     }
                 };
             }
             for run in group.movable {
-                add!(self.x[run.range()], &self.y[run.range()], true);
+                let run = run.range();
+                let places = self.x[run.clone()].iter().zip(&self.y[run.clone()]);
+                if MASSES {
+                    add!(places.zip(&self.masses[run]).map(|((x, y), mass)| (*x, *y, *mass)), true);
+                } else {
+                    add!(places.map(|(x, y)| (*x, *y, 1.0_f32)), true);
+                }
             }
             for run in group.rock {
-                add!(self.rock.x[run.range()], &self.rock.y[run.range()], false);
+                let places = self.rock.x[run.range()].iter().zip(&self.rock.y[run.range()]);
+                add!(places.map(|(x, y)| (*x, *y, 1.0_f32)), false);
             }
             let mut density = sums.density * density_scale;
             let [mut gx, mut gy] = sums.gradient;
@@ -85,8 +103,19 @@ impl<G: Gradient> Pass for ConstraintPass<'_, G> {
                 self.add_walls(own.clone(), [&mut density, &mut gx, &mut gy]);
             }
             let constraint = (density * per_rest - L::splat(1.0)).max(floor);
-            let slope = (sums.others + (gx * gx + gy * gy)) * gradient_scale2;
-            let lambda = (zero - constraint) / (slope + relaxation);
+            let all = gx * gx + gy * gy;
+            let slope = (sums.others + all) * gradient_scale2;
+            let per_constraint = if MASSES {
+                // Each particle moves by its inverse mass (Solenthaler & Pajarola 2008, §3, for the number density); what is
+                // relaxed is so by the mean of them.
+                let inverse = L::splat(1.0) / L::load(&self.masses[own.start..]);
+                let weighted = (sums.light + inverse * all) * gradient_scale2;
+                let least = L::splat(LEAST_SLOPE);
+                weighted + relaxation * ((weighted + least * inverse) / (slope + least))
+            } else {
+                slope + relaxation
+            };
+            let lambda = (zero - constraint) / per_constraint;
             let out = own.start - self.base..own.end - self.base;
             group.choose(density, || L::load(&self.density[out.clone()])).store(&mut self.density[out.clone()]);
             group.choose(lambda, || L::load(&self.lambda[out.clone()])).store(&mut self.lambda[out]);
@@ -94,7 +123,7 @@ impl<G: Gradient> Pass for ConstraintPass<'_, G> {
     }
 }
 
-impl<G> ConstraintPass<'_, G> {
+impl<G, const MASSES: bool> ConstraintPass<'_, G, MASSES> {
     /// Adds density and gradient of the box walls, particle by particle: few are near one.
     #[inline(always)]
     fn add_walls<L: Lanes>(&self, own: std::ops::Range<usize>, sums: [&mut L; 3]) {

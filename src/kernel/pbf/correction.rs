@@ -16,7 +16,7 @@ const APART_WITHIN: f32 = 0.8;
 const APART_SHARE: f32 = 0.5;
 
 /// Moves the particles of `groups` by Δx, within the correction limit of their anchors and within the box.
-pub(super) struct CorrectionPass<'a, G, const TENSION: bool, const APART: bool> {
+pub(super) struct CorrectionPass<'a, G, const TENSION: bool, const APART: bool, const MASSES: bool> {
     pub smoothing: &'a Smoothing,
     pub domain: &'a Domain,
     pub fluid: &'a FluidParams,
@@ -29,6 +29,8 @@ pub(super) struct CorrectionPass<'a, G, const TENSION: bool, const APART: bool> 
     /// Positions, d.
     pub x: &'a [f32],
     pub y: &'a [f32],
+    /// Masses, as shares of the heaviest; not read without `MASSES`.
+    pub masses: &'a [f32],
     /// Predicted positions, d.
     pub anchor: [&'a [f32]; 2],
     /// λ, d².
@@ -42,7 +44,9 @@ pub(super) struct CorrectionPass<'a, G, const TENSION: bool, const APART: bool> 
     pub gradient: PhantomData<G>,
 }
 
-impl<G: Gradient, const TENSION: bool, const APART: bool> Pass for CorrectionPass<'_, G, TENSION, APART> {
+impl<G: Gradient, const TENSION: bool, const APART: bool, const MASSES: bool> Pass
+    for CorrectionPass<'_, G, TENSION, APART, MASSES>
+{
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let h_value = self.smoothing.radius;
@@ -64,27 +68,40 @@ impl<G: Gradient, const TENSION: bool, const APART: bool> Pass for CorrectionPas
             let lambda_i = L::load(&self.lambda[own.start..]);
             let both = lambda_i + lambda_i;
             let (mut sum_x, mut sum_y) = (zero, zero);
+            let mass_i = if MASSES { L::load(&self.masses[own.start..]) } else { zero };
+            macro_rules! add {
+                ($neighbours:expr) => {
+                    for (xj, yj, lambda_j, mass_j) in $neighbours {
+                        let (dx, dy) = (xi - L::splat(xj), yi - L::splat(yj));
+                        let r2 = dx * dx + dy * dy;
+                        let w = (h2 - r2).max(zero);
+                        let mut pressure = lambda_i + L::splat(lambda_j);
+                        // What sets a pair apart, whatever its density, does so by lengths: the lighter goes them.
+                        let lighter = if MASSES { mass_i.min(L::splat(mass_j)) } else { zero };
+                        if TENSION {
+                            let u = w * per_reference;
+                            let u2 = u * u;
+                            let u4 = u2 * u2;
+                            let tension = strength * (u4 * u4 * u4);
+                            pressure = pressure - if MASSES { lighter * tension } else { tension };
+                        }
+                        let mut g = G::weight(h, core, r2, w * w) * pressure;
+                        if APART {
+                            let close = (L::splat(1.0) - r2 * per_apart).max(zero);
+                            let close = close * apart;
+                            g = g + if MASSES { lighter * close } else { close };
+                        }
+                        (sum_x, sum_y) = (sum_x + g * dx, sum_y + g * dy);
+                    }
+                };
+            }
             for run in group.movable {
                 let run = run.range();
-                for ((&xj, &yj), &lambda_j) in
-                    self.x[run.clone()].iter().zip(&self.y[run.clone()]).zip(&self.lambda[run])
-                {
-                    let (dx, dy) = (xi - L::splat(xj), yi - L::splat(yj));
-                    let r2 = dx * dx + dy * dy;
-                    let w = (h2 - r2).max(zero);
-                    let mut pressure = lambda_i + L::splat(lambda_j);
-                    if TENSION {
-                        let u = w * per_reference;
-                        let u2 = u * u;
-                        let u4 = u2 * u2;
-                        pressure = pressure - strength * (u4 * u4 * u4);
-                    }
-                    let mut g = G::weight(h, core, r2, w * w) * pressure;
-                    if APART {
-                        let close = (L::splat(1.0) - r2 * per_apart).max(zero);
-                        g = g + close * apart;
-                    }
-                    (sum_x, sum_y) = (sum_x + g * dx, sum_y + g * dy);
+                let near = self.x[run.clone()].iter().zip(&self.y[run.clone()]).zip(&self.lambda[run.clone()]);
+                if MASSES {
+                    add!(near.zip(&self.masses[run]).map(|(((x, y), lambda), mass)| (*x, *y, *lambda, *mass)));
+                } else {
+                    add!(near.map(|((x, y), lambda)| (*x, *y, *lambda, 0.0_f32)));
                 }
             }
             for run in group.rock {
@@ -104,6 +121,9 @@ impl<G: Gradient, const TENSION: bool, const APART: bool> Pass for CorrectionPas
                     (lanes_x[lane], lanes_y[lane]) = (push.x, push.y);
                 }
                 (sum_x, sum_y) = (sum_x + both * L::load(&lanes_x), sum_y + both * L::load(&lanes_y));
+            }
+            if MASSES {
+                (sum_x, sum_y) = (sum_x / mass_i, sum_y / mass_i);
             }
             let anchor_x = L::load(&self.anchor[0][own.start..]);
             let anchor_y = L::load(&self.anchor[1][own.start..]);

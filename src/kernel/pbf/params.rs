@@ -24,6 +24,8 @@ pub struct SolveParams<'a> {
     pub tension: bool,
     /// Whether the pressure predictor ran: then the constraint is relaxed, and pairs that are too close are set apart.
     pub predicted: bool,
+    /// Masses of the elements, as shares of the heaviest; none where all are alike.
+    pub masses: Option<&'a [f32]>,
     /// Threads to use.
     pub threads: usize,
 }

@@ -15,6 +15,11 @@ use crate::{
 use glam::Vec2;
 use std::sync::atomic::AtomicU64;
 
+/// Least mass in the constraint, as a share of the heaviest: that of oil in mercury. A Jacobi step sets a light particle among
+/// heavy ones off by the share of their masses, so that with a larger one it takes as many more iterations. What is set apart
+/// gets no motion from it, and what it weighs is the predictor's business.
+const LEAST_INERTIA: f32 = 1.0 / 16.0;
+
 /// Share of its limit up to which what lies between two positions is taken for a correction: more than rounding.
 const MOST_SHARE: f32 = 1.01;
 
@@ -41,6 +46,10 @@ pub struct Solver {
     pub(crate) next_y: Vec<f32>,
     /// Output of a pass, and a buffer of the sort.
     pub(crate) lambda: Vec<f32>,
+    /// Masses as shares of the heaviest; empty where all are alike.
+    pub(crate) masses: Vec<f32>,
+    /// The same, [`LEAST_INERTIA`] at least: what holds particles against being set apart.
+    inertias: Vec<f32>,
     /// Limit of the last corrections; none before the first.
     pub(crate) limit: Option<CorrectionLimit>,
     /// Density that the last solve aimed at, 1 on the lattice.
@@ -76,6 +85,8 @@ impl Solver {
             next_x: Vec::new(),
             next_y: Vec::new(),
             lambda: Vec::new(),
+            masses: Vec::new(),
+            inertias: Vec::new(),
             limit: None,
             aim: 1.0,
             substeps: 1,
@@ -84,7 +95,8 @@ impl Solver {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        let floats = [&self.density, &self.x, &self.y, &self.next_x, &self.next_y, &self.lambda];
+        let Self { density, x, y, next_x, next_y, lambda, masses, inertias, .. } = self;
+        let floats = [density, x, y, next_x, next_y, lambda, masses, inertias];
         4 * floats.iter().map(|array| array.capacity()).sum::<usize>() + self.bins.memory()
     }
 
@@ -143,6 +155,12 @@ impl Solver {
         }
         (self.limit, self.aim) = (Some(CorrectionLimit::new(params)), params.rest_density());
         self.substeps = params.quality.substeps;
+        self.masses.clear();
+        if let Some(masses) = params.masses {
+            self.masses.extend(particles.element.iter().map(|element| masses[element.index()]));
+            self.inertias.clear();
+            self.inertias.extend(self.masses.iter().map(|mass| mass.max(LEAST_INERTIA)));
+        }
         let anchor = [&particles.x[..], &particles.y[..]];
         for iteration in 0..params.quality.iterations {
             let reach = match params.iterate_above() {
@@ -156,21 +174,24 @@ impl Solver {
             if reach == Reach::Focused && self.bins.focused().is_empty() {
                 return;
             }
-            match params.quality.gradient {
-                GradientKernel::Spiky => self.iterate::<Spiky>(anchor, reach, params),
-                GradientKernel::Rational => self.iterate::<Rational>(anchor, reach, params),
+            match (params.quality.gradient, params.masses.is_some()) {
+                (GradientKernel::Spiky, false) => self.iterate::<Spiky, false>(anchor, reach, params),
+                (GradientKernel::Spiky, true) => self.iterate::<Spiky, true>(anchor, reach, params),
+                (GradientKernel::Rational, false) => self.iterate::<Rational, false>(anchor, reach, params),
+                (GradientKernel::Rational, true) => self.iterate::<Rational, true>(anchor, reach, params),
             }
         }
     }
 
-    fn iterate<G: Gradient>(&mut self, anchor: [&[f32]; 2], reach: Reach, params: &SolveParams) {
-        let Self { bins, smoothing, instructions, density, x, y, next_x, next_y, lambda, .. } = self;
-        let pass = Iteration {
+    fn iterate<G: Gradient, const MASSES: bool>(&mut self, anchor: [&[f32]; 2], reach: Reach, params: &SolveParams) {
+        let Self { bins, smoothing, instructions, density, x, y, next_x, next_y, lambda, inertias, .. } = self;
+        let pass = Iteration::<MASSES> {
             groups: if reach == Reach::Focused { bins.focused() } else { bins.groups() },
             rock: bins.rock(),
             smoothing,
             instructions: *instructions,
             params,
+            masses: inertias,
             anchor,
             at: if reach == Reach::First { anchor } else { [&x[..], &y[..]] },
         };
@@ -204,23 +225,25 @@ enum Reach {
 }
 
 /// What the two passes of an iteration read.
-struct Iteration<'a> {
+struct Iteration<'a, const MASSES: bool> {
     groups: &'a [Group],
     rock: &'a RockBins,
     smoothing: &'a Smoothing,
     instructions: InstructionSet,
     params: &'a SolveParams<'a>,
+    /// Masses as shares of the heaviest, if they differ.
+    masses: &'a [f32],
     /// Predicted positions, d.
     anchor: [&'a [f32]; 2],
     /// Positions before the iteration, d.
     at: [&'a [f32]; 2],
 }
 
-impl Iteration<'_> {
+impl<const MASSES: bool> Iteration<'_, MASSES> {
     fn find_lambda<G: Gradient>(&self, lambda: &mut [f32], density: &mut [f32]) {
-        let Self { groups, rock, smoothing, instructions, params, at: [x, y], .. } = *self;
+        let Self { groups, rock, smoothing, instructions, params, masses, at: [x, y], .. } = *self;
         bins::split(groups, [lambda, density], params.threads, &|groups, base, [lambda, density]| {
-            instructions.run(ConstraintPass::<G> {
+            instructions.run(ConstraintPass::<G, MASSES> {
                 smoothing,
                 domain: params.domain,
                 fluid: params.fluid,
@@ -228,6 +251,7 @@ impl Iteration<'_> {
                 relaxation: params.relaxation(),
                 x,
                 y,
+                masses,
                 rock,
                 groups,
                 base,
@@ -244,9 +268,9 @@ impl Iteration<'_> {
         density: &[f32],
         next: [&mut [f32]; 2],
     ) {
-        let Self { groups, rock, smoothing, instructions, params, anchor, at: [x, y] } = *self;
+        let Self { groups, rock, smoothing, instructions, params, masses, anchor, at: [x, y] } = *self;
         bins::split(groups, next, params.threads, &|groups, base, next| {
-            instructions.run(CorrectionPass::<G, TENSION, APART> {
+            instructions.run(CorrectionPass::<G, TENSION, APART, MASSES> {
                 smoothing,
                 domain: params.domain,
                 fluid: params.fluid,
@@ -255,6 +279,7 @@ impl Iteration<'_> {
                 density,
                 x,
                 y,
+                masses,
                 anchor,
                 lambda,
                 rock,

@@ -4,7 +4,7 @@ use crate::{
     parallel::{Rows, Sweep, Team, sweep},
     predictor::{
         conjugate::Conjugate,
-        equation::{Around, CHUNK, fill_in, steepness, touch, way},
+        equation::{Around, CHUNK, fill_in, lighten, steepness, touch, way},
         grid::MacGrid,
         level::{Level, WORTH_A_PIECE},
         rock::ClosedFaces,
@@ -31,7 +31,7 @@ impl Changes<'_> {
     /// `finest`, the solver is done with the unknowns, the right-hand side and the products: they are used up.
     pub fn find(&self, faces: &mut Faces, finest: &mut Level) {
         let Self { grid, closed, conjugate: Conjugate { liquid, rows, .. }, potentials, whole, team } = *self;
-        let Faces { u, v, ways: [ways_u, ways_v], filled, reached, area, .. } = faces;
+        let Faces { u, v, ways: [ways_u, ways_v], filled, reached, area, matter, .. } = faces;
         let columns = &grid.padded(area);
         // The changes on each face, and whether they are known (1) or to be filled in from its neighbours (0).
         let Level { x: gained, b: drift, work: known, .. } = finest;
@@ -43,8 +43,9 @@ impl Changes<'_> {
         for (axis, means, ways, open) in
             [(Axis::U, &*u, ways_u, &closed.open_u), (Axis::V, &*v, ways_v, &closed.open_v)]
         {
+            let matter = matter.as_ref().map(|matter| matter.of(axis));
             let (touching, near) = (&touching, &near);
-            let work = Touch { grid, touching, columns, liquid, potentials, filled, closed, open, means, axis };
+            let work = Touch { grid, touching, columns, liquid, potentials, filled, closed, open, means, matter, axis };
             let band = |field| Rows::new(field, grid.stride, &around);
             let band = (band(known), (band(gained), band(drift)));
             sweep(&work, around.clone(), band, columns.len(), WORTH_A_PIECE, team);
@@ -75,13 +76,15 @@ struct Touch<'a> {
     open: &'a [f32],
     /// Velocities from before the solve, which closed faces stop.
     means: &'a [[f32; 2]],
+    /// Densities and their inverses, where they differ.
+    matter: Option<&'a [[f32; 2]]>,
     axis: Axis,
 }
 
 impl Sweep<Touched<'_>> for Touch<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, (mut known, (mut gained, mut drift)): Touched) {
-        let Self { grid, touching, columns, liquid, potentials, filled, closed, open, means, axis } = *self;
+        let Self { grid, touching, columns, liquid, potentials, filled, closed, open, means, matter, axis } = *self;
         let step = axis.step(grid);
         // What is filled in reads one face further.
         let around = columns.start.saturating_sub(1)..(columns.end + 1).min(grid.stride);
@@ -110,6 +113,9 @@ impl Sweep<Touched<'_>> for Touch<'_> {
                 }
                 let filled = beside.clone().map(|cells| &filled[cells]);
                 steepness(steep, [dry, wet], filled, closed.beside(grid, axis, start, n));
+                if let Some(matter) = matter {
+                    lighten(steep, &matter[cells.clone()]);
+                }
                 let (open, means) = (&open[closed.row(j) + own.start..closed.row(j) + own.end], &means[cells]);
                 let [pressure, potential] = potentials.map(|field| beside.clone().map(|cells| &field[cells]));
                 touch(velocity, pressure, open, steep, means, 1.0);

@@ -1,6 +1,6 @@
 //! The rows of the pressure equation: what is done to each cell or face of a row, in lanes. The caller walks the rows.
 
-use crate::predictor::{pockets::ROUNDING, rock::Beside, transfer::Way};
+use crate::predictor::{pockets::is_sealed, rock::Beside, transfer::Way};
 use std::ops::Range;
 
 /// Nearest that the surface is taken to be to a liquid cell's centre, cells, so that the equation stays bounded. Within
@@ -172,8 +172,18 @@ pub(super) fn couple(
         let along = open.left[i] * steep.left[i] + open.right[i] * steep.right[i];
         let up = open.lower[i] * steep.lower[i] + open.upper[i] * steep.upper[i];
         diagonal[i] = liquid.centre[i] * (along + up);
-        to_right[i] = liquid.centre[i] * open.right[i] * liquid.right[i];
-        to_upper[i] = liquid.centre[i] * open.upper[i] * liquid.upper[i];
+        // Between liquid cells it falls by 1, or by the lightness of what is on the face.
+        to_right[i] = liquid.centre[i] * open.right[i] * liquid.right[i] * steep.right[i];
+        to_upper[i] = liquid.centre[i] * open.upper[i] * liquid.upper[i] * steep.upper[i];
+    }
+}
+
+/// Makes the pressure at faces as much less steep as what is on them is heavier: 1/ρ. `matter` holds density and its
+/// inverse.
+#[inline(always)]
+pub(super) fn lighten(steep: &mut [f32], matter: &[[f32; 2]]) {
+    for (steep, [_, lightness]) in steep.iter_mut().zip(matter) {
+        *steep *= lightness;
     }
 }
 
@@ -185,13 +195,14 @@ pub(super) fn may_be_sealed(
     to_upper: &[f32],
     liquid: Around,
     open: Sides<f32>,
+    steep: Sides<f32>,
 ) -> bool {
     let mut any = false;
     for i in 0..diagonal.len() {
-        let to_left = liquid.centre[i] * open.left[i] * liquid.left[i];
-        let to_lower = liquid.centre[i] * open.lower[i] * liquid.lower[i];
+        let to_left = liquid.centre[i] * open.left[i] * liquid.left[i] * steep.left[i];
+        let to_lower = liquid.centre[i] * open.lower[i] * liquid.lower[i] * steep.lower[i];
         let coupled = to_left + to_lower + to_right[i] + to_upper[i];
-        any |= (diagonal[i] > 0.0) & (to_upper[i] == 0.0) & (diagonal[i] - coupled <= ROUNDING);
+        any |= (diagonal[i] > 0.0) & (to_upper[i] == 0.0) & is_sealed(diagonal[i], coupled);
     }
     any
 }

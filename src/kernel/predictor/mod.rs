@@ -8,7 +8,7 @@
 //! for the solver). A few iterations of the constraint then do the detail, whatever the depth.
 //!
 //! Modules: `steps` the whole, `grid` the geometry, `rock` what is closed, `parts` cells that a wall cuts, `stencil`,
-//! `transfer` and `way_back` particles to grid and back, `pressure` and `equation` the equation, `changes` what follows
+//! `share_out`, `transfer` and `way_back` particles to grid and back, `matter` what of it is heavier, `pressure` and `equation` the equation, `changes` what follows
 //! from its solution on the faces, `flow` the velocity that comes of it, `pockets` where it is singular, `level`,
 //! `multigrid` and `conjugate` its solver.
 
@@ -19,12 +19,14 @@ mod flow;
 mod grid;
 mod letting_go;
 mod level;
+mod matter;
 mod multigrid;
 mod parts;
 mod pockets;
 mod pressure;
 mod report;
 mod rock;
+mod share_out;
 mod stencil;
 mod steps;
 #[cfg(test)]
@@ -33,5 +35,6 @@ mod transfer;
 mod way_back;
 
 pub use flow::Flow;
+pub use matter::Buoyancy;
 pub use report::PredictorReport;
 pub use steps::{Predictor, PredictorParams};

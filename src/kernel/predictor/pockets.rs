@@ -9,6 +9,14 @@ use crate::predictor::{grid::MacGrid, level::Level};
 /// Couplings that differ by less than this are equal: rounding of the sums of open shares.
 pub(super) const ROUNDING: f32 = 1e-4;
 
+/// Whether the couplings of a cell, of the diagonal given, are all to liquid cells, so that it touches no air. As much as light
+/// matter makes couplings larger, it does so with their rounding.
+#[inline(always)]
+pub(super) fn is_sealed(diagonal: f32, coupled: f32) -> bool {
+    let light = 0.25 * coupled;
+    diagonal - coupled <= if light > 1.0 { light * ROUNDING } else { ROUNDING }
+}
+
 /// Parts that there is room for at least: there are few but for spray.
 const FEWEST_PARTS: usize = 64;
 
@@ -51,7 +59,7 @@ impl Pockets {
                 };
                 level.work[k] = label as f32;
                 let coupled = left + lower + level.right[k] + level.upper[k];
-                let touches_air = level.diagonal[k] - coupled > ROUNDING;
+                let touches_air = !is_sealed(level.diagonal[k], coupled);
                 let part = &mut self.parts[label as usize];
                 part.cells = part.cells.saturating_add(if touches_air { OPEN } else { 1 });
                 part.sum += f64::from(level.b[k]);

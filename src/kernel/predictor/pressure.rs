@@ -7,7 +7,7 @@ use crate::{
         changes::Changes,
         conjugate::{Conjugate, tolerance},
         equation::{
-            Around, CHUNK, Sides, couple, feed_back, feedback_share, fill, keep_volumes, mark, may_be_sealed,
+            Around, CHUNK, Sides, couple, feed_back, feedback_share, fill, keep_volumes, lighten, mark, may_be_sealed,
             steepness, subtract_divergence,
         },
         grid::MacGrid,
@@ -17,7 +17,7 @@ use crate::{
         pockets::Pockets,
         rock::ClosedFaces,
         stencil::Axis,
-        transfer::{Faces, Pair},
+        transfer::Faces,
     },
     simd::{Lanes, Pass},
 };
@@ -66,7 +66,7 @@ impl Pass for Projection<'_> {
         conjugate.resize(grid.len());
         mark_liquid(grid, closed, faces, conjugate, target, team);
         let whole = WHOLE * target * grid.cell * grid.cell;
-        find_means(grid, faces, team);
+        faces.find_means(grid, team);
         if conjugate.rows.is_empty() {
             return;
         }
@@ -184,29 +184,6 @@ fn ends(liquid: &[f32], start: usize) -> Range<u32> {
     ends.map_or(0..0, |(first, last)| (start + first) as u32..(start + last + 1) as u32)
 }
 
-/// Turns momenta into mean velocities.
-fn find_means(grid: &MacGrid, faces: &mut Faces, team: Team) {
-    let Faces { u, v, reached, area, .. } = faces;
-    let band = (Rows::new(u, grid.stride, reached), Rows::new(v, grid.stride, reached));
-    let work = Divide { columns: grid.padded(area) };
-    sweep(&work, reached.clone(), band, area.len(), WORTH_A_PIECE, team);
-}
-
-struct Divide {
-    columns: Range<usize>,
-}
-
-impl<'b> Sweep<Pair<'b>> for Divide {
-    #[inline(always)]
-    fn run(&self, _: Range<usize>, (mut u, mut v): Pair) {
-        for row in u.each().chain(v.each()) {
-            for face in &mut row[self.columns.clone()] {
-                face[1] /= if face[0] > 1e-12 { face[0] } else { 1e-12 };
-            }
-        }
-    }
-}
-
 /// Sets up `Σ_f w_f s_f (p_c − p_n) = −Σ ± w_f u_f − Δt c det ∇u` over the liquid cells of edge c; p = 0 in the air,
 /// and s_f is how much steeper than between liquid cells the pressure falls at the face. The last term is that of
 /// [`keep_volumes`]. Returns whether any of it may be sealed off.
@@ -271,6 +248,9 @@ impl Sweep<System<'_>> for Assemble<'_> {
                     let n = steep.len();
                     let of = |field| beside(field, first, n, axis.step(grid));
                     steepness(steep, of(liquid), of(&faces.filled), closed.beside(grid, axis, first, n));
+                    if let Some(matter) = &faces.matter {
+                        lighten(steep, &matter.of(axis)[first..first + n]);
+                    }
                 }
                 let around = Around::new(liquid, cells.clone(), stride);
                 let [at, above] = [j, j + 1].map(|j| closed.row(j) + own.start);
@@ -284,7 +264,7 @@ impl Sweep<System<'_>> for Assemble<'_> {
                 for i in 0..n {
                     damped[i] = damping(diagonal[i]);
                 }
-                any_sealed |= may_be_sealed(diagonal, to_right, to_upper, around, open);
+                any_sealed |= may_be_sealed(diagonal, to_right, to_upper, around, open, steep);
                 let right_side = &mut b[own];
                 keep_volumes(right_side, [&faces.u, &faces.v], cells.clone(), stride, dt / grid.cell, whole);
                 let velocities = Sides::new(&faces.u, &faces.v, cells, stride);

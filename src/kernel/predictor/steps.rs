@@ -9,6 +9,7 @@ use crate::{
         flow::Flow,
         grid::MacGrid,
         letting_go::LettingGo,
+        matter::Buoyancy,
         multigrid::Hierarchy,
         pockets::Pockets,
         pressure,
@@ -50,6 +51,8 @@ pub struct PredictorParams<'a> {
     pub cell: f32,
     /// Rest density as a multiple of the lattice's.
     pub rest_density: f32,
+    /// Masses of the elements, as shares of the heaviest; none where all are alike.
+    pub masses: Option<&'a [f32]>,
     /// Lanes in use.
     pub instructions: InstructionSet,
     /// Threads to use.
@@ -86,7 +89,7 @@ impl Predictor {
         }
         let team = Team { instructions: params.instructions, threads: params.threads };
         self.closed.update(&grid, solids);
-        self.faces.collect(&grid, particles, params.instructions, params.threads);
+        self.faces.collect(&grid, particles, params.masses, team);
         let mut report = PredictorReport::default();
         params.instructions.run(pressure::Projection {
             grid: &grid,
@@ -104,6 +107,7 @@ impl Predictor {
         self.liquid = report.liquid;
         if report.liquid {
             let PredictorParams { domain, dt, .. } = *params;
+            self.faces.find_beside(&grid, particles, team);
             let way = WayBack { blend: (BLEND_PER_SECOND * dt).min(1.0), dt, domain, solids };
             hand_back(&self.faces, &grid, particles, &way, team);
         }
@@ -113,6 +117,11 @@ impl Predictor {
     /// What the liquid does around a place, as the last run left it.
     pub fn flow(&self) -> Flow<'_> {
         Flow::new(&self.grid, &self.closed, &self.faces, self.liquid.then_some(&self.conjugate.liquid))
+    }
+
+    /// How matter rises and sinks in the liquid, as the last run left it; `None` where all is as heavy, or nothing is liquid.
+    pub fn buoyancy(&self) -> Option<Buoyancy<'_>> {
+        self.faces.buoyancy(&self.grid).filter(|_| self.liquid)
     }
 
     /// Shows `visit` the centre (d) of every liquid cell of the last run, and how much of the feedback's range its density

@@ -6,8 +6,10 @@ use crate::{
     particles::Particles,
     predictor::{
         grid::MacGrid,
+        matter::{Beside, Matter},
+        share_out::lanes,
         stencil::{Axis, LANES, Stencils},
-        transfer::{Faces, Way, lanes},
+        transfer::{Faces, Way},
     },
     simd::{Lanes, Pass},
     solids::Solids,
@@ -46,9 +48,11 @@ fn keep(number: f32, low: f32, high: f32) -> f32 {
 pub(super) fn hand_back(faces: &Faces, grid: &MacGrid, particles: &mut Particles, way: &WayBack, team: Team) {
     let Particles { x, y, vx, vy, push_x, push_y, .. } = particles;
     let arrays = [&mut x[..], y, vx, vy, push_x, push_y];
-    spread(arrays, WORTH_A_PIECE, team.threads, &|_, [x, y, vx, vy, push_x, push_y]| {
+    let beside = faces.matter.as_ref().map(Matter::beside);
+    spread(arrays, WORTH_A_PIECE, team.threads, &|first, [x, y, vx, vy, push_x, push_y]| {
         let (position, velocity, push) = ([x, y], [vx, vy], [push_x, push_y]);
-        team.instructions.run(HandBack { grid, ways: &faces.ways, way, position, velocity, push });
+        let beside = beside.map(|beside| beside.from(first));
+        team.instructions.run(HandBack { grid, ways: &faces.ways, beside, way, position, velocity, push });
     });
 }
 
@@ -56,6 +60,8 @@ pub(super) fn hand_back(faces: &Faces, grid: &MacGrid, particles: &mut Particles
 struct HandBack<'a> {
     grid: &'a MacGrid,
     ways: &'a [Vec<Way>; 2],
+    /// What particles gain beside the liquid, where masses differ.
+    beside: Option<Beside<'a>>,
     way: &'a WayBack<'a>,
     position: [&'a mut [f32]; 2],
     velocity: [&'a mut [f32]; 2],
@@ -65,7 +71,7 @@ struct HandBack<'a> {
 impl Pass for HandBack<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { grid, ways, way, position: [x, y], velocity: [vx, vy], push: [push_x, push_y] } = self;
+        let Self { grid, ways, beside, way, position: [x, y], velocity: [vx, vy], push: [push_x, push_y] } = self;
         let (low, high) = (Vec2::splat(WALL_GAP), way.domain.highest());
         let rock = (way.solids.count() > 0).then_some(way.solids);
         for at in (0..x.len()).step_by(LANES) {
@@ -73,8 +79,18 @@ impl Pass for HandBack<'_> {
             let own = at..x.len().min(at + LANES);
             let count = own.len();
             let around = |axis| Stencils::new(grid, &from_x, &from_y, axis);
-            let means_x = mean_of_faces(&ways[0], grid, &around(Axis::U), count);
-            let means_y = mean_of_faces(&ways[1], grid, &around(Axis::V), count);
+            let (around_u, around_v) = (around(Axis::U), around(Axis::V));
+            let mut means_x = mean_of_faces(&ways[0], grid, &around_u, count);
+            let mut means_y = mean_of_faces(&ways[1], grid, &around_v, count);
+            if let Some(beside) = beside {
+                for (axis, around, means) in [(Axis::U, &around_u, &mut means_x), (Axis::V, &around_v, &mut means_y)] {
+                    for lane in 0..count {
+                        let share = [around.right[lane], around.upper[lane]];
+                        let more = beside.more(at + lane, axis, grid.stride, around.corner[lane] as usize, share);
+                        means[lane] = beside_the_liquid(means[lane], more);
+                    }
+                }
+            }
             let (x, y) = (&mut x[own.clone()], &mut y[own.clone()]);
             change(&means_x, [x, &mut vx[own.clone()], &mut push_x[own.clone()]], way, [low.x, high.x]);
             change(&means_y, [y, &mut vy[own.clone()], &mut push_y[own]], way, [low.y, high.y]);
@@ -86,6 +102,18 @@ impl Pass for HandBack<'_> {
             }
         }
     }
+}
+
+/// Share of what the liquid gains from which on a particle that gains as much more moves beside it.
+const BESIDE: f32 = 0.02;
+
+/// The way of a particle that gains `more` times what the liquid gains. It moves beside the liquid: it is not drawn to the
+/// velocity of that, which is what it rises or sinks against.
+#[inline(always)]
+fn beside_the_liquid([gained, mean, known, drift]: Way, more: f32) -> Way {
+    let moves = more.abs() * (1.0 / BESIDE);
+    let drawn = if moves < 1.0 { 1.0 - moves } else { 0.0 };
+    [gained + gained * more, drawn * mean, drawn * known, drift]
 }
 
 /// The bilinear means of the faces around the first `count` points.

@@ -17,7 +17,8 @@ const ROUNDS: u32 = 3;
 /// from walls and rock the centre of mass stays.
 pub fn settle(particles: &mut Particles, solids: &Solids, domain: &Domain, fluid: &FluidParams) {
     let quality = Preset::Fine.quality();
-    let params = SolveParams { domain, fluid, quality: &quality, tension: false, predicted: true, threads: 1 };
+    let params =
+        SolveParams { domain, fluid, quality: &quality, tension: false, predicted: true, masses: None, threads: 1 };
     let mut solver = Solver::default();
     for _ in 0..ROUNDS {
         solver.bin(particles, solids, domain, &quality, fluid.rest_density, 1);

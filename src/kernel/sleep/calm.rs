@@ -33,6 +33,8 @@ pub(super) struct Tally {
     pub(super) momentum: [f32; 2],
     /// Σ v².
     pub(super) square: f32,
+    /// Sum of the speeds at which particles are about to rise or sink among others, d/s.
+    pub(super) rising: f32,
 }
 
 impl Tally {
@@ -46,6 +48,7 @@ impl Tally {
             *drift += weight * (momentum * per - *drift);
         }
         let [x, y] = calm.drift;
-        self.square * per * TICK_SECONDS <= JITTER * JITTER && x * x + y * y <= DRIFT * DRIFT
+        let is_sorted = self.rising * per <= DRIFT;
+        is_sorted && self.square * per * TICK_SECONDS <= JITTER * JITTER && x * x + y * y <= DRIFT * DRIFT
     }
 }

@@ -9,11 +9,19 @@ use glam::Vec2;
 
 impl Sleep {
     /// Looks at the particles that are awake, and lets the bodies sleep that have been calm long enough. `density` goes
-    /// with the particles where it is theirs; the rock is of version `rock_version`. Returns how many fell asleep.
-    pub fn watch(&mut self, particles: &mut Particles, density: &mut [f32], size: Vec2, rock_version: u64) -> usize {
+    /// with the particles where it is theirs; the rock is of version `rock_version`; `rising` tells how fast particle i of those
+    /// is about to rise or sink among others, d/s: a heavy layer over a light one may stand still, and is not at rest. Returns
+    /// how many fell asleep.
+    pub fn watch(
+        &mut self,
+        particles: &mut Particles,
+        density: &mut [f32],
+        (size, rock_version): (Vec2, u64),
+        rising: impl Fn(&Particles, usize) -> f32,
+    ) -> usize {
         self.resize(size);
         self.rock = rock_version;
-        self.look(particles);
+        self.look(particles, rising);
         let Self { grid, record, tally, flags, waiting, body, .. } = &mut *self;
         let mut falls_asleep = false;
         for tile in 0..grid.len() {
@@ -46,7 +54,7 @@ impl Sleep {
     }
 
     /// Adds up what is awake in each tile. A tile without any begins anew.
-    fn look(&mut self, particles: &Particles) {
+    fn look(&mut self, particles: &Particles, rising: impl Fn(&Particles, usize) -> f32) {
         let Self { grid, tally, record, .. } = self;
         tally.clear();
         tally.resize(grid.len(), Tally::default());
@@ -56,6 +64,7 @@ impl Sleep {
             tally.count += 1;
             tally.momentum = [tally.momentum[0] + vx, tally.momentum[1] + vy];
             tally.square += vx * vx + vy * vy;
+            tally.rising += rising(particles, i);
         }
         let empty = record.tiles.iter_mut().zip(tally).filter(|(_, tally)| tally.count == 0);
         empty.for_each(|(calm, _)| *calm = Calm::default());

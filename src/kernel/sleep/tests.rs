@@ -24,7 +24,7 @@ fn pools() -> Particles {
 /// Looks as often as it takes to fall asleep at rest.
 fn watch(sleep: &mut Sleep, particles: &mut Particles) -> usize {
     let mut density = vec![1.0; particles.len()];
-    (0..LOOKS).map(|_| sleep.watch(particles, &mut density, SIZE, 7)).sum()
+    (0..LOOKS).map(|_| sleep.watch(particles, &mut density, (SIZE, 7), |_, _| 0.0)).sum()
 }
 
 fn asleep() -> (Sleep, Particles) {
@@ -40,16 +40,16 @@ fn a_body_sleeps_when_all_of_it_was_calm_for_long_enough() {
     // One of the left pool is too fast for the tile that it is in.
     particles.vx[0] = 60.0 * JITTER * 9.0;
     for look in 1..LOOKS {
-        assert_eq!(sleep.watch(&mut particles, &mut density, SIZE, 7), 0, "look {look}");
+        assert_eq!(sleep.watch(&mut particles, &mut density, (SIZE, 7), |_, _| 0.0), 0, "look {look}");
     }
-    assert_eq!(sleep.watch(&mut particles, &mut density, SIZE, 7), 100, "the right pool");
+    assert_eq!(sleep.watch(&mut particles, &mut density, (SIZE, 7), |_, _| 0.0), 100, "the right pool");
     assert_eq!(sleep.asleep(), 100);
     assert_eq!(particles.id[..100], (200..300).collect::<Vec<u32>>());
     assert_eq!(particles.id[100..], (0..200).collect::<Vec<u32>>());
     assert!(particles.id.iter().zip(&density).all(|(id, density)| *id as f32 == *density), "densities go with them");
     particles.vx.fill(0.0);
     // The drift of what was fast wears off, and then it takes as long as before.
-    let looks = (0..60).take_while(|_| sleep.watch(&mut particles, &mut density, SIZE, 7) == 0).count();
+    let looks = (0..60).take_while(|_| sleep.watch(&mut particles, &mut density, (SIZE, 7), |_, _| 0.0) == 0).count();
     assert!(looks + 1 >= usize::from(LOOKS) && looks < 60, "{looks} looks");
     assert_eq!(sleep.asleep(), 300);
 }
@@ -78,7 +78,7 @@ fn what_was_taken_or_pushed_wakes_its_body_alone() {
     sleep.check(&mut particles, 7);
     assert_eq!((sleep.asleep(), particles.len()), (200, 299));
     assert_eq!(particles.id[..200], (0..200).collect::<Vec<u32>>());
-    assert_eq!(sleep.watch(&mut particles, &mut [], SIZE, 7), 0, "what woke sleeps at the next look");
+    assert_eq!(sleep.watch(&mut particles, &mut [], (SIZE, 7), |_, _| 0.0), 0, "what woke sleeps at the next look");
 
     let (mut sleep, mut particles) = asleep();
     particles.vy[10] = 1.0;

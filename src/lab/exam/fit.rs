@@ -20,6 +20,12 @@ pub(super) fn falls_to(curve: &[(f64, f64)], level: f64) -> Option<f64> {
     Some(pair[0].0 + (pair[1].0 - pair[0].0) * (pair[0].1 - level) / (pair[0].1 - pair[1].1))
 }
 
+/// When a rising curve `(t, y)` first comes up to `level`, between two points in proportion.
+pub(super) fn rises_to(curve: &[(f64, f64)], level: f64) -> Option<f64> {
+    let falling: Vec<_> = curve.iter().map(|(t, y)| (*t, -y)).collect();
+    falls_to(&falling, -level)
+}
+
 /// The points with `from ≤ x ≤ to`.
 pub(super) fn between(points: &[(f64, f64)], from: f64, to: f64) -> Vec<(f64, f64)> {
     points.iter().copied().filter(|(x, _)| (from..=to).contains(x)).collect()
@@ -43,6 +49,7 @@ mod tests {
         let curve = [(0.0, 3.0), (1.0, 2.0), (2.0, 1.0)];
         assert_eq!(falls_to(&curve, 1.25), Some(1.75));
         assert_eq!(falls_to(&curve, 0.5), None);
+        assert_eq!(rises_to(&[(0.0, 1.0), (1.0, 3.0)], 2.0), Some(0.5));
         assert_eq!(between(&curve, 0.5, 2.0).len(), 2);
     }
 }

@@ -11,13 +11,14 @@ use std::{collections::BTreeMap, sync::LazyLock};
 pub static CASES: LazyLock<Vec<GauntletCase>> =
     LazyLock::new(|| FILES.iter().flat_map(|(file, text)| read::<Kind>(file, text).cases()).collect());
 
-const FILES: [(&str, &str); 9] = [
+const FILES: [(&str, &str); 10] = [
     ("crowd", include_str!("../../../assets/gauntlet/crowd.ron")),
     ("depth", include_str!("../../../assets/gauntlet/depth.ron")),
     ("impact", include_str!("../../../assets/gauntlet/impact.ron")),
     ("gravity", include_str!("../../../assets/gauntlet/gravity.ron")),
     ("air", include_str!("../../../assets/gauntlet/air.ron")),
     ("matter", include_str!("../../../assets/gauntlet/matter.ron")),
+    ("layers", include_str!("../../../assets/gauntlet/layers.ron")),
     ("rock", include_str!("../../../assets/gauntlet/rock.ron")),
     ("ends", include_str!("../../../assets/gauntlet/ends.ron")),
     ("play", include_str!("../../../assets/gauntlet/play.ron")),

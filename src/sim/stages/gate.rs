@@ -1,12 +1,12 @@
 //! Gathers the facts of a tick and lets the table of effects decide by them, and plans how many substeps it takes.
 
 use crate::{
-    kernel::{crowding::Crowding, predict, units::TICK_SECONDS},
+    kernel::{crowding::Crowding, element::ElementTable, predict, units::TICK_SECONDS},
     scene::effects::{Effect, Facts, Mode},
     sim::{
         effects::Effects,
         stages::TickPlan,
-        state::{AirGrid, Census, Counters, Elements, ParticleStore, Setup, SleepState, Sources},
+        state::{AirGrid, Census, Counters, Elements, MassShares, ParticleStore, Setup, SleepState, Sources},
     },
 };
 use bevy::prelude::{Local, Res, ResMut};
@@ -21,6 +21,7 @@ pub(super) fn plan_tick(
     asleep: Res<SleepState>,
     elements: Res<Elements>,
     mut effects: ResMut<Effects>,
+    mut shares: ResMut<MassShares>,
 ) {
     let fastest = predict::fastest(&particles.vx, &particles.vy);
     let modes = effects.wanted();
@@ -41,6 +42,17 @@ pub(super) fn plan_tick(
         air_moves: !air.is_quiet(),
         stirs_air: air.may_be_roused(&elements, fastest, TICK_SECONDS / setup.quality.substeps as f32),
     });
+    shares.clear();
+    if effects.get(Effect::Masses).running {
+        let heaviest = heaviest(setup.elements(), &census.by_element);
+        shares.extend(elements.mass.iter().map(|mass| mass / heaviest));
+    }
+}
+
+/// Density of the heaviest movable particles that are there, kg/m²; 1 if there are none.
+fn heaviest(elements: &ElementTable, counts: &[u32]) -> f32 {
+    let present = elements.iter().zip(counts).filter(|((_, element), count)| **count > 0 && !element.fixed);
+    present.map(|((_, element), _)| element.density).reduce(f32::max).unwrap_or(1.0)
 }
 
 /// Plans how many substeps the tick takes.

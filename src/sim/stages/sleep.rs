@@ -1,7 +1,7 @@
 //! Water at rest sleeps. These stages put particles to sleep and wake them; the passes in between see only those awake.
 
 use crate::{
-    kernel::sleep::LOOK_TICKS,
+    kernel::{particles::Particles, predictor::Buoyancy, sleep::LOOK_TICKS},
     scene::{
         KNOBS, Part,
         effects::{Effect, Mode},
@@ -9,7 +9,9 @@ use crate::{
     sim::{
         effects::Effects,
         snapshot::hash_bytes,
-        state::{AirGrid, Clock, Elements, ParticleStore, Rock, Setup, SleepState, SolverState},
+        state::{
+            AirGrid, Clock, Elements, MassShares, ParticleStore, PredictorState, Rock, Setup, SleepState, SolverState,
+        },
     },
 };
 use bevy::prelude::{Res, ResMut};
@@ -91,10 +93,20 @@ pub(super) fn watch(
     mut sleep: ResMut<SleepState>,
     mut particles: ResMut<ParticleStore>,
     mut solver: ResMut<SolverState>,
+    predictor: Res<PredictorState>,
+    shares: Res<MassShares>,
     rock: Res<Rock>,
     setup: Res<Setup>,
 ) -> usize {
     let awake = particles.len() - sleep.asleep();
-    sleep.watch(&mut particles, &mut solver.density, setup.blueprint.domain.size, rock.version());
+    let (buoyancy, gravity) = (predictor.buoyancy().zip(shares.get()), setup.domain.gravity);
+    let rising = |particles: &Particles, i: usize| {
+        let speed = |(buoyancy, masses): (Buoyancy, &[f32])| {
+            buoyancy.speed(particles.position(i), masses[particles.element[i].index()], gravity)
+        };
+        buoyancy.map_or(0.0, speed)
+    };
+    let place = (setup.blueprint.domain.size, rock.version());
+    sleep.watch(&mut particles, &mut solver.density, place, rising);
     awake
 }

@@ -8,8 +8,8 @@ use crate::{
         ledger::Call,
         stages::TickPlan,
         state::{
-            AirGrid, Counters, DragState, Elements, ParticleStore, PredictorState, Rock, Setup, SolverState, Sources,
-            StartEnergy,
+            AirGrid, Counters, DragState, Elements, MassShares, ParticleStore, PredictorState, Rock, Setup,
+            SolverState, Sources, StartEnergy,
         },
         workers::Workers,
     },
@@ -105,6 +105,7 @@ pub(super) fn predict_pressure(
     mut particles: ResMut<ParticleStore>,
     mut predictor: ResMut<PredictorState>,
     solver: Res<SolverState>,
+    shares: Res<MassShares>,
     rock: Res<Rock>,
     setup: Res<Setup>,
     plan: Res<TickPlan>,
@@ -116,6 +117,7 @@ pub(super) fn predict_pressure(
             domain: &setup.domain,
             cell: setup.quality.kernel_radius,
             rest_density: setup.blueprint.fluid.rest_density,
+            masses: shares.get(),
             instructions: solver.instructions,
             threads,
             dt: plan.substep_seconds(),
@@ -170,6 +172,7 @@ pub(super) fn sort_into_bins(
 pub(super) fn solve_density(
     particles: Res<ParticleStore>,
     mut solver: ResMut<SolverState>,
+    shares: Res<MassShares>,
     setup: Res<Setup>,
     effects: Res<Effects>,
     workers: Res<Workers>,
@@ -181,6 +184,7 @@ pub(super) fn solve_density(
             quality: &setup.quality,
             tension: effects.get(Effect::Tension).running,
             predicted: effects.get(Effect::Predictor).running,
+            masses: shares.get(),
             threads,
         };
         solver.solve(&particles, &params);

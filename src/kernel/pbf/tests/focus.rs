@@ -24,6 +24,7 @@ fn solved(iterations: u32, instructions: InstructionSet, threads: usize, neighbo
         quality: &bench.quality,
         tension: true,
         predicted: true,
+        masses: None,
         threads,
     };
     bench.solver.solve(&bench.particles, &params);

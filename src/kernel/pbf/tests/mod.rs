@@ -72,6 +72,7 @@ impl Bench {
             quality: &self.quality,
             tension,
             predicted: self.predicted,
+            masses: None,
             threads: 1,
         };
         self.solver.solve(&self.particles, &params);
@@ -83,7 +84,7 @@ impl Bench {
         // Of the flow nothing is known.
         let (predicted, predictor) = (*predicted, Predictor::default());
         crate::predict::predict(particles, solver.instructions, solids, domain, quality, 1, dt);
-        let params = SolveParams { domain, fluid: &self.fluid, quality, tension, predicted, threads: 1 };
+        let params = SolveParams { domain, fluid: &self.fluid, quality, tension, predicted, masses: None, threads: 1 };
         solver.bin(particles, solids, domain, quality, CROWDS_STAY, 1);
         solver.solve(particles, &params);
         let flow = predicted.then(|| predictor.flow());

@@ -215,7 +215,7 @@ impl Rig {
         let hierarchy = Hierarchy::new(grid.columns, grid.rows);
         let (mut closed, mut faces) = (ClosedFaces::default(), Faces::default());
         closed.update(&grid, solids);
-        faces.collect(&grid, particles, team().instructions, 1);
+        faces.collect(&grid, particles, None, team());
         let open = Open::new(&grid, &closed);
         Self { grid, closed, open, faces, hierarchy, conjugate: Conjugate::default(), dt: DT }
     }

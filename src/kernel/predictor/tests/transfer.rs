@@ -29,7 +29,7 @@ fn cloud(count: usize, box_size: Vec2, gap: f32, mut velocity: impl FnMut(Vec2) 
 
 fn collect(grid: &MacGrid, particles: &Particles) -> Faces {
     let mut faces = Faces::default();
-    faces.collect(grid, particles, team().instructions, 1);
+    faces.collect(grid, particles, None, team());
     faces
 }
 
@@ -166,6 +166,7 @@ fn what_is_far_away_changes_nothing_and_leaves_nothing_behind() {
         domain: &domain,
         cell: CELL,
         rest_density: LATTICE,
+        masses: None,
         instructions: team().instructions,
         threads: 1,
         dt: DT,

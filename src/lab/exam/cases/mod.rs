@@ -5,6 +5,7 @@ mod air;
 mod dam;
 mod falling;
 mod field;
+mod layers;
 mod order;
 mod outflow;
 mod tank;
@@ -14,7 +15,17 @@ use crate::lab::exam::finding::Run;
 
 /// What runs each case, by its name.
 pub(super) fn runs() -> impl Iterator<Item = &'static (&'static str, Run)> {
-    [air::RUNS, dam::RUNS, falling::RUNS, field::RUNS, order::RUNS, outflow::RUNS, tank::RUNS, weightless::RUNS]
-        .into_iter()
-        .flatten()
+    [
+        air::RUNS,
+        dam::RUNS,
+        falling::RUNS,
+        field::RUNS,
+        layers::RUNS,
+        order::RUNS,
+        outflow::RUNS,
+        tank::RUNS,
+        weightless::RUNS,
+    ]
+    .into_iter()
+    .flatten()
 }

@@ -53,10 +53,19 @@ fn shape(dice: &mut Dice, size: Vec2) -> String {
 
 /// An element in a shape.
 pub(super) fn placement(dice: &mut Dice, size: Vec2) -> String {
-    let element = dice.one(&["water", "water", "water", "water", "rock", "rock", "rock", "none"]);
+    let element = match dice.below(8) {
+        0..=3 => liquid(dice),
+        4..=6 => "rock",
+        _ => "none",
+    };
     let (shape, replace) = (shape(dice, size), dice.comes(1, 2));
-    let velocity = if element == "water" { format!(", {}", velocity(dice)) } else { String::new() };
+    let velocity = if !["rock", "none"].contains(&element) { format!(", {}", velocity(dice)) } else { String::new() };
     format!("(element: \"{element}\", shape: {shape}, replace: {replace}{velocity})")
+}
+
+/// A liquid: water, or any other as often.
+fn liquid(dice: &mut Dice) -> &'static str {
+    if dice.comes(1, 2) { "water" } else { dice.one(&["brine", "oil", "honey", "mercury"]) }
 }
 
 /// Rock in a shape.
@@ -64,11 +73,11 @@ pub(super) fn rock(dice: &mut Dice, size: Vec2) -> String {
     format!("(element: \"rock\", shape: {})", shape(dice, size))
 }
 
-/// Water at rest from wall to wall, around the rock that stands there.
+/// A liquid at rest from wall to wall, around the rock that stands there.
 pub(super) fn pool(dice: &mut Dice, size: Vec2) -> String {
     let level = dice.whole(1, size.y as u32);
     let (width, level) = (spacings(f64::from(size.x.ceil()) + 1.0), spacings(f64::from(level)));
-    format!("(element: \"water\", shape: Rect(min: (\"-1 * d\", \"-1 * d\"), max: ({width}, {level})))")
+    format!("(element: \"{}\", shape: Rect(min: (\"-1 * d\", \"-1 * d\"), max: ({width}, {level})))", liquid(dice))
 }
 
 /// An emitter.
@@ -81,7 +90,8 @@ pub(super) fn emitter(dice: &mut Dice, size: Vec2) -> String {
     if dice.comes(1, 2) {
         rest += &format!(", start: {:?}", dice.within(0.0, 0.5));
     }
-    format!("(element: \"water\", {area}, {velocity}, rate: {rate:?}{rest})")
+    let element = liquid(dice);
+    format!("(element: \"{element}\", {area}, {velocity}, rate: {rate:?}{rest})")
 }
 
 /// A wind.
