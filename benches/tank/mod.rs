@@ -70,6 +70,7 @@ impl Tank {
             domain,
             cell: quality.kernel_radius,
             rest_density: 1.0,
+            masses: None,
             instructions: solver.instructions,
             threads: 1,
             dt: SUBSTEP,
@@ -102,6 +103,7 @@ impl Tank {
             quality: &Quality { iterations, ..self.quality },
             tension: false,
             predicted: true,
+            masses: None,
             threads: 1,
         };
         self.solver.solve(&self.particles, &params);
