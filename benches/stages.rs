@@ -67,6 +67,7 @@ fn predictor(bencher: &mut Bencher, tank: &Tank) {
         domain: &tank.domain,
         cell: tank.quality.kernel_radius,
         rest_density: 1.0,
+        masses: None,
         instructions: tank.solver.instructions,
         threads: 1,
         dt: SUBSTEP,
