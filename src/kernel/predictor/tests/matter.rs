@@ -54,7 +54,7 @@ fn fall(_: Vec2) -> Vec2 {
 
 #[test]
 fn equal_masses_give_the_same_bits_as_none() {
-    let stir = |at: Vec2| Vec2::new((0.3 * at.y).sin(), (0.2 * at.x).cos()) * 5.0;
+    let stir = |at: Vec2| Vec2::new(0.03 * (at.y - 12.0) * (at.y - 12.0), 0.1 * (at.x - 20.0));
     let (walls, pool) = pool(|at| (at.x > 20.0).into(), stir);
     let (mut with, mut without) = (pool.clone(), pool);
     predict(&mut with, &walls, Some(&[1.0, 1.0]));
@@ -126,7 +126,7 @@ fn momentum_is_kept_between_masses() {
     for i in 0..drop.len() {
         drop.element[i] = ElementId((number() > 0.0).into());
         let at = drop.position(i);
-        (drop.vx[i], drop.vy[i]) = (3.0 * (at.y * 0.4).sin() + number(), -0.2 * (at.y - 30.0) + number());
+        (drop.vx[i], drop.vy[i]) = (0.02 * (at.y - 30.0) * (at.y - 30.0) + number(), -0.2 * (at.y - 30.0) + number());
     }
     let momentum =
         |of: &Particles| (0..of.len()).map(|i| masses[of.element[i].index()] * of.velocity(i)).sum::<Vec2>().as_dvec2();
