@@ -179,11 +179,11 @@ pub(super) fn couple(
 }
 
 /// Makes the pressure at faces as much less steep as what is on them is heavier: 1/ρ. `matter` holds density and its
-/// inverse.
+/// inverse, 0 where nothing is: there it is as steep as in the heaviest.
 #[inline(always)]
 pub(super) fn lighten(steep: &mut [f32], matter: &[[f32; 2]]) {
     for (steep, [_, lightness]) in steep.iter_mut().zip(matter) {
-        *steep *= lightness;
+        *steep *= if *lightness > 0.0 { *lightness } else { 1.0 };
     }
 }
 

@@ -32,7 +32,7 @@ use std::ops::Range;
 /// What is on the faces, where particles differ in their masses. The buffers are kept.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Matter {
-    /// At left and lower faces: density and its inverse; 0 and 1 where no particle is near. Before [`Matter::weigh`] mass and
+    /// At left and lower faces: density and its inverse; 0 where no particle is near. Before [`Matter::weigh`] mass and
     /// momentum of the particles.
     faces: [Vec<[f32; 2]>; 2],
     /// At left and lower faces: mass of the particles, and what of it gains beside the liquid.
@@ -204,7 +204,7 @@ impl<'a> Sweep<(Pair<'a>, Pair<'a>)> for Weigh {
                 let ([count, velocity], [mass, momentum]) = (face, *own);
                 let is_there = *count > LEAST_MASS && mass > LEAST_MASS;
                 *velocity = if is_there { momentum / mass } else { 0.0 };
-                *own = if is_there { [mass / *count, *count / mass] } else { [0.0, 1.0] };
+                *own = if is_there { [mass / *count, *count / mass] } else { [0.0; 2] };
             }
         }
     }
