@@ -107,10 +107,10 @@ impl<const WEIGHTED: bool> Pass for Collect<'_, WEIGHTED> {
             let (x, y) = (lanes(self.x, at), lanes(self.y, at));
             let count = (self.x.len() - at).min(LANES);
             let weights = if WEIGHTED { lanes(self.weights, at) } else { [1.0; LANES] };
-            let deposits = |axis, values| {
-                Deposits::new::<WEIGHTED>(&Stencils::new(grid, &x, &y, axis), &weights, &lanes(values, at))
-            };
-            let (to_u, to_v) = (deposits(Axis::U, for_u), deposits(Axis::V, for_v));
+            let to_u = Stencils::new(grid, &x, &y, Axis::U);
+            let to_u = Deposits::new::<WEIGHTED>(&to_u, &weights, &lanes(for_u, at));
+            let to_v = Stencils::new(grid, &x, &y, Axis::V);
+            let to_v = Deposits::new::<WEIGHTED>(&to_v, &weights, &lanes(for_v, at));
             // Neighbours in the order add to the same faces, and each sum waits for the one before: far and near ones
             // in turn wait less.
             for turn in 0..LANES {

@@ -51,16 +51,19 @@ pub(super) fn hand_back(faces: &Faces, grid: &MacGrid, particles: &mut Particles
     let beside = faces.matter.as_ref().map(Matter::beside);
     spread(arrays, WORTH_A_PIECE, team.threads, &|first, [x, y, vx, vy, push_x, push_y]| {
         let (position, velocity, push) = ([x, y], [vx, vy], [push_x, push_y]);
-        let beside = beside.map(|beside| beside.from(first));
-        team.instructions.run(HandBack { grid, ways: &faces.ways, beside, way, position, velocity, push });
+        let (ways, instructions) = (&faces.ways, team.instructions);
+        match beside.map(|beside| beside.from(first)) {
+            None => instructions.run(HandBack::<false> { grid, ways, beside: None, way, position, velocity, push }),
+            beside => instructions.run(HandBack::<true> { grid, ways, beside, way, position, velocity, push }),
+        }
     });
 }
 
 /// Changes particles as the faces around them say.
-struct HandBack<'a> {
+struct HandBack<'a, const MASSES: bool> {
     grid: &'a MacGrid,
     ways: &'a [Vec<Way>; 2],
-    /// What particles gain beside the liquid, where masses differ.
+    /// What particles gain beside the liquid; not read without `MASSES`.
     beside: Option<Beside<'a>>,
     way: &'a WayBack<'a>,
     position: [&'a mut [f32]; 2],
@@ -68,7 +71,7 @@ struct HandBack<'a> {
     push: [&'a mut [f32]; 2],
 }
 
-impl Pass for HandBack<'_> {
+impl<const MASSES: bool> Pass for HandBack<'_, MASSES> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let Self { grid, ways, beside, way, position: [x, y], velocity: [vx, vy], push: [push_x, push_y] } = self;
@@ -82,7 +85,7 @@ impl Pass for HandBack<'_> {
             let (around_u, around_v) = (around(Axis::U), around(Axis::V));
             let mut means_x = mean_of_faces(&ways[0], grid, &around_u, count);
             let mut means_y = mean_of_faces(&ways[1], grid, &around_v, count);
-            if let Some(beside) = beside {
+            if let Some(beside) = beside.filter(|_| MASSES) {
                 for (axis, around, means) in [(Axis::U, &around_u, &mut means_x), (Axis::V, &around_v, &mut means_y)] {
                     for lane in 0..count {
                         let share = [around.right[lane], around.upper[lane]];
