@@ -170,7 +170,8 @@ async function play() {
     const [x, y, width, height] = (await game.widgets()).find(({ name }) => name === 'size of the brush').place;
     await game.stroke(1, [[x + width / 2, y + height / 2], [x + 0.9 * width, y + height / 2]].map((at) => at.map(Math.round)));
     await game.until('the slider makes the brush larger', (now) => now.brush > 2 * brush);
-    const widthOf = (all, wanted) => all.find(({ name }) => name === wanted)?.place[2] ?? 0;
+    // The count of particles has the element's name, too.
+    const widthOf = (all, wanted) => all.find(({ kind, name }) => kind === 'Button' && name === wanted)?.place[2] ?? 0;
     const before = widthOf(await game.widgets(), 'rock');
     await game.click('settings');
     await game.click('130 %');
