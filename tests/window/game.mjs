@@ -60,11 +60,18 @@ export async function open(program, display, folder, scene = ['empty']) {
     await until(`the pointer at ${to}`, ({ pointer }) => pointer !== null && near(pointer, to));
   }
 
+  // Waits until the game has drawn a few more frames: what one frame changes, the next ones make room for.
+  async function settle() {
+    const { frame } = await stats();
+    await until('the next frames', (now) => now.frame > frame + 3);
+  }
+
   // Presses what has this name. What moves is followed until it keeps still.
   async function click(name) {
     const seen = await untilWidgets(`something to press called ${name}`, (all) => pressable(all, name) !== undefined);
     for (let at = middle(pressable(seen, name)); ;) {
       await move(at);
+      await settle();
       const now = pressable(await widgets(), name);
       assert.ok(now, `${name} went away under the pointer`);
       if (middle(now).join() === at.join()) break;
