@@ -45,7 +45,7 @@ pub struct Element {
     /// XSPH viscosity c (Macklin & Müller 2013, eq. 17): share of the velocity difference to its neighbours that a
     /// particle of the scene's own spacing gives up each tick, however many substeps that has; raising it makes the
     /// liquid thicker. 0 … 0.5. It is a property of the liquid: its kinematic viscosity goes with c d², so a run of
-    /// another detail has its c times detail² (cut to 1 in a substep) and the same viscosity in m²/s.
+    /// another detail has its c times detail² and the same viscosity in m²/s, in as many passes as that takes (at most 16).
     #[serde(default)]
     pub viscosity: f32,
     /// Vorticity confinement ε (eq. 16), m/s² for each 1/s of vorticity, whatever the detail; raising it keeps eddies
@@ -159,7 +159,7 @@ pub struct ElementParams {
     pub drag: Vec<f32>,
     /// Mass of a particle, kg/m² d²: its density.
     pub mass: Vec<f32>,
-    /// XSPH c, a share a tick at the spacing of the run; beyond 1 in a substep it is cut where it is used.
+    /// XSPH c, a share a tick at the spacing of the run; beyond what 16 passes of a substep can do it is cut where it is used.
     pub viscosity: Vec<f32>,
     /// Vorticity confinement ε, d/s.
     pub vorticity: Vec<f32>,

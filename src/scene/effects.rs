@@ -181,12 +181,12 @@ impl Facts<'_> {
         counted.any(|((_, element), &count)| count > 0 && !element.fixed && property(element))
     }
 
-    /// Whether movable particles of different densities are there.
-    fn differs_in_mass(&self) -> bool {
+    /// Densities of the lightest and of the heaviest movable particles that are there, kg/m², if they differ.
+    pub fn densities(&self) -> Option<[f32; 2]> {
         let present = |((_, element), count): &((_, &Element), &u32)| **count > 0 && !element.fixed;
-        let mut densities =
-            self.elements.iter().zip(self.counts).filter(present).map(|((_, element), _)| element.density);
-        densities.next().is_some_and(|first| densities.any(|other| other != first))
+        let densities = self.elements.iter().zip(self.counts).filter(present).map(|((_, element), _)| element.density);
+        let ends = densities.fold([f32::MAX, 0.0], |[least, most], density| [least.min(density), most.max(density)]);
+        (ends[0] < ends[1]).then_some(ends)
     }
 
     fn feels_air(&self) -> bool {
@@ -339,12 +339,12 @@ table! {
     Masses {
         name: "masses",
         meaning: "what is heavier sinks: pressure and contact move particles by their masses",
-        part_of: Some(Pass::Solve),
+        part_of: Some(Pass::Pressure),
         when: "movable particles of different densities are there",
         parameters: &["density of an element"],
         off: "all that moves is as heavy, and lies where it came to lie",
         wakes: true,
-        called_for: |facts| verdict(facts.differs_in_mass(), "densities differ", "all that moves is as heavy"),
+        called_for: |facts| verdict(facts.densities().is_some(), "densities differ", "all that moves is as heavy"),
         ..PLAIN
     }
     /// The tensile correction `s_corr`.

@@ -42,7 +42,7 @@ const FEEDBACK_TOLERANCE: f64 = 0.2;
 /// face's. At a free surface a face that is half full has its particles on one side.
 const WHOLE: f32 = 0.5;
 
-/// One projection. `p` is counted in d/s: a face gains `p_left − p_right`.
+/// One projection. `p` is counted in d/s: a face gains `p_left − p_right`, over its density as a share of the heaviest's.
 pub(super) struct Projection<'a> {
     pub grid: &'a MacGrid,
     pub closed: &'a ClosedFaces,

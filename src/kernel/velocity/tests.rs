@@ -3,13 +3,14 @@
 use super::*;
 
 use crate::{
-    element::ElementParams,
+    element::{ElementId, ElementParams},
     params::{GradientKernel, Preset},
     pbf::tests::{Bench, random_numbers},
     predict::longest_move,
     predictor::{Predictor, PredictorParams},
     units::TICK_SECONDS,
 };
+use glam::DVec2;
 
 fn viscosity(coefficient: f32) -> ElementParams {
     ElementParams { viscosity: vec![coefficient], ..ElementParams::default() }
@@ -290,6 +291,28 @@ fn a_liquid_is_as_thick_at_many_substeps_as_at_one() {
     };
     let (one, eight) = (left(1), left(8));
     assert!((eight / one - 1.0).abs() < 0.01, "{one} is left at one substep, {eight} at eight");
+}
+
+#[test]
+fn viscosity_keeps_the_momentum_of_liquids_of_any_mass_and_thickness() {
+    // What moves is far from the edges of the lattice, so that all are as dense.
+    let mut bench = square(0.0, |_| Vec2::ZERO);
+    let mut random = random_numbers(5);
+    for i in 0..400 {
+        bench.particles.element[i] = ElementId((random() > 0.5).into());
+        if bench.particles.position(i).distance(Vec2::splat(30.0)) < 5.0 {
+            (bench.particles.vx[i], bench.particles.vy[i]) = (40.0 * (random() - 0.5), 40.0 * (random() - 0.5));
+        }
+    }
+    bench.solve(false);
+    let masses: Vec<f32> = bench.particles.element.iter().map(|element| [1.0, 0.1][element.index()]).collect();
+    bench.solver.masses.clone_from(&masses);
+    let before = bench.particles.clone();
+    let elements = ElementParams { viscosity: vec![0.02, 0.43], ..ElementParams::default() };
+    apply_viscosity(&mut bench.particles, &mut bench.solver, &elements, 1, TICK_SECONDS);
+    let change = |i: usize| f64::from(masses[i]) * (bench.particles.velocity(i) - before.velocity(i)).as_dvec2();
+    let (sum, all) = (0..400).map(change).fold((DVec2::ZERO, 0.0), |(sum, all), one| (sum + one, all + one.length()));
+    assert!(all > 1.0 && sum.length() < 1e-4 * all, "{} of {all} came or went", sum.length());
 }
 
 #[test]

@@ -9,8 +9,10 @@
 //! As `Σ m/ρ_j W ≈ 1`, the bound is **`c Δt/tick ≤ 1`**. What is more viscous takes as many passes as that asks for, each with
 //! its part of c, 16 at most: a coefficient beyond is cut to what they can do, and counted.
 //!
-//! Between particles of masses m each weight is `2 m_j/(m_i + m_j)` times as much, so that one of a pair takes on the momentum
-//! that the other gives off. That is up to 2, and the bound half as much.
+//! Between particles of different masses m each weight is `2 m_j/(m_i + m_j)` times as much, and of two coefficients that of a
+//! pair is their harmonic mean (Morris, Fox & Zhu 1997, "Modeling low Reynolds number incompressible flows using SPH": the
+//! stress is the same on both sides of a surface), so that one of a pair takes on the momentum that the other gives off. The
+//! first is up to 2, and the bound half as much.
 
 use crate::{
     bins::{self, Group},
@@ -115,6 +117,9 @@ impl<const MASSES: bool> Pass for ViscosityPass<'_, MASSES> {
             let own = group.particles();
             let (xi, yi) = (L::load(&self.particles.x[own.start..]), L::load(&self.particles.y[own.start..]));
             let (vxi, vyi) = (L::load(&self.particles.vx[own.start..]), L::load(&self.particles.vy[own.start..]));
+            let scale = self.smoothing.density_scale * self.part;
+            let share = share_of(self.coefficients, self.most, &self.particles.element[own.clone()], scale);
+            let share = L::load(&share);
             let mass_i = if MASSES { L::load(&self.masses[own.start..]) } else { zero };
             let (mut sum_x, mut sum_y) = (zero, zero);
             for run in group.movable {
@@ -126,15 +131,15 @@ impl<const MASSES: bool> Pass for ViscosityPass<'_, MASSES> {
                     if MASSES {
                         // Of a pair, each takes on what the other gives off.
                         let mass = L::splat(self.masses[j]);
-                        weight = weight * ((mass + mass) / (mass_i + mass));
+                        let coefficient = self.coefficients[self.particles.element[j].index()].min(self.most);
+                        let other = L::splat(coefficient * scale);
+                        let mean = (other + other) / (share + other).max(L::splat(f32::MIN_POSITIVE));
+                        weight = weight * mean * ((mass + mass) / (mass_i + mass));
                     }
                     sum_x = sum_x + weight * (L::splat(self.particles.vx[j]) - vxi);
                     sum_y = sum_y + weight * (L::splat(self.particles.vy[j]) - vyi);
                 }
             }
-            let scale = self.smoothing.density_scale * self.part;
-            let share = share_of(self.coefficients, self.most, &self.particles.element[own.clone()], scale);
-            let share = L::load(&share);
             let out = own.start - self.base..own.end - self.base;
             (vxi + share * sum_x).store(&mut out_x[out.clone()]);
             (vyi + share * sum_y).store(&mut out_y[out]);

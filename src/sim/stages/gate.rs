@@ -1,7 +1,7 @@
 //! Gathers the facts of a tick and lets the table of effects decide by them, and plans how many substeps it takes.
 
 use crate::{
-    kernel::{crowding::Crowding, element::ElementTable, predict, units::TICK_SECONDS},
+    kernel::{crowding::Crowding, predict, units::TICK_SECONDS},
     scene::effects::{Effect, Facts, Mode},
     sim::{
         effects::Effects,
@@ -29,7 +29,7 @@ pub(super) fn plan_tick(
     if modes[Effect::Air as usize] == Mode::Off && !air.is_quiet() {
         air.clear();
     }
-    effects.decide(&Facts {
+    let facts = Facts {
         modes,
         preset: setup.preset,
         predicts: setup.quality.predictor,
@@ -41,18 +41,13 @@ pub(super) fn plan_tick(
         has_winds: !sources.winds.is_empty(),
         air_moves: !air.is_quiet(),
         stirs_air: air.may_be_roused(&elements, fastest, TICK_SECONDS / setup.quality.substeps as f32),
-    });
+    };
+    effects.decide(&facts);
     shares.clear();
-    if effects.get(Effect::Masses).running {
-        let heaviest = heaviest(setup.elements(), &census.by_element);
+    // Where all is as heavy there is nothing to it, even if it is `on`.
+    if let Some([_, heaviest]) = facts.densities().filter(|_| effects.get(Effect::Masses).running) {
         shares.extend(elements.mass.iter().map(|mass| mass / heaviest));
     }
-}
-
-/// Density of the heaviest movable particles that are there, kg/m²; 1 if there are none.
-fn heaviest(elements: &ElementTable, counts: &[u32]) -> f32 {
-    let present = elements.iter().zip(counts).filter(|((_, element), count)| **count > 0 && !element.fixed);
-    present.map(|((_, element), _)| element.density).reduce(f32::max).unwrap_or(1.0)
 }
 
 /// Plans how many substeps the tick takes.

@@ -52,11 +52,15 @@ pub(super) fn check_sleepers(
 pub(super) fn keep_asleep(mut sleep: ResMut<SleepState>, effects: Res<Effects>, setup: Res<Setup>) {
     let gravity = setup.domain.gravity.to_array().map(f64::from);
     let knobs = KNOBS.iter().filter(|knob| [Part::Solver, Part::Liquid].contains(&knob.part));
-    let acting = Effect::ALL.into_iter().filter(|effect| effect.row().wakes);
+    let acting = Effect::ALL.into_iter().filter(|effect| effect.row().wakes).map(|effect| match effect {
+        // A drop of another density that comes or goes is nothing to a body of one.
+        Effect::Masses => effects.get(effect).mode != Mode::Off,
+        _ => effects.get(effect).running,
+    });
     let conditions = (gravity.into_iter())
         .chain(knobs.map(|knob| knob.get(&setup.tuning())))
         .chain([f64::from(lets_water_rest(&effects, &setup))])
-        .chain(acting.map(|effect| f64::from(effects.get(effect).running)));
+        .chain(acting.map(f64::from));
     let hash = conditions
         .fold(0, |hash: u64, condition| hash_bytes([hash.to_le_bytes(), condition.to_le_bytes()].as_flattened()));
     sleep.keep_under(hash);
@@ -95,11 +99,13 @@ pub(super) fn watch(
     mut solver: ResMut<SolverState>,
     predictor: Res<PredictorState>,
     shares: Res<MassShares>,
+    effects: Res<Effects>,
     rock: Res<Rock>,
     setup: Res<Setup>,
 ) -> usize {
     let awake = particles.len() - sleep.asleep();
-    let (buoyancy, gravity) = (predictor.buoyancy().zip(shares.get()), setup.domain.gravity);
+    let (predicts, gravity) = (effects.get(Effect::Predictor).running, setup.domain.gravity);
+    let buoyancy = predictor.buoyancy().filter(|_| predicts).zip(shares.get());
     let rising = |particles: &Particles, i: usize| {
         let speed = |(buoyancy, masses): (Buoyancy, &[f32])| {
             buoyancy.speed(particles.position(i), masses[particles.element[i].index()], gravity)
