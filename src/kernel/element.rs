@@ -40,7 +40,8 @@ pub struct Element {
     pub colour: [u8; 3],
     /// Fixed elements never move: they stop liquids and air and are stored in the rock grid.
     pub fixed: bool,
-    /// Density, kg/m²; 1 … 100 000. Weighs the particle in energy, momentum and drag.
+    /// Density, kg/m²; 1 … 100 000. Weighs the particle in energy, momentum and drag, and
+    /// where densities differ in pressure, contact and viscosity.
     pub density: f32,
     /// XSPH viscosity c (Macklin & Müller 2013, eq. 17): share of the velocity difference to its neighbours that a
     /// particle of the scene's own spacing gives up each tick, however many substeps that has; raising it makes the

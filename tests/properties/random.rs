@@ -18,7 +18,7 @@ const WORLDS: u64 = 200;
 /// what a test can hold them to is how many do.
 const KNOWN: [Rule; 4] = [Rule::Energy, Rule::Density, Rule::Rest, Rule::Cost];
 
-/// Share of worlds that miss them (docs/random.md: 23 of 10,000).
+/// Share of worlds that miss them (docs/random.md).
 const KNOWN_SHARE: f64 = 0.0025;
 
 /// Chance with which a run fails though no more worlds miss a rule than did: once in 10,000 runs.

@@ -16,15 +16,16 @@ use glam::Vec2;
 use std::sync::atomic::AtomicU64;
 
 /// Least mass in the constraint, as a share of the heaviest: that of oil in mercury. A Jacobi step sets a light particle among
-/// heavy ones off by the share of their masses, so that with a larger one it takes as many more iterations. What is set apart
-/// gets no motion from it, and what it weighs is the predictor's business.
+/// heavy ones off by the share of their masses, so that with a larger one it takes as many more iterations. After the
+/// predictor what is set apart gets no motion from it, and what it weighs is the predictor's business; without it, as at
+/// `classic`, corrections between masses further apart keep no momentum.
 const LEAST_INERTIA: f32 = 1.0 / 16.0;
 
 /// Share of its limit up to which what lies between two positions is taken for a correction: more than rounding.
 const MOST_SHARE: f32 = 1.01;
 
-/// Positions under correction, densities, bins: what the solver keeps beside the particles. 24 bytes a particle and the
-/// bins. The arrays follow the order of the particles.
+/// Positions under correction, densities, bins: what the solver keeps beside the particles. 24 bytes a particle, 32
+/// where masses differ, and the bins. The arrays follow the order of the particles.
 #[derive(Clone, Debug)]
 pub struct Solver {
     /// Cells and groups of the last [`Solver::bin`].

@@ -14,7 +14,7 @@ const ROUNDS: u32 = 3;
 
 /// Moves particles that were just cut or joined apart, as the solver does between prediction and velocity, and leaves
 /// their velocities as they are: so the error of their places does not become speed. Corrections are mutual, so away
-/// from walls and rock the centre of mass stays.
+/// from walls and rock the mean of their places stays, which is the centre of mass where all are as heavy.
 pub fn settle(particles: &mut Particles, solids: &Solids, domain: &Domain, fluid: &FluidParams) {
     let quality = Preset::Fine.quality();
     let params =
