@@ -24,20 +24,45 @@ impl<'a> Flow<'a> {
         Self { grid, closed, faces, liquid }
     }
 
-    /// How far only a wall holds a particle at a place (d) that is pushed along `way` (of any length but 0): 0 where its cell has
-    /// pressure, or no wall beside it. As far as the wall is what it is pushed away from where a cell beside has pressure;
-    /// 1 between walls, and where no pressure is near.
+    /// The cell of a place (d).
+    #[inline(always)]
+    fn cell(&self, at: Vec2) -> usize {
+        let cell = |at: f32, cells: usize| ((at * self.grid.per_cell) as usize + 1).min(cells);
+        self.grid.row(cell(at.y, self.grid.rows)) + cell(at.x, self.grid.columns)
+    }
+
+    #[inline(always)]
+    fn is_wet(&self, k: usize) -> bool {
+        self.liquid.is_some_and(|liquid| liquid[k] > 0.0)
+    }
+
+    /// Whether any cell between the least and the most x and y of some places (d) is so ([`Self::is_beside_dry_wall`]).
+    #[inline(always)]
+    pub fn has_dry_wall(&self, [[left, right], [lower, upper]]: [[f32; 2]; 2]) -> bool {
+        let (first, last) = (self.cell(Vec2::new(left, lower)), self.cell(Vec2::new(right, upper)));
+        let (stride, across) = (self.grid.stride, last % self.grid.stride - first % self.grid.stride);
+        let dry = |k: usize| !self.is_wet(k) && self.closed.has_wall(self.grid, k);
+        (first..=last).step_by(stride).any(|row| (row..=row + across).any(dry))
+    }
+
+    /// Whether the cell of a place (d) has no pressure, and a wall beside it.
+    #[inline(always)]
+    pub fn is_beside_dry_wall(&self, at: Vec2) -> bool {
+        let k = self.cell(at);
+        !self.is_wet(k) && self.closed.has_wall(self.grid, k)
+    }
+
+    /// How far only a wall holds a particle at a place (d) that is pushed along `way` (of any length but 0): not at all except
+    /// [beside a dry wall](Self::is_beside_dry_wall). As far as the wall is what it is pushed away from where a cell beside has
+    /// pressure; 1 between walls, and where no pressure is near.
     #[inline(always)]
     pub fn held_by_wall(&self, at: Vec2, way: Vec2) -> f32 {
-        let Self { grid, closed, liquid, .. } = *self;
-        let cell = |at: f32, cells: usize| ((at * grid.per_cell) as usize + 1).min(cells);
-        let k = grid.row(cell(at.y, grid.rows)) + cell(at.x, grid.columns);
-        let (stride, is_wet) = (grid.stride, |k: usize| liquid.is_some_and(|liquid| liquid[k] > 0.0));
-        if is_wet(k) || !closed.has_wall(grid, k) {
+        if !self.is_beside_dry_wall(at) {
             return 0.0;
         }
-        let away = closed.away(grid, k);
-        let is_near_pressure = [k - 1, k + 1, k - stride, k + stride].into_iter().any(is_wet);
+        let (k, stride) = (self.cell(at), self.grid.stride);
+        let away = self.closed.away(self.grid, k);
+        let is_near_pressure = [k - 1, k + 1, k - stride, k + stride].into_iter().any(|k| self.is_wet(k));
         if is_near_pressure && away != Vec2::ZERO { away.normalize().dot(way.normalize()).max(0.0) } else { 1.0 }
     }
 

@@ -191,6 +191,25 @@ impl Pass for Move<'_> {
     }
 }
 
+/// Least and most of some numbers.
+#[inline(always)]
+fn range(numbers: &[f32]) -> [f32; 2] {
+    // In lanes, which one least number after the other is not.
+    let (mut least, mut most) = ([f32::MAX; 16], [f32::MIN; 16]);
+    for chunk in numbers.chunks(16) {
+        for ((least, most), number) in least.iter_mut().zip(&mut most).zip(chunk) {
+            *least = if *number < *least { *number } else { *least };
+            *most = if *number > *most { *number } else { *most };
+        }
+    }
+    let [mut low, mut high] = [least[0], most[0]];
+    for (least, most) in least.into_iter().zip(most) {
+        low = if least < low { least } else { low };
+        high = if most > high { most } else { high };
+    }
+    [low, high]
+}
+
 /// Leaves of the changes of velocity (d/s) that corrections would be what ends the motion beside the flow.
 #[inline(always)]
 fn follow(
@@ -203,25 +222,32 @@ fn follow(
 ) {
     let [from, to] = pressed.map(|density| density * aim);
     let per_density = 1.0 / (to - from);
-    if density.is_empty() {
+    let is_near_dry_wall = flow.has_dry_wall([range(x), range(y)]);
+    let is_held = density.iter().fold(is_near_dry_wall, |any, density| any | (*density > from));
+    if density.is_empty() || !is_held {
         change_x.fill(0.0);
         change_y.fill(0.0);
         return;
     }
     for (k, density) in density.iter().enumerate() {
-        let change = Vec2::new(change_x[k], change_y[k]);
+        let at = Vec2::new(x[k], y[k]);
+        let is_pressed = *density > from;
+        if !(is_pressed || is_near_dry_wall && flow.is_beside_dry_wall(at)) {
+            (change_x[k], change_y[k]) = (0.0, 0.0);
+            continue;
+        }
+        let (change, velocity) = (Vec2::new(change_x[k], change_y[k]), Vec2::new(vx[k], vy[k]));
         let length = change.length();
         if length == 0.0 {
             // One whose square is too small for a number ends nothing.
             (change_x[k], change_y[k]) = (0.0, 0.0);
             continue;
         }
-        let (at, velocity) = (Vec2::new(x[k], y[k]), Vec2::new(vx[k], vy[k]));
         let along = |motion: Vec2| motion.dot(change) / length;
         // How much of the correction may end of the motion, and what runs against it.
         let held = if *density > CROWDED * aim { 1.0 } else { flow.held_by_wall(at, change) };
         let mut most = (held * length).min(along(-velocity));
-        if held < 1.0 && *density > from {
+        if held < 1.0 && is_pressed {
             let share = ((density - from) * per_density).min(1.0);
             most = most.max((share * length).min(along(flow.beside(at, velocity))));
         }
