@@ -36,20 +36,23 @@ impl<'a> Flow<'a> {
         self.liquid.is_some_and(|liquid| liquid[k] > 0.0)
     }
 
+    #[inline(always)]
+    fn is_dry_wall(&self, k: usize) -> bool {
+        !self.is_wet(k) && self.closed.has_wall(self.grid, k)
+    }
+
     /// Whether any cell between the least and the most x and y of some places (d) is so ([`Self::is_beside_dry_wall`]).
     #[inline(always)]
     pub fn has_dry_wall(&self, [[left, right], [lower, upper]]: [[f32; 2]; 2]) -> bool {
         let (first, last) = (self.cell(Vec2::new(left, lower)), self.cell(Vec2::new(right, upper)));
         let (stride, across) = (self.grid.stride, last % self.grid.stride - first % self.grid.stride);
-        let dry = |k: usize| !self.is_wet(k) && self.closed.has_wall(self.grid, k);
-        (first..=last).step_by(stride).any(|row| (row..=row + across).any(dry))
+        (first..=last).step_by(stride).any(|row| (row..=row + across).any(|k| self.is_dry_wall(k)))
     }
 
     /// Whether the cell of a place (d) has no pressure, and a wall beside it.
     #[inline(always)]
     pub fn is_beside_dry_wall(&self, at: Vec2) -> bool {
-        let k = self.cell(at);
-        !self.is_wet(k) && self.closed.has_wall(self.grid, k)
+        self.is_dry_wall(self.cell(at))
     }
 
     /// How far only a wall holds a particle at a place (d) that is pushed along `way` (of any length but 0): not at all except
@@ -57,10 +60,10 @@ impl<'a> Flow<'a> {
     /// pressure; 1 between walls, and where no pressure is near.
     #[inline(always)]
     pub fn held_by_wall(&self, at: Vec2, way: Vec2) -> f32 {
-        if !self.is_beside_dry_wall(at) {
+        let (k, stride) = (self.cell(at), self.grid.stride);
+        if !self.is_dry_wall(k) {
             return 0.0;
         }
-        let (k, stride) = (self.cell(at), self.grid.stride);
         let away = self.closed.away(self.grid, k);
         let is_near_pressure = [k - 1, k + 1, k - stride, k + stride].into_iter().any(|k| self.is_wet(k));
         if is_near_pressure && away != Vec2::ZERO { away.normalize().dot(way.normalize()).max(0.0) } else { 1.0 }
