@@ -26,7 +26,13 @@ fn stages(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("stages");
     group.throughput(Throughput::Elements(u64::from(SIDE * SIDE)));
     let best = InstructionSet::detect();
-    let liquid = ElementParams { drag: vec![0.001], viscosity: vec![0.02], vorticity: vec![0.0], mass: vec![1000.0] };
+    let liquid = ElementParams {
+        drag: vec![0.001],
+        viscosity: vec![0.02],
+        vorticity: vec![0.0],
+        mass: vec![1000.0],
+        friction: vec![0.0],
+    };
     group.bench_function("gravity", |b| {
         stage(b, Tank::new(best), |tank| forces::begin_kick(Vec2::new(0.0, -1e-6), &mut tank.particles, 1, SUBSTEP));
     });
@@ -68,6 +74,7 @@ fn predictor(bencher: &mut Bencher, tank: &Tank) {
         cell: tank.quality.kernel_radius,
         rest_density: 1.0,
         masses: None,
+        grains: None,
         instructions: tank.solver.instructions,
         threads: 1,
         dt: SUBSTEP,

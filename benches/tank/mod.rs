@@ -71,6 +71,7 @@ impl Tank {
             cell: quality.kernel_radius,
             rest_density: 1.0,
             masses: None,
+            grains: None,
             instructions: solver.instructions,
             threads: 1,
             dt: SUBSTEP,
@@ -81,13 +82,13 @@ impl Tank {
     /// Velocities follow from the moves.
     pub fn update_velocities(&mut self) {
         let Self { particles, solids, solver, predictor, .. } = self;
-        velocity::update_velocities(particles, solver, solids, Vec2::ZERO, Some(predictor.flow()), 1, SUBSTEP);
+        velocity::update_velocities(particles, solver, solids, Vec2::ZERO, Some(predictor.flow()), None, 1, SUBSTEP);
     }
 
     /// Predicts positions.
     pub fn predict(&mut self) {
         let Self { particles, solids, domain, quality, solver, .. } = self;
-        predict::predict(particles, solver.instructions, solids, domain, quality, 1, SUBSTEP);
+        predict::predict(particles, solver.instructions, (solids, domain), quality, None, 1, SUBSTEP);
     }
 
     /// Sorts into bins.

@@ -1,6 +1,7 @@
 //! Prediction: where the velocities alone would take the particles, without passing through rock or walls.
 
 use crate::{
+    element::ElementId,
     forces::{drop_pushes, held},
     parallel::{WORTH_A_PIECE, spread},
     params::{Domain, Quality, WALL_GAP},
@@ -89,24 +90,28 @@ pub fn fastest(vx: &[f32], vy: &[f32]) -> f32 {
 
 /// Moves the particles to `x + v Δt`, cut to the longest move and swept against rock and box. Where that changed the
 /// move, the velocity becomes that of the move that is left, and what was to push against the obstacle after the move
-/// is held by it ([`held`]).
+/// is held by it ([`held`]). A grain rubs on what stopped it: of its motion along it Coulomb's friction is lost, tan φ times what
+/// was stopped.
+///
+/// `grains`: sin φ of the elements, if any is a grain.
 pub fn predict(
     particles: &mut Particles,
     instructions: InstructionSet,
-    solids: &Solids,
-    domain: &Domain,
+    (solids, domain): (&Solids, &Domain),
     quality: &Quality,
+    grains: Option<&[f32]>,
     threads: usize,
     dt: f32,
 ) -> PredictReport {
     let rock = (solids.count() > 0).then_some(solids);
     let longest = longest_move(quality);
-    let Particles { x, y, vx, vy, push_x, push_y, .. } = particles;
+    let Particles { x, y, vx, vy, push_x, push_y, element, .. } = particles;
     let clamps = AtomicU64::new(0);
     let arrays = [&mut x[..], y, vx, vy, push_x, push_y];
-    spread(arrays, WORTH_A_PIECE, threads, &|_, [x, y, vx, vy, push_x, push_y]| {
+    spread(arrays, WORTH_A_PIECE, threads, &|first, [x, y, vx, vy, push_x, push_y]| {
+        let grains = grains.map(|sines| (sines, &element[first..first + x.len()]));
         let (position, velocity, push, clamps) = ([x, y], [vx, vy], [push_x, push_y], &clamps);
-        instructions.run(Prediction { domain, rock, longest, dt, position, velocity, push, clamps });
+        instructions.run(Prediction { domain, rock, grains, longest, dt, position, velocity, push, clamps });
     });
     PredictReport { speed_clamps: clamps.into_inner() }
 }
@@ -116,6 +121,8 @@ struct Prediction<'a> {
     domain: &'a Domain,
     /// Rock, if there is any.
     rock: Option<&'a Solids>,
+    /// sin φ of the elements and the elements, if any is a grain.
+    grains: Option<(&'a [f32], &'a [ElementId])>,
     /// Longest move, d.
     longest: f32,
     dt: f32,
@@ -132,15 +139,15 @@ struct Prediction<'a> {
 impl Pass for Prediction<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { domain, rock, longest, dt, position: [x, y], velocity: [vx, vy], push: [push_x, push_y], clamps } =
-            self;
+        let Self { domain, rock, grains, longest, dt, position: [x, y], velocity: [vx, vy], .. } = self;
+        let ([push_x, push_y], clamps) = (self.push, self.clamps);
         let (high, half) = (domain.highest(), 0.5 * dt * domain.gravity);
         let (mut from_x, mut from_y) = ([0.0_f32; BLOCK], [0.0_f32; BLOCK]);
         for first in (0..x.len()).step_by(BLOCK) {
             let own = first..x.len().min(first + BLOCK);
             let (vx, vy) = (&mut vx[own.clone()], &mut vy[own.clone()]);
             let (push_x, push_y) = (&mut push_x[own.clone()], &mut push_y[own.clone()]);
-            let (to_x, to_y) = (&mut x[own.clone()], &mut y[own]);
+            let (to_x, to_y) = (&mut x[own.clone()], &mut y[own.clone()]);
             let (x, y) = (&mut from_x[..vx.len()], &mut from_y[..vx.len()]);
             x.copy_from_slice(to_x);
             y.copy_from_slice(to_y);
@@ -158,7 +165,15 @@ impl Pass for Prediction<'_> {
             if stopped_x | stopped_y | rock.is_some() {
                 for k in 0..x.len() {
                     if to_x[k] != x[k] + vx[k] * dt || to_y[k] != y[k] + vy[k] * dt {
-                        let left = Vec2::new((to_x[k] - x[k]) / dt, (to_y[k] - y[k]) / dt);
+                        let mut left = Vec2::new((to_x[k] - x[k]) / dt, (to_y[k] - y[k]) / dt);
+                        let sine = grains.map_or(0.0, |(sines, elements)| sines[elements[own.start + k].index()]);
+                        if sine > 0.0 {
+                            let from = Vec2::new(x[k], y[k]);
+                            let to = from + dt * rub(left, left - Vec2::new(vx[k], vy[k]), sine);
+                            let to = rock.map_or(to, |rock| rock.sweep(from, to));
+                            (to_x[k], to_y[k]) = (to.x, to.y);
+                            left = (to - from) / dt;
+                        }
                         let kick = half + Vec2::new(push_x[k], push_y[k]);
                         let push = held(kick, left - Vec2::new(vx[k], vy[k])) - half;
                         (vx[k], vy[k], push_x[k], push_y[k]) = (left.x, left.y, push.x, push.y);
@@ -168,6 +183,19 @@ impl Pass for Prediction<'_> {
             drop_pushes([vx, vy], [push_x, push_y], longest / dt);
         }
     }
+}
+
+/// What friction leaves of a velocity (d/s) along a wall that changed it by `stop` (d/s). `sine`: sin φ.
+fn rub(left: Vec2, stop: Vec2, sine: f32) -> Vec2 {
+    let stopped = stop.length();
+    if stopped == 0.0 {
+        return left;
+    }
+    let away = stop / stopped;
+    let along = left - left.dot(away) * away;
+    let tangent = sine / (1.0 - sine * sine).sqrt();
+    let lost = tangent * stopped / along.length().max(f32::MIN_POSITIVE);
+    left - lost.min(1.0) * along
 }
 
 /// Cuts speeds to `longest` d in `dt` s; returns how many it cut.
@@ -203,7 +231,7 @@ fn move_freely(from: &[f32], velocity: &[f32], to: &mut [f32], high: f32, dt: f3
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{element::ElementId, params::Preset, units::TICK_SECONDS};
+    use crate::{params::Preset, units::TICK_SECONDS};
 
     #[test]
     fn speeds_are_followed_up_to_the_bound_and_cut_to_it_past_it() {
@@ -223,7 +251,7 @@ mod tests {
             let wanted = substeps(speed, &domain, &quality, (detail, TICK_SECONDS), || 1.0);
             assert_eq!(wanted, Substeps { count: most, short });
             let dt = TICK_SECONDS / wanted.count as f32;
-            let report = predict(&mut particles, InstructionSet::Baseline, &solids, &domain, &quality, 1, dt);
+            let report = predict(&mut particles, InstructionSet::Baseline, (&solids, &domain), &quality, None, 1, dt);
             assert_eq!(report.speed_clamps, u64::from(short));
             let (left, moved) = (particles.velocity(0), particles.position(0).distance(Vec2::splat(500.0)));
             let expected = speed.min(bound);

@@ -347,6 +347,25 @@ table! {
         called_for: |facts| verdict(facts.densities().is_some(), "densities differ", "all that moves is as heavy"),
         ..PLAIN
     }
+    /// Friction among grains.
+    Friction {
+        name: "friction",
+        meaning: "grains rub on one another and on walls: they pile up",
+        part_of: Some(Pass::Pressure),
+        needs: &[Effect::Predictor],
+        when: "grains are there, and the predictor runs",
+        parameters: &["friction of an element"],
+        off: "grains flow as a liquid does",
+        wakes: true,
+        called_for: |facts| {
+            if !facts.present(|element| element.friction > 0.0) {
+                (false, "no grains")
+            } else {
+                verdict(facts.runs(Effect::Predictor), "grains are there", "the predictor does not run")
+            }
+        },
+        ..PLAIN
+    }
     /// The tensile correction `s_corr`.
     Tension {
         name: "tension",
@@ -408,9 +427,9 @@ table! {
             } else if facts.asleep == 0 {
                 (true, "nothing rests yet")
             } else if facts.asleep < facts.particles {
-                (true, "some of the water rests")
+                (true, "some of it rests")
             } else {
-                (true, "all of the water rests")
+                (true, "all of it rests")
             }
         },
         another: "there is liquid in `classic`, or anything in `reference`",

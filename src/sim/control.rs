@@ -43,7 +43,7 @@ pub fn freeze(world: &World) -> Snapshot {
         particles: world.resource::<ParticleStore>().0.clone(),
         solids: world.resource::<Rock>().0.clone(),
         air: world.resource::<AirGrid>().0.clone(),
-        pressure: world.get_resource::<PredictorState>().map_or_else(Vec::new, |state| state.pressure().to_vec()),
+        kept: world.get_resource::<PredictorState>().map_or_else(Default::default, |state| state.kept()),
         sleep: world.get_resource::<SleepState>().map_or_else(Default::default, |sleep| sleep.record().clone()),
         sources: world.resource::<Sources>().clone(),
         clock: *world.resource::<Clock>(),
@@ -63,7 +63,7 @@ pub fn thaw(world: &mut World, snapshot: &Snapshot) {
     world.insert_resource(snapshot.clock);
     world.insert_resource(Census::default());
     // What is derived from the rock follows its version, which only tells apart the states of one history.
-    world.insert_resource(PredictorState(Predictor::resume(snapshot.pressure.clone())));
+    world.insert_resource(PredictorState(Predictor::resume(snapshot.kept.clone())));
     let size = world.resource::<Setup>().blueprint.domain.size;
     world.insert_resource(SleepState(Sleep::resume(
         snapshot.sleep.clone(),

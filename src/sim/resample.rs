@@ -5,6 +5,7 @@ use crate::{
     kernel::{
         params::{AirParams, Domain, Preset},
         particles::Particles,
+        predictor::Kept,
         resample::{make_room, resample_particles, resample_rock, settle},
         sleep::SleepRecord,
         solids::Solids,
@@ -159,7 +160,7 @@ impl Snapshot {
             particles,
             solids,
             air,
-            pressure: Vec::new(),
+            kept: Kept::default(),
             sleep: SleepRecord::default(),
             sources: rescaled_sources(&self.sources, factor),
             clock: Clock { next_id, ..self.clock },

@@ -5,6 +5,7 @@ use crate::{
         air::Air,
         element::ElementId,
         particles::Particles,
+        predictor::Kept,
         sleep::SleepRecord,
         solids::Solids,
         sources::{Drain, Emitter, Wind},
@@ -55,8 +56,8 @@ pub struct Snapshot {
     pub solids: Solids,
     /// The air.
     pub air: Air,
-    /// The predictor's pressure, d/s: the first guess of its next solve, empty before its first.
-    pub pressure: Vec<f32>,
+    /// What the predictor sets out from.
+    pub kept: Kept,
     /// Which particles and tiles sleep, and which may soon.
     pub sleep: SleepRecord,
     /// Emitters, winds and drains with their state.
@@ -80,7 +81,7 @@ impl Snapshot {
             particles: blueprint.particles.clone(),
             solids: blueprint.solids.clone(),
             air,
-            pressure: Vec::new(),
+            kept: Kept::default(),
             sleep: SleepRecord::default(),
             sources: Sources {
                 emitters: blueprint.emitters.clone(),
@@ -94,7 +95,7 @@ impl Snapshot {
     /// Bytes that it takes, to a good approximation.
     pub fn size_in_memory(&self) -> usize {
         let air = self.air.columns() * self.air.rows() * 12;
-        self.particles.len() * Particles::BYTES + self.solids.memory() + air + self.pressure.len() * 4
+        self.particles.len() * Particles::BYTES + self.solids.memory() + air + self.kept.values().count() * 4
     }
 
     /// A hash over the exact bits of the state in the order of the ids (64-bit FNV-1a): equal hashes mean equal

@@ -190,6 +190,17 @@ impl MassShares {
     }
 }
 
+/// sin φ of the elements, 0 of what is no grain, where the effect `friction` runs and grains are; else empty. Written by the gate.
+#[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
+pub struct GrainSines(pub Vec<f32>);
+
+impl GrainSines {
+    /// They, if there are grains.
+    pub fn get(&self) -> Option<&[f32]> {
+        (!self.0.is_empty()).then_some(&self.0[..])
+    }
+}
+
 /// Who sleeps. Written by the sleep stages.
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
 pub struct SleepState(pub Sleep);

@@ -8,14 +8,15 @@
 //! for the solver). A few iterations of the constraint then do the detail, whatever the depth.
 //!
 //! Modules: `steps` the whole, `grid` the geometry, `rock` what is closed, `parts` cells that a wall cuts, `stencil`,
-//! `share_out`, `transfer` and `way_back` particles to grid and back, `matter` what of it is heavier, `pressure` and `equation` the equation, `changes` what follows
-//! from its solution on the faces, `flow` the velocity that comes of it, `pockets` where it is singular, `level`,
-//! `multigrid` and `conjugate` its solver.
+//! `share_out`, `transfer` and `way_back` particles to grid and back, `matter` what of it is heavier, `grains` friction among
+//! powders, `pressure` and `equation` the equation, `changes` what follows from its solution on the faces, `flow` the velocity that
+//! comes of it, `pockets` where it is singular, `level`, `multigrid` and `conjugate` its solver.
 
 mod changes;
 mod conjugate;
 mod equation;
 mod flow;
+mod grains;
 mod grid;
 mod letting_go;
 mod level;
@@ -37,4 +38,4 @@ mod way_back;
 pub use flow::Flow;
 pub use matter::Buoyancy;
 pub use report::PredictorReport;
-pub use steps::{Predictor, PredictorParams};
+pub use steps::{Kept, Predictor, PredictorParams};

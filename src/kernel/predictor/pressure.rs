@@ -10,6 +10,7 @@ use crate::{
             Around, CHUNK, Sides, couple, feed_back, feedback_share, fill, keep_volumes, lighten, mark, may_be_sealed,
             steepness, subtract_divergence,
         },
+        grains::{Bed, Grains},
         grid::MacGrid,
         letting_go::LettingGo,
         level::{Level, WORTH_A_PIECE, damping},
@@ -21,6 +22,7 @@ use crate::{
     },
     simd::{Lanes, Pass},
 };
+use glam::Vec2;
 use std::{
     ops::Range,
     sync::atomic::{AtomicBool, AtomicU64, Ordering},
@@ -38,6 +40,8 @@ const FEEDBACK_PER_SECOND: f32 = 48.0;
 /// Residual, relative to the right-hand side, up to which the feedback is solved for: a fifth, as much as the rate
 /// leaves.
 const FEEDBACK_TOLERANCE: f64 = 0.2;
+/// How much more exact the pressure is solved for among grains, whose friction goes by it: what is left stirs a bed at rest.
+const OF_GRAINS: f64 = 0.2;
 /// Share of a full face's particles from which on they stand on both sides of it, so that their mean velocity is the
 /// face's. At a free surface a face that is half full has its particles on one side.
 const WHOLE: f32 = 0.5;
@@ -51,6 +55,9 @@ pub(super) struct Projection<'a> {
     pub conjugate: &'a mut Conjugate,
     pub pockets: &'a mut Pockets,
     pub letting_go: &'a mut LettingGo,
+    pub grains: Option<&'a mut Grains>,
+    /// What gravity adds in the substep, d/s.
+    pub kick: Vec2,
     /// Density that is aimed at, particles per d².
     pub target: f32,
     /// Substep, s.
@@ -62,7 +69,21 @@ pub(super) struct Projection<'a> {
 impl Pass for Projection<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { grid, closed, faces, hierarchy, conjugate, pockets, letting_go, target, dt, team, report } = self;
+        let Self {
+            grid,
+            closed,
+            faces,
+            hierarchy,
+            conjugate,
+            pockets,
+            letting_go,
+            mut grains,
+            kick,
+            target,
+            dt,
+            team,
+            report,
+        } = self;
         conjugate.resize(grid.len());
         mark_liquid(grid, closed, faces, conjugate, target, team);
         let whole = WHOLE * target * grid.cell * grid.cell;
@@ -71,14 +92,24 @@ impl Pass for Projection<'_> {
             return;
         }
         letting_go.run(grid, closed, faces, conjugate);
+        let full = target * grid.cell * grid.cell;
         let sealed = assemble(grid, closed, faces, hierarchy.finest(), conjugate, (dt, whole), team);
+        if let Some(grains) = &mut grains {
+            let bed = Bed::new((grid, closed), conjugate, full, kick, team);
+            grains.begin(&bed, faces, &mut hierarchy.finest().b);
+        }
         let has_pockets = sealed && pockets.balance(grid, hierarchy.finest());
         hierarchy.coarsen(team);
         let mut pressure = std::mem::take(&mut conjugate.solution);
-        let velocities = conjugate.solve(hierarchy, &mut pressure, tolerance(dt), team);
+        let tolerance = tolerance(dt) * if grains.is_some() { OF_GRAINS } else { 1.0 };
+        let velocities = conjugate.solve(hierarchy, &mut pressure, tolerance, team);
         conjugate.solution = pressure;
 
-        let cuts = feed_back_densities(grid, closed, &faces.filled, hierarchy.finest(), conjugate, team);
+        let filled = match &mut grains {
+            Some(grains) => grains.uneven(&Bed::new((grid, closed), conjugate, full, kick, team), faces),
+            None => &faces.filled,
+        };
+        let cuts = feed_back_densities(grid, closed, filled, hierarchy.finest(), conjugate, team);
         if has_pockets {
             pockets.balance(grid, hierarchy.finest());
         }
@@ -86,6 +117,9 @@ impl Pass for Projection<'_> {
         let drift = conjugate.solve(hierarchy, &mut potential, FEEDBACK_TOLERANCE, team);
         let potentials = [&conjugate.solution[..], &potential];
         Changes { grid, closed, conjugate, potentials, whole, team }.find(faces, hierarchy.finest());
+        if let Some(grains) = grains {
+            grains.end(&Bed::new((grid, closed), conjugate, full, kick, team), faces, &conjugate.solution);
+        }
         letting_go.note(&mut conjugate.solution);
         conjugate.clear(&mut potential, grid.stride);
         conjugate.potential = potential;

@@ -7,6 +7,7 @@ use crate::{
     predictor::{
         conjugate::Conjugate,
         flow::Flow,
+        grains::Grains,
         grid::MacGrid,
         letting_go::LettingGo,
         matter::Buoyancy,
@@ -16,16 +17,23 @@ use crate::{
         report::PredictorReport,
         rock::ClosedFaces,
         transfer::Faces,
-        way_back::{WayBack, hand_back},
+        way_back::{RubOff, WayBack, hand_back},
     },
     simd::InstructionSet,
     solids::Solids,
 };
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// Share of the difference to the grid's velocity that a particle gives up in a second. It damps what the grid can't
 /// see; 0.02 a tick. At a surface the mean of one side is no velocity to be drawn to: it would brake what turns.
 const BLEND_PER_SECOND: f32 = 1.2;
+
+/// The same of grains, which rub off what motion they have beside the others; 0.1 a tick.
+const GRAINS_BLEND_PER_SECOND: f32 = 6.3;
+
+/// Speed of a grain that stops, of what gravity adds in a substep.
+const ARREST: f32 = 0.1;
 
 /// Grid fields and solver of the predictor. Buffers are kept from substep to substep; the pressure, too, as the first
 /// guess of the next solve.
@@ -38,6 +46,10 @@ pub struct Predictor {
     conjugate: Conjugate,
     pockets: Pockets,
     letting_go: LettingGo,
+    /// The grains, where there are any.
+    grains: Option<Grains>,
+    /// What they set out from in the first run.
+    resumed: Vec<Vec<f32>>,
     /// Whether the last run found liquid.
     liquid: bool,
 }
@@ -53,6 +65,8 @@ pub struct PredictorParams<'a> {
     pub rest_density: f32,
     /// Masses of the elements, as shares of the heaviest; none where all are alike.
     pub masses: Option<&'a [f32]>,
+    /// sin φ of the elements, 0 of what is no grain; none where no grain is.
+    pub grains: Option<&'a [f32]>,
     /// Lanes in use.
     pub instructions: InstructionSet,
     /// Threads to use.
@@ -61,18 +75,40 @@ pub struct PredictorParams<'a> {
     pub dt: f32,
 }
 
+/// What the next substep sets out from. A world that is put back goes on to the bit only together with it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Kept {
+    /// The pressure, d/s: the first guess of the next solve. Empty before the first.
+    pub pressure: Vec<f32>,
+    /// Stress and strain among grains and the water between them, d/s; none where no grain is.
+    pub grains: Vec<Vec<f32>>,
+}
+
+impl Kept {
+    /// Its numbers, d/s.
+    pub fn values(&self) -> impl Iterator<Item = f32> + '_ {
+        self.pressure.iter().chain(self.grains.iter().flatten()).copied()
+    }
+
+    /// Fields of it, and entries of the longest.
+    pub fn size(&self) -> [usize; 2] {
+        [1 + self.grains.len(), self.grains.iter().map(Vec::len).fold(self.pressure.len(), usize::max)]
+    }
+}
+
 impl Predictor {
-    /// A predictor that takes `pressure` (see [`Predictor::pressure`]) as the first guess of its first run.
-    pub fn resume(pressure: Vec<f32>) -> Self {
+    /// A predictor whose first run sets out from what another kept.
+    pub fn resume(kept: Kept) -> Self {
         let mut predictor = Self::default();
-        predictor.conjugate.solution = pressure;
+        predictor.conjugate.solution = kept.pressure;
+        predictor.resumed = kept.grains;
         predictor
     }
 
-    /// The pressure of the last run, which the next one sets out from. A world that is put back goes on to the bit only
-    /// together with it.
-    pub fn pressure(&self) -> &[f32] {
-        &self.conjugate.solution
+    /// What the next run sets out from.
+    pub fn kept(&self) -> Kept {
+        let grains = self.grains.as_ref().map_or_else(|| self.resumed.clone(), Grains::kept);
+        Kept { pressure: self.conjugate.solution.clone(), grains }
     }
 
     /// Makes the moves of the particles nearly keep the volume where they are liquid, by their velocities, and moves
@@ -82,7 +118,8 @@ impl Predictor {
         if self.grid != grid {
             let pressure = std::mem::take(&mut self.conjugate.solution);
             let is_resumed = self.grid == MacGrid::default() && pressure.len() == grid.len();
-            *self = Self { grid, hierarchy: Hierarchy::new(grid.columns, grid.rows), ..Self::default() };
+            let resumed = std::mem::take(&mut self.resumed);
+            *self = Self { grid, hierarchy: Hierarchy::new(grid.columns, grid.rows), resumed, ..Self::default() };
             if is_resumed {
                 self.conjugate.resume(pressure, 1..grid.rows + 1, 1..grid.columns + 1);
             }
@@ -90,6 +127,17 @@ impl Predictor {
         let team = Team { instructions: params.instructions, threads: params.threads };
         self.closed.update(&grid, solids);
         self.faces.collect(&grid, particles, params.masses, team);
+        match params.grains {
+            Some(sines) => {
+                let Particles { x, y, element, .. } = &*particles;
+                let share = self.faces.share_out(&grid, team);
+                let resumed = std::mem::take(&mut self.resumed);
+                let grains = self.grains.get_or_insert_with(|| Grains::resume(&grid, resumed));
+                grains.collect(&share, [x, y], element, sines, params.masses);
+            }
+            None => (self.grains, self.resumed) = (None, Vec::new()),
+        }
+        let kick = params.dt * params.domain.gravity;
         let mut report = PredictorReport::default();
         params.instructions.run(pressure::Projection {
             grid: &grid,
@@ -99,6 +147,8 @@ impl Predictor {
             conjugate: &mut self.conjugate,
             pockets: &mut self.pockets,
             letting_go: &mut self.letting_go,
+            grains: self.grains.as_mut(),
+            kick,
             target: params.rest_density,
             dt: params.dt,
             team,
@@ -108,7 +158,10 @@ impl Predictor {
         if report.liquid {
             let PredictorParams { domain, dt, .. } = *params;
             self.faces.find_beside(&grid, particles, team);
-            let way = WayBack { blend: (BLEND_PER_SECOND * dt).min(1.0), dt, domain, solids };
+            let share = |rate: f32| (rate * dt).min(1.0);
+            let (blend, arrest) = (share(GRAINS_BLEND_PER_SECOND), ARREST * kick.length());
+            let grains = self.grains.as_ref().map(|grains| RubOff { grains, blend, arrest });
+            let way = WayBack { blend: share(BLEND_PER_SECOND), grains, dt, domain, solids };
             hand_back(&self.faces, &grid, particles, &way, team);
         }
         report
@@ -149,5 +202,6 @@ impl Predictor {
             + self.conjugate.memory()
             + self.pockets.memory()
             + self.letting_go.memory()
+            + self.grains.as_ref().map_or(0, Grains::memory)
     }
 }

@@ -59,6 +59,11 @@ impl Faces {
         }
     }
 
+    /// Shares out on the faces what the particles have that were collected last.
+    pub fn share_out<'a>(&'a self, grid: &'a MacGrid, team: Team) -> ShareOut<'a> {
+        ShareOut { grid, blocks: &self.blocks, reached: &self.reached, area: &self.area, team }
+    }
+
     /// Turns momenta into mean velocities: those of the mass, where it differs.
     pub fn find_means(&mut self, grid: &MacGrid, team: Team) {
         let Self { u, v, reached, area, matter, .. } = self;

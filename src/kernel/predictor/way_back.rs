@@ -5,6 +5,7 @@ use crate::{
     params::{Domain, WALL_GAP},
     particles::Particles,
     predictor::{
+        grains::{GrainWay, Grains},
         grid::MacGrid,
         matter::{Beside, Matter},
         share_out::lanes,
@@ -20,10 +21,22 @@ use glam::{Vec2, Vec4};
 pub(super) struct WayBack<'a> {
     /// Share of the difference to the grid's velocity that a particle gives up.
     pub blend: f32,
+    /// How grains do, if there are any.
+    pub grains: Option<RubOff<'a>>,
     /// Substep, s.
     pub dt: f32,
     pub domain: &'a Domain,
     pub solids: &'a Solids,
+}
+
+/// How grains follow those around them.
+#[derive(Clone, Copy)]
+pub(super) struct RubOff<'a> {
+    pub grains: &'a Grains,
+    /// Share of the difference to the others' velocity that a grain gives up.
+    pub blend: f32,
+    /// Difference that is given up as a whole, and speed below which a grain stops, d/s.
+    pub arrest: f32,
 }
 
 /// Longest move of the density feedback along an axis in a substep, d. It is no motion and has no speed, so that no
@@ -52,29 +65,37 @@ pub(super) fn hand_back(faces: &Faces, grid: &MacGrid, particles: &mut Particles
     spread(arrays, WORTH_A_PIECE, team.threads, &|first, [x, y, vx, vy, push_x, push_y]| {
         let (position, velocity, push) = ([x, y], [vx, vy], [push_x, push_y]);
         let (ways, instructions) = (&faces.ways, team.instructions);
-        match beside.map(|beside| beside.from(first)) {
-            None => instructions.run(HandBack::<false> { grid, ways, beside: None, way, position, velocity, push }),
-            beside => instructions.run(HandBack::<true> { grid, ways, beside, way, position, velocity, push }),
+        let beside = beside.map(|beside| beside.from(first));
+        let grains = way.grains.map(|off| (&off.grains.sines()[first..], off));
+        match beside.is_some() || grains.is_some() {
+            false => {
+                let (beside, grains) = (None, None);
+                instructions.run(HandBack::<false> { grid, ways, beside, grains, way, position, velocity, push });
+            }
+            true => instructions.run(HandBack::<true> { grid, ways, beside, grains, way, position, velocity, push }),
         }
     });
 }
 
 /// Changes particles as the faces around them say.
-struct HandBack<'a, const MASSES: bool> {
+struct HandBack<'a, const MIXED: bool> {
     grid: &'a MacGrid,
     ways: &'a [Vec<Way>; 2],
-    /// What particles gain beside the liquid; not read without `MASSES`.
+    /// What particles gain beside the liquid, if masses differ; not read without `MIXED`.
     beside: Option<Beside<'a>>,
+    /// sin φ of the particles, and how they follow if any is a grain; not read without `MIXED`.
+    grains: Option<(&'a [f32], RubOff<'a>)>,
     way: &'a WayBack<'a>,
     position: [&'a mut [f32]; 2],
     velocity: [&'a mut [f32]; 2],
     push: [&'a mut [f32]; 2],
 }
 
-impl<const MASSES: bool> Pass for HandBack<'_, MASSES> {
+impl<const MIXED: bool> Pass for HandBack<'_, MIXED> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { grid, ways, beside, way, position: [x, y], velocity: [vx, vy], push: [push_x, push_y] } = self;
+        let Self { grid, ways, beside, grains, way, position: [x, y], velocity: [vx, vy], push: [push_x, push_y] } =
+            self;
         let (low, high) = (Vec2::splat(WALL_GAP), way.domain.highest());
         let rock = (way.solids.count() > 0).then_some(way.solids);
         for at in (0..x.len()).step_by(LANES) {
@@ -85,7 +106,7 @@ impl<const MASSES: bool> Pass for HandBack<'_, MASSES> {
             let (around_u, around_v) = (around(Axis::U), around(Axis::V));
             let mut means_x = mean_of_faces(&ways[0], grid, &around_u, count);
             let mut means_y = mean_of_faces(&ways[1], grid, &around_v, count);
-            if let Some(beside) = beside.filter(|_| MASSES) {
+            if let Some(beside) = beside.filter(|_| MIXED) {
                 for (axis, around, means) in [(Axis::U, &around_u, &mut means_x), (Axis::V, &around_v, &mut means_y)] {
                     for lane in 0..count {
                         let share = [around.right[lane], around.upper[lane]];
@@ -95,8 +116,28 @@ impl<const MASSES: bool> Pass for HandBack<'_, MASSES> {
                 }
             }
             let (x, y) = (&mut x[own.clone()], &mut y[own.clone()]);
+            let grains = grains.filter(|_| MIXED).map(|(sines, off)| (&sines[own.clone()], off));
+            if let Some((sines, _)) = grains {
+                // What grains are drawn to is found below.
+                for (sine, (mean_x, mean_y)) in sines.iter().zip(means_x.iter_mut().zip(&mut means_y)) {
+                    let is_drawn = if *sine > 0.0 { 0.0 } else { 1.0 };
+                    for mean in [mean_x, mean_y] {
+                        (mean[1], mean[2]) = (is_drawn * mean[1], is_drawn * mean[2]);
+                    }
+                }
+            }
             change(&means_x, [x, &mut vx[own.clone()], &mut push_x[own.clone()]], way, [low.x, high.x]);
-            change(&means_y, [y, &mut vy[own.clone()], &mut push_y[own]], way, [low.y, high.y]);
+            change(&means_y, [y, &mut vy[own.clone()], &mut push_y[own.clone()]], way, [low.y, high.y]);
+            if let Some((sines, off)) = grains {
+                let ways = off.grains.ways();
+                let velocities = vx[own.clone()].iter_mut().zip(&mut vy[own]);
+                for (lane, (_, (vx, vy))) in
+                    sines.iter().zip(velocities).enumerate().filter(|(_, (sine, _))| **sine > 0.0)
+                {
+                    let at = |axis: Axis, around: &Stencils| mean_of_ways(&ways[axis as usize], grid, around, lane);
+                    [*vx, *vy] = rub([*vx, *vy], [at(Axis::U, &around_u), at(Axis::V, &around_v)], off);
+                }
+            }
             if let Some(rock) = rock {
                 for k in 0..count {
                     let to = rock.sweep(Vec2::new(from_x[k], from_y[k]), Vec2::new(x[k], y[k]));
@@ -133,6 +174,27 @@ fn mean_of_faces(field: &[Way], grid: &MacGrid, stencils: &Stencils, count: usiz
         means[lane] = (left * on_left + right * on_right).to_array();
     }
     means
+}
+
+/// The bilinear mean of the faces around a point.
+#[inline(always)]
+fn mean_of_ways(field: &[GrainWay], grid: &MacGrid, stencils: &Stencils, lane: usize) -> GrainWay {
+    let (corner, right, upper) = (stencils.corner[lane] as usize, stencils.right[lane], stencils.upper[lane]);
+    let mean = |of: usize| {
+        let along = |at: usize| (1.0 - right) * field[at][of] + right * field[at + 1][of];
+        (1.0 - upper) * along(corner) + upper * along(corner + grid.stride)
+    };
+    [mean(0), mean(1)]
+}
+
+/// The velocity of a grain that rubs on those around it, d/s: next to none is none.
+#[inline(always)]
+fn rub([vx, vy]: [f32; 2], [[mean_x, known_x], [mean_y, known_y]]: [GrainWay; 2], off: RubOff) -> [f32; 2] {
+    let RubOff { blend, arrest, .. } = off;
+    let (x, y) = (mean_x - known_x * vx, mean_y - known_y * vy);
+    let share = (arrest / (x * x + y * y + f32::MIN_POSITIVE).sqrt()).max(blend).min(1.0);
+    let (vx, vy) = (vx + share * x, vy + share * y);
+    if vx * vx + vy * vy < arrest * arrest { [0.0; 2] } else { [vx, vy] }
 }
 
 /// Two faces side by side.

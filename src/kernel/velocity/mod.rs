@@ -19,6 +19,7 @@ use crate::{
     predictor::Flow,
     simd::{Lanes, Pass},
     solids::Solids,
+    units::TICK_SECONDS,
 };
 use glam::Vec2;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -80,6 +81,8 @@ const CUT: f32 = 0.999;
 /// and faster meanwhile. So at any density a correction there ends motion as far as it points away from the wall, that of a film
 /// above all; between walls, and of a few drops in a crevice, which are their own flow, it ends all that runs against it.
 ///
+/// Grains (`grains`: sin φ of the elements, if any is one) stay where a correction is next to none ([`STILL`]).
+///
 /// Then the second half of the kick that [`begin_kick`](crate::forces::begin_kick) began: gravity (d/s²) and what
 /// pressure and contact add. Where corrections hold a particle up they hold it against the kick, too ([`held`]).
 pub fn update_velocities(
@@ -88,16 +91,21 @@ pub fn update_velocities(
     solids: &Solids,
     gravity: Vec2,
     flow: Option<Flow>,
+    grains: Option<&[f32]>,
     threads: usize,
     dt: f32,
 ) -> MoveReport {
     let Solver { instructions, x: to_x, y: to_y, density, limit, aim, substeps, .. } = solver;
     let pressed = PRESSED.map(|share| 1.0 + share / *substeps as f32);
     let clamps = AtomicU64::new(0);
-    let Particles { x, y, vx, vy, push_x, push_y, .. } = particles;
+    let Particles { x, y, vx, vy, push_x, push_y, element, .. } = particles;
     let arrays = [&mut vx[..], vy, push_x, push_y, to_x, to_y];
     spread(arrays, WORTH_A_PIECE, threads, &|base, [vx, vy, push_x, push_y, to_x, to_y]| {
         let anchor = [&*x, &*y].map(|anchor| &anchor[base..base + vx.len()]);
+        if let Some(sines) = grains {
+            let elements = &element[base..base + vx.len()];
+            leave_at_rest(sines, elements, anchor, [to_x, to_y], STILL * dt / TICK_SECONDS);
+        }
         instructions.run(Move {
             rock: (solids.count() > 0).then_some(solids),
             limit: limit.map(|limit| (limit, &density[base..base + vx.len()])),
@@ -116,6 +124,25 @@ pub fn update_velocities(
     std::mem::swap(x, to_x);
     std::mem::swap(y, to_y);
     MoveReport { position_clamps: clamps.into_inner() }
+}
+
+/// Correction of a tick below which a grain stays where it is, d. Without it a bed drifts by what corrections are off.
+const STILL: f32 = 0.003;
+
+/// Takes back the corrections of grains that are next to none: shorter than `still` (d).
+fn leave_at_rest(
+    sines: &[f32],
+    elements: &[ElementId],
+    [x, y]: [&[f32]; 2],
+    [to_x, to_y]: [&mut [f32]; 2],
+    still: f32,
+) {
+    for (k, _) in elements.iter().enumerate().filter(|(_, element)| sines[element.index()] > 0.0) {
+        let (way_x, way_y) = (to_x[k] - x[k], to_y[k] - y[k]);
+        if way_x * way_x + way_y * way_y < still * still {
+            (to_x[k], to_y[k]) = (x[k], y[k]);
+        }
+    }
 }
 
 /// Moves a piece of the particles.

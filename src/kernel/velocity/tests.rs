@@ -170,7 +170,8 @@ fn velocities_follow_from_the_moves_and_cut_corrections_are_counted() {
         };
     }
     let before = bench.particles.clone();
-    let report = update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, Vec2::ZERO, None, 1, 0.01);
+    let report =
+        update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, Vec2::ZERO, None, None, 1, 0.01);
     assert_eq!(report.position_clamps, 9, "corrections at their limit");
     let shares = |i| bench.solver.correction_share(i, bench.particles.position(i)).unwrap();
     assert!((shares(3) - 1.0).abs() < 1e-3 && (shares(8) - 1.0).abs() < 1e-3 && shares(10) < 0.6 && shares(20) < 0.2);
@@ -201,6 +202,7 @@ fn after_corrections(mut bench: Bench, ids: [usize; 2], density: f32, way: f32, 
         cell: bench.quality.kernel_radius,
         rest_density: 1.0,
         masses: None,
+        grains: None,
         instructions: bench.solver.instructions,
         threads: 1,
         dt: SUBSTEP,
@@ -216,7 +218,7 @@ fn after_corrections(mut bench: Bench, ids: [usize; 2], density: f32, way: f32, 
     bench.solver.y.iter_mut().for_each(|y| *y += way);
     let before = bench.particles.clone();
     let flow = Some(predictor.flow());
-    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, Vec2::ZERO, flow, 1, SUBSTEP);
+    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, Vec2::ZERO, flow, None, 1, SUBSTEP);
     ids.map(|id| {
         let i = before.id.iter().position(|own| *own == id as u32).unwrap();
         assert!((bench.particles.y[i] - before.y[i] - way).abs() < 1e-4, "the correction itself was lost");
@@ -271,7 +273,7 @@ fn a_correction_into_rock_stops_at_its_face() {
     for i in 0..400 {
         bench.solver.x[i] += 0.6;
     }
-    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, Vec2::ZERO, None, 1, 0.01);
+    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, Vec2::ZERO, None, None, 1, 0.01);
     for i in 0..400 {
         let at = bench.particles.position(i);
         assert!(!bench.solids.is_solid(Solids::cell_of(at)), "particle {i} was moved into rock, to {at}");

@@ -196,11 +196,7 @@ impl Soak {
 
 /// Whether two states are the same to the bit, but for the marks by which a history tells its rock from what it was before.
 pub(super) fn are_same(a: &Snapshot, b: &Snapshot) -> bool {
-    a.hash() == b.hash()
-        && a.pressure == b.pressure
-        && a.sleep == b.sleep
-        && a.sources == b.sources
-        && a.clock == b.clock
+    a.hash() == b.hash() && a.kept == b.kept && a.sleep == b.sleep && a.sources == b.sources && a.clock == b.clock
 }
 
 fn look(world: &World) -> Look {

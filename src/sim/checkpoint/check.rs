@@ -194,14 +194,16 @@ fn air(contents: &Contents) -> Verdict {
     for value in air.values() {
         demand(value.abs() < ABSURD, || format!("a pressure or wind is {value}; allowed: less than {ABSURD:e}"))?;
     }
-    for &value in &contents.pressure {
+    for value in contents.kept.values() {
         demand(value.abs() < ABSURD_POTENTIAL, || {
             format!("a pressure of its water is {value}; allowed: less than {ABSURD_POTENTIAL:e}")
         })?;
     }
     // The predictor's cells are no smaller than half a kernel radius, and it keeps some empty ones around the box.
     let most = (domain.size.x + 64.0) * (domain.size.y + 64.0);
-    within("number of pressures", contents.pressure.len() as f32, 0.0, most)
+    let [fields, entries] = contents.kept.size();
+    within("number of fields of its pressure", fields as f32, 1.0, 9.0)?;
+    within("number of pressures", entries as f32, 0.0, most)
 }
 
 /// The air is closed where the rock is, and nowhere else. Air without a grid knows no rock.

@@ -30,7 +30,7 @@ pub(super) const SAVE: Kind = Kind { name: "save file", magic: b"PowderMaster\n"
 impl Checkpoint {
     /// It as a save file.
     pub fn encode(&self) -> Vec<u8> {
-        let Snapshot { mut particles, solids, air, pressure, sleep, sources, clock } = Snapshot::clone(&self.state);
+        let Snapshot { mut particles, solids, air, kept, sleep, sources, clock } = Snapshot::clone(&self.state);
         // A file with them would be refused: those that are no number (the next tick would take them away) and, which never
         // happens, those in rock or outside. Better a world without them than none.
         remove_non_finite(&mut particles, 1);
@@ -52,7 +52,7 @@ impl Checkpoint {
             particles,
             rock: rock.collect(),
             air,
-            pressure,
+            kept,
             sleep,
             sources,
             clock,
@@ -76,7 +76,7 @@ pub(super) fn seal(contents: &Contents) -> Vec<u8> {
 /// Turns checked contents into a world that is marked as of this file. What needs the whole rock is checked here.
 fn open(contents: Contents, origin: u64) -> Result<Checkpoint, String> {
     let Contents { scene, domain, effects, preset, quality, elements, .. } = contents;
-    let Contents { particles, rock, mut air, pressure, sleep, sources, clock, .. } = contents;
+    let Contents { particles, rock, mut air, kept, sleep, sources, clock, .. } = contents;
     let cells = domain.size.ceil().as_uvec2();
     let mut solids = Solids::new(cells.x, cells.y);
     for RockCell { column, row, element, id } in rock {
@@ -106,7 +106,7 @@ fn open(contents: Contents, origin: u64) -> Result<Checkpoint, String> {
         origin,
         ..scene.into_owned()
     };
-    let state = Arc::new(Snapshot { particles, solids, air, pressure, sleep, sources, clock });
+    let state = Arc::new(Snapshot { particles, solids, air, kept, sleep, sources, clock });
     let blueprint = Arc::new(blueprint);
     Ok(Checkpoint {
         setup: Setup { opened: blueprint.clone(), blueprint, domain, preset, quality, origin: state.clone() },

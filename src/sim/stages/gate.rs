@@ -1,12 +1,14 @@
 //! Gathers the facts of a tick and lets the table of effects decide by them, and plans how many substeps it takes.
 
 use crate::{
-    kernel::{crowding::Crowding, predict, units::TICK_SECONDS},
+    kernel::{crowding::Crowding, element::ElementTable, predict, units::TICK_SECONDS},
     scene::effects::{Effect, Facts, Mode},
     sim::{
         effects::Effects,
         stages::TickPlan,
-        state::{AirGrid, Census, Counters, Elements, MassShares, ParticleStore, Setup, SleepState, Sources},
+        state::{
+            AirGrid, Census, Counters, Elements, GrainSines, MassShares, ParticleStore, Setup, SleepState, Sources,
+        },
     },
 };
 use bevy::prelude::{Local, Res, ResMut};
@@ -22,6 +24,7 @@ pub(super) fn plan_tick(
     elements: Res<Elements>,
     mut effects: ResMut<Effects>,
     mut shares: ResMut<MassShares>,
+    mut grains: ResMut<GrainSines>,
 ) {
     let fastest = predict::fastest(&particles.vx, &particles.vy);
     let modes = effects.wanted();
@@ -48,6 +51,15 @@ pub(super) fn plan_tick(
     if let Some([_, heaviest]) = facts.densities().filter(|_| effects.get(Effect::Masses).running) {
         shares.extend(elements.mass.iter().map(|mass| mass / heaviest));
     }
+    grains.clear();
+    if effects.acts(Effect::Friction) && any_grain(setup.elements(), &census.by_element) {
+        grains.extend_from_slice(&elements.friction);
+    }
+}
+
+/// Whether any grain is there.
+fn any_grain(elements: &ElementTable, counts: &[u32]) -> bool {
+    elements.iter().zip(counts).any(|((_, element), count)| *count > 0 && element.friction > 0.0)
 }
 
 /// Plans how many substeps the tick takes.

@@ -8,7 +8,7 @@ use crate::{
         ledger::Call,
         stages::TickPlan,
         state::{
-            AirGrid, Counters, DragState, Elements, MassShares, ParticleStore, PredictorState, Rock, Setup,
+            AirGrid, Counters, DragState, Elements, GrainSines, MassShares, ParticleStore, PredictorState, Rock, Setup,
             SolverState, Sources, StartEnergy,
         },
         workers::Workers,
@@ -105,7 +105,7 @@ pub(super) fn predict_pressure(
     mut particles: ResMut<ParticleStore>,
     mut predictor: ResMut<PredictorState>,
     solver: Res<SolverState>,
-    shares: Res<MassShares>,
+    (shares, grains): (Res<MassShares>, Res<GrainSines>),
     rock: Res<Rock>,
     setup: Res<Setup>,
     plan: Res<TickPlan>,
@@ -118,6 +118,7 @@ pub(super) fn predict_pressure(
             cell: setup.quality.kernel_radius,
             rest_density: setup.blueprint.fluid.rest_density,
             masses: shares.get(),
+            grains: grains.get(),
             instructions: solver.instructions,
             threads,
             dt: plan.substep_seconds(),
@@ -135,15 +136,17 @@ pub(super) fn predict_positions(
     mut later: ResMut<DragState>,
     solver: Res<SolverState>,
     rock: Res<Rock>,
+    grains: Res<GrainSines>,
     setup: Res<Setup>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
 ) -> usize {
     let dt = plan.substep_seconds();
-    let domain = &setup.domain;
+    let around = (&**rock, &setup.domain);
     let report = workers.run_for(particles.len(), |threads| {
-        let report = predict::predict(&mut particles, solver.instructions, &rock, domain, &setup.quality, threads, dt);
+        let report =
+            predict::predict(&mut particles, solver.instructions, around, &setup.quality, grains.get(), threads, dt);
         later.end(&mut particles, threads, predict::longest_move(&setup.quality) / dt);
         report
     });
@@ -199,6 +202,7 @@ pub(super) fn update_velocities(
     rock: Res<Rock>,
     setup: Res<Setup>,
     predictor: Res<PredictorState>,
+    grains: Res<GrainSines>,
     effects: Res<Effects>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
@@ -207,7 +211,7 @@ pub(super) fn update_velocities(
     let (gravity, dt) = (setup.domain.gravity, plan.substep_seconds());
     let flow = effects.get(Effect::Predictor).running.then(|| predictor.flow());
     let report = workers.run_for(particles.len(), |threads| {
-        velocity::update_velocities(&mut particles, &mut solver, &rock, gravity, flow, threads, dt)
+        velocity::update_velocities(&mut particles, &mut solver, &rock, gravity, flow, grains.get(), threads, dt)
     });
     counters.position_clamps += report.position_clamps;
     particles.len()

@@ -32,7 +32,13 @@ pub fn counted<S>(state: &mut S, kernel: impl FnOnce(&mut S)) {
 /// Runs a kernel once on its state. `false` if there is none of that name.
 pub fn run(name: &str, set: InstructionSet) -> bool {
     let mut tank = Tank::new(set);
-    let liquid = ElementParams { drag: vec![0.001], viscosity: vec![0.02], vorticity: vec![0.01], mass: vec![1000.0] };
+    let liquid = ElementParams {
+        drag: vec![0.001],
+        viscosity: vec![0.02],
+        vorticity: vec![0.01],
+        mass: vec![1000.0],
+        friction: vec![0.0],
+    };
     match name {
         "bin" => {
             // Sorting what is sorted is cheaper than what a tick does.

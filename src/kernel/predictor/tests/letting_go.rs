@@ -79,7 +79,7 @@ fn what_has_let_go_is_free_after_a_restart_too() {
     let (mut predictor, mut straight_on) = (Predictor::default(), film(&walls, 41));
     (0..SUBSTEPS).for_each(|_| fall(&mut predictor, &mut straight_on, &walls));
     let mut again = straight_on.clone();
-    let mut resumed = Predictor::resume(predictor.pressure().to_vec());
+    let mut resumed = Predictor::resume(predictor.kept());
     fall(&mut predictor, &mut straight_on, &walls);
     fall(&mut resumed, &mut again, &walls);
     assert_eq!([&again.vx, &again.vy], [&straight_on.vx, &straight_on.vy]);

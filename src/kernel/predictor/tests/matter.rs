@@ -19,6 +19,7 @@ fn predict(particles: &mut Particles, solids: &Solids, masses: Option<&[f32]>) -
         cell: CELL,
         rest_density: LATTICE,
         masses,
+        grains: None,
         instructions: team().instructions,
         threads: 1,
         dt: DT,

@@ -3,6 +3,7 @@
 mod disc;
 mod equation;
 mod feedback;
+mod grains;
 mod letting_go;
 mod matter;
 mod multigrid;
@@ -81,8 +82,16 @@ fn go_on(
 ) -> PredictorReport {
     let domain = Domain { size: size(solids), gravity: Vec2::ZERO };
     let instructions = InstructionSet::detect();
-    let params =
-        PredictorParams { domain: &domain, cell: CELL, rest_density, masses: None, instructions, threads: 1, dt };
+    let params = PredictorParams {
+        domain: &domain,
+        cell: CELL,
+        rest_density,
+        masses: None,
+        grains: None,
+        instructions,
+        threads: 1,
+        dt,
+    };
     predictor.run(particles, solids, &params)
 }
 

@@ -231,6 +231,8 @@ impl Rig {
             conjugate: &mut self.conjugate,
             pockets: &mut Pockets::default(),
             letting_go: &mut LettingGo::default(),
+            grains: None,
+            kick: Vec2::ZERO,
             target: rest_density,
             dt: self.dt,
             team: team(),

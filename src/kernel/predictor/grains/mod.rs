@@ -1,0 +1,169 @@
+//! Grains on the grid: the pressure holds them as it holds a liquid, and friction among them holds slopes.
+
+mod bed;
+mod fields;
+mod friction;
+mod limits;
+mod pore;
+mod spread;
+mod ways;
+
+pub(super) use bed::Bed;
+pub(super) use ways::GrainWay;
+
+use crate::{
+    element::ElementId,
+    parallel::{Rows, Sweep, sweep},
+    predictor::{
+        grains::{friction::Friction, pore::Pore, spread::Spread},
+        grid::MacGrid,
+        level::WORTH_A_PIECE,
+        share_out::ShareOut,
+        transfer::Faces,
+    },
+};
+use std::ops::Range;
+
+/// How much looser and denser than the liquid would be a bed of grains stays, as a share: what has come to rest is not stirred
+/// to make it even.
+const LEFT_ALONE: [f32; 2] = [0.06, 0.03];
+
+/// The grains, and the stress among them. The buffers are kept.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Grains {
+    /// sin φ of each particle; 0 of what is no grain.
+    sines: Vec<f32>,
+    /// 1 for each grain.
+    is_grain: Vec<f32>,
+    /// At left and lower faces: number of grains (as weights), and that times sin φ.
+    faces: [Vec<[f32; 2]>; 2],
+    /// How full cells are, as far as that is to be changed.
+    uneven: Vec<f32>,
+    friction: Friction,
+    pore: Pore,
+    /// Density of the liquids, as a share of the heaviest, if there are any.
+    liquids: Option<f32>,
+    /// What grains near a face are drawn to.
+    ways: [Vec<GrainWay>; 2],
+}
+
+impl Grains {
+    /// Shares out the grains on the faces. `of`: sin φ of the elements; `masses`: those of the elements as shares of the heaviest, if
+    /// they differ.
+    pub fn collect(
+        &mut self,
+        share: &ShareOut,
+        at: [&[f32]; 2],
+        elements: &[ElementId],
+        of: &[f32],
+        masses: Option<&[f32]>,
+    ) {
+        let Self { sines, is_grain, faces, liquids, .. } = self;
+        *liquids = mean_density_of_liquids(elements, of, masses);
+        sines.clear();
+        sines.extend(elements.iter().map(|element| of[element.index()]));
+        is_grain.clear();
+        is_grain.extend(sines.iter().map(|sine| if *sine > 0.0 { 1.0 } else { 0.0 }));
+        share.run(at, Some(is_grain), [sines, sines], faces.each_mut());
+    }
+
+    /// sin φ of each particle; 0 of what is no grain.
+    pub fn sines(&self) -> &[f32] {
+        &self.sines
+    }
+
+    /// What grains near the left and lower faces are drawn to.
+    pub fn ways(&self) -> &[Vec<GrainWay>; 2] {
+        &self.ways
+    }
+
+    /// The pressure (its right-hand side) sets out from what the last substep's stress does to the faces.
+    pub fn begin(&mut self, bed: &Bed, faces: &Faces, right_side: &mut [f32]) {
+        self.friction.begin(bed, faces);
+        self.friction.subtract_divergence(bed, right_side);
+    }
+
+    /// Finds the stress under the pressure of the substep, and adds what it changes to the faces' ways.
+    pub fn end(&mut self, bed: &Bed, faces: &mut Faces, pressure: &[f32]) {
+        let Self { faces: own, friction, pore, liquids, ways, .. } = self;
+        let spread = Spread { grains: own, all: [&faces.u, &faces.v] };
+        pore.solve(bed, &spread, pressure, *liquids);
+        friction.solve(bed, faces, &spread, pressure, pore.pressure());
+        friction.hand_over(bed, faces, ways);
+    }
+
+    /// How full cells are, as far as that is to be changed: a bed of grains is left as it lies.
+    pub fn uneven(&mut self, bed: &Bed, faces: &Faces) -> &[f32] {
+        let Self { faces: own, uneven, .. } = self;
+        uneven.resize(bed.grid.len(), 0.0);
+        let spread = Spread { grains: own, all: [&faces.u, &faces.v] };
+        let work = Uneven { grid: bed.grid, columns: bed.span.clone(), filled: &faces.filled, spread };
+        let band = Rows::new(uneven, bed.grid.stride, &bed.rows);
+        sweep(&work, bed.rows.clone(), band, bed.span.len(), WORTH_A_PIECE, bed.team);
+        uneven
+    }
+
+    /// What the next substep sets out from: fields of the grid, d/s.
+    pub fn kept(&self) -> Vec<Vec<f32>> {
+        self.friction.kept().into_iter().chain(self.pore.kept()).cloned().collect()
+    }
+
+    /// Grains that set out from what was kept on a grid; from nothing if it was another.
+    pub fn resume(grid: &MacGrid, kept: Vec<Vec<f32>>) -> Self {
+        match <[Vec<f32>; 8]>::try_from(kept) {
+            Ok(kept) if kept.iter().all(|field| field.len() == grid.len()) => {
+                let [s, t, kept_s, kept_t, cells, corners, head, share] = kept;
+                Self {
+                    friction: Friction::resume(grid, [s, t, kept_s, kept_t, cells, corners]),
+                    pore: Pore::resume(grid, [head, share]),
+                    ..Self::default()
+                }
+            }
+            _ => Self::default(),
+        }
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        let Self { sines, is_grain, faces, uneven, friction, pore, ways, .. } = self;
+        let on_faces: usize = faces.iter().map(Vec::capacity).chain(ways.iter().map(Vec::capacity)).sum();
+        4 * (sines.capacity() + is_grain.capacity() + uneven.capacity())
+            + 8 * on_faces
+            + friction.memory()
+            + pore.memory()
+    }
+}
+
+/// Mean density of all that is no grain, as a share of the heaviest; none if all are grains.
+fn mean_density_of_liquids(elements: &[ElementId], sines: &[f32], masses: Option<&[f32]>) -> Option<f32> {
+    let mut counts = vec![0_u32; sines.len()];
+    elements.iter().for_each(|element| counts[element.index()] += 1);
+    let liquids = counts.iter().enumerate().filter(|(element, count)| sines[*element] == 0.0 && **count > 0);
+    let [mass, count] = liquids.fold([0.0, 0.0], |[mass, sum], (element, count)| {
+        let count = *count as f32;
+        [mass + count * masses.map_or(1.0, |masses| masses[element]), sum + count]
+    });
+    (count > 0.0).then(|| mass / count)
+}
+
+struct Uneven<'a> {
+    grid: &'a MacGrid,
+    columns: Range<usize>,
+    filled: &'a [f32],
+    spread: Spread<'a>,
+}
+
+impl Sweep<Rows<'_, f32>> for Uneven<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, mut out: Rows<f32>) {
+        let Self { grid, columns, filled, spread } = self;
+        for (j, out) in rows.zip(out.each()) {
+            for column in columns.clone() {
+                let k = grid.row(j) + column;
+                let error = filled[k] - 1.0;
+                let near = error.clamp(-LEFT_ALONE[0], LEFT_ALONE[1]);
+                out[column] = filled[k] - near * spread.bears(grid, k);
+            }
+        }
+    }
+}

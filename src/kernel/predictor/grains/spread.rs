@@ -1,0 +1,48 @@
+//! Where grains are.
+
+use crate::predictor::{grid::MacGrid, stencil::Axis};
+
+/// Share of the particles of a cell that are grains from which on they touch, and that from which on they bear all.
+const TOUCHING: [f32; 2] = [0.3, 0.7];
+
+/// Where grains are among all particles.
+#[derive(Clone, Copy)]
+pub(super) struct Spread<'a> {
+    /// At left and lower faces: number of grains (as weights), and that times sin φ.
+    pub grains: &'a [Vec<[f32; 2]>; 2],
+    /// Number of all particles (as weights).
+    pub all: [&'a [[f32; 2]]; 2],
+}
+
+impl Spread<'_> {
+    /// Mean sin φ around a cell or its lower left corner; 0 where no grain is.
+    #[inline(always)]
+    pub fn sine(&self, grid: &MacGrid, k: usize) -> f32 {
+        let (mut weight, mut sum) = (0.0, 0.0);
+        for (axis, face) in sides(grid, k) {
+            let at = self.grains[axis as usize][face];
+            (weight, sum) = (weight + at[0], sum + at[1]);
+        }
+        if weight > 0.0 { sum / weight } else { 0.0 }
+    }
+
+    /// How much of the pressure of a cell its grains bear: none where they do not touch.
+    #[inline(always)]
+    pub fn bears(&self, grid: &MacGrid, k: usize) -> f32 {
+        let (mut grains, mut all) = (0.0, 0.0);
+        for (axis, face) in sides(grid, k) {
+            grains += self.grains[axis as usize][face][0];
+            all += self.all[axis as usize][face][0];
+        }
+        let share = if all > 0.0 { grains / all } else { 0.0 };
+        let share = (share - TOUCHING[0]) / (TOUCHING[1] - TOUCHING[0]);
+        let share = if share > 0.0 { share } else { 0.0 };
+        if share < 1.0 { share } else { 1.0 }
+    }
+}
+
+/// The faces of a cell.
+#[inline(always)]
+fn sides(grid: &MacGrid, k: usize) -> [(Axis, usize); 4] {
+    [(Axis::U, k), (Axis::U, k + 1), (Axis::V, k), (Axis::V, k + grid.stride)]
+}

@@ -1,0 +1,218 @@
+//! Grains: what friction holds, and what it does not.
+
+use super::{CELL, DT, LATTICE, lattice, noise, size, solids, team};
+use crate::{
+    element::ElementId,
+    params::Domain,
+    particles::Particles,
+    predictor::{Predictor, PredictorParams},
+    solids::Solids,
+};
+use glam::{DVec2, Vec2};
+
+/// Angle of friction, degrees.
+const ANGLE: f32 = 30.0;
+
+/// Sand is element 1, water element 2.
+fn sines(angle: f32) -> [f32; 3] {
+    [0.0, angle.to_radians().sin_cos().0, 0.0]
+}
+
+/// Gravity, d/s².
+const GRAVITY: f32 = 98.1;
+
+/// One substep of gravity (d/s²) and prediction, after which all stay where they are.
+fn go_on(predictor: &mut Predictor, particles: &mut Particles, walls: &Solids, gravity: Vec2, angle: f32) {
+    particles.vx.iter_mut().for_each(|vx| *vx += gravity.x * DT);
+    particles.vy.iter_mut().for_each(|vy| *vy += gravity.y * DT);
+    let (domain, sines) = (Domain { size: size(walls), gravity }, sines(angle));
+    let is_sand = particles.element.contains(&ElementId(1));
+    let params = PredictorParams {
+        domain: &domain,
+        cell: CELL,
+        rest_density: LATTICE,
+        masses: None,
+        grains: is_sand.then_some(&sines),
+        instructions: team().instructions,
+        threads: 1,
+        dt: DT,
+    };
+    let at = (particles.x.clone(), particles.y.clone());
+    predictor.run(particles, walls, &params);
+    (particles.x, particles.y) = at;
+}
+
+/// Gravity seen from a floor that is tilted by so many degrees.
+fn tilted(degrees: f32) -> Vec2 {
+    let (sine, cosine) = degrees.to_radians().sin_cos();
+    GRAVITY * Vec2::new(sine, -cosine)
+}
+
+/// A slab 160 d long and 20 d deep on the floor of a wide box.
+fn slab() -> (Solids, Particles) {
+    let walls = solids(240, 30, |_| false);
+    let slab = lattice(&walls, |at| ((20.0..180.0).contains(&at.x) && at.y < 20.0).then_some(Vec2::ZERO));
+    (walls, slab)
+}
+
+/// Mean velocity along the floor of the middle 40 d, d/s.
+fn speed_of_the_middle(slab: &Particles) -> f32 {
+    let own: Vec<f32> = (0..slab.len()).filter(|i| (slab.x[*i] - 100.0).abs() < 20.0).map(|i| slab.vx[i]).collect();
+    own.iter().sum::<f32>() / own.len() as f32
+}
+
+#[test]
+fn a_slab_rests_below_its_angle_and_slides_above_it() {
+    for below in [0.0, 10.0, 20.0, ANGLE - 5.0] {
+        let ((walls, mut slab), mut predictor) = (slab(), Predictor::default());
+        (0..60).for_each(|_| go_on(&mut predictor, &mut slab, &walls, tilted(below), ANGLE));
+        let speed = speed_of_the_middle(&slab).abs();
+        // A hundredth of a fall.
+        assert!(speed < 0.01 * GRAVITY, "{speed} d/s after a second at {below}°");
+    }
+    for above in [ANGLE + 5.0, 45.0] {
+        let ((walls, mut slab), mut predictor) = (slab(), Predictor::default());
+        (0..30).for_each(|_| go_on(&mut predictor, &mut slab, &walls, tilted(above), ANGLE));
+        let before = speed_of_the_middle(&slab);
+        (0..30).for_each(|_| go_on(&mut predictor, &mut slab, &walls, tilted(above), ANGLE));
+        let gained = (speed_of_the_middle(&slab) - before) / (30.0 * DT);
+        // Sheared without a change of volume, sand bears sin φ of what presses on it (Davis 1968).
+        let (sine, cosine) = above.to_radians().sin_cos();
+        let expected = GRAVITY * (sine - sines(ANGLE)[1] * cosine);
+        assert!((gained / expected - 1.0).abs() < 0.1, "{gained} d/s² at {above}°, {expected} expected");
+    }
+}
+
+#[test]
+fn without_friction_the_same_slab_flows() {
+    let ((walls, mut slab), mut predictor) = (slab(), Predictor::default());
+    slab.element.fill(ElementId(2));
+    (0..30).for_each(|_| go_on(&mut predictor, &mut slab, &walls, tilted(20.0), ANGLE));
+    assert!(speed_of_the_middle(&slab) > 0.5 * tilted(20.0).x * 30.0 * DT);
+}
+
+#[test]
+fn friction_among_grains_keeps_their_momentum_and_takes_energy() {
+    let walls = solids(80, 80, |_| false);
+    let mut random = noise(7);
+    // Far from all walls, pressed together from both sides and stirred.
+    let mut lump =
+        lattice(&walls, |at| ((20.0..60.0).contains(&at.x) && (20.0..60.0).contains(&at.y)).then_some(Vec2::ZERO));
+    for i in 0..lump.len() {
+        let from = lump.position(i) - Vec2::splat(40.0);
+        let turn = Vec2::new(-from.y, 0.3 * from.x) + 4.0 * Vec2::new(random(), random());
+        (lump.vx[i], lump.vy[i]) = (turn.x - 0.6 * from.x, turn.y - 0.6 * from.y);
+    }
+    let momentum = |lump: &Particles| -> DVec2 { (0..lump.len()).map(|i| lump.velocity(i).as_dvec2()).sum() };
+    let energy =
+        |lump: &Particles| -> f64 { (0..lump.len()).map(|i| lump.velocity(i).as_dvec2().length_squared()).sum() };
+    let moved: f64 = (0..lump.len()).map(|i| f64::from(lump.velocity(i).length())).sum();
+    let (mut grains, mut water) = (lump.clone(), lump.clone());
+    water.element.fill(ElementId(2));
+    let (mut own, mut other) = (Predictor::default(), Predictor::default());
+    for _ in 0..10 {
+        let before = energy(&grains);
+        go_on(&mut own, &mut grains, &walls, Vec2::ZERO, ANGLE);
+        go_on(&mut other, &mut water, &walls, Vec2::ZERO, ANGLE);
+        assert!(energy(&grains) <= before, "friction made {before} to {}", energy(&grains));
+    }
+    let lost = (momentum(&grains) - momentum(&lump)).length() / moved;
+    // What a liquid loses at its surface, where faces have matter on one side.
+    assert!(lost < 0.01, "{lost} of what moved");
+    assert!(energy(&grains) < 0.8 * energy(&water), "friction took nothing");
+}
+
+#[test]
+fn grains_go_on_to_the_bit_from_what_was_kept() {
+    let ((walls, mut straight_on), mut predictor) = (slab(), Predictor::default());
+    (0..10).for_each(|_| go_on(&mut predictor, &mut straight_on, &walls, tilted(35.0), ANGLE));
+    let (mut again, mut forgetful) = (straight_on.clone(), straight_on.clone());
+    let mut resumed = Predictor::resume(predictor.kept());
+    assert_eq!(resumed.kept(), predictor.kept());
+    go_on(&mut predictor, &mut straight_on, &walls, tilted(35.0), ANGLE);
+    go_on(&mut resumed, &mut again, &walls, tilted(35.0), ANGLE);
+    assert_eq!([&again.vx, &again.vy], [&straight_on.vx, &straight_on.vy]);
+    go_on(&mut Predictor::default(), &mut forgetful, &walls, tilted(35.0), ANGLE);
+    assert_ne!(forgetful.vx, straight_on.vx, "nothing was to be kept");
+}
+
+#[test]
+fn what_sleeps_wakes_with_its_stress() {
+    // Two slabs; one of them is not there for a while.
+    let walls = solids(240, 30, |_| false);
+    let place = |at: Vec2| ((10.0..110.0).contains(&at.x) || (130.0..230.0).contains(&at.x)) && at.y < 20.0;
+    let mut slabs = lattice(&walls, |at| place(at).then_some(Vec2::ZERO));
+    let mut predictor = Predictor::default();
+    (0..60).for_each(|_| go_on(&mut predictor, &mut slabs, &walls, tilted(15.0), ANGLE));
+    let all = slabs.clone();
+    slabs.retain(|slabs, i| slabs.x[i] < 120.0);
+    (0..30).for_each(|_| go_on(&mut predictor, &mut slabs, &walls, tilted(15.0), ANGLE));
+    let fastest = |predictor: &mut Predictor| {
+        let mut slabs = all.clone();
+        go_on(predictor, &mut slabs, &walls, tilted(15.0), ANGLE);
+        let inside = (0..slabs.len()).filter(|i| (170.0..190.0).contains(&slabs.x[*i]) && slabs.y[*i] < 15.0);
+        inside.map(|i| slabs.velocity(i).length()).fold(0.0, f32::max)
+    };
+    let mut without_stress = predictor.kept();
+    without_stress.grains.clear();
+    let anew = fastest(&mut Predictor::resume(without_stress));
+    let woken = fastest(&mut predictor);
+    // The pressure has to be found anew; what friction bears is not.
+    assert!(woken < 0.5 * anew, "{woken} d/s, {anew} d/s without it");
+}
+
+/// Heap of sand with slopes of 26.6° under water as heavy, or in air: its mean speed after a second.
+fn speed_of_a_heap(angle: f32, is_wet: bool) -> f32 {
+    let walls = solids(120, 60, |_| false);
+    let height = |x: f32| 0.5 * (50.0 - (x - 60.0).abs());
+    let mut heap = lattice(&walls, |at| (at.y < height(at.x) || is_wet && at.y < 50.0).then_some(Vec2::ZERO));
+    for i in 0..heap.len() {
+        heap.element[i] = ElementId(if heap.y[i] < height(heap.x[i]) { 1 } else { 2 });
+    }
+    let mut predictor = Predictor::default();
+    (0..60).for_each(|_| go_on(&mut predictor, &mut heap, &walls, Vec2::new(0.0, -GRAVITY), angle));
+    let speeds: Vec<f32> = (0..heap.len())
+        .filter(|i| heap.element[*i] == ElementId(1) && heap.y[*i] < height(heap.x[*i]) - 4.0)
+        .map(|i| heap.velocity(i).length())
+        .collect();
+    speeds.iter().sum::<f32>() / speeds.len() as f32
+}
+
+#[test]
+fn a_heap_less_steep_than_its_angle_stands_in_air_and_a_steeper_one_does_not() {
+    let [gentle, steep] = [34.0, 15.0].map(|angle| speed_of_a_heap(angle, false));
+    assert!(gentle < 0.05 && steep > 1.0, "{gentle} d/s at 34°, {steep} d/s at 15°");
+}
+
+#[test]
+fn the_water_between_grains_bears_its_share() {
+    // What weighs as much as the water is borne by it: nothing presses its grains together, and they are sheared as it is.
+    let walls = solids(160, 60, |_| false);
+    let is_sand = |at: Vec2| at.y < 20.0;
+    let mut pool = lattice(&walls, |at| (at.y < 50.0).then(|| Vec2::new(if at.y < 10.0 { 0.0 } else { 5.0 }, 0.0)));
+    for i in 0..pool.len() {
+        pool.element[i] = ElementId(if is_sand(pool.position(i)) { 1 } else { 2 });
+    }
+    let mut dry = pool.clone();
+    dry.retain(|dry, i| is_sand(dry.position(i)));
+    let shear = |mut pool: Particles| {
+        let before = pool.clone();
+        let mut predictor = Predictor::default();
+        // Water has come everywhere after some ticks.
+        for _ in 0..60 {
+            go_on(&mut predictor, &mut pool, &walls, Vec2::new(0.0, -GRAVITY), ANGLE);
+            (pool.vx, pool.vy) = (before.vx.clone(), before.vy.clone());
+        }
+        (0..5).for_each(|_| go_on(&mut predictor, &mut pool, &walls, Vec2::new(0.0, -GRAVITY), ANGLE));
+        let mean = |from: f32, to: f32| {
+            let own: Vec<f32> = (0..pool.len())
+                .filter(|i| (from..to).contains(&pool.y[*i]) && (pool.x[*i] - 80.0).abs() < 20.0)
+                .map(|i| pool.vx[i])
+                .collect();
+            own.iter().sum::<f32>() / own.len() as f32
+        };
+        mean(11.0, 15.0) - mean(5.0, 9.0)
+    };
+    let (wet, dry) = (shear(pool), shear(dry));
+    assert!(wet > 1.5 * dry, "sheared with {wet} d/s under water, with {dry} d/s in air");
+}
