@@ -11,7 +11,7 @@ use std::{collections::BTreeMap, sync::LazyLock};
 pub static CASES: LazyLock<Vec<GauntletCase>> =
     LazyLock::new(|| FILES.iter().flat_map(|(file, text)| read::<Kind>(file, text).cases()).collect());
 
-const FILES: [(&str, &str); 10] = [
+const FILES: [(&str, &str); 11] = [
     ("crowd", include_str!("../../../assets/gauntlet/crowd.ron")),
     ("depth", include_str!("../../../assets/gauntlet/depth.ron")),
     ("impact", include_str!("../../../assets/gauntlet/impact.ron")),
@@ -19,6 +19,7 @@ const FILES: [(&str, &str); 10] = [
     ("air", include_str!("../../../assets/gauntlet/air.ron")),
     ("matter", include_str!("../../../assets/gauntlet/matter.ron")),
     ("layers", include_str!("../../../assets/gauntlet/layers.ron")),
+    ("grains", include_str!("../../../assets/gauntlet/grains.ron")),
     ("rock", include_str!("../../../assets/gauntlet/rock.ron")),
     ("ends", include_str!("../../../assets/gauntlet/ends.ron")),
     ("play", include_str!("../../../assets/gauntlet/play.ron")),

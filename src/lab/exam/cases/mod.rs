@@ -5,6 +5,7 @@ mod air;
 mod dam;
 mod falling;
 mod field;
+mod grains;
 mod layers;
 mod order;
 mod outflow;
@@ -20,6 +21,7 @@ pub(super) fn runs() -> impl Iterator<Item = &'static (&'static str, Run)> {
         dam::RUNS,
         falling::RUNS,
         field::RUNS,
+        grains::RUNS,
         layers::RUNS,
         order::RUNS,
         outflow::RUNS,

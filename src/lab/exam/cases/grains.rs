@@ -1,0 +1,180 @@
+//! Grains: the slopes of heaps, and what slides.
+
+use crate::lab::exam::{
+    finding::{Findings, Run, found},
+    set_up::{CaseSimulation, GRAVITY, SetUp},
+};
+
+pub(super) const RUNS: &[(&str, Run)] = &[
+    ("repose", |set_up| Box::pin(repose(set_up))),
+    ("collapse", |set_up| Box::pin(collapse(set_up))),
+    ("incline", |set_up| Box::pin(incline(set_up))),
+    ("submerged_heap", |set_up| Box::pin(submerged_heap(set_up))),
+];
+
+/// Angle of friction of the sand, degrees.
+fn angle(simulation: &CaseSimulation) -> f64 {
+    let elements = simulation.matter().elements;
+    elements.find("sand").map_or(f64::NAN, |sand| f64::from(elements.get(sand).friction))
+}
+
+/// Width of a column that is counted, m.
+const COLUMN: f64 = 0.4;
+
+/// Depth of the sand in columns from the left wall on, m: what it takes up at its own density.
+fn depths(simulation: &CaseSimulation) -> Vec<f64> {
+    let d = simulation.spacing();
+    let mut depths = Vec::new();
+    for x in &simulation.particles().x {
+        let column = (f64::from(*x) * d / COLUMN) as usize;
+        if depths.len() <= column {
+            depths.resize(column + 1, 0.0);
+        }
+        depths[column] += d * d / COLUMN;
+    }
+    depths
+}
+
+/// Slope of the sand to one side of its top, degrees, by the columns of 20 to 85 % of its height: not the top, which is round,
+/// and not the foot, where grains lie about.
+fn slope(depths: &[f64], top: usize, side: impl Fn(usize) -> bool) -> f64 {
+    let among = |depth: f64| (0.2 * depths[top]..0.85 * depths[top]).contains(&depth);
+    let points: Vec<_> = (0..depths.len())
+        .filter(|column| side(*column) && among(depths[*column]))
+        .map(|column| (column as f64 * COLUMN, depths[column]))
+        .collect();
+    let count = points.len() as f64;
+    let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / count, y + point.1 / count));
+    let (across, along) = points.iter().fold((0.0, 0.0), |(across, along), point| {
+        (across + (point.0 - x) * (point.1 - y), along + (point.0 - x).powi(2))
+    });
+    (across / along).atan().to_degrees().abs()
+}
+
+/// Places of the particles in the order of their ids, m.
+fn places(simulation: &CaseSimulation) -> Vec<[f64; 2]> {
+    let (particles, d) = (simulation.particles(), simulation.spacing());
+    let mut order: Vec<usize> = (0..particles.len()).collect();
+    order.sort_by_key(|i| particles.id[*i]);
+    order.into_iter().map(|i| [particles.x[i], particles.y[i]].map(|at| f64::from(at) * d)).collect()
+}
+
+/// Mean way between two times, m.
+fn mean_way(before: &[[f64; 2]], after: &[[f64; 2]]) -> f64 {
+    let ways = before.iter().zip(after).map(|(from, to)| (to[0] - from[0]).hypot(to[1] - from[1]));
+    ways.sum::<f64>() / before.len() as f64
+}
+
+/// Grains of the heaps.
+const HEAPS: [(f64, [&str; 4]); 2] = [
+    (
+        1500.0,
+        [
+            "slope to the left, 1,500 grains",
+            "slope to the right, 1,500 grains",
+            "creep, 1,500 grains",
+            "fastest, 1,500 grains",
+        ],
+    ),
+    (
+        6000.0,
+        [
+            "slope to the left, 6,000 grains",
+            "slope to the right, 6,000 grains",
+            "creep, 6,000 grains",
+            "fastest, 6,000 grains",
+        ],
+    ),
+];
+
+async fn repose(set_up: SetUp) -> Findings {
+    let mut findings = Vec::new();
+    for (grains, [left, right, creep, fastest]) in HEAPS {
+        let mut simulation = set_up.open("repose", &[("grains", grains)])?;
+        simulation.run(grains / 150.0 + 40.0).await;
+        let before = places(&simulation);
+        simulation.run(10.0).await;
+        let depths = depths(&simulation);
+        let top = (0..depths.len()).max_by(|a, b| depths[*a].total_cmp(&depths[*b])).unwrap_or(0);
+        let known = angle(&simulation);
+        findings.push(found(left, known, slope(&depths, top, |column| column < top)));
+        findings.push(found(right, known, slope(&depths, top, |column| column > top)));
+        findings.push(found(creep, 0.0, 6.0 * mean_way(&before, &places(&simulation))));
+        let particles = simulation.particles();
+        let speeds = particles.vx.iter().zip(&particles.vy).map(|(vx, vy)| f64::from(vx.hypot(*vy)));
+        findings.push(found(fastest, 0.0, speeds.fold(0.0, f64::max) * simulation.spacing()));
+    }
+    Ok(findings)
+}
+
+/// Length of the columns, m.
+const LENGTH: f64 = 8.0;
+
+/// The columns' heights over their lengths.
+const COLUMNS: [(f64, [&str; 2]); 3] = [
+    (1.0, ["height, as high as long", "run-out, as high as long"]),
+    (2.0, ["height, twice as high", "run-out, twice as high"]),
+    (4.0, ["height, four times as high", "run-out, four times as high"]),
+];
+
+async fn collapse(set_up: SetUp) -> Findings {
+    let mut findings = Vec::new();
+    for (aspect, [height, front]) in COLUMNS {
+        let mut simulation = set_up.open("collapse", &[("aspect", aspect)])?;
+        simulation.run(15.0).await;
+        let depths = depths(&simulation);
+        let law: f64 = if aspect < 0.7 { aspect } else { aspect.cbrt() };
+        findings.push(found(height, law * LENGTH, 0.5 * (depths[0] + depths[1])));
+        let law = if aspect < 3.0 { 1.2 * aspect } else { 1.9 * aspect.powf(2.0 / 3.0) };
+        let last = depths.iter().rposition(|depth| *depth > 0.25).unwrap_or(0);
+        findings.push(found(front, law * LENGTH, (last + 1) as f64 * COLUMN - LENGTH));
+    }
+    Ok(findings)
+}
+
+/// Mean speed along the floor of the grains within 4 m of the middle one, m/s.
+fn speed_of_the_middle(simulation: &CaseSimulation) -> f64 {
+    let (particles, d) = (simulation.particles(), simulation.spacing());
+    let mut places: Vec<f32> = particles.x.clone();
+    places.sort_by(f32::total_cmp);
+    let middle = places[places.len() / 2];
+    let near = |i: &usize| f64::from((particles.x[*i] - middle).abs()) * d < 4.0;
+    let speeds: Vec<f64> = (0..particles.len()).filter(near).map(|i| f64::from(particles.vx[i]) * d).collect();
+    speeds.iter().sum::<f64>() / speeds.len() as f64
+}
+
+async fn incline(set_up: SetUp) -> Findings {
+    let mut findings = Vec::new();
+    let angle = angle(&set_up.open("incline", &[])?);
+    for (more, name) in
+        [(-2.0, "acceleration, 2° less steep"), (2.0, "acceleration, 2° steeper"), (6.0, "acceleration, 6° steeper")]
+    {
+        let (sine, cosine) = f64::to_radians(angle + more).sin_cos();
+        let gravity = [("along", GRAVITY * sine), ("onto", GRAVITY * cosine)];
+        let mut simulation = set_up.open("incline", &gravity)?;
+        simulation.run(1.0).await;
+        let before = speed_of_the_middle(&simulation);
+        simulation.run(0.5).await;
+        let known = if more < 0.0 { 0.0 } else { GRAVITY * (sine - angle.to_radians().sin() * cosine) };
+        findings.push(found(name, known, (speed_of_the_middle(&simulation) - before) / 0.5));
+    }
+    Ok(findings)
+}
+
+async fn submerged_heap(set_up: SetUp) -> Findings {
+    let mut simulation = set_up.open("submerged", &[])?;
+    let sand = simulation.matter().elements.find("sand");
+    let grains: Vec<bool> = {
+        let particles = simulation.particles();
+        let mut order: Vec<usize> = (0..particles.len()).collect();
+        order.sort_by_key(|i| particles.id[*i]);
+        order.into_iter().map(|i| Some(particles.element[i]) == sand).collect()
+    };
+    let of_grains = |simulation: &CaseSimulation| -> Vec<[f64; 2]> {
+        places(simulation).into_iter().zip(&grains).filter(|(_, is_grain)| **is_grain).map(|(at, _)| at).collect()
+    };
+    simulation.run(10.0).await;
+    let before = of_grains(&simulation);
+    simulation.run(7.0).await;
+    Ok(vec![found("mean way of the grains in 7 s", 0.0, mean_way(&before, &of_grains(&simulation)))])
+}
