@@ -24,6 +24,7 @@ fn the_list_is_complete_and_starts_with_the_default() {
         "communicating_vessels",
         "dam_break",
         "empty",
+        "hourglass",
         "hydrostatic",
         "rest_density",
         "sealed_air",
