@@ -13,13 +13,14 @@ use crate::{
     predictor::{
         grains::{
             bed::{Bed, Touched},
-            fields::{Fields, Two, row, two},
+            fields::{Fields, row, two},
+            iteration::{Hold, Limit, Pull},
             limits::{FindLimits, FindPressures},
+            part::{Lighten, TakePart, is_still, lay_by},
             spread::Spread,
         },
         grid::MacGrid,
         level::WORTH_A_PIECE,
-        stencil::Axis,
         transfer::Faces,
     },
 };
@@ -27,12 +28,6 @@ use std::ops::Range;
 
 /// Iterations of a substep.
 const ITERATIONS: usize = 20;
-
-/// Least mass of a face, of a full one's: what is lighter would be moved at once by any stress.
-const LEAST_MASS: f32 = 0.25;
-
-/// Mass of a face in a bed, of one whose cells are full.
-const COMPACT: f32 = 1.08;
 
 /// Stress among grains. The buffers are kept.
 #[derive(Clone, Debug, Default)]
@@ -222,31 +217,6 @@ impl Friction {
     }
 }
 
-/// Finds what a stress moves faces by.
-struct Lighten<'a> {
-    bed: &'a Bed<'a>,
-    columns: Range<usize>,
-    faces: &'a Faces,
-}
-
-impl<'b> Sweep<Two<'b>> for Lighten<'_> {
-    #[inline(always)]
-    fn run(&self, rows: Range<usize>, (mut u, mut v): Two) {
-        let Self { bed, columns, faces } = self;
-        for (j, (u, v)) in rows.zip(u.each().zip(v.each())) {
-            for (axis, lightness, counts) in [(Axis::U, u, &faces.u), (Axis::V, v, &faces.v)] {
-                for column in columns.clone() {
-                    let k = bed.grid.row(j) + column;
-                    let is_moved = bed.is_touched(axis, k) && bed.open(axis, k) > 0.0;
-                    let mass = (COMPACT * counts[k][0] / bed.full).clamp(LEAST_MASS, 1.0);
-                    let density = faces.matter.as_ref().map_or(1.0, |matter| matter.of(axis)[k][1]);
-                    lightness[column] = if is_moved { density / mass } else { 0.0 };
-                }
-            }
-        }
-    }
-}
-
 /// Takes a divergence off the right-hand side of the pressure.
 struct Diverge<'a> {
     bed: &'a Bed<'a>,
@@ -269,176 +239,6 @@ impl Sweep<Rows<'_, f32>> for Diverge<'_> {
             for i in 0..n {
                 let along = open_right[i] * right[i] - open_left[i] * left[i];
                 out[i] -= liquid[i] * (along + (open_upper[i] * upper[i] - open_lower[i] * lower[i]));
-            }
-        }
-    }
-}
-
-/// Strain of a substep up to which grains are still, in g Δt a cell.
-const STILL: f32 = 0.1;
-
-/// Whether a strain (d/s a cell) is next to none.
-#[inline(always)]
-fn is_still(bed: &Bed, strain: f32) -> bool {
-    strain <= STILL * bed.kick.length()
-}
-
-/// Takes the stress of what takes no part any more, and lays it by if it was still: it may have fallen asleep. What moved is gone,
-/// and its stress would stir what comes there next.
-#[inline(always)]
-fn lay_by(stress: &mut f32, kept: &mut f32, is_still: bool) {
-    if *stress != 0.0 {
-        (*stress, *kept) = (0.0, if is_still { *stress } else { 0.0 });
-    }
-}
-
-/// Finds how far cells and corners step along the gradient, not at all those that take no part: these have no stress.
-struct TakePart<'a> {
-    bed: &'a Bed<'a>,
-    columns: Range<usize>,
-    lightness: &'a Fields,
-    strain: &'a Fields,
-}
-
-impl<'b> Sweep<((Two<'b>, Two<'b>), Two<'b>)> for TakePart<'_> {
-    #[inline(always)]
-    fn run(&self, rows: Range<usize>, ((stress, kept), (mut cells, mut corners)): ((Two, Two), Two)) {
-        let Self { bed, columns, lightness: [u, v], strain } = self;
-        let stride = bed.grid.stride;
-        let ((mut s, mut t), (mut kept_s, mut kept_t)) = (stress, kept);
-        let stress = s.each().zip(kept_s.each()).zip(t.each().zip(kept_t.each()));
-        for (j, (((s, kept_s), (t, kept_t)), (cells, corners))) in
-            rows.zip(stress.zip(cells.each().zip(corners.each())))
-        {
-            for column in columns.clone() {
-                let k = bed.grid.row(j) + column;
-                // Corners of which a face is neither moved nor closed are beside the air: nothing is held there.
-                let is_held = |axis, k, lightness: f32| lightness > 0.0 || bed.open(axis, k) == 0.0;
-                let around = u[k] + u[k - stride] + v[k] + v[k - 1];
-                let takes_part = around > 0.0
-                    && is_held(Axis::U, k, u[k])
-                    && is_held(Axis::U, k - stride, u[k - stride])
-                    && is_held(Axis::V, k, v[k])
-                    && is_held(Axis::V, k - 1, v[k - 1]);
-                corners[column] = if takes_part { 0.5 / around } else { 0.0 };
-                let around = u[k] + u[k + 1] + v[k] + v[k + stride];
-                cells[column] = if bed.is_liquid(k) && around > 0.0 { 0.5 / around } else { 0.0 };
-                let fields = [(cells[column], &mut *s, &mut *kept_s), (corners[column], &mut *t, &mut *kept_t)];
-                for ((step, stress, kept), strain) in fields.into_iter().zip(strain.iter()) {
-                    let (stress, kept) = (&mut stress[column], &mut kept[column]);
-                    if step == 0.0 {
-                        lay_by(stress, kept, is_still(bed, strain[k]));
-                    } else if *kept != 0.0 {
-                        (*stress, *kept) = (*kept, 0.0);
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// Velocities under the stress that the last two lead to.
-struct Hold<'a> {
-    bed: &'a Bed<'a>,
-    columns: Range<usize>,
-    stress: &'a Fields,
-    before: &'a Fields,
-    further: f32,
-    lightness: &'a Fields,
-    /// Velocities without it; 0 if there are none.
-    flow: [&'a [f32]; 2],
-}
-
-impl<'b> Sweep<Two<'b>> for Hold<'_> {
-    #[inline(always)]
-    fn run(&self, rows: Range<usize>, (mut u, mut v): Two) {
-        let Self { bed, columns, stress: [s, t], before: [s0, t0], further, lightness, flow } = self;
-        let (n, stride, further) = (columns.len(), bed.grid.stride, *further);
-        for (j, (u, v)) in rows.zip(u.each().zip(v.each())) {
-            let k = bed.grid.row(j) + columns.start;
-            let (u, v) = (&mut u[columns.clone()], &mut v[columns.clone()]);
-            let (light_u, light_v) = (row(&lightness[0], k, n), row(&lightness[1], k, n));
-            let [s_own, s_left, s_lower] = [k, k - 1, k - stride].map(|at| (row(s, at, n), row(s0, at, n)));
-            let [t_own, t_upper, t_right] = [k, k + stride, k + 1].map(|at| (row(t, at, n), row(t0, at, n)));
-            let ahead = |(now, before): (&[f32], &[f32]), i: usize| now[i] + further * (now[i] - before[i]);
-            for i in 0..n {
-                let (s, t) = (ahead(s_own, i), ahead(t_own, i));
-                u[i] = light_u[i] * ((s - ahead(s_left, i)) + (ahead(t_upper, i) - t));
-                v[i] = light_v[i] * ((ahead(s_lower, i) - s) + (ahead(t_right, i) - t));
-            }
-            if flow[0].is_empty() {
-                continue;
-            }
-            for (out, flow) in [(u, flow[0]), (v, flow[1])] {
-                out.iter_mut().zip(row(flow, k, n)).for_each(|(out, flow)| *out += flow);
-            }
-        }
-    }
-}
-
-/// A step along the gradient.
-struct Pull<'a> {
-    bed: &'a Bed<'a>,
-    columns: Range<usize>,
-    stress: &'a Fields,
-    before: &'a Fields,
-    further: f32,
-    step: &'a Fields,
-    held: &'a Fields,
-}
-
-impl<'b> Sweep<Two<'b>> for Pull<'_> {
-    #[inline(always)]
-    fn run(&self, rows: Range<usize>, (mut s, mut t): Two) {
-        let Self { bed, columns, stress, before, further, step, held: [u, v] } = self;
-        let (n, stride, further) = (columns.len(), bed.grid.stride, *further);
-        for (j, (s, t)) in rows.zip(s.each().zip(t.each())) {
-            let k = bed.grid.row(j) + columns.start;
-            let (s, t) = (&mut s[columns.clone()], &mut t[columns.clone()]);
-            let [now, last, step] = [stress, before, step].map(|[s, t]| (row(s, k, n), row(t, k, n)));
-            let [u_own, u_right, u_lower] = [k, k + 1, k - stride].map(|at| row(u, at, n));
-            let [v_own, v_upper, v_left] = [k, k + stride, k - 1].map(|at| row(v, at, n));
-            for i in 0..n {
-                let ahead = now.0[i] + further * (now.0[i] - last.0[i]);
-                s[i] = ahead + step.0[i] * ((u_right[i] - u_own[i]) - (v_upper[i] - v_own[i]));
-                let ahead = now.1[i] + further * (now.1[i] - last.1[i]);
-                t[i] = ahead + step.1[i] * ((u_own[i] - u_lower[i]) + (v_own[i] - v_left[i]));
-            }
-        }
-    }
-}
-
-/// Back into the cone √(S² + T²) ≤ limit, with the mean square of the other component from around.
-struct Limit<'a> {
-    bed: &'a Bed<'a>,
-    columns: Range<usize>,
-    ahead: &'a Fields,
-    limit: &'a Fields,
-    inner: &'a [f32],
-}
-
-/// Least square of a stress that a share is taken of.
-const LEAST_SQUARE: f32 = 1e-20;
-
-impl<'b> Sweep<Two<'b>> for Limit<'_> {
-    #[inline(always)]
-    fn run(&self, rows: Range<usize>, (mut s, mut t): Two) {
-        let Self { bed, columns, ahead: [from_s, from_t], limit, inner } = self;
-        let (n, stride) = (columns.len(), bed.grid.stride);
-        for (j, (s, t)) in rows.zip(s.each().zip(t.each())) {
-            let k = bed.grid.row(j) + columns.start;
-            let (s, t) = (&mut s[columns.clone()], &mut t[columns.clone()]);
-            let (of_cells, of_corners, inner) = (row(&limit[0], k, n), row(&limit[1], k, n), row(inner, k, n));
-            let [a, left, lower, lower_left] = [k, k - 1, k - stride, k - stride - 1].map(|at| row(from_s, at, n));
-            let [b, right, upper, upper_right] = [k, k + 1, k + stride, k + stride + 1].map(|at| row(from_t, at, n));
-            for i in 0..n {
-                let square = |field: &[f32]| field[i] * field[i];
-                let corners = 0.25 * ((square(b) + square(right)) + (square(upper) + square(upper_right)));
-                let cells = 0.25 * ((square(a) + square(left)) + (square(lower) + square(lower_left)));
-                let share_s = of_cells[i] / (square(a) + corners + LEAST_SQUARE).sqrt();
-                let share_t = of_corners[i] / (square(b) + inner[i] * cells + LEAST_SQUARE).sqrt();
-                s[i] = a[i] * if share_s < 1.0 { share_s } else { 1.0 };
-                t[i] = b[i] * if share_t < 1.0 { share_t } else { 1.0 };
             }
         }
     }

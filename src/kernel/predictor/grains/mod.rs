@@ -3,7 +3,9 @@
 mod bed;
 mod fields;
 mod friction;
+mod iteration;
 mod limits;
+mod part;
 mod pore;
 mod spread;
 mod ways;
@@ -41,6 +43,8 @@ pub(super) struct Grains {
     uneven: Vec<f32>,
     friction: Friction,
     pore: Pore,
+    /// Particles of each element.
+    counts: Vec<u32>,
     /// Density of the liquids, as a share of the heaviest, if there are any.
     liquids: Option<f32>,
     /// What grains near a face are drawn to.
@@ -58,8 +62,11 @@ impl Grains {
         of: &[f32],
         masses: Option<&[f32]>,
     ) {
-        let Self { sines, is_grain, faces, liquids, .. } = self;
-        *liquids = mean_density_of_liquids(elements, of, masses);
+        let Self { sines, is_grain, faces, counts, liquids, .. } = self;
+        counts.clear();
+        counts.resize(of.len(), 0);
+        elements.iter().for_each(|element| counts[element.index()] += 1);
+        *liquids = mean_density_of_liquids(counts, of, masses);
         sines.clear();
         sines.extend(elements.iter().map(|element| of[element.index()]));
         is_grain.clear();
@@ -135,9 +142,7 @@ impl Grains {
 }
 
 /// Mean density of all that is no grain, as a share of the heaviest; none if all are grains.
-fn mean_density_of_liquids(elements: &[ElementId], sines: &[f32], masses: Option<&[f32]>) -> Option<f32> {
-    let mut counts = vec![0_u32; sines.len()];
-    elements.iter().for_each(|element| counts[element.index()] += 1);
+fn mean_density_of_liquids(counts: &[u32], sines: &[f32], masses: Option<&[f32]>) -> Option<f32> {
     let liquids = counts.iter().enumerate().filter(|(element, count)| sines[*element] == 0.0 && **count > 0);
     let [mass, count] = liquids.fold([0.0, 0.0], |[mass, sum], (element, count)| {
         let count = *count as f32;
