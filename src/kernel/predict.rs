@@ -262,6 +262,28 @@ mod tests {
     }
 
     #[test]
+    fn a_grain_slides_on_the_floor_as_far_as_coulomb_has_it_and_a_drop_without_end() {
+        let (dt, gravity, speed) = (TICK_SECONDS, 98.1, 60.0);
+        let domain = Domain { size: Vec2::new(400.0, 10.0), gravity: Vec2::new(0.0, -gravity) };
+        let (solids, quality, sine) = (Solids::new(400, 10), Preset::Balanced.quality(), 0.5_f32);
+        let mut particles = Particles::default();
+        for element in [0, 1] {
+            particles.push(element.into(), ElementId(element), Vec2::new(10.0, WALL_GAP), Vec2::new(speed, 0.0));
+        }
+        for _ in 0..120 {
+            particles.vy.iter_mut().for_each(|vy| *vy -= gravity * dt);
+            let around = (&solids, &domain);
+            predict(&mut particles, InstructionSet::Baseline, around, &quality, Some(&[0.0, sine]), 1, dt);
+        }
+        assert!((particles.vx[0] - speed).abs() < 1e-4 && particles.vx[1] == 0.0, "{:?} d/s", particles.vx);
+        // v²/(2 μ g), less half of the first step: it is slower from the first step's start on.
+        let friction = sine / (1.0 - sine * sine).sqrt();
+        let expected = speed * speed / (2.0 * friction * gravity) - 0.5 * speed * dt;
+        let way = particles.x[1] - 10.0;
+        assert!((way - expected).abs() < 0.02 * expected, "{way} d, {expected} expected");
+    }
+
+    #[test]
     fn crowded_matter_takes_fewer_substeps() {
         let quality = Preset::Balanced.quality();
         let domain = Domain { size: Vec2::splat(1000.0), gravity: Vec2::ZERO };
