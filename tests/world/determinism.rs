@@ -114,10 +114,11 @@ fn the_same_inputs_give_the_same_world_and_others_another() {
 
 /// The standard scenes. Those that have a size get one at which threads share particles or air, if that is not theirs
 /// by default; the others run as they are played.
-const STANDARD: [(&str, &[(&str, &str)]); 8] = [
+const STANDARD: [(&str, &[(&str, &str)]); 9] = [
     ("communicating_vessels", &[("left", "6.5"), ("right", "6")]),
     ("dam_break", &[]),
     ("empty", &[("columns", "1200"), ("rows", "640")]),
+    ("hourglass", &[]),
     ("hydrostatic", &[("columns", "100"), ("depth", "64")]),
     ("rest_density", &[]),
     ("sealed_air", &[]),
