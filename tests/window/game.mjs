@@ -77,7 +77,10 @@ export async function open(program, display, folder, scene = ['empty']) {
       if (middle(now).join() === at.join()) break;
       at = middle(now);
     }
-    await x('mousedown', 1, 'mouseup', 1);
+    // A finger stays down for a frame or two: what moves in the same frame is not pressed.
+    await x('mousedown', 1);
+    await settle();
+    await x('mouseup', 1);
   }
 
   // Holds a button and goes round along the points until the game says that it is enough.
