@@ -31,7 +31,7 @@ fn stages(criterion: &mut Criterion) {
         viscosity: vec![0.02],
         vorticity: vec![0.0],
         mass: vec![1000.0],
-        friction: vec![0.0],
+        ..ElementParams::default()
     };
     group.bench_function("gravity", |b| {
         stage(b, Tank::new(best), |tank| forces::begin_kick(Vec2::new(0.0, -1e-6), &mut tank.particles, 1, SUBSTEP));

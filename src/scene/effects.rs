@@ -181,6 +181,11 @@ impl Facts<'_> {
         counted.any(|((_, element), &count)| count > 0 && !element.fixed && property(element))
     }
 
+    /// Whether grains are there.
+    pub fn has_grains(&self) -> bool {
+        self.present(|element| element.friction > 0.0)
+    }
+
     /// Densities of the lightest and of the heaviest movable particles that are there, kg/m², if they differ.
     pub fn densities(&self) -> Option<[f32; 2]> {
         let present = |((_, element), count): &((_, &Element), &u32)| **count > 0 && !element.fixed;
@@ -358,7 +363,7 @@ table! {
         off: "grains flow as a liquid does",
         wakes: true,
         called_for: |facts| {
-            if !facts.present(|element| element.friction > 0.0) {
+            if !facts.has_grains() {
                 (false, "no grains")
             } else {
                 verdict(facts.runs(Effect::Predictor), "grains are there", "the predictor does not run")

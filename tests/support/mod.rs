@@ -8,6 +8,7 @@ use powder_master::{
         particles::Particles,
         pbf::Solver,
         random,
+        simd::InstructionSet,
         solids::Solids,
     },
     scene::{
@@ -42,6 +43,24 @@ pub fn empty_box(columns: u32, rows: u32) -> Blueprint {
     blueprint.domain = Domain { size: Vec2::new(columns as f32, rows as f32), gravity: Vec2::ZERO };
     blueprint.solids = Solids::new(columns, rows);
     blueprint
+}
+
+/// Runs a start, large enough for threads to share its particles, on every instruction set and on several numbers of threads.
+///
+/// # Panics
+/// If a bit differs.
+pub fn assert_same_bits_everywhere(start: &Blueprint, ticks: u64) {
+    assert!(start.particles.len() >= 6_000, "below the sharing threshold nothing is shared");
+    let run =
+        |set, threads| Simulation::of(start.clone()).with_instructions(set).with_threads(threads).run(ticks).hash();
+    let best = InstructionSet::detect();
+    let first = run(best, 1);
+    for threads in [2, 3, 8] {
+        assert_eq!(run(best, threads), first, "{threads} threads");
+    }
+    for set in InstructionSet::available() {
+        assert_eq!(run(set, 1), first, "{set:?}");
+    }
 }
 
 /// What tests add to the start of a world by hand.

@@ -1,9 +1,9 @@
 //! Liquids that lie on one another.
 
-use crate::support::{Furnish, SimulationExt, empty_box};
+use crate::support::{Furnish, SimulationExt, assert_same_bits_everywhere, empty_box};
 use glam::Vec2;
 use powder_master::{
-    kernel::{element::ElementId, params::Preset, simd::InstructionSet},
+    kernel::{element::ElementId, params::Preset},
     scene::{
         blueprint::Blueprint,
         effects::{Effect, Mode},
@@ -87,20 +87,7 @@ fn a_heavy_layer_over_a_light_one_does_not_sleep() {
 
 #[test]
 fn layers_have_the_same_bits_on_every_instruction_set_and_number_of_threads() {
-    let run = |set, threads| {
-        let mut simulation =
-            Simulation::of(layers(["oil", "mercury"], 60, 55)).with_instructions(set).with_threads(threads);
-        assert!(simulation.particles().len() >= 6_000, "below the sharing threshold nothing is shared");
-        simulation.run(60).hash()
-    };
-    let best = InstructionSet::detect();
-    let first = run(best, 1);
-    for threads in [2, 3, 8] {
-        assert_eq!(run(best, threads), first, "{threads} threads");
-    }
-    for set in InstructionSet::available() {
-        assert_eq!(run(set, 1), first, "{set:?}");
-    }
+    assert_same_bits_everywhere(&layers(["oil", "mercury"], 60, 55), 60);
 }
 
 #[test]

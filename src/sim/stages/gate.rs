@@ -1,7 +1,7 @@
 //! Gathers the facts of a tick and lets the table of effects decide by them, and plans how many substeps it takes.
 
 use crate::{
-    kernel::{crowding::Crowding, element::ElementTable, predict, units::TICK_SECONDS},
+    kernel::{crowding::Crowding, predict, units::TICK_SECONDS},
     scene::effects::{Effect, Facts, Mode},
     sim::{
         effects::Effects,
@@ -52,14 +52,9 @@ pub(super) fn plan_tick(
         shares.extend(elements.mass.iter().map(|mass| mass / heaviest));
     }
     grains.clear();
-    if effects.acts(Effect::Friction) && any_grain(setup.elements(), &census.by_element) {
+    if facts.has_grains() && effects.acts(Effect::Friction) {
         grains.extend_from_slice(&elements.friction);
     }
-}
-
-/// Whether any grain is there.
-fn any_grain(elements: &ElementTable, counts: &[u32]) -> bool {
-    elements.iter().zip(counts).any(|((_, element), count)| *count > 0 && element.friction > 0.0)
 }
 
 /// Plans how many substeps the tick takes.

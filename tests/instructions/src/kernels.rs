@@ -37,7 +37,7 @@ pub fn run(name: &str, set: InstructionSet) -> bool {
         viscosity: vec![0.02],
         vorticity: vec![0.01],
         mass: vec![1000.0],
-        friction: vec![0.0],
+        ..ElementParams::default()
     };
     match name {
         "bin" => {

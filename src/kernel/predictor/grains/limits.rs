@@ -85,7 +85,8 @@ impl<'b> Sweep<((Rows<'b, f32>, Rows<'b, f32>), Rows<'b, f32>)> for FindLimits<'
         let Self { bed, columns, spread, pressed: [pressed, at_wall], along, strain, takes_part } = self;
         let (grid, stride) = (bed.grid, bed.grid.stride);
         let ended = AT_REST.1 * bed.kick.length();
-        let holds = |strain: f32| 1.0 + AT_REST.0 * (1.0 - strain / ended).clamp(0.0, 1.0);
+        // Without gravity nothing rests on anything.
+        let holds = |strain: f32| 1.0 + if strain < ended { AT_REST.0 * (1.0 - strain / ended) } else { 0.0 };
         for (j, ((cells, corners), inner)) in rows.zip(cells.each().zip(corners.each()).zip(inner.each())) {
             for column in columns.clone() {
                 let k = grid.row(j) + column;

@@ -123,6 +123,24 @@ fn friction_among_grains_keeps_their_momentum_and_takes_energy() {
 }
 
 #[test]
+fn what_nothing_presses_together_does_not_rub() {
+    // Weightless and sheared, with nothing around it.
+    let walls = solids(80, 80, |_| false);
+    let is_lump = |at: Vec2| (at - Vec2::splat(40.0)).length() < 15.0;
+    let mut sand = lattice(&walls, |at| is_lump(at).then(|| Vec2::new(0.0, 2.0 * (at.x - 40.0))));
+    let mut water = sand.clone();
+    water.element.fill(ElementId(2));
+    let gained = |lump: &mut Particles| {
+        let before = lump.clone();
+        go_on(&mut Predictor::default(), lump, &walls, Vec2::ZERO, ANGLE);
+        let changed = (0..lump.len()).map(|i| lump.velocity(i).distance(before.velocity(i)));
+        changed.sum::<f32>() / lump.len() as f32
+    };
+    let (sand, water) = (gained(&mut sand), gained(&mut water));
+    assert!(sand < water + 1.0, "sand changes by {sand} d/s, water by {water}");
+}
+
+#[test]
 fn grains_go_on_to_the_bit_from_what_was_kept() {
     let ((walls, mut straight_on), mut predictor) = (slab(), Predictor::default());
     (0..10).for_each(|_| go_on(&mut predictor, &mut straight_on, &walls, tilted(35.0), ANGLE));
