@@ -34,10 +34,10 @@ fn element(row: &Element) -> String {
     let [red, green, blue] = row.colour;
     let kind = if row.fixed { "fixed" } else { "movable" };
     let key = row.key.map_or_else(|| "none".to_owned(), String::from);
-    let Element { name, category, density, viscosity, vorticity, drag, .. } = row;
+    let numbers: String = row.numbers().iter().map(|number| format!(" {}={}", number.name, number.value)).collect();
+    let Element { name, category, card, .. } = row;
     format!(
-        "{name}\tcategory={} key={key} {kind} colour=#{red:02x}{green:02x}{blue:02x} density={density} viscosity={viscosity} \
-         vorticity={vorticity} drag={drag}",
+        "{name}\t{card}\tcategory={} key={key} {kind} colour=#{red:02x}{green:02x}{blue:02x}{numbers}",
         category.name()
     )
 }

@@ -1,7 +1,10 @@
 //! What a particle can be made of. The rows come from `assets/elements.ron`; the kernel only looks them up. What its
 //! passes read of them stands in [`ElementParams`].
 
-use crate::{params::named, units::Scale};
+use crate::{
+    params::named,
+    units::{Scale, TICK_SECONDS},
+};
 use serde::{Deserialize, Serialize};
 
 /// Row of an element in the [`ElementTable`]; a particle stores it in one byte.
@@ -45,16 +48,25 @@ pub struct Element {
     /// Density, kg/m²; 1 … 100 000. Weighs the particle in energy, momentum and drag, and
     /// where densities differ in pressure, contact and viscosity.
     pub density: f32,
-    /// XSPH viscosity c (Macklin & Müller 2013, eq. 17): share of the velocity difference to its neighbours that a
-    /// particle of the scene's own spacing gives up each tick, however many substeps that has; raising it makes the
-    /// liquid thicker. 0 … 0.5. It is a property of the liquid: its kinematic viscosity goes with c d², so a run of
-    /// another detail has its c times detail² and the same viscosity in m²/s, in as many passes as that takes (at most 16).
+    /// Kinematic viscosity ν, m²/s; raising it makes the liquid thicker. 0 … 10. In XSPH's c ([`Element::smoothing`]) that is
+    /// 3.2 ν Δt/d² for a tick of Δt, in as many passes as it takes; 16 do at most some 1.5 m²/s at d = 0.1 m and one substep
+    /// a tick, and what is beyond is cut and counted.
     #[serde(default)]
     pub viscosity: f32,
+    /// XSPH c that particles have beside their viscosity (Macklin & Müller 2013, eq. 17): share of the velocity difference to
+    /// its neighbours that a particle of the scene's own spacing gives up each tick, however many substeps that has; raising
+    /// it smooths the flow. 0 … 0.5. It belongs to the particles' size: a scene of smaller particles flows as
+    /// smoothly for their size. A run at another detail, which has the same liquid, has c times detail².
+    #[serde(default)]
+    pub smoothing: f32,
     /// Angle of friction φ among grains, degrees: the slope up to which a heap stands; raising it makes heaps steeper. 0 … 60;
     /// 0 of what is no powder.
     #[serde(default)]
     pub friction: f32,
+    /// Cohesion among grains, Pa: the shear stress that they bear without being pressed together; raising it lets steeper and
+    /// higher cliffs stand. 0 … 50 000; above 0 only with friction.
+    #[serde(default)]
+    pub cohesion: f32,
     /// Vorticity confinement ε (eq. 16), m/s² for each 1/s of vorticity, whatever the detail; raising it keeps eddies
     /// alive longer. 0 … 1.
     #[serde(default)]
@@ -67,6 +79,9 @@ pub struct Element {
     /// Share of the free sites under the brush that one tick of pouring fills. 0 < flow ≤ 1.
     #[serde(default = "one")]
     pub flow: f32,
+    /// What there is to know of it, in a sentence for players.
+    #[serde(default)]
+    pub card: String,
 }
 
 /// A number of an element and the range that it must be in.
@@ -84,12 +99,14 @@ pub struct ElementNumber {
 
 impl Element {
     /// All numbers of the row.
-    pub fn numbers(&self) -> [ElementNumber; 6] {
+    pub fn numbers(&self) -> [ElementNumber; 8] {
         let number = |name, value, min, max| ElementNumber { name, value, min, max };
         [
             number("density", self.density, 1.0, 100_000.0),
-            number("viscosity", self.viscosity, 0.0, 0.5),
+            number("viscosity", self.viscosity, 0.0, 10.0),
+            number("smoothing", self.smoothing, 0.0, 0.5),
             number("friction", self.friction, 0.0, 60.0),
+            number("cohesion", self.cohesion, 0.0, 50_000.0),
             number("vorticity", self.vorticity, 0.0, 1.0),
             number("drag", self.drag, 0.0, 1000.0),
             number("flow", self.flow, f32::MIN_POSITIVE, 1.0),
@@ -106,10 +123,13 @@ impl Element {
             fixed,
             density: 1000.0,
             viscosity: 0.0,
+            smoothing: 0.0,
             friction: 0.0,
+            cohesion: 0.0,
             vorticity: 0.0,
             drag: 0.0,
             flow: 1.0,
+            card: String::new(),
         }
     }
 }
@@ -172,6 +192,8 @@ pub struct ElementParams {
     pub viscosity: Vec<f32>,
     /// sin φ of grains; 0 of what is none.
     pub friction: Vec<f32>,
+    /// Cohesion for its density, d²/s² a particle of its own mass: `c / (ρ d²)`.
+    pub cohesion: Vec<f32>,
     /// Vorticity confinement ε, d/s.
     pub vorticity: Vec<f32>,
 }
@@ -197,8 +219,12 @@ impl ElementParams {
         Self {
             drag: each(&|element| element.drag / (element.density * scale.spacing * scale.particles_per_own())),
             mass: each(&|element| element.density),
-            viscosity: each(&|element| element.viscosity * scale.particles_per_own()),
+            viscosity: each(&|element| {
+                let share = 3.2 * element.viscosity * TICK_SECONDS / (scale.spacing * scale.spacing);
+                share + element.smoothing * scale.particles_per_own()
+            }),
             friction: each(&|element| sine(element.friction)),
+            cohesion: each(&|element| element.cohesion / (element.density * scale.spacing * scale.spacing)),
             vorticity: each(&|element| scale.to_kernel(element.vorticity)),
         }
     }

@@ -9,7 +9,7 @@ use serde::{Serialize, de::DeserializeOwned};
 
 /// Version of the format of save files and of recordings. Columns, effects and knobs that are added raise it by themselves;
 /// raise the first number when anything else that they hold changes. Old files are refused, not misread.
-pub(super) const VERSION: u16 = 600 + (Particles::COLUMNS.len() + Effect::ALL.len() + KNOBS.len()) as u16;
+pub(super) const VERSION: u16 = 700 + (Particles::COLUMNS.len() + Effect::ALL.len() + KNOBS.len()) as u16;
 
 /// Why a file is not taken, in one line. The text is what kind of file it is.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -49,7 +49,7 @@ pub fn empty_box(columns: u32, rows: u32) -> Blueprint {
 ///
 /// # Panics
 /// If a bit differs.
-pub fn assert_same_bits_everywhere(start: &Blueprint, ticks: u64) {
+pub fn assert_same_bits_everywhere(start: &Blueprint, ticks: u32) {
     assert!(start.particles.len() >= 6_000, "below the sharing threshold nothing is shared");
     let run =
         |set, threads| Simulation::of(start.clone()).with_instructions(set).with_threads(threads).run(ticks).hash();
