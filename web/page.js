@@ -278,6 +278,7 @@ async function main() {
     },
     // What comes from the game is a view of its memory, which others can't share.
     keep: (path, bytes, written) => void tellKept(game, path, keep(path, bytes.slice(), written)),
+    replace: (path, bytes, written) => void tellKept(game, path, keep(path, bytes.slice(), written, true)),
     download(name, bytes) {
       const url = URL.createObjectURL(new Blob([bytes.slice()]));
       Object.assign(document.createElement('a'), { href: url, download: name }).click();

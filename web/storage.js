@@ -43,8 +43,9 @@ function free(path, taken) {
   return name;
 }
 
-// Keeps a new file, or throws; says under which name, for another page may have taken this one.
-export async function keep(path, bytes, written) {
+// Keeps a file, or throws; says under which name. A new one gets a name of its own, for another page may have taken this one;
+// `instead` puts it in the place of what is there.
+export async function keep(path, bytes, written, instead = false) {
   // Else the browser may clear it away when space runs out.
   navigator.storage?.persist?.().catch(() => {});
   const transaction = (await open()).transaction(STORE, 'readwrite');
@@ -55,8 +56,8 @@ export async function keep(path, bytes, written) {
   });
   const write = async () => {
     const store = transaction.objectStore(STORE);
-    const name = free(path, await request(store.getAllKeys()));
-    await request(store.add({ path: name, bytes, written }));
+    const name = instead ? path : free(path, await request(store.getAllKeys()));
+    await request(store.put({ path: name, bytes, written }));
     return name;
   };
   const [name] = await Promise.all([write(), done]);

@@ -9,7 +9,7 @@ pub enum Action {
     Hold(Gesture),
     /// Chooses the element under the pointer.
     Sample,
-    /// Chooses the element with this digit.
+    /// Chooses the element on this digit; while the pointer is over an element's tile, puts that element there.
     Element(char),
     /// Chooses a tool that is not an element.
     Tool(Tool),

@@ -56,6 +56,10 @@ mod browser {
         /// Keeps a file in the browser's own storage. That it could not, or calls it otherwise, is told later (`web::hook`).
         fn keep(path: &str, bytes: &[u8], written: f64);
 
+        /// The same in place of the file that has this name.
+        #[wasm_bindgen(js_name = replace)]
+        fn keep_instead(path: &str, bytes: &[u8], written: f64);
+
         /// Gives the player a file, as a download.
         fn download(name: &str, bytes: &[u8]);
     }
@@ -91,10 +95,19 @@ mod browser {
         files().get(path).map(|(bytes, _)| bytes.clone()).ok_or_else(|| io::ErrorKind::NotFound.into())
     }
 
-    /// Writes a file.
+    /// Writes a new file.
     pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
+        write_by(keep, path, bytes)
+    }
+
+    /// Writes a file in place of what was there.
+    pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+        write_by(keep_instead, path, bytes)
+    }
+
+    fn write_by(host: fn(&str, &[u8], f64), path: &Path, bytes: &[u8]) -> io::Result<()> {
         let written = js_sys::Date::now();
-        keep(&path.to_string_lossy(), bytes, written);
+        host(&path.to_string_lossy(), bytes, written);
         files().insert(path.to_owned(), (bytes.to_vec(), time(written)));
         Ok(())
     }
@@ -123,6 +136,6 @@ mod browser {
 }
 
 #[cfg(target_arch = "wasm32")]
-pub use browser::{exists, give, list, now, read, rename, write};
+pub use browser::{exists, give, list, now, read, rename, replace, write};
 #[cfg(not(target_arch = "wasm32"))]
-pub use native::{exists, give, list, now, read, write};
+pub use native::{exists, give, list, now, read, write, write as replace};

@@ -4,13 +4,14 @@ use crate::{
     game::{
         actions::Action,
         camera::WorldCamera,
+        favourites::{self, Favourites},
         follow,
         frame::SPEED_RANGE,
         history::{self, History},
         hud::panels::details,
         input::{
             bindings::Bindings,
-            pointer::{Pointer, ZOOM_STEP},
+            pointer::{HudCover, Pointer, ZOOM_STEP},
         },
         orders::{Order, Orders},
         panels::Panels,
@@ -137,7 +138,7 @@ fn act(world: &mut World, action: Action) {
         Action::Hold(_) | Action::Pan(..) => {}
         Action::Sample => sample(world),
         Action::Tool(tool) => take_up(world, tool),
-        Action::Element(digit) => take_up_element(world, digit),
+        Action::Element(digit) => use_digit(world, digit),
         Action::Brush(steps) => world.resource_mut::<Toolbox>().grow(steps),
         Action::BrushShape => world.resource_mut::<Toolbox>().turn_shape(),
         Action::Pause | Action::Step | Action::Speed(_) => keep_time(&mut world.resource_mut(), action),
@@ -201,13 +202,15 @@ fn take_up(world: &mut World, tool: Tool) {
     }
 }
 
-fn take_up_element(world: &mut World, digit: char) {
-    let element = world.get_resource::<Setup>().and_then(|setup| {
-        let mut elements = setup.elements().iter();
-        elements.find(|(_, element)| element.key == Some(digit)).map(|(id, _)| id)
-    });
-    if let Some(element) = element {
-        world.resource_mut::<Toolbox>().tool = Tool::Element(element);
+/// Takes up the element on a digit; or puts the one there at whose tile the pointer is, if that is another.
+fn use_digit(world: &mut World, digit: char) {
+    let Some(setup) = world.get_resource::<Setup>() else { return };
+    let element = world.resource::<Favourites>().element(digit, setup.elements());
+    let here = element.map(|id| &setup.elements().get(id).name);
+    match (world.resource::<HudCover>().element.clone(), element) {
+        (Some(pointed), _) if here != Some(&pointed) => favourites::put(world, digit, &pointed),
+        (_, Some(element)) => world.resource_mut::<Toolbox>().tool = Tool::Element(element),
+        _ => {}
     }
 }
 

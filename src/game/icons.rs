@@ -118,6 +118,32 @@ pub fn stone(pen: &Pen<'_>) {
     pen.fill_in(dark, &[(0.54, 0.46), (0.74, 0.28), (0.92, 0.6), (0.84, 0.8), (0.6, 0.81)]);
 }
 
+/// A heap of grains, as steep as dry sand stands: 34°. It is so flat that it takes all the width, and a bit more.
+pub fn heap(pen: &Pen<'_>) {
+    pen.fill(&[(-0.06, 0.86), (0.5, 0.48), (1.06, 0.86)]);
+    for (x, y) in [(0.5, 0.5), (0.35, 0.6), (0.65, 0.6), (0.2, 0.7), (0.8, 0.7), (0.06, 0.8), (0.94, 0.8)] {
+        pen.disc(x, y, 0.085);
+    }
+    pen.disc(0.47, 0.12, 0.065);
+    pen.disc(0.55, 0.28, 0.065);
+    let light = pen.colour.lerp_to_gamma(Color32::WHITE, 0.4);
+    let dark = pen.colour.lerp_to_gamma(Color32::BLACK, 0.35);
+    for (colour, grains) in
+        [(light, [(0.47, 0.56), (0.27, 0.72), (0.62, 0.73)]), (dark, [(0.44, 0.73), (0.78, 0.76), (0.63, 0.6)])]
+    {
+        for (x, y) in grains {
+            pen.painter.circle_filled(pen.at(x, y), 0.065 * pen.side, colour);
+        }
+    }
+}
+
+/// All there is: dots in rows.
+pub fn all(pen: &Pen<'_>) {
+    for (row, column) in (0..9).map(|k| (k / 3, k % 3)) {
+        pen.disc(0.2 + 0.3 * column as f32, 0.2 + 0.3 * row as f32, 0.1);
+    }
+}
+
 /// Wind.
 pub fn wind(pen: &Pen<'_>) {
     for (y, end, radius) in [(0.34, 0.6, 0.13), (0.52, 0.74, 0.15), (0.7, 0.46, 0.11)] {

@@ -15,6 +15,7 @@ pub mod camera;
 pub mod crash;
 pub mod disk;
 pub mod execute;
+pub mod favourites;
 pub mod files;
 pub mod follow;
 pub mod frame;

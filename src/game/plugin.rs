@@ -2,8 +2,8 @@
 
 use crate::{
     game::{
-        camera, execute, follow, frame, history, hud, input, orders, panels, playback, recording, saves, split, toasts,
-        tools, views,
+        camera, execute, favourites, follow, frame, history, hud, input, orders, panels, playback, recording, saves,
+        split, toasts, tools, views,
     },
     kernel::units::TICKS_PER_SECOND,
     lab::{
@@ -42,6 +42,7 @@ impl Plugin for GamePlugin {
             .init_resource::<follow::Followed>()
             .init_resource::<history::History>()
             .init_resource::<saves::SaveFolders>()
+            .init_resource::<favourites::Favourites>()
             .init_resource::<frame::Tempo>()
             .init_resource::<panels::Panels>()
             .init_resource::<toasts::Toasts>()

@@ -1,5 +1,5 @@
-//! What the player works with: the one table of tools beside the elements, the chosen tool and the brush. Palette, search,
-//! touch bar, keys and help follow from the table.
+//! What the player works with: the one table of tools beside the elements, the chosen tool and the brush. Palette, panel of
+//! elements, touch bar, keys and help follow from the table.
 
 use crate::{
     game::icons::{self, Icon},
@@ -150,7 +150,24 @@ impl Tool {
         ids.chain(TOOLS.into_iter().map(Self::Other))
     }
 
+    /// Some of them under their headings: the elements' categories, and the tools last.
+    pub fn groups(elements: &ElementTable, some: &[Self]) -> Vec<(&'static str, Vec<Self>)> {
+        let category = |tool: &Self| match *tool {
+            Self::Element(id) => Some(elements.get(id).category),
+            Self::Other(_) => None,
+        };
+        let headings = Category::ALL.into_iter().map(|category| (category.name(), Some(category)));
+        let of = |heading| some.iter().copied().filter(|tool| category(tool) == heading).collect::<Vec<_>>();
+        let groups = headings.chain([("tools", None)]).map(|(title, heading)| (title, of(heading)));
+        groups.filter(|(_, of)| !of.is_empty()).collect()
+    }
+
     /// Name in the palette.
+    pub fn label(self, elements: &ElementTable) -> String {
+        spaced(self.name(elements))
+    }
+
+    /// Name in files and for scripts.
     pub fn name(self, elements: &ElementTable) -> &str {
         match self {
             Self::Element(id) => &elements.get(id).name,
@@ -163,7 +180,7 @@ impl Tool {
         match self {
             Self::Element(id) => {
                 let element = elements.get(id);
-                (if element.fixed { icons::stone } else { icons::droplet }, colour_of(element))
+                (icon_of(element.category), colour_of(element))
             }
             Self::Other(row) => (row.icon, PLAIN),
         }
@@ -212,6 +229,20 @@ impl Tool {
             Self::Element(element) => Some(Intent::Stamp { element, stroke }),
             Self::Other(row) => row.shape.map(|shape| shape(stroke)),
         }
+    }
+}
+
+/// A name on the screen: with spaces between its words.
+pub fn spaced(name: &str) -> String {
+    name.replace('_', " ")
+}
+
+/// The icon of the elements of a category.
+fn icon_of(category: Category) -> Icon {
+    match category {
+        Category::Solids => icons::stone,
+        Category::Powders => icons::heap,
+        Category::Liquids => icons::droplet,
     }
 }
 
@@ -314,6 +345,16 @@ mod tests {
         tools.set_radius(1.0);
         tools.tool = Tool::Other(&WIND);
         assert_eq!(tools.radius(), AIR_BRUSH);
+    }
+
+    #[test]
+    fn every_tool_stands_under_one_heading_and_those_that_are_no_elements_last() {
+        let elements = crate::scene::elements().expect("the table that comes with the game is valid");
+        let all: Vec<Tool> = Tool::all(&elements).collect();
+        let groups = Tool::groups(&elements, &all);
+        assert_eq!(groups.iter().flat_map(|(_, of)| of).copied().collect::<Vec<_>>(), all);
+        assert_eq!(groups.last().map(|(title, _)| *title), Some("tools"));
+        assert!(Tool::groups(&elements, &all[..1]).len() == 1, "a heading over nothing");
     }
 
     #[test]

@@ -4,9 +4,14 @@ use crate::game::{
     camera::Area,
     input::{keys::HudKeys, pointer::HudCover},
 };
-use bevy::prelude::{Query, ResMut, Result};
+use bevy::prelude::{Query, Res, ResMut, Result};
 use bevy_egui::{EguiContext, EguiContexts, EguiInput, egui};
 use glam::Vec2;
+
+/// Forgets what the pointer was over: the tiles that are shown say it anew.
+pub fn forget_element(mut cover: ResMut<HudCover>) {
+    cover.element = None;
+}
 
 /// Notes which parts of the window the HUD has.
 pub fn note_cover(mut cover: ResMut<HudCover>, mut contexts: EguiContexts) -> Result {
@@ -29,10 +34,15 @@ pub fn note_cover(mut cover: ResMut<HudCover>, mut contexts: EguiContexts) -> Re
 
 /// Keys belong to the game unless a text field has them; egui would move its focus with Tab and press what is focused
 /// with Space. What else is in focus has the arrows.
-pub fn keep_keys(mut contexts: Query<(&mut EguiContext, &mut EguiInput)>, mut hud: ResMut<HudKeys>) {
+pub fn keep_keys(
+    mut contexts: Query<(&mut EguiContext, &mut EguiInput)>,
+    cover: Res<HudCover>,
+    mut hud: ResMut<HudKeys>,
+) {
     for (mut context, mut input) in &mut contexts {
         let context = context.get_mut();
         *hud = match context.memory(|memory| memory.focused()) {
+            _ if context.text_edit_focused() && cover.element.is_some() => HudKeys::AllButDigits,
             _ if context.text_edit_focused() => HudKeys::All,
             Some(_) => HudKeys::Arrows,
             None => HudKeys::None,
@@ -42,10 +52,26 @@ pub fn keep_keys(mut contexts: Query<(&mut EguiContext, &mut EguiInput)>, mut hu
             egui::Event::Text(_) => false,
             _ => true,
         };
-        if *hud != HudKeys::All {
-            input.events.retain(is_kept);
+        match *hud {
+            HudKeys::All => {}
+            HudKeys::AllButDigits => drop_digits(&mut input.events),
+            HudKeys::None | HudKeys::Arrows => input.events.retain(is_kept),
         }
     }
+}
+
+/// Drops what the digit keys type. Keys are physical: what they type need not be a digit, and comes in the same frame.
+fn drop_digits(events: &mut Vec<egui::Event>) {
+    let is_digit = |key: egui::Key| key.name().len() == 1 && key.name().as_bytes()[0].is_ascii_digit();
+    let typed = events.iter().any(|event| match event {
+        egui::Event::Key { physical_key, pressed, .. } => *pressed && physical_key.is_some_and(is_digit),
+        _ => false,
+    });
+    events.retain(|event| match event {
+        egui::Event::Text(text) => !typed && !text.chars().all(|c| c.is_ascii_digit()),
+        egui::Event::Key { key, .. } => !is_digit(*key),
+        _ => true,
+    });
 }
 
 fn is_arrow(key: egui::Key) -> bool {

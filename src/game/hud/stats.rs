@@ -1,7 +1,7 @@
 //! The numbers in the upper left corner: read a few times a second, so that they can be read, and formatted only then.
 
 use crate::{
-    game::{frame::Tempo, hud::style},
+    game::{frame::Tempo, hud::style, tools::spaced},
     kernel::units::TICKS_PER_SECOND,
     sim::{
         ledger::PassLedger,
@@ -64,7 +64,7 @@ pub fn read(
     for (id, element) in setup.elements().iter() {
         let count = census.by_element.get(id.index()).copied().unwrap_or(0);
         if count > 0 {
-            let reading = Reading { value: grouped(u64::from(count)), unit: element.name.clone(), warning: false };
+            let reading = Reading { value: grouped(u64::from(count)), unit: spaced(&element.name), warning: false };
             readings.elements.push((element.colour, reading));
         }
     }

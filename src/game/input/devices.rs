@@ -23,8 +23,8 @@ pub fn read_devices(
         match event {
             WindowEvent::KeyboardInput(key) => {
                 mods.follow(key.key_code, key.state == ButtonState::Pressed);
-                if key.state == ButtonState::Pressed && !key.repeat && *hud != HudKeys::All {
-                    pointer.key(key.key_code, *mods);
+                if key.state == ButtonState::Pressed && !key.repeat {
+                    pointer.key(key.key_code, *mods, *hud);
                 }
             }
             WindowEvent::CursorMoved(moved) => pointer.move_to(moved.position),

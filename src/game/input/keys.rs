@@ -19,8 +19,21 @@ pub enum HudKeys {
     None,
     /// The arrows: they move what is in focus.
     Arrows,
+    /// All but the digits: the player is typing, and the pointer is over the tile of an element that they are to keep.
+    AllButDigits,
     /// All: the player is typing into a text field.
     All,
+}
+
+impl HudKeys {
+    /// Whether the game may do this by a key.
+    pub fn leave(self, action: Action) -> bool {
+        match self {
+            Self::None | Self::Arrows => true,
+            Self::AllButDigits => matches!(action, Action::Element(_)),
+            Self::All => false,
+        }
+    }
 }
 
 /// Moves the picture while an arrow is held.

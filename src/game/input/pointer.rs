@@ -6,6 +6,7 @@ use crate::{
         camera::{Area, WorldCamera},
         input::{
             bindings::{Bindings, Mods, Trigger},
+            keys::HudKeys,
             strokes::{Drag, DragState},
         },
         orders::{Order, Orders},
@@ -44,6 +45,8 @@ pub struct HudCover {
     pub parts: Vec<Area>,
     /// Whether a menu is open: then the next click anywhere only closes it.
     pub menu: bool,
+    /// Name of the element whose tile the pointer is over.
+    pub element: Option<String>,
 }
 
 impl HudCover {
@@ -81,9 +84,10 @@ impl PointerInput<'_> {
         }
     }
 
-    /// A key goes down.
-    pub fn key(&mut self, key: KeyCode, mods: Mods) {
-        if let Some(action) = self.bindings.find(Trigger::Key(key), mods) {
+    /// A key goes down, unless the HUD has it.
+    pub fn key(&mut self, key: KeyCode, mods: Mods, hud: HudKeys) {
+        let action = self.bindings.find(Trigger::Key(key), mods);
+        if let Some(action) = action.filter(|action| hud.leave(*action)) {
             self.orders.push(Order::Act(action));
         }
     }

@@ -5,6 +5,7 @@ use super::*;
 use crate::{
     game::{
         crash::journal::{self, Journal},
+        favourites::Favourites,
         saves::{self, SaveFolders},
     },
     sim::{
@@ -190,5 +191,32 @@ fn a_journal_keeps_its_last_whole_state_and_goes_on_when_there_is_room() {
     assert!(journal.close(), "it has all again");
     let end = whole().expect("it is whole");
     assert_eq!((end.end, end.segments[0].tick + end.ticks()), (Some(End::Crashed), player.tick()));
+    fs::remove_dir_all(folder).expect("it is ours");
+}
+
+#[test]
+#[cfg_attr(not(target_os = "linux"), ignore = "the limit is set by Linux's means")]
+fn a_favourite_that_can_t_be_kept_holds_and_the_old_ones_stay() {
+    if !is_inside("a_favourite_that_can_t_be_kept_holds_and_the_old_ones_stay") {
+        return;
+    }
+    let folder = folder("favourites");
+    let mut player = Player::new();
+    player.0.insert_resource(Favourites::of_folder(&folder));
+    let mut put = |element: &str, digit| {
+        player.0.world_mut().resource_mut::<HudCover>().element = Some(element.to_owned());
+        player.chord(&[digit]);
+        (told(&player), player.world().resource::<Favourites>().clone())
+    };
+    let (said, kept) = put("tar", KeyCode::Digit3);
+    assert_eq!((said.as_str(), Favourites::of_folder(&folder)), ("tar is on 3 now", kept.clone()));
+    limit_files(Some(4));
+    let (said, now) = put("ash", KeyCode::Digit5);
+    assert!(said.starts_with("ash is on 5 now, but not kept: ") && said.ends_with(ADVICE), "{said}");
+    limit_files(None);
+    assert_ne!(now, kept);
+    assert_eq!(Favourites::of_folder(&folder), kept);
+    let (_, now) = put("ash", KeyCode::Digit6);
+    assert_eq!(Favourites::of_folder(&folder), now, "there is room again");
     fs::remove_dir_all(folder).expect("it is ours");
 }

@@ -37,6 +37,50 @@ fn sampling_takes_up_what_is_under_the_pointer() {
     assert_eq!(player.world().resource::<Toolbox>().tool, Tool::Element(rock));
 }
 
+/// Name of the chosen tool.
+fn tool(player: &Player) -> String {
+    let (tools, setup) = (player.world().resource::<Toolbox>(), player.world().resource::<Setup>());
+    tools.tool.name(setup.elements()).to_owned()
+}
+
+#[test]
+fn a_digit_at_a_tile_keeps_its_element_there_and_elsewhere_chooses_it() {
+    let mut player = Player::new();
+    let point_at = |player: &mut Player, element: Option<&str>| {
+        player.0.world_mut().resource_mut::<HudCover>().element = element.map(str::to_owned);
+    };
+    let told = |player: &Player| player.world().resource::<Toasts>().last().map(str::to_owned);
+    point_at(&mut player, Some("tar"));
+    player.chord(&[KeyCode::Digit3]);
+    assert_eq!((tool(&player).as_str(), told(&player)), ("water", Some("tar is on 3 now".to_owned())));
+    player.chord(&[KeyCode::Digit3]);
+    assert_eq!(tool(&player), "tar", "it is there, so it is chosen");
+    point_at(&mut player, Some("wet_sand"));
+    player.chord(&[KeyCode::Digit3]);
+    assert_eq!(told(&player), Some("wet sand is on 3 now, tar on 7".to_owned()));
+    point_at(&mut player, None);
+    for (digit, element) in [(KeyCode::Digit3, "wet_sand"), (KeyCode::Digit7, "tar"), (KeyCode::Digit2, "water")] {
+        player.chord(&[digit]);
+        assert_eq!(tool(&player), element);
+    }
+}
+
+#[test]
+fn a_digit_at_a_tile_is_the_game_s_while_letters_are_typed() {
+    let mut player = Player::new();
+    player.0.insert_resource(HudKeys::AllButDigits);
+    player.0.world_mut().resource_mut::<HudCover>().element = Some("brine".to_owned());
+    player.chord(&[KeyCode::Digit4]);
+    player.chord(&[KeyCode::KeyP]);
+    player.chord(&[KeyCode::ShiftLeft, KeyCode::Digit2]);
+    player.0.world_mut().resource_mut::<HudCover>().element = None;
+    player.0.insert_resource(HudKeys::None);
+    player.chord(&[KeyCode::Digit4]);
+    assert_eq!(tool(&player), "brine");
+    assert!(!player.world().resource::<Pace>().paused);
+    assert_eq!(player.world().resource::<Shown>().0, VIEWS[0]);
+}
+
 #[test]
 fn letters_in_a_text_field_are_no_keys() {
     let mut player = Player::new();
@@ -76,10 +120,8 @@ fn keys_choose_views_tools_speed_and_brush() {
     assert_eq!(player.world().resource::<Shown>().0, VIEWS[2]);
     player.chord(&[KeyCode::ShiftLeft, KeyCode::Digit6]);
     assert_eq!(player.world().resource::<Shown>().0, VIEWS[5]);
-    player.chord(&[KeyCode::Digit1]);
-    let first =
-        player.world().resource::<Setup>().elements().iter().find(|(_, e)| e.key == Some('1')).map(|(id, _)| id);
-    assert_eq!(player.world().resource::<Toolbox>().tool, Tool::Element(first.expect("one has this key")));
+    player.chord(&[KeyCode::Digit7]);
+    assert_eq!(tool(&player), "wet_sand");
     player.chord(&[KeyCode::Minus]);
     assert_eq!(player.world().resource::<Pace>().speed, 0.5);
     let radius = player.world().resource::<Toolbox>().radius();
