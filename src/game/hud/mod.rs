@@ -13,6 +13,7 @@ pub mod panels;
 pub mod split;
 pub mod stats;
 pub mod style;
+pub mod tiles;
 pub mod toast;
 pub mod touch;
 pub mod widgets;
@@ -44,7 +45,9 @@ impl Plugin for HudPlugin {
             .add_systems(
                 EguiPrimaryContextPass,
                 (
-                    (cost::begin, layout::scale_to_window, stats::read).chain().in_set(HudSystems::Begin),
+                    (cost::begin, layout::scale_to_window, stats::read, focus::forget_element)
+                        .chain()
+                        .in_set(HudSystems::Begin),
                     (
                         (bar::show, palette::show).chain().run_if(not(touch::in_use)),
                         touch::show.run_if(touch::in_use),

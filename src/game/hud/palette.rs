@@ -1,14 +1,17 @@
-//! The bar at the bottom: elements and tools, the brush, time.
+//! The bar at the bottom: favourites and tools, the brush, time.
 
 use crate::{
     game::{
         actions::Action,
+        favourites::DIGITS,
         frame::SPEED_RANGE,
         history::History,
         hud::{
             layout::Bars,
+            panels::elements,
             style,
-            widgets::{action_button, tile},
+            tiles::{Face, Tiles, tile},
+            widgets::action_button,
         },
         icons::{self, Icon},
         input::bindings::Bindings,
@@ -16,7 +19,7 @@ use crate::{
         panels::Panels,
         tools::{BRUSH_RANGE, TOOLS, Tool, Toolbox},
     },
-    sim::{pace::Pace, state::Setup},
+    sim::pace::Pace,
 };
 use bevy::{
     ecs::system::SystemParam,
@@ -27,10 +30,16 @@ use bevy_egui::{
     egui::{self, Align, Align2, Layout, RichText, Ui, vec2},
 };
 
-/// Size of a tile, points.
+/// Size of a tile where there is room for it, points.
 const TILE: egui::Vec2 = vec2(54.0, 50.0);
+/// Least width of a tile, points.
+const LEAST: f32 = 43.0;
 /// Between tiles, points.
-const GAP: f32 = 4.0;
+const GAP: f32 = 3.0;
+/// Between favourites and tools, points.
+const SPLIT: f32 = 6.0;
+/// Places for tiles: all favourites, one that is none, the tools, and the way to all others.
+const PLACES: usize = DIGITS.len() + 1 + TOOLS.len() + 1;
 /// Most rows of tiles that are seen at once.
 const MOST_ROWS: usize = 3;
 /// What a scroll bar takes of the width, points.
@@ -42,7 +51,6 @@ const NARROW: f32 = 760.0;
 #[derive(SystemParam)]
 pub struct Shows<'w> {
     panels: Res<'w, Panels>,
-    setup: Res<'w, Setup>,
     pace: Res<'w, Pace>,
     history: Res<'w, History>,
     bindings: Res<'w, Bindings>,
@@ -52,6 +60,7 @@ pub struct Shows<'w> {
 pub fn show(
     mut contexts: EguiContexts,
     shows: Shows,
+    mut tiles: Tiles,
     mut tools: ResMut<Toolbox>,
     mut bars: ResMut<Bars>,
     mut orders: ResMut<Orders>,
@@ -80,19 +89,36 @@ pub fn show(
                 });
                 let left = row.with_max_x(right.response.rect.left() - 6.0);
                 let new = seen.replace(tools.tool) != Some(tools.tool);
-                tiles(ui, left, &shows, (tools.tool, new), &mut orders);
+                choose(ui, left, (&shows, &mut tiles), (tools.tool, new), &mut orders);
             });
         });
     bars.bottom = screen.bottom() - shown.response.rect.top();
     Ok(())
 }
 
-/// The elements and the other tools, in as many rows as it takes. `row` is the space of the first row. More rows than
-/// [`MOST_ROWS`] scroll, and what is chosen is scrolled into sight when it is new.
-fn tiles(ui: &mut Ui, row: egui::Rect, shows: &Shows, (chosen, new): (Tool, bool), orders: &mut Orders) {
-    let elements = shows.setup.elements();
-    let places = (((row.width() - SCROLL_BAR) / (TILE.x + GAP)) as usize).max(1);
-    let rows = (elements.len() + TOOLS.len()).div_ceil(places);
+/// How many rows [`PLACES`] tiles take in a `width`, and how wide each is, points. One row is taken as soon as it can be, and
+/// tiles of several rows are as wide as those.
+fn fit(width: f32) -> (usize, f32) {
+    let beside = |width: f32| (((width + GAP) / (LEAST + GAP)) as usize).max(1);
+    if width - SPLIT >= PLACES as f32 * (LEAST + GAP) - GAP {
+        return (1, ((width - SPLIT + GAP) / PLACES as f32 - GAP).min(TILE.x).floor());
+    }
+    let room = if PLACES.div_ceil(beside(width)) > MOST_ROWS { width - SCROLL_BAR } else { width };
+    let rows = PLACES.div_ceil(beside(room)).max(2);
+    (rows, ((room + GAP) / PLACES.div_ceil(rows) as f32 - GAP).min(TILE.x).floor())
+}
+
+/// Favourites, tools and the way to all others, in as many rows as it takes. `row` is the space of the first row. More rows
+/// than [`MOST_ROWS`] scroll, and what is chosen is scrolled into sight when it is new.
+fn choose(
+    ui: &mut Ui,
+    row: egui::Rect,
+    (shows, tiles): (&Shows, &mut Tiles),
+    (chosen, new): (Tool, bool),
+    orders: &mut Orders,
+) {
+    let (rows, width) = fit(row.width());
+    let size = vec2(width, TILE.y);
     let height = rows.min(MOST_ROWS) as f32 * (TILE.y + GAP) - GAP;
     if rows > 1 {
         ui.allocate_space(vec2(0.0, height - TILE.y - ui.spacing().item_spacing.y));
@@ -102,45 +128,45 @@ fn tiles(ui: &mut Ui, row: egui::Rect, shows: &Shows, (chosen, new): (Tool, bool
         ui.spacing_mut().item_spacing = egui::Vec2::splat(GAP);
         egui::ScrollArea::vertical().max_height(height).show(ui, |ui| {
             ui.horizontal_wrapped(|ui| {
-                for tool in Tool::all(elements) {
-                    if tool == Tool::Other(TOOLS[0]) && rows == 1 {
-                        ui.separator();
+                for tool in tiles.in_bar(chosen) {
+                    if rows == 1 && tool == Tool::Other(TOOLS[0]) {
+                        ui.add_space(SPLIT);
                     }
-                    let (key, about) = said(tool, shows);
-                    let (rect, response) = tile(ui, TILE, 1.0, tool, elements, tool == chosen);
-                    let colour = if tool == chosen { style::ACCENT } else { style::WEAK };
-                    let at = rect.right_top() + vec2(-5.0, 3.0);
-                    ui.painter().text(at, Align2::RIGHT_TOP, key, egui::FontId::proportional(11.0), colour);
+                    let response = tiles.show(ui, size, 1.0, tool, tool == chosen);
                     if new && tool == chosen {
                         response.scroll_to_me(None);
                     }
-                    if response.on_hover_text(about).clicked() {
+                    if response.clicked() {
                         orders.push(Order::Act(Action::Tool(tool)));
                     }
                 }
+                all(ui, size, shows, orders);
             });
         });
     });
 }
 
-/// The key of a tool, if it has one, and what there is to say of it.
-fn said(tool: Tool, shows: &Shows) -> (String, String) {
-    let Tool::Element(id) = tool else {
-        return (shows.bindings.key(Action::Tool(tool)), shows.bindings.tip(Action::Tool(tool)));
+/// The tile that opens the panel with all elements.
+fn all(ui: &mut Ui, size: egui::Vec2, shows: &Shows, orders: &mut Orders) {
+    let Shows { panels, bindings, .. } = shows;
+    let (panel, action) = (&elements::PANEL, Action::Panel(elements::PANEL.id));
+    let face = Face {
+        icon: (panel.icon, style::TEXT),
+        label: "elements",
+        name: bindings.help(action),
+        key: &bindings.key(action),
+        chosen: panels.shows(panel.id),
     };
-    let (element, spacing) = (shows.setup.elements().get(id), shows.setup.blueprint.scale.spacing);
-    let mass = element.density * spacing * spacing;
-    let kind = if element.fixed { "stays where it is" } else { "flows" };
-    let key = element.key.map(String::from).unwrap_or_default();
-    let in_brackets = if key.is_empty() { String::new() } else { format!(" ({key})") };
-    (key, format!("{}{in_brackets}: {kind}, {} kg/m², {mass:.3} kg a particle", element.name, element.density))
+    if tile(ui, size, 1.0, &face).on_hover_text(bindings.tip(action)).clicked() {
+        orders.push(Order::Act(action));
+    }
 }
 
 /// Shape and size of the brush, from right to left.
 fn brush(ui: &mut Ui, narrow: bool, tools: &mut ResMut<Toolbox>, bindings: &Bindings, orders: &mut Orders) {
     if !narrow {
         let mut radius = tools.radius();
-        ui.spacing_mut().slider_width = 90.0;
+        ui.spacing_mut().slider_width = 66.0;
         let slider = egui::Slider::new(&mut radius, BRUSH_RANGE).logarithmic(true).show_value(false);
         let slider = ui.add(slider).on_hover_text("size of the brush (wheel, [ and ])");
         slider.widget_info(|| egui::WidgetInfo::slider(true, f64::from(radius), "size of the brush"));
@@ -149,7 +175,7 @@ fn brush(ui: &mut Ui, narrow: bool, tools: &mut ResMut<Toolbox>, bindings: &Bind
         }
     }
     ui.add_sized(
-        vec2(34.0, 20.0),
+        vec2(30.0, 20.0),
         egui::Label::new(RichText::new(format!("{:.0} d", 2.0 * tools.radius())).color(style::WEAK)),
     )
     .on_hover_text("width of the brush in particle spacings");
@@ -179,4 +205,21 @@ fn time(ui: &mut Ui, shows: &Shows, orders: &mut Orders) {
 
 fn speed_text(speed: f32) -> String {
     if speed < 1.0 { format!("1/{:.0}×", 1.0 / speed) } else { format!("{speed:.0}×") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_are_in_one_row_where_they_can_be_and_never_beyond_the_space() {
+        for width in (60..1200).map(|width| width as f32) {
+            let (rows, tile) = fit(width);
+            let in_row = PLACES.div_ceil(rows) as f32;
+            let split = if rows == 1 { SPLIT } else { 0.0 };
+            assert!(in_row * (tile + GAP) - GAP + split <= width + 0.01, "{width}: {rows} rows of {tile}");
+            assert!((LEAST..=TILE.x).contains(&tile), "{width}: {rows} rows of {tile}");
+        }
+        assert_eq!((fit(700.0).0, fit(500.0).0, fit(300.0).0), (1, 2, 3));
+    }
 }

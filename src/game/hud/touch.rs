@@ -7,10 +7,11 @@ use crate::{
         history::History,
         hud::{
             layout::Bars,
-            panels::scenes::SceneMenu,
+            panels::{elements, scenes::SceneMenu},
             stats::{Reading, Readings},
             style::{self, weak},
-            widgets::{BUTTON, field, tile},
+            tiles::{Face, Tiles, tile},
+            widgets::{BUTTON, field},
         },
         icons::{self, Icon},
         input::touch::Fingers,
@@ -29,13 +30,13 @@ use bevy::{
 };
 use bevy_egui::{
     EguiContexts,
-    egui::{self, Align2, Color32, RichText, Ui, vec2},
+    egui::{self, Align2, Color32, RichText, Ui, Vec2, vec2},
 };
 
 /// Side of what can be pressed, pixels.
 const TARGET: f32 = 48.0;
-/// Width of a tool, pixels.
-const TILE_WIDTH: f32 = 60.0;
+/// Size of a tile, pixels.
+const TILE: Vec2 = vec2(60.0, TARGET);
 
 /// What has no button of its own, below the panels in the list.
 const MORE: [(&str, Action); 6] = [
@@ -53,6 +54,8 @@ pub enum Sheet {
     /// None.
     #[default]
     Closed,
+    /// All elements and tools.
+    Elements,
     /// The scenes.
     Scenes,
     /// The views.
@@ -84,12 +87,13 @@ pub fn in_use(fingers: Res<Fingers>) -> bool {
 pub fn show(
     mut contexts: EguiContexts,
     scene: Scene,
+    mut tiles: Tiles,
     mut tools: ResMut<Toolbox>,
     mut bars: ResMut<Bars>,
     mut orders: ResMut<Orders>,
     mut sheet: Local<Sheet>,
 ) -> Result {
-    let Scene { panels, setup, pace, history, readings, .. } = &scene;
+    let Scene { panels, pace, history, readings, .. } = &scene;
     *bars = Bars::default();
     let context = contexts.ctx_mut()?;
     let screen = context.content_rect();
@@ -112,7 +116,9 @@ pub fn show(
             egui::Frame::new().fill(style::PANEL).inner_margin(4.0).show(ui, |ui| {
                 ui.set_width(screen.width() - 8.0);
                 ui.spacing_mut().item_spacing = vec2(4.0, 4.0) * unit;
-                ui.horizontal_wrapped(|ui| choose(ui, unit, setup, tools.tool, &mut orders));
+                ui.horizontal_wrapped(|ui| {
+                    choose(ui, unit, (&mut tiles, tools.tool), &mut sheet, &mut orders);
+                });
                 ui.horizontal_wrapped(|ui| {
                     act(ui, unit, pace, history, &mut orders);
                     size(ui, unit, &mut tools);
@@ -123,7 +129,12 @@ pub fn show(
     bars.bottom = screen.bottom() - bar.response.rect.top();
     if *sheet != Sheet::Closed {
         let above = screen.with_max_y(bar.response.rect.top());
-        if list(context, above, unit, lines(*sheet, &scene), &mut orders) {
+        let pressed = list(context, above, unit, |ui, width| match *sheet {
+            Sheet::Elements => all(ui, width, unit, &mut tiles, tools.tool),
+            sheet => press(ui, width, unit, lines(sheet, &scene)),
+        });
+        if let Some(order) = pressed {
+            orders.push(order);
             *sheet = Sheet::Closed;
         }
     }
@@ -141,12 +152,18 @@ pub fn show(
     Ok(())
 }
 
-fn choose(ui: &mut Ui, unit: f32, setup: &Setup, chosen: Tool, orders: &mut Orders) {
-    for tool in Tool::all(setup.elements()) {
-        let size = vec2(TILE_WIDTH, TARGET);
-        if tile(ui, size, unit, tool, setup.elements(), chosen == tool).1.clicked() {
+/// Favourites, tools and the way to all others.
+fn choose(ui: &mut Ui, unit: f32, (tiles, chosen): (&mut Tiles, Tool), sheet: &mut Sheet, orders: &mut Orders) {
+    for tool in tiles.in_bar(chosen) {
+        if tiles.show(ui, TILE, unit, tool, chosen == tool).clicked() {
             orders.push(Order::Act(Action::Tool(tool)));
         }
+    }
+    let icon = (elements::PANEL.icon, style::TEXT);
+    let chosen = *sheet == Sheet::Elements;
+    let face = Face { icon, label: "elements", name: "All elements", key: "", chosen };
+    if tile(ui, TILE, unit, &face).clicked() {
+        *sheet = if chosen { Sheet::Closed } else { Sheet::Elements };
     }
 }
 
@@ -209,7 +226,8 @@ fn menus(ui: &mut Ui, unit: f32, sheet: &mut Sheet) {
 /// The lines of a list: text, whether it is what is shown now, and what choosing it asks for.
 fn lines<'a>(sheet: Sheet, scene: &'a Scene) -> Vec<(&'a str, bool, Order)> {
     match sheet {
-        Sheet::Closed => Vec::new(),
+        // Elements are no lines.
+        Sheet::Closed | Sheet::Elements => Vec::new(),
         Sheet::Scenes => {
             let line = |file: &'a SceneFile| {
                 let order = Order::Scene { name: file.name().to_owned(), settings: Vec::new(), detail: 1.0 };
@@ -233,35 +251,59 @@ fn lines<'a>(sheet: Sheet, scene: &'a Scene) -> Vec<(&'a str, bool, Order)> {
     }
 }
 
-/// The open list; whether something was chosen.
+/// The open list, with what `add` puts into it: it gets the width of a line, and says what was chosen.
 fn list(
     context: &egui::Context,
     above: egui::Rect,
     unit: f32,
-    lines: Vec<(&str, bool, Order)>,
-    orders: &mut Orders,
-) -> bool {
-    let mut pressed = None;
+    add: impl FnOnce(&mut Ui, f32) -> Option<Order>,
+) -> Option<Order> {
     let area = egui::Area::new("touch list".into()).pivot(Align2::CENTER_BOTTOM).fixed_pos(above.center_bottom());
-    let area = area.default_height(above.height());
-    area.order(egui::Order::Foreground).show(context, |ui| {
-        egui::Frame::window(ui.style()).show(ui, |ui| {
+    let area = area.default_height(above.height()).order(egui::Order::Foreground);
+    let shown = area.show(context, |ui| {
+        let frame = egui::Frame::window(ui.style()).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 2.0;
-            egui::ScrollArea::vertical().max_height(above.height() - 48.0 * unit).show(ui, |ui| {
-                for (text, chosen, order) in lines {
-                    let size = vec2((above.width() - 64.0 * unit).min(320.0 * unit), TARGET * unit);
-                    let (rect, response) = field(ui, size, text, chosen, BUTTON);
-                    let font = egui::FontId::proportional(16.0 * unit);
-                    let at = rect.left_center() + vec2(12.0, 0.0) * unit;
-                    ui.painter().text(at, Align2::LEFT_CENTER, text, font, Color32::WHITE);
-                    if response.clicked() {
-                        pressed = Some(order);
+            let scroll = egui::ScrollArea::vertical().max_height(above.height() - 48.0 * unit);
+            scroll.show(ui, |ui| add(ui, above.width() - 64.0 * unit)).inner
+        });
+        frame.inner
+    });
+    shown.inner
+}
+
+/// Lines to press; what was chosen.
+fn press(ui: &mut Ui, width: f32, unit: f32, lines: Vec<(&str, bool, Order)>) -> Option<Order> {
+    let mut pressed = None;
+    for (text, chosen, order) in lines {
+        let (rect, response) = field(ui, vec2(width.min(320.0 * unit), TARGET * unit), text, chosen, BUTTON);
+        let font = egui::FontId::proportional(16.0 * unit);
+        let at = rect.left_center() + vec2(12.0, 0.0) * unit;
+        ui.painter().text(at, Align2::LEFT_CENTER, text, font, Color32::WHITE);
+        if response.clicked() {
+            pressed = Some(order);
+        }
+    }
+    pressed
+}
+
+/// All elements by their categories, and the tools; what was chosen.
+fn all(ui: &mut Ui, width: f32, unit: f32, tiles: &mut Tiles, chosen: Tool) -> Option<Order> {
+    let mut pressed = None;
+    ui.set_width(width.min(8.0 * (TILE.x + 4.0) * unit));
+    let every: Vec<Tool> = Tool::all(tiles.elements()).collect();
+    let groups = Tool::groups(tiles.elements(), &every);
+    for (title, group) in groups {
+        ui.label(weak(title).size(13.0 * unit));
+        ui.scope(|ui| {
+            ui.spacing_mut().item_spacing = vec2(4.0, 4.0) * unit;
+            ui.horizontal_wrapped(|ui| {
+                for tool in group {
+                    if tiles.show(ui, TILE, unit, tool, chosen == tool).clicked() {
+                        pressed = Some(Order::Act(Action::Tool(tool)));
                     }
                 }
             });
         });
-    });
-    let chosen = pressed.is_some();
-    orders.extend(pressed);
-    chosen
+    }
+    pressed
 }

@@ -8,15 +8,11 @@ use crate::{
         icons::{self, Icon},
         input::bindings::Bindings,
         orders::{Order, Orders},
-        tools::Tool,
     },
-    kernel::{
-        element::ElementTable,
-        params::{Preset, Quality},
-    },
+    kernel::params::{Preset, Quality},
     sim::numbers,
 };
-use bevy_egui::egui::{self, Align2, Color32, FontId, Rect, Response, RichText, TextStyle, Ui, Vec2, vec2};
+use bevy_egui::egui::{self, Align2, Color32, Rect, Response, RichText, TextStyle, Ui, Vec2, vec2};
 
 /// What a line of a list is filled with, and what under the pointer.
 pub const LINE: [Color32; 2] = [Color32::TRANSPARENT, style::BUTTON_HOVER];
@@ -158,25 +154,4 @@ pub fn action_button(
     if button.on_hover_text(bindings.tip(action)).clicked() {
         orders.push(Order::Act(action));
     }
-}
-
-/// A tile for a tool: its icon and its name. Lengths are times `unit` points.
-pub fn tile(ui: &mut Ui, size: Vec2, unit: f32, tool: Tool, elements: &ElementTable, chosen: bool) -> (Rect, Response) {
-    let ((icon, colour), name) = (tool.icon(elements), tool.name(elements));
-    let (rect, response) = field(ui, size * unit, name, chosen, BUTTON);
-    let painter = ui.painter();
-    if chosen {
-        let stroke = egui::Stroke::new(1.5 * unit, style::ACCENT);
-        painter.rect_stroke(rect, style::BUTTON_CORNER, stroke, egui::StrokeKind::Inside);
-    }
-    icons::draw(painter, icons::square(rect.center() - vec2(0.0, 7.0) * unit, 24.0 * unit), icon, colour);
-    let text = if chosen { Color32::WHITE } else { style::TEXT };
-    let at = rect.center_bottom() - vec2(0.0, 4.0) * unit;
-    // A long name is written smaller.
-    let fit = |font: f32| painter.layout_no_wrap(name.to_owned(), FontId::proportional(font), text);
-    let name = fit(11.0 * unit);
-    let name =
-        if name.size().x > rect.width() - 4.0 { fit(11.0 * unit * (rect.width() - 4.0) / name.size().x) } else { name };
-    painter.galley(at - vec2(name.size().x / 2.0, name.size().y), name, text);
-    (rect, response)
 }

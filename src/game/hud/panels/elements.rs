@@ -1,56 +1,88 @@
-//! Finds elements and tools by their names.
+//! All elements by their categories, and the tools: to look at, to find by name and to choose from.
 
 use crate::{
     game::{
         actions::{Action, PanelId},
-        hud::{widgets::line, window::PanelWindow},
+        hud::{
+            style::{self, weak},
+            tiles::Tiles,
+            window::{PanelWindow, scroll},
+        },
         icons,
         input::bindings::{Group, NONE},
         orders::{Order, Orders},
         panels::Panel,
-        tools::Tool,
+        tools::{Tool, Toolbox},
     },
     kernel::element::ElementTable,
-    sim::state::Setup,
 };
 use bevy::prelude::{KeyCode, Local, Res, ResMut, Result};
-use bevy_egui::egui::{self, Align2, Color32, Key, Ui, vec2};
+use bevy_egui::egui::{self, Align2, Key, Stroke, StrokeKind, Ui, Vec2, vec2};
 
 /// Its row.
 pub const PANEL: Panel = Panel {
-    id: PanelId("search"),
-    title: "Search",
-    icon: icons::question,
+    id: PanelId("elements"),
+    title: "Elements",
+    icon: icons::all,
     keys: &[(KeyCode::KeyE, NONE)],
     group: Group::Choose,
-    help: "search elements and tools",
+    help: "all elements and tools, and search",
     in_bar: false,
     in_list: None,
     stays: false,
 };
 
-/// Shows the search.
-pub fn show(mut window: PanelWindow, mut text: Local<String>, setup: Res<Setup>, mut orders: ResMut<Orders>) -> Result {
+/// Size of a tile, points.
+const TILE: Vec2 = vec2(62.0, 52.0);
+/// Between tiles, points.
+const GAP: f32 = 4.0;
+/// Tiles in a row.
+const COLUMNS: f32 = 8.0;
+/// Height of all but the tiles, the bars among it, points.
+const REST: f32 = 290.0;
+
+/// Shows the panel.
+pub fn show(
+    mut window: PanelWindow,
+    mut text: Local<String>,
+    mut tiles: Tiles,
+    tools: Res<Toolbox>,
+    mut orders: ResMut<Orders>,
+) -> Result {
     let mut done = false;
-    window.show(&PANEL, (Align2::CENTER_TOP, vec2(0.0, 120.0)), |ui| {
-        ui.set_width(260.0);
-        let field = egui::TextEdit::singleline(&mut *text).hint_text("element or tool").desired_width(f32::INFINITY);
-        ui.add(field.char_limit(40)).request_focus();
-        let found = find(setup.elements(), &text);
+    window.show(&PANEL, (Align2::CENTER_TOP, vec2(0.0, 64.0)), |ui| {
+        // The scroll bar has its own room.
+        ui.set_width(COLUMNS * (TILE.x + GAP) + 8.0);
+        let field = egui::TextEdit::singleline(&mut *text).hint_text("search").desired_width(f32::INFINITY);
+        ui.add(field.char_limit(40).margin(vec2(8.0, 5.0))).request_focus();
+        let found = find(tiles.elements(), &text);
+        // While nothing is searched, nothing is found first.
+        let first = found.first().copied().filter(|_| !text.trim().is_empty());
         let entered = ui.input(|input| input.key_pressed(Key::Enter));
-        let mut chosen = found.first().filter(|_| entered);
-        ui.spacing_mut().item_spacing.y = 2.0;
-        egui::ScrollArea::vertical().max_height(ui.ctx().content_rect().height() - 320.0).show(ui, |ui| {
-            for tool in &found {
-                if row(ui, *tool, setup.elements(), Some(tool) == found.first()) {
-                    chosen = Some(tool);
-                }
+        let mut chosen = first.filter(|_| entered);
+        scroll(ui, REST, |ui| {
+            for (title, group) in Tool::groups(tiles.elements(), &found) {
+                ui.label(weak(title).small());
+                ui.scope(|ui| {
+                    ui.spacing_mut().item_spacing = Vec2::splat(GAP);
+                    ui.horizontal_wrapped(|ui| {
+                        for tool in group {
+                            let response = tiles.show(ui, TILE, 1.0, tool, tool == tools.tool);
+                            if first == Some(tool) {
+                                mark(ui, response.rect);
+                            }
+                            chosen = chosen.or(response.clicked().then_some(tool));
+                        }
+                    });
+                });
             }
         });
         if found.is_empty() {
-            ui.weak("nothing of that name");
+            ui.label(weak("Nothing of that name."));
         }
-        orders.extend(chosen.map(|tool| Order::Act(Action::Tool(*tool))));
+        ui.add_space(4.0);
+        ui.label(weak("Point at an element and press a digit to keep it there.").small());
+        orders.extend(chosen.map(|tool| Order::Act(Action::Tool(tool))));
         done = entered || chosen.is_some() || ui.input(|input| input.key_pressed(Key::Escape));
     })?;
     if done {
@@ -62,19 +94,20 @@ pub fn show(mut window: PanelWindow, mut text: Local<String>, setup: Res<Setup>,
     Ok(())
 }
 
-fn row(ui: &mut Ui, tool: Tool, elements: &ElementTable, first: bool) -> bool {
-    let (rect, response) = line(ui, 28.0, 36.0, (tool.name(elements), Color32::WHITE), first);
-    let (icon, colour) = tool.icon(elements);
-    icons::draw(ui.painter(), icons::square(rect.left_center() + vec2(18.0, 0.0), 18.0), icon, colour);
-    response.clicked()
+/// Marks what Enter takes.
+fn mark(ui: &Ui, rect: egui::Rect) {
+    let painter = ui.painter();
+    painter.rect_stroke(rect, style::BUTTON_CORNER, Stroke::new(1.5, style::WARN), StrokeKind::Inside);
+    let at = rect.left_top() + vec2(5.0, 2.0);
+    painter.text(at, Align2::LEFT_TOP, "↵", egui::FontId::proportional(12.0), style::WARN);
 }
 
-/// Tools whose name holds the text; those that begin with it first.
+/// Elements and tools whose name holds the text; those that begin with it first.
 fn find(elements: &ElementTable, text: &str) -> Vec<Tool> {
     let text = text.trim().to_lowercase();
-    let mut found: Vec<Tool> =
-        Tool::all(elements).filter(|tool| tool.name(elements).to_lowercase().contains(&text)).collect();
-    found.sort_by_key(|tool| !tool.name(elements).to_lowercase().starts_with(&text));
+    let name = |tool: &Tool| tool.label(elements).to_lowercase();
+    let mut found: Vec<Tool> = Tool::all(elements).filter(|tool| name(tool).contains(&text)).collect();
+    found.sort_by_key(|tool| !name(tool).starts_with(&text));
     found
 }
 
@@ -82,14 +115,22 @@ fn find(elements: &ElementTable, text: &str) -> Vec<Tool> {
 mod tests {
     use super::*;
 
+    fn names(text: &str) -> Vec<String> {
+        let elements = crate::scene::elements().expect("the table that comes with the game is valid");
+        find(&elements, text).into_iter().map(|tool| tool.label(&elements)).collect()
+    }
+
     #[test]
     fn search_finds_by_part_and_puts_beginnings_first() {
-        let elements = crate::scene::elements().expect("the table that comes with the game is valid");
-        let names = |text: &str| -> Vec<String> {
-            find(&elements, text).into_iter().map(|tool| tool.name(&elements).to_owned()).collect()
-        };
         assert_eq!(names("wat")[0], "water");
-        assert_eq!(names("W")[..2], ["water", "wind"]);
+        assert_eq!(names("SAND"), ["sand", "wet sand"]);
+        assert!(names("w").iter().take(4).all(|name| name.starts_with('w')), "{:?}", names("w"));
         assert_eq!(names("xyzzy"), [""; 0]);
+    }
+
+    #[test]
+    fn names_have_spaces_on_the_screen_and_are_found_by_them() {
+        assert_eq!(names("t s"), ["wet sand"]);
+        assert!(names("").iter().all(|name| !name.contains('_')));
     }
 }

@@ -4,10 +4,10 @@
 pub mod accuracy;
 pub mod cases;
 pub mod details;
+pub mod elements;
 pub mod help;
 pub mod saves;
 pub mod scenes;
-pub mod search;
 pub mod settings;
 
 use crate::{
@@ -23,5 +23,5 @@ pub fn plugin(app: &mut App) {
     app.add_plugins((cases::window::plugin::<ExamCase>, cases::window::plugin::<GauntletCase>));
     Panels::add(app, details::PANEL, details::show);
     app.add_plugins((accuracy::panel::plugin, saves::plugin, scenes::plugin));
-    Panels::add(app, search::PANEL, search::show);
+    Panels::add(app, elements::PANEL, elements::show);
 }

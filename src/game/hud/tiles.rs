@@ -1,0 +1,165 @@
+//! Tiles of elements and tools, the same in the palette, the panel of elements and the tools for fingers; and the card that
+//! says what an element is.
+
+use crate::{
+    game::{
+        actions::Action,
+        favourites::Favourites,
+        hud::{
+            style::{self, weak},
+            widgets::{BUTTON, field},
+        },
+        icons::{self, Icon},
+        input::{bindings::Bindings, pointer::HudCover},
+        tools::{TOOLS, Tool, spaced},
+    },
+    kernel::element::{Element, ElementTable},
+    sim::{numbers::grouped, state::Setup},
+};
+use bevy::{
+    ecs::system::SystemParam,
+    prelude::{Res, ResMut},
+};
+use bevy_egui::egui::{self, Align2, Color32, FontId, Response, RichText, Stroke, StrokeKind, Ui, Vec2, vec2};
+
+/// A tile below this width is narrow, points.
+const NARROW: f32 = 52.0;
+/// Width of a card, points.
+const CARD: f32 = 230.0;
+
+/// What a tile shows.
+pub struct Face<'a> {
+    /// Its icon and the icon's colour.
+    pub icon: (Icon, Color32),
+    /// What is written on it.
+    pub label: &'a str,
+    /// What it is called for scripts and screen readers.
+    pub name: &'a str,
+    /// The key that does the same; nothing if none does.
+    pub key: &'a str,
+    /// Whether it is chosen.
+    pub chosen: bool,
+}
+
+/// Shows a tile. Lengths are times `unit` points.
+pub fn tile(ui: &mut Ui, size: Vec2, unit: f32, face: &Face) -> Response {
+    let (rect, response) = field(ui, size * unit, face.name, face.chosen, BUTTON);
+    let painter = ui.painter();
+    if face.chosen {
+        let stroke = Stroke::new(1.5 * unit, style::ACCENT);
+        painter.rect_stroke(rect, style::BUTTON_CORNER, stroke, StrokeKind::Inside);
+    }
+    let (icon, colour) = face.icon;
+    // Beside the letter of a key there is not always room for the icon in the middle.
+    let (aside, side) = if size.x < NARROW && !face.key.is_empty() { (3.0, 22.0) } else { (0.0, 24.0) };
+    icons::draw(painter, icons::square(rect.center() - vec2(aside, 7.0) * unit, side * unit), icon, colour);
+    let (text, corner) = if face.chosen { (Color32::WHITE, style::ACCENT) } else { (style::TEXT, style::WEAK) };
+    let at = rect.right_top() + vec2(-4.0, 2.0) * unit;
+    painter.text(at, Align2::RIGHT_TOP, face.key, FontId::proportional(11.0 * unit), corner);
+    // A long name is written smaller.
+    let room = rect.width() - 4.0 * unit;
+    let fit = |size: f32| painter.layout_no_wrap(face.label.to_owned(), FontId::proportional(size * unit), text);
+    let label = fit(11.0);
+    let label = if label.size().x > room { fit(11.0 * room / label.size().x) } else { label };
+    let at = rect.center_bottom() - vec2(label.size().x / 2.0, label.size().y + 4.0 * unit);
+    painter.galley(at, label, text);
+    response
+}
+
+/// The elements and tools that tiles may show.
+#[derive(SystemParam)]
+pub struct Tiles<'w> {
+    setup: Res<'w, Setup>,
+    favourites: Res<'w, Favourites>,
+    bindings: Res<'w, Bindings>,
+    cover: ResMut<'w, HudCover>,
+}
+
+impl Tiles<'_> {
+    /// The table of elements that is in force.
+    pub fn elements(&self) -> &ElementTable {
+        self.setup.elements()
+    }
+
+    /// What a bar has: the favourites in the order of their digits, the tools, and what is chosen if it is none of these.
+    pub fn in_bar(&self, chosen: Tool) -> Vec<Tool> {
+        let slots = self.favourites.slots(self.elements());
+        let favourites = slots.into_iter().flatten().map(Tool::Element);
+        let mut tools: Vec<Tool> = favourites.chain(TOOLS.into_iter().map(Tool::Other)).collect();
+        if !tools.contains(&chosen) {
+            tools.push(chosen);
+        }
+        tools
+    }
+
+    /// Shows the tile of an element or a tool. Lengths are times `unit` points.
+    pub fn show(&mut self, ui: &mut Ui, size: Vec2, unit: f32, tool: Tool, chosen: bool) -> Response {
+        let elements = self.setup.elements();
+        let key = match tool {
+            Tool::Element(id) => self.favourites.digit(id, elements).map(String::from).unwrap_or_default(),
+            Tool::Other(_) => self.bindings.key(Action::Tool(tool)),
+        };
+        let label = tool.label(elements);
+        let face = Face { icon: tool.icon(elements), label: &label, name: &label, key: &key, chosen };
+        let response = tile(ui, size, unit, &face);
+        let Tool::Element(id) = tool else { return response.on_hover_text(self.bindings.tip(Action::Tool(tool))) };
+        let element = elements.get(id);
+        if response.hovered() {
+            self.cover.element = Some(element.name.clone());
+        }
+        response.on_hover_ui(|ui| card(ui, element, &key))
+    }
+}
+
+/// What an element is.
+fn card(ui: &mut Ui, element: &Element, key: &str) {
+    ui.set_width(CARD);
+    ui.spacing_mut().item_spacing.y = 4.0;
+    ui.spacing_mut().interact_size.y = 0.0;
+    let name = RichText::new(spaced(&element.name)).size(15.0).color(Color32::WHITE);
+    let key = if key.is_empty() { String::new() } else { format!("key {key}") };
+    egui::Sides::new().show(ui, |ui| ui.label(name), |ui| ui.label(weak(key)));
+    if !element.card.is_empty() {
+        ui.label(&element.card);
+    }
+    ui.add_space(2.0);
+    egui::Grid::new("numbers").num_columns(2).spacing([16.0, 2.0]).show(ui, |ui| {
+        for (what, number) in numbers(element) {
+            ui.label(weak(what));
+            ui.label(number);
+            ui.end_row();
+        }
+    });
+    if element.fixed {
+        ui.label(weak("stays where it is"));
+    }
+}
+
+/// The numbers that matter for a player, with their units.
+fn numbers(element: &Element) -> Vec<(&'static str, String)> {
+    let mut numbers = vec![("density", format!("{} kg/m²", grouped(element.density)))];
+    if element.viscosity > 0.0 {
+        numbers.push(("viscosity", format!("{} m²/s", element.viscosity)));
+    }
+    if element.friction > 0.0 {
+        numbers.push(("angle of friction", format!("{}°", element.friction)));
+    }
+    if element.cohesion > 0.0 {
+        numbers.push(("cohesion", format!("{} Pa", grouped(element.cohesion))));
+    }
+    numbers
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_card_has_the_numbers_that_matter() {
+        let mut element = Element { density: 13534.0, ..Element::plain("x", false) };
+        assert_eq!(numbers(&element), [("density", "13,534 kg/m²".to_owned())]);
+        (element.viscosity, element.friction, element.cohesion) = (0.08, 40.0, 2000.0);
+        let told: Vec<String> = numbers(&element).into_iter().map(|(_, number)| number).collect();
+        assert_eq!(told, ["13,534 kg/m²", "0.08 m²/s", "40°", "2,000 Pa"]);
+    }
+}
