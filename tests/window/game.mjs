@@ -66,8 +66,8 @@ export async function open(program, display, folder, scene = ['empty']) {
     await until('the next frames', (now) => now.frame > frame + 3);
   }
 
-  // Presses what has this name. What moves is followed until it keeps still.
-  async function click(name) {
+  // Points at what has this name. What moves is followed until it keeps still.
+  async function hover(name) {
     const seen = await untilWidgets(`something to press called ${name}`, (all) => pressable(all, name) !== undefined);
     for (let at = middle(pressable(seen, name)); ;) {
       await move(at);
@@ -77,6 +77,11 @@ export async function open(program, display, folder, scene = ['empty']) {
       if (middle(now).join() === at.join()) break;
       at = middle(now);
     }
+  }
+
+  // Presses what has this name.
+  async function click(name) {
+    await hover(name);
     // A finger stays down for a frame or two: what moves in the same frame is not pressed.
     await x('mousedown', 1);
     await settle();
@@ -101,6 +106,7 @@ export async function open(program, display, folder, scene = ['empty']) {
     click,
     drag,
     focus,
+    hover,
     move,
     stats,
     until,

@@ -165,6 +165,27 @@ async function play() {
     await game.until('the button lets time go on', (now) => !now.paused && now.tick > tick + 1);
   });
 
+  await test('elements are found by name, and a digit at a tile keeps one there', async () => {
+    const hasTile = (all, wanted) => all.some(({ kind, name }) => kind === 'Button' && name === wanted);
+    await game.key('e');
+    await game.untilWidgets('the panel is open', (all) => isOpen(all, 'Elements') && hasTile(all, 'glass'));
+    for (const letter of 'coa') await game.key(letter);
+    await game.untilWidgets('only what is searched is there', (all) => hasTile(all, 'coal') && !hasTile(all, 'glass'));
+    await game.key('Return');
+    await game.until('Enter takes the first', ({ tool }) => tool === 'coal');
+    await game.untilWidgets('the bar shows what is chosen', (all) => !isOpen(all, 'Elements') && hasTile(all, 'coal'));
+    await game.click('all elements and tools, and search');
+    await game.hover('brine');
+    await game.key('3');
+    await game.until('it is told', ({ messages }) => messages.includes('brine is on 3 now'));
+    await game.picture('elements');
+    await game.untilWidgets('the digit is no text', (all) => isOpen(all, 'Elements') && hasTile(all, 'glass'));
+    await game.key('Escape');
+    await game.untilWidgets('Esc closes the panel', (all) => !isOpen(all, 'Elements') && hasTile(all, 'brine') && !hasTile(all, 'sand'));
+    await game.key('3');
+    await game.until('the digit chooses it', ({ tool }) => tool === 'brine');
+  });
+
   await test('sliders and settings have an effect', async () => {
     const { brush } = await game.stats();
     const [x, y, width, height] = (await game.widgets()).find(({ name }) => name === 'size of the brush').place;
@@ -235,6 +256,9 @@ async function play() {
     assert.equal((await game.stats()).particles, 0, 'something was restored unasked');
     await game.click('Restore');
     const { particles } = await game.until('the world is back', (now) => now.particles > 0);
+    // A favourite outlives the game, too.
+    await game.key('3');
+    await game.until('brine is still on 3', ({ tool }) => tool === 'brine');
     return `${particles} particles`;
   });
 

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { poll, sleep } from '../../poll.mjs';
 import { water } from '../browser.mjs';
-import { click, drag, dragUntil, follow, moveTo, stats, still, until, untilKept } from '../player.mjs';
+import { click, drag, dragUntil, files, find, follow, moveTo, stats, still, until, untilKept } from '../player.mjs';
 
 const WORLD = { x: 0, y: 60, width: 1280, height: 660 };
 const FLOOR = { x: 40, y: 690, width: 360, height: 40 };
@@ -202,6 +202,27 @@ async function withSaves({ shoot, shots, started, test }, page) {
     assert.deepEqual(now.elements, elements);
     await shoot(page, 'desktop-loaded');
     return `${kept.length} files, ${now.particles} particles`;
+  });
+
+  await test('favourites outlive the page, in one file', async () => {
+    const { length } = await files(page);
+    const put = async (name, digit, told) => {
+      await moveTo(page, await find(page, name));
+      await page.keyboard.press(`Digit${digit}`);
+      await until(page, told, ({ messages }) => messages.includes(told));
+    };
+    await page.keyboard.press('KeyE');
+    await put('brine', 3, 'brine is on 3 now');
+    await put('tar', 4, 'tar is on 4 now');
+    await shoot(page, 'desktop-elements');
+    const kept = await untilKept(page, length + 1);
+    assert.equal(kept.length, length + 1, 'the second file took the place of the first');
+    await page.reload();
+    await started(page);
+    for (const [digit, element] of [[3, 'brine'], [4, 'tar']]) {
+      await page.keyboard.press(`Digit${digit}`);
+      await until(page, `${element} is on ${digit}`, ({ tool }) => tool === element);
+    }
   });
 
   await test('a screenshot is a download', async () => {

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { launch } from '../browser.mjs';
 import { near } from '../../poll.mjs';
-import { find, stats, still, until } from '../player.mjs';
+import { find, stats, still, until, untilWidgets } from '../player.mjs';
 
 export async function onAPhone({ host, play, shoot, shootUntil, test }) {
   const page = await play(`${host.url}#scene=empty`, {
@@ -47,13 +47,26 @@ export async function onAPhone({ host, play, shoot, shootUntil, test }) {
     assert.equal((await stats(page)).particles, before);
     return `${share.toFixed(1)} % of the picture changed`;
   });
+  const tap = async (name) => {
+    await touch('touchStart', await find(page, name));
+    const { frame } = await stats(page);
+    await until(page, 'the finger is felt', (now) => now.frame > frame);
+    await touch('touchEnd');
+  };
+  await test('the list of elements has them all, and what is chosen has a tile', async () => {
+    await tap('All elements');
+    const all = await untilWidgets(page, 'the list', (all) => all.some(({ name }) => name === 'glass'));
+    await shoot(page, 'phone-elements');
+    const small = all.filter(({ kind, place: [, , width, height] }) => kind === 'Button' && Math.min(width, height) < 47.5);
+    assert.deepEqual(small, [], 'too small for a finger');
+    await tap('glass');
+    await until(page, 'glass is chosen', ({ tool }) => tool === 'glass');
+    await untilWidgets(page, 'the bar shows it, and the list is closed', (all) => (
+      all.some(({ name }) => name === 'glass') && !all.some(({ name }) => name === 'brine')));
+    await tap('water');
+    await until(page, 'water is chosen', ({ tool }) => tool === 'water');
+  });
   await test('the tool bar hides and comes back', async () => {
-    const tap = async (name) => {
-      await touch('touchStart', await find(page, name));
-      const { frame } = await stats(page);
-      await until(page, 'the finger is felt', (now) => now.frame > frame);
-      await touch('touchEnd');
-    };
     await still(page);
     const before = await shoot(page, 'phone-tools');
     await tap('Hide the tools');
