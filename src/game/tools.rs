@@ -32,6 +32,8 @@ const PRESS_STEP: f32 = 0.4;
 
 /// Colour of lines and icons that stand for no element.
 const PLAIN: Color32 = Color32::from_rgb(216, 223, 234);
+/// An icon with no channel above this can hardly be seen.
+const DIMMEST: u8 = 110;
 /// Outline of a brush that moves air.
 const AIR_PEN: Color32 = Color32::from_rgb(150, 230, 216);
 
@@ -180,7 +182,7 @@ impl Tool {
         match self {
             Self::Element(id) => {
                 let element = elements.get(id);
-                (icon_of(element.category), colour_of(element))
+                (icon_of(element.category), lit(colour_of(element)))
             }
             Self::Other(row) => (row.icon, PLAIN),
         }
@@ -244,6 +246,12 @@ fn icon_of(category: Category) -> Icon {
         Category::Powders => icons::heap,
         Category::Liquids => icons::droplet,
     }
+}
+
+/// A colour that is seen on a dark tile.
+fn lit(colour: Color32) -> Color32 {
+    let brightest = colour.r().max(colour.g()).max(colour.b());
+    if brightest < DIMMEST { colour.lerp_to_gamma(Color32::WHITE, 0.2) } else { colour }
 }
 
 /// Colour of an element.
