@@ -192,7 +192,7 @@ pub struct ElementParams {
     pub viscosity: Vec<f32>,
     /// sin φ of grains; 0 of what is none.
     pub friction: Vec<f32>,
-    /// Cohesion for its density, d²/s² a particle of its own mass: `c / (ρ d²)`.
+    /// Stress that grains bear without pressure by their density, d/s²: `cos φ c / (ρ d²)`.
     pub cohesion: Vec<f32>,
     /// Vorticity confinement ε, d/s.
     pub vorticity: Vec<f32>,
@@ -224,7 +224,10 @@ impl ElementParams {
                 share + element.smoothing * scale.particles_per_own()
             }),
             friction: each(&|element| sine(element.friction)),
-            cohesion: each(&|element| element.cohesion / (element.density * scale.spacing * scale.spacing)),
+            cohesion: each(&|element| {
+                let sine = sine(element.friction);
+                (1.0 - sine * sine).sqrt() * element.cohesion / (element.density * scale.spacing * scale.spacing)
+            }),
             vorticity: each(&|element| scale.to_kernel(element.vorticity)),
         }
     }

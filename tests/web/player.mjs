@@ -136,6 +136,14 @@ export async function drag(page, points, button = 'left') {
   await page.mouse.up({ button });
 }
 
+// Holds the left button on a way that takes a moment, as a hand does it, however slow the frames are: the speed counts.
+export async function flick(page, from, to) {
+  await moveTo(page, from);
+  await page.mouse.down();
+  await moveTo(page, to);
+  await page.mouse.up();
+}
+
 // Holds a button and goes round along the points until the game says that it is enough.
 export async function dragUntil(page, points, what, good, button = 'left') {
   await moveTo(page, points[0]);

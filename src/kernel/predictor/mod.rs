@@ -36,6 +36,7 @@ mod transfer;
 mod way_back;
 
 pub use flow::Flow;
+pub use grains::GrainParams;
 pub use matter::Buoyancy;
 pub use report::PredictorReport;
 pub use steps::{Kept, Predictor, PredictorParams};

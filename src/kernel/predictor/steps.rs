@@ -7,7 +7,7 @@ use crate::{
     predictor::{
         conjugate::Conjugate,
         flow::Flow,
-        grains::Grains,
+        grains::{GrainParams, Grains},
         grid::MacGrid,
         letting_go::LettingGo,
         matter::Buoyancy,
@@ -65,8 +65,8 @@ pub struct PredictorParams<'a> {
     pub rest_density: f32,
     /// Masses of the elements, as shares of the heaviest; none where all are alike.
     pub masses: Option<&'a [f32]>,
-    /// sin φ of the elements, 0 of what is no grain; none where no grain is.
-    pub grains: Option<&'a [f32]>,
+    /// What friction reads of the elements; none where no grain is.
+    pub grains: Option<GrainParams<'a>>,
     /// Lanes in use.
     pub instructions: InstructionSet,
     /// Threads to use.
@@ -128,12 +128,12 @@ impl Predictor {
         self.closed.update(&grid, solids);
         self.faces.collect(&grid, particles, params.masses, team);
         match params.grains {
-            Some(sines) => {
+            Some(of) => {
                 let Particles { x, y, element, .. } = &*particles;
                 let share = self.faces.share_out(&grid, team);
                 let resumed = std::mem::take(&mut self.resumed);
                 let grains = self.grains.get_or_insert_with(|| Grains::resume(&grid, resumed));
-                grains.collect(&share, [x, y], element, sines, params.masses);
+                grains.collect(&share, [x, y], element, (of, params.masses), params.dt);
             }
             None => (self.grains, self.resumed) = (None, Vec::new()),
         }

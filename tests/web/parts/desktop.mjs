@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { poll, sleep } from '../../poll.mjs';
 import { water } from '../browser.mjs';
-import { click, drag, dragUntil, files, find, follow, moveTo, stats, still, until, untilKept } from '../player.mjs';
+import { click, dragUntil, files, find, flick, follow, moveTo, stats, still, until, untilKept } from '../player.mjs';
 
 const WORLD = { x: 0, y: 60, width: 1280, height: 660 };
 const FLOOR = { x: 40, y: 690, width: 360, height: 40 };
@@ -64,7 +64,7 @@ async function withTheMouse({ eyes, shoot, test, waterUntil }, page) {
     let gusts = 0;
     const windy = await poll('a quarter of the water has gone from the left of the floor', async () => {
       gusts += 1;
-      await drag(page, [50, 130, 210, 290, 370, 450, 530].map((x) => [x, 715]));
+      await flick(page, [50, 715], [530, 715]);
       return water(eyes, await shoot(page, 'desktop-windy'), FLOOR);
     }, (lies) => 4 * lies < 3 * calm.lies);
     return `water on ${windy} pixels of the floor after ${gusts} gusts, ${calm.lies} before`;

@@ -3,10 +3,10 @@
 //! slope of any height is held.
 //!
 //! S = s_xx = −s_yy stands in the cells, T = s_xy in their lower left corners, both counted in d/s as the pressure is: a face
-//! gains the differences of the stresses around it, times its lightness. Of all stresses with √(S² + T²) ≤ sin φ · p that one is
+//! gains the differences of the stresses around it, times its lightness. Of all stresses with √(S² + T²) ≤ sin φ · p + cos φ · c that one is
 //! taken that leaves the flow least energy, by projected gradients with Nesterov's acceleration from the last substep's on.
 //!
-//! With sin φ, Mohr's circle touches the line of the angle φ: a slope rests up to φ.
+//! With sin φ and cos φ, Mohr's circle touches the line c + p tan φ: a slope rests up to φ, and with a cohesion of c higher cliffs do.
 
 use crate::{
     parallel::{Rows, Sweep, sweep},

@@ -1,4 +1,4 @@
-//! How much stress grains can bear: Coulomb's law, from what presses them together.
+//! How much stress grains can bear: Coulomb's law, from what presses them together, and cohesion.
 
 use crate::{
     parallel::{Rows, Sweep},
@@ -90,8 +90,8 @@ impl<'b> Sweep<((Rows<'b, f32>, Rows<'b, f32>), Rows<'b, f32>)> for FindLimits<'
         for (j, ((cells, corners), inner)) in rows.zip(cells.each().zip(corners.each()).zip(inner.each())) {
             for column in columns.clone() {
                 let k = grid.row(j) + column;
-                let sine = spread.sine(grid, k);
-                cells[column] = if bed.is_liquid(k) { sine * pressed[k] * holds(strain[0][k]) } else { 0.0 };
+                let (sine, bond) = (spread.sine(grid, k), spread.bond(grid, k));
+                cells[column] = if bed.is_liquid(k) { sine * pressed[k] * holds(strain[0][k]) + bond } else { 0.0 };
                 if takes_part[k] == 0.0 {
                     (corners[column], inner[column]) = (0.0, 0.0);
                     continue;
@@ -114,7 +114,9 @@ impl<'b> Sweep<((Rows<'b, f32>, Rows<'b, f32>), Rows<'b, f32>)> for FindLimits<'
                 }
                 let is_inner = count == 4.0;
                 let presses = if is_inner { 0.25 * inside } else { outside / f32::max(count, 1.0) };
-                corners[column] = sine * presses.max(0.0) * holds(strain[1][k]);
+                // What holds grains together does not hold them to walls.
+                let bond = if is_inner { bond } else { 0.0 };
+                corners[column] = sine * presses.max(0.0) * holds(strain[1][k]) + bond;
                 inner[column] = if is_inner { 1.0 } else { 0.0 };
             }
         }

@@ -30,6 +30,15 @@ use std::ops::Range;
 /// to make it even.
 const LEFT_ALONE: [f32; 2] = [0.06, 0.03];
 
+/// What friction reads of the elements, an entry an element.
+#[derive(Clone, Copy, Debug)]
+pub struct GrainParams<'a> {
+    /// sin φ; 0 of what is no grain.
+    pub sines: &'a [f32],
+    /// Cohesion by its own density, d/s² ([`ElementParams::cohesion`](crate::element::ElementParams)).
+    pub cohesion: &'a [f32],
+}
+
 /// The grains, and the stress among them. The buffers are kept.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Grains {
@@ -37,8 +46,12 @@ pub(super) struct Grains {
     sines: Vec<f32>,
     /// 1 for each grain.
     is_grain: Vec<f32>,
+    /// Stress that each bears without pressure, d/s; not read if none bears any.
+    bonds: Vec<f32>,
     /// At left and lower faces: number of grains (as weights), and that times sin φ.
     faces: [Vec<[f32; 2]>; 2],
+    /// The same with the bonds in place of sin φ, if there are any.
+    bound: Option<[Vec<[f32; 2]>; 2]>,
     /// How full cells are, as far as that is to be changed.
     uneven: Vec<f32>,
     friction: Friction,
@@ -52,26 +65,36 @@ pub(super) struct Grains {
 }
 
 impl Grains {
-    /// Shares out the grains on the faces. `of`: sin φ of the elements; `masses`: those of the elements as shares of the heaviest, if
-    /// they differ.
+    /// Shares out the grains on the faces. `masses`: those of the elements as shares of the heaviest, if they differ. `dt`: the
+    /// substep, s.
     pub fn collect(
         &mut self,
         share: &ShareOut,
         at: [&[f32]; 2],
         elements: &[ElementId],
-        of: &[f32],
-        masses: Option<&[f32]>,
+        (of, masses): (GrainParams, Option<&[f32]>),
+        dt: f32,
     ) {
-        let Self { sines, is_grain, faces, counts, liquids, .. } = self;
+        let Self { sines, is_grain, bonds, faces, bound, counts, liquids, .. } = self;
         counts.clear();
-        counts.resize(of.len(), 0);
+        counts.resize(of.sines.len(), 0);
         elements.iter().for_each(|element| counts[element.index()] += 1);
-        *liquids = mean_density_of_liquids(counts, of, masses);
+        *liquids = mean_density_of_liquids(counts, of.sines, masses);
         sines.clear();
-        sines.extend(elements.iter().map(|element| of[element.index()]));
+        sines.extend(elements.iter().map(|element| of.sines[element.index()]));
         is_grain.clear();
         is_grain.extend(sines.iter().map(|sine| if *sine > 0.0 { 1.0 } else { 0.0 }));
         share.run(at, Some(is_grain), [sines, sines], faces.each_mut());
+        if of.cohesion.iter().zip(&*counts).any(|(cohesion, count)| *cohesion > 0.0 && *count > 0) {
+            // Stresses are counted by the density of the heaviest and by cells, as the pressure is.
+            let by_cell = dt * share.grid.per_cell;
+            let bond = |element: usize| by_cell * masses.map_or(1.0, |masses| masses[element]) * of.cohesion[element];
+            bonds.clear();
+            bonds.extend(elements.iter().map(|element| bond(element.index())));
+            share.run(at, Some(is_grain), [bonds, bonds], bound.get_or_insert_default().each_mut());
+        } else {
+            *bound = None;
+        }
     }
 
     /// sin φ of each particle; 0 of what is no grain.
@@ -92,8 +115,8 @@ impl Grains {
 
     /// Finds the stress under the pressure of the substep, and adds what it changes to the faces' ways.
     pub fn end(&mut self, bed: &Bed, faces: &mut Faces, pressure: &[f32]) {
-        let Self { faces: own, friction, pore, liquids, ways, .. } = self;
-        let spread = Spread { grains: own, all: [&faces.u, &faces.v] };
+        let Self { faces: own, bound, friction, pore, liquids, ways, .. } = self;
+        let spread = Spread { grains: own, bound: bound.as_ref(), all: [&faces.u, &faces.v] };
         pore.solve(bed, &spread, pressure, *liquids);
         friction.solve(bed, faces, &spread, pressure, pore.pressure());
         friction.hand_over(bed, faces, ways);
@@ -101,9 +124,9 @@ impl Grains {
 
     /// How full cells are, as far as that is to be changed: a bed of grains is left as it lies.
     pub fn uneven(&mut self, bed: &Bed, faces: &Faces) -> &[f32] {
-        let Self { faces: own, uneven, .. } = self;
+        let Self { faces: own, bound, uneven, .. } = self;
         uneven.resize(bed.grid.len(), 0.0);
-        let spread = Spread { grains: own, all: [&faces.u, &faces.v] };
+        let spread = Spread { grains: own, bound: bound.as_ref(), all: [&faces.u, &faces.v] };
         let work = Uneven { grid: bed.grid, columns: bed.span.clone(), filled: &faces.filled, spread };
         let band = Rows::new(uneven, bed.grid.stride, &bed.rows);
         sweep(&work, bed.rows.clone(), band, bed.span.len(), WORTH_A_PIECE, bed.team);
@@ -132,9 +155,10 @@ impl Grains {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        let Self { sines, is_grain, faces, uneven, friction, pore, ways, .. } = self;
-        let on_faces: usize = faces.iter().map(Vec::capacity).chain(ways.iter().map(Vec::capacity)).sum();
-        4 * (sines.capacity() + is_grain.capacity() + uneven.capacity())
+        let Self { sines, is_grain, bonds, faces, bound, uneven, friction, pore, ways, .. } = self;
+        let on_faces = faces.iter().chain(bound.iter().flatten()).map(Vec::capacity);
+        let on_faces: usize = on_faces.chain(ways.iter().map(Vec::capacity)).sum();
+        4 * (sines.capacity() + is_grain.capacity() + bonds.capacity() + uneven.capacity())
             + 8 * on_faces
             + friction.memory()
             + pore.memory()

@@ -10,6 +10,8 @@ const TOUCHING: [f32; 2] = [0.3, 0.7];
 pub(super) struct Spread<'a> {
     /// At left and lower faces: number of grains (as weights), and that times sin φ.
     pub grains: &'a [Vec<[f32; 2]>; 2],
+    /// The same with the stress that they bear without pressure (d/s) in place of sin φ, if any does.
+    pub bound: Option<&'a [Vec<[f32; 2]>; 2]>,
     /// Number of all particles (as weights).
     pub all: [&'a [[f32; 2]]; 2],
 }
@@ -18,12 +20,13 @@ impl Spread<'_> {
     /// Mean sin φ around a cell or its lower left corner; 0 where no grain is.
     #[inline(always)]
     pub fn sine(&self, grid: &MacGrid, k: usize) -> f32 {
-        let (mut weight, mut sum) = (0.0, 0.0);
-        for (axis, face) in sides(grid, k) {
-            let at = self.grains[axis as usize][face];
-            (weight, sum) = (weight + at[0], sum + at[1]);
-        }
-        if weight > 0.0 { sum / weight } else { 0.0 }
+        mean(self.grains, grid, k)
+    }
+
+    /// Mean stress (d/s) around a cell or its lower left corner that grains bear without pressure; 0 where they do not touch.
+    #[inline(always)]
+    pub fn bond(&self, grid: &MacGrid, k: usize) -> f32 {
+        self.bound.map_or(0.0, |bound| mean(bound, grid, k) * self.bears(grid, k))
     }
 
     /// How much of the pressure of a cell its grains bear: none where they do not touch.
@@ -39,6 +42,17 @@ impl Spread<'_> {
         let share = if share > 0.0 { share } else { 0.0 };
         if share < 1.0 { share } else { 1.0 }
     }
+}
+
+/// Mean of what grains have around a cell or its lower left corner; 0 where no grain is.
+#[inline(always)]
+fn mean(of: &[Vec<[f32; 2]>; 2], grid: &MacGrid, k: usize) -> f32 {
+    let (mut weight, mut sum) = (0.0, 0.0);
+    for (axis, face) in sides(grid, k) {
+        let at = of[axis as usize][face];
+        (weight, sum) = (weight + at[0], sum + at[1]);
+    }
+    if weight > 0.0 { sum / weight } else { 0.0 }
 }
 
 /// The faces of a cell.

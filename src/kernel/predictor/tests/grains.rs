@@ -5,7 +5,7 @@ use crate::{
     element::ElementId,
     params::Domain,
     particles::Particles,
-    predictor::{Predictor, PredictorParams},
+    predictor::{GrainParams, Predictor, PredictorParams},
     solids::Solids,
 };
 use glam::{DVec2, Vec2};
@@ -23,6 +23,17 @@ const GRAVITY: f32 = 98.1;
 
 /// One substep of gravity (d/s²) and prediction, after which all stay where they are.
 fn go_on(predictor: &mut Predictor, particles: &mut Particles, walls: &Solids, gravity: Vec2, angle: f32) {
+    go_on_bound(predictor, particles, walls, (gravity, angle), [0.0; 3]);
+}
+
+/// The same with the cohesion of the elements.
+fn go_on_bound(
+    predictor: &mut Predictor,
+    particles: &mut Particles,
+    walls: &Solids,
+    (gravity, angle): (Vec2, f32),
+    cohesion: [f32; 3],
+) {
     particles.vx.iter_mut().for_each(|vx| *vx += gravity.x * DT);
     particles.vy.iter_mut().for_each(|vy| *vy += gravity.y * DT);
     let (domain, sines) = (Domain { size: size(walls), gravity }, sines(angle));
@@ -32,7 +43,7 @@ fn go_on(predictor: &mut Predictor, particles: &mut Particles, walls: &Solids, g
         cell: CELL,
         rest_density: LATTICE,
         masses: None,
-        grains: is_sand.then_some(&sines),
+        grains: is_sand.then_some(GrainParams { sines: &sines, cohesion: &cohesion }),
         instructions: team().instructions,
         threads: 1,
         dt: DT,
@@ -233,4 +244,30 @@ fn the_water_between_grains_bears_its_share() {
     };
     let (wet, dry) = (shear(pool), shear(dry));
     assert!(wet > 1.5 * dry, "sheared with {wet} d/s under water, with {dry} d/s in air");
+}
+
+#[test]
+fn cohesion_holds_a_cliff_up_to_the_height_that_theory_has() {
+    // A cliff stands up to 3.83 c/(ρ g) tan(45° + φ/2) (Chen 1975, "Limit analysis and soil plasticity").
+    let (angle, high) = (35.0_f32, 24.0_f32);
+    let critical = |cohesion: f32| 3.83 * cohesion / GRAVITY * (45.0 + 0.5 * angle).to_radians().tan();
+    let sunk = |share: f32| {
+        let walls = solids(160, 40, |_| false);
+        let mut cliff = lattice(&walls, |at| (at.x < 70.0 && at.y < high).then_some(Vec2::ZERO));
+        // By its density, and as Mohr's circle has it.
+        let cohesion = share * high / critical(1.0) * angle.to_radians().cos();
+        let mut predictor = Predictor::default();
+        let bound = [0.0, cohesion, 0.0];
+        for _ in 0..30 {
+            go_on_bound(&mut predictor, &mut cliff, &walls, (tilted(0.0), angle), bound);
+        }
+        let top = (0..cliff.len()).filter(|i| cliff.y[*i] > high - 4.0 && cliff.x[*i] > 55.0);
+        let (sum, count) = top.fold((0.0, 0), |(sum, count), i| (sum - cliff.vy[i], count + 1));
+        sum / count as f32
+    };
+    // In half a second what falls freely reaches 49 d/s.
+    let (strong, weak, none) = (sunk(1.5), sunk(0.5), sunk(0.0));
+    assert!(strong < 0.1, "a cliff of two thirds of the height sinks at {strong} d/s");
+    assert!(weak > 5.0, "a cliff of twice the height sinks at {weak} d/s only");
+    assert!(none > weak, "{none} without cohesion, {weak} with some");
 }
