@@ -34,7 +34,9 @@ fn stages(criterion: &mut Criterion) {
         ..ElementParams::default()
     };
     group.bench_function("gravity", |b| {
-        stage(b, Tank::new(best), |tank| forces::begin_kick(Vec2::new(0.0, -1e-6), &mut tank.particles, 1, SUBSTEP));
+        stage(b, Tank::new(best), |tank| {
+            forces::begin_kick(Vec2::new(0.0, -1e-6), None, &mut tank.particles, 1, SUBSTEP);
+        });
     });
     group.bench_function("drag", |b| {
         let tank = Tank::new(best);

@@ -3,7 +3,7 @@
 use glam::Vec2;
 use powder_master::kernel::{
     bins::Neighbours,
-    element::ElementId,
+    element::{ElementId, Traits},
     params::{Domain, FluidParams, Preset, Quality},
     particles::Particles,
     pbf::{SolveParams, Solver},
@@ -82,13 +82,22 @@ impl Tank {
     /// Velocities follow from the moves.
     pub fn update_velocities(&mut self) {
         let Self { particles, solids, solver, predictor, .. } = self;
-        velocity::update_velocities(particles, solver, solids, Vec2::ZERO, Some(predictor.flow()), None, 1, SUBSTEP);
+        velocity::update_velocities(
+            particles,
+            solver,
+            solids,
+            Vec2::ZERO,
+            Some(predictor.flow()),
+            Traits::default(),
+            1,
+            SUBSTEP,
+        );
     }
 
     /// Predicts positions.
     pub fn predict(&mut self) {
         let Self { particles, solids, domain, quality, solver, .. } = self;
-        predict::predict(particles, solver.instructions, (solids, domain), quality, None, 1, SUBSTEP);
+        predict::predict(particles, solver.instructions, (solids, domain), quality, Traits::default(), 1, SUBSTEP);
     }
 
     /// Sorts into bins.

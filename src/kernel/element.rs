@@ -29,6 +29,8 @@ named! {
     Powders = "powders",
     /// What flows.
     Liquids = "liquids",
+    /// What the air lifts.
+    Gases = "gases",
 }
 
 /// One row of the element table.
@@ -45,7 +47,7 @@ pub struct Element {
     pub colour: [u8; 3],
     /// Fixed elements never move: they stop liquids and air and are stored in the rock grid.
     pub fixed: bool,
-    /// Density, kg/m²; 1 … 100 000. Weighs the particle in energy, momentum and drag, and
+    /// Density, kg/m²; 0.05 … 100 000. Weighs the particle in energy, momentum and drag, and
     /// where densities differ in pressure, contact and viscosity.
     pub density: f32,
     /// Kinematic viscosity ν, m²/s; raising it makes the liquid thicker. 0 … 10. In XSPH's c ([`Element::smoothing`]) that is
@@ -102,7 +104,7 @@ impl Element {
     pub fn numbers(&self) -> [ElementNumber; 8] {
         let number = |name, value, min, max| ElementNumber { name, value, min, max };
         [
-            number("density", self.density, 1.0, 100_000.0),
+            number("density", self.density, 0.05, 100_000.0),
             number("viscosity", self.viscosity, 0.0, 10.0),
             number("smoothing", self.smoothing, 0.0, 0.5),
             number("friction", self.friction, 0.0, 60.0),
@@ -111,6 +113,23 @@ impl Element {
             number("drag", self.drag, 0.0, 1000.0),
             number("flow", self.flow, f32::MIN_POSITIVE, 1.0),
         ]
+    }
+
+    /// Whether the air lifts it.
+    pub fn is_gas(&self) -> bool {
+        self.category == Category::Gases
+    }
+
+    /// Inertia of a lump, kg/m²: a gas moves as much air as it displaces along with it (the added mass of a cylinder, Batchelor
+    /// 1967, "An introduction to fluid dynamics", §6.4). `air`: density of the air, kg/m².
+    pub fn inertia(&self, air: f32) -> f32 {
+        if self.is_gas() { self.density + air } else { self.density }
+    }
+
+    /// What a lump feels of gravity, as a share: a gas weighs what it has more than the air that it displaces, less than nothing
+    /// if it is lighter.
+    pub fn weight(&self, air: f32) -> f32 {
+        if self.is_gas() { (self.density - air) / (self.density + air) } else { 1.0 }
     }
 
     /// An element as heavy as water, with nothing else to it.
@@ -186,8 +205,10 @@ impl ElementTable {
 pub struct ElementParams {
     /// Drag as k of `dv/dt = −k |v| v`, 1/d: `C / (ρ D²)` per metre, times d, with the scene's own spacing D.
     pub drag: Vec<f32>,
-    /// Mass of a particle, kg/m² d²: its density.
+    /// Mass of a particle, kg/m² d²: its density, with the air that moves with a gas ([`Element::inertia`]).
     pub mass: Vec<f32>,
+    /// What it feels of gravity, as a share ([`Element::weight`]).
+    pub weight: Vec<f32>,
     /// XSPH c, a share a tick at the spacing of the run; beyond what 16 passes of a substep can do it is cut where it is used.
     pub viscosity: Vec<f32>,
     /// sin φ of grains; 0 of what is none.
@@ -196,6 +217,15 @@ pub struct ElementParams {
     pub cohesion: Vec<f32>,
     /// Vorticity confinement ε, d/s.
     pub vorticity: Vec<f32>,
+}
+
+/// What sets elements apart in the passes over all particles, where any of these is there.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Traits<'a> {
+    /// sin φ of the elements, 0 of what is no grain; none where no grain is.
+    pub sines: Option<&'a [f32]>,
+    /// What the elements feel of gravity, as a share; none where all feel all of it.
+    pub weights: Option<&'a [f32]>,
 }
 
 /// Sine of an angle of 0 … 60 degrees, to the last bit of f32 the same everywhere: the first terms of its series, whose next is
@@ -213,12 +243,13 @@ fn sine(degrees: f32) -> f32 {
 }
 
 impl ElementParams {
-    /// The parameters of all rows of a table at a scale.
-    pub fn new(elements: &ElementTable, scale: Scale) -> Self {
+    /// The parameters of all rows of a table at a scale, in air of a density, kg/m².
+    pub fn new(elements: &ElementTable, scale: Scale, air: f32) -> Self {
         let each = |of: &dyn Fn(&Element) -> f32| elements.iter().map(|(_, element)| of(element)).collect();
         Self {
-            drag: each(&|element| element.drag / (element.density * scale.spacing * scale.particles_per_own())),
-            mass: each(&|element| element.density),
+            drag: each(&|element| element.drag / (element.inertia(air) * scale.spacing * scale.particles_per_own())),
+            mass: each(&|element| element.inertia(air)),
+            weight: each(&|element| element.weight(air)),
             viscosity: each(&|element| {
                 let share = 3.2 * element.viscosity * TICK_SECONDS / (scale.spacing * scale.spacing);
                 share + element.smoothing * scale.particles_per_own()

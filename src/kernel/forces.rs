@@ -12,18 +12,25 @@ use glam::Vec2;
 /// Particles whose wind is looked up at a time.
 const BLOCK: usize = 64;
 
-/// Begins a substep of `dt` s: half of gravity (d/s²), whose other half comes after the move (`velocity`).
+/// Begins a substep of `dt` s: half of gravity (d/s²), whose other half comes after the move (`velocity`). `weights`: what the
+/// elements feel of it, as a share, if not all feel all.
 ///
 /// That is the leapfrog (velocity Verlet): with `x += v Δt` in between, a fall is exact at any Δt, in way and in speed.
 /// Pressure and contact act at the middle of a substep, too. They are known only once the substep is solved; so that
 /// the velocity that is stored is that of the substep's end, as much as they changed it by from its start to its middle
 /// is added after the move (`push`), and taken back here: the pressure solve sets out from the velocity in the middle
 /// of the last substep, and finds the whole change.
-pub fn begin_kick(gravity: Vec2, particles: &mut Particles, threads: usize, dt: f32) {
+pub fn begin_kick(gravity: Vec2, weights: Option<&[f32]>, particles: &mut Particles, threads: usize, dt: f32) {
     let change = 0.5 * dt * gravity;
-    let Particles { vx, vy, push_x, push_y, .. } = particles;
+    let Particles { vx, vy, push_x, push_y, element, .. } = particles;
     for (velocity, push, change) in [(vx, push_x, change.x), (vy, push_y, change.y)] {
-        spread([&mut velocity[..], push], WORTH_A_PIECE, threads, &|_, [velocity, push]| {
+        spread([&mut velocity[..], push], WORTH_A_PIECE, threads, &|first, [velocity, push]| {
+            if let Some(weights) = weights {
+                // The rest is added below.
+                for (velocity, element) in velocity.iter_mut().zip(&element[first..]) {
+                    *velocity += change * (weights[element.index()] - 1.0);
+                }
+            }
             for (velocity, push) in velocity.iter_mut().zip(push) {
                 *velocity += change - *push;
                 *push = 0.0;
@@ -169,7 +176,7 @@ mod tests {
         let mut particles = Particles::default();
         particles.push(0, crate::element::ElementId(0), Vec2::ONE, Vec2::new(3.0, 5.0));
         (particles.push_x[0], particles.push_y[0]) = (1.0, -2.0);
-        begin_kick(Vec2::new(0.0, -8.0), &mut particles, 1, 0.25);
+        begin_kick(Vec2::new(0.0, -8.0), None, &mut particles, 1, 0.25);
         assert_eq!(particles.velocity(0), Vec2::new(2.0, 6.0));
         assert_eq!((particles.push_x[0], particles.push_y[0]), (0.0, 0.0));
     }

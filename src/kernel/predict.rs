@@ -1,7 +1,7 @@
 //! Prediction: where the velocities alone would take the particles, without passing through rock or walls.
 
 use crate::{
-    element::ElementId,
+    element::{ElementId, Traits},
     forces::{drop_pushes, held},
     parallel::{WORTH_A_PIECE, spread},
     params::{Domain, Quality, WALL_GAP},
@@ -92,14 +92,12 @@ pub fn fastest(vx: &[f32], vy: &[f32]) -> f32 {
 /// move, the velocity becomes that of the move that is left, and what was to push against the obstacle after the move
 /// is held by it ([`held`]). A grain rubs on what stopped it: of its motion along it Coulomb's friction is lost, tan φ times what
 /// was stopped.
-///
-/// `grains`: sin φ of the elements, if any is a grain.
 pub fn predict(
     particles: &mut Particles,
     instructions: InstructionSet,
     (solids, domain): (&Solids, &Domain),
     quality: &Quality,
-    grains: Option<&[f32]>,
+    traits: Traits,
     threads: usize,
     dt: f32,
 ) -> PredictReport {
@@ -109,9 +107,9 @@ pub fn predict(
     let clamps = AtomicU64::new(0);
     let arrays = [&mut x[..], y, vx, vy, push_x, push_y];
     spread(arrays, WORTH_A_PIECE, threads, &|first, [x, y, vx, vy, push_x, push_y]| {
-        let grains = grains.map(|sines| (sines, &element[first..first + x.len()]));
+        let elements = &element[first..first + x.len()];
         let (position, velocity, push, clamps) = ([x, y], [vx, vy], [push_x, push_y], &clamps);
-        instructions.run(Prediction { domain, rock, grains, longest, dt, position, velocity, push, clamps });
+        instructions.run(Prediction { domain, rock, traits, elements, longest, dt, position, velocity, push, clamps });
     });
     PredictReport { speed_clamps: clamps.into_inner() }
 }
@@ -121,8 +119,8 @@ struct Prediction<'a> {
     domain: &'a Domain,
     /// Rock, if there is any.
     rock: Option<&'a Solids>,
-    /// sin φ of the elements and the elements, if any is a grain.
-    grains: Option<(&'a [f32], &'a [ElementId])>,
+    traits: Traits<'a>,
+    elements: &'a [ElementId],
     /// Longest move, d.
     longest: f32,
     dt: f32,
@@ -139,8 +137,9 @@ struct Prediction<'a> {
 impl Pass for Prediction<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { domain, rock, grains, longest, dt, position: [x, y], velocity: [vx, vy], .. } = self;
+        let Self { domain, rock, traits, elements, longest, dt, position: [x, y], velocity: [vx, vy], .. } = self;
         let ([push_x, push_y], clamps) = (self.push, self.clamps);
+        let of = |values: &[f32], k: usize| values[elements[k].index()];
         let (high, half) = (domain.highest(), 0.5 * dt * domain.gravity);
         let (mut from_x, mut from_y) = ([0.0_f32; BLOCK], [0.0_f32; BLOCK]);
         for first in (0..x.len()).step_by(BLOCK) {
@@ -166,7 +165,7 @@ impl Pass for Prediction<'_> {
                 for k in 0..x.len() {
                     if to_x[k] != x[k] + vx[k] * dt || to_y[k] != y[k] + vy[k] * dt {
                         let mut left = Vec2::new((to_x[k] - x[k]) / dt, (to_y[k] - y[k]) / dt);
-                        let sine = grains.map_or(0.0, |(sines, elements)| sines[elements[own.start + k].index()]);
+                        let sine = traits.sines.map_or(0.0, |sines| of(sines, own.start + k));
                         if sine > 0.0 {
                             let from = Vec2::new(x[k], y[k]);
                             let to = from + dt * rub(left, left - Vec2::new(vx[k], vy[k]), sine);
@@ -174,6 +173,7 @@ impl Pass for Prediction<'_> {
                             (to_x[k], to_y[k]) = (to.x, to.y);
                             left = (to - from) / dt;
                         }
+                        let half = traits.weights.map_or(half, |weights| of(weights, own.start + k) * half);
                         let kick = half + Vec2::new(push_x[k], push_y[k]);
                         let push = held(kick, left - Vec2::new(vx[k], vy[k])) - half;
                         (vx[k], vy[k], push_x[k], push_y[k]) = (left.x, left.y, push.x, push.y);
@@ -251,7 +251,15 @@ mod tests {
             let wanted = substeps(speed, &domain, &quality, (detail, TICK_SECONDS), || 1.0);
             assert_eq!(wanted, Substeps { count: most, short });
             let dt = TICK_SECONDS / wanted.count as f32;
-            let report = predict(&mut particles, InstructionSet::Baseline, (&solids, &domain), &quality, None, 1, dt);
+            let report = predict(
+                &mut particles,
+                InstructionSet::Baseline,
+                (&solids, &domain),
+                &quality,
+                Traits::default(),
+                1,
+                dt,
+            );
             assert_eq!(report.speed_clamps, u64::from(short));
             let (left, moved) = (particles.velocity(0), particles.position(0).distance(Vec2::splat(500.0)));
             let expected = speed.min(bound);
@@ -272,8 +280,8 @@ mod tests {
         }
         for _ in 0..120 {
             particles.vy.iter_mut().for_each(|vy| *vy -= gravity * dt);
-            let around = (&solids, &domain);
-            predict(&mut particles, InstructionSet::Baseline, around, &quality, Some(&[0.0, sine]), 1, dt);
+            let (around, traits) = ((&solids, &domain), Traits { sines: Some(&[0.0, sine]), weights: None });
+            predict(&mut particles, InstructionSet::Baseline, around, &quality, traits, 1, dt);
         }
         assert!((particles.vx[0] - speed).abs() < 1e-4 && particles.vx[1] == 0.0, "{:?} d/s", particles.vx);
         // v²/(2 μ g), less half of the first step: it is slower from the first step's start on.

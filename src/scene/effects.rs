@@ -146,6 +146,8 @@ pub struct Facts<'a> {
     pub predicts: bool,
     /// All elements.
     pub elements: &'a ElementTable,
+    /// Density of the air, kg/m².
+    pub air_density: f32,
     /// How many particles there are of each.
     pub counts: &'a [u32],
     /// Movable particles.
@@ -181,15 +183,21 @@ impl Facts<'_> {
         counted.any(|((_, element), &count)| count > 0 && !element.fixed && property(element))
     }
 
+    /// Whether gases are there.
+    pub fn has_gases(&self) -> bool {
+        self.present(Element::is_gas)
+    }
+
     /// Whether grains are there.
     pub fn has_grains(&self) -> bool {
         self.present(|element| element.friction > 0.0)
     }
 
-    /// Densities of the lightest and of the heaviest movable particles that are there, kg/m², if they differ.
+    /// Inertias of the lightest and of the heaviest movable particles that are there, kg/m², if they differ.
     pub fn densities(&self) -> Option<[f32; 2]> {
         let present = |((_, element), count): &((_, &Element), &u32)| **count > 0 && !element.fixed;
-        let densities = self.elements.iter().zip(self.counts).filter(present).map(|((_, element), _)| element.density);
+        let counted = self.elements.iter().zip(self.counts).filter(present);
+        let densities = counted.map(|((_, element), _)| element.inertia(self.air_density));
         let ends = densities.fold([f32::MAX, 0.0], |[least, most], density| [least.min(density), most.max(density)]);
         (ends[0] < ends[1]).then_some(ends)
     }
@@ -340,6 +348,18 @@ table! {
         differs_from_on: |facts| facts.has_liquid() && !facts.predicts,
         ..PLAIN
     }
+    /// The air lifts gases.
+    Buoyancy {
+        name: "buoyancy",
+        meaning: "gases weigh what they have more than the air that they displace: most of them rise",
+        part_of: Some(Pass::Gravity),
+        when: "a gas is there",
+        parameters: &["density of an element", "air_density"],
+        off: "gases fall as all else does",
+        wakes: true,
+        called_for: |facts| verdict(facts.has_gases(), "a gas is there", "no gas"),
+        ..PLAIN
+    }
     /// Masses in pressure and constraint.
     Masses {
         name: "masses",
@@ -391,11 +411,12 @@ table! {
         meaning: "neighbouring particles even out their velocities (XSPH)",
         passes: &[Pass::Viscosity],
         when: "an element that has it is there",
-        parameters: &["viscosity of an element"],
+        parameters: &["viscosity and smoothing of an element"],
         off: "neighbours keep their own velocities",
         wakes: true,
         called_for: |facts| {
-            verdict(facts.present(|element| element.viscosity > 0.0), "a viscous liquid is there", "nothing is viscous")
+            let is_viscous = facts.present(|element| element.viscosity > 0.0 || element.smoothing > 0.0);
+            verdict(is_viscous, "a viscous liquid is there", "nothing is viscous")
         },
         ..PLAIN
     }

@@ -39,7 +39,7 @@ impl Plugin for SimulationPlugin {
             .init_resource::<state::PredictorState>()
             .init_resource::<state::DragState>()
             .init_resource::<state::MassShares>()
-            .init_resource::<state::GrainSines>()
+            .init_resource::<state::Apart>()
             .init_resource::<state::StartEnergy>()
             .init_resource::<state::SleepState>()
             .init_resource::<workers::Workers>()

@@ -4,7 +4,7 @@
 use crate::{
     kernel::{
         air::{Air, AirReport},
-        element::{ElementParams, ElementTable},
+        element::{ElementParams, ElementTable, Traits},
         forces::LaterDrag,
         params::{Domain, Preset, Quality},
         particles::Particles,
@@ -190,14 +190,20 @@ impl MassShares {
     }
 }
 
-/// sin φ of the elements, 0 of what is no grain, where the effect `friction` runs and grains are; else empty. Written by the gate.
-#[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
-pub struct GrainSines(pub Vec<f32>);
+/// What sets elements apart in the passes over all particles. Written by the gate.
+#[derive(Resource, Clone, Copy, Debug, Default)]
+pub struct Apart {
+    /// Whether grains are there, and the effect `friction` runs.
+    pub grains: bool,
+    /// Whether gases are there, and the effect `buoyancy` runs.
+    pub gases: bool,
+}
 
-impl GrainSines {
-    /// They, if there are grains.
-    pub fn get(&self) -> Option<&[f32]> {
-        (!self.0.is_empty()).then_some(&self.0[..])
+impl Apart {
+    /// It, for the passes.
+    pub fn of(self, elements: &ElementParams) -> Traits<'_> {
+        let Self { grains, gases } = self;
+        Traits { sines: grains.then_some(&elements.friction[..]), weights: gases.then_some(&elements.weight[..]) }
     }
 }
 

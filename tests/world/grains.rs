@@ -12,7 +12,7 @@ use powder_master::{
         checkpoint::Checkpoint,
         effects::Effects,
         simulation::Simulation,
-        state::{GrainSines, SleepState},
+        state::{Apart, SleepState},
         workers::Workers,
     },
 };
@@ -91,7 +91,7 @@ fn without_friction_sand_lies_flat() {
     let mut simulation = Simulation::of(blueprint);
     simulation.run(1200);
     assert!(height(&simulation) < 7.0, "{} d", height(&simulation));
-    assert!(simulation.get::<GrainSines>().get().is_none());
+    assert!(!simulation.get::<Apart>().grains);
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn friction_is_only_looked_at_where_grains_are() {
     blueprint.particles.element.fill(water);
     let mut automatic = Simulation::of(blueprint.clone());
     automatic.run(60);
-    assert!(automatic.get::<GrainSines>().get().is_none(), "there are none");
+    assert!(!automatic.get::<Apart>().grains, "there are none");
     blueprint.effects.insert(Effect::Friction, Mode::On);
     assert_eq!(Simulation::of(blueprint).run(60).hash(), automatic.hash(), "`on` is another world than `auto`");
 }

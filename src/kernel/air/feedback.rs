@@ -75,11 +75,11 @@ struct Coupling {
 }
 
 impl Air {
-    /// Whether a crowd of particles of a speed (d/s) could wake air at rest at pressure 1 in a substep of `dt` s.
-    pub fn may_be_roused(&self, elements: &ElementParams, speed: f32, dt: f32) -> bool {
-        let loads =
-            elements.drag.iter().zip(&elements.mass).map(|(rate, mass)| CROWD * mass * (rate * speed * dt).min(1.0));
-        let load = loads.fold(0.0, f32::max);
+    /// Whether a crowd of particles of a speed (d/s) could wake air at rest at pressure 1 in a substep of `dt` s. `counts`: how many
+    /// there are of each element.
+    pub fn may_be_roused(&self, elements: &ElementParams, counts: &[u32], speed: f32, dt: f32) -> bool {
+        let present = elements.drag.iter().zip(&elements.mass).zip(counts).filter(|(_, count)| **count > 0);
+        let load = present.map(|((rate, mass), _)| CROWD * mass * (rate * speed * dt).min(1.0)).fold(0.0, f32::max);
         speed * load / (self.params.density + load) > QUIET_MACH * self.params.sound_speed
     }
 

@@ -7,13 +7,14 @@ use glam::Vec2;
 const LANES: usize = 8;
 
 /// Kinetic and potential energy of the particles over the origin, in masses of the elements (kg/m²) times d²/s². The sum
-/// is the same for any number of threads.
-pub fn energy(particles: &Particles, elements: &ElementParams, gravity: Vec2) -> f64 {
+/// is the same for any number of threads. `weights`: what the elements feel of gravity, as a share, if not all feel all.
+pub fn energy(particles: &Particles, elements: &ElementParams, gravity: Vec2, weights: Option<&[f32]>) -> f64 {
     let Particles { x, y, vx, vy, element, .. } = particles;
     let gravity = gravity.as_dvec2();
     let [energy] = sum(x.len(), |i| {
         let (vx, vy) = (f64::from(vx[i]), f64::from(vy[i]));
         let height = -(gravity.x * f64::from(x[i]) + gravity.y * f64::from(y[i]));
+        let height = weights.map_or(height, |weights| f64::from(weights[element[i].index()]) * height);
         [f64::from(elements.mass[element[i].index()]) * (0.5 * (vx * vx + vy * vy) + height)]
     });
     energy

@@ -11,7 +11,7 @@ pub use viscosity::apply_viscosity;
 pub use vorticity::apply_vorticity;
 
 use crate::{
-    element::ElementId,
+    element::{ElementId, Traits},
     forces::held,
     parallel::{WORTH_A_PIECE, spread},
     particles::Particles,
@@ -22,7 +22,10 @@ use crate::{
     units::TICK_SECONDS,
 };
 use glam::Vec2;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::{
+    iter::repeat_n,
+    sync::atomic::{AtomicU64, Ordering},
+};
 
 /// What the limiters of the solve did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -81,7 +84,7 @@ const CUT: f32 = 0.999;
 /// and faster meanwhile. So at any density a correction there ends motion as far as it points away from the wall, that of a film
 /// above all; between walls, and of a few drops in a crevice, which are their own flow, it ends all that runs against it.
 ///
-/// Grains (`grains`: sin φ of the elements, if any is one) stay where a correction is next to none ([`STILL`]).
+/// Grains stay where a correction is next to none ([`STILL`]).
 ///
 /// Then the second half of the kick that [`begin_kick`](crate::forces::begin_kick) began: gravity (d/s²) and what
 /// pressure and contact add. Where corrections hold a particle up they hold it against the kick, too ([`held`]).
@@ -91,7 +94,7 @@ pub fn update_velocities(
     solids: &Solids,
     gravity: Vec2,
     flow: Option<Flow>,
-    grains: Option<&[f32]>,
+    traits: Traits,
     threads: usize,
     dt: f32,
 ) -> MoveReport {
@@ -102,8 +105,8 @@ pub fn update_velocities(
     let arrays = [&mut vx[..], vy, push_x, push_y, to_x, to_y];
     spread(arrays, WORTH_A_PIECE, threads, &|base, [vx, vy, push_x, push_y, to_x, to_y]| {
         let anchor = [&*x, &*y].map(|anchor| &anchor[base..base + vx.len()]);
-        if let Some(sines) = grains {
-            let elements = &element[base..base + vx.len()];
+        let elements = &element[base..base + vx.len()];
+        if let Some(sines) = traits.sines {
             leave_at_rest(sines, elements, anchor, [to_x, to_y], STILL * dt / TICK_SECONDS);
         }
         instructions.run(Move {
@@ -113,6 +116,7 @@ pub fn update_velocities(
             aim: *aim,
             pressed,
             half: 0.5 * dt * gravity,
+            weights: traits.weights.map(|weights| (weights, elements)),
             dt,
             anchor,
             corrected: [to_x, to_y],
@@ -159,6 +163,8 @@ struct Move<'a> {
     pressed: [f32; 2],
     /// What gravity adds in the second half of the substep, d/s.
     half: Vec2,
+    /// What the elements feel of that and the elements, if not all feel all.
+    weights: Option<(&'a [f32], &'a [ElementId])>,
     dt: f32,
     /// Predicted positions, d.
     anchor: [&'a [f32]; 2],
@@ -175,7 +181,7 @@ struct Move<'a> {
 impl Pass for Move<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { rock, limit, flow, aim, pressed, half, dt, anchor: [from_x, from_y], clamps, .. } = self;
+        let Self { rock, limit, flow, aim, pressed, half, weights, dt, anchor: [from_x, from_y], clamps, .. } = self;
         let ([to_x, to_y], [vx, vy], [push_x, push_y]) = (self.corrected, self.velocity, self.push);
         let per_dt = 1.0 / dt;
         if let Some((limit, density)) = limit {
@@ -208,13 +214,34 @@ impl Pass for Move<'_> {
                 let at = [&from_x[own.clone()], &from_y[own.clone()]];
                 follow(flow, (aim, pressed), density, at, [vx, vy], [change_x, change_y]);
             }
-            let (push_x, push_y) = (&mut push_x[own.clone()], &mut push_y[own]);
-            for k in 0..count {
-                let kick = held(Vec2::new(half.x + push_x[k], half.y + push_y[k]), Vec2::new(change_x[k], change_y[k]));
-                (vx[k], vy[k]) = (vx[k] + change_x[k] + kick.x, vy[k] + change_y[k] + kick.y);
-                (push_x[k], push_y[k]) = (kick.x - half.x, kick.y - half.y);
+            let (push_x, push_y) = (&mut push_x[own.clone()], &mut push_y[own.clone()]);
+            match weights {
+                Some((weights, elements)) => {
+                    let weights = elements[own].iter().map(|element| weights[element.index()]);
+                    let halves = weights.map(|weight| [weight * half.x, weight * half.y]);
+                    end_kick(halves, [change_x, change_y], [vx, vy], [push_x, push_y]);
+                }
+                None => {
+                    end_kick(repeat_n([half.x, half.y], count), [change_x, change_y], [vx, vy], [push_x, push_y]);
+                }
             }
         }
+    }
+}
+
+/// Adds changes, half of gravity and pushes to velocities (all d/s), as far as the changes do not hold them. Leaves of the pushes
+/// what was added.
+#[inline(always)]
+fn end_kick(
+    halves: impl Iterator<Item = [f32; 2]>,
+    [change_x, change_y]: [&[f32]; 2],
+    [vx, vy]: [&mut [f32]; 2],
+    [push_x, push_y]: [&mut [f32]; 2],
+) {
+    for (k, half) in (0..vx.len()).zip(halves) {
+        let kick = held(Vec2::new(half[0] + push_x[k], half[1] + push_y[k]), Vec2::new(change_x[k], change_y[k]));
+        (vx[k], vy[k]) = (vx[k] + change_x[k] + kick.x, vy[k] + change_y[k] + kick.y);
+        (push_x[k], push_y[k]) = (kick.x - half[0], kick.y - half[1]);
     }
 }
 

@@ -3,7 +3,7 @@
 use super::*;
 
 use crate::{
-    element::{ElementId, ElementParams},
+    element::{ElementId, ElementParams, Traits},
     params::{GradientKernel, Preset},
     pbf::tests::{Bench, random_numbers},
     predict::longest_move,
@@ -170,8 +170,16 @@ fn velocities_follow_from_the_moves_and_cut_corrections_are_counted() {
         };
     }
     let before = bench.particles.clone();
-    let report =
-        update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, Vec2::ZERO, None, None, 1, 0.01);
+    let report = update_velocities(
+        &mut bench.particles,
+        &mut bench.solver,
+        &bench.solids,
+        Vec2::ZERO,
+        None,
+        Traits::default(),
+        1,
+        0.01,
+    );
     assert_eq!(report.position_clamps, 9, "corrections at their limit");
     let shares = |i| bench.solver.correction_share(i, bench.particles.position(i)).unwrap();
     assert!((shares(3) - 1.0).abs() < 1e-3 && (shares(8) - 1.0).abs() < 1e-3 && shares(10) < 0.6 && shares(20) < 0.2);
@@ -218,7 +226,16 @@ fn after_corrections(mut bench: Bench, ids: [usize; 2], density: f32, way: f32, 
     bench.solver.y.iter_mut().for_each(|y| *y += way);
     let before = bench.particles.clone();
     let flow = Some(predictor.flow());
-    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, Vec2::ZERO, flow, None, 1, SUBSTEP);
+    update_velocities(
+        &mut bench.particles,
+        &mut bench.solver,
+        &bench.solids,
+        Vec2::ZERO,
+        flow,
+        Traits::default(),
+        1,
+        SUBSTEP,
+    );
     ids.map(|id| {
         let i = before.id.iter().position(|own| *own == id as u32).unwrap();
         assert!((bench.particles.y[i] - before.y[i] - way).abs() < 1e-4, "the correction itself was lost");
@@ -273,7 +290,16 @@ fn a_correction_into_rock_stops_at_its_face() {
     for i in 0..400 {
         bench.solver.x[i] += 0.6;
     }
-    update_velocities(&mut bench.particles, &mut bench.solver, &bench.solids, Vec2::ZERO, None, None, 1, 0.01);
+    update_velocities(
+        &mut bench.particles,
+        &mut bench.solver,
+        &bench.solids,
+        Vec2::ZERO,
+        None,
+        Traits::default(),
+        1,
+        0.01,
+    );
     for i in 0..400 {
         let at = bench.particles.position(i);
         assert!(!bench.solids.is_solid(Solids::cell_of(at)), "particle {i} was moved into rock, to {at}");
@@ -408,9 +434,9 @@ fn confinement_gives_no_more_energy_than_it_may() {
                 particles: bench.particles.clone(),
                 ..square(0.0, |_| Vec2::ZERO)
             };
-            let before = energy(&bench.particles, &elements, Vec2::ZERO);
+            let before = energy(&bench.particles, &elements, Vec2::ZERO, None);
             apply_vorticity(&mut bench.particles, &mut bench.solver, &elements, most, 1, 0.01);
-            (energy(&bench.particles, &elements, Vec2::ZERO) - before, bench.particles)
+            (energy(&bench.particles, &elements, Vec2::ZERO, None) - before, bench.particles)
         };
         let (freely, free) = added(f64::MAX);
         assert!(freely > 0.0, "it has nothing to bound");

@@ -81,8 +81,8 @@ pub(super) const STARTS: [(&str, Arrange); 21] = [
         change_water(blueprint, |water| water.vorticity = 100.0);
         turn(blueprint);
     }),
-    ("viscosity_bound", |blueprint| change_water(blueprint, |water| water.viscosity = 0.5)),
-    ("viscosity_beyond", |blueprint| change_water(blueprint, |water| water.viscosity = 50.0)),
+    ("viscosity_bound", |blueprint| change_water(blueprint, |water| water.smoothing = 0.5)),
+    ("viscosity_beyond", |blueprint| change_water(blueprint, |water| water.smoothing = 50.0)),
     ("drag_huge", |blueprint| change_water(blueprint, |water| water.drag = 1e9)),
     ("drag_light", |blueprint| change_water(blueprint, |water| (water.density, water.drag) = (1.0, 1000.0))),
     ("heavy_above_light", heavy_above_light),

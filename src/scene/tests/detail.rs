@@ -66,7 +66,7 @@ fn what_is_physical_keeps_its_metres_and_what_is_counted_its_matter() {
 fn elements_are_the_same_matter_at_every_detail() {
     let si = |detail: f64| {
         let world = built("waterfall", detail, &[], None);
-        let (of, d) = (ElementParams::new(&world.elements, world.scale), world.scale.spacing);
+        let (of, d) = (ElementParams::new(&world.elements, world.scale, world.air.density), world.scale.spacing);
         let water = world.elements.find("water").expect("water").index();
         [of.drag[water] / d, of.viscosity[water] * d * d, of.vorticity[water] * d, of.mass[water]]
     };

@@ -65,7 +65,11 @@ impl Checkpoint {
         let blueprint = &self.setup.blueprint;
         let known = world.get_resource::<Setup>().is_some_and(|setup| Arc::ptr_eq(&setup.opened, &self.setup.opened));
         // They follow the scale.
-        world.insert_resource(Elements(ElementParams::new(&blueprint.elements, blueprint.scale)));
+        world.insert_resource(Elements(ElementParams::new(
+            &blueprint.elements,
+            blueprint.scale,
+            blueprint.air.density,
+        )));
         if known {
             world.resource_mut::<Effects>().set_modes(&self.modes);
         } else {

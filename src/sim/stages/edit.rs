@@ -159,7 +159,7 @@ impl Parts<'_, '_> {
         let Ok(after) = before.resampled(&self.setup.blueprint, &setup.blueprint, setup.quality.air_cell) else {
             return false;
         };
-        elements.0 = ElementParams::new(&setup.blueprint.elements, setup.blueprint.scale);
+        elements.0 = ElementParams::new(&setup.blueprint.elements, setup.blueprint.scale, setup.blueprint.air.density);
         **predictor = PredictorState::default();
         let (size, version) = (setup.domain.size, after.solids.version());
         **sleep = SleepState(Sleep::resume(after.sleep, &after.particles, size, version));

@@ -6,9 +6,7 @@ use crate::{
     sim::{
         effects::Effects,
         stages::TickPlan,
-        state::{
-            AirGrid, Census, Counters, Elements, GrainSines, MassShares, ParticleStore, Setup, SleepState, Sources,
-        },
+        state::{AirGrid, Apart, Census, Counters, Elements, MassShares, ParticleStore, Setup, SleepState, Sources},
     },
 };
 use bevy::prelude::{Local, Res, ResMut};
@@ -24,7 +22,7 @@ pub(super) fn plan_tick(
     elements: Res<Elements>,
     mut effects: ResMut<Effects>,
     mut shares: ResMut<MassShares>,
-    mut grains: ResMut<GrainSines>,
+    mut apart: ResMut<Apart>,
 ) {
     let fastest = predict::fastest(&particles.vx, &particles.vy);
     let modes = effects.wanted();
@@ -37,13 +35,17 @@ pub(super) fn plan_tick(
         preset: setup.preset,
         predicts: setup.quality.predictor,
         elements: setup.elements(),
+        air_density: setup.blueprint.air.density,
         counts: &census.by_element,
         particles: particles.len(),
         asleep: asleep.asleep(),
         has_tension: setup.blueprint.fluid.tension_strength > 0.0,
         has_winds: !sources.winds.is_empty(),
         air_moves: !air.is_quiet(),
-        stirs_air: air.may_be_roused(&elements, fastest, TICK_SECONDS / setup.quality.substeps as f32),
+        stirs_air: {
+            let substep = TICK_SECONDS / setup.quality.substeps as f32;
+            air.may_be_roused(&elements, &census.by_element, fastest, substep)
+        },
     };
     effects.decide(&facts);
     shares.clear();
@@ -51,10 +53,10 @@ pub(super) fn plan_tick(
     if let Some([_, heaviest]) = facts.densities().filter(|_| effects.get(Effect::Masses).running) {
         shares.extend(elements.mass.iter().map(|mass| mass / heaviest));
     }
-    grains.clear();
-    if facts.has_grains() && effects.acts(Effect::Friction) {
-        grains.extend_from_slice(&elements.friction);
-    }
+    *apart = Apart {
+        grains: facts.has_grains() && effects.acts(Effect::Friction),
+        gases: facts.has_gases() && effects.acts(Effect::Buoyancy),
+    };
 }
 
 /// Plans how many substeps the tick takes.

@@ -8,7 +8,7 @@ use crate::{
         ledger::Call,
         stages::TickPlan,
         state::{
-            AirGrid, Counters, DragState, Elements, GrainSines, MassShares, ParticleStore, PredictorState, Rock, Setup,
+            AirGrid, Apart, Counters, DragState, Elements, MassShares, ParticleStore, PredictorState, Rock, Setup,
             SolverState, Sources, StartEnergy,
         },
         workers::Workers,
@@ -48,17 +48,17 @@ pub(super) fn step_air(
 pub(super) fn begin_kick(
     mut particles: ResMut<ParticleStore>,
     mut start: ResMut<StartEnergy>,
-    elements: Res<Elements>,
+    (elements, apart): (Res<Elements>, Res<Apart>),
     setup: Res<Setup>,
     effects: Res<Effects>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
 ) -> usize {
-    let (gravity, dt) = (setup.domain.gravity, plan.substep_seconds());
+    let (gravity, dt, weights) = (setup.domain.gravity, plan.substep_seconds(), apart.of(&elements).weights);
     if effects.get(Effect::Vorticity).running {
-        start.0 = velocity::energy(&particles, &elements, gravity);
+        start.0 = velocity::energy(&particles, &elements, gravity, weights);
     }
-    workers.run_for(particles.len(), |threads| forces::begin_kick(gravity, &mut particles, threads, dt));
+    workers.run_for(particles.len(), |threads| forces::begin_kick(gravity, weights, &mut particles, threads, dt));
     particles.len()
 }
 
@@ -105,7 +105,7 @@ pub(super) fn predict_pressure(
     mut particles: ResMut<ParticleStore>,
     mut predictor: ResMut<PredictorState>,
     solver: Res<SolverState>,
-    (elements, shares, grains): (Res<Elements>, Res<MassShares>, Res<GrainSines>),
+    (elements, shares, apart): (Res<Elements>, Res<MassShares>, Res<Apart>),
     rock: Res<Rock>,
     setup: Res<Setup>,
     plan: Res<TickPlan>,
@@ -118,7 +118,10 @@ pub(super) fn predict_pressure(
             cell: setup.quality.kernel_radius,
             rest_density: setup.blueprint.fluid.rest_density,
             masses: shares.get(),
-            grains: grains.get().map(|sines| predictor::GrainParams { sines, cohesion: &elements.cohesion }),
+            grains: apart.of(&elements).sines.map(|sines| {
+                let cohesion = &elements.cohesion[..];
+                predictor::GrainParams { sines, cohesion }
+            }),
             instructions: solver.instructions,
             threads,
             dt: plan.substep_seconds(),
@@ -136,17 +139,16 @@ pub(super) fn predict_positions(
     mut later: ResMut<DragState>,
     solver: Res<SolverState>,
     rock: Res<Rock>,
-    grains: Res<GrainSines>,
+    (elements, apart): (Res<Elements>, Res<Apart>),
     setup: Res<Setup>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
 ) -> usize {
-    let dt = plan.substep_seconds();
+    let (dt, traits) = (plan.substep_seconds(), apart.of(&elements));
     let around = (&**rock, &setup.domain);
     let report = workers.run_for(particles.len(), |threads| {
-        let report =
-            predict::predict(&mut particles, solver.instructions, around, &setup.quality, grains.get(), threads, dt);
+        let report = predict::predict(&mut particles, solver.instructions, around, &setup.quality, traits, threads, dt);
         later.end(&mut particles, threads, predict::longest_move(&setup.quality) / dt);
         report
     });
@@ -202,16 +204,16 @@ pub(super) fn update_velocities(
     rock: Res<Rock>,
     setup: Res<Setup>,
     predictor: Res<PredictorState>,
-    grains: Res<GrainSines>,
+    (elements, apart): (Res<Elements>, Res<Apart>),
     effects: Res<Effects>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
 ) -> usize {
-    let (gravity, dt) = (setup.domain.gravity, plan.substep_seconds());
+    let (gravity, dt, traits) = (setup.domain.gravity, plan.substep_seconds(), apart.of(&elements));
     let flow = effects.get(Effect::Predictor).running.then(|| predictor.flow());
     let report = workers.run_for(particles.len(), |threads| {
-        velocity::update_velocities(&mut particles, &mut solver, &rock, gravity, flow, grains.get(), threads, dt)
+        velocity::update_velocities(&mut particles, &mut solver, &rock, gravity, flow, traits, threads, dt)
     });
     counters.position_clamps += report.position_clamps;
     particles.len()
@@ -238,7 +240,7 @@ pub(super) fn apply_viscosity(
 pub(super) fn apply_vorticity(
     mut particles: ResMut<ParticleStore>,
     mut solver: ResMut<SolverState>,
-    elements: Res<Elements>,
+    (elements, apart): (Res<Elements>, Res<Apart>),
     setup: Res<Setup>,
     start: Res<StartEnergy>,
     plan: Res<TickPlan>,
@@ -247,7 +249,8 @@ pub(super) fn apply_vorticity(
 ) -> usize {
     let dt = plan.substep_seconds();
     let report = workers.run_for(particles.len(), |threads| {
-        let lost = start.0 - velocity::energy(&particles, &elements, setup.domain.gravity);
+        let weights = apart.of(&elements).weights;
+        let lost = start.0 - velocity::energy(&particles, &elements, setup.domain.gravity, weights);
         velocity::apply_vorticity(&mut particles, &mut solver, &elements, lost, threads, dt)
     });
     counters.strength_clamps += report.clamps;

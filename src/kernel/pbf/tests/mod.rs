@@ -6,7 +6,7 @@ pub(crate) mod reference;
 use super::*;
 use crate::{
     bins::Neighbours,
-    element::ElementId,
+    element::{ElementId, Traits},
     params::{Domain, FluidParams, GradientKernel, Preset, Quality, WALL_GAP},
     particles::Particles,
     predictor::Predictor,
@@ -83,12 +83,12 @@ impl Bench {
         let Self { particles, solids, domain, quality, solver, predicted, .. } = self;
         // Of the flow nothing is known.
         let (predicted, predictor) = (*predicted, Predictor::default());
-        crate::predict::predict(particles, solver.instructions, (solids, domain), quality, None, 1, dt);
+        crate::predict::predict(particles, solver.instructions, (solids, domain), quality, Traits::default(), 1, dt);
         let params = SolveParams { domain, fluid: &self.fluid, quality, tension, predicted, masses: None, threads: 1 };
         solver.bin(particles, solids, domain, quality, CROWDS_STAY, 1);
         solver.solve(particles, &params);
         let flow = predicted.then(|| predictor.flow());
-        crate::velocity::update_velocities(particles, solver, solids, Vec2::ZERO, flow, None, 1, dt);
+        crate::velocity::update_velocities(particles, solver, solids, Vec2::ZERO, flow, Traits::default(), 1, dt);
     }
 }
 

@@ -250,12 +250,13 @@ fn the_water_between_grains_bears_its_share() {
 fn cohesion_holds_a_cliff_up_to_the_height_that_theory_has() {
     // A cliff stands up to 3.83 c/(ρ g) tan(45° + φ/2) (Chen 1975, "Limit analysis and soil plasticity").
     let (angle, high) = (35.0_f32, 24.0_f32);
-    let critical = |cohesion: f32| 3.83 * cohesion / GRAVITY * (45.0 + 0.5 * angle).to_radians().tan();
+    let (sine, cosine) = (45.0 + 0.5 * angle).to_radians().sin_cos();
+    let critical = |cohesion: f32| 3.83 * cohesion / GRAVITY * sine / cosine;
     let sunk = |share: f32| {
         let walls = solids(160, 40, |_| false);
         let mut cliff = lattice(&walls, |at| (at.x < 70.0 && at.y < high).then_some(Vec2::ZERO));
         // By its density, and as Mohr's circle has it.
-        let cohesion = share * high / critical(1.0) * angle.to_radians().cos();
+        let cohesion = share * high / critical(1.0) * angle.to_radians().sin_cos().1;
         let mut predictor = Predictor::default();
         let bound = [0.0, cohesion, 0.0];
         for _ in 0..30 {
