@@ -1,4 +1,4 @@
-//! Free fall, of single particles and of a drop; single particles in a steady wind.
+//! Free fall, of single particles and of a drop; single particles in a steady wind, and light ones in still air.
 
 use crate::lab::exam::{
     finding::{Findings, Run, found},
@@ -11,6 +11,7 @@ pub(super) const RUNS: &[(&str, Run)] = &[
     ("falling_drop", |set_up| Box::pin(falling_drop(set_up))),
     ("wind", |set_up| Box::pin(wind(set_up))),
     ("terminal_speed", |set_up| Box::pin(terminal_speed(set_up))),
+    ("light_lumps", |set_up| Box::pin(light_lumps(set_up))),
 ];
 
 async fn free_fall(set_up: SetUp) -> Findings {
@@ -110,4 +111,36 @@ async fn terminal_speed(set_up: SetUp) -> Findings {
         found(quantity, expected, got)
     };
     Ok(vec![look(1, "speed after 1 s").await, look(6, "speed after 6 s").await])
+}
+
+/// What falls slowly or rises, and the row of each.
+const LIGHT: [(&str, &str); 6] = [
+    ("dust", "speed of dust"),
+    ("ash", "speed of ash"),
+    ("snow", "speed of snow"),
+    ("steam", "speed of steam"),
+    ("smoke", "speed of smoke"),
+    ("hydrogen", "speed of hydrogen"),
+];
+
+/// Density of the air, kg/m².
+const AIR: f64 = 1.2;
+
+async fn light_lumps(set_up: SetUp) -> Findings {
+    let mut simulation = set_up.open("light_lumps", &[])?;
+    simulation.run(5.0).await;
+    let matter = simulation.matter();
+    let (scale, d) = (matter.scale, f64::from(matter.scale.own_spacing()));
+    let mut findings = Vec::new();
+    for (name, quantity) in LIGHT {
+        let Some(id) = matter.elements.find(name) else { continue };
+        let element = matter.elements.get(id);
+        let displaced = if element.is_gas() { AIR } else { 0.0 };
+        let weight = (f64::from(element.density) - displaced) * d * d * GRAVITY;
+        let expected = -weight.signum() * (weight.abs() / f64::from(element.drag)).sqrt();
+        let own = (0..matter.particles.len()).filter(|i| matter.particles.element[*i] == id);
+        let got = worst(own.map(|i| f64::from(matter.particles.vy[i]) * f64::from(scale.spacing)), expected);
+        findings.push(found(quantity, expected, got));
+    }
+    Ok(findings)
 }

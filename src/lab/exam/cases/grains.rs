@@ -9,6 +9,7 @@ pub(super) const RUNS: &[(&str, Run)] = &[
     ("repose", |set_up| Box::pin(repose(set_up))),
     ("collapse", |set_up| Box::pin(collapse(set_up))),
     ("incline", |set_up| Box::pin(incline(set_up))),
+    ("cliff", |set_up| Box::pin(cliff(set_up))),
     ("submerged_heap", |set_up| Box::pin(submerged_heap(set_up))),
 ];
 
@@ -177,4 +178,43 @@ async fn submerged_heap(set_up: SetUp) -> Findings {
     let before = of_grains(&simulation);
     simulation.run(7.0).await;
     Ok(vec![found("mean way of the grains in 7 s", 0.0, mean_way(&before, &of_grains(&simulation)))])
+}
+
+/// Halvings of the range in which the critical height is sought, and how long a cliff is looked at, s.
+const HALVINGS: u32 = 5;
+const CLIFF_SECONDS: f64 = 5.0;
+/// Sinking of a cliff's edge from which on it has given way, m: what settles in a cliff that stands is less than a grain.
+const GAVE_WAY: f64 = 0.1;
+
+async fn cliff(set_up: SetUp) -> Findings {
+    let known = {
+        let simulation = set_up.open("cliff", &[])?;
+        let elements = simulation.matter().elements;
+        elements.find("wet_sand").map_or(f64::NAN, |sand| {
+            let sand = elements.get(sand);
+            let (friction, weight) = (f64::from(sand.friction).to_radians(), f64::from(sand.density) * GRAVITY);
+            let critical = |cohesion: f64, friction: f64| {
+                3.83 * cohesion / weight * (0.5 * friction + std::f64::consts::FRAC_PI_4).tan()
+            };
+            let cohesion = f64::from(sand.cohesion);
+            0.5 * (critical(cohesion, friction) + critical(cohesion * friction.cos(), friction.sin().atan()))
+        })
+    };
+    let [mut stands, mut falls] = [0.5 * known, 2.0 * known];
+    for _ in 0..HALVINGS {
+        let height = 0.5 * (stands + falls);
+        let mut simulation = set_up.open("cliff", &[("height", height)])?;
+        let (edge, start) = (edge(&simulation, height), places(&simulation));
+        simulation.run(CLIFF_SECONDS).await;
+        let end = places(&simulation);
+        let sunk = edge.iter().map(|i| start[*i][1] - end[*i][1]).sum::<f64>() / edge.len() as f64;
+        *(if sunk < GAVE_WAY { &mut stands } else { &mut falls }) = height;
+    }
+    Ok(vec![found("critical height", known, 0.5 * (stands + falls))])
+}
+
+/// The grains within half a metre of the edge of a cliff of a height (m), by their ids.
+fn edge(simulation: &CaseSimulation, height: f64) -> Vec<usize> {
+    let near = |at: &[f64; 2]| at[0] > 14.5 && at[1] > height - 0.5;
+    places(simulation).iter().enumerate().filter(|(_, at)| near(at)).map(|(id, _)| id).collect()
 }
