@@ -2,14 +2,18 @@
 
 use crate::{
     kernel::{
-        element::ElementTable,
+        element::{ElementId, ElementTable},
         params::Domain,
         particles::Particles,
         solids::{Solids, centre},
         units::Scale,
     },
     lab::stats,
-    sim::state::{ParticleStore, Setup},
+    scene::effects::{Effect, Mode},
+    sim::{
+        effects::Effects,
+        state::{Elements, ParticleStore, Setup},
+    },
 };
 use bevy::ecs::world::World;
 use glam::{DVec2, IVec2, Vec2};
@@ -25,6 +29,10 @@ pub struct Matter<'a> {
     pub domain: &'a Domain,
     /// Particle spacing.
     pub scale: Scale,
+    /// Density of the air, kg/m².
+    pub air_density: f32,
+    /// What the elements feel of gravity, as a share; none where the air lifts no gas.
+    pub weights: Option<&'a [f32]>,
 }
 
 /// The movable particles with what mechanics needs to know of them.
@@ -35,13 +43,17 @@ pub(crate) fn matter(world: &World) -> Matter<'_> {
         elements: &blueprint.elements,
         domain,
         scale: blueprint.scale,
+        air_density: blueprint.air.density,
+        // Whether gases are there makes no difference here.
+        weights: (world.resource::<Effects>().get(Effect::Buoyancy).mode != Mode::Off)
+            .then_some(&world.resource::<Elements>().weight[..]),
     }
 }
 
 /// Mass, energy and momentum of the movable particles, for each metre of depth.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Balance {
-    /// Mass, kg.
+    /// Mass, kg, with the air that moves with gases.
     pub mass: f64,
     /// Kinetic energy, J.
     pub kinetic: f64,
@@ -63,14 +75,25 @@ impl Balance {
 }
 
 impl Matter<'_> {
+    /// Mass of a particle of an element, kg, with the air that moves with a gas.
+    pub fn mass(self, element: ElementId) -> f64 {
+        let d = f64::from(self.scale.spacing);
+        f64::from(self.elements.get(element).inertia(self.air_density)) * d * d
+    }
+
+    /// What a particle of an element feels of gravity, m/s².
+    pub fn gravity(self, element: ElementId) -> DVec2 {
+        let share = self.weights.map_or(1.0, |weights| f64::from(weights[element.index()]));
+        share * self.domain.gravity.as_dvec2() * f64::from(self.scale.spacing)
+    }
+
     /// Mass, energy and momentum.
     pub fn balance(self) -> Balance {
         let d = f64::from(self.scale.spacing);
-        let gravity = self.domain.gravity.as_dvec2() * d;
-        let masses: Vec<f64> = self.elements.iter().map(|(_, element)| f64::from(element.density) * d * d).collect();
+        let of: Vec<_> = self.elements.iter().map(|(id, _)| (self.mass(id), self.gravity(id))).collect();
         let mut sum = Balance::default();
         for i in 0..self.particles.len() {
-            let mass = masses[self.particles.element[i].index()];
+            let (mass, gravity) = of[self.particles.element[i].index()];
             let (p, v) = (self.particles.position(i).as_dvec2() * d, self.particles.velocity(i).as_dvec2() * d);
             let speed = v.length();
             sum.mass += mass;
@@ -138,7 +161,7 @@ fn near_rock(p: Vec2, rock: &Solids, reach: f32, span: i32) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::element::{Element, ElementId};
+    use crate::kernel::element::Element;
 
     fn table() -> ElementTable {
         ElementTable::new(
@@ -152,6 +175,10 @@ mod tests {
         Domain { size: Vec2::new(40.0, 20.0), gravity: Vec2::new(0.0, -98.1) }
     }
 
+    fn of<'a>(particles: &'a Particles, elements: &'a ElementTable, domain: &'a Domain) -> Matter<'a> {
+        Matter { particles, elements, domain, scale: Scale::own(0.1), air_density: 1.2, weights: None }
+    }
+
     #[test]
     fn energy_and_momentum_are_those_of_the_mechanics_book() {
         let mut particles = Particles::default();
@@ -159,7 +186,7 @@ mod tests {
         particles.push(1, ElementId(1), Vec2::new(5.0, 0.0), Vec2::new(0.0, -40.0));
         let (elements, domain) = (table(), domain());
         // d = 0.1 m: 10 kg and 5 kg, 1 m and 0 m high, 2 m/s and 4 m/s fast, g = 9.81 m/s².
-        let matter = Matter { particles: &particles, elements: &elements, domain: &domain, scale: Scale::own(0.1) };
+        let matter = of(&particles, &elements, &domain);
         let balance = matter.balance();
         let near = |a: f64, b: f64| (a - b).abs() < 1e-4 * b.abs().max(1.0);
         assert!(near(balance.mass, 15.0), "{balance:?}");
@@ -177,7 +204,7 @@ mod tests {
             particles.push(k as u32, ElementId(0), centre(cell), Vec2::ZERO);
         }
         let (elements, domain) = (table(), domain());
-        let matter = Matter { particles: &particles, elements: &elements, domain: &domain, scale: Scale::own(0.1) };
+        let matter = of(&particles, &elements, &domain);
         assert!((matter.front().unwrap() - 1.0).abs() < 1e-6);
         assert!((matter.surface().unwrap() - 2.0).abs() < 1e-6);
         let nothing = Particles::default();

@@ -104,7 +104,7 @@ impl CoarseField {
             ..Self::default()
         };
         let area = d * d / f64::from(fluid.rest_density);
-        let masses: Vec<f64> = matter.elements.iter().map(|(_, element)| f64::from(element.density) * d * d).collect();
+        let masses: Vec<f64> = matter.elements.iter().map(|(id, _)| matter.mass(id)).collect();
         for i in 0..matter.particles.len() {
             let (position, velocity) = (matter.particles.position(i), matter.particles.velocity(i));
             let at = position / edge;

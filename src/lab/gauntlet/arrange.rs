@@ -5,6 +5,7 @@ use crate::{
     kernel::{
         element::{Element, ElementId, ElementTable},
         random::{mix, unit},
+        solids::centre,
         sources::Rect,
     },
     scene::blueprint::{Blueprint, PressurePatch},
@@ -16,7 +17,7 @@ use std::sync::Arc;
 type Arrange = fn(&mut Blueprint);
 
 /// By the names of the cases.
-pub(super) const STARTS: [(&str, Arrange); 21] = [
+pub(super) const STARTS: [(&str, Arrange); 23] = [
     ("two_at_a_point", |blueprint| {
         for at in [Vec2::new(2.0, 1.0), Vec2::new(4.03, 0.025)] {
             (0..2).for_each(|_| water(blueprint, at, Vec2::ZERO));
@@ -86,6 +87,10 @@ pub(super) const STARTS: [(&str, Arrange); 21] = [
     ("drag_huge", |blueprint| change_water(blueprint, |water| water.drag = 1e9)),
     ("drag_light", |blueprint| change_water(blueprint, |water| (water.density, water.drag) = (1.0, 1000.0))),
     ("heavy_above_light", heavy_above_light),
+    ("every_pair", every_pair),
+    ("strong_grains", |blueprint| {
+        change(blueprint, "sand", |sand| (sand.friction, sand.cohesion) = (60.0, 50_000.0));
+    }),
 ];
 
 /// Adds to the start of a case what belongs to it.
@@ -114,9 +119,14 @@ fn water(blueprint: &mut Blueprint, at: Vec2, velocity: Vec2) {
 }
 
 /// Changes what water is.
-fn change_water(blueprint: &mut Blueprint, change: impl Fn(&mut Element)) {
+fn change_water(blueprint: &mut Blueprint, to: impl Fn(&mut Element)) {
+    change(blueprint, "water", to);
+}
+
+/// Changes what an element is.
+fn change(blueprint: &mut Blueprint, name: &str, to: impl Fn(&mut Element)) {
     let mut rows: Vec<Element> = blueprint.elements.iter().map(|(_, element)| element.clone()).collect();
-    rows.iter_mut().filter(|row| row.name == "water").for_each(change);
+    rows.iter_mut().filter(|row| row.name == name).for_each(to);
     blueprint.elements = Arc::new(ElementTable::new(rows));
 }
 
@@ -191,4 +201,32 @@ fn heavy_above_light(blueprint: &mut Blueprint) {
         }
     }
     water(blueprint, Vec2::new(2.05, 2.55), Vec2::ZERO);
+}
+
+/// A basin for any two elements that move, one over the other.
+fn every_pair(blueprint: &mut Blueprint) {
+    const INSIDE: IVec2 = IVec2::new(6, 12);
+    const DEEP: i32 = 4;
+    let of = |fixed| blueprint.elements.iter().filter(move |(_, element)| element.fixed == fixed).map(|(id, _)| id);
+    let (movable, rock): (Vec<_>, _) = (of(false).collect(), element(&blueprint.elements, "rock"));
+    let pairs = movable.iter().flat_map(|lower| movable.iter().map(move |upper| [*lower, *upper]));
+    let across = movable.len() as i32;
+    for (k, pair) in pairs.filter(|[lower, upper]| lower != upper).enumerate() {
+        let corner = IVec2::new(k as i32 % across, k as i32 / across) * (INSIDE + 1);
+        let walls = (0..=INSIDE.x + 1).flat_map(|x| (0..=INSIDE.y + 1).map(move |y| IVec2::new(x, y)));
+        let walls = walls.filter(|at| at.x == 0 || at.y == 0 || at.x == INSIDE.x + 1 || at.y == INSIDE.y + 1);
+        for cell in walls.flat_map(|cell| finer(blueprint, corner + cell)).collect::<Vec<_>>() {
+            if blueprint.solids.insert(cell, rock, blueprint.next_id) {
+                blueprint.next_id += 1;
+            }
+        }
+        for (row, element) in (0..2 * DEEP).map(|row| (row, pair[(row / DEEP) as usize])) {
+            for column in 0..INSIDE.x {
+                for cell in finer(blueprint, corner + IVec2::new(1 + column, 1 + row)).collect::<Vec<_>>() {
+                    blueprint.particles.push(blueprint.next_id, element, centre(cell), Vec2::ZERO);
+                    blueprint.next_id += 1;
+                }
+            }
+        }
+    }
 }

@@ -20,11 +20,21 @@ use glam::Vec2;
 pub(super) type Act = fn(&mut World, u64);
 
 /// By the names of the cases.
-pub(super) const SCRIPTS: [(&str, Act); 18] = [
+pub(super) const SCRIPTS: [(&str, Act); 21] = [
     ("gravity_flips", |world, tick| set_gravity(world, Vec2::new(0.0, if tick % 2 == 0 { -G } else { G }))),
-    ("gravity_turns", |world, tick| {
-        let (x, y) = TURN[(tick * 16 / 180 % 16) as usize];
+    ("gravity_turns", turn_gravity),
+    ("heap_turned", turn_gravity),
+    ("heap_shaken", |world, tick| {
+        let (x, y) = TURN[if tick / 6 % 2 == 0 { 1 } else { 15 }];
         set_gravity(world, G * Vec2::new(x, y));
+    }),
+    ("silo_gate", |world, tick| {
+        if tick < 300 {
+            let stroke = Stroke::rectangle(Vec2::new(24.0, 30.0), Vec2::new(35.9, 34.9));
+            let element = named(world, "rock");
+            let shut = Intent::Stamp { element, stroke };
+            intend(world, if tick % 2 == 0 { shut } else { Intent::Erase { stroke } });
+        }
     }),
     ("wind_1000", |world, tick| {
         if tick < 240 && tick / 15 % 2 == 0 {
@@ -96,7 +106,7 @@ pub(super) const SCRIPTS: [(&str, Act); 18] = [
         blow(world, tick == 12, (50.0, 30.0), 15.0, (-50.0, 0.0));
     }),
     ("effects_toggle", |world, tick| {
-        let mut digits = tick * 5 % 6561;
+        let mut digits = tick * 88_573 % 3_u64.pow(Effect::ALL.len() as u32);
         for effect in Effect::ALL {
             intend(world, Intent::Effect { effect, mode: [Mode::Auto, Mode::On, Mode::Off][(digits % 3) as usize] });
             digits /= 3;
@@ -170,6 +180,12 @@ fn set_gravity(world: &mut World, gravity: Vec2) {
     if domain.gravity != gravity * blueprint.scale.detail {
         intend(world, Intent::Gravity { gravity });
     }
+}
+
+/// Turns gravity once in 3 s.
+fn turn_gravity(world: &mut World, tick: u64) {
+    let (x, y) = TURN[(tick * 16 / 180 % 16) as usize];
+    set_gravity(world, G * Vec2::new(x, y));
 }
 
 /// Changes the pressure of one cell.

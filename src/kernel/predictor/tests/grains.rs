@@ -6,6 +6,7 @@ use crate::{
     params::Domain,
     particles::Particles,
     predictor::{GrainParams, Predictor, PredictorParams},
+    random::mix,
     solids::Solids,
 };
 use glam::{DVec2, Vec2};
@@ -131,6 +132,23 @@ fn friction_among_grains_keeps_their_momentum_and_takes_energy() {
     // What a liquid loses at its surface, where faces have matter on one side.
     assert!(lost < 0.01, "{lost} of what moved");
     assert!(energy(&grains) < 0.8 * energy(&water), "friction took nothing");
+}
+
+#[test]
+fn friction_makes_no_motion_however_rock_cuts_up_the_grid() {
+    for seed in 0..20 {
+        // Every fourth place is rock.
+        let walls = solids(20, 20, |at| mix(400 * seed + 20 * at.y as u32 + at.x as u32).is_multiple_of(4));
+        let mut sand = lattice(&walls, |at| (at.y < 14.0).then_some(Vec2::ZERO));
+        let mut predictor = Predictor::default();
+        let mut fastest = 0.0_f32;
+        for _ in 0..30 {
+            go_on(&mut predictor, &mut sand, &walls, tilted(0.0), 45.0);
+            fastest = (0..sand.len()).map(|i| sand.velocity(i).length()).fold(fastest, f32::max);
+        }
+        // Falling freely all the time it would be 49 d/s.
+        assert!(fastest < 10.0, "seed {seed}: {fastest} d/s");
+    }
 }
 
 #[test]

@@ -12,7 +12,7 @@
 //!   share s of the way from v to the wind w adds `½ m s (w² − v²)` at most, the square being convex.
 
 use crate::{
-    kernel::units::TICK_SECONDS,
+    kernel::{element::ElementId, units::TICK_SECONDS},
     lab::balance::matter,
     scene::effects::Effect,
     sim::{
@@ -83,12 +83,11 @@ impl Due {
         let matter = matter(world);
         let (sources, rates) = (world.resource::<Sources>(), &world.resource::<Elements>().0.drag);
         let d = f64::from(matter.scale.spacing);
-        let gravity = matter.domain.gravity.as_dvec2() * d;
         let particles = matter.particles;
-        let mass = |i: usize| f64::from(matter.elements.get(particles.element[i]).density) * d * d;
+        let mass = |i: usize| matter.mass(particles.element[i]);
         let speed = |i: usize| particles.velocity(i).as_dvec2().length() * d;
-        let energy =
-            |i: usize| mass(i) * (0.5 * speed(i) * speed(i) - gravity.dot(particles.position(i).as_dvec2() * d));
+        let height = |i: usize| -matter.gravity(particles.element[i]).dot(particles.position(i).as_dvec2() * d);
+        let energy = |i: usize| mass(i) * (0.5 * speed(i) * speed(i) + height(i));
         let drains = |i: &usize| sources.drains.iter().any(|drain| drain.area.contains(particles.position(*i)));
         let rate = |i: usize| f64::from(rates[particles.element[i].index()]);
         Self {
@@ -109,11 +108,10 @@ impl Due {
     fn emitted(&self, world: &World) -> f64 {
         let matter = matter(world);
         let d = f64::from(matter.scale.spacing);
-        let gravity = matter.domain.gravity.as_dvec2() * d;
         let emitters = world.resource::<Sources>().emitters.iter().zip(&self.given);
         emitters
             .map(|(emitter, before)| {
-                let mass = f64::from(matter.elements.get(emitter.element).density) * d * d;
+                let (mass, gravity) = (matter.mass(emitter.element), matter.gravity(emitter.element));
                 let speed = emitter.velocity.as_dvec2().length() * d;
                 let far = |gravity: f64, low: f32, high: f32| f64::from(if gravity > 0.0 { low } else { high });
                 let highest = DVec2::new(
@@ -170,15 +168,18 @@ fn fastest_wind(world: &World) -> f64 {
     std::f64::consts::SQRT_2 * f64::from(world.resource::<AirGrid>().max_speed())
 }
 
-/// Energy of all matter of a world if it lay in the lowest corner of the box, J: what is above that can become motion.
+/// Energy of all matter of a world if it lay in the lowest corner of the box (gases: in the highest), J: what is above that can
+/// become motion.
 pub(in crate::lab::gauntlet) fn lowest(world: &World) -> f64 {
     let matter = matter(world);
-    let d = f64::from(matter.scale.spacing);
-    let gravity = matter.domain.gravity.as_dvec2() * d;
-    let corner = |gravity: f64, size: f32| if gravity > 0.0 { f64::from(size) * d } else { 0.0 };
+    let corner = |gravity: f64, size: f32| if gravity > 0.0 { f64::from(size * matter.scale.spacing) } else { 0.0 };
     let size = matter.domain.size;
-    let corner = DVec2::new(corner(gravity.x, size.x), corner(gravity.y, size.y));
-    -matter.balance().mass * gravity.dot(corner)
+    let of = |id: ElementId| {
+        let gravity = matter.gravity(id);
+        -matter.mass(id) * gravity.dot(DVec2::new(corner(gravity.x, size.x), corner(gravity.y, size.y)))
+    };
+    let of: Vec<f64> = matter.elements.iter().map(|(id, _)| of(id)).collect();
+    matter.particles.element.iter().map(|element| of[element.index()]).sum()
 }
 
 /// Largest acceleration of matter by gravity and wind, d/s².
@@ -186,7 +187,9 @@ pub(in crate::lab::gauntlet) fn load(world: &World) -> f64 {
     let gravity = f64::from(world.resource::<Setup>().domain.gravity.length());
     let particles = &world.resource::<ParticleStore>().0;
     let drags = world.resource::<Effects>().get(Effect::Drag).running && !particles.is_empty();
-    let rate = world.resource::<Elements>().0.drag.iter().copied().filter(|rate| rate.is_finite()).fold(0.0, f32::max);
+    let rates = &world.resource::<Elements>().0.drag;
+    let of = particles.element.iter().map(|element| rates[element.index()]);
+    let rate = of.filter(|rate| rate.is_finite()).fold(0.0, f32::max);
     let wind = if drags { fastest_wind(world) } else { 0.0 };
     gravity + f64::from(rate) * wind * wind
 }

@@ -43,6 +43,9 @@ pub(in crate::lab::gauntlet) fn why_not_at_rest(blueprint: &Blueprint) -> Result
     if domain.gravity.x != 0.0 || domain.gravity.y > 0.0 || (0..particles.len()).any(moves) {
         return Err("it begins in motion");
     }
+    if particles.element.iter().any(|element| blueprint.elements.get(*element).is_gas()) {
+        return Err("a gas rises");
+    }
     let top = particles.y.iter().fold(0.0_f32, |top, y| top.max(*y)) as i32;
     let cells = (0..=top).flat_map(|y| (0..solids.columns()).map(move |x| IVec2::new(x, y)));
     let free = cells.filter(|cell| is_whole(*cell, domain.size) && !solids.is_solid(*cell)).count();

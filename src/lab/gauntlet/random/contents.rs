@@ -54,7 +54,7 @@ fn shape(dice: &mut Dice, size: Vec2) -> String {
 /// An element in a shape.
 pub(super) fn placement(dice: &mut Dice, size: Vec2) -> String {
     let element = match dice.below(8) {
-        0..=3 => liquid(dice),
+        0..=3 => movable(dice),
         4..=6 => "rock",
         _ => "none",
     };
@@ -63,9 +63,15 @@ pub(super) fn placement(dice: &mut Dice, size: Vec2) -> String {
     format!("(element: \"{element}\", shape: {shape}, replace: {replace}{velocity})")
 }
 
-/// A liquid: water, or any other as often.
-fn liquid(dice: &mut Dice) -> &'static str {
-    if dice.comes(1, 2) { "water" } else { dice.one(&["brine", "oil", "honey", "mercury"]) }
+/// What moves besides water.
+const OTHERS: [&str; 16] = [
+    "brine", "oil", "honey", "mercury", "tar", "sand", "wet_sand", "dust", "salt", "snow", "coal", "stone", "ash",
+    "steam", "smoke", "hydrogen",
+];
+
+/// What moves: water, or anything else as often.
+fn movable(dice: &mut Dice) -> &'static str {
+    if dice.comes(1, 2) { "water" } else { dice.one(&OTHERS) }
 }
 
 /// Rock in a shape.
@@ -73,11 +79,11 @@ pub(super) fn rock(dice: &mut Dice, size: Vec2) -> String {
     format!("(element: \"rock\", shape: {})", shape(dice, size))
 }
 
-/// A liquid at rest from wall to wall, around the rock that stands there.
+/// Matter at rest from wall to wall, around the rock that stands there.
 pub(super) fn pool(dice: &mut Dice, size: Vec2) -> String {
     let level = dice.whole(1, size.y as u32);
     let (width, level) = (spacings(f64::from(size.x.ceil()) + 1.0), spacings(f64::from(level)));
-    format!("(element: \"{}\", shape: Rect(min: (\"-1 * d\", \"-1 * d\"), max: ({width}, {level})))", liquid(dice))
+    format!("(element: \"{}\", shape: Rect(min: (\"-1 * d\", \"-1 * d\"), max: ({width}, {level})))", movable(dice))
 }
 
 /// An emitter.
@@ -90,7 +96,7 @@ pub(super) fn emitter(dice: &mut Dice, size: Vec2) -> String {
     if dice.comes(1, 2) {
         rest += &format!(", start: {:?}", dice.within(0.0, 0.5));
     }
-    let element = liquid(dice);
+    let element = movable(dice);
     format!("(element: \"{element}\", {area}, {velocity}, rate: {rate:?}{rest})")
 }
 
@@ -112,4 +118,20 @@ pub(super) fn pressure(dice: &mut Dice, size: Vec2) -> String {
 /// Up to `most` of what `entry` makes.
 pub(super) fn some(dice: &mut Dice, most: u32, size: Vec2, entry: fn(&mut Dice, Vec2) -> String) -> Vec<String> {
     (0..dice.whole(0, most)).map(|_| entry(dice, size)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::OTHERS;
+
+    #[test]
+    fn random_worlds_have_all_that_moves() {
+        let elements = crate::scene::elements().expect("the table that comes with the game is valid");
+        let mut movable: Vec<_> = elements.iter().filter(|(_, row)| !row.fixed).map(|(_, row)| &row.name[..]).collect();
+        let mut known = OTHERS.to_vec();
+        known.push("water");
+        movable.sort_unstable();
+        known.sort_unstable();
+        assert_eq!(movable, known);
+    }
 }
