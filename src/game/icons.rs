@@ -109,6 +109,17 @@ pub fn droplet(pen: &Pen<'_>) {
     pen.painter.add(Shape::line(points, Stroke::new((0.07 * pen.side).max(1.0), shine)));
 }
 
+/// A cloud.
+pub fn cloud(pen: &Pen<'_>) {
+    pen.disc(0.3, 0.62, 0.19);
+    pen.disc(0.52, 0.44, 0.25);
+    pen.disc(0.74, 0.6, 0.2);
+    pen.bar(0.3, 0.6, 0.44, 0.2);
+    let shine = pen.colour.lerp_to_gamma(Color32::WHITE, 0.4);
+    let points = pen.points(&pen.arc(0.52, 0.44, 0.16, 0.5, 0.72));
+    pen.painter.add(Shape::line(points, Stroke::new((0.07 * pen.side).max(1.0), shine)));
+}
+
 /// A piece of stone.
 pub fn stone(pen: &Pen<'_>) {
     pen.fill(&[(0.1, 0.72), (0.2, 0.38), (0.46, 0.2), (0.74, 0.28), (0.92, 0.6), (0.84, 0.8), (0.2, 0.82)]);

@@ -245,6 +245,7 @@ fn icon_of(category: Category) -> Icon {
         Category::Solids => icons::stone,
         Category::Powders => icons::heap,
         Category::Liquids => icons::droplet,
+        Category::Gases => icons::cloud,
     }
 }
 

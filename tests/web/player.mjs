@@ -128,14 +128,6 @@ export const files = (page) => page.evaluate(() => new Promise((done) => {
 
 export const untilKept = (page, count) => poll(`${count} files that the browser keeps`, () => files(page), ({ length }) => length >= count);
 
-// Holds a button on the way along the given points.
-export async function drag(page, points, button = 'left') {
-  await moveTo(page, points[0]);
-  await page.mouse.down({ button });
-  for (const point of points.slice(1)) await moveTo(page, point);
-  await page.mouse.up({ button });
-}
-
 // Holds the left button on a way that takes a moment, as a hand does it, however slow the frames are: the speed counts.
 export async function flick(page, from, to) {
   await moveTo(page, from);

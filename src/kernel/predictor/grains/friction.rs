@@ -63,14 +63,13 @@ pub(super) struct Friction {
 
 impl Friction {
     /// Finds which faces and corners take part, and what the last substep's stress changes on the faces.
-    /// `mean`: inverse of the grains' mean density, as a share of the heaviest.
-    pub fn begin(&mut self, bed: &Bed, faces: &Faces, mean: f32) {
+    pub fn begin(&mut self, bed: &Bed, faces: &Faces) {
         self.make_room(bed);
         let Self { touched: Touched { rows, columns }, stress, kept, strain, step, lightness, .. } = self;
         let stride = bed.grid.stride;
         let work = Lighten { bed, columns: columns.clone(), faces };
         sweep(&work, rows.clone(), two(lightness, stride, rows), columns.len(), WORTH_A_PIECE, bed.team);
-        let work = TakePart { bed, columns: columns.clone(), lightness, mean, strain };
+        let work = TakePart { bed, columns: columns.clone(), lightness, strain };
         let band = ((two(stress, stride, rows), two(kept, stride, rows)), two(step, stride, rows));
         sweep(&work, rows.clone(), band, columns.len(), WORTH_A_PIECE, bed.team);
         self.change(bed);

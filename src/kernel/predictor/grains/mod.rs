@@ -60,8 +60,6 @@ pub(super) struct Grains {
     counts: Vec<u32>,
     /// Density of the liquids, as a share of the heaviest, if there are any.
     liquids: Option<f32>,
-    /// Inverse of the mean density of the grains, as a share of the heaviest.
-    lightness: f32,
     /// What grains near a face are drawn to.
     ways: [Vec<GrainWay>; 2],
 }
@@ -77,12 +75,11 @@ impl Grains {
         (of, masses): (GrainParams, Option<&[f32]>),
         dt: f32,
     ) {
-        let Self { sines, is_grain, bonds, faces, bound, counts, liquids, lightness, .. } = self;
+        let Self { sines, is_grain, bonds, faces, bound, counts, liquids, .. } = self;
         counts.clear();
         counts.resize(of.sines.len(), 0);
         elements.iter().for_each(|element| counts[element.index()] += 1);
-        let mean = |is_grain: bool| mean_density(counts, masses, |element| (of.sines[element] > 0.0) == is_grain);
-        (*liquids, *lightness) = (mean(false), 1.0 / mean(true).unwrap_or(1.0));
+        *liquids = mean_density_of_liquids(counts, of.sines, masses);
         sines.clear();
         sines.extend(elements.iter().map(|element| of.sines[element.index()]));
         is_grain.clear();
@@ -112,7 +109,7 @@ impl Grains {
 
     /// The pressure (its right-hand side) sets out from what the last substep's stress does to the faces.
     pub fn begin(&mut self, bed: &Bed, faces: &Faces, right_side: &mut [f32]) {
-        self.friction.begin(bed, faces, self.lightness);
+        self.friction.begin(bed, faces);
         self.friction.subtract_divergence(bed, right_side);
     }
 
@@ -168,10 +165,10 @@ impl Grains {
     }
 }
 
-/// Mean density of some elements, as a share of the heaviest; none if none of them is there.
-fn mean_density(counts: &[u32], masses: Option<&[f32]>, is_meant: impl Fn(usize) -> bool) -> Option<f32> {
-    let meant = counts.iter().enumerate().filter(|(element, count)| is_meant(*element) && **count > 0);
-    let [mass, count] = meant.fold([0.0, 0.0], |[mass, sum], (element, count)| {
+/// Mean density of all that is no grain, as a share of the heaviest; none if all are grains.
+fn mean_density_of_liquids(counts: &[u32], sines: &[f32], masses: Option<&[f32]>) -> Option<f32> {
+    let liquids = counts.iter().enumerate().filter(|(element, count)| sines[*element] == 0.0 && **count > 0);
+    let [mass, count] = liquids.fold([0.0, 0.0], |[mass, sum], (element, count)| {
         let count = *count as f32;
         [mass + count * masses.map_or(1.0, |masses| masses[element]), sum + count]
     });

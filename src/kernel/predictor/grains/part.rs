@@ -64,26 +64,26 @@ pub(super) fn lay_by(stress: &mut f32, kept: &mut f32, is_still: bool) {
 
 /// Finds how far cells and corners step along the gradient, not at all those that take no part: these have no stress.
 ///
-/// **The bound.** What stresses x change the faces by has the energy `½ Σ l (ΔS + ΔT)²` over the faces, l their lightness, and a step
-/// along its gradient is stable if it is no longer than what a diagonal D with `Σ l (ΔS + ΔT)² ≤ xᵀ D⁻¹ x` has. Where l is the
-/// same everywhere the products ΔS ΔT add up to 0, for any stress; so with any constant m, they are those of `l − m`, and
-/// `Σ l (ΔS + ΔT)² ≤ Σ (l + |l − m|) (ΔS² + ΔT²)`. As `ΔS² ≤ 2 (S² + S'²)`, D is `½ / Σ (l + |l − m|)` over the faces around.
+/// **The bound.** What the stresses change the faces by has the energy `½ Σ l (ΔS + ΔT)²` over the faces, l their lightness: a
+/// quadratic form of a matrix A. Along its gradient a step of 1 over the sum of the magnitudes of a row of A is stable for each of
+/// its stresses, whatever the others do (Gershgorin). In the row of a cell or a corner stand the lightness of the four faces
+/// around it (Σ l on the diagonal, and l for the next of its kind beyond each), and for each of the four of the other kind around it
+/// the difference of the two faces between them, u and v: `2 Σ l + Σ |l_u − l_v|`.
 pub(super) struct TakePart<'a> {
     pub bed: &'a Bed<'a>,
     pub columns: Range<usize>,
     pub lightness: &'a Fields,
-    /// m: what most faces among grains have.
-    pub mean: f32,
     pub strain: &'a Fields,
 }
 
 impl<'b> Sweep<((Two<'b>, Two<'b>), Two<'b>)> for TakePart<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, ((stress, kept), (mut cells, mut corners)): ((Two, Two), Two)) {
-        let Self { bed, columns, lightness: [u, v], mean, strain } = self;
+        let Self { bed, columns, lightness: [u, v], strain } = self;
         let stride = bed.grid.stride;
-        let step =
-            |around: [f32; 4]| 0.5 / around.iter().map(|lightness| lightness + (lightness - mean).abs()).sum::<f32>();
+        let step = |[a, b]: [f32; 2], [c, d]: [f32; 2]| {
+            1.0 / (2.0 * (a + b + c + d) + (a - c).abs() + (a - d).abs() + (b - c).abs() + (b - d).abs())
+        };
         let ((mut s, mut t), (mut kept_s, mut kept_t)) = (stress, kept);
         let stress = s.each().zip(kept_s.each()).zip(t.each().zip(kept_t.each()));
         for (j, (((s, kept_s), (t, kept_t)), (cells, corners))) in
@@ -93,16 +93,17 @@ impl<'b> Sweep<((Two<'b>, Two<'b>), Two<'b>)> for TakePart<'_> {
                 let k = bed.grid.row(j) + column;
                 // Corners of which a face is neither moved nor closed are beside the air: nothing is held there.
                 let is_held = |axis, k, lightness: f32| lightness > 0.0 || bed.open(axis, k) == 0.0;
-                let around = [u[k], u[k - stride], v[k], v[k - 1]];
-                let is_moved = |around: [f32; 4]| around.iter().any(|lightness| *lightness > 0.0);
-                let takes_part = is_moved(around)
+                let (beside, above) = ([u[k], u[k - stride]], [v[k], v[k - 1]]);
+                let is_moved = |faces: [f32; 2]| faces[0] > 0.0 || faces[1] > 0.0;
+                let takes_part = (is_moved(beside) || is_moved(above))
                     && is_held(Axis::U, k, u[k])
                     && is_held(Axis::U, k - stride, u[k - stride])
                     && is_held(Axis::V, k, v[k])
                     && is_held(Axis::V, k - 1, v[k - 1]);
-                corners[column] = if takes_part { step(around) } else { 0.0 };
-                let around = [u[k], u[k + 1], v[k], v[k + stride]];
-                cells[column] = if bed.is_liquid(k) && is_moved(around) { step(around) } else { 0.0 };
+                corners[column] = if takes_part { step(beside, above) } else { 0.0 };
+                let (beside, above) = ([u[k], u[k + 1]], [v[k], v[k + stride]]);
+                let takes_part = bed.is_liquid(k) && (is_moved(beside) || is_moved(above));
+                cells[column] = if takes_part { step(beside, above) } else { 0.0 };
                 let fields = [(cells[column], &mut *s, &mut *kept_s), (corners[column], &mut *t, &mut *kept_t)];
                 for ((step, stress, kept), strain) in fields.into_iter().zip(strain.iter()) {
                     let (stress, kept) = (&mut stress[column], &mut kept[column]);
