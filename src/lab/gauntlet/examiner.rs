@@ -17,7 +17,7 @@ use super::{
 use crate::{
     kernel::units::TICK_SECONDS,
     lab::{balance::matter, density::DensityError, stats},
-    scene::effects::Effect,
+    scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
         stages::TickPlan,
@@ -272,6 +272,9 @@ impl Examiner {
         if balance.mass == 0.0 {
             return self.waive(Rule::Energy, "no matter");
         }
+        if lets_masses_be(world) {
+            return self.waive(Rule::Energy, "masses are off");
+        }
         let gained = (balance.energy() - self.put_in.all()).max(0.0);
         let lowest = energy::lowest(world);
         self.height = self.height.max(balance.potential - lowest);
@@ -321,4 +324,14 @@ impl Examiner {
 fn cuts(world: &World) -> u64 {
     let Counters { speed_clamps, substeps_short, .. } = *world.resource::<Counters>();
     speed_clamps + substeps_short
+}
+
+/// Whether matter of different densities is pushed as if it were equally heavy: then neither momentum nor energy is kept.
+fn lets_masses_be(world: &World) -> bool {
+    if world.resource::<Effects>().get(Effect::Masses).mode != Mode::Off {
+        return false;
+    }
+    let matter = matter(world);
+    let mut masses = matter.particles.element.iter().map(|element| matter.mass(*element));
+    masses.next().is_some_and(|first| masses.any(|mass| mass != first))
 }

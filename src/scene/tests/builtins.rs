@@ -21,13 +21,21 @@ fn built(name: &str, pairs: &[(&str, &str)]) -> Blueprint {
 fn the_list_is_complete_and_starts_with_the_default() {
     let names = [
         "waterfall",
+        "avalanche",
         "communicating_vessels",
         "dam_break",
+        "dune",
         "empty",
+        "honey_and_mercury",
         "hourglass",
         "hydrostatic",
+        "layers",
         "rest_density",
+        "sand_castle",
         "sealed_air",
+        "silo",
+        "snow_globe",
+        "u_tube",
         "wind_tunnel",
     ];
     assert_eq!(builtin_names(), names);
