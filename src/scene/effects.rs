@@ -379,7 +379,7 @@ table! {
         part_of: Some(Pass::Pressure),
         needs: &[Effect::Predictor],
         when: "grains are there, and the predictor runs",
-        parameters: &["friction of an element"],
+        parameters: &["friction of an element", "cohesion of an element"],
         off: "grains flow as a liquid does",
         wakes: true,
         called_for: |facts| {
@@ -411,7 +411,7 @@ table! {
         meaning: "neighbouring particles even out their velocities (XSPH)",
         passes: &[Pass::Viscosity],
         when: "an element that has it is there",
-        parameters: &["viscosity and smoothing of an element"],
+        parameters: &["viscosity of an element", "smoothing of an element"],
         off: "neighbours keep their own velocities",
         wakes: true,
         called_for: |facts| {

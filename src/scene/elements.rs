@@ -114,8 +114,12 @@ mod tests {
             (with("'2'", "'1'"), "[1].key: `1` is taken"),
             (with("'2'", "'x'"), "[1].key: `x`; allowed: '0' to '9', or none"),
             (with("liquids", "liquid"), "assets/elements.ron:1:"),
-            (with("1000", "0"), "[1].density: 0 is out of range; allowed: 1 to 100000"),
+            (with("1000", "0"), "[1].density: 0 is out of range; allowed: 0.05 to 100000"),
             (with("1000", "NaN"), "[1].density"),
+            (
+                with("1000)", "1000, cohesion: 10)"),
+                "[1].cohesion: 10 without friction; allowed: 0 for what is no powder",
+            ),
             (with("1000)", "1000, flow: 0)"), "[1].flow: 0 is out of range; allowed: above 0, at most 1"),
             (with("water", "none"), "[1].name"),
             (with("false", "true"), "no element with `fixed: false`"),
