@@ -262,7 +262,7 @@ fn auto_is_on_bit_for_bit_where_there_is_nothing_to_do() {
             let mut blueprint = puddle();
             let mut rows: Vec<_> = blueprint.elements.iter().map(|(_, element)| element.clone()).collect();
             let water = &mut rows[WATER.index()];
-            (water.drag, water.viscosity, water.vorticity) = (0.0, 0.0, 0.0);
+            (water.drag, water.viscosity, water.smoothing, water.vorticity) = (0.0, 0.0, 0.0, 0.0);
             blueprint.elements = std::sync::Arc::new(powder_master::kernel::element::ElementTable::new(rows));
             blueprint.fluid.tension_strength = 0.0;
             blueprint.effects.insert(effect, mode);

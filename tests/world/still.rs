@@ -75,7 +75,7 @@ fn a_fallen_column_comes_to_rest_with_a_level_surface() {
         let mut blueprint = blueprint("dam_break", &[("columns", "8")]);
         (blueprint.preset, blueprint.quality) = (preset, preset.quality());
         blueprint.effects.insert(Effect::Viscosity, Mode::On);
-        with_water(&mut blueprint, |water| water.viscosity = 0.3);
+        with_water(&mut blueprint, |water| water.smoothing = 0.3);
         let mut simulation = awake(blueprint);
         // Thin water would swing for minutes. XSPH of 0.3 a tick is a viscosity of 0.3 h²/20 d² a tick (h = 2.5 d), 5.6
         // d²/s, and takes 2 ν k² = 0.11/s off a wave of half its length in a basin of 32 d: in 40 s it falls to 1.3 %.

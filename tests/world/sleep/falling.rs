@@ -30,7 +30,7 @@ fn a_still_lake_falls_asleep_and_costs_nothing() {
 /// Water of that thickness swings for seconds where water as it is swings for minutes.
 fn thick(mut world: Blueprint) -> Blueprint {
     world.effects.insert(Effect::Viscosity, Mode::On);
-    with_water(&mut world, |water| water.viscosity = 0.3);
+    with_water(&mut world, |water| water.smoothing = 0.3);
     world
 }
 
