@@ -104,10 +104,16 @@ impl Tiles<'_> {
         let response = tile(ui, size, unit, &face);
         let Tool::Element(id) = tool else { return response.on_hover_text(self.bindings.tip(Action::Tool(tool))) };
         let element = elements.get(id);
-        if response.hovered() {
-            self.cover.element = Some(element.name.clone());
-        }
         response.on_hover_ui(|ui| card(ui, element, &key))
+    }
+
+    /// A digit puts the element of this tile on itself while the pointer is over it.
+    pub fn keep_by_digit(&mut self, tool: Tool, response: &Response) {
+        if let Tool::Element(id) = tool
+            && response.hovered()
+        {
+            self.cover.element = Some(self.setup.elements().get(id).name.clone());
+        }
     }
 }
 

@@ -120,7 +120,13 @@ const fn wheel(up: i32, mods: Mods, action: Action, group: Group, help: &'static
 }
 
 const fn digit(code: KeyCode, digit: char) -> Binding {
-    key(code, NONE, Action::Element(digit), Group::Choose, "choose a favourite; at a tile: keep its element there")
+    key(
+        code,
+        NONE,
+        Action::Element(digit),
+        Group::Choose,
+        "choose a favourite; over a tile of the panel: keep its element there",
+    )
 }
 
 /// The keys and buttons that no tool, view or panel brings along.

@@ -45,7 +45,7 @@ pub struct HudCover {
     pub parts: Vec<Area>,
     /// Whether a menu is open: then the next click anywhere only closes it.
     pub menu: bool,
-    /// Name of the element whose tile the pointer is over.
+    /// Name of the element whose tile the pointer is over, in the panel of all.
     pub element: Option<String>,
 }
 

@@ -68,6 +68,8 @@ pub fn show(
                     ui.horizontal_wrapped(|ui| {
                         for tool in group {
                             let response = tiles.show(ui, TILE, 1.0, tool, tool == tools.tool);
+                            // Not so in the bar, over which the pointer often rests while a digit is to choose.
+                            tiles.keep_by_digit(tool, &response);
                             if first == Some(tool) {
                                 mark(ui, response.rect);
                             }
