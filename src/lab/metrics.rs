@@ -3,7 +3,7 @@
 use crate::{
     kernel::params::Quality,
     lab::coarse::Distance,
-    scene::effects::{Mode, Unit},
+    scene::{effects::Mode, passes::Unit},
     sim::{effects::status::Activity, state::Counters},
 };
 use serde::{Deserialize, Serialize, Serializer};

@@ -12,7 +12,10 @@ use crate::{
         stats,
         volume::volume_error,
     },
-    scene::effects::{Effect, Mode, Pass},
+    scene::{
+        effects::{Effect, Mode},
+        passes::Pass,
+    },
     sim::{
         control,
         effects::{

@@ -8,7 +8,7 @@
 use crate::{
     kernel::params::{Preset, Quality},
     lab::live::accuracy::LiveError,
-    scene::effects::Pass,
+    scene::passes::Pass,
     sim::{
         checkpoint::Checkpoint,
         effects::Effects,

@@ -1,122 +1,13 @@
-//! The passes of a tick, and the effects: the parts of the simulation that a scene can switch. Two tables, a row each; the
-//! gate decides by them, `sim::stages` orders the passes, and the command line, the HUD, the metrics and docs/effects.md say
-//! what stands here.
+//! The table of effects: the parts of the simulation that a scene can switch. The gate decides by it, and the command line,
+//! the HUD, the metrics and docs/effects.md say what stands here.
 
+use super::{passes::Pass, table::table};
 use crate::kernel::{
     element::{Element, ElementTable},
     params::Preset,
 };
-use bevy::prelude::SystemSet;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-
-/// An enum whose variants are the rows of a table.
-macro_rules! table {
-    ($(#[$attribute:meta])* $Name:ident: $Row:ident; $($(#[$doc:meta])* $Variant:ident { $($fields:tt)+ })+) => {
-        $(#[$attribute])*
-        pub enum $Name { $($(#[$doc])* $Variant,)+ }
-
-        impl $Name {
-            /// All of them, in the order of the table.
-            pub const ALL: [Self; [$(Self::$Variant),+].len()] = [$(Self::$Variant),+];
-
-            /// Its row of the table.
-            pub fn row(self) -> &'static $Row {
-                static ROWS: [$Row; $Name::ALL.len()] = [$($Row { $($fields)+ }),+];
-                &ROWS[self as usize]
-            }
-
-            /// Its name in scenes, on the command line, in the metrics and on the screen.
-            pub fn name(self) -> &'static str {
-                self.row().name
-            }
-        }
-    };
-}
-
-/// What a pass works on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Unit {
-    /// Particles, each once a call.
-    Particles,
-    /// Cells of the air, each once a substep of the air.
-    Cells,
-    /// Edits.
-    Edits,
-}
-
-impl Unit {
-    /// Plural.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Particles => "particles",
-            Self::Cells => "cells",
-            Self::Edits => "edits",
-        }
-    }
-}
-
-/// A pass.
-#[derive(Debug)]
-pub struct PassRow {
-    /// Name in the metrics and on the screen.
-    pub name: &'static str,
-    /// What it works on.
-    pub unit: Unit,
-    /// Whether every substep has it, so that it is spared whatever it does not work on. The others leave nothing out.
-    pub each_substep: bool,
-}
-
-table! {
-    /// A pass of the tick, which is also the set of its systems. In the order in which they run first; `sim::stages` has
-    /// their systems and conditions.
-    #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-    Pass: PassRow;
-
-    /// Intents change the world.
-    Edit { name: "edit", unit: Unit::Edits, each_substep: false }
-    /// Emitters and drains.
-    Sources { name: "sources", unit: Unit::Particles, each_substep: false }
-    /// The air moves.
-    Air { name: "air", unit: Unit::Cells, each_substep: true }
-    /// Gravity changes velocities.
-    Gravity { name: "gravity", unit: Unit::Particles, each_substep: true }
-    /// Particles drag the air.
-    Feedback { name: "air_feedback", unit: Unit::Particles, each_substep: true }
-    /// The air drags particles.
-    Drag { name: "drag", unit: Unit::Particles, each_substep: true }
-    /// The pressure predictor makes velocities nearly divergence-free.
-    Pressure { name: "pressure", unit: Unit::Particles, each_substep: true }
-    /// Positions are predicted from velocities and swept against rock and box.
-    Predict { name: "predict", unit: Unit::Particles, each_substep: true }
-    /// Particles are sorted into bins.
-    Bin { name: "bin", unit: Unit::Particles, each_substep: true }
-    /// The density constraint moves particles.
-    Solve { name: "solve", unit: Unit::Particles, each_substep: true }
-    /// Velocities follow from the moves.
-    Velocity { name: "velocity", unit: Unit::Particles, each_substep: true }
-    /// XSPH viscosity.
-    Viscosity { name: "viscosity", unit: Unit::Particles, each_substep: true }
-    /// Vorticity confinement.
-    Vorticity { name: "vorticity", unit: Unit::Particles, each_substep: true }
-    /// Particles fall asleep and wake.
-    Sleep { name: "sleep", unit: Unit::Particles, each_substep: false }
-    /// Checks at the end of the tick.
-    Measure { name: "measure", unit: Unit::Particles, each_substep: false }
-}
-
-impl Pass {
-    /// What it works on.
-    pub fn unit(self) -> Unit {
-        self.row().unit
-    }
-
-    /// The effect that it belongs to, if it does to one.
-    pub fn effect(self) -> Option<Effect> {
-        Effect::ALL.into_iter().find(|effect| effect.row().passes.contains(&self))
-    }
-}
 
 /// What a scene or a player wants of an effect.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -472,6 +363,11 @@ impl Effect {
     /// The effect called `name`.
     pub fn find(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|effect| effect.name() == name)
+    }
+
+    /// The effect that a pass belongs to, if it does to one.
+    pub fn of(pass: Pass) -> Option<Self> {
+        Self::ALL.into_iter().find(|effect| effect.row().passes.contains(&pass))
     }
 
     /// Whether it runs in a tick with these facts, and why or why not.

@@ -19,11 +19,13 @@ mod knobs;
 mod number;
 mod place;
 mod shape;
+mod table;
 #[cfg(test)]
 mod tests;
 
 pub mod blueprint;
 pub mod effects;
+pub mod passes;
 pub mod readers;
 
 pub use build::{DETAIL, SceneFile, from_text, load};

@@ -6,7 +6,7 @@
 //! compares that with worlds in which nothing is left out). A pass that never ran has no such time, and what it would take
 //! is unknown.
 
-use crate::scene::effects::{Pass, Unit};
+use crate::scene::passes::{Pass, Unit};
 use bevy::prelude::Resource;
 use std::{cmp::Ordering, time::Duration};
 

@@ -5,7 +5,7 @@
 //! `control` thaws) begins a new segment.
 
 use crate::{
-    scene::effects::Pass,
+    scene::passes::Pass,
     sim::{
         checkpoint::Checkpoint,
         control,

@@ -11,11 +11,7 @@ use powder_master::{
         simd::InstructionSet,
         solids::Solids,
     },
-    scene::{
-        self,
-        blueprint::Blueprint,
-        effects::{EffectModes, Pass},
-    },
+    scene::{self, blueprint::Blueprint, effects::EffectModes, passes::Pass},
     sim::{
         ledger::PassLedger,
         simulation::Simulation,

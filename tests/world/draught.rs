@@ -10,7 +10,8 @@ use powder_master::{
     },
     scene::{
         blueprint::Blueprint,
-        effects::{Effect, Mode, Pass},
+        effects::{Effect, Mode},
+        passes::Pass,
     },
     sim::{effects::Effects, intent::Intent, simulation::Simulation, state::AirGrid},
 };

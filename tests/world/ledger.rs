@@ -6,7 +6,8 @@ use powder_master::{
     kernel::brush::{BrushShape, Stroke},
     scene::{
         blueprint::Blueprint,
-        effects::{Effect, Mode, Pass},
+        effects::{Effect, Mode},
+        passes::Pass,
     },
     sim::{
         effects::{

@@ -14,7 +14,8 @@ use powder_master::{
     },
     scene::{
         blueprint::{Blueprint, PressurePatch},
-        effects::{Effect, Mode, Pass},
+        effects::{Effect, Mode},
+        passes::Pass,
     },
     sim::{
         control,

@@ -12,10 +12,7 @@ use crate::{
         views::table::{Shown, VIEWS},
     },
     lab::colours::Reference,
-    scene::{
-        self,
-        effects::{EffectModes, Pass},
-    },
+    scene::{self, effects::EffectModes, passes::Pass},
     sim::{
         SimulationPlugin,
         checkpoint::Checkpoint,

@@ -8,7 +8,7 @@ use super::{
 use crate::{
     kernel::units::TICK_SECONDS,
     lab::live::accuracy::{LiveError, SAMPLE_EVERY},
-    scene::effects::Pass,
+    scene::passes::Pass,
     sim::{
         generation::Generation,
         intent::{Intent, IntentQueue},

@@ -11,7 +11,7 @@ use crate::{
         },
         split::Split,
     },
-    scene::effects::Pass,
+    scene::passes::Pass,
     sim::{
         script,
         state::{Clock, ParticleStore, Rock, Setup},

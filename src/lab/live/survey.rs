@@ -283,10 +283,7 @@ mod tests {
     use super::*;
     use crate::{
         kernel::params::Preset,
-        scene::{
-            self,
-            effects::{EffectModes, Pass},
-        },
+        scene::{self, effects::EffectModes, passes::Pass},
         sim::{simulation::Simulation, state::SleepState},
     };
     use std::sync::Arc;

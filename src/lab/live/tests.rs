@@ -16,10 +16,7 @@ use crate::{
         run::{Plan, run},
         sampler::Sampler,
     },
-    scene::{
-        self,
-        effects::{EffectModes, Pass},
-    },
+    scene::{self, effects::EffectModes, passes::Pass},
     sim::{
         checkpoint::Checkpoint,
         control,

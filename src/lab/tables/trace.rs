@@ -3,7 +3,7 @@
 use crate::{
     kernel::units::TICKS_PER_SECOND,
     lab::{balance::matter, run::Observer},
-    scene::effects::Pass,
+    scene::passes::Pass,
     sim::{
         ledger::PassLedger,
         state::{AirGrid, Clock, Rock},

@@ -1,6 +1,9 @@
 //! The tables of passes and effects.
 
-use crate::scene::effects::{Effect, EffectRow, Pass};
+use crate::scene::{
+    effects::{Effect, EffectRow},
+    passes::Pass,
+};
 
 /// The table of docs/effects.md.
 fn document() -> String {
@@ -52,6 +55,6 @@ fn the_names_of_effects_are_those_of_the_files() {
 fn no_pass_belongs_to_two_effects() {
     for pass in Pass::ALL {
         let owners = Effect::ALL.iter().filter(|effect| effect.row().passes.contains(&pass)).count();
-        assert_eq!(usize::from(pass.effect().is_some()), owners, "{}", pass.name());
+        assert_eq!(usize::from(Effect::of(pass).is_some()), owners, "{}", pass.name());
     }
 }

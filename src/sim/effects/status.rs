@@ -1,7 +1,10 @@
 //! What F3 and the metrics show of an effect, from what the gate and the ledger have noted. No tick reads it.
 
 use crate::{
-    scene::effects::{Effect, Mode, Pass, Unit},
+    scene::{
+        effects::{Effect, Mode},
+        passes::{Pass, Unit},
+    },
     sim::{
         effects::Effects,
         ledger::{PassLedger, PassRecord},
@@ -111,7 +114,7 @@ pub fn saving(
     ledger: &PassLedger,
     saved: fn(&PassRecord) -> Option<f64>,
 ) -> Option<f64> {
-    let is_left_out = |pass: Pass| pass.effect().filter(|owner| !effects.get(*owner).running);
+    let is_left_out = |pass: Pass| Effect::of(pass).filter(|owner| !effects.get(*owner).running);
     let sum = |wanted: &dyn Fn(Pass) -> bool| {
         Pass::ALL.into_iter().filter(|pass| wanted(*pass)).map(|pass| saved(ledger.record(pass))).sum::<Option<f64>>()
     };

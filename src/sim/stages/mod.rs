@@ -12,7 +12,7 @@ mod substep;
 mod timed;
 
 use crate::{
-    scene::effects::{Effect, Pass},
+    scene::{effects::Effect, passes::Pass},
     sim::{
         effects::runs,
         pace::time_moves,

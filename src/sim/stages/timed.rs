@@ -1,7 +1,7 @@
 //! What every pass has in common: its systems are in its set, and the ledger notes each call.
 
 use crate::{
-    scene::effects::Pass,
+    scene::passes::Pass,
     sim::ledger::{Call, PassLedger},
 };
 use bevy::{

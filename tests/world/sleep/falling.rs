@@ -7,7 +7,8 @@ use powder_master::{
     kernel::params::Preset,
     scene::{
         blueprint::Blueprint,
-        effects::{Effect, Mode, Pass},
+        effects::{Effect, Mode},
+        passes::Pass,
     },
     sim::{simulation::Simulation, state::Clock},
 };

@@ -14,7 +14,8 @@ use powder_master::{
     lab::coarse::{CoarseField, Distance},
     scene::{
         blueprint::Blueprint,
-        effects::{Effect, Mode, Pass},
+        effects::{Effect, Mode},
+        passes::Pass,
     },
     sim::{
         simulation::Simulation,

@@ -9,7 +9,10 @@ use powder_master::{
         params::Preset,
         sources::{Drain, Rect},
     },
-    scene::effects::{Effect, Mode, Pass},
+    scene::{
+        effects::{Effect, Mode},
+        passes::Pass,
+    },
     sim::{
         effects::Effects,
         intent::Intent,

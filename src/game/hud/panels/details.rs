@@ -17,7 +17,10 @@ use crate::{
         render::cost::RenderCost,
         views::table::STABILITY,
     },
-    scene::effects::{Effect, Mode, Pass, Unit},
+    scene::{
+        effects::{Effect, Mode},
+        passes::{Pass, Unit},
+    },
     sim::{
         effects::{
             Effects,

@@ -9,9 +9,10 @@ use crate::{
     element::{ElementId, Traits},
     params::{Domain, FluidParams, GradientKernel, Preset, Quality, WALL_GAP},
     particles::Particles,
-    predictor::Predictor,
+    predictor::{Flow, Predictor},
     simd::InstructionSet,
     solids::Solids,
+    velocity::{MoveReport, update_velocities},
 };
 use glam::Vec2;
 use reference::{Question, Vector};
@@ -81,14 +82,20 @@ impl Bench {
     /// Predicts over `dt` s, solves and moves.
     pub(crate) fn step(&mut self, tension: bool, dt: f32) {
         let Self { particles, solids, domain, quality, solver, predicted, .. } = self;
-        // Of the flow nothing is known.
-        let (predicted, predictor) = (*predicted, Predictor::default());
+        let predicted = *predicted;
         crate::predict::predict(particles, solver.instructions, (solids, domain), quality, Traits::default(), 1, dt);
         let params = SolveParams { domain, fluid: &self.fluid, quality, tension, predicted, masses: None, threads: 1 };
         solver.bin(particles, solids, domain, quality, CROWDS_STAY, 1);
         solver.solve(particles, &params);
-        let flow = predicted.then(|| predictor.flow());
-        crate::velocity::update_velocities(particles, solver, solids, Vec2::ZERO, flow, Traits::default(), 1, dt);
+        // Of the flow nothing is known.
+        let predictor = Predictor::default();
+        self.update(predicted.then(|| predictor.flow()), dt);
+    }
+
+    /// Moves to the corrected positions, without gravity, as liquid.
+    pub(crate) fn update(&mut self, flow: Option<Flow<'_>>, dt: f32) -> MoveReport {
+        let Self { particles, solids, solver, .. } = self;
+        update_velocities(particles, solver, solids, Vec2::ZERO, flow, Traits::default(), 1, dt)
     }
 }
 

@@ -11,10 +11,7 @@ use crate::{
             accuracy::{LiveError, SAMPLE_EVERY, Watched},
         },
     },
-    scene::{
-        self,
-        effects::{EffectModes, Pass},
-    },
+    scene::{self, effects::EffectModes, passes::Pass},
     sim::{
         checkpoint::Checkpoint,
         ledger::{Extent, PassLedger},

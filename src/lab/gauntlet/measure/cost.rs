@@ -3,7 +3,7 @@
 use super::work::Work;
 use crate::{
     kernel::units::TICK_SECONDS,
-    scene::effects::Pass,
+    scene::passes::Pass,
     sim::{
         ledger::PassLedger,
         state::{AirGrid, ParticleStore, Setup},

@@ -9,7 +9,7 @@ use crate::{
         pbf::Solver,
         solids::Solids,
     },
-    scene::effects::Pass,
+    scene::passes::Pass,
     sim::{
         ledger::PassLedger,
         state::{Setup, SolverState},

@@ -12,7 +12,8 @@ use crate::{
     },
     scene::{
         self,
-        effects::{Effect, EffectModes, Pass},
+        effects::{Effect, EffectModes},
+        passes::Pass,
     },
     sim::{
         effects::Effects,

@@ -1,0 +1,134 @@
+//! Viscosity against what is known of it.
+
+use super::{kinetic_energy, square};
+use crate::{
+    element::{ElementId, ElementParams},
+    particles::Particles,
+    pbf::tests::{Bench, random_numbers},
+    units::TICK_SECONDS,
+    velocity::apply_viscosity,
+};
+use glam::{DVec2, Vec2};
+
+fn viscosity(coefficient: f32) -> ElementParams {
+    ElementParams { viscosity: vec![coefficient], ..ElementParams::default() }
+}
+
+#[test]
+fn viscosity_never_raises_the_kinetic_energy_or_a_speed() {
+    for jitter in [0.0, 0.2, 0.45] {
+        for coefficient in [0.02, 0.5] {
+            let mut bench = square(jitter, |_| Vec2::ZERO);
+            let mut random = random_numbers(21);
+            for i in 0..400 {
+                bench.particles.vx[i] = 40.0 * (random() - 0.5);
+                bench.particles.vy[i] = 40.0 * (random() - 0.5);
+            }
+            bench.solve(false);
+            for pass in 0..20 {
+                let fastest = |p: &Particles| (0..p.len()).map(|i| p.velocity(i).length()).fold(0.0, f32::max);
+                let (energy, speed) = (kinetic_energy(&bench.particles), fastest(&bench.particles));
+                apply_viscosity(&mut bench.particles, &mut bench.solver, &viscosity(coefficient), 1, TICK_SECONDS);
+                let (after, speed_after) = (kinetic_energy(&bench.particles), fastest(&bench.particles));
+                assert!(after < energy, "jitter {jitter}, c {coefficient}, pass {pass}: energy {energy} → {after}");
+                assert!(
+                    speed_after <= speed * 1.0001,
+                    "jitter {jitter}, c {coefficient}: speed {speed} → {speed_after}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn viscosity_damps_a_shear_layer_and_keeps_its_momentum() {
+    let mut bench = square(0.1, |at| Vec2::new(if at.y > 30.0 { 5.0 } else { -5.0 }, 0.0));
+    bench.solve(false);
+    let step = |bench: &Bench| -> f32 {
+        let mean = |low: f32| {
+            let layer: Vec<usize> = (0..400).filter(|&i| (low..low + 1.0).contains(&bench.particles.y[i])).collect();
+            layer.iter().map(|&i| bench.particles.vx[i]).sum::<f32>() / layer.len() as f32
+        };
+        mean(30.0) - mean(29.0)
+    };
+    assert!((step(&bench) - 10.0).abs() < 1e-3);
+    for _ in 0..50 {
+        apply_viscosity(&mut bench.particles, &mut bench.solver, &viscosity(0.1), 1, TICK_SECONDS);
+    }
+    let left = step(&bench);
+    assert!((0.1..4.0).contains(&left), "the step of the shear layer went from 10 to {left} d/s");
+    let momentum: f32 = bench.particles.vx.iter().sum();
+    assert!(momentum.abs() < 0.02 * 5.0 * 400.0, "viscosity made a momentum of {momentum}");
+    let still: f32 = bench.particles.vy.iter().map(|v| v.abs()).fold(0.0, f32::max);
+    assert_eq!(still, 0.0, "viscosity moves particles across the layer");
+}
+
+#[test]
+fn an_even_flow_feels_no_viscosity() {
+    let mut bench = square(0.3, |_| Vec2::new(3.0, -4.0));
+    bench.solve(false);
+    let before = bench.particles.clone();
+    apply_viscosity(&mut bench.particles, &mut bench.solver, &viscosity(0.5), 1, TICK_SECONDS);
+    assert_eq!(before, bench.particles);
+}
+
+#[test]
+fn a_liquid_is_as_thick_at_many_substeps_as_at_one() {
+    let left = |substeps: u16| {
+        let mut bench = square(0.0, |at| Vec2::new((0.4 * f64::from(at.y)).cos() as f32, 0.0));
+        bench.solve(false);
+        for _ in 0..40 * substeps {
+            let dt = TICK_SECONDS / f32::from(substeps);
+            apply_viscosity(&mut bench.particles, &mut bench.solver, &viscosity(0.1), 1, dt);
+        }
+        kinetic_energy(&bench.particles)
+    };
+    let (one, eight) = (left(1), left(8));
+    assert!((eight / one - 1.0).abs() < 0.01, "{one} is left at one substep, {eight} at eight");
+}
+
+#[test]
+fn viscosity_keeps_the_momentum_of_liquids_of_any_mass_and_thickness() {
+    // What moves is far from the edges of the lattice, so that all are as dense.
+    let mut bench = square(0.0, |_| Vec2::ZERO);
+    let mut random = random_numbers(5);
+    for i in 0..400 {
+        bench.particles.element[i] = ElementId((random() > 0.5).into());
+        if bench.particles.position(i).distance(Vec2::splat(30.0)) < 5.0 {
+            (bench.particles.vx[i], bench.particles.vy[i]) = (40.0 * (random() - 0.5), 40.0 * (random() - 0.5));
+        }
+    }
+    bench.solve(false);
+    let masses: Vec<f32> = bench.particles.element.iter().map(|element| [1.0, 0.1][element.index()]).collect();
+    bench.solver.masses.clone_from(&masses);
+    let before = bench.particles.clone();
+    let elements = ElementParams { viscosity: vec![0.02, 0.43], ..ElementParams::default() };
+    apply_viscosity(&mut bench.particles, &mut bench.solver, &elements, 1, TICK_SECONDS);
+    let change = |i: usize| f64::from(masses[i]) * (bench.particles.velocity(i) - before.velocity(i)).as_dvec2();
+    let (sum, all) = (0..400).map(change).fold((DVec2::ZERO, 0.0), |(sum, all), one| (sum + one, all + one.length()));
+    assert!(all > 1.0 && sum.length() < 1e-4 * all, "{} of {all} came or went", sum.length());
+}
+
+#[test]
+fn viscosity_is_stable_at_any_coefficient_and_cut_to_what_its_passes_can_do() {
+    for (coefficient, cut) in [(0.99, 0), (10.0, 0), (15.9, 0), (160.0, 400)] {
+        let mut bench = square(0.2, |_| Vec2::ZERO);
+        let mut random = random_numbers(33);
+        for i in 0..400 {
+            (bench.particles.vx[i], bench.particles.vy[i]) = (40.0 * (random() - 0.5), 40.0 * (random() - 0.5));
+        }
+        bench.solve(false);
+        for pass in 0..50 {
+            let before = kinetic_energy(&bench.particles);
+            let report =
+                apply_viscosity(&mut bench.particles, &mut bench.solver, &viscosity(coefficient), 1, TICK_SECONDS);
+            let after = kinetic_energy(&bench.particles);
+            assert_eq!(report.clamps, cut, "c {coefficient}: particles whose coefficient was cut");
+            assert!(after <= before, "c {coefficient}, pass {pass}: energy {before} → {after}");
+        }
+        // Many substeps take small shares each: the same coefficient is within the bound of one.
+        let report =
+            apply_viscosity(&mut bench.particles, &mut bench.solver, &viscosity(coefficient), 1, TICK_SECONDS / 16.0);
+        assert_eq!(report.clamps, 0, "c {coefficient} in sixteen substeps");
+    }
+}
