@@ -98,6 +98,12 @@ impl Pen<'_> {
     }
 }
 
+/// The arrow of the key Enter.
+pub fn enter(pen: &Pen<'_>) {
+    pen.line(&[(0.9, 0.14), (0.9, 0.62), (0.3, 0.62)], 0.12);
+    pen.fill(&[(0.02, 0.62), (0.38, 0.34), (0.38, 0.9)]);
+}
+
 /// A drop of something.
 pub fn droplet(pen: &Pen<'_>) {
     // A disc with a point on top: the tangents from the point touch it 30° above its middle line.

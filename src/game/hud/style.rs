@@ -8,7 +8,7 @@ use bevy_egui::{
         Vec2, style::ScrollStyle,
     },
 };
-use epaint_default_fonts::{HACK_REGULAR, UBUNTU_LIGHT};
+use epaint_default_fonts::UBUNTU_LIGHT;
 use std::sync::Arc;
 
 /// Behind bars and windows.
@@ -58,7 +58,7 @@ pub fn apply(context: &egui::Context) {
             (TextStyle::Small, FontId::proportional(11.0)),
             (TextStyle::Body, FontId::proportional(13.5)),
             (TextStyle::Button, FontId::proportional(13.5)),
-            (TextStyle::Monospace, FontId::monospace(12.0)),
+            (TextStyle::Monospace, FontId::monospace(13.5)),
             (TextStyle::Heading, FontId::proportional(17.0)),
         ]
         .into();
@@ -111,15 +111,14 @@ pub fn apply(context: &egui::Context) {
     });
 }
 
-/// The fonts. What one lacks comes from the other; the icons need none.
+/// The font: one for all, of a fiftieth of the page's module. Its digits are as wide as one another, so numbers need no other,
+/// and the icons need none.
 fn fonts() -> FontDefinitions {
-    let (ubuntu, hack) = ("Ubuntu-Light", "Hack");
+    let name = "Ubuntu-Light";
     let mut fonts = FontDefinitions::empty();
-    for (name, bytes) in [(ubuntu, UBUNTU_LIGHT), (hack, HACK_REGULAR)] {
-        fonts.font_data.insert(name.to_owned(), Arc::new(FontData::from_static(bytes)));
-    }
-    for (family, order) in [(FontFamily::Proportional, [ubuntu, hack]), (FontFamily::Monospace, [hack, ubuntu])] {
-        fonts.families.insert(family, order.map(str::to_owned).into());
+    fonts.font_data.insert(name.to_owned(), Arc::new(FontData::from_static(UBUNTU_LIGHT)));
+    for family in [FontFamily::Proportional, FontFamily::Monospace] {
+        fonts.families.insert(family, vec![name.to_owned()]);
     }
     fonts
 }
@@ -132,4 +131,49 @@ pub fn weak(text: impl Into<String>) -> egui::RichText {
 /// Frame of a bar at the edge of the window.
 pub fn bar_frame() -> egui::Frame {
     egui::Frame::new().fill(PANEL).inner_margin(Margin::symmetric(12, 7))
+}
+
+#[cfg(test)]
+#[cfg(not(target_arch = "wasm32"))]
+mod tests {
+    use super::*;
+    use bevy_egui::egui::epaint::text::{FontsImpl, TextOptions};
+    use std::{fs, path::Path};
+
+    /// Texts that the screen shows: code (less its comments), elements and scenes.
+    const SHOWN: [&str; 7] = [
+        "src/game",
+        "src/lab/live",
+        "src/scene/effects.rs",
+        "src/sim/effects",
+        "src/sim/numbers.rs",
+        "assets/elements.ron",
+        "assets/scenes",
+    ];
+
+    fn texts(path: &Path) -> Vec<(String, String)> {
+        if path.is_dir() {
+            let entries = fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path());
+            return entries.filter(|path| !path.ends_with("tests")).flat_map(|path| texts(&path)).collect();
+        }
+        let is_text = path.extension().is_some_and(|kind| kind == "rs" || kind == "ron");
+        let text = if is_text { fs::read_to_string(path).unwrap() } else { String::new() };
+        let lines = text.lines().filter(|line| !line.trim_start().starts_with("//"));
+        lines.map(|line| (path.display().to_string(), line.to_owned())).collect()
+    }
+
+    #[test]
+    fn the_font_has_all_that_is_shown() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let shown: Vec<_> = SHOWN.iter().flat_map(|path| texts(&root.join(path))).collect();
+        assert!(shown.len() > 10_000, "the folders of {SHOWN:?} are others by now");
+        let mut all = FontsImpl::new(TextOptions::default(), fonts());
+        let mut font = all.font(&FontFamily::Proportional);
+        let has = font.characters();
+        assert!(!has.contains_key(&'\u{2192}'), "a font with all characters proves nothing");
+        for (file, line) in &shown {
+            let missing = line.chars().find(|char| !char.is_control() && !has.contains_key(char));
+            assert_eq!(missing, None, "{file}: {line}");
+        }
+    }
 }

@@ -42,6 +42,11 @@ pub fn line(ui: &mut Ui, height: f32, indent: f32, (text, colour): (&str, Color3
     (rect, response)
 }
 
+/// A text at the right of its cell: numbers in a column stand one under the other.
+pub fn to_the_right(ui: &mut Ui, text: impl Into<egui::WidgetText>) -> Response {
+    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.label(text)).inner
+}
+
 /// The menu of qualities under a button; says which one is chosen.
 pub fn quality_menu(button: &Response, now: Preset) -> Option<Preset> {
     let mut chosen = None;

@@ -8,6 +8,7 @@ use crate::{
             cost::HudCost,
             stats::Readings,
             style::{self, weak},
+            widgets,
             window::{PanelWindow, scroll},
         },
         icons,
@@ -125,29 +126,30 @@ const COLUMNS: [(&str, &str); 6] = [
 
 fn stages(ui: &mut Ui, ledger: &PassLedger) {
     egui::Grid::new("stages").num_columns(COLUMNS.len()).spacing([12.0, 3.0]).show(ui, |ui| {
-        for (heading, meaning) in COLUMNS {
-            ui.label(weak(heading).small()).on_hover_text(meaning);
+        let [(stage, meaning), figures @ ..] = COLUMNS;
+        ui.label(weak(stage).small()).on_hover_text(meaning);
+        for (heading, meaning) in figures {
+            widgets::to_the_right(ui, weak(heading).small()).on_hover_text(meaning);
         }
         ui.end_row();
         for pass in Pass::ALL {
-            stage(ui, pass, ledger.record(pass));
+            row(ui, pass, ledger.record(pass));
         }
         ui.label("tick");
-        ui.monospace(milliseconds(ledger.tick()));
+        widgets::to_the_right(ui, milliseconds(ledger.tick()));
         for _ in 0..3 {
             ui.label("");
         }
         let saved = Pass::ALL.map(|pass| ledger.record(pass).saved_last());
         let known: f64 = saved.iter().flatten().sum();
         let all = saved.iter().all(Option::is_some);
-        ui.monospace(format!("{known:7.3}{}", if all { "" } else { " + ?" }));
+        widgets::to_the_right(ui, format!("{known:.3}{}", if all { "" } else { " + ?" }));
         ui.end_row();
     });
 }
 
-fn stage(ui: &mut Ui, pass: Pass, record: &PassRecord) {
+fn row(ui: &mut Ui, pass: Pass, record: &PassRecord) {
     let colour = if record.last.calls > 0 { style::TEXT } else { style::WEAK };
-    let number = |ui: &mut Ui, text: String| ui.label(RichText::new(text).monospace().color(colour));
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let calls = format!("{} calls since the scene began", grouped(record.calls));
@@ -156,24 +158,24 @@ fn stage(ui: &mut Ui, pass: Pass, record: &PassRecord) {
             ui.label(weak(pass.unit().name()).small());
         }
     });
-    number(ui, milliseconds(record));
-    number(ui, format!("{:>4}", record.last.calls));
-    number(ui, format!("{:>9}", grouped(record.last.touched)));
-    number(ui, format!("{:>9}", grouped(record.last.spared)));
-    number(ui, saved(record.saved_last()));
+    let last = &record.last;
+    let counts = [grouped(last.calls), grouped(last.touched), grouped(last.spared)];
+    for text in [milliseconds(record)].into_iter().chain(counts).chain([saved(record.saved_last())]) {
+        widgets::to_the_right(ui, RichText::new(text).color(colour));
+    }
     ui.end_row();
 }
 
 fn milliseconds(record: &PassRecord) -> String {
-    format!("{:7.3}", record.median().as_secs_f32() * 1000.0)
+    format!("{:.3}", record.median().as_secs_f32() * 1000.0)
 }
 
 /// Milliseconds that were saved: nothing where nothing was.
 fn saved(milliseconds: Option<f64>) -> String {
     match milliseconds {
-        Some(0.0) => format!("{:>7}", "–"),
-        Some(milliseconds) => format!("{milliseconds:7.3}"),
-        None => format!("{:>7}", "?"),
+        Some(0.0) => "–".to_owned(),
+        Some(milliseconds) => format!("{milliseconds:.3}"),
+        None => "?".to_owned(),
     }
 }
 
@@ -182,7 +184,7 @@ fn switches(ui: &mut Ui, effects: &Effects, ledger: &PassLedger, sleepers: Sleep
         ui.label(weak("effect").small());
         ui.label("");
         let meaning = "what it takes when it runs; of sleep, what those take that sleep; ? if it never ran";
-        ui.label(weak("saves ms").small()).on_hover_text(meaning);
+        widgets::to_the_right(ui, weak("saves ms").small()).on_hover_text(meaning);
         ui.end_row();
         for effect in Effect::ALL {
             let status = EffectStatus::of(effect, effects, sleepers);
@@ -197,7 +199,7 @@ fn switches(ui: &mut Ui, effects: &Effects, ledger: &PassLedger, sleepers: Sleep
                 }
             });
             let saving = status::saving(effect, effects, ledger, PassRecord::saved_last);
-            ui.label(RichText::new(saved(saving)).monospace().color(style::WEAK));
+            widgets::to_the_right(ui, weak(saved(saving)));
             ui.add(egui::Label::new(weak(status.text())).truncate());
             ui.end_row();
         }
@@ -233,9 +235,7 @@ fn limiters(ui: &mut Ui, readings: &Readings) {
     egui::Grid::new("limiters").num_columns(4).spacing([8.0, 3.0]).show(ui, |ui| {
         for pair in readings.limiters.chunks(2) {
             for Acted { what, meaning, count } in pair {
-                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    ui.label(RichText::new(grouped(*count)).monospace().color(style::WARN));
-                });
+                widgets::to_the_right(ui, RichText::new(grouped(*count)).color(style::WARN));
                 ui.label(*what).on_hover_text(*meaning);
             }
             ui.end_row();

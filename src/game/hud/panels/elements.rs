@@ -17,7 +17,7 @@ use crate::{
     kernel::element::ElementTable,
 };
 use bevy::prelude::{KeyCode, Local, Res, ResMut, Result};
-use bevy_egui::egui::{self, Align2, Key, Stroke, StrokeKind, Ui, Vec2, vec2};
+use bevy_egui::egui::{self, Align2, Key, Rect, Stroke, StrokeKind, Ui, Vec2, vec2};
 
 /// Its row.
 pub const PANEL: Panel = Panel {
@@ -97,11 +97,15 @@ pub fn show(
 }
 
 /// Marks what Enter takes.
-fn mark(ui: &Ui, rect: egui::Rect) {
+fn mark(ui: &Ui, rect: Rect) {
     let painter = ui.painter();
     painter.rect_stroke(rect, style::BUTTON_CORNER, Stroke::new(1.5, style::WARN), StrokeKind::Inside);
-    let at = rect.left_top() + vec2(5.0, 2.0);
-    painter.text(at, Align2::LEFT_TOP, "↵", egui::FontId::proportional(12.0), style::WARN);
+    icons::draw(
+        painter,
+        Rect::from_min_size(rect.left_top() + vec2(4.0, 3.0), Vec2::splat(11.0)),
+        icons::enter,
+        style::WARN,
+    );
 }
 
 /// Elements and tools whose name holds the text; those that begin with it first.

@@ -32,7 +32,7 @@ fn table(ui: &mut Ui, measured: &Measured) {
     egui::Grid::new("measures").num_columns(2).spacing([16.0, 2.0]).show(ui, |ui| {
         for (name, value, meaning) in lines(measured) {
             let name = ui.label(weak(name));
-            name.union(ui.monospace(value)).on_hover_text(meaning);
+            name.union(ui.label(value)).on_hover_text(meaning);
             ui.end_row();
         }
     });

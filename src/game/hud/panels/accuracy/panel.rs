@@ -31,7 +31,7 @@ use crate::{
         },
         split::Split,
     },
-    scene::{blueprint::Blueprint, effects::Pass},
+    scene::{blueprint::Blueprint, passes::Pass},
     sim::{
         effects::Effects,
         generation::Generation,
@@ -266,7 +266,7 @@ fn bar(ui: &mut Ui, name: &str, time: f32, longest: f32) {
     let (painter, left) = (ui.painter(), rect.left_center());
     painter.text(left, Align2::LEFT_CENTER, name, FontId::proportional(12.0), style::TEXT);
     let (number, end) = (format!("{time:.3}"), left + vec2(names + numbers - 8.0, 0.0));
-    painter.text(end, Align2::RIGHT_CENTER, number, FontId::monospace(11.0), style::TEXT);
+    painter.text(end, Align2::RIGHT_CENTER, number, FontId::proportional(12.0), style::TEXT);
     let room = rect.with_min_x(rect.left() + names + numbers).shrink2(vec2(0.0, 2.0));
     ui.painter().rect_filled(room, 3.0, style::BUTTON);
     if longest > 0.0 {
