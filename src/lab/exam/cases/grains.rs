@@ -1,14 +1,18 @@
 //! Grains: the slopes of heaps, and what slides.
 
-use crate::lab::exam::{
-    finding::{Findings, Run, found},
-    set_up::{CaseSimulation, GRAVITY, SetUp},
+use crate::{
+    lab::exam::{
+        finding::{Findings, Run, found},
+        set_up::{CaseSimulation, GRAVITY, SetUp},
+    },
+    scene::SceneError,
 };
 
 pub(super) const RUNS: &[(&str, Run)] = &[
     ("repose", |set_up| Box::pin(repose(set_up))),
     ("collapse", |set_up| Box::pin(collapse(set_up))),
     ("incline", |set_up| Box::pin(incline(set_up))),
+    ("hopper", |set_up| Box::pin(hopper(set_up))),
     ("cliff", |set_up| Box::pin(cliff(set_up))),
     ("submerged_heap", |set_up| Box::pin(submerged_heap(set_up))),
 ];
@@ -160,6 +164,33 @@ async fn incline(set_up: SetUp) -> Findings {
         findings.push(found(name, known, (speed_of_the_middle(&simulation) - before) / 0.5));
     }
     Ok(findings)
+}
+
+/// When what runs out is counted, s.
+const RUNS_OUT: [f64; 2] = [1.5, 4.5];
+/// Widths of the holes that the law is tried by, m: the first, the middle one and the last.
+const HOLES: [f64; 3] = [0.6, 1.5, 2.4];
+
+/// What runs through a hole (its width, m) of a silo that is filled this high (m), m²/s.
+async fn discharge(set_up: &SetUp, hole: f64, fill: f64) -> Result<f64, SceneError> {
+    let mut simulation = set_up.open("hopper", &[("hole", hole), ("fill", fill)])?;
+    let left = |simulation: &CaseSimulation| simulation.particles().len() as f64 * simulation.spacing().powi(2);
+    simulation.run(RUNS_OUT[0]).await;
+    let before = left(&simulation);
+    simulation.run(RUNS_OUT[1] - RUNS_OUT[0]).await;
+    Ok((before - left(&simulation)) / (RUNS_OUT[1] - RUNS_OUT[0]))
+}
+
+async fn hopper(set_up: SetUp) -> Findings {
+    let mut rates = [0.0; 3];
+    for (rate, hole) in rates.iter_mut().zip(HOLES) {
+        *rate = discharge(&set_up, hole, 24.0).await?;
+    }
+    // Its power of 2/3 grows evenly with the width.
+    let known = (0.5 * (rates[0].powf(2.0 / 3.0) + rates[2].powf(2.0 / 3.0))).powf(1.5);
+    let full = discharge(&set_up, 1.2, 24.0).await?;
+    let half = discharge(&set_up, 1.2, 12.0).await?;
+    Ok(vec![found("through 1.5 m", known, rates[1]), found("half full", full, half)])
 }
 
 async fn submerged_heap(set_up: SetUp) -> Findings {
