@@ -69,6 +69,10 @@ pub struct Element {
     /// higher cliffs stand. 0 … 50 000; above 0 only with friction.
     #[serde(default)]
     pub cohesion: f32,
+    /// Diffusion D of a gas in the air, m²/s: lumps that are not among their like wander until they are √(2 D t) from where they
+    /// were; raising it makes a cloud spread sooner. 0 … 1; above 0 only of gases.
+    #[serde(default)]
+    pub diffusion: f32,
     /// Vorticity confinement ε (eq. 16), m/s² for each 1/s of vorticity, whatever the detail; raising it keeps eddies
     /// alive longer. 0 … 1.
     #[serde(default)]
@@ -101,7 +105,7 @@ pub struct ElementNumber {
 
 impl Element {
     /// All numbers of the row.
-    pub fn numbers(&self) -> [ElementNumber; 8] {
+    pub fn numbers(&self) -> [ElementNumber; 9] {
         let number = |name, value, min, max| ElementNumber { name, value, min, max };
         [
             number("density", self.density, 0.05, 100_000.0),
@@ -109,6 +113,7 @@ impl Element {
             number("smoothing", self.smoothing, 0.0, 0.5),
             number("friction", self.friction, 0.0, 60.0),
             number("cohesion", self.cohesion, 0.0, 50_000.0),
+            number("diffusion", self.diffusion, 0.0, 1.0),
             number("vorticity", self.vorticity, 0.0, 1.0),
             number("drag", self.drag, 0.0, 1000.0),
             number("flow", self.flow, f32::MIN_POSITIVE, 1.0),
@@ -145,6 +150,7 @@ impl Element {
             smoothing: 0.0,
             friction: 0.0,
             cohesion: 0.0,
+            diffusion: 0.0,
             vorticity: 0.0,
             drag: 0.0,
             flow: 1.0,
@@ -215,6 +221,8 @@ pub struct ElementParams {
     pub friction: Vec<f32>,
     /// Stress that grains bear without pressure by their density, d/s²: `cos φ c / (ρ d²)`.
     pub cohesion: Vec<f32>,
+    /// Diffusion D, d²/s.
+    pub diffusion: Vec<f32>,
     /// Vorticity confinement ε, d/s.
     pub vorticity: Vec<f32>,
 }
@@ -259,6 +267,7 @@ impl ElementParams {
                 let sine = sine(element.friction);
                 (1.0 - sine * sine).sqrt() * element.cohesion / (element.density * scale.spacing * scale.spacing)
             }),
+            diffusion: each(&|element| element.diffusion / (scale.spacing * scale.spacing)),
             vorticity: each(&|element| scale.to_kernel(element.vorticity)),
         }
     }

@@ -15,6 +15,7 @@ pub mod brush;
 pub mod checks;
 pub mod columns;
 pub mod crowding;
+pub mod diffusion;
 pub mod element;
 pub mod forces;
 pub mod parallel;

@@ -326,6 +326,19 @@ table! {
         },
         ..PLAIN
     }
+    /// Wandering of gases.
+    Diffusion {
+        name: "diffusion",
+        meaning: "gases spread in the air: lumps that are not among their like wander",
+        passes: &[Pass::Diffusion],
+        when: "a gas that spreads is there",
+        parameters: &["diffusion of an element"],
+        off: "lumps of gas keep together as those of a liquid do",
+        called_for: |facts| {
+            verdict(facts.present(|element| element.diffusion > 0.0), "a gas that spreads is there", "no gas that spreads")
+        },
+        ..PLAIN
+    }
     /// Bodies of liquid and tiles of air that have come to rest sleep.
     Sleep {
         name: "sleep",

@@ -78,6 +78,9 @@ fn check_row(row: &Element, before: &[Element]) -> Result<(), (&'static str, Str
             return Err((name, format!("{value} is out of range; allowed: {allowed}")));
         }
     }
+    if row.diffusion > 0.0 && !row.is_gas() {
+        return Err(("diffusion", format!("{} of what is no gas; allowed: 0", row.diffusion)));
+    }
     if row.cohesion > 0.0 && row.friction == 0.0 {
         return Err(("cohesion", format!("{} without friction; allowed: 0 for what is no powder", row.cohesion)));
     }

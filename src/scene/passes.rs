@@ -71,6 +71,8 @@ table! {
     Viscosity { name: "viscosity", unit: Unit::Particles, each_substep: true }
     /// Vorticity confinement.
     Vorticity { name: "vorticity", unit: Unit::Particles, each_substep: true }
+    /// Gases wander.
+    Diffusion { name: "diffusion", unit: Unit::Particles, each_substep: true }
     /// Particles fall asleep and wake.
     Sleep { name: "sleep", unit: Unit::Particles, each_substep: false }
     /// Checks at the end of the tick.

@@ -150,6 +150,9 @@ fn numbers(element: &Element) -> Vec<(&'static str, String)> {
     if element.friction > 0.0 {
         numbers.push(("angle of friction", format!("{}°", element.friction)));
     }
+    if element.diffusion > 0.0 {
+        numbers.push(("diffusion", format!("{} m²/s", element.diffusion)));
+    }
     if element.cohesion > 0.0 {
         numbers.push(("cohesion", format!("{} Pa", grouped(element.cohesion))));
     }

@@ -135,6 +135,11 @@ impl Solver {
         self.density.iter().map(|density| density / self.aim - 1.0).filter(|constraint| *constraint > 0.0)
     }
 
+    /// Density of each particle as it was in its last iteration, and the one that was aimed at; 1 on the lattice.
+    pub fn densities(&self) -> (&[f32], f32) {
+        (&self.density, self.aim)
+    }
+
     /// By how much of its correction limit the last substep moved the particle that is number `i` and `at` now; `None` if
     /// it was not solved, as those that sleep. Nor of particles that came or went since: one that is further from there than
     /// any correction leads is another one.

@@ -81,6 +81,7 @@ fn substep() -> Schedule {
                 timed(Pass::Velocity, substep::update_velocities),
                 timed(Pass::Viscosity, substep::apply_viscosity).run_if(runs(Effect::Viscosity)),
                 timed(Pass::Vorticity, substep::apply_vorticity).run_if(runs(Effect::Vorticity)),
+                timed(Pass::Diffusion, substep::spread_gases).run_if(runs(Effect::Diffusion)),
             )
                 .chain()
                 .run_if(sleep::any_awake),

@@ -1,15 +1,15 @@
 //! The stages of a substep.
 
 use crate::{
-    kernel::{air::Rousing, forces, parallel::Team, params::Preset, pbf, predict, predictor, velocity},
+    kernel::{air::Rousing, diffusion, forces, parallel::Team, params::Preset, pbf, predict, predictor, velocity},
     scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
         ledger::Call,
         stages::TickPlan,
         state::{
-            AirGrid, Apart, Counters, DragState, Elements, MassShares, ParticleStore, PredictorState, Rock, Setup,
-            SolverState, Sources, StartEnergy,
+            AirGrid, Apart, Clock, Counters, DragState, Elements, MassShares, ParticleStore, PredictorState, Rock,
+            Setup, SolverState, Sources, StartEnergy,
         },
         workers::Workers,
     },
@@ -254,5 +254,22 @@ pub(super) fn apply_vorticity(
         velocity::apply_vorticity(&mut particles, &mut solver, &elements, lost, threads, dt)
     });
     counters.strength_clamps += report.clamps;
+    particles.len()
+}
+
+/// Gases spread in the air.
+pub(super) fn spread_gases(
+    mut particles: ResMut<ParticleStore>,
+    solver: Res<SolverState>,
+    elements: Res<Elements>,
+    rock: Res<Rock>,
+    (setup, clock): (Res<Setup>, Res<Clock>),
+    plan: Res<TickPlan>,
+    workers: Res<Workers>,
+) -> usize {
+    let (dt, around) = (plan.substep_seconds(), (&**rock, &setup.domain));
+    workers.run_for(particles.len(), |threads| {
+        diffusion::wander(&mut particles, around, &elements.diffusion, solver.densities(), clock.tick, threads, dt);
+    });
     particles.len()
 }

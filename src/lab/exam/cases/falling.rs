@@ -12,6 +12,7 @@ pub(super) const RUNS: &[(&str, Run)] = &[
     ("wind", |set_up| Box::pin(wind(set_up))),
     ("terminal_speed", |set_up| Box::pin(terminal_speed(set_up))),
     ("light_lumps", |set_up| Box::pin(light_lumps(set_up))),
+    ("gas_spread", |set_up| Box::pin(gas_spread(set_up))),
 ];
 
 async fn free_fall(set_up: SetUp) -> Findings {
@@ -141,6 +142,31 @@ async fn light_lumps(set_up: SetUp) -> Findings {
         let own = (0..matter.particles.len()).filter(|i| matter.particles.element[*i] == id);
         let got = worst(own.map(|i| f64::from(matter.particles.vy[i]) * f64::from(scale.spacing)), expected);
         findings.push(found(quantity, expected, got));
+    }
+    Ok(findings)
+}
+
+/// By how much the block of smoke is drawn out, so that its lumps are 4 d apart.
+const DRAWN_OUT: f32 = 10.0;
+/// Time from one random velocity of a lump to the next, s.
+const TURN: f64 = 32.0 / 60.0;
+
+async fn gas_spread(set_up: SetUp) -> Findings {
+    let mut blueprint = set_up.blueprint("gas_spread", &[])?;
+    let placed = &mut blueprint.particles;
+    placed.x.iter_mut().chain(&mut placed.y).for_each(|at| *at *= DRAWN_OUT);
+    let mut simulation = set_up.simulation(blueprint);
+    let start = particles(&simulation);
+    let mut findings = Vec::new();
+    for (seconds, quantity) in [(2.0, "mean square of the way, 2 s"), (10.0, "mean square of the way, 10 s")] {
+        simulation.run(seconds - simulation.seconds()).await;
+        let end = particles(&simulation);
+        let squares = start.iter().zip(&end).map(|(start, end)| (end.0 - start.0).length_squared());
+        let mean = 0.5 * squares.sum::<f64>() / start.len() as f64;
+        let matter = simulation.matter();
+        let smoke = matter.elements.find("smoke").map(|id| f64::from(matter.elements.get(id).diffusion));
+        let known = 2.0 * smoke.unwrap_or(f64::NAN) * (simulation.seconds() - 7.0 / 15.0 * TURN);
+        findings.push(found(quantity, known, mean));
     }
     Ok(findings)
 }
