@@ -48,6 +48,9 @@ pub struct Sleep {
     pub(super) flags: Vec<u8>,
     /// The tiles of sleeping bodies.
     pub(super) tiles: Vec<u32>,
+    /// Highest rate of drag of the sleepers in each tile, 1/d; known only until other particles sleep.
+    pub(super) drag: Vec<f32>,
+    pub(super) is_drag_known: bool,
     pub(super) tally: Vec<Tally>,
     /// Tiles of the body at hand.
     pub(super) body: Vec<u32>,
@@ -92,7 +95,7 @@ impl Sleep {
     /// Bytes held.
     pub fn memory(&self) -> usize {
         self.flags.capacity()
-            + 4 * (self.tiles.capacity() + self.waiting.capacity() + self.body.capacity())
+            + 4 * (self.tiles.capacity() + self.drag.capacity() + self.waiting.capacity() + self.body.capacity())
             + size_of::<Tally>() * self.tally.capacity()
             + size_of::<Calm>() * self.record.tiles.capacity()
             + 4 * (self.x.capacity() + self.y.capacity() + self.id.capacity())
@@ -173,6 +176,7 @@ impl Sleep {
     pub(super) fn mark(&mut self) {
         self.flags.fill(0);
         self.tiles.clear();
+        self.is_drag_known = false;
         for (x, y) in self.x.iter().zip(&self.y) {
             let tile = self.grid.tile(*x, *y);
             if self.flags[tile] & ASLEEP == 0 {

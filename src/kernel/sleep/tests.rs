@@ -117,14 +117,15 @@ fn those_awake_are_alone_until_they_touch() {
 fn wind_wakes_what_feels_it() {
     let gravity = Vec2::new(0.0, -100.0);
     // 0.1 d/s² is what a sleeper may be pushed by, at 0.4/d that of 0.5 d/s.
-    for (speed, left) in [(0.45, 300), (0.6, 100)] {
+    for (drag, speed, left) in [(0.4, 0.45, 300), (0.4, 0.6, 100), (0.0, 0.6, 300)] {
         let (mut sleep, mut particles) = asleep();
         let mut air =
             Air::new(SIZE, 4.0, AirParams { sound_speed: 300.0, density: AIR_DENSITY, open: OpenSides::default() });
         air.blow(Vec2::new(6.0, 6.0), 4.0, Vec2::new(speed, 0.0));
         sleep.set_aside(&mut particles);
-        sleep.wake_blown(&mut particles, &air, 0.4, gravity);
-        assert_eq!((sleep.asleep(), particles.len()), (left, 300 - left), "{speed} d/s");
+        // What would feel any breath is not there.
+        sleep.wake_blown(&mut particles, &air, &[100.0, drag], gravity);
+        assert_eq!((sleep.asleep(), particles.len()), (left, 300 - left), "{speed} d/s, {drag}/d");
     }
 }
 

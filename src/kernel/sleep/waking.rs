@@ -57,17 +57,18 @@ impl Sleep {
         self.wake_marked(particles);
     }
 
-    /// While the sleepers are aside: wakes the bodies that the wind reaches, to which `particles` are added. `drag` is the
-    /// highest rate of drag there is, 1/d, `gravity` in d/s².
-    pub fn wake_blown(&mut self, particles: &mut Particles, air: &Air, drag: f32, gravity: Vec2) {
+    /// While the sleepers are aside: wakes the bodies that the wind reaches, to which `particles` are added. `drags` are the
+    /// rates of drag of the elements, 1/d, `gravity` in d/s².
+    pub fn wake_blown(&mut self, particles: &mut Particles, air: &Air, drags: &[f32], gravity: Vec2) {
         if air.is_quiet() {
             return;
         }
-        // dv/dt = k v²
-        let is_felt = |speed2: f32| drag * speed2 > BREEZE * gravity.length();
+        self.find_drag(drags);
         let mut any = false;
         for k in 0..self.tiles.len() {
             let tile = self.tiles[k] as usize;
+            // dv/dt = k v²
+            let is_felt = |speed2: f32| self.drag[tile] * speed2 > BREEZE * gravity.length();
             if self.flags[tile] & CHANGES == 0 && is_felt(fastest2(air, self.grid.area(tile))) {
                 self.mark_body(tile);
                 any = true;
@@ -75,6 +76,21 @@ impl Sleep {
         }
         if any {
             self.wake_marked_aside(particles);
+        }
+    }
+
+    /// While the sleepers are aside: finds how easily the wind moves what lies in each tile. Water does not feel a breath that
+    /// lifts dust.
+    fn find_drag(&mut self, drags: &[f32]) {
+        if std::mem::replace(&mut self.is_drag_known, true) {
+            return;
+        }
+        let Self { grid, drag, aside, x, y, .. } = self;
+        drag.resize(grid.len(), 0.0);
+        drag.fill(0.0);
+        for ((x, y), element) in x.iter().zip(&*y).zip(&aside.element) {
+            let most = &mut drag[grid.tile(*x, *y)];
+            *most = most.max(drags[element.index()]);
         }
     }
 

@@ -10,8 +10,7 @@ use crate::{
         effects::Effects,
         snapshot::hash_bytes,
         state::{
-            AirGrid, Census, Clock, Elements, MassShares, ParticleStore, PredictorState, Rock, Setup, SleepState,
-            SolverState,
+            AirGrid, Clock, Elements, MassShares, ParticleStore, PredictorState, Rock, Setup, SleepState, SolverState,
         },
     },
 };
@@ -73,12 +72,9 @@ pub(super) fn wake_blown(
     mut particles: ResMut<ParticleStore>,
     air: Res<AirGrid>,
     elements: Res<Elements>,
-    census: Res<Census>,
     setup: Res<Setup>,
 ) -> usize {
-    let present = elements.drag.iter().zip(&census.by_element).filter(|(_, count)| **count > 0);
-    let drag = present.fold(0.0, |most: f32, (drag, _)| most.max(*drag));
-    sleep.wake_blown(&mut particles, &air, drag, setup.domain.gravity);
+    sleep.wake_blown(&mut particles, &air, &elements.drag, setup.domain.gravity);
     // It looks at the air over the bodies, and at no particle.
     0
 }
