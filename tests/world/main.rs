@@ -6,6 +6,7 @@ mod support;
 mod control;
 mod determinism;
 mod draught;
+mod elements;
 mod grains;
 mod hard_cases;
 mod layers;

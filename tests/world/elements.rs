@@ -1,0 +1,119 @@
+//! Every element under every tool, and through emitters and drains.
+
+use crate::support::{SimulationExt, empty_box};
+use glam::Vec2;
+use powder_master::{
+    kernel::{
+        brush::{BrushShape, Stroke},
+        element::{Element, ElementId},
+        solids::Solids,
+        sources::{Drain, Emitter, Rect},
+    },
+    scene::blueprint::Blueprint,
+    sim::{intent::Intent, simulation::Simulation},
+};
+
+const SIDE: u32 = 40;
+
+/// An open box with gravity.
+fn room() -> Blueprint {
+    let mut blueprint = empty_box(SIDE, SIDE);
+    blueprint.domain.gravity = Vec2::new(0.0, -98.1);
+    blueprint
+}
+
+fn elements() -> Vec<(ElementId, Element)> {
+    room().elements.iter().map(|(id, element)| (id, element.clone())).collect()
+}
+
+/// How much there is of an element, whether it moves or not.
+fn count(simulation: &Simulation, id: ElementId) -> usize {
+    let moves = simulation.particles().element.iter().filter(|element| **element == id).count();
+    moves + simulation.rock().iter().filter(|(_, element, _)| *element == id).count()
+}
+
+fn assert_sound(simulation: &Simulation, name: &str, after: &str) {
+    let particles = simulation.particles();
+    for i in 0..particles.len() {
+        let (at, velocity) = (particles.position(i), particles.velocity(i));
+        assert!(at.is_finite() && velocity.is_finite(), "{name}, {after}: {at}, {velocity}");
+        let is_inside = at.min_element() >= 0.0 && at.max_element() <= SIDE as f32;
+        assert!(is_inside && !simulation.rock().is_solid(Solids::cell_of(at)), "{name}, {after}: astray at {at}");
+    }
+}
+
+fn disc(at: (f32, f32)) -> Stroke {
+    Stroke::dab(BrushShape::Disc, Vec2::from(at), 5.0)
+}
+
+#[test]
+fn every_tool_works_with_every_element() {
+    for (id, element) in elements() {
+        let (name, mut simulation) = (&element.name, Simulation::of(room()));
+        simulation.push(Intent::Draw { element: id, stroke: disc((20.0, 20.0)) }).run(1);
+        let drawn = count(&simulation, id);
+        assert!(drawn > 0, "{name}: nothing was drawn");
+        simulation.push(Intent::Stamp { element: id, stroke: disc((8.0, 8.0)) }).run(1);
+        let stamped = count(&simulation, id);
+        // π r² sites, less those at the rim.
+        assert!(stamped >= drawn + 60, "{name}: {stamped} after {drawn}");
+        simulation.run(60);
+        simulation.push(Intent::Blow { stroke: disc((20.0, 8.0)), velocity: Vec2::new(200.0, 50.0) });
+        simulation.push(Intent::Press { stroke: disc((10.0, 10.0)), amount: 2.0 }).run(30);
+        assert_sound(&simulation, name, "wind and pressure");
+        assert_eq!(count(&simulation, id), stamped, "{name}: wind and pressure take none away");
+        simulation.push(Intent::Fill { element: id, at: Vec2::new(20.5, 38.5) }).run(1);
+        let filled = count(&simulation, id);
+        assert!(filled > 2 * stamped, "{name}: {filled} fill what {stamped} left");
+        simulation.run(30);
+        assert_sound(&simulation, name, "a full box");
+        assert_eq!(count(&simulation, id), filled, "{name}: a full box loses none");
+        simulation.push(Intent::Erase { stroke: Stroke::dab(BrushShape::Square, Vec2::splat(20.0), 30.0) }).run(1);
+        assert_eq!(count(&simulation, id), 0, "{name}: the eraser leaves some");
+    }
+}
+
+#[test]
+fn what_is_fixed_replaces_what_moves_and_goes_without_a_trace() {
+    let all = elements();
+    for (fixed, solid) in all.iter().filter(|(_, element)| element.fixed) {
+        for (id, element) in all.iter().filter(|(_, element)| !element.fixed) {
+            let mut simulation = Simulation::of(room());
+            simulation.push(Intent::Stamp { element: *id, stroke: disc((20.0, 6.0)) }).run(1);
+            let before = count(&simulation, *id);
+            simulation.push(Intent::Stamp { element: *fixed, stroke: disc((20.0, 6.0)) }).run(10);
+            let name = format!("{} on {}", solid.name, element.name);
+            assert!(count(&simulation, *fixed) >= 60 && count(&simulation, *id) < before / 2, "{name}");
+            assert_sound(&simulation, &name, "ten ticks");
+        }
+    }
+}
+
+#[test]
+fn emitters_give_and_drains_take_all_that_moves() {
+    for (id, element) in elements().into_iter().filter(|(_, element)| !element.fixed) {
+        let mut blueprint = room();
+        let area = |min: (f32, f32), max: (f32, f32)| Rect { min: Vec2::from(min), max: Vec2::from(max) };
+        blueprint.emitters.push(Emitter {
+            element: id,
+            area: area((17.0, 17.0), (23.0, 23.0)),
+            velocity: Vec2::ZERO,
+            rate: 240.0,
+            total: Some(300),
+            start: 0,
+            given: 0,
+            due: 0.0,
+        });
+        // Where it falls, and where it rises.
+        blueprint
+            .drains
+            .extend([area((0.0, 0.0), (40.0, 4.0)), area((0.0, 36.0), (40.0, 40.0))].map(|area| Drain { area }));
+        let (name, mut simulation) = (&element.name, Simulation::of(blueprint));
+        simulation.run(45);
+        assert!(count(&simulation, id) > 50, "{name}: {} after 45 ticks", count(&simulation, id));
+        assert_sound(&simulation, name, "45 ticks");
+        simulation.run(20 * 60);
+        let given = simulation.counters();
+        assert_eq!(count(&simulation, id), 0, "{name} is left behind: {given:?}");
+    }
+}
