@@ -20,7 +20,7 @@ use glam::Vec2;
 
 /// Time from one random velocity to the next, ticks: about a half second, as long as the eddies last of what rises a metre a
 /// second in puffs of half a metre.
-const TURN: u64 = 32;
+pub const TURN: u64 = 32;
 
 /// Density, as a multiple of the one aimed at, up to which lumps wander freely, and from which on not at all.
 const THIN: [f32; 2] = [0.5, 1.0];

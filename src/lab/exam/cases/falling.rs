@@ -1,8 +1,11 @@
 //! Free fall, of single particles and of a drop; single particles in a steady wind, and light ones in still air.
 
-use crate::lab::exam::{
-    finding::{Findings, Run, found},
-    set_up::{CaseSimulation, GRAVITY, SetUp},
+use crate::{
+    kernel::{diffusion::TURN, units::TICK_SECONDS},
+    lab::exam::{
+        finding::{Findings, Run, found},
+        set_up::{CaseSimulation, GRAVITY, SetUp},
+    },
 };
 use glam::DVec2;
 
@@ -148,10 +151,9 @@ async fn light_lumps(set_up: SetUp) -> Findings {
 
 /// By how much the block of smoke is drawn out, so that its lumps are 4 d apart.
 const DRAWN_OUT: f32 = 10.0;
-/// Time from one random velocity of a lump to the next, s.
-const TURN: f64 = 32.0 / 60.0;
 
 async fn gas_spread(set_up: SetUp) -> Findings {
+    let turn = TURN as f64 * f64::from(TICK_SECONDS);
     let mut blueprint = set_up.blueprint("gas_spread", &[])?;
     let placed = &mut blueprint.particles;
     placed.x.iter_mut().chain(&mut placed.y).for_each(|at| *at *= DRAWN_OUT);
@@ -165,7 +167,7 @@ async fn gas_spread(set_up: SetUp) -> Findings {
         let mean = 0.5 * squares.sum::<f64>() / start.len() as f64;
         let matter = simulation.matter();
         let smoke = matter.elements.find("smoke").map(|id| f64::from(matter.elements.get(id).diffusion));
-        let known = 2.0 * smoke.unwrap_or(f64::NAN) * (simulation.seconds() - 7.0 / 15.0 * TURN);
+        let known = 2.0 * smoke.unwrap_or(f64::NAN) * (simulation.seconds() - 7.0 / 15.0 * turn);
         findings.push(found(quantity, known, mean));
     }
     Ok(findings)
