@@ -26,7 +26,10 @@ fn bad_usage_is_one_line_that_says_what_is_allowed() {
         (&["run", "waterfall", "--set", "wimd=1"], &["wimd", "wind"]),
         (&["run", "waterfall", "--set", "wind=strong"], &["wind=strong"]),
         (&["run", "waterfall", "--set", "wind=1000"], &["wind=1000"]),
-        (&["run", "waterfall", "--effect", "fire=on"], &["NAME is one of air, drag, ", ", vorticity, diffusion, sleep"]),
+        (
+            &["run", "waterfall", "--effect", "fire=on"],
+            &["NAME is one of air, drag, ", ", vorticity, diffusion, sleep"],
+        ),
         (&["run", "waterfall", "--effect", "air=perhaps"], &["NAME=auto"]),
         (&["run", "waterfall", "--detail", "0"], &["--detail", "allowed: numbers from 0.125 to 8"]),
         (&["play", "--detail", "nan"], &["--detail", "allowed: numbers from 0.125 to 8"]),
