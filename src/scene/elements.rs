@@ -123,6 +123,7 @@ mod tests {
                 with("1000)", "1000, cohesion: 10)"),
                 "[1].cohesion: 10 without friction; allowed: 0 for what is no powder",
             ),
+            (with("1000)", "1000, diffusion: 0.1)"), "[1].diffusion: 0.1 of what is no gas; allowed: 0"),
             (with("1000)", "1000, flow: 0)"), "[1].flow: 0 is out of range; allowed: above 0, at most 1"),
             (with("water", "none"), "[1].name"),
             (with("false", "true"), "no element with `fixed: false`"),

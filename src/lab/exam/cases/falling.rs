@@ -149,7 +149,7 @@ async fn light_lumps(set_up: SetUp) -> Findings {
     Ok(findings)
 }
 
-/// By how much the block of smoke is drawn out, so that its lumps are 4 d apart.
+/// By how much the block of smoke is drawn out, so that its lumps are 10 d apart.
 const DRAWN_OUT: f32 = 10.0;
 
 async fn gas_spread(set_up: SetUp) -> Findings {
