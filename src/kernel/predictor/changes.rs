@@ -49,7 +49,7 @@ impl Changes<'_> {
             let band = |field| Rows::new(field, grid.stride, &around);
             let band = (band(known), (band(gained), band(drift)));
             sweep(&work, around.clone(), band, columns.len(), WORTH_A_PIECE, team);
-            let work = FillIn { grid, near, columns, known, changes: [gained, drift], means, whole };
+            let work = FillIn { grid, near, columns, known, changes: [gained, drift], means, matter, whole };
             sweep(&work, all.clone(), Rows::new(ways, grid.stride, &all), columns.len(), WORTH_A_PIECE, team);
         }
         // The solver expects its padding empty.
@@ -140,14 +140,34 @@ struct FillIn<'a> {
     changes: [&'a [f32]; 2],
     /// Weights and mean velocities.
     means: &'a [[f32; 2]],
+    /// Densities and their inverses, where they differ.
+    matter: Option<&'a [[f32; 2]]>,
     /// Particles from which on a face has them on both sides.
     whole: f32,
+}
+
+impl FillIn<'_> {
+    /// What a face where the change is not known gains by those around it where it is, d/s: as much as they do, but as much less as
+    /// it is heavier. What stops a gas shot at a drop is nothing to the drop.
+    #[inline(always)]
+    fn gained_beside(&self, matter: &[[f32; 2]], face: usize) -> f32 {
+        let (lightness, stride) = (matter[face][1], self.grid.stride);
+        let (mut sum, mut count) = (0.0, 0.0);
+        for other in [face.wrapping_sub(stride), face.wrapping_sub(1), face + 1, face + stride] {
+            if self.known.get(other).is_some_and(|known| *known > 0.0) {
+                let share = matter[other][0] * lightness;
+                sum += self.changes[0][other] * if share < 1.0 { share } else { 1.0 };
+                count += 1.0;
+            }
+        }
+        if count > 0.0 { sum / count } else { 0.0 }
+    }
 }
 
 impl Sweep<Rows<'_, Way>> for FillIn<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut ways: Rows<Way>) {
-        let Self { grid, near, columns, known, changes, means, whole } = *self;
+        let Self { grid, near, columns, known, changes, means, matter, whole } = *self;
         for (j, ways) in rows.zip(ways.each()) {
             let ways = &mut ways[columns.clone()];
             let faces = grid.row(j) + columns.start..grid.row(j) + columns.end;
@@ -159,6 +179,10 @@ impl Sweep<Rows<'_, Way>> for FillIn<'_> {
                     let mut out = [[0.0; 4]; CHUNK];
                     let out = &mut out[..faces.len()];
                     fill_in(out, changes.map(around), around(known), &means[faces.clone()], whole);
+                    if let Some(matter) = matter {
+                        let unknown = out.iter_mut().zip(faces).filter(|(_, face)| known[*face] == 0.0);
+                        unknown.for_each(|(way, face)| way[0] = self.gained_beside(matter, face));
+                    }
                     ways[own].copy_from_slice(out);
                 }
                 continue;

@@ -8,7 +8,7 @@ use crate::{
         conjugate::{Conjugate, tolerance},
         equation::{
             Around, CHUNK, Sides, couple, feed_back, feedback_share, fill, keep_volumes, lighten, mark, may_be_sealed,
-            steepness, subtract_divergence,
+            spare_the_heavy, steepness, subtract_divergence,
         },
         grains::{Bed, Grains},
         grid::MacGrid,
@@ -301,6 +301,10 @@ impl Sweep<System<'_>> for Assemble<'_> {
                 any_sealed |= may_be_sealed(diagonal, to_right, to_upper, around, open, steep);
                 let right_side = &mut b[own];
                 keep_volumes(right_side, [&faces.u, &faces.v], cells.clone(), stride, dt / grid.cell, whole);
+                if let Some(matter) = &faces.matter {
+                    let densities = Sides::new(matter.of(Axis::U), matter.of(Axis::V), cells.clone(), stride);
+                    spare_the_heavy(right_side, densities);
+                }
                 let velocities = Sides::new(&faces.u, &faces.v, cells, stride);
                 subtract_divergence(right_side, around.centre, open, velocities);
             }

@@ -131,3 +131,29 @@ fn momentum_is_kept_between_masses() {
     assert!(all > 0.1 * pool.len() as f64 * f64::from(fall(Vec2::ZERO).length()), "nothing moves beside the other");
     assert!(lost < 0.1, "{lost} of what moves came or went");
 }
+
+#[test]
+fn a_gas_that_is_stopped_does_not_push_drops_beside_it() {
+    // It is shot down on the floor, and drops rest on top of it, of which the nearest lie on faces that touch no liquid cell.
+    let masses = [1.0, 0.002];
+    for height in 0..8 {
+        let level = 6.0 + 0.5 * height as f32;
+        let walls = solids(40, 30, |_| false);
+        let mut particles = lattice(&walls, |at| match at.y - level {
+            ..0.0 => Some(Vec2::new(0.0, -3000.0)),
+            above if above < 3.0 && (at.x as u32).is_multiple_of(4) => Some(Vec2::ZERO),
+            _ => None,
+        });
+        for i in 0..particles.len() {
+            particles.element[i] = ElementId((particles.position(i).y < level).into());
+        }
+        let drops = |particles: &Particles| {
+            let own = (0..particles.len()).filter(|i| particles.element[*i] == ElementId(0));
+            own.map(|i| particles.velocity(i).length()).fold(0.0, f32::max)
+        };
+        predict(&mut particles, &walls, Some(&masses));
+        // All that the gas under a drop has, 4 × 8 lumps at the most, would make it this fast.
+        let most = 4.0 * 8.0 * masses[1] * 3000.0;
+        assert!(drops(&particles) < most, "{} d/s of {most} above {level}", drops(&particles));
+    }
+}
