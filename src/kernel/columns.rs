@@ -1,7 +1,7 @@
 //! What every column of the particles can do, whatever its type.
 
 use crate::{element::ElementId, parallel::spread};
-use std::mem::swap;
+use std::{mem::swap, ops::Range};
 
 /// Fewer entries than this are not handed to another thread to be brought into an order.
 const WORTH_REORDERING: usize = 8192;
@@ -32,6 +32,7 @@ pub struct Spares<'a> {
     pub(crate) floats: &'a mut Vec<f32>,
     pub(crate) words: &'a mut Vec<u32>,
     pub(crate) elements: &'a mut Vec<ElementId>,
+    pub(crate) heats: &'a mut Vec<i32>,
 }
 
 impl Column for f32 {
@@ -61,6 +62,17 @@ impl Column for u32 {
     }
 }
 
+impl Column for i32 {
+    #[inline(always)]
+    fn word(self) -> u32 {
+        self as u32
+    }
+
+    fn spare<'a>(spares: &'a mut Spares) -> &'a mut Vec<Self> {
+        spares.heats
+    }
+}
+
 impl Column for ElementId {
     #[inline(always)]
     fn word(self) -> u32 {
@@ -76,6 +88,45 @@ impl Column for ElementId {
 pub trait ColumnVisitor {
     /// Looks at a column.
     fn visit<T: Column>(&mut self, column: &[T]);
+}
+
+/// What a sparse column can do: one that is empty as long as all its entries are their type's default, and else has an entry a
+/// particle. `len` is how many particles there are.
+pub(crate) trait Sparse<T> {
+    /// Entry `i`.
+    fn entry(&self, i: usize) -> T;
+
+    /// Sets entry `i`.
+    fn put(&mut self, i: usize, value: T, len: usize);
+
+    /// Appends the entries `range` of another column.
+    fn join(&mut self, other: &Self, range: Range<usize>, len: usize);
+}
+
+impl<T: Column + PartialEq> Sparse<T> for Vec<T> {
+    #[inline(always)]
+    fn entry(&self, i: usize) -> T {
+        self.get(i).copied().unwrap_or_default()
+    }
+
+    #[inline(always)]
+    fn put(&mut self, i: usize, value: T, len: usize) {
+        if !self.is_empty() || value != T::default() {
+            self.resize(len, T::default());
+            self[i] = value;
+        }
+    }
+
+    fn join(&mut self, other: &Self, range: Range<usize>, len: usize) {
+        match (self.is_empty(), other.is_empty()) {
+            (true, true) => {}
+            (false, true) => self.resize(len + range.len(), T::default()),
+            (_, false) => {
+                self.resize(len, T::default());
+                self.extend_from_slice(&other[range]);
+            }
+        }
+    }
 }
 
 /// Brings a column into an order: at each place comes the entry that was at `order[place]`.

@@ -2,6 +2,7 @@
 //! passes read of them stands in [`ElementParams`].
 
 use crate::{
+    heat::units::{COLDEST, HOTTEST, ROOM},
     params::named,
     units::{Scale, TICK_SECONDS},
 };
@@ -82,12 +83,39 @@ pub struct Element {
     /// it, so that the wind carries the same water as far.
     #[serde(default)]
     pub drag: f32,
+    /// Heat capacity c, MJ/m²K; raising it makes the matter slower to warm and to cool. 0.2 … 5.
+    #[serde(default = "one")]
+    pub capacity: f32,
+    /// Conductivity k of the matter in life, W/mK; raising it lets heat through sooner. 0 … 500. What is simulated is
+    /// `k′ = 6·10⁴ √(0.6 k)`.
+    #[serde(default = "half")]
+    pub conductivity: f32,
+    /// Temperature of what is new, K. 1 … 4000.
+    #[serde(default = "room")]
+    pub spawn: f32,
+    /// What it becomes when it is hot or cold enough: at most one of each.
+    #[serde(default)]
+    pub changes: Vec<ElementChange>,
     /// Share of the free sites under the brush that one tick of pouring fills. 0 < flow ≤ 1.
     #[serde(default = "one")]
     pub flow: f32,
     /// What there is to know of it, in a sentence for players.
     #[serde(default)]
     pub card: String,
+}
+
+/// A change of an element at a temperature.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ElementChange {
+    /// It happens above this temperature, K; then `below` is not given. 1 … 4000.
+    pub above: Option<f32>,
+    /// It happens below this temperature, K.
+    pub below: Option<f32>,
+    /// Names of what comes of it, lump after lump in turn, 1 … 16; `air` is a lump that goes into the air.
+    pub into: Vec<String>,
+    /// Heat that it takes above, or gives below, MJ/m²; 0 … 16 000. Where it follows from other changes it need not be given.
+    pub latent: Option<f32>,
 }
 
 /// A number of an element and the range that it must be in.
@@ -105,7 +133,7 @@ pub struct ElementNumber {
 
 impl Element {
     /// All numbers of the row.
-    pub fn numbers(&self) -> [ElementNumber; 9] {
+    pub fn numbers(&self) -> [ElementNumber; 12] {
         let number = |name, value, min, max| ElementNumber { name, value, min, max };
         [
             number("density", self.density, 0.05, 100_000.0),
@@ -116,6 +144,9 @@ impl Element {
             number("diffusion", self.diffusion, 0.0, 1.0),
             number("vorticity", self.vorticity, 0.0, 1.0),
             number("drag", self.drag, 0.0, 1000.0),
+            number("capacity", self.capacity, 0.2, 5.0),
+            number("conductivity", self.conductivity, 0.0, 500.0),
+            number("spawn", self.spawn, COLDEST, HOTTEST),
             number("flow", self.flow, f32::MIN_POSITIVE, 1.0),
         ]
     }
@@ -153,6 +184,10 @@ impl Element {
             diffusion: 0.0,
             vorticity: 0.0,
             drag: 0.0,
+            capacity: 1.0,
+            conductivity: 0.5,
+            spawn: ROOM,
+            changes: Vec::new(),
             flow: 1.0,
             card: String::new(),
         }
@@ -161,6 +196,14 @@ impl Element {
 
 fn one() -> f32 {
     1.0
+}
+
+fn half() -> f32 {
+    0.5
+}
+
+fn room() -> f32 {
+    ROOM
 }
 
 /// All elements, in the order of the palette within their category. Never empty, at most [`ElementTable::MOST`] rows.
@@ -177,6 +220,11 @@ impl ElementTable {
     pub fn new(rows: Vec<Element>) -> Self {
         debug_assert!(rows.len() <= Self::MOST, "an element id is one byte, and one value of it means none");
         Self { rows }
+    }
+
+    /// All rows.
+    pub fn rows(&self) -> &[Element] {
+        &self.rows
     }
 
     /// The row of `id`. Ids come from this table, so the row exists.

@@ -18,6 +18,7 @@ pub mod crowding;
 pub mod diffusion;
 pub mod element;
 pub mod forces;
+pub mod heat;
 pub mod parallel;
 pub mod params;
 pub mod particles;

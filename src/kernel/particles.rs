@@ -2,11 +2,12 @@
 //!
 //! The columns are declared once, in the list below. Appending, copying, sorting, hashing, marks, saves, the checks of a
 //! file, the table of particles and the count of memory follow from it. A new column is a line there and one in
-//! [`Particles::push`]; a new type of column implements [`Column`], and a new kind of quantity is a variant of [`Value`].
+//! [`Particles::push`]; those that most worlds do without are sparse, and take no room there. A new type of column implements [`Column`], and a new kind of quantity is a variant of [`Value`].
 
 use crate::{
-    columns::{Column, ColumnVisitor, Spares, are_sound, reorder},
+    columns::{Column, ColumnVisitor, Spares, Sparse, are_sound, reorder},
     element::{ElementId, ElementTable},
+    heat::units::QUANTUM,
     simd::{InstructionSet, Lanes, MOST_LANES, Pass},
     units::Scale,
 };
@@ -25,6 +26,8 @@ pub enum Value {
     Length(f32),
     /// A component of a velocity, d/s.
     Velocity(f32),
+    /// Heat, quanta.
+    Heat(i32),
 }
 
 impl Value {
@@ -34,6 +37,7 @@ impl Value {
             Self::Id(value) => value.word(),
             Self::Element(value) => value.word(),
             Self::Length(value) | Self::Velocity(value) => value.word(),
+            Self::Heat(value) => value.word(),
         }
     }
 
@@ -43,80 +47,104 @@ impl Value {
             Self::Id(value) => value.to_string(),
             Self::Element(value) => elements.get(value).name.clone(),
             Self::Length(value) | Self::Velocity(value) => scale.to_metres(value).to_string(),
+            Self::Heat(value) => (i64::from(value) * i64::from(QUANTUM as i32)).to_string(),
         }
     }
 
     /// Whether it is a number within all bounds.
     pub fn is_sound(self) -> bool {
         match self {
-            Self::Id(_) | Self::Element(_) => true,
+            Self::Id(_) | Self::Element(_) | Self::Heat(_) => true,
             Self::Length(value) | Self::Velocity(value) => value.is_sound(),
         }
     }
+
+    /// Whether it is what most worlds do without, and not to be counted as a part of their state: heat where there is none.
+    pub fn is_absent(self) -> bool {
+        self == Self::Heat(0)
+    }
 }
 
-/// Declares the columns: `name: type as what it counts`.
+/// Declares the columns: `name: type as what it counts`. Those behind `sparse` are empty as long as all entries are the type's
+/// default.
 macro_rules! columns {
-    ($($(#[$doc:meta])* $name:ident: $type:ty as $value:ident,)*) => {
+    (
+        $($(#[$doc:meta])* $name:ident: $type:ty as $value:ident,)*
+        ; sparse $($(#[$few_doc:meta])* $few:ident: $few_type:ty as $few_value:ident,)*
+    ) => {
         /// A particle by itself.
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Particle {
             $($(#[$doc])* pub $name: $type,)*
+            $($(#[$few_doc])* pub $few: $few_type,)*
         }
 
         impl Particle {
             /// Its numbers, in the order of [`Particles::COLUMNS`].
             pub fn values(&self) -> [Value; Particles::COLUMNS.len()] {
-                [$(Value::$value(self.$name)),*]
+                [$(Value::$value(self.$name),)* $(Value::$few_value(self.$few),)*]
             }
         }
 
-        /// Movable particles. All arrays have one entry per particle, in the same order; the order changes with every
-        /// sort.
+        /// Movable particles. All arrays have one entry per particle, in the same order, or none if they are sparse; the order
+        /// changes with every sort.
         #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
         pub struct Particles {
             $($(#[$doc])* pub $name: Vec<$type>,)*
+            $($(#[$few_doc])* pub(crate) $few: Vec<$few_type>,)*
         }
 
         impl Particles {
             /// Names of the columns. States are hashed and written in this order.
-            pub const COLUMNS: &[&str] = &[$(stringify!($name)),*];
-            /// Bytes that a particle takes.
-            pub const BYTES: usize = 0 $(+ size_of::<$type>())*;
+            pub const COLUMNS: &[&str] = &[$(stringify!($name),)* $(stringify!($few),)*];
+            /// Bytes that a particle takes where all columns are there.
+            pub const BYTES: usize = 0 $(+ size_of::<$type>())* $(+ size_of::<$few_type>())*;
 
             /// Particle `i`.
             pub fn get(&self, i: usize) -> Particle {
-                Particle { $($name: self.$name[i]),* }
+                Particle { $($name: self.$name[i],)* $($few: self.$few.entry(i),)* }
             }
 
             /// Appends a particle.
             pub fn add(&mut self, particle: Particle) {
                 $(self.$name.push(particle.$name);)*
+                let len = self.len();
+                $(self.$few.put(len - 1, particle.$few, len);)*
             }
 
             /// Appends those of `other` in `range`, in their order.
             pub(crate) fn append(&mut self, other: &Self, range: Range<usize>) {
+                let len = self.len();
+                $(self.$few.join(&other.$few, range.clone(), len);)*
                 $(self.$name.extend_from_slice(&other.$name[range.clone()]);)*
             }
 
             /// Overwrites particle `to` with particle `i`.
             pub(crate) fn copy(&mut self, i: usize, to: usize) {
                 $(self.$name[to] = self.$name[i];)*
+                let len = self.len();
+                $(self.$few.put(to, self.$few.entry(i), len);)*
             }
 
             /// Overwrites particle `to` with particle `i` of `other`.
             pub(crate) fn copy_from(&mut self, other: &Self, i: usize, to: usize) {
                 $(self.$name[to] = other.$name[i];)*
+                let len = self.len();
+                $(self.$few.put(to, other.$few.entry(i), len);)*
             }
 
             /// Keeps the first `len`.
             pub(crate) fn truncate(&mut self, len: usize) {
                 $(self.$name.truncate(len);)*
+                $(self.$few.truncate(len);)*
             }
 
             /// Brings the particles into an order: at each place comes the one that was at `order[place]`.
             pub(crate) fn reorder(&mut self, order: &[u32], mut spares: Spares, threads: usize) {
                 $(reorder(&mut self.$name, order, &mut spares, threads);)*
+                $(if !self.$few.is_empty() {
+                    reorder(&mut self.$few, order, &mut spares, threads);
+                })*
             }
 
             /// Whether all numbers of the particles in `range` are within all bounds.
@@ -124,19 +152,22 @@ macro_rules! columns {
                 true $(&& are_sound(&self.$name[range.clone()]))*
             }
 
-            /// Whether all columns are of one length.
+            /// Whether all columns are of one length, and sparse ones empty or so.
             pub fn has_equal_columns(&self) -> bool {
-                true $(&& self.$name.len() == self.len())*
+                true $(&& self.$name.len() == self.len())* $(&& [0, self.len()].contains(&self.$few.len()))*
             }
 
             /// Shows all columns, in the order of [`Particles::COLUMNS`].
             pub fn visit(&self, visitor: &mut impl ColumnVisitor) {
                 $(visitor.visit(&self.$name);)*
+                $(if !self.$few.is_empty() {
+                    visitor.visit(&self.$few);
+                })*
             }
 
             /// Bytes held.
             pub fn memory(&self) -> usize {
-                0 $(+ size_of::<$type>() * self.$name.capacity())*
+                0 $(+ size_of::<$type>() * self.$name.capacity())* $(+ size_of::<$few_type>() * self.$few.capacity())*
             }
         }
     };
@@ -160,6 +191,9 @@ columns! {
     push_x: f32 as Velocity,
     /// The same along y, d/s.
     push_y: f32 as Velocity,
+    ; sparse
+    /// Heat beyond what its element holds at the room's temperature, quanta ([`heat`](crate::heat)).
+    heat: i32 as Heat,
 }
 
 impl Particles {
@@ -176,7 +210,30 @@ impl Particles {
     /// Appends a new particle.
     pub fn push(&mut self, id: u32, element: ElementId, position: Vec2, velocity: Vec2) {
         let (Vec2 { x, y }, Vec2 { x: vx, y: vy }) = (position, velocity);
-        self.add(Particle { id, element, x, y, vx, vy, push_x: 0.0, push_y: 0.0 });
+        self.add(Particle { id, element, x, y, vx, vy, push_x: 0.0, push_y: 0.0, heat: 0 });
+    }
+
+    /// Appends a new particle that holds heat (quanta).
+    pub fn push_warm(&mut self, id: u32, element: ElementId, position: Vec2, velocity: Vec2, heat: i32) {
+        self.push(id, element, position, velocity);
+        self.set_heat(self.len() - 1, heat);
+    }
+
+    /// Heat of particle `i`, quanta.
+    #[inline(always)]
+    pub fn heat_of(&self, i: usize) -> i32 {
+        self.heat.entry(i)
+    }
+
+    /// Sets the heat of particle `i`, quanta.
+    pub fn set_heat(&mut self, i: usize, heat: i32) {
+        let len = self.len();
+        self.heat.put(i, heat, len);
+    }
+
+    /// Whether any of them is or was not at the room's temperature.
+    pub fn has_heat(&self) -> bool {
+        !self.heat.is_empty()
     }
 
     /// Position of particle `i`, d.

@@ -16,6 +16,8 @@ pub struct Solids {
     element: Vec<u8>,
     /// Empty as long as there has been no rock.
     id: Vec<u32>,
+    /// Heat, quanta; empty as long as there has been none.
+    heat: Vec<i32>,
     count: usize,
     version: u64,
 }
@@ -29,6 +31,7 @@ impl Solids {
             rows: rows as i32,
             element: vec![EMPTY; cells],
             id: Vec::new(),
+            heat: Vec::new(),
             count: 0,
             version: 0,
         }
@@ -51,7 +54,7 @@ impl Solids {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        self.element.capacity() + 4 * self.id.capacity()
+        self.element.capacity() + 4 * (self.id.capacity() + self.heat.capacity())
     }
 
     /// Changes with every change of the rock, so that what is derived from it knows when to follow.
@@ -112,9 +115,33 @@ impl Solids {
             return false;
         }
         self.element[k] = EMPTY;
+        if let Some(heat) = self.heat.get_mut(k) {
+            *heat = 0;
+        }
         self.count -= 1;
         self.version += 1;
         true
+    }
+
+    /// Heat that the rock in the cell holds beyond what its element holds at the room's temperature, quanta; 0 where is none.
+    pub fn heat(&self, cell: IVec2) -> i32 {
+        self.index(cell).and_then(|k| self.heat.get(k)).copied().unwrap_or_default()
+    }
+
+    /// Gives the rock in the cell this heat, quanta. Nothing where is none.
+    pub fn set_heat(&mut self, cell: IVec2, heat: i32) {
+        let Some(k) = self.index(cell).filter(|k| self.element[*k] != EMPTY) else { return };
+        if self.heat.is_empty() && heat != 0 {
+            self.heat = vec![0; self.element.len()];
+        }
+        if let Some(held) = self.heat.get_mut(k) {
+            *held = heat;
+        }
+    }
+
+    /// Heat of all cells, row by row from the bottom, quanta; empty if there has been none.
+    pub fn heats(&self) -> &[i32] {
+        &self.heat
     }
 
     /// All rock, row by row from the bottom: cell, element, id.

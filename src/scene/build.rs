@@ -3,6 +3,7 @@
 use crate::{
     kernel::{
         element::ElementTable,
+        heat::table::HeatTable,
         params::{AirParams, Domain, Preset},
         units::Scale,
     },
@@ -149,6 +150,7 @@ impl SceneFile {
         let filled = fill(
             &Room {
                 elements: &elements,
+                table: &HeatTable::new(&elements),
                 origin: &self.origin,
                 spacing,
                 size: domain.size,

@@ -45,6 +45,8 @@ pub struct Facts<'a> {
     pub particles: usize,
     /// How many of them sleep.
     pub asleep: usize,
+    /// Whether any matter is or was warmer or colder than the room.
+    pub has_heat: bool,
     /// Whether the liquid has a tension.
     pub has_tension: bool,
     /// Whether the scene has winds.
@@ -336,6 +338,25 @@ table! {
         off: "lumps of gas keep together as those of a liquid do",
         called_for: |facts| {
             verdict(facts.present(|element| element.diffusion > 0.0), "a gas that spreads is there", "no gas that spreads")
+        },
+        ..PLAIN
+    }
+    /// Heat that flows, and what it makes of matter.
+    Heat {
+        name: "heat",
+        meaning: "heat flows from warm to cold; what is hot or cold enough melts, boils, freezes or condenses",
+        passes: &[Pass::Heat],
+        when: "something is or was warmer or colder than the room",
+        parameters: &[
+            "temperature of contents",
+            "capacity of an element",
+            "conductivity of an element",
+            "spawn of an element",
+            "changes of an element",
+        ],
+        off: "everything keeps the heat that it has, and stays what it is",
+        called_for: |facts| {
+            verdict(facts.has_heat, "something is warmer or colder than the room", "all is at the room's temperature")
         },
         ..PLAIN
     }

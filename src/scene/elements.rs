@@ -1,7 +1,10 @@
 //! The element table out of `assets/elements.ron`.
 
 use crate::{
-    kernel::element::{Element, ElementNumber, ElementTable},
+    kernel::{
+        element::{Element, ElementNumber, ElementTable},
+        heat::table::{CurveFault, curves},
+    },
     scene::{builtin::ELEMENTS, error::SceneError, file::parse},
 };
 use std::sync::Arc;
@@ -48,6 +51,7 @@ pub(crate) fn check(rows: &[Element]) -> Result<(), Fault> {
     for (i, row) in rows.iter().enumerate() {
         check_row(row, &rows[..i]).map_err(|(field, what)| Fault { row: i, field, what })?;
     }
+    curves(rows).map_err(|CurveFault { row, what }| Fault { row, field: "changes", what })?;
     Ok(())
 }
 

@@ -140,6 +140,9 @@ pub(super) struct Placement {
     /// Velocity at the start, m/s: −300 … 300 each; only for what moves. Default: `(0, 0)`.
     #[serde(default = "zero")]
     pub(super) velocity: Pair,
+    /// Temperature at the start, K: 1 … 4000, within that at which the element stays what it is. Default: the element's own, of
+    /// most 293.
+    pub(super) temperature: Option<Number>,
 }
 
 /// A region of the plane; it may reach past the box. All coordinates in m, −1e6 … 1e6.

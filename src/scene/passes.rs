@@ -73,6 +73,8 @@ table! {
     Vorticity { name: "vorticity", unit: Unit::Particles, each_substep: true }
     /// Gases wander.
     Diffusion { name: "diffusion", unit: Unit::Particles, each_substep: true }
+    /// Heat flows, and changes matter.
+    Heat { name: "heat", unit: Unit::Particles, each_substep: false }
     /// Particles fall asleep and wake.
     Sleep { name: "sleep", unit: Unit::Particles, each_substep: false }
     /// Checks at the end of the tick.

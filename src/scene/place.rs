@@ -3,6 +3,10 @@
 use crate::{
     kernel::{
         element::{ElementId, ElementTable},
+        heat::{
+            table::HeatTable,
+            units::{COLDEST, HOTTEST},
+        },
         particles::Particles,
         solids::{Solids, centre, is_whole},
     },
@@ -12,7 +16,7 @@ use crate::{
         error::{SceneError, choices},
         file::Placement,
         flow::VELOCITY,
-        number::Evaluator,
+        number::{Evaluator, Range},
         shape::Region,
     },
 };
@@ -61,11 +65,14 @@ struct Prepared {
     region: Region,
     replace: bool,
     velocity: Vec2,
+    /// Temperature, K, if it is not that of new lumps.
+    temperature: Option<f32>,
 }
 
 /// The box and what bounds its filling.
 pub(super) struct Room<'a> {
     pub(super) elements: &'a ElementTable,
+    pub(super) table: &'a HeatTable,
     pub(super) origin: &'a Origin,
     /// Spacing d, m.
     pub(super) spacing: f64,
@@ -101,7 +108,7 @@ pub(super) fn fill(room: &Room<'_>, values: &Evaluator<'_>, contents: &[Placemen
         );
         return Err(values.fault("contents", what));
     }
-    Ok(settle(&lattice, &prepared))
+    Ok(settle(&lattice, &prepared, room.table))
 }
 
 fn prepare(room: &Room<'_>, values: &Evaluator<'_>, i: usize, placement: &Placement) -> Result<Prepared, SceneError> {
@@ -122,7 +129,13 @@ fn prepare(room: &Room<'_>, values: &Evaluator<'_>, i: usize, placement: &Placem
         let what = format!("`{name}` doesn't move; allowed: (0, 0)");
         return Err(values.fault(format_args!("contents[{i}].velocity"), what));
     }
+    let temperature = placement.temperature.as_ref().map(|at| {
+        let [coldest, hottest] = element.map_or([COLDEST, HOTTEST], |id| room.table.curve(id).stays_between());
+        let range = Range::real(f64::from(coldest), f64::from(hottest));
+        values.number(format_args!("contents[{i}].temperature"), at, range)
+    });
     Ok(Prepared {
+        temperature: temperature.transpose()?.map(|at| at as f32),
         element,
         fixed,
         region: Region::new(values, room.origin, room.spacing, &format_args!("contents[{i}]"), &placement.shape)?,
@@ -151,19 +164,21 @@ fn claim(room: &Room<'_>, lattice: &mut Lattice, i: usize, placement: &Prepared,
 }
 
 /// Gives every held site its particle.
-fn settle(lattice: &Lattice, prepared: &[Prepared]) -> Filled {
+fn settle(lattice: &Lattice, prepared: &[Prepared], table: &HeatTable) -> Filled {
     let mut filled =
         Filled { particles: Particles::default(), solids: Solids::new(lattice.cells.x, lattice.cells.y), next_id: 0 };
     for (i, placement) in prepared.iter().enumerate() {
         let Some(element) = placement.element else { continue };
+        let heat = placement.temperature.map_or_else(|| table.spawn_heat(element), |at| table.curve(element).heat(at));
         for cell in lattice.within(placement.region.bounds()) {
             if usize::from(lattice.holder[lattice.index(cell)]) != i + 1 {
                 continue;
             }
             if placement.fixed {
                 filled.solids.insert(cell, element, filled.next_id);
+                filled.solids.set_heat(cell, heat);
             } else {
-                filled.particles.push(filled.next_id, element, centre(cell), placement.velocity);
+                filled.particles.push_warm(filled.next_id, element, centre(cell), placement.velocity, heat);
             }
             filled.next_id += 1;
         }

@@ -16,7 +16,7 @@ use crate::{
         resample::count_at,
         snapshot::{Snapshot, hash_state},
         state::{
-            AirGrid, Census, Clock, Counters, ParticleStore, PredictorState, Rock, Setup, SleepState, SolverState,
+            AirGrid, Books, Census, Clock, Counters, ParticleStore, PredictorState, Rock, Setup, SleepState, SolverState,
             Sources,
         },
     },
@@ -47,6 +47,7 @@ pub fn freeze(world: &World) -> Snapshot {
         sleep: world.get_resource::<SleepState>().map_or_else(Default::default, |sleep| sleep.record().clone()),
         sources: world.resource::<Sources>().clone(),
         clock: *world.resource::<Clock>(),
+        books: world.get_resource::<Books>().cloned().unwrap_or_default(),
     }
 }
 
@@ -61,6 +62,7 @@ pub fn thaw(world: &mut World, snapshot: &Snapshot) {
     world.insert_resource(AirGrid(air));
     world.insert_resource(snapshot.sources.clone());
     world.insert_resource(snapshot.clock);
+    world.insert_resource(snapshot.books.clone());
     world.insert_resource(Census::default());
     // What is derived from the rock follows its version, which only tells apart the states of one history.
     world.insert_resource(PredictorState(Predictor::resume(snapshot.kept.clone())));

@@ -86,6 +86,13 @@ pub enum Intent {
         /// The scene's own spacing over that from here on, without what the quality brings along.
         detail: f64,
     },
+    /// Warm what is under the stroke, rock and what moves.
+    Warm {
+        /// Where.
+        stroke: Stroke,
+        /// By how much, K; negative cools.
+        degrees: f32,
+    },
 }
 
 impl Intent {
@@ -101,6 +108,7 @@ impl Intent {
                 Self::Blow { stroke: stroke.scaled(factor), velocity: velocity * factor }
             }
             Self::Press { stroke, amount } => Self::Press { stroke: stroke.scaled(factor), amount },
+            Self::Warm { stroke, degrees } => Self::Warm { stroke: stroke.scaled(factor), degrees },
             Self::Gravity { gravity } => Self::Gravity { gravity: gravity * factor },
             Self::ClearAir | Self::Quality { .. } | Self::Effect { .. } | Self::Detail { .. } => self,
         }

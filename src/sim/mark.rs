@@ -55,6 +55,9 @@ impl Marker {
         let folded = clock.edits.wrapping_mul(SPREAD) ^ u64::from(clock.next_id);
         let mut matter = Columns { count: 0, folded };
         particles.visit(&mut matter);
+        if !rock.heats().is_empty() {
+            matter.visit(rock.heats());
+        }
         Mark {
             particles: particles.len() as u32,
             matter: narrow(matter.folded),

@@ -42,6 +42,9 @@ impl Plugin for SimulationPlugin {
             .init_resource::<state::Apart>()
             .init_resource::<state::StartEnergy>()
             .init_resource::<state::SleepState>()
+            .init_resource::<state::HeatState>()
+            .init_resource::<state::HeatCurves>()
+            .init_resource::<state::Books>()
             .init_resource::<workers::Workers>()
             .add_plugins(stages::plugin);
     }

@@ -164,6 +164,7 @@ impl Snapshot {
             sleep: SleepRecord::default(),
             sources: rescaled_sources(&self.sources, factor),
             clock: Clock { next_id, ..self.clock },
+            books: self.books.clone(),
         })
     }
 

@@ -4,6 +4,7 @@ use crate::{
     kernel::{
         air::Air,
         element::ElementId,
+        heat::HeatRecord,
         particles::Particles,
         predictor::Kept,
         sleep::SleepRecord,
@@ -15,7 +16,7 @@ use crate::{
         effects::{Effect, Mode},
     },
 };
-use bevy::prelude::Resource;
+use bevy::prelude::{Deref, DerefMut, Resource};
 use serde::{Deserialize, Serialize};
 
 /// What the scene keeps adding and taking away. Written by the source stage.
@@ -47,6 +48,10 @@ impl Clock {
     }
 }
 
+/// What the heat of the world was booked as. Written by the edit and heat stages.
+#[derive(Resource, Deref, DerefMut, Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Books(pub HeatRecord);
+
 /// Everything in a world that a tick changes. What only an intent changes (gravity, quality, effects) is not in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
@@ -64,6 +69,8 @@ pub struct Snapshot {
     pub sources: Sources,
     /// Tick, edits, next id.
     pub clock: Clock,
+    /// What heat went where.
+    pub books: Books,
 }
 
 impl Snapshot {
@@ -89,6 +96,7 @@ impl Snapshot {
                 drains: blueprint.drains.clone(),
             },
             clock: Clock { tick: 0, edits: 0, next_id: blueprint.next_id },
+            books: Books::default(),
         }
     }
 
@@ -110,10 +118,13 @@ pub fn hash_state(particles: &Particles, solids: &Solids, air: &Air) -> u64 {
     let mut hash = EMPTY;
     let mut take = |word: u32| hash = word.to_le_bytes().into_iter().fold(hash, fnv);
     for i in particles.in_id_order() {
-        particles.get(i as usize).values().into_iter().for_each(|value| take(value.word()));
+        let values = particles.get(i as usize).values().into_iter();
+        values.filter(|value| !value.is_absent()).for_each(|value| take(value.word()));
     }
     for (cell, ElementId(element), id) in solids.iter() {
         [cell.x as u32, cell.y as u32, u32::from(element), id].into_iter().for_each(&mut take);
+        let heat = solids.heat(cell);
+        (heat != 0).then_some(heat as u32).into_iter().for_each(&mut take);
     }
     // Air that is at rest has one hash, with a grid or without.
     let air = air.with_grid(solids);

@@ -6,6 +6,7 @@ use crate::{
         air::{Air, AirReport},
         element::{ElementParams, ElementTable, Traits},
         forces::LaterDrag,
+        heat::{Heat, table::HeatTable},
         params::{Domain, Preset, Quality},
         particles::Particles,
         pbf::Solver,
@@ -20,7 +21,7 @@ use bevy::prelude::{Deref, DerefMut, Resource};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-pub use crate::sim::snapshot::{Clock, Sources};
+pub use crate::sim::snapshot::{Books, Clock, Sources};
 
 /// Movable particles. Written by the edit stage and the substep stages.
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
@@ -125,6 +126,8 @@ counters! {
     pressure_clamps: u64, "pressure cells cut", "cells too full or too thin to be put right at once";
     /// Substeps whose pressure solve stopped above its tolerance.
     pressure_unsolved: u64, "pressures unsolved", "substeps whose pressure was left above its tolerance";
+    /// Lump-ticks in which an exchange of heat was cut to what evens out.
+    heat_cuts: u64, "flows of heat cut", "lumps that would have given or taken more heat than evens them out";
     /// Air cells whose speed or pressure was cut.
     air_clamps: u64, "air cells cut", "cells of air whose wind or pressure was cut";
     /// Substeps of the air for which sound was slowed.
@@ -206,6 +209,14 @@ impl Apart {
         Traits { sines: grains.then_some(&elements.friction[..]), weights: gases.then_some(&elements.weight[..]) }
     }
 }
+
+/// The buffers of the exchange of heat. Written by the heat stage.
+#[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
+pub struct HeatState(pub Heat);
+
+/// How warm the elements are by their heat. Made when a scene opens.
+#[derive(Resource, Deref, Clone, Debug, Default)]
+pub struct HeatCurves(pub HeatTable);
 
 /// Who sleeps. Written by the sleep stages.
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]

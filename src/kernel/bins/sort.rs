@@ -42,6 +42,7 @@ pub(super) struct Sort {
     /// For each place the particle's place before the sort.
     source: Vec<u32>,
     spare_elements: Vec<ElementId>,
+    spare_heats: Vec<i32>,
     segments: Vec<Segment>,
 }
 
@@ -72,8 +73,8 @@ impl Sort {
     /// Brings all columns of the particles into the order that was found. `floats` is a buffer for one of them, and is left with
     /// what one of them held.
     pub fn reorder(&mut self, particles: &mut Particles, floats: &mut Vec<f32>, threads: usize) {
-        let Self { source, keys: words, spare_elements: elements, .. } = self;
-        particles.reorder(source, Spares { floats, words, elements }, threads);
+        let Self { source, keys: words, spare_elements: elements, spare_heats: heats, .. } = self;
+        particles.reorder(source, Spares { floats, words, elements, heats }, threads);
     }
 
     /// Lets `settle` change the positions of each strip of the sorted particles within their cells.
@@ -161,6 +162,7 @@ impl Sort {
         4 * (self.starts.capacity() + self.keys.capacity() + self.source.capacity())
             + 8 * self.blocks.capacity()
             + self.spare_elements.capacity()
+            + 4 * self.spare_heats.capacity()
             + size_of::<Segment>() * self.segments.capacity()
     }
 }

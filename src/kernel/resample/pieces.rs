@@ -24,6 +24,8 @@ struct Piece {
     at: Vec2,
     velocity: DVec2,
     push: DVec2,
+    /// Quanta.
+    heat: i32,
 }
 
 /// What was joined so far.
@@ -34,6 +36,7 @@ struct Heap {
     at: DVec2,
     velocity: DVec2,
     push: DVec2,
+    heat: f64,
     places: Vec<Vec2>,
 }
 
@@ -43,6 +46,7 @@ impl Heap {
         self.at += weight * piece.at.as_dvec2();
         self.velocity += weight * piece.velocity;
         self.push += weight * piece.push;
+        self.heat += weight * f64::from(piece.heat);
         self.places.push(piece.at);
     }
 
@@ -79,7 +83,7 @@ pub fn resample_particles(
     }
     let mut made = Maker { solids, domain, next_id, particles: Particles::default() };
     if (weight - 1.0).abs() < SLACK {
-        pieces.iter().for_each(|piece| made.add(piece.element, piece.at, piece.velocity, piece.push));
+        pieces.iter().for_each(|piece| made.add(piece.element, piece.at, [piece.velocity, piece.push], piece.heat));
     } else {
         pieces.sort_by_key(|piece| (piece.element, along(piece.at)));
         pieces.chunk_by(|a, b| a.element == b.element).for_each(|pieces| join(pieces, weight, &mut made));
@@ -89,7 +93,7 @@ pub fn resample_particles(
 
 /// Cuts a particle into `parts` × `parts` pieces around it, none of which a wall parts from it.
 fn cut(particle: &Particle, factor: f64, parts: i32, solids: &Solids, domain: &Domain, pieces: &mut Vec<Piece>) {
-    let Particle { element, x, y, vx, vy, push_x, push_y, .. } = *particle;
+    let Particle { element, x, y, vx, vy, push_x, push_y, heat, .. } = *particle;
     let scaled = |x: f32, y: f32| factor * DVec2::new(f64::from(x), f64::from(y));
     let middle = scaled(x, y);
     let inside = domain.keep_inside(middle.as_vec2());
@@ -99,7 +103,7 @@ fn cut(particle: &Particle, factor: f64, parts: i32, solids: &Solids, domain: &D
         let step = DVec2::new(f64::from(k % parts), f64::from(k / parts)) + 0.5 - 0.5 * f64::from(parts);
         let target = domain.keep_inside((middle + edge * step).as_vec2());
         let at = if is_free { solids.sweep(inside, target) } else { target };
-        pieces.push(Piece { element, at, velocity: scaled(vx, vy), push: scaled(push_x, push_y) });
+        pieces.push(Piece { element, at, velocity: scaled(vx, vy), push: scaled(push_x, push_y), heat });
     }
 }
 
@@ -113,7 +117,7 @@ fn join(pieces: &[Piece], weight: f64, made: &mut Maker) {
         while heap.weight + left >= 1.0 - SLACK {
             let part = 1.0 - heap.weight;
             heap.add(piece, part);
-            made.add(element, heap.place(), heap.velocity, heap.push);
+            made.add(element, heap.place(), [heap.velocity, heap.push], heap.heat.round() as i32);
             heap = Heap::default();
             left -= part;
         }
@@ -124,13 +128,15 @@ fn join(pieces: &[Piece], weight: f64, made: &mut Maker) {
     // The sums are momenta: as velocities of a whole particle, or as what a whole one gains, they keep theirs.
     let last = made.particles.len();
     if heap.weight >= 0.5 || heap.weight > 0.0 && last == before {
-        made.add(element, heap.place(), heap.velocity, heap.push);
+        made.add(element, heap.place(), [heap.velocity, heap.push], (heap.heat / heap.weight).round() as i32);
     } else if last > before {
         let Particles { vx, vy, push_x, push_y, .. } = &mut made.particles;
         for (own, more) in [(vx, heap.velocity.x), (vy, heap.velocity.y), (push_x, heap.push.x), (push_y, heap.push.y)]
         {
             own[last - 1] += more as f32;
         }
+        let held = f64::from(made.particles.heat_of(last - 1));
+        made.particles.set_heat(last - 1, (held + heap.heat).round() as i32);
     }
 }
 
@@ -143,11 +149,11 @@ struct Maker<'a> {
 }
 
 impl Maker<'_> {
-    fn add(&mut self, element: ElementId, at: Vec2, velocity: DVec2, push: DVec2) {
+    fn add(&mut self, element: ElementId, at: Vec2, [velocity, push]: [DVec2; 2], heat: i32) {
         let at = nearest_free(self.domain.keep_inside(at), self.solids, self.domain);
         let (id, [vx, vy], [push_x, push_y]) =
             (*self.next_id, velocity.as_vec2().to_array(), push.as_vec2().to_array());
-        self.particles.add(Particle { id, element, x: at.x, y: at.y, vx, vy, push_x, push_y });
+        self.particles.add(Particle { id, element, x: at.x, y: at.y, vx, vy, push_x, push_y, heat });
         *self.next_id += 1;
     }
 }

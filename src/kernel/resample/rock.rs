@@ -27,8 +27,10 @@ pub fn resample_rock(old: &Solids, factor: f64, size: Vec2, next_id: &mut u32) -
     for y in 0..cells.y {
         let rows = axis(y, size.y, old.rows());
         for (x, columns) in columns.iter().enumerate() {
-            if let Some(element) = mostly(old, columns, &rows) {
-                new.insert(IVec2::new(x as i32, y as i32), element, *next_id);
+            if let Some((element, heat)) = mostly(old, columns, &rows) {
+                let cell = IVec2::new(x as i32, y as i32);
+                new.insert(cell, element, *next_id);
+                new.set_heat(cell, heat);
                 *next_id += 1;
             }
         }
@@ -48,18 +50,22 @@ pub fn make_room(solids: &mut Solids, particles: &Particles, factor: f64, domain
     }
 }
 
-/// What a cell is of, by the parts of old cells that it covers.
-fn mostly(old: &Solids, columns: &[(i32, f64)], rows: &[(i32, f64)]) -> Option<ElementId> {
-    let mut rock: BTreeMap<ElementId, f64> = BTreeMap::new();
+/// What a cell is of, by the parts of old cells that it covers, and the mean heat of those that were of it, quanta.
+fn mostly(old: &Solids, columns: &[(i32, f64)], rows: &[(i32, f64)]) -> Option<(ElementId, i32)> {
+    let mut rock: BTreeMap<ElementId, [f64; 2]> = BTreeMap::new();
     let mut whole = 0.0;
     for (y, height) in rows {
         for (x, width) in columns {
             whole += width * height;
-            if let Some((element, _)) = old.get(IVec2::new(*x, *y)) {
-                *rock.entry(element).or_default() += width * height;
+            let cell = IVec2::new(*x, *y);
+            if let Some((element, _)) = old.get(cell) {
+                let [area, heat] = rock.entry(element).or_default();
+                *area += width * height;
+                *heat += width * height * f64::from(old.heat(cell));
             }
         }
     }
-    let most = rock.iter().max_by(|a, b| a.1.total_cmp(b.1)).map(|(element, _)| *element);
-    most.filter(|_| rock.values().sum::<f64>() >= (HALF - SLACK) * whole)
+    let most = rock.iter().max_by(|a, b| a.1[0].total_cmp(&b.1[0]));
+    let most = most.map(|(element, [area, heat])| (*element, (heat / area).round() as i32));
+    most.filter(|_| rock.values().map(|[area, _]| area).sum::<f64>() >= (HALF - SLACK) * whole)
 }

@@ -70,6 +70,8 @@ pub struct Sleep {
     pub(super) room: Particles,
     /// Version of the rock that they lie on.
     pub(super) rock: u64,
+    /// Tiles in which something became another element.
+    pub(super) disturbed: Vec<u32>,
 }
 
 impl Sleep {
@@ -100,6 +102,7 @@ impl Sleep {
             + size_of::<Calm>() * self.record.tiles.capacity()
             + 4 * (self.x.capacity() + self.y.capacity() + self.id.capacity())
             + 4 * (self.density.capacity() + self.others.capacity())
+            + 4 * self.disturbed.capacity()
             + self.aside.memory()
             + self.room.memory()
     }

@@ -15,11 +15,19 @@ impl Sleep {
     /// Wakes all.
     pub fn wake_all(&mut self) {
         self.record.asleep = 0;
+        self.disturbed.clear();
         self.record.tiles.fill(Calm::default());
         self.flags.fill(0);
         self.tiles.clear();
         [&mut self.x, &mut self.y, &mut self.density].into_iter().for_each(Vec::clear);
         self.id.clear();
+    }
+
+    /// Notes that something became another element at places (d): what sleeps there wakes at the next [`Sleep::check`].
+    pub fn disturb(&mut self, places: &[Vec2]) {
+        if self.asleep() > 0 {
+            self.disturbed.extend(places.iter().map(|at| self.grid.tile(at.x, at.y) as u32));
+        }
     }
 
     /// Looks whether anything touched the sleepers since the last tick, as brushes, drains and a change of the rock do, and
@@ -29,7 +37,8 @@ impl Sleep {
             self.wake_all();
         }
         let asleep = self.asleep();
-        let is_untouched = particles.len() >= asleep
+        let is_untouched = self.disturbed.is_empty()
+            && particles.len() >= asleep
             && particles.id[..asleep] == self.id[..asleep]
             && are_same(&particles.x[..asleep], &self.x)
             && are_same(&particles.y[..asleep], &self.y)
@@ -38,6 +47,10 @@ impl Sleep {
         if is_untouched {
             return;
         }
+        for k in 0..self.disturbed.len() {
+            self.mark_around(self.disturbed[k] as usize);
+        }
+        self.disturbed.clear();
         let mut left = 0;
         for k in 0..asleep {
             let is_there = particles.id.get(left) == Some(&self.id[k]);

@@ -4,6 +4,7 @@ use super::occupancy::Occupancy;
 use crate::{
     brush::Stroke,
     element::{ElementId, ElementTable},
+    heat::table::HeatTable,
     params::Domain,
     particles::Particles,
     random::{mix, unit},
@@ -21,6 +22,8 @@ pub struct Matter<'a> {
     pub domain: &'a Domain,
     /// All elements.
     pub elements: &'a ElementTable,
+    /// How warm they are by their heat.
+    pub heat: &'a HeatTable,
     /// Movable particles.
     pub particles: &'a mut Particles,
     /// Rock.
@@ -216,7 +219,7 @@ impl Matter<'_> {
                 continue;
             }
             let id = self.take_id();
-            self.particles.push(id, element, at, filling.velocity);
+            self.particles.push_warm(id, element, at, filling.velocity, self.heat.spawn_heat(element));
             room.insert(at);
             report.placed += 1;
         }
@@ -251,6 +254,7 @@ impl Matter<'_> {
         }
         let id = self.take_id();
         self.solids.insert(cell, element, id);
+        self.solids.set_heat(cell, self.heat.spawn_heat(element));
         report.placed += 1;
     }
 }

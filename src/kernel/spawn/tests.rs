@@ -4,6 +4,7 @@ use super::{occupancy::CLEARANCE, *};
 use crate::{
     brush::{BrushShape, Stroke},
     element::{Element, ElementId, ElementTable},
+    heat::table::HeatTable,
     params::Domain,
     particles::Particles,
     solids::Solids,
@@ -14,6 +15,7 @@ use glam::{IVec2, Vec2};
 struct Bench {
     domain: Domain,
     elements: ElementTable,
+    heat: HeatTable,
     particles: Particles,
     solids: Solids,
     next_id: u32,
@@ -25,12 +27,12 @@ const WATER: ElementId = ElementId(1);
 
 impl Bench {
     fn new() -> Self {
+        let rows = vec![Element::plain("rock", true), Element { flow: 0.25, ..Element::plain("water", false) }];
+        let elements = ElementTable::new(rows);
         Self {
             domain: Domain { size: Vec2::new(60.0, 40.0), gravity: Vec2::ZERO },
-            elements: ElementTable::new(vec![
-                Element::plain("rock", true),
-                Element { flow: 0.25, ..Element::plain("water", false) },
-            ]),
+            heat: HeatTable::new(&elements),
+            elements,
             particles: Particles::default(),
             solids: Solids::new(60, 40),
             next_id: 0,
@@ -42,6 +44,7 @@ impl Bench {
         Matter {
             domain: &self.domain,
             elements: &self.elements,
+            heat: &self.heat,
             particles: &mut self.particles,
             solids: &mut self.solids,
             next_id: &mut self.next_id,

@@ -60,6 +60,7 @@ pub(super) fn contents(contents: &Contents) -> Verdict {
     numbers(contents)?;
     element_rows(contents)?;
     clock(&contents.clock)?;
+    books(contents)?;
     particles(contents)?;
     sources(contents)?;
     air(contents)
@@ -113,6 +114,11 @@ fn clock(clock: &Clock) -> Verdict {
         demand(count <= LAST_TICK, || format!("{name} is {count}; allowed: 0 to {LAST_TICK}"))?;
     }
     Ok(())
+}
+
+fn books(contents: &Contents) -> Verdict {
+    let (turns, elements) = (contents.books.turns.len(), contents.elements.len());
+    demand(turns <= elements, || format!("turns of {turns} elements; allowed: of its {elements} at most"))
 }
 
 fn is_movable(contents: &Contents, element: ElementId) -> bool {

@@ -10,7 +10,7 @@ use crate::{
         sleep::SleepRecord,
     },
     scene::{blueprint::Blueprint, effects::EffectModes},
-    sim::state::{Clock, Sources},
+    sim::state::{Books, Clock, Sources},
 };
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -32,6 +32,7 @@ pub(super) struct Contents<'a> {
     pub sleep: SleepRecord,
     pub sources: Sources,
     pub clock: Clock,
+    pub books: Books,
 }
 
 /// A cell of rock.
@@ -41,4 +42,6 @@ pub(super) struct RockCell {
     pub row: u32,
     pub element: ElementId,
     pub id: u32,
+    /// Quanta.
+    pub heat: i32,
 }

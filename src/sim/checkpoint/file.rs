@@ -30,7 +30,7 @@ pub(super) const SAVE: Kind = Kind { name: "save file", magic: b"PowderMaster\n"
 impl Checkpoint {
     /// It as a save file.
     pub fn encode(&self) -> Vec<u8> {
-        let Snapshot { mut particles, solids, air, kept, sleep, sources, clock } = Snapshot::clone(&self.state);
+        let Snapshot { mut particles, solids, air, kept, sleep, sources, clock, books } = Snapshot::clone(&self.state);
         // A file with them would be refused: those that are no number (the next tick would take them away) and, which never
         // happens, those in rock or outside. Better a world without them than none.
         remove_non_finite(&mut particles, 1);
@@ -40,6 +40,7 @@ impl Checkpoint {
             row: cell.y as u32,
             element,
             id,
+            heat: solids.heat(cell),
         });
         let Setup { blueprint, domain, preset, quality, .. } = &self.setup;
         seal(&Contents {
@@ -56,6 +57,7 @@ impl Checkpoint {
             sleep,
             sources,
             clock,
+            books,
         })
     }
 
@@ -76,14 +78,15 @@ pub(super) fn seal(contents: &Contents) -> Vec<u8> {
 /// Turns checked contents into a world that is marked as of this file. What needs the whole rock is checked here.
 fn open(contents: Contents, origin: u64) -> Result<Checkpoint, String> {
     let Contents { scene, domain, effects, preset, quality, elements, .. } = contents;
-    let Contents { particles, rock, mut air, kept, sleep, sources, clock, .. } = contents;
+    let Contents { particles, rock, mut air, kept, sleep, sources, clock, books, .. } = contents;
     let cells = domain.size.ceil().as_uvec2();
     let mut solids = Solids::new(cells.x, cells.y);
-    for RockCell { column, row, element, id } in rock {
+    for RockCell { column, row, element, id, heat } in rock {
         let cell = IVec2::new(column as i32, row as i32);
         if !solids.insert(cell, element, id) {
             return Err(format!("the rock at {column}, {row} is outside the box or there twice"));
         }
+        solids.set_heat(cell, heat);
     }
     if let Some(i) = (0..particles.len()).find(|&i| solids.is_solid(Solids::cell_of(particles.position(i)))) {
         return Err(format!("particle {} is inside rock or outside the box", particles.id[i]));
@@ -106,7 +109,7 @@ fn open(contents: Contents, origin: u64) -> Result<Checkpoint, String> {
         origin,
         ..scene.into_owned()
     };
-    let state = Arc::new(Snapshot { particles, solids, air, kept, sleep, sources, clock });
+    let state = Arc::new(Snapshot { particles, solids, air, kept, sleep, sources, clock, books });
     let blueprint = Arc::new(blueprint);
     Ok(Checkpoint {
         setup: Setup { opened: blueprint.clone(), blueprint, domain, preset, quality, origin: state.clone() },

@@ -3,6 +3,7 @@
 use crate::{
     kernel::{
         element::ElementParams,
+        heat::table::HeatTable,
         params::{Preset, Quality},
     },
     scene::{
@@ -15,7 +16,7 @@ use crate::{
         generation::Generation,
         ledger::PassLedger,
         snapshot::Snapshot,
-        state::{Counters, Elements, Setup},
+        state::{Counters, Elements, HeatCurves, Setup},
     },
 };
 use bevy::prelude::World;
@@ -70,6 +71,7 @@ impl Checkpoint {
             blueprint.scale,
             blueprint.air.density,
         )));
+        world.insert_resource(HeatCurves(HeatTable::new(&blueprint.elements)));
         if known {
             world.resource_mut::<Effects>().set_modes(&self.modes);
         } else {

@@ -4,6 +4,7 @@ use crate::{
     kernel::{
         element::{ElementParams, ElementTable},
         forces,
+        heat::{Warm, warm_under},
         params::Preset,
         predictor::Kept,
         sleep::{Sleep, SleepRecord},
@@ -18,7 +19,7 @@ use crate::{
         recorder::Recorder,
         snapshot::Snapshot,
         state::{
-            AirGrid, Census, Clock, Counters, Elements, ParticleStore, PredictorState, Rock, Setup, SleepState,
+            AirGrid, Books, Census, Clock, Counters, Elements, HeatCurves, ParticleStore, PredictorState, Rock, Setup, SleepState,
             SolverState, Sources,
         },
     },
@@ -41,6 +42,8 @@ pub(super) struct Derived<'w> {
     predictor: ResMut<'w, PredictorState>,
     sleep: ResMut<'w, SleepState>,
     solver: ResMut<'w, SolverState>,
+    curves: Res<'w, HeatCurves>,
+    books: ResMut<'w, Books>,
 }
 
 /// Applies all waiting intents in order.
@@ -92,6 +95,7 @@ pub(super) fn apply_intents(
         let mut matter = Matter {
             domain: &setup.domain,
             elements: setup.elements(),
+            heat: &derived.curves,
             particles: &mut particles,
             solids: &mut rock,
             next_id: &mut clock.next_id,
@@ -117,6 +121,17 @@ pub(super) fn apply_intents(
             Intent::Effect { effect, mode } => effects.get_mut(effect).mode = mode,
             Intent::Gravity { gravity } => setup.domain.gravity = gravity,
             Intent::Detail { .. } => {}
+            Intent::Warm { stroke, degrees } => {
+                let mut warm = Warm {
+                    particles: &mut particles,
+                    solids: &mut rock,
+                    elements: setup.elements(),
+                    table: &derived.curves,
+                    domain: &setup.domain,
+                    scale: setup.blueprint.scale,
+                };
+                warm_under(&mut warm, &stroke, degrees, &mut derived.books);
+            }
         }
         // After each one, so that it makes no difference which of them came in the same tick.
         air.set_solids(&rock);
@@ -146,7 +161,7 @@ impl Parts<'_, '_> {
     /// and stays what it is. A player was told before (`control::check_detail`).
     fn change_detail(&mut self, detail: f64, preset: Preset) -> bool {
         let Ok(setup) = self.setup.at_detail(detail, preset) else { return false };
-        let Derived { elements, sources, predictor, sleep, solver } = &mut *self.derived;
+        let Derived { elements, sources, predictor, sleep, solver, .. } = &mut *self.derived;
         let before = Snapshot {
             particles: self.particles.0.clone(),
             solids: self.rock.0.clone(),
@@ -155,6 +170,7 @@ impl Parts<'_, '_> {
             sleep: SleepRecord::default(),
             sources: sources.clone(),
             clock: *self.clock,
+            books: Books::default(),
         };
         let Ok(after) = before.resampled(&self.setup.blueprint, &setup.blueprint, setup.quality.air_cell) else {
             return false;
@@ -190,6 +206,7 @@ fn moves_air(intent: &Intent, elements: &ElementTable, rock: &Rock) -> bool {
         | Intent::Quality { .. }
         | Intent::Effect { .. }
         | Intent::Gravity { .. }
-        | Intent::Detail { .. } => false,
+        | Intent::Detail { .. }
+        | Intent::Warm { .. } => false,
     }
 }

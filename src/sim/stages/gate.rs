@@ -6,7 +6,7 @@ use crate::{
     sim::{
         effects::Effects,
         stages::TickPlan,
-        state::{AirGrid, Apart, Census, Counters, Elements, MassShares, ParticleStore, Setup, SleepState, Sources},
+        state::{AirGrid, Apart, Census, Counters, Elements, MassShares, ParticleStore, Rock, Setup, SleepState, Sources},
     },
 };
 use bevy::prelude::{Local, Res, ResMut};
@@ -18,7 +18,7 @@ pub(super) fn plan_tick(
     mut air: ResMut<AirGrid>,
     sources: Res<Sources>,
     census: Res<Census>,
-    asleep: Res<SleepState>,
+    (asleep, rock): (Res<SleepState>, Res<Rock>),
     elements: Res<Elements>,
     mut effects: ResMut<Effects>,
     mut shares: ResMut<MassShares>,
@@ -39,6 +39,7 @@ pub(super) fn plan_tick(
         counts: &census.by_element,
         particles: particles.len(),
         asleep: asleep.asleep(),
+        has_heat: particles.has_heat() || !rock.heats().is_empty(),
         has_tension: setup.blueprint.fluid.tension_strength > 0.0,
         has_winds: !sources.winds.is_empty(),
         air_moves: !air.is_quiet(),

@@ -4,6 +4,7 @@
 mod count;
 mod edit;
 mod gate;
+mod heat;
 mod measure;
 mod sleep;
 mod sources;
@@ -47,6 +48,7 @@ pub(super) fn plugin(app: &mut App) {
                 gate::plan_substeps,
                 sleep::keep_asleep,
                 step::run_substeps,
+                timed(Pass::Heat, heat::flow).run_if(runs(Effect::Heat)),
                 timed(Pass::Sleep, sleep::watch).run_if(sleep::water_may_rest).run_if(sleep::is_time_to_look),
                 timed(Pass::Measure, measure::count_escaped),
                 measure::end_tick.in_set(Pass::Measure),

@@ -8,7 +8,7 @@ use crate::{
     },
     sim::{
         stages::TickPlan,
-        state::{Clock, Counters, ParticleStore, Rock, Setup, Sources},
+        state::{Clock, Counters, HeatCurves, ParticleStore, Rock, Setup, Sources},
         workers::Workers,
     },
 };
@@ -22,7 +22,7 @@ pub(super) fn run_sources(
     mut particles: ResMut<ParticleStore>,
     mut rock: ResMut<Rock>,
     mut clock: ResMut<Clock>,
-    workers: Res<Workers>,
+    (workers, curves): (Res<Workers>, Res<HeatCurves>),
     mut plan: ResMut<TickPlan>,
     mut room: Local<Occupancy>,
     mut counters: ResMut<Counters>,
@@ -36,6 +36,7 @@ pub(super) fn run_sources(
     let mut matter = Matter {
         domain: &setup.domain,
         elements: setup.elements(),
+        heat: &curves,
         particles: &mut particles,
         solids: &mut rock,
         next_id: &mut clock.next_id,

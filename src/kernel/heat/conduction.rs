@@ -1,0 +1,227 @@
+//! How heat flows: between lumps that are near each other, and from those at a surface to the air.
+//!
+//! **Pairs.** Lump i gets from j `q = √k′ᵢ √k′ⱼ w(r) (Tⱼ − Tᵢ) Δt/d²` per area, with `w = W (1 − r²/h²)²` and W such that on the
+//! lattice it is `k′ ∇²T` (`½ Σ w x² = 1`). Rounded to whole quanta, half away from zero, it is what j gets with the other sign.
+//!
+//! **The bound.** A lump's new temperature is an average of old ones while `Δt/d² Σ √k′ᵢ √k′ⱼ w ≤ cᵢ`. Where it is not, as between
+//! metal and ash, or in a crowd, what a pair exchanges is cut by the smaller of both lumps' allowances, `cᵢ d²/(Δt Σ …)`: the
+//! same on both sides. So no temperature leaves the range of those around it, at any spacing and any step. What asks for more
+//! than one step can do takes as many, 8 at most; what is then left to cut is counted. cᵢ is the lowest capacity among that of
+//! the lump and those of what may come of it, or water would boil to steam that is hotter than what boiled it.
+//!
+//! **The air** takes `h′ (T − 293 K) Δt` for each length of a lump's surface, which is what its neighbours leave open, solved for
+//! the end of the step. It is as warm as the room, whatever it takes.
+
+use super::{
+    lumps::Lumps,
+    matter::Warm,
+    table::HeatTable,
+    units::{QUANTUM, ROOM},
+    walls::Walls,
+    weights::{WEIGHT, Weights},
+};
+use crate::{
+    parallel::{WORTH_A_PIECE, spread},
+};
+use glam::Vec2;
+use std::ops::Range;
+
+/// Σ w over the other sites of the lattice.
+const WHOLE: f32 = 2.161_9;
+/// Share of [`WHOLE`] that may be missing inside: neighbours never stand quite evenly.
+const UNEVEN: f32 = 0.1;
+/// Length of surface, d, for a share of missing neighbours beyond that: at a plane surface of the lattice those of the first row
+/// come to 1. A lump by itself has 3.6, about its outline.
+const SURFACE: f32 = 4.026;
+/// Exchange with the air h′, W/m²K: a thousand times life's, as the spacing is.
+const TO_AIR: f32 = 1e4;
+/// Most steps of a tick.
+const MOST_STEPS: f32 = 8.0;
+/// Lumps that are worth a piece of their own.
+const PIECE: usize = WORTH_A_PIECE / 8;
+
+/// What depends on spacing and step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rates {
+    /// Quanta for each W/mK K of a pair's `k′ w ΔT`.
+    pairs: f32,
+    /// Quanta for each K of a length d of surface.
+    air: f32,
+}
+
+impl Rates {
+    /// For a spacing (m) and a step (s).
+    pub fn new(spacing: f32, dt: f32) -> Self {
+        Self { pairs: dt / (spacing * spacing * QUANTUM), air: TO_AIR * dt / (spacing * QUANTUM) }
+    }
+
+    /// Whether a difference of temperatures (K) could give half a quantum to a pair of lumps of at most this √k′, or to the air.
+    pub fn may_flow(&self, difference: f32, conduction: f32) -> bool {
+        difference * (self.pairs * WEIGHT * conduction * conduction) >= 0.5
+            || difference * (self.air * SURFACE) >= 0.5
+    }
+
+    fn over(self, steps: f32) -> Self {
+        Self { pairs: self.pairs / steps, air: self.air / steps }
+    }
+}
+
+/// What flowed in a tick.
+pub(super) struct Flowed {
+    /// Lumps that were held to what evens them out.
+    pub cuts: u64,
+    /// What the air got, less what it gave, quanta.
+    pub to_air: i64,
+}
+
+/// Buffers of the exchange, an entry a lump.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Exchange {
+    /// Temperature, K.
+    kelvin: Vec<f32>,
+    /// √k′, √(W/mK).
+    conduction: Vec<f32>,
+    /// Part of a whole tick's exchange that it can take at once; above 1 all.
+    allowance: Vec<f32>,
+    /// Length of its surface, d.
+    surface: Vec<f32>,
+    /// What it gains from pairs, and gives to the air, quanta.
+    gained: Vec<i32>,
+    given: Vec<i32>,
+    walls: Walls,
+}
+
+impl Exchange {
+    /// Lets heat flow between the lumps for a tick.
+    pub fn run(
+        &mut self,
+        lumps: &mut Lumps,
+        warm: &Warm,
+        rates: &Rates,
+        threads: usize,
+    ) -> Flowed {
+        let count = lumps.len();
+        for field in [&mut self.kelvin, &mut self.conduction, &mut self.allowance, &mut self.surface] {
+            field.resize(count, 0.0);
+        }
+        self.gained.resize(count, 0);
+        self.given.resize(count, 0);
+        self.warm_up(lumps, warm.table, threads);
+        self.look_around(lumps, warm, rates, threads);
+        let least = self.allowance.iter().zip(&lumps.cell).filter(|(_, cell)| lumps.flows[**cell as usize]);
+        let least = least.map(|(allowance, _)| *allowance).fold(1.0, f32::min);
+        let steps = (1.0 / least.max(1.0 / MOST_STEPS)).ceil();
+        self.allowance.iter_mut().for_each(|allowance| *allowance = (*allowance * steps).min(1.0));
+        let flowing = self.allowance.iter().zip(&lumps.cell).filter(|(_, cell)| lumps.flows[**cell as usize]);
+        let cuts = flowing.filter(|(allowance, _)| **allowance < 1.0).count() as u64;
+        let mut to_air = 0;
+        for step in 0..steps as u32 {
+            if step > 0 {
+                self.warm_up(lumps, warm.table, threads);
+            }
+            self.flow(lumps, warm.table, &rates.over(steps), threads);
+            for (heat, (gained, given)) in lumps.heat.iter_mut().zip(self.gained.iter().zip(&self.given)) {
+                *heat += gained - given;
+                to_air += i64::from(*given);
+            }
+        }
+        Flowed { cuts, to_air }
+    }
+
+    /// Finds how warm the lumps are.
+    fn warm_up(&mut self, lumps: &Lumps, table: &HeatTable, threads: usize) {
+        let Lumps { heat, element, .. } = lumps;
+        spread([&mut self.kelvin[..], &mut self.conduction], WORTH_A_PIECE, threads, &|first, [kelvin, conduction]| {
+            for k in 0..kelvin.len() {
+                let (curve, heat) = (table.curve(element[first + k]), heat[first + k]);
+                (kelvin[k], conduction[k]) = (curve.temperature(heat), curve.conduction(heat));
+            }
+        });
+    }
+
+    /// Finds how much each lump can exchange, and how much of its surface is open.
+    fn look_around(&mut self, lumps: &Lumps, warm: &Warm, rates: &Rates, threads: usize) {
+        let Self { conduction, allowance, surface, walls, .. } = self;
+        let (conduction, walls, table) = (&conduction[..], &*walls, warm.table);
+        spread([&mut allowance[..], &mut surface[..]], PIECE, threads, &|first, [allowance, surface]| {
+            for k in 0..allowance.len() {
+                let i = first + k;
+                let at = Vec2::new(lumps.x[i], lumps.y[i]);
+                let (mut whole, mut through) = (0.0, 0.0);
+                each_run(lumps, i, |run| {
+                    let weights = Weights { at, x: &lumps.x[run.clone()], y: &lumps.y[run.clone()] };
+                    for (j, other) in conduction[run].iter().enumerate() {
+                        let weight = weights.of(j);
+                        whole += weight;
+                        through += weight * other;
+                    }
+                });
+                // It is its own neighbour in that sum.
+                (whole, through) = (whole - WEIGHT, through - WEIGHT * conduction[i]);
+                let far = warm.domain.size - at;
+                let beyond = [at.x, at.y, far.x, far.y].map(|distance| walls.beyond(distance)).iter().sum::<f32>();
+                surface[k] = SURFACE * (1.0 - UNEVEN - (whole + beyond) / WHOLE).max(0.0);
+                // What the air may take is not there for the others.
+                let asked = rates.pairs * conduction[i] * through;
+                let held = table.curve(lumps.element[i]).least_capacity() / QUANTUM;
+                let left = held / (1.0 + rates.air * surface[k] / held);
+                allowance[k] = if asked > 0.0 { left / asked } else { f32::MAX };
+            }
+        });
+    }
+
+    /// Finds what flows in a step.
+    fn flow(&mut self, lumps: &Lumps, table: &HeatTable, rates: &Rates, threads: usize) {
+        let Self { kelvin, conduction, allowance, surface, gained, given, .. } = self;
+        let (kelvin, conduction, allowance, surface) = (&kelvin[..], &conduction[..], &allowance[..], &surface[..]);
+        spread([&mut gained[..], &mut given[..]], PIECE, threads, &|first, [gained, given]| {
+            for k in 0..gained.len() {
+                let i = first + k;
+                (gained[k], given[k]) = (0, 0);
+                if !lumps.flows[lumps.cell[i] as usize] {
+                    continue;
+                }
+                let at = Vec2::new(lumps.x[i], lumps.y[i]);
+                let (own, most, own_conduction) = (kelvin[i], allowance[i], conduction[i]);
+                let mut sum = 0;
+                each_run(lumps, i, |run| {
+                    let weights = Weights { at, x: &lumps.x[run.clone()], y: &lumps.y[run.clone()] };
+                    let (kelvin, conduction) = (&kelvin[run.clone()], &conduction[run.clone()]);
+                    let allowance = &allowance[run];
+                    for j in 0..kelvin.len() {
+                        let share = if allowance[j] < most { allowance[j] } else { most };
+                        // The product of both comes first, so that the other lump finds the same to the bit.
+                        let rate = own_conduction * conduction[j] * rates.pairs * share;
+                        sum += rounded(rate * weights.of(j) * (kelvin[j] - own));
+                    }
+                });
+                gained[k] = sum;
+                let open = rates.air * surface[i];
+                let held = table.curve(lumps.element[i]).least_capacity() / QUANTUM;
+                given[k] = rounded(open / (1.0 + open / held) * (own - ROOM));
+            }
+        });
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        let Self { kelvin, conduction, allowance, surface, gained, given, .. } = self;
+        let floats = [kelvin, conduction, allowance, surface].iter().map(|field| field.capacity()).sum::<usize>();
+        4 * (floats + gained.capacity() + given.capacity())
+    }
+}
+
+/// Calls `run` with the lumps in the three rows of cells around a lump.
+#[inline(always)]
+fn each_run(lumps: &Lumps, i: usize, mut run: impl FnMut(Range<usize>)) {
+    let cell = lumps.cell[i] as usize;
+    for cell in [cell - lumps.stride, cell, cell + lumps.stride] {
+        run(lumps.beside(cell));
+    }
+}
+
+/// The nearest whole number, of two as near the one away from zero: the same for both signs.
+#[inline(always)]
+fn rounded(value: f32) -> i32 {
+    (value + if value < 0.0 { -0.5 } else { 0.5 }) as i32
+}

@@ -1,0 +1,31 @@
+//! Heat: what matter holds of it, how it goes from warm to cold, and what that makes of matter.
+//!
+//! A lump, a movable particle or a cell of rock, holds enthalpy in whole quanta of 8 J/m² ([`units`]); its temperature follows
+//! ([`curve`], [`table`]). Once a tick
+//!
+//! 1. lumps near one another are gathered, where temperatures differ ([`lumps`]),
+//! 2. pairs exchange heat, and what stands in the air exchanges it with the air ([`conduction`]),
+//! 3. lumps whose change is done become another element ([`change`]).
+//!
+//! What one of a pair gets the other gives, in whole numbers: the sum is exact, in any order and for any number of threads.
+//! Where all is at the room's temperature, nothing of this exists, and where no exchange would come to half a quantum, nothing
+//! is done.
+
+mod brush;
+mod change;
+mod conduction;
+pub mod curve;
+mod lumps;
+mod matter;
+mod steps;
+pub mod table;
+#[cfg(test)]
+mod tests;
+pub mod units;
+mod walls;
+mod weights;
+
+pub use brush::warm_under;
+pub use change::{Changed, HeatRecord};
+pub use matter::Warm;
+pub use steps::{Heat, HeatReport};

@@ -1,0 +1,360 @@
+//! What heat must hold to.
+
+use super::{table::HeatTable, units::*, *};
+use crate::{
+    brush::{BrushShape, Stroke},
+    element::{Element, ElementChange, ElementId, ElementTable},
+    params::Domain,
+    particles::Particles,
+    random::Random,
+    solids::{Solids, centre},
+    units::{Scale, TICK_SECONDS},
+};
+use glam::{IVec2, Vec2};
+
+/// A box of matter, tick after tick.
+struct Bench {
+    elements: ElementTable,
+    table: HeatTable,
+    domain: Domain,
+    scale: Scale,
+    particles: Particles,
+    solids: Solids,
+    heat: Heat,
+    record: HeatRecord,
+    changed: Changed,
+    report: HeatReport,
+}
+
+const ROCK: ElementId = ElementId(0);
+const WATER: ElementId = ElementId(1);
+const ICE: ElementId = ElementId(2);
+const STEAM: ElementId = ElementId(3);
+const ASH: ElementId = ElementId(4);
+const METAL: ElementId = ElementId(5);
+const LAVA: ElementId = ElementId(6);
+const SNOW: ElementId = ElementId(7);
+const GLASS: ElementId = ElementId(8);
+
+fn change(above: Option<f32>, below: Option<f32>, into: &[&str], latent: Option<f32>) -> ElementChange {
+    ElementChange { above, below, into: into.iter().map(|name| (*name).to_owned()).collect(), latent }
+}
+
+impl Bench {
+    fn new(size: Vec2, spacing: f32) -> Self {
+        let row = |name: &str, fixed, capacity, conductivity, changes| Element {
+            capacity,
+            conductivity,
+            changes,
+            ..Element::plain(name, fixed)
+        };
+        let elements = ElementTable::new(vec![
+            row("rock", true, 2.2, 2.5, vec![change(Some(1430.0), None, &["lava"], Some(900.0))]),
+            row(
+                "water",
+                false,
+                4.19,
+                0.6,
+                vec![change(None, Some(273.0), &["ice"], Some(334.0)), change(Some(373.0), None, &["steam"], Some(452.0))],
+            ),
+            row("ice", false, 1.93, 2.2, vec![change(Some(273.0), None, &["water"], None)]),
+            row("steam", false, 0.3, 0.025, vec![change(None, Some(373.0), &["water"], None)]),
+            row("ash", false, 0.3, 0.07, vec![]),
+            row("metal", false, 3.5, 80.0, vec![]),
+            row("lava", false, 2.9, 1.5, vec![change(None, Some(1000.0), &["glass"], None)]),
+            row("snow", false, 0.42, 0.1, vec![change(Some(273.0), None, &["water", "air", "air"], Some(67.0))]),
+            row("glass", true, 2.1, 1.0, vec![]),
+        ]);
+        let cells = size.ceil().as_uvec2();
+        Self {
+            table: HeatTable::new(&elements),
+            elements,
+            domain: Domain { size, gravity: Vec2::ZERO },
+            scale: Scale::own(spacing),
+            particles: Particles::default(),
+            solids: Solids::new(cells.x, cells.y),
+            heat: Heat::default(),
+            record: HeatRecord::default(),
+            changed: Changed::default(),
+            report: HeatReport::default(),
+        }
+    }
+
+    /// Fills the box with lumps, off the lattice by up to `scatter` d. `what`: element and temperature at a place.
+    fn fill(mut self, scatter: f32, what: impl Fn(Vec2) -> Option<(ElementId, f32)>) -> Self {
+        let mut random = Random::new(7);
+        for y in 0..self.solids.rows() {
+            for x in 0..self.solids.columns() {
+                let at = centre(IVec2::new(x, y));
+                let off = scatter * Vec2::new(random.offset(), random.offset());
+                if let Some((element, kelvin)) = what(at) {
+                    let heat = self.table.curve(element).heat(kelvin);
+                    self.particles.push_warm(self.particles.len() as u32, element, at + off, Vec2::ZERO, heat);
+                }
+            }
+        }
+        self
+    }
+
+    fn warm(&mut self) -> (Warm<'_>, &mut Heat, &mut HeatRecord, &mut Changed) {
+        let Self { elements, table, domain, scale, particles, solids, heat, record, changed, .. } = self;
+        (Warm { particles, solids, elements, table, domain, scale: *scale }, heat, record, changed)
+    }
+
+    fn flow(&mut self, threads: usize) {
+        let (mut warm, heat, record, _) = self.warm();
+        let report = heat.flow(&mut warm, record, threads, TICK_SECONDS);
+        self.report.cuts += report.cuts;
+    }
+
+    fn tick(&mut self) {
+        self.flow(1);
+        let (mut warm, heat, record, changed) = self.warm();
+        heat.change(&mut warm, record, changed);
+    }
+
+    /// All heat, also that of the air and less that of tools, quanta.
+    fn total(&self) -> i64 {
+        let lumps = (0..self.particles.len()).map(|i| i64::from(self.particles.heat_of(i))).sum::<i64>();
+        let rock = self.solids.heats().iter().map(|heat| i64::from(*heat)).sum::<i64>();
+        lumps + rock + self.record.to_air - self.record.by_hand
+    }
+
+    /// Heat of an element at a temperature that it can have, to 3,050 K.
+    fn any_heat(&self, element: ElementId, random: &mut Random) -> i32 {
+        let curve = self.table.curve(element);
+        let [coldest, hottest] = curve.stays_between().map(|kelvin| kelvin.clamp(50.0, 3050.0));
+        curve.heat(coldest + (hottest - coldest) * random.share())
+    }
+
+    fn kelvin(&self, i: usize) -> f32 {
+        self.table.curve(self.particles.element[i]).temperature(self.particles.heat_of(i))
+    }
+
+    fn count(&self, element: ElementId) -> usize {
+        self.particles.element.iter().filter(|other| **other == element).count()
+    }
+}
+
+/// The error function (Abramowitz & Stegun 7.1.26), to 1.5·10⁻⁷.
+fn erf(x: f64) -> f64 {
+    let t = 1.0 / (1.0 + 0.327_591_1 * x.abs());
+    let sum = [1.061_405_429, -1.453_152_027, 1.421_413_741, -0.284_496_736, 0.254_829_592];
+    let series = sum.into_iter().fold(0.0, |sum, term| (sum + term) * t);
+    (1.0 - series * (-x * x).exp()).copysign(x)
+}
+
+#[test]
+fn heat_in_a_bar_spreads_as_the_law_has_it() {
+    let (length, spacing) = (80.0, 0.1);
+    let filled = |at: Vec2| Some((METAL, if at.x < 0.5 * length { 400.0 } else { 300.0 }));
+    let mut bench = Bench::new(Vec2::new(length, 12.0), spacing).fill(0.1, filled);
+    let seconds = 2.0;
+    (0..(seconds / TICK_SECONDS) as u32).for_each(|_| bench.tick());
+    let diffusivity = 6e4 * (0.6_f64 * 80.0).sqrt() / 3.5e6;
+    let spread = 2.0 * (diffusivity * f64::from(seconds)).sqrt() / f64::from(spacing);
+    let error = |i: usize| {
+        let at = bench.particles.position(i);
+        let expected = 350.0 - 50.0 * erf(f64::from(at.x - 0.5 * length) / spread);
+        f64::from(bench.kelvin(i)) - expected
+    };
+    let square = (0..bench.particles.len()).map(|i| error(i).powi(2)).sum::<f64>() / bench.particles.len() as f64;
+    // 1 % of the difference.
+    assert!(square.sqrt() < 1.0, "{} K rms", square.sqrt());
+    assert_eq!(bench.report.cuts, 0);
+}
+
+#[test]
+fn what_one_gets_the_other_gives_to_the_last_quantum() {
+    for spacing in [0.01, 0.1, 1.0] {
+        let mut random = Random::new(3);
+        let mut bench = Bench::new(Vec2::new(40.0, 30.0), spacing);
+        for id in 0..1500 {
+            let element = [WATER, ICE, STEAM, ASH, METAL, LAVA, SNOW][random.below(7)];
+            // Crowds among them.
+            let at = Vec2::new(20.0 * random.share(), 30.0 * random.share() * random.share());
+            let heat = bench.any_heat(element, &mut random);
+            bench.particles.push_warm(id, element, at, Vec2::ZERO, heat);
+        }
+        for x in 20..40 {
+            for y in 0..30 {
+                let (cell, element) = (IVec2::new(x, y), [ROCK, GLASS][random.below(2)]);
+                bench.solids.insert(cell, element, 10_000 + (30 * x + y) as u32);
+                bench.solids.set_heat(cell, bench.any_heat(element, &mut random));
+            }
+        }
+        let total = bench.total();
+        for _ in 0..200 {
+            bench.tick();
+            assert_eq!(bench.total(), total, "at d = {spacing}");
+        }
+        for i in 0..bench.particles.len() {
+            assert!((49.0..3100.0).contains(&bench.kelvin(i)), "{} K at d = {spacing}", bench.kelvin(i));
+        }
+    }
+}
+
+#[test]
+fn no_temperature_leaves_the_range_of_those_around_it() {
+    // Metal beside ash at a spacing at which a step is far too long for it, and a crowd.
+    for spacing in [0.1, 0.03, 0.01] {
+        let warmth = |at: Vec2| if (at.x as u32 + at.y as u32).is_multiple_of(2) { 1000.0 } else { 293.0 };
+        let filled = |at: Vec2| Some((if at.x < 10.0 { METAL } else { ASH }, warmth(at)));
+        let mut bench = Bench::new(Vec2::new(20.0, 20.0), spacing).fill(0.3, filled);
+        for id in 0..50 {
+            let heat = bench.table.curve(ASH).heat(1000.0);
+            bench.particles.push_warm(10_000 + id, ASH, Vec2::splat(15.0), Vec2::ZERO, heat);
+        }
+        for _ in 0..20 {
+            bench.flow(1);
+            for i in 0..bench.particles.len() {
+                assert!((292.99..1000.01).contains(&bench.kelvin(i)), "{} K at d = {spacing}", bench.kelvin(i));
+            }
+        }
+        assert!(spacing > 0.05 || bench.report.cuts > 0, "what is held back at d = {spacing} is not counted");
+    }
+}
+
+#[test]
+fn any_number_of_threads_finds_the_same() {
+    let run = |threads: usize| {
+        let filled = |at: Vec2| Some((if at.y < 20.0 { WATER } else { LAVA }, if at.y < 20.0 { 293.0 } else { 1600.0 }));
+        let mut bench = Bench::new(Vec2::new(60.0, 40.0), 0.1).fill(0.2, filled);
+        (0..30).for_each(|_| bench.flow(threads));
+        bench.particles
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("threads");
+    assert_eq!(pool.install(|| run(3)), run(1));
+}
+
+#[test]
+fn where_all_is_as_warm_nothing_is_gathered() {
+    let mut bench = Bench::new(Vec2::new(30.0, 30.0), 0.1).fill(0.2, |at| (at.y < 15.0).then_some((WATER, ROOM)));
+    bench.tick();
+    assert!(!bench.particles.has_heat() && bench.heat.memory() > 0);
+    // Even where it has been warmer: less than half a quantum is nothing.
+    bench.particles.set_heat(3, 1);
+    let before = bench.particles.clone();
+    bench.tick();
+    assert_eq!((bench.particles, bench.record.to_air), (before, 0));
+}
+
+#[test]
+fn a_lump_cools_in_the_air_as_newton_has_it() {
+    // A plate of metal of 10 d in an empty room; both its faces lose h′ (T − 293 K).
+    let filled = |at: Vec2| ((at.y - 15.0).abs() < 5.0).then_some((METAL, 493.0));
+    let mut bench = Bench::new(Vec2::new(40.0, 30.0), 0.1).fill(0.0, filled);
+    let mean = |bench: &Bench| {
+        (0..bench.particles.len()).map(|i| f64::from(bench.kelvin(i))).sum::<f64>() / bench.particles.len() as f64
+    };
+    (0..1200).for_each(|_| bench.tick());
+    // C dT/dt = −2 h′ (T_surface − 293 K); metal is nearly even: its surface is 1 % colder than the mean.
+    let expected = 200.0 * (-2.0 * 1e4 * 20.0 / (3.5e6 * 1.0_f64)).exp();
+    let left = mean(&bench) - 293.0;
+    assert!((left / expected - 1.0).abs() < 0.02, "{left} K left, {expected} expected");
+}
+
+#[test]
+fn water_freezes_and_melts_as_stefan_has_it() {
+    // Water at 273 K beside a plate at 233 K: s = 2 λ √(α t), √π λ e^(λ²) erf λ = c ΔT/L.
+    let spacing = 0.1;
+    let filled = |at: Vec2| Some(if at.x < 3.0 { (ICE, 233.0) } else { (WATER, 273.0) });
+    let mut bench = Bench::new(Vec2::new(60.0, 12.0), spacing).fill(0.1, filled);
+    let (cold, count) = (bench.table.curve(ICE).heat(233.0), bench.particles.len());
+    let latent = 334e6 / f64::from(QUANTUM);
+    let melted = f64::from(bench.table.curve(WATER).heat(273.0));
+    let mut points = Vec::new();
+    for tick in 1..=1800 {
+        bench.tick();
+        for i in 0..count {
+            if bench.particles.id[i] % 60 < 3 {
+                bench.particles.set_heat(i, cold);
+                bench.particles.element[i] = ICE;
+            }
+        }
+        if tick % 300 == 0 {
+            let frozen = |i: usize| ((melted - f64::from(bench.particles.heat_of(i))) / latent).clamp(0.0, 1.0);
+            let sum = (0..count).filter(|i| bench.particles.id[*i] % 60 >= 3).map(frozen).sum::<f64>();
+            points.push(((f64::from(tick) * f64::from(TICK_SECONDS)).sqrt(), sum / 12.0 * f64::from(spacing)));
+        }
+    }
+    let (stefan, diffusivity) = (1.93e6 * 40.0 / 334e6, 6e4 * (0.6_f64 * 2.2).sqrt() / 1.93e6);
+    let balance = |l: f64| std::f64::consts::PI.sqrt() * l * (l * l).exp() * erf(l) - stefan;
+    let (mut low, mut high) = (0.0, 3.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        (low, high) = if balance(middle) > 0.0 { (low, middle) } else { (middle, high) };
+    }
+    let expected = 2.0 * low * diffusivity.sqrt();
+    // Slope of the line through the points, its offset free: where the plate's surface is, is not known to half a lump.
+    let n = points.len() as f64;
+    let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / n, y + point.1 / n));
+    let (above, below) = points.iter().fold((0.0, 0.0), |(above, below), point| {
+        (above + (point.0 - x) * (point.1 - y), below + (point.0 - x).powi(2))
+    });
+    let slope = above / below;
+    assert!((slope / expected - 1.0).abs() < 0.05, "{slope} m/√s, {expected} expected");
+    assert!(bench.count(ICE) > 12 * 3, "none froze");
+}
+
+#[test]
+fn boiling_takes_as_long_as_the_heat_takes_to_come() {
+    let mut bench = Bench::new(Vec2::new(20.0, 20.0), 0.1).fill(0.0, |at| ((at - 10.0).length() < 3.0).then_some((WATER, 293.0)));
+    let stroke = Stroke::dab(BrushShape::Disc, Vec2::splat(10.0), 5.0);
+    let mut ticks = 0;
+    while bench.count(WATER) > 0 {
+        let (mut warm, _, record, _) = bench.warm();
+        warm_under(&mut warm, &stroke, 10.0, record);
+        let (mut warm, heat, record, changed) = bench.warm();
+        heat.change(&mut warm, record, changed);
+        ticks += 1;
+    }
+    // 80 K of slope and 452 MJ/m² at 4.19 MJ/m²K are 187.9 K.
+    assert_eq!(ticks, 19);
+    assert_eq!(bench.total(), 0);
+    // Nothing is hotter than it can be, nor colder.
+    let (mut warm, _, record, _) = bench.warm();
+    warm_under(&mut warm, &stroke, 1e9, record);
+    assert!((0..bench.particles.len()).all(|i| bench.kelvin(i) <= HOTTEST + 1.0));
+    let (mut warm, _, record, _) = bench.warm();
+    warm_under(&mut warm, &stroke, -1e9, record);
+    assert!((0..bench.particles.len()).all(|i| bench.kelvin(i) >= COLDEST - 1.0));
+    assert_eq!(bench.total(), 0);
+}
+
+#[test]
+fn what_splits_is_dealt_in_turn() {
+    let mut bench = Bench::new(Vec2::new(30.0, 30.0), 0.1).fill(0.0, |_| Some((SNOW, 280.0)));
+    let (count, total) = (bench.particles.len(), bench.total());
+    for heat in 0..count {
+        let molten = bench.table.curve(SNOW).heat(280.0) + (68e6 / QUANTUM) as i32;
+        bench.particles.set_heat(heat, molten);
+        bench.record.by_hand += i64::from(molten - bench.table.curve(SNOW).heat(280.0));
+    }
+    let (mut warm, heat, record, changed) = bench.warm();
+    heat.change(&mut warm, record, changed);
+    assert_eq!((bench.particles.len(), bench.count(WATER)), (count / 3, count / 3));
+    assert_eq!(bench.total(), total, "what goes into the air takes its heat along");
+}
+
+#[test]
+fn rock_melts_and_lava_sets_only_where_it_is_alone() {
+    let mut bench = Bench::new(Vec2::new(10.0, 10.0), 0.1);
+    bench.solids.insert(IVec2::new(4, 4), ROCK, 77);
+    bench.solids.set_heat(IVec2::new(4, 4), bench.table.curve(ROCK).heat(1430.0) + (950e6 / QUANTUM) as i32);
+    let total = bench.total();
+    bench.tick();
+    assert_eq!((bench.solids.count(), bench.particles.len()), (0, 1));
+    assert_eq!((bench.particles.id[0], bench.particles.element[0]), (77, LAVA));
+    assert_eq!(bench.total(), total);
+    // Cold lava, one alone and two in one cell.
+    let [cold, _] = bench.table.curve(LAVA).range();
+    bench.particles.set_heat(0, cold);
+    for id in [1, 2] {
+        bench.particles.push_warm(id, LAVA, Vec2::new(7.3, 7.2 + 0.2 * id as f32), Vec2::ZERO, cold);
+    }
+    let (mut warm, heat, record, changed) = bench.warm();
+    heat.change(&mut warm, record, changed);
+    assert_eq!((bench.solids.get(IVec2::new(4, 4)), bench.particles.len()), (Some((GLASS, 77)), 2));
+    assert_eq!(bench.solids.heat(IVec2::new(4, 4)), cold);
+}
