@@ -13,6 +13,7 @@ use crate::{
             bindings::Bindings,
             pointer::{HudCover, Pointer, ZOOM_STEP},
         },
+        lump::Lump,
         orders::{Order, Orders},
         panels::Panels,
         recording, saves, screen, split,
@@ -20,7 +21,7 @@ use crate::{
         tools::{Tool, Toolbox},
         views::table::Shown,
     },
-    kernel::{element::ElementId, params::Preset, solids::Solids},
+    kernel::params::Preset,
     lab::{autopilot::Autopilot, dial::Step, gauntlet::CASES, live::accuracy::Survey},
     scene::{
         self,
@@ -37,11 +38,7 @@ use crate::{
     },
 };
 use bevy::prelude::World;
-use glam::Vec2;
 use std::{mem, sync::Arc};
-
-/// How far from the pointer a particle can be sampled, d.
-const SAMPLE_REACH: f32 = 1.5;
 
 /// Carries out what waits.
 pub fn carry_out(world: &mut World) {
@@ -249,20 +246,10 @@ fn change_world(world: &mut World, action: Action) {
 fn sample(world: &mut World) {
     let Some(pixel) = world.resource::<Pointer>().at else { return };
     let at = world.resource::<WorldCamera>().to_world(pixel);
-    if let Some(element) = element_at(world, at) {
+    let (Some(particles), Some(rock)) = (world.get_resource::<ParticleStore>(), world.get_resource::<Rock>()) else {
+        return;
+    };
+    if let Some(Lump { element, .. }) = Lump::at(particles, rock, at) {
         world.resource_mut::<Toolbox>().tool = Tool::Element(element);
     }
-}
-
-/// The rock at a point, or else the movable particle that is nearest within reach.
-fn element_at(world: &World, at: Vec2) -> Option<ElementId> {
-    let rock = world.get_resource::<Rock>()?.get(Solids::cell_of(at));
-    let particles = world.get_resource::<ParticleStore>()?;
-    rock.map(|(element, _)| element).or_else(|| {
-        (0..particles.len())
-            .map(|i| (particles.position(i).distance_squared(at), particles.element[i]))
-            .filter(|(distance, _)| *distance < SAMPLE_REACH * SAMPLE_REACH)
-            .min_by(|a, b| a.0.total_cmp(&b.0))
-            .map(|(_, element)| element)
-    })
 }

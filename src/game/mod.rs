@@ -23,6 +23,7 @@ pub mod history;
 pub mod hud;
 pub mod icons;
 pub mod input;
+pub mod lump;
 pub mod orders;
 pub mod panels;
 pub mod playback;

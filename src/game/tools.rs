@@ -30,6 +30,9 @@ const WIND_FLOOR: f32 = 0.02;
 /// Pressure that one tick of the pressure tool adds; the surroundings' is 1.
 const PRESS_STEP: f32 = 0.4;
 
+/// By how much one tick of the heat tool warms or cools, K: water boils away in half a second.
+const WARM_STEP: f32 = 6.0;
+
 /// Colour of lines and icons that stand for no element.
 const PLAIN: Color32 = Color32::from_rgb(216, 223, 234);
 /// An icon with no channel above this can hardly be seen.
@@ -38,7 +41,7 @@ const DIMMEST: u8 = 110;
 const AIR_PEN: Color32 = Color32::from_rgb(150, 230, 216);
 
 /// The tools beside the elements, in the order of the palette. A new one is a new row.
-pub static TOOLS: [&ToolRow; 3] = [&ERASER, &WIND, &PRESSURE];
+pub static TOOLS: [&ToolRow; 4] = [&ERASER, &WIND, &PRESSURE, &HEAT];
 
 /// Takes away what is there.
 pub static ERASER: ToolRow = ToolRow {
@@ -82,6 +85,20 @@ pub static PRESSURE: ToolRow = ToolRow {
     least_radius: AIR_BRUSH,
     left: |dab| Some(Intent::Press { stroke: dab.stroke, amount: PRESS_STEP * dab.share }),
     right: |dab| Some(Intent::Press { stroke: dab.stroke, amount: -PRESS_STEP * dab.share }),
+    shape: None,
+};
+
+/// Warms with the left button, cools with the right.
+pub static HEAT: ToolRow = ToolRow {
+    name: "heat",
+    icon: icons::flame,
+    pen: Color32::from_rgb(255, 150, 90),
+    key: KeyCode::KeyT,
+    help: "heat: left warms, right cools",
+    needs: Some(Effect::Heat),
+    least_radius: 0.0,
+    left: |dab| Some(Intent::Warm { stroke: dab.stroke, degrees: WARM_STEP * dab.share }),
+    right: |dab| Some(Intent::Warm { stroke: dab.stroke, degrees: -WARM_STEP * dab.share }),
     shape: None,
 };
 

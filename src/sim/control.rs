@@ -16,8 +16,8 @@ use crate::{
         resample::count_at,
         snapshot::{Snapshot, hash_state},
         state::{
-            AirGrid, Books, Census, Clock, Counters, ParticleStore, PredictorState, Rock, Setup, SleepState, SolverState,
-            Sources,
+            AirGrid, Books, Census, Clock, Counters, ParticleStore, PredictorState, Rock, Setup, SleepState,
+            SolverState, Sources,
         },
     },
 };

@@ -10,6 +10,7 @@ pub mod focus;
 pub mod layout;
 pub mod palette;
 pub mod panels;
+pub mod probe;
 pub mod split;
 pub mod stats;
 pub mod style;
@@ -53,6 +54,7 @@ impl Plugin for HudPlugin {
                         touch::show.run_if(touch::in_use),
                         layout::place_world,
                         brush::show,
+                        probe::show,
                         split::show,
                     )
                         .chain()

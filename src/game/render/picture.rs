@@ -11,17 +11,17 @@ use crate::{
         },
         views::{
             strain::{Limited, StrainMap},
-            table::{Layer, PRESSURE, Quantity, Streaks, View, density_share},
+            table::{Layer, PRESSURE, Quantity, Streaks, View, density_share, temperature_share},
         },
     },
     lab::{
-        colours::{self, Reference, Rgb},
+        colours::{self, Reference, Rgb, rock_colour},
         difference::{Difference, Half},
         maps::{BurialMap, DepthMap},
     },
     sim::{
         generation::Generation,
-        state::{AirGrid, ParticleStore, Rock, Setup, SolverState},
+        state::{AirGrid, HeatCurves, ParticleStore, Rock, Setup, SolverState},
     },
 };
 use bevy::{
@@ -132,6 +132,7 @@ pub(super) struct Scene<'a> {
     pub(super) rock: &'a Rock,
     pub(super) air: &'a AirGrid,
     pub(super) solver: Option<&'a SolverState>,
+    pub(super) curves: &'a HeatCurves,
     /// What the limiters work on.
     pub(super) limited: Limited<'a>,
     pub(super) tracers: Option<&'a Tracers>,
@@ -152,6 +153,7 @@ impl<'a> Scene<'a> {
             rock: world.get_resource()?,
             air: world.get_resource()?,
             solver: world.get_resource(),
+            curves: world.get_resource()?,
             limited: Limited::of(world)?,
             tracers: world.get_resource(),
         })
@@ -164,7 +166,7 @@ impl Picture {
         let blueprint = &scene.setup.blueprint;
         let reference = Reference::of(&blueprint.domain, &blueprint.air);
         self.fill_particles(scene, sight, reference);
-        self.fill_rock(scene);
+        self.fill_rock(scene, sight.view);
         self.depth_new = sight.view.shaded;
         if self.depth_new {
             self.depth.measure(blueprint.domain.size, scene.particles);
@@ -184,7 +186,7 @@ impl Picture {
     ) {
         self.particles.clear();
         self.streaks.clear();
-        self.fill_rock(scene);
+        self.fill_rock(scene, &PRESSURE);
         self.depth_new = false;
         difference.texels(&mut self.air.0);
         self.air.1 = UVec2::new(difference.columns() as u32, difference.rows() as u32);
@@ -217,15 +219,35 @@ impl Picture {
                 self.strain.measure(blueprint.domain.size, scene.limited);
                 self.strain.shares()
             }
+            Quantity::Temperature => {
+                let (particles, curves) = (scene.particles, scene.curves);
+                let kelvin = |i: usize| curves.curve(particles.element[i]).temperature(particles.heat_of(i));
+                self.shares.clear();
+                self.shares.extend((0..particles.len()).map(|i| temperature_share(kelvin(i))));
+                &self.shares
+            }
         };
         particles::pack(scene.particles, &self.table, shares, sight.back, self.particles.values_mut());
     }
 
-    fn fill_rock(&mut self, scene: Scene<'_>) {
-        let rock_of = Some((scene.generation, scene.rock.version(), scene.setup.blueprint.scale.spacing));
+    fn fill_rock(&mut self, scene: Scene<'_>, view: &View) {
+        let (rock, elements) = (scene.rock, scene.setup.elements());
+        let out = self.rock.values_mut();
+        if matches!(view.quantity, Quantity::Temperature) {
+            // It warms and cools without a change of its version.
+            let colour = |cell, element, _, _| {
+                let kelvin = scene.curves.curve(element).temperature(rock.heat(cell));
+                (view.colour)(elements.get(element), temperature_share(kelvin))
+            };
+            rock::pack(rock, &mut self.burial, colour, out);
+            (self.rock_new, self.rock_of) = (true, None);
+            return;
+        }
+        let rock_of = Some((scene.generation, rock.version(), scene.setup.blueprint.scale.spacing));
         self.rock_new = self.rock_of != rock_of;
         if self.rock_new {
-            rock::pack(scene.rock, scene.setup.elements(), &mut self.burial, self.rock.values_mut());
+            let colour = |cell, element, id, burial| rock_colour(elements.get(element), cell, id, burial);
+            rock::pack(rock, &mut self.burial, colour, out);
             self.rock_of = rock_of;
         }
     }

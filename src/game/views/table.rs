@@ -10,7 +10,7 @@ use glam::Vec2;
 use std::fmt;
 
 /// Every view, in the order of the menu and of the key that goes through them. A new one is a new row.
-pub static VIEWS: [&View; 6] = [&ELEMENTS, &SPEED, &DENSITY, &PRESSURE, &WIND, &STABILITY];
+pub static VIEWS: [&View; 7] = [&ELEMENTS, &SPEED, &DENSITY, &PRESSURE, &WIND, &STABILITY, &TEMPERATURE];
 
 /// Elements in their own colours.
 pub static ELEMENTS: View = View {
@@ -21,6 +21,7 @@ pub static ELEMENTS: View = View {
     air: Layer::Nothing,
     streaks: Streaks::Tracers,
     shaded: true,
+    ..PLAIN
 };
 
 static SPEED: View = View {
@@ -61,6 +62,16 @@ pub static STABILITY: View = View {
     ..PLAIN
 };
 
+/// How warm matter is, rock as well.
+pub static TEMPERATURE: View = View {
+    name: "Temperature",
+    key: KeyCode::Digit7,
+    quantity: Quantity::Temperature,
+    colour: |_, share| ramp(&TEMPERATURE_STOPS, share),
+    legend: &[(0.0, "−200"), (0.25, "0"), (0.5, "100"), (0.75, "700"), (1.0, "1,700 °C")],
+    ..PLAIN
+};
+
 /// What most views have in common.
 const PLAIN: View = View {
     name: "",
@@ -70,6 +81,7 @@ const PLAIN: View = View {
     air: Layer::Nothing,
     streaks: Streaks::None,
     shaded: false,
+    legend: &[],
 };
 
 /// A row of the table: what the colours of the picture mean.
@@ -88,6 +100,8 @@ pub struct View {
     pub streaks: Streaks,
     /// Whether the liquid is shaded by its depth and by light.
     pub shaded: bool,
+    /// What stands below the scale of its colours, at which share of it; none shows no scale.
+    pub legend: &'static [(f32, &'static str)],
 }
 
 /// What a particle's colour stands for, as a share of a scale, 0 … 1.
@@ -98,6 +112,8 @@ pub enum Quantity {
     Density,
     /// Share of the nearest limit, from the map of the limiters.
     Strain,
+    /// Temperature, of rock as well ([`temperature_share`]).
+    Temperature,
 }
 
 /// What lies over the empty box.
@@ -160,6 +176,18 @@ impl Default for Shown {
 const SPEED_STOPS: [Rgb; 6] =
     [[38, 46, 110], [36, 98, 178], [40, 172, 184], [134, 212, 122], [250, 216, 92], [246, 112, 58]];
 const DENSITY_STOPS: [Rgb; 5] = [[46, 86, 190], [96, 148, 206], [206, 212, 218], [236, 140, 84], [206, 40, 48]];
+/// Deep blue to pale at the freezing point, green to yellow at the boiling point, then red and white as hot iron.
+const TEMPERATURE_STOPS: [Rgb; 9] = [
+    [38, 32, 110],
+    [58, 96, 214],
+    [176, 220, 250],
+    [52, 168, 130],
+    [236, 214, 88],
+    [232, 124, 40],
+    [206, 46, 38],
+    [255, 132, 92],
+    [255, 246, 232],
+];
 const LOW_PRESSURE: Rgb = [86, 92, 232];
 const HIGH_PRESSURE: Rgb = [240, 132, 60];
 
@@ -174,6 +202,15 @@ fn speeds(particles: &Particles, reference: Reference, out: &mut Vec<f32>) {
 /// its neighbours by nature, so the scale reaches to −0.5; compression is an error, and 0.1 of it is the end.
 pub fn density_share(error: f32) -> f32 {
     (0.5 + if error < 0.0 { error } else { 5.0 * error }).clamp(0.0, 1.0)
+}
+
+/// Where a temperature (K) stands on the scale of its colours, 0 … 1: as far from freezing to boiling as from there to 1,000 K and
+/// on to 2,000 K.
+pub fn temperature_share(kelvin: f32) -> f32 {
+    let marks = [73.0, 273.0, 373.0, 1000.0, 2000.0];
+    let below = marks[1..4].iter().filter(|mark| kelvin >= **mark).count();
+    let (low, high) = (marks[below], marks[below + 1]);
+    (0.25 * (below as f32 + (kelvin - low) / (high - low))).clamp(0.0, 1.0)
 }
 
 fn pressure_colour(_: Reference, pressure: f32, _: Vec2) -> (Rgb, f32) {
@@ -206,6 +243,15 @@ mod tests {
         assert!(high[0] > high[2] + 80, "compressed liquid must look red, is {high:?}");
         assert!(low[2] > low[0] + 80, "stretched liquid must look blue, is {low:?}");
         assert!(rest.iter().max().unwrap() - rest.iter().min().unwrap() < 24, "rest must be neutral, is {rest:?}");
+    }
+
+    #[test]
+    fn the_scale_of_temperature_rises_and_has_its_marks_where_the_legend_says() {
+        for ((share, _), kelvin) in TEMPERATURE.legend.iter().zip([73.0, 273.0, 373.0, 1000.0, 2000.0]) {
+            assert!((temperature_share(kelvin) - share).abs() < 1e-6, "{kelvin} K");
+        }
+        let scale: Vec<f32> = (0..50).map(|k| temperature_share(80.0 * k as f32)).collect();
+        assert!(scale.is_sorted() && scale[0] == 0.0 && scale[49] == 1.0, "{scale:?}");
     }
 
     #[test]

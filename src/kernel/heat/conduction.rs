@@ -20,9 +20,7 @@ use super::{
     walls::Walls,
     weights::{WEIGHT, Weights},
 };
-use crate::{
-    parallel::{WORTH_A_PIECE, spread},
-};
+use crate::parallel::{WORTH_A_PIECE, spread};
 use glam::Vec2;
 use std::ops::Range;
 
@@ -57,8 +55,7 @@ impl Rates {
 
     /// Whether a difference of temperatures (K) could give half a quantum to a pair of lumps of at most this √k′, or to the air.
     pub fn may_flow(&self, difference: f32, conduction: f32) -> bool {
-        difference * (self.pairs * WEIGHT * conduction * conduction) >= 0.5
-            || difference * (self.air * SURFACE) >= 0.5
+        difference * (self.pairs * WEIGHT * conduction * conduction) >= 0.5 || difference * (self.air * SURFACE) >= 0.5
     }
 
     fn over(self, steps: f32) -> Self {
@@ -93,13 +90,7 @@ pub(super) struct Exchange {
 
 impl Exchange {
     /// Lets heat flow between the lumps for a tick.
-    pub fn run(
-        &mut self,
-        lumps: &mut Lumps,
-        warm: &Warm,
-        rates: &Rates,
-        threads: usize,
-    ) -> Flowed {
+    pub fn run(&mut self, lumps: &mut Lumps, warm: &Warm, rates: &Rates, threads: usize) -> Flowed {
         let count = lumps.len();
         for field in [&mut self.kelvin, &mut self.conduction, &mut self.allowance, &mut self.surface] {
             field.resize(count, 0.0);

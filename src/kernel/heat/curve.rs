@@ -61,7 +61,14 @@ pub(super) fn conduction_of(conductivity: f32) -> f32 {
 impl HeatCurve {
     /// An element that stays what it is. Capacity in J/m²K, conductivity in W/mK.
     pub fn plain(capacity: f32, conductivity: f32) -> Self {
-        Self { base: 0, capacity, least_capacity: capacity, conduction: [conduction_of(conductivity); 3], below: None, above: None }
+        Self {
+            base: 0,
+            capacity,
+            least_capacity: capacity,
+            conduction: [conduction_of(conductivity); 3],
+            below: None,
+            above: None,
+        }
     }
 
     /// Capacity, J/m²K: the lowest among it and what comes of it. What is to be no hotter than what heats it must not be so
@@ -83,10 +90,18 @@ impl HeatCurve {
         let from = |begin: i32, at: f32| at + heat.saturating_sub(begin) as f32 * (QUANTUM / self.capacity);
         match (&self.below, &self.above) {
             (_, Some(Change { at, plateau: [begin, end], .. })) if heat >= *begin => {
-                if heat <= *end { *at } else { from(*end, *at) }
+                if heat <= *end {
+                    *at
+                } else {
+                    from(*end, *at)
+                }
             }
             (Some(Change { at, plateau: [begin, end], .. }), _) if heat <= *begin => {
-                if heat >= *end { *at } else { from(*end, *at) }
+                if heat >= *end {
+                    *at
+                } else {
+                    from(*end, *at)
+                }
             }
             _ => from(self.base, ROOM),
         }
@@ -172,8 +187,8 @@ mod tests {
             let is = curve.temperature(quanta(heat));
             assert!((is - kelvin).abs() < 1e-2, "{is} K at {heat} MJ/m², {kelvin} expected");
         }
-        assert_eq!(curve.temperature(i32::MAX).is_finite(), true);
-        assert_eq!(curve.temperature(i32::MIN).is_finite(), true);
+        assert!(curve.temperature(i32::MAX).is_finite());
+        assert!(curve.temperature(i32::MIN).is_finite());
     }
 
     #[test]

@@ -96,10 +96,8 @@ pub fn curves(rows: &[Element]) -> Result<Vec<HeatCurve>, CurveFault> {
                 return Err(fault(format!("it holds {held:.0} MJ/m² at {kelvin} K; allowed: at most {MOST}")));
             }
         }
-        let mut curve = HeatCurve {
-            base: quanta(bases[row]),
-            ..HeatCurve::plain(element.capacity * 1e6, element.conductivity)
-        };
+        let mut curve =
+            HeatCurve { base: quanta(bases[row]), ..HeatCurve::plain(element.capacity * 1e6, element.conductivity) };
         for change in changes {
             let begin = held(row, change.at);
             let takes = change.sign * (held(change.first, change.at) - begin);
@@ -174,7 +172,11 @@ fn look_up(rows: &[Element], element: &Element) -> Result<Vec<Looked>, String> {
     if let [a, b] = &looked[..]
         && (a.at - b.at) * a.sign <= 0.0
     {
-        return Err(format!("changes above {} and below {} K; allowed: the first hotter", a.at.min(b.at), a.at.max(b.at)));
+        return Err(format!(
+            "changes above {} and below {} K; allowed: the first hotter",
+            a.at.min(b.at),
+            a.at.max(b.at)
+        ));
     }
     Ok(looked)
 }
@@ -218,7 +220,12 @@ mod tests {
     }
 
     fn above(at: f32, into: &[&str], latent: Option<f32>) -> ElementChange {
-        ElementChange { above: Some(at), below: None, into: into.iter().map(|name| (*name).to_owned()).collect(), latent }
+        ElementChange {
+            above: Some(at),
+            below: None,
+            into: into.iter().map(|name| (*name).to_owned()).collect(),
+            latent,
+        }
     }
 
     fn below(at: f32, into: &[&str], latent: Option<f32>) -> ElementChange {
@@ -238,7 +245,11 @@ mod tests {
         let curves = curves(&water()).expect("sound");
         for (own, other) in [(0, 1), (0, 2), (1, 0), (2, 0)] {
             let change = if other == 1 { &curves[own].below } else { &curves[own].above };
-            let change = if own == 0 { change } else { curves[own].above.as_ref().map_or(&curves[own].below, |_| &curves[own].above) };
+            let change = if own == 0 {
+                change
+            } else {
+                curves[own].above.as_ref().map_or(&curves[own].below, |_| &curves[own].above)
+            };
             let Change { at, plateau, .. } = change.as_ref().expect("a change");
             for heat in plateau {
                 let [a, b] = [own, other].map(|row| curves[row].temperature(*heat));
@@ -246,7 +257,8 @@ mod tests {
             }
         }
         // Melted and frozen again, a lump has the heat that it had.
-        let [melts, freezes] = [&curves[1].above, &curves[0].below].map(|change| change.as_ref().expect("a change").plateau);
+        let [melts, freezes] =
+            [&curves[1].above, &curves[0].below].map(|change| change.as_ref().expect("a change").plateau);
         assert_eq!(melts, [freezes[1], freezes[0]]);
     }
 
@@ -259,7 +271,10 @@ mod tests {
         let curves = curves(&rows).expect("sound");
         let [begin, end] = curves[3].above.as_ref().expect("it boils").plateau;
         assert_eq!(f64::from(end - begin) * f64::from(QUANTUM), 226e6);
-        assert_eq!(curves[5].above.as_ref().map(|change| change.into.clone()), Some(vec![Some(ElementId(0)), None, None]));
+        assert_eq!(
+            curves[5].above.as_ref().map(|change| change.into.clone()),
+            Some(vec![Some(ElementId(0)), None, None])
+        );
     }
 
     #[test]
@@ -292,7 +307,10 @@ mod tests {
         // What melts must not give heat.
         let rows = [row("a", 5.0, vec![above(1000.0, &["b"], None)]), row("b", 1.0, vec![])];
         assert!(fault(&rows).contains("it takes -2828.0 MJ/m²; allowed: 0 or more"), "{}", fault(&rows));
-        let rows = [row("a", 5.0, vec![above(300.0, &["b"], Some(15_000.0))]), row("b", 1.0, vec![below(300.0, &["a"], None)])];
+        let rows = [
+            row("a", 5.0, vec![above(300.0, &["b"], Some(15_000.0))]),
+            row("b", 1.0, vec![below(300.0, &["a"], None)]),
+        ];
         assert!(fault(&rows).contains("allowed: at most 16000"), "{}", fault(&rows));
     }
 }

@@ -55,7 +55,10 @@ impl Bench {
                 false,
                 4.19,
                 0.6,
-                vec![change(None, Some(273.0), &["ice"], Some(334.0)), change(Some(373.0), None, &["steam"], Some(452.0))],
+                vec![
+                    change(None, Some(273.0), &["ice"], Some(334.0)),
+                    change(Some(373.0), None, &["steam"], Some(452.0)),
+                ],
             ),
             row("ice", false, 1.93, 2.2, vec![change(Some(273.0), None, &["water"], None)]),
             row("steam", false, 0.3, 0.025, vec![change(None, Some(373.0), &["water"], None)]),
@@ -218,7 +221,8 @@ fn no_temperature_leaves_the_range_of_those_around_it() {
 #[test]
 fn any_number_of_threads_finds_the_same() {
     let run = |threads: usize| {
-        let filled = |at: Vec2| Some((if at.y < 20.0 { WATER } else { LAVA }, if at.y < 20.0 { 293.0 } else { 1600.0 }));
+        let filled =
+            |at: Vec2| Some((if at.y < 20.0 { WATER } else { LAVA }, if at.y < 20.0 { 293.0 } else { 1600.0 }));
         let mut bench = Bench::new(Vec2::new(60.0, 40.0), 0.1).fill(0.2, filled);
         (0..30).for_each(|_| bench.flow(threads));
         bench.particles
@@ -299,7 +303,8 @@ fn water_freezes_and_melts_as_stefan_has_it() {
 
 #[test]
 fn boiling_takes_as_long_as_the_heat_takes_to_come() {
-    let mut bench = Bench::new(Vec2::new(20.0, 20.0), 0.1).fill(0.0, |at| ((at - 10.0).length() < 3.0).then_some((WATER, 293.0)));
+    let mut bench =
+        Bench::new(Vec2::new(20.0, 20.0), 0.1).fill(0.0, |at| ((at - 10.0).length() < 3.0).then_some((WATER, 293.0)));
     let stroke = Stroke::dab(BrushShape::Disc, Vec2::splat(10.0), 5.0);
     let mut ticks = 0;
     while bench.count(WATER) > 0 {

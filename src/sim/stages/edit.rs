@@ -19,8 +19,8 @@ use crate::{
         recorder::Recorder,
         snapshot::Snapshot,
         state::{
-            AirGrid, Books, Census, Clock, Counters, Elements, HeatCurves, ParticleStore, PredictorState, Rock, Setup, SleepState,
-            SolverState, Sources,
+            AirGrid, Books, Census, Clock, Counters, Elements, HeatCurves, ParticleStore, PredictorState, Rock, Setup,
+            SleepState, SolverState, Sources,
         },
     },
 };

@@ -6,7 +6,9 @@ use crate::{
     sim::{
         effects::Effects,
         stages::TickPlan,
-        state::{AirGrid, Apart, Census, Counters, Elements, MassShares, ParticleStore, Rock, Setup, SleepState, Sources},
+        state::{
+            AirGrid, Apart, Census, Counters, Elements, MassShares, ParticleStore, Rock, Setup, SleepState, Sources,
+        },
     },
 };
 use bevy::prelude::{Local, Res, ResMut};
