@@ -15,6 +15,10 @@ pub struct HeatRecord {
     pub to_air: i64,
     /// What tools gave, less what they took, quanta.
     pub by_hand: i64,
+    /// Lumps that went into the air.
+    pub gone: u64,
+    /// Lumps that became rock, or were rock before.
+    pub turned: u64,
     /// How often the changes of each element below and above a temperature have come to pass: whose turn it is among what
     /// comes of them. Empty where none has.
     pub turns: Vec<[u32; 2]>,
@@ -67,6 +71,9 @@ pub(super) fn run(warm: &mut Warm, rock: &[IVec2], record: &mut HeatRecord, chan
             other => {
                 if other.is_none() {
                     record.to_air += i64::from(heat);
+                    record.gone += 1;
+                } else {
+                    record.turned += 1;
                 }
                 changed.gone.resize(warm.particles.len(), false);
                 changed.gone[i] = true;
@@ -116,7 +123,13 @@ fn melt(warm: &mut Warm, cell: IVec2, record: &mut HeatRecord) {
             solids.insert(cell, product, id);
             solids.set_heat(cell, heat);
         }
-        Some(product) => particles.push_warm(id, product, centre(cell), Vec2::ZERO, heat),
-        None => record.to_air += i64::from(heat),
+        Some(product) => {
+            particles.push_warm(id, product, centre(cell), Vec2::ZERO, heat);
+            record.turned += 1;
+        }
+        None => {
+            record.to_air += i64::from(heat);
+            record.gone += 1;
+        }
     }
 }

@@ -102,7 +102,10 @@ impl Exchange {
         let least = self.allowance.iter().zip(&lumps.cell).filter(|(_, cell)| lumps.flows[**cell as usize]);
         let least = least.map(|(allowance, _)| *allowance).fold(1.0, f32::min);
         let steps = (1.0 / least.max(1.0 / MOST_STEPS)).ceil();
-        self.allowance.iter_mut().for_each(|allowance| *allowance = (*allowance * steps).min(1.0));
+        // What does not flow in the first step must not in a later one, either: its cell is not looked at.
+        for (allowance, cell) in self.allowance.iter_mut().zip(&lumps.cell) {
+            *allowance = if lumps.flows[*cell as usize] { (*allowance * steps).min(1.0) } else { 0.0 };
+        }
         let flowing = self.allowance.iter().zip(&lumps.cell).filter(|(_, cell)| lumps.flows[**cell as usize]);
         let cuts = flowing.filter(|(allowance, _)| **allowance < 1.0).count() as u64;
         let mut to_air = 0;

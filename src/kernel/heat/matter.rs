@@ -19,3 +19,9 @@ pub struct Warm<'a> {
     /// The run's spacing.
     pub scale: Scale,
 }
+
+/// Heat that all lumps hold together, quanta.
+pub fn held(particles: &Particles, solids: &Solids) -> i64 {
+    let lumps: i64 = particles.heat.iter().map(|heat| i64::from(*heat)).sum();
+    lumps + solids.heats().iter().map(|heat| i64::from(*heat)).sum::<i64>()
+}

@@ -27,5 +27,5 @@ mod weights;
 
 pub use brush::warm_under;
 pub use change::{Changed, HeatRecord};
-pub use matter::Warm;
+pub use matter::{Warm, held};
 pub use steps::{Heat, HeatReport};

@@ -118,9 +118,7 @@ impl Bench {
 
     /// All heat, also that of the air and less that of tools, quanta.
     fn total(&self) -> i64 {
-        let lumps = (0..self.particles.len()).map(|i| i64::from(self.particles.heat_of(i))).sum::<i64>();
-        let rock = self.solids.heats().iter().map(|heat| i64::from(*heat)).sum::<i64>();
-        lumps + rock + self.record.to_air - self.record.by_hand
+        held(&self.particles, &self.solids) + self.record.to_air - self.record.by_hand
     }
 
     /// Heat of an element at a temperature that it can have, to 3,050 K.

@@ -4,6 +4,7 @@
 use crate::{
     kernel::{
         element::{Element, ElementId, ElementTable},
+        heat::table::HeatTable,
         random::{mix, unit},
         solids::centre,
         sources::Rect,
@@ -17,7 +18,7 @@ use std::sync::Arc;
 type Arrange = fn(&mut Blueprint);
 
 /// By the names of the cases.
-pub(super) const STARTS: [(&str, Arrange); 23] = [
+pub(super) const STARTS: [(&str, Arrange); 25] = [
     ("two_at_a_point", |blueprint| {
         for at in [Vec2::new(2.0, 1.0), Vec2::new(4.03, 0.025)] {
             (0..2).for_each(|_| water(blueprint, at, Vec2::ZERO));
@@ -87,7 +88,9 @@ pub(super) const STARTS: [(&str, Arrange); 23] = [
     ("drag_huge", |blueprint| change_water(blueprint, |water| water.drag = 1e9)),
     ("drag_light", |blueprint| change_water(blueprint, |water| (water.density, water.drag) = (1.0, 1000.0))),
     ("heavy_above_light", heavy_above_light),
-    ("every_pair", every_pair),
+    ("every_pair", |blueprint| every_pair(blueprint, None)),
+    ("every_pair_cold", |blueprint| every_pair(blueprint, Some(77.0))),
+    ("every_pair_hot", |blueprint| every_pair(blueprint, Some(2000.0))),
     ("strong_grains", |blueprint| {
         change(blueprint, "sand", |sand| (sand.friction, sand.cohesion) = (60.0, 50_000.0));
     }),
@@ -203,14 +206,21 @@ fn heavy_above_light(blueprint: &mut Blueprint) {
     water(blueprint, Vec2::new(2.05, 2.55), Vec2::ZERO);
 }
 
-/// A basin for any two elements that move, one over the other.
-fn every_pair(blueprint: &mut Blueprint) {
+/// A basin for any two elements that move, one over the other: as warm as they come, or as near to a temperature (K) as they stay
+/// what they are.
+fn every_pair(blueprint: &mut Blueprint, kelvin: Option<f32>) {
     const INSIDE: IVec2 = IVec2::new(6, 12);
     const DEEP: i32 = 4;
     let of = |fixed| blueprint.elements.iter().filter(move |(_, element)| element.fixed == fixed).map(|(id, _)| id);
     let (movable, rock): (Vec<_>, _) = (of(false).collect(), element(&blueprint.elements, "rock"));
     let pairs = movable.iter().flat_map(|lower| movable.iter().map(move |upper| [*lower, *upper]));
     let across = movable.len() as i32;
+    let table = HeatTable::new(&blueprint.elements);
+    let heat = |element: ElementId| {
+        let curve = table.curve(element);
+        let [coldest, hottest] = curve.stays_between();
+        kelvin.map_or_else(|| table.spawn_heat(element), |kelvin| curve.heat(kelvin.clamp(coldest, hottest)))
+    };
     for (k, pair) in pairs.filter(|[lower, upper]| lower != upper).enumerate() {
         let corner = IVec2::new(k as i32 % across, k as i32 / across) * (INSIDE + 1);
         let walls = (0..=INSIDE.x + 1).flat_map(|x| (0..=INSIDE.y + 1).map(move |y| IVec2::new(x, y)));
@@ -223,7 +233,8 @@ fn every_pair(blueprint: &mut Blueprint) {
         for (row, element) in (0..2 * DEEP).map(|row| (row, pair[(row / DEEP) as usize])) {
             for column in 0..INSIDE.x {
                 for cell in finer(blueprint, corner + IVec2::new(1 + column, 1 + row)).collect::<Vec<_>>() {
-                    blueprint.particles.push(blueprint.next_id, element, centre(cell), Vec2::ZERO);
+                    let (id, heat) = (blueprint.next_id, heat(element));
+                    blueprint.particles.push_warm(id, element, centre(cell), Vec2::ZERO, heat);
                     blueprint.next_id += 1;
                 }
             }

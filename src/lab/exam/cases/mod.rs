@@ -6,6 +6,7 @@ mod dam;
 mod falling;
 mod field;
 mod grains;
+mod heat;
 mod layers;
 mod order;
 mod outflow;
@@ -22,6 +23,7 @@ pub(super) fn runs() -> impl Iterator<Item = &'static (&'static str, Run)> {
         falling::RUNS,
         field::RUNS,
         grains::RUNS,
+        heat::RUNS,
         layers::RUNS,
         order::RUNS,
         outflow::RUNS,

@@ -8,21 +8,24 @@
 //! - what edits put into both and take out of matter, measured around each edit,
 //! - what emitters give: the kinetic energy of what they let in, at the highest place of their area; drains take theirs,
 //! - what winds give: at most `½ p w² · rate · T` a tick over their area, the power that brings air to `w` anew all the time,
+//! - what heat gives by making matter heavier or lighter where it is, and takes with what it makes air of: measured lump by lump,
+//!   as that comes last in a tick,
 //! - where the air does not yield to the particles that it drags (no feedback), what it gives them: a drag that closes a
 //!   share s of the way from v to the wind w adds `½ m s (w² − v²)` at most, the square being convex.
 
 use crate::{
     kernel::{element::ElementId, units::TICK_SECONDS},
     lab::balance::matter,
-    scene::effects::Effect,
+    scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
         stages::TickPlan,
-        state::{AirGrid, Elements, ParticleStore, Rock, Setup, Sources},
+        state::{AirGrid, Clock, Elements, ParticleStore, Rock, Setup, Sources},
     },
 };
 use bevy::ecs::world::World;
 use glam::{DVec2, Vec2};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Energy, J.
 #[derive(Clone, Copy, Debug, Default)]
@@ -75,6 +78,12 @@ pub(in crate::lab::gauntlet) struct Due {
     wind: f64,
     /// Masses (kg) and speeds (m/s) of the particles, with their rates of drag (1/d).
     dragged: Vec<[f64; 3]>,
+    /// Whether heat may change what matter is made of.
+    may_change: bool,
+    /// Element and energy (J) of the particles that no drain takes, by their ids.
+    kinds: BTreeMap<u32, (ElementId, f64)>,
+    /// The first id that is free.
+    next: u32,
 }
 
 impl Due {
@@ -96,13 +105,48 @@ impl Due {
             winds: winds(world),
             wind: fastest_wind(world),
             dragged: (0..particles.len()).map(|i| [mass(i), speed(i), rate(i)]).collect(),
+            may_change: may_change(world),
+            kinds: match may_change(world) {
+                true => {
+                    let stay = (0..particles.len()).filter(|i| !drains(i));
+                    stay.map(|i| (particles.id[i], (particles.element[i], energy(i)))).collect()
+                }
+                false => BTreeMap::new(),
+            },
+            next: world.resource::<Clock>().next_id,
         }
     }
 
     /// The most that the tick put in, J, now that it is over.
     pub fn put_in(self, world: &World) -> f64 {
         let winds = self.winds.max(winds(world));
-        self.emitted(world) - self.drained + winds + self.dragged(world)
+        self.emitted(world) - self.drained + winds + self.dragged(world) + self.changed(world)
+    }
+
+    /// What heat gave.
+    fn changed(&self, world: &World) -> f64 {
+        if !self.may_change {
+            return 0.0;
+        }
+        let matter = matter(world);
+        let (particles, d) = (matter.particles, f64::from(matter.scale.spacing));
+        let energy = |i: usize, element: ElementId| {
+            let (at, velocity) = (particles.position(i).as_dvec2() * d, particles.velocity(i).as_dvec2() * d);
+            matter.mass(element) * (0.5 * velocity.length_squared() - matter.gravity(element).dot(at))
+        };
+        let (mut given, mut there) = (0.0, BTreeSet::new());
+        for i in (0..particles.len()).filter(|i| particles.id[*i] < self.next) {
+            let (id, now) = (particles.id[i], particles.element[i]);
+            there.insert(id);
+            given += match self.kinds.get(&id) {
+                Some((before, _)) if *before == now => 0.0,
+                Some((before, _)) => energy(i, now) - energy(i, *before),
+                // Rock that melted.
+                None => energy(i, now),
+            };
+        }
+        let gone = self.kinds.iter().filter(|(id, _)| !there.contains(id));
+        given - gone.map(|(_, (_, energy))| energy).sum::<f64>()
     }
 
     fn emitted(&self, world: &World) -> f64 {
@@ -137,6 +181,14 @@ impl Due {
         };
         substeps * self.dragged.iter().map(given).sum::<f64>()
     }
+}
+
+/// Whether heat may change what matter is made of: also in the tick in which the first that is warm comes.
+fn may_change(world: &World) -> bool {
+    world.resource::<Effects>().get(Effect::Heat).mode != Mode::Off
+        && (world.resource::<ParticleStore>().has_heat()
+            || !world.resource::<Rock>().heats().is_empty()
+            || !world.resource::<Sources>().emitters.is_empty())
 }
 
 /// The most that the scene's winds can give in a tick, J.

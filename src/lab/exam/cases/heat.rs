@@ -1,0 +1,174 @@
+//! Heat: how it spreads and leaves, how much of it melting takes, that none is made or lost, and how deep ice floats.
+
+use crate::{
+    kernel::{
+        heat::{
+            held,
+            units::{QUANTUM, ROOM},
+        },
+        solids::centre,
+    },
+    lab::{
+        exam::{
+            finding::{Findings, Run, found},
+            set_up::{CaseSimulation, SetUp},
+        },
+        stats,
+    },
+    sim::state::{Books, HeatCurves, ParticleStore, Rock, Setup},
+};
+use std::f64::consts::PI;
+
+pub(super) const RUNS: &[(&str, Run)] = &[
+    ("heat_bar", |set_up| Box::pin(heat_bar(set_up))),
+    ("heat_plate", |set_up| Box::pin(heat_plate(set_up))),
+    ("heat_front", |set_up| Box::pin(heat_front(set_up))),
+    ("heat_kept", |set_up| Box::pin(heat_kept(set_up))),
+    ("ice_floats", |set_up| Box::pin(ice_floats(set_up))),
+];
+
+/// Capacity (J/m²K) and conductivity k′ (W/mK) of an element.
+fn thermal(simulation: &CaseSimulation, name: &str) -> (f64, f64) {
+    let elements = simulation.world().resource::<Setup>().elements();
+    let of = |id| (1e6 * f64::from(elements.get(id).capacity), 6e4 * (0.6 * f64::from(elements.get(id).conductivity)).sqrt());
+    elements.find(name).map_or((f64::NAN, f64::NAN), of)
+}
+
+/// Place along x (m) and temperature (K) of each cell of rock.
+fn rock(simulation: &CaseSimulation) -> Vec<(f64, f64)> {
+    let world = simulation.world();
+    let (rock, curves) = (world.resource::<Rock>(), world.resource::<HeatCurves>());
+    let of = |(cell, element, _)| {
+        let kelvin = curves.curve(element).temperature(rock.heat(cell));
+        (f64::from(centre(cell).x) * simulation.spacing(), f64::from(kelvin))
+    };
+    rock.iter().map(of).collect()
+}
+
+/// The error function, to 1.5·10⁻⁷ (Abramowitz & Stegun 1964, 7.1.26).
+fn error_function(x: f64) -> f64 {
+    let t = 1.0 / (1.0 + 0.327_591_1 * x.abs());
+    let terms = [1.061_405_429, -1.453_152_027, 1.421_413_741, -0.284_496_736, 0.254_829_592];
+    (1.0 - terms.into_iter().fold(0.0, |sum, term| (sum + term) * t) * (-x * x).exp()).copysign(x)
+}
+
+async fn heat_bar(set_up: SetUp) -> Findings {
+    let mut simulation = set_up.open("heat_bar", &[])?;
+    let (capacity, conductivity) = thermal(&simulation, "metal");
+    simulation.run(2.0).await;
+    let spread = 2.0 * (conductivity / capacity * simulation.seconds()).sqrt();
+    let off = |(x, kelvin): (f64, f64)| kelvin - (350.0 - 50.0 * error_function((x - 4.0) / spread));
+    let squares = rock(&simulation).into_iter().map(|point| off(point).powi(2));
+    Ok(vec![found("rms difference after 2 s", 0.0, stats::mean(squares).unwrap_or(f64::NAN).sqrt())])
+}
+
+async fn heat_plate(set_up: SetUp) -> Findings {
+    let mut simulation = set_up.open("heat_plate", &[])?;
+    let (capacity, _) = thermal(&simulation, "metal");
+    let room = f64::from(ROOM);
+    let warmer = |simulation: &CaseSimulation| {
+        stats::mean(rock(simulation).into_iter().map(|(_, kelvin)| kelvin)).unwrap_or(f64::NAN) - room
+    };
+    let start = warmer(&simulation);
+    simulation.run(20.0).await;
+    // C dT/dt = −2 h′ (T − 293 K), for a plate 1 m thick.
+    let known = start * (-2.0 * 1e4 * simulation.seconds() / capacity).exp();
+    Ok(vec![found("how much warmer after 20 s", known, warmer(&simulation))])
+}
+
+async fn heat_front(set_up: SetUp) -> Findings {
+    let mut simulation = set_up.open("heat_front", &[])?;
+    let (capacity, conductivity) = thermal(&simulation, "ice");
+    let latent = 334e6;
+    let mut points = Vec::new();
+    for second in 1..=60 {
+        for _ in 0..60 {
+            simulation.tick().await;
+            keep_cold(&mut simulation);
+        }
+        if second % 10 == 0 {
+            points.push((simulation.seconds().sqrt(), frozen(&simulation)));
+        }
+    }
+    let slope = stats::line(&points).map_or(f64::NAN, |(slope, _)| slope);
+    // √π λ e^(λ²) erf λ = c ΔT/L, by halving.
+    let (mut low, mut high) = (0.0, 3.0);
+    for _ in 0..60 {
+        let middle: f64 = 0.5 * (low + high);
+        let gives = PI.sqrt() * middle * (middle * middle).exp() * error_function(middle);
+        (low, high) = if gives > capacity * 40.0 / latent { (low, middle) } else { (middle, high) };
+    }
+    Ok(vec![found("depth over √t", 2.0 * low * (conductivity / capacity).sqrt(), slope)])
+}
+
+/// Gives the metal of the ceiling the temperature that it had at the start.
+fn keep_cold(simulation: &mut CaseSimulation) {
+    let world = simulation.world_mut();
+    let start = world.resource::<Setup>().blueprint.solids.clone();
+    let mut rock = world.resource_mut::<Rock>();
+    start.iter().for_each(|(cell, _, _)| rock.set_heat(cell, start.heat(cell)));
+}
+
+/// How much of what was water is ice, by its heat, as a depth, m.
+fn frozen(simulation: &CaseSimulation) -> f64 {
+    let world = simulation.world();
+    let (particles, curves) = (simulation.particles(), world.resource::<HeatCurves>());
+    let setup = world.resource::<Setup>();
+    let ids = ["water", "ice"].map(|name| setup.elements().find(name));
+    let [Some(water), Some(ice)] = ids else { return f64::NAN };
+    let share = |i: usize| {
+        let (element, heat) = (particles.element[i], particles.heat_of(i));
+        match curves.curve(element).begun(heat) {
+            Some((_, share)) if element == water => f64::from(share),
+            Some((_, share)) => 1.0 - f64::from(share),
+            None => f64::from(u8::from(element == ice)),
+        }
+    };
+    (0..particles.len()).map(share).sum::<f64>() * simulation.spacing() / f64::from(setup.domain.size.x)
+}
+
+async fn heat_kept(set_up: SetUp) -> Findings {
+    let mut simulation = set_up.open("heat_kept", &[])?;
+    let total = |simulation: &CaseSimulation| {
+        let world = simulation.world();
+        let matter = held(world.resource::<ParticleStore>(), world.resource::<Rock>());
+        (matter + world.resource::<Books>().to_air) as f64 * f64::from(QUANTUM)
+    };
+    let start = total(&simulation);
+    simulation.run(10.0).await;
+    Ok(vec![found("heat that came or went in 10 s", 0.0, total(&simulation) - start)])
+}
+
+async fn ice_floats(set_up: SetUp) -> Findings {
+    let mut simulation = set_up.open("ice_floats", &[])?;
+    simulation.run(10.0).await;
+    let (mut under, mut looks) = (0.0, 0.0);
+    // It bobs a little: the mean over two seconds.
+    for _ in 0..20 {
+        simulation.run(0.1).await;
+        under += share_under(&simulation);
+        looks += 1.0;
+    }
+    Ok(vec![found("share under water", 0.917, under / looks)])
+}
+
+/// Share of the ice that lies below the water's surface beside it.
+fn share_under(simulation: &CaseSimulation) -> f64 {
+    let (particles, setup) = (simulation.particles(), simulation.world().resource::<Setup>());
+    let Some(ice) = setup.elements().find("ice") else { return f64::NAN };
+    let of_ice: Vec<usize> = (0..particles.len()).filter(|i| particles.element[*i] == ice).collect();
+    let ends = of_ice.iter().fold([f32::MAX, f32::MIN], |[low, high], i| {
+        [low.min(particles.x[*i]), high.max(particles.x[*i])]
+    });
+    // Columns of 1 d well beside the block, and their highest particles: half a spacing below the surface.
+    let mut tops = vec![0.0_f32; setup.domain.size.x as usize + 1];
+    for i in (0..particles.len()).filter(|i| particles.element[*i] != ice) {
+        let top = &mut tops[particles.x[i] as usize];
+        *top = top.max(particles.y[i]);
+    }
+    let beside = |column: usize| (column as f32) < ends[0] - 5.0 || (column as f32) > ends[1] + 5.0;
+    let columns = (2..tops.len().saturating_sub(3)).filter(|column| beside(*column));
+    let level = stats::mean(columns.map(|column| f64::from(tops[column]) + 0.5)).unwrap_or(f64::NAN);
+    let under = of_ice.iter().filter(|i| f64::from(particles.y[**i]) < level).count();
+    under as f64 / of_ice.len() as f64
+}
