@@ -114,15 +114,17 @@ fn the_same_inputs_give_the_same_world_and_others_another() {
 
 /// The standard scenes. Those that have a size get one at which threads share particles or air, if that is not theirs
 /// by default; the others run as they are played.
-const STANDARD: [(&str, &[(&str, &str)]); 17] = [
+const STANDARD: [(&str, &[(&str, &str)]); 20] = [
     ("avalanche", &[]),
     ("communicating_vessels", &[("left", "6.5"), ("right", "6")]),
     ("dam_break", &[]),
     ("dune", &[]),
     ("empty", &[("columns", "1200"), ("rows", "640")]),
+    ("frozen_lake", &[]),
     ("honey_and_mercury", &[]),
     ("hourglass", &[]),
     ("hydrostatic", &[("columns", "100"), ("depth", "64")]),
+    ("ice_dam", &[]),
     ("layers", &[]),
     ("rest_density", &[]),
     ("sand_castle", &[]),
@@ -130,6 +132,7 @@ const STANDARD: [(&str, &[(&str, &str)]); 17] = [
     ("silo", &[]),
     ("snow_globe", &[]),
     ("u_tube", &[]),
+    ("volcano", &[]),
     ("waterfall", &[]),
     ("wind_tunnel", &[]),
 ];

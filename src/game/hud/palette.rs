@@ -33,7 +33,7 @@ use bevy_egui::{
 /// Size of a tile where there is room for it, points.
 const TILE: egui::Vec2 = vec2(54.0, 50.0);
 /// Least width of a tile, points.
-const LEAST: f32 = 43.0;
+const LEAST: f32 = 41.0;
 /// Between tiles, points.
 const GAP: f32 = 3.0;
 /// Between favourites and tools, points.
@@ -166,7 +166,7 @@ fn all(ui: &mut Ui, size: egui::Vec2, shows: &Shows, orders: &mut Orders) {
 fn brush(ui: &mut Ui, narrow: bool, tools: &mut ResMut<Toolbox>, bindings: &Bindings, orders: &mut Orders) {
     if !narrow {
         let mut radius = tools.radius();
-        ui.spacing_mut().slider_width = 66.0;
+        ui.spacing_mut().slider_width = 56.0;
         let slider = egui::Slider::new(&mut radius, BRUSH_RANGE).logarithmic(true).show_value(false);
         let slider = ui.add(slider).on_hover_text("size of the brush (wheel, [ and ])");
         slider.widget_info(|| egui::WidgetInfo::slider(true, f64::from(radius), "size of the brush"));
@@ -220,6 +220,6 @@ mod tests {
             assert!(in_row * (tile + GAP) - GAP + split <= width + 0.01, "{width}: {rows} rows of {tile}");
             assert!((LEAST..=TILE.x).contains(&tile), "{width}: {rows} rows of {tile}");
         }
-        assert_eq!((fit(700.0).0, fit(500.0).0, fit(300.0).0), (1, 2, 3));
+        assert_eq!((fit(710.0).0, fit(500.0).0, fit(300.0).0), (1, 2, 3));
     }
 }

@@ -71,7 +71,7 @@ pub fn show(
 
 fn card(ui: &mut Ui, add: impl FnOnce(&mut Ui)) {
     egui::Frame::new()
-        .fill(PANEL.gamma_multiply(0.86))
+        .fill(PANEL.gamma_multiply(0.96))
         .stroke(egui::Stroke::new(1.0, LINE))
         .corner_radius(7)
         .inner_margin(egui::Margin::symmetric(10, 5))

@@ -20,7 +20,7 @@ use glam::Vec2;
 pub(super) type Act = fn(&mut World, u64);
 
 /// By the names of the cases.
-pub(super) const SCRIPTS: [(&str, Act); 21] = [
+pub(super) const SCRIPTS: [(&str, Act); 22] = [
     ("gravity_flips", |world, tick| set_gravity(world, Vec2::new(0.0, if tick % 2 == 0 { -G } else { G }))),
     ("gravity_turns", turn_gravity),
     ("heap_turned", turn_gravity),
@@ -34,6 +34,12 @@ pub(super) const SCRIPTS: [(&str, Act); 21] = [
             let element = named(world, "rock");
             let shut = Intent::Stamp { element, stroke };
             intend(world, if tick % 2 == 0 { shut } else { Intent::Erase { stroke } });
+        }
+    }),
+    ("heat_flips", |world, tick| {
+        if tick < 240 {
+            let stroke = everywhere(world);
+            intend(world, Intent::Warm { stroke, degrees: if tick / 2 % 2 == 0 { 1e4 } else { -1e4 } });
         }
     }),
     ("wind_1000", |world, tick| {

@@ -26,9 +26,11 @@ fn the_list_is_complete_and_starts_with_the_default() {
         "dam_break",
         "dune",
         "empty",
+        "frozen_lake",
         "honey_and_mercury",
         "hourglass",
         "hydrostatic",
+        "ice_dam",
         "layers",
         "rest_density",
         "sand_castle",
@@ -36,6 +38,7 @@ fn the_list_is_complete_and_starts_with_the_default() {
         "silo",
         "snow_globe",
         "u_tube",
+        "volcano",
         "wind_tunnel",
     ];
     assert_eq!(builtin_names(), names);

@@ -30,7 +30,9 @@ pub(super) const RUNS: &[(&str, Run)] = &[
 /// Capacity (J/m²K) and conductivity k′ (W/mK) of an element.
 fn thermal(simulation: &CaseSimulation, name: &str) -> (f64, f64) {
     let elements = simulation.world().resource::<Setup>().elements();
-    let of = |id| (1e6 * f64::from(elements.get(id).capacity), 6e4 * (0.6 * f64::from(elements.get(id).conductivity)).sqrt());
+    let of = |id| {
+        (1e6 * f64::from(elements.get(id).capacity), 6e4 * (0.6 * f64::from(elements.get(id).conductivity)).sqrt())
+    };
     elements.find(name).map_or((f64::NAN, f64::NAN), of)
 }
 
@@ -157,9 +159,9 @@ fn share_under(simulation: &CaseSimulation) -> f64 {
     let (particles, setup) = (simulation.particles(), simulation.world().resource::<Setup>());
     let Some(ice) = setup.elements().find("ice") else { return f64::NAN };
     let of_ice: Vec<usize> = (0..particles.len()).filter(|i| particles.element[*i] == ice).collect();
-    let ends = of_ice.iter().fold([f32::MAX, f32::MIN], |[low, high], i| {
-        [low.min(particles.x[*i]), high.max(particles.x[*i])]
-    });
+    let ends = of_ice
+        .iter()
+        .fold([f32::MAX, f32::MIN], |[low, high], i| [low.min(particles.x[*i]), high.max(particles.x[*i])]);
     // Columns of 1 d well beside the block, and their highest particles: half a spacing below the surface.
     let mut tops = vec![0.0_f32; setup.domain.size.x as usize + 1];
     for i in (0..particles.len()).filter(|i| particles.element[*i] != ice) {

@@ -53,7 +53,7 @@ impl Hands<'_> {
     }
 
     fn intent(&self, dice: &mut Dice) -> Intent {
-        match dice.below(20) {
+        match dice.below(22) {
             0..5 => Intent::Draw { element: self.element(dice), stroke: self.stroke(dice) },
             5 | 6 => Intent::Stamp { element: self.element(dice), stroke: self.stroke(dice) },
             7 => Intent::Fill { element: self.element(dice), at: self.place(dice) },
@@ -71,6 +71,10 @@ impl Hands<'_> {
                     _ => 1e30,
                 };
                 Intent::Press { stroke, amount }
+            }
+            20 | 21 => {
+                let degrees = dice.one(&[5.0, 300.0, 4000.0, 1e30]) * dice.one(&[1.0, -1.0]);
+                Intent::Warm { stroke: self.stroke(dice), degrees }
             }
             15 => Intent::ClearAir,
             16 => quality(dice, &Preset::ALL, 1.0),
