@@ -47,7 +47,7 @@ fn faults(cases: &[ExamCase], history: &[Change]) -> Vec<String> {
             faults.push(format!("{case}, {quantity}: in the history, but not in the exam"));
         }
         let numbers = date.split('-').map(|part| part.len()).eq([4, 2, 2]);
-        if !numbers || version.is_empty() || reason.is_empty() || !(bound.value() > 0.0 && bound.value() < 10.0) {
+        if !numbers || version.is_empty() || reason.is_empty() || !(0.0..10.0).contains(&bound.value()) {
             faults.push(format!("{case}, {quantity}: a line needs a tolerance, a date, a commit or version, a reason"));
         }
     }

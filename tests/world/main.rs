@@ -9,6 +9,7 @@ mod draught;
 mod elements;
 mod grains;
 mod hard_cases;
+mod heat;
 mod layers;
 mod ledger;
 mod monkey;

@@ -121,11 +121,21 @@ fn unknown_elements_are_named_with_the_known_ones() {
         "emitters[0].element: no movable element `rock`; allowed: water",
     );
     check("emitters: [(element: \"water\", min: (1, 1), max: (1.2, 2), rate: 9)]", "emitters[0]: too small");
-    check("first_element: \"lava\"", "first_element: no element `lava`; allowed: rock, water");
+    check("first_element: \"magma\"", "first_element: no element `magma`; allowed: rock, water");
     check(
         "contents: [(element: \"rock\", shape: Disc(centre: (1, 1), radius: 1), velocity: (1, 0))]",
         "contents[0].velocity: `rock` doesn't move; allowed: (0, 0)",
     );
+}
+
+#[test]
+fn what_is_to_be_warmer_than_its_element_can_be_is_refused() {
+    let water = |kelvin: &str| {
+        format!("contents: [(element: \"water\", shape: Disc(centre: (1, 1), radius: 1), temperature: {kelvin})]")
+    };
+    check(&water("3000"), "contents[0].temperature: 3000 is out of range; allowed: 273 to 373");
+    check(&water("-1"), "contents[0].temperature: -1 is out of range; allowed: 273 to 373");
+    check(&water("\"1/0\""), "contents[0].temperature");
 }
 
 #[test]

@@ -1,0 +1,104 @@
+//! Heat in a world: what it wakes, what it survives, and where it is not.
+
+use crate::support::{SimulationExt, blueprint};
+use glam::Vec2;
+use powder_master::{
+    kernel::{
+        brush::{BrushShape, Stroke},
+        heat::held,
+    },
+    scene::{self, effects::Effect},
+    sim::{
+        checkpoint::Checkpoint,
+        effects::Effects,
+        intent::Intent,
+        simulation::Simulation,
+        state::{Books, ParticleStore, Rock, Setup, SleepState},
+        workers::Workers,
+    },
+};
+
+fn everywhere() -> Stroke {
+    Stroke::rectangle(Vec2::ZERO, Vec2::splat(1000.0))
+}
+
+/// Heat of all lumps, with what the air got and without what hands gave, quanta.
+fn total(simulation: &Simulation) -> i64 {
+    let books = simulation.get::<Books>();
+    held(simulation.get::<ParticleStore>(), simulation.get::<Rock>()) + books.to_air - books.by_hand
+}
+
+#[test]
+fn warming_wakes_no_pool_and_boiling_does() {
+    let mut simulation = Simulation::of(blueprint("hydrostatic", &[("columns", "20"), ("depth", "10")]));
+    simulation.run(900);
+    let all = simulation.particles().len();
+    assert_eq!(simulation.get::<SleepState>().asleep(), all, "the pool does not rest");
+    assert!(!simulation.get::<Effects>().get(Effect::Heat).running);
+    let dab = Stroke::dab(BrushShape::Disc, Vec2::new(10.0, 3.0), 2.0);
+    simulation.push(Intent::Warm { stroke: dab, degrees: 50.0 }).run(60);
+    assert!(simulation.get::<Effects>().get(Effect::Heat).running);
+    assert_eq!(simulation.get::<SleepState>().asleep(), all, "warm water wakes");
+    assert_eq!(total(&simulation), 0);
+    simulation.push(Intent::Warm { stroke: dab, degrees: 500.0 }).run(2);
+    assert_eq!(simulation.get::<SleepState>().asleep(), 0, "boiling water sleeps on");
+    assert_eq!(total(&simulation), 0);
+}
+
+#[test]
+fn a_world_that_melts_goes_on_from_a_save_to_the_bit() {
+    let mut simulation = Simulation::of(blueprint("volcano", &[]));
+    simulation.push(Intent::Warm { stroke: everywhere(), degrees: 30.0 }).run(240);
+    let saved = Checkpoint::of(simulation.world());
+    let opened = Checkpoint::decode(&saved.encode()).expect("a save file");
+    assert_eq!(opened.state.hash(), saved.state.hash());
+    let mut again = Simulation::resume(&opened, Workers::single());
+    assert_eq!(again.get::<Books>(), simulation.get::<Books>());
+    simulation.run(120);
+    again.run(120);
+    assert_eq!(again.hash(), simulation.hash());
+    assert_eq!(again.get::<Books>(), simulation.get::<Books>());
+}
+
+#[test]
+fn heat_is_a_part_of_the_state() {
+    let mut simulation = Simulation::of(blueprint("hydrostatic", &[("columns", "20"), ("depth", "10")]));
+    let before = simulation.hash();
+    simulation.push(Intent::Warm { stroke: everywhere(), degrees: 1.0 });
+    simulation.apply_edits();
+    assert_ne!(simulation.hash(), before, "warm water has the hash of cold water");
+    simulation.push(Intent::Warm { stroke: everywhere(), degrees: -1.0 });
+    simulation.apply_edits();
+    assert_eq!(simulation.hash(), before, "water that is as cold as before has another hash");
+}
+
+#[test]
+fn another_detail_has_the_same_heat() {
+    let mut simulation = Simulation::of(blueprint("ice_dam", &[]));
+    simulation.run(300);
+    let start = Checkpoint::of(simulation.world());
+    let joules = |simulation: &Simulation| {
+        let spacing = f64::from(simulation.get::<Setup>().blueprint.scale.spacing);
+        held(simulation.get::<ParticleStore>(), simulation.get::<Rock>()) as f64 * spacing * spacing
+    };
+    let before = joules(&simulation);
+    for detail in [0.5, 0.8, 2.0] {
+        let finer = start.clone().at_detail(detail).expect("it fits");
+        let after = joules(&Simulation::resume(&finer, Workers::single()));
+        // Rock goes by whole cells, the last of each element by whole particles.
+        assert!((after / before - 1.0).abs() < 0.02, "{after} of {before} at detail {detail}");
+    }
+}
+
+#[test]
+fn no_scene_at_the_temperature_of_the_room_has_any_heat() {
+    for name in scene::builtin_names() {
+        let mut simulation = Simulation::of(blueprint(name, &[]));
+        simulation.run(2);
+        let is_warm = ["volcano", "ice_dam", "frozen_lake", "avalanche", "snow_globe"].contains(&name);
+        let has_heat = simulation.particles().has_heat() || !simulation.get::<Rock>().heats().is_empty();
+        assert!(is_warm || !has_heat, "{name} has heat");
+        let runs = simulation.get::<Effects>().get(Effect::Heat).running;
+        assert_eq!(runs, has_heat && !["avalanche", "snow_globe"].contains(&name), "{name}");
+    }
+}
