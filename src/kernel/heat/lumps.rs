@@ -1,6 +1,6 @@
 //! The lumps that exchange heat, and those around them: gathered cell by cell, so that what is near stands together.
 
-use super::{conduction::Rates, matter::Warm, units::ROOM, weights::REACH};
+use super::{matter::Warm, rates::Rates, units::ROOM, weights::REACH};
 use crate::{element::ElementId, solids::centre};
 use glam::{IVec2, Vec2};
 use std::ops::Range;

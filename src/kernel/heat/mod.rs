@@ -17,6 +17,7 @@ mod conduction;
 pub mod curve;
 mod lumps;
 mod matter;
+mod rates;
 mod steps;
 pub mod table;
 #[cfg(test)]

@@ -2,9 +2,10 @@
 
 use super::{
     change::{self, Changed, HeatRecord},
-    conduction::{Exchange, Rates},
+    conduction::Exchange,
     lumps::Lumps,
     matter::Warm,
+    rates::Rates,
 };
 
 /// What the limiters of the exchange did.

@@ -1,0 +1,34 @@
+//! How fast heat flows, by spacing and step.
+
+use super::{units::QUANTUM, weights::WEIGHT};
+
+/// Length of surface, d, for a share of missing neighbours beyond that: at a plane surface of the lattice those of the first row
+/// come to 1. A lump by itself has 3.6, about its outline.
+pub(super) const SURFACE: f32 = 4.026;
+/// Exchange with the air h′, W/m²K: a thousand times life's, as the spacing is.
+const TO_AIR: f32 = 1e4;
+/// What depends on spacing and step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rates {
+    /// Quanta for each W/mK K of a pair's `k′ w ΔT`.
+    pub pairs: f32,
+    /// Quanta for each K of a length d of surface.
+    pub air: f32,
+}
+
+impl Rates {
+    /// For a spacing (m) and a step (s).
+    pub fn new(spacing: f32, dt: f32) -> Self {
+        Self { pairs: dt / (spacing * spacing * QUANTUM), air: TO_AIR * dt / (spacing * QUANTUM) }
+    }
+
+    /// Whether a difference of temperatures (K) could give half a quantum to a pair of lumps of at most this √k′, or to the air.
+    pub fn may_flow(&self, difference: f32, conduction: f32) -> bool {
+        difference * (self.pairs * WEIGHT * conduction * conduction) >= 0.5 || difference * (self.air * SURFACE) >= 0.5
+    }
+
+    /// Those of each of so many steps.
+    pub fn over(self, steps: f32) -> Self {
+        Self { pairs: self.pairs / steps, air: self.air / steps }
+    }
+}
