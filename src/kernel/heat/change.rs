@@ -52,13 +52,16 @@ pub struct Changed {
     pub places: Vec<Vec2>,
     /// Particles that go.
     gone: Vec<bool>,
+    /// Rock that becomes another element.
+    rock: Vec<IVec2>,
     /// Particles in each cell of the box, where one of them may become rock.
     crowd: Vec<u8>,
 }
 
-/// Carries out the changes that are done. Of rock only what is in `rock` is looked at.
-pub(super) fn run(warm: &mut Warm, rock: &[IVec2], record: &mut HeatRecord, changed: &mut Changed) {
+/// Gives lumps whose change is done the element that it leads to.
+pub fn change(warm: &mut Warm, record: &mut HeatRecord, changed: &mut Changed) {
     changed.places.clear();
+    changed.rock.clear();
     changed.gone.clear();
     changed.crowd.clear();
     for i in 0..warm.particles.len() {
@@ -85,7 +88,13 @@ pub(super) fn run(warm: &mut Warm, rock: &[IVec2], record: &mut HeatRecord, chan
     if !changed.gone.is_empty() {
         warm.particles.retain(|_, i| !changed.gone[i]);
     }
-    for cell in rock {
+    let Warm { solids, table, .. } = warm;
+    if !solids.heats().is_empty() {
+        let is_done =
+            |(cell, element, _): &(IVec2, ElementId, u32)| table.curve(*element).done(solids.heat(*cell)).is_some();
+        changed.rock.extend(solids.iter().filter(is_done).map(|(cell, ..)| cell));
+    }
+    for cell in &changed.rock {
         melt(warm, *cell, record);
     }
 }

@@ -67,11 +67,6 @@ impl Lumps {
         self.x.len()
     }
 
-    /// The rock among them.
-    pub fn rock_cells(&self) -> &[IVec2] {
-        &self.rock
-    }
-
     /// The lumps in a cell and in those before and behind it in its row.
     #[inline(always)]
     pub fn beside(&self, cell: usize) -> Range<usize> {

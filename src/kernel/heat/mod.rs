@@ -3,9 +3,9 @@
 //! A lump, a movable particle or a cell of rock, holds enthalpy in whole quanta of 8 J/m² ([`units`]); its temperature follows
 //! ([`curve`], [`table`]). Once a tick
 //!
-//! 1. lumps near one another are gathered, where temperatures differ ([`lumps`]),
-//! 2. pairs exchange heat, and what stands in the air exchanges it with the air ([`conduction`]),
-//! 3. lumps whose change is done become another element ([`change`]).
+//! 1. lumps whose change is done become another element ([`change`](change())),
+//! 2. lumps near one another are gathered, where temperatures differ ([`lumps`]),
+//! 3. pairs exchange heat, and what stands in the air exchanges it with the air ([`conduction`]).
 //!
 //! What one of a pair gets the other gives, in whole numbers: the sum is exact, in any order and for any number of threads.
 //! Where all is at the room's temperature, nothing of this exists, and where no exchange would come to half a quantum, nothing
@@ -27,6 +27,6 @@ mod walls;
 mod weights;
 
 pub use brush::warm_under;
-pub use change::{Changed, HeatRecord};
+pub use change::{Changed, HeatRecord, change};
 pub use matter::{Warm, held};
 pub use steps::{Heat, HeatReport};

@@ -1,12 +1,6 @@
-//! The steps of a tick, in their order.
+//! How heat flows in a tick, step by step.
 
-use super::{
-    change::{self, Changed, HeatRecord},
-    conduction::Exchange,
-    lumps::Lumps,
-    matter::Warm,
-    rates::Rates,
-};
+use super::{change::HeatRecord, conduction::Exchange, lumps::Lumps, matter::Warm, rates::Rates};
 
 /// What the limiters of the exchange did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -35,11 +29,6 @@ impl Heat {
         lumps.hand_back(warm);
         record.to_air += flowed.to_air;
         HeatReport { cuts: flowed.cuts }
-    }
-
-    /// Gives lumps whose change is done the element that it leads to.
-    pub fn change(&mut self, warm: &mut Warm, record: &mut HeatRecord, changed: &mut Changed) {
-        change::run(warm, self.lumps.rock_cells(), record, changed);
     }
 
     /// Bytes held.

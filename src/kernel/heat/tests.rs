@@ -36,7 +36,7 @@ const LAVA: ElementId = ElementId(6);
 const SNOW: ElementId = ElementId(7);
 const GLASS: ElementId = ElementId(8);
 
-fn change(above: Option<f32>, below: Option<f32>, into: &[&str], latent: Option<f32>) -> ElementChange {
+fn row_change(above: Option<f32>, below: Option<f32>, into: &[&str], latent: Option<f32>) -> ElementChange {
     ElementChange { above, below, into: into.iter().map(|name| (*name).to_owned()).collect(), latent }
 }
 
@@ -49,23 +49,23 @@ impl Bench {
             ..Element::plain(name, fixed)
         };
         let elements = ElementTable::new(vec![
-            row("rock", true, 2.2, 2.5, vec![change(Some(1430.0), None, &["lava"], Some(900.0))]),
+            row("rock", true, 2.2, 2.5, vec![row_change(Some(1430.0), None, &["lava"], Some(900.0))]),
             row(
                 "water",
                 false,
                 4.19,
                 0.6,
                 vec![
-                    change(None, Some(273.0), &["ice"], Some(334.0)),
-                    change(Some(373.0), None, &["steam"], Some(452.0)),
+                    row_change(None, Some(273.0), &["ice"], Some(334.0)),
+                    row_change(Some(373.0), None, &["steam"], Some(452.0)),
                 ],
             ),
-            row("ice", false, 1.93, 2.2, vec![change(Some(273.0), None, &["water"], None)]),
-            row("steam", false, 0.3, 0.025, vec![change(None, Some(373.0), &["water"], None)]),
+            row("ice", false, 1.93, 2.2, vec![row_change(Some(273.0), None, &["water"], None)]),
+            row("steam", false, 0.3, 0.025, vec![row_change(None, Some(373.0), &["water"], None)]),
             row("ash", false, 0.3, 0.07, vec![]),
             row("metal", false, 3.5, 80.0, vec![]),
-            row("lava", false, 2.9, 1.5, vec![change(None, Some(1000.0), &["glass"], None)]),
-            row("snow", false, 0.42, 0.1, vec![change(Some(273.0), None, &["water", "air", "air"], Some(67.0))]),
+            row("lava", false, 2.9, 1.5, vec![row_change(None, Some(1000.0), &["glass"], None)]),
+            row("snow", false, 0.42, 0.1, vec![row_change(Some(273.0), None, &["water", "air", "air"], Some(67.0))]),
             row("glass", true, 2.1, 1.0, vec![]),
         ]);
         let cells = size.ceil().as_uvec2();
@@ -110,10 +110,14 @@ impl Bench {
         self.report.cuts += report.cuts;
     }
 
+    fn change(&mut self) {
+        let (mut warm, _, record, changed) = self.warm();
+        change(&mut warm, record, changed);
+    }
+
     fn tick(&mut self) {
+        self.change();
         self.flow(1);
-        let (mut warm, heat, record, changed) = self.warm();
-        heat.change(&mut warm, record, changed);
     }
 
     /// All heat, also that of the air and less that of tools, quanta.
@@ -308,8 +312,7 @@ fn boiling_takes_as_long_as_the_heat_takes_to_come() {
     while bench.count(WATER) > 0 {
         let (mut warm, _, record, _) = bench.warm();
         warm_under(&mut warm, &stroke, 10.0, record);
-        let (mut warm, heat, record, changed) = bench.warm();
-        heat.change(&mut warm, record, changed);
+        bench.change();
         ticks += 1;
     }
     // 80 K of slope and 452 MJ/m² at 4.19 MJ/m²K are 187.9 K.
@@ -334,8 +337,7 @@ fn what_splits_is_dealt_in_turn() {
         bench.particles.set_heat(heat, molten);
         bench.record.by_hand += i64::from(molten - bench.table.curve(SNOW).heat(280.0));
     }
-    let (mut warm, heat, record, changed) = bench.warm();
-    heat.change(&mut warm, record, changed);
+    bench.change();
     assert_eq!((bench.particles.len(), bench.count(WATER)), (count / 3, count / 3));
     assert_eq!(bench.total(), total, "what goes into the air takes its heat along");
 }
@@ -356,8 +358,7 @@ fn rock_melts_and_lava_sets_only_where_it_is_alone() {
     for id in [1, 2] {
         bench.particles.push_warm(id, LAVA, Vec2::new(7.3, 7.2 + 0.2 * id as f32), Vec2::ZERO, cold);
     }
-    let (mut warm, heat, record, changed) = bench.warm();
-    heat.change(&mut warm, record, changed);
+    bench.change();
     assert_eq!((bench.solids.get(IVec2::new(4, 4)), bench.particles.len()), (Some((GLASS, 77)), 2));
     assert_eq!(bench.solids.heat(IVec2::new(4, 4)), cold);
 }

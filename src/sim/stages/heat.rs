@@ -2,7 +2,7 @@
 
 use crate::{
     kernel::{
-        heat::{Changed, Warm},
+        heat::{Changed, Warm, change},
         units::TICK_SECONDS,
     },
     sim::{
@@ -12,7 +12,7 @@ use crate::{
 };
 use bevy::prelude::{Local, Res, ResMut};
 
-/// Lets heat flow for a tick, and gives lumps whose change is done the element that it leads to.
+/// Gives lumps whose change is done the element that it leads to, and lets heat flow for a tick.
 pub(super) fn flow(
     setup: Res<Setup>,
     curves: Res<HeatCurves>,
@@ -34,9 +34,9 @@ pub(super) fn flow(
         domain: &setup.domain,
         scale: setup.blueprint.scale,
     };
+    change(&mut warm, &mut books, &mut changed);
+    sleep.disturb(&changed.places);
     let report = workers.run_for(count, |threads| heat.flow(&mut warm, &mut books, threads, TICK_SECONDS));
     counters.heat_cuts += report.cuts;
-    heat.change(&mut warm, &mut books, &mut changed);
-    sleep.disturb(&changed.places);
     count
 }
