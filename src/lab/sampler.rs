@@ -23,7 +23,7 @@ use crate::{
             status::{self, EffectStatus, Sleepers},
         },
         ledger::{PassLedger, PassRecord},
-        state::{AirGrid, Counters, ParticleStore, PredictorState, Rock, Setup, SleepState, SolverState},
+        state::{AirGrid, Counters, HeatState, ParticleStore, PredictorState, Rock, Setup, SleepState, SolverState},
         workers::Workers,
     },
 };
@@ -275,8 +275,9 @@ fn memory_bytes(world: &World) -> u64 {
     let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
     let air = world.resource::<AirGrid>();
     let solver = world.resource::<SolverState>().memory() + world.resource::<PredictorState>().memory();
+    let heat = world.get_resource::<HeatState>().map_or(0, |heat| heat.memory());
     let sleep = world.resource::<SleepState>().memory();
-    (solver + sleep + particles.memory() + rock.memory() + air.memory_bytes()) as u64
+    (solver + sleep + heat + particles.memory() + rock.memory() + air.memory_bytes()) as u64
 }
 
 pub(super) fn ms(time: Duration) -> f64 {

@@ -105,13 +105,14 @@ fn becomes_rock(warm: &mut Warm, changed: &mut Changed, i: usize, product: Eleme
     let index = |cell: IVec2| cell.y as usize * solids.columns() as usize + cell.x as usize;
     if changed.crowd.is_empty() {
         changed.crowd.resize(solids.columns() as usize * solids.rows() as usize, 0);
-        for other in 0..particles.len() {
-            let count = &mut changed.crowd[index(Solids::cell_of(particles.position(other)))];
+        let cells = (0..particles.len()).map(|other| Solids::cell_of(particles.position(other)));
+        for cell in cells.filter(|cell| solids.contains(*cell)) {
+            let count = &mut changed.crowd[index(cell)];
             *count = count.saturating_add(1);
         }
     }
     let cell = Solids::cell_of(particles.position(i));
-    if changed.crowd[index(cell)] > 1 || !solids.insert(cell, product, particles.id[i]) {
+    if !solids.contains(cell) || changed.crowd[index(cell)] > 1 || !solids.insert(cell, product, particles.id[i]) {
         return false;
     }
     solids.set_heat(cell, heat);

@@ -7,7 +7,8 @@
 //! metal and ash, or in a crowd, what a pair exchanges is cut by the smaller of both lumps' allowances, `cᵢ d²/(Δt Σ …)`: the
 //! same on both sides. So no temperature leaves the range of those around it, at any spacing and any step. What asks for more
 //! than one step can do takes as many, 8 at most; what is then left to cut is counted. cᵢ is the lowest capacity among that of
-//! the lump and those of what may come of it, or water would boil to steam that is hotter than what boiled it.
+//! the lump and those of what may come of it, or water would boil to steam that is hotter than what boiled it. What a table makes hotter than 4,000 K by a change exchanges heat as if it were no
+//! hotter, so that no sum of quanta overflows.
 //!
 //! **The air** takes `h′ (T − 293 K) Δt` for each length of a lump's surface, which is what its neighbours leave open, solved for
 //! the end of the step. It is as warm as the room, whatever it takes.
@@ -17,7 +18,7 @@ use super::{
     matter::Warm,
     rates::{Rates, SURFACE},
     table::HeatTable,
-    units::{QUANTUM, ROOM},
+    units::{HOTTEST, QUANTUM, ROOM},
     walls::Walls,
     weights::{WEIGHT, Weights},
 };
@@ -86,7 +87,7 @@ impl Exchange {
             }
             self.flow(lumps, warm.table, &rates.over(steps), threads);
             for (heat, (gained, given)) in lumps.heat.iter_mut().zip(self.gained.iter().zip(&self.given)) {
-                *heat += gained - given;
+                *heat = heat.saturating_add(gained - given);
                 to_air += i64::from(*given);
             }
         }
@@ -99,7 +100,7 @@ impl Exchange {
         spread([&mut self.kelvin[..], &mut self.conduction], WORTH_A_PIECE, threads, &|first, [kelvin, conduction]| {
             for k in 0..kelvin.len() {
                 let (curve, heat) = (table.curve(element[first + k]), heat[first + k]);
-                (kelvin[k], conduction[k]) = (curve.temperature(heat), curve.conduction(heat));
+                (kelvin[k], conduction[k]) = (curve.temperature(heat).clamp(0.0, HOTTEST), curve.conduction(heat));
             }
         });
     }
@@ -148,7 +149,7 @@ impl Exchange {
                 }
                 let at = Vec2::new(lumps.x[i], lumps.y[i]);
                 let (own, most, own_conduction) = (kelvin[i], allowance[i], conduction[i]);
-                let mut sum = 0;
+                let mut sum = 0_i32;
                 each_run(lumps, i, |run| {
                     let weights = Weights { at, x: &lumps.x[run.clone()], y: &lumps.y[run.clone()] };
                     let (kelvin, conduction) = (&kelvin[run.clone()], &conduction[run.clone()]);
@@ -157,7 +158,8 @@ impl Exchange {
                         let share = if allowance[j] < most { allowance[j] } else { most };
                         // The product of both comes first, so that the other lump finds the same to the bit.
                         let rate = own_conduction * conduction[j] * rates.pairs * share;
-                        sum += rounded(rate * weights.of(j) * (kelvin[j] - own));
+                        let flow = rounded(rate * weights.of(j) * (kelvin[j] - own));
+                        sum = sum.wrapping_add(flow);
                     }
                 });
                 gained[k] = sum;
