@@ -47,7 +47,7 @@ pub(super) struct Lumps {
     starts: Vec<u32>,
     /// Whether anything may flow in a cell.
     pub flows: Vec<bool>,
-    /// Cells whose lumps are needed: those in which anything flows, and two around them.
+    /// Cells whose lumps are needed: those in which anything flows, and those around them.
     needed: Vec<bool>,
     spans: Vec<Span>,
     /// Cell of each particle.
@@ -139,9 +139,8 @@ impl Lumps {
                 }
                 if rates.may_flow(near.hottest - near.coldest, near.conduction) {
                     flows[cell] = true;
-                    for above in row.saturating_sub(2)..=(row + 2).min(*rows - 1) {
-                        let first = above * *stride;
-                        needed[first + column.saturating_sub(2)..=first + (column + 2).min(*stride - 1)].fill(true);
+                    for around in [cell - *stride, cell, cell + *stride] {
+                        needed[around - 1..=around + 1].fill(true);
                     }
                 }
             }
