@@ -112,8 +112,7 @@ impl<T: Column + PartialEq> Sparse<T> for Vec<T> {
     #[inline(always)]
     fn put(&mut self, i: usize, value: T, len: usize) {
         if !self.is_empty() || value != T::default() {
-            self.resize(len, T::default());
-            self[i] = value;
+            put_there(self, i, value, len);
         }
     }
 
@@ -127,6 +126,13 @@ impl<T: Column + PartialEq> Sparse<T> for Vec<T> {
             }
         }
     }
+}
+
+/// A function of its own, as most columns never come to it.
+#[inline(never)]
+fn put_there<T: Column>(column: &mut Vec<T>, i: usize, value: T, len: usize) {
+    column.resize(len, T::default());
+    column[i] = value;
 }
 
 /// Brings a column into an order: at each place comes the entry that was at `order[place]`.

@@ -11,7 +11,7 @@
 //! hotter, so that no sum of quanta overflows.
 //!
 //! **The air** takes `h′ (T − 293 K) Δt` for each length of a lump's surface, which is what its neighbours leave open, solved for
-//! the end of the step. It is as warm as the room, whatever it takes.
+//! the end of the step; gases give five times as much. It is as warm as the room, whatever it takes.
 
 use super::{
     lumps::Lumps,
@@ -52,7 +52,7 @@ pub(super) struct Exchange {
     conduction: Vec<f32>,
     /// Part of a whole tick's exchange that it can take at once; above 1 all.
     allowance: Vec<f32>,
-    /// Length of its surface, d.
+    /// Length of its surface, d; of gases as many times as much as it gives more.
     surface: Vec<f32>,
     /// What it gains from pairs, and gives to the air, quanta.
     gained: Vec<i32>,
@@ -126,10 +126,11 @@ impl Exchange {
                 (whole, through) = (whole - WEIGHT, through - WEIGHT * conduction[i]);
                 let far = warm.domain.size - at;
                 let beyond = [at.x, at.y, far.x, far.y].map(|distance| walls.beyond(distance)).iter().sum::<f32>();
-                surface[k] = SURFACE * (1.0 - UNEVEN - (whole + beyond) / WHOLE).max(0.0);
+                let curve = table.curve(lumps.element[i]);
+                surface[k] = SURFACE * curve.openness() * (1.0 - UNEVEN - (whole + beyond) / WHOLE).max(0.0);
                 // What the air may take is not there for the others.
                 let asked = rates.pairs * conduction[i] * through;
-                let held = table.curve(lumps.element[i]).least_capacity() / QUANTUM;
+                let held = curve.least_capacity() / QUANTUM;
                 let left = held / (1.0 + rates.air * surface[k] / held);
                 allowance[k] = if asked > 0.0 { left / asked } else { f32::MAX };
             }

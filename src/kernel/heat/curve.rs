@@ -44,6 +44,8 @@ pub struct HeatCurve {
     pub(super) capacity: f32,
     /// See [`HeatCurve::least_capacity`].
     pub(super) least_capacity: f32,
+    /// See [`HeatCurve::openness`].
+    pub(super) openness: f32,
     /// √k′ of it, of what comes of it below and of what comes of it above, √(W/mK) ([`conduction_of`]).
     pub(super) conduction: [f32; 3],
     /// What it becomes when it is cold enough.
@@ -65,6 +67,7 @@ impl HeatCurve {
             base: 0,
             capacity,
             least_capacity: capacity,
+            openness: 1.0,
             conduction: [conduction_of(conductivity); 3],
             below: None,
             above: None,
@@ -76,6 +79,12 @@ impl HeatCurve {
     #[inline(always)]
     pub fn least_capacity(&self) -> f32 {
         self.least_capacity
+    }
+
+    /// How many times as much its surface gives to the air as that of liquids and solids does.
+    #[inline(always)]
+    pub fn openness(&self) -> f32 {
+        self.openness
     }
 
     /// Temperatures between which it is what it is, K.

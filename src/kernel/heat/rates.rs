@@ -7,6 +7,9 @@ use super::{units::QUANTUM, weights::WEIGHT};
 pub(super) const SURFACE: f32 = 4.026;
 /// Exchange with the air h′, W/m²K: a thousand times life's, as the spacing is.
 const TO_AIR: f32 = 1e4;
+/// How many times as much a gas gives to the air: a lump of it stands for wisps that mix with it.
+pub(super) const OF_GAS: f32 = 5.0;
+
 /// What depends on spacing and step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rates {
@@ -24,7 +27,8 @@ impl Rates {
 
     /// Whether a difference of temperatures (K) could give half a quantum to a pair of lumps of at most this √k′, or to the air.
     pub fn may_flow(&self, difference: f32, conduction: f32) -> bool {
-        difference * (self.pairs * WEIGHT * conduction * conduction) >= 0.5 || difference * (self.air * SURFACE) >= 0.5
+        difference * (self.pairs * WEIGHT * conduction * conduction) >= 0.5
+            || difference * (self.air * SURFACE * OF_GAS) >= 0.5
     }
 
     /// Those of each of so many steps.

@@ -9,6 +9,7 @@ use crate::{
     element::{Element, ElementChange, ElementId, ElementTable},
     heat::{
         curve::{Change, HeatCurve, conduction_of},
+        rates::OF_GAS,
         units::{COLDEST, HOTTEST, QUANTUM, ROOM},
     },
 };
@@ -96,8 +97,11 @@ pub fn curves(rows: &[Element]) -> Result<Vec<HeatCurve>, CurveFault> {
                 return Err(fault(format!("it holds {held:.0} MJ/m² at {kelvin} K; allowed: at most {MOST}")));
             }
         }
-        let mut curve =
-            HeatCurve { base: quanta(bases[row]), ..HeatCurve::plain(element.capacity * 1e6, element.conductivity) };
+        let mut curve = HeatCurve {
+            base: quanta(bases[row]),
+            openness: if element.is_gas() { OF_GAS } else { 1.0 },
+            ..HeatCurve::plain(element.capacity * 1e6, element.conductivity)
+        };
         for change in changes {
             let begin = held(row, change.at);
             let takes = change.sign * (held(change.first, change.at) - begin);

@@ -3,7 +3,7 @@
 use super::{table::HeatTable, units::*, *};
 use crate::{
     brush::{BrushShape, Stroke},
-    element::{Element, ElementChange, ElementId, ElementTable},
+    element::{Category, Element, ElementChange, ElementId, ElementTable},
     params::Domain,
     particles::Particles,
     random::Random,
@@ -361,4 +361,27 @@ fn rock_melts_and_lava_sets_only_where_it_is_alone() {
     bench.change();
     assert_eq!((bench.solids.get(IVec2::new(4, 4)), bench.particles.len()), (Some((GLASS, 77)), 2));
     assert_eq!(bench.solids.heat(IVec2::new(4, 4)), cold);
+}
+
+#[test]
+fn a_gas_gives_its_heat_to_the_air_five_times_as_fast() {
+    let mut elements = Bench::new(Vec2::splat(20.0), 0.1).elements.rows().to_vec();
+    elements.push(Element {
+        category: Category::Gases,
+        ..Element { name: "smoke".into(), ..elements[ASH.index()].clone() }
+    });
+    let elements = ElementTable::new(elements);
+    let mut bench = Bench { table: HeatTable::new(&elements), elements, ..Bench::new(Vec2::splat(20.0), 0.1) };
+    for (id, x) in [(ASH.0, 5.0), (9, 15.0)] {
+        let heat = bench.table.curve(ElementId(id)).heat(400.0);
+        bench.particles.push_warm(id.into(), ElementId(id), Vec2::new(x, 10.0), Vec2::ZERO, heat);
+    }
+    let start = bench.particles.clone();
+    bench.flow(1);
+    // Solved for the end of the step, what is warmer than the room by 1 is so by 1/(1 + x) after it.
+    let given = [0, 1].map(|i| {
+        let left = f64::from(bench.particles.heat_of(i)) / f64::from(start.heat_of(i));
+        1.0 / left - 1.0
+    });
+    assert!((given[1] / given[0] - 5.0).abs() < 1e-3, "{given:?}");
 }
