@@ -114,7 +114,7 @@ async function withStorage({ browser, host, openIn, play, shoot, started, test }
   await test('a browser that keeps nothing: the player is told', async () => {
     const page = await play(`${host.url}#scene=empty`, {}, {
       before: (page) => page.addInitScript(() => {
-        IDBObjectStore.prototype.add = () => { throw new DOMException('it is full', 'QuotaExceededError'); };
+        IDBObjectStore.prototype.put = () => { throw new DOMException('it is full', 'QuotaExceededError'); };
       }),
     });
     await page.keyboard.press('Control+KeyS');
