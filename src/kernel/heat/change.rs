@@ -1,6 +1,6 @@
 //! Lumps whose change is done become what it leads to. They keep their heat, their place, their speed and their number.
 
-use super::{curve::Change, matter::Warm, units::QUANTUM};
+use super::{curve::Change, matter::Warm};
 use crate::{
     element::ElementId,
     solids::{Solids, centre},
@@ -37,11 +37,6 @@ impl HeatRecord {
         }
         let turn = &mut self.turns[element.index()][place];
         *turn = turn.wrapping_add(1);
-    }
-
-    /// What the air got, less what it gave, J/m² of a lump.
-    pub fn joules_to_air(&self) -> f64 {
-        self.to_air as f64 * f64::from(QUANTUM)
     }
 }
 

@@ -7,8 +7,8 @@
 //! metal and ash, or in a crowd, what a pair exchanges is cut by the smaller of both lumps' allowances, `cᵢ d²/(Δt Σ …)`: the
 //! same on both sides. So no temperature leaves the range of those around it, at any spacing and any step. What asks for more
 //! than one step can do takes as many, 8 at most; what is then left to cut is counted. cᵢ is the lowest capacity among that of
-//! the lump and those of what may come of it, or water would boil to steam that is hotter than what boiled it. What a table makes hotter than 4,000 K by a change exchanges heat as if it were no
-//! hotter, so that no sum of quanta overflows.
+//! the lump and those of what may come of it, or water would boil to steam that is hotter than what boiled it. What a table makes
+//! hotter than 4,000 K by a change exchanges heat as if it were no hotter, so that no sum of quanta overflows.
 //!
 //! **The air** takes `h′ (T − 293 K) Δt` for each length of a lump's surface, which is what its neighbours leave open, solved for
 //! the end of the step; gases give five times as much. It is as warm as the room, whatever it takes.
@@ -87,7 +87,7 @@ impl Exchange {
             }
             self.flow(lumps, warm.table, &rates.over(steps), threads);
             for (heat, (gained, given)) in lumps.heat.iter_mut().zip(self.gained.iter().zip(&self.given)) {
-                *heat = heat.saturating_add(gained - given);
+                *heat = heat.saturating_add(gained.saturating_sub(*given));
                 to_air += i64::from(*given);
             }
         }

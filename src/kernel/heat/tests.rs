@@ -261,49 +261,6 @@ fn a_lump_cools_in_the_air_as_newton_has_it() {
 }
 
 #[test]
-fn water_freezes_and_melts_as_stefan_has_it() {
-    // Water at 273 K beside a plate at 233 K: s = 2 λ √(α t), √π λ e^(λ²) erf λ = c ΔT/L.
-    let spacing = 0.1;
-    let filled = |at: Vec2| Some(if at.x < 3.0 { (ICE, 233.0) } else { (WATER, 273.0) });
-    let mut bench = Bench::new(Vec2::new(60.0, 12.0), spacing).fill(0.1, filled);
-    let (cold, count) = (bench.table.curve(ICE).heat(233.0), bench.particles.len());
-    let latent = 334e6 / f64::from(QUANTUM);
-    let melted = f64::from(bench.table.curve(WATER).heat(273.0));
-    let mut points = Vec::new();
-    for tick in 1..=1800 {
-        bench.tick();
-        for i in 0..count {
-            if bench.particles.id[i] % 60 < 3 {
-                bench.particles.set_heat(i, cold);
-                bench.particles.element[i] = ICE;
-            }
-        }
-        if tick % 300 == 0 {
-            let frozen = |i: usize| ((melted - f64::from(bench.particles.heat_of(i))) / latent).clamp(0.0, 1.0);
-            let sum = (0..count).filter(|i| bench.particles.id[*i] % 60 >= 3).map(frozen).sum::<f64>();
-            points.push(((f64::from(tick) * f64::from(TICK_SECONDS)).sqrt(), sum / 12.0 * f64::from(spacing)));
-        }
-    }
-    let (stefan, diffusivity) = (1.93e6 * 40.0 / 334e6, 6e4 * (0.6_f64 * 2.2).sqrt() / 1.93e6);
-    let balance = |l: f64| std::f64::consts::PI.sqrt() * l * (l * l).exp() * erf(l) - stefan;
-    let (mut low, mut high) = (0.0, 3.0);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        (low, high) = if balance(middle) > 0.0 { (low, middle) } else { (middle, high) };
-    }
-    let expected = 2.0 * low * diffusivity.sqrt();
-    // Slope of the line through the points, its offset free: where the plate's surface is, is not known to half a lump.
-    let n = points.len() as f64;
-    let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / n, y + point.1 / n));
-    let (above, below) = points.iter().fold((0.0, 0.0), |(above, below), point| {
-        (above + (point.0 - x) * (point.1 - y), below + (point.0 - x).powi(2))
-    });
-    let slope = above / below;
-    assert!((slope / expected - 1.0).abs() < 0.05, "{slope} m/√s, {expected} expected");
-    assert!(bench.count(ICE) > 12 * 3, "none froze");
-}
-
-#[test]
 fn boiling_takes_as_long_as_the_heat_takes_to_come() {
     let mut bench =
         Bench::new(Vec2::new(20.0, 20.0), 0.1).fill(0.0, |at| ((at - 10.0).length() < 3.0).then_some((WATER, 293.0)));
