@@ -116,7 +116,7 @@ fn becomes_rock(warm: &mut Warm, changed: &mut Changed, i: usize, product: Eleme
 
 /// Gives rock whose change is done what it leads to.
 fn melt(warm: &mut Warm, cell: IVec2, record: &mut HeatRecord) {
-    let Warm { particles, solids, elements, table, .. } = warm;
+    let Warm { particles, solids, elements, table, domain, .. } = warm;
     let Some((element, id)) = solids.get(cell) else { return };
     let heat = solids.heat(cell);
     let Some((place, change)) = table.curve(element).done(heat) else { return };
@@ -129,7 +129,8 @@ fn melt(warm: &mut Warm, cell: IVec2, record: &mut HeatRecord) {
             solids.set_heat(cell, heat);
         }
         Some(product) => {
-            particles.push_warm(id, product, centre(cell), Vec2::ZERO, heat);
+            // A cell that the box ends in may have its centre beyond the wall.
+            particles.push_warm(id, product, domain.keep_inside(centre(cell)), Vec2::ZERO, heat);
             record.turned += 1;
         }
         None => {
