@@ -221,6 +221,23 @@ fn no_temperature_leaves_the_range_of_those_around_it() {
 }
 
 #[test]
+fn a_front_that_enters_cold_matter_within_a_tick_keeps_all_heat() {
+    // At this spacing a tick has several steps, and its later ones reach cells in which nothing flowed in the first.
+    let filled = |at: Vec2| Some((METAL, if at.x < 6.0 { 3000.0 } else { 293.0 }));
+    let mut bench = Bench::new(Vec2::new(60.0, 6.0), 0.02).fill(0.3, filled);
+    let total = bench.total();
+    let reach = |bench: &Bench| (0..bench.particles.len()).filter(|i| bench.particles.heat_of(*i) > 0).count();
+    let mut reached = reach(&bench);
+    for tick in 0..40 {
+        bench.flow(1);
+        assert_eq!(bench.total(), total, "quanta after tick {tick}");
+        assert!(reach(&bench) >= reached);
+        reached = reach(&bench);
+    }
+    assert!(reached > 200, "the front stood: {reached} of 360 warm");
+}
+
+#[test]
 fn any_number_of_threads_finds_the_same() {
     let run = |threads: usize| {
         let filled =

@@ -21,7 +21,7 @@ use crate::{
     sim::{
         effects::Effects,
         stages::TickPlan,
-        state::{Counters, ParticleStore, Rock, Setup},
+        state::{Books, Counters, ParticleStore, Rock, Setup},
     },
 };
 use bevy::ecs::world::World;
@@ -91,6 +91,8 @@ pub struct Examiner {
     /// Particles that ticks took away.
     missing: i64,
     motion: Vec<f64>,
+    /// How often lumps had become other elements when the second half began.
+    turned: Option<u64>,
     work: Work,
 }
 
@@ -118,6 +120,7 @@ impl Examiner {
             most_gained: 0.0,
             missing: 0,
             motion: Vec::new(),
+            turned: None,
             work: Work::default(),
         }
     }
@@ -189,6 +192,9 @@ impl Examiner {
         if self.seen.is_multiple_of(DENSITY_EVERY) || self.seen == self.terms.length {
             self.density(world);
         }
+        if self.seen * 2 > self.terms.length {
+            self.turned.get_or_insert(turns(world));
+        }
         if self.is_ending() {
             let balance = matter(world).balance();
             let speed = if balance.mass > 0.0 { (2.0 * balance.kinetic / balance.mass).sqrt() } else { 0.0 };
@@ -209,7 +215,13 @@ impl Examiner {
             self.note(Rule::Lost, measured);
         }
         let is_drops = self.terms.lenient && world.resource::<ParticleStore>().len() < DROPS;
-        let restless = self.terms.restless.and(if is_drops { Err("a few drops") } else { Ok(()) });
+        let is_turning = self.turned.is_some_and(|before| before != turns(world));
+        let restless = match self.terms.restless {
+            Ok(()) if is_drops => Err("a few drops"),
+            // What melts has another weight, or leaves room behind, and what lies on it moves.
+            Ok(()) if is_turning => Err("matter changes"),
+            restless => restless,
+        };
         match (restless, stats::mean(&self.motion)) {
             (Ok(()), Some(motion)) => self.note(Rule::Rest, self.measured(motion, STILL)),
             (Err(why), _) => self.waive(Rule::Rest, why),
@@ -324,6 +336,11 @@ impl Examiner {
 fn cuts(world: &World) -> u64 {
     let Counters { speed_clamps, substeps_short, .. } = *world.resource::<Counters>();
     speed_clamps + substeps_short
+}
+
+/// How often lumps became other elements.
+fn turns(world: &World) -> u64 {
+    world.resource::<Books>().turns.iter().flatten().map(|count| u64::from(*count)).sum()
 }
 
 /// Whether matter of different densities is pushed as if it were equally heavy: then neither momentum nor energy is kept.
