@@ -96,6 +96,9 @@ pub struct Element {
     /// What it becomes when it is hot or cold enough: at most one of each.
     #[serde(default)]
     pub changes: Vec<ElementChange>,
+    /// What it and another become where they touch: at most one row for two elements, which either of them has.
+    #[serde(default)]
+    pub touches: Vec<ElementTouch>,
     /// Share of the free sites under the brush that one tick of pouring fills. 0 < flow ≤ 1.
     #[serde(default = "one")]
     pub flow: f32,
@@ -116,6 +119,21 @@ pub struct ElementChange {
     pub into: Vec<String>,
     /// Heat that it takes above, or gives below, MJ/m²; 0 … 16 000. Where it follows from other changes it need not be given.
     pub latent: Option<f32>,
+}
+
+/// What an element and another become where they touch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ElementTouch {
+    /// Name of the other: any, but two that are fixed never react.
+    pub with: String,
+    /// Names of what becomes of this one and of the other; `air` is a lump that goes into the air.
+    pub into: (String, String),
+    /// Reactions a second of two lumps that touch; raising it makes them react sooner. 0.001 … 60.
+    pub rate: f32,
+    /// Lowest and highest temperature of both at which they do, K; 1 … 4000. Any, if it is not given.
+    #[serde(default)]
+    pub between: Option<(f32, f32)>,
 }
 
 /// A number of an element and the range that it must be in.
@@ -188,6 +206,7 @@ impl Element {
             conductivity: 0.5,
             spawn: ROOM,
             changes: Vec::new(),
+            touches: Vec::new(),
             flow: 1.0,
             card: String::new(),
         }

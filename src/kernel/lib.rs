@@ -26,6 +26,8 @@ pub mod pbf;
 pub mod predict;
 pub mod predictor;
 pub mod random;
+pub mod reactions;
+pub mod relabel;
 pub mod resample;
 pub mod simd;
 pub mod sleep;

@@ -23,7 +23,10 @@ use crate::{
             status::{self, EffectStatus, Sleepers},
         },
         ledger::{PassLedger, PassRecord},
-        state::{AirGrid, Counters, HeatState, ParticleStore, PredictorState, Rock, Setup, SleepState, SolverState},
+        state::{
+            AirGrid, Counters, HeatState, ParticleStore, PredictorState, ReactionState, Rock, Setup, SleepState,
+            SolverState,
+        },
         workers::Workers,
     },
 };
@@ -276,8 +279,9 @@ fn memory_bytes(world: &World) -> u64 {
     let air = world.resource::<AirGrid>();
     let solver = world.resource::<SolverState>().memory() + world.resource::<PredictorState>().memory();
     let heat = world.get_resource::<HeatState>().map_or(0, |heat| heat.memory());
+    let reactions = world.get_resource::<ReactionState>().map_or(0, |reactions| reactions.memory());
     let sleep = world.resource::<SleepState>().memory();
-    (solver + sleep + heat + particles.memory() + rock.memory() + air.memory_bytes()) as u64
+    (solver + sleep + heat + reactions + particles.memory() + rock.memory() + air.memory_bytes()) as u64
 }
 
 pub(super) fn ms(time: Duration) -> f64 {

@@ -47,6 +47,8 @@ pub struct Facts<'a> {
     pub asleep: usize,
     /// Whether any matter is or was warmer or colder than the room.
     pub has_heat: bool,
+    /// Whether matter is there that reacts with other matter that is there.
+    pub can_react: bool,
     /// Whether the liquid has a tension.
     pub has_tension: bool,
     /// Whether the scene has winds.
@@ -338,6 +340,19 @@ table! {
         off: "lumps of gas keep together as those of a liquid do",
         called_for: |facts| {
             verdict(facts.present(|element| element.diffusion > 0.0), "a gas that spreads is there", "no gas that spreads")
+        },
+        ..PLAIN
+    }
+    /// What touches reacts.
+    Reactions {
+        name: "reactions",
+        meaning: "what touches becomes something else: it dissolves, eats or grows",
+        passes: &[Pass::React],
+        when: "elements are there that react with each other",
+        parameters: &["touches of an element"],
+        off: "everything lies beside everything and stays what it is",
+        called_for: |facts| {
+            verdict(facts.can_react, "elements that react are there", "nothing is there that reacts")
         },
         ..PLAIN
     }

@@ -4,6 +4,7 @@ use crate::{
     kernel::{
         element::{Element, ElementNumber, ElementTable},
         heat::table::{CurveFault, curves},
+        reactions::table::{ReactionTable, TouchFault},
     },
     scene::{builtin::ELEMENTS, error::SceneError, file::parse},
 };
@@ -52,6 +53,7 @@ pub(crate) fn check(rows: &[Element]) -> Result<(), Fault> {
         check_row(row, &rows[..i]).map_err(|(field, what)| Fault { row: i, field, what })?;
     }
     curves(rows).map_err(|CurveFault { row, what }| Fault { row, field: "changes", what })?;
+    ReactionTable::of_rows(rows, 1.0).map_err(|TouchFault { row, what }| Fault { row, field: "touches", what })?;
     Ok(())
 }
 

@@ -73,6 +73,8 @@ table! {
     Vorticity { name: "vorticity", unit: Unit::Particles, each_substep: true }
     /// Gases wander.
     Diffusion { name: "diffusion", unit: Unit::Particles, each_substep: true }
+    /// What touches reacts.
+    React { name: "react", unit: Unit::Particles, each_substep: false }
     /// Heat flows, and changes matter.
     Heat { name: "heat", unit: Unit::Particles, each_substep: false }
     /// Particles fall asleep and wake.

@@ -44,6 +44,8 @@ impl Plugin for SimulationPlugin {
             .init_resource::<state::SleepState>()
             .init_resource::<state::HeatState>()
             .init_resource::<state::HeatCurves>()
+            .init_resource::<state::ReactionState>()
+            .init_resource::<state::Recipes>()
             .init_resource::<state::Books>()
             .init_resource::<workers::Workers>()
             .add_plugins(stages::plugin);

@@ -11,6 +11,7 @@ use crate::{
         particles::Particles,
         pbf::Solver,
         predictor::Predictor,
+        reactions::{Reactions, table::ReactionTable},
         sleep::Sleep,
         solids::Solids,
     },
@@ -217,6 +218,14 @@ pub struct HeatState(pub Heat);
 /// How warm the elements are by their heat. Made when a scene opens.
 #[derive(Resource, Deref, Clone, Debug, Default)]
 pub struct HeatCurves(pub HeatTable);
+
+/// The buffers of the reactions. Written by the stage of the reactions.
+#[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
+pub struct ReactionState(pub Reactions);
+
+/// What becomes of which elements where they touch. Made when a scene opens.
+#[derive(Resource, Deref, Clone, Debug, Default)]
+pub struct Recipes(pub ReactionTable);
 
 /// Who sleeps. Written by the sleep stages.
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]

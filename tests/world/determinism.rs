@@ -114,7 +114,8 @@ fn the_same_inputs_give_the_same_world_and_others_another() {
 
 /// The standard scenes. Those that have a size get one at which threads share particles or air, if that is not theirs
 /// by default; the others run as they are played.
-const STANDARD: [(&str, &[(&str, &str)]); 20] = [
+const STANDARD: [(&str, &[(&str, &str)]); 21] = [
+    ("acid", &[]),
     ("avalanche", &[]),
     ("communicating_vessels", &[("left", "6.5"), ("right", "6")]),
     ("dam_break", &[]),

@@ -17,6 +17,7 @@ mod motion;
 mod other_quality;
 #[path = "../properties/mod.rs"]
 mod properties;
+mod reactions;
 mod recordings;
 mod refinement;
 mod resampling;

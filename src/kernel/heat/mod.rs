@@ -27,6 +27,6 @@ mod walls;
 mod weights;
 
 pub use brush::warm_under;
-pub use change::{Changed, HeatRecord, change};
+pub use change::{HeatRecord, change};
 pub use matter::{Warm, held};
 pub use steps::{Heat, HeatReport};

@@ -7,6 +7,7 @@ use crate::{
     params::Domain,
     particles::Particles,
     random::Random,
+    relabel::Relabelled,
     solids::{Solids, centre},
     units::{Scale, TICK_SECONDS},
 };
@@ -22,7 +23,7 @@ struct Bench {
     solids: Solids,
     heat: Heat,
     record: HeatRecord,
-    changed: Changed,
+    relabelled: Relabelled,
     report: HeatReport,
 }
 
@@ -78,7 +79,7 @@ impl Bench {
             solids: Solids::new(cells.x, cells.y),
             heat: Heat::default(),
             record: HeatRecord::default(),
-            changed: Changed::default(),
+            relabelled: Relabelled::default(),
             report: HeatReport::default(),
         }
     }
@@ -99,9 +100,9 @@ impl Bench {
         self
     }
 
-    fn warm(&mut self) -> (Warm<'_>, &mut Heat, &mut HeatRecord, &mut Changed) {
-        let Self { elements, table, domain, scale, particles, solids, heat, record, changed, .. } = self;
-        (Warm { particles, solids, elements, table, domain, scale: *scale }, heat, record, changed)
+    fn warm(&mut self) -> (Warm<'_>, &mut Heat, &mut HeatRecord, &mut Relabelled) {
+        let Self { elements, table, domain, scale, particles, solids, heat, record, relabelled, .. } = self;
+        (Warm { particles, solids, elements, table, domain, scale: *scale }, heat, record, relabelled)
     }
 
     fn flow(&mut self, threads: usize) {
@@ -111,8 +112,8 @@ impl Bench {
     }
 
     fn change(&mut self) {
-        let (mut warm, _, record, changed) = self.warm();
-        change(&mut warm, record, changed);
+        let (mut warm, _, record, relabelled) = self.warm();
+        change(&mut warm, record, relabelled);
     }
 
     fn tick(&mut self) {

@@ -340,7 +340,8 @@ fn cuts(world: &World) -> u64 {
 
 /// How often lumps became other elements.
 fn turns(world: &World) -> u64 {
-    world.resource::<Books>().turns.iter().flatten().map(|count| u64::from(*count)).sum()
+    let books = world.resource::<Books>();
+    books.reacted + books.turns.iter().flatten().map(|count| u64::from(*count)).sum::<u64>()
 }
 
 /// Whether matter of different densities is pushed as if it were equally heavy: then neither momentum nor energy is kept.

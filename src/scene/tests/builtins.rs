@@ -21,6 +21,7 @@ fn built(name: &str, pairs: &[(&str, &str)]) -> Blueprint {
 fn the_list_is_complete_and_starts_with_the_default() {
     let names = [
         "waterfall",
+        "acid",
         "avalanche",
         "communicating_vessels",
         "dam_break",

@@ -5,6 +5,7 @@ use crate::{
         element::ElementParams,
         heat::table::HeatTable,
         params::{Preset, Quality},
+        reactions::table::ReactionTable,
     },
     scene::{
         blueprint::Blueprint,
@@ -16,7 +17,7 @@ use crate::{
         generation::Generation,
         ledger::PassLedger,
         snapshot::Snapshot,
-        state::{Counters, Elements, HeatCurves, Setup},
+        state::{Counters, Elements, HeatCurves, Recipes, Setup},
     },
 };
 use bevy::prelude::World;
@@ -72,6 +73,7 @@ impl Checkpoint {
             blueprint.air.density,
         )));
         world.insert_resource(HeatCurves(HeatTable::new(&blueprint.elements)));
+        world.insert_resource(Recipes(ReactionTable::new(&blueprint.elements, blueprint.scale.detail)));
         if known {
             world.resource_mut::<Effects>().set_modes(&self.modes);
         } else {

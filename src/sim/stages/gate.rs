@@ -7,7 +7,8 @@ use crate::{
         effects::Effects,
         stages::TickPlan,
         state::{
-            AirGrid, Apart, Census, Counters, Elements, MassShares, ParticleStore, Rock, Setup, SleepState, Sources,
+            AirGrid, Apart, Census, Counters, Elements, MassShares, ParticleStore, Recipes, Rock, Setup, SleepState,
+            Sources,
         },
     },
 };
@@ -21,7 +22,7 @@ pub(super) fn plan_tick(
     sources: Res<Sources>,
     census: Res<Census>,
     (asleep, rock): (Res<SleepState>, Res<Rock>),
-    elements: Res<Elements>,
+    (elements, recipes): (Res<Elements>, Res<Recipes>),
     mut effects: ResMut<Effects>,
     mut shares: ResMut<MassShares>,
     mut apart: ResMut<Apart>,
@@ -42,6 +43,7 @@ pub(super) fn plan_tick(
         particles: particles.len(),
         asleep: asleep.asleep(),
         has_heat: particles.has_heat() || !rock.heats().is_empty(),
+        can_react: recipes.is_called_for(&census.by_element),
         has_tension: setup.blueprint.fluid.tension_strength > 0.0,
         has_winds: !sources.winds.is_empty(),
         air_moves: !air.is_quiet(),

@@ -2,10 +2,12 @@
 
 use crate::{
     kernel::{
-        heat::{Changed, Warm, change},
+        heat::{Warm, change},
+        relabel::Relabelled,
         units::TICK_SECONDS,
     },
     sim::{
+        stages::sleep::wake_changed,
         state::{Books, Counters, HeatCurves, HeatState, ParticleStore, Rock, Setup, SleepState},
         workers::Workers,
     },
@@ -23,7 +25,7 @@ pub(super) fn flow(
     mut sleep: ResMut<SleepState>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
-    mut changed: Local<Changed>,
+    mut relabelled: Local<Relabelled>,
 ) -> usize {
     let count = particles.len();
     let mut warm = Warm {
@@ -34,9 +36,9 @@ pub(super) fn flow(
         domain: &setup.domain,
         scale: setup.blueprint.scale,
     };
-    change(&mut warm, &mut books, &mut changed);
-    sleep.disturb(&changed.places);
+    change(&mut warm, &mut books, &mut relabelled);
     let report = workers.run_for(count, |threads| heat.flow(&mut warm, &mut books, threads, TICK_SECONDS));
     counters.heat_cuts += report.cuts;
+    wake_changed(&mut sleep, &mut particles, &rock, &relabelled.places);
     count
 }

@@ -6,6 +6,7 @@ mod edit;
 mod gate;
 mod heat;
 mod measure;
+mod react;
 mod sleep;
 mod sources;
 mod step;
@@ -48,6 +49,7 @@ pub(super) fn plugin(app: &mut App) {
                 gate::plan_substeps,
                 sleep::keep_asleep,
                 step::run_substeps,
+                timed(Pass::React, react::react).run_if(runs(Effect::Reactions)),
                 timed(Pass::Heat, heat::flow).run_if(runs(Effect::Heat)),
                 timed(Pass::Sleep, sleep::watch).run_if(sleep::water_may_rest).run_if(sleep::is_time_to_look),
                 timed(Pass::Measure, measure::count_escaped),

@@ -15,6 +15,7 @@ use crate::{
     },
 };
 use bevy::prelude::{Res, ResMut};
+use glam::Vec2;
 
 /// Run condition: some particles sleep.
 pub(super) fn any_asleep(sleep: Res<SleepState>) -> bool {
@@ -46,6 +47,14 @@ pub(super) fn check_sleepers(
     let asleep = sleep.asleep();
     sleep.check(&mut particles, rock.version());
     asleep
+}
+
+/// Wakes what lies where something became another element or went: before anyone counts the sleepers, of whom some may be gone.
+pub(super) fn wake_changed(sleep: &mut SleepState, particles: &mut Particles, rock: &Rock, places: &[Vec2]) {
+    if !places.is_empty() {
+        sleep.disturb(places);
+        sleep.check(particles, rock.version());
+    }
 }
 
 /// Wakes all where the conditions changed under which they fell asleep: gravity, what the solver goes by, and the effects.

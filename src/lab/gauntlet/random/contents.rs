@@ -64,9 +64,9 @@ pub(super) fn placement(dice: &mut Dice, size: Vec2) -> String {
 }
 
 /// What moves besides water.
-const OTHERS: [&str; 18] = [
+const OTHERS: [&str; 19] = [
     "brine", "oil", "honey", "mercury", "tar", "sand", "wet_sand", "dust", "salt", "snow", "coal", "stone", "ash",
-    "steam", "smoke", "hydrogen", "ice", "lava",
+    "acid", "steam", "smoke", "hydrogen", "ice", "lava",
 ];
 
 /// What moves: water, or anything else as often.

@@ -1,0 +1,45 @@
+//! What touches reacts.
+
+use crate::{
+    kernel::{heat::Warm, relabel::Relabelled},
+    sim::{
+        snapshot::Clock,
+        stages::sleep::wake_changed,
+        state::{Books, Census, HeatCurves, ParticleStore, ReactionState, Recipes, Rock, Setup, SleepState},
+        workers::Workers,
+    },
+};
+use bevy::prelude::{Local, Res, ResMut};
+
+/// Lets what touches react.
+pub(super) fn react(
+    (setup, curves, recipes): (Res<Setup>, Res<HeatCurves>, Res<Recipes>),
+    (census, clock): (Res<Census>, Res<Clock>),
+    mut particles: ResMut<ParticleStore>,
+    mut rock: ResMut<Rock>,
+    mut reactions: ResMut<ReactionState>,
+    mut books: ResMut<Books>,
+    mut sleep: ResMut<SleepState>,
+    workers: Res<Workers>,
+    mut relabelled: Local<Relabelled>,
+) -> usize {
+    // What is not there reacts with nobody, even if it is `on`.
+    if !recipes.is_called_for(&census.by_element) {
+        return 0;
+    }
+    let count = particles.len();
+    let mut warm = Warm {
+        particles: &mut particles,
+        solids: &mut rock,
+        elements: setup.elements(),
+        table: &curves,
+        domain: &setup.domain,
+        scale: setup.blueprint.scale,
+    };
+    workers.run_for(count, |threads| {
+        let what = (&recipes.0, &census.by_element[..]);
+        reactions.react(&mut warm, what, &mut books, &mut relabelled, clock.tick, threads);
+    });
+    wake_changed(&mut sleep, &mut particles, &rock, &relabelled.places);
+    count
+}
