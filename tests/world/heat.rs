@@ -113,15 +113,3 @@ fn no_scene_at_the_temperature_of_the_room_has_any_heat() {
         assert_eq!(runs, has_heat && !["avalanche", "snow_globe"].contains(&name), "{name}");
     }
 }
-
-#[test]
-fn what_sets_in_its_sleep_is_no_sleeper() {
-    // Sand that rests in a heap, and melts where it lies: glass stands among the sleepers.
-    let mut simulation = Simulation::of(blueprint("hourglass", &[]));
-    simulation.run(2400);
-    let asleep = simulation.get::<SleepState>().asleep();
-    assert!(asleep > 100, "{asleep} sleep");
-    let rock = simulation.get::<Rock>().count();
-    simulation.push(Intent::Warm { stroke: everywhere(), degrees: 1500.0 }).run(120);
-    assert!(simulation.get::<Rock>().count() > rock, "nothing set");
-}
