@@ -19,7 +19,8 @@ use powder_master::{
 };
 
 fn element(simulation: &Simulation, name: &str) -> ElementId {
-    simulation.get::<Setup>().elements().find(name).expect("an element")
+    let Some(element) = simulation.get::<Setup>().elements().find(name) else { panic!("no element {name}") };
+    element
 }
 
 fn count(simulation: &Simulation, name: &str) -> usize {

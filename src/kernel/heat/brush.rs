@@ -1,6 +1,6 @@
 //! Tools that warm and cool.
 
-use super::{change::HeatRecord, curve::HeatCurve, matter::Warm};
+use super::{curve::HeatCurve, matter::Warm, record::HeatRecord};
 use crate::brush::Stroke;
 use glam::IVec2;
 

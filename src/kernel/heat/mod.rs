@@ -18,6 +18,7 @@ pub mod curve;
 mod lumps;
 mod matter;
 mod rates;
+mod record;
 mod steps;
 pub mod table;
 #[cfg(test)]
@@ -27,6 +28,7 @@ mod walls;
 mod weights;
 
 pub use brush::warm_under;
-pub use change::{HeatRecord, change};
+pub use change::change;
 pub use matter::{Warm, held};
+pub use record::HeatRecord;
 pub use steps::{Heat, HeatReport};

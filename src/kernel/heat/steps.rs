@@ -1,6 +1,6 @@
 //! How heat flows in a tick, step by step.
 
-use super::{change::HeatRecord, conduction::Exchange, lumps::Lumps, matter::Warm, rates::Rates};
+use super::{conduction::Exchange, lumps::Lumps, matter::Warm, rates::Rates, record::HeatRecord};
 
 /// What the limiters of the exchange did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

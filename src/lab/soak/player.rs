@@ -3,7 +3,7 @@
 use crate::{
     kernel::{
         brush::{BrushShape, Stroke},
-        element::{ElementId, ElementTable},
+        element::{Element, ElementId},
         random::Random,
         solids::Solids,
     },
@@ -49,16 +49,23 @@ pub(super) struct Hand {
 impl Player {
     /// A player of the scene at its start, with random choices by `seed`.
     pub fn new(blueprint: &Blueprint, seed: u64) -> Self {
-        let of = |table: &ElementTable, fixed: bool| {
-            table.iter().filter(|(_, element)| element.fixed == fixed).map(|(id, _)| id).collect()
+        let elements = &blueprint.elements;
+        // A day of acid would leave no scene, and a day of plants nothing else.
+        let changes_rock = |element: &Element| {
+            let is_fixed = |name: &str| elements.find(name).is_some_and(|id| elements.get(id).fixed);
+            element.touches.iter().any(|touch| element.fixed || is_fixed(&touch.with))
+        };
+        let of = |fixed: bool| {
+            let wanted = |(_, element): &(_, &Element)| element.fixed == fixed && !changes_rock(element);
+            elements.iter().filter(wanted).map(|(id, _)| id).collect()
         };
         Self {
             hand: Hand { random: Random::new(seed), wall: None, at: 0.5 * blueprint.domain.size },
             size: blueprint.domain.size,
             unit: blueprint.scale.detail,
             ground: blueprint.solids.clone(),
-            movable: of(&blueprint.elements, false),
-            fixed: of(&blueprint.elements, true),
+            movable: of(false),
+            fixed: of(true),
         }
     }
 

@@ -219,8 +219,7 @@ fn settings_say_what_is_allowed() {
 fn files_that_cannot_be_read_say_why() {
     let fault = |name: &str| load(name).expect_err(name).to_string();
     assert!(
-        fault("waterfal")
-            .starts_with("waterfal: no such scene; did you mean `waterfall`? allowed: waterfall, avalanche,")
+        fault("waterfal").starts_with("waterfal: no such scene; did you mean `waterfall`? allowed: waterfall, acid,")
     );
     assert_eq!(fault("no/such.ron"), "no/such.ron: no such file");
     let folder = std::env::temp_dir().join(format!("powder-master-faults-{}", std::process::id()));
