@@ -239,6 +239,7 @@ fn a_front_that_enters_cold_matter_within_a_tick_keeps_all_heat() {
 }
 
 #[test]
+#[cfg_attr(target_arch = "wasm32", ignore = "a module has no threads")]
 fn any_number_of_threads_finds_the_same() {
     let run = |threads: usize| {
         let filled =
