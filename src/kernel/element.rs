@@ -90,12 +90,18 @@ pub struct Element {
     /// `k′ = 6·10⁴ √(0.6 k)`.
     #[serde(default = "half")]
     pub conductivity: f32,
+    /// Chemical energy E, MJ/m²: what it becomes that has less gets the rest as heat. 0 … 8000.
+    #[serde(default)]
+    pub energy: f32,
     /// Temperature of what is new, K. 1 … 4000.
     #[serde(default = "room")]
     pub spawn: f32,
     /// What it becomes when it is hot or cold enough: at most one of each.
     #[serde(default)]
     pub changes: Vec<ElementChange>,
+    /// What it becomes in time, as by burning.
+    #[serde(default)]
+    pub decays: Option<ElementDecay>,
     /// What it and another become where they touch: at most one row for two elements, which either of them has.
     #[serde(default)]
     pub touches: Vec<ElementTouch>,
@@ -121,6 +127,23 @@ pub struct ElementChange {
     pub latent: Option<f32>,
 }
 
+/// What an element becomes in time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ElementDecay {
+    /// From this temperature on, K; 1 … 4000. At any, if it is not given.
+    #[serde(default)]
+    pub above: Option<f32>,
+    /// Mean time until it does, s; raising it makes it burn longer. 0.02 … 1000.
+    pub seconds: f32,
+    /// Whether it needs air: then it does only at an open surface, and finer particles as much sooner.
+    #[serde(default)]
+    pub needs_air: bool,
+    /// Names of what comes of it, lump after lump in turn, 1 … 16; `air` is a lump that goes into the air. None may have more
+    /// energy than it.
+    pub into: Vec<String>,
+}
+
 /// What an element and another become where they touch.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -134,6 +157,9 @@ pub struct ElementTouch {
     /// Lowest and highest temperature of both at which they do, K; 1 … 4000. Any, if it is not given.
     #[serde(default)]
     pub between: Option<(f32, f32)>,
+    /// Whether light gives what they have more of energy afterwards.
+    #[serde(default)]
+    pub light: bool,
 }
 
 /// A number of an element and the range that it must be in.
@@ -151,7 +177,7 @@ pub struct ElementNumber {
 
 impl Element {
     /// All numbers of the row.
-    pub fn numbers(&self) -> [ElementNumber; 12] {
+    pub fn numbers(&self) -> [ElementNumber; 13] {
         let number = |name, value, min, max| ElementNumber { name, value, min, max };
         [
             number("density", self.density, 0.05, 100_000.0),
@@ -164,6 +190,7 @@ impl Element {
             number("drag", self.drag, 0.0, 1000.0),
             number("capacity", self.capacity, 0.2, 5.0),
             number("conductivity", self.conductivity, 0.0, 500.0),
+            number("energy", self.energy, 0.0, 8000.0),
             number("spawn", self.spawn, COLDEST, HOTTEST),
             number("flow", self.flow, f32::MIN_POSITIVE, 1.0),
         ]
@@ -204,8 +231,10 @@ impl Element {
             drag: 0.0,
             capacity: 1.0,
             conductivity: 0.5,
+            energy: 0.0,
             spawn: ROOM,
             changes: Vec::new(),
+            decays: None,
             touches: Vec::new(),
             flow: 1.0,
             card: String::new(),

@@ -1,6 +1,7 @@
 //! Numbers that look random and are the same each time and everywhere: made of a number, so that no order and no thread
 //! shows in them, or in a sequence.
 
+use crate::units::TICK_SECONDS;
 use serde::{Deserialize, Serialize};
 
 /// Scrambles a number (the finaliser of MurmurHash3): neighbouring numbers become unrelated ones.
@@ -10,6 +11,13 @@ pub fn mix(mut word: u32) -> u32 {
     word ^= word >> 13;
     word = word.wrapping_mul(0xc2b2_ae35);
     word ^ (word >> 16)
+}
+
+/// Below what a die of a tick, any number, falls as often as this a second: with the chance `r Δt / (1 + r Δt)`, the step of an
+/// implicit Euler.
+pub fn threshold(rate: f32) -> u32 {
+    let share = f64::from(rate) * f64::from(TICK_SECONDS);
+    (share / (1.0 + share) * 4_294_967_296.0) as u32
 }
 
 /// The low 16 bits as a number in −1 … 1.

@@ -1,9 +1,10 @@
-//! A lump becomes another element, and keeps its heat, its place and its number. What does not move and what does are kept in
-//! different stores, so some lumps change over; some go into the air.
+//! A lump becomes another element, and keeps its energy, its place and its number. What the other has less of chemical energy is
+//! heat then. What does not move and what does are kept in different stores, so some lumps change over; some go into the air.
 
 use crate::{
     element::ElementId,
-    heat::{HeatRecord, Warm},
+    heat::{HeatRecord, Warm, table::HeatTable},
+    particles::Particles,
     solids::{Solids, centre},
 };
 use glam::{IVec2, Vec2};
@@ -51,9 +52,10 @@ impl Relabelled {
         let Warm { particles, solids, elements, .. } = warm;
         let at = particles.position(i);
         self.places.push(at);
+        let heat = heat_as(warm.table, record, particles.element[i], product, particles.heat_of(i));
         let stays = match product {
             Some(product) if elements.get(product).fixed => {
-                let (cell, heat) = (Solids::cell_of(at), particles.heat_of(i));
+                let cell = Solids::cell_of(at);
                 solids.insert(cell, product, particles.id[i]);
                 solids.set_heat(cell, heat);
                 record.turned += 1;
@@ -61,10 +63,10 @@ impl Relabelled {
             }
             Some(product) => {
                 particles.element[i] = product;
+                particles.set_heat(i, heat);
                 true
             }
             None => {
-                record.to_air += i64::from(particles.heat_of(i));
                 record.gone += 1;
                 false
             }
@@ -78,7 +80,8 @@ impl Relabelled {
     /// Gives rock another element; none is air.
     pub fn rock(&mut self, warm: &mut Warm, record: &mut HeatRecord, cell: IVec2, product: Option<ElementId>) {
         let Warm { particles, solids, elements, domain, .. } = warm;
-        let (Some((_, id)), heat) = (solids.get(cell), solids.heat(cell)) else { return };
+        let Some((element, id)) = solids.get(cell) else { return };
+        let heat = heat_as(warm.table, record, element, product, solids.heat(cell));
         self.places.push(centre(cell));
         solids.remove(cell);
         match product {
@@ -90,19 +93,27 @@ impl Relabelled {
                 // A cell that the box ends in may have its centre beyond the wall.
                 particles.push_warm(id, product, domain.keep_inside(centre(cell)), Vec2::ZERO, heat);
             }
-            None => {
-                record.to_air += i64::from(heat);
-                record.gone += 1;
-            }
+            None => record.gone += 1,
         }
         record.turned += 1;
     }
 
     /// Takes away what went. Particles have other places in their store from then on.
-    pub fn end(&mut self, particles: &mut crate::particles::Particles) {
+    pub fn end(&mut self, particles: &mut Particles) {
         if !self.gone.is_empty() {
             self.gone.resize(particles.len(), false);
             particles.retain(|_, i| !self.gone[i]);
         }
     }
+}
+
+/// Heat that a lump has as another element, quanta. What that has less of chemical energy is heat, what it has more is of light.
+/// What the air gets is booked: all of what goes into it, and what would be hotter than anything may be.
+fn heat_as(table: &HeatTable, record: &mut HeatRecord, from: ElementId, to: Option<ElementId>, heat: i32) -> i32 {
+    let freed = i64::from(table.energy(from)) - to.map_or(0, |to| i64::from(table.energy(to)));
+    record.by_light += (-freed).max(0);
+    let heat = i64::from(heat) + freed.max(0);
+    let keeps = to.map_or(0, |to| heat.min(i64::from(table.curve(to).most())));
+    record.to_air += heat - keeps;
+    keeps as i32
 }

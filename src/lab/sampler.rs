@@ -24,8 +24,8 @@ use crate::{
         },
         ledger::{PassLedger, PassRecord},
         state::{
-            AirGrid, Counters, HeatState, ParticleStore, PredictorState, ReactionState, Rock, Setup, SleepState,
-            SolverState,
+            AirGrid, Counters, DecayState, HeatState, ParticleStore, PredictorState, ReactionState, Rock, Setup,
+            SleepState, SolverState,
         },
         workers::Workers,
     },
@@ -280,8 +280,9 @@ fn memory_bytes(world: &World) -> u64 {
     let solver = world.resource::<SolverState>().memory() + world.resource::<PredictorState>().memory();
     let heat = world.get_resource::<HeatState>().map_or(0, |heat| heat.memory());
     let reactions = world.get_resource::<ReactionState>().map_or(0, |reactions| reactions.memory());
+    let decays = world.get_resource::<DecayState>().map_or(0, |decays| decays.memory());
     let sleep = world.resource::<SleepState>().memory();
-    (solver + sleep + heat + reactions + particles.memory() + rock.memory() + air.memory_bytes()) as u64
+    (solver + sleep + heat + reactions + decays + particles.memory() + rock.memory() + air.memory_bytes()) as u64
 }
 
 pub(super) fn ms(time: Duration) -> f64 {

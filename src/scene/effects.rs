@@ -49,6 +49,8 @@ pub struct Facts<'a> {
     pub has_heat: bool,
     /// Whether matter is there that reacts with other matter that is there.
     pub can_react: bool,
+    /// Whether matter is there that decays, and may be warm enough for it.
+    pub may_decay: bool,
     /// Whether the liquid has a tension.
     pub has_tension: bool,
     /// Whether the scene has winds.
@@ -353,6 +355,19 @@ table! {
         off: "everything lies beside everything and stays what it is",
         called_for: |facts| {
             verdict(facts.can_react, "elements that react are there", "nothing is there that reacts")
+        },
+        ..PLAIN
+    }
+    /// What burns and what fades.
+    Decay {
+        name: "decay",
+        meaning: "what is hot enough burns, and smoke fades",
+        passes: &[Pass::Decay],
+        when: "something is there that burns, and something is or was warmer than the room; or something that fades",
+        parameters: &["decays of an element", "energy of an element"],
+        off: "nothing burns, and smoke stays",
+        called_for: |facts| {
+            verdict(facts.may_decay, "something may burn or fade", "nothing is there that burns or fades")
         },
         ..PLAIN
     }

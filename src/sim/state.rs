@@ -4,9 +4,10 @@
 use crate::{
     kernel::{
         air::{Air, AirReport},
+        decay::{Decays, table::DecayTable},
         element::{ElementParams, ElementTable, Traits},
         forces::LaterDrag,
-        heat::{Heat, table::HeatTable},
+        heat::{Heat, Warm, table::HeatTable},
         params::{Domain, Preset, Quality},
         particles::Particles,
         pbf::Solver,
@@ -64,6 +65,17 @@ impl Setup {
     /// The element table.
     pub fn elements(&self) -> &ElementTable {
         &self.blueprint.elements
+    }
+
+    /// The matter of a world, with what its heat, its changes and its reactions go by.
+    pub fn matter<'a>(
+        &'a self,
+        particles: &'a mut Particles,
+        solids: &'a mut Solids,
+        table: &'a HeatTable,
+    ) -> Warm<'a> {
+        let scale = self.blueprint.scale;
+        Warm { particles, solids, elements: self.elements(), table, domain: &self.domain, scale }
     }
 }
 
@@ -223,9 +235,18 @@ pub struct HeatCurves(pub HeatTable);
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
 pub struct ReactionState(pub Reactions);
 
-/// What becomes of which elements where they touch. Made when a scene opens.
-#[derive(Resource, Deref, Clone, Debug, Default)]
-pub struct Recipes(pub ReactionTable);
+/// The buffers of the decays. Written by the stage of the decays.
+#[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
+pub struct DecayState(pub Decays);
+
+/// What becomes of which elements. Made when a scene opens.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Recipes {
+    /// Where they touch.
+    pub touches: ReactionTable,
+    /// In time.
+    pub decays: DecayTable,
+}
 
 /// Who sleeps. Written by the sleep stages.
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]

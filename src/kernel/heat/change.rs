@@ -11,7 +11,7 @@ pub fn change(warm: &mut Warm, record: &mut HeatRecord, relabelled: &mut Relabel
         let table = warm.table;
         let (element, heat) = (warm.particles.element[i], warm.particles.heat_of(i));
         let Some((place, change)) = table.curve(element).done(heat) else { continue };
-        let product = record.next(element, place, change);
+        let product = record.next(element, place, &change.into);
         if relabelled.can_be(warm, i, product) {
             record.count(element, place);
             relabelled.particle(warm, record, i, product);
@@ -27,7 +27,7 @@ pub fn change(warm: &mut Warm, record: &mut HeatRecord, relabelled: &mut Relabel
     for cell in cells {
         let Some((element, _)) = warm.solids.get(cell) else { continue };
         let Some((place, change)) = table.curve(element).done(warm.solids.heat(cell)) else { continue };
-        let product = record.next(element, place, change);
+        let product = record.next(element, place, &change.into);
         record.count(element, place);
         relabelled.rock(warm, record, cell, product);
     }

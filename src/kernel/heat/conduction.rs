@@ -16,7 +16,8 @@
 use super::{
     lumps::Lumps,
     matter::Warm,
-    rates::{Rates, SURFACE},
+    rates::Rates,
+    surface::open_length,
     table::HeatTable,
     units::{HOTTEST, QUANTUM, ROOM},
     walls::Walls,
@@ -26,10 +27,6 @@ use crate::parallel::{WORTH_A_PIECE, spread};
 use glam::Vec2;
 use std::ops::Range;
 
-/// Σ w over the other sites of the lattice.
-const WHOLE: f32 = 2.161_9;
-/// Share of [`WHOLE`] that may be missing inside: neighbours never stand quite evenly.
-const UNEVEN: f32 = 0.1;
 /// Most steps of a tick.
 const MOST_STEPS: f32 = 8.0;
 /// Lumps that are worth a piece of their own.
@@ -124,10 +121,9 @@ impl Exchange {
                 });
                 // It is its own neighbour in that sum.
                 (whole, through) = (whole - WEIGHT, through - WEIGHT * conduction[i]);
-                let far = warm.domain.size - at;
-                let beyond = [at.x, at.y, far.x, far.y].map(|distance| walls.beyond(distance)).iter().sum::<f32>();
+                let beyond = walls.around(at, warm.domain.size);
                 let curve = table.curve(lumps.element[i]);
-                surface[k] = SURFACE * curve.openness() * (1.0 - UNEVEN - (whole + beyond) / WHOLE).max(0.0);
+                surface[k] = curve.openness() * open_length(whole + beyond);
                 // What the air may take is not there for the others.
                 let asked = rates.pairs * conduction[i] * through;
                 let held = curve.least_capacity() / QUANTUM;

@@ -93,6 +93,11 @@ impl HeatCurve {
         [at(&self.below, COLDEST), at(&self.above, HOTTEST)]
     }
 
+    /// Most heat that it can come to have, quanta: that of the highest temperature, unless it changes before.
+    pub fn most(&self) -> i32 {
+        if self.above.is_some() { i32::MAX } else { self.range()[1] }
+    }
+
     /// Temperature at a heat, K.
     #[inline(always)]
     pub fn temperature(&self, heat: i32) -> f32 {
@@ -120,6 +125,11 @@ impl HeatCurve {
     pub fn heat(&self, temperature: f32) -> i32 {
         let more = f64::from(temperature - ROOM) * f64::from(self.capacity) / f64::from(QUANTUM);
         self.base.saturating_add(more.round() as i32)
+    }
+
+    /// Heat of a degree on its slope, quanta.
+    pub fn quanta_per_kelvin(&self) -> f64 {
+        f64::from(self.capacity) / f64::from(QUANTUM)
     }
 
     /// Heat that makes it warmer by so many degrees on its slope, quanta.

@@ -1,10 +1,10 @@
-//! What exchanges heat.
+//! The matter of a world.
 
 use crate::{
     element::ElementTable, heat::table::HeatTable, params::Domain, particles::Particles, solids::Solids, units::Scale,
 };
 
-/// The matter that exchanges heat.
+/// The matter of a world, with what its heat, its changes and its reactions go by.
 pub struct Warm<'a> {
     /// Movable particles.
     pub particles: &'a mut Particles,
@@ -18,6 +18,12 @@ pub struct Warm<'a> {
     pub domain: &'a Domain,
     /// The run's spacing.
     pub scale: Scale,
+}
+
+/// Chemical energy that all lumps have together, quanta.
+pub fn chemical(particles: &Particles, solids: &Solids, table: &HeatTable) -> i64 {
+    let lumps: i64 = particles.element.iter().map(|element| i64::from(table.energy(*element))).sum();
+    lumps + solids.iter().map(|(_, element, _)| i64::from(table.energy(element))).sum::<i64>()
 }
 
 /// Heat that all lumps hold together, quanta.

@@ -20,6 +20,7 @@ mod matter;
 mod rates;
 mod record;
 mod steps;
+mod surface;
 pub mod table;
 #[cfg(test)]
 mod tests;
@@ -29,6 +30,7 @@ mod weights;
 
 pub use brush::warm_under;
 pub use change::change;
-pub use matter::{Warm, held};
-pub use record::HeatRecord;
+pub use matter::{Warm, chemical, held};
+pub use record::{DECAY, HeatRecord};
 pub use steps::{Heat, HeatReport};
+pub use surface::Exposure;

@@ -1,10 +1,7 @@
 //! How fast heat flows, by spacing and step.
 
-use super::{units::QUANTUM, weights::WEIGHT};
+use super::{surface::SURFACE, units::QUANTUM, weights::WEIGHT};
 
-/// Length of surface, d, for a share of missing neighbours beyond that: at a plane surface of the lattice those of the first row
-/// come to 1. A lump by itself has 3.6, about its outline.
-pub(super) const SURFACE: f32 = 4.026;
 /// Exchange with the air h′, W/m²K: a thousand times life's, as the spacing is.
 const TO_AIR: f32 = 1e4;
 /// How many times as much a gas gives to the air: a lump of it stands for wisps that mix with it.

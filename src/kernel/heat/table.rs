@@ -21,7 +21,7 @@ const AGREE: f64 = 1.0;
 /// Most heat that an element may hold, MJ/m²: what counts in quanta, and some room.
 const MOST: f64 = 16_000.0;
 /// Most turns of a change.
-const MOST_TURNS: usize = 16;
+pub const MOST_TURNS: usize = 16;
 
 /// What is wrong with the changes of a row.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +38,8 @@ pub struct HeatTable {
     curves: Vec<HeatCurve>,
     /// Heat of a new lump, quanta.
     spawn: Vec<i32>,
+    /// Chemical energy, quanta.
+    energy: Vec<i32>,
 }
 
 impl HeatTable {
@@ -48,7 +50,8 @@ impl HeatTable {
         let curves = curves(rows).unwrap_or_else(|_| rows.iter().map(plain).collect());
         let spawn = |(curve, row): (&HeatCurve, &Element)| if row.spawn == ROOM { 0 } else { curve.heat(row.spawn) };
         let spawn = curves.iter().zip(rows).map(spawn).collect();
-        Self { curves, spawn }
+        let energy = rows.iter().map(|row| quanta(f64::from(row.energy))).collect();
+        Self { curves, spawn, energy }
     }
 
     /// The curve of an element.
@@ -60,6 +63,12 @@ impl HeatTable {
     /// Heat of a new lump of an element, quanta.
     pub fn spawn_heat(&self, id: ElementId) -> i32 {
         self.spawn[id.index()]
+    }
+
+    /// Chemical energy of a lump of an element beside its heat, quanta: what another has less is set free when it becomes that.
+    #[inline(always)]
+    pub fn energy(&self, id: ElementId) -> i32 {
+        self.energy[id.index()]
     }
 }
 
@@ -168,6 +177,14 @@ fn look_up(rows: &[Element], element: &Element) -> Result<Vec<Looked>, String> {
             _ => Err(format!("a change into `{}`; allowed: another element, or `{AIR}`", name.escape_debug())),
         };
         let into: Vec<Option<ElementId>> = into.iter().map(find).collect::<Result<_, _>>()?;
+        if let Some(other) =
+            into.iter().flatten().map(|id| &rows[id.index()]).find(|other| other.energy != element.energy)
+        {
+            return Err(format!(
+                "a change into `{}`, which has {} MJ/m² of energy; allowed: as much as its own {}",
+                other.name, other.energy, element.energy
+            ));
+        }
         let Some(first) = into.iter().flatten().next() else {
             return Err(format!("a change into `{AIR}` alone; allowed: an element among what comes of it"));
         };

@@ -2,6 +2,7 @@
 //! exposed to them.
 
 use super::weights::{REACH, WEIGHT};
+use glam::Vec2;
 
 /// Entries of the table.
 const ENTRIES: usize = 32;
@@ -28,9 +29,16 @@ impl Default for Walls {
 }
 
 impl Walls {
+    /// The weights beyond the walls of a box of a size (d), for a lump at a place.
+    #[inline(always)]
+    pub fn around(&self, at: Vec2, size: Vec2) -> f32 {
+        let far = size - at;
+        [at.x, at.y, far.x, far.y].map(|distance| self.beyond(distance)).iter().sum()
+    }
+
     /// The weights beyond a wall at `distance` d.
     #[inline(always)]
-    pub fn beyond(&self, distance: f32) -> f32 {
+    fn beyond(&self, distance: f32) -> f32 {
         if distance >= REACH {
             return 0.0;
         }

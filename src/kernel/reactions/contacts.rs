@@ -2,13 +2,14 @@
 
 use super::table::ReactionTable;
 use crate::{
+    cells::{Cells, mark},
     element::ElementId,
     heat::Warm,
     parallel::{WORTH_A_PIECE, spread},
     random::mix,
     solids::{Solids, centre},
 };
-use glam::{IVec2, Vec2};
+use glam::IVec2;
 
 /// Distance up to which lumps touch, d: neighbours on the lattice do, those across a diagonal don't.
 const TOUCH: f32 = 1.25;
@@ -34,53 +35,55 @@ pub(super) struct Fallen {
 /// Buffers of the search, which are kept.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Contacts {
-    /// Cells of a row, with one before and one behind the box.
-    stride: usize,
-    rows: usize,
-    /// The first of each cell in `order`, and the end.
-    starts: Vec<u32>,
-    /// Particles that may react, cell by cell.
-    order: Vec<u32>,
+    /// Particles that may react, in cells as wide as their reach.
+    cells: Cells,
     /// The lowest contact of each particle.
     lowest: Vec<Option<Fallen>>,
-    /// Whether something is there that each element reacts with.
-    takes_part: Vec<bool>,
+    /// What each element may react with.
+    wanted: Vec<Wanted>,
+}
+
+/// What an element may react with, among what is there.
+#[derive(Clone, Copy, Debug, Default)]
+struct Wanted {
+    /// The elements, as [`mark`] has them.
+    marks: u64,
+    /// Whether one of them is fixed.
+    rock: bool,
 }
 
 impl Contacts {
     /// Finds the lowest contact of each particle among those whose dice fell. `counts`: lumps of each element.
     pub fn find(&mut self, warm: &Warm, reactions: &ReactionTable, counts: &[u32], tick: u64, threads: usize) {
-        self.takes_part.clear();
-        self.takes_part.resize(counts.len(), false);
-        for [a, b] in reactions.pairs() {
-            if counts[a.index()] > 0 && counts[b.index()] > 0 {
-                (self.takes_part[a.index()], self.takes_part[b.index()]) = (true, true);
-            }
-        }
-        self.sort(warm);
-        let Self { stride, starts, order, lowest, .. } = self;
-        let (stride, starts, order) = (*stride, &starts[..], &order[..]);
+        self.find_wanted(warm, reactions, counts);
+        let Self { cells, lowest, wanted } = self;
+        let wanted = &wanted[..];
+        cells.sort(warm.particles, warm.domain.size, TOUCH, |element| wanted[element.index()].marks != 0);
+        let cells = &*cells;
         let (particles, solids) = (&*warm.particles, &*warm.solids);
         lowest.clear();
-        lowest.resize(order.len(), None);
+        lowest.resize(cells.order().len(), None);
         let die = Dice { warm, reactions, tick: mix(tick as u32) };
         spread([&mut lowest[..]], PIECE, threads, &|first, [lowest]| {
             for (k, lowest) in lowest.iter_mut().enumerate() {
-                let i = order[first + k] as usize;
+                let i = cells.order()[first + k] as usize;
                 let (at, own) = (particles.position(i), die.particle(i));
+                let wanted = wanted[own.element.index()];
                 let mut take = |fallen: Option<Fallen>| {
                     let lower = fallen.filter(|fallen| lowest.is_none_or(|lowest| fallen.rank < lowest.rank));
                     *lowest = lower.or(*lowest);
                 };
-                let cell = cell_of(at, stride, starts.len() / stride);
-                for cell in [cell - stride, cell, cell + stride] {
-                    for &j in &order[starts[cell - 1] as usize..starts[cell + 2] as usize] {
+                for (_, near) in cells.around(at).filter(|(marks, _)| marks & wanted.marks != 0) {
+                    for &j in near {
                         let other = j as usize;
                         let touches = || particles.position(other).distance_squared(at) <= TOUCH * TOUCH;
                         if other != i {
                             take(die.throw(own, die.particle(other), Partner::Particle(j), touches));
                         }
                     }
+                }
+                if !wanted.rock {
+                    continue;
                 }
                 let own_cell = Solids::cell_of(at);
                 for place in 0..9 {
@@ -99,45 +102,31 @@ impl Contacts {
 
     /// What was found: particles, and the contact that each takes.
     pub fn fallen(&self) -> impl Iterator<Item = (usize, Fallen)> {
-        self.order.iter().zip(&self.lowest).filter_map(|(i, fallen)| Some((*i as usize, (*fallen)?)))
+        self.cells.order().iter().zip(&self.lowest).filter_map(|(i, fallen)| Some((*i as usize, (*fallen)?)))
     }
 
-    /// Puts the particles that may react in the order of cells as wide as their reach.
-    fn sort(&mut self, warm: &Warm) {
-        let (particles, size) = (&*warm.particles, warm.domain.size);
-        (self.stride, self.rows) = ((size.x / TOUCH) as usize + 3, (size.y / TOUCH) as usize + 3);
-        let (stride, rows) = (self.stride, self.rows);
-        let cell = |i: usize| cell_of(particles.position(i), stride, rows);
-        let takes_part = |i: &usize| self.takes_part[particles.element[*i].index()];
-        self.starts.clear();
-        self.starts.resize(stride * rows + 2, 0);
-        let mut count = 0;
-        for i in (0..particles.len()).filter(takes_part) {
-            self.starts[cell(i) + 2] += 1;
-            count += 1;
-        }
-        for cell in 2..stride * rows + 2 {
-            self.starts[cell] += self.starts[cell - 1];
-        }
-        self.order.resize(count, 0);
-        for i in (0..particles.len()).filter(takes_part) {
-            let next = &mut self.starts[cell(i) + 1];
-            self.order[*next as usize] = i as u32;
-            *next += 1;
+    /// Notes what each element may react with.
+    fn find_wanted(&mut self, warm: &Warm, reactions: &ReactionTable, counts: &[u32]) {
+        self.wanted.clear();
+        self.wanted.resize(counts.len(), Wanted::default());
+        for [a, b] in reactions.pairs() {
+            if counts[a.index()] == 0 || counts[b.index()] == 0 {
+                continue;
+            }
+            for [own, other] in [[a, b], [b, a]] {
+                let wanted = &mut self.wanted[own.index()];
+                wanted.marks |= mark(*other);
+                wanted.rock |= warm.elements.get(*other).fixed;
+            }
         }
     }
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        4 * (self.starts.capacity() + self.order.capacity())
+        self.cells.memory()
             + size_of::<Option<Fallen>>() * self.lowest.capacity()
-            + self.takes_part.capacity()
+            + size_of::<Wanted>() * self.wanted.capacity()
     }
-}
-
-fn cell_of(at: Vec2, stride: usize, rows: usize) -> usize {
-    let along = |at: f32, most: usize| ((at * (1.0 / TOUCH)) as usize + 1).min(most - 2);
-    along(at.y, rows) * stride + along(at.x, stride)
 }
 
 /// What the dice know of a lump.

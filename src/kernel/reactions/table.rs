@@ -6,7 +6,7 @@ use crate::{
         table::AIR,
         units::{COLDEST, HOTTEST},
     },
-    units::TICK_SECONDS,
+    random::threshold,
 };
 
 /// Reactions a second of a contact, lowest and highest: at the highest a contact of a tick is as likely to react as not.
@@ -17,7 +17,7 @@ const RATES: [f32; 2] = [1e-3, 60.0];
 pub struct Reaction {
     /// What becomes of the element that has the row, and of the other; none is air.
     pub into: [Option<ElementId>; 2],
-    /// The die falls below it: 2³² times the chance of a contact in a tick.
+    /// The die of a contact falls below it.
     pub threshold: u32,
     /// Lowest and highest temperature of both, K.
     pub between: [f32; 2],
@@ -78,6 +78,15 @@ impl ReactionTable {
             None => Err(format!("into `{}`; allowed: an element, or `{AIR}`", name.escape_debug())),
         };
         let into = [product(&touch.into.0)?, product(&touch.into.1)?];
+        for (from, product) in [row, other].into_iter().zip(into) {
+            let energy = product.map_or(0.0, |product| rows[product.index()].energy);
+            if energy > rows[from].energy && !touch.light {
+                let (name, own) = (&rows[from].name, rows[from].energy);
+                return Err(format!(
+                    "`{name}` into {energy} MJ/m² of energy; allowed: at most its own {own}, or `light`"
+                ));
+            }
+        }
         let pair = [row, other].map(|row| ElementId(row as u8));
         if into == pair.map(Some) {
             return Err(format!("with `{}` into the same; allowed: something else", touch.with));
@@ -135,10 +144,4 @@ impl ReactionTable {
         let count = |id: ElementId| counts.get(id.index()).copied().unwrap_or(0);
         self.pairs.iter().any(|[a, b]| if a == b { count(*a) > 1 } else { count(*a) > 0 && count(*b) > 0 })
     }
-}
-
-/// A rate r as a threshold: in a tick a contact reacts with the chance `r Δt / (1 + r Δt)`, the step of an implicit Euler.
-fn threshold(rate: f32) -> u32 {
-    let share = f64::from(rate) * f64::from(TICK_SECONDS);
-    (share / (1.0 + share) * 4_294_967_296.0) as u32
 }

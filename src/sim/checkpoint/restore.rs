@@ -2,6 +2,7 @@
 
 use crate::{
     kernel::{
+        decay::table::DecayTable,
         element::ElementParams,
         heat::table::HeatTable,
         params::{Preset, Quality},
@@ -73,7 +74,10 @@ impl Checkpoint {
             blueprint.air.density,
         )));
         world.insert_resource(HeatCurves(HeatTable::new(&blueprint.elements)));
-        world.insert_resource(Recipes(ReactionTable::new(&blueprint.elements, blueprint.scale.detail)));
+        world.insert_resource(Recipes {
+            touches: ReactionTable::new(&blueprint.elements, blueprint.scale.detail),
+            decays: DecayTable::new(&blueprint.elements, blueprint.scale.detail),
+        });
         if known {
             world.resource_mut::<Effects>().set_modes(&self.modes);
         } else {

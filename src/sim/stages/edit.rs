@@ -4,7 +4,7 @@ use crate::{
     kernel::{
         element::{ElementParams, ElementTable},
         forces,
-        heat::{Warm, warm_under},
+        heat::warm_under,
         params::Preset,
         predictor::Kept,
         sleep::{Sleep, SleepRecord},
@@ -122,14 +122,7 @@ pub(super) fn apply_intents(
             Intent::Gravity { gravity } => setup.domain.gravity = gravity,
             Intent::Detail { .. } => {}
             Intent::Warm { stroke, degrees } => {
-                let mut warm = Warm {
-                    particles: &mut particles,
-                    solids: &mut rock,
-                    elements: setup.elements(),
-                    table: &derived.curves,
-                    domain: &setup.domain,
-                    scale: setup.blueprint.scale,
-                };
+                let mut warm = setup.matter(&mut particles, &mut rock, &derived.curves);
                 warm_under(&mut warm, &stroke, degrees, &mut derived.books);
             }
         }

@@ -33,6 +33,7 @@ pub(super) fn plan_tick(
     if modes[Effect::Air as usize] == Mode::Off && !air.is_quiet() {
         air.clear();
     }
+    let has_heat = particles.has_heat() || !rock.heats().is_empty();
     let facts = Facts {
         modes,
         preset: setup.preset,
@@ -42,8 +43,9 @@ pub(super) fn plan_tick(
         counts: &census.by_element,
         particles: particles.len(),
         asleep: asleep.asleep(),
-        has_heat: particles.has_heat() || !rock.heats().is_empty(),
-        can_react: recipes.is_called_for(&census.by_element),
+        has_heat,
+        can_react: recipes.touches.is_called_for(&census.by_element),
+        may_decay: recipes.decays.is_called_for(&census.by_element, has_heat),
         has_tension: setup.blueprint.fluid.tension_strength > 0.0,
         has_winds: !sources.winds.is_empty(),
         air_moves: !air.is_quiet(),

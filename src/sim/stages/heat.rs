@@ -1,11 +1,7 @@
 //! Heat flows, and changes matter.
 
 use crate::{
-    kernel::{
-        heat::{Warm, change},
-        relabel::Relabelled,
-        units::TICK_SECONDS,
-    },
+    kernel::{heat::change, relabel::Relabelled, units::TICK_SECONDS},
     sim::{
         stages::sleep::wake_changed,
         state::{Books, Counters, HeatCurves, HeatState, ParticleStore, Rock, Setup, SleepState},
@@ -28,14 +24,7 @@ pub(super) fn flow(
     mut relabelled: Local<Relabelled>,
 ) -> usize {
     let count = particles.len();
-    let mut warm = Warm {
-        particles: &mut particles,
-        solids: &mut rock,
-        elements: setup.elements(),
-        table: &curves,
-        domain: &setup.domain,
-        scale: setup.blueprint.scale,
-    };
+    let mut warm = setup.matter(&mut particles, &mut rock, &curves);
     change(&mut warm, &mut books, &mut relabelled);
     let report = workers.run_for(count, |threads| heat.flow(&mut warm, &mut books, threads, TICK_SECONDS));
     counters.heat_cuts += report.cuts;

@@ -2,6 +2,7 @@
 //! table of contents of a tick: what runs, in which order, and under which condition.
 
 mod count;
+mod decay;
 mod edit;
 mod gate;
 mod heat;
@@ -50,6 +51,7 @@ pub(super) fn plugin(app: &mut App) {
                 sleep::keep_asleep,
                 step::run_substeps,
                 timed(Pass::React, react::react).run_if(runs(Effect::Reactions)),
+                timed(Pass::Decay, decay::decay).run_if(runs(Effect::Decay)),
                 timed(Pass::Heat, heat::flow).run_if(runs(Effect::Heat)),
                 timed(Pass::Sleep, sleep::watch).run_if(sleep::water_may_rest).run_if(sleep::is_time_to_look),
                 timed(Pass::Measure, measure::count_escaped),

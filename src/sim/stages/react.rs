@@ -1,7 +1,7 @@
 //! What touches reacts.
 
 use crate::{
-    kernel::{heat::Warm, relabel::Relabelled},
+    kernel::relabel::Relabelled,
     sim::{
         snapshot::Clock,
         stages::sleep::wake_changed,
@@ -24,20 +24,13 @@ pub(super) fn react(
     mut relabelled: Local<Relabelled>,
 ) -> usize {
     // What is not there reacts with nobody, even if it is `on`.
-    if !recipes.is_called_for(&census.by_element) {
+    if !recipes.touches.is_called_for(&census.by_element) {
         return 0;
     }
     let count = particles.len();
-    let mut warm = Warm {
-        particles: &mut particles,
-        solids: &mut rock,
-        elements: setup.elements(),
-        table: &curves,
-        domain: &setup.domain,
-        scale: setup.blueprint.scale,
-    };
+    let mut warm = setup.matter(&mut particles, &mut rock, &curves);
     workers.run_for(count, |threads| {
-        let what = (&recipes.0, &census.by_element[..]);
+        let what = (&recipes.touches, &census.by_element[..]);
         reactions.react(&mut warm, what, &mut books, &mut relabelled, clock.tick, threads);
     });
     wake_changed(&mut sleep, &mut particles, &rock, &relabelled.places);

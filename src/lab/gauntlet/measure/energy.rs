@@ -20,7 +20,7 @@ use crate::{
     sim::{
         effects::Effects,
         stages::TickPlan,
-        state::{AirGrid, Clock, Elements, ParticleStore, Recipes, Rock, Setup, Sources},
+        state::{AirGrid, Clock, Elements, ParticleStore, Rock, Setup, Sources},
     },
 };
 use bevy::ecs::world::World;
@@ -78,7 +78,7 @@ pub(in crate::lab::gauntlet) struct Due {
     wind: f64,
     /// Masses (kg) and speeds (m/s) of the particles, with their rates of drag (1/d).
     dragged: Vec<[f64; 3]>,
-    /// Whether heat or touch may change what matter is made of.
+    /// Whether touch, time or heat may change what matter is made of.
     may_change: bool,
     /// Element and energy (J) of the particles that no drain takes, by their ids.
     kinds: BTreeMap<u32, (ElementId, f64)>,
@@ -183,11 +183,12 @@ impl Due {
     }
 }
 
-/// Whether heat or touch may change what matter is made of: heat also in the tick in which the first that is warm comes.
+/// Whether touch, time or heat may change what matter is made of: heat also in the tick in which the first that is warm comes.
 fn may_change(world: &World) -> bool {
     let effects = world.resource::<Effects>();
     let is_wanted = |effect: Effect| effects.get(effect).mode != Mode::Off;
-    is_wanted(Effect::Reactions) && !world.resource::<Recipes>().is_empty()
+    is_wanted(Effect::Reactions)
+        || is_wanted(Effect::Decay)
         || is_wanted(Effect::Heat)
             && (world.resource::<ParticleStore>().has_heat()
                 || !world.resource::<Rock>().heats().is_empty()

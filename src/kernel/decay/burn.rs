@@ -1,0 +1,129 @@
+//! Lumps whose die fell become what their decay says.
+
+use super::table::{Decay, DecayTable};
+use crate::{
+    element::ElementId,
+    heat::{DECAY, Exposure, HeatRecord, Warm, table::HeatTable, units::ROOM},
+    random::mix,
+    relabel::Relabelled,
+    solids::centre,
+};
+use glam::IVec2;
+
+/// Sets the dice of decay apart from others of the same lump and tick.
+const SALT: u32 = 0x6275_726e;
+/// Length of open surface that lets enough air to a lump, d: half of what one of a plane surface has.
+const OPEN: f32 = 0.5;
+
+/// Buffers of the decays, which are kept.
+#[derive(Clone, Debug, Default)]
+pub struct Decays {
+    exposure: Exposure,
+    /// Particles and rock that decay in this tick.
+    particles: Vec<u32>,
+    rock: Vec<IVec2>,
+}
+
+impl Decays {
+    /// Lets what is hot enough decay for a tick. `relabelled` gets who is another element.
+    pub fn run(
+        &mut self,
+        warm: &mut Warm,
+        decays: &DecayTable,
+        record: &mut HeatRecord,
+        relabelled: &mut Relabelled,
+        tick: u64,
+    ) {
+        relabelled.begin();
+        self.throw(warm, decays, mix(tick as u32 ^ SALT));
+        self.keep_exposed(warm, decays);
+        // What becomes rock and what was rock change places: those that move go first, by their places in the store.
+        for i in self.particles.iter().map(|i| *i as usize) {
+            let (element, heat) = (warm.particles.element[i], warm.particles.heat_of(i));
+            let Some(decay) = decays.of(element) else { continue };
+            let product = record.next(element, DECAY, &decay.into);
+            if relabelled.can_be(warm, i, product) {
+                let spare = spare(warm.table, decay, element, product, heat);
+                warm.particles.set_heat(i, heat - spare);
+                record.to_air += i64::from(spare);
+                record.count(element, DECAY);
+                relabelled.particle(warm, record, i, product);
+            }
+        }
+        relabelled.end(warm.particles);
+        for cell in &self.rock {
+            let Some((element, _)) = warm.solids.get(*cell) else { continue };
+            let (Some(decay), heat) = (decays.of(element), warm.solids.heat(*cell)) else { continue };
+            let product = record.next(element, DECAY, &decay.into);
+            let spare = spare(warm.table, decay, element, product, heat);
+            warm.solids.set_heat(*cell, heat - spare);
+            record.to_air += i64::from(spare);
+            record.count(element, DECAY);
+            relabelled.rock(warm, record, *cell, product);
+        }
+    }
+
+    /// Finds the lumps that are hot enough and whose die falls.
+    fn throw(&mut self, warm: &Warm, decays: &DecayTable, tick: u32) {
+        let Warm { particles, solids, table, .. } = warm;
+        let falls = |element: ElementId, id: u32, heat: i32| {
+            let Some(decay) = decays.of(element) else { return false };
+            mix(id ^ tick) < decay.threshold && table.curve(element).temperature(heat) >= decay.above
+        };
+        self.particles.clear();
+        let fallen = |i: &u32| {
+            let i = *i as usize;
+            falls(particles.element[i], particles.id[i], particles.heat_of(i))
+        };
+        self.particles.extend((0..particles.len() as u32).filter(fallen));
+        self.rock.clear();
+        let fallen = solids.iter().filter(|(cell, element, id)| falls(*element, *id, solids.heat(*cell)));
+        self.rock.extend(fallen.map(|(cell, _, _)| cell));
+    }
+
+    /// Leaves out those that need air and have none, before any of them is something else.
+    fn keep_exposed(&mut self, warm: &Warm, decays: &DecayTable) {
+        let Self { exposure, particles, rock } = self;
+        let needs_air = |element: ElementId| decays.of(element).is_some_and(|decay| decay.needs_air);
+        let of_rock = |cell: IVec2| warm.solids.get(cell).map(|(element, _)| element);
+        let of_particle = |i: u32| warm.particles.element[i as usize];
+        if !particles.iter().any(|i| needs_air(of_particle(*i)))
+            && !rock.iter().any(|cell| of_rock(*cell).is_some_and(needs_air))
+        {
+            return;
+        }
+        exposure.gather(warm);
+        particles.retain(|i| {
+            let (element, at) = (of_particle(*i), warm.particles.position(*i as usize));
+            !needs_air(element) || exposure.of(warm, element, at) >= OPEN
+        });
+        rock.retain(|cell| {
+            of_rock(*cell)
+                .is_some_and(|element| !needs_air(element) || exposure.of(warm, element, centre(*cell)) >= OPEN)
+        });
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        self.exposure.memory() + 4 * self.particles.capacity() + size_of::<IVec2>() * self.rock.capacity()
+    }
+}
+
+/// Heat that a product leaves to the air, quanta. Several of one lump are to be as hot as each other, but each lump becomes one of
+/// them and keeps its energy: one that holds little, as ash does beside fire, would come out far hotter than what it is made with.
+fn spare(table: &HeatTable, decay: &Decay, element: ElementId, product: Option<ElementId>, heat: i32) -> i32 {
+    let Some(product) = product.filter(|_| decay.into.len() > 1) else { return 0 };
+    let energy = |element: ElementId| f64::from(table.energy(element));
+    let has = f64::from(heat) + energy(element);
+    // At the temperature that all come to, if all of what they have is theirs together.
+    let (mut all, mut capacity) = (0.0, 0.0);
+    for other in decay.into.iter().flatten() {
+        let curve = table.curve(*other);
+        all += has - energy(*other) - f64::from(curve.heat(ROOM));
+        capacity += curve.quanta_per_kelvin();
+    }
+    let degrees = all / capacity;
+    let curve = table.curve(product);
+    let holds = f64::from(curve.heat(ROOM)) + curve.quanta_per_kelvin() * degrees;
+    (has - energy(product) - holds).clamp(0.0, f64::from(i32::MAX) / 2.0) as i32
+}

@@ -1,0 +1,65 @@
+//! How much of a lump's surface stands in the air.
+
+use super::{
+    matter::Warm,
+    walls::Walls,
+    weights::{REACH, WEIGHT, Weights},
+};
+use crate::{
+    cells::Cells,
+    element::ElementId,
+    solids::{Solids, centre},
+};
+use glam::{IVec2, Vec2};
+
+/// Length of surface, d, for a share of missing neighbours beyond [`UNEVEN`]: at a plane surface of the lattice those of the
+/// first row come to 1. A lump by itself has 3.6, about its outline.
+pub(super) const SURFACE: f32 = 4.026;
+/// Σ w over the other sites of the lattice.
+const WHOLE: f32 = 2.161_9;
+/// Share of [`WHOLE`] that may be missing inside: neighbours never stand quite evenly.
+const UNEVEN: f32 = 0.1;
+
+/// Length of a lump's surface that is open, d, by the sum of the weights of its neighbours.
+#[inline(always)]
+pub(super) fn open_length(neighbours: f32) -> f32 {
+    SURFACE * (1.0 - UNEVEN - neighbours / WHOLE).max(0.0)
+}
+
+/// Finds what of single lumps stands in the air. Air comes to them through gases, unless they are of the same.
+#[derive(Clone, Debug, Default)]
+pub struct Exposure {
+    cells: Cells,
+    walls: Walls,
+}
+
+impl Exposure {
+    /// Gathers what may cover others.
+    pub fn gather(&mut self, warm: &Warm) {
+        self.cells.sort(warm.particles, warm.domain.size, REACH, |_| true);
+    }
+
+    /// Length of the open surface of a lump at a place, d; 1 at a plane surface.
+    pub fn of(&self, warm: &Warm, element: ElementId, at: Vec2) -> f32 {
+        let covers = |other: ElementId| other == element || !warm.elements.get(other).is_gas();
+        let weight = |place: Vec2| Weights { at, x: &[place.x], y: &[place.y] }.of(0);
+        let mut neighbours = self.walls.around(at, warm.domain.size);
+        for (_, near) in self.cells.around(at) {
+            let near = near.iter().map(|i| *i as usize).filter(|i| covers(warm.particles.element[*i]));
+            neighbours += near.map(|i| weight(warm.particles.position(i))).sum::<f32>();
+        }
+        let (cell, reach) = (Solids::cell_of(at), REACH.ceil() as i32);
+        for y in -reach..=reach {
+            let cells = (-reach..=reach).map(|x| cell + IVec2::new(x, y));
+            neighbours +=
+                cells.filter(|cell| warm.solids.is_solid(*cell)).map(|cell| weight(centre(cell))).sum::<f32>();
+        }
+        // It is its own neighbour in that sum.
+        open_length(neighbours - WEIGHT)
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        self.cells.memory()
+    }
+}
