@@ -114,12 +114,14 @@ fn the_same_inputs_give_the_same_world_and_others_another() {
 
 /// The standard scenes. Those that have a size get one at which threads share particles or air, if that is not theirs
 /// by default; the others run as they are played.
-const STANDARD: [(&str, &[(&str, &str)]); 21] = [
+const STANDARD: [(&str, &[(&str, &str)]); 24] = [
     ("acid", &[]),
     ("avalanche", &[]),
+    ("burning_house", &[]),
     ("communicating_vessels", &[("left", "6.5"), ("right", "6")]),
     ("dam_break", &[]),
     ("dune", &[]),
+    ("dust_mill", &[]),
     ("empty", &[("columns", "1200"), ("rows", "640")]),
     ("frozen_lake", &[]),
     ("honey_and_mercury", &[]),
@@ -127,6 +129,7 @@ const STANDARD: [(&str, &[(&str, &str)]); 21] = [
     ("hydrostatic", &[("columns", "100"), ("depth", "64")]),
     ("ice_dam", &[]),
     ("layers", &[]),
+    ("oil_lamp", &[]),
     ("rest_density", &[]),
     ("sand_castle", &[]),
     ("sealed_air", &[]),

@@ -3,6 +3,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod burning;
 mod control;
 mod determinism;
 mod draught;

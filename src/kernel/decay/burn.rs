@@ -12,8 +12,9 @@ use glam::IVec2;
 
 /// Sets the dice of decay apart from others of the same lump and tick.
 const SALT: u32 = 0x6275_726e;
-/// Length of open surface that lets enough air to a lump, d: half of what one of a plane surface has.
-const OPEN: f32 = 0.5;
+/// Length of open surface that lets enough air to a lump, d: less than one of a plane surface has under a heap of grains, .30, and
+/// more than one inside.
+const OPEN: f32 = 0.25;
 
 /// Buffers of the decays, which are kept.
 #[derive(Clone, Debug, Default)]

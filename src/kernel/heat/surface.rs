@@ -26,7 +26,8 @@ pub(super) fn open_length(neighbours: f32) -> f32 {
     SURFACE * (1.0 - UNEVEN - neighbours / WHOLE).max(0.0)
 }
 
-/// Finds what of single lumps stands in the air. Air comes to them through gases, unless they are of the same.
+/// Finds what of single lumps stands in the air. Of what is not of their own kind gases don't cover them, and grains by half: air
+/// comes through a heap.
 #[derive(Clone, Debug, Default)]
 pub struct Exposure {
     cells: Cells,
@@ -41,12 +42,18 @@ impl Exposure {
 
     /// Length of the open surface of a lump at a place, d; 1 at a plane surface.
     pub fn of(&self, warm: &Warm, element: ElementId, at: Vec2) -> f32 {
-        let covers = |other: ElementId| other == element || !warm.elements.get(other).is_gas();
+        let covers = |other: ElementId| match warm.elements.get(other) {
+            _ if other == element => 1.0,
+            other if other.is_gas() => 0.0,
+            other if other.friction > 0.0 => 0.5,
+            _ => 1.0,
+        };
         let weight = |place: Vec2| Weights { at, x: &[place.x], y: &[place.y] }.of(0);
         let mut neighbours = self.walls.around(at, warm.domain.size);
         for (_, near) in self.cells.around(at) {
-            let near = near.iter().map(|i| *i as usize).filter(|i| covers(warm.particles.element[*i]));
-            neighbours += near.map(|i| weight(warm.particles.position(i))).sum::<f32>();
+            let near = near.iter().map(|i| *i as usize);
+            let weights = near.map(|i| covers(warm.particles.element[i]) * weight(warm.particles.position(i)));
+            neighbours += weights.sum::<f32>();
         }
         let (cell, reach) = (Solids::cell_of(at), REACH.ceil() as i32);
         for y in -reach..=reach {

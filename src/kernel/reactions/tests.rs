@@ -25,7 +25,13 @@ const PLANT: ElementId = ElementId(5);
 const SAND: ElementId = ElementId(6);
 
 fn touch(with: &str, into: [&str; 2], rate: f32) -> ElementTouch {
-    ElementTouch { with: with.to_owned(), into: (into[0].to_owned(), into[1].to_owned()), rate, between: None, light: false }
+    ElementTouch {
+        with: with.to_owned(),
+        into: (into[0].to_owned(), into[1].to_owned()),
+        rate,
+        between: None,
+        light: false,
+    }
 }
 
 fn rows() -> Vec<Element> {

@@ -1,9 +1,10 @@
-//! Heat: how it spreads and leaves, how much of it melting takes, that none is made or lost, and how deep ice floats.
+//! Heat: how it spreads and leaves, how much of it melting takes, that none is made or lost, by burning neither, how deep ice
+//! floats, and how fast wood burns.
 
 use crate::{
     kernel::{
         heat::{
-            held,
+            chemical, held,
             units::{QUANTUM, ROOM},
         },
         solids::centre,
@@ -25,7 +26,12 @@ pub(super) const RUNS: &[(&str, Run)] = &[
     ("heat_front", |set_up| Box::pin(heat_front(set_up))),
     ("heat_kept", |set_up| Box::pin(heat_kept(set_up))),
     ("ice_floats", |set_up| Box::pin(ice_floats(set_up))),
+    ("fire_kept", |set_up| Box::pin(fire_kept(set_up))),
+    ("fire_front", |set_up| Box::pin(fire_front(set_up))),
 ];
+
+/// Thickness of the beam that burns, m.
+const BEAM: f64 = 0.6;
 
 /// Capacity (J/m²K) and conductivity k′ (W/mK) of an element.
 fn thermal(simulation: &CaseSimulation, name: &str) -> (f64, f64) {
@@ -130,15 +136,42 @@ fn frozen(simulation: &CaseSimulation) -> f64 {
 }
 
 async fn heat_kept(set_up: SetUp) -> Findings {
-    let mut simulation = set_up.open("heat_kept", &[])?;
+    kept(set_up, "heat_kept", "heat that came or went in 10 s").await
+}
+
+async fn fire_kept(set_up: SetUp) -> Findings {
+    kept(set_up, "fire_kept", "energy that came or went in 10 s").await
+}
+
+/// By how much the energy of a scene changes in 10 s, J/m²: heat and chemical energy of all lumps, what the air got, less what
+/// grew from light.
+async fn kept(set_up: SetUp, scene: &str, quantity: &'static str) -> Findings {
+    let mut simulation = set_up.open(scene, &[])?;
     let total = |simulation: &CaseSimulation| {
         let world = simulation.world();
-        let matter = held(world.resource::<ParticleStore>(), world.resource::<Rock>());
-        (matter + world.resource::<Books>().to_air) as f64 * f64::from(QUANTUM)
+        let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
+        let matter = held(particles, rock) + chemical(particles, rock, world.resource::<HeatCurves>());
+        let books = world.resource::<Books>();
+        (matter + books.to_air - books.by_light) as f64 * f64::from(QUANTUM)
     };
     let start = total(&simulation);
     simulation.run(10.0).await;
-    Ok(vec![found("heat that came or went in 10 s", 0.0, total(&simulation) - start)])
+    Ok(vec![found(quantity, 0.0, total(&simulation) - start)])
+}
+
+async fn fire_front(set_up: SetUp) -> Findings {
+    let mut simulation = set_up.open("fire_front", &[])?;
+    // As a length of the beam, m.
+    let wood = |simulation: &CaseSimulation| {
+        let world = simulation.world();
+        let wood = world.resource::<Setup>().elements().find("wood");
+        let left = world.resource::<Rock>().iter().filter(|(_, element, _)| Some(*element) == wood).count();
+        left as f64 * simulation.spacing().powi(2) / BEAM
+    };
+    simulation.run(10.0).await;
+    let start = wood(&simulation);
+    simulation.run(20.0).await;
+    Ok(vec![found("speed of the front", 0.175, (start - wood(&simulation)) / 20.0)])
 }
 
 async fn ice_floats(set_up: SetUp) -> Findings {

@@ -1,0 +1,161 @@
+//! Burning in a world: how fast it spreads, where it stops, that no energy is made, and that it can be left out.
+
+use crate::support::{SimulationExt, blueprint, empty_box};
+use glam::Vec2;
+use powder_master::{
+    kernel::{
+        brush::Stroke,
+        element::ElementId,
+        heat::{chemical, held},
+    },
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, Mode},
+    },
+    sim::{
+        checkpoint::Checkpoint,
+        effects::Effects,
+        intent::Intent,
+        simulation::Simulation,
+        state::{Books, HeatCurves, ParticleStore, Rock, Setup},
+        workers::Workers,
+    },
+};
+
+/// Slowest and fastest front through wood, m/s: what is to be watched, neither waited for nor missed.
+const FRONT: [f32; 2] = [0.05, 0.3];
+
+fn element(simulation: &Simulation, name: &str) -> ElementId {
+    let Some(element) = simulation.get::<Setup>().elements().find(name) else { panic!("no element {name}") };
+    element
+}
+
+fn count(simulation: &Simulation, name: &str) -> usize {
+    let id = element(simulation, name);
+    let rock = simulation.get::<Rock>().iter().filter(|(_, element, _)| *element == id).count();
+    simulation.particles().element.iter().filter(|element| **element == id).count() + rock
+}
+
+/// All energy, with what the air got and without what light and hands gave, quanta.
+fn energy(simulation: &Simulation) -> i64 {
+    let (particles, rock) = (simulation.get::<ParticleStore>(), simulation.get::<Rock>());
+    let books = simulation.get::<Books>();
+    let own = held(particles, rock) + chemical(particles, rock, simulation.get::<HeatCurves>());
+    own + books.to_air - books.by_hand - books.by_light
+}
+
+/// A room with gravity, `columns` × `rows` d of the scene's own spacing.
+fn room(columns: u32, rows: u32) -> Blueprint {
+    let mut room = empty_box(columns, rows);
+    room.domain.gravity = Vec2::new(0.0, -98.1);
+    room
+}
+
+fn stamp(simulation: &mut Simulation, name: &str, min: [f32; 2], max: [f32; 2]) {
+    let element = element(simulation, name);
+    let stroke = Stroke::rectangle(Vec2::from(min) + 0.5, Vec2::from(max) - 0.5);
+    simulation.push(Intent::Stamp { element, stroke });
+    simulation.apply_edits();
+}
+
+/// A beam 6 d thick and 60 d long above a floor, with embers on its left end.
+fn beam(water: bool) -> Simulation {
+    let mut simulation = Simulation::of(room(80, 60));
+    stamp(&mut simulation, "wood", [10.0, 20.0], [70.0, 26.0]);
+    stamp(&mut simulation, "ember", [10.0, 26.0], [18.0, 34.0]);
+    if water {
+        stamp(&mut simulation, "metal", [30.0, 26.0], [32.0, 42.0]);
+        stamp(&mut simulation, "metal", [68.0, 26.0], [70.0, 42.0]);
+        stamp(&mut simulation, "water", [32.0, 26.0], [68.0, 38.0]);
+    }
+    simulation
+}
+
+/// How far the fire has come: the first column of the beam of which all is wood, d.
+fn front(simulation: &Simulation) -> f32 {
+    let wood = element(simulation, "wood");
+    let mut whole = [0; 80];
+    for (cell, element, _) in simulation.get::<Rock>().iter() {
+        whole[cell.x as usize] += u32::from(element == wood);
+    }
+    whole.iter().position(|count| *count == 6).unwrap_or(70) as f32
+}
+
+#[test]
+fn fire_runs_along_a_beam_and_no_energy_is_made() {
+    let mut simulation = beam(false);
+    let before = energy(&simulation);
+    simulation.run(600);
+    let from = front(&simulation);
+    simulation.run(1200);
+    let to = front(&simulation);
+    assert!(to < 70.0, "the beam has burnt down");
+    let speed = (to - from) * 0.1 / 20.0;
+    assert!((FRONT[0]..FRONT[1]).contains(&speed), "{speed} m/s");
+    assert_eq!(energy(&simulation), before);
+    assert!(count(&simulation, "ash") > 10 && simulation.get::<Books>().to_air > 0);
+}
+
+#[test]
+fn fire_dies_in_wood_that_water_cools() {
+    let mut simulation = beam(true);
+    simulation.run(6000);
+    // It comes as far as the tank's wall, and no further than a wall's width and the beam's into what the water cools.
+    let front = front(&simulation);
+    assert!((28.0..38.0).contains(&front), "the fire stands at {front} d");
+    assert_eq!(count(&simulation, "burning_wood"), 0, "it still burns");
+    assert_eq!(count(&simulation, "water") + count(&simulation, "steam"), 36 * 12);
+}
+
+#[test]
+fn smoke_fades_and_then_nothing_runs() {
+    let mut simulation = Simulation::of(room(40, 40));
+    stamp(&mut simulation, "smoke", [10.0, 10.0], [20.0, 20.0]);
+    simulation.run(60);
+    assert!(simulation.get::<Effects>().get(Effect::Decay).running);
+    // A lump is left after 100 s with a chance of e^(−100/6): one of a hundred with 6 · 10⁻⁶.
+    simulation.run(6000);
+    assert_eq!(simulation.particles().len(), 0);
+    assert_eq!(simulation.get::<Books>().gone, 100);
+    assert!(!simulation.get::<Effects>().get(Effect::Decay).running);
+}
+
+#[test]
+fn a_cold_house_calls_for_nothing_and_one_where_nothing_may_burn_stands() {
+    let mut cold = Simulation::of(room(40, 40));
+    stamp(&mut cold, "wood", [10.0, 10.0], [20.0, 20.0]);
+    stamp(&mut cold, "oil", [10.0, 20.0], [20.0, 24.0]);
+    cold.run(60);
+    let effects = cold.get::<Effects>();
+    assert!(!effects.get(Effect::Decay).running && !effects.get(Effect::Heat).running);
+    let mut house = blueprint("burning_house", &[]);
+    house.effects.insert(Effect::Decay, Mode::Off);
+    let mut house = Simulation::of(house);
+    let wood = count(&house, "wood");
+    house.run(300);
+    assert_eq!((count(&house, "wood"), count(&house, "fire")), (wood, 0));
+}
+
+#[test]
+fn a_world_that_burns_goes_on_from_a_save_to_the_bit_on_any_threads() {
+    let mut simulation = Simulation::of(blueprint("oil_lamp", &[]));
+    simulation.run(120);
+    let saved = Checkpoint::decode(&Checkpoint::of(simulation.world()).encode()).expect("a save file");
+    let mut again = Simulation::resume(&saved, Workers::new(3).expect("threads"));
+    let before = count(&simulation, "oil");
+    simulation.run(180);
+    again.run(180);
+    assert!(count(&simulation, "oil") < before && count(&simulation, "fire") > 0, "nothing burns");
+    assert_eq!(again.hash(), simulation.hash());
+    assert_eq!(again.get::<Books>(), simulation.get::<Books>());
+}
+
+#[test]
+fn a_lamp_burns_until_its_oil_is_gone() {
+    let mut simulation = Simulation::of(blueprint("oil_lamp", &[]));
+    let all = count(&simulation, "oil");
+    simulation.run(1800);
+    let half = count(&simulation, "oil");
+    assert!(half < 3 * all / 4, "{half} of {all} are left after 30 s");
+    assert!(count(&simulation, "burning_oil") > 5, "the lamp went out");
+}
