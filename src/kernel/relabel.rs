@@ -108,12 +108,16 @@ impl Relabelled {
 }
 
 /// Heat that a lump has as another element, quanta. What that has less of chemical energy is heat, what it has more is of light.
-/// What the air gets is booked: all of what goes into it, and what would be hotter than anything may be.
+/// What the air gets is booked: all of what goes into it, and what would be hotter than anything may be, or colder.
 fn heat_as(table: &HeatTable, record: &mut HeatRecord, from: ElementId, to: Option<ElementId>, heat: i32) -> i32 {
     let freed = i64::from(table.energy(from)) - to.map_or(0, |to| i64::from(table.energy(to)));
     record.by_light += (-freed).max(0);
     let heat = i64::from(heat) + freed.max(0);
-    let keeps = to.map_or(0, |to| heat.min(i64::from(table.curve(to).most())));
+    let within = |to: ElementId| {
+        let [least, most] = table.curve(to).bounds().map(i64::from);
+        heat.clamp(least, most)
+    };
+    let keeps = to.map_or(0, within);
     record.to_air += heat - keeps;
     keeps as i32
 }

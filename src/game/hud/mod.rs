@@ -6,6 +6,7 @@ pub mod brush;
 pub mod cost;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod crash;
+mod fates;
 pub mod focus;
 pub mod layout;
 pub mod palette;

@@ -6,6 +6,7 @@ use crate::{
         actions::Action,
         favourites::Favourites,
         hud::{
+            fates::fates,
             style::{self, weak},
             widgets::{BUTTON, field},
         },
@@ -104,7 +105,7 @@ impl Tiles<'_> {
         let response = tile(ui, size, unit, &face);
         let Tool::Element(id) = tool else { return response.on_hover_text(self.bindings.tip(Action::Tool(tool))) };
         let element = elements.get(id);
-        response.on_hover_ui(|ui| card(ui, element, &key))
+        response.on_hover_ui(|ui| card(ui, elements, element, &key))
     }
 
     /// A digit puts the element of this tile on itself while the pointer is over it.
@@ -117,8 +118,8 @@ impl Tiles<'_> {
     }
 }
 
-/// What an element is.
-fn card(ui: &mut Ui, element: &Element, key: &str) {
+/// What an element is, and what becomes of it.
+fn card(ui: &mut Ui, elements: &ElementTable, element: &Element, key: &str) {
     ui.set_width(CARD);
     ui.spacing_mut().item_spacing.y = 4.0;
     ui.spacing_mut().interact_size.y = 0.0;
@@ -139,6 +140,17 @@ fn card(ui: &mut Ui, element: &Element, key: &str) {
     if element.fixed {
         ui.label(weak("stays where it is"));
     }
+    let fates = fates(elements, element);
+    if !fates.is_empty() {
+        ui.add_space(2.0);
+        egui::Grid::new("fates").num_columns(2).spacing([16.0, 2.0]).show(ui, |ui| {
+            for (when, what) in fates {
+                ui.label(weak(when));
+                ui.label(what);
+                ui.end_row();
+            }
+        });
+    }
 }
 
 /// The numbers that matter for a player, with their units.
@@ -156,6 +168,9 @@ fn numbers(element: &Element) -> Vec<(&'static str, String)> {
     if element.cohesion > 0.0 {
         numbers.push(("cohesion", format!("{} Pa", grouped(element.cohesion))));
     }
+    if element.energy > 0.0 {
+        numbers.push(("energy", format!("{} MJ/m²", grouped(element.energy))));
+    }
     numbers
 }
 
@@ -167,8 +182,8 @@ mod tests {
     fn a_card_has_the_numbers_that_matter() {
         let mut element = Element { density: 13534.0, ..Element::plain("x", false) };
         assert_eq!(numbers(&element), [("density", "13,534 kg/m²".to_owned())]);
-        (element.viscosity, element.friction, element.cohesion) = (0.08, 40.0, 2000.0);
+        (element.viscosity, element.friction, element.cohesion, element.energy) = (0.08, 40.0, 2000.0, 1500.0);
         let told: Vec<String> = numbers(&element).into_iter().map(|(_, number)| number).collect();
-        assert_eq!(told, ["13,534 kg/m²", "0.08 m²/s", "40°", "2,000 Pa"]);
+        assert_eq!(told, ["13,534 kg/m²", "0.08 m²/s", "40°", "2,000 Pa", "1,500 MJ/m²"]);
     }
 }

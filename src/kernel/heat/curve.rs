@@ -93,9 +93,10 @@ impl HeatCurve {
         [at(&self.below, COLDEST), at(&self.above, HOTTEST)]
     }
 
-    /// Most heat that it can come to have, quanta: that of the highest temperature, unless it changes before.
-    pub fn most(&self) -> i32 {
-        if self.above.is_some() { i32::MAX } else { self.range()[1] }
+    /// Least and most heat that it can come to have, quanta: those of the ends of temperature, unless it changes before.
+    pub fn bounds(&self) -> [i32; 2] {
+        let [lowest, highest] = self.range();
+        [if self.below.is_some() { i32::MIN } else { lowest }, if self.above.is_some() { i32::MAX } else { highest }]
     }
 
     /// Temperature at a heat, K.

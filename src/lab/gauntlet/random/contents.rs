@@ -64,9 +64,30 @@ pub(super) fn placement(dice: &mut Dice, size: Vec2) -> String {
 }
 
 /// What moves besides water.
-const OTHERS: [&str; 22] = [
-    "brine", "oil", "honey", "mercury", "tar", "sand", "wet_sand", "dust", "salt", "snow", "coal", "stone", "ash",
-    "acid", "steam", "smoke", "hydrogen", "ice", "lava", "ember", "fire", "charcoal",
+const OTHERS: [&str; 23] = [
+    "brine",
+    "oil",
+    "honey",
+    "mercury",
+    "tar",
+    "sand",
+    "wet_sand",
+    "dust",
+    "salt",
+    "snow",
+    "coal",
+    "stone",
+    "ash",
+    "acid",
+    "steam",
+    "smoke",
+    "hydrogen",
+    "ice",
+    "lava",
+    "ember",
+    "fire",
+    "charcoal",
+    "burning_oil",
 ];
 
 /// What moves: water, or anything else as often.

@@ -1,0 +1,192 @@
+//! Properties of every table of elements that is not refused: whatever melts, burns and reacts by it, no energy is made, nothing
+//! multiplies, and nothing is colder or hotter than anything may be.
+
+use glam::{IVec2, Vec2};
+use powder_master::kernel::{
+    decay::{Decays, table::DecayTable},
+    element::{Category, Element, ElementChange, ElementDecay, ElementId, ElementTable, ElementTouch},
+    heat::{
+        Heat, HeatRecord, Warm, change, chemical, held,
+        table::{HeatTable, curves},
+        units::HOTTEST,
+    },
+    params::Domain,
+    particles::Particles,
+    random::Random,
+    reactions::{Reactions, table::ReactionTable},
+    relabel::Relabelled,
+    solids::{Solids, centre},
+    units::{Scale, TICK_SECONDS},
+};
+
+/// Tables, and ticks of a world of each.
+const TABLES: u64 = 600;
+const TICKS: u64 = 40;
+/// Cells of a side of the box.
+const SIDE: i32 = 14;
+
+struct Dice(Random);
+
+impl Dice {
+    fn comes(&mut self, one_of: usize) -> bool {
+        self.0.below(one_of) == 0
+    }
+
+    fn one<T: Clone>(&mut self, of: &[T]) -> T {
+        of[self.0.below(of.len())].clone()
+    }
+
+    /// Any of the elements, or the air.
+    fn name(&mut self, count: usize) -> String {
+        match self.0.below(count + 1) {
+            0 => "air".to_owned(),
+            k => format!("e{}", k - 1),
+        }
+    }
+
+    fn kelvin(&mut self) -> f32 {
+        self.one(&[1.0, 77.0, 200.0, 280.0, 293.0, 320.0, 373.0, 600.0, 1500.0, 3000.0, 4000.0])
+    }
+
+    fn row(&mut self, k: usize, count: usize) -> Element {
+        let mut row = Element {
+            capacity: self.one(&[0.2, 0.3, 1.0, 2.5, 5.0]),
+            conductivity: self.one(&[0.0, 0.1, 1.0, 80.0, 500.0]),
+            density: self.one(&[0.1, 300.0, 1000.0, 13_000.0]),
+            energy: self.one(&[0.0, 0.0, 500.0, 2000.0, 8000.0]),
+            ..Element::plain(&format!("e{k}"), k == 0 || self.comes(4))
+        };
+        if !row.fixed {
+            row.category = self.one(&[Category::Liquids, Category::Powders, Category::Gases]);
+            row.friction = if row.category == Category::Powders { 30.0 } else { 0.0 };
+        }
+        if self.comes(4) {
+            let (at, hot) = (self.kelvin(), self.comes(2));
+            let into = (0..self.one(&[1, 1, 2, 5])).map(|_| self.name(count)).collect();
+            let latent = if self.comes(2) { Some(self.one(&[0.0, 60.0, 450.0, 2000.0])) } else { None };
+            row.changes.push(ElementChange { above: hot.then_some(at), below: (!hot).then_some(at), into, latent });
+        }
+        if self.comes(2) {
+            row.decays = Some(ElementDecay {
+                above: if self.comes(2) { Some(self.kelvin()) } else { None },
+                seconds: self.one(&[0.02, 0.1, 1.0]),
+                needs_air: self.comes(2),
+                into: (0..self.one(&[1, 2, 4])).map(|_| self.name(count)).collect(),
+            });
+        }
+        if self.comes(2) {
+            row.touches.push(ElementTouch {
+                with: format!("e{}", self.0.below(count)),
+                into: (self.name(count), self.name(count)),
+                rate: self.one(&[1.0, 60.0]),
+                between: if self.comes(3) { Some((200.0, 2000.0)) } else { None },
+                light: self.comes(2),
+            });
+        }
+        row
+    }
+}
+
+/// A world of a table.
+struct Bench {
+    elements: ElementTable,
+    heat: HeatTable,
+    touches: ReactionTable,
+    decays: DecayTable,
+    domain: Domain,
+    particles: Particles,
+    solids: Solids,
+    record: HeatRecord,
+}
+
+impl Bench {
+    /// Lumps of any element and temperature in most cells; nothing if the table is refused.
+    fn new(dice: &mut Dice) -> Option<Self> {
+        let count = 3 + dice.0.below(6);
+        let rows: Vec<Element> = (0..count).map(|k| dice.row(k, count)).collect();
+        curves(&rows).ok()?;
+        let (touches, decays) = (ReactionTable::of_rows(&rows, 1.0).ok()?, DecayTable::of_rows(&rows, 1.0).ok()?);
+        let elements = ElementTable::new(rows);
+        let heat = HeatTable::new(&elements);
+        let (mut particles, mut solids) = (Particles::default(), Solids::new(SIDE as u32, SIDE as u32));
+        for k in 0..SIDE * SIDE {
+            let (cell, element) = (IVec2::new(k % SIDE, k / SIDE), ElementId(dice.0.below(elements.len()) as u8));
+            let [least, most] = heat.curve(element).range();
+            let holds = heat.curve(element).heat(dice.kelvin()).clamp(least, most);
+            if dice.comes(5) {
+                continue;
+            }
+            if elements.get(element).fixed {
+                solids.insert(cell, element, k as u32);
+                solids.set_heat(cell, holds);
+            } else {
+                particles.push_warm(k as u32, element, centre(cell), Vec2::ZERO, holds);
+            }
+        }
+        let domain = Domain { size: Vec2::splat(SIDE as f32), gravity: Vec2::ZERO };
+        Some(Self { elements, heat, touches, decays, domain, particles, solids, record: HeatRecord::default() })
+    }
+
+    fn energy(&self) -> i64 {
+        let Self { particles, solids, heat, record, .. } = self;
+        held(particles, solids) + chemical(particles, solids, heat) + record.to_air - record.by_light
+    }
+
+    fn lumps(&self) -> u64 {
+        (self.particles.len() + self.solids.count()) as u64 + self.record.gone
+    }
+
+    fn counts(&self) -> Vec<u32> {
+        let mut counts = vec![0; self.elements.len()];
+        let rock = self.solids.iter().map(|(_, element, _)| element);
+        self.particles.element.iter().copied().chain(rock).for_each(|element| counts[element.index()] += 1);
+        counts
+    }
+
+    /// Coldest and hottest of what can't change by getting colder or hotter, K.
+    fn ends(&self) -> [f32; 2] {
+        let rock = self.solids.iter().map(|(cell, element, _)| (element, self.solids.heat(cell)));
+        let particles = (0..self.particles.len()).map(|i| (self.particles.element[i], self.particles.heat_of(i)));
+        particles.chain(rock).fold([f32::MAX, f32::MIN], |[low, high], (element, heat)| {
+            let curve = self.heat.curve(element);
+            let (kelvin, [least, most]) = (curve.temperature(heat), curve.bounds());
+            assert!(kelvin.is_finite());
+            let low = if least == i32::MIN { low } else { low.min(kelvin) };
+            [low, if most == i32::MAX { high } else { high.max(kelvin) }]
+        })
+    }
+
+    fn tick(&mut self, buffers: &mut (Reactions, Decays, Heat, Relabelled), tick: u64) {
+        let counts = self.counts();
+        let Self { elements, heat: table, touches, decays, domain, particles, solids, record } = self;
+        let scale = Scale { spacing: 0.1, detail: 1.0 };
+        let mut warm = Warm { particles, solids, elements, table, domain, scale };
+        let (reactions, burning, heat, relabelled) = buffers;
+        reactions.react(&mut warm, (touches, &counts), record, relabelled, tick, 1);
+        burning.run(&mut warm, decays, record, relabelled, tick);
+        change(&mut warm, record, relabelled);
+        heat.flow(&mut warm, record, 1, TICK_SECONDS);
+    }
+}
+
+#[test]
+fn no_table_of_elements_makes_energy_or_matter() {
+    let (mut sound, mut changed) = (0, 0);
+    for seed in 0..TABLES {
+        let Some(mut bench) = Bench::new(&mut Dice(Random::new(seed))) else { continue };
+        sound += 1;
+        let (energy, lumps) = (bench.energy(), bench.lumps());
+        let mut buffers = Default::default();
+        for tick in 0..TICKS {
+            bench.tick(&mut buffers, tick);
+            assert_eq!(bench.energy(), energy, "table {seed} makes energy in tick {tick}");
+            assert_eq!(bench.lumps(), lumps, "table {seed} makes lumps in tick {tick}");
+            let [coldest, hottest] = bench.ends();
+            assert!(coldest >= 0.0 && hottest <= HOTTEST + 0.01, "table {seed}: {coldest} to {hottest} K");
+        }
+        changed += u32::from(bench.record.reacted > 0 || !bench.record.turns.is_empty());
+    }
+    // Tables of all kinds come, and most of the sound ones do something.
+    assert!(sound > TABLES / 10 && sound < TABLES * 9 / 10, "{sound} of {TABLES} are sound");
+    assert!(changed > sound as u32 / 2, "in {changed} of {sound} anything changes");
+}
