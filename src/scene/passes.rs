@@ -73,12 +73,12 @@ table! {
     Vorticity { name: "vorticity", unit: Unit::Particles, each_substep: true }
     /// Gases wander.
     Diffusion { name: "diffusion", unit: Unit::Particles, each_substep: true }
-    /// What touches reacts.
-    React { name: "react", unit: Unit::Particles, each_substep: false }
-    /// What burns and what fades.
-    Decay { name: "decay", unit: Unit::Particles, each_substep: false }
     /// Heat flows, and changes matter.
     Heat { name: "heat", unit: Unit::Particles, each_substep: false }
+    /// What burns and what fades.
+    Decay { name: "decay", unit: Unit::Particles, each_substep: false }
+    /// What touches reacts.
+    React { name: "react", unit: Unit::Particles, each_substep: false }
     /// Particles fall asleep and wake.
     Sleep { name: "sleep", unit: Unit::Particles, each_substep: false }
     /// Checks at the end of the tick.

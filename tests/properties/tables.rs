@@ -36,19 +36,12 @@ impl Dice {
         of[self.0.below(of.len())].clone()
     }
 
-    /// Any of the elements, or the air.
-    fn name(&mut self, count: usize) -> String {
-        match self.0.below(count + 1) {
-            0 => "air".to_owned(),
-            k => format!("e{}", k - 1),
-        }
-    }
-
     fn kelvin(&mut self) -> f32 {
         self.one(&[1.0, 77.0, 200.0, 280.0, 293.0, 320.0, 373.0, 600.0, 1500.0, 3000.0, 4000.0])
     }
 
-    fn row(&mut self, k: usize, count: usize) -> Element {
+    /// An element to which nothing happens yet.
+    fn row(&mut self, k: usize) -> Element {
         let mut row = Element {
             capacity: self.one(&[0.2, 0.3, 1.0, 2.5, 5.0]),
             conductivity: self.one(&[0.0, 0.1, 1.0, 80.0, 500.0]),
@@ -60,30 +53,57 @@ impl Dice {
             row.category = self.one(&[Category::Liquids, Category::Powders, Category::Gases]);
             row.friction = if row.category == Category::Powders { 30.0 } else { 0.0 };
         }
+        row
+    }
+
+    /// So many names of elements that are `wanted`, or any if none is; and of the air.
+    fn names(&mut self, rows: &[Element], count: usize, wanted: impl Fn(&Element) -> bool) -> Vec<String> {
+        let mut names: Vec<&String> = rows.iter().filter(|row| wanted(row)).map(|row| &row.name).collect();
+        if names.is_empty() {
+            names = rows.iter().map(|row| &row.name).collect();
+        }
+        let air = "air".to_owned();
+        (0..count).map(|_| if self.comes(8) { air.clone() } else { self.one(&names).clone() }).collect()
+    }
+
+    /// What may happen to an element; most of it, but not all, is as it must be.
+    fn add_fates(&mut self, rows: &mut [Element], k: usize) {
+        let own = rows[k].clone();
         if self.comes(4) {
-            let (at, hot) = (self.kelvin(), self.comes(2));
-            let into = (0..self.one(&[1, 1, 2, 5])).map(|_| self.name(count)).collect();
-            let latent = if self.comes(2) { Some(self.one(&[0.0, 60.0, 450.0, 2000.0])) } else { None };
-            row.changes.push(ElementChange { above: hot.then_some(at), below: (!hot).then_some(at), into, latent });
+            // What holds more takes heat both to melt and to freeze to it.
+            let hot = self.comes(2);
+            let at = if hot { self.one(&[320.0, 373.0, 1500.0]) } else { self.one(&[77.0, 200.0, 280.0]) };
+            let holds_more =
+                |row: &Element| row.energy == own.energy && row.capacity >= own.capacity && row.name != own.name;
+            let count = self.one(&[1, 1, 2, 5]);
+            rows[k].changes.push(ElementChange {
+                above: hot.then_some(at),
+                below: (!hot).then_some(at),
+                into: self.names(rows, count, holds_more),
+                latent: None,
+            });
         }
         if self.comes(2) {
-            row.decays = Some(ElementDecay {
+            let count = self.one(&[1, 2, 4]);
+            rows[k].decays = Some(ElementDecay {
                 above: if self.comes(2) { Some(self.kelvin()) } else { None },
                 seconds: self.one(&[0.02, 0.1, 1.0]),
                 needs_air: self.comes(2),
-                into: (0..self.one(&[1, 2, 4])).map(|_| self.name(count)).collect(),
+                into: self.names(rows, count, |row| row.energy <= own.energy && row.name != own.name),
             });
         }
-        if self.comes(2) {
-            row.touches.push(ElementTouch {
-                with: format!("e{}", self.0.below(count)),
-                into: (self.name(count), self.name(count)),
+        // One row for two elements: those that come later have it.
+        if k > 0 && self.comes(2) {
+            let with = rows[self.0.below(k)].name.clone();
+            let into = self.names(rows, 2, |_| true);
+            rows[k].touches.push(ElementTouch {
+                with,
+                into: (into[0].clone(), into[1].clone()),
                 rate: self.one(&[1.0, 60.0]),
                 between: if self.comes(3) { Some((200.0, 2000.0)) } else { None },
-                light: self.comes(2),
+                light: !self.comes(8),
             });
         }
-        row
     }
 }
 
@@ -103,7 +123,8 @@ impl Bench {
     /// Lumps of any element and temperature in most cells; nothing if the table is refused.
     fn new(dice: &mut Dice) -> Option<Self> {
         let count = 3 + dice.0.below(6);
-        let rows: Vec<Element> = (0..count).map(|k| dice.row(k, count)).collect();
+        let mut rows: Vec<Element> = (0..count).map(|k| dice.row(k)).collect();
+        (0..count).for_each(|k| dice.add_fates(&mut rows, k));
         curves(&rows).ok()?;
         let (touches, decays) = (ReactionTable::of_rows(&rows, 1.0).ok()?, DecayTable::of_rows(&rows, 1.0).ok()?);
         let elements = ElementTable::new(rows);

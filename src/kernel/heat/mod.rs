@@ -15,6 +15,7 @@ mod brush;
 mod change;
 mod conduction;
 pub mod curve;
+mod exposure;
 mod lumps;
 mod matter;
 mod rates;
@@ -30,7 +31,7 @@ mod weights;
 
 pub use brush::warm_under;
 pub use change::change;
+pub use exposure::Exposure;
 pub use matter::{Warm, chemical, held};
 pub use record::{DECAY, HeatRecord};
 pub use steps::{Heat, HeatReport};
-pub use surface::Exposure;

@@ -50,9 +50,10 @@ pub(super) fn plugin(app: &mut App) {
                 gate::plan_substeps,
                 sleep::keep_asleep,
                 step::run_substeps,
-                timed(Pass::React, react::react).run_if(runs(Effect::Reactions)),
-                timed(Pass::Decay, decay::decay).run_if(runs(Effect::Decay)),
+                // Each before those that may give it its first work: what the gate left out has nothing to do in the tick.
                 timed(Pass::Heat, heat::flow).run_if(runs(Effect::Heat)),
+                timed(Pass::Decay, decay::decay).run_if(runs(Effect::Decay)),
+                timed(Pass::React, react::react).run_if(runs(Effect::Reactions)),
                 timed(Pass::Sleep, sleep::watch).run_if(sleep::water_may_rest).run_if(sleep::is_time_to_look),
                 timed(Pass::Measure, measure::count_escaped),
                 measure::end_tick.in_set(Pass::Measure),

@@ -1,0 +1,59 @@
+//! What of single lumps stands in the air.
+
+use super::{
+    matter::Warm,
+    surface::open_length,
+    walls::Walls,
+    weights::{REACH, WEIGHT, Weights},
+};
+use crate::{
+    cells::Cells,
+    element::ElementId,
+    solids::{Solids, centre},
+};
+use glam::{IVec2, Vec2};
+
+/// Finds what of single lumps stands in the air. Of what is not of their own kind gases don't cover them, and grains by half: air
+/// comes through a heap.
+#[derive(Clone, Debug, Default)]
+pub struct Exposure {
+    cells: Cells,
+    walls: Walls,
+}
+
+impl Exposure {
+    /// Gathers what may cover others.
+    pub fn gather(&mut self, warm: &Warm) {
+        self.cells.sort(warm.particles, warm.domain.size, REACH, |_| true);
+    }
+
+    /// Length of the open surface of a lump at a place, d; 1 at a plane surface.
+    pub fn of(&self, warm: &Warm, element: ElementId, at: Vec2) -> f32 {
+        let covers = |other: ElementId| match warm.elements.get(other) {
+            _ if other == element => 1.0,
+            other if other.is_gas() => 0.0,
+            other if other.friction > 0.0 => 0.5,
+            _ => 1.0,
+        };
+        let weight = |place: Vec2| Weights { at, x: &[place.x], y: &[place.y] }.of(0);
+        let mut neighbours = self.walls.around(at, warm.domain.size);
+        for (_, near) in self.cells.around(at) {
+            let near = near.iter().map(|i| *i as usize);
+            let weights = near.map(|i| covers(warm.particles.element[i]) * weight(warm.particles.position(i)));
+            neighbours += weights.sum::<f32>();
+        }
+        let (cell, reach) = (Solids::cell_of(at), REACH.ceil() as i32);
+        for y in -reach..=reach {
+            let cells = (-reach..=reach).map(|x| cell + IVec2::new(x, y));
+            neighbours +=
+                cells.filter(|cell| warm.solids.is_solid(*cell)).map(|cell| weight(centre(cell))).sum::<f32>();
+        }
+        // It is its own neighbour in that sum.
+        open_length(neighbours - WEIGHT)
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        self.cells.memory()
+    }
+}
