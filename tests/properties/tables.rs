@@ -150,7 +150,7 @@ impl Bench {
 
     fn energy(&self) -> i64 {
         let Self { particles, solids, heat, record, .. } = self;
-        held(particles, solids) + chemical(particles, solids, heat) + record.to_air - record.by_light
+        held(particles, solids) + chemical(particles, solids, heat) + record.outside()
     }
 
     fn lumps(&self) -> u64 {

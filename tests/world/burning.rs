@@ -41,7 +41,7 @@ fn energy(simulation: &Simulation) -> i64 {
     let (particles, rock) = (simulation.get::<ParticleStore>(), simulation.get::<Rock>());
     let books = simulation.get::<Books>();
     let own = held(particles, rock) + chemical(particles, rock, simulation.get::<HeatCurves>());
-    own + books.to_air - books.by_hand - books.by_light
+    own + books.outside()
 }
 
 /// A room with gravity, `columns` × `rows` d of the scene's own spacing.

@@ -114,12 +114,13 @@ fn the_same_inputs_give_the_same_world_and_others_another() {
 
 /// The standard scenes. Those that have a size get one at which threads share particles or air, if that is not theirs
 /// by default; the others run as they are played.
-const STANDARD: [(&str, &[(&str, &str)]); 24] = [
+const STANDARD: [(&str, &[(&str, &str)]); 25] = [
     ("acid", &[]),
     ("avalanche", &[]),
     ("burning_house", &[]),
     ("communicating_vessels", &[("left", "6.5"), ("right", "6")]),
     ("dam_break", &[]),
+    ("distillery", &[]),
     ("dune", &[]),
     ("dust_mill", &[]),
     ("empty", &[("columns", "1200"), ("rows", "640")]),

@@ -44,10 +44,7 @@ impl Decays {
             let Some(decay) = decays.of(element) else { continue };
             let product = record.next(element, DECAY, &decay.into);
             if relabelled.can_be(warm, i, product) {
-                let spare = spare(warm.table, decay, element, product, heat);
-                warm.particles.set_heat(i, heat - spare);
-                record.to_air += i64::from(spare);
-                record.count(element, DECAY);
+                warm.particles.set_heat(i, settle(warm.table, record, decay, element, product, heat));
                 relabelled.particle(warm, record, i, product);
             }
         }
@@ -56,10 +53,7 @@ impl Decays {
             let Some((element, _)) = warm.solids.get(*cell) else { continue };
             let (Some(decay), heat) = (decays.of(element), warm.solids.heat(*cell)) else { continue };
             let product = record.next(element, DECAY, &decay.into);
-            let spare = spare(warm.table, decay, element, product, heat);
-            warm.solids.set_heat(*cell, heat - spare);
-            record.to_air += i64::from(spare);
-            record.count(element, DECAY);
+            warm.solids.set_heat(*cell, settle(warm.table, record, decay, element, product, heat));
             relabelled.rock(warm, record, *cell, product);
         }
     }
@@ -108,6 +102,21 @@ impl Decays {
     pub fn memory(&self) -> usize {
         self.exposure.memory() + 4 * self.particles.capacity() + size_of::<IVec2>() * self.rock.capacity()
     }
+}
+
+/// Notes that a lump of an element decays, and returns what it keeps of its heat, quanta.
+fn settle(
+    table: &HeatTable,
+    record: &mut HeatRecord,
+    decay: &Decay,
+    element: ElementId,
+    product: Option<ElementId>,
+    heat: i32,
+) -> i32 {
+    let spare = spare(table, decay, element, product, heat);
+    record.to_air += i64::from(spare);
+    record.count(element, DECAY);
+    heat - spare
 }
 
 /// Heat that a product leaves to the air, quanta. Several of one lump are to be as hot as each other, but each lump becomes one of

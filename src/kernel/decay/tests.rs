@@ -102,7 +102,7 @@ impl Bench {
     /// All energy, with what the air got, quanta.
     fn energy(&self) -> i64 {
         let Self { particles, solids, heat, record, .. } = self;
-        held(particles, solids) + chemical(particles, solids, heat) + record.to_air - record.by_light
+        held(particles, solids) + chemical(particles, solids, heat) + record.outside()
     }
 
     fn kelvin(&self, element: ElementId) -> Vec<f32> {

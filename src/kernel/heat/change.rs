@@ -13,6 +13,7 @@ pub fn change(warm: &mut Warm, record: &mut HeatRecord, relabelled: &mut Relabel
         let Some((place, change)) = table.curve(element).done(heat) else { continue };
         let product = record.next(element, place, &change.into);
         if relabelled.can_be(warm, i, product) {
+            warm.particles.set_heat(i, heat.saturating_add(record.lend(element, place, change)));
             record.count(element, place);
             relabelled.particle(warm, record, i, product);
         }
@@ -26,8 +27,10 @@ pub fn change(warm: &mut Warm, record: &mut HeatRecord, relabelled: &mut Relabel
     let cells: Vec<IVec2> = solids.iter().filter_map(done).collect();
     for cell in cells {
         let Some((element, _)) = warm.solids.get(cell) else { continue };
-        let Some((place, change)) = table.curve(element).done(warm.solids.heat(cell)) else { continue };
+        let heat = warm.solids.heat(cell);
+        let Some((place, change)) = table.curve(element).done(heat) else { continue };
         let product = record.next(element, place, &change.into);
+        warm.solids.set_heat(cell, heat.saturating_add(record.lend(element, place, change)));
         record.count(element, place);
         relabelled.rock(warm, record, cell, product);
     }

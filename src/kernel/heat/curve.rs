@@ -20,6 +20,8 @@ pub struct Change {
     pub plateau: [i32; 2],
     /// What comes of it, in turn. `None` is air: the lump goes, and leaves its heat to the air.
     pub into: Vec<Option<ElementId>>,
+    /// Heat that each of them gets beside what the lump has, quanta: as much as leaves all of them equally warm. Together 0.
+    pub shares: Vec<i32>,
 }
 
 impl Change {
@@ -181,6 +183,7 @@ mod tests {
             at,
             plateau: [quanta(begin), quanta(end)],
             into: vec![Some(ElementId(into))],
+            shares: vec![0],
         };
         HeatCurve {
             below: Some(change(273.0, cold, cold - 334.0, 1)),

@@ -1,5 +1,6 @@
 //! What is booked of a world's matter: heat that came and went, and who changed.
 
+use super::curve::Change;
 use crate::element::ElementId;
 use serde::{Deserialize, Serialize};
 
@@ -12,6 +13,9 @@ pub struct HeatRecord {
     pub by_hand: i64,
     /// What grew from light, quanta.
     pub by_light: i64,
+    /// What lumps got beside their own when they became one of several products, less what they gave: it comes to nothing each
+    /// time that all had their turn.
+    pub lent: i64,
     /// Lumps that went into the air.
     pub gone: u64,
     /// Lumps that became rock, or were rock before.
@@ -27,10 +31,26 @@ pub struct HeatRecord {
 pub const DECAY: usize = 2;
 
 impl HeatRecord {
+    /// Energy that matter gave away, less what it got, quanta: with what matter has it is the same for ever.
+    pub fn outside(&self) -> i64 {
+        self.to_air - self.by_hand - self.by_light - self.lent
+    }
+
+    /// Whose turn it is among so many.
+    fn turn(&self, element: ElementId, place: usize, count: usize) -> usize {
+        self.turns.get(element.index()).map_or(0, |turns| turns[place]) as usize % count
+    }
+
+    /// What a lump gets beside its own by a change that comes to pass next, quanta. It is lent.
+    pub(super) fn lend(&mut self, element: ElementId, place: usize, change: &Change) -> i32 {
+        let share = change.shares[self.turn(element, place, change.shares.len())];
+        self.lent += i64::from(share);
+        share
+    }
+
     /// What comes of a change next, out of what comes of it in turn.
     pub fn next(&self, element: ElementId, place: usize, into: &[Option<ElementId>]) -> Option<ElementId> {
-        let turn = self.turns.get(element.index()).map_or(0, |turns| turns[place]);
-        into[turn as usize % into.len()]
+        into[self.turn(element, place, into.len())]
     }
 
     /// Notes that a change came to pass.

@@ -3,7 +3,7 @@
 //! Where the curves stand beside one another follows from the changes. What is at rest at [`ROOM`] holds no heat there. What
 //! comes of it by a change at T holds as much as it at T, and what the change takes more; so the other way round. As heat is a
 //! state, no way round through changes can give any: where two ways lead to one element they must agree, or the table is
-//! refused.
+//! refused. What is never at rest at [`ROOM`] and boils away to air alone leaves it no heat.
 
 use crate::{
     element::{Element, ElementChange, ElementId, ElementTable},
@@ -77,8 +77,8 @@ struct Looked {
     at: f64,
     /// 1 for what happens above, −1 for what happens below.
     sign: f64,
-    /// The first of the products that is an element.
-    first: usize,
+    /// The first of the products that is an element; none where all is air.
+    first: Option<usize>,
     into: Vec<Option<ElementId>>,
     latent: Option<f64>,
 }
@@ -113,7 +113,9 @@ pub fn curves(rows: &[Element]) -> Result<Vec<HeatCurve>, CurveFault> {
         };
         for change in changes {
             let begin = held(row, change.at);
-            let takes = change.sign * (held(change.first, change.at) - begin);
+            // What the air gets of what goes into it is no matter of the table.
+            let given = change.latent.unwrap_or_default();
+            let takes = change.first.map_or(given, |first| change.sign * (held(first, change.at) - begin));
             let single = change.into.len() == 1;
             let latent = match change.latent {
                 Some(latent) if single && (latent - takes).abs() > AGREE => {
@@ -130,11 +132,12 @@ pub fn curves(rows: &[Element]) -> Result<Vec<HeatCurve>, CurveFault> {
                 let what = format!("at {} K it takes {latent:.1} MJ/m²; allowed: 0 or more", change.at);
                 return Err(fault(what));
             }
-            let product = conduction_of(rows[change.first].conductivity);
+            let product = conduction_of(change.first.map_or(element, |first| &rows[first]).conductivity);
             let products = change.into.iter().flatten().map(|id| 1e6 * rows[id.index()].capacity);
             curve.least_capacity = products.fold(curve.least_capacity, f32::min);
             let plateau = [quanta(begin), quanta(begin + change.sign * latent)];
-            let own = Some(Change { at: change.at as f32, plateau, into: change.into.clone() });
+            let shares = shares(rows, &bases, change, plateau[1]).map_err(fault)?;
+            let own = Some(Change { at: change.at as f32, plateau, into: change.into.clone(), shares });
             if change.sign > 0.0 {
                 (curve.above, curve.conduction[2]) = (own, product);
             } else {
@@ -144,6 +147,28 @@ pub fn curves(rows: &[Element]) -> Result<Vec<HeatCurve>, CurveFault> {
         curves.push(curve);
     }
     Ok(curves)
+}
+
+/// What each product of a change gets beside the heat at which it is done, quanta, so that all are equally warm. Beside air there
+/// is nothing to share.
+fn shares(rows: &[Element], bases: &[f64], change: &Looked, done: i32) -> Result<Vec<i32>, String> {
+    let none = vec![0; change.into.len()];
+    let Some(products) = change.into.iter().copied().collect::<Option<Vec<ElementId>>>() else { return Ok(none) };
+    let of = |each: &dyn Fn(usize) -> f64| products.iter().map(|id| each(id.index())).sum::<f64>();
+    let has = f64::from(done) * f64::from(QUANTUM) / 1e6;
+    let capacity = of(&|row| f64::from(rows[row].capacity));
+    let degrees = (products.len() as f64 * has - of(&|row| bases[row])) / capacity;
+    let kelvin = degrees + f64::from(ROOM);
+    if products.len() > 1 && !(f64::from(COLDEST)..=f64::from(HOTTEST)).contains(&kelvin) {
+        return Err(format!(
+            "at {} K it becomes what is at {kelvin:.0} K then; allowed: {COLDEST} to {HOTTEST}, by another `latent`",
+            change.at
+        ));
+    }
+    let share = |id: &ElementId| quanta(bases[id.index()] + f64::from(rows[id.index()].capacity) * degrees) - done;
+    let mut shares: Vec<i32> = if products.len() > 1 { products.iter().map(share).collect() } else { none };
+    shares[0] -= shares.iter().sum::<i32>();
+    Ok(shares)
 }
 
 fn quanta(megajoules: f64) -> i32 {
@@ -185,10 +210,13 @@ fn look_up(rows: &[Element], element: &Element) -> Result<Vec<Looked>, String> {
                 other.name, other.energy, element.energy
             ));
         }
-        let Some(first) = into.iter().flatten().next() else {
-            return Err(format!("a change into `{AIR}` alone; allowed: an element among what comes of it"));
-        };
-        looked.push(Looked { at: f64::from(at), sign, first: first.index(), latent: latent.map(f64::from), into });
+        let first = into.iter().flatten().next().map(|id| id.index());
+        if first.is_none() && latent.is_none() {
+            return Err(format!(
+                "a change into `{AIR}` alone; allowed: a `latent`, or an element among what comes of it"
+            ));
+        }
+        looked.push(Looked { at: f64::from(at), sign, first, latent: latent.map(f64::from), into });
     }
     if let [a, b] = &looked[..]
         && (a.at - b.at) * a.sign <= 0.0
@@ -213,9 +241,14 @@ fn bases(rows: &[Element], changes: &[Vec<Looked>]) -> Result<Vec<f64>, CurveFau
             for Looked { at, sign, first, latent, .. } in changes {
                 let Some(latent) = latent else { continue };
                 let slope = |row: usize| f64::from(rows[row].capacity) * (at - room);
-                match (bases[row], bases[*first]) {
-                    (Some(base), None) => bases[*first] = Some(base + slope(row) + sign * latent - slope(*first)),
-                    (None, Some(base)) => bases[row] = Some(base + slope(*first) - sign * latent - slope(row)),
+                match (bases[row], first.map(|first| (first, bases[first]))) {
+                    (Some(base), Some((first, None))) => {
+                        bases[first] = Some(base + slope(row) + sign * latent - slope(first));
+                    }
+                    (None, Some((first, Some(base)))) => {
+                        bases[row] = Some(base + slope(first) - sign * latent - slope(row));
+                    }
+                    (None, None) => bases[row] = Some(-sign * latent - slope(row)),
                     _ => continue,
                 }
                 is_done = false;
@@ -290,12 +323,28 @@ mod tests {
         rows.push(row("salt", 1.1, vec![]));
         rows.push(row("snow", 0.42, vec![above(273.0, &["water", "air", "air"], Some(67.0))]));
         let curves = curves(&rows).expect("sound");
-        let [begin, end] = curves[3].above.as_ref().expect("it boils").plateau;
+        let boils = curves[3].above.as_ref().expect("it boils");
+        let [begin, end] = boils.plateau;
         assert_eq!(f64::from(end - begin) * f64::from(QUANTUM), 226e6);
+        // Steam and salt are as hot as each other, and have together what two lumps of brine had.
+        let [steam, salt] = [0, 1].map(|k| end + boils.shares[k]);
+        let hot = [curves[2].temperature(steam), curves[4].temperature(salt)];
+        assert!((hot[0] - hot[1]).abs() < 1e-3 && hot[0] > 373.0, "{hot:?} K");
+        assert_eq!(steam + salt, 2 * end);
         assert_eq!(
             curves[5].above.as_ref().map(|change| change.into.clone()),
             Some(vec![Some(ElementId(0)), None, None])
         );
+    }
+
+    #[test]
+    fn what_boils_away_takes_its_latent_heat_and_leaves_the_air_none() {
+        let mut rows = water();
+        rows.push(row("nitrogen", 1.5, vec![above(77.0, &["air"], Some(32.0))]));
+        let curves = curves(&rows).expect("sound");
+        let [begin, end] = curves[3].above.as_ref().expect("it boils").plateau;
+        assert_eq!((end, f64::from(begin) * f64::from(QUANTUM)), (0, -32e6));
+        assert_eq!(curves[3].heat(77.0), begin);
     }
 
     #[test]
@@ -310,7 +359,11 @@ mod tests {
             (with(1, vec![above(273.0, &["water"], Some(300.0))]), "it takes 300 MJ/m², but by the other changes 334"),
             (with(1, vec![above(273.0, &["ice"], None)]), "into `ice`; allowed: another element, or `air`"),
             (with(1, vec![above(273.0, &["wine"], None)]), "into `wine`"),
-            (with(1, vec![above(273.0, &["air"], None)]), "into `air` alone"),
+            (with(1, vec![above(273.0, &["air"], None)]), "into `air` alone; allowed: a `latent`"),
+            (
+                with(2, vec![below(373.0, &["water"], None), above(3000.0, &["ice", "water"], Some(9000.0))]),
+                "by another `latent`",
+            ),
             (with(1, vec![above(273.0, &[], None)]), "into 0 lumps"),
             (with(1, vec![above(5000.0, &["water"], None)]), "at 5000 K; allowed: 1 to 4000"),
             (with(1, vec![above(f32::NAN, &["water"], None)]), "at NaN K"),

@@ -123,7 +123,7 @@ impl Bench {
 
     /// All heat, also that of the air and less that of tools, quanta.
     fn total(&self) -> i64 {
-        held(&self.particles, &self.solids) + self.record.to_air - self.record.by_hand
+        held(&self.particles, &self.solids) + self.record.outside()
     }
 
     /// Heat of an element at a temperature that it can have, to 3,050 K.

@@ -26,6 +26,7 @@ fn the_list_is_complete_and_starts_with_the_default() {
         "burning_house",
         "communicating_vessels",
         "dam_break",
+        "distillery",
         "dune",
         "dust_mill",
         "empty",

@@ -151,8 +151,7 @@ async fn kept(set_up: SetUp, scene: &str, quantity: &'static str) -> Findings {
         let world = simulation.world();
         let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
         let matter = held(particles, rock) + chemical(particles, rock, world.resource::<HeatCurves>());
-        let books = world.resource::<Books>();
-        (matter + books.to_air - books.by_light) as f64 * f64::from(QUANTUM)
+        (matter + world.resource::<Books>().outside()) as f64 * f64::from(QUANTUM)
     };
     let start = total(&simulation);
     simulation.run(10.0).await;

@@ -64,7 +64,7 @@ pub(super) fn placement(dice: &mut Dice, size: Vec2) -> String {
 }
 
 /// What moves besides water.
-const OTHERS: [&str; 23] = [
+const OTHERS: [&str; 24] = [
     "brine",
     "oil",
     "honey",
@@ -88,6 +88,7 @@ const OTHERS: [&str; 23] = [
     "fire",
     "charcoal",
     "burning_oil",
+    "nitrogen",
 ];
 
 /// What moves: water, or anything else as often.
