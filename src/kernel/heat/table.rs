@@ -361,7 +361,7 @@ mod tests {
             (with(1, vec![above(273.0, &["wine"], None)]), "into `wine`"),
             (with(1, vec![above(273.0, &["air"], None)]), "into `air` alone; allowed: a `latent`"),
             (
-                with(2, vec![below(373.0, &["water"], None), above(3000.0, &["ice", "water"], Some(9000.0))]),
+                with(2, vec![below(373.0, &["water"], None), above(3000.0, &["ice", "water"], Some(13_000.0))]),
                 "by another `latent`",
             ),
             (with(1, vec![above(273.0, &[], None)]), "into 0 lumps"),
