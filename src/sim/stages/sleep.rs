@@ -62,8 +62,8 @@ pub(super) fn keep_asleep(mut sleep: ResMut<SleepState>, effects: Res<Effects>, 
     let gravity = setup.domain.gravity.to_array().map(f64::from);
     let knobs = KNOBS.iter().filter(|knob| [Part::Solver, Part::Liquid].contains(&knob.part));
     let acting = Effect::ALL.into_iter().filter(|effect| effect.row().wakes).map(|effect| match effect {
-        // A drop of another density that comes or goes is nothing to a body of one, nor is a grain.
-        Effect::Masses | Effect::Friction => effects.get(effect).mode != Mode::Off,
+        // A drop of another density that comes or goes is nothing to a body of one, nor is a grain, or a gas.
+        Effect::Buoyancy | Effect::Masses | Effect::Friction => effects.get(effect).mode != Mode::Off,
         _ => effects.get(effect).running,
     });
     let conditions = (gravity.into_iter())
