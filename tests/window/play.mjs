@@ -176,9 +176,6 @@ async function play() {
     await game.untilWidgets('the bar shows what is chosen', (all) => !isOpen(all, 'Elements') && hasTile(all, 'coal'));
     await game.click('all elements and tools, and search');
     await game.hover('brine');
-    // In the frame in which its card comes up no tile is under the pointer.
-    await game.untilWidgets('its card is shown', (all) => all.some(({ kind, name }) => kind === 'Label' && name === 'brine'));
-    await game.hover('brine');
     await game.key('3');
     await game.until('it is told', ({ messages }) => messages.includes('brine is on 3 now'));
     await game.picture('elements');

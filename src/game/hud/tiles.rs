@@ -111,11 +111,17 @@ impl Tiles<'_> {
     /// A digit puts the element of this tile on itself while the pointer is over it.
     pub fn keep_by_digit(&mut self, tool: Tool, response: &Response) {
         if let Tool::Element(id) = tool
-            && response.hovered()
+            && is_under_pointer(response)
         {
             self.cover.element = Some(self.setup.elements().get(id).name.clone());
         }
     }
+}
+
+/// Whether the pointer is over what is shown of a widget. egui's own answer may be no in the pass after a card came up: how large
+/// that is is not known before, and the room that it may take at most lies over the tile.
+fn is_under_pointer(response: &Response) -> bool {
+    response.ctx.pointer_hover_pos().is_some_and(|pointer| response.interact_rect.contains(pointer))
 }
 
 /// What an element is, and what becomes of it.
@@ -177,6 +183,36 @@ fn numbers(element: &Element) -> Vec<(&'static str, String)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_tile_is_under_the_pointer_also_as_its_card_comes_up() {
+        let context = egui::Context::default();
+        // Where neither below nor above it there is the room that a card may take.
+        let (corner, size) = (egui::pos2(240.0, 280.0), vec2(60.0, 60.0));
+        let (mut shown, mut own, mut of_egui) = (0, 0, 0);
+        for frame in 0..40 {
+            let events = if frame == 0 { vec![egui::Event::PointerMoved(corner + size / 2.0)] } else { Vec::new() };
+            let screen_rect = Some(egui::Rect::from_min_size(egui::Pos2::ZERO, vec2(1100.0, 700.0)));
+            let time = Some(f64::from(frame) / 20.0);
+            let input = egui::RawInput { events, screen_rect, time, ..egui::RawInput::default() };
+            let _output = context.run_ui(input, |ui| {
+                let at = egui::UiBuilder::new().max_rect(egui::Rect::from_min_size(corner, size));
+                let face = Face { icon: (icons::cloud, style::TEXT), label: "", name: "", key: "", chosen: false };
+                let response = ui.scope_builder(at, |ui| tile(ui, size, 1.0, &face)).inner;
+                let has_begun = frame > 1;
+                shown += u32::from(response.is_tooltip_open());
+                own += u32::from(has_begun && !is_under_pointer(&response));
+                of_egui += u32::from(has_begun && !response.hovered());
+                response.on_hover_ui(|ui| {
+                    ui.set_width(CARD);
+                    (0..12).for_each(|_| drop(ui.label("what it is")));
+                });
+            });
+        }
+        assert!(shown > 0, "no card comes up");
+        assert_eq!(own, 0, "the tile is left in {own} passes");
+        assert!(of_egui > 0, "egui itself knows what is under a new card: ask it");
+    }
 
     #[test]
     fn a_card_has_the_numbers_that_matter() {
