@@ -12,8 +12,8 @@ use glam::IVec2;
 
 /// Sets the dice of decay apart from others of the same lump and tick.
 const SALT: u32 = 0x6275_726e;
-/// Length of open surface that lets enough air to a lump, d: less than one of a plane surface has under a heap of grains, .30, and
-/// more than one inside.
+/// Length of open surface that lets enough air to a lump, d. A lump of a plane surface has 1, under a heap of grains .30, and one
+/// row further in nothing.
 const OPEN: f32 = 0.25;
 
 /// Buffers of the decays, which are kept.
@@ -121,6 +121,7 @@ fn settle(
 
 /// Heat that a product leaves to the air, quanta. Several of one lump are to be as hot as each other, but each lump becomes one of
 /// them and keeps its energy: one that holds little, as ash does beside fire, would come out far hotter than what it is made with.
+/// No shares by product, as where matter parts at one temperature, would do: what is given off is the same at any temperature.
 fn spare(table: &HeatTable, decay: &Decay, element: ElementId, product: Option<ElementId>, heat: i32) -> i32 {
     let Some(product) = product.filter(|_| decay.into.len() > 1) else { return 0 };
     let energy = |element: ElementId| f64::from(table.energy(element));

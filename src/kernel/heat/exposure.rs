@@ -3,7 +3,6 @@
 use super::{
     matter::Warm,
     surface::open_length,
-    walls::Walls,
     weights::{REACH, WEIGHT, Weights},
 };
 use crate::{
@@ -18,7 +17,6 @@ use glam::{IVec2, Vec2};
 #[derive(Clone, Debug, Default)]
 pub struct Exposure {
     cells: Cells,
-    walls: Walls,
 }
 
 impl Exposure {
@@ -36,12 +34,13 @@ impl Exposure {
             _ => 1.0,
         };
         let weight = |place: Vec2| Weights { at, x: &[place.x], y: &[place.y] }.of(0);
-        let mut neighbours = self.walls.around(at, warm.domain.size);
+        let mut neighbours = 0.0;
         for (_, near) in self.cells.around(at) {
             let near = near.iter().map(|i| *i as usize);
             let weights = near.map(|i| covers(warm.particles.element[i]) * weight(warm.particles.position(i)));
             neighbours += weights.sum::<f32>();
         }
+        // Beyond the box stands rock.
         let (cell, reach) = (Solids::cell_of(at), REACH.ceil() as i32);
         for y in -reach..=reach {
             let cells = (-reach..=reach).map(|x| cell + IVec2::new(x, y));
