@@ -123,7 +123,8 @@ pub struct ElementChange {
     pub below: Option<f32>,
     /// Names of what comes of it, lump after lump in turn, 1 … 16; `air` is a lump that goes into the air.
     pub into: Vec<String>,
-    /// Heat that it takes above, or gives below, MJ/m²; 0 … 16 000. Where it follows from other changes it need not be given.
+    /// Heat that it takes above, or gives below, MJ/m²; 0 … 16 000. Where it follows from other changes it need not be given; so
+    /// it does for what parts into several, which are as warm as what parts.
     pub latent: Option<f32>,
 }
 

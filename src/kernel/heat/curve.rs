@@ -20,7 +20,7 @@ pub struct Change {
     pub plateau: [i32; 2],
     /// What comes of it, in turn. `None` is air: the lump goes, and leaves its heat to the air.
     pub into: Vec<Option<ElementId>>,
-    /// Heat that each of them gets beside what the lump has, quanta: as much as leaves all of them equally warm. Together 0.
+    /// Heat that each of them gets beside what the lump has, quanta, so that all of them are as warm as it was. Together 0.
     pub shares: Vec<i32>,
 }
 

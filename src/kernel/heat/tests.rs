@@ -36,6 +36,7 @@ const METAL: ElementId = ElementId(5);
 const LAVA: ElementId = ElementId(6);
 const SNOW: ElementId = ElementId(7);
 const GLASS: ElementId = ElementId(8);
+const BRINE: ElementId = ElementId(9);
 
 fn row_change(above: Option<f32>, below: Option<f32>, into: &[&str], latent: Option<f32>) -> ElementChange {
     ElementChange { above, below, into: into.iter().map(|name| (*name).to_owned()).collect(), latent }
@@ -68,6 +69,7 @@ impl Bench {
             row("lava", false, 2.9, 1.5, vec![row_change(None, Some(1000.0), &["glass"], None)]),
             row("snow", false, 0.42, 0.1, vec![row_change(Some(273.0), None, &["water", "air", "air"], Some(67.0))]),
             row("glass", true, 2.1, 1.0, vec![]),
+            row("brine", false, 4.0, 0.6, vec![row_change(Some(375.0), None, &["steam", "ash"], None)]),
         ]);
         let cells = size.ceil().as_uvec2();
         Self {
@@ -319,6 +321,23 @@ fn what_splits_is_dealt_in_turn() {
 }
 
 #[test]
+fn what_splits_into_two_is_equally_warm_and_makes_no_heat() {
+    let mut bench = Bench::new(Vec2::new(30.0, 31.0), 0.1).fill(0.0, |_| Some((BRINE, ROOM)));
+    let Some(boils) = bench.table.curve(BRINE).above.clone() else { panic!("it stays what it is") };
+    let boiled = boils.plateau[1] + 1;
+    for i in 0..bench.particles.len() {
+        bench.particles.set_heat(i, boiled);
+        bench.record.by_hand += i64::from(boiled);
+    }
+    bench.change();
+    assert_eq!((bench.count(STEAM), bench.count(ASH)), (465, 465));
+    assert_eq!(bench.total(), 0);
+    let all = 0..bench.particles.len();
+    let (coldest, hottest) = all.map(|i| bench.kelvin(i)).fold((f32::MAX, 0.0_f32), |(a, b), k| (a.min(k), b.max(k)));
+    assert!(hottest - coldest < 0.01 && (coldest - 375.0).abs() < 0.01, "{coldest} to {hottest} K");
+}
+
+#[test]
 fn rock_melts_and_lava_sets_only_where_it_is_alone() {
     let mut bench = Bench::new(Vec2::new(10.0, 10.0), 0.1);
     bench.solids.insert(IVec2::new(4, 4), ROCK, 77);
@@ -346,9 +365,10 @@ fn a_gas_gives_its_heat_to_the_air_five_times_as_fast() {
         category: Category::Gases,
         ..Element { name: "smoke".into(), ..elements[ASH.index()].clone() }
     });
+    let smoke = elements.len() as u8 - 1;
     let elements = ElementTable::new(elements);
     let mut bench = Bench { table: HeatTable::new(&elements), elements, ..Bench::new(Vec2::splat(20.0), 0.1) };
-    for (id, x) in [(ASH.0, 5.0), (9, 15.0)] {
+    for (id, x) in [(ASH.0, 5.0), (smoke, 15.0)] {
         let heat = bench.table.curve(ElementId(id)).heat(400.0);
         bench.particles.push_warm(id.into(), ElementId(id), Vec2::new(x, 10.0), Vec2::ZERO, heat);
     }
