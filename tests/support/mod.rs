@@ -13,9 +13,10 @@ use powder_master::{
     },
     scene::{self, blueprint::Blueprint, effects::EffectModes, passes::Pass},
     sim::{
+        checkpoint::Checkpoint,
         ledger::PassLedger,
         simulation::Simulation,
-        state::{Census, Counters, ParticleStore, Rock, SolverState},
+        state::{Books, Census, Counters, ParticleStore, Rock, Setup, SolverState},
         workers::Workers,
     },
 };
@@ -59,8 +60,24 @@ pub fn assert_same_bits_everywhere(start: &Blueprint, ticks: u32) {
     }
 }
 
+/// Saves a world, reads the file, and runs both for some ticks: the one as it was, the other on three threads.
+///
+/// # Panics
+/// If a bit of the two differs, or what their books say.
+pub fn assert_goes_on_from_a_save(simulation: &mut Simulation, ticks: u32) {
+    let file = Checkpoint::of(simulation.world()).encode();
+    let saved = Checkpoint::decode(&file).unwrap_or_else(|error| panic!("{error}"));
+    let workers = Workers::new(3).unwrap_or_else(|error| panic!("{error}"));
+    let mut again = Simulation::resume(&saved, workers);
+    assert_eq!(again.hash(), simulation.hash(), "as it is read");
+    assert_eq!(again.run(ticks).hash(), simulation.run(ticks).hash(), "after {ticks} ticks");
+    assert_eq!(again.get::<Books>(), simulation.get::<Books>());
+}
+
 /// What tests add to the start of a world by hand.
 pub trait Furnish {
+    /// The element of a name.
+    fn element(&self, name: &str) -> ElementId;
     /// Adds a particle of water; returns its id.
     fn water(&mut self, position: Vec2, velocity: Vec2) -> u32;
     /// Fills the cells `low … high` (high not included) with water at rest, one in the middle of each.
@@ -85,6 +102,10 @@ pub fn apart(one: &Simulation, other: &Simulation, place: impl Fn(Vec2) -> Vec2)
 }
 
 impl Furnish for Blueprint {
+    fn element(&self, name: &str) -> ElementId {
+        self.elements.find(name).unwrap_or_else(|| panic!("no element {name}"))
+    }
+
     fn water(&mut self, position: Vec2, velocity: Vec2) -> u32 {
         let id = self.next_id;
         self.next_id += 1;
@@ -140,6 +161,10 @@ pub trait SimulationExt: Sized {
     fn counters(&self) -> Counters;
     /// Particles by element.
     fn census(&self) -> &Census;
+    /// The element of a name.
+    fn element(&self, name: &str) -> ElementId;
+    /// How much there is of an element, particles and rock.
+    fn count(&self, name: &str) -> usize;
     /// Calls of a pass since the ledger was cleared.
     fn calls(&self, pass: Pass) -> u64;
     /// Root of the mean square of the speeds, d a tick.
@@ -179,6 +204,16 @@ impl SimulationExt for Simulation {
 
     fn census(&self) -> &Census {
         self.get()
+    }
+
+    fn element(&self, name: &str) -> ElementId {
+        self.get::<Setup>().elements().find(name).unwrap_or_else(|| panic!("no element {name}"))
+    }
+
+    fn count(&self, name: &str) -> usize {
+        let wanted = self.element(name);
+        let moves = self.particles().element.iter().filter(|element| **element == wanted).count();
+        moves + self.rock().iter().filter(|(_, element, _)| *element == wanted).count()
     }
 
     fn calls(&self, pass: Pass) -> u64 {

@@ -1,11 +1,10 @@
 //! Burning in a world: how fast it spreads, where it stops, that no energy is made, and that it can be left out.
 
-use crate::support::{SimulationExt, blueprint, empty_box};
+use crate::support::{SimulationExt, assert_goes_on_from_a_save, blueprint, empty_box};
 use glam::Vec2;
 use powder_master::{
     kernel::{
         brush::Stroke,
-        element::ElementId,
         heat::{chemical, held},
     },
     scene::{
@@ -13,28 +12,15 @@ use powder_master::{
         effects::{Effect, Mode},
     },
     sim::{
-        checkpoint::Checkpoint,
         effects::Effects,
         intent::Intent,
         simulation::Simulation,
-        state::{Books, HeatCurves, ParticleStore, Rock, Setup},
-        workers::Workers,
+        state::{Books, HeatCurves, ParticleStore, Rock},
     },
 };
 
 /// Slowest and fastest front through wood, m/s: what is to be watched, neither waited for nor missed.
 const FRONT: [f32; 2] = [0.05, 0.3];
-
-fn element(simulation: &Simulation, name: &str) -> ElementId {
-    let Some(element) = simulation.get::<Setup>().elements().find(name) else { panic!("no element {name}") };
-    element
-}
-
-fn count(simulation: &Simulation, name: &str) -> usize {
-    let id = element(simulation, name);
-    let rock = simulation.get::<Rock>().iter().filter(|(_, element, _)| *element == id).count();
-    simulation.particles().element.iter().filter(|element| **element == id).count() + rock
-}
 
 /// All energy, with what the air got and without what light and hands gave, quanta.
 fn energy(simulation: &Simulation) -> i64 {
@@ -52,7 +38,7 @@ fn room(columns: u32, rows: u32) -> Blueprint {
 }
 
 fn stamp(simulation: &mut Simulation, name: &str, min: [f32; 2], max: [f32; 2]) {
-    let element = element(simulation, name);
+    let element = simulation.element(name);
     let stroke = Stroke::rectangle(Vec2::from(min) + 0.5, Vec2::from(max) - 0.5);
     simulation.push(Intent::Stamp { element, stroke });
     simulation.apply_edits();
@@ -69,7 +55,7 @@ fn beam(thick: u32) -> Simulation {
 
 /// How far the fire has come: the first column of a beam of which all is wood, d.
 fn front(simulation: &Simulation, thick: u32) -> f32 {
-    let wood = element(simulation, "wood");
+    let wood = simulation.element("wood");
     let mut whole = [0; 80];
     for (cell, element, _) in simulation.get::<Rock>().iter() {
         whole[cell.x as usize] += u32::from(element == wood);
@@ -89,7 +75,7 @@ fn fire_runs_along_a_beam_and_no_energy_is_made() {
     let speed = (to - from) * 0.1 / 20.0;
     assert!((FRONT[0]..FRONT[1]).contains(&speed), "{speed} m/s");
     assert_eq!(energy(&simulation), before);
-    assert!(count(&simulation, "ash") > 10 && simulation.get::<Books>().to_air > 0);
+    assert!(simulation.count("ash") > 10 && simulation.get::<Books>().to_air > 0);
 }
 
 #[test]
@@ -102,8 +88,8 @@ fn fire_dies_in_wood_that_water_cools() {
     // It comes as far as the tank, and no further than the width of its wall and the beam's thickness into what the water cools.
     let front = front(&simulation, 3);
     assert!((25.0..35.0).contains(&front), "the fire stands at {front} d");
-    assert_eq!(count(&simulation, "burning_wood"), 0, "it still burns");
-    assert_eq!(count(&simulation, "water") + count(&simulation, "steam"), 36 * 13);
+    assert_eq!(simulation.count("burning_wood"), 0, "it still burns");
+    assert_eq!(simulation.count("water") + simulation.count("steam"), 36 * 13);
 }
 
 #[test]
@@ -130,31 +116,26 @@ fn a_cold_house_calls_for_nothing_and_one_where_nothing_may_burn_stands() {
     let mut house = blueprint("burning_house", &[]);
     house.effects.insert(Effect::Decay, Mode::Off);
     let mut house = Simulation::of(house);
-    let wood = count(&house, "wood");
+    let wood = house.count("wood");
     house.run(300);
-    assert_eq!((count(&house, "wood"), count(&house, "fire")), (wood, 0));
+    assert_eq!((house.count("wood"), house.count("fire")), (wood, 0));
 }
 
 #[test]
 fn a_world_that_burns_goes_on_from_a_save_to_the_bit_on_any_threads() {
     let mut simulation = Simulation::of(blueprint("oil_lamp", &[]));
     simulation.run(120);
-    let saved = Checkpoint::decode(&Checkpoint::of(simulation.world()).encode()).expect("a save file");
-    let mut again = Simulation::resume(&saved, Workers::new(3).expect("threads"));
-    let before = count(&simulation, "oil");
-    simulation.run(180);
-    again.run(180);
-    assert!(count(&simulation, "oil") < before && count(&simulation, "fire") > 0, "nothing burns");
-    assert_eq!(again.hash(), simulation.hash());
-    assert_eq!(again.get::<Books>(), simulation.get::<Books>());
+    let before = simulation.count("oil");
+    assert_goes_on_from_a_save(&mut simulation, 180);
+    assert!(simulation.count("oil") < before && simulation.count("fire") > 0, "nothing burns");
 }
 
 #[test]
 fn a_lamp_burns_until_its_oil_is_gone() {
     let mut simulation = Simulation::of(blueprint("oil_lamp", &[]));
-    let all = count(&simulation, "oil");
+    let all = simulation.count("oil");
     simulation.run(1800);
-    let half = count(&simulation, "oil");
+    let half = simulation.count("oil");
     assert!(half < 3 * all / 4, "{half} of {all} are left after 30 s");
-    assert!(count(&simulation, "burning_oil") > 5, "the lamp went out");
+    assert!(simulation.count("burning_oil") > 5, "the lamp went out");
 }

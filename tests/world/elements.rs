@@ -30,12 +30,6 @@ fn elements() -> Vec<(ElementId, Element)> {
     room().elements.iter().map(|(id, element)| (id, element.clone())).collect()
 }
 
-/// How much there is of an element, whether it moves or not.
-fn count(simulation: &Simulation, id: ElementId) -> usize {
-    let moves = simulation.particles().element.iter().filter(|element| **element == id).count();
-    moves + simulation.rock().iter().filter(|(_, element, _)| *element == id).count()
-}
-
 fn assert_sound(simulation: &Simulation, name: &str, after: &str) {
     let particles = simulation.particles();
     for i in 0..particles.len() {
@@ -55,27 +49,27 @@ fn every_tool_works_with_every_element() {
     for (id, element) in elements() {
         let (name, mut simulation) = (&element.name, Simulation::of(room()));
         simulation.push(Intent::Draw { element: id, stroke: disc((20.0, 20.0)) }).run(1);
-        let drawn = count(&simulation, id);
+        let drawn = simulation.count(name);
         assert!(drawn > 0, "{name}: nothing was drawn");
         simulation.push(Intent::Stamp { element: id, stroke: disc((8.0, 8.0)) }).run(1);
-        let stamped = count(&simulation, id);
+        let stamped = simulation.count(name);
         // π r² sites, less those at the rim.
         assert!(stamped >= drawn + 60, "{name}: {stamped} after {drawn}");
         simulation.run(60);
         simulation.push(Intent::Blow { stroke: disc((20.0, 8.0)), velocity: Vec2::new(200.0, 50.0) });
         simulation.push(Intent::Press { stroke: disc((10.0, 10.0)), amount: 2.0 }).run(30);
         assert_sound(&simulation, name, "wind and pressure");
-        assert_eq!(count(&simulation, id), stamped, "{name}: wind and pressure take none away");
+        assert_eq!(simulation.count(name), stamped, "{name}: wind and pressure take none away");
         // Where it did not go by itself.
         let free = if element.is_gas() { 1.5 } else { 38.5 };
         simulation.push(Intent::Fill { element: id, at: Vec2::new(20.5, free) }).run(1);
-        let filled = count(&simulation, id);
+        let filled = simulation.count(name);
         assert!(filled > 2 * stamped, "{name}: {filled} fill what {stamped} left");
         simulation.run(30);
         assert_sound(&simulation, name, "a full box");
-        assert_eq!(count(&simulation, id), filled, "{name}: a full box loses none");
+        assert_eq!(simulation.count(name), filled, "{name}: a full box loses none");
         simulation.push(Intent::Erase { stroke: Stroke::dab(BrushShape::Square, Vec2::splat(20.0), 30.0) }).run(1);
-        assert_eq!(count(&simulation, id), 0, "{name}: the eraser leaves some");
+        assert_eq!(simulation.count(name), 0, "{name}: the eraser leaves some");
     }
 }
 
@@ -86,10 +80,10 @@ fn what_is_fixed_replaces_what_moves_and_goes_without_a_trace() {
         for (id, element) in all.iter().filter(|(_, element)| !element.fixed) {
             let mut simulation = Simulation::of(room());
             simulation.push(Intent::Stamp { element: *id, stroke: disc((20.0, 6.0)) }).run(1);
-            let before = count(&simulation, *id);
+            let before = simulation.count(&element.name);
             simulation.push(Intent::Stamp { element: *fixed, stroke: disc((20.0, 6.0)) }).run(10);
             let name = format!("{} on {}", solid.name, element.name);
-            assert!(count(&simulation, *fixed) >= 60 && count(&simulation, *id) < before / 2, "{name}");
+            assert!(simulation.count(&solid.name) >= 60 && simulation.count(&element.name) < before / 2, "{name}");
             assert_sound(&simulation, &name, "ten ticks");
         }
     }
@@ -116,10 +110,10 @@ fn emitters_give_and_drains_take_all_that_moves() {
             .extend([area((0.0, 0.0), (40.0, 4.0)), area((0.0, 36.0), (40.0, 40.0))].map(|area| Drain { area }));
         let (name, mut simulation) = (&element.name, Simulation::of(blueprint));
         simulation.run(45);
-        assert!(count(&simulation, id) > 50, "{name}: {} after 45 ticks", count(&simulation, id));
+        assert!(simulation.count(name) > 50, "{name}: {} after 45 ticks", simulation.count(name));
         assert_sound(&simulation, name, "45 ticks");
         simulation.run(20 * 60);
         let given = simulation.counters();
-        assert_eq!(count(&simulation, id), 0, "{name} is left behind: {given:?}");
+        assert_eq!(simulation.count(name), 0, "{name} is left behind: {given:?}");
     }
 }

@@ -1,32 +1,26 @@
 //! Powders: heaps that stand, sleep and wake, in air and under water.
 
-use crate::support::{Furnish, SimulationExt, assert_same_bits_everywhere, empty_box};
+use crate::support::{Furnish, SimulationExt, assert_goes_on_from_a_save, assert_same_bits_everywhere, empty_box};
 use glam::Vec2;
 use powder_master::{
-    kernel::{element::ElementId, params::Preset},
+    kernel::params::Preset,
     scene::{
         blueprint::Blueprint,
         effects::{Effect, Mode},
     },
     sim::{
-        checkpoint::Checkpoint,
         effects::Effects,
         simulation::Simulation,
         state::{Apart, SleepState},
-        workers::Workers,
     },
 };
-
-fn element(blueprint: &Blueprint, name: &str) -> ElementId {
-    blueprint.elements.find(name).unwrap_or_else(|| panic!("no {name}"))
-}
 
 /// A column of sand, `width` × `height` in the middle of a box five times as wide.
 fn column(width: i32, height: i32) -> Blueprint {
     let mut blueprint = empty_box(5 * width as u32, height as u32 + 20);
     blueprint.domain.gravity = Vec2::new(0.0, -98.1);
     blueprint.effects.extend([Effect::Air, Effect::Drag].map(|effect| (effect, Mode::Off)));
-    let sand = element(&blueprint, "sand");
+    let sand = blueprint.element("sand");
     blueprint.pool((2 * width, 0), (3 * width, height));
     blueprint.particles.element.fill(sand);
     blueprint
@@ -97,7 +91,7 @@ fn without_friction_sand_lies_flat() {
 #[test]
 fn friction_is_only_looked_at_where_grains_are() {
     let mut blueprint = column(24, 24);
-    let water = element(&blueprint, "water");
+    let water = blueprint.element("water");
     blueprint.particles.element.fill(water);
     let mut automatic = Simulation::of(blueprint.clone());
     automatic.run(60);
@@ -111,7 +105,7 @@ fn sand_into_water(width: i32, depth: i32) -> Blueprint {
     let mut blueprint = empty_box(width as u32, 2 * depth as u32);
     blueprint.domain.gravity = Vec2::new(0.0, -98.1);
     blueprint.effects.extend([Effect::Air, Effect::Drag].map(|effect| (effect, Mode::Off)));
-    let sand = element(&blueprint, "sand");
+    let sand = blueprint.element("sand");
     blueprint.pool((0, 0), (width, depth));
     let water = blueprint.particles.len();
     blueprint.pool((2 * width / 5, depth + 5), (3 * width / 5, depth + 30));
@@ -122,7 +116,7 @@ fn sand_into_water(width: i32, depth: i32) -> Blueprint {
 #[test]
 fn sand_sinks_in_water_and_piles_up_under_it() {
     let blueprint = sand_into_water(100, 40);
-    let (sand, count) = (element(&blueprint, "sand"), blueprint.particles.len());
+    let (sand, count) = (blueprint.element("sand"), blueprint.particles.len());
     let mut simulation = Simulation::of(blueprint);
     simulation.run(1200);
     let particles = simulation.particles();
@@ -152,8 +146,6 @@ fn a_saved_heap_goes_on_to_the_bit() {
     for ticks in [30, 200] {
         let mut simulation = Simulation::of(sand_into_water(100, 40));
         simulation.run(ticks);
-        let file = Checkpoint::of(simulation.world()).encode();
-        let mut again = Simulation::resume(&Checkpoint::decode(&file).unwrap(), Workers::single());
-        assert_eq!(again.run(60).hash(), simulation.run(60).hash(), "saved after {ticks} ticks");
+        assert_goes_on_from_a_save(&mut simulation, 60);
     }
 }

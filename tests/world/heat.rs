@@ -1,6 +1,6 @@
 //! Heat in a world: what it wakes, what it survives, and where it is not.
 
-use crate::support::{SimulationExt, blueprint};
+use crate::support::{SimulationExt, assert_goes_on_from_a_save, blueprint};
 use glam::Vec2;
 use powder_master::{
     kernel::{
@@ -51,15 +51,7 @@ fn warming_wakes_no_pool_and_boiling_does() {
 fn a_world_that_melts_goes_on_from_a_save_to_the_bit() {
     let mut simulation = Simulation::of(blueprint("volcano", &[]));
     simulation.push(Intent::Warm { stroke: everywhere(), degrees: 30.0 }).run(240);
-    let saved = Checkpoint::of(simulation.world());
-    let opened = Checkpoint::decode(&saved.encode()).expect("a save file");
-    assert_eq!(opened.state.hash(), saved.state.hash());
-    let mut again = Simulation::resume(&opened, Workers::single());
-    assert_eq!(again.get::<Books>(), simulation.get::<Books>());
-    simulation.run(120);
-    again.run(120);
-    assert_eq!(again.hash(), simulation.hash());
-    assert_eq!(again.get::<Books>(), simulation.get::<Books>());
+    assert_goes_on_from_a_save(&mut simulation, 120);
 }
 
 #[test]

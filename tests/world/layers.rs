@@ -15,16 +15,12 @@ use powder_master::{
     },
 };
 
-fn element(blueprint: &Blueprint, name: &str) -> ElementId {
-    blueprint.elements.find(name).unwrap_or_else(|| panic!("no {name}"))
-}
-
 /// Two liquids, `depth` rows of each in a box `width` wide, the first one below.
 fn layers(names: [&str; 2], width: i32, depth: i32) -> Blueprint {
     let mut blueprint = empty_box(width as u32, 3 * depth as u32);
     blueprint.domain.gravity = Vec2::new(0.0, -98.1);
     blueprint.effects.extend([Effect::Air, Effect::Drag].map(|effect| (effect, Mode::Off)));
-    let elements = names.map(|name| element(&blueprint, name));
+    let elements = names.map(|name| blueprint.element(name));
     blueprint.pool((0, 0), (width, 2 * depth));
     for i in 0..blueprint.particles.len() {
         let is_upper = blueprint.particles.y[i] > depth as f32;
@@ -45,7 +41,7 @@ fn height(simulation: &Simulation, element: ElementId) -> f64 {
 fn heavy_liquids_come_to_lie_under_light_ones_and_rest_there() {
     for (names, ticks) in [(["oil", "mercury"], 900), (["water", "brine"], 2400), (["oil", "honey"], 2400)] {
         let blueprint = layers(names, 24, 10);
-        let [light, heavy] = names.map(|name| element(&blueprint, name));
+        let [light, heavy] = names.map(|name| blueprint.element(name));
         let count = blueprint.particles.len();
         let mut simulation = Simulation::of(blueprint);
         simulation.run(ticks);
