@@ -110,6 +110,9 @@ fn every_intent() -> Vec<Intent> {
         Intent::Quality { preset: Preset::Balanced, quality: Preset::Balanced.quality() },
         Intent::Effect { effect: Effect::Vorticity, mode: Mode::Off },
         Intent::Gravity { gravity: Vec2::new(30.0, 90.0) },
+        Intent::Warm { stroke, degrees: -40.0 },
+        Intent::SetTemperature { stroke, kelvin: 400.0 },
+        Intent::Ignite { stroke },
     ]
 }
 

@@ -93,6 +93,18 @@ pub enum Intent {
         /// By how much, K; negative cools.
         degrees: f32,
     },
+    /// Set what is under the stroke, rock and what moves, to a temperature.
+    SetTemperature {
+        /// Where.
+        stroke: Stroke,
+        /// To which, K.
+        kelvin: f32,
+    },
+    /// Set fire to what can burn under the stroke.
+    Ignite {
+        /// Where.
+        stroke: Stroke,
+    },
 }
 
 impl Intent {
@@ -109,6 +121,8 @@ impl Intent {
             }
             Self::Press { stroke, amount } => Self::Press { stroke: stroke.scaled(factor), amount },
             Self::Warm { stroke, degrees } => Self::Warm { stroke: stroke.scaled(factor), degrees },
+            Self::SetTemperature { stroke, kelvin } => Self::SetTemperature { stroke: stroke.scaled(factor), kelvin },
+            Self::Ignite { stroke } => Self::Ignite { stroke: stroke.scaled(factor) },
             Self::Gravity { gravity } => Self::Gravity { gravity: gravity * factor },
             Self::ClearAir | Self::Quality { .. } | Self::Effect { .. } | Self::Detail { .. } => self,
         }

@@ -4,7 +4,7 @@ use crate::support::{SimulationExt, assert_goes_on_from_a_save, blueprint, empty
 use glam::Vec2;
 use powder_master::{
     kernel::{
-        brush::Stroke,
+        brush::{BrushShape, Stroke},
         heat::{chemical, held},
     },
     scene::{
@@ -90,6 +90,39 @@ fn fire_dies_in_wood_that_water_cools() {
     assert!((25.0..35.0).contains(&front), "the fire stands at {front} d");
     assert_eq!(simulation.count("burning_wood"), 0, "it still burns");
     assert_eq!(simulation.count("water") + simulation.count("steam"), 36 * 13);
+}
+
+#[test]
+fn a_match_that_is_held_for_a_second_sets_fire_to_all_that_can_burn_and_to_nothing_else() {
+    for (name, burns) in [
+        ("wood", true),
+        ("plant", true),
+        ("oil", true),
+        ("tar", true),
+        ("coal", true),
+        ("charcoal", true),
+        ("dust", true),
+        ("hydrogen", true),
+        ("water", false),
+        ("metal", false),
+        ("acid", false),
+        ("sand", false),
+    ] {
+        let mut simulation = Simulation::of(room(60, 40));
+        stamp(&mut simulation, name, [10.0, 0.0], [50.0, 10.0]);
+        simulation.run(30);
+        let (count, before) = (simulation.count(name), energy(&simulation));
+        let dab = Stroke::dab(BrushShape::Disc, Vec2::new(30.0, 10.0), 4.0);
+        for _ in 0..60 {
+            simulation.push(Intent::Ignite { stroke: dab }).run(1);
+        }
+        assert_eq!(simulation.get::<Books>().by_hand > 0, burns, "{name}");
+        // Tar, the slowest, goes out again where nothing else burns: of it a share of 1/3 burns in a second.
+        simulation.run(300);
+        let gone = count - simulation.count(name);
+        assert!(if burns { gone > 0 } else { gone == 0 }, "{name}: {gone} of {count} are gone");
+        assert_eq!(energy(&simulation), before, "{name}");
+    }
 }
 
 #[test]

@@ -15,7 +15,7 @@ use powder_master::{
         effects::Effects,
         intent::Intent,
         simulation::Simulation,
-        state::{Books, ParticleStore, Rock, Setup, SleepState},
+        state::{Books, HeatCurves, ParticleStore, Rock, Setup, SleepState},
         workers::Workers,
     },
 };
@@ -44,6 +44,30 @@ fn warming_wakes_no_pool_and_boiling_does() {
     assert_eq!(total(&simulation), 0);
     simulation.push(Intent::Warm { stroke: dab, degrees: 500.0 }).run(2);
     assert_eq!(simulation.get::<SleepState>().asleep(), 0, "boiling water sleeps on");
+    assert_eq!(total(&simulation), 0);
+}
+
+#[test]
+fn water_that_is_set_to_a_temperature_boils_at_once_and_stays_there() {
+    let mut simulation = Simulation::of(blueprint("hydrostatic", &[("columns", "20"), ("depth", "10")]));
+    simulation.run(900);
+    let all = simulation.particles().len();
+    assert_eq!(simulation.get::<SleepState>().asleep(), all, "the pool does not rest");
+    simulation.push(Intent::SetTemperature { stroke: everywhere(), kelvin: 350.0 }).run(1);
+    assert_eq!(simulation.get::<SleepState>().asleep(), all, "warm water wakes");
+    assert_eq!((simulation.count("water"), total(&simulation)), (all, 0));
+    let kelvin = |simulation: &Simulation| {
+        let (particles, curves) = (simulation.get::<ParticleStore>(), simulation.get::<HeatCurves>());
+        let kelvin = |i: usize| curves.curve(particles.element[i]).temperature(particles.heat_of(i));
+        (0..particles.len()).map(kelvin).fold((f32::MAX, f32::MIN), |(a, b), is| (a.min(is), b.max(is)))
+    };
+    simulation.push(Intent::SetTemperature { stroke: everywhere(), kelvin: 450.0 }).run(2);
+    assert_eq!((simulation.count("steam"), simulation.get::<SleepState>().asleep()), (all, 0));
+    // Steam of 373 K; the next touch makes it as hot as was asked.
+    simulation.push(Intent::SetTemperature { stroke: everywhere(), kelvin: 450.0 });
+    simulation.apply_edits();
+    let (coldest, hottest) = kelvin(&simulation);
+    assert!(450.0 - coldest < 0.01 && hottest - 450.0 < 0.01, "{coldest} to {hottest} K");
     assert_eq!(total(&simulation), 0);
 }
 

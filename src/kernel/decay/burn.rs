@@ -1,6 +1,6 @@
 //! Lumps whose die fell become what their decay says.
 
-use super::table::{Decay, DecayTable};
+use super::table::{Decay, DecayTable, OPEN};
 use crate::{
     element::ElementId,
     heat::{DECAY, Exposure, HeatRecord, Warm, table::HeatTable, units::ROOM},
@@ -8,13 +8,10 @@ use crate::{
     relabel::Relabelled,
     solids::centre,
 };
-use glam::IVec2;
+use glam::{IVec2, Vec2};
 
 /// Sets the dice of decay apart from others of the same lump and tick.
 const SALT: u32 = 0x6275_726e;
-/// Length of open surface that lets enough air to a lump, d. A lump of a plane surface has 1, under a heap of grains .30, and one
-/// row further in nothing.
-const OPEN: f32 = 0.25;
 
 /// Buffers of the decays, which are kept.
 #[derive(Clone, Debug, Default)]
@@ -87,15 +84,11 @@ impl Decays {
         {
             return;
         }
-        exposure.gather(warm);
-        particles.retain(|i| {
-            let (element, at) = (of_particle(*i), warm.particles.position(*i as usize));
-            !needs_air(element) || exposure.of(warm, element, at) >= OPEN
-        });
-        rock.retain(|cell| {
-            of_rock(*cell)
-                .is_some_and(|element| !needs_air(element) || exposure.of(warm, element, centre(*cell)) >= OPEN)
-        });
+        exposure.gather(warm.particles, warm.domain.size);
+        let matter = (&*warm.particles, &*warm.solids, warm.elements);
+        let has_air = |element: ElementId, at: Vec2| !needs_air(element) || exposure.of(matter, element, at) >= OPEN;
+        particles.retain(|i| has_air(of_particle(*i), warm.particles.position(*i as usize)));
+        rock.retain(|cell| of_rock(*cell).is_some_and(|element| has_air(element, centre(*cell))));
     }
 
     /// Bytes held.

@@ -8,8 +8,10 @@
 //! has an open surface ([`exposure`](crate::heat::Exposure)). Of several products each lump gets the next in turn.
 
 mod burn;
+mod ignite;
 pub mod table;
 #[cfg(test)]
 mod tests;
 
 pub use burn::Decays;
+pub use ignite::ignite_under;

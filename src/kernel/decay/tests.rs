@@ -1,8 +1,9 @@
 //! What decays must hold to.
 
-use super::{Decays, table::DecayTable};
+use super::{Decays, ignite_under, table::DecayTable};
 use crate::{
-    element::{Category, Element, ElementDecay, ElementId, ElementTable},
+    brush::Stroke,
+    element::{Category, Element, ElementChange, ElementDecay, ElementId, ElementTable},
     heat::{Exposure, HeatRecord, Warm, chemical, held, table::HeatTable},
     params::Domain,
     particles::Particles,
@@ -20,6 +21,7 @@ const WOOD: ElementId = ElementId(4);
 const SMOKE: ElementId = ElementId(5);
 const WATER: ElementId = ElementId(6);
 const SAND: ElementId = ElementId(7);
+const SCALE: Scale = Scale { spacing: 0.1, detail: 1.0 };
 
 fn decay(above: Option<f32>, seconds: f32, needs_air: bool, into: &[&str]) -> Option<ElementDecay> {
     Some(ElementDecay { above, seconds, needs_air, into: into.iter().map(|name| (*name).to_owned()).collect() })
@@ -89,21 +91,26 @@ impl Bench {
     fn run(&mut self, ticks: u32) {
         for _ in 0..ticks {
             let Self { elements, heat, table, domain, particles, solids, .. } = self;
-            let scale = Scale { spacing: 0.1, detail: 1.0 };
-            let mut warm = Warm { particles, solids, elements, table: heat, domain, scale };
+            let mut warm = Warm { particles, solids, elements, table: heat, domain, scale: SCALE };
             self.decays.run(&mut warm, table, &mut self.record, &mut self.relabelled, self.tick);
             self.tick += 1;
         }
     }
 
+    /// Sets fire to all.
+    fn ignite(&mut self) {
+        let Self { elements, heat, table, domain, particles, solids, .. } = self;
+        let stroke = Stroke::rectangle(Vec2::ZERO, domain.size);
+        let mut warm = Warm { particles, solids, elements, table: heat, domain, scale: SCALE };
+        ignite_under(&mut warm, table, &stroke, &mut self.record);
+    }
+
     /// Length of the open surface of wood in a cell, d.
-    fn exposure(&mut self, cell: IVec2) -> f32 {
-        let Self { elements, heat, domain, particles, solids, .. } = self;
-        let scale = Scale { spacing: 0.1, detail: 1.0 };
-        let warm = Warm { particles, solids, elements, table: heat, domain, scale };
+    fn exposure(&self, cell: IVec2) -> f32 {
+        let Self { elements, domain, particles, solids, .. } = self;
         let mut exposure = Exposure::default();
-        exposure.gather(&warm);
-        exposure.of(&warm, WOOD, centre(cell))
+        exposure.gather(particles, domain.size);
+        exposure.of((particles, solids, elements), WOOD, centre(cell))
     }
 
     fn count(&self, element: ElementId) -> usize {
@@ -191,7 +198,7 @@ fn what_is_open_follows_from_what_lies_on_it() {
         (Some(WATER), 0.0, 0.0),
         (Some(WOOD), 0.0, 0.0),
     ] {
-        let mut bench =
+        let bench =
             Bench::new(16, |cell| if cell.y < 8 { Some((WOOD, 300.0)) } else { cover.map(|cover| (cover, 300.0)) });
         for (x, open) in [(8, open), (0, corner), (15, corner)] {
             let [first, second] = [7, 6].map(|y| bench.exposure(IVec2::new(x, y)));
@@ -226,6 +233,43 @@ fn what_would_be_hotter_than_anything_gives_the_rest_to_the_air() {
         assert!(bench.record.to_air > 0);
     }
     assert_eq!(bench.energy(), before);
+}
+
+#[test]
+fn a_match_lights_all_that_can_burn_and_warms_nothing_else() {
+    let fuels = [OIL, EMBER, WOOD];
+    let all = [OIL, FIRE, ASH, EMBER, WOOD, SMOKE, WATER, SAND];
+    for element in all {
+        let mut bench = Bench::new(6, |cell| (cell.y < 3).then_some((element, 300.0)));
+        let (before, energy) = (held(&bench.particles, &bench.solids), bench.energy());
+        bench.ignite();
+        assert_eq!(bench.energy(), energy, "{element:?}: what it gives is not booked");
+        assert_eq!(bench.record.by_hand > 0, fuels.contains(&element), "{element:?}");
+        assert_eq!(held(&bench.particles, &bench.solids) - before, bench.record.by_hand);
+        let count = bench.count(element);
+        bench.run(240);
+        // Smoke fades at any temperature.
+        assert_eq!(bench.count(element) < count, fuels.contains(&element) || element == SMOKE, "{element:?}");
+    }
+    // What burns is not cooled.
+    let mut bench = Bench::new(6, |_| Some((EMBER, 1300.0)));
+    bench.ignite();
+    assert_eq!(bench.record.by_hand, 0);
+}
+
+#[test]
+fn what_can_burn_is_known_with_the_temperature_that_it_takes() {
+    let mut rows = rows();
+    let coal = ElementId(rows.len() as u8);
+    rows.push(Element {
+        changes: vec![ElementChange { above: Some(520.0), below: None, into: vec!["ember".into()], latent: Some(0.0) }],
+        ..Element { name: "charcoal".into(), energy: 1000.0, ..rows[ASH.index()].clone() }
+    });
+    let table = DecayTable::of_rows(&rows, 1.0).expect("sound");
+    let all = [OIL, FIRE, ASH, EMBER, WOOD, SMOKE, WATER, coal];
+    let expected = [Some(520.0), None, None, Some(500.0), Some(570.0), None, None, Some(520.0)];
+    assert_eq!(all.map(|element| table.ignition(element)), expected);
+    assert_eq!((table.lowest_ignition(), DecayTable::default().lowest_ignition()), (Some(500.0), None));
 }
 
 #[test]

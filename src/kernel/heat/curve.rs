@@ -130,6 +130,18 @@ impl HeatCurve {
         self.base.saturating_add(more.round() as i32)
     }
 
+    /// Heat at a temperature (K), quanta; where a change lies before it, that with which the change is done.
+    pub fn heat_towards(&self, temperature: f32) -> i32 {
+        let ([coldest, hottest], [lowest, highest]) = (self.stays_between(), self.range());
+        if temperature < coldest {
+            lowest
+        } else if temperature > hottest {
+            highest
+        } else {
+            self.heat(temperature)
+        }
+    }
+
     /// Heat of a degree on its slope, quanta.
     pub fn quanta_per_kelvin(&self) -> f64 {
         f64::from(self.capacity) / f64::from(QUANTUM)
@@ -223,6 +235,27 @@ mod tests {
             assert!(now >= before, "{before} K, then {now} K at {heat}");
             before = now;
         }
+    }
+
+    #[test]
+    fn on_the_way_to_a_temperature_a_change_is_gone_through_and_no_further() {
+        let curve = water();
+        let [cold, hot] = curve.range();
+        for (kelvin, heat) in [
+            (273.0, curve.heat(273.0)),
+            (300.0, curve.heat(300.0)),
+            (373.0, curve.heat(373.0)),
+            (373.1, hot),
+            (4000.0, hot),
+            (1e30, hot),
+            (272.9, cold),
+            (-1e30, cold),
+        ] {
+            assert_eq!(curve.heat_towards(kelvin), heat, "{kelvin} K");
+        }
+        assert_eq!(curve.done(curve.heat_towards(373.0)), None, "it boils before it is hotter than that");
+        let plain = HeatCurve::plain(1e6, 0.5);
+        assert_eq!([-5.0, 5000.0].map(|kelvin| plain.heat_towards(kelvin)), plain.range());
     }
 
     #[test]

@@ -1,13 +1,13 @@
 //! What of single lumps stands in the air.
 
 use super::{
-    matter::Warm,
     surface::open_length,
     weights::{REACH, WEIGHT, Weights},
 };
 use crate::{
     cells::Cells,
-    element::ElementId,
+    element::{ElementId, ElementTable},
+    particles::Particles,
     solids::{Solids, centre},
 };
 use glam::{IVec2, Vec2};
@@ -20,14 +20,19 @@ pub struct Exposure {
 }
 
 impl Exposure {
-    /// Gathers what may cover others.
-    pub fn gather(&mut self, warm: &Warm) {
-        self.cells.sort(warm.particles, warm.domain.size, REACH, |_| true);
+    /// Gathers what may cover others in a box of a size, d.
+    pub fn gather(&mut self, particles: &Particles, size: Vec2) {
+        self.cells.sort(particles, size, REACH, |_| true);
     }
 
-    /// Length of the open surface of a lump at a place, d; 1 at a plane surface.
-    pub fn of(&self, warm: &Warm, element: ElementId, at: Vec2) -> f32 {
-        let covers = |other: ElementId| match warm.elements.get(other) {
+    /// Length of the open surface of a lump at a place among what was gathered, d; 1 at a plane surface.
+    pub fn of(
+        &self,
+        (particles, solids, elements): (&Particles, &Solids, &ElementTable),
+        element: ElementId,
+        at: Vec2,
+    ) -> f32 {
+        let covers = |other: ElementId| match elements.get(other) {
             _ if other == element => 1.0,
             other if other.is_gas() => 0.0,
             other if other.friction > 0.0 => 0.5,
@@ -37,15 +42,14 @@ impl Exposure {
         let mut neighbours = 0.0;
         for (_, near) in self.cells.around(at) {
             let near = near.iter().map(|i| *i as usize);
-            let weights = near.map(|i| covers(warm.particles.element[i]) * weight(warm.particles.position(i)));
+            let weights = near.map(|i| covers(particles.element[i]) * weight(particles.position(i)));
             neighbours += weights.sum::<f32>();
         }
         // Beyond the box stands rock.
         let (cell, reach) = (Solids::cell_of(at), REACH.ceil() as i32);
         for y in -reach..=reach {
             let cells = (-reach..=reach).map(|x| cell + IVec2::new(x, y));
-            neighbours +=
-                cells.filter(|cell| warm.solids.is_solid(*cell)).map(|cell| weight(centre(cell))).sum::<f32>();
+            neighbours += cells.filter(|cell| solids.is_solid(*cell)).map(|cell| weight(centre(cell))).sum::<f32>();
         }
         // It is its own neighbour in that sum.
         open_length(neighbours - WEIGHT)

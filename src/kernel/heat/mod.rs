@@ -29,7 +29,7 @@ pub mod units;
 mod walls;
 mod weights;
 
-pub use brush::warm_under;
+pub use brush::{reheat_under, set_under, warm_under};
 pub use change::change;
 pub use exposure::Exposure;
 pub use matter::{Warm, chemical, held};

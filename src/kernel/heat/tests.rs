@@ -307,6 +307,55 @@ fn boiling_takes_as_long_as_the_heat_takes_to_come() {
 }
 
 #[test]
+fn a_temperature_that_is_set_holds_whatever_matter_becomes_on_the_way() {
+    let mut bench = Bench::new(Vec2::new(20.0, 20.0), 0.1).fill(0.0, |at| {
+        let of_row = |row: u32| [WATER, ICE, STEAM, ASH, METAL, LAVA, SNOW, BRINE][row as usize % 8];
+        let element = of_row(at.y as u32);
+        (at.x < 12.0).then_some((element, [293.0, 200.0, 500.0, 293.0, 293.0, 1600.0, 250.0, 293.0][at.y as usize % 8]))
+    });
+    for x in 12..20 {
+        for y in 0..20 {
+            bench.solids.insert(IVec2::new(x, y), ROCK, 1000 + 20 * x as u32 + y as u32);
+        }
+    }
+    let (before, stroke) = (bench.total(), Stroke::rectangle(Vec2::ZERO, Vec2::splat(20.0)));
+    for kelvin in [3000.0, 320.0, 600.0, 250.0, 20.0, 400.0] {
+        for _ in 0..4 {
+            let (mut warm, _, record, _) = bench.warm();
+            set_under(&mut warm, &stroke, kelvin, record);
+            bench.change();
+        }
+        for i in 0..bench.particles.len() {
+            let (is, element) = (bench.kelvin(i), bench.particles.element[i]);
+            assert!((is - kelvin).abs() < 0.01, "{element:?} has {is} K of {kelvin}");
+        }
+        for (cell, element, _) in bench.solids.iter() {
+            let is = bench.table.curve(element).temperature(bench.solids.heat(cell));
+            assert!((is - kelvin).abs() < 0.01, "rock {element:?} has {is} K of {kelvin}");
+        }
+        assert_eq!(bench.total(), before, "at {kelvin} K");
+    }
+    // Under the stroke alone.
+    let dab = Stroke::dab(BrushShape::Disc, Vec2::splat(6.0), 2.0);
+    let held: Vec<i32> = bench.particles.heat.to_vec();
+    let (mut warm, _, record, _) = bench.warm();
+    set_under(&mut warm, &dab, 350.0, record);
+    for i in 0..bench.particles.len() {
+        let is_changed = bench.particles.heat_of(i) != held[i];
+        assert_eq!(is_changed, dab.covers(bench.particles.position(i)), "{:?}", bench.particles.position(i));
+    }
+}
+
+#[test]
+fn what_is_set_to_the_temperature_of_the_room_at_rest_has_no_heat() {
+    let mut bench = Bench::new(Vec2::new(10.0, 10.0), 0.1).fill(0.0, |_| Some((WATER, ROOM)));
+    bench.solids.insert(IVec2::new(3, 3), ROCK, 1000);
+    let (mut warm, _, record, _) = bench.warm();
+    set_under(&mut warm, &Stroke::rectangle(Vec2::ZERO, Vec2::splat(10.0)), ROOM, record);
+    assert!(!bench.particles.has_heat() && bench.solids.heats().is_empty());
+}
+
+#[test]
 fn what_splits_is_dealt_in_turn() {
     let mut bench = Bench::new(Vec2::new(30.0, 30.0), 0.1).fill(0.0, |_| Some((SNOW, 280.0)));
     let (count, total) = (bench.particles.len(), bench.total());

@@ -187,10 +187,12 @@ fn check_entry(entry: &Entry, ticks: RangeInclusive<u64>, elements: usize, scale
             (Some(element), &places(stroke), &[stroke.radius])
         }
         Intent::Fill { element, at } => (Some(element), &[*at], &[]),
-        Intent::Erase { stroke } => (None, &places(stroke), &[stroke.radius]),
+        Intent::Erase { stroke } | Intent::Ignite { stroke } => (None, &places(stroke), &[stroke.radius]),
         Intent::Blow { stroke, velocity } => (None, &[stroke.from, stroke.to, *velocity], &[stroke.radius]),
         Intent::Press { stroke, amount } => (None, &places(stroke), &[stroke.radius, *amount]),
-        Intent::Warm { stroke, degrees } => (None, &places(stroke), &[stroke.radius, *degrees]),
+        Intent::Warm { stroke, degrees: kelvin } | Intent::SetTemperature { stroke, kelvin } => {
+            (None, &places(stroke), &[stroke.radius, *kelvin])
+        }
         Intent::ClearAir | Intent::Effect { .. } => (None, &[], &[]),
         Intent::Quality { quality, .. } => return check::quality(quality),
         // Of whichever detail is in force by then: at the highest the d is shortest.

@@ -2,9 +2,10 @@
 
 use crate::{
     kernel::{
+        decay::ignite_under,
         element::{ElementParams, ElementTable},
         forces,
-        heat::warm_under,
+        heat::{set_under, warm_under},
         params::Preset,
         predictor::Kept,
         sleep::{Sleep, SleepRecord},
@@ -19,8 +20,8 @@ use crate::{
         recorder::Recorder,
         snapshot::Snapshot,
         state::{
-            AirGrid, Books, Census, Clock, Counters, Elements, HeatCurves, ParticleStore, PredictorState, Rock, Setup,
-            SleepState, SolverState, Sources,
+            AirGrid, Books, Census, Clock, Counters, Elements, HeatCurves, ParticleStore, PredictorState, Recipes,
+            Rock, Setup, SleepState, SolverState, Sources,
         },
     },
 };
@@ -43,6 +44,7 @@ pub(super) struct Derived<'w> {
     sleep: ResMut<'w, SleepState>,
     solver: ResMut<'w, SolverState>,
     curves: Res<'w, HeatCurves>,
+    recipes: Res<'w, Recipes>,
     books: ResMut<'w, Books>,
 }
 
@@ -125,6 +127,14 @@ pub(super) fn apply_intents(
                 let mut warm = setup.matter(&mut particles, &mut rock, &derived.curves);
                 warm_under(&mut warm, &stroke, degrees, &mut derived.books);
             }
+            Intent::SetTemperature { stroke, kelvin } => {
+                let mut warm = setup.matter(&mut particles, &mut rock, &derived.curves);
+                set_under(&mut warm, &stroke, kelvin, &mut derived.books);
+            }
+            Intent::Ignite { stroke } => {
+                let mut warm = setup.matter(&mut particles, &mut rock, &derived.curves);
+                ignite_under(&mut warm, &derived.recipes.decays, &stroke, &mut derived.books);
+            }
         }
         // After each one, so that it makes no difference which of them came in the same tick.
         air.set_solids(&rock);
@@ -200,6 +210,8 @@ fn moves_air(intent: &Intent, elements: &ElementTable, rock: &Rock) -> bool {
         | Intent::Effect { .. }
         | Intent::Gravity { .. }
         | Intent::Detail { .. }
-        | Intent::Warm { .. } => false,
+        | Intent::Warm { .. }
+        | Intent::SetTemperature { .. }
+        | Intent::Ignite { .. } => false,
     }
 }

@@ -53,7 +53,7 @@ impl Hands<'_> {
     }
 
     fn intent(&self, dice: &mut Dice) -> Intent {
-        match dice.below(22) {
+        match dice.below(24) {
             0..5 => Intent::Draw { element: self.element(dice), stroke: self.stroke(dice) },
             5 | 6 => Intent::Stamp { element: self.element(dice), stroke: self.stroke(dice) },
             7 => Intent::Fill { element: self.element(dice), at: self.place(dice) },
@@ -76,6 +76,11 @@ impl Hands<'_> {
                 let degrees = dice.one(&[5.0, 300.0, 4000.0, 1e30]) * dice.one(&[1.0, -1.0]);
                 Intent::Warm { stroke: self.stroke(dice), degrees }
             }
+            22 => {
+                let kelvin = dice.one(&[-1e30, 0.0, 77.0, 293.0, 700.0, 4000.0, 1e30]);
+                Intent::SetTemperature { stroke: self.stroke(dice), kelvin }
+            }
+            23 => Intent::Ignite { stroke: self.stroke(dice) },
             15 => Intent::ClearAir,
             16 => quality(dice, &Preset::ALL, 1.0),
             17 | 18 => {
