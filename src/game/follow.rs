@@ -1,11 +1,7 @@
 //! What the game does when another scene begins, or the same goes on at another detail.
 
 use crate::{
-    game::{
-        camera::WorldCamera,
-        input::strokes::DragState,
-        tools::{Tool, Toolbox},
-    },
+    game::{camera::WorldCamera, input::strokes::DragState, toolbox::Toolbox, tools::Tool},
     sim::{generation::Generation, state::Setup},
 };
 use bevy::prelude::{Res, ResMut, Resource, World};

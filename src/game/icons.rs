@@ -195,6 +195,29 @@ pub fn flame(pen: &Pen<'_>) {
     pen.fill_in(inner, &[(0.54, 0.52), (0.66, 0.68), (0.62, 0.82), (0.52, 0.86), (0.42, 0.82), (0.4, 0.7)]);
 }
 
+/// A thermometer.
+pub fn thermometer(pen: &Pen<'_>) {
+    pen.line(&pen.arc(0.42, 0.18, 0.12, -0.5, 0.0), 0.08);
+    pen.line(&[(0.3, 0.18), (0.3, 0.62)], 0.08);
+    pen.line(&[(0.54, 0.18), (0.54, 0.62)], 0.08);
+    pen.line(&pen.arc(0.42, 0.76, 0.19, -0.14, 0.64), 0.08);
+    pen.disc(0.42, 0.76, 0.11);
+    pen.bar(0.38, 0.36, 0.08, 0.4);
+    for y in [0.2, 0.36, 0.52] {
+        pen.bar(0.66, y - 0.03, 0.16, 0.07);
+    }
+}
+
+/// A match that burns.
+pub fn burning_match(pen: &Pen<'_>) {
+    pen.line(&[(0.14, 0.94), (0.56, 0.5)], 0.1);
+    let mut outline = vec![(0.74, 0.02)];
+    outline.extend(pen.arc(0.64, 0.4, 0.2, -0.04, 0.56));
+    pen.fill(&outline);
+    let inner = pen.colour.lerp_to_gamma(Color32::BLACK, 0.5);
+    pen.fill_in(inner, &[(0.68, 0.26), (0.73, 0.42), (0.64, 0.52), (0.55, 0.44)]);
+}
+
 /// An eraser.
 pub fn eraser(pen: &Pen<'_>) {
     pen.fill(&[(0.56, 0.16), (0.86, 0.42), (0.66, 0.64), (0.36, 0.38)]);

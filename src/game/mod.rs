@@ -38,6 +38,7 @@ pub mod split;
 #[cfg(test)]
 mod tests;
 pub mod toasts;
+pub mod toolbox;
 pub mod tools;
 pub mod views;
 pub mod window;

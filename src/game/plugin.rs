@@ -3,7 +3,7 @@
 use crate::{
     game::{
         camera, execute, favourites, follow, frame, history, hud, input, orders, panels, playback, recording, saves,
-        split, toasts, tools, views,
+        split, toasts, toolbox, views,
     },
     kernel::units::TICKS_PER_SECOND,
     lab::{
@@ -35,7 +35,7 @@ impl Plugin for GamePlugin {
         app.add_message::<WindowEvent>()
             .insert_resource(Time::<Fixed>::from_hz(f64::from(TICKS_PER_SECOND)))
             .init_resource::<camera::WorldCamera>()
-            .init_resource::<tools::Toolbox>()
+            .init_resource::<toolbox::Toolbox>()
             .init_resource::<input::bindings::Bindings>()
             .init_resource::<orders::Orders>()
             .init_resource::<views::table::Shown>()

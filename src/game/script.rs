@@ -9,7 +9,7 @@
 //! ```
 
 use crate::{
-    game::{frame::Tempo, input::pointer::Pointer, toasts::Toasts, tools::Toolbox},
+    game::{frame::Tempo, input::pointer::Pointer, toasts::Toasts, toolbox::Toolbox},
     sim::{
         ledger::PassLedger,
         pace::Pace,

@@ -1,24 +1,21 @@
-//! What the player works with: the one table of tools beside the elements, the chosen tool and the brush. Palette, panel of
-//! elements, touch bar, keys and help follow from the table.
+//! What the player works with: the one table of tools beside the elements. Palette, panel of elements, touch bar, keys and help
+//! follow from the table.
 
 use crate::{
     game::icons::{self, Icon},
     kernel::{
-        brush::{BrushShape, Stroke},
+        brush::Stroke,
         element::{Category, Element, ElementId, ElementTable},
+        heat::units::ROOM,
     },
     scene::effects::Effect,
     sim::intent::Intent,
 };
-use bevy::prelude::{KeyCode, Resource};
+use bevy::prelude::KeyCode;
 use bevy_egui::egui::Color32;
 use glam::Vec2;
 use std::fmt;
 
-/// Smallest and largest brush, half its width in d.
-pub const BRUSH_RANGE: std::ops::RangeInclusive<f32> = 0.5..=40.0;
-/// Factor of one step of brush size.
-const BRUSH_STEP: f32 = 1.25;
 /// A small brush that moves air cannot be felt: theirs is at least this, d.
 const AIR_BRUSH: f32 = 6.0;
 /// Speed of the wind for each unit of drag speed.
@@ -41,7 +38,7 @@ const DIMMEST: u8 = 110;
 const AIR_PEN: Color32 = Color32::from_rgb(150, 230, 216);
 
 /// The tools beside the elements, in the order of the palette. A new one is a new row.
-pub static TOOLS: [&ToolRow; 4] = [&ERASER, &WIND, &PRESSURE, &HEAT];
+pub static TOOLS: [&ToolRow; 6] = [&ERASER, &WIND, &PRESSURE, &HEAT, &TEMPERATURE, &IGNITE];
 
 /// Takes away what is there.
 pub static ERASER: ToolRow = ToolRow {
@@ -54,7 +51,8 @@ pub static ERASER: ToolRow = ToolRow {
     least_radius: 0.0,
     left: |dab| Some(Intent::Erase { stroke: dab.stroke }),
     right: |dab| Some(Intent::Erase { stroke: dab.stroke }),
-    shape: Some(|stroke| Intent::Erase { stroke }),
+    has_shapes: true,
+    has_temperature: false,
 };
 
 /// Sets the air moving along the drag.
@@ -71,7 +69,8 @@ pub static WIND: ToolRow = ToolRow {
         (velocity.length() > WIND_FLOOR * dab.wind).then_some(Intent::Blow { stroke: dab.stroke, velocity })
     },
     right: |dab| Some(Intent::Erase { stroke: dab.stroke }),
-    shape: None,
+    has_shapes: false,
+    has_temperature: false,
 };
 
 /// Adds pressure with the left button, sucks with the right.
@@ -85,7 +84,8 @@ pub static PRESSURE: ToolRow = ToolRow {
     least_radius: AIR_BRUSH,
     left: |dab| Some(Intent::Press { stroke: dab.stroke, amount: PRESS_STEP * dab.share }),
     right: |dab| Some(Intent::Press { stroke: dab.stroke, amount: -PRESS_STEP * dab.share }),
-    shape: None,
+    has_shapes: false,
+    has_temperature: false,
 };
 
 /// Warms with the left button, cools with the right.
@@ -99,7 +99,38 @@ pub static HEAT: ToolRow = ToolRow {
     least_radius: 0.0,
     left: |dab| Some(Intent::Warm { stroke: dab.stroke, degrees: WARM_STEP * dab.share }),
     right: |dab| Some(Intent::Warm { stroke: dab.stroke, degrees: -WARM_STEP * dab.share }),
-    shape: None,
+    has_shapes: false,
+    has_temperature: false,
+};
+
+/// Sets the chosen temperature with the left button, that of the room with the right.
+pub static TEMPERATURE: ToolRow = ToolRow {
+    name: "degrees",
+    icon: icons::thermometer,
+    pen: Color32::from_rgb(255, 118, 128),
+    key: KeyCode::KeyC,
+    help: "degrees: left sets a temperature, right that of the room",
+    needs: Some(Effect::Heat),
+    least_radius: 0.0,
+    left: |dab| Some(Intent::SetTemperature { stroke: dab.stroke, kelvin: dab.kelvin }),
+    right: |dab| Some(Intent::SetTemperature { stroke: dab.stroke, kelvin: ROOM }),
+    has_shapes: true,
+    has_temperature: true,
+};
+
+/// Sets fire to what can burn.
+pub static IGNITE: ToolRow = ToolRow {
+    name: "ignite",
+    icon: icons::burning_match,
+    pen: Color32::from_rgb(255, 214, 92),
+    key: KeyCode::KeyI,
+    help: "match: sets fire to what can burn",
+    needs: Some(Effect::Decay),
+    least_radius: 0.0,
+    left: |dab| Some(Intent::Ignite { stroke: dab.stroke }),
+    right: |dab| Some(Intent::Erase { stroke: dab.stroke }),
+    has_shapes: true,
+    has_temperature: false,
 };
 
 /// A row of the table.
@@ -122,9 +153,11 @@ pub struct ToolRow {
     pub left: fn(&Dab) -> Option<Intent>,
     /// What the right button does there.
     pub right: fn(&Dab) -> Option<Intent>,
-    /// What a line or a rectangle does. Without it the tool works along the drag, whichever modifier is held, and takes a
-    /// fast drag as a row of dabs.
-    pub shape: Option<fn(Stroke) -> Intent>,
+    /// Whether it draws lines and rectangles, and does in all of them what the left button does along a drag. If not, it works
+    /// along the drag, whichever modifier is held, and takes a fast drag as a row of dabs.
+    pub has_shapes: bool,
+    /// Whether the player chooses a temperature for it.
+    pub has_temperature: bool,
 }
 
 /// A piece of a drag, within one tick.
@@ -135,6 +168,8 @@ pub struct Dab {
     pub velocity: Vec2,
     /// A strong wind, d/s ([`Reference::wind`](crate::lab::colours::Reference)).
     pub wind: f32,
+    /// The chosen temperature, K.
+    pub kelvin: f32,
     /// Its share of the tick.
     pub share: f32,
 }
@@ -223,7 +258,7 @@ impl Tool {
 
     /// Whether it works along the drag only: it knows no lines, rectangles and fills.
     pub fn is_freehand(self) -> bool {
-        matches!(self, Self::Other(row) if row.shape.is_none())
+        matches!(self, Self::Other(row) if !row.has_shapes)
     }
 
     /// What the left button does along a piece of a drag.
@@ -242,11 +277,11 @@ impl Tool {
         }
     }
 
-    /// What it does with a whole line or rectangle.
-    pub fn shape(self, stroke: Stroke) -> Option<Intent> {
+    /// What it does in a whole line or rectangle.
+    pub fn shape(self, dab: &Dab) -> Option<Intent> {
         match self {
-            Self::Element(element) => Some(Intent::Stamp { element, stroke }),
-            Self::Other(row) => row.shape.map(|shape| shape(stroke)),
+            Self::Element(element) => Some(Intent::Stamp { element, stroke: dab.stroke }),
+            Self::Other(row) => row.has_shapes.then(|| (row.left)(dab)).flatten(),
         }
     }
 }
@@ -278,100 +313,9 @@ fn colour_of(element: &Element) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
-/// The player's choice of tool and brush.
-#[derive(Resource, Clone, Copy, Debug, PartialEq)]
-pub struct Toolbox {
-    /// The chosen tool.
-    pub tool: Tool,
-    /// Outline of the brush.
-    pub shape: BrushShape,
-    /// Half the width of the brush, in the scene's own spacings.
-    radius: f32,
-    /// The scene's own spacing, d: a brush is as wide in metres at every detail.
-    pub unit: f32,
-}
-
-impl Default for Toolbox {
-    fn default() -> Self {
-        Self { tool: Tool::Element(ElementId(0)), shape: BrushShape::Disc, radius: 4.0, unit: 1.0 }
-    }
-}
-
-impl Toolbox {
-    /// The same brush with another tool.
-    pub fn with(self, tool: Tool) -> Self {
-        Self { tool, ..self }
-    }
-
-    /// Half the width of the brush of the chosen tool, in the scene's own spacings.
-    pub fn radius(&self) -> f32 {
-        match self.tool {
-            Tool::Element(_) => self.radius,
-            Tool::Other(row) => self.radius.max(row.least_radius),
-        }
-    }
-
-    /// Half the width of the brush of the chosen tool, d.
-    pub fn reach(&self) -> f32 {
-        self.radius() * self.unit
-    }
-
-    /// Sets half the width of the brush, in the scene's own spacings.
-    pub fn set_radius(&mut self, radius: f32) {
-        self.radius = radius.clamp(*BRUSH_RANGE.start(), *BRUSH_RANGE.end());
-    }
-
-    /// Makes the brush larger (or smaller, if negative) by so many steps.
-    pub fn grow(&mut self, steps: i32) {
-        let mut radius = self.radius();
-        for _ in 0..steps.unsigned_abs() {
-            radius = if steps > 0 { radius * BRUSH_STEP } else { radius / BRUSH_STEP };
-        }
-        self.set_radius(radius);
-    }
-
-    /// The other outline.
-    pub fn turn_shape(&mut self) {
-        self.shape = match self.shape {
-            BrushShape::Disc => BrushShape::Square,
-            BrushShape::Square | BrushShape::Rectangle => BrushShape::Disc,
-        };
-    }
-
-    /// The icon of the outline.
-    pub fn shape_icon(&self) -> Icon {
-        if self.shape == BrushShape::Disc { icons::round_brush } else { icons::square_brush }
-    }
-
-    /// The brush dragged from one point to another.
-    pub fn stroke(&self, from: Vec2, to: Vec2) -> Stroke {
-        Stroke { shape: self.shape, from, to, radius: self.reach() }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_brush_stays_in_its_range_and_steps_are_inverse() {
-        let mut tools = Toolbox::default();
-        tools.grow(2);
-        tools.grow(-2);
-        assert!((tools.radius() - 4.0).abs() < 1e-4);
-        tools.grow(100);
-        assert_eq!(tools.radius(), *BRUSH_RANGE.end());
-        tools.grow(-100);
-        assert_eq!(tools.radius(), *BRUSH_RANGE.start());
-    }
-
-    #[test]
-    fn air_tools_have_a_brush_that_can_be_felt() {
-        let mut tools = Toolbox::default();
-        tools.set_radius(1.0);
-        tools.tool = Tool::Other(&WIND);
-        assert_eq!(tools.radius(), AIR_BRUSH);
-    }
 
     #[test]
     fn every_tool_stands_under_one_heading_and_those_that_are_no_elements_last() {

@@ -9,7 +9,7 @@ use crate::{
             strokes::DragState,
         },
         panels::Panels,
-        tools::Toolbox,
+        toolbox::Toolbox,
     },
     kernel::brush::BrushShape,
     sim::state::Setup,

@@ -15,6 +15,7 @@ pub mod probe;
 pub mod split;
 pub mod stats;
 pub mod style;
+mod temperature;
 pub mod tiles;
 pub mod toast;
 pub mod touch;

@@ -9,7 +9,7 @@ use crate::{
         hud::{
             layout::Bars,
             panels::elements,
-            style,
+            style, temperature,
             tiles::{Face, Tiles, tile},
             widgets::action_button,
         },
@@ -17,7 +17,8 @@ use crate::{
         input::bindings::Bindings,
         orders::{Order, Orders},
         panels::Panels,
-        tools::{BRUSH_RANGE, TOOLS, Tool, Toolbox},
+        toolbox::{BRUSH_RANGE, Toolbox},
+        tools::{TOOLS, Tool},
     },
     sim::pace::Pace,
 };
@@ -33,7 +34,7 @@ use bevy_egui::{
 /// Size of a tile where there is room for it, points.
 const TILE: egui::Vec2 = vec2(54.0, 50.0);
 /// Least width of a tile, points.
-const LEAST: f32 = 41.0;
+const LEAST: f32 = 37.0;
 /// Between tiles, points.
 const GAP: f32 = 3.0;
 /// Between favourites and tools, points.
@@ -44,6 +45,9 @@ const PLACES: usize = DIGITS.len() + 1 + TOOLS.len() + 1;
 const MOST_ROWS: usize = 3;
 /// What a scroll bar takes of the width, points.
 const SCROLL_BAR: f32 = 16.0;
+/// Width of what sets the brush's size and temperature, and height of one of them, points.
+const BRUSH: f32 = 56.0;
+const FIELD: f32 = 20.0;
 /// Below this width the brush has no slider, points.
 const NARROW: f32 = 760.0;
 
@@ -162,17 +166,19 @@ fn all(ui: &mut Ui, size: egui::Vec2, shows: &Shows, orders: &mut Orders) {
     }
 }
 
-/// Shape and size of the brush, from right to left.
+/// Shape and size of the brush, from right to left, and the temperature that it sets.
 fn brush(ui: &mut Ui, narrow: bool, tools: &mut ResMut<Toolbox>, bindings: &Bindings, orders: &mut Orders) {
-    if !narrow {
-        let mut radius = tools.radius();
-        ui.spacing_mut().slider_width = 56.0;
-        let slider = egui::Slider::new(&mut radius, BRUSH_RANGE).logarithmic(true).show_value(false);
-        let slider = ui.add(slider).on_hover_text("size of the brush (wheel, [ and ])");
-        slider.widget_info(|| egui::WidgetInfo::slider(true, f64::from(radius), "size of the brush"));
-        if slider.changed() {
-            tools.set_radius(radius);
-        }
+    // One above the other, so that the tiles keep their room whichever tool is chosen.
+    let size = vec2(BRUSH, if narrow || tools.kelvin().is_none() { FIELD } else { 2.0 * FIELD + GAP });
+    if !narrow || tools.kelvin().is_some() {
+        ui.allocate_ui_with_layout(size, Layout::top_down(Align::Center), |ui| {
+            let spacing = ui.spacing_mut();
+            (spacing.item_spacing.y, spacing.interact_size.y, spacing.button_padding.y) = (GAP, FIELD, 1.0);
+            if !narrow {
+                size_of_brush(ui, tools);
+            }
+            temperature::show(ui, vec2(BRUSH, FIELD), tools);
+        });
     }
     ui.add_sized(
         vec2(30.0, 20.0),
@@ -180,6 +186,17 @@ fn brush(ui: &mut Ui, narrow: bool, tools: &mut ResMut<Toolbox>, bindings: &Bind
     )
     .on_hover_text("width of the brush in particle spacings");
     action_button(ui, tools.shape_icon(), "", Action::BrushShape, false, (bindings, orders));
+}
+
+fn size_of_brush(ui: &mut Ui, tools: &mut ResMut<Toolbox>) {
+    let mut radius = tools.radius();
+    ui.spacing_mut().slider_width = BRUSH;
+    let slider = egui::Slider::new(&mut radius, BRUSH_RANGE).logarithmic(true).show_value(false);
+    let slider = ui.add(slider).on_hover_text("size of the brush (wheel, [ and ])");
+    slider.widget_info(|| egui::WidgetInfo::slider(true, f64::from(radius), "size of the brush"));
+    if slider.changed() {
+        tools.set_radius(radius);
+    }
 }
 
 /// Pause, steps, speed, undo, reset; from right to left.
@@ -220,6 +237,7 @@ mod tests {
             assert!(in_row * (tile + GAP) - GAP + split <= width + 0.01, "{width}: {rows} rows of {tile}");
             assert!((LEAST..=TILE.x).contains(&tile), "{width}: {rows} rows of {tile}");
         }
-        assert_eq!((fit(710.0).0, fit(500.0).0, fit(300.0).0), (1, 2, 3));
+        // What a window of 1,280 points leaves, and two smaller ones.
+        assert_eq!((fit(724.0).0, fit(500.0).0, fit(300.0).0), (1, 2, 3));
     }
 }

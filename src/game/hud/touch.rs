@@ -10,6 +10,7 @@ use crate::{
             panels::{elements, scenes::SceneMenu},
             stats::{Reading, Readings},
             style::{self, weak},
+            temperature,
             tiles::{Face, Tiles, tile},
             widgets::{BUTTON, field},
         },
@@ -17,7 +18,8 @@ use crate::{
         input::touch::Fingers,
         orders::{Order, Orders},
         panels::{Panel, Panels},
-        tools::{Tool, Toolbox},
+        toolbox::Toolbox,
+        tools::Tool,
         views::table::{Shown, VIEWS},
     },
     kernel::params::Preset,
@@ -195,7 +197,7 @@ fn act(ui: &mut Ui, unit: f32, pace: &Pace, history: &History, orders: &mut Orde
     }
 }
 
-/// Size and shape of the brush.
+/// Size and shape of the brush, and the temperature that it sets.
 fn size(ui: &mut Ui, unit: f32, tools: &mut ResMut<Toolbox>) {
     let mut step = |ui: &mut Ui, text: &str, steps: i32| {
         let text = RichText::new(text).size(20.0 * unit);
@@ -208,6 +210,7 @@ fn size(ui: &mut Ui, unit: f32, tools: &mut ResMut<Toolbox>) {
     if button(ui, unit, ("Shape of the brush", tools.shape_icon()), false, true) {
         tools.turn_shape();
     }
+    temperature::show(ui, vec2(1.75 * TARGET, TARGET) * unit, tools);
 }
 
 fn menus(ui: &mut Ui, unit: f32, sheet: &mut Sheet) {

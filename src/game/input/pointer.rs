@@ -10,7 +10,8 @@ use crate::{
             strokes::{Drag, DragState},
         },
         orders::{Order, Orders},
-        tools::{Tool, Toolbox},
+        toolbox::Toolbox,
+        tools::Tool,
     },
     kernel::brush::Stroke,
     sim::intent::{Intent, IntentQueue},
@@ -163,7 +164,9 @@ impl PointerInput<'_> {
             Gesture::Rectangle => Some(Stroke::rectangle(drag.start, drag.now)),
             Gesture::Use | Gesture::Erase | Gesture::Fill | Gesture::Pan => None,
         };
-        if let Some(intent) = stroke.and_then(|stroke| tools.tool.shape(stroke)) {
+        // A whole shape is no matter of how fast it was drawn.
+        let dab = stroke.map(|stroke| tools.dab(stroke, Vec2::ZERO, 0.0, 1.0));
+        if let Some(intent) = dab.and_then(|dab| tools.tool.shape(&dab)) {
             self.intents.push(intent);
         }
         if drag.gesture == Gesture::Pan && !drag.moved {

@@ -2,10 +2,7 @@
 //! that pouring has a rate of its own on every screen.
 
 use crate::{
-    game::{
-        actions::Gesture,
-        tools::{Dab, Tool, Toolbox},
-    },
+    game::{actions::Gesture, toolbox::Toolbox, tools::Tool},
     lab::colours::Reference,
     sim::{intent::IntentQueue, state::Setup},
 };
@@ -155,7 +152,7 @@ pub fn make_intents(
     };
     for k in 0..strokes {
         let (from, to) = (drag.way[k], drag.way[(k + 1).min(drag.way.len() - 1)]);
-        let dab = Dab { stroke: tools.stroke(from, to), velocity: drag.velocity, wind, share: 1.0 / strokes as f32 };
+        let dab = tools.dab(tools.stroke(from, to), drag.velocity, wind, 1.0 / strokes as f32);
         let intent = match drag.gesture {
             Gesture::Use => drag.tool.left(&dab),
             Gesture::Erase => drag.tool.right(&dab),

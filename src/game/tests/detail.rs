@@ -6,7 +6,7 @@ use crate::{
         camera::WorldCamera,
         orders::{Order, Orders},
         toasts::Toasts,
-        tools::Toolbox,
+        toolbox::Toolbox,
     },
     kernel::params::Preset,
     lab::{

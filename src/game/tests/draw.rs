@@ -1,6 +1,7 @@
 //! What the pointer draws and erases.
 
 use super::*;
+use crate::{game::tools::TEMPERATURE, kernel::heat::units::ROOM};
 
 #[test]
 fn a_held_button_pours_each_tick_and_its_release_stops() {
@@ -130,4 +131,61 @@ fn fill_starts_where_the_pointer_is() {
     player.press();
     player.frames(2);
     assert!(matches!(player.seen()[..], [Intent::Fill { .. }]));
+}
+
+#[test]
+fn the_temperature_that_was_chosen_is_set_along_a_drag_and_in_a_rectangle_and_the_right_button_sets_the_room_s() {
+    let mut player = Player::new();
+    player.chord(&[KeyCode::KeyC]);
+    assert_eq!(player.world().resource::<Toolbox>().tool, Tool::Other(&TEMPERATURE));
+    player.0.world_mut().resource_mut::<Toolbox>().set_kelvin(400.0);
+    player.seen();
+    let set = |player: &mut Player| {
+        let kelvin = |intent| match intent {
+            Intent::SetTemperature { stroke, kelvin } => (stroke.shape, kelvin),
+            other => panic!("{other:?}"),
+        };
+        player.seen().into_iter().map(kelvin).collect::<Vec<_>>()
+    };
+    player.point_at(player.middle());
+    player.press();
+    player.frames(2);
+    player.release();
+    player.frames(2);
+    assert_eq!(set(&mut player)[..2], [(BrushShape::Disc, 400.0); 2]);
+    player.button(MouseButton::Right, ButtonState::Pressed);
+    player.frame();
+    player.button(MouseButton::Right, ButtonState::Released);
+    player.frame();
+    assert_eq!(set(&mut player)[0], (BrushShape::Disc, ROOM));
+    player.frame();
+    player.seen();
+    player.key(KeyCode::ControlLeft, ButtonState::Pressed);
+    player.press();
+    player.point_at(player.middle() + Vec2::splat(10.0));
+    player.release();
+    player.frames(2);
+    assert_eq!(set(&mut player), [(BrushShape::Rectangle, 400.0)]);
+}
+
+#[test]
+fn a_match_lights_oil_and_undo_puts_it_out() {
+    let mut player = Player::new();
+    player.choose("oil");
+    player.point_at(player.middle());
+    player.press();
+    player.frames(20);
+    player.release();
+    player.frames(2);
+    player.chord(&[KeyCode::KeyP]);
+    let before = player.hash();
+    player.chord(&[KeyCode::KeyI]);
+    player.press();
+    player.frames(2);
+    player.release();
+    player.frames(2);
+    assert_ne!(player.hash(), before, "the oil is as cold as before");
+    player.chord(&[KeyCode::ControlLeft, KeyCode::KeyZ]);
+    player.frames(2);
+    assert_eq!(player.hash(), before);
 }

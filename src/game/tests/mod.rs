@@ -8,9 +8,11 @@ use crate::{
         orders::{Order, Orders},
         panels::Panels,
         toasts::Toasts,
-        tools::{Tool, Toolbox},
+        toolbox::Toolbox,
+        tools::Tool,
         views::table::{Shown, VIEWS},
     },
+    kernel::brush::BrushShape,
     lab::colours::Reference,
     scene::{self, effects::EffectModes, passes::Pass},
     sim::{

@@ -12,7 +12,8 @@ use crate::{
         input::bindings::{Group, NONE},
         orders::{Order, Orders},
         panels::Panel,
-        tools::{Tool, Toolbox},
+        toolbox::Toolbox,
+        tools::Tool,
     },
     kernel::element::ElementTable,
 };
