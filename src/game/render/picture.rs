@@ -10,10 +10,12 @@ use crate::{
             tracers::Tracers,
         },
         views::{
+            fire::Burning,
             strain::{Limited, StrainMap},
             table::{Layer, PRESSURE, Quantity, Streaks, View, density_share, temperature_share},
         },
     },
+    kernel::heat::Exposure,
     lab::{
         colours::{self, Reference, Rgb, rock_colour},
         difference::{Difference, Half},
@@ -21,7 +23,7 @@ use crate::{
     },
     sim::{
         generation::Generation,
-        state::{AirGrid, HeatCurves, ParticleStore, Rock, Setup, SolverState},
+        state::{AirGrid, HeatCurves, ParticleStore, Recipes, Rock, Setup, SolverState},
     },
 };
 use bevy::{
@@ -81,6 +83,8 @@ pub struct Picture {
     burial: BurialMap,
     /// Where limiters act; of the last time that the view showed it.
     strain: StrainMap,
+    /// What stands in the air; of the last time that the view showed what burns.
+    exposure: Exposure,
     table: ColourTable,
     table_of: Option<(&'static View, u64)>,
     /// What the particles are coloured by.
@@ -105,6 +109,7 @@ impl Default for Picture {
             depth_new: false,
             burial: BurialMap::default(),
             strain: StrainMap::default(),
+            exposure: Exposure::default(),
             table: ColourTable::default(),
             table_of: None,
             shares: Vec::new(),
@@ -133,12 +138,27 @@ pub(super) struct Scene<'a> {
     pub(super) air: &'a AirGrid,
     pub(super) solver: Option<&'a SolverState>,
     pub(super) curves: &'a HeatCurves,
+    pub(super) recipes: &'a Recipes,
     /// What the limiters work on.
     pub(super) limited: Limited<'a>,
     pub(super) tracers: Option<&'a Tracers>,
 }
 
 impl<'a> Scene<'a> {
+    /// What its matter is to a fire, of what was gathered of its particles.
+    fn burning(self, exposure: &'a Exposure) -> Burning<'a> {
+        let Self { setup, particles, rock, curves, recipes, .. } = self;
+        Burning {
+            particles,
+            rock,
+            elements: setup.elements(),
+            curves,
+            decays: &recipes.decays,
+            lights: recipes.decays.lowest_ignition(),
+            exposure,
+        }
+    }
+
     /// What is compared with another world.
     pub(super) fn half(self) -> Half<'a> {
         Half { particles: self.particles, air: self.air, scale: self.setup.blueprint.scale }
@@ -154,6 +174,7 @@ impl<'a> Scene<'a> {
             air: world.get_resource()?,
             solver: world.get_resource(),
             curves: world.get_resource()?,
+            recipes: world.get_resource()?,
             limited: Limited::of(world)?,
             tracers: world.get_resource(),
         })
@@ -226,6 +247,13 @@ impl Picture {
                 self.shares.extend((0..particles.len()).map(|i| temperature_share(kelvin(i))));
                 &self.shares
             }
+            Quantity::Fire => {
+                self.exposure.gather(scene.particles, blueprint.domain.size);
+                let burning = scene.burning(&self.exposure);
+                self.shares.clear();
+                self.shares.extend((0..scene.particles.len()).map(|i| burning.of_particle(i).share()));
+                &self.shares
+            }
         };
         particles::pack(scene.particles, &self.table, shares, sight.back, self.particles.values_mut());
     }
@@ -233,12 +261,14 @@ impl Picture {
     fn fill_rock(&mut self, scene: Scene<'_>, view: &View) {
         let (rock, elements) = (scene.rock, scene.setup.elements());
         let out = self.rock.values_mut();
-        if matches!(view.quantity, Quantity::Temperature) {
+        if matches!(view.quantity, Quantity::Temperature | Quantity::Fire) {
             // It warms and cools without a change of its version.
-            let colour = |cell, element, _, _| {
-                let kelvin = scene.curves.curve(element).temperature(rock.heat(cell));
-                (view.colour)(elements.get(element), temperature_share(kelvin))
+            let burning = scene.burning(&self.exposure);
+            let share = |cell, element| match view.quantity {
+                Quantity::Fire => burning.of_rock(cell, element).share(),
+                _ => temperature_share(scene.curves.curve(element).temperature(rock.heat(cell))),
             };
+            let colour = |cell, element, _, _| (view.colour)(elements.get(element), share(cell, element));
             rock::pack(rock, &mut self.burial, colour, out);
             (self.rock_new, self.rock_of) = (true, None);
             return;

@@ -1,7 +1,7 @@
 //! The one table of views. Keys, menus, help and the picture follow from it.
 
 use crate::{
-    game::views::strain::strain_colour,
+    game::views::{fire::fire_colour, strain::strain_colour},
     kernel::{element::Element, particles::Particles},
     lab::colours::{Reference, Rgb, particle_colour, ramp, wind_colour},
 };
@@ -10,7 +10,7 @@ use glam::Vec2;
 use std::fmt;
 
 /// Every view, in the order of the menu and of the key that goes through them. A new one is a new row.
-pub static VIEWS: [&View; 7] = [&ELEMENTS, &SPEED, &DENSITY, &PRESSURE, &WIND, &STABILITY, &TEMPERATURE];
+pub static VIEWS: [&View; 8] = [&ELEMENTS, &SPEED, &DENSITY, &PRESSURE, &WIND, &STABILITY, &TEMPERATURE, &BURNING];
 
 /// Elements in their own colours.
 pub static ELEMENTS: View = View {
@@ -72,6 +72,16 @@ pub static TEMPERATURE: View = View {
     ..PLAIN
 };
 
+/// What burns, what can burn, and what is hot enough to light it, rock as well.
+pub static BURNING: View = View {
+    name: "Burning",
+    key: KeyCode::Digit8,
+    quantity: Quantity::Fire,
+    colour: |_, share| fire_colour(share),
+    legend: &[(0.125, "can't burn"), (0.375, "can burn"), (0.625, "hot"), (0.875, "burns")],
+    ..PLAIN
+};
+
 /// What most views have in common.
 const PLAIN: View = View {
     name: "",
@@ -114,6 +124,8 @@ pub enum Quantity {
     Strain,
     /// Temperature, of rock as well ([`temperature_share`]).
     Temperature,
+    /// What it is to a fire, of rock as well ([`Fire::share`](super::fire::Fire::share)).
+    Fire,
 }
 
 /// What lies over the empty box.
