@@ -143,6 +143,27 @@ async function play() {
     await game.until('an empty scene', ({ particles }) => particles === 0);
   });
 
+  await test('a temperature that is set boils water, and a match lights oil', async () => {
+    await pour(200);
+    await game.key('c');
+    await game.untilWidgets('its temperature can be chosen', (all) => all.some(({ name }) => name === 'temperature to set'));
+    await game.drag(1, HIGH.concat(LOW), 'water boils', ({ elements }) => elements.steam > 20);
+    await game.key('r');
+    await game.until('an empty scene', ({ particles }) => particles === 0);
+    await game.key('4');
+    await game.untilWidgets('oil has no temperature to choose', (all) => !all.some(({ name }) => name === 'temperature to set'));
+    await game.drag(1, HIGH, 'oil', ({ elements }) => elements.oil >= 200);
+    await game.key('i');
+    await game.drag(1, HIGH.concat(LOW), 'oil burns', ({ elements }) => elements.fire > 20);
+    await game.key('shift+8');
+    await game.picture('burning');
+    await game.key('shift+1');
+    await game.key('r');
+    await game.until('an empty scene again', ({ particles }) => particles === 0);
+    await game.key('2');
+    await game.until('the tool is water', ({ tool }) => tool === 'water');
+  });
+
   await test('tiles and buttons do what they are called', async () => {
     await game.click('rock');
     await game.until('the tile chooses rock', ({ tool }) => tool === 'rock');
