@@ -153,9 +153,10 @@ async function play() {
     await game.key('4');
     await game.untilWidgets('oil has no temperature to choose', (all) => !all.some(({ name }) => name === 'temperature to set'));
     await game.drag(1, HIGH, 'oil', ({ elements }) => elements.oil >= 200);
+    await game.key('shift+8');
+    await poll('cold oil is blue in the view', async () => water(await game.picture('fuel'), WORLD), (blue) => blue > 300);
     await game.key('i');
     await game.drag(1, HIGH.concat(LOW), 'oil burns', ({ elements }) => elements.fire > 20);
-    await game.key('shift+8');
     await game.picture('burning');
     await game.key('shift+1');
     await game.key('r');
