@@ -2,107 +2,14 @@
 //! the HUD, the metrics and docs/effects.md say what stands here.
 
 use super::{passes::Pass, table::table};
-use crate::kernel::{
-    element::{Element, ElementTable},
-    params::Preset,
-};
+use crate::kernel::params::Preset;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// What a scene or a player wants of an effect.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Mode {
-    /// Runs only while something in the world calls for it.
-    #[default]
-    Auto,
-    /// Always runs.
-    On,
-    /// Never runs.
-    Off,
-}
+pub use super::facts::{Facts, Mode};
 
 /// Wanted mode of each effect; those that are not named are `auto`.
 pub type EffectModes = BTreeMap<Effect, Mode>;
-
-/// What is known of the world when a tick is planned. The gate gathers it once a tick; the decisions are functions of it and
-/// of nothing else.
-#[derive(Clone, Copy, Debug)]
-pub struct Facts<'a> {
-    /// What is wanted of each effect, in the order of [`Effect::ALL`].
-    pub modes: [Mode; Effect::ALL.len()],
-    /// The named quality in force.
-    pub preset: Preset,
-    /// Whether the quality has the pressure predictor.
-    pub predicts: bool,
-    /// All elements.
-    pub elements: &'a ElementTable,
-    /// Density of the air, kg/m².
-    pub air_density: f32,
-    /// How many particles there are of each.
-    pub counts: &'a [u32],
-    /// Movable particles.
-    pub particles: usize,
-    /// How many of them sleep.
-    pub asleep: usize,
-    /// Whether any matter is or was warmer or colder than the room.
-    pub has_heat: bool,
-    /// Whether matter is there that reacts with other matter that is there.
-    pub can_react: bool,
-    /// Whether matter is there that decays, and may be warm enough for it.
-    pub may_decay: bool,
-    /// Whether the liquid has a tension.
-    pub has_tension: bool,
-    /// Whether the scene has winds.
-    pub has_winds: bool,
-    /// Whether the air moves.
-    pub air_moves: bool,
-    /// Whether the fastest particle could wake air at rest.
-    pub stirs_air: bool,
-}
-
-impl Facts<'_> {
-    fn mode(&self, effect: Effect) -> Mode {
-        self.modes[effect as usize]
-    }
-
-    fn runs(&self, effect: Effect) -> bool {
-        effect.decide(self).0
-    }
-
-    fn has_liquid(&self) -> bool {
-        self.particles > 0
-    }
-
-    /// Whether a movable particle is there of an element with this property.
-    fn present(&self, property: fn(&Element) -> bool) -> bool {
-        let mut counted = self.elements.iter().zip(self.counts);
-        counted.any(|((_, element), &count)| count > 0 && !element.fixed && property(element))
-    }
-
-    /// Whether gases are there.
-    pub fn has_gases(&self) -> bool {
-        self.present(Element::is_gas)
-    }
-
-    /// Whether grains are there.
-    pub fn has_grains(&self) -> bool {
-        self.present(|element| element.friction > 0.0)
-    }
-
-    /// Inertias of the lightest and of the heaviest movable particles that are there, kg/m², if they differ.
-    pub fn densities(&self) -> Option<[f32; 2]> {
-        let present = |((_, element), count): &((_, &Element), &u32)| **count > 0 && !element.fixed;
-        let counted = self.elements.iter().zip(self.counts).filter(present);
-        let densities = counted.map(|((_, element), _)| element.inertia(self.air_density));
-        let ends = densities.fold([f32::MAX, 0.0], |[least, most], density| [least.min(density), most.max(density)]);
-        (ends[0] < ends[1]).then_some(ends)
-    }
-
-    fn feels_air(&self) -> bool {
-        self.present(|element| element.drag > 0.0)
-    }
-}
 
 /// Whether an effect is called for, and why or why not.
 type Verdict = (bool, &'static str);
@@ -174,7 +81,7 @@ table! {
         called_for: |facts| {
             if facts.has_winds {
                 (true, "a wind drives the air")
-            } else if !facts.air_moves && facts.runs(Effect::AirFeedback) {
+            } else if !facts.air_moves && Effect::AirFeedback.runs(facts) {
                 (true, "particles drag it along")
             } else {
                 verdict(facts.air_moves, "the air moves", "the air is still")
@@ -205,11 +112,11 @@ table! {
         parameters: &["air_density", "density of an element"],
         off: "the air loses nothing by what it carries",
         called_for: |facts| {
-            if facts.mode(Effect::Air) == Mode::Off {
+            if Effect::Air.mode(facts) == Mode::Off {
                 (false, "the air is switched off")
             } else if !facts.feels_air() {
                 (false, "no particle feels the air")
-            } else if !facts.runs(Effect::Drag) {
+            } else if !Effect::Drag.runs(facts) {
                 (false, "the drag is switched off")
             } else if facts.preset == Preset::Classic {
                 (false, "not in this quality")
@@ -222,7 +129,7 @@ table! {
             }
         },
         another: "a particle feels the air: the faintest breath of it wakes air that sleeps",
-        differs_from_on: |facts| facts.mode(Effect::Air) != Mode::Off && facts.runs(Effect::Drag) && facts.feels_air(),
+        differs_from_on: |facts| Effect::Air.mode(facts) != Mode::Off && Effect::Drag.runs(facts) && facts.feels_air(),
         ..PLAIN
     }
     /// The pressure predictor.
@@ -283,7 +190,7 @@ table! {
             if !facts.has_grains() {
                 (false, "no grains")
             } else {
-                verdict(facts.runs(Effect::Predictor), "grains are there", "the predictor does not run")
+                verdict(Effect::Predictor.runs(facts), "grains are there", "the predictor does not run")
             }
         },
         ..PLAIN
@@ -390,6 +297,28 @@ table! {
         },
         ..PLAIN
     }
+    /// Warm air.
+    Convection {
+        name: "convection",
+        meaning: "what is warm warms the air, which presses harder and rises",
+        part_of: Some(Pass::Heat),
+        needs: &[Effect::Heat],
+        when: "something is or was warmer or colder than the room, and the air is not switched off; never in `classic`",
+        parameters: &["air_density"],
+        off: "what the air gets of heat is lost at once",
+        called_for: |facts| {
+            if Effect::Air.mode(facts) == Mode::Off {
+                (false, "the air is switched off")
+            } else if facts.preset == Preset::Classic {
+                (false, "not in this quality")
+            } else {
+                verdict(Effect::Heat.runs(facts), "heat flows", "no heat flows")
+            }
+        },
+        another: "heat flows in `classic`",
+        differs_from_on: |facts| Effect::Heat.runs(facts) && facts.preset == Preset::Classic,
+        ..PLAIN
+    }
     /// Bodies of liquid and tiles of air that have come to rest sleep.
     Sleep {
         name: "sleep",
@@ -434,9 +363,17 @@ impl Effect {
         Self::ALL.into_iter().find(|effect| effect.row().passes.contains(&pass))
     }
 
+    fn mode(self, facts: &Facts<'_>) -> Mode {
+        facts.modes[self as usize]
+    }
+
+    fn runs(self, facts: &Facts<'_>) -> bool {
+        self.decide(facts).0
+    }
+
     /// Whether it runs in a tick with these facts, and why or why not.
     pub fn decide(self, facts: &Facts<'_>) -> (bool, &'static str) {
-        match facts.mode(self) {
+        match self.mode(facts) {
             Mode::Auto => (self.row().called_for)(facts),
             Mode::On => (true, "switched on"),
             Mode::Off => (false, "switched off"),

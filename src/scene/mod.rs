@@ -12,6 +12,7 @@ mod builtin;
 pub(crate) mod elements;
 mod error;
 mod expression;
+mod facts;
 mod file;
 mod flow;
 mod image;

@@ -98,6 +98,7 @@ fn fold_air(air: &Air) -> u64 {
     for row in 0..air.rows() {
         sums.fold(air.pressure_row(row), air.velocity_x_row(row));
         sums.fold_halves(air.velocity_y_row(row));
+        sums.fold_halves(air.warmth_row(row));
     }
     sums.total()
 }

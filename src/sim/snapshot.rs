@@ -102,7 +102,7 @@ impl Snapshot {
 
     /// Bytes that it takes, to a good approximation.
     pub fn size_in_memory(&self) -> usize {
-        let air = self.air.columns() * self.air.rows() * 12;
+        let air = self.air.columns() * self.air.rows() * if self.air.is_warm() { 16 } else { 12 };
         self.particles.len() * Particles::BYTES + self.solids.memory() + air + self.kept.values().count() * 4
     }
 
@@ -129,7 +129,7 @@ pub fn hash_state(particles: &Particles, solids: &Solids, air: &Air) -> u64 {
     // Air that is at rest has one hash, with a grid or without.
     let air = air.with_grid(solids);
     for row in 0..air.rows() {
-        let fields = [air.pressure_row(row), air.velocity_x_row(row), air.velocity_y_row(row)];
+        let fields = [air.pressure_row(row), air.velocity_x_row(row), air.velocity_y_row(row), air.warmth_row(row)];
         fields.into_iter().flatten().for_each(|value| take(value.to_bits()));
     }
     hash

@@ -19,8 +19,12 @@ pub fn pack(air: &Air, colour: fn(Reference, f32, Vec2) -> (Rgb, f32), reference
     out.clear();
     for row in 0..air.rows() {
         let velocity = air.velocity_x_row(row).iter().zip(air.velocity_y_row(row));
-        for (column, (&pressure, (&u, &v))) in air.pressure_row(row).iter().zip(velocity).enumerate() {
-            let pressure = if air.is_solid_cell(column, row) { pressure_beside(air, column, row) } else { pressure };
+        for (column, (&u, &v)) in velocity.enumerate() {
+            let pressure = if air.is_solid_cell(column, row) {
+                pressure_beside(air, column, row)
+            } else {
+                air.pressing_at_cell(column, row)
+            };
             let (rgb, opacity) = colour(reference, pressure, Vec2::new(u, v));
             out.extend(rgb.map(|channel| (f32::from(channel) * opacity) as u8));
             out.push((255.0 * opacity) as u8);
@@ -32,7 +36,7 @@ pub fn pack(air: &Air, colour: fn(Reference, f32, Vec2) -> (Rgb, f32), reference
 fn pressure_beside(air: &Air, column: usize, row: usize) -> f32 {
     let beside = [(column.wrapping_sub(1), row), (column + 1, row), (column, row.wrapping_sub(1)), (column, row + 1)];
     let open = beside.into_iter().filter(|&(c, r)| c < air.columns() && r < air.rows() && !air.is_solid_cell(c, r));
-    let (sum, count) = open.fold((0.0, 0), |(sum, count), (c, r)| (sum + air.pressure_row(r)[c], count + 1));
+    let (sum, count) = open.fold((0.0, 0), |(sum, count), (c, r)| (sum + air.pressing_at_cell(c, r), count + 1));
     if count == 0 { 1.0 } else { sum / count as f32 }
 }
 

@@ -24,7 +24,6 @@
 //! an order that a mirror image shares (middle + (one side + other side)), so that mirrored air has mirrored bits.
 
 use super::{
-    law::heads,
     pressure::shifted,
     second_order::{SecondOrder, Shares},
     shape::Corner,
@@ -39,6 +38,34 @@ struct Carry {
     mass: Vec<f32>,
     x: Vec<f32>,
     y: Vec<f32>,
+}
+
+/// What rows of sources bring to the rows around them.
+#[derive(Debug)]
+struct Carried {
+    down: Carry,
+    /// Of this row of sources and the one below.
+    level: [Carry; 2],
+    /// Of this row of sources, the one below and the one below that.
+    up: [Carry; 3],
+}
+
+impl Carried {
+    fn new(stride: usize) -> Self {
+        let carry = || Carry::new(stride - 2);
+        Self { down: carry(), level: [carry(), carry()], up: [carry(), carry(), carry()] }
+    }
+
+    /// Goes on to the next row of sources.
+    #[inline(always)]
+    fn advance(&mut self) {
+        self.level.rotate_right(1);
+        self.up.rotate_right(1);
+    }
+
+    fn values(&self) -> usize {
+        self.down.mass.len() * 18
+    }
 }
 
 impl Carry {
@@ -77,17 +104,14 @@ pub(super) struct Advection {
     /// Heads of this row and of the one above it, in strong air.
     heads: [Vec<f32>; 2],
     second_order: SecondOrder,
-    carry_down: Carry,
-    /// Of this row of sources and the one below.
-    carry_level: [Carry; 2],
-    /// Of this row of sources, the one below and the one below that.
-    carry_up: [Carry; 3],
+    carried: Carried,
+    /// The warmth of warm air, as if it were a velocity along either axis.
+    warmth: Option<Box<Carried>>,
 }
 
 impl Advection {
     pub(super) fn new(stride: usize) -> Self {
         let row = || vec![0.0; stride];
-        let carry = || Carry::new(stride - 2);
         Self {
             right: row(),
             left: row(),
@@ -98,15 +122,15 @@ impl Advection {
             up: row(),
             heads: [row(), row()],
             second_order: SecondOrder::default(),
-            carry_down: carry(),
-            carry_level: [carry(), carry()],
-            carry_up: [carry(), carry(), carry()],
+            carried: Carried::new(stride),
+            warmth: None,
         }
     }
 
     /// Values held.
     pub(super) fn values(&self) -> usize {
-        self.right.len() * 10 + self.carry_down.mass.len() * 18 + self.second_order.values()
+        let warmth = self.warmth.as_ref().map_or(0, |carried| carried.values());
+        self.right.len() * 10 + self.carried.values() + warmth + self.second_order.values()
     }
 
     /// Begins with a row of sources of which only the shares that go up are wanted.
@@ -114,7 +138,7 @@ impl Advection {
     pub(super) fn begin(&mut self, source: Source, row: usize) {
         self.sinking[0].fill(0.0);
         if let Some(instructions) = source.strong {
-            heads(instructions, source.pressures(row), &mut self.heads[0]);
+            source.find_heads(instructions, row, &mut self.heads[0]);
         }
     }
 
@@ -125,12 +149,25 @@ impl Advection {
         self.share_sideways::<L>(source, row);
         if above {
             if let Some(instructions) = source.strong {
-                heads(instructions, source.pressures(row + 1), &mut self.heads[1]);
+                source.find_heads(instructions, row + 1, &mut self.heads[1]);
             }
             self.share_upright::<L>(source, row);
         } else {
             self.share_down::<L>(source, row);
         }
+        self.bring::<L>(source, row);
+        if let Some(warmth) = source.warmth {
+            let mut carried = self.warmth.take().unwrap_or_else(|| Box::new(Carried::new(source.stride)));
+            std::mem::swap(&mut self.carried, &mut carried);
+            self.bring::<L>(Source { velocity_x: warmth, velocity_y: warmth, ..source }, row);
+            std::mem::swap(&mut self.carried, &mut carried);
+            self.warmth = Some(carried);
+        }
+    }
+
+    /// Brings mass and momentum of a row of sources to the rows around it.
+    #[inline(always)]
+    fn bring<L: Lanes>(&mut self, source: Source, row: usize) {
         let here = source.start(row)..source.start(row) + source.width;
         let (u, v) = (&source.velocity_x[here.clone()], &source.velocity_y[here]);
         if source.second_order {
@@ -145,8 +182,10 @@ impl Advection {
     /// Goes on to the next row of sources.
     #[inline(always)]
     pub(super) fn advance(&mut self) {
-        self.carry_level.rotate_right(1);
-        self.carry_up.rotate_right(1);
+        self.carried.advance();
+        if let Some(warmth) = &mut self.warmth {
+            warmth.advance();
+        }
         self.sinking.swap(0, 1);
         self.heads.swap(0, 1);
     }
@@ -231,7 +270,8 @@ impl Advection {
         let (u, v) = (shifted(u, n), shifted(v, n));
         let [_, goes_right, leaves_right] = shifted(&self.right, n);
         let [_, leaves_left, goes_left] = shifted(&self.left, n);
-        let carries = [&mut self.carry_down, &mut self.carry_level[0], &mut self.carry_up[0]];
+        let Carried { down, level: [level, ..], up: [up, ..] } = &mut self.carried;
+        let carries = [down, level, up];
         let [mut down, mut level, mut up] = carries.map(|carry| carry.rows(n));
         let masses = [&self.down, &self.level, &self.up].map(|row| shifted(row, n));
         let one = L::splat(1.0);
@@ -251,7 +291,8 @@ impl Advection {
         let n = source.width - 2;
         let Self { right, left, sinking: [sinking, _], rising, down, level, up, .. } = self;
         let shares = Shares { right, left, sinking, rising, masses: [down, level, up] };
-        let carries = [&mut self.carry_down, &mut self.carry_level[0], &mut self.carry_up[0]];
+        let Carried { down, level: [level, ..], up: [up, ..] } = &mut self.carried;
+        let carries = [down, level, up];
         self.second_order.carry::<L>(source, row, shares, carries.map(|carry| carry.rows(n)));
     }
 
@@ -261,7 +302,7 @@ impl Advection {
         let Source { shape, left: first, width, .. } = source;
         let Self { right, left, up, down, .. } = self;
         for (corners, part, carry) in
-            [(&shape.above, &*up, &mut self.carry_up[0]), (&shape.below, &*down, &mut self.carry_down)]
+            [(&shape.above, &*up, &mut self.carried.up[0]), (&shape.below, &*down, &mut self.carried.down)]
         {
             for Corner { column, weights } in corners.row_within(row, first, width) {
                 let k = *column as usize - first;
@@ -269,7 +310,7 @@ impl Advection {
                 carry.add(k - 1, mass, u[k], v[k]);
             }
         }
-        let level = &mut self.carry_level[0];
+        let level = &mut self.carried.level[0];
         for Corner { column, weights } in shape.beside.row_within(row, first, width) {
             let k = *column as usize - first;
             let from_left = right[k] * (weights[0] * down[k - 1] + weights[1] * up[k - 1]);
@@ -293,13 +334,13 @@ impl Advection {
             }
             let sideways = if turn.right { self.right[k + 1] } else { self.left[k] };
             let (upright, carry) =
-                if turn.up { (self.up[k], &mut self.carry_up[0]) } else { (self.down[k], &mut self.carry_down) };
+                if turn.up { (self.up[k], &mut self.carried.up[0]) } else { (self.down[k], &mut self.carried.down) };
             let half = 0.5 * sideways * upright;
             if inside.contains(&k) {
                 carry.add(k - 1, half, u[k], v[k]);
             }
             if inside.contains(&beside) {
-                self.carry_level[0].add(beside - 1, half, u[k], v[k]);
+                self.carried.level[0].add(beside - 1, half, u[k], v[k]);
             }
         }
     }
@@ -307,22 +348,39 @@ impl Advection {
     /// Writes a row of targets: level from their own row, up from the row below, down from the row above.
     #[inline(always)]
     pub(super) fn sum_up<L: Lanes>(&self, source: Source, row: usize, targets: [&mut [f32]; 3]) {
+        let Carried { down, level: [_, level], up: [_, _, up] } = &self.carried;
+        let parts = [(&level.mass, &up.mass, &down.mass), (&level.x, &up.x, &down.x), (&level.y, &up.y, &down.y)];
+        for (out, parts) in targets.into_iter().zip(parts) {
+            Self::sum_part::<L>(source, row, parts, out);
+        }
+    }
+
+    /// Writes a row of targets of mass times warmth.
+    #[inline(always)]
+    pub(super) fn sum_warmth<L: Lanes>(&self, source: Source, row: usize, target: &mut [f32]) {
+        if let Some(Carried { down, level: [_, level], up: [_, _, up] }) = self.warmth.as_deref() {
+            Self::sum_part::<L>(source, row, (&level.x, &up.x, &down.x), target);
+        }
+    }
+
+    /// Writes a row of targets of one quantity.
+    #[inline(always)]
+    fn sum_part<L: Lanes>(
+        source: Source,
+        row: usize,
+        (level, up, down): (&Vec<f32>, &Vec<f32>, &Vec<f32>),
+        out: &mut [f32],
+    ) {
         let n = source.width - 2;
         let struck = source.shape.struck_within(row, source.left, source.width);
-        let [_, level] = &self.carry_level;
-        let [_, _, up] = &self.carry_up;
-        let down = &self.carry_down;
-        let parts = [(&level.mass, &up.mass, &down.mass), (&level.x, &up.x, &down.x), (&level.y, &up.y, &down.y)];
-        for (out, (level, up, down)) in targets.into_iter().zip(parts) {
-            let (cells, level, up, down) = (&mut out[1..=n], &level[..n], &up[..n], &down[..n]);
-            for i in lane_starts::<L>(n) {
-                let crossing = L::of(up, i) + L::of(down, i);
-                (L::of(level, i) + crossing).put(cells, i);
-            }
-            // What struck rock has gone round the corner.
-            for column in struck {
-                out[*column as usize - source.left] = 0.0;
-            }
+        let (cells, level, up, down) = (&mut out[1..=n], &level[..n], &up[..n], &down[..n]);
+        for i in lane_starts::<L>(n) {
+            let crossing = L::of(up, i) + L::of(down, i);
+            (L::of(level, i) + crossing).put(cells, i);
+        }
+        // What struck rock has gone round the corner.
+        for column in struck {
+            out[*column as usize - source.left] = 0.0;
         }
     }
 }

@@ -6,6 +6,7 @@
 use super::{
     advect::Advection,
     law::heads,
+    lift::{Lift, highest, share_out},
     pressure::{Peaks, Push, Pushed},
     source::Source,
 };
@@ -23,6 +24,9 @@ pub(super) struct Band {
     /// Momentum of the row made last and the one below it.
     momentum_x: [Vec<f32>; 2],
     momentum_y: [Vec<f32>; 2],
+    /// Mass times warmth of the row made last, and the warmth of that row and the one below it, of warm air.
+    warmth_carried: Vec<f32>,
+    warmth: [Vec<f32>; 2],
     /// Largest values of its rows after the last substep.
     pub(super) peaks: Peaks,
 }
@@ -36,6 +40,8 @@ impl Band {
             heads: [row(1.0), row(1.0), row(1.0)],
             momentum_x: [row(0.0), row(0.0)],
             momentum_y: [row(0.0), row(0.0)],
+            warmth_carried: Vec::new(),
+            warmth: [Vec::new(), Vec::new()],
             peaks: Peaks::default(),
         }
     }
@@ -48,13 +54,18 @@ impl Band {
         for row in &mut self.pressure[1..] {
             (row[0], row[source.width - 1]) = (1.0, 1.0);
         }
+        if source.warmth.is_some() && self.warmth_carried.is_empty() {
+            for row in self.warmth.iter_mut().chain([&mut self.warmth_carried]) {
+                row.resize(source.stride, 0.0);
+            }
+        }
         self.advection.begin(source, row);
         self.peaks = Peaks::default();
     }
 
     /// Values held.
     pub(super) fn values(&self) -> usize {
-        self.advection.values() + self.pressure[0].len() * 10
+        self.advection.values() + self.pressure[0].len() * 10 + self.warmth_carried.len() * 3
     }
 
     /// Makes the next row of new pressure and momentum.
@@ -63,8 +74,14 @@ impl Band {
         self.rotate();
         let targets = [&mut self.pressure[0], &mut self.momentum_x[0], &mut self.momentum_y[0]];
         self.advection.sum_up::<L>(source, row, targets.map(|row| &mut row[..source.width]));
+        let width = source.width;
+        if source.warmth.is_some() {
+            self.advection.sum_warmth::<L>(source, row, &mut self.warmth_carried[..width]);
+            share_out::<L>(&self.warmth_carried[..width], &self.pressure[0][..width], &mut self.warmth[0][..width]);
+        }
         if let Some(instructions) = source.strong {
-            heads(instructions, &self.pressure[0][..source.width], &mut self.heads[0]);
+            let warmth = source.warmth.map(|_| &self.warmth[0][..width]);
+            heads(instructions, &self.pressure[0][..width], warmth, &mut self.heads[0]);
         }
     }
 
@@ -73,6 +90,7 @@ impl Band {
         self.heads.rotate_right(1);
         self.momentum_x.swap(0, 1);
         self.momentum_y.swap(0, 1);
+        self.warmth.swap(0, 1);
     }
 }
 
@@ -82,12 +100,15 @@ pub(super) struct BandPass<'a> {
     /// The columns that are done.
     pub(super) source: Source<'a>,
     pub(super) push: Push,
+    pub(super) lift: Lift,
     /// The rows that are done, counted with the ring.
     pub(super) rows: Range<usize>,
     /// The row that the target begins with, counted with the ring.
     pub(super) first: usize,
     /// Out: pressure and velocity. Whole rows, with the ring, of which only the cells of the box are touched.
     pub(super) target: [&'a mut [f32]; 3],
+    /// Out: warmth of warm air, likewise.
+    pub(super) warmth: &'a mut [f32],
 }
 
 impl BandPass<'_> {
@@ -97,9 +118,14 @@ impl BandPass<'_> {
         let Source { stride, left, width, shape, strong, .. } = self.source;
         let start = (row - self.first) * stride + left;
         let out = start..start + width;
-        let Band { pressure, heads, momentum_x, momentum_y, .. } = &*self.band;
+        let Band { pressure, heads, momentum_x, momentum_y, warmth, .. } = &mut *self.band;
+        if self.source.warmth.is_some() {
+            let warmth = &warmth[1][..width];
+            self.warmth[out.clone()][1..=width - 2].copy_from_slice(&warmth[1..=width - 2]);
+            self.lift.run(&pressure[1][..width], warmth, [&mut momentum_x[1][..width], &mut momentum_y[1][..width]]);
+        }
         let here = &pressure[1];
-        let [above, level, below] = if strong.is_some() { heads } else { pressure };
+        let [above, level, below] = if strong.is_some() { &*heads } else { &*pressure };
         let from = Pushed {
             pressure: &here[..width],
             heads: [&below[..width], &level[..width], &above[..width]],
@@ -109,9 +135,12 @@ impl BandPass<'_> {
             start: self.source.start(row),
             stride,
         };
-        let [pressure, velocity_x, velocity_y] = &mut self.target;
-        let peaks = self.push.run::<L>(from, [&mut velocity_x[out.clone()], &mut velocity_y[out.clone()]]);
-        pressure[out][1..=width - 2].copy_from_slice(&here[1..=width - 2]);
+        let [target, velocity_x, velocity_y] = &mut self.target;
+        let mut peaks = self.push.run::<L>(from, [&mut velocity_x[out.clone()], &mut velocity_y[out.clone()]]);
+        if self.source.warmth.is_some() {
+            peaks.pressure = highest(&here[1..=width - 2], &warmth[1][1..=width - 2]);
+        }
+        target[out][1..=width - 2].copy_from_slice(&here[1..=width - 2]);
         self.band.peaks = self.band.peaks.max(peaks);
     }
 }

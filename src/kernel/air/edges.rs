@@ -39,7 +39,7 @@ impl Air {
             let Edge { inside, ring, slot, along_x, outward } = edge;
             let suction = suction(air.outside[slot], sound_speed);
             let normal =
-                (air.outside[slot] + lift * (head(air.pressure[inside]) - 1.0) + sound_speed * suction) * outward;
+                (air.outside[slot] + lift * (head(air.pushing(inside)) - 1.0) + sound_speed * suction) * outward;
             air.velocity_x[ring] = if along_x { normal } else { 0.0 };
             air.velocity_y[ring] = if along_x { 0.0 } else { normal };
         });

@@ -13,7 +13,11 @@ use super::{
     shape::Shape,
     tiling::{Tiling, Watch},
 };
-use crate::{params::AirParams, solids::Solids};
+use crate::{
+    heat::units::{COLDEST, HOTTEST, ROOM},
+    params::AirParams,
+    solids::Solids,
+};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -43,6 +47,9 @@ pub struct Air {
     pub(super) velocity_x: Vec<f32>,
     /// Velocity along y, d/s, with the ring. Rock has 0.
     pub(super) velocity_y: Vec<f32>,
+    /// How much warmer than the surroundings the air is, T/293 K − 1, with the ring (`warmth`). Rock and the ring have 0. Empty
+    /// while all is as warm as they.
+    pub(super) warmth: Vec<f32>,
     /// Cells with rock in them, with the ring, which counts as solid.
     pub(super) solid: Vec<bool>,
     /// Velocity of the air outside along the outward normal, d/s: left and right by row, bottom and top by column.
@@ -69,10 +76,15 @@ pub(super) struct Scratch {
     pub(super) next_pressure: Vec<f32>,
     pub(super) next_x: Vec<f32>,
     pub(super) next_y: Vec<f32>,
+    pub(super) next_warmth: Vec<f32>,
     pub(super) bands: Vec<Band>,
     pub(super) rooms: Vec<Room>,
+    /// What lumps give each cell, and that times their warmth.
+    pub(super) warmed: Vec<[f32; 2]>,
     /// Whether tiles may sleep: a wish, which a copy keeps.
     pub(super) sleeps: bool,
+    /// What pulls at air, d/s², which a copy keeps.
+    pub(super) gravity: Vec2,
     pub(super) watch: Watch,
     pub(super) ledger: Ledger,
     pub(super) feedback: Feedback,
@@ -80,7 +92,7 @@ pub(super) struct Scratch {
 
 impl Clone for Scratch {
     fn clone(&self) -> Self {
-        Self { sleeps: self.sleeps, ..Self::default() }
+        Self { sleeps: self.sleeps, gravity: self.gravity, ..Self::default() }
     }
 }
 
@@ -103,6 +115,7 @@ impl Air {
             && self.solid == vec![false; self.pressure.len()]
             && self.outside.is_empty()
             && self.awake.is_empty()
+            && self.warmth.is_empty()
             && self.solids_version.is_none();
         let (tiling, cells) = (self.tiling(), (columns + 2).saturating_mul(rows + 2));
         let fields = [&self.pressure, &self.velocity_x, &self.velocity_y];
@@ -118,6 +131,15 @@ impl Air {
         }
         if fields.into_iter().chain([&self.outside]).flatten().any(|value| !value.is_finite()) {
             return Err("air: every pressure and velocity must be finite".to_owned());
+        }
+        let is_warmth = |value: &f32| (COLDEST / ROOM - 1.0..=HOTTEST / ROOM - 1.0).contains(value);
+        if !(self.warmth.is_empty() || self.warmth.len() == cells) || !self.warmth.iter().all(is_warmth) {
+            return Err(format!(
+                "air: it must be as warm as its surroundings, or have {cells} values of {COLDEST} to {HOTTEST} K"
+            ));
+        }
+        if self.quiet && !self.warmth.is_empty() {
+            return Err("air: warm air is never still".to_owned());
         }
         if self.pressure.iter().any(|p| *p < 0.0) {
             return Err("air: every pressure must be 0 or more".to_owned());
@@ -175,6 +197,7 @@ impl Air {
             pressure: vec![1.0; stride],
             velocity_x: vec![0.0; stride],
             velocity_y: vec![0.0; stride],
+            warmth: Vec::new(),
             solid: vec![false; stride],
             outside: Vec::new(),
             solids_version: None,
@@ -199,6 +222,7 @@ impl Air {
             built.set_solids(solids);
             built.pending = self.pending;
             built.scratch.sleeps = self.scratch.sleeps;
+            built.scratch.gravity = self.scratch.gravity;
             *self = built;
         }
     }
@@ -230,7 +254,7 @@ impl Air {
 
     /// Every pressure and velocity that it holds, the surroundings' and those of rest included.
     pub fn values(&self) -> impl Iterator<Item = f32> + '_ {
-        let fields = [&self.pressure, &self.velocity_x, &self.velocity_y, &self.outside, &self.rests];
+        let fields = [&self.pressure, &self.velocity_x, &self.velocity_y, &self.warmth, &self.outside, &self.rests];
         fields.into_iter().flatten().copied()
     }
 
@@ -264,6 +288,11 @@ impl Air {
         &self.velocity_y[self.row_range(row)]
     }
 
+    /// How much warmer than the surroundings a row is, T/293 K − 1; empty if none of the air is.
+    pub fn warmth_row(&self, row: usize) -> &[f32] {
+        self.warmth.get(self.row_range(row)).unwrap_or_default()
+    }
+
     /// Pressure of a cell; 0 in rock.
     pub fn pressure_at_cell(&self, column: usize, row: usize) -> f32 {
         self.pressure_row(row)[column]
@@ -282,7 +311,11 @@ impl Air {
     /// Bytes held, buffers included.
     pub fn memory_bytes(&self) -> usize {
         let cells = self.pressure.len();
-        let buffers = self.scratch.next_pressure.len() * 3 + self.scratch.bands.iter().map(Band::values).sum::<usize>();
+        let buffers = self.scratch.next_pressure.len() * 3
+            + self.warmth.len()
+            + self.scratch.next_warmth.len()
+            + 2 * self.scratch.warmed.len()
+            + self.scratch.bands.iter().map(Band::values).sum::<usize>();
         let shape = self.scratch.shape.as_ref().map_or(0, Shape::memory_bytes);
         let state = cells * 13 + self.outside.len() * 4 + self.awake.len() + self.rests.len() * 4;
         let Scratch { watch, ledger, feedback, .. } = &self.scratch;

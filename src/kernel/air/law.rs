@@ -60,25 +60,29 @@ pub(super) fn head(p: f32) -> f32 {
     head[0]
 }
 
-/// Heads of a row of pressures.
+/// Heads of a row of air.
 struct HeadsPass<'a> {
     pressure: &'a [f32],
+    warmth: Option<&'a [f32]>,
     heads: &'a mut [f32],
 }
 
 impl Pass for HeadsPass<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        for i in lane_starts::<L>(self.pressure.len()) {
-            head_of(L::of(self.pressure, i)).put(self.heads, i);
+        let Self { pressure, warmth, heads } = self;
+        for i in lane_starts::<L>(pressure.len()) {
+            let p = L::of(pressure, i);
+            let e = warmth.map_or(p, |warmth| p + p * L::of(warmth, i));
+            head_of(e).put(heads, i);
         }
     }
 }
 
-/// Heads of a row of pressures, which fills a register of the instruction set. A pass of its own: within another, which
-/// has few registers to spare, it takes several times as long.
-pub(super) fn heads(instructions: InstructionSet, pressure: &[f32], heads: &mut [f32]) {
-    instructions.run_by_register(HeadsPass { pressure, heads });
+/// Heads of a row of air, which fills a register of the instruction set. A pass of its own: within another, which has few
+/// registers to spare, it takes several times as long.
+pub(super) fn heads(instructions: InstructionSet, pressure: &[f32], warmth: Option<&[f32]>, heads: &mut [f32]) {
+    instructions.run_by_register(HeadsPass { pressure, warmth, heads });
 }
 
 /// Inner energy of a pressure, over `½ c²` and the area: 2 e(p), e′ = h, above that of the same mass at pressure 1.

@@ -19,6 +19,7 @@
 //! | `advect` | pass 1: shares mass and momentum out | rows of new pressure, momentum | pressure, velocity |
 //! | `second_order` | gives each share the velocity of its part of the cell | rows of momentum | velocity, shares |
 //! | `pressure` | pass 2: pushes pairs | new velocity | rows of new pressure, momentum |
+//! | `lift` | pulls warm air up, and finds how warm it is | rows of momentum, warmth | rows of new pressure |
 //! | `band` | both passes over some rows | new pressure, new velocity | pressure, velocity |
 //! | `edges` | the open sides | the ring around the box, outermost cells | pressure, velocity |
 //! | `tiles` | which parts are stepped and which sleep | awake tiles, fences in `Shape` | all |
@@ -27,6 +28,7 @@
 //! | `balance` | keeps the mass of shut rooms | pressure | pressure, `Shape`, pressures at rest |
 //! | `feedback`, `meetings` | what particles give the air, and the air them | velocity | particles, pressure |
 //! | `tools` | winds of the scene and the player's air tools | velocity, pressure | |
+//! | `warmth` | warm air: what lifts it, what it gets and loses | warmth | heat that matter gives |
 //! | `walls` | rock that comes and goes | solid cells, pressure | `Solids` |
 //! | `sample`, `measure`, `resize` | values at points, sums, another cell size | | all |
 
@@ -38,6 +40,7 @@ mod feedback;
 mod grid;
 mod law;
 mod ledger;
+mod lift;
 mod measure;
 mod meetings;
 mod pressure;
@@ -53,6 +56,7 @@ mod tiles;
 mod tiling;
 mod tools;
 mod walls;
+mod warmth;
 
 #[cfg(test)]
 mod tests;
@@ -62,3 +66,4 @@ pub use grid::{Air, MAX_PRESSURE, MAX_SPEED};
 pub use report::AirReport;
 pub use rooms::QUIET_MACH;
 pub use step::{MAX_SUBSTEPS, STABLE_COURANT};
+pub use warmth::Contact;

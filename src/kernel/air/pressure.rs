@@ -31,7 +31,7 @@ use std::hint::black_box;
 
 /// Stands in the division of momentum by mass, so that a cell without mass has no velocity and none a division by 0.
 /// Far below a rounding of any mass that matters.
-const VACUUM: f32 = 1.0e-30;
+pub(super) const VACUUM: f32 = 1.0e-30;
 
 /// Speed, as a part of the speed of sound, below which a velocity is 0: far below f32's resolution of the pressure that
 /// would cause it, far above denormals (which cost a hundred times the time), even when shares multiply it.

@@ -24,11 +24,14 @@ impl Air {
             return Self { pending: self.pending, ..Self::unbuilt(self.size, cell, self.params) };
         }
         let mut air = Self::new(self.size, cell, self.params);
+        if self.is_warm() {
+            air.warmth = vec![0.0; air.pressure.len()];
+        }
         let (old, new) = (f64::from(self.cell), f64::from(cell));
         for row in 0..air.rows() {
             for column in 0..air.columns() {
                 let target = air.index(column, row);
-                let (mut area, mut mass, mut x, mut y) = (0.0, 0.0, 0.0, 0.0);
+                let (mut area, mut mass, mut x, mut y, mut warmth) = (0.0, 0.0, 0.0, 0.0, 0.0);
                 let (bottom, left) = (row as f64 * new, column as f64 * new);
                 for (from_row, height) in overlaps(bottom, bottom + new, old, self.rows()) {
                     for (from_column, width) in overlaps(left, left + new, old, self.columns()) {
@@ -39,6 +42,7 @@ impl Air {
                             mass += part;
                             x += part * f64::from(self.velocity_x[k]);
                             y += part * f64::from(self.velocity_y[k]);
+                            warmth += part * f64::from(self.warmth_of(k));
                         }
                     }
                 }
@@ -48,6 +52,9 @@ impl Air {
                 if mass > 0.0 {
                     air.velocity_x[target] = (x / mass) as f32;
                     air.velocity_y[target] = (y / mass) as f32;
+                    if self.is_warm() {
+                        air.warmth[target] = (warmth / mass) as f32;
+                    }
                 }
             }
         }
@@ -56,6 +63,7 @@ impl Air {
         air.keep_mass = true;
         air.wake_all();
         air.scratch.sleeps = self.scratch.sleeps;
+        air.scratch.gravity = self.scratch.gravity;
         air.pending = self.pending;
         air
     }

@@ -1,6 +1,6 @@
 //! What pass 1 reads, and the flow through a face.
 
-use super::shape::Shape;
+use super::{law::heads, shape::Shape};
 use crate::simd::{InstructionSet, Lanes};
 
 /// Part κ of the wave solution that a face follows, 0 … ½. Raising it kills alternating pressure sooner and damps
@@ -14,6 +14,8 @@ pub(super) struct Source<'a> {
     pub(super) pressure: &'a [f32],
     pub(super) velocity_x: &'a [f32],
     pub(super) velocity_y: &'a [f32],
+    /// How much warmer than the surroundings it is, where any of it is.
+    pub(super) warmth: Option<&'a [f32]>,
     pub(super) shape: &'a Shape,
     /// Values between a cell and the one above it.
     pub(super) stride: usize,
@@ -27,7 +29,8 @@ pub(super) struct Source<'a> {
     pub(super) filter: f32,
     /// Whether shares know how the velocity changes within their cell.
     pub(super) second_order: bool,
-    /// Where a pressure may be so high that its head is not the pressure itself (`law`): what heads are found on.
+    /// Where heads are not the pressures themselves, as one may be too high for that (`law`) or the air is warm: what they are
+    /// found on.
     pub(super) strong: Option<InstructionSet>,
 }
 
@@ -42,6 +45,13 @@ impl<'a> Source<'a> {
     #[inline(always)]
     pub(super) fn pressures(&self, row: usize) -> &'a [f32] {
         &self.pressure[self.start(row)..][..self.width]
+    }
+
+    /// Finds the heads of the columns at hand of a row.
+    #[inline(always)]
+    pub(super) fn find_heads(&self, instructions: InstructionSet, row: usize, to: &mut [f32]) {
+        let warmth = self.warmth.map(|warmth| &warmth[self.start(row)..][..self.width]);
+        heads(instructions, self.pressures(row), warmth, to);
     }
 
     /// Flow through faces from the velocities before and behind them, in cells a substep. No face lets more than half a cell

@@ -4,6 +4,7 @@ use super::{
     band::{Band, BandPass},
     grid::{Air, MAX_PRESSURE, Scratch},
     law::{self, SURELY_PLAIN},
+    lift::{Lift, highest},
     pressure::{Peaks, Push, STILL_MACH, peak, stable_courant},
     report::AirReport,
     rooms::{QUIET_MACH, Room, count_rooms},
@@ -55,6 +56,7 @@ impl Scratch {
             self.next_y = vec![0.0; cells];
             self.watch.forget();
         }
+        self.next_warmth.resize(air.warmth.len(), 0.0);
     }
 }
 
@@ -87,7 +89,7 @@ impl Air {
         let shape = self.scratch.shape.take();
         let mut shape = shape.unwrap_or_else(|| Shape::new(self.tiling(), &self.solid, self.params.open));
         let mut scratch = std::mem::take(&mut self.scratch);
-        self.scratch.sleeps = scratch.sleeps;
+        (self.scratch.sleeps, self.scratch.gravity) = (scratch.sleeps, scratch.gravity);
         scratch.prepare(self);
 
         let mut peaks = Peaks::default();
@@ -105,7 +107,7 @@ impl Air {
                 report.cells = report.cells.max(scratch.watch.cells());
             }
             let (count, substep) = self.next_substep(peaks, courant, left, most, &mut report);
-            let strong = peaks.pressure > SURELY_PLAIN;
+            let strong = peaks.pressure > SURELY_PLAIN || self.is_warm();
             self.refresh_outside(&scratch.watch.active, substep.sound_speed);
             peaks = self.substep(substep, scheme.advection, strong, &shape, &mut scratch, team);
             self.settle_edges(&scratch.watch.active, substep.sound_speed, substep.dt);
@@ -119,8 +121,12 @@ impl Air {
         }
         if !self.quiet {
             self.balance(&shape, &mut scratch);
+            self.lose_warmth(dt);
         }
-        let still = !scratch.sleeps && !driven && peaks.x.max(peaks.y) <= QUIET_MACH * self.params.sound_speed;
+        let still = !scratch.sleeps
+            && !driven
+            && !self.is_warm()
+            && peaks.x.max(peaks.y) <= QUIET_MACH * self.params.sound_speed;
         if still {
             count_rooms(&shape, &self.pressure, &mut scratch.rooms);
             if scratch.rooms.iter().all(Room::is_even) {
@@ -187,7 +193,7 @@ impl Air {
     /// and its sound at the most substeps, and of the highest pressure, whichever comes nearest.
     pub fn limit_share(&self, column: usize, row: usize, courant: f32, dt: f32) -> f32 {
         let crossing = dt / (self.most_substeps(courant, dt) as f32 * self.cell);
-        let (pressure, velocity) = (self.pressure_at_cell(column, row), self.velocity_at_cell(column, row));
+        let (pressure, velocity) = (self.pressing_at_cell(column, row), self.velocity_at_cell(column, row));
         let wind = 2.0 * velocity.abs().max_element() * crossing;
         let sound = self.params.sound_speed * law::sound(pressure) * crossing / LIMITED_COURANT;
         wind.max(sound).max(pressure / MAX_PRESSURE)
@@ -221,6 +227,7 @@ impl Air {
             pressure: &self.pressure,
             velocity_x: &self.velocity_x,
             velocity_y: &self.velocity_y,
+            warmth: self.is_warm().then_some(&self.warmth),
             shape,
             stride,
             left: 0,
@@ -235,16 +242,23 @@ impl Air {
             crossing,
             still: STILL_MACH * self.params.sound_speed,
         };
+        let lift = Lift { pull: scratch.gravity * (-2.0 * substep.dt) };
         let count = self.rows().div_ceil(band_rows);
         while scratch.bands.len() < count {
             scratch.bands.push(Band::new(stride));
         }
-        let Scratch { next_pressure, next_x, next_y, bands, watch, .. } = scratch;
+        let Scratch { next_pressure, next_x, next_y, next_warmth, bands, watch, .. } = scratch;
         let (inner, chunk) = (stride..stride * (self.rows as usize + 1), band_rows * stride);
         let [pressure, x, y] = [&mut *next_pressure, &mut *next_x, &mut *next_y]
             .map(|field| Rows { field: &mut field[inner.clone()], stride: chunk });
-        let parts = ((pressure, x), (y, Rows { field: &mut bands[..count], stride: 1 }));
-        fork((0..count, parts), 1, &|(nth, ((pressure, velocity_x), (velocity_y, bands)))| {
+        // Cold air has none, whose rows are empty.
+        let warmth = if self.is_warm() {
+            Rows { field: &mut next_warmth[inner], stride: chunk }
+        } else {
+            Rows { field: &mut [][..], stride: 0 }
+        };
+        let parts = ((pressure, x), ((y, warmth), Rows { field: &mut bands[..count], stride: 1 }));
+        fork((0..count, parts), 1, &|(nth, ((pressure, velocity_x), ((velocity_y, warmth), bands)))| {
             let [band] = bands.field else { return };
             // Counted with the ring.
             let first = 1 + nth.start * band_rows;
@@ -256,7 +270,9 @@ impl Air {
                     let target = [&mut *pressure.field, &mut *velocity_x.field, &mut *velocity_y.field];
                     let source = Source { left: columns.start, width: columns.len() + 2, ..source };
                     let band = &mut *band;
-                    instructions.run_by_register(BandPass { band, source, push, rows, first, target });
+                    let warmth = &mut *warmth.field;
+                    let pass = BandPass { band, source, push, lift, rows, first, target, warmth };
+                    instructions.run_by_register(pass);
                     peaks = peaks.max(band.peaks);
                 }
             }
@@ -265,6 +281,7 @@ impl Air {
         std::mem::swap(&mut self.pressure, next_pressure);
         std::mem::swap(&mut self.velocity_x, next_x);
         std::mem::swap(&mut self.velocity_y, next_y);
+        std::mem::swap(&mut self.warmth, next_warmth);
         bands[..count].iter().map(|band| band.peaks).fold(Peaks::default(), Peaks::max)
     }
 
@@ -277,7 +294,8 @@ impl Air {
                 let cells = row * self.stride() + columns.start..row * self.stride() + columns.end + 2;
                 let [x, y, pressure] =
                     [&self.velocity_x, &self.velocity_y, &self.pressure].map(|field| peak(&field[cells.clone()]));
-                peaks = peaks.max(Peaks { x, y, pressure });
+                let warm = self.warmth.get(cells.clone()).map(|warmth| highest(&self.pressure[cells], warmth));
+                peaks = peaks.max(Peaks { x, y, pressure: warm.unwrap_or(pressure) });
             }
         }
         peaks
@@ -303,6 +321,7 @@ impl Air {
         for velocity in [&mut self.velocity_x, &mut self.velocity_y, &mut self.outside] {
             velocity.fill(0.0);
         }
+        self.warmth = Vec::new();
         self.quiet = true;
         self.awake.fill(false);
         self.scratch.watch.forget();

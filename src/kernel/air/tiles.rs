@@ -1,7 +1,8 @@
 //! Tiles: the air sleeps by parts.
 //!
 //! A tile is **awake** when a speed in it, or the difference of a pressure to that at which its room comes to rest, is
-//! above [`QUIET_MACH`] of the speed of sound or of that pressure; when a wind blows in it; or when something has just
+//! above [`QUIET_MACH`] of the speed of sound or of that pressure; when it is warmer or colder than the surroundings by more
+//! than [`QUIET_WARMTH`] of their temperature; when a wind blows in it; or when something has just
 //! touched it. The awake tiles and those around them, sideways and across corners, are **active**: they are stepped. All
 //! others sleep: their air stands still at the pressures that it had, so that no mass comes or goes.
 //!
@@ -17,6 +18,7 @@ use super::{
     rooms::{QUIET_MACH, Room, count_rooms},
     shape::Shape,
     tiling::{Watch, cover},
+    warmth::QUIET_WARMTH,
 };
 use crate::sources::Wind;
 use std::ops::Range;
@@ -68,7 +70,7 @@ impl Air {
     /// Decides which tiles are awake and brings what follows from that up to date. Returns whether another set of tiles than
     /// before is active.
     pub(super) fn update_tiles(&mut self, winds: &[Wind], shape: &mut Shape, scratch: &mut Scratch) -> bool {
-        let Scratch { watch, rooms, ledger, next_pressure, next_x, next_y, .. } = scratch;
+        let Scratch { watch, rooms, ledger, next_pressure, next_x, next_y, next_warmth, .. } = scratch;
         let tiling = self.tiling();
         let known = self.know_rests(shape, rooms);
         if !known {
@@ -94,7 +96,10 @@ impl Air {
                 for cells in tiling.cells_of(tile) {
                     next_pressure[cells.clone()].copy_from_slice(&self.pressure[cells.clone()]);
                     next_x[cells.clone()].fill(0.0);
-                    next_y[cells].fill(0.0);
+                    next_y[cells.clone()].fill(0.0);
+                    if let Some(warmth) = next_warmth.get_mut(cells) {
+                        warmth.fill(0.0);
+                    }
                 }
             }
         }
@@ -137,7 +142,10 @@ impl Air {
         let bound = QUIET_MACH * self.params.sound_speed;
         let stirs = |cells: Range<usize>| {
             let speeds = [&self.velocity_x, &self.velocity_y].map(|field| peak(&field[cells.clone()]));
-            speeds[0].max(speeds[1]) > bound || is_uneven(&self.pressure[cells.clone()], &rest[cells])
+            let warmth = self.warmth.get(cells.clone()).map_or(0.0, peak);
+            speeds[0].max(speeds[1]) > bound
+                || warmth > QUIET_WARMTH
+                || is_uneven(&self.pressure[cells.clone()], &rest[cells])
         };
         self.tiling().cells_of(tile).any(stirs)
             || self.slots_beside(tile).into_iter().any(|slots| peak(&self.outside[slots]) > bound)
@@ -163,7 +171,10 @@ impl Air {
     fn still(&mut self, tile: usize) {
         for cells in self.tiling().cells_of(tile) {
             self.velocity_x[cells.clone()].fill(0.0);
-            self.velocity_y[cells].fill(0.0);
+            self.velocity_y[cells.clone()].fill(0.0);
+            if let Some(warmth) = self.warmth.get_mut(cells) {
+                warmth.fill(0.0);
+            }
         }
         for slots in self.slots_beside(tile) {
             self.outside[slots].fill(0.0);

@@ -83,6 +83,7 @@ impl Air {
         for k in self.cells() {
             self.pressure[k] = if self.solid[k] { 0.0 } else { 1.0 };
         }
+        self.warmth = Vec::new();
         self.rests.clear();
         self.stop();
     }

@@ -45,6 +45,9 @@ impl Air {
         }
         for k in self.cells().filter(|k| self.solid[*k]) {
             (self.pressure[k], self.velocity_x[k], self.velocity_y[k]) = (0.0, 0.0, 0.0);
+            if self.is_warm() {
+                self.warmth[k] = 0.0;
+            }
         }
     }
 
@@ -116,6 +119,9 @@ impl Air {
                     let kept = self.pressure[target] / sum;
                     self.velocity_x[target] *= kept;
                     self.velocity_y[target] *= kept;
+                    if self.is_warm() {
+                        self.warmth[target] = self.warmth[target] * kept + self.warmth[k] * (1.0 - kept);
+                    }
                     self.touch(target);
                 }
                 self.pressure[target] = sum;
@@ -135,12 +141,13 @@ impl Air {
             };
             let mut donors = Vec::new();
             for k in layer {
-                let (mut mass, mut x, mut y) = (0.0, 0.0, 0.0);
+                let (mut mass, mut x, mut y, mut warmth) = (0.0, 0.0, 0.0, 0.0);
                 for donor in self.beside(*k).into_iter().filter(|donor| distance[*donor] == depth - 1) {
                     let part = self.pressure[donor] / takers(self, donor);
                     mass += part;
                     x += part * self.velocity_x[donor];
                     y += part * self.velocity_y[donor];
+                    warmth += part * self.warmth_of(donor);
                     donors.push(donor);
                 }
                 // What new rock pushed in here has no speed.
@@ -148,6 +155,9 @@ impl Air {
                 if sum > 0.0 {
                     self.velocity_x[*k] = x / sum;
                     self.velocity_y[*k] = y / sum;
+                    if self.is_warm() {
+                        self.warmth[*k] = (self.warmth[*k] * self.pressure[*k] + warmth) / sum;
+                    }
                 }
                 self.pressure[*k] = sum;
                 self.touch(*k);

@@ -11,7 +11,8 @@
 //! hotter than 4,000 K by a change exchanges heat as if it were no hotter, so that no sum of quanta overflows.
 //!
 //! **The air** takes `h′ (T − 293 K) Δt` for each length of a lump's surface, which is what its neighbours leave open, solved for
-//! the end of the step; gases give five times as much. It is as warm as the room, whatever it takes.
+//! the end of the step; gases give five times as much. It is as warm as the room, whatever it
+//! takes: what becomes of it is the air's own (`air/warmth`).
 
 use super::{
     lumps::Lumps,
@@ -165,6 +166,11 @@ impl Exchange {
                 given[k] = rounded(open / (1.0 + open / held) * (own - ROOM));
             }
         });
+    }
+
+    /// Length of the surface of a lump (d), and how warm it is (K), as they were in the last step.
+    pub fn open(&self, k: usize) -> (f32, f32) {
+        (self.surface[k], self.kelvin[k])
     }
 
     /// Bytes held.

@@ -4,6 +4,9 @@ use super::{surface::SURFACE, units::QUANTUM, weights::WEIGHT};
 
 /// Exchange with the air h′, W/m²K: a thousand times life's, as the spacing is.
 const TO_AIR: f32 = 1e4;
+/// Part of that which warms the air of the picture; the rest goes to what is not in it. Changing this affects how strongly warm air
+/// rises from what is warm.
+const OF_AIR: f32 = 0.05;
 /// How many times as much a gas gives to the air: a lump of it stands for wisps that mix with it.
 pub(super) const OF_GAS: f32 = 5.0;
 
@@ -26,6 +29,11 @@ impl Rates {
     pub fn may_flow(&self, difference: f32, conduction: f32) -> bool {
         difference * (self.pairs * WEIGHT * conduction * conduction) >= 0.5
             || difference * (self.air * SURFACE * OF_GAS) >= 0.5
+    }
+
+    /// Quanta that the air of the picture gets for each K of a length d of surface.
+    pub fn of_air(&self) -> f32 {
+        OF_AIR * self.air
     }
 
     /// Those of each of so many steps.

@@ -1,6 +1,8 @@
 //! How heat flows in a tick, step by step.
 
 use super::{conduction::Exchange, lumps::Lumps, matter::Warm, rates::Rates, record::HeatRecord};
+use crate::air::Contact;
+use glam::Vec2;
 
 /// What the limiters of the exchange did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -14,21 +16,36 @@ pub struct HeatReport {
 pub struct Heat {
     lumps: Lumps,
     exchange: Exchange,
+    /// What the air gets for each K of a length d of surface in the last tick, quanta; 0 if none.
+    of_air: f32,
 }
 
 impl Heat {
     /// Lets heat flow for `dt` s, on up to `threads` threads of the current rayon pool. What goes to the air is booked.
     pub fn flow(&mut self, warm: &mut Warm, record: &mut HeatRecord, threads: usize, dt: f32) -> HeatReport {
-        let Self { lumps, exchange } = self;
+        let Self { lumps, exchange, of_air } = self;
         let rates = Rates::new(warm.scale.spacing, dt);
         lumps.gather(warm, &rates);
+        *of_air = 0.0;
         if lumps.is_empty() {
             return HeatReport::default();
         }
+        *of_air = rates.of_air();
         let flowed = exchange.run(lumps, warm, &rates, threads);
         lumps.hand_back(warm);
         record.to_air += flowed.to_air;
         HeatReport { cuts: flowed.cuts }
+    }
+
+    /// The lumps that stood in the air in the last tick and are not as warm as the room.
+    pub fn contacts(&self) -> impl Iterator<Item = Contact> + Clone {
+        let lumps = if self.of_air > 0.0 { 0..self.lumps.len() } else { 0..0 };
+        lumps.filter_map(|k| {
+            let (surface, kelvin) = self.exchange.open(k);
+            let flows = surface > 0.0 && self.lumps.flows[self.lumps.cell[k] as usize];
+            let at = Vec2::new(self.lumps.x[k], self.lumps.y[k]);
+            flows.then_some(Contact { at, conductance: self.of_air * surface, kelvin })
+        })
     }
 
     /// Bytes held.

@@ -35,7 +35,7 @@ pub(super) fn plan_tick(
     }
     let has_heat = particles.has_heat() || !rock.heats().is_empty();
     let facts = Facts {
-        modes,
+        modes: &modes,
         preset: setup.preset,
         predicts: setup.quality.predictor,
         elements: setup.elements(),

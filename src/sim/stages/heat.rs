@@ -2,25 +2,27 @@
 
 use crate::{
     kernel::{heat::change, relabel::Relabelled, units::TICK_SECONDS},
+    scene::effects::{Effect, Mode},
     sim::{
+        effects::Effects,
         stages::sleep::wake_changed,
-        state::{Books, Counters, HeatCurves, HeatState, ParticleStore, Rock, Setup, SleepState},
+        state::{AirGrid, Books, Counters, HeatCurves, HeatState, ParticleStore, Rock, Setup, SleepState},
         workers::Workers,
     },
 };
 use bevy::prelude::{Local, Res, ResMut};
 
-/// Gives lumps whose change is done the element that it leads to, and lets heat flow for a tick.
+/// Gives lumps whose change is done the element that it leads to, lets heat flow for a tick, and warms the air by what is warm.
 pub(super) fn flow(
     setup: Res<Setup>,
     curves: Res<HeatCurves>,
     mut particles: ResMut<ParticleStore>,
     mut rock: ResMut<Rock>,
     mut heat: ResMut<HeatState>,
-    mut books: ResMut<Books>,
     mut sleep: ResMut<SleepState>,
-    workers: Res<Workers>,
-    mut counters: ResMut<Counters>,
+    (mut books, mut counters): (ResMut<Books>, ResMut<Counters>),
+    mut air: ResMut<AirGrid>,
+    (effects, workers): (Res<Effects>, Res<Workers>),
     mut relabelled: Local<Relabelled>,
 ) -> usize {
     let count = particles.len();
@@ -28,6 +30,9 @@ pub(super) fn flow(
     change(&mut warm, &mut books, &mut relabelled);
     let report = workers.run_for(count, |threads| heat.flow(&mut warm, &mut books, threads, TICK_SECONDS));
     counters.heat_cuts += report.cuts;
+    if effects.acts(Effect::Convection) && effects.get(Effect::Air).mode != Mode::Off {
+        air.warm_up(heat.contacts(), &rock);
+    }
     wake_changed(&mut sleep, &mut particles, &rock, &relabelled.places);
     count
 }

@@ -33,6 +33,7 @@ pub(super) fn step_air(
         air.build(&rock);
     }
     let sleep = effects.get(Effect::Sleep).mode;
+    air.set_gravity(setup.domain.gravity);
     air.allow_sleep(sleep == Mode::On || sleep == Mode::Auto && setup.preset != Preset::Reference);
     let (worth, instructions) = (air.is_worth_sharing(), solver.instructions);
     let report = workers.run_if(worth, |threads| {

@@ -9,6 +9,7 @@ mod scheme;
 mod sleep;
 mod tools;
 mod walls;
+mod warmth;
 mod waves;
 mod work;
 
@@ -51,6 +52,16 @@ fn stir(air: &mut Air, pressure: f32, speed: f32, noise: &mut Random) {
     air.quiet = false;
 }
 
+/// Gravity of the tests, d/s².
+const GRAVITY: Vec2 = Vec2::new(30.0, -98.1);
+
+/// Random temperatures of 88 to 1,172 K in the open cells.
+fn warm(air: &mut Air, noise: &mut Random) {
+    air.warmth = air.solid.iter().map(|solid| if *solid { 0.0 } else { 1.15 + 1.85 * noise.offset() }).collect();
+    air.set_gravity(GRAVITY);
+    air.quiet = false;
+}
+
 /// Rock on the cells of a box of `columns × rows` d for which `wanted` holds.
 fn rock(columns: u32, rows: u32, mut wanted: impl FnMut(i32, i32) -> bool) -> Solids {
     let mut solids = Solids::new(columns, rows);
@@ -85,6 +96,6 @@ fn assert_sane(air: &Air) {
 }
 
 fn bits(air: &Air) -> Vec<u32> {
-    let fields = [&air.pressure, &air.velocity_x, &air.velocity_y, &air.outside];
+    let fields = [&air.pressure, &air.velocity_x, &air.velocity_y, &air.warmth, &air.outside];
     fields.into_iter().flatten().map(|value| value.to_bits()).collect()
 }

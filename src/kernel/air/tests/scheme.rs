@@ -2,6 +2,7 @@
 
 use super::super::MAX_PRESSURE;
 use super::super::source::FACE_FILTER;
+use super::super::warmth::LOSS_SECONDS;
 use super::*;
 
 /// The slope of a field in a cell along `step` by its definition: 0 at a peak, else of the three differences the least.
@@ -23,7 +24,7 @@ fn head(p: f64) -> f64 {
 }
 
 /// What one substep does, written as a scatter in f64 cell by cell, with the rule for corners spelled out.
-fn scatter(air: &Air, advection: AirAdvection, dt: f64) -> [Vec<f64>; 3] {
+fn scatter(air: &Air, advection: AirAdvection, dt: f64) -> [Vec<f64>; 4] {
     let stride = air.stride() as isize;
     let crossing = dt / f64::from(air.cell);
     let s = f64::from(SOUND) * crossing;
@@ -34,7 +35,8 @@ fn scatter(air: &Air, advection: AirAdvection, dt: f64) -> [Vec<f64>; 3] {
         if solid(k) || solid(k + step) {
             return 0.0;
         }
-        let drop = head(at(&air.pressure, k)) - head(at(&air.pressure, k + step));
+        let e = |k: isize| at(&air.pressure, k) * (1.0 + f64::from(air.warmth_of(k as usize)));
+        let drop = head(e(k)) - head(e(k + step));
         let mut wind = 0.5 * (at(field, k) + at(field, k + step)) * crossing;
         if second_order {
             wind *= 1.0 - (at(field, k + step) - at(field, k)) * crossing;
@@ -42,7 +44,7 @@ fn scatter(air: &Air, advection: AirAdvection, dt: f64) -> [Vec<f64>; 3] {
         (wind + f64::from(FACE_FILTER) * s * drop).clamp(-0.5, 0.5)
     };
     let n = air.pressure.len();
-    let mut next = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
+    let mut next = [vec![0.0; n], vec![0.0; n], vec![0.0; n], vec![0.0; n]];
     for k in (0..n as isize).filter(|k| !solid(*k)) {
         let [left, right] = [-flow(k - 1, 1, &air.velocity_x), flow(k, 1, &air.velocity_x)].map(|f| f.max(0.0));
         let [down, up] =
@@ -72,16 +74,19 @@ fn scatter(air: &Air, advection: AirAdvection, dt: f64) -> [Vec<f64>; 3] {
                     next[0][end as usize] += mass;
                     next[1][end as usize] += mass * velocity(&air.velocity_x);
                     next[2][end as usize] += mass * velocity(&air.velocity_y);
+                    next[3][end as usize] += if air.is_warm() { mass * velocity(&air.warmth) } else { 0.0 };
                 }
             }
         }
     }
-    let [p, x, y] = &mut next;
+    let [p, x, y, warmth] = &mut next;
+    warmth.iter_mut().zip(&*p).filter(|(_, p)| **p > 0.0).for_each(|(warmth, p)| *warmth /= p);
+    let e: Vec<f64> = p.iter().zip(&*warmth).map(|(p, warmth)| p * (1.0 + warmth)).collect();
     for k in (0..n as isize).filter(|k| !solid(*k)) {
         let here = k as usize;
         let push = |step: isize| {
             let pair = |a: isize, b: isize| {
-                if solid(a) || solid(b) { 0.0 } else { head(p[b as usize]) - head(p[a as usize]) }
+                if solid(a) || solid(b) { 0.0 } else { head(e[b as usize]) - head(e[a as usize]) }
             };
             -0.5 * s * f64::from(SOUND) * (pair(k - step, k) + pair(k, k + step))
         };
@@ -89,25 +94,33 @@ fn scatter(air: &Air, advection: AirAdvection, dt: f64) -> [Vec<f64>; 3] {
             let wall = if velocity > 0.0 { solid(k + step) } else { solid(k - step) };
             velocity * (1.0 - if wall { (velocity.abs() * crossing).min(1.0) } else { 0.0 })
         };
-        x[here] = settle(x[here] / p[here] + push(1), 1);
-        y[here] = settle(y[here] / p[here] + push(stride), stride);
+        let pull = -2.0 * dt * warmth[here] / (2.0 + warmth[here]);
+        let [lift_x, lift_y] = air.scratch.gravity.to_array().map(|g| pull * f64::from(g));
+        x[here] = settle(x[here] / p[here] + lift_x + push(1), 1);
+        y[here] = settle(y[here] / p[here] + lift_y + push(stride), stride);
     }
     next
 }
 
 #[test]
 fn the_gather_is_the_scatter() {
-    for (advection, rocky) in AirAdvection::ALL.into_iter().flat_map(|advection| [(advection, 0.4), (advection, 0.9)]) {
+    let cases = [(0.4, false), (0.9, false), (0.4, true), (0.9, true)];
+    for (advection, (rocky, is_warm)) in AirAdvection::ALL.into_iter().flat_map(|one| cases.map(|case| (one, case))) {
         let mut noise = Random::new(42);
         let solids = rock(23, 19, |_, _| noise.offset() > rocky);
         let mut air = closed(23, 19, 1.0);
         air.set_solids(&solids);
         stir(&mut air, 0.2, 300.0, &mut noise);
+        if is_warm {
+            warm(&mut air, &mut noise);
+        }
         let dt = 2e-4;
         let wanted = scatter(&air, advection, f64::from(dt));
         assert_eq!(air.step(&[], AirScheme { courant: 0.9, advection }, ALONE, dt).substeps, 1);
         // A velocity is a sum of momenta of 300 d/s.
-        let fields = [(&air.pressure, 1.0), (&air.velocity_x, 30.0), (&air.velocity_y, 30.0)];
+        // What it lost after the substep.
+        air.warmth.iter_mut().for_each(|warmth| *warmth *= 1.0 + dt / LOSS_SECONDS);
+        let fields = [(&air.pressure, 1.0), (&air.velocity_x, 30.0), (&air.velocity_y, 30.0), (&air.warmth, 1.0)];
         for ((got, least), wanted) in fields.into_iter().zip(&wanted) {
             for k in (0..got.len()).filter(|k| !air.solid[*k]) {
                 let error = (f64::from(got[k]) - wanted[k]).abs();
@@ -180,12 +193,17 @@ fn a_still_grid_stays_still_bit_for_bit() {
 /// The same air seen in a mirror that turns left to right (`x`) or top to bottom.
 fn mirrored(air: &Air, x: bool) -> Air {
     let mut mirror = air.clone();
+    let gravity = air.scratch.gravity;
+    mirror.set_gravity(if x { Vec2::new(-gravity.x, gravity.y) } else { Vec2::new(gravity.x, -gravity.y) });
     let (stride, n) = (air.stride(), air.pressure.len());
     for k in 0..n {
         let (i, j) = (k % stride, k / stride);
         let from = if x { j * stride + stride - 1 - i } else { (n / stride - 1 - j) * stride + i };
         mirror.pressure[k] = air.pressure[from];
         mirror.solid[k] = air.solid[from];
+        if air.is_warm() {
+            mirror.warmth[k] = air.warmth[from];
+        }
         mirror.velocity_x[k] = if x { -air.velocity_x[from] } else { air.velocity_x[from] };
         mirror.velocity_y[k] = if x { air.velocity_y[from] } else { -air.velocity_y[from] };
     }
@@ -199,13 +217,14 @@ fn mirrored_air_runs_mirrored_bit_for_bit() {
         let mut air = closed(26, 17, 2.0);
         air.set_solids(&rock(52, 34, |_, _| noise.offset() > 0.9));
         stir(&mut air, 0.5, 500.0, &mut noise);
+        warm(&mut air, &mut noise);
         let mut mirror = mirrored(&air, x);
         for _ in 0..20 {
             air.step(&[], AirScheme { advection, ..SCHEME }, ALONE, DT);
             mirror.step(&[], AirScheme { advection, ..SCHEME }, ALONE, DT);
         }
         let back = mirrored(&mirror, x);
-        assert_eq!(back.pressure, air.pressure);
+        assert_eq!((&back.pressure, &back.warmth), (&air.pressure, &air.warmth));
         assert!(back.velocity_x == air.velocity_x && back.velocity_y == air.velocity_y);
     }
 }
@@ -249,6 +268,7 @@ fn parallel_is_serial_bit_for_bit_for_any_number_of_threads() {
     let mut start = Air::new(Vec2::new(203.0, 190.0), 1.0, params(sides));
     start.set_solids(&rock(203, 190, |_, _| noise.offset() > 0.9));
     stir(&mut start, 0.5, 500.0, &mut noise);
+    warm(&mut start, &mut noise);
     let step = |threads: usize| {
         let mut air = start.clone();
         assert!(air.is_worth_sharing(), "what is not shared proves nothing");
@@ -272,6 +292,7 @@ fn every_instruction_set_gives_the_same_bits() {
         let mut start = Air::new(Vec2::new(columns as f32, rows as f32), 1.0, params(sides));
         start.set_solids(&rock(columns, rows, |_, _| noise.offset() > 0.8));
         stir(&mut start, 0.5, 500.0, &mut noise);
+        warm(&mut start, &mut noise);
         for advection in AirAdvection::ALL {
             let step = |instructions| {
                 let mut air = start.clone();
@@ -296,11 +317,13 @@ fn a_snapshot_goes_on_with_the_same_bits() {
     let mut air = Air::new(Vec2::new(60.0, 50.0), 2.0, params(sides));
     air.set_solids(&rock(60, 50, |_, _| noise.offset() > 0.9));
     stir(&mut air, 0.5, 500.0, &mut noise);
+    warm(&mut air, &mut noise);
     run(&mut air, 3);
     let stored = postcard::to_stdvec(&air).unwrap();
     let mut restored: Air = postcard::from_bytes(&stored).unwrap();
     assert_eq!(restored, air);
     run(&mut air, 3);
+    restored.set_gravity(GRAVITY);
     run(&mut restored, 3);
     assert_eq!(bits(&restored), bits(&air));
 }
@@ -319,6 +342,13 @@ fn a_damaged_snapshot_is_refused() {
     assert!(stored(|air| air.pressure[9] = -1.0).is_err());
     assert!(stored(|air| air.velocity_x[9] = f32::NAN).is_err());
     assert!(stored(|air| air.cell = 0.0).is_err());
+    assert!(stored(|air| air.warmth = vec![0.5; 36]).is_err(), "warm air is still");
+    assert!(stored(|air| (air.warmth, air.quiet) = (vec![0.5; 36], false)).is_ok());
+    for warmth in [vec![0.5; 35], vec![f32::NAN; 36], vec![-1.0; 36], vec![13.0; 36]] {
+        let mut air = closed(4, 4, 1.0);
+        (air.warmth, air.quiet) = (warmth, false);
+        assert!(air.check().is_err());
+    }
     assert!(stored(|air| (air.pending.speed_clamps, air.pending.buried) = (9, 0.5)).is_ok());
     assert!(stored(|air| air.pending.speed_clamps = u64::MAX).is_err());
     assert!(stored(|air| air.solid[3] = false).is_err(), "the ring has a hole");

@@ -183,7 +183,8 @@ impl Due {
     }
 }
 
-/// Whether touch, time or heat may change what matter is made of: heat also in the tick in which the first that is warm comes.
+/// Whether touch, time or heat may change what matter is made of, or warm air lift it: heat also in the tick in which the first
+/// that is warm comes.
 fn may_change(world: &World) -> bool {
     let effects = world.resource::<Effects>();
     let is_wanted = |effect: Effect| effects.get(effect).mode != Mode::Off;
@@ -191,6 +192,7 @@ fn may_change(world: &World) -> bool {
         || is_wanted(Effect::Decay)
         || is_wanted(Effect::Heat)
             && (world.resource::<ParticleStore>().has_heat()
+                || world.resource::<AirGrid>().is_warm()
                 || !world.resource::<Rock>().heats().is_empty()
                 || !world.resource::<Sources>().emitters.is_empty())
 }
