@@ -24,19 +24,25 @@ pub(in crate::lab::gauntlet) struct AirMass {
     rock: Option<u64>,
     /// Whether it was off.
     was_off: bool,
+    /// Whether it had a grid.
+    was_built: bool,
 }
 
 impl AirMass {
     /// Notes a tick before which there was a mass of `before`. Air that is switched off stands, and is brought to rest at
     /// the pressure around: what that makes is the hand's that switched it. Air without a grid is at the pressure around
-    /// wherever there is no rock: rock that melts makes room for some, as rock that is taken away does.
+    /// wherever there is no rock: rock that melts makes room for some, as rock that is taken away does, also in the tick in
+    /// which its heat calls for the grid.
     pub fn ticked(&mut self, before: f64, world: &World) {
         let is_off = world.resource::<Effects>().get(Effect::Air).mode == Mode::Off;
         self.begun += u32::from(self.was_off && !is_off);
         self.was_off = is_off;
         let rock = world.resource::<Rock>().version();
-        self.begun += u32::from(self.rock.replace(rock).is_some_and(|before| before != rock));
-        if before == 0.0 || is_off || !world.resource::<AirGrid>().is_built() {
+        let changed = self.rock.replace(rock).is_some_and(|before| before != rock);
+        self.begun += u32::from(changed);
+        let is_built = world.resource::<AirGrid>().is_built();
+        let was_built = std::mem::replace(&mut self.was_built, is_built);
+        if before == 0.0 || is_off || !is_built || (changed && !was_built) {
             return;
         }
         self.drift += mass(world) / before - 1.0;
