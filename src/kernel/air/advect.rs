@@ -40,6 +40,24 @@ struct Carry {
     y: Vec<f32>,
 }
 
+impl Carry {
+    fn new(n: usize) -> Self {
+        Self { mass: vec![0.0; n], x: vec![0.0; n], y: vec![0.0; n] }
+    }
+
+    fn rows(&mut self, n: usize) -> [&mut [f32]; 3] {
+        [&mut self.mass[..n], &mut self.x[..n], &mut self.y[..n]]
+    }
+
+    /// Adds `mass` from a cell with velocity (u, v).
+    #[inline(always)]
+    fn add(&mut self, i: usize, mass: f32, u: f32, v: f32) {
+        self.mass[i] += mass;
+        self.x[i] += mass * u;
+        self.y[i] += mass * v;
+    }
+}
+
 /// What rows of sources bring to the rows around them.
 #[derive(Debug)]
 struct Carried {
@@ -65,24 +83,6 @@ impl Carried {
 
     fn values(&self) -> usize {
         self.down.mass.len() * 18
-    }
-}
-
-impl Carry {
-    fn new(n: usize) -> Self {
-        Self { mass: vec![0.0; n], x: vec![0.0; n], y: vec![0.0; n] }
-    }
-
-    fn rows(&mut self, n: usize) -> [&mut [f32]; 3] {
-        [&mut self.mass[..n], &mut self.x[..n], &mut self.y[..n]]
-    }
-
-    /// Adds `mass` from a cell with velocity (u, v).
-    #[inline(always)]
-    fn add(&mut self, i: usize, mass: f32, u: f32, v: f32) {
-        self.mass[i] += mass;
-        self.x[i] += mass * u;
-        self.y[i] += mass * v;
     }
 }
 

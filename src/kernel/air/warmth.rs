@@ -2,18 +2,19 @@
 //!
 //! Each cell has a *warmth* τ = T/293 K − 1, which the wind carries as it carries velocity: with the mass, by the same shares, to
 //! the same order. What pushes is then not the pressure p, which is the density too (`mod`), but `e = p (1 + τ)`, the pressure
-//! that so much air has at that temperature. So heated air spreads until e is even, which leaves it thin; in a sealed room e
-//! goes with the temperature. Sound runs at `c √e`: thin hot air costs no more substeps than cold air. All air at 293 K is
-//! e = p, and costs nothing more.
+//! that so much air has at that temperature. So heated air spreads until e is even, which leaves it thin; in a sealed room e goes
+//! with the temperature. Sound runs at `c √e`: thin hot air costs no more substeps than cold air. All air at 293 K is e = p, and
+//! costs nothing more.
 //!
 //! **Lift.** Air in the model has no weight: at c = 8 m/s its pressure would fall by a seventh each metre. What is left is the
-//! difference that warmth makes. Two bodies of air of densities 1 and 1/θ, θ = 1 + τ, move each other at `A g`, with the Atwood number
-//! `A = (θ − 1)/(θ + 1) = τ/(2 + τ)`, each against the inertia of the other: a cylinder of warm air rises by `½ A g t²` (Batchelor
-//! 1967, 6.4), and waves on the surface between both grow at `√(A g k)`. The model's air is pushed by `−c² ∇e` whatever its density, and so
-//! both bodies are equally inert: the pull `a = 2 A g` on the warm one gives both that same motion, since half of it goes into the other.
+//! difference that warmth makes. Two bodies of air of densities 1 and 1/θ, θ = 1 + τ, move each other at `A g`, with the Atwood
+//! number `A = (θ − 1)/(θ + 1) = τ/(2 + τ)`, each against the inertia of the other: a cylinder of warm air rises by `½ A g t²`
+//! (Batchelor 1967, 6.4), and waves on the surface between both grow at `√(A g k)`. The model's air is pushed by `−c² ∇e`
+//! whatever its density, and so both bodies are equally inert: the pull `a = 2 A g` on the warm one gives both that same motion,
+//! since half of it goes into the other.
 //!
-//! **Loss.** Air gives its warmth to all that is not in the picture, within [`LOSS_SECONDS`]. Air nearer to its surroundings
-//! than [`QUIET_WARMTH`] has theirs.
+//! **Loss.** Air gives its warmth to all that is not in the picture, within [`LOSS_SECONDS`]. A tile all of which is nearer to
+//! its surroundings than [`QUIET_WARMTH`] has theirs.
 
 use super::grid::Air;
 use crate::{
@@ -136,11 +137,5 @@ impl Air {
     fn cell_at(&self, at: Vec2) -> usize {
         let nearest = |place: f32, count: usize| ((place / self.cell).max(0.0) as usize).min(count - 1);
         self.index(nearest(at.x, self.columns()), nearest(at.y, self.rows()))
-    }
-
-    /// Sum of mass times warmth, d² at pressure 1 and 293 K: what it holds of heat beyond that of the surroundings.
-    pub fn heat(&self) -> f64 {
-        let cells = self.warmth.iter().zip(&self.pressure);
-        cells.map(|(warmth, p)| f64::from(*warmth) * f64::from(*p)).sum::<f64>() * self.cell_area()
     }
 }
