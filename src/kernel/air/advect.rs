@@ -104,9 +104,8 @@ pub(super) struct Advection {
     /// Heads of this row and of the one above it, in strong air.
     heads: [Vec<f32>; 2],
     second_order: SecondOrder,
-    carried: Carried,
-    /// The warmth of warm air, as if it were a velocity along either axis.
-    warmth: Option<Box<Carried>>,
+    /// With their velocity; and, once the air has been warm, with its warmth as if that were a velocity along either axis.
+    carried: Vec<Carried>,
 }
 
 impl Advection {
@@ -122,15 +121,14 @@ impl Advection {
             up: row(),
             heads: [row(), row()],
             second_order: SecondOrder::default(),
-            carried: Carried::new(stride),
-            warmth: None,
+            carried: vec![Carried::new(stride)],
         }
     }
 
     /// Values held.
     pub(super) fn values(&self) -> usize {
-        let warmth = self.warmth.as_ref().map_or(0, |carried| carried.values());
-        self.right.len() * 10 + self.carried.values() + warmth + self.second_order.values()
+        let carried: usize = self.carried.iter().map(Carried::values).sum();
+        self.right.len() * 10 + carried + self.second_order.values()
     }
 
     /// Begins with a row of sources of which only the shares that go up are wanted.
@@ -155,37 +153,37 @@ impl Advection {
         } else {
             self.share_down::<L>(source, row);
         }
-        self.bring::<L>(source, row);
-        if let Some(warmth) = source.warmth {
-            let mut carried = self.warmth.take().unwrap_or_else(|| Box::new(Carried::new(source.stride)));
-            std::mem::swap(&mut self.carried, &mut carried);
-            self.bring::<L>(Source { velocity_x: warmth, velocity_y: warmth, ..source }, row);
-            std::mem::swap(&mut self.carried, &mut carried);
-            self.warmth = Some(carried);
+        let velocity = [source.velocity_x, source.velocity_y];
+        let warmth = source.warmth.map(|warmth| [warmth, warmth]);
+        let mut carried = std::mem::take(&mut self.carried);
+        if warmth.is_some() && carried.len() == 1 {
+            carried.push(Carried::new(source.stride));
         }
+        // One loop, as the code of two calls is too long to be inlined whole.
+        for ([velocity_x, velocity_y], to) in [Some(velocity), warmth].into_iter().flatten().zip(&mut carried) {
+            self.bring::<L>(Source { velocity_x, velocity_y, ..source }, row, to);
+        }
+        self.carried = carried;
     }
 
     /// Brings mass and momentum of a row of sources to the rows around it.
     #[inline(always)]
-    fn bring<L: Lanes>(&mut self, source: Source, row: usize) {
+    fn bring<L: Lanes>(&mut self, source: Source, row: usize, to: &mut Carried) {
         let here = source.start(row)..source.start(row) + source.width;
         let (u, v) = (&source.velocity_x[here.clone()], &source.velocity_y[here]);
         if source.second_order {
-            self.carry_second::<L>(source, row);
+            self.carry_second::<L>(source, row, to);
         } else {
-            self.carry::<L>(u, v);
+            self.carry::<L>([u, v], to);
         }
-        self.turn_corners(source, row, u, v);
-        self.turn_at_fences(source, row, u, v);
+        self.turn_corners(source, row, [u, v], to);
+        self.turn_at_fences(source, row, [u, v], to);
     }
 
     /// Goes on to the next row of sources.
     #[inline(always)]
     pub(super) fn advance(&mut self) {
-        self.carried.advance();
-        if let Some(warmth) = &mut self.warmth {
-            warmth.advance();
-        }
+        self.carried.iter_mut().for_each(Carried::advance);
         self.sinking.swap(0, 1);
         self.heads.swap(0, 1);
     }
@@ -265,12 +263,12 @@ impl Advection {
 
     /// Sums what three neighbouring sources bring to each column, for all three rows of targets at once.
     #[inline(always)]
-    fn carry<L: Lanes>(&mut self, u: &[f32], v: &[f32]) {
+    fn carry<L: Lanes>(&self, [u, v]: [&[f32]; 2], to: &mut Carried) {
         let n = u.len() - 2;
         let (u, v) = (shifted(u, n), shifted(v, n));
         let [_, goes_right, leaves_right] = shifted(&self.right, n);
         let [_, leaves_left, goes_left] = shifted(&self.left, n);
-        let Carried { down, level: [level, ..], up: [up, ..] } = &mut self.carried;
+        let Carried { down, level: [level, ..], up: [up, ..] } = to;
         let carries = [down, level, up];
         let [mut down, mut level, mut up] = carries.map(|carry| carry.rows(n));
         let masses = [&self.down, &self.level, &self.up].map(|row| shifted(row, n));
@@ -287,30 +285,28 @@ impl Advection {
 
     /// The same to second order.
     #[inline(always)]
-    fn carry_second<L: Lanes>(&mut self, source: Source, row: usize) {
+    fn carry_second<L: Lanes>(&mut self, source: Source, row: usize, to: &mut Carried) {
         let n = source.width - 2;
         let Self { right, left, sinking: [sinking, _], rising, down, level, up, .. } = self;
         let shares = Shares { right, left, sinking, rising, masses: [down, level, up] };
-        let Carried { down, level: [level, ..], up: [up, ..] } = &mut self.carried;
+        let Carried { down, level: [level, ..], up: [up, ..] } = to;
         let carries = [down, level, up];
         self.second_order.carry::<L>(source, row, shares, carries.map(|carry| carry.rows(n)));
     }
 
     /// Gives the shares that strike a corner of rock to the cells beside it. What they brought to the rock itself is
     /// dropped when the rock's row is written. Sums pair opposite sides, so that a mirror image has the same.
-    fn turn_corners(&mut self, source: Source, row: usize, u: &[f32], v: &[f32]) {
+    fn turn_corners(&self, source: Source, row: usize, [u, v]: [&[f32]; 2], to: &mut Carried) {
         let Source { shape, left: first, width, .. } = source;
         let Self { right, left, up, down, .. } = self;
-        for (corners, part, carry) in
-            [(&shape.above, &*up, &mut self.carried.up[0]), (&shape.below, &*down, &mut self.carried.down)]
-        {
+        for (corners, part, carry) in [(&shape.above, up, &mut to.up[0]), (&shape.below, down, &mut to.down)] {
             for Corner { column, weights } in corners.row_within(row, first, width) {
                 let k = *column as usize - first;
                 let mass = part[k] * (weights[0] * left[k] + weights[1] * right[k + 1]);
                 carry.add(k - 1, mass, u[k], v[k]);
             }
         }
-        let level = &mut self.carried.level[0];
+        let level = &mut to.level[0];
         for Corner { column, weights } in shape.beside.row_within(row, first, width) {
             let k = *column as usize - first;
             let from_left = right[k] * (weights[0] * down[k - 1] + weights[1] * up[k - 1]);
@@ -322,7 +318,7 @@ impl Advection {
     }
 
     /// The same for shares that would enter a sleeping tile across its corner.
-    fn turn_at_fences(&mut self, source: Source, row: usize, u: &[f32], v: &[f32]) {
+    fn turn_at_fences(&self, source: Source, row: usize, [u, v]: [&[f32]; 2], to: &mut Carried) {
         let Source { shape, left: first, width, .. } = source;
         let inside = 1..width - 1;
         for turn in shape.turns_of(row) {
@@ -333,54 +329,46 @@ impl Advection {
                 continue;
             }
             let sideways = if turn.right { self.right[k + 1] } else { self.left[k] };
-            let (upright, carry) =
-                if turn.up { (self.up[k], &mut self.carried.up[0]) } else { (self.down[k], &mut self.carried.down) };
+            let (upright, carry) = if turn.up { (self.up[k], &mut to.up[0]) } else { (self.down[k], &mut to.down) };
             let half = 0.5 * sideways * upright;
             if inside.contains(&k) {
                 carry.add(k - 1, half, u[k], v[k]);
             }
             if inside.contains(&beside) {
-                self.carried.level[0].add(beside - 1, half, u[k], v[k]);
+                to.level[0].add(beside - 1, half, u[k], v[k]);
             }
         }
     }
 
-    /// Writes a row of targets: level from their own row, up from the row below, down from the row above.
+    /// Writes a row of targets, of mass, of momentum and, of warm air, of mass times warmth: level from their own row, up from
+    /// the row below, down from the row above.
     #[inline(always)]
-    pub(super) fn sum_up<L: Lanes>(&self, source: Source, row: usize, targets: [&mut [f32]; 3]) {
-        let Carried { down, level: [_, level], up: [_, _, up] } = &self.carried;
-        let parts = [(&level.mass, &up.mass, &down.mass), (&level.x, &up.x, &down.x), (&level.y, &up.y, &down.y)];
-        for (out, parts) in targets.into_iter().zip(parts) {
-            Self::sum_part::<L>(source, row, parts, out);
-        }
-    }
-
-    /// Writes a row of targets of mass times warmth.
-    #[inline(always)]
-    pub(super) fn sum_warmth<L: Lanes>(&self, source: Source, row: usize, target: &mut [f32]) {
-        if let Some(Carried { down, level: [_, level], up: [_, _, up] }) = self.warmth.as_deref() {
-            Self::sum_part::<L>(source, row, (&level.x, &up.x, &down.x), target);
-        }
-    }
-
-    /// Writes a row of targets of one quantity.
-    #[inline(always)]
-    fn sum_part<L: Lanes>(
+    pub(super) fn sum_up<L: Lanes>(
+        &self,
         source: Source,
         row: usize,
-        (level, up, down): (&Vec<f32>, &Vec<f32>, &Vec<f32>),
-        out: &mut [f32],
+        targets: [&mut [f32]; 3],
+        warmth: Option<&mut [f32]>,
     ) {
         let n = source.width - 2;
         let struck = source.shape.struck_within(row, source.left, source.width);
-        let (cells, level, up, down) = (&mut out[1..=n], &level[..n], &up[..n], &down[..n]);
-        for i in lane_starts::<L>(n) {
-            let crossing = L::of(up, i) + L::of(down, i);
-            (L::of(level, i) + crossing).put(cells, i);
-        }
-        // What struck rock has gone round the corner.
-        for column in struck {
-            out[*column as usize - source.left] = 0.0;
+        let from = |nth: usize| {
+            let Carried { down, level: [_, level], up: [_, _, up] } = &self.carried[nth];
+            [level, up, down]
+        };
+        let carried = from(0);
+        let parts = [carried.map(|carry| &carry.mass), carried.map(|carry| &carry.x), carried.map(|carry| &carry.y)];
+        let warm = warmth.map(|out| (out, from(1).map(|carry| &carry.x)));
+        for (out, [level, up, down]) in targets.into_iter().zip(parts).chain(warm) {
+            let (cells, level, up, down) = (&mut out[1..][..n], &level[..n], &up[..n], &down[..n]);
+            for i in lane_starts::<L>(n) {
+                let crossing = L::of(up, i) + L::of(down, i);
+                (L::of(level, i) + crossing).put(cells, i);
+            }
+            // What struck rock has gone round the corner.
+            for column in struck {
+                out[*column as usize - source.left] = 0.0;
+            }
         }
     }
 }

@@ -72,11 +72,11 @@ impl Band {
     #[inline(always)]
     fn sum_up<L: Lanes>(&mut self, source: Source, row: usize) {
         self.rotate();
-        let targets = [&mut self.pressure[0], &mut self.momentum_x[0], &mut self.momentum_y[0]];
-        self.advection.sum_up::<L>(source, row, targets.map(|row| &mut row[..source.width]));
         let width = source.width;
+        let targets = [&mut self.pressure[0], &mut self.momentum_x[0], &mut self.momentum_y[0]];
+        let warmth = source.warmth.map(|_| &mut self.warmth_carried[..width]);
+        self.advection.sum_up::<L>(source, row, targets.map(|row| &mut row[..width]), warmth);
         if source.warmth.is_some() {
-            self.advection.sum_warmth::<L>(source, row, &mut self.warmth_carried[..width]);
             share_out::<L>(&self.warmth_carried[..width], &self.pressure[0][..width], &mut self.warmth[0][..width]);
         }
         if let Some(instructions) = source.strong {
@@ -85,6 +85,7 @@ impl Band {
         }
     }
 
+    #[inline(always)]
     fn rotate(&mut self) {
         self.pressure.rotate_right(1);
         self.heads.rotate_right(1);
@@ -112,20 +113,29 @@ pub(super) struct BandPass<'a> {
 }
 
 impl BandPass<'_> {
+    /// Lifts the warm air of the row below the one made last, before it is pushed; `out` are its columns in the target.
+    #[inline(always)]
+    fn lift(&mut self, out: Range<usize>) {
+        let width = out.len();
+        let Band { pressure, momentum_x, momentum_y, warmth, .. } = &mut *self.band;
+        let [momentum_x, momentum_y] = [momentum_x, momentum_y].map(|rows| &mut rows[1][..width]);
+        let warmth = &warmth[1][..width];
+        self.lift.run(&pressure[1][..width], warmth, [momentum_x, momentum_y]);
+        self.warmth[out][1..width - 1].copy_from_slice(&warmth[1..width - 1]);
+    }
+
     /// Pass 2 for a row, once the row above it is made.
     #[inline(always)]
     fn follow<L: Lanes>(&mut self, row: usize) {
         let Source { stride, left, width, shape, strong, .. } = self.source;
         let start = (row - self.first) * stride + left;
         let out = start..start + width;
-        let Band { pressure, heads, momentum_x, momentum_y, warmth, .. } = &mut *self.band;
         if self.source.warmth.is_some() {
-            let warmth = &warmth[1][..width];
-            self.warmth[out.clone()][1..=width - 2].copy_from_slice(&warmth[1..=width - 2]);
-            self.lift.run(&pressure[1][..width], warmth, [&mut momentum_x[1][..width], &mut momentum_y[1][..width]]);
+            self.lift(out.clone());
         }
+        let Band { pressure, heads, momentum_x, momentum_y, warmth, .. } = &*self.band;
         let here = &pressure[1];
-        let [above, level, below] = if strong.is_some() { &*heads } else { &*pressure };
+        let [above, level, below] = if strong.is_some() { heads } else { pressure };
         let from = Pushed {
             pressure: &here[..width],
             heads: [&below[..width], &level[..width], &above[..width]],
@@ -138,9 +148,9 @@ impl BandPass<'_> {
         let [target, velocity_x, velocity_y] = &mut self.target;
         let mut peaks = self.push.run::<L>(from, [&mut velocity_x[out.clone()], &mut velocity_y[out.clone()]]);
         if self.source.warmth.is_some() {
-            peaks.pressure = highest(&here[1..=width - 2], &warmth[1][1..=width - 2]);
+            peaks.pressure = highest(&here[1..width - 1], &warmth[1][1..width - 1]);
         }
-        target[out][1..=width - 2].copy_from_slice(&here[1..=width - 2]);
+        target[out][1..width - 1].copy_from_slice(&here[1..width - 1]);
         self.band.peaks = self.band.peaks.max(peaks);
     }
 }

@@ -89,18 +89,18 @@ pub(super) struct Pushed<'a> {
 impl Push {
     /// Writes the velocities of a row (with the ring) and returns its peaks.
     #[inline(always)]
-    pub(super) fn run<L: Lanes>(&self, from: Pushed, velocity: [&mut [f32]; 2]) -> Peaks {
+    pub(super) fn run<L: Lanes>(&self, from: Pushed, [x, y]: [&mut [f32]; 2]) -> Peaks {
         let n = from.momentum_x.len() - 2;
         let (start, stride) = (from.start + 1, from.stride);
         let [below, row, above] = from.heads;
         let [left, level, right] = shifted(row, n);
-        let here = &from.pressure[1..=n];
-        let (below, above) = (&below[1..=n], &above[1..=n]);
+        let here = &from.pressure[1..][..n];
+        let (below, above) = (&below[1..][..n], &above[1..][..n]);
         let [_, open_left, open_right] = shifted(&from.shape.open_x[start - 1..], n);
         let open_below = &from.shape.open_y[start..start + n];
         let open_above = &from.shape.open_y[start + stride..start + stride + n];
-        let (momentum_x, momentum_y) = (&from.momentum_x[1..=n], &from.momentum_y[1..=n]);
-        let [velocity_x, velocity_y] = velocity.map(|row| &mut row[1..=n]);
+        let (momentum_x, momentum_y) = (&from.momentum_x[1..][..n], &from.momentum_y[1..][..n]);
+        let (velocity_x, velocity_y) = (&mut x[1..][..n], &mut y[1..][..n]);
         let (gain, one) = (L::splat(self.gain), L::splat(1.0));
         for i in lane_starts::<L>(n) {
             let (p, h) = (L::of(here, i), L::of(level, i));
@@ -138,7 +138,9 @@ impl Push {
 /// put lanes together from others, which takes longer than loading them.
 #[inline(always)]
 pub(super) fn shifted(row: &[f32], n: usize) -> [&[f32]; 3] {
-    [0, 1, 2].map(|shift| &black_box(&row[shift..])[..n])
+    // Not by a closure, which would not be inlined in so long a pass.
+    let [first, second, third] = [row, &row[1..], &row[2..]];
+    [&black_box(first)[..n], &black_box(second)[..n], &black_box(third)[..n]]
 }
 
 /// Largest magnitude in a row. Sixteen running maxima, so that the compiler uses lanes; a maximum has no order.
