@@ -93,6 +93,10 @@ pub struct Element {
     /// Chemical energy E, MJ/m²: what it becomes that has less gets the rest as heat. 0 … 8000.
     #[serde(default)]
     pub energy: f32,
+    /// Air that it holds bound, m² at the surroundings' pressure for each m² of it: what it becomes that holds less gives the rest
+    /// off, and what holds more takes it. Of what comes of it in turn each gives off as much. 0 … 100.
+    #[serde(default)]
+    pub gas: f32,
     /// Temperature of what is new, K. 1 … 4000.
     #[serde(default = "room")]
     pub spawn: f32,
@@ -178,7 +182,7 @@ pub struct ElementNumber {
 
 impl Element {
     /// All numbers of the row.
-    pub fn numbers(&self) -> [ElementNumber; 13] {
+    pub fn numbers(&self) -> [ElementNumber; 14] {
         let number = |name, value, min, max| ElementNumber { name, value, min, max };
         [
             number("density", self.density, 0.05, 100_000.0),
@@ -192,6 +196,7 @@ impl Element {
             number("capacity", self.capacity, 0.2, 5.0),
             number("conductivity", self.conductivity, 0.0, 500.0),
             number("energy", self.energy, 0.0, 8000.0),
+            number("gas", self.gas, 0.0, 100.0),
             number("spawn", self.spawn, COLDEST, HOTTEST),
             number("flow", self.flow, f32::MIN_POSITIVE, 1.0),
         ]
@@ -233,6 +238,7 @@ impl Element {
             capacity: 1.0,
             conductivity: 0.5,
             energy: 0.0,
+            gas: 0.0,
             spawn: ROOM,
             changes: Vec::new(),
             decays: None,

@@ -2,18 +2,33 @@
 //! heat then. What does not move and what does are kept in different stores, so some lumps change over; some go into the air.
 
 use crate::{
-    element::ElementId,
-    heat::{HeatRecord, Warm, table::HeatTable},
+    air::Release,
+    element::{ElementId, ElementTable},
+    heat::{
+        HeatRecord, Warm,
+        table::HeatTable,
+        units::{COLDEST, HOTTEST},
+    },
     particles::Particles,
     solids::{Solids, centre},
 };
 use glam::{IVec2, Vec2};
+
+/// Gas that a lump of an element gives off as it becomes one of these in turn, d²; below 0 what it takes.
+pub(crate) fn gas_of(elements: &ElementTable, from: ElementId, into: &[Option<ElementId>]) -> f32 {
+    let bound = |id: ElementId| elements.get(id).gas;
+    bound(from) - into.iter().flatten().map(|id| bound(*id)).sum::<f32>() / into.len() as f32
+}
 
 /// What became of lumps in a tick. Buffers are kept.
 #[derive(Clone, Debug, Default)]
 pub struct Relabelled {
     /// Where lumps are another element than before, or gone, d.
     pub places: Vec<Vec2>,
+    /// Density of the air that takes what gas they give off, kg/m²; none where they give off none.
+    pub air: Option<f32>,
+    /// Gas that they gave off, or took.
+    pub releases: Vec<Release>,
     /// Particles that go.
     gone: Vec<bool>,
     /// Particles in each cell of the box, where one of them may become rock.
@@ -24,6 +39,7 @@ impl Relabelled {
     /// Begins a tick.
     pub fn begin(&mut self) {
         self.places.clear();
+        self.releases.clear();
         self.gone.clear();
         self.crowd.clear();
     }
@@ -47,12 +63,20 @@ impl Relabelled {
         solids.contains(cell) && !solids.is_solid(cell) && self.crowd[index(cell)] == 1
     }
 
-    /// Gives a particle that [can be it](Relabelled::can_be) another element; none is air.
-    pub fn particle(&mut self, warm: &mut Warm, record: &mut HeatRecord, i: usize, product: Option<ElementId>) {
-        let Warm { particles, solids, elements, .. } = warm;
+    /// Gives a particle that [can be it](Relabelled::can_be) another element; none is air. `gas`: what it gives off, d².
+    pub fn particle(
+        &mut self,
+        warm: &mut Warm,
+        record: &mut HeatRecord,
+        i: usize,
+        product: Option<ElementId>,
+        gas: f32,
+    ) {
+        let Warm { particles, solids, elements, table, .. } = warm;
         let at = particles.position(i);
         self.places.push(at);
-        let heat = heat_as(warm.table, record, particles.element[i], product, particles.heat_of(i));
+        let from = (particles.element[i], particles.heat_of(i));
+        let heat = self.give_off(table, record, from, product, (at, gas));
         let stays = match product {
             Some(product) if elements.get(product).fixed => {
                 let cell = Solids::cell_of(at);
@@ -77,11 +101,18 @@ impl Relabelled {
         }
     }
 
-    /// Gives rock another element; none is air.
-    pub fn rock(&mut self, warm: &mut Warm, record: &mut HeatRecord, cell: IVec2, product: Option<ElementId>) {
-        let Warm { particles, solids, elements, domain, .. } = warm;
+    /// Gives rock another element; none is air. `gas`: what it gives off, d².
+    pub fn rock(
+        &mut self,
+        warm: &mut Warm,
+        record: &mut HeatRecord,
+        cell: IVec2,
+        product: Option<ElementId>,
+        gas: f32,
+    ) {
+        let Warm { particles, solids, elements, domain, table, .. } = warm;
         let Some((element, id)) = solids.get(cell) else { return };
-        let heat = heat_as(warm.table, record, element, product, solids.heat(cell));
+        let heat = self.give_off(table, record, (element, solids.heat(cell)), product, (centre(cell), gas));
         self.places.push(centre(cell));
         solids.remove(cell);
         match product {
@@ -96,6 +127,25 @@ impl Relabelled {
             None => record.gone += 1,
         }
         record.turned += 1;
+    }
+
+    /// Heat that a lump has as another element, quanta, once it gave off what gas it does, which is as warm as it is then.
+    fn give_off(
+        &mut self,
+        table: &HeatTable,
+        record: &mut HeatRecord,
+        (from, before): (ElementId, i32),
+        product: Option<ElementId>,
+        (at, amount): (Vec2, f32),
+    ) -> i32 {
+        let heat = heat_as(table, record, from, product, before);
+        let Some(density) = self.air.filter(|_| amount != 0.0) else { return heat };
+        let (element, held) = product.map_or((from, before), |product| (product, heat));
+        let release = Release { at, amount, kelvin: table.curve(element).temperature(held).clamp(COLDEST, HOTTEST) };
+        self.releases.push(release);
+        let taken = if product.is_some() { release.heat(density) } else { 0 };
+        record.to_air += i64::from(taken);
+        heat - taken
     }
 
     /// Takes away what went. Particles have other places in their store from then on.

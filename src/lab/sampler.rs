@@ -1,7 +1,7 @@
 //! Gathers times and accuracy of a run, tick by tick, and makes the [`Metrics`] of it.
 
 use crate::{
-    kernel::units::TICKS_PER_SECOND,
+    kernel::{air::Release, units::TICKS_PER_SECOND},
     lab::{
         balance::matter,
         density::DensityError,
@@ -24,8 +24,8 @@ use crate::{
         },
         ledger::{PassLedger, PassRecord},
         state::{
-            AirGrid, Counters, DecayState, HeatState, ParticleStore, PredictorState, ReactionState, Rock, Setup,
-            SleepState, SolverState,
+            AirGrid, Counters, DecayState, GasState, HeatState, ParticleStore, PredictorState, ReactionState, Rock,
+            Setup, SleepState, SolverState,
         },
         workers::Workers,
     },
@@ -281,8 +281,9 @@ fn memory_bytes(world: &World) -> u64 {
     let heat = world.get_resource::<HeatState>().map_or(0, |heat| heat.memory());
     let reactions = world.get_resource::<ReactionState>().map_or(0, |reactions| reactions.memory());
     let decays = world.get_resource::<DecayState>().map_or(0, |decays| decays.memory());
+    let gas = world.get_resource::<GasState>().map_or(0, |gas| gas.capacity() * size_of::<Release>());
     let sleep = world.resource::<SleepState>().memory();
-    (solver + sleep + heat + reactions + decays + particles.memory() + rock.memory() + air.memory_bytes()) as u64
+    (solver + sleep + heat + reactions + decays + gas + particles.memory() + rock.memory() + air.memory_bytes()) as u64
 }
 
 pub(super) fn ms(time: Duration) -> f64 {

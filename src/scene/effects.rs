@@ -319,6 +319,26 @@ table! {
         differs_from_on: |facts| Effect::Heat.runs(facts) && facts.preset == Preset::Classic,
         ..PLAIN
     }
+    /// Gas that matter gives off.
+    Expansion {
+        name: "expansion",
+        meaning: "what burns or boils gives off gas that presses, and what condenses takes it back",
+        passes: &[Pass::Expand],
+        when: "heat flows, or something may burn or react; unless no element holds gas, or the air is switched off",
+        parameters: &["gas of an element"],
+        off: "what burns or boils leaves the air as it is",
+        called_for: |facts| {
+            let changes = [Effect::Heat, Effect::Decay, Effect::Reactions];
+            if Effect::Air.mode(facts) == Mode::Off {
+                (false, "the air is switched off")
+            } else if facts.elements.iter().all(|(_, element)| element.gas == 0.0) {
+                (false, "no element holds gas")
+            } else {
+                verdict(changes.iter().any(|effect| effect.runs(facts)), "matter may change", "no matter changes")
+            }
+        },
+        ..PLAIN
+    }
     /// Bodies of liquid and tiles of air that have come to rest sleep.
     Sleep {
         name: "sleep",

@@ -79,6 +79,8 @@ table! {
     Decay { name: "decay", unit: Unit::Particles, each_substep: false }
     /// What touches reacts.
     React { name: "react", unit: Unit::Particles, each_substep: false }
+    /// Gas that matter gave off comes into the air.
+    Expand { name: "expand", unit: Unit::Particles, each_substep: false }
     /// Particles fall asleep and wake.
     Sleep { name: "sleep", unit: Unit::Particles, each_substep: false }
     /// Checks at the end of the tick.

@@ -46,6 +46,7 @@ impl Plugin for SimulationPlugin {
             .init_resource::<state::HeatCurves>()
             .init_resource::<state::ReactionState>()
             .init_resource::<state::DecayState>()
+            .init_resource::<state::GasState>()
             .init_resource::<state::Recipes>()
             .init_resource::<state::Books>()
             .init_resource::<workers::Workers>()

@@ -3,7 +3,7 @@
 
 use crate::{
     kernel::{
-        air::{Air, AirReport},
+        air::{Air, AirReport, Release},
         decay::{Decays, table::DecayTable},
         element::{ElementParams, ElementTable, Traits},
         forces::LaterDrag,
@@ -238,6 +238,10 @@ pub struct ReactionState(pub Reactions);
 /// The buffers of the decays. Written by the stage of the decays.
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
 pub struct DecayState(pub Decays);
+
+/// Gas that matter gave off in this tick. Written by the stages of heat, decay and reactions, taken by the last of the tick.
+#[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
+pub struct GasState(pub Vec<Release>);
 
 /// What becomes of which elements. Made when a scene opens.
 #[derive(Resource, Clone, Debug, Default)]

@@ -28,7 +28,10 @@ fn bad_usage_is_one_line_that_says_what_is_allowed() {
         (&["run", "waterfall", "--set", "wind=1000"], &["wind=1000"]),
         (
             &["run", "waterfall", "--effect", "fire=on"],
-            &["NAME is one of air, drag, ", ", vorticity, diffusion, reactions, decay, heat, convection, sleep"],
+            &[
+                "NAME is one of air, drag, ",
+                ", vorticity, diffusion, reactions, decay, heat, convection, expansion, sleep",
+            ],
         ),
         (&["run", "waterfall", "--effect", "air=perhaps"], &["NAME=auto"]),
         (&["run", "waterfall", "--detail", "0"], &["--detail", "allowed: numbers from 0.125 to 8"]),

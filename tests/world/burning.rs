@@ -23,7 +23,7 @@ use powder_master::{
 const FRONT: [f32; 2] = [0.05, 0.3];
 
 /// All energy, with what the air got and without what light and hands gave, quanta.
-fn energy(simulation: &Simulation) -> i64 {
+pub(super) fn energy(simulation: &Simulation) -> i64 {
     let (particles, rock) = (simulation.get::<ParticleStore>(), simulation.get::<Rock>());
     let books = simulation.get::<Books>();
     let own = held(particles, rock) + chemical(particles, rock, simulation.get::<HeatCurves>());
@@ -31,13 +31,13 @@ fn energy(simulation: &Simulation) -> i64 {
 }
 
 /// A room with gravity, `columns` × `rows` d of the scene's own spacing.
-fn room(columns: u32, rows: u32) -> Blueprint {
+pub(super) fn room(columns: u32, rows: u32) -> Blueprint {
     let mut room = empty_box(columns, rows);
     room.domain.gravity = Vec2::new(0.0, -98.1);
     room
 }
 
-fn stamp(simulation: &mut Simulation, name: &str, min: [f32; 2], max: [f32; 2]) {
+pub(super) fn stamp(simulation: &mut Simulation, name: &str, min: [f32; 2], max: [f32; 2]) {
     let element = simulation.element(name);
     let stroke = Stroke::rectangle(Vec2::from(min) + 0.5, Vec2::from(max) - 0.5);
     simulation.push(Intent::Stamp { element, stroke });

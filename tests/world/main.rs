@@ -8,6 +8,7 @@ mod control;
 mod determinism;
 mod draught;
 mod elements;
+mod expansion;
 mod grains;
 mod hard_cases;
 mod heat;

@@ -206,7 +206,7 @@ impl Advection {
         let behind = source.start(row) + faces.start;
         let (before, n) = (behind - 1, faces.len());
         let u0 = &source.velocity_x[before..before + n];
-        let [u1, open] = [source.velocity_x, &source.shape.open_x].map(|field| &field[behind..behind + n]);
+        let [u1, open] = [source.velocity_x, source.open[0]].map(|field| &field[behind..behind + n]);
         let head = if source.strong.is_some() { &self.heads[0] } else { source.pressures(row) };
         let (h0, h1) = (&head[faces.start - 1..][..n], &head[faces.start..][..n]);
         let (right, left) = (&mut self.right[faces.clone()], &mut self.left[faces]);
@@ -226,7 +226,7 @@ impl Advection {
         let n = source.width;
         let (start, above) = (source.start(row), source.start(row + 1));
         let [p0, v0] = [source.pressure, source.velocity_y].map(|field| &field[start..start + n]);
-        let [v1, open] = [source.velocity_y, &source.shape.open_y].map(|field| &field[above..above + n]);
+        let [v1, open] = [source.velocity_y, source.open[1]].map(|field| &field[above..above + n]);
         let [h0, h1] = if source.strong.is_some() {
             self.heads.each_ref().map(|row| &row[..n])
         } else {

@@ -127,7 +127,7 @@ impl BandPass<'_> {
     /// Pass 2 for a row, once the row above it is made.
     #[inline(always)]
     fn follow<L: Lanes>(&mut self, row: usize) {
-        let Source { stride, left, width, shape, strong, .. } = self.source;
+        let Source { stride, left, width, open, strong, .. } = self.source;
         let start = (row - self.first) * stride + left;
         let out = start..start + width;
         if self.source.warmth.is_some() {
@@ -141,7 +141,7 @@ impl BandPass<'_> {
             heads: [&below[..width], &level[..width], &above[..width]],
             momentum_x: &momentum_x[1][..width],
             momentum_y: &momentum_y[1][..width],
-            shape,
+            open,
             start: self.source.start(row),
             stride,
         };

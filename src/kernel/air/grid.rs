@@ -6,6 +6,7 @@
 
 use super::{
     band::Band,
+    crowd::Crowd,
     ledger::Ledger,
     meetings::Feedback,
     report::AirReport,
@@ -88,6 +89,7 @@ pub(super) struct Scratch {
     pub(super) watch: Watch,
     pub(super) ledger: Ledger,
     pub(super) feedback: Feedback,
+    pub(super) crowd: Crowd,
 }
 
 impl Clone for Scratch {
@@ -318,8 +320,14 @@ impl Air {
             + self.scratch.bands.iter().map(Band::values).sum::<usize>();
         let shape = self.scratch.shape.as_ref().map_or(0, Shape::memory_bytes);
         let state = cells * 13 + self.outside.len() * 4 + self.awake.len() + self.rests.len() * 4;
-        let Scratch { watch, ledger, feedback, .. } = &self.scratch;
-        state + buffers * 4 + shape + watch.memory_bytes() + ledger.memory_bytes() + feedback.memory_bytes()
+        let Scratch { watch, ledger, feedback, crowd, .. } = &self.scratch;
+        state
+            + buffers * 4
+            + shape
+            + watch.memory_bytes()
+            + ledger.memory_bytes()
+            + feedback.memory_bytes()
+            + crowd.memory_bytes()
     }
 
     /// How the cells lie, and the tiles.

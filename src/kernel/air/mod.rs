@@ -21,6 +21,7 @@
 //! | `pressure` | pass 2: pushes pairs | new velocity | rows of new pressure, momentum |
 //! | `lift` | pulls warm air up, and finds how warm it is | rows of momentum, warmth | rows of new pressure |
 //! | `band` | both passes over some rows | new pressure, new velocity | pressure, velocity |
+//! | `crowd` | matter that stands in the way of strong air, and is pushed | what faces let through, particles | pressure, warmth, particles |
 //! | `edges` | the open sides | the ring around the box, outermost cells | pressure, velocity |
 //! | `tiles` | which parts are stepped and which sleep | awake tiles, fences in `Shape` | all |
 //! | `step`, `report` | counts substeps, orders the passes, puts quiet air to rest | | |
@@ -29,13 +30,16 @@
 //! | `feedback`, `meetings` | what particles give the air, and the air them | velocity | particles, pressure |
 //! | `tools` | winds of the scene and the player's air tools | velocity, pressure | |
 //! | `warmth` | warm air: what lifts it, what it gets and loses | warmth | heat that matter gives |
+//! | `expansion` | gas that matter gives off, or takes | pressure, velocity, warmth | releases |
 //! | `walls` | rock that comes and goes | solid cells, pressure | `Solids` |
 //! | `sample`, `measure`, `resize` | values at points, sums, another cell size | | all |
 
 mod advect;
 mod balance;
 mod band;
+mod crowd;
 mod edges;
+mod expansion;
 mod feedback;
 mod grid;
 mod law;
@@ -61,6 +65,7 @@ mod warmth;
 #[cfg(test)]
 mod tests;
 
+pub use expansion::Release;
 pub use feedback::Rousing;
 pub use grid::{Air, MAX_PRESSURE, MAX_SPEED};
 pub use report::AirReport;

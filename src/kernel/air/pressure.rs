@@ -25,7 +25,7 @@
 //! numerically over all waves for κ from 1/16 to ¼, advection of either order and |a|, |b| ≤ ½, are within the unit circle
 //! while `|a| + |b| + s ≤ .9`, and while `s ≤ ½` whatever the wind.
 
-use super::{law, shape::Shape, source::FACE_FILTER};
+use super::{law, source::FACE_FILTER};
 use crate::simd::{Lanes, lane_starts};
 use std::hint::black_box;
 
@@ -79,7 +79,8 @@ pub(super) struct Pushed<'a> {
     pub(super) heads: [&'a [f32]; 3],
     pub(super) momentum_x: &'a [f32],
     pub(super) momentum_y: &'a [f32],
-    pub(super) shape: &'a Shape,
+    /// What the left and the lower face of each cell let through.
+    pub(super) open: [&'a [f32]; 2],
     /// Where the columns at hand of the row begin in the fields.
     pub(super) start: usize,
     /// Values between a cell and the one above it.
@@ -96,9 +97,9 @@ impl Push {
         let [left, level, right] = shifted(row, n);
         let here = &from.pressure[1..][..n];
         let (below, above) = (&below[1..][..n], &above[1..][..n]);
-        let [_, open_left, open_right] = shifted(&from.shape.open_x[start - 1..], n);
-        let open_below = &from.shape.open_y[start..start + n];
-        let open_above = &from.shape.open_y[start + stride..start + stride + n];
+        let [_, open_left, open_right] = shifted(&from.open[0][start - 1..], n);
+        let open_below = &from.open[1][start..start + n];
+        let open_above = &from.open[1][start + stride..start + stride + n];
         let (momentum_x, momentum_y) = (&from.momentum_x[1..][..n], &from.momentum_y[1..][..n]);
         let (velocity_x, velocity_y) = (&mut x[1..][..n], &mut y[1..][..n]);
         let (gain, one) = (L::splat(self.gain), L::splat(1.0));

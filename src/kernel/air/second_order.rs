@@ -151,7 +151,7 @@ impl SecondOrder {
         let stride = source.stride;
         let start = source.start(row) + columns.start;
         let upright = row > 1 && (row + 2) * stride < source.pressure.len();
-        let (open_x, open_y) = (&source.shape.open_x, &source.shape.open_y);
+        let [open_x, open_y] = source.open;
         let [sinking, rising] = [shares.sinking, shares.rising].map(|row| &row[columns.clone()]);
         let [down, level, up] = shares.masses.map(|row| &row[columns.clone()]);
         let slopes = self.slope.rows_mut(columns.clone());

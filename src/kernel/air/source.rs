@@ -17,6 +17,8 @@ pub(super) struct Source<'a> {
     /// How much warmer than the surroundings it is, where any of it is.
     pub(super) warmth: Option<&'a [f32]>,
     pub(super) shape: &'a Shape,
+    /// What the left and the lower face of each cell let through, 0 … 1.
+    pub(super) open: [&'a [f32]; 2],
     /// Values between a cell and the one above it.
     pub(super) stride: usize,
     /// Columns at hand, counted with the ring, and one more on either side: rows are counted from the first of them.

@@ -104,6 +104,7 @@ impl Air {
                 if changed || report.substeps == 0 {
                     peaks = self.peaks(&scratch.watch.blocks);
                 }
+                scratch.crowd.close(&shape, self.stride());
                 report.cells = report.cells.max(scratch.watch.cells());
             }
             let (count, substep) = self.next_substep(peaks, courant, left, most, &mut report);
@@ -229,6 +230,7 @@ impl Air {
             velocity_y: &self.velocity_y,
             warmth: self.is_warm().then_some(&self.warmth),
             shape,
+            open: scratch.crowd.open(shape),
             stride,
             left: 0,
             width: stride,

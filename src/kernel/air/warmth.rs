@@ -16,7 +16,7 @@
 //! **Loss.** Air gives its warmth to all that is not in the picture, within [`LOSS_SECONDS`]. A tile all of which is nearer to
 //! its surroundings than [`QUIET_WARMTH`] has theirs.
 
-use super::grid::Air;
+use super::{expansion::CAPACITY, grid::Air};
 use crate::{
     heat::units::{QUANTUM, ROOM},
     solids::Solids,
@@ -26,9 +26,6 @@ use glam::Vec2;
 /// Time within which warm air cools by a factor of e, s. Changing this affects how high it rises, and how long it keeps the air
 /// awake.
 pub(super) const LOSS_SECONDS: f32 = 10.0;
-
-/// Heat of air of constant pressure, J/kgK.
-const CAPACITY: f32 = 1005.0;
 
 /// Warmth from which on air that sleeps is woken, 10 K. Changing this affects what convection costs where all is lukewarm.
 const ROUSING_WARMTH: f32 = 0.03;
@@ -134,7 +131,7 @@ impl Air {
     }
 
     /// The cell of the box that a place (d) is in, or is nearest to.
-    fn cell_at(&self, at: Vec2) -> usize {
+    pub(super) fn cell_at(&self, at: Vec2) -> usize {
         let nearest = |place: f32, count: usize| ((place / self.cell).max(0.0) as usize).min(count - 1);
         self.index(nearest(at.x, self.columns()), nearest(at.y, self.rows()))
     }

@@ -5,7 +5,7 @@ use crate::{
     element::ElementId,
     heat::{DECAY, Exposure, HeatRecord, Warm, table::HeatTable, units::ROOM},
     random::mix,
-    relabel::Relabelled,
+    relabel::{Relabelled, gas_of},
     solids::centre,
 };
 use glam::{IVec2, Vec2};
@@ -42,7 +42,8 @@ impl Decays {
             let product = record.next(element, DECAY, &decay.into);
             if relabelled.can_be(warm, i, product) {
                 warm.particles.set_heat(i, settle(warm.table, record, decay, element, product, heat));
-                relabelled.particle(warm, record, i, product);
+                let gas = gas_of(warm.elements, element, &decay.into);
+                relabelled.particle(warm, record, i, product, gas);
             }
         }
         relabelled.end(warm.particles);
@@ -51,7 +52,8 @@ impl Decays {
             let (Some(decay), heat) = (decays.of(element), warm.solids.heat(*cell)) else { continue };
             let product = record.next(element, DECAY, &decay.into);
             warm.solids.set_heat(*cell, settle(warm.table, record, decay, element, product, heat));
-            relabelled.rock(warm, record, *cell, product);
+            let gas = gas_of(warm.elements, element, &decay.into);
+            relabelled.rock(warm, record, *cell, product, gas);
         }
     }
 

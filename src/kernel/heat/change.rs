@@ -1,7 +1,7 @@
 //! Lumps whose change is done become what it leads to. They keep their heat, their place, their speed and their number.
 
 use super::{matter::Warm, record::HeatRecord};
-use crate::relabel::Relabelled;
+use crate::relabel::{Relabelled, gas_of};
 use glam::IVec2;
 
 /// Gives lumps whose change is done the element that it leads to.
@@ -15,7 +15,8 @@ pub fn change(warm: &mut Warm, record: &mut HeatRecord, relabelled: &mut Relabel
         if relabelled.can_be(warm, i, product) {
             warm.particles.set_heat(i, heat.saturating_add(record.lend(element, place, change)));
             record.count(element, place);
-            relabelled.particle(warm, record, i, product);
+            let gas = gas_of(warm.elements, element, &change.into);
+            relabelled.particle(warm, record, i, product, gas);
         }
     }
     relabelled.end(warm.particles);
@@ -32,6 +33,7 @@ pub fn change(warm: &mut Warm, record: &mut HeatRecord, relabelled: &mut Relabel
         let product = record.next(element, place, &change.into);
         warm.solids.set_heat(cell, heat.saturating_add(record.lend(element, place, change)));
         record.count(element, place);
-        relabelled.rock(warm, record, cell, product);
+        let gas = gas_of(warm.elements, element, &change.into);
+        relabelled.rock(warm, record, cell, product, gas);
     }
 }

@@ -33,5 +33,5 @@ pub use brush::{reheat_under, set_under, warm_under};
 pub use change::change;
 pub use exposure::Exposure;
 pub use matter::{Warm, chemical, held};
-pub use record::{DECAY, HeatRecord};
+pub use record::{DECAY, GAS_PARTS, HeatRecord};
 pub use steps::{Heat, HeatReport};

@@ -16,6 +16,8 @@ pub struct HeatRecord {
     /// What lumps got beside their own when they became one of several products, less what they gave: it comes to nothing each
     /// time that all had their turn.
     pub lent: i64,
+    /// Gas that the air got of matter, less what it gave, in [parts](GAS_PARTS) of d² at the surroundings' pressure.
+    pub gas: i64,
     /// Lumps that went into the air.
     pub gone: u64,
     /// Lumps that became rock, or were rock before.
@@ -26,6 +28,9 @@ pub struct HeatRecord {
     /// among what comes of them. Empty where none has.
     pub turns: Vec<[u32; 3]>,
 }
+
+/// Parts of a d² that gas is booked in.
+pub const GAS_PARTS: f64 = 1_048_576.0;
 
 /// The place of the decay among an element's turns; those of its changes are [`HeatCurve::done`](super::curve::HeatCurve::done)'s.
 pub const DECAY: usize = 2;

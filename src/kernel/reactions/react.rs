@@ -5,12 +5,18 @@ use super::{
     table::ReactionTable,
 };
 use crate::{
+    element::ElementId,
     heat::{HeatRecord, Warm},
-    relabel::Relabelled,
+    relabel::{Relabelled, gas_of},
 };
 
 /// A pair that reacts: the particle, and its contact.
 type Pair = (u32, Fallen);
+
+/// Gas that two lumps give off together as they react, d²: where one takes as much as the other gives, none comes up.
+fn gas_of_pair(warm: &Warm, before: [ElementId; 2], after: [Option<ElementId>; 2]) -> f32 {
+    gas_of(warm.elements, before[0], &after[..1]) + gas_of(warm.elements, before[1], &after[1..])
+}
 
 /// Buffers of the reactions, which are kept.
 #[derive(Clone, Debug, Default)]
@@ -45,9 +51,10 @@ impl Reactions {
                         continue;
                     }
                     let before = [i, j].map(|k| warm.particles.element[k]);
+                    let mut gas = gas_of_pair(warm, before, [own, other]);
                     for (k, (product, before)) in [i, j].into_iter().zip([own, other].into_iter().zip(before)) {
                         if product != Some(before) {
-                            relabelled.particle(warm, record, k, product);
+                            relabelled.particle(warm, record, k, product, std::mem::take(&mut gas));
                         }
                     }
                 }
@@ -55,11 +62,14 @@ impl Reactions {
                     if !relabelled.can_be(warm, i, own) {
                         continue;
                     }
-                    if own != Some(warm.particles.element[i]) {
-                        relabelled.particle(warm, record, i, own);
+                    let Some((rock, _)) = warm.solids.get(cell) else { continue };
+                    let before = warm.particles.element[i];
+                    let mut gas = gas_of_pair(warm, [before, rock], [own, other]);
+                    if own != Some(before) {
+                        relabelled.particle(warm, record, i, own, std::mem::take(&mut gas));
                     }
-                    if other != warm.solids.get(cell).map(|(element, _)| element) {
-                        relabelled.rock(warm, record, cell, other);
+                    if other != Some(rock) {
+                        relabelled.rock(warm, record, cell, other, gas);
                     }
                 }
             }

@@ -3,7 +3,7 @@
 use super::{
     confines::Confines,
     measure::{
-        air::{AirMass, mass},
+        air::{AirMass, Held},
         cost,
         energy::{self, Due, Stored},
         place::{astray, speeds},
@@ -66,7 +66,7 @@ pub struct Terms {
 struct Before {
     roll: Roll,
     count: usize,
-    air: f64,
+    air: Held,
     due: Due,
     cuts: u64,
 }
@@ -142,7 +142,7 @@ impl Examiner {
         self.before = Some(Before {
             roll: Roll::of(world),
             count: world.resource::<ParticleStore>().len(),
-            air: mass(world),
+            air: Held::of(world),
             due: Due::of(world),
             cuts: cuts(world),
         });

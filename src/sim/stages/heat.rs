@@ -6,7 +6,7 @@ use crate::{
     sim::{
         effects::Effects,
         stages::sleep::wake_changed,
-        state::{AirGrid, Books, Counters, HeatCurves, HeatState, ParticleStore, Rock, Setup, SleepState},
+        state::{AirGrid, Books, Counters, GasState, HeatCurves, HeatState, ParticleStore, Rock, Setup, SleepState},
         workers::Workers,
     },
 };
@@ -14,25 +14,27 @@ use bevy::prelude::{Local, Res, ResMut};
 
 /// Gives lumps whose change is done the element that it leads to, lets heat flow for a tick, and warms the air by what is warm.
 pub(super) fn flow(
-    setup: Res<Setup>,
-    curves: Res<HeatCurves>,
+    (setup, curves): (Res<Setup>, Res<HeatCurves>),
     mut particles: ResMut<ParticleStore>,
     mut rock: ResMut<Rock>,
     mut heat: ResMut<HeatState>,
     mut sleep: ResMut<SleepState>,
     (mut books, mut counters): (ResMut<Books>, ResMut<Counters>),
     mut air: ResMut<AirGrid>,
+    mut gas: ResMut<GasState>,
     (effects, workers): (Res<Effects>, Res<Workers>),
     mut relabelled: Local<Relabelled>,
 ) -> usize {
     let count = particles.len();
     let mut warm = setup.matter(&mut particles, &mut rock, &curves);
+    relabelled.air = effects.acts(Effect::Expansion).then_some(setup.blueprint.air.density);
     change(&mut warm, &mut books, &mut relabelled);
     let report = workers.run_for(count, |threads| heat.flow(&mut warm, &mut books, threads, TICK_SECONDS));
     counters.heat_cuts += report.cuts;
     if effects.acts(Effect::Convection) && effects.get(Effect::Air).mode != Mode::Off {
         air.warm_up(heat.contacts(), &rock);
     }
+    gas.extend_from_slice(&relabelled.releases);
     wake_changed(&mut sleep, &mut particles, &rock, &relabelled.places);
     count
 }

@@ -4,6 +4,7 @@
 mod count;
 mod decay;
 mod edit;
+mod expand;
 mod gate;
 mod heat;
 mod measure;
@@ -48,12 +49,14 @@ pub(super) fn plugin(app: &mut App) {
             (
                 gate::plan_tick,
                 gate::plan_substeps,
+                timed(Pass::Expand, expand::crowd).run_if(runs(Effect::Expansion)),
                 sleep::keep_asleep,
                 step::run_substeps,
                 // Each before those that may give it its first work: what the gate left out has nothing to do in the tick.
                 timed(Pass::Heat, heat::flow).run_if(runs(Effect::Heat)),
                 timed(Pass::Decay, decay::decay).run_if(runs(Effect::Decay)),
                 timed(Pass::React, react::react).run_if(runs(Effect::Reactions)),
+                timed(Pass::Expand, expand::expand).run_if(expand::has_gas),
                 timed(Pass::Sleep, sleep::watch).run_if(sleep::water_may_rest).run_if(sleep::is_time_to_look),
                 timed(Pass::Measure, measure::count_escaped),
                 measure::end_tick.in_set(Pass::Measure),
@@ -75,6 +78,7 @@ fn substep() -> Schedule {
     schedule.add_systems(
         (
             timed(Pass::Air, substep::step_air).run_if(runs(Effect::Air)),
+            timed(Pass::Expand, expand::push).run_if(runs(Effect::Expansion)).run_if(expand::air_moves),
             timed(Pass::Sleep, sleep::wake_blown).run_if(runs(Effect::Drag)).run_if(sleep::any_asleep),
             (
                 timed(Pass::Gravity, substep::begin_kick),

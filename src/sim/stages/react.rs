@@ -2,10 +2,12 @@
 
 use crate::{
     kernel::relabel::Relabelled,
+    scene::effects::Effect,
     sim::{
+        effects::Effects,
         snapshot::Clock,
         stages::sleep::wake_changed,
-        state::{Books, Census, HeatCurves, ParticleStore, ReactionState, Recipes, Rock, Setup, SleepState},
+        state::{Books, Census, GasState, HeatCurves, ParticleStore, ReactionState, Recipes, Rock, Setup, SleepState},
         workers::Workers,
     },
 };
@@ -20,7 +22,8 @@ pub(super) fn react(
     mut reactions: ResMut<ReactionState>,
     mut books: ResMut<Books>,
     mut sleep: ResMut<SleepState>,
-    workers: Res<Workers>,
+    mut gas: ResMut<GasState>,
+    (effects, workers): (Res<Effects>, Res<Workers>),
     mut relabelled: Local<Relabelled>,
 ) -> usize {
     // What is not there reacts with nobody, even if it is `on`.
@@ -29,10 +32,12 @@ pub(super) fn react(
     }
     let count = particles.len();
     let mut warm = setup.matter(&mut particles, &mut rock, &curves);
+    relabelled.air = effects.acts(Effect::Expansion).then_some(setup.blueprint.air.density);
     workers.run_for(count, |threads| {
         let what = (&recipes.touches, &census.by_element[..]);
         reactions.react(&mut warm, what, &mut books, &mut relabelled, clock.tick, threads);
     });
+    gas.extend_from_slice(&relabelled.releases);
     wake_changed(&mut sleep, &mut particles, &rock, &relabelled.places);
     count
 }

@@ -34,6 +34,9 @@ pub(super) fn step_air(
     }
     let sleep = effects.get(Effect::Sleep).mode;
     air.set_gravity(setup.domain.gravity);
+    if !effects.acts(Effect::Expansion) {
+        air.uncrowd();
+    }
     air.allow_sleep(sleep == Mode::On || sleep == Mode::Auto && setup.preset != Preset::Reference);
     let (worth, instructions) = (air.is_worth_sharing(), solver.instructions);
     let report = workers.run_if(worth, |threads| {

@@ -1,7 +1,9 @@
 //! Tests of the air as a whole: each name says what would be wrong if it failed.
 
 mod balance;
+mod crowd;
 mod energy;
+mod expansion;
 mod feedback;
 mod law;
 mod limits;

@@ -1,11 +1,12 @@
 //! The mass of air that is shut in.
 
 use crate::{
+    kernel::heat::GAS_PARTS,
     lab::gauntlet::rule::AIR_ROUNDINGS,
     scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
-        state::{AirGrid, Rock},
+        state::{AirGrid, Books, Rock},
     },
 };
 use bevy::ecs::world::World;
@@ -29,23 +30,26 @@ pub(in crate::lab::gauntlet) struct AirMass {
 }
 
 impl AirMass {
-    /// Notes a tick before which there was a mass of `before`. Air that is switched off stands, and is brought to rest at
+    /// Notes a tick before which the world held this. Air that is switched off stands, and is brought to rest at
     /// the pressure around: what that makes is the hand's that switched it. Air without a grid is at the pressure around
     /// wherever there is no rock: rock that melts makes room for some, as rock that is taken away does, also in the tick in
     /// which its heat calls for the grid.
-    pub fn ticked(&mut self, before: f64, world: &World) {
+    pub fn ticked(&mut self, before: Held, world: &World) {
         let is_off = world.resource::<Effects>().get(Effect::Air).mode == Mode::Off;
         self.begun += u32::from(self.was_off && !is_off);
         self.was_off = is_off;
         let rock = world.resource::<Rock>().version();
         let changed = self.rock.replace(rock).is_some_and(|before| before != rock);
         self.begun += u32::from(changed);
+        let Held { mass, gas } = Held::of(world);
+        // Gas is rounded where it comes in.
+        self.begun += u32::from(gas != before.gas);
         let is_built = world.resource::<AirGrid>().is_built();
         let was_built = std::mem::replace(&mut self.was_built, is_built);
-        if before == 0.0 || is_off || !is_built || (changed && !was_built) {
+        if before.mass == 0.0 || is_off || !is_built || (changed && !was_built) {
             return;
         }
-        self.drift += mass(world) / before - 1.0;
+        self.drift += (mass - (gas - before.gas) as f64 / GAS_PARTS) / before.mass - 1.0;
     }
 
     /// Notes that hands changed the air.
@@ -64,7 +68,19 @@ impl AirMass {
     }
 }
 
-/// Mass of the air, of which there may be no grid yet, d² at pressure 1.
-pub(in crate::lab::gauntlet) fn mass(world: &World) -> f64 {
-    world.resource::<AirGrid>().with_grid(world.resource::<Rock>()).mass()
+/// The air of a world.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::lab::gauntlet) struct Held {
+    /// Mass, d² at pressure 1.
+    mass: f64,
+    /// Gas that matter gave off so far, in its parts.
+    gas: i64,
+}
+
+impl Held {
+    /// What a world has, of whose air there may be no grid yet.
+    pub fn of(world: &World) -> Self {
+        let mass = world.resource::<AirGrid>().with_grid(world.resource::<Rock>()).mass();
+        Self { mass, gas: world.resource::<Books>().gas }
+    }
 }

@@ -10,17 +10,19 @@
 //! - what winds give: at most `½ p w² · rate · T` a tick over their area, the power that brings air to `w` anew all the time,
 //! - what heat gives by making matter heavier or lighter where it is, and takes with what it makes air of: measured lump by lump,
 //!   as that comes last in a tick,
+//! - what gas gives that matter gives off: at most c² e for each part of its mass, e being the highest pressure of all air, as the
+//!   head that it comes in at is no higher; what it takes, it takes for nothing,
 //! - where the air does not yield to the particles that it drags (no feedback), what it gives them: a drag that closes a
 //!   share s of the way from v to the wind w adds `½ m s (w² − v²)` at most, the square being convex.
 
 use crate::{
-    kernel::{element::ElementId, units::TICK_SECONDS},
+    kernel::{element::ElementId, heat::GAS_PARTS, units::TICK_SECONDS},
     lab::balance::matter,
     scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
         stages::TickPlan,
-        state::{AirGrid, Clock, Elements, ParticleStore, Rock, Setup, Sources},
+        state::{AirGrid, Books, Clock, Elements, ParticleStore, Rock, Setup, Sources},
     },
 };
 use bevy::ecs::world::World;
@@ -78,6 +80,8 @@ pub(in crate::lab::gauntlet) struct Due {
     wind: f64,
     /// Masses (kg) and speeds (m/s) of the particles, with their rates of drag (1/d).
     dragged: Vec<[f64; 3]>,
+    /// Gas that matter gave off so far, in its parts.
+    gas: i64,
     /// Whether touch, time or heat may change what matter is made of.
     may_change: bool,
     /// Element and energy (J) of the particles that no drain takes, by their ids.
@@ -105,6 +109,7 @@ impl Due {
             winds: winds(world),
             wind: fastest_wind(world),
             dragged: (0..particles.len()).map(|i| [mass(i), speed(i), rate(i)]).collect(),
+            gas: world.resource::<Books>().gas,
             may_change: may_change(world),
             kinds: match may_change(world) {
                 true => {
@@ -120,7 +125,20 @@ impl Due {
     /// The most that the tick put in, J, now that it is over.
     pub fn put_in(self, world: &World) -> f64 {
         let winds = self.winds.max(winds(world));
-        self.emitted(world) - self.drained + winds + self.dragged(world) + self.changed(world)
+        self.emitted(world) - self.drained + winds + self.dragged(world) + self.changed(world) + self.expanded(world)
+    }
+
+    /// The most that gas gave which matter gave off.
+    fn expanded(&self, world: &World) -> f64 {
+        let given = (world.resource::<Books>().gas - self.gas) as f64 / GAS_PARTS;
+        if given == 0.0 {
+            return 0.0;
+        }
+        let (air, d) = (world.resource::<AirGrid>(), f64::from(matter(world).scale.spacing));
+        let cells = (0..air.rows()).flat_map(|row| (0..air.columns()).map(move |column| (column, row)));
+        let most = cells.map(|(column, row)| air.pressing_at_cell(column, row)).fold(1.0, f32::max);
+        let speed = f64::from(air.params().sound_speed);
+        given.max(0.0) * speed * speed * f64::from(most) * f64::from(air.params().density) * d * d * d * d
     }
 
     /// What heat gave.

@@ -64,7 +64,7 @@ pub(super) fn placement(dice: &mut Dice, size: Vec2) -> String {
 }
 
 /// What moves besides water.
-const OTHERS: [&str; 24] = [
+const OTHERS: [&str; 25] = [
     "brine",
     "oil",
     "honey",
@@ -89,6 +89,7 @@ const OTHERS: [&str; 24] = [
     "charcoal",
     "burning_oil",
     "nitrogen",
+    "gunpowder",
 ];
 
 /// What moves: water, or anything else as often.
