@@ -94,7 +94,7 @@ const LIVELY: &str = "(title: \"Lively\", spacing: 0.1, size: (1.2, 0.8), qualit
     emitters: [(element: \"water\", min: (0.5, 0.5), max: (0.7, 0.7), rate: 60, total: 20, velocity: (1, 0))],
     winds: [(min: (0, 0.4), max: (0.3, 0.8), velocity: (5, 1), rate: 2)],
     drains: [(min: (1.1, 0), max: (1.2, 0.1))],
-    pressures: [(min: (0.9, 0.4), max: (1.2, 0.8), pressure: 2)], open: (right: true))";
+    pressures: [(min: (0, 0), max: (0.6, 0.6), pressure: 2, temperature: 500)], open: (right: true))";
 
 fn every_intent() -> Vec<Intent> {
     let (rock, water) = (ElementId(0), ElementId(1));

@@ -14,13 +14,15 @@ use crate::{
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, sync::Arc};
 
-/// Air that starts at another pressure than the surroundings'.
+/// Air that starts at another pressure or temperature than the surroundings'.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PressurePatch {
     /// Where, d.
     pub area: Rect,
-    /// Pressure there; the surroundings' is 1.
+    /// What it pushes with; the surroundings' is 1.
     pub pressure: f32,
+    /// Temperature there, K.
+    pub kelvin: f32,
 }
 
 /// A validated scene with its parameters put in. Lengths in d, times in s unless said otherwise. In a save file it stands
@@ -60,7 +62,7 @@ pub struct Blueprint {
     /// Drains.
     #[serde(skip)]
     pub drains: Vec<Drain>,
-    /// Air pressure at the start where it is not 1.
+    /// Air at the start where it is not the surroundings'.
     #[serde(skip)]
     pub pressures: Vec<PressurePatch>,
     /// Liquid parameters.

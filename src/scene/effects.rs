@@ -303,14 +303,17 @@ table! {
         meaning: "what is warm warms the air, which presses harder and rises",
         part_of: Some(Pass::Heat),
         needs: &[Effect::Heat],
-        when: "something is or was warmer or colder than the room, and the air is not switched off; never in `classic`",
-        parameters: &["air_density"],
-        off: "what the air gets of heat is lost at once",
+        when: "something is or was warmer or colder than the room, the air itself or matter, and the air is not switched off; \
+               never in `classic`",
+        parameters: &["air_density", "temperature of pressures"],
+        off: "what the air gets of heat is lost at once, and none of it starts warm",
         called_for: |facts| {
             if Effect::Air.mode(facts) == Mode::Off {
                 (false, "the air is switched off")
             } else if facts.preset == Preset::Classic {
                 (false, "not in this quality")
+            } else if facts.air_is_warm {
+                (true, "the air is warmer or colder than the room")
             } else {
                 verdict(Effect::Heat.runs(facts), "heat flows", "no heat flows")
             }

@@ -41,6 +41,8 @@ pub struct Facts<'a> {
     pub asleep: usize,
     /// Whether any matter is or was warmer or colder than the room.
     pub has_heat: bool,
+    /// Whether any air is warmer or colder than the surroundings.
+    pub air_is_warm: bool,
     /// Whether matter is there that reacts with other matter that is there.
     pub can_react: bool,
     /// Whether matter is there that decays, and may be warm enough for it.

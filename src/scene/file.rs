@@ -54,8 +54,8 @@ pub(super) struct SceneText {
     /// Drains, at most 1000. Default: none.
     #[serde(default)]
     pub(super) drains: Vec<Area>,
-    /// Air that starts at another pressure than the surroundings', at most 1000 patches, on 1000 million cells together.
-    /// Default: none.
+    /// Air that starts at another pressure or temperature than the surroundings', at most 1000 patches, on 1000 million cells
+    /// together; where they overlap the last one counts. Default: none.
     #[serde(default)]
     pub(super) pressures: Vec<PressureText>,
     /// Sides of the box that are open to the surroundings' air. Default: none.
@@ -234,7 +234,7 @@ pub(super) struct WindText {
     pub(super) rate: Number,
 }
 
-/// Air at another pressure at the start.
+/// Air at another pressure or temperature at the start.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct PressureText {
@@ -242,8 +242,12 @@ pub(super) struct PressureText {
     pub(super) min: Pair,
     /// Upper right corner, m; beyond `min` in both components.
     pub(super) max: Pair,
-    /// Pressure as a multiple of the surroundings': 0.1 … 10.
+    /// Pressure as a multiple of the surroundings', with which the air pushes, however warm it is: 0.1 … 10. At `1` it stands
+    /// against the air around it.
     pub(super) pressure: Number,
+    /// Temperature, K: 1 … 4000. At one pressure warm air is thin and rises. It stays at its default where the effects `air` or
+    /// `convection` are off, and in `classic`. Default: the surroundings', `293`.
+    pub(super) temperature: Option<Number>,
 }
 
 /// Parses RON; `file` is its name in errors.

@@ -1,8 +1,9 @@
-//! What a scene keeps adding and taking: emitters, winds, drains, and the air's pressure at the start.
+//! What a scene keeps adding and taking: emitters, winds, drains, and the air's pressure and temperature at the start.
 
 use crate::{
     kernel::{
         element::ElementTable,
+        heat::units::{COLDEST, HOTTEST, ROOM},
         sources::{Drain, Emitter, Rect, Wind},
         units::TICKS_PER_SECOND,
     },
@@ -136,7 +137,12 @@ impl Bounds<'_> {
         let patch = |field: &dyn Display, text: &PressureText| {
             let path = format_args!("{field}.pressure");
             let pressure = self.values.number(path, &text.pressure, Range::real(0.1, 10.0))? as f32;
-            Ok(PressurePatch { area: self.area(field, &text.min, &text.max, 0.0)?, pressure })
+            let kelvin = text.temperature.as_ref().map(|at| {
+                let range = Range::real(f64::from(COLDEST), f64::from(HOTTEST));
+                self.values.number(format_args!("{field}.temperature"), at, range)
+            });
+            let kelvin = kelvin.transpose()?.map_or(ROOM, |at| at as f32);
+            Ok(PressurePatch { area: self.area(field, &text.min, &text.max, 0.0)?, pressure, kelvin })
         };
         self.list("pressures", texts, patch, |patch| patch.area, MOST_FILLED)
     }

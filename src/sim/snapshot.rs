@@ -4,7 +4,8 @@ use crate::{
     kernel::{
         air::Air,
         element::ElementId,
-        heat::HeatRecord,
+        heat::{HeatRecord, units::ROOM},
+        params::Preset,
         particles::Particles,
         predictor::Kept,
         sleep::SleepRecord,
@@ -74,14 +75,16 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
-    /// The state in which a scene starts, with the air on cells of `air_cell` d.
+    /// The state in which a scene starts, with the air on cells of `air_cell` d. Air that may not be warm starts at the pressure
+    /// and not the temperature that the scene gives it: so it pushes no harder than in any other quality.
     pub fn of_blueprint(blueprint: &Blueprint, air_cell: f32) -> Self {
         let mut air = Air::unbuilt(blueprint.domain.size, air_cell, blueprint.air);
-        let air_stands = blueprint.effects.get(&Effect::Air) == Some(&Mode::Off);
-        if !blueprint.pressures.is_empty() && !air_stands {
+        let is_off = |effect| blueprint.effects.get(&effect) == Some(&Mode::Off);
+        if !blueprint.pressures.is_empty() && !is_off(Effect::Air) {
             air.build(&blueprint.solids);
+            let may_be_warm = !is_off(Effect::Convection) && blueprint.preset != Preset::Classic;
             for patch in &blueprint.pressures {
-                air.fill_pressure(patch.area, patch.pressure);
+                air.fill(patch.area, patch.pressure, if may_be_warm { patch.kelvin } else { ROOM });
             }
         }
         Self {

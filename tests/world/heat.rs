@@ -7,15 +7,19 @@ use powder_master::{
         brush::{BrushShape, Stroke},
         element::ElementId,
         heat::held,
+        params::Preset,
         solids::Solids,
     },
-    scene::{self, effects::Effect},
+    scene::{
+        self,
+        effects::{Effect, EffectModes, Mode},
+    },
     sim::{
         checkpoint::Checkpoint,
         effects::Effects,
         intent::Intent,
         simulation::Simulation,
-        state::{Books, HeatCurves, ParticleStore, Rock, Setup, SleepState},
+        state::{AirGrid, Books, HeatCurves, ParticleStore, Rock, Setup, SleepState},
         workers::Workers,
     },
 };
@@ -114,6 +118,62 @@ fn what_moves_has_the_same_heat_at_another_detail() {
         let again = Simulation::resume(&finer, Workers::single());
         let (after, allowed) = (joules(&again), halves * area(&again).max(area(&simulation)));
         assert!((after - before).abs() <= allowed, "{after} of {before} at detail {detail}, {allowed} allowed");
+    }
+}
+
+/// A room with warm air above its floor, in which an effect has a mode.
+fn warm_room(preset: Preset, modes: &[(Effect, Mode)]) -> Simulation {
+    let text = "(title: \"Warm room\", spacing: 0.1, size: (6, 6),
+        pressures: [(min: (2, 1), max: (4, 3), pressure: 1, temperature: 600)])";
+    let modes: EffectModes = modes.iter().copied().collect();
+    let room = scene::from_text("warm_room", text).and_then(|file| file.build(&[], Some(preset), &modes));
+    Simulation::of(room.unwrap_or_else(|error| panic!("{error}")))
+}
+
+/// Mean height of what is warm, weighed by how warm it is, d.
+fn height_of_the_warm(simulation: &Simulation) -> f32 {
+    let air = simulation.get::<AirGrid>();
+    let (mut sum, mut moment) = (0.0, 0.0);
+    for row in 0..air.rows() {
+        let warmth: f32 = air.warmth_row(row).iter().sum();
+        (sum, moment) = (sum + warmth, moment + warmth * (row as f32 + 0.5) * air.cell());
+    }
+    moment / sum
+}
+
+#[test]
+fn a_scene_can_begin_with_warm_air_which_rises_and_does_not_burst() {
+    let mut simulation = warm_room(Preset::Balanced, &[]);
+    let (start, mass) = (height_of_the_warm(&simulation), simulation.get::<AirGrid>().mass());
+    assert!(mass < 3500.0, "warm air is thin: {mass} of 3,600 d²");
+    simulation.run(1);
+    // Twice what gravity does in a tick; air that is not at the pressure around it moves at a part of the speed of sound, 400 d/s.
+    assert!(simulation.get::<AirGrid>().max_speed() < 2.0 * 98.1 / 60.0);
+    let runs =
+        [Effect::Air, Effect::Convection, Effect::Heat].map(|effect| simulation.get::<Effects>().get(effect).running);
+    assert_eq!(runs, [true, true, false], "the air is warm, and no lump is");
+    assert_goes_on_from_a_save(&mut simulation, 30);
+    let risen = height_of_the_warm(&simulation) - start;
+    assert!(risen > 1.0, "risen by {risen} d");
+    assert!((simulation.get::<AirGrid>().mass() / mass - 1.0).abs() < 1e-6);
+    let mut without_heat = warm_room(Preset::Balanced, &[(Effect::Heat, Mode::Off)]);
+    without_heat.run(31);
+    assert_eq!(without_heat.hash(), simulation.hash(), "heat is that of lumps");
+}
+
+#[test]
+fn air_that_may_not_be_warm_starts_at_rest() {
+    for (preset, modes) in [
+        (Preset::Balanced, &[(Effect::Air, Mode::Off)][..]),
+        (Preset::Balanced, &[(Effect::Convection, Mode::Off)]),
+        (Preset::Classic, &[]),
+        (Preset::Classic, &[(Effect::Convection, Mode::On)]),
+    ] {
+        let mut simulation = warm_room(preset, modes);
+        simulation.run(2);
+        let air = simulation.get::<AirGrid>();
+        assert!(!air.is_warm() && air.is_quiet(), "{preset:?}, {modes:?}");
+        assert!(!simulation.get::<Effects>().get(Effect::Air).running, "{preset:?}, {modes:?}");
     }
 }
 

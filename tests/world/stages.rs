@@ -290,7 +290,7 @@ fn modes_can_be_switched_while_it_runs() {
 #[test]
 fn air_that_is_switched_off_stands_whatever_moved_it() {
     let wind = || Intent::Blow { stroke: dab(10.0, 10.0, 8.0), velocity: Vec2::new(300.0, 0.0) };
-    let patch = PressurePatch { area: Rect { min: Vec2::ZERO, max: Vec2::splat(9.0) }, pressure: 3.0 };
+    let patch = PressurePatch { area: Rect { min: Vec2::ZERO, max: Vec2::splat(9.0) }, pressure: 3.0, kelvin: 293.0 };
     let mut never = puddle();
     never.effects.insert(Effect::Air, Mode::Off);
     let positions = |simulation: &Simulation| (simulation.particles().x.clone(), simulation.particles().y.clone());

@@ -7,6 +7,7 @@ use super::{
 };
 use crate::{
     brush::soft_disc,
+    heat::units::{COLDEST, HOTTEST, ROOM},
     sources::{Rect, Wind},
 };
 use glam::Vec2;
@@ -54,22 +55,36 @@ impl Air {
         });
     }
 
-    /// Sets the pressure of the cells whose centre is in `area` (d): 0 … [`MAX_PRESSURE`], 1 for what is no number.
-    /// The air must be built.
+    /// Gives the air of the cells whose centre is in `area` (d) the surroundings' temperature and this pressure: 0 …
+    /// [`MAX_PRESSURE`], 1 for what is no number. The air must be built.
     pub fn fill_pressure(&mut self, area: Rect, pressure: f32) {
-        let bounded = if pressure.is_nan() { 1.0 } else { pressure.clamp(0.0, MAX_PRESSURE) };
-        let cut = bounded != pressure;
+        self.fill(area, pressure, ROOM);
+    }
+
+    /// The same with a temperature, [`COLDEST`] … [`HOTTEST`] K. The air pushes with `pressure` whatever that is, so that it stands
+    /// where all around it does so, too: twice as warm it is half as dense. What is bounded is its density.
+    pub fn fill(&mut self, area: Rect, pressure: f32, kelvin: f32) {
         if !self.is_built() {
             return;
         }
+        let theta = if kelvin.is_nan() { 1.0 } else { kelvin.clamp(COLDEST, HOTTEST) / ROOM };
+        let (wanted, warmth) = (pressure / theta, theta - 1.0);
+        let bounded = if pressure.is_nan() { 1.0 / theta } else { wanted.clamp(0.0, MAX_PRESSURE) };
+        let cut = bounded != wanted;
         let [columns, rows] = self.window(area);
         for row in rows {
             for column in columns.clone() {
                 let k = self.index(column, row);
                 if !self.solid[k] {
                     self.pending.pressure_clamps += u64::from(cut);
-                    if self.pressure[k] != bounded {
+                    if (self.pressure[k], self.warmth_of(k)) != (bounded, warmth) {
                         self.pressure[k] = bounded;
+                        if warmth != 0.0 && self.warmth.is_empty() {
+                            self.warmth = vec![0.0; self.pressure.len()];
+                        }
+                        if let Some(own) = self.warmth.get_mut(k) {
+                            *own = warmth;
+                        }
                         self.touch(k);
                         self.rests.clear();
                     }

@@ -4,7 +4,7 @@
 use crate::{
     kernel::{
         element::{Element, ElementId, ElementTable},
-        heat::table::HeatTable,
+        heat::{table::HeatTable, units::ROOM},
         random::{mix, unit},
         solids::centre,
         sources::Rect,
@@ -62,7 +62,7 @@ pub(super) const STARTS: [(&str, Arrange); 25] = [
     ("vacuum", |blueprint| {
         let d = blueprint.scale.detail;
         let area = Rect { min: d * Vec2::new(40.0, 0.0), max: d * Vec2::new(80.0, 60.0) };
-        blueprint.pressures.push(PressurePatch { area, pressure: 0.0 });
+        blueprint.pressures.push(PressurePatch { area, pressure: 0.0, kelvin: ROOM });
     }),
     ("one_cell_hole", |blueprint| {
         for y in 8..12 {

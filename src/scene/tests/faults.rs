@@ -85,6 +85,12 @@ fn values_out_of_range_say_which_and_what_is_allowed() {
         "pressures: [(min: (1, 1), max: (2, 2), pressure: 0)]",
         "pressures[0].pressure: 0 is out of range; allowed: 0.1 to 10",
     );
+    for kelvin in ["0", "4001"] {
+        check(
+            &format!("pressures: [(min: (1, 1), max: (2, 2), pressure: 1, temperature: {kelvin})]"),
+            &format!("pressures[0].temperature: {kelvin} is out of range; allowed: 1 to 4000"),
+        );
+    }
     check(
         "winds: [(min: (1, 1), max: (2, 2), velocity: (301, 0), rate: 1)]",
         "winds[0].velocity.x: 301 is out of range",

@@ -4,6 +4,7 @@ use super::{build, read, scene, settings};
 use crate::{
     kernel::{params::*, sources::Rect},
     scene::{
+        blueprint::PressurePatch,
         effects::{Effect, EffectModes, Mode},
         image::tests::png,
     },
@@ -84,7 +85,8 @@ fn flows_come_out_in_spacings_and_ticks() {
         "emitters: [(element: \"water\", min: (-1, 1), max: (1, 2), velocity: (1, 0), rate: 30, total: 7, start: 0.5)],
          winds: [(min: (1, 1), max: (2, 20), velocity: (3, -1), rate: 2)],
          drains: [(min: (4, -3), max: (9, 1))],
-         pressures: [(min: (1, 1), max: (2, 2), pressure: 1.5)],
+         pressures: [(min: (1, 1), max: (2, 2), pressure: 1.5),
+             (min: (1, 1), max: (2, 2), pressure: 1, temperature: \"2 * 300\")],
          open: (top: true), sound_speed: 10, first_element: \"rock\"",
     ))
     .expect("flows");
@@ -94,7 +96,8 @@ fn flows_come_out_in_spacings_and_ticks() {
     assert_eq!((emitter.rate, emitter.total, emitter.start, emitter.given), (30.0, Some(7), 30, 0));
     assert_eq!((world.winds[0].area, world.winds[0].velocity), (rect(2.0, 2.0, 4.0, 8.0), Vec2::new(6.0, -2.0)));
     assert_eq!(world.drains[0].area, rect(8.0, -1.0, 11.0, 2.0));
-    assert_eq!((world.pressures[0].area, world.pressures[0].pressure), (rect(2.0, 2.0, 4.0, 4.0), 1.5));
+    let patch = |pressure, kelvin| PressurePatch { area: rect(2.0, 2.0, 4.0, 4.0), pressure, kelvin };
+    assert_eq!(world.pressures, [patch(1.5, 293.0), patch(1.0, 600.0)]);
     assert_eq!(
         world.air,
         AirParams { sound_speed: 20.0, density: AIR_DENSITY, open: OpenSides { top: true, ..Default::default() } }

@@ -44,6 +44,7 @@ pub(super) fn plan_tick(
         particles: particles.len(),
         asleep: asleep.asleep(),
         has_heat,
+        air_is_warm: air.is_warm(),
         can_react: recipes.touches.is_called_for(&census.by_element),
         may_decay: recipes.decays.is_called_for(&census.by_element, has_heat),
         has_tension: setup.blueprint.fluid.tension_strength > 0.0,

@@ -74,6 +74,32 @@ fn the_smallest_brush_still_reaches_a_cell() {
 }
 
 #[test]
+fn warm_air_pushes_with_the_pressure_that_it_was_given() {
+    let mut air = closed(8, 8, 2.0);
+    air.set_solids(&rock(16, 16, |x, y| x < 2 && y < 2));
+    air.fill(rect(0.0, 0.0, 2.0, 2.0), 1.0, 586.0);
+    assert!(!air.is_warm() && air.is_quiet() && air.check().is_ok(), "rock is no air");
+    air.fill(rect(0.0, 0.0, 8.0, 8.0), 3.0, 586.0);
+    air.fill(rect(4.0, 0.0, 8.0, 8.0), 1.0, 586.0);
+    let at = |air: &Air, column, row| {
+        (air.pressure_at_cell(column, row), air.pressing_at_cell(column, row), air.warmth_of(air.index(column, row)))
+    };
+    assert_eq!([at(&air, 1, 1), at(&air, 2, 2), at(&air, 4, 4)], [(1.5, 3.0, 1.0), (0.5, 1.0, 1.0), (1.0, 1.0, 0.0)]);
+    assert!(!air.is_quiet() && air.check().is_ok());
+    // The last one counts, its temperature too.
+    air.fill_pressure(rect(0.0, 0.0, 8.0, 8.0), 1.0);
+    assert_eq!([at(&air, 1, 1), at(&air, 2, 2)], [(1.0, 1.0, 0.0); 2]);
+    // At the ends of what is allowed, and beyond, it can be saved before a step and after it.
+    for kelvin in [f32::NEG_INFINITY, 1.0, 4000.0, f32::INFINITY, f32::NAN] {
+        air.fill(rect(0.0, 0.0, 8.0, 8.0), 1.0, kelvin);
+        assert!(air.check().is_ok(), "{kelvin} K: {:?}", air.check());
+        run(&mut air, 1);
+        assert!(air.check().is_ok(), "{kelvin} K, a step later: {:?}", air.check());
+        assert_sane(&air);
+    }
+}
+
+#[test]
 fn sums_are_those_of_the_cells() {
     let mut air = closed(2, 1, 2.0);
     air.fill_pressure(rect(0.0, 0.0, 2.0, 2.0), 3.0);
