@@ -15,7 +15,10 @@ const REACH: usize = 2;
 /// Most cells within that reach that are as near as each other.
 const MOST_NEAREST: usize = 8;
 
-/// Part of its air that a cell gives at most to one lump: so that no pressure comes to 0.
+/// Mass of a cell, as a pressure, that is left to it: steam that was never water, as a player paints it, may ask for more air than
+/// there is.
+const LEFT: f32 = 0.25;
+/// Part of what a cell has beyond that which it gives at most to one lump.
 const MOST_TAKEN: f32 = 0.5;
 
 /// Cells within which a lump that takes gas finds it, counted from it through open faces. What it does not find is counted, and
@@ -87,10 +90,11 @@ impl Air {
         let (mut left, mut got) = (f64::from(amount) / self.cell_area(), 0.0);
         let (mut layer, mut seen) = (vec![k], BTreeSet::from([k]));
         for _ in 0..FURTHEST {
-            let there: f64 = layer.iter().map(|k| f64::from(self.pressure[*k] * MOST_TAKEN)).sum();
+            let spare = |air: &Self, k: usize| (air.pressure[k] - LEFT).max(0.0) * MOST_TAKEN;
+            let there: f64 = layer.iter().map(|k| f64::from(spare(self, *k))).sum();
             let part = if left < there { left / there } else { 1.0 };
             for k in &layer {
-                got += self.set_mass(*k, self.pressure[*k] * (1.0 - MOST_TAKEN * part as f32));
+                got += self.set_mass(*k, self.pressure[*k] - spare(self, *k) * part as f32);
             }
             left -= there * part;
             if part < 1.0 {

@@ -24,6 +24,12 @@ impl Air {
         self.mass_where(|k| !self.solid[k])
     }
 
+    /// What it holds of warmth: the sum of mass times how much warmer it is than the surroundings, over their temperature, d².
+    pub fn held_warmth(&self) -> f64 {
+        let cells = self.open_cells().map(|k| f64::from(self.pressure[k]) * f64::from(self.warmth_of(k)));
+        if self.is_warm() { cells.sum::<f64>() * self.cell_area() } else { 0.0 }
+    }
+
     /// Momentum: the sum of mass times velocity, d³/s.
     pub fn momentum(&self) -> DVec2 {
         let cells = self.open_cells().map(|k| {

@@ -89,10 +89,10 @@ fn what_is_taken_leaves_air_and_its_speed_and_warmth() {
     let got = air.expand(&[release(18.0, 18.0, -24.0)], true, &Solids::new(36, 36));
     assert!((got + 24.0).abs() < 1e-5 && (air.mass() - mass + 24.0).abs() < 1e-4);
     let pressures = [[4, 4], [3, 4], [5, 4], [4, 3], [4, 5], [5, 5]].map(|[x, y]| air.pressure_at_cell(x, y));
-    assert_eq!(pressures, [0.5, 0.75, 0.75, 0.75, 0.75, 1.0]);
-    // Never all there is, however much is asked for: that is counted.
+    assert_eq!(pressures, [0.625, 0.71875, 0.71875, 0.71875, 0.71875, 1.0]);
+    // Never more than three quarters of what was there, however much is asked for: that is counted.
     air.expand(&[release(18.0, 18.0, -1e4); 40], true, &Solids::new(36, 36));
-    assert!(air.cells().all(|k| air.pressure[k] > 0.0) && air.take_report().pressure_clamps == 40);
+    assert!(air.cells().all(|k| air.pressure[k] >= 0.25) && air.take_report().pressure_clamps == 40);
     assert!(air.check().is_ok());
 }
 

@@ -12,6 +12,9 @@
 //!   as that comes last in a tick,
 //! - what gas gives that matter gives off: at most c² e for each part of its mass, e being the highest pressure of all air, as the
 //!   head that it comes in at is no higher; what it takes, it takes for nothing,
+//! - what heat gives by warming air: it presses harder by `½ ρ c² p² Δτ` at most, which is what it can do as it spreads to the
+//!   pressure around; with p ≤ e that is less than c² e for each part of its mass times Δτ. What the air loses of warmth
+//!   meanwhile is left out,
 //! - where the air does not yield to the particles that it drags (no feedback), what it gives them: a drag that closes a
 //!   share s of the way from v to the wind w adds `½ m s (w² − v²)` at most, the square being convex.
 
@@ -82,6 +85,8 @@ pub(in crate::lab::gauntlet) struct Due {
     dragged: Vec<[f64; 3]>,
     /// Gas that matter gave off so far, in its parts.
     gas: i64,
+    /// Warmth of the air, d² at pressure 1 and 293 K.
+    warmth: f64,
     /// Whether touch, time or heat may change what matter is made of.
     may_change: bool,
     /// Element and energy (J) of the particles that no drain takes, by their ids.
@@ -110,6 +115,7 @@ impl Due {
             wind: fastest_wind(world),
             dragged: (0..particles.len()).map(|i| [mass(i), speed(i), rate(i)]).collect(),
             gas: world.resource::<Books>().gas,
+            warmth: world.resource::<AirGrid>().held_warmth(),
             may_change: may_change(world),
             kinds: match may_change(world) {
                 true => {
@@ -128,17 +134,19 @@ impl Due {
         self.emitted(world) - self.drained + winds + self.dragged(world) + self.changed(world) + self.expanded(world)
     }
 
-    /// The most that gas gave which matter gave off.
+    /// The most that gas gave which matter gave off, and air that it warmed.
     fn expanded(&self, world: &World) -> f64 {
-        let given = (world.resource::<Books>().gas - self.gas) as f64 / GAS_PARTS;
-        if given == 0.0 {
+        let air = world.resource::<AirGrid>();
+        let given = ((world.resource::<Books>().gas - self.gas) as f64 / GAS_PARTS).max(0.0);
+        let warmed = (air.held_warmth() - self.warmth).max(0.0);
+        if given + warmed == 0.0 {
             return 0.0;
         }
-        let (air, d) = (world.resource::<AirGrid>(), f64::from(matter(world).scale.spacing));
+        let d = f64::from(matter(world).scale.spacing);
         let cells = (0..air.rows()).flat_map(|row| (0..air.columns()).map(move |column| (column, row)));
         let most = cells.map(|(column, row)| air.pressing_at_cell(column, row)).fold(1.0, f32::max);
         let speed = f64::from(air.params().sound_speed);
-        given.max(0.0) * speed * speed * f64::from(most) * f64::from(air.params().density) * d * d * d * d
+        (given + warmed) * speed * speed * f64::from(most) * f64::from(air.params().density) * d * d * d * d
     }
 
     /// What heat gave.
