@@ -31,6 +31,7 @@ fn the_list_is_complete_and_starts_with_the_default() {
         "dust_mill",
         "empty",
         "frozen_lake",
+        "geyser",
         "honey_and_mercury",
         "hourglass",
         "hydrostatic",
