@@ -177,6 +177,9 @@ fn numbers(element: &Element) -> Vec<(&'static str, String)> {
     if element.energy > 0.0 {
         numbers.push(("energy", format!("{} MJ/m²", grouped(element.energy))));
     }
+    if element.gas > 0.0 {
+        numbers.push(("gas", format!("{} m²/m²", element.gas)));
+    }
     numbers
 }
 
@@ -218,8 +221,9 @@ mod tests {
     fn a_card_has_the_numbers_that_matter() {
         let mut element = Element { density: 13534.0, ..Element::plain("x", false) };
         assert_eq!(numbers(&element), [("density", "13,534 kg/m²".to_owned())]);
-        (element.viscosity, element.friction, element.cohesion, element.energy) = (0.08, 40.0, 2000.0, 1500.0);
+        (element.viscosity, element.friction, element.cohesion) = (0.08, 40.0, 2000.0);
+        (element.energy, element.gas) = (1500.0, 30.0);
         let told: Vec<String> = numbers(&element).into_iter().map(|(_, number)| number).collect();
-        assert_eq!(told, ["13,534 kg/m²", "0.08 m²/s", "40°", "2,000 Pa", "1,500 MJ/m²"]);
+        assert_eq!(told, ["13,534 kg/m²", "0.08 m²/s", "40°", "2,000 Pa", "1,500 MJ/m²", "30 m²/m²"]);
     }
 }
