@@ -48,6 +48,19 @@ pub struct EffectRow {
     pub differs_from_on: fn(&Facts<'_>) -> bool,
 }
 
+/// Whether matter may give off gas: [`Effect::Expansion`] is called for.
+fn expands(facts: &Facts<'_>) -> Verdict {
+    if Effect::Air.mode(facts) == Mode::Off {
+        (false, "the air is switched off")
+    } else if Effect::Heat.mode(facts) == Mode::Off {
+        (false, "no heat makes anything of anything")
+    } else if facts.elements.iter().all(|(_, element)| element.gas == 0.0) {
+        (false, "no element holds gas")
+    } else {
+        verdict(facts.has_heat, "what is warm or cold may give off gas", "all is at the room's temperature")
+    }
+}
+
 /// What an effect is in what its row does not say.
 const PLAIN: EffectRow = EffectRow {
     name: "",
@@ -327,19 +340,12 @@ table! {
         name: "expansion",
         meaning: "what burns or boils gives off gas that presses, and what condenses takes it back",
         passes: &[Pass::Expand],
-        when: "heat flows, or something may burn or react; unless no element holds gas, or the air is switched off",
+        when: "something is or was warmer or colder than the room; unless `heat` or `air` is off, or no element holds gas",
         parameters: &["gas of an element"],
-        off: "what burns or boils leaves the air as it is",
-        called_for: |facts| {
-            let changes = [Effect::Heat, Effect::Decay, Effect::Reactions];
-            if Effect::Air.mode(facts) == Mode::Off {
-                (false, "the air is switched off")
-            } else if facts.elements.iter().all(|(_, element)| element.gas == 0.0) {
-                (false, "no element holds gas")
-            } else {
-                verdict(changes.iter().any(|effect| effect.runs(facts)), "matter may change", "no matter changes")
-            }
-        },
+        off: "what burns or boils leaves the air as it is, and air passes heaps and pools freely",
+        called_for: expands,
+        another: "nothing calls for it, and air moves about matter: it passes heaps and pools as it passes lone lumps",
+        differs_from_on: |facts| !expands(facts).0 && facts.air_moves && facts.has_liquid(),
         ..PLAIN
     }
     /// Bodies of liquid and tiles of air that have come to rest sleep.

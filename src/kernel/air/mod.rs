@@ -21,7 +21,8 @@
 //! | `pressure` | pass 2: pushes pairs | new velocity | rows of new pressure, momentum |
 //! | `lift` | pulls warm air up, and finds how warm it is | rows of momentum, warmth | rows of new pressure |
 //! | `band` | both passes over some rows | new pressure, new velocity | pressure, velocity |
-//! | `crowd` | matter that stands in the way of strong air, and is pushed | what faces let through, particles | pressure, warmth, particles |
+//! | `crowd` | matter that stands in the way of the air | what faces let through | |
+//! | `press` | finds it, and pushes it | particles | pressure, warmth, particles |
 //! | `edges` | the open sides | the ring around the box, outermost cells | pressure, velocity |
 //! | `tiles` | which parts are stepped and which sleep | awake tiles, fences in `Shape` | all |
 //! | `step`, `report` | counts substeps, orders the passes, puts quiet air to rest | | |
@@ -47,6 +48,7 @@ mod ledger;
 mod lift;
 mod measure;
 mod meetings;
+mod press;
 mod pressure;
 mod report;
 mod resize;
