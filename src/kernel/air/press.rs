@@ -59,21 +59,25 @@ impl Air {
         self.scratch.crowd = crowd;
     }
 
-    /// Pushes particles for `dt` s by what [`Air::press_matter`] found.
-    pub fn push_matter(&self, elements: &ElementParams, particles: &mut Particles, dt: f32) {
-        let push = &self.scratch.crowd.push;
+    /// Pushes particles for `dt` s by what [`Air::press_matter`] found, up to the speed `most` (d/s). Returns how many would have
+    /// got faster than that.
+    pub fn push_matter(&self, elements: &ElementParams, particles: &mut Particles, most: f32, dt: f32) -> u64 {
+        let (push, mut cuts) = (&self.scratch.crowd.push, 0);
         if push.is_empty() {
-            return;
+            return cuts;
         }
         for i in 0..particles.len() {
             if stands(elements, particles.element[i]) {
                 let (cells, count) = self.open_near(self.cell_at(particles.position(i)));
                 let sum: Vec2 = cells[..count].iter().map(|k| push[*k]).sum();
-                let change = sum * (dt / count.max(1) as f32);
-                particles.vx[i] += change.x;
-                particles.vy[i] += change.y;
+                let (before, change) = (particles.velocity(i), sum * (dt / count.max(1) as f32));
+                let (speed, most) = ((before + change).length(), most.max(before.length()));
+                cuts += u64::from(speed > most);
+                let share = if speed > most { most / speed } else { 1.0 };
+                (particles.vx[i], particles.vy[i]) = ((before + change) * share).into();
             }
         }
+        cuts
     }
 
     /// Middles of the cells in which it pushes matter by more than this, d/s².

@@ -1,12 +1,12 @@
 //! Gas that matter gave off in the tick comes into the air.
 
 use crate::{
-    kernel::heat::GAS_PARTS,
+    kernel::{heat::GAS_PARTS, predict::longest_move},
     scene::effects::Effect,
     sim::{
         effects::Effects,
         stages::{TickPlan, sleep::wake_changed},
-        state::{AirGrid, Books, Elements, GasState, ParticleStore, Rock, Setup, SleepState},
+        state::{AirGrid, Books, Counters, Elements, GasState, ParticleStore, Rock, Setup, SleepState},
     },
 };
 use bevy::prelude::{Res, ResMut};
@@ -38,10 +38,13 @@ pub(super) fn crowd(
 pub(super) fn push(
     mut air: ResMut<AirGrid>,
     mut particles: ResMut<ParticleStore>,
-    (elements, plan): (Res<Elements>, Res<TickPlan>),
+    mut counters: ResMut<Counters>,
+    (elements, setup, plan): (Res<Elements>, Res<Setup>, Res<TickPlan>),
 ) -> usize {
+    let dt = plan.substep_seconds();
+    let most = longest_move(&setup.quality) / dt;
     air.press_matter();
-    air.push_matter(&elements, &mut particles, plan.substep_seconds());
+    counters.speed_clamps += air.push_matter(&elements, &mut particles, most, dt);
     particles.len()
 }
 

@@ -62,7 +62,7 @@ fn a_bed_is_pushed_by_the_difference_of_pressure_across_it() {
             let mut particles = bed(0, 40.0, 40.0 + thickness, 1.0);
             air.crowd(&elements(), &particles);
             air.press_matter();
-            air.push_matter(&elements(), &mut particles, DT);
+            air.push_matter(&elements(), &mut particles, f32::INFINITY, DT);
             // P = ρ c² G on 40 d, by what faces hold back, 98 %.
             let force: f32 = particles.vx.iter().sum::<f32>() * 2700.0 / DT;
             let wanted = 0.98 * AIR_DENSITY * SOUND * SOUND * expected * 40.0;
@@ -70,6 +70,18 @@ fn a_bed_is_pushed_by_the_difference_of_pressure_across_it() {
             assert!(particles.vy.iter().all(|v| *v == 0.0));
         }
     }
+}
+
+#[test]
+fn what_would_be_too_fast_is_cut_and_counted_and_what_is_faster_is_not_slowed() {
+    let (mut air, mut particles) = (duct(100.0), bed(0, 40.0, 80.0, 1.0));
+    air.crowd(&elements(), &particles);
+    air.press_matter();
+    particles.vx[7] = -20.0;
+    let cuts = air.push_matter(&elements(), &mut particles, 5.0, DT);
+    assert!(
+        cuts > 0 && (0..particles.len()).all(|i| particles.velocity(i).length() <= if i == 7 { 20.0 } else { 5.001 })
+    );
 }
 
 #[test]
@@ -82,7 +94,7 @@ fn even_air_pushes_nothing_and_air_at_rest_has_nothing_in_its_way() {
         air.fill_pressure(Rect { min: Vec2::ZERO, max: Vec2::splat(1e3) }, pressure);
         air.crowd(&elements(), &particles);
         air.press_matter();
-        air.push_matter(&elements(), &mut particles, DT);
+        air.push_matter(&elements(), &mut particles, f32::INFINITY, DT);
         assert!(particles.vx.iter().chain(&particles.vy).all(|v| *v == 0.0));
     }
 }
@@ -94,7 +106,7 @@ fn gas_in_a_heap_throws_it_apart_evenly() {
     air.expand(&[Release { at: Vec2::new(80.0, 20.0), amount: 320.0, kelvin: 900.0 }], true, &Solids::new(160, 40));
     air.crowd(&elements(), &particles);
     air.press_matter();
-    air.push_matter(&elements(), &mut particles, DT);
+    air.push_matter(&elements(), &mut particles, f32::INFINITY, DT);
     let momentum = |v: &[f32]| v.iter().sum::<f32>().abs() / v.iter().map(|v| v.abs()).sum::<f32>();
     assert!(momentum(&particles.vx) < 1e-5 && momentum(&particles.vy) < 1e-5);
     for i in 0..particles.len() {
