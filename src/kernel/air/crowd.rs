@@ -7,7 +7,7 @@
 //!
 //! What a face holds back of the difference of pressure pushes on the matter of both cells, as one: `(1 − κ) ΔP` on the length of
 //! the face. Summed over a bed that is the pressure below it less that above it. The pressure of the model's gas is
-//! `P = ρ c² ∫ p dh` (`law`), at the temperature θ it has, `ρ c² G(e)/θ` with G = ½ (e² − 1) up to [`STIFF`].
+//! `P = ρ c² ∫ p dh` (`law`), at the temperature θ it has, `ρ c² G(e)/θ` with G = ½ (e² − 1) up to 16 (`STIFF`).
 //!
 //! **Energy.** Gas behind matter works on it, and loses nothing by that until the matter has gone out of its cell and lets it by:
 //! it then spreads as into the open. So what matter gains is at most what the gas loses as it spreads, and the air's wind has
