@@ -106,6 +106,9 @@ pub struct Element {
     /// What it becomes in time, as by burning.
     #[serde(default)]
     pub decays: Option<ElementDecay>,
+    /// What it becomes where the air presses on it harder than it bears; only of what is fixed.
+    #[serde(default)]
+    pub breaks: Option<ElementBreak>,
     /// What it and another become where they touch: at most one row for two elements, which either of them has.
     #[serde(default)]
     pub touches: Vec<ElementTouch>,
@@ -147,6 +150,17 @@ pub struct ElementDecay {
     /// Names of what comes of it, lump after lump in turn, 1 … 16; `air` is a lump that goes into the air. None may have more
     /// energy than it.
     pub into: Vec<String>,
+}
+
+/// What a fixed element becomes where the air presses on it harder than it bears.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ElementBreak {
+    /// Overpressure that a wall of it just bears for each metre that it is thick, up to 2 m, Pa/m; raising it makes it stronger.
+    /// 100 … 10⁷.
+    pub above: f32,
+    /// Name of what comes of it: what moves, and has as much energy and gas.
+    pub into: String,
 }
 
 /// What an element and another become where they touch.
@@ -242,6 +256,7 @@ impl Element {
             spawn: ROOM,
             changes: Vec::new(),
             decays: None,
+            breaks: None,
             touches: Vec::new(),
             flow: 1.0,
             card: String::new(),

@@ -20,6 +20,7 @@ pub mod decay;
 pub mod diffusion;
 pub mod element;
 pub mod forces;
+pub mod fracture;
 pub mod heat;
 pub mod parallel;
 pub mod params;

@@ -1,6 +1,7 @@
 //! Every number that a scene or a quality can set, with its meaning and default. The ranges of those that have a knob stand
 //! in the table of knobs (`src/scene/knobs.rs`).
 
+use crate::units::Scale;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -61,6 +62,14 @@ pub struct AirParams {
     pub density: f32,
     /// Sides that are open to the surroundings.
     pub open: OpenSides,
+}
+
+impl AirParams {
+    /// What air of pressure 1 resists with, `ρ c²`, Pa.
+    pub fn stiffness(&self, scale: Scale) -> f32 {
+        let sound = scale.to_metres(self.sound_speed);
+        self.density * sound * sound
+    }
 }
 
 /// Density of real air of a depth of 1 m at pressure 1, kg/m².

@@ -265,6 +265,20 @@ table! {
         },
         ..PLAIN
     }
+    /// Rock that breaks.
+    Fracture {
+        name: "fracture",
+        meaning: "rock breaks where the air presses on it harder than it bears",
+        passes: &[Pass::Fracture],
+        needs: &[Effect::Air],
+        when: "the air presses harder than a layer of the weakest of the rock that is there bears",
+        parameters: &["breaks of an element"],
+        off: "rock bears everything",
+        called_for: |facts| {
+            verdict(facts.presses, "the air presses harder than something bears", "nothing is pressed hard enough to break")
+        },
+        ..PLAIN
+    }
     /// What touches reacts.
     Reactions {
         name: "reactions",

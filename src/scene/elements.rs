@@ -4,6 +4,7 @@ use crate::{
     kernel::{
         decay::table::{DecayFault, DecayTable},
         element::{Element, ElementNumber, ElementTable},
+        fracture::table::{FractureFault, FractureTable},
         heat::table::{CurveFault, curves},
         reactions::table::{ReactionTable, TouchFault},
     },
@@ -56,6 +57,7 @@ pub(crate) fn check(rows: &[Element]) -> Result<(), Fault> {
     curves(rows).map_err(|CurveFault { row, what }| Fault { row, field: "changes", what })?;
     ReactionTable::of_rows(rows, 1.0).map_err(|TouchFault { row, what }| Fault { row, field: "touches", what })?;
     DecayTable::of_rows(rows, 1.0).map_err(|DecayFault { row, what }| Fault { row, field: "decays", what })?;
+    FractureTable::of_rows(rows, 1.0).map_err(|FractureFault { row, what }| Fault { row, field: "breaks", what })?;
     Ok(())
 }
 

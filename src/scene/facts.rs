@@ -43,6 +43,8 @@ pub struct Facts<'a> {
     pub has_heat: bool,
     /// Whether any air is warmer or colder than the surroundings.
     pub air_is_warm: bool,
+    /// Whether the air presses harder than a layer of the weakest of the rock that is there bears.
+    pub presses: bool,
     /// Whether matter is there that reacts with other matter that is there.
     pub can_react: bool,
     /// Whether matter is there that decays, and may be warm enough for it.

@@ -73,6 +73,8 @@ table! {
     Vorticity { name: "vorticity", unit: Unit::Particles, each_substep: true }
     /// Gases wander.
     Diffusion { name: "diffusion", unit: Unit::Particles, each_substep: true }
+    /// Rock breaks.
+    Fracture { name: "fracture", unit: Unit::Particles, each_substep: false }
     /// Heat flows, and changes matter.
     Heat { name: "heat", unit: Unit::Particles, each_substep: false }
     /// What burns and what fades.

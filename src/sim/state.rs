@@ -7,6 +7,7 @@ use crate::{
         decay::{Decays, table::DecayTable},
         element::{ElementParams, ElementTable, Traits},
         forces::LaterDrag,
+        fracture::table::FractureTable,
         heat::{Heat, Warm, table::HeatTable},
         params::{Domain, Preset, Quality},
         particles::Particles,
@@ -250,6 +251,8 @@ pub struct Recipes {
     pub touches: ReactionTable,
     /// In time.
     pub decays: DecayTable,
+    /// Under the pressure of the air.
+    pub fractures: FractureTable,
 }
 
 /// Who sleeps. Written by the sleep stages.

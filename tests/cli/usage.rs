@@ -30,7 +30,7 @@ fn bad_usage_is_one_line_that_says_what_is_allowed() {
             &["run", "waterfall", "--effect", "fire=on"],
             &[
                 "NAME is one of air, drag, ",
-                ", vorticity, diffusion, reactions, decay, heat, convection, expansion, sleep",
+                ", vorticity, diffusion, fracture, reactions, decay, heat, convection, expansion, sleep",
             ],
         ),
         (&["run", "waterfall", "--effect", "air=perhaps"], &["NAME=auto"]),

@@ -9,6 +9,7 @@ mod determinism;
 mod draught;
 mod elements;
 mod expansion;
+mod fracture;
 mod grains;
 mod hard_cases;
 mod heat;

@@ -1,6 +1,6 @@
 //! Save files of whole worlds: they come back to the bit and go on as if nothing had been.
 
-use crate::support::{Random, SimulationExt, WATER, blueprint};
+use crate::support::{Random, SimulationExt, WATER, assert_goes_on_from_a_save, blueprint};
 use glam::Vec2;
 use powder_master::{
     kernel::{
@@ -106,4 +106,16 @@ fn a_world_with_a_bad_particle_can_be_saved() {
     world.particles_mut().x[3] = -2.0;
     world.particles_mut().y[5] = size.y + 3.0;
     assert_eq!(reload(&world).particles().len(), 69, "a world with escaped particles can't be loaded");
+}
+
+/// The air follows the rock that comes and goes by itself, or a save of such a world is not sound.
+#[test]
+fn a_world_whose_rock_burned_or_was_eaten_goes_on_from_a_save() {
+    for (scene, ticks, gone) in [("burning_house", 400, "wood"), ("acid", 300, "metal")] {
+        let mut world = Simulation::scene(scene, &[]);
+        let before = world.count(gone);
+        world.run(ticks);
+        assert!(world.count(gone) < before, "{scene}: {before} of {gone} before, {}", world.count(gone));
+        assert_goes_on_from_a_save(&mut world, 30);
+    }
 }

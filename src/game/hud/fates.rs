@@ -27,6 +27,9 @@ pub fn fates(elements: &ElementTable, element: &Element) -> Vec<(String, String)
         };
         fates.push((when, listed(&decay.into)));
     }
+    if let Some(breaks) = &element.breaks {
+        fates.push(("burst".to_owned(), spaced(&breaks.into)));
+    }
     // A row that says what becomes of two stands with one of them.
     for (_, other) in elements.iter() {
         let ElementTouch { with, into: (first, second), .. } =
@@ -65,7 +68,7 @@ mod tests {
     use crate::scene::elements;
 
     #[test]
-    fn a_card_tells_what_becomes_of_an_element_by_heat_by_fire_and_by_touch() {
+    fn a_card_tells_what_becomes_of_an_element_by_heat_fire_pressure_and_touch() {
         let table = elements().expect("the elements");
         let of = |name: &str| {
             let id = table.find(name).expect(name);
@@ -80,6 +83,7 @@ mod tests {
         assert!(of("acid").contains(&told("with metal", "brine, hydrogen")));
         assert_eq!(of("ember").last(), Some(&told("burns from 227 °C", "fire, ash")));
         assert_eq!(of("smoke"), [told("in some 6 s", "air")]);
+        assert!(of("glass").contains(&told("burst", "sand")));
         assert_eq!(of("mercury"), []);
     }
 }

@@ -180,6 +180,9 @@ fn numbers(element: &Element) -> Vec<(&'static str, String)> {
     if element.gas > 0.0 {
         numbers.push(("gas", format!("{} m²/m²", element.gas)));
     }
+    if let Some(breaks) = &element.breaks {
+        numbers.push(("strength", format!("{} kPa/m", grouped(breaks.above / 1000.0))));
+    }
     numbers
 }
 

@@ -48,7 +48,8 @@ impl Release {
 
 impl Air {
     /// Lets gas into the cells that it came up in, or the nearest that are open, and takes gas from them. `warm`: whether it is as
-    /// warm as its lump, or as the air that is there. It comes at rest. Returns what the air got, d² at pressure 1.
+    /// warm as its lump, or as the air that is there. It comes at rest. Returns what the air got, d² at pressure 1, with what is
+    /// buried as no air is near.
     pub fn expand(&mut self, releases: &[Release], warm: bool, solids: &Solids) -> f64 {
         self.build(solids);
         let mut got = 0.0;
@@ -63,7 +64,9 @@ impl Air {
                 };
             }
             if count == 0 {
-                self.pending.buried += f64::from(amount.max(0.0));
+                let buried = f64::from(amount.max(0.0));
+                self.pending.buried += buried;
+                got += buried;
             }
         }
         got

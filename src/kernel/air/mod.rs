@@ -22,6 +22,7 @@
 //! | `lift` | pulls warm air up, and finds how warm it is | rows of momentum, warmth | rows of new pressure |
 //! | `band` | both passes over some rows | new pressure, new velocity | pressure, velocity |
 //! | `crowd` | matter that stands in the way of the air | what faces let through | |
+//! | `overpressure` | by how much it presses harder than the surroundings | | pressure, warmth |
 //! | `press` | finds it, and pushes it | particles | pressure, warmth, particles |
 //! | `edges` | the open sides | the ring around the box, outermost cells | pressure, velocity |
 //! | `tiles` | which parts are stepped and which sleep | awake tiles, fences in `Shape` | all |
@@ -48,6 +49,7 @@ mod ledger;
 mod lift;
 mod measure;
 mod meetings;
+mod overpressure;
 mod press;
 mod pressure;
 mod report;

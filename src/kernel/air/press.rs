@@ -1,6 +1,6 @@
 //! What the air pushes the matter by that stands in its way (`crowd`).
 
-use super::{grid::Air, law::STIFF};
+use super::grid::Air;
 use crate::{
     element::{ElementId, ElementParams},
     particles::Particles,
@@ -50,7 +50,7 @@ impl Air {
                         continue;
                     }
                     let held = 1.0 - crowd.through[k].min(crowd.through[beside]);
-                    let push = held * stiffness * (self.thrust(beside) - self.thrust(k)) / mass;
+                    let push = held * stiffness * (self.overpressure(beside) - self.overpressure(k)) / mass;
                     crowd.push[k][axis] += push;
                     crowd.push[beside][axis] += push;
                 }
@@ -84,12 +84,5 @@ impl Air {
     pub fn pushed(&self, least: f32) -> impl Iterator<Item = Vec2> + '_ {
         let pushed = self.scratch.crowd.push.iter().enumerate().filter(move |(_, push)| push.length() > least);
         pushed.map(|(k, _)| self.centre(k % self.stride() - 1, k / self.stride() - 1))
-    }
-
-    /// Pressure of a cell above that of the surroundings, ρ c².
-    fn thrust(&self, k: usize) -> f32 {
-        let e = self.pushing(k);
-        let thrust = if e <= STIFF { 0.5 * (e * e - 1.0) } else { 0.5 * (STIFF * STIFF - 1.0) + STIFF * (e - STIFF) };
-        thrust / (1.0 + self.warmth_of(k))
     }
 }

@@ -4,6 +4,7 @@ use crate::{
     kernel::{
         decay::table::DecayTable,
         element::ElementParams,
+        fracture::table::FractureTable,
         heat::table::HeatTable,
         params::{Preset, Quality},
         reactions::table::ReactionTable,
@@ -77,6 +78,10 @@ impl Checkpoint {
         world.insert_resource(Recipes {
             touches: ReactionTable::new(&blueprint.elements, blueprint.scale.detail),
             decays: DecayTable::new(&blueprint.elements, blueprint.scale.detail),
+            fractures: FractureTable::new(
+                &blueprint.elements,
+                blueprint.air.stiffness(blueprint.scale) / blueprint.scale.spacing,
+            ),
         });
         if known {
             world.resource_mut::<Effects>().set_modes(&self.modes);

@@ -57,10 +57,11 @@ pub(super) fn has_gas(gas: Res<GasState>) -> bool {
 pub(super) fn expand(
     mut gas: ResMut<GasState>,
     mut air: ResMut<AirGrid>,
-    mut books: ResMut<Books>,
+    (mut books, mut counters): (ResMut<Books>, ResMut<Counters>),
     (rock, effects): (Res<Rock>, Res<Effects>),
 ) -> usize {
     let got = air.expand(&gas, effects.acts(Effect::Convection), &rock);
+    counters.add_air(&air.take_report());
     books.gas += (got * GAS_PARTS).round() as i64;
     let count = gas.len();
     gas.clear();

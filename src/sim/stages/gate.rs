@@ -23,7 +23,7 @@ pub(super) fn plan_tick(
     census: Res<Census>,
     (asleep, rock): (Res<SleepState>, Res<Rock>),
     (elements, recipes): (Res<Elements>, Res<Recipes>),
-    mut effects: ResMut<Effects>,
+    (mut effects, mut plan): (ResMut<Effects>, ResMut<TickPlan>),
     mut shares: ResMut<MassShares>,
     mut apart: ResMut<Apart>,
 ) {
@@ -34,6 +34,8 @@ pub(super) fn plan_tick(
         air.clear();
     }
     let has_heat = particles.has_heat() || !rock.heats().is_empty();
+    let weakest = recipes.fractures.weakest(&census.by_element);
+    plan.presses = weakest.is_some_and(|weakest| air.highest_overpressure() > weakest);
     let facts = Facts {
         modes: &modes,
         preset: setup.preset,
@@ -45,6 +47,7 @@ pub(super) fn plan_tick(
         asleep: asleep.asleep(),
         has_heat,
         air_is_warm: air.is_warm(),
+        presses: plan.presses,
         can_react: recipes.touches.is_called_for(&census.by_element),
         may_decay: recipes.decays.is_called_for(&census.by_element, has_heat),
         has_tension: setup.blueprint.fluid.tension_strength > 0.0,

@@ -5,10 +5,12 @@ mod count;
 mod decay;
 mod edit;
 mod expand;
+mod fracture;
 mod gate;
 mod heat;
 mod measure;
 mod react;
+mod rock;
 mod sleep;
 mod sources;
 mod step;
@@ -52,10 +54,12 @@ pub(super) fn plugin(app: &mut App) {
                 timed(Pass::Expand, expand::crowd).run_if(runs(Effect::Expansion)),
                 sleep::keep_asleep,
                 step::run_substeps,
+                timed(Pass::Fracture, fracture::fracture).run_if(runs(Effect::Fracture)).run_if(fracture::is_pressed),
                 // Each before those that may give it its first work: what the gate left out has nothing to do in the tick.
                 timed(Pass::Heat, heat::flow).run_if(runs(Effect::Heat)),
                 timed(Pass::Decay, decay::decay).run_if(runs(Effect::Decay)),
                 timed(Pass::React, react::react).run_if(runs(Effect::Reactions)),
+                rock::show_to_air,
                 timed(Pass::Expand, expand::expand).run_if(expand::has_gas),
                 timed(Pass::Sleep, sleep::watch).run_if(sleep::water_may_rest).run_if(sleep::is_time_to_look),
                 timed(Pass::Measure, measure::count_escaped),

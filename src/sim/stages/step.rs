@@ -24,13 +24,15 @@ pub struct Substep;
 pub struct TickPlan {
     /// Substeps of this tick.
     pub substeps: u32,
+    /// Whether the air presses harder than a layer of the weakest of the rock bears.
+    pub(super) presses: bool,
     /// When the tick began.
     pub(super) started: Instant,
 }
 
 impl Default for TickPlan {
     fn default() -> Self {
-        Self { substeps: 1, started: Instant::now() }
+        Self { substeps: 1, presses: false, started: Instant::now() }
     }
 }
 

@@ -54,7 +54,7 @@ fn gas_that_finds_no_open_air_is_counted() {
     }
     let mut air = closed(10, 10, 4.0);
     air.set_solids(&solids);
-    assert_eq!(air.expand(&[release(20.0, 20.0, 20.0), release(20.0, 20.0, -20.0)], true, &solids), 0.0);
+    assert_eq!(air.expand(&[release(20.0, 20.0, 20.0), release(20.0, 20.0, -20.0)], true, &solids), 20.0);
     assert!((air.take_report().buried - 20.0).abs() < 1e-6);
 }
 

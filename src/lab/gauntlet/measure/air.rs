@@ -6,7 +6,7 @@ use crate::{
     scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
-        state::{AirGrid, Books, Rock},
+        state::{AirGrid, Books, Counters, Rock},
     },
 };
 use bevy::ecs::world::World;
@@ -21,7 +21,7 @@ pub(in crate::lab::gauntlet) struct AirMass {
     drift: f64,
     /// How often hands changed the air or rock, or it was switched on: from then on its mass is kept anew.
     begun: u32,
-    /// The rock's version after the last tick; the air follows new rock in the tick after it.
+    /// The rock's version after the last tick.
     rock: Option<u64>,
     /// Whether it was off.
     was_off: bool,
@@ -71,7 +71,7 @@ impl AirMass {
 /// The air of a world.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::lab::gauntlet) struct Held {
-    /// Mass, d² at pressure 1.
+    /// Mass, with what rock buried of it, d² at pressure 1.
     mass: f64,
     /// Gas that matter gave off so far, in its parts.
     gas: i64,
@@ -81,6 +81,7 @@ impl Held {
     /// What a world has, of whose air there may be no grid yet.
     pub fn of(world: &World) -> Self {
         let mass = world.resource::<AirGrid>().with_grid(world.resource::<Rock>()).mass();
-        Self { mass, gas: world.resource::<Books>().gas }
+        let buried = world.resource::<Counters>().air_buried;
+        Self { mass: mass + buried, gas: world.resource::<Books>().gas }
     }
 }

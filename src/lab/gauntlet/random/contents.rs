@@ -64,7 +64,7 @@ pub(super) fn placement(dice: &mut Dice, size: Vec2) -> String {
 }
 
 /// What moves besides water.
-const OTHERS: [&str; 25] = [
+const OTHERS: [&str; 26] = [
     "brine",
     "oil",
     "honey",
@@ -90,6 +90,7 @@ const OTHERS: [&str; 25] = [
     "burning_oil",
     "nitrogen",
     "gunpowder",
+    "chips",
 ];
 
 /// What moves: water, or anything else as often.
