@@ -63,6 +63,32 @@ fn front(simulation: &Simulation, thick: u32) -> f32 {
     whole.iter().position(|count| *count == thick).unwrap_or(70) as f32
 }
 
+/// Slowest and fastest front along a fuse, m/s: a player who lights it walks away, and does not wait for it. As fast as the
+/// slowest and the fastest at which people stroll.
+const FUSE: [f32; 2] = [0.3, 1.5];
+
+#[test]
+fn a_fuse_burns_along_and_lights_what_it_leads_to() {
+    let mut simulation = Simulation::of(room(120, 60));
+    stamp(&mut simulation, "fuse", [10.0, 20.0], [92.0, 21.0]);
+    stamp(&mut simulation, "metal", [90.0, 17.0], [100.0, 19.0]);
+    stamp(&mut simulation, "gunpowder", [90.0, 19.0], [96.0, 23.0]);
+    let (lumps, fuses, before) = (simulation.count("gunpowder"), simulation.count("fuse"), energy(&simulation));
+    simulation.push(Intent::Ignite { stroke: Stroke::dab(BrushShape::Disc, Vec2::new(11.0, 20.5), 2.0) });
+    let mut ticks = 0;
+    while simulation.count("gunpowder") == lumps {
+        assert!(ticks < 3600, "{} of {fuses} lumps of fuse are left", simulation.count("fuse"));
+        simulation.run(1);
+        ticks += 1;
+    }
+    let speed = 8.0 / (ticks as f32 / 60.0);
+    assert!((FUSE[0]..=FUSE[1]).contains(&speed), "{speed} m/s");
+    // The match gave heat.
+    let by_hand = simulation.get::<Books>().by_hand;
+    assert!(by_hand > 0);
+    assert_eq!(energy(&simulation), before);
+}
+
 #[test]
 fn fire_runs_along_a_beam_and_no_energy_is_made() {
     let mut simulation = beam(6);

@@ -114,7 +114,7 @@ fn the_same_inputs_give_the_same_world_and_others_another() {
 
 /// The standard scenes. Those that have a size get one at which threads share particles or air, if that is not theirs
 /// by default; the others run as they are played.
-const STANDARD: [(&str, &[(&str, &str)]); 26] = [
+const STANDARD: [(&str, &[(&str, &str)]); 27] = [
     ("acid", &[]),
     ("avalanche", &[]),
     ("burning_house", &[]),
@@ -124,6 +124,7 @@ const STANDARD: [(&str, &[(&str, &str)]); 26] = [
     ("dune", &[]),
     ("dust_mill", &[]),
     ("empty", &[("columns", "1200"), ("rows", "640")]),
+    ("fireworks", &[]),
     ("frozen_lake", &[]),
     ("geyser", &[]),
     ("honey_and_mercury", &[]),

@@ -186,6 +186,7 @@ fn no_scene_at_the_temperature_of_the_room_has_any_heat() {
             "volcano",
             "ice_dam",
             "frozen_lake",
+            "fireworks",
             "geyser",
             "avalanche",
             "snow_globe",

@@ -18,7 +18,7 @@ use std::sync::Arc;
 type Arrange = fn(&mut Blueprint);
 
 /// By the names of the cases.
-pub(super) const STARTS: [(&str, Arrange); 25] = [
+pub(super) const STARTS: [(&str, Arrange); 26] = [
     ("two_at_a_point", |blueprint| {
         for at in [Vec2::new(2.0, 1.0), Vec2::new(4.03, 0.025)] {
             (0..2).for_each(|_| water(blueprint, at, Vec2::ZERO));
@@ -91,6 +91,11 @@ pub(super) const STARTS: [(&str, Arrange); 25] = [
     ("every_pair", |blueprint| every_pair(blueprint, None)),
     ("every_pair_cold", |blueprint| every_pair(blueprint, Some(77.0))),
     ("every_pair_hot", |blueprint| every_pair(blueprint, Some(2000.0))),
+    ("crowded_changes", |blueprint| {
+        for (x, name) in [(0.85, "sand"), (1.95, "water"), (3.05, "brine")] {
+            (0..64).for_each(|_| lump(blueprint, name, Vec2::new(x, 0.84), Vec2::ZERO));
+        }
+    }),
     ("strong_grains", |blueprint| {
         change(blueprint, "sand", |sand| (sand.friction, sand.cohesion) = (60.0, 50_000.0));
     }),
@@ -115,7 +120,12 @@ fn finer(blueprint: &Blueprint, cell: IVec2) -> impl Iterator<Item = IVec2> + us
 
 /// Adds a particle of water, at a place and a velocity in m.
 fn water(blueprint: &mut Blueprint, at: Vec2, velocity: Vec2) {
-    let id = element(&blueprint.elements, "water");
+    lump(blueprint, "water", at, velocity);
+}
+
+/// Adds a particle of an element, at a place and a velocity in m.
+fn lump(blueprint: &mut Blueprint, name: &str, at: Vec2, velocity: Vec2) {
+    let id = element(&blueprint.elements, name);
     let (at, velocity) = (blueprint.scale.vec_to_kernel(at), blueprint.scale.vec_to_kernel(velocity));
     blueprint.particles.push(blueprint.next_id, id, at, velocity);
     blueprint.next_id += 1;

@@ -11,7 +11,7 @@ use std::{collections::BTreeMap, sync::LazyLock};
 pub static CASES: LazyLock<Vec<GauntletCase>> =
     LazyLock::new(|| FILES.iter().flat_map(|(file, text)| read::<Kind>(file, text).cases()).collect());
 
-const FILES: [(&str, &str); 12] = [
+const FILES: [(&str, &str); 13] = [
     ("crowd", include_str!("../../../assets/gauntlet/crowd.ron")),
     ("depth", include_str!("../../../assets/gauntlet/depth.ron")),
     ("impact", include_str!("../../../assets/gauntlet/impact.ron")),
@@ -21,6 +21,7 @@ const FILES: [(&str, &str); 12] = [
     ("layers", include_str!("../../../assets/gauntlet/layers.ron")),
     ("grains", include_str!("../../../assets/gauntlet/grains.ron")),
     ("elements", include_str!("../../../assets/gauntlet/elements.ron")),
+    ("heat", include_str!("../../../assets/gauntlet/heat.ron")),
     ("rock", include_str!("../../../assets/gauntlet/rock.ron")),
     ("ends", include_str!("../../../assets/gauntlet/ends.ron")),
     ("play", include_str!("../../../assets/gauntlet/play.ron")),

@@ -20,7 +20,7 @@ use glam::Vec2;
 pub(super) type Act = fn(&mut World, u64);
 
 /// By the names of the cases.
-pub(super) const SCRIPTS: [(&str, Act); 22] = [
+pub(super) const SCRIPTS: [(&str, Act); 23] = [
     ("gravity_flips", |world, tick| set_gravity(world, Vec2::new(0.0, if tick % 2 == 0 { -G } else { G }))),
     ("gravity_turns", turn_gravity),
     ("heap_turned", turn_gravity),
@@ -40,6 +40,12 @@ pub(super) const SCRIPTS: [(&str, Act); 22] = [
         if tick < 240 {
             let stroke = everywhere(world);
             intend(world, Intent::Warm { stroke, degrees: if tick / 2 % 2 == 0 { 1e4 } else { -1e4 } });
+        }
+    }),
+    ("crowded_changes", |world, tick| {
+        if tick < 240 {
+            let stroke = everywhere(world);
+            intend(world, Intent::Warm { stroke, degrees: if tick / 15 % 2 == 0 { 1e4 } else { -1e4 } });
         }
     }),
     ("wind_1000", |world, tick| {

@@ -30,6 +30,7 @@ fn the_list_is_complete_and_starts_with_the_default() {
         "dune",
         "dust_mill",
         "empty",
+        "fireworks",
         "frozen_lake",
         "geyser",
         "honey_and_mercury",
