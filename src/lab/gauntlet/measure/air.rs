@@ -21,8 +21,6 @@ pub(in crate::lab::gauntlet) struct AirMass {
     drift: f64,
     /// How often hands changed the air or rock, or it was switched on: from then on its mass is kept anew.
     begun: u32,
-    /// The rock's version after the last tick.
-    rock: Option<u64>,
     /// Whether it was off.
     was_off: bool,
     /// Whether it had a grid.
@@ -38,10 +36,9 @@ impl AirMass {
         let is_off = world.resource::<Effects>().get(Effect::Air).mode == Mode::Off;
         self.begun += u32::from(self.was_off && !is_off);
         self.was_off = is_off;
-        let rock = world.resource::<Rock>().version();
-        let changed = self.rock.replace(rock).is_some_and(|before| before != rock);
+        let Held { mass, gas, rock } = Held::of(world);
+        let changed = rock != before.rock;
         self.begun += u32::from(changed);
-        let Held { mass, gas } = Held::of(world);
         // Gas is rounded where it comes in.
         self.begun += u32::from(gas != before.gas);
         let is_built = world.resource::<AirGrid>().is_built();
@@ -75,6 +72,8 @@ pub(in crate::lab::gauntlet) struct Held {
     mass: f64,
     /// Gas that matter gave off so far, in its parts.
     gas: i64,
+    /// The rock's version.
+    rock: u64,
 }
 
 impl Held {
@@ -82,6 +81,6 @@ impl Held {
     pub fn of(world: &World) -> Self {
         let mass = world.resource::<AirGrid>().with_grid(world.resource::<Rock>()).mass();
         let buried = world.resource::<Counters>().air_buried;
-        Self { mass: mass + buried, gas: world.resource::<Books>().gas }
+        Self { mass: mass + buried, gas: world.resource::<Books>().gas, rock: world.resource::<Rock>().version() }
     }
 }
