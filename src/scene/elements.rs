@@ -57,7 +57,7 @@ pub(crate) fn check(rows: &[Element]) -> Result<(), Fault> {
     curves(rows).map_err(|CurveFault { row, what }| Fault { row, field: "changes", what })?;
     ReactionTable::of_rows(rows, 1.0).map_err(|TouchFault { row, what }| Fault { row, field: "touches", what })?;
     DecayTable::of_rows(rows, 1.0).map_err(|DecayFault { row, what }| Fault { row, field: "decays", what })?;
-    FractureTable::of_rows(rows, 1.0).map_err(|FractureFault { row, what }| Fault { row, field: "breaks", what })?;
+    FractureTable::of_rows(rows).map_err(|FractureFault { row, what }| Fault { row, field: "breaks", what })?;
     Ok(())
 }
 
@@ -134,6 +134,10 @@ mod tests {
                 "[1].cohesion: 10 without friction; allowed: 0 for what is no powder",
             ),
             (with("1000)", "1000, diffusion: 0.1)"), "[1].diffusion: 0.1 of what is no gas; allowed: 0"),
+            (
+                with("1000)", "1000, breaks: (above: 1e5, into: \"rock\"))"),
+                "[1].breaks: of `water`, which moves; allowed: only of what is fixed",
+            ),
             (with("1000)", "1000, flow: 0)"), "[1].flow: 0 is out of range; allowed: above 0, at most 1"),
             (with("water", "none"), "[1].name"),
             (with("false", "true"), "no element with `fixed: false`"),

@@ -189,6 +189,7 @@ fn numbers(element: &Element) -> Vec<(&'static str, String)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::element::ElementBreak;
 
     #[test]
     fn a_tile_is_under_the_pointer_also_as_its_card_comes_up() {
@@ -226,7 +227,8 @@ mod tests {
         assert_eq!(numbers(&element), [("density", "13,534 kg/m²".to_owned())]);
         (element.viscosity, element.friction, element.cohesion) = (0.08, 40.0, 2000.0);
         (element.energy, element.gas) = (1500.0, 30.0);
+        element.breaks = Some(ElementBreak { above: 1.5e5, into: "y".to_owned() });
         let told: Vec<String> = numbers(&element).into_iter().map(|(_, number)| number).collect();
-        assert_eq!(told, ["13,534 kg/m²", "0.08 m²/s", "40°", "2,000 Pa", "1,500 MJ/m²", "30 m²/m²"]);
+        assert_eq!(told, ["13,534 kg/m²", "0.08 m²/s", "40°", "2,000 Pa", "1,500 MJ/m²", "30 m²/m²", "150 kPa/m"]);
     }
 }

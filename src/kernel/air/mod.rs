@@ -23,7 +23,7 @@
 //! | `band` | both passes over some rows | new pressure, new velocity | pressure, velocity |
 //! | `crowd` | matter that stands in the way of the air | what faces let through | |
 //! | `overpressure` | by how much it presses harder than the surroundings | | pressure, warmth |
-//! | `press` | finds it, and pushes it | particles | pressure, warmth, particles |
+//! | `press` | finds what stands in its way, and pushes it | particles | pressure, warmth, particles |
 //! | `edges` | the open sides | the ring around the box, outermost cells | pressure, velocity |
 //! | `tiles` | which parts are stepped and which sleep | awake tiles, fences in `Shape` | all |
 //! | `step`, `report` | counts substeps, orders the passes, puts quiet air to rest | | |

@@ -19,7 +19,7 @@ use crate::{
     heat::{HeatRecord, Warm},
     relabel::Relabelled,
     solids::{Solids, centre},
-    units::TICK_SECONDS,
+    units::{Scale, TICK_SECONDS},
 };
 use glam::IVec2;
 use table::{Fracture, FractureTable};
@@ -29,6 +29,17 @@ const THICK: f32 = 2.0;
 
 /// Speed at which it is crushed, m/s, at least a layer a tick. Changing this affects how long gas must press.
 const CRACK: f32 = 6.0;
+
+/// Overpressure that a layer of particles of a strength (Pa/m) bears, ρ c² of the air.
+fn layer(strength: f32, air: &Air, scale: Scale) -> f32 {
+    strength * scale.spacing / air.params().stiffness(scale)
+}
+
+/// Whether the air presses anywhere harder than a layer of the weakest of what is there bears, by how many lumps there are of each
+/// element.
+pub fn presses(air: &Air, table: &FractureTable, counts: &[u32], scale: Scale) -> bool {
+    table.weakest(counts).is_some_and(|weakest| air.highest_overpressure() > layer(weakest, air, scale))
+}
 
 /// Breaks what the air presses on harder than it bears, for a tick.
 pub fn fracture(
@@ -42,7 +53,7 @@ pub fn fracture(
     let layers = (warm.scale.to_kernel(CRACK) * TICK_SECONDS).round().max(1.0) as u32;
     let thick = warm.scale.to_kernel(THICK).ceil() as i32;
     for _ in 0..layers {
-        let cells = broken(warm.solids, table, air, thick);
+        let cells = broken(warm.solids, table, air, (warm.scale, thick));
         if cells.is_empty() {
             return;
         }
@@ -56,25 +67,25 @@ pub fn fracture(
 }
 
 /// Cells of rock that bear less than what presses on them, some of them twice. `thick`: layers of what is no wall.
-fn broken(solids: &Solids, table: &FractureTable, air: &Air, thick: i32) -> Vec<IVec2> {
-    let presses = |cell: IVec2, out: IVec2| match solids.is_solid(cell) {
-        true => 0.0,
-        false => air.overpressure_at(centre(cell), out),
-    };
+fn broken(solids: &Solids, table: &FractureTable, air: &Air, (scale, thick): (Scale, i32)) -> Vec<IVec2> {
+    let presses = |cell, out| if solids.is_solid(cell) { 0.0 } else { air.overpressure_at(centre(cell), out) };
     let mut cells = Vec::new();
     for (cell, element, _) in solids.iter() {
         let Some(Fracture { above, .. }) = table.of(element) else { continue };
+        let own = layer(*above, air, scale);
         for out in [IVec2::NEG_X, IVec2::X, IVec2::NEG_Y, IVec2::Y] {
             let front = presses(cell + out, out);
             // What not even a single layer feels is not looked at further.
-            if front <= *above {
+            if front <= own {
                 continue;
             }
             match wall(solids, table, (cell, out), thick) {
-                Some(Wall { layers, bears }) if front - presses(cell - out * layers, -out) > bears => {
+                Some(Wall { layers, strength })
+                    if front - presses(cell - out * layers, -out) > layer(strength, air, scale) =>
+                {
                     cells.extend((0..layers).map(|layer| cell - out * layer));
                 }
-                None if front > above * thick as f32 => cells.push(cell),
+                None if front > own * thick as f32 => cells.push(cell),
                 _ => {}
             }
         }
@@ -86,19 +97,19 @@ fn broken(solids: &Solids, table: &FractureTable, air: &Air, thick: i32) -> Vec<
 struct Wall {
     /// Layers of particles.
     layers: i32,
-    /// Overpressure that it bears, ρ c².
-    bears: f32,
+    /// The strengths of all of them together, Pa/m.
+    strength: f32,
 }
 
 /// The wall behind a face of a cell that looks `out`; none if it has `thick` layers or more, or some that nothing breaks.
 fn wall(solids: &Solids, table: &FractureTable, (face, out): (IVec2, IVec2), thick: i32) -> Option<Wall> {
-    let mut bears = 0.0;
+    let mut strength = 0.0;
     for layers in 0..thick {
         let cell = face - out * layers;
         if !solids.is_solid(cell) {
-            return Some(Wall { layers, bears });
+            return Some(Wall { layers, strength });
         }
-        bears += table.of(solids.get(cell)?.0)?.above;
+        strength += table.of(solids.get(cell)?.0)?.above;
     }
     None
 }

@@ -8,7 +8,7 @@ const STRENGTHS: [f32; 2] = [100.0, 1e7];
 /// What an element bears.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fracture {
-    /// Overpressure that a wall of it just bears for each layer of particles, ρ c² of the scene's air.
+    /// Overpressure that a wall of it just bears for each metre that it is thick, Pa/m.
     pub above: f32,
     /// What becomes of it.
     pub into: ElementId,
@@ -30,21 +30,19 @@ pub struct FractureTable {
 }
 
 impl FractureTable {
-    /// That of a table of already validated rows. `stiffness`: `ρ c²` of the air over the spacing of the particles, Pa/m.
-    pub fn new(elements: &ElementTable, stiffness: f32) -> Self {
-        Self::of_rows(elements.rows(), stiffness).unwrap_or_else(|_| Self { fractures: vec![None; elements.len()] })
+    /// That of a table of already validated rows.
+    pub fn new(elements: &ElementTable) -> Self {
+        Self::of_rows(elements.rows()).unwrap_or_else(|_| Self { fractures: vec![None; elements.len()] })
     }
 
-    /// That of rows. `stiffness`: `ρ c²` of the air over the spacing of the particles, Pa/m.
+    /// That of rows.
     ///
     /// # Errors
     /// If what moves breaks, or anything into what does not move or holds other energy or gas than it: pressure does no
     /// chemistry.
-    pub fn of_rows(rows: &[Element], stiffness: f32) -> Result<Self, FractureFault> {
-        let fractures = (0..rows.len())
-            .map(|row| look_up(rows, row, stiffness).map_err(|what| FractureFault { row, what }))
-            .collect::<Result<Vec<_>, _>>()?;
-        Ok(Self { fractures })
+    pub fn of_rows(rows: &[Element]) -> Result<Self, FractureFault> {
+        let fractures = (0..rows.len()).map(|row| look_up(rows, row).map_err(|what| FractureFault { row, what }));
+        Ok(Self { fractures: fractures.collect::<Result<_, _>>()? })
     }
 
     /// That of an element, if anything breaks it.
@@ -52,14 +50,14 @@ impl FractureTable {
         self.fractures[element.index()].as_ref()
     }
 
-    /// What a layer of the weakest of the elements bears that are there, ρ c², by how many lumps there are of each.
+    /// What the weakest of the elements bears that are there, Pa/m, by how many lumps there are of each.
     pub fn weakest(&self, counts: &[u32]) -> Option<f32> {
         let present = self.fractures.iter().zip(counts).filter(|(_, count)| **count > 0);
         present.filter_map(|(fracture, _)| Some(fracture.as_ref()?.above)).reduce(f32::min)
     }
 }
 
-fn look_up(rows: &[Element], row: usize, stiffness: f32) -> Result<Option<Fracture>, String> {
+fn look_up(rows: &[Element], row: usize) -> Result<Option<Fracture>, String> {
     let element = &rows[row];
     let Some(breaks) = &element.breaks else { return Ok(None) };
     if !element.fixed {
@@ -77,5 +75,5 @@ fn look_up(rows: &[Element], row: usize, stiffness: f32) -> Result<Option<Fractu
     if of(&rows[product]) != of(element) {
         return Err(format!("into `{}`; allowed: what has as much `energy` and `gas`", breaks.into));
     }
-    Ok(Some(Fracture { above: breaks.above / stiffness, into: ElementId(product as u8) }))
+    Ok(Some(Fracture { above: breaks.above, into: ElementId(product as u8) }))
 }

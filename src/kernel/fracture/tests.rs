@@ -78,7 +78,7 @@ impl Bench {
         }
         Self {
             heat: HeatTable::new(&elements),
-            table: FractureTable::new(&elements, PARAMS.stiffness(SCALE) / SCALE.spacing),
+            table: FractureTable::new(&elements),
             elements,
             domain: Domain { size, gravity: Vec2::ZERO },
             particles: Particles::default(),
@@ -164,10 +164,10 @@ fn rows_that_break_into_what_they_may_not_are_refused() {
     let fault = |change: fn(&mut Vec<Element>)| {
         let mut rows = rows();
         change(&mut rows);
-        FractureTable::of_rows(&rows, 1.0).expect_err("a fault").what
+        FractureTable::of_rows(&rows).expect_err("a fault").what
     };
     let into = |name: &str| Some(ElementBreak { above: STRENGTH, into: name.to_owned() });
-    assert!(FractureTable::of_rows(&rows(), 1.0).is_ok());
+    assert!(FractureTable::of_rows(&rows()).is_ok());
     for (what, found) in [
         ("of `rubble`, which moves", fault(|rows| rows[2].breaks = rows[0].breaks.clone())),
         (
@@ -183,7 +183,7 @@ fn rows_that_break_into_what_they_may_not_are_refused() {
     for name in ["steel", "brick", "nothing", "air", ""] {
         let mut rows = rows();
         rows[0].breaks = into(name);
-        let found = FractureTable::of_rows(&rows, 1.0).expect_err("a fault");
+        let found = FractureTable::of_rows(&rows).expect_err("a fault");
         assert_eq!((found.row, found.what), (0, format!("into `{name}`; allowed: an element that moves")));
     }
 }

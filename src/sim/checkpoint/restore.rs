@@ -78,10 +78,7 @@ impl Checkpoint {
         world.insert_resource(Recipes {
             touches: ReactionTable::new(&blueprint.elements, blueprint.scale.detail),
             decays: DecayTable::new(&blueprint.elements, blueprint.scale.detail),
-            fractures: FractureTable::new(
-                &blueprint.elements,
-                blueprint.air.stiffness(blueprint.scale) / blueprint.scale.spacing,
-            ),
+            fractures: FractureTable::new(&blueprint.elements),
         });
         if known {
             world.resource_mut::<Effects>().set_modes(&self.modes);

@@ -1,7 +1,7 @@
 //! Gathers the facts of a tick and lets the table of effects decide by them, and plans how many substeps it takes.
 
 use crate::{
-    kernel::{crowding::Crowding, predict, units::TICK_SECONDS},
+    kernel::{crowding::Crowding, fracture, predict, units::TICK_SECONDS},
     scene::effects::{Effect, Facts, Mode},
     sim::{
         effects::Effects,
@@ -34,8 +34,7 @@ pub(super) fn plan_tick(
         air.clear();
     }
     let has_heat = particles.has_heat() || !rock.heats().is_empty();
-    let weakest = recipes.fractures.weakest(&census.by_element);
-    plan.presses = weakest.is_some_and(|weakest| air.highest_overpressure() > weakest);
+    plan.presses = fracture::presses(&air, &recipes.fractures, &census.by_element, setup.blueprint.scale);
     let facts = Facts {
         modes: &modes,
         preset: setup.preset,
