@@ -11,11 +11,11 @@ use glam::{IVec2, Vec2};
 pub type Rgb = [u8; 3];
 
 /// Around the box.
-pub const SURROUNDINGS: Rgb = [11, 13, 18];
+pub const SURROUNDINGS: Rgb = [15, 18, 25];
 /// The empty box at its top.
-pub const BOX_TOP: Rgb = [25, 31, 43];
+pub const BOX_TOP: Rgb = [52, 66, 92];
 /// The empty box at its bottom.
-pub const BOX_BOTTOM: Rgb = [16, 19, 27];
+pub const BOX_BOTTOM: Rgb = [27, 33, 48];
 /// The frame of the box.
 pub const FRAME: Rgb = [74, 86, 108];
 

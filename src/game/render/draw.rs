@@ -1,4 +1,4 @@
-//! Draws the picture: the field of the liquid first, then everything in the window from back to front.
+//! Draws the picture: the fields of matter first, then everything in the window from back to front.
 
 use crate::game::render::{
     extract::Pictures,
@@ -11,13 +11,19 @@ use bevy::{
     render::{
         render_phase::TrackedRenderPass,
         render_resource::{
-            BindGroup, Buffer, CachedRenderPipelineId, LoadOp, Operations, PipelineCache, RenderPassColorAttachment,
-            RenderPassDescriptor, StoreOp, TextureView,
+            BindGroup, Buffer, CachedRenderPipelineId, LoadOp, Operations, PipelineCache, RenderPassColorAttachment, RenderPassDescriptor, StoreOp, TextureView,
         },
         renderer::{RenderContext, ViewQuery},
         view::ViewTarget,
     },
 };
+
+/// The buffer of instances, and their number.
+macro_rules! all {
+    ($instances:expr) => {
+        ($instances.buffer(), $instances.len())
+    };
+}
 
 /// Draws the worlds of the frame.
 pub fn draw(
@@ -35,18 +41,7 @@ pub fn draw(
         return;
     }
     for pane in &panes {
-        let mut pass = context.begin_tracked_render_pass(RenderPassDescriptor {
-            label: Some("liquid field"),
-            color_attachments: &[Some(RenderPassColorAttachment {
-                view: pane.field,
-                depth_slice: None,
-                resolve_target: None,
-                ops: Operations { load: LoadOp::Clear(Default::default()), store: StoreOp::Store },
-            })],
-            ..RenderPassDescriptor::default()
-        });
-        pass.set_bind_group(0, &pane.groups[0], &[]);
-        instances(&mut pass, &cache, ids.particles, (pane.picture.particles.buffer(), pane.picture.particles.len()));
+        pane.draw_fields(&mut context, &cache, ids);
     }
     let mut pass = context.begin_tracked_render_pass(RenderPassDescriptor {
         label: Some("world"),
@@ -61,13 +56,34 @@ pub fn draw(
 /// A picture that has everything to be drawn.
 struct Pane<'a> {
     picture: &'a Picture,
-    field: &'a TextureView,
+    fields: [&'a TextureView; 3],
     groups: &'a [BindGroup; 2],
 }
 
 impl<'a> Pane<'a> {
     fn new((picture, gpu): (&'a Picture, &'a GpuPicture)) -> Option<Self> {
-        gpu.parts().map(|(field, groups)| Self { picture, field, groups })
+        gpu.parts().map(|(fields, groups)| Self { picture, fields, groups })
+    }
+
+    /// Draws the fields: those of what is there.
+    fn draw_fields(&self, context: &mut RenderContext<'_, '_>, cache: &PipelineCache, ids: Ids) {
+        let Picture { particles, matter, as_it_is, .. } = self.picture;
+        let first = if *as_it_is { (ids.body, all!(matter.bodies)) } else { (ids.coloured, all!(particles)) };
+        let all = [first, (ids.more, all!(matter.more)), (ids.gas, all!(matter.gases))];
+        for (view, (pipeline, what)) in self.fields.into_iter().zip(all) {
+            let mut pass = context.begin_tracked_render_pass(RenderPassDescriptor {
+                label: Some("field"),
+                color_attachments: &[Some(RenderPassColorAttachment {
+                    view,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: Operations { load: LoadOp::Clear(Default::default()), store: StoreOp::Store },
+                })],
+                ..RenderPassDescriptor::default()
+            });
+            pass.set_bind_group(0, &self.groups[0], &[]);
+            instances(&mut pass, cache, pipeline, what);
+        }
     }
 
     fn draw(&self, pass: &mut TrackedRenderPass<'a>, cache: &'a PipelineCache, ids: Ids) {
@@ -83,12 +99,15 @@ impl<'a> Pane<'a> {
             pass.set_bind_group(k, group, &[]);
         }
         screen(pass, cache, ids.backdrop);
-        let streaks = (picture.streaks.buffer(), picture.streaks.len());
+        let tiles = &picture.tiles;
+        let streaks = all!(picture.streaks);
         if !picture.streaks_on_top {
             instances(pass, cache, ids.streaks, streaks);
         }
-        screen(pass, cache, ids.liquid);
-        instances(pass, cache, ids.rock, (picture.rock.buffer(), picture.rock.len()));
+        instances(pass, cache, if picture.as_it_is { ids.surface } else { ids.shape }, all!(tiles.bodies));
+        instances(pass, cache, ids.grain, all!(picture.matter.grains));
+        instances(pass, cache, ids.rock, all!(tiles.rock));
+        instances(pass, cache, ids.cloud, all!(tiles.gases));
         if picture.streaks_on_top {
             instances(pass, cache, ids.streaks, streaks);
         }

@@ -55,8 +55,9 @@ pub fn extract(main: Res<MainWorld>, mut pictures: ResMut<Pictures>, cost: Res<R
     // Half a tick after a tick the world is drawn half a tick before it: it then moves evenly at any frame rate.
     let late = main.resource::<Time<Fixed>>().overstep_fraction().clamp(0.0, 1.0);
     let back = if main.resource::<Pace>().paused { 0.0 } else { TICK_SECONDS * (1.0 - late) };
+    let time = main.resource::<Time<Fixed>>().elapsed_secs_wrapped() - back;
     let camera = main.resource::<WorldCamera>();
-    let sight = Sight { window, camera, view: main.resource::<Shown>().0, back };
+    let sight = Sight { window, camera, view: main.resource::<Shown>().0, back, time };
     let Pictures { panes: [a, b, c], count, difference } = &mut *pictures;
     let areas: Vec<Area> = camera.panes().collect();
     match (main.resource::<Split>().world().and_then(Scene::of), areas.as_slice()) {

@@ -3,6 +3,7 @@
 use crate::game::render::{
     cost::RenderCost,
     extract::Pictures,
+    noise,
     picture::{Picture, WorldUniform},
     pipelines::{FIELD_FORMAT, Layouts},
 };
@@ -12,7 +13,7 @@ use bevy::{
     render::{
         render_resource::{
             BindGroup, BindGroupEntries, Extent3d, PipelineCache, TexelCopyBufferLayout, Texture, TextureDescriptor,
-            TextureDimension, TextureFormat, TextureUsages, TextureView, UniformBuffer,
+            TextureDimension, TextureFormat, TextureUsages, TextureView, TextureViewDescriptor, UniformBuffer,
         },
         renderer::{RenderDevice, RenderQueue},
         texture::{CachedTexture, TextureCache},
@@ -21,8 +22,10 @@ use bevy::{
 use glam::UVec2;
 use std::sync::atomic::Ordering;
 
-/// Texels of the field to one d: enough for a smooth surface; more would only cost.
-const FIELD_TEXELS_PER_D: f32 = 6.0;
+/// Texels of the fields of bodies to one d: enough for a smooth surface; more would only cost.
+const BODY_TEXELS: f32 = 4.0;
+/// Texels of the field of gases to one d.
+const GAS_TEXELS: f32 = 1.0;
 
 /// The pictures of a frame, in the order of [`Pictures::shown`].
 #[derive(Resource, Default)]
@@ -39,17 +42,54 @@ impl GpuPictures {
 #[derive(Default)]
 pub struct GpuPicture {
     uniform: UniformBuffer<WorldUniform>,
-    /// Air, depth and field of the liquid, of this frame.
-    textures: Option<[CachedTexture; 3]>,
-    /// Group 0 (the uniform) and group 1 (sampler, air, depth, field).
+    /// Air, depth, rock, bodies, glow and light.
+    maps: [Map; 6],
+    noise: Map,
+    /// Bodies, more of them, gases: of this frame.
+    fields: Option<[CachedTexture; 3]>,
+    /// Group 0 (the uniform) and group 1 (sampler, maps, fields).
     groups: Option<[BindGroup; 2]>,
 }
 
 impl GpuPicture {
-    /// The field of the liquid, and the groups 0 and 1; all that drawing needs, once it is there.
-    pub fn parts(&self) -> Option<(&TextureView, &[BindGroup; 2])> {
-        let [_, _, field] = self.textures.as_ref()?;
-        Some((&field.default_view, self.groups.as_ref()?))
+    /// The three fields, and the groups 0 and 1; all that drawing needs, once it is there.
+    pub fn parts(&self) -> Option<([&TextureView; 3], &[BindGroup; 2])> {
+        let fields = self.fields.as_ref()?;
+        Some((fields.each_ref().map(|field| &field.default_view), self.groups.as_ref()?))
+    }
+}
+
+/// A texture that the processor fills, and that stays until it is filled again.
+#[derive(Default)]
+struct Map(Option<(Texture, TextureView)>);
+
+impl Map {
+    /// Fills it; with nothing, it becomes one texel of zeros.
+    fn fill(&mut self, texels: &[u8], size: UVec2, format: TextureFormat, device: &RenderDevice, queue: &RenderQueue) {
+        let (texels, size) = if texels.is_empty() { (&[0; 4][..], UVec2::ONE) } else { (texels, size) };
+        if self.0.as_ref().is_none_or(|(held, _)| (held.width(), held.height()) != (size.x, size.y)) {
+            let usage = TextureUsages::COPY_DST | TextureUsages::TEXTURE_BINDING;
+            let texture = device.create_texture(&descriptor("map", size, format, usage));
+            let view = texture.create_view(&TextureViewDescriptor::default());
+            self.0 = Some((texture, view));
+        }
+        let Some((texture, _)) = &self.0 else { return };
+        let texel = if format == TextureFormat::R8Unorm { 1 } else { 4 };
+        let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(texel * size.x), rows_per_image: None };
+        queue.write_texture(texture.as_image_copy(), &texels[..(texel * size.x * size.y) as usize], layout, texture.size());
+    }
+}
+
+fn descriptor(label: &'static str, size: UVec2, format: TextureFormat, usage: TextureUsages) -> TextureDescriptor<'static> {
+    TextureDescriptor {
+        label: Some(label),
+        size: Extent3d { width: size.x, height: size.y, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
     }
 }
 
@@ -86,56 +126,76 @@ fn hand_over(
     queue: &RenderQueue,
 ) {
     write_growing!(picture.particles, device, queue);
+    write_growing!(picture.matter.bodies, device, queue);
+    write_growing!(picture.matter.more, device, queue);
+    write_growing!(picture.matter.grains, device, queue);
+    write_growing!(picture.matter.gases, device, queue);
+    write_growing!(picture.tiles.bodies, device, queue);
+    write_growing!(picture.tiles.gases, device, queue);
     write_growing!(picture.streaks, device, queue);
-    if picture.rock_new {
-        write_growing!(picture.rock, device, queue);
-    }
     gpu.uniform.set(picture.uniform);
     gpu.uniform.write_buffer(device, queue);
 
-    let mut texture = |label, size: UVec2, format, usage: TextureUsages| {
-        let size = size.max(UVec2::ONE);
-        let descriptor = TextureDescriptor {
-            label: Some(label),
-            size: Extent3d { width: size.x, height: size.y, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: TextureDimension::D2,
-            format,
-            usage: usage | TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        };
-        textures.get(device, descriptor)
-    };
-    let (texels, size) = (&picture.air.0, if picture.air.0.is_empty() { UVec2::ONE } else { picture.air.1 });
-    let air = texture("air", size, TextureFormat::Rgba8Unorm, TextureUsages::COPY_DST);
-    write_texels(&air.texture, texels, queue);
-    let (columns, rows) = picture.depth.dimensions();
-    let size = UVec2::new(columns as u32, rows as u32);
-    let depth = texture("depth", size, TextureFormat::R8Unorm, TextureUsages::COPY_DST);
-    write_texels(&depth.texture, if picture.depth_new { picture.depth.shares() } else { &[] }, queue);
-    let share = (FIELD_TEXELS_PER_D / picture.pixels_per_d).min(1.0);
-    let size = (picture.window.as_vec2() * share).ceil().as_uvec2();
-    let field = texture("liquid", size, FIELD_FORMAT, TextureUsages::RENDER_ATTACHMENT);
-    gpu.textures = Some([air, depth, field]);
-}
-
-/// Fills a texture, if there are texels.
-fn write_texels(texture: &Texture, texels: &[u8], queue: &RenderQueue) {
-    if !texels.is_empty() {
-        let bytes_per_row = Some(texels.len() as u32 / texture.height());
-        let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row, rows_per_image: None };
-        queue.write_texture(texture.as_image_copy(), texels, layout, texture.size());
+    let size = |(columns, rows): (usize, usize)| UVec2::new(columns as u32, rows as u32);
+    if gpu.noise.0.is_none() {
+        let size = UVec2::splat(noise::EDGE as u32);
+        gpu.noise.fill(&noise::texels(), size, TextureFormat::Rgba8Unorm, device, queue);
     }
+    let [air, depth, rock, body, glow, light] = &mut gpu.maps;
+    let colours = TextureFormat::Rgba8Unorm;
+    air.fill(&picture.air.0, picture.air.1, colours, device, queue);
+    if picture.rock_new || rock.0.is_none() {
+        write_growing!(picture.tiles.rock, device, queue);
+        rock.fill(&picture.rock.0, picture.rock.1, colours, device, queue);
+    }
+    let as_it_is = picture.as_it_is;
+    let shown = |texels| if as_it_is { texels } else { &[][..] };
+    depth.fill(shown(picture.depth.shares()), size(picture.depth.dimensions()), TextureFormat::R8Unorm, device, queue);
+    body.fill(shown(picture.body.texels()), size(picture.body.dimensions()), colours, device, queue);
+    for (map, (texels, dimensions)) in [(glow, picture.glow.glow()), (light, picture.glow.light())] {
+        let texels = if as_it_is && picture.glow.shines() { texels } else { &[] };
+        map.fill(texels, size(dimensions), colours, device, queue);
+    }
+
+    let mut field = |label, texels_per_d: f32, empty: bool| {
+        let share = (texels_per_d / picture.pixels_per_d).min(1.0);
+        let size = if empty { UVec2::ONE } else { (picture.window.as_vec2() * share).ceil().as_uvec2().max(UVec2::ONE) };
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
+        textures.get(device, descriptor(label, size, FIELD_FORMAT, usage))
+    };
+    gpu.fields = Some([
+        field("bodies", BODY_TEXELS, picture.tiles.bodies.is_empty()),
+        field("more bodies", BODY_TEXELS, picture.matter.more.is_empty()),
+        field("gases", GAS_TEXELS, picture.matter.gases.is_empty()),
+    ]);
 }
 
 /// Makes the bind groups of the frame.
 pub fn bind(mut gpu: ResMut<GpuPictures>, layouts: Res<Layouts>, cache: Res<PipelineCache>, device: Res<RenderDevice>) {
     let [world, textures] = [&layouts.world, &layouts.textures].map(|layout| cache.get_bind_group_layout(layout));
     for gpu in &mut gpu.0 {
-        let (Some(uniform), Some(all)) = (gpu.uniform.binding(), &gpu.textures) else { continue };
-        let [air, depth, field] = all.each_ref().map(|texture| &texture.default_view);
-        let entries = BindGroupEntries::sequential((&layouts.sampler, air, depth, field));
+        let (Some(uniform), Some(fields)) = (gpu.uniform.binding(), &gpu.fields) else { continue };
+        let [Some(air), Some(depth), Some(rock), Some(body), Some(glow), Some(light)] =
+            gpu.maps.each_ref().map(|map| map.0.as_ref().map(|(_, view)| view))
+        else {
+            continue;
+        };
+        let Some((_, noise)) = &gpu.noise.0 else { continue };
+        let [bodies, more, gases] = fields.each_ref().map(|field| &field.default_view);
+        let entries = BindGroupEntries::sequential((
+            &layouts.sampler,
+            air,
+            depth,
+            rock,
+            body,
+            glow,
+            light,
+            bodies,
+            more,
+            gases,
+            &layouts.repeating,
+            noise,
+        ));
         gpu.groups = Some([
             device.create_bind_group("world", &world, &BindGroupEntries::single(uniform)),
             device.create_bind_group("world textures", &textures, &entries),

@@ -1,19 +1,30 @@
-//! The picture of the world: one instanced draw for all movable particles, one for all rock, one for streaks of wind,
-//! and two passes over the screen (box and air, liquid).
+//! The picture of the world, in passes over what is there of it:
 //!
-//! `extract` copies what a frame needs out of the world, packed by `particles`, `rock` and `air` into the layout that the
-//! processor of the graphics reads; `gpu` uploads it; `draw` draws it before the HUD. `tracers` make wind
-//! visible. Everything here runs on WebGL2: no storage buffers, no compute.
+//! ```text
+//! bodies, more ─► fields ─► surface ┐
+//! gases ────────► field ──► cloud   │    backdrop, streaks, surface, grains, rock, clouds
+//! grains, rock, streaks ────────────┴──► the window, from back to front
+//! ```
+//! `extract` copies what a frame needs out of the world into a `picture`: `matter` (or in the views that show a number
+//! `particles`), `rock` and `air` in the layout that the graphics read, `body` and `glow` as maps that the shaders look at,
+//! `tiles` where there is anything at all; `look` says which element is drawn how, `noise` is a texture that never changes. `gpu` uploads it; `draw` draws it before the
+//! HUD. `tracers` make wind visible. Everything here runs on WebGL2: no storage buffers, no compute, targets of eight bits.
 
 pub mod air;
+pub mod body;
 pub mod cost;
 pub mod draw;
 pub mod extract;
+pub mod glow;
 pub mod gpu;
+pub mod look;
+pub mod matter;
+pub mod noise;
 pub mod particles;
 pub mod picture;
 pub mod pipelines;
 pub mod rock;
+pub mod tiles;
 pub mod tracers;
 
 use bevy::{
@@ -24,13 +35,25 @@ use bevy::{
     shader::Shader,
 };
 
+/// One module of all passes: they share the numbers of the frame.
+const SHADER: &str = concat!(
+    include_str!("../../../assets/shaders/common.wgsl"),
+    include_str!("../../../assets/shaders/backdrop.wgsl"),
+    include_str!("../../../assets/shaders/coloured.wgsl"),
+    include_str!("../../../assets/shaders/matter.wgsl"),
+    include_str!("../../../assets/shaders/grains.wgsl"),
+    include_str!("../../../assets/shaders/gases.wgsl"),
+    include_str!("../../../assets/shaders/rock.wgsl"),
+    include_str!("../../../assets/shaders/streaks.wgsl"),
+);
+
 /// Draws the world of the simulation.
 pub struct WorldRenderPlugin;
 
 impl Plugin for WorldRenderPlugin {
     fn build(&self, app: &mut App) {
         let cost = cost::RenderCost::default();
-        let shader = Shader::from_wgsl(include_str!("../../../assets/shaders/world.wgsl"), "shaders/world.wgsl");
+        let shader = Shader::from_wgsl(SHADER, "shaders/world.wgsl");
         let shader = app.world_mut().resource_mut::<Assets<Shader>>().add(shader);
         app.insert_resource(cost.clone()).init_resource::<tracers::Tracers>().add_systems(PostUpdate, tracers::drift);
         let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };

@@ -5,8 +5,13 @@ use crate::{
         camera::{Area, WorldCamera},
         render::{
             air::{self, Streak},
+            body::BodyMap,
+            glow::{GlowMap, Warmth},
+            look::Looks,
+            matter::{LIQUIDS, Matter, Sample},
             particles::{self, ColourTable, ParticleInstance},
-            rock::{self, RockInstance},
+            rock,
+            tiles::{TILE, TileInstance, Tiles},
             tracers::Tracers,
         },
         views::{
@@ -23,7 +28,7 @@ use crate::{
     },
     sim::{
         generation::Generation,
-        state::{AirGrid, HeatCurves, ParticleStore, Recipes, Rock, Setup, SolverState},
+        state::{AirGrid, Clock, HeatCurves, ParticleStore, Recipes, Rock, Setup, SolverState},
     },
 };
 use bevy::{
@@ -36,6 +41,10 @@ use glam::{UVec2, Vec2, Vec4};
 
 /// Radius of a particle's soft disc, d.
 const DISC_RADIUS: f32 = 1.35;
+/// Radius of a lump of gas, d.
+const GAS_RADIUS: f32 = 4.2;
+/// Grains are drawn one by one from this size on, physical pixels of a d.
+const FINE: f32 = 2.5;
 /// Spacing of the arrows, logical pixels.
 const ARROW_SPACING: f32 = 30.0;
 
@@ -45,13 +54,16 @@ pub struct WorldUniform {
     to_clip: Vec4,
     size: Vec4,
     extent: Vec4,
+    fine_extent: Vec4,
     look: Vec4,
     pen: Vec4,
+    parts: Vec4,
     surroundings: Vec4,
     box_top: Vec4,
     box_bottom: Vec4,
     frame: Vec4,
     abyss: Vec4,
+    liquids: [Vec4; LIQUIDS],
 }
 
 /// A picture of a world.
@@ -64,10 +76,14 @@ pub struct Picture {
     pub part: Option<URect>,
     /// The shader's numbers.
     pub uniform: WorldUniform,
-    /// Movable particles.
+    /// Movable particles, in the views that colour them one by one.
     pub particles: RawBufferVec<ParticleInstance>,
-    /// Rock.
-    pub rock: RawBufferVec<RockInstance>,
+    /// Matter, in the view that shows it as it is.
+    pub matter: Matter,
+    /// Tiles with bodies of matter, with gases, with rock.
+    pub tiles: PictureTiles,
+    /// Rock, a texel a cell, and its columns and rows.
+    pub rock: (Vec<u8>, UVec2),
     /// Whether `rock` is new in this frame.
     pub rock_new: bool,
     /// Streaks of wind.
@@ -76,10 +92,16 @@ pub struct Picture {
     pub streaks_on_top: bool,
     /// Texels of the air, and their columns and rows; empty if the view doesn't show it.
     pub air: (Vec<u8>, UVec2),
-    /// Depth of the liquid; empty if the view doesn't show it.
+    /// Depth of the matter; of the last time that the view showed it.
     pub depth: DepthMap,
-    /// Whether `depth` is of this frame.
-    pub depth_new: bool,
+    /// How full places are.
+    pub body: BodyMap,
+    /// What glows, and what it lights.
+    pub glow: GlowMap,
+    /// Whether matter is shown as it is, so that `depth`, `body` and `glow` are of this frame.
+    pub as_it_is: bool,
+    looks: Looks,
+    foam_of: Option<(Generation, u64)>,
     burial: BurialMap,
     /// Where limiters act; of the last time that the view showed it.
     strain: StrainMap,
@@ -100,13 +122,19 @@ impl Default for Picture {
             part: None,
             uniform: WorldUniform::default(),
             particles: RawBufferVec::new(BufferUsages::VERTEX),
-            rock: RawBufferVec::new(BufferUsages::VERTEX),
+            matter: Matter::default(),
+            tiles: PictureTiles::default(),
+            rock: (Vec::new(), UVec2::ONE),
             rock_new: false,
             streaks: RawBufferVec::new(BufferUsages::VERTEX),
             streaks_on_top: false,
             air: (Vec::new(), UVec2::ONE),
             depth: DepthMap::default(),
-            depth_new: false,
+            body: BodyMap::default(),
+            glow: GlowMap::default(),
+            as_it_is: false,
+            looks: Looks::default(),
+            foam_of: None,
             burial: BurialMap::default(),
             strain: StrainMap::default(),
             exposure: Exposure::default(),
@@ -118,6 +146,35 @@ impl Default for Picture {
     }
 }
 
+/// Which tiles are drawn by which pass.
+pub struct PictureTiles {
+    /// Bodies of matter.
+    pub bodies: RawBufferVec<TileInstance>,
+    /// Gases.
+    pub gases: RawBufferVec<TileInstance>,
+    /// Rock.
+    pub rock: RawBufferVec<TileInstance>,
+    marks: Tiles,
+}
+
+impl Default for PictureTiles {
+    fn default() -> Self {
+        let buffer = || RawBufferVec::new(BufferUsages::VERTEX);
+        Self { bodies: buffer(), gases: buffer(), rock: buffer(), marks: Tiles::default() }
+    }
+}
+
+impl PictureTiles {
+    /// The tiles that the discs of all instances reach: they begin with their place, two f32.
+    fn of(marks: &mut Tiles, instances: &[&[[u32; 3]]], size: Vec2, radius: f32, out: &mut Vec<TileInstance>) {
+        marks.clear(size);
+        for [x, y, _] in instances.iter().copied().flatten() {
+            marks.mark(Vec2::new(f32::from_bits(*x), f32::from_bits(*y)), radius);
+        }
+        marks.list(out);
+    }
+}
+
 /// Where and how everything is seen.
 #[derive(Clone, Copy)]
 pub(super) struct Sight<'a> {
@@ -126,6 +183,8 @@ pub(super) struct Sight<'a> {
     pub(super) view: &'static View,
     /// The moment that is drawn, s before the last tick.
     pub(super) back: f32,
+    /// Time since the game began, s, as long as the world moves; from 0 again every hour.
+    pub(super) time: f32,
 }
 
 /// A world, and what is drawn into it.
@@ -142,6 +201,8 @@ pub(super) struct Scene<'a> {
     /// What the limiters work on.
     pub(super) limited: Limited<'a>,
     pub(super) tracers: Option<&'a Tracers>,
+    /// Ticks since the scene began.
+    pub(super) tick: u64,
 }
 
 impl<'a> Scene<'a> {
@@ -177,6 +238,7 @@ impl<'a> Scene<'a> {
             recipes: world.get_resource()?,
             limited: Limited::of(world)?,
             tracers: world.get_resource(),
+            tick: world.get_resource::<Clock>()?.tick,
         })
     }
 }
@@ -186,12 +248,17 @@ impl Picture {
     pub(super) fn fill(&mut self, scene: Scene<'_>, sight: Sight<'_>, area: Area, confined: bool) {
         let blueprint = &scene.setup.blueprint;
         let reference = Reference::of(&blueprint.domain, &blueprint.air);
-        self.fill_particles(scene, sight, reference);
-        self.fill_rock(scene, sight.view);
-        self.depth_new = sight.view.shaded;
-        if self.depth_new {
-            self.depth.measure(blueprint.domain.size, scene.particles);
+        self.as_it_is = sight.view.shaded;
+        let scale_factor = sight.window.resolution.scale_factor();
+        if self.as_it_is {
+            self.particles.clear();
+            self.fill_matter(scene, sight.back, sight.camera.pixels_per_d() * scale_factor >= FINE);
+        } else {
+            self.matter.clear();
+            self.fill_particles(scene, sight, reference);
         }
+        self.mark_bodies(blueprint.domain.size);
+        self.fill_rock(scene, sight.view);
         let air_extent = self.fill_air(scene, sight, reference);
         self.fill_streaks(scene, sight, reference);
         self.look(scene.setup, sight, sight.view, air_extent, (area, confined));
@@ -206,12 +273,40 @@ impl Picture {
         area: Area,
     ) {
         self.particles.clear();
+        self.matter.clear();
         self.streaks.clear();
+        self.mark_bodies(scene.setup.blueprint.domain.size);
         self.fill_rock(scene, &PRESSURE);
-        self.depth_new = false;
+        self.as_it_is = false;
         difference.texels(&mut self.air.0);
         self.air.1 = UVec2::new(difference.columns() as u32, difference.rows() as u32);
         self.look(scene.setup, sight, &PRESSURE, self.air.1.as_vec2() * difference.edge(), (area, true));
+    }
+
+    /// Matter as it is, with what it takes to shade it.
+    fn fill_matter(&mut self, scene: Scene<'_>, back: f32, fine: bool) {
+        let (particles, blueprint) = (&scene.particles.0, &scene.setup.blueprint);
+        let size = blueprint.domain.size;
+        if self.foam_of.is_none_or(|(of, _)| of.scene != scene.generation.scene) {
+            self.looks = Looks::new(&blueprint.elements);
+        }
+        let ticks = self.foam_of.filter(|(of, _)| *of == scene.generation).map(|(_, at)| scene.tick.saturating_sub(at));
+        self.foam_of = Some((scene.generation, scene.tick));
+        let Self { looks, body, glow, matter, depth, .. } = self;
+        depth.measure(size, particles);
+        body.measure(size, blueprint.scale.spacing, (particles, scene.rock), looks, ticks);
+        let warmth = Warmth { particles, rock: scene.rock, curves: scene.curves };
+        glow.measure(size, warmth, |element| looks.of(element).is_gas());
+        let radius = DISC_RADIUS;
+        matter.fill(Sample { particles, rock: scene.rock, looks, body, warmth, size, radius, back, fine });
+    }
+
+    /// Marks the tiles of bodies and gases.
+    fn mark_bodies(&mut self, size: Vec2) {
+        let Self { particles, matter, tiles: PictureTiles { bodies, gases, marks, .. }, .. } = self;
+        let all = [particles.values(), matter.bodies.values(), matter.more.values()].map(|values| &values[..]);
+        PictureTiles::of(marks, &all, size, DISC_RADIUS, bodies.values_mut());
+        PictureTiles::of(marks, &[matter.gases.values()], size, GAS_RADIUS, gases.values_mut());
     }
 
     fn fill_particles(&mut self, scene: Scene<'_>, sight: Sight<'_>, reference: Reference) {
@@ -260,7 +355,8 @@ impl Picture {
 
     fn fill_rock(&mut self, scene: Scene<'_>, view: &View) {
         let (rock, elements) = (scene.rock, scene.setup.elements());
-        let out = self.rock.values_mut();
+        let out = &mut self.rock.0;
+        self.rock.1 = UVec2::new(rock.columns() as u32, rock.rows() as u32);
         if matches!(view.quantity, Quantity::Temperature | Quantity::Fire) {
             // It warms and cools without a change of its version.
             let burning = scene.burning(&self.exposure);
@@ -271,14 +367,20 @@ impl Picture {
             let colour = |cell, element, _, _| (view.colour)(elements.get(element), share(cell, element));
             rock::pack(rock, &mut self.burial, colour, out);
             (self.rock_new, self.rock_of) = (true, None);
-            return;
+        } else {
+            let rock_of = Some((scene.generation, rock.version(), scene.setup.blueprint.scale.spacing));
+            self.rock_new = self.rock_of != rock_of;
+            if self.rock_new {
+                let colour = |cell, element, id, burial| rock_colour(elements.get(element), cell, id, burial);
+                rock::pack(rock, &mut self.burial, colour, out);
+                self.rock_of = rock_of;
+            }
         }
-        let rock_of = Some((scene.generation, rock.version(), scene.setup.blueprint.scale.spacing));
-        self.rock_new = self.rock_of != rock_of;
         if self.rock_new {
-            let colour = |cell, element, id, burial| rock_colour(elements.get(element), cell, id, burial);
-            rock::pack(rock, &mut self.burial, colour, out);
-            self.rock_of = rock_of;
+            let tiles = &mut self.tiles;
+            tiles.marks.clear(scene.setup.blueprint.domain.size);
+            rock.iter().for_each(|(cell, _, _)| tiles.marks.mark(cell.as_vec2() + 0.5, 1.0));
+            tiles.marks.list(tiles.rock.values_mut());
         }
     }
 
@@ -331,13 +433,16 @@ impl Picture {
             to_clip: two(to_clip, offset),
             size: two(setup.blueprint.domain.size, self.window.as_vec2()),
             extent: two(self.depth.extent().max(Vec2::ONE), air_extent),
+            fine_extent: two(self.body.extent().max(Vec2::ONE), self.glow.light_extent().max(Vec2::ONE)),
             look: Vec4::new(self.pixels_per_d, dim, f32::from(view.shaded), colours::DEPTH_SHADE),
             pen: Vec4::new(DISC_RADIUS, 1.5 * lines, f32::from(!matches!(view.air, Layer::Nothing)), lines),
+            parts: Vec4::new(GAS_RADIUS, TILE, self.matter.colours().len() as f32, sight.time),
             surroundings: srgb(colours::SURROUNDINGS),
             box_top: srgb(colours::BOX_TOP),
             box_bottom: srgb(colours::BOX_BOTTOM),
             frame: srgb(colours::FRAME),
             abyss: srgb(colours::ABYSS),
+            liquids: std::array::from_fn(|k| self.matter.colours().get(k).map_or(Vec4::ZERO, |colour| srgb(*colour))),
         };
     }
 }

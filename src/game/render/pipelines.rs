@@ -1,4 +1,4 @@
-//! The five pipelines of the picture, made for the format of the window's target.
+//! The pipelines of the picture, made for the format of the window's target.
 
 use crate::game::render::picture::WorldUniform;
 use bevy::{
@@ -8,7 +8,7 @@ use bevy::{
     render::{
         camera::ExtractedCamera,
         render_resource::{
-            BindGroupLayoutDescriptor, BindGroupLayoutEntries, BlendState, CachedRenderPipelineId, ColorTargetState,
+            AddressMode, BindGroupLayoutDescriptor, BindGroupLayoutEntries, BlendComponent, BlendFactor, BlendOperation, BlendState, CachedRenderPipelineId, ColorTargetState,
             ColorWrites, FilterMode, FragmentState, PipelineCache, PrimitiveState, PrimitiveTopology,
             RenderPipelineDescriptor, Sampler, SamplerBindingType, SamplerDescriptor, ShaderStages, TextureFormat,
             TextureSampleType, VertexFormat, VertexState, VertexStepMode,
@@ -20,8 +20,18 @@ use bevy::{
     shader::Shader,
 };
 
-/// Format of the field that the liquid is drawn into. Its bytes are sRGB, but it is blended and sampled as they are.
+/// Format of the fields that matter is drawn into. Their bytes are sRGB, but they are blended and sampled as they are.
 pub const FIELD_FORMAT: TextureFormat = TextureFormat::Rgba8Unorm;
+
+/// Passes that draw into the fields.
+const INTO_FIELDS: [&str; 4] = ["coloured", "body", "more", "gas"];
+
+/// Adds up to 1 − Π(1 − w) in each channel, in whatever order.
+const UNION: BlendState = BlendState { color: beyond(BlendFactor::OneMinusSrc), alpha: beyond(BlendFactor::OneMinusSrcAlpha) };
+
+const fn beyond(dst_factor: BlendFactor) -> BlendComponent {
+    BlendComponent { src_factor: BlendFactor::One, dst_factor, operation: BlendOperation::Add }
+}
 
 /// The shader of the picture.
 #[derive(Resource)]
@@ -32,10 +42,12 @@ pub struct WorldShader(pub Handle<Shader>);
 pub struct Layouts {
     /// Group 0: the uniform.
     pub world: BindGroupLayoutDescriptor,
-    /// Group 1: sampler, air, depth, field.
+    /// Group 1: sampler, maps (air, depth, rock, bodies, glow, light) and fields (bodies, more, gases); repeating sampler, noise.
     pub textures: BindGroupLayoutDescriptor,
     /// Samples between texels, up to the edge.
     pub sampler: Sampler,
+    /// Samples between texels, over the edge again from the other side.
+    pub repeating: Sampler,
 }
 
 /// The pipelines' ids in the cache.
@@ -43,10 +55,22 @@ pub struct Layouts {
 pub struct Ids {
     /// Box and air.
     pub backdrop: CachedRenderPipelineId,
-    /// Particles into the field.
-    pub particles: CachedRenderPipelineId,
-    /// The liquid's surface.
-    pub liquid: CachedRenderPipelineId,
+    /// Coloured particles into the first field.
+    pub coloured: CachedRenderPipelineId,
+    /// What comes of them.
+    pub shape: CachedRenderPipelineId,
+    /// Bodies into the first field.
+    pub body: CachedRenderPipelineId,
+    /// Bodies into the second.
+    pub more: CachedRenderPipelineId,
+    /// The surface of the bodies.
+    pub surface: CachedRenderPipelineId,
+    /// Grains.
+    pub grain: CachedRenderPipelineId,
+    /// Gases into their field.
+    pub gas: CachedRenderPipelineId,
+    /// What comes of them.
+    pub cloud: CachedRenderPipelineId,
     /// Rock.
     pub rock: CachedRenderPipelineId,
     /// Streaks of wind.
@@ -67,6 +91,15 @@ impl Pipelines {
 /// Makes the layouts and the sampler.
 pub fn make_layouts(mut commands: Commands, device: Res<RenderDevice>) {
     let texture = || texture_2d(TextureSampleType::Float { filterable: true });
+    let sampler_of = |address| {
+        device.create_sampler(&SamplerDescriptor {
+            address_mode_u: address,
+            address_mode_v: address,
+            mag_filter: FilterMode::Linear,
+            min_filter: FilterMode::Linear,
+            ..SamplerDescriptor::default()
+        })
+    };
     commands.insert_resource(Layouts {
         world: BindGroupLayoutDescriptor::new(
             "world",
@@ -75,15 +108,25 @@ pub fn make_layouts(mut commands: Commands, device: Res<RenderDevice>) {
         textures: BindGroupLayoutDescriptor::new(
             "world textures",
             &BindGroupLayoutEntries::sequential(
-                ShaderStages::FRAGMENT,
-                (sampler(SamplerBindingType::Filtering), texture(), texture(), texture()),
+                ShaderStages::VERTEX_FRAGMENT,
+                (
+                    sampler(SamplerBindingType::Filtering),
+                    texture(),
+                    texture(),
+                    texture(),
+                    texture(),
+                    texture(),
+                    texture(),
+                    texture(),
+                    texture(),
+                    texture(),
+                    sampler(SamplerBindingType::Filtering),
+                    texture(),
+                ),
             ),
         ),
-        sampler: device.create_sampler(&SamplerDescriptor {
-            mag_filter: FilterMode::Linear,
-            min_filter: FilterMode::Linear,
-            ..SamplerDescriptor::default()
-        }),
+        sampler: sampler_of(AddressMode::ClampToEdge),
+        repeating: sampler_of(AddressMode::Repeat),
     });
 }
 
@@ -100,13 +143,11 @@ pub fn prepare(
         return;
     }
     // The pipeline of a quad for each instance of these formats, or of the whole screen if there are none.
-    let make = |name: &'static str, instance: &[VertexFormat], format, blend| {
-        // The pass that draws into the field must not have the field bound.
-        let textures = (name != "particle").then(|| layouts.textures.clone());
-        let (vertex, topology) = match instance {
-            [] => ("screen", PrimitiveTopology::TriangleList),
-            _ => (name, PrimitiveTopology::TriangleStrip),
-        };
+    let make = |vertex: &'static str, name: &'static str, instance: &[VertexFormat], format, blend| {
+        // The passes that draw into the fields must not have these bound.
+        let textures = (!INTO_FIELDS.contains(&name)).then(|| layouts.textures.clone());
+        let topology =
+            if instance.is_empty() { PrimitiveTopology::TriangleList } else { PrimitiveTopology::TriangleStrip };
         let buffer = VertexBufferLayout::from_vertex_formats(VertexStepMode::Instance, instance.iter().copied());
         cache.queue_render_pipeline(RenderPipelineDescriptor {
             label: Some(name.into()),
@@ -129,12 +170,19 @@ pub fn prepare(
     };
     use VertexFormat as F;
     let (alpha, premultiplied) = (BlendState::ALPHA_BLENDING, BlendState::PREMULTIPLIED_ALPHA_BLENDING);
+    let (point, tile) = ([F::Float32x2, F::Unorm8x4], [F::Uint16x2]);
     let ids = Ids {
-        backdrop: make("backdrop", &[], format, None),
-        particles: make("particle", &[F::Float32x2, F::Unorm8x4], FIELD_FORMAT, Some(premultiplied)),
-        liquid: make("liquid", &[], format, Some(alpha)),
-        rock: make("rock", &[F::Uint16x2, F::Uint8x4], format, Some(alpha)),
-        streaks: make("streak", &[F::Float32x4, F::Unorm8x4], format, Some(alpha)),
+        backdrop: make("screen", "backdrop", &[], format, None),
+        coloured: make("coloured", "coloured", &point, FIELD_FORMAT, Some(premultiplied)),
+        shape: make("tile", "shape", &tile, format, Some(alpha)),
+        body: make("body", "body", &point, FIELD_FORMAT, Some(UNION)),
+        more: make("body", "more", &point, FIELD_FORMAT, Some(UNION)),
+        surface: make("tile", "surface", &tile, format, Some(alpha)),
+        grain: make("grain", "grain", &point, format, Some(alpha)),
+        gas: make("gas", "gas", &point, FIELD_FORMAT, Some(premultiplied)),
+        cloud: make("tile", "cloud", &tile, format, Some(premultiplied)),
+        rock: make("tile", "rock", &tile, format, Some(alpha)),
+        streaks: make("streak", "streak", &[F::Float32x4, F::Unorm8x4], format, Some(alpha)),
     };
     pipelines.0 = Some((format, ids));
 }

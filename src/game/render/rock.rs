@@ -1,4 +1,4 @@
-//! Rock as instances: cell, colour and which of its sides are open. Rebuilt only when the rock changed.
+//! Rock as a picture: a texel a cell, baked only when the rock changed.
 
 use crate::{
     kernel::{element::ElementId, solids::Solids},
@@ -6,43 +6,36 @@ use crate::{
 };
 use glam::IVec2;
 
-/// Cell (two u16), then colour and sides (four bytes).
-pub type RockInstance = [u32; 2];
-
-/// Sides in the order of their bits: top, right, bottom, left. A set bit means rock or wall there.
-const SIDES: [IVec2; 4] = [IVec2::Y, IVec2::X, IVec2::NEG_Y, IVec2::NEG_X];
-
-/// Packs all rock. `colour`: that of a cell, by its element, id and how deep it is buried.
+/// Packs all rock, row by row from the bottom: red, green and blue of each cell of rock and 255, or nothing. `colour`: that of
+/// a cell, by its element, id and how deep it is buried.
 pub fn pack(
     solids: &Solids,
     burial: &mut BurialMap,
     colour: impl Fn(IVec2, ElementId, u32, f32) -> Rgb,
-    out: &mut Vec<RockInstance>,
+    out: &mut Vec<u8>,
 ) {
     burial.measure(solids);
     out.clear();
+    out.resize(4 * (solids.columns() * solids.rows()) as usize, 0);
     for (cell, element, id) in solids.iter() {
         let [r, g, b] = colour(cell, element, id, burial.at(cell));
-        let sides = (0..SIDES.len()).fold(0, |bits, k| bits | (u8::from(solids.is_solid(cell + SIDES[k])) << k));
-        out.push([cell.x as u32 | (cell.y as u32) << 16, u32::from_le_bytes([r, g, b, sides])]);
+        let k = 4 * (cell.y * solids.columns() + cell.x) as usize;
+        out[k..k + 4].copy_from_slice(&[r, g, b, 255]);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
     #[test]
-    fn open_sides_are_told_from_closed_ones() {
-        let mut solids = Solids::new(8, 8);
-        for (id, cell) in [(0, IVec2::new(0, 3)), (1, IVec2::new(1, 3))] {
-            solids.insert(cell, ElementId(0), id);
-        }
-        let mut out = Vec::new();
-        pack(&solids, &mut BurialMap::default(), |_, _, _, _| [1, 2, 3], &mut out);
-        assert_eq!(out.len(), 2);
-        assert_eq!(out[1][0], 1 | 3 << 16);
-        let sides = |k: usize| out[k][1].to_le_bytes()[3];
-        assert_eq!(sides(0), 0b1010, "rock at the wall: closed left (wall) and right (rock)");
-        assert_eq!(sides(1), 0b1000, "its neighbour: closed left only");
+    fn rock_has_a_texel_where_it_is_and_air_has_none() {
+        let mut solids = Solids::new(8, 4);
+        solids.insert(IVec2::new(3, 2), ElementId(0), 7);
+        let mut out = vec![9; 3];
+        pack(&solids, &mut BurialMap::default(), |cell, _, id, _| [cell.x as u8, cell.y as u8, id as u8], &mut out);
+        let mut wanted = vec![0; 4 * 8 * 4];
+        wanted[4 * 19..4 * 20].copy_from_slice(&[3, 2, 7, 255]);
+        assert_eq!(out, wanted);
     }
 }

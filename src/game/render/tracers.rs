@@ -18,7 +18,7 @@ const COUNT: usize = 420;
 /// Time after which a tracer starts anew elsewhere, s.
 const LIFE: f32 = 1.6;
 /// Time that the tail of a streak lasts, s.
-const TAIL: f32 = 0.17;
+const TAIL: f32 = 0.26;
 /// Wind below this share of the reference is not drawn.
 const FLOOR: f32 = 0.03;
 
@@ -49,7 +49,7 @@ impl Tracers {
             if strength > 0.0 {
                 let life = tracer.age / LIFE;
                 let fade = 4.0 * life * (1.0 - life);
-                let opacity = 110.0 * fade * (strength / (0.25 + strength));
+                let opacity = 80.0 * fade * (strength / (0.25 + strength));
                 out.push(streak(tracer.at - tracer.velocity * TAIL, tracer.at, [196, 214, 226, opacity as u8]));
             }
         }

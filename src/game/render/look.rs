@@ -1,0 +1,58 @@
+//! How the elements look: which of the picture's ways of drawing each takes. It follows from the element table.
+
+use crate::{
+    kernel::element::{Category, Element, ElementId, ElementTable},
+    lab::colours::Rgb,
+};
+
+/// Thicker liquids don't foam, m²/s: air that they take in does not come out in the time that foam lives.
+const FOAMING: f32 = 0.01;
+/// Heavier ones neither, kg/m²: what falls into them bounces off.
+const FOAM_WEIGHT: f32 = 3000.0;
+
+/// Look of an element.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    category: Category,
+    /// Its own colour.
+    pub colour: Rgb,
+    /// Whether it is a liquid that air makes white.
+    pub foams: bool,
+}
+
+impl Look {
+    fn of(element: &Element) -> Self {
+        let thin = element.viscosity < FOAMING && element.density < FOAM_WEIGHT;
+        Self {
+            category: element.category,
+            colour: element.colour,
+            foams: element.category == Category::Liquids && thin,
+        }
+    }
+
+    /// Whether it is drawn as clouds.
+    pub fn is_gas(self) -> bool {
+        self.category == Category::Gases
+    }
+
+    /// Whether it is drawn as grains.
+    pub fn is_powder(self) -> bool {
+        self.category == Category::Powders
+    }
+}
+
+/// Looks of all elements.
+#[derive(Clone, Debug, Default)]
+pub struct Looks(Vec<Look>);
+
+impl Looks {
+    /// Those of a table.
+    pub fn new(elements: &ElementTable) -> Self {
+        Self(elements.iter().map(|(_, element)| Look::of(element)).collect())
+    }
+
+    /// That of an element of the table.
+    pub fn of(&self, element: ElementId) -> Look {
+        self.0[element.index()]
+    }
+}

@@ -1,0 +1,234 @@
+//! Movable particles as the picture of the elements draws them: liquids and powders as bodies in channels, grains upon them,
+//! gases as clouds.
+//!
+//! Nothing depends on the order of the particles: channels add up in any order, and grains hardly overlap.
+
+use crate::{
+    game::render::{
+        body::BodyMap,
+        glow::Warmth,
+        look::{Look, Looks},
+    },
+    kernel::{element::ElementId, particles::Particles, solids::Solids},
+    lab::colours::Rgb,
+};
+use bevy::render::render_resource::{BufferUsages, RawBufferVec};
+use glam::Vec2;
+
+/// Liquids that have a channel of their own.
+pub const LIQUIDS: usize = 6;
+/// Liquids in the first field, beside powders and foam; the others are in the second.
+const FIRST: usize = 2;
+
+/// Position (two f32), and four bytes: traits of a body, or a colour.
+pub type Instance = [u32; 3];
+
+/// Speed at which a lone drop is drawn out by its own length, d/s.
+const STRETCH: f32 = 160.0;
+/// What foam must pass to show on a particle goes from 0 to this, by its id.
+const FOAM_SPREAD: f32 = 0.55;
+/// Share of light of its own of what glows white.
+const SELF_LIT: f32 = 0.9;
+
+/// The channel that each element's body goes into.
+#[derive(Clone, Debug, Default)]
+struct Channels {
+    of: Vec<u8>,
+    colours: Vec<Rgb>,
+    counts: Vec<u32>,
+}
+
+impl Channels {
+    /// A channel for each liquid that is there; if there are more than channels, the rarest go with what looks most like them.
+    fn fill(&mut self, elements: &[ElementId], looks: &Looks) {
+        self.counts.clear();
+        self.counts.resize(256, 0);
+        for element in elements {
+            self.counts[element.index()] += 1;
+        }
+        let liquid = |k: usize| {
+            let look = looks.of(ElementId(k as u8));
+            !look.is_gas() && !look.is_powder()
+        };
+        let mut there: Vec<usize> = (0..256).filter(|k| self.counts[*k] > 0 && liquid(*k)).collect();
+        there.sort_by_key(|k| std::cmp::Reverse(self.counts[*k]));
+        let most = LIQUIDS.min(there.len());
+        let (own, rest) = there.split_at_mut(most);
+        // In the order of the table, so that channels stay while numbers change.
+        own.sort_unstable();
+        self.colours = own.iter().map(|k| looks.of(ElementId(*k as u8)).colour).collect();
+        self.of.clear();
+        self.of.resize(256, 0);
+        for (channel, k) in own.iter().enumerate() {
+            self.of[*k] = channel as u8;
+        }
+        for k in rest.iter() {
+            let colour = looks.of(ElementId(*k as u8)).colour;
+            let nearest = (0..self.colours.len()).min_by_key(|c| apart(self.colours[*c], colour));
+            self.of[*k] = nearest.unwrap_or(0) as u8;
+        }
+    }
+}
+
+/// How far two colours are apart, roughly: the square of their distance in sRGB.
+fn apart(a: Rgb, b: Rgb) -> i32 {
+    (0..3).map(|k| (i32::from(a[k]) - i32::from(b[k])).pow(2)).sum()
+}
+
+/// What of the matter is drawn.
+pub struct Matter {
+    /// Bodies in the first field.
+    pub bodies: RawBufferVec<Instance>,
+    /// Bodies in the second field.
+    pub more: RawBufferVec<Instance>,
+    /// Grains.
+    pub grains: RawBufferVec<Instance>,
+    /// Gases.
+    pub gases: RawBufferVec<Instance>,
+    channels: Channels,
+}
+
+impl Default for Matter {
+    fn default() -> Self {
+        let buffer = || RawBufferVec::new(BufferUsages::VERTEX);
+        Self { bodies: buffer(), more: buffer(), grains: buffer(), gases: buffer(), channels: Channels::default() }
+    }
+}
+
+/// The world whose matter is drawn.
+#[derive(Clone, Copy)]
+pub struct Sample<'a> {
+    /// Movable particles.
+    pub particles: &'a Particles,
+    /// Rock, which nothing is drawn in.
+    pub rock: &'a Solids,
+    /// Looks of the elements.
+    pub looks: &'a Looks,
+    /// What is around them.
+    pub body: &'a BodyMap,
+    /// How warm they are.
+    pub warmth: Warmth<'a>,
+    /// Size of the box, d.
+    pub size: Vec2,
+    /// Radius of a body's disc, d.
+    pub radius: f32,
+    /// The moment that is drawn, s before the last tick.
+    pub back: f32,
+    /// Whether grains are large enough to be drawn one by one.
+    pub fine: bool,
+}
+
+impl Matter {
+    /// Takes everything out.
+    pub fn clear(&mut self) {
+        for buffer in [&mut self.bodies, &mut self.more, &mut self.grains, &mut self.gases] {
+            buffer.clear();
+        }
+    }
+
+    /// Colours of the liquids in their channels.
+    pub fn colours(&self) -> &[Rgb] {
+        &self.channels.colours
+    }
+
+    /// Packs a world's matter.
+    pub fn fill(&mut self, world: Sample<'_>) {
+        self.clear();
+        self.channels.fill(&world.particles.element, world.looks);
+        let warm = world.warmth.is_there();
+        for i in 0..world.particles.len() {
+            let look = world.looks.of(world.particles.element[i]);
+            let at = stood(world.particles, world.rock, i, world.back);
+            let glow = if warm { world.warmth.glow(i) } else { [0.0; 3] };
+            if look.is_gas() {
+                self.gases.push(instance(at, gas(look, glow)));
+                continue;
+            }
+            let traits = self.traits(world, look, i, at);
+            self.body(world, at, traits, look.is_powder());
+            if look.is_powder() && world.fine {
+                self.grains.push(instance(at, grain(look, glow, world.particles.id[i])));
+            }
+        }
+    }
+
+    /// Channel, foam, how far it is drawn out, and the angle along which.
+    fn traits(&self, world: Sample<'_>, look: Look, i: usize, at: Vec2) -> [u8; 4] {
+        let channel = if look.is_powder() { 0 } else { self.channels.of[world.particles.element[i].index()] };
+        if !look.foams {
+            return [channel, 0, 0, 0];
+        }
+        let id = world.particles.id[i];
+        let threshold = FOAM_SPREAD * share(id);
+        let foam = ((world.body.foam_at(at) - threshold) * 2.2).clamp(0.0, 1.0);
+        let velocity = world.particles.velocity(i);
+        let (mut long, mut angle) = (0.0, 0.0);
+        if world.body.is_sparse(at) {
+            long = (velocity.length() / STRETCH).min(1.0);
+            angle = (velocity.y.atan2(velocity.x) / std::f32::consts::PI).rem_euclid(1.0);
+        }
+        [channel, (255.0 * foam) as u8, (255.0 * long) as u8, (255.0 * angle) as u8]
+    }
+
+    /// A body, and its image behind each wall that it touches: a liquid at a wall ends there, not in drops before it.
+    fn body(&mut self, world: Sample<'_>, at: Vec2, traits: [u8; 4], powder: bool) {
+        let channel = usize::from(traits[0]);
+        let (buffer, channel) = match channel {
+            _ if powder => (&mut self.bodies, 0),
+            k if k < FIRST => (&mut self.bodies, 1 + k),
+            k => (&mut self.more, k - FIRST),
+        };
+        let traits = u32::from_le_bytes([channel as u8, traits[1], traits[2], traits[3]]);
+        buffer.push(instance(at, traits));
+        let (low, high) = (at, world.size - at);
+        let reach = world.radius;
+        if low.min(high).min_element() < reach {
+            let x = if low.x < reach { -at.x } else if high.x < reach { 2.0 * world.size.x - at.x } else { f32::NAN };
+            let y = if low.y < reach { -at.y } else if high.y < reach { 2.0 * world.size.y - at.y } else { f32::NAN };
+            for image in [Vec2::new(x, at.y), Vec2::new(at.x, y), Vec2::new(x, y)] {
+                if !image.is_nan() {
+                    buffer.push(instance(image, traits));
+                }
+            }
+        }
+    }
+}
+
+/// Where a particle stood `back` seconds ago: straight back along its velocity, but never in rock.
+pub fn stood(particles: &Particles, rock: &Solids, i: usize, back: f32) -> Vec2 {
+    let now = particles.position(i);
+    let then = now - particles.velocity(i) * back;
+    if back > 0.0 && rock.count() > 0 && rock.is_solid(Solids::cell_of(then)) { now } else { then }
+}
+
+fn instance(at: Vec2, bytes: u32) -> Instance {
+    [at.x.to_bits(), at.y.to_bits(), bytes]
+}
+
+/// A number of 0 … 1 that stays with a particle.
+fn share(id: u32) -> f32 {
+    let mut h = id.wrapping_mul(0x9E37_79B1);
+    h = (h ^ (h >> 15)).wrapping_mul(0x2C1B_3C6D);
+    h ^= h >> 12;
+    (h >> 8) as f32 / (1 << 24) as f32
+}
+
+/// Colour of a grain and its share of own light: a shade of its own that its id gives it, and what it glows.
+fn grain(look: Look, glow: [f32; 3], id: u32) -> u32 {
+    let shade = 0.90 + 0.20 * share(id);
+    let own = glow[0].max(glow[1]).max(glow[2]);
+    let rgb: [u8; 3] = std::array::from_fn(|k| {
+        let cold = f32::from(look.colour[k]) * shade;
+        (cold * (1.0 - 0.7 * own) + 255.0 * glow[k] * (0.8 + 0.2 * shade)).min(255.0) as u8
+    });
+    u32::from_le_bytes([rgb[0], rgb[1], rgb[2], (255.0 * SELF_LIT * own) as u8])
+}
+
+/// Colour of a lump of gas and how much it hides: cold gas hides what is behind it, flames add their light.
+fn gas(look: Look, glow: [f32; 3]) -> u32 {
+    let own = glow[0].max(glow[1]).max(glow[2]);
+    let rgb: [u8; 3] = std::array::from_fn(|k| {
+        (f32::from(look.colour[k]) * (1.0 - own) + 255.0 * glow[k]).min(255.0) as u8
+    });
+    u32::from_le_bytes([rgb[0], rgb[1], rgb[2], (255.0 * (1.0 - 0.85 * own)) as u8])
+}

@@ -1,0 +1,74 @@
+//! Which tiles of the box have something to be drawn, so that the shaders go over these pixels only.
+
+use glam::{UVec2, Vec2};
+
+/// Edge of a tile, d.
+pub const TILE: f32 = 8.0;
+
+/// A tile as an instance: column and row, two u16.
+pub type TileInstance = u32;
+
+/// Marks of the tiles of a box.
+#[derive(Clone, Debug, Default)]
+pub struct Tiles {
+    dimensions: UVec2,
+    marked: Vec<bool>,
+}
+
+impl Tiles {
+    /// Takes all marks off.
+    pub fn clear(&mut self, size: Vec2) {
+        self.dimensions = (size / TILE).ceil().as_uvec2().max(UVec2::ONE);
+        self.marked.clear();
+        self.marked.resize((self.dimensions.x * self.dimensions.y) as usize, false);
+    }
+
+    /// Marks all that a disc reaches.
+    pub fn mark(&mut self, at: Vec2, radius: f32) {
+        let most = (self.dimensions - 1).as_vec2();
+        let low = ((at - radius) / TILE).floor().clamp(Vec2::ZERO, most).as_uvec2();
+        let high = ((at + radius) / TILE).floor().clamp(Vec2::ZERO, most).as_uvec2();
+        for y in low.y..=high.y {
+            for x in low.x..=high.x {
+                self.marked[(y * self.dimensions.x + x) as usize] = true;
+            }
+        }
+    }
+
+    /// The marked ones.
+    pub fn list(&self, out: &mut Vec<TileInstance>) {
+        out.clear();
+        let marked = self.marked.iter().enumerate().filter(|(_, marked)| **marked);
+        out.extend(marked.map(|(k, _)| {
+            let k = k as u32;
+            k % self.dimensions.x | (k / self.dimensions.x) << 16
+        }));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn marked(at: Vec2, radius: f32) -> Vec<TileInstance> {
+        let mut tiles = Tiles::default();
+        tiles.clear(Vec2::new(30.0, 20.0));
+        tiles.mark(at, radius);
+        let mut out = Vec::new();
+        tiles.list(&mut out);
+        out
+    }
+
+    #[test]
+    fn a_disc_marks_all_tiles_that_it_reaches_and_no_other() {
+        assert_eq!(marked(Vec2::splat(4.0), 1.0), [0]);
+        assert_eq!(marked(Vec2::new(8.5, 4.0), 1.0), [0, 1]);
+        assert_eq!(marked(Vec2::new(8.0, 8.0), 1.0), [0, 1, 1 << 16, 1 | 1 << 16]);
+        assert_eq!(marked(Vec2::new(-5.0, 40.0), 1.0), [2 << 16], "what is outside belongs to the edge");
+    }
+
+    #[test]
+    fn what_is_no_number_marks_a_tile_and_breaks_nothing() {
+        assert!(marked(Vec2::NAN, 1.0).len() <= 1);
+    }
+}
