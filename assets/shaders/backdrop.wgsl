@@ -6,13 +6,16 @@ fn backdrop_fragment(in: Screen) -> @location(0) vec4<f32> {
     let out_pixels = outside_box(point) / world.pen.w;
     let height = clamp(point.y / world.size.y, 0.0, 1.0);
     var inside = mix(world.box_bottom.rgb, world.box_top.rgb, height * height * (3.0 - 2.0 * height));
-    inside *= 1.0 - 0.22 * exp2(min(out_pixels, 0.0) / 26.0);
+    // Darker towards the frame.
+    let deep = 1.0 + max(-out_pixels, 0.0) / 18.0;
+    inside *= 1.0 - 0.22 / (deep * deep);
     // What glows lights the haze around it.
     let haze = light_at(point);
     inside += haze * (0.16 + 0.5 * inside);
     let air = textureSampleLevel(air_texture, linear_sampler, point / world.extent.zw, 0.0) * world.pen.z;
     inside = inside * (1.0 - air.a) + air.rgb;
-    let around = world.surroundings.rgb * (1.0 - 0.45 * exp2(-max(out_pixels - 2.0, 0.0) / 10.0));
+    let far = 1.0 + max(out_pixels - 2.0, 0.0) / 7.0;
+    let around = world.surroundings.rgb * (1.0 - 0.45 / (far * far));
     let border = smoothstep(-0.5, 0.5, out_pixels);
     let beyond = smoothstep(1.5, 2.5, out_pixels);
     let rgb = mix(mix(exposed_to(inside), world.frame.rgb, border), around, beyond);

@@ -34,14 +34,18 @@ fn gas_fragment(in: Gas) -> @location(0) vec4<f32> {
 fn cloud_fragment(in: Tile) -> @location(0) vec4<f32> {
     // Swirls: the field is looked up a little off, by noise that rises.
     let rise = vec2<f32>(0.0, world.parts.w * 9.0);
-    let swirl = noise_at(in.point - rise, 24.0);
-    let point = in.point + (swirl.rg - 0.5) * 3.4;
+    var point = in.point;
+    var wisps = vec4<f32>(0.5);
+    if world.levels.x > 0.0 {
+        let swirl = noise_at(in.point - rise, 24.0);
+        point += (swirl.rg - 0.5) * 3.4;
+        wisps = noise_at(in.point - 0.7 * rise, 13.0);
+    }
     let field = textureSampleLevel(gas_texture, linear_sampler, uv_of(point), 0.0);
     let peak = max(max(field.r, max(field.g, field.b)), field.a);
     // It thins out inside rock, which it is before of by no more than its softness.
     let texel = 1.0 / vec2<f32>(textureDimensions(rock_texture));
     let rock = textureSampleLevel(rock_texture, linear_sampler, in.point * texel, 0.0).a;
-    let wisps = noise_at(in.point - 0.7 * rise, 13.0);
     let thick = peak * (0.55 + 0.9 * wisps.r) * (1.0 - 0.85 * rock);
     if thick < 0.01 {
         discard;

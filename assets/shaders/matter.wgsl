@@ -105,6 +105,8 @@ fn surface_fragment(in: Tile) -> @location(0) vec4<f32> {
     // Gaps of less than a particle in the middle of matter are no holes.
     let bulk = smoothstep(0.80, 0.95, body.a);
     let alpha = max(found.all, bulk * smoothstep(0.10, 0.30, found.all));
+    // How much stronger it is a pixel to the left, and a pixel below.
+    let steep = vec2<f32>(-dpdx(found.all), dpdy(found.all)) * world.look.x * 0.84;
     let soft = clamp(fwidth(found.all) * 0.8, 0.02, 0.3);
     // The line between two kinds is as sharp as a pixel.
     let lead = found.first - found.second;
@@ -123,12 +125,15 @@ fn surface_fragment(in: Tile) -> @location(0) vec4<f32> {
     rgb = mix(rgb * (1.0 - 0.22 * (1.0 - liquid)), mix(deep, rgb * 0.55, 1.0 - liquid), shade);
 
     // The surface catches light from above and a little from the left; what is inside does not.
-    let step = 0.42 / world.size.zw * max(world.look.x, 1.0);
-    let left = union_at(uv - vec2<f32>(step.x, 0.0));
-    let right = union_at(uv + vec2<f32>(step.x, 0.0));
-    let above = union_at(uv - vec2<f32>(0.0, step.y));
-    let below = union_at(uv + vec2<f32>(0.0, step.y));
-    let slope = vec2<f32>(left - right, below - above);
+    var slope = steep;
+    if world.levels.x > 0.0 {
+        let step = 0.42 / world.size.zw * max(world.look.x, 1.0);
+        let left = union_at(uv - vec2<f32>(step.x, 0.0));
+        let right = union_at(uv + vec2<f32>(step.x, 0.0));
+        let above = union_at(uv - vec2<f32>(0.0, step.y));
+        let below = union_at(uv + vec2<f32>(0.0, step.y));
+        slope = vec2<f32>(left - right, below - above);
+    }
     let facing = dot(slope, vec2<f32>(-0.30, 0.95)) / max(length(slope), 0.12);
     let rim = (1.0 - smoothstep(SURFACE, 0.93, alpha)) * (1.0 - bulk) * liquid;
     let edge = 1.0 - smoothstep(SURFACE, 0.72, alpha);
@@ -142,7 +147,11 @@ fn surface_fragment(in: Tile) -> @location(0) vec4<f32> {
     let glow = glow_at(in.point);
     let own = max(glow.r, max(glow.g, glow.b));
     // Crust drifts on what glows.
-    let crust = 1.0 - 0.45 * own * smoothstep(0.45, 0.75, noise_at(in.point + vec2<f32>(0.0, world.parts.w * 0.4), 34.0).g);
+    var crust = 1.0;
+    if world.levels.y > 0.0 {
+        let drift = noise_at(in.point + vec2<f32>(0.0, world.parts.w * 0.4), 34.0).g;
+        crust -= 0.45 * own * smoothstep(0.45, 0.75, drift);
+    }
     rgb = (rgb * (1.0 + 1.1 * lit) + 0.10 * lit) * (1.0 - own) + glow * crust;
     return vec4<f32>(to_linear(exposed_to(rgb)), cover * world.look.y);
 }

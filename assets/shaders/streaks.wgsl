@@ -5,6 +5,8 @@ struct Streak {
     // Along the streak from its tail (0) to its head (1); across it, −1 … 1.
     @location(0) at: vec2<f32>,
     @location(1) colour: vec4<f32>,
+    // Pixels that it is outside the box.
+    @location(2) beyond: f32,
 }
 
 @vertex
@@ -22,6 +24,7 @@ fn streak_vertex(
     let base = mix(ends.xy, ends.zw + way * world.pen.y / world.look.x, c.x);
     var out: Streak;
     out.position = clip_of(base + across / world.look.x);
+    out.beyond = outside_box(base + across / world.look.x);
     out.at = vec2<f32>(c.x, c.y * 2.0 - 1.0);
     out.colour = colour;
     return out;
@@ -31,6 +34,7 @@ fn streak_vertex(
 fn streak_fragment(in: Streak) -> @location(0) vec4<f32> {
     let width = 0.25 + 0.75 * in.at.x;
     let edge = 1.0 - smoothstep(0.55, 1.0, abs(in.at.y) / width);
-    let alpha = in.colour.a * in.at.x * in.at.x * edge;
+    let inside = clamp(0.5 - in.beyond, 0.0, 1.0);
+    let alpha = inside * in.colour.a * in.at.x * in.at.x * edge;
     return vec4<f32>(to_linear(in.colour.rgb), alpha);
 }

@@ -2,7 +2,7 @@
 
 use crate::game::render::{
     extract::Pictures,
-    gpu::{GpuPicture, GpuPictures},
+    gpu::{GpuPicture, GpuPictures, Stone},
     picture::Picture,
     pipelines::{Ids, Pipelines},
 };
@@ -17,6 +17,7 @@ use bevy::{
         view::ViewTarget,
     },
 };
+use std::sync::atomic::Ordering;
 
 /// The buffer of instances, and their number.
 macro_rules! all {
@@ -42,6 +43,7 @@ pub fn draw(
     }
     for pane in &panes {
         pane.draw_fields(&mut context, &cache, ids);
+        pane.bake(&mut context, &cache, ids);
     }
     let mut pass = context.begin_tracked_render_pass(RenderPassDescriptor {
         label: Some("world"),
@@ -58,11 +60,13 @@ struct Pane<'a> {
     picture: &'a Picture,
     fields: [&'a TextureView; 3],
     groups: &'a [BindGroup; 2],
+    stone: &'a Stone,
 }
 
 impl<'a> Pane<'a> {
     fn new((picture, gpu): (&'a Picture, &'a GpuPicture)) -> Option<Self> {
-        gpu.parts().map(|(fields, groups)| Self { picture, fields, groups })
+        let ((fields, groups), stone) = (gpu.parts()?, gpu.stone()?);
+        Some(Self { picture, fields, groups, stone })
     }
 
     /// Draws the fields: those of what is there.
@@ -71,19 +75,23 @@ impl<'a> Pane<'a> {
         let first = if *as_it_is { (ids.body, all!(matter.bodies)) } else { (ids.coloured, all!(particles)) };
         let all = [first, (ids.more, all!(matter.more)), (ids.gas, all!(matter.gases))];
         for (view, (pipeline, what)) in self.fields.into_iter().zip(all) {
-            let mut pass = context.begin_tracked_render_pass(RenderPassDescriptor {
-                label: Some("field"),
-                color_attachments: &[Some(RenderPassColorAttachment {
-                    view,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: Operations { load: LoadOp::Clear(Default::default()), store: StoreOp::Store },
-                })],
-                ..RenderPassDescriptor::default()
-            });
+            let mut pass = into(context, "field", view);
             pass.set_bind_group(0, &self.groups[0], &[]);
             instances(&mut pass, cache, pipeline, what);
         }
+    }
+
+    /// Bakes the rock anew if it looks otherwise.
+    fn bake(&self, context: &mut RenderContext<'_, '_>, cache: &PipelineCache, ids: Ids) {
+        if self.stone.baked.load(Ordering::Relaxed) || cache.get_render_pipeline(ids.stone).is_none() {
+            return;
+        }
+        let mut pass = into(context, "stone", &self.stone.view);
+        for (k, group) in self.groups.iter().enumerate() {
+            pass.set_bind_group(k, group, &[]);
+        }
+        instances(&mut pass, cache, ids.stone, all!(self.picture.tiles.rock));
+        self.stone.baked.store(true, Ordering::Relaxed);
     }
 
     fn draw(&self, pass: &mut TrackedRenderPass<'a>, cache: &'a PipelineCache, ids: Ids) {
@@ -106,12 +114,29 @@ impl<'a> Pane<'a> {
         }
         instances(pass, cache, if picture.as_it_is { ids.surface } else { ids.shape }, all!(tiles.bodies));
         instances(pass, cache, ids.grain, all!(picture.matter.grains));
-        instances(pass, cache, ids.rock, all!(tiles.rock));
+        if let Some(group) = &self.stone.group {
+            pass.set_bind_group(2, group, &[]);
+            instances(pass, cache, ids.rock, all!(tiles.rock));
+        }
         instances(pass, cache, ids.cloud, all!(tiles.gases));
         if picture.streaks_on_top {
             instances(pass, cache, ids.streaks, streaks);
         }
     }
+}
+
+/// A pass into an empty texture.
+fn into<'a>(context: &'a mut RenderContext<'_, '_>, label: &'static str, view: &TextureView) -> TrackedRenderPass<'a> {
+    context.begin_tracked_render_pass(RenderPassDescriptor {
+        label: Some(label),
+        color_attachments: &[Some(RenderPassColorAttachment {
+            view,
+            depth_slice: None,
+            resolve_target: None,
+            ops: Operations { load: LoadOp::Clear(Default::default()), store: StoreOp::Store },
+        })],
+        ..RenderPassDescriptor::default()
+    })
 }
 
 /// Draws something over the whole screen.

@@ -20,7 +20,7 @@ use bevy::{
     },
 };
 use glam::UVec2;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Texels of the fields of bodies to one d: enough for a smooth surface; more would only cost.
 const BODY_TEXELS: f32 = 4.0;
@@ -45,10 +45,23 @@ pub struct GpuPicture {
     /// Air, depth, rock, bodies, glow and light.
     maps: [Map; 6],
     noise: Map,
+    /// What is baked of the rock.
+    stone: Option<Stone>,
     /// Bodies, more of them, gases: of this frame.
     fields: Option<[CachedTexture; 3]>,
     /// Group 0 (the uniform) and group 1 (sampler, maps, fields).
     groups: Option<[BindGroup; 2]>,
+}
+
+/// Rock as the window shows it, kept until it looks otherwise.
+pub struct Stone {
+    texture: Texture,
+    /// What is drawn into.
+    pub view: TextureView,
+    /// Group 2.
+    pub group: Option<BindGroup>,
+    /// Whether it is drawn.
+    pub baked: AtomicBool,
 }
 
 impl GpuPicture {
@@ -56,6 +69,27 @@ impl GpuPicture {
     pub fn parts(&self) -> Option<([&TextureView; 3], &[BindGroup; 2])> {
         let fields = self.fields.as_ref()?;
         Some((fields.each_ref().map(|field| &field.default_view), self.groups.as_ref()?))
+    }
+}
+
+impl GpuPicture {
+    /// What is baked of the rock.
+    pub fn stone(&self) -> Option<&Stone> {
+        self.stone.as_ref()
+    }
+
+    /// Makes room for the baked rock of a window.
+    fn make_stone(&mut self, window: UVec2, bake: bool, device: &RenderDevice) {
+        let fits = |stone: &Stone| (stone.texture.width(), stone.texture.height()) == (window.x, window.y);
+        if !self.stone.as_ref().is_some_and(fits) {
+            let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
+            let texture = device.create_texture(&descriptor("stone", window, FIELD_FORMAT, usage));
+            let view = texture.create_view(&TextureViewDescriptor::default());
+            self.stone = Some(Stone { texture, view, group: None, baked: AtomicBool::new(false) });
+        }
+        if let Some(stone) = self.stone.as_ref().filter(|_| bake) {
+            stone.baked.store(false, Ordering::Relaxed);
+        }
     }
 }
 
@@ -136,6 +170,7 @@ fn hand_over(
     gpu.uniform.set(picture.uniform);
     gpu.uniform.write_buffer(device, queue);
 
+    gpu.make_stone(picture.window, picture.bake, device);
     let size = |(columns, rows): (usize, usize)| UVec2::new(columns as u32, rows as u32);
     if gpu.noise.0.is_none() {
         let size = UVec2::splat(noise::EDGE as u32);
@@ -172,7 +207,8 @@ fn hand_over(
 
 /// Makes the bind groups of the frame.
 pub fn bind(mut gpu: ResMut<GpuPictures>, layouts: Res<Layouts>, cache: Res<PipelineCache>, device: Res<RenderDevice>) {
-    let [world, textures] = [&layouts.world, &layouts.textures].map(|layout| cache.get_bind_group_layout(layout));
+    let [world, textures, stone] =
+        [&layouts.world, &layouts.textures, &layouts.stone].map(|layout| cache.get_bind_group_layout(layout));
     for gpu in &mut gpu.0 {
         let (Some(uniform), Some(fields)) = (gpu.uniform.binding(), &gpu.fields) else { continue };
         let [Some(air), Some(depth), Some(rock), Some(body), Some(glow), Some(light)] =
@@ -196,6 +232,9 @@ pub fn bind(mut gpu: ResMut<GpuPictures>, layouts: Res<Layouts>, cache: Res<Pipe
             &layouts.repeating,
             noise,
         ));
+        if let Some(Stone { view, group, .. }) = &mut gpu.stone {
+            group.get_or_insert_with(|| device.create_bind_group("stone", &stone, &BindGroupEntries::single(&*view)));
+        }
         gpu.groups = Some([
             device.create_bind_group("world", &world, &BindGroupEntries::single(uniform)),
             device.create_bind_group("world textures", &textures, &entries),

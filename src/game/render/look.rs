@@ -10,6 +10,33 @@ const FOAMING: f32 = 0.01;
 /// Heavier ones neither, kg/m²: what falls into them bounces off.
 const FOAM_WEIGHT: f32 = 3000.0;
 
+/// From this conductivity on it shines like metal, W/mK.
+const METALLIC: f32 = 20.0;
+
+/// How the surface of fixed matter is made. The shader knows them by these numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Finish {
+    /// Grain and cracks.
+    Stone = 0,
+    /// Fibres: of what grew.
+    Fibres = 1,
+    /// Smooth, with a gleam along its edges.
+    Polished = 2,
+}
+
+impl Finish {
+    /// That of an element.
+    pub fn of(element: &Element) -> Self {
+        if element.conductivity >= METALLIC {
+            Self::Polished
+        } else if element.decays.is_some() {
+            Self::Fibres
+        } else {
+            Self::Stone
+        }
+    }
+}
+
 /// Look of an element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {

@@ -7,7 +7,7 @@ use crate::{
             air::{self, Streak},
             body::BodyMap,
             glow::{GlowMap, Warmth},
-            look::Looks,
+            look::{Finish, Looks},
             matter::{LIQUIDS, Matter, Sample},
             particles::{self, ColourTable, ParticleInstance},
             rock,
@@ -58,6 +58,7 @@ pub struct WorldUniform {
     look: Vec4,
     pen: Vec4,
     parts: Vec4,
+    levels: Vec4,
     surroundings: Vec4,
     box_top: Vec4,
     box_bottom: Vec4,
@@ -86,6 +87,8 @@ pub struct Picture {
     pub rock: (Vec<u8>, UVec2),
     /// Whether `rock` is new in this frame.
     pub rock_new: bool,
+    /// Whether what is baked of the rock is another: it is itself, or where the camera looks.
+    pub bake: bool,
     /// Streaks of wind.
     pub streaks: RawBufferVec<Streak>,
     /// Whether they lie over the liquid.
@@ -126,6 +129,7 @@ impl Default for Picture {
             tiles: PictureTiles::default(),
             rock: (Vec::new(), UVec2::ONE),
             rock_new: false,
+            bake: false,
             streaks: RawBufferVec::new(BufferUsages::VERTEX),
             streaks_on_top: false,
             air: (Vec::new(), UVec2::ONE),
@@ -364,15 +368,18 @@ impl Picture {
                 Quantity::Fire => burning.of_rock(cell, element).share(),
                 _ => temperature_share(scene.curves.curve(element).temperature(rock.heat(cell))),
             };
-            let colour = |cell, element, _, _| (view.colour)(elements.get(element), share(cell, element));
-            rock::pack(rock, &mut self.burial, colour, out);
+            let texel = |cell, element, _, _| ((view.colour)(elements.get(element), share(cell, element)), Finish::Polished);
+            rock::pack(rock, &mut self.burial, texel, out);
             (self.rock_new, self.rock_of) = (true, None);
         } else {
             let rock_of = Some((scene.generation, rock.version(), scene.setup.blueprint.scale.spacing));
             self.rock_new = self.rock_of != rock_of;
             if self.rock_new {
-                let colour = |cell, element, id, burial| rock_colour(elements.get(element), cell, id, burial);
-                rock::pack(rock, &mut self.burial, colour, out);
+                let texel = |cell, element, id, burial| {
+                    let element = elements.get(element);
+                    (rock_colour(element, cell, id, burial), Finish::of(element))
+                };
+                rock::pack(rock, &mut self.burial, texel, out);
                 self.rock_of = rock_of;
             }
         }
@@ -421,6 +428,7 @@ impl Picture {
     /// The shader's numbers, and the part of the window that is drawn into.
     fn look(&mut self, setup: &Setup, sight: Sight<'_>, view: &View, air_extent: Vec2, (area, confined): (Area, bool)) {
         let scale_factor = sight.window.resolution.scale_factor();
+        let seen = (self.window, self.uniform.to_clip);
         self.window = sight.window.resolution.physical_size();
         self.pixels_per_d = sight.camera.pixels_per_d() * scale_factor;
         let corner = |pixel: Vec2| (pixel * scale_factor).round().max(Vec2::ZERO).as_uvec2().min(self.window);
@@ -437,6 +445,7 @@ impl Picture {
             look: Vec4::new(self.pixels_per_d, dim, f32::from(view.shaded), colours::DEPTH_SHADE),
             pen: Vec4::new(DISC_RADIUS, 1.5 * lines, f32::from(!matches!(view.air, Layer::Nothing)), lines),
             parts: Vec4::new(GAS_RADIUS, TILE, self.matter.colours().len() as f32, sight.time),
+            levels: Vec4::new(1.0, f32::from(self.as_it_is && self.glow.shines()), 0.0, 0.0),
             surroundings: srgb(colours::SURROUNDINGS),
             box_top: srgb(colours::BOX_TOP),
             box_bottom: srgb(colours::BOX_BOTTOM),
@@ -444,6 +453,7 @@ impl Picture {
             abyss: srgb(colours::ABYSS),
             liquids: std::array::from_fn(|k| self.matter.colours().get(k).map_or(Vec4::ZERO, |colour| srgb(*colour))),
         };
+        self.bake = self.rock_new || seen != (self.window, self.uniform.to_clip);
     }
 }
 

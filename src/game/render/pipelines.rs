@@ -44,6 +44,8 @@ pub struct Layouts {
     pub world: BindGroupLayoutDescriptor,
     /// Group 1: sampler, maps (air, depth, rock, bodies, glow, light) and fields (bodies, more, gases); repeating sampler, noise.
     pub textures: BindGroupLayoutDescriptor,
+    /// Group 2: what is baked of the rock.
+    pub stone: BindGroupLayoutDescriptor,
     /// Samples between texels, up to the edge.
     pub sampler: Sampler,
     /// Samples between texels, over the edge again from the other side.
@@ -71,7 +73,9 @@ pub struct Ids {
     pub gas: CachedRenderPipelineId,
     /// What comes of them.
     pub cloud: CachedRenderPipelineId,
-    /// Rock.
+    /// Rock as the window shows it.
+    pub stone: CachedRenderPipelineId,
+    /// Rock in the light of the frame.
     pub rock: CachedRenderPipelineId,
     /// Streaks of wind.
     pub streaks: CachedRenderPipelineId,
@@ -125,6 +129,7 @@ pub fn make_layouts(mut commands: Commands, device: Res<RenderDevice>) {
                 ),
             ),
         ),
+        stone: BindGroupLayoutDescriptor::new("stone", &BindGroupLayoutEntries::single(ShaderStages::FRAGMENT, texture())),
         sampler: sampler_of(AddressMode::ClampToEdge),
         repeating: sampler_of(AddressMode::Repeat),
     });
@@ -146,12 +151,13 @@ pub fn prepare(
     let make = |vertex: &'static str, name: &'static str, instance: &[VertexFormat], format, blend| {
         // The passes that draw into the fields must not have these bound.
         let textures = (!INTO_FIELDS.contains(&name)).then(|| layouts.textures.clone());
+        let stone = (name == "rock").then(|| layouts.stone.clone());
         let topology =
             if instance.is_empty() { PrimitiveTopology::TriangleList } else { PrimitiveTopology::TriangleStrip };
         let buffer = VertexBufferLayout::from_vertex_formats(VertexStepMode::Instance, instance.iter().copied());
         cache.queue_render_pipeline(RenderPipelineDescriptor {
             label: Some(name.into()),
-            layout: [layouts.world.clone()].into_iter().chain(textures).collect(),
+            layout: [layouts.world.clone()].into_iter().chain(textures).chain(stone).collect(),
             vertex: VertexState {
                 shader: shader.0.clone(),
                 shader_defs: vec![],
@@ -181,6 +187,7 @@ pub fn prepare(
         grain: make("grain", "grain", &point, format, Some(alpha)),
         gas: make("gas", "gas", &point, FIELD_FORMAT, Some(premultiplied)),
         cloud: make("tile", "cloud", &tile, format, Some(premultiplied)),
+        stone: make("tile", "stone", &tile, FIELD_FORMAT, None),
         rock: make("tile", "rock", &tile, format, Some(alpha)),
         streaks: make("streak", "streak", &[F::Float32x4, F::Unorm8x4], format, Some(alpha)),
     };
