@@ -32,7 +32,7 @@ fn stone_fragment(in: Tile) -> @location(0) vec4<f32> {
     let made = u32(round((1.0 - textureLoad(rock_texture, cell, 0).a) * 255.0));
     var rgb = here.rgb / max(here.a, 0.004);
     // Cracks and grain stand out on what is dark.
-    let strong = 1.25 - dot(rgb, vec3<f32>(0.3, 0.6, 0.1));
+    let strong = max(1.65 - 1.75 * dot(rgb, vec3<f32>(0.3, 0.6, 0.1)), 0.08);
     let noise = noise_at(in.point, 40.0);
     let grain = noise_at(in.point + vec2<f32>(7.3, 1.9), 11.0);
     var relief = 0.22 * (noise.r - 0.5) + 0.30 * (grain.b - 0.5)

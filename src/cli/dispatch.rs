@@ -38,6 +38,7 @@ fn dispatch(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Replay(replay)) => replay::replay(&replay),
         Some(Command::Bench(BenchArguments { what, json })) => match what {
             Bench::Effects { quick } => bench::effects(quick, json.as_deref()),
+            Bench::Frame { quick } => bench::frame(quick, json.as_deref()),
             Bench::Neighbours { threads } => bench::neighbours(threads, json.as_deref()),
             Bench::Scaling(options) => bench::scaling(&options, json.as_deref()),
         },

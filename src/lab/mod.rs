@@ -46,4 +46,6 @@ pub mod sweep;
 pub mod tables;
 #[cfg(test)]
 mod testing;
+#[cfg(test)]
+pub(crate) mod vision;
 pub mod volume;

@@ -37,6 +37,12 @@ pub(in crate::cli) enum Bench {
         #[arg(long)]
         quick: bool,
     },
+    /// What a frame's picture costs, level by level and pass by pass, drawn into an image by whatever graphics there are
+    Frame {
+        /// Fewer frames
+        #[arg(long)]
+        quick: bool,
+    },
     /// How many particles a tick may hold at a tick rate: brute force, bins on one thread, bins on all
     Neighbours {
         /// Threads of the last column [default: all]

@@ -1,9 +1,11 @@
 //! `bench`: tables of what things cost.
 
 mod effects;
+mod frame;
 mod neighbours;
 mod scaling;
 
 pub(super) use effects::effects;
+pub(super) use frame::frame;
 pub(super) use neighbours::neighbours;
 pub(super) use scaling::scaling;

@@ -110,6 +110,10 @@ fn legend(ui: &mut Ui, view: &View) {
     }
     for (share, text) in view.legend {
         painter.vline(at(*share), bar.min.y..=bar.max.y + 3.0, egui::Stroke::new(1.0, TEXT));
-        painter.text(pos2(at(*share), rect.max.y), Align2::CENTER_BOTTOM, text, font.clone(), TEXT);
+        // Below its mark, and never beyond the card.
+        let text = painter.layout_no_wrap((*text).to_owned(), font.clone(), TEXT);
+        let room = rect.max.x - text.size().x;
+        let left = (at(*share) - 0.5 * text.size().x).clamp(rect.min.x, room.max(rect.min.x));
+        painter.galley(pos2(left, rect.max.y - text.size().y), text, TEXT);
     }
 }

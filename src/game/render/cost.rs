@@ -1,16 +1,83 @@
-//! What the picture costs.
+//! What the picture costs: the ledger of its passes.
 
 use bevy::prelude::Resource;
-use std::sync::{
-    Arc,
-    atomic::{AtomicU32, Ordering},
+use std::{
+    array,
+    sync::{
+        Arc,
+        atomic::{AtomicU32, Ordering},
+    },
+    time::Duration,
 };
 
-/// Processor time that the last frame's picture cost, µs: written by the render world, shown in the details.
+/// A pass of the picture, in the order in which they are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PicturePass {
+    /// Bodies of liquids and powders, or the coloured particles of a view, into their fields.
+    Bodies,
+    /// Gases into their field.
+    Gases,
+    /// Rock, baked as the window shows it.
+    Bake,
+    /// Streaks of wind.
+    Streaks,
+    /// Surfaces of bodies, tile by tile.
+    Surface,
+    /// Grains.
+    Grains,
+    /// Rock in the light of the frame, tile by tile.
+    Rock,
+    /// Clouds and flames, tile by tile.
+    Clouds,
+}
+
+impl PicturePass {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::Bodies,
+        Self::Gases,
+        Self::Bake,
+        Self::Streaks,
+        Self::Surface,
+        Self::Grains,
+        Self::Rock,
+        Self::Clouds,
+    ];
+
+    /// Name on the screen.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Bodies => "bodies",
+            Self::Gases => "gases",
+            Self::Bake => "bake",
+            Self::Streaks => "streaks",
+            Self::Surface => "surface",
+            Self::Grains => "grains",
+            Self::Rock => "rock",
+            Self::Clouds => "clouds",
+        }
+    }
+}
+
+/// A pass that is drawn more than once in each frame, so that what it costs can be told; none in play.
+#[derive(Resource, Clone, Copy, Debug, Default)]
+pub struct Repeat(pub Option<(PicturePass, u32)>);
+
+impl Repeat {
+    /// How often a pass is drawn.
+    pub(super) fn times(self, pass: PicturePass) -> u32 {
+        self.0.filter(|(of, _)| *of == pass).map_or(1, |(_, times)| times)
+    }
+}
+
+/// Processor time that the last frame's picture cost, µs, and how much each pass drew: written by the render world, shown in the
+/// details.
 #[derive(Resource, Clone, Default)]
 pub struct RenderCost {
     pub(super) extract: Arc<AtomicU32>,
     pub(super) upload: Arc<AtomicU32>,
+    /// Instances that each pass drew; 0 if it was not called.
+    drawn: Arc<[AtomicU32; PicturePass::ALL.len()]>,
 }
 
 impl RenderCost {
@@ -18,5 +85,22 @@ impl RenderCost {
     pub fn milliseconds(&self) -> (f32, f32) {
         let ms = |micros: &AtomicU32| micros.load(Ordering::Relaxed) as f32 / 1000.0;
         (ms(&self.extract), ms(&self.upload))
+    }
+
+    /// What each pass drew in the last frame.
+    pub fn drawn(&self) -> [u32; PicturePass::ALL.len()] {
+        array::from_fn(|k| self.drawn[k].load(Ordering::Relaxed))
+    }
+
+    pub(super) fn begin(&self) {
+        self.drawn.iter().for_each(|count| count.store(0, Ordering::Relaxed));
+    }
+
+    pub(super) fn note(&self, pass: PicturePass, instances: usize) {
+        self.drawn[pass as usize].fetch_add(instances as u32, Ordering::Relaxed);
+    }
+
+    pub(super) fn note_time(time: &AtomicU32, taken: Duration) {
+        time.store(taken.as_micros() as u32, Ordering::Relaxed);
     }
 }

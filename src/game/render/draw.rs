@@ -1,6 +1,7 @@
 //! Draws the picture: the fields of matter first, then everything in the window from back to front.
 
 use crate::game::render::{
+    cost::{PicturePass, RenderCost, Repeat},
     extract::Pictures,
     gpu::{GpuPicture, GpuPictures, Stone},
     picture::Picture,
@@ -33,6 +34,8 @@ pub fn draw(
     gpu: Res<GpuPictures>,
     pipelines: Res<Pipelines>,
     cache: Res<PipelineCache>,
+    cost: Res<RenderCost>,
+    repeat: Res<Repeat>,
     mut context: RenderContext,
 ) {
     let target = view.into_inner();
@@ -41,9 +44,11 @@ pub fn draw(
     if panes.is_empty() {
         return;
     }
+    cost.begin();
+    let with = With { cache: &cache, ids, cost: &cost, repeat: *repeat };
     for pane in &panes {
-        pane.draw_fields(&mut context, &cache, ids);
-        pane.bake(&mut context, &cache, ids);
+        pane.draw_fields(&mut context, with);
+        pane.bake(&mut context, with);
     }
     let mut pass = context.begin_tracked_render_pass(RenderPassDescriptor {
         label: Some("world"),
@@ -51,7 +56,7 @@ pub fn draw(
         ..RenderPassDescriptor::default()
     });
     for pane in &panes {
-        pane.draw(&mut pass, &cache, ids);
+        pane.draw(&mut pass, with);
     }
 }
 
@@ -69,33 +74,40 @@ impl<'a> Pane<'a> {
         Some(Self { picture, fields, groups, stone })
     }
 
-    /// Draws the fields: those of what is there.
-    fn draw_fields(&self, context: &mut RenderContext<'_, '_>, cache: &PipelineCache, ids: Ids) {
+    /// Draws the fields of what is there.
+    fn draw_fields(&self, context: &mut RenderContext<'_, '_>, with: With<'_>) {
         let Picture { particles, matter, as_it_is, .. } = self.picture;
+        let ids = with.ids;
         let first = if *as_it_is { (ids.body, all!(matter.bodies)) } else { (ids.coloured, all!(particles)) };
-        let all = [first, (ids.more, all!(matter.more)), (ids.gas, all!(matter.gases))];
-        for (view, (pipeline, what)) in self.fields.into_iter().zip(all) {
-            let mut pass = into(context, "field", view);
-            pass.set_bind_group(0, &self.groups[0], &[]);
-            instances(&mut pass, cache, pipeline, what);
+        let all = [
+            (PicturePass::Bodies, first),
+            (PicturePass::Bodies, (ids.more, all!(matter.more))),
+            (PicturePass::Gases, (ids.gas, all!(matter.gases))),
+        ];
+        for (view, (of, (pipeline, what))) in self.fields.into_iter().zip(all) {
+            if what.1 > 0 {
+                let mut pass = into(context, "field", view);
+                pass.set_bind_group(0, &self.groups[0], &[]);
+                with.instances(&mut pass, of, pipeline, what);
+            }
         }
     }
 
     /// Bakes the rock anew if it looks otherwise.
-    fn bake(&self, context: &mut RenderContext<'_, '_>, cache: &PipelineCache, ids: Ids) {
-        if self.stone.baked.load(Ordering::Relaxed) || cache.get_render_pipeline(ids.stone).is_none() {
+    fn bake(&self, context: &mut RenderContext<'_, '_>, with: With<'_>) {
+        if self.stone.baked.load(Ordering::Relaxed) || with.cache.get_render_pipeline(with.ids.stone).is_none() {
             return;
         }
         let mut pass = into(context, "stone", &self.stone.view);
         for (k, group) in self.groups.iter().enumerate() {
             pass.set_bind_group(k, group, &[]);
         }
-        instances(&mut pass, cache, ids.stone, all!(self.picture.tiles.rock));
+        with.instances(&mut pass, PicturePass::Bake, with.ids.stone, all!(self.picture.tiles.rock));
         self.stone.baked.store(true, Ordering::Relaxed);
     }
 
-    fn draw(&self, pass: &mut TrackedRenderPass<'a>, cache: &'a PipelineCache, ids: Ids) {
-        let picture = self.picture;
+    fn draw(&self, pass: &mut TrackedRenderPass<'a>, with: With<'a>) {
+        let (picture, ids) = (self.picture, with.ids);
         if let Some(part) = picture.part {
             let size = part.size();
             if size.min_element() == 0 {
@@ -106,21 +118,22 @@ impl<'a> Pane<'a> {
         for (k, group) in self.groups.iter().enumerate() {
             pass.set_bind_group(k, group, &[]);
         }
-        screen(pass, cache, ids.backdrop);
+        with.screen(pass, ids.backdrop);
         let tiles = &picture.tiles;
         let streaks = all!(picture.streaks);
         if !picture.streaks_on_top {
-            instances(pass, cache, ids.streaks, streaks);
+            with.instances(pass, PicturePass::Streaks, ids.streaks, streaks);
         }
-        instances(pass, cache, if picture.as_it_is { ids.surface } else { ids.shape }, all!(tiles.bodies));
-        instances(pass, cache, ids.grain, all!(picture.matter.grains));
+        let surface = if picture.as_it_is { ids.surface } else { ids.shape };
+        with.instances(pass, PicturePass::Surface, surface, all!(tiles.bodies));
+        with.instances(pass, PicturePass::Grains, ids.grain, all!(picture.matter.grains));
         if let Some(group) = &self.stone.group {
             pass.set_bind_group(2, group, &[]);
-            instances(pass, cache, ids.rock, all!(tiles.rock));
+            with.instances(pass, PicturePass::Rock, ids.rock, all!(tiles.rock));
         }
-        instances(pass, cache, ids.cloud, all!(tiles.gases));
+        with.instances(pass, PicturePass::Clouds, ids.cloud, all!(tiles.gases));
         if picture.streaks_on_top {
-            instances(pass, cache, ids.streaks, streaks);
+            with.instances(pass, PicturePass::Streaks, ids.streaks, streaks);
         }
     }
 }
@@ -139,24 +152,37 @@ fn into<'a>(context: &'a mut RenderContext<'_, '_>, label: &'static str, view: &
     })
 }
 
-/// Draws something over the whole screen.
-fn screen<'a>(pass: &mut TrackedRenderPass<'a>, cache: &'a PipelineCache, id: CachedRenderPipelineId) {
-    if let Some(pipeline) = cache.get_render_pipeline(id) {
-        pass.set_render_pipeline(pipeline);
-        pass.draw(0..3, 0..1);
-    }
+/// What it takes to draw, and the ledger of what was drawn.
+#[derive(Clone, Copy)]
+struct With<'a> {
+    cache: &'a PipelineCache,
+    ids: Ids,
+    cost: &'a RenderCost,
+    repeat: Repeat,
 }
 
-/// Draws one quad for each of `count` instances.
-fn instances<'a>(
-    pass: &mut TrackedRenderPass<'a>,
-    cache: &'a PipelineCache,
-    id: CachedRenderPipelineId,
-    (buffer, count): (Option<&'a Buffer>, usize),
-) {
-    if let (Some(pipeline), Some(buffer), true) = (cache.get_render_pipeline(id), buffer, count > 0) {
-        pass.set_render_pipeline(pipeline);
-        pass.set_vertex_buffer(0, buffer.slice(..));
-        pass.draw(0..4, 0..count as u32);
+impl<'a> With<'a> {
+    /// Draws something over the whole screen.
+    fn screen(self, pass: &mut TrackedRenderPass<'a>, id: CachedRenderPipelineId) {
+        if let Some(pipeline) = self.cache.get_render_pipeline(id) {
+            pass.set_render_pipeline(pipeline);
+            pass.draw(0..3, 0..1);
+        }
+    }
+
+    /// Draws one quad for each of `count` instances, if there are any.
+    fn instances(
+        self,
+        pass: &mut TrackedRenderPass<'a>,
+        of: PicturePass,
+        id: CachedRenderPipelineId,
+        (buffer, count): (Option<&'a Buffer>, usize),
+    ) {
+        if let (Some(pipeline), Some(buffer), true) = (self.cache.get_render_pipeline(id), buffer, count > 0) {
+            pass.set_render_pipeline(pipeline);
+            pass.set_vertex_buffer(0, buffer.slice(..));
+            (0..self.repeat.times(of)).for_each(|_| pass.draw(0..4, 0..count as u32));
+            self.cost.note(of, count);
+        }
     }
 }

@@ -5,6 +5,7 @@ use crate::{
         camera::{Area, WorldCamera},
         render::{
             cost::RenderCost,
+            level::PictureLevel,
             picture::{Picture, Scene, Sight},
         },
         views::table::Shown,
@@ -19,7 +20,6 @@ use bevy::{
     render::MainWorld,
     window::{PrimaryWindow, Window},
 };
-use std::sync::atomic::Ordering;
 
 /// One frame's pictures, on the processor's side: the world's, and in an A/B split the second world's and the
 /// difference's.
@@ -57,7 +57,7 @@ pub fn extract(main: Res<MainWorld>, mut pictures: ResMut<Pictures>, cost: Res<R
     let back = if main.resource::<Pace>().paused { 0.0 } else { TICK_SECONDS * (1.0 - late) };
     let time = main.resource::<Time<Fixed>>().elapsed_secs_wrapped() - back;
     let camera = main.resource::<WorldCamera>();
-    let sight = Sight { window, camera, view: main.resource::<Shown>().0, back, time };
+    let sight = Sight { window, camera, view: main.resource::<Shown>().0, back, time, level: main.resource::<PictureLevel>().now() };
     let Pictures { panes: [a, b, c], count, difference } = &mut *pictures;
     let areas: Vec<Area> = camera.panes().collect();
     match (main.resource::<Split>().world().and_then(Scene::of), areas.as_slice()) {
@@ -77,5 +77,5 @@ pub fn extract(main: Res<MainWorld>, mut pictures: ResMut<Pictures>, cost: Res<R
             *count = 1;
         }
     }
-    cost.extract.store(begin.elapsed().as_micros() as u32, Ordering::Relaxed);
+    RenderCost::note_time(&cost.extract, begin.elapsed());
 }

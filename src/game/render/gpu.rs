@@ -22,11 +22,6 @@ use bevy::{
 use glam::UVec2;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Texels of the fields of bodies to one d: enough for a smooth surface; more would only cost.
-const BODY_TEXELS: f32 = 4.0;
-/// Texels of the field of gases to one d.
-const GAS_TEXELS: f32 = 1.0;
-
 /// The pictures of a frame, in the order of [`Pictures::shown`].
 #[derive(Resource, Default)]
 pub struct GpuPictures([GpuPicture; 3]);
@@ -149,7 +144,7 @@ pub fn upload(
     for (picture, gpu) in pictures.shown_mut().iter_mut().zip(&mut gpu.0) {
         hand_over(picture, gpu, &mut textures, &device, &queue);
     }
-    cost.upload.store(begin.elapsed().as_micros() as u32, Ordering::Relaxed);
+    RenderCost::note_time(&cost.upload, begin.elapsed());
 }
 
 fn hand_over(
@@ -192,6 +187,7 @@ fn hand_over(
         map.fill(texels, size(dimensions), colours, device, queue);
     }
 
+    let (body_texels, gas_texels) = picture.level.texels();
     let mut field = |label, texels_per_d: f32, empty: bool| {
         let share = (texels_per_d / picture.pixels_per_d).min(1.0);
         let size = if empty { UVec2::ONE } else { (picture.window.as_vec2() * share).ceil().as_uvec2().max(UVec2::ONE) };
@@ -199,9 +195,9 @@ fn hand_over(
         textures.get(device, descriptor(label, size, FIELD_FORMAT, usage))
     };
     gpu.fields = Some([
-        field("bodies", BODY_TEXELS, picture.tiles.bodies.is_empty()),
-        field("more bodies", BODY_TEXELS, picture.matter.more.is_empty()),
-        field("gases", GAS_TEXELS, picture.matter.gases.is_empty()),
+        field("bodies", body_texels, picture.tiles.bodies.is_empty()),
+        field("more bodies", body_texels, picture.matter.more.is_empty()),
+        field("gases", gas_texels, picture.matter.gases.is_empty()),
     ]);
 }
 

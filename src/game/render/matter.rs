@@ -12,7 +12,10 @@ use crate::{
     kernel::{element::ElementId, particles::Particles, solids::Solids},
     lab::colours::Rgb,
 };
-use bevy::render::render_resource::{BufferUsages, RawBufferVec};
+use bevy::{
+    math::ops,
+    render::render_resource::{BufferUsages, RawBufferVec},
+};
 use glam::Vec2;
 
 /// Liquids that have a channel of their own.
@@ -165,7 +168,7 @@ impl Matter {
         let (mut long, mut angle) = (0.0, 0.0);
         if world.body.is_sparse(at) {
             long = (velocity.length() / STRETCH).min(1.0);
-            angle = (velocity.y.atan2(velocity.x) / std::f32::consts::PI).rem_euclid(1.0);
+            angle = (ops::atan2(velocity.y, velocity.x) / std::f32::consts::PI).rem_euclid(1.0);
         }
         [channel, (255.0 * foam) as u8, (255.0 * long) as u8, (255.0 * angle) as u8]
     }

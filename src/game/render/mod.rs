@@ -7,7 +7,8 @@
 //! ```
 //! `extract` copies what a frame needs out of the world into a `picture`: `matter` (or in the views that show a number
 //! `particles`), `rock` and `air` in the layout that the graphics read, `body` and `glow` as maps that the shaders look at,
-//! `tiles` where there is anything at all; `look` says which element is drawn how, `noise` is a texture that never changes. `gpu` uploads it; `draw` draws it before the
+//! `tiles` where there is anything at all; `level` says how much of it the graphics can do in time; `look` says which element is drawn how, `noise` is a texture that never changes. `offscreen` draws without a window, for
+//! `bench frame` and tests. `gpu` uploads it; `draw` draws it before the
 //! HUD. `tracers` make wind visible. Everything here runs on WebGL2: no storage buffers, no compute, targets of eight bits.
 
 pub mod air;
@@ -15,11 +16,16 @@ pub mod body;
 pub mod cost;
 pub mod draw;
 pub mod extract;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod frame_cost;
 pub mod glow;
 pub mod gpu;
+pub mod level;
 pub mod look;
 pub mod matter;
 pub mod noise;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod offscreen;
 pub mod particles;
 pub mod picture;
 pub mod pipelines;
@@ -55,13 +61,17 @@ impl Plugin for WorldRenderPlugin {
         let cost = cost::RenderCost::default();
         let shader = Shader::from_wgsl(SHADER, "shaders/world.wgsl");
         let shader = app.world_mut().resource_mut::<Assets<Shader>>().add(shader);
-        app.insert_resource(cost.clone()).init_resource::<tracers::Tracers>().add_systems(PostUpdate, tracers::drift);
+        app.insert_resource(cost.clone())
+            .init_resource::<level::PictureLevel>()
+            .init_resource::<tracers::Tracers>()
+            .add_systems(PostUpdate, (tracers::drift, level::follow_frames));
         let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
         render_app
             .insert_resource(cost)
             .insert_resource(pipelines::WorldShader(shader))
             .init_resource::<extract::Pictures>()
             .init_resource::<gpu::GpuPictures>()
+            .init_resource::<cost::Repeat>()
             .init_resource::<pipelines::Pipelines>()
             .add_systems(RenderStartup, pipelines::make_layouts)
             .add_systems(ExtractSchedule, extract::extract)

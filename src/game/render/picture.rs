@@ -7,6 +7,7 @@ use crate::{
             air::{self, Streak},
             body::BodyMap,
             glow::{GlowMap, Warmth},
+            level::Level,
             look::{Finish, Looks},
             matter::{LIQUIDS, Matter, Sample},
             particles::{self, ColourTable, ParticleInstance},
@@ -73,6 +74,8 @@ pub struct Picture {
     pub window: UVec2,
     /// Physical pixels of one d.
     pub pixels_per_d: f32,
+    /// How much of it is drawn.
+    pub level: Level,
     /// The part of the window that it is confined to, physical pixels; the whole if there is none.
     pub part: Option<URect>,
     /// The shader's numbers.
@@ -122,6 +125,7 @@ impl Default for Picture {
         Self {
             window: UVec2::ONE,
             pixels_per_d: 1.0,
+            level: Level::Full,
             part: None,
             uniform: WorldUniform::default(),
             particles: RawBufferVec::new(BufferUsages::VERTEX),
@@ -189,6 +193,8 @@ pub(super) struct Sight<'a> {
     pub(super) back: f32,
     /// Time since the game began, s, as long as the world moves; from 0 again every hour.
     pub(super) time: f32,
+    /// How much of the picture is drawn.
+    pub(super) level: Level,
 }
 
 /// A world, and what is drawn into it.
@@ -428,6 +434,7 @@ impl Picture {
     /// The shader's numbers, and the part of the window that is drawn into.
     fn look(&mut self, setup: &Setup, sight: Sight<'_>, view: &View, air_extent: Vec2, (area, confined): (Area, bool)) {
         let scale_factor = sight.window.resolution.scale_factor();
+        self.level = sight.level;
         let seen = (self.window, self.uniform.to_clip);
         self.window = sight.window.resolution.physical_size();
         self.pixels_per_d = sight.camera.pixels_per_d() * scale_factor;
@@ -445,7 +452,7 @@ impl Picture {
             look: Vec4::new(self.pixels_per_d, dim, f32::from(view.shaded), colours::DEPTH_SHADE),
             pen: Vec4::new(DISC_RADIUS, 1.5 * lines, f32::from(!matches!(view.air, Layer::Nothing)), lines),
             parts: Vec4::new(GAS_RADIUS, TILE, self.matter.colours().len() as f32, sight.time),
-            levels: Vec4::new(1.0, f32::from(self.as_it_is && self.glow.shines()), 0.0, 0.0),
+            levels: Vec4::new(f32::from(self.level.is_rich()), f32::from(self.as_it_is && self.glow.shines()), 0.0, 0.0),
             surroundings: srgb(colours::SURROUNDINGS),
             box_top: srgb(colours::BOX_TOP),
             box_bottom: srgb(colours::BOX_BOTTOM),

@@ -23,7 +23,7 @@ const ACTS: f32 = 0.999;
 const GLOW: f32 = 40.0;
 
 /// Colours of a share of a limit, from none to all.
-const STOPS: [Rgb; 6] = [[58, 72, 98], [64, 98, 138], [72, 138, 160], [196, 186, 104], [246, 150, 62], [255, 52, 92]];
+const STOPS: [Rgb; 6] = [[40, 48, 66], [46, 66, 96], [54, 92, 118], [120, 110, 70], [190, 110, 50], [255, 60, 92]];
 
 /// What the limiters of a world work on.
 #[derive(Clone, Copy, Debug)]

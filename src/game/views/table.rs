@@ -29,6 +29,7 @@ static SPEED: View = View {
     key: KeyCode::Digit2,
     quantity: Quantity::Of(speeds),
     colour: |_, speed| ramp(&SPEED_STOPS, speed * 1.25),
+    legend: &[(0.0, "at rest"), (0.8, "a fall through the box")],
     ..PLAIN
 };
 
@@ -37,6 +38,7 @@ static DENSITY: View = View {
     key: KeyCode::Digit3,
     quantity: Quantity::Density,
     colour: |_, share| ramp(&DENSITY_STOPS, share),
+    legend: &[(0.0, "−50 %"), (0.5, "0"), (1.0, "+10 %")],
     ..PLAIN
 };
 
@@ -58,6 +60,7 @@ pub static STABILITY: View = View {
     key: KeyCode::Digit6,
     quantity: Quantity::Strain,
     colour: |_, share| strain_colour(share),
+    legend: &[(0.0, "far from a limit"), (1.0, "at a limit")],
     air: Layer::Strain,
     ..PLAIN
 };
@@ -186,18 +189,18 @@ impl Default for Shown {
 }
 
 const SPEED_STOPS: [Rgb; 6] =
-    [[38, 46, 110], [36, 98, 178], [40, 172, 184], [134, 212, 122], [250, 216, 92], [246, 112, 58]];
+    [[38, 46, 110], [36, 98, 178], [40, 172, 184], [134, 212, 122], [250, 216, 92], [255, 246, 208]];
 const DENSITY_STOPS: [Rgb; 5] = [[46, 86, 190], [96, 148, 206], [206, 212, 218], [236, 140, 84], [206, 40, 48]];
-/// Deep blue to pale at the freezing point, green to yellow at the boiling point, then red and white as hot iron.
+/// Lighter all the way: blue up to the freezing point, teal and green to the boiling point, then orange, and white as hot iron.
 const TEMPERATURE_STOPS: [Rgb; 9] = [
     [38, 32, 110],
-    [58, 96, 214],
-    [176, 220, 250],
-    [52, 168, 130],
-    [236, 214, 88],
-    [232, 124, 40],
-    [206, 46, 38],
-    [255, 132, 92],
+    [44, 66, 170],
+    [52, 110, 214],
+    [30, 140, 150],
+    [70, 165, 110],
+    [176, 160, 60],
+    [235, 140, 60],
+    [255, 176, 120],
     [255, 246, 232],
 ];
 const LOW_PRESSURE: Rgb = [86, 92, 232];
@@ -234,6 +237,7 @@ fn pressure_colour(_: Reference, pressure: f32, _: Vec2) -> (Rgb, f32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::vision::{KINDS, oklab};
 
     fn water() -> Element {
         Element::plain("water", false)
@@ -264,6 +268,23 @@ mod tests {
         }
         let scale: Vec<f32> = (0..50).map(|k| temperature_share(80.0 * k as f32)).collect();
         assert!(scale.is_sorted() && scale[0] == 0.0 && scale[49] == 1.0, "{scale:?}");
+    }
+
+    #[test]
+    fn scales_of_numbers_get_lighter_all_the_way_or_from_both_ends_to_the_middle() {
+        let lightness = |view: &View, share: f32| oklab((view.colour)(&water(), share), &KINDS[0].1)[0];
+        let falls = |view: &View, from: f32, to: f32| {
+            let scale: Vec<f32> = (0..=64).map(|k| lightness(view, from + (to - from) * k as f32 / 64.0)).collect();
+            scale.windows(2).map(|pair| pair[0] - pair[1]).fold(0.0, f32::max)
+        };
+        // Less than a step of eight bits is rounding.
+        for (view, end) in [(&SPEED, 0.8), (&TEMPERATURE, 1.0), (&STABILITY, 1.0)] {
+            assert!(falls(view, 0.0, end) < 0.004, "{view:?} gets darker");
+        }
+        assert!(falls(&DENSITY, 0.0, 0.5) < 0.004 && falls(&DENSITY, 1.0, 0.5) < 0.004);
+        for view in [&SPEED, &DENSITY, &STABILITY, &TEMPERATURE, &BURNING] {
+            assert!(view.legend.len() > 1, "{view:?} does not say what its colours mean");
+        }
     }
 
     #[test]

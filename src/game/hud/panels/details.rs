@@ -15,7 +15,7 @@ use crate::{
         input::bindings::{Group, NONE},
         orders::{Order, Orders},
         panels::Panel,
-        render::cost::RenderCost,
+        render::cost::{PicturePass, RenderCost},
         views::table::STABILITY,
     },
     scene::{
@@ -112,6 +112,10 @@ fn frame(ui: &mut Ui, render: &RenderCost, hud: &HudCost) {
         "a frame: picture {extract:.2} + {upload:.2} ms, HUD {:.2} ms of processor time",
         hud.milliseconds()
     )));
+    // Passes that draw nothing are not called.
+    let drawn = PicturePass::ALL.into_iter().zip(render.drawn()).filter(|(_, count)| *count > 0);
+    let drawn: Vec<String> = drawn.map(|(pass, count)| format!("{} {}", pass.name(), grouped(u64::from(count)))).collect();
+    ui.label(weak(format!("the picture draws: {}", drawn.join(", "))).small());
 }
 
 /// Columns of the stages, and what they mean.

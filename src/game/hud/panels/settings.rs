@@ -10,6 +10,7 @@ use crate::game::{
     icons,
     input::bindings::{Group, NONE},
     panels::Panel,
+    render::level::{Level, PictureLevel},
 };
 use bevy::prelude::{KeyCode, ResMut, Result};
 
@@ -30,7 +31,7 @@ pub const PANEL: Panel = Panel {
 };
 
 /// Shows the settings.
-pub fn show(mut window: PanelWindow, mut scale: ResMut<UiScale>) -> Result {
+pub fn show(mut window: PanelWindow, mut scale: ResMut<UiScale>, mut level: ResMut<PictureLevel>) -> Result {
     window.show(&PANEL, MIDDLE, |ui| {
         ui.label(weak("Size of the HUD"));
         ui.horizontal(|ui| {
@@ -39,5 +40,17 @@ pub fn show(mut window: PanelWindow, mut scale: ResMut<UiScale>) -> Result {
             }
         });
         ui.label(weak("100 % follows the size of the window.").small());
+        ui.label(weak("Picture"));
+        ui.horizontal(|ui| {
+            let wanted = level.wanted();
+            let automatic = format!("automatic ({})", level.now().name());
+            let choices = Level::ALL.map(|level| (Some(level), level.name().to_owned()));
+            for (choice, name) in [(None, automatic)].into_iter().chain(choices) {
+                if ui.selectable_label(wanted == choice, name).clicked() {
+                    level.want(choice);
+                }
+            }
+        });
+        ui.label(weak("Automatic draws less where frames take longer than 20 ms. The simulation is the same.").small());
     })
 }
