@@ -24,7 +24,7 @@ struct World {
     box_bottom: vec4<f32>,
     frame: vec4<f32>,
     abyss: vec4<f32>,
-    // Colours of the liquids in their channels.
+    // Colours of the liquids in their channels, and 1 of those that glow.
     liquids: array<vec4<f32>, 6>,
 }
 

@@ -1,6 +1,7 @@
 // ---- gases: soft clouds, and flames that give light
 //
-// `gas` adds wide soft discs into a field of few texels; `cloud` lays it over the world.
+// `gas` sums wide soft discs up in a field of few texels: what comes of it is the same in whatever order, as each is rounded by
+// itself. `cloud` takes the sum as an optical depth and lays it over the world.
 
 struct Gas {
     @builtin(position) position: vec4<f32>,
@@ -26,7 +27,7 @@ fn gas_vertex(
 @fragment
 fn gas_fragment(in: Gas) -> @location(0) vec4<f32> {
     let fall = max(1.0 - dot(in.at, in.at), 0.0);
-    let weight = 0.17 * fall * fall;
+    let weight = 0.05 * fall * fall;
     return vec4<f32>(in.colour.rgb, in.colour.a) * weight;
 }
 
@@ -41,7 +42,8 @@ fn cloud_fragment(in: Tile) -> @location(0) vec4<f32> {
         point += (swirl.rg - 0.5) * 3.4;
     }
     let field = textureSampleLevel(gas_texture, linear_sampler, uv_of(point), 0.0);
-    let peak = max(max(field.r, max(field.g, field.b)), field.a);
+    let sum = max(max(field.r, max(field.g, field.b)), field.a);
+    let peak = 1.0 - exp2(-6.0 * sum);
     // It thins out inside rock, which it is before of by no more than its softness.
     let texel = 1.0 / vec2<f32>(textureDimensions(rock_texture));
     let rock = textureSampleLevel(rock_texture, linear_sampler, in.point * texel, 0.0).a;
@@ -50,10 +52,10 @@ fn cloud_fragment(in: Tile) -> @location(0) vec4<f32> {
         discard;
     }
     // What hides is lit from outside, what doesn't gives light, and has an edge: it is a flame.
-    let own = 1.0 - field.a / max(peak, 0.001);
+    let own = 1.0 - field.a / max(sum, 0.001);
     let flame = smoothstep(0.06, 0.30, thick) * min(1.6 * thick + 0.35, 1.0);
     let shown = mix(thick, flame, smoothstep(0.15, 0.6, own));
     let lit = light_at(in.point);
-    let rgb = field.rgb / max(peak, 0.001) * (1.0 + 0.9 * lit * (1.0 - own)) * (1.0 + 0.9 * own * thick);
+    let rgb = field.rgb / max(sum, 0.001) * (1.0 + 0.9 * lit * (1.0 - own)) * (1.0 + 0.9 * own * thick);
     return vec4<f32>(to_linear(exposed_to(rgb)) * shown, min(shown * (1.0 - own), 1.0));
 }

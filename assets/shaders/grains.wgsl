@@ -1,4 +1,6 @@
 // ---- grains: each with a shade of its own
+//
+// They lie on the bodies of their powders, which are darker: where two overlap the lighter is seen, whichever is drawn first.
 
 struct Grain {
     @builtin(position) position: vec4<f32>,
@@ -38,5 +40,5 @@ fn grain_fragment(in: Grain) -> @location(0) vec4<f32> {
     // A ball, lit from above and a little from the left.
     let round = 1.0 + 0.22 * dot(in.at, vec2<f32>(-0.35, 0.94)) / GRAIN - 0.14 * radius * radius / (GRAIN * GRAIN);
     let rgb = in.colour.rgb * mix(in.light * round, vec3<f32>(1.0), in.colour.a);
-    return vec4<f32>(to_linear(exposed_to(rgb)), cover);
+    return vec4<f32>(to_linear(exposed_to(rgb)) * cover, cover);
 }

@@ -81,9 +81,9 @@ fn union_at(uv: vec2<f32>) -> f32 {
     return 1.0 - clear;
 }
 
-// Colour of a kind at a point, before light.
-fn kind_colour(number: i32, powder: vec3<f32>) -> vec3<f32> {
-    return select(world.liquids[max(number, 0)].rgb, powder, number < 0);
+// Colour of a kind at a point, before light, and whether it can glow.
+fn kind_colour(number: i32, powder: vec3<f32>) -> vec4<f32> {
+    return select(world.liquids[max(number, 0)], vec4<f32>(powder, 1.0), number < 0);
 }
 
 @fragment
@@ -107,26 +107,27 @@ fn surface_fragment(in: Tile) -> @location(0) vec4<f32> {
     let alpha = max(found.all, bulk * smoothstep(0.10, 0.30, found.all));
     // How much stronger it is a pixel to the left, and a pixel below.
     let steep = vec2<f32>(-dpdx(found.all), dpdy(found.all)) * world.look.x * 0.84;
-    let soft = clamp(fwidth(found.all) * 0.8, 0.02, 0.3);
+    let soft = clamp(fwidth(found.all) * 0.8, 0.04, 0.3);
     // The line between two kinds is as sharp as a pixel.
     let lead = found.first - found.second;
-    let border = 0.5 + 0.5 * clamp(lead / clamp(fwidth(lead), 0.02, 0.4), 0.0, 1.0);
+    let border = 0.5 + 0.5 * clamp(lead / clamp(fwidth(lead), 0.06, 0.4), 0.0, 1.0);
     if alpha < SURFACE - soft {
         discard;
     }
     let cover = smoothstep(SURFACE - soft, SURFACE + soft, alpha);
-    var rgb = mix(kind_colour(found.next, body.rgb), kind_colour(found.owner, body.rgb), border);
+    let kind = mix(kind_colour(found.next, body.rgb), kind_colour(found.owner, body.rgb), border);
+    var rgb = kind.rgb;
     let liquid = mix(f32(found.next >= 0), f32(found.owner >= 0), border);
 
     // Water takes red first, all take something: deep liquid is darker and more of its own colour.
     let depth = textureSampleLevel(depth_texture, linear_sampler, in.point / world.extent.xy, 0.0).r;
     let deep = rgb * mix(vec3<f32>(0.30), rgb, vec3<f32>(0.45)) + world.abyss.rgb * 0.35;
     let shade = min(world.look.w * depth * 1.25, 0.92);
-    rgb = mix(rgb * (1.0 - 0.22 * (1.0 - liquid)), mix(deep, rgb * 0.55, 1.0 - liquid), shade);
+    rgb = mix(rgb * (1.0 - 0.26 * (1.0 - liquid)), mix(deep, rgb * 0.55, 1.0 - liquid), shade);
 
     // The surface catches light from above and a little from the left; what is inside does not.
     var slope = steep;
-    if world.levels.x > 0.0 {
+    if world.levels.x > 0.0 && bulk < 0.99 {
         let step = 0.42 / world.size.zw * max(world.look.x, 1.0);
         let left = union_at(uv - vec2<f32>(step.x, 0.0));
         let right = union_at(uv + vec2<f32>(step.x, 0.0));
@@ -144,7 +145,8 @@ fn surface_fragment(in: Tile) -> @location(0) vec4<f32> {
     let white = smoothstep(0.05, 0.75, field.a) * f32(found.owner >= 0) * (0.86 - 0.55 * bulk * min(2.0 * shade, 1.0));
     rgb = mix(rgb, vec3<f32>(0.88, 0.94, 0.98) * (1.0 - 0.3 * shade), white);
     let lit = light_at(in.point);
-    let glow = glow_at(in.point);
+    // The map of glow is coarse: what is cold beside what glows stays as it is.
+    let glow = glow_at(in.point) * kind.a;
     let own = max(glow.r, max(glow.g, glow.b));
     // Crust drifts on what glows.
     var crust = 1.0;

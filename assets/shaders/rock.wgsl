@@ -59,6 +59,6 @@ fn rock_fragment(in: Tile) -> @location(0) vec4<f32> {
     }
     let glow = glow_at(in.point);
     let own = max(glow.r, max(glow.g, glow.b));
-    let rgb = stone.rgb * (1.0 + 1.2 * light_at(in.point)) * (1.0 - own) + glow * (0.6 + stone.g);
+    let rgb = stone.rgb * (1.0 + 1.8 * light_at(in.point)) * (1.0 - own) + glow * (0.6 + stone.g);
     return vec4<f32>(to_linear(exposed_to(rgb)), stone.a);
 }

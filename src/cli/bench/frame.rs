@@ -33,7 +33,10 @@ pub(in crate::cli) fn frame(quick: bool, json: Option<&Path>) -> Result<(), Fail
         };
         let rows = markdown::rows("scene | level | >frame, ms | passes: ms (instances)", costs.iter().map(row));
         let [width, height] = SIZE.to_array();
-        format!("{width} × {height} pixels, {adapter}, {}; medians of frames while the world stands.\n\n{rows}", processor())
+        format!(
+            "{width} × {height} pixels, {adapter}, {}; medians of frames while the world stands.\n\n{rows}",
+            processor()
+        )
     })
 }
 

@@ -13,6 +13,8 @@ use std::{
 /// A pass of the picture, in the order in which they are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PicturePass {
+    /// The box with its air, over the whole window.
+    Backdrop,
     /// Bodies of liquids and powders, or the coloured particles of a view, into their fields.
     Bodies,
     /// Gases into their field.
@@ -33,7 +35,8 @@ pub enum PicturePass {
 
 impl PicturePass {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
+        Self::Backdrop,
         Self::Bodies,
         Self::Gases,
         Self::Bake,
@@ -47,6 +50,7 @@ impl PicturePass {
     /// Name on the screen.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Backdrop => "backdrop",
             Self::Bodies => "bodies",
             Self::Gases => "gases",
             Self::Bake => "bake",

@@ -12,7 +12,8 @@ use bevy::{
     render::{
         render_phase::TrackedRenderPass,
         render_resource::{
-            BindGroup, Buffer, CachedRenderPipelineId, LoadOp, Operations, PipelineCache, RenderPassColorAttachment, RenderPassDescriptor, StoreOp, TextureView,
+            BindGroup, Buffer, CachedRenderPipelineId, LoadOp, Operations, PipelineCache, RenderPassColorAttachment,
+            RenderPassDescriptor, StoreOp, TextureView,
         },
         renderer::{RenderContext, ViewQuery},
         view::ViewTarget,
@@ -118,7 +119,7 @@ impl<'a> Pane<'a> {
         for (k, group) in self.groups.iter().enumerate() {
             pass.set_bind_group(k, group, &[]);
         }
-        with.screen(pass, ids.backdrop);
+        with.screen(pass, PicturePass::Backdrop, ids.backdrop);
         let tiles = &picture.tiles;
         let streaks = all!(picture.streaks);
         if !picture.streaks_on_top {
@@ -163,10 +164,11 @@ struct With<'a> {
 
 impl<'a> With<'a> {
     /// Draws something over the whole screen.
-    fn screen(self, pass: &mut TrackedRenderPass<'a>, id: CachedRenderPipelineId) {
+    fn screen(self, pass: &mut TrackedRenderPass<'a>, of: PicturePass, id: CachedRenderPipelineId) {
         if let Some(pipeline) = self.cache.get_render_pipeline(id) {
             pass.set_render_pipeline(pipeline);
-            pass.draw(0..3, 0..1);
+            (0..self.repeat.times(of)).for_each(|_| pass.draw(0..3, 0..1));
+            self.cost.note(of, 1);
         }
     }
 

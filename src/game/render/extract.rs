@@ -21,6 +21,9 @@ use bevy::{
     window::{PrimaryWindow, Window},
 };
 
+/// Ticks after which the time of what drifts by itself begins again: an hour, so that it stays exact.
+const WRAP: u64 = 60 * 60 * 60;
+
 /// One frame's pictures, on the processor's side: the world's, and in an A/B split the second world's and the
 /// difference's.
 #[derive(Resource, Default)]
@@ -55,9 +58,17 @@ pub fn extract(main: Res<MainWorld>, mut pictures: ResMut<Pictures>, cost: Res<R
     // Half a tick after a tick the world is drawn half a tick before it: it then moves evenly at any frame rate.
     let late = main.resource::<Time<Fixed>>().overstep_fraction().clamp(0.0, 1.0);
     let back = if main.resource::<Pace>().paused { 0.0 } else { TICK_SECONDS * (1.0 - late) };
-    let time = main.resource::<Time<Fixed>>().elapsed_secs_wrapped() - back;
+    // Clouds stand while the world does.
+    let time = (first.tick % WRAP) as f32 * TICK_SECONDS - back;
     let camera = main.resource::<WorldCamera>();
-    let sight = Sight { window, camera, view: main.resource::<Shown>().0, back, time, level: main.resource::<PictureLevel>().now() };
+    let sight = Sight {
+        window,
+        camera,
+        view: main.resource::<Shown>().0,
+        back,
+        time,
+        level: main.resource::<PictureLevel>().now(),
+    };
     let Pictures { panes: [a, b, c], count, difference } = &mut *pictures;
     let areas: Vec<Area> = camera.panes().collect();
     match (main.resource::<Split>().world().and_then(Scene::of), areas.as_slice()) {

@@ -37,7 +37,11 @@ pub struct FrameCost {
 
 /// Measures a scene at each level, over so many frames each, and names the graphics. The outer error is the scene's, the inner one
 /// says that there are no graphics.
-pub fn measure(name: &'static str, ticks: u64, frames: usize) -> Result<Result<(String, Vec<FrameCost>), String>, SceneError> {
+pub fn measure(
+    name: &'static str,
+    ticks: u64,
+    frames: usize,
+) -> Result<Result<(String, Vec<FrameCost>), String>, SceneError> {
     let blueprint = scene::load(name)?.build(&[], Some(Preset::Balanced), &EffectModes::new())?;
     let checkpoint = Checkpoint::of_scene(Arc::new(blueprint));
     Ok(Offscreen::new(&checkpoint, SIZE).map(|mut picture| {

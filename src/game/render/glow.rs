@@ -24,11 +24,11 @@ const FULL: f32 = CELL * CELL;
 /// Cells of the map of glow along one of light.
 const COARSE: usize = 2;
 /// Cells to either side that a pass of the blur reaches.
-const REACH: usize = 2;
+const REACH: usize = 3;
 /// Passes of the blur: three boxes make nearly a bell.
 const PASSES: usize = 3;
 /// Light of a large area that glows white.
-const GAIN: f32 = 1.5;
+const GAIN: f32 = 5.0;
 
 /// Colour that matter of a temperature glows in, each channel 0 … 1.
 pub fn incandescence(kelvin: f32) -> [f32; 3] {
@@ -204,8 +204,9 @@ mod tests {
     use super::*;
     use crate::{kernel::element::ElementTable, scene::elements};
     use glam::IVec2;
+    use std::sync::Arc;
 
-    fn table() -> (ElementTable, HeatTable) {
+    fn table() -> (Arc<ElementTable>, HeatTable) {
         let elements = elements().expect("the elements");
         let curves = HeatTable::new(&elements);
         (elements, curves)
@@ -238,11 +239,10 @@ mod tests {
         let at = |x: usize, y: usize| u32::from(texels[4 * (y * columns + x)]);
         let middle = (columns / 2, rows / 2);
         for (dx, dy) in [(1i32, 0i32), (-1, 0), (0, 1), (0, -1)] {
-            let way: Vec<u32> = (0..9)
-                .map(|k| at((middle.0 as i32 + k * dx) as usize, (middle.1 as i32 + k * dy) as usize))
-                .collect();
+            let way: Vec<u32> =
+                (0..12).map(|k| at((middle.0 as i32 + k * dx) as usize, (middle.1 as i32 + k * dy) as usize)).collect();
             assert!(way.windows(2).all(|pair| pair[0] >= pair[1]) && way[0] > way[4] && way[4] > way[8], "{way:?}");
-            assert_eq!(way[8], 0, "light has an end");
+            assert_eq!(way[11], 0, "light has an end");
         }
     }
 

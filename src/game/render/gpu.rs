@@ -105,11 +105,21 @@ impl Map {
         let Some((texture, _)) = &self.0 else { return };
         let texel = if format == TextureFormat::R8Unorm { 1 } else { 4 };
         let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(texel * size.x), rows_per_image: None };
-        queue.write_texture(texture.as_image_copy(), &texels[..(texel * size.x * size.y) as usize], layout, texture.size());
+        queue.write_texture(
+            texture.as_image_copy(),
+            &texels[..(texel * size.x * size.y) as usize],
+            layout,
+            texture.size(),
+        );
     }
 }
 
-fn descriptor(label: &'static str, size: UVec2, format: TextureFormat, usage: TextureUsages) -> TextureDescriptor<'static> {
+fn descriptor(
+    label: &'static str,
+    size: UVec2,
+    format: TextureFormat,
+    usage: TextureUsages,
+) -> TextureDescriptor<'static> {
     TextureDescriptor {
         label: Some(label),
         size: Extent3d { width: size.x, height: size.y, depth_or_array_layers: 1 },
@@ -190,7 +200,8 @@ fn hand_over(
     let (body_texels, gas_texels) = picture.level.texels();
     let mut field = |label, texels_per_d: f32, empty: bool| {
         let share = (texels_per_d / picture.pixels_per_d).min(1.0);
-        let size = if empty { UVec2::ONE } else { (picture.window.as_vec2() * share).ceil().as_uvec2().max(UVec2::ONE) };
+        let size =
+            if empty { UVec2::ONE } else { (picture.window.as_vec2() * share).ceil().as_uvec2().max(UVec2::ONE) };
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
         textures.get(device, descriptor(label, size, FIELD_FORMAT, usage))
     };

@@ -38,6 +38,8 @@ const SELF_LIT: f32 = 0.9;
 struct Channels {
     of: Vec<u8>,
     colours: Vec<Rgb>,
+    /// Whether any of it glows.
+    glows: Vec<bool>,
     counts: Vec<u32>,
 }
 
@@ -60,6 +62,8 @@ impl Channels {
         // In the order of the table, so that channels stay while numbers change.
         own.sort_unstable();
         self.colours = own.iter().map(|k| looks.of(ElementId(*k as u8)).colour).collect();
+        self.glows.clear();
+        self.glows.resize(own.len(), false);
         self.of.clear();
         self.of.resize(256, 0);
         for (channel, k) in own.iter().enumerate() {
@@ -134,6 +138,14 @@ impl Matter {
         &self.channels.colours
     }
 
+    /// Colour of a channel's liquid, each part 0 … 1, and 1 if any of it glows; nothing if there is none.
+    pub fn liquid(&self, channel: usize) -> [f32; 4] {
+        let Channels { colours, glows, .. } = &self.channels;
+        let (Some(colour), Some(glows)) = (colours.get(channel), glows.get(channel)) else { return [0.0; 4] };
+        let [r, g, b] = colour.map(|part| f32::from(part) / 255.0);
+        [r, g, b, f32::from(*glows)]
+    }
+
     /// Packs a world's matter.
     pub fn fill(&mut self, world: Sample<'_>) {
         self.clear();
@@ -148,6 +160,9 @@ impl Matter {
                 continue;
             }
             let traits = self.traits(world, look, i, at);
+            if glow[0] > 0.0 && !look.is_powder() {
+                self.channels.glows[usize::from(traits[0])] = true;
+            }
             self.body(world, at, traits, look.is_powder());
             if look.is_powder() && world.fine {
                 self.grains.push(instance(at, grain(look, glow, world.particles.id[i])));
@@ -186,8 +201,20 @@ impl Matter {
         let (low, high) = (at, world.size - at);
         let reach = world.radius;
         if low.min(high).min_element() < reach {
-            let x = if low.x < reach { -at.x } else if high.x < reach { 2.0 * world.size.x - at.x } else { f32::NAN };
-            let y = if low.y < reach { -at.y } else if high.y < reach { 2.0 * world.size.y - at.y } else { f32::NAN };
+            let x = if low.x < reach {
+                -at.x
+            } else if high.x < reach {
+                2.0 * world.size.x - at.x
+            } else {
+                f32::NAN
+            };
+            let y = if low.y < reach {
+                -at.y
+            } else if high.y < reach {
+                2.0 * world.size.y - at.y
+            } else {
+                f32::NAN
+            };
             for image in [Vec2::new(x, at.y), Vec2::new(at.x, y), Vec2::new(x, y)] {
                 if !image.is_nan() {
                     buffer.push(instance(image, traits));
@@ -230,8 +257,7 @@ fn grain(look: Look, glow: [f32; 3], id: u32) -> u32 {
 /// Colour of a lump of gas and how much it hides: cold gas hides what is behind it, flames add their light.
 fn gas(look: Look, glow: [f32; 3]) -> u32 {
     let own = glow[0].max(glow[1]).max(glow[2]);
-    let rgb: [u8; 3] = std::array::from_fn(|k| {
-        (f32::from(look.colour[k]) * (1.0 - own) + 255.0 * glow[k]).min(255.0) as u8
-    });
+    let rgb: [u8; 3] =
+        std::array::from_fn(|k| (f32::from(look.colour[k]) * (1.0 - own) + 255.0 * glow[k]).min(255.0) as u8);
     u32::from_le_bytes([rgb[0], rgb[1], rgb[2], (255.0 * (1.0 - 0.85 * own)) as u8])
 }

@@ -30,6 +30,8 @@ pub mod particles;
 pub mod picture;
 pub mod pipelines;
 pub mod rock;
+#[cfg(test)]
+mod tests;
 pub mod tiles;
 pub mod tracers;
 

@@ -64,7 +64,9 @@ impl Offscreen {
         panic::set_hook(Box::new(|_| {}));
         let made = panic::catch_unwind(AssertUnwindSafe(|| Self::make(checkpoint, size)));
         panic::set_hook(hook);
-        made.map_err(|cause| format!("no graphics: {}", fault::message(&*cause).lines().next().unwrap_or("unknown reason")))
+        made.map_err(|cause| {
+            format!("no graphics: {}", fault::message(&*cause).lines().next().unwrap_or("unknown reason"))
+        })
     }
 
     fn make(checkpoint: &Checkpoint, size: UVec2) -> Self {

@@ -191,7 +191,7 @@ pub(super) struct Sight<'a> {
     pub(super) view: &'static View,
     /// The moment that is drawn, s before the last tick.
     pub(super) back: f32,
-    /// Time since the game began, s, as long as the world moves; from 0 again every hour.
+    /// Time of the world, s; from 0 again every hour.
     pub(super) time: f32,
     /// How much of the picture is drawn.
     pub(super) level: Level,
@@ -374,7 +374,8 @@ impl Picture {
                 Quantity::Fire => burning.of_rock(cell, element).share(),
                 _ => temperature_share(scene.curves.curve(element).temperature(rock.heat(cell))),
             };
-            let texel = |cell, element, _, _| ((view.colour)(elements.get(element), share(cell, element)), Finish::Polished);
+            let texel =
+                |cell, element, _, _| ((view.colour)(elements.get(element), share(cell, element)), Finish::Polished);
             rock::pack(rock, &mut self.burial, texel, out);
             (self.rock_new, self.rock_of) = (true, None);
         } else {
@@ -452,13 +453,18 @@ impl Picture {
             look: Vec4::new(self.pixels_per_d, dim, f32::from(view.shaded), colours::DEPTH_SHADE),
             pen: Vec4::new(DISC_RADIUS, 1.5 * lines, f32::from(!matches!(view.air, Layer::Nothing)), lines),
             parts: Vec4::new(GAS_RADIUS, TILE, self.matter.colours().len() as f32, sight.time),
-            levels: Vec4::new(f32::from(self.level.is_rich()), f32::from(self.as_it_is && self.glow.shines()), 0.0, 0.0),
+            levels: Vec4::new(
+                f32::from(self.level.is_rich()),
+                f32::from(self.as_it_is && self.glow.shines()),
+                0.0,
+                0.0,
+            ),
             surroundings: srgb(colours::SURROUNDINGS),
             box_top: srgb(colours::BOX_TOP),
             box_bottom: srgb(colours::BOX_BOTTOM),
             frame: srgb(colours::FRAME),
             abyss: srgb(colours::ABYSS),
-            liquids: std::array::from_fn(|k| self.matter.colours().get(k).map_or(Vec4::ZERO, |colour| srgb(*colour))),
+            liquids: std::array::from_fn(|channel| Vec4::from(self.matter.liquid(channel))),
         };
         self.bake = self.rock_new || seen != (self.window, self.uniform.to_clip);
     }

@@ -8,10 +8,11 @@ use bevy::{
     render::{
         camera::ExtractedCamera,
         render_resource::{
-            AddressMode, BindGroupLayoutDescriptor, BindGroupLayoutEntries, BlendComponent, BlendFactor, BlendOperation, BlendState, CachedRenderPipelineId, ColorTargetState,
-            ColorWrites, FilterMode, FragmentState, PipelineCache, PrimitiveState, PrimitiveTopology,
-            RenderPipelineDescriptor, Sampler, SamplerBindingType, SamplerDescriptor, ShaderStages, TextureFormat,
-            TextureSampleType, VertexFormat, VertexState, VertexStepMode,
+            AddressMode, BindGroupLayoutDescriptor, BindGroupLayoutEntries, BlendComponent, BlendFactor,
+            BlendOperation, BlendState, CachedRenderPipelineId, ColorTargetState, ColorWrites, FilterMode,
+            FragmentState, PipelineCache, PrimitiveState, PrimitiveTopology, RenderPipelineDescriptor, Sampler,
+            SamplerBindingType, SamplerDescriptor, ShaderStages, TextureFormat, TextureSampleType, VertexFormat,
+            VertexState, VertexStepMode,
             binding_types::{sampler, texture_2d, uniform_buffer},
         },
         renderer::RenderDevice,
@@ -27,8 +28,23 @@ pub const FIELD_FORMAT: TextureFormat = TextureFormat::Rgba8Unorm;
 const INTO_FIELDS: [&str; 4] = ["coloured", "body", "more", "gas"];
 
 /// Adds up to 1 − Π(1 − w) in each channel, in whatever order.
-const UNION: BlendState = BlendState { color: beyond(BlendFactor::OneMinusSrc), alpha: beyond(BlendFactor::OneMinusSrcAlpha) };
+const UNION: BlendState =
+    BlendState { color: beyond(BlendFactor::OneMinusSrc), alpha: beyond(BlendFactor::OneMinusSrcAlpha) };
 
+/// Adds up.
+const SUM: BlendState = BlendState { color: beyond(BlendFactor::One), alpha: beyond(BlendFactor::One) };
+
+/// Takes what is lighter, in whatever order.
+const LIGHTER: BlendState = {
+    let lighter = BlendComponent {
+        src_factor: BlendFactor::One,
+        dst_factor: BlendFactor::One,
+        operation: BlendOperation::Max,
+    };
+    BlendState { color: lighter, alpha: lighter }
+};
+
+/// What comes is added to this share of what is there.
 const fn beyond(dst_factor: BlendFactor) -> BlendComponent {
     BlendComponent { src_factor: BlendFactor::One, dst_factor, operation: BlendOperation::Add }
 }
@@ -129,7 +145,10 @@ pub fn make_layouts(mut commands: Commands, device: Res<RenderDevice>) {
                 ),
             ),
         ),
-        stone: BindGroupLayoutDescriptor::new("stone", &BindGroupLayoutEntries::single(ShaderStages::FRAGMENT, texture())),
+        stone: BindGroupLayoutDescriptor::new(
+            "stone",
+            &BindGroupLayoutEntries::single(ShaderStages::FRAGMENT, texture()),
+        ),
         sampler: sampler_of(AddressMode::ClampToEdge),
         repeating: sampler_of(AddressMode::Repeat),
     });
@@ -184,8 +203,8 @@ pub fn prepare(
         body: make("body", "body", &point, FIELD_FORMAT, Some(UNION)),
         more: make("body", "more", &point, FIELD_FORMAT, Some(UNION)),
         surface: make("tile", "surface", &tile, format, Some(alpha)),
-        grain: make("grain", "grain", &point, format, Some(alpha)),
-        gas: make("gas", "gas", &point, FIELD_FORMAT, Some(premultiplied)),
+        grain: make("grain", "grain", &point, format, Some(LIGHTER)),
+        gas: make("gas", "gas", &point, FIELD_FORMAT, Some(SUM)),
         cloud: make("tile", "cloud", &tile, format, Some(premultiplied)),
         stone: make("tile", "stone", &tile, FIELD_FORMAT, None),
         rock: make("tile", "rock", &tile, format, Some(alpha)),

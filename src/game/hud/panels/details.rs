@@ -114,7 +114,8 @@ fn frame(ui: &mut Ui, render: &RenderCost, hud: &HudCost) {
     )));
     // Passes that draw nothing are not called.
     let drawn = PicturePass::ALL.into_iter().zip(render.drawn()).filter(|(_, count)| *count > 0);
-    let drawn: Vec<String> = drawn.map(|(pass, count)| format!("{} {}", pass.name(), grouped(u64::from(count)))).collect();
+    let drawn: Vec<String> =
+        drawn.map(|(pass, count)| format!("{} {}", pass.name(), grouped(u64::from(count)))).collect();
     ui.label(weak(format!("the picture draws: {}", drawn.join(", "))).small());
 }
 

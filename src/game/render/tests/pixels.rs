@@ -1,0 +1,210 @@
+//! What is seen, as properties of pixels: of worlds as they begin, which stand. One picture serves all, as graphics take
+//! seconds to be set up.
+
+use crate::{
+    game::{
+        render::{
+            cost::PicturePass,
+            level::Level,
+            offscreen::{Offscreen, Pixels},
+        },
+        views::table::{ELEMENTS, TEMPERATURE, View},
+    },
+    kernel::particles::Particles,
+    lab::{
+        colours::Rgb,
+        vision::{KINDS, oklab},
+    },
+    scene::{self, effects::EffectModes},
+    sim::{checkpoint::Checkpoint, state::ParticleStore},
+};
+use glam::{UVec2, Vec2};
+use std::{env, sync::Arc};
+
+/// Set where there must be graphics: elsewhere a machine without any passes.
+const MUST: &str = "POWDER_MASTER_GRAPHICS";
+/// 10 pixels to a d in a box of 64 × 40 d, which the window has some room around.
+const SIZE: UVec2 = UVec2::new(650, 406);
+
+/// A world of these contents.
+fn world(contents: &str) -> Checkpoint {
+    let text = format!("(title: \"T\", description: \"D\", spacing: 0.1, size: (6.4, 4), contents: [{contents}])");
+    let scene = scene::from_text("test", text).expect("the scene is sound");
+    Checkpoint::of_scene(Arc::new(scene.build(&[], None, &EffectModes::new()).expect("its numbers are sound")))
+}
+
+struct Seen {
+    picture: Offscreen,
+}
+
+impl Seen {
+    fn show(&mut self, contents: &str) -> Pixels {
+        self.show_at(contents, Level::Full, &ELEMENTS)
+    }
+
+    fn show_at(&mut self, contents: &str, level: Level, view: &'static View) -> Pixels {
+        world(contents).restore(self.picture.world_mut());
+        self.picture.show(view, level);
+        // The first follows the new world, and bakes its rock.
+        self.picture.frame();
+        self.picture.pixels()
+    }
+
+    /// Colour at a point of the world in metres.
+    fn at(&self, pixels: &Pixels, x: f32, y: f32) -> Rgb {
+        pixels.at(self.picture.pixel_of(Vec2::new(x, y) * 10.0))
+    }
+
+    fn drawn(&self, pass: PicturePass) -> u32 {
+        self.picture.drawn()[pass as usize]
+    }
+}
+
+fn lab(colour: Rgb) -> [f32; 3] {
+    oklab(colour, &KINDS[0].1)
+}
+
+/// How far the hues of two colours are apart, whatever their lightness.
+fn hue_apart(a: Rgb, b: Rgb) -> f32 {
+    let (a, b) = (lab(a), lab(b));
+    (a[1] - b[1]).hypot(a[2] - b[2])
+}
+
+#[test]
+fn the_picture_shows_what_is_there() {
+    let picture = match Offscreen::new(&world(""), SIZE) {
+        Ok(picture) => picture,
+        Err(reason) => {
+            assert!(env::var_os(MUST).is_none(), "{reason}");
+            eprintln!("not tested: {reason}");
+            return;
+        }
+    };
+    let mut seen = Seen { picture };
+    an_empty_box_is_no_black_hole(&mut seen);
+    two_liquids_do_not_mix_their_colours(&mut seen);
+    the_bulk_of_a_liquid_is_no_brighter_than_its_surface(&mut seen);
+    nothing_shimmers_when_particles_are_sorted(&mut seen);
+    light_falls_off_from_lava(&mut seen);
+    what_is_not_there_is_not_drawn(&mut seen);
+    plain_and_full_have_the_same_silhouettes(&mut seen);
+    rock_is_where_it_is(&mut seen);
+}
+
+fn an_empty_box_is_no_black_hole(seen: &mut Seen) {
+    let pixels = seen.show("");
+    let (top, bottom) = (lab(seen.at(&pixels, 3.2, 3.6))[0], lab(seen.at(&pixels, 3.2, 0.4))[0]);
+    assert!(top > bottom && bottom > 0.2, "lightness {top} at the top, {bottom} at the bottom");
+}
+
+fn two_liquids_do_not_mix_their_colours(seen: &mut Seen) {
+    let pixels = seen.show(
+        r#"(element: "water", shape: Rect(min: (0, 0), max: (3.2, 2))), (element: "lava", shape: Rect(min: (3.2, 0), max: (6.4, 2)))"#,
+    );
+    // At one height: deeper is darker. 3 pixels to either side of the line are its own.
+    let (water, lava) = (seen.at(&pixels, 1.0, 1.0), seen.at(&pixels, 5.4, 1.0));
+    assert!(hue_apart(water, lava) > 0.1, "{water:?} {lava:?}");
+    for k in 3..60 {
+        let off = k as f32 * 0.01 + 0.005;
+        let (left, right) = (seen.at(&pixels, 3.2 - off, 1.0), seen.at(&pixels, 3.2 + off, 1.0));
+        let is = |colour, own, other| hue_apart(colour, own) < hue_apart(colour, other) / 2.0;
+        assert!(is(left, water, lava) && is(right, lava, water), "{k} pixels off the line: {left:?} | {right:?}");
+    }
+}
+
+fn the_bulk_of_a_liquid_is_no_brighter_than_its_surface(seen: &mut Seen) {
+    let pixels = seen.show(r#"(element: "water", shape: Rect(min: (0, 0), max: (6.4, 2)))"#);
+    let light = |x: f32, y: f32| lab(seen.at(&pixels, x, y))[0];
+    let columns = || (10..54).map(|k| 0.1 * k as f32 + 0.03);
+    let surface = columns().flat_map(|x| (0..5).map(move |k| light(x, 1.8 + 0.05 * k as f32))).fold(0.0, f32::max);
+    let bulk = columns().flat_map(|x| (0..15).map(move |k| light(x, 0.2 + 0.1 * k as f32))).fold(0.0, f32::max);
+    assert!(bulk < surface, "lightness {bulk} in the bulk, {surface} at the surface");
+}
+
+fn nothing_shimmers_when_particles_are_sorted(seen: &mut Seen) {
+    let before = seen.show(
+        r#"(element: "water", shape: Rect(min: (0, 0), max: (3.2, 1.5))), (element: "sand", shape: Rect(min: (3.2, 0), max: (5, 2))),
+           (element: "steam", shape: Rect(min: (1, 2.5), max: (4, 3)))"#,
+    );
+    let store = &mut seen.picture.world_mut().resource_mut::<ParticleStore>().0;
+    let mut turned = Particles::default();
+    for i in (0..store.len()).rev() {
+        turned.add(store.get(i));
+    }
+    *store = turned;
+    let after = seen.picture.pixels();
+    // What is blended in another order is rounded in another order: by up to a step of eight bits for each of the six discs over a
+    // pixel. An edge makes more of it, in a pixel here and there; that surfaces or grains flicker is what must not be.
+    let apart = |(a, b): (&Rgb, &Rgb)| (0..3).map(|k| a[k].abs_diff(b[k])).max().unwrap_or(0);
+    let changed: Vec<u8> = before.all().iter().zip(after.all()).map(apart).filter(|step| *step > 6).collect();
+    let (count, all) = (changed.len(), before.all().len());
+    assert!(1000 * count < all, "{count} of {all} pixels changed, by up to {:?}", changed.iter().max());
+}
+
+fn light_falls_off_from_lava(seen: &mut Seen) {
+    let rock = r#"(element: "rock", shape: Rect(min: (0, 0), max: (6.4, 1)))"#;
+    let cold = seen.show(rock);
+    let lit = seen.show(&format!(r#"{rock}, (element: "lava", shape: Rect(min: (0, 1), max: (0.8, 1.8)))"#));
+    // Of the same stretch of rock: its grain and cracks are no light.
+    let red = |pixels: &Pixels, from: f32| {
+        let all = (0..8).flat_map(|k| (0..8).map(move |j| (from + 0.1 * k as f32, 0.1 + 0.1 * j as f32)));
+        all.map(|(x, y)| f32::from(seen.at(pixels, x, y)[0])).sum::<f32>()
+    };
+    let [near, middle, far] = [0.9, 1.9, 5.0].map(|from| red(&lit, from) / red(&cold, from));
+    assert!(near > 1.1 && near > middle && middle > far && far < 1.01, "{near} beside lava, {middle} further, {far} far off");
+}
+
+fn what_is_not_there_is_not_drawn(seen: &mut Seen) {
+    use PicturePass::{Bake, Bodies, Clouds, Gases, Grains, Rock, Streaks, Surface};
+    seen.show("");
+    for pass in [Bodies, Gases, Bake, Streaks, Surface, Grains, Rock, Clouds] {
+        assert_eq!(seen.drawn(pass), 0, "{pass:?} of an empty box");
+    }
+    seen.show(r#"(element: "water", shape: Rect(min: (1, 0), max: (2, 1)))"#);
+    assert!(
+        seen.drawn(Bodies) == 100 + 10 && seen.drawn(Surface) > 0,
+        "a hundred drops, ten with an image in the floor"
+    );
+    assert_eq!([Gases, Grains, Rock, Clouds].map(|pass| seen.drawn(pass)), [0; 4]);
+    seen.show(r#"(element: "sand", shape: Rect(min: (1, 1), max: (2, 2))), (element: "smoke", shape: Rect(min: (3, 1), max: (4, 2)))"#);
+    assert!(seen.drawn(Grains) == 100 && seen.drawn(Gases) == 100 && seen.drawn(Clouds) > 0);
+    seen.show(r#"(element: "rock", shape: Rect(min: (1, 1), max: (2, 2)))"#);
+    assert!(seen.drawn(Rock) > 0 && seen.drawn(Bake) == 0, "baked once, in the frame before");
+}
+
+fn plain_and_full_have_the_same_silhouettes(seen: &mut Seen) {
+    let contents = r#"(element: "water", shape: Disc(centre: (2, 2), radius: 1)), (element: "sand", shape: Rect(min: (4, 0), max: (5.5, 2)))"#;
+    let empty = seen.show("");
+    let [full, plain] = [Level::Full, Level::Plain].map(|level| seen.show_at(contents, level, &ELEMENTS));
+    let is_matter = |pixels: &Pixels, k: usize| {
+        let (a, b) = (lab(pixels.all()[k]), lab(empty.all()[k]));
+        (0..3).map(|c| (a[c] - b[c]).abs()).sum::<f32>() > 0.08
+    };
+    let count = full.all().len();
+    let other = (0..count).filter(|k| is_matter(&full, *k) != is_matter(&plain, *k)).count();
+    let matter = (0..count).filter(|k| is_matter(&full, *k)).count();
+    assert!(matter > count / 10 && other * 100 < count, "{other} of {count} pixels differ, {matter} show matter");
+}
+
+fn rock_is_where_it_is(seen: &mut Seen) {
+    let contents = r#"(element: "rock", shape: Rect(min: (2, 1), max: (4, 2)))"#;
+    for view in [&ELEMENTS, &TEMPERATURE] {
+        let empty = seen.show_at("", Level::Full, view);
+        let pixels = seen.show_at(contents, Level::Full, view);
+        let is_rock = |x: f32, y: f32| seen.at(&pixels, x, y) != seen.at(&empty, x, y);
+        // Its picture is within a third of a d of its body.
+        for (x, y, there) in [
+            (3.0, 1.5, true),
+            (2.04, 1.5, true),
+            (3.96, 1.5, true),
+            (3.0, 1.04, true),
+            (3.0, 1.96, true),
+            (1.96, 1.5, false),
+            (4.04, 1.5, false),
+            (3.0, 0.96, false),
+            (3.0, 2.04, false),
+        ] {
+            assert_eq!(is_rock(x, y), there, "{view:?}: at {x}, {y}");
+        }
+    }
+}
