@@ -19,7 +19,7 @@
 //!             each a thin system over one function of `kernel`
 //!     │
 //!     ▼  every frame
-//! game::render  particles, rock and air, between two ticks      game::hud  counts, cost, tools
+//! game::render  matter, rock, air and light, between two ticks      game::hud  counts, cost, tools
 //! ```
 //!
 //! Who may import whom: `kernel ← scene ← sim ← lab ← game ← cli, web`, and no two files each other (tests/laws). Nothing

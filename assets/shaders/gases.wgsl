@@ -36,7 +36,7 @@ fn cloud_fragment(in: Tile) -> @location(0) vec4<f32> {
     // Swirls: the field is looked up a little off, by noise that rises.
     let rise = vec2<f32>(0.0, world.parts.w * 9.0);
     var point = in.point;
-    let wisps = noise_at(in.point - 0.7 * rise, 13.0);
+    let wisps = noise_at(in.point - 0.7 * rise, 31.0);
     if world.levels.x > 0.0 {
         let swirl = noise_at(in.point - rise, 24.0);
         point += (swirl.rg - 0.5) * 3.4;

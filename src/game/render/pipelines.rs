@@ -36,11 +36,8 @@ const SUM: BlendState = BlendState { color: beyond(BlendFactor::One), alpha: bey
 
 /// Takes what is lighter, in whatever order.
 const LIGHTER: BlendState = {
-    let lighter = BlendComponent {
-        src_factor: BlendFactor::One,
-        dst_factor: BlendFactor::One,
-        operation: BlendOperation::Max,
-    };
+    let lighter =
+        BlendComponent { src_factor: BlendFactor::One, dst_factor: BlendFactor::One, operation: BlendOperation::Max };
     BlendState { color: lighter, alpha: lighter }
 };
 

@@ -151,7 +151,10 @@ fn light_falls_off_from_lava(seen: &mut Seen) {
         all.map(|(x, y)| f32::from(seen.at(pixels, x, y)[0])).sum::<f32>()
     };
     let [near, middle, far] = [0.9, 1.9, 5.0].map(|from| red(&lit, from) / red(&cold, from));
-    assert!(near > 1.1 && near > middle && middle > far && far < 1.01, "{near} beside lava, {middle} further, {far} far off");
+    assert!(
+        near > 1.1 && near > middle && middle > far && far < 1.01,
+        "{near} beside lava, {middle} further, {far} far off"
+    );
 }
 
 fn what_is_not_there_is_not_drawn(seen: &mut Seen) {
