@@ -8,6 +8,7 @@ use crate::{
         body::BodyMap,
         glow::Warmth,
         look::{Look, Looks},
+        moved::Moved,
     },
     kernel::{element::ElementId, particles::Particles, solids::Solids},
     lab::colours::Rgb,
@@ -111,6 +112,8 @@ pub struct Sample<'a> {
     pub rock: &'a Solids,
     /// Looks of the elements.
     pub looks: &'a Looks,
+    /// How far they went.
+    pub moved: &'a Moved,
     /// What is around them.
     pub body: &'a BodyMap,
     /// How warm they are.
@@ -153,7 +156,7 @@ impl Matter {
         let warm = world.warmth.is_there();
         for i in 0..world.particles.len() {
             let look = world.looks.of(world.particles.element[i]);
-            let at = stood(world.particles, world.rock, i, world.back);
+            let at = world.moved.at(world.particles, world.rock, i, world.back);
             let glow = if warm { world.warmth.glow(i) } else { [0.0; 3] };
             if look.is_gas() {
                 self.gases.push(instance(at, gas(look, glow)));
@@ -222,13 +225,6 @@ impl Matter {
             }
         }
     }
-}
-
-/// Where a particle stood `back` seconds ago: straight back along its velocity, but never in rock.
-pub fn stood(particles: &Particles, rock: &Solids, i: usize, back: f32) -> Vec2 {
-    let now = particles.position(i);
-    let then = now - particles.velocity(i) * back;
-    if back > 0.0 && rock.count() > 0 && rock.is_solid(Solids::cell_of(then)) { now } else { then }
 }
 
 fn instance(at: Vec2, bytes: u32) -> Instance {

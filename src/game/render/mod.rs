@@ -7,7 +7,7 @@
 //! ```
 //! `extract` copies what a frame needs out of the world into a `picture`: `matter` (or in the views that show a number
 //! `particles`), `rock` and `air` in the layout that the graphics read, `body` and `glow` as maps that the shaders look at,
-//! `tiles` where there is anything at all; `level` says how much of it the graphics can do in time; `look` says which element is drawn how, `noise` is a texture that never changes. `offscreen` draws without a window, for
+//! `tiles` where there is anything at all; `level` says how much of it the graphics can do in time; `moved` knows where things were between two ticks, `look` which element is drawn how, `noise` is a texture that never changes. `offscreen` draws without a window, for
 //! `bench frame` and tests. `gpu` uploads it; `draw` draws it before the
 //! HUD. `tracers` make wind visible. Everything here runs on WebGL2: no storage buffers, no compute, targets of eight bits.
 
@@ -23,6 +23,7 @@ pub mod gpu;
 pub mod level;
 pub mod look;
 pub mod matter;
+pub mod moved;
 pub mod noise;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod offscreen;

@@ -4,6 +4,7 @@ use crate::{
     game::views::table::View,
     kernel::{element::ElementTable, particles::Particles},
 };
+use glam::Vec2;
 
 /// Colours of each element over the range of what is shown, precomputed.
 const LEVELS: usize = 64;
@@ -35,18 +36,19 @@ impl ColourTable {
     }
 }
 
-/// Packs all particles as they stood `back` seconds ago (straight back along their velocities), coloured by their
-/// `shares` of the scale of the view's quantity.
-pub fn pack(particles: &Particles, table: &ColourTable, shares: &[f32], back: f32, out: &mut Vec<ParticleInstance>) {
-    let count = particles.len();
-    out.resize(count, ParticleInstance::default());
-    let (x, y) = (&particles.x[..count], &particles.y[..count]);
-    let (vx, vy, element) = (&particles.vx[..count], &particles.vy[..count], &particles.element[..count]);
-    let shares = &shares[..count];
-    for (i, instance) in out.iter_mut().enumerate() {
-        let colour = table.at(element[i].index(), shares[i]);
-        *instance = [(x[i] - vx[i] * back).to_bits(), (y[i] - vy[i] * back).to_bits(), colour];
-    }
+/// Packs all particles, coloured by their `shares` of the scale of the view's quantity. `at`: where each is drawn.
+pub fn pack(
+    particles: &Particles,
+    table: &ColourTable,
+    shares: &[f32],
+    at: impl Fn(usize) -> Vec2,
+    out: &mut Vec<ParticleInstance>,
+) {
+    out.clear();
+    out.extend(particles.element.iter().zip(shares).enumerate().map(|(i, (element, share))| {
+        let at = at(i);
+        [at.x.to_bits(), at.y.to_bits(), table.at(element.index(), *share)]
+    }));
 }
 
 #[cfg(test)]
@@ -56,7 +58,6 @@ mod tests {
         game::views::table::{ELEMENTS, VIEWS},
         kernel::element::{Element, ElementId},
     };
-    use glam::Vec2;
 
     fn packed(view: &View, velocity: Vec2, share: f32) -> ParticleInstance {
         let mut particles = Particles::default();
@@ -64,12 +65,12 @@ mod tests {
         let mut table = ColourTable::default();
         table.fill(view, &ElementTable::new(vec![Element::plain("water", false)]));
         let mut out = Vec::new();
-        pack(&particles, &table, &[share], 0.01, &mut out);
+        pack(&particles, &table, &[share], |_| Vec2::new(9.5, 21.0), &mut out);
         out[0]
     }
 
     #[test]
-    fn an_instance_stands_where_the_particle_was_a_moment_ago() {
+    fn an_instance_stands_where_it_is_told() {
         let instance = packed(&ELEMENTS, Vec2::new(50.0, -100.0), 0.0);
         assert_eq!(f32::from_bits(instance[0]), 9.5);
         assert_eq!(f32::from_bits(instance[1]), 21.0);

@@ -10,6 +10,7 @@ use crate::{
             level::Level,
             look::{Finish, Looks},
             matter::{LIQUIDS, Matter, Sample},
+            moved::Moved,
             particles::{self, ColourTable, ParticleInstance},
             rock,
             tiles::{TILE, TileInstance, Tiles},
@@ -107,6 +108,7 @@ pub struct Picture {
     /// Whether matter is shown as it is, so that `depth`, `body` and `glow` are of this frame.
     pub as_it_is: bool,
     looks: Looks,
+    moved: Moved,
     foam_of: Option<(Generation, u64)>,
     burial: BurialMap,
     /// Where limiters act; of the last time that the view showed it.
@@ -142,6 +144,7 @@ impl Default for Picture {
             glow: GlowMap::default(),
             as_it_is: false,
             looks: Looks::default(),
+            moved: Moved::default(),
             foam_of: None,
             burial: BurialMap::default(),
             strain: StrainMap::default(),
@@ -259,6 +262,7 @@ impl Picture {
         let blueprint = &scene.setup.blueprint;
         let reference = Reference::of(&blueprint.domain, &blueprint.air);
         self.as_it_is = sight.view.shaded;
+        self.moved.follow(scene.generation, scene.tick, scene.particles);
         let scale_factor = sight.window.resolution.scale_factor();
         if self.as_it_is {
             self.particles.clear();
@@ -302,13 +306,13 @@ impl Picture {
         }
         let ticks = self.foam_of.filter(|(of, _)| *of == scene.generation).map(|(_, at)| scene.tick.saturating_sub(at));
         self.foam_of = Some((scene.generation, scene.tick));
-        let Self { looks, body, glow, matter, depth, .. } = self;
+        let Self { looks, moved, body, glow, matter, depth, .. } = self;
         depth.measure(size, particles);
         body.measure(size, blueprint.scale.spacing, (particles, scene.rock), looks, ticks);
         let warmth = Warmth { particles, rock: scene.rock, curves: scene.curves };
         glow.measure(size, warmth, |element| looks.of(element).is_gas());
         let radius = DISC_RADIUS;
-        matter.fill(Sample { particles, rock: scene.rock, looks, body, warmth, size, radius, back, fine });
+        matter.fill(Sample { particles, rock: scene.rock, looks, moved, body, warmth, size, radius, back, fine });
     }
 
     /// Marks the tiles of bodies and gases.
@@ -360,7 +364,8 @@ impl Picture {
                 &self.shares
             }
         };
-        particles::pack(scene.particles, &self.table, shares, sight.back, self.particles.values_mut());
+        let at = |i| self.moved.at(scene.particles, scene.rock, i, sight.back);
+        particles::pack(scene.particles, &self.table, shares, at, self.particles.values_mut());
     }
 
     fn fill_rock(&mut self, scene: Scene<'_>, view: &View) {

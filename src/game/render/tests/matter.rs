@@ -5,7 +5,8 @@ use crate::{
         body::BodyMap,
         glow::Warmth,
         look::Looks,
-        matter::{LIQUIDS, Matter, Sample, stood},
+        matter::{LIQUIDS, Matter, Sample},
+        moved::Moved,
     },
     kernel::{
         element::{ElementId, ElementTable},
@@ -15,7 +16,7 @@ use crate::{
     },
     scene::elements,
 };
-use glam::{IVec2, Vec2};
+use glam::Vec2;
 use std::sync::Arc;
 
 /// Side of the box, d.
@@ -54,8 +55,8 @@ impl Rig {
         let (mut matter, mut body) = (Matter::default(), BodyMap::default());
         body.measure(size, 0.1, (particles, &self.rock), &self.looks, None);
         let warmth = Warmth { particles, rock: &self.rock, curves: &self.curves };
-        let (rock, looks) = (&self.rock, &self.looks);
-        matter.fill(Sample { particles, rock, looks, body: &body, warmth, size, radius: 1.35, back: 0.0, fine });
+        let (rock, looks, moved) = (&self.rock, &self.looks, &Moved::default());
+        matter.fill(Sample { particles, rock, looks, moved, body: &body, warmth, size, radius: 1.35, back: 0.0, fine });
         matter
     }
 }
@@ -118,19 +119,6 @@ fn matter_at_a_wall_has_an_image_behind_it() {
     let places: Vec<[f32; 2]> =
         matter.bodies.values().iter().map(|[x, y, _]| [f32::from_bits(*x), f32::from_bits(*y)]).collect();
     assert_eq!(places, [[0.5, 20.0], [-0.5, 20.0], [0.5, 39.5], [-0.5, 39.5], [0.5, 40.5], [-0.5, 40.5], [20.0, 20.0]]);
-}
-
-#[test]
-fn between_two_ticks_nothing_is_drawn_in_rock() {
-    let mut rig = Rig::new();
-    rig.rock.insert(IVec2::new(10, 10), ElementId(0), 0);
-    let mut particles = Particles::default();
-    let velocity = Vec2::new(60.0, 0.0);
-    particles.push(0, rig.find("water"), Vec2::new(11.2, 10.5), velocity);
-    particles.push(1, rig.find("water"), Vec2::new(14.0, 10.5), velocity);
-    let at = |i| stood(&particles, &rig.rock, i, 0.01);
-    assert_eq!(at(0), Vec2::new(11.2, 10.5), "it would stand in rock");
-    assert_eq!(at(1), Vec2::new(13.4, 10.5));
 }
 
 #[test]
