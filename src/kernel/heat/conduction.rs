@@ -17,16 +17,16 @@
 use super::{
     lumps::Lumps,
     matter::Warm,
+    passes::{Flow, LookAround},
     rates::Rates,
-    surface::open_length,
     table::HeatTable,
-    units::{HOTTEST, QUANTUM, ROOM},
+    units::HOTTEST,
     walls::Walls,
-    weights::{WEIGHT, Weights},
 };
-use crate::parallel::{WORTH_A_PIECE, spread};
-use glam::Vec2;
-use std::ops::Range;
+use crate::{
+    parallel::{Team, WORTH_A_PIECE, spread},
+    simd::MOST_LANES,
+};
 
 /// Most steps of a tick.
 const MOST_STEPS: f32 = 8.0;
@@ -60,15 +60,15 @@ pub(super) struct Exchange {
 
 impl Exchange {
     /// Lets heat flow between the lumps for a tick.
-    pub fn run(&mut self, lumps: &mut Lumps, warm: &Warm, rates: &Rates, threads: usize) -> Flowed {
+    pub fn run(&mut self, lumps: &mut Lumps, warm: &Warm, rates: &Rates, team: Team) -> Flowed {
         let count = lumps.len();
         for field in [&mut self.kelvin, &mut self.conduction, &mut self.allowance, &mut self.surface] {
             field.resize(count, 0.0);
         }
         self.gained.resize(count, 0);
         self.given.resize(count, 0);
-        self.warm_up(lumps, warm.table, threads);
-        self.look_around(lumps, warm, rates, threads);
+        self.warm_up(lumps, warm.table, team.threads);
+        self.look_around(lumps, warm, rates, team);
         let least = self.allowance.iter().zip(&lumps.cell).filter(|(_, cell)| lumps.flows[**cell as usize]);
         let least = least.map(|(allowance, _)| *allowance).fold(1.0, f32::min);
         let steps = (1.0 / least.max(1.0 / MOST_STEPS)).ceil();
@@ -81,9 +81,9 @@ impl Exchange {
         let mut to_air = 0;
         for step in 0..steps as u32 {
             if step > 0 {
-                self.warm_up(lumps, warm.table, threads);
+                self.warm_up(lumps, warm.table, team.threads);
             }
-            self.flow(lumps, warm.table, &rates.over(steps), threads);
+            self.flow(lumps, warm.table, &rates.over(steps), team);
             for (heat, (gained, given)) in lumps.heat.iter_mut().zip(self.gained.iter().zip(&self.given)) {
                 *heat = heat.saturating_add(gained.saturating_sub(*given));
                 to_air += i64::from(*given);
@@ -104,67 +104,32 @@ impl Exchange {
     }
 
     /// Finds how much each lump can exchange, and how much of its surface is open.
-    fn look_around(&mut self, lumps: &Lumps, warm: &Warm, rates: &Rates, threads: usize) {
+    fn look_around(&mut self, lumps: &Lumps, warm: &Warm, rates: &Rates, team: Team) {
         let Self { conduction, allowance, surface, walls, .. } = self;
-        let (conduction, walls, table) = (&conduction[..], &*walls, warm.table);
-        spread([&mut allowance[..], &mut surface[..]], PIECE, threads, &|first, [allowance, surface]| {
-            for k in 0..allowance.len() {
-                let i = first + k;
-                let at = Vec2::new(lumps.x[i], lumps.y[i]);
-                let (mut whole, mut through) = (0.0, 0.0);
-                each_run(lumps, i, |run| {
-                    let weights = Weights { at, x: &lumps.x[run.clone()], y: &lumps.y[run.clone()] };
-                    for (j, other) in conduction[run].iter().enumerate() {
-                        let weight = weights.of(j);
-                        whole += weight;
-                        through += weight * other;
-                    }
-                });
-                // It is its own neighbour in that sum.
-                (whole, through) = (whole - WEIGHT, through - WEIGHT * conduction[i]);
-                let beyond = walls.around(at, warm.domain.size);
-                let curve = table.curve(lumps.element[i]);
-                surface[k] = curve.openness() * open_length(whole + beyond);
-                // What the air may take is not there for the others.
-                let asked = rates.pairs * conduction[i] * through;
-                let held = curve.least_capacity() / QUANTUM;
-                let left = held / (1.0 + rates.air * surface[k] / held);
-                allowance[k] = if asked > 0.0 { left / asked } else { f32::MAX };
-            }
+        let (table, size, conduction, walls) = (warm.table, warm.domain.size, &conduction[..], &*walls);
+        spread([&mut allowance[..], &mut surface[..]], PIECE, team.threads, &|base, out| {
+            team.instructions.run(LookAround { lumps, table, walls, size, rates, conduction, base, out });
         });
     }
 
     /// Finds what flows in a step.
-    fn flow(&mut self, lumps: &Lumps, table: &HeatTable, rates: &Rates, threads: usize) {
+    fn flow(&mut self, lumps: &Lumps, table: &HeatTable, rates: &Rates, team: Team) {
         let Self { kelvin, conduction, allowance, surface, gained, given, .. } = self;
         let (kelvin, conduction, allowance, surface) = (&kelvin[..], &conduction[..], &allowance[..], &surface[..]);
-        spread([&mut gained[..], &mut given[..]], PIECE, threads, &|first, [gained, given]| {
-            for k in 0..gained.len() {
-                let i = first + k;
-                (gained[k], given[k]) = (0, 0);
-                if !lumps.flows[lumps.cell[i] as usize] {
-                    continue;
-                }
-                let at = Vec2::new(lumps.x[i], lumps.y[i]);
-                let (own, most, own_conduction) = (kelvin[i], allowance[i], conduction[i]);
-                let mut sum = 0_i32;
-                each_run(lumps, i, |run| {
-                    let weights = Weights { at, x: &lumps.x[run.clone()], y: &lumps.y[run.clone()] };
-                    let (kelvin, conduction) = (&kelvin[run.clone()], &conduction[run.clone()]);
-                    let allowance = &allowance[run];
-                    for j in 0..kelvin.len() {
-                        let share = if allowance[j] < most { allowance[j] } else { most };
-                        // The product of both comes first, so that the other lump finds the same to the bit.
-                        let rate = own_conduction * conduction[j] * rates.pairs * share;
-                        let flow = rounded(rate * weights.of(j) * (kelvin[j] - own));
-                        sum = sum.wrapping_add(flow);
-                    }
-                });
-                gained[k] = sum;
-                let open = rates.air * surface[i];
-                let held = table.curve(lumps.element[i]).least_capacity() / QUANTUM;
-                given[k] = rounded(open / (1.0 + open / held) * (own - ROOM));
-            }
+        spread([&mut gained[..], &mut given[..]], PIECE, team.threads, &|base, out| {
+            let sums = &mut [0; MOST_LANES];
+            team.instructions.run(Flow {
+                lumps,
+                table,
+                rates,
+                kelvin,
+                conduction,
+                allowance,
+                surface,
+                sums,
+                base,
+                out,
+            });
         });
     }
 
@@ -179,19 +144,4 @@ impl Exchange {
         let floats = [kelvin, conduction, allowance, surface].iter().map(|field| field.capacity()).sum::<usize>();
         4 * (floats + gained.capacity() + given.capacity())
     }
-}
-
-/// Calls `run` with the lumps in the three rows of cells around a lump.
-#[inline(always)]
-fn each_run(lumps: &Lumps, i: usize, mut run: impl FnMut(Range<usize>)) {
-    let cell = lumps.cell[i] as usize;
-    for cell in [cell - lumps.stride, cell, cell + lumps.stride] {
-        run(lumps.beside(cell));
-    }
-}
-
-/// The nearest whole number, of two as near the one away from zero: the same for both signs.
-#[inline(always)]
-fn rounded(value: f32) -> i32 {
-    (value + if value < 0.0 { -0.5 } else { 0.5 }) as i32
 }

@@ -2,7 +2,7 @@
 
 use super::{
     surface::open_length,
-    weights::{REACH, WEIGHT, Weights},
+    weights::{REACH, WEIGHT, weight_between},
 };
 use crate::{
     cells::Cells,
@@ -38,7 +38,7 @@ impl Exposure {
             other if other.friction > 0.0 => 0.5,
             _ => 1.0,
         };
-        let weight = |place: Vec2| Weights { at, x: &[place.x], y: &[place.y] }.of(0);
+        let weight = |place: Vec2| weight_between(at, place);
         let mut neighbours = 0.0;
         for (_, near) in self.cells.around(at) {
             let near = near.iter().map(|i| *i as usize);

@@ -67,10 +67,26 @@ impl Lumps {
         self.x.len()
     }
 
-    /// The lumps in a cell and in those before and behind it in its row.
+    /// Whether anything may flow where a lump is.
     #[inline(always)]
-    pub fn beside(&self, cell: usize) -> Range<usize> {
-        self.starts[cell - 1] as usize..self.starts[cell + 2] as usize
+    pub fn flows_at(&self, i: usize) -> bool {
+        self.flows[self.cell[i] as usize]
+    }
+
+    /// The end of the lumps in a lump's row of cells.
+    #[inline(always)]
+    pub fn row_end(&self, i: usize) -> usize {
+        let row = self.cell[i] as usize / self.stride;
+        self.starts[(row + 1) * self.stride] as usize
+    }
+
+    /// The lumps in the three rows of cells around lumps that follow each other in a row.
+    #[inline(always)]
+    pub fn around(&self, lumps: Range<usize>) -> [Range<usize>; 3] {
+        let [first, last] = [lumps.start, lumps.end - 1].map(|i| self.cell[i] as usize);
+        let run = |first: usize, last: usize| self.starts[first - 1] as usize..self.starts[last + 2] as usize;
+        let stride = self.stride;
+        [run(first - stride, last - stride), run(first, last), run(first + stride, last + stride)]
     }
 
     /// Gathers the lumps.

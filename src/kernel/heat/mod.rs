@@ -18,6 +18,7 @@ pub mod curve;
 mod exposure;
 mod lumps;
 mod matter;
+mod passes;
 mod rates;
 mod record;
 mod steps;

@@ -1,7 +1,7 @@
 //! How heat flows in a tick, step by step.
 
 use super::{conduction::Exchange, lumps::Lumps, matter::Warm, rates::Rates, record::HeatRecord};
-use crate::air::Contact;
+use crate::{air::Contact, parallel::Team};
 use glam::Vec2;
 
 /// What the limiters of the exchange did.
@@ -21,8 +21,8 @@ pub struct Heat {
 }
 
 impl Heat {
-    /// Lets heat flow for `dt` s, on up to `threads` threads of the current rayon pool. What goes to the air is booked.
-    pub fn flow(&mut self, warm: &mut Warm, record: &mut HeatRecord, threads: usize, dt: f32) -> HeatReport {
+    /// Lets heat flow for `dt` s. What goes to the air is booked. `team` changes the time it takes and not a bit of the result.
+    pub fn flow(&mut self, warm: &mut Warm, record: &mut HeatRecord, team: Team, dt: f32) -> HeatReport {
         let Self { lumps, exchange, of_air } = self;
         let rates = Rates::new(warm.scale.spacing, dt);
         lumps.gather(warm, &rates);
@@ -31,7 +31,7 @@ impl Heat {
             return HeatReport::default();
         }
         *of_air = rates.of_air();
-        let flowed = exchange.run(lumps, warm, &rates, threads);
+        let flowed = exchange.run(lumps, warm, &rates, team);
         lumps.hand_back(warm);
         record.to_air += flowed.to_air;
         HeatReport { cuts: flowed.cuts }

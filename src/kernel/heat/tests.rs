@@ -4,10 +4,12 @@ use super::{table::HeatTable, units::*, *};
 use crate::{
     brush::{BrushShape, Stroke},
     element::{Category, Element, ElementChange, ElementId, ElementTable},
+    parallel::Team,
     params::Domain,
     particles::Particles,
     random::Random,
     relabel::Relabelled,
+    simd::InstructionSet,
     solids::{Solids, centre},
     units::{Scale, TICK_SECONDS},
 };
@@ -108,8 +110,12 @@ impl Bench {
     }
 
     fn flow(&mut self, threads: usize) {
+        self.flow_on(InstructionSet::detect(), threads);
+    }
+
+    fn flow_on(&mut self, instructions: InstructionSet, threads: usize) {
         let (mut warm, heat, record, _) = self.warm();
-        let report = heat.flow(&mut warm, record, threads, TICK_SECONDS);
+        let report = heat.flow(&mut warm, record, Team { instructions, threads }, TICK_SECONDS);
         self.report.cuts += report.cuts;
     }
 
@@ -252,6 +258,34 @@ fn any_number_of_threads_finds_the_same() {
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("threads");
     assert_eq!(pool.install(|| run(3)), run(1));
+}
+
+#[test]
+fn any_instruction_set_finds_the_same() {
+    let elements = [WATER, STEAM, ASH, METAL, LAVA, SNOW, BRINE];
+    let run = |set: InstructionSet, spacing: f32| {
+        let mut random = Random::new(3);
+        let mut filled = move |_| {
+            let (element, kelvin) = (elements[random.below(elements.len())], [280.0, 293.0, 340.0][random.below(3)]);
+            (random.below(4) > 0).then_some((element, kelvin))
+        };
+        let random = std::cell::RefCell::new(&mut filled);
+        let mut bench = Bench::new(Vec2::new(61.0, 23.0), spacing).fill(0.45, |at| random.borrow_mut()(at));
+        for y in 0..20 {
+            bench.solids.insert(IVec2::new(30, y), ROCK, 10_000 + y as u32);
+        }
+        for _ in 0..20 {
+            bench.change();
+            bench.flow_on(set, 1);
+        }
+        (bench.particles, bench.solids, bench.record, bench.report)
+    };
+    for spacing in [0.1, 0.03] {
+        let expected = run(InstructionSet::Scalar, spacing);
+        for set in InstructionSet::available() {
+            assert!(run(set, spacing) == expected, "{} at d = {spacing}", set.name());
+        }
+    }
 }
 
 #[test]

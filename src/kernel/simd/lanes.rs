@@ -40,6 +40,10 @@ pub(crate) trait Lanes:
     /// `if self < other { yes } else { no }` in each lane.
     fn if_less(self, other: Self, yes: Self, no: Self) -> Self;
 
+    /// Adds the nearest whole number of each lane, of two as near the one away from 0, to the sum of that lane. So `x` and `-x`
+    /// come to 0. Sums wrap; what is beyond 32 bits counts as the end of them.
+    fn add_rounded(self, sums: &mut [i32; MOST_LANES]);
+
     /// Magnitude of each lane.
     #[inline(always)]
     fn abs(self) -> Self {
@@ -141,6 +145,26 @@ impl<const N: usize> Lanes for Array<N> {
     fn if_less(self, other: Self, yes: Self, no: Self) -> Self {
         Self(std::array::from_fn(|lane| if self.0[lane] < other.0[lane] { yes.0[lane] } else { no.0[lane] }))
     }
+
+    #[inline(always)]
+    fn add_rounded(self, sums: &mut [i32; MOST_LANES]) {
+        for lane in 0..N {
+            sums[lane] = sums[lane].wrapping_add(rounded(self.0[lane]));
+        }
+    }
+}
+
+/// The nearest whole number, of two as near the one away from 0. What is beyond those of 32 bits counts as the end of them, what
+/// is not a number as the lowest.
+#[inline(always)]
+pub(crate) fn rounded(value: f32) -> i32 {
+    const ENDS: [f32; 2] = [i32::MIN as f32, 2_147_483_520.0];
+    let away = value + if value < 0.0 { -0.5 } else { 0.5 };
+    let away = if away > ENDS[0] { away } else { ENDS[0] };
+    let away = if away < ENDS[1] { away } else { ENDS[1] };
+    // A cast would check its range lane by lane, which takes five times as long.
+    // SAFETY: it is a number between both ends, which are whole numbers of 32 bits.
+    unsafe { away.to_int_unchecked() }
 }
 
 #[cold]

@@ -9,6 +9,6 @@ mod lanes;
 mod quads;
 mod set;
 
-pub(crate) use lanes::{Array, Lanes, MOST_LANES, lane_starts, whole_below};
+pub(crate) use lanes::{Array, Lanes, MOST_LANES, lane_starts, rounded, whole_below};
 pub use set::InstructionSet;
 pub(crate) use set::Pass;

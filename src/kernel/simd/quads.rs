@@ -1,10 +1,10 @@
 //! Lanes for the browser: four numbers to a 128-bit register of WebAssembly. Left to plain arrays the compiler puts too
 //! few of the operations into registers: a pass takes two to three times as long.
 
-use super::lanes::{Lanes, operator, too_short};
+use super::lanes::{Lanes, MOST_LANES, operator, too_short};
 use core::arch::wasm32::{
-    f32x4_add, f32x4_div, f32x4_lt, f32x4_mul, f32x4_pmax, f32x4_pmin, f32x4_splat, f32x4_sqrt, f32x4_sub, v128,
-    v128_bitselect, v128_load, v128_store,
+    f32x4_add, f32x4_div, f32x4_lt, f32x4_mul, f32x4_pmax, f32x4_pmin, f32x4_splat, f32x4_sqrt, f32x4_sub, i32x4_add,
+    i32x4_trunc_sat_f32x4, v128, v128_bitselect, v128_load, v128_store,
 };
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -107,5 +107,16 @@ impl Lanes for Quads {
     #[inline(always)]
     fn sqrt(self) -> Self {
         Self(self.0.map(|quad| f32x4_sqrt(quad)))
+    }
+
+    #[inline(always)]
+    fn add_rounded(self, sums: &mut [i32; MOST_LANES]) {
+        let (zero, half) = (Self::splat(0.0), Self::splat(0.5));
+        let away = self + self.if_less(zero, zero - half, half);
+        let at: *mut v128 = sums.as_mut_ptr().cast();
+        for (k, quad) in away.0.into_iter().enumerate() {
+            // SAFETY: the sums are four registers, and WebAssembly loads from and stores to any address.
+            unsafe { v128_store(at.add(k), i32x4_add(v128_load(at.add(k)), i32x4_trunc_sat_f32x4(quad))) };
+        }
     }
 }

@@ -1,12 +1,15 @@
 //! Heat flows, and changes matter.
 
 use crate::{
-    kernel::{heat::change, relabel::Relabelled, units::TICK_SECONDS},
+    kernel::{heat::change, parallel::Team, relabel::Relabelled, units::TICK_SECONDS},
     scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
         stages::sleep::wake_changed,
-        state::{AirGrid, Books, Counters, GasState, HeatCurves, HeatState, ParticleStore, Rock, Setup, SleepState},
+        state::{
+            AirGrid, Books, Counters, GasState, HeatCurves, HeatState, ParticleStore, Rock, Setup, SleepState,
+            SolverState,
+        },
         workers::Workers,
     },
 };
@@ -14,7 +17,7 @@ use bevy::prelude::{Local, Res, ResMut};
 
 /// Gives lumps whose change is done the element that it leads to, lets heat flow for a tick, and warms the air by what is warm.
 pub(super) fn flow(
-    (setup, curves): (Res<Setup>, Res<HeatCurves>),
+    (setup, curves, solver): (Res<Setup>, Res<HeatCurves>, Res<SolverState>),
     mut particles: ResMut<ParticleStore>,
     mut rock: ResMut<Rock>,
     mut heat: ResMut<HeatState>,
@@ -29,7 +32,9 @@ pub(super) fn flow(
     let mut warm = setup.matter(&mut particles, &mut rock, &curves);
     relabelled.air = effects.acts(Effect::Expansion).then_some(setup.blueprint.air.density);
     change(&mut warm, &mut books, &mut relabelled);
-    let report = workers.run_for(count, |threads| heat.flow(&mut warm, &mut books, threads, TICK_SECONDS));
+    let instructions = solver.instructions;
+    let report = workers
+        .run_for(count, |threads| heat.flow(&mut warm, &mut books, Team { instructions, threads }, TICK_SECONDS));
     counters.heat_cuts += report.cuts;
     if effects.acts(Effect::Convection) && effects.get(Effect::Air).mode != Mode::Off {
         air.warm_up(heat.contacts(), &rock);
