@@ -248,6 +248,14 @@ impl Tool {
         }
     }
 
+    /// What the help says of it; nothing of an element.
+    pub fn help(self) -> &'static str {
+        match self {
+            Self::Element(_) => "",
+            Self::Other(row) => row.help,
+        }
+    }
+
     /// The effect without which it does nothing.
     pub fn needs(self) -> Option<Effect> {
         match self {

@@ -109,13 +109,22 @@ fn mark(ui: &Ui, rect: Rect) {
     );
 }
 
-/// Elements and tools whose name holds the text; those that begin with it first.
+/// Elements and tools whose name holds the text, and tools of whose help a word begins with it; those whose names begin with it
+/// first, and those whose names hold it before the rest.
 fn find(elements: &ElementTable, text: &str) -> Vec<Tool> {
     let text = text.trim().to_lowercase();
-    let name = |tool: &Tool| tool.label(elements).to_lowercase();
-    let mut found: Vec<Tool> = Tool::all(elements).filter(|tool| name(tool).contains(&text)).collect();
-    found.sort_by_key(|tool| !name(tool).starts_with(&text));
-    found
+    let rank = |tool: &Tool| {
+        let name = tool.label(elements).to_lowercase();
+        let mut words = tool.help().split(|letter: char| !letter.is_alphanumeric());
+        match name.find(&text) {
+            Some(0) => Some(0),
+            Some(_) => Some(1),
+            None => words.any(|word| word.to_lowercase().starts_with(&text)).then_some(2),
+        }
+    };
+    let mut found: Vec<(u8, Tool)> = Tool::all(elements).filter_map(|tool| Some((rank(&tool)?, tool))).collect();
+    found.sort_by_key(|(rank, _)| *rank);
+    found.into_iter().map(|(_, tool)| tool).collect()
 }
 
 #[cfg(test)]
@@ -133,6 +142,15 @@ mod tests {
         assert_eq!(names("SAND"), ["sand", "wet sand"]);
         assert!(names("w").iter().take(4).all(|name| name.starts_with('w')), "{:?}", names("w"));
         assert_eq!(names("xyzzy"), [""; 0]);
+    }
+
+    #[test]
+    fn search_finds_a_tool_by_what_its_help_says_it_does() {
+        assert_eq!(names("temp"), ["degrees"]);
+        assert_eq!(names("cools"), ["heat"]);
+        assert_eq!(names("fire")[0], "fire", "a name comes first");
+        assert!(names("fire").contains(&"ignite".to_owned()));
+        assert!(!names("emperature").contains(&"degrees".to_owned()), "words count from their beginnings");
     }
 
     #[test]
