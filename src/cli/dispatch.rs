@@ -39,6 +39,7 @@ fn dispatch(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Bench(BenchArguments { what, json })) => match what {
             Bench::Effects { quick } => bench::effects(quick, json.as_deref()),
             Bench::Frame { quick } => bench::frame(quick, json.as_deref()),
+            Bench::Heat { threads } => bench::heat(threads, json.as_deref()),
             Bench::Neighbours { threads } => bench::neighbours(threads, json.as_deref()),
             Bench::Scaling(options) => bench::scaling(&options, json.as_deref()),
         },

@@ -21,6 +21,8 @@ pub mod exam;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod experiment;
 pub mod gauntlet;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod heat_cost;
 pub mod jobs;
 pub mod live;
 pub mod machine;

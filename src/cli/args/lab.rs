@@ -43,6 +43,12 @@ pub(in crate::cli) enum Bench {
         #[arg(long)]
         quick: bool,
     },
+    /// How much longer a tick of liquids takes in which every lump exchanges heat: one thread, and all
+    Heat {
+        /// Threads of the last row [default: all]
+        #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+        threads: Option<u64>,
+    },
     /// How many particles a tick may hold at a tick rate: brute force, bins on one thread, bins on all
     Neighbours {
         /// Threads of the last column [default: all]

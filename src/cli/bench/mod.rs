@@ -2,10 +2,12 @@
 
 mod effects;
 mod frame;
+mod heat;
 mod neighbours;
 mod scaling;
 
 pub(super) use effects::effects;
 pub(super) use frame::frame;
+pub(super) use heat::heat;
 pub(super) use neighbours::neighbours;
 pub(super) use scaling::scaling;
