@@ -1,6 +1,9 @@
 //! The hot kernels, each on a fixed state, on one thread and the lanes of AVX2 (valgrind 3.19 has no AVX-512).
 
-use crate::tank::{SUBSTEP, Tank};
+use crate::{
+    tank::{SUBSTEP, Tank},
+    warm,
+};
 use glam::{IVec2, Vec2};
 use powder_master::kernel::{
     air::Air,
@@ -16,7 +19,7 @@ use powder_master::kernel::{
 use std::hint::black_box;
 
 /// Names of the kernels.
-pub const NAMES: [&str; 8] = ["bin", "solve", "velocity", "viscosity", "vorticity", "predictor", "drag", "air"];
+pub const NAMES: [&str; 9] = ["bin", "solve", "velocity", "viscosity", "vorticity", "predictor", "drag", "air", "heat"];
 
 /// The instruction set that is counted, if this processor has it.
 pub fn counted_set() -> Option<InstructionSet> {
@@ -68,6 +71,7 @@ pub fn run(name: &str, set: InstructionSet) -> bool {
             let scheme = AirScheme { courant: 0.7, advection: AirAdvection::SecondOrder };
             air.step(&[], scheme, Team { instructions: set, threads: 1 }, SUBSTEP);
         }),
+        "heat" => warm::flow(set),
         _ => return false,
     }
     true

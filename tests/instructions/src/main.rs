@@ -11,6 +11,7 @@ extern crate instructions as powder_master;
 mod kernels;
 #[path = "../../../benches/tank/mod.rs"]
 mod tank;
+mod warm;
 
 use std::{
     collections::BTreeMap,
