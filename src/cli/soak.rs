@@ -131,7 +131,7 @@ impl Subject {
             "scene": scene, "quality": quality, "detail": detail, "settings": settings, "seed": seed,
             "minutes": report.minutes, "minutes_wanted": self.minutes, "wall_seconds": report.seconds(),
             "sittings": report.sittings, "resumed": report.sittings.len() > 1, "hash": format!("{hash:016x}"),
-            "periods": report.periods, "rock": [report.rock_before, report.rock_after], "counters": report.counters,
+            "periods": report.periods, "rock": [report.rock_before, report.rock_after], "turned": report.turned, "counters": report.counters,
             "creeps": creeps, "not_judged": not_judged, "faults": report.faults(),
         })
     }

@@ -15,7 +15,7 @@ use crate::{
         ledger::PassLedger,
         simulation::Simulation,
         snapshot::Snapshot,
-        state::{AirGrid, Clock, Counters, ParticleStore, Rock, SolverState},
+        state::{AirGrid, Books, Clock, Counters, ParticleStore, Rock, SolverState},
         workers::Workers,
     },
 };
@@ -129,6 +129,7 @@ impl Soak {
         let report = &mut self.report;
         report.minutes += 1;
         report.rock_after = self.simulation.get::<Rock>().count();
+        report.turned = self.simulation.get::<Books>().turned;
         report.counters = *self.simulation.get::<Counters>();
         if let Some(sitting) = report.sittings.last_mut() {
             sitting.seconds = self.begun.elapsed().as_secs_f64();
