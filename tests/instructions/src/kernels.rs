@@ -2,7 +2,7 @@
 
 use crate::{
     tank::{SUBSTEP, Tank},
-    warm,
+    warm::WarmTank,
 };
 use glam::{IVec2, Vec2};
 use powder_master::kernel::{
@@ -71,7 +71,7 @@ pub fn run(name: &str, set: InstructionSet) -> bool {
             let scheme = AirScheme { courant: 0.7, advection: AirAdvection::SecondOrder };
             air.step(&[], scheme, Team { instructions: set, threads: 1 }, SUBSTEP);
         }),
-        "heat" => warm::flow(set),
+        "heat" => counted(&mut WarmTank::new(set), WarmTank::flow),
         _ => return false,
     }
     true
