@@ -3,8 +3,9 @@
 use crate::{
     kernel::params::Preset,
     lab::{
-        experiment::{ExperimentError, Run, Spread, interleaved, time},
+        experiment::{ExperimentError, interleaved, time},
         run::Plan,
+        stats,
     },
     scene::{self, effects::EffectModes},
     sim::{simulation::Simulation, state::ParticleStore, workers::Workers},
@@ -22,7 +23,8 @@ const TEMPERATURES: [&str; 3] = ["floor", "water", "oil"];
 const WARMUP: u64 = 60;
 const TIMED: u64 = 240;
 
-/// What heat costs on so many threads. Times are medians of a tick, ms.
+/// What heat costs on so many threads. Every round has the same work in the same tick and other programs only ever add to it, so the
+/// shortest of the rounds counts for each tick. Times are medians of these, ms.
 #[derive(Clone, Debug, Serialize)]
 pub struct HeatCost {
     /// Threads.
@@ -31,10 +33,13 @@ pub struct HeatCost {
     pub particles: usize,
     /// With heat, and without.
     pub ms: [f64; 2],
-    /// How many times as long a tick takes with it: the median of the rounds'.
-    pub ratio: f64,
-    /// The least and the greatest of the rounds' ratios.
-    pub range: [f64; 2],
+}
+
+impl HeatCost {
+    /// How many times as long a tick takes with heat.
+    pub fn ratio(&self) -> f64 {
+        self.ms[0] / self.ms[1]
+    }
 }
 
 /// Measures it in so many rounds.
@@ -42,26 +47,16 @@ pub struct HeatCost {
 /// # Errors
 /// If there is no world to measure.
 pub fn measure(preset: Preset, workers: &Workers, rounds: usize) -> Result<HeatCost, ExperimentError> {
-    let mut runs: [Vec<Run>; 2] = Default::default();
+    let mut shortest = [(); 2].map(|()| vec![f64::INFINITY; TIMED as usize]);
     let mut particles = 0;
     for (_, k) in interleaved(2, rounds) {
         let mut world = world(preset, k == 0, workers)?;
         particles = world.get::<ParticleStore>().len();
-        runs[k].push(time(&mut world, &Plan { ticks: WARMUP + TIMED, warmup: WARMUP, ..Plan::default() }, &mut [])?);
+        let run = time(&mut world, &Plan { ticks: WARMUP + TIMED, warmup: WARMUP, ..Plan::default() }, &mut [])?;
+        shortest[k].iter_mut().zip(run.ms).for_each(|(shortest, ms)| *shortest = shortest.min(ms));
     }
-    let of = |runs: &[Run]| runs.iter().map(|run| run.quantile(0.5)).collect::<Vec<f64>>();
-    let [with, without] = runs.map(|runs| of(&runs));
-    let spread = |values: &mut dyn Iterator<Item = f64>| {
-        Spread::of(values).unwrap_or(Spread { median: f64::NAN, range: [f64::NAN; 2] })
-    };
-    let ratios = spread(&mut with.iter().zip(&without).map(|(with, without)| with / without));
-    Ok(HeatCost {
-        threads: workers.threads(),
-        particles,
-        ms: [with, without].map(|ms| spread(&mut ms.into_iter()).median),
-        ratio: ratios.median,
-        range: ratios.range,
-    })
+    let ms = shortest.map(|mut ms| stats::quantile(&mut ms, 0.5).unwrap_or(f64::NAN));
+    Ok(HeatCost { threads: workers.threads(), particles, ms })
 }
 
 /// The liquids, warm or as warm as the room.

@@ -39,18 +39,15 @@ pub(in crate::cli) fn heat(threads: Option<u64>, json: Option<&Path>) -> Result<
 
 /// The table in Markdown.
 fn text(costs: &[HeatCost]) -> String {
-    let row = |HeatCost { threads, particles, ms: [with, without], ratio, range: [least, most] }: &HeatCost| {
-        let particles = grouped(*particles);
-        format!("{particles} | {threads} | {with:.3} | {without:.3} | {ratio:.2} | {least:.2} … {most:.2}")
+    let row = |cost: &HeatCost| {
+        let HeatCost { threads, particles, ms: [with, without] } = cost;
+        format!("{} | {threads} | {with:.3} | {without:.3} | {:.2}", grouped(*particles), cost.ratio())
     };
     format!(
         "At `{}`, {}; medians of a tick in ms.\n\n{}",
         PRESET.name(),
         processor(),
-        markdown::rows(
-            ">particles | >threads | >with heat | >without | >ratio | >of the rounds",
-            costs.iter().map(row)
-        )
+        markdown::rows(">particles | >threads | >with heat | >without | >ratio", costs.iter().map(row))
     )
 }
 
@@ -60,10 +57,10 @@ mod tests {
 
     #[test]
     fn the_table_has_a_row_for_each_number_of_threads() {
-        let cost = |threads| HeatCost { threads, particles: 10_000, ms: [2.0, 1.25], ratio: 1.6, range: [1.55, 1.7] };
+        let cost = |threads| HeatCost { threads, particles: 10_000, ms: [2.0, 1.25] };
         let text = text(&[cost(1), cost(2)]);
         assert!(text.contains("10,000 |"), "{text}");
-        let rows = text.lines().filter(|line| line.contains("2.000") && line.contains("1.55 … 1.70")).count();
+        let rows = text.lines().filter(|line| line.contains("2.000") && line.contains("1.60")).count();
         assert_eq!(rows, 2, "{text}");
     }
 }
