@@ -90,7 +90,7 @@ mod tests {
             let unlike = (0..particles.len()).filter(|i| (kelvin(*i) - ROOM).abs() > 1.0).count();
             assert_eq!(unlike, if warm { 10_000 } else { 0 });
             let effects = world.get::<Effects>();
-            assert_eq!(effects.get(crate::scene::effects::Effect::Heat).running, warm);
+            assert_eq!(effects.get(scene::effects::Effect::Heat).running, warm);
             assert_eq!(world.get::<SleepState>().asleep(), 0);
         }
     }
