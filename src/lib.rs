@@ -22,7 +22,7 @@
 //! game::render  matter, rock, air and light, between two ticks      game::hud  counts, cost, tools
 //! ```
 //!
-//! Who may import whom: `kernel ← scene ← sim ← lab ← game ← cli, web`, and no two files each other (tests/laws). Nothing
+//! Who may import whom: `kernel, sound ← scene ← sim ← lab ← game ← cli, web`, and no two files each other (tests/laws). Nothing
 //! below `game` knows egui, a window or a renderer, and builds without them (`--no-default-features`). The words stand in
 //! docs/glossary.md; docs/adding.md says which files an addition takes.
 
@@ -40,3 +40,4 @@ pub mod sim;
 pub mod web;
 
 pub use powder_kernel as kernel;
+pub use powder_sound as sound;

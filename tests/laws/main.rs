@@ -1,4 +1,4 @@
-//! Who may import whom, read from the files: kernel ← scene ← sim ← lab ← game ← cli, web, and no cycle of files.
+//! Who may import whom, read from the files: kernel, sound ← scene ← sim ← lab ← game ← cli, web, and no cycle of files.
 
 #![expect(clippy::unwrap_used, clippy::expect_used, reason = "a test that can't go on fails")]
 
@@ -11,10 +11,11 @@ use program::{Dependency, Program};
 use std::path::Path;
 
 /// Crates: name and folder.
-const CRATES: [(&str, &str); 2] = [("powder_master", "src"), ("powder_kernel", "src/kernel")];
+const CRATES: [(&str, &str); 3] =
+    [("powder_master", "src"), ("powder_kernel", "src/kernel"), ("powder_sound", "src/sound")];
 
 /// Layers from the lowest on: each may use itself and those before it, and those of one row not each other.
-const LAYERS: [&[&str]; 6] = [&["kernel"], &["scene"], &["sim"], &["lab"], &["game"], &["cli", "web"]];
+const LAYERS: [&[&str]; 6] = [&["kernel", "sound"], &["scene"], &["sim"], &["lab"], &["game"], &["cli", "web"]];
 
 fn dependencies() -> Vec<Dependency> {
     let dependencies = Program::read(Path::new(env!("CARGO_MANIFEST_DIR")), &CRATES).dependencies();
