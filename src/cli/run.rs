@@ -18,6 +18,7 @@ use crate::{
         reference::{Follower, Reference},
         run::{Observer, Plan},
         sampler::Sampler,
+        sound::track::Track,
         tables::{distances, particles, trace::Trace},
     },
     sim::{
@@ -47,6 +48,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let plan = plan(arguments, recorded)?;
     threads::start(arguments.machine.threads)?;
     let mut trace = arguments.trace.as_deref().map(output::create).transpose()?.map(Trace::new);
+    let mut track = arguments.wav.as_deref().map(|path| track(path, plan.ticks)).transpose()?;
 
     let mut simulation = begin(&start, arguments);
     let reference =
@@ -54,7 +56,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let mut follower = reference.as_ref().map(Follower::new);
     let begun = Instant::now();
     let mut sampler = arguments.metrics.is_some().then(|| Sampler::new(simulation.world(), plan.warmup));
-    let ran = simulate(&mut simulation, &plan, sampler.as_mut(), follower.as_mut(), trace.as_mut());
+    let ran = simulate(&mut simulation, &plan, sampler.as_mut(), follower.as_mut(), trace.as_mut(), track.as_mut());
     let seconds = begun.elapsed().as_secs_f64();
 
     let world = simulation.world();
@@ -69,12 +71,18 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         }
         _ => Ok(()),
     };
+    let heard = match (&arguments.wav, track) {
+        (Some(path), Some(track)) => {
+            track.finish().and_then(NewFile::finish).map(drop).map_err(|error| Failure::unwritten(path, error))
+        }
+        _ => Ok(()),
+    };
     let compared = match (&arguments.reference, &follower) {
         (Some(path), Some(follower)) => output::write(path, |file| distances::write(follower.points(), file)),
         _ => Ok(()),
     };
     let written = write_outputs(arguments, world, metrics.as_ref());
-    traced.and(compared).and(written)?;
+    traced.and(heard).and(compared).and(written)?;
     if output::is_stdout(arguments.metrics.as_deref()) {
         return Ok(());
     }
@@ -122,6 +130,7 @@ fn check_outputs(arguments: &RunArguments) -> Result<(), Failure> {
         arguments.trace.as_deref(),
         arguments.reference.as_deref(),
         arguments.png.as_deref(),
+        arguments.wav.as_deref(),
         arguments.snapshot.as_deref(),
     ];
     output::check(&files.into_iter().flatten().collect::<Vec<_>>())
@@ -162,6 +171,11 @@ fn reference(path: &Path, world: &World, plan: &Plan) -> Result<Reference, Failu
         .map_err(|error| Failure::unwritten(path, error))
 }
 
+/// The sound of so many ticks, to be written to a file.
+fn track(path: &Path, ticks: u64) -> Result<Track<NewFile>, Failure> {
+    Track::begin(output::create(path)?, ticks).map_err(|error| Failure::unwritten(path, error))
+}
+
 /// Runs the plan before all that watch it.
 fn simulate(
     simulation: &mut Simulation,
@@ -169,12 +183,14 @@ fn simulate(
     sampler: Option<&mut Sampler>,
     follower: Option<&mut Follower>,
     trace: Option<&mut Trace<NewFile>>,
+    track: Option<&mut Track<NewFile>>,
 ) -> io::Result<()> {
     let mut progress = progress::bar(plan.ticks);
     let mut observers: Vec<&mut dyn Observer> = vec![&mut progress];
     observers.extend(sampler.map(|sampler| sampler as &mut dyn Observer));
     observers.extend(follower.map(|follower| follower as &mut dyn Observer));
     observers.extend(trace.map(|trace| trace as &mut dyn Observer));
+    observers.extend(track.map(|track| track as &mut dyn Observer));
     lab::run::run(simulation, plan, &mut observers)
 }
 

@@ -39,6 +39,7 @@ pub mod sampler;
 pub mod scaling;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod soak;
+pub mod sound;
 pub mod split;
 pub mod stats;
 pub mod student;

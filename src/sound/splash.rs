@@ -57,6 +57,6 @@ impl Splash {
 pub(crate) fn bubble(chance: &mut Chance, most: f32, level: f32, pan: f32) -> Grain {
     let size = exp2(0.8 * chance.normal());
     let loudness = chance.unit();
-    let level = 1.3 * level * (size * size.sqrt()).min(3.0) * loudness * loudness;
+    let level = 1.1 * level * (size * size.sqrt()).min(2.2) * loudness * loudness;
     Grain::bubble((most * size).clamp(0.0003, 0.025), level, pan + 0.3 * chance.signed())
 }

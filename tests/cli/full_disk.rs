@@ -36,7 +36,7 @@ const SMALL: [&str; 6] = ["run", "dam_break", "--set", "columns=8", "--ticks", "
 
 #[test]
 fn a_full_disk_leaves_the_old_file_whole_and_says_where_what_and_what_to_do() {
-    for option in ["snapshot", "particles", "trace", "png", "metrics", "reference"] {
+    for option in ["snapshot", "particles", "trace", "png", "wav", "metrics", "reference"] {
         // No room at all, and room for a part of it; the table of distances is smaller than that.
         for kibibytes in if option == "reference" { 0..1 } else { 0..2 } {
             let here = folder(&format!("full_disk_{option}"));

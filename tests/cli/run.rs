@@ -123,6 +123,7 @@ fn watching_and_threads_never_change_the_world() {
             ["--metrics", "m.json"],
             ["--trace", "t.csv"],
             ["--png", "w.png"],
+            ["--wav", "w.wav"],
             ["--particles", "p.csv"],
             ["--reference", "r.csv"],
         ]
@@ -204,4 +205,25 @@ fn detail_multiplies_particles_by_its_square_and_is_in_the_metrics() {
     assert_eq!(saved(&[]), (2.0, 3200));
     assert_eq!(saved(&["--detail", "1"]), (1.0, 800));
     assert_eq!(saved(&["--quality", "reference", "--detail", "1"]), (2.0, 3200));
+}
+
+#[test]
+fn the_sound_of_a_run_is_as_long_as_it_and_the_same_on_any_number_of_threads() {
+    let here = folder("sound");
+    let heard = |name: &str, more: &[&str]| {
+        good(&here, &[&SMALL[..], &["--wav", name], more].concat());
+        std::fs::read(here.join(name)).unwrap()
+    };
+    let wav = heard("one.wav", &["--threads", "1"]);
+    let number = |at: usize| u32::from_le_bytes(wav[at..at + 4].try_into().unwrap());
+    assert_eq!((&wav[..4], &wav[8..16], number(24)), (&b"RIFF"[..], &b"WAVEfmt "[..], 48_000));
+    assert_eq!(number(40), 45 * 800 * 4, "45 ticks of 800 frames of two samples");
+    assert_eq!(wav.len(), 44 + number(40) as usize);
+    let peak = wav[44..].chunks_exact(2).map(|pair| i16::from_le_bytes([pair[0], pair[1]]).unsigned_abs()).max();
+    // −1 dB of full scale is 29,204.
+    assert!((1000..=29_204).contains(&peak.unwrap()), "{peak:?}");
+    assert!(
+        heard("two.wav", &["--threads", "2", "--simd", "scalar"]) == wav,
+        "another number of threads sounds otherwise"
+    );
 }

@@ -97,7 +97,7 @@ fn a_bad_output_path_is_refused_before_anything_is_simulated() {
     let here = folder("bad_output");
     // A run of this length would take hours.
     let long = |option: &'static str, path: &'static str| ["run", "waterfall", "--seconds", "90000", option, path];
-    for option in ["--metrics", "--particles", "--trace", "--reference", "--png", "--snapshot"] {
+    for option in ["--metrics", "--particles", "--trace", "--reference", "--png", "--wav", "--snapshot"] {
         refused(&here, &long(option, "nowhere/out"), 2, &["nowhere/out", "no folder", "allowed"]);
         refused(&here, &long(option, "."), 2, &["is a folder"]);
     }
@@ -112,7 +112,7 @@ fn a_bad_output_path_is_refused_before_anything_is_simulated() {
 #[test]
 fn an_output_that_cannot_be_written_is_exit_code_1() {
     let here = folder("full_disk");
-    for option in ["--metrics", "--particles", "--trace", "--reference", "--png", "--snapshot"] {
+    for option in ["--metrics", "--particles", "--trace", "--reference", "--png", "--wav", "--snapshot"] {
         refused(&here, &["run", "empty", "--ticks", "1", option, "/dev/full"], 1, &["/dev/full", "can't be written"]);
     }
 }

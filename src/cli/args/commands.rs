@@ -160,6 +160,9 @@ pub(in crate::cli) struct RunArguments {
     /// Draw the world at the end
     #[arg(long, value_name = "FILE.png")]
     pub(in crate::cli) png: Option<PathBuf>,
+    /// Write what it sounds like before the whole of its box
+    #[arg(long, value_name = "FILE.wav")]
+    pub(in crate::cli) wav: Option<PathBuf>,
     /// Save the world at the end, to be run on
     #[arg(long, value_name = "FILE")]
     pub(in crate::cli) snapshot: Option<PathBuf>,
