@@ -53,6 +53,8 @@ pub enum Action {
     KeepLastMinute,
     /// Puts the world beside itself at another quality, or ends that.
     Split,
+    /// Switches the sound off, and on again.
+    Mute,
     /// Full screen and back.
     FullScreen,
     /// Writes a picture of the window.

@@ -16,7 +16,9 @@ use crate::{
         lump::Lump,
         orders::{Order, Orders},
         panels::Panels,
-        recording, saves, screen, split,
+        recording, saves, screen,
+        sound::volume::Volume,
+        split,
         toasts::Toasts,
         toolbox::Toolbox,
         tools::Tool,
@@ -77,6 +79,7 @@ pub fn carry_out(world: &mut World) {
                 play(world, &name, &settings, quality, detail);
             }
             Order::Watch(name) => watch(world, name),
+            Order::Volume(level) => world.resource_mut::<Volume>().set(level),
         }
         // An undo may have been to another detail.
         follow::follow_detail(world);
@@ -162,6 +165,7 @@ fn act(world: &mut World, action: Action) {
         Action::Hud => world.resource_mut::<Panels>().turn_hud(),
         Action::Close => world.resource_mut::<Panels>().close_all(),
         Action::Split => split::toggle(world),
+        Action::Mute => world.resource_mut::<Volume>().toggle(),
         Action::FullScreen => screen::toggle_full_screen(world),
         Action::Screenshot => screen::take_screenshot(world),
     }

@@ -89,6 +89,12 @@ impl Pen<'_> {
         self.fill(&[(x(0.1), 0.36), (x(0.36), 0.14), (x(0.36), 0.58)]);
     }
 
+    /// The box and the cone of a loudspeaker.
+    fn loudspeaker(&self) {
+        self.bar(0.06, 0.36, 0.2, 0.28);
+        self.fill(&[(0.22, 0.4), (0.5, 0.14), (0.5, 0.86), (0.22, 0.6)]);
+    }
+
     /// A tray with an arrow into it (1) or out of it (−1).
     fn tray(&self, way: f32) {
         self.line(&[(0.14, 0.6), (0.14, 0.86), (0.86, 0.86), (0.86, 0.6)], 0.1);
@@ -304,6 +310,20 @@ pub fn gauge(pen: &Pen<'_>) {
     pen.line(&pen.arc(0.5, 0.6, 0.38, -0.55, 0.05), 0.1);
     pen.line(&[(0.5, 0.6), (0.7, 0.36)], 0.09);
     pen.disc(0.5, 0.6, 0.08);
+}
+
+/// Sound: a loudspeaker.
+pub fn sound(pen: &Pen<'_>) {
+    pen.loudspeaker();
+    pen.line(&pen.arc(0.5, 0.5, 0.2, -0.13, 0.13), 0.09);
+    pen.line(&pen.arc(0.5, 0.5, 0.38, -0.14, 0.14), 0.09);
+}
+
+/// No sound: a loudspeaker, and a cross.
+pub fn muted(pen: &Pen<'_>) {
+    pen.loudspeaker();
+    pen.line(&[(0.64, 0.36), (0.92, 0.64)], 0.09);
+    pen.line(&[(0.64, 0.64), (0.92, 0.36)], 0.09);
 }
 
 /// Settings.

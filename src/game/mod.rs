@@ -34,6 +34,7 @@ pub mod rest;
 pub mod saves;
 pub mod screen;
 pub mod script;
+pub mod sound;
 pub mod split;
 #[cfg(test)]
 mod tests;

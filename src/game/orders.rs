@@ -55,6 +55,8 @@ pub enum Order {
     },
     /// Play a hard case of the stability gauntlet.
     Watch(&'static str),
+    /// Move the slider of the volume, 0 … 1.
+    Volume(f32),
 }
 
 /// Orders that wait, oldest first.

@@ -3,7 +3,7 @@
 use crate::{
     game::{
         camera, execute, favourites, follow, frame, history, hud, input, orders, panels, playback, recording, saves,
-        split, toasts, toolbox, views,
+        sound, split, toasts, toolbox, views,
     },
     kernel::units::TICKS_PER_SECOND,
     lab::{
@@ -55,7 +55,13 @@ impl Plugin for GamePlugin {
             .init_resource::<accuracy::LiveError>()
             .init_resource::<accuracy::Survey>()
             .init_resource::<measures::Measures>()
-            .add_plugins((hud::panels::plugin, autopilot::plugin, crate::lab::split::plugin, recorder::plugin))
+            .add_plugins((
+                sound::plugin,
+                hud::panels::plugin,
+                autopilot::plugin,
+                crate::lab::split::plugin,
+                recorder::plugin,
+            ))
             .add_systems(
                 RunFixedMainLoop,
                 (

@@ -3,7 +3,10 @@
 #[cfg(not(target_arch = "wasm32"))]
 use crate::game::crash;
 use crate::{
-    game::{favourites::Favourites, hud::HudPlugin, plugin::GamePlugin, render::WorldRenderPlugin, rest},
+    game::{
+        favourites::Favourites, hud::HudPlugin, plugin::GamePlugin, render::WorldRenderPlugin, rest,
+        sound::volume::Volume,
+    },
     lab::colours,
     sim::{
         SimulationPlugin, fault,
@@ -111,6 +114,7 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
     .add_plugins(EguiPlugin::default())
     .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
     .insert_resource(Favourites::of_user())
+    .insert_resource(Volume::of_user())
     .insert_resource(ClearColor(Color::srgb_u8(red, green, blue)))
     .add_plugins(rest::plugin)
     .add_systems(Startup, spawn_camera)

@@ -7,13 +7,14 @@ use crate::{
             layout::Bars,
             panels::scenes,
             stats::{Reading, Readings, as_text, show_reading},
-            style,
+            style::{self, weak},
             widgets::{action_button, icon_button, menu, quality_menu, quality_name, row},
         },
         icons,
         input::bindings::Bindings,
         orders::{Order, Orders},
         panels::Panels,
+        sound::{Output, volume::Volume},
         views::table::{ELEMENTS, Shown, VIEWS},
     },
     kernel::units::TICKS_PER_SECOND,
@@ -39,6 +40,8 @@ pub struct Shows<'w> {
     setup: Res<'w, Setup>,
     view: Res<'w, Shown>,
     recorder: Res<'w, Recorder>,
+    volume: Res<'w, Volume>,
+    output: Res<'w, Output>,
     bindings: Res<'w, Bindings>,
 }
 
@@ -129,6 +132,7 @@ fn menus(ui: &mut Ui, narrow: bool, shows: &Shows, orders: &mut Orders) {
     for (panel, open) in panels.iter().filter(|(panel, _)| panel.in_bar) {
         action_button(ui, panel.icon, "", Action::Panel(panel.id), open, (bindings, orders));
     }
+    volume(ui, shows, orders);
     action_button(ui, icons::save, "", Action::Save, false, (bindings, orders));
     let quality = quality_name(setup.preset, &setup.quality);
     let quality = icon_button(ui, (icons::gauge, "quality"), text(&quality), false);
@@ -145,4 +149,25 @@ fn menus(ui: &mut Ui, narrow: bool, shows: &Shows, orders: &mut Orders) {
     });
     let (title, open) = (text(&setup.blueprint.title), panels.shows(scenes::PANEL.id));
     action_button(ui, icons::scenes, title, Action::Panel(scenes::PANEL.id), open, (bindings, orders));
+}
+
+/// The loudspeaker, and under it how loud it is.
+fn volume(ui: &mut Ui, Shows { volume, output, bindings, .. }: &Shows, orders: &mut Orders) {
+    let (plays, silent) = (output.may_play(), volume.gain() == 0.0);
+    let button = icon_button(ui, (if silent || !plays { icons::muted } else { icons::sound }, "sound"), "", false);
+    if !plays {
+        button.on_hover_text("There is no sound: this machine has no output for it");
+        return;
+    }
+    menu(&button, "Sound", |ui| {
+        let mut level = volume.level();
+        let slider = egui::Slider::new(&mut level, 0.0..=1.0).show_value(false);
+        if ui.add(slider).labelled_by(ui.label(weak("Volume")).id).changed() {
+            orders.push(Order::Volume(level));
+        }
+        if row(ui, "mute", &bindings.key(Action::Mute), volume.is_muted()) {
+            orders.push(Order::Act(Action::Mute));
+        }
+    });
+    button.on_hover_text(bindings.tip(Action::Mute));
 }

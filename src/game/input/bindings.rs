@@ -177,6 +177,7 @@ const OWN: &[Binding] = {
     key(K::ArrowUp, NONE, A::Pan(0, 1), H::Look, "move the picture"),
     key(K::ArrowDown, NONE, A::Pan(0, -1), H::Look, "move the picture"),
     key(K::KeyH, NONE, A::Hud, H::Look, "hide the HUD"),
+    key(K::KeyM, SHIFT, A::Mute, H::Look, "sound off, and on again"),
     key(K::KeyB, NONE, A::Split, H::Look, "A/B split: the same world at two qualities"),
     key(K::F11, NONE, A::FullScreen, H::Look, "full screen"),
     key(K::F2, NONE, A::Screenshot, H::Look, "screenshot"),

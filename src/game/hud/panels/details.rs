@@ -16,6 +16,7 @@ use crate::{
         orders::{Order, Orders},
         panels::Panel,
         render::cost::{PicturePass, RenderCost},
+        sound::SoundCost,
         views::table::STABILITY,
     },
     scene::{
@@ -59,7 +60,7 @@ pub fn show(
     setup: Res<Setup>,
     clock: Res<Clock>,
     readings: Res<Readings>,
-    costs: (Res<RenderCost>, Res<HudCost>),
+    costs: (Res<RenderCost>, Res<HudCost>, Res<SoundCost>),
     sleepers: (Res<SleepState>, Res<ParticleStore>, Res<AirGrid>),
     mut orders: ResMut<Orders>,
 ) -> Result {
@@ -71,6 +72,7 @@ pub fn show(
             world(ui, &setup, &clock);
             ui.separator();
             frame(ui, &costs.0, &costs.1);
+            sound(ui, &costs.2);
             ui.separator();
             stages(ui, &ledger);
             ui.separator();
@@ -117,6 +119,15 @@ fn frame(ui: &mut Ui, render: &RenderCost, hud: &HudCost) {
     let drawn: Vec<String> =
         drawn.map(|(pass, count)| format!("{} {}", pass.name(), grouped(u64::from(count)))).collect();
     ui.label(weak(format!("the picture draws: {}", drawn.join(", "))).small());
+}
+
+fn sound(ui: &mut Ui, cost: &SoundCost) {
+    ui.label(weak(format!(
+        "sound: {:.2} ms a frame to listen, {} calls; {:.1} ms a second to play",
+        cost.milliseconds(),
+        grouped(cost.calls()),
+        cost.playing()
+    )));
 }
 
 /// Columns of the stages, and what they mean.
