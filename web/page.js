@@ -259,9 +259,10 @@ async function main() {
   await isolate().catch((error) => console.warn(`no service worker: ${error}`));
 
   const part = (name) => import(new URL(name, document.baseURI).href);
-  const storage = part(build.storage);
-  const [module, game, { keep }, files] = await Promise.all(
-    [download(), part(build.script), storage, storage.then(({ all }) => all())]);
+  const [storage, sounds] = [part(build.storage), part(build.sound)];
+  const [module, game, { keep }, { soundOf }, files] = await Promise.all(
+    [download(), part(build.script), storage, sounds, storage.then(({ all }) => all())]);
+  const sound = soundOf({ module: build.soundModule, worklet: build.worklet });
   let isReady;
   const ready = new Promise((resolve) => { isReady = resolve; });
   globalThis.powderHost = {
@@ -279,6 +280,9 @@ async function main() {
     // What comes from the game is a view of its memory, which others can't share.
     keep: (path, bytes, written) => void tellKept(game, path, keep(path, bytes.slice(), written)),
     replace: (path, bytes, written) => void tellKept(game, path, keep(path, bytes.slice(), written, true)),
+    maySound: () => sound !== null,
+    leaveSound: (controls) => sound?.leave(controls),
+    wishSound: (plays) => sound?.wish(plays),
     download(name, bytes) {
       const url = URL.createObjectURL(new Blob([bytes.slice()]));
       Object.assign(document.createElement('a'), { href: url, download: name }).click();

@@ -4,8 +4,12 @@
 use crate::game::crash;
 use crate::{
     game::{
-        favourites::Favourites, hud::HudPlugin, plugin::GamePlugin, render::WorldRenderPlugin, rest,
-        sound::volume::Volume,
+        favourites::Favourites,
+        hud::HudPlugin,
+        plugin::GamePlugin,
+        render::WorldRenderPlugin,
+        rest,
+        sound::{Output, volume::Volume},
     },
     lab::colours,
     sim::{
@@ -115,6 +119,7 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
     .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
     .insert_resource(Favourites::of_user())
     .insert_resource(Volume::of_user())
+    .insert_resource(Output::of_system())
     .insert_resource(ClearColor(Color::srgb_u8(red, green, blue)))
     .add_plugins(rest::plugin)
     .add_systems(Startup, spawn_camera)

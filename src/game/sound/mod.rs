@@ -6,21 +6,31 @@
 //! volume, pause ─► direct ─► output: plays or rests
 //! ```
 //!
+//! In a page `page` is the output: controls go to the browser's audio thread, where a module of its own plays them.
+//!
 //! While it is muted, or time stands, or the window can't be seen, nothing listens, and the output asks for no samples. Where there
 //! is no output it never begins.
 
+#[cfg(not(target_arch = "wasm32"))]
 mod desk;
 #[cfg(any(windows, target_os = "macos"))]
 mod device;
 mod ears;
+#[cfg(not(target_arch = "wasm32"))]
 mod output;
-#[cfg(not(any(windows, target_os = "macos")))]
+#[cfg(target_arch = "wasm32")]
+mod page;
+#[cfg(not(any(windows, target_os = "macos", target_arch = "wasm32")))]
 mod pulse;
 pub mod volume;
+#[cfg(not(target_arch = "wasm32"))]
 mod wishes;
 
 pub use ears::SoundCost;
+#[cfg(not(target_arch = "wasm32"))]
 pub use output::Output;
+#[cfg(target_arch = "wasm32")]
+pub use page::Output;
 
 use bevy::{
     prelude::{App, AppExit, IntoScheduleConfigs, Last, SystemCondition, on_message},

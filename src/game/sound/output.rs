@@ -11,40 +11,28 @@ use bevy::{log::warn, prelude::Resource};
 use std::{
     sync::{
         Arc,
-        atomic::{AtomicU8, Ordering::Relaxed},
+        atomic::{AtomicBool, Ordering::Relaxed},
         mpsc::{Sender, channel},
     },
     thread,
     time::Duration,
 };
 
-/// What became of the output.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u8)]
-enum Fate {
-    /// Nothing was to be heard yet.
-    Unasked,
-    /// It is being connected, or plays.
-    There,
-    /// There is none.
-    Absent,
-}
-
-/// The way to the system's sound.
-#[derive(Resource, Debug)]
+/// The way to the system's sound. By default there is none: only the window's game asks for it.
+#[derive(Resource, Debug, Default)]
 pub struct Output {
     desk: Arc<Desk>,
-    fate: Arc<AtomicU8>,
+    /// Whether there may be one: it was not looked for yet, or found.
+    may_play: Arc<AtomicBool>,
     wishes: Option<Sender<bool>>,
 }
 
-impl Default for Output {
-    fn default() -> Self {
-        Self { desk: Arc::default(), fate: Arc::new(AtomicU8::new(Fate::Unasked as u8)), wishes: None }
-    }
-}
-
 impl Output {
+    /// The system's.
+    pub fn of_system() -> Self {
+        Self { may_play: Arc::new(AtomicBool::new(true)), ..Self::default() }
+    }
+
     /// Leaves what is to be heard.
     pub(super) fn leave(&self, controls: &Controls) {
         self.desk.put(controls);
@@ -57,7 +45,7 @@ impl Output {
 
     /// Whether there may be one: it was not looked for yet, or found.
     pub fn may_play(&self) -> bool {
-        self.fate.load(Relaxed) != Fate::Absent as u8
+        self.may_play.load(Relaxed)
     }
 
     /// Lets it play, or rest.
@@ -75,29 +63,22 @@ impl Output {
     #[cfg(test)]
     pub(super) fn of_desk() -> Self {
         let (wishes, _) = channel();
-        Self { wishes: Some(wishes), ..Self::default() }
-    }
-
-    /// One of a machine that has none.
-    #[cfg(test)]
-    pub(super) fn absent() -> Self {
-        Self { fate: Arc::new(AtomicU8::new(Fate::Absent as u8)), ..Self::default() }
+        Self { wishes: Some(wishes), ..Self::of_system() }
     }
 
     fn begin(&mut self) {
         let (wishes, heard) = channel();
-        let (desk, fate) = (self.desk.clone(), self.fate.clone());
-        fate.store(Fate::There as u8, Relaxed);
+        let (desk, may_play) = (self.desk.clone(), self.may_play.clone());
         self.wishes = Some(wishes);
         let run = move || {
             if let Err(reason) = play(&desk, &heard) {
                 warn!("no sound: {reason}");
-                fate.store(Fate::Absent as u8, Relaxed);
+                may_play.store(false, Relaxed);
             }
         };
         if let Err(error) = thread::Builder::new().name("sound".into()).spawn(run) {
             warn!("no sound: {error}");
-            self.fate.store(Fate::Absent as u8, Relaxed);
+            self.may_play.store(false, Relaxed);
         }
     }
 }

@@ -68,6 +68,8 @@ fn parameters() -> PlaybackStreamParams {
         buffer_attr: BufferAttr {
             target_length: bytes(BUFFER),
             minimum_request_length: bytes(REQUEST),
+            // It begins with what there is: else it would wait for as much as the buffer holds.
+            pre_buffering: 0,
             ..BufferAttr::default()
         },
         flags: StreamFlags { start_corked: true, adjust_latency: true, ..StreamFlags::default() },

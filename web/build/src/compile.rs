@@ -32,6 +32,8 @@ const SUITE: [&str; 2] = ["debug-assertions=true", "codegen-units=16"];
 
 /// The package that is the game.
 const PROGRAM: &str = "powder-master";
+/// The package that is the module of the audio thread.
+const SOUND: &str = "web-sound";
 
 /// Compiles the game, for size or soon, and says where its module is.
 pub fn compile(places: &Places, quick: bool) -> Result<PathBuf, Fault> {
@@ -40,6 +42,15 @@ pub fn compile(places: &Places, quick: bool) -> Result<PathBuf, Fault> {
     command.args(["--crate-type", "cdylib", "--"]).args(MODULE_FLAGS).args((!quick).then_some(ACROSS_CRATES));
     tool::run(&mut command).map_err(|_| Fault::failed("the game does not compile for wasm32 (see above)"))?;
     Ok(places.target.join("wasm32-unknown-unknown/web/powder_master.wasm"))
+}
+
+/// Compiles the sound, and says where its module is: it has a memory of its own, which nobody shares.
+pub fn compile_sound(places: &Places) -> Result<PathBuf, Fault> {
+    eprintln!("compiling the sound for wasm32");
+    let mut command = cargo("rustc", SOUND, places);
+    command.args(["--crate-type", "cdylib", "--", ACROSS_CRATES, "-Cstrip=symbols"]);
+    tool::run(&mut command).map_err(|_| Fault::failed("the sound does not compile for wasm32 (see above)"))?;
+    Ok(places.target.join("wasm32-unknown-unknown/web/web_sound.wasm"))
 }
 
 /// Compiles the tests of a package's library, and says where their module is.

@@ -95,9 +95,10 @@ fn build(places: &Places, quick: bool) -> Result<(), Fault> {
     let begun = Instant::now();
     source::require()?;
     let module = compile::compile(places, quick)?;
+    let sound = compile::compile_sound(places)?;
     let bound = bind::bind(&module, places)?;
     let bound = if quick { bound } else { optimise::optimise(&bound, places)? };
-    pack::pack(&bound, places, !quick)?;
+    pack::pack(&bound, &sound, places, !quick)?;
     eprintln!("dist/ is built, in {} s", begun.elapsed().as_secs());
     Ok(())
 }

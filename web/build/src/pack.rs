@@ -15,7 +15,7 @@ use std::{
 /// Files of `web/` that are part of the page under their own names.
 const PAGE: [&str; 3] = ["icon.svg", "manifest.webmanifest", "service.js"];
 /// Files of `web/` whose names get a hash.
-const SCRIPTS: [&str; 4] = ["page.js", "storage.js", "style.css", "worker.js"];
+const SCRIPTS: [&str; 6] = ["page.js", "sound.js", "storage.js", "style.css", "worker.js", "worklet.js"];
 /// Smaller files are not worth a compressed copy, bytes.
 const WORTH_COMPRESSING: usize = 1024;
 /// Most that brotli may look back: 2 to this many bytes.
@@ -31,7 +31,7 @@ const PAGES: &str = "WebAssembly.Memory({initial:";
 ///
 /// # Errors
 /// If a file can't be read or written, or a compressed page would be too large.
-pub fn pack(bound: &Bound, places: &Places, compressed: bool) -> Result<(), Fault> {
+pub fn pack(bound: &Bound, sound: &Path, places: &Places, compressed: bool) -> Result<(), Fault> {
     eprintln!("packing dist/");
     let read = |path: &Path| fs::read(path).map_err(|error| Fault::file(path, error));
     let page = places.root.join("web");
@@ -44,6 +44,7 @@ pub fn pack(bound: &Bound, places: &Places, compressed: bool) -> Result<(), Faul
     };
     add("powder-master.wasm", read(&bound.wasm)?);
     add("powder-master.js", read(&bound.script)?);
+    add("sound.wasm", read(sound)?);
     for name in SCRIPTS {
         add(name, read(&page.join(name))?);
     }
@@ -69,7 +70,7 @@ pub fn pack(bound: &Bound, places: &Places, compressed: bool) -> Result<(), Faul
     fs::create_dir_all(&places.dist).map_err(|error| Fault::file(&places.dist, error))?;
     for (name, bytes) in &files {
         let small = write(&places.dist.join(name), bytes, compressed)?;
-        if let (Some(small), true) = (small, name.ends_with(".wasm")) {
+        if let (Some(small), true) = (small, names.get("powder-master.wasm") == Some(name)) {
             eprintln!("{:.2} MB with brotli", small as f64 / 1e6);
             check_size(bytes.len(), small)?;
         }

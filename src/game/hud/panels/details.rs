@@ -122,12 +122,9 @@ fn frame(ui: &mut Ui, render: &RenderCost, hud: &HudCost) {
 }
 
 fn sound(ui: &mut Ui, cost: &SoundCost) {
-    ui.label(weak(format!(
-        "sound: {:.2} ms a frame to listen, {} calls; {:.1} ms a second to play",
-        cost.milliseconds(),
-        grouped(cost.calls()),
-        cost.playing()
-    )));
+    let listening = format!("sound: {} calls, {:.2} ms each", grouped(cost.calls()), cost.milliseconds());
+    let playing = cost.playing().map(|playing| format!("; {playing:.1} ms to play a second"));
+    ui.label(weak(listening + &playing.unwrap_or_default()));
 }
 
 /// Columns of the stages, and what they mean.
