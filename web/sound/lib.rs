@@ -76,7 +76,7 @@ mod tests {
         for _ in 0..100 {
             render();
             synthesiser.render(&wind, &mut expected);
-            let heard: Vec<f32> = (0..2 * FRAMES as u32).map(sample).collect();
+            let heard: Vec<f32> = (0..2 * FRAMES as u32).map(|place| sample(place)).collect();
             assert_eq!(heard, expected);
             loudest = heard.into_iter().map(f32::abs).fold(loudest, f32::max);
         }

@@ -7,7 +7,7 @@ use crate::{
             layout::Bars,
             panels::scenes,
             stats::{Reading, Readings, as_text, show_reading},
-            style::{self, weak},
+            style,
             widgets::{action_button, icon_button, menu, quality_menu, quality_name, row},
         },
         icons,
@@ -159,10 +159,12 @@ fn volume(ui: &mut Ui, Shows { volume, output, bindings, .. }: &Shows, orders: &
         button.on_hover_text("There is no sound: this machine has no output for it");
         return;
     }
-    menu(&button, "Sound", |ui| {
+    menu(&button, "Volume", |ui| {
         let mut level = volume.level();
         let slider = egui::Slider::new(&mut level, 0.0..=1.0).show_value(false);
-        if ui.add(slider).labelled_by(ui.label(weak("Volume")).id).changed() {
+        let moved = ui.add(slider);
+        moved.widget_info(|| egui::WidgetInfo::slider(true, f64::from(level), "volume"));
+        if moved.changed() {
             orders.push(Order::Volume(level));
         }
         if row(ui, "mute", &bindings.key(Action::Mute), volume.is_muted()) {

@@ -29,11 +29,12 @@ mod tests {
     #[test]
     fn only_a_wish_that_changes_something_counts_and_the_last_of_several() {
         let (wishes, heard) = channel();
-        [true, false, true, true].map(|wish| wishes.send(wish).unwrap());
+        let send = |all: &[bool]| all.iter().for_each(|wish| wishes.send(*wish).unwrap());
+        send(&[true, false, true, true]);
         assert_eq!(next_wish(&heard, false), Some(true));
-        [false, true, false].map(|wish| wishes.send(wish).unwrap());
+        send(&[false, true, false]);
         assert_eq!(next_wish(&heard, true), Some(false));
-        wishes.send(false).unwrap();
+        send(&[false]);
         drop(wishes);
         assert_eq!(next_wish(&heard, false), None);
     }
