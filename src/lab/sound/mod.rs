@@ -17,6 +17,7 @@ mod matter;
 mod memory;
 mod source;
 #[cfg(test)]
+#[cfg(not(target_arch = "wasm32"))]
 mod tests;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod track;
