@@ -41,7 +41,7 @@ impl Tiles {
         let marked = self.marked.iter().enumerate().filter(|(_, marked)| **marked);
         out.extend(marked.map(|(k, _)| {
             let k = k as u32;
-            k % self.dimensions.x | (k / self.dimensions.x) << 16
+            (k % self.dimensions.x) | ((k / self.dimensions.x) << 16)
         }));
     }
 }
