@@ -4,8 +4,9 @@ use crate::game::render::{
     cost::RenderCost,
     extract::Pictures,
     noise,
-    picture::{Picture, WorldUniform},
+    picture::Picture,
     pipelines::{FIELD_FORMAT, Layouts},
+    uniform::WorldUniform,
 };
 use bevy::{
     platform::time::Instant,

@@ -35,6 +35,7 @@ pub mod rock;
 mod tests;
 pub mod tiles;
 pub mod tracers;
+pub mod uniform;
 
 use bevy::{
     asset::Assets,

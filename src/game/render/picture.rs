@@ -9,12 +9,13 @@ use crate::{
             glow::{GlowMap, Warmth},
             level::Level,
             look::{Finish, Looks},
-            matter::{LIQUIDS, Matter, Sample},
+            matter::{Matter, Sample},
             moved::Moved,
             particles::{self, ColourTable, ParticleInstance},
             rock,
-            tiles::{TILE, TileInstance, Tiles},
+            tiles::{PictureTiles, TILE},
             tracers::Tracers,
+            uniform::{WorldUniform, srgb, two},
         },
         views::{
             fire::Burning,
@@ -24,7 +25,7 @@ use crate::{
     },
     kernel::heat::Exposure,
     lab::{
-        colours::{self, Reference, Rgb, rock_colour},
+        colours::{self, Reference, rock_colour},
         difference::{Difference, Half},
         maps::{BurialMap, DepthMap},
     },
@@ -36,7 +37,7 @@ use crate::{
 use bevy::{
     math::URect,
     prelude::World,
-    render::render_resource::{BufferUsages, RawBufferVec, ShaderType},
+    render::render_resource::{BufferUsages, RawBufferVec},
     window::Window,
 };
 use glam::{UVec2, Vec2, Vec4};
@@ -49,25 +50,6 @@ const GAS_RADIUS: f32 = 4.2;
 const FINE: f32 = 2.5;
 /// Spacing of the arrows, logical pixels.
 const ARROW_SPACING: f32 = 30.0;
-
-/// What the shader knows of the world as a whole; the fields are explained there.
-#[derive(Clone, Copy, Debug, Default, ShaderType)]
-pub struct WorldUniform {
-    to_clip: Vec4,
-    size: Vec4,
-    extent: Vec4,
-    fine_extent: Vec4,
-    look: Vec4,
-    pen: Vec4,
-    parts: Vec4,
-    levels: Vec4,
-    surroundings: Vec4,
-    box_top: Vec4,
-    box_bottom: Vec4,
-    frame: Vec4,
-    abyss: Vec4,
-    liquids: [Vec4; LIQUIDS],
-}
 
 /// A picture of a world.
 pub struct Picture {
@@ -154,35 +136,6 @@ impl Default for Picture {
             shares: Vec::new(),
             rock_of: None,
         }
-    }
-}
-
-/// Which tiles are drawn by which pass.
-pub struct PictureTiles {
-    /// Bodies of matter.
-    pub bodies: RawBufferVec<TileInstance>,
-    /// Gases.
-    pub gases: RawBufferVec<TileInstance>,
-    /// Rock.
-    pub rock: RawBufferVec<TileInstance>,
-    marks: Tiles,
-}
-
-impl Default for PictureTiles {
-    fn default() -> Self {
-        let buffer = || RawBufferVec::new(BufferUsages::VERTEX);
-        Self { bodies: buffer(), gases: buffer(), rock: buffer(), marks: Tiles::default() }
-    }
-}
-
-impl PictureTiles {
-    /// The tiles that the discs of all instances reach: they begin with their place, two f32.
-    fn of(marks: &mut Tiles, instances: &[&[[u32; 3]]], size: Vec2, radius: f32, out: &mut Vec<TileInstance>) {
-        marks.clear(size);
-        for [x, y, _] in instances.iter().copied().flatten() {
-            marks.mark(Vec2::new(f32::from_bits(*x), f32::from_bits(*y)), radius);
-        }
-        marks.list(out);
     }
 }
 
@@ -317,10 +270,9 @@ impl Picture {
 
     /// Marks the tiles of bodies and gases.
     fn mark_bodies(&mut self, size: Vec2) {
-        let Self { particles, matter, tiles: PictureTiles { bodies, gases, marks, .. }, .. } = self;
-        let all = [particles.values(), matter.bodies.values(), matter.more.values()].map(|values| &values[..]);
-        PictureTiles::of(marks, &all, size, DISC_RADIUS, bodies.values_mut());
-        PictureTiles::of(marks, &[matter.gases.values()], size, GAS_RADIUS, gases.values_mut());
+        let Self { particles, matter, tiles, .. } = self;
+        let bodies = [particles.values(), matter.bodies.values(), matter.more.values()].map(|values| &values[..]);
+        tiles.mark_matter(size, (&bodies, DISC_RADIUS), (matter.gases.values(), GAS_RADIUS));
     }
 
     fn fill_particles(&mut self, scene: Scene<'_>, sight: Sight<'_>, reference: Reference) {
@@ -396,10 +348,7 @@ impl Picture {
             }
         }
         if self.rock_new {
-            let tiles = &mut self.tiles;
-            tiles.marks.clear(scene.setup.blueprint.domain.size);
-            rock.iter().for_each(|(cell, _, _)| tiles.marks.mark(cell.as_vec2() + 0.5, 1.0));
-            tiles.marks.list(tiles.rock.values_mut());
+            self.tiles.mark_rock(scene.setup.blueprint.domain.size, rock);
         }
     }
 
@@ -473,13 +422,4 @@ impl Picture {
         };
         self.bake = self.rock_new || seen != (self.window, self.uniform.to_clip);
     }
-}
-
-fn two(a: Vec2, b: Vec2) -> Vec4 {
-    Vec4::new(a.x, a.y, b.x, b.y)
-}
-
-fn srgb(rgb: Rgb) -> Vec4 {
-    let [r, g, b] = rgb.map(|channel| f32::from(channel) / 255.0);
-    Vec4::new(r, g, b, 1.0)
 }

@@ -1,6 +1,6 @@
 //! The pipelines of the picture, made for the format of the window's target.
 
-use crate::game::render::picture::WorldUniform;
+use crate::game::render::uniform::WorldUniform;
 use bevy::{
     asset::Handle,
     mesh::VertexBufferLayout,

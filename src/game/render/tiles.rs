@@ -1,5 +1,7 @@
 //! Which tiles of the box have something to be drawn, so that the shaders go over these pixels only.
 
+use crate::kernel::solids::Solids;
+use bevy::render::render_resource::{BufferUsages, RawBufferVec};
 use glam::{UVec2, Vec2};
 
 /// Edge of a tile, d.
@@ -43,6 +45,48 @@ impl Tiles {
             let k = k as u32;
             (k % self.dimensions.x) | ((k / self.dimensions.x) << 16)
         }));
+    }
+}
+
+/// Which tiles are drawn by which pass.
+pub struct PictureTiles {
+    /// Bodies of matter.
+    pub bodies: RawBufferVec<TileInstance>,
+    /// Gases.
+    pub gases: RawBufferVec<TileInstance>,
+    /// Rock.
+    pub rock: RawBufferVec<TileInstance>,
+    marks: Tiles,
+}
+
+impl Default for PictureTiles {
+    fn default() -> Self {
+        let buffer = || RawBufferVec::new(BufferUsages::VERTEX);
+        Self { bodies: buffer(), gases: buffer(), rock: buffer(), marks: Tiles::default() }
+    }
+}
+
+impl PictureTiles {
+    /// Marks what the discs of all instances reach, in a box of `size`: bodies in several buffers, and gases. Instances begin with
+    /// their place, two f32; radii in d.
+    pub fn mark_matter(&mut self, size: Vec2, bodies: (&[&[[u32; 3]]], f32), gases: (&[[u32; 3]], f32)) {
+        let Self { marks, bodies: of_bodies, gases: of_gases, .. } = self;
+        let mut mark = |instances: &[&[[u32; 3]]], radius: f32, out: &mut Vec<TileInstance>| {
+            marks.clear(size);
+            for [x, y, _] in instances.iter().copied().flatten() {
+                marks.mark(Vec2::new(f32::from_bits(*x), f32::from_bits(*y)), radius);
+            }
+            marks.list(out);
+        };
+        mark(bodies.0, bodies.1, of_bodies.values_mut());
+        mark(&[gases.0], gases.1, of_gases.values_mut());
+    }
+
+    /// Marks where rock is, and a cell around it.
+    pub fn mark_rock(&mut self, size: Vec2, rock: &Solids) {
+        self.marks.clear(size);
+        rock.iter().for_each(|(cell, _, _)| self.marks.mark(cell.as_vec2() + 0.5, 1.0));
+        self.marks.list(self.rock.values_mut());
     }
 }
 
