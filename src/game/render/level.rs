@@ -38,9 +38,9 @@ impl Level {
     /// Texels of the fields of bodies and of gases to one d.
     pub fn texels(self) -> (f32, f32) {
         match self {
-            Self::Plain => (2.0, 1.0),
-            Self::Good => (3.0, 1.5),
-            Self::Full => (4.0, 1.5),
+            Self::Plain => (2.0, 2.0),
+            Self::Good => (3.0, 2.0),
+            Self::Full => (4.0, 2.0),
         }
     }
 
