@@ -132,8 +132,8 @@ fn menus(ui: &mut Ui, narrow: bool, shows: &Shows, orders: &mut Orders) {
     for (panel, open) in panels.iter().filter(|(panel, _)| panel.in_bar) {
         action_button(ui, panel.icon, "", Action::Panel(panel.id), open, (bindings, orders));
     }
-    volume(ui, shows, orders);
     action_button(ui, icons::save, "", Action::Save, false, (bindings, orders));
+    volume(ui, shows, orders);
     let quality = quality_name(setup.preset, &setup.quality);
     let quality = icon_button(ui, (icons::gauge, "quality"), text(&quality), false);
     if let Some(preset) = quality_menu(&quality, setup.preset) {
