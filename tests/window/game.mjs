@@ -153,6 +153,12 @@ function pixels(picture, { x, y, width, height }, each) {
 // The world, without the bars.
 export const WORLD = { x: 0, y: 60, width: WIDTH, height: HEIGHT - 140 };
 
+// Whether the game has drawn the lower right corner of a window of this size: the server leaves it black.
+export function isDrawn(picture, [width, height]) {
+  const k = 3 * ((height - 2) * WIDTH + width - 2);
+  return picture[k] + picture[k + 1] + picture[k + 2] > 0;
+}
+
 // Share of the world's pixels that differ visibly, in percent.
 export function difference(one, other) {
   let differ = 0;

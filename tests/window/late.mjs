@@ -6,7 +6,7 @@ import { execFileSync } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { poll } from '../poll.mjs';
-import { difference, display, open } from './game.mjs';
+import { difference, display, isDrawn, open } from './game.mjs';
 
 // Down to the smallest, and up to the screen's, across and along.
 const SIZES = [[640, 400], [1280, 400], [480, 320], [900, 800], [481, 799], [1280, 800]];
@@ -54,19 +54,27 @@ export async function resizeWhileLate(program, folder) {
     // The picture of a world that stands is the same before and after, and it is one of water.
     await game.tell('pause');
     await game.until('it stands', ({ paused, messages }) => paused && messages.length === 0);
-    const still = async (name) => {
-      let before = await game.picture(name);
+    // A frame of so many particles takes long: what the window has gained is black until it is drawn, and what keeps still for less
+    // than a second may be one that is not done.
+    const still = async (name, size) => {
+      let before;
+      await poll(`${name} is drawn`, async () => {
+        before = await game.picture(name);
+        return isDrawn(before, size);
+      }, Boolean);
+      let since = Date.now();
       await poll(`${name} keeps still`, async () => {
         const last = before;
         before = await game.picture(name);
-        return difference(last, before);
-      }, (share) => share === 0);
+        if (difference(last, before) > 0) since = Date.now();
+        return Date.now() - since;
+      }, (held) => held > 1000);
       return before;
     };
-    const before = await still('late-before');
+    const before = await still('late-before', FULL);
     await game.resize([700, 500]);
     await fits([700, 500]);
-    const small = await still('late-small');
+    const small = await still('late-small', [700, 500]);
     assert.ok(difference(before, small) > 5, 'another size has the same picture');
     await game.hide();
     await game.show();
