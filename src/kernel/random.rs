@@ -20,6 +20,11 @@ pub fn threshold(rate: f32) -> u32 {
     (share / (1.0 + share) * 4_294_967_296.0) as u32
 }
 
+/// The high 24 bits as a number from 0 to below 1.
+pub fn share(bits: u32) -> f32 {
+    (bits >> 8) as f32 / (1 << 24) as f32
+}
+
 /// The low 16 bits as a number in −1 … 1.
 pub fn unit(bits: u32) -> f32 {
     (bits & 0xffff) as f32 / 32_767.5 - 1.0

@@ -4,6 +4,7 @@
 use crate::kernel::{
     element::Element,
     params::{AirParams, Domain},
+    random::{mix as scramble, share},
 };
 use glam::{IVec2, Vec2};
 
@@ -61,7 +62,7 @@ pub fn rock_colour(element: &Element, cell: IVec2, id: u32, burial: f32) -> Rgb 
     let at = cell.as_vec2();
     let broad = value_noise(at * Vec2::new(0.045, 0.11), 1) - 0.5;
     let fine = value_noise(at * 0.31, 2) - 0.5;
-    let grain = unit(hash(id, cell.x as u32 ^ (cell.y as u32).rotate_left(16))) - 0.5;
+    let grain = share(scramble(id ^ scramble(cell.x as u32 ^ (cell.y as u32).rotate_left(16)))) - 0.5;
     let light = (1.0 + 0.30 * broad + 0.20 * fine + 0.13 * grain) * (1.08 - 0.50 * smoothstep(0.0, 1.0, burial));
     element.colour.map(|channel| (f32::from(channel) * light).clamp(0.0, 255.0) as u8)
 }
@@ -96,24 +97,13 @@ fn smoothstep(from: f32, to: f32, x: f32) -> f32 {
     t * t * (3.0 - 2.0 * t)
 }
 
-fn hash(a: u32, b: u32) -> u32 {
-    let mut h = a.wrapping_mul(0x9E37_79B1) ^ b.wrapping_mul(0x85EB_CA77);
-    h = (h ^ (h >> 15)).wrapping_mul(0x2C1B_3C6D);
-    h = (h ^ (h >> 12)).wrapping_mul(0x297A_2D39);
-    h ^ (h >> 15)
-}
-
-fn unit(bits: u32) -> f32 {
-    (bits >> 8) as f32 / (1 << 24) as f32
-}
-
 fn value_noise(at: Vec2, seed: u32) -> f32 {
     let cell = at.floor();
     let t = at - cell;
     let t = t * t * (Vec2::splat(3.0) - 2.0 * t);
     let corner = |dx: i32, dy: i32| {
         let (x, y) = (cell.x as i32 + dx, cell.y as i32 + dy);
-        unit(hash((x as u32).wrapping_add(seed.wrapping_mul(0x0101_0101)), y as u32))
+        share(scramble(x as u32 ^ scramble(y as u32 ^ scramble(seed))))
     };
     let low = corner(0, 0) * (1.0 - t.x) + corner(1, 0) * t.x;
     let high = corner(0, 1) * (1.0 - t.x) + corner(1, 1) * t.x;

@@ -10,7 +10,7 @@ use crate::{
         look::{Look, Looks},
         moved::Moved,
     },
-    kernel::{element::ElementId, particles::Particles, solids::Solids},
+    kernel::{element::ElementId, particles::Particles, random, solids::Solids},
     lab::colours::Rgb,
 };
 use bevy::{
@@ -180,7 +180,7 @@ impl Matter {
             return [channel, 0, 0, 0];
         }
         let id = world.particles.id[i];
-        let threshold = FOAM_SPREAD * share(id);
+        let threshold = FOAM_SPREAD * random::share(random::mix(id));
         let foam = ((world.body.foam_at(at) - threshold) * 2.2).clamp(0.0, 1.0);
         let velocity = world.particles.velocity(i);
         let (mut long, mut angle) = (0.0, 0.0);
@@ -201,29 +201,22 @@ impl Matter {
         };
         let traits = u32::from_le_bytes([channel as u8, traits[1], traits[2], traits[3]]);
         buffer.push(instance(at, traits));
-        let (low, high) = (at, world.size - at);
-        let reach = world.radius;
-        if low.min(high).min_element() < reach {
-            let x = if low.x < reach {
-                -at.x
-            } else if high.x < reach {
-                2.0 * world.size.x - at.x
-            } else {
-                f32::NAN
-            };
-            let y = if low.y < reach {
-                -at.y
-            } else if high.y < reach {
-                2.0 * world.size.y - at.y
-            } else {
-                f32::NAN
-            };
-            for image in [Vec2::new(x, at.y), Vec2::new(at.x, y), Vec2::new(x, y)] {
-                if !image.is_nan() {
-                    buffer.push(instance(image, traits));
-                }
-            }
-        }
+        let [x, y] = [0, 1].map(|axis| image(at[axis], world.size[axis], world.radius));
+        let images = [x.map(|x| Vec2::new(x, at.y)), y.map(|y| Vec2::new(at.x, y)), x.zip(y).map(Vec2::from)];
+        images.into_iter().flatten().for_each(|image| {
+            buffer.push(instance(image, traits));
+        });
+    }
+}
+
+/// Where the image of a place behind the nearer wall is, along one axis, if it is within `reach` of one.
+fn image(at: f32, size: f32, reach: f32) -> Option<f32> {
+    if at < reach {
+        Some(-at)
+    } else if size - at < reach {
+        Some(2.0 * size - at)
+    } else {
+        None
     }
 }
 
@@ -231,17 +224,9 @@ fn instance(at: Vec2, bytes: u32) -> Instance {
     [at.x.to_bits(), at.y.to_bits(), bytes]
 }
 
-/// A number of 0 … 1 that stays with a particle.
-fn share(id: u32) -> f32 {
-    let mut h = id.wrapping_mul(0x9E37_79B1);
-    h = (h ^ (h >> 15)).wrapping_mul(0x2C1B_3C6D);
-    h ^= h >> 12;
-    (h >> 8) as f32 / (1 << 24) as f32
-}
-
 /// Colour of a grain and its share of own light: a shade of its own that its id gives it, and what it glows.
 fn grain(look: Look, glow: [f32; 3], id: u32) -> u32 {
-    let shade = 0.90 + 0.20 * share(id);
+    let shade = 0.90 + 0.20 * random::share(random::mix(id));
     let own = glow[0].max(glow[1]).max(glow[2]);
     let rgb: [u8; 3] = std::array::from_fn(|k| {
         let cold = f32::from(look.colour[k]) * shade;

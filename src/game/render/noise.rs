@@ -1,5 +1,7 @@
 //! A texture of noise that tiles, made once: what breaks up rock, clouds, flames and foam.
 
+use crate::kernel::random::{mix, share};
+
 /// Texels along an edge.
 pub const EDGE: usize = 128;
 /// Octaves of the smooth noise, and cells along the edge in the first.
@@ -45,10 +47,7 @@ fn cells(u: f32, v: f32, cells: u32) -> f32 {
 }
 
 fn random(x: u32, y: u32, seed: u32) -> f32 {
-    let mut h = x.wrapping_mul(0x9E37_79B1) ^ y.wrapping_mul(0x85EB_CA77) ^ seed.wrapping_mul(0xC2B2_AE3D);
-    h = (h ^ (h >> 15)).wrapping_mul(0x2C1B_3C6D);
-    h = (h ^ (h >> 12)).wrapping_mul(0x297A_2D39);
-    ((h ^ (h >> 15)) >> 8) as f32 / (1 << 24) as f32
+    share(mix(x ^ mix(y ^ mix(seed))))
 }
 
 #[cfg(test)]
