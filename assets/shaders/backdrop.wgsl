@@ -21,3 +21,10 @@ fn backdrop_fragment(in: Screen) -> @location(0) vec4<f32> {
     let rgb = mix(mix(exposed_to(inside), world.frame.rgb, border), around, beyond);
     return vec4<f32>(to_linear(rgb + dither(in.position.xy)), 1.0);
 }
+
+// ---- a picture of fewer pixels than the window, over all of it
+
+@fragment
+fn enlarged_fragment(in: Screen) -> @location(0) vec4<f32> {
+    return textureSampleLevel(sheet_texture, linear_sampler, in.uv, 0.0);
+}

@@ -41,7 +41,7 @@ struct World {
 @group(1) @binding(9) var gas_texture: texture_2d<f32>;
 @group(1) @binding(10) var repeating_sampler: sampler;
 @group(1) @binding(11) var noise_texture: texture_2d<f32>;
-@group(2) @binding(0) var stone_texture: texture_2d<f32>;
+@group(2) @binding(0) var sheet_texture: texture_2d<f32>;
 
 // Alpha of the field at the surface of a body.
 const SURFACE: f32 = 0.5;

@@ -53,7 +53,7 @@ fn stone_fragment(in: Tile) -> @location(0) vec4<f32> {
 
 @fragment
 fn rock_fragment(in: Tile) -> @location(0) vec4<f32> {
-    let stone = textureLoad(stone_texture, vec2<i32>(in.position.xy), 0);
+    let stone = textureLoad(sheet_texture, vec2<i32>(in.position.xy), 0);
     if stone.a == 0.0 {
         discard;
     }

@@ -31,11 +31,13 @@ pub enum PicturePass {
     Rock,
     /// Clouds and flames, tile by tile.
     Clouds,
+    /// A picture of fewer pixels than the window over all of it.
+    Enlarged,
 }
 
 impl PicturePass {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Backdrop,
         Self::Bodies,
         Self::Gases,
@@ -45,6 +47,7 @@ impl PicturePass {
         Self::Grains,
         Self::Rock,
         Self::Clouds,
+        Self::Enlarged,
     ];
 
     /// Name on the screen.
@@ -59,6 +62,7 @@ impl PicturePass {
             Self::Grains => "grains",
             Self::Rock => "rock",
             Self::Clouds => "clouds",
+            Self::Enlarged => "enlarged",
         }
     }
 }

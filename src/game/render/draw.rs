@@ -51,14 +51,29 @@ pub fn draw(
         pane.draw_fields(&mut context, with);
         pane.bake(&mut context, with);
     }
-    let mut pass = context.begin_tracked_render_pass(RenderPassDescriptor {
+    let Some(reduced) = gpu.reduced() else {
+        let mut pass = over(&mut context, target);
+        panes.iter().for_each(|pane| pane.draw(&mut pass, with));
+        return;
+    };
+    let mut pass = into(&mut context, "reduced", &reduced.view);
+    panes.iter().for_each(|pane| pane.draw(&mut pass, with));
+    drop(pass);
+    if let Some(group) = &reduced.group {
+        let mut pass = over(&mut context, target);
+        panes[0].bind(&mut pass);
+        pass.set_bind_group(2, group, &[]);
+        with.screen(&mut pass, PicturePass::Enlarged, ids.enlarged);
+    }
+}
+
+/// A pass over what the window's target holds.
+fn over<'a>(context: &'a mut RenderContext<'_, '_>, target: &ViewTarget) -> TrackedRenderPass<'a> {
+    context.begin_tracked_render_pass(RenderPassDescriptor {
         label: Some("world"),
         color_attachments: &[Some(target.get_color_attachment())],
         ..RenderPassDescriptor::default()
-    });
-    for pane in &panes {
-        pane.draw(&mut pass, with);
-    }
+    })
 }
 
 /// A picture that has everything to be drawn.
@@ -73,6 +88,13 @@ impl<'a> Pane<'a> {
     fn new((picture, gpu): (&'a Picture, &'a GpuPicture)) -> Option<Self> {
         let ((fields, groups), stone) = (gpu.parts()?, gpu.stone()?);
         Some(Self { picture, fields, groups, stone })
+    }
+
+    /// Binds its numbers, and its maps and fields.
+    fn bind(&self, pass: &mut TrackedRenderPass<'a>) {
+        for (k, group) in self.groups.iter().enumerate() {
+            pass.set_bind_group(k, group, &[]);
+        }
     }
 
     /// Draws the fields of what is there.
@@ -99,10 +121,8 @@ impl<'a> Pane<'a> {
         if self.stone.baked.load(Ordering::Relaxed) || with.cache.get_render_pipeline(with.ids.stone).is_none() {
             return;
         }
-        let mut pass = into(context, "stone", &self.stone.view);
-        for (k, group) in self.groups.iter().enumerate() {
-            pass.set_bind_group(k, group, &[]);
-        }
+        let mut pass = into(context, "stone", &self.stone.sheet.view);
+        self.bind(&mut pass);
         with.instances(&mut pass, PicturePass::Bake, with.ids.stone, all!(self.picture.tiles.rock));
         self.stone.baked.store(true, Ordering::Relaxed);
     }
@@ -116,9 +136,7 @@ impl<'a> Pane<'a> {
             }
             pass.set_scissor_rect(part.min.x, part.min.y, size.x, size.y);
         }
-        for (k, group) in self.groups.iter().enumerate() {
-            pass.set_bind_group(k, group, &[]);
-        }
+        self.bind(pass);
         with.screen(pass, PicturePass::Backdrop, ids.backdrop);
         let tiles = &picture.tiles;
         let streaks = all!(picture.streaks);
@@ -128,7 +146,7 @@ impl<'a> Pane<'a> {
         let surface = if picture.as_it_is { ids.surface } else { ids.shape };
         with.instances(pass, PicturePass::Surface, surface, all!(tiles.bodies));
         with.instances(pass, PicturePass::Grains, ids.grain, all!(picture.matter.grains));
-        if let Some(group) = &self.stone.group {
+        if let Some(group) = &self.stone.sheet.group {
             pass.set_bind_group(2, group, &[]);
             with.instances(pass, PicturePass::Rock, ids.rock, all!(tiles.rock));
         }

@@ -5,7 +5,7 @@ use crate::game::render::{
     extract::Pictures,
     noise,
     picture::Picture,
-    pipelines::{FIELD_FORMAT, Layouts},
+    pipelines::{FIELD_FORMAT, Layouts, Pipelines},
     uniform::WorldUniform,
 };
 use bevy::{
@@ -13,8 +13,9 @@ use bevy::{
     prelude::{Res, ResMut, Resource},
     render::{
         render_resource::{
-            BindGroup, BindGroupEntries, Extent3d, PipelineCache, TexelCopyBufferLayout, Texture, TextureDescriptor,
-            TextureDimension, TextureFormat, TextureUsages, TextureView, TextureViewDescriptor, UniformBuffer,
+            BindGroup, BindGroupEntries, BindGroupLayout, Extent3d, PipelineCache, TexelCopyBufferLayout, Texture,
+            TextureDescriptor, TextureDimension, TextureFormat, TextureUsages, TextureView, TextureViewDescriptor,
+            UniformBuffer,
         },
         renderer::{RenderDevice, RenderQueue},
         texture::{CachedTexture, TextureCache},
@@ -25,12 +26,21 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The pictures of a frame, in the order of [`Pictures::shown`].
 #[derive(Resource, Default)]
-pub struct GpuPictures([GpuPicture; 3]);
+pub struct GpuPictures {
+    panes: [GpuPicture; 3],
+    /// Where they are drawn if they have fewer pixels than the window.
+    reduced: Option<Sheet>,
+}
 
 impl GpuPictures {
     /// The pictures.
     pub fn panes(&self) -> &[GpuPicture] {
-        &self.0
+        &self.panes
+    }
+
+    /// Where they are drawn if they have fewer pixels than the window.
+    pub fn reduced(&self) -> Option<&Sheet> {
+        self.reduced.as_ref()
     }
 }
 
@@ -49,13 +59,46 @@ pub struct GpuPicture {
     groups: Option<[BindGroup; 2]>,
 }
 
-/// Rock as the window shows it, kept until it looks otherwise.
-pub struct Stone {
+/// A texture as large as the picture that is drawn into, and looked up later.
+pub struct Sheet {
     texture: Texture,
     /// What is drawn into.
     pub view: TextureView,
     /// Group 2.
     pub group: Option<BindGroup>,
+}
+
+impl Sheet {
+    /// The one that is held, or a new one if that has another size or format.
+    fn fitting(
+        held: Option<Self>,
+        label: &'static str,
+        size: UVec2,
+        format: TextureFormat,
+        device: &RenderDevice,
+    ) -> Self {
+        let fits = |sheet: &Self| {
+            (sheet.texture.width(), sheet.texture.height(), sheet.texture.format()) == (size.x, size.y, format)
+        };
+        held.filter(fits).unwrap_or_else(|| {
+            let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
+            let texture = device.create_texture(&descriptor(label, size, format, usage));
+            let view = texture.create_view(&TextureViewDescriptor::default());
+            Self { texture, view, group: None }
+        })
+    }
+
+    /// Makes its bind group if there is none.
+    fn bind(&mut self, layout: &BindGroupLayout, device: &RenderDevice) {
+        let view = &self.view;
+        self.group.get_or_insert_with(|| device.create_bind_group("sheet", layout, &BindGroupEntries::single(view)));
+    }
+}
+
+/// Rock as the picture shows it, kept until it looks otherwise.
+pub struct Stone {
+    /// What it is drawn on.
+    pub sheet: Sheet,
     /// Whether it is drawn.
     pub baked: AtomicBool,
 }
@@ -74,18 +117,14 @@ impl GpuPicture {
         self.stone.as_ref()
     }
 
-    /// Makes room for the baked rock of a window.
-    fn make_stone(&mut self, window: UVec2, bake: bool, device: &RenderDevice) {
-        let fits = |stone: &Stone| (stone.texture.width(), stone.texture.height()) == (window.x, window.y);
-        if !self.stone.as_ref().is_some_and(fits) {
-            let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
-            let texture = device.create_texture(&descriptor("stone", window, FIELD_FORMAT, usage));
-            let view = texture.create_view(&TextureViewDescriptor::default());
-            self.stone = Some(Stone { texture, view, group: None, baked: AtomicBool::new(false) });
-        }
-        if let Some(stone) = self.stone.as_ref().filter(|_| bake) {
-            stone.baked.store(false, Ordering::Relaxed);
-        }
+    /// Makes room for the baked rock of a picture.
+    fn make_stone(&mut self, size: UVec2, bake: bool, device: &RenderDevice) {
+        let held = self.stone.take();
+        let baked = held.as_ref().is_some_and(|stone| stone.baked.load(Ordering::Relaxed));
+        let sheet = Sheet::fitting(held.map(|stone| stone.sheet), "stone", size, FIELD_FORMAT, device);
+        // A new one has no group yet.
+        let baked = baked && !bake && sheet.group.is_some();
+        self.stone = Some(Stone { sheet, baked: AtomicBool::new(baked) });
     }
 }
 
@@ -149,12 +188,18 @@ pub fn upload(
     device: Res<RenderDevice>,
     queue: Res<RenderQueue>,
     mut textures: ResMut<TextureCache>,
+    pipelines: Res<Pipelines>,
     cost: Res<RenderCost>,
 ) {
     let begin = Instant::now();
-    for (picture, gpu) in pictures.shown_mut().iter_mut().zip(&mut gpu.0) {
+    let GpuPictures { panes, reduced } = &mut *gpu;
+    for (picture, gpu) in pictures.shown_mut().iter_mut().zip(panes) {
         hand_over(picture, gpu, &mut textures, &device, &queue);
     }
+    let smaller = pictures.shown().first().filter(|picture| picture.level.resolution() < 1.0);
+    *reduced = smaller
+        .zip(pipelines.format())
+        .map(|(picture, format)| Sheet::fitting(reduced.take(), "reduced", picture.size, format, &device));
     RenderCost::note_time(&cost.upload, begin.elapsed());
 }
 
@@ -176,7 +221,7 @@ fn hand_over(
     gpu.uniform.set(picture.uniform);
     gpu.uniform.write_buffer(device, queue);
 
-    gpu.make_stone(picture.window, picture.bake, device);
+    gpu.make_stone(picture.size, picture.bake, device);
     let size = |(columns, rows): (usize, usize)| UVec2::new(columns as u32, rows as u32);
     if gpu.noise.0.is_none() {
         let size = UVec2::splat(noise::EDGE as u32);
@@ -201,8 +246,7 @@ fn hand_over(
     let (body_texels, gas_texels) = picture.level.texels();
     let mut field = |label, texels_per_d: f32, empty: bool| {
         let share = (texels_per_d / picture.pixels_per_d).min(1.0);
-        let size =
-            if empty { UVec2::ONE } else { (picture.window.as_vec2() * share).ceil().as_uvec2().max(UVec2::ONE) };
+        let size = if empty { UVec2::ONE } else { (picture.size.as_vec2() * share).ceil().as_uvec2().max(UVec2::ONE) };
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
         textures.get(device, descriptor(label, size, FIELD_FORMAT, usage))
     };
@@ -215,9 +259,12 @@ fn hand_over(
 
 /// Makes the bind groups of the frame.
 pub fn bind(mut gpu: ResMut<GpuPictures>, layouts: Res<Layouts>, cache: Res<PipelineCache>, device: Res<RenderDevice>) {
-    let [world, textures, stone] =
-        [&layouts.world, &layouts.textures, &layouts.stone].map(|layout| cache.get_bind_group_layout(layout));
-    for gpu in &mut gpu.0 {
+    let [world, textures, sheet] =
+        [&layouts.world, &layouts.textures, &layouts.sheet].map(|layout| cache.get_bind_group_layout(layout));
+    if let Some(reduced) = &mut gpu.reduced {
+        reduced.bind(&sheet, &device);
+    }
+    for gpu in &mut gpu.panes {
         let (Some(uniform), Some(fields)) = (gpu.uniform.binding(), &gpu.fields) else { continue };
         let [Some(air), Some(depth), Some(rock), Some(body), Some(glow), Some(light)] =
             gpu.maps.each_ref().map(|map| map.0.as_ref().map(|(_, view)| view))
@@ -240,8 +287,8 @@ pub fn bind(mut gpu: ResMut<GpuPictures>, layouts: Res<Layouts>, cache: Res<Pipe
             &layouts.repeating,
             noise,
         ));
-        if let Some(Stone { view, group, .. }) = &mut gpu.stone {
-            group.get_or_insert_with(|| device.create_bind_group("stone", &stone, &BindGroupEntries::single(&*view)));
+        if let Some(stone) = &mut gpu.stone {
+            stone.sheet.bind(&sheet, &device);
         }
         gpu.groups = Some([
             device.create_bind_group("world", &world, &BindGroupEntries::single(uniform)),

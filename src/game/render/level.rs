@@ -2,6 +2,7 @@
 
 use crate::{game::frame::Tempo, sim::ledger::PassLedger};
 use bevy::prelude::{Real, Res, ResMut, Resource, Time};
+use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
 /// What a frame may take for its picture, ms, before less of it is drawn: a fifth more than a sixtieth of a second.
@@ -12,9 +13,9 @@ const PATIENCE: f32 = 2.0;
 const HITCH: f32 = 0.5;
 
 /// A level of the picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Level {
-    /// Coarse surfaces, clouds without swirls.
+    /// Coarse surfaces, clouds without swirls, a quarter of the pixels.
     Plain,
     /// Surfaces between plain and full.
     Good,
@@ -41,6 +42,14 @@ impl Level {
             Self::Plain => (2.0, 2.0),
             Self::Good => (3.0, 2.0),
             Self::Full => (4.0, 2.0),
+        }
+    }
+
+    /// Pixels of the picture to one of the window, along each side.
+    pub fn resolution(self) -> f32 {
+        match self {
+            Self::Plain => 0.5,
+            Self::Good | Self::Full => 1.0,
         }
     }
 

@@ -53,13 +53,13 @@ const ARROW_SPACING: f32 = 30.0;
 
 /// A picture of a world.
 pub struct Picture {
-    /// Size of the window, physical pixels.
-    pub window: UVec2,
-    /// Physical pixels of one d.
+    /// Its size, pixels: those of the window, or fewer.
+    pub size: UVec2,
+    /// Its pixels of one d.
     pub pixels_per_d: f32,
     /// How much of it is drawn.
     pub level: Level,
-    /// The part of the window that it is confined to, physical pixels; the whole if there is none.
+    /// The part that it is confined to, its pixels; the whole if there is none.
     pub part: Option<URect>,
     /// The shader's numbers.
     pub uniform: WorldUniform,
@@ -107,7 +107,7 @@ pub struct Picture {
 impl Default for Picture {
     fn default() -> Self {
         Self {
-            window: UVec2::ONE,
+            size: UVec2::ONE,
             pixels_per_d: 1.0,
             level: Level::Full,
             part: None,
@@ -151,6 +151,18 @@ pub(super) struct Sight<'a> {
     pub(super) time: f32,
     /// How much of the picture is drawn.
     pub(super) level: Level,
+}
+
+impl Sight<'_> {
+    /// Pixels of the picture to a logical one of the window, along each side.
+    fn scale(self) -> f32 {
+        self.window.resolution.scale_factor() * self.level.resolution()
+    }
+
+    /// Size of the picture, pixels.
+    fn size(self) -> UVec2 {
+        (self.window.resolution.physical_size().as_vec2() * self.level.resolution()).ceil().as_uvec2().max(UVec2::ONE)
+    }
 }
 
 /// A world, and what is drawn into it.
@@ -216,10 +228,9 @@ impl Picture {
         let reference = Reference::of(&blueprint.domain, &blueprint.air);
         self.as_it_is = sight.view.shaded;
         self.moved.follow(scene.generation, scene.tick, scene.particles);
-        let scale_factor = sight.window.resolution.scale_factor();
         if self.as_it_is {
             self.particles.clear();
-            self.fill_matter(scene, sight.back, sight.camera.pixels_per_d() * scale_factor >= FINE);
+            self.fill_matter(scene, sight.back, sight.camera.pixels_per_d() * sight.scale() >= FINE);
         } else {
             self.matter.clear();
             self.fill_particles(scene, sight, reference);
@@ -388,20 +399,20 @@ impl Picture {
 
     /// The shader's numbers, and the part of the window that is drawn into.
     fn look(&mut self, setup: &Setup, sight: Sight<'_>, view: &View, air_extent: Vec2, (area, confined): (Area, bool)) {
-        let scale_factor = sight.window.resolution.scale_factor();
+        let scale = sight.scale();
         self.level = sight.level;
-        let seen = (self.window, self.uniform.to_clip);
-        self.window = sight.window.resolution.physical_size();
-        self.pixels_per_d = sight.camera.pixels_per_d() * scale_factor;
-        let corner = |pixel: Vec2| (pixel * scale_factor).round().max(Vec2::ZERO).as_uvec2().min(self.window);
+        let seen = (self.size, self.uniform.to_clip);
+        self.size = sight.size();
+        self.pixels_per_d = sight.camera.pixels_per_d() * scale;
+        let corner = |pixel: Vec2| (pixel * scale).round().max(Vec2::ZERO).as_uvec2().min(self.size);
         self.part = confined.then(|| URect::from_corners(corner(area.min), corner(area.max)));
         // Lines that suit a window of this height.
-        let lines = (self.window.y as f32 / 900.0).max(scale_factor).max(1.0);
+        let lines = (self.size.y as f32 / 900.0).max(scale).max(sight.level.resolution());
         let (to_clip, offset) = sight.camera.clip_transform(area);
         let dim = if view.shows_air() { 0.42 } else { 0.97 };
         self.uniform = WorldUniform {
             to_clip: two(to_clip, offset),
-            size: two(setup.blueprint.domain.size, self.window.as_vec2()),
+            size: two(setup.blueprint.domain.size, self.size.as_vec2()),
             extent: two(self.depth.extent().max(Vec2::ONE), air_extent),
             fine_extent: two(self.body.extent().max(Vec2::ONE), self.glow.light_extent().max(Vec2::ONE)),
             look: Vec4::new(self.pixels_per_d, dim, f32::from(view.shaded), colours::DEPTH_SHADE),
@@ -420,6 +431,6 @@ impl Picture {
             abyss: srgb(colours::ABYSS),
             liquids: std::array::from_fn(|channel| Vec4::from(self.matter.liquid(channel))),
         };
-        self.bake = self.rock_new || seen != (self.window, self.uniform.to_clip);
+        self.bake = self.rock_new || seen != (self.size, self.uniform.to_clip);
     }
 }

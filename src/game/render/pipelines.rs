@@ -57,8 +57,8 @@ pub struct Layouts {
     pub world: BindGroupLayoutDescriptor,
     /// Group 1: sampler, maps (air, depth, rock, bodies, glow, light) and fields (bodies, more, gases); repeating sampler, noise.
     pub textures: BindGroupLayoutDescriptor,
-    /// Group 2: what is baked of the rock.
-    pub stone: BindGroupLayoutDescriptor,
+    /// Group 2: what was drawn before on a sheet as large as the picture.
+    pub sheet: BindGroupLayoutDescriptor,
     /// Samples between texels, up to the edge.
     pub sampler: Sampler,
     /// Samples between texels, over the edge again from the other side.
@@ -92,6 +92,8 @@ pub struct Ids {
     pub rock: CachedRenderPipelineId,
     /// Streaks of wind.
     pub streaks: CachedRenderPipelineId,
+    /// A picture of fewer pixels than the window over all of it.
+    pub enlarged: CachedRenderPipelineId,
 }
 
 /// The pipelines, once there are any, and the format that they are made for.
@@ -102,6 +104,11 @@ impl Pipelines {
     /// Their ids, once there are any.
     pub fn ids(&self) -> Option<Ids> {
         self.0.map(|(_, ids)| ids)
+    }
+
+    /// The format that they are made for.
+    pub fn format(&self) -> Option<TextureFormat> {
+        self.0.map(|(format, _)| format)
     }
 }
 
@@ -142,8 +149,8 @@ pub fn make_layouts(mut commands: Commands, device: Res<RenderDevice>) {
                 ),
             ),
         ),
-        stone: BindGroupLayoutDescriptor::new(
-            "stone",
+        sheet: BindGroupLayoutDescriptor::new(
+            "sheet",
             &BindGroupLayoutEntries::single(ShaderStages::FRAGMENT, texture()),
         ),
         sampler: sampler_of(AddressMode::ClampToEdge),
@@ -167,13 +174,13 @@ pub fn prepare(
     let make = |vertex: &'static str, name: &'static str, instance: &[VertexFormat], format, blend| {
         // The passes that draw into the fields must not have these bound.
         let textures = (!INTO_FIELDS.contains(&name)).then(|| layouts.textures.clone());
-        let stone = (name == "rock").then(|| layouts.stone.clone());
+        let sheet = ["rock", "enlarged"].contains(&name).then(|| layouts.sheet.clone());
         let topology =
             if instance.is_empty() { PrimitiveTopology::TriangleList } else { PrimitiveTopology::TriangleStrip };
         let buffer = VertexBufferLayout::from_vertex_formats(VertexStepMode::Instance, instance.iter().copied());
         cache.queue_render_pipeline(RenderPipelineDescriptor {
             label: Some(name.into()),
-            layout: [layouts.world.clone()].into_iter().chain(textures).chain(stone).collect(),
+            layout: [layouts.world.clone()].into_iter().chain(textures).chain(sheet).collect(),
             vertex: VertexState {
                 shader: shader.0.clone(),
                 shader_defs: vec![],
@@ -206,6 +213,7 @@ pub fn prepare(
         stone: make("tile", "stone", &tile, FIELD_FORMAT, None),
         rock: make("tile", "rock", &tile, format, Some(alpha)),
         streaks: make("streak", "streak", &[F::Float32x4, F::Unorm8x4], format, Some(alpha)),
+        enlarged: make("screen", "enlarged", &[], format, None),
     };
     pipelines.0 = Some((format, ids));
 }

@@ -177,15 +177,19 @@ fn what_is_not_there_is_not_drawn(seen: &mut Seen) {
 
 fn plain_and_full_have_the_same_silhouettes(seen: &mut Seen) {
     let contents = r#"(element: "water", shape: Disc(centre: (2, 2), radius: 1)), (element: "sand", shape: Rect(min: (4, 0), max: (5.5, 2)))"#;
-    let empty = seen.show("");
-    let [full, plain] = [Level::Full, Level::Plain].map(|level| seen.show_at(contents, level, &ELEMENTS));
-    let is_matter = |pixels: &Pixels, k: usize| {
-        let (a, b) = (lab(pixels.all()[k]), lab(empty.all()[k]));
-        (0..3).map(|c| (a[c] - b[c]).abs()).sum::<f32>() > 0.08
-    };
-    let count = full.all().len();
-    let other = (0..count).filter(|k| is_matter(&full, *k) != is_matter(&plain, *k)).count();
-    let matter = (0..count).filter(|k| is_matter(&full, *k)).count();
+    // What differs from an empty box that is drawn in the same way.
+    let [full, plain] = [Level::Full, Level::Plain].map(|level| {
+        let empty = seen.show_at("", level, &ELEMENTS);
+        let pixels = seen.show_at(contents, level, &ELEMENTS);
+        let is_matter = |(shown, empty): (&Rgb, &Rgb)| {
+            let (a, b) = (lab(*shown), lab(*empty));
+            (0..3).map(|c| (a[c] - b[c]).abs()).sum::<f32>() > 0.08
+        };
+        pixels.all().iter().zip(empty.all()).map(is_matter).collect::<Vec<bool>>()
+    });
+    let count = full.len();
+    let other = full.iter().zip(&plain).filter(|(a, b)| a != b).count();
+    let matter = full.iter().filter(|is_matter| **is_matter).count();
     assert!(matter > count / 10 && other * 100 < count, "{other} of {count} pixels differ, {matter} show matter");
 }
 
