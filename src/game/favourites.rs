@@ -4,21 +4,13 @@
 //! Elements go by their names: tables differ from world to world, and so do their ids.
 
 use crate::{
-    game::{disk, files, toasts::Toasts, tools::spaced},
+    game::{kept::KeptFile, toasts::Toasts, tools::spaced},
     kernel::element::{ElementId, ElementTable},
     scene,
-    sim::{new_file::Unwritten, state::Setup},
+    sim::state::Setup,
 };
-use bevy::{
-    log::error,
-    prelude::{Mut, Resource, World},
-};
-use ron::ser::PrettyConfig;
-use std::{
-    collections::BTreeMap,
-    io::{self, ErrorKind},
-    path::{Path, PathBuf},
-};
+use bevy::prelude::{Mut, Resource, World};
+use std::{collections::BTreeMap, path::Path};
 
 /// The digits, in the order of their keys.
 pub const DIGITS: [char; 10] = ['1', '2', '3', '4', '5', '6', '7', '8', '9', '0'];
@@ -31,29 +23,22 @@ const FILE: &str = "favourites.ron";
 pub struct Favourites {
     /// What the player has put on digits; no name stands twice.
     put: BTreeMap<char, String>,
-    /// Where that is kept; if nowhere, it goes with the session.
-    file: Option<PathBuf>,
+    file: KeptFile,
 }
 
 impl Favourites {
-    /// Those of the user, in the folder of the user's data, so that a start from anywhere finds them. What is wrong with
-    /// the file is told in a line of the log.
+    /// Those of the user. What is wrong with the file is told in a line of the log.
     pub fn of_user() -> Self {
-        files::folders().pop().map_or_else(Self::default, |folder| Self::of_folder(&folder))
+        Self::of_file(KeptFile::of_user(FILE))
     }
 
     /// Those that a folder keeps, or none yet.
     pub fn of_folder(folder: &Path) -> Self {
-        let path = folder.join(FILE);
-        let (put, fault) = match disk::read(&path) {
-            Ok(bytes) => read(&bytes),
-            Err(error) if error.kind() == ErrorKind::NotFound => (BTreeMap::new(), None),
-            Err(error) => (BTreeMap::new(), Some(format!("can't be read: {error}"))),
-        };
-        if let Some(fault) = fault {
-            error!("{}: {fault}", path.display());
-        }
-        Self { put, file: Some(path) }
+        Self::of_file(KeptFile::of_folder(folder, FILE))
+    }
+
+    fn of_file(file: KeptFile) -> Self {
+        Self { put: file.read_by(read), file }
     }
 
     /// The element on each of the [`DIGITS`].
@@ -94,13 +79,6 @@ impl Favourites {
         }
         swapped
     }
-
-    fn keep(&self) -> Result<(), Unwritten> {
-        let Some(path) = &self.file else { return Ok(()) };
-        let text = ron::ser::to_string_pretty(&self.put, PrettyConfig::default()).map_err(io::Error::other);
-        let kept = text.and_then(|text| disk::replace(path, text.as_bytes()));
-        kept.map_err(|error| Unwritten { path: path.clone(), error })
-    }
 }
 
 /// Reads what a file has put on digits, and what of it is not to be used.
@@ -135,7 +113,7 @@ pub fn put(world: &mut World, digit: char, name: &str) {
         let swapped = favourites.put(digit, element, elements);
         let other = swapped.map(|(id, from)| format!(", {} on {from}", spaced(&elements.get(id).name)));
         let told = format!("{} is on {digit} now{}", spaced(name), other.unwrap_or_default());
-        let kept = favourites.keep();
+        let kept = favourites.file.write(&favourites.put);
         let mut toasts = world.resource_mut::<Toasts>();
         match kept {
             Ok(()) => toasts.say(told),
@@ -148,7 +126,7 @@ pub fn put(world: &mut World, digit: char, name: &str) {
 mod tests {
     use super::*;
     use crate::kernel::element::Element;
-    use std::fs;
+    use std::{fs, path::PathBuf};
 
     /// Water on 1 and oil on 2; tar has no digit.
     fn table() -> ElementTable {
@@ -215,10 +193,10 @@ mod tests {
         assert_eq!(on(&favourites, "12"), ["water", "oil"], "there is no file yet");
         put(&mut favourites, '1', "tar");
         put(&mut favourites, '0', "oil");
-        favourites.keep().expect("the folder of temporary files can be written");
+        favourites.file.write(&favourites.put).expect("the folder of temporary files can be written");
         assert_eq!(Favourites::of_folder(&folder), favourites);
         put(&mut favourites, '1', "water");
-        favourites.keep().expect("the file gives way to the new one");
+        favourites.file.write(&favourites.put).expect("the file gives way to the new one");
         assert_eq!(Favourites::of_folder(&folder), favourites);
         fs::remove_dir_all(folder).expect("it is ours");
     }
@@ -231,7 +209,7 @@ mod tests {
             assert!(fault.is_some_and(|fault| fault.starts_with("not read") && fault.lines().count() == 1));
         }
         let (put, fault) = read(br#"{'1': "oil", '2': "magma", 'x': "water", '3': "oil"}"#);
-        let favourites = Favourites { put, file: None };
+        let favourites = Favourites { put, ..Favourites::default() };
         assert_eq!(on(&favourites, "123"), ["oil", "", ""], "oil is on 1, so no longer on 2");
         let fault = fault.expect("it has what is of no use");
         assert!(["magma", "water", "'3'"].iter().all(|part| fault.contains(part)) && !fault.contains("'1'"), "{fault}");
@@ -242,7 +220,7 @@ mod tests {
     fn what_can_t_be_kept_is_said() {
         let mut favourites = Favourites::of_folder(Path::new("/dev/null/nowhere"));
         put(&mut favourites, '1', "tar");
-        assert!(favourites.keep().is_err());
+        assert!(favourites.file.write(&favourites.put).is_err());
         assert_eq!(on(&favourites, "1"), ["tar"], "it holds for the session");
     }
 }

@@ -23,6 +23,7 @@ pub mod history;
 pub mod hud;
 pub mod icons;
 pub mod input;
+pub mod kept;
 pub mod lump;
 pub mod orders;
 pub mod panels;
@@ -34,6 +35,7 @@ pub mod rest;
 pub mod saves;
 pub mod screen;
 pub mod script;
+pub mod settings;
 pub mod sound;
 pub mod split;
 #[cfg(test)]

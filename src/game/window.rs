@@ -9,6 +9,7 @@ use crate::{
         plugin::GamePlugin,
         render::WorldRenderPlugin,
         rest,
+        settings::{self, Settings},
         sound::{Output, volume::Volume},
     },
     lab::colours,
@@ -36,7 +37,7 @@ use std::{
     time::Duration,
 };
 
-/// Size of the window at the start, logical pixels.
+/// Size of the window at the first start, logical pixels.
 const WINDOW_SIZE: (u32, u32) = (1280, 800);
 
 /// Why there is no game.
@@ -96,10 +97,11 @@ fn explain(panic: &str) -> String {
 }
 
 pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> App {
+    let settings = Settings::of_user();
     let window = Window {
         title: "Powder Master".into(),
         name: Some("powder-master".into()),
-        resolution: WindowResolution::from(WINDOW_SIZE),
+        resolution: WindowResolution::from(settings.window().unwrap_or(WINDOW_SIZE)),
         present_mode: PresentMode::AutoVsync,
         resize_constraints: constraints(),
         // In a page: its canvas. The page decides which of the browser's own keys to keep back.
@@ -124,6 +126,7 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
     .add_plugins(rest::plugin)
     .add_systems(Startup, spawn_camera)
     .add_systems(Update, tell_in_title.run_if(on_timer(TITLE_EVERY)));
+    settings::plugin(&mut app, settings);
     furnish(&mut app);
     if let Some(path) = record {
         app.world().resource::<Recorder>().begin(app.world(), Some(path));

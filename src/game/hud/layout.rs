@@ -18,6 +18,9 @@ use glam::Vec2;
 /// Window in which the automatic scale is 1, logical pixels.
 const DESIGNED_FOR: Vec2 = Vec2::new(1200.0, 750.0);
 
+/// Scales that the player may choose on top of the automatic one.
+pub const CHOICES: [f32; 6] = [0.75, 0.9, 1.0, 1.15, 1.3, 1.6];
+
 /// Size of the HUD.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct UiScale {

@@ -1,19 +1,11 @@
 //! How loud the game is: chosen in the bar, kept from session to session.
 
-use crate::{
-    game::{disk, files},
-    sim::new_file::Unwritten,
-};
+use crate::game::kept::KeptFile;
 use bevy::{
     log::error,
     prelude::{DetectChangesMut, ResMut, Resource},
 };
-use ron::ser::PrettyConfig;
 use serde::{Deserialize, Serialize};
-use std::{
-    io::{self, ErrorKind},
-    path::{Path, PathBuf},
-};
 
 /// The file that it is kept in.
 const FILE: &str = "sound.ron";
@@ -33,36 +25,30 @@ impl Default for Kept {
     }
 }
 
+impl Kept {
+    fn check(&self) -> Result<(), String> {
+        let fits = (0.0..=1.0).contains(&self.level);
+        if fits { Ok(()) } else { Err(format!("level {}; allowed: 0 … 1", self.level)) }
+    }
+}
+
 /// How loud the game is.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct Volume {
     now: Kept,
     kept: Kept,
-    /// Where that is kept; if nowhere, it goes with the session.
-    file: Option<PathBuf>,
+    file: KeptFile,
 }
 
 impl Volume {
-    /// That of the user, in the folder of the user's data. What is wrong with the file is told in a line of the log.
+    /// That of the user. What is wrong with the file is told in a line of the log.
     pub fn of_user() -> Self {
-        files::folders().pop().map_or_else(Self::default, |folder| Self::of_folder(&folder))
+        Self::of_file(KeptFile::of_user(FILE))
     }
 
-    fn of_folder(folder: &Path) -> Self {
-        let path = folder.join(FILE);
-        let kept = match disk::read(&path) {
-            Ok(bytes) => read(&bytes).unwrap_or_else(|fault| {
-                error!("{}: not read, so sound is as at first: {fault}", path.display());
-                Kept::default()
-            }),
-            Err(fault) => {
-                if fault.kind() != ErrorKind::NotFound {
-                    error!("{}: can't be read: {fault}", path.display());
-                }
-                Kept::default()
-            }
-        };
-        Self { now: kept, kept, file: Some(path) }
+    fn of_file(file: KeptFile) -> Self {
+        let kept = file.read(Kept::check);
+        Self { now: kept, kept, file }
     }
 
     /// Where the slider stands, 0 … 1, muted or not.
@@ -90,22 +76,6 @@ impl Volume {
     pub fn gain(&self) -> f32 {
         if self.now.muted { 0.0 } else { self.now.level * self.now.level }
     }
-
-    fn write(&self) -> Result<(), Unwritten> {
-        let Some(path) = &self.file else { return Ok(()) };
-        let text = ron::ser::to_string_pretty(&self.now, PrettyConfig::default()).map_err(io::Error::other);
-        let written = text.and_then(|text| disk::replace(path, text.as_bytes()));
-        written.map_err(|error| Unwritten { path: path.clone(), error })
-    }
-}
-
-/// What a file has kept.
-fn read(bytes: &[u8]) -> Result<Kept, String> {
-    let kept: Kept = ron::de::from_bytes(bytes).map_err(|error| error.to_string())?;
-    if !(0.0..=1.0).contains(&kept.level) {
-        return Err(format!("level {}; allowed: 0 … 1", kept.level));
-    }
-    Ok(kept)
 }
 
 /// Keeps what changed. What can't be kept is told once, and holds for the session.
@@ -115,7 +85,7 @@ pub fn keep(mut volume: ResMut<Volume>) {
         return;
     }
     volume.kept = volume.now;
-    if let Err(error) = volume.write() {
+    if let Err(error) = volume.file.write(&volume.now) {
         error!("{error}");
     }
 }
@@ -123,6 +93,7 @@ pub fn keep(mut volume: ResMut<Volume>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::game::kept::parse;
     use bevy::{ecs::system::RunSystemOnce, prelude::World};
     use std::fs;
 
@@ -144,13 +115,13 @@ mod tests {
         let folder = std::env::temp_dir().join(format!("powder-volume-{}", std::process::id()));
         let _ = fs::remove_dir_all(&folder);
         let mut world = World::new();
-        world.insert_resource(Volume::of_folder(&folder));
+        world.insert_resource(Volume::of_file(KeptFile::of_folder(&folder, FILE)));
         world.run_system_once(keep).unwrap();
         assert!(!folder.exists(), "nothing changed, so nothing is written");
         world.resource_mut::<Volume>().set(0.25);
         world.resource_mut::<Volume>().toggle();
         world.run_system_once(keep).unwrap();
-        let again = Volume::of_folder(&folder);
+        let again = Volume::of_file(KeptFile::of_folder(&folder, FILE));
         assert_eq!((again.level(), again.is_muted()), (0.25, true));
         fs::remove_dir_all(folder).unwrap();
     }
@@ -160,8 +131,8 @@ mod tests {
         for damaged in
             [&b""[..], b"(level: 2.0, muted: false)", b"(level: nan, muted: false)", b"(muted: true)", b"\xff"]
         {
-            assert!(read(damaged).is_err_and(|fault| fault.lines().count() == 1), "{damaged:?}");
+            assert!(parse(damaged, Kept::check).is_err_and(|fault| fault.lines().count() == 1), "{damaged:?}");
         }
-        assert_eq!(read(b"(level: 0.5, muted: true)"), Ok(Kept { level: 0.5, muted: true }));
+        assert_eq!(parse(b"(level: 0.5, muted: true)", Kept::check), Ok(Kept { level: 0.5, muted: true }));
     }
 }

@@ -3,7 +3,7 @@
 use crate::game::{
     actions::PanelId,
     hud::{
-        layout::UiScale,
+        layout::{CHOICES, UiScale},
         style::weak,
         window::{MIDDLE, PanelWindow},
     },
@@ -13,9 +13,6 @@ use crate::game::{
     render::level::{Level, PictureLevel},
 };
 use bevy::prelude::{KeyCode, ResMut, Result};
-
-/// Scales that the player may choose on top of the automatic one.
-const CHOICES: [f32; 6] = [0.75, 0.9, 1.0, 1.15, 1.3, 1.6];
 
 /// Its row.
 pub const PANEL: Panel = Panel {

@@ -1,0 +1,162 @@
+//! What the player has set: size of the HUD, how much of the picture is drawn, size of the window. Kept from session to session;
+//! read before there is a window, and written a second after the last change.
+
+use crate::game::{
+    hud::layout::{CHOICES, UiScale},
+    kept::KeptFile,
+    render::level::{Level, PictureLevel},
+};
+use bevy::{
+    app::App,
+    log::error,
+    prelude::{DetectChangesMut, Real, Res, ResMut, Resource, Single, Time, Update, With},
+    window::{PrimaryWindow, Window},
+};
+use serde::{Deserialize, Serialize};
+
+/// The file that they are kept in.
+const FILE: &str = "settings.ron";
+/// How long nothing must have changed before they are written, s: a window that is being resized changes in each frame.
+const CALM: f32 = 1.0;
+/// Smallest and largest window that is opened again, logical pixels.
+const WINDOW: [u32; 2] = [320, 16384];
+
+/// What is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Choices {
+    /// Size of the HUD on top of the automatic one.
+    hud: f32,
+    /// The picture's level, or `None` if frame times decide.
+    picture: Option<Level>,
+    /// Size of the window, logical pixels, or `None` for the game's own.
+    window: Option<(u32, u32)>,
+}
+
+impl Default for Choices {
+    fn default() -> Self {
+        Self { hud: 1.0, picture: None, window: None }
+    }
+}
+
+impl Choices {
+    fn check(&self) -> Result<(), String> {
+        if !CHOICES.contains(&self.hud) {
+            return Err(format!("hud {}; allowed: {CHOICES:?}", self.hud));
+        }
+        let [least, most] = WINDOW;
+        match self.window {
+            Some((x, y)) if !(least..=most).contains(&x) || !(least..=most).contains(&y) => {
+                Err(format!("window ({x}, {y}); allowed: {least} … {most} each"))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The settings as they are kept, and their file.
+#[derive(Resource, Clone, Debug, Default, PartialEq)]
+pub struct Settings {
+    kept: Choices,
+    /// What is to be written, and for how long it has been that, s.
+    next: Option<(Choices, f32)>,
+    file: KeptFile,
+}
+
+impl Settings {
+    /// Those of the user. What is wrong with the file is told in a line of the log.
+    pub fn of_user() -> Self {
+        Self::of_file(KeptFile::of_user(FILE))
+    }
+
+    fn of_file(file: KeptFile) -> Self {
+        Self { kept: file.read(Choices::check), next: None, file }
+    }
+
+    /// Size of the window of the last session, logical pixels.
+    pub fn window(&self) -> Option<(u32, u32)> {
+        self.kept.window
+    }
+
+    /// Writes what has changed once it has been the same for a while.
+    fn follow(&mut self, now: Choices, seconds: f32) {
+        if now == self.kept {
+            self.next = None;
+            return;
+        }
+        let since = self.next.filter(|(next, _)| *next == now).map_or(0.0, |(_, since)| since + seconds);
+        self.next = Some((now, since));
+        if since >= CALM {
+            (self.kept, self.next) = (now, None);
+            if let Err(error) = self.file.write(&now) {
+                error!("{error}");
+            }
+        }
+    }
+}
+
+/// Puts the settings of the last session in force, and keeps those of this one.
+pub fn plugin(app: &mut App, settings: Settings) {
+    let Choices { hud, picture, .. } = settings.kept;
+    app.insert_resource(UiScale { factor: hud }).insert_resource(settings).add_systems(Update, keep);
+    app.world_mut().get_resource_or_init::<PictureLevel>().want(picture);
+}
+
+/// Keeps what is set.
+fn keep(
+    mut settings: ResMut<Settings>,
+    scale: Res<UiScale>,
+    level: Res<PictureLevel>,
+    window: Single<&Window, With<PrimaryWindow>>,
+    time: Res<Time<Real>>,
+) {
+    let size = window.resolution.size().as_uvec2().to_array();
+    // A window that is minimised has no size, and that of a page is the page's.
+    let sensible = size.iter().all(|edge| (WINDOW[0]..=WINDOW[1]).contains(edge)) && !cfg!(target_arch = "wasm32");
+    let window = if sensible { Some(size.into()) } else { settings.kept.window };
+    let now = Choices { hud: scale.factor, picture: level.wanted(), window };
+    settings.bypass_change_detection().follow(now, time.delta_secs());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::game::kept::parse;
+    use std::fs;
+
+    #[test]
+    #[cfg_attr(target_arch = "wasm32", ignore = "a module has no files")]
+    fn they_outlive_the_session_once_they_are_calm() {
+        let folder = std::env::temp_dir().join(format!("powder-settings-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&folder);
+        let file = || KeptFile::of_folder(&folder, FILE);
+        let mut settings = Settings::of_file(file());
+        let chosen = Choices { hud: 1.3, picture: Some(Level::Plain), window: Some((900, 700)) };
+        settings.follow(Choices::default(), 10.0);
+        assert!(!folder.exists(), "nothing changed, so nothing is written");
+        for width in 800..900 {
+            settings.follow(Choices { window: Some((width, 700)), ..chosen }, 0.5);
+        }
+        assert!(!folder.exists(), "a window is being resized");
+        (0..3).for_each(|_| settings.follow(chosen, 0.5));
+        assert_eq!(Settings::of_file(file()).kept, chosen);
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_damaged_file_is_left_out() {
+        let read = |text: &[u8]| parse(text, Choices::check);
+        for damaged in [
+            &b""[..],
+            b"(hud: 0.0)",
+            b"(hud: nan)",
+            b"(window: Some((0, 5)))",
+            b"(picture: Some(Best))",
+            b"(sound: 1)",
+            b"\xff",
+        ] {
+            assert!(read(damaged).is_err_and(|fault| fault.lines().count() == 1), "{damaged:?}");
+        }
+        assert_eq!(read(b"(hud: 1.3)"), Ok(Choices { hud: 1.3, ..Choices::default() }), "a file of before has less");
+    }
+}
