@@ -9,7 +9,14 @@
 //! ```
 
 use crate::{
-    game::{frame::Tempo, input::pointer::Pointer, toasts::Toasts, toolbox::Toolbox},
+    game::{
+        frame::Tempo,
+        input::pointer::Pointer,
+        render::level::PictureLevel,
+        sound::{Ears, SoundCost},
+        toasts::Toasts,
+        toolbox::Toolbox,
+    },
     sim::{
         ledger::PassLedger,
         pace::Pace,
@@ -149,6 +156,11 @@ fn look(world: &World) -> Value {
         "ticksPerSecond": tempo.ticks_per_second,
         "msPerTick": world.resource::<PassLedger>().tick().median().as_secs_f64() * 1000.0,
         "threads": world.resource::<Workers>().threads(),
+        "picture": world.resource::<PictureLevel>().now().name(),
+        "sound": {
+            "calls": world.resource::<SoundCost>().calls(),
+            "stream": world.resource::<Ears>().controls().stream_level,
+        },
         "messages": world.resource::<Toasts>().texts().collect::<Vec<_>>(),
     })
 }

@@ -84,6 +84,23 @@ async function play() {
     return `water on ${windy} pixels of the floor after ${gusts} gusts, ${calm.lies} before`;
   });
 
+  await test('less of the picture is drawn when one wants', async () => {
+    const frames = async (level) => {
+      await game.click(level);
+      await game.until(`the picture is ${level}`, ({ picture }) => picture === level);
+      const { tick } = await game.stats();
+      const now = await game.until('two seconds of it', (now) => now.tick >= tick + 120);
+      return `${level} ${now.framesPerSecond.toFixed(0)} frames a second`;
+    };
+    await game.key('F4');
+    await game.untilWidgets('the settings', (all) => isOpen(all, 'Settings'));
+    const told = [await frames('full'), await frames('plain')];
+    const picture = await game.picture('plain');
+    assert.ok(water(picture, WORLD) > 500, 'there is no water in it');
+    await game.key('F4');
+    return told.join(', ');
+  });
+
   await test('the right button erases', async () => {
     const { particles } = await game.stats();
     const now = await game.drag(3, LOW, `fewer than ${particles} particles`, (now) => now.particles < particles);
@@ -278,9 +295,10 @@ async function play() {
     assert.equal((await game.stats()).particles, 0, 'something was restored unasked');
     await game.click('Restore');
     const { particles } = await game.until('the world is back', (now) => now.particles > 0);
-    // A favourite outlives the game, too.
+    // A favourite and the settings outlive the game, too.
     await game.key('3');
     await game.until('brine is still on 3', ({ tool }) => tool === 'brine');
+    assert.equal((await game.stats()).picture, 'plain');
     return `${particles} particles`;
   });
 

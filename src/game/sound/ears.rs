@@ -28,6 +28,13 @@ pub struct Ears {
     controls: Controls,
 }
 
+impl Ears {
+    /// What was heard last.
+    pub fn controls(&self) -> &Controls {
+        &self.controls
+    }
+}
+
 /// What sound costs.
 #[derive(Resource, Debug, Default)]
 pub struct SoundCost {

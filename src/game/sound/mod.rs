@@ -26,7 +26,7 @@ pub mod volume;
 #[cfg(not(target_arch = "wasm32"))]
 mod wishes;
 
-pub use ears::SoundCost;
+pub use ears::{Ears, SoundCost};
 #[cfg(not(target_arch = "wasm32"))]
 pub use output::Output;
 #[cfg(target_arch = "wasm32")]
@@ -46,7 +46,7 @@ pub fn plugin(app: &mut App) {
     app.init_resource::<volume::Volume>()
         .init_resource::<Output>()
         .init_resource::<SoundCost>()
-        .init_resource::<ears::Ears>()
+        .init_resource::<Ears>()
         .add_systems(
             Last,
             (

@@ -14,6 +14,7 @@ export async function onADesktop(player) {
   const page = await player.play(`${player.host.url}#scene=empty`);
   await atTheStart(player, page);
   await withTheMouse(player, page);
+  await withSound(player, page);
   await withKeys(player, page);
   await byTheHook(player, page);
   await asAWindow(player, page);
@@ -75,6 +76,26 @@ async function withTheMouse({ eyes, shoot, test, waterUntil }, page) {
     const way = [200, 350, 500, 650, 800, 950, 1100, 1230].map((x) => [x, 715]);
     const now = await dragUntil(page, way, 'erasing', ({ particles }) => particles < before, 'right');
     return `${now.particles} particles, ${before} before`;
+  });
+}
+
+// The first press was the gesture that a page needs before it may play.
+async function withSound({ test }, page) {
+  await test('falling water is heard, and what is muted costs nothing', async () => {
+    const { sound } = await dragUntil(page, HIGH, 'water that runs', (now) => now.sound.stream > 0);
+    await page.keyboard.press('Shift+KeyM');
+    const heard = async () => (await stats(page)).sound.calls;
+    let before = await heard();
+    await poll('calls while it is muted', async () => {
+      const { tick } = await stats(page);
+      before = await heard();
+      await until(page, 'ten ticks', (now) => now.tick >= tick + 10);
+      return await heard() - before;
+    }, (calls) => calls === 0);
+    await page.keyboard.press('Shift+KeyM');
+    await until(page, 'it is heard again', (now) => now.sound.calls > before);
+    const { framesPerSecond, msPerTick, picture } = await stats(page);
+    return `stream ${sound.stream.toFixed(2)} after ${sound.calls} calls; ${framesPerSecond.toFixed(0)} frames a second (${picture}), ${msPerTick.toFixed(1)} ms a tick`;
   });
 }
 
