@@ -26,6 +26,7 @@ pub mod parallel;
 pub mod params;
 pub mod particles;
 pub mod pbf;
+pub mod piece;
 pub mod predict;
 pub mod predictor;
 pub mod random;

@@ -43,6 +43,8 @@ pub struct EditReport {
     pub removed: u64,
     /// Particles not placed for want of room under the limit.
     pub refused: u64,
+    /// Lumps of a piece left out for want of free room.
+    pub crowded: u64,
     /// Whether an emitter could not give what was due for want of free sites.
     pub blocked: bool,
 }
@@ -173,18 +175,19 @@ impl Matter<'_> {
         EditReport { removed: removed as u64, ..EditReport::default() }
     }
 
-    fn size(&self) -> IVec2 {
+    /// Cells of the box.
+    pub(super) fn size(&self) -> IVec2 {
         IVec2::new(self.solids.columns(), self.solids.rows())
     }
 
     /// Particles that may still be placed: a world is full at its limit, or when all ids are given.
-    fn room_left(&self) -> u64 {
+    pub(super) fn room_left(&self) -> u64 {
         let room = u64::from(self.limit).saturating_sub((self.particles.len() + self.solids.count()) as u64);
         room.min(u64::from(u32::MAX - *self.next_id))
     }
 
     /// An id that was never given. Only where there is room left.
-    fn take_id(&mut self) -> u32 {
+    pub(super) fn take_id(&mut self) -> u32 {
         let id = *self.next_id;
         *self.next_id += 1;
         id

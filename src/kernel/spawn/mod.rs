@@ -5,6 +5,9 @@
 
 mod matter;
 mod occupancy;
+mod over;
+mod paste;
+mod select;
 #[cfg(test)]
 mod tests;
 

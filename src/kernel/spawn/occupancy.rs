@@ -1,6 +1,9 @@
 //! Which sites are taken.
 
-use crate::{particles::Particles, solids::Solids};
+use crate::{
+    particles::Particles,
+    solids::{Solids, centre},
+};
 use glam::{IVec2, Vec2};
 
 /// A site is free if no particle is nearer than this, d.
@@ -24,7 +27,7 @@ const NONE: u32 = u32::MAX;
 
 impl Occupancy {
     /// Takes the particles in the cells `low … high` and those around them, and forgets all others.
-    pub(super) fn look(&mut self, particles: &Particles, low: IVec2, high: IVec2) {
+    pub(crate) fn look(&mut self, particles: &Particles, low: IVec2, high: IVec2) {
         let (low, high) = (low - 1, high + 1);
         (self.low, self.columns, self.rows) = (low, high.x - low.x + 1, high.y - low.y + 1);
         self.newest.clear();
@@ -32,6 +35,17 @@ impl Occupancy {
         self.points.clear();
         for i in 0..particles.len() {
             self.insert(particles.position(i));
+        }
+    }
+
+    /// Takes the centres of the rock in the same cells, too.
+    pub(crate) fn look_at_rock(&mut self, solids: &Solids, low: IVec2, high: IVec2) {
+        for y in low.y - 1..=high.y + 1 {
+            for cell in (low.x - 1..=high.x + 1).map(|x| IVec2::new(x, y)) {
+                if solids.get(cell).is_some() {
+                    self.insert(centre(cell));
+                }
+            }
         }
     }
 
@@ -53,6 +67,41 @@ impl Occupancy {
     pub(super) fn is_near(&self, point: Vec2) -> bool {
         let cell = Solids::cell_of(point);
         (-1..=1).any(|dy| (-1..=1).any(|dx| self.cell_holds_near(cell + IVec2::new(dx, dy), point)))
+    }
+
+    /// Whether any taken point is in a cell.
+    pub(super) fn holds(&self, cell: IVec2) -> bool {
+        self.index(cell).is_some_and(|k| self.newest[k] != NONE)
+    }
+
+    /// Whether no taken point is nearer to `point` than the root of `room` (d²), or else than [`CLEARANCE`].
+    pub(super) fn has_room(&self, point: Vec2, room: f32) -> bool {
+        self.nearest(point, false) >= room.min(CLEARANCE * CLEARANCE)
+    }
+
+    /// Square of the distance to the nearest taken point that is another than the one at `point`, d²; that of [`CLEARANCE`] if
+    /// none is as near.
+    pub(crate) fn room_at(&self, point: Vec2) -> f32 {
+        self.nearest(point, true).min(CLEARANCE * CLEARANCE)
+    }
+
+    /// Square of the distance to the nearest taken point, besides one that is right there if that `is_own`, d². Far ones are not
+    /// looked at.
+    fn nearest(&self, point: Vec2, mut is_own: bool) -> f32 {
+        let (cell, mut nearest) = (Solids::cell_of(point), f32::MAX);
+        for step in (-1..=1).flat_map(|y| (-1..=1).map(move |x| IVec2::new(x, y))) {
+            let mut entry = self.index(cell + step).map_or(NONE, |k| self.newest[k]);
+            while let Some(&(other, older)) = self.points.get(entry as usize) {
+                let distance = (other - point).length_squared();
+                if distance == 0.0 && is_own {
+                    is_own = false;
+                } else {
+                    nearest = nearest.min(distance);
+                }
+                entry = older;
+            }
+        }
+        nearest
     }
 
     fn cell_holds_near(&self, cell: IVec2, point: Vec2) -> bool {

@@ -6,7 +6,7 @@ use crate::{
     element::{Element, ElementId, ElementTable},
     heat::table::HeatTable,
     params::Domain,
-    particles::Particles,
+    particles::{Particle, Particles},
     solids::Solids,
     sources::{Drain, Emitter, Rect},
 };
@@ -24,10 +24,18 @@ struct Bench {
 
 const ROCK: ElementId = ElementId(0);
 const WATER: ElementId = ElementId(1);
+const OIL: ElementId = ElementId(2);
 
 impl Bench {
     fn new() -> Self {
-        let rows = vec![Element::plain("rock", true), Element { flow: 0.25, ..Element::plain("water", false) }];
+        Self::of(vec![Element::plain("rock", true), Element { flow: 0.25, ..Element::plain("water", false) }])
+    }
+
+    fn with_oil() -> Self {
+        Self::of(vec![Element::plain("rock", true), Element::plain("water", false), Element::plain("oil", false)])
+    }
+
+    fn of(rows: Vec<Element>) -> Self {
         let elements = ElementTable::new(rows);
         Self {
             domain: Domain { size: Vec2::new(60.0, 40.0), gravity: Vec2::ZERO },
@@ -50,6 +58,11 @@ impl Bench {
             next_id: &mut self.next_id,
             limit: self.limit,
         }
+    }
+
+    /// Particles of an element.
+    fn count(&self, element: ElementId) -> usize {
+        self.particles.element.iter().filter(|other| **other == element).count()
     }
 
     fn nearest(&self) -> f32 {
@@ -193,4 +206,75 @@ fn an_emitter_in_a_full_world_refuses_what_is_due_and_no_more() {
     let mut emitter = emitter(90.0);
     let report = bench.matter().emit(&mut emitter, &mut Occupancy::default(), 0, 1.0 / 60.0);
     assert_eq!((report.placed, report.refused, report.blocked), (0, 1, false));
+}
+
+/// A block of 10 × 10 of water beside as much oil, and a bar of rock under both.
+fn layers() -> Bench {
+    let mut bench = Bench::with_oil();
+    let block = |x: f32| Stroke::rectangle(Vec2::new(x, 10.0), Vec2::new(x + 10.0, 20.0));
+    bench.matter().stamp(WATER, &block(10.0));
+    bench.matter().stamp(OIL, &block(20.0));
+    bench.matter().stamp(ROCK, &Stroke::rectangle(Vec2::new(10.0, 8.0), Vec2::new(30.0, 10.0)));
+    bench
+}
+
+#[test]
+fn replacing_adds_nothing_where_nothing_is_and_leaves_places_speeds_and_numbers() {
+    let mut bench = layers();
+    bench.particles.vx.iter_mut().for_each(|speed| *speed = 3.0);
+    let (before, mut places) = (bench.particles.clone(), Vec::new());
+    bench.matter().replace(OIL, &disc(15.0, 18.0, 4.0), &mut places);
+    assert_eq!(bench.particles.len(), before.len());
+    assert!(places.len() > 20 && bench.count(OIL) == 100 + places.len());
+    assert!(
+        (0..before.len())
+            .all(|i| bench.particles.get(i) == Particle { element: bench.particles.element[i], ..before.get(i) })
+    );
+    bench.matter().replace(WATER, &disc(45.0, 30.0, 5.0), &mut places);
+    assert_eq!(bench.particles.len(), before.len(), "something came where nothing was");
+}
+
+#[test]
+fn what_moves_becomes_rock_alone_in_its_cell_and_rock_what_moves() {
+    let mut bench = layers();
+    let all = Stroke::rectangle(Vec2::ZERO, Vec2::new(60.0, 40.0));
+    // Two in one cell.
+    bench.particles.push(900, WATER, Vec2::new(50.2, 5.2), Vec2::ZERO);
+    bench.particles.push(901, WATER, Vec2::new(50.8, 5.8), Vec2::ZERO);
+    let report = bench.matter().replace(ROCK, &all, &mut Vec::new());
+    assert_eq!((bench.particles.len(), bench.solids.count(), report.removed), (0, 241, 1));
+    let report = bench.matter().replace(WATER, &all, &mut Vec::new());
+    assert_eq!((bench.particles.len(), bench.solids.count(), report.removed), (241, 0, 0));
+    let mut ids = bench.particles.id.clone();
+    ids.sort_unstable();
+    assert!(ids.windows(2).all(|pair| pair[0] < pair[1]), "an id is there twice");
+}
+
+#[test]
+fn erasing_only_one_element_leaves_the_others() {
+    let mut bench = layers();
+    let all = Stroke::rectangle(Vec2::ZERO, Vec2::new(60.0, 40.0));
+    assert_eq!(bench.matter().erase_only(WATER, &all).removed, 100);
+    assert_eq!((bench.count(WATER), bench.count(OIL), bench.solids.count()), (0, 100, 40));
+    assert_eq!(bench.matter().erase_only(ROCK, &all).removed, 40);
+    assert_eq!((bench.count(OIL), bench.solids.count()), (100, 0));
+}
+
+#[test]
+fn what_hangs_together_ends_at_another_element_at_a_gap_and_at_a_corner_of_rock() {
+    let mut bench = layers();
+    let water = Vec2::new(12.5, 12.5);
+    // Beyond a gap, and beyond a corner between two cells of rock.
+    bench.particles.push(900, WATER, Vec2::new(15.5, 25.5), Vec2::ZERO);
+    bench.particles.push(901, WATER, Vec2::new(9.5, 20.5), Vec2::ZERO);
+    bench.solids.insert(IVec2::new(9, 19), ROCK, 902);
+    bench.solids.insert(IVec2::new(10, 20), ROCK, 903);
+    assert_eq!(bench.matter().erase_around(OIL, water), EditReport::default(), "the water is no oil");
+    assert_eq!(bench.matter().erase_around(WATER, Vec2::NAN), EditReport::default());
+    bench.matter().replace_around(OIL, water, &mut Vec::new());
+    assert_eq!((bench.count(WATER), bench.count(OIL)), (2, 200));
+    assert_eq!(bench.matter().erase_around(OIL, water).removed, 200);
+    // Rock that touches at a corner hangs together: the bar and the two cells do not touch.
+    assert_eq!(bench.matter().erase_around(ROCK, Vec2::new(15.5, 8.5)).removed, 40);
+    assert_eq!(bench.matter().erase_around(ROCK, Vec2::new(9.5, 19.5)).removed, 2);
 }
