@@ -4,13 +4,16 @@
 #[path = "support/readers.rs"]
 mod readers;
 
-use glam::Vec2;
+use glam::{IVec2, Vec2};
 use powder_master::{
     kernel::{
         brush::{BrushShape, Stroke},
         element::ElementId,
         params::Preset,
+        particles::Particles,
+        piece::{Piece, Turn},
         simd::InstructionSet,
+        solids::Solids,
     },
     scene::effects::{Effect, Mode},
     sim::{
@@ -19,6 +22,7 @@ use powder_master::{
         recorder::{self, Recorder},
         recording::Recording,
         replay::Replay,
+        stamp::Stamp,
         workers::Workers,
     },
 };
@@ -27,6 +31,7 @@ use std::{
     fs,
     panic::catch_unwind,
     path::{Path, PathBuf},
+    sync::Arc,
     time::{Duration, Instant},
 };
 
@@ -98,6 +103,11 @@ const LIVELY: &str = "(title: \"Lively\", spacing: 0.1, size: (1.2, 0.8), qualit
 
 fn every_intent() -> Vec<Intent> {
     let (rock, water) = (ElementId(0), ElementId(1));
+    let mut particles = Particles::default();
+    particles.push_warm(0, water, Vec2::new(0.5, 1.5), Vec2::new(3.0, 1.0), 700);
+    let mut solids = Solids::new(3, 2);
+    solids.insert(IVec2::new(2, 0), rock, 1);
+    let piece = Arc::new(Piece::of(&particles, &solids, IVec2::ZERO, IVec2::new(3, 2), 0.1));
     let stroke = Stroke { shape: BrushShape::Disc, from: Vec2::new(5.0, 5.0), to: Vec2::new(7.0, 6.0), radius: 1.5 };
     vec![
         Intent::Draw { element: water, stroke },
@@ -113,7 +123,21 @@ fn every_intent() -> Vec<Intent> {
         Intent::Warm { stroke, degrees: -40.0 },
         Intent::SetTemperature { stroke, kelvin: 400.0 },
         Intent::Ignite { stroke },
+        Intent::Replace { element: rock, stroke },
+        Intent::ReplaceAround { element: water, at: Vec2::new(9.5, 5.5) },
+        Intent::EraseOnly { element: water, stroke },
+        Intent::EraseAround { element: water, at: Vec2::new(2.5, 1.5) },
+        Intent::Paste { piece, at: Vec2::new(3.0, 6.0), turn: Turn::default().quarter() },
     ]
+}
+
+#[test]
+fn the_seed_of_stamps_is_of_this_format() {
+    let mut world = world_of(LIVELY, recorder::plugin);
+    (0..3).for_each(|_| world.tick());
+    let stamp = Stamp::of(world.world(), IVec2::ZERO, IVec2::new(12, 8));
+    let kept = seed("stamp/lively", &stamp.encode());
+    assert!(Stamp::decode(&kept).is_ok_and(|stamp| stamp.elements.len() == 2 && stamp.piece.count() > 10));
 }
 
 #[test]

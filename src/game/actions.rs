@@ -1,6 +1,6 @@
 //! What a key, a button or a click on the HUD can ask for.
 
-use crate::game::{tools::Tool, views::table::View};
+use crate::game::{brush_mode::BrushMode, tools::Tool, views::table::View};
 
 /// What a player can do with a key, a button or a click on the HUD.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,6 +17,10 @@ pub enum Action {
     Brush(i32),
     /// Turns the brush from round to square and back.
     BrushShape,
+    /// Chooses what a brush with an element does; again: to draw.
+    BrushMode(BrushMode),
+    /// The next of these.
+    NextBrushMode,
     /// Stops and starts time.
     Pause,
     /// Runs one tick.
@@ -43,7 +47,17 @@ pub enum Action {
     Hud,
     /// Opens or closes a panel.
     Panel(PanelId),
-    /// Closes whatever is open, but for the panels that stay.
+    /// Takes up a frame: the next drag takes the piece of the world that is in it; again: lays it down.
+    Take(Take),
+    /// Takes up the newest stamp.
+    TakeUpStamp,
+    /// Turns the stamp in hand a quarter to the left.
+    TurnStamp,
+    /// Mirrors the stamp in hand: left and right.
+    MirrorStamp,
+    /// Mirrors the stamp in hand: top and bottom.
+    FlipStamp,
+    /// Lays down what is in hand, or closes whatever is open, but for the panels that stay.
     Close,
     /// Writes the world into a file.
     Save,
@@ -76,6 +90,19 @@ pub enum Gesture {
     Erase,
     /// Moves the picture; a click without moving samples.
     Pan,
+    /// Takes the piece of the world in the rectangle when released.
+    Take(Take),
+    /// Pastes the stamp in hand when released.
+    Paste,
+}
+
+/// What becomes of the piece that is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Take {
+    /// It stays.
+    Copy,
+    /// It goes.
+    Cut,
 }
 
 /// Name of a panel of the HUD.

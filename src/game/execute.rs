@@ -3,6 +3,7 @@
 use crate::{
     game::{
         actions::Action,
+        brush_mode::BrushMode,
         camera::WorldCamera,
         favourites::{self, Favourites},
         follow,
@@ -19,12 +20,13 @@ use crate::{
         recording, saves, screen,
         sound::volume::Volume,
         split,
+        stamps::act,
         toasts::Toasts,
         toolbox::Toolbox,
-        tools::Tool,
+        tools::{Tool, spaced},
         views::table::Shown,
     },
-    kernel::params::Preset,
+    kernel::{params::Preset, piece::Turn},
     lab::{autopilot::Autopilot, dial::Step, gauntlet::CASES, live::accuracy::Survey},
     scene::{
         self,
@@ -49,6 +51,9 @@ pub fn carry_out(world: &mut World) {
         match order {
             Order::Act(action) => act(world, action),
             Order::Checkpoint => history::checkpoint(world),
+            Order::TakePiece(from, to, take) => act::take(world, (from, to), take),
+            Order::Paste(at) => act::paste(world, at),
+            Order::TakeUpStamp(number) => act::take_up(world, number),
             Order::Quality(preset) => {
                 // A choice by hand ends the autopilot.
                 world.resource_mut::<Autopilot>().hold(None);
@@ -127,7 +132,7 @@ fn change_detail(world: &mut World, Step { preset, detail }: Step, intents: &[In
         return;
     }
     history::checkpoint(world);
-    intents.iter().for_each(|intent| world.resource_mut::<IntentQueue>().push(*intent));
+    intents.iter().for_each(|intent| world.resource_mut::<IntentQueue>().push(intent.clone()));
     control::apply_edits(world);
     let count = world.resource::<ParticleStore>().len() + world.resource::<Rock>().count();
     world.resource_mut::<Toasts>().say(format!("Detail {detail}: {} particles", grouped(count)));
@@ -142,6 +147,14 @@ fn act(world: &mut World, action: Action) {
         Action::Element(digit) => use_digit(world, digit),
         Action::Brush(steps) => world.resource_mut::<Toolbox>().grow(steps),
         Action::BrushShape => world.resource_mut::<Toolbox>().turn_shape(),
+        Action::BrushMode(mode) => {
+            let now = world.resource::<Toolbox>().mode();
+            choose_mode(world, if now == mode { BrushMode::Draw } else { mode });
+        }
+        Action::NextBrushMode => {
+            let next = world.resource::<Toolbox>().mode().next();
+            choose_mode(world, next);
+        }
         Action::Pause | Action::Step | Action::Speed(_) => keep_time(&mut world.resource_mut(), action),
         Action::Reset | Action::Undo | Action::Redo | Action::ClearAir => change_world(world, action),
         Action::View(view) => world.resource_mut::<Shown>().0 = view,
@@ -163,7 +176,16 @@ fn act(world: &mut World, action: Action) {
         Action::KeepLastMinute => recording::keep_last_minute(world),
         Action::Panel(id) => world.resource_mut::<Panels>().toggle(id),
         Action::Hud => world.resource_mut::<Panels>().turn_hud(),
-        Action::Close => world.resource_mut::<Panels>().close_all(),
+        Action::Take(take) => act::take_up_frame(world, take),
+        Action::TakeUpStamp => act::take_up_last(world),
+        Action::TurnStamp => act::turn(world, Turn::quarter),
+        Action::MirrorStamp => act::turn(world, Turn::mirrored),
+        Action::FlipStamp => act::turn(world, Turn::flipped),
+        Action::Close => {
+            if !act::lay_down(world) {
+                world.resource_mut::<Panels>().close_all();
+            }
+        }
         Action::Split => split::toggle(world),
         Action::Mute => world.resource_mut::<Volume>().toggle(),
         Action::FullScreen => screen::toggle_full_screen(world),
@@ -202,6 +224,24 @@ fn take_up(world: &mut World, tool: Tool) {
             .resource_mut::<Toasts>()
             .warn(format!("The {name} is off in this scene: switch it on in the details ({key})"));
     }
+}
+
+/// Chooses what a brush with an element does, and says what that is.
+fn choose_mode(world: &mut World, mode: BrushMode) {
+    let mut tools = world.resource_mut::<Toolbox>();
+    let Tool::Element(element) = tools.tool else {
+        world.resource_mut::<Toasts>().say("Only an element is drawn over others or erased by itself: choose one");
+        return;
+    };
+    tools.set_mode(mode);
+    let Some(setup) = world.get_resource::<Setup>() else { return };
+    let name = spaced(&setup.elements().get(element).name);
+    let told = match mode {
+        BrushMode::Draw => format!("Draw: {name} into free room"),
+        BrushMode::Replace => format!("Replace: what is there becomes {name}"),
+        BrushMode::EraseOnly => format!("Erase only this: {name} goes, all else stays"),
+    };
+    world.resource_mut::<Toasts>().say(told);
 }
 
 /// Takes up the element on a digit; or puts the one there at whose tile the pointer is, if that is another.

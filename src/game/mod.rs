@@ -10,10 +10,12 @@
 //! help, menus and bars follow from these.
 
 pub mod actions;
+pub mod brush_mode;
 pub mod camera;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod crash;
 pub mod disk;
+pub mod edit_icons;
 pub mod execute;
 pub mod favourites;
 pub mod files;
@@ -38,6 +40,7 @@ pub mod script;
 pub mod settings;
 pub mod sound;
 pub mod split;
+pub mod stamps;
 #[cfg(test)]
 mod tests;
 pub mod toasts;

@@ -2,12 +2,13 @@
 //! between ticks.
 
 use crate::{
-    game::actions::Action,
+    game::actions::{Action, Take},
     kernel::params::Preset,
     lab::{autopilot::Goal, dial::Step, live::accuracy::SurveyRequest},
     scene::effects::{Effect, Mode},
 };
 use bevy::prelude::{Deref, DerefMut, Resource};
+use glam::Vec2;
 use std::path::PathBuf;
 
 /// One thing to do.
@@ -17,6 +18,12 @@ pub enum Order {
     Act(Action),
     /// Remember the state before an edit.
     Checkpoint,
+    /// Make a stamp of what is between two corners (d), and take it up.
+    TakePiece(Vec2, Vec2, Take),
+    /// Paste the stamp in hand with its middle here, d.
+    Paste(Vec2),
+    /// Take up the stamp of this number.
+    TakeUpStamp(u64),
     /// Go on at another quality.
     Quality(Preset),
     /// Go on at another detail, beside which the quality may have its own.

@@ -3,7 +3,7 @@
 use crate::{
     game::{
         camera, execute, favourites, follow, frame, history, hud, input, orders, panels, playback, recording, saves,
-        sound, split, toasts, toolbox, views,
+        sound, split, stamps, toasts, toolbox, views,
     },
     kernel::units::TICKS_PER_SECOND,
     lab::{
@@ -43,6 +43,8 @@ impl Plugin for GamePlugin {
             .init_resource::<history::History>()
             .init_resource::<saves::SaveFolders>()
             .init_resource::<favourites::Favourites>()
+            .init_resource::<stamps::hand::Hand>()
+            .init_resource::<stamps::shelf::Shelf>()
             .init_resource::<frame::Tempo>()
             .init_resource::<panels::Panels>()
             .init_resource::<toasts::Toasts>()

@@ -148,6 +148,7 @@ fn look(world: &World) -> Value {
         "tool": world.resource::<Toolbox>().tool.name(setup.elements()),
         "pointer": world.resource::<Pointer>().at.map(<[f32; 2]>::from),
         "brush": 2.0 * world.resource::<Toolbox>().radius(),
+        "mode": world.resource::<Toolbox>().mode().name(),
         "paused": world.resource::<Pace>().paused,
         "speed": world.resource::<Pace>().speed,
         "rests": tempo.rests,

@@ -2,6 +2,7 @@
 
 use crate::{
     game::{
+        brush_mode::BrushMode,
         icons::{self, Icon},
         tools::{Dab, Tool},
     },
@@ -31,6 +32,8 @@ pub struct Toolbox {
     pub tool: Tool,
     /// Outline of the brush.
     pub shape: BrushShape,
+    /// What a brush with an element does.
+    mode: BrushMode,
     /// Half the width of the brush, in the scene's own spacings.
     radius: f32,
     /// Temperature that is set, K.
@@ -42,7 +45,7 @@ pub struct Toolbox {
 impl Default for Toolbox {
     fn default() -> Self {
         let tool = Tool::Element(ElementId(0));
-        Self { tool, shape: BrushShape::Disc, radius: 4.0, kelvin: FIRST_TEMPERATURE, unit: 1.0 }
+        Self { tool, shape: BrushShape::Disc, mode: BrushMode::Draw, radius: 4.0, kelvin: FIRST_TEMPERATURE, unit: 1.0 }
     }
 }
 
@@ -68,6 +71,16 @@ impl Toolbox {
     /// Sets half the width of the brush, in the scene's own spacings.
     pub fn set_radius(&mut self, radius: f32) {
         self.radius = radius.clamp(*BRUSH_RANGE.start(), *BRUSH_RANGE.end());
+    }
+
+    /// What the brush does to what is there; only an element's has a choice.
+    pub fn mode(&self) -> BrushMode {
+        if matches!(self.tool, Tool::Element(_)) { self.mode } else { BrushMode::Draw }
+    }
+
+    /// Chooses what a brush with an element does.
+    pub fn set_mode(&mut self, mode: BrushMode) {
+        self.mode = mode;
     }
 
     /// Temperature that is set, K; none if the chosen tool has none.
@@ -109,7 +122,7 @@ impl Toolbox {
 
     /// A stroke of a drag of a velocity (d/s), where a strong wind has that of `wind`, within a share of a tick.
     pub fn dab(&self, stroke: Stroke, velocity: Vec2, wind: f32, share: f32) -> Dab {
-        Dab { stroke, velocity, wind, kelvin: self.kelvin, share }
+        Dab { stroke, mode: self.mode, velocity, wind, kelvin: self.kelvin, share }
     }
 }
 

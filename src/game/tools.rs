@@ -2,7 +2,10 @@
 //! follow from the table.
 
 use crate::{
-    game::icons::{self, Icon},
+    game::{
+        brush_mode::BrushMode,
+        icons::{self, Icon},
+    },
     kernel::{
         brush::Stroke,
         element::{Category, Element, ElementId, ElementTable},
@@ -164,6 +167,8 @@ pub struct ToolRow {
 pub struct Dab {
     /// Where, d.
     pub stroke: Stroke,
+    /// What an element does there.
+    pub mode: BrushMode,
     /// Smoothed velocity of the drag, d/s.
     pub velocity: Vec2,
     /// A strong wind, d/s ([`Reference::wind`](crate::lab::colours::Reference)).
@@ -272,7 +277,7 @@ impl Tool {
     /// What the left button does along a piece of a drag.
     pub fn left(self, dab: &Dab) -> Option<Intent> {
         match self {
-            Self::Element(element) => Some(Intent::Draw { element, stroke: dab.stroke }),
+            Self::Element(element) => Some(over(dab, element).unwrap_or(Intent::Draw { element, stroke: dab.stroke })),
             Self::Other(row) => (row.left)(dab),
         }
     }
@@ -280,7 +285,10 @@ impl Tool {
     /// What the right button does there.
     pub fn right(self, dab: &Dab) -> Option<Intent> {
         match self {
-            Self::Element(_) => Some(Intent::Erase { stroke: dab.stroke }),
+            Self::Element(element) => Some(match dab.mode {
+                BrushMode::EraseOnly => Intent::EraseOnly { element, stroke: dab.stroke },
+                BrushMode::Draw | BrushMode::Replace => Intent::Erase { stroke: dab.stroke },
+            }),
             Self::Other(row) => (row.right)(dab),
         }
     }
@@ -288,9 +296,28 @@ impl Tool {
     /// What it does in a whole line or rectangle.
     pub fn shape(self, dab: &Dab) -> Option<Intent> {
         match self {
-            Self::Element(element) => Some(Intent::Stamp { element, stroke: dab.stroke }),
+            Self::Element(element) => Some(over(dab, element).unwrap_or(Intent::Stamp { element, stroke: dab.stroke })),
             Self::Other(row) => row.has_shapes.then(|| (row.left)(dab)).flatten(),
         }
+    }
+
+    /// What it does to all that hangs together around a point, d: free room, or what is there.
+    pub fn fill(self, mode: BrushMode, at: Vec2) -> Option<Intent> {
+        let Self::Element(element) = self else { return None };
+        Some(match mode {
+            BrushMode::Draw => Intent::Fill { element, at },
+            BrushMode::Replace => Intent::ReplaceAround { element, at },
+            BrushMode::EraseOnly => Intent::EraseAround { element, at },
+        })
+    }
+}
+
+/// What an element does to what is there, unless it is drawn into free room.
+fn over(dab: &Dab, element: ElementId) -> Option<Intent> {
+    match dab.mode {
+        BrushMode::Draw => None,
+        BrushMode::Replace => Some(Intent::Replace { element, stroke: dab.stroke }),
+        BrushMode::EraseOnly => Some(Intent::EraseOnly { element, stroke: dab.stroke }),
     }
 }
 

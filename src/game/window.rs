@@ -11,6 +11,7 @@ use crate::{
         rest,
         settings::{self, Settings},
         sound::{Output, volume::Volume},
+        stamps::shelf::Shelf,
     },
     lab::colours,
     sim::{
@@ -120,6 +121,7 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
     .add_plugins(EguiPlugin::default())
     .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
     .insert_resource(Favourites::of_user())
+    .insert_resource(Shelf::of_user())
     .insert_resource(Volume::of_user())
     .insert_resource(Output::of_system())
     .insert_resource(ClearColor(Color::srgb_u8(red, green, blue)))

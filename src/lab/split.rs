@@ -146,7 +146,7 @@ fn copy_input(world: &mut World) {
         let Some(second) = split.second.as_mut() else { return };
         let own = Intent::Quality { preset: second.setup().preset, quality: second.setup().quality };
         // A change of the first one's quality is an edit to be counted, no more: edits choose the sites of pouring.
-        let input: Vec<Intent> = world.resource::<IntentQueue>().iter().copied().collect();
+        let input: Vec<Intent> = world.resource::<IntentQueue>().iter().cloned().collect();
         let is_quality = |intent: &Intent| matches!(intent, Intent::Quality { .. });
         // Even there and back leaves traces: air that was carried over to other cells and back is not what it was.
         second.equal &= !input.iter().any(is_quality);
@@ -157,7 +157,7 @@ fn copy_input(world: &mut World) {
         for intent in input {
             if let Intent::Quality { preset: next, .. } = intent {
                 preset = next;
-                queue.push(own);
+                queue.push(own.clone());
             } else {
                 queue.push(intent.scaled((own_preset.detail() / preset.detail()) as f32));
             }

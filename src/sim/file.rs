@@ -9,7 +9,7 @@ use serde::{Serialize, de::DeserializeOwned};
 
 /// Version of the format of save files and of recordings. Columns, effects and knobs that are added raise it by themselves;
 /// raise the first number when anything else that they hold changes. Old files are refused, not misread.
-pub(super) const VERSION: u16 = 700 + (Particles::COLUMNS.len() + Effect::ALL.len() + KNOBS.len()) as u16;
+pub(crate) const VERSION: u16 = 700 + (Particles::COLUMNS.len() + Effect::ALL.len() + KNOBS.len()) as u16;
 
 /// Why a file is not taken, in one line. The text is what kind of file it is.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -18,8 +18,8 @@ pub enum FileError {
     #[error("not a {0} of Powder Master")]
     Foreign(&'static str),
     /// Written by another version, of this format.
-    #[error("a {0} of format {1}; this program reads format {VERSION}")]
-    Version(&'static str, u16),
+    #[error("a {0} of format {1}; this program reads format {2}")]
+    Version(&'static str, u16, u16),
     /// Cut or changed.
     #[error("the {0} is damaged: {1}")]
     Damaged(&'static str, String),
@@ -37,12 +37,14 @@ pub(crate) struct Kind {
     pub name: &'static str,
     /// Its first line.
     pub magic: &'static [u8],
+    /// Version of its format.
+    pub version: u16,
 }
 
 impl Kind {
     /// The beginning of a file.
     pub fn begin(&self) -> Vec<u8> {
-        [self.magic, &VERSION.to_le_bytes()].concat()
+        [self.magic, &self.version.to_le_bytes()].concat()
     }
 
     /// What stands behind the beginning of a file.
@@ -56,8 +58,8 @@ impl Kind {
         })?;
         let (version, rest) = rest.split_first_chunk().ok_or_else(|| self.damaged("it ends in its header"))?;
         match u16::from_le_bytes(*version) {
-            VERSION => Ok(rest),
-            found => Err(FileError::Version(self.name, found)),
+            found if found == self.version => Ok(rest),
+            found => Err(FileError::Version(self.name, found, self.version)),
         }
     }
 

@@ -6,15 +6,17 @@ use crate::{
         brush::Stroke,
         element::ElementId,
         params::{Preset, Quality},
+        piece::{Piece, Turn},
     },
     scene::effects::{Effect, Mode},
 };
 use bevy::prelude::Resource;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// A change that is asked for. Lengths in d, velocities in d/s. In recordings they go by their order: new ones stand behind the others.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Intent {
     /// Pour or place an element under the stroke. Movable elements fill free sites at their flow; fixed ones take the
     /// place of what is there.
@@ -105,9 +107,66 @@ pub enum Intent {
         /// Where.
         stroke: Stroke,
     },
+    /// Give all that is under the stroke another element.
+    Replace {
+        /// Which.
+        element: ElementId,
+        /// Where.
+        stroke: Stroke,
+    },
+    /// Give another element to all that hangs together with what is at a point, and is of the same element as that.
+    ReplaceAround {
+        /// Which.
+        element: ElementId,
+        /// Where it starts, d.
+        at: Vec2,
+    },
+    /// Take away one element under the stroke.
+    EraseOnly {
+        /// Which.
+        element: ElementId,
+        /// Where.
+        stroke: Stroke,
+    },
+    /// Take away all of an element that hangs together with what is at a point, if that is of it.
+    EraseAround {
+        /// Which.
+        element: ElementId,
+        /// Where it starts, d.
+        at: Vec2,
+    },
+    /// Put a piece of a world into free room.
+    Paste {
+        /// The piece, in its own d.
+        #[serde(with = "shared")]
+        piece: Arc<Piece>,
+        /// Where its middle comes to lie, d; it moves on to whole cells.
+        at: Vec2,
+        /// How it lies.
+        turn: Turn,
+    },
+}
+
+/// What many share is written and read as one's own.
+mod shared {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+    use std::sync::Arc;
+
+    pub fn serialize<T: Serialize, S: Serializer>(value: &Arc<T>, serializer: S) -> Result<S::Ok, S::Error> {
+        T::serialize(value, serializer)
+    }
+
+    pub fn deserialize<'de, T: Deserialize<'de>, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<T>, D::Error> {
+        T::deserialize(deserializer).map(Arc::new)
+    }
 }
 
 impl Intent {
+    /// Bytes that it takes beside itself.
+    pub fn memory(&self) -> usize {
+        if let Self::Paste { piece, .. } = self { piece.memory() } else { 0 }
+    }
+
     /// The same in a world whose d is `factor` times shorter.
     #[must_use]
     pub fn scaled(self, factor: f32) -> Self {
@@ -123,6 +182,11 @@ impl Intent {
             Self::Warm { stroke, degrees } => Self::Warm { stroke: stroke.scaled(factor), degrees },
             Self::SetTemperature { stroke, kelvin } => Self::SetTemperature { stroke: stroke.scaled(factor), kelvin },
             Self::Ignite { stroke } => Self::Ignite { stroke: stroke.scaled(factor) },
+            Self::Replace { element, stroke } => Self::Replace { element, stroke: stroke.scaled(factor) },
+            Self::ReplaceAround { element, at } => Self::ReplaceAround { element, at: at * factor },
+            Self::EraseOnly { element, stroke } => Self::EraseOnly { element, stroke: stroke.scaled(factor) },
+            Self::EraseAround { element, at } => Self::EraseAround { element, at: at * factor },
+            Self::Paste { piece, at, turn } => Self::Paste { piece, at: at * factor, turn },
             Self::Gravity { gravity } => Self::Gravity { gravity: gravity * factor },
             Self::ClearAir | Self::Quality { .. } | Self::Effect { .. } | Self::Detail { .. } => self,
         }
@@ -139,6 +203,11 @@ impl IntentQueue {
     /// Queues an intent.
     pub fn push(&mut self, intent: Intent) {
         self.waiting.push(intent);
+    }
+
+    /// Queues intents.
+    pub fn extend(&mut self, intents: impl IntoIterator<Item = Intent>) {
+        self.waiting.extend(intents);
     }
 
     /// Whether none waits.

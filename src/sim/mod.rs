@@ -21,6 +21,7 @@ pub mod script;
 pub mod simulation;
 pub mod snapshot;
 pub mod stages;
+pub mod stamp;
 pub mod state;
 pub mod workers;
 

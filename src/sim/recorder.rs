@@ -85,10 +85,10 @@ impl Recorder {
     }
 
     /// Notes that the world takes `intent` after `tick` ticks.
-    pub fn note(&self, tick: u64, intent: Intent) {
+    pub fn note(&self, tick: u64, intent: &Intent) {
         let mut inner = self.inner();
-        let entry = Entry { tick, intent };
-        inner.rolling.note(entry);
+        let entry = Entry { tick, intent: intent.clone() };
+        inner.rolling.note(entry.clone());
         if let Some(recording) = inner.running() {
             recording.note(entry);
         }

@@ -3,7 +3,7 @@
 
 use crate::{
     kernel::{
-        params::{AirParams, Domain, Preset},
+        params::{AirParams, Domain, FluidParams, Preset},
         particles::Particles,
         predictor::Kept,
         resample::{make_room, resample_particles, resample_rock, settle},
@@ -153,7 +153,8 @@ impl Snapshot {
         let mut next_id = if self.clock.next_id < LAST_ID { self.clock.next_id } else { 0 };
         let mut solids = resample_rock(&self.solids, factor, to.domain.size, &mut next_id);
         make_room(&mut solids, &self.particles, factor, &to.domain);
-        let particles = self.particles_in(factor, &solids, to, &mut next_id);
+        let target = (&to.domain, &to.fluid);
+        let particles = particles_in(&self.particles, &self.solids, factor, &solids, target, &mut next_id);
         let mut air = self.air.rescaled(factor as f32, to.domain.size, to.air).resized(air_cell);
         air.set_solids(&solids);
         Ok(Self {
@@ -167,28 +168,35 @@ impl Snapshot {
             books: self.books.clone(),
         })
     }
+}
 
-    /// The particles among the rock of another set-up. Where each becomes more than four, this is done in steps: a
-    /// crowd as wide as a step is settled in as many rounds whatever the factor.
-    fn particles_in(&self, factor: f64, solids: &Solids, to: &Blueprint, next_id: &mut u32) -> Particles {
-        let steps = (factor / LARGEST_STEP).log2().ceil().max(0.0) as i32;
-        let mut done = factor / LARGEST_STEP.powi(steps);
-        let mut particles = Cow::Borrowed(&self.particles);
-        for step in 0..=steps {
-            let part = if step == 0 { done } else { LARGEST_STEP };
-            done = if step == 0 { done } else { done * LARGEST_STEP };
-            let size = (to.domain.size.as_dvec2() * (done / factor)).as_vec2();
-            let domain = Domain { size, ..to.domain };
-            let is_last = step == steps;
-            // Ids on the way are nobody's.
-            let (mut rock_id, mut id) = (0, 0);
-            let between = (!is_last).then(|| resample_rock(&self.solids, done, size, &mut rock_id));
-            let rock = between.as_ref().unwrap_or(solids);
-            let ids = if is_last { &mut *next_id } else { &mut id };
-            let mut next = resample_particles(&particles, part, rock, &domain, ids);
-            settle(&mut next, rock, &domain, &to.fluid);
-            particles = Cow::Owned(next);
-        }
-        particles.into_owned()
+/// Particles that stand among the rock `old`, among that of a box of other d, `solids`. Where each becomes more than four, this
+/// is done in steps: a crowd as wide as a step is settled in as many rounds whatever the factor.
+pub(super) fn particles_in(
+    particles: &Particles,
+    old: &Solids,
+    factor: f64,
+    solids: &Solids,
+    (box_of, fluid): (&Domain, &FluidParams),
+    next_id: &mut u32,
+) -> Particles {
+    let steps = (factor / LARGEST_STEP).log2().ceil().max(0.0) as i32;
+    let mut done = factor / LARGEST_STEP.powi(steps);
+    let mut particles = Cow::Borrowed(particles);
+    for step in 0..=steps {
+        let part = if step == 0 { done } else { LARGEST_STEP };
+        done = if step == 0 { done } else { done * LARGEST_STEP };
+        let size = (box_of.size.as_dvec2() * (done / factor)).as_vec2();
+        let domain = Domain { size, ..*box_of };
+        let is_last = step == steps;
+        // Ids on the way are nobody's.
+        let (mut rock_id, mut id) = (0, 0);
+        let between = (!is_last).then(|| resample_rock(old, done, size, &mut rock_id));
+        let rock = between.as_ref().unwrap_or(solids);
+        let ids = if is_last { &mut *next_id } else { &mut id };
+        let mut next = resample_particles(&particles, part, rock, &domain, ids);
+        settle(&mut next, rock, &domain, fluid);
+        particles = Cow::Owned(next);
     }
+    particles.into_owned()
 }

@@ -74,7 +74,7 @@ fn a_replay_names_the_first_tick_that_differs() {
     writer.start(&recording.segments[0].start().unwrap().encode());
     let segment = &recording.segments[0];
     // One dab of the poured water is missing: that of tick 23, which makes tick 24.
-    let entries: Vec<_> = segment.entries.iter().filter(|entry| entry.tick != 23).copied().collect();
+    let entries: Vec<_> = segment.entries.iter().filter(|entry| entry.tick != 23).cloned().collect();
     assert_eq!(entries.len() + 1, segment.entries.len());
     writer.ticks(&entries, &segment.marks);
     writer.end(recording.end.unwrap());

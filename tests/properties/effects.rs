@@ -54,7 +54,7 @@ fn run(blueprint: &Blueprint, case: &Case, effect: Effect, mode: Mode) -> Result
     let mut simulation = Simulation::of(blueprint);
     // What is said of the effect in question is left out.
     let keeps = |entry: &&Entry| !matches!(entry.intent, Intent::Effect { effect: switched, .. } if switched == effect);
-    let mut input = Input::new(case.input.iter().filter(keeps).copied().collect());
+    let mut input = Input::new(case.input.iter().filter(keeps).cloned().collect());
     let calls = |simulation: &Simulation| effect.row().passes.iter().map(|pass| simulation.calls(*pass)).sum::<u64>();
     for tick in 0..case.ticks {
         input.give(simulation.world_mut());

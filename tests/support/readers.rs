@@ -12,6 +12,8 @@ use powder_master::{
         replay::Replay,
         simulation::Simulation,
         snapshot::Snapshot,
+        stamp::{Stamp, fitted},
+        state::Setup,
         workers::Workers,
     },
     web::link::Link,
@@ -21,7 +23,7 @@ use powder_master::{
 pub type Reader = (&'static str, fn(&[u8]));
 
 /// All readers.
-pub const READERS: [Reader; 8] = [
+pub const READERS: [Reader; 9] = [
     ("scene", read_scene),
     ("elements", read_elements),
     ("expression", read_expression),
@@ -30,6 +32,7 @@ pub const READERS: [Reader; 8] = [
     ("recording", read_recording),
     ("save", read_save),
     ("link", read_link),
+    ("stamp", read_stamp),
 ];
 
 /// A small scene with parameters for `--set`.
@@ -213,6 +216,23 @@ fn go_on(start: &Checkpoint) -> bool {
         simulation.hash();
     }
     is_cheap
+}
+
+/// What is read must fit into a world, or be refused by it.
+fn read_stamp(bytes: &[u8]) {
+    let stamp = match Stamp::decode(bytes) {
+        Ok(stamp) => stamp,
+        Err(error) => return one_line(error),
+    };
+    assert_eq!(Stamp::decode(&stamp.encode()), Ok(stamp.clone()));
+    let world = world_of(SMALL, |_: &mut bevy::app::App| {});
+    let setup = world.world().resource::<Setup>();
+    let cheap = stamp.piece.count() <= 256 && stamp.piece.size.as_i64vec2().element_product() < FEW as i64;
+    match stamp.piece(setup.elements()) {
+        Ok(piece) if cheap => fitted(&piece, &setup.blueprint).map(drop).unwrap_or_else(one_line),
+        Ok(_) => {}
+        Err(error) => one_line(error),
+    }
 }
 
 fn read_link(bytes: &[u8]) {

@@ -187,7 +187,7 @@ fn air_that_is_built_late_goes_on_as_air_that_was_there_all_along() {
             }
             simulation.run(3);
             assert_eq!(simulation.get::<AirGrid>().is_built(), early);
-            simulation.push(intent);
+            simulation.push(intent.clone());
             simulation.run(10);
             assert!(!simulation.get::<AirGrid>().is_quiet(), "{intent:?} leaves the air at rest");
             simulation.hash()

@@ -3,12 +3,15 @@
 use crate::{
     game::{
         actions::Gesture,
+        brush_mode::BrushMode,
         camera::WorldCamera,
+        icons,
         input::{
             pointer::{HudCover, Pointer},
             strokes::DragState,
         },
         panels::Panels,
+        stamps::hand::Hand,
         toolbox::Toolbox,
     },
     kernel::brush::BrushShape,
@@ -20,10 +23,13 @@ use bevy_egui::{
     egui::{self, Color32, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, pos2},
 };
 
+/// Half the width of the mark beside the ring, points.
+const MARK: f32 = 9.0;
+
 /// Shows the brush.
 pub fn show(
     mut contexts: EguiContexts,
-    panels: Res<Panels>,
+    (panels, hand): (Res<Panels>, Res<Hand>),
     pointer: Res<Pointer>,
     cover: Res<HudCover>,
     drag: Res<DragState>,
@@ -31,7 +37,7 @@ pub fn show(
     setup: Res<Setup>,
     camera: Res<WorldCamera>,
 ) -> Result {
-    let (Some(pixel), true) = (pointer.at, panels.visible) else { return Ok(()) };
+    let (Some(pixel), true) = (pointer.at, panels.visible && hand.is_empty()) else { return Ok(()) };
     let straight = drag.current().filter(|drag| matches!(drag.gesture, Gesture::Line | Gesture::Rectangle));
     if cover.covers(pixel) && straight.is_none() {
         return Ok(());
@@ -60,5 +66,16 @@ pub fn show(
     let shadow = Stroke::new(pen.width + 1.6, Color32::from_black_alpha(120));
     let painter = context.layer_painter(egui::LayerId::background());
     [shadow, pen].into_iter().for_each(|pen| painter.extend(shapes(pen)));
+    if tools.mode() != BrushMode::Draw {
+        mark(&painter, at(pixel), radius, tools.mode(), pen.color);
+    }
     Ok(())
+}
+
+/// Marks at the ring what the brush does to what is there.
+fn mark(painter: &egui::Painter, centre: Pos2, radius: f32, mode: BrushMode, colour: Color32) {
+    let aside = radius * std::f32::consts::FRAC_1_SQRT_2 + MARK;
+    let at = centre + Vec2::new(aside, aside);
+    painter.circle_filled(at, MARK, Color32::from_black_alpha(160));
+    icons::draw(painter, icons::square(at, 1.3 * MARK), mode.icon(), colour);
 }

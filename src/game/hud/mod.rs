@@ -13,6 +13,7 @@ pub mod palette;
 pub mod panels;
 pub mod probe;
 pub mod split;
+pub mod stamps;
 pub mod stats;
 pub mod style;
 mod temperature;
@@ -56,6 +57,8 @@ impl Plugin for HudPlugin {
                         touch::show.run_if(touch::in_use),
                         layout::place_world,
                         brush::show,
+                        stamps::ghost::show,
+                        stamps::strip::show,
                         probe::show,
                         split::show,
                     )

@@ -3,6 +3,7 @@
 use crate::{
     game::{
         actions::Action,
+        brush_mode::BrushMode,
         favourites::DIGITS,
         frame::SPEED_RANGE,
         history::History,
@@ -11,7 +12,7 @@ use crate::{
             panels::elements,
             style, temperature,
             tiles::{Face, Tiles, tile},
-            widgets::action_button,
+            widgets::{BUTTON, action_button, field},
         },
         icons::{self, Icon},
         input::bindings::Bindings,
@@ -48,6 +49,8 @@ const SCROLL_BAR: f32 = 16.0;
 /// Width of what sets the brush's size and temperature, and height of one of them, points.
 const BRUSH: f32 = 56.0;
 const FIELD: f32 = 20.0;
+/// Size of the buttons for what the brush is and does, points.
+const SMALL: egui::Vec2 = vec2(32.0, 24.0);
 /// Below this width the brush has no slider, points.
 const NARROW: f32 = 760.0;
 
@@ -166,7 +169,7 @@ fn all(ui: &mut Ui, size: egui::Vec2, shows: &Shows, orders: &mut Orders) {
     }
 }
 
-/// Shape and size of the brush, from right to left, and the temperature that it sets.
+/// Shape, mode and size of the brush, from right to left, and the temperature that it sets.
 fn brush(ui: &mut Ui, narrow: bool, tools: &mut ResMut<Toolbox>, bindings: &Bindings, orders: &mut Orders) {
     // One above the other, so that the tiles keep their room whichever tool is chosen.
     let size = vec2(BRUSH, if narrow || tools.kelvin().is_none() { FIELD } else { 2.0 * FIELD + GAP });
@@ -185,7 +188,36 @@ fn brush(ui: &mut Ui, narrow: bool, tools: &mut ResMut<Toolbox>, bindings: &Bind
         egui::Label::new(RichText::new(format!("{:.0} d", 2.0 * tools.radius())).color(style::WEAK)),
     )
     .on_hover_text("width of the brush in particle spacings");
-    action_button(ui, tools.shape_icon(), "", Action::BrushShape, false, (bindings, orders));
+    // One above the other, as high as a tile together.
+    ui.allocate_ui_with_layout(vec2(SMALL.x, TILE.y), Layout::top_down(Align::Center), |ui| {
+        ui.spacing_mut().item_spacing.y = TILE.y - 2.0 * SMALL.y;
+        let (name, tip) = (bindings.help(Action::BrushShape), bindings.tip(Action::BrushShape));
+        if small_button(ui, tools.shape_icon(), (name, &tip), false) {
+            orders.push(Order::Act(Action::BrushShape));
+        }
+        let (mode, is_element) = (tools.mode(), matches!(tools.tool, Tool::Element(_)));
+        ui.add_enabled_ui(is_element, |ui| {
+            let name = format!("what the brush does: {}", mode.name());
+            if small_button(ui, mode.icon(), (&name, &modes_tip(bindings)), mode != BrushMode::Draw) {
+                orders.push(Order::Act(Action::NextBrushMode));
+            }
+        });
+    });
+}
+
+/// What the brush can do, with the keys.
+fn modes_tip(bindings: &Bindings) -> String {
+    let key = |mode| bindings.key(Action::BrushMode(mode));
+    let (replace, only) = (key(BrushMode::Replace), key(BrushMode::EraseOnly));
+    format!("What the brush does: draw; replace what is there ({replace}); erase only the chosen element ({only})")
+}
+
+/// A button with an icon, half as high as a tile; whether it was pressed.
+fn small_button(ui: &mut Ui, icon: Icon, (name, tip): (&str, &str), active: bool) -> bool {
+    let (rect, response) = field(ui, SMALL, name, active, BUTTON);
+    let colour = if active { style::ACCENT } else { ui.style().interact(&response).fg_stroke.color };
+    icons::draw(ui.painter(), icons::square(rect.center(), 15.0), icon, colour);
+    response.on_hover_text(tip).clicked()
 }
 
 fn size_of_brush(ui: &mut Ui, tools: &mut ResMut<Toolbox>) {

@@ -4,6 +4,7 @@
 use crate::{
     game::{
         actions::Action,
+        brush_mode::BrushMode,
         history::History,
         hud::{
             layout::Bars,
@@ -123,7 +124,7 @@ pub fn show(
                 });
                 ui.horizontal_wrapped(|ui| {
                     act(ui, unit, pace, history, &mut orders);
-                    size(ui, unit, &mut tools);
+                    size(ui, unit, &mut tools, &mut orders);
                     menus(ui, unit, &mut sheet);
                 });
             });
@@ -197,8 +198,8 @@ fn act(ui: &mut Ui, unit: f32, pace: &Pace, history: &History, orders: &mut Orde
     }
 }
 
-/// Size and shape of the brush, and the temperature that it sets.
-fn size(ui: &mut Ui, unit: f32, tools: &mut ResMut<Toolbox>) {
+/// Size, shape and mode of the brush, and the temperature that it sets.
+fn size(ui: &mut Ui, unit: f32, tools: &mut ResMut<Toolbox>, orders: &mut Orders) {
     let mut step = |ui: &mut Ui, text: &str, steps: i32| {
         let text = RichText::new(text).size(20.0 * unit);
         if ui.add_sized(vec2(TARGET, TARGET) * unit, egui::Button::new(text)).clicked() {
@@ -209,6 +210,11 @@ fn size(ui: &mut Ui, unit: f32, tools: &mut ResMut<Toolbox>) {
     step(ui, "+", 1);
     if button(ui, unit, ("Shape of the brush", tools.shape_icon()), false, true) {
         tools.turn_shape();
+    }
+    let (mode, has_modes) = (tools.mode(), matches!(tools.tool, Tool::Element(_)));
+    let name = format!("What the brush does: {}", mode.name());
+    if button(ui, unit, (&name, mode.icon()), mode != BrushMode::Draw, has_modes) {
+        orders.push(Order::Act(Action::NextBrushMode));
     }
     temperature::show(ui, vec2(1.75 * TARGET, TARGET) * unit, tools);
 }

@@ -3,7 +3,8 @@
 //! Keys are physical: they stand where they stand on a US keyboard, whatever is printed on them.
 
 use crate::game::{
-    actions::{Action, Gesture},
+    actions::{Action, Gesture, Take},
+    brush_mode::BrushMode,
     tools::{TOOLS, Tool},
     views::table::VIEWS,
 };
@@ -146,6 +147,16 @@ const OWN: &[Binding] = {
     key(K::BracketLeft, NONE, A::Brush(-1), H::Draw, "size of the brush"),
     key(K::BracketRight, NONE, A::Brush(1), H::Draw, "size of the brush"),
     key(K::Tab, NONE, A::BrushShape, H::Draw, "shape of the brush"),
+    key(K::Insert, NONE, A::BrushMode(BrushMode::Replace), H::Draw, "replace: what is there becomes the element; again: draw"),
+    key(K::Semicolon, NONE, A::BrushMode(BrushMode::Replace), H::Draw, "replace: what is there becomes the element; again: draw"),
+    key(K::Delete, NONE, A::BrushMode(BrushMode::EraseOnly), H::Draw, "erase only the chosen element; again: draw"),
+    key(K::Semicolon, CTRL, A::BrushMode(BrushMode::EraseOnly), H::Draw, "erase only the chosen element; again: draw"),
+    key(K::KeyC, CTRL, A::Take(Take::Copy), H::Draw, "copy: drag a frame around a piece of the world; a click pastes it"),
+    key(K::KeyX, CTRL, A::Take(Take::Cut), H::Draw, "cut: the same, and it goes"),
+    key(K::KeyV, CTRL, A::TakeUpStamp, H::Draw, "take up the last stamp: a click pastes it, Esc lays it down"),
+    key(K::KeyR, SHIFT, A::TurnStamp, H::Draw, "turn the stamp a quarter"),
+    key(K::KeyH, SHIFT, A::MirrorStamp, H::Draw, "mirror the stamp, left and right"),
+    key(K::KeyV, SHIFT, A::FlipStamp, H::Draw, "mirror the stamp, top and bottom"),
     key(K::KeyZ, CTRL, A::Undo, H::Draw, "undo"),
     key(K::KeyY, CTRL, A::Redo, H::Draw, "redo"),
     key(K::KeyZ, CTRL_SHIFT, A::Redo, H::Draw, "redo"),
@@ -267,6 +278,7 @@ fn key_name(key: KeyCode) -> String {
         "Equal" => "=",
         "NumpadAdd" => "+",
         "Slash" => "/",
+        "Semicolon" => ";",
         "BracketLeft" => "[",
         "BracketRight" => "]",
         _ => match name.strip_prefix("Arrow") {

@@ -10,11 +10,11 @@ use crate::{
             strokes::{Drag, DragState},
         },
         orders::{Order, Orders},
+        stamps::hand::Hand,
         toolbox::Toolbox,
-        tools::Tool,
     },
     kernel::brush::Stroke,
-    sim::intent::{Intent, IntentQueue},
+    sim::intent::IntentQueue,
 };
 use bevy::{
     ecs::system::SystemParam,
@@ -68,6 +68,7 @@ pub struct PointerInput<'w> {
     tools: Res<'w, Toolbox>,
     cover: Res<'w, HudCover>,
     bindings: Res<'w, Bindings>,
+    hand: Res<'w, Hand>,
 }
 
 impl PointerInput<'_> {
@@ -131,6 +132,11 @@ impl PointerInput<'_> {
     /// A button goes down.
     pub fn press(&mut self, button: MouseButton, mods: Mods) {
         let Some(pixel) = self.pointer.at.filter(|pixel| !self.cover.covers(*pixel)) else { return };
+        match (self.hand.gesture(), button) {
+            (Some(gesture), MouseButton::Left) => return self.begin(gesture, button, pixel),
+            (Some(_), MouseButton::Right) => return self.orders.push(Order::Act(Action::Close)),
+            _ => {}
+        }
         match self.bindings.find(Trigger::Button(button), mods) {
             Some(Action::Hold(gesture)) => self.begin(gesture, button, pixel),
             Some(action) => self.orders.push(Order::Act(action)),
@@ -140,7 +146,8 @@ impl PointerInput<'_> {
 
     fn begin(&mut self, gesture: Gesture, button: MouseButton, pixel: Vec2) {
         let (at, tool) = (self.camera.to_world(pixel), self.tools.tool);
-        if gesture != Gesture::Pan {
+        // What is done with stamps sees to that itself.
+        if !matches!(gesture, Gesture::Pan | Gesture::Take(_) | Gesture::Paste) {
             self.orders.push(Order::Checkpoint);
         }
         if gesture != Gesture::Fill && self.drag.current().is_none() {
@@ -149,8 +156,7 @@ impl PointerInput<'_> {
         let freehand = tool.is_freehand() && matches!(gesture, Gesture::Line | Gesture::Rectangle | Gesture::Fill);
         match (gesture, tool) {
             _ if freehand => self.drag.begin(Drag::new(Gesture::Use, tool, button, pixel, at)),
-            (Gesture::Fill, Tool::Element(element)) => self.intents.push(Intent::Fill { element, at }),
-            (Gesture::Fill, Tool::Other(_)) => {}
+            (Gesture::Fill, _) => self.intents.extend(tool.fill(self.tools.mode(), at)),
             _ => self.drag.begin(Drag::new(gesture, tool, button, pixel, at)),
         }
     }
@@ -162,15 +168,19 @@ impl PointerInput<'_> {
         let stroke = match drag.gesture {
             Gesture::Line => Some(tools.stroke(drag.start, drag.now)),
             Gesture::Rectangle => Some(Stroke::rectangle(drag.start, drag.now)),
-            Gesture::Use | Gesture::Erase | Gesture::Fill | Gesture::Pan => None,
+            _ => None,
         };
         // A whole shape is no matter of how fast it was drawn.
         let dab = stroke.map(|stroke| tools.dab(stroke, Vec2::ZERO, 0.0, 1.0));
         if let Some(intent) = dab.and_then(|dab| tools.tool.shape(&dab)) {
             self.intents.push(intent);
         }
-        if drag.gesture == Gesture::Pan && !drag.moved {
-            self.orders.push(Order::Act(Action::Sample));
+        match drag.gesture {
+            Gesture::Pan if !drag.moved => self.orders.push(Order::Act(Action::Sample)),
+            Gesture::Take(take) => self.orders.push(Order::TakePiece(drag.start, drag.now, take)),
+            // Over the HUD it is not meant.
+            Gesture::Paste if !self.cover.covers(drag.pixel) => self.orders.push(Order::Paste(drag.now)),
+            _ => {}
         }
         self.drag.release();
         self.camera.end_drag();

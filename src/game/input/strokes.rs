@@ -156,7 +156,9 @@ pub fn make_intents(
         let intent = match drag.gesture {
             Gesture::Use => drag.tool.left(&dab),
             Gesture::Erase => drag.tool.right(&dab),
-            Gesture::Line | Gesture::Rectangle | Gesture::Fill | Gesture::Pan => None,
+            Gesture::Line | Gesture::Rectangle | Gesture::Fill | Gesture::Pan | Gesture::Take(_) | Gesture::Paste => {
+                None
+            }
         };
         intent.into_iter().for_each(|intent| intents.push(intent));
     }

@@ -1,7 +1,10 @@
 //! What the pointer draws and erases.
 
 use super::*;
-use crate::{game::tools::TEMPERATURE, kernel::heat::units::ROOM};
+use crate::{
+    game::{brush_mode::BrushMode, tools::TEMPERATURE},
+    kernel::heat::units::ROOM,
+};
 
 #[test]
 fn a_held_button_pours_each_tick_and_its_release_stops() {
@@ -188,4 +191,81 @@ fn a_match_lights_oil_and_undo_puts_it_out() {
     player.chord(&[KeyCode::ControlLeft, KeyCode::KeyZ]);
     player.frames(2);
     assert_eq!(player.hash(), before);
+}
+
+/// Draws a block of an element at a place beside the middle, in one tick.
+fn block(player: &mut Player, element: &str, at: Vec2) {
+    player.choose(element);
+    player.key(KeyCode::ControlLeft, ButtonState::Pressed);
+    player.point_at(player.middle() + at);
+    player.press();
+    player.point_at(player.middle() + at + Vec2::new(12.0, 8.0));
+    player.frame();
+    player.release();
+    player.key(KeyCode::ControlLeft, ButtonState::Released);
+    player.frames(2);
+}
+
+/// Particles and rock of an element.
+fn count(player: &Player, element: &str) -> usize {
+    let element = player.world().resource::<Setup>().elements().find(element).expect("the element exists");
+    let moving = player.world().resource::<ParticleStore>().element.iter().filter(|other| **other == element).count();
+    moving + player.world().resource::<Rock>().iter().filter(|(_, other, _)| *other == element).count()
+}
+
+#[test]
+fn replacing_draws_over_what_is_there_by_brush_line_rectangle_and_fill_and_is_undone() {
+    for (keys, all) in [
+        (&[][..], false),
+        (&[KeyCode::ShiftLeft], false),
+        (&[KeyCode::ControlLeft], false),
+        (&[KeyCode::ControlLeft, KeyCode::ShiftLeft], true),
+    ] {
+        let mut player = Player::new();
+        player.chord(&[KeyCode::KeyP]);
+        block(&mut player, "wood", Vec2::new(-20.0, 0.0));
+        block(&mut player, "water", Vec2::new(5.0, 0.0));
+        let (wood, water, before) = (count(&player, "wood"), count(&player, "water"), player.hash());
+        assert!(wood > 50 && water > 50);
+        player.choose("oil");
+        player.chord(&[KeyCode::Insert]);
+        keys.iter().for_each(|key| player.key(*key, ButtonState::Pressed));
+        player.point_at(player.middle() + Vec2::new(8.0, 2.0));
+        player.press();
+        player.frame();
+        player.point_at(player.middle() + Vec2::new(15.0, 6.0));
+        player.frames(2);
+        player.release();
+        keys.iter().for_each(|key| player.key(*key, ButtonState::Released));
+        player.frames(2);
+        let oil = count(&player, "oil");
+        assert_eq!((count(&player, "wood"), count(&player, "water") + oil), (wood, water), "{keys:?}");
+        assert!(if all { oil == water } else { oil > 10 && oil < water }, "{keys:?}: {oil} of {water}");
+        player.chord(&[KeyCode::ControlLeft, KeyCode::KeyZ]);
+        player.frames(2);
+        assert_eq!(player.hash(), before, "{keys:?}");
+    }
+}
+
+#[test]
+fn erasing_only_one_element_leaves_what_it_lies_in() {
+    let mut player = Player::new();
+    player.chord(&[KeyCode::KeyP]);
+    block(&mut player, "wood", Vec2::new(-6.0, 0.0));
+    block(&mut player, "oil", Vec2::new(6.0, 0.0));
+    let oil = count(&player, "oil");
+    player.choose("wood");
+    player.chord(&[KeyCode::Delete]);
+    for button in [MouseButton::Left, MouseButton::Right] {
+        let before = count(&player, "wood");
+        player.point_at(player.middle() + Vec2::new(if button == MouseButton::Left { 6.0 } else { -4.0 }, 4.0));
+        player.button(button, ButtonState::Pressed);
+        player.frames(2);
+        player.button(button, ButtonState::Released);
+        player.frames(2);
+        assert!(count(&player, "wood") < before, "{button:?}");
+    }
+    assert_eq!(count(&player, "oil"), oil);
+    player.chord(&[KeyCode::Delete]);
+    assert_eq!(player.world().resource::<Toolbox>().mode(), BrushMode::Draw, "the key again draws");
 }

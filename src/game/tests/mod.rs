@@ -52,6 +52,7 @@ mod keys;
 mod past;
 mod recording;
 mod saves;
+mod stamps;
 mod touch;
 
 /// The intents that the ticks saw.
@@ -60,8 +61,8 @@ struct Seen(Vec<Intent>);
 
 fn spy(mut queue: ResMut<IntentQueue>, mut seen: ResMut<Seen>) {
     let intents: Vec<Intent> = queue.drain().collect();
-    for &intent in &intents {
-        queue.push(intent);
+    for intent in &intents {
+        queue.push(intent.clone());
     }
     seen.0.extend(intents);
 }

@@ -257,3 +257,38 @@ fn a_recording_can_be_watched_and_comes_to_the_same_end() {
     assert!(!watcher.world().resource::<Pace>().paused, "a stroke leaves the recording, and its end stops no one");
     fs::remove_file(path).expect("it is ours");
 }
+
+#[test]
+#[cfg_attr(target_arch = "wasm32", ignore = "a module has no files")]
+fn a_recording_repeats_what_is_replaced_cut_and_pasted_at_another_detail_too() {
+    let path = file("stamps");
+    let mut player = Player::at_a_pool();
+    player.world().resource::<Recorder>().begin(player.world(), Some(path.clone()));
+    player.chord(&[KeyCode::KeyP]);
+    player.take(KeyCode::KeyC);
+    player.chord(&[KeyCode::ShiftLeft, KeyCode::KeyR]);
+    player.click(Vec2::new(5.0, 10.0));
+    player.frames(10);
+    player.click(Vec2::new(30.0, 10.0));
+    player.take(KeyCode::KeyX);
+    player.chord(&[KeyCode::ShiftLeft, KeyCode::KeyH]);
+    player.click(Vec2::new(-20.0, 12.0));
+    player.chord(&[KeyCode::ControlLeft, KeyCode::KeyZ]);
+    order(&mut player, Order::Detail(0.5));
+    player.click(Vec2::new(-10.0, 4.0));
+    player.chord(&[KeyCode::Escape]);
+    for key in [KeyCode::Insert, KeyCode::Delete] {
+        player.chord(&[key]);
+        scribble(&mut player, "oil", Vec2::new(-15.0, -2.0));
+    }
+    player.chord(&[KeyCode::KeyP]);
+    let hash = player.hash();
+    player.0.world_mut().write_message(bevy::app::AppExit::Success);
+    player.frame();
+    assert_eq!(again(&path), hash);
+    let is_paste = |entry: &&crate::sim::recording::Entry| matches!(entry.intent, Intent::Paste { .. });
+    let pasted: usize =
+        read(&path).segments.iter().map(|segment| segment.entries.iter().filter(is_paste).count()).sum();
+    assert_eq!(pasted, 4);
+    fs::remove_file(path).expect("it is ours");
+}

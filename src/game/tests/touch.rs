@@ -99,3 +99,32 @@ fn a_finger_on_the_hud_draws_nothing() {
     player.frames(10);
     assert_eq!((player.seen().len(), player.particles()), (0, 0));
 }
+
+#[test]
+fn a_finger_drags_a_frame_and_a_tap_pastes_where_it_is_lifted() {
+    let mut player = Player::at_a_pool();
+    let drag = |player: &mut Player, from: Vec2, to: Vec2| {
+        let [from, to] = [from, to].map(|at| player.camera().to_pixel(player.middle() + at));
+        player.touch(0, TouchPhase::Started, from);
+        player.frames(8);
+        player.touch(0, TouchPhase::Moved, to);
+        player.frame();
+        player.touch(0, TouchPhase::Ended, to);
+        player.frames(2);
+    };
+    let (particles, rocks) = (player.particles(), player.rocks());
+    player.chord(&[KeyCode::ControlLeft, KeyCode::KeyC]);
+    drag(&mut player, Vec2::new(-31.0, -11.0), Vec2::new(-9.0, 6.0));
+    drag(&mut player, Vec2::new(-12.0, 0.0), Vec2::new(15.0, 0.0));
+    assert_eq!((player.particles(), player.rocks()), (2 * particles, 2 * rocks));
+    // A second finger moves the picture: nothing is pasted.
+    let at = player.camera().to_pixel(player.middle() + Vec2::new(20.0, 25.0));
+    player.touch(0, TouchPhase::Started, at);
+    player.frames(8);
+    player.touch(1, TouchPhase::Started, at + Vec2::new(30.0, 0.0));
+    player.frame();
+    player.touch(0, TouchPhase::Ended, at);
+    player.touch(1, TouchPhase::Ended, at + Vec2::new(30.0, 0.0));
+    player.frames(3);
+    assert_eq!(player.particles(), 2 * particles);
+}

@@ -5,10 +5,10 @@
 //! ```
 
 use super::{period::Period, player::Hand, report::Report};
-use crate::sim::file::{FileError, Kind};
+use crate::sim::file::{FileError, Kind, VERSION};
 use serde::{Deserialize, Serialize};
 
-const JOURNAL: Kind = Kind { name: "soak's journal", magic: b"PowderMaster soak\n" };
+const JOURNAL: Kind = Kind { name: "soak's journal", magic: b"PowderMaster soak\n", version: VERSION };
 
 /// A soak between two minutes.
 #[derive(Clone, Debug, Serialize, Deserialize)]

@@ -16,7 +16,7 @@ use crate::{
             contents::{Contents, RockCell},
             restore::Checkpoint,
         },
-        file::{FileError, Kind},
+        file::{FileError, Kind, VERSION},
         snapshot::Snapshot,
         state::{Setup, Sources},
     },
@@ -25,7 +25,7 @@ use glam::IVec2;
 use std::{borrow::Cow, sync::Arc};
 
 /// A save file.
-pub(super) const SAVE: Kind = Kind { name: "save file", magic: b"PowderMaster\n" };
+pub(super) const SAVE: Kind = Kind { name: "save file", magic: b"PowderMaster\n", version: VERSION };
 
 impl Checkpoint {
     /// It as a save file.

@@ -15,11 +15,11 @@
 //! `salvage` takes what is whole.
 
 use crate::{
-    kernel::{brush::Stroke, units::Scale},
+    kernel::{brush::Stroke, element::ElementTable, units::Scale},
     scene::{DETAIL, MOST_DETAIL},
     sim::{
         checkpoint::{Checkpoint, check},
-        file::{FileError, Kind},
+        file::{FileError, Kind, VERSION},
         intent::Intent,
         mark::Mark,
         recording::segment::{End, Entry, Recording, Segment},
@@ -33,7 +33,7 @@ use std::ops::RangeInclusive;
 /// Ending of recordings.
 pub const RECORDING_ENDING: &str = "pmr";
 /// A recording.
-pub(super) const RECORDING: Kind = Kind { name: "recording", magic: b"PowderMaster recording\n" };
+pub(super) const RECORDING: Kind = Kind { name: "recording", magic: b"PowderMaster recording\n", version: VERSION };
 /// What a file of format 1 begins with: text, input only, from the start of a scene.
 const TEXT_FORMAT: &[u8] = b"{\"powder_master_replay\":";
 
@@ -80,10 +80,11 @@ impl Recording {
 
     fn read(bytes: &[u8], lenient: bool) -> Result<Self, FileError> {
         if bytes.starts_with(TEXT_FORMAT) {
-            return Err(FileError::Version(RECORDING.name, 1));
+            return Err(FileError::Version(RECORDING.name, 1, VERSION));
         }
         let mut rest = RECORDING.open(bytes)?;
-        let mut reader = Reader { segments: Vec::new(), elements: 0, scale: Scale::own(1.0), end: None };
+        let mut reader =
+            Reader { segments: Vec::new(), elements: ElementTable::default(), scale: Scale::own(1.0), end: None };
         while !rest.is_empty() && reader.end.is_none() {
             match reader.chunk(&mut rest) {
                 Err(_) if lenient && !reader.segments.is_empty() => break,
@@ -102,8 +103,8 @@ impl Recording {
 /// What was read so far.
 struct Reader {
     segments: Vec<Segment>,
-    /// Number of elements of the newest segment, and its spacing.
-    elements: usize,
+    /// Elements of the newest segment, and its spacing.
+    elements: ElementTable,
     scale: Scale,
     end: Option<End>,
 }
@@ -124,7 +125,7 @@ impl Reader {
 
     fn state(&mut self, body: &[u8]) -> Result<(), FileError> {
         let start = Checkpoint::decode(body).map_err(|error| FileError::State(Box::new(error)))?;
-        (self.elements, self.scale) = (start.setup.elements().len(), start.setup.blueprint.scale);
+        (self.elements, self.scale) = (start.setup.elements().clone(), start.setup.blueprint.scale);
         let tick = start.state.clock.tick;
         self.segments.push(Segment::read(body.to_vec(), tick));
         Ok(())
@@ -138,7 +139,7 @@ impl Reader {
         let done = segment.now() + marks.len() as u64;
         let mut last = segment.entries.last().map_or(segment.tick, |entry| entry.tick);
         for entry in &entries {
-            check_entry(entry, last..=done, self.elements, self.scale).map_err(|what| RECORDING.unsound(what))?;
+            check_entry(entry, last..=done, &self.elements, self.scale).map_err(|what| RECORDING.unsound(what))?;
             last = entry.tick;
         }
         segment.entries.extend(entries);
@@ -173,7 +174,8 @@ fn parse<T: DeserializeOwned>(body: &[u8]) -> Result<T, FileError> {
     }
 }
 
-fn check_entry(entry: &Entry, ticks: RangeInclusive<u64>, elements: usize, scale: Scale) -> Result<(), String> {
+fn check_entry(entry: &Entry, ticks: RangeInclusive<u64>, table: &ElementTable, scale: Scale) -> Result<(), String> {
+    let elements = table.len();
     if !ticks.contains(&entry.tick) {
         return Err(format!(
             "an intent is due at tick {}; allowed here: {} to {}",
@@ -183,15 +185,22 @@ fn check_entry(entry: &Entry, ticks: RangeInclusive<u64>, elements: usize, scale
         ));
     }
     let (element, places, numbers): (_, &[Vec2], &[f32]) = match &entry.intent {
-        Intent::Draw { element, stroke } | Intent::Stamp { element, stroke } => {
-            (Some(element), &places(stroke), &[stroke.radius])
+        Intent::Draw { element, stroke }
+        | Intent::Stamp { element, stroke }
+        | Intent::Replace { element, stroke }
+        | Intent::EraseOnly { element, stroke } => (Some(element), &places(stroke), &[stroke.radius]),
+        Intent::Fill { element, at } | Intent::ReplaceAround { element, at } | Intent::EraseAround { element, at } => {
+            (Some(element), &[*at], &[])
         }
-        Intent::Fill { element, at } => (Some(element), &[*at], &[]),
         Intent::Erase { stroke } | Intent::Ignite { stroke } => (None, &places(stroke), &[stroke.radius]),
         Intent::Blow { stroke, velocity } => (None, &[stroke.from, stroke.to, *velocity], &[stroke.radius]),
         Intent::Press { stroke, amount } => (None, &places(stroke), &[stroke.radius, *amount]),
         Intent::Warm { stroke, degrees: kelvin } | Intent::SetTemperature { stroke, kelvin } => {
             (None, &places(stroke), &[stroke.radius, *kelvin])
+        }
+        Intent::Paste { piece, at, .. } => {
+            piece.check().and_then(|()| piece.check_elements(table)).map_err(|what| format!("a piece: {what}"))?;
+            (None, &[*at], &[])
         }
         Intent::ClearAir | Intent::Effect { .. } => (None, &[], &[]),
         Intent::Quality { quality, .. } => return check::quality(quality),

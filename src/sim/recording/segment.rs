@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use std::{borrow::Cow, mem::size_of};
 
 /// An intent and when it was taken.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Entry {
     /// Ticks that the world had done.
     pub tick: u64,
@@ -100,7 +100,8 @@ impl Segment {
             Start::Taken(checkpoint) => checkpoint.bytes(),
             Start::Read(save) => save.len(),
         };
-        start + self.entries.capacity() * size_of::<Entry>() + self.marks.capacity() * size_of::<Mark>()
+        let pieces: usize = self.entries.iter().map(|entry| entry.intent.memory()).sum();
+        start + pieces + self.entries.capacity() * size_of::<Entry>() + self.marks.capacity() * size_of::<Mark>()
     }
 }
 

@@ -9,6 +9,9 @@ use crate::{
         brush::Stroke,
         element::ElementId,
         params::{Preset, Quality},
+        particles::Particles,
+        piece::{Piece, Turn},
+        solids::Solids,
     },
     scene::{
         self,
@@ -25,7 +28,7 @@ use crate::{
         workers::Workers,
     },
 };
-use glam::Vec2;
+use glam::{IVec2, Vec2};
 use std::sync::Arc;
 
 /// A small world with something of everything, recorded: water, rock, wind, other qualities and effects, a reset.
@@ -166,6 +169,14 @@ fn huge_counts_behind_a_right_checksum_take_no_memory() {
     assert!(refusal(&bytes).contains("breaks off"));
 }
 
+/// A piece of one particle with a speed, pasted somewhere.
+fn paste(element: ElementId, speed: f32, at: f32) -> Intent {
+    let mut particles = Particles::default();
+    particles.push(0, element, Vec2::ONE, Vec2::splat(speed));
+    let piece = Piece::of(&particles, &Solids::new(4, 4), IVec2::ZERO, IVec2::splat(4), 0.1);
+    Intent::Paste { piece: Arc::new(piece), at: Vec2::splat(at), turn: Turn::default() }
+}
+
 #[test]
 fn made_up_input_is_refused_by_name() {
     let stroke = Stroke::rectangle(Vec2::ZERO, Vec2::ONE);
@@ -184,6 +195,12 @@ fn made_up_input_is_refused_by_name() {
         (of(Intent::Quality { preset: Preset::Fine, quality: none }), "substeps is 0"),
         (of(Intent::Gravity { gravity: Vec2::new(f32::NAN, 0.0) }), "gravity is NaN"),
         (of(Intent::Gravity { gravity: Vec2::splat(1e9) }), "allowed: 0 to 1500"),
+        (of(Intent::Replace { element: ElementId(200), stroke }), "element 200"),
+        (of(Intent::EraseAround { element: ElementId(1), at: Vec2::new(0.0, f32::NAN) }), "not a number"),
+        (of(paste(ElementId(1), 1.0, f32::NAN)), "not a number"),
+        (of(paste(ElementId(1), f32::NAN, 1.0)), "a piece: a value of a particle"),
+        (of(paste(ElementId(200), 1.0, 1.0)), "a piece: it is of elements that are not there"),
+        (of(paste(ElementId(0), 1.0, 1.0)), "a piece: it is of elements that are not there"),
     ] {
         let text = refusal(&made_up(&entries, 3));
         assert!(text.contains(says), "`{text}` does not say `{says}`");

@@ -7,18 +7,23 @@ use crate::{
         forces,
         heat::{set_under, warm_under},
         params::Preset,
+        piece::lowest_cell,
         predictor::Kept,
         sleep::{Sleep, SleepRecord},
         spawn::{EditReport, Matter},
         units::TICK_SECONDS,
     },
-    scene::effects::{Effect, Mode},
+    scene::{
+        blueprint::Blueprint,
+        effects::{Effect, Mode},
+    },
     sim::{
         control::change_quality,
         effects::Effects,
         intent::{Intent, IntentQueue},
         recorder::Recorder,
         snapshot::Snapshot,
+        stamp::fitted,
         state::{
             AirGrid, Books, Census, Clock, Counters, Elements, HeatCurves, ParticleStore, PredictorState, Recipes,
             Rock, Setup, SleepState, SolverState, Sources,
@@ -29,6 +34,7 @@ use bevy::{
     ecs::system::SystemParam,
     prelude::{Res, ResMut},
 };
+use glam::Vec2;
 
 /// Run condition: something is to be done.
 pub(super) fn has_intents(queue: Res<IntentQueue>) -> bool {
@@ -66,7 +72,7 @@ pub(super) fn apply_intents(
     for intent in queue.drain() {
         let seed = clock.edits;
         if let Some(recorder) = &recorder {
-            recorder.note(clock.tick, intent);
+            recorder.note(clock.tick, &intent);
         }
         clock.edits += 1;
         let wanted = match intent {
@@ -105,10 +111,19 @@ pub(super) fn apply_intents(
         };
         let mut report = EditReport::default();
         match intent {
-            Intent::Draw { element, stroke } => report = matter.pour(element, &stroke, seed),
-            Intent::Stamp { element, stroke } => report = matter.stamp(element, &stroke),
-            Intent::Fill { element, at } => report = matter.fill(element, at),
-            Intent::Erase { stroke } => report = matter.erase(&stroke),
+            Intent::Draw { .. }
+            | Intent::Stamp { .. }
+            | Intent::Fill { .. }
+            | Intent::Erase { .. }
+            | Intent::Replace { .. }
+            | Intent::ReplaceAround { .. }
+            | Intent::EraseOnly { .. }
+            | Intent::EraseAround { .. }
+            | Intent::Paste { .. } => {
+                let mut places = Vec::new();
+                report = edit_matter(&mut matter, &intent, seed, (&setup.blueprint, &mut places));
+                derived.sleep.disturb(&places);
+            }
             Intent::Blow { .. } | Intent::Press { .. } if air_stands => {}
             Intent::Blow { stroke, velocity } => {
                 let wind = air.blow(stroke.to, stroke.radius, velocity);
@@ -147,6 +162,31 @@ pub(super) fn apply_intents(
         census.full = refused > 0;
     }
     (clock.edits - before) as usize
+}
+
+/// Places matter, changes it or takes it away, where that is what an intent wants. `places` gets where what moves became
+/// something else, d.
+fn edit_matter(
+    matter: &mut Matter,
+    intent: &Intent,
+    seed: u64,
+    (scene, places): (&Blueprint, &mut Vec<Vec2>),
+) -> EditReport {
+    match *intent {
+        Intent::Draw { element, stroke } => matter.pour(element, &stroke, seed),
+        Intent::Stamp { element, stroke } => matter.stamp(element, &stroke),
+        Intent::Fill { element, at } => matter.fill(element, at),
+        Intent::Erase { stroke } => matter.erase(&stroke),
+        Intent::Replace { element, stroke } => matter.replace(element, &stroke, places),
+        Intent::ReplaceAround { element, at } => matter.replace_around(element, at, places),
+        Intent::EraseOnly { element, stroke } => matter.erase_only(element, &stroke),
+        Intent::EraseAround { element, at } => matter.erase_around(element, at),
+        Intent::Paste { ref piece, at, turn } => match fitted(piece, scene) {
+            Ok(piece) => matter.paste(&piece, lowest_cell(at, turn.size(piece.size)), turn),
+            Err(_) => EditReport { refused: piece.count() as u64, ..EditReport::default() },
+        },
+        _ => EditReport::default(),
+    }
 }
 
 /// The parts of a world that change with its detail.
@@ -204,7 +244,11 @@ fn moves_air(intent: &Intent, elements: &ElementTable, rock: &Rock) -> bool {
         Intent::Draw { element, .. } | Intent::Stamp { element, .. } | Intent::Fill { element, .. } => {
             elements.get(*element).fixed
         }
-        Intent::Erase { .. } => rock.count() > 0,
+        Intent::Replace { element, .. } | Intent::ReplaceAround { element, .. } => {
+            elements.get(*element).fixed || rock.count() > 0
+        }
+        Intent::Paste { piece, .. } => !piece.rock.is_empty(),
+        Intent::Erase { .. } | Intent::EraseOnly { .. } | Intent::EraseAround { .. } => rock.count() > 0,
         Intent::ClearAir
         | Intent::Quality { .. }
         | Intent::Effect { .. }

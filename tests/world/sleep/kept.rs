@@ -43,7 +43,7 @@ fn an_edit_while_paused_is_in_what_is_saved() {
         let mut simulation = Simulation::of(lake());
         until_asleep(&mut simulation, 400);
         simulation.get_mut::<Pace>().paused = true;
-        simulation.push(stroke).run(2);
+        simulation.push(stroke.clone()).run(2);
         let frozen = control::freeze(simulation.world());
         let mut other = Simulation::of(lake());
         control::thaw(other.world_mut(), &frozen);

@@ -32,7 +32,7 @@ fn a_drop_wakes_a_lake_that_has_slept_for_an_hour() {
     assert_eq!((work(&simulation), simulation.hash()), before, "an hour of sleep leaves traces");
     let drop = Intent::Stamp { element: WATER, stroke: disc(Vec2::new(40.0, 60.0), 3.0) };
     for world in [&mut simulation, &mut reference] {
-        world.push(drop);
+        world.push(drop.clone());
     }
     let radius = Preset::Balanced.quality().kernel_radius;
     let mut woke = None;

@@ -9,6 +9,7 @@ pub mod help;
 pub mod saves;
 pub mod scenes;
 pub mod settings;
+pub mod stamps;
 
 use crate::{
     game::panels::Panels,
@@ -22,6 +23,6 @@ pub fn plugin(app: &mut App) {
     Panels::add(app, settings::PANEL, settings::show);
     app.add_plugins((cases::window::plugin::<ExamCase>, cases::window::plugin::<GauntletCase>));
     Panels::add(app, details::PANEL, details::show);
-    app.add_plugins((accuracy::panel::plugin, saves::plugin, scenes::plugin));
+    app.add_plugins((accuracy::panel::plugin, stamps::plugin, saves::plugin, scenes::plugin));
     Panels::add(app, elements::PANEL, elements::show);
 }

@@ -57,6 +57,6 @@ pub(super) fn shrink(world: &World, (rule, tick): (Rule, u64), what: &str) -> Ca
 
 /// Without what is done from `tick` on.
 fn cut(world: &World, tick: u64) -> World {
-    let input = world.input.iter().filter(|entry| entry.tick < tick).copied().collect();
+    let input = world.input.iter().filter(|entry| entry.tick < tick).cloned().collect();
     World { input, ..world.clone() }
 }

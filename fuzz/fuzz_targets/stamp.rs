@@ -1,0 +1,3 @@
+//! See `tests/support/readers.rs`.
+#![no_main]
+powder_master_fuzz::target!("stamp");

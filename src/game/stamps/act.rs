@@ -1,0 +1,145 @@
+//! What is done with stamps, between ticks.
+
+use crate::{
+    game::{
+        actions::{Action, Take},
+        history,
+        input::bindings::Bindings,
+        stamps::{hand::Hand, shelf::Shelf},
+        toasts::Toasts,
+    },
+    kernel::{brush::Stroke, piece::Turn},
+    sim::{
+        control,
+        intent::{Intent, IntentQueue},
+        numbers::grouped,
+        stamp::{Stamp, fitted},
+        state::{ParticleStore, Rock, Setup},
+    },
+};
+use bevy::prelude::World;
+use glam::{IVec2, Vec2};
+use std::sync::Arc;
+
+/// Takes up a frame; or lays it down, if it is in hand.
+pub fn take_up_frame(world: &mut World, take: Take) {
+    let mut hand = world.resource_mut::<Hand>();
+    *hand = if *hand == Hand::Frame(take) { Hand::Empty } else { Hand::Frame(take) };
+}
+
+/// Takes up the newest stamp.
+pub fn take_up_last(world: &mut World) {
+    if let Some(newest) = world.resource_mut::<Shelf>().stamps().first().cloned() {
+        *world.resource_mut::<Hand>() = Hand::Stamp(newest, Turn::default());
+        return;
+    }
+    let key = world.resource::<Bindings>().key(Action::Take(Take::Copy));
+    world.resource_mut::<Toasts>().say(format!("There is no stamp yet: {key} and a drag copy a piece of the world"));
+}
+
+/// Takes up a stamp of the shelf.
+pub fn take_up(world: &mut World, number: u64) {
+    let found = world.resource_mut::<Shelf>().stamps().iter().find(|kept| kept.number == number).cloned();
+    if let Some(kept) = found {
+        *world.resource_mut::<Hand>() = Hand::Stamp(kept, Turn::default());
+    }
+}
+
+/// Lays down what is in hand; `false` if nothing is.
+pub fn lay_down(world: &mut World) -> bool {
+    !std::mem::take(&mut *world.resource_mut::<Hand>()).is_empty()
+}
+
+/// Turns or mirrors the stamp in hand.
+pub fn turn(world: &mut World, turned: fn(Turn) -> Turn) {
+    if let Hand::Stamp(_, turn) = &mut *world.resource_mut::<Hand>() {
+        *turn = turned(*turn);
+    }
+}
+
+/// The whole cells of a box of `size` cells that a rectangle touches: the lowest, and the one behind the highest.
+pub fn cells_between(a: Vec2, b: Vec2, size: IVec2) -> (IVec2, IVec2) {
+    let (low, high) = (a.min(b).floor().as_ivec2(), a.max(b).ceil().as_ivec2());
+    let low = low.clamp(IVec2::ZERO, size - 1);
+    (low, high.clamp(low + 1, size))
+}
+
+/// Makes a stamp of what is in a rectangle between two corners, d, and takes it up. It is one step of undo if it is cut.
+pub fn take(world: &mut World, (from, to): (Vec2, Vec2), take: Take) {
+    // Esc may have laid the frame down while it was dragged.
+    let in_hand = *world.resource::<Hand>() == Hand::Frame(take);
+    let Some(rock) = world.get_resource::<Rock>().filter(|_| in_hand) else { return };
+    let (low, high) = cells_between(from, to, IVec2::new(rock.columns(), rock.rows()));
+    let stamp = Stamp::of(world, low, high);
+    if stamp.piece.is_empty() {
+        world.resource_mut::<Toasts>().say("Nothing is in there");
+        return;
+    }
+    let told = match take {
+        Take::Copy => format!("Copied: {} particles", grouped(stamp.piece.count() as u64)),
+        Take::Cut => format!("Cut: {} particles", grouped(stamp.piece.count() as u64)),
+    };
+    if take == Take::Cut {
+        history::checkpoint(world);
+        // At once: a tick later something else may be in there.
+        do_now(world, Intent::Erase { stroke: Stroke::rectangle(low.as_vec2(), high.as_vec2()) });
+    }
+    let (kept, written) = world.resource_mut::<Shelf>().add(stamp);
+    *world.resource_mut::<Hand>() = Hand::Stamp(kept, Turn::default());
+    let mut toasts = world.resource_mut::<Toasts>();
+    match written {
+        Ok(()) => toasts.say(told),
+        Err(error) => toasts.warn(format!("{told}, but not kept for the next session: {error}")),
+    }
+}
+
+/// Pastes the stamp in hand with its middle at a point, d, as far as there is free room; says what did not fit.
+pub fn paste(world: &mut World, at: Vec2) {
+    let (Hand::Stamp(kept, turn), Some(setup)) = (world.resource::<Hand>(), world.get_resource::<Setup>()) else {
+        return;
+    };
+    let turn = *turn;
+    let scene = setup.blueprint.clone();
+    let found = kept.stamp.piece(&scene.elements);
+    let fits = found.and_then(|piece| fitted(&piece, &scene).map(|there| there.count()).map(|count| (piece, count)));
+    let (piece, all) = match fits {
+        Ok(fits) => fits,
+        Err(what) => {
+            world.resource_mut::<Toasts>().warn(format!("The stamp does not fit: {what}"));
+            return;
+        }
+    };
+    history::checkpoint(world);
+    let before = count(world);
+    do_now(world, Intent::Paste { piece: Arc::new(piece), at, turn });
+    let left_out = (before + all).saturating_sub(count(world));
+    if left_out > 0 {
+        let (some, all) = (grouped(left_out as u64), grouped(all as u64));
+        world.resource_mut::<Toasts>().say(format!("{some} of {all} particles did not fit: no free room there"));
+    }
+}
+
+fn count(world: &World) -> usize {
+    world.resource::<ParticleStore>().len() + world.resource::<Rock>().count()
+}
+
+/// Has an edit done at once.
+fn do_now(world: &mut World, intent: Intent) {
+    world.resource_mut::<IntentQueue>().push(intent);
+    control::apply_edits(world);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_takes_whole_cells_of_the_box_and_at_least_one() {
+        let cells = |a: (f32, f32), b: (f32, f32)| cells_between(a.into(), b.into(), IVec2::new(20, 10));
+        let of = |low: (i32, i32), high: (i32, i32)| (IVec2::from(low), IVec2::from(high));
+        assert_eq!(cells((3.2, 4.9), (7.1, 2.0)), of((3, 2), (8, 5)));
+        assert_eq!(cells((3.2, 4.9), (3.3, 4.9)), of((3, 4), (4, 5)));
+        assert_eq!(cells((-9.0, 5.0), (99.0, 6.0)), of((0, 5), (20, 6)));
+        assert_eq!(cells((30.0, 30.0), (40.0, 40.0)), of((19, 9), (20, 10)));
+    }
+}
