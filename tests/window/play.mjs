@@ -204,6 +204,49 @@ async function play() {
     await game.until('the button lets time go on', (now) => !now.paused && now.tick > tick + 1);
   });
 
+  await test('a piece of the world is copied, turned, pasted and cut', async () => {
+    await game.click('pause');
+    await game.until('time stands', ({ paused }) => paused);
+    const before = (await game.stats()).elements.rock;
+    await game.key('ctrl+c');
+    await game.untilWidgets('a frame is in hand', (all) => all.some(({ name }) => name === 'Drag a frame to copy'));
+    await game.stroke(1, [[270, 270], [400, 300], [530, 330]]);
+    await game.untilWidgets('a stamp is in hand', (all) => all.some(({ name }) => name === 'Click to paste'));
+    await game.move([700, 300]);
+    await game.picture('stamp');
+    await game.stroke(1, [[700, 300], [701, 300]]);
+    await game.until('it is pasted', ({ elements }) => elements.rock === 2 * before);
+    await game.key('shift+r');
+    await game.stroke(1, [[1000, 320], [1001, 320]]);
+    await game.until('it is pasted upright', ({ elements }) => elements.rock === 3 * before);
+    await game.click('lay it down');
+    await game.untilWidgets('nothing is in hand', (all) => !all.some(({ name }) => name === 'Click to paste'));
+    await game.key('ctrl+x');
+    await game.stroke(1, [[940, 180], [1000, 320], [1060, 480]]);
+    await game.until('it is cut out', ({ elements }) => elements.rock === 2 * before);
+    await game.key('Escape');
+    await game.key('k');
+    await game.untilWidgets('both are on the shelf', (all) => isOpen(all, 'Stamps') && all.filter(({ name }) => /^stamp \d+$/.test(name)).length === 2);
+    await game.picture('shelf');
+    await game.key('Escape');
+    for (const rock of [3, 2, 1]) {
+      await game.key('ctrl+z');
+      await game.until('undo takes one back', ({ elements }) => elements.rock === rock * before);
+    }
+    await game.key('Insert');
+    await game.until('the brush replaces', ({ mode }) => mode === 'replace');
+    await game.key('2');
+    await game.stroke(1, [[300, 300], [400, 300], [500, 300]]);
+    await game.until('rock is water now, and nothing else is', ({ elements, particles }) => elements.water > 0 && particles <= before);
+    await game.key('Insert');
+    await game.until('the brush draws', ({ mode }) => mode === 'draw');
+    await game.click('pause');
+    await game.until('time goes on', ({ paused }) => !paused);
+    await game.key('r');
+    await game.until('an empty scene', ({ particles }) => particles === 0);
+    return `${before} cells of rock`;
+  });
+
   await test('elements are found by name, and a digit at a tile keeps one there', async () => {
     const hasTile = (all, wanted) => all.some(({ kind, name }) => kind === 'Button' && name === wanted);
     await game.key('e');
