@@ -372,8 +372,10 @@ impl Picture {
             self.air.1 = self.strain.dimensions();
             return self.strain.extent();
         }
-        if let Layer::Air(colour) = sight.view.air {
-            air::pack(air, colour, reference, &mut self.air.0);
+        match sight.view.air {
+            Layer::Air(colour) => air::pack(air, colour, reference, &mut self.air.0),
+            Layer::Warmth(colour) => air::pack_warmth(air, colour, &mut self.air.0),
+            Layer::Nothing | Layer::Strain => {}
         }
         self.air.1 = UVec2::new(air.columns() as u32, air.rows() as u32);
         self.air.1.as_vec2() * air.cell()

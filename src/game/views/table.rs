@@ -2,7 +2,7 @@
 
 use crate::{
     game::views::{fire::fire_colour, strain::strain_colour},
-    kernel::{element::Element, particles::Particles},
+    kernel::{element::Element, heat::units::ROOM, particles::Particles},
     lab::colours::{Reference, Rgb, particle_colour, ramp, wind_colour},
 };
 use bevy::prelude::{KeyCode, Resource};
@@ -65,13 +65,14 @@ pub static STABILITY: View = View {
     ..PLAIN
 };
 
-/// How warm matter is, rock as well.
+/// How warm matter is, rock as well, and the air behind it where it is not as warm as the room.
 pub static TEMPERATURE: View = View {
     name: "Temperature",
     key: KeyCode::Digit7,
     quantity: Quantity::Temperature,
     colour: |_, share| ramp(&TEMPERATURE_STOPS, share),
     legend: &[(0.0, "−200"), (0.25, "0"), (0.5, "100"), (0.75, "700"), (1.0, "1,700 °C")],
+    air: Layer::Warmth(warmth_colour),
     ..PLAIN
 };
 
@@ -137,6 +138,8 @@ pub enum Layer {
     Nothing,
     /// Colour and opacity (0 … 1) of the air from its pressure and velocity.
     Air(fn(Reference, f32, Vec2) -> (Rgb, f32)),
+    /// Colour and opacity (0 … 1) of the air from its temperature, K; nothing where all of it is as warm as the room.
+    Warmth(fn(f32) -> (Rgb, f32)),
     /// The glow of the places where limiters acted.
     Strain,
 }
@@ -203,6 +206,9 @@ const TEMPERATURE_STOPS: [Rgb; 9] = [
     [255, 176, 120],
     [255, 246, 232],
 ];
+/// Opacity of air that is far from the room's temperature, and how far it is from it at half of that, K.
+const HAZE: f32 = 0.8;
+const HALF_HAZE: f32 = 40.0;
 const LOW_PRESSURE: Rgb = [86, 92, 232];
 const HIGH_PRESSURE: Rgb = [240, 132, 60];
 
@@ -226,6 +232,12 @@ pub fn temperature_share(kelvin: f32) -> f32 {
     let below = marks[1..4].iter().filter(|mark| kelvin >= **mark).count();
     let (low, high) = (marks[below], marks[below + 1]);
     (0.25 * (below as f32 + (kelvin - low) / (high - low))).clamp(0.0, 1.0)
+}
+
+/// Air is coloured as matter of its temperature (K) is, and the fainter the nearer it is to the room's.
+fn warmth_colour(kelvin: f32) -> (Rgb, f32) {
+    let apart = (kelvin - ROOM).abs();
+    (ramp(&TEMPERATURE_STOPS, temperature_share(kelvin)), HAZE * apart / (apart + HALF_HAZE))
 }
 
 fn pressure_colour(_: Reference, pressure: f32, _: Vec2) -> (Rgb, f32) {
@@ -292,6 +304,17 @@ mod tests {
         let at = |strain| (STABILITY.colour)(&water(), strain);
         let (calm, acted) = (at(0.0), at(1.0));
         assert!(acted[0] > 230 && acted[0] > 2 * acted[1] && calm[0] < calm[2], "{calm:?} {acted:?}");
+    }
+
+    #[test]
+    fn air_has_the_colours_of_matter_as_warm_and_the_fainter_the_nearer_it_is_to_the_room() {
+        assert_eq!(warmth_colour(ROOM).1, 0.0, "the room's own air is not seen");
+        for kelvin in [77.0, 250.0, 330.0, 600.0, 1500.0] {
+            let (colour, opacity) = warmth_colour(kelvin);
+            assert_eq!(colour, (TEMPERATURE.colour)(&water(), temperature_share(kelvin)), "{kelvin} K");
+            assert!((0.3..0.9).contains(&opacity), "{opacity} at {kelvin} K");
+        }
+        assert!(warmth_colour(300.0).1 < warmth_colour(320.0).1 && warmth_colour(280.0).1 < warmth_colour(260.0).1);
     }
 
     #[test]

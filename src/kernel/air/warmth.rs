@@ -53,6 +53,11 @@ impl Air {
         !self.warmth.is_empty()
     }
 
+    /// How warm a cell of the box is, K; in rock as the surroundings.
+    pub fn kelvin_at_cell(&self, column: usize, row: usize) -> f32 {
+        ROOM * (1.0 + self.warmth_of(self.row_range(row).start + column))
+    }
+
     /// What pulls at air, d/s²: it lifts what is warm. Not part of the state.
     pub fn set_gravity(&mut self, gravity: Vec2) {
         self.scratch.gravity = gravity;
