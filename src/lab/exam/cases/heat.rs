@@ -1,5 +1,5 @@
-//! Heat: how it spreads and leaves, how much of it melting takes, that none is made or lost, by burning neither, how deep ice
-//! floats, and how fast wood burns.
+//! Heat: how it spreads and leaves, how much of it melting and boiling take, that none is made or lost, by burning neither, how
+//! deep ice floats, and how fast wood burns.
 
 use crate::{
     kernel::{
@@ -8,10 +8,12 @@ use crate::{
             units::{QUANTUM, ROOM},
         },
         solids::centre,
+        units::TICKS_PER_SECOND,
     },
     lab::{
         exam::{
             finding::{Findings, Run, found},
+            fit::falls_to,
             set_up::{CaseSimulation, SetUp},
         },
         stats,
@@ -24,6 +26,7 @@ pub(super) const RUNS: &[(&str, Run)] = &[
     ("heat_bar", |set_up| Box::pin(heat_bar(set_up))),
     ("heat_plate", |set_up| Box::pin(heat_plate(set_up))),
     ("heat_front", |set_up| Box::pin(heat_front(set_up))),
+    ("boiling", |set_up| Box::pin(boiling(set_up))),
     ("heat_kept", |set_up| Box::pin(heat_kept(set_up))),
     ("ice_floats", |set_up| Box::pin(ice_floats(set_up))),
     ("fire_kept", |set_up| Box::pin(fire_kept(set_up))),
@@ -133,6 +136,63 @@ fn frozen(simulation: &CaseSimulation) -> f64 {
         }
     };
     (0..particles.len()).map(share).sum::<f64>() * simulation.spacing() / f64::from(setup.domain.size.x)
+}
+
+/// What water takes to be warmer by a kelvin (J/m²K), and to boil (J/m²): a fifth of what it takes in life.
+const WATER_CAPACITY: f64 = 4.19e6;
+const BOILING_HEAT: f64 = 0.2 * 2260e6;
+/// By how much the water is to be warmed until it boils, K.
+const BELOW_BOILING: f64 = 373.0 - 283.0;
+/// What the heater gives, W for each metre of depth, and how much water it gives it to: that which lies lowest, m².
+const POWER: f64 = 1e8;
+const HEATED: f64 = 0.24;
+/// Times the known time after which it is too late.
+const LATEST: f64 = 1.2;
+
+async fn boiling(set_up: SetUp) -> Findings {
+    let mut simulation = set_up.open("boiling", &[])?;
+    let particle = simulation.spacing().powi(2);
+    let area = simulation.particles().len() as f64 * particle;
+    let known = (WATER_CAPACITY * BELOW_BOILING + BOILING_HEAT) * area / POWER;
+    let a_tick = POWER / f64::from(TICKS_PER_SECOND) / particle / f64::from(QUANTUM);
+    // What is given is counted in whole quanta: the rest of one is for the next tick.
+    let (mut owed, mut curve) = (0.0, Vec::new());
+    while simulation.seconds() < LATEST * known {
+        simulation.tick().await;
+        let mut liquid = liquid(&simulation);
+        curve.push((simulation.seconds(), liquid.iter().map(|(_, share)| share).sum()));
+        if liquid.is_empty() {
+            break;
+        }
+        liquid.truncate((HEATED / particle).round() as usize);
+        owed += a_tick;
+        let share = (owed / liquid.len() as f64) as i32;
+        owed -= f64::from(share) * liquid.len() as f64;
+        let mut particles = simulation.world_mut().resource_mut::<ParticleStore>();
+        for (i, _) in liquid {
+            let heat = particles.heat_of(i) + share;
+            particles.set_heat(i, heat);
+        }
+    }
+    Ok(vec![found("time until all has boiled", known, falls_to(&curve, 0.0).unwrap_or(f64::NAN))])
+}
+
+/// The particles that are not all steam by the heat that they hold, the lowest first, and what share of each is water.
+fn liquid(simulation: &CaseSimulation) -> Vec<(usize, f64)> {
+    let (particles, curves) = (simulation.particles(), simulation.world().resource::<HeatCurves>());
+    let water = simulation.matter().elements.find("water");
+    let share = |i: usize| {
+        let (element, heat) = (particles.element[i], particles.heat_of(i));
+        match curves.curve(element).begun(heat) {
+            Some((_, boiled)) if Some(element) == water => 1.0 - f64::from(boiled),
+            Some((_, condensed)) => f64::from(condensed),
+            None => f64::from(u8::from(Some(element) == water)),
+        }
+    };
+    let shares = (0..particles.len()).map(|i| (i, share(i)));
+    let mut liquid: Vec<_> = shares.filter(|(_, share)| *share > 0.0).collect();
+    liquid.sort_by(|(a, _), (b, _)| particles.y[*a].total_cmp(&particles.y[*b]));
+    liquid
 }
 
 async fn heat_kept(set_up: SetUp) -> Findings {
