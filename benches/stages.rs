@@ -56,7 +56,7 @@ fn stages(criterion: &mut Criterion) {
         group.bench_function(format!("velocity/{name}"), |b| stage(b, Tank::new(set), Tank::update_velocities));
         group.bench_function(format!("viscosity/{name}"), |b| {
             stage(b, Tank::new(set), |tank| {
-                velocity::apply_viscosity(&mut tank.particles, &mut tank.solver, &liquid, 1, SUBSTEP);
+                velocity::apply_viscosity(&mut tank.particles, &mut tank.solver, &tank.domain, &liquid, 1, SUBSTEP);
             });
         });
         group.bench_function(format!("vorticity/{name}"), |b| {
@@ -77,6 +77,7 @@ fn predictor(bencher: &mut Bencher, tank: &Tank) {
         rest_density: 1.0,
         masses: None,
         grains: None,
+        drawn: None,
         instructions: tank.solver.instructions,
         threads: 1,
         dt: SUBSTEP,

@@ -72,6 +72,7 @@ impl Tank {
             rest_density: 1.0,
             masses: None,
             grains: None,
+            drawn: None,
             instructions: solver.instructions,
             threads: 1,
             dt: SUBSTEP,

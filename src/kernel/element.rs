@@ -51,14 +51,14 @@ pub struct Element {
     /// Density, kg/m²; 0.05 … 100 000. Weighs the particle in energy, momentum and drag, and
     /// where densities differ in pressure, contact and viscosity.
     pub density: f32,
-    /// Kinematic viscosity ν, m²/s; raising it makes the liquid thicker. 0 … 10. In XSPH's c ([`Element::smoothing`]) that is
+    /// Kinematic viscosity ν, m²/s; raising it makes the liquid thicker, and walls hold it harder. 0 … 10. In XSPH's c ([`Element::smoothing`]) that is
     /// 3.2 ν Δt/d² for a tick of Δt, in as many passes as it takes; 16 do at most some 1.5 m²/s at d = 0.1 m and one substep
     /// a tick, and what is beyond is cut and counted.
     #[serde(default)]
     pub viscosity: f32,
-    /// XSPH c that particles have beside their viscosity (Macklin & Müller 2013, eq. 17): share of the velocity difference to
-    /// its neighbours that a particle of the scene's own spacing gives up each tick, however many substeps that has; raising
-    /// it smooths the flow. 0 … 0.5. It belongs to the particles' size: a scene of smaller particles flows as
+    /// XSPH c that particles have unless their viscosity is more (Macklin & Müller 2013, eq. 17): share of the velocity
+    /// difference to its neighbours that a particle of the scene's own spacing gives up each tick, however many substeps that
+    /// has; raising it smooths the flow, and walls let it slip. 0 … 0.5. It belongs to the particles' size: a scene of smaller particles flows as
     /// smoothly for their size. A run at another detail, which has the same liquid, has c times detail².
     #[serde(default)]
     pub smoothing: f32,
@@ -323,6 +323,10 @@ impl ElementTable {
     }
 }
 
+/// XSPH c that thickens a liquid as much as the predictor's grid does, which draws particles to its own velocities: measured by
+/// shear over 20 d without any other viscosity (`shear_decay` of the exam), 1.0 d²/s. What is as viscous or more needs none of it.
+pub const GRID_VISCOSITY: f32 = 0.054;
+
 /// What the kernel's passes read of the elements, in kernel units: an entry an element in each array. Built when a scene
 /// opens.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -335,6 +339,11 @@ pub struct ElementParams {
     pub weight: Vec<f32>,
     /// XSPH c, a share a tick at the spacing of the run; beyond what 16 passes of a substep can do it is cut where it is used.
     pub viscosity: Vec<f32>,
+    /// The part of that which is viscosity and no smoothing: as hard walls hold it.
+    pub stickiness: Vec<f32>,
+    /// Share of what the predictor's grid evens out of velocities that they still take: it is viscous itself
+    /// ([`GRID_VISCOSITY`]).
+    pub drawn: Vec<f32>,
     /// sin φ of grains; 0 of what is none.
     pub friction: Vec<f32>,
     /// Stress that grains bear without pressure by their density, d/s²: `cos φ c / (ρ d²)`.
@@ -352,6 +361,8 @@ pub struct Traits<'a> {
     pub sines: Option<&'a [f32]>,
     /// What the elements feel of gravity, as a share; none where all feel all of it.
     pub weights: Option<&'a [f32]>,
+    /// Share of what the predictor's grid evens out that the elements take; none where all take all of it.
+    pub drawn: Option<&'a [f32]>,
 }
 
 /// Sine of an angle of 0 … 60 degrees, to the last bit of f32 the same everywhere: the first terms of its series, whose next is
@@ -372,14 +383,14 @@ impl ElementParams {
     /// The parameters of all rows of a table at a scale, in air of a density, kg/m².
     pub fn new(elements: &ElementTable, scale: Scale, air: f32) -> Self {
         let each = |of: &dyn Fn(&Element) -> f32| elements.iter().map(|(_, element)| of(element)).collect();
+        let viscosity = |element: &Element| 3.2 * element.viscosity * TICK_SECONDS / (scale.spacing * scale.spacing);
         Self {
             drag: each(&|element| element.drag / (element.inertia(air) * scale.spacing * scale.particles_per_own())),
             mass: each(&|element| element.inertia(air)),
             weight: each(&|element| element.weight(air)),
-            viscosity: each(&|element| {
-                let share = 3.2 * element.viscosity * TICK_SECONDS / (scale.spacing * scale.spacing);
-                share + element.smoothing * scale.particles_per_own()
-            }),
+            viscosity: each(&|element| viscosity(element).max(element.smoothing * scale.particles_per_own())),
+            stickiness: each(&viscosity),
+            drawn: each(&|element| (1.0 - viscosity(element) / GRID_VISCOSITY).max(0.0)),
             friction: each(&|element| sine(element.friction)),
             cohesion: each(&|element| {
                 let sine = sine(element.friction);

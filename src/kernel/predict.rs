@@ -280,7 +280,8 @@ mod tests {
         }
         for _ in 0..120 {
             particles.vy.iter_mut().for_each(|vy| *vy -= gravity * dt);
-            let (around, traits) = ((&solids, &domain), Traits { sines: Some(&[0.0, sine]), weights: None });
+            let (around, traits) =
+                ((&solids, &domain), Traits { sines: Some(&[0.0, sine]), weights: None, drawn: None });
             predict(&mut particles, InstructionSet::Baseline, around, &quality, traits, 1, dt);
         }
         assert!((particles.vx[0] - speed).abs() < 1e-4 && particles.vx[1] == 0.0, "{:?} d/s", particles.vx);

@@ -81,6 +81,11 @@ impl Facts<'_> {
         self.present(|element| element.friction > 0.0)
     }
 
+    /// Whether liquids that have a viscosity are there.
+    pub fn has_viscous(&self) -> bool {
+        self.present(|element| element.viscosity > 0.0)
+    }
+
     /// Inertias of the lightest and of the heaviest movable particles that are there, kg/m², if they differ.
     pub fn densities(&self) -> Option<[f32; 2]> {
         let present = |((_, element), count): &((_, &Element), &u32)| **count > 0 && !element.fixed;

@@ -214,13 +214,19 @@ pub struct Apart {
     pub grains: bool,
     /// Whether gases are there, and the effect `buoyancy` runs.
     pub gases: bool,
+    /// Whether viscous liquids are there, and the effect `viscosity` runs.
+    pub viscous: bool,
 }
 
 impl Apart {
     /// It, for the passes.
     pub fn of(self, elements: &ElementParams) -> Traits<'_> {
-        let Self { grains, gases } = self;
-        Traits { sines: grains.then_some(&elements.friction[..]), weights: gases.then_some(&elements.weight[..]) }
+        let Self { grains, gases, viscous } = self;
+        Traits {
+            sines: grains.then_some(&elements.friction[..]),
+            weights: gases.then_some(&elements.weight[..]),
+            drawn: viscous.then_some(&elements.drawn[..]),
+        }
     }
 }
 

@@ -21,3 +21,4 @@ mod walls;
 pub(crate) use limit::CorrectionLimit;
 pub use params::{PREDICTED_RELAXATION, SolveParams};
 pub use solver::{BinReport, Solver};
+pub(crate) use walls::wall_sums;

@@ -27,6 +27,7 @@ use serde::{Deserialize, Serialize};
 
 /// Share of the difference to the grid's velocity that a particle gives up in a second. It damps what the grid can't
 /// see; 0.02 a tick. At a surface the mean of one side is no velocity to be drawn to: it would brake what turns.
+/// What has a viscosity of its own takes as much less of it ([`GRID_VISCOSITY`](crate::element::GRID_VISCOSITY)).
 const BLEND_PER_SECOND: f32 = 1.2;
 
 /// The same of grains, which rub off what motion they have beside the others; 0.1 a tick.
@@ -67,6 +68,8 @@ pub struct PredictorParams<'a> {
     pub masses: Option<&'a [f32]>,
     /// What friction reads of the elements; none where no grain is.
     pub grains: Option<GrainParams<'a>>,
+    /// Share of [`BLEND_PER_SECOND`] that the elements take; none where all take all of it.
+    pub drawn: Option<&'a [f32]>,
     /// Lanes in use.
     pub instructions: InstructionSet,
     /// Threads to use.
@@ -156,12 +159,12 @@ impl Predictor {
         });
         self.liquid = report.liquid;
         if report.liquid {
-            let PredictorParams { domain, dt, .. } = *params;
+            let PredictorParams { domain, drawn, dt, .. } = *params;
             self.faces.find_beside(&grid, particles, team);
             let share = |rate: f32| (rate * dt).min(1.0);
             let (blend, arrest) = (share(GRAINS_BLEND_PER_SECOND), ARREST * kick.length());
             let grains = self.grains.as_ref().map(|grains| RubOff { grains, blend, arrest });
-            let way = WayBack { blend: share(BLEND_PER_SECOND), grains, dt, domain, solids };
+            let way = WayBack { blend: share(BLEND_PER_SECOND), drawn, grains, dt, domain, solids };
             hand_back(&self.faces, &grid, particles, &way, team);
         }
         report

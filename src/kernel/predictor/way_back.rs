@@ -1,6 +1,7 @@
 //! Grid to particles: what the faces around each do to it, with bilinear weights.
 
 use crate::{
+    element::ElementId,
     parallel::{Team, WORTH_A_PIECE, spread},
     params::{Domain, WALL_GAP},
     particles::Particles,
@@ -21,6 +22,8 @@ use glam::{Vec2, Vec4};
 pub(super) struct WayBack<'a> {
     /// Share of the difference to the grid's velocity that a particle gives up.
     pub blend: f32,
+    /// What share of that particles of each element give up; none where all give up all of it.
+    pub drawn: Option<&'a [f32]>,
     /// How grains do, if there are any.
     pub grains: Option<RubOff<'a>>,
     /// Substep, s.
@@ -59,7 +62,8 @@ fn keep(number: f32, low: f32, high: f32) -> f32 {
 /// Adds the change of velocity at each particle, and half of it to what is added after the move; moves the velocity
 /// towards the grid's by the share `blend`, and the particle as the density feedback wants it.
 pub(super) fn hand_back(faces: &Faces, grid: &MacGrid, particles: &mut Particles, way: &WayBack, team: Team) {
-    let Particles { x, y, vx, vy, push_x, push_y, .. } = particles;
+    let Particles { x, y, vx, vy, push_x, push_y, element, .. } = particles;
+    let elements = &element[..];
     let arrays = [&mut x[..], y, vx, vy, push_x, push_y];
     let beside = faces.matter.as_ref().map(Matter::beside);
     spread(arrays, WORTH_A_PIECE, team.threads, &|first, [x, y, vx, vy, push_x, push_y]| {
@@ -67,12 +71,25 @@ pub(super) fn hand_back(faces: &Faces, grid: &MacGrid, particles: &mut Particles
         let (ways, instructions) = (&faces.ways, team.instructions);
         let beside = beside.map(|beside| beside.from(first));
         let grains = way.grains.map(|off| (&off.grains.sines()[first..], off));
-        match beside.is_some() || grains.is_some() {
+        let drawn = way.drawn.map(|drawn| (drawn, &elements[first..]));
+        match beside.is_some() || grains.is_some() || drawn.is_some() {
             false => {
-                let (beside, grains) = (None, None);
-                instructions.run(HandBack::<false> { grid, ways, beside, grains, way, position, velocity, push });
+                let (beside, drawn, grains) = (None, None, None);
+                instructions.run(HandBack::<false> {
+                    grid,
+                    ways,
+                    beside,
+                    drawn,
+                    grains,
+                    way,
+                    position,
+                    velocity,
+                    push,
+                });
             }
-            true => instructions.run(HandBack::<true> { grid, ways, beside, grains, way, position, velocity, push }),
+            true => {
+                instructions.run(HandBack::<true> { grid, ways, beside, drawn, grains, way, position, velocity, push });
+            }
         }
     });
 }
@@ -83,6 +100,8 @@ struct HandBack<'a, const MIXED: bool> {
     ways: &'a [Vec<Way>; 2],
     /// What particles gain beside the liquid, if masses differ; not read without `MIXED`.
     beside: Option<Beside<'a>>,
+    /// What share of the difference the elements take, and the particles' elements, if not all take all; not read without `MIXED`.
+    drawn: Option<(&'a [f32], &'a [ElementId])>,
     /// sin φ of the particles, and how they follow if any is a grain; not read without `MIXED`.
     grains: Option<(&'a [f32], RubOff<'a>)>,
     way: &'a WayBack<'a>,
@@ -94,8 +113,8 @@ struct HandBack<'a, const MIXED: bool> {
 impl<const MIXED: bool> Pass for HandBack<'_, MIXED> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { grid, ways, beside, grains, way, position: [x, y], velocity: [vx, vy], push: [push_x, push_y] } =
-            self;
+        let Self { grid, ways, beside, drawn, grains, way, .. } = self;
+        let ([x, y], [vx, vy], [push_x, push_y]) = (self.position, self.velocity, self.push);
         let (low, high) = (Vec2::splat(WALL_GAP), way.domain.highest());
         let rock = (way.solids.count() > 0).then_some(way.solids);
         for at in (0..x.len()).step_by(LANES) {
@@ -115,15 +134,19 @@ impl<const MIXED: bool> Pass for HandBack<'_, MIXED> {
                     }
                 }
             }
+            if let Some((drawn, elements)) = drawn.filter(|_| MIXED) {
+                for (element, (mean_x, mean_y)) in
+                    elements[own.clone()].iter().zip(means_x.iter_mut().zip(&mut means_y))
+                {
+                    draw_less(drawn[element.index()], [mean_x, mean_y]);
+                }
+            }
             let (x, y) = (&mut x[own.clone()], &mut y[own.clone()]);
             let grains = grains.filter(|_| MIXED).map(|(sines, off)| (&sines[own.clone()], off));
             if let Some((sines, _)) = grains {
                 // What grains are drawn to is found below.
                 for (sine, (mean_x, mean_y)) in sines.iter().zip(means_x.iter_mut().zip(&mut means_y)) {
-                    let is_drawn = if *sine > 0.0 { 0.0 } else { 1.0 };
-                    for mean in [mean_x, mean_y] {
-                        (mean[1], mean[2]) = (is_drawn * mean[1], is_drawn * mean[2]);
-                    }
+                    draw_less(if *sine > 0.0 { 0.0 } else { 1.0 }, [mean_x, mean_y]);
                 }
             }
             change(&means_x, [x, &mut vx[own.clone()], &mut push_x[own.clone()]], way, [low.x, high.x]);
@@ -145,6 +168,14 @@ impl<const MIXED: bool> Pass for HandBack<'_, MIXED> {
                 }
             }
         }
+    }
+}
+
+/// Lets the faces draw a particle only by a share.
+#[inline(always)]
+fn draw_less(share: f32, means: [&mut Way; 2]) {
+    for mean in means {
+        (mean[1], mean[2]) = (share * mean[1], share * mean[2]);
     }
 }
 

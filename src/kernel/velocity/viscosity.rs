@@ -13,16 +13,26 @@
 //! pair is their harmonic mean (Morris, Fox & Zhu 1997, "Modeling low Reynolds number incompressible flows using SPH": the
 //! stress is the same on both sides of a surface), so that one of a pair takes on the momentum that the other gives off. The
 //! first is up to 2, and the bound half as much.
+//!
+//! **Surfaces.** The volumes m/ρ_j of a pair differ where the density does: at a surface, where it is 0.7, each row would drag
+//! the one below more than that holds it, and a film of six rows run by a tenth too fast. What has a viscosity of its own takes the
+//! smaller of both, so that one of a pair gets what the other gives, and the bound holds.
+//!
+//! **Walls**, of the box and of rock, hold what has a viscosity of its own: `v / (1 + c g)` with the weight g of the wall
+//! ([`Grip`]), solved for the end of the pass, so that nothing is turned round by a wall however thick it is. c is that of the
+//! element's viscosity alone. What only has a smoothing slips: that of water is of the particles' size and none of the liquid's,
+//! whose layer at a wall would be a millimetre thick.
 
 use crate::{
-    bins::{self, Group},
+    bins::{self, Group, RockBins},
     element::{ElementId, ElementParams},
+    params::Domain,
     particles::Particles,
-    pbf::Solver,
-    simd::{Lanes, Pass},
+    pbf::{Solver, wall_sums},
+    simd::{Lanes, MOST_LANES, Pass},
     smoothing::Smoothing,
     units::TICK_SECONDS,
-    velocity::StrengthReport,
+    velocity::{StrengthReport, grip::Grip},
 };
 
 /// Lowest density that a volume is taken from: a lone droplet's own kernel gives about a seventh.
@@ -34,10 +44,11 @@ const MOST_SHARE: f32 = 1.0;
 /// Most passes of a substep. What asks for more is as viscous as that leaves it, and counted.
 const MOST_PASSES: f32 = 16.0;
 
-/// Applies viscosity over `dt` s; c is the elements'.
+/// Applies viscosity over `dt` s between particles, and between them and the walls of the box and rock; c is the elements'.
 pub fn apply_viscosity(
     particles: &mut Particles,
     solver: &mut Solver,
+    domain: &Domain,
     elements: &ElementParams,
     threads: usize,
     dt: f32,
@@ -48,6 +59,14 @@ pub fn apply_viscosity(
     let report = StrengthReport::of(&particles.element, coefficients, most * MOST_PASSES);
     let passes = (strongest(&particles.element, coefficients, most) / most).ceil().clamp(1.0, MOST_PASSES);
     let Solver { bins, smoothing, instructions, density, masses, next_x, next_y, .. } = solver;
+    let sticks = strongest(&particles.element, &elements.stickiness, 0.0) > 0.0;
+    let walls = sticks.then(|| Walls {
+        smoothing,
+        domain,
+        rock: bins.rock(),
+        strengths: &elements.stickiness,
+        grip: Grip::new(smoothing),
+    });
     for _ in 0..passes as u32 {
         let read = &*particles;
         bins::split(bins.groups(), [&mut next_x[..], &mut next_y[..]], threads, &|groups, base, out| {
@@ -57,6 +76,7 @@ pub fn apply_viscosity(
                 density,
                 masses,
                 coefficients,
+                walls: walls.as_ref(),
                 most: most * passes,
                 part: part / passes,
                 groups,
@@ -82,6 +102,62 @@ fn strongest(particles: &[ElementId], coefficients: &[f32], most: f32) -> f32 {
     particles.iter().map(|element| coefficients[element.index()]).fold(0.0, f32::max)
 }
 
+/// What holds what sticks.
+struct Walls<'a> {
+    smoothing: &'a Smoothing,
+    domain: &'a Domain,
+    rock: &'a RockBins,
+    /// c of the elements' own viscosity.
+    strengths: &'a [f32],
+    grip: Grip,
+}
+
+impl Walls<'_> {
+    /// Whether a group has anything to do with them.
+    #[inline(always)]
+    fn hold(&self, group: &Group, elements: &[ElementId]) -> bool {
+        let is_near = group.near_wall || group.rock.iter().any(|run| !run.range().is_empty());
+        is_near && elements.iter().any(|element| self.strengths[element.index()] > 0.0)
+    }
+
+    /// Densities of some particles below which their neighbours' do not count, in lanes; next to none of what does not stick.
+    #[inline(always)]
+    fn densities<L: Lanes>(&self, elements: &[ElementId], density: &[f32]) -> L {
+        let mut least = [LEAST_DENSITY; MOST_LANES];
+        for (least, (element, density)) in least.iter_mut().zip(elements.iter().zip(density)) {
+            *least = if self.strengths[element.index()] > 0.0 { least.max(*density) } else { *least };
+        }
+        L::load(&least)
+    }
+
+    /// What the particles of a group keep of their velocities beside them in a part of a tick, in lanes. Strengths count
+    /// for `most` at most.
+    #[inline(always)]
+    fn kept<L: Lanes>(&self, particles: &Particles, group: &Group, (most, part): (f32, f32)) -> L {
+        let (own, smoothing) = (group.particles(), self.smoothing);
+        let (xi, yi) = (L::load(&particles.x[own.start..]), L::load(&particles.y[own.start..]));
+        let (zero, h2) = (L::splat(0.0), L::splat(smoothing.radius * smoothing.radius));
+        let mut sum = zero;
+        for run in group.rock {
+            for (&xj, &yj) in self.rock.x[run.range()].iter().zip(&self.rock.y[run.range()]) {
+                let (dx, dy) = (xi - L::splat(xj), yi - L::splat(yj));
+                let w = (h2 - (dx * dx + dy * dy)).max(zero);
+                sum = sum + w * w * w;
+            }
+        }
+        let mut reach = [0.0_f32; MOST_LANES];
+        (sum * L::splat(smoothing.density_scale)).store(&mut reach);
+        let share = share_of(self.strengths, most, &particles.element[own.clone()], part);
+        let mut kept = [1.0; MOST_LANES];
+        for (lane, i) in own.enumerate() {
+            let at = particles.position(i);
+            let beyond = if group.near_wall { wall_sums(smoothing, self.domain, at).0 } else { 0.0 };
+            kept[lane] = 1.0 / (1.0 + share[lane] * self.grip.at(reach[lane] + beyond));
+        }
+        L::load(&kept)
+    }
+}
+
 struct ViscosityPass<'a, const MASSES: bool> {
     smoothing: &'a Smoothing,
     particles: &'a Particles,
@@ -89,6 +165,8 @@ struct ViscosityPass<'a, const MASSES: bool> {
     /// Masses as shares of the heaviest; not read without `MASSES`.
     masses: &'a [f32],
     coefficients: &'a [f32],
+    /// Walls, if anything sticks to them.
+    walls: Option<&'a Walls<'a>>,
     /// Largest coefficient.
     most: f32,
     /// Part of a tick that passes.
@@ -102,8 +180,8 @@ struct ViscosityPass<'a, const MASSES: bool> {
 impl<'a> ViscosityPass<'a, false> {
     /// The same where masses differ.
     fn between_masses(self) -> ViscosityPass<'a, true> {
-        let Self { smoothing, particles, density, masses, coefficients, most, part, groups, base, out } = self;
-        ViscosityPass { smoothing, particles, density, masses, coefficients, most, part, groups, base, out }
+        let Self { smoothing, particles, density, masses, coefficients, walls, most, part, groups, base, out } = self;
+        ViscosityPass { smoothing, particles, density, masses, coefficients, walls, most, part, groups, base, out }
     }
 }
 
@@ -118,7 +196,9 @@ impl<const MASSES: bool> Pass for ViscosityPass<'_, MASSES> {
             let (xi, yi) = (L::load(&self.particles.x[own.start..]), L::load(&self.particles.y[own.start..]));
             let (vxi, vyi) = (L::load(&self.particles.vx[own.start..]), L::load(&self.particles.vy[own.start..]));
             let scale = self.smoothing.density_scale * self.part;
-            let share = share_of(self.coefficients, self.most, &self.particles.element[own.clone()], scale);
+            let elements = &self.particles.element[own.clone()];
+            let share = share_of(self.coefficients, self.most, elements, scale);
+            let held = self.walls.map(|walls| walls.densities::<L>(elements, &self.density[own.clone()]));
             let share = L::load(&share);
             let mass_i = if MASSES { L::load(&self.masses[own.start..]) } else { zero };
             let (mut sum_x, mut sum_y) = (zero, zero);
@@ -126,8 +206,12 @@ impl<const MASSES: bool> Pass for ViscosityPass<'_, MASSES> {
                 for j in run.range() {
                     let (dx, dy) = (xi - L::splat(self.particles.x[j]), yi - L::splat(self.particles.y[j]));
                     let w = (h2 - (dx * dx + dy * dy)).max(zero);
-                    let volume = 1.0 / self.density[j].max(LEAST_DENSITY);
-                    let mut weight = w * w * w * L::splat(volume);
+                    let density = self.density[j].max(LEAST_DENSITY);
+                    let volume = match held {
+                        None => L::splat(1.0 / density),
+                        Some(own) => L::splat(1.0) / L::splat(density).max(own),
+                    };
+                    let mut weight = w * w * w * volume;
                     if MASSES {
                         // Of a pair, each takes on what the other gives off.
                         let mass = L::splat(self.masses[j]);
@@ -141,8 +225,13 @@ impl<const MASSES: bool> Pass for ViscosityPass<'_, MASSES> {
                 }
             }
             let out = own.start - self.base..own.end - self.base;
-            (vxi + share * sum_x).store(&mut out_x[out.clone()]);
-            (vyi + share * sum_y).store(&mut out_y[out]);
+            let (mut vx, mut vy) = (vxi + share * sum_x, vyi + share * sum_y);
+            if let Some(walls) = self.walls.filter(|walls| walls.hold(group, elements)) {
+                let kept = walls.kept::<L>(self.particles, group, (self.most, self.part));
+                (vx, vy) = (vx * kept, vy * kept);
+            }
+            vx.store(&mut out_x[out.clone()]);
+            vy.store(&mut out_y[out]);
         }
     }
 }

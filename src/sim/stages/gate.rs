@@ -66,6 +66,7 @@ pub(super) fn plan_tick(
     *apart = Apart {
         grains: facts.has_grains() && effects.acts(Effect::Friction),
         gases: facts.has_gases() && effects.acts(Effect::Buoyancy),
+        viscous: facts.has_viscous() && effects.acts(Effect::Viscosity),
     };
 }
 

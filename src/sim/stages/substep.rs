@@ -126,6 +126,7 @@ pub(super) fn predict_pressure(
                 let cohesion = &elements.cohesion[..];
                 predictor::GrainParams { sines, cohesion }
             }),
+            drawn: apart.of(&elements).drawn,
             instructions: solver.instructions,
             threads,
             dt: plan.substep_seconds(),
@@ -228,13 +229,14 @@ pub(super) fn apply_viscosity(
     mut particles: ResMut<ParticleStore>,
     mut solver: ResMut<SolverState>,
     elements: Res<Elements>,
+    setup: Res<Setup>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
 ) -> usize {
     let dt = plan.substep_seconds();
     let report = workers.run_for(particles.len(), |threads| {
-        velocity::apply_viscosity(&mut particles, &mut solver, &elements, threads, dt)
+        velocity::apply_viscosity(&mut particles, &mut solver, &setup.domain, &elements, threads, dt)
     });
     counters.strength_clamps += report.clamps;
     particles.len()

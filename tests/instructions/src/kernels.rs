@@ -51,7 +51,7 @@ pub fn run(name: &str, set: InstructionSet) -> bool {
         "solve" => counted(&mut tank, |tank| tank.solve(1)),
         "velocity" => counted(&mut tank, Tank::update_velocities),
         "viscosity" => counted(&mut tank, |tank| {
-            velocity::apply_viscosity(&mut tank.particles, &mut tank.solver, &liquid, 1, SUBSTEP);
+            velocity::apply_viscosity(&mut tank.particles, &mut tank.solver, &tank.domain, &liquid, 1, SUBSTEP);
         }),
         "vorticity" => counted(&mut tank, |tank| {
             velocity::apply_vorticity(&mut tank.particles, &mut tank.solver, &liquid, f64::MAX, 1, SUBSTEP);

@@ -40,6 +40,7 @@ fn go_on_bound(
     let (domain, sines) = (Domain { size: size(walls), gravity }, sines(angle));
     let is_sand = particles.element.contains(&ElementId(1));
     let params = PredictorParams {
+        drawn: None,
         domain: &domain,
         cell: CELL,
         rest_density: LATTICE,

@@ -20,6 +20,7 @@ fn predict(particles: &mut Particles, solids: &Solids, masses: Option<&[f32]>) -
         rest_density: LATTICE,
         masses,
         grains: None,
+        drawn: None,
         instructions: team().instructions,
         threads: 1,
         dt: DT,

@@ -88,6 +88,7 @@ fn go_on(
         rest_density,
         masses: None,
         grains: None,
+        drawn: None,
         instructions,
         threads: 1,
         dt,

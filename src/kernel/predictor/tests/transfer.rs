@@ -36,7 +36,7 @@ fn collect(grid: &MacGrid, particles: &Particles) -> Faces {
 fn hand_back(faces: &Faces, grid: &MacGrid, particles: &mut Particles) {
     let size = Vec2::new(grid.columns as f32, grid.rows as f32) * grid.cell;
     let domain = Domain { size, gravity: Vec2::ZERO };
-    let way = WayBack { blend: 0.0, grains: None, dt: DT, domain: &domain, solids: &Solids::new(1, 1) };
+    let way = WayBack { blend: 0.0, drawn: None, grains: None, dt: DT, domain: &domain, solids: &Solids::new(1, 1) };
     way_back::hand_back(faces, grid, particles, &way, team());
 }
 
@@ -168,6 +168,7 @@ fn what_is_far_away_changes_nothing_and_leaves_nothing_behind() {
         rest_density: LATTICE,
         masses: None,
         grains: None,
+        drawn: None,
         instructions: team().instructions,
         threads: 1,
         dt: DT,

@@ -3,6 +3,7 @@
 use super::{kinetic_energy, square};
 use crate::{
     element::{ElementId, ElementParams},
+    params::Preset,
     particles::Particles,
     pbf::tests::{Bench, random_numbers},
     units::TICK_SECONDS,
@@ -28,7 +29,14 @@ fn viscosity_never_raises_the_kinetic_energy_or_a_speed() {
             for pass in 0..20 {
                 let fastest = |p: &Particles| (0..p.len()).map(|i| p.velocity(i).length()).fold(0.0, f32::max);
                 let (energy, speed) = (kinetic_energy(&bench.particles), fastest(&bench.particles));
-                apply_viscosity(&mut bench.particles, &mut bench.solver, &viscosity(coefficient), 1, TICK_SECONDS);
+                apply_viscosity(
+                    &mut bench.particles,
+                    &mut bench.solver,
+                    &bench.domain,
+                    &viscosity(coefficient),
+                    1,
+                    TICK_SECONDS,
+                );
                 let (after, speed_after) = (kinetic_energy(&bench.particles), fastest(&bench.particles));
                 assert!(after < energy, "jitter {jitter}, c {coefficient}, pass {pass}: energy {energy} → {after}");
                 assert!(
@@ -53,7 +61,7 @@ fn viscosity_damps_a_shear_layer_and_keeps_its_momentum() {
     };
     assert!((step(&bench) - 10.0).abs() < 1e-3);
     for _ in 0..50 {
-        apply_viscosity(&mut bench.particles, &mut bench.solver, &viscosity(0.1), 1, TICK_SECONDS);
+        apply_viscosity(&mut bench.particles, &mut bench.solver, &bench.domain, &viscosity(0.1), 1, TICK_SECONDS);
     }
     let left = step(&bench);
     assert!((0.1..4.0).contains(&left), "the step of the shear layer went from 10 to {left} d/s");
@@ -68,7 +76,7 @@ fn an_even_flow_feels_no_viscosity() {
     let mut bench = square(0.3, |_| Vec2::new(3.0, -4.0));
     bench.solve(false);
     let before = bench.particles.clone();
-    apply_viscosity(&mut bench.particles, &mut bench.solver, &viscosity(0.5), 1, TICK_SECONDS);
+    apply_viscosity(&mut bench.particles, &mut bench.solver, &bench.domain, &viscosity(0.5), 1, TICK_SECONDS);
     assert_eq!(before, bench.particles);
 }
 
@@ -79,7 +87,7 @@ fn a_liquid_is_as_thick_at_many_substeps_as_at_one() {
         bench.solve(false);
         for _ in 0..40 * substeps {
             let dt = TICK_SECONDS / f32::from(substeps);
-            apply_viscosity(&mut bench.particles, &mut bench.solver, &viscosity(0.1), 1, dt);
+            apply_viscosity(&mut bench.particles, &mut bench.solver, &bench.domain, &viscosity(0.1), 1, dt);
         }
         kinetic_energy(&bench.particles)
     };
@@ -103,10 +111,69 @@ fn viscosity_keeps_the_momentum_of_liquids_of_any_mass_and_thickness() {
     bench.solver.masses.clone_from(&masses);
     let before = bench.particles.clone();
     let elements = ElementParams { viscosity: vec![0.02, 0.43], ..ElementParams::default() };
-    apply_viscosity(&mut bench.particles, &mut bench.solver, &elements, 1, TICK_SECONDS);
+    apply_viscosity(&mut bench.particles, &mut bench.solver, &bench.domain, &elements, 1, TICK_SECONDS);
     let change = |i: usize| f64::from(masses[i]) * (bench.particles.velocity(i) - before.velocity(i)).as_dvec2();
     let (sum, all) = (0..400).map(change).fold((DVec2::ZERO, 0.0), |(sum, all), one| (sum + one, all + one.length()));
     assert!(all > 1.0 && sum.length() < 1e-4 * all, "{} of {all} came or went", sum.length());
+}
+
+/// Viscosity of the liquid's own, that walls hold.
+fn thick(coefficient: f32) -> ElementParams {
+    ElementParams { stickiness: vec![coefficient], ..viscosity(coefficient) }
+}
+
+#[test]
+fn what_is_thick_keeps_its_momentum_up_to_its_surfaces() {
+    // Both thin out to nothing around it, where each volume is another.
+    let mut bench = square(0.2, |_| Vec2::ZERO);
+    let mut random = random_numbers(6);
+    for i in 0..400 {
+        (bench.particles.vx[i], bench.particles.vy[i]) = (40.0 * (random() - 0.5), 40.0 * (random() - 0.5));
+    }
+    bench.solve(false);
+    let came = |elements: &ElementParams| {
+        let (mut particles, mut solver) = (bench.particles.clone(), bench.solver.clone());
+        apply_viscosity(&mut particles, &mut solver, &bench.domain, elements, 1, TICK_SECONDS);
+        let change = |i: usize| (particles.velocity(i) - bench.particles.velocity(i)).as_dvec2();
+        let changes = (0..400).map(change);
+        let (sum, all) = changes.fold((DVec2::ZERO, 0.0), |(sum, all), one| (sum + one, all + one.length()));
+        sum.length() / all
+    };
+    let (thick, smoothed) = (came(&thick(0.4)), came(&viscosity(0.4)));
+    assert!(thick < 1e-5, "{thick} of what changed hands came or went");
+    assert!(smoothed > 1e-4, "the test can fail");
+}
+
+#[test]
+fn walls_hold_what_is_thick_and_let_slip_what_is_smoothed() {
+    let speeds = |on_rock: bool, elements: &ElementParams| -> Vec<f32> {
+        let floor = if on_rock { 4 } else { 0 };
+        let mut bench = Bench::new(60, 20, Preset::Balanced);
+        bench.rock((0, 0), (60, floor));
+        for k in 0..300 {
+            bench.add(Vec2::new((k % 60) as f32 + 0.5, (floor + k / 60) as f32 + 0.5), Vec2::new(10.0, 0.0));
+        }
+        bench.solve(false);
+        apply_viscosity(&mut bench.particles, &mut bench.solver, &bench.domain, elements, 1, TICK_SECONDS);
+        let of = |row: i32| {
+            let is_of = |i: &usize| {
+                let at = bench.particles.position(*i);
+                at.y as i32 == floor + row && (20.0..40.0).contains(&at.x)
+            };
+            let own: Vec<f32> = (0..300).filter(is_of).map(|i| bench.particles.vx[i]).collect();
+            own.iter().sum::<f32>() / own.len() as f32
+        };
+        (0..4).map(of).collect()
+    };
+    for on_rock in [false, true] {
+        let held = speeds(on_rock, &thick(0.4));
+        assert!(held[0] < 8.6 && held[0] > 7.6 && held[1] < 9.95, "rock {on_rock}: {held:?}");
+        assert!(held.is_sorted() && (held[3] - 10.0).abs() < 1e-4, "rock {on_rock}: out of reach of it, {held:?}");
+        let slipped = speeds(on_rock, &viscosity(0.4));
+        assert!(slipped.iter().all(|speed| (speed - 10.0).abs() < 1e-4), "rock {on_rock}: {slipped:?}");
+        // However thick it is, nothing is turned round.
+        assert!(speeds(on_rock, &thick(100.0)).iter().all(|speed| (0.0..=10.001).contains(speed)));
+    }
 }
 
 #[test]
@@ -120,15 +187,27 @@ fn viscosity_is_stable_at_any_coefficient_and_cut_to_what_its_passes_can_do() {
         bench.solve(false);
         for pass in 0..50 {
             let before = kinetic_energy(&bench.particles);
-            let report =
-                apply_viscosity(&mut bench.particles, &mut bench.solver, &viscosity(coefficient), 1, TICK_SECONDS);
+            let report = apply_viscosity(
+                &mut bench.particles,
+                &mut bench.solver,
+                &bench.domain,
+                &viscosity(coefficient),
+                1,
+                TICK_SECONDS,
+            );
             let after = kinetic_energy(&bench.particles);
             assert_eq!(report.clamps, cut, "c {coefficient}: particles whose coefficient was cut");
             assert!(after <= before, "c {coefficient}, pass {pass}: energy {before} → {after}");
         }
         // Many substeps take small shares each: the same coefficient is within the bound of one.
-        let report =
-            apply_viscosity(&mut bench.particles, &mut bench.solver, &viscosity(coefficient), 1, TICK_SECONDS / 16.0);
+        let report = apply_viscosity(
+            &mut bench.particles,
+            &mut bench.solver,
+            &bench.domain,
+            &viscosity(coefficient),
+            1,
+            TICK_SECONDS / 16.0,
+        );
         assert_eq!(report.clamps, 0, "c {coefficient} in sixteen substeps");
     }
 }

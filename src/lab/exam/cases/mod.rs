@@ -11,6 +11,7 @@ mod layers;
 mod order;
 mod outflow;
 mod tank;
+mod viscous;
 mod weightless;
 
 use crate::lab::exam::finding::Run;
@@ -28,6 +29,7 @@ pub(super) fn runs() -> impl Iterator<Item = &'static (&'static str, Run)> {
         order::RUNS,
         outflow::RUNS,
         tank::RUNS,
+        viscous::RUNS,
         weightless::RUNS,
     ]
     .into_iter()

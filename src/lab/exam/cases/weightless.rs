@@ -3,7 +3,7 @@
 use crate::{
     kernel::{
         element::{Element, ElementTable},
-        units::{Scale, TICK_SECONDS, TICKS_PER_SECOND},
+        units::{Scale, TICKS_PER_SECOND},
     },
     lab::{
         exam::{
@@ -78,8 +78,9 @@ async fn shear_layer(set_up: SetUp) -> Findings {
     for (rate, mode) in rates.iter_mut().zip([Mode::On, Mode::Off]) {
         let mut blueprint = set_up.blueprint("shear_layer", &[])?;
         blueprint.effects.insert(Effect::Viscosity, mode);
-        let viscosity = VISCOSITY * blueprint.scale.spacing * blueprint.scale.spacing / (3.2 * TICK_SECONDS);
-        let thick = |(_, element): (_, &Element)| Element { viscosity, smoothing: 0.0, ..element.clone() };
+        // What is smoothed slips along the walls.
+        let smoothing = VISCOSITY / blueprint.scale.particles_per_own();
+        let thick = |(_, element): (_, &Element)| Element { smoothing, ..element.clone() };
         blueprint.elements = Arc::new(ElementTable::new(blueprint.elements.iter().map(thick).collect()));
         let (particles, height) = (&mut blueprint.particles, channel(blueprint.scale));
         for i in 0..particles.len() {
