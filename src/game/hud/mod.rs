@@ -8,6 +8,7 @@ pub mod cost;
 pub mod crash;
 mod fates;
 pub mod focus;
+pub mod lamps;
 pub mod layout;
 pub mod palette;
 pub mod panels;
@@ -36,6 +37,7 @@ impl Plugin for HudPlugin {
             .init_resource::<layout::UiScale>()
             .init_resource::<layout::Bars>()
             .init_resource::<cost::HudCost>()
+            .init_resource::<lamps::Lamps>()
             .configure_sets(
                 EguiPrimaryContextPass,
                 (HudSystems::Begin, HudSystems::Bars, HudSystems::Panels, HudSystems::End).chain(),
@@ -49,13 +51,14 @@ impl Plugin for HudPlugin {
             .add_systems(
                 EguiPrimaryContextPass,
                 (
-                    (cost::begin, layout::scale_to_window, stats::read, focus::forget_element)
+                    (cost::begin, layout::scale_to_window, stats::read, lamps::read, focus::forget_element)
                         .chain()
                         .in_set(HudSystems::Begin),
                     (
                         (bar::show, palette::show).chain().run_if(not(touch::in_use)),
                         touch::show.run_if(touch::in_use),
                         layout::place_world,
+                        lamps::show.run_if(not(touch::in_use)),
                         brush::show,
                         stamps::ghost::show,
                         stamps::strip::show,

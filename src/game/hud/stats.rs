@@ -2,9 +2,7 @@
 
 use crate::{
     game::{frame::Tempo, hud::style, tools::spaced},
-    kernel::units::TICKS_PER_SECOND,
     sim::{
-        ledger::PassLedger,
         numbers::grouped,
         pace::Pace,
         state::{Acted, Census, Counters, Setup},
@@ -30,7 +28,7 @@ pub struct Reading {
 /// The numbers as they were read last.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Readings {
-    /// Frames a second, cost of a tick, ticks a second, speed if it lags.
+    /// Frames a second; that it is paused, or the speed if it is not 1.
     pub pace: Vec<Reading>,
     /// Particles in all.
     pub total: Reading,
@@ -47,7 +45,6 @@ pub fn read(
     time: Res<Time<Real>>,
     tempo: Res<Tempo>,
     pace: Res<Pace>,
-    ledger: Res<PassLedger>,
     census: Res<Census>,
     counters: Res<Counters>,
     setup: Res<Setup>,
@@ -57,7 +54,7 @@ pub fn read(
         return;
     }
     readings.next = INTERVAL;
-    readings.pace = pace_readings(&tempo, &pace, ledger.tick().median().as_secs_f32() * 1000.0);
+    readings.pace = pace_readings(&tempo, &pace);
     readings.total =
         Reading { value: grouped(u64::from(census.total)), unit: "particles".into(), warning: census.full };
     readings.elements.clear();
@@ -71,18 +68,13 @@ pub fn read(
     readings.limiters = limiters(&counters, &tempo);
 }
 
-fn pace_readings(tempo: &Tempo, pace: &Pace, tick_ms: f32) -> Vec<Reading> {
+fn pace_readings(tempo: &Tempo, pace: &Pace) -> Vec<Reading> {
     let reading = |value: String, unit: &str, warning| Reading { value, unit: unit.into(), warning };
-    let mut readings = vec![
-        reading(format!("{:.0}", tempo.frames_per_second), "FPS", false),
-        reading(format!("{tick_ms:.1}"), "ms/tick", tick_ms > 1000.0 / TICKS_PER_SECOND as f32),
-    ];
+    let mut readings = vec![reading(format!("{:.0}", tempo.frames_per_second), "FPS", false)];
     if pace.paused {
         readings.push(reading("paused".into(), "", true));
         return readings;
     }
-    let late = tempo.lag.is_some();
-    readings.push(reading(format!("{:.0}/{TICKS_PER_SECOND}", tempo.ticks_per_second), "ticks/s", late));
     if let Some(share) = tempo.lag {
         let speed = share * pace.speed;
         let digits = if speed < 0.1 { 2 } else { 1 };
@@ -125,9 +117,10 @@ mod tests {
     fn a_late_world_says_how_slow_it_is() {
         let mut tempo = Tempo::default();
         (tempo.lag, tempo.ticks_per_second) = (Some(0.8), 48.0);
-        let readings = pace_readings(&tempo, &Pace::default(), 21.0);
+        let readings = pace_readings(&tempo, &Pace::default());
         assert!(readings.iter().any(|reading| reading.value == "0.8×" && reading.warning), "{readings:?}");
-        assert!(readings.iter().any(|reading| reading.value == "48/60"), "{readings:?}");
+        (tempo.lag, tempo.ticks_per_second) = (None, 60.0);
+        assert_eq!(pace_readings(&tempo, &Pace::default()).len(), 1, "at its speed nothing is said of it");
     }
 
     #[test]

@@ -4,6 +4,7 @@
 use crate::{
     game::{
         actions::PanelId,
+        frame::Tempo,
         hud::{
             cost::HudCost,
             stats::Readings,
@@ -19,6 +20,7 @@ use crate::{
         sound::SoundCost,
         views::table::STABILITY,
     },
+    kernel::units::TICKS_PER_SECOND,
     scene::{
         effects::{Effect, Mode},
         passes::{Pass, Unit},
@@ -59,7 +61,7 @@ pub fn show(
     effects: Res<Effects>,
     setup: Res<Setup>,
     clock: Res<Clock>,
-    readings: Res<Readings>,
+    (readings, tempo): (Res<Readings>, Res<Tempo>),
     costs: (Res<RenderCost>, Res<HudCost>, Res<SoundCost>),
     sleepers: (Res<SleepState>, Res<ParticleStore>, Res<AirGrid>),
     mut orders: ResMut<Orders>,
@@ -71,6 +73,7 @@ pub fn show(
             ui.spacing_mut().button_padding = vec2(6.0, 1.0);
             world(ui, &setup, &clock);
             ui.separator();
+            pace(ui, &tempo, &ledger);
             frame(ui, &costs.0, &costs.1);
             sound(ui, &costs.2);
             ui.separator();
@@ -106,6 +109,16 @@ fn world(ui: &mut Ui, setup: &Setup, clock: &Clock) {
         quality.air_cell,
         quality.air_advection.words(),
     )));
+}
+
+/// How fast frames and ticks come, and what a tick takes.
+fn pace(ui: &mut Ui, tempo: &Tempo, ledger: &PassLedger) {
+    let tick = ledger.tick().median().as_secs_f32() * 1000.0;
+    let (frames, ticks) = (tempo.frames_per_second, tempo.ticks_per_second);
+    let text =
+        format!("{frames:.0} frames and {ticks:.0} of {TICKS_PER_SECOND} ticks a second; a tick takes {tick:.2} ms");
+    let late = tempo.lag.is_some() || tick > 1000.0 / TICKS_PER_SECOND as f32;
+    ui.label(if late { RichText::new(text).color(style::WARN) } else { weak(text) });
 }
 
 fn frame(ui: &mut Ui, render: &RenderCost, hud: &HudCost) {
