@@ -19,6 +19,7 @@ use powder_master::{
     sim::{
         checkpoint::Checkpoint,
         intent::{Intent, IntentQueue},
+        picture,
         recorder::{self, Recorder},
         recording::Recording,
         replay::Replay,
@@ -154,6 +155,9 @@ fn the_seeds_of_saves_and_recordings_are_of_this_format() {
         }
         let kept = seed(&format!("save/{name}"), &Checkpoint::of(world.world()).encode());
         Checkpoint::decode(&kept).unwrap_or_else(|error| panic!("{error}"));
+        let shared = picture::encode(4, 3, &[60; 36], &Checkpoint::of(world.world()).encode()).expect("so many pixels");
+        let kept = seed(&format!("picture/{name}-world"), &shared);
+        picture::read_world(&kept).unwrap_or_else(|error| panic!("{error}"));
         let world = world.world();
         let recorded = world.resource::<Recorder>().last_minute(recorder::end_now(world));
         let kept = seed(&format!("recording/{name}"), &recorded);

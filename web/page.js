@@ -176,6 +176,55 @@ function listen(game) {
   addEventListener('focus', () => canvas.focus({ preventScroll: true }));
 }
 
+// Files that are dropped, pasted or chosen: the game says what it makes of each.
+const LARGEST = 256 * 2 ** 20;
+async function open(game, files) {
+  for (const file of files) {
+    if (file.size > LARGEST) {
+      game.warn(`${file.name}: larger than ${LARGEST / 2 ** 20} MiB`);
+      continue;
+    }
+    try {
+      game.open(file.name, new Uint8Array(await file.arrayBuffer()));
+    } catch (error) {
+      game.warn(`${file.name}: can't be read: ${error.message ?? error}`);
+    }
+  }
+}
+
+// Lets the player choose files of the device.
+function choose(game) {
+  const input = Object.assign(document.createElement('input'), { type: 'file', multiple: true });
+  input.addEventListener('change', () => void open(game, [...input.files]));
+  input.click();
+}
+
+function takeFiles(game) {
+  const hint = document.getElementById('drop');
+  const carries = (event) => event.dataTransfer?.types.includes('Files');
+  // Parts of the page are left and entered on the way; it is still over the page as long as this keeps coming.
+  let leaves;
+  addEventListener('dragover', (event) => {
+    if (!carries(event)) return;
+    event.preventDefault();
+    event.dataTransfer.dropEffect = 'copy';
+    hint.hidden = false;
+    clearTimeout(leaves);
+    leaves = setTimeout(() => { hint.hidden = true; }, 500);
+  });
+  addEventListener('drop', (event) => {
+    if (!carries(event)) return;
+    event.preventDefault();
+    hint.hidden = true;
+    void open(game, [...event.dataTransfer.files]);
+  });
+  addEventListener('paste', (event) => {
+    const files = [...event.clipboardData?.files ?? []];
+    if (files.length > 0) event.preventDefault();
+    void open(game, files);
+  });
+}
+
 // The hook for scripts and tests: docs/web.md says what it does.
 function hook(game, ready) {
   return {
@@ -283,6 +332,7 @@ async function main() {
     maySound: () => sound !== null,
     leaveSound: (controls) => sound?.leave(controls),
     wishSound: (plays) => sound?.wish(plays),
+    choose: () => choose(game),
     download(name, bytes) {
       const url = URL.createObjectURL(new Blob([bytes.slice()]));
       Object.assign(document.createElement('a'), { href: url, download: name }).click();
@@ -296,6 +346,7 @@ async function main() {
   for (const file of files) game.restore(file.path, file.bytes, file.written);
   globalThis.powderMaster = hook(game, ready);
   listen(game);
+  takeFiles(game);
   game.start(link(), matchMedia('(pointer: coarse)').matches);
   canvas.focus({ preventScroll: true });
   await ready;

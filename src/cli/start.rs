@@ -10,6 +10,7 @@ use crate::{
     sim::{
         checkpoint::Checkpoint,
         file::FileError,
+        picture,
         recording::{Recording, Segment},
     },
 };
@@ -127,13 +128,16 @@ pub(super) fn bad(path: &Path, what: &dyn Display) -> Failure {
     Failure::Usage(format!("{}: {what}", path.display()))
 }
 
-/// The save file at a path; `None` if the name is a scene's, or of nothing, which the scenes know best to say.
+/// The world in the save file or picture at a path; `None` if the name is a scene's, or of nothing, which the scenes know best to say.
 fn read_save(name_or_path: &str) -> Result<Option<Checkpoint>, Failure> {
     let Some(path) = file_beside_scenes(name_or_path) else { return Ok(None) };
-    Checkpoint::decode(&read(path)?).map(Some).map_err(|error| match error {
-        FileError::Foreign(_) => {
-            bad(path, &format_args!("{error}; allowed: a scene, a .ron file, a save file or a recording"))
-        }
+    picture::read_world(&read(path)?).map(Some).map_err(|error| match error {
+        FileError::Foreign(_) => bad(
+            path,
+            &format_args!(
+                "{error}; allowed: a scene, a .ron file, a save file, a picture with its world or a recording"
+            ),
+        ),
         _ => bad(path, &error),
     })
 }
@@ -170,7 +174,10 @@ pub(super) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
         .and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
         .map_err(|error| bad(path, &format_args!("can't be read: {error}")))?;
     if bytes.len() as u64 > LARGEST {
-        return Err(bad(path, &format_args!("larger than {} MiB; allowed: a save file or a recording", LARGEST >> 20)));
+        return Err(bad(
+            path,
+            &format_args!("larger than {} MiB; allowed: a save file, a picture or a recording", LARGEST >> 20),
+        ));
     }
     Ok(bytes)
 }

@@ -4,12 +4,22 @@
 mod native {
     use crate::sim::new_file::write_whole;
     use std::{
-        fs, io,
+        fs::{self, File},
+        io::{self, Read},
         path::{Path, PathBuf},
         time::SystemTime,
     };
 
-    pub use std::fs::read;
+    /// Largest file that is read, bytes: more than the largest that is written.
+    const LARGEST: u64 = 1 << 30;
+
+    /// The bytes of a file. What a player drops on the window may be anything.
+    pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        File::open(path)?.take(LARGEST + 1).read_to_end(&mut bytes)?;
+        let fits = bytes.len() as u64 <= LARGEST;
+        if fits { Ok(bytes) } else { Err(io::Error::other(format!("larger than {} MiB", LARGEST >> 20))) }
+    }
 
     /// Writes a file into a folder, which is made if there is none.
     pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
@@ -62,6 +72,9 @@ mod browser {
 
         /// Gives the player a file, as a download.
         fn download(name: &str, bytes: &[u8]);
+
+        /// Lets the player choose files of the device, which the game is given like those that are dropped (`web::hook`).
+        pub fn choose();
     }
 
     /// The files, as the browser's storage has them: read before the game starts, kept up as it writes.
@@ -136,6 +149,6 @@ mod browser {
 }
 
 #[cfg(target_arch = "wasm32")]
-pub use browser::{exists, give, list, now, read, rename, replace, write};
+pub use browser::{choose, exists, give, list, now, read, rename, replace, write};
 #[cfg(not(target_arch = "wasm32"))]
 pub use native::{exists, give, list, now, read, write, write as replace};

@@ -15,6 +15,7 @@ use crate::{
             pointer::{HudCover, Pointer, ZOOM_STEP},
         },
         lump::Lump,
+        opening,
         orders::{Order, Orders},
         panels::Panels,
         recording, saves, screen,
@@ -73,7 +74,8 @@ pub fn carry_out(world: &mut World) {
             Order::Effect(effect, mode) => {
                 world.resource_mut::<IntentQueue>().push(Intent::Effect { effect, mode });
             }
-            Order::Load(path) => saves::load(world, &path),
+            Order::Load(path) => opening::open_file(world, &path),
+            Order::LoadBytes { name, bytes } => opening::open_bytes(world, &name, &bytes),
             Order::Scene { name, settings, detail } => {
                 let preset = world.get_resource::<Setup>().map(|setup| setup.preset);
                 play(world, &name, &settings, preset, detail);

@@ -15,6 +15,7 @@ pub mod camera;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod crash;
 pub mod disk;
+pub mod drop;
 pub mod edit_icons;
 pub mod execute;
 pub mod favourites;
@@ -27,6 +28,7 @@ pub mod icons;
 pub mod input;
 pub mod kept;
 pub mod lump;
+pub mod opening;
 pub mod orders;
 pub mod panels;
 pub mod playback;

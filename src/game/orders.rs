@@ -38,8 +38,15 @@ pub enum Order {
     Survey(SurveyRequest),
     /// Switch an effect.
     Effect(Effect, Mode),
-    /// Go on with the world of a save file.
+    /// Open a file: a save file, a picture with its world, a recording or a scene.
     Load(PathBuf),
+    /// The same of a file that a page was given.
+    LoadBytes {
+        /// What it is called.
+        name: String,
+        /// What is in it.
+        bytes: Vec<u8>,
+    },
     /// Play another scene, at the quality that is in force.
     Scene {
         /// Its name.

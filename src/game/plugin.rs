@@ -2,8 +2,8 @@
 
 use crate::{
     game::{
-        camera, execute, favourites, follow, frame, history, hud, input, orders, panels, playback, recording, saves,
-        sound, split, stamps, toasts, toolbox, views,
+        camera, drop, execute, favourites, follow, frame, history, hud, input, orders, panels, playback, recording,
+        saves, sound, split, stamps, toasts, toolbox, views,
     },
     kernel::units::TICKS_PER_SECOND,
     lab::{
@@ -38,6 +38,7 @@ impl Plugin for GamePlugin {
             .init_resource::<toolbox::Toolbox>()
             .init_resource::<input::bindings::Bindings>()
             .init_resource::<orders::Orders>()
+            .init_resource::<drop::Hovering>()
             .init_resource::<views::table::Shown>()
             .init_resource::<follow::Followed>()
             .init_resource::<history::History>()
@@ -70,6 +71,7 @@ impl Plugin for GamePlugin {
                     follow::follow_scene,
                     input::keys::pan,
                     input::devices::read_devices,
+                    drop::read_drops,
                     execute::carry_out,
                     split::watch,
                     frame::set_pace,

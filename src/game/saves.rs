@@ -1,10 +1,9 @@
-//! Saving and loading worlds while playing.
+//! Saving worlds while playing, and the list of saved ones. `opening` loads them.
 
 use crate::{
     game::{
         disk,
         files::{self, SAVE_ENDING},
-        history,
         toasts::Toasts,
     },
     sim::{
@@ -83,19 +82,6 @@ pub fn save(world: &mut World) {
     match written {
         Ok(path) => toasts.say(format!("Saved: {}", path.display())),
         Err(error) => toasts.warn(format!("Not saved: {error}")),
-    }
-}
-
-/// Goes on with the world of a file. The one at hand can be had back with undo; a bad file changes nothing.
-pub fn load(world: &mut World, path: &Path) {
-    let name = path.file_name().unwrap_or(path.as_os_str()).display();
-    match read(path) {
-        Ok(saved) => {
-            history::checkpoint(world);
-            saved.restore(world);
-            world.resource_mut::<Toasts>().say(format!("Loaded: {name} (undo goes back)"));
-        }
-        Err(error) => world.resource_mut::<Toasts>().warn(format!("{name}: {error}")),
     }
 }
 

@@ -3,7 +3,9 @@
 use crate::{
     game::{disk, files, toasts::Toasts},
     sim::{
+        checkpoint::Checkpoint,
         new_file::Unwritten,
+        picture,
         state::{Clock, Setup},
     },
 };
@@ -26,32 +28,25 @@ pub fn toggle_full_screen(world: &mut World) {
     }
 }
 
-/// Writes a PNG of the window into the working directory, as soon as the next frame is drawn.
+/// Writes a PNG of the window into the working directory, as soon as the next frame is drawn. It carries the world as it
+/// is now, and opens like a save file.
 pub fn take_screenshot(world: &mut World) {
-    let scene = world.get_resource::<Setup>().map_or("world", |setup| setup.blueprint.name.as_str());
-    let tick = world.get_resource::<Clock>().map_or(0, |clock| clock.tick);
+    let Some(setup) = world.get_resource::<Setup>() else { return };
+    let (scene, tick) = (&setup.blueprint.name, world.resource::<Clock>().tick);
+    let shown = Checkpoint::of(world);
     let folder = if cfg!(target_arch = "wasm32") { PathBuf::new() } else { env::current_dir().unwrap_or_default() };
     let path = files::free_path(&folder, scene, tick, "png");
     world.spawn(Screenshot::primary_window()).observe(
         move |captured: On<ScreenshotCaptured>, mut toasts: ResMut<Toasts>| {
             let write = |image: Image| -> Result<(), Box<dyn Error>> {
                 let image = image.try_into_dynamic()?.to_rgb8();
-                let bytes = encode(image.width(), image.height(), &image)?;
+                let bytes = picture::encode(image.width(), image.height(), &image, &shown.encode())?;
                 Ok(disk::give(&path, &bytes).map_err(|error| Unwritten { path: path.clone(), error })?)
             };
             match write(captured.image.clone()) {
-                Ok(()) => toasts.say(format!("Screenshot: {}", path.display())),
+                Ok(()) => toasts.say(format!("Screenshot, with its world: {}", path.display())),
                 Err(error) => toasts.warn(format!("No screenshot: {error}")),
             }
         },
     );
-}
-
-/// A picture of three bytes a pixel as a PNG.
-fn encode(width: u32, height: u32, pixels: &[u8]) -> Result<Vec<u8>, png::EncodingError> {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width, height);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.write_header()?.write_image_data(pixels)?;
-    Ok(bytes)
 }

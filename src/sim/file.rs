@@ -26,6 +26,9 @@ pub enum FileError {
     /// It holds what no world has, or what can't have been.
     #[error("the {0} is not sound: {1}")]
     Unsound(&'static str, String),
+    /// A picture, but no world is in it.
+    #[error("a picture without a world; programs that shrink or convert pictures take the world out of them")]
+    Bare,
     /// A state in a recording is no good save file.
     #[error("a state in the recording: {0}")]
     State(Box<FileError>),

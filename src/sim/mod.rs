@@ -13,6 +13,7 @@ pub mod mark;
 pub mod new_file;
 pub mod numbers;
 pub mod pace;
+pub mod picture;
 pub mod recorder;
 pub mod recording;
 pub mod replay;

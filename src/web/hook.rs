@@ -55,6 +55,12 @@ pub fn scene(link: &str) -> Result<(), JsError> {
     Ok(())
 }
 
+/// Opens a file that was dropped, pasted or chosen: a save file, a picture with its world, a recording or a scene.
+#[wasm_bindgen]
+pub fn open(name: String, bytes: Vec<u8>) {
+    script::tell(move |world| world.resource_mut::<Orders>().push(Order::LoadBytes { name, bytes }));
+}
+
 /// Stops the world's time, or lets it go on.
 #[wasm_bindgen]
 pub fn pause(paused: bool) {

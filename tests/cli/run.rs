@@ -1,7 +1,7 @@
 //! `run`: its metrics, tables and pictures, and that watching changes nothing.
 
-use crate::{folder, good, metrics};
-use powder_master::kernel::particles::Particles;
+use crate::{folder, good, metrics, refused};
+use powder_master::{kernel::particles::Particles, sim::picture};
 use serde_json::Value;
 
 const SMALL: [&str; 8] = ["run", "dam_break", "--set", "columns=8", "--ticks", "45", "--effect", "viscosity=on"];
@@ -205,6 +205,21 @@ fn detail_multiplies_particles_by_its_square_and_is_in_the_metrics() {
     assert_eq!(saved(&[]), (2.0, 3200));
     assert_eq!(saved(&["--detail", "1"]), (1.0, 800));
     assert_eq!(saved(&["--quality", "reference", "--detail", "1"]), (2.0, 3200));
+}
+
+#[test]
+fn a_picture_that_carries_its_world_stands_where_a_save_file_may() {
+    let here = folder("shared");
+    good(&here, &["run", "volcano", "--ticks", "20", "--snapshot", "here.pms"]);
+    let save = std::fs::read(here.join("here.pms")).unwrap();
+    let shared = picture::encode(2, 2, &[90; 12], &save).unwrap();
+    std::fs::write(here.join("here.png"), &shared).unwrap();
+    let on = |file: &str| metrics(&here, &["run", file, "--ticks", "10"])["hash"].clone();
+    assert_eq!(on("here.png"), on("here.pms"));
+    std::fs::write(here.join("half.png"), &shared[..shared.len() / 2]).unwrap();
+    refused(&here, &["run", "half.png"], 2, &["half.png: the picture is damaged: it breaks off"]);
+    good(&here, &["run", "dam_break", "--set", "columns=8", "--ticks", "1", "--png", "bare.png"]);
+    refused(&here, &["run", "bare.png"], 2, &["bare.png: a picture without a world"]);
 }
 
 #[test]

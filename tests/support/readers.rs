@@ -8,6 +8,7 @@ use powder_master::{
     scene::{self, SceneError, builtin_names, effects::EffectModes, readers},
     sim::{
         checkpoint::Checkpoint,
+        picture,
         recording::{Recording, Writer},
         replay::Replay,
         simulation::Simulation,
@@ -88,6 +89,13 @@ fn read_settings(bytes: &[u8]) {
 fn read_picture(bytes: &[u8]) {
     if let Err(error) = readers::picture(bytes) {
         one_line(error);
+    }
+    // It may carry a world.
+    match picture::read_world(bytes) {
+        Ok(start) => {
+            go_on(&start);
+        }
+        Err(error) => one_line(error),
     }
 }
 

@@ -86,7 +86,8 @@ pub(in crate::cli) enum Listing {
 /// `play`.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct PlayArguments {
-    /// Scene: a name of `list scenes`, or the path of a scene file, a save file or a recording [default: waterfall]
+    /// Scene: a name of `list scenes`, or the path of a scene file, a save file, a picture with its world or
+    /// a recording [default: waterfall]
     pub(in crate::cli) scene: Option<String>,
     #[command(flatten)]
     pub(in crate::cli) options: PlayOptions,
@@ -118,7 +119,8 @@ pub(in crate::cli) struct PlayOptions {
 /// `run`.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct RunArguments {
-    /// Scene: a name of `list scenes`, or the path of a scene file, a save file or a recording (from its last jump on)
+    /// Scene: a name of `list scenes`, or the path of a scene file, a save file, a picture with its world or
+    /// a recording (from its last jump on)
     pub(in crate::cli) scene: String,
     /// Simulated time [default: 10, or as long as the recording]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true, conflicts_with = "ticks")]

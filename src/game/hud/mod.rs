@@ -6,6 +6,7 @@ pub mod brush;
 pub mod cost;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod crash;
+pub mod drop;
 mod fates;
 pub mod focus;
 pub mod lamps;
@@ -67,7 +68,7 @@ impl Plugin for HudPlugin {
                     )
                         .chain()
                         .in_set(HudSystems::Bars),
-                    (toast::show, focus::note_cover, cost::end).chain().in_set(HudSystems::End),
+                    (toast::show, drop::show, focus::note_cover, cost::end).chain().in_set(HudSystems::End),
                 ),
             );
         #[cfg(not(target_arch = "wasm32"))]

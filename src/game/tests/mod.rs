@@ -49,6 +49,7 @@ mod draw;
 mod full_disk;
 mod gauntlet;
 mod keys;
+mod opening;
 mod past;
 mod recording;
 mod saves;

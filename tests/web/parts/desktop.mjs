@@ -1,6 +1,7 @@
 // The page on a desktop: mouse, keys, the hook, links and saved worlds.
 
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { poll, sleep } from '../../poll.mjs';
 import { water } from '../browser.mjs';
@@ -252,6 +253,36 @@ async function withSaves({ shoot, shots, started, test }, page) {
     const picture = await download;
     assert.match(picture.suggestedFilename(), /^powder-.*\.png$/);
     await picture.saveAs(join(shots, 'downloaded.png'));
+  });
+
+  await test('a screenshot that is dropped on the page brings its world, and a letter changes nothing', async () => {
+    const { scene, particles } = await stats(page);
+    await page.evaluate(() => window.powderMaster.scene('empty'));
+    await until(page, 'another scene', (now) => now.scene === 'empty' && now.particles === 0);
+    const drop = (name, bytes) => page.evaluate(([name, bytes]) => {
+      const files = new DataTransfer();
+      files.items.add(new File([new Uint8Array(bytes)], name));
+      for (const kind of ['dragover', 'drop']) {
+        dispatchEvent(new DragEvent(kind, { dataTransfer: files, bubbles: true, cancelable: true }));
+        if (kind === 'dragover' && document.getElementById('drop').hidden) throw new Error('there is no hint');
+      }
+    }, [name, bytes]);
+    await drop('letter.txt', [...Buffer.from('Dear Sir')]);
+    await until(page, 'a line', ({ messages }) => messages.some((text) => text.startsWith('letter.txt: not a save file')));
+    await drop('world.png', [...readFileSync(join(shots, 'downloaded.png'))]);
+    const now = await until(page, 'the world of the picture', (now) => now.scene === scene);
+    await page.keyboard.press('Control+KeyZ');
+    await until(page, 'undo', (now) => now.scene === 'empty');
+    return `${now.particles} particles, ${particles} when it was taken`;
+  });
+
+  await test('a key that is held runs the world back', async () => {
+    await page.evaluate(() => window.powderMaster.scene('dam_break', { columns: 12 }));
+    await until(page, 'half a second', ({ scene, tick }) => scene === 'dam_break' && tick > 30);
+    await page.keyboard.down('Backspace');
+    const back = await until(page, 'the way back', ({ rewinds, tick }) => rewinds && tick < 20);
+    await page.keyboard.up('Backspace');
+    await until(page, 'it goes on', ({ rewinds, tick }) => !rewinds && tick > back.tick);
   });
 }
 

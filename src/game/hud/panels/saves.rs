@@ -101,6 +101,10 @@ fn show(
                 }
             }
         });
+        #[cfg(target_arch = "wasm32")]
+        if ui.button("Open a file of this device").on_hover_text("or drop it on the page").clicked() {
+            disk::choose();
+        }
         for folder in &folders.0 {
             ui.label(weak(folder.display().to_string()).small());
         }
