@@ -27,6 +27,8 @@ pub enum Action {
     Step,
     /// Halves (−1) or doubles (+1) the speed.
     Speed(i32),
+    /// Lets the world run backwards while the key or button is held.
+    Rewind,
     /// Back to the start of the scene.
     Reset,
     /// Takes the last edit back.

@@ -18,7 +18,7 @@ use crate::{
         opening,
         orders::{Order, Orders},
         panels::Panels,
-        recording, saves, screen,
+        recording, rewind, saves, screen,
         sound::volume::Volume,
         split,
         stamps::act,
@@ -49,6 +49,9 @@ use std::{mem, sync::Arc};
 /// Carries out what waits.
 pub fn carry_out(world: &mut World) {
     for order in mem::take(&mut **world.resource_mut::<Orders>()) {
+        if rewind::ends_with(&order) {
+            rewind::finish(world);
+        }
         match order {
             Order::Act(action) => act(world, action),
             Order::Checkpoint => history::checkpoint(world),
@@ -158,6 +161,7 @@ fn act(world: &mut World, action: Action) {
             choose_mode(world, next);
         }
         Action::Pause | Action::Step | Action::Speed(_) => keep_time(&mut world.resource_mut(), action),
+        Action::Rewind => rewind::ask(world),
         Action::Reset | Action::Undo | Action::Redo | Action::ClearAir => change_world(world, action),
         Action::View(view) => world.resource_mut::<Shown>().0 = view,
         Action::NextView => {

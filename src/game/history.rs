@@ -49,9 +49,14 @@ impl History {
 /// Remembers the state as it is, before an edit.
 pub fn checkpoint(world: &mut World) {
     let state = Checkpoint::of(world);
+    remember(world, state);
+}
+
+/// Remembers the state before something that was done between ticks.
+pub fn remember(world: &mut World, before: Checkpoint) {
     let mut history = world.get_resource_or_init::<History>();
     history.redo.clear();
-    history.push_undo(state);
+    history.push_undo(before);
 }
 
 /// Goes back to the state before the last edit; `false` if there is none.

@@ -335,6 +335,13 @@ pub fn gear(pen: &Pen<'_>) {
     }
 }
 
+/// Back in time.
+pub fn rewind(pen: &Pen<'_>) {
+    for x in [0.06, 0.48] {
+        pen.fill(&[(x, 0.5), (x + 0.44, 0.18), (x + 0.44, 0.82)]);
+    }
+}
+
 /// Statistics.
 pub fn chart(pen: &Pen<'_>) {
     for (x, height) in [(0.14, 0.34), (0.42, 0.7), (0.7, 0.5)] {

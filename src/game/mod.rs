@@ -36,6 +36,7 @@ pub mod plugin;
 pub mod recording;
 pub mod render;
 pub mod rest;
+pub mod rewind;
 pub mod saves;
 pub mod screen;
 pub mod script;

@@ -3,7 +3,7 @@
 use crate::{
     game::{
         camera, drop, execute, favourites, follow, frame, history, hud, input, orders, panels, playback, recording,
-        saves, sound, split, stamps, toasts, toolbox, views,
+        rewind, saves, sound, split, stamps, toasts, toolbox, views,
     },
     kernel::units::TICKS_PER_SECOND,
     lab::{
@@ -42,6 +42,7 @@ impl Plugin for GamePlugin {
             .init_resource::<views::table::Shown>()
             .init_resource::<follow::Followed>()
             .init_resource::<history::History>()
+            .init_resource::<rewind::Rewind>()
             .init_resource::<saves::SaveFolders>()
             .init_resource::<favourites::Favourites>()
             .init_resource::<stamps::hand::Hand>()
@@ -73,6 +74,7 @@ impl Plugin for GamePlugin {
                     input::devices::read_devices,
                     drop::read_drops,
                     execute::carry_out,
+                    rewind::run,
                     split::watch,
                     frame::set_pace,
                 )
@@ -86,8 +88,9 @@ impl Plugin for GamePlugin {
                 (
                     frame::measure_tempo,
                     recording::end_when_full.run_if(resource_exists::<Setup>).run_if(on_timer(Duration::from_secs(1))),
-                    recording::write_at_exit.run_if(on_message::<AppExit>),
+                    (rewind::finish, recording::write_at_exit).chain().run_if(on_message::<AppExit>),
                 ),
             );
+        app.world().resource::<recorder::Recorder>().keep_keys();
     }
 }

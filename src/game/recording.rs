@@ -6,6 +6,7 @@ use crate::{
     kernel::units::TICKS_PER_SECOND,
     sim::{
         new_file::{Unwritten, write_whole},
+        pace::Pace,
         recorder::{self, Recorder},
         recording::{End, RECORDING_ENDING},
         state::Setup,
@@ -33,7 +34,8 @@ pub fn toggle(world: &mut World) {
 
 /// Ends a recording that takes all the memory that it may.
 pub fn end_when_full(world: &mut World) {
-    if world.resource::<Recorder>().is_full() {
+    // What is shown of the past is not where it has come to.
+    if world.resource::<Recorder>().is_full() && !world.resource::<Pace>().rewinds {
         end(world, " It took all the memory that it may.");
     }
 }

@@ -84,7 +84,8 @@ fn rest(
     // A message that is shown is about to go; of the list of saves each frame reads one.
     let stirs = touched || pace.is_changed() || toasts.last().is_some() || saves.is_reading();
     *calm = if stirs { Duration::ZERO } else { (*calm + real.delta()).min(LINGER) };
-    let focused = mode(pace.ticks() && !time.is_paused(), background.works(), *calm);
+    let moves = pace.rewinds || pace.ticks() && !time.is_paused();
+    let focused = mode(moves, background.works(), *calm);
     tempo.rests = focused != UpdateMode::Continuous;
     // Out of focus a game that runs keeps to the rate of a screen, as Bevy has it.
     let unfocused = if tempo.rests { focused } else { WinitSettings::game().unfocused_mode };

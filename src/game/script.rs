@@ -150,6 +150,7 @@ fn look(world: &World) -> Value {
         "brush": 2.0 * world.resource::<Toolbox>().radius(),
         "mode": world.resource::<Toolbox>().mode().name(),
         "paused": world.resource::<Pace>().paused,
+        "rewinds": world.resource::<Pace>().rewinds,
         "speed": world.resource::<Pace>().speed,
         "rests": tempo.rests,
         "recording": world.resource::<Recorder>().ticks(),

@@ -54,6 +54,12 @@ pub fn freeze(world: &World) -> Snapshot {
 /// Puts a state of the same scene back (undo, redo). Waiting intents are forgotten.
 pub fn thaw(world: &mut World, snapshot: &Snapshot) {
     Generation::count_state(world);
+    show(world, snapshot);
+}
+
+/// The same of a state that is only looked at, and of the same history: what is derived from the world stays as it is where
+/// nothing of it differs. Before the world goes on, [`thaw`] has to follow.
+pub fn show(world: &mut World, snapshot: &Snapshot) {
     let air_cell = world.resource::<Setup>().quality.air_cell;
     let mut air = if snapshot.air.cell() == air_cell { snapshot.air.clone() } else { snapshot.air.resized(air_cell) };
     air.set_solids(&snapshot.solids);

@@ -16,6 +16,7 @@ pub mod pace;
 pub mod picture;
 pub mod recorder;
 pub mod recording;
+pub mod reel;
 pub mod replay;
 mod resample;
 pub mod script;

@@ -5,7 +5,7 @@ use bevy::prelude::Resource;
 use std::time::Duration;
 
 /// Time that the ticks of one frame may take.
-const FRAME_BUDGET: Duration = Duration::from_millis(20);
+pub const FRAME_BUDGET: Duration = Duration::from_millis(20);
 /// Most ticks in a frame, however cheap they are.
 pub const MOST_TICKS: u32 = 8;
 
@@ -18,18 +18,25 @@ pub struct Pace {
     pub steps_due: u32,
     /// Simulated seconds for each real one that the player asked for, 1/16 … 4.
     pub speed: f32,
+    /// Whether the past is shown: then nothing else moves, and whether it is paused is for when that ends.
+    pub rewinds: bool,
 }
 
 impl Default for Pace {
     fn default() -> Self {
-        Self { paused: false, steps_due: 0, speed: 1.0 }
+        Self { paused: false, steps_due: 0, speed: 1.0, rewinds: false }
     }
 }
 
 impl Pace {
     /// Whether the next fixed update is a tick (not only edits).
     pub fn ticks(&self) -> bool {
-        !self.paused || self.steps_due > 0
+        !self.rewinds && (!self.paused || self.steps_due > 0)
+    }
+
+    /// Whether what is seen are states between two ticks, and nothing on its way from one to the next.
+    pub fn stands(&self) -> bool {
+        self.paused || self.rewinds
     }
 }
 

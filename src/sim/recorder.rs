@@ -12,7 +12,7 @@ use crate::{
         generation::Generation,
         intent::Intent,
         mark::{Mark, Marker},
-        recording::{End, Entry, Recording},
+        recording::{End, Entry, KEY_TICKS, Recording, Spot, Stretch},
         script,
         state::{AirGrid, Clock, ParticleStore, Rock, Setup},
     },
@@ -32,6 +32,11 @@ const SEGMENT_ENTRIES: usize = 20_000;
 /// Most memory that the last minute may take, bytes. Three states of a million particles are within it; of larger worlds
 /// less is kept, at least the newest state.
 pub const KEPT_BYTES: usize = 192 << 20;
+/// What can be gone back to, ticks: half a minute of the world's time.
+pub const REWIND_TICKS: u64 = 1800;
+/// Most memory that going back may take, bytes: the states that are kept for it, one in [`KEY_TICKS`] ticks, and those that
+/// are made while it is done. Of a world of 100,000 particles that are some six seconds; of 40,000, all of it.
+pub const REWIND_BYTES: usize = if cfg!(target_arch = "wasm32") { 96 << 20 } else { 192 << 20 };
 /// Most memory that a recording may take, bytes. An hour of ticks takes 3 MB, a state 21 bytes a particle and more.
 pub const RECORDING_BYTES: usize = 512 << 20;
 
@@ -50,6 +55,12 @@ struct Inner {
     marker: Marker,
     /// Generation of the world that was written last.
     generation: Generation,
+    /// Whether states are kept to go back to.
+    keeps_keys: bool,
+    /// Bytes of the state that was taken last.
+    state_bytes: usize,
+    /// Whether the past is looked at: then nothing is taken.
+    held: bool,
 }
 
 impl Inner {
@@ -57,6 +68,25 @@ impl Inner {
     fn running(&mut self) -> Option<&mut Recording> {
         self.recording.as_mut().filter(|recording| recording.end.is_none())
     }
+
+    /// Keeps the state of the world to go back to, if it is time for that.
+    fn keep_key(&mut self, world: &World) {
+        let spacing = key_spacing(self.state_bytes);
+        if self.keeps_keys && self.rolling.ticks_since_key() >= spacing {
+            let state = Checkpoint::of(world);
+            self.state_bytes = state.bytes();
+            // Beside them there are the states of two stretches while they are looked at, and the world before.
+            let beside = (2 * spacing + 2) * self.state_bytes;
+            self.rolling.note_key(state);
+            self.rolling.thin(REWIND_TICKS, REWIND_BYTES.saturating_sub(beside));
+        }
+    }
+}
+
+/// Ticks from one state to go back to, of so many bytes, to the next: half of the memory is for them, a quarter for each of
+/// the two stretches between them that are looked at.
+fn key_spacing(bytes: usize) -> usize {
+    (REWIND_BYTES / bytes.max(1) / 4).clamp(1, KEY_TICKS)
 }
 
 /// How far a reader has come that follows the newest segment of the last minute.
@@ -87,6 +117,9 @@ impl Recorder {
     /// Notes that the world takes `intent` after `tick` ticks.
     pub fn note(&self, tick: u64, intent: &Intent) {
         let mut inner = self.inner();
+        if inner.held {
+            return;
+        }
         let entry = Entry { tick, intent: intent.clone() };
         inner.rolling.note(entry.clone());
         if let Some(recording) = inner.running() {
@@ -97,6 +130,9 @@ impl Recorder {
     /// Takes the state of the world where a segment has to begin with it. Before every edit stage.
     pub fn keep_up(&self, world: &World) {
         let mut inner = self.inner();
+        if inner.held {
+            return;
+        }
         let generation = Generation::of(world);
         let jumped = std::mem::replace(&mut inner.generation, generation) != generation;
         let full = inner
@@ -106,9 +142,11 @@ impl Recorder {
             .is_none_or(|segment| segment.marks.len() >= SEGMENT_TICKS || segment.entries.len() >= SEGMENT_ENTRIES);
         let waits = inner.running().is_some_and(|recording| recording.segments.is_empty());
         if !(jumped || full || waits) {
+            inner.keep_key(world);
             return;
         }
         let start = Checkpoint::of(world);
+        inner.state_bytes = start.bytes();
         inner.rolling.begin(start.clone(), !jumped);
         inner.serial += 1;
         inner.rolling.forget(KEPT_TICKS, KEPT_BYTES);
@@ -123,7 +161,7 @@ impl Recorder {
     /// Takes the mark of the tick that was done, if one was.
     fn mark(&self, particles: &ParticleStore, rock: &Rock, air: &AirGrid, clock: &Clock) {
         let mut inner = self.inner();
-        if inner.rolling.segments.last().is_none_or(|segment| segment.now() + 1 != clock.tick) {
+        if inner.held || inner.rolling.segments.last().is_none_or(|segment| segment.now() + 1 != clock.tick) {
             return;
         }
         let mark = inner.marker.mark(particles, rock, air, clock);
@@ -204,6 +242,49 @@ impl Recorder {
     /// Bytes that the last minute takes, to a good approximation.
     pub fn bytes(&self) -> usize {
         self.inner().rolling.bytes()
+    }
+
+    /// Bytes that the states take that are kept to go back to, to a good approximation.
+    pub fn key_bytes(&self) -> usize {
+        self.inner().rolling.key_bytes()
+    }
+
+    /// Keeps states to go back to, from here on.
+    pub fn keep_keys(&self) {
+        self.inner().keeps_keys = true;
+    }
+
+    /// Takes nothing from here on: the past is looked at. Where the present is; nothing if nothing is recorded.
+    pub(in crate::sim) fn hold(&self) -> Option<Spot> {
+        let mut inner = self.inner();
+        let now = inner.rolling.end_spot();
+        inner.held = now.is_some();
+        now
+    }
+
+    /// What lies before a place of the last minute.
+    pub(in crate::sim) fn stretch_before(&self, spot: Spot) -> Option<Stretch> {
+        self.inner().rolling.stretch_before(spot)
+    }
+
+    /// Goes on as before it was held.
+    pub(in crate::sim) fn release(&self) {
+        self.inner().held = false;
+    }
+
+    /// Goes on from a place of the last minute, at which `world` is. What came after it is forgotten there; a recording
+    /// that runs has the way back as a jump, like an undo.
+    pub(in crate::sim) fn go_on_from(&self, world: &World, spot: Spot) {
+        let mut inner = self.inner();
+        let start = Checkpoint::of(world);
+        inner.rolling.cut(spot);
+        inner.rolling.begin(start.clone(), true);
+        inner.serial += 1;
+        (inner.marker, inner.generation) = (Marker::default(), Generation::of(world));
+        inner.held = false;
+        if let Some(recording) = inner.running() {
+            recording.begin(start, false);
+        }
     }
 }
 

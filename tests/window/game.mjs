@@ -113,6 +113,8 @@ export async function open(program, display, folder, scene = ['empty']) {
     untilWidgets,
     widgets,
     key: (name) => x('key', name),
+    press: (name) => x('keydown', name),
+    letGo: (name) => x('keyup', name),
     // Makes the window another size; unless it shall not wait, until the X server has it so.
     async resize(size, wait = true) {
       await x('windowsize', window, ...size);

@@ -323,6 +323,33 @@ async function play() {
     return files.map(replay).join('; ');
   });
 
+  await test('Backspace runs the world back, and letting it go goes on from there', async () => {
+    const { tick } = await game.stats();
+    await game.until('a second and a half of the world', (now) => now.tick > tick + 90);
+    const { particles } = await pour((await game.stats()).particles + 100);
+    await game.press('BackSpace');
+    const back = await game.until('less water than was poured', (now) => now.rewinds && now.particles < particles - 50);
+    await game.picture('rewind');
+    await game.letGo('BackSpace');
+    const now = await game.until('it goes on', (now) => !now.rewinds && now.tick > back.tick);
+    await game.key('ctrl+z');
+    await game.until('undo goes forward again', (now) => now.particles >= particles);
+    return `${particles} particles, ${now.particles} after`;
+  });
+
+  await test('a screenshot opens as a world', async () => {
+    const pictures = () => readdirSync(folder).filter((name) => /^powder-.*\.png$/.test(name));
+    await game.key('space');
+    const { particles } = await game.until('it stands', ({ paused }) => paused);
+    await game.key('F2');
+    const [name] = await poll('a picture', pictures, ({ length }) => length === 1);
+    const told = execFileSync(program, ['run', join(folder, name), '--ticks', '1', '--metrics', '-'], { encoding: 'utf8' });
+    await game.key('space');
+    await game.until('it goes on', ({ paused }) => !paused);
+    assert.ok(particles > 0 && told.includes('"particles"'), told);
+    return `${name}, ${statSync(join(folder, name)).size} bytes`;
+  });
+
   await test('a game that is killed offers its world at the next start', async () => {
     const journals = join(folder, 'data');
     const size = () => readdirSync(journals, { recursive: true, withFileTypes: true })

@@ -24,6 +24,7 @@ mod reactions;
 mod recordings;
 mod refinement;
 mod resampling;
+mod rewind;
 mod saves;
 mod sleep;
 mod stages;

@@ -8,7 +8,7 @@ use crate::{
             panels::scenes,
             stats::{Reading, Readings, as_text, show_reading},
             style,
-            widgets::{action_button, icon_button, menu, quality_menu, quality_name, row},
+            widgets::{action_button, hold_button, icon_button, menu, quality_menu, quality_name, row},
         },
         icons,
         input::bindings::Bindings,
@@ -18,7 +18,7 @@ use crate::{
         views::table::{ELEMENTS, Shown, VIEWS},
     },
     kernel::units::TICKS_PER_SECOND,
-    sim::{recorder::Recorder, state::Setup},
+    sim::{pace::Pace, recorder::Recorder, state::Setup},
 };
 use bevy::{
     ecs::system::SystemParam,
@@ -43,6 +43,7 @@ pub struct Shows<'w> {
     volume: Res<'w, Volume>,
     output: Res<'w, Output>,
     bindings: Res<'w, Bindings>,
+    pace: Res<'w, Pace>,
 }
 
 /// Shows the bar.
@@ -133,6 +134,7 @@ fn menus(ui: &mut Ui, narrow: bool, shows: &Shows, orders: &mut Orders) {
         action_button(ui, panel.icon, "", Action::Panel(panel.id), open, (bindings, orders));
     }
     action_button(ui, icons::save, "", Action::Save, false, (bindings, orders));
+    hold_button(ui, icons::rewind, Action::Rewind, shows.pace.rewinds, (bindings, orders));
     volume(ui, shows, orders);
     let quality = quality_name(setup.preset, &setup.quality);
     let quality = icon_button(ui, (icons::gauge, "quality"), text(&quality), false);

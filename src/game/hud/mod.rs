@@ -14,6 +14,7 @@ pub mod layout;
 pub mod palette;
 pub mod panels;
 pub mod probe;
+pub mod rewind;
 pub mod split;
 pub mod stamps;
 pub mod stats;
@@ -65,6 +66,7 @@ impl Plugin for HudPlugin {
                         stamps::strip::show,
                         probe::show,
                         split::show,
+                        rewind::show,
                     )
                         .chain()
                         .in_set(HudSystems::Bars),

@@ -171,7 +171,12 @@ fn choose(ui: &mut Ui, unit: f32, (tiles, chosen): (&mut Tiles, Tool), sheet: &m
 }
 
 /// A button with an icon; whether it is pressed.
-fn button(ui: &mut Ui, unit: f32, (name, icon): (&str, Icon), active: bool, enabled: bool) -> bool {
+fn button(ui: &mut Ui, unit: f32, face: (&str, Icon), active: bool, enabled: bool) -> bool {
+    enabled && pressable(ui, unit, face, active, enabled).clicked()
+}
+
+/// A button with an icon, for more than to press it.
+fn pressable(ui: &mut Ui, unit: f32, (name, icon): (&str, Icon), active: bool, enabled: bool) -> egui::Response {
     let (rect, response) = field(ui, vec2(TARGET, TARGET) * unit, name, active, BUTTON);
     let colour = match (enabled, active) {
         (false, _) => style::LINE,
@@ -179,7 +184,7 @@ fn button(ui: &mut Ui, unit: f32, (name, icon): (&str, Icon), active: bool, enab
         (true, false) => style::TEXT,
     };
     icons::draw(ui.painter(), icons::square(rect.center(), 22.0 * unit), icon, colour);
-    enabled && response.clicked()
+    response
 }
 
 fn act(ui: &mut Ui, unit: f32, pace: &Pace, history: &History, orders: &mut Orders) {
@@ -195,6 +200,10 @@ fn act(ui: &mut Ui, unit: f32, pace: &Pace, history: &History, orders: &mut Orde
         if button(ui, unit, (name, icon), active, enabled) {
             orders.push(Order::Act(action));
         }
+    }
+    let rewind = pressable(ui, unit, ("Back in time", icons::rewind), pace.rewinds, true);
+    if rewind.is_pointer_button_down_on() {
+        orders.push(Order::Act(Action::Rewind));
     }
 }
 

@@ -146,6 +146,20 @@ pub fn icon_button(ui: &mut Ui, (icon, name): (Icon, &str), text: &str, active: 
     response
 }
 
+/// A button for what is done as long as a key or it is held.
+pub fn hold_button(
+    ui: &mut Ui,
+    icon: Icon,
+    action: Action,
+    active: bool,
+    (bindings, orders): (&Bindings, &mut Orders),
+) {
+    let button = icon_button(ui, (icon, bindings.help(action)), "", active);
+    if button.on_hover_text(bindings.tip(action)).is_pointer_button_down_on() {
+        orders.push(Order::Act(action));
+    }
+}
+
 /// A button for what a key does, too: the table of keys says what it is called.
 pub fn action_button(
     ui: &mut Ui,

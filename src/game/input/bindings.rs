@@ -173,6 +173,7 @@ const OWN: &[Binding] = {
     key(K::Equal, SHIFT, A::Speed(1), H::World, "faster"),
     key(K::NumpadAdd, NONE, A::Speed(1), H::World, "faster"),
     key(K::Equal, NONE, A::ClearAir, H::World, "clear the air"),
+    key(K::Backspace, NONE, A::Rewind, H::World, "hold: back in time, up to 30 s; let go: on from there"),
     key(K::KeyR, NONE, A::Reset, H::World, "reset the scene (can be undone)"),
     key(K::KeyS, CTRL, A::Save, H::World, "save the world"),
     key(K::F9, NONE, A::Record, H::World, "record; again: end the recording and write it"),

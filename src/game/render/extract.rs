@@ -57,7 +57,7 @@ pub fn extract(main: Res<MainWorld>, mut pictures: ResMut<Pictures>, cost: Res<R
     }
     // Half a tick after a tick the world is drawn half a tick before it: it then moves evenly at any frame rate.
     let late = main.resource::<Time<Fixed>>().overstep_fraction().clamp(0.0, 1.0);
-    let back = if main.resource::<Pace>().paused { 0.0 } else { TICK_SECONDS * (1.0 - late) };
+    let back = if main.resource::<Pace>().stands() { 0.0 } else { TICK_SECONDS * (1.0 - late) };
     // Clouds stand while the world does.
     let time = (first.tick % WRAP) as f32 * TICK_SECONDS - back;
     let camera = main.resource::<WorldCamera>();

@@ -69,7 +69,7 @@ pub fn drift(
         tracers.awake = false;
         return;
     }
-    let seconds = if pace.paused { 0.0 } else { time.delta_secs().min(8.0 * TICK_SECONDS) };
+    let seconds = if pace.stands() { 0.0 } else { time.delta_secs().min(8.0 * TICK_SECONDS) };
     let size = setup.blueprint.domain.size;
     tracers.awake = true;
     tracers.all.resize(COUNT, Tracer { age: LIFE, ..Tracer::default() });

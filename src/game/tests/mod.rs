@@ -52,6 +52,7 @@ mod keys;
 mod opening;
 mod past;
 mod recording;
+mod rewind;
 mod saves;
 mod stamps;
 mod touch;

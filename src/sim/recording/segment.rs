@@ -2,7 +2,7 @@
 
 use crate::sim::{checkpoint::Checkpoint, file::FileError, intent::Intent, mark::Mark};
 use serde::{Deserialize, Serialize};
-use std::{borrow::Cow, mem::size_of};
+use std::{borrow::Cow, collections::VecDeque, mem::size_of};
 
 /// An intent and when it was taken.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -49,8 +49,17 @@ impl PartialEq for Start {
     }
 }
 
+/// A state on the way through a segment.
+#[derive(Clone, Debug)]
+pub(super) struct Key {
+    /// Ticks of the segment that are done there, and intents that are taken.
+    pub done: usize,
+    pub entries: usize,
+    pub state: Checkpoint,
+}
+
 /// What happened from a state on.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Segment {
     start: Start,
     /// Ticks that the state has done.
@@ -61,11 +70,22 @@ pub struct Segment {
     pub entries: Vec<Entry>,
     /// The mark of each tick.
     pub marks: Vec<Mark>,
+    /// States on the way, oldest first (`keys`).
+    pub(super) keys: VecDeque<Key>,
+}
+
+impl PartialEq for Segment {
+    /// States on the way follow from the rest.
+    fn eq(&self, other: &Self) -> bool {
+        let of = |segment: &Self| (segment.tick, segment.follows);
+        of(self) == of(other)
+            && (&self.start, &self.entries, &self.marks) == (&other.start, &other.entries, &other.marks)
+    }
 }
 
 impl Segment {
     fn new(start: Start, tick: u64, follows: bool) -> Self {
-        Self { start, tick, follows, entries: Vec::new(), marks: Vec::new() }
+        Self { start, tick, follows, entries: Vec::new(), marks: Vec::new(), keys: VecDeque::new() }
     }
 
     /// The beginning of a segment in a file: a save file, and the ticks that its world has done.
@@ -94,7 +114,7 @@ impl Segment {
         self.tick + self.marks.len() as u64
     }
 
-    /// Bytes that it takes, to a good approximation.
+    /// Bytes that it takes without the states on the way, to a good approximation.
     fn bytes(&self) -> usize {
         let start = match &self.start {
             Start::Taken(checkpoint) => checkpoint.bytes(),
@@ -121,7 +141,7 @@ impl Recording {
         self.segments.iter().map(|segment| segment.marks.len() as u64).sum()
     }
 
-    /// Bytes that it takes, to a good approximation.
+    /// Bytes that it takes without the states on the way, to a good approximation.
     pub fn bytes(&self) -> usize {
         self.segments.iter().map(Segment::bytes).sum()
     }
