@@ -3,6 +3,7 @@
 
 mod args;
 mod bench;
+mod clip;
 mod dispatch;
 mod failure;
 mod journal;

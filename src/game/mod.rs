@@ -13,6 +13,8 @@ pub mod actions;
 pub mod brush_mode;
 pub mod camera;
 #[cfg(not(target_arch = "wasm32"))]
+pub mod clip;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod crash;
 pub mod disk;
 pub mod drop;

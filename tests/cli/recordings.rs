@@ -1,6 +1,6 @@
 //! Recordings and saves: the same world again, and half a file.
 
-use crate::{folder, good, metrics, refused};
+use crate::{folder, good, metrics, program, refused};
 use powder_master::{
     kernel::brush::{BrushShape, Stroke},
     lab::run::{self, Plan},
@@ -64,6 +64,26 @@ fn a_recording_is_the_same_world_again() {
     refused(&here, &["run", "mine.pmr", "--set", "rows=40"], 2, &["mine.pmr", "no use for --set"]);
     refused(&here, &["run", "mine.pmr", "--hold-ms", "1"], 2, &["mine.pmr", "no use for --hold-ms"]);
     refused(&here, &["play", "mine.pmr", "--quality", "fine"], 2, &["mine.pmr", "no use for --quality"]);
+}
+
+#[test]
+fn a_clip_is_a_film_of_the_size_that_was_asked_for() {
+    let here = folder("clip");
+    std::fs::write(here.join("mine.pmr"), record().0).unwrap();
+    let clip = |more: &[&'static str]| [&["clip", "mine.pmr", "--gif", "mine.gif"], more].concat();
+    refused(&here, &clip(&["--size", "640"]), 2, &["--size", "allowed: WIDTHxHEIGHT"]);
+    refused(&here, &clip(&["--fps", "51"]), 2, &["--fps", "allowed: whole numbers from 1 to 50"]);
+    let output = program(&here, &clip(&["--size", "64x48", "--fps", "10"]));
+    let told = String::from_utf8(output.stderr).unwrap();
+    if !output.status.success() {
+        // Where nothing can draw, that is said, and no file is left.
+        assert!(told.contains("no graphics: ") || told.contains("this build draws nothing"), "{told}");
+        assert!(!here.join("mine.gif").exists());
+        return;
+    }
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), "mine.gif: 11 frames\n", "the first and ten a second");
+    let bytes = std::fs::read(here.join("mine.gif")).unwrap();
+    assert_eq!((&bytes[..6], &bytes[6..10]), (&b"GIF89a"[..], &[64, 0, 48, 0][..]));
 }
 
 #[test]

@@ -5,7 +5,10 @@ use super::{
         BenchArguments, CaseArguments, GauntletArguments, MergeArguments, SoakArguments, StudyArguments, SweepArguments,
     },
     machine::Machine,
-    values::{Ticks, detail, effect, hold_error, hold_ms, preset, seconds, setting, ticks, warmup},
+    values::{
+        Ticks, detail, effect, frames_per_second, hold_error, hold_ms, picture_size, preset, seconds, setting, ticks,
+        warmup,
+    },
 };
 use crate::{
     kernel::params::Preset,
@@ -13,6 +16,7 @@ use crate::{
     scene::effects::{Effect, Mode},
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use glam::UVec2;
 use std::path::PathBuf;
 
 /// A real-time 2-D sandbox of powders and fluids in moving air.
@@ -34,6 +38,8 @@ pub(in crate::cli) enum Command {
     Run(Box<RunArguments>),
     /// Run a recording again, and name the first tick that is not what it was
     Replay(ReplayArguments),
+    /// Draw a recording and write it as a GIF
+    Clip(ClipArguments),
     /// Measure what something costs, and print the table
     Bench(BenchArguments),
     /// Compare the physics with known answers, at each quality
@@ -66,6 +72,23 @@ pub(in crate::cli) struct ReplayArguments {
     /// Write the outcome as JSON; `-` is stdout, in place of the line
     #[arg(long, value_name = "FILE.json")]
     pub(in crate::cli) json: Option<PathBuf>,
+}
+
+/// `clip`.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct ClipArguments {
+    /// The recording
+    #[arg(value_name = "RECORDING")]
+    pub(in crate::cli) file: PathBuf,
+    /// The file to write
+    #[arg(long, value_name = "FILE.gif")]
+    pub(in crate::cli) gif: PathBuf,
+    /// Width and height, pixels [default: as the world, 480 along the longer side]
+    #[arg(long, value_name = "WxH", value_parser = picture_size)]
+    pub(in crate::cli) size: Option<UVec2>,
+    /// Frames a second, 1 to 50
+    #[arg(long, value_name = "N", default_value_t = 20, allow_negative_numbers = true, value_parser = frames_per_second)]
+    pub(in crate::cli) fps: u32,
 }
 
 /// What there is to choose from.

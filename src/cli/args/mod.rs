@@ -6,7 +6,7 @@ mod lab;
 mod machine;
 mod values;
 
-pub(super) use commands::{Arguments, Command, Listing, PlayOptions, ReplayArguments, RunArguments};
+pub(super) use commands::{Arguments, ClipArguments, Command, Listing, PlayOptions, ReplayArguments, RunArguments};
 pub(super) use lab::{
     Bench, BenchArguments, CaseArguments, GauntletArguments, MergeArguments, ScalingOptions, SoakArguments, Study,
     StudyArguments, SweepArguments,

@@ -8,6 +8,7 @@ use crate::{
         effects::{Effect, Mode},
     },
 };
+use glam::UVec2;
 use std::{fmt::Display, ops::RangeInclusive, str::FromStr};
 
 /// Longest run, s; about 28 hours.
@@ -105,6 +106,21 @@ pub(super) fn hold_error(text: &str) -> Result<f32, String> {
     number(text, "numbers", 0.0001..=100.0)
 }
 
+/// Browsers show frames of less than two units of a GIF's time, 1/100 s, slowly.
+pub(super) fn frames_per_second(text: &str) -> Result<u32, String> {
+    number(text, WHOLE, 1..=50)
+}
+
+/// Sides of a film, pixels.
+const FILM_SIDE: RangeInclusive<u32> = 16..=1920;
+
+pub(super) fn picture_size(text: &str) -> Result<UVec2, String> {
+    let side = |text: &str| text.parse().ok().filter(|side| FILM_SIDE.contains(side));
+    let sides = text.split_once('x').and_then(|(width, height)| Some(UVec2::new(side(width)?, side(height)?)));
+    let (least, most) = (FILM_SIDE.start(), FILM_SIDE.end());
+    sides.ok_or_else(|| format!("allowed: WIDTHxHEIGHT, each from {least} to {most}, such as 640x360"))
+}
+
 pub(super) fn detail(text: &str) -> Result<f64, String> {
     number(text, "numbers", DETAIL.min..=DETAIL.max)
 }
@@ -179,6 +195,14 @@ mod tests {
             is_x86_feature_detected!("avx512f"),
             "the passes would meet no such registers"
         );
+    }
+
+    #[test]
+    fn sizes_are_two_sides_within_bounds() {
+        assert_eq!(picture_size("640x360"), Ok(UVec2::new(640, 360)));
+        for bad in ["", "640", "640x", "x360", "640x360x2", "15x360", "640x1921", "-640x360", "640 x 360"] {
+            assert!(picture_size(bad).is_err_and(|message| message.contains("640x360")), "{bad} passed");
+        }
     }
 
     #[test]

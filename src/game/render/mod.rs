@@ -17,6 +17,8 @@ pub mod cost;
 pub mod draw;
 pub mod extract;
 #[cfg(not(target_arch = "wasm32"))]
+pub mod film;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod frame_cost;
 pub mod glow;
 pub mod gpu;

@@ -12,7 +12,7 @@ use crate::{
         views::table::{Shown, View},
     },
     lab::colours::Rgb,
-    sim::{SimulationPlugin, checkpoint::Checkpoint, fault, pace::Pace, state::Clock},
+    sim::{SimulationPlugin, checkpoint::Checkpoint, fault, generation::Generation, pace::Pace, state::Clock},
 };
 use bevy::{
     DefaultPlugins,
@@ -148,6 +148,21 @@ impl Offscreen {
         let end = self.app.world().resource::<Clock>().tick + ticks;
         while self.app.world().resource::<Clock>().tick < end {
             self.app.update();
+        }
+        self.pause(true);
+    }
+
+    /// Lets the world go on by a tick, which may be one of another world that takes its place.
+    pub fn tick(&mut self) {
+        let at = |world: &World| (Generation::of(world), world.resource::<Clock>().tick);
+        let before = at(self.world());
+        self.pause(false);
+        // The first frame that is not late has a tick in it.
+        for _ in 0..4 {
+            self.app.update();
+            if at(self.world()) != before {
+                break;
+            }
         }
         self.pause(true);
     }
