@@ -102,9 +102,10 @@ fn show(
             }
         });
         #[cfg(target_arch = "wasm32")]
-        if ui.button("Open a file of this device").on_hover_text("or drop it on the page").clicked() {
+        if ui.button("Open a file of this device").clicked() {
             disk::choose();
         }
+        ui.label(weak("Saves, screenshots, recordings and scenes can also be dropped on the window."));
         for folder in &folders.0 {
             ui.label(weak(folder.display().to_string()).small());
         }
