@@ -32,7 +32,7 @@ fn kept(name: &str, settings: &[(&str, &str)]) -> Simulation {
 
 fn begin(simulation: &Simulation) -> Reel {
     let now = Checkpoint::of(simulation.world());
-    Reel::begin(simulation.world(), &now).expect("something is recorded")
+    Reel::begin(simulation.world(), &now).unwrap_or_else(|| panic!("nothing is recorded"))
 }
 
 /// The state before the one that was given last.
@@ -85,7 +85,8 @@ fn again(simulation: &Simulation) -> (u64, u64) {
 
 fn replayed(bytes: &[u8]) -> (u64, u64) {
     let recording = Recording::decode(bytes).unwrap_or_else(|error| panic!("{error}"));
-    let mut replay = Replay::new(&recording, Workers::default(), InstructionSet::detect()).expect("it was read");
+    let replay = Replay::new(&recording, Workers::default(), InstructionSet::detect());
+    let mut replay = replay.unwrap_or_else(|error| panic!("{error}"));
     while replay.tick().unwrap_or_else(|difference| panic!("{difference}")) {}
     let hash = replay.finish().unwrap_or_else(|difference| panic!("{difference}"));
     (replay.done(), hash)
