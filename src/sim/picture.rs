@@ -12,15 +12,14 @@
 //! a picture and writes another, as messengers do to make it smaller, drops what it does not know; nothing can be done
 //! about that.
 
-use crate::sim::{
-    checkpoint::Checkpoint,
-    file::{FileError, Kind},
-};
+use crate::sim::{checkpoint::Checkpoint, file::FileError};
 use flate2::{Compression, read::ZlibDecoder, write::ZlibEncoder};
 use std::io::{self, Read, Write};
 
-/// A picture.
-const PICTURE: Kind = Kind { name: "picture", magic: b"\x89PNG\r\n\x1a\n" };
+/// What a picture begins with.
+const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
+/// Its name in messages.
+const NAME: &str = "picture";
 /// Kind of the part that is a world.
 const WORLD: [u8; 4] = *b"pmWd";
 /// Kind of the last part.
@@ -30,7 +29,7 @@ const MOST: u64 = 256 << 20;
 
 /// Whether bytes are meant to be a picture.
 pub fn is_meant(bytes: &[u8]) -> bool {
-    bytes.starts_with(PICTURE.magic)
+    bytes.starts_with(SIGNATURE)
 }
 
 /// Reads a world from a save file, or from a picture that carries one.
@@ -78,17 +77,21 @@ fn save_in(bytes: &[u8]) -> Result<Vec<u8>, FileError> {
 pub fn unpack(packed: &[u8]) -> Result<Vec<u8>, FileError> {
     let mut save = Vec::new();
     let read = ZlibDecoder::new(packed).take(MOST + 1).read_to_end(&mut save);
-    read.map_err(|_| PICTURE.damaged("its world can't be unpacked"))?;
+    read.map_err(|_| damaged("its world can't be unpacked"))?;
     if save.len() as u64 > MOST {
-        return Err(PICTURE.damaged(format_args!("its world unpacks to more than {} MiB", MOST >> 20)));
+        return Err(damaged(format_args!("its world unpacks to more than {} MiB", MOST >> 20)));
     }
     Ok(save)
 }
 
+fn damaged(what: impl ToString) -> FileError {
+    FileError::Damaged(NAME, what.to_string())
+}
+
 /// Goes through the parts of a picture, to its end.
 fn world_part(bytes: &[u8]) -> Result<&[u8], FileError> {
-    let short = || PICTURE.damaged("it breaks off");
-    let mut rest = bytes.strip_prefix(PICTURE.magic).ok_or(FileError::Foreign(PICTURE.name))?;
+    let short = || damaged("it breaks off");
+    let mut rest = bytes.strip_prefix(SIGNATURE).ok_or(FileError::Foreign(NAME))?;
     let mut world = None;
     loop {
         let (&length, behind) = rest.split_first_chunk().ok_or_else(short)?;
@@ -156,8 +159,7 @@ mod tests {
         let (_, bytes) = shared();
         for len in 0..bytes.len() {
             let text = refusal(&bytes[..len]);
-            let says =
-                if len < PICTURE.magic.len() { "not a save file" } else { "the picture is damaged: it breaks off" };
+            let says = if len < SIGNATURE.len() { "not a save file" } else { "the picture is damaged: it breaks off" };
             assert!(text.contains(says), "{len} bytes: {text}");
         }
     }
