@@ -199,13 +199,16 @@ fn act(world: &mut World, action: Action) {
     }
 }
 
-/// Plays another scene at a detail; without a `preset` at its own quality.
+/// Plays another scene at a detail, which can be undone; without a `preset` at its own quality.
 fn play(world: &mut World, name: &str, settings: &[(String, String)], preset: Option<Preset>, detail: f64) {
     let scene = scene::load(name).map(|scene| scene.at_detail(detail));
     match scene.and_then(|scene| scene.build(settings, preset, &EffectModes::new())) {
         Ok(blueprint) => {
+            // What was built before can be had back.
+            if world.contains_resource::<Setup>() {
+                history::checkpoint(world);
+            }
             Checkpoint::of_scene(Arc::new(blueprint)).restore(world);
-            world.resource_mut::<History>().clear();
         }
         Err(error) => world.resource_mut::<Toasts>().warn(error.to_string()),
     }

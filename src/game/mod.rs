@@ -24,6 +24,7 @@ pub mod favourites;
 pub mod files;
 pub mod follow;
 pub mod frame;
+pub mod hints;
 pub mod history;
 pub mod hud;
 pub mod icons;

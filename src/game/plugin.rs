@@ -2,8 +2,8 @@
 
 use crate::{
     game::{
-        camera, drop, execute, favourites, follow, frame, history, hud, input, orders, panels, playback, recording,
-        rewind, saves, sound, split, stamps, toasts, toolbox, views,
+        camera, drop, execute, favourites, follow, frame, hints, history, hud, input, orders, panels, playback,
+        recording, rewind, saves, sound, split, stamps, toasts, toolbox, views,
     },
     kernel::units::TICKS_PER_SECOND,
     lab::{
@@ -61,6 +61,7 @@ impl Plugin for GamePlugin {
             .init_resource::<measures::Measures>()
             .add_plugins((
                 sound::plugin,
+                hints::plugin,
                 hud::panels::plugin,
                 autopilot::plugin,
                 crate::lab::split::plugin,

@@ -4,7 +4,7 @@
 use crate::{
     game::{
         frame::{Tempo, measure_tempo},
-        hud::panels::saves::SaveMenu,
+        hud::panels::{saves::SaveMenu, scenes::pictures::Pictures},
         input::strokes::DragState,
         orders::Orders,
         toasts::Toasts,
@@ -75,14 +75,15 @@ fn rest(
     real: Res<Time<Real>>,
     mut events: MessageReader<WindowEvent>,
     (orders, intents, drag): (Res<Orders>, Res<IntentQueue>, Res<DragState>),
-    (toasts, saves, background): (Res<Toasts>, Res<SaveMenu>, Background),
+    (toasts, saves, pictures, background): (Res<Toasts>, Res<SaveMenu>, Res<Pictures>, Background),
     mut calm: Local<Duration>,
     mut tempo: ResMut<Tempo>,
     mut settings: ResMut<WinitSettings>,
 ) {
     let touched = events.read().count() > 0 || !orders.is_empty() || !intents.is_empty() || drag.current().is_some();
-    // A message that is shown is about to go; of the list of saves each frame reads one.
-    let stirs = touched || pace.is_changed() || toasts.last().is_some() || saves.is_reading();
+    // A message that is shown is about to go; of the list of saves each frame reads one, and of
+    // the gallery's pictures it shows what is new.
+    let stirs = touched || pace.is_changed() || toasts.last().is_some() || saves.is_reading() || pictures.is_busy();
     *calm = if stirs { Duration::ZERO } else { (*calm + real.delta()).min(LINGER) };
     let moves = pace.rewinds || pace.ticks() && !time.is_paused();
     let focused = mode(moves, background.works(), *calm);

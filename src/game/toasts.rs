@@ -4,6 +4,8 @@ use bevy::prelude::Resource;
 
 /// Time that a message stays, s.
 const STAY: f32 = 3.2;
+/// The same of a hint, which comes unasked, s.
+const HINT: f32 = 8.0;
 /// Messages shown at once.
 const MOST: usize = 4;
 
@@ -25,12 +27,17 @@ pub struct Toasts(Vec<Toast>);
 impl Toasts {
     /// Tells something.
     pub fn say(&mut self, text: impl Into<String>) {
-        self.push(text.into(), false);
+        self.push(text.into(), false, STAY);
     }
 
     /// Tells that something went wrong.
     pub fn warn(&mut self, text: impl Into<String>) {
-        self.push(text.into(), true);
+        self.push(text.into(), true, 2.0 * STAY);
+    }
+
+    /// Tells something that the player did not ask for.
+    pub fn hint(&mut self, text: impl Into<String>) {
+        self.push(text.into(), false, HINT);
     }
 
     /// Takes back what was told about something.
@@ -59,9 +66,8 @@ impl Toasts {
         self.0.last().map(|toast| toast.text.as_str())
     }
 
-    fn push(&mut self, text: String, warning: bool) {
+    fn push(&mut self, text: String, warning: bool, stay: f32) {
         self.0.retain(|toast| toast.text != text);
-        let stay = if warning { 2.0 * STAY } else { STAY };
         self.0.push(Toast { text, warning, left: stay });
         if self.0.len() > MOST {
             self.0.remove(0);

@@ -5,7 +5,8 @@ use crate::game::crash;
 use crate::{
     game::{
         favourites::Favourites,
-        hud::HudPlugin,
+        hints::Hints,
+        hud::{HudPlugin, panels::scenes::SceneFolder},
         plugin::GamePlugin,
         render::WorldRenderPlugin,
         rest,
@@ -122,6 +123,8 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
     .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
     .insert_resource(Favourites::of_user())
     .insert_resource(Shelf::of_user())
+    .insert_resource(SceneFolder::of_user())
+    .insert_resource(Hints::of_user())
     .insert_resource(Volume::of_user())
     .insert_resource(Output::of_system())
     .insert_resource(ClearColor(Color::srgb_u8(red, green, blue)))

@@ -29,6 +29,19 @@ pub const DEPTH_SHADE: f32 = 0.75;
 
 const WIND: Rgb = [72, 208, 190];
 
+/// Below this nothing glows, K: the Draper point is 798 K.
+const DULL: f32 = 780.0;
+/// Colours of glowing matter by its temperature (K), after the locus of black bodies; brightness is compressed for the screen.
+const GLOW: [(f32, [f32; 3]); 7] = [
+    (DULL, [0.0, 0.0, 0.0]),
+    (900.0, [0.28, 0.03, 0.0]),
+    (1100.0, [0.68, 0.13, 0.02]),
+    (1350.0, [0.98, 0.34, 0.05]),
+    (1700.0, [1.0, 0.62, 0.18]),
+    (2200.0, [1.0, 0.84, 0.48]),
+    (3200.0, [1.0, 0.96, 0.86]),
+];
+
 /// The speeds that the colours are measured against.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reference {
@@ -76,6 +89,15 @@ pub fn wind_colour(reference: Reference, velocity: Vec2) -> (Rgb, f32) {
 /// Colour of the empty box at a height given as a share of the box.
 pub fn box_colour(height: f32) -> Rgb {
     mix(BOX_BOTTOM, BOX_TOP, height)
+}
+
+/// Colour that matter of a temperature glows in, each channel 0 … 1.
+pub fn incandescence(kelvin: f32) -> [f32; 3] {
+    let Some(k) = GLOW.iter().rposition(|(from, _)| kelvin >= *from) else { return [0.0; 3] };
+    let (from, low) = GLOW[k];
+    let Some((to, high)) = GLOW.get(k + 1) else { return low };
+    let t = (kelvin - from) / (to - from);
+    std::array::from_fn(|c| low[c] + (high[c] - low[c]) * t)
 }
 
 /// `a` at 0, `b` at 1.

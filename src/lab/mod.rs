@@ -29,6 +29,7 @@ pub mod machine;
 pub mod maps;
 pub mod markdown;
 pub mod metrics;
+pub mod miniature;
 pub mod picture;
 pub mod reference;
 #[cfg(not(target_arch = "wasm32"))]

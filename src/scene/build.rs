@@ -10,6 +10,7 @@ use crate::{
     scene::{
         blueprint::{Blueprint, scaled_count},
         builtin::{self, Origin, Source},
+        category::SceneCategory,
         effects::EffectModes,
         elements::elements,
         error::{SceneError, choices},
@@ -112,6 +113,34 @@ impl SceneFile {
     /// One sentence for the scene menu.
     pub fn description(&self) -> &str {
         &self.text.description
+    }
+
+    /// Where the gallery shows it; nowhere of its own if the file does not say.
+    pub fn category(&self) -> Option<SceneCategory> {
+        self.text.category
+    }
+
+    /// One thing to do in it; may be empty.
+    pub fn invitation(&self) -> &str {
+        &self.text.invitation
+    }
+
+    /// When it looks best, s.
+    pub fn moment(&self) -> f64 {
+        self.text.moment
+    }
+
+    /// Names of the elements that stand or flow in it, in the order of the file, each once.
+    pub fn elements(&self) -> Vec<&str> {
+        let stands = self.text.contents.iter().map(|placement| placement.element.as_str());
+        let flows = self.text.emitters.iter().map(|emitter| emitter.element.as_str());
+        let mut names = Vec::new();
+        for name in stands.chain(flows).filter(|name| *name != "none") {
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names
     }
 
     /// The scene's own parameters, by name.

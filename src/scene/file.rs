@@ -10,6 +10,7 @@
 use crate::{
     kernel::params::OpenSides,
     scene::{
+        category::SceneCategory,
         effects::EffectModes,
         error::SceneError,
         expression::{is_name, is_reserved},
@@ -30,6 +31,14 @@ pub(super) struct SceneText {
     /// One sentence for the scene menu, at most 300 characters. Default: empty.
     #[serde(default)]
     pub(super) description: String,
+    /// Where the gallery shows it: `water`, `powders`, `heat`, `air` or `proofs`. Default: among the player's own.
+    pub(super) category: Option<SceneCategory>,
+    /// One thing to do in it, for its tile in the gallery, at most 60 characters. Default: empty.
+    #[serde(default)]
+    pub(super) invitation: String,
+    /// When it looks best, for its picture in the gallery, s: 0 … 60. Default: `3`.
+    #[serde(default = "default_moment")]
+    pub(super) moment: f64,
     /// Numbers that the command line and the menu can set, by name. A name is made of letters, digits and `_`, and is
     /// neither a knob's nor `d`, `min`, `max`, `sqrt`. At most 32. Default: none.
     #[serde(default)]
@@ -85,8 +94,15 @@ pub(super) struct SceneText {
     pub(super) first_element: Option<String>,
 }
 
+/// When a scene may look best, s.
+const MOMENT: Range = Range::real(0.0, 60.0);
+
 fn earth() -> Pair {
     (Number::Literal(0.0), Number::Literal(-9.81))
+}
+
+fn default_moment() -> f64 {
+    3.0
 }
 
 fn default_sound_speed() -> Number {
@@ -290,6 +306,12 @@ impl SceneText {
         }
         if self.description.chars().count() > 300 {
             return fault("description", "allowed: at most 300 characters".to_owned());
+        }
+        if self.invitation.chars().count() > 60 {
+            return fault("invitation", "allowed: at most 60 characters".to_owned());
+        }
+        if let Err(what) = MOMENT.check(self.moment) {
+            return fault("moment", what);
         }
         for (list, len, most) in [
             ("parameters", self.parameters.len(), 32),

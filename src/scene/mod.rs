@@ -9,6 +9,7 @@
 
 mod build;
 mod builtin;
+mod category;
 pub(crate) mod elements;
 mod error;
 mod expression;
@@ -32,6 +33,7 @@ pub mod readers;
 pub use build::{DETAIL, SceneFile, from_text, load};
 pub(crate) use build::{MOST_CELLS, MOST_DETAIL, SIDE};
 pub use builtin::builtin_names;
+pub use category::SceneCategory;
 pub use elements::elements;
 pub use error::SceneError;
 pub use file::ParameterSpec;

@@ -4,7 +4,7 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { isOpen, poll } from '../poll.mjs';
 import { difference, display, open, water, WORLD } from './game.mjs';
@@ -14,7 +14,9 @@ const program = resolve(process.argv[2]);
 const folder = resolve(process.argv[3] ?? 'target/window-test');
 // What the game writes goes there, too, and what an earlier test has left is no business of this one.
 rmSync(folder, { recursive: true, force: true });
-mkdirSync(folder, { recursive: true });
+// A hint that comes up would be part of the pictures.
+mkdirSync(join(folder, 'data', 'powder-master'), { recursive: true });
+writeFileSync(join(folder, 'data', 'powder-master', 'hints.ron'), '(on: false, seen: [])');
 
 const FLOOR = { x: 40, y: 690, width: 360, height: 40 };
 const HIGH = [[560, 420], [600, 430], [640, 440], [680, 430], [720, 420], [680, 410], [640, 420], [600, 410]];
@@ -303,6 +305,33 @@ async function play() {
     await game.until('an empty scene again', ({ elements }) => elements.rock === 0);
     await game.key('2');
     await game.until('the tool is water again', ({ tool }) => tool === 'water');
+  });
+
+  await test('the gallery finds a scene by an element, shows it, and plays it', async () => {
+    const hasTile = (all, wanted) => all.some(({ kind, name }) => kind === 'Button' && name === wanted);
+    await pour(100);
+    await game.key('m');
+    await game.untilWidgets('the gallery is open', (all) => isOpen(all, 'Scenes') && hasTile(all, 'Waterfall'));
+    const bare = await game.picture('gallery-opens');
+    await poll('pictures', async () => difference(bare, await game.picture('gallery')), (share) => share > 5);
+    for (const letter of 'mercury') await game.key(letter);
+    await game.untilWidgets('only what is searched is there', (all) => hasTile(all, 'Layers') && !hasTile(all, 'Hourglass'));
+    await game.hover('Layers');
+    await game.click('settings of Layers');
+    await game.untilWidgets('the page of a scene', (all) => hasTile(all, 'Play') && !hasTile(all, 'Mercury maze'));
+    await game.key('Escape');
+    await game.untilWidgets('Esc goes back', (all) => hasTile(all, 'Mercury maze'));
+    await game.key('Right');
+    await game.key('Return');
+    const { scene } = await game.until('Enter plays it', (now) => now.scene !== 'empty');
+    await game.untilWidgets('the gallery is closed', (all) => !isOpen(all, 'Scenes'));
+    await game.key('ctrl+z');
+    await game.until('undo brings the world back', (now) => now.scene === 'empty' && now.particles >= 100);
+    await game.key('r');
+    await game.until('an empty scene again', ({ particles }) => particles === 0);
+    await game.key('2');
+    await game.until('the tool is water again', ({ tool }) => tool === 'water');
+    return `${scene} was played`;
   });
 
   await test('a recording and the last minute can be replayed', async () => {

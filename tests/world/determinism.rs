@@ -114,24 +114,31 @@ fn the_same_inputs_give_the_same_world_and_others_another() {
 
 /// The standard scenes. Those that have a size get one at which threads share particles or air, if that is not theirs
 /// by default; the others run as they are played.
-const STANDARD: [(&str, &[(&str, &str)]); 27] = [
+const STANDARD: [(&str, &[(&str, &str)]); 35] = [
     ("acid", &[]),
     ("avalanche", &[]),
     ("burning_house", &[]),
+    ("campfire", &[]),
     ("communicating_vessels", &[("left", "6.5"), ("right", "6")]),
     ("dam_break", &[]),
     ("distillery", &[]),
     ("dune", &[]),
     ("dust_mill", &[]),
+    ("ember_rain", &[]),
     ("empty", &[("columns", "1200"), ("rows", "640")]),
     ("fireworks", &[]),
+    ("fountain", &[]),
     ("frozen_lake", &[]),
+    ("galton_board", &[]),
+    ("garden", &[]),
     ("geyser", &[]),
     ("honey_and_mercury", &[]),
+    ("honey_lamp", &[]),
     ("hourglass", &[]),
     ("hydrostatic", &[("columns", "100"), ("depth", "64")]),
     ("ice_dam", &[]),
     ("layers", &[]),
+    ("mercury_maze", &[]),
     ("oil_lamp", &[]),
     ("rest_density", &[]),
     ("sand_castle", &[]),
@@ -142,6 +149,7 @@ const STANDARD: [(&str, &[(&str, &str)]); 27] = [
     ("volcano", &[]),
     ("waterfall", &[]),
     ("wind_tunnel", &[]),
+    ("winter", &[]),
 ];
 
 /// Hash of a standard scene after 600 ticks, and whether threads had anything to share in it. `empty` is built in: water

@@ -5,7 +5,7 @@ use crate::{
         actions::Action,
         hud::{
             layout::Bars,
-            panels::scenes,
+            panels::scenes::panel as scenes,
             stats::{Reading, Readings, as_text, show_reading},
             style,
             widgets::{action_button, hold_button, icon_button, menu, quality_menu, quality_name, row},

@@ -8,7 +8,7 @@ use crate::{
         history::History,
         hud::{
             layout::Bars,
-            panels::{elements, scenes::SceneMenu},
+            panels::{elements, scenes::panel as scenes},
             stats::{Reading, Readings},
             style::{self, weak},
             temperature,
@@ -24,7 +24,6 @@ use crate::{
         views::table::{Shown, VIEWS},
     },
     kernel::params::Preset,
-    scene::SceneFile,
     sim::{pace::Pace, state::Setup},
 };
 use bevy::{
@@ -59,8 +58,6 @@ pub enum Sheet {
     Closed,
     /// All elements and tools.
     Elements,
-    /// The scenes.
-    Scenes,
     /// The views.
     Views,
     /// The qualities.
@@ -78,7 +75,6 @@ pub struct Scene<'w> {
     history: Res<'w, History>,
     readings: Res<'w, Readings>,
     shown: Res<'w, Shown>,
-    menu: Res<'w, SceneMenu>,
 }
 
 /// Run condition: the player uses fingers.
@@ -125,7 +121,7 @@ pub fn show(
                 ui.horizontal_wrapped(|ui| {
                     act(ui, unit, pace, history, &mut orders);
                     size(ui, unit, &mut tools, &mut orders);
-                    menus(ui, unit, &mut sheet);
+                    menus(ui, unit, panels, &mut sheet, &mut orders);
                 });
             });
         });
@@ -228,10 +224,14 @@ fn size(ui: &mut Ui, unit: f32, tools: &mut ResMut<Toolbox>, orders: &mut Orders
     temperature::show(ui, vec2(1.75 * TARGET, TARGET) * unit, tools);
 }
 
-fn menus(ui: &mut Ui, unit: f32, sheet: &mut Sheet) {
+fn menus(ui: &mut Ui, unit: f32, panels: &Panels, sheet: &mut Sheet, orders: &mut Orders) {
+    let gallery = scenes::PANEL;
+    if button(ui, unit, ("Scenes", gallery.icon), panels.shows(gallery.id), true) {
+        orders.push(Order::Act(Action::Panel(gallery.id)));
+        *sheet = Sheet::Closed;
+    }
     for (name, icon, own) in [
-        ("Scenes", icons::scenes as Icon, Sheet::Scenes),
-        ("Views", icons::eye, Sheet::Views),
+        ("Views", icons::eye as Icon, Sheet::Views),
         ("Qualities", icons::gauge, Sheet::Qualities),
         ("More", icons::gear, Sheet::More),
     ] {
@@ -246,13 +246,6 @@ fn lines<'a>(sheet: Sheet, scene: &'a Scene) -> Vec<(&'a str, bool, Order)> {
     match sheet {
         // Elements are no lines.
         Sheet::Closed | Sheet::Elements => Vec::new(),
-        Sheet::Scenes => {
-            let line = |file: &'a SceneFile| {
-                let order = Order::Scene { name: file.name().to_owned(), settings: Vec::new(), detail: 1.0 };
-                (file.title(), file.name() == scene.setup.blueprint.name, order)
-            };
-            scene.menu.scenes().iter().map(line).collect()
-        }
         Sheet::Views => {
             VIEWS.into_iter().map(|view| (view.name, view == scene.shown.0, Order::Act(Action::View(view)))).collect()
         }

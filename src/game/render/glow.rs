@@ -4,21 +4,10 @@
 use crate::{
     game::render::body::CELL,
     kernel::{element::ElementId, heat::table::HeatTable, particles::Particles, solids::Solids},
+    lab::colours::incandescence,
 };
 use glam::Vec2;
 
-/// Below this nothing glows, K: the Draper point is 798 K.
-const DULL: f32 = 780.0;
-/// Colours of glowing matter by its temperature (K), after the locus of black bodies; brightness is compressed for the screen.
-const GLOW: [(f32, [f32; 3]); 7] = [
-    (DULL, [0.0, 0.0, 0.0]),
-    (900.0, [0.28, 0.03, 0.0]),
-    (1100.0, [0.68, 0.13, 0.02]),
-    (1350.0, [0.98, 0.34, 0.05]),
-    (1700.0, [1.0, 0.62, 0.18]),
-    (2200.0, [1.0, 0.84, 0.48]),
-    (3200.0, [1.0, 0.96, 0.86]),
-];
 /// Particles that a full cell holds.
 const FULL: f32 = CELL * CELL;
 /// Cells of the map of glow along one of light.
@@ -29,15 +18,6 @@ const REACH: usize = 3;
 const PASSES: usize = 3;
 /// Light of a large area that glows white.
 const GAIN: f32 = 5.0;
-
-/// Colour that matter of a temperature glows in, each channel 0 … 1.
-pub fn incandescence(kelvin: f32) -> [f32; 3] {
-    let Some(k) = GLOW.iter().rposition(|(from, _)| kelvin >= *from) else { return [0.0; 3] };
-    let (from, low) = GLOW[k];
-    let Some((to, high)) = GLOW.get(k + 1) else { return low };
-    let t = (kelvin - from) / (to - from);
-    std::array::from_fn(|c| low[c] + (high[c] - low[c]) * t)
-}
 
 /// Temperatures of a world's matter.
 #[derive(Clone, Copy)]

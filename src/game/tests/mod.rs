@@ -48,6 +48,8 @@ mod draw;
 #[cfg(not(target_arch = "wasm32"))]
 mod full_disk;
 mod gauntlet;
+#[cfg(not(target_arch = "wasm32"))]
+mod hints;
 mod keys;
 mod opening;
 mod past;

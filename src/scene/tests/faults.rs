@@ -45,6 +45,10 @@ fn malformed_text_says_line_and_column() {
     check("effects: {air: maybe}", "one of `auto`, `on`, or `off`");
     check("effects: {gravity: on}", "`vorticity`");
     check("quality: (preset: best)", "`reference`");
+    check("category: watery", "Unexpected variant named `watery`");
+    check("category: watery", "`proofs`");
+    check("moment: 61", "moment: 61 is out of range; allowed: 0 to 60");
+    check(&format!("invitation: \"{}\"", "x".repeat(61)), "invitation: allowed: at most 60 characters");
     check("quality: (sub_steps: 3)", "`substeps`");
     assert!(error(&"(".repeat(100_000)).starts_with("test.ron:1:"));
     assert!(error(&scene(&format!("contents: {}", "[".repeat(100_000)))).starts_with("test.ron:2:"));

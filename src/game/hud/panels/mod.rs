@@ -23,6 +23,6 @@ pub fn plugin(app: &mut App) {
     Panels::add(app, settings::PANEL, settings::show);
     app.add_plugins((cases::window::plugin::<ExamCase>, cases::window::plugin::<GauntletCase>));
     Panels::add(app, details::PANEL, details::show);
-    app.add_plugins((accuracy::panel::plugin, stamps::plugin, saves::plugin, scenes::plugin));
+    app.add_plugins((accuracy::panel::plugin, stamps::plugin, saves::plugin, scenes::panel::plugin));
     Panels::add(app, elements::PANEL, elements::show);
 }

@@ -2,6 +2,7 @@
 
 use crate::game::{
     actions::PanelId,
+    hints::Hints,
     hud::{
         layout::{CHOICES, UiScale},
         style::weak,
@@ -28,7 +29,12 @@ pub const PANEL: Panel = Panel {
 };
 
 /// Shows the settings.
-pub fn show(mut window: PanelWindow, mut scale: ResMut<UiScale>, mut level: ResMut<PictureLevel>) -> Result {
+pub fn show(
+    mut window: PanelWindow,
+    mut scale: ResMut<UiScale>,
+    mut level: ResMut<PictureLevel>,
+    mut hints: ResMut<Hints>,
+) -> Result {
     window.show(&PANEL, MIDDLE, |ui| {
         ui.label(weak("Size of the HUD"));
         ui.horizontal(|ui| {
@@ -49,5 +55,10 @@ pub fn show(mut window: PanelWindow, mut scale: ResMut<UiScale>, mut level: ResM
             }
         });
         ui.label(weak("Automatic draws less where frames take longer than 20 ms. The simulation is the same.").small());
+        let mut on = hints.are_on();
+        if ui.checkbox(&mut on, "Hints").changed() {
+            hints.switch(on);
+        }
+        ui.label(weak("Each is told once. Switched off and on again, all are told anew.").small());
     })
 }

@@ -1,0 +1,66 @@
+//! Search among scenes: by title, by element and by words.
+
+use super::menu::Entry;
+use crate::{
+    game::tools::spaced,
+    scene::{SceneCategory, SceneFile},
+};
+
+/// The scenes that hold every word of the text, those first in whose titles it stands.
+pub(super) fn find(entries: &[Entry], text: &str) -> Vec<usize> {
+    let words: Vec<String> = text.split_whitespace().map(str::to_lowercase).collect();
+    let of = |scene: &SceneFile| {
+        words.iter().map(|word| rank(scene, word)).try_fold(0, |worst, rank| Some(rank?.max(worst)))
+    };
+    let mut found: Vec<(u8, usize)> =
+        entries.iter().enumerate().filter_map(|(index, entry)| Some((of(&entry.scene)?, index))).collect();
+    found.sort_by_key(|(rank, _)| *rank);
+    found.into_iter().map(|(_, index)| index).collect()
+}
+
+/// How well a word fits a scene, 0 best; nothing if it does not.
+fn rank(scene: &SceneFile, word: &str) -> Option<u8> {
+    let title = scene.title().to_lowercase();
+    let begins = |text: &str| {
+        text.split(|letter: char| !letter.is_alphanumeric()).any(|other| other.to_lowercase().starts_with(word))
+    };
+    match title.find(word) {
+        Some(0) => Some(0),
+        Some(_) => Some(1),
+        None if scene.elements().into_iter().any(|element| begins(&spaced(element))) => Some(2),
+        None => {
+            let category = scene.category().map_or("", SceneCategory::title);
+            [scene.invitation(), scene.description(), category].into_iter().any(begins).then_some(3)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::menu::SceneMenu;
+    use super::*;
+
+    fn names(text: &str) -> Vec<String> {
+        let menu = SceneMenu::of_game();
+        find(&menu.entries, text).into_iter().map(|index| menu.entries[index].call.clone()).collect()
+    }
+
+    #[test]
+    fn a_scene_is_found_by_its_title_its_elements_and_words_about_it() {
+        assert_eq!(names("").len(), SceneMenu::of_game().entries.len());
+        assert_eq!(names("WATERF"), ["waterfall"]);
+        assert_eq!(names("hour")[0], "hourglass");
+        assert!(names("mercury").contains(&"layers".to_owned()), "it is poured there");
+        assert_eq!(names("mercury")[0], "mercury_maze", "a title comes first");
+        assert!(names("village").contains(&"avalanche".to_owned()) || names("huts").contains(&"avalanche".to_owned()));
+        assert!(names("heat").contains(&"volcano".to_owned()), "by its category");
+        assert_eq!(names("xyzzy"), [""; 0]);
+    }
+
+    #[test]
+    fn every_word_has_to_fit() {
+        assert_eq!(names("oil lamp"), ["oil_lamp"]);
+        assert!(names("snow wind").contains(&"snow_globe".to_owned()));
+        assert_eq!(names("snow xyzzy"), [""; 0]);
+    }
+}
