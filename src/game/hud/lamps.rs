@@ -223,6 +223,6 @@ mod tests {
         assert_eq!(lamps.lit().count(), 0);
         lamps.lamps[0].works = true;
         lamps.fade(0.1);
-        assert!(lamps.lamps[0].news > 0.9 && lamps.lamps[1].news == 0.0, "that it works again is news");
+        assert!(lamps.lamps[0].news > 0.9, "that it works again is news");
     }
 }

@@ -243,6 +243,8 @@ mod tests {
     fn what_was_open_is_forgotten_when_it_closes() {
         let mut app = App::new();
         plugin(&mut app);
+        // It reads the scenes.
+        app.update();
         app.world_mut().resource_mut::<Panels>().toggle(PANEL.id);
         app.world_mut().resource_mut::<SceneMenu>().is_open = true;
         app.world_mut().resource_mut::<SceneMenu>().text = "oil".to_owned();
