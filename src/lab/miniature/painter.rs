@@ -16,7 +16,7 @@ use crate::{
     scene::blueprint::Blueprint,
     sim::state::{AirGrid, HeatCurves, ParticleStore, Rock, Setup},
 };
-use bevy::ecs::world::World;
+use bevy::{ecs::world::World, math::ops};
 use glam::Vec2;
 
 /// How far a particle of a liquid or a heap reaches, d.
@@ -86,7 +86,7 @@ impl Painter {
 
     fn light_up(&mut self, place: Vec2, glow: [f32; 3]) {
         if glow[0] > 0.0 {
-            let area = GAIN * self.frame.pixels().powi(2) / 64.0;
+            let area = GAIN * self.frame.pixels() * self.frame.pixels() / 64.0;
             self.shine.add(self.frame.pixel(place), glow.map(|light| area * light));
         }
     }
@@ -159,7 +159,7 @@ impl Painter {
         }
         let (weight, cloud) = self.clouds.at(pixel);
         if weight > 0.0 {
-            lay(&mut seen, cloud, 0.85 * (1.0 - (-1.4 * weight).exp()));
+            lay(&mut seen, cloud, 0.85 * (1.0 - ops::exp(-1.4 * weight)));
         }
         let (weight, body) = self.bodies.at(pixel);
         if weight > OUTLINE[0] {

@@ -134,7 +134,7 @@ impl Pictures {
             match told {
                 // What has its picture keeps it until it moves.
                 Progress::Picture(picture) if !self.done.contains(&run_up.call) => {
-                    self.show(screen, &run_up.call, &picture)
+                    self.show(screen, &run_up.call, &picture);
                 }
                 Progress::Picture(_) => {}
                 Progress::Ready(miniature, picture) => {
