@@ -118,15 +118,18 @@ export async function still(page) {
 export const follow = (page, link) => page.evaluate((link) => { location.hash = link; }, link);
 
 // What the browser keeps: a list of { path, bytes }.
-export const files = (page) => page.evaluate(() => new Promise((done) => {
+// The files that the browser keeps whose names end so: saved worlds, unless it is said otherwise.
+export const files = (page, ending = '.pms') => page.evaluate((ending) => new Promise((done) => {
   const opening = indexedDB.open('powder-master');
   opening.onsuccess = () => {
     const asked = opening.result.transaction('files').objectStore('files').getAll();
-    asked.onsuccess = () => done(asked.result.map(({ path, bytes }) => ({ path, bytes: bytes.length })));
+    const named = () => asked.result.filter(({ path }) => path.endsWith(ending));
+    asked.onsuccess = () => done(named().map(({ path, bytes }) => ({ path, bytes: bytes.length })));
   };
-}));
+}), ending);
 
-export const untilKept = (page, count) => poll(`${count} files that the browser keeps`, () => files(page), ({ length }) => length >= count);
+export const untilKept = (page, count, ending) => poll(
+  `${count} files that the browser keeps`, () => files(page, ending), ({ length }) => length >= count);
 
 // Holds the left button on a way that takes a moment, as a hand does it, however slow the frames are: the speed counts.
 export async function flick(page, from, to) {
