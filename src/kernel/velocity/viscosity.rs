@@ -70,7 +70,7 @@ pub fn apply_viscosity(
     for _ in 0..passes as u32 {
         let read = &*particles;
         bins::split(bins.groups(), [&mut next_x[..], &mut next_y[..]], threads, &|groups, base, out| {
-            let pass = ViscosityPass::<false> {
+            let pass = ViscosityPass::<false, false> {
                 smoothing,
                 particles: read,
                 density,
@@ -83,9 +83,11 @@ pub fn apply_viscosity(
                 base,
                 out,
             };
-            match masses.is_empty() {
-                true => instructions.run(pass),
-                false => instructions.run(pass.between_masses()),
+            match (masses.is_empty(), sticks) {
+                (true, false) => instructions.run(pass),
+                (true, true) => instructions.run(pass.with::<false, true>()),
+                (false, false) => instructions.run(pass.with::<true, false>()),
+                (false, true) => instructions.run(pass.with::<true, true>()),
             }
         });
         std::mem::swap(&mut particles.vx, next_x);
@@ -158,7 +160,8 @@ impl Walls<'_> {
     }
 }
 
-struct ViscosityPass<'a, const MASSES: bool> {
+/// A pass over groups: where masses differ, and where something sticks to walls (`walls` are read).
+struct ViscosityPass<'a, const MASSES: bool, const STICKS: bool> {
     smoothing: &'a Smoothing,
     particles: &'a Particles,
     density: &'a [f32],
@@ -177,15 +180,15 @@ struct ViscosityPass<'a, const MASSES: bool> {
     out: [&'a mut [f32]; 2],
 }
 
-impl<'a> ViscosityPass<'a, false> {
-    /// The same where masses differ.
-    fn between_masses(self) -> ViscosityPass<'a, true> {
+impl<'a> ViscosityPass<'a, false, false> {
+    /// The same for other matter.
+    fn with<const MASSES: bool, const STICKS: bool>(self) -> ViscosityPass<'a, MASSES, STICKS> {
         let Self { smoothing, particles, density, masses, coefficients, walls, most, part, groups, base, out } = self;
         ViscosityPass { smoothing, particles, density, masses, coefficients, walls, most, part, groups, base, out }
     }
 }
 
-impl<const MASSES: bool> Pass for ViscosityPass<'_, MASSES> {
+impl<const MASSES: bool, const STICKS: bool> Pass for ViscosityPass<'_, MASSES, STICKS> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let zero = L::splat(0.0);
@@ -198,7 +201,8 @@ impl<const MASSES: bool> Pass for ViscosityPass<'_, MASSES> {
             let scale = self.smoothing.density_scale * self.part;
             let elements = &self.particles.element[own.clone()];
             let share = share_of(self.coefficients, self.most, elements, scale);
-            let held = self.walls.map(|walls| walls.densities::<L>(elements, &self.density[own.clone()]));
+            let walls = self.walls.filter(|_| STICKS);
+            let held = walls.map(|walls| walls.densities::<L>(elements, &self.density[own.clone()]));
             let share = L::load(&share);
             let mass_i = if MASSES { L::load(&self.masses[own.start..]) } else { zero };
             let (mut sum_x, mut sum_y) = (zero, zero);
@@ -226,7 +230,7 @@ impl<const MASSES: bool> Pass for ViscosityPass<'_, MASSES> {
             }
             let out = own.start - self.base..own.end - self.base;
             let (mut vx, mut vy) = (vxi + share * sum_x, vyi + share * sum_y);
-            if let Some(walls) = self.walls.filter(|walls| walls.hold(group, elements)) {
+            if let Some(walls) = walls.filter(|walls| walls.hold(group, elements)) {
                 let kept = walls.kept::<L>(self.particles, group, (self.most, self.part));
                 (vx, vy) = (vx * kept, vy * kept);
             }
