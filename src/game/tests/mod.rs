@@ -139,6 +139,16 @@ impl Player {
         self.button(MouseButton::Left, ButtonState::Released);
     }
 
+    /// Pours some of what is chosen in the middle of the world, and lets it stand.
+    fn pour_and_stop(&mut self) {
+        self.point_at(self.middle());
+        self.press();
+        self.frames(3);
+        self.release();
+        self.frames(2);
+        self.chord(&[KeyCode::Space]);
+    }
+
     /// Moves the pointer to a place in the world, d.
     fn point_at(&mut self, at: Vec2) {
         let position = self.world().resource::<WorldCamera>().to_pixel(at);

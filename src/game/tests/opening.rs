@@ -11,12 +11,7 @@ use std::path::{Path, PathBuf};
 /// A player in a world that stands, with water in it.
 fn painter() -> Player {
     let mut player = Player::new();
-    player.point_at(player.middle());
-    player.press();
-    player.frames(3);
-    player.release();
-    player.frames(2);
-    player.chord(&[KeyCode::Space]);
+    player.pour_and_stop();
     player
 }
 

@@ -16,12 +16,7 @@ fn folder(name: &str) -> PathBuf {
 fn painter(folder: &std::path::Path) -> Player {
     let mut player = Player::new();
     player.0.insert_resource(SaveFolders(vec![folder.to_owned()]));
-    player.point_at(player.middle());
-    player.press();
-    player.frames(3);
-    player.release();
-    player.frames(2);
-    player.chord(&[KeyCode::Space]);
+    player.pour_and_stop();
     player
 }
 
