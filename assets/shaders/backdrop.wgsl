@@ -28,3 +28,11 @@ fn backdrop_fragment(in: Screen) -> @location(0) vec4<f32> {
 fn enlarged_fragment(in: Screen) -> @location(0) vec4<f32> {
     return textureSampleLevel(sheet_texture, linear_sampler, in.uv, 0.0);
 }
+
+// ---- a picture on its sheet, inside a ring
+
+@fragment
+fn lens_fragment(in: Screen) -> @location(0) vec4<f32> {
+    let beyond = distance(in.uv * world.size.zw, world.lens.xy) - world.lens.z;
+    return vec4<f32>(textureSampleLevel(sheet_texture, linear_sampler, in.uv, 0.0).rgb, clamp(0.5 - beyond, 0.0, 1.0));
+}

@@ -19,6 +19,8 @@ struct World {
     parts: vec4<f32>,
     // 1 if the picture is drawn with all it has, 0 if it is plain; 1 if anything glows; unused; unused.
     levels: vec4<f32>,
+    // Of the ring of a lens: its middle and radius, pixels; unused.
+    lens: vec4<f32>,
     surroundings: vec4<f32>,
     box_top: vec4<f32>,
     box_bottom: vec4<f32>,

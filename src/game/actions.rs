@@ -69,6 +69,8 @@ pub enum Action {
     KeepLastMinute,
     /// Puts the world beside itself at another quality, or ends that.
     Split,
+    /// Takes up the truth lens, or lays it down; by its key as long as that is held.
+    Lens,
     /// Switches the sound off, and on again.
     Mute,
     /// Full screen and back.

@@ -14,6 +14,7 @@ use crate::{
             bindings::Bindings,
             pointer::{HudCover, Pointer, ZOOM_STEP},
         },
+        lens::{self, Lens},
         lump::Lump,
         opening,
         orders::{Order, Orders},
@@ -150,6 +151,7 @@ fn act(world: &mut World, action: Action) {
         Action::Sample => sample(world),
         Action::Tool(tool) => take_up(world, tool),
         Action::Element(digit) => use_digit(world, digit),
+        Action::Brush(steps) if world.resource::<Lens>().is_on() => world.resource_mut::<Lens>().grow(steps),
         Action::Brush(steps) => world.resource_mut::<Toolbox>().grow(steps),
         Action::BrushShape => world.resource_mut::<Toolbox>().turn_shape(),
         Action::BrushMode(mode) => {
@@ -193,6 +195,7 @@ fn act(world: &mut World, action: Action) {
             }
         }
         Action::Split => split::toggle(world),
+        Action::Lens => lens::toggle(world),
         Action::Mute => world.resource_mut::<Volume>().toggle(),
         Action::FullScreen => screen::toggle_full_screen(world),
         Action::Screenshot => screen::take_screenshot(world),

@@ -364,6 +364,12 @@ pub fn split(pen: &Pen<'_>) {
     pen.bar(0.5, 0.18, 0.4, 0.64);
 }
 
+/// A magnifying glass.
+pub fn lens(pen: &Pen<'_>) {
+    pen.line(&pen.arc(0.42, 0.42, 0.29, 0.0, 1.0), 0.1);
+    pen.line(&[(0.64, 0.64), (0.9, 0.9)], 0.13);
+}
+
 /// Help.
 pub fn question(pen: &Pen<'_>) {
     let mut hook = pen.arc(0.5, 0.34, 0.19, -0.5, 0.14);

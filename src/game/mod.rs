@@ -30,6 +30,7 @@ pub mod hud;
 pub mod icons;
 pub mod input;
 pub mod kept;
+pub mod lens;
 pub mod lump;
 pub mod opening;
 pub mod orders;

@@ -2,7 +2,7 @@
 
 use crate::{
     game::{
-        camera, drop, execute, favourites, follow, frame, hints, history, hud, input, orders, panels, playback,
+        camera, drop, execute, favourites, follow, frame, hints, history, hud, input, lens, orders, panels, playback,
         recording, rewind, saves, sound, split, stamps, toasts, toolbox, views,
     },
     kernel::units::TICKS_PER_SECOND,
@@ -43,6 +43,7 @@ impl Plugin for GamePlugin {
             .init_resource::<follow::Followed>()
             .init_resource::<history::History>()
             .init_resource::<rewind::Rewind>()
+            .init_resource::<lens::Lens>()
             .init_resource::<saves::SaveFolders>()
             .init_resource::<favourites::Favourites>()
             .init_resource::<stamps::hand::Hand>()
@@ -76,6 +77,7 @@ impl Plugin for GamePlugin {
                     drop::read_drops,
                     execute::carry_out,
                     rewind::run,
+                    lens::run.run_if(lens::is_on),
                     split::watch,
                     frame::set_pace,
                 )

@@ -8,10 +8,7 @@ use crate::{
     game::{
         actions::Action,
         history,
-        input::{
-            bindings::{Bindings, Trigger},
-            strokes::DragState,
-        },
+        input::{keys, strokes::DragState},
         orders::Order,
         toasts::Toasts,
     },
@@ -123,11 +120,8 @@ pub fn run(world: &mut World) {
 }
 
 fn is_held(world: &World) -> bool {
-    let Some(keys) = world.get_resource::<ButtonInput<KeyCode>>() else { return false };
-    world.resource::<Bindings>().iter().any(|binding| match binding.trigger {
-        Trigger::Key(key) => binding.action == Action::Rewind && keys.pressed(key),
-        _ => false,
-    })
+    let keys = world.get_resource::<ButtonInput<KeyCode>>();
+    keys.is_some_and(|keys| keys::is_held(Action::Rewind, keys, world.resource()))
 }
 
 /// Goes on from what is shown, if the past is looked at.

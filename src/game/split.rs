@@ -4,6 +4,7 @@ use crate::{
     game::{
         camera::Area,
         hud::panels::accuracy::panel::{AccuracyPanel, PANEL},
+        lens::{self, Lens},
         panels::Panels,
         toasts::Toasts,
     },
@@ -28,7 +29,8 @@ const GAP: f32 = 4.0;
 
 /// Puts a second world beside the one that is played, or lets it go: then the first goes on alone.
 pub fn toggle(world: &mut World) {
-    if world.resource::<Split>().is_on() {
+    // A second world that is seen through the lens gives way to one that is seen whole.
+    if !lens::lay_down(world) && world.resource::<Split>().is_on() {
         world.resource_mut::<Split>().end();
         return;
     }
@@ -57,7 +59,7 @@ fn begin(world: &mut World, preset: Preset, told: &str) {
 pub fn watch(
     (panels, accuracy): (Res<Panels>, Res<AccuracyPanel>),
     autopilot: Res<Autopilot>,
-    split: Res<Split>,
+    (split, lens): (Res<Split>, Res<Lens>),
     mut watched: ResMut<Watched>,
     mut error: ResMut<LiveError>,
     mut measures: ResMut<Measures>,
@@ -66,7 +68,7 @@ pub fn watch(
     if measures.wanted() != wanted {
         measures.want(wanted);
     }
-    let looks = panels.shows(PANEL.id) || autopilot.goal().is_some() || split.is_on();
+    let looks = panels.shows(PANEL.id) || autopilot.goal().is_some() || split.is_on() && !lens.is_on();
     if watched.0 != looks {
         watched.0 = looks;
         // What was measured before somebody looked away is of another time.

@@ -103,6 +103,17 @@ fn mean_wind(air: &Air, edge: f32, cell: Vec2) -> Vec2 {
     winds.map(|part| air.sample_velocity((cell + part) * edge)).sum::<Vec2>() / (points * points)
 }
 
+/// What there is of a difference in a part of the box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Part {
+    /// Of the liquid, as [`Difference::liquid`].
+    pub liquid: Option<f32>,
+    /// Of the air, as [`Difference::wind`], d/s.
+    pub wind: Option<f32>,
+    /// How hot it is, 0 (none) … 1 (the end of the scale): of the liquid, and where neither world has any, of the air.
+    pub heat: f32,
+}
+
 /// The difference between two worlds.
 #[derive(Clone, Debug, Default)]
 pub struct Difference {
@@ -168,18 +179,42 @@ impl Difference {
 
     /// That of the liquid: mean over the cells in which either world has some, 0 … 1; `None` if neither has any.
     pub fn liquid(&self) -> Option<f32> {
+        self.liquid_of(0..self.liquid.len())
+    }
+
+    fn liquid_of(&self, cells: impl Iterator<Item = usize>) -> Option<f32> {
         let [a, b] = &self.fields;
-        let wet = (0..self.liquid.len()).filter(|&cell| a.share[cell] > 0.0 || b.share[cell] > 0.0);
+        let wet = cells.filter(|&cell| a.share[cell] > 0.0 || b.share[cell] > 0.0);
         let (sum, count) = wet.fold((0.0, 0), |(sum, count), cell| (sum + self.liquid[cell], count + 1));
         (count > 0).then(|| sum / count as f32)
     }
 
     /// That of the air: root mean square of the difference of its velocities over the box, d/s; `None` if neither moves.
     pub fn wind(&self) -> Option<f32> {
+        self.wind_of(0..self.liquid.len())
+    }
+
+    fn wind_of(&self, cells: impl ExactSizeIterator<Item = usize>) -> Option<f32> {
         let [a, b] = &self.fields;
-        let moves = a.wind.iter().chain(&b.wind).any(|wind| *wind != Vec2::ZERO);
-        let squares = || a.wind.iter().zip(&b.wind).map(|(a, b)| a.distance_squared(*b)).sum::<f32>();
-        moves.then(|| (squares() / a.wind.len() as f32).sqrt())
+        let count = cells.len();
+        let (moves, squares) = cells.fold((false, 0.0), |(moves, sum), cell| {
+            let (a, b) = (a.wind[cell], b.wind[cell]);
+            (moves || a != Vec2::ZERO || b != Vec2::ZERO, sum + a.distance_squared(b))
+        });
+        moves.then(|| (squares / count as f32).sqrt())
+    }
+
+    /// What there is of it in a disc, d of the first world.
+    pub fn within(&self, centre: Vec2, radius: f32) -> Part {
+        let touches = |cell: usize| {
+            let min = self.edge * Vec2::new((cell % self.columns) as f32, (cell / self.columns) as f32);
+            centre.clamp(min, min + self.edge).distance(centre) <= radius
+        };
+        let cells: Vec<usize> = (0..self.liquid.len()).filter(|&cell| touches(cell)).collect();
+        let liquid = self.liquid_of(cells.iter().copied());
+        let mean = |sum: f32| if cells.is_empty() { 0.0 } else { sum / cells.len() as f32 };
+        let heat = liquid.unwrap_or_else(|| mean(cells.iter().map(|&cell| self.heat[cell]).sum()));
+        Part { liquid, wind: self.wind_of(cells.into_iter()), heat }
     }
 
     /// Colours of the cells, premultiplied by their opacity, row by row from the bottom: nothing is transparent.

@@ -3,6 +3,7 @@
 use crate::{
     game::{
         camera::{Area, WorldCamera},
+        lens::Lens,
         panels::Panels,
         split,
     },
@@ -71,7 +72,7 @@ pub fn scale_to_window(
 pub fn place_world(
     mut contexts: EguiContexts,
     bars: Res<Bars>,
-    split: Res<Split>,
+    (split, lens): (Res<Split>, Res<Lens>),
     panels: Res<Panels>,
     windows: Query<&Window, With<PrimaryWindow>>,
     mut camera: ResMut<WorldCamera>,
@@ -80,7 +81,7 @@ pub fn place_world(
     let zoom = contexts.ctx_mut()?.zoom_factor();
     let size = window.resolution.size();
     let free = Area { min: Vec2::new(0.0, bars.top * zoom), max: Vec2::new(size.x, size.y - bars.bottom * zoom) };
-    let (first, others) = match split.is_on() {
+    let (first, others) = match split.is_on() && !lens.is_on() {
         true => {
             let [first, second, third] = split::areas(free, camera.world(), if panels.visible { zoom } else { 0.0 });
             (first, Some([second, third]))

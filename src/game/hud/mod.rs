@@ -11,6 +11,7 @@ mod fates;
 pub mod focus;
 pub mod lamps;
 pub mod layout;
+pub mod lens;
 pub mod palette;
 pub mod panels;
 pub mod probe;
@@ -66,6 +67,7 @@ impl Plugin for HudPlugin {
                         stamps::strip::show,
                         probe::show,
                         split::show,
+                        lens::show,
                         rewind::show,
                     )
                         .chain()

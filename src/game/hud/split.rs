@@ -128,13 +128,23 @@ fn facts(ui: &mut Ui, name: &str, setup: &Setup, ledger: &PassLedger, error: &Li
 /// How far the worlds are apart, in words, if their qualities are `equal` or not, `age` ticks after they were the same.
 fn apart(difference: &Difference, equal: bool, scale: Scale, age: Option<u64>) -> String {
     if difference.is_nothing() {
-        return if equal { "none, the qualities are equal".to_owned() } else { "none".to_owned() };
+        return nothing(equal).to_owned();
     }
-    let liquid = difference.liquid().map(|mean| format!("liquid {}", percent(mean)));
-    let air = difference.wind().map(|wind| format!("air {} m/s", short(scale.to_metres(wind))));
     let age = age.map(|ticks| format!("after {:.1} s", ticks as f32 * TICK_SECONDS));
-    let parts: Vec<String> = [liquid, air, age].into_iter().flatten().collect();
+    let parts: Vec<String> = amounts(difference.liquid(), difference.wind(), scale).chain(age).collect();
     parts.join(", ")
+}
+
+/// That worlds do not differ, and whether they could.
+pub(super) fn nothing(equal: bool) -> &'static str {
+    if equal { "none, the qualities are equal" } else { "none" }
+}
+
+/// A difference of liquid and of air (d/s), each with its unit.
+pub(super) fn amounts(liquid: Option<f32>, wind: Option<f32>, scale: Scale) -> impl Iterator<Item = String> {
+    let liquid = liquid.map(|mean| format!("liquid {}", percent(mean)));
+    let air = wind.map(|wind| format!("air {} m/s", short(scale.to_metres(wind))));
+    [liquid, air].into_iter().flatten()
 }
 
 /// The colours of the heat map, from a little to all.

@@ -41,10 +41,11 @@ const TARGET: f32 = 48.0;
 const TILE: Vec2 = vec2(60.0, TARGET);
 
 /// What has no button of its own, below the panels in the list.
-const MORE: [(&str, Action); 6] = [
+const MORE: [(&str, Action); 7] = [
     ("Save", Action::Save),
     ("One tick", Action::Step),
     ("Two qualities side by side", Action::Split),
+    ("Truth lens: this moment at reference", Action::Lens),
     ("Slower", Action::Speed(-1)),
     ("Faster", Action::Speed(1)),
     ("Bring the air to rest", Action::ClearAir),

@@ -191,6 +191,7 @@ const OWN: &[Binding] = {
     key(K::KeyH, NONE, A::Hud, H::Look, "hide the HUD"),
     key(K::KeyM, SHIFT, A::Mute, H::Look, "sound off, and on again"),
     key(K::KeyB, NONE, A::Split, H::Look, "A/B split: the same world at two qualities"),
+    key(K::KeyL, NONE, A::Lens, H::Look, "hold, or press once: the truth lens, this moment at reference inside a ring"),
     key(K::F11, NONE, A::FullScreen, H::Look, "full screen"),
     key(K::F2, NONE, A::Screenshot, H::Look, "screenshot that carries its world, and opens as one"),
     key(K::Escape, NONE, A::Close, H::Look, "close"),

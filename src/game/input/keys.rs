@@ -36,6 +36,14 @@ impl HudKeys {
     }
 }
 
+/// Whether a key of an action is held.
+pub fn is_held(action: Action, keys: &ButtonInput<KeyCode>, bindings: &Bindings) -> bool {
+    bindings.iter().any(|binding| match binding.trigger {
+        Trigger::Key(key) => binding.action == action && keys.pressed(key),
+        _ => false,
+    })
+}
+
 /// Moves the picture while an arrow is held.
 pub fn pan(
     keys: Res<ButtonInput<KeyCode>>,

@@ -31,13 +31,15 @@ pub enum PicturePass {
     Rock,
     /// Clouds and flames, tile by tile.
     Clouds,
+    /// The truth lens's picture, in its ring.
+    Lens,
     /// A picture of fewer pixels than the window over all of it.
     Enlarged,
 }
 
 impl PicturePass {
     /// All of them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Backdrop,
         Self::Bodies,
         Self::Gases,
@@ -47,6 +49,7 @@ impl PicturePass {
         Self::Grains,
         Self::Rock,
         Self::Clouds,
+        Self::Lens,
         Self::Enlarged,
     ];
 
@@ -62,6 +65,7 @@ impl PicturePass {
             Self::Grains => "grains",
             Self::Rock => "rock",
             Self::Clouds => "clouds",
+            Self::Lens => "lens",
             Self::Enlarged => "enlarged",
         }
     }

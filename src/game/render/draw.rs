@@ -41,23 +41,31 @@ pub fn draw(
 ) {
     let target = view.into_inner();
     let Some(ids) = pipelines.ids() else { return };
-    let panes: Vec<Pane<'_>> = pictures.shown().iter().zip(gpu.panes()).filter_map(Pane::new).collect();
+    let panes = pictures.shown().iter().zip(gpu.panes()).filter_map(Pane::new);
+    let (lenses, panes): (Vec<Pane<'_>>, Vec<Pane<'_>>) = panes.partition(|pane| pane.picture.is_lens);
     if panes.is_empty() {
         return;
     }
     cost.begin();
     let with = With { cache: &cache, ids, cost: &cost, repeat: *repeat };
-    for pane in &panes {
+    for pane in panes.iter().chain(&lenses) {
         pane.draw_fields(&mut context, with);
         pane.bake(&mut context, with);
     }
+    let group = gpu.lens().and_then(|sheet| {
+        let mut pass = into(&mut context, "lens", &sheet.view);
+        lenses.iter().for_each(|pane| pane.draw(&mut pass, with));
+        sheet.group.as_ref()
+    });
     let Some(reduced) = gpu.reduced() else {
         let mut pass = over(&mut context, target);
         panes.iter().for_each(|pane| pane.draw(&mut pass, with));
+        lenses.iter().zip(group).for_each(|(pane, group)| pane.draw_ring(&mut pass, group, with));
         return;
     };
     let mut pass = into(&mut context, "reduced", &reduced.view);
     panes.iter().for_each(|pane| pane.draw(&mut pass, with));
+    lenses.iter().zip(group).for_each(|(pane, group)| pane.draw_ring(&mut pass, group, with));
     drop(pass);
     if let Some(group) = &reduced.group {
         let mut pass = over(&mut context, target);
@@ -127,14 +135,29 @@ impl<'a> Pane<'a> {
         self.stone.baked.store(true, Ordering::Relaxed);
     }
 
+    /// Keeps what is drawn to its part; whether there is any.
+    fn confine(&self, pass: &mut TrackedRenderPass<'a>) -> bool {
+        let Some(part) = self.picture.part else { return true };
+        let size = part.size();
+        if size.min_element() > 0 {
+            pass.set_scissor_rect(part.min.x, part.min.y, size.x, size.y);
+        }
+        size.min_element() > 0
+    }
+
+    /// Draws what is on the sheet of `group` into its ring.
+    fn draw_ring(&self, pass: &mut TrackedRenderPass<'a>, group: &'a BindGroup, with: With<'a>) {
+        if self.confine(pass) {
+            self.bind(pass);
+            pass.set_bind_group(2, group, &[]);
+            with.screen(pass, PicturePass::Lens, with.ids.lens);
+        }
+    }
+
     fn draw(&self, pass: &mut TrackedRenderPass<'a>, with: With<'a>) {
         let (picture, ids) = (self.picture, with.ids);
-        if let Some(part) = picture.part {
-            let size = part.size();
-            if size.min_element() == 0 {
-                return;
-            }
-            pass.set_scissor_rect(part.min.x, part.min.y, size.x, size.y);
+        if !self.confine(pass) {
+            return;
         }
         self.bind(pass);
         with.screen(pass, PicturePass::Backdrop, ids.backdrop);

@@ -3,10 +3,11 @@
 use crate::{
     game::{
         camera::{Area, WorldCamera},
+        lens::Lens,
         render::{
             cost::RenderCost,
             level::PictureLevel,
-            picture::{Picture, Scene, Sight},
+            picture::{Picture, Scene, Sight, Within},
         },
         views::table::Shown,
     },
@@ -20,12 +21,13 @@ use bevy::{
     render::MainWorld,
     window::{PrimaryWindow, Window},
 };
+use glam::UVec2;
 
 /// Ticks after which the time of what drifts by itself begins again: an hour, so that it stays exact.
 const WRAP: u64 = 60 * 60 * 60;
 
 /// One frame's pictures, on the processor's side: the world's, and in an A/B split the second world's and the
-/// difference's.
+/// difference's, or the second world's in the ring of the truth lens.
 #[derive(Resource, Default)]
 pub struct Pictures {
     panes: [Picture; 3],
@@ -37,6 +39,12 @@ impl Pictures {
     /// The pictures of this frame.
     pub fn shown(&self) -> &[Picture] {
         &self.panes[..self.count]
+    }
+
+    /// Lets the memory go of those that are no longer shown.
+    fn let_go(&mut self) {
+        let idle = self.panes[self.count..].iter_mut().filter(|picture| picture.size != UVec2::ONE);
+        idle.for_each(|picture| *picture = Picture::default());
     }
 
     /// The same, to hand them over.
@@ -71,22 +79,33 @@ pub fn extract(main: Res<MainWorld>, mut pictures: ResMut<Pictures>, cost: Res<R
     };
     let Pictures { panes: [a, b, c], count, difference } = &mut *pictures;
     let areas: Vec<Area> = camera.panes().collect();
-    match (main.resource::<Split>().world().and_then(Scene::of), areas.as_slice()) {
-        (Some(second), &[at_a, at_b, at_c]) => {
-            a.fill(Scene { tracers: None, ..first }, sight, at_a, true);
-            // Its d may be another one.
-            let (size, factor) = (second.setup.blueprint.domain.size, second.setup.blueprint.scale.detail);
-            let mut own = *camera;
-            own.rescale(size, factor / first.setup.blueprint.scale.detail);
-            b.fill(second, Sight { camera: &own, ..sight }, at_b, true);
+    let own = |second: Scene<'_>| {
+        // Its d may be another one.
+        let (size, factor) = (second.setup.blueprint.domain.size, second.setup.blueprint.scale.detail);
+        let mut own = *camera;
+        own.rescale(size, factor / first.setup.blueprint.scale.detail);
+        own
+    };
+    let ring = main.resource::<Lens>().ring(camera);
+    match (main.resource::<Split>().world().and_then(Scene::of), areas.as_slice(), ring) {
+        (Some(second), _, Some(ring)) => {
+            // The second world has no tracers.
+            a.fill(Scene { tracers: None, ..first }, sight, camera.free(), Within::Window);
+            b.fill(second, Sight { camera: &own(second), ..sight }, camera.free(), Within::Ring(ring));
+            *count = 2;
+        }
+        (Some(second), &[at_a, at_b, at_c], None) => {
+            a.fill(Scene { tracers: None, ..first }, sight, at_a, Within::Area);
+            b.fill(second, Sight { camera: &own(second), ..sight }, at_b, Within::Area);
             difference.measure(&first.setup.blueprint, first.half(), second.half());
             c.fill_with_difference(difference, first, sight, at_c);
             *count = 3;
         }
         _ => {
-            a.fill(first, sight, camera.free(), false);
+            a.fill(first, sight, camera.free(), Within::Window);
             *count = 1;
         }
     }
+    pictures.let_go();
     RenderCost::note_time(&cost.extract, begin.elapsed());
 }

@@ -28,6 +28,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 #[derive(Resource, Default)]
 pub struct GpuPictures {
     panes: [GpuPicture; 3],
+    /// Where the picture in the ring of the lens is drawn, if there is one.
+    lens: Option<Sheet>,
     /// Where they are drawn if they have fewer pixels than the window.
     reduced: Option<Sheet>,
 }
@@ -36,6 +38,11 @@ impl GpuPictures {
     /// The pictures.
     pub fn panes(&self) -> &[GpuPicture] {
         &self.panes
+    }
+
+    /// Where the picture in the ring of the lens is drawn, if there is one.
+    pub fn lens(&self) -> Option<&Sheet> {
+        self.lens.as_ref()
     }
 
     /// Where they are drawn if they have fewer pixels than the window.
@@ -192,10 +199,16 @@ pub fn upload(
     cost: Res<RenderCost>,
 ) {
     let begin = Instant::now();
-    let GpuPictures { panes, reduced } = &mut *gpu;
-    for (picture, gpu) in pictures.shown_mut().iter_mut().zip(panes) {
+    let GpuPictures { panes, lens, reduced } = &mut *gpu;
+    let (shown, idle) = panes.split_at_mut(pictures.shown().len());
+    for (picture, gpu) in pictures.shown_mut().iter_mut().zip(shown) {
         hand_over(picture, gpu, &mut textures, &device, &queue);
     }
+    idle.iter_mut().filter(|gpu| gpu.stone.is_some()).for_each(|gpu| *gpu = GpuPicture::default());
+    let through = pictures.shown().iter().find(|picture| picture.is_lens);
+    *lens = through
+        .zip(pipelines.format())
+        .map(|(picture, format)| Sheet::fitting(lens.take(), "lens", picture.size, format, &device));
     let smaller = pictures.shown().first().filter(|picture| picture.level.resolution() < 1.0);
     *reduced = smaller
         .zip(pipelines.format())
@@ -261,10 +274,9 @@ fn hand_over(
 pub fn bind(mut gpu: ResMut<GpuPictures>, layouts: Res<Layouts>, cache: Res<PipelineCache>, device: Res<RenderDevice>) {
     let [world, textures, sheet] =
         [&layouts.world, &layouts.textures, &layouts.sheet].map(|layout| cache.get_bind_group_layout(layout));
-    if let Some(reduced) = &mut gpu.reduced {
-        reduced.bind(&sheet, &device);
-    }
-    for gpu in &mut gpu.panes {
+    let GpuPictures { panes, lens, reduced } = &mut *gpu;
+    lens.iter_mut().chain(reduced).for_each(|own| own.bind(&sheet, &device));
+    for gpu in panes {
         let (Some(uniform), Some(fields)) = (gpu.uniform.binding(), &gpu.fields) else { continue };
         let [Some(air), Some(depth), Some(rock), Some(body), Some(glow), Some(light)] =
             gpu.maps.each_ref().map(|map| map.0.as_ref().map(|(_, view)| view))

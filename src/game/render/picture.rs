@@ -3,6 +3,7 @@
 use crate::{
     game::{
         camera::{Area, WorldCamera},
+        lens::Ring,
         render::{
             air::{self, Streak},
             body::BodyMap,
@@ -61,6 +62,8 @@ pub struct Picture {
     pub level: Level,
     /// The part that it is confined to, its pixels; the whole if there is none.
     pub part: Option<URect>,
+    /// Whether it is seen in a ring over the one before it.
+    pub is_lens: bool,
     /// The shader's numbers.
     pub uniform: WorldUniform,
     /// Movable particles, in the views that colour them one by one.
@@ -111,6 +114,7 @@ impl Default for Picture {
             pixels_per_d: 1.0,
             level: Level::Full,
             part: None,
+            is_lens: false,
             uniform: WorldUniform::default(),
             particles: RawBufferVec::new(BufferUsages::VERTEX),
             matter: Matter::default(),
@@ -163,6 +167,17 @@ impl Sight<'_> {
     fn size(self) -> UVec2 {
         (self.window.resolution.physical_size().as_vec2() * self.level.resolution()).ceil().as_uvec2().max(UVec2::ONE)
     }
+}
+
+/// Where a picture ends.
+#[derive(Clone, Copy)]
+pub(super) enum Within {
+    /// At the edge of the window.
+    Window,
+    /// At that of its area.
+    Area,
+    /// At the ring of the lens.
+    Ring(Ring),
 }
 
 /// A world, and what is drawn into it.
@@ -222,8 +237,8 @@ impl<'a> Scene<'a> {
 }
 
 impl Picture {
-    /// Draws a world into `area`, and into nothing else if it is `confined`.
-    pub(super) fn fill(&mut self, scene: Scene<'_>, sight: Sight<'_>, area: Area, confined: bool) {
+    /// Draws a world so that `area` shows it.
+    pub(super) fn fill(&mut self, scene: Scene<'_>, sight: Sight<'_>, area: Area, within: Within) {
         let blueprint = &scene.setup.blueprint;
         let reference = Reference::of(&blueprint.domain, &blueprint.air);
         self.as_it_is = sight.view.shaded;
@@ -239,7 +254,7 @@ impl Picture {
         self.fill_rock(scene, sight.view);
         let air_extent = self.fill_air(scene, sight, reference);
         self.fill_streaks(scene, sight, reference);
-        self.look(scene.setup, sight, sight.view, air_extent, (area, confined));
+        self.look(scene.setup, sight, sight.view, air_extent, (area, within));
     }
 
     /// Draws how far two worlds are apart, over the rock of one of them.
@@ -258,7 +273,7 @@ impl Picture {
         self.as_it_is = false;
         difference.texels(&mut self.air.0);
         self.air.1 = UVec2::new(difference.columns() as u32, difference.rows() as u32);
-        self.look(scene.setup, sight, &PRESSURE, self.air.1.as_vec2() * difference.edge(), (area, true));
+        self.look(scene.setup, sight, &PRESSURE, self.air.1.as_vec2() * difference.edge(), (area, Within::Area));
     }
 
     /// Matter as it is, with what it takes to shade it.
@@ -400,14 +415,21 @@ impl Picture {
     }
 
     /// The shader's numbers, and the part of the window that is drawn into.
-    fn look(&mut self, setup: &Setup, sight: Sight<'_>, view: &View, air_extent: Vec2, (area, confined): (Area, bool)) {
+    fn look(&mut self, setup: &Setup, sight: Sight<'_>, view: &View, air_extent: Vec2, (area, within): (Area, Within)) {
         let scale = sight.scale();
         self.level = sight.level;
         let seen = (self.size, self.uniform.to_clip);
         self.size = sight.size();
         self.pixels_per_d = sight.camera.pixels_per_d() * scale;
         let corner = |pixel: Vec2| (pixel * scale).round().max(Vec2::ZERO).as_uvec2().min(self.size);
-        self.part = confined.then(|| URect::from_corners(corner(area.min), corner(area.max)));
+        let part = match within {
+            Within::Window => None,
+            Within::Area => Some(area),
+            Within::Ring(ring) => Some(ring.area()),
+        };
+        self.part = part.map(|part| URect::from_corners(corner(part.min), corner(part.max)));
+        let ring = if let Within::Ring(ring) = within { Some(ring) } else { None };
+        self.is_lens = ring.is_some();
         // Lines that suit a window of this height.
         let lines = (self.size.y as f32 / 900.0).max(scale).max(sight.level.resolution());
         let (to_clip, offset) = sight.camera.clip_transform(area);
@@ -426,6 +448,7 @@ impl Picture {
                 0.0,
                 0.0,
             ),
+            lens: ring.map_or(Vec4::ZERO, |ring| two(ring.centre, Vec2::new(ring.radius, 0.0)) * scale),
             surroundings: srgb(colours::SURROUNDINGS),
             box_top: srgb(colours::BOX_TOP),
             box_bottom: srgb(colours::BOX_BOTTOM),

@@ -92,6 +92,8 @@ pub struct Ids {
     pub rock: CachedRenderPipelineId,
     /// Streaks of wind.
     pub streaks: CachedRenderPipelineId,
+    /// What was drawn for the truth lens, in its ring.
+    pub lens: CachedRenderPipelineId,
     /// A picture of fewer pixels than the window over all of it.
     pub enlarged: CachedRenderPipelineId,
 }
@@ -174,7 +176,7 @@ pub fn prepare(
     let make = |vertex: &'static str, name: &'static str, instance: &[VertexFormat], format, blend| {
         // The passes that draw into the fields must not have these bound.
         let textures = (!INTO_FIELDS.contains(&name)).then(|| layouts.textures.clone());
-        let sheet = ["rock", "enlarged"].contains(&name).then(|| layouts.sheet.clone());
+        let sheet = ["rock", "lens", "enlarged"].contains(&name).then(|| layouts.sheet.clone());
         let topology =
             if instance.is_empty() { PrimitiveTopology::TriangleList } else { PrimitiveTopology::TriangleStrip };
         let buffer = VertexBufferLayout::from_vertex_formats(VertexStepMode::Instance, instance.iter().copied());
@@ -213,6 +215,7 @@ pub fn prepare(
         stone: make("tile", "stone", &tile, FIELD_FORMAT, None),
         rock: make("tile", "rock", &tile, format, Some(alpha)),
         streaks: make("streak", "streak", &[F::Float32x4, F::Unorm8x4], format, Some(alpha)),
+        lens: make("screen", "lens", &[], format, Some(alpha)),
         enlarged: make("screen", "enlarged", &[], format, None),
     };
     pipelines.0 = Some((format, ids));

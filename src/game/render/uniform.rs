@@ -15,6 +15,7 @@ pub struct WorldUniform {
     pub(super) pen: Vec4,
     pub(super) parts: Vec4,
     pub(super) levels: Vec4,
+    pub(super) lens: Vec4,
     pub(super) surroundings: Vec4,
     pub(super) box_top: Vec4,
     pub(super) box_bottom: Vec4,

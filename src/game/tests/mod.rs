@@ -51,6 +51,7 @@ mod gauntlet;
 #[cfg(not(target_arch = "wasm32"))]
 mod hints;
 mod keys;
+mod lens;
 mod opening;
 mod past;
 mod recording;

@@ -3,6 +3,7 @@
 
 use crate::{
     game::{
+        lens,
         render::{
             cost::PicturePass,
             level::Level,
@@ -13,10 +14,14 @@ use crate::{
     kernel::particles::Particles,
     lab::{
         colours::Rgb,
+        split::Split,
         vision::{KINDS, oklab},
     },
     scene::{self, effects::EffectModes},
-    sim::{checkpoint::Checkpoint, state::ParticleStore},
+    sim::{
+        checkpoint::Checkpoint,
+        state::{ParticleStore, Setup},
+    },
 };
 use glam::{UVec2, Vec2};
 use std::{env, sync::Arc};
@@ -89,6 +94,7 @@ fn the_picture_shows_what_is_there() {
     what_is_not_there_is_not_drawn(&mut seen);
     plain_and_full_have_the_same_silhouettes(&mut seen);
     rock_is_where_it_is(&mut seen);
+    the_lens_shows_the_second_world_inside_its_ring_and_nowhere_else(&mut seen);
 }
 
 fn an_empty_box_is_no_black_hole(seen: &mut Seen) {
@@ -213,5 +219,46 @@ fn rock_is_where_it_is(seen: &mut Seen) {
         ] {
             assert_eq!(is_rock(x, y), there, "{view:?}: at {x}, {y}");
         }
+    }
+}
+
+fn the_lens_shows_the_second_world_inside_its_ring_and_nowhere_else(seen: &mut Seen) {
+    let contents = r#"(element: "water", shape: Rect(min: (1, 0.5), max: (5.4, 3.5)))"#;
+    let other = |a: &Pixels, b: &Pixels| {
+        let apart = |(a, b): (&Rgb, &Rgb)| (0..3).any(|k| a[k].abs_diff(b[k]) > 6);
+        a.all().iter().zip(b.all()).map(apart).collect::<Vec<bool>>()
+    };
+    for level in [Level::Full, Level::Plain] {
+        let alone = seen.show_at(contents, level, &ELEMENTS);
+        let world = seen.picture.world_mut();
+        lens::toggle(world);
+        let Setup { preset, quality, .. } = *world.resource::<Setup>();
+        Split::begin(world, preset, quality).expect("it fits");
+        let equal = seen.picture.pixels();
+        assert_eq!(seen.drawn(PicturePass::Lens), 1);
+        let changed = other(&alone, &equal).into_iter().filter(|other| *other).count();
+        assert!(1000 * changed < alone.all().len(), "{changed} pixels show a difference of equal worlds at {level:?}");
+        let world = seen.picture.world_mut();
+        let mut split = world.resource_mut::<Split>();
+        split.world_mut().expect("it is on").resource_mut::<ParticleStore>().0 = Particles::default();
+        let ring = world.resource::<lens::Lens>().ring(world.resource()).expect("it is taken up");
+        let through = seen.picture.pixels();
+        let far =
+            |k: usize| (Vec2::new((k as u32 % SIZE.x) as f32, (k as u32 / SIZE.x) as f32) + 0.5).distance(ring.centre);
+        // A pixel of the plain picture is two wide, and is smoothed with the next.
+        let (mut inside, mut outside) = (0, 0);
+        for (k, other) in other(&equal, &through).into_iter().enumerate() {
+            inside += u32::from(!other && far(k) < ring.radius - 4.0);
+            outside += u32::from(other && far(k) > ring.radius + 4.0);
+        }
+        // The ring lies all over the water.
+        assert_eq!(
+            (inside, outside),
+            (0, 0),
+            "pixels inside that are as before, and outside that are not, at {level:?}"
+        );
+        assert!(lens::lay_down(seen.picture.world_mut()));
+        seen.picture.frame();
+        assert_eq!(seen.drawn(PicturePass::Lens), 0);
     }
 }

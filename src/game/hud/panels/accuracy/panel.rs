@@ -1,5 +1,5 @@
 //! The accuracy panel: the running world on the curve of error against time, the presets to choose on it, the survey
-//! that measures the curve here and now, the autopilot, the A/B split, what each stage takes of a tick, and on demand all
+//! that measures the curve here and now, the autopilot, the A/B split and the truth lens, what each stage takes of a tick, and on demand all
 //! else that is measured.
 
 use crate::{
@@ -14,11 +14,12 @@ use crate::{
                 plot::{Plot, Pressed},
             },
             style::{self, weak},
-            widgets::{detail_row, icon_button, main_button, quality_name},
+            widgets::{action_button, detail_row, main_button, quality_name},
             window::{PanelWindow, scroll},
         },
         icons,
         input::bindings::{Bindings, Group, NONE},
+        lens::Lens,
         orders::{Order, Orders},
         panels::{Panel, Panels},
     },
@@ -123,7 +124,7 @@ fn show(
     measured: (Res<PassLedger>, Res<LiveError>, Res<Measures>),
     survey: Res<Survey>,
     autopilot: Res<Autopilot>,
-    (split, bindings): (Res<Split>, Res<Bindings>),
+    (split, lens, bindings): (Res<Split>, Res<Lens>, Res<Bindings>),
     mut orders: ResMut<Orders>,
 ) -> Result {
     let (ledger, error, measures) = measured;
@@ -159,7 +160,8 @@ fn show(
             let size = vec2(ui.available_width(), (0.34 * screen.height()).clamp(150.0, 240.0));
             let pressed = plot.show(ui, size).or(plot.chips(ui).map(Pressed::Preset));
             orders.extend(detail_row(ui, setup.asked_detail()).map(Order::Detail));
-            measure(ui, &survey, curve, scale, (&split, &bindings), &mut orders);
+            let second = (split.is_on() && !lens.is_on(), lens.is_on());
+            measure(ui, &survey, (curve, scale), second, (&bindings, &mut orders));
             match pressed {
                 Some(Pressed::Preset(preset)) => orders.push(Order::Quality(preset)),
                 Some(Pressed::Detail(preset, detail)) => orders.push(Order::Accuracy(Step { preset, detail })),
@@ -200,19 +202,18 @@ fn headline(ui: &mut Ui, setup: &Setup, milliseconds: f32, error: &LiveError) {
     );
 }
 
-/// The survey, and the split.
+/// The survey, and a second world, whole or through the lens.
 fn measure(
     ui: &mut Ui,
     survey: &Survey,
-    curve: Option<&Curve>,
-    scale: Option<f32>,
-    (split, bindings): (&Split, &Bindings),
-    orders: &mut Orders,
+    (curve, scale): (Option<&Curve>, Option<f32>),
+    (split, lens): (bool, bool),
+    (bindings, orders): (&Bindings, &mut Orders),
 ) {
     ui.horizontal(|ui| {
         match survey.progress {
             Some(progress) => {
-                let bar = egui::ProgressBar::new(progress).desired_width(190.0).desired_height(22.0);
+                let bar = egui::ProgressBar::new(progress).desired_width(130.0).desired_height(22.0);
                 ui.add(bar.text(format!("measuring, {:.0} %", 100.0 * progress)).fill(style::ACCENT_FILL));
                 if ui.button("cancel").clicked() {
                     orders.push(Order::Survey(SurveyRequest::Cancel));
@@ -229,12 +230,8 @@ fn measure(
             }
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if icon_button(ui, (icons::split, "A/B split"), "A/B split", split.is_on())
-                .on_hover_text(bindings.tip(Action::Split))
-                .clicked()
-            {
-                orders.push(Order::Act(Action::Split));
-            }
+            action_button(ui, icons::split, "A/B split", Action::Split, split, (bindings, orders));
+            action_button(ui, icons::lens, "Lens", Action::Lens, lens, (bindings, orders));
         });
     });
     if let Some(curve) = curve {
