@@ -11,6 +11,7 @@ use crate::{
         element::ElementId,
         heat::units::{COLDEST, HOTTEST},
     },
+    lab::colours::Reference,
 };
 use bevy::prelude::Resource;
 use glam::Vec2;
@@ -120,9 +121,14 @@ impl Toolbox {
         Stroke { shape: self.shape, from, to, radius: self.reach() }
     }
 
-    /// A stroke of a drag of a velocity (d/s), where a strong wind has that of `wind`, within a share of a tick.
-    pub fn dab(&self, stroke: Stroke, velocity: Vec2, wind: f32, share: f32) -> Dab {
-        Dab { stroke, mode: self.mode, velocity, wind, kelvin: self.kelvin, share }
+    /// A stroke of a drag of a velocity (d/s), in a world where this is fast, within a share of a tick.
+    pub fn dab(&self, stroke: Stroke, velocity: Vec2, reference: Reference, share: f32) -> Dab {
+        Dab { stroke, mode: self.mode, velocity, reference, kelvin: self.kelvin, share }
+    }
+
+    /// A whole line or rectangle, which is no matter of how fast it was drawn.
+    pub fn whole(&self, stroke: Stroke) -> Dab {
+        self.dab(stroke, Vec2::ZERO, Reference { fall: 0.0, wind: 0.0 }, 1.0)
     }
 }
 

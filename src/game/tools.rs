@@ -11,6 +11,7 @@ use crate::{
         element::{Category, Element, ElementId, ElementTable},
         heat::units::ROOM,
     },
+    lab::colours::Reference,
     scene::effects::Effect,
     sim::intent::Intent,
 };
@@ -23,10 +24,13 @@ use std::fmt;
 const AIR_BRUSH: f32 = 6.0;
 /// Speed of the wind for each unit of drag speed.
 const WIND_GAIN: f32 = 2.5;
-/// Most wind that a drag makes, in units of [`Dab::wind`]: the speed of sound. Water takes off at some two units.
+/// Most wind that a drag makes, in units of [`Reference::wind`]: the speed of sound. Water takes off at some two units.
 pub(crate) const WIND_LIMIT: f32 = 5.0;
-/// A drag slower than this makes no wind, in units of [`Dab::wind`].
+/// A drag slower than this makes no wind, in units of [`Reference::wind`].
 const WIND_FLOOR: f32 = 0.02;
+/// Share of the speed of a drag that what is poured gets, at most that of a fall through the whole box. With all of it the
+/// poured would go with the brush and leave no room for more: a swing would throw one drop, not a stream.
+const THROW: f32 = 0.5;
 /// Pressure that one tick of the pressure tool adds; the surroundings' is 1.
 const PRESS_STEP: f32 = 0.4;
 
@@ -68,8 +72,9 @@ pub static WIND: ToolRow = ToolRow {
     needs: Some(Effect::Air),
     least_radius: AIR_BRUSH,
     left: |dab| {
-        let velocity = (dab.velocity * WIND_GAIN).clamp_length_max(WIND_LIMIT * dab.wind);
-        (velocity.length() > WIND_FLOOR * dab.wind).then_some(Intent::Blow { stroke: dab.stroke, velocity })
+        let strong = dab.reference.wind;
+        let velocity = (dab.velocity * WIND_GAIN).clamp_length_max(WIND_LIMIT * strong);
+        (velocity.length() > WIND_FLOOR * strong).then_some(Intent::Blow { stroke: dab.stroke, velocity })
     },
     right: |dab| Some(Intent::Erase { stroke: dab.stroke }),
     has_shapes: false,
@@ -171,8 +176,8 @@ pub struct Dab {
     pub mode: BrushMode,
     /// Smoothed velocity of the drag, d/s.
     pub velocity: Vec2,
-    /// A strong wind, d/s ([`Reference::wind`](crate::lab::colours::Reference)).
-    pub wind: f32,
+    /// What is fast in this world.
+    pub reference: Reference,
     /// The chosen temperature, K.
     pub kelvin: f32,
     /// Its share of the tick.
@@ -277,7 +282,7 @@ impl Tool {
     /// What the left button does along a piece of a drag.
     pub fn left(self, dab: &Dab) -> Option<Intent> {
         match self {
-            Self::Element(element) => Some(over(dab, element).unwrap_or(Intent::Draw { element, stroke: dab.stroke })),
+            Self::Element(element) => Some(over(dab, element).unwrap_or_else(|| pour(dab, element))),
             Self::Other(row) => (row.left)(dab),
         }
     }
@@ -310,6 +315,12 @@ impl Tool {
             BrushMode::EraseOnly => Intent::EraseAround { element, at },
         })
     }
+}
+
+/// An element poured by the hand.
+fn pour(dab: &Dab, element: ElementId) -> Intent {
+    let velocity = (dab.velocity * THROW).clamp_length_max(dab.reference.fall);
+    Intent::Pour { element, stroke: dab.stroke, velocity, share: dab.share }
 }
 
 /// What an element does to what is there, unless it is drawn into free room.

@@ -18,8 +18,8 @@ use std::sync::Arc;
 /// A change that is asked for. Lengths in d, velocities in d/s. In recordings they go by their order: new ones stand behind the others.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Intent {
-    /// Pour or place an element under the stroke. Movable elements fill free sites at their flow; fixed ones take the
-    /// place of what is there.
+    /// Pour or place an element under the stroke, at rest. Movable elements fill free sites at their flow, however far the brush
+    /// moves; fixed ones take the place of what is there.
     Draw {
         /// What.
         element: ElementId,
@@ -145,6 +145,18 @@ pub enum Intent {
         /// How it lies.
         turn: Turn,
     },
+    /// Pour or place an element under the stroke, as the hand of a player does: where the brush moves, a stream without holes.
+    /// Fixed elements take the place of what is there.
+    Pour {
+        /// What.
+        element: ElementId,
+        /// Where.
+        stroke: Stroke,
+        /// How fast it goes, d/s.
+        velocity: Vec2,
+        /// How long it is poured, of a tick.
+        share: f32,
+    },
 }
 
 /// What many share is written and read as one's own.
@@ -177,6 +189,9 @@ impl Intent {
             Self::Erase { stroke } => Self::Erase { stroke: stroke.scaled(factor) },
             Self::Blow { stroke, velocity } => {
                 Self::Blow { stroke: stroke.scaled(factor), velocity: velocity * factor }
+            }
+            Self::Pour { element, stroke, velocity, share } => {
+                Self::Pour { element, stroke: stroke.scaled(factor), velocity: velocity * factor, share }
             }
             Self::Press { stroke, amount } => Self::Press { stroke: stroke.scaled(factor), amount },
             Self::Warm { stroke, degrees } => Self::Warm { stroke: stroke.scaled(factor), degrees },

@@ -26,6 +26,9 @@ use bevy_egui::{
 /// Half the width of the mark beside the ring, points.
 const MARK: f32 = 9.0;
 
+/// How much of its colour fills the ring: while it waits, and while a button is held.
+const FILL: [f32; 2] = [0.1, 0.3];
+
 /// Shows the brush.
 pub fn show(
     mut contexts: EguiContexts,
@@ -65,6 +68,15 @@ pub fn show(
     let pen = Stroke::new(1.25, tools.tool.pen(setup.elements()));
     let shadow = Stroke::new(pen.width + 1.6, Color32::from_black_alpha(120));
     let painter = context.layer_painter(egui::LayerId::background());
+    if straight.is_none() {
+        let fill = pen.color.gamma_multiply(FILL[usize::from(drag.current().is_some())]);
+        painter.add(match tools.shape {
+            BrushShape::Disc => Shape::circle_filled(at(pixel), radius, fill),
+            BrushShape::Square | BrushShape::Rectangle => {
+                Shape::rect_filled(Rect::from_center_size(at(pixel), Vec2::splat(2.0 * radius)), 0.0, fill)
+            }
+        });
+    }
     [shadow, pen].into_iter().for_each(|pen| painter.extend(shapes(pen)));
     if tools.mode() != BrushMode::Draw {
         mark(&painter, at(pixel), radius, tools.mode(), pen.color);

@@ -170,9 +170,7 @@ impl PointerInput<'_> {
             Gesture::Rectangle => Some(Stroke::rectangle(drag.start, drag.now)),
             _ => None,
         };
-        // A whole shape is no matter of how fast it was drawn.
-        let dab = stroke.map(|stroke| tools.dab(stroke, Vec2::ZERO, 0.0, 1.0));
-        if let Some(intent) = dab.and_then(|dab| tools.tool.shape(&dab)) {
+        if let Some(intent) = stroke.and_then(|stroke| tools.tool.shape(&tools.whole(stroke))) {
             self.intents.push(intent);
         }
         match drag.gesture {

@@ -142,7 +142,7 @@ pub fn make_intents(
 ) {
     let (Some(drag), Some(setup)) = (&mut state.0, setup) else { return };
     let tools = tools.with(drag.tool);
-    let wind = Reference::of(&setup.blueprint.domain, &setup.blueprint.air).wind;
+    let reference = Reference::of(&setup.blueprint.domain, &setup.blueprint.air);
     if tools.tool.is_freehand() {
         thicken(&mut drag.way, 0.5 * tools.reach());
     }
@@ -152,7 +152,7 @@ pub fn make_intents(
     };
     for k in 0..strokes {
         let (from, to) = (drag.way[k], drag.way[(k + 1).min(drag.way.len() - 1)]);
-        let dab = tools.dab(tools.stroke(from, to), drag.velocity, wind, 1.0 / strokes as f32);
+        let dab = tools.dab(tools.stroke(from, to), drag.velocity, reference, 1.0 / strokes as f32);
         let intent = match drag.gesture {
             Gesture::Use => drag.tool.left(&dab),
             Gesture::Erase => drag.tool.right(&dab),

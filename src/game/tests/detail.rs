@@ -110,7 +110,7 @@ fn picture_brush_and_drag_stay_in_their_place() {
     // The button is still down: it goes on drawing where it points.
     let places: Vec<Vec2> = (player.seen().into_iter())
         .filter_map(|intent| match intent {
-            Intent::Draw { stroke, .. } => Some(stroke.to),
+            Intent::Pour { stroke, .. } => Some(stroke.to),
             _ => None,
         })
         .collect();

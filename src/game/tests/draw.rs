@@ -66,6 +66,30 @@ fn pouring_does_not_depend_on_the_frame_rate() {
 }
 
 #[test]
+fn a_swing_throws_what_it_pours_and_has_a_limit() {
+    let mut player = Player::new();
+    player.point_at(player.middle());
+    player.press();
+    player.frames(2);
+    let still = player.seen();
+    assert!(matches!(still[..], [Intent::Pour { velocity: Vec2::ZERO, share: 1.0, .. }, ..]), "{still:?}");
+    for step in 1..=12 {
+        player.point_at(player.middle() + Vec2::new(-8.0 * step as f32, 0.0));
+        player.frame();
+    }
+    let blueprint = &player.world().resource::<Setup>().blueprint;
+    let fall = Reference::of(&blueprint.domain, &blueprint.air).fall;
+    let mut fastest = 0.0_f32;
+    for intent in player.seen() {
+        let Intent::Pour { velocity, .. } = intent else { panic!("poured only, not {intent:?}") };
+        assert!(velocity.x <= 0.0 && velocity.y.abs() <= 0.01 * velocity.x.abs(), "{velocity} is not along the drag");
+        assert!(velocity.length() <= 1.001 * fall, "{velocity} is beyond the limit");
+        fastest = fastest.max(velocity.length());
+    }
+    assert!(fastest > 0.2 * fall, "the swing threw with {fastest} d/s only");
+}
+
+#[test]
 fn the_right_button_erases() {
     let mut player = Player::new();
     player.choose("rock");

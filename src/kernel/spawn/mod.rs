@@ -11,5 +11,5 @@ mod select;
 #[cfg(test)]
 mod tests;
 
-pub use matter::{EditReport, Matter};
+pub use matter::{EditReport, Matter, Pouring};
 pub use occupancy::Occupancy;

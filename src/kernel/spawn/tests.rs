@@ -76,17 +76,56 @@ impl Bench {
     }
 }
 
+/// Pours for a whole tick, at rest.
+const STILL: Pouring = Pouring { velocity: Vec2::ZERO, share: 1.0 };
+
 fn disc(x: f32, y: f32, radius: f32) -> Stroke {
     Stroke::dab(BrushShape::Disc, Vec2::new(x, y), radius)
+}
+
+/// A stroke of a second at a speed (d/s), to the right, in the middle of the bench; what is poured gets half of the speed, and goes
+/// on without a force. `pieces` of the way make a tick.
+fn swing(speed: f32, radius: f32, pieces: u32) -> Bench {
+    let mut bench = Bench::new();
+    let (step, begin, velocity) = (speed / 60.0 / pieces as f32, 2.0 + radius, Vec2::new(0.5 * speed, 0.0));
+    for piece in 0..(40.0 / step) as u32 {
+        let at = Vec2::new(begin + step * piece as f32, 20.0);
+        let stroke = Stroke { shape: BrushShape::Disc, from: at, to: at + Vec2::new(step, 0.0), radius };
+        bench.matter().pour(WATER, &stroke, Pouring { velocity, share: 1.0 / pieces as f32 }, piece.into());
+        if (piece + 1) % pieces == 0 {
+            for i in 0..bench.particles.len() {
+                bench.particles.x[i] += bench.particles.vx[i] / 60.0;
+            }
+        }
+    }
+    bench
+}
+
+/// A stream has no hole wider than two particles: each place in it is nearer to one of them than this, d.
+const HOLE: f32 = 1.0;
+
+#[test]
+fn a_stroke_is_a_stream_without_holes_however_fast() {
+    for (speed, radius, pieces) in [(20.0, 4.0, 1), (80.0, 4.0, 1), (80.0, 2.0, 4), (400.0, 3.0, 1), (400.0, 6.0, 16)] {
+        let bench = swing(speed, radius, pieces);
+        let ends = bench.particles.x.iter().fold((f32::MAX, f32::MIN), |(a, b), x| (a.min(*x), b.max(*x)));
+        assert!(ends.1 - ends.0 > 18.0, "at {speed} d/s the stream is only {ends:?}");
+        let (low, high) = ((ends.0 + radius) as i32 + 1, (ends.1 - radius) as i32);
+        for at in (low..high).flat_map(|x| (-1..=1).map(move |y| Vec2::new(x as f32, 20.0 + 0.5 * y as f32))) {
+            let near = (0..bench.particles.len()).any(|i| bench.particles.position(i).distance(at) < HOLE);
+            assert!(near, "at {speed} d/s, radius {radius}, {pieces} pieces there is a hole at {at}");
+        }
+        assert!(bench.nearest() >= 0.999 * CLEARANCE, "two particles {} d apart", bench.nearest());
+    }
 }
 
 #[test]
 fn pouring_fills_up_and_never_puts_two_in_one_place() {
     let mut bench = Bench::new();
-    let first = bench.matter().pour(WATER, &disc(30.0, 20.0, 6.0), 0);
+    let first = bench.matter().pour(WATER, &disc(30.0, 20.0, 6.0), STILL, 0);
     assert!((10..=50).contains(&first.placed), "one tick poured {} particles", first.placed);
     for edit in 1..200 {
-        bench.matter().pour(WATER, &disc(30.0 + 0.01 * edit as f32, 20.0, 6.0), edit);
+        bench.matter().pour(WATER, &disc(30.0 + 0.01 * edit as f32, 20.0, 6.0), STILL, edit);
     }
     assert!(bench.particles.len() > 80, "the brush did not fill up: {}", bench.particles.len());
     assert!(bench.nearest() >= CLEARANCE, "two particles {} d apart", bench.nearest());
@@ -97,7 +136,7 @@ fn rock_takes_the_place_of_water_and_ids_stay_unique() {
     let mut bench = Bench::new();
     bench.matter().stamp(WATER, &Stroke::rectangle(Vec2::new(10.0, 10.0), Vec2::new(20.0, 20.0)));
     assert_eq!(bench.particles.len(), 100);
-    let report = bench.matter().pour(ROCK, &disc(10.0, 10.0, 3.0), 1);
+    let report = bench.matter().pour(ROCK, &disc(10.0, 10.0, 3.0), STILL, 1);
     assert_eq!(report.placed as usize, bench.solids.count());
     assert!(report.removed > 0);
     assert_eq!(bench.particles.len() as u64, 100 - report.removed);
@@ -110,7 +149,7 @@ fn rock_takes_the_place_of_water_and_ids_stay_unique() {
 #[test]
 fn water_is_not_poured_into_rock() {
     let mut bench = Bench::new();
-    bench.matter().pour(ROCK, &disc(30.0, 20.0, 5.0), 0);
+    bench.matter().pour(ROCK, &disc(30.0, 20.0, 5.0), STILL, 0);
     let report = bench.matter().stamp(WATER, &disc(30.0, 20.0, 4.0));
     assert_eq!(report.placed, 0);
 }
@@ -119,7 +158,7 @@ fn water_is_not_poured_into_rock() {
 fn erasing_takes_everything_under_the_brush_and_nothing_else() {
     let mut bench = Bench::new();
     bench.matter().stamp(WATER, &Stroke::rectangle(Vec2::new(5.0, 5.0), Vec2::new(15.0, 15.0)));
-    bench.matter().pour(ROCK, &disc(40.0, 20.0, 3.0), 1);
+    bench.matter().pour(ROCK, &disc(40.0, 20.0, 3.0), STILL, 1);
     let rock = bench.solids.count();
     let report = bench.matter().erase(&disc(10.0, 10.0, 3.0));
     assert!(report.removed > 20 && bench.particles.len() as u64 == 100 - report.removed);
@@ -134,7 +173,7 @@ fn at_the_limit_placing_stops_and_is_counted() {
     bench.limit = 50;
     let report = bench.matter().stamp(WATER, &Stroke::rectangle(Vec2::new(5.0, 5.0), Vec2::new(15.0, 15.0)));
     assert_eq!((report.placed, report.refused), (50, 50));
-    assert_eq!(bench.matter().pour(ROCK, &disc(40.0, 20.0, 0.0), 1).refused, 1);
+    assert_eq!(bench.matter().pour(ROCK, &disc(40.0, 20.0, 0.0), STILL, 1).refused, 1);
 }
 
 #[test]
@@ -181,7 +220,7 @@ fn what_moves_is_never_placed_in_a_cell_that_the_box_cuts() {
     let places: [fn(&mut Matter<'_>); 4] = [
         |matter| _ = matter.fill(WATER, Vec2::splat(3.5)),
         |matter| _ = matter.stamp(WATER, &Stroke::rectangle(Vec2::ZERO, Vec2::new(60.0, 40.0))),
-        |matter| (0..200).for_each(|seed| _ = matter.pour(WATER, &disc(58.0, 38.0, 6.0), seed)),
+        |matter| (0..200).for_each(|seed| _ = matter.pour(WATER, &disc(58.0, 38.0, 6.0), STILL, seed)),
         |matter| {
             let area = Rect { min: Vec2::new(50.0, 30.0), max: Vec2::new(60.0, 40.0) };
             let mut emitter = Emitter { area, ..emitter(6000.0) };

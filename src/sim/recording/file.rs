@@ -192,6 +192,12 @@ fn check_entry(entry: &Entry, ticks: RangeInclusive<u64>, table: &ElementTable, 
         Intent::Fill { element, at } | Intent::ReplaceAround { element, at } | Intent::EraseAround { element, at } => {
             (Some(element), &[*at], &[])
         }
+        Intent::Pour { element, stroke, velocity, share } => {
+            if !(0.0..=1.0).contains(share) {
+                return Err(format!("{share} of a tick; allowed: 0 … 1"));
+            }
+            (Some(element), &[stroke.from, stroke.to, *velocity], &[stroke.radius])
+        }
         Intent::Erase { stroke } | Intent::Ignite { stroke } => (None, &places(stroke), &[stroke.radius]),
         Intent::Blow { stroke, velocity } => (None, &[stroke.from, stroke.to, *velocity], &[stroke.radius]),
         Intent::Press { stroke, amount } => (None, &places(stroke), &[stroke.radius, *amount]),

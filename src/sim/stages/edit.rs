@@ -10,7 +10,7 @@ use crate::{
         piece::lowest_cell,
         predictor::Kept,
         sleep::{Sleep, SleepRecord},
-        spawn::{EditReport, Matter},
+        spawn::{EditReport, Matter, Pouring},
         units::TICK_SECONDS,
     },
     scene::{
@@ -112,6 +112,7 @@ pub(super) fn apply_intents(
         let mut report = EditReport::default();
         match intent {
             Intent::Draw { .. }
+            | Intent::Pour { .. }
             | Intent::Stamp { .. }
             | Intent::Fill { .. }
             | Intent::Erase { .. }
@@ -173,7 +174,10 @@ fn edit_matter(
     (scene, places): (&Blueprint, &mut Vec<Vec2>),
 ) -> EditReport {
     match *intent {
-        Intent::Draw { element, stroke } => matter.pour(element, &stroke, seed),
+        Intent::Draw { element, stroke } => matter.drip(element, &stroke, seed),
+        Intent::Pour { element, stroke, velocity, share } => {
+            matter.pour(element, &stroke, Pouring { velocity, share }, seed)
+        }
         Intent::Stamp { element, stroke } => matter.stamp(element, &stroke),
         Intent::Fill { element, at } => matter.fill(element, at),
         Intent::Erase { stroke } => matter.erase(&stroke),
@@ -241,9 +245,10 @@ fn air_may_yield(setup: &Setup, effects: &Effects) -> bool {
 fn moves_air(intent: &Intent, elements: &ElementTable, rock: &Rock) -> bool {
     match intent {
         Intent::Blow { .. } | Intent::Press { .. } => true,
-        Intent::Draw { element, .. } | Intent::Stamp { element, .. } | Intent::Fill { element, .. } => {
-            elements.get(*element).fixed
-        }
+        Intent::Draw { element, .. }
+        | Intent::Pour { element, .. }
+        | Intent::Stamp { element, .. }
+        | Intent::Fill { element, .. } => elements.get(*element).fixed,
         Intent::Replace { element, .. } | Intent::ReplaceAround { element, .. } => {
             elements.get(*element).fixed || rock.count() > 0
         }
