@@ -101,7 +101,17 @@ impl Relabelled {
         }
     }
 
-    /// Gives rock another element; none is air. `gas`: what it gives off, d².
+    /// Whether rock can become this where it is: what moves is pushed off the walls of the box, out of a cell of which they leave
+    /// less than that. There no other rock may stand, or come to stand as a particle `beside` becomes rock.
+    pub fn rock_can_be(warm: &Warm, cell: IVec2, product: Option<ElementId>, beside: Option<IVec2>) -> bool {
+        if product.is_none_or(|product| warm.elements.get(product).fixed) {
+            return true;
+        }
+        let lands = Solids::cell_of(warm.domain.keep_inside(centre(cell)));
+        lands == cell || !warm.solids.is_solid(lands) && beside != Some(lands)
+    }
+
+    /// Gives rock that [can be it](Relabelled::rock_can_be) another element; none is air. `gas`: what it gives off, d².
     pub fn rock(
         &mut self,
         warm: &mut Warm,

@@ -51,6 +51,9 @@ impl Decays {
             let Some((element, _)) = warm.solids.get(*cell) else { continue };
             let (Some(decay), heat) = (decays.of(element), warm.solids.heat(*cell)) else { continue };
             let product = record.next(element, DECAY, &decay.into);
+            if !Relabelled::rock_can_be(warm, *cell, product, None) {
+                continue;
+            }
             warm.solids.set_heat(*cell, settle(warm.table, record, decay, element, product, heat));
             let gas = gas_of(warm.elements, element, &decay.into);
             relabelled.rock(warm, record, *cell, product, gas);

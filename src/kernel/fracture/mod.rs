@@ -59,8 +59,9 @@ pub fn fracture(
         }
         for cell in cells {
             let fracture = warm.solids.get(cell).and_then(|(element, _)| table.of(element));
-            if let Some(fracture) = fracture {
-                relabelled.rock(warm, record, cell, Some(fracture.into), 0.0);
+            let into = fracture.map(|fracture| fracture.into);
+            if into.is_some() && Relabelled::rock_can_be(warm, cell, into, None) {
+                relabelled.rock(warm, record, cell, into, 0.0);
             }
         }
     }

@@ -89,16 +89,15 @@ impl Bench {
         }
     }
 
+    fn warm(&mut self) -> Warm<'_> {
+        let Self { particles, solids, elements, heat, domain, .. } = self;
+        Warm { particles, solids, elements, table: heat, domain, scale: SCALE }
+    }
+
     /// A tick. Returns how many layers of the wall are whole.
     fn run(&mut self) -> usize {
-        let mut warm = Warm {
-            particles: &mut self.particles,
-            solids: &mut self.solids,
-            elements: &self.elements,
-            table: &self.heat,
-            domain: &self.domain,
-            scale: SCALE,
-        };
+        let Self { particles, solids, elements, heat, domain, .. } = self;
+        let mut warm = Warm { particles, solids, elements, table: heat, domain, scale: SCALE };
         fracture(&mut warm, &self.table, &self.air, &mut self.record, &mut self.relabelled);
         let side = SIDE as usize;
         assert_eq!(self.solids.count() % side, 0, "a layer that is broken in part");
@@ -137,6 +136,22 @@ fn thick_rock_and_what_lies_before_what_bears_all_is_crushed_layer_by_layer() {
 #[test]
 fn steel_bears_everything() {
     assert_eq!(Bench::new(&[STEEL; 2], false, [100.0 * STRENGTH, 0.0]).run(), 2);
+}
+
+#[test]
+fn what_the_box_all_but_cuts_off_comes_loose_only_where_there_is_room() {
+    let (wall, last) = (IVec2::new(20, 9), IVec2::new(21, 9));
+    let mut bench = Bench::new(&[BRICK; 2], false, [0.0, 0.0]);
+    let can_be = |bench: &mut Bench, into, beside| Relabelled::rock_can_be(&bench.warm(), last, into, beside);
+    for (share, expected) in [(0.14, false), (0.5, true), (1.0, true)] {
+        bench.domain.size.x = 21.0 + share;
+        assert_eq!(can_be(&mut bench, Some(RUBBLE), None), expected, "{share} of the cell is in the box");
+    }
+    bench.domain.size.x = 21.14;
+    assert!(can_be(&mut bench, Some(STEEL), None) && can_be(&mut bench, None, None), "nothing comes loose");
+    assert!(bench.solids.remove(wall));
+    assert!(can_be(&mut bench, Some(RUBBLE), None), "there is room beside it");
+    assert!(!can_be(&mut bench, Some(RUBBLE), Some(wall)), "a particle hardens there");
 }
 
 #[test]

@@ -31,6 +31,9 @@ pub fn change(warm: &mut Warm, record: &mut HeatRecord, relabelled: &mut Relabel
         let heat = warm.solids.heat(cell);
         let Some((place, change)) = table.curve(element).done(heat) else { continue };
         let product = record.next(element, place, &change.into);
+        if !Relabelled::rock_can_be(warm, cell, product, None) {
+            continue;
+        }
         warm.solids.set_heat(cell, heat.saturating_add(record.lend(element, place, change)));
         record.count(element, place);
         let gas = gas_of(warm.elements, element, &change.into);

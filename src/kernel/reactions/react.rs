@@ -8,6 +8,7 @@ use crate::{
     element::ElementId,
     heat::{HeatRecord, Warm},
     relabel::{Relabelled, gas_of},
+    solids::Solids,
 };
 
 /// A pair that reacts: the particle, and its contact.
@@ -59,7 +60,9 @@ impl Reactions {
                     }
                 }
                 Partner::Rock(cell) => {
-                    if !relabelled.can_be(warm, i, own) {
+                    let hardens = own.is_some_and(|own| warm.elements.get(own).fixed);
+                    let beside = hardens.then(|| Solids::cell_of(warm.particles.position(i)));
+                    if !relabelled.can_be(warm, i, own) || !Relabelled::rock_can_be(warm, cell, other, beside) {
                         continue;
                     }
                     let Some((rock, _)) = warm.solids.get(cell) else { continue };
