@@ -7,7 +7,8 @@ use crate::{
         render::{
             cost::RenderCost,
             level::PictureLevel,
-            picture::{Picture, Scene, Sight, Within},
+            picture::Picture,
+            scene::{Scene, Sight, Within},
         },
         views::table::Shown,
     },

@@ -5,11 +5,11 @@
 //! gases ────────► field ──► cloud   │    backdrop, streaks, surface, grains, rock, clouds
 //! grains, rock, streaks ────────────┴──► the window, from back to front
 //! ```
-//! `extract` copies what a frame needs out of the world into a `picture`: `matter` (or in the views that show a number
-//! `particles`), `rock` and `air` in the layout that the graphics read, `body` and `glow` as maps that the shaders look at,
-//! `tiles` where there is anything at all; `level` says how much of it the graphics can do in time; `moved` knows where things were between two ticks, `look` which element is drawn how, `noise` is a texture that never changes. `offscreen` draws without a window, for
-//! `bench frame` and tests. `gpu` uploads it; `draw` draws it before the
-//! HUD. `tracers` make wind visible. Everything here runs on WebGL2: no storage buffers, no compute, targets of eight bits.
+//! `extract` copies what a frame needs out of a world (a `scene`, and how it is looked at) into a `picture`: `matter` (or in the
+//! views that show a number `particles`), `rock` and `air` in the layout that the graphics read, `body` and `glow` as maps that the
+//! shaders look at, `tiles` where there is anything at all; `level` says how much of it the graphics can do in time; `moved` knows
+//! where things were between two ticks, `look` which element is drawn how, `noise` is a texture that never changes. `gpu` uploads
+//! it; `draw` draws it before the HUD. `offscreen` draws without a window, for `bench frame` and tests. `tracers` make wind visible. Everything here runs on WebGL2: no storage buffers, no compute, targets of eight bits.
 
 pub mod air;
 pub mod body;
@@ -33,6 +33,7 @@ pub mod particles;
 pub mod picture;
 pub mod pipelines;
 pub mod rock;
+mod scene;
 #[cfg(test)]
 mod tests;
 pub mod tiles;

@@ -48,7 +48,8 @@ fn within(name: &str, value: f32, low: f32, high: f32) -> Verdict {
     demand(value >= low && value <= high, || format!("{name} is {value}; allowed: {low} to {high}"))
 }
 
-fn finite(name: &str, value: Vec2) -> Verdict {
+/// A place or a velocity of a world.
+pub(in crate::sim) fn finite(name: &str, value: Vec2) -> Verdict {
     demand(value.abs().max_element() < ABSURD && value.is_finite(), || {
         format!("{name} is {value}; allowed: less than {ABSURD:e} d, or d/s")
     })

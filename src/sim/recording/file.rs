@@ -196,7 +196,8 @@ fn check_entry(entry: &Entry, ticks: RangeInclusive<u64>, table: &ElementTable, 
             if !(0.0..=1.0).contains(share) {
                 return Err(format!("{share} of a tick; allowed: 0 … 1"));
             }
-            (Some(element), &[stroke.from, stroke.to, *velocity], &[stroke.radius])
+            check::finite("the velocity of what is poured", *velocity)?;
+            (Some(element), &places(stroke), &[stroke.radius])
         }
         Intent::Erase { stroke } | Intent::Ignite { stroke } => (None, &places(stroke), &[stroke.radius]),
         Intent::Blow { stroke, velocity } => (None, &[stroke.from, stroke.to, *velocity], &[stroke.radius]),

@@ -183,6 +183,7 @@ fn made_up_input_is_refused_by_name() {
     let air = |tick| Entry { tick, intent: Intent::ClearAir };
     assert!(Recording::decode(&made_up(&[air(0), air(3), air(3)], 3)).is_ok());
     let of = |intent| vec![Entry { tick: 1, intent }];
+    let pour = |velocity, share| Intent::Pour { element: ElementId(1), stroke, velocity, share };
     let none = Quality { substeps: 0, ..Preset::Fine.quality() };
     for (entries, says) in [
         (vec![air(4)], "tick 4; allowed here: 0 to 3"),
@@ -192,6 +193,10 @@ fn made_up_input_is_refused_by_name() {
         (of(Intent::Erase { stroke: Stroke { radius: f32::INFINITY, ..stroke } }), "not a number"),
         (of(Intent::Press { stroke, amount: f32::NAN }), "not a number"),
         (of(Intent::Blow { stroke, velocity: Vec2::splat(f32::INFINITY) }), "not a number"),
+        (of(pour(Vec2::new(0.0, 1e9), 1.0)), "the velocity of what is poured is [0, 1000000000]; allowed"),
+        (of(pour(Vec2::splat(f32::NAN), 1.0)), "the velocity of what is poured is [NaN, NaN]; allowed"),
+        (of(pour(Vec2::ZERO, 1.5)), "1.5 of a tick; allowed: 0 … 1"),
+        (of(pour(Vec2::ZERO, f32::NAN)), "NaN of a tick; allowed: 0 … 1"),
         (of(Intent::Quality { preset: Preset::Fine, quality: none }), "substeps is 0"),
         (of(Intent::Gravity { gravity: Vec2::new(f32::NAN, 0.0) }), "gravity is NaN"),
         (of(Intent::Gravity { gravity: Vec2::splat(1e9) }), "allowed: 0 to 1500"),
