@@ -13,6 +13,7 @@ use crate::{
         toolbox::Toolbox,
         tools::{HEAT, IGNITE, Tool, WIND},
     },
+    lab::split::Split,
     sim::{
         pace::Pace,
         state::{Census, Setup},
@@ -229,6 +230,7 @@ struct Seen<'w> {
     tools: Res<'w, Toolbox>,
     tempo: Res<'w, Tempo>,
     pace: Res<'w, Pace>,
+    split: Res<'w, Split>,
     panels: Res<'w, Panels>,
     time: Res<'w, Time<Real>>,
 }
@@ -275,7 +277,8 @@ impl Facts {
     fn follow(&mut self, seen: &Seen) {
         let seconds = seen.time.delta_secs();
         self.played += seconds;
-        let is_late = seen.tempo.lag.is_some_and(|share| share < SLOW);
+        // Two worlds are slower than one, and that is no matter of the quality.
+        let is_late = !seen.split.is_on() && seen.tempo.lag.is_some_and(|share| share < SLOW);
         self.late = if is_late { self.late + seconds } else { 0.0 };
         self.saw_elements |= seen.panels.shows(elements::PANEL.id);
         self.saw_gallery |= seen.panels.shows(scenes::panel::PANEL.id);

@@ -1,7 +1,7 @@
 //! A player who comes upon everything that there is a hint for sees each once, over restarts.
 
 use super::*;
-use crate::game::{frame::Tempo, hints::Hints, hud::panels::settings};
+use crate::game::{actions::Action, frame::Tempo, hints::Hints, hud::panels::settings};
 use std::{
     collections::BTreeMap,
     env, fs,
@@ -92,6 +92,25 @@ const ABOUT: [&str; 8] = [
     "A shows cheaper",
     "M opens the gallery",
 ];
+
+#[test]
+fn a_second_world_that_takes_its_time_is_no_lack_of_the_machine() {
+    let folder = folder("second");
+    let (mut player, mut told) = (newcomer(&folder), Told::default());
+    let late = |player: &mut Player, told: &mut Told| {
+        for _ in 0..60 * 20 {
+            player.0.world_mut().resource_mut::<Tempo>().lag = Some(0.5);
+            told.frames(player, 1);
+        }
+    };
+    player.act(Action::Lens);
+    late(&mut player, &mut told);
+    assert_eq!(told.count("A shows cheaper"), 0, "{:?}", told.0);
+    player.act(Action::Lens);
+    late(&mut player, &mut told);
+    assert_eq!(told.count("A shows cheaper"), 1, "{:?}", told.0);
+    fs::remove_dir_all(folder).expect("it is ours");
+}
 
 #[test]
 fn a_player_sees_each_hint_exactly_once_over_restarts() {

@@ -92,7 +92,7 @@ fn letters_in_a_text_field_are_no_keys() {
 #[test]
 fn a_slider_in_focus_has_the_arrows_and_the_game_all_other_keys() {
     let mut player = Player::new();
-    player.0.world_mut().resource_mut::<Orders>().push(Order::Act(crate::game::actions::Action::Zoom(3)));
+    player.act(Action::Zoom(3));
     player.frame();
     let seen = |player: &Player| player.world().resource::<WorldCamera>().to_world(Vec2::new(300.0, 200.0));
     let mut pan = |keys: HudKeys| {

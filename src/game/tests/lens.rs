@@ -21,11 +21,6 @@ fn turn(player: &mut Player, key: KeyCode, state: ButtonState) {
     player.frame();
 }
 
-fn act(player: &mut Player, action: Action) {
-    player.0.world_mut().resource_mut::<Orders>().push(Order::Act(action));
-    player.frame();
-}
-
 fn is_on(player: &Player) -> bool {
     let (lens, split) = (player.world().resource::<Lens>().is_on(), player.world().resource::<Split>().is_on());
     assert_eq!(lens, split, "the second world is there as long as the lens, and no longer");
@@ -81,7 +76,7 @@ fn the_world_does_not_feel_it() {
         at(&mut player, Preset::Draft);
         pour(&mut player, 20);
         if looks {
-            act(&mut player, Action::Lens);
+            player.act(Action::Lens);
         } else {
             player.frame();
         }
@@ -97,7 +92,7 @@ fn equal_qualities_have_no_glow_and_it_says_so() {
     let mut player = Player::new();
     at(&mut player, Preset::Reference);
     pour(&mut player, 20);
-    act(&mut player, Action::Lens);
+    player.act(Action::Lens);
     pour(&mut player, 20);
     assert!(player.particles() > 0 && is_on(&player));
     assert_eq!(heat(&player), 0.0);
@@ -114,10 +109,10 @@ fn a_tap_or_a_button_takes_it_up_until_the_next() {
     assert!(is_on(&player));
     player.chord(&[KeyCode::KeyL]);
     assert!(!is_on(&player));
-    act(&mut player, Action::Lens);
+    player.act(Action::Lens);
     player.frames(40);
     assert!(is_on(&player));
-    act(&mut player, Action::Lens);
+    player.act(Action::Lens);
     assert!(!is_on(&player));
 }
 
@@ -126,33 +121,33 @@ fn the_ring_follows_the_pointer_and_the_wheel_is_its_own() {
     let mut player = Player::new();
     let ring = |player: &Player| player.world().resource::<Lens>().ring(player.world().resource());
     assert_eq!(ring(&player), None);
-    act(&mut player, Action::Lens);
+    player.act(Action::Lens);
     player.point_at(player.middle() + Vec2::new(20.0, 10.0));
     player.frame();
     let (first, reach) = (ring(&player).expect("it is taken up"), player.world().resource::<Toolbox>().reach());
     let at = player.world().resource::<WorldCamera>().to_world(first.centre);
     assert!(at.distance(player.middle() + Vec2::new(20.0, 10.0)) < 0.1, "{at}");
-    act(&mut player, Action::Brush(2));
+    player.act(Action::Brush(2));
     assert!(ring(&player).expect("it is taken up").radius > 1.2 * first.radius);
     assert_eq!(player.world().resource::<Toolbox>().reach(), reach, "the brush stays as it is");
     player.event(WindowEvent::CursorLeft(bevy::window::CursorLeft { window: Entity::PLACEHOLDER }));
     player.frame();
     assert_eq!(ring(&player).map(|ring| ring.centre), Some(first.centre), "it stays where it was");
-    act(&mut player, Action::Lens);
-    act(&mut player, Action::Brush(2));
+    player.act(Action::Lens);
+    player.act(Action::Brush(2));
     assert!(player.world().resource::<Toolbox>().reach() > reach);
 }
 
 #[test]
 fn it_and_the_split_have_one_second_world_between_them() {
     let mut player = Player::new();
-    act(&mut player, Action::Lens);
-    act(&mut player, Action::Split);
+    player.act(Action::Lens);
+    player.act(Action::Split);
     let (lens, split) = (player.world().resource::<Lens>().is_on(), player.world().resource::<Split>().is_on());
     assert!(!lens && split, "the split takes its place");
-    act(&mut player, Action::Lens);
+    player.act(Action::Lens);
     assert!(!player.world().resource::<Lens>().is_on() && player.world().resource::<Split>().is_on());
-    act(&mut player, Action::Split);
+    player.act(Action::Split);
     assert!(!is_on(&player));
 }
 
@@ -160,21 +155,21 @@ fn it_and_the_split_have_one_second_world_between_them() {
 fn an_undo_begins_it_again_and_rewinding_ends_it() {
     let mut player = Player::new();
     pour(&mut player, 20);
-    act(&mut player, Action::Lens);
+    player.act(Action::Lens);
     player.frames(5);
-    act(&mut player, Action::Undo);
+    player.act(Action::Undo);
     player.frames(2);
     assert!(is_on(&player));
     let age = player.world().resource::<Split>().age(player.tick());
     assert!(age.is_some_and(|age| age <= 3), "{age:?}");
-    act(&mut player, Action::Rewind);
+    player.act(Action::Rewind);
     assert!(player.world().resource::<Rewind>().progress().is_some() && !is_on(&player));
 }
 
 #[test]
 fn only_a_difference_under_the_ring_glows() {
     let mut player = Player::new();
-    act(&mut player, Action::Lens);
+    player.act(Action::Lens);
     let begin = |world: &mut World| Split::begin(world, Preset::Balanced, Preset::Balanced.quality());
     begin(player.0.world_mut()).expect("it fits");
     player.chord(&[KeyCode::Space]);

@@ -3,6 +3,7 @@
 use crate::{
     game::{
         GamePlugin,
+        actions::Action,
         camera::{Area, WorldCamera},
         input::{keys::HudKeys, pointer::HudCover},
         orders::{Order, Orders},
@@ -138,6 +139,12 @@ impl Player {
 
     fn release(&mut self) {
         self.button(MouseButton::Left, ButtonState::Released);
+    }
+
+    /// What a button of the HUD asks for.
+    fn act(&mut self, action: Action) {
+        self.0.world_mut().resource_mut::<Orders>().push(Order::Act(action));
+        self.frame();
     }
 
     /// Pours some of what is chosen in the middle of the world, and lets it stand.
