@@ -14,6 +14,7 @@ use crate::{
 };
 
 #[test]
+#[cfg_attr(any(not(debug_assertions), target_arch = "wasm32"), ignore = "tests/exam has it, and the rest")]
 fn the_quick_exam_is_passed_at_balanced() {
     let jobs = jobs(&CASES, |case| case.size == Size::Quick, &[Preset::Balanced], 1.0);
     assert!(jobs.len() >= 5, "the quick exam is empty");

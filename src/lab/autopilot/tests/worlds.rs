@@ -106,11 +106,7 @@ fn check(scene: &str, percent: f32, minutes: u64, most_work: f32) {
 
 // The bounds lie between what `draft` and `fine` leave in these scenes (docs/accuracy.md). The level above `fine`, three
 // substeps of four iterations, takes a work of 10.8: a tenth more is given for what it takes to find that it is enough.
-#[test]
-fn the_error_of_the_waterfall_is_held_at_a_tight_bound() {
-    check("waterfall", 0.6, 1, 11.9);
-}
-
+// The waterfall's is held by the command (tests/cli).
 #[test]
 fn the_error_of_the_dam_break_is_held() {
     check("dam_break", 0.6, 1, 11.9);
