@@ -3,7 +3,9 @@
 //!
 //! On one thread there is none at all. On more, entering the pool costs rayon a block of its waiting list now and then.
 
+use glam::Vec2;
 use powder_master::{
+    lab::gauges::{place::Place, set::Gauges},
     scene::{self, effects::EffectModes},
     sim::{simulation::Simulation, workers::Workers},
 };
@@ -70,13 +72,31 @@ static ALLOCATOR: Counting = Counting;
 
 /// Allocations of `TICKS` ticks of a scene after `warm_up` ticks, and where the first came from.
 fn count(scene: &str, settings: &[(&str, &str)], threads: usize, warm_up: u64) -> (u64, String) {
+    let mut simulation = simulation(scene, settings, threads);
+    count_ticks(&mut simulation, warm_up, |_| {})
+}
+
+/// The same with gauges that are read after each tick.
+fn count_with_gauges(scene: &str, warm_up: u64, places: &[Place]) -> (u64, String) {
+    let (mut simulation, mut gauges) = (simulation(scene, &[], 1), Gauges::keeping(1));
+    for place in places {
+        gauges.set(simulation.world(), *place).unwrap_or_else(|error| panic!("{error}"));
+    }
+    count_ticks(&mut simulation, warm_up, |simulation| gauges.read(simulation.world()))
+}
+
+fn simulation(scene: &str, settings: &[(&str, &str)], threads: usize) -> Simulation {
     let settings: Vec<(String, String)> = settings.iter().map(|&(key, value)| (key.into(), value.into())).collect();
     let blueprint = scene::load(scene).and_then(|file| file.build(&settings, None, &EffectModes::new()));
     let blueprint = Arc::new(blueprint.unwrap_or_else(|error| panic!("{error}")));
     let workers = Workers::new(threads).unwrap_or_else(|error| panic!("{error}"));
-    let mut simulation = Simulation::new(blueprint, workers);
+    Simulation::new(blueprint, workers)
+}
+
+fn count_ticks(simulation: &mut Simulation, warm_up: u64, mut after: impl FnMut(&Simulation)) -> (u64, String) {
     for _ in 0..warm_up {
         simulation.tick();
+        after(simulation);
     }
     // Threads of the pool may begin later than this one, and the warm-up of an empty world is over in a moment.
     thread::sleep(Duration::from_millis(100));
@@ -84,6 +104,7 @@ fn count(scene: &str, settings: &[(&str, &str)], threads: usize, warm_up: u64) -
     COUNTS.store(true, Ordering::Relaxed);
     for _ in 0..TICKS {
         simulation.tick();
+        after(simulation);
     }
     COUNTS.store(false, Ordering::Relaxed);
     (ALLOCATIONS.load(Ordering::Relaxed), FIRST.lock().map(|first| first.clone()).unwrap_or_default())
@@ -117,6 +138,20 @@ fn main() {
         println!("{scene}: {allocations} allocations in {TICKS} ticks");
         if allocations > 0 {
             faults.push(format!("{scene}: {allocations} allocations in {TICKS} ticks, the first by\n{first}"));
+        }
+    }
+    // Neither do gauges; those of a sleeping pool are read in another way.
+    let line = Place::Line { from: Vec2::new(12.0, 0.0), to: Vec2::new(12.0, 4.0) };
+    let spot = |x, y| Place::Spot { at: Vec2::new(x, y), radius: 0.3 };
+    for (scene, warm_up, places) in [
+        ("waterfall", 1500, &[spot(12.0, 2.0), spot(6.0, 7.2), line][..]),
+        ("hydrostatic", 1000, &[spot(2.0, 1.0)]),
+        ("waterfall", 1500, &[]),
+    ] {
+        let (allocations, first) = count_with_gauges(scene, warm_up, places);
+        println!("{scene} with {} gauges: {allocations} allocations in {TICKS} ticks", places.len());
+        if allocations > 0 {
+            faults.push(format!("{scene} with gauges: {allocations} allocations, the first by\n{first}"));
         }
     }
     // Rayon keeps those who wait for its threads in blocks of 63, and what its threads take from each other in lists that

@@ -2,7 +2,7 @@
 
 use crate::cli::{
     args::{Arguments, Bench, BenchArguments, Command},
-    bench, clip,
+    bench, challenge, clip,
     failure::{self, Failure},
     judge, list, merge, output, play, random, replay, run, soak, study, sweep,
 };
@@ -37,6 +37,7 @@ fn dispatch(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Run(run)) => run::run(&run),
         Some(Command::Replay(replay)) => replay::replay(&replay),
         Some(Command::Clip(arguments)) => clip::clip(&arguments),
+        Some(Command::Challenge(arguments)) => challenge::challenge(&arguments),
         Some(Command::Bench(BenchArguments { what, json })) => match what {
             Bench::Effects { quick } => bench::effects(quick, json.as_deref()),
             Bench::Frame { quick } => bench::frame(quick, json.as_deref()),

@@ -3,9 +3,11 @@
 
 mod args;
 mod bench;
+mod challenge;
 mod clip;
 mod dispatch;
 mod failure;
+mod gauges;
 mod journal;
 mod judge;
 mod list;

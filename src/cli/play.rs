@@ -5,12 +5,13 @@ use crate::{
     sim::recording::Recording,
 };
 
-/// The scene without a name.
+/// The scene without a name, the first time.
 pub(super) const DEFAULT_SCENE: &str = "waterfall";
 
-/// Opens the game with a scene, a saved world or a recording.
+/// Opens the game with a scene, a saved world or a recording; with none, the scene that was played last.
 pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Failure> {
-    let scene = scene.unwrap_or(DEFAULT_SCENE);
+    let last = if scene.is_none() { last_scene(options) } else { None };
+    let scene = scene.or(last.as_deref()).unwrap_or(DEFAULT_SCENE);
     output::check(options.record.as_deref().as_slice())?;
     let (start, recording) = Start::of_play(scene, options)?;
     threads::start_aside(options.machine.threads)?;
@@ -43,6 +44,18 @@ fn open(scene: &str, options: &PlayOptions, start: &Start, recording: Option<Rec
         Err(error @ GameError::Crashed(_)) => Err(Failure::Outcome(error.to_string())),
         Err(error) => Err(Failure::Usage(error.to_string())),
     }
+}
+
+/// The scene that was played last, unless parameters are given: they are those of the default one.
+#[cfg(feature = "app")]
+fn last_scene(options: &PlayOptions) -> Option<String> {
+    let kept = crate::game::settings::Settings::of_user();
+    kept.scene().filter(|_| options.settings.is_empty()).map(str::to_owned)
+}
+
+#[cfg(not(feature = "app"))]
+fn last_scene(_: &PlayOptions) -> Option<String> {
+    None
 }
 
 #[cfg(not(feature = "app"))]

@@ -4,6 +4,7 @@ use crate::{
     cli::{
         args::{RunArguments, Ticks},
         failure::{self, Failure},
+        gauges::{self, Sink},
         output, progress,
         start::Start,
         threads,
@@ -12,6 +13,7 @@ use crate::{
     lab::{
         self,
         autopilot::{self, Autopilot, Goal, controller::Verdict},
+        gauges::table::Readings,
         live::{LivePlugin, accuracy::Watched},
         metrics::Metrics,
         picture::{DISC_RADIUS, LONG_SIDE, Picture},
@@ -44,6 +46,7 @@ const DEFAULT_TICKS: u64 = 600;
 /// Runs a scene and writes what was asked for.
 pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     check_outputs(arguments)?;
+    gauges::check(arguments)?;
     let (start, recorded) = Start::of_run(arguments)?;
     let plan = plan(arguments, recorded)?;
     threads::start(arguments.machine.threads)?;
@@ -51,12 +54,14 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let mut track = arguments.wav.as_deref().map(|path| track(path, plan.ticks)).transpose()?;
 
     let mut simulation = begin(&start, arguments);
+    let mut readings = gauges::begin(arguments, simulation.world())?;
     let reference =
         arguments.reference.as_deref().map(|path| reference(path, simulation.world(), &plan)).transpose()?;
     let mut follower = reference.as_ref().map(Follower::new);
     let begun = Instant::now();
     let mut sampler = arguments.metrics.is_some().then(|| Sampler::new(simulation.world(), plan.warmup));
-    let ran = simulate(&mut simulation, &plan, sampler.as_mut(), follower.as_mut(), trace.as_mut(), track.as_mut());
+    let watchers = (sampler.as_mut(), follower.as_mut(), trace.as_mut());
+    let ran = simulate(&mut simulation, &plan, watchers, track.as_mut(), readings.as_mut());
     let seconds = begun.elapsed().as_secs_f64();
 
     let world = simulation.world();
@@ -77,13 +82,17 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         }
         _ => Ok(()),
     };
+    let read = match (&arguments.readings, readings) {
+        (Some(path), Some(readings)) => gauges::finish(path, readings),
+        _ => Ok(()),
+    };
     let compared = match (&arguments.reference, &follower) {
         (Some(path), Some(follower)) => output::write(path, |file| distances::write(follower.points(), file)),
         _ => Ok(()),
     };
     let written = write_outputs(arguments, world, metrics.as_ref());
-    traced.and(heard).and(compared).and(written)?;
-    if output::is_stdout(arguments.metrics.as_deref()) {
+    traced.and(heard).and(read).and(compared).and(written)?;
+    if [&arguments.metrics, &arguments.readings].into_iter().any(|path| output::is_stdout(path.as_deref())) {
         return Ok(());
     }
     let (ticks, hash) = (plan.ticks, control::hash(world));
@@ -131,6 +140,7 @@ fn check_outputs(arguments: &RunArguments) -> Result<(), Failure> {
         arguments.reference.as_deref(),
         arguments.png.as_deref(),
         arguments.wav.as_deref(),
+        arguments.readings.as_deref(),
         arguments.snapshot.as_deref(),
     ];
     output::check(&files.into_iter().flatten().collect::<Vec<_>>())
@@ -180,10 +190,9 @@ fn track(path: &Path, ticks: u64) -> Result<Track<NewFile>, Failure> {
 fn simulate(
     simulation: &mut Simulation,
     plan: &Plan,
-    sampler: Option<&mut Sampler>,
-    follower: Option<&mut Follower>,
-    trace: Option<&mut Trace<NewFile>>,
+    (sampler, follower, trace): (Option<&mut Sampler>, Option<&mut Follower>, Option<&mut Trace<NewFile>>),
     track: Option<&mut Track<NewFile>>,
+    readings: Option<&mut Readings<Sink>>,
 ) -> io::Result<()> {
     let mut progress = progress::bar(plan.ticks);
     let mut observers: Vec<&mut dyn Observer> = vec![&mut progress];
@@ -191,6 +200,7 @@ fn simulate(
     observers.extend(follower.map(|follower| follower as &mut dyn Observer));
     observers.extend(trace.map(|trace| trace as &mut dyn Observer));
     observers.extend(track.map(|track| track as &mut dyn Observer));
+    observers.extend(readings.map(|readings| readings as &mut dyn Observer));
     lab::run::run(simulation, plan, &mut observers)
 }
 

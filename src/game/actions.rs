@@ -77,6 +77,44 @@ pub enum Action {
     FullScreen,
     /// Writes a picture of the window.
     Screenshot,
+    /// Sets a gauge under the pointer; at the mark of one takes that away.
+    Gauge,
+    /// Begins a line under the pointer through which flow is measured, or ends it.
+    GaugeLine,
+}
+
+impl Action {
+    /// Its name in a file.
+    pub fn name(self) -> String {
+        match self {
+            Self::Element(digit) => format!("Element({digit})"),
+            Self::Tool(Tool::Other(row)) => format!("Tool({})", row.name),
+            Self::View(view) => format!("View({})", view.name),
+            Self::Panel(PanelId(name)) => format!("Panel({name})"),
+            _ => format!("{self:?}"),
+        }
+    }
+
+    /// What it is called in a list of single actions, from what its `help` says.
+    pub fn label(self, help: &str) -> String {
+        let name = match self {
+            Self::Element(digit) => return format!("favourite {digit}"),
+            Self::View(view) => return format!("view: {}", view.name.to_lowercase()),
+            Self::Brush(steps) if steps > 0 => "larger brush",
+            Self::Brush(_) => "smaller brush",
+            Self::Pan(-1, _) => "move the picture left",
+            Self::Pan(1, _) => "move the picture right",
+            Self::Pan(_, 1) => "move the picture up",
+            Self::Pan(..) => "move the picture down",
+            Self::Rewind => "back in time, while held",
+            Self::Lens => "the truth lens",
+            Self::Screenshot => "screenshot",
+            Self::GaugeLine => "a line that measures flow",
+            // The rest of a help is how.
+            _ => help.split([';', ':', '(']).next().unwrap_or(help).trim_end(),
+        };
+        name.to_owned()
+    }
 }
 
 /// What a held button does.

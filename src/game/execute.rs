@@ -5,14 +5,17 @@ use crate::{
         actions::Action,
         brush_mode::BrushMode,
         camera::WorldCamera,
+        challenges::attempt,
         favourites::{self, Favourites},
         follow,
         frame::SPEED_RANGE,
+        gauges::act as gauges,
         history::{self, History},
         hud::panels::details,
         input::{
             bindings::Bindings,
             pointer::{HudCover, Pointer, ZOOM_STEP},
+            rebind,
         },
         lens::{self, Lens},
         lump::Lump,
@@ -23,6 +26,7 @@ use crate::{
         sound::volume::Volume,
         split,
         stamps::act,
+        throws,
         toasts::Toasts,
         toolbox::Toolbox,
         tools::{Tool, spaced},
@@ -38,6 +42,7 @@ use crate::{
         checkpoint::Checkpoint,
         control,
         effects::Effects,
+        generation::Generation,
         intent::{Intent, IntentQueue},
         numbers::grouped,
         pace::Pace,
@@ -53,6 +58,10 @@ pub fn carry_out(world: &mut World) {
         if rewind::ends_with(&order) {
             rewind::finish(world);
         }
+        if attempt::refuses(world, &order) {
+            continue;
+        }
+        let before = attempt::opens(&order).then(|| Generation::of(world));
         match order {
             Order::Act(action) => act(world, action),
             Order::Checkpoint => history::checkpoint(world),
@@ -90,7 +99,18 @@ pub fn carry_out(world: &mut World) {
                 play(world, &name, &settings, quality, detail);
             }
             Order::Watch(name) => watch(world, name),
+            Order::Throw(name) => throws::throw(world, name),
+            Order::SelectGauge(number) => gauges::select(world, number),
+            Order::RemoveGauge(number) => gauges::remove(world, number),
+            Order::SaveReadings => gauges::save(world),
+            Order::Challenge(name) => attempt::begin(world, &name),
+            Order::ChallengeAgain => drop(attempt::again(world)),
+            Order::LeaveChallenge => attempt::leave(world),
             Order::Volume(level) => world.resource_mut::<Volume>().set(level),
+            Order::Keys(order) => rebind::carry_out(world, order),
+        }
+        if let Some(before) = before {
+            attempt::leave_if_replaced(world, before);
         }
         // An undo may have been to another detail.
         follow::follow_detail(world);
@@ -190,12 +210,14 @@ fn act(world: &mut World, action: Action) {
         Action::MirrorStamp => act::turn(world, Turn::mirrored),
         Action::FlipStamp => act::turn(world, Turn::flipped),
         Action::Close => {
-            if !act::lay_down(world) {
+            if !act::lay_down(world) && !gauges::lay_down(world) {
                 world.resource_mut::<Panels>().close_all();
             }
         }
         Action::Split => split::toggle(world),
         Action::Lens => lens::toggle(world),
+        Action::Gauge => gauges::set_spot(world),
+        Action::GaugeLine => gauges::set_end(world),
         Action::Mute => world.resource_mut::<Volume>().toggle(),
         Action::FullScreen => screen::toggle_full_screen(world),
         Action::Screenshot => screen::take_screenshot(world),
@@ -281,6 +303,7 @@ fn keep_time(pace: &mut Pace, action: Action) {
 
 fn change_world(world: &mut World, action: Action) {
     let told = match action {
+        Action::Reset if attempt::again(world) => "From the beginning",
         Action::Reset => {
             history::checkpoint(world);
             control::reset(world);

@@ -4,7 +4,7 @@
 //! Elements go by their names: tables differ from world to world, and so do their ids.
 
 use crate::{
-    game::{kept::KeptFile, toasts::Toasts, tools::spaced},
+    game::{actions::Action, input::bindings::Bindings, kept::KeptFile, toasts::Toasts, tools::spaced},
     kernel::element::{ElementId, ElementTable},
     scene,
     sim::state::Setup,
@@ -111,8 +111,9 @@ pub fn put(world: &mut World, digit: char, name: &str) {
         let elements = setup.elements();
         let Some(element) = elements.find(name) else { return };
         let swapped = favourites.put(digit, element, elements);
-        let other = swapped.map(|(id, from)| format!(", {} on {from}", spaced(&elements.get(id).name)));
-        let told = format!("{} is on {digit} now{}", spaced(name), other.unwrap_or_default());
+        let key = |digit| world.resource::<Bindings>().key(Action::Element(digit));
+        let other = swapped.map(|(id, from)| format!(", {} on {}", spaced(&elements.get(id).name), key(from)));
+        let told = format!("{} is on {} now{}", spaced(name), key(digit), other.unwrap_or_default());
         let kept = favourites.file.write(&favourites.put);
         let mut toasts = world.resource_mut::<Toasts>();
         match kept {

@@ -1,6 +1,6 @@
 //! Undo and redo: checkpoints, taken before each edit, within a bound on memory.
 
-use crate::sim::checkpoint::Checkpoint;
+use crate::{scene::challenges::Challenge, sim::checkpoint::Checkpoint};
 use bevy::prelude::{Resource, World};
 use std::collections::VecDeque;
 
@@ -35,6 +35,13 @@ impl History {
         (!self.undo.is_empty(), !self.redo.is_empty())
     }
 
+    /// Forgets the states of challenges: nothing of an earlier try can be had back in the next.
+    fn forget_challenges(&mut self) {
+        let is_free = |state: &Checkpoint| !Challenge::is_name_of_scene(&state.setup.blueprint.name);
+        self.undo.retain(is_free);
+        self.redo.retain(is_free);
+    }
+
     fn push_undo(&mut self, state: Checkpoint) {
         self.undo.push_back(state);
         let mut total: usize = self.undo.iter().chain(&self.redo).map(bytes).sum();
@@ -57,6 +64,11 @@ pub fn remember(world: &mut World, before: Checkpoint) {
     let mut history = world.get_resource_or_init::<History>();
     history.redo.clear();
     history.push_undo(before);
+}
+
+/// Forgets the states of challenges, before one begins.
+pub fn forget_challenges(world: &mut World) {
+    world.get_resource_or_init::<History>().forget_challenges();
 }
 
 /// Goes back to the state before the last edit; `false` if there is none.

@@ -356,6 +356,13 @@ pub fn curve(pen: &Pen<'_>) {
     pen.disc(0.44, 0.56, 0.12);
 }
 
+/// A curve on a screen.
+pub fn trace(pen: &Pen<'_>) {
+    let corners = [(0.06, 0.12), (0.94, 0.12), (0.94, 0.88), (0.06, 0.88), (0.06, 0.12)];
+    pen.line(&corners, 0.08);
+    pen.line(&[(0.2, 0.56), (0.34, 0.56), (0.46, 0.3), (0.6, 0.7), (0.68, 0.5), (0.82, 0.5)], 0.08);
+}
+
 /// Two halves.
 pub fn split(pen: &Pen<'_>) {
     let square = Rect::from_center_size(pen.at(0.5, 0.5), vec2(pen.side * 0.8, pen.side * 0.64));

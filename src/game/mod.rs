@@ -12,6 +12,7 @@
 pub mod actions;
 pub mod brush_mode;
 pub mod camera;
+pub mod challenges;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod clip;
 #[cfg(not(target_arch = "wasm32"))]
@@ -24,6 +25,7 @@ pub mod favourites;
 pub mod files;
 pub mod follow;
 pub mod frame;
+pub mod gauges;
 pub mod hints;
 pub mod history;
 pub mod hud;
@@ -50,6 +52,7 @@ pub mod split;
 pub mod stamps;
 #[cfg(test)]
 mod tests;
+pub mod throws;
 pub mod toasts;
 pub mod toolbox;
 pub mod tools;

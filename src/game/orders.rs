@@ -2,7 +2,10 @@
 //! between ticks.
 
 use crate::{
-    game::actions::{Action, Take},
+    game::{
+        actions::{Action, Take},
+        input::rebind::KeyOrder,
+    },
     kernel::params::Preset,
     lab::{autopilot::Goal, dial::Step, live::accuracy::SurveyRequest},
     scene::effects::{Effect, Mode},
@@ -67,10 +70,26 @@ pub enum Order {
         /// How many times finer than the scene's own its particles are.
         detail: f64,
     },
+    /// Begin the challenge of a name.
+    Challenge(String),
+    /// Begin the challenge again that is tried.
+    ChallengeAgain,
+    /// Leave it.
+    LeaveChallenge,
     /// Play a hard case of the stability gauntlet.
     Watch(&'static str),
+    /// Throw a hard case at the world that is played.
+    Throw(&'static str),
     /// Move the slider of the volume, 0 … 1.
     Volume(f32),
+    /// Choose keys.
+    Keys(KeyOrder),
+    /// Let the gauge of this number stand out, in the panel of all.
+    SelectGauge(u32),
+    /// Take the gauge of this number away.
+    RemoveGauge(u32),
+    /// Write what gauges read as a table.
+    SaveReadings,
 }
 
 /// Orders that wait, oldest first.

@@ -2,20 +2,22 @@
 
 use crate::{
     game::{
-        camera, drop, execute, favourites, follow, frame, hints, history, hud, input, lens, orders, panels, playback,
-        recording, rewind, saves, sound, split, stamps, toasts, toolbox, views,
+        camera, challenges, drop, execute, favourites, follow, frame, gauges, hints, history, hud, input, lens, orders,
+        panels, playback, recording, rewind, saves, sound, split, stamps, throws, toasts, toolbox, views,
     },
     kernel::units::TICKS_PER_SECOND,
     lab::{
         autopilot,
+        gauges::set::{self, any as any_gauge},
+        gauntlet::throws::plugin as stress_test,
         live::{accuracy, measures},
     },
     sim::{recorder, state::Setup},
 };
 use bevy::{
     prelude::{
-        App, AppExit, Fixed, FixedPreUpdate, IntoScheduleConfigs, Last, Plugin, RunFixedMainLoop,
-        RunFixedMainLoopSystems, SystemSet, Time, on_message, resource_exists,
+        App, AppExit, Fixed, FixedPreUpdate, IntoScheduleConfigs, Last, Plugin, PreStartup, RunFixedMainLoop,
+        RunFixedMainLoopSystems, SystemSet, Time, not, on_message, resource_exists,
     },
     time::common_conditions::on_timer,
     window::WindowEvent,
@@ -37,6 +39,8 @@ impl Plugin for GamePlugin {
             .init_resource::<camera::WorldCamera>()
             .init_resource::<toolbox::Toolbox>()
             .init_resource::<input::bindings::Bindings>()
+            .init_resource::<input::keymap::Keymap>()
+            .init_resource::<input::rebind::KeyEditor>()
             .init_resource::<orders::Orders>()
             .init_resource::<drop::Hovering>()
             .init_resource::<views::table::Shown>()
@@ -44,8 +48,11 @@ impl Plugin for GamePlugin {
             .init_resource::<history::History>()
             .init_resource::<rewind::Rewind>()
             .init_resource::<lens::Lens>()
+            .init_resource::<gauges::desk::GaugeDesk>()
             .init_resource::<saves::SaveFolders>()
             .init_resource::<favourites::Favourites>()
+            .init_resource::<challenges::attempt::Attempt>()
+            .init_resource::<challenges::earned::Earned>()
             .init_resource::<stamps::hand::Hand>()
             .init_resource::<stamps::shelf::Shelf>()
             .init_resource::<frame::Tempo>()
@@ -65,19 +72,24 @@ impl Plugin for GamePlugin {
                 hints::plugin,
                 hud::panels::plugin,
                 autopilot::plugin,
+                stress_test,
                 crate::lab::split::plugin,
+                set::plugin,
                 recorder::plugin,
             ))
+            .add_systems(PreStartup, input::keymap::read_file)
             .add_systems(
                 RunFixedMainLoop,
                 (
                     follow::follow_scene,
-                    input::keys::pan,
+                    input::keys::pan.run_if(not(input::rebind::asks)),
                     input::devices::read_devices,
                     drop::read_drops,
                     execute::carry_out,
                     rewind::run,
+                    challenges::attempt::leave_with_the_scene.run_if(resource_exists::<Setup>),
                     lens::run.run_if(lens::is_on),
+                    gauges::act::follow.run_if(any_gauge),
                     split::watch,
                     frame::set_pace,
                 )
@@ -85,7 +97,11 @@ impl Plugin for GamePlugin {
                     .in_set(InputSystems)
                     .in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop),
             )
-            .add_systems(FixedPreUpdate, (playback::feed, input::strokes::make_intents).chain())
+            .add_systems(
+                RunFixedMainLoop,
+                challenges::attempt::see_the_end.in_set(RunFixedMainLoopSystems::AfterFixedMainLoop),
+            )
+            .add_systems(FixedPreUpdate, (playback::feed, throws::feed, input::strokes::make_intents).chain())
             .add_systems(
                 Last,
                 (

@@ -9,7 +9,12 @@ use crate::{
         orders::Orders,
         toasts::Toasts,
     },
-    lab::{cases::JobQueue, exam::ExamCase, gauntlet::GauntletCase, live::accuracy::Survey},
+    lab::{
+        cases::JobQueue,
+        exam::ExamCase,
+        gauntlet::{GauntletCase, throws::StressTest},
+        live::accuracy::Survey,
+    },
     sim::{intent::IntentQueue, pace::Pace},
 };
 use bevy::{
@@ -42,6 +47,7 @@ pub fn plugin(app: &mut App) {
 struct Background<'w> {
     exam: Res<'w, JobQueue<ExamCase>>,
     gauntlet: Res<'w, JobQueue<GauntletCase>>,
+    stress: Res<'w, StressTest>,
     survey: Res<'w, Survey>,
     #[cfg(not(target_arch = "wasm32"))]
     recovery: Option<Res<'w, crate::game::crash::recovery::Recovery>>,
@@ -53,7 +59,8 @@ impl Background<'_> {
         let restores = self.recovery.as_ref().is_some_and(|recovery| recovery.is_busy());
         #[cfg(target_arch = "wasm32")]
         let restores = false;
-        restores || self.exam.is_running() || self.gauntlet.is_running() || self.survey.is_running()
+        let judges = self.exam.is_running() || self.gauntlet.is_running() || self.stress.is_running();
+        restores || judges || self.survey.is_running()
     }
 }
 
@@ -134,6 +141,7 @@ mod tests {
         let mut world = World::new();
         world.init_resource::<JobQueue<ExamCase>>();
         world.init_resource::<JobQueue<GauntletCase>>();
+        world.init_resource::<StressTest>();
         world.init_resource::<Survey>();
         let works = |world: &mut World| {
             world.run_system_once(|background: Background| background.works()).expect("all of it is there")

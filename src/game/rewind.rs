@@ -102,7 +102,7 @@ pub fn ends_with(order: &Order) -> bool {
                 | A::Element(_)
                 | A::Speed(_)
         ),
-        Order::Volume(_) => false,
+        Order::Volume(_) | Order::Keys(_) => false,
         _ => true,
     }
 }
@@ -178,7 +178,7 @@ impl Running {
             }
         }
         // What a frame was too late for is left out.
-        self.due = self.due.min(1.0);
+        self.due = self.due.fract();
         if let Some(frame) = seen {
             show(world, &frame.state);
             self.frame = Some(frame);

@@ -17,7 +17,9 @@ use crate::{
         toasts::Toasts,
         toolbox::Toolbox,
     },
+    kernel::units::TICKS_PER_SECOND,
     sim::{
+        judge::{Judge, Stars, Verdict},
         ledger::PassLedger,
         pace::Pace,
         recorder::Recorder,
@@ -163,7 +165,23 @@ fn look(world: &World) -> Value {
             "calls": world.resource::<SoundCost>().calls(),
             "stream": world.resource::<Ears>().controls().stream_level,
         },
+        "challenge": challenge(world.resource()),
         "messages": world.resource::<Toasts>().texts().collect::<Vec<_>>(),
+    })
+}
+
+/// How the challenge stands that is tried; `null` if none is.
+fn challenge(judge: &Judge) -> Value {
+    let Some(trial) = judge.trial() else { return Value::Null };
+    let stars = if let Verdict::Won(stars) = trial.verdict { stars } else { Stars::default() };
+    json!({
+        "name": trial.challenge.name,
+        "won": stars.done,
+        "lost": matches!(trial.verdict, Verdict::Lost(_)),
+        "stars": stars.count(),
+        "seconds": trial.left() as f64 / f64::from(TICKS_PER_SECOND),
+        "particles": trial.poured(),
+        "strokes": trial.strokes,
     })
 }
 

@@ -1,10 +1,14 @@
-//! What the player has set: size of the HUD, how much of the picture is drawn, size of the window. Kept from session to session;
-//! read before there is a window, and written a second after the last change.
+//! What the player has set: size of the HUD, how much of the picture is drawn, size of the window, and the scene played last.
+//! Kept from session to session; read before there is a window, and written a second after the last change.
 
-use crate::game::{
-    hud::layout::{CHOICES, UiScale},
-    kept::KeptFile,
-    render::level::{Level, PictureLevel},
+use crate::{
+    game::{
+        hud::layout::{CHOICES, UiScale},
+        kept::KeptFile,
+        render::level::{Level, PictureLevel},
+    },
+    scene::builtin_names,
+    sim::state::Setup,
 };
 use bevy::{
     app::App,
@@ -22,7 +26,7 @@ const CALM: f32 = 1.0;
 const WINDOW: [u32; 2] = [320, 16384];
 
 /// What is kept.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct Choices {
     /// Size of the HUD on top of the automatic one.
@@ -31,11 +35,13 @@ struct Choices {
     picture: Option<Level>,
     /// Size of the window, logical pixels, or `None` for the game's own.
     window: Option<(u32, u32)>,
+    /// The built-in scene that was played last.
+    scene: Option<String>,
 }
 
 impl Default for Choices {
     fn default() -> Self {
-        Self { hud: 1.0, picture: None, window: None }
+        Self { hud: 1.0, picture: None, window: None, scene: None }
     }
 }
 
@@ -78,26 +84,35 @@ impl Settings {
         self.kept.window
     }
 
+    /// The built-in scene that was played last, unless this version has none of that name.
+    pub fn scene(&self) -> Option<&str> {
+        self.kept.scene.as_deref().filter(|name| builtin_names().contains(name))
+    }
+
     /// Writes what has changed once it has been the same for a while.
     fn follow(&mut self, now: Choices, seconds: f32) {
         if now == self.kept {
             self.next = None;
             return;
         }
-        let since = self.next.filter(|(next, _)| *next == now).map_or(0.0, |(_, since)| since + seconds);
-        self.next = Some((now, since));
-        if since >= CALM {
-            (self.kept, self.next) = (now, None);
-            if let Err(error) = self.file.write(&now) {
-                error!("{error}");
-            }
+        let since = match self.next.take() {
+            Some((next, since)) if next == now => since + seconds,
+            _ => 0.0,
+        };
+        if since < CALM {
+            self.next = Some((now, since));
+            return;
         }
+        if let Err(error) = self.file.write(&now) {
+            error!("{error}");
+        }
+        self.kept = now;
     }
 }
 
 /// Puts the settings of the last session in force, and keeps those of this one.
 pub fn plugin(app: &mut App, settings: Settings) {
-    let Choices { hud, picture, .. } = settings.kept;
+    let Choices { hud, picture, .. } = settings.kept.clone();
     app.insert_resource(UiScale { factor: hud }).insert_resource(settings).add_systems(Update, keep);
     app.world_mut().get_resource_or_init::<PictureLevel>().want(picture);
 }
@@ -108,13 +123,17 @@ fn keep(
     scale: Res<UiScale>,
     level: Res<PictureLevel>,
     window: Single<&Window, With<PrimaryWindow>>,
+    setup: Option<Res<Setup>>,
     time: Res<Time<Real>>,
 ) {
     let size = window.resolution.size().as_uvec2().to_array();
     // A window that is minimised has no size, and that of a page is the page's.
     let sensible = size.iter().all(|edge| (WINDOW[0]..=WINDOW[1]).contains(edge)) && !cfg!(target_arch = "wasm32");
     let window = if sensible { Some(size.into()) } else { settings.kept.window };
-    let now = Choices { hud: scale.factor, picture: level.wanted(), window };
+    let last = settings.kept.scene.as_ref();
+    let scene = setup.as_ref().map(|setup| &setup.blueprint.name);
+    let scene = scene.filter(|name| last == Some(name) || builtin_names().contains(&name.as_str())).or(last).cloned();
+    let now = Choices { hud: scale.factor, picture: level.wanted(), window, scene };
     settings.bypass_change_detection().follow(now, time.delta_secs());
 }
 
@@ -131,16 +150,25 @@ mod tests {
         let _ = fs::remove_dir_all(&folder);
         let file = || KeptFile::of_folder(&folder, FILE);
         let mut settings = Settings::of_file(file());
-        let chosen = Choices { hud: 1.3, picture: Some(Level::Plain), window: Some((900, 700)) };
+        let scene = Some("volcano".to_owned());
+        let chosen = Choices { hud: 1.3, picture: Some(Level::Plain), window: Some((900, 700)), scene };
         settings.follow(Choices::default(), 10.0);
         assert!(!folder.exists(), "nothing changed, so nothing is written");
         for width in 800..900 {
-            settings.follow(Choices { window: Some((width, 700)), ..chosen }, 0.5);
+            settings.follow(Choices { window: Some((width, 700)), ..chosen.clone() }, 0.5);
         }
         assert!(!folder.exists(), "a window is being resized");
-        (0..3).for_each(|_| settings.follow(chosen, 0.5));
-        assert_eq!(Settings::of_file(file()).kept, chosen);
+        (0..3).for_each(|_| settings.follow(chosen.clone(), 0.5));
+        let again = Settings::of_file(file());
+        assert_eq!((again.scene(), again.window()), (Some("volcano"), Some((900, 700))));
+        assert_eq!(again.kept, chosen);
         fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_scene_of_another_version_is_not_asked_for() {
+        let kept = Choices { scene: Some("atlantis".to_owned()), ..Choices::default() };
+        assert_eq!(Settings { kept, ..Settings::default() }.scene(), None);
     }
 
     #[test]

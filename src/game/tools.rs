@@ -11,7 +11,10 @@ use crate::{
         element::{Category, Element, ElementId, ElementTable},
         heat::units::ROOM,
     },
-    lab::colours::Reference,
+    lab::{
+        colours::Reference,
+        hand::{AIR_BRUSH, PRESS_STEP, WARM_STEP, throw, wind},
+    },
     scene::effects::Effect,
     sim::intent::Intent,
 };
@@ -19,23 +22,6 @@ use bevy::prelude::KeyCode;
 use bevy_egui::egui::Color32;
 use glam::Vec2;
 use std::fmt;
-
-/// A small brush that moves air cannot be felt: theirs is at least this, d.
-const AIR_BRUSH: f32 = 6.0;
-/// Speed of the wind for each unit of drag speed.
-const WIND_GAIN: f32 = 2.5;
-/// Most wind that a drag makes, in units of [`Reference::wind`]: the speed of sound. Water takes off at some two units.
-pub(crate) const WIND_LIMIT: f32 = 5.0;
-/// A drag slower than this makes no wind, in units of [`Reference::wind`].
-const WIND_FLOOR: f32 = 0.02;
-/// Share of the speed of a drag that what is poured gets, at most that of a fall through the whole box. With all of it the
-/// poured would go with the brush and leave no room for more: a swing would throw one drop, not a stream.
-const THROW: f32 = 0.5;
-/// Pressure that one tick of the pressure tool adds; the surroundings' is 1.
-const PRESS_STEP: f32 = 0.4;
-
-/// By how much one tick of the heat tool warms or cools, K: water boils away in half a second.
-const WARM_STEP: f32 = 6.0;
 
 /// Colour of lines and icons that stand for no element.
 const PLAIN: Color32 = Color32::from_rgb(216, 223, 234);
@@ -71,11 +57,7 @@ pub static WIND: ToolRow = ToolRow {
     help: "wind: drag to blow",
     needs: Some(Effect::Air),
     least_radius: AIR_BRUSH,
-    left: |dab| {
-        let strong = dab.reference.wind;
-        let velocity = (dab.velocity * WIND_GAIN).clamp_length_max(WIND_LIMIT * strong);
-        (velocity.length() > WIND_FLOOR * strong).then_some(Intent::Blow { stroke: dab.stroke, velocity })
-    },
+    left: |dab| wind(dab.velocity, dab.reference).map(|velocity| Intent::Blow { stroke: dab.stroke, velocity }),
     right: |dab| Some(Intent::Erase { stroke: dab.stroke }),
     has_shapes: false,
     has_temperature: false,
@@ -319,7 +301,7 @@ impl Tool {
 
 /// An element poured by the hand.
 fn pour(dab: &Dab, element: ElementId) -> Intent {
-    let velocity = (dab.velocity * THROW).clamp_length_max(dab.reference.fall);
+    let velocity = throw(dab.velocity, dab.reference);
     Intent::Pour { element, stroke: dab.stroke, velocity, share: dab.share }
 }
 

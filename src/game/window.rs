@@ -4,9 +4,11 @@
 use crate::game::crash;
 use crate::{
     game::{
+        challenges::earned::Earned,
         favourites::Favourites,
         hints::Hints,
         hud::{HudPlugin, panels::scenes::SceneFolder},
+        input::keymap::Keymap,
         plugin::GamePlugin,
         render::WorldRenderPlugin,
         rest,
@@ -122,7 +124,9 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
     .add_plugins(EguiPlugin::default())
     .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
     .insert_resource(Favourites::of_user())
+    .insert_resource(Keymap::of_user())
     .insert_resource(Shelf::of_user())
+    .insert_resource(Earned::of_user())
     .insert_resource(SceneFolder::of_user())
     .insert_resource(Hints::of_user())
     .insert_resource(Volume::of_user())

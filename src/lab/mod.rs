@@ -7,6 +7,7 @@ pub mod balance;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod binning;
 pub mod cases;
+pub mod challenge;
 #[cfg(all(feature = "charts", not(target_arch = "wasm32")))]
 pub mod chart;
 pub mod coarse;
@@ -20,7 +21,9 @@ pub mod effect_cost;
 pub mod exam;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod experiment;
+pub mod gauges;
 pub mod gauntlet;
+pub mod hand;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod heat_cost;
 pub mod jobs;

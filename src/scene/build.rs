@@ -76,11 +76,19 @@ struct Settings {
 impl SceneFile {
     pub(super) fn from_source(source: Source) -> Result<Self, SceneError> {
         let text: SceneText = parse(&source.file, &source.bytes)?;
-        text.check(&source.file)?;
+        Self::new(source.name, source.file, source.origin, text, &source.bytes)
+    }
+
+    /// The scene called `name` that is a part of a file: that of a challenge. It can't name pictures.
+    pub(super) fn of_part(name: &str, file: &str, text: SceneText, bytes: &[u8]) -> Result<Self, SceneError> {
+        Self::new(name.to_owned(), file.to_owned(), Origin::Builtin, text, bytes)
+    }
+
+    fn new(name: String, file: String, origin: Origin, text: SceneText, bytes: &[u8]) -> Result<Self, SceneError> {
+        text.check(&file)?;
         let mut hasher = DefaultHasher::new();
-        source.bytes.hash(&mut hasher);
-        let mark = hasher.finish();
-        Ok(Self { name: source.name, file: source.file, origin: source.origin, text, mark, detail: 1.0 })
+        bytes.hash(&mut hasher);
+        Ok(Self { name, file, origin, text, mark: hasher.finish(), detail: 1.0 })
     }
 
     /// The scene called `name` that `bytes` are the file of. It can't name pictures.

@@ -5,6 +5,7 @@
 //!                       │ expression, number    ├ place: shapes → particles and rock (shape, image)
 //!                       └ error: one line each  ├ flow: emitters, winds, drains, pressures
 //!                                               └ knobs: the numbers and words that every scene has, `--set`
+//! challenges: a scene, and what is to be reached in it
 //! ```
 
 mod build;
@@ -26,6 +27,7 @@ mod table;
 mod tests;
 
 pub mod blueprint;
+pub mod challenges;
 pub mod effects;
 pub mod passes;
 pub mod readers;

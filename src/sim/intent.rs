@@ -157,6 +157,16 @@ pub enum Intent {
         /// How long it is poured, of a tick.
         share: f32,
     },
+    /// Take up a challenge, at the start of its scene.
+    Begin {
+        /// Its name.
+        challenge: String,
+    },
+    /// A press begins, which lasts up to its release: what the intents behind it do, up to the next of these, is one stroke. Only
+    /// while a challenge runs.
+    Stroke,
+    /// Leave the challenge.
+    GiveUp,
 }
 
 /// What many share is written and read as one's own.
@@ -203,7 +213,13 @@ impl Intent {
             Self::EraseAround { element, at } => Self::EraseAround { element, at: at * factor },
             Self::Paste { piece, at, turn } => Self::Paste { piece, at: at * factor, turn },
             Self::Gravity { gravity } => Self::Gravity { gravity: gravity * factor },
-            Self::ClearAir | Self::Quality { .. } | Self::Effect { .. } | Self::Detail { .. } => self,
+            Self::ClearAir
+            | Self::Quality { .. }
+            | Self::Effect { .. }
+            | Self::Detail { .. }
+            | Self::Begin { .. }
+            | Self::Stroke
+            | Self::GiveUp => self,
         }
     }
 }

@@ -8,6 +8,7 @@ pub mod fault;
 pub mod file;
 pub mod generation;
 pub mod intent;
+pub mod judge;
 pub mod ledger;
 pub mod mark;
 pub mod new_file;
@@ -37,6 +38,7 @@ impl Plugin for SimulationPlugin {
         app.init_resource::<pace::Pace>()
             .init_resource::<generation::Generation>()
             .init_resource::<intent::IntentQueue>()
+            .init_resource::<judge::Judge>()
             .init_resource::<stages::TickPlan>()
             .init_resource::<state::SolverState>()
             .init_resource::<state::PredictorState>()

@@ -126,6 +126,9 @@ fn watching_and_threads_never_change_the_world() {
             ["--wav", "w.wav"],
             ["--particles", "p.csv"],
             ["--reference", "r.csv"],
+            ["--gauge", "0.4,0.3"],
+            ["--gauge-line", "1,0,1,1.6"],
+            ["--readings", "g.csv"],
         ]
         .concat(),
     );
@@ -149,6 +152,39 @@ fn the_distance_to_the_reference_is_a_table_over_time() {
     assert!((found["accuracy"]["distance"]["share"].as_f64().unwrap() - mean).abs() < 1e-9);
     let own = metrics(&here, &[&SMALL[..], &["--quality", "reference", "--reference", "r.csv"]].concat());
     assert_eq!(own["accuracy"]["distance"]["momentum"], 0.0, "the reference is no distance from itself");
+}
+
+#[test]
+fn readings_are_a_table_that_is_the_same_on_any_number_of_threads() {
+    let here = folder("readings");
+    let gauges =
+        ["--gauge", "0.4,0.3", "--gauge", "3,1.5,0.2", "--gauge-line", "1,0,1,1.68", "--gauge-element", "water"];
+    let said = good(&here, &[&SMALL[..], &gauges, &["--readings", "one.csv", "--threads", "1"]].concat());
+    assert!(said.contains("hash="), "{said}");
+    let table = std::fs::read_to_string(here.join("one.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), 46, "a head, and a line for each tick");
+    let column =
+        |name: &str| rows[0].iter().position(|head| *head == name).unwrap_or_else(|| panic!("{name} in {table}"));
+    let numbers = |name: &str| -> Vec<Option<f64>> {
+        let at = column(name);
+        rows[1..].iter().map(|row| (!row[at].is_empty()).then(|| row[at].parse().unwrap())).collect()
+    };
+    assert_eq!(numbers("tick")[44], Some(45.0));
+    assert_eq!(numbers("time_s")[44], Some(0.75));
+    assert!(numbers("gauge1_pressure_pa").iter().flatten().count() > 20, "water is there for a while");
+    assert!(numbers("gauge2_speed_m_per_s").iter().all(Option::is_none), "nothing comes up there");
+    assert!(numbers("gauge2_particles").iter().all(|count| *count == Some(0.0)));
+    assert!(numbers("gauge1_air_pressure_pa").iter().all(Option::is_none), "the scene has no air");
+    let (flow, water) = (numbers("gauge3_flow_m2_per_s"), numbers("gauge3_water_flow_m2_per_s"));
+    assert_eq!(flow, water, "there is nothing else");
+    let crossed = numbers("gauge3_crossed")[44].unwrap();
+    let volume: f64 = flow.iter().flatten().sum::<f64>() / 60.0;
+    assert!(crossed > 10.0 && (volume - crossed * 0.01).abs() < 1e-6, "{crossed} particles are {volume} m²");
+    good(&here, &[&SMALL[..], &gauges, &["--readings", "two.csv", "--threads", "3"]].concat());
+    assert_eq!(std::fs::read_to_string(here.join("two.csv")).unwrap(), table);
+    let said = good(&here, &[&SMALL[..], &gauges, &["--readings", "-"]].concat());
+    assert_eq!(said, table, "stdout has the table and nothing else");
 }
 
 /// Two small settings of a small scene, twice each.

@@ -47,6 +47,24 @@ fn bad_usage_is_one_line_that_says_what_is_allowed() {
         (&["run", "waterfall", "--hold-ms", "-1"], &["--hold-ms", "allowed"]),
         (&["run", "waterfall", "--hold-error", "nan"], &["--hold-error", "allowed: numbers from 0.0001 to 100"]),
         (&["run", "waterfall", "--hold-error", "1", "--hold-ms", "1"], &["--hold-error", "--hold-ms"]),
+        (&["run", "waterfall", "--gauge", "3"], &["--gauge", "allowed: X,Y or X,Y,R in metres"]),
+        (&["run", "waterfall", "--gauge", "3,nan", "--readings", "r.csv"], &["--gauge", "X,Y,R"]),
+        (&["run", "waterfall", "--gauge", "25,1", "--readings", "r.csv"], &["--gauge", "25,1", "x from 0 to 24.5"]),
+        (&["run", "waterfall", "--gauge", "-1,1", "--readings", "r.csv"], &["--gauge", "not in the box", "allowed"]),
+        (
+            &["run", "waterfall", "--gauge", "1,1,0.01", "--readings", "r.csv"],
+            &["--gauge", "a radius", "0.0700 (a spacing)"],
+        ),
+        (&["run", "waterfall", "--gauge-line", "1,1,2", "--readings", "r.csv"], &["--gauge-line", "X1,Y1,X2,Y2"]),
+        (&["run", "waterfall", "--gauge-line", "1,1,1,1", "--readings", "r.csv"], &["--gauge-line", "half a spacing"]),
+        (&["run", "waterfall", "--gauge", "1,1"], &["the gauges are read by nobody", "--readings FILE.csv"]),
+        (&["run", "waterfall", "--readings", "r.csv"], &["--readings", "allowed", "--gauge"]),
+        (&["run", "waterfall", "--gauge", "1,1", "--gauge-element", "water", "--readings", "r.csv"], &["--gauge-line"]),
+        (
+            &["run", "waterfall", "--gauge-line", "1,1,2,2", "--gauge-element", "watre", "--readings", "r.csv"],
+            &["--gauge-element watre", "allowed", "water"],
+        ),
+        (&["run", "waterfall", "--gauge", "1,1", "--readings", "-", "--metrics", "-"], &["stdout", "allowed"]),
         (&["run", "niagara"], &["niagara", "allowed", "dam_break", "waterfall"]),
         (&["run", "no/such.ron"], &["no/such.ron"]),
         (&["play", "niagara"], &["niagara", "allowed"]),
@@ -97,7 +115,7 @@ fn a_bad_output_path_is_refused_before_anything_is_simulated() {
     let here = folder("bad_output");
     // A run of this length would take hours.
     let long = |option: &'static str, path: &'static str| ["run", "waterfall", "--seconds", "90000", option, path];
-    for option in ["--metrics", "--particles", "--trace", "--reference", "--png", "--wav", "--snapshot"] {
+    for option in ["--metrics", "--particles", "--trace", "--reference", "--png", "--wav", "--readings", "--snapshot"] {
         refused(&here, &long(option, "nowhere/out"), 2, &["nowhere/out", "no folder", "allowed"]);
         refused(&here, &long(option, "."), 2, &["is a folder"]);
     }

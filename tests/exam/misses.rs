@@ -51,6 +51,7 @@ fn a_new_miss_and_a_cured_one_are_found() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "heavy: in release only")]
 fn what_misses_is_listed_and_what_is_listed_misses() {
     let mut jobs: Vec<_> = jobs(&CASES, |case| case.size == Size::Quick, &Preset::ALL, 1.0);
     jobs.extend(self::jobs(&CASES, |case| case.size != Size::Quick, &[Preset::Balanced], 1.0));

@@ -11,7 +11,10 @@ use super::random::seed;
 use crate::support::SimulationExt;
 use powder_master::{
     kernel::params::Preset,
-    lab::gauntlet::random::{Case, World},
+    lab::{
+        gauntlet::random::{Case, World},
+        jobs::pool,
+    },
     scene::{
         self,
         blueprint::Blueprint,
@@ -26,6 +29,8 @@ use powder_master::{
         state::{AirGrid, Rock},
     },
 };
+use std::thread::available_parallelism;
+
 /// Ticks of a built-in scene.
 const SCENE_TICKS: u32 = 60;
 /// Random worlds, of each one effect.
@@ -47,33 +52,48 @@ struct Outcome {
     vacuum: bool,
 }
 
-/// Runs `case` with `effect` in `mode`. What is not called for is not called in any tick.
+/// Runs `case` with `effect` in `mode`.
 fn run(blueprint: &Blueprint, case: &Case, effect: Effect, mode: Mode) -> Result<Outcome, String> {
     let mut blueprint = blueprint.clone();
     blueprint.effects.insert(effect, mode);
+    Ok(watch(blueprint, case, &[effect])?[0])
+}
+
+/// Runs `case` and watches some effects; what is said of them in its input is left out. What is not called for is not called in
+/// any tick.
+fn watch(blueprint: Blueprint, case: &Case, effects: &[Effect]) -> Result<Vec<Outcome>, String> {
     let mut simulation = Simulation::of(blueprint);
-    // What is said of the effect in question is left out.
-    let keeps = |entry: &&Entry| !matches!(entry.intent, Intent::Effect { effect: switched, .. } if switched == effect);
+    let keeps = |entry: &&Entry| !matches!(&entry.intent, Intent::Effect { effect, .. } if effects.contains(effect));
     let mut input = Input::new(case.input.iter().filter(keeps).cloned().collect());
-    let calls = |simulation: &Simulation| effect.row().passes.iter().map(|pass| simulation.calls(*pass)).sum::<u64>();
+    let calls = |simulation: &Simulation, effect: Effect| {
+        effect.row().passes.iter().map(|pass| simulation.calls(*pass)).sum::<u64>()
+    };
     for tick in 0..case.ticks {
         input.give(simulation.world_mut());
-        let before = calls(&simulation);
+        let before: Vec<u64> = effects.iter().map(|effect| calls(&simulation, *effect)).collect();
         simulation.run(1);
-        let (added, runs) = (calls(&simulation) - before, simulation.get::<Effects>().get(effect).running);
         // A stage of a substep is called once in each at most; sleep has four of them, and a look at either end.
-        let most = if runs { 4 * u64::from(simulation.get::<TickPlan>().substeps) + 2 } else { 0 };
-        if added > most {
-            return Err(format!("{} {mode:?}: {added} calls in tick {tick}, {most} allowed", effect.name()));
+        let most_of_one = 4 * u64::from(simulation.get::<TickPlan>().substeps) + 2;
+        for (effect, before) in effects.iter().zip(before) {
+            let (added, state) = (calls(&simulation, *effect) - before, simulation.get::<Effects>().get(*effect));
+            let most = if state.running { most_of_one } else { 0 };
+            if added > most {
+                let (name, mode) = (effect.name(), state.mode);
+                return Err(format!("{name} {mode:?}: {added} calls in tick {tick}, {most} allowed"));
+            }
         }
     }
-    let state = simulation.get::<Effects>().get(effect);
-    let (active, differing) = (state.active_ticks, state.differing_ticks);
     let (air, rock) = (simulation.get::<AirGrid>(), simulation.get::<Rock>());
     let air = air.with_grid(rock);
     let mut cells = (0..air.rows()).flat_map(|row| (0..air.columns()).map(move |column| (column, row)));
     let vacuum = cells.any(|(x, y)| !air.is_solid_cell(x, y) && air.pressure_at_cell(x, y) == 0.0);
-    Ok(Outcome { hash: simulation.hash(), active, differing, calls: calls(&simulation), vacuum })
+    let hash = simulation.hash();
+    let outcome = |effect: &Effect| {
+        let state = simulation.get::<Effects>().get(*effect);
+        let (active, differing) = (state.active_ticks, state.differing_ticks);
+        Outcome { hash, active, differing, calls: calls(&simulation, *effect), vacuum }
+    };
+    Ok(effects.iter().map(outcome).collect())
 }
 
 /// Which of the two claims a case was good for.
@@ -87,9 +107,8 @@ struct Held {
     off: bool,
 }
 
-/// Compares the modes of an effect.
-fn judge(blueprint: &Blueprint, case: &Case, effect: Effect) -> Result<Held, String> {
-    let auto = run(blueprint, case, effect, Mode::Auto)?;
+/// Compares the modes of an effect with what came of `auto`.
+fn judge(blueprint: &Blueprint, case: &Case, effect: Effect, auto: Outcome) -> Result<Held, String> {
     let off = run(blueprint, case, effect, Mode::Off)?;
     let fault = |what: &str| Err(format!("{}: {what}; {auto:?}", effect.name()));
     if off.calls > 0 || off.active > 0 {
@@ -121,16 +140,32 @@ fn still(ticks: u32) -> Case {
     Case { scene: String::new(), input: Vec::new(), ticks }
 }
 
+/// Compares the modes of all effects in a built-in scene. Those that it leaves to `auto` share that run.
+fn judge_scene(name: &str) -> Vec<Result<Held, String>> {
+    let file = scene::load(name).unwrap_or_else(|error| panic!("{error}"));
+    let blueprint = file.build(&[], Some(Preset::Draft), &EffectModes::new()).unwrap_or_else(|error| panic!("{error}"));
+    let case = still(SCENE_TICKS);
+    let is_auto = |effect: &Effect| blueprint.effects.get(effect).is_none_or(|mode| *mode == Mode::Auto);
+    let (shared, own): (Vec<Effect>, Vec<Effect>) = Effect::ALL.into_iter().partition(is_auto);
+    let outcomes = match watch(blueprint.clone(), &case, &shared) {
+        Ok(outcomes) => outcomes,
+        Err(fault) => return vec![Err(fault)],
+    };
+    let shared = shared.into_iter().zip(outcomes.into_iter().map(Ok));
+    let own = own.into_iter().map(|effect| (effect, run(&blueprint, &case, effect, Mode::Auto)));
+    shared.chain(own).map(|(effect, auto)| judge(&blueprint, &case, effect, auto?)).collect()
+}
+
 #[test]
+#[cfg_attr(debug_assertions, ignore = "heavy: in release only")]
 fn in_every_scene_auto_leaves_out_only_what_does_nothing() {
     let mut faults = Vec::new();
     let (mut on, mut idle, mut off) = (0, 0, 0);
-    for name in scene::builtin_names() {
-        let file = scene::load(name).unwrap_or_else(|error| panic!("{error}"));
-        let blueprint =
-            file.build(&[], Some(Preset::Draft), &EffectModes::new()).unwrap_or_else(|error| panic!("{error}"));
-        for effect in Effect::ALL {
-            match judge(&blueprint, &still(SCENE_TICKS), effect) {
+    let (names, threads) = (scene::builtin_names(), available_parallelism().map_or(1, usize::from));
+    let judged = pool::run(&names, threads, |_| 1, |_, _| {}, |name| judge_scene(name));
+    for (name, all) in names.iter().zip(judged) {
+        for held in all {
+            match held {
                 Ok(held) => {
                     on += u32::from(held.on);
                     idle += u32::from(held.on_idle);
@@ -158,7 +193,8 @@ fn in_random_scenes_auto_leaves_out_only_what_does_nothing() {
         // Whether a scene is refused as it should be is another test's.
         let Ok(blueprint) = file.and_then(|file| file.build(&[], None, &EffectModes::new())) else { continue };
         let effect = Effect::ALL[index as usize % Effect::ALL.len()];
-        let held = judge(&blueprint, &case, effect).unwrap_or_else(|fault| {
+        let auto = run(&blueprint, &case, effect, Mode::Auto);
+        let held = auto.and_then(|auto| judge(&blueprint, &case, effect, auto)).unwrap_or_else(|fault| {
             panic!("world {seed}/{index}, {fault}\n{}\n{:?}", case.scene, case.input);
         });
         (on, idle, off) = (on + u32::from(held.on), idle + u32::from(held.on_idle), off + u32::from(held.off));

@@ -25,7 +25,7 @@ export async function display() {
   return { name: `:${number}`, stop: () => server.kill() };
 }
 
-// Opens the game with a scene; its files and its log go to `folder`.
+// Opens the game with a scene, or with `[]` as a player does who names none; its files and its log go to `folder`.
 export async function open(program, display, folder, scene = ['empty']) {
   const { WAYLAND_DISPLAY, ...rest } = process.env;
   const env = { ...rest, DISPLAY: display, XDG_DATA_HOME: join(folder, 'data') };

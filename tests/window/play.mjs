@@ -39,7 +39,7 @@ async function test(name, body) {
   console.log(`ok: ${name}${told ? `: ${told}` : ''} (${((Date.now() - begun) / 1000).toFixed(1)} s)`);
 }
 
-const begin = async () => { game = await open(program, screen.name, folder); };
+const begin = async (scene) => { game = await open(program, screen.name, folder, scene); };
 const quiet = () => game.until('no message is shown', ({ messages }) => messages.length === 0);
 const pour = (least) => game.drag(1, HIGH, `${least} particles of water`, ({ particles }) => particles >= least);
 
@@ -334,6 +334,27 @@ async function play() {
     return `${scene} was played`;
   });
 
+  await test('what is thrown at the world is judged, and undo brings the world back', async () => {
+    await pour(200);
+    await game.key('shift+F7');
+    await game.untilWidgets('the panel is open', (all) => isOpen(all, 'Try to break it'));
+    const { tick } = await game.stats();
+    await game.click('A blast');
+    const verdict = /^A blast: (held|as known|broken)$/;
+    const widgets = await game.untilWidgets('a verdict', (all) => all.some(({ name }) => verdict.test(name)));
+    await game.picture('thrown');
+    const { name } = widgets.find((widget) => verdict.test(widget.name));
+    if (!name.endsWith('held')) throw new Error(name);
+    const later = (await game.until('the world goes on', (now) => now.tick > tick + 60)).tick;
+    await game.key('ctrl+z');
+    await game.until('undo brings the world back', (now) => now.tick < later && now.particles >= 200);
+    await game.key('shift+F7');
+    await game.untilWidgets('the panel is closed', (all) => !isOpen(all, 'Try to break it'));
+    await game.key('r');
+    await game.until('an empty scene again', ({ particles }) => particles === 0);
+    return name;
+  });
+
   await test('a recording and the last minute can be replayed', async () => {
     await game.key('F9');
     await game.until('it records', ({ recording }) => recording !== null);
@@ -388,10 +409,11 @@ async function play() {
     await pour((await game.stats()).particles + 100);
     await poll('what was played is in the journal', size, (now) => now > before);
     assert.equal(await game.kill('SIGKILL'), 'SIGKILL');
-    await begin();
+    await begin([]);
     await game.untilWidgets('the offer', (all) => isOpen(all, 'The game ended unexpectedly'));
-    await game.picture('offer');
-    assert.equal((await game.stats()).particles, 0, 'something was restored unasked');
+    await poll('the offer is drawn', () => game.picture('offer'), (pixels) => pixels.some((value) => value > 40));
+    const { scene, particles: restored } = await game.stats();
+    assert.deepEqual([scene, restored], ['empty', 0], 'not the scene of last time, or something was restored unasked');
     await game.click('Restore');
     const { particles } = await game.until('the world is back', (now) => now.particles > 0);
     // A favourite and the settings outlive the game, too.

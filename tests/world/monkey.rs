@@ -67,6 +67,7 @@ fn assert_sound(simulation: &Simulation, what: &str, gone: u64) {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "heavy: in release only")]
 fn no_whim_breaks_a_built_in_scene() {
     let scenes = scene::builtin_names();
     assert!(scenes.len() >= 8);

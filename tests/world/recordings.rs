@@ -70,6 +70,7 @@ fn same(recording: &Recording) -> (u64, u64) {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "heavy: in release only")]
 fn whims_in_every_built_in_scene_are_the_same_again_from_the_middle_on() {
     for (k, name) in scene::builtin_names().into_iter().enumerate() {
         let mut simulation = recorded(name, small(name));

@@ -2,12 +2,13 @@
 
 use super::{
     lab::{
-        BenchArguments, CaseArguments, GauntletArguments, MergeArguments, SoakArguments, StudyArguments, SweepArguments,
+        BenchArguments, CaseArguments, ChallengeArguments, GauntletArguments, MergeArguments, SoakArguments,
+        StudyArguments, SweepArguments,
     },
     machine::Machine,
     values::{
-        Ticks, detail, effect, frames_per_second, hold_error, hold_ms, picture_size, preset, seconds, setting, ticks,
-        warmup,
+        Ticks, detail, effect, frames_per_second, gauge, gauge_line, hold_error, hold_ms, picture_size, preset,
+        seconds, setting, ticks, warmup,
     },
 };
 use crate::{
@@ -16,7 +17,7 @@ use crate::{
     scene::effects::{Effect, Mode},
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use glam::UVec2;
+use glam::{UVec2, Vec2};
 use std::path::PathBuf;
 
 /// A real-time 2-D sandbox of powders and fluids in moving air.
@@ -40,6 +41,8 @@ pub(in crate::cli) enum Command {
     Replay(ReplayArguments),
     /// Draw a recording and write it as a GIF
     Clip(ClipArguments),
+    /// Play challenges by their solutions without a window, and print the stars
+    Challenge(ChallengeArguments),
     /// Measure what something costs, and print the table
     Bench(BenchArguments),
     /// Compare the physics with known answers, at each quality
@@ -110,7 +113,7 @@ pub(in crate::cli) enum Listing {
 #[derive(Debug, Args)]
 pub(in crate::cli) struct PlayArguments {
     /// Scene: a name of `list scenes`, or the path of a scene file, a save file, a picture with its world or
-    /// a recording [default: waterfall]
+    /// a recording [default: the scene played last, at first waterfall]
     pub(in crate::cli) scene: Option<String>,
     #[command(flatten)]
     pub(in crate::cli) options: PlayOptions,
@@ -179,6 +182,19 @@ pub(in crate::cli) struct RunArguments {
     /// Write a line for each tick: time, energy, momentum, front, surface
     #[arg(long, value_name = "FILE.csv")]
     pub(in crate::cli) trace: Option<PathBuf>,
+    /// Set a gauge at a place, with a radius [default: 3 spacings of the scene], in metres: `--readings` writes what it reads
+    /// (docs/gauges.md)
+    #[arg(long = "gauge", value_name = "X,Y[,R]", allow_hyphen_values = true, value_parser = gauge)]
+    pub(in crate::cli) gauges: Vec<(Vec2, Option<f32>)>,
+    /// Measure the flow through a line, in metres; to the right of the way from its first end to its second is positive
+    #[arg(long = "gauge-line", value_name = "X1,Y1,X2,Y2", allow_hyphen_values = true, value_parser = gauge_line)]
+    pub(in crate::cli) gauge_lines: Vec<(Vec2, Vec2)>,
+    /// Also give the flow of this element alone, through each line
+    #[arg(long = "gauge-element", value_name = "ELEMENT", requires = "gauge_lines")]
+    pub(in crate::cli) gauge_elements: Vec<String>,
+    /// Write what the gauges read, a line for each tick; `-` is stdout
+    #[arg(long, value_name = "FILE.csv")]
+    pub(in crate::cli) readings: Option<PathBuf>,
     /// Run the same start at `reference` quality, too, and write the distance to it over time
     #[arg(long, value_name = "FILE.csv")]
     pub(in crate::cli) reference: Option<PathBuf>,

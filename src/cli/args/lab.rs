@@ -17,6 +17,26 @@ use crate::{
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
+/// `challenge`.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct ChallengeArguments {
+    /// Its name [default: all of them]
+    #[arg(value_name = "NAME")]
+    pub(in crate::cli) name: Option<String>,
+    /// Quality: a name of `list qualities` [default: balanced]
+    #[arg(long, value_name = "QUALITY", value_parser = preset)]
+    pub(in crate::cli) quality: Option<Preset>,
+    /// Do nothing in it, in place of its solution
+    #[arg(long)]
+    pub(in crate::cli) idle: bool,
+    /// Threads [default: all]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+    pub(in crate::cli) threads: Option<u64>,
+    /// Write the outcomes as JSON; `-` is stdout, in place of the table
+    #[arg(long, value_name = "FILE.json")]
+    pub(in crate::cli) json: Option<PathBuf>,
+}
+
 /// `bench`.
 #[derive(Debug, Args)]
 #[command(arg_required_else_help = false, disable_help_subcommand = true)]

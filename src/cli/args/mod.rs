@@ -8,7 +8,7 @@ mod values;
 
 pub(super) use commands::{Arguments, ClipArguments, Command, Listing, PlayOptions, ReplayArguments, RunArguments};
 pub(super) use lab::{
-    Bench, BenchArguments, CaseArguments, GauntletArguments, MergeArguments, ScalingOptions, SoakArguments, Study,
-    StudyArguments, SweepArguments,
+    Bench, BenchArguments, CaseArguments, ChallengeArguments, GauntletArguments, MergeArguments, ScalingOptions,
+    SoakArguments, Study, StudyArguments, SweepArguments,
 };
 pub(super) use values::{Minutes, Ticks};

@@ -8,7 +8,7 @@ use crate::{
         effects::{Effect, Mode},
     },
 };
-use glam::UVec2;
+use glam::{UVec2, Vec2};
 use std::{fmt::Display, ops::RangeInclusive, str::FromStr};
 
 /// Longest run, s; about 28 hours.
@@ -121,6 +121,25 @@ pub(super) fn picture_size(text: &str) -> Result<UVec2, String> {
     sides.ok_or_else(|| format!("allowed: WIDTHxHEIGHT, each from {least} to {most}, such as 640x360"))
 }
 
+/// `N` numbers with commas between them.
+fn numbers<const N: usize>(text: &str) -> Option<[f32; N]> {
+    let numbers: Option<Vec<f32>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    numbers?.try_into().ok().filter(|numbers: &[f32; N]| numbers.iter().all(|number| number.is_finite()))
+}
+
+/// A place, m, and a radius if that is given.
+pub(super) fn gauge(text: &str) -> Result<(Vec2, Option<f32>), String> {
+    let place = numbers(text).map(|[x, y]| (Vec2::new(x, y), None));
+    let place = place.or_else(|| numbers(text).map(|[x, y, radius]| (Vec2::new(x, y), Some(radius))));
+    place.ok_or_else(|| "allowed: X,Y or X,Y,R in metres, such as 2.5,1 or 2.5,1,0.3".to_owned())
+}
+
+/// A line through which flow is measured, m.
+pub(super) fn gauge_line(text: &str) -> Result<(Vec2, Vec2), String> {
+    let line = numbers(text).map(|[x, y, to_x, to_y]| (Vec2::new(x, y), Vec2::new(to_x, to_y)));
+    line.ok_or_else(|| "allowed: X1,Y1,X2,Y2 in metres, such as 2,0,2,1.5".to_owned())
+}
+
 pub(super) fn detail(text: &str) -> Result<f64, String> {
     number(text, "numbers", DETAIL.min..=DETAIL.max)
 }
@@ -202,6 +221,19 @@ mod tests {
         assert_eq!(picture_size("640x360"), Ok(UVec2::new(640, 360)));
         for bad in ["", "640", "640x", "x360", "640x360x2", "15x360", "640x1921", "-640x360", "640 x 360"] {
             assert!(picture_size(bad).is_err_and(|message| message.contains("640x360")), "{bad} passed");
+        }
+    }
+
+    #[test]
+    fn gauges_are_numbers_with_commas() {
+        assert_eq!(gauge("2.5,1"), Ok((Vec2::new(2.5, 1.0), None)));
+        assert_eq!(gauge("-1, 0,.3"), Ok((Vec2::new(-1.0, 0.0), Some(0.3))));
+        for bad in ["", "1", "1,2,3,4", "1;2", "a,b", "nan,1", "1,inf", "1,2,", "1e99,0"] {
+            assert!(gauge(bad).is_err_and(|message| message.contains("X,Y,R")), "{bad} passed");
+        }
+        assert_eq!(gauge_line("0,1,2,3"), Ok((Vec2::new(0.0, 1.0), Vec2::new(2.0, 3.0))));
+        for bad in ["", "1,2,3", "1,2,3,4,5", "1,2,3,x", "nan,0,1,1"] {
+            assert!(gauge_line(bad).is_err_and(|message| message.contains("X1,Y1,X2,Y2")), "{bad} passed");
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::game::{
     camera::Area,
-    input::{keys::HudKeys, pointer::HudCover},
+    input::{keys::HudKeys, pointer::HudCover, rebind::KeyEditor},
 };
 use bevy::prelude::{Query, Res, ResMut, Result};
 use bevy_egui::{EguiContext, EguiContexts, EguiInput, egui};
@@ -33,10 +33,10 @@ pub fn note_cover(mut cover: ResMut<HudCover>, mut contexts: EguiContexts) -> Re
 }
 
 /// Keys belong to the game unless a text field has them; egui would move its focus with Tab and press what is focused
-/// with Space. What else is in focus has the arrows.
+/// with Space. What else is in focus has the arrows. A key that is to be chosen for an action is nobody's.
 pub fn keep_keys(
     mut contexts: Query<(&mut EguiContext, &mut EguiInput)>,
-    cover: Res<HudCover>,
+    (cover, editor): (Res<HudCover>, Res<KeyEditor>),
     mut hud: ResMut<HudKeys>,
 ) {
     for (mut context, mut input) in &mut contexts {
@@ -53,6 +53,9 @@ pub fn keep_keys(
             _ => true,
         };
         match *hud {
+            _ if editor.asked().is_some() => {
+                input.events.retain(|event| !matches!(event, egui::Event::Key { .. } | egui::Event::Text(_)));
+            }
             HudKeys::All => {}
             HudKeys::AllButDigits => drop_digits(&mut input.events),
             HudKeys::None | HudKeys::Arrows => input.events.retain(is_kept),

@@ -3,12 +3,14 @@
 
 pub mod bar;
 pub mod brush;
+pub mod challenges;
 pub mod cost;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod crash;
 pub mod drop;
 mod fates;
 pub mod focus;
+pub mod gauges;
 pub mod lamps;
 pub mod layout;
 pub mod lens;
@@ -66,9 +68,12 @@ impl Plugin for HudPlugin {
                         stamps::ghost::show,
                         stamps::strip::show,
                         probe::show,
+                        gauges::show,
                         split::show,
                         lens::show,
                         rewind::show,
+                        challenges::strip::show,
+                        challenges::verdict::show,
                     )
                         .chain()
                         .in_set(HudSystems::Bars),

@@ -178,7 +178,7 @@ fn brush(ui: &mut Ui, narrow: bool, tools: &mut ResMut<Toolbox>, bindings: &Bind
             let spacing = ui.spacing_mut();
             (spacing.item_spacing.y, spacing.interact_size.y, spacing.button_padding.y) = (GAP, FIELD, 1.0);
             if !narrow {
-                size_of_brush(ui, tools);
+                size_of_brush(ui, tools, bindings);
             }
             temperature::show(ui, vec2(BRUSH, FIELD), tools);
         });
@@ -212,6 +212,13 @@ fn modes_tip(bindings: &Bindings) -> String {
     format!("What the brush does: draw; replace what is there ({replace}); erase only the chosen element ({only})")
 }
 
+/// How the size of the brush is changed by wheel and keys.
+fn size_tip(bindings: &Bindings) -> String {
+    let [smaller, larger] = [-1, 1].map(|steps| bindings.chords(Action::Brush(steps)));
+    let keys: Vec<String> = smaller.iter().chain(&larger).map(ToString::to_string).collect();
+    format!("size of the brush (wheel, {})", keys.join(" and "))
+}
+
 /// A button with an icon, half as high as a tile; whether it was pressed.
 fn small_button(ui: &mut Ui, icon: Icon, (name, tip): (&str, &str), active: bool) -> bool {
     let (rect, response) = field(ui, SMALL, name, active, BUTTON);
@@ -220,11 +227,11 @@ fn small_button(ui: &mut Ui, icon: Icon, (name, tip): (&str, &str), active: bool
     response.on_hover_text(tip).clicked()
 }
 
-fn size_of_brush(ui: &mut Ui, tools: &mut ResMut<Toolbox>) {
+fn size_of_brush(ui: &mut Ui, tools: &mut ResMut<Toolbox>, bindings: &Bindings) {
     let mut radius = tools.radius();
     ui.spacing_mut().slider_width = BRUSH;
     let slider = egui::Slider::new(&mut radius, BRUSH_RANGE).logarithmic(true).show_value(false);
-    let slider = ui.add(slider).on_hover_text("size of the brush (wheel, [ and ])");
+    let slider = ui.add(slider).on_hover_text(size_tip(bindings));
     slider.widget_info(|| egui::WidgetInfo::slider(true, f64::from(radius), "size of the brush"));
     if slider.changed() {
         tools.set_radius(radius);

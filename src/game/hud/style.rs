@@ -141,7 +141,7 @@ mod tests {
     use std::{fs, path::Path};
 
     /// Texts that the screen shows: code (less its comments), elements and scenes.
-    const SHOWN: [&str; 7] = [
+    const SHOWN: [&str; 8] = [
         "src/game",
         "src/lab/live",
         "src/scene/effects.rs",
@@ -149,6 +149,7 @@ mod tests {
         "src/sim/numbers.rs",
         "assets/elements.ron",
         "assets/scenes",
+        "assets/challenges",
     ];
 
     fn texts(path: &Path) -> Vec<(String, String)> {

@@ -21,7 +21,7 @@ use bevy::{
     ecs::system::SystemParam,
     prelude::{Res, ResMut},
 };
-use bevy_egui::egui::{self, Align2, Color32, FontId, Response, RichText, Stroke, StrokeKind, Ui, Vec2, vec2};
+use bevy_egui::egui::{self, Color32, FontId, Response, RichText, Stroke, StrokeKind, Ui, Vec2, vec2};
 
 /// A tile below this width is narrow, points.
 const NARROW: f32 = 52.0;
@@ -51,14 +51,21 @@ pub fn tile(ui: &mut Ui, size: Vec2, unit: f32, face: &Face) -> Response {
         painter.rect_stroke(rect, style::BUTTON_CORNER, stroke, StrokeKind::Inside);
     }
     let (icon, colour) = face.icon;
-    // Beside the letter of a key there is not always room for the icon in the middle.
-    let (aside, side) = if size.x < NARROW && !face.key.is_empty() { (3.0, 22.0) } else { (0.0, 24.0) };
-    icons::draw(painter, icons::square(rect.center() - vec2(aside, 7.0) * unit, side * unit), icon, colour);
+    // Beside the letter of a key there is not always room for the icon in the middle, and never beside a longer one.
+    let (place, side, letter) = match face.key.chars().count() {
+        3.. => (vec2(0.0, 3.5), 17.0, 9.0),
+        1.. if size.x < NARROW => (vec2(3.0, 7.0), 22.0, 11.0),
+        _ => (vec2(0.0, 7.0), 24.0, 11.0),
+    };
+    icons::draw(painter, icons::square(rect.center() - place * unit, side * unit), icon, colour);
     let (text, corner) = if face.chosen { (Color32::WHITE, style::ACCENT) } else { (style::TEXT, style::WEAK) };
-    let at = rect.right_top() + vec2(-4.0, 2.0) * unit;
-    painter.text(at, Align2::RIGHT_TOP, face.key, FontId::proportional(11.0 * unit), corner);
-    // A long name is written smaller.
     let room = rect.width() - 4.0 * unit;
+    let key = painter.layout_no_wrap(face.key.to_owned(), FontId::proportional(letter * unit), corner);
+    // A key that is too long even so stands in the tooltip.
+    if key.size().x <= room {
+        painter.galley(rect.right_top() + vec2(-3.0 * unit - key.size().x, 2.0 * unit), key, corner);
+    }
+    // A long name is written smaller.
     let fit = |size: f32| painter.layout_no_wrap(face.label.to_owned(), FontId::proportional(size * unit), text);
     let label = fit(11.0);
     let label = if label.size().x > room { fit(11.0 * room / label.size().x) } else { label };
@@ -82,6 +89,11 @@ impl Tiles<'_> {
         self.setup.elements()
     }
 
+    /// The first key of an action.
+    pub fn key(&self, action: Action) -> String {
+        self.bindings.key(action)
+    }
+
     /// What a bar has: the favourites in the order of their digits, the tools, and what is chosen if it is none of these.
     pub fn in_bar(&self, chosen: Tool) -> Vec<Tool> {
         let slots = self.favourites.slots(self.elements());
@@ -97,7 +109,10 @@ impl Tiles<'_> {
     pub fn show(&mut self, ui: &mut Ui, size: Vec2, unit: f32, tool: Tool, chosen: bool) -> Response {
         let elements = self.setup.elements();
         let key = match tool {
-            Tool::Element(id) => self.favourites.digit(id, elements).map(String::from).unwrap_or_default(),
+            Tool::Element(id) => {
+                let digit = self.favourites.digit(id, elements);
+                digit.map(|digit| self.bindings.key(Action::Element(digit))).unwrap_or_default()
+            }
             Tool::Other(_) => self.bindings.key(Action::Tool(tool)),
         };
         let label = tool.label(elements);

@@ -2,9 +2,13 @@
 
 use crate::{
     game::{
+        actions::Action,
         camera::WorldCamera,
-        hud::style::{LINE, PANEL, TEXT, WARN},
-        input::touch::Fingers,
+        hud::{
+            panels::help,
+            style::{LINE, PANEL, TEXT, WARN},
+        },
+        input::{bindings::Bindings, touch::Fingers},
         toasts::Toasts,
     },
     sim::state::Census,
@@ -16,11 +20,11 @@ use bevy_egui::{EguiContexts, egui};
 const WIDTH: f32 = 640.0;
 
 /// What a newcomer needs to know.
-pub fn greet(mut toasts: ResMut<Toasts>, fingers: Res<Fingers>) {
-    toasts.say(if fingers.in_use {
-        "One finger draws, two move and zoom"
-    } else {
-        "Left button pours, right button erases, F1 shows all keys"
+pub fn greet(mut toasts: ResMut<Toasts>, fingers: Res<Fingers>, bindings: Res<Bindings>) {
+    let key = bindings.key(Action::Panel(help::PANEL.id));
+    toasts.say(match fingers.in_use {
+        true => "One finger draws, two move and zoom".to_owned(),
+        false => format!("Left button pours, right button erases, {key} shows all keys"),
     });
 }
 

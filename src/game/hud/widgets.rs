@@ -174,3 +174,41 @@ pub fn action_button(
         orders.push(Order::Act(action));
     }
 }
+
+/// Gives a text field the keys while its panel is open. Asked for again in each frame, egui would end what an input method
+/// composes, and lead the focus away with the arrows: the next key would be nobody's.
+pub fn keep_focus(field: &Response) {
+    if !field.has_focus() {
+        field.request_focus();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bevy_egui::egui::{Context, Event, Id, Key, Modifiers, RawInput, TextEdit};
+
+    #[test]
+    fn a_field_that_keeps_the_focus_keeps_it_from_arrows_and_escape() {
+        let context = Context::default();
+        let mut text = String::new();
+        let mut frame = |key: Option<Key>| {
+            let press =
+                |key| Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers: Modifiers::NONE };
+            let input = RawInput { events: key.map(press).into_iter().collect(), ..RawInput::default() };
+            let mut field = Id::NULL;
+            let _ = context.run_ui(input, |ui| {
+                ui.horizontal(|ui| {
+                    let response = ui.add(TextEdit::singleline(&mut text));
+                    keep_focus(&response);
+                    field = response.id;
+                    let _ = ui.button("beside it");
+                });
+            });
+            context.memory(|memory| memory.focused()) == Some(field)
+        };
+        for key in [None, None, Some(Key::ArrowRight), None, Some(Key::Escape), None, Some(Key::ArrowRight)] {
+            assert!(frame(key), "{key:?} took it away");
+        }
+    }
+}

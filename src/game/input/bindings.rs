@@ -1,58 +1,18 @@
 //! The one table of keys and buttons. Input looks actions up in it, help prints it, the palette shows its keys. Tools,
-//! views and panels bring their keys along in their own tables.
+//! views and panels bring their keys along in their own tables. What is written here holds at first: the keymap changes it.
 //! Keys are physical: they stand where they stand on a US keyboard, whatever is printed on them.
 
 use crate::game::{
     actions::{Action, Gesture, Take},
     brush_mode::BrushMode,
+    input::chord::{ALT, CTRL_SHIFT, Chord},
     tools::{TOOLS, Tool},
     views::table::VIEWS,
 };
-use bevy::prelude::{ButtonInput, KeyCode, MouseButton, Resource};
+use bevy::prelude::{KeyCode, MouseButton, Resource};
 use std::fmt;
 
-/// The modifier keys that must be held, and no others.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Mods {
-    /// Ctrl, or Cmd on a Mac.
-    pub ctrl: bool,
-    /// Shift.
-    pub shift: bool,
-    /// Alt.
-    pub alt: bool,
-}
-
-/// No modifier.
-pub const NONE: Mods = Mods { ctrl: false, shift: false, alt: false };
-/// Ctrl alone.
-pub const CTRL: Mods = Mods { ctrl: true, ..NONE };
-/// Shift alone.
-pub const SHIFT: Mods = Mods { shift: true, ..NONE };
-const ALT: Mods = Mods { alt: true, ..NONE };
-const CTRL_SHIFT: Mods = Mods { ctrl: true, shift: true, ..NONE };
-
-impl Mods {
-    /// The modifiers that are held now.
-    pub fn held(keys: &ButtonInput<KeyCode>) -> Self {
-        use KeyCode as K;
-        Self {
-            ctrl: keys.any_pressed([K::ControlLeft, K::ControlRight, K::SuperLeft, K::SuperRight]),
-            shift: keys.any_pressed([K::ShiftLeft, K::ShiftRight]),
-            alt: keys.any_pressed([K::AltLeft, K::AltRight]),
-        }
-    }
-
-    /// A key goes down or up.
-    pub fn follow(&mut self, key: KeyCode, down: bool) {
-        use KeyCode as K;
-        match key {
-            K::ControlLeft | K::ControlRight | K::SuperLeft | K::SuperRight => self.ctrl = down,
-            K::ShiftLeft | K::ShiftRight => self.shift = down,
-            K::AltLeft | K::AltRight => self.alt = down,
-            _ => {}
-        }
-    }
-}
+pub use crate::game::input::chord::{CTRL, Mods, NONE, SHIFT};
 
 /// A key, a button or the wheel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -192,39 +152,95 @@ const OWN: &[Binding] = {
     key(K::KeyM, SHIFT, A::Mute, H::Look, "sound off, and on again"),
     key(K::KeyB, NONE, A::Split, H::Look, "A/B split: the same world at two qualities"),
     key(K::KeyL, NONE, A::Lens, H::Look, "hold, or press once: the truth lens, this moment at reference inside a ring"),
+    key(K::KeyG, NONE, A::Gauge, H::Look, "set a gauge under the pointer; on its mark: take it away"),
+    key(K::KeyG, SHIFT, A::GaugeLine, H::Look, "begin, and again elsewhere end, a line that measures the flow through it"),
     key(K::F11, NONE, A::FullScreen, H::Look, "full screen"),
     key(K::F2, NONE, A::Screenshot, H::Look, "screenshot that carries its world, and opens as one"),
     key(K::Escape, NONE, A::Close, H::Look, "close"),
     ]
 };
 
+/// One of the keys that an action is on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slot {
+    /// The action.
+    pub action: Action,
+    /// Which of its keys, from 0 on.
+    pub place: usize,
+}
+
 /// Every key, button and turn of the wheel that means something.
 #[derive(Resource, Clone, Debug)]
-pub struct Bindings(Vec<Binding>);
+pub struct Bindings {
+    /// As the tables have them.
+    first: Vec<Binding>,
+    /// As they are now.
+    now: Vec<Binding>,
+}
 
 impl Default for Bindings {
     /// All but the panels' own.
     fn default() -> Self {
         let tools = TOOLS.map(|row| key(row.key, NONE, Action::Tool(Tool::Other(row)), Group::Choose, row.help));
         let views = VIEWS.map(|view| key(view.key, SHIFT, Action::View(view), Group::Look, "choose a view"));
-        Self(OWN.iter().copied().chain(tools).chain(views).collect())
+        let first: Vec<Binding> = OWN.iter().copied().chain(tools).chain(views).collect();
+        Self { now: first.clone(), first }
     }
 }
 
 impl Bindings {
     /// One more.
     pub fn add(&mut self, binding: Binding) {
-        self.0.push(binding);
+        self.first.push(binding);
+        self.now.push(binding);
     }
 
     /// All, in the order of the help.
     pub fn iter(&self) -> std::slice::Iter<'_, Binding> {
-        self.0.iter()
+        self.now.iter()
     }
 
     /// The action bound to a trigger with exactly these modifiers.
     pub fn find(&self, trigger: Trigger, mods: Mods) -> Option<Action> {
         self.iter().find(|binding| binding.trigger == trigger && binding.mods == mods).map(|binding| binding.action)
+    }
+
+    /// The keys of an action, in the order of its places.
+    pub fn chords(&self, action: Action) -> Vec<Chord> {
+        self.iter().filter(|binding| binding.action == action).filter_map(Binding::chord).collect()
+    }
+
+    /// What a key is to an action; nothing if it is free.
+    pub fn slot(&self, chord: Chord) -> Option<Slot> {
+        let action = self.iter().find(|binding| binding.chord() == Some(chord))?.action;
+        let place = self.chords(action).iter().position(|other| *other == chord)?;
+        Some(Slot { action, place })
+    }
+
+    /// The first row of each action whose keys a player can choose. Esc is none of these keys.
+    pub fn changeable(&self) -> Vec<&Binding> {
+        let mut found: Vec<&Binding> = Vec::new();
+        for binding in self.iter().filter(|binding| binding.chord().is_some() && binding.action != Action::Close) {
+            if found.iter().all(|other| other.action != binding.action) {
+                found.push(binding);
+            }
+        }
+        found
+    }
+
+    /// Puts an action on other keys than it was on. Its rows stay where the first of them stood.
+    pub fn set(&mut self, action: Action, chords: &[Chord]) {
+        let is_its = |binding: &Binding| binding.action == action && binding.chord().is_some();
+        let Some(at) = self.now.iter().position(is_its) else { return };
+        let row = self.now[at];
+        self.now.retain(|binding| !is_its(binding));
+        let rows = chords.iter().map(|chord| Binding { trigger: Trigger::Key(chord.key), mods: chord.mods, ..row });
+        self.now.splice(at..at, rows);
+    }
+
+    /// Puts all on the keys that the tables have.
+    pub fn reset(&mut self) {
+        self.now.clone_from(&self.first);
     }
 
     fn of(&self, action: Action) -> Option<&Binding> {
@@ -247,48 +263,26 @@ impl Bindings {
     }
 }
 
-impl fmt::Display for Binding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // Two keys are known by what Shift makes of them.
-        match (self.trigger, self.mods) {
-            (Trigger::Key(KeyCode::Slash), SHIFT) => return f.write_str("?"),
-            (Trigger::Key(KeyCode::Equal), SHIFT) => return f.write_str("+"),
-            _ => {}
-        }
-        for (held, name) in [(self.mods.ctrl, "Ctrl+"), (self.mods.shift, "Shift+"), (self.mods.alt, "Alt+")] {
-            if held {
-                f.write_str(name)?;
-            }
-        }
+impl Binding {
+    /// Its key with modifiers; nothing if it is a button's or the wheel's.
+    pub fn chord(&self) -> Option<Chord> {
         match self.trigger {
-            Trigger::Key(key) => f.write_str(&key_name(key)),
-            Trigger::Button(MouseButton::Left) => f.write_str("left button"),
-            Trigger::Button(MouseButton::Right) => f.write_str("right button"),
-            Trigger::Button(_) => f.write_str("middle button"),
-            Trigger::Wheel(_) => f.write_str("wheel"),
+            Trigger::Key(key) => Some(Chord::new(key, self.mods)),
+            _ => None,
         }
     }
 }
 
-/// What is printed on a key of a US keyboard. The keys have the names of the W3C: `KeyA`, `Digit1`, `F1`, `ArrowLeft`.
-fn key_name(key: KeyCode) -> String {
-    let name = format!("{key:?}");
-    let sign = match name.as_str() {
-        "Escape" => "Esc",
-        "Period" => ".",
-        "Minus" | "NumpadSubtract" => "-",
-        "Equal" => "=",
-        "NumpadAdd" => "+",
-        "Slash" => "/",
-        "Semicolon" => ";",
-        "BracketLeft" => "[",
-        "BracketRight" => "]",
-        _ => match name.strip_prefix("Arrow") {
-            Some(way) => return way.to_lowercase(),
-            None => name.trim_start_matches("Key").trim_start_matches("Digit"),
-        },
-    };
-    sign.to_owned()
+impl fmt::Display for Binding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.trigger {
+            Trigger::Key(key) => write!(f, "{}", Chord::new(key, self.mods)),
+            Trigger::Button(MouseButton::Left) => write!(f, "{}left button", self.mods),
+            Trigger::Button(MouseButton::Right) => write!(f, "{}right button", self.mods),
+            Trigger::Button(_) => write!(f, "{}middle button", self.mods),
+            Trigger::Wheel(_) => write!(f, "{}wheel", self.mods),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -320,15 +314,27 @@ mod tests {
     }
 
     #[test]
-    fn every_binding_has_a_name_and_a_help() {
+    fn every_binding_has_a_help_and_every_key_can_be_written_into_a_file() {
         for binding in all().iter() {
-            let name = binding.to_string();
-            assert!(
-                !["Key", "Digit", "Arrow", "Numpad", "Bracket"].iter().any(|word| name.contains(word)),
-                "`{name}` is no key's name"
-            );
-            assert!(!binding.help.is_empty());
+            assert!(!binding.help.is_empty() && !binding.to_string().is_empty());
+            if let Some(chord) = binding.chord().filter(|_| binding.action != Action::Close) {
+                assert_eq!(String::from(chord).parse(), Ok(chord), "`{binding}` is no key that can be chosen");
+            }
         }
+    }
+
+    #[test]
+    fn an_action_has_its_rows_at_one_place_whatever_its_keys() {
+        let mut bindings = Bindings::default();
+        let at = |bindings: &Bindings| bindings.iter().position(|binding| binding.action == Action::Pause);
+        let (before, first) = (bindings.chords(Action::Pause), at(&bindings));
+        let keys = [KeyCode::KeyU, KeyCode::F8, KeyCode::KeyJ].map(|key| Chord::new(key, SHIFT));
+        bindings.set(Action::Pause, &keys);
+        assert_eq!((bindings.chords(Action::Pause), at(&bindings)), (keys.to_vec(), first));
+        assert_eq!(bindings.slot(keys[2]), Some(Slot { action: Action::Pause, place: 2 }));
+        assert_eq!((bindings.slot(before[0]), bindings.key(Action::Pause)), (None, "Shift+U".to_owned()));
+        bindings.reset();
+        assert_eq!((bindings.chords(Action::Pause), at(&bindings)), (before, first));
     }
 
     #[test]

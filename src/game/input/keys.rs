@@ -3,7 +3,7 @@
 use crate::game::{
     actions::Action,
     camera::WorldCamera,
-    input::bindings::{Bindings, Trigger},
+    input::bindings::{Bindings, Mods, Trigger},
 };
 use bevy::prelude::{ButtonInput, KeyCode, Real, Res, ResMut, Resource, Time};
 use glam::Vec2;
@@ -27,13 +27,25 @@ pub enum HudKeys {
 
 impl HudKeys {
     /// Whether the game may do this by a key.
-    pub fn leave(self, action: Action) -> bool {
+    pub fn leave(self, key: KeyCode, action: Action) -> bool {
         match self {
-            Self::None | Self::Arrows => true,
-            Self::AllButDigits => matches!(action, Action::Element(_)),
+            Self::None => true,
+            Self::Arrows => !is_arrow(key),
+            Self::AllButDigits => matches!(action, Action::Element(_)) && is_digit(key),
             Self::All => false,
         }
     }
+}
+
+fn is_arrow(key: KeyCode) -> bool {
+    matches!(key, KeyCode::ArrowLeft | KeyCode::ArrowRight | KeyCode::ArrowUp | KeyCode::ArrowDown)
+}
+
+/// Whether a key types a digit, on the row of digits or apart.
+fn is_digit(key: KeyCode) -> bool {
+    let name = format!("{key:?}");
+    let rest = name.strip_prefix("Digit").or_else(|| name.strip_prefix("Numpad"));
+    rest.is_some_and(|rest| rest.len() == 1)
 }
 
 /// Whether a key of an action is held.
@@ -44,7 +56,7 @@ pub fn is_held(action: Action, keys: &ButtonInput<KeyCode>, bindings: &Bindings)
     })
 }
 
-/// Moves the picture while an arrow is held.
+/// Moves the picture while a key for that is held, whatever modifiers are held with it, unless they make it another action's.
 pub fn pan(
     keys: Res<ButtonInput<KeyCode>>,
     hud: Res<HudKeys>,
@@ -52,12 +64,16 @@ pub fn pan(
     time: Res<Time<Real>>,
     mut camera: ResMut<WorldCamera>,
 ) {
-    if *hud != HudKeys::None || camera.zoom() == 1.0 {
+    if camera.zoom() == 1.0 {
         return;
     }
+    let held = Mods::held(&keys);
     for binding in bindings.iter() {
         if let (Trigger::Key(key), Action::Pan(right, up)) = (binding.trigger, binding.action)
             && keys.pressed(key)
+            && hud.leave(key, binding.action)
+            && binding.mods.are_among(held)
+            && bindings.find(binding.trigger, held).is_none_or(|action| action == binding.action)
         {
             camera.pan(Vec2::new(-right as f32, up as f32) * PAN_SPEED * time.delta_secs());
         }

@@ -1,10 +1,15 @@
-//! Devices → intents. `bindings` says which key or button means what; `devices` reads what happened since the last
-//! frame, in its order, and `pointer`, `touch` and `keys` say what it means; `strokes` turns what the pointer holds into intents,
-//! one lot for each tick.
+//! Devices → intents. `bindings` says which key or button means what; `keymap` changes that to the keys that the player has
+//! chosen, by a layout (`layouts`) or one by one (`rebind`, `chord`). `devices` reads what happened since the last frame, in its
+//! order, and `pointer`, `touch` and `keys` say what it means; `strokes` turns what the pointer holds into intents, one lot for
+//! each tick.
 
 pub mod bindings;
+pub mod chord;
 pub mod devices;
+pub mod keymap;
 pub mod keys;
+pub mod layouts;
 pub mod pointer;
+pub mod rebind;
 pub mod strokes;
 pub mod touch;

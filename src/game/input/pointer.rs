@@ -4,17 +4,22 @@ use crate::{
     game::{
         actions::{Action, Gesture},
         camera::{Area, WorldCamera},
+        challenges::referee::Referee,
+        gauges::desk,
         input::{
             bindings::{Bindings, Mods, Trigger},
             keys::HudKeys,
+            rebind::KeyEditor,
             strokes::{Drag, DragState},
         },
         orders::{Order, Orders},
+        panels::Panels,
         stamps::hand::Hand,
         toolbox::Toolbox,
     },
     kernel::brush::Stroke,
-    sim::intent::IntentQueue,
+    lab::gauges::set::Gauges,
+    sim::{intent::IntentQueue, state::Setup},
 };
 use bevy::{
     ecs::system::SystemParam,
@@ -68,7 +73,12 @@ pub struct PointerInput<'w> {
     tools: Res<'w, Toolbox>,
     cover: Res<'w, HudCover>,
     bindings: Res<'w, Bindings>,
+    editor: ResMut<'w, KeyEditor>,
     hand: Res<'w, Hand>,
+    gauges: Res<'w, Gauges>,
+    setup: Option<Res<'w, Setup>>,
+    panels: Res<'w, Panels>,
+    referee: Referee<'w>,
 }
 
 impl PointerInput<'_> {
@@ -86,10 +96,13 @@ impl PointerInput<'_> {
         }
     }
 
-    /// A key goes down, unless the HUD has it.
+    /// A key goes down, unless the HUD has it, or it is to be chosen for an action.
     pub fn key(&mut self, key: KeyCode, mods: Mods, hud: HudKeys) {
+        if self.editor.asked().is_some() {
+            return self.orders.extend(self.editor.hear(key, mods).map(Order::Keys));
+        }
         let action = self.bindings.find(Trigger::Key(key), mods);
-        if let Some(action) = action.filter(|action| hud.leave(*action)) {
+        if let Some(action) = action.filter(|action| hud.leave(key, *action)) {
             self.orders.push(Order::Act(action));
         }
     }
@@ -137,11 +150,22 @@ impl PointerInput<'_> {
             (Some(_), MouseButton::Right) => return self.orders.push(Order::Act(Action::Close)),
             _ => {}
         }
+        match (self.gauge_at(pixel), button) {
+            (Some(number), MouseButton::Left) => return self.orders.push(Order::SelectGauge(number)),
+            (Some(number), MouseButton::Right) => return self.orders.push(Order::RemoveGauge(number)),
+            _ => {}
+        }
         match self.bindings.find(Trigger::Button(button), mods) {
             Some(Action::Hold(gesture)) => self.begin(gesture, button, pixel),
             Some(action) => self.orders.push(Order::Act(action)),
             None => {}
         }
+    }
+
+    /// The gauge whose mark is at a pixel.
+    fn gauge_at(&self, pixel: Vec2) -> Option<u32> {
+        let setup = self.setup.as_ref().filter(|_| self.panels.visible)?;
+        desk::at(pixel, &self.gauges, &self.camera, setup.blueprint.scale)
     }
 
     fn begin(&mut self, gesture: Gesture, button: MouseButton, pixel: Vec2) {
@@ -156,7 +180,10 @@ impl PointerInput<'_> {
         let freehand = tool.is_freehand() && matches!(gesture, Gesture::Line | Gesture::Rectangle | Gesture::Fill);
         match (gesture, tool) {
             _ if freehand => self.drag.begin(Drag::new(Gesture::Use, tool, button, pixel, at)),
-            (Gesture::Fill, _) => self.intents.extend(tool.fill(self.tools.mode(), at)),
+            (Gesture::Fill, _) => {
+                let fill = tool.fill(self.tools.mode(), at);
+                self.intents.extend(self.referee.admit(fill.into_iter().collect(), &mut None));
+            }
             _ => self.drag.begin(Drag::new(gesture, tool, button, pixel, at)),
         }
     }
@@ -171,7 +198,7 @@ impl PointerInput<'_> {
             _ => None,
         };
         if let Some(intent) = stroke.and_then(|stroke| tools.tool.shape(&tools.whole(stroke))) {
-            self.intents.push(intent);
+            self.intents.extend(self.referee.admit(vec![intent], &mut None));
         }
         match drag.gesture {
             Gesture::Pan if !drag.moved => self.orders.push(Order::Act(Action::Sample)),

@@ -2,9 +2,9 @@
 //! that pouring has a rate of its own on every screen.
 
 use crate::{
-    game::{actions::Gesture, toolbox::Toolbox, tools::Tool},
+    game::{actions::Gesture, challenges::referee::Referee, toolbox::Toolbox, tools::Tool},
     lab::colours::Reference,
-    sim::{intent::IntentQueue, state::Setup},
+    sim::{generation::Generation, intent::IntentQueue, state::Setup},
 };
 use bevy::prelude::{MouseButton, Res, ResMut, Resource};
 use glam::Vec2;
@@ -40,6 +40,8 @@ pub struct Drag {
     way: Vec<Vec2>,
     over_world: bool,
     released: bool,
+    /// The world in which it was counted as a stroke of a challenge, if it was.
+    counted: Option<Generation>,
 }
 
 impl Drag {
@@ -59,6 +61,7 @@ impl Drag {
             way: vec![at],
             over_world: true,
             released: false,
+            counted: None,
         }
     }
 
@@ -139,6 +142,7 @@ pub fn make_intents(
     tools: Res<Toolbox>,
     setup: Option<Res<Setup>>,
     mut intents: ResMut<IntentQueue>,
+    mut referee: Referee,
 ) {
     let (Some(drag), Some(setup)) = (&mut state.0, setup) else { return };
     let tools = tools.with(drag.tool);
@@ -150,6 +154,7 @@ pub fn make_intents(
         [] => 0,
         way => way.len().max(2) - 1,
     };
+    let mut wanted = Vec::new();
     for k in 0..strokes {
         let (from, to) = (drag.way[k], drag.way[(k + 1).min(drag.way.len() - 1)]);
         let dab = tools.dab(tools.stroke(from, to), drag.velocity, reference, 1.0 / strokes as f32);
@@ -160,8 +165,9 @@ pub fn make_intents(
                 None
             }
         };
-        intent.into_iter().for_each(|intent| intents.push(intent));
+        wanted.extend(intent);
     }
+    intents.extend(referee.admit(wanted, &mut drag.counted));
     drag.way.clear();
     if drag.over_world {
         let now = drag.now;

@@ -1,7 +1,7 @@
 //! The tools that move the air.
 
 use super::*;
-use crate::game::tools::WIND_LIMIT;
+use crate::lab::hand::WIND_LIMIT;
 
 #[test]
 fn the_wind_blows_along_the_drag_and_has_a_limit() {

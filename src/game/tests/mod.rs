@@ -42,12 +42,14 @@ use std::{sync::Arc, time::Duration};
 
 mod accuracy;
 mod air;
+mod challenges;
 #[cfg(not(target_arch = "wasm32"))]
 mod crash;
 mod detail;
 mod draw;
 #[cfg(not(target_arch = "wasm32"))]
 mod full_disk;
+mod gauges;
 mod gauntlet;
 #[cfg(not(target_arch = "wasm32"))]
 mod hints;
@@ -59,6 +61,7 @@ mod recording;
 mod rewind;
 mod saves;
 mod stamps;
+mod throws;
 mod touch;
 
 /// The intents that the ticks saw.
@@ -78,12 +81,18 @@ struct Player(App);
 
 impl Player {
     fn new() -> Self {
+        Self::with(|_| {})
+    }
+
+    /// One whose game has something more.
+    fn with(furnish: impl FnOnce(&mut App)) -> Self {
         let mut app = App::new();
         app.add_plugins((MinimalPlugins, SimulationPlugin, GamePlugin))
             .init_resource::<ButtonInput<KeyCode>>()
             .init_resource::<Seen>()
             .insert_resource(TimeUpdateStrategy::FixedTimesteps(1))
             .add_systems(FixedUpdate, spy.before(Pass::Edit));
+        furnish(&mut app);
         let scene = scene::load("empty").expect("the scene comes with the game");
         let blueprint = scene.build(&[], None, &EffectModes::new()).expect("its defaults are valid");
         Checkpoint::of_scene(Arc::new(blueprint)).restore(app.world_mut());

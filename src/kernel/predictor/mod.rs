@@ -10,7 +10,7 @@
 //! Modules: `steps` the whole, `grid` the geometry, `rock` what is closed, `parts` cells that a wall cuts, `stencil`,
 //! `share_out`, `transfer` and `way_back` particles to grid and back, `matter` what of it is heavier, `grains` friction among
 //! powders, `pressure` and `equation` the equation, `changes` what follows from its solution on the faces, `flow` the velocity that
-//! comes of it, `pockets` where it is singular, `level`, `multigrid` and `conjugate` its solver.
+//! comes of it, `pressure_at` the pressure between the cells, `pockets` where it is singular, `level`, `multigrid` and `conjugate` its solver.
 
 mod changes;
 mod conjugate;
@@ -25,6 +25,7 @@ mod multigrid;
 mod parts;
 mod pockets;
 mod pressure;
+mod pressure_at;
 mod report;
 mod rock;
 mod share_out;

@@ -192,6 +192,11 @@ impl Predictor {
         });
     }
 
+    /// What the last solve worked on and found, if it found liquid.
+    pub(super) fn solved(&self) -> Option<(&MacGrid, &ClosedFaces, &Faces, &Conjugate)> {
+        self.liquid.then_some((&self.grid, &self.closed, &self.faces, &self.conjugate))
+    }
+
     /// Edge of a cell, d; 0 before the first run.
     pub fn cell(&self) -> f32 {
         self.grid.cell

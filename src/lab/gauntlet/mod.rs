@@ -6,7 +6,8 @@
 //! arrange, script ─┘                                                                       │
 //!                                                  examiner: every rule, by what `measure` finds
 //!                                                                                          │
-//! random: worlds that nobody thought of, under random hands ─► world, tick by tick ────────┘
+//! random: worlds that nobody thought of, under random hands ─► world, tick by tick ────────┤
+//! throws: what a player throws at a world of their own ──────► a copy of it, tick by tick ──┘
 //! ```
 //!
 //! A case builds its world as every scene is built (`scene::from_text`, `Checkpoint::of_scene`). What is done to it before each
@@ -22,6 +23,7 @@ mod end;
 mod ends;
 mod examiner;
 mod judge;
+mod judged;
 mod list;
 mod measure;
 #[cfg(not(target_arch = "wasm32"))]
@@ -32,6 +34,7 @@ mod stability;
 mod suite;
 #[cfg(test)]
 mod tests;
+pub mod throws;
 
 pub use bounds::{Bound, bounds};
 pub use case::GauntletCase;

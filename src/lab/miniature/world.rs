@@ -123,6 +123,7 @@ mod tests {
     use std::sync::mpsc::channel;
 
     #[test]
+    #[cfg_attr(target_arch = "wasm32", ignore = "heavy: natively only")]
     fn every_scene_is_cheap_and_its_run_up_ends_with_a_picture_of_its_moment() {
         for name in scene::builtin_names() {
             let scene = scene::load(name).expect(name);

@@ -8,7 +8,7 @@ use crate::{
 };
 use std::sync::Arc;
 
-const MINUTES: u64 = 6;
+const MINUTES: u64 = 3;
 
 fn start() -> Checkpoint {
     let scene = scene::load("waterfall").unwrap().at_detail(0.25);
@@ -43,7 +43,7 @@ fn bits(report: &Report) -> Report {
 #[test]
 fn a_soak_in_pieces_comes_to_the_same_world_and_the_same_rows() {
     let whole = played(&[MINUTES]);
-    let pieces = played(&[0, 1, 4, MINUTES]);
+    let pieces = played(&[0, 1, 2, MINUTES]);
     let state = |entry: &Entry| Checkpoint::decode(&entry.world).unwrap().state;
     assert!(are_same(&state(&whole), &state(&pieces)), "another world");
     assert_eq!(bits(&whole.report), bits(&pieces.report));
@@ -51,7 +51,7 @@ fn a_soak_in_pieces_comes_to_the_same_world_and_the_same_rows() {
     assert_eq!(whole.report.periods.len(), MINUTES as usize);
     assert!(whole.report.periods.iter().all(|totals| totals.particles > 100.0 && totals.kinetic > 0.0));
     let from = |entry: &Entry| entry.report.sittings.iter().map(|sitting| sitting.from).collect::<Vec<_>>();
-    assert_eq!((from(&whole), from(&pieces)), (vec![0], vec![0, 0, 1, 4]));
+    assert_eq!((from(&whole), from(&pieces)), (vec![0], vec![0, 0, 1, 2]));
 }
 
 #[test]

@@ -37,6 +37,9 @@ pub(super) const RECORDING: Kind = Kind { name: "recording", magic: b"PowderMast
 /// What a file of format 1 begins with: text, input only, from the start of a scene.
 const TEXT_FORMAT: &[u8] = b"{\"powder_master_replay\":";
 
+/// Longest name of a challenge, bytes.
+const LONGEST_NAME: usize = 100;
+
 pub(super) const STATE: u8 = b'S';
 pub(super) const TICKS: u8 = b'T';
 const END: u8 = b'E';
@@ -209,7 +212,12 @@ fn check_entry(entry: &Entry, ticks: RangeInclusive<u64>, table: &ElementTable, 
             piece.check().and_then(|()| piece.check_elements(table)).map_err(|what| format!("a piece: {what}"))?;
             (None, &[*at], &[])
         }
-        Intent::ClearAir | Intent::Effect { .. } => (None, &[], &[]),
+        Intent::ClearAir | Intent::Effect { .. } | Intent::Stroke | Intent::GiveUp => (None, &[], &[]),
+        // Of another version it may be one that this one lacks: then nothing is judged.
+        Intent::Begin { challenge } if challenge.len() > LONGEST_NAME => {
+            return Err(format!("the name of a challenge has {} bytes; allowed: {LONGEST_NAME}", challenge.len()));
+        }
+        Intent::Begin { .. } => (None, &[], &[]),
         Intent::Quality { quality, .. } => return check::quality(quality),
         // Of whichever detail is in force by then: at the highest the d is shortest.
         Intent::Gravity { gravity } => {

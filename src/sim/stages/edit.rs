@@ -21,6 +21,7 @@ use crate::{
         control::change_quality,
         effects::Effects,
         intent::{Intent, IntentQueue},
+        judge::Judge,
         recorder::Recorder,
         snapshot::Snapshot,
         stamp::fitted,
@@ -52,6 +53,7 @@ pub(super) struct Derived<'w> {
     curves: Res<'w, HeatCurves>,
     recipes: Res<'w, Recipes>,
     books: ResMut<'w, Books>,
+    judge: ResMut<'w, Judge>,
 }
 
 /// Applies all waiting intents in order.
@@ -74,6 +76,7 @@ pub(super) fn apply_intents(
         if let Some(recorder) = &recorder {
             recorder.note(clock.tick, &intent);
         }
+        derived.judge.see(&intent, &setup, &clock);
         clock.edits += 1;
         let wanted = match intent {
             Intent::Detail { detail } => Some((detail, setup.preset)),
@@ -138,7 +141,7 @@ pub(super) fn apply_intents(
             Intent::Quality { preset, quality } => change_quality(&mut setup, &mut air, &rock, preset, quality),
             Intent::Effect { effect, mode } => effects.get_mut(effect).mode = mode,
             Intent::Gravity { gravity } => setup.domain.gravity = gravity,
-            Intent::Detail { .. } => {}
+            Intent::Detail { .. } | Intent::Begin { .. } | Intent::Stroke | Intent::GiveUp => {}
             Intent::Warm { stroke, degrees } => {
                 let mut warm = setup.matter(&mut particles, &mut rock, &derived.curves);
                 warm_under(&mut warm, &stroke, degrees, &mut derived.books);
@@ -156,6 +159,7 @@ pub(super) fn apply_intents(
         air.set_solids(&rock);
         refused += report.refused;
         placed += report.placed;
+        derived.judge.count(report.placed, &setup);
     }
     counters.refused += refused;
     counters.add_air(&air.take_report());
@@ -261,6 +265,9 @@ fn moves_air(intent: &Intent, elements: &ElementTable, rock: &Rock) -> bool {
         | Intent::Detail { .. }
         | Intent::Warm { .. }
         | Intent::SetTemperature { .. }
-        | Intent::Ignite { .. } => false,
+        | Intent::Ignite { .. }
+        | Intent::Begin { .. }
+        | Intent::Stroke
+        | Intent::GiveUp => false,
     }
 }

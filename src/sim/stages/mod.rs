@@ -21,6 +21,7 @@ use crate::{
     scene::{effects::Effect, passes::Pass},
     sim::{
         effects::runs,
+        judge,
         pace::time_moves,
         script::{self, Script},
     },
@@ -64,6 +65,7 @@ pub(super) fn plugin(app: &mut App) {
                 timed(Pass::Sleep, sleep::watch).run_if(sleep::water_may_rest).run_if(sleep::is_time_to_look),
                 timed(Pass::Measure, measure::count_escaped),
                 measure::end_tick.in_set(Pass::Measure),
+                judge::judge.run_if(judge::is_running),
             )
                 .chain()
                 .run_if(time_moves),

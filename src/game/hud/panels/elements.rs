@@ -6,6 +6,7 @@ use crate::{
         hud::{
             style::{self, weak},
             tiles::Tiles,
+            widgets::keep_focus,
             window::{PanelWindow, scroll},
         },
         icons,
@@ -55,7 +56,7 @@ pub fn show(
         // The scroll bar has its own room.
         ui.set_width(COLUMNS * (TILE.x + GAP) + 8.0);
         let field = egui::TextEdit::singleline(&mut *text).hint_text("search").desired_width(f32::INFINITY);
-        ui.add(field.char_limit(40).margin(vec2(8.0, 5.0))).request_focus();
+        keep_focus(&ui.add(field.char_limit(40).margin(vec2(8.0, 5.0))));
         let found = find(tiles.elements(), &text);
         // While nothing is searched, nothing is found first.
         let first = found.first().copied().filter(|_| !text.trim().is_empty());
@@ -84,7 +85,8 @@ pub fn show(
             ui.label(weak("Nothing of that name."));
         }
         ui.add_space(4.0);
-        ui.label(weak("Point at an element and press a digit to keep it there.").small());
+        let [first, last] = ['1', '0'].map(|digit| tiles.key(Action::Element(digit)));
+        ui.label(weak(format!("Point at an element and press one of {first} … {last} to keep it there.")).small());
         orders.extend(chosen.map(|tool| Order::Act(Action::Tool(tool))));
         done = entered || chosen.is_some() || ui.input(|input| input.key_pressed(Key::Escape));
     })?;

@@ -1,17 +1,22 @@
-//! The table of keys, made from the bindings.
+//! The table of keys, made from the bindings, and the way to choose others.
 
 use crate::game::{
     actions::PanelId,
     hud::{
+        panels::keys::{KeyChoice, columns},
         style::{self, weak},
         window::{MIDDLE, PanelWindow, scroll},
     },
     icons,
-    input::bindings::{Bindings, Group, NONE, SHIFT},
-    panels::Panel,
+    input::{
+        bindings::{Binding, Bindings, Group, NONE, SHIFT},
+        rebind::KeyEditor,
+    },
+    panels::{Panel, Panels, is_open},
 };
-use bevy::prelude::{KeyCode, Res, Result};
+use bevy::prelude::{App, DetectChangesMut, IntoScheduleConfigs, KeyCode, ResMut, Result, Update, not};
 use bevy_egui::egui::{self, RichText, Ui};
+use std::collections::BTreeSet;
 
 /// Width of the column of keys, points.
 const KEYS_WIDTH: f32 = 132.0;
@@ -29,19 +34,34 @@ pub const PANEL: Panel = Panel {
     stays: false,
 };
 
+/// The same while keys are chosen: a window of another size.
+const CHOICE: Panel = Panel { title: "Change keys", ..PANEL };
+
+/// Adds it.
+pub fn plugin(app: &mut App) {
+    Panels::add(app, PANEL, show);
+    app.add_systems(Update, end_choice.run_if(not(is_open(PANEL.id))));
+}
+
+/// Whoever opens the help again wants to read.
+fn end_choice(mut editor: ResMut<KeyEditor>) {
+    editor.set_if_neq(KeyEditor::default());
+}
+
 /// Shows the help.
-pub fn show(mut window: PanelWindow, bindings: Res<Bindings>) -> Result {
-    window.show(&PANEL, MIDDLE, |ui| {
-        ui.spacing_mut().interact_size.y = 17.0;
-        scroll(ui, 190.0, |ui| {
-            ui.horizontal_top(|ui| {
-                ui.spacing_mut().item_spacing.x = 28.0;
-                for groups in [&Group::ALL[..2], &Group::ALL[2..]] {
-                    ui.vertical(|ui| groups.iter().for_each(|group| section(ui, &bindings, *group)));
-                }
-            });
-        });
-    })
+fn show(mut window: PanelWindow, mut choice: KeyChoice) -> Result {
+    match choice.is_open() {
+        true => window.show(&CHOICE, MIDDLE, |ui| choice.show(ui)),
+        false => window.show(&PANEL, MIDDLE, |ui| read(ui, &mut choice)),
+    }
+}
+
+fn read(ui: &mut Ui, choice: &mut KeyChoice) {
+    choice.way_in(ui);
+    ui.spacing_mut().interact_size.y = 17.0;
+    scroll(ui, 224.0, |ui| {
+        columns(ui, |ui, group| section(ui, choice.bindings(), group));
+    });
 }
 
 fn section(ui: &mut Ui, bindings: &Bindings, group: Group) {
@@ -59,32 +79,43 @@ fn section(ui: &mut Ui, bindings: &Bindings, group: Group) {
 
 /// Keys and meaning; bindings of the same meaning share a row.
 fn rows(bindings: &Bindings, group: Group) -> Vec<(String, &'static str)> {
-    let mut rows: Vec<(String, &'static str)> = Vec::new();
+    let mut rows: Vec<(Vec<&Binding>, &'static str)> = Vec::new();
     for binding in bindings.iter().filter(|binding| binding.group == group) {
-        let name = binding.to_string();
         match rows.iter_mut().find(|(_, help)| *help == binding.help) {
-            Some((keys, _)) if keys.split(", ").any(|key| key == name) => {}
-            Some((keys, _)) => {
-                keys.push_str(", ");
-                keys.push_str(&name);
-            }
-            None => rows.push((name, binding.help)),
+            Some((same, _)) => same.push(binding),
+            None => rows.push((vec![binding], binding.help)),
         }
     }
-    for (keys, _) in &mut rows {
-        // Ten digits in a row say no more than the first and the last.
-        let names: Vec<&str> = keys.split(", ").collect();
-        if names.len() > 4 {
-            *keys = format!("{} … {}", names[0], names[names.len() - 1]);
+    rows.into_iter().map(|(same, help)| (names(&same), help)).collect()
+}
+
+/// What triggers are called, each once. Ten digits in a row say no more than the first and the last.
+fn names(bindings: &[&Binding]) -> String {
+    let mut names: Vec<String> = Vec::new();
+    for run in bindings.chunk_by(|a, b| are_digits(a, b)) {
+        match run {
+            [first, _, .., last] => names.push(format!("{first} … {last}")),
+            _ => names.extend(run.iter().map(ToString::to_string)),
         }
     }
-    rows
+    let mut seen = BTreeSet::new();
+    names.retain(|name| seen.insert(name.clone()));
+    names.join(", ")
+}
+
+fn are_digits(a: &Binding, b: &Binding) -> bool {
+    let is_digit =
+        |binding: &Binding| binding.chord().is_some_and(|chord| format!("{:?}", chord.key).starts_with("Digit"));
+    a.mods == b.mods && is_digit(a) && is_digit(b)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bevy::prelude::App;
+    use crate::game::{
+        actions::Action,
+        input::{bindings::Slot, chord::Chord, keymap::Keymap},
+    };
 
     #[test]
     fn help_names_every_binding_once_by_its_meaning() {
@@ -97,5 +128,26 @@ mod tests {
             assert_eq!(of_meaning, 1, "`{}` must stand in the help once", binding.help);
         }
         assert!(all.iter().any(|(keys, help)| keys == "Space, P" && *help == "pause"), "{all:?}");
+        assert!(all.iter().any(|(keys, _)| keys == "1 … 0"), "{all:?}");
+    }
+
+    #[test]
+    fn help_names_the_key_that_an_action_was_put_on() {
+        let mut app = App::new();
+        crate::game::hud::panels::plugin(&mut app);
+        let mut bindings = app.world_mut().resource_mut::<Bindings>();
+        for (action, place, key) in [
+            (Action::Pause, 0, KeyCode::KeyU),
+            (Action::Element('3'), 0, KeyCode::F8),
+            (Action::Panel(PANEL.id), 0, KeyCode::Comma),
+        ] {
+            Keymap::default().choose(&mut bindings, Slot { action, place }, Chord::new(key, NONE));
+        }
+        let all: Vec<_> = Group::ALL.into_iter().flat_map(|group| rows(&bindings, group)).collect();
+        for (keys, help) in [("U, P", "pause"), (",, ?", PANEL.help)] {
+            assert!(all.contains(&(keys.to_owned(), help)), "{keys}: {all:?}");
+        }
+        assert!(all.iter().any(|(keys, _)| keys == "1, 2, F8, 4 … 0"), "{all:?}");
+        assert!(bindings.tip(Action::Pause).ends_with("(U)"));
     }
 }

@@ -3,13 +3,17 @@
 
 pub mod accuracy;
 pub mod cases;
+pub mod challenges;
 pub mod details;
 pub mod elements;
+pub mod gauges;
 pub mod help;
+pub mod keys;
 pub mod saves;
 pub mod scenes;
 pub mod settings;
 pub mod stamps;
+pub mod throws;
 
 use crate::{
     game::panels::Panels,
@@ -19,10 +23,13 @@ use bevy::prelude::App;
 
 /// Adds them all; the buttons of the bar stand in this order from the right.
 pub fn plugin(app: &mut App) {
-    Panels::add(app, help::PANEL, help::show);
+    app.add_plugins(help::plugin);
     Panels::add(app, settings::PANEL, settings::show);
     app.add_plugins((cases::window::plugin::<ExamCase>, cases::window::plugin::<GauntletCase>));
+    Panels::add(app, throws::PANEL, throws::show);
     Panels::add(app, details::PANEL, details::show);
-    app.add_plugins((accuracy::panel::plugin, stamps::plugin, saves::plugin, scenes::panel::plugin));
+    app.add_plugins((accuracy::panel::plugin, gauges::panel::plugin, stamps::plugin, saves::plugin));
+    Panels::add(app, challenges::PANEL, challenges::show);
+    app.add_plugins(scenes::panel::plugin);
     Panels::add(app, elements::PANEL, elements::show);
 }

@@ -8,6 +8,7 @@ mod letting_go;
 mod matter;
 mod multigrid;
 mod pockets;
+mod pressure_at;
 mod rig;
 mod still;
 mod surface;

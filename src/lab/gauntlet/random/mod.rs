@@ -24,9 +24,12 @@ mod tests;
 mod tuning;
 mod world;
 
-pub use crate::lab::gauntlet::rule::{Finding, Measured, Rule};
+pub use crate::lab::gauntlet::{
+    judged::Found,
+    rule::{Finding, Measured, Rule},
+};
 pub use case::Case;
-pub use examine::{Found, examine};
+pub use examine::examine;
 pub use run::{Plan, run};
 pub use tally::{Failure, RuleTally, Tally, Worst};
 pub use world::World;

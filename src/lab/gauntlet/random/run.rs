@@ -1,14 +1,14 @@
 //! Runs many random worlds, a few at a time, and keeps those that fail.
 
 use super::{
-    examine::{Found, examine},
+    examine::examine,
     shrink::{first_broken, shrink},
     tally::{Failure, Tally},
     world::World,
 };
 use crate::{
     kernel::params::Preset,
-    lab::{cases::Shard, jobs::pool},
+    lab::{cases::Shard, gauntlet::judged::Found, jobs::pool},
 };
 use std::{io, path::Path};
 

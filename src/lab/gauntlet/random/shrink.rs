@@ -2,11 +2,11 @@
 
 use super::{
     case::Case,
-    examine::{Found, examine},
+    examine::examine,
     scene::{Scene, smaller},
     world::World,
 };
-use crate::lab::gauntlet::rule::Rule;
+use crate::lab::gauntlet::{judged::Found, rule::Rule};
 
 /// Runs that a failure may take to be made smaller. Which worlds these are depends on the world alone, so that its file is
 /// the same whoever finds it.

@@ -1,10 +1,12 @@
 //! What came of many worlds: the worst of each rule, and what failed. Tallies of shards add up to that of all worlds.
 
-use super::examine::Found;
 use crate::{
     lab::{
         cases::Shard,
-        gauntlet::rule::{Measured, Rule},
+        gauntlet::{
+            judged::Found,
+            rule::{Measured, Rule},
+        },
         markdown,
     },
     sim::numbers::figure,

@@ -2,7 +2,7 @@
 
 use super::{
     case::Case,
-    examine::{Found, examine, terms},
+    examine::examine,
     run::{Plan, run},
     tally::Tally,
 };
@@ -10,7 +10,11 @@ use crate::{
     kernel::{bins::Neighbours, params::Preset, solids::Solids},
     lab::{
         cases::Shard,
-        gauntlet::{examiner::Examiner, rule::Rule},
+        gauntlet::{
+            examiner::Examiner,
+            judged::{Found, terms},
+            rule::Rule,
+        },
     },
     scene::{self, effects::EffectModes},
     sim::{

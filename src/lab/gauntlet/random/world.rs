@@ -159,7 +159,7 @@ fn untuned(preset: Preset, size: Vec2, lists: [Entries; 9]) -> (Scene, Vec2, f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::gauntlet::random::examine::{Found, examine};
+    use crate::lab::gauntlet::{judged::Found, random::examine::examine};
 
     #[test]
     fn a_world_is_a_function_of_seed_and_index() {

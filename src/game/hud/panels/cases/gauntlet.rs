@@ -2,9 +2,12 @@
 
 use crate::{
     game::{
-        actions::PanelId,
+        actions::{Action, PanelId},
         hud::{
-            panels::cases::window::{Suite, mark},
+            panels::{
+                cases::window::{Suite, mark},
+                throws,
+            },
             style,
             widgets::{self, field},
         },
@@ -50,9 +53,11 @@ impl Suite for GauntletCase {
     const WIDTH: f32 = 620.0;
 
     fn show(ui: &mut Ui, rows: &[Row<Stability>], setup: &Setup, height: f32) -> Option<Order> {
+        let throw = ui.button("Try to break it").on_hover_text("throw hard cases at your own world").clicked();
         ui.separator();
         headings(ui);
-        list(ui, rows, setup, (height - 330.0).max(4.0 * LINE)).map(Order::Watch)
+        let watched = list(ui, rows, setup, (height - 360.0).max(4.0 * LINE)).map(Order::Watch);
+        watched.or(throw.then_some(Order::Act(Action::Panel(throws::PANEL.id))))
     }
 }
 

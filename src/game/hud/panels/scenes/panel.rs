@@ -12,6 +12,7 @@ use crate::{
         actions::PanelId,
         hud::{
             style::weak,
+            widgets::keep_focus,
             window::{MIDDLE, PanelWindow, scroll},
         },
         icons,
@@ -180,7 +181,7 @@ fn search(ui: &mut Ui, menu: &mut SceneMenu, fingers: bool) -> Vec<usize> {
     let field = ui.add(field.desired_width(f32::INFINITY).char_limit(40).margin(vec2(8.0, 5.0)));
     // Fingers would get a keyboard over the tiles that they did not ask for; the number of a slider may be typed, too.
     if !fingers && (menu.set_up.is_none() || !ui.ctx().text_edit_focused()) {
-        field.request_focus();
+        keep_focus(&field);
     }
     let found = find(&menu.entries, &menu.text);
     if field.changed() {

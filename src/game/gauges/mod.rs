@@ -1,0 +1,4 @@
+//! Gauges of a player: set by key or button, found by their marks, saved as a table. What they read is `lab::gauges`.
+
+pub mod act;
+pub mod desk;
