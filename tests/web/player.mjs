@@ -45,8 +45,19 @@ export async function begin(builder, modules, shots) {
     await until(page, 'frames', (now) => now.tick > 2);
   }
 
+  // A browser on a machine with much else to do refuses a picture now and then, and gives the next.
+  async function capture(page, tries = 5) {
+    try {
+      return await page.screenshot({ timeout: 120_000 });
+    } catch (error) {
+      if (tries <= 1 || !error.message.includes('Unable to capture screenshot')) throw error;
+      await sleep(1000);
+      return capture(page, tries - 1);
+    }
+  }
+
   async function shoot(page, name) {
-    const picture = await page.screenshot({ timeout: 120_000 });
+    const picture = await capture(page);
     writeFileSync(join(shots, `${name}.png`), picture);
     return picture;
   }
