@@ -19,6 +19,8 @@ const TOLD: usize = 3;
 pub enum Reason {
     /// The commit was never noted.
     NoCommit,
+    /// The commit is none of this history: a shallow clone lacks most, and what never landed is in none.
+    NotHere(String),
     /// They were made with changes that no commit has.
     WithChanges(String),
     /// Since that commit these files changed.
@@ -29,6 +31,7 @@ impl Display for Reason {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoCommit => formatter.write_str("its commit was not noted"),
+            Self::NotHere(commit) => write!(formatter, "made at {commit}, which is not in this history"),
             Self::WithChanges(commit) => write!(formatter, "made at {commit} with changes that no commit has"),
             Self::Changed(commit, files) => {
                 let told = files[..files.len().min(TOLD)].join(", ");
@@ -42,7 +45,7 @@ impl Display for Reason {
 /// Why an entry is out of date, if it is.
 ///
 /// # Errors
-/// If its region, its stamp or the commit of the stamp is missing.
+/// If its region or its stamp is missing.
 pub fn reason(repository: &Repository<'_>, manifest: &Manifest, entry: &Entry) -> Result<Option<Reason>, Fault> {
     let path = repository.root.join(&entry.page);
     let text = fs::read_to_string(&path).map_err(|error| Fault::unread(&path, &error))?;
@@ -61,10 +64,7 @@ pub fn reason(repository: &Repository<'_>, manifest: &Manifest, entry: &Entry) -
         return Ok(Some(Reason::WithChanges(commit)));
     }
     if !repository.knows(&commit) {
-        return Err(Fault::Usage(format!(
-            "{page}: the figures {name} name commit {commit}, which is not here; allowed: a commit of this history, all \
-             of which a shallow clone lacks"
-        )));
+        return Ok(Some(Reason::NotHere(commit)));
     }
     let changed = repository.changed_since(&commit, &sources)?;
     Ok((!changed.is_empty()).then_some(Reason::Changed(commit, changed)))

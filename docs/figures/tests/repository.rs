@@ -173,11 +173,10 @@ fn a_command_that_fails_leaves_the_page_as_it_was() {
 }
 
 #[test]
-fn unknown_commits_missing_marks_and_no_repository_are_one_line() {
+fn unknown_commits_are_a_reason_and_missing_marks_and_no_repository_one_line() {
     let place = Place::new("unknown");
     place.write("docs/page.md", &PAGE.replace("*Commit not noted.*", "*Commit 0123456; a machine.*"));
-    let unknown = place.reason("count").unwrap_err();
-    assert!(unknown.starts_with("docs/page.md: the figures count name commit 0123456, which is not here"), "{unknown}");
+    assert_eq!(place.reason("count"), Ok(Some(Reason::NotHere("0123456".to_owned()))));
     place.write("docs/page.md", "# Page\n");
     assert!(place.make(&["count"], false).unwrap_err().starts_with("docs/page.md: no place for the figures count"));
     fs::remove_dir_all(place.0.join(".git")).unwrap();
