@@ -19,7 +19,7 @@ use crate::{
         },
         lens::{self, Lens},
         lump::Lump,
-        opening,
+        mixer, museum, opening,
         orders::{Order, Orders},
         panels::Panels,
         recording, rewind, saves, screen,
@@ -99,6 +99,7 @@ pub fn carry_out(world: &mut World) {
                 play(world, &name, &settings, quality, detail);
             }
             Order::Watch(name) => watch(world, name),
+            Order::Visit(name) => museum::visit(world, name),
             Order::Throw(name) => throws::throw(world, name),
             Order::SelectGauge(number) => gauges::select(world, number),
             Order::RemoveGauge(number) => gauges::remove(world, number),
@@ -107,13 +108,16 @@ pub fn carry_out(world: &mut World) {
             Order::ChallengeAgain => drop(attempt::again(world)),
             Order::LeaveChallenge => attempt::leave(world),
             Order::Volume(level) => world.resource_mut::<Volume>().set(level),
+            Order::Mix(element) => mixer::act::mix(world, *element),
+            Order::ForgetElement(name) => mixer::act::forget(world, &name),
             Order::Keys(order) => rebind::carry_out(world, order),
         }
         if let Some(before) = before {
             attempt::leave_if_replaced(world, before);
         }
-        // An undo may have been to another detail.
+        // An undo may have been to another detail, and to fewer elements.
         follow::follow_detail(world);
+        follow::follow_elements(world);
     }
 }
 

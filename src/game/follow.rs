@@ -2,6 +2,7 @@
 
 use crate::{
     game::{camera::WorldCamera, input::strokes::DragState, toolbox::Toolbox, tools::Tool},
+    scene::blueprint::Blueprint,
     sim::{generation::Generation, state::Setup},
 };
 use bevy::prelude::{Res, ResMut, Resource, World};
@@ -26,11 +27,25 @@ pub fn follow_scene(
     followed.0 = generation.scene;
     camera.set_world(blueprint.domain.size);
     tools.unit = blueprint.scale.detail;
+    tools.tool = first_tool(blueprint).unwrap_or(tools.tool);
+}
+
+/// The scene's first element.
+fn first_tool(blueprint: &Blueprint) -> Option<Tool> {
     let elements = &blueprint.elements;
     let first = blueprint.first_element.as_deref().and_then(|name| elements.find(name));
     let movable = || elements.iter().find(|(_, element)| !element.fixed).map(|(id, _)| id);
-    if let Some(element) = first.or_else(movable) {
-        tools.tool = Tool::Element(element);
+    first.or_else(movable).map(Tool::Element)
+}
+
+/// An element in hand that the world no longer has, as after an undo, gives way to the scene's first.
+pub fn follow_elements(world: &mut World) {
+    let (tools, setup) = (world.resource::<Toolbox>(), world.get_resource::<Setup>());
+    if let (Tool::Element(id), Some(setup)) = (tools.tool, setup)
+        && id.index() >= setup.elements().len()
+        && let Some(tool) = first_tool(&setup.blueprint)
+    {
+        world.resource_mut::<Toolbox>().tool = tool;
     }
 }
 

@@ -34,6 +34,8 @@ pub mod input;
 pub mod kept;
 pub mod lens;
 pub mod lump;
+pub mod mixer;
+pub mod museum;
 pub mod opening;
 pub mod orders;
 pub mod panels;

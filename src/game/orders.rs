@@ -6,7 +6,7 @@ use crate::{
         actions::{Action, Take},
         input::rebind::KeyOrder,
     },
-    kernel::params::Preset,
+    kernel::{element::Element, params::Preset},
     lab::{autopilot::Goal, dial::Step, live::accuracy::SurveyRequest},
     scene::effects::{Effect, Mode},
 };
@@ -78,10 +78,16 @@ pub enum Order {
     LeaveChallenge,
     /// Play a hard case of the stability gauntlet.
     Watch(&'static str),
+    /// Go to the exhibit of the museum of a name.
+    Visit(&'static str),
     /// Throw a hard case at the world that is played.
     Throw(&'static str),
     /// Move the slider of the volume, 0 … 1.
     Volume(f32),
+    /// Put an element of the player's own into the world.
+    Mix(Box<Element>),
+    /// Forget the own element of a name.
+    ForgetElement(String),
     /// Choose keys.
     Keys(KeyOrder),
     /// Let the gauge of this number stand out, in the panel of all.

@@ -2,8 +2,9 @@
 
 use crate::{
     game::{
-        camera, challenges, drop, execute, favourites, follow, frame, gauges, hints, history, hud, input, lens, orders,
-        panels, playback, recording, rewind, saves, sound, split, stamps, throws, toasts, toolbox, views,
+        camera, challenges, drop, execute, favourites, follow, frame, gauges, hints, history, hud, input, lens, mixer,
+        museum, orders, panels, playback, recording, rewind, saves, sound, split, stamps, throws, toasts, toolbox,
+        views,
     },
     kernel::units::TICKS_PER_SECOND,
     lab::{
@@ -12,7 +13,7 @@ use crate::{
         gauntlet::throws::plugin as stress_test,
         live::{accuracy, measures},
     },
-    sim::{recorder, state::Setup},
+    sim::{generation::Generation, recorder, state::Setup},
 };
 use bevy::{
     prelude::{
@@ -51,6 +52,9 @@ impl Plugin for GamePlugin {
             .init_resource::<gauges::desk::GaugeDesk>()
             .init_resource::<saves::SaveFolders>()
             .init_resource::<favourites::Favourites>()
+            .init_resource::<mixer::desk::MixerDesk>()
+            .init_resource::<mixer::own::OwnElements>()
+            .init_resource::<museum::Museum>()
             .init_resource::<challenges::attempt::Attempt>()
             .init_resource::<challenges::earned::Earned>()
             .init_resource::<stamps::hand::Hand>()
@@ -90,6 +94,7 @@ impl Plugin for GamePlugin {
                     challenges::attempt::leave_with_the_scene.run_if(resource_exists::<Setup>),
                     lens::run.run_if(lens::is_on),
                     gauges::act::follow.run_if(any_gauge),
+                    museum::leave.run_if(resource_exists::<Generation>),
                     split::watch,
                     frame::set_pace,
                 )
@@ -101,7 +106,10 @@ impl Plugin for GamePlugin {
                 RunFixedMainLoop,
                 challenges::attempt::see_the_end.in_set(RunFixedMainLoopSystems::AfterFixedMainLoop),
             )
-            .add_systems(FixedPreUpdate, (playback::feed, throws::feed, input::strokes::make_intents).chain())
+            .add_systems(
+                FixedPreUpdate,
+                (playback::feed, throws::feed, follow::follow_elements, input::strokes::make_intents).chain(),
+            )
             .add_systems(
                 Last,
                 (

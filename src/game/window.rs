@@ -9,6 +9,7 @@ use crate::{
         hints::Hints,
         hud::{HudPlugin, panels::scenes::SceneFolder},
         input::keymap::Keymap,
+        mixer,
         plugin::GamePlugin,
         render::WorldRenderPlugin,
         rest,
@@ -29,7 +30,7 @@ use bevy::{
     camera::{Camera2d, ClearColor},
     color::Color,
     log::LogPlugin,
-    prelude::{Commands, IntoScheduleConfigs, PluginGroup, Res, Single, Startup, Update, With},
+    prelude::{Commands, IntoScheduleConfigs, PluginGroup, PreStartup, Res, Single, Startup, Update, With},
     render::view::Msaa,
     time::common_conditions::on_timer,
     window::{PresentMode, PrimaryWindow, Window, WindowPlugin, WindowResizeConstraints, WindowResolution},
@@ -124,6 +125,7 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
     .add_plugins(EguiPlugin::default())
     .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
     .insert_resource(Favourites::of_user())
+    .add_systems(PreStartup, mixer::own::read_file)
     .insert_resource(Keymap::of_user())
     .insert_resource(Shelf::of_user())
     .insert_resource(Earned::of_user())

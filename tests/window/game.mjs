@@ -170,11 +170,16 @@ export function difference(one, other) {
   return 100 * differ / (WORLD.width * WORLD.height);
 }
 
-// Pixels of a part of a picture that are blue, as water is.
-export function water(picture, part) {
-  let blue = 0;
-  pixels(picture, part, (_, red, green, b) => {
-    if (b > 120 && b > 1.5 * red) blue += 1;
+function count(picture, part, isIt) {
+  let found = 0;
+  pixels(picture, part, (_, ...colour) => {
+    if (isIt(...colour)) found += 1;
   });
-  return blue;
+  return found;
 }
+
+// Pixels of a part of a picture that are blue, as water is.
+export const water = (picture, part) => count(picture, part, (red, green, blue) => blue > 120 && blue > 1.5 * red);
+
+// Pixels of the pink that only theory is drawn in.
+export const theory = (picture, part) => count(picture, part, (red, green, blue) => red > 200 && blue > 150 && green < 160);

@@ -7,7 +7,7 @@ import { execFileSync } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { isOpen, poll } from '../poll.mjs';
-import { difference, display, open, water, WORLD } from './game.mjs';
+import { difference, display, open, theory, water, WORLD } from './game.mjs';
 import { resizeWhileLate } from './late.mjs';
 
 const program = resolve(process.argv[2]);
@@ -270,6 +270,27 @@ async function play() {
     await game.until('the digit chooses it', ({ tool }) => tool === 'brine');
   });
 
+  await test('an element of one\'s own is mixed, pours, and is undone', async () => {
+    await game.key('shift+e');
+    await game.untilWidgets('the mixer is open', (all) => isOpen(all, 'Mixer') && all.some(({ name }) => name === 'Make it'));
+    const empty = await game.picture('mixer-opens');
+    await poll('the swatch moves', async () => difference(empty, await game.picture('mixer')), (share) => share > 1);
+    await game.click('Make it');
+    await game.until('it is in the hand', ({ tool }) => tool === 'my_brine');
+    await game.drag(1, HIGH, 'it pours', ({ elements }) => elements.my_brine > 50);
+    await game.untilWidgets('it can be changed, and is kept', (all) => ['Change it', 'forget my brine'].every((name) => all.some((widget) => widget.name === name)));
+    await game.picture('mixed');
+    await game.key('ctrl+z');
+    await game.key('ctrl+z');
+    await game.until('undo takes it out of the world', ({ tool, elements }) => tool !== 'my_brine' && elements.my_brine === undefined);
+    await game.click('forget my brine');
+    await game.untilWidgets('it is forgotten', (all) => !all.some(({ name }) => name === 'forget my brine'));
+    await game.key('shift+e');
+    await game.untilWidgets('the mixer is closed', (all) => !isOpen(all, 'Mixer'));
+    await game.key('3');
+    await game.until('the tool is brine again', ({ tool }) => tool === 'brine');
+  });
+
   await test('sliders and settings have an effect', async () => {
     const { brush } = await game.stats();
     const [x, y, width, height] = (await game.widgets()).find(({ name }) => name === 'size of the brush').place;
@@ -353,6 +374,26 @@ async function play() {
     await game.key('r');
     await game.until('an empty scene again', ({ particles }) => particles === 0);
     return name;
+  });
+
+  await test('the museum draws theory over the world, and undo leads back', async () => {
+    await game.key('shift+F6');
+    await game.untilWidgets('the museum is open', (all) => isOpen(all, 'Museum of known answers'));
+    const left = { x: 40, y: 120, width: 860, height: 560 };
+    assert.equal(theory(await game.picture('museum-opens'), left), 0, 'theory over a world of which nothing is known');
+    for (const [title, scene] of [['Dam break on a wet bed', 'wet_bed'], ['Free fall', 'free_fall'], ['Sloshing', 'sloshing']]) {
+      await game.click(title);
+      await game.until(`${title} is shown`, (now) => now.scene === scene && now.tick > 10);
+      await poll('theory is drawn', async () => theory(await game.picture(`museum-${scene}`), left), (pink) => pink > 100);
+    }
+    for (const scene of ['free_fall', 'wet_bed', 'empty']) {
+      await game.key('ctrl+z');
+      await game.until('undo leads back', (now) => now.scene === scene);
+    }
+    const { speed } = await game.stats();
+    assert.equal(speed, 1, 'the museum leaves its speed behind');
+    await game.key('shift+F6');
+    await game.untilWidgets('the museum is closed', (all) => !isOpen(all, 'Museum of known answers'));
   });
 
   await test('a recording and the last minute can be replayed', async () => {

@@ -76,7 +76,12 @@ pub fn leave(world: &mut World) {
 pub fn opens(order: &Order) -> bool {
     matches!(
         order,
-        Order::Load(_) | Order::LoadBytes { .. } | Order::Scene { .. } | Order::Open { .. } | Order::Watch(_)
+        Order::Load(_)
+            | Order::LoadBytes { .. }
+            | Order::Scene { .. }
+            | Order::Open { .. }
+            | Order::Watch(_)
+            | Order::Visit(_)
     )
 }
 
@@ -90,6 +95,7 @@ pub fn refuses(world: &mut World, order: &Order) -> bool {
         Order::Accuracy(step) if (step.detail / detail - 1.0).abs() > 1e-6 => "another detail",
         Order::Effect(..) => "switching effects",
         Order::Throw(_) => "throwing",
+        Order::Mix(_) => "mixing",
         Order::Act(Action::ClearAir) => "clearing the air",
         Order::Act(Action::Rewind) => "going back in time",
         _ => return false,

@@ -14,6 +14,8 @@ pub mod gauges;
 pub mod lamps;
 pub mod layout;
 pub mod lens;
+pub mod live_picture;
+pub mod museum;
 pub mod palette;
 pub mod panels;
 pub mod probe;
@@ -68,6 +70,7 @@ impl Plugin for HudPlugin {
                         stamps::ghost::show,
                         stamps::strip::show,
                         probe::show,
+                        museum::show,
                         gauges::show,
                         split::show,
                         lens::show,

@@ -22,7 +22,7 @@ pub const BUTTON_HOVER: Color32 = Color32::from_rgb(44, 54, 74);
 /// Text.
 pub const TEXT: Color32 = Color32::from_rgb(216, 223, 234);
 /// Text of less weight.
-pub const WEAK: Color32 = Color32::from_rgb(139, 151, 172);
+pub const WEAK: Color32 = Color32::from_rgb(150, 162, 183);
 /// What is chosen.
 pub const ACCENT: Color32 = Color32::from_rgb(86, 168, 255);
 /// Behind what is chosen.
@@ -33,7 +33,7 @@ pub const WARN: Color32 = Color32::from_rgb(255, 184, 92);
 /// What came out right.
 pub const GOOD: Color32 = Color32::from_rgb(104, 211, 145);
 /// What came out wrong.
-pub const BAD: Color32 = Color32::from_rgb(255, 112, 112);
+pub const BAD: Color32 = Color32::from_rgb(255, 122, 122);
 
 /// Corner of buttons and tiles.
 pub const BUTTON_CORNER: u8 = 6;
@@ -137,12 +137,14 @@ pub fn bar_frame() -> egui::Frame {
 #[cfg(not(target_arch = "wasm32"))]
 mod tests {
     use super::*;
+    use crate::lab::exam::exhibits::{EXHIBITS, Exhibit};
     use bevy_egui::egui::epaint::text::{FontsImpl, TextOptions};
     use std::{fs, path::Path};
 
     /// Texts that the screen shows: code (less its comments), elements and scenes.
-    const SHOWN: [&str; 8] = [
+    const SHOWN: [&str; 9] = [
         "src/game",
+        "src/lab/exam/exhibits.rs",
         "src/lab/live",
         "src/scene/effects.rs",
         "src/sim/effects",
@@ -163,10 +165,28 @@ mod tests {
         lines.map(|line| (path.display().to_string(), line.to_owned())).collect()
     }
 
+    /// Relative luminance of a colour (WCAG 2.2).
+    fn luminance(colour: Color32) -> f32 {
+        let linear = egui::Rgba::from(colour);
+        0.2126 * linear.r() + 0.7152 * linear.g() + 0.0722 * linear.b()
+    }
+
+    #[test]
+    fn text_stands_out_from_whatever_it_is_on() {
+        for text in [TEXT, WEAK, ACCENT, WARN, GOOD, BAD] {
+            for behind in [PANEL, BUTTON, BUTTON_HOVER, ACCENT_FILL] {
+                let contrast = (luminance(text) + 0.05) / (luminance(behind) + 0.05);
+                assert!(contrast >= 4.5, "{text:?} on {behind:?}: {contrast} (WCAG 2.2, 1.4.3, level AA: 4.5)");
+            }
+        }
+    }
+
     #[test]
     fn the_font_has_all_that_is_shown() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let shown: Vec<_> = SHOWN.iter().flat_map(|path| texts(&root.join(path))).collect();
+        let mut shown: Vec<_> = SHOWN.iter().flat_map(|path| texts(&root.join(path))).collect();
+        let cases = EXHIBITS.iter().filter_map(Exhibit::case);
+        shown.extend(cases.map(|case| (case.name.to_owned(), format!("{} {}", case.title, case.answer))));
         assert!(shown.len() > 10_000, "the folders of {SHOWN:?} are others by now");
         let mut all = FontsImpl::new(TextOptions::default(), fonts());
         let mut font = all.font(&FontFamily::Proportional);

@@ -94,6 +94,11 @@ impl Tiles<'_> {
         self.bindings.key(action)
     }
 
+    /// What is said of an action in a tooltip.
+    pub fn tip(&self, action: Action) -> String {
+        self.bindings.tip(action)
+    }
+
     /// What a bar has: the favourites in the order of their digits, the tools, and what is chosen if it is none of these.
     pub fn in_bar(&self, chosen: Tool) -> Vec<Tool> {
         let slots = self.favourites.slots(self.elements());

@@ -94,7 +94,7 @@ pub struct Picture {
     /// What stands in the air; of the last time that the view showed what burns.
     exposure: Exposure,
     table: ColourTable,
-    table_of: Option<(&'static View, u64)>,
+    table_of: Option<(&'static View, Generation)>,
     /// What the particles are coloured by.
     shares: Vec<f32>,
     rock_of: Option<(Generation, u64, f32)>,
@@ -180,10 +180,10 @@ impl Picture {
     fn fill_matter(&mut self, scene: Scene<'_>, back: f32, fine: bool) {
         let (particles, blueprint) = (&scene.particles.0, &scene.setup.blueprint);
         let size = blueprint.domain.size;
-        if self.foam_of.is_none_or(|(of, _)| of.scene != scene.generation.scene) {
+        let ticks = self.foam_of.filter(|(of, _)| *of == scene.generation).map(|(_, at)| scene.tick.saturating_sub(at));
+        if ticks.is_none() {
             self.looks = Looks::new(&blueprint.elements);
         }
-        let ticks = self.foam_of.filter(|(of, _)| *of == scene.generation).map(|(_, at)| scene.tick.saturating_sub(at));
         self.foam_of = Some((scene.generation, scene.tick));
         let Self { looks, moved, body, glow, matter, depth, .. } = self;
         depth.measure(size, particles);
@@ -203,7 +203,7 @@ impl Picture {
 
     fn fill_particles(&mut self, scene: Scene<'_>, sight: Sight<'_>, reference: Reference) {
         let (view, blueprint) = (sight.view, &scene.setup.blueprint);
-        let table_of = Some((view, scene.generation.scene));
+        let table_of = Some((view, scene.generation));
         if self.table_of != table_of {
             self.table.fill(view, &blueprint.elements);
             self.table_of = table_of;

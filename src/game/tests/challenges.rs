@@ -53,10 +53,6 @@ impl Player {
         self.release();
         self.frames(2);
     }
-
-    fn was_told(&self, part: &str) -> bool {
-        self.world().resource::<Toasts>().texts().any(|text| text.contains(part))
-    }
 }
 
 #[test]

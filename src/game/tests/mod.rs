@@ -55,6 +55,8 @@ mod gauntlet;
 mod hints;
 mod keys;
 mod lens;
+mod mixer;
+mod museum;
 mod opening;
 mod past;
 mod recording;
@@ -183,6 +185,10 @@ impl Player {
 
     fn seen(&mut self) -> Vec<Intent> {
         std::mem::take(&mut self.0.world_mut().resource_mut::<Seen>().0)
+    }
+
+    fn was_told(&self, part: &str) -> bool {
+        self.world().resource::<Toasts>().texts().any(|text| text.contains(part))
     }
 
     fn particles(&self) -> usize {

@@ -124,6 +124,14 @@ impl HeatCurve {
         }
     }
 
+    /// Heat that its changes take, that below and that above, MJ/m²; 0 where there is none.
+    pub fn latent(&self) -> [f32; 2] {
+        [&self.below, &self.above].map(|change| {
+            let quanta = change.as_ref().map_or(0, |change| (change.plateau[1] - change.plateau[0]).abs());
+            (f64::from(quanta) * f64::from(QUANTUM) / 1e6) as f32
+        })
+    }
+
     /// Heat at a temperature (K) with no change begun, quanta.
     pub fn heat(&self, temperature: f32) -> i32 {
         let more = f64::from(temperature - ROOM) * f64::from(self.capacity) / f64::from(QUANTUM);

@@ -13,6 +13,7 @@
 mod case;
 mod cases;
 mod dam_truth;
+pub mod exhibits;
 mod finding;
 mod fit;
 mod refinement;

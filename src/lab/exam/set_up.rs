@@ -5,7 +5,7 @@ use crate::{
     kernel::params::Preset,
     lab::cases::{Setting, Stopwatch},
     scene::{
-        self, SceneError,
+        self, SceneError, SceneFile,
         blueprint::Blueprint,
         effects::{Effect, EffectModes, Mode},
     },
@@ -17,6 +17,14 @@ pub(super) const GRAVITY: f64 = 9.81;
 
 /// The scenes of the exam's own.
 static SCENES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/assets/exam");
+
+/// A scene of `assets/exam`, or else of the game's menu.
+pub(super) fn scene(name: &str) -> Result<SceneFile, SceneError> {
+    match SCENES.get_file(format!("{name}.ron")).and_then(|file| file.contents_utf8()) {
+        Some(text) => scene::from_text(name, text),
+        None => scene::load(name),
+    }
+}
 
 /// What the world of a case is made with.
 pub(super) struct SetUp {
@@ -33,14 +41,10 @@ impl SetUp {
 
     /// A scene of `assets/exam`, or else of the game's menu, with these parameters.
     pub fn blueprint(&self, name: &str, parameters: &[(&str, f64)]) -> Result<Blueprint, SceneError> {
-        let file = match SCENES.get_file(format!("{name}.ron")).and_then(|file| file.contents_utf8()) {
-            Some(text) => scene::from_text(name, text)?,
-            None => scene::load(name)?,
-        };
         let settings: Vec<_> = parameters.iter().map(|(key, value)| ((*key).to_owned(), value.to_string())).collect();
         // What rests has to come to rest, and stay there, by the method alone.
         let awake = EffectModes::from([(Effect::Sleep, Mode::Off)]);
-        file.at_detail(self.setting.detail).build(&settings, Some(self.setting.preset), &awake)
+        scene(name)?.at_detail(self.setting.detail).build(&settings, Some(self.setting.preset), &awake)
     }
 
     /// The world of a blueprint.

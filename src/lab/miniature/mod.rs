@@ -7,6 +7,7 @@
 //!                                                    └ shine: light of what glows
 //! ```
 
+mod bowl;
 mod frame;
 mod layer;
 mod painter;
@@ -14,5 +15,6 @@ mod rock;
 mod shine;
 mod world;
 
+pub use bowl::BOWL_TICKS;
 pub use frame::{HEIGHT, WIDTH};
 pub use world::{Miniature, Progress, run_up};

@@ -7,7 +7,7 @@ use crate::{
     },
     lab::{jobs::pause, miniature::painter::Painter},
     scene::{SceneError, SceneFile, blueprint::Blueprint, effects::EffectModes},
-    sim::{simulation::Simulation, workers::Workers},
+    sim::{intent::Intent, simulation::Simulation, workers::Workers},
 };
 use std::sync::{
     Arc,
@@ -40,11 +40,25 @@ impl Miniature {
     /// # Errors
     /// If the scene can't be built: one line that says why.
     pub fn begin(scene: &SceneFile, ticks: Arc<AtomicU64>) -> Result<Self, SceneError> {
-        let blueprint = build(scene)?;
         let moment = (scene.moment() * f64::from(TICKS_PER_SECOND)).round() as u64;
+        Ok(Self::of_blueprint(build(scene)?, moment, ticks))
+    }
+
+    /// The start of a world that is shown up to a moment, in ticks, in its run-up.
+    pub(super) fn of_blueprint(blueprint: Blueprint, moment: u64, ticks: Arc<AtomicU64>) -> Self {
         let painter = Painter::new(&blueprint);
         let simulation = Simulation::new(Arc::new(blueprint), Workers::single());
-        Ok(Self { simulation, painter, moment, tick: 0, ticks })
+        Self { simulation, painter, moment, tick: 0, ticks }
+    }
+
+    /// Has the next tick do something.
+    pub(super) fn push(&mut self, intent: Intent) {
+        self.simulation.push(intent);
+    }
+
+    /// Ticks that it has run.
+    pub fn age(&self) -> u64 {
+        self.tick
     }
 
     /// Runs a tick.

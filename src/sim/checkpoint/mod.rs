@@ -4,6 +4,7 @@
 pub(crate) mod check;
 mod contents;
 mod file;
+mod mixing;
 mod restore;
 #[cfg(test)]
 mod tests;

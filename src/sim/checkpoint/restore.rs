@@ -67,7 +67,7 @@ impl Checkpoint {
     /// begins anew with another. Waiting intents are forgotten.
     pub fn restore(&self, world: &mut World) {
         let blueprint = &self.setup.blueprint;
-        let known = world.get_resource::<Setup>().is_some_and(|setup| Arc::ptr_eq(&setup.opened, &self.setup.opened));
+        let known = world.get_resource::<Setup>().is_some_and(|setup| Arc::ptr_eq(&setup.origin, &self.setup.origin));
         // They follow the scale.
         world.insert_resource(Elements(ElementParams::new(
             &blueprint.elements,

@@ -4,9 +4,10 @@ use crate::{
     game::{
         actions::{Action, PanelId},
         hud::{
+            panels::mixer,
             style::{self, weak},
             tiles::Tiles,
-            widgets::keep_focus,
+            widgets::{icon_button, keep_focus},
             window::{PanelWindow, scroll},
         },
         icons,
@@ -19,7 +20,7 @@ use crate::{
     kernel::element::ElementTable,
 };
 use bevy::prelude::{KeyCode, Local, Res, ResMut, Result};
-use bevy_egui::egui::{self, Align2, Key, Rect, Stroke, StrokeKind, Ui, Vec2, vec2};
+use bevy_egui::egui::{self, Align, Align2, Key, Layout, Rect, Stroke, StrokeKind, Ui, Vec2, vec2};
 
 /// Its row.
 pub const PANEL: Panel = Panel {
@@ -86,9 +87,21 @@ pub fn show(
         }
         ui.add_space(4.0);
         let [first, last] = ['1', '0'].map(|digit| tiles.key(Action::Element(digit)));
-        ui.label(weak(format!("Point at an element and press one of {first} … {last} to keep it there.")).small());
+        ui.horizontal(|ui| {
+            ui.label(weak(format!("Point at an element and press one of {first} … {last} to keep it there.")).small());
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let action = Action::Panel(mixer::PANEL.id);
+                if icon_button(ui, (icons::flask, "mixer"), "Mix your own", false)
+                    .on_hover_text(tiles.tip(action))
+                    .clicked()
+                {
+                    orders.push(Order::Act(action));
+                    done = true;
+                }
+            });
+        });
         orders.extend(chosen.map(|tool| Order::Act(Action::Tool(tool))));
-        done = entered || chosen.is_some() || ui.input(|input| input.key_pressed(Key::Escape));
+        done |= entered || chosen.is_some() || ui.input(|input| input.key_pressed(Key::Escape));
     })?;
     if done {
         window.close(PANEL.id);

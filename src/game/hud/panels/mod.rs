@@ -9,6 +9,8 @@ pub mod elements;
 pub mod gauges;
 pub mod help;
 pub mod keys;
+pub mod mixer;
+pub mod museum;
 pub mod saves;
 pub mod scenes;
 pub mod settings;
@@ -26,10 +28,12 @@ pub fn plugin(app: &mut App) {
     app.add_plugins(help::plugin);
     Panels::add(app, settings::PANEL, settings::show);
     app.add_plugins((cases::window::plugin::<ExamCase>, cases::window::plugin::<GauntletCase>));
+    Panels::add(app, museum::PANEL, museum::show);
     Panels::add(app, throws::PANEL, throws::show);
     Panels::add(app, details::PANEL, details::show);
     app.add_plugins((accuracy::panel::plugin, gauges::panel::plugin, stamps::plugin, saves::plugin));
     Panels::add(app, challenges::PANEL, challenges::show);
     app.add_plugins(scenes::panel::plugin);
+    app.add_plugins(mixer::plugin);
     Panels::add(app, elements::PANEL, elements::show);
 }

@@ -13,7 +13,7 @@ use crate::lab::{
 pub(super) const RUNS: &[(&str, Run)] = &[("dam_break", |set_up| Box::pin(dam_break(set_up)))];
 
 /// Particles of the scene's own spacing along the base.
-const DAM_COLUMNS: f64 = 71.0;
+pub(in crate::lab::exam) const DAM_COLUMNS: f64 = 71.0;
 
 /// Front Z over T.
 const FRONT: [(f64, f64); 10] = [
@@ -67,6 +67,16 @@ async fn dam_break(set_up: SetUp) -> Findings {
         found("slope of the front, dZ/dT", slope(&between(&FRONT, from, to)), slope(&between(&front, from, to))),
         found("height at the wall H, largest error", 0.0, worst(apart, 0.0)),
     ])
+}
+
+/// Z of the experiment after a time T; no number before the first and after the last reading.
+pub(in crate::lab::exam) fn front(time: f64) -> f64 {
+    at(&FRONT, time)
+}
+
+/// H of the experiment after a time τ, likewise.
+pub(in crate::lab::exam) fn height(time: f64) -> f64 {
+    at(&HEIGHT, time)
 }
 
 /// The value of a curve between two of its points.

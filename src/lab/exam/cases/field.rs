@@ -11,6 +11,7 @@ use crate::{
         },
         stats,
     },
+    scene::blueprint::Blueprint,
     sim::state::Rock,
 };
 
@@ -26,12 +27,7 @@ const DRAWN_SECONDS: f64 = 1.0;
 
 async fn elliptic_drop(set_up: SetUp) -> Findings {
     let mut blueprint = set_up.blueprint("elliptic_drop", &[])?;
-    let centre = blueprint.domain.size * 0.5;
-    let particles = &mut blueprint.particles;
-    for i in 0..particles.len() {
-        let velocity = (particles.position(i) - centre) * DRAWN as f32;
-        (particles.vx[i], particles.vy[i]) = (-velocity.x, velocity.y);
-    }
+    draw_out(&mut blueprint);
     let mut simulation = set_up.simulation(blueprint);
     let (start, energy) = (semi_axes(&simulation), simulation.matter().balance().kinetic);
     simulation.run(DRAWN_SECONDS).await;
@@ -41,6 +37,16 @@ async fn elliptic_drop(set_up: SetUp) -> Findings {
         found("short semi-axis", a * start[0], end[0]),
         found("kinetic energy", 1.0, simulation.matter().balance().kinetic / energy),
     ])
+}
+
+/// Sets the disc in motion.
+pub(in crate::lab::exam) fn draw_out(blueprint: &mut Blueprint) {
+    let centre = blueprint.domain.size * 0.5;
+    let particles = &mut blueprint.particles;
+    for i in 0..particles.len() {
+        let velocity = (particles.position(i) - centre) * DRAWN as f32;
+        (particles.vx[i], particles.vy[i]) = (-velocity.x, velocity.y);
+    }
 }
 
 /// Semi-axes along x and y, m: twice the standard deviations of an ellipse that is filled evenly.
@@ -55,7 +61,7 @@ fn semi_axes(simulation: &CaseSimulation) -> [f64; 2] {
 
 /// Semi-axes of the ellipse after `seconds`, of the radius at the start: `a' = −A a`, `b' = A b`, `A' = A² (a² −
 /// b²)/(a² + b²)`, by the midpoint rule.
-fn ellipse(seconds: f64) -> [f64; 2] {
+pub(in crate::lab::exam) fn ellipse(seconds: f64) -> [f64; 2] {
     let steps = 10_000;
     let dt = seconds / f64::from(steps);
     let change = |[a, b, rate]: [f64; 3]| [-rate * a, rate * b, rate * rate * (a * a - b * b) / (a * a + b * b)];
@@ -68,9 +74,9 @@ fn ellipse(seconds: f64) -> [f64; 2] {
 }
 
 /// Where the dam stands, m, and the depths on both sides, m.
-const DAM: f64 = 36.0;
-const DEEP: f64 = 4.0;
-const SHALLOW: f64 = 1.0;
+pub(in crate::lab::exam) const DAM: f64 = 36.0;
+pub(in crate::lab::exam) const DEEP: f64 = 4.0;
+pub(in crate::lab::exam) const SHALLOW: f64 = 1.0;
 /// Times between which the bore is followed, s.
 const BORE_OVER: (f64, f64) = (2.0, 5.0);
 
@@ -101,18 +107,18 @@ async fn wet_bed(set_up: SetUp) -> Findings {
 
 /// What Stoker's solution of the shallow-water equations has between the bore and the water that runs out.
 #[derive(Debug)]
-struct Bore {
+pub(in crate::lab::exam) struct Bore {
     /// Depth, m.
-    depth: f64,
+    pub(in crate::lab::exam) depth: f64,
     /// Speed of the water, m/s.
-    flow: f64,
+    pub(in crate::lab::exam) flow: f64,
     /// Speed of the bore, m/s.
-    speed: f64,
+    pub(in crate::lab::exam) speed: f64,
 }
 
 impl Bore {
     /// Of a dam between water of these depths, m.
-    fn of(deep: f64, shallow: f64) -> Self {
+    pub(in crate::lab::exam) fn of(deep: f64, shallow: f64) -> Self {
         let behind = |depth: f64| {
             // Mass and momentum across the bore.
             let speed = (GRAVITY * depth * (depth + shallow) / (2.0 * shallow)).sqrt();

@@ -57,17 +57,22 @@ async fn u_tube(set_up: SetUp) -> Findings {
 }
 
 /// Length of the tank, and depth of each layer, m.
-const LENGTH: f64 = 6.0;
-const DEPTH: f64 = 1.5;
+pub(in crate::lab::exam) const LENGTH: f64 = 6.0;
+pub(in crate::lab::exam) const DEPTH: f64 = 1.5;
+
+/// ω of the slower of the two waves of a wave number (1/m) in layers of these densities: Lamb 1932, §231, with both as deep, so that
+/// coth is the same in both.
+pub(in crate::lab::exam) fn slower_root(wave: f64, light: f64, heavy: f64) -> f64 {
+    let coth = 1.0 / (wave * DEPTH).tanh();
+    let gk = GRAVITY * wave;
+    let [a, b, c] = [heavy * coth * coth + light, -2.0 * heavy * coth * gk, (heavy - light) * gk * gk];
+    ((-b - (b * b - 4.0 * a * c).sqrt()) / (2.0 * a)).sqrt()
+}
 
 async fn internal_wave(set_up: SetUp) -> Findings {
     let mut simulation = set_up.open("layers", &[])?;
     let (wave, light, heavy) = (PI / LENGTH, density(&simulation, "oil"), density(&simulation, "brine"));
-    // The slower root of Lamb 1932, §231, with both layers as deep: coth is the same in both.
-    let coth = 1.0 / (wave * DEPTH).tanh();
-    let gk = GRAVITY * wave;
-    let [a, b, c] = [heavy * coth * coth + light, -2.0 * heavy * coth * gk, (heavy - light) * gk * gk];
-    let omega = ((-b - (b * b - 4.0 * a * c).sqrt()) / (2.0 * a)).sqrt();
+    let omega = slower_root(wave, light, heavy);
     let mut curve = Vec::new();
     for _ in 0..30 * 60 {
         simulation.tick().await;

@@ -2,15 +2,15 @@
 //! assets/exam/cases.ron.
 
 mod air;
-mod dam;
+pub(super) mod dam;
 mod falling;
-mod field;
+pub(super) mod field;
 mod grains;
 mod heat;
-mod layers;
+pub(super) mod layers;
 mod order;
-mod outflow;
-mod tank;
+pub(super) mod outflow;
+pub(super) mod tank;
 mod viscous;
 mod weightless;
 

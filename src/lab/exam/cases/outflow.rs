@@ -17,9 +17,9 @@ pub(super) const RUNS: &[(&str, Run)] =
     &[("vessels", |set_up| Box::pin(vessels(set_up))), ("orifice", |set_up| Box::pin(orifice(set_up)))];
 
 /// Widths of the tanks, of the wall and of the slot, m.
-const LEFT_TANK: f64 = 7.0;
-const RIGHT_TANK: f64 = 4.4;
-const WALL: f64 = 0.6;
+pub(in crate::lab::exam) const LEFT_TANK: f64 = 7.0;
+pub(in crate::lab::exam) const RIGHT_TANK: f64 = 4.4;
+pub(in crate::lab::exam) const WALL: f64 = 0.6;
 const SLOT: f64 = 0.8;
 /// Levels at the start, m.
 const LEVELS: (f64, f64) = (5.0, 1.5);
@@ -106,22 +106,53 @@ fn level(tops: &[f64], from: f64, to: f64, d: f64) -> f64 {
 
 /// Time to half the difference by the theory, s.
 fn levelling_theory() -> f64 {
-    let (step, mut t, mut speed, mut difference) = (1e-4, 0.0, 0.0_f64, LEVELS.0 - LEVELS.1);
-    let half = 0.5 * difference;
-    // The water on both sides of the slot that moves with it adds about its height to its length.
-    let length = WALL + SLOT;
-    while difference > half && t < 100.0 {
-        let jet = speed / CONTRACTION;
-        speed += step * (GRAVITY * difference - 0.5 * jet * jet) / length;
-        difference -= step * speed * SLOT * (1.0 / LEFT_TANK + 1.0 / RIGHT_TANK);
+    let (step, mut t, mut tanks) = (1e-4, 0.0, Levelling::default());
+    let half = 0.5 * tanks.difference;
+    while tanks.difference > half && t < 100.0 {
+        tanks.step(step);
         t += step;
     }
     t
 }
 
+/// Tanks whose levels come together.
+pub(in crate::lab::exam) struct Levelling {
+    /// Speed of the water in the slot, m/s.
+    speed: f64,
+    /// Of the level on the left over that on the right, m.
+    difference: f64,
+}
+
+impl Default for Levelling {
+    fn default() -> Self {
+        Self { speed: 0.0, difference: LEVELS.0 - LEVELS.1 }
+    }
+}
+
+impl Levelling {
+    fn step(&mut self, seconds: f64) {
+        // The water on both sides of the slot that moves with it adds about its height to its length.
+        let (length, jet) = (WALL + SLOT, self.speed / CONTRACTION);
+        self.speed += seconds * (GRAVITY * self.difference - 0.5 * jet * jet.abs()) / length;
+        self.difference -= seconds * self.speed * SLOT * (1.0 / LEFT_TANK + 1.0 / RIGHT_TANK);
+    }
+
+    /// Both levels after so many seconds, m.
+    pub(in crate::lab::exam) fn after(seconds: f64) -> [f64; 2] {
+        let (step, mut tanks) = (1e-3, Self::default());
+        // In the end they stand still.
+        (0..(seconds.min(60.0) / step) as u32).for_each(|_| tanks.step(step));
+        let mean = (LEFT_TANK * LEVELS.0 + RIGHT_TANK * LEVELS.1) / (LEFT_TANK + RIGHT_TANK);
+        let [left, right] = [RIGHT_TANK, -LEFT_TANK].map(|other| other / (LEFT_TANK + RIGHT_TANK));
+        [mean + left * tanks.difference, mean + right * tanks.difference]
+    }
+}
+
 /// Width of the tank and height of the opening, m.
-const OUTFLOW_TANK: f64 = 4.0;
+pub(in crate::lab::exam) const OUTFLOW_TANK: f64 = 4.0;
 const OPENING: f64 = 0.8;
+/// Level of the full tank, m.
+const OUTFLOW_FULL: f64 = 4.0;
 /// Levels between which it is timed, m.
 const OUTFLOW_FROM: f64 = 3.6;
 const OUTFLOW_TO: f64 = 2.4;
@@ -155,9 +186,17 @@ pub(super) async fn outflow_time(set_up: &SetUp, spacing: f64, scale: f64, start
 fn outflow_theory() -> f64 {
     let steps = 10_000;
     let step = (OUTFLOW_FROM - OUTFLOW_TO) / f64::from(steps);
+    (0..steps).map(|k| OUTFLOW_FROM - (f64::from(k) + 0.5) * step).map(|h| step / fall(h)).sum()
+}
+
+/// Speed at which the level of the tank falls at a height `h` m, m/s.
+fn fall(h: f64) -> f64 {
     let jet = CONTRACTION * OPENING;
-    (0..steps)
-        .map(|k| OUTFLOW_FROM - (f64::from(k) + 0.5) * step)
-        .map(|h| step * OUTFLOW_TANK / (jet * (2.0 * GRAVITY * h / (1.0 + jet / h)).sqrt()))
-        .sum()
+    jet * (2.0 * GRAVITY * h / (1.0 + jet / h)).sqrt() / OUTFLOW_TANK
+}
+
+/// Level of the full tank after so many seconds of outflow, m; down to the edge of the gate.
+pub(in crate::lab::exam) fn fall_of_the_level(seconds: f64) -> f64 {
+    let step = 1e-3;
+    (0..(seconds.min(60.0) / step) as u32).fold(OUTFLOW_FULL, |h, _| (h - step * fall(h)).max(OPENING))
 }

@@ -61,7 +61,7 @@ fn density(simulation: &CaseSimulation, from: f64, to: f64) -> f64 {
 }
 
 /// Length of the tank, m.
-const SLOSHING_LENGTH: f64 = 6.0;
+pub(in crate::lab::exam) const SLOSHING_LENGTH: f64 = 6.0;
 
 async fn sloshing(set_up: SetUp) -> Findings {
     let mut findings = Vec::new();

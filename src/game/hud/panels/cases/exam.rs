@@ -2,9 +2,12 @@
 
 use crate::{
     game::{
-        actions::PanelId,
+        actions::{Action, PanelId},
         hud::{
-            panels::cases::window::{Suite, mark},
+            panels::{
+                cases::window::{Suite, mark},
+                museum,
+            },
             style,
         },
         icons,
@@ -45,6 +48,7 @@ impl Suite for ExamCase {
     const WIDTH: f32 = 760.0;
 
     fn show(ui: &mut Ui, rows: &[Row<Answer>], _setup: &Setup, height: f32) -> Option<Order> {
+        let see = ui.button("Museum").on_hover_text("see them, with theory drawn over the world").clicked();
         if !rows.is_empty() {
             ui.separator();
             headings(ui);
@@ -52,7 +56,7 @@ impl Suite for ExamCase {
             ui.separator();
             summary(ui, rows);
         }
-        None
+        see.then_some(Order::Act(Action::Panel(museum::PANEL.id)))
     }
 }
 

@@ -4,13 +4,14 @@ use super::{
     find::find,
     grid::{self, Pressed},
     menu::{Entry, SceneFolder, SceneMenu},
-    pictures::{Pictures, Screen},
+    pictures::Pictures,
     sheet,
 };
 use crate::{
     game::{
         actions::PanelId,
         hud::{
+            live_picture::Screen,
             style::weak,
             widgets::keep_focus,
             window::{MIDDLE, PanelWindow, scroll},

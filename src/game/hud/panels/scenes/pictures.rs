@@ -4,38 +4,24 @@
 
 use super::menu::Entry;
 use crate::{
-    kernel::units::TICK_SECONDS,
+    game::hud::live_picture::{LivePicture, Screen, Shown},
     lab::{
         jobs::{Handle, Share},
-        miniature::{HEIGHT, Miniature, Progress, WIDTH, run_up},
+        miniature::{Progress, run_up},
     },
     scene::SceneFile,
 };
-use bevy::{
-    asset::{Assets, Handle as AssetHandle, RenderAssetUsages},
-    image::{Image, ImageSampler},
-    platform::time::Instant,
-    prelude::Resource,
-    render::render_resource::{Extent3d, TextureDimension, TextureFormat},
-};
-use bevy_egui::{EguiTextureHandle, EguiUserTextures, egui::TextureId};
+use bevy::prelude::Resource;
+use bevy_egui::egui::TextureId;
 use std::{
     collections::{BTreeMap, BTreeSet},
     sync::{Arc, atomic::AtomicU64},
-    time::Duration,
 };
-
-/// Most time of a frame that the picture that moves takes, unless one tick alone takes longer.
-const BUDGET: Duration = Duration::from_millis(4);
-/// Ticks from one of its pictures to the next: 30 Hz.
-const BETWEEN: u32 = 2;
-/// Most time that it makes up for in a frame, s.
-const LONGEST: f32 = 3.0 * TICK_SECONDS;
 
 /// What there is of pictures.
 #[derive(Resource, Default)]
 pub struct Pictures {
-    shown: BTreeMap<String, (AssetHandle<Image>, TextureId)>,
+    shown: BTreeMap<String, Shown>,
     /// Scenes whose pictures are made, or can't be.
     done: BTreeSet<String>,
     /// Makes a picture.
@@ -45,14 +31,6 @@ pub struct Pictures {
     moving: Option<Moving>,
     /// Ticks of all of them so far.
     ticks: Arc<AtomicU64>,
-}
-
-/// Where pictures are put. An image is changed in place: a new one would be seen a frame later, and nothing until then.
-pub(super) struct Screen<'a> {
-    /// The images.
-    pub(super) images: &'a mut Assets<Image>,
-    /// What egui calls them.
-    pub(super) textures: &'a mut EguiUserTextures,
 }
 
 /// A run-up in the background.
@@ -72,16 +50,13 @@ impl RunUp {
 /// The one that moves.
 struct Moving {
     call: String,
-    miniature: Box<Miniature>,
-    /// Time that it is behind, s.
-    due: f32,
-    undrawn: u32,
+    picture: LivePicture,
 }
 
 impl Pictures {
     /// The picture of a scene, if there is one yet.
     pub(super) fn of(&self, call: &str) -> Option<TextureId> {
-        self.shown.get(call).map(|(_, id)| *id)
+        self.shown.get(call).map(|shown| shown.id)
     }
 
     /// Whether a picture is in the making or moves.
@@ -140,7 +115,7 @@ impl Pictures {
                 Progress::Ready(miniature, picture) => {
                     if is_looked_at {
                         let call = run_up.call.clone();
-                        self.moving = Some(Moving { call, miniature, due: 0.0, undrawn: 0 });
+                        self.moving = Some(Moving { call, picture: LivePicture::new(miniature) });
                     }
                     self.show(screen, &run_up.call, &picture);
                     self.done.insert(run_up.call.clone());
@@ -151,45 +126,31 @@ impl Pictures {
         (!run_up.handle.is_over()).then_some(run_up)
     }
 
-    /// Runs the one that moves as fast as time goes by, as far as the frame affords it.
+    /// Goes on with the one that moves.
     fn run(&mut self, screen: &mut Screen, seconds: f32) {
         let Some(moving) = &mut self.moving else { return };
-        moving.due = (moving.due + seconds).min(LONGEST);
-        let begun = Instant::now();
-        while moving.due >= TICK_SECONDS && begun.elapsed() < BUDGET {
-            moving.miniature.tick();
-            moving.due -= TICK_SECONDS;
-            moving.undrawn += 1;
-        }
-        if moving.undrawn >= BETWEEN {
-            moving.undrawn = 0;
-            let (call, picture) = (moving.call.clone(), moving.miniature.draw().to_vec());
-            self.show(screen, &call, &picture);
+        if let Some(picture) = moving.picture.run(seconds)
+            && let Some(shown) = self.shown.get(&moving.call)
+        {
+            screen.change(shown, picture);
         }
     }
 
     fn show(&mut self, screen: &mut Screen, call: &str, picture: &[u8]) {
-        if let Some((handle, _)) = self.shown.get(call) {
-            if let Some(mut image) = screen.images.get_mut(handle) {
-                image.data = Some(picture.to_vec());
-            }
-            return;
+        match self.shown.get(call) {
+            Some(shown) => screen.change(shown, picture),
+            None => drop(self.shown.insert(call.to_owned(), screen.add(picture))),
         }
-        let size = Extent3d { width: WIDTH as u32, height: HEIGHT as u32, depth_or_array_layers: 1 };
-        let (format, usage) = (TextureFormat::Rgba8UnormSrgb, RenderAssetUsages::default());
-        let mut image = Image::new(size, TextureDimension::D2, picture.to_vec(), format, usage);
-        image.sampler = ImageSampler::linear();
-        let handle = screen.images.add(image);
-        // The image goes, and its name with it, when its handle does.
-        let id = screen.textures.add_image(EguiTextureHandle::Weak(handle.id()));
-        self.shown.insert(call.to_owned(), (handle, id));
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::{super::menu::SceneMenu, *};
-    use std::{sync::atomic::Ordering, thread};
+    use crate::kernel::units::TICK_SECONDS;
+    use bevy::{asset::Assets, platform::time::Instant};
+    use bevy_egui::EguiUserTextures;
+    use std::{sync::atomic::Ordering, thread, time::Duration};
 
     fn entry<'a>(menu: &'a SceneMenu, call: &str) -> &'a Entry {
         menu.entries.iter().find(|entry| entry.call == call).expect("it comes with the game")

@@ -1,0 +1,89 @@
+//! The museum: known answers as worlds to look at. It stays beside the world that is looked at.
+
+use crate::{
+    game::{
+        actions::{Action, PanelId},
+        hud::{
+            museum::THEORY,
+            panels::cases::window::Suite,
+            style::weak,
+            widgets::{name, row},
+            window::{PanelWindow, scroll},
+        },
+        icons,
+        input::bindings::{Bindings, Group, SHIFT},
+        museum::Museum,
+        orders::{Order, Orders},
+        panels::Panel,
+    },
+    lab::exam::{
+        ExamCase,
+        exhibits::{EXHIBITS, Exhibit},
+    },
+    sim::generation::Generation,
+};
+use bevy::prelude::{KeyCode, Res, ResMut, Result};
+use bevy_egui::egui::{Align2, RichText, Ui, vec2};
+
+/// Its row.
+pub const PANEL: Panel = Panel {
+    id: PanelId("museum"),
+    title: "Museum of known answers",
+    icon: icons::check,
+    keys: &[(KeyCode::F6, SHIFT)],
+    group: Group::Look,
+    help: "museum: known answers, with theory drawn over the world",
+    in_bar: false,
+    in_list: Some("Museum of known answers"),
+    stays: true,
+};
+
+/// Width of its contents, points.
+const WIDTH: f32 = 280.0;
+
+/// Shows it.
+pub fn show(
+    mut window: PanelWindow,
+    (museum, generation, bindings): (Res<Museum>, Res<Generation>, Res<Bindings>),
+    mut orders: ResMut<Orders>,
+) -> Result {
+    let shown = museum.shown(*generation);
+    window.show(&PANEL, (Align2::RIGHT_TOP, vec2(-14.0, 60.0)), |ui| {
+        ui.set_width(WIDTH);
+        ui.label(weak("Worlds of which the answer is known, and the answer drawn over them."));
+        scroll(ui, 240.0, |ui| {
+            ui.spacing_mut().item_spacing.y = 2.0;
+            for exhibit in &EXHIBITS {
+                let is_shown = shown.is_some_and(|shown| shown.name == exhibit.name);
+                let title = exhibit.case().map_or(exhibit.name, |case| case.title);
+                if row(ui, title, "", is_shown) {
+                    orders.push(Order::Visit(exhibit.name));
+                }
+                if is_shown {
+                    about(ui, exhibit, (&bindings, &mut orders));
+                }
+            }
+        });
+    })
+}
+
+/// What is to be seen, and what it rests on.
+fn about(ui: &mut Ui, exhibit: &Exhibit, (bindings, orders): (&Bindings, &mut Orders)) {
+    ui.indent(exhibit.name, |ui| {
+        ui.spacing_mut().item_spacing.y = 5.0;
+        ui.label(RichText::new(exhibit.drawn).color(THEORY));
+        // Of its Markdown, a line on the screen needs no marks.
+        let answer = exhibit.case().map(|case| case.answer.replace('`', "")).unwrap_or_default();
+        ui.label(weak(answer).small());
+        ui.horizontal(|ui| {
+            for (text, action) in [("Again", Action::Reset), ("Examine", Action::Panel(ExamCase::PANEL.id))] {
+                let button = ui.button(text);
+                name(&button, text, false);
+                if button.on_hover_text(bindings.tip(action)).clicked() {
+                    orders.push(Order::Act(action));
+                }
+            }
+        });
+        ui.add_space(4.0);
+    });
+}
