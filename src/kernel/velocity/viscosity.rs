@@ -58,7 +58,8 @@ pub fn apply_viscosity(
     let most = if solver.masses.is_empty() { MOST_SHARE } else { 0.5 * MOST_SHARE } / part;
     let report = StrengthReport::of(&particles.element, coefficients, most * MOST_PASSES);
     let passes = (strongest(&particles.element, coefficients, most) / most).ceil().clamp(1.0, MOST_PASSES);
-    let Solver { bins, smoothing, instructions, density, masses, next_x, next_y, .. } = solver;
+    // Volumes live in the array of λ, which is free between two solves.
+    let Solver { bins, smoothing, instructions, density, lambda, masses, next_x, next_y, .. } = solver;
     let sticks = strongest(&particles.element, &elements.stickiness, 0.0) > 0.0;
     let walls = sticks.then(|| Walls {
         smoothing,
@@ -67,6 +68,9 @@ pub fn apply_viscosity(
         strengths: &elements.stickiness,
         grip: Grip::new(smoothing),
     });
+    if !sticks {
+        lambda.iter_mut().zip(&*density).for_each(|(volume, density)| *volume = 1.0 / density.max(LEAST_DENSITY));
+    }
     for _ in 0..passes as u32 {
         let read = &*particles;
         bins::split(bins.groups(), [&mut next_x[..], &mut next_y[..]], threads, &|groups, base, out| {
@@ -74,6 +78,7 @@ pub fn apply_viscosity(
                 smoothing,
                 particles: read,
                 density,
+                volumes: lambda,
                 masses,
                 coefficients,
                 walls: walls.as_ref(),
@@ -165,6 +170,8 @@ struct ViscosityPass<'a, const MASSES: bool, const STICKS: bool> {
     smoothing: &'a Smoothing,
     particles: &'a Particles,
     density: &'a [f32],
+    /// Volumes m/ρ; not read with `STICKS`, where a volume belongs to a pair.
+    volumes: &'a [f32],
     /// Masses as shares of the heaviest; not read without `MASSES`.
     masses: &'a [f32],
     coefficients: &'a [f32],
@@ -183,8 +190,22 @@ struct ViscosityPass<'a, const MASSES: bool, const STICKS: bool> {
 impl<'a> ViscosityPass<'a, false, false> {
     /// The same for other matter.
     fn with<const MASSES: bool, const STICKS: bool>(self) -> ViscosityPass<'a, MASSES, STICKS> {
-        let Self { smoothing, particles, density, masses, coefficients, walls, most, part, groups, base, out } = self;
-        ViscosityPass { smoothing, particles, density, masses, coefficients, walls, most, part, groups, base, out }
+        let Self { smoothing, particles, density, volumes, masses, coefficients, walls, most, part, groups, base, out } =
+            self;
+        ViscosityPass {
+            smoothing,
+            particles,
+            density,
+            volumes,
+            masses,
+            coefficients,
+            walls,
+            most,
+            part,
+            groups,
+            base,
+            out,
+        }
     }
 }
 
@@ -206,26 +227,39 @@ impl<const MASSES: bool, const STICKS: bool> Pass for ViscosityPass<'_, MASSES, 
             let share = L::load(&share);
             let mass_i = if MASSES { L::load(&self.masses[own.start..]) } else { zero };
             let (mut sum_x, mut sum_y) = (zero, zero);
-            for run in group.movable {
-                for j in run.range() {
-                    let (dx, dy) = (xi - L::splat(self.particles.x[j]), yi - L::splat(self.particles.y[j]));
-                    let w = (h2 - (dx * dx + dy * dy)).max(zero);
-                    let density = self.density[j].max(LEAST_DENSITY);
-                    let volume = match held {
-                        None => L::splat(1.0 / density),
-                        Some(own) => L::splat(1.0) / L::splat(density).max(own),
-                    };
-                    let mut weight = w * w * w * volume;
-                    if MASSES {
-                        // Of a pair, each takes on what the other gives off.
-                        let mass = L::splat(self.masses[j]);
-                        let coefficient = self.coefficients[self.particles.element[j].index()].min(self.most);
-                        let other = L::splat(coefficient * scale);
-                        let mean = (other + other) / (share + other).max(L::splat(f32::MIN_POSITIVE));
-                        weight = weight * mean * ((mass + mass) / (mass_i + mass));
+            macro_rules! add {
+                ($neighbours:expr) => {
+                    for (((((xj, yj), vxj), vyj), size), (mass, element)) in $neighbours {
+                        let (dx, dy) = (xi - L::splat(*xj), yi - L::splat(*yj));
+                        let w = (h2 - (dx * dx + dy * dy)).max(zero);
+                        let volume = match held {
+                            None => L::splat(*size),
+                            Some(own) => L::splat(1.0) / L::splat(size.max(LEAST_DENSITY)).max(own),
+                        };
+                        let mut weight = w * w * w * volume;
+                        if MASSES {
+                            // Of a pair, each takes on what the other gives off.
+                            let (mass, element): (&f32, &ElementId) = (mass, element);
+                            let mass = L::splat(*mass);
+                            let other = L::splat(self.coefficients[element.index()].min(self.most) * scale);
+                            let mean = (other + other) / (share + other).max(L::splat(f32::MIN_POSITIVE));
+                            weight = weight * mean * ((mass + mass) / (mass_i + mass));
+                        }
+                        sum_x = sum_x + weight * (L::splat(*vxj) - vxi);
+                        sum_y = sum_y + weight * (L::splat(*vyj) - vyi);
                     }
-                    sum_x = sum_x + weight * (L::splat(self.particles.vx[j]) - vxi);
-                    sum_y = sum_y + weight * (L::splat(self.particles.vy[j]) - vyi);
+                };
+            }
+            let Particles { x, y, vx, vy, element, .. } = self.particles;
+            let sizes = if STICKS { self.density } else { self.volumes };
+            for run in group.movable {
+                let run = run.range();
+                let places = x[run.clone()].iter().zip(&y[run.clone()]);
+                let moving = places.zip(&vx[run.clone()]).zip(&vy[run.clone()]).zip(&sizes[run.clone()]);
+                if MASSES {
+                    add!(moving.zip(self.masses[run.clone()].iter().zip(&element[run])));
+                } else {
+                    add!(moving.map(|of| (of, (&0.0, &ElementId(0)))));
                 }
             }
             let out = own.start - self.base..own.end - self.base;

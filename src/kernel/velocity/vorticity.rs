@@ -60,8 +60,9 @@ pub fn apply_vorticity(
         GradientKernel::Spiky => confine::<Spiky>(particles, solver, strengths, threads, dt),
         GradientKernel::Rational => confine::<Rational>(particles, solver, strengths, threads, dt),
     };
-    let Solver { next_x, next_y, .. } = solver;
-    let changed = energy::change(particles, elements, [&particles.vx, &particles.vy], [next_x, next_y]);
+    let Solver { next_x, next_y, instructions, .. } = solver;
+    let before = [&particles.vx[..], &particles.vy];
+    let changed = energy::change(particles, elements, before, [next_x, next_y], *instructions);
     let share = share_within(changed, most) as f32;
     if share < 1.0 {
         for (before, after) in [(&particles.vx, &mut *next_x), (&particles.vy, &mut *next_y)] {

@@ -53,14 +53,14 @@ pub(super) fn begin_kick(
     mut particles: ResMut<ParticleStore>,
     mut start: ResMut<StartEnergy>,
     (elements, apart): (Res<Elements>, Res<Apart>),
-    setup: Res<Setup>,
+    (setup, solver): (Res<Setup>, Res<SolverState>),
     effects: Res<Effects>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
 ) -> usize {
     let (gravity, dt, weights) = (setup.domain.gravity, plan.substep_seconds(), apart.of(&elements).weights);
     if effects.get(Effect::Vorticity).running {
-        start.0 = velocity::energy(&particles, &elements, gravity, weights);
+        start.0 = velocity::energy(&particles, &elements, gravity, weights, solver.instructions);
     }
     workers.run_for(particles.len(), |threads| forces::begin_kick(gravity, weights, &mut particles, threads, dt));
     particles.len()
@@ -256,7 +256,8 @@ pub(super) fn apply_vorticity(
     let dt = plan.substep_seconds();
     let report = workers.run_for(particles.len(), |threads| {
         let weights = apart.of(&elements).weights;
-        let lost = start.0 - velocity::energy(&particles, &elements, setup.domain.gravity, weights);
+        let lost =
+            start.0 - velocity::energy(&particles, &elements, setup.domain.gravity, weights, solver.instructions);
         velocity::apply_vorticity(&mut particles, &mut solver, &elements, lost, threads, dt)
     });
     counters.strength_clamps += report.clamps;

@@ -6,6 +6,7 @@ use crate::{
     params::{GradientKernel, Preset},
     pbf::tests::{Bench, random_numbers},
     predict::longest_move,
+    simd::InstructionSet,
     velocity::{apply_vorticity, energy},
 };
 use glam::Vec2;
@@ -135,9 +136,9 @@ fn confinement_gives_no_more_energy_than_it_may() {
                 particles: bench.particles.clone(),
                 ..square(0.0, |_| Vec2::ZERO)
             };
-            let before = energy(&bench.particles, &elements, Vec2::ZERO, None);
+            let before = energy(&bench.particles, &elements, Vec2::ZERO, None, InstructionSet::detect());
             apply_vorticity(&mut bench.particles, &mut bench.solver, &elements, most, 1, 0.01);
-            (energy(&bench.particles, &elements, Vec2::ZERO, None) - before, bench.particles)
+            (energy(&bench.particles, &elements, Vec2::ZERO, None, InstructionSet::detect()) - before, bench.particles)
         };
         let (freely, free) = added(f64::MAX);
         assert!(freely > 0.0, "it has nothing to bound");
