@@ -382,6 +382,10 @@ async function play() {
     const left = { x: 40, y: 120, width: 860, height: 560 };
     assert.equal(theory(await game.picture('museum-opens'), left), 0, 'theory over a world of which nothing is known');
     for (const [title, scene] of [['Dam break on a wet bed', 'wet_bed'], ['Free fall', 'free_fall'], ['Sloshing', 'sloshing']]) {
+      if ((await game.widgets()).some(({ name }) => name === 'other answers')) {
+        await game.click('other answers');
+        await game.untilWidgets('the answers are listed', (all) => all.some(({ name }) => name === title));
+      }
       await game.click(title);
       await game.until(`${title} is shown`, (now) => now.scene === scene && now.tick > 10);
       await poll('theory is drawn', async () => theory(await game.picture(`museum-${scene}`), left), (pink) => pink > 100);

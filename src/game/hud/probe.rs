@@ -3,7 +3,7 @@
 use crate::{
     game::{
         camera::WorldCamera,
-        hud::style::{LINE, PANEL, TEXT, WEAK},
+        hud::style::{LINE, PANEL, SMALL, TEXT, WEAK},
         input::pointer::{HudCover, Pointer},
         lump::Lump,
         panels::Panels,
@@ -95,7 +95,7 @@ fn describe(setup: &Setup, curves: &HeatCurves, lump: Lump) -> Vec<String> {
 
 /// The scale of the view's colours with its marks.
 fn legend(ui: &mut Ui, view: &View) {
-    let font = FontId::proportional(11.5);
+    let font = FontId::proportional(SMALL);
     let (rect, _) = ui.allocate_exact_size(vec2(SCALE, 27.0), egui::Sense::hover());
     let painter = ui.painter();
     // The marks' texts stand below their places: half of the last would be outside.

@@ -35,6 +35,9 @@ pub const GOOD: Color32 = Color32::from_rgb(104, 211, 145);
 /// What came out wrong.
 pub const BAD: Color32 = Color32::from_rgb(255, 122, 122);
 
+/// Size of the smallest text, points. Only names of tiles that don't fit are smaller.
+pub const SMALL: f32 = 12.0;
+
 /// Corner of buttons and tiles.
 pub const BUTTON_CORNER: u8 = 6;
 /// Corner of windows.
@@ -55,7 +58,7 @@ pub fn apply(context: &egui::Context) {
     context.options_mut(|options| options.input_options.max_click_duration = f64::INFINITY);
     context.all_styles_mut(|style| {
         style.text_styles = [
-            (TextStyle::Small, FontId::proportional(11.0)),
+            (TextStyle::Small, FontId::proportional(SMALL)),
             (TextStyle::Body, FontId::proportional(13.5)),
             (TextStyle::Button, FontId::proportional(13.5)),
             (TextStyle::Monospace, FontId::monospace(13.5)),
@@ -169,6 +172,17 @@ mod tests {
     fn luminance(colour: Color32) -> f32 {
         let linear = egui::Rgba::from(colour);
         0.2126 * linear.r() + 0.7152 * linear.g() + 0.0722 * linear.b()
+    }
+
+    #[test]
+    fn no_text_is_smaller_than_the_smallest() {
+        const FONT: &str = "FontId::proportional(";
+        for (file, line) in texts(Path::new("src/game")) {
+            let size = line.split(FONT).nth(1).and_then(|size| size.split(')').next());
+            if let Some(size) = size.and_then(|size| size.parse::<f32>().ok()) {
+                assert!(size >= SMALL, "{file}: a text of {size} points: {line}");
+            }
+        }
     }
 
     #[test]

@@ -54,8 +54,8 @@ pub fn tile(ui: &mut Ui, size: Vec2, unit: f32, face: &Face) -> Response {
     // Beside the letter of a key there is not always room for the icon in the middle, and never beside a longer one.
     let (place, side, letter) = match face.key.chars().count() {
         3.. => (vec2(0.0, 3.5), 17.0, 9.0),
-        1.. if size.x < NARROW => (vec2(3.0, 7.0), 22.0, 11.0),
-        _ => (vec2(0.0, 7.0), 24.0, 11.0),
+        1.. if size.x < NARROW => (vec2(3.0, 7.0), 22.0, style::SMALL),
+        _ => (vec2(0.0, 7.0), 24.0, style::SMALL),
     };
     icons::draw(painter, icons::square(rect.center() - place * unit, side * unit), icon, colour);
     let (text, corner) = if face.chosen { (Color32::WHITE, style::ACCENT) } else { (style::TEXT, style::WEAK) };
@@ -67,8 +67,8 @@ pub fn tile(ui: &mut Ui, size: Vec2, unit: f32, face: &Face) -> Response {
     }
     // A long name is written smaller.
     let fit = |size: f32| painter.layout_no_wrap(face.label.to_owned(), FontId::proportional(size * unit), text);
-    let label = fit(11.0);
-    let label = if label.size().x > room { fit(11.0 * room / label.size().x) } else { label };
+    let label = fit(style::SMALL);
+    let label = if label.size().x > room { fit(style::SMALL * room / label.size().x) } else { label };
     let at = rect.center_bottom() - vec2(label.size().x / 2.0, label.size().y + 4.0 * unit);
     painter.galley(at, label, text);
     response

@@ -7,7 +7,7 @@ use crate::{
             museum::THEORY,
             panels::cases::window::Suite,
             style::weak,
-            widgets::{name, row},
+            widgets::{menu, name, row},
             window::{PanelWindow, scroll},
         },
         icons,
@@ -23,7 +23,7 @@ use crate::{
     sim::generation::Generation,
 };
 use bevy::prelude::{KeyCode, Res, ResMut, Result};
-use bevy_egui::egui::{Align2, RichText, Ui, vec2};
+use bevy_egui::egui::{Align2, Color32, RichText, Ui, vec2};
 
 /// Its row.
 pub const PANEL: Panel = Panel {
@@ -50,40 +50,51 @@ pub fn show(
     let shown = museum.shown(*generation);
     window.show(&PANEL, (Align2::RIGHT_TOP, vec2(-14.0, 60.0)), |ui| {
         ui.set_width(WIDTH);
-        ui.label(weak("Worlds of which the answer is known, and the answer drawn over them."));
-        scroll(ui, 240.0, |ui| {
-            ui.spacing_mut().item_spacing.y = 2.0;
-            for exhibit in &EXHIBITS {
-                let is_shown = shown.is_some_and(|shown| shown.name == exhibit.name);
-                let title = exhibit.case().map_or(exhibit.name, |case| case.title);
-                if row(ui, title, "", is_shown) {
-                    orders.push(Order::Visit(exhibit.name));
-                }
-                if is_shown {
-                    about(ui, exhibit, (&bindings, &mut orders));
-                }
+        match shown {
+            // Small, so that the world has room.
+            Some(exhibit) => about(ui, exhibit, (&bindings, &mut orders)),
+            None => {
+                ui.label(weak("Worlds of which the answer is known, and the answer drawn over them."));
+                scroll(ui, 240.0, |ui| list(ui, None, &mut orders));
             }
-        });
+        }
     })
 }
 
+/// All answers, to choose one.
+fn list(ui: &mut Ui, shown: Option<&Exhibit>, orders: &mut Orders) {
+    ui.spacing_mut().item_spacing.y = 2.0;
+    for exhibit in &EXHIBITS {
+        let is_shown = shown.is_some_and(|shown| shown.name == exhibit.name);
+        if row(ui, title(exhibit), "", is_shown) {
+            orders.push(Order::Visit(exhibit.name));
+            ui.close();
+        }
+    }
+}
+
 /// What is to be seen, and what it rests on.
-fn about(ui: &mut Ui, exhibit: &Exhibit, (bindings, orders): (&Bindings, &mut Orders)) {
-    ui.indent(exhibit.name, |ui| {
-        ui.spacing_mut().item_spacing.y = 5.0;
-        ui.label(RichText::new(exhibit.drawn).color(THEORY));
-        // Of its Markdown, a line on the screen needs no marks.
-        let answer = exhibit.case().map(|case| case.answer.replace('`', "")).unwrap_or_default();
-        ui.label(weak(answer).small());
-        ui.horizontal(|ui| {
-            for (text, action) in [("Again", Action::Reset), ("Examine", Action::Panel(ExamCase::PANEL.id))] {
-                let button = ui.button(text);
-                name(&button, text, false);
-                if button.on_hover_text(bindings.tip(action)).clicked() {
-                    orders.push(Order::Act(action));
-                }
+fn about(ui: &mut Ui, exhibit: &'static Exhibit, (bindings, orders): (&Bindings, &mut Orders)) {
+    ui.spacing_mut().item_spacing.y = 5.0;
+    ui.label(RichText::new(title(exhibit)).size(15.0).color(Color32::WHITE));
+    ui.label(RichText::new(exhibit.drawn).color(THEORY));
+    // Of its Markdown, a line on the screen needs no marks.
+    let answer = exhibit.case().map(|case| case.answer.replace('`', "")).unwrap_or_default();
+    ui.label(weak(answer).small());
+    ui.horizontal(|ui| {
+        for (text, action) in [("Again", Action::Reset), ("Examine", Action::Panel(ExamCase::PANEL.id))] {
+            let button = ui.button(text);
+            name(&button, text, false);
+            if button.on_hover_text(bindings.tip(action)).clicked() {
+                orders.push(Order::Act(action));
             }
-        });
-        ui.add_space(4.0);
+        }
+        let others = ui.button("Others …");
+        name(&others, "other answers", false);
+        menu(&others, "Known answers", |ui| scroll(ui, 240.0, |ui| list(ui, Some(exhibit), orders)));
     });
+}
+
+fn title(exhibit: &Exhibit) -> &'static str {
+    exhibit.case().map_or(exhibit.name, |case| case.title)
 }

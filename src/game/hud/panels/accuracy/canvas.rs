@@ -55,7 +55,7 @@ impl Canvas<'_> {
 
     /// Writes a small text.
     pub fn text(&self, at: Pos2, align: Align2, text: &str, colour: Color32) {
-        self.painter.text(at, align, text, FontId::proportional(10.5), colour);
+        self.painter.text(at, align, text, FontId::proportional(style::SMALL), colour);
     }
 
     /// Field, lines, and numbers beside them.

@@ -134,7 +134,7 @@ impl Scale {
             if named {
                 let colour = if is_here { Color32::WHITE } else { style::WEAK };
                 let below = at + vec2(0.0, HANDLE + 4.0);
-                painter.text(below, Align2::CENTER_TOP, short_name(step), FontId::proportional(11.0), colour);
+                painter.text(below, Align2::CENTER_TOP, short_name(step), FontId::proportional(style::SMALL), colour);
             }
         }
         let handle = self.at(place);

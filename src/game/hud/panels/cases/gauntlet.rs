@@ -31,9 +31,9 @@ const LINE: f32 = 24.0;
 /// Where a line's title begins, points.
 const TITLE: f32 = 24.0;
 /// Where the first of the marks stands, one for each quality, points.
-const MARKS: f32 = 400.0;
+const MARKS: f32 = 430.0;
 /// From one mark to the next, points.
-const MARK: f32 = 34.0;
+const MARK: f32 = 56.0;
 
 impl Suite for GauntletCase {
     const PANEL: Panel = Panel {
@@ -50,7 +50,7 @@ impl Suite for GauntletCase {
     const PURPOSE: &'static str = "What breaks programs of this kind. Click a case to watch it; run them all in the background \
                                    to see how they come out.";
     const BEGIN: &'static str = "Run all";
-    const WIDTH: f32 = 620.0;
+    const WIDTH: f32 = 740.0;
 
     fn show(ui: &mut Ui, rows: &[Row<Stability>], setup: &Setup, height: f32) -> Option<Order> {
         let throw = ui.button("Try to break it").on_hover_text("throw hard cases at your own world").clicked();
@@ -64,7 +64,7 @@ impl Suite for GauntletCase {
 /// The qualities above their marks.
 fn headings(ui: &mut Ui) {
     let (rect, _) = ui.allocate_exact_size(vec2(GauntletCase::WIDTH, 14.0), egui::Sense::hover());
-    let font = egui::FontId::proportional(9.5);
+    let font = egui::FontId::proportional(style::SMALL);
     for (column, preset) in Preset::ALL.into_iter().enumerate() {
         let at = pos2(rect.left() + MARKS + MARK * column as f32, rect.center().y);
         ui.painter().text(at, Align2::CENTER_CENTER, preset.name(), font.clone(), style::WEAK);

@@ -123,7 +123,7 @@ fn draw(painter: &Painter, points: Vec<Pos2>, colour: Color32, stands_out: bool)
 
 fn grid(painter: &Painter, field: Rect, scale: &Scale) {
     painter.rect_filled(field, 4.0, Color32::from_rgb(12, 15, 21));
-    let (font, decimals) = (FontId::proportional(10.5), scale.decimals());
+    let (font, decimals) = (FontId::proportional(style::SMALL), scale.decimals());
     for mark in scale.marks() {
         let y = field.bottom() - scale.share(mark) * field.height();
         let is_zero = mark.abs() < 1e-9 * scale.range().end().abs().max(1e-9);

@@ -129,7 +129,13 @@ fn tile(
     }
     let colour = if entry.scene.name() == playing { style::ACCENT } else { Color32::WHITE };
     write(ui, frame.left_bottom() + vec2(3.0, 5.0), entry.scene.title(), TextStyle::Button.resolve(ui.style()), colour);
-    write(ui, frame.left_bottom() + vec2(3.0, 22.0), entry.scene.invitation(), FontId::proportional(11.5), style::WEAK);
+    write(
+        ui,
+        frame.left_bottom() + vec2(3.0, 22.0),
+        entry.scene.invitation(),
+        FontId::proportional(style::SMALL),
+        style::WEAK,
+    );
     // Where the pointer moves it is looked at; it may rest on a tile while arrows lead to another.
     if response.hovered() && ui.input(|input| input.pointer.time_since_last_movement() < MOVED) {
         menu.focus = Some(index);

@@ -51,7 +51,7 @@ impl ErrorKind {
                 continue;
             }
             let colour = if is_shown && has_both { Color32::WHITE } else { style::WEAK };
-            let text = ui.painter().layout_no_wrap(kind.name().to_owned(), FontId::proportional(10.5), colour);
+            let text = ui.painter().layout_no_wrap(kind.name().to_owned(), FontId::proportional(style::SMALL), colour);
             let words = Rect::from_min_size(right - vec2(text.size().x, 0.0), text.size());
             let room = words.expand2(vec2(5.0, 2.5));
             right.x = words.left() - 14.0;

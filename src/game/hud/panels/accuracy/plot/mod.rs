@@ -196,7 +196,7 @@ impl Plot<'_> {
             // The end that is furthest from the line of the detail in force.
             let end = if detail < self.detail { places.first() } else { places.last() };
             if let Some(end) = end.filter(|_| !is_own) {
-                let (text, font) = (format!("detail {}", short(detail as f32)), FontId::proportional(10.5));
+                let (text, font) = (format!("detail {}", short(detail as f32)), FontId::proportional(style::SMALL));
                 let text = canvas.painter.layout_no_wrap(text, font, style::TEXT);
                 let room = place_beside(*end, text.size(), canvas.field, taken);
                 canvas.painter.galley(room.min, text, style::TEXT);
