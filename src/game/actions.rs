@@ -1,12 +1,17 @@
 //! What a key, a button or a click on the HUD can ask for.
 
 use crate::game::{brush_mode::BrushMode, tools::Tool, views::table::View};
+use bevy::prelude::MouseButton;
 
 /// What a player can do with a key, a button or a click on the HUD.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Action {
     /// Begins something that lasts while the button is held.
     Hold(Gesture),
+    /// Holds a button of the mouse down, while keys move the pointer.
+    Press(MouseButton),
+    /// Has keys move the pointer, or the picture again.
+    MouseKeys,
     /// Chooses the element under the pointer.
     Sample,
     /// Chooses the element on this digit; while the pointer is over an element's tile, puts that element there.

@@ -14,6 +14,7 @@ use crate::{
         hud::panels::details,
         input::{
             bindings::Bindings,
+            mouse_keys::MouseKeys,
             pointer::{HudCover, Pointer, ZOOM_STEP},
             rebind,
         },
@@ -49,7 +50,7 @@ use crate::{
         state::{ParticleStore, Rock, Setup},
     },
 };
-use bevy::prelude::World;
+use bevy::prelude::{MouseButton, World};
 use std::{mem, sync::Arc};
 
 /// Carries out what waits.
@@ -170,8 +171,9 @@ fn change_detail(world: &mut World, Step { preset, detail }: Step, intents: &[In
 
 fn act(world: &mut World, action: Action) {
     match action {
-        // The pointer follows held buttons, the keyboard held arrows.
-        Action::Hold(_) | Action::Pan(..) => {}
+        // The pointer follows held buttons and keys, the picture held arrows.
+        Action::Hold(_) | Action::Pan(..) | Action::Press(_) => {}
+        Action::MouseKeys => turn_mouse_keys(world),
         Action::Sample => sample(world),
         Action::Tool(tool) => take_up(world, tool),
         Action::Element(digit) => use_digit(world, digit),
@@ -322,6 +324,19 @@ fn change_world(world: &mut World, action: Action) {
         Action::Undo => "Nothing to undo",
         Action::Redo if history::redo(world) => "Made again",
         _ => "Nothing to make again",
+    };
+    world.resource_mut::<Toasts>().say(told);
+}
+
+fn turn_mouse_keys(world: &mut World) {
+    let on = !world.resource::<MouseKeys>().0;
+    world.resource_mut::<MouseKeys>().0 = on;
+    let bindings = world.resource::<Bindings>();
+    let [left, right, end] = [Action::Press(MouseButton::Left), Action::Press(MouseButton::Right), Action::MouseKeys]
+        .map(|of| bindings.key(of));
+    let told = match on {
+        true => format!("Mouse keys: the arrows move the pointer, {left} and {right} are its buttons; {end} ends it"),
+        false => "The arrows move the picture again".to_owned(),
     };
     world.resource_mut::<Toasts>().say(told);
 }

@@ -16,12 +16,13 @@ use crate::{
     sim::{generation::Generation, recorder, state::Setup},
 };
 use bevy::{
+    input::mouse::MouseButtonInput,
     prelude::{
         App, AppExit, Fixed, FixedPreUpdate, IntoScheduleConfigs, Last, Plugin, PreStartup, RunFixedMainLoop,
         RunFixedMainLoopSystems, SystemSet, Time, not, on_message, resource_exists,
     },
     time::common_conditions::on_timer,
-    window::WindowEvent,
+    window::{CursorMoved, WindowEvent},
 };
 
 use std::time::Duration;
@@ -36,6 +37,8 @@ pub struct GamePlugin;
 impl Plugin for GamePlugin {
     fn build(&self, app: &mut App) {
         app.add_message::<WindowEvent>()
+            .add_message::<CursorMoved>()
+            .add_message::<MouseButtonInput>()
             .insert_resource(Time::<Fixed>::from_hz(f64::from(TICKS_PER_SECOND)))
             .init_resource::<camera::WorldCamera>()
             .init_resource::<toolbox::Toolbox>()
@@ -65,6 +68,7 @@ impl Plugin for GamePlugin {
             .init_resource::<input::pointer::Pointer>()
             .init_resource::<input::pointer::HudCover>()
             .init_resource::<input::keys::HudKeys>()
+            .init_resource::<input::mouse_keys::MouseKeys>()
             .init_resource::<input::touch::Fingers>()
             .init_resource::<input::strokes::DragState>()
             .init_resource::<accuracy::Watched>()
@@ -86,6 +90,7 @@ impl Plugin for GamePlugin {
                 RunFixedMainLoop,
                 (
                     follow::follow_scene,
+                    input::mouse_keys::run.run_if(not(input::rebind::asks)),
                     input::keys::pan.run_if(not(input::rebind::asks)),
                     input::devices::read_devices,
                     drop::read_drops,

@@ -4,6 +4,7 @@
 use crate::{
     game::{
         hud::layout::{CHOICES, UiScale},
+        input::mouse_keys::MouseKeys,
         kept::KeptFile,
         render::level::{Level, PictureLevel},
     },
@@ -37,11 +38,13 @@ struct Choices {
     window: Option<(u32, u32)>,
     /// The built-in scene that was played last.
     scene: Option<String>,
+    /// Whether keys move the pointer.
+    mouse_keys: bool,
 }
 
 impl Default for Choices {
     fn default() -> Self {
-        Self { hud: 1.0, picture: None, window: None, scene: None }
+        Self { hud: 1.0, picture: None, window: None, scene: None, mouse_keys: false }
     }
 }
 
@@ -112,15 +115,18 @@ impl Settings {
 
 /// Puts the settings of the last session in force, and keeps those of this one.
 pub fn plugin(app: &mut App, settings: Settings) {
-    let Choices { hud, picture, .. } = settings.kept.clone();
-    app.insert_resource(UiScale { factor: hud }).insert_resource(settings).add_systems(Update, keep);
+    let Choices { hud, picture, mouse_keys, .. } = settings.kept.clone();
+    app.insert_resource(UiScale { factor: hud })
+        .insert_resource(MouseKeys(mouse_keys))
+        .insert_resource(settings)
+        .add_systems(Update, keep);
     app.world_mut().get_resource_or_init::<PictureLevel>().want(picture);
 }
 
 /// Keeps what is set.
 fn keep(
     mut settings: ResMut<Settings>,
-    scale: Res<UiScale>,
+    (scale, mouse_keys): (Res<UiScale>, Res<MouseKeys>),
     level: Res<PictureLevel>,
     window: Single<&Window, With<PrimaryWindow>>,
     setup: Option<Res<Setup>>,
@@ -133,7 +139,7 @@ fn keep(
     let last = settings.kept.scene.as_ref();
     let scene = setup.as_ref().map(|setup| &setup.blueprint.name);
     let scene = scene.filter(|name| last == Some(name) || builtin_names().contains(&name.as_str())).or(last).cloned();
-    let now = Choices { hud: scale.factor, picture: level.wanted(), window, scene };
+    let now = Choices { hud: scale.factor, picture: level.wanted(), window, scene, mouse_keys: mouse_keys.0 };
     settings.bypass_change_detection().follow(now, time.delta_secs());
 }
 
@@ -151,7 +157,8 @@ mod tests {
         let file = || KeptFile::of_folder(&folder, FILE);
         let mut settings = Settings::of_file(file());
         let scene = Some("volcano".to_owned());
-        let chosen = Choices { hud: 1.3, picture: Some(Level::Plain), window: Some((900, 700)), scene };
+        let chosen =
+            Choices { hud: 1.3, picture: Some(Level::Plain), window: Some((900, 700)), scene, mouse_keys: true };
         settings.follow(Choices::default(), 10.0);
         assert!(!folder.exists(), "nothing changed, so nothing is written");
         for width in 800..900 {

@@ -2,7 +2,7 @@
 
 use crate::game::{
     camera::Area,
-    input::{keys::HudKeys, pointer::HudCover, rebind::KeyEditor},
+    input::{keys::HudKeys, mouse_keys::MouseKeys, pointer::HudCover, rebind::KeyEditor},
 };
 use bevy::prelude::{Query, Res, ResMut, Result};
 use bevy_egui::{EguiContext, EguiContexts, EguiInput, egui};
@@ -36,7 +36,7 @@ pub fn note_cover(mut cover: ResMut<HudCover>, mut contexts: EguiContexts) -> Re
 /// with Space. What else is in focus has the arrows. A key that is to be chosen for an action is nobody's.
 pub fn keep_keys(
     mut contexts: Query<(&mut EguiContext, &mut EguiInput)>,
-    (cover, editor): (Res<HudCover>, Res<KeyEditor>),
+    (cover, editor, mouse_keys): (Res<HudCover>, Res<KeyEditor>, Res<MouseKeys>),
     mut hud: ResMut<HudKeys>,
 ) {
     for (mut context, mut input) in &mut contexts {
@@ -44,8 +44,8 @@ pub fn keep_keys(
         *hud = match context.memory(|memory| memory.focused()) {
             _ if context.text_edit_focused() && cover.element.is_some() => HudKeys::AllButDigits,
             _ if context.text_edit_focused() => HudKeys::All,
-            Some(_) => HudKeys::Arrows,
-            None => HudKeys::None,
+            Some(_) if !mouse_keys.0 => HudKeys::Arrows,
+            _ => HudKeys::None,
         };
         let is_kept = |event: &egui::Event| match event {
             egui::Event::Key { key, .. } => *key == egui::Key::Escape || *hud == HudKeys::Arrows && is_arrow(*key),

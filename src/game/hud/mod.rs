@@ -15,6 +15,7 @@ pub mod lamps;
 pub mod layout;
 pub mod lens;
 pub mod live_picture;
+pub mod mouse_keys;
 pub mod museum;
 pub mod palette;
 pub mod panels;
@@ -80,7 +81,9 @@ impl Plugin for HudPlugin {
                     )
                         .chain()
                         .in_set(HudSystems::Bars),
-                    (toast::show, drop::show, focus::note_cover, cost::end).chain().in_set(HudSystems::End),
+                    (toast::show, drop::show, mouse_keys::show, focus::note_cover, cost::end)
+                        .chain()
+                        .in_set(HudSystems::End),
                 ),
             );
         #[cfg(not(target_arch = "wasm32"))]

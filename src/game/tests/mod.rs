@@ -56,6 +56,7 @@ mod hints;
 mod keys;
 mod lens;
 mod mixer;
+mod mouse_keys;
 mod museum;
 mod opening;
 mod past;

@@ -1,7 +1,7 @@
 //! The settings.
 
 use crate::game::{
-    actions::PanelId,
+    actions::{Action, PanelId},
     hints::Hints,
     hud::{
         layout::{CHOICES, UiScale},
@@ -9,11 +9,15 @@ use crate::game::{
         window::{MIDDLE, PanelWindow},
     },
     icons,
-    input::bindings::{Group, NONE},
+    input::{
+        bindings::{Bindings, Group, NONE},
+        mouse_keys::MouseKeys,
+    },
+    orders::{Order, Orders},
     panels::Panel,
     render::level::{Level, PictureLevel},
 };
-use bevy::prelude::{KeyCode, ResMut, Result};
+use bevy::prelude::{KeyCode, MouseButton, Res, ResMut, Result};
 
 /// Its row.
 pub const PANEL: Panel = Panel {
@@ -34,6 +38,8 @@ pub fn show(
     mut scale: ResMut<UiScale>,
     mut level: ResMut<PictureLevel>,
     mut hints: ResMut<Hints>,
+    (mouse_keys, bindings): (Res<MouseKeys>, Res<Bindings>),
+    mut orders: ResMut<Orders>,
 ) -> Result {
     window.show(&PANEL, MIDDLE, |ui| {
         ui.label(weak("Size of the HUD"));
@@ -60,5 +66,10 @@ pub fn show(
             hints.switch(on);
         }
         ui.label(weak("Each is told once. Switched off and on again, all are told anew.").small());
+        if ui.checkbox(&mut { mouse_keys.0 }, "Mouse keys").changed() {
+            orders.push(Order::Act(Action::MouseKeys));
+        }
+        let [left, right] = [MouseButton::Left, MouseButton::Right].map(|button| bindings.key(Action::Press(button)));
+        ui.label(weak(format!("The arrows move the pointer, {left} and {right} are its buttons.")).small());
     })
 }

@@ -1,0 +1,27 @@
+//! The pointer that keys move, drawn by the game: that of the system stays where the mouse left it.
+
+use crate::game::input::{mouse_keys::MouseKeys, pointer::Pointer};
+use bevy::prelude::{Res, Result};
+use bevy_egui::{
+    EguiContexts,
+    egui::{Color32, Id, LayerId, Order, Shape, Stroke, pos2, vec2},
+};
+
+/// Corners of the arrow from its tip, points; the two halves are convex.
+const HALVES: [[(f32, f32); 3]; 2] = [[(0.0, 0.0), (0.0, 19.0), (5.0, 14.0)], [(0.0, 0.0), (5.0, 14.0), (13.5, 13.5)]];
+const OUTLINE: [(f32, f32); 4] = [(0.0, 0.0), (0.0, 19.0), (5.0, 14.0), (13.5, 13.5)];
+
+/// Shows it, above all else.
+pub fn show(mut contexts: EguiContexts, mouse_keys: Res<MouseKeys>, pointer: Res<Pointer>) -> Result {
+    let (Some(at), true) = (pointer.at, mouse_keys.0) else { return Ok(()) };
+    let context = contexts.ctx_mut()?;
+    let zoom = context.zoom_factor();
+    let tip = pos2(at.x / zoom, at.y / zoom);
+    let corner = |(x, y): (f32, f32)| tip + vec2(x, y);
+    let painter = context.layer_painter(LayerId::new(Order::Debug, Id::new("mouse keys")));
+    for half in HALVES {
+        painter.add(Shape::convex_polygon(half.map(corner).to_vec(), Color32::WHITE, Stroke::NONE));
+    }
+    painter.add(Shape::closed_line(OUTLINE.map(corner).to_vec(), Stroke::new(1.5, Color32::BLACK)));
+    Ok(())
+}
