@@ -270,6 +270,30 @@ async function play() {
     await game.until('the digit chooses it', ({ tool }) => tool === 'brine');
   });
 
+  await test('keys move the pointer, draw, and press what is on the screen', async () => {
+    await game.move([640, 300]);
+    await game.key('F8');
+    await game.press('Right');
+    await game.until('the pointer goes right', ({ pointer }) => pointer[0] > 700 && pointer[1] === 300);
+    await game.letGo('Right');
+    const { particles } = await game.stats();
+    await game.press('Return');
+    await game.until('Enter pours', (now) => now.particles > particles + 20);
+    await game.letGo('Return');
+    await game.hover('water');
+    await game.key('Return');
+    await game.until('Enter presses a tile', ({ tool }) => tool === 'water');
+    await game.key('F8');
+    await game.press('Right');
+    const { pointer } = await quiet();
+    assert.deepEqual((await game.stats()).pointer, pointer, 'the pointer is the mouse\'s again');
+    await game.letGo('Right');
+    await game.key('r');
+    await game.until('an empty scene', (now) => now.particles === 0);
+    await game.key('3');
+    await game.until('the tool is brine again', ({ tool }) => tool === 'brine');
+  });
+
   await test('an element of one\'s own is mixed, pours, and is undone', async () => {
     await game.key('shift+e');
     await game.untilWidgets('the mixer is open', (all) => isOpen(all, 'Mixer') && all.some(({ name }) => name === 'Make it'));

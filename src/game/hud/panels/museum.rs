@@ -55,22 +55,22 @@ pub fn show(
             Some(exhibit) => about(ui, exhibit, (&bindings, &mut orders)),
             None => {
                 ui.label(weak("Worlds of which the answer is known, and the answer drawn over them."));
-                scroll(ui, 240.0, |ui| list(ui, None, &mut orders));
+                scroll(ui, 240.0, |ui| orders.extend(list(ui, None)));
             }
         }
     })
 }
 
-/// All answers, to choose one.
-fn list(ui: &mut Ui, shown: Option<&Exhibit>, orders: &mut Orders) {
+/// All answers; what is asked for by one that is pressed.
+fn list(ui: &mut Ui, shown: Option<&Exhibit>) -> Option<Order> {
     ui.spacing_mut().item_spacing.y = 2.0;
+    let mut pressed = None;
     for exhibit in &EXHIBITS {
-        let is_shown = shown.is_some_and(|shown| shown.name == exhibit.name);
-        if row(ui, title(exhibit), "", is_shown) {
-            orders.push(Order::Visit(exhibit.name));
-            ui.close();
+        if row(ui, title(exhibit), "", shown.is_some_and(|shown| shown.name == exhibit.name)) {
+            pressed = Some(Order::Visit(exhibit.name));
         }
     }
+    pressed
 }
 
 /// What is to be seen, and what it rests on.
@@ -91,7 +91,14 @@ fn about(ui: &mut Ui, exhibit: &'static Exhibit, (bindings, orders): (&Bindings,
         }
         let others = ui.button("Others …");
         name(&others, "other answers", false);
-        menu(&others, "Known answers", |ui| scroll(ui, 240.0, |ui| list(ui, Some(exhibit), orders)));
+        menu(&others, "Known answers", |ui| {
+            scroll(ui, 240.0, |ui| {
+                if let Some(order) = list(ui, Some(exhibit)) {
+                    orders.push(order);
+                    ui.close();
+                }
+            });
+        });
     });
 }
 
