@@ -91,7 +91,7 @@ impl Plugin for GamePlugin {
                 (
                     follow::follow_scene,
                     input::mouse_keys::run.run_if(not(input::rebind::asks)),
-                    input::keys::pan.run_if(not(input::rebind::asks)),
+                    input::keys::pan.run_if(not(input::rebind::asks)).run_if(not(input::mouse_keys::are_on)),
                     input::devices::read_devices,
                     drop::read_drops,
                     execute::carry_out,

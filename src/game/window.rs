@@ -125,7 +125,7 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
     .add_plugins(EguiPlugin::default())
     .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
     .insert_resource(Favourites::of_user())
-    .add_systems(PreStartup, mixer::own::read_file)
+    .add_systems(PreStartup, mixer::desk::read_own)
     .insert_resource(Keymap::of_user())
     .insert_resource(Shelf::of_user())
     .insert_resource(Earned::of_user())

@@ -3,10 +3,7 @@
 use crate::game::{
     actions::Action,
     camera::WorldCamera,
-    input::{
-        bindings::{Bindings, Mods, Trigger},
-        mouse_keys::MouseKeys,
-    },
+    input::bindings::{Bindings, Mods, Trigger},
 };
 use bevy::prelude::{ButtonInput, KeyCode, Real, Res, ResMut, Resource, Time};
 use glam::Vec2;
@@ -62,12 +59,12 @@ pub fn is_held(action: Action, keys: &ButtonInput<KeyCode>, bindings: &Bindings)
 /// Moves the picture while a key for that is held, whatever modifiers are held with it, unless they make it another action's.
 pub fn pan(
     keys: Res<ButtonInput<KeyCode>>,
-    (hud, mouse_keys): (Res<HudKeys>, Res<MouseKeys>),
+    hud: Res<HudKeys>,
     bindings: Res<Bindings>,
     time: Res<Time<Real>>,
     mut camera: ResMut<WorldCamera>,
 ) {
-    if camera.zoom() == 1.0 || mouse_keys.0 {
+    if camera.zoom() == 1.0 {
         return;
     }
     let held = Mods::held(&keys);

@@ -28,6 +28,11 @@ const RISE: f32 = 1.0;
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MouseKeys(pub bool);
 
+/// Whether they do.
+pub fn are_on(mouse_keys: Res<MouseKeys>) -> bool {
+    mouse_keys.0
+}
+
 /// What keys do to the pointer, from frame to frame.
 #[derive(Debug, Default)]
 pub struct Hold {

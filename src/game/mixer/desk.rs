@@ -9,7 +9,7 @@ use crate::{
     kernel::element::{Element, ElementId, ElementTable},
     scene,
 };
-use bevy::prelude::Resource;
+use bevy::prelude::{Res, ResMut, Resource};
 use std::sync::Arc;
 
 /// The element in the making.
@@ -60,4 +60,9 @@ impl MixerDesk {
             self.begin(elements, base, own);
         }
     }
+}
+
+/// Takes up the elements that the player made in sessions before.
+pub fn read_own(desk: Res<MixerDesk>, mut own: ResMut<OwnElements>) {
+    *own = OwnElements::of_user(&desk.standard);
 }

@@ -1,15 +1,12 @@
 //! The elements that the player has made, kept from session to session.
 
 use crate::{
-    game::{
-        kept::{KeptFile, parse},
-        mixer::desk::MixerDesk,
-    },
+    game::kept::{KeptFile, parse},
     kernel::element::{Element, ElementTable},
     scene::elements::{Fault, check},
     sim::new_file::Unwritten,
 };
-use bevy::prelude::{Res, ResMut, Resource};
+use bevy::prelude::Resource;
 use std::path::Path;
 
 /// The file that they are kept in.
@@ -68,11 +65,6 @@ impl OwnElements {
         self.kept.retain(|other| other.name != name);
         self.file.write(&self.kept)
     }
-}
-
-/// Takes up those of the user.
-pub fn read_file(desk: Res<MixerDesk>, mut own: ResMut<OwnElements>) {
-    *own = OwnElements::of_user(&desk.standard);
 }
 
 /// Why there can be no such element beside those of a table, in one line.
