@@ -4,6 +4,7 @@
 pub mod bar;
 pub mod brush;
 pub mod challenges;
+pub mod clicks;
 pub mod cost;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod crash;
@@ -55,7 +56,7 @@ impl Plugin for HudPlugin {
                 PreUpdate,
                 style::apply_to_new.after(EguiPreUpdateSet::InitContexts).before(EguiPreUpdateSet::BeginPass),
             )
-            .add_systems(PreUpdate, focus::keep_keys.after(EguiPreUpdateSet::ProcessInput))
+            .add_systems(PreUpdate, (clicks::take_turns, focus::keep_keys).chain().after(EguiPreUpdateSet::ProcessInput))
             .add_systems(
                 EguiPrimaryContextPass,
                 (
