@@ -98,6 +98,12 @@ pub(super) fn read(world: &World, at: Vec2, radius: f32, still: &mut Still) -> S
     }
 }
 
+/// Pressure of matter at a place (m), Pa, as [`SpotReading::pressure`].
+pub(in crate::lab) fn pressure(world: &World, at: Vec2) -> Option<f32> {
+    let radius = world.resource::<Setup>().blueprint.scale.to_metres(3.0);
+    read(world, at, radius, &mut Still::default()).pressure
+}
+
 /// Adds up the particles within a radius, weighed with poly6: `(R² − r²)³`, the weight by which the solver finds densities.
 fn add_up(world: &World, particles: &Particles, (at, radius): (Vec2, f32), asleep: usize) -> Sums {
     let (elements, curves) = (world.resource::<Setup>().elements(), world.resource::<HeatCurves>());

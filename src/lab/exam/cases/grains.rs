@@ -1,12 +1,17 @@
 //! Grains: the slopes of heaps, and what slides.
 
 use crate::{
-    lab::exam::{
-        finding::{Findings, Run, found},
-        set_up::{CaseSimulation, GRAVITY, SetUp},
+    kernel::units::{TICK_SECONDS, TICKS_PER_SECOND},
+    lab::{
+        exam::{
+            finding::{Findings, Run, found},
+            set_up::{CaseSimulation, GRAVITY, SetUp},
+        },
+        gauges::spot,
     },
     scene::SceneError,
 };
+use glam::Vec2;
 
 pub(super) const RUNS: &[(&str, Run)] = &[
     ("repose", |set_up| Box::pin(repose(set_up))),
@@ -181,6 +186,32 @@ async fn discharge(set_up: &SetUp, hole: f64, fill: f64) -> Result<f64, SceneErr
     Ok((before - left(&simulation)) / (RUNS_OUT[1] - RUNS_OUT[0]))
 }
 
+/// Width of the silo, m.
+const SILO: f64 = 8.0;
+/// Places on the floor of the silo at which its pressure is read: across it, and above its lower edge, m.
+const FLOOR: [f64; 4] = [1.5, 3.5, 5.5, 7.5];
+const ABOVE: f64 = 2.8;
+
+/// Pressure at the floor of a silo that is shut and filled this high (m): by Janssen's law, and as it comes out, kPa.
+async fn floor_pressure(set_up: &SetUp, fill: f64) -> Result<(f64, f64), SceneError> {
+    let mut simulation = set_up.open("hopper", &[("hole", 0.0), ("fill", fill)])?;
+    simulation.run(6.0).await;
+    let mut sum = 0.0;
+    for _ in 0..TICKS_PER_SECOND {
+        simulation.run(f64::from(TICK_SECONDS)).await;
+        let at = |x: f64| Vec2::new(x as f32, ABOVE as f32);
+        let read = |x: f64| spot::pressure(simulation.world(), at(x)).map_or(f64::NAN, f64::from);
+        sum += FLOOR.map(read).iter().sum::<f64>() / FLOOR.len() as f64 / 1000.0;
+    }
+    let elements = simulation.matter().elements;
+    let weight =
+        elements.find("sand").map_or(f64::NAN, |sand| f64::from(elements.get(sand).density) * GRAVITY / 1000.0);
+    let (sine, tangent) = (angle(&simulation).to_radians().sin(), angle(&simulation).to_radians().tan());
+    let held = 2.0 * tangent * (1.0 - sine * sine) / (1.0 + sine * sine) / SILO;
+    let depth = fill + 2.3 - ABOVE;
+    Ok((weight / held * (1.0 - (-held * depth).exp()), sum / f64::from(TICKS_PER_SECOND)))
+}
+
 async fn hopper(set_up: SetUp) -> Findings {
     let mut rates = [0.0; 3];
     for (rate, hole) in rates.iter_mut().zip(HOLES) {
@@ -190,7 +221,12 @@ async fn hopper(set_up: SetUp) -> Findings {
     let known = (0.5 * (rates[0].powf(2.0 / 3.0) + rates[2].powf(2.0 / 3.0))).powf(1.5);
     let full = discharge(&set_up, 1.2, 24.0).await?;
     let half = discharge(&set_up, 1.2, 12.0).await?;
-    Ok(vec![found("through 1.5 m", known, rates[1]), found("half full", full, half)])
+    let (law, pressure) = floor_pressure(&set_up, 24.0).await?;
+    Ok(vec![
+        found("through 1.5 m", known, rates[1]),
+        found("half full", full, half),
+        found("pressure at the floor", law, pressure),
+    ])
 }
 
 async fn submerged_heap(set_up: SetUp) -> Findings {
