@@ -15,13 +15,18 @@ pub const KINDS: [(&str, Matrix); 4] = [
     ("tritan", [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]]),
 ];
 
+/// The light of a colour's channels, 0 … 1 each (IEC 61966-2-1: sRGB).
+pub fn linear(colour: Rgb) -> [f32; 3] {
+    colour.map(|channel| {
+        let value = f32::from(channel) / 255.0;
+        if value <= 0.04045 { value / 12.92 } else { ops::powf((value + 0.055) / 1.055, 2.4) }
+    })
+}
+
 /// Lightness, green–red and blue–yellow of a colour (Ottosson 2020, "A perceptual color space for image processing": OKLab), as
 /// somebody sees it. Two colours side by side are just told apart at a distance of some 0.02.
 pub fn oklab(colour: Rgb, seen: &Matrix) -> [f32; 3] {
-    let linear = colour.map(|channel| {
-        let value = f32::from(channel) / 255.0;
-        if value <= 0.04045 { value / 12.92 } else { ops::powf((value + 0.055) / 1.055, 2.4) }
-    });
+    let linear = linear(colour);
     let mixed = |matrix: &Matrix, of: [f32; 3]| matrix.map(|row| row[0] * of[0] + row[1] * of[1] + row[2] * of[2]);
     let light = mixed(seen, linear).map(|value| value.clamp(0.0, 1.0));
     let cones = mixed(
