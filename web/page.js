@@ -137,6 +137,14 @@ async function startThreads(game, module, memory) {
   game.buildPool(count);
 }
 
+// Has a screen reader say it, even if it is what was said before.
+const SPOKEN = 8;
+function say(text) {
+  const spoken = document.getElementById('spoken');
+  spoken.append(Object.assign(document.createElement('p'), { textContent: text }));
+  while (spoken.childElementCount > SPOKEN) spoken.firstElementChild.remove();
+}
+
 const pairs = (link) => JSON.stringify([...new URLSearchParams(link)]);
 const link = () => pairs(location.hash.slice(1));
 
@@ -189,6 +197,17 @@ async function open(game, files) {
     } catch (error) {
       game.warn(`${file.name}: can't be read: ${error.message ?? error}`);
     }
+  }
+}
+
+// The address has it, too: where the clipboard is refused, it can be taken from there.
+async function copyLink(game, world) {
+  history.replaceState(null, '', `#world=${world}`);
+  try {
+    await navigator.clipboard.writeText(location.href);
+    game.tell('Link copied: whoever opens it has this world');
+  } catch (error) {
+    game.warn(`The browser keeps its clipboard (${error.message ?? error}): the link is the page’s address now`);
   }
 }
 
@@ -326,6 +345,7 @@ async function main() {
       cover.hidden = true;
       isReady();
     },
+    say,
     // What comes from the game is a view of its memory, which others can't share.
     keep: (path, bytes, written) => void tellKept(game, path, keep(path, bytes.slice(), written)),
     replace: (path, bytes, written) => void tellKept(game, path, keep(path, bytes.slice(), written, true)),
@@ -333,6 +353,7 @@ async function main() {
     leaveSound: (controls) => sound?.leave(controls),
     wishSound: (plays) => sound?.wish(plays),
     choose: () => choose(game),
+    copyLink: (world) => void copyLink(game, world),
     download(name, bytes) {
       const url = URL.createObjectURL(new Blob([bytes.slice()]));
       Object.assign(document.createElement('a'), { href: url, download: name }).click();
@@ -347,7 +368,8 @@ async function main() {
   globalThis.powderMaster = hook(game, ready);
   listen(game);
   takeFiles(game);
-  game.start(link(), matchMedia('(pointer: coarse)').matches);
+  const asks = (query) => matchMedia(query).matches;
+  game.start(link(), asks('(pointer: coarse)'), asks('(prefers-reduced-motion: reduce)'));
   canvas.focus({ preventScroll: true });
   await ready;
   await keepOffline().catch((error) => console.warn(`not kept for playing offline: ${error}`));

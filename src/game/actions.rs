@@ -82,6 +82,9 @@ pub enum Action {
     FullScreen,
     /// Writes a picture of the window.
     Screenshot,
+    /// Copies a link that carries the world.
+    #[cfg(target_arch = "wasm32")]
+    CopyLink,
     /// Sets a gauge under the pointer; at the mark of one takes that away.
     Gauge,
     /// Begins a line under the pointer through which flow is measured, or ends it.

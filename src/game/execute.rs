@@ -227,6 +227,8 @@ fn act(world: &mut World, action: Action) {
         Action::Mute => world.resource_mut::<Volume>().toggle(),
         Action::FullScreen => screen::toggle_full_screen(world),
         Action::Screenshot => screen::take_screenshot(world),
+        #[cfg(target_arch = "wasm32")]
+        Action::CopyLink => crate::game::link::copy(world),
     }
 }
 
@@ -335,7 +337,9 @@ fn turn_mouse_keys(world: &mut World) {
     let [left, right, end] = [Action::Press(MouseButton::Left), Action::Press(MouseButton::Right), Action::MouseKeys]
         .map(|of| bindings.key(of));
     let told = match on {
-        true => format!("Mouse keys: the arrows move the pointer, {left} and {right} are its buttons; {end} ends it"),
+        true => format!(
+            "Mouse keys: the arrows move the pointer, {left} and {right} are its buttons, Tab takes it to the next control; {end} ends it"
+        ),
         false => "The arrows move the picture again".to_owned(),
     };
     world.resource_mut::<Toasts>().say(told);

@@ -33,6 +33,8 @@ pub mod icons;
 pub mod input;
 pub mod kept;
 pub mod lens;
+#[cfg(target_arch = "wasm32")]
+pub mod link;
 pub mod lump;
 pub mod mixer;
 pub mod museum;
@@ -47,6 +49,8 @@ pub mod rest;
 pub mod rewind;
 pub mod saves;
 pub mod screen;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod screen_reader;
 pub mod script;
 pub mod settings;
 pub mod sound;

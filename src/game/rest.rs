@@ -18,6 +18,7 @@ use crate::{
     sim::{intent::IntentQueue, pace::Pace},
 };
 use bevy::{
+    a11y::AccessibilityRequested,
     ecs::system::SystemParam,
     prelude::{App, DetectChanges, IntoScheduleConfigs, Last, Local, MessageReader, Real, Res, ResMut, Time, Virtual},
     window::WindowEvent,
@@ -42,13 +43,14 @@ pub fn plugin(app: &mut App) {
     app.add_systems(Last, stand_while_unseen);
 }
 
-/// What may be worked out in the background.
+/// What may be worked out in the background, or asked for from outside.
 #[derive(SystemParam)]
 struct Background<'w> {
     exam: Res<'w, JobQueue<ExamCase>>,
     gauntlet: Res<'w, JobQueue<GauntletCase>>,
     stress: Res<'w, StressTest>,
     survey: Res<'w, Survey>,
+    readers: Option<Res<'w, AccessibilityRequested>>,
     #[cfg(not(target_arch = "wasm32"))]
     recovery: Option<Res<'w, crate::game::crash::recovery::Recovery>>,
 }
@@ -60,7 +62,9 @@ impl Background<'_> {
         #[cfg(target_arch = "wasm32")]
         let restores = false;
         let judges = self.exam.is_running() || self.gauntlet.is_running() || self.stress.is_running();
-        restores || judges || self.survey.is_running()
+        // What a screen reader asks for wakes nobody.
+        let is_read = self.readers.as_ref().is_some_and(|readers| readers.get());
+        restores || judges || is_read || self.survey.is_running()
     }
 }
 

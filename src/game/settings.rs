@@ -3,7 +3,10 @@
 
 use crate::{
     game::{
-        hud::layout::{CHOICES, UiScale},
+        hud::{
+            layout::{CHOICES, UiScale},
+            motion::ReducedMotion,
+        },
         input::mouse_keys::MouseKeys,
         kept::KeptFile,
         render::level::{Level, PictureLevel},
@@ -40,11 +43,13 @@ struct Choices {
     scene: Option<String>,
     /// Whether keys move the pointer.
     mouse_keys: bool,
+    /// Whether the HUD moves as little as can be, or `None` for what the system asks for.
+    reduced_motion: Option<bool>,
 }
 
 impl Default for Choices {
     fn default() -> Self {
-        Self { hud: 1.0, picture: None, window: None, scene: None, mouse_keys: false }
+        Self { hud: 1.0, picture: None, window: None, scene: None, mouse_keys: false, reduced_motion: None }
     }
 }
 
@@ -115,9 +120,10 @@ impl Settings {
 
 /// Puts the settings of the last session in force, and keeps those of this one.
 pub fn plugin(app: &mut App, settings: Settings) {
-    let Choices { hud, picture, mouse_keys, .. } = settings.kept.clone();
+    let Choices { hud, picture, mouse_keys, reduced_motion, .. } = settings.kept.clone();
     app.insert_resource(UiScale { factor: hud })
         .insert_resource(MouseKeys(mouse_keys))
+        .insert_resource(ReducedMotion { chosen: reduced_motion, by_system: false })
         .insert_resource(settings)
         .add_systems(Update, keep);
     app.world_mut().get_resource_or_init::<PictureLevel>().want(picture);
@@ -126,7 +132,7 @@ pub fn plugin(app: &mut App, settings: Settings) {
 /// Keeps what is set.
 fn keep(
     mut settings: ResMut<Settings>,
-    (scale, mouse_keys): (Res<UiScale>, Res<MouseKeys>),
+    (scale, mouse_keys, motion): (Res<UiScale>, Res<MouseKeys>, Res<ReducedMotion>),
     level: Res<PictureLevel>,
     window: Single<&Window, With<PrimaryWindow>>,
     setup: Option<Res<Setup>>,
@@ -139,7 +145,14 @@ fn keep(
     let last = settings.kept.scene.as_ref();
     let scene = setup.as_ref().map(|setup| &setup.blueprint.name);
     let scene = scene.filter(|name| last == Some(name) || builtin_names().contains(&name.as_str())).or(last).cloned();
-    let now = Choices { hud: scale.factor, picture: level.wanted(), window, scene, mouse_keys: mouse_keys.0 };
+    let now = Choices {
+        hud: scale.factor,
+        picture: level.wanted(),
+        window,
+        scene,
+        mouse_keys: mouse_keys.0,
+        reduced_motion: motion.chosen,
+    };
     settings.bypass_change_detection().follow(now, time.delta_secs());
 }
 
@@ -157,8 +170,14 @@ mod tests {
         let file = || KeptFile::of_folder(&folder, FILE);
         let mut settings = Settings::of_file(file());
         let scene = Some("volcano".to_owned());
-        let chosen =
-            Choices { hud: 1.3, picture: Some(Level::Plain), window: Some((900, 700)), scene, mouse_keys: true };
+        let chosen = Choices {
+            hud: 1.3,
+            picture: Some(Level::Plain),
+            window: Some((900, 700)),
+            scene,
+            mouse_keys: true,
+            reduced_motion: Some(true),
+        };
         settings.follow(Choices::default(), 10.0);
         assert!(!folder.exists(), "nothing changed, so nothing is written");
         for width in 800..900 {

@@ -137,6 +137,9 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
     .add_plugins(rest::plugin)
     .add_systems(Startup, spawn_camera)
     .add_systems(Update, tell_in_title.run_if(on_timer(TITLE_EVERY)));
+    // A page tells its own in another way: `web::reader`.
+    #[cfg(not(target_arch = "wasm32"))]
+    app.add_plugins(crate::game::screen_reader::plugin);
     settings::plugin(&mut app, settings);
     furnish(&mut app);
     if let Some(path) = record {

@@ -27,6 +27,7 @@ pub mod stages;
 pub mod stamp;
 pub mod state;
 pub mod workers;
+pub mod world_text;
 
 use bevy::prelude::{App, Plugin};
 

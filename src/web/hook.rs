@@ -9,7 +9,7 @@ use crate::{
         script,
         toasts::Toasts,
     },
-    web::{host, link::Link},
+    web::{host, link::Link, reader},
 };
 use bevy::{
     ecs::world::World,
@@ -20,7 +20,7 @@ use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 /// Listens to the page.
 pub(super) fn plugin(app: &mut App) {
-    app.add_plugins(script::plugin).add_systems(Last, tell_of_the_first_frame);
+    app.add_plugins((script::plugin, reader::plugin)).add_systems(Last, tell_of_the_first_frame);
 }
 
 fn tell_of_the_first_frame(mut painted: Local<bool>) {
@@ -49,9 +49,13 @@ pub fn widgets() -> String {
 #[wasm_bindgen]
 pub fn scene(link: &str) -> Result<(), JsError> {
     let link = Link::read(link)?;
-    link.build()?;
-    let Link { scene: name, settings, quality, detail } = link;
-    script::tell(move |world| world.resource_mut::<Orders>().push(Order::Open { name, settings, quality, detail }));
+    let asked = link.open()?;
+    let Link { scene: name, settings, quality, detail, world } = link;
+    let order = match world {
+        Some(_) => Order::LoadBytes { name: "the link".to_owned(), bytes: asked.encode() },
+        None => Order::Open { name, settings, quality, detail },
+    };
+    script::tell(move |world| world.resource_mut::<Orders>().push(order));
     Ok(())
 }
 
@@ -74,6 +78,12 @@ pub fn hidden(hidden: bool) {
         let mut time = world.resource_mut::<Time<Virtual>>();
         if hidden { time.pause() } else { time.unpause() }
     });
+}
+
+/// Tells the player something.
+#[wasm_bindgen]
+pub fn tell(text: String) {
+    script::tell(move |world| toasts(world).say(text));
 }
 
 /// Tells the player that something went wrong.

@@ -9,6 +9,9 @@ extern "C" {
 
     /// Takes the progress bar away: the first frame is drawn.
     pub(super) fn painted();
+
+    /// Has a screen reader say something.
+    pub(super) fn say(text: &str);
 }
 
 /// Tells of a panic in whatever thread.

@@ -3,7 +3,9 @@
 use crate::{
     kernel::params::Preset,
     scene::{self, DETAIL, SceneError, blueprint::Blueprint, effects::EffectModes},
+    sim::{checkpoint::Checkpoint, file::FileError, world_text},
 };
+use std::sync::Arc;
 
 /// The scene of a link that names none.
 const DEFAULT_SCENE: &str = "waterfall";
@@ -19,6 +21,8 @@ pub struct Link {
     pub detail: f64,
     /// Parameters of the scene, and numbers of quality and liquid: what `--set` takes.
     pub settings: Vec<(String, String)>,
+    /// Text of a world that the link carries, in place of all else.
+    pub world: Option<String>,
 }
 
 /// Why a link can't be followed.
@@ -39,6 +43,12 @@ pub enum LinkError {
         /// What the link says.
         text: String,
     },
+    /// The world that it carries.
+    #[error(transparent)]
+    World(#[from] FileError),
+    /// It carries a world, and asks for something besides.
+    #[error("a link with a world takes nothing else")]
+    WorldAndMore,
     /// The page's script passed something else than a list of pairs.
     #[error("not a list of names and values: {0}")]
     Form(#[from] serde_json::Error),
@@ -51,9 +61,14 @@ impl Link {
     /// # Errors
     /// If it is no such list, or the quality or the detail does not exist.
     pub fn read(pairs: &str) -> Result<Self, LinkError> {
-        let mut link = Self { scene: DEFAULT_SCENE.to_owned(), quality: None, detail: 1.0, settings: Vec::new() };
-        for (name, value) in serde_json::from_str::<Vec<(String, String)>>(pairs)? {
+        let mut link =
+            Self { scene: DEFAULT_SCENE.to_owned(), quality: None, detail: 1.0, settings: Vec::new(), world: None };
+        let pairs = serde_json::from_str::<Vec<(String, String)>>(pairs)?;
+        let count = pairs.len();
+        for (name, value) in pairs {
             match name.as_str() {
+                "world" if count > 1 => return Err(LinkError::WorldAndMore),
+                "world" => link.world = Some(value),
                 "scene" => link.scene = value,
                 "quality" => link.quality = Some(Preset::find(&value).ok_or(LinkError::Quality { name: value })?),
                 "detail" => {
@@ -64,6 +79,17 @@ impl Link {
             }
         }
         Ok(link)
+    }
+
+    /// The world that it asks for.
+    ///
+    /// # Errors
+    /// If there is no such scene, it does not take a setting, or the world that the link carries is damaged.
+    pub fn open(&self) -> Result<Checkpoint, LinkError> {
+        match &self.world {
+            Some(text) => Ok(world_text::read(text)?),
+            None => Ok(Checkpoint::of_scene(Arc::new(self.build()?))),
+        }
     }
 
     /// Builds the scene.

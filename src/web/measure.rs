@@ -11,7 +11,6 @@ use crate::{
     sim::{simulation::Simulation, workers::Workers},
     web::{host, link::Link},
 };
-use std::sync::Arc;
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 /// Runs what a link asks for (a JSON list of pairs) for so many ticks, and returns what `run --metrics` writes. Times
@@ -22,9 +21,9 @@ use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 #[wasm_bindgen]
 pub fn measure(link: &str, ticks: f64, warmup: f64) -> Result<String, JsError> {
     host::tell_of_panics();
-    let blueprint = Link::read(link)?.build()?;
+    let begun = Link::read(link)?.open()?;
     let plan = Plan { ticks: count("ticks", ticks)?, warmup: count("warmup", warmup)?, ..Plan::default() };
-    let mut simulation = Simulation::new(Arc::new(blueprint), Workers::default());
+    let mut simulation = Simulation::resume(&begun, Workers::default());
     let mut sampler = Sampler::new(simulation.world(), plan.warmup);
     run::run(&mut simulation, &plan, &mut [&mut sampler])?;
     Ok(serde_json::to_string(&sampler.finish(simulation.world()))?)

@@ -14,6 +14,8 @@ mod host;
 #[cfg(target_arch = "wasm32")]
 mod measure;
 #[cfg(all(target_arch = "wasm32", feature = "app"))]
+mod reader;
+#[cfg(all(target_arch = "wasm32", feature = "app"))]
 mod start;
 #[cfg(all(test, target_arch = "wasm32"))]
 pub(crate) mod suite;

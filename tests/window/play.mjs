@@ -6,7 +6,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
-import { isOpen, poll } from '../poll.mjs';
+import { isOpen, near, poll } from '../poll.mjs';
 import { difference, display, open, theory, water, WORLD } from './game.mjs';
 import { resizeWhileLate } from './late.mjs';
 
@@ -283,6 +283,13 @@ async function play() {
     await game.hover('water');
     await game.key('Return');
     await game.until('Enter presses a tile', ({ tool }) => tool === 'water');
+    for (const turn of ['once', 'twice']) {
+      const { pointer: before } = await game.stats();
+      await game.key('Tab');
+      const { pointer } = await game.until(`Tab takes the pointer along ${turn}`, (now) => !near(now.pointer, before));
+      const under = ({ place: [x, y, width, height] }) => pointer[0] > x && pointer[0] < x + width && pointer[1] > y && pointer[1] < y + height;
+      assert.ok((await game.widgets()).some((widget) => widget.kind === 'Button' && under(widget)), `no button at ${pointer}`);
+    }
     await game.key('F8');
     await game.press('Right');
     const { pointer } = await quiet();

@@ -33,7 +33,7 @@ pub fn note_cover(mut cover: ResMut<HudCover>, mut contexts: EguiContexts) -> Re
 }
 
 /// Keys belong to the game unless a text field has them; egui would move its focus with Tab and press what is focused
-/// with Space. What else is in focus has the arrows. A key that is to be chosen for an action is nobody's.
+/// with Space. What else is in focus has the arrows; with mouse keys Tab moves the focus, and the pointer with it. A key that is to be chosen for an action is nobody's.
 pub fn keep_keys(
     mut contexts: Query<(&mut EguiContext, &mut EguiInput)>,
     (cover, editor, mouse_keys): (Res<HudCover>, Res<KeyEditor>, Res<MouseKeys>),
@@ -44,11 +44,14 @@ pub fn keep_keys(
         *hud = match context.memory(|memory| memory.focused()) {
             _ if context.text_edit_focused() && cover.element.is_some() => HudKeys::AllButDigits,
             _ if context.text_edit_focused() => HudKeys::All,
-            Some(_) if !mouse_keys.0 => HudKeys::Arrows,
+            _ if mouse_keys.0 => HudKeys::Tab,
+            Some(_) => HudKeys::Arrows,
             _ => HudKeys::None,
         };
         let is_kept = |event: &egui::Event| match event {
-            egui::Event::Key { key, .. } => *key == egui::Key::Escape || *hud == HudKeys::Arrows && is_arrow(*key),
+            egui::Event::Key { key: egui::Key::Escape, .. } => true,
+            egui::Event::Key { key: egui::Key::Tab, .. } => *hud == HudKeys::Tab,
+            egui::Event::Key { key, .. } => *hud == HudKeys::Arrows && is_arrow(*key),
             egui::Event::Text(_) => false,
             _ => true,
         };
@@ -58,7 +61,7 @@ pub fn keep_keys(
             }
             HudKeys::All => {}
             HudKeys::AllButDigits => drop_digits(&mut input.events),
-            HudKeys::None | HudKeys::Arrows => input.events.retain(is_kept),
+            HudKeys::None | HudKeys::Arrows | HudKeys::Tab => input.events.retain(is_kept),
         }
     }
 }

@@ -16,6 +16,7 @@ pub mod lamps;
 pub mod layout;
 pub mod lens;
 pub mod live_picture;
+pub mod motion;
 pub mod mouse_keys;
 pub mod museum;
 pub mod palette;
@@ -33,8 +34,10 @@ pub mod touch;
 pub mod widgets;
 pub mod window;
 
-use crate::game::panels::HudSystems;
-use bevy::prelude::{App, IntoScheduleConfigs, Plugin, PreUpdate, Startup, not};
+use crate::game::{input, panels::HudSystems};
+use bevy::prelude::{
+    App, IntoScheduleConfigs, Plugin, PreUpdate, Startup, condition_changed_to, not, resource_changed,
+};
 use bevy_egui::{EguiPreUpdateSet, EguiPrimaryContextPass};
 
 /// Shows the HUD.
@@ -45,6 +48,7 @@ impl Plugin for HudPlugin {
         app.init_resource::<stats::Readings>()
             .init_resource::<layout::UiScale>()
             .init_resource::<layout::Bars>()
+            .init_resource::<motion::ReducedMotion>()
             .init_resource::<cost::HudCost>()
             .init_resource::<lamps::Lamps>()
             .configure_sets(
@@ -54,9 +58,15 @@ impl Plugin for HudPlugin {
             .add_systems(Startup, toast::greet)
             .add_systems(
                 PreUpdate,
-                style::apply_to_new.after(EguiPreUpdateSet::InitContexts).before(EguiPreUpdateSet::BeginPass),
+                (style::apply_to_new, motion::follow.run_if(resource_changed::<motion::ReducedMotion>))
+                    .chain()
+                    .after(EguiPreUpdateSet::InitContexts)
+                    .before(EguiPreUpdateSet::BeginPass),
             )
-            .add_systems(PreUpdate, (clicks::take_turns, focus::keep_keys).chain().after(EguiPreUpdateSet::ProcessInput))
+            .add_systems(
+                PreUpdate,
+                (clicks::take_turns, focus::keep_keys).chain().after(EguiPreUpdateSet::ProcessInput),
+            )
             .add_systems(
                 EguiPrimaryContextPass,
                 (
@@ -82,7 +92,14 @@ impl Plugin for HudPlugin {
                     )
                         .chain()
                         .in_set(HudSystems::Bars),
-                    (toast::show, drop::show, mouse_keys::show, focus::note_cover, cost::end)
+                    (
+                        toast::show,
+                        drop::show,
+                        (mouse_keys::follow_focus, mouse_keys::show).chain().run_if(input::mouse_keys::are_on),
+                        mouse_keys::leave_focus.run_if(condition_changed_to(false, input::mouse_keys::are_on)),
+                        focus::note_cover,
+                        cost::end,
+                    )
                         .chain()
                         .in_set(HudSystems::End),
                 ),

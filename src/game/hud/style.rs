@@ -38,6 +38,9 @@ pub const BAD: Color32 = Color32::from_rgb(255, 122, 122);
 /// Size of the smallest text, points. Only names of tiles that don't fit are smaller.
 pub const SMALL: f32 = 12.0;
 
+/// How long widgets take to change, s.
+pub const FADE: f32 = 0.08;
+
 /// Corner of buttons and tiles.
 pub const BUTTON_CORNER: u8 = 6;
 /// Corner of windows.
@@ -76,7 +79,7 @@ pub fn apply(context: &egui::Context) {
         style.spacing.tooltip_width = 320.0;
         style.interaction.selectable_labels = false;
         style.interaction.tooltip_delay = 0.35;
-        style.animation_time = 0.08;
+        style.animation_time = FADE;
 
         let visuals = &mut style.visuals;
         visuals.override_text_color = None;

@@ -5,6 +5,7 @@ use crate::{
         actions::Action,
         camera::WorldCamera,
         hud::{
+            motion::ReducedMotion,
             panels::help,
             style::{LINE, PANEL, TEXT, WARN},
         },
@@ -14,7 +15,10 @@ use crate::{
     sim::state::Census,
 };
 use bevy::prelude::{Real, Res, ResMut, Result, Time};
-use bevy_egui::{EguiContexts, egui};
+use bevy_egui::{
+    EguiContexts,
+    egui::{self, accesskit::Live},
+};
 
 /// Widest message that stays on one line, points.
 const WIDTH: f32 = 640.0;
@@ -35,6 +39,7 @@ pub fn show(
     census: Option<Res<Census>>,
     camera: Res<WorldCamera>,
     time: Res<Time<Real>>,
+    motion: Res<ReducedMotion>,
 ) -> Result {
     toasts.age(time.delta_secs());
     let full = census.is_some_and(|census| census.full);
@@ -55,7 +60,8 @@ pub fn show(
                     card(ui, "The world is full: erase something before you draw more", true, 1.0);
                 }
                 for toast in toasts.iter() {
-                    card(ui, &toast.text, toast.warning, (toast.left / 0.4).min(1.0));
+                    let opacity = if motion.is_on() { 1.0 } else { (toast.left / 0.4).min(1.0) };
+                    card(ui, &toast.text, toast.warning, opacity);
                 }
             });
         });
@@ -69,5 +75,9 @@ fn card(ui: &mut egui::Ui, text: &str, warning: bool, opacity: f32) {
         .stroke(egui::Stroke::new(1.0, LINE.gamma_multiply(opacity)))
         .corner_radius(8)
         .inner_margin(egui::Margin::symmetric(14, 7))
-        .show(ui, |ui| ui.label(egui::RichText::new(text).color(colour.gamma_multiply(opacity))));
+        .show(ui, |ui| {
+            let label = ui.label(egui::RichText::new(text).color(colour.gamma_multiply(opacity)));
+            // A screen reader reads it out as it appears.
+            ui.ctx().accesskit_node_builder(label.id, |node| node.set_live(Live::Polite));
+        });
 }

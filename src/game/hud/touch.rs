@@ -41,8 +41,10 @@ const TARGET: f32 = 48.0;
 const TILE: Vec2 = vec2(60.0, TARGET);
 
 /// What has no button of its own, below the panels in the list.
-const MORE: [(&str, Action); 7] = [
+const MORE: &[(&str, Action)] = &[
     ("Save", Action::Save),
+    #[cfg(target_arch = "wasm32")]
+    ("Copy a link to this world", Action::CopyLink),
     ("One tick", Action::Step),
     ("Two qualities side by side", Action::Split),
     ("Truth lens: this moment at reference", Action::Lens),
@@ -257,7 +259,7 @@ fn lines<'a>(sheet: Sheet, scene: &'a Scene) -> Vec<(&'a str, bool, Order)> {
         Sheet::More => {
             let line =
                 |(panel, open): (&Panel, bool)| Some((panel.in_list?, open, Order::Act(Action::Panel(panel.id))));
-            let actions = MORE.map(|(text, action)| (text, false, Order::Act(action)));
+            let actions = MORE.iter().map(|(text, action)| (*text, false, Order::Act(*action)));
             scene.panels.iter().rev().filter_map(line).chain(actions).collect()
         }
     }

@@ -160,6 +160,8 @@ const OWN: &[Binding] = {
     key(K::KeyG, SHIFT, A::GaugeLine, H::Look, "begin, and again elsewhere end, a line that measures the flow through it"),
     key(K::F11, NONE, A::FullScreen, H::Look, "full screen"),
     key(K::F2, NONE, A::Screenshot, H::Look, "screenshot that carries its world, and opens as one"),
+    #[cfg(target_arch = "wasm32")]
+    key(K::F2, SHIFT, A::CopyLink, H::Look, "copy a link that carries the world, if it is small enough"),
     key(K::Escape, NONE, A::Close, H::Look, "close"),
     ]
 };

@@ -19,6 +19,8 @@ pub enum HudKeys {
     None,
     /// The arrows: they move what is in focus.
     Arrows,
+    /// Tab: it goes from one control to the next.
+    Tab,
     /// All but the digits: the player is typing, and the pointer is over the tile of an element that they are to keep.
     AllButDigits,
     /// All: the player is typing into a text field.
@@ -31,6 +33,7 @@ impl HudKeys {
         match self {
             Self::None => true,
             Self::Arrows => !is_arrow(key),
+            Self::Tab => key != KeyCode::Tab,
             Self::AllButDigits => matches!(action, Action::Element(_)) && is_digit(key),
             Self::All => false,
         }

@@ -56,7 +56,8 @@ impl Mouse<'_, '_> {
         self.windows.single().unwrap_or(Entity::PLACEHOLDER)
     }
 
-    fn move_to(&mut self, position: Vec2) {
+    /// Moves the pointer to a place of the window, logical pixels.
+    pub fn move_to(&mut self, position: Vec2) {
         let moved = CursorMoved { window: self.window(), position, delta: None };
         self.events.write(moved.clone().into());
         self.moves.write(moved);

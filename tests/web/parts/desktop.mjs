@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { poll, sleep } from '../../poll.mjs';
+import { near, poll, sleep } from '../../poll.mjs';
 import { water } from '../browser.mjs';
 import { click, dragUntil, find, flick, follow, moveTo, stats, still, until, untilKept } from '../player.mjs';
 
@@ -208,7 +208,7 @@ async function asAWindow({ shoot, test }, page) {
   });
 }
 
-async function withSaves({ shoot, shots, started, test }, page) {
+async function withSaves({ openIn, shoot, shots, started, test }, page) {
   await test('a saved world outlives the page', async () => {
     await page.evaluate(() => window.powderMaster.scene('dam_break', { columns: 12 }));
     const { elements } = await until(page, 'a world to save', ({ scene }) => scene === 'dam_break');
@@ -273,6 +273,46 @@ async function withSaves({ shoot, shots, started, test }, page) {
     await page.keyboard.press('Control+KeyZ');
     await until(page, 'undo', (now) => now.scene === 'empty');
     return `${now.particles} particles, ${particles} when it was taken`;
+  });
+
+  await test('a link carries a small world, and a large one is told to be too large', async () => {
+    await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+    await page.evaluate(() => window.powderMaster.scene('dam_break', { columns: 12 }));
+    await until(page, 'a small world', ({ scene, tick }) => scene === 'dam_break' && tick > 5);
+    await still(page);
+    await page.keyboard.press('Shift+F2');
+    await until(page, 'it is copied', ({ messages }) => messages.some((text) => text.startsWith('Link copied')));
+    const before = await stats(page);
+    const copied = await page.evaluate(() => navigator.clipboard.readText());
+    assert.equal(copied, page.url());
+    const other = await openIn(page.context(), copied);
+    await started(other);
+    const { elements, scene } = await stats(other);
+    assert.deepEqual([elements, scene], [before.elements, before.scene]);
+    await follow(other, '#world=AAAA');
+    await until(other, 'a damaged link', ({ messages }) => messages.some((text) => text.startsWith('the link is damaged')));
+    await other.close();
+    await page.evaluate(() => window.powderMaster.scene('waterfall'));
+    await until(page, 'a large world', ({ scene }) => scene === 'waterfall');
+    await page.keyboard.press('Shift+F2');
+    await until(page, 'it is refused', ({ messages }) => messages.some((text) => text.startsWith('Too large for a link')));
+    await page.evaluate(() => window.powderMaster.pause(false));
+    return `${copied.length} characters for ${before.particles} particles`;
+  });
+
+  await test('a screen reader hears messages, and the controls that keys go through', async () => {
+    const heard = (text) => poll(`“${text}” is said`, () => page.evaluate(() => document.getElementById('spoken').innerText),
+      (spoken) => spoken.includes(text));
+    await page.keyboard.press('F8');
+    await heard('the arrows move the pointer');
+    await page.keyboard.press('Tab');
+    const first = (await stats(page)).pointer;
+    await poll('a control is said', () => page.evaluate(() => document.getElementById('spoken').lastElementChild.innerText),
+      (text) => /button/i.test(text));
+    await page.keyboard.press('Tab');
+    await until(page, 'the pointer goes along', ({ pointer }) => pointer !== null && !near(pointer, first ?? [-1, -1]));
+    await page.keyboard.press('F8');
+    await heard('The arrows move the picture again');
   });
 
   await test('a key that is held runs the world back', async () => {

@@ -105,6 +105,10 @@ fn show(
         if ui.button("Open a file of this device").clicked() {
             disk::choose();
         }
+        #[cfg(target_arch = "wasm32")]
+        if ui.button("Copy a link to this world").clicked() {
+            orders.push(Order::Act(crate::game::actions::Action::CopyLink));
+        }
         ui.label(weak("Saves, screenshots, recordings and scenes can also be dropped on the window."));
         for folder in &folders.0 {
             ui.label(weak(folder.display().to_string()).small());

@@ -5,6 +5,7 @@ use crate::game::{
     hints::Hints,
     hud::{
         layout::{CHOICES, UiScale},
+        motion::ReducedMotion,
         style::weak,
         window::{MIDDLE, PanelWindow},
     },
@@ -39,6 +40,7 @@ pub fn show(
     mut level: ResMut<PictureLevel>,
     mut hints: ResMut<Hints>,
     (mouse_keys, bindings): (Res<MouseKeys>, Res<Bindings>),
+    mut motion: ResMut<ReducedMotion>,
     mut orders: ResMut<Orders>,
 ) -> Result {
     window.show(&PANEL, MIDDLE, |ui| {
@@ -71,5 +73,10 @@ pub fn show(
         }
         let [left, right] = [MouseButton::Left, MouseButton::Right].map(|button| bindings.key(Action::Press(button)));
         ui.label(weak(format!("The arrows move the pointer, {left} and {right} are its buttons.")).small());
+        let mut reduced = motion.is_on();
+        if ui.checkbox(&mut reduced, "Reduced motion").changed() {
+            motion.chosen = Some(reduced);
+        }
+        ui.label(weak("Messages don't fade, lists don't glide, and pictures in the gallery stand.").small());
     })
 }

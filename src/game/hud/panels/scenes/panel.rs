@@ -12,6 +12,7 @@ use crate::{
         actions::PanelId,
         hud::{
             live_picture::Screen,
+            motion::ReducedMotion,
             style::weak,
             widgets::keep_focus,
             window::{MIDDLE, PanelWindow, scroll},
@@ -151,9 +152,9 @@ fn make_pictures(
     menu: Res<SceneMenu>,
     mut pictures: ResMut<Pictures>,
     (mut images, mut textures): (ResMut<Assets<Image>>, ResMut<EguiUserTextures>),
-    time: Res<Time<Real>>,
+    (time, motion): (Res<Time<Real>>, Res<ReducedMotion>),
 ) {
-    let focus = menu.focus.and_then(|index| menu.entries.get(index));
+    let focus = menu.focus.and_then(|index| menu.entries.get(index)).filter(|_| !motion.is_on());
     let wanted: Vec<&Entry> = menu.in_sight.iter().filter_map(|index| menu.entries.get(*index)).collect();
     let mut screen = Screen { images: &mut images, textures: &mut textures };
     pictures.advance(&mut screen, &wanted, focus, time.delta_secs());
