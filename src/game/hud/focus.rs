@@ -33,7 +33,8 @@ pub fn note_cover(mut cover: ResMut<HudCover>, mut contexts: EguiContexts) -> Re
 }
 
 /// Keys belong to the game unless a text field has them; egui would move its focus with Tab and press what is focused
-/// with Space. What else is in focus has the arrows; with mouse keys Tab moves the focus, and the pointer with it. A key that is to be chosen for an action is nobody's.
+/// with Space. What else is in focus has the arrows; with mouse keys Tab moves the focus, and the pointer with it. A key that is
+/// to be chosen for an action is nobody's.
 pub fn keep_keys(
     mut contexts: Query<(&mut EguiContext, &mut EguiInput)>,
     (cover, editor, mouse_keys): (Res<HudCover>, Res<KeyEditor>, Res<MouseKeys>),
