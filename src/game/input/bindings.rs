@@ -161,7 +161,7 @@ const OWN: &[Binding] = {
     key(K::F11, NONE, A::FullScreen, H::Look, "full screen"),
     key(K::F2, NONE, A::Screenshot, H::Look, "screenshot that carries its world, and opens as one"),
     #[cfg(target_arch = "wasm32")]
-    key(K::F2, SHIFT, A::CopyLink, H::Look, "copy a link that carries the world, if it is small enough"),
+    key(K::F2, SHIFT, A::CopyLink, H::Look, "copy a link to this world (if it is small)"),
     key(K::Escape, NONE, A::Close, H::Look, "close"),
     ]
 };
