@@ -140,22 +140,38 @@ mod tests {
         assert_eq!(mode(false, true, LINGER), expected);
     }
 
-    #[test]
-    fn exam_and_gauntlet_are_work() {
+    /// A world in which nothing works.
+    fn idle() -> World {
         let mut world = World::new();
         world.init_resource::<JobQueue<ExamCase>>();
         world.init_resource::<JobQueue<GauntletCase>>();
         world.init_resource::<StressTest>();
         world.init_resource::<Survey>();
-        let works = |world: &mut World| {
-            world.run_system_once(|background: Background| background.works()).expect("all of it is there")
-        };
+        world.init_resource::<AccessibilityRequested>();
+        world
+    }
+
+    fn works(world: &mut World) -> bool {
+        world.run_system_once(|background: Background| background.works()).expect("all of it is there")
+    }
+
+    #[test]
+    fn exam_and_gauntlet_are_work() {
+        let mut world = idle();
         assert!(!works(&mut world));
         world.resource_mut::<JobQueue<ExamCase>>().begin(&[Preset::Fast]);
         assert!(works(&mut world));
         world.resource_mut::<JobQueue<ExamCase>>().stop();
         assert!(!works(&mut world));
         world.resource_mut::<JobQueue<GauntletCase>>().begin(&[Preset::Fast]);
+        assert!(works(&mut world));
+    }
+
+    #[test]
+    fn what_a_screen_reader_asks_for_is_watched() {
+        let mut world = idle();
+        assert!(!works(&mut world));
+        world.resource::<AccessibilityRequested>().set(true);
         assert!(works(&mut world));
     }
 }

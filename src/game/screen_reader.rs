@@ -44,3 +44,58 @@ fn hear(mut asked: MessageReader<ActionRequest>, mut inputs: Query<&mut EguiInpu
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bevy::{
+        ecs::{message::Messages, system::RunSystemOnce},
+        prelude::World,
+    };
+    use bevy_egui::egui::{
+        Id, RawInput,
+        accesskit::{self, TreeId},
+    };
+
+    /// A world with the context of a HUD in it.
+    fn world() -> World {
+        let mut world = World::new();
+        world.init_resource::<AccessibilityRequested>();
+        world.init_resource::<Messages<ActionRequest>>();
+        world.spawn((EguiContext::default(), EguiInput::default(), PrimaryEguiContext));
+        world
+    }
+
+    /// Whether egui makes a tree.
+    fn has_tree(world: &mut World) -> bool {
+        let mut context = world.query::<&mut EguiContext>().single_mut(world).expect("there is one");
+        let output = context.get_mut().run_ui(RawInput::default(), |ui| _ = ui.button("pour"));
+        output.platform_output.accesskit_update.is_some()
+    }
+
+    #[test]
+    fn the_tree_is_made_as_long_as_somebody_reads() {
+        let mut world = world();
+        let tell = world.register_system(make_tree_for_readers);
+        for reads in [false, true, false] {
+            world.resource::<AccessibilityRequested>().set(reads);
+            world.run_system(tell).expect("all of it is there");
+            assert_eq!(has_tree(&mut world), reads);
+        }
+    }
+
+    #[test]
+    fn what_a_reader_asks_for_comes_to_egui() {
+        let mut world = world();
+        let request = accesskit::ActionRequest {
+            action: accesskit::Action::Click,
+            target_tree: TreeId::ROOT,
+            target_node: Id::new("pour").accesskit_id(),
+            data: None,
+        };
+        world.write_message(ActionRequest(request.clone()));
+        world.run_system_once(hear).expect("all of it is there");
+        let input = world.query::<&EguiInput>().single(&world).expect("there is one");
+        assert_eq!(input.events, [Event::AccessKitActionRequest(request)]);
+    }
+}

@@ -5,8 +5,8 @@ use crate::sim::{checkpoint::Checkpoint, file::FileError, picture};
 use base64::{Engine, engine::general_purpose::URL_SAFE_NO_PAD};
 use std::io;
 
-/// Most characters of such a text. A browser's address takes more than that, and so does whoever passes it on in a message of at
-/// most 65,536.
+/// Most characters of such a text that a link is made of: short of 2¹⁶, so that it can still be pasted and sent. One that is read may be
+/// longer.
 pub const MOST: usize = 64_000;
 /// Its name in messages.
 const NAME: &str = "link";

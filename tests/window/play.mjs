@@ -283,6 +283,14 @@ async function play() {
     await game.hover('water');
     await game.key('Return');
     await game.until('Enter presses a tile', ({ tool }) => tool === 'water');
+    await game.key('e');
+    await game.untilWidgets('the elements are shown', (all) => isOpen(all, 'Elements'));
+    const { pointer: tile } = await game.stats();
+    await game.press('Up');
+    await game.until('the pointer goes on, past the field to search in', ({ pointer }) => pointer[1] < tile[1] - 40);
+    await game.letGo('Up');
+    await game.key('Escape');
+    await game.untilWidgets('they are closed', (all) => !isOpen(all, 'Elements'));
     for (const turn of ['once', 'twice']) {
       const { pointer: before } = await game.stats();
       await game.key('Tab');

@@ -1,4 +1,5 @@
-//! The pointer that keys move, drawn by the game: that of the system stays where the mouse left it.
+//! The pointer that keys move: it goes along with egui's focus, and is drawn by the game, for that of the system stays where the mouse
+//! left it.
 
 use crate::game::input::{mouse_keys::Mouse, pointer::Pointer};
 use bevy::prelude::{Local, Res, Result};

@@ -11,7 +11,10 @@ use crate::{
             window::{PanelWindow, scroll},
         },
         icons,
-        input::bindings::{Group, NONE},
+        input::{
+            bindings::{Group, NONE},
+            mouse_keys::MouseKeys,
+        },
         orders::{Order, Orders},
         panels::Panel,
         toolbox::Toolbox,
@@ -49,7 +52,7 @@ pub fn show(
     mut window: PanelWindow,
     mut text: Local<String>,
     mut tiles: Tiles,
-    tools: Res<Toolbox>,
+    (tools, mouse_keys): (Res<Toolbox>, Res<MouseKeys>),
     mut orders: ResMut<Orders>,
 ) -> Result {
     let mut done = false;
@@ -57,7 +60,11 @@ pub fn show(
         // The scroll bar has its own room.
         ui.set_width(COLUMNS * (TILE.x + GAP) + 8.0);
         let field = egui::TextEdit::singleline(&mut *text).hint_text("search").desired_width(f32::INFINITY);
-        keep_focus(&ui.add(field.char_limit(40).margin(vec2(8.0, 5.0))));
+        let field = ui.add(field.char_limit(40).margin(vec2(8.0, 5.0)));
+        // A field in focus would have the keys that move the pointer.
+        if !mouse_keys.0 {
+            keep_focus(&field);
+        }
         let found = find(tiles.elements(), &text);
         // While nothing is searched, nothing is found first.
         let first = found.first().copied().filter(|_| !text.trim().is_empty());

@@ -72,7 +72,12 @@ pub fn show(
             orders.push(Order::Act(Action::MouseKeys));
         }
         let [left, right] = [MouseButton::Left, MouseButton::Right].map(|button| bindings.key(Action::Press(button)));
-        ui.label(weak(format!("The arrows move the pointer, {left} and {right} are its buttons.")).small());
+        ui.label(
+            weak(format!(
+                "The arrows move the pointer, {left} and {right} are its buttons, Tab takes it to the next control."
+            ))
+            .small(),
+        );
         let mut reduced = motion.is_on();
         if ui.checkbox(&mut reduced, "Reduced motion").changed() {
             motion.chosen = Some(reduced);

@@ -20,6 +20,7 @@ use crate::{
         icons,
         input::{
             bindings::{Group, NONE},
+            mouse_keys::MouseKeys,
             touch::Fingers,
         },
         orders::{Order, Orders},
@@ -115,7 +116,8 @@ fn show(
     mut window: PanelWindow,
     (mut menu, folder): (ResMut<SceneMenu>, Res<SceneFolder>),
     pictures: Res<Pictures>,
-    (setup, fingers): (Res<Setup>, Res<Fingers>),
+    setup: Res<Setup>,
+    (fingers, mouse_keys): (Res<Fingers>, Res<MouseKeys>),
     mut orders: ResMut<Orders>,
 ) -> Result {
     if !menu.is_open {
@@ -127,7 +129,7 @@ fn show(
         let screen = ui.ctx().content_rect();
         ui.set_width(grid::width(screen.width()) + 14.0);
         let keys = Pressing::take(ui);
-        let found = search(ui, menu, fingers.in_use);
+        let found = search(ui, menu, !fingers.in_use && !mouse_keys.0);
         menu.in_sight.clear();
         if menu.set_up.is_some() {
             done = page(ui, menu, &pictures, &keys);
@@ -177,12 +179,13 @@ fn page(ui: &mut Ui, menu: &mut SceneMenu, pictures: &Pictures, keys: &Pressing)
     None
 }
 
-/// The search field; what is found by it. Who types on the page of a scene goes back to the tiles.
-fn search(ui: &mut Ui, menu: &mut SceneMenu, fingers: bool) -> Vec<usize> {
+/// The search field, in focus for who `types`; what is found by it. Who does so on the page of a scene goes back to the tiles.
+fn search(ui: &mut Ui, menu: &mut SceneMenu, types: bool) -> Vec<usize> {
     let field = egui::TextEdit::singleline(&mut menu.text).hint_text("search: a name, an element, a word");
     let field = ui.add(field.desired_width(f32::INFINITY).char_limit(40).margin(vec2(8.0, 5.0)));
-    // Fingers would get a keyboard over the tiles that they did not ask for; the number of a slider may be typed, too.
-    if !fingers && (menu.set_up.is_none() || !ui.ctx().text_edit_focused()) {
+    // Fingers would get a keyboard over the tiles that they did not ask for, and the field would have the keys that move the pointer;
+    // the number of a slider may be typed, too.
+    if types && (menu.set_up.is_none() || !ui.ctx().text_edit_focused()) {
         keep_focus(&field);
     }
     let found = find(&menu.entries, &menu.text);
