@@ -10,7 +10,7 @@ use crate::{
     sim::{
         effects::Effects,
         generation::Generation,
-        intent::IntentQueue,
+        intent::{Intent, IntentQueue},
         ledger::PassLedger,
         pace::Pace,
         resample::count_at,
@@ -118,6 +118,12 @@ pub fn apply_edits(world: &mut World) {
     let pace = std::mem::replace(&mut *world.resource_mut::<Pace>(), paused);
     world.run_schedule(FixedUpdate);
     *world.resource_mut::<Pace>() = pace;
+}
+
+/// Has an edit done at once.
+pub fn edit(world: &mut World, intent: Intent) {
+    world.resource_mut::<IntentQueue>().push(intent);
+    apply_edits(world);
 }
 
 /// Hash of the state as it is (see [`Snapshot::hash`]).

@@ -167,6 +167,23 @@ pub enum Intent {
     Stroke,
     /// Leave the challenge.
     GiveUp,
+    /// Let a movable element flow from under the stroke's end from now on, as the brush pours it.
+    SetEmitter {
+        /// What.
+        element: ElementId,
+        /// Where.
+        stroke: Stroke,
+    },
+    /// Take away what moves under the stroke's end from now on.
+    SetDrain {
+        /// Where.
+        stroke: Stroke,
+    },
+    /// Take away the emitters and drains under the stroke's end.
+    RemoveSources {
+        /// Where.
+        stroke: Stroke,
+    },
 }
 
 /// What many share is written and read as one's own.
@@ -212,6 +229,9 @@ impl Intent {
             Self::EraseOnly { element, stroke } => Self::EraseOnly { element, stroke: stroke.scaled(factor) },
             Self::EraseAround { element, at } => Self::EraseAround { element, at: at * factor },
             Self::Paste { piece, at, turn } => Self::Paste { piece, at: at * factor, turn },
+            Self::SetEmitter { element, stroke } => Self::SetEmitter { element, stroke: stroke.scaled(factor) },
+            Self::SetDrain { stroke } => Self::SetDrain { stroke: stroke.scaled(factor) },
+            Self::RemoveSources { stroke } => Self::RemoveSources { stroke: stroke.scaled(factor) },
             Self::Gravity { gravity } => Self::Gravity { gravity: gravity * factor },
             Self::ClearAir
             | Self::Quality { .. }

@@ -135,6 +135,9 @@ impl Trial {
             Intent::Effect { .. } => return Some("switching effects".to_owned()),
             Intent::Gravity { .. } => return Some("another gravity".to_owned()),
             Intent::Paste { .. } => return Some("stamps".to_owned()),
+            Intent::SetEmitter { .. } | Intent::SetDrain { .. } | Intent::RemoveSources { .. } => {
+                return Some("springs and drains".to_owned());
+            }
         };
         (!self.challenge.means.have(&wanted)).then_some(wanted)
     }

@@ -3,14 +3,15 @@
 use crate::{
     kernel::{
         air::Air,
-        element::ElementId,
+        brush::Stroke,
+        element::{ElementId, ElementTable},
         heat::{HeatRecord, units::ROOM},
         params::Preset,
         particles::Particles,
         predictor::Kept,
         sleep::SleepRecord,
         solids::Solids,
-        sources::{Drain, Emitter, Wind},
+        sources::{Drain, Emitter, Rect, Wind},
     },
     scene::{
         blueprint::Blueprint,
@@ -29,6 +30,44 @@ pub struct Sources {
     pub winds: Vec<Wind>,
     /// Drains.
     pub drains: Vec<Drain>,
+}
+
+impl Sources {
+    /// Most emitters, and most drains, to which a player may add: each is looked at in every tick.
+    pub const MOST: usize = 64;
+    /// Most sites that one of them may cover.
+    pub const MOST_SITES: f32 = 16_384.0;
+
+    /// Adds what goes on pouring under a brush, if the element flows and there is room for one more.
+    pub fn add_emitter(&mut self, element: ElementId, stroke: &Stroke, elements: &ElementTable) -> bool {
+        let emitter = Emitter::of_brush(element, stroke, elements);
+        let is_allowed = !elements.get(element).fixed && Self::has_room(self.emitters.len(), emitter.area);
+        if is_allowed {
+            self.emitters.push(emitter);
+        }
+        is_allowed
+    }
+
+    /// Adds what takes away all that moves under a brush, if there is room for one more.
+    pub fn add_drain(&mut self, stroke: &Stroke) -> bool {
+        let area = Rect::under(stroke);
+        let is_allowed = Self::has_room(self.drains.len(), area);
+        if is_allowed {
+            self.drains.push(Drain { area });
+        }
+        is_allowed
+    }
+
+    /// Takes away all emitters and drains that a brush touches.
+    pub fn remove_under(&mut self, stroke: &Stroke) {
+        let under = Rect::under(stroke);
+        self.emitters.retain(|emitter| !emitter.area.meets(under));
+        self.drains.retain(|drain| !drain.area.meets(under));
+    }
+
+    fn has_room(count: usize, area: Rect) -> bool {
+        count < Self::MOST && area.sites() <= Self::MOST_SITES
+    }
 }
 
 /// How far the world has come.

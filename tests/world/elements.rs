@@ -1,6 +1,6 @@
 //! Every element under every tool, and through emitters and drains.
 
-use crate::support::{SimulationExt, empty_box};
+use crate::support::{SimulationExt, assert_goes_on_from_a_save, empty_box};
 use glam::Vec2;
 use powder_master::{
     kernel::{
@@ -13,7 +13,7 @@ use powder_master::{
         blueprint::Blueprint,
         effects::{Effect, Mode},
     },
-    sim::{intent::Intent, simulation::Simulation},
+    sim::{intent::Intent, simulation::Simulation, state::Sources},
 };
 
 const SIDE: u32 = 40;
@@ -116,4 +116,64 @@ fn emitters_give_and_drains_take_all_that_moves() {
         let given = simulation.counters();
         assert_eq!(simulation.count(name), 0, "{name} is left behind: {given:?}");
     }
+}
+
+#[test]
+fn what_a_player_sets_flows_drains_and_goes_again() {
+    for (id, element) in elements() {
+        let (name, mut simulation) = (&element.name, Simulation::of(room()));
+        let [spring, sink] = [disc((20.0, 20.0)), Stroke::rectangle(Vec2::ZERO, Vec2::new(40.0, 40.0))];
+        simulation.push(Intent::SetEmitter { element: id, stroke: spring }).run(1);
+        if element.fixed {
+            assert_eq!((simulation.counters().refused, simulation.count(name)), (1, 0), "{name} does not flow");
+            continue;
+        }
+        simulation.run(30);
+        let given = simulation.count(name);
+        // A pour of one tick fills its share of the hundred sites.
+        assert!(given > (50.0 * element.flow) as usize, "{name}: {given} after half a second");
+        assert_sound(&simulation, name, "half a second of a spring");
+        simulation.push(Intent::SetDrain { stroke: sink }).run(1);
+        assert!(simulation.count(name) < 110, "{name}: {} are left in a drain", simulation.count(name));
+        simulation.push(Intent::RemoveSources { stroke: spring }).run(2);
+        let sources = simulation.get::<Sources>();
+        assert!(sources.emitters.is_empty() && sources.drains.is_empty(), "the brush touches both");
+        let left = simulation.count(name);
+        simulation.run(30);
+        assert_eq!(simulation.count(name), left, "{name}: something still flows");
+    }
+}
+
+#[test]
+fn springs_have_a_limit_and_keep_their_size_at_another_detail() {
+    let water = elements().into_iter().find(|(_, element)| element.name == "water").expect("there is water").0;
+    let mut simulation = Simulation::of(room());
+    for _ in 0..Sources::MOST + 3 {
+        simulation.push(Intent::SetEmitter { element: water, stroke: disc((20.0, 30.0)) });
+        simulation.push(Intent::SetDrain { stroke: disc((20.0, 5.0)) });
+    }
+    simulation.run(1);
+    let count = |simulation: &Simulation| {
+        let sources = simulation.get::<Sources>();
+        (sources.emitters.len(), sources.drains.len())
+    };
+    assert_eq!(count(&simulation), (Sources::MOST, Sources::MOST));
+    assert!(simulation.counters().refused >= 6, "who sets more is told");
+    let rate = |simulation: &Simulation| simulation.get::<Sources>().emitters[0].rate;
+    let before = rate(&simulation);
+    simulation.push(Intent::Detail { detail: 2.0 }).run(1);
+    assert_eq!(count(&simulation), (Sources::MOST, Sources::MOST));
+    assert!((rate(&simulation) / before - 4.0).abs() < 1e-5, "four particles in place of one");
+    let stroke = Stroke::dab(BrushShape::Disc, Vec2::new(40.0, 60.0), 2.0);
+    simulation.push(Intent::RemoveSources { stroke }).run(1);
+    assert_eq!(count(&simulation), (0, Sources::MOST), "places are in the d of the finer world");
+}
+
+#[test]
+fn a_spring_is_kept_in_saves() {
+    let water = elements().into_iter().find(|(_, element)| element.name == "water").expect("there is water").0;
+    let mut simulation = Simulation::of(room());
+    simulation.push(Intent::SetEmitter { element: water, stroke: disc((20.0, 30.0)) });
+    simulation.push(Intent::SetDrain { stroke: disc((5.0, 3.0)) }).run(20);
+    assert_goes_on_from_a_save(&mut simulation, 40);
 }

@@ -25,12 +25,15 @@ pub fn whim(random: &mut Random, size: Vec2) -> Intent {
     let to = if shape == BrushShape::Rectangle { from + (to - from) * 0.15 } else { from + (to - from) * 0.3 };
     let stroke = Stroke { shape, from, to, radius: random.within(0.0, 5.0) };
     let element = if random.index(4) == 0 { ROCK } else { WATER };
-    match random.index(12) {
+    match random.index(15) {
         0..=4 => Intent::Draw { element, stroke },
         5 => Intent::Stamp { element, stroke },
         6 | 7 => Intent::Erase { stroke },
         8 | 9 => Intent::Blow { stroke, velocity: (random.point(Vec2::ONE) - 0.5) * random.within(0.0, 2000.0) },
         10 => Intent::Press { stroke, amount: random.within(-2.0, 5.0) },
+        11 => Intent::SetEmitter { element, stroke },
+        12 => Intent::SetDrain { stroke },
+        13 => Intent::RemoveSources { stroke },
         _ if random.index(8) == 0 => Intent::ClearAir,
         _ => Intent::Draw { element: WATER, stroke: Stroke { radius: 0.0, ..stroke } },
     }

@@ -191,7 +191,8 @@ fn check_entry(entry: &Entry, ticks: RangeInclusive<u64>, table: &ElementTable, 
         Intent::Draw { element, stroke }
         | Intent::Stamp { element, stroke }
         | Intent::Replace { element, stroke }
-        | Intent::EraseOnly { element, stroke } => (Some(element), &places(stroke), &[stroke.radius]),
+        | Intent::EraseOnly { element, stroke }
+        | Intent::SetEmitter { element, stroke } => (Some(element), &places(stroke), &[stroke.radius]),
         Intent::Fill { element, at } | Intent::ReplaceAround { element, at } | Intent::EraseAround { element, at } => {
             (Some(element), &[*at], &[])
         }
@@ -202,7 +203,10 @@ fn check_entry(entry: &Entry, ticks: RangeInclusive<u64>, table: &ElementTable, 
             check::finite("the velocity of what is poured", *velocity)?;
             (Some(element), &places(stroke), &[stroke.radius])
         }
-        Intent::Erase { stroke } | Intent::Ignite { stroke } => (None, &places(stroke), &[stroke.radius]),
+        Intent::Erase { stroke }
+        | Intent::Ignite { stroke }
+        | Intent::SetDrain { stroke }
+        | Intent::RemoveSources { stroke } => (None, &places(stroke), &[stroke.radius]),
         Intent::Blow { stroke, velocity } => (None, &[stroke.from, stroke.to, *velocity], &[stroke.radius]),
         Intent::Press { stroke, amount } => (None, &places(stroke), &[stroke.radius, *amount]),
         Intent::Warm { stroke, degrees: kelvin } | Intent::SetTemperature { stroke, kelvin } => {

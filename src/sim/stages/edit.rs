@@ -150,6 +150,11 @@ pub(super) fn apply_intents(
                 let mut warm = setup.matter(&mut particles, &mut rock, &derived.curves);
                 set_under(&mut warm, &stroke, kelvin, &mut derived.books);
             }
+            Intent::SetEmitter { element, stroke } => {
+                refused += u64::from(!derived.sources.add_emitter(element, &stroke, setup.elements()));
+            }
+            Intent::SetDrain { stroke } => refused += u64::from(!derived.sources.add_drain(&stroke)),
+            Intent::RemoveSources { stroke } => derived.sources.remove_under(&stroke),
             Intent::Ignite { stroke } => {
                 let mut warm = setup.matter(&mut particles, &mut rock, &derived.curves);
                 ignite_under(&mut warm, &derived.recipes.decays, &stroke, &mut derived.books);
@@ -268,6 +273,9 @@ fn moves_air(intent: &Intent, elements: &ElementTable, rock: &Rock) -> bool {
         | Intent::Ignite { .. }
         | Intent::Begin { .. }
         | Intent::Stroke
-        | Intent::GiveUp => false,
+        | Intent::GiveUp
+        | Intent::SetEmitter { .. }
+        | Intent::SetDrain { .. }
+        | Intent::RemoveSources { .. } => false,
     }
 }
