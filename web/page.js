@@ -145,6 +145,18 @@ function say(text) {
   while (spoken.childElementCount > SPOKEN) spoken.firstElementChild.remove();
 }
 
+// Says the page's own texts in the language of the game.
+function speak(game, tag) {
+  document.documentElement.lang = tag;
+  for (const part of document.querySelectorAll('[data-spoken]')) {
+    part.dataset.spoken ||= part.textContent;
+    part.textContent = game.spoken(part.dataset.spoken);
+  }
+  canvas.ariaLabel = game.spoken('The world of Powder Master');
+}
+
+const filled = (text, ...values) => values.reduce((before, value) => before.replace('{}', () => value), text);
+
 const pairs = (link) => JSON.stringify([...new URLSearchParams(link)]);
 const link = () => pairs(location.hash.slice(1));
 
@@ -189,13 +201,13 @@ const LARGEST = 256 * 2 ** 20;
 async function open(game, files) {
   for (const file of files) {
     if (file.size > LARGEST) {
-      game.warn(`${file.name}: larger than ${LARGEST / 2 ** 20} MiB`);
+      game.warn(filled(game.spoken('{}: larger than {} MiB'), file.name, LARGEST / 2 ** 20));
       continue;
     }
     try {
       game.open(file.name, new Uint8Array(await file.arrayBuffer()));
     } catch (error) {
-      game.warn(`${file.name}: can't be read: ${error.message ?? error}`);
+      game.warn(filled(game.spoken('{}: can’t be read: {}'), file.name, error.message ?? error));
     }
   }
 }
@@ -205,9 +217,10 @@ async function copyLink(game, world) {
   history.replaceState(null, '', `#world=${world}`);
   try {
     await navigator.clipboard.writeText(location.href);
-    game.tell('Link copied: whoever opens it has this world');
+    game.tell(game.spoken('Link copied: whoever opens it has this world'));
   } catch (error) {
-    game.warn(`The browser keeps its clipboard (${error.message ?? error}): the link is the page’s address now`);
+    const text = game.spoken('The browser keeps its clipboard ({}): the link is the page’s address now');
+    game.warn(filled(text, error.message ?? error));
   }
 }
 
@@ -264,13 +277,13 @@ let nextKept = () => {};
 
 // Without its graphics the game can't go on, but its world is not lost.
 async function rescue(game) {
-  const lost = 'The browser took the graphics away from the game.';
+  const lost = game.spoken('The browser took the graphics away from the game.');
   const kept = new Promise((resolve) => { nextKept = resolve; });
-  fail(lost, ['The world is being saved.']);
+  fail(lost, [game.spoken('The world is being saved.')]);
   game.rescue();
   fail(lost, await kept
-    ? ['The world is saved: load the page again, and the world from the list (Ctrl+O, or the button “Load”).']
-    : ['The world could not be saved.', 'Load the page again.']);
+    ? [game.spoken('The world is saved: load the page again, and the world from the list (Ctrl+O, or the button “Load”).')]
+    : [game.spoken('The world could not be saved.'), game.spoken('Load the page again.')]);
 }
 
 // Tells the game what became of a file that the browser should keep.
@@ -346,6 +359,7 @@ async function main() {
       isReady();
     },
     say,
+    speak: (tag) => speak(game, tag),
     // What comes from the game is a view of its memory, which others can't share.
     keep: (path, bytes, written) => void tellKept(game, path, keep(path, bytes.slice(), written)),
     replace: (path, bytes, written) => void tellKept(game, path, keep(path, bytes.slice(), written, true)),

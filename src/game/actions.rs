@@ -1,7 +1,8 @@
 //! What a key, a button or a click on the HUD can ask for.
 
-use crate::game::{brush_mode::BrushMode, tools::Tool, views::table::View};
+use crate::game::{brush_mode::BrushMode, language::spoken, tools::Tool, views::table::View};
 use bevy::prelude::MouseButton;
+use tr::tr;
 
 /// What a player can do with a key, a button or a click on the HUD.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -103,25 +104,27 @@ impl Action {
         }
     }
 
-    /// What it is called in a list of single actions, from what its `help` says.
+    /// What it is called in a list of single actions, from what its `help` says in the player's language.
     pub fn label(self, help: &str) -> String {
-        let name = match self {
-            Self::Element(digit) => return format!("favourite {digit}"),
-            Self::View(view) => return format!("view: {}", view.name.to_lowercase()),
-            Self::Brush(steps) if steps > 0 => "larger brush",
-            Self::Brush(_) => "smaller brush",
-            Self::Pan(-1, _) => "move the picture left",
-            Self::Pan(1, _) => "move the picture right",
-            Self::Pan(_, 1) => "move the picture up",
-            Self::Pan(..) => "move the picture down",
-            Self::Rewind => "back in time, while held",
-            Self::Lens => "the truth lens",
-            Self::Screenshot => "screenshot",
-            Self::GaugeLine => "a line that measures flow",
+        match self {
+            Self::Element(digit) => tr!("favourite {}", digit),
+            Self::View(view) => {
+                let name = spoken(&view.name.to_lowercase());
+                tr!("view: {}", name)
+            }
+            Self::Brush(steps) if steps > 0 => tr!("larger brush"),
+            Self::Brush(_) => tr!("smaller brush"),
+            Self::Pan(-1, _) => tr!("move the picture left"),
+            Self::Pan(1, _) => tr!("move the picture right"),
+            Self::Pan(_, 1) => tr!("move the picture up"),
+            Self::Pan(..) => tr!("move the picture down"),
+            Self::Rewind => tr!("back in time, while held"),
+            Self::Lens => tr!("the truth lens"),
+            Self::Screenshot => tr!("screenshot"),
+            Self::GaugeLine => tr!("a line that measures flow"),
             // The rest of a help is how.
-            _ => help.split([';', ':', '(']).next().unwrap_or(help).trim_end(),
-        };
-        name.to_owned()
+            _ => help.split([';', ':', '(']).next().unwrap_or(help).trim_end().to_owned(),
+        }
     }
 }
 

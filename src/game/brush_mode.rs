@@ -12,6 +12,8 @@ pub enum BrushMode {
     Replace,
     /// It takes away the element, and leaves all else.
     EraseOnly,
+    /// It sets what goes on pouring the element, and what goes on taking all that moves.
+    Spring,
 }
 
 impl BrushMode {
@@ -21,6 +23,7 @@ impl BrushMode {
             Self::Draw => "draw",
             Self::Replace => "replace",
             Self::EraseOnly => "erase only this",
+            Self::Spring => "springs and drains",
         }
     }
 
@@ -30,6 +33,7 @@ impl BrushMode {
             Self::Draw => edit_icons::draw_free,
             Self::Replace => edit_icons::replace,
             Self::EraseOnly => edit_icons::erase_only,
+            Self::Spring => edit_icons::spring,
         }
     }
 
@@ -39,7 +43,8 @@ impl BrushMode {
         match self {
             Self::Draw => Self::Replace,
             Self::Replace => Self::EraseOnly,
-            Self::EraseOnly => Self::Draw,
+            Self::EraseOnly => Self::Spring,
+            Self::Spring => Self::Draw,
         }
     }
 }

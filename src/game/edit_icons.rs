@@ -30,6 +30,13 @@ pub fn erase_only(pen: &Pen<'_>) {
     pen.line(&[(0.22, 0.86), (0.78, 0.14)], 0.09);
 }
 
+/// What flows on: drops below an outlet.
+pub fn spring(pen: &Pen<'_>) {
+    pen.line(&[(0.12, 0.1), (0.12, 0.34), (0.88, 0.34), (0.88, 0.1)], 0.1);
+    pen.disc(0.5, 0.54, 0.1);
+    pen.disc(0.5, 0.82, 0.13);
+}
+
 /// A frame with a piece of the world in it.
 pub fn stamp(pen: &Pen<'_>) {
     for (x, y) in [(0.12, 0.12), (0.88, 0.12), (0.12, 0.88), (0.88, 0.88)] {

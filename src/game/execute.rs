@@ -18,6 +18,7 @@ use crate::{
             pointer::{HudCover, Pointer, ZOOM_STEP},
             rebind,
         },
+        language::spoken,
         lens::{self, Lens},
         lump::Lump,
         mixer, museum, opening,
@@ -25,7 +26,7 @@ use crate::{
         panels::Panels,
         recording, rewind, saves, screen,
         sound::volume::Volume,
-        split,
+        split, springs,
         stamps::act,
         throws,
         toasts::Toasts,
@@ -52,6 +53,7 @@ use crate::{
 };
 use bevy::prelude::{MouseButton, World};
 use std::{mem, sync::Arc};
+use tr::tr;
 
 /// Carries out what waits.
 pub fn carry_out(world: &mut World) {
@@ -105,6 +107,7 @@ pub fn carry_out(world: &mut World) {
             Order::SelectGauge(number) => gauges::select(world, number),
             Order::RemoveGauge(number) => gauges::remove(world, number),
             Order::SaveReadings => gauges::save(world),
+            Order::SetSource(button, stroke) => springs::set(world, button, stroke),
             Order::Challenge(name) => attempt::begin(world, &name),
             Order::ChallengeAgain => drop(attempt::again(world)),
             Order::LeaveChallenge => attempt::leave(world),
@@ -166,7 +169,7 @@ fn change_detail(world: &mut World, Step { preset, detail }: Step, intents: &[In
     intents.iter().for_each(|intent| world.resource_mut::<IntentQueue>().push(intent.clone()));
     control::apply_edits(world);
     let count = world.resource::<ParticleStore>().len() + world.resource::<Rock>().count();
-    world.resource_mut::<Toasts>().say(format!("Detail {detail}: {} particles", grouped(count)));
+    world.resource_mut::<Toasts>().say(tr!("Detail {}: {} particles", detail, grouped(count)));
 }
 
 fn act(world: &mut World, action: Action) {
@@ -262,9 +265,8 @@ fn take_up(world: &mut World, tool: Tool) {
     let Some(effect) = tool.needs() else { return };
     if world.get_resource::<Effects>().is_some_and(|effects| effects.get(effect).mode == Mode::Off) {
         let (name, key) = (effect.name(), world.resource::<Bindings>().key(Action::Panel(details::PANEL.id)));
-        world
-            .resource_mut::<Toasts>()
-            .warn(format!("The {name} is off in this scene: switch it on in the details ({key})"));
+        let told = tr!("The {name} is off in this scene: switch it on in the details ({key})", name, key);
+        world.resource_mut::<Toasts>().warn(told);
     }
 }
 
@@ -272,16 +274,20 @@ fn take_up(world: &mut World, tool: Tool) {
 fn choose_mode(world: &mut World, mode: BrushMode) {
     let mut tools = world.resource_mut::<Toolbox>();
     let Tool::Element(element) = tools.tool else {
-        world.resource_mut::<Toasts>().say("Only an element is drawn over others or erased by itself: choose one");
+        let told = tr!("Only an element is drawn over others, erased by itself or made a spring of: choose one");
+        world.resource_mut::<Toasts>().say(told);
         return;
     };
     tools.set_mode(mode);
     let Some(setup) = world.get_resource::<Setup>() else { return };
-    let name = spaced(&setup.elements().get(element).name);
+    let name = spoken(&spaced(&setup.elements().get(element).name));
     let told = match mode {
-        BrushMode::Draw => format!("Draw: {name} into free room"),
-        BrushMode::Replace => format!("Replace: what is there becomes {name}"),
-        BrushMode::EraseOnly => format!("Erase only this: {name} goes, all else stays"),
+        BrushMode::Draw => tr!("Draw: {} into free room", name),
+        BrushMode::Replace => tr!("Replace: what is there becomes {}", name),
+        BrushMode::EraseOnly => tr!("Erase only this: {} goes, all else stays", name),
+        BrushMode::Spring => {
+            tr!("Springs: the left button sets one of {}, the right one a drain; on one: it goes", name)
+        }
     };
     world.resource_mut::<Toasts>().say(told);
 }
@@ -311,21 +317,21 @@ fn keep_time(pace: &mut Pace, action: Action) {
 
 fn change_world(world: &mut World, action: Action) {
     let told = match action {
-        Action::Reset if attempt::again(world) => "From the beginning",
+        Action::Reset if attempt::again(world) => tr!("From the beginning"),
         Action::Reset => {
             history::checkpoint(world);
             control::reset(world);
-            "Reset"
+            tr!("Reset")
         }
         Action::ClearAir => {
             history::checkpoint(world);
             world.resource_mut::<IntentQueue>().push(Intent::ClearAir);
-            "Air cleared"
+            tr!("Air cleared")
         }
-        Action::Undo if history::undo(world) => "Undone",
-        Action::Undo => "Nothing to undo",
-        Action::Redo if history::redo(world) => "Made again",
-        _ => "Nothing to make again",
+        Action::Undo if history::undo(world) => tr!("Undone"),
+        Action::Undo => tr!("Nothing to undo"),
+        Action::Redo if history::redo(world) => tr!("Made again"),
+        _ => tr!("Nothing to make again"),
     };
     world.resource_mut::<Toasts>().say(told);
 }
@@ -337,10 +343,13 @@ fn turn_mouse_keys(world: &mut World) {
     let [left, right, end] = [Action::Press(MouseButton::Left), Action::Press(MouseButton::Right), Action::MouseKeys]
         .map(|of| bindings.key(of));
     let told = match on {
-        true => format!(
-            "Mouse keys: the arrows move the pointer, {left} and {right} are its buttons, Tab takes it to the next control; {end} ends it"
+        true => tr!(
+            "Mouse keys: the arrows move the pointer, {left} and {right} are its buttons, Tab takes it to the next control; {end} ends it",
+            left,
+            right,
+            end
         ),
-        false => "The arrows move the picture again".to_owned(),
+        false => tr!("The arrows move the picture again"),
     };
     world.resource_mut::<Toasts>().say(told);
 }

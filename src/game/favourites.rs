@@ -4,12 +4,15 @@
 //! Elements go by their names: tables differ from world to world, and so do their ids.
 
 use crate::{
-    game::{actions::Action, input::bindings::Bindings, kept::KeptFile, toasts::Toasts, tools::spaced},
+    game::{
+        actions::Action, input::bindings::Bindings, kept::KeptFile, language::spoken, toasts::Toasts, tools::spaced,
+    },
     kernel::element::{ElementId, ElementTable},
     sim::state::Setup,
 };
 use bevy::prelude::{Mut, Resource, World};
 use std::{collections::BTreeMap, path::Path};
+use tr::tr;
 
 /// The digits, in the order of their keys.
 pub const DIGITS: [char; 10] = ['1', '2', '3', '4', '5', '6', '7', '8', '9', '0'];
@@ -108,13 +111,19 @@ pub fn put(world: &mut World, digit: char, name: &str) {
         let Some(element) = elements.find(name) else { return };
         let swapped = favourites.put(digit, element, elements);
         let key = |digit| world.resource::<Bindings>().key(Action::Element(digit));
-        let other = swapped.map(|(id, from)| format!(", {} on {}", spaced(&elements.get(id).name), key(from)));
-        let told = format!("{} is on {} now{}", spaced(name), key(digit), other.unwrap_or_default());
+        let (name, here) = (spoken(&spaced(name)), key(digit));
+        let told = match swapped {
+            Some((id, from)) => {
+                let (other, there) = (spoken(&spaced(&elements.get(id).name)), key(from));
+                tr!("{name} is on {here} now, {other} on {there}", name, here, other, there)
+            }
+            None => tr!("{name} is on {here} now", name, here),
+        };
         let kept = favourites.file.write(&favourites.put);
         let mut toasts = world.resource_mut::<Toasts>();
         match kept {
             Ok(()) => toasts.say(told),
-            Err(error) => toasts.warn(format!("{told}, but not kept: {error}")),
+            Err(error) => toasts.warn(tr!("{told}, but not kept: {error}", told, error)),
         }
     });
 }

@@ -8,6 +8,7 @@ use crate::{
         hud::panels::{accuracy, elements, scenes},
         input::{bindings::Bindings, strokes::DragState, touch::Fingers},
         kept::KeptFile,
+        language::spoken,
         panels::Panels,
         toasts::Toasts,
         toolbox::Toolbox,
@@ -26,6 +27,7 @@ use bevy::{
 };
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
+use tr::tr;
 
 /// The file that is kept.
 const FILE: &str = "hints.ron";
@@ -87,7 +89,7 @@ const HINTS: [Hint; 8] = [
         known: |_| false,
         text: |key| {
             let panel = key(Action::Panel(accuracy::panel::PANEL.id));
-            format!("So many particles are too much for this machine at this quality: {panel} shows cheaper ones")
+            tr!("So many particles are too much for this machine at this quality: {} shows cheaper ones", panel)
         },
         by_fingers: "So many particles are too much for this machine: choose a cheaper quality under the gauge",
     },
@@ -97,7 +99,7 @@ const HINTS: [Hint; 8] = [
         known: |_| false,
         text: |key| {
             let [heat, light] = [&HEAT, &IGNITE].map(|row| key(Action::Tool(Tool::Other(row))));
-            format!("Fire! Water puts it out. {heat} heats and cools, {light} lights what can burn")
+            tr!("Fire! Water puts it out. {heat} heats and cools, {light} lights what can burn", heat, light)
         },
         by_fingers: "Fire! Water puts it out. The tool heat warms and cools, ignite lights what can burn",
     },
@@ -105,35 +107,47 @@ const HINTS: [Hint; 8] = [
         name: "undo",
         due: |facts| facts.erased > 0,
         known: |_| false,
-        text: |key| format!("{} brings back what was erased, as often as you like", key(Action::Undo)),
+        text: |key| {
+            let key = key(Action::Undo);
+            tr!("{} brings back what was erased, as often as you like", key)
+        },
         by_fingers: "The bent arrow brings back what was erased, as often as you like",
     },
     Hint {
         name: "wind",
         due: |facts| facts.pours > 0,
         known: |facts| facts.blew,
-        text: |key| format!("{} blows wind: drag it through what you poured", key(Action::Tool(Tool::Other(&WIND)))),
+        text: |key| {
+            let key = key(Action::Tool(Tool::Other(&WIND)));
+            tr!("{} blows wind: drag it through what you poured", key)
+        },
         by_fingers: "The tool wind blows: drag it through what you poured",
     },
     Hint {
         name: "fill",
         due: |facts| facts.walls > 0,
         known: |_| false,
-        text: |_| "Shift draws straight walls, Ctrl+Shift and a click fills the space between them".to_owned(),
+        text: |_| tr!("Shift draws straight walls, Ctrl+Shift and a click fills the space between them"),
         by_fingers: "",
     },
     Hint {
         name: "brush",
         due: |facts| facts.pours + facts.walls >= 4,
         known: |facts| facts.resized,
-        text: |key| format!("The wheel makes the brush larger or smaller, {} makes it square", key(Action::BrushShape)),
+        text: |key| {
+            let key = key(Action::BrushShape);
+            tr!("The wheel makes the brush larger or smaller, {} makes it square", key)
+        },
         by_fingers: "Plus and minus make the brush larger and smaller",
     },
     Hint {
         name: "elements",
         due: |facts| facts.alike >= 6,
         known: |facts| facts.saw_elements,
-        text: |key| format!("{} shows all there is to pour, from acid to wood", key(Action::Panel(elements::PANEL.id))),
+        text: |key| {
+            let key = key(Action::Panel(elements::PANEL.id));
+            tr!("{} shows all there is to pour, from acid to wood", key)
+        },
         by_fingers: "Elements shows all there is to pour, from acid to wood",
     },
     Hint {
@@ -141,7 +155,8 @@ const HINTS: [Hint; 8] = [
         due: |facts| facts.played >= LONG,
         known: |facts| facts.saw_gallery,
         text: |key| {
-            format!("{} opens the gallery: there are many more scenes", key(Action::Panel(scenes::panel::PANEL.id)))
+            let key = key(Action::Panel(scenes::panel::PANEL.id));
+            tr!("{} opens the gallery: there are many more scenes", key)
         },
         by_fingers: "Scenes opens the gallery: there are many more",
     },
@@ -262,7 +277,7 @@ fn hint(
         }
         hints.note(hint);
         let text = match fingers.in_use {
-            true => hint.by_fingers.to_owned(),
+            true => spoken(hint.by_fingers),
             false => (hint.text)(&|action| bindings.key(action)),
         };
         if !(hint.known)(&facts) && !text.is_empty() {

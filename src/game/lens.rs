@@ -16,6 +16,7 @@ use crate::{
 };
 use bevy::prelude::{ButtonInput, KeyCode, Mut, Real, Res, ResMut, Resource, Time, World};
 use glam::Vec2;
+use tr::tr;
 
 /// The quality that is seen through it.
 pub const TRUTH: Preset = Preset::Reference;
@@ -104,7 +105,8 @@ pub fn toggle(world: &mut World) {
     }
     if world.resource::<Split>().is_on() {
         let key = world.resource::<Bindings>().key(Action::Split);
-        let told = format!("The A/B split has a second world already: end it ({key}), and the lens has one of its own");
+        let told =
+            tr!("The A/B split has a second world already: end it ({key}), and the lens has one of its own", key);
         return world.resource_mut::<Toasts>().warn(told);
     }
     let Some(setup) = world.get_resource::<Setup>() else { return };
@@ -115,10 +117,10 @@ pub fn toggle(world: &mut World) {
     let second = world.resource::<Split>().world().map(|second| second.resource::<Setup>());
     let equal = second.is_some_and(|second| (second.quality, second.blueprint.scale) == (quality, scale));
     let told = match equal {
-        true => "This world runs at reference itself: the lens shows no difference".to_owned(),
+        true => tr!("This world runs at reference itself: the lens shows no difference"),
         false => {
             let key = world.resource::<Bindings>().key(Action::Lens);
-            format!("In the ring: this moment at reference, and on from it. Letting go, or {key}, ends it")
+            tr!("In the ring: this moment at reference, and on from it. Letting go, or {key}, ends it", key)
         }
     };
     world.resource_mut::<Toasts>().say(told);

@@ -5,6 +5,7 @@ use crate::{
     sim::{checkpoint::Checkpoint, numbers::grouped, world_text},
 };
 use bevy::prelude::World;
+use tr::tr;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen(js_namespace = powderHost)]
@@ -18,11 +19,11 @@ extern "C" {
 pub fn copy(world: &mut World) {
     match world_text::write(&Checkpoint::of(world)) {
         Ok(text) if text.len() <= world_text::MOST => copy_link(&text),
-        Ok(text) => world.resource_mut::<Toasts>().warn(format!(
+        Ok(text) => world.resource_mut::<Toasts>().warn(tr!(
             "Too large for a link: {} characters, {} are allowed; a screenshot (F2) carries any world",
             grouped(text.len() as u64),
             grouped(world_text::MOST as u64)
         )),
-        Err(error) => world.resource_mut::<Toasts>().warn(format!("No link: {error}")),
+        Err(error) => world.resource_mut::<Toasts>().warn(tr!("No link: {}", error)),
     }
 }

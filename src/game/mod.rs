@@ -32,6 +32,7 @@ pub mod hud;
 pub mod icons;
 pub mod input;
 pub mod kept;
+pub mod language;
 pub mod lens;
 #[cfg(target_arch = "wasm32")]
 pub mod link;
@@ -55,6 +56,7 @@ pub mod script;
 pub mod settings;
 pub mod sound;
 pub mod split;
+pub mod springs;
 pub mod stamps;
 #[cfg(test)]
 mod tests;

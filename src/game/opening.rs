@@ -9,6 +9,7 @@ use crate::{
 };
 use bevy::prelude::World;
 use std::{io, path::Path, sync::Arc};
+use tr::tr;
 
 /// Why a file is not opened.
 #[derive(Debug, thiserror::Error)]
@@ -87,7 +88,7 @@ fn open(world: &mut World, path: &Path, contents: Result<Contents, OpenError>) {
         Ok(Contents::World(saved)) => {
             history::checkpoint(world);
             saved.restore(world);
-            format!("Loaded: {name} (undo goes back)")
+            tr!("Loaded: {} (undo goes back)", name)
         }
         Ok(Contents::Recording(recording, start)) => {
             history::checkpoint(world);
@@ -97,7 +98,7 @@ fn open(world: &mut World, path: &Path, contents: Result<Contents, OpenError>) {
             playback::begin(world, recording);
             let pace = *world.resource::<Pace>();
             *world.resource_mut::<Pace>() = Pace { paused: false, steps_due: 0, ..pace };
-            format!("Showing: {name} (undo goes back)")
+            tr!("Showing: {} (undo goes back)", name)
         }
         Err(error) => {
             world.resource_mut::<Toasts>().warn(format!("{name}: {error}"));

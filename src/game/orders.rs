@@ -6,11 +6,11 @@ use crate::{
         actions::{Action, Take},
         input::rebind::KeyOrder,
     },
-    kernel::{element::Element, params::Preset},
+    kernel::{brush::Stroke, element::Element, params::Preset},
     lab::{autopilot::Goal, dial::Step, live::accuracy::SurveyRequest},
     scene::effects::{Effect, Mode},
 };
-use bevy::prelude::{Deref, DerefMut, Resource};
+use bevy::prelude::{Deref, DerefMut, MouseButton, Resource};
 use glam::Vec2;
 use std::path::PathBuf;
 
@@ -96,6 +96,8 @@ pub enum Order {
     RemoveGauge(u32),
     /// Write what gauges read as a table.
     SaveReadings,
+    /// Set what a button sets under a brush, a spring or a drain, or take away what is there of these.
+    SetSource(MouseButton, Stroke),
 }
 
 /// Orders that wait, oldest first.

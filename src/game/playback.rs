@@ -11,6 +11,7 @@ use crate::{
     },
 };
 use bevy::prelude::{Resource, World};
+use tr::tr;
 
 /// The recording that is shown.
 #[derive(Resource, Debug)]
@@ -46,7 +47,7 @@ impl Playback {
 pub fn feed(world: &mut World) {
     let Some(mut playback) = world.remove_resource::<Playback>() else { return };
     if Generation::of(world) != playback.generation || world.resource::<Clock>().edits != playback.edits {
-        world.resource_mut::<Toasts>().say("The recording is left here");
+        world.resource_mut::<Toasts>().say(tr!("The recording is left here"));
         return;
     }
     playback.give(world);
@@ -65,7 +66,7 @@ pub fn feed(world: &mut World) {
         Some(Err(error)) => world.resource_mut::<Toasts>().warn(error.to_string()),
         None => {
             *world.resource_mut::<Pace>() = Pace { paused: true, steps_due: 0, ..*world.resource::<Pace>() };
-            world.resource_mut::<Toasts>().say("The recording ends here");
+            world.resource_mut::<Toasts>().say(tr!("The recording ends here"));
         }
     }
 }

@@ -14,6 +14,7 @@ use crate::{
 };
 use bevy::{log::error, prelude::World};
 use std::path::{Path, PathBuf};
+use tr::tr;
 
 /// The folder beside save files that recordings go to.
 const FOLDER: &str = "recordings";
@@ -29,14 +30,15 @@ pub fn toggle(world: &mut World) {
     }
     world.resource::<Recorder>().begin(world, None);
     let key = world.resource::<Bindings>().key(Action::Record);
-    world.resource_mut::<Toasts>().say(format!("Recording from here on; {key} again ends it"));
+    world.resource_mut::<Toasts>().say(tr!("Recording from here on; {} again ends it", key));
 }
 
 /// Ends a recording that takes all the memory that it may.
 pub fn end_when_full(world: &mut World) {
     // What is shown of the past is not where it has come to.
     if world.resource::<Recorder>().is_full() && !world.resource::<Pace>().rewinds {
-        end(world, " It took all the memory that it may.");
+        let why = tr!(" It took all the memory that it may.");
+        end(world, &why);
     }
 }
 
@@ -48,11 +50,13 @@ fn end(world: &mut World, why: &str) {
         Ok(path) => {
             world.resource::<Recorder>().forget();
             let path = path.map_or(String::new(), |path| path.display().to_string());
-            world.resource_mut::<Toasts>().say(format!("Recorded {seconds:.1} s: {path}{why}"));
+            let told = tr!("Recorded {} s: {}", format_args!("{seconds:.1}"), path);
+            world.resource_mut::<Toasts>().say(told + why);
         }
         Err(problem) => {
             let key = world.resource::<Bindings>().key(Action::Record);
-            let told = format!("Not written: {problem}. The recording ends here, and is kept: {key} tries again.");
+            let told =
+                tr!("Not written: {problem}. The recording ends here, and is kept: {key} tries again.", problem, key);
             world.resource_mut::<Toasts>().warn(told);
         }
     }
@@ -69,8 +73,8 @@ pub fn keep_last_minute(world: &mut World) {
     let written = write_new(&folders(world), world.resource::<Recorder>(), "", &bytes);
     let mut toasts = world.resource_mut::<Toasts>();
     match written {
-        Ok(path) => toasts.say(format!("The last minute: {}", path.display())),
-        Err(error) => toasts.warn(format!("The last minute is not kept: {error}")),
+        Ok(path) => toasts.say(tr!("The last minute: {}", path.display())),
+        Err(error) => toasts.warn(tr!("The last minute is not kept: {}", error)),
     }
 }
 
@@ -80,7 +84,7 @@ pub fn write(world: &mut World) {
         return;
     }
     if let Err(problem) = write_recording(world, recorder::end_now(world)) {
-        world.resource_mut::<Toasts>().warn(format!("The recording is not written: {problem}"));
+        world.resource_mut::<Toasts>().warn(tr!("The recording is not written: {}", problem));
     }
 }
 

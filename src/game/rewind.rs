@@ -29,6 +29,7 @@ use bevy::{
     prelude::{ButtonInput, KeyCode, Real, Resource, Time, World},
 };
 use std::{mem, sync::Arc};
+use tr::tr;
 
 /// The past, while it is looked at.
 #[derive(Resource, Default)]
@@ -138,7 +139,9 @@ fn end(world: &mut World, running: Running) {
     state.restore(world);
     reel.go_on_from(world, spot);
     history::remember(world, before);
-    world.resource_mut::<Toasts>().say(format!("Back by {:.1} s (undo goes forward again)", seconds(back)));
+    world
+        .resource_mut::<Toasts>()
+        .say(tr!("Back by {} s (undo goes forward again)", format_args!("{:.1}", seconds(back))));
 }
 
 /// Ticks as seconds.

@@ -18,6 +18,7 @@ use std::{
     path::{Path, PathBuf},
     time::SystemTime,
 };
+use tr::tr;
 
 /// Folders that save files are in; new ones go into the first that can be written.
 #[derive(Resource, Clone, Debug)]
@@ -80,8 +81,8 @@ pub fn save(world: &mut World) {
     let written = files::write_new(folders, &setup.blueprint.name, tick, SAVE_ENDING, &Checkpoint::of(world).encode());
     let mut toasts = world.resource_mut::<Toasts>();
     match written {
-        Ok(path) => toasts.say(format!("Saved: {}", path.display())),
-        Err(error) => toasts.warn(format!("Not saved: {error}")),
+        Ok(path) => toasts.say(tr!("Saved: {}", path.display())),
+        Err(error) => toasts.warn(tr!("Not saved: {}", error)),
     }
 }
 

@@ -16,6 +16,7 @@ use bevy::{
     window::{MonitorSelection, PrimaryWindow, Window, WindowMode},
 };
 use std::{env, error::Error, path::PathBuf};
+use tr::tr;
 
 /// Covers the monitor, or goes back to a window.
 pub fn toggle_full_screen(world: &mut World) {
@@ -44,8 +45,8 @@ pub fn take_screenshot(world: &mut World) {
                 Ok(disk::give(&path, &bytes).map_err(|error| Unwritten { path: path.clone(), error })?)
             };
             match write(captured.image.clone()) {
-                Ok(()) => toasts.say(format!("Screenshot, with its world: {}", path.display())),
-                Err(error) => toasts.warn(format!("No screenshot: {error}")),
+                Ok(()) => toasts.say(tr!("Screenshot, with its world: {}", path.display())),
+                Err(error) => toasts.warn(tr!("No screenshot: {}", error)),
             }
         },
     );

@@ -1,4 +1,4 @@
-//! What the player has set: size of the HUD, how much of the picture is drawn, size of the window, and the scene played last.
+//! What the player has set: language, size of the HUD, how much of the picture is drawn, size of the window, and the scene played last.
 //! Kept from session to session; read before there is a window, and written a second after the last change.
 
 use crate::{
@@ -9,6 +9,7 @@ use crate::{
         },
         input::mouse_keys::MouseKeys,
         kept::KeptFile,
+        language::{self, Language},
         render::level::{Level, PictureLevel},
     },
     scene::builtin_names,
@@ -45,11 +46,21 @@ struct Choices {
     mouse_keys: bool,
     /// Whether the HUD moves as little as can be, or `None` for what the system asks for.
     reduced_motion: Option<bool>,
+    /// Tag of the language, or `None` for that of the system.
+    language: Option<String>,
 }
 
 impl Default for Choices {
     fn default() -> Self {
-        Self { hud: 1.0, picture: None, window: None, scene: None, mouse_keys: false, reduced_motion: None }
+        Self {
+            hud: 1.0,
+            picture: None,
+            window: None,
+            scene: None,
+            mouse_keys: false,
+            reduced_motion: None,
+            language: None,
+        }
     }
 }
 
@@ -120,7 +131,8 @@ impl Settings {
 
 /// Puts the settings of the last session in force, and keeps those of this one.
 pub fn plugin(app: &mut App, settings: Settings) {
-    let Choices { hud, picture, mouse_keys, reduced_motion, .. } = settings.kept.clone();
+    let Choices { hud, picture, mouse_keys, reduced_motion, language, .. } = settings.kept.clone();
+    language::plugin(app, language.as_deref());
     app.insert_resource(UiScale { factor: hud })
         .insert_resource(MouseKeys(mouse_keys))
         .insert_resource(ReducedMotion { chosen: reduced_motion, by_system: false })
@@ -132,7 +144,7 @@ pub fn plugin(app: &mut App, settings: Settings) {
 /// Keeps what is set.
 fn keep(
     mut settings: ResMut<Settings>,
-    (scale, mouse_keys, motion): (Res<UiScale>, Res<MouseKeys>, Res<ReducedMotion>),
+    (scale, mouse_keys, motion, language): (Res<UiScale>, Res<MouseKeys>, Res<ReducedMotion>, Res<Language>),
     level: Res<PictureLevel>,
     window: Single<&Window, With<PrimaryWindow>>,
     setup: Option<Res<Setup>>,
@@ -152,6 +164,7 @@ fn keep(
         scene,
         mouse_keys: mouse_keys.0,
         reduced_motion: motion.chosen,
+        language: language.chosen().map(str::to_owned),
     };
     settings.bypass_change_detection().follow(now, time.delta_secs());
 }
@@ -177,6 +190,7 @@ mod tests {
             scene,
             mouse_keys: true,
             reduced_motion: Some(true),
+            language: Some("de".to_owned()),
         };
         settings.follow(Choices::default(), 10.0);
         assert!(!folder.exists(), "nothing changed, so nothing is written");

@@ -21,6 +21,7 @@ use crate::{
 };
 use bevy::prelude::{Res, ResMut, World};
 use glam::Vec2;
+use tr::tr;
 
 /// Height of the line over each part, points.
 pub const LABEL: f32 = 30.0;
@@ -36,17 +37,17 @@ pub fn toggle(world: &mut World) {
     }
     let Some(setup) = world.get_resource::<Setup>() else { return };
     let preset = if setup.preset == Preset::Draft { Preset::Fine } else { Preset::Draft };
-    begin(world, preset, "The same world at two qualities; B again goes on with A alone");
+    begin(world, preset, tr!("The same world at two qualities; B again goes on with A alone"));
 }
 
 /// Starts the second world again from the first, at this quality.
 pub fn choose(world: &mut World, preset: Preset) {
     if world.resource::<Split>().is_on() {
-        begin(world, preset, "B starts again from A as it is now");
+        begin(world, preset, tr!("B starts again from A as it is now"));
     }
 }
 
-fn begin(world: &mut World, preset: Preset, told: &str) {
+fn begin(world: &mut World, preset: Preset, told: String) {
     let begun = Split::begin(world, preset, preset.quality());
     let mut toasts = world.resource_mut::<Toasts>();
     match begun {

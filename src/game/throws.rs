@@ -2,7 +2,7 @@
 //! beside it ([`StressTest`]).
 
 use crate::{
-    game::{history, toasts::Toasts},
+    game::{history, language::spoken, toasts::Toasts},
     lab::gauntlet::throws::{StressTest, Throw},
     sim::{
         generation::Generation,
@@ -15,6 +15,7 @@ use crate::{
 };
 use bevy::prelude::{Resource, World};
 use glam::Vec2;
+use tr::tr;
 
 /// What was thrown.
 #[derive(Resource, Debug)]
@@ -54,7 +55,8 @@ pub fn throw(world: &mut World, name: &str) {
         return;
     }
     if let Some(element) = throw.lacks(setup) {
-        world.resource_mut::<Toasts>().say(format!("This world knows no {element}"));
+        let element = spoken(element);
+        world.resource_mut::<Toasts>().say(tr!("This world knows no {}", element));
         return;
     }
     let input = throw.input(setup, clock.tick);

@@ -5,6 +5,7 @@ use crate::{
     game::{
         brush_mode::BrushMode,
         icons::{self, Icon},
+        language::spoken,
     },
     kernel::{
         brush::Stroke,
@@ -210,7 +211,7 @@ impl Tool {
 
     /// Name in the palette.
     pub fn label(self, elements: &ElementTable) -> String {
-        spaced(self.name(elements))
+        spoken(&spaced(self.name(elements)))
     }
 
     /// Name in files and for scripts.
@@ -274,7 +275,7 @@ impl Tool {
         match self {
             Self::Element(element) => Some(match dab.mode {
                 BrushMode::EraseOnly => Intent::EraseOnly { element, stroke: dab.stroke },
-                BrushMode::Draw | BrushMode::Replace => Intent::Erase { stroke: dab.stroke },
+                BrushMode::Draw | BrushMode::Replace | BrushMode::Spring => Intent::Erase { stroke: dab.stroke },
             }),
             Self::Other(row) => (row.right)(dab),
         }
@@ -292,7 +293,7 @@ impl Tool {
     pub fn fill(self, mode: BrushMode, at: Vec2) -> Option<Intent> {
         let Self::Element(element) = self else { return None };
         Some(match mode {
-            BrushMode::Draw => Intent::Fill { element, at },
+            BrushMode::Draw | BrushMode::Spring => Intent::Fill { element, at },
             BrushMode::Replace => Intent::ReplaceAround { element, at },
             BrushMode::EraseOnly => Intent::EraseAround { element, at },
         })
@@ -308,7 +309,7 @@ fn pour(dab: &Dab, element: ElementId) -> Intent {
 /// What an element does to what is there, unless it is drawn into free room.
 fn over(dab: &Dab, element: ElementId) -> Option<Intent> {
     match dab.mode {
-        BrushMode::Draw => None,
+        BrushMode::Draw | BrushMode::Spring => None,
         BrushMode::Replace => Some(Intent::Replace { element, stroke: dab.stroke }),
         BrushMode::EraseOnly => Some(Intent::EraseOnly { element, stroke: dab.stroke }),
     }

@@ -9,6 +9,7 @@ use crate::{
         hints::Hints,
         hud::{HudPlugin, panels::scenes::SceneFolder},
         input::keymap::Keymap,
+        language::spoken,
         mixer,
         plugin::GamePlugin,
         render::WorldRenderPlugin,
@@ -41,6 +42,7 @@ use std::{
     path::PathBuf,
     time::Duration,
 };
+use tr::tr;
 
 /// Size of the window at the first start, logical pixels.
 const WINDOW_SIZE: (u32, u32) = (1280, 800);
@@ -159,7 +161,8 @@ const TITLE_EVERY: Duration = Duration::from_millis(500);
 
 /// Keeps scene and particle count in the title, for the task bar and for tests.
 fn tell_in_title(setup: Res<Setup>, census: Res<Census>, mut window: Single<&mut Window, With<PrimaryWindow>>) {
-    let title = format!("Powder Master: {}, {} particles", setup.blueprint.title, census.total);
+    let (scene, count) = (spoken(&setup.blueprint.title), census.total);
+    let title = tr!("Powder Master: {scene}, {count} particles", scene, count);
     if window.title != title {
         window.title = title;
     }

@@ -5,6 +5,7 @@ use crate::{
     game::{
         actions::Action,
         disk,
+        language::{self, Language},
         orders::{Order, Orders},
         script,
         toasts::Toasts,
@@ -13,14 +14,20 @@ use crate::{
 };
 use bevy::{
     ecs::world::World,
-    prelude::{App, Last, Local, Time, Virtual},
+    prelude::{App, IntoScheduleConfigs, Last, Local, Res, Time, Virtual, resource_changed},
 };
 use std::path::Path;
+use tr::tr;
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 /// Listens to the page.
 pub(super) fn plugin(app: &mut App) {
-    app.add_plugins((script::plugin, reader::plugin)).add_systems(Last, tell_of_the_first_frame);
+    app.add_plugins((script::plugin, reader::plugin))
+        .add_systems(Last, (tell_of_the_first_frame, tell_of_the_language.run_if(resource_changed::<Language>)));
+}
+
+fn tell_of_the_language(language: Res<Language>) {
+    host::speak(language.tag());
 }
 
 fn tell_of_the_first_frame(mut painted: Local<bool>) {
@@ -80,6 +87,12 @@ pub fn hidden(hidden: bool) {
     });
 }
 
+/// A text of the page in the language of the game.
+#[wasm_bindgen]
+pub fn spoken(english: &str) -> String {
+    language::spoken(english)
+}
+
 /// Tells the player something.
 #[wasm_bindgen]
 pub fn tell(text: String) {
@@ -106,7 +119,7 @@ pub fn renamed(from: String, to: String) {
     script::tell(move |world| {
         let toasts = toasts(world);
         toasts.take_back(&from);
-        toasts.say(format!("Saved: {to}"));
+        toasts.say(tr!("Saved: {}", to));
     });
 }
 
@@ -116,7 +129,7 @@ pub fn not_kept(path: String, why: String) {
     script::tell(move |world| {
         let toasts = toasts(world);
         toasts.take_back(&path);
-        toasts.warn(format!("Not kept: the browser refuses it ({why}). {path} goes with this page."));
+        toasts.warn(tr!("Not kept: the browser refuses it ({why}). {path} goes with this page.", why, path));
     });
 }
 

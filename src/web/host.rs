@@ -12,6 +12,9 @@ extern "C" {
 
     /// Has a screen reader say something.
     pub(super) fn say(text: &str);
+
+    /// Says the page's own texts in the language of a tag, by [`spoken`](super::hook::spoken).
+    pub(super) fn speak(tag: &str);
 }
 
 /// Tells of a panic in whatever thread.

@@ -27,8 +27,9 @@ export async function display() {
 
 // Opens the game with a scene, or with `[]` as a player does who names none; its files and its log go to `folder`.
 export async function open(program, display, folder, scene = ['empty']) {
-  const { WAYLAND_DISPLAY, ...rest } = process.env;
-  const env = { ...rest, DISPLAY: display, XDG_DATA_HOME: join(folder, 'data') };
+  // The names of what is pressed are looked for in English.
+  const { WAYLAND_DISPLAY, LANGUAGE, ...rest } = process.env;
+  const env = { ...rest, LC_ALL: 'C', DISPLAY: display, XDG_DATA_HOME: join(folder, 'data') };
   const log = openSync(join(folder, 'log'), 'a');
   const child = spawn(program, ['play', ...scene, '--hook'], { cwd: folder, env, stdio: ['pipe', 'pipe', log] });
   const ended = new Promise((done) => child.once('exit', (code, signal) => done(signal ?? code)));

@@ -23,6 +23,7 @@ use crate::{
 };
 use bevy::prelude::{Res, ResMut, Resource, World};
 use std::sync::Arc;
+use tr::tr;
 
 /// Whether the try that is judged is the player's own, and waits for its end.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -96,6 +97,7 @@ pub fn refuses(world: &mut World, order: &Order) -> bool {
         Order::Effect(..) => "switching effects",
         Order::Throw(_) => "throwing",
         Order::Mix(_) => "mixing",
+        Order::SetSource(..) => "springs and drains",
         Order::Act(Action::ClearAir) => "clearing the air",
         Order::Act(Action::Rewind) => "going back in time",
         _ => return false,
@@ -122,7 +124,7 @@ pub fn see_the_end(judge: Res<Judge>, attempt: Res<Attempt>, mut earned: ResMut<
     if earned.of(name).with(stars) != earned.of(name)
         && let Err(error) = earned.add(name, stars)
     {
-        toasts.warn(format!("The stars are not kept for the next session: {error}"));
+        toasts.warn(tr!("The stars are not kept for the next session: {}", error));
     }
 }
 

@@ -2,7 +2,7 @@
 //! through here.
 
 use crate::{
-    game::{toasts::Toasts, tools::spaced},
+    game::{language::spoken, toasts::Toasts, tools::spaced},
     sim::{
         generation::Generation,
         intent::Intent,
@@ -14,6 +14,7 @@ use bevy::{
     ecs::system::SystemParam,
     prelude::{Res, ResMut},
 };
+use tr::tr;
 
 /// Sees all that a hand does.
 #[derive(SystemParam)]
@@ -48,6 +49,7 @@ impl Referee<'_> {
 
 /// What is said to a player who wants something that a challenge does not give.
 pub fn refusal(trial: &Trial, lacking: &str) -> String {
-    let means: Vec<String> = trial.challenge.means.iter().map(spaced).collect();
-    format!("No {} in this challenge: you have {}", spaced(lacking), means.join(" and "))
+    let means: Vec<String> = trial.challenge.means.iter().map(|name| spoken(&spaced(name))).collect();
+    let (lacking, means) = (spoken(&spaced(lacking)), means.join(&tr!(" and ")));
+    tr!("No {lacking} in this challenge: you have {means}", lacking, means)
 }

@@ -29,6 +29,7 @@ use std::{
     thread::{self, JoinHandle},
     time::{Duration, Instant},
 };
+use tr::tr;
 
 /// What the names of journals begin with.
 pub const PREFIX: &str = "running-";
@@ -145,7 +146,7 @@ fn keep_up(journal: Res<SharedJournal>, mut toasts: ResMut<Toasts>) {
         journal.tell_news();
     }
     if let Some(fault) = journal.fault() {
-        toasts.warn(format!("Played on, but a crash would lose it: {fault}"));
+        toasts.warn(tr!("Played on, but a crash would lose it: {}", fault));
     }
 }
 

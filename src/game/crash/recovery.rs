@@ -25,6 +25,7 @@ use std::{
     },
     thread::{self, JoinHandle},
 };
+use tr::tr;
 
 /// A game that did not end well. As long as this is there, its file is locked: no other game offers it.
 #[derive(Debug)]
@@ -172,7 +173,7 @@ pub fn update(world: &mut World) {
         Stage::Restoring(found, job) if job.is_finished() => {
             match job.join().ok().flatten() {
                 Some((saved, reach)) => go_on(world, saved, reach),
-                None => world.resource_mut::<Toasts>().warn("The world can't be restored"),
+                None => world.resource_mut::<Toasts>().warn(tr!("The world can't be restored")),
             }
             remove(world, &found);
             Stage::Nothing
@@ -194,14 +195,14 @@ fn decide(world: &mut World, found: Found, choice: Option<Choice>, done: &Arc<At
             return match thread::Builder::new().name("restore".to_owned()).spawn(work) {
                 Ok(job) => Stage::Restoring(found, job),
                 Err(error) => {
-                    world.resource_mut::<Toasts>().warn(format!("The world can't be restored: {error}"));
+                    world.resource_mut::<Toasts>().warn(tr!("The world can't be restored: {}", error));
                     Stage::Offered(found)
                 }
             };
         }
         Some(Choice::Earlier) => match found.last().map(Segment::start) {
             Some(Ok(saved)) => go_on(world, saved, Reach::LastState),
-            _ => world.resource_mut::<Toasts>().warn("The world can't be restored"),
+            _ => world.resource_mut::<Toasts>().warn(tr!("The world can't be restored")),
         },
         Some(Choice::Forget) => {}
     }
@@ -211,7 +212,7 @@ fn decide(world: &mut World, found: Found, choice: Option<Choice>, done: &Arc<At
 
 fn remove(world: &mut World, found: &Found) {
     if let Err(error) = fs::remove_file(&found.path) {
-        world.resource_mut::<Toasts>().warn(format!("{}: can't be removed: {error}", found.path.display()));
+        world.resource_mut::<Toasts>().warn(tr!("{}: can't be removed: {}", found.path.display(), error));
     }
 }
 
@@ -244,10 +245,10 @@ fn go_on(world: &mut World, saved: Checkpoint, reach: Reach) {
     saved.restore(world);
     *world.resource_mut::<Pace>() = Pace { paused: true, steps_due: 0, ..*world.resource::<Pace>() };
     let key = world.resource::<Bindings>().key(Action::Pause);
-    let how = match reach {
-        Reach::Whole => "Restored",
-        Reach::LastTick => "Restored without the last edits, which it does not survive",
-        Reach::LastState => "Restored as it was kept last",
+    let told = match reach {
+        Reach::Whole => tr!("Restored: {} lets time go on", key),
+        Reach::LastTick => tr!("Restored without the last edits, which it does not survive: {} lets time go on", key),
+        Reach::LastState => tr!("Restored as it was kept last: {} lets time go on", key),
     };
-    world.resource_mut::<Toasts>().say(format!("{how}: {key} lets time go on"));
+    world.resource_mut::<Toasts>().say(told);
 }

@@ -28,6 +28,7 @@ use crate::{
 use bevy::prelude::{Mut, World};
 use glam::Vec2;
 use std::{env, path::PathBuf};
+use tr::tr;
 
 /// The pointer's pixel, if it is over the world.
 fn pointed(world: &World) -> Option<Vec2> {
@@ -54,7 +55,7 @@ pub fn set_end(world: &mut World) {
     let Some(setup) = world.get_resource::<Setup>() else { return };
     let (scale, key) = (setup.blueprint.scale, world.resource::<Bindings>().key(Action::GaugeLine));
     let Some(pixel) = pointed(world) else {
-        let told = format!("Point at the world: {key} begins a line there, and {key} again ends it");
+        let told = tr!("Point at the world: {key} begins a line there, and {key} again ends it", key);
         return world.resource_mut::<Toasts>().say(told);
     };
     let at = scale.vec_to_metres(world.resource::<WorldCamera>().to_world(pixel));
@@ -66,7 +67,8 @@ pub fn set_end(world: &mut World) {
         }
         None => {
             world.resource_mut::<GaugeDesk>().begin(scene, at);
-            world.resource_mut::<Toasts>().say(format!("The line begins here: {key} again ends it, Esc lays it down"));
+            let told = tr!("The line begins here: {key} again ends it, Esc lays it down", key);
+            world.resource_mut::<Toasts>().say(told);
         }
     }
 }
@@ -89,7 +91,7 @@ fn set(world: &mut World, place: Place) {
             }
             open(world);
         }
-        Err(what) => world.resource_mut::<Toasts>().warn(format!("No gauge: {what}")),
+        Err(what) => world.resource_mut::<Toasts>().warn(tr!("No gauge: {}", what)),
     }
 }
 
@@ -109,7 +111,7 @@ pub fn select(world: &mut World, number: u32) {
 /// Takes a gauge away.
 pub fn remove(world: &mut World, number: u32) {
     if world.resource_mut::<Gauges>().remove(number) {
-        world.resource_mut::<Toasts>().say(format!("Gauge {number} is gone"));
+        world.resource_mut::<Toasts>().say(tr!("Gauge {} is gone", number));
     }
 }
 
@@ -127,7 +129,7 @@ pub fn save(world: &mut World) {
     let written = disk::give(&path, table::text(world.resource::<Gauges>()).as_bytes());
     let mut toasts = world.resource_mut::<Toasts>();
     match written {
-        Ok(()) => toasts.say(format!("Readings: {}", path.display())),
-        Err(error) => toasts.warn(format!("The readings are not saved: {}: {error}", path.display())),
+        Ok(()) => toasts.say(tr!("Readings: {}", path.display())),
+        Err(error) => toasts.warn(tr!("The readings are not saved: {}: {}", path.display(), error)),
     }
 }

@@ -12,6 +12,7 @@ use crate::{
         },
         icons,
         input::bindings::Bindings,
+        language::spoken,
         orders::{Order, Orders},
         panels::Panels,
         sound::{Output, volume::Volume},
@@ -28,6 +29,7 @@ use bevy_egui::{
     EguiContexts,
     egui::{self, Align, Color32, Layout, RichText, Ui, vec2},
 };
+use tr::tr;
 
 /// Below this width the menus lose their names, points.
 const NARROW: f32 = 1080.0;
@@ -81,12 +83,13 @@ pub fn show(mut contexts: EguiContexts, shows: Shows, mut bars: ResMut<Bars>, mu
 
 /// That there is a recording, and how long it is.
 fn recording(ui: &mut Ui, ticks: u64, bindings: &Bindings) {
+    let key = bindings.key(Action::Record);
+    let tip = tr!("recording ({} ends it)", key);
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.x = 5.0;
         dot(ui, style::BAD);
         let seconds = ticks / u64::from(TICKS_PER_SECOND);
-        ui.label(RichText::new(format!("{}:{:02}", seconds / 60, seconds % 60)).color(style::BAD))
-            .on_hover_text(format!("recording ({} ends it)", bindings.key(Action::Record)));
+        ui.label(RichText::new(format!("{}:{:02}", seconds / 60, seconds % 60)).color(style::BAD)).on_hover_text(tip);
     });
 }
 
@@ -129,7 +132,7 @@ fn dot(ui: &mut Ui, colour: Color32) {
 fn menus(ui: &mut Ui, narrow: bool, shows: &Shows, orders: &mut Orders) {
     let Shows { panels, setup, view: shown, bindings, .. } = shows;
     ui.spacing_mut().item_spacing.x = 6.0;
-    let text = |text| if narrow { "" } else { text };
+    let text = |text: String| if narrow { String::new() } else { text };
     for (panel, open) in panels.iter().filter(|(panel, _)| panel.in_bar) {
         action_button(ui, panel.icon, "", Action::Panel(panel.id), open, (bindings, orders));
     }
@@ -137,39 +140,40 @@ fn menus(ui: &mut Ui, narrow: bool, shows: &Shows, orders: &mut Orders) {
     hold_button(ui, icons::rewind, Action::Rewind, shows.pace.rewinds, (bindings, orders));
     volume(ui, shows, orders);
     let quality = quality_name(setup.preset, &setup.quality);
-    let quality = icon_button(ui, (icons::gauge, "quality"), text(&quality), false);
+    let quality = icon_button(ui, (icons::gauge, &tr!("quality")), &text(quality), false);
     if let Some(preset) = quality_menu(&quality, setup.preset) {
         orders.push(Order::Quality(preset));
     }
-    let view = icon_button(ui, (icons::eye, "view"), text(shown.0.name), *shown.0 != ELEMENTS);
-    menu(&view, "View", |ui| {
+    let view = icon_button(ui, (icons::eye, &tr!("view")), &text(spoken(shown.0.name)), *shown.0 != ELEMENTS);
+    menu(&view, &tr!("View"), |ui| {
         for view in VIEWS {
-            if row(ui, view.name, &bindings.key(Action::View(view)), view == shown.0) {
+            if row(ui, &spoken(view.name), &bindings.key(Action::View(view)), view == shown.0) {
                 orders.push(Order::Act(Action::View(view)));
             }
         }
     });
-    let (title, open) = (text(&setup.blueprint.title), panels.shows(scenes::PANEL.id));
-    action_button(ui, icons::scenes, title, Action::Panel(scenes::PANEL.id), open, (bindings, orders));
+    let (title, open) = (text(spoken(&setup.blueprint.title)), panels.shows(scenes::PANEL.id));
+    action_button(ui, icons::scenes, &title, Action::Panel(scenes::PANEL.id), open, (bindings, orders));
 }
 
 /// The loudspeaker, and under it how loud it is.
 fn volume(ui: &mut Ui, Shows { volume, output, bindings, .. }: &Shows, orders: &mut Orders) {
     let (plays, silent) = (output.may_play(), volume.gain() == 0.0);
-    let button = icon_button(ui, (if silent || !plays { icons::muted } else { icons::sound }, "sound"), "", false);
+    let icon = if silent || !plays { icons::muted } else { icons::sound };
+    let button = icon_button(ui, (icon, &tr!("sound")), "", false);
     if !plays {
-        button.on_hover_text("There is no sound: this machine has no output for it");
+        button.on_hover_text(tr!("There is no sound: this machine has no output for it"));
         return;
     }
-    menu(&button, "Volume", |ui| {
+    menu(&button, &tr!("Volume"), |ui| {
         let mut level = volume.level();
         let slider = egui::Slider::new(&mut level, 0.0..=1.0).show_value(false);
         let moved = ui.add(slider);
-        moved.widget_info(|| egui::WidgetInfo::slider(true, f64::from(level), "volume"));
+        moved.widget_info(|| egui::WidgetInfo::slider(true, f64::from(level), tr!("volume")));
         if moved.changed() {
             orders.push(Order::Volume(level));
         }
-        if row(ui, "mute", &bindings.key(Action::Mute), volume.is_muted()) {
+        if row(ui, &tr!("mute"), &bindings.key(Action::Mute), volume.is_muted()) {
             orders.push(Order::Act(Action::Mute));
         }
     });

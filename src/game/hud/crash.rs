@@ -8,6 +8,7 @@ use crate::{
             widgets::main_button,
             window::{MIDDLE, window},
         },
+        language::spoken,
     },
     kernel::units::TICKS_PER_SECOND,
     sim::numbers::grouped,
@@ -17,6 +18,7 @@ use bevy_egui::{
     EguiContexts,
     egui::{self, Ui},
 };
+use tr::tr;
 
 /// Width of the window, points.
 const WIDTH: f32 = 400.0;
@@ -30,7 +32,8 @@ pub fn show(mut contexts: EguiContexts, recovery: Option<ResMut<Recovery>>) -> R
     let open = window(contexts.ctx_mut()?, "The game ended unexpectedly", MIDDLE, |ui| {
         ui.set_width(WIDTH);
         let seconds = tick as f64 / f64::from(TICKS_PER_SECOND);
-        ui.label(format!("{title}, tick {} ({seconds:.1} s), can be restored; it will be paused.", grouped(tick)));
+        let (title, tick, seconds) = (spoken(&title), grouped(tick), format!("{seconds:.1}"));
+        ui.label(tr!("{title}, tick {tick} ({seconds} s), can be restored; it will be paused.", title, tick, seconds));
         ui.add_space(8.0);
         choice = buttons(ui, progress, ticks);
     });
@@ -51,17 +54,17 @@ fn buttons(ui: &mut Ui, progress: Option<f32>, ticks: u64) -> Option<Choice> {
                 ui.add(egui::ProgressBar::new(share).desired_width(120.0).show_percentage());
             }
             None => {
-                if main_button(ui, "Restore").on_hover_text("the world just before the end").clicked() {
+                if main_button(ui, &tr!("Restore")).on_hover_text(tr!("the world just before the end")).clicked() {
                     choice = Some(Choice::Restore);
                 }
             }
         }
         let seconds = ticks as f64 / f64::from(TICKS_PER_SECOND);
-        let why = "the state that was kept last, if the end is what went wrong";
-        if ticks > 0 && ui.button(format!("{seconds:.0} s earlier")).on_hover_text(why).clicked() {
+        let why = tr!("the state that was kept last, if the end is what went wrong");
+        if ticks > 0 && ui.button(tr!("{} s earlier", format_args!("{seconds:.0}"))).on_hover_text(why).clicked() {
             choice = Some(Choice::Earlier);
         }
-        if ui.button(weak("Forget")).on_hover_text("delete it").clicked() {
+        if ui.button(weak(tr!("Forget"))).on_hover_text(tr!("delete it")).clicked() {
             choice = Some(Choice::Forget);
         }
     });

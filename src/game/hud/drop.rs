@@ -9,6 +9,7 @@ use bevy_egui::{
     EguiContexts,
     egui::{self, Align2, Color32, CornerRadius, FontId, LayerId, Order, Stroke, StrokeKind, vec2},
 };
+use tr::tr;
 
 /// Longest name that is shown, characters.
 const LONGEST: usize = 48;
@@ -26,12 +27,12 @@ pub fn show(mut contexts: EguiContexts, hovering: Res<Hovering>) -> Result {
     painter.rect_filled(card, CornerRadius::same(10), PANEL);
     let (upper, lower) = (card.center() - vec2(0.0, 16.0), card.center() + vec2(0.0, 18.0));
     let text = if hovering.0.len() == 1 {
-        format!("Drop to open {}", shortened(first))
+        tr!("Drop to open {}", shortened(first))
     } else {
-        format!("Drop to open {} files, one after the other", hovering.0.len())
+        tr!("Drop to open {} files, one after the other", hovering.0.len())
     };
     painter.text(upper, Align2::CENTER_CENTER, text, FontId::proportional(16.0), TEXT);
-    let what = "a save, a picture with its world, a recording or a scene; undo goes back";
+    let what = tr!("a save, a picture with its world, a recording or a scene; undo goes back");
     painter.text(lower, Align2::CENTER_CENTER, what, FontId::proportional(12.0), WEAK);
     Ok(())
 }

@@ -1,13 +1,14 @@
 //! What becomes of an element, and by what: for its card.
 
 use crate::{
-    game::tools::spaced,
+    game::{language::spoken, tools::spaced},
     kernel::{
         element::{Element, ElementTable, ElementTouch},
         heat::units::CELSIUS,
     },
     sim::numbers::grouped,
 };
+use tr::tr;
 
 /// What happens to an element and what it becomes then, as a card says it.
 pub fn fates(elements: &ElementTable, element: &Element) -> Vec<(String, String)> {
@@ -15,20 +16,20 @@ pub fn fates(elements: &ElementTable, element: &Element) -> Vec<(String, String)
     let mut fates = Vec::new();
     for change in &element.changes {
         let when = match (change.above, change.below) {
-            (Some(above), _) => format!("above {}", degrees(above)),
-            (None, below) => format!("below {}", degrees(below.unwrap_or_default())),
+            (Some(above), _) => tr!("above {}", degrees(above)),
+            (None, below) => tr!("below {}", degrees(below.unwrap_or_default())),
         };
         fates.push((when, listed(&change.into)));
     }
     if let Some(decay) = &element.decays {
         let when = match decay.above {
-            Some(above) => format!("burns from {}", degrees(above)),
-            None => format!("in some {} s", decay.seconds),
+            Some(above) => tr!("burns from {}", degrees(above)),
+            None => tr!("in some {} s", decay.seconds),
         };
         fates.push((when, listed(&decay.into)));
     }
     if let Some(breaks) = &element.breaks {
-        fates.push(("burst".to_owned(), spaced(&breaks.into)));
+        fates.push((tr!("burst"), spoken(&spaced(&breaks.into))));
     }
     // A row that says what becomes of two stands with one of them.
     for (_, other) in elements.iter() {
@@ -42,7 +43,8 @@ pub fn fates(elements: &ElementTable, element: &Element) -> Vec<(String, String)
                 },
                 (None, None) => continue,
             };
-        fates.push((format!("with {}", spaced(&with)), listed(&[first, second])));
+        let with = spoken(&spaced(&with));
+        fates.push((tr!("with {}", with), listed(&[first, second])));
     }
     fates
 }
@@ -54,7 +56,7 @@ fn touch_of(element: &Element, with: &str) -> Option<ElementTouch> {
 /// Names, each once.
 fn listed(names: &[String]) -> String {
     let mut each: Vec<String> = Vec::new();
-    for name in names.iter().map(|name| spaced(name)) {
+    for name in names.iter().map(|name| spoken(&spaced(name))) {
         if !each.contains(&name) {
             each.push(name);
         }

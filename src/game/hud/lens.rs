@@ -26,6 +26,7 @@ use bevy_egui::{
     egui::{self, Color32, Painter, Pos2, RichText, Stroke, pos2},
 };
 use std::time::Duration;
+use tr::tr;
 
 /// Strokes that the glow is made of.
 const GLOW: usize = 7;
@@ -96,7 +97,7 @@ fn times(second: Duration, first: Duration) -> Option<String> {
 fn told(part: Part, equal: bool, scale: Scale) -> String {
     let is_nothing = part.liquid.unwrap_or(0.0) == 0.0 && part.wind.unwrap_or(0.0) == 0.0;
     if is_nothing {
-        return nothing(equal).to_owned();
+        return nothing(equal);
     }
     amounts(part.liquid, part.wind, scale).collect::<Vec<_>>().join(", ")
 }
@@ -118,9 +119,9 @@ fn label(context: &egui::Context, at: Pos2, cost: Option<&str>, difference: &str
             let card = egui::Frame::new().fill(style::PANEL).stroke(Stroke::new(1.0, style::LINE)).corner_radius(8);
             card.inner_margin(egui::Margin::symmetric(10, 4)).show(ui, |ui| {
                 ui.spacing_mut().item_spacing.y = 0.0;
-                let cost = cost.map_or_else(String::new, |cost| format!("  {cost} the time"));
+                let cost = cost.map_or_else(String::new, |cost| format!("  {}", tr!("{cost} the time", cost)));
                 ui.label(RichText::new(format!("{}{cost}", TRUTH.name())).color(style::ACCENT));
-                ui.label(weak(format!("difference: {difference}")).small());
+                ui.label(weak(tr!("difference: {difference}", difference)).small());
             });
         });
     });

@@ -24,6 +24,7 @@ pub mod panels;
 pub mod probe;
 pub mod rewind;
 pub mod split;
+pub mod springs;
 pub mod stamps;
 pub mod stats;
 pub mod style;
@@ -83,6 +84,7 @@ impl Plugin for HudPlugin {
                         stamps::strip::show,
                         probe::show,
                         museum::show,
+                        springs::show,
                         gauges::show,
                         split::show,
                         lens::show,

@@ -16,6 +16,7 @@ use crate::{
         },
         icons::{self, Icon},
         input::bindings::Bindings,
+        language::spoken,
         orders::{Order, Orders},
         panels::Panels,
         toolbox::{BRUSH_RANGE, Toolbox},
@@ -31,6 +32,7 @@ use bevy_egui::{
     EguiContexts,
     egui::{self, Align, Align2, Layout, RichText, Ui, vec2},
 };
+use tr::tr;
 
 /// Size of a tile where there is room for it, points.
 const TILE: egui::Vec2 = vec2(54.0, 50.0);
@@ -159,8 +161,8 @@ fn all(ui: &mut Ui, size: egui::Vec2, shows: &Shows, orders: &mut Orders) {
     let (panel, action) = (&elements::PANEL, Action::Panel(elements::PANEL.id));
     let face = Face {
         icon: (panel.icon, style::TEXT),
-        label: "elements",
-        name: bindings.help(action),
+        label: &tr!("elements"),
+        name: &bindings.help(action),
         key: &bindings.key(action),
         chosen: panels.shows(panel.id),
     };
@@ -187,17 +189,18 @@ fn brush(ui: &mut Ui, narrow: bool, tools: &mut ResMut<Toolbox>, bindings: &Bind
         vec2(30.0, 20.0),
         egui::Label::new(RichText::new(format!("{:.0} d", 2.0 * tools.radius())).color(style::WEAK)),
     )
-    .on_hover_text("width of the brush in particle spacings");
+    .on_hover_text(tr!("width of the brush in particle spacings"));
     // One above the other, as high as a tile together.
     ui.allocate_ui_with_layout(vec2(SMALL.x, TILE.y), Layout::top_down(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.y = TILE.y - 2.0 * SMALL.y;
         let (name, tip) = (bindings.help(Action::BrushShape), bindings.tip(Action::BrushShape));
-        if small_button(ui, tools.shape_icon(), (name, &tip), false) {
+        if small_button(ui, tools.shape_icon(), (&name, &tip), false) {
             orders.push(Order::Act(Action::BrushShape));
         }
         let (mode, is_element) = (tools.mode(), matches!(tools.tool, Tool::Element(_)));
         ui.add_enabled_ui(is_element, |ui| {
-            let name = format!("what the brush does: {}", mode.name());
+            let mode_name = spoken(mode.name());
+            let name = tr!("what the brush does: {}", mode_name);
             if small_button(ui, mode.icon(), (&name, &modes_tip(bindings)), mode != BrushMode::Draw) {
                 orders.push(Order::Act(Action::NextBrushMode));
             }
@@ -208,15 +211,22 @@ fn brush(ui: &mut Ui, narrow: bool, tools: &mut ResMut<Toolbox>, bindings: &Bind
 /// What the brush can do, with the keys.
 fn modes_tip(bindings: &Bindings) -> String {
     let key = |mode| bindings.key(Action::BrushMode(mode));
-    let (replace, only) = (key(BrushMode::Replace), key(BrushMode::EraseOnly));
-    format!("What the brush does: draw; replace what is there ({replace}); erase only the chosen element ({only})")
+    let [replace, only, spring] = [BrushMode::Replace, BrushMode::EraseOnly, BrushMode::Spring].map(key);
+    tr!(
+        "What the brush does: draw; replace what is there ({replace}); erase only the chosen element ({only}); set springs and \
+         drains ({spring})",
+        replace,
+        only,
+        spring
+    )
 }
 
 /// How the size of the brush is changed by wheel and keys.
 fn size_tip(bindings: &Bindings) -> String {
     let [smaller, larger] = [-1, 1].map(|steps| bindings.chords(Action::Brush(steps)));
     let keys: Vec<String> = smaller.iter().chain(&larger).map(ToString::to_string).collect();
-    format!("size of the brush (wheel, {})", keys.join(" and "))
+    let keys = keys.join(&tr!(" and "));
+    tr!("size of the brush (wheel, {})", keys)
 }
 
 /// A button with an icon, half as high as a tile; whether it was pressed.
@@ -232,7 +242,7 @@ fn size_of_brush(ui: &mut Ui, tools: &mut ResMut<Toolbox>, bindings: &Bindings) 
     ui.spacing_mut().slider_width = BRUSH;
     let slider = egui::Slider::new(&mut radius, BRUSH_RANGE).logarithmic(true).show_value(false);
     let slider = ui.add(slider).on_hover_text(size_tip(bindings));
-    slider.widget_info(|| egui::WidgetInfo::slider(true, f64::from(radius), "size of the brush"));
+    slider.widget_info(|| egui::WidgetInfo::slider(true, f64::from(radius), tr!("size of the brush")));
     if slider.changed() {
         tools.set_radius(radius);
     }

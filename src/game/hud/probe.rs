@@ -5,6 +5,7 @@ use crate::{
         camera::WorldCamera,
         hud::style::{LINE, PANEL, SMALL, TEXT, WEAK},
         input::pointer::{HudCover, Pointer},
+        language::spoken,
         lump::Lump,
         panels::Panels,
         tools::spaced,
@@ -81,10 +82,12 @@ fn card(ui: &mut Ui, add: impl FnOnce(&mut Ui)) {
 /// Name, temperature, what it is changing into, and speed.
 fn describe(setup: &Setup, curves: &HeatCurves, lump: Lump) -> Vec<String> {
     let (elements, curve) = (setup.elements(), curves.curve(lump.element));
-    let mut text =
-        vec![spaced(&elements.get(lump.element).name), format!("{:.0} °C", curve.temperature(lump.heat) - CELSIUS)];
+    let mut text = vec![
+        spoken(&spaced(&elements.get(lump.element).name)),
+        format!("{:.0} °C", curve.temperature(lump.heat) - CELSIUS),
+    ];
     if let Some((change, share)) = curve.begun(lump.heat) {
-        let into = change.into.iter().flatten().next().map(|id| spaced(&elements.get(*id).name));
+        let into = change.into.iter().flatten().next().map(|id| spoken(&spaced(&elements.get(*id).name)));
         text.push(format!("{:.0} % {}", 100.0 * share, into.unwrap_or_default()));
     }
     if let Some(velocity) = lump.velocity {
@@ -111,7 +114,7 @@ fn legend(ui: &mut Ui, view: &View) {
     for (share, text) in view.legend {
         painter.vline(at(*share), bar.min.y..=bar.max.y + 3.0, egui::Stroke::new(1.0, TEXT));
         // Below its mark, and never beyond the card.
-        let text = painter.layout_no_wrap((*text).to_owned(), font.clone(), TEXT);
+        let text = painter.layout_no_wrap(spoken(text), font.clone(), TEXT);
         let room = rect.max.x - text.size().x;
         let left = (at(*share) - 0.5 * text.size().x).clamp(rect.min.x, room.max(rect.min.x));
         painter.galley(pos2(left, rect.max.y - text.size().y), text, TEXT);

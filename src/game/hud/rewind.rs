@@ -5,6 +5,7 @@ use crate::{
         camera::WorldCamera,
         hud::style::{self, weak},
         icons,
+        language::spoken,
         rewind::{Rewind, seconds},
     },
     sim::recorder::REWIND_TICKS,
@@ -14,6 +15,7 @@ use bevy_egui::{
     EguiContexts,
     egui::{self, Align2, CornerRadius, Sense, vec2},
 };
+use tr::tr;
 
 /// Size of the bar that shows how much is left, points.
 const BAR: egui::Vec2 = vec2(150.0, 6.0);
@@ -33,7 +35,7 @@ pub fn show(mut contexts: EguiContexts, rewind: Res<Rewind>, camera: Res<WorldCa
                 ui.horizontal(|ui| {
                     let (place, _) = ui.allocate_exact_size(vec2(16.0, 16.0), Sense::hover());
                     icons::draw(ui.painter(), place, icons::rewind, style::ACCENT);
-                    ui.label(format!("{:.1} s back", seconds(ticks)));
+                    ui.label(tr!("{} s back", format_args!("{:.1}", seconds(ticks))));
                     let (place, _) = ui.allocate_exact_size(BAR, Sense::hover());
                     ui.painter().rect_filled(place, CornerRadius::same(3), style::BUTTON);
                     let left = 1.0 - (ticks as f32 / REWIND_TICKS as f32).min(1.0);
@@ -41,7 +43,7 @@ pub fn show(mut contexts: EguiContexts, rewind: Res<Rewind>, camera: Res<WorldCa
                     ui.painter().rect_filled(left, CornerRadius::same(3), style::ACCENT);
                 });
                 if let Some(why) = end {
-                    ui.label(weak(why).small());
+                    ui.label(weak(spoken(why)).small());
                 }
             });
         });

@@ -35,6 +35,7 @@ use bevy_egui::{
     EguiContexts,
     egui::{self, Align, Color32, Layout, Sense, Ui, vec2},
 };
+use tr::tr;
 
 /// Size of the scale of the heat map, points.
 const SCALE: egui::Vec2 = vec2(96.0, 9.0);
@@ -76,12 +77,12 @@ pub fn show(
     let equal = (own.quality, own.blueprint.scale) == (setup.quality, setup.blueprint.scale);
     let apart = apart(&difference, equal, setup.blueprint.scale, split.age(clock.tick));
     line(context, "split difference", at_c, |ui| {
-        ui.label("Difference");
-        ui.label(weak(apart)).on_hover_text(format!(
+        ui.label(tr!("Difference"));
+        ui.label(weak(apart)).on_hover_text(tr!(
             "In each cell of 4 d: liquid that one world has there and the other not, or flow in another way, on average; \
-             and the air's velocity, root mean square. Full heat: all the liquid, or {} % of the speed of a fall through \
-             the box; where there is no liquid, a strong wind.\nB starts again from A when you choose its quality, or \
-             both come to have the same.",
+             and the air's velocity, root mean square. Full heat: all the liquid, or {} % of the speed of a fall \
+             through the box; where there is no liquid, a strong wind.\nB starts again from A when you choose its \
+             quality, or both come to have the same.",
             100.0 * FULL_SPEED
         ));
         if ui.available_width() > SCALE.x + 20.0 {
@@ -116,11 +117,11 @@ fn facts(ui: &mut Ui, name: &str, setup: &Setup, ledger: &PassLedger, error: &Li
     let font = egui::TextStyle::Button.resolve(ui.style());
     ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, name, font, Color32::WHITE);
     let quality = quality_name(setup.preset, &setup.quality);
-    let button = icon_button(ui, (icons::gauge, &format!("quality of {name}")), &quality, false);
+    let button = icon_button(ui, (icons::gauge, &tr!("quality of {}", name)), &quality, false);
     let chosen = quality_menu(&button, setup.preset);
     ui.label(format!("{:.2} ms", ledger.tick().median().as_secs_f32() * 1000.0));
     if let (Some(mean), true) = (error.mean(), ui.available_width() > 130.0) {
-        ui.label(weak(format!("error {}", percent(mean))));
+        ui.label(weak(tr!("error {}", percent(mean))));
     }
     chosen
 }
@@ -128,22 +129,22 @@ fn facts(ui: &mut Ui, name: &str, setup: &Setup, ledger: &PassLedger, error: &Li
 /// How far the worlds are apart, in words, if their qualities are `equal` or not, `age` ticks after they were the same.
 fn apart(difference: &Difference, equal: bool, scale: Scale, age: Option<u64>) -> String {
     if difference.is_nothing() {
-        return nothing(equal).to_owned();
+        return nothing(equal);
     }
-    let age = age.map(|ticks| format!("after {:.1} s", ticks as f32 * TICK_SECONDS));
+    let age = age.map(|ticks| tr!("after {} s", format_args!("{:.1}", ticks as f32 * TICK_SECONDS)));
     let parts: Vec<String> = amounts(difference.liquid(), difference.wind(), scale).chain(age).collect();
     parts.join(", ")
 }
 
 /// That worlds do not differ, and whether they could.
-pub(super) fn nothing(equal: bool) -> &'static str {
-    if equal { "none, the qualities are equal" } else { "none" }
+pub(super) fn nothing(equal: bool) -> String {
+    if equal { tr!("none, the qualities are equal") } else { tr!("difference" => "none") }
 }
 
 /// A difference of liquid and of air (d/s), each with its unit.
 pub(super) fn amounts(liquid: Option<f32>, wind: Option<f32>, scale: Scale) -> impl Iterator<Item = String> {
-    let liquid = liquid.map(|mean| format!("liquid {}", percent(mean)));
-    let air = wind.map(|wind| format!("air {} m/s", short(scale.to_metres(wind))));
+    let liquid = liquid.map(|mean| tr!("liquid {}", percent(mean)));
+    let air = wind.map(|wind| tr!("air {} m/s", short(scale.to_metres(wind))));
     [liquid, air].into_iter().flatten()
 }
 

@@ -1,7 +1,7 @@
 //! The numbers in the upper left corner: read a few times a second, so that they can be read, and formatted only then.
 
 use crate::{
-    game::{frame::Tempo, hud::style, tools::spaced},
+    game::{frame::Tempo, hud::style, language::spoken, tools::spaced},
     sim::{
         numbers::grouped,
         pace::Pace,
@@ -10,6 +10,7 @@ use crate::{
 };
 use bevy::prelude::{DetectChanges, Real, Res, ResMut, Resource, Time};
 use bevy_egui::egui::{Color32, RichText, Ui};
+use tr::tr;
 
 /// Time between two readings, s.
 const INTERVAL: f32 = 0.25;
@@ -55,13 +56,13 @@ pub fn read(
     }
     readings.next = INTERVAL;
     readings.pace = pace_readings(&tempo, &pace);
-    readings.total =
-        Reading { value: grouped(u64::from(census.total)), unit: "particles".into(), warning: census.full };
+    readings.total = Reading { value: grouped(u64::from(census.total)), unit: tr!("particles"), warning: census.full };
     readings.elements.clear();
     for (id, element) in setup.elements().iter() {
         let count = census.by_element.get(id.index()).copied().unwrap_or(0);
         if count > 0 {
-            let reading = Reading { value: grouped(u64::from(count)), unit: spaced(&element.name), warning: false };
+            let reading =
+                Reading { value: grouped(u64::from(count)), unit: spoken(&spaced(&element.name)), warning: false };
             readings.elements.push((element.colour, reading));
         }
     }
@@ -69,18 +70,18 @@ pub fn read(
 }
 
 fn pace_readings(tempo: &Tempo, pace: &Pace) -> Vec<Reading> {
-    let reading = |value: String, unit: &str, warning| Reading { value, unit: unit.into(), warning };
-    let mut readings = vec![reading(format!("{:.0}", tempo.frames_per_second), "FPS", false)];
+    let reading = |value: String, unit: String, warning| Reading { value, unit, warning };
+    let mut readings = vec![reading(format!("{:.0}", tempo.frames_per_second), tr!("FPS"), false)];
     if pace.paused {
-        readings.push(reading("paused".into(), "", true));
+        readings.push(reading(tr!("paused"), String::new(), true));
         return readings;
     }
     if let Some(share) = tempo.lag {
         let speed = share * pace.speed;
         let digits = if speed < 0.1 { 2 } else { 1 };
-        readings.push(reading(format!("{speed:.digits$}×"), "speed", true));
+        readings.push(reading(format!("{speed:.digits$}×"), tr!("speed"), true));
     } else if pace.speed != 1.0 {
-        readings.push(reading(format!("{}×", pace.speed), "speed", false));
+        readings.push(reading(format!("{}×", pace.speed), tr!("speed"), false));
     }
     readings
 }

@@ -147,8 +147,8 @@ mod tests {
     use bevy_egui::egui::epaint::text::{FontsImpl, TextOptions};
     use std::{fs, path::Path};
 
-    /// Texts that the screen shows: code (less its comments), elements and scenes.
-    const SHOWN: [&str; 9] = [
+    /// Texts that the screen shows: code (less its comments), elements, scenes, and all of these in other languages.
+    const SHOWN: [&str; 10] = [
         "src/game",
         "src/lab/exam/exhibits.rs",
         "src/lab/live",
@@ -158,6 +158,7 @@ mod tests {
         "assets/elements.ron",
         "assets/scenes",
         "assets/challenges",
+        "assets/texts",
     ];
 
     fn texts(path: &Path) -> Vec<(String, String)> {
@@ -165,7 +166,7 @@ mod tests {
             let entries = fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path());
             return entries.filter(|path| !path.ends_with("tests")).flat_map(|path| texts(&path)).collect();
         }
-        let is_text = path.extension().is_some_and(|kind| kind == "rs" || kind == "ron");
+        let is_text = path.extension().is_some_and(|kind| kind == "rs" || kind == "ron" || kind == "po");
         let text = if is_text { fs::read_to_string(path).unwrap() } else { String::new() };
         let lines = text.lines().filter(|line| !line.trim_start().starts_with("//"));
         lines.map(|line| (path.display().to_string(), line.to_owned())).collect()

@@ -6,11 +6,10 @@ use crate::{
 };
 use bevy::prelude::ResMut;
 use bevy_egui::egui::{self, Ui, Vec2};
+use tr::tr;
 
 /// Degrees of a point of a drag.
 const SPEED: f64 = 5.0;
-/// What it is called, and what the pointer is told.
-const NAME: &str = "temperature to set";
 
 /// Shows it in a field of a size (points), if the chosen tool has one.
 pub fn show(ui: &mut Ui, size: Vec2, tools: &mut ResMut<Toolbox>) {
@@ -18,8 +17,8 @@ pub fn show(ui: &mut Ui, size: Vec2, tools: &mut ResMut<Toolbox>) {
     let mut degrees = kelvin - CELSIUS;
     let range = TEMPERATURE_RANGE.start() - CELSIUS..=TEMPERATURE_RANGE.end() - CELSIUS;
     let value = egui::DragValue::new(&mut degrees).range(range).speed(SPEED).max_decimals(0).suffix(" °C");
-    let response = ui.add_sized(size, value).on_hover_text(format!("{NAME}: drag, or click and type"));
-    response.widget_info(|| egui::WidgetInfo::slider(true, f64::from(degrees), NAME));
+    let response = ui.add_sized(size, value).on_hover_text(tr!("temperature to set: drag, or click and type"));
+    response.widget_info(|| egui::WidgetInfo::slider(true, f64::from(degrees), tr!("temperature to set")));
     if response.changed() {
         tools.set_kelvin(degrees + CELSIUS);
     }

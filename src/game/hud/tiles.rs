@@ -12,6 +12,7 @@ use crate::{
         },
         icons::{self, Icon},
         input::{bindings::Bindings, pointer::HudCover},
+        language::spoken,
         tools::{TOOLS, Tool, spaced},
     },
     kernel::element::{Element, ElementTable},
@@ -22,6 +23,7 @@ use bevy::{
     prelude::{Res, ResMut},
 };
 use bevy_egui::egui::{self, Color32, FontId, Response, RichText, Stroke, StrokeKind, Ui, Vec2, vec2};
+use tr::tr;
 
 /// A tile below this width is narrow, points.
 const NARROW: f32 = 52.0;
@@ -149,22 +151,22 @@ fn card(ui: &mut Ui, elements: &ElementTable, element: &Element, key: &str) {
     ui.set_width(CARD);
     ui.spacing_mut().item_spacing.y = 4.0;
     ui.spacing_mut().interact_size.y = 0.0;
-    let name = RichText::new(spaced(&element.name)).size(15.0).color(Color32::WHITE);
-    let key = if key.is_empty() { String::new() } else { format!("key {key}") };
+    let name = RichText::new(spoken(&spaced(&element.name))).size(15.0).color(Color32::WHITE);
+    let key = if key.is_empty() { String::new() } else { tr!("key {}", key) };
     egui::Sides::new().show(ui, |ui| ui.label(name), |ui| ui.label(weak(key)));
     if !element.card.is_empty() {
-        ui.label(&element.card);
+        ui.label(spoken(&element.card));
     }
     ui.add_space(2.0);
     egui::Grid::new("numbers").num_columns(2).spacing([16.0, 2.0]).show(ui, |ui| {
         for (what, number) in numbers(element) {
-            ui.label(weak(what));
+            ui.label(weak(spoken(what)));
             ui.label(number);
             ui.end_row();
         }
     });
     if element.fixed {
-        ui.label(weak("stays where it is"));
+        ui.label(weak(tr!("stays where it is")));
     }
     let fates = fates(elements, element);
     if !fates.is_empty() {

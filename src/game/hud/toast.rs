@@ -19,6 +19,7 @@ use bevy_egui::{
     EguiContexts,
     egui::{self, accesskit::Live},
 };
+use tr::tr;
 
 /// Widest message that stays on one line, points.
 const WIDTH: f32 = 640.0;
@@ -27,8 +28,8 @@ const WIDTH: f32 = 640.0;
 pub fn greet(mut toasts: ResMut<Toasts>, fingers: Res<Fingers>, bindings: Res<Bindings>) {
     let key = bindings.key(Action::Panel(help::PANEL.id));
     toasts.say(match fingers.in_use {
-        true => "One finger draws, two move and zoom".to_owned(),
-        false => format!("Left button pours, right button erases, {key} shows all keys"),
+        true => tr!("One finger draws, two move and zoom"),
+        false => tr!("Left button pours, right button erases, {} shows all keys", key),
     });
 }
 
@@ -57,7 +58,7 @@ pub fn show(
             ui.set_max_width(WIDTH);
             ui.vertical_centered(|ui| {
                 if full {
-                    card(ui, "The world is full: erase something before you draw more", true, 1.0);
+                    card(ui, &tr!("The world is full: erase something before you draw more"), true, 1.0);
                 }
                 for toast in toasts.iter() {
                     let opacity = if motion.is_on() { 1.0 } else { (toast.left / 0.4).min(1.0) };

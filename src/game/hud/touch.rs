@@ -17,11 +17,12 @@ use crate::{
         },
         icons::{self, Icon},
         input::touch::Fingers,
+        language::spoken,
         orders::{Order, Orders},
         panels::{Panel, Panels},
         toolbox::Toolbox,
         tools::Tool,
-        views::table::{Shown, VIEWS},
+        views::table::{Shown, VIEWS, View},
     },
     kernel::params::Preset,
     sim::{pace::Pace, state::Setup},
@@ -34,6 +35,7 @@ use bevy_egui::{
     EguiContexts,
     egui::{self, Align2, Color32, RichText, Ui, Vec2, vec2},
 };
+use tr::tr;
 
 /// Side of what can be pressed, pixels.
 const TARGET: f32 = 48.0;
@@ -104,7 +106,7 @@ pub fn show(
         *sheet = Sheet::Closed;
         let corner = egui::Area::new("touch again".into()).anchor(Align2::RIGHT_BOTTOM, vec2(-8.0, -8.0) * unit);
         corner.show(context, |ui| {
-            if button(ui, unit, ("Show the tools", icons::droplet), true, true) {
+            if button(ui, unit, (&tr!("Show the tools"), icons::droplet), true, true) {
                 orders.push(Order::Act(Action::Hud));
             }
         });
@@ -163,7 +165,7 @@ fn choose(ui: &mut Ui, unit: f32, (tiles, chosen): (&mut Tiles, Tool), sheet: &m
     }
     let icon = (elements::PANEL.icon, style::TEXT);
     let chosen = *sheet == Sheet::Elements;
-    let face = Face { icon, label: "elements", name: "All elements", key: "", chosen };
+    let face = Face { icon, label: &tr!("elements"), name: &tr!("All elements"), key: "", chosen };
     if tile(ui, TILE, unit, &face).clicked() {
         *sheet = if chosen { Sheet::Closed } else { Sheet::Elements };
     }
@@ -190,17 +192,17 @@ fn act(ui: &mut Ui, unit: f32, pace: &Pace, history: &History, orders: &mut Orde
     let (back, forth) = history.reach();
     let time: Icon = if pace.paused { icons::play } else { icons::pause };
     for (name, icon, action, active, enabled) in [
-        ("Hide the tools", icons::close as Icon, Action::Hud, false, true),
-        ("Pause", time, Action::Pause, pace.paused, true),
-        ("Undo", icons::undo, Action::Undo, false, back),
-        ("Redo", icons::redo, Action::Redo, false, forth),
-        ("Reset", icons::reset, Action::Reset, false, true),
+        (tr!("Hide the tools"), icons::close as Icon, Action::Hud, false, true),
+        (tr!("Pause"), time, Action::Pause, pace.paused, true),
+        (tr!("Undo"), icons::undo, Action::Undo, false, back),
+        (tr!("Redo"), icons::redo, Action::Redo, false, forth),
+        (tr!("Reset"), icons::reset, Action::Reset, false, true),
     ] {
-        if button(ui, unit, (name, icon), active, enabled) {
+        if button(ui, unit, (&name, icon), active, enabled) {
             orders.push(Order::Act(action));
         }
     }
-    let rewind = pressable(ui, unit, ("Back in time", icons::rewind), pace.rewinds, true);
+    let rewind = pressable(ui, unit, (&tr!("Back in time"), icons::rewind), pace.rewinds, true);
     if rewind.is_pointer_button_down_on() {
         orders.push(Order::Act(Action::Rewind));
     }
@@ -216,11 +218,12 @@ fn size(ui: &mut Ui, unit: f32, tools: &mut ResMut<Toolbox>, orders: &mut Orders
     };
     step(ui, "−", -1);
     step(ui, "+", 1);
-    if button(ui, unit, ("Shape of the brush", tools.shape_icon()), false, true) {
+    if button(ui, unit, (&tr!("Shape of the brush"), tools.shape_icon()), false, true) {
         tools.turn_shape();
     }
     let (mode, has_modes) = (tools.mode(), matches!(tools.tool, Tool::Element(_)));
-    let name = format!("What the brush does: {}", mode.name());
+    let mode_name = spoken(mode.name());
+    let name = tr!("What the brush does: {}", mode_name);
     if button(ui, unit, (&name, mode.icon()), mode != BrushMode::Draw, has_modes) {
         orders.push(Order::Act(Action::NextBrushMode));
     }
@@ -229,37 +232,40 @@ fn size(ui: &mut Ui, unit: f32, tools: &mut ResMut<Toolbox>, orders: &mut Orders
 
 fn menus(ui: &mut Ui, unit: f32, panels: &Panels, sheet: &mut Sheet, orders: &mut Orders) {
     let gallery = scenes::PANEL;
-    if button(ui, unit, ("Scenes", gallery.icon), panels.shows(gallery.id), true) {
+    if button(ui, unit, (&spoken(gallery.title), gallery.icon), panels.shows(gallery.id), true) {
         orders.push(Order::Act(Action::Panel(gallery.id)));
         *sheet = Sheet::Closed;
     }
     for (name, icon, own) in [
-        ("Views", icons::eye as Icon, Sheet::Views),
-        ("Qualities", icons::gauge, Sheet::Qualities),
-        ("More", icons::gear, Sheet::More),
+        (tr!("Views"), icons::eye as Icon, Sheet::Views),
+        (tr!("Qualities"), icons::gauge, Sheet::Qualities),
+        (tr!("More"), icons::gear, Sheet::More),
     ] {
-        if button(ui, unit, (name, icon), *sheet == own, true) {
+        if button(ui, unit, (&name, icon), *sheet == own, true) {
             *sheet = if *sheet == own { Sheet::Closed } else { own };
         }
     }
 }
 
 /// The lines of a list: text, whether it is what is shown now, and what choosing it asks for.
-fn lines<'a>(sheet: Sheet, scene: &'a Scene) -> Vec<(&'a str, bool, Order)> {
+fn lines(sheet: Sheet, scene: &Scene) -> Vec<(String, bool, Order)> {
     match sheet {
         // Elements are no lines.
         Sheet::Closed | Sheet::Elements => Vec::new(),
         Sheet::Views => {
-            VIEWS.into_iter().map(|view| (view.name, view == scene.shown.0, Order::Act(Action::View(view)))).collect()
+            let line = |view: &'static View| (spoken(view.name), view == scene.shown.0, Order::Act(Action::View(view)));
+            VIEWS.into_iter().map(line).collect()
         }
         Sheet::Qualities => {
-            let line = |preset: Preset| (preset.name(), preset == scene.setup.preset, Order::Quality(preset));
+            let line =
+                |preset: Preset| (preset.name().to_owned(), preset == scene.setup.preset, Order::Quality(preset));
             Preset::ALL.into_iter().map(line).collect()
         }
         Sheet::More => {
-            let line =
-                |(panel, open): (&Panel, bool)| Some((panel.in_list?, open, Order::Act(Action::Panel(panel.id))));
-            let actions = MORE.iter().map(|(text, action)| (*text, false, Order::Act(*action)));
+            let line = |(panel, open): (&Panel, bool)| {
+                Some((spoken(panel.in_list?), open, Order::Act(Action::Panel(panel.id))))
+            };
+            let actions = MORE.iter().map(|(text, action)| (spoken(text), false, Order::Act(*action)));
             scene.panels.iter().rev().filter_map(line).chain(actions).collect()
         }
     }
@@ -286,10 +292,10 @@ fn list(
 }
 
 /// Lines to press; what was chosen.
-fn press(ui: &mut Ui, width: f32, unit: f32, lines: Vec<(&str, bool, Order)>) -> Option<Order> {
+fn press(ui: &mut Ui, width: f32, unit: f32, lines: Vec<(String, bool, Order)>) -> Option<Order> {
     let mut pressed = None;
     for (text, chosen, order) in lines {
-        let (rect, response) = field(ui, vec2(width.min(320.0 * unit), TARGET * unit), text, chosen, BUTTON);
+        let (rect, response) = field(ui, vec2(width.min(320.0 * unit), TARGET * unit), &text, chosen, BUTTON);
         let font = egui::FontId::proportional(16.0 * unit);
         let at = rect.left_center() + vec2(12.0, 0.0) * unit;
         ui.painter().text(at, Align2::LEFT_CENTER, text, font, Color32::WHITE);
@@ -307,7 +313,7 @@ fn all(ui: &mut Ui, width: f32, unit: f32, tiles: &mut Tiles, chosen: Tool) -> O
     let every: Vec<Tool> = Tool::all(tiles.elements()).collect();
     let groups = Tool::groups(tiles.elements(), &every);
     for (title, group) in groups {
-        ui.label(weak(title).size(13.0 * unit));
+        ui.label(weak(spoken(title)).size(13.0 * unit));
         ui.scope(|ui| {
             ui.spacing_mut().item_spacing = vec2(4.0, 4.0) * unit;
             ui.horizontal_wrapped(|ui| {

@@ -13,6 +13,7 @@ use crate::{
     sim::numbers,
 };
 use bevy_egui::egui::{self, Align2, Color32, Rect, Response, RichText, TextStyle, Ui, Vec2, vec2};
+use tr::tr;
 
 /// What a line of a list is filled with, and what under the pointer.
 pub const LINE: [Color32; 2] = [Color32::TRANSPARENT, style::BUTTON_HOVER];
@@ -50,9 +51,9 @@ pub fn to_the_right(ui: &mut Ui, text: impl Into<egui::WidgetText>) -> Response 
 /// The menu of qualities under a button; says which one is chosen.
 pub fn quality_menu(button: &Response, now: Preset) -> Option<Preset> {
     let mut chosen = None;
-    menu(button, "Quality", |ui| {
+    menu(button, &tr!("Quality"), |ui| {
         for preset in Preset::ALL {
-            if row(ui, preset.name(), about(preset), preset == now) {
+            if row(ui, preset.name(), &about(preset), preset == now) {
                 chosen = Some(preset);
             }
         }
@@ -68,14 +69,14 @@ pub fn quality_name(preset: Preset, quality: &Quality) -> String {
     format!("{} × {}", quality.substeps, quality.iterations)
 }
 
-fn about(preset: Preset) -> &'static str {
+fn about(preset: Preset) -> String {
     match preset {
-        Preset::Classic => "the plain method",
-        Preset::Draft => "for weak machines",
-        Preset::Fast => "cheap and calm",
-        Preset::Balanced => "the default",
-        Preset::Fine => "even density, fine air",
-        Preset::Reference => "fine, twice the detail",
+        Preset::Classic => tr!("the plain method"),
+        Preset::Draft => tr!("for weak machines"),
+        Preset::Fast => tr!("cheap and calm"),
+        Preset::Balanced => tr!("the default"),
+        Preset::Fine => tr!("even density, fine air"),
+        Preset::Reference => tr!("fine, twice the detail"),
     }
 }
 
@@ -92,13 +93,13 @@ pub fn detail_name(detail: f64) -> String {
 pub fn detail_row(ui: &mut Ui, now: f64) -> Option<f64> {
     let mut chosen = None;
     ui.horizontal(|ui| {
-        ui.label(weak("Detail")).on_hover_text(
-            "How many times finer than the scene's own the particles are. Twice the detail takes four times the particles, and \
-             time eight times as much or more; the error of the shape falls to a quarter at best",
-        );
+        ui.label(weak(tr!("Detail"))).on_hover_text(tr!(
+            "How many times finer than the scene's own the particles are. Twice the detail takes four times the \
+             particles, and time eight times as much or more; the error of the shape falls to a quarter at best"
+        ));
         for (detail, text) in DETAILS {
             let response = ui.selectable_label((now / detail - 1.0).abs() < 1e-3, text);
-            name(&response, &format!("detail {text}"), false);
+            name(&response, &tr!("detail {}", text), false);
             if response.clicked() {
                 chosen = Some(detail);
             }
@@ -154,7 +155,7 @@ pub fn hold_button(
     active: bool,
     (bindings, orders): (&Bindings, &mut Orders),
 ) {
-    let button = icon_button(ui, (icon, bindings.help(action)), "", active);
+    let button = icon_button(ui, (icon, &bindings.help(action)), "", active);
     if button.on_hover_text(bindings.tip(action)).is_pointer_button_down_on() {
         orders.push(Order::Act(action));
     }
@@ -169,7 +170,7 @@ pub fn action_button(
     active: bool,
     (bindings, orders): (&Bindings, &mut Orders),
 ) {
-    let button = icon_button(ui, (icon, bindings.help(action)), text, active);
+    let button = icon_button(ui, (icon, &bindings.help(action)), text, active);
     if button.on_hover_text(bindings.tip(action)).clicked() {
         orders.push(Order::Act(action));
     }

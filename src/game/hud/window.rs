@@ -7,6 +7,7 @@ use crate::game::{
         widgets::{LINE, field},
     },
     icons,
+    language::spoken,
     panels::{Panel, Panels},
 };
 use bevy::{
@@ -17,6 +18,7 @@ use bevy_egui::{
     EguiContexts,
     egui::{self, Align2, Color32, RichText, ScrollArea, Ui, Vec2},
 };
+use tr::tr;
 
 /// The edge or corner of the screen that a window is at, and how far from it, points.
 pub type Place = (Align2, Vec2);
@@ -52,12 +54,13 @@ impl PanelWindow<'_, '_> {
     }
 }
 
-/// Shows a window with a heading of our own; `false` if its cross was pressed.
+/// Shows a window with a heading of our own, which is its id in English; `false` if its cross was pressed.
 pub fn window(context: &egui::Context, title: &str, (align, gap): Place, add: impl FnOnce(&mut Ui)) -> bool {
     let at = align.pos_in_rect(&context.content_rect()) + gap;
-    let window = egui::Window::new(title).title_bar(false).resizable(false).pivot(align).default_pos(at);
-    let shown = window.show(context, |ui| {
-        let heading = RichText::new(title).heading().color(Color32::WHITE);
+    let told = spoken(title);
+    let window = egui::Window::new(told.as_str()).id(egui::Id::new(title)).title_bar(false).resizable(false);
+    let shown = window.pivot(align).default_pos(at).show(context, |ui| {
+        let heading = RichText::new(told.as_str()).heading().color(Color32::WHITE);
         let (_, closed) = egui::Sides::new().show(ui, |ui| ui.label(heading), cross);
         ui.add_space(6.0);
         add(ui);
@@ -68,10 +71,10 @@ pub fn window(context: &egui::Context, title: &str, (align, gap): Place, add: im
 
 /// The cross of a window; whether it was pressed.
 fn cross(ui: &mut Ui) -> bool {
-    let (rect, response) = field(ui, Vec2::splat(24.0), "Close", false, LINE);
+    let (rect, response) = field(ui, Vec2::splat(24.0), &tr!("Close"), false, LINE);
     let colour = if response.hovered() { Color32::WHITE } else { style::WEAK };
     icons::draw(ui.painter(), icons::square(rect.center(), 14.0), icons::close, colour);
-    response.on_hover_text("close (Esc)").clicked()
+    response.on_hover_text(tr!("close (Esc)")).clicked()
 }
 
 /// What may be as high as the screen less `rest` points, and scrolls beyond that.

@@ -6,11 +6,13 @@ use crate::game::{
     actions::{Action, Gesture, Take},
     brush_mode::BrushMode,
     input::chord::{ALT, CTRL_SHIFT, Chord},
+    language::spoken,
     tools::{TOOLS, Tool},
     views::table::VIEWS,
 };
 use bevy::prelude::{KeyCode, MouseButton, Resource};
 use std::fmt;
+use tr::tr;
 
 pub use crate::game::input::chord::{CTRL, Mods, NONE, SHIFT};
 
@@ -115,6 +117,7 @@ const OWN: &[Binding] = {
     key(K::Semicolon, NONE, A::BrushMode(BrushMode::Replace), H::Draw, "replace: what is there becomes the element; again: draw"),
     key(K::Delete, NONE, A::BrushMode(BrushMode::EraseOnly), H::Draw, "erase only the chosen element; again: draw"),
     key(K::Semicolon, CTRL, A::BrushMode(BrushMode::EraseOnly), H::Draw, "erase only the chosen element; again: draw"),
+    key(K::KeyU, NONE, A::BrushMode(BrushMode::Spring), H::Draw, "springs and drains: left and right button set them; again: draw"),
     key(K::KeyC, CTRL, A::Take(Take::Copy), H::Draw, "copy: drag a frame around a piece of the world; a click pastes it"),
     key(K::KeyX, CTRL, A::Take(Take::Cut), H::Draw, "cut: the same, and it goes"),
     key(K::KeyV, CTRL, A::TakeUpStamp, H::Draw, "take up the last stamp: a click pastes it, Esc lays it down"),
@@ -258,14 +261,14 @@ impl Bindings {
         self.of(action).map(ToString::to_string).unwrap_or_default()
     }
 
-    /// What an action does; nothing if it has no key.
-    pub fn help(&self, action: Action) -> &'static str {
-        self.of(action).map_or("", |binding| binding.help)
+    /// What an action does, in the player's language; nothing if it has no key.
+    pub fn help(&self, action: Action) -> String {
+        self.of(action).map(|binding| spoken(binding.help)).unwrap_or_default()
     }
 
     /// What an action does, and its key.
     pub fn tip(&self, action: Action) -> String {
-        self.of(action).map(|binding| format!("{} ({binding})", binding.help)).unwrap_or_default()
+        self.of(action).map(|binding| format!("{} ({binding})", spoken(binding.help))).unwrap_or_default()
     }
 }
 
@@ -281,13 +284,14 @@ impl Binding {
 
 impl fmt::Display for Binding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.trigger {
-            Trigger::Key(key) => write!(f, "{}", Chord::new(key, self.mods)),
-            Trigger::Button(MouseButton::Left) => write!(f, "{}left button", self.mods),
-            Trigger::Button(MouseButton::Right) => write!(f, "{}right button", self.mods),
-            Trigger::Button(_) => write!(f, "{}middle button", self.mods),
-            Trigger::Wheel(_) => write!(f, "{}wheel", self.mods),
-        }
+        let name = match self.trigger {
+            Trigger::Key(key) => return write!(f, "{}", Chord::new(key, self.mods)),
+            Trigger::Button(MouseButton::Left) => tr!("left button"),
+            Trigger::Button(MouseButton::Right) => tr!("right button"),
+            Trigger::Button(_) => tr!("middle button"),
+            Trigger::Wheel(_) => tr!("wheel"),
+        };
+        write!(f, "{}{name}", self.mods)
     }
 }
 

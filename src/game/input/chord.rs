@@ -3,6 +3,7 @@
 use bevy::prelude::{ButtonInput, KeyCode};
 use serde::{Deserialize, Serialize};
 use std::{fmt, mem, str::FromStr};
+use tr::tr;
 
 /// The modifier keys that must be held, and no others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -73,17 +74,18 @@ impl Mods {
     pub fn are_among(self, held: Self) -> bool {
         (!self.ctrl || held.ctrl) && (!self.shift || held.shift) && (!self.alt || held.alt)
     }
+
+    /// What a file calls them.
+    fn names(self) -> impl Iterator<Item = &'static str> {
+        let all = [(self.ctrl, "Ctrl"), (self.shift, "Shift"), (self.alt, "Alt")];
+        all.into_iter().filter_map(|(held, name)| held.then_some(name))
+    }
 }
 
-/// What stands before the key: `Ctrl+Shift+`.
+/// What stands before the key, as a player reads it: `Ctrl+Shift+`.
 impl fmt::Display for Mods {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (held, name) in [(self.ctrl, "Ctrl+"), (self.shift, "Shift+"), (self.alt, "Alt+")] {
-            if held {
-                f.write_str(name)?;
-            }
-        }
-        Ok(())
+        self.names().try_for_each(|name| write!(f, "{}+", tr!("key" => name)))
     }
 }
 
@@ -108,7 +110,7 @@ impl Chord {
         Self { key, mods }
     }
 
-    /// Why no action can be on it; nothing if one can.
+    /// Why no action can be on it, in English; nothing if one can.
     pub fn refusal(self) -> Option<&'static str> {
         use KeyCode as K;
         let Self { key, mods } = self;
@@ -139,7 +141,8 @@ impl Chord {
 /// As a file has it: modifiers and the W3C's name of the key, `Ctrl+Shift+KeyZ`.
 impl From<Chord> for String {
     fn from(chord: Chord) -> Self {
-        format!("{}{:?}", chord.mods, chord.key)
+        let held: String = chord.mods.names().flat_map(|name| [name, "+"]).collect();
+        format!("{held}{:?}", chord.key)
     }
 }
 
@@ -189,13 +192,27 @@ impl fmt::Display for Chord {
     }
 }
 
-/// What is printed on a key of a US keyboard. The keys have the names of the W3C: `KeyA`, `Digit1`, `F1`, `ArrowLeft`.
+/// What is printed on a key of a US keyboard, but words in the player's language. The keys have the names of the W3C:
+/// `KeyA`, `Digit1`, `F1`, `ArrowLeft`.
 fn key_name(key: KeyCode) -> String {
     let name = format!("{key:?}");
-    if let Some(way) = name.strip_prefix("Arrow") {
-        return way.to_lowercase();
+    if let Some(name) = name.strip_prefix("Numpad") {
+        let sign = match name {
+            "Add" => "+",
+            "Subtract" => "-",
+            "Multiply" => "*",
+            "Divide" => "/",
+            "Decimal" => ".",
+            _ => name,
+        };
+        let sign = tr!("key" => sign);
+        return tr!("num {}", sign);
     }
     let sign = match name.as_str() {
+        "ArrowLeft" => "left",
+        "ArrowRight" => "right",
+        "ArrowUp" => "up",
+        "ArrowDown" => "down",
         "Escape" => "Esc",
         "Period" => ".",
         "Comma" => ",",
@@ -211,17 +228,9 @@ fn key_name(key: KeyCode) -> String {
         "BracketRight" => "]",
         "PageUp" => "Page up",
         "PageDown" => "Page down",
-        "NumpadAdd" => "num +",
-        "NumpadSubtract" => "num -",
-        "NumpadMultiply" => "num *",
-        "NumpadDivide" => "num /",
-        "NumpadDecimal" => "num .",
-        _ => match name.strip_prefix("Numpad") {
-            Some(digit) => return format!("num {digit}"),
-            None => name.trim_start_matches("Key").trim_start_matches("Digit"),
-        },
+        name => name.trim_start_matches("Key").trim_start_matches("Digit"),
     };
-    sign.to_owned()
+    tr!("key" => sign)
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use crate::{
     game::{
         actions::{Action, Gesture},
+        brush_mode::BrushMode,
         camera::{Area, WorldCamera},
         challenges::referee::Referee,
         gauges::desk,
@@ -170,6 +171,10 @@ impl PointerInput<'_> {
 
     fn begin(&mut self, gesture: Gesture, button: MouseButton, pixel: Vec2) {
         let (at, tool) = (self.camera.to_world(pixel), self.tools.tool);
+        let is_brush = matches!(gesture, Gesture::Use | Gesture::Erase | Gesture::Line);
+        if is_brush && self.tools.mode() == BrushMode::Spring {
+            return self.orders.push(Order::SetSource(button, self.tools.stroke(at, at)));
+        }
         // What is done with stamps sees to that itself.
         if !matches!(gesture, Gesture::Pan | Gesture::Take(_) | Gesture::Paste) {
             self.orders.push(Order::Checkpoint);
@@ -194,6 +199,10 @@ impl PointerInput<'_> {
         let tools = self.tools.with(drag.tool);
         let stroke = match drag.gesture {
             Gesture::Line => Some(tools.stroke(drag.start, drag.now)),
+            Gesture::Rectangle if tools.mode() == BrushMode::Spring => {
+                self.orders.push(Order::SetSource(button, Stroke::rectangle(drag.start, drag.now)));
+                None
+            }
             Gesture::Rectangle => Some(Stroke::rectangle(drag.start, drag.now)),
             _ => None,
         };

@@ -1,12 +1,16 @@
 //! Choosing keys: for which action the player is asked to press one, and what became of what was pressed.
 
-use crate::game::input::{
-    bindings::{Bindings, Slot},
-    chord::{Chord, Mods, is_modifier},
-    keymap::{Chosen, Keymap},
-    layouts::Layout,
+use crate::game::{
+    input::{
+        bindings::{Bindings, Slot},
+        chord::{Chord, Mods, is_modifier},
+        keymap::{Chosen, Keymap},
+        layouts::Layout,
+    },
+    language::spoken,
 };
 use bevy::prelude::{KeyCode, Mut, Res, Resource, World};
+use tr::tr;
 
 /// What is said of the last choice.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -78,7 +82,8 @@ pub fn carry_out(world: &mut World, order: KeyOrder) {
             let text = match order {
                 KeyOrder::Choose(slot, chord) => {
                     if let Some(why) = chord.refusal() {
-                        let text = format!("Not {chord}: {why}. Press another key; Esc leaves it");
+                        let (chord, why) = (chord.to_string(), spoken(why));
+                        let text = tr!("Not {chord}: {why}. Press another key; Esc leaves it", chord, why);
                         (editor.asked, editor.told) = (Some(slot), Some(Told { text, warning: true }));
                         return;
                     }
@@ -86,17 +91,19 @@ pub fn carry_out(world: &mut World, order: KeyOrder) {
                 }
                 KeyOrder::Layout(layout) => {
                     keymap.lay_out(&mut bindings, layout);
-                    let own = if keymap.is_changed() { ", with what you changed in it" } else { "" };
-                    format!("The keys of {}{own}", layout.name())
+                    match keymap.is_changed() {
+                        true => tr!("The keys of {}, with what you changed in it", layout.name()),
+                        false => tr!("The keys of {}", layout.name()),
+                    }
                 }
                 KeyOrder::Reset => {
                     keymap.reset(&mut bindings);
-                    format!("All keys are those of {} again", keymap.layout().name())
+                    tr!("All keys are those of {} again", keymap.layout().name())
                 }
             };
             let told = match keymap.keep() {
                 Ok(()) => Told { text, warning: false },
-                Err(fault) => Told { text: format!("{text}, but not kept: {fault}"), warning: true },
+                Err(fault) => Told { text: tr!("{}, but not kept: {}", text, fault), warning: true },
             };
             (editor.asked, editor.told) = (None, Some(told));
         });
@@ -105,13 +112,15 @@ pub fn carry_out(world: &mut World, order: KeyOrder) {
 
 /// Puts an action on a key; says what is where now.
 fn choose(keymap: &mut Keymap, bindings: &mut Bindings, slot: Slot, chord: Chord) -> String {
-    let name = |slot: Slot| slot.action.label(bindings.help(slot.action));
+    let name = |slot: Slot| slot.action.label(&bindings.help(slot.action));
     let (mine, theirs) = (name(slot), bindings.slot(chord).map(name));
-    match (keymap.choose(bindings, slot, chord), theirs) {
+    let chosen = keymap.choose(bindings, slot, chord);
+    let chord = chord.to_string();
+    match (chosen, theirs) {
         (Chosen::Swapped(other), Some(theirs)) if other.action != slot.action => {
-            let now = bindings.chords(other.action)[other.place];
-            format!("{chord} is for “{mine}” now; “{theirs}”, which had it, is on {now}")
+            let now = bindings.chords(other.action)[other.place].to_string();
+            tr!("{chord} is for “{mine}” now; “{theirs}”, which had it, is on {now}", chord, mine, theirs, now)
         }
-        _ => format!("{chord} is for “{mine}” now"),
+        _ => tr!("{chord} is for “{mine}” now", chord, mine),
     }
 }

@@ -4,6 +4,7 @@ use super::own::{OwnElements, fault};
 use crate::{
     game::{
         history,
+        language::spoken,
         mixer::desk::MixerDesk,
         toasts::Toasts,
         toolbox::Toolbox,
@@ -13,6 +14,7 @@ use crate::{
     sim::{checkpoint::Checkpoint, new_file::Unwritten, state::Setup},
 };
 use bevy::prelude::World;
+use tr::tr;
 
 /// Puts an element into the world, takes it up and keeps it; one that is there as it is, is only taken up. Undo takes it out of
 /// the world again.
@@ -33,15 +35,15 @@ pub fn mix(world: &mut World, element: Element) {
     };
     let mixed = match mixed {
         Ok(mixed) => mixed,
-        Err(fault) => return world.resource_mut::<Toasts>().warn(format!("No such element: {fault}")),
+        Err(fault) => return world.resource_mut::<Toasts>().warn(tr!("No such element: {}", fault)),
     };
     mixed.restore(world);
     history::remember(world, before);
     if let Some(id) = mixed.setup.elements().find(&element.name) {
         world.resource_mut::<Toolbox>().tool = Tool::Element(id);
     }
-    let name = spaced(&element.name);
-    let told = if here.is_some() { format!("All {name} is changed") } else { format!("There is {name} now: pour it") };
+    let name = spoken(&spaced(&element.name));
+    let told = if here.is_some() { tr!("All {} is changed", name) } else { tr!("There is {} now: pour it", name) };
     let kept = world.resource_mut::<OwnElements>().keep(element);
     tell(world, told, kept);
 }
@@ -49,13 +51,13 @@ pub fn mix(world: &mut World, element: Element) {
 /// Forgets an element that was kept. Worlds that have it keep it.
 pub fn forget(world: &mut World, name: &str) {
     let forgotten = world.resource_mut::<OwnElements>().forget(name);
-    tell(world, format!("{} is forgotten: worlds that have it keep it", spaced(name)), forgotten);
+    tell(world, tr!("{} is forgotten: worlds that have it keep it", spaced(name)), forgotten);
 }
 
 fn tell(world: &mut World, told: String, written: Result<(), Unwritten>) {
     let mut toasts = world.resource_mut::<Toasts>();
     match written {
         Ok(()) => toasts.say(told),
-        Err(error) => toasts.warn(format!("{told}, but that is not kept: {error}")),
+        Err(error) => toasts.warn(tr!("{told}, but that is not kept: {error}", told, error)),
     }
 }

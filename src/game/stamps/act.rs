@@ -11,7 +11,7 @@ use crate::{
     kernel::{brush::Stroke, piece::Turn},
     sim::{
         control,
-        intent::{Intent, IntentQueue},
+        intent::Intent,
         numbers::grouped,
         stamp::{Stamp, fitted},
         state::{ParticleStore, Rock, Setup},
@@ -20,6 +20,7 @@ use crate::{
 use bevy::prelude::World;
 use glam::{IVec2, Vec2};
 use std::sync::Arc;
+use tr::tr;
 
 /// Takes up a frame; or lays it down, if it is in hand.
 pub fn take_up_frame(world: &mut World, take: Take) {
@@ -34,7 +35,7 @@ pub fn take_up_last(world: &mut World) {
         return;
     }
     let key = world.resource::<Bindings>().key(Action::Take(Take::Copy));
-    world.resource_mut::<Toasts>().say(format!("There is no stamp yet: {key} and a drag copy a piece of the world"));
+    world.resource_mut::<Toasts>().say(tr!("There is no stamp yet: {key} and a drag copy a piece of the world", key));
 }
 
 /// Takes up a stamp of the shelf.
@@ -72,24 +73,25 @@ pub fn take(world: &mut World, (from, to): (Vec2, Vec2), take: Take) {
     let (low, high) = cells_between(from, to, IVec2::new(rock.columns(), rock.rows()));
     let stamp = Stamp::of(world, low, high);
     if stamp.piece.is_empty() {
-        world.resource_mut::<Toasts>().say("Nothing is in there");
+        world.resource_mut::<Toasts>().say(tr!("Nothing is in there"));
         return;
     }
+    let count = grouped(stamp.piece.count() as u64);
     let told = match take {
-        Take::Copy => format!("Copied: {} particles", grouped(stamp.piece.count() as u64)),
-        Take::Cut => format!("Cut: {} particles", grouped(stamp.piece.count() as u64)),
+        Take::Copy => tr!("Copied: {} particles", count),
+        Take::Cut => tr!("Cut: {} particles", count),
     };
     if take == Take::Cut {
         history::checkpoint(world);
         // At once: a tick later something else may be in there.
-        do_now(world, Intent::Erase { stroke: Stroke::rectangle(low.as_vec2(), high.as_vec2()) });
+        control::edit(world, Intent::Erase { stroke: Stroke::rectangle(low.as_vec2(), high.as_vec2()) });
     }
     let (kept, written) = world.resource_mut::<Shelf>().add(stamp);
     *world.resource_mut::<Hand>() = Hand::Stamp(kept, Turn::default());
     let mut toasts = world.resource_mut::<Toasts>();
     match written {
         Ok(()) => toasts.say(told),
-        Err(error) => toasts.warn(format!("{told}, but not kept for the next session: {error}")),
+        Err(error) => toasts.warn(tr!("{told}, but not kept for the next session: {error}", told, error)),
     }
 }
 
@@ -105,28 +107,23 @@ pub fn paste(world: &mut World, at: Vec2) {
     let (piece, all) = match fits {
         Ok(fits) => fits,
         Err(what) => {
-            world.resource_mut::<Toasts>().warn(format!("The stamp does not fit: {what}"));
+            world.resource_mut::<Toasts>().warn(tr!("The stamp does not fit: {}", what));
             return;
         }
     };
     history::checkpoint(world);
     let before = count(world);
-    do_now(world, Intent::Paste { piece: Arc::new(piece), at, turn });
+    control::edit(world, Intent::Paste { piece: Arc::new(piece), at, turn });
     let left_out = (before + all).saturating_sub(count(world));
     if left_out > 0 {
         let (some, all) = (grouped(left_out as u64), grouped(all as u64));
-        world.resource_mut::<Toasts>().say(format!("{some} of {all} particles did not fit: no free room there"));
+        let told = tr!("{some} of {all} particles did not fit: no free room there", some, all);
+        world.resource_mut::<Toasts>().say(told);
     }
 }
 
 fn count(world: &World) -> usize {
     world.resource::<ParticleStore>().len() + world.resource::<Rock>().count()
-}
-
-/// Has an edit done at once.
-fn do_now(world: &mut World, intent: Intent) {
-    world.resource_mut::<IntentQueue>().push(intent);
-    control::apply_edits(world);
 }
 
 #[cfg(test)]

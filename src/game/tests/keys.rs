@@ -181,15 +181,15 @@ impl Player {
 #[test]
 fn a_key_that_is_chosen_does_its_action_and_the_old_one_does_not() {
     let mut player = Player::new();
-    assert_eq!(player.put_on(Action::Pause, &[KeyCode::KeyU]), "U is for “pause” now");
+    assert_eq!(player.put_on(Action::Pause, &[KeyCode::KeyN]), "N is for “pause” now");
     assert!(!player.is_paused(), "it was pressed to be chosen");
     player.chord(&[KeyCode::Space]);
     assert!(!player.is_paused());
-    player.chord(&[KeyCode::KeyU]);
+    player.chord(&[KeyCode::KeyN]);
     assert!(player.is_paused());
     // One that a browser leaves to its page.
     player.put_on(Action::Pause, &[KeyCode::ControlLeft, KeyCode::ShiftLeft, KeyCode::KeyY]);
-    player.chord(&[KeyCode::KeyU]);
+    player.chord(&[KeyCode::KeyN]);
     assert!(player.is_paused());
     player.chord(&[KeyCode::ShiftLeft, KeyCode::ControlLeft, KeyCode::KeyY]);
     assert!(!player.is_paused());
@@ -235,14 +235,14 @@ fn escape_leaves_a_key_as_it_is_and_what_the_system_has_is_refused() {
 fn held_keys_are_those_that_were_chosen() {
     let mut player = Player::new();
     player.frames(10);
-    player.put_on(Action::Rewind, &[KeyCode::KeyU]);
+    player.put_on(Action::Rewind, &[KeyCode::KeyN]);
     player.hold(KeyCode::Backspace, 2);
     assert!(!player.world().resource::<Pace>().rewinds);
     player.let_go(KeyCode::Backspace);
     let tick = player.tick();
-    player.hold(KeyCode::KeyU, 4);
+    player.hold(KeyCode::KeyN, 4);
     assert!(player.world().resource::<Pace>().rewinds && player.tick() < tick);
-    player.let_go(KeyCode::KeyU);
+    player.let_go(KeyCode::KeyN);
     assert!(player.world().resource::<Rewind>().bytes() == 0 && !player.world().resource::<Pace>().rewinds);
     player.put_on(Action::Lens, &[KeyCode::KeyN]);
     player.hold(KeyCode::KeyN, 40);
@@ -276,14 +276,14 @@ fn favourites_follow_their_keys() {
     player.0.insert_resource(HudKeys::None);
     player.chord(&[KeyCode::ShiftLeft, KeyCode::Digit3]);
     assert_eq!(tool(&player), "tar");
-    player.put_on(Action::Element('3'), &[KeyCode::KeyU]);
+    player.put_on(Action::Element('3'), &[KeyCode::KeyN]);
     player.0.insert_resource(HudKeys::AllButDigits);
     player.0.world_mut().resource_mut::<HudCover>().element = Some("brine".to_owned());
-    player.chord(&[KeyCode::KeyU]);
+    player.chord(&[KeyCode::KeyN]);
     player.0.insert_resource(HudKeys::None);
     player.0.world_mut().resource_mut::<HudCover>().element = None;
     player.choose("water");
-    player.chord(&[KeyCode::KeyU]);
+    player.chord(&[KeyCode::KeyN]);
     assert_eq!(tool(&player), "tar", "a letter that was typed in the search puts nothing on a place");
 }
 

@@ -54,6 +54,8 @@ mod gauntlet;
 #[cfg(not(target_arch = "wasm32"))]
 mod hints;
 mod keys;
+#[cfg(not(target_arch = "wasm32"))]
+mod language;
 mod lens;
 mod mixer;
 mod mouse_keys;
@@ -63,6 +65,7 @@ mod past;
 mod recording;
 mod rewind;
 mod saves;
+mod springs;
 mod stamps;
 mod throws;
 mod touch;

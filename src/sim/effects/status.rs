@@ -80,6 +80,8 @@ pub struct EffectStatus {
     pub works: bool,
     /// Why it does or does not, or how much of what it works on sleeps.
     pub why: String,
+    /// How much of what it works on sleeps, of how much, and what that is, if any of it does.
+    pub asleep: Option<(usize, usize, &'static str)>,
 }
 
 impl EffectStatus {
@@ -96,7 +98,9 @@ impl EffectStatus {
         } else {
             (Activity::Asleep, format!("all {} {unit}", grouped(all as u64)))
         };
-        Self { mode: state.mode, activity, works: state.running && (asleep == 0 || asleep < all), why }
+        let works = state.running && (asleep == 0 || asleep < all);
+        let asleep = (activity == Activity::Asleep).then_some((asleep, all, unit));
+        Self { mode: state.mode, activity, works, why, asleep }
     }
 
     /// It as one text: `off: nothing is viscous`, `asleep: 62 of 64 tiles`.

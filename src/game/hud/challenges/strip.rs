@@ -10,6 +10,7 @@ use crate::{
             widgets::{BUTTON, field},
         },
         icons,
+        language::spoken,
         orders::{Order, Orders},
         panels::Panels,
         toolbox::Toolbox,
@@ -23,6 +24,7 @@ use bevy_egui::{
     EguiContexts,
     egui::{self, Align2, Color32, CornerRadius, FontId, Rect, RichText, Sense, Ui, Vec2, vec2},
 };
+use tr::tr;
 
 /// Widest that it gets, points, and what is left of the screen beside it.
 const WIDTH: f32 = 560.0;
@@ -56,13 +58,15 @@ pub fn show(
             card.corner_radius(style::WINDOW_CORNER).inner_margin(egui::Margin::symmetric(14, 10)).show(ui, |ui| {
                 ui.set_width(width - 28.0);
                 ui.spacing_mut().item_spacing = vec2(8.0, 7.0);
-                ui.label(RichText::new(&trial.challenge.task).color(Color32::WHITE).size(14.0));
+                ui.label(RichText::new(spoken(&trial.challenge.task)).color(Color32::WHITE).size(14.0));
                 time(ui, trial);
                 ui.horizontal_wrapped(|ui| {
                     counts(ui, trial);
                     means(ui, trial, tiles.elements(), &mut tools);
-                    for (text, order) in [("Again", Order::ChallengeAgain), ("Give up", Order::LeaveChallenge)] {
-                        if button(ui, text, text, false) {
+                    for (text, order) in
+                        [(tr!("Again"), Order::ChallengeAgain), (tr!("Give up"), Order::LeaveChallenge)]
+                    {
+                        if button(ui, &text, &text, false) {
                             orders.push(order);
                         }
                     }
@@ -80,7 +84,7 @@ fn time(ui: &mut Ui, trial: &Trial) {
     let share = trial.left() as f32 / trial.challenge.ticks as f32;
     let left = Rect::from_min_size(rect.min, vec2(share * rect.width(), rect.height()));
     ui.painter().rect_filled(left, CornerRadius::same(2), colour);
-    response.on_hover_text("the time that is left");
+    response.on_hover_text(tr!("the time that is left"));
 }
 
 /// Time, particles and strokes, against what earns the stars.
@@ -88,11 +92,15 @@ fn counts(ui: &mut Ui, trial: &Trial) {
     let challenge = &trial.challenge;
     let seconds = trial.left().div_ceil(u64::from(TICKS_PER_SECOND));
     let colour = if trial.left() < LATE { style::WARN } else { style::TEXT };
-    ui.label(RichText::new(format!("{seconds} s")).color(colour)).on_hover_text("the time that is left");
+    ui.label(RichText::new(format!("{seconds} s")).color(colour)).on_hover_text(tr!("the time that is left"));
     let stars = trial.stars();
-    for (what, used, most, holds) in [
-        ("particles", trial.poured(), challenge.particles, stars.particles),
-        ("strokes", trial.strokes, challenge.strokes, stars.strokes),
+    let most = challenge.particles;
+    let particles = tr!("a star for at most {} particles; taking a stroke back does not give it back", most);
+    let most = challenge.strokes;
+    let strokes = tr!("a star for at most {} strokes; taking a stroke back does not give it back", most);
+    for (what, used, most, holds, about) in [
+        (tr!("particles"), trial.poured(), challenge.particles, stars.particles, particles),
+        (tr!("strokes"), trial.strokes, challenge.strokes, stars.strokes, strokes),
     ] {
         ui.scope(|ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
@@ -100,8 +108,7 @@ fn counts(ui: &mut Ui, trial: &Trial) {
             star(ui.painter(), rect, holds);
             let colour = if holds { style::TEXT } else { style::WEAK };
             ui.label(RichText::new(format!("{used} / {most}")).color(colour));
-            ui.label(weak(what))
-                .on_hover_text(format!("a star for at most {most} {what}; taking a stroke back does not give it back"));
+            ui.label(weak(what)).on_hover_text(about);
         });
     }
 }
@@ -110,8 +117,9 @@ fn counts(ui: &mut Ui, trial: &Trial) {
 fn means(ui: &mut Ui, trial: &Trial, elements: &ElementTable, tools: &mut Toolbox) {
     for name in trial.challenge.means.iter() {
         let Some(tool) = tool(name, elements) else { continue };
-        let text = spaced(name);
-        if button(ui, &text, &format!("take up {text}"), tools.tool == tool) {
+        let text = spoken(&spaced(name));
+        let called = tr!("take up {}", text);
+        if button(ui, &text, &called, tools.tool == tool) {
             tools.tool = tool;
         }
     }

@@ -5,6 +5,7 @@ use crate::{
     game::{
         actions::Action,
         hud::{panels::challenges::PANEL, style::weak, widgets::main_button},
+        language::spoken,
         orders::{Order, Orders},
         panels::Panels,
         tools::spaced,
@@ -22,6 +23,7 @@ use bevy_egui::{
     egui::{self, Align2, Color32, RichText, Ui, vec2},
 };
 use std::sync::Arc;
+use tr::tr;
 
 /// Width of its card, points.
 const WIDTH: f32 = 330.0;
@@ -62,25 +64,27 @@ fn card(ui: &mut Ui, trial: &Trial, orders: &mut Orders) {
     ui.add_space(2.0);
     let next = next(&trial.challenge).filter(|_| stars.done);
     let (text, order) = match next {
-        Some(next) => ("Next", Order::Challenge(next.name.clone())),
-        None if stars.done => ("All challenges", Order::Act(Action::Panel(PANEL.id))),
-        None => ("Again", Order::ChallengeAgain),
+        Some(next) => (tr!("Next"), Order::Challenge(next.name.clone())),
+        None if stars.done => (tr!("All challenges"), Order::Act(Action::Panel(PANEL.id))),
+        None => (tr!("Again"), Order::ChallengeAgain),
     };
-    if main_button(ui, text).clicked() {
+    if main_button(ui, &text).clicked() {
         orders.push(order);
     }
     ui.horizontal(|ui| {
-        let mut others =
-            vec![("All challenges", Order::Act(Action::Panel(PANEL.id))), ("Play on here", Order::LeaveChallenge)];
+        let mut others = vec![
+            (tr!("All challenges"), Order::Act(Action::Panel(PANEL.id))),
+            (tr!("Play on here"), Order::LeaveChallenge),
+        ];
         if stars.done {
-            others.insert(0, ("Again", Order::ChallengeAgain));
+            others.insert(0, (tr!("Again"), Order::ChallengeAgain));
         }
         others.retain(|(other, _)| *other != text);
         // In the middle, as all above.
-        let width: f32 = others.iter().map(|(text, _)| 20.0 + 6.6 * text.len() as f32).sum::<f32>() + 8.0;
+        let width: f32 = others.iter().map(|(text, _)| 20.0 + 6.6 * text.chars().count() as f32).sum::<f32>() + 8.0;
         ui.add_space(((WIDTH - width) / 2.0).max(0.0));
         for (text, order) in others {
-            if button(ui, text, text, false) {
+            if button(ui, &text, &text, false) {
                 orders.push(order);
             }
         }
@@ -88,25 +92,29 @@ fn card(ui: &mut Ui, trial: &Trial, orders: &mut Orders) {
 }
 
 /// What is said of the end.
-fn words(trial: &Trial) -> (&'static str, String) {
+fn words(trial: &Trial) -> (String, String) {
     let seconds = trimmed(trial.ticks as f64 / f64::from(TICKS_PER_SECOND), 1);
     match &trial.verdict {
-        Verdict::Won(stars) if *stars == Stars::ALL => ("Perfect!", format!("All three stars, in {seconds} s")),
-        Verdict::Won(_) => ("Done!", format!("It took {seconds} s")),
-        Verdict::Lost(Loss::Means(means)) => ("Not this way", format!("There is no {} here", spaced(means))),
-        Verdict::Lost(Loss::Time) | Verdict::Running => ("Time is up", "Never mind: the next try is free".to_owned()),
+        Verdict::Won(stars) if *stars == Stars::ALL => (tr!("Perfect!"), tr!("All three stars, in {} s", seconds)),
+        Verdict::Won(_) => (tr!("Done!"), tr!("It took {} s", seconds)),
+        Verdict::Lost(Loss::Means(means)) => {
+            let means = spoken(&spaced(means));
+            (tr!("Not this way"), tr!("There is no {} here", means))
+        }
+        Verdict::Lost(Loss::Time) | Verdict::Running => (tr!("Time is up"), tr!("Never mind: the next try is free")),
     }
 }
 
 /// What the stars went by.
 fn missing(trial: &Trial, stars: Stars) -> String {
-    let count = |used: u64, most: u32, what: &str, earned: bool| {
-        let what = if used == 1 { what.trim_end_matches('s') } else { what };
-        if earned { format!("{used} {what}") } else { format!("{used} {what}: a star for {most} or fewer") }
+    let line = |count: String, most: u32, earned: bool| {
+        if earned { count } else { tr!("{count}: a star for {most} or fewer", count, most) }
     };
     let challenge = &trial.challenge;
-    let particles = count(trial.poured(), challenge.particles, "particles", stars.particles);
-    format!("{particles}\n{}", count(trial.strokes, challenge.strokes, "strokes", stars.strokes))
+    let particles = tr!("{n} particle" | "{n} particles" % trial.poured());
+    let strokes = tr!("{n} stroke" | "{n} strokes" % trial.strokes);
+    let particles = line(particles, challenge.particles, stars.particles);
+    format!("{particles}\n{}", line(strokes, challenge.strokes, stars.strokes))
 }
 
 /// The challenge behind one.

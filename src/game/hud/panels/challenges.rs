@@ -12,6 +12,7 @@ use crate::{
             window::{MIDDLE, PanelWindow, scroll},
         },
         input::bindings::{Group, NONE},
+        language::spoken,
         orders::{Order, Orders},
         panels::Panel,
     },
@@ -20,6 +21,7 @@ use crate::{
 };
 use bevy::prelude::{KeyCode, Res, ResMut, Result};
 use bevy_egui::egui::{self, Align, Color32, FontId, Stroke, StrokeKind, Ui, Vec2, text::LayoutJob, vec2};
+use tr::tr;
 
 /// Size of a tile, points.
 const TILE: Vec2 = vec2(206.0, 112.0);
@@ -56,8 +58,10 @@ pub fn show(mut window: PanelWindow, (earned, judge): (Res<Earned>, Res<Judge>),
         let columns = ((ui.ctx().content_rect().width() - MARGIN.x) / (TILE.x + GAP)).floor().clamp(1.0, COLUMNS);
         ui.set_width(columns * (TILE.x + GAP) - GAP + 14.0);
         let (have, most) = earned.count();
-        ui.label(weak(format!(
-            "{have} of {most} stars: one if it is done, one for few particles, one for few strokes."
+        ui.label(weak(tr!(
+            "{have} of {most} stars: one if it is done, one for few particles, one for few strokes.",
+            have,
+            most
         )));
         scroll(ui, MARGIN.y, |ui| {
             ui.spacing_mut().item_spacing = Vec2::splat(GAP);
@@ -81,14 +85,14 @@ pub fn show(mut window: PanelWindow, (earned, judge): (Res<Earned>, Res<Judge>),
 
 /// The tile of a challenge; whether it was pressed.
 fn tile(ui: &mut Ui, challenge: &Challenge, earned: &Earned, tried: bool) -> bool {
-    let (rect, response) = field(ui, TILE, challenge.title(), false, BUTTON);
+    let (rect, response) = field(ui, TILE, &spoken(challenge.title()), false, BUTTON);
     let stars_earned = earned.of(&challenge.name);
     let inner = rect.shrink(EDGE);
     let colour = if tried { style::ACCENT } else { Color32::WHITE };
-    let title = format!("{}  {}", challenge.number, challenge.title());
+    let title = format!("{}  {}", challenge.number, spoken(challenge.title()));
     let height = write(ui, inner, &title, FontId::proportional(14.5), colour);
     let below = inner.with_min_y(inner.top() + height + 5.0);
-    write(ui, below, &challenge.task, FontId::proportional(12.0), style::WEAK);
+    write(ui, below, &spoken(&challenge.task), FontId::proportional(12.0), style::WEAK);
     stars::paint(ui.painter(), inner.left_bottom() - vec2(0.0, STAR), stars_earned, STAR);
     if tried || response.hovered() {
         let stroke = Stroke::new(1.5, style::ACCENT);

@@ -14,6 +14,7 @@ use crate::{
         },
         icons,
         input::bindings::{Group, NONE},
+        language::spoken,
         orders::{Order, Orders},
         panels::Panel,
         render::cost::{PicturePass, RenderCost},
@@ -37,6 +38,7 @@ use crate::{
 };
 use bevy::prelude::{KeyCode, Res, ResMut, Result};
 use bevy_egui::egui::{self, Align2, RichText, Ui, vec2};
+use tr::tr;
 
 /// Width of the window's contents, points.
 const WIDTH: f32 = 480.0;
@@ -91,23 +93,24 @@ pub fn show(
 fn world(ui: &mut Ui, setup: &Setup, clock: &Clock) {
     let (blueprint, quality) = (&setup.blueprint, &setup.quality);
     let metres = blueprint.scale.vec_to_metres(blueprint.domain.size);
-    ui.label(weak(format!(
-        "{:.1} × {:.1} m, d = {} m (detail {}), tick {} ({:.1} s)",
-        metres.x,
-        metres.y,
-        blueprint.scale.spacing,
-        blueprint.scale.detail,
-        grouped(clock.tick),
-        clock.tick as f32 * crate::kernel::units::TICK_SECONDS,
+    let advection = spoken(quality.air_advection.words());
+    ui.label(weak(tr!(
+        "{width} × {height} m, d = {spacing} m (detail {detail}), tick {tick} ({seconds} s)",
+        width = format_args!("{:.1}", metres.x),
+        height = format_args!("{:.1}", metres.y),
+        spacing = blueprint.scale.spacing,
+        detail = blueprint.scale.detail,
+        tick = grouped(clock.tick),
+        seconds = format_args!("{:.1}", clock.tick as f32 * crate::kernel::units::TICK_SECONDS)
     )));
-    ui.label(weak(format!(
-        "{}: substeps × iterations {} × {}, h = {} d, air cell {} d, {}",
-        setup.preset.name(),
-        quality.substeps,
-        quality.iterations,
-        quality.kernel_radius,
-        quality.air_cell,
-        quality.air_advection.words(),
+    ui.label(weak(tr!(
+        "{quality}: substeps × iterations {substeps} × {iterations}, h = {radius} d, air cell {cell} d, {advection}",
+        quality = setup.preset.name(),
+        substeps = quality.substeps,
+        iterations = quality.iterations,
+        radius = quality.kernel_radius,
+        cell = quality.air_cell,
+        advection
     )));
 }
 
@@ -115,28 +118,36 @@ fn world(ui: &mut Ui, setup: &Setup, clock: &Clock) {
 fn pace(ui: &mut Ui, tempo: &Tempo, ledger: &PassLedger) {
     let tick = ledger.tick().median().as_secs_f32() * 1000.0;
     let (frames, ticks) = (tempo.frames_per_second, tempo.ticks_per_second);
-    let text =
-        format!("{frames:.0} frames and {ticks:.0} of {TICKS_PER_SECOND} ticks a second; a tick takes {tick:.2} ms");
+    let text = tr!(
+        "{frames} frames and {ticks} of {wanted} ticks a second; a tick takes {tick} ms",
+        frames = format_args!("{frames:.0}"),
+        ticks = format_args!("{ticks:.0}"),
+        wanted = TICKS_PER_SECOND,
+        tick = format_args!("{tick:.2}")
+    );
     let late = tempo.lag.is_some() || tick > 1000.0 / TICKS_PER_SECOND as f32;
     ui.label(if late { RichText::new(text).color(style::WARN) } else { weak(text) });
 }
 
 fn frame(ui: &mut Ui, render: &RenderCost, hud: &HudCost) {
     let (extract, upload) = render.milliseconds();
-    ui.label(weak(format!(
-        "a frame: picture {extract:.2} + {upload:.2} ms, HUD {:.2} ms of processor time",
-        hud.milliseconds()
+    ui.label(weak(tr!(
+        "a frame: picture {extract} + {upload} ms, HUD {hud} ms of processor time",
+        extract = format_args!("{extract:.2}"),
+        upload = format_args!("{upload:.2}"),
+        hud = format_args!("{:.2}", hud.milliseconds())
     )));
     // Passes that draw nothing are not called.
     let drawn = PicturePass::ALL.into_iter().zip(render.drawn()).filter(|(_, count)| *count > 0);
     let drawn: Vec<String> =
         drawn.map(|(pass, count)| format!("{} {}", pass.name(), grouped(u64::from(count)))).collect();
-    ui.label(weak(format!("the picture draws: {}", drawn.join(", "))).small());
+    ui.label(weak(tr!("the picture draws: {}", drawn.join(", "))).small());
 }
 
 fn sound(ui: &mut Ui, cost: &SoundCost) {
-    let listening = format!("sound: {} calls, {:.2} ms each", grouped(cost.calls()), cost.milliseconds());
-    let playing = cost.playing().map(|playing| format!("; {playing:.1} ms to play a second"));
+    let each = format!("{:.2}", cost.milliseconds());
+    let listening = tr!("sound: {calls} calls, {each} ms each", calls = grouped(cost.calls()), each);
+    let playing = cost.playing().map(|playing| tr!("; {} ms to play a second", format_args!("{playing:.1}")));
     ui.label(weak(listening + &playing.unwrap_or_default()));
 }
 
@@ -153,15 +164,15 @@ const COLUMNS: [(&str, &str); 6] = [
 fn stages(ui: &mut Ui, ledger: &PassLedger) {
     egui::Grid::new("stages").num_columns(COLUMNS.len()).spacing([12.0, 3.0]).show(ui, |ui| {
         let [(stage, meaning), figures @ ..] = COLUMNS;
-        ui.label(weak(stage).small()).on_hover_text(meaning);
+        ui.label(weak(spoken(stage)).small()).on_hover_text(spoken(meaning));
         for (heading, meaning) in figures {
-            widgets::to_the_right(ui, weak(heading).small()).on_hover_text(meaning);
+            widgets::to_the_right(ui, weak(spoken(heading)).small()).on_hover_text(spoken(meaning));
         }
         ui.end_row();
         for pass in Pass::ALL {
             row(ui, pass, ledger.record(pass));
         }
-        ui.label("tick");
+        ui.label(tr!("tick"));
         widgets::to_the_right(ui, milliseconds(ledger.tick()));
         for _ in 0..3 {
             ui.label("");
@@ -178,7 +189,7 @@ fn row(ui: &mut Ui, pass: Pass, record: &PassRecord) {
     let colour = if record.last.calls > 0 { style::TEXT } else { style::WEAK };
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        let calls = format!("{} calls since the scene began", grouped(record.calls));
+        let calls = tr!("{} calls since the scene began", grouped(record.calls));
         ui.label(RichText::new(pass.name()).color(colour)).on_hover_text(calls);
         if pass.unit() != Unit::Particles {
             ui.label(weak(pass.unit().name()).small());
@@ -207,10 +218,10 @@ fn saved(milliseconds: Option<f64>) -> String {
 
 fn switches(ui: &mut Ui, effects: &Effects, ledger: &PassLedger, sleepers: Sleepers, orders: &mut Orders) {
     egui::Grid::new("effects").num_columns(4).spacing([12.0, 4.0]).show(ui, |ui| {
-        ui.label(weak("effect").small());
+        ui.label(weak(tr!("effect")).small());
         ui.label("");
-        let meaning = "what it takes when it runs; of sleep, what those take that sleep; ? if it never ran";
-        widgets::to_the_right(ui, weak("saves ms").small()).on_hover_text(meaning);
+        let meaning = tr!("what it takes when it runs; of sleep, what those take that sleep; ? if it never ran");
+        widgets::to_the_right(ui, weak(tr!("saves ms")).small()).on_hover_text(meaning);
         ui.end_row();
         for effect in Effect::ALL {
             let status = EffectStatus::of(effect, effects, sleepers);
@@ -226,13 +237,22 @@ fn switches(ui: &mut Ui, effects: &Effects, ledger: &PassLedger, sleepers: Sleep
             });
             let saving = status::saving(effect, effects, ledger, PassRecord::saved_last);
             widgets::to_the_right(ui, weak(saved(saving)));
-            ui.add(egui::Label::new(weak(status.text())).truncate());
+            ui.add(egui::Label::new(weak(said(&status))).truncate());
             ui.end_row();
         }
     });
 }
 
-/// What the table says of an effect.
+/// Why an effect works or does not, or how much of what it works on sleeps.
+fn said(status: &EffectStatus) -> String {
+    let Some((asleep, all, unit)) = status.asleep else {
+        return format!("{}: {}", spoken(status.activity.name()), spoken(&status.why));
+    };
+    let (some, all, unit) = (grouped(asleep as u64), grouped(all as u64), spoken(unit));
+    if some == all { tr!("asleep: all {} {}", all, unit) } else { tr!("asleep: {} of {} {}", some, all, unit) }
+}
+
+/// What the table says of an effect, as the documents have it.
 fn explanation(effect: Effect) -> String {
     let row = effect.row();
     let plain = |text: &str| text.replace('`', "");
@@ -249,20 +269,27 @@ fn explanation(effect: Effect) -> String {
 fn asleep(ui: &mut Ui, sleepers: Sleepers) {
     let [(asleep, particles), (still, tiles)] =
         [sleepers.particles, sleepers.tiles].map(|(asleep, all)| (grouped(asleep as u64), grouped(all as u64)));
-    ui.label(weak(format!("asleep: {asleep} of {particles} particles, {still} of {tiles} tiles of air")));
+    ui.label(weak(tr!(
+        "asleep: {asleep} of {particles} particles, {still} of {tiles} tiles of air",
+        asleep,
+        particles,
+        still,
+        tiles
+    )));
 }
 
 fn limiters(ui: &mut Ui, readings: &Readings) {
     if readings.limiters.is_empty() {
-        ui.label(weak("No limiter acted."));
+        ui.label(weak(tr!("No limiter acted.")));
         return;
     }
-    ui.label(weak(format!("limiters, since the scene began (the view {} shows where)", STABILITY.name)).small());
+    let view = spoken(STABILITY.name);
+    ui.label(weak(tr!("limiters, since the scene began (the view {} shows where)", view)).small());
     egui::Grid::new("limiters").num_columns(4).spacing([8.0, 3.0]).show(ui, |ui| {
         for pair in readings.limiters.chunks(2) {
             for Acted { what, meaning, count } in pair {
                 widgets::to_the_right(ui, RichText::new(grouped(*count)).color(style::WARN));
-                ui.label(*what).on_hover_text(*meaning);
+                ui.label(spoken(what)).on_hover_text(spoken(meaning));
             }
             ui.end_row();
         }

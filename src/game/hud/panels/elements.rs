@@ -15,15 +15,17 @@ use crate::{
             bindings::{Group, NONE},
             mouse_keys::MouseKeys,
         },
+        language::spoken,
         orders::{Order, Orders},
         panels::Panel,
         toolbox::Toolbox,
-        tools::Tool,
+        tools::{Tool, spaced},
     },
     kernel::element::ElementTable,
 };
 use bevy::prelude::{KeyCode, Local, Res, ResMut, Result};
 use bevy_egui::egui::{self, Align, Align2, Key, Layout, Rect, Stroke, StrokeKind, Ui, Vec2, vec2};
+use tr::tr;
 
 /// Its row.
 pub const PANEL: Panel = Panel {
@@ -59,7 +61,7 @@ pub fn show(
     window.show(&PANEL, (Align2::CENTER_TOP, vec2(0.0, 64.0)), |ui| {
         // The scroll bar has its own room.
         ui.set_width(COLUMNS * (TILE.x + GAP) + 8.0);
-        let field = egui::TextEdit::singleline(&mut *text).hint_text("search").desired_width(f32::INFINITY);
+        let field = egui::TextEdit::singleline(&mut *text).hint_text(tr!("search")).desired_width(f32::INFINITY);
         let field = ui.add(field.char_limit(40).margin(vec2(8.0, 5.0)));
         // A field in focus would have the keys that move the pointer.
         if !mouse_keys.0 {
@@ -72,7 +74,7 @@ pub fn show(
         let mut chosen = first.filter(|_| entered);
         scroll(ui, REST, |ui| {
             for (title, group) in Tool::groups(tiles.elements(), &found) {
-                ui.label(weak(title).small());
+                ui.label(weak(spoken(title)).small());
                 ui.scope(|ui| {
                     ui.spacing_mut().item_spacing = Vec2::splat(GAP);
                     ui.horizontal_wrapped(|ui| {
@@ -90,15 +92,16 @@ pub fn show(
             }
         });
         if found.is_empty() {
-            ui.label(weak("Nothing of that name."));
+            ui.label(weak(tr!("Nothing of that name.")));
         }
         ui.add_space(4.0);
         let [first, last] = ['1', '0'].map(|digit| tiles.key(Action::Element(digit)));
         ui.horizontal(|ui| {
-            ui.label(weak(format!("Point at an element and press one of {first} … {last} to keep it there.")).small());
+            let hint = tr!("Point at an element and press one of {first} … {last} to keep it there.", first, last);
+            ui.label(weak(hint).small());
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let action = Action::Panel(mixer::PANEL.id);
-                if icon_button(ui, (icons::flask, "mixer"), "Mix your own", false)
+                if icon_button(ui, (icons::flask, &tr!("mixer")), &tr!("Mix your own"), false)
                     .on_hover_text(tiles.tip(action))
                     .clicked()
                 {
@@ -132,16 +135,18 @@ fn mark(ui: &Ui, rect: Rect) {
 }
 
 /// Elements and tools whose name holds the text, and tools of whose help a word begins with it; those whose names begin with it
-/// first, and those whose names hold it before the rest.
+/// first, and those whose names hold it before the rest. It is looked for in the player's language and in English.
 fn find(elements: &ElementTable, text: &str) -> Vec<Tool> {
     let text = text.trim().to_lowercase();
     let rank = |tool: &Tool| {
-        let name = tool.label(elements).to_lowercase();
-        let mut words = tool.help().split(|letter: char| !letter.is_alphanumeric());
-        match name.find(&text) {
+        let names = [tool.label(elements), spaced(tool.name(elements))].map(|name| name.to_lowercase());
+        let helps = [spoken(tool.help()), tool.help().to_owned()].map(|help| help.to_lowercase());
+        let begins =
+            |help: &String| help.split(|letter: char| !letter.is_alphanumeric()).any(|word| word.starts_with(&text));
+        match names.iter().filter_map(|name| name.find(&text)).min() {
             Some(0) => Some(0),
             Some(_) => Some(1),
-            None => words.any(|word| word.to_lowercase().starts_with(&text)).then_some(2),
+            None => helps.iter().any(begins).then_some(2),
         }
     };
     let mut found: Vec<(u8, Tool)> = Tool::all(elements).filter_map(|tool| Some((rank(&tool)?, tool))).collect();

@@ -12,6 +12,7 @@ use crate::game::{
         bindings::{Binding, Bindings, Group, NONE, SHIFT},
         rebind::KeyEditor,
     },
+    language::spoken,
     panels::{Panel, Panels, is_open},
 };
 use bevy::prelude::{App, DetectChangesMut, IntoScheduleConfigs, KeyCode, ResMut, Result, Update, not};
@@ -66,18 +67,18 @@ fn read(ui: &mut Ui, choice: &mut KeyChoice) {
 
 fn section(ui: &mut Ui, bindings: &Bindings, group: Group) {
     ui.add_space(4.0);
-    ui.label(RichText::new(group.title()).heading().color(style::ACCENT));
+    ui.label(RichText::new(spoken(group.title())).heading().color(style::ACCENT));
     egui::Grid::new(group.title()).num_columns(2).min_col_width(KEYS_WIDTH).spacing([14.0, 4.0]).show(ui, |ui| {
         for (keys, help) in rows(bindings, group) {
             ui.label(keys);
-            ui.label(weak(help));
+            ui.label(weak(spoken(help)));
             ui.end_row();
         }
     });
     ui.add_space(6.0);
 }
 
-/// Keys and meaning; bindings of the same meaning share a row.
+/// Keys, and meaning in English; bindings of the same meaning share a row.
 fn rows(bindings: &Bindings, group: Group) -> Vec<(String, &'static str)> {
     let mut rows: Vec<(Vec<&Binding>, &'static str)> = Vec::new();
     for binding in bindings.iter().filter(|binding| binding.group == group) {

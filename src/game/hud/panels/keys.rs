@@ -12,6 +12,7 @@ use crate::game::{
         layouts::Layout,
         rebind::{KeyEditor, KeyOrder},
     },
+    language::spoken,
     orders::{Order, Orders},
 };
 use bevy::{
@@ -19,6 +20,7 @@ use bevy::{
     prelude::{Res, ResMut},
 };
 use bevy_egui::egui::{self, Align, Color32, Grid, Layout as Direction, RichText, Ui, vec2};
+use tr::tr;
 
 /// Width of the column of names, points.
 const NAMES: f32 = 236.0;
@@ -54,12 +56,15 @@ impl KeyChoice<'_> {
     /// The button that leads here.
     pub fn way_in(&mut self, ui: &mut Ui) {
         ui.horizontal(|ui| {
-            if ui.button("Change keys").clicked() {
+            if ui.button(tr!("Change keys")).clicked() {
                 self.editor.open = true;
             }
             let layout = self.keymap.layout().name();
-            let own = if self.keymap.is_changed() { ", with changes of your own" } else { "" };
-            ui.label(weak(format!("Layout: {layout}{own}. Keys stand where a US keyboard has them.")).small());
+            let told = match self.keymap.is_changed() {
+                true => tr!("Layout: {}, with changes of your own. Keys stand where a US keyboard has them.", layout),
+                false => tr!("Layout: {}. Keys stand where a US keyboard has them.", layout),
+            };
+            ui.label(weak(told).small());
         });
         ui.add_space(2.0);
     }
@@ -78,7 +83,7 @@ impl KeyChoice<'_> {
 
     fn choose_layout(&mut self, ui: &mut Ui) {
         ui.horizontal(|ui| {
-            ui.label(weak("Layout"));
+            ui.label(weak(tr!("Layout")));
             let now = self.keymap.layout();
             for layout in Layout::ALL {
                 if ui.selectable_label(layout == now, layout.name()).clicked() && layout != now {
@@ -86,12 +91,12 @@ impl KeyChoice<'_> {
                 }
             }
             ui.add_space(12.0);
-            let reset = ui.add_enabled(self.keymap.is_changed(), egui::Button::new("Reset all"));
-            if reset.on_hover_text("every key as the layout has it").clicked() {
+            let reset = ui.add_enabled(self.keymap.is_changed(), egui::Button::new(tr!("Reset all")));
+            if reset.on_hover_text(tr!("every key as the layout has it")).clicked() {
                 self.orders.push(Order::Keys(KeyOrder::Reset));
             }
             ui.with_layout(Direction::right_to_left(Align::Center), |ui| {
-                if ui.button("Done").clicked() {
+                if ui.button(tr!("Done")).clicked() {
                     *self.editor = KeyEditor::default();
                 }
             });
@@ -104,15 +109,13 @@ impl KeyChoice<'_> {
             (Some(told), _) if told.warning => (told.text.clone(), style::WARN),
             (Some(told), _) => (told.text.clone(), style::GOOD),
             (None, Some(slot)) => {
-                let action = slot.action.label(self.bindings.help(slot.action));
+                let action = slot.action.label(&self.bindings.help(slot.action));
                 (
-                    format!("Press a key for “{action}”, with Ctrl, Shift or Alt if you like. Esc leaves it"),
+                    tr!("Press a key for “{action}”, with Ctrl, Shift or Alt if you like. Esc leaves it", action),
                     style::ACCENT,
                 )
             }
-            (None, None) => {
-                ("Press what is to be on another key. A key in use changes places.".to_owned(), style::WEAK)
-            }
+            (None, None) => (tr!("Press what is to be on another key. A key in use changes places."), style::WEAK),
         };
         ui.label(RichText::new(text).color(colour));
     }
@@ -121,7 +124,7 @@ impl KeyChoice<'_> {
         let rows: Vec<Binding> =
             self.bindings.changeable().into_iter().filter(|row| row.group == group).copied().collect();
         ui.add_space(4.0);
-        ui.label(RichText::new(group.title()).heading().color(style::ACCENT));
+        ui.label(RichText::new(spoken(group.title())).heading().color(style::ACCENT));
         Grid::new(("keys", group.title())).num_columns(2).min_col_width(NAMES).spacing([10.0, 3.0]).show(ui, |ui| {
             for row in rows {
                 self.row(ui, &row);
@@ -132,17 +135,18 @@ impl KeyChoice<'_> {
     }
 
     fn row(&mut self, ui: &mut Ui, row: &Binding) {
-        let label = row.action.label(row.help);
+        let help = spoken(row.help);
+        let label = row.action.label(&help);
         let changed = self.keymap.has_changed(row.action);
         ui.label(if changed { RichText::new(&label).color(style::ACCENT) } else { RichText::new(&label) })
-            .on_hover_text(row.help);
+            .on_hover_text(help);
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = GAP;
             for (place, chord) in self.bindings.chords(row.action).into_iter().enumerate() {
                 let slot = Slot { action: row.action, place };
                 let asked = self.editor.asked() == Some(slot);
                 let (text, colour) = match asked {
-                    true => ("press a key …".to_owned(), Color32::WHITE),
+                    true => (tr!("press a key …"), Color32::WHITE),
                     false => (chord.to_string(), if changed { style::ACCENT } else { style::TEXT }),
                 };
                 let button = egui::Button::new(RichText::new(text).color(colour)).selected(asked).min_size(KEY);

@@ -12,6 +12,7 @@ use crate::{
         },
         icons,
         input::bindings::{Bindings, Group, SHIFT},
+        language::spoken,
         museum::Museum,
         orders::{Order, Orders},
         panels::Panel,
@@ -24,6 +25,7 @@ use crate::{
 };
 use bevy::prelude::{KeyCode, Res, ResMut, Result};
 use bevy_egui::egui::{Align2, Color32, RichText, Ui, vec2};
+use tr::tr;
 
 /// Its row.
 pub const PANEL: Panel = Panel {
@@ -54,7 +56,7 @@ pub fn show(
             // Small, so that the world has room.
             Some(exhibit) => about(ui, exhibit, (&bindings, &mut orders)),
             None => {
-                ui.label(weak("Worlds of which the answer is known, and the answer drawn over them."));
+                ui.label(weak(tr!("Worlds of which the answer is known, and the answer drawn over them.")));
                 scroll(ui, 240.0, |ui| orders.extend(list(ui, None)));
             }
         }
@@ -66,7 +68,7 @@ fn list(ui: &mut Ui, shown: Option<&Exhibit>) -> Option<Order> {
     ui.spacing_mut().item_spacing.y = 2.0;
     let mut pressed = None;
     for exhibit in &EXHIBITS {
-        if row(ui, title(exhibit), "", shown.is_some_and(|shown| shown.name == exhibit.name)) {
+        if row(ui, &title(exhibit), "", shown.is_some_and(|shown| shown.name == exhibit.name)) {
             pressed = Some(Order::Visit(exhibit.name));
         }
     }
@@ -77,21 +79,21 @@ fn list(ui: &mut Ui, shown: Option<&Exhibit>) -> Option<Order> {
 fn about(ui: &mut Ui, exhibit: &'static Exhibit, (bindings, orders): (&Bindings, &mut Orders)) {
     ui.spacing_mut().item_spacing.y = 5.0;
     ui.label(RichText::new(title(exhibit)).size(15.0).color(Color32::WHITE));
-    ui.label(RichText::new(exhibit.drawn).color(THEORY));
+    ui.label(RichText::new(spoken(exhibit.drawn)).color(THEORY));
     // Of its Markdown, a line on the screen needs no marks.
     let answer = exhibit.case().map(|case| case.answer.replace('`', "")).unwrap_or_default();
     ui.label(weak(answer).small());
     ui.horizontal(|ui| {
-        for (text, action) in [("Again", Action::Reset), ("Examine", Action::Panel(ExamCase::PANEL.id))] {
-            let button = ui.button(text);
-            name(&button, text, false);
+        for (text, action) in [(tr!("Again"), Action::Reset), (tr!("Examine"), Action::Panel(ExamCase::PANEL.id))] {
+            let button = ui.button(&text);
+            name(&button, &text, false);
             if button.on_hover_text(bindings.tip(action)).clicked() {
                 orders.push(Order::Act(action));
             }
         }
-        let others = ui.button("Others …");
-        name(&others, "other answers", false);
-        menu(&others, "Known answers", |ui| {
+        let others = ui.button(tr!("Others …"));
+        name(&others, &tr!("other answers"), false);
+        menu(&others, &tr!("Known answers"), |ui| {
             scroll(ui, 240.0, |ui| {
                 if let Some(order) = list(ui, Some(exhibit)) {
                     orders.push(order);
@@ -102,6 +104,6 @@ fn about(ui: &mut Ui, exhibit: &'static Exhibit, (bindings, orders): (&Bindings,
     });
 }
 
-fn title(exhibit: &Exhibit) -> &'static str {
-    exhibit.case().map_or(exhibit.name, |case| case.title)
+fn title(exhibit: &Exhibit) -> String {
+    spoken(exhibit.case().map_or(exhibit.name, |case| case.title))
 }

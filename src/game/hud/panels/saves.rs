@@ -11,6 +11,7 @@ use crate::{
         },
         icons,
         input::bindings::{CTRL, Group},
+        language::spoken,
         orders::{Order, Orders},
         panels::{Panel, Panels, is_open},
         saves::{self, LoadError, SaveFolders, Summary},
@@ -21,6 +22,7 @@ use crate::{
 use bevy::prelude::{App, IntoScheduleConfigs, KeyCode, Res, ResMut, Resource, Result, Update, not};
 use bevy_egui::egui::{self, Align2, Color32, TextStyle, Ui, pos2, vec2};
 use std::path::PathBuf;
+use tr::tr;
 
 /// Size of a row, points.
 const ROW: egui::Vec2 = vec2(430.0, 42.0);
@@ -91,7 +93,7 @@ fn show(
     window.show(&PANEL, MIDDLE, |ui| {
         ui.set_width(ROW.x);
         if menu.files.is_empty() {
-            ui.label(weak("No saved world yet."));
+            ui.label(weak(tr!("No saved world yet.")));
         }
         egui::ScrollArea::vertical().max_height(ui.ctx().content_rect().height() - 220.0).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 2.0;
@@ -102,14 +104,14 @@ fn show(
             }
         });
         #[cfg(target_arch = "wasm32")]
-        if ui.button("Open a file of this device").clicked() {
+        if ui.button(tr!("Open a file of this device")).clicked() {
             disk::choose();
         }
         #[cfg(target_arch = "wasm32")]
-        if ui.button("Copy a link to this world").clicked() {
+        if ui.button(tr!("Copy a link to this world")).clicked() {
             orders.push(Order::Act(crate::game::actions::Action::CopyLink));
         }
-        ui.label(weak("Saves, screenshots, recordings and scenes can also be dropped on the window."));
+        ui.label(weak(tr!("Saves, screenshots, recordings and scenes can also be dropped on the window.")));
         for folder in &folders.0 {
             ui.label(weak(folder.display().to_string()).small());
         }
@@ -133,13 +135,12 @@ fn list(folders: &SaveFolders) -> Vec<SaveFile> {
 
 /// How long ago, in words.
 fn age_text(seconds: u64) -> String {
-    let (number, unit) = match seconds {
-        0..60 => return "just now".into(),
-        60..3600 => (seconds / 60, "minute"),
-        3600..86_400 => (seconds / 3600, "hour"),
-        _ => (seconds / 86_400, "day"),
-    };
-    format!("{number} {unit}{} ago", if number == 1 { "" } else { "s" })
+    match seconds {
+        0..60 => tr!("just now"),
+        60..3600 => tr!("{n} minute ago" | "{n} minutes ago" % seconds / 60),
+        3600..86_400 => tr!("{n} hour ago" | "{n} hours ago" % seconds / 3600),
+        _ => tr!("{n} day ago" | "{n} days ago" % seconds / 86_400),
+    }
 }
 
 /// A line of the list; `true` if it is clicked.
@@ -149,13 +150,14 @@ fn row(ui: &mut Ui, file: &SaveFile) -> bool {
     let font = |text: TextStyle| text.resolve(ui.style());
     let (large, small) = (font(TextStyle::Button), font(TextStyle::Small));
     let (title, about, colour) = match &file.summary {
-        None => (name.as_ref(), String::new(), style::WEAK),
-        Some(Err(error)) => (name.as_ref(), error.to_string(), style::WARN),
+        None => (name.to_string(), String::new(), style::WEAK),
+        Some(Err(error)) => (name.to_string(), error.to_string(), style::WARN),
         Some(Ok(summary)) => {
             let seconds = summary.tick as f64 / f64::from(TICKS_PER_SECOND);
-            let particles = grouped(summary.particles as u64);
-            let about = format!("tick {} ({seconds:.1} s), {particles} particles", grouped(summary.tick));
-            (summary.title.as_str(), about, Color32::WHITE)
+            let (tick, particles) = (grouped(summary.tick), grouped(summary.particles as u64));
+            let seconds = format!("{seconds:.1}");
+            let about = tr!("tick {tick} ({seconds} s), {particles} particles", tick, seconds, particles);
+            (spoken(&summary.title), about, Color32::WHITE)
         }
     };
     let painter = ui.painter().with_clip_rect(rect.shrink(2.0));

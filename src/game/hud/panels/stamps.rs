@@ -20,6 +20,7 @@ use crate::{
 };
 use bevy::prelude::{App, KeyCode, Res, ResMut, Result};
 use bevy_egui::egui::{Color32, Rect, TextStyle, Ui, Vec2, pos2, vec2};
+use tr::tr;
 
 /// Size of a picture, points.
 const PICTURE: Vec2 = vec2(104.0, 78.0);
@@ -63,7 +64,8 @@ fn show(
         ui.set_width(width);
         ui.spacing_mut().item_spacing = Vec2::splat(GAP);
         ui.horizontal(|ui| {
-            for (take, icon, text) in [(Take::Copy, edit_icons::copy as Icon, "Copy"), (Take::Cut, edit_icons::cut, "Cut")]
+            for (take, icon, text) in
+                [(Take::Copy, edit_icons::copy as Icon, tr!("Copy")), (Take::Cut, edit_icons::cut, tr!("Cut"))]
             {
                 let size = vec2((width - GAP) / 2.0, BUTTON_HEIGHT);
                 let action = Action::Take(take);
@@ -75,8 +77,12 @@ fn show(
         let stamps = shelf.stamps();
         let key = bindings.key(Action::TakeUpStamp);
         ui.label(weak(match stamps {
-            [] => "Drag a frame around a piece of the world: it is kept here, also for the next session.".to_owned(),
-            _ => format!("The last ones, the newest first. A click takes one up ({key}: the newest), a click in the world pastes it."),
+            [] => tr!("Drag a frame around a piece of the world: it is kept here, also for the next session."),
+            _ => tr!(
+                "The last ones, the newest first. A click takes one up ({key}: the newest), a click in the world \
+                 pastes it.",
+                key
+            ),
         }));
         for row in stamps.chunks(COLUMNS) {
             ui.horizontal(|ui| {
@@ -109,7 +115,7 @@ fn button(ui: &mut Ui, size: Vec2, icon: Icon, text: &str) -> bool {
 /// The picture of a stamp; whether it was pressed.
 fn picture(ui: &mut Ui, kept: &Kept, pictures: &mut Pictures, setup: &Setup) -> bool {
     let piece = &kept.stamp.piece;
-    let (rect, response) = field(ui, PICTURE, &format!("stamp {}", kept.number), false, BUTTON);
+    let (rect, response) = field(ui, PICTURE, &tr!("stamp {}", kept.number), false, BUTTON);
     let size = vec2(piece.size.x as f32, piece.size.y as f32);
     let room = rect.shrink(6.0);
     let shown = Rect::from_center_size(room.center(), size * (room.size() / size).min_elem());
@@ -117,6 +123,6 @@ fn picture(ui: &mut Ui, kept: &Kept, pictures: &mut Pictures, setup: &Setup) -> 
         |corner: glam::Vec2| pos2(shown.left() + corner.x * shown.width(), shown.bottom() - corner.y * shown.height());
     let texture = pictures.of(ui.ctx(), kept, setup.elements());
     ui.painter().add(mesh(texture, Color32::WHITE, at));
-    let about = format!("{} × {} cells, {} particles", piece.size.x, piece.size.y, piece.count());
+    let about = tr!("{} × {} cells, {} particles", piece.size.x, piece.size.y, piece.count());
     response.on_hover_text(about).clicked()
 }

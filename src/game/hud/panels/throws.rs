@@ -10,6 +10,7 @@ use crate::{
         },
         icons::{self, Icon},
         input::bindings::{Bindings, Group, SHIFT},
+        language::spoken,
         orders::{Order, Orders},
         panels::Panel,
         throws::Thrown,
@@ -22,6 +23,7 @@ use crate::{
 };
 use bevy::prelude::{KeyCode, Res, ResMut, Result};
 use bevy_egui::egui::{Align2, Button, Color32, ProgressBar, RichText, Sense, Ui, vec2};
+use tr::tr;
 
 /// Width of what can be thrown, points.
 const WIDTH: f32 = 136.0;
@@ -53,10 +55,10 @@ pub fn show(
     window.show(&PANEL, (Align2::RIGHT_TOP, vec2(-14.0, 60.0)), |ui| {
         ui.set_width(COLUMNS as f32 * (WIDTH + 6.0) - 6.0);
         ui.spacing_mut().item_spacing = vec2(6.0, 6.0);
-        ui.label(weak(
+        ui.label(weak(tr!(
             "What breaks programs of this kind, thrown at your own world. A copy of it is judged by every rule of the stability \
-             gauntlet; undo brings yours back.",
-        ));
+             gauntlet; undo brings yours back."
+        )));
         for row in THROWS.chunks(COLUMNS) {
             ui.horizontal(|ui| {
                 for throw in row {
@@ -77,41 +79,53 @@ pub fn show(
 
 /// The button of a throw; whether it was pressed.
 fn button(ui: &mut Ui, throw: &Throw, setup: &Setup, comes: bool) -> bool {
-    let lacks = throw.lacks(setup);
-    let response = ui
-        .add_enabled_ui(!comes && lacks.is_none(), |ui| ui.add_sized(vec2(WIDTH, 30.0), Button::new(throw.title)))
-        .inner;
-    name(&response, throw.title, false);
-    let why = lacks.map(|element| format!("This world knows no {element}."));
+    let (lacks, title) = (throw.lacks(setup), spoken(throw.title));
+    let response =
+        ui.add_enabled_ui(!comes && lacks.is_none(), |ui| ui.add_sized(vec2(WIDTH, 30.0), Button::new(&title))).inner;
+    name(&response, &title, false);
+    let why = lacks.map(|element| {
+        let element = spoken(element);
+        tr!("This world knows no {}.", element)
+    });
     response
-        .on_hover_text(throw.what)
-        .on_disabled_hover_text(why.unwrap_or_else(|| "It still comes.".to_owned()))
+        .on_hover_text(spoken(throw.what))
+        .on_disabled_hover_text(why.unwrap_or_else(|| tr!("It still comes.")))
         .clicked()
 }
 
 /// What came of it.
 fn verdict(ui: &mut Ui, throw: &Throw, progress: &Progress, bindings: &Bindings) {
+    let title = spoken(throw.title);
     match progress {
         Progress::Idle => {}
         Progress::Running(share) => {
-            let text = format!("{}: judged for {:.1} of {SECONDS} s", throw.title, share * SECONDS as f32);
+            let so_far = format!("{:.1}", share * SECONDS as f32);
+            let text = tr!("{title}: judged for {so_far} of {all} s", title, so_far, all = SECONDS);
             ui.add(ProgressBar::new(*share).text(text));
         }
         Progress::Held { particles, nearest } => {
-            told(ui, (icons::check, style::GOOD), &format!("{}: held", throw.title));
-            let what = format!(
-                "{SECONDS} s by every rule, {} particles at the end. Nearest to a bound: {nearest}.",
-                grouped(*particles)
+            told(ui, (icons::check, style::GOOD), &tr!("{}: held", title));
+            let what = tr!(
+                "{seconds} s by every rule, {particles} particles at the end. Nearest to a bound: {nearest}.",
+                seconds = SECONDS,
+                particles = grouped(*particles),
+                nearest
             );
             ui.label(weak(what).small());
         }
         Progress::Broke { faults, known } => {
-            let (text, colour) = if *known { ("as known", style::WARN) } else { ("broken", style::BAD) };
-            told(ui, (icons::close, colour), &format!("{}: {text}", throw.title));
+            let (text, colour) = match known {
+                true => (tr!("{}: as known", title), style::WARN),
+                false => (tr!("{}: broken", title), style::BAD),
+            };
+            told(ui, (icons::close, colour), &text);
             faults.iter().for_each(|fault| drop(ui.label(RichText::new(fault).small())));
             let what = match known {
-                true => "Without the pressure predictor the method is known for this.".to_owned(),
-                false => format!("{} keeps the last minute as a recording.", bindings.key(Action::KeepLastMinute)),
+                true => tr!("Without the pressure predictor the method is known for this."),
+                false => {
+                    let key = bindings.key(Action::KeepLastMinute);
+                    tr!("{} keeps the last minute as a recording.", key)
+                }
             };
             ui.label(weak(what).small());
         }

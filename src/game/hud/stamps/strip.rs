@@ -10,6 +10,7 @@ use crate::game::{
     },
     icons::{self, Icon},
     input::{bindings::Bindings, touch::Fingers},
+    language::spoken,
     orders::{Order, Orders},
     panels::Panels,
     stamps::hand::Hand,
@@ -19,13 +20,14 @@ use bevy_egui::{
     EguiContexts,
     egui::{self, Align2, RichText, Ui, Vec2, vec2},
 };
+use tr::tr;
 
 /// Size of a button for the mouse, points, and for fingers, pixels.
 const BUTTONS: [Vec2; 2] = [vec2(36.0, 28.0), vec2(56.0, 48.0)];
 /// From the bar above, points, and from the numbers of the touch layout, pixels.
 const GAPS: [f32; 2] = [10.0, 44.0];
 
-/// The buttons of a stamp: what they are called for scripts, icon, action.
+/// The buttons of a stamp: what they are called for scripts and screen readers, icon, action.
 const OF_STAMP: [(&str, Icon, Action); 3] = [
     ("turn the stamp", edit_icons::turn, Action::TurnStamp),
     ("mirror the stamp", edit_icons::mirror, Action::MirrorStamp),
@@ -63,22 +65,26 @@ pub fn show(
 
 fn buttons(ui: &mut Ui, size: Vec2, hand: &Hand, bindings: &Bindings, orders: &mut Orders) {
     let mut button = |ui: &mut Ui, (name, icon): (&str, Icon), action: Action, active: bool| {
-        let (rect, response) = field(ui, size, name, active, BUTTON);
+        let (rect, response) = field(ui, size, &spoken(name), active, BUTTON);
         let colour = if active { style::ACCENT } else { ui.style().interact(&response).fg_stroke.color };
         icons::draw(ui.painter(), icons::square(rect.center(), 0.6 * size.y), icon, colour);
         if response.on_hover_text(bindings.tip(action)).clicked() {
             orders.push(Order::Act(action));
         }
     };
-    let text = |ui: &mut Ui, text: &str| ui.label(RichText::new(text).color(style::TEXT));
+    let text = |ui: &mut Ui, text: String| ui.label(RichText::new(text).color(style::TEXT));
     match hand {
         Hand::Empty => {}
         Hand::Frame(take) => {
-            text(ui, if *take == Take::Copy { "Drag a frame to copy" } else { "Drag a frame to cut" });
+            let told = match take {
+                Take::Copy => tr!("Drag a frame to copy"),
+                Take::Cut => tr!("Drag a frame to cut"),
+            };
+            text(ui, told);
             button(ui, ("lay it down", icons::close), Action::Close, false);
         }
         Hand::Stamp(..) => {
-            text(ui, "Click to paste");
+            text(ui, tr!("Click to paste"));
             for (name, icon, action) in OF_STAMP {
                 button(ui, (name, icon), action, false);
             }

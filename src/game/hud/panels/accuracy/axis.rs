@@ -2,6 +2,7 @@
 
 use crate::sim::numbers::short;
 use bevy::math::ops::{exp2, log10};
+use tr::tr;
 
 /// Least length of an axis, decades.
 const LEAST: f32 = 1.0;
@@ -77,6 +78,11 @@ fn power_of_ten(exponent: i32) -> f32 {
 /// An error as a text.
 pub fn percent(error: f32) -> String {
     format!("{} %", short(100.0 * error))
+}
+
+/// The same of an error that there need not be.
+pub fn percent_or_none(error: Option<f32>) -> String {
+    error.map_or_else(|| tr!("error" => "none"), percent)
 }
 
 #[cfg(test)]

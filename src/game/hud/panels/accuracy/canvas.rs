@@ -9,6 +9,7 @@ use crate::{
     sim::numbers::short,
 };
 use bevy_egui::egui::{self, Align2, Color32, FontId, Pos2, Rect, Shape, Stroke, pos2, vec2};
+use tr::tr;
 
 /// Errors below this are drawn at it: a logarithm has no 0.
 pub const LEAST: f32 = 1e-5;
@@ -78,7 +79,7 @@ impl Canvas<'_> {
             }
         }
         let below = pos2(field.center().x, field.bottom() + 17.0);
-        self.text(below, Align2::CENTER_TOP, "ms a tick", style::WEAK);
+        self.text(below, Align2::CENTER_TOP, &tr!("ms a tick"), style::WEAK);
     }
 
     /// What lies beyond the autopilot's bound.
@@ -103,8 +104,8 @@ impl Canvas<'_> {
         self.painter.rect_filled(field.with_min_y(y), 0.0, style::WEAK.gamma_multiply(0.12));
         let pen = Stroke::new(1.0, style::WEAK.gamma_multiply(0.8));
         self.painter.extend(Shape::dashed_line(&[pos2(field.left(), y), pos2(field.right(), y)], pen, 2.0, 3.0));
-        let text = "floor: less is not told apart";
-        self.text(pos2(field.left() + 6.0, y + 2.0), Align2::LEFT_TOP, text, style::WEAK);
+        let text = tr!("floor: less is not told apart");
+        self.text(pos2(field.left() + 6.0, y + 2.0), Align2::LEFT_TOP, &text, style::WEAK);
     }
 
     /// The world as it runs, and where it was.

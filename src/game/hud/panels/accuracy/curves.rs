@@ -16,6 +16,7 @@ use crate::{
     },
 };
 use std::collections::{BTreeMap, BTreeSet};
+use tr::tr;
 
 /// Ticks at one setting after which the median time of the last ones (as many) is of that setting alone.
 const SETTLED: u64 = 64;
@@ -154,17 +155,21 @@ impl Curves {
 
 /// Where a curve comes from, in one line.
 pub fn source(curve: &Curve, scale: Option<f32>) -> String {
-    let times = |scale: f32, like: &str| format!(", times × {} as {like}", short(scale));
-    match &curve.shipped {
-        Some(on) => {
-            let told = scale.map_or_else(|| ", times as there".to_owned(), |scale| times(scale, "here"));
-            format!("shipped, {on}{told}")
-        }
-        None => {
-            let told = scale.filter(|scale| (scale - 1.0).abs() > 0.005);
-            let told = told.map_or_else(String::new, |scale| times(scale, "in the game"));
-            format!("{} from tick {} on, one thread, all awake{told}", curve.scene, numbers::grouped(curve.tick))
-        }
+    if let Some(on) = &curve.shipped {
+        return match scale.map(short) {
+            Some(scale) => tr!("shipped, {on}, times × {scale} as here", on, scale),
+            None => tr!("shipped, {on}, times as there", on),
+        };
+    }
+    let (scene, tick) = (&curve.scene, numbers::grouped(curve.tick));
+    match scale.filter(|scale| (scale - 1.0).abs() > 0.005).map(short) {
+        Some(scale) => tr!(
+            "{scene} from tick {tick} on, one thread, all awake, times × {scale} as in the game",
+            scene,
+            tick,
+            scale
+        ),
+        None => tr!("{scene} from tick {tick} on, one thread, all awake", scene, tick),
     }
 }
 

@@ -14,6 +14,7 @@ use crate::{
 use bevy_egui::egui::{
     self, Align2, Color32, EventFilter, FontId, Key, Painter, Pos2, Response, Sense, Stroke, Ui, pos2, vec2,
 };
+use tr::tr;
 
 /// Height with and without the names below the steps, points.
 const HEIGHTS: [f32; 2] = [37.0, 24.0];
@@ -30,16 +31,16 @@ pub fn show(ui: &mut Ui, setup: &Setup, piloted: bool, orders: &mut Orders) {
     let Shown { response, looked_at, chosen } = track(ui, accuracy);
     let now = match accuracy.step() {
         Some(step) => about(STEPS[step]),
-        None => format!(
-            "{}, detail {}: chosen by hand",
-            quality_name(setup.preset, &setup.quality),
-            detail_name(setup.asked_detail())
+        None => tr!(
+            "{quality}, detail {detail}: chosen by hand",
+            quality = quality_name(setup.preset, &setup.quality),
+            detail = detail_name(setup.asked_detail())
         ),
     };
-    response.widget_info(|| egui::WidgetInfo::slider(true, f64::from(accuracy.place()), "smooth to exact"));
+    response.widget_info(|| egui::WidgetInfo::slider(true, f64::from(accuracy.place()), tr!("smooth to exact")));
     let text = match looked_at {
         Some(step) => about(STEPS[step]),
-        None if piloted => format!("{now}; to choose a step ends the autopilot"),
+        None if piloted => tr!("{now}; to choose a step ends the autopilot", now),
         None => now,
     };
     ui.label(weak(text).small());
@@ -122,8 +123,8 @@ impl Scale {
         let (first, last) = (self.at(0.0), self.at((STEPS.len() - 1) as f32));
         let gap = vec2(HANDLE + 5.0, 0.0);
         let font = FontId::proportional(12.0);
-        painter.text(first - gap, Align2::RIGHT_CENTER, "smooth", font.clone(), style::TEXT);
-        painter.text(last + gap, Align2::LEFT_CENTER, "exact", font, style::TEXT);
+        painter.text(first - gap, Align2::RIGHT_CENTER, tr!("smooth"), font.clone(), style::TEXT);
+        painter.text(last + gap, Align2::LEFT_CENTER, tr!("exact"), font, style::TEXT);
         painter.line_segment([first, last], Stroke::new(3.0, style::BUTTON_HOVER));
         painter.line_segment([first, self.at(place)], Stroke::new(3.0, style::ACCENT));
         for (k, step) in STEPS.into_iter().enumerate() {
@@ -154,14 +155,14 @@ fn about(step: Step) -> String {
     let Step { preset, detail } = step;
     let name = match preset.detail() {
         1.0 => preset.name().to_owned(),
-        own => format!("{}, which is fine at detail {}", preset.name(), detail_name(own * detail)),
+        own => tr!("{}, which is fine at detail {}", preset.name(), detail_name(own * detail)),
     };
     match step.particles() {
-        1.0 => format!("{name}, at the scene's own detail"),
+        1.0 => tr!("{name}, at the scene's own detail", name),
         fewer if fewer < 1.0 => {
-            format!("{name} at detail {}: {} of the particles", detail_name(detail), detail_name(fewer))
+            tr!("{name} at detail {}: {} of the particles", detail_name(detail), detail_name(fewer), name)
         }
-        more => format!("{name}: {more} × the particles"),
+        more => tr!("{name}: {more} × the particles", name, more),
     }
 }
 

@@ -6,23 +6,25 @@ use crate::{
     sim::numbers::figure,
 };
 use bevy_egui::egui::{self, Ui};
+use tr::tr;
 
 /// A line: what, how much, and what that is.
-type Line = (&'static str, String, &'static str);
+type Line = (String, String, String);
 
 /// Shows them where `open`, and a heading that opens and closes them. Until they were `seen`, what is below the edge of the
 /// panel is brought up.
 pub fn show(ui: &mut Ui, open: &mut bool, seen: &mut bool, measures: &Measures) {
-    let header = egui::CollapsingHeader::new("All measures").open(Some(*open)).show(ui, |ui| match measures.latest() {
+    let header = egui::CollapsingHeader::new(tr!("All measures")).id_salt("All measures").open(Some(*open));
+    let header = header.show(ui, |ui| match measures.latest() {
         Some(measured) => table(ui, measured),
-        None => drop(ui.label(weak("measuring"))),
+        None => drop(ui.label(weak(tr!("measuring")))),
     });
     if let (Some(body), false, true) = (&header.body_response, *seen, measures.latest().is_some()) {
         body.scroll_to_me(Some(egui::Align::BOTTOM));
         *seen = true;
     }
     *seen &= *open;
-    if header.header_response.on_hover_text("measured once a second while they are shown").clicked() {
+    if header.header_response.on_hover_text(tr!("measured once a second while they are shown")).clicked() {
         *open = !*open;
     }
 }
@@ -37,50 +39,50 @@ fn table(ui: &mut Ui, measured: &Measured) {
         }
     });
     let cost = figure(measured.cost.as_secs_f64() * 1000.0);
-    ui.label(weak(format!("measuring them takes {cost} ms, once a second")).small());
+    ui.label(weak(tr!("measuring them takes {cost} ms, once a second", cost)).small());
 }
 
 fn lines(measured: &Measured) -> Vec<Line> {
     let percent = |share: f64| format!("{} %", figure(100.0 * share));
-    let or_none = |share: Option<f64>| share.map_or("none".to_owned(), percent);
+    let or_none = |text: Option<String>| text.unwrap_or_else(|| tr!("error" => "none"));
     let signed = |share: f64| if share > 0.0 { format!("+{}", percent(share)) } else { percent(share) };
     let joules = |energy: f64| format!("{} J", figure(energy));
     let [x, y] = measured.momentum.to_array().map(figure);
     let mut lines = vec![
         (
-            "solver's residual",
-            or_none(measured.residual),
-            "how far above its rest density the solver left the particles that are too dense, on average, by its own \
-             kernel in its last iteration",
+            tr!("solver's residual"),
+            or_none(measured.residual.map(percent)),
+            tr!("how far above its rest density the solver left the particles that are too dense, on average, by its \
+                 own kernel in its last iteration"),
         ),
         (
-            "volume error",
-            measured.volume_error.map_or("none".to_owned(), signed),
-            "room that the liquid takes, against the room that its particles stand for",
+            tr!("volume error"),
+            or_none(measured.volume_error.map(signed)),
+            tr!("room that the liquid takes, against the room that its particles stand for"),
         ),
-        ("kinetic energy", joules(measured.kinetic), "of the particles, for each metre of depth"),
+        (tr!("kinetic energy"), joules(measured.kinetic), tr!("of the particles, for each metre of depth")),
         (
-            "potential energy",
+            tr!("potential energy"),
             joules(measured.potential),
-            "of the particles over the lower left corner, for each metre of depth",
+            tr!("of the particles over the lower left corner, for each metre of depth"),
         ),
-        ("momentum", format!("{x}, {y} kg m/s"), "of the particles along x and y, for each metre of depth"),
+        (tr!("momentum"), format!("{x}, {y} kg m/s"), tr!("of the particles along x and y, for each metre of depth")),
     ];
     match measured.air {
         Some(air) => lines.extend([
-            ("air mass", format!("{} kg", figure(air.mass)), "in the box, for each metre of depth"),
+            (tr!("air mass"), format!("{} kg", figure(air.mass)), tr!("in the box, for each metre of depth")),
             (
-                "air mass drift",
+                tr!("air mass drift"),
                 signed(air.drift),
-                "since these lines were opened or the world was put in place; open sides and tools change it, too",
+                tr!("since these lines were opened or the world was put in place; open sides and tools change it, too"),
             ),
             (
-                "air divergence",
+                tr!("air divergence"),
                 format!("{} 1/s", figure(air.divergence)),
-                "root mean square over the open cells: sound and what the scheme leaves",
+                tr!("root mean square over the open cells: sound and what the scheme leaves"),
             ),
         ]),
-        None => lines.push(("air", "off".to_owned(), "switched off in this scene")),
+        None => lines.push((tr!("air"), tr!("off"), tr!("switched off in this scene"))),
     }
     lines
 }

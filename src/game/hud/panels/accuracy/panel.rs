@@ -44,6 +44,7 @@ use crate::{
 };
 use bevy::prelude::{App, KeyCode, Res, ResMut, Resource, Result};
 use bevy_egui::egui::{self, Align2, Color32, FontId, RichText, Sense, Ui, vec2};
+use tr::tr;
 
 /// Width of the panel's contents, points.
 const WIDTH: f32 = 396.0;
@@ -183,11 +184,12 @@ fn headline(ui: &mut Ui, setup: &Setup, milliseconds: f32, error: &LiveError) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 5.0;
         ui.label(RichText::new(format!("{milliseconds:.2}")).heading().color(Color32::WHITE));
-        ui.label(weak("ms a tick"));
+        ui.label(weak(tr!("ms a tick")));
         ui.add_space(10.0);
         let (mean, p99) = (error.mean(), error.p99());
-        ui.label(RichText::new(mean.map_or("none".into(), percent)).heading().color(Color32::WHITE));
-        ui.label(weak("error"));
+        let mean = mean.map_or_else(|| tr!("headline" => "none"), percent);
+        ui.label(RichText::new(mean).heading().color(Color32::WHITE));
+        ui.label(weak(tr!("error")));
         if let Some(p99) = p99 {
             ui.label(weak(format!("(p99 {})", percent(p99))));
         }
@@ -196,10 +198,10 @@ fn headline(ui: &mut Ui, setup: &Setup, milliseconds: f32, error: &LiveError) {
         });
     })
     .response
-    .on_hover_text(
+    .on_hover_text(tr!(
         "Mean and 99th percentile of how much too dense the liquid stands, from a sample of its particles over half a \
-         second; the time is the median of the last ticks",
-    );
+         second; the time is the median of the last ticks"
+    ));
 }
 
 /// The survey, and a second world, whole or through the lens.
@@ -214,24 +216,26 @@ fn measure(
         match survey.progress {
             Some(progress) => {
                 let bar = egui::ProgressBar::new(progress).desired_width(130.0).desired_height(22.0);
-                ui.add(bar.text(format!("measuring, {:.0} %", 100.0 * progress)).fill(style::ACCENT_FILL));
-                if ui.button("cancel").clicked() {
+                let told = tr!("measuring, {} %", format_args!("{:.0}", 100.0 * progress));
+                ui.add(bar.text(told).fill(style::ACCENT_FILL));
+                if ui.button(tr!("cancel")).clicked() {
                     orders.push(Order::Survey(SurveyRequest::Cancel));
                 }
             }
             None => {
-                let button = main_button(ui, "Measure here");
-                let told = "Takes the world as it is and runs every quality from it for two seconds, the \
-                            ends of them at half and at twice the detail, too, on one thread beside the game, \
-                            which plays on";
+                let button = main_button(ui, &tr!("Measure here"));
+                let told = tr!(
+                    "Takes the world as it is and runs every quality from it for two seconds, the ends of them at half \
+                     and at twice the detail, too, on one thread beside the game, which plays on"
+                );
                 if button.on_hover_text(told).clicked() {
                     orders.push(Order::Survey(SurveyRequest::Begin));
                 }
             }
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            action_button(ui, icons::split, "A/B split", Action::Split, split, (bindings, orders));
-            action_button(ui, icons::lens, "Lens", Action::Lens, lens, (bindings, orders));
+            action_button(ui, icons::split, &tr!("A/B split"), Action::Split, split, (bindings, orders));
+            action_button(ui, icons::lens, &tr!("Lens"), Action::Lens, lens, (bindings, orders));
         });
     });
     if let Some(curve) = curve {
@@ -252,9 +256,10 @@ fn stages(ui: &mut Ui, ledger: &PassLedger, error: &LiveError) {
         }
     }
     if tick > 0.0 {
-        bar(ui, "others", rest.max(0.0), longest);
+        bar(ui, &tr!("others"), rest.max(0.0), longest);
     }
-    ui.label(weak(format!("measuring the error takes {} ms a tick more", short(error.milliseconds_a_tick()))).small());
+    let told = tr!("measuring the error takes {} ms a tick more", short(error.milliseconds_a_tick()));
+    ui.label(weak(told).small());
 }
 
 fn bar(ui: &mut Ui, name: &str, time: f32, longest: f32) {

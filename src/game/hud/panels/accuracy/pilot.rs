@@ -3,7 +3,7 @@
 use crate::{
     game::{
         hud::{
-            panels::accuracy::axis::percent,
+            panels::accuracy::axis::percent_or_none,
             style::{self, weak},
             widgets::{detail_name, quality_name},
         },
@@ -13,6 +13,7 @@ use crate::{
     sim::{numbers::short, state::Setup},
 };
 use bevy_egui::egui::{self, RichText, Ui};
+use tr::tr;
 
 /// Bounds that can be chosen: ms a tick.
 const TIMES: std::ops::RangeInclusive<f32> = 0.2..=33.0;
@@ -38,14 +39,14 @@ impl Default for Bounds {
 pub fn show(ui: &mut Ui, autopilot: &Autopilot, bounds: &mut Bounds, orders: &mut Orders) {
     let goal = autopilot.goal();
     ui.horizontal(|ui| {
-        ui.label("Autopilot");
+        ui.label(tr!("Autopilot"));
         ui.spacing_mut().item_spacing.x = 3.0;
         let time = matches!(goal, Some(Goal::Time(_)));
         let error = matches!(goal, Some(Goal::Error(_)));
         for (chosen, name, wanted) in [
-            (goal.is_none(), "off", None),
-            (time, "hold the time", Some(Goal::Time(bounds.time))),
-            (error, "hold the error", Some(Goal::Error(bounds.percent / 100.0))),
+            (goal.is_none(), tr!("off"), None),
+            (time, tr!("hold the time"), Some(Goal::Time(bounds.time))),
+            (error, tr!("hold the error"), Some(Goal::Error(bounds.percent / 100.0))),
         ] {
             if ui.selectable_label(chosen, name).clicked() && !chosen {
                 orders.push(Order::Hold(wanted));
@@ -54,21 +55,20 @@ pub fn show(ui: &mut Ui, autopilot: &Autopilot, bounds: &mut Bounds, orders: &mu
     });
     let changed = match goal {
         None => return,
-        Some(Goal::Time(_)) => slider(ui, &mut bounds.time, TIMES, "ms a tick").then_some(Goal::Time(bounds.time)),
-        Some(Goal::Error(_)) => {
-            slider(ui, &mut bounds.percent, PERCENTS, "% density error").then_some(Goal::Error(bounds.percent / 100.0))
-        }
+        Some(Goal::Time(_)) => slider(ui, &mut bounds.time, TIMES, tr!("ms a tick")).then_some(Goal::Time(bounds.time)),
+        Some(Goal::Error(_)) => slider(ui, &mut bounds.percent, PERCENTS, tr!("% density error"))
+            .then_some(Goal::Error(bounds.percent / 100.0)),
     };
     if changed.is_some() {
         orders.push(Order::Hold(changed));
     }
 }
 
-fn slider(ui: &mut Ui, value: &mut f32, range: std::ops::RangeInclusive<f32>, unit: &str) -> bool {
+fn slider(ui: &mut Ui, value: &mut f32, range: std::ops::RangeInclusive<f32>, unit: String) -> bool {
     let slider = egui::Slider::new(value, range).logarithmic(true).text(unit);
     let slider = slider.custom_formatter(|value, _| short(value as f32));
     ui.horizontal(|ui| {
-        ui.label("at most");
+        ui.label(tr!("at most"));
         ui.add(slider).changed()
     })
     .inner
@@ -89,10 +89,12 @@ pub fn status(
     let Some(advice) = autopilot.advice() else { return };
     ui.horizontal_wrapped(|ui| {
         let (detail, time) = (detail_name(advice.detail), short(advice.milliseconds));
-        ui.label(weak(format!("detail {detail} would take some {time} ms")));
-        let told = "The autopilot keeps the detail: rock and drops are not the same after a change and back. The \
-                    change can be undone";
-        if ui.button(format!("go to detail {detail}")).on_hover_text(told).clicked() {
+        ui.label(weak(tr!("detail {detail} would take some {time} ms", detail, time)));
+        let told = tr!(
+            "The autopilot keeps the detail: rock and drops are not the same after a change and back. The change can \
+             be undone"
+        );
+        if ui.button(tr!("go to detail {detail}", detail)).on_hover_text(told).clicked() {
             orders.push(Order::Detail(advice.detail));
         }
     });
@@ -100,16 +102,21 @@ pub fn status(
 
 /// The line, and whether it is a warning.
 fn told(goal: Goal, verdict: Verdict, quality: &str, milliseconds: f32, error: Option<f32>) -> (String, bool) {
-    let (time, error) = (short(milliseconds), error.map_or("none".to_owned(), percent));
-    match (verdict, goal) {
-        (Verdict::Settling, _) => (format!("settling, now at {quality}"), false),
-        (Verdict::Holds, Goal::Time(_)) => (format!("held at {quality}: {time} ms, with an error of {error}"), false),
-        (Verdict::Holds, Goal::Error(_)) => (format!("held at {quality}: error {error}, for {time} ms a tick"), false),
-        (Verdict::Beyond, Goal::Time(_)) => (format!("can't be held: {time} ms even at {quality}"), true),
-        (Verdict::Beyond, Goal::Error(_)) => {
-            (format!("can't be held: error {error} even at {quality}, {time} ms"), true)
+    let (time, error) = (short(milliseconds), percent_or_none(error));
+    let text = match (verdict, goal) {
+        (Verdict::Settling, _) => tr!("settling, now at {quality}", quality),
+        (Verdict::Holds, Goal::Time(_)) => {
+            tr!("held at {quality}: {time} ms, with an error of {error}", quality, time, error)
         }
-    }
+        (Verdict::Holds, Goal::Error(_)) => {
+            tr!("held at {quality}: error {error}, for {time} ms a tick", quality, time, error)
+        }
+        (Verdict::Beyond, Goal::Time(_)) => tr!("can't be held: {time} ms even at {quality}", quality, time),
+        (Verdict::Beyond, Goal::Error(_)) => {
+            tr!("can't be held: error {error} even at {quality}, {time} ms", quality, time, error)
+        }
+    };
+    (text, verdict == Verdict::Beyond)
 }
 
 #[cfg(test)]

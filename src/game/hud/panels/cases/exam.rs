@@ -12,6 +12,7 @@ use crate::{
         },
         icons,
         input::bindings::{Group, NONE},
+        language::spoken,
         orders::Order,
         panels::Panel,
     },
@@ -23,6 +24,7 @@ use crate::{
 };
 use bevy::prelude::KeyCode;
 use bevy_egui::egui::{self, Align2, Color32, RichText, Ui, pos2, vec2};
+use tr::tr;
 
 /// Height of a line, points.
 const LINE: f32 = 19.0;
@@ -48,7 +50,7 @@ impl Suite for ExamCase {
     const WIDTH: f32 = 760.0;
 
     fn show(ui: &mut Ui, rows: &[Row<Answer>], _setup: &Setup, height: f32) -> Option<Order> {
-        let see = ui.button("Museum").on_hover_text("see them, with theory drawn over the world").clicked();
+        let see = ui.button(tr!("Museum")).on_hover_text(tr!("see them, with theory drawn over the world")).clicked();
         if !rows.is_empty() {
             ui.separator();
             headings(ui);
@@ -64,7 +66,7 @@ fn headings(ui: &mut Ui) {
     let (rect, _) = ui.allocate_exact_size(vec2(ExamCase::WIDTH, LINE), egui::Sense::hover());
     let font = egui::TextStyle::Small.resolve(ui.style());
     for (column, heading) in HEADINGS.into_iter().enumerate() {
-        put(ui, rect, column, heading, &font, style::WEAK);
+        put(ui, rect, column, &spoken(heading), &font, style::WEAK);
     }
 }
 
@@ -138,10 +140,10 @@ fn put(ui: &Ui, rect: egui::Rect, column: usize, text: &str, font: &egui::FontId
 fn summary(ui: &mut Ui, rows: &[Row<Answer>]) {
     ui.horizontal(|ui| {
         for (verdict, name) in [
-            (Verdict::Pass, "within"),
-            (Verdict::Miss, "beyond, below balanced"),
-            (Verdict::Known, "beyond, as is known"),
-            (Verdict::Fail, "beyond"),
+            (Verdict::Pass, tr!("within")),
+            (Verdict::Miss, tr!("beyond, below balanced")),
+            (Verdict::Known, tr!("beyond, as is known")),
+            (Verdict::Fail, tr!("beyond")),
         ] {
             let count = rows.iter().filter(|row| row.verdict == verdict).count();
             let (icon, colour) = mark(verdict);

@@ -25,6 +25,7 @@ use crate::{
 };
 use bevy::prelude::KeyCode;
 use bevy_egui::egui::{self, Align2, Ui, pos2, vec2};
+use tr::tr;
 
 /// Height of a line, points.
 const LINE: f32 = 24.0;
@@ -53,7 +54,8 @@ impl Suite for GauntletCase {
     const WIDTH: f32 = 740.0;
 
     fn show(ui: &mut Ui, rows: &[Row<Stability>], setup: &Setup, height: f32) -> Option<Order> {
-        let throw = ui.button("Try to break it").on_hover_text("throw hard cases at your own world").clicked();
+        let throw =
+            ui.button(tr!("Try to break it")).on_hover_text(tr!("throw hard cases at your own world")).clicked();
         ui.separator();
         headings(ui);
         let watched = list(ui, rows, setup, (height - 360.0).max(4.0 * LINE)).map(Order::Watch);

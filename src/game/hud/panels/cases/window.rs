@@ -8,6 +8,7 @@ use crate::{
             window::{MIDDLE, PanelWindow},
         },
         icons::{self, Icon},
+        language::spoken,
         orders::{Order, Orders},
         panels::{Panel, Panels},
     },
@@ -17,6 +18,7 @@ use crate::{
 };
 use bevy::prelude::{App, Res, ResMut, Result};
 use bevy_egui::egui::{self, Color32, RichText, Ui};
+use tr::tr;
 
 /// What is particular to the window of a suite.
 pub trait Suite: Case {
@@ -48,7 +50,7 @@ fn show<C: Suite>(
 ) -> Result {
     window.show(&C::PANEL, MIDDLE, |ui| {
         ui.set_width(C::WIDTH);
-        ui.label(weak(C::PURPOSE));
+        ui.label(weak(spoken(C::PURPOSE)));
         ui.horizontal(|ui| {
             buttons(ui, &mut queue, setup.preset);
             progress(ui, queue.progress());
@@ -61,15 +63,15 @@ fn show<C: Suite>(
 /// Begins and stops.
 fn buttons<C: Suite>(ui: &mut Ui, queue: &mut JobQueue<C>, preset: Preset) {
     if queue.is_running() {
-        if main_button(ui, "Stop").clicked() {
+        if main_button(ui, &tr!("Stop")).clicked() {
             queue.stop();
         }
         return;
     }
-    if main_button(ui, C::BEGIN).on_hover_text("the quality that is played at").clicked() {
+    if main_button(ui, &spoken(C::BEGIN)).on_hover_text(tr!("the quality that is played at")).clicked() {
         queue.begin(&[preset]);
     }
-    if ui.button("all qualities").on_hover_text("takes some minutes").clicked() {
+    if ui.button(tr!("all qualities")).on_hover_text(tr!("takes some minutes")).clicked() {
         queue.begin(&Preset::ALL);
     }
 }
@@ -79,11 +81,11 @@ fn progress(ui: &mut Ui, progress: &Progress) {
         Progress::Idle => {}
         Progress::Running { done, of, now } => {
             let share = *done as f32 / (*of).max(1) as f32;
-            ui.add(egui::ProgressBar::new(share).desired_width(160.0).text(format!("{done} of {of}")));
+            ui.add(egui::ProgressBar::new(share).desired_width(160.0).text(tr!("{done} of {of}", done, of)));
             ui.label(weak(now).small());
         }
-        Progress::Done => drop(ui.label(weak("done"))),
-        Progress::Stopped => drop(ui.label(weak("stopped"))),
+        Progress::Done => drop(ui.label(weak(tr!("done")))),
+        Progress::Stopped => drop(ui.label(weak(tr!("stopped")))),
         Progress::Broken(why) => drop(ui.label(RichText::new(why).color(style::WARN))),
     }
 }

@@ -13,6 +13,7 @@ use crate::{
         },
         icons,
         input::bindings::{Bindings, CTRL, Group},
+        language::spoken,
         orders::{Order, Orders},
         panels::{Panel, Panels},
         tools::spaced,
@@ -30,6 +31,8 @@ use crate::{
 };
 use bevy::prelude::{App, KeyCode, Res, ResMut, Result};
 use bevy_egui::egui::{Align2, Color32, RichText, Sense, Ui, vec2};
+use glam::Vec2;
+use tr::tr;
 
 /// Width of the panel's contents, points.
 const WIDTH: f32 = 372.0;
@@ -90,9 +93,11 @@ fn show(
 /// How gauges are set.
 fn how(bindings: &Bindings) -> String {
     let [spot, line] = [Action::Gauge, Action::GaugeLine].map(|action| bindings.key(action));
-    format!(
+    tr!(
         "{spot} sets a gauge under the pointer: speed, pressure, density, temperature. {line}, and {line} again elsewhere, \
-         measures the flow through a line. A click on a mark finds it here, the right button takes it away."
+         measures the flow through a line. A click on a mark finds it here, the right button takes it away.",
+        spot,
+        line
     )
 }
 
@@ -106,9 +111,10 @@ fn chips(ui: &mut Ui, gauges: &Gauges, shown: Shown) -> Shown {
         ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
         ui.spacing_mut().button_padding = vec2(7.0, 2.0);
         for quantity in offered() {
-            let response = ui.selectable_label(quantity == chosen.0, quantity.name);
-            name(&response, &format!("plot {}", quantity.name), quantity == chosen.0);
-            if response.on_hover_text(quantity.about).clicked() {
+            let called = spoken(quantity.name);
+            let response = ui.selectable_label(quantity == chosen.0, called.as_str());
+            name(&response, &tr!("plot {}", called), quantity == chosen.0);
+            if response.on_hover_text(spoken(quantity.about)).clicked() {
                 chosen = Shown(quantity);
             }
         }
@@ -127,7 +133,7 @@ fn row(ui: &mut Ui, gauge: &Gauge, (setup, tick): (&Setup, u64), desk: &mut Gaug
     let [first, second] = told(gauge, setup, tick);
     ui.horizontal(|ui| {
         let (place, response) = ui.allocate_exact_size(vec2(26.0, 34.0), Sense::click());
-        name(&response, &format!("gauge {}", gauge.number), stands_out);
+        name(&response, &tr!("gauge {}", gauge.number), stands_out);
         badge(ui.painter(), place.center(), gauge.number, stands_out);
         if response.on_hover_text(where_is(gauge)).clicked() {
             desk.selected = if stands_out { None } else { Some(gauge.number) };
@@ -139,10 +145,10 @@ fn row(ui: &mut Ui, gauge: &Gauge, (setup, tick): (&Setup, u64), desk: &mut Gaug
             ui.label(weak(second).small());
         });
         let (place, response) = ui.allocate_exact_size(vec2(22.0, 22.0), Sense::click());
-        name(&response, &format!("take gauge {} away", gauge.number), false);
+        name(&response, &tr!("take gauge {} away", gauge.number), false);
         let hue = if response.hovered() { colour(gauge.number) } else { style::WEAK };
         icons::draw(ui.painter(), icons::square(place.center(), 11.0), icons::close, hue);
-        if response.on_hover_text("take it away").clicked() {
+        if response.on_hover_text(tr!("take it away")).clicked() {
             pressed.push(Order::RemoveGauge(gauge.number));
         }
     });
@@ -150,10 +156,13 @@ fn row(ui: &mut Ui, gauge: &Gauge, (setup, tick): (&Setup, u64), desk: &mut Gaug
 
 /// Where a gauge is.
 fn where_is(gauge: &Gauge) -> String {
+    let at = |place: Vec2| format!("{:.2}, {:.2}", place.x, place.y);
     match gauge.place {
-        Place::Spot { at, radius } => format!("at {:.2}, {:.2} m, {:.2} m around", at.x, at.y, radius),
+        Place::Spot { at: centre, radius } => {
+            tr!("at {at} m, {radius} m around", at = at(centre), radius = format_args!("{radius:.2}"))
+        }
         Place::Line { from, to } => {
-            format!("from {:.2}, {:.2} to {:.2}, {:.2} m; the arrow's way is positive", from.x, from.y, to.x, to.y)
+            tr!("from {from} to {to} m; the arrow's way is positive", from = at(from), to = at(to))
         }
     }
 }
@@ -166,27 +175,27 @@ fn told(gauge: &Gauge, setup: &Setup, tick: u64) -> [String; 2] {
         Some(format!("{} {}", rounded(value), quantity.unit).trim_end().to_owned())
     };
     match gauge.latest() {
-        Some(Reading::Spot(reading)) if reading.density.is_none() => ["in rock".to_owned(), String::new()],
+        Some(Reading::Spot(reading)) if reading.density.is_none() => [tr!("in rock"), String::new()],
         Some(Reading::Spot(reading)) => {
             let matter = match reading.count {
-                0 => vec![Some("no matter here".to_owned())],
+                0 => vec![Some(tr!("no matter here"))],
                 _ => ["speed_m_per_s", "pressure_pa", "density_kg_per_m2", "temperature_c"].map(&value).into(),
             };
             let air = ["air_speed_m_per_s", "air_pressure_pa", "air_temperature_c"].map(&value);
-            let count = format!("{} particles", grouped(reading.count));
+            let count = tr!("{} particles", grouped(reading.count));
             let air = air.into_iter().flatten().collect::<Vec<_>>().join(", ");
-            let air = if air.is_empty() { "no air in this scene".to_owned() } else { format!("air: {air}") };
+            let air = if air.is_empty() { tr!("no air in this scene") } else { tr!("air: {}", air) };
             [matter.into_iter().flatten().collect::<Vec<_>>().join(" · "), format!("{air} · {count}")]
         }
         Some(Reading::Line(reading)) => {
             let seconds = tick.saturating_sub(gauge.since()) as f64 / f64::from(TICKS_PER_SECOND);
-            let mean = reading
-                .mean
-                .map_or_else(String::new, |mean| format!(" · mean {} m²/s in {seconds:.0} s", rounded(mean)));
-            let flow = value("flow_m2_per_s").unwrap_or_default();
-            [format!("flow {flow}{mean}"), shares(gauge, setup, seconds)]
+            let flow = tr!("flow {}", value("flow_m2_per_s").unwrap_or_default());
+            let mean =
+                reading.mean.map(|mean| tr!("mean {} m²/s in {} s", rounded(mean), format_args!("{seconds:.0}")));
+            let first = [Some(flow), mean].into_iter().flatten().collect::<Vec<_>>().join(" · ");
+            [first, shares(gauge, setup, seconds)]
         }
-        None => ["no reading yet".to_owned(), String::new()],
+        None => [tr!("no reading yet"), String::new()],
     }
 }
 
@@ -209,27 +218,27 @@ fn shares(gauge: &Gauge, setup: &Setup, seconds: f64) -> String {
     crossed.sort_by_key(|(_, net)| -net.abs());
     let named = crossed.iter().take(NAMED).map(|(id, net)| {
         let mean = flow(setup, *net) / ticks.max(1.0);
-        format!("{} {}", spaced(&setup.elements().get(*id).name), rounded(mean))
+        format!("{} {}", spoken(&spaced(&setup.elements().get(*id).name)), rounded(mean))
     });
     let named: Vec<String> = named.collect();
-    if named.is_empty() { "nothing crossed it yet".to_owned() } else { format!("mean of {}", named.join(", ")) }
+    if named.is_empty() { tr!("nothing crossed it yet") } else { tr!("mean of {}", named.join(", ")) }
 }
 
 /// What is done with all of them.
 fn buttons(ui: &mut Ui, gauges: &Gauges, (bindings, pressed): (&Bindings, &mut Vec<Order>)) {
     ui.horizontal(|ui| {
         if gauges.iter().count() < MOST {
-            let set = icon_button(ui, (icons::plus, bindings.help(Action::Gauge)), "Set one", false);
-            if set.on_hover_text("in the middle of what is seen; by key, under the pointer").clicked() {
+            let set = icon_button(ui, (icons::plus, &bindings.help(Action::Gauge)), &tr!("Set one"), false);
+            if set.on_hover_text(tr!("in the middle of what is seen; by key, under the pointer")).clicked() {
                 pressed.push(Order::Act(Action::Gauge));
             }
         }
         if !gauges.is_empty() {
-            let save = icon_button(ui, (icons::save, "save the readings as CSV"), "Save CSV", false);
-            if save.on_hover_text("the readings of the last five minutes, for other programs").clicked() {
+            let save = icon_button(ui, (icons::save, &tr!("save the readings as CSV")), &tr!("Save CSV"), false);
+            if save.on_hover_text(tr!("the readings of the last five minutes, for other programs")).clicked() {
                 pressed.push(Order::SaveReadings);
             }
-            let clear = icon_button(ui, (icons::close, "take all gauges away"), "All away", false);
+            let clear = icon_button(ui, (icons::close, &tr!("take all gauges away")), &tr!("All away"), false);
             if clear.clicked() {
                 pressed.extend(gauges.iter().map(|gauge| Order::RemoveGauge(gauge.number)));
             }

@@ -1,7 +1,10 @@
 //! The plot: one quantity of all gauges over the last half minute.
 
 use crate::{
-    game::hud::{gauges::colour, panels::gauges::scale::Scale, style},
+    game::{
+        hud::{gauges::colour, panels::gauges::scale::Scale, style},
+        language::spoken,
+    },
     kernel::units::TICKS_PER_SECOND,
     lab::gauges::{
         quantity::{Of, Quantity},
@@ -9,6 +12,7 @@ use crate::{
     },
 };
 use bevy_egui::egui::{self, Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
+use tr::tr;
 
 /// Time that is shown, s.
 pub const SECONDS: u32 = 30;
@@ -102,10 +106,11 @@ pub fn show(ui: &mut Ui, size: egui::Vec2, gauges: &Gauges, quantity: &Quantity,
         }
     }
     if curves.iter().all(|(_, pieces)| pieces.is_empty()) {
-        let text = format!("no {} to show yet", quantity.name);
+        let name = spoken(quantity.name);
+        let text = tr!("no {} to show yet", name);
         painter.text(field.center(), Align2::CENTER_CENTER, text, FontId::proportional(12.5), style::WEAK);
     }
-    response.on_hover_text(quantity.about);
+    response.on_hover_text(spoken(quantity.about));
 }
 
 fn draw(painter: &Painter, points: Vec<Pos2>, colour: Color32, stands_out: bool) {
@@ -136,8 +141,8 @@ fn grid(painter: &Painter, field: Rect, scale: &Scale) {
         let x = field.right() - seconds as f32 / SECONDS as f32 * field.width();
         painter.vline(x, field.y_range(), Stroke::new(1.0, style::LINE.gamma_multiply(0.5)));
         let (align, text) = match seconds {
-            0 => (Align2::RIGHT_TOP, "now".to_owned()),
-            SECONDS => (Align2::LEFT_TOP, format!("{seconds} s ago")),
+            0 => (Align2::RIGHT_TOP, tr!("now")),
+            SECONDS => (Align2::LEFT_TOP, tr!("{} s ago", seconds)),
             _ => (Align2::CENTER_TOP, format!("{seconds} s")),
         };
         painter.text(pos2(x, field.bottom() + 3.0), align, text, font.clone(), style::WEAK);

@@ -13,6 +13,7 @@ use crate::{
         },
         icons,
         input::bindings::{Group, SHIFT},
+        language::spoken,
         mixer::{
             desk::MixerDesk,
             dials::{DIALS, Dial},
@@ -35,6 +36,7 @@ use bevy_egui::{
         self, Align, Align2, Color32, Image, Layout, RichText, ScrollArea, Slider, Ui, Vec2, load::SizedTexture, vec2,
     },
 };
+use tr::tr;
 
 /// Its row.
 pub const PANEL: Panel = Panel {
@@ -114,15 +116,16 @@ fn picture(ui: &mut Ui, swatch: &Swatch) {
 fn base(ui: &mut Ui, now: &str, elements: &ElementTable) -> Option<ElementId> {
     let mut chosen = None;
     ui.horizontal(|ui| {
-        called(ui, "like");
-        let button = ui.button(format!("{} …", spaced(now)));
-        name(&button, "like which element", false);
-        let button = button.on_hover_text("what becomes of this by heat, in time and by touch becomes of yours, too");
-        menu(&button, "Begin with one that is like", |ui| {
+        called(ui, &tr!("like"));
+        let button = ui.button(format!("{} …", spoken(&spaced(now))));
+        name(&button, &tr!("like which element"), false);
+        let button =
+            button.on_hover_text(tr!("what becomes of this by heat, in time and by touch becomes of yours, too"));
+        menu(&button, &tr!("Begin with one that is like"), |ui| {
             ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
                 for category in Category::ALL {
                     for (id, element) in elements.iter().filter(|(_, element)| element.category == category) {
-                        if row(ui, &spaced(&element.name), category.name(), element.name == now) {
+                        if row(ui, &spoken(&spaced(&element.name)), &spoken(category.name()), element.name == now) {
                             chosen = Some(id);
                             ui.close();
                         }
@@ -138,15 +141,15 @@ fn base(ui: &mut Ui, now: &str, elements: &ElementTable) -> Option<ElementId> {
 fn dials(ui: &mut Ui, draft: &mut Element) -> bool {
     let mut is_held = false;
     ui.horizontal(|ui| {
-        called(ui, "name");
+        called(ui, &tr!("name"));
         let mut text = spaced(&draft.name);
         let field = egui::TextEdit::singleline(&mut text).char_limit(LONGEST_NAME).desired_width(150.0);
         if ui.add(field).changed() {
             draft.name = name_of(&text);
         }
         let colour = ui.color_edit_button_srgb(&mut draft.colour);
-        name(&colour, "colour", false);
-        colour.on_hover_text("its colour");
+        name(&colour, &tr!("colour"), false);
+        colour.on_hover_text(tr!("its colour"));
     });
     for dial in &DIALS {
         is_held |= (dial.fits)(draft) && turn(ui, dial, draft);
@@ -157,7 +160,7 @@ fn dials(ui: &mut Ui, draft: &mut Element) -> bool {
 /// A dial; whether it is held.
 fn turn(ui: &mut Ui, dial: &Dial, draft: &mut Element) -> bool {
     ui.horizontal(|ui| {
-        called(ui, dial.name).on_hover_text(dial.help);
+        called(ui, &spoken(dial.name)).on_hover_text(spoken(dial.help));
         ui.spacing_mut().slider_width = TRACK;
         let mut value = (dial.get)(draft);
         let slider = Slider::new(&mut value, dial.range.clone()).suffix(format!(" {}", dial.unit)).max_decimals(3);
@@ -170,7 +173,7 @@ fn turn(ui: &mut Ui, dial: &Dial, draft: &mut Element) -> bool {
             (dial.set)(draft, value);
         }
         let is_held = response.dragged();
-        response.on_hover_text(dial.help);
+        response.on_hover_text(spoken(dial.help));
         is_held
     })
     .inner
@@ -194,10 +197,12 @@ fn end(ui: &mut Ui, desk: &MixerDesk, elements: &ElementTable) -> Option<Order> 
         ui.label(RichText::new(fault).small().color(style::WARN));
         return None;
     }
-    let text = if elements.find(&draft.name).is_some() { "Change it" } else { "Make it" };
+    let (text, told) = match elements.find(&draft.name) {
+        Some(_) => (tr!("Change it"), tr!("all of it in this world")),
+        None => (tr!("Make it"), tr!("then it is in your hand")),
+    };
     ui.horizontal(|ui| {
-        let pressed = main_button(ui, text).clicked();
-        let told = if text == "Make it" { "then it is in your hand" } else { "all of it in this world" };
+        let pressed = main_button(ui, &text).clicked();
         ui.label(weak(told).small());
         pressed.then(|| Order::Mix(Box::new(draft.clone())))
     })
@@ -207,7 +212,7 @@ fn end(ui: &mut Ui, desk: &MixerDesk, elements: &ElementTable) -> Option<Order> 
 /// The elements that were made before: a click takes one up in this world, the cross forgets it.
 fn shelf(ui: &mut Ui, own: &OwnElements, desk: &mut MixerDesk) -> Option<Order> {
     let mut order = None;
-    ui.label(weak("Yours, also for other worlds"));
+    ui.label(weak(tr!("Yours, also for other worlds")));
     for element in own.iter() {
         ui.horizontal(|ui| {
             let [red, green, blue] = element.colour;
@@ -215,15 +220,15 @@ fn shelf(ui: &mut Ui, own: &OwnElements, desk: &mut MixerDesk) -> Option<Order> 
             ui.painter().circle_filled(dot.center(), 6.0, Color32::from_rgb(red, green, blue));
             let text = spaced(&element.name);
             let button = ui.button(&text);
-            name(&button, &format!("take up {text}"), false);
-            if button.on_hover_text("take it up, and begin with it here").clicked() {
+            name(&button, &tr!("take up {}", text), false);
+            if button.on_hover_text(tr!("take it up, and begin with it here")).clicked() {
                 desk.go_on_with(element.clone());
                 order = Some(Order::Mix(Box::new(element.clone())));
             }
-            ui.label(weak(element.category.name()).small());
-            let (rect, cross) = field(ui, Vec2::splat(18.0), &format!("forget {text}"), false, LINE);
+            ui.label(weak(spoken(element.category.name())).small());
+            let (rect, cross) = field(ui, Vec2::splat(18.0), &tr!("forget {}", text), false, LINE);
             icons::draw(ui.painter(), icons::square(rect.center(), 10.0), icons::close, style::WEAK);
-            if cross.on_hover_text("forget it: worlds that have it keep it").clicked() {
+            if cross.on_hover_text(tr!("forget it: worlds that have it keep it")).clicked() {
                 order = Some(Order::ForgetElement(element.name.clone()));
             }
         });

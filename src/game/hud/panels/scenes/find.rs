@@ -2,7 +2,7 @@
 
 use super::menu::Entry;
 use crate::{
-    game::tools::spaced,
+    game::{language::spoken, tools::spaced},
     scene::{SceneCategory, SceneFile},
 };
 
@@ -18,11 +18,17 @@ pub(super) fn find(entries: &[Entry], text: &str) -> Vec<usize> {
     found.into_iter().map(|(_, index)| index).collect()
 }
 
-/// How well a word fits a scene, 0 best; nothing if it does not.
+/// How well a word fits a scene, 0 best; nothing if it does not. It is looked for in the player's language and in English.
 fn rank(scene: &SceneFile, word: &str) -> Option<u8> {
-    let title = scene.title().to_lowercase();
+    let translated = rank_in(scene, word, &spoken);
+    let english = rank_in(scene, word, &str::to_owned);
+    translated.into_iter().chain(english).min()
+}
+
+fn rank_in(scene: &SceneFile, word: &str, said: &dyn Fn(&str) -> String) -> Option<u8> {
+    let title = said(scene.title()).to_lowercase();
     let begins = |text: &str| {
-        text.split(|letter: char| !letter.is_alphanumeric()).any(|other| other.to_lowercase().starts_with(word))
+        said(text).split(|letter: char| !letter.is_alphanumeric()).any(|other| other.to_lowercase().starts_with(word))
     };
     match title.find(word) {
         Some(0) => Some(0),

@@ -8,6 +8,7 @@ use crate::{
             widgets::{BUTTON, LINE, field, name},
         },
         icons,
+        language::spoken,
     },
     lab::miniature::{HEIGHT, WIDTH},
     scene::SceneCategory,
@@ -16,6 +17,7 @@ use bevy_egui::egui::{
     self, Align, Color32, FontId, Pos2, Rect, RichText, Sense, Stroke, StrokeKind, TextStyle, TextureId, Ui, Vec2,
     epaint::RectShape, pos2, vec2,
 };
+use tr::tr;
 
 /// Width of a tile, points.
 const TILE: f32 = 176.0;
@@ -88,15 +90,15 @@ pub(super) fn show(
 }
 
 /// The headings and what stands under them.
-fn groups(menu: &SceneMenu, found: &[usize]) -> Vec<(&'static str, Vec<usize>)> {
+fn groups(menu: &SceneMenu, found: &[usize]) -> Vec<(String, Vec<usize>)> {
     if !menu.text.trim().is_empty() {
-        return if found.is_empty() { Vec::new() } else { vec![("Found", found.to_vec())] };
+        return if found.is_empty() { Vec::new() } else { vec![(tr!("Found"), found.to_vec())] };
     }
     let of = |category| {
         found.iter().copied().filter(|index| menu.entries[*index].scene.category() == category).collect::<Vec<_>>()
     };
-    let headings =
-        [(None, "Yours")].into_iter().chain(SceneCategory::ALL.map(|category| (Some(category), category.title())));
+    let all = SceneCategory::ALL.map(|category| (Some(category), spoken(category.title())));
+    let headings = [(None, tr!("Yours"))].into_iter().chain(all);
     headings.map(|(category, title)| (title, of(category))).filter(|(_, group)| !group.is_empty()).collect()
 }
 
@@ -108,9 +110,9 @@ fn tile(
     (playing, fingers): (&str, bool),
 ) -> Option<Pressed> {
     let looked_at = menu.focus == Some(index);
-    let entry = &menu.entries[index];
+    let title = spoken(menu.entries[index].scene.title());
     let height = EDGE + picture_height(TILE - 2.0 * EDGE) + TEXT;
-    let (rect, response) = field(ui, vec2(TILE, height), entry.scene.title(), looked_at, BUTTON);
+    let (rect, response) = field(ui, vec2(TILE, height), &title, looked_at, BUTTON);
     if looked_at && menu.follow {
         ui.scroll_to_rect(rect.expand(GAP), None);
     }
@@ -128,11 +130,11 @@ fn tile(
         ui.painter().rect_stroke(rect, style::BUTTON_CORNER, stroke, StrokeKind::Inside);
     }
     let colour = if entry.scene.name() == playing { style::ACCENT } else { Color32::WHITE };
-    write(ui, frame.left_bottom() + vec2(3.0, 5.0), entry.scene.title(), TextStyle::Button.resolve(ui.style()), colour);
+    write(ui, frame.left_bottom() + vec2(3.0, 5.0), &title, TextStyle::Button.resolve(ui.style()), colour);
     write(
         ui,
         frame.left_bottom() + vec2(3.0, 22.0),
-        entry.scene.invitation(),
+        &spoken(entry.scene.invitation()),
         FontId::proportional(style::SMALL),
         style::WEAK,
     );
@@ -140,10 +142,9 @@ fn tile(
     if response.hovered() && ui.input(|input| input.pointer.time_since_last_movement() < MOVED) {
         menu.focus = Some(index);
     }
-    let title = menu.entries[index].scene.title();
     let side = if fingers { 48.0 / ui.ctx().zoom_factor() } else { GEAR };
     let corner = Rect::from_min_size(frame.right_top() + vec2(-side - 3.0, 3.0), Vec2::splat(side));
-    if (looked_at || fingers) && gear(ui, corner, title) {
+    if (looked_at || fingers) && gear(ui, corner, &title) {
         return Some(Pressed::SetUp(index));
     }
     response.clicked().then_some(Pressed::Play(index))
@@ -160,12 +161,12 @@ fn write(ui: &Ui, at: Pos2, text: &str, font: FontId, colour: Color32) {
 
 /// The button that leads to a scene's page.
 fn gear(ui: &mut Ui, rect: Rect, title: &str) -> bool {
-    let called = format!("settings of {title}");
+    let called = tr!("settings of {}", title);
     let response = ui.interact(rect, ui.id().with(&called), Sense::click());
     name(&response, &called, false);
     let [_, hovered] = LINE;
     let fill = if response.hovered() { hovered } else { style::PANEL.gamma_multiply(0.8) };
     ui.painter().rect_filled(rect, style::BUTTON_CORNER, fill);
     icons::draw(ui.painter(), icons::square(rect.center(), 15.0), icons::gear, Color32::WHITE);
-    response.on_hover_text("its parameters and detail (Shift+Enter)").clicked()
+    response.on_hover_text(tr!("its parameters and detail (Shift+Enter)")).clicked()
 }

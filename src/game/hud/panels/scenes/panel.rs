@@ -39,6 +39,7 @@ use bevy_egui::{
     EguiUserTextures,
     egui::{self, Key, Modifiers, Ui, Vec2, vec2},
 };
+use tr::tr;
 
 /// Height of all but the tiles, the bars among it, points.
 const REST: f32 = 250.0;
@@ -181,7 +182,7 @@ fn page(ui: &mut Ui, menu: &mut SceneMenu, pictures: &Pictures, keys: &Pressing)
 
 /// The search field, in focus for who `types`; what is found by it. Who does so on the page of a scene goes back to the tiles.
 fn search(ui: &mut Ui, menu: &mut SceneMenu, types: bool) -> Vec<usize> {
-    let field = egui::TextEdit::singleline(&mut menu.text).hint_text("search: a name, an element, a word");
+    let field = egui::TextEdit::singleline(&mut menu.text).hint_text(tr!("search: a name, an element, a word"));
     let field = ui.add(field.desired_width(f32::INFINITY).char_limit(40).margin(vec2(8.0, 5.0)));
     // Fingers would get a keyboard over the tiles that they did not ask for, and the field would have the keys that move the pointer;
     // the number of a slider may be typed, too.
@@ -217,11 +218,12 @@ fn gallery(
         }
     });
     if found.is_empty() {
-        ui.label(weak("Nothing of that name."));
+        ui.label(weak(tr!("Nothing of that name.")));
     }
     ui.add_space(2.0);
     ui.label(
-        weak("Click or Enter plays a scene, arrows look around; the gear or Shift+Enter sets its parameters.").small(),
+        weak(tr!("Click or Enter plays a scene, arrows look around; the gear or Shift+Enter sets its parameters."))
+            .small(),
     );
     let by_key = menu.focus.filter(|index| found.contains(index)).and_then(|index| match keys {
         Pressing { shift_enter: true, .. } => Some(Pressed::SetUp(index)),

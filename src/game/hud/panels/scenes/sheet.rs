@@ -10,9 +10,11 @@ use crate::game::{
         style::{self, weak},
         widgets::{BUTTON, detail_row, field, main_button},
     },
+    language::spoken,
     orders::Order,
 };
 use bevy_egui::egui::{self, Align2, Color32, Rect, RichText, Sense, Slider, TextStyle, Ui, vec2};
+use tr::tr;
 
 /// Width of the picture and of what stands beside it, points.
 const WIDTH: f32 = 330.0;
@@ -37,15 +39,15 @@ pub(super) fn show(ui: &mut Ui, menu: &mut SceneMenu, pictures: &Pictures) -> Wi
         });
         ui.vertical(|ui| {
             ui.set_width(WIDTH);
-            ui.label(RichText::new(entry.scene.title()).heading().color(Color32::WHITE));
-            ui.label(weak(entry.scene.description()));
+            ui.label(RichText::new(spoken(entry.scene.title())).heading().color(Color32::WHITE));
+            ui.label(weak(spoken(entry.scene.description())));
             if !entry.scene.invitation().is_empty() {
-                ui.label(RichText::new(entry.scene.invitation()).color(style::ACCENT));
+                ui.label(RichText::new(spoken(entry.scene.invitation())).color(style::ACCENT));
             }
             ui.add_space(8.0);
             for (name, spec) in entry.scene.parameters() {
                 let Some(value) = set_up.values.get_mut(name) else { continue };
-                ui.label(weak(&spec.description).small());
+                ui.label(weak(spoken(&spec.description)).small());
                 let mut slider = Slider::new(value, spec.min..=spec.max).text(name.as_str());
                 if spec.integer {
                     slider = slider.integer();
@@ -58,8 +60,8 @@ pub(super) fn show(ui: &mut Ui, menu: &mut SceneMenu, pictures: &Pictures) -> Wi
             }
             ui.add_space(10.0);
             ui.horizontal(|ui| {
-                wish.play = main_button(ui, "Play").on_hover_text("Enter").clicked();
-                wish.back = button(ui, "All scenes").on_hover_text("Esc").clicked();
+                wish.play = main_button(ui, &tr!("Play")).on_hover_text(tr!("key" => "Enter")).clicked();
+                wish.back = button(ui, &tr!("All scenes")).on_hover_text(tr!("key" => "Esc")).clicked();
             });
         });
     });

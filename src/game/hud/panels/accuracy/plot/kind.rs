@@ -1,7 +1,10 @@
 //! Which error is shown, and the switch between the two.
 
 use crate::{
-    game::hud::{style, widgets},
+    game::{
+        hud::{style, widgets},
+        language::spoken,
+    },
     lab::live::accuracy::CurvePoint,
 };
 use bevy_egui::egui::{Color32, FontId, Rect, Sense, Ui, vec2};
@@ -51,7 +54,8 @@ impl ErrorKind {
                 continue;
             }
             let colour = if is_shown && has_both { Color32::WHITE } else { style::WEAK };
-            let text = ui.painter().layout_no_wrap(kind.name().to_owned(), FontId::proportional(style::SMALL), colour);
+            let name = spoken(kind.name());
+            let text = ui.painter().layout_no_wrap(name.clone(), FontId::proportional(style::SMALL), colour);
             let words = Rect::from_min_size(right - vec2(text.size().x, 0.0), text.size());
             let room = words.expand2(vec2(5.0, 2.5));
             right.x = words.left() - 14.0;
@@ -59,7 +63,7 @@ impl ErrorKind {
             let sense = if has_both { Sense::click() } else { Sense::hover() };
             let response = ui.interact(words.expand(4.0), ui.id().with(("error", kind.name())), sense);
             if has_both {
-                widgets::name(&response, kind.name(), is_shown);
+                widgets::name(&response, &name, is_shown);
                 let fill = match (is_shown, response.hovered()) {
                     (true, _) => style::ACCENT_FILL,
                     (false, true) => style::BUTTON_HOVER,
@@ -68,7 +72,7 @@ impl ErrorKind {
                 ui.painter().rect_filled(room, 4.0, fill);
             }
             ui.painter().galley(words.min, text, colour);
-            if response.on_hover_text(kind.about()).clicked() && !is_shown {
+            if response.on_hover_text(spoken(kind.about())).clicked() && !is_shown {
                 chosen = Some(kind);
             }
         }

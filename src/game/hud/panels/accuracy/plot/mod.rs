@@ -11,7 +11,7 @@ pub use kind::ErrorKind;
 use crate::{
     game::hud::{
         panels::accuracy::{
-            axis::{Axis, percent},
+            axis::{Axis, percent, percent_or_none},
             canvas::{Canvas, LEAST, Live, place_beside},
         },
         style, widgets,
@@ -25,6 +25,7 @@ use crate::{
     sim::numbers::short,
 };
 use bevy_egui::egui::{self, Align2, Color32, FontId, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, vec2};
+use tr::tr;
 
 /// Errors of usual scenes, from calm to violent.
 const USUAL: [f32; 2] = [1e-4, 1e-2];
@@ -106,7 +107,7 @@ impl Plot<'_> {
         let pressed = self.presets(ui, &canvas, taken).map(Pressed::Preset).or(pressed);
         for (k, text) in self.hints().into_iter().enumerate() {
             let at = field.center_top() + vec2(0.0, 32.0 + 15.0 * k as f32);
-            canvas.text(at, Align2::CENTER_CENTER, text, style::WEAK);
+            canvas.text(at, Align2::CENTER_CENTER, &text, style::WEAK);
         }
         pressed
     }
@@ -129,17 +130,17 @@ impl Plot<'_> {
     }
 
     /// What there is to say where something is missing.
-    fn hints(&self) -> Vec<&'static str> {
+    fn hints(&self) -> Vec<String> {
         let any = self.points().next().is_some();
         let errs = self.points().any(|point| point.error.is_some());
         let mut hints = Vec::new();
         if !errs && self.looked && self.trail.last().is_none_or(|live| live.error.is_none()) {
-            hints.push("no density error to measure: no particle has liquid all around");
+            hints.push(tr!("no density error to measure: no particle has liquid all around"));
         }
         match (any, self.is_measuring) {
-            (false, false) => hints.push("no curve of this scene yet: measure here"),
-            (false, true) => hints.push("no curve of this scene yet: it is being measured"),
-            (true, _) if !errs => hints.push("the curve has times only"),
+            (false, false) => hints.push(tr!("no curve of this scene yet: measure here")),
+            (false, true) => hints.push(tr!("no curve of this scene yet: it is being measured")),
+            (true, _) if !errs => hints.push(tr!("the curve has times only")),
             (true, _) => {}
         }
         hints
@@ -159,7 +160,7 @@ impl Plot<'_> {
                 let time = measured.map(|point| format!("  {} ms", short(self.scale * point.milliseconds)));
                 let text = format!("{}{}", preset.name(), time.unwrap_or_default());
                 let chip = ui.add(egui::Button::new(text).selected(self.is_now(preset, preset.quality())));
-                let told = measured.map_or_else(|| "click to go on at it".to_owned(), |point| self.about(point));
+                let told = measured.map_or_else(|| tr!("click to go on at it"), |point| self.about(point));
                 if chip.on_hover_text(told).clicked() {
                     chosen = Some(preset);
                 }
@@ -196,7 +197,7 @@ impl Plot<'_> {
             // The end that is furthest from the line of the detail in force.
             let end = if detail < self.detail { places.first() } else { places.last() };
             if let Some(end) = end.filter(|_| !is_own) {
-                let (text, font) = (format!("detail {}", short(detail as f32)), FontId::proportional(style::SMALL));
+                let (text, font) = (tr!("detail {}", short(detail as f32)), FontId::proportional(style::SMALL));
                 let text = canvas.painter.layout_no_wrap(text, font, style::TEXT);
                 let room = place_beside(*end, text.size(), canvas.field, taken);
                 canvas.painter.galley(room.min, text, style::TEXT);
@@ -225,16 +226,16 @@ impl Plot<'_> {
                 canvas.painter.circle_stroke(dot, DOT - 1.0, Stroke::new(1.5, style::ACCENT));
                 continue;
             }
-            let detail = point.asked_detail();
-            let called = format!("{} at detail {}", point.preset.name(), short(detail as f32));
-            let id = ui.id().with(&called);
+            let (name, asked) = (point.preset.name(), point.asked_detail());
+            let detail = short(asked as f32);
+            let id = ui.id().with((name, &detail));
             let response = ui.interact(Rect::from_center_size(dot, TOUCHED), id, Sense::click());
-            widgets::name(&response, &called, false);
+            widgets::name(&response, &tr!("{name} at detail {detail}", name, detail), false);
             let colour = if response.hovered() { Color32::WHITE } else { style::WEAK };
             let corners = [vec2(0.0, -DOT), vec2(DOT, 0.0), vec2(0.0, DOT), vec2(-DOT, 0.0)].map(|way| dot + way);
             canvas.painter.add(Shape::convex_polygon(corners.into(), colour, Stroke::NONE));
             if response.on_hover_text(self.about(point)).clicked() {
-                pressed = Some(Pressed::Detail(point.preset, detail));
+                pressed = Some(Pressed::Detail(point.preset, asked));
             }
         }
         pressed
@@ -258,7 +259,7 @@ impl Plot<'_> {
             let id = ui.id().with(("preset", point.preset.name()));
             // Button and dot, and not what lies between them: another's button may.
             let response = ui.interact(button, id, Sense::click());
-            widgets::name(&response, &format!("{} on the curve", point.preset.name()), in_force);
+            widgets::name(&response, &tr!("{} on the curve", point.preset.name()), in_force);
             let response = response | ui.interact(Rect::from_center_size(dot, TOUCHED), id.with("dot"), Sense::click());
             let (fill, colour) = match (in_force, response.hovered()) {
                 (true, _) => (style::ACCENT_FILL, Color32::WHITE),
@@ -284,15 +285,19 @@ impl Plot<'_> {
     }
 
     fn about(&self, point: &CurvePoint) -> String {
+        let (name, detail) = (point.preset.name(), point.asked_detail());
         let time = short(self.scale * point.milliseconds);
-        let (error, p99) = (point.error.map_or("none".into(), percent), point.p99.map_or("none".into(), percent));
-        let (name, asked) = (point.preset.name(), point.asked_detail());
-        let at = if is_same_detail(asked, self.detail) { String::new() } else { format!(" at detail {asked}") };
-        let truth = point.truth.map_or_else(String::new, |truth| format!(", true error {}", percent(truth)));
-        let sound = if point.is_sound { "" } else { "; its world came out unsound, so errors mean little" };
-        format!(
-            "{name}{at}: {time} ms a tick{truth}, density error {error} (99th percentile {p99}){sound}; click to go on \
-             at it"
-        )
+        let (error, p99) = (percent_or_none(point.error), percent_or_none(point.p99));
+        let cost = if is_same_detail(detail, self.detail) {
+            tr!("{name}: {time} ms a tick", name, time)
+        } else {
+            tr!("{name} at detail {detail}: {time} ms a tick", name, detail, time)
+        };
+        let truth = point.truth.map(|truth| tr!("true error {}", percent(truth)));
+        let density = tr!("density error {error} (99th percentile {p99})", error, p99);
+        let figures: Vec<String> = [Some(cost), truth, Some(density)].into_iter().flatten().collect();
+        let sound = (!point.is_sound).then(|| tr!("its world came out unsound, so errors mean little"));
+        let told = [Some(figures.join(", ")), sound, Some(tr!("click to go on at it"))];
+        told.into_iter().flatten().collect::<Vec<_>>().join("; ")
     }
 }
