@@ -79,9 +79,9 @@ fn pace_readings(tempo: &Tempo, pace: &Pace) -> Vec<Reading> {
     if let Some(share) = tempo.lag {
         let speed = share * pace.speed;
         let digits = if speed < 0.1 { 2 } else { 1 };
-        readings.push(reading(format!("{speed:.digits$}×"), tr!("speed"), true));
+        readings.push(reading(format!("{speed:.digits$}×"), tr!("pace" => "speed"), true));
     } else if pace.speed != 1.0 {
-        readings.push(reading(format!("{}×", pace.speed), tr!("speed"), false));
+        readings.push(reading(format!("{}×", pace.speed), tr!("pace" => "speed"), false));
     }
     readings
 }

@@ -51,7 +51,8 @@ pub fn mix(world: &mut World, element: Element) {
 /// Forgets an element that was kept. Worlds that have it keep it.
 pub fn forget(world: &mut World, name: &str) {
     let forgotten = world.resource_mut::<OwnElements>().forget(name);
-    tell(world, tr!("{} is forgotten: worlds that have it keep it", spaced(name)), forgotten);
+    let name = spoken(&spaced(name));
+    tell(world, tr!("{} is forgotten: worlds that have it keep it", name), forgotten);
 }
 
 fn tell(world: &mut World, told: String, written: Result<(), Unwritten>) {

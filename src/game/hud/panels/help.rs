@@ -19,8 +19,10 @@ use bevy::prelude::{App, DetectChangesMut, IntoScheduleConfigs, KeyCode, ResMut,
 use bevy_egui::egui::{self, RichText, Ui};
 use std::collections::BTreeSet;
 
-/// Width of the column of keys, points.
+/// Width that keys take at least, and at most, and their meanings at most, points.
 const KEYS_WIDTH: f32 = 132.0;
+const KEYS: f32 = 170.0;
+const HELP: f32 = 370.0;
 
 /// Its row.
 pub const PANEL: Panel = Panel {
@@ -70,12 +72,20 @@ fn section(ui: &mut Ui, bindings: &Bindings, group: Group) {
     ui.label(RichText::new(spoken(group.title())).heading().color(style::ACCENT));
     egui::Grid::new(group.title()).num_columns(2).min_col_width(KEYS_WIDTH).spacing([14.0, 4.0]).show(ui, |ui| {
         for (keys, help) in rows(bindings, group) {
-            ui.label(keys);
-            ui.label(weak(spoken(help)));
+            narrow(ui, KEYS, keys.into());
+            narrow(ui, HELP, weak(spoken(help)));
             ui.end_row();
         }
     });
     ui.add_space(6.0);
+}
+
+/// A text that wraps where it is wider than it may be.
+fn narrow(ui: &mut Ui, most: f32, text: RichText) {
+    ui.scope(|ui| {
+        ui.set_max_width(most);
+        ui.add(egui::Label::new(text).wrap());
+    });
 }
 
 /// Keys, and meaning in English; bindings of the same meaning share a row.

@@ -54,9 +54,9 @@ pub const PANEL: Panel = Panel {
 /// Width of its contents, points.
 const WIDTH_OF_ALL: f32 = 330.0;
 /// Width of the track of a dial, points.
-const TRACK: f32 = 108.0;
+const TRACK: f32 = 102.0;
 /// Width of what a dial is called, points.
-const CALLED: f32 = 96.0;
+const CALLED: f32 = 102.0;
 
 /// Adds the panel.
 pub fn plugin(app: &mut App) {
@@ -218,7 +218,7 @@ fn shelf(ui: &mut Ui, own: &OwnElements, desk: &mut MixerDesk) -> Option<Order> 
             let [red, green, blue] = element.colour;
             let (dot, _) = ui.allocate_exact_size(Vec2::splat(14.0), egui::Sense::hover());
             ui.painter().circle_filled(dot.center(), 6.0, Color32::from_rgb(red, green, blue));
-            let text = spaced(&element.name);
+            let text = spoken(&spaced(&element.name));
             let button = ui.button(&text);
             name(&button, &tr!("take up {}", text), false);
             if button.on_hover_text(tr!("take it up, and begin with it here")).clicked() {

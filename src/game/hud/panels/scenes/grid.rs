@@ -144,7 +144,7 @@ fn tile(
     }
     let side = if fingers { 48.0 / ui.ctx().zoom_factor() } else { GEAR };
     let corner = Rect::from_min_size(frame.right_top() + vec2(-side - 3.0, 3.0), Vec2::splat(side));
-    if (looked_at || fingers) && gear(ui, corner, &title) {
+    if (looked_at || fingers) && gear(ui, corner, (index, &title)) {
         return Some(Pressed::SetUp(index));
     }
     response.clicked().then_some(Pressed::Play(index))
@@ -160,9 +160,9 @@ fn write(ui: &Ui, at: Pos2, text: &str, font: FontId, colour: Color32) {
 }
 
 /// The button that leads to a scene's page.
-fn gear(ui: &mut Ui, rect: Rect, title: &str) -> bool {
+fn gear(ui: &mut Ui, rect: Rect, (index, title): (usize, &str)) -> bool {
     let called = tr!("settings of {}", title);
-    let response = ui.interact(rect, ui.id().with(&called), Sense::click());
+    let response = ui.interact(rect, ui.id().with(("gear", index)), Sense::click());
     name(&response, &called, false);
     let [_, hovered] = LINE;
     let fill = if response.hovered() { hovered } else { style::PANEL.gamma_multiply(0.8) };
