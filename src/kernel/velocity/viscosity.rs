@@ -9,6 +9,10 @@
 //! As `Σ m/ρ_j W ≈ 1`, the bound is **`c Δt/tick ≤ 1`**. What is more viscous takes as many passes as that asks for, each with
 //! its part of c, 16 at most: a coefficient beyond is cut to what they can do, and counted.
 //!
+//! **Only where it is so viscous.** Where masses differ, a pair whose mean c is within the bound of one pass takes all of it in the first,
+//! and only the others go on: beside a drop of honey a lake costs one pass. Each kind of pair is held to the same bound, and as the
+//! weights of all neighbours add up to one, so is the sum of both.
+//!
 //! Between particles of different masses m each weight is `2 m_j/(m_i + m_j)` times as much, and of two coefficients that of a
 //! pair is their harmonic mean (Morris, Fox & Zhu 1997, "Modeling low Reynolds number incompressible flows using SPH": the
 //! stress is the same on both sides of a surface), so that one of a pair takes on the momentum that the other gives off. The
@@ -71,10 +75,10 @@ pub fn apply_viscosity(
     if !sticks {
         lambda.iter_mut().zip(&*density).for_each(|(volume, density)| *volume = 1.0 / density.max(LEAST_DENSITY));
     }
-    for _ in 0..passes as u32 {
+    for turn in 0..passes as u32 {
         let read = &*particles;
         bins::split(bins.groups(), [&mut next_x[..], &mut next_y[..]], threads, &|groups, base, out| {
-            let pass = ViscosityPass::<false, false> {
+            let pass = ViscosityPass::<false, false, false> {
                 smoothing,
                 particles: read,
                 density,
@@ -84,15 +88,18 @@ pub fn apply_viscosity(
                 walls: walls.as_ref(),
                 most: most * passes,
                 part: part / passes,
+                once: Once { most, times: if turn == 0 { passes } else { 0.0 } },
                 groups,
                 base,
                 out,
             };
-            match (masses.is_empty(), sticks) {
-                (true, false) => instructions.run(pass),
-                (true, true) => instructions.run(pass.with::<false, true>()),
-                (false, false) => instructions.run(pass.with::<true, false>()),
-                (false, true) => instructions.run(pass.with::<true, true>()),
+            match (masses.is_empty(), sticks, passes > 1.0) {
+                (true, false, _) => instructions.run(pass),
+                (true, true, _) => instructions.run(pass.with::<false, true, false>()),
+                (false, false, false) => instructions.run(pass.with::<true, false, false>()),
+                (false, true, false) => instructions.run(pass.with::<true, true, false>()),
+                (false, false, true) => instructions.run(pass.with::<true, false, true>()),
+                (false, true, true) => instructions.run(pass.with::<true, true, true>()),
             }
         });
         std::mem::swap(&mut particles.vx, next_x);
@@ -138,9 +145,15 @@ impl Walls<'_> {
     }
 
     /// What the particles of a group keep of their velocities beside them in a part of a tick, in lanes. Strengths count
-    /// for `most` at most.
+    /// for `most` at most, and that of each particle `times` as much.
     #[inline(always)]
-    fn kept<L: Lanes>(&self, particles: &Particles, group: &Group, (most, part): (f32, f32)) -> L {
+    fn kept<L: Lanes>(
+        &self,
+        particles: &Particles,
+        group: &Group,
+        (most, part): (f32, f32),
+        times: impl Fn(ElementId) -> f32,
+    ) -> L {
         let (own, smoothing) = (group.particles(), self.smoothing);
         let (xi, yi) = (L::load(&particles.x[own.start..]), L::load(&particles.y[own.start..]));
         let (zero, h2) = (L::splat(0.0), L::splat(smoothing.radius * smoothing.radius));
@@ -159,14 +172,38 @@ impl Walls<'_> {
         for (lane, i) in own.enumerate() {
             let at = particles.position(i);
             let beyond = if group.near_wall { wall_sums(smoothing, self.domain, at).0 } else { 0.0 };
-            kept[lane] = 1.0 / (1.0 + share[lane] * self.grip.at(reach[lane] + beyond));
+            let share = share[lane] * times(particles.element[i]);
+            kept[lane] = 1.0 / (1.0 + share * self.grip.at(reach[lane] + beyond));
         }
         L::load(&kept)
     }
 }
 
-/// A pass over groups: where masses differ, and where something sticks to walls (`walls` are read).
-struct ViscosityPass<'a, const MASSES: bool, const STICKS: bool> {
+/// What takes only one of several passes, and how much of it this one does.
+#[derive(Clone, Copy)]
+struct Once {
+    /// Largest coefficient that one pass can do.
+    most: f32,
+    /// How many times what an equal part would do: as many as there are passes in the first, and 0 in the others.
+    times: f32,
+}
+
+impl Once {
+    /// Whether particles of a coefficient take all passes, with others that do.
+    fn is_beyond(self, coefficient: f32) -> bool {
+        // A mean is at most twice the smaller of both.
+        coefficient > 0.5 * self.most
+    }
+
+    /// How many times an equal part of the passes a particle of a coefficient takes of a wall.
+    fn times_of(self, coefficient: f32) -> f32 {
+        if self.is_beyond(coefficient) { 1.0 } else { self.times }
+    }
+}
+
+/// A pass over groups: where masses differ, where something sticks to walls (`walls` are read), and where some take one of several
+/// passes (`once` is read).
+struct ViscosityPass<'a, const MASSES: bool, const STICKS: bool, const ONCE: bool> {
     smoothing: &'a Smoothing,
     particles: &'a Particles,
     density: &'a [f32],
@@ -181,17 +218,31 @@ struct ViscosityPass<'a, const MASSES: bool, const STICKS: bool> {
     most: f32,
     /// Part of a tick that passes.
     part: f32,
+    once: Once,
     groups: &'a [Group],
     base: usize,
     /// Out: velocities, d/s.
     out: [&'a mut [f32]; 2],
 }
 
-impl<'a> ViscosityPass<'a, false, false> {
+impl<'a> ViscosityPass<'a, false, false, false> {
     /// The same for other matter.
-    fn with<const MASSES: bool, const STICKS: bool>(self) -> ViscosityPass<'a, MASSES, STICKS> {
-        let Self { smoothing, particles, density, volumes, masses, coefficients, walls, most, part, groups, base, out } =
-            self;
+    fn with<const MASSES: bool, const STICKS: bool, const ONCE: bool>(self) -> ViscosityPass<'a, MASSES, STICKS, ONCE> {
+        let Self {
+            smoothing,
+            particles,
+            density,
+            volumes,
+            masses,
+            coefficients,
+            walls,
+            most,
+            part,
+            once,
+            groups,
+            base,
+            out,
+        } = self;
         ViscosityPass {
             smoothing,
             particles,
@@ -202,6 +253,7 @@ impl<'a> ViscosityPass<'a, false, false> {
             walls,
             most,
             part,
+            once,
             groups,
             base,
             out,
@@ -209,7 +261,7 @@ impl<'a> ViscosityPass<'a, false, false> {
     }
 }
 
-impl<const MASSES: bool, const STICKS: bool> Pass for ViscosityPass<'_, MASSES, STICKS> {
+impl<const MASSES: bool, const STICKS: bool, const ONCE: bool> Pass for ViscosityPass<'_, MASSES, STICKS, ONCE> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let zero = L::splat(0.0);
@@ -221,6 +273,13 @@ impl<const MASSES: bool, const STICKS: bool> Pass for ViscosityPass<'_, MASSES, 
             let (vxi, vyi) = (L::load(&self.particles.vx[own.start..]), L::load(&self.particles.vy[own.start..]));
             let scale = self.smoothing.density_scale * self.part;
             let elements = &self.particles.element[own.clone()];
+            let out = own.start - self.base..own.end - self.base;
+            let takes_all = |element: &ElementId| self.once.is_beyond(self.coefficients[element.index()]);
+            if ONCE && self.once.times == 0.0 && !elements.iter().any(takes_all) {
+                out_x[out.clone()].copy_from_slice(&self.particles.vx[own.clone()]);
+                out_y[out].copy_from_slice(&self.particles.vy[own]);
+                continue;
+            }
             let share = share_of(self.coefficients, self.most, elements, scale);
             let walls = self.walls.filter(|_| STICKS);
             let held = walls.map(|walls| walls.densities::<L>(elements, &self.density[own.clone()]));
@@ -242,8 +301,13 @@ impl<const MASSES: bool, const STICKS: bool> Pass for ViscosityPass<'_, MASSES, 
                             let (mass, element): (&f32, &ElementId) = (mass, element);
                             let mass = L::splat(*mass);
                             let other = L::splat(self.coefficients[element.index()].min(self.most) * scale);
-                            let mean = (other + other) / (share + other).max(L::splat(f32::MIN_POSITIVE));
-                            weight = weight * mean * ((mass + mass) / (mass_i + mass));
+                            let sum = (share + other).max(L::splat(f32::MIN_POSITIVE));
+                            weight = weight * ((other + other) / sum) * ((mass + mass) / (mass_i + mass));
+                            if ONCE {
+                                // Both of a pair find the same, for neither comes first in these.
+                                let (mean, most) = (share * other, L::splat(0.5 * self.once.most * scale) * sum);
+                                weight = weight * most.if_less(mean, L::splat(1.0), L::splat(self.once.times));
+                            }
                         }
                         sum_x = sum_x + weight * (L::splat(*vxj) - vxi);
                         sum_y = sum_y + weight * (L::splat(*vyj) - vyi);
@@ -262,10 +326,13 @@ impl<const MASSES: bool, const STICKS: bool> Pass for ViscosityPass<'_, MASSES, 
                     add!(moving.map(|of| (of, (&0.0, &ElementId(0)))));
                 }
             }
-            let out = own.start - self.base..own.end - self.base;
             let (mut vx, mut vy) = (vxi + share * sum_x, vyi + share * sum_y);
             if let Some(walls) = walls.filter(|walls| walls.hold(group, elements)) {
-                let kept = walls.kept::<L>(self.particles, group, (self.most, self.part));
+                let times = |element: ElementId| match ONCE {
+                    true => self.once.times_of(self.coefficients[element.index()]),
+                    false => 1.0,
+                };
+                let kept = walls.kept::<L>(self.particles, group, (self.most, self.part), times);
                 (vx, vy) = (vx * kept, vy * kept);
             }
             vx.store(&mut out_x[out.clone()]);
