@@ -211,3 +211,62 @@ fn viscosity_is_stable_at_any_coefficient_and_cut_to_what_its_passes_can_do() {
         assert_eq!(report.clamps, 0, "c {coefficient} in sixteen substeps");
     }
 }
+
+/// Something thick, and heavier, amid something thin, all in motion.
+fn thick_amid_thin() -> (Bench, Vec<f32>) {
+    let mut bench = square(0.2, |_| Vec2::ZERO);
+    let mut random = random_numbers(8);
+    for i in 0..400 {
+        bench.particles.element[i] = ElementId((bench.particles.position(i).distance(Vec2::splat(30.0)) < 4.0).into());
+        (bench.particles.vx[i], bench.particles.vy[i]) = (40.0 * (random() - 0.5), 40.0 * (random() - 0.5));
+    }
+    bench.solve(false);
+    let masses: Vec<f32> = bench.particles.element.iter().map(|element| [0.7, 1.0][element.index()]).collect();
+    bench.solver.masses.clone_from(&masses);
+    (bench, masses)
+}
+
+#[test]
+fn what_is_thin_takes_one_pass_beside_what_takes_many() {
+    let run = |amid: f32| {
+        let (mut bench, _) = thick_amid_thin();
+        let elements = ElementParams { viscosity: vec![0.02, amid], ..ElementParams::default() };
+        apply_viscosity(&mut bench.particles, &mut bench.solver, &bench.domain, &elements, 1, TICK_SECONDS);
+        bench.particles
+    };
+    let (beside, alone) = (run(12.0), run(0.02));
+    let mut far = 0;
+    for i in (0..400).filter(|&i| alone.position(i).distance(Vec2::splat(30.0)) > 4.0 + 3.0) {
+        let apart = (beside.velocity(i) - alone.velocity(i)).length();
+        assert!(apart <= 1e-5 * alone.velocity(i).length().max(1.0), "{i}: {apart} d/s");
+        far += 1;
+    }
+    assert!(far > 100, "{far} have none of it for a neighbour");
+    let changed = (0..400).filter(|&i| beside.velocity(i) != alone.velocity(i)).count();
+    assert!(changed > 30, "what is thick takes more than one pass: {changed}");
+}
+
+#[test]
+fn thick_amid_thin_loses_energy_and_keeps_its_momentum() {
+    for coefficients in [[0.02, 0.6], [0.02, 7.9], [0.4, 100.0], [0.26, 0.24]] {
+        let (mut bench, masses) = thick_amid_thin();
+        let elements = ElementParams {
+            viscosity: coefficients.to_vec(),
+            stickiness: coefficients.to_vec(),
+            ..ElementParams::default()
+        };
+        let energy = |particles: &Particles| -> f64 {
+            (0..400).map(|i| f64::from(masses[i] * particles.velocity(i).length_squared())).sum()
+        };
+        for pass in 0..20 {
+            let before = bench.particles.clone();
+            apply_viscosity(&mut bench.particles, &mut bench.solver, &bench.domain, &elements, 1, TICK_SECONDS);
+            let (was, is) = (energy(&before), energy(&bench.particles));
+            assert!(is < was, "{coefficients:?}, pass {pass}: energy {was} → {is}");
+            let change =
+                |i: usize| f64::from(masses[i]) * (bench.particles.velocity(i) - before.velocity(i)).as_dvec2();
+            let sums = (0..400).map(change).fold((DVec2::ZERO, 0.0), |(sum, all), one| (sum + one, all + one.length()));
+            assert!(sums.0.length() < 1e-4 * sums.1, "{coefficients:?}: {sums:?} came or went");
+        }
+    }
+}
