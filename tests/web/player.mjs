@@ -16,7 +16,8 @@ export async function begin(builder, modules, shots) {
 
   // `before` gets the page before it loads. Errors in the console count against the test unless they are `expected`.
   async function open(url, options = {}, { before = () => {}, expected } = {}) {
-    const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+    // The names of what is pressed are looked for in English.
+    const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, locale: 'en-GB', ...options });
     return openIn(context, url, { before, expected });
   }
 

@@ -80,13 +80,17 @@ export async function open(program, display, folder, scene = ['empty']) {
     }
   }
 
+  // Presses a button for a frame or two, as a finger does: what moves in the same frame is not pressed.
+  async function tap(button) {
+    await x('mousedown', button);
+    await settle();
+    await x('mouseup', button);
+  }
+
   // Presses what has this name.
   async function click(name) {
     await hover(name);
-    // A finger stays down for a frame or two: what moves in the same frame is not pressed.
-    await x('mousedown', 1);
-    await settle();
-    await x('mouseup', 1);
+    await tap(1);
   }
 
   // Holds a button and goes round along the points until the game says that it is enough.
@@ -105,6 +109,7 @@ export async function open(program, display, folder, scene = ['empty']) {
 
   return {
     click,
+    tap,
     drag,
     focus,
     hover,

@@ -439,6 +439,49 @@ async function play() {
     await game.untilWidgets('the museum is closed', (all) => !isOpen(all, 'Museum of known answers'));
   });
 
+  await test('a spring flows on by itself, a drain takes, and a press on each takes it away', async () => {
+    await game.key('r');
+    await game.until('an empty scene again', ({ particles }) => particles === 0);
+    await game.key('2');
+    await game.key('u');
+    await quiet();
+    await game.move([400, 250]);
+    await game.tap(1);
+    await game.until('what flows by itself', ({ particles }) => particles > 300);
+    await game.picture('spring');
+    await game.tap(1);
+    const { particles } = await game.stats();
+    await game.move([400, 700]);
+    await game.tap(3);
+    await game.until('less than flowed', (now) => now.particles < particles - 50);
+    await game.tap(3);
+    await game.key('u');
+    await game.key('r');
+    await game.until('an empty scene again', ({ particles: now }) => now === 0);
+    return `${particles} particles`;
+  });
+
+  await test('the game speaks German, and English again', async () => {
+    await game.key('F4');
+    await game.untilWidgets('the settings', (all) => isOpen(all, 'Settings'));
+    await game.click('Deutsch');
+    await game.untilWidgets('the settings in German', (all) => isOpen(all, 'Einstellungen'));
+    await game.key('F4');
+    await game.key('F1');
+    await game.untilWidgets('the keys in German', (all) => isOpen(all, 'Tasten und Maus'));
+    await game.picture('german');
+    await game.key('F1');
+    await game.key('e');
+    const all = await game.untilWidgets('elements in German', (now) => now.some(({ name }) => name === 'Quecksilber'));
+    assert.ok(!all.some(({ name }) => name === 'mercury'), 'an element is shown in English');
+    await game.key('Escape');
+    await game.key('F4');
+    await game.untilWidgets('the settings in German', (now) => isOpen(now, 'Einstellungen'));
+    await game.click('English');
+    await game.untilWidgets('the settings', (now) => isOpen(now, 'Settings'));
+    await game.key('F4');
+  });
+
   await test('a recording and the last minute can be replayed', async () => {
     await game.key('F9');
     await game.until('it records', ({ recording }) => recording !== null);

@@ -22,6 +22,7 @@ export async function onADesktop(player) {
   await withSaves(player, page);
   await page.context().close();
   await asleep(player);
+  await inGerman(player);
 }
 
 async function atTheStart({ shoot, test }, page) {
@@ -354,6 +355,19 @@ async function asleep({ host, play, test }) {
     await page.evaluate(() => window.powderMaster.scene('dam_break'));
     await until(page, 'the hook', ({ scene }) => scene === 'dam_break', 4);
     assert.ok((await stats(page)).paused);
+    await page.context().close();
+  });
+}
+
+async function inGerman({ host, play, shoot, test }) {
+  await test('a browser that asks for German gets it, and the page with it', async () => {
+    const page = await play(`${host.url}#scene=empty`, { locale: 'de-AT' });
+    const { messages } = await stats(page);
+    assert.ok(messages.some((text) => text.startsWith('Linke Taste gießt')), `it says ${messages}`);
+    const said = await page.evaluate(() => [document.documentElement.lang, document.getElementById('keys').textContent, document.getElementById('world').ariaLabel]);
+    assert.deepEqual([said[0], said[2]], ['de', 'Die Welt von Powder Master']);
+    assert.match(said[1], /Pfeiltasten/);
+    await shoot(page, 'desktop-german');
     await page.context().close();
   });
 }
