@@ -321,7 +321,7 @@ fn change_world(world: &mut World, action: Action) {
         Action::Reset => {
             history::checkpoint(world);
             control::reset(world);
-            tr!("Reset")
+            tr!("done" => "Reset")
         }
         Action::ClearAir => {
             history::checkpoint(world);

@@ -59,7 +59,7 @@ pub fn scene(link: &str) -> Result<(), JsError> {
     let asked = link.open()?;
     let Link { scene: name, settings, quality, detail, world } = link;
     let order = match world {
-        Some(_) => Order::LoadBytes { name: "the link".to_owned(), bytes: asked.encode() },
+        Some(_) => Order::LoadBytes { name: tr!("the link"), bytes: asked.encode() },
         None => Order::Open { name, settings, quality, detail },
     };
     script::tell(move |world| world.resource_mut::<Orders>().push(order));
