@@ -363,7 +363,7 @@ async function inGerman({ host, play, shoot, test }) {
   await test('a browser that asks for German gets it, and the page with it', async () => {
     const page = await play(`${host.url}#scene=empty`, { locale: 'de-AT' });
     const { messages } = await stats(page);
-    assert.ok(messages.some((text) => text.startsWith('Linke Taste gießt')), `it says ${messages}`);
+    assert.ok(messages.some((text) => text.startsWith('Linke Maustaste gießt')), `it says ${messages}`);
     const said = await page.evaluate(() => [document.documentElement.lang, document.getElementById('keys').textContent, document.getElementById('world').ariaLabel]);
     assert.deepEqual([said[0], said[2]], ['de', 'Die Welt von Powder Master']);
     assert.match(said[1], /Pfeiltasten/);
