@@ -8,11 +8,8 @@ use crate::{
         toolbox::Toolbox,
         tools::{Tool, spaced},
     },
-    kernel::{
-        brush::Stroke,
-        element::{ElementId, ElementTable},
-        sources::Rect,
-    },
+    kernel::{brush::Stroke, element::ElementId, sources::Rect},
+    scene::blueprint::Blueprint,
     sim::{
         control,
         intent::Intent,
@@ -28,9 +25,9 @@ fn press(
     button: MouseButton,
     element: ElementId,
     stroke: Stroke,
-    (sources, elements): (&Sources, &ElementTable),
+    (sources, scene): (&Sources, &Blueprint),
 ) -> Result<Intent, String> {
-    let area = Rect::under(&stroke);
+    let (area, elements) = (Rect::under(&stroke), &scene.elements);
     if areas(sources).any(|(other, _)| other.meets(area)) {
         return Ok(Intent::RemoveSources { stroke });
     }
@@ -42,6 +39,9 @@ fn press(
     }
     if count >= Sources::MOST {
         return Err(tr!("There are {} already: a press on one takes it away", Sources::MOST));
+    }
+    if !Sources::fits(area, scene) {
+        return Err(tr!("Too large: draw a smaller rectangle"));
     }
     Ok(if is_spring { Intent::SetEmitter { element, stroke } } else { Intent::SetDrain { stroke } })
 }
@@ -58,7 +58,7 @@ pub fn set(world: &mut World, button: MouseButton, stroke: Stroke) {
     else {
         return;
     };
-    match press(button, element, stroke, (world.resource(), setup.elements())) {
+    match press(button, element, stroke, (world.resource(), &setup.blueprint)) {
         Ok(intent) => {
             history::checkpoint(world);
             control::edit(world, intent);

@@ -4,7 +4,7 @@ use crate::{
     kernel::{
         air::Air,
         brush::Stroke,
-        element::{ElementId, ElementTable},
+        element::ElementId,
         heat::{HeatRecord, units::ROOM},
         params::Preset,
         particles::Particles,
@@ -35,27 +35,30 @@ pub struct Sources {
 impl Sources {
     /// Most emitters, and most drains, to which a player may add: each is looked at in every tick.
     pub const MOST: usize = 64;
-    /// Most sites that one of them may cover.
-    pub const MOST_SITES: f32 = 16_384.0;
+    /// Most sites of the scene's own spacing that one of them may cover: the largest brush has 6,400. At the finest detail all of them
+    /// together are as many as a save file may have.
+    const MOST_SITES: f32 = 15_000.0;
 
-    /// Adds what goes on pouring under a brush, if the element flows and there is room for one more.
-    pub fn add_emitter(&mut self, element: ElementId, stroke: &Stroke, elements: &ElementTable) -> bool {
-        let emitter = Emitter::of_brush(element, stroke, elements);
-        let is_allowed = !elements.get(element).fixed && Self::has_room(self.emitters.len(), emitter.area);
-        if is_allowed {
+    /// Adds what goes on pouring under a brush, if the element flows and it [`fits`](Self::fits).
+    pub fn add_emitter(&mut self, element: ElementId, stroke: &Stroke, scene: &Blueprint) {
+        let emitter = Emitter::of_brush(element, stroke, &scene.elements);
+        let flows = !scene.elements.get(element).fixed;
+        if flows && self.emitters.len() < Self::MOST && Self::fits(emitter.area, scene) {
             self.emitters.push(emitter);
         }
-        is_allowed
     }
 
-    /// Adds what takes away all that moves under a brush, if there is room for one more.
-    pub fn add_drain(&mut self, stroke: &Stroke) -> bool {
+    /// Adds what takes away all that moves under a brush, if it [`fits`](Self::fits).
+    pub fn add_drain(&mut self, stroke: &Stroke, scene: &Blueprint) {
         let area = Rect::under(stroke);
-        let is_allowed = Self::has_room(self.drains.len(), area);
-        if is_allowed {
+        if self.drains.len() < Self::MOST && Self::fits(area, scene) {
             self.drains.push(Drain { area });
         }
-        is_allowed
+    }
+
+    /// Whether an area is small enough for one that a player adds.
+    pub fn fits(area: Rect, scene: &Blueprint) -> bool {
+        area.sites() <= Self::MOST_SITES * scene.scale.particles_per_own()
     }
 
     /// Takes away all emitters and drains that a brush touches.
@@ -63,10 +66,6 @@ impl Sources {
         let under = Rect::under(stroke);
         self.emitters.retain(|emitter| !emitter.area.meets(under));
         self.drains.retain(|drain| !drain.area.meets(under));
-    }
-
-    fn has_room(count: usize, area: Rect) -> bool {
-        count < Self::MOST && area.sites() <= Self::MOST_SITES
     }
 }
 

@@ -125,7 +125,8 @@ fn what_a_player_sets_flows_drains_and_goes_again() {
         let [spring, sink] = [disc((20.0, 20.0)), Stroke::rectangle(Vec2::ZERO, Vec2::new(40.0, 40.0))];
         simulation.push(Intent::SetEmitter { element: id, stroke: spring }).run(1);
         if element.fixed {
-            assert_eq!((simulation.counters().refused, simulation.count(name)), (1, 0), "{name} does not flow");
+            simulation.run(30);
+            assert_eq!(simulation.count(name), 0, "{name} does not flow");
             continue;
         }
         simulation.run(30);
@@ -158,7 +159,7 @@ fn springs_have_a_limit_and_keep_their_size_at_another_detail() {
         (sources.emitters.len(), sources.drains.len())
     };
     assert_eq!(count(&simulation), (Sources::MOST, Sources::MOST));
-    assert!(simulation.counters().refused >= 6, "who sets more is told");
+    assert_eq!(simulation.counters().refused, 0, "the world is not full for that");
     let rate = |simulation: &Simulation| simulation.get::<Sources>().emitters[0].rate;
     let before = rate(&simulation);
     simulation.push(Intent::Detail { detail: 2.0 }).run(1);

@@ -2,8 +2,14 @@
 
 use super::Player;
 use crate::{
-    game::{actions::Action, brush_mode::BrushMode, toolbox::Toolbox},
-    kernel::sources::Rect,
+    game::{
+        actions::Action,
+        brush_mode::BrushMode,
+        camera::WorldCamera,
+        orders::{Order, Orders},
+        toolbox::Toolbox,
+    },
+    kernel::{brush::Stroke, sources::Rect},
     sim::state::Sources,
 };
 use bevy::{
@@ -76,6 +82,26 @@ fn a_rectangle_is_a_spring_and_what_is_fixed_is_none() {
     assert_eq!(player.world().resource::<Toolbox>().mode(), BrushMode::Draw, "the key again draws");
     player.press_at(MouseButton::Left, high + 20.0);
     assert!(player.rocks() > 0 && player.sources() == (1, 0));
+}
+
+#[test]
+fn the_largest_brush_sets_one_at_every_detail_and_a_larger_rectangle_is_refused() {
+    let mut player = Player::new();
+    player.act(Action::BrushMode(BrushMode::Spring));
+    player.0.world_mut().resource_mut::<Toolbox>().set_radius(40.0);
+    for detail in [1.0, 2.0] {
+        player.0.world_mut().resource_mut::<Orders>().push(Order::Detail(detail));
+        player.frames(2);
+        player.press_at(MouseButton::Left, player.middle());
+        assert_eq!(player.sources(), (1, 0), "detail {detail}");
+        player.press_at(MouseButton::Left, player.middle());
+        assert_eq!(player.sources(), (0, 0));
+    }
+    let size = player.world().resource::<WorldCamera>().world();
+    let whole = Order::SetSource(MouseButton::Right, Stroke::rectangle(Vec2::ZERO, size));
+    player.0.world_mut().resource_mut::<Orders>().push(whole);
+    player.frames(2);
+    assert!(player.sources() == (0, 0) && player.was_told("Too large"));
 }
 
 #[test]

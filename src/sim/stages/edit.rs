@@ -151,9 +151,9 @@ pub(super) fn apply_intents(
                 set_under(&mut warm, &stroke, kelvin, &mut derived.books);
             }
             Intent::SetEmitter { element, stroke } => {
-                refused += u64::from(!derived.sources.add_emitter(element, &stroke, setup.elements()));
+                derived.sources.add_emitter(element, &stroke, &setup.blueprint);
             }
-            Intent::SetDrain { stroke } => refused += u64::from(!derived.sources.add_drain(&stroke)),
+            Intent::SetDrain { stroke } => derived.sources.add_drain(&stroke, &setup.blueprint),
             Intent::RemoveSources { stroke } => derived.sources.remove_under(&stroke),
             Intent::Ignite { stroke } => {
                 let mut warm = setup.matter(&mut particles, &mut rock, &derived.curves);
