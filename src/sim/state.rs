@@ -250,7 +250,7 @@ pub struct DecayState(pub Decays);
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
 pub struct GasState(pub Vec<Release>);
 
-/// What becomes of which elements. Made when a scene opens.
+/// What becomes of which elements. Made when a scene opens, and anew at another detail: smaller lumps burn and react sooner.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Recipes {
     /// Where they touch.
@@ -261,10 +261,29 @@ pub struct Recipes {
     pub fractures: FractureTable,
 }
 
+impl Recipes {
+    /// Those of a scene at its detail.
+    pub fn of(scene: &Blueprint) -> Self {
+        let (elements, detail) = (&scene.elements, scene.scale.detail);
+        Self {
+            touches: ReactionTable::new(elements, detail),
+            decays: DecayTable::new(elements, detail),
+            fractures: FractureTable::new(elements),
+        }
+    }
+}
+
 /// Who sleeps. Written by the sleep stages.
 #[derive(Resource, Deref, DerefMut, Clone, Debug, Default)]
 pub struct SleepState(pub Sleep);
 
-/// What the kernel's passes read of the elements. Made when a scene opens.
+/// What the kernel's passes read of the elements. Made when a scene opens, and anew at another detail.
 #[derive(Resource, Deref, Clone, Debug, Default)]
 pub struct Elements(pub ElementParams);
+
+impl Elements {
+    /// Those of a scene at its scale.
+    pub fn of(scene: &Blueprint) -> Self {
+        Self(ElementParams::new(&scene.elements, scene.scale, scene.air.density))
+    }
+}

@@ -472,9 +472,11 @@ async function play() {
     await game.picture('german');
     await game.key('F1');
     await game.key('e');
-    const all = await game.untilWidgets('elements in German', (now) => now.some(({ name }) => name === 'Quecksilber'));
-    assert.ok(!all.some(({ name }) => name === 'mercury'), 'an element is shown in English');
+    const all = await game.untilWidgets('elements in German', (now) => isOpen(now, 'Elemente'));
+    const names = ['Quecksilber', 'mercury'].map((wanted) => all.some(({ name }) => name === wanted));
+    assert.deepEqual(names, [true, false], 'mercury in German, and not in English');
     await game.key('Escape');
+    await game.untilWidgets('no elements', (now) => !isOpen(now, 'Elemente'));
     await game.key('F4');
     await game.untilWidgets('the settings in German', (now) => isOpen(now, 'Einstellungen'));
     await game.click('English');

@@ -195,3 +195,16 @@ fn a_lamp_burns_until_its_oil_is_gone() {
     assert!(half < 3 * all / 4, "{half} of {all} are left after 30 s");
     assert!(simulation.count("burning_oil") > 5, "the lamp went out");
 }
+
+#[test]
+fn what_burns_at_another_detail_is_what_a_save_of_it_would_be() {
+    for finer in [0.5, 2.0] {
+        let mut simulation = beam(4);
+        simulation.run(30);
+        simulation.push(Intent::Detail { detail: finer });
+        simulation.apply_edits();
+        // All that burns, fades or dissolves does so by the size of its lumps.
+        assert_goes_on_from_a_save(&mut simulation, 300);
+        assert!(simulation.count("fire") > 0, "detail {finer}: nothing burns");
+    }
+}

@@ -120,7 +120,7 @@ fn numbers(ui: &mut Ui, readings: &Readings) {
 
 /// About as wide as a reading gets, points.
 fn width_of(reading: &Reading) -> f32 {
-    20.0 + 7.2 * (reading.value.len() + reading.unit.len()) as f32
+    20.0 + 7.2 * (reading.value.chars().count() + reading.unit.chars().count()) as f32
 }
 
 fn dot(ui: &mut Ui, colour: Color32) {

@@ -213,8 +213,8 @@ fn modes_tip(bindings: &Bindings) -> String {
     let key = |mode| bindings.key(Action::BrushMode(mode));
     let [replace, only, spring] = [BrushMode::Replace, BrushMode::EraseOnly, BrushMode::Spring].map(key);
     tr!(
-        "What the brush does: draw; replace what is there ({replace}); erase only the chosen element ({only}); set springs and \
-         drains ({spring})",
+        "What the brush does: draw; replace what is there ({replace}); erase only the chosen element ({only}); \
+         set springs and drains ({spring})",
         replace,
         only,
         spring

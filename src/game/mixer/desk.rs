@@ -19,7 +19,7 @@ pub struct MixerDesk {
     pub standard: Arc<ElementTable>,
     /// The element in the making, once one was begun.
     pub draft: Option<Element>,
-    /// What it was begun like, on the screen.
+    /// The name of what it was begun like.
     pub base: String,
 }
 

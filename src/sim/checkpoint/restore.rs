@@ -2,12 +2,8 @@
 
 use crate::{
     kernel::{
-        decay::table::DecayTable,
-        element::ElementParams,
-        fracture::table::FractureTable,
         heat::table::HeatTable,
         params::{Preset, Quality},
-        reactions::table::ReactionTable,
     },
     scene::{
         blueprint::Blueprint,
@@ -68,18 +64,9 @@ impl Checkpoint {
     pub fn restore(&self, world: &mut World) {
         let blueprint = &self.setup.blueprint;
         let known = world.get_resource::<Setup>().is_some_and(|setup| Arc::ptr_eq(&setup.origin, &self.setup.origin));
-        // They follow the scale.
-        world.insert_resource(Elements(ElementParams::new(
-            &blueprint.elements,
-            blueprint.scale,
-            blueprint.air.density,
-        )));
+        world.insert_resource(Elements::of(blueprint));
         world.insert_resource(HeatCurves(HeatTable::new(&blueprint.elements)));
-        world.insert_resource(Recipes {
-            touches: ReactionTable::new(&blueprint.elements, blueprint.scale.detail),
-            decays: DecayTable::new(&blueprint.elements, blueprint.scale.detail),
-            fractures: FractureTable::new(&blueprint.elements),
-        });
+        world.insert_resource(Recipes::of(blueprint));
         if known {
             world.resource_mut::<Effects>().set_modes(&self.modes);
         } else {

@@ -3,7 +3,7 @@
 use crate::{
     kernel::{
         decay::ignite_under,
-        element::{ElementParams, ElementTable},
+        element::ElementTable,
         forces,
         heat::{set_under, warm_under},
         params::Preset,
@@ -51,7 +51,7 @@ pub(super) struct Derived<'w> {
     sleep: ResMut<'w, SleepState>,
     solver: ResMut<'w, SolverState>,
     curves: Res<'w, HeatCurves>,
-    recipes: Res<'w, Recipes>,
+    recipes: ResMut<'w, Recipes>,
     books: ResMut<'w, Books>,
     judge: ResMut<'w, Judge>,
 }
@@ -217,7 +217,7 @@ impl Parts<'_, '_> {
     /// and stays what it is. A player was told before (`control::check_detail`).
     fn change_detail(&mut self, detail: f64, preset: Preset) -> bool {
         let Ok(setup) = self.setup.at_detail(detail, preset) else { return false };
-        let Derived { elements, sources, predictor, sleep, solver, .. } = &mut *self.derived;
+        let Derived { elements, recipes, sources, predictor, sleep, solver, .. } = &mut *self.derived;
         let before = Snapshot {
             particles: self.particles.0.clone(),
             solids: self.rock.0.clone(),
@@ -231,7 +231,7 @@ impl Parts<'_, '_> {
         let Ok(after) = before.resampled(&self.setup.blueprint, &setup.blueprint, setup.quality.air_cell) else {
             return false;
         };
-        elements.0 = ElementParams::new(&setup.blueprint.elements, setup.blueprint.scale, setup.blueprint.air.density);
+        (**elements, **recipes) = (Elements::of(&setup.blueprint), Recipes::of(&setup.blueprint));
         **predictor = PredictorState::default();
         let (size, version) = (setup.domain.size, after.solids.version());
         **sleep = SleepState(Sleep::resume(after.sleep, &after.particles, size, version));

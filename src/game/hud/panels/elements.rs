@@ -134,8 +134,8 @@ fn mark(ui: &Ui, rect: Rect) {
     );
 }
 
-/// Elements and tools whose name holds the text, and tools of whose help a word begins with it; those whose names begin with it
-/// first, and those whose names hold it before the rest. It is looked for in the player's language and in English.
+/// Elements and tools whose name holds the text, and tools of whose help a word begins with it; those whose names begin
+/// with it first, and those whose names hold it before the rest. It is looked for in the player's language and in English.
 fn find(elements: &ElementTable, text: &str) -> Vec<Tool> {
     let text = text.trim().to_lowercase();
     let rank = |tool: &Tool| {

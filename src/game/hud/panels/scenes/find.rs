@@ -18,7 +18,8 @@ pub(super) fn find(entries: &[Entry], text: &str) -> Vec<usize> {
     found.into_iter().map(|(_, index)| index).collect()
 }
 
-/// How well a word fits a scene, 0 best; nothing if it does not. It is looked for in the player's language and in English.
+/// How well a word fits a scene, 0 best; nothing if it does not. It is looked for in the player's language and in
+/// English.
 fn rank(scene: &SceneFile, word: &str) -> Option<u8> {
     let translated = rank_in(scene, word, &spoken);
     let english = rank_in(scene, word, &str::to_owned);
