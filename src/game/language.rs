@@ -51,9 +51,9 @@ impl Language {
         &KNOWN
     }
 
-    /// The one with the tag that was chosen; that of the system for `None`, or if this version does not know it.
-    fn of_user(chosen: Option<&str>) -> Self {
-        Self { chosen: chosen.and_then(find), by_system: of_system(sys_locale::get_locales()) }
+    /// The one with the tag that was chosen; that of a system with these tags for `None`, or if this version does not know it.
+    fn of_user(chosen: Option<&str>, system: impl IntoIterator<Item = String>) -> Self {
+        Self { chosen: chosen.and_then(find), by_system: of_system(system) }
     }
 
     /// The tag that was chosen, if one was.
@@ -79,7 +79,7 @@ impl Language {
 
 /// Speaks the language that was chosen the last time, and from then on the one that is chosen.
 pub fn plugin(app: &mut App, chosen: Option<&str>) {
-    let language = Language::of_user(chosen);
+    let language = Language::of_user(chosen, sys_locale::get_locales());
     speak(language.tag());
     app.insert_resource(language).add_systems(First, follow.run_if(resource_changed::<Language>));
 }
@@ -143,7 +143,8 @@ mod tests {
     #[test]
     fn a_language_of_another_version_is_that_of_the_system() {
         for (chosen, expected) in [(None, None), (Some("tlh"), None), (Some("de"), Some("de"))] {
-            assert_eq!(Language::of_user(chosen).chosen(), expected);
+            let language = Language::of_user(chosen, ["de-CH".to_owned()]);
+            assert_eq!((language.chosen(), language.tag()), (expected, "de"));
         }
         assert_eq!(Language { chosen: Some("de"), by_system: "en" }.tag(), "de");
         assert_eq!(Language { chosen: None, by_system: "de" }.tag(), "de");
