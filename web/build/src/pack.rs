@@ -21,7 +21,7 @@ const WORTH_COMPRESSING: usize = 1024;
 /// Most that brotli may look back: 2 to this many bytes.
 const BROTLI_WINDOW: i32 = 24;
 /// Largest module, bytes: a phone compiles it before anything is seen.
-const MODULE_LIMIT: usize = 16_000_000;
+const MODULE_LIMIT: usize = 17_000_000;
 /// Largest module compressed by brotli, bytes: what a visit downloads.
 const BROTLI_LIMIT: usize = 5_000_000;
 /// What in the module's script comes before its first size of memory, pages.
