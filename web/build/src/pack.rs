@@ -175,7 +175,7 @@ mod tests {
     #[test]
     fn a_module_that_grew_too_large_is_no_page() {
         assert!(check_size(MODULE_LIMIT, BROTLI_LIMIT).is_ok());
-        for (sizes, says) in [((16_010_000, 1), "the module is"), ((1, 5_010_000), "with brotli")] {
+        for (sizes, says) in [((17_010_000, 1), "the module is"), ((1, 5_010_000), "with brotli")] {
             let fault = check_size(sizes.0, sizes.1).expect_err("too large").to_string();
             assert!(fault.contains(says) && fault.contains(".01 MB") && fault.lines().count() == 1, "{fault}");
         }
