@@ -7,7 +7,7 @@ use crate::{
     particles::{Particles, Value},
     solids::Solids,
 };
-use glam::{IVec2, Vec2};
+use glam::IVec2;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// Particles that are looked at together.
@@ -33,17 +33,13 @@ pub fn count_escaped(particles: &Particles, solids: &Solids, domain: &Domain, th
     let Particles { x, y, .. } = particles;
     let size = domain.size.min(IVec2::new(solids.columns(), solids.rows()).as_vec2());
     let inside = |x: f32, y: f32| (x >= 0.0) & (y >= 0.0) & (x <= size.x) & (y <= size.y);
-    let escaped = AtomicU64::new(0);
+    let (has_rock, escaped) = (solids.count() > 0, AtomicU64::new(0));
     over(x.len(), WORTH_A_LOOK, threads, &|range| {
         let mut count = 0;
         for (x, y) in x[range.clone()].chunks(BLOCK).zip(y[range].chunks(BLOCK)) {
-            let outside: u32 = x.iter().zip(y).map(|(&x, &y)| u32::from(!inside(x, y))).sum();
-            count += u64::from(outside);
-            if solids.count() > 0 {
-                let in_rock =
-                    |&(&x, &y): &(&f32, &f32)| inside(x, y) && solids.is_solid(Solids::cell_of(Vec2::new(x, y)));
-                count += x.iter().zip(y).filter(in_rock).count() as u64;
-            }
+            let in_rock = |x: f32, y: f32| has_rock && solids.is_rock_at([x, y]);
+            let escaped: u32 = x.iter().zip(y).map(|(&x, &y)| u32::from(!inside(x, y) | in_rock(x, y))).sum();
+            count += u64::from(escaped);
         }
         escaped.fetch_add(count, Ordering::Relaxed);
     });
@@ -65,6 +61,7 @@ pub fn count_elements(elements: &[ElementId], counts: &mut [u32]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::Vec2;
 
     #[test]
     fn only_what_is_no_number_is_removed() {

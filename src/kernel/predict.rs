@@ -155,13 +155,8 @@ impl Pass for Prediction<'_> {
             }
             let stopped_x = move_freely(x, vx, to_x, high.x, dt);
             let stopped_y = move_freely(y, vy, to_y, high.y, dt);
-            if let Some(rock) = rock {
-                for k in 0..x.len() {
-                    let to = rock.sweep(Vec2::new(x[k], y[k]), Vec2::new(to_x[k], to_y[k]));
-                    (to_x[k], to_y[k]) = (to.x, to.y);
-                }
-            }
-            if stopped_x | stopped_y | rock.is_some() {
+            let is_turned = rock.is_some_and(|rock| rock.sweep_all([&*x, &*y], [&mut *to_x, &mut *to_y]));
+            if stopped_x | stopped_y | is_turned {
                 for k in 0..x.len() {
                     if to_x[k] != x[k] + vx[k] * dt || to_y[k] != y[k] + vy[k] * dt {
                         let mut left = Vec2::new((to_x[k] - x[k]) / dt, (to_y[k] - y[k]) / dt);

@@ -162,10 +162,7 @@ impl<const MIXED: bool> Pass for HandBack<'_, MIXED> {
                 }
             }
             if let Some(rock) = rock {
-                for k in 0..count {
-                    let to = rock.sweep(Vec2::new(from_x[k], from_y[k]), Vec2::new(x[k], y[k]));
-                    (x[k], y[k]) = (to.x, to.y);
-                }
+                rock.sweep_all([&from_x[..count], &from_y[..count]], [x, y]);
             }
         }
     }

@@ -167,10 +167,7 @@ impl Pass for Move<'_> {
             clamps.fetch_add(u64::from(cuts), Ordering::Relaxed);
         }
         if let Some(rock) = rock {
-            for k in 0..from_x.len() {
-                let to = rock.sweep(Vec2::new(from_x[k], from_y[k]), Vec2::new(to_x[k], to_y[k]));
-                (to_x[k], to_y[k]) = (to.x, to.y);
-            }
+            rock.sweep_all([from_x, from_y], [to_x, to_y]);
         }
         let (mut change_x, mut change_y) = ([0.0; BLOCK], [0.0; BLOCK]);
         for first in (0..from_x.len()).step_by(BLOCK) {

@@ -1,0 +1,227 @@
+//! Rock: fixed particles that stand on the sites of the square lattice of spacing d, one site a cell.
+//!
+//! A cell with rock is solid as a whole, `[i, i+1) × [j, j+1)` in d. Water collides with the cells (`sweep`), and
+//! the solver reads the particles at their centres for density.
+
+mod sweep;
+
+use crate::element::ElementId;
+use glam::{IVec2, Vec2};
+
+const EMPTY: u8 = u8::MAX;
+
+/// What stands for a cell in the set of those around another, at a step of −1 … 1 in both coordinates.
+const fn bit(x: i32, y: i32) -> u16 {
+    1 << (3 * (y + 1) + x + 1)
+}
+
+/// Which cells of the box are rock. Cells outside the box count as solid.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Solids {
+    columns: i32,
+    rows: i32,
+    element: Vec<u8>,
+    /// Empty as long as there has been no rock.
+    id: Vec<u32>,
+    /// Heat, quanta; empty as long as there has been none.
+    heat: Vec<i32>,
+    /// For each cell which of those around it are rock ([`bit`]).
+    near: Vec<u16>,
+    count: usize,
+    version: u64,
+}
+
+impl Solids {
+    /// A box of `columns × rows` cells without rock.
+    pub fn new(columns: u32, rows: u32) -> Self {
+        let cells = columns as usize * rows as usize;
+        Self {
+            columns: columns as i32,
+            rows: rows as i32,
+            element: vec![EMPTY; cells],
+            id: Vec::new(),
+            heat: Vec::new(),
+            near: vec![0; cells],
+            count: 0,
+            version: 0,
+        }
+    }
+
+    /// Cells along x.
+    pub fn columns(&self) -> i32 {
+        self.columns
+    }
+
+    /// Cells along y.
+    pub fn rows(&self) -> i32 {
+        self.rows
+    }
+
+    /// Number of rock particles.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        self.element.capacity() + 2 * self.near.capacity() + 4 * (self.id.capacity() + self.heat.capacity())
+    }
+
+    /// Changes with every change of the rock, so that what is derived from it knows when to follow.
+    pub fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// The cell of a point in d.
+    pub fn cell_of(position: Vec2) -> IVec2 {
+        // Without a call of `floor`, which not every processor has in hardware.
+        let floor = |at: f32| {
+            let whole = at as i32;
+            whole.saturating_sub(i32::from(at < whole as f32))
+        };
+        IVec2::new(floor(position.x), floor(position.y))
+    }
+
+    /// Whether the cell is in the box.
+    pub fn contains(&self, cell: IVec2) -> bool {
+        cell.x >= 0 && cell.y >= 0 && cell.x < self.columns && cell.y < self.rows
+    }
+
+    fn index(&self, cell: IVec2) -> Option<usize> {
+        self.contains(cell).then(|| cell.y as usize * self.columns as usize + cell.x as usize)
+    }
+
+    /// Whether water and air can't be there: rock, or outside the box.
+    pub fn is_solid(&self, cell: IVec2) -> bool {
+        self.index(cell).is_none_or(|k| self.element[k] != EMPTY)
+    }
+
+    /// The rock in the cell: its element and id.
+    pub fn get(&self, cell: IVec2) -> Option<(ElementId, u32)> {
+        let k = self.index(cell)?;
+        (self.element[k] != EMPTY).then(|| (ElementId(self.element[k]), self.id[k]))
+    }
+
+    /// Puts rock into a free cell of the box; `false` if the cell is taken or outside.
+    pub fn insert(&mut self, cell: IVec2, element: ElementId, id: u32) -> bool {
+        let Some(k) = self.index(cell) else { return false };
+        if self.element[k] != EMPTY {
+            return false;
+        }
+        if self.id.is_empty() {
+            self.id = vec![0; self.element.len()];
+        }
+        self.element[k] = element.0;
+        self.id[k] = id;
+        self.count += 1;
+        self.version += 1;
+        self.note_near(cell, true);
+        true
+    }
+
+    /// Takes the rock out of the cell; `false` if there was none.
+    pub fn remove(&mut self, cell: IVec2) -> bool {
+        let Some(k) = self.index(cell) else { return false };
+        if self.element[k] == EMPTY {
+            return false;
+        }
+        self.element[k] = EMPTY;
+        if let Some(heat) = self.heat.get_mut(k) {
+            *heat = 0;
+        }
+        self.count -= 1;
+        self.version += 1;
+        self.note_near(cell, false);
+        true
+    }
+
+    /// Whether there is rock at a point (d) in the box. Of others nothing is known.
+    #[inline(always)]
+    pub(crate) fn is_rock_at(&self, at: [f32; 2]) -> bool {
+        self.near.get(self.place(at) as usize).is_some_and(|near| near & bit(0, 0) != 0)
+    }
+
+    /// Where the cell of a point (d) in the box is stored. Of others nothing is known.
+    #[inline(always)]
+    fn place(&self, [x, y]: [f32; 2]) -> u32 {
+        (y as u32).wrapping_mul(self.columns as u32).wrapping_add(x as u32)
+    }
+
+    /// Notes at the cells around one whether it is rock.
+    fn note_near(&mut self, cell: IVec2, is_rock: bool) {
+        for step in (-1..=1).flat_map(|y| (-1..=1).map(move |x| IVec2::new(x, y))) {
+            let Some(k) = self.index(cell + step) else { continue };
+            let bit = bit(-step.x, -step.y);
+            self.near[k] = if is_rock { self.near[k] | bit } else { self.near[k] & !bit };
+        }
+    }
+
+    /// Heat that the rock in the cell holds beyond what its element holds at the room's temperature, quanta; 0 where is none.
+    pub fn heat(&self, cell: IVec2) -> i32 {
+        self.index(cell).and_then(|k| self.heat.get(k)).copied().unwrap_or_default()
+    }
+
+    /// Gives the rock in the cell this heat, quanta. Nothing where is none.
+    pub fn set_heat(&mut self, cell: IVec2, heat: i32) {
+        let Some(k) = self.index(cell).filter(|k| self.element[*k] != EMPTY) else { return };
+        if self.heat.is_empty() && heat != 0 {
+            self.heat = vec![0; self.element.len()];
+        }
+        if let Some(held) = self.heat.get_mut(k) {
+            *held = heat;
+        }
+    }
+
+    /// Heat of all cells, row by row from the bottom, quanta; empty if there has been none.
+    pub fn heats(&self) -> &[i32] {
+        &self.heat
+    }
+
+    /// All rock, row by row from the bottom: cell, element, id.
+    pub fn iter(&self) -> impl Iterator<Item = (IVec2, ElementId, u32)> + '_ {
+        self.element.iter().enumerate().filter(|(_, element)| **element != EMPTY).map(|(k, element)| {
+            let cell = IVec2::new(k as i32 % self.columns, k as i32 / self.columns);
+            (cell, ElementId(*element), self.id[k])
+        })
+    }
+}
+
+/// A cell that sticks out of the box by no more than this is inside, d.
+const SLACK: f32 = 1e-3;
+
+/// Whether all of a cell is in a box of `size` d. Rock may stand in a cell that the box cuts; what moves would be pushed
+/// out of it, and does not fit.
+pub fn is_whole(cell: IVec2, size: Vec2) -> bool {
+    (cell + 1).as_vec2().cmple(size + SLACK).all()
+}
+
+/// Centre of a cell, d: where its rock particle stands.
+pub fn centre(cell: IVec2) -> Vec2 {
+    cell.as_vec2() + Vec2::splat(0.5)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    pub(super) fn with_rock(cells: &[(i32, i32)]) -> Solids {
+        let mut solids = Solids::new(100, 100);
+        for (id, &(x, y)) in cells.iter().enumerate() {
+            assert!(solids.insert(IVec2::new(x, y), ElementId(0), id as u32));
+        }
+        solids
+    }
+
+    #[test]
+    fn count_and_version_follow_the_rock() {
+        let mut solids = with_rock(&[(3, 4)]);
+        let version = solids.version();
+        assert!(!solids.insert(IVec2::new(3, 4), ElementId(1), 9), "a taken cell was taken again");
+        assert!(!solids.insert(IVec2::new(-1, 4), ElementId(1), 9), "rock was put outside the box");
+        assert_eq!((solids.count(), solids.version()), (1, version));
+        assert_eq!(solids.get(IVec2::new(3, 4)), Some((ElementId(0), 0)));
+        assert!(solids.remove(IVec2::new(3, 4)) && !solids.remove(IVec2::new(3, 4)));
+        assert_eq!(solids.count(), 0);
+        assert_ne!(solids.version(), version);
+    }
+}
