@@ -249,8 +249,10 @@ impl Particles {
     /// Keeps the particles for which `keep(i)` holds, in their order; returns how many went.
     pub fn retain(&mut self, keep: impl Fn(&Self, usize) -> bool) -> usize {
         let before = self.len();
-        let mut kept = 0;
-        for i in 0..before {
+        // Up to the first that goes, all are where they belong.
+        let Some(first) = (0..before).find(|&i| !keep(self, i)) else { return 0 };
+        let mut kept = first;
+        for i in first + 1..before {
             if keep(self, i) {
                 self.copy(i, kept);
                 kept += 1;

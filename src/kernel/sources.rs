@@ -8,6 +8,9 @@ use crate::{
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
+/// Points that are looked at together.
+pub(crate) const BLOCK: usize = 64;
+
 /// A rectangle in d, `min < max` in both components.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rect {
@@ -21,6 +24,15 @@ impl Rect {
     /// Whether the point is inside (the lower and left edges count, the others do not).
     pub fn contains(self, point: Vec2) -> bool {
         point.cmpge(self.min).all() && point.cmplt(self.max).all()
+    }
+
+    /// Whether any of the points is inside.
+    pub(crate) fn contains_any(self, [x, y]: [&[f32]; 2]) -> bool {
+        let Self { min, max } = self;
+        let mut blocks = x.chunks(BLOCK).zip(y.chunks(BLOCK));
+        // Without a branch for each point, a block is looked at in lanes.
+        let is_inside = |x: f32, y: f32| (x >= min.x) & (y >= min.y) & (x < max.x) & (y < max.y);
+        blocks.any(|(x, y)| x.iter().zip(y).fold(false, |any, (&x, &y)| any | is_inside(x, y)))
     }
 
     /// The square around a brush where it stands, of a site at least; all of a rectangle that is drawn.

@@ -193,6 +193,9 @@ impl Matter<'_> {
 
     /// Takes away the movable particles in a drain.
     pub fn drain(&mut self, drain: &Drain) -> EditReport {
+        if !drain.area.contains_any([&self.particles.x, &self.particles.y]) {
+            return EditReport::default();
+        }
         let removed = self.particles.retain(|particles, i| !drain.area.contains(particles.position(i)));
         EditReport { removed: removed as u64, ..EditReport::default() }
     }

@@ -3,6 +3,7 @@
 use crate::{
     particles::Particles,
     solids::{Solids, centre},
+    sources::{BLOCK, Rect},
 };
 use glam::{IVec2, Vec2};
 
@@ -33,8 +34,11 @@ impl Occupancy {
         self.newest.clear();
         self.newest.resize((self.columns * self.rows) as usize, NONE);
         self.points.clear();
-        for i in 0..particles.len() {
-            self.insert(particles.position(i));
+        let around = Rect { min: low.as_vec2(), max: (high + 1).as_vec2() };
+        for (x, y) in particles.x.chunks(BLOCK).zip(particles.y.chunks(BLOCK)) {
+            if around.contains_any([x, y]) {
+                x.iter().zip(y).for_each(|(x, y)| self.insert(Vec2::new(*x, *y)));
+            }
         }
     }
 
