@@ -70,6 +70,12 @@ pub struct LaterDrag {
 }
 
 impl LaterDrag {
+    /// Room for what particles drag the air by, as a share of their motion in it, until this is found of that.
+    pub(crate) fn shares(&mut self, count: usize) -> &mut [f32] {
+        self.x.resize(count, 0.0);
+        &mut self.x
+    }
+
     /// Room for `count` particles.
     pub(crate) fn of(&mut self, count: usize) -> [&mut [f32]; 2] {
         self.x.resize(count, 0.0);

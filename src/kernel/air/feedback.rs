@@ -23,14 +23,15 @@ use super::{
     grid::Air,
     meetings::{Feedback, Meeting},
     rooms::QUIET_MACH,
-    sample::{Stencil, split},
+    stencils::{LANES, Stencils, split},
 };
 use crate::{
     blocks::Reach,
-    element::{ElementId, ElementParams},
+    element::ElementParams,
     forces::LaterDrag,
     parallel::{Rows, Sweep, Team, WORTH_A_PIECE, spread, sweep},
     particles::{Particles, extent},
+    simd::{Lanes, Pass},
 };
 use std::ops::Range;
 
@@ -67,13 +68,6 @@ impl Reach for Along {
     }
 }
 
-/// How a particle takes part in the exchange.
-struct Coupling {
-    at: Stencil,
-    /// α.
-    share: f32,
-}
-
 impl Air {
     /// Whether a crowd of particles of a speed (d/s) could wake air at rest at pressure 1 in a substep of `dt` s. `counts`: how many
     /// there are of each element.
@@ -84,8 +78,16 @@ impl Air {
     }
 
     /// First half of the exchange over `dt` s: finds the velocity that the air gets. [`Air::drag_along`] must follow with
-    /// the same particles. The air must be built. `team` changes the time it takes and not a bit of the result.
-    pub fn meet(&mut self, elements: &ElementParams, particles: &Particles, rousing: Rousing, team: Team, dt: f32) {
+    /// the same particles and the same `later`. The air must be built. `team` changes the time it takes and not a bit of the result.
+    pub fn meet(
+        &mut self,
+        elements: &ElementParams,
+        particles: &Particles,
+        later: &mut LaterDrag,
+        rousing: Rousing,
+        team: Team,
+        dt: f32,
+    ) {
         let mut feedback = std::mem::take(&mut self.scratch.feedback);
         feedback.meetings.resize(self.pressure.len(), Meeting::default());
         let along = |count: usize| Along { per_cell: 1.0 / self.cell, last: (count - 1) as f32 };
@@ -97,20 +99,14 @@ impl Air {
             feedback.meetings[row * stride..][feedback.columns.clone()].fill(Meeting::default());
         }
         let air = &*self;
+        let shares = later.shares(particles.len());
+        spread([&mut shares[..]], WORTH_A_PIECE, team.threads, &|first, [shares]| {
+            team.instructions.run(FindShares { air, elements, particles, first, shares, dt });
+        });
         let Feedback { blocks, meetings, .. } = &mut feedback;
         blocks.share_out([&mut meetings[..]], stride, team.threads, &|range, first, [meetings]| {
-            for i in range {
-                let (element, velocity) = (particles.element[i], [particles.vx[i], particles.vy[i]]);
-                let Coupling { at, share } =
-                    air.coupling(elements, element, [particles.x[i], particles.y[i]], velocity, dt);
-                let brought = share * elements.mass[element.index()];
-                let meeting = [brought * velocity[0], brought * velocity[1], brought, 0.0];
-                for (k, weight) in at.corners(stride) {
-                    for (sum, value) in meetings[k - first * stride].iter_mut().zip(meeting) {
-                        *sum += weight * value;
-                    }
-                }
-            }
+            let first = first * stride;
+            team.instructions.run(Bring { air, elements, particles, shares, range, meetings, first });
         });
         self.resolve(&mut feedback, team);
         self.rouse(&mut feedback, rousing);
@@ -119,53 +115,29 @@ impl Air {
 
     /// Second half of the exchange: the air gets the velocities that [`Air::meet`] found, the particles half of their
     /// changes, and `later` the other half (d/s), which comes after the move.
-    pub fn drag_along(
-        &mut self,
-        elements: &ElementParams,
-        particles: &mut Particles,
-        later: &mut LaterDrag,
-        threads: usize,
-        dt: f32,
-    ) {
+    pub fn drag_along(&mut self, particles: &mut Particles, later: &mut LaterDrag, team: Team) {
         let feedback = std::mem::take(&mut self.scratch.feedback);
-        let (air, meetings, stride) = (&*self, &feedback.meetings[..], self.stride());
-        let Particles { x, y, vx, vy, element, .. } = particles;
+        let (air, meetings) = (&*self, &feedback.meetings[..]);
+        let Particles { x, y, vx, vy, .. } = particles;
         let [later_x, later_y] = later.of(x.len());
-        spread([&mut vx[..], vy, later_x, later_y], WORTH_A_PIECE, threads, &|base, [vx, vy, later_x, later_y]| {
-            for k in 0..vx.len() {
-                let i = base + k;
-                let Coupling { at, share } = air.coupling(elements, element[i], [x[i], y[i]], [vx[k], vy[k]], dt);
-                let (low, high) = (&meetings[at.k..at.k + 2], &meetings[at.k + stride..at.k + stride + 2]);
-                let wind = |axis: usize| at.mix([low[0][axis], low[1][axis]], [high[0][axis], high[1][axis]]);
-                let (u, v) = (wind(0), wind(1));
-                (later_x[k], later_y[k]) = (0.5 * share * (u - vx[k]), 0.5 * share * (v - vy[k]));
-                (vx[k], vy[k]) = (vx[k] + later_x[k], vy[k] + later_y[k]);
-            }
-        });
+        spread(
+            [&mut vx[..], vy, later_x, later_y],
+            WORTH_A_PIECE,
+            team.threads,
+            &|first, [vx, vy, later_x, later_y]| {
+                let own = first..first + vx.len();
+                let (place, velocity, later) = ([&x[own.clone()], &y[own]], [vx, vy], [later_x, later_y]);
+                team.instructions.run(DragAlong { air, meetings, place, velocity, later });
+            },
+        );
         for row in feedback.blocks.reached() {
-            let cells = row * stride + feedback.columns.start..row * stride + feedback.columns.end;
+            let cells = row * self.stride() + feedback.columns.start..row * self.stride() + feedback.columns.end;
             let velocities = self.velocity_x[cells.clone()].iter_mut().zip(&mut self.velocity_y[cells.clone()]);
             for ((u, v), meeting) in velocities.zip(&feedback.meetings[cells]) {
                 (*u, *v) = (meeting[0], meeting[1]);
             }
         }
         self.scratch.feedback = feedback;
-    }
-
-    /// Place and share of a particle, by the wind as it is before the exchange.
-    #[inline(always)]
-    fn coupling(
-        &self,
-        elements: &ElementParams,
-        element: ElementId,
-        place: [f32; 2],
-        velocity: [f32; 2],
-        dt: f32,
-    ) -> Coupling {
-        let at = self.stencil(place[0], place[1], 1.0 / self.cell);
-        let (x, y) = (velocity[0] - self.blend(&self.velocity_x, &at), velocity[1] - self.blend(&self.velocity_y, &at));
-        let slowing = (elements.drag[element.index()] * (x * x + y * y).sqrt() * dt).min(MOST_DRAG);
-        Coupling { at, share: slowing / (1.0 + slowing) }
     }
 
     /// Finds the velocity that each cell gets from what the particles bring.
@@ -206,6 +178,106 @@ impl Air {
                 for k in cells(row) {
                     meetings[k] = [self.velocity_x[k], self.velocity_y[k], 0.0, 0.0];
                 }
+            }
+        }
+    }
+}
+
+/// Finds α of particles, by the wind as it is before the exchange.
+struct FindShares<'a> {
+    air: &'a Air,
+    elements: &'a ElementParams,
+    particles: &'a Particles,
+    /// The particle that `shares` begins with.
+    first: usize,
+    /// Out: α.
+    shares: &'a mut [f32],
+    dt: f32,
+}
+
+impl Pass for FindShares<'_> {
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Self { air, elements, particles: Particles { x, y, vx, vy, element, .. }, first, shares, dt } = self;
+        let (mut rates, mut wind_x, mut wind_y) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        for (index, shares) in shares.chunks_mut(LANES).enumerate() {
+            let (start, count) = (first + index * LANES, shares.len());
+            let own = start..start + count;
+            air.sample_velocities(&x[own.clone()], &y[own.clone()], &mut wind_x[..count], &mut wind_y[..count]);
+            for (rate, element) in rates.iter_mut().zip(&element[own.clone()]) {
+                *rate = elements.drag[element.index()];
+            }
+            let (vx, vy) = (&vx[own.clone()], &vy[own]);
+            for k in 0..count {
+                let (x, y) = (vx[k] - wind_x[k], vy[k] - wind_y[k]);
+                let slowing = rates[k] * (x * x + y * y).sqrt() * dt;
+                let slowing = if slowing < MOST_DRAG { slowing } else { MOST_DRAG };
+                shares[k] = slowing / (1.0 + slowing);
+            }
+        }
+    }
+}
+
+/// Adds up what particles bring to the cells.
+struct Bring<'a> {
+    air: &'a Air,
+    elements: &'a ElementParams,
+    particles: &'a Particles,
+    /// α of all particles.
+    shares: &'a [f32],
+    range: Range<usize>,
+    /// In and out: sums of the cells from `first` on.
+    meetings: &'a mut [Meeting],
+    first: usize,
+}
+
+impl Pass for Bring<'_> {
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Self { air, elements, particles: Particles { x, y, vx, vy, element, .. }, shares, range, .. } = self;
+        for start in range.clone().step_by(LANES) {
+            let own = start..range.end.min(start + LANES);
+            let stencils = Stencils::new(air, &x[own.clone()], &y[own.clone()]);
+            for (lane, i) in own.enumerate() {
+                let brought = shares[i] * elements.mass[element[i].index()];
+                let meeting = [brought * vx[i], brought * vy[i], brought, 0.0];
+                for (k, weight) in stencils.corners(lane) {
+                    for (sum, value) in self.meetings[k - self.first].iter_mut().zip(meeting) {
+                        *sum += weight * value;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Changes particles by the velocities that the cells got.
+struct DragAlong<'a> {
+    air: &'a Air,
+    meetings: &'a [Meeting],
+    /// Positions, d.
+    place: [&'a [f32]; 2],
+    /// In and out: velocities, d/s.
+    velocity: [&'a mut [f32]; 2],
+    /// In: α, along x. Out: the half that comes after the move, d/s.
+    later: [&'a mut [f32]; 2],
+}
+
+impl Pass for DragAlong<'_> {
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Self { air, meetings, place: [x, y], velocity: [vx, vy], later: [later_x, later_y] } = self;
+        for start in (0..x.len()).step_by(LANES) {
+            let own = start..x.len().min(start + LANES);
+            let count = own.len();
+            let stencils = Stencils::new(air, &x[own.clone()], &y[own.clone()]);
+            let [u, v] = stencils.blend(count, |k| [0, 1].map(|next| [meetings[k + next][0], meetings[k + next][1]]));
+            let (vx, vy) = (&mut vx[own.clone()], &mut vy[own.clone()]);
+            let (later_x, later_y) = (&mut later_x[own.clone()], &mut later_y[own]);
+            for k in 0..count {
+                let share = later_x[k];
+                (later_x[k], later_y[k]) = (0.5 * share * (u[k] - vx[k]), 0.5 * share * (v[k] - vy[k]));
+                (vx[k], vy[k]) = (vx[k] + later_x[k], vy[k] + later_y[k]);
             }
         }
     }

@@ -34,7 +34,7 @@
 //! | `warmth` | warm air: what lifts it, what it gets and loses | warmth | heat that matter gives |
 //! | `expansion` | gas that matter gives off, or takes | pressure, velocity, warmth | releases |
 //! | `walls` | rock that comes and goes | solid cells, pressure | `Solids` |
-//! | `sample`, `measure`, `resize` | values at points, sums, another cell size | | all |
+//! | `sample`, `stencils`, `measure`, `resize` | values at points, sums, another cell size | | all |
 
 mod advect;
 mod balance;
@@ -59,6 +59,7 @@ mod sample;
 mod second_order;
 mod shape;
 mod source;
+mod stencils;
 mod step;
 mod tiles;
 mod tiling;

@@ -70,6 +70,7 @@ pub(super) fn begin_kick(
 pub(super) fn drag_air(
     particles: Res<ParticleStore>,
     mut air: ResMut<AirGrid>,
+    mut later: ResMut<DragState>,
     elements: Res<Elements>,
     solver: Res<SolverState>,
     effects: Res<Effects>,
@@ -81,7 +82,8 @@ pub(super) fn drag_air(
     let rousing = if effects.get(Effect::AirFeedback).mode == Mode::On { Rousing::Breaths } else { Rousing::Gusts };
     let instructions = solver.instructions;
     workers.run_for(particles.len(), |threads| {
-        air.meet(&elements, &particles, rousing, Team { instructions, threads }, plan.substep_seconds());
+        let team = Team { instructions, threads };
+        air.meet(&elements, &particles, &mut later, rousing, team, plan.substep_seconds());
     });
     particles.len()
 }
@@ -92,13 +94,15 @@ pub(super) fn apply_drag(
     mut air: ResMut<AirGrid>,
     mut later: ResMut<DragState>,
     elements: Res<Elements>,
+    solver: Res<SolverState>,
     effects: Res<Effects>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
 ) -> usize {
+    let instructions = solver.instructions;
     let (dt, feedback) = (plan.substep_seconds(), effects.acts(Effect::AirFeedback));
     workers.run_for(particles.len(), |threads| match feedback {
-        true => air.drag_along(&elements, &mut particles, &mut later, threads, dt),
+        true => air.drag_along(&mut particles, &mut later, Team { instructions, threads }),
         false => forces::apply_drag(&air, &elements, &mut particles, &mut later, threads, dt),
     });
     particles.len()

@@ -29,9 +29,8 @@ fn swarm(area: Rect, count: usize, speed: f32, noise: &mut Random) -> Particles 
     particles
 }
 
-fn drag_along(air: &mut Air, elements: &ElementParams, particles: &mut Particles, team: Team) {
-    let mut later = LaterDrag::default();
-    air.drag_along(elements, particles, &mut later, team.threads, DT);
+fn drag_along(air: &mut Air, particles: &mut Particles, mut later: LaterDrag, team: Team) {
+    air.drag_along(particles, &mut later, team);
     later.end(particles, 1, f32::INFINITY);
 }
 
@@ -43,8 +42,9 @@ fn drag(air: &Air, elements: &ElementParams, particles: &mut Particles) {
 }
 
 fn exchange(air: &mut Air, elements: &ElementParams, particles: &mut Particles, team: Team) {
-    air.meet(elements, particles, Rousing::Breaths, team, DT);
-    drag_along(air, elements, particles, team);
+    let mut later = LaterDrag::default();
+    air.meet(elements, particles, &mut later, Rousing::Breaths, team, DT);
+    drag_along(air, particles, later, team);
 }
 
 /// Momentum and energy of motion of both.
@@ -155,8 +155,9 @@ fn only_gusts_wake_sleeping_air_and_what_sleeps_does_not_yield() {
         }
         let mut plain = particles.clone();
         drag(&air, &water_and_fluff(), &mut plain);
-        air.meet(&water_and_fluff(), &particles, Rousing::Gusts, ALONE, DT);
-        drag_along(&mut air, &water_and_fluff(), &mut particles, ALONE);
+        let mut later = LaterDrag::default();
+        air.meet(&water_and_fluff(), &particles, &mut later, Rousing::Gusts, ALONE, DT);
+        drag_along(&mut air, &mut particles, later, ALONE);
         assert_eq!(!air.is_quiet(), wakes, "{speed} d/s");
         assert_eq!(air.awake_tiles().0, usize::from(wakes));
         let close = particles.vx.iter().zip(&plain.vx).all(|(got, plain)| (got - plain).abs() < 1e-5 * speed);

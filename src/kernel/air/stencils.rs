@@ -1,0 +1,98 @@
+//! Where points lie between the centres of cells, several at a time.
+
+use super::grid::Air;
+
+/// Points that are looked at side by side.
+pub(super) const LANES: usize = 16;
+
+/// The four cells around each of some points and how much of each.
+pub(super) struct Stencils {
+    /// Lower left cells, in the fields.
+    corner: [u32; LANES],
+    /// Shares of those on the right.
+    right: [f32; LANES],
+    /// Shares of the upper ones.
+    upper: [f32; LANES],
+    /// Cells of a row of the fields.
+    stride: usize,
+}
+
+impl Stencils {
+    /// The cells around up to [`LANES`] points (d) in the air, which must be built.
+    #[inline(always)]
+    pub(super) fn new(air: &Air, x: &[f32], y: &[f32]) -> Self {
+        let (per_cell, stride) = (1.0 / air.cell(), air.stride());
+        let last = [air.columns() - 1, air.rows() - 1].map(|last| last as f32);
+        let origin = air.index(0, 0) as u32;
+        let mut stencils = Self { corner: [0; LANES], right: [0.0; LANES], upper: [0.0; LANES], stride };
+        let (x, y) = (lanes(x), lanes(y));
+        for lane in 0..LANES {
+            let (column, right) = split(x[lane], per_cell, last[0]);
+            let (row, upper) = split(y[lane], per_cell, last[1]);
+            stencils.corner[lane] = origin + row as u32 * stride as u32 + column as u32;
+            (stencils.right[lane], stencils.upper[lane]) = (right, upper);
+        }
+        stencils
+    }
+
+    /// The four cells around a point, in the fields, and how much of each.
+    #[inline(always)]
+    pub(super) fn corners(&self, lane: usize) -> [(usize, f32); 4] {
+        let (k, right, upper) = (self.corner[lane] as usize, self.right[lane], self.upper[lane]);
+        let (left, lower) = (1.0 - right, 1.0 - upper);
+        [
+            (k, left * lower),
+            (k + 1, right * lower),
+            (k + self.stride, left * upper),
+            (k + self.stride + 1, right * upper),
+        ]
+    }
+
+    /// Two values of the cells around each of the first `count` points, blended; 0 for the others.
+    #[inline(always)]
+    pub(super) fn blend(&self, count: usize, of: impl Fn(usize) -> [[f32; 2]; 2]) -> [[f32; LANES]; 2] {
+        let mut around = [[[0.0; LANES]; 4]; 2];
+        for lane in 0..count {
+            let k = self.corner[lane] as usize;
+            let (low, high) = (of(k), of(k + self.stride));
+            for (axis, around) in around.iter_mut().enumerate() {
+                let corners = [low[0][axis], low[1][axis], high[0][axis], high[1][axis]];
+                around.iter_mut().zip(corners).for_each(|(lanes, corner)| lanes[lane] = corner);
+            }
+        }
+        around.map(|[left, right, upper_left, upper_right]| {
+            std::array::from_fn(|lane| {
+                let (x, y) = (self.right[lane], self.upper[lane]);
+                mix(mix(left[lane], right[lane], x), mix(upper_left[lane], upper_right[lane], x), y)
+            })
+        })
+    }
+}
+
+/// Up to [`LANES`] numbers, and 0 for what is missing.
+#[inline(always)]
+fn lanes(numbers: &[f32]) -> [f32; LANES] {
+    match numbers.first_chunk() {
+        Some(all) => *all,
+        None => {
+            let mut lanes = [0.0; LANES];
+            lanes[..numbers.len()].copy_from_slice(numbers);
+            lanes
+        }
+    }
+}
+
+/// Blend that is exact at both ends.
+#[inline(always)]
+fn mix(a: f32, b: f32, part: f32) -> f32 {
+    a * (1.0 - part) + b * part
+}
+
+/// A coordinate in cells from the first centre: the cell at or below it and how far beyond. `max` and `min` also turn
+/// what is no number into 0.
+#[inline(always)]
+pub(super) fn split(at: f32, per_cell: f32, last: f32) -> (usize, f32) {
+    let at = (at * per_cell - 0.5).max(0.0).min(last);
+    let whole = at as u32;
+    (whole as usize, at - whole as f32)
+}
