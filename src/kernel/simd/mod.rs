@@ -7,6 +7,8 @@
 mod lanes;
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 mod quads;
+#[cfg(target_arch = "x86_64")]
+mod registers;
 mod set;
 
 pub(crate) use lanes::{Array, Lanes, MOST_LANES, lane_starts, rounded, whole_below};

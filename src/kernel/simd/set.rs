@@ -3,11 +3,15 @@
 use super::lanes::{Array, Lanes};
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 use super::quads;
+#[cfg(target_arch = "x86_64")]
+use super::registers::{Xmms, Ymm, Zmm};
 
 /// Lanes of [`InstructionSet::Baseline`].
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 type BaselineLanes = quads::Quads;
-#[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
+#[cfg(target_arch = "x86_64")]
+type BaselineLanes = Xmms;
+#[cfg(not(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128"))))]
 type BaselineLanes = Array<8>;
 
 /// Lanes that fill one of its registers.
@@ -135,11 +139,11 @@ impl InstructionSet {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f")]
 fn run_avx512(pass: impl Pass) {
-    pass.run::<Array<16>>();
+    pass.run::<Zmm>();
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn run_avx2(pass: impl Pass) {
-    pass.run::<Array<8>>();
+    pass.run::<Ymm>();
 }
