@@ -62,8 +62,10 @@ pub fn apply_viscosity(
     let most = if solver.masses.is_empty() { MOST_SHARE } else { 0.5 * MOST_SHARE } / part;
     let report = StrengthReport::of(&particles.element, coefficients, most * MOST_PASSES);
     let passes = (strongest(&particles.element, coefficients, most) / most).ceil().clamp(1.0, MOST_PASSES);
-    // Volumes live in the array of λ, which is free between two solves.
-    let Solver { bins, smoothing, instructions, density, lambda, masses, next_x, next_y, .. } = solver;
+    // Volumes live in the array of λ, what particles bring to a pair in those of corrected positions: all are free between two
+    // solves.
+    let Solver { bins, smoothing, instructions, density, lambda, masses, x: shares, y: loads, next_x, next_y, .. } =
+        solver;
     let sticks = strongest(&particles.element, &elements.stickiness, 0.0) > 0.0;
     let walls = sticks.then(|| Walls {
         smoothing,
@@ -75,6 +77,13 @@ pub fn apply_viscosity(
     if !sticks {
         lambda.iter_mut().zip(&*density).for_each(|(volume, density)| *volume = 1.0 / density.max(LEAST_DENSITY));
     }
+    let (most_of_all, part) = (most * passes, part / passes);
+    if !masses.is_empty() {
+        for (k, element) in particles.element.iter().enumerate() {
+            shares[k] = coefficients[element.index()].min(most_of_all) * (smoothing.density_scale * part);
+            loads[k] = 4.0 * shares[k] * masses[k];
+        }
+    }
     for turn in 0..passes as u32 {
         let read = &*particles;
         bins::split(bins.groups(), [&mut next_x[..], &mut next_y[..]], threads, &|groups, base, out| {
@@ -84,10 +93,12 @@ pub fn apply_viscosity(
                 density,
                 volumes: lambda,
                 masses,
+                shares,
+                loads,
                 coefficients,
                 walls: walls.as_ref(),
-                most: most * passes,
-                part: part / passes,
+                most: most_of_all,
+                part,
                 once: Once { most, times: if turn == 0 { passes } else { 0.0 } },
                 groups,
                 base,
@@ -211,6 +222,9 @@ struct ViscosityPass<'a, const MASSES: bool, const STICKS: bool, const ONCE: boo
     volumes: &'a [f32],
     /// Masses as shares of the heaviest; not read without `MASSES`.
     masses: &'a [f32],
+    /// Scaled coefficients of the particles, and four times that times mass; not read without `MASSES`.
+    shares: &'a [f32],
+    loads: &'a [f32],
     coefficients: &'a [f32],
     /// Walls, if anything sticks to them.
     walls: Option<&'a Walls<'a>>,
@@ -234,6 +248,8 @@ impl<'a> ViscosityPass<'a, false, false, false> {
             density,
             volumes,
             masses,
+            shares,
+            loads,
             coefficients,
             walls,
             most,
@@ -249,6 +265,8 @@ impl<'a> ViscosityPass<'a, false, false, false> {
             density,
             volumes,
             masses,
+            shares,
+            loads,
             coefficients,
             walls,
             most,
@@ -264,7 +282,7 @@ impl<'a> ViscosityPass<'a, false, false, false> {
 impl<const MASSES: bool, const STICKS: bool, const ONCE: bool> Pass for ViscosityPass<'_, MASSES, STICKS, ONCE> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let zero = L::splat(0.0);
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let h2 = L::splat(self.smoothing.radius * self.smoothing.radius);
         let [out_x, out_y] = self.out;
         for group in self.groups {
@@ -282,48 +300,51 @@ impl<const MASSES: bool, const STICKS: bool, const ONCE: bool> Pass for Viscosit
             }
             let share = share_of(self.coefficients, self.most, elements, scale);
             let walls = self.walls.filter(|_| STICKS);
-            let held = walls.map(|walls| walls.densities::<L>(elements, &self.density[own.clone()]));
+            let held = walls.map_or(zero, |walls| walls.densities::<L>(elements, &self.density[own.clone()]));
             let share = L::load(&share);
+            let (once_most, once_times) = (L::splat(0.5 * self.once.most * scale), L::splat(self.once.times));
             let mass_i = if MASSES { L::load(&self.masses[own.start..]) } else { zero };
             let (mut sum_x, mut sum_y) = (zero, zero);
             macro_rules! add {
                 ($neighbours:expr) => {
-                    for (((((xj, yj), vxj), vyj), size), (mass, element)) in $neighbours {
+                    for (((((xj, yj), vxj), vyj), size), (mass, (other, load))) in $neighbours {
                         let (dx, dy) = (xi - L::splat(*xj), yi - L::splat(*yj));
                         let w = (h2 - (dx * dx + dy * dy)).max(zero);
-                        let volume = match held {
-                            None => L::splat(*size),
-                            Some(own) => L::splat(1.0) / L::splat(size.max(LEAST_DENSITY)).max(own),
-                        };
-                        let mut weight = w * w * w * volume;
+                        let mut weight = w * w * w;
+                        // The volume of a pair is one over this density; that of a particle is known.
+                        let density = if STICKS { L::splat(size.max(LEAST_DENSITY)).max(held) } else { zero };
                         if MASSES {
                             // Of a pair, each takes on what the other gives off.
-                            let (mass, element): (&f32, &ElementId) = (mass, element);
-                            let mass = L::splat(*mass);
-                            let other = L::splat(self.coefficients[element.index()].min(self.most) * scale);
+                            let (mass, other): (&f32, &f32) = (mass, other);
+                            let other = L::splat(*other);
                             let sum = (share + other).max(L::splat(f32::MIN_POSITIVE));
-                            weight = weight * ((other + other) / sum) * ((mass + mass) / (mass_i + mass));
+                            let both = sum * (mass_i + L::splat(*mass));
+                            let per = L::splat(*load) / if STICKS { both * density } else { both };
+                            weight = weight * if STICKS { per } else { per * L::splat(*size) };
                             if ONCE {
                                 // Both of a pair find the same, for neither comes first in these.
-                                let (mean, most) = (share * other, L::splat(0.5 * self.once.most * scale) * sum);
-                                weight = weight * most.if_less(mean, L::splat(1.0), L::splat(self.once.times));
+                                let (mean, most) = (share * other, once_most * sum);
+                                weight = weight * most.if_less(mean, one, once_times);
                             }
+                        } else {
+                            weight = if STICKS { weight / density } else { weight * L::splat(*size) };
                         }
                         sum_x = sum_x + weight * (L::splat(*vxj) - vxi);
                         sum_y = sum_y + weight * (L::splat(*vyj) - vyi);
                     }
                 };
             }
-            let Particles { x, y, vx, vy, element, .. } = self.particles;
+            let Particles { x, y, vx, vy, .. } = self.particles;
             let sizes = if STICKS { self.density } else { self.volumes };
             for run in group.movable {
                 let run = run.range();
                 let places = x[run.clone()].iter().zip(&y[run.clone()]);
                 let moving = places.zip(&vx[run.clone()]).zip(&vy[run.clone()]).zip(&sizes[run.clone()]);
                 if MASSES {
-                    add!(moving.zip(self.masses[run.clone()].iter().zip(&element[run])));
+                    let pairs = self.shares[run.clone()].iter().zip(&self.loads[run.clone()]);
+                    add!(moving.zip(self.masses[run].iter().zip(pairs)));
                 } else {
-                    add!(moving.map(|of| (of, (&0.0, &ElementId(0)))));
+                    add!(moving.map(|of| (of, (&0.0, (&0.0, &0.0)))));
                 }
             }
             let (mut vx, mut vy) = (vxi + share * sum_x, vyi + share * sum_y);

@@ -146,10 +146,13 @@ impl<G: Gradient> Pass for CurlPass<'_, G> {
             let (xi, yi) = (L::load(&self.particles.x[own.start..]), L::load(&self.particles.y[own.start..]));
             let (vxi, vyi) = (L::load(&self.particles.vx[own.start..]), L::load(&self.particles.vy[own.start..]));
             let mut curl = zero;
+            let Particles { x, y, vx, vy, .. } = self.particles;
             for run in group.movable {
-                for j in run.range() {
-                    let (dx, dy) = (xi - L::splat(self.particles.x[j]), yi - L::splat(self.particles.y[j]));
-                    let (dvx, dvy) = (L::splat(self.particles.vx[j]) - vxi, L::splat(self.particles.vy[j]) - vyi);
+                let run = run.range();
+                let places = x[run.clone()].iter().zip(&y[run.clone()]);
+                for (((xj, yj), vxj), vyj) in places.zip(&vx[run.clone()]).zip(&vy[run]) {
+                    let (dx, dy) = (xi - L::splat(*xj), yi - L::splat(*yj));
+                    let (dvx, dvy) = (L::splat(*vxj) - vxi, L::splat(*vyj) - vyi);
                     let r2 = dx * dx + dy * dy;
                     let w = (h2 - r2).max(zero);
                     curl = curl + G::weight(h, core, r2, w * w) * (dvx * dy - dvy * dx);
@@ -194,12 +197,15 @@ impl<G: Gradient> Pass for ConfinementPass<'_, G> {
             let curl = L::load(&self.vorticity[own.start..]);
             let strength = curl.max(zero - curl);
             let (mut slope_x, mut slope_y) = (zero, zero);
+            let Particles { x, y, .. } = self.particles;
             for run in group.movable {
-                for j in run.range() {
-                    let (dx, dy) = (xi - L::splat(self.particles.x[j]), yi - L::splat(self.particles.y[j]));
+                let run = run.range();
+                let places = x[run.clone()].iter().zip(&y[run.clone()]);
+                for ((xj, yj), curl_j) in places.zip(&self.vorticity[run]) {
+                    let (dx, dy) = (xi - L::splat(*xj), yi - L::splat(*yj));
                     let r2 = dx * dx + dy * dy;
                     let w = (h2 - r2).max(zero);
-                    let rise = L::splat(self.vorticity[j].abs()) - strength;
+                    let rise = L::splat(curl_j.abs()) - strength;
                     let g = G::weight(h, core, r2, w * w) * rise;
                     (slope_x, slope_y) = (slope_x + g * dx, slope_y + g * dy);
                 }
