@@ -1,6 +1,6 @@
 //! What a key, a button or a click on the HUD can ask for.
 
-use crate::game::{brush_mode::BrushMode, language::spoken, tools::Tool, views::table::View};
+use crate::game::{brush_mode::BrushMode, gauges::grip::Grip, language::spoken, tools::Tool, views::table::View};
 use bevy::prelude::MouseButton;
 use tr::tr;
 
@@ -129,7 +129,7 @@ impl Action {
 }
 
 /// What a held button does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Gesture {
     /// Works with the chosen tool along the way of the pointer.
     Use,
@@ -147,6 +147,8 @@ pub enum Gesture {
     Take(Take),
     /// Pastes the stamp in hand when released.
     Paste,
+    /// Moves a gauge; a click without moving finds it in the panel.
+    Gauge(Grip),
 }
 
 /// What becomes of the piece that is taken.

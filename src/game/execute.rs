@@ -105,6 +105,7 @@ pub fn carry_out(world: &mut World) {
             Order::Visit(name) => museum::visit(world, name),
             Order::Throw(name) => throws::throw(world, name),
             Order::SelectGauge(number) => gauges::select(world, number),
+            Order::MoveGauge(grip, way) => gauges::drag(world, grip, way),
             Order::RemoveGauge(number) => gauges::remove(world, number),
             Order::SaveReadings => gauges::save(world),
             Order::SetSource(button, stroke) => springs::set(world, button, stroke),

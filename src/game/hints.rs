@@ -313,7 +313,7 @@ impl Facts {
 
     fn end_stroke(&mut self, gesture: Gesture, tool: Tool, setup: &Setup) {
         match (gesture, tool) {
-            (Gesture::Pan | Gesture::Take(_) | Gesture::Paste, _) => return,
+            (Gesture::Pan | Gesture::Take(_) | Gesture::Paste | Gesture::Gauge(_), _) => return,
             (Gesture::Erase, Tool::Element(_)) => self.erased += 1,
             (_, Tool::Element(id)) if setup.elements().get(id).fixed => self.walls += 1,
             (_, Tool::Element(_)) => self.pours += 1,

@@ -4,6 +4,7 @@
 use crate::{
     game::{
         actions::{Action, Take},
+        gauges::grip::Grip,
         input::rebind::KeyOrder,
     },
     kernel::{brush::Stroke, element::Element, params::Preset},
@@ -92,6 +93,8 @@ pub enum Order {
     Keys(KeyOrder),
     /// Let the gauge of this number stand out, in the panel of all.
     SelectGauge(u32),
+    /// Move a gauge that is gripped by this much, d, from where it was then.
+    MoveGauge(Grip, Vec2),
     /// Take the gauge of this number away.
     RemoveGauge(u32),
     /// Write what gauges read as a table.

@@ -5,7 +5,10 @@ use crate::{
         actions::Action,
         camera::WorldCamera,
         disk, files,
-        gauges::desk::{GaugeDesk, Shown, at},
+        gauges::{
+            desk::{GaugeDesk, Shown},
+            grip::{self, Grip, Part},
+        },
         hud::panels::gauges::panel::PANEL,
         input::{
             bindings::Bindings,
@@ -14,6 +17,7 @@ use crate::{
         panels::Panels,
         toasts::Toasts,
     },
+    kernel::units::Scale,
     lab::gauges::{
         place::{Place, usual_radius},
         quantity::{Of, QUANTITIES, Quantity},
@@ -42,12 +46,18 @@ pub fn set_spot(world: &mut World) {
     let (scale, radius) = (setup.blueprint.scale, usual_radius(setup));
     let camera = world.resource::<WorldCamera>();
     let pixel = pointed(world);
-    if let Some(number) = pixel.and_then(|pixel| at(pixel, world.resource(), camera, scale)) {
+    if let Some(number) = pixel.and_then(|pixel| marked(pixel, world.resource(), camera, scale)) {
         return remove(world, number);
     }
     let pixel = pixel.unwrap_or((camera.free().min + camera.free().max) / 2.0);
     let at = scale.vec_to_metres(camera.to_world(pixel));
     set(world, Place::Spot { at, radius });
+}
+
+/// The number of the gauge whose mark is at a pixel.
+fn marked(pixel: Vec2, gauges: &Gauges, camera: &WorldCamera, scale: Scale) -> Option<u32> {
+    let grip = grip::at(pixel, gauges, camera, scale)?;
+    (grip.part == Part::Whole).then_some(grip.number)
 }
 
 /// Begins a line under the pointer, or ends it there.
@@ -106,6 +116,15 @@ fn open(world: &mut World) {
 pub fn select(world: &mut World, number: u32) {
     world.resource_mut::<GaugeDesk>().selected = Some(number);
     open(world);
+}
+
+/// Moves a gauge that is gripped as far as the drag went, d; no line becomes shorter than it can be.
+pub fn drag(world: &mut World, grip: Grip, way: Vec2) {
+    let Some(setup) = world.get_resource::<Setup>() else { return };
+    let scale = setup.blueprint.scale;
+    let place = grip.place(scale.vec_to_metres(way), scale.vec_to_metres(setup.blueprint.domain.size));
+    world.resource_mut::<GaugeDesk>().selected = Some(grip.number);
+    world.resource_scope(|world, mut gauges: Mut<Gauges>| gauges.move_to(world, grip.number, place));
 }
 
 /// Takes a gauge away.

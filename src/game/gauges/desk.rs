@@ -6,7 +6,7 @@ use crate::{
     lab::gauges::{
         place::Place,
         quantity::{QUANTITIES, Quantity},
-        set::{Gauge, Gauges},
+        set::Gauge,
     },
 };
 use bevy::prelude::Resource;
@@ -15,9 +15,8 @@ use std::fmt;
 
 /// From a place to the middle of its mark, logical pixels.
 const BESIDE: Vec2 = Vec2::new(15.0, -15.0);
-/// Radius of a mark, and of what counts as on it, logical pixels.
+/// Radius of a mark, logical pixels.
 pub const MARK: f32 = 9.5;
-const ON: f32 = 12.0;
 
 /// What a player looks at, and has begun.
 #[derive(Resource, Clone, Debug)]
@@ -75,9 +74,4 @@ pub fn mark(gauge: &Gauge, camera: &WorldCamera, scale: Scale) -> Vec2 {
             (pixel(from) + pixel(to)) / 2.0 + left * BESIDE.x
         }
     }
-}
-
-/// The number of the gauge whose mark is at a pixel.
-pub fn at(pixel: Vec2, gauges: &Gauges, camera: &WorldCamera, scale: Scale) -> Option<u32> {
-    gauges.iter().find(|gauge| (mark(gauge, camera, scale) - pixel).length() <= ON).map(|gauge| gauge.number)
 }

@@ -5,6 +5,7 @@ use crate::{
         actions::Gesture,
         brush_mode::BrushMode,
         camera::WorldCamera,
+        hud::gauges::Marks,
         icons,
         input::{
             pointer::{HudCover, Pointer},
@@ -33,8 +34,8 @@ const FILL: [f32; 2] = [0.1, 0.3];
 pub fn show(
     mut contexts: EguiContexts,
     (panels, hand): (Res<Panels>, Res<Hand>),
-    pointer: Res<Pointer>,
-    cover: Res<HudCover>,
+    (pointer, cover): (Res<Pointer>, Res<HudCover>),
+    marks: Marks,
     drag: Res<DragState>,
     tools: Res<Toolbox>,
     setup: Res<Setup>,
@@ -42,7 +43,8 @@ pub fn show(
 ) -> Result {
     let (Some(pixel), true) = (pointer.at, panels.visible && hand.is_empty()) else { return Ok(()) };
     let straight = drag.current().filter(|drag| matches!(drag.gesture, Gesture::Line | Gesture::Rectangle));
-    if cover.covers(pixel) && straight.is_none() {
+    // Where a gauge is gripped the brush does nothing.
+    if cover.covers(pixel) && straight.is_none() || marks.grip().is_some() {
         return Ok(());
     }
     let context = contexts.ctx_mut()?;

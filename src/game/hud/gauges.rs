@@ -2,18 +2,33 @@
 
 use crate::{
     game::{
+        actions::Gesture,
         camera::WorldCamera,
-        gauges::desk::{GaugeDesk, MARK, mark},
-        input::pointer::Pointer,
+        gauges::{
+            desk::{GaugeDesk, MARK, mark},
+            grip::{self, Grip, Part},
+        },
+        input::{
+            pointer::{HudCover, Pointer},
+            strokes::DragState,
+        },
         panels::Panels,
+        stamps::hand::Hand,
     },
-    lab::gauges::{place::Place, set::Gauges},
+    kernel::units::Scale,
+    lab::gauges::{
+        place::Place,
+        set::{Gauge, Gauges},
+    },
     sim::{generation::Generation, state::Setup},
 };
-use bevy::prelude::{Res, Result};
+use bevy::{
+    ecs::system::SystemParam,
+    prelude::{Res, Result},
+};
 use bevy_egui::{
     EguiContexts,
-    egui::{self, Align2, Color32, FontId, Painter, Pos2, Stroke, pos2, vec2},
+    egui::{self, Align2, Color32, CursorIcon, FontId, Painter, Pos2, Stroke, pos2, vec2},
 };
 use glam::Vec2;
 
@@ -31,6 +46,8 @@ const COLOURS: [Color32; 8] = [
 /// Half the width of the cross at a place, and length of the arrow of a line, points.
 const CROSS: f32 = 5.0;
 const ARROW: f32 = 13.0;
+/// Radius of the ring around an end of a line that is under the pointer, points.
+const END: f32 = 7.0;
 
 /// The colour of the gauge of a number.
 pub fn colour(number: u32) -> Color32 {
@@ -53,12 +70,34 @@ pub fn badge(painter: &Painter, at: Pos2, number: u32, stands_out: bool) {
     );
 }
 
+/// Where the gauges are, and the pointer among them.
+#[derive(SystemParam)]
+pub struct Marks<'w> {
+    panels: Res<'w, Panels>,
+    gauges: Res<'w, Gauges>,
+    camera: Res<'w, WorldCamera>,
+    setup: Res<'w, Setup>,
+    pointer: Res<'w, Pointer>,
+    cover: Res<'w, HudCover>,
+    drag: Res<'w, DragState>,
+    hand: Res<'w, Hand>,
+}
+
+impl Marks<'_> {
+    /// What is gripped, or would be by a press.
+    pub fn grip(&self) -> Option<Grip> {
+        if let Some(drag) = self.drag.current() {
+            return if let Gesture::Gauge(grip) = drag.gesture { Some(grip) } else { None };
+        }
+        let pixel = self.pointer.at.filter(|pixel| !self.cover.covers(*pixel))?;
+        let works = self.panels.visible && self.hand.is_empty();
+        grip::at(pixel, &self.gauges, &self.camera, self.setup.blueprint.scale).filter(|_| works)
+    }
+}
+
 /// Shows them.
-pub fn show(
-    mut contexts: EguiContexts,
-    (panels, gauges, desk): (Res<Panels>, Res<Gauges>, Res<GaugeDesk>),
-    (camera, pointer, setup, generation): (Res<WorldCamera>, Res<Pointer>, Res<Setup>, Res<Generation>),
-) -> Result {
+pub fn show(mut contexts: EguiContexts, marks: Marks, (desk, generation): (Res<GaugeDesk>, Res<Generation>)) -> Result {
+    let Marks { panels, gauges, camera, setup, pointer, .. } = &marks;
     let begun = desk.begun(generation.scene);
     if !panels.visible || gauges.is_empty() && begun.is_none() {
         return Ok(());
@@ -77,12 +116,32 @@ pub fn show(
             }
             Place::Line { from, to } => line(&painter, place(from), place(to), hue),
         }
-        badge(&painter, points(mark(gauge, &camera, scale)), gauge.number, stands_out);
+        badge(&painter, points(mark(gauge, camera, scale)), gauge.number, stands_out);
+    }
+    if let Some(grip) = marks.grip() {
+        let gauge = gauges.iter().find(|gauge| gauge.number == grip.number);
+        if let Some((at, radius)) = gauge.map(|gauge| gripped(gauge, grip.part, camera, scale)) {
+            for pen in pens(Color32::WHITE) {
+                painter.circle_stroke(points(at), radius, pen);
+            }
+        }
+        let is_held = marks.drag.current().is_some();
+        context.set_cursor_icon(if is_held { CursorIcon::Grabbing } else { CursorIcon::Grab });
     }
     if let (Some(from), Some(pixel)) = (begun, pointer.at) {
         line(&painter, place(from), points(pixel), Color32::WHITE);
     }
     Ok(())
+}
+
+/// Where a ring shows what of a gauge is gripped, logical pixels, and its radius, points.
+fn gripped(gauge: &Gauge, part: Part, camera: &WorldCamera, scale: Scale) -> (Vec2, f32) {
+    let end = |at: Vec2| (camera.to_pixel(scale.vec_to_kernel(at)), END);
+    match (gauge.place, part) {
+        (Place::Line { from, .. }, Part::From) => end(from),
+        (Place::Line { to, .. }, Part::To) => end(to),
+        _ => (mark(gauge, camera, scale), MARK + 3.0),
+    }
 }
 
 /// Pens that can be seen on light and on dark.

@@ -6,7 +6,7 @@ use crate::{
         brush_mode::BrushMode,
         camera::{Area, WorldCamera},
         challenges::referee::Referee,
-        gauges::desk,
+        gauges::grip::{self, Grip, Part},
         input::{
             bindings::{Bindings, Mods, Trigger},
             keys::HudKeys,
@@ -118,6 +118,9 @@ impl PointerInput<'_> {
         drag.moved |= (pixel - drag.pressed_at).length() > CLICK;
         drag.pixel = pixel;
         drag.visit(self.camera.to_world(pixel), !self.cover.covers(pixel));
+        if let (Gesture::Gauge(grip), true) = (drag.gesture, drag.moved) {
+            self.orders.push(Order::MoveGauge(grip, drag.now - drag.start));
+        }
     }
 
     /// The pointer leaves the window. A drag goes on: the system reports a drag beyond the window, too.
@@ -151,9 +154,11 @@ impl PointerInput<'_> {
             (Some(_), MouseButton::Right) => return self.orders.push(Order::Act(Action::Close)),
             _ => {}
         }
-        match (self.gauge_at(pixel), button) {
-            (Some(number), MouseButton::Left) => return self.orders.push(Order::SelectGauge(number)),
-            (Some(number), MouseButton::Right) => return self.orders.push(Order::RemoveGauge(number)),
+        match (self.grip_at(pixel), button) {
+            (Some(grip), MouseButton::Left) => return self.begin(Gesture::Gauge(grip), button, pixel),
+            (Some(Grip { number, part: Part::Whole, .. }), MouseButton::Right) => {
+                return self.orders.push(Order::RemoveGauge(number));
+            }
             _ => {}
         }
         match self.bindings.find(Trigger::Button(button), mods) {
@@ -163,10 +168,10 @@ impl PointerInput<'_> {
         }
     }
 
-    /// The gauge whose mark is at a pixel.
-    fn gauge_at(&self, pixel: Vec2) -> Option<u32> {
+    /// What is gripped of the gauges at a pixel.
+    fn grip_at(&self, pixel: Vec2) -> Option<Grip> {
         let setup = self.setup.as_ref().filter(|_| self.panels.visible)?;
-        desk::at(pixel, &self.gauges, &self.camera, setup.blueprint.scale)
+        grip::at(pixel, &self.gauges, &self.camera, setup.blueprint.scale)
     }
 
     fn begin(&mut self, gesture: Gesture, button: MouseButton, pixel: Vec2) {
@@ -176,7 +181,7 @@ impl PointerInput<'_> {
             return self.orders.push(Order::SetSource(button, self.tools.stroke(at, at)));
         }
         // What is done with stamps sees to that itself.
-        if !matches!(gesture, Gesture::Pan | Gesture::Take(_) | Gesture::Paste) {
+        if !matches!(gesture, Gesture::Pan | Gesture::Take(_) | Gesture::Paste | Gesture::Gauge(_)) {
             self.orders.push(Order::Checkpoint);
         }
         if gesture != Gesture::Fill && self.drag.current().is_none() {
@@ -211,6 +216,7 @@ impl PointerInput<'_> {
         }
         match drag.gesture {
             Gesture::Pan if !drag.moved => self.orders.push(Order::Act(Action::Sample)),
+            Gesture::Gauge(grip) if !drag.moved => self.orders.push(Order::SelectGauge(grip.number)),
             Gesture::Take(take) => self.orders.push(Order::TakePiece(drag.start, drag.now, take)),
             // Over the HUD it is not meant.
             Gesture::Paste if !self.cover.covers(drag.pixel) => self.orders.push(Order::Paste(drag.now)),

@@ -161,9 +161,13 @@ pub fn make_intents(
         let intent = match drag.gesture {
             Gesture::Use => drag.tool.left(&dab),
             Gesture::Erase => drag.tool.right(&dab),
-            Gesture::Line | Gesture::Rectangle | Gesture::Fill | Gesture::Pan | Gesture::Take(_) | Gesture::Paste => {
-                None
-            }
+            Gesture::Line
+            | Gesture::Rectangle
+            | Gesture::Fill
+            | Gesture::Pan
+            | Gesture::Take(_)
+            | Gesture::Paste
+            | Gesture::Gauge(_) => None,
         };
         wanted.extend(intent);
     }

@@ -5,6 +5,7 @@ use crate::{
     game::{
         gauges::desk::{GaugeDesk, mark},
         hud::panels::gauges::{panel::PANEL, plot},
+        input::pointer::Pointer,
         rewind::Rewind,
     },
     lab::gauges::{
@@ -13,7 +14,10 @@ use crate::{
         set::{Gauge, Gauges, Reading},
     },
 };
-use bevy::prelude::DetectChanges;
+use bevy::{
+    input::touch::{TouchInput, TouchPhase},
+    prelude::DetectChanges,
+};
 
 fn gauges(player: &Player) -> Vec<(u32, Place)> {
     player.world().resource::<Gauges>().iter().map(|gauge| (gauge.number, gauge.place)).collect()
@@ -140,6 +144,124 @@ fn a_click_on_a_mark_finds_it_and_the_right_button_takes_it_away() {
     assert!(gauges(&player).is_empty(), "its key takes it away, too");
     click(&mut player, MouseButton::Left);
     assert!(player.particles() > 0, "where a mark was the tool works again");
+}
+
+impl Player {
+    /// Drags with the left button by `way` d, in two steps, from where the pointer is.
+    fn drag_by(&mut self, way: Vec2) {
+        let start = self.world().resource::<WorldCamera>().to_world(self.world().resource::<Pointer>().at.unwrap());
+        self.press();
+        self.frame();
+        for part in [0.5, 1.0] {
+            self.point_at(start + part * way);
+            self.frame();
+        }
+    }
+}
+
+#[test]
+fn a_mark_is_dragged_and_its_gauge_reads_on_the_way() {
+    let mut player = Player::new();
+    set_at(&mut player, Vec2::new(40.0, 30.0));
+    player.act(Action::Panel(PANEL.id));
+    player.frames(10);
+    let samples = gauge(&player, 1).samples().count();
+    point_at_mark(&mut player, 1);
+    player.drag_by(Vec2::new(30.0, 10.0));
+    let Place::Spot { at, radius } = gauge(&player, 1).place else { panic!("it is a place") };
+    assert!(at.distance(Vec2::new(7.0, 4.0)) < 1e-3 && (radius - 0.3).abs() < 1e-6, "before the release: {at}");
+    player.release();
+    player.frames(3);
+    assert_eq!((player.particles(), player.seen()), (0, Vec::new()), "nothing is poured, and the world knows nothing");
+    assert!(!player.world().resource::<Panels>().shows(PANEL.id), "no click");
+    let ticks: Vec<u64> = gauge(&player, 1).samples().map(|sample| sample.tick).collect();
+    assert!(ticks.len() > samples && ticks.is_sorted_by(|a, b| a < b), "the plot goes on, a reading for each tick");
+    point_at_mark(&mut player, 1);
+    player.drag_by(Vec2::new(-900.0, 0.0));
+    player.release();
+    player.frame();
+    let Place::Spot { at, .. } = gauge(&player, 1).place else { panic!("it is a place") };
+    assert!(at.x == 0.0 && (at.y - 4.0).abs() < 1e-3, "it stays in the box: {at}");
+}
+
+#[test]
+fn a_gauge_that_is_moved_while_time_stands_reads_there_at_once() {
+    let mut player = Player::new();
+    player.pour_and_stop();
+    let middle = player.middle();
+    set_at(&mut player, middle - Vec2::new(60.0, 0.0));
+    let density = |player: &Player| match gauge(player, 1).latest() {
+        Some(Reading::Spot(reading)) => reading.density,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(density(&player), Some(0.0));
+    point_at_mark(&mut player, 1);
+    player.drag_by(Vec2::new(60.0, 0.0));
+    player.release();
+    player.frame();
+    assert!(density(&player) > Some(100.0), "{:?}", density(&player));
+    assert_eq!(gauge(&player, 1).samples().count(), 1, "one reading for a tick");
+}
+
+#[test]
+fn a_line_moves_by_its_mark_and_each_end_by_itself() {
+    let mut player = Player::new();
+    let shift = [KeyCode::ShiftLeft, KeyCode::KeyG];
+    for at in [Vec2::new(60.0, 40.0), Vec2::new(160.0, 40.0)] {
+        player.point_at(at);
+        player.frame();
+        player.chord(&shift);
+    }
+    player.point_at(Vec2::new(110.0, 60.0));
+    player.press();
+    player.frames(30);
+    player.release();
+    player.frames(90);
+    let crossed = |player: &Player| match gauge(player, 1).latest() {
+        Some(Reading::Line(reading)) => reading.crossed,
+        other => panic!("{other:?}"),
+    };
+    assert!(crossed(&player) > 30);
+    let line = |player: &Player| match gauge(player, 1).place {
+        Place::Line { from, to } => [from, to].map(|end| (10.0 * end).round()),
+        Place::Spot { .. } => panic!("it is a line"),
+    };
+    let ends = |a: (f32, f32), b: (f32, f32)| [Vec2::from(a), Vec2::from(b)];
+    for (from, way, after) in [
+        ((160.0, 40.0), (0.0, 20.0), ends((60.0, 40.0), (160.0, 60.0))),
+        ((60.0, 40.0), (-20.0, 0.0), ends((40.0, 40.0), (160.0, 60.0))),
+        // Shorter than a line can be it does not become.
+        ((40.0, 40.0), (120.0, 20.0), ends((100.0, 50.0), (160.0, 60.0))),
+    ] {
+        player.point_at(from.into());
+        player.frame();
+        player.drag_by(way.into());
+        assert_eq!(line(&player), after, "from {from:?} by {way:?}");
+        player.release();
+        player.frames(2);
+    }
+    point_at_mark(&mut player, 1);
+    player.drag_by(Vec2::new(-20.0, -10.0));
+    player.release();
+    player.frames(2);
+    assert_eq!(line(&player), ends((80.0, 40.0), (140.0, 50.0)));
+    assert_eq!(crossed(&player), 0, "it counts anew where it is");
+}
+
+#[test]
+fn a_finger_drags_a_mark() {
+    let mut player = Player::new();
+    set_at(&mut player, Vec2::new(40.0, 30.0));
+    let camera = *player.world().resource::<WorldCamera>();
+    let at = mark(gauge(&player, 1), &camera, player.world().resource::<Setup>().blueprint.scale);
+    let to = at + camera.pixels_per_d() * Vec2::new(30.0, 0.0);
+    for (phase, position) in [(TouchPhase::Started, at), (TouchPhase::Moved, to), (TouchPhase::Ended, to)] {
+        let touch = TouchInput { phase, position, window: Entity::PLACEHOLDER, force: None, id: 0 };
+        player.event(WindowEvent::TouchInput(touch));
+        player.frame();
+    }
+    let Place::Spot { at, .. } = gauge(&player, 1).place else { panic!("it is a place") };
+    assert!(at.distance(Vec2::new(7.0, 3.0)) < 1e-3 && player.particles() == 0, "{at}");
 }
 
 #[test]

@@ -234,6 +234,27 @@ impl Gauges {
         Ok(number)
     }
 
+    /// Moves a gauge, if it can be there and there is one of this number. What it read stays, of where it was then; a line counts anew.
+    /// At a place it reads `world` at once.
+    pub fn move_to(&mut self, world: &World, number: u32, place: Place) {
+        self.follow(world);
+        let setup = world.resource::<Setup>();
+        let Self { all, still, kept, tick, .. } = self;
+        let Some(gauge) = all.iter_mut().find(|gauge| gauge.number == number) else { return };
+        if gauge.place == place || place.check(setup).is_err() {
+            return;
+        }
+        gauge.place = place;
+        match place {
+            Place::Spot { at, radius } => {
+                let reading = Reading::Spot(spot::read(world, at, radius, still));
+                gauge.samples.pop_back_if(|sample| sample.tick == *tick);
+                gauge.keep(Sample { tick: *tick, reading }, *kept);
+            }
+            Place::Line { .. } => gauge.start_counting(*tick, setup.elements().len()),
+        }
+    }
+
     /// Goes along with a world that was put in the place of another: in a new scene there are no gauges; in an earlier state of the
     /// same what was read later is forgotten, and lines count anew.
     pub fn follow(&mut self, world: &World) {

@@ -95,7 +95,8 @@ fn how(bindings: &Bindings) -> String {
     let [spot, line] = [Action::Gauge, Action::GaugeLine].map(|action| bindings.key(action));
     tr!(
         "{spot} sets a gauge under the pointer: speed, pressure, density, temperature. {line}, and {line} again elsewhere, \
-         measures the flow through a line. A click on a mark finds it here, the right button takes it away.",
+         measures the flow through a line. A click on a mark finds it here, the right button takes it away. A drag of the mark, or \
+         of an end of a line, moves it.",
         spot,
         line
     )
