@@ -14,6 +14,7 @@ use powder_master::{
         piece::{Piece, Turn},
         simd::InstructionSet,
         solids::Solids,
+        sources::{Drain, Emitter, Rect},
     },
     scene::effects::{Effect, Mode},
     sim::{
@@ -23,6 +24,7 @@ use powder_master::{
         recorder::{self, Recorder},
         recording::Recording,
         replay::Replay,
+        springs::Springs,
         stamp::Stamp,
         workers::Workers,
     },
@@ -109,6 +111,18 @@ fn every_intent() -> Vec<Intent> {
     let mut solids = Solids::new(3, 2);
     solids.insert(IVec2::new(2, 0), rock, 1);
     let piece = Arc::new(Piece::of(&particles, &solids, IVec2::ZERO, IVec2::new(3, 2), 0.1));
+    let area = |min: Vec2| Rect { min, max: min + 1.0 };
+    let flow = Emitter {
+        element: water,
+        area: area(Vec2::ZERO),
+        velocity: Vec2::X,
+        rate: 30.0,
+        total: Some(5),
+        start: 0,
+        given: 0,
+        due: 0.0,
+    };
+    let springs = Springs { emitters: vec![flow], drains: vec![Drain { area: area(Vec2::X) }] };
     let stroke = Stroke { shape: BrushShape::Disc, from: Vec2::new(5.0, 5.0), to: Vec2::new(7.0, 6.0), radius: 1.5 };
     vec![
         Intent::Draw { element: water, stroke },
@@ -129,6 +143,10 @@ fn every_intent() -> Vec<Intent> {
         Intent::EraseOnly { element: water, stroke },
         Intent::EraseAround { element: water, at: Vec2::new(2.5, 1.5) },
         Intent::Paste { piece, at: Vec2::new(3.0, 6.0), turn: Turn::default().quarter() },
+        Intent::SetEmitter { element: water, stroke: Stroke::dab(BrushShape::Disc, Vec2::new(6.0, 1.0), 0.5) },
+        Intent::SetDrain { stroke: Stroke::dab(BrushShape::Square, Vec2::new(1.0, 7.0), 0.5) },
+        Intent::RemoveSources { stroke: Stroke::dab(BrushShape::Disc, Vec2::new(6.0, 1.0), 0.5) },
+        Intent::PasteSources { springs: springs.placed(IVec2::new(5, 1), IVec2::new(3, 2), Turn::default()) },
     ]
 }
 
@@ -138,7 +156,8 @@ fn the_seed_of_stamps_is_of_this_format() {
     (0..3).for_each(|_| world.tick());
     let stamp = Stamp::of(world.world(), IVec2::ZERO, IVec2::new(12, 8));
     let kept = seed("stamp/lively", &stamp.encode());
-    assert!(Stamp::decode(&kept).is_ok_and(|stamp| stamp.elements.len() == 2 && stamp.piece.count() > 10));
+    let holds = |stamp: Stamp| stamp.elements.len() == 2 && stamp.piece.count() > 10 && stamp.springs.count() == 2;
+    assert!(Stamp::decode(&kept).is_ok_and(holds));
 }
 
 #[test]

@@ -50,6 +50,11 @@ impl Rect {
         (self.max - self.min).element_product()
     }
 
+    /// The part of it that is in another, if there is any.
+    pub fn within(self, other: Self) -> Option<Self> {
+        self.meets(other).then(|| Self { min: self.min.max(other.min), max: self.max.min(other.max) })
+    }
+
     /// Whether the two share any place.
     pub fn meets(self, other: Self) -> bool {
         self.min.cmplt(other.max).all() && other.min.cmplt(self.max).all()

@@ -9,6 +9,7 @@ use crate::{
         piece::{Piece, Turn},
     },
     scene::effects::{Effect, Mode},
+    sim::springs::Springs,
 };
 use bevy::prelude::Resource;
 use glam::Vec2;
@@ -184,6 +185,11 @@ pub enum Intent {
         /// Where.
         stroke: Stroke,
     },
+    /// Put emitters and drains where there are none.
+    PasteSources {
+        /// Which, and where.
+        springs: Springs,
+    },
 }
 
 /// What many share is written and read as one's own.
@@ -203,7 +209,11 @@ mod shared {
 impl Intent {
     /// Bytes that it takes beside itself.
     pub fn memory(&self) -> usize {
-        if let Self::Paste { piece, .. } = self { piece.memory() } else { 0 }
+        match self {
+            Self::Paste { piece, .. } => piece.memory(),
+            Self::PasteSources { springs } => springs.memory(),
+            _ => 0,
+        }
     }
 
     /// The same in a world whose d is `factor` times shorter.
@@ -232,6 +242,7 @@ impl Intent {
             Self::SetEmitter { element, stroke } => Self::SetEmitter { element, stroke: stroke.scaled(factor) },
             Self::SetDrain { stroke } => Self::SetDrain { stroke: stroke.scaled(factor) },
             Self::RemoveSources { stroke } => Self::RemoveSources { stroke: stroke.scaled(factor) },
+            Self::PasteSources { springs } => Self::PasteSources { springs: springs.scaled(f64::from(factor)) },
             Self::Gravity { gravity } => Self::Gravity { gravity: gravity * factor },
             Self::ClearAir
             | Self::Quality { .. }

@@ -135,7 +135,10 @@ impl Trial {
             Intent::Effect { .. } => return Some("switching effects".to_owned()),
             Intent::Gravity { .. } => return Some("another gravity".to_owned()),
             Intent::Paste { .. } => return Some("stamps".to_owned()),
-            Intent::SetEmitter { .. } | Intent::SetDrain { .. } | Intent::RemoveSources { .. } => {
+            Intent::SetEmitter { .. }
+            | Intent::SetDrain { .. }
+            | Intent::RemoveSources { .. }
+            | Intent::PasteSources { .. } => {
                 return Some("springs and drains".to_owned());
             }
         };

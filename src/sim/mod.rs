@@ -23,6 +23,7 @@ mod resample;
 pub mod script;
 pub mod simulation;
 pub mod snapshot;
+pub mod springs;
 pub mod stages;
 pub mod stamp;
 pub mod state;

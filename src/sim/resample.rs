@@ -9,19 +9,16 @@ use crate::{
         resample::{make_room, resample_particles, resample_rock, settle},
         sleep::SleepRecord,
         solids::Solids,
-        sources::{Drain, Emitter, Rect, Wind},
+        sources::{Drain, Rect, Wind},
         units::Scale,
     },
-    scene::{
-        DETAIL, MOST_CELLS, MOST_DETAIL, SIDE,
-        blueprint::{Blueprint, scaled_count},
-    },
+    scene::{DETAIL, MOST_CELLS, MOST_DETAIL, SIDE, blueprint::Blueprint},
     sim::{
         snapshot::{Clock, Snapshot, Sources},
+        springs::{scaled, scaled_area, scaled_place},
         state::Setup,
     },
 };
-use glam::Vec2;
 use std::{borrow::Cow, sync::Arc};
 
 /// The largest factor that is done at once.
@@ -108,20 +105,10 @@ fn rescaled(scene: &Blueprint, factor: f64, preset: Preset) -> Result<Blueprint,
 }
 
 fn rescaled_sources(sources: &Sources, factor: f64) -> Sources {
-    let scaled = |at: Vec2| (at.as_dvec2() * factor).as_vec2();
-    let area = |area: Rect| Rect { min: scaled(area.min), max: scaled(area.max) };
-    let emitter = |emitter: &Emitter| Emitter {
-        area: area(emitter.area),
-        velocity: scaled(emitter.velocity),
-        rate: (f64::from(emitter.rate) * factor * factor) as f32,
-        total: emitter.total.map(|total| scaled_count(total, factor)),
-        given: (f64::from(emitter.given) * factor * factor).round() as u32,
-        due: (f64::from(emitter.due) * factor * factor) as f32,
-        ..*emitter
-    };
-    let wind = |wind: &Wind| Wind { area: area(wind.area), velocity: scaled(wind.velocity), ..*wind };
+    let area = |area: Rect| scaled_area(area, factor);
+    let wind = |wind: &Wind| Wind { area: area(wind.area), velocity: scaled_place(wind.velocity, factor), ..*wind };
     Sources {
-        emitters: sources.emitters.iter().map(emitter).collect(),
+        emitters: sources.emitters.iter().map(|emitter| scaled(emitter, factor)).collect(),
         winds: sources.winds.iter().map(wind).collect(),
         drains: sources.drains.iter().map(|drain| Drain { area: area(drain.area) }).collect(),
     }

@@ -17,9 +17,14 @@ use crate::{
         blueprint::Blueprint,
         effects::{Effect, Mode},
     },
+    sim::springs::Springs,
 };
 use bevy::prelude::{Deref, DerefMut, Resource};
+use glam::Vec2;
 use serde::{Deserialize, Serialize};
+
+/// Most particles a second of an emitter, of the scene's own size: as a scene may say.
+const MOST_RATE: f32 = 1e6;
 
 /// What the scene keeps adding and taking away. Written by the source stage.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -53,6 +58,28 @@ impl Sources {
         let area = Rect::under(stroke);
         if self.drains.len() < Self::MOST && Self::fits(area, scene) {
             self.drains.push(Drain { area });
+        }
+    }
+
+    /// Adds emitters and drains that were taken elsewhere: those that [`fit`](Self::fits), are in the box, and where none was
+    /// before, as matter is pasted into free room.
+    pub fn add_springs(&mut self, springs: &Springs, scene: &Blueprint) {
+        let there = self.emitters.iter().map(|emitter| emitter.area).chain(self.drains.iter().map(|drain| drain.area));
+        let there: Vec<Rect> = there.collect();
+        let in_box = Rect { min: Vec2::ZERO, max: scene.domain.size };
+        let is_free = |area: Rect| area.meets(in_box) && !there.iter().any(|other| other.meets(area));
+        let fits = |area: Rect| is_free(area) && Self::fits(area, scene);
+        let most_rate = MOST_RATE * scene.scale.particles_per_own();
+        let flows = |id: ElementId| id.index() < scene.elements.len() && !scene.elements.get(id).fixed;
+        for emitter in springs.emitters.iter().filter(|emitter| fits(emitter.area) && emitter.rate <= most_rate) {
+            if flows(emitter.element) && self.emitters.len() < Self::MOST {
+                self.emitters.push(Emitter { start: 0, given: 0, due: 0.0, ..emitter.clone() });
+            }
+        }
+        for drain in springs.drains.iter().filter(|drain| fits(drain.area)) {
+            if self.drains.len() < Self::MOST {
+                self.drains.push(*drain);
+            }
         }
     }
 

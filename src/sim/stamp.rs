@@ -1,7 +1,7 @@
 //! Stamps: pieces of worlds that are kept to be put into others, as files.
 //!
 //! ```text
-//! "PowderMaster stamp\n" │ version, u16 │ hash, u64 │ postcard of the names of its elements and the `Piece`
+//! "PowderMaster stamp\n" │ version, u16 │ hash, u64 │ postcard of the names of its elements, the `Piece` and the `Springs`
 //! ```
 //!
 //! Elements go by their names, and lengths by the metres of a d: tables and spacings differ from world to world.
@@ -11,20 +11,21 @@ use crate::{
         element::{ElementId, ElementTable},
         params::Domain,
         particles::Particles,
-        piece::Piece,
+        piece::{Piece, Turn, lowest_cell},
         resample::resample_rock,
     },
     scene::{MOST_CELLS, blueprint::Blueprint},
     sim::{
         file::{FileError, Kind},
         resample::particles_in,
-        state::{ParticleStore, Rock, Setup},
+        springs::Springs,
+        state::{ParticleStore, Rock, Setup, Sources},
     },
 };
 use bevy::prelude::World;
 use glam::{IVec2, Vec2};
 use serde::{Deserialize, Serialize};
-use std::borrow::Cow;
+use std::{borrow::Cow, collections::BTreeSet};
 
 /// Ending of the files of stamps.
 pub const STAMP_ENDING: &str = "pmt";
@@ -35,8 +36,10 @@ const LONGEST_NAME: usize = 200;
 /// Spacings that differ by less than this are the same, as a share.
 const SAME: f64 = 1e-5;
 /// A stamp. Its version rises by itself with the columns of the particles; raise the first number when anything else changes.
-const STAMP: Kind =
-    Kind { name: "stamp", magic: b"PowderMaster stamp\n", version: 100 + Particles::COLUMNS.len() as u16 };
+const STAMP: Kind = Kind { name: "stamp", magic: MAGIC, version: 200 + Particles::COLUMNS.len() as u16 };
+const MAGIC: &[u8] = b"PowderMaster stamp\n";
+/// A stamp as it was before it could have springs: names of its elements and piece. It is read, not written.
+const WITHOUT_SPRINGS: Kind = Kind { version: 100 + Particles::COLUMNS.len() as u16, ..STAMP };
 
 /// A piece of a world, by the names of its elements.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,6 +48,8 @@ pub struct Stamp {
     pub elements: Vec<String>,
     /// The piece; its elements are numbers of these.
     pub piece: Piece,
+    /// The emitters and drains in it; what flows are numbers of these, places are from its lower left corner.
+    pub springs: Springs,
 }
 
 impl Stamp {
@@ -52,11 +57,13 @@ impl Stamp {
     pub fn of(world: &World, low: IVec2, high: IVec2) -> Self {
         let setup = world.resource::<Setup>();
         let (particles, rock) = (world.resource::<ParticleStore>(), world.resource::<Rock>());
+        let sources = world.resource::<Sources>();
         let piece = Piece::of(particles, rock, low, high, setup.blueprint.scale.spacing);
-        let ids = piece.elements();
+        let springs = Springs::of(&sources.emitters, &sources.drains, low, high);
+        let ids: BTreeSet<ElementId> = piece.elements().into_iter().chain(springs.elements()).collect();
         let names = ids.iter().map(|id| setup.elements().get(*id).name.clone()).collect();
         let place = |id: ElementId| ElementId(ids.iter().position(|other| *other == id).unwrap_or_default() as u8);
-        Self { elements: names, piece: piece.with_elements(place) }
+        Self { elements: names, piece: piece.with_elements(place), springs: springs.with_elements(place) }
     }
 
     /// The piece with the numbers of a world's table of elements.
@@ -64,13 +71,34 @@ impl Stamp {
     /// # Errors
     /// If the table lacks an element, or it moves there and not here: one line.
     pub fn piece(&self, table: &ElementTable) -> Result<Piece, String> {
-        let find = |name: &String| table.find(name).ok_or_else(|| format!("this world has no {name}"));
-        let ids = self.elements.iter().map(find).collect::<Result<Vec<_>, _>>()?;
+        let ids = self.ids(table)?;
         let piece = self.piece.clone().with_elements(|place| ids[place.index()]);
         piece
             .check_elements(table)
             .map_err(|_| "what moves in it stays in this world, or the other way round".to_owned())?;
         Ok(piece)
+    }
+
+    /// Its emitters and drains in a world where it lies so and has its middle at a point, d.
+    ///
+    /// # Errors
+    /// If the world's table lacks an element: one line.
+    pub fn springs_at(&self, to: &Blueprint, at: Vec2, turn: Turn) -> Result<Springs, String> {
+        let ids = self.ids(&to.elements)?;
+        let springs = self.springs.scaled(factor(&self.piece, to)).with_elements(|place| ids[place.index()]);
+        let size = size_in(&self.piece, to);
+        Ok(springs.placed(lowest_cell(at, turn.size(size)), size, turn))
+    }
+
+    /// Whether nothing is in it.
+    pub fn is_empty(&self) -> bool {
+        self.piece.is_empty() && self.springs.is_empty()
+    }
+
+    /// Its elements in a world's table.
+    fn ids(&self, table: &ElementTable) -> Result<Vec<ElementId>, String> {
+        let find = |name: &String| table.find(name).ok_or_else(|| format!("this world has no {name}"));
+        self.elements.iter().map(find).collect()
     }
 
     /// It as a file.
@@ -83,13 +111,18 @@ impl Stamp {
     /// # Errors
     /// If it is not one, was cut or changed, or holds what can't have been: one line.
     pub fn decode(bytes: &[u8]) -> Result<Self, FileError> {
-        let (stamp, _): (Self, _) = STAMP.unseal(bytes)?;
+        let stamp = match WITHOUT_SPRINGS.unseal(bytes) {
+            Ok(((elements, piece), _)) => Self { elements, piece, springs: Springs::default() },
+            Err(FileError::Version(..)) => STAMP.unseal(bytes)?.0,
+            Err(error) => return Err(error),
+        };
         let count = stamp.elements.len();
         if count > ElementTable::MOST || stamp.elements.iter().any(|name| name.len() > LONGEST_NAME) {
             return Err(STAMP.unsound("its names of elements are too many or too long".to_owned()));
         }
-        stamp.piece.check().map_err(|what| STAMP.unsound(what))?;
-        if stamp.piece.elements().iter().any(|id| id.index() >= count) {
+        stamp.piece.check().and_then(|()| stamp.springs.check()).map_err(|what| STAMP.unsound(what))?;
+        let is_none = |id: ElementId| id.index() >= count;
+        if stamp.piece.elements().into_iter().chain(stamp.springs.elements()).any(is_none) {
             return Err(STAMP.unsound("a lump is of none of its elements".to_owned()));
         }
         Ok(stamp)
@@ -162,6 +195,10 @@ mod tests {
             let stroke = Stroke::rectangle(low.into(), high.into());
             simulation.world_mut().resource_mut::<IntentQueue>().push(Intent::Stamp { element, stroke });
         }
+        let element = simulation.world().resource::<Setup>().elements().find("water").unwrap();
+        let stroke = Stroke::rectangle(Vec2::new(5.0, 8.0), Vec2::new(7.0, 9.0));
+        let mut queue = simulation.world_mut().resource_mut::<IntentQueue>();
+        queue.extend([Intent::SetEmitter { element, stroke }, Intent::SetDrain { stroke }]);
         simulation.run(2);
         let stamp = Stamp::of(simulation.world(), IVec2::new(4, 2), IVec2::new(12, 10));
         assert!(stamp.piece.particles.len() > 40 && stamp.piece.rock.len() == 16);
@@ -186,13 +223,27 @@ mod tests {
     }
 
     #[test]
+    fn a_file_of_before_there_were_springs_is_read() {
+        let (_, stamp) = stamp();
+        let stamp = Stamp { springs: Springs::default(), ..stamp };
+        let before = WITHOUT_SPRINGS.seal(&(&stamp.elements, &stamp.piece));
+        assert_ne!(before, stamp.encode());
+        assert_eq!(Stamp::decode(&before), Ok(stamp));
+        for len in 0..before.len() {
+            assert!(Stamp::decode(&before[..len]).is_err());
+        }
+    }
+
+    #[test]
     fn what_can_t_have_been_is_refused_behind_a_right_checksum() {
         let (_, stamp) = stamp();
-        let changes: [fn(&mut Stamp); 4] = [
+        let changes: [fn(&mut Stamp); 6] = [
             |stamp| stamp.elements.truncate(1),
             |stamp| stamp.elements[0] = "x".repeat(1000),
             |stamp| stamp.piece.spacing = 0.0,
             |stamp| stamp.piece.particles.x[0] = 1e6,
+            |stamp| stamp.springs.emitters[0].rate = f32::NAN,
+            |stamp| stamp.springs.emitters[0].element = ElementId(9),
         ];
         for change in changes {
             let mut stamp = stamp.clone();

@@ -5,16 +5,17 @@ use crate::{
         actions::{Action, Take},
         history,
         input::bindings::Bindings,
+        springs,
         stamps::{hand::Hand, shelf::Shelf},
         toasts::Toasts,
     },
-    kernel::{brush::Stroke, piece::Turn},
+    kernel::{brush::Stroke, piece::Turn, sources::Rect},
     sim::{
         control,
-        intent::Intent,
+        intent::{Intent, IntentQueue},
         numbers::grouped,
         stamp::{Stamp, fitted},
-        state::{ParticleStore, Rock, Setup},
+        state::{ParticleStore, Rock, Setup, Sources},
     },
 };
 use bevy::prelude::World;
@@ -72,19 +73,21 @@ pub fn take(world: &mut World, (from, to): (Vec2, Vec2), take: Take) {
     let Some(rock) = world.get_resource::<Rock>().filter(|_| in_hand) else { return };
     let (low, high) = cells_between(from, to, IVec2::new(rock.columns(), rock.rows()));
     let stamp = Stamp::of(world, low, high);
-    if stamp.piece.is_empty() {
+    if stamp.is_empty() {
         world.resource_mut::<Toasts>().say(tr!("Nothing is in there"));
         return;
     }
     let count = grouped(stamp.piece.count() as u64);
-    let told = match take {
-        Take::Copy => tr!("Copied: {} particles", count),
-        Take::Cut => tr!("Cut: {} particles", count),
+    let springs = stamp.springs.count();
+    let told = match (take, springs) {
+        (Take::Copy, 0) => tr!("Copied: {} particles", count),
+        (Take::Cut, 0) => tr!("Cut: {} particles", count),
+        (Take::Copy, _) => tr!("Copied: {count} particles, springs and drains: {springs}", count, springs),
+        (Take::Cut, _) => tr!("Cut: {count} particles, springs and drains: {springs}", count, springs),
     };
     if take == Take::Cut {
         history::checkpoint(world);
-        // At once: a tick later something else may be in there.
-        control::edit(world, Intent::Erase { stroke: Stroke::rectangle(low.as_vec2(), high.as_vec2()) });
+        cut(world, Rect { min: low.as_vec2(), max: high.as_vec2() });
     }
     let (kept, written) = world.resource_mut::<Shelf>().add(stamp);
     *world.resource_mut::<Hand>() = Hand::Stamp(kept, Turn::default());
@@ -93,6 +96,17 @@ pub fn take(world: &mut World, (from, to): (Vec2, Vec2), take: Take) {
         Ok(()) => toasts.say(told),
         Err(error) => toasts.warn(tr!("{told}, but not kept for the next session: {error}", told, error)),
     }
+}
+
+/// Takes away what is in a frame, of springs and drains those that lie in it whole.
+fn cut(world: &mut World, frame: Rect) {
+    let whole = |area: &Rect| area.within(frame) == Some(*area);
+    let springs = springs::areas(world.resource()).map(|(area, _)| area).filter(whole);
+    let mut intents = vec![Intent::Erase { stroke: Stroke::rectangle(frame.min, frame.max) }];
+    intents.extend(springs.map(|area| Intent::RemoveSources { stroke: Stroke::rectangle(area.min, area.max) }));
+    // At once: a tick later something else may be in there.
+    world.resource_mut::<IntentQueue>().extend(intents);
+    control::apply_edits(world);
 }
 
 /// Pastes the stamp in hand with its middle at a point, d, as far as there is free room; says what did not fit.
@@ -104,7 +118,8 @@ pub fn paste(world: &mut World, at: Vec2) {
     let scene = setup.blueprint.clone();
     let found = kept.stamp.piece(&scene.elements);
     let fits = found.and_then(|piece| fitted(&piece, &scene).map(|there| there.count()).map(|count| (piece, count)));
-    let (piece, all) = match fits {
+    let springs = kept.stamp.springs_at(&scene, at, turn);
+    let ((piece, all), springs) = match fits.and_then(|fits| Ok((fits, springs?))) {
         Ok(fits) => fits,
         Err(what) => {
             world.resource_mut::<Toasts>().warn(tr!("The stamp does not fit: {}", what));
@@ -112,18 +127,36 @@ pub fn paste(world: &mut World, at: Vec2) {
         }
     };
     history::checkpoint(world);
-    let before = count(world);
-    control::edit(world, Intent::Paste { piece: Arc::new(piece), at, turn });
-    let left_out = (before + all).saturating_sub(count(world));
-    if left_out > 0 {
-        let (some, all) = (grouped(left_out as u64), grouped(all as u64));
-        let told = tr!("{some} of {all} particles did not fit: no free room there", some, all);
-        world.resource_mut::<Toasts>().say(told);
+    let (before, all) = (count(world), [all, springs.count()]);
+    let mut queue = world.resource_mut::<IntentQueue>();
+    queue.push(Intent::Paste { piece: Arc::new(piece), at, turn });
+    // Recordings of stamps without are as they were.
+    queue.extend((!springs.is_empty()).then_some(Intent::PasteSources { springs }));
+    control::apply_edits(world);
+    let after = count(world);
+    let left_out = [0, 1].map(|k| (before[k] + all[k]).saturating_sub(after[k]));
+    let [some, some_springs] = left_out.map(|count| grouped(count as u64));
+    let [all, all_springs] = all.map(|count| grouped(count as u64));
+    let mut toasts = world.resource_mut::<Toasts>();
+    if left_out[0] > 0 {
+        toasts.say(tr!("{some} of {all} particles did not fit: no free room there", some, all));
+    }
+    if left_out[1] > 0 {
+        let most = Sources::MOST;
+        toasts.say(tr!(
+            "{some} of {all} springs and drains are left out: others are there, they are too large, or there are {most} already",
+            some = some_springs,
+            all = all_springs,
+            most
+        ));
     }
 }
 
-fn count(world: &World) -> usize {
-    world.resource::<ParticleStore>().len() + world.resource::<Rock>().count()
+/// Particles and rock; emitters and drains.
+fn count(world: &World) -> [usize; 2] {
+    let (particles, rock, sources) =
+        (world.resource::<ParticleStore>(), world.resource::<Rock>(), world.resource::<Sources>());
+    [particles.len() + rock.count(), sources.emitters.len() + sources.drains.len()]
 }
 
 #[cfg(test)]

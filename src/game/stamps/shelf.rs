@@ -130,7 +130,10 @@ fn free_path(folder: &Path) -> PathBuf {
 #[cfg(not(target_arch = "wasm32"))]
 mod tests {
     use super::*;
-    use crate::kernel::{particles::Particles, piece::Piece, solids::Solids};
+    use crate::{
+        kernel::{particles::Particles, piece::Piece, solids::Solids},
+        sim::springs::Springs,
+    };
     use glam::{IVec2, Vec2};
     use std::fs;
 
@@ -139,7 +142,7 @@ mod tests {
         let mut particles = Particles::default();
         particles.push(3, crate::kernel::element::ElementId(0), Vec2::splat(1.5), Vec2::X);
         let piece = Piece::of(&particles, &Solids::new(40, 4), IVec2::ZERO, IVec2::new(columns, 4), 0.1);
-        Stamp { elements: vec!["water".to_owned()], piece }
+        Stamp { elements: vec!["water".to_owned()], piece, springs: Springs::default() }
     }
 
     fn widths(shelf: &mut Shelf) -> Vec<i32> {

@@ -263,6 +263,7 @@ fn a_recording_can_be_watched_and_comes_to_the_same_end() {
 fn a_recording_repeats_what_is_replaced_cut_and_pasted_at_another_detail_too() {
     let path = file("stamps");
     let mut player = Player::at_a_pool();
+    player.set_springs();
     player.world().resource::<Recorder>().begin(player.world(), Some(path.clone()));
     player.chord(&[KeyCode::KeyP]);
     player.take(KeyCode::KeyC);
@@ -286,9 +287,11 @@ fn a_recording_repeats_what_is_replaced_cut_and_pasted_at_another_detail_too() {
     player.0.world_mut().write_message(bevy::app::AppExit::Success);
     player.frame();
     assert_eq!(again(&path), hash);
-    let is_paste = |entry: &&crate::sim::recording::Entry| matches!(entry.intent, Intent::Paste { .. });
-    let pasted: usize =
-        read(&path).segments.iter().map(|segment| segment.entries.iter().filter(is_paste).count()).sum();
-    assert_eq!(pasted, 4);
+    let segments = read(&path).segments;
+    let count = |of: fn(&Intent) -> bool| -> usize {
+        segments.iter().map(|segment| segment.entries.iter().filter(|entry| of(&entry.intent)).count()).sum()
+    };
+    assert_eq!(count(|intent| matches!(intent, Intent::Paste { .. })), 4);
+    assert_eq!(count(|intent| matches!(intent, Intent::PasteSources { .. })), 4);
     fs::remove_file(path).expect("it is ours");
 }

@@ -6,7 +6,13 @@ use crate::{
         actions::{Action, Take},
         stamps::{hand::Hand, shelf::Shelf},
     },
-    kernel::{heat::held, piece::Turn},
+    kernel::{
+        brush::Stroke,
+        heat::held,
+        piece::Turn,
+        sources::{Drain, Rect},
+    },
+    sim::state::Sources,
 };
 
 impl Player {
@@ -193,6 +199,93 @@ fn a_stamp_of_elements_that_a_world_lacks_is_refused_in_a_line() {
     player.click(Vec2::new(10.0, 0.0));
     assert_eq!(player.hash(), before);
     assert_eq!(player.told(), "The stamp does not fit: this world has no phlogiston");
+}
+
+impl Player {
+    /// A drain in the pool, and a spring that pours to the right, as those of scenes may.
+    pub(super) fn set_springs(&mut self) {
+        let (middle, element) = (self.middle(), self.world().resource::<Setup>().elements().find("water").unwrap());
+        let area = |low: (f32, f32), high: (f32, f32)| (middle + Vec2::from(low), middle + Vec2::from(high));
+        let (low, high) = area((-24.0, 0.0), (-20.0, 2.0));
+        let (drain_low, drain_high) = area((-16.0, -5.0), (-14.0, -3.0));
+        for intent in [
+            Intent::SetEmitter { element, stroke: Stroke::rectangle(low, high) },
+            Intent::SetDrain { stroke: Stroke::rectangle(drain_low, drain_high) },
+        ] {
+            control::edit(self.0.world_mut(), intent);
+        }
+        self.0.world_mut().resource_mut::<Sources>().emitters[0].velocity = Vec2::new(30.0, 0.0);
+    }
+
+    fn all_sources(&self) -> Sources {
+        self.world().resource::<Sources>().clone()
+    }
+}
+
+#[test]
+fn springs_and_drains_are_copied_turned_and_pour() {
+    let mut player = Player::at_a_pool();
+    player.set_springs();
+    player.take(KeyCode::KeyC);
+    assert!(player.told().ends_with("springs and drains: 2"), "{}", player.told());
+    player.chord(&[KeyCode::ShiftLeft, KeyCode::KeyR]);
+    let before = player.hash();
+    // Out of the way of the first.
+    player.click(Vec2::new(20.0, 0.0));
+    let Sources { emitters, drains, .. } = player.all_sources();
+    assert_eq!((emitters.len(), drains.len()), (2, 2), "{}", player.told());
+    let Rect { min, max } = emitters[1].area;
+    assert!((max - min).distance(Vec2::new(2.0, 4.0)) < 1e-3, "it does not stand upright: {min} {max}");
+    assert_eq!((emitters[1].velocity, emitters[1].rate), (Vec2::new(0.0, 30.0), emitters[0].rate));
+    player.undo();
+    assert_eq!((player.hash(), player.all_sources().emitters.len()), (before, 1));
+    player.click(Vec2::new(20.0, 0.0));
+    player.chord(&[KeyCode::Escape]);
+    let count = player.particles();
+    // Time that passes, and drains that would take what comes.
+    player.0.world_mut().resource_mut::<Sources>().drains.clear();
+    player.chord(&[KeyCode::KeyP]);
+    player.frames(60);
+    let given = &player.all_sources().emitters[1].given;
+    assert!(*given > 0 && player.particles() > count, "{given} of {}", player.particles());
+}
+
+#[test]
+fn where_a_spring_is_no_other_is_pasted_and_cut_ones_come_back() {
+    let mut player = Player::at_a_pool();
+    player.set_springs();
+    let before = player.all_sources();
+    player.take(KeyCode::KeyX);
+    assert!(player.all_sources().emitters.is_empty() && player.all_sources().drains.is_empty());
+    let in_place = Vec2::new(-20.0, -2.5);
+    player.click(in_place);
+    assert_eq!(player.all_sources(), before);
+    player.click(in_place);
+    assert_eq!(player.all_sources(), before);
+    assert!(player.told().starts_with("2 of 2 springs and drains are left out"), "{}", player.told());
+    player.undo();
+    player.undo();
+    assert!(player.all_sources().emitters.is_empty());
+    let most = Sources::MOST;
+    let far = |k: usize| Rect { min: Vec2::new(2.0 * k as f32, 1.0), max: Vec2::new(2.0 * k as f32 + 1.0, 2.0) };
+    player.0.world_mut().resource_mut::<Sources>().drains = (0..most).map(|k| Drain { area: far(k) }).collect();
+    player.click(in_place);
+    let Sources { emitters, drains, .. } = player.all_sources();
+    assert_eq!((emitters.len(), drains.len()), (1, most));
+    assert!(player.told().starts_with("1 of 2 springs and drains are left out"), "{}", player.told());
+}
+
+#[test]
+fn a_stamp_may_be_of_a_spring_alone_and_half_of_one_gives_half() {
+    let mut player = Player::new();
+    player.chord(&[KeyCode::KeyP]);
+    player.set_springs();
+    player.chord(&[KeyCode::ControlLeft, KeyCode::KeyX]);
+    player.drag(Vec2::new(-22.0, -1.0), Vec2::new(-19.0, 3.0));
+    assert_eq!(player.all_sources().emitters.len(), 1, "what is cut through stays");
+    player.click(Vec2::new(20.0, 10.0));
+    let [whole, half] = &player.all_sources().emitters[..] else { panic!("{}", player.told()) };
+    assert!((half.rate / whole.rate - 0.5).abs() < 0.01, "{} of {}", half.rate, whole.rate);
 }
 
 #[test]

@@ -216,6 +216,12 @@ fn check_entry(entry: &Entry, ticks: RangeInclusive<u64>, table: &ElementTable, 
             piece.check().and_then(|()| piece.check_elements(table)).map_err(|what| format!("a piece: {what}"))?;
             (None, &[*at], &[])
         }
+        Intent::PasteSources { springs } => {
+            springs.check()?;
+            let strange = springs.elements().find(|element| element.index() >= elements);
+            return strange
+                .map_or(Ok(()), |element| Err(format!("an emitter of element {}, which is none", element.0)));
+        }
         Intent::ClearAir | Intent::Effect { .. } | Intent::Stroke | Intent::GiveUp => (None, &[], &[]),
         // Of another version it may be one that this one lacks: then nothing is judged.
         Intent::Begin { challenge } if challenge.len() > LONGEST_NAME => {

@@ -155,6 +155,7 @@ pub(super) fn apply_intents(
             }
             Intent::SetDrain { stroke } => derived.sources.add_drain(&stroke, &setup.blueprint),
             Intent::RemoveSources { stroke } => derived.sources.remove_under(&stroke),
+            Intent::PasteSources { springs } => derived.sources.add_springs(&springs, &setup.blueprint),
             Intent::Ignite { stroke } => {
                 let mut warm = setup.matter(&mut particles, &mut rock, &derived.curves);
                 ignite_under(&mut warm, &derived.recipes.decays, &stroke, &mut derived.books);
@@ -276,6 +277,7 @@ fn moves_air(intent: &Intent, elements: &ElementTable, rock: &Rock) -> bool {
         | Intent::GiveUp
         | Intent::SetEmitter { .. }
         | Intent::SetDrain { .. }
-        | Intent::RemoveSources { .. } => false,
+        | Intent::RemoveSources { .. }
+        | Intent::PasteSources { .. } => false,
     }
 }

@@ -1,8 +1,11 @@
 //! Pictures of stamps: on the shelf, and for the ghost. Each is drawn once.
 
 use crate::{
-    game::stamps::shelf::{Kept, MOST},
-    kernel::{element::ElementTable, solids::centre},
+    game::{
+        hud::style,
+        stamps::shelf::{Kept, MOST},
+    },
+    kernel::{element::ElementTable, solids::centre, sources::Rect},
     sim::stamp::Stamp,
 };
 use bevy::prelude::Resource;
@@ -16,6 +19,8 @@ const LONGEST: f32 = 1024.0;
 const FINEST: f32 = 6.0;
 /// Half the width of a particle, d: those of a square lattice leave no gap.
 const RADIUS: f32 = 0.71;
+/// How much of its colour has what a spring or a drain covers.
+const SHADE: f32 = 0.4;
 /// Colour of what this world does not have.
 const UNKNOWN: Color32 = Color32::GRAY;
 
@@ -58,6 +63,19 @@ fn paint(stamp: &Stamp, elements: &ElementTable) -> ColorImage {
     let size = (piece.size.as_vec2() * scale).ceil().as_ivec2().max(IVec2::ONE);
     let colours: Vec<Color32> = stamp.elements.iter().map(|name| colour(name, elements)).collect();
     let mut pixels = vec![Color32::TRANSPARENT; (size.x * size.y) as usize];
+    let mut fill = |area: Rect, colour: Color32| {
+        let (low, high) = ((area.min * scale).round().as_ivec2(), (area.max * scale).round().as_ivec2());
+        for y in low.y.max(0)..high.y.min(size.y) {
+            for x in low.x.max(0)..high.x.min(size.x) {
+                pixels[((size.y - 1 - y) * size.x + x) as usize] = colour.gamma_multiply(SHADE);
+            }
+        }
+    };
+    // What springs and drains cover, behind all else.
+    for emitter in &stamp.springs.emitters {
+        fill(emitter.area, colours[emitter.element.index()]);
+    }
+    stamp.springs.drains.iter().for_each(|drain| fill(drain.area, style::TEXT));
     let mut dab = |at: Vec2, half: f32, is_round: bool, colour: Color32| {
         let (low, high) = (((at - half) * scale).floor().as_ivec2(), ((at + half) * scale).ceil().as_ivec2());
         for y in low.y.max(0)..high.y.min(size.y) {
@@ -86,11 +104,14 @@ fn colour(name: &str, elements: &ElementTable) -> Color32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::{
-        element::{Element, ElementId},
-        particles::Particles,
-        piece::Piece,
-        solids::Solids,
+    use crate::{
+        kernel::{
+            element::{Element, ElementId},
+            particles::Particles,
+            piece::Piece,
+            solids::Solids,
+        },
+        sim::springs::Springs,
     };
 
     #[test]
@@ -103,7 +124,7 @@ mod tests {
         particles.push(0, ElementId(1), Vec2::new(8.5, 0.5), Vec2::ZERO);
         solids.insert(IVec2::new(0, 4), ElementId(0), 1);
         let piece = Piece::of(&particles, &solids, IVec2::ZERO, IVec2::new(10, 5), 0.1);
-        let stamp = Stamp { elements: vec!["rock".into(), "water".into()], piece };
+        let stamp = Stamp { elements: vec!["rock".into(), "water".into()], piece, springs: Springs::default() };
         let picture = paint(&stamp, &table);
         let [width, height] = picture.size;
         let at = |x: f32, y: f32| picture.pixels[(y * height as f32) as usize * width + (x * width as f32) as usize];
@@ -115,7 +136,8 @@ mod tests {
     #[test]
     fn a_large_stamp_has_a_picture_of_bounded_size() {
         let piece = Piece::of(&Particles::default(), &Solids::new(30_000, 3), IVec2::ZERO, IVec2::new(30_000, 3), 0.1);
-        let picture = paint(&Stamp { elements: Vec::new(), piece }, &ElementTable::default());
+        let picture =
+            paint(&Stamp { elements: Vec::new(), piece, springs: Springs::default() }, &ElementTable::default());
         assert_eq!(picture.size, [1024, 1]);
     }
 }
