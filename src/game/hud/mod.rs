@@ -12,6 +12,7 @@ pub mod drop;
 mod fates;
 pub mod focus;
 pub mod gauges;
+mod labels;
 pub mod lamps;
 pub mod layout;
 pub mod lens;

@@ -35,7 +35,7 @@ pub const GOOD: Color32 = Color32::from_rgb(104, 211, 145);
 /// What came out wrong.
 pub const BAD: Color32 = Color32::from_rgb(255, 122, 122);
 
-/// Size of the smallest text, points. Only names of tiles that don't fit are smaller.
+/// Size of the smallest text, points.
 pub const SMALL: f32 = 12.0;
 
 /// How long widgets take to change, s.

@@ -7,6 +7,7 @@ use crate::{
         favourites::Favourites,
         hud::{
             fates::fates,
+            labels::lines,
             style::{self, weak},
             widgets::{BUTTON, field},
         },
@@ -27,6 +28,8 @@ use tr::tr;
 
 /// A tile below this width is narrow, points.
 const NARROW: f32 = 52.0;
+/// Height of each line of a name that takes two, points.
+const LINE: f32 = 13.0;
 /// Width of a card, points.
 const CARD: f32 = 230.0;
 
@@ -52,27 +55,31 @@ pub fn tile(ui: &mut Ui, size: Vec2, unit: f32, face: &Face) -> Response {
         let stroke = Stroke::new(1.5 * unit, style::ACCENT);
         painter.rect_stroke(rect, style::BUTTON_CORNER, stroke, StrokeKind::Inside);
     }
+    let (text, corner) = if face.chosen { (Color32::WHITE, style::ACCENT) } else { (style::TEXT, style::WEAK) };
+    let label = lines(painter, face.label, rect.width() - unit, unit, text);
+    let is_long = label.len() > 1;
     let (icon, colour) = face.icon;
     // Beside the letter of a key there is not always room for the icon in the middle, and never beside a longer one.
-    let (place, side, letter) = match face.key.chars().count() {
-        3.. => (vec2(0.0, 3.5), 17.0, 9.0),
-        1.. if size.x < NARROW => (vec2(3.0, 7.0), 22.0, style::SMALL),
-        _ => (vec2(0.0, 7.0), 24.0, style::SMALL),
+    let (place, side) = match face.key.chars().count() {
+        0 if is_long => (vec2(0.0, size.y / 2.0 - 12.0), 17.0),
+        _ if is_long => (vec2(size.x / 2.0 - 12.0, size.y / 2.0 - 12.0), 17.0),
+        3.. => (vec2(0.0, 1.5), 15.0),
+        1.. if size.x < NARROW => (vec2(3.0, 7.0), 22.0),
+        _ => (vec2(0.0, 7.0), 24.0),
     };
     icons::draw(painter, icons::square(rect.center() - place * unit, side * unit), icon, colour);
-    let (text, corner) = if face.chosen { (Color32::WHITE, style::ACCENT) } else { (style::TEXT, style::WEAK) };
-    let room = rect.width() - 4.0 * unit;
-    let key = painter.layout_no_wrap(face.key.to_owned(), FontId::proportional(letter * unit), corner);
-    // A key that is too long even so stands in the tooltip.
-    if key.size().x <= room {
+    let key = painter.layout_no_wrap(face.key.to_owned(), FontId::proportional(style::SMALL * unit), corner);
+    // A key that is too long stands in the tooltip.
+    let taken = if is_long { 24.0 } else { 4.0 };
+    if key.size().x <= rect.width() - taken * unit {
         painter.galley(rect.right_top() + vec2(-3.0 * unit - key.size().x, 2.0 * unit), key, corner);
     }
-    // A long name is written smaller.
-    let fit = |size: f32| painter.layout_no_wrap(face.label.to_owned(), FontId::proportional(size * unit), text);
-    let label = fit(style::SMALL);
-    let label = if label.size().x > room { fit(style::SMALL * room / label.size().x) } else { label };
-    let at = rect.center_bottom() - vec2(label.size().x / 2.0, label.size().y + 4.0 * unit);
-    painter.galley(at, label, text);
+    let bottom = if is_long { 2.0 } else { 4.0 };
+    let mut at = rect.center_bottom() - vec2(0.0, bottom * unit);
+    for line in label.into_iter().rev() {
+        at.y -= if is_long { LINE * unit } else { line.size().y };
+        painter.galley(at - vec2(line.size().x / 2.0, 0.0), line, text);
+    }
     response
 }
 

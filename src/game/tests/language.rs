@@ -3,7 +3,11 @@
 
 use crate::{
     game::{
-        hud,
+        hud::{
+            self, style,
+            tiles::{Face, tile},
+        },
+        icons,
         input::bindings::{Bindings, Group},
         language::{Known, Language},
         mixer::dials::DIALS,
@@ -18,6 +22,7 @@ use crate::{
     scene::{self, SceneCategory, challenges::challenges},
 };
 use bevy::prelude::App;
+use bevy_egui::egui;
 use proc_macro2::{TokenStream, TokenTree};
 use rspolib::POEntry;
 use std::{
@@ -278,4 +283,40 @@ fn nothing_is_shown_that_can_not_be_in_another_language() {
         });
     }
     assert!(found.is_empty(), "in English only: {found:#?}");
+}
+
+#[test]
+fn no_name_on_a_tile_is_too_small_or_larger_than_the_tile_in_any_language() {
+    let context = egui::Context::default();
+    style::apply(&context);
+    let elements = scene::elements().expect("the table that comes with the game is valid");
+    let mut names: Vec<String> = Tool::all(&elements).map(|tool| spaced(tool.name(&elements))).collect();
+    names.push("elements".to_owned());
+    for Known { tag, .. } in Language::all() {
+        let there = if *tag == "en" { Vec::new() } else { entries(tag) };
+        let in_it = |name: &String| there.iter().find(|entry| entry.msgid == *name)?.msgstr.clone();
+        for name in names.iter().map(|name| in_it(name).unwrap_or_else(|| name.clone())) {
+            for (size, unit) in [((37.0, 50.0), 1.0), ((54.0, 50.0), 1.0), ((62.0, 52.0), 1.0), ((60.0, 48.0), 0.8)] {
+                for key in ["", "1", "F10"] {
+                    let face = Face { icon: (icons::cloud, style::TEXT), label: &name, name: "", key, chosen: false };
+                    let mut place = egui::Rect::NOTHING;
+                    let output = context.run_ui(egui::RawInput::default(), |ui| {
+                        place = tile(ui, size.into(), unit, &face).rect;
+                    });
+                    let texts = output.shapes.iter().filter_map(|clipped| match &clipped.shape {
+                        egui::Shape::Text(text) => Some(text),
+                        _ => None,
+                    });
+                    for text in texts {
+                        let said = &text.galley.job.text;
+                        let sizes = text.galley.job.sections.iter().map(|section| section.format.font_id.size);
+                        let least = sizes.fold(f32::MAX, f32::min);
+                        assert!(least >= style::SMALL * unit, "{tag}: {said:?} has {least} points");
+                        let rect = text.galley.rect.translate(text.pos.to_vec2());
+                        assert!(place.expand(0.5).contains_rect(rect), "{tag}: {said:?} is beyond its tile: {rect:?}");
+                    }
+                }
+            }
+        }
+    }
 }
