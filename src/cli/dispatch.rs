@@ -4,7 +4,7 @@ use crate::cli::{
     args::{Arguments, Bench, BenchArguments, Command},
     bench, challenge, clip,
     failure::{self, Failure},
-    judge, list, merge, output, play, random, replay, run, soak, study, sweep,
+    judge, list, merge, output, play, random, replay, run, scenes, soak, study, sweep,
 };
 use clap::Parser;
 use std::{ffi::OsString, io::Write, process::ExitCode};
@@ -48,8 +48,11 @@ fn dispatch(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Exam(arguments)) => judge::judge(&arguments, false),
         Some(Command::Soak(arguments)) => soak::soak(&arguments),
         Some(Command::Gauntlet(arguments)) => match arguments.random {
-            None => judge::judge(&arguments.cases, arguments.timed),
             Some(count) => random::random(&arguments, count),
+            None => match &arguments.scenes {
+                Some(named) => scenes::scenes(&arguments, named),
+                None => judge::judge(&arguments.cases, arguments.timed),
+            },
         },
         Some(Command::Merge(arguments)) => merge::merge(&arguments),
         Some(Command::Study(study)) => study::study(&study),

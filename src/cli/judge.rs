@@ -104,7 +104,8 @@ impl<C: Case> CaseArguments<C> {
         words.text()
     }
 
-    fn say_run(&self, words: &mut Words) {
+    /// What is run, as options.
+    pub(super) fn say_run(&self, words: &mut Words) {
         self.cases.iter().for_each(|case| words.option("--case", case.about().name));
         self.qualities.iter().for_each(|quality| words.option("--quality", quality.name()));
         if self.detail != 1.0 {

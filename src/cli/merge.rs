@@ -6,13 +6,14 @@ use crate::{
         failure::Failure,
         judge::{Outcome, Words},
         output::Outputs,
-        random,
+        random, scenes,
     },
     kernel::params::Preset,
     lab::{
         cases::{Case, Shard, read_rows},
         exam::ExamCase,
         gauntlet::{GauntletCase, random::Tally},
+        soak,
     },
 };
 use serde::de::DeserializeOwned;
@@ -36,6 +37,17 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
             let tallies = parts.iter().map(|part| part.field("tally")).collect::<Result<_, _>>()?;
             let (processor, threads) = machine(&parts)?;
             random::write(&Tally::merge(tallies).map_err(refused)?, &outputs, &command, &processor, threads)
+        }
+        scenes::KIND => {
+            let tallies = parts.iter().map(|part| part.field("tally")).collect::<Result<_, _>>()?;
+            let (processor, threads) = machine(&parts)?;
+            scenes::write(
+                &soak::gallery::Tally::merge(tallies).map_err(refused)?,
+                &outputs,
+                &command,
+                &processor,
+                threads,
+            )
         }
         kind if kind == ExamCase::SUITE.command => merge_rows::<ExamCase>(&parts)?.write(&outputs, &command),
         kind if kind == GauntletCase::SUITE.command => merge_rows::<GauntletCase>(&parts)?.write(&outputs, &command),

@@ -18,6 +18,7 @@ mod progress;
 mod random;
 mod replay;
 mod run;
+mod scenes;
 mod soak;
 mod start;
 mod study;

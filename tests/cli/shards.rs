@@ -18,7 +18,7 @@ fn json(here: &Path, name: &str) -> Value {
 
 /// Without what differs from run to run of the same.
 fn timeless(mut value: Value) -> Value {
-    let times = ["ms_median", "ms_max", "ms_total", "milliseconds", "time", "late"];
+    let times = ["ms_median", "ms_max", "ms_total", "milliseconds", "time", "late", "seconds"];
     for row in value["rows"].as_array_mut().unwrap() {
         times.iter().for_each(|time| drop(row.as_object_mut().unwrap().remove(*time)));
     }
@@ -79,6 +79,39 @@ fn shards_of_cases_make_the_table_of_all() {
 }
 
 #[test]
+fn scenes_are_the_same_whole_in_shards_or_from_a_journal() {
+    let here = folder("shards_of_scenes");
+    let asked = ["gauntlet", "--scenes", "u_tube", "sealed_air", "--quality", "draft", "--quality", "fast"];
+    let asked = [&asked[..], &["--minutes", "1", "--detail", "0.25", "--threads", "1"]].concat();
+    let table = good(&here, &[&asked[..], &["--json", "whole.json"]].concat());
+    let summary = "4 soaks of 1 minute at draft, fast, seed 1, detail 0.25: 4 sound, 0 not";
+    assert!(
+        table.contains("| u_tube ") && table.contains("sound, ") && table.ends_with(&format!("{summary}\n")),
+        "{table}"
+    );
+    for (shard, file, journal) in [("1/2", "a.json", "a.jsonl"), ("2/2", "b.json", "b.jsonl")] {
+        let more = ["--shard", shard, "--json", file, "--journal", journal];
+        let table = good(&here, &[&asked[..], &more].concat());
+        assert!(table.contains(&format!(", shard {shard}: 2 sound, 0 not")), "{table}");
+    }
+    good(&here, &["merge", "b.json", "a.json", "--json", "merged.json", "--markdown", "merged.md"]);
+    let tally = |name: &str| timeless(json(&here, name)["tally"].clone());
+    assert_eq!(tally("merged.json"), tally("whole.json"));
+    let document = fs::read_to_string(here.join("merged.md")).unwrap();
+    assert!(document.starts_with("# The gallery's scenes") && document.contains(summary), "{document}");
+
+    let read = |name: &str| fs::read_to_string(here.join(name)).unwrap();
+    let kept = read("a.jsonl") + &read("b.jsonl");
+    fs::write(here.join("all.jsonl"), &kept).unwrap();
+    good(&here, &[&asked[..], &["--journal", "all.jsonl", "--json", "all.json"]].concat());
+    assert_eq!((read("all.jsonl"), tally("all.json")), (kept, tally("whole.json")), "nothing was left to play");
+    fs::write(here.join("letter"), "a letter").unwrap();
+    refused(&here, &[&asked[..], &["--journal", "letter"]].concat(), 2, &["letter: is no journal of", "allowed"]);
+    assert_eq!(read("letter"), "a letter", "what was refused is left as it is");
+    refused(&here, &["merge", "a.json"], 2, &["shard 2/2 is missing"]);
+}
+
+#[test]
 fn the_journals_of_shards_are_all_that_a_sweep_needs() {
     let here = folder("shards_of_a_sweep");
     let asked = ["sweep", "dam_break", "--set", "columns=8", "--only", "draft", "--only", "fast", "--ticks", "21"];
@@ -132,6 +165,17 @@ fn what_cannot_be_random_or_a_shard_is_refused() {
         (&["gauntlet", "--random", "5", "--keep", "file"], &["--keep file: is a file", "allowed: a folder"]),
         (&["gauntlet", "--seed", "5"], &["--random"]),
         (&["gauntlet", "--keep", "x"], &["--random"]),
+        (&["gauntlet", "--scenes", "cats"], &["--scenes", "cats", "allowed: waterfall, acid"]),
+        (&["gauntlet", "--scenes", "--minutes", "61"], &["--minutes", "allowed: whole numbers from 1 to 60"]),
+        (&["gauntlet", "--scenes", "--minutes", "0"], &["--minutes", "allowed: whole numbers from 1 to 60"]),
+        (&["gauntlet", "--minutes", "5"], &["--scenes"]),
+        (&["gauntlet", "--journal", "x"], &["--scenes"]),
+        (&["gauntlet", "--scenes", "--random", "5"], &["--scenes", "--random"]),
+        (&["gauntlet", "--scenes", "--case", "pool"], &["--scenes", "--case"]),
+        (&["gauntlet", "--scenes", "--timed"], &["--scenes", "--timed"]),
+        (&["gauntlet", "--scenes", "--keep", "x"], &["--random"]),
+        (&["gauntlet", "--scenes", "--journal", "no/such"], &["there is no folder no"]),
+        (&["gauntlet", "--scenes", "--detail", "0.25"], &["wind_tunnel", "too small", "allowed"]),
         (&["gauntlet", "--shard", "3/2"], &["--shard", "allowed: K/N", "K from 1 to N"]),
         (&["sweep", "dam_break", "--out", "x", "--shard", "0/2"], &["--shard", "allowed: K/N"]),
         (&["sweep", "dam_break", "--out", "x", "--shard", "1/2", "--check"], &["--check", "--shard"]),

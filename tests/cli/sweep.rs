@@ -86,7 +86,7 @@ fn a_second_sweep_into_the_same_folder_is_refused() {
     fs::write(&journal, "a line\n").unwrap();
     let first = File::open(&journal).unwrap();
     first.lock().unwrap();
-    refused(&here, &SMALL_SWEEP, 2, &["runs.jsonl", "another sweep writes here", "allowed", "another --out"]);
+    refused(&here, &SMALL_SWEEP, 2, &["runs.jsonl", "another run writes here", "allowed", "another --out"]);
     assert_eq!(fs::read_to_string(&journal).unwrap(), "a line\n");
     drop(first);
     good(&here, &SMALL_SWEEP);

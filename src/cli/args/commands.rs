@@ -49,7 +49,7 @@ pub(in crate::cli) enum Command {
     Exam(CaseArguments<ExamCase>),
     /// Play a scene for hours by a script, and see that nothing grows or gets lost
     Soak(SoakArguments),
-    /// Run every hard case at each quality, or random worlds, and judge whether they stay stable
+    /// Run every hard case, or each scene of the gallery, at each quality, or random worlds, and judge whether they stay stable
     Gauntlet(GauntletArguments),
     /// Put the JSON of all shards of an exam or a gauntlet together
     Merge(MergeArguments),

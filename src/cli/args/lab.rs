@@ -3,8 +3,8 @@
 use super::{
     machine::Machine,
     values::{
-        Minutes, cap, case, detail, hours, particles, preset, rounds, seed, setting, shard, threads, ticks, warmup,
-        worlds,
+        Minutes, cap, case, detail, gallery_scene, hours, minutes, particles, preset, rounds, seed, setting, shard,
+        threads, ticks, warmup, worlds,
     },
 };
 use crate::{
@@ -126,7 +126,7 @@ pub(in crate::cli) struct CaseArguments<C: Case> {
     /// Cases at a time, each on one thread; they never change the result [default: one a processor]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
     pub(in crate::cli) threads: Option<u64>,
-    /// Run a part only: every Nth run (or random world) from the Kth on; `merge` puts the JSON of all parts together
+    /// Run a part only: every Nth run (or random world, or scene at a quality) from the Kth on; `merge` puts the JSON of all parts together
     #[arg(long, value_name = "K/N", value_parser = shard)]
     pub(in crate::cli) shard: Option<Shard>,
 }
@@ -138,13 +138,26 @@ pub(in crate::cli) struct GauntletArguments {
     pub(in crate::cli) cases: CaseArguments<GauntletCase>,
     /// Judge so many random worlds in place of the cases
     #[arg(long, value_name = "COUNT", allow_negative_numbers = true, value_parser = worlds,
-          conflicts_with_all = ["cases", "quick", "detail"])]
+          group = "worlds", conflicts_with_all = ["cases", "quick", "detail"])]
     pub(in crate::cli) random: Option<u64>,
+    /// Play scenes of the gallery for some minutes each by a script in place of the cases, and judge them as `soak` does: names of
+    /// `list scenes` [default: all]
+    #[arg(long, value_name = "SCENE", num_args = 0.., value_parser = gallery_scene, group = "worlds",
+          conflicts_with_all = ["cases", "quick"])]
+    pub(in crate::cli) scenes: Option<Vec<&'static str>>,
+    /// Simulated time of each scene, minutes, 1 to 60
+    #[arg(long, value_name = "N", default_value_t = 10, allow_negative_numbers = true, value_parser = minutes,
+          requires = "scenes")]
+    pub(in crate::cli) minutes: u64,
+    /// Keep each scene that is done in this file: the same command goes on with those that are not
+    #[arg(long, value_name = "FILE", requires = "scenes")]
+    pub(in crate::cli) journal: Option<PathBuf>,
     /// Count a tick that takes too long as a fault, too: on a machine that does nothing else
-    #[arg(long, conflicts_with = "random")]
+    #[arg(long, conflicts_with = "worlds")]
     pub(in crate::cli) timed: bool,
-    /// What the random worlds are made from: the same number, the same worlds [default: a new one, which is printed]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = seed, requires = "random")]
+    /// What the random worlds are made from: the same number, the same worlds [default: a new one, which is printed]; with
+    /// `--scenes` random choices of the player [default: 1]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = seed, requires = "worlds")]
     pub(in crate::cli) seed: Option<u64>,
     /// Folder for the random worlds that break a rule, made if it is needed [default: found]
     #[arg(long, value_name = "DIR", requires = "random")]

@@ -4,7 +4,7 @@ use crate::{
     kernel::{params::Preset, simd::InstructionSet, units::TICKS_PER_SECOND},
     lab::cases::{Case, Shard},
     scene::{
-        DETAIL,
+        self, DETAIL,
         effects::{Effect, Mode},
     },
 };
@@ -42,6 +42,19 @@ pub(in crate::cli) struct Minutes(pub(in crate::cli) u64);
 pub(super) fn hours(text: &str) -> Result<Minutes, String> {
     let allowed = || format!("allowed: hours from 1/60 (a minute) to {MOST_HOURS}");
     parts(text, 60.0, 60 * MOST_HOURS).map(Minutes).ok_or_else(allowed)
+}
+
+pub(super) fn gallery_scene(text: &str) -> Result<&'static str, String> {
+    let names = scene::builtin_names();
+    names.iter().copied().find(|name| *name == text).ok_or_else(|| format!("allowed: {}", names.join(", ")))
+}
+
+/// Longest soak of each scene of the gallery, minutes. What goes on is judged by its memory, too, and so needs a process of its
+/// own.
+const MOST_MINUTES: u64 = 60;
+
+pub(super) fn minutes(text: &str) -> Result<u64, String> {
+    number(text, WHOLE, 1..=MOST_MINUTES)
 }
 
 /// A number of wholes as parts, from one to `most` of them.

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::{
     collections::BTreeMap,
     fs::{File, OpenOptions, TryLockError},
-    io::{self, Read, Write},
+    io::{self, Read, Seek, Write},
     path::Path,
 };
 
@@ -24,8 +24,8 @@ struct Line<R> {
 /// Why a journal can't be had.
 #[derive(Debug, thiserror::Error)]
 pub enum OpenError {
-    /// Another sweep writes it.
-    #[error("another sweep writes here")]
+    /// Another run writes it.
+    #[error("another run writes here")]
     InUse,
     /// It can't be read or written.
     #[error(transparent)]
@@ -51,7 +51,21 @@ impl JournalFile {
             Err(TryLockError::Error(error)) => Err(OpenError::Io(error)),
         }
     }
+
+    /// Whether it holds something else: it does not begin as lines do.
+    ///
+    /// # Errors
+    /// If it can't be read.
+    pub fn is_foreign(&mut self) -> io::Result<bool> {
+        let mut start = Vec::new();
+        Read::take(&mut self.0, BEGINNING.len() as u64).read_to_end(&mut start)?;
+        self.0.rewind()?;
+        Ok(!BEGINNING.starts_with(&start))
+    }
 }
+
+/// What each line begins with.
+const BEGINNING: &[u8] = b"{\"campaign\":";
 
 /// The runs of one campaign, and the file that they are kept in. A run is known by its setting and its round.
 pub struct Journal<R> {

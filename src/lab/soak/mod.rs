@@ -3,6 +3,7 @@
 //! creeps up.
 
 mod creep;
+pub mod gallery;
 mod journal;
 mod memory;
 mod period;
