@@ -147,10 +147,10 @@ pub(in crate::cli) struct GauntletArguments {
     pub(in crate::cli) scenes: Option<Vec<&'static str>>,
     /// Simulated time of each scene, minutes, 1 to 60
     #[arg(long, value_name = "N", default_value_t = 10, allow_negative_numbers = true, value_parser = minutes,
-          requires = "scenes")]
+          requires = "scenes", conflicts_with = "random")]
     pub(in crate::cli) minutes: u64,
     /// Keep each scene that is done in this file: the same command goes on with those that are not
-    #[arg(long, value_name = "FILE", requires = "scenes")]
+    #[arg(long, value_name = "FILE", requires = "scenes", conflicts_with = "random")]
     pub(in crate::cli) journal: Option<PathBuf>,
     /// Count a tick that takes too long as a fault, too: on a machine that does nothing else
     #[arg(long, conflicts_with = "worlds")]
@@ -160,7 +160,7 @@ pub(in crate::cli) struct GauntletArguments {
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = seed, requires = "worlds")]
     pub(in crate::cli) seed: Option<u64>,
     /// Folder for the random worlds that break a rule, made if it is needed [default: found]
-    #[arg(long, value_name = "DIR", requires = "random")]
+    #[arg(long, value_name = "DIR", requires = "random", conflicts_with = "scenes")]
     pub(in crate::cli) keep: Option<PathBuf>,
 }
 

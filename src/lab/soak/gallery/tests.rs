@@ -31,7 +31,7 @@ fn played(plan: &Plan, journal: Option<Journal<Row>>) -> (Tally, usize) {
     (tally, played.into_inner())
 }
 
-/// Each scene at one quality, in turn, with a sixteenth of its particles: 50 s on one core. A debug build has time for one in
+/// Each scene at one quality, in turn, with a sixteenth of its particles: a minute of a core. A debug build has time for one in
 /// five, and the command for ten minutes of all at every quality; `reference` takes as long as the five others together.
 #[test]
 #[cfg_attr(target_arch = "wasm32", ignore = "heavy: natively only")]
