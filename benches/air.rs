@@ -139,8 +139,8 @@ fn drag(c: &mut Criterion) {
     group.bench_function("of particles and air", |bencher| {
         let (mut air, mut particles) = (air.clone(), particles.clone());
         bencher.iter(|| {
-            air.meet(&water, &particles, Rousing::Gusts, team, 1.0e-6);
-            air.drag_along(&water, &mut particles, &mut later, 1, 1.0e-6);
+            air.meet(&water, &particles, &mut later, Rousing::Gusts, team, 1.0e-6);
+            air.drag_along(&mut particles, &mut later, team);
         });
     });
     group.finish();
