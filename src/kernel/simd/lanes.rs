@@ -154,11 +154,13 @@ impl<const N: usize> Lanes for Array<N> {
     }
 }
 
+/// The ends of the whole numbers of 32 bits that are numbers of single precision.
+pub(super) const ENDS: [f32; 2] = [i32::MIN as f32, 2_147_483_520.0];
+
 /// The nearest whole number, of two as near the one away from 0. What is beyond those of 32 bits counts as the end of them, what
 /// is not a number as the lowest.
 #[inline(always)]
 pub(crate) fn rounded(value: f32) -> i32 {
-    const ENDS: [f32; 2] = [i32::MIN as f32, 2_147_483_520.0];
     let away = value + if value < 0.0 { -0.5 } else { 0.5 };
     let away = if away > ENDS[0] { away } else { ENDS[0] };
     let away = if away < ENDS[1] { away } else { ENDS[1] };

@@ -4,7 +4,7 @@
 //! What needs AVX2 or AVX-512 is only used by passes that a function with that feature runs ([`super::set`]), into which all of
 //! this is inlined.
 
-use super::lanes::{Lanes, MOST_LANES, too_short};
+use super::lanes::{ENDS, Lanes, MOST_LANES, too_short};
 use core::arch::x86_64::{
     __m128, __m128i, __m256, __m256i, __m512, __m512i, _CMP_LT_OQ, _mm_add_epi32, _mm_add_ps, _mm_and_ps,
     _mm_andnot_ps, _mm_cmplt_ps, _mm_cvttps_epi32, _mm_div_ps, _mm_loadu_ps, _mm_loadu_si128, _mm_max_ps, _mm_min_ps,
@@ -16,9 +16,6 @@ use core::arch::x86_64::{
     _mm512_mul_ps, _mm512_set1_ps, _mm512_sqrt_ps, _mm512_storeu_ps, _mm512_storeu_si512, _mm512_sub_ps,
 };
 use std::ops::{Add, Div, Mul, Sub};
-
-/// The ends of the whole numbers of 32 bits that are numbers of single precision.
-const ENDS: [f32; 2] = [i32::MIN as f32, 2_147_483_520.0];
 
 /// Lanes in some registers, by the intrinsics for each. `$k`: which registers.
 macro_rules! registers {
