@@ -34,7 +34,6 @@ fn played(plan: &Plan, journal: Option<Journal<Row>>) -> (Tally, usize) {
 /// Each scene at one quality, in turn, with a sixteenth of its particles: a minute of a core. A debug build has time for one in
 /// five, and the command for ten minutes of all at every quality; `reference` takes as long as the five others together.
 #[test]
-#[cfg_attr(target_arch = "wasm32", ignore = "heavy: natively only")]
 fn every_scene_is_sound() {
     const IN_TURN: [Preset; 5] = [Preset::Classic, Preset::Draft, Preset::Fast, Preset::Balanced, Preset::Fine];
     // Its emitters of smoke are as wide as a particle of its own.
