@@ -23,10 +23,7 @@ use super::{
     units::HOTTEST,
     walls::Walls,
 };
-use crate::{
-    parallel::{Team, WORTH_A_PIECE, spread},
-    simd::MOST_LANES,
-};
+use crate::parallel::{Team, WORTH_A_PIECE, spread};
 
 /// Most steps of a tick.
 const MOST_STEPS: f32 = 8.0;
@@ -117,19 +114,7 @@ impl Exchange {
         let Self { kelvin, conduction, allowance, surface, gained, given, .. } = self;
         let (kelvin, conduction, allowance, surface) = (&kelvin[..], &conduction[..], &allowance[..], &surface[..]);
         spread([&mut gained[..], &mut given[..]], PIECE, team.threads, &|base, out| {
-            let sums = &mut [0; MOST_LANES];
-            team.instructions.run(Flow {
-                lumps,
-                table,
-                rates,
-                kelvin,
-                conduction,
-                allowance,
-                surface,
-                sums,
-                base,
-                out,
-            });
+            team.instructions.run(Flow { lumps, table, rates, kelvin, conduction, allowance, surface, base, out });
         });
     }
 

@@ -115,8 +115,6 @@ pub(super) struct Flow<'a> {
     pub conduction: &'a [f32],
     pub allowance: &'a [f32],
     pub surface: &'a [f32],
-    /// Room for the sums of a group. Sums that the compiler would rather keep in registers it takes apart.
-    pub sums: &'a mut [i32; MOST_LANES],
     /// The first lump of those that are written.
     pub base: usize,
     /// Out: what they gain from pairs, and give to the air, quanta.
@@ -126,25 +124,25 @@ pub(super) struct Flow<'a> {
 impl Pass for Flow<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { lumps, table, rates, kelvin, conduction, allowance, surface, sums, base, out: [gained, given] } =
-            self;
+        let Self { lumps, table, rates, kelvin, conduction, allowance, surface, base, out: [gained, given] } = self;
         gained.fill(0);
         given.fill(0);
         for group in groups(lumps, base..base + gained.len(), L::WIDTH) {
             let places = Places::<L>::load(lumps, &group);
             let own = |field: &[f32]| L::load(&field[group.lumps.clone()]);
             let (own_kelvin, own_conduction, most) = (own(kelvin), own(conduction), own(allowance));
-            sums.fill(0);
+            let mut sums = L::no_sums();
             for run in &group.around {
                 for j in run.clone() {
                     let share = L::splat(allowance[j]).min(most);
                     // The product of both comes first, so that the other lump finds the same to the bit.
                     let rate = own_conduction * L::splat(conduction[j]) * L::splat(rates.pairs) * share;
                     let flow = rate * places.weights_of(lumps, j) * (L::splat(kelvin[j]) - own_kelvin);
-                    flow.add_rounded(sums);
+                    sums = flow.add_rounded(sums);
                 }
             }
-            gained[group.lumps.start - base..group.lumps.end - base].copy_from_slice(&sums[..group.lumps.len()]);
+            gained[group.lumps.start - base..group.lumps.end - base]
+                .copy_from_slice(&L::sums(sums)[..group.lumps.len()]);
             for i in group.lumps.filter(|i| lumps.flows_at(*i)) {
                 let open = rates.air * surface[i];
                 let held = table.curve(lumps.element[i]).least_capacity() / QUANTUM;

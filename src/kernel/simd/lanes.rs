@@ -40,9 +40,18 @@ pub(crate) trait Lanes:
     /// `if self < other { yes } else { no }` in each lane.
     fn if_less(self, other: Self, yes: Self, no: Self) -> Self;
 
+    /// Sums of whole numbers, one a lane.
+    type Sums: Copy;
+
+    /// Sums of nothing.
+    fn no_sums() -> Self::Sums;
+
     /// Adds the nearest whole number of each lane, of two as near the one away from 0, to the sum of that lane. So `x` and `-x`
     /// come to 0. Sums wrap; what is beyond 32 bits counts as the end of them.
-    fn add_rounded(self, sums: &mut [i32; MOST_LANES]);
+    fn add_rounded(self, sums: Self::Sums) -> Self::Sums;
+
+    /// The sums of the lanes; beyond them 0.
+    fn sums(sums: Self::Sums) -> [i32; MOST_LANES];
 
     /// Magnitude of each lane.
     #[inline(always)]
@@ -84,6 +93,7 @@ operator!(Div div [<const N: usize>] Array<N>, |a, b| a / b);
 
 impl<const N: usize> Lanes for Array<N> {
     const WIDTH: usize = N;
+    type Sums = [i32; N];
 
     #[inline(always)]
     fn splat(value: f32) -> Self {
@@ -147,10 +157,20 @@ impl<const N: usize> Lanes for Array<N> {
     }
 
     #[inline(always)]
-    fn add_rounded(self, sums: &mut [i32; MOST_LANES]) {
-        for lane in 0..N {
-            sums[lane] = sums[lane].wrapping_add(rounded(self.0[lane]));
-        }
+    fn no_sums() -> Self::Sums {
+        [0; N]
+    }
+
+    #[inline(always)]
+    fn add_rounded(self, sums: Self::Sums) -> Self::Sums {
+        std::array::from_fn(|lane| sums[lane].wrapping_add(rounded(self.0[lane])))
+    }
+
+    #[inline(always)]
+    fn sums(sums: Self::Sums) -> [i32; MOST_LANES] {
+        let mut all = [0; MOST_LANES];
+        all[..N].copy_from_slice(&sums);
+        all
     }
 }
 

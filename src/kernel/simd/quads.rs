@@ -1,10 +1,10 @@
 //! Lanes for the browser: four numbers to a 128-bit register of WebAssembly. Left to plain arrays the compiler puts too
 //! few of the operations into registers: a pass takes two to three times as long.
 
-use super::lanes::{Lanes, MOST_LANES, operator, too_short};
+use super::lanes::{ENDS, Lanes, MOST_LANES, operator, too_short};
 use core::arch::wasm32::{
     f32x4_add, f32x4_div, f32x4_lt, f32x4_mul, f32x4_pmax, f32x4_pmin, f32x4_splat, f32x4_sqrt, f32x4_sub, i32x4_add,
-    i32x4_trunc_sat_f32x4, v128, v128_bitselect, v128_load, v128_store,
+    i32x4_splat, i32x4_trunc_sat_f32x4, v128, v128_bitselect, v128_load, v128_store,
 };
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -43,6 +43,7 @@ operator!(Div div [] Quads, |a, b| f32x4_div(a, b));
 
 impl Lanes for Quads {
     const WIDTH: usize = 8;
+    type Sums = [v128; 2];
 
     #[inline(always)]
     fn splat(value: f32) -> Self {
@@ -110,13 +111,28 @@ impl Lanes for Quads {
     }
 
     #[inline(always)]
-    fn add_rounded(self, sums: &mut [i32; MOST_LANES]) {
+    fn no_sums() -> Self::Sums {
+        [i32x4_splat(0); 2]
+    }
+
+    #[inline(always)]
+    fn add_rounded(self, sums: Self::Sums) -> Self::Sums {
         let (zero, half) = (Self::splat(0.0), Self::splat(0.5));
         let away = self + self.if_less(zero, zero - half, half);
-        let at: *mut v128 = sums.as_mut_ptr().cast();
-        for (k, quad) in away.0.into_iter().enumerate() {
-            // SAFETY: the sums are four registers, and WebAssembly loads from and stores to any address.
-            unsafe { v128_store(at.add(k), i32x4_add(v128_load(at.add(k)), i32x4_trunc_sat_f32x4(quad))) };
+        // What is not a number becomes the lowest.
+        let away = away.max(Self::splat(ENDS[0])).min(Self::splat(ENDS[1]));
+        let add = |k: usize| i32x4_add(sums[k], i32x4_trunc_sat_f32x4(away.0[k]));
+        [add(0), add(1)]
+    }
+
+    #[inline(always)]
+    fn sums(sums: Self::Sums) -> [i32; MOST_LANES] {
+        let mut all = [0; MOST_LANES];
+        let at: *mut v128 = all.as_mut_ptr().cast();
+        for (k, quad) in sums.into_iter().enumerate() {
+            // SAFETY: the sums fill two of four registers, and WebAssembly stores to any address.
+            unsafe { v128_store(at.add(k), quad) };
         }
+        all
     }
 }

@@ -52,6 +52,7 @@ macro_rules! registers {
 
         impl Lanes for $Lanes {
             const WIDTH: usize = [$($k),+].len() * $per;
+            type Sums = [$Whole; [$($k),+].len()];
 
             #[inline(always)]
             fn splat(value: f32) -> Self {
@@ -128,16 +129,30 @@ macro_rules! registers {
             }
 
             #[inline(always)]
-            fn add_rounded(self, sums: &mut [i32; MOST_LANES]) {
+            fn no_sums() -> Self::Sums {
+                let zeros = [0_i32; Self::WIDTH];
+                let at: *const $Whole = zeros.as_ptr().cast();
+                // SAFETY: as in `from_array`.
+                unsafe { [$($load_whole(at.add($k))),+] }
+            }
+
+            #[inline(always)]
+            fn add_rounded(self, sums: Self::Sums) -> Self::Sums {
                 let (zero, half) = (Self::splat(0.0), Self::splat(0.5));
                 let away = self + self.if_less(zero, zero - half, half);
                 // What is not a number becomes the lowest.
                 let away = away.max(Self::splat(ENDS[0])).min(Self::splat(ENDS[1]));
-                let at: *mut $Whole = sums.as_mut_ptr().cast();
-                // SAFETY: as in `splat`; the sums fill as many registers and more, and these load from and store to any address.
-                unsafe {
-                    $($store_whole(at.add($k), $add_whole($load_whole(at.add($k)), $truncate(away.0[$k]))));+
-                }
+                // SAFETY: as in `splat`.
+                unsafe { [$($add_whole(sums[$k], $truncate(away.0[$k]))),+] }
+            }
+
+            #[inline(always)]
+            fn sums(sums: Self::Sums) -> [i32; MOST_LANES] {
+                let mut all = [0; MOST_LANES];
+                let at: *mut $Whole = all.as_mut_ptr().cast();
+                // SAFETY: there is room for as many registers and more, and these store to any address.
+                unsafe { $($store_whole(at.add($k), sums[$k]));+ }
+                all
             }
         }
     };

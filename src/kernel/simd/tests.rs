@@ -18,8 +18,7 @@ impl Pass for All<'_> {
             let (a, b) = (L::load(&self.a[first..]), L::load(&self.b[first..]));
             let results =
                 [a + b, a - b, a * b, a / b, a.max(b), a.min(b), a.sqrt(), a.if_less(b, b, L::splat(7.0)), a.abs()];
-            let mut sums = [i32::MAX - 1; MOST_LANES];
-            a.add_rounded(&mut sums);
+            let sums = L::sums(b.add_rounded(a.add_rounded(L::no_sums())));
             let out = self.out[first..].iter_mut().take(L::WIDTH);
             for (lane, out) in out.enumerate() {
                 for (out, result) in out.iter_mut().zip(results) {
