@@ -9,16 +9,23 @@ fn backdrop_fragment(in: Screen) -> @location(0) vec4<f32> {
     // Darker towards the frame.
     let deep = 1.0 + max(-out_pixels, 0.0) / 18.0;
     inside *= 1.0 - 0.22 / (deep * deep);
+#ifdef GLOW
     // What glows lights the haze around it.
     let haze = light_at(point);
     inside += haze * (0.16 + 0.5 * inside);
-    let air = textureSampleLevel(air_texture, linear_sampler, point / world.extent.zw, 0.0) * world.pen.z;
+#endif
+#ifdef AIR
+    let air = textureSampleLevel(air_texture, linear_sampler, point / world.extent.zw, 0.0);
     inside = inside * (1.0 - air.a) + air.rgb;
+#endif
+#ifdef GLOW
+    inside = exposed_to(inside);
+#endif
     let far = 1.0 + max(out_pixels - 2.0, 0.0) / 7.0;
     let around = world.surroundings.rgb * (1.0 - 0.45 / (far * far));
     let border = smoothstep(-0.5, 0.5, out_pixels);
     let beyond = smoothstep(1.5, 2.5, out_pixels);
-    let rgb = mix(mix(exposed_to(inside), world.frame.rgb, border), around, beyond);
+    let rgb = mix(mix(inside, world.frame.rgb, border), around, beyond);
     return vec4<f32>(to_linear(rgb + dither(in.position.xy)), 1.0);
 }
 

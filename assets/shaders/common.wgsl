@@ -1,5 +1,7 @@
 // What all passes of the picture share: the numbers of a frame, the way between the world and the window, colour.
 //
+// AIR, GLOW, RICH and MORE are defined where the picture has that (src/game/render/features.rs).
+//
 // Colours come as sRGB and are turned to linear light at the very end of each pass.
 
 struct World {
@@ -13,12 +15,10 @@ struct World {
     fine_extent: vec4<f32>,
     // Pixels of one d; opacity of the matter; 1 if it is shaded by depth and light, else 0; most that depth darkens.
     look: vec4<f32>,
-    // Radius of a particle's soft disc, d; half-width of a streak, pixels; 1 if the air is shown; scale of lines.
+    // Radius of a particle's soft disc, d; half-width of a streak, pixels; unused; scale of lines.
     pen: vec4<f32>,
-    // Radius of a lump of gas, d; edge of a tile, d; liquids in the channels; time that moves what drifts by itself, s.
+    // Radius of a lump of gas, d; edge of a tile, d; unused; time that moves what drifts by itself, s.
     parts: vec4<f32>,
-    // 1 if the picture is drawn with all it has, 0 if it is plain; 1 if anything glows; unused; unused.
-    levels: vec4<f32>,
     // Of the ring of a lens: its middle and radius, pixels; unused.
     lens: vec4<f32>,
     surroundings: vec4<f32>,
@@ -88,18 +88,20 @@ fn outside_box(point: vec2<f32>) -> f32 {
 
 // Light that hot things throw on a point.
 fn light_at(point: vec2<f32>) -> vec3<f32> {
-    if world.levels.y == 0.0 {
-        return vec3<f32>(0.0);
-    }
+#ifdef GLOW
     return textureSampleLevel(light_texture, linear_sampler, point / world.fine_extent.zw, 0.0).rgb;
+#else
+    return vec3<f32>(0.0);
+#endif
 }
 
 // Light that the matter at a point gives off itself.
 fn glow_at(point: vec2<f32>) -> vec3<f32> {
-    if world.levels.y == 0.0 {
-        return vec3<f32>(0.0);
-    }
+#ifdef GLOW
     return textureSampleLevel(glow_texture, linear_sampler, point / world.fine_extent.xy, 0.0).rgb;
+#else
+    return vec3<f32>(0.0);
+#endif
 }
 
 // Noise at a point, `scale` d to a period: two smooth channels, a grainy one, one of cells.

@@ -37,10 +37,10 @@ fn cloud_fragment(in: Tile) -> @location(0) vec4<f32> {
     let rise = vec2<f32>(0.0, world.parts.w * 9.0);
     var point = in.point;
     let wisps = noise_at(in.point - 0.7 * rise, 31.0);
-    if world.levels.x > 0.0 {
-        let swirl = noise_at(in.point - rise, 24.0);
-        point += (swirl.rg - 0.5) * 3.4;
-    }
+#ifdef RICH
+    let swirl = noise_at(in.point - rise, 24.0);
+    point += (swirl.rg - 0.5) * 3.4;
+#endif
     let field = textureSampleLevel(gas_texture, linear_sampler, uv_of(point), 0.0);
     let sum = max(max(field.r, max(field.g, field.b)), field.a);
     let peak = 1.0 - exp2(-6.0 * sum);

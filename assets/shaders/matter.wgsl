@@ -74,10 +74,10 @@ fn stronger(found: Mix, number: i32, value: f32) -> Mix {
 fn union_at(uv: vec2<f32>) -> f32 {
     let field = textureSampleLevel(field_texture, linear_sampler, uv, 0.0).rgb;
     var clear = (1.0 - field.r) * (1.0 - field.g) * (1.0 - field.b);
-    if world.parts.z > 2.0 {
-        let more = vec4<f32>(1.0) - textureSampleLevel(more_texture, linear_sampler, uv, 0.0);
-        clear *= more.r * more.g * more.b * more.a;
-    }
+#ifdef MORE
+    let more = vec4<f32>(1.0) - textureSampleLevel(more_texture, linear_sampler, uv, 0.0);
+    clear *= more.r * more.g * more.b * more.a;
+#endif
     return 1.0 - clear;
 }
 
@@ -94,13 +94,13 @@ fn surface_fragment(in: Tile) -> @location(0) vec4<f32> {
     found = stronger(found, -1, field.r);
     found = stronger(found, 0, field.g);
     found = stronger(found, 1, field.b);
-    if world.parts.z > 2.0 {
-        let more = textureSampleLevel(more_texture, linear_sampler, uv, 0.0);
-        found = stronger(found, 2, more.r);
-        found = stronger(found, 3, more.g);
-        found = stronger(found, 4, more.b);
-        found = stronger(found, 5, more.a);
-    }
+#ifdef MORE
+    let more = textureSampleLevel(more_texture, linear_sampler, uv, 0.0);
+    found = stronger(found, 2, more.r);
+    found = stronger(found, 3, more.g);
+    found = stronger(found, 4, more.b);
+    found = stronger(found, 5, more.a);
+#endif
     let body = textureSampleLevel(body_texture, linear_sampler, in.point / world.fine_extent.xy, 0.0);
     // Gaps of less than a particle in the middle of matter are no holes.
     let bulk = smoothstep(0.80, 0.95, body.a);
@@ -127,7 +127,8 @@ fn surface_fragment(in: Tile) -> @location(0) vec4<f32> {
 
     // The surface catches light from above and a little from the left; what is inside does not.
     var slope = steep;
-    if world.levels.x > 0.0 && bulk < 0.99 {
+#ifdef RICH
+    if bulk < 0.99 {
         let step = 0.42 / world.size.zw * max(world.look.x, 1.0);
         let left = union_at(uv - vec2<f32>(step.x, 0.0));
         let right = union_at(uv + vec2<f32>(step.x, 0.0));
@@ -135,6 +136,7 @@ fn surface_fragment(in: Tile) -> @location(0) vec4<f32> {
         let below = union_at(uv + vec2<f32>(0.0, step.y));
         slope = vec2<f32>(left - right, below - above);
     }
+#endif
     let facing = dot(slope, vec2<f32>(-0.30, 0.95)) / max(length(slope), 0.12);
     let rim = (1.0 - smoothstep(SURFACE, 0.93, alpha)) * (1.0 - bulk) * liquid;
     let edge = 1.0 - smoothstep(SURFACE, 0.72, alpha);
@@ -144,16 +146,15 @@ fn surface_fragment(in: Tile) -> @location(0) vec4<f32> {
     // Foam is white at the surface; deeper it is bubbles that only make the liquid paler.
     let white = smoothstep(0.05, 0.75, field.a) * f32(found.owner >= 0) * (0.86 - 0.55 * bulk * min(2.0 * shade, 1.0));
     rgb = mix(rgb, vec3<f32>(0.88, 0.94, 0.98) * (1.0 - 0.3 * shade), white);
+#ifdef GLOW
     let lit = light_at(in.point);
     // The map of glow is coarse: what is cold beside what glows stays as it is.
     let glow = glow_at(in.point) * kind.a;
     let own = max(glow.r, max(glow.g, glow.b));
     // Crust drifts on what glows.
-    var crust = 1.0;
-    if world.levels.y > 0.0 {
-        let drift = noise_at(in.point + vec2<f32>(0.0, world.parts.w * 0.4), 34.0).g;
-        crust -= 0.45 * own * smoothstep(0.45, 0.75, drift);
-    }
+    let drift = noise_at(in.point + vec2<f32>(0.0, world.parts.w * 0.4), 34.0).g;
+    let crust = 1.0 - 0.45 * own * smoothstep(0.45, 0.75, drift);
     rgb = (rgb * (1.0 + 1.1 * lit) + 0.10 * lit) * (1.0 - own) + glow * crust;
+#endif
     return vec4<f32>(to_linear(exposed_to(rgb)), cover * world.look.y);
 }

@@ -57,8 +57,11 @@ fn rock_fragment(in: Tile) -> @location(0) vec4<f32> {
     if stone.a == 0.0 {
         discard;
     }
+    var rgb = stone.rgb;
+#ifdef GLOW
     let glow = glow_at(in.point);
     let own = max(glow.r, max(glow.g, glow.b));
-    let rgb = stone.rgb * (1.0 + 1.8 * light_at(in.point)) * (1.0 - own) + glow * (0.6 + stone.g);
-    return vec4<f32>(to_linear(exposed_to(rgb)), stone.a);
+    rgb = exposed_to(rgb * (1.0 + 1.8 * light_at(in.point)) * (1.0 - own) + glow * (0.6 + rgb.g));
+#endif
+    return vec4<f32>(to_linear(rgb), stone.a);
 }

@@ -69,9 +69,14 @@ impl PicturePass {
             Self::Enlarged => "enlarged",
         }
     }
+
+    /// Whether it goes over the whole screen.
+    pub fn is_over_all(self) -> bool {
+        matches!(self, Self::Backdrop | Self::Lens | Self::Enlarged)
+    }
 }
 
-/// A pass that is drawn more than once in each frame, so that what it costs can be told; none in play.
+/// A pass that is drawn more than once in each frame, or not at all, so that what it costs can be told; none in play.
 #[derive(Resource, Clone, Copy, Debug, Default)]
 pub struct Repeat(pub Option<(PicturePass, u32)>);
 

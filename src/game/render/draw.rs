@@ -5,7 +5,7 @@ use crate::game::render::{
     extract::Pictures,
     gpu::{GpuPicture, GpuPictures, Stone},
     picture::Picture,
-    pipelines::{Ids, Pipelines},
+    pipelines::{Ids, Pipelines, Variants},
 };
 use bevy::{
     prelude::Res,
@@ -13,7 +13,7 @@ use bevy::{
         render_phase::TrackedRenderPass,
         render_resource::{
             BindGroup, Buffer, CachedRenderPipelineId, LoadOp, Operations, PipelineCache, RenderPassColorAttachment,
-            RenderPassDescriptor, StoreOp, TextureView,
+            RenderPassDescriptor, RenderPipeline, StoreOp, TextureView,
         },
         renderer::{RenderContext, ViewQuery},
         view::ViewTarget,
@@ -156,24 +156,25 @@ impl<'a> Pane<'a> {
 
     fn draw(&self, pass: &mut TrackedRenderPass<'a>, with: With<'a>) {
         let (picture, ids) = (self.picture, with.ids);
+        let fitting = |of: &Variants| of.fitting(picture.features, with.cache);
         if !self.confine(pass) {
             return;
         }
         self.bind(pass);
-        with.screen(pass, PicturePass::Backdrop, ids.backdrop);
+        with.screen(pass, PicturePass::Backdrop, fitting(&ids.backdrop));
         let tiles = &picture.tiles;
         let streaks = all!(picture.streaks);
         if !picture.streaks_on_top {
             with.instances(pass, PicturePass::Streaks, ids.streaks, streaks);
         }
-        let surface = if picture.as_it_is { ids.surface } else { ids.shape };
+        let surface = if picture.as_it_is { fitting(&ids.surface) } else { Some(ids.shape) };
         with.instances(pass, PicturePass::Surface, surface, all!(tiles.bodies));
         with.instances(pass, PicturePass::Grains, ids.grain, all!(picture.matter.grains));
         if let Some(group) = &self.stone.sheet.group {
             pass.set_bind_group(2, group, &[]);
-            with.instances(pass, PicturePass::Rock, ids.rock, all!(tiles.rock));
+            with.instances(pass, PicturePass::Rock, fitting(&ids.rock), all!(tiles.rock));
         }
-        with.instances(pass, PicturePass::Clouds, ids.cloud, all!(tiles.gases));
+        with.instances(pass, PicturePass::Clouds, fitting(&ids.cloud), all!(tiles.gases));
         if picture.streaks_on_top {
             with.instances(pass, PicturePass::Streaks, ids.streaks, streaks);
         }
@@ -198,15 +199,20 @@ fn into<'a>(context: &'a mut RenderContext<'_, '_>, label: &'static str, view: &
 #[derive(Clone, Copy)]
 struct With<'a> {
     cache: &'a PipelineCache,
-    ids: Ids,
+    ids: &'a Ids,
     cost: &'a RenderCost,
     repeat: Repeat,
 }
 
 impl<'a> With<'a> {
+    /// A pipeline, if there is one and it is ready.
+    fn pipeline(self, id: impl Into<Option<CachedRenderPipelineId>>) -> Option<&'a RenderPipeline> {
+        self.cache.get_render_pipeline(id.into()?)
+    }
+
     /// Draws something over the whole screen.
-    fn screen(self, pass: &mut TrackedRenderPass<'a>, of: PicturePass, id: CachedRenderPipelineId) {
-        if let Some(pipeline) = self.cache.get_render_pipeline(id) {
+    fn screen(self, pass: &mut TrackedRenderPass<'a>, of: PicturePass, id: impl Into<Option<CachedRenderPipelineId>>) {
+        if let Some(pipeline) = self.pipeline(id) {
             pass.set_render_pipeline(pipeline);
             (0..self.repeat.times(of)).for_each(|_| pass.draw(0..3, 0..1));
             self.cost.note(of, 1);
@@ -218,10 +224,10 @@ impl<'a> With<'a> {
         self,
         pass: &mut TrackedRenderPass<'a>,
         of: PicturePass,
-        id: CachedRenderPipelineId,
+        id: impl Into<Option<CachedRenderPipelineId>>,
         (buffer, count): (Option<&'a Buffer>, usize),
     ) {
-        if let (Some(pipeline), Some(buffer), true) = (self.cache.get_render_pipeline(id), buffer, count > 0) {
+        if let (Some(pipeline), Some(buffer), true) = (self.pipeline(id), buffer, count > 0) {
             pass.set_render_pipeline(pipeline);
             pass.set_vertex_buffer(0, buffer.slice(..));
             (0..self.repeat.times(of)).for_each(|_| pass.draw(0..4, 0..count as u32));

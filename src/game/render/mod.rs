@@ -7,15 +7,18 @@
 //! ```
 //! `extract` copies what a frame needs out of a world (a `scene`, and how it is looked at) into a `picture`: `matter` (or in the
 //! views that show a number `particles`), `rock` and `air` in the layout that the graphics read, `body` and `glow` as maps that the
-//! shaders look at, `tiles` where there is anything at all; `level` says how much of it the graphics can do in time; `moved` knows
-//! where things were between two ticks, `look` which element is drawn how, `noise` is a texture that never changes. `gpu` uploads
-//! it; `draw` draws it before the HUD. `offscreen` draws without a window, for `bench frame` and tests. `tracers` make wind visible. Everything here runs on WebGL2: no storage buffers, no compute, targets of eight bits.
+//! shaders look at, `tiles` where there is anything at all, `features` what its passes can't leave out; `level` says how much of it
+//! the graphics can do in time; `moved` knows where things were between two ticks, `look` which element is drawn how, `noise` is a
+//! texture that never changes. `gpu` uploads it; `pipelines` has what its features ask for; `draw` draws it before the HUD.
+//! `offscreen` draws without a window, for `bench frame` and tests. `tracers` make wind visible. Everything here runs on WebGL2: no
+//! storage buffers, no compute, targets of eight bits.
 
 pub mod air;
 pub mod body;
 pub mod cost;
 pub mod draw;
 pub mod extract;
+pub mod features;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod film;
 #[cfg(not(target_arch = "wasm32"))]

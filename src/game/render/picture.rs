@@ -6,6 +6,7 @@ use crate::{
         render::{
             air::{self, Streak},
             body::BodyMap,
+            features::Features,
             glow::{GlowMap, Warmth},
             level::Level,
             look::{Finish, Looks},
@@ -59,6 +60,8 @@ pub struct Picture {
     pub is_lens: bool,
     /// The shader's numbers.
     pub uniform: WorldUniform,
+    /// What it has that not all pictures have.
+    pub features: Features,
     /// Movable particles, in the views that colour them one by one.
     pub particles: RawBufferVec<ParticleInstance>,
     /// Matter, in the view that shows it as it is.
@@ -109,6 +112,7 @@ impl Default for Picture {
             part: None,
             is_lens: false,
             uniform: WorldUniform::default(),
+            features: Features::default(),
             particles: RawBufferVec::new(BufferUsages::VERTEX),
             matter: Matter::default(),
             tiles: PictureTiles::default(),
@@ -340,14 +344,8 @@ impl Picture {
             extent: two(self.depth.extent().max(Vec2::ONE), air_extent),
             fine_extent: two(self.body.extent().max(Vec2::ONE), self.glow.light_extent().max(Vec2::ONE)),
             look: Vec4::new(self.pixels_per_d, dim, f32::from(view.shaded), colours::DEPTH_SHADE),
-            pen: Vec4::new(DISC_RADIUS, 1.5 * lines, f32::from(!matches!(view.air, Layer::Nothing)), lines),
-            parts: Vec4::new(GAS_RADIUS, TILE, self.matter.colours().len() as f32, sight.time),
-            levels: Vec4::new(
-                f32::from(self.level.is_rich()),
-                f32::from(self.as_it_is && self.glow.shines()),
-                0.0,
-                0.0,
-            ),
+            pen: Vec4::new(DISC_RADIUS, 1.5 * lines, 0.0, lines),
+            parts: Vec4::new(GAS_RADIUS, TILE, 0.0, sight.time),
             lens: ring.map_or(Vec4::ZERO, |ring| two(ring.centre, Vec2::new(ring.radius, 0.0)) * scale),
             surroundings: srgb(colours::SURROUNDINGS),
             box_top: srgb(colours::BOX_TOP),
@@ -356,6 +354,12 @@ impl Picture {
             abyss: srgb(colours::ABYSS),
             liquids: std::array::from_fn(|channel| Vec4::from(self.matter.liquid(channel))),
         };
+        self.features = Features::of([
+            (Features::AIR, !self.air.0.is_empty()),
+            (Features::GLOW, self.as_it_is && self.glow.shines()),
+            (Features::RICH, self.level.is_rich()),
+            (Features::MORE, !self.matter.more.is_empty()),
+        ]);
         self.bake = self.rock_new || seen != (self.size, self.uniform.to_clip);
     }
 }

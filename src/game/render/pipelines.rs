@@ -1,6 +1,6 @@
 //! The pipelines of the picture, made for the format of the window's target.
 
-use crate::game::render::uniform::WorldUniform;
+use crate::game::render::{extract::Pictures, features::Features, uniform::WorldUniform};
 use bevy::{
     asset::Handle,
     mesh::VertexBufferLayout,
@@ -65,11 +65,26 @@ pub struct Layouts {
     pub repeating: Sampler,
 }
 
+/// A pass over many pixels, with a pipeline for each set of features that pictures had so far.
+pub struct Variants {
+    /// What it asks pictures for.
+    reads: Features,
+    made: Vec<(Features, CachedRenderPipelineId)>,
+}
+
+impl Variants {
+    /// The pipeline for a picture of these features; until it is ready, the one that is most like it, if any is.
+    pub fn fitting(&self, features: Features, cache: &PipelineCache) -> Option<CachedRenderPipelineId> {
+        let features = features.and(self.reads);
+        let ready = self.made.iter().filter(|(_, id)| cache.get_render_pipeline(*id).is_some());
+        ready.max_by_key(|(of, _)| (*of == features, of.and(features).count())).map(|(_, id)| *id)
+    }
+}
+
 /// The pipelines' ids in the cache.
-#[derive(Clone, Copy)]
 pub struct Ids {
     /// Box and air.
-    pub backdrop: CachedRenderPipelineId,
+    pub backdrop: Variants,
     /// Coloured particles into the first field.
     pub coloured: CachedRenderPipelineId,
     /// What comes of them.
@@ -79,17 +94,17 @@ pub struct Ids {
     /// Bodies into the second.
     pub more: CachedRenderPipelineId,
     /// The surface of the bodies.
-    pub surface: CachedRenderPipelineId,
+    pub surface: Variants,
     /// Grains.
     pub grain: CachedRenderPipelineId,
     /// Gases into their field.
     pub gas: CachedRenderPipelineId,
     /// What comes of them.
-    pub cloud: CachedRenderPipelineId,
+    pub cloud: Variants,
     /// Rock as the window shows it.
     pub stone: CachedRenderPipelineId,
     /// Rock in the light of the frame.
-    pub rock: CachedRenderPipelineId,
+    pub rock: Variants,
     /// Streaks of wind.
     pub streaks: CachedRenderPipelineId,
     /// What was drawn for the truth lens, in its ring.
@@ -104,13 +119,13 @@ pub struct Pipelines(Option<(TextureFormat, Ids)>);
 
 impl Pipelines {
     /// Their ids, once there are any.
-    pub fn ids(&self) -> Option<Ids> {
-        self.0.map(|(_, ids)| ids)
+    pub fn ids(&self) -> Option<&Ids> {
+        self.0.as_ref().map(|(_, ids)| ids)
     }
 
     /// The format that they are made for.
     pub fn format(&self) -> Option<TextureFormat> {
-        self.0.map(|(format, _)| format)
+        self.0.as_ref().map(|(format, _)| *format)
     }
 }
 
@@ -160,63 +175,111 @@ pub fn make_layouts(mut commands: Commands, device: Res<RenderDevice>) {
     });
 }
 
-/// Makes the pipelines when the window's format is known or has changed.
-pub fn prepare(
-    mut pipelines: ResMut<Pipelines>,
-    layouts: Res<Layouts>,
-    cache: Res<PipelineCache>,
-    shader: Res<WorldShader>,
-    targets: Query<&ViewTarget, With<ExtractedCamera>>,
-) {
-    let Some(format) = targets.iter().next().map(ViewTarget::main_texture_format) else { return };
-    if pipelines.0.is_some_and(|(of, _)| of == format) {
-        return;
-    }
-    // The pipeline of a quad for each instance of these formats, or of the whole screen if there are none.
-    let make = |vertex: &'static str, name: &'static str, instance: &[VertexFormat], format, blend| {
+/// How a pass is drawn: a quad for each instance of these formats, or the whole screen if there are none.
+struct Recipe {
+    vertex: &'static str,
+    name: &'static str,
+    instance: &'static [VertexFormat],
+    format: TextureFormat,
+    blend: Option<BlendState>,
+}
+
+/// What makes pipelines.
+struct Maker<'a> {
+    layouts: &'a Layouts,
+    cache: &'a PipelineCache,
+    shader: &'a WorldShader,
+}
+
+impl Maker<'_> {
+    fn make(&self, recipe: &Recipe, features: Features) -> CachedRenderPipelineId {
+        let Self { layouts, cache, shader } = self;
+        let Recipe { vertex, name, instance, format, blend } = *recipe;
         // The passes that draw into the fields must not have these bound.
         let textures = (!INTO_FIELDS.contains(&name)).then(|| layouts.textures.clone());
         let sheet = ["rock", "lens", "enlarged"].contains(&name).then(|| layouts.sheet.clone());
         let topology =
             if instance.is_empty() { PrimitiveTopology::TriangleList } else { PrimitiveTopology::TriangleStrip };
         let buffer = VertexBufferLayout::from_vertex_formats(VertexStepMode::Instance, instance.iter().copied());
+        let definitions = features.definitions();
         cache.queue_render_pipeline(RenderPipelineDescriptor {
             label: Some(name.into()),
             layout: [layouts.world.clone()].into_iter().chain(textures).chain(sheet).collect(),
             vertex: VertexState {
                 shader: shader.0.clone(),
-                shader_defs: vec![],
+                shader_defs: definitions.clone(),
                 entry_point: Some(format!("{vertex}_vertex").into()),
                 buffers: if instance.is_empty() { vec![] } else { vec![buffer] },
             },
             primitive: PrimitiveState { topology, ..PrimitiveState::default() },
             fragment: Some(FragmentState {
                 shader: shader.0.clone(),
-                shader_defs: vec![],
+                shader_defs: definitions,
                 entry_point: Some(format!("{name}_fragment").into()),
                 targets: vec![Some(ColorTargetState { format, blend, write_mask: ColorWrites::ALL })],
             }),
             ..RenderPipelineDescriptor::default()
         })
-    };
+    }
+
+    /// Makes what a picture of these features wants of a pass.
+    fn make_fitting(&self, of: &mut Variants, recipe: &Recipe, features: Features) {
+        let features = features.and(of.reads);
+        if of.made.iter().all(|(made, _)| *made != features) {
+            of.made.push((features, self.make(recipe, features)));
+        }
+    }
+}
+
+/// Makes the pipelines when the window's format is known or has changed, and those that a picture is the first to want.
+pub fn prepare(
+    mut pipelines: ResMut<Pipelines>,
+    layouts: Res<Layouts>,
+    cache: Res<PipelineCache>,
+    shader: Res<WorldShader>,
+    pictures: Res<Pictures>,
+    targets: Query<&ViewTarget, With<ExtractedCamera>>,
+) {
     use VertexFormat as F;
+    let Some(format) = targets.iter().next().map(ViewTarget::main_texture_format) else { return };
     let (alpha, premultiplied) = (BlendState::ALPHA_BLENDING, BlendState::PREMULTIPLIED_ALPHA_BLENDING);
-    let (point, tile) = ([F::Float32x2, F::Unorm8x4], [F::Uint16x2]);
-    let ids = Ids {
-        backdrop: make("screen", "backdrop", &[], format, None),
-        coloured: make("coloured", "coloured", &point, FIELD_FORMAT, Some(premultiplied)),
-        shape: make("tile", "shape", &tile, format, Some(alpha)),
-        body: make("body", "body", &point, FIELD_FORMAT, Some(UNION)),
-        more: make("body", "more", &point, FIELD_FORMAT, Some(UNION)),
-        surface: make("tile", "surface", &tile, format, Some(alpha)),
-        grain: make("grain", "grain", &point, format, Some(LIGHTER)),
-        gas: make("gas", "gas", &point, FIELD_FORMAT, Some(SUM)),
-        cloud: make("tile", "cloud", &tile, format, Some(premultiplied)),
-        stone: make("tile", "stone", &tile, FIELD_FORMAT, None),
-        rock: make("tile", "rock", &tile, format, Some(alpha)),
-        streaks: make("streak", "streak", &[F::Float32x4, F::Unorm8x4], format, Some(alpha)),
-        lens: make("screen", "lens", &[], format, Some(alpha)),
-        enlarged: make("screen", "enlarged", &[], format, None),
-    };
-    pipelines.0 = Some((format, ids));
+    let point: &[F] = &[F::Float32x2, F::Unorm8x4];
+    let tile: &[F] = &[F::Uint16x2];
+    let recipe = |vertex, name, instance, format, blend| Recipe { vertex, name, instance, format, blend };
+    let backdrop = recipe("screen", "backdrop", &[], format, None);
+    let surface = recipe("tile", "surface", tile, format, Some(alpha));
+    let cloud = recipe("tile", "cloud", tile, format, Some(premultiplied));
+    let rock = recipe("tile", "rock", tile, format, Some(alpha));
+    let maker = Maker { layouts: &layouts, cache: &cache, shader: &shader };
+    if pipelines.format() != Some(format) {
+        let make = |recipe: Recipe| maker.make(&recipe, Features::ALL);
+        let variants = |reads| Variants { reads, made: Vec::new() };
+        let ids = Ids {
+            backdrop: variants(Features::AIR.or(Features::GLOW)),
+            coloured: make(recipe("coloured", "coloured", point, FIELD_FORMAT, Some(premultiplied))),
+            shape: make(recipe("tile", "shape", tile, format, Some(alpha))),
+            body: make(recipe("body", "body", point, FIELD_FORMAT, Some(UNION))),
+            more: make(recipe("body", "more", point, FIELD_FORMAT, Some(UNION))),
+            surface: variants(Features::GLOW.or(Features::RICH).or(Features::MORE)),
+            grain: make(recipe("grain", "grain", point, format, Some(LIGHTER))),
+            gas: make(recipe("gas", "gas", point, FIELD_FORMAT, Some(SUM))),
+            cloud: variants(Features::GLOW.or(Features::RICH)),
+            stone: make(recipe("tile", "stone", tile, FIELD_FORMAT, None)),
+            rock: variants(Features::GLOW),
+            streaks: make(recipe("streak", "streak", &[F::Float32x4, F::Unorm8x4], format, Some(alpha))),
+            lens: make(recipe("screen", "lens", &[], format, Some(alpha))),
+            enlarged: make(recipe("screen", "enlarged", &[], format, None)),
+        };
+        pipelines.0 = Some((format, ids));
+    }
+    let Some((_, ids)) = &mut pipelines.0 else { return };
+    for picture in pictures.shown() {
+        let passes = [
+            (&mut ids.backdrop, &backdrop),
+            (&mut ids.surface, &surface),
+            (&mut ids.cloud, &cloud),
+            (&mut ids.rock, &rock),
+        ];
+        passes.into_iter().for_each(|(of, recipe)| maker.make_fitting(of, recipe, picture.features));
+    }
 }

@@ -14,7 +14,6 @@ pub struct WorldUniform {
     pub(super) look: Vec4,
     pub(super) pen: Vec4,
     pub(super) parts: Vec4,
-    pub(super) levels: Vec4,
     pub(super) lens: Vec4,
     pub(super) surroundings: Vec4,
     pub(super) box_top: Vec4,
