@@ -7,6 +7,7 @@ use crate::{
         hud::panels::{saves::SaveMenu, scenes::pictures::Pictures},
         input::strokes::DragState,
         orders::Orders,
+        render::cost::RenderCost,
         toasts::Toasts,
     },
     lab::{
@@ -87,6 +88,7 @@ fn rest(
     mut events: MessageReader<WindowEvent>,
     (orders, intents, drag): (Res<Orders>, Res<IntentQueue>, Res<DragState>),
     (toasts, saves, pictures, background): (Res<Toasts>, Res<SaveMenu>, Res<Pictures>, Background),
+    picture: Option<Res<RenderCost>>,
     mut calm: Local<Duration>,
     mut tempo: ResMut<Tempo>,
     mut settings: ResMut<WinitSettings>,
@@ -94,7 +96,9 @@ fn rest(
     let touched = events.read().count() > 0 || !orders.is_empty() || !intents.is_empty() || drag.current().is_some();
     // A message that is shown is about to go; of the list of saves each frame reads one, and of
     // the gallery's pictures it shows what is new.
-    let stirs = touched || pace.is_changed() || toasts.last().is_some() || saves.is_reading() || pictures.is_busy();
+    let is_awaited = picture.is_some_and(|picture| picture.waits());
+    let shows_more = toasts.last().is_some() || saves.is_reading() || pictures.is_busy() || is_awaited;
+    let stirs = touched || pace.is_changed() || shows_more;
     *calm = if stirs { Duration::ZERO } else { (*calm + real.delta()).min(LINGER) };
     let moves = pace.rewinds || pace.ticks() && !time.is_paused();
     let focused = mode(moves, background.works(), *calm);

@@ -5,7 +5,7 @@ use std::{
     array,
     sync::{
         Arc,
-        atomic::{AtomicU32, Ordering},
+        atomic::{AtomicBool, AtomicU32, Ordering},
     },
     time::Duration,
 };
@@ -87,14 +87,15 @@ impl Repeat {
     }
 }
 
-/// Processor time that the last frame's picture cost, µs, and how much each pass drew: written by the render world, shown in the
-/// details.
+/// Processor time that the last frame's picture cost, µs, how much each pass drew, and whether it is all there: written by the
+/// render world, shown in the details.
 #[derive(Resource, Clone, Default)]
 pub struct RenderCost {
     pub(super) extract: Arc<AtomicU32>,
     pub(super) upload: Arc<AtomicU32>,
     /// Instances that each pass drew; 0 if it was not called.
     drawn: Arc<[AtomicU32; PicturePass::ALL.len()]>,
+    waits: Arc<AtomicBool>,
 }
 
 impl RenderCost {
@@ -107,6 +108,15 @@ impl RenderCost {
     /// What each pass drew in the last frame.
     pub fn drawn(&self) -> [u32; PicturePass::ALL.len()] {
         array::from_fn(|k| self.drawn[k].load(Ordering::Relaxed))
+    }
+
+    /// Whether the last frame did without something that the graphics are still making.
+    pub fn waits(&self) -> bool {
+        self.waits.load(Ordering::Relaxed)
+    }
+
+    pub(super) fn note_wait(&self, waits: bool) {
+        self.waits.store(waits, Ordering::Relaxed);
     }
 
     pub(super) fn begin(&self) {

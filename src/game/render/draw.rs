@@ -47,6 +47,7 @@ pub fn draw(
         return;
     }
     cost.begin();
+    cost.note_wait(panes.iter().chain(&lenses).any(|pane| ids.are_awaited(pane.picture.features, &cache)));
     let with = With { cache: &cache, ids, cost: &cost, repeat: *repeat };
     for pane in panes.iter().chain(&lenses) {
         pane.draw_fields(&mut context, with);

@@ -79,6 +79,12 @@ impl Variants {
         let ready = self.made.iter().filter(|(_, id)| cache.get_render_pipeline(*id).is_some());
         ready.max_by_key(|(of, _)| (*of == features, of.and(features).count())).map(|(_, id)| *id)
     }
+
+    /// Whether that for a picture of these features is still being made.
+    fn is_awaited(&self, features: Features, cache: &PipelineCache) -> bool {
+        let features = features.and(self.reads);
+        self.made.iter().any(|(of, id)| *of == features && cache.get_render_pipeline(*id).is_none())
+    }
 }
 
 /// The pipelines' ids in the cache.
@@ -111,6 +117,14 @@ pub struct Ids {
     pub lens: CachedRenderPipelineId,
     /// A picture of fewer pixels than the window over all of it.
     pub enlarged: CachedRenderPipelineId,
+}
+
+impl Ids {
+    /// Whether something for a picture of these features is still being made.
+    pub fn are_awaited(&self, features: Features, cache: &PipelineCache) -> bool {
+        let passes = [&self.backdrop, &self.surface, &self.cloud, &self.rock];
+        passes.into_iter().any(|pass| pass.is_awaited(features, cache))
+    }
 }
 
 /// The pipelines, once there are any, and the format that they are made for.
