@@ -118,7 +118,9 @@ async function withStorage({ browser, host, openIn, play, shoot, started, test }
       }),
     });
     await page.keyboard.press('Control+KeyS');
-    const { messages } = await until(page, 'a warning', ({ messages }) => messages.some((text) => /^Not kept.*QuotaExceeded/.test(text)));
+    // Settings may be refused before it.
+    const refused = /^Not kept.*QuotaExceeded.*\.pms/;
+    const { messages } = await until(page, 'a warning', ({ messages }) => messages.some((text) => refused.test(text)));
     assert.ok(!messages.some((text) => text.startsWith('Saved')), JSON.stringify(messages));
     await shoot(page, 'full-storage');
     await page.context().close();
