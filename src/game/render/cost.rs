@@ -70,9 +70,9 @@ impl PicturePass {
         }
     }
 
-    /// Whether it goes over the whole screen.
+    /// Whether it covers all that was drawn before.
     pub fn is_over_all(self) -> bool {
-        matches!(self, Self::Backdrop | Self::Lens | Self::Enlarged)
+        matches!(self, Self::Backdrop | Self::Enlarged)
     }
 }
 

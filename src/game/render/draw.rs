@@ -43,11 +43,11 @@ pub fn draw(
     let Some(ids) = pipelines.ids() else { return };
     let panes = pictures.shown().iter().zip(gpu.panes()).filter_map(Pane::new);
     let (lenses, panes): (Vec<Pane<'_>>, Vec<Pane<'_>>) = panes.partition(|pane| pane.picture.is_lens);
+    cost.note_wait(panes.iter().chain(&lenses).any(|pane| ids.are_awaited(pane.picture.features, &cache)));
     if panes.is_empty() {
         return;
     }
     cost.begin();
-    cost.note_wait(panes.iter().chain(&lenses).any(|pane| ids.are_awaited(pane.picture.features, &cache)));
     let with = With { cache: &cache, ids, cost: &cost, repeat: *repeat };
     for pane in panes.iter().chain(&lenses) {
         pane.draw_fields(&mut context, with);
