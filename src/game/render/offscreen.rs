@@ -109,7 +109,13 @@ impl Offscreen {
         self.app.sub_app(RenderApp)
     }
 
-    fn wait_for_pipelines(&mut self) {
+    /// The graphics' own world, to be changed.
+    pub fn render_app_mut(&mut self) -> &mut SubApp {
+        self.app.sub_app_mut(RenderApp)
+    }
+
+    /// Draws frames until the graphics have made all that the last one asked for, and one more with it.
+    pub fn wait_for_pipelines(&mut self) {
         for _ in 0..PATIENCE {
             self.app.update();
             if self.render_app().world().resource::<PipelineCache>().waiting_pipelines().next().is_none() {
@@ -184,7 +190,7 @@ impl Offscreen {
 
     /// Draws a pass so many times in each frame.
     pub fn repeat(&mut self, pass: PicturePass, times: u32) {
-        self.app.sub_app_mut(RenderApp).insert_resource(Repeat(Some((pass, times))));
+        self.render_app_mut().insert_resource(Repeat(Some((pass, times))));
     }
 
     /// What each pass drew in the last frame.

@@ -7,6 +7,8 @@ use crate::{
         lens,
         render::{
             cost::PicturePass,
+            extract::Pictures,
+            features::Features,
             level::Level,
             offscreen::{Offscreen, Pixels},
         },
@@ -23,6 +25,10 @@ use crate::{
         checkpoint::Checkpoint,
         state::{ParticleStore, Setup},
     },
+};
+use bevy::{
+    prelude::{IntoScheduleConfigs, Res, ResMut, Resource},
+    render::{Render, RenderSystems},
 };
 use glam::{UVec2, Vec2};
 use std::sync::Arc;
@@ -87,6 +93,7 @@ fn the_picture_shows_what_is_there() {
     plain_and_full_have_the_same_silhouettes(&mut seen);
     rock_is_where_it_is(&mut seen);
     the_lens_shows_the_second_world_inside_its_ring_and_nowhere_else(&mut seen);
+    what_a_picture_lacks_is_left_out_without_a_trace(&mut seen);
 }
 
 fn an_empty_box_is_no_black_hole(seen: &mut Seen) {
@@ -252,5 +259,41 @@ fn the_lens_shows_the_second_world_inside_its_ring_and_nowhere_else(seen: &mut S
         assert!(lens::lay_down(seen.picture.world_mut()));
         seen.picture.frame();
         assert_eq!(seen.drawn(PicturePass::Lens), 0);
+    }
+}
+
+/// Features that pictures are taken to have, beside those that they have.
+#[derive(Resource)]
+struct Taken(Features);
+
+fn take(taken: Res<Taken>, mut pictures: ResMut<Pictures>) {
+    pictures.shown_mut().iter_mut().for_each(|picture| picture.features = picture.features.or(taken.0));
+}
+
+fn what_a_picture_lacks_is_left_out_without_a_trace(seen: &mut Seen) {
+    // No air in sight, nothing that glows, one liquid.
+    let contents = r#"(element: "water", shape: Rect(min: (0, 0), max: (3.2, 1.5))), (element: "steam", shape: Rect(min: (1, 2.5), max: (4, 3))),
+                      (element: "rock", shape: Rect(min: (5, 0), max: (6, 3)))"#;
+    let all = Features::AIR.or(Features::GLOW).or(Features::MORE);
+    seen.picture
+        .render_app_mut()
+        .insert_resource(Taken(Features::default()))
+        .add_systems(Render, take.in_set(RenderSystems::Queue));
+    for level in [Level::Full, Level::Plain] {
+        for view in [&ELEMENTS, &TEMPERATURE] {
+            let mut drawn = |features| {
+                seen.picture.render_app_mut().insert_resource(Taken(features));
+                seen.show_at(contents, level, view);
+                seen.picture.wait_for_pipelines();
+                let pixels = seen.picture.pixels();
+                (seen.picture.render_app_mut().world().resource::<Pictures>().shown()[0].features, pixels)
+            };
+            let ((lean, without), (full, with)) = (drawn(Features::default()), drawn(all));
+            assert_ne!(lean, full, "a picture that has all proves nothing");
+            // Backdrop, surface, clouds and rock each round once.
+            let apart = |(a, b): (&Rgb, &Rgb)| (0..3).map(|k| a[k].abs_diff(b[k])).max().unwrap_or(0);
+            let most = without.all().iter().zip(with.all()).map(apart).max().unwrap_or(0);
+            assert!(most <= 4, "{lean:?} and {full:?} are {most} of 255 apart at {level:?}, {view:?}");
+        }
     }
 }
