@@ -3,6 +3,7 @@
 //! write. A new file there is a new language. What is no text of its own stays as it is: names that the command line takes
 //! (qualities, effects, parameters), and what is wrong with a file.
 
+use crate::sim::numbers;
 use bevy::prelude::{App, First, IntoScheduleConfigs, Resource, World, resource_changed};
 use include_dir::{Dir, include_dir};
 use std::{path::Path, sync::LazyLock};
@@ -102,6 +103,11 @@ pub fn spoken(english: &str) -> String {
     if english.is_empty() { String::new() } else { tr!(english) }
 }
 
+/// A number with the sign of the language between the thousands: `12,345,678`. The decimal point is the same in all.
+pub fn grouped(number: impl ToString) -> String {
+    numbers::grouped_by(number, &tr!("between thousands" => ","))
+}
+
 /// The first of the system's languages that the game speaks, or English; so is what C programs begin with.
 fn of_system(tags: impl IntoIterator<Item = String>) -> &'static str {
     let known = |tag: String| match tag.split('-').next() {
@@ -154,5 +160,12 @@ mod tests {
     fn each_language_says_what_it_is_called() {
         let names: Vec<&str> = Language::all().iter().map(|known| known.name.as_str()).collect();
         assert_eq!(names, ["English", "Deutsch"]);
+    }
+
+    #[test]
+    fn each_language_has_its_sign_between_thousands() {
+        let german = read("de").unwrap();
+        assert_eq!(grouped(13_534), "13,534");
+        assert_eq!(numbers::grouped_by(13_534, &german.translate(",", Some("between thousands"))), "13\u{202f}534");
     }
 }

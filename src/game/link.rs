@@ -1,8 +1,8 @@
 //! A link that carries the world, which a page can be opened with.
 
 use crate::{
-    game::toasts::Toasts,
-    sim::{checkpoint::Checkpoint, numbers::grouped, world_text},
+    game::{language::grouped, toasts::Toasts},
+    sim::{checkpoint::Checkpoint, world_text},
 };
 use bevy::prelude::World;
 use tr::tr;

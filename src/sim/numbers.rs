@@ -2,12 +2,17 @@
 
 /// A number with commas between the thousands: `12,345,678`. Decimals of a fraction stay as they are.
 pub fn grouped(number: impl ToString) -> String {
+    grouped_by(number, ",")
+}
+
+/// A number with `sign` between the thousands.
+pub fn grouped_by(number: impl ToString, sign: &str) -> String {
     let number = number.to_string();
     let whole = number.find('.').unwrap_or(number.len());
     let mut text = String::with_capacity(number.len() + number.len() / 3);
     for (k, char) in number.chars().enumerate() {
         if (1..whole).contains(&k) && (whole - k).is_multiple_of(3) && !text.ends_with('-') {
-            text.push(',');
+            text.push_str(sign);
         }
         text.push(char);
     }

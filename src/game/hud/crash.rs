@@ -8,10 +8,9 @@ use crate::{
             widgets::main_button,
             window::{MIDDLE, window},
         },
-        language::spoken,
+        language::{grouped, spoken},
     },
     kernel::units::TICKS_PER_SECOND,
-    sim::numbers::grouped,
 };
 use bevy::prelude::{ResMut, Result};
 use bevy_egui::{

@@ -1,12 +1,14 @@
 //! What becomes of an element, and by what: for its card.
 
 use crate::{
-    game::{language::spoken, tools::spaced},
+    game::{
+        language::{grouped, spoken},
+        tools::spaced,
+    },
     kernel::{
         element::{Element, ElementTable, ElementTouch},
         heat::units::CELSIUS,
     },
-    sim::numbers::grouped,
 };
 use tr::tr;
 

@@ -1,9 +1,13 @@
 //! The numbers in the upper left corner: read a few times a second, so that they can be read, and formatted only then.
 
 use crate::{
-    game::{frame::Tempo, hud::style, language::spoken, tools::spaced},
+    game::{
+        frame::Tempo,
+        hud::style,
+        language::{grouped, spoken},
+        tools::spaced,
+    },
     sim::{
-        numbers::grouped,
         pace::Pace,
         state::{Acted, Census, Counters, Setup},
     },

@@ -13,11 +13,11 @@ use crate::{
         },
         icons::{self, Icon},
         input::{bindings::Bindings, pointer::HudCover},
-        language::spoken,
+        language::{grouped, spoken},
         tools::{TOOLS, Tool, spaced},
     },
     kernel::element::{Element, ElementTable},
-    sim::{numbers::grouped, state::Setup},
+    sim::state::Setup,
 };
 use bevy::{
     ecs::system::SystemParam,

@@ -5,6 +5,7 @@ use crate::{
         actions::{Action, Take},
         history,
         input::bindings::Bindings,
+        language::grouped,
         springs,
         stamps::{hand::Hand, shelf::Shelf},
         toasts::Toasts,
@@ -13,7 +14,6 @@ use crate::{
     sim::{
         control,
         intent::{Intent, IntentQueue},
-        numbers::grouped,
         stamp::{Stamp, fitted},
         state::{ParticleStore, Rock, Setup, Sources},
     },

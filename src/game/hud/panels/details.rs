@@ -14,7 +14,7 @@ use crate::{
         },
         icons,
         input::bindings::{Group, NONE},
-        language::spoken,
+        language::{grouped, spoken},
         orders::{Order, Orders},
         panels::Panel,
         render::cost::{PicturePass, RenderCost},
@@ -32,7 +32,6 @@ use crate::{
             status::{self, EffectStatus, Sleepers},
         },
         ledger::{PassLedger, PassRecord},
-        numbers::grouped,
         state::{Acted, AirGrid, Clock, ParticleStore, Setup, SleepState},
     },
 };

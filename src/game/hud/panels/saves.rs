@@ -11,13 +11,12 @@ use crate::{
         },
         icons,
         input::bindings::{CTRL, Group},
-        language::spoken,
+        language::{grouped, spoken},
         orders::{Order, Orders},
         panels::{Panel, Panels, is_open},
         saves::{self, LoadError, SaveFolders, Summary},
     },
     kernel::units::TICKS_PER_SECOND,
-    sim::numbers::grouped,
 };
 use bevy::prelude::{App, IntoScheduleConfigs, KeyCode, Res, ResMut, Resource, Result, Update, not};
 use bevy_egui::egui::{self, Align2, Color32, TextStyle, Ui, pos2, vec2};

@@ -10,16 +10,13 @@ use crate::{
         },
         icons::{self, Icon},
         input::bindings::{Bindings, Group, SHIFT},
-        language::spoken,
+        language::{grouped, spoken},
         orders::{Order, Orders},
         panels::Panel,
         throws::Thrown,
     },
     lab::gauntlet::throws::{Progress, SECONDS, StressTest, THROWS, Throw},
-    sim::{
-        numbers::grouped,
-        state::{Clock, Setup},
-    },
+    sim::state::{Clock, Setup},
 };
 use bevy::prelude::{KeyCode, Res, ResMut, Result};
 use bevy_egui::egui::{Align2, Button, Color32, ProgressBar, RichText, Sense, Ui, vec2};

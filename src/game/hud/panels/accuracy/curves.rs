@@ -2,7 +2,7 @@
 //! is played, its times scaled to this machine, and where there is neither, a survey that begins of its own accord.
 
 use crate::{
-    game::hud::panels::accuracy::plot::ErrorKind,
+    game::{hud::panels::accuracy::plot::ErrorKind, language::grouped},
     lab::live::{
         accuracy::{Curve, Here, Survey, SurveyRequest},
         shipped,
@@ -161,7 +161,7 @@ pub fn source(curve: &Curve, scale: Option<f32>) -> String {
             None => tr!("shipped, {on}, times as there", on),
         };
     }
-    let (scene, tick) = (&curve.scene, numbers::grouped(curve.tick));
+    let (scene, tick) = (&curve.scene, grouped(curve.tick));
     match scale.filter(|scale| (scale - 1.0).abs() > 0.005).map(short) {
         Some(scale) => tr!(
             "{scene} from tick {tick} on, one thread, all awake, times × {scale} as in the game",

@@ -12,7 +12,7 @@ use crate::{
         },
         icons,
         input::bindings::{Group, NONE},
-        language::spoken,
+        language::{grouped, spoken},
         orders::Order,
         panels::Panel,
     },
@@ -20,7 +20,7 @@ use crate::{
         cases::{Row, Verdict},
         exam::{Answer, ExamCase},
     },
-    sim::{numbers::grouped, state::Setup},
+    sim::state::Setup,
 };
 use bevy::prelude::KeyCode;
 use bevy_egui::egui::{self, Align2, Color32, RichText, Ui, pos2, vec2};

@@ -13,7 +13,7 @@ use crate::{
         },
         icons,
         input::bindings::{Bindings, CTRL, Group},
-        language::spoken,
+        language::{grouped, spoken},
         orders::{Order, Orders},
         panels::{Panel, Panels},
         tools::spaced,
@@ -25,7 +25,7 @@ use crate::{
         set::{Gauge, Gauges, MOST, Reading, flow},
     },
     sim::{
-        numbers::{figure, grouped},
+        numbers::figure,
         state::{Clock, Setup},
     },
 };
