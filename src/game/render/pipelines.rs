@@ -83,7 +83,11 @@ impl Variants {
     /// Whether that for a picture of these features is still being made.
     fn is_awaited(&self, features: Features, cache: &PipelineCache) -> bool {
         let features = features.and(self.reads);
-        self.made.iter().any(|(of, id)| *of == features && cache.get_render_pipeline(*id).is_none())
+        // One that can't be made is not awaited: another draws for it, and the log says why.
+        let is_done = |id| {
+            matches!(cache.get_render_pipeline_state(id), CachedPipelineState::Ok(_) | CachedPipelineState::Err(_))
+        };
+        self.made.iter().any(|(of, id)| *of == features && !is_done(*id))
     }
 }
 

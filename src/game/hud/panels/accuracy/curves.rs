@@ -11,7 +11,7 @@ use crate::{
     sim::{
         effects::{Effects, status},
         ledger::{PassLedger, PassRecord},
-        numbers::{self, short},
+        numbers::short,
         state::Setup,
     },
 };
