@@ -1,5 +1,5 @@
-//! Bodies that the processor draws, where the graphics are a rasteriser in software: that one sets each disc up as if it were a
-//! large triangle, here its few texels are added up and no more. What comes of it is what `body_fragment` and `more_fragment`
+//! Bodies that the game adds up itself, where the graphics are a rasteriser in software and would take the same processor
+//! (docs/picture.md). What comes of it is what `body_fragment` and `more_fragment`
 //! (assets/shaders/matter.wgsl) draw, but rounded to 16 bits disc by disc, not to 8.
 
 use crate::game::render::matter::Instance;
