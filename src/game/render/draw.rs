@@ -91,14 +91,12 @@ struct Pane<'a> {
     fields: [&'a TextureView; 3],
     groups: &'a [BindGroup; 2],
     stone: &'a Stone,
-    /// Whether the bodies are in their fields already.
-    has_bodies: bool,
 }
 
 impl<'a> Pane<'a> {
     fn new((picture, gpu): (&'a Picture, &'a GpuPicture)) -> Option<Self> {
         let ((fields, groups), stone) = (gpu.parts()?, gpu.stone()?);
-        Some(Self { picture, fields, groups, stone, has_bodies: gpu.has_bodies() })
+        Some(Self { picture, fields, groups, stone })
     }
 
     /// Binds its numbers, and its maps and fields.
@@ -119,9 +117,7 @@ impl<'a> Pane<'a> {
             (PicturePass::Gases, (ids.gas, all!(matter.gases))),
         ];
         for (view, (of, (pipeline, what))) in self.fields.into_iter().zip(all) {
-            if of == PicturePass::Bodies && self.has_bodies {
-                with.cost.note(of, what.1);
-            } else if what.1 > 0 {
+            if what.1 > 0 {
                 let mut pass = into(context, "field", view);
                 pass.set_bind_group(0, &self.groups[0], &[]);
                 with.instances(&mut pass, of, pipeline, what);

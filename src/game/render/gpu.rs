@@ -1,13 +1,11 @@
 //! The picture on the graphics' side: buffers and textures, filled once a frame.
 
 use crate::game::render::{
-    cost::{PicturePass, RenderCost, Repeat},
+    cost::RenderCost,
     extract::Pictures,
-    matter::Instance,
     noise,
     picture::Picture,
     pipelines::{FIELD_FORMAT, Layouts, Pipelines},
-    splat::{BodiesBy, Field, Frame},
     uniform::WorldUniform,
 };
 use bevy::{
@@ -20,7 +18,7 @@ use bevy::{
             UniformBuffer,
         },
         renderer::{RenderDevice, RenderQueue},
-        texture::TextureCache,
+        texture::{CachedTexture, TextureCache},
     },
 };
 use glam::UVec2;
@@ -62,10 +60,8 @@ pub struct GpuPicture {
     noise: Map,
     /// What is baked of the rock.
     stone: Option<Stone>,
-    /// Bodies and more of them, if the processor draws them.
-    splats: Option<[Splat; 2]>,
     /// Bodies, more of them, gases: of this frame.
-    fields: Option<[TextureView; 3]>,
+    fields: Option<[CachedTexture; 3]>,
     /// Group 0 (the uniform) and group 1 (sampler, maps, fields).
     groups: Option<[BindGroup; 2]>,
 }
@@ -118,7 +114,7 @@ impl GpuPicture {
     /// The three fields, and the groups 0 and 1; all that drawing needs, once it is there.
     pub fn parts(&self) -> Option<([&TextureView; 3], &[BindGroup; 2])> {
         let fields = self.fields.as_ref()?;
-        Some((fields.each_ref(), self.groups.as_ref()?))
+        Some((fields.each_ref().map(|field| &field.default_view), self.groups.as_ref()?))
     }
 }
 
@@ -126,11 +122,6 @@ impl GpuPicture {
     /// What is baked of the rock.
     pub fn stone(&self) -> Option<&Stone> {
         self.stone.as_ref()
-    }
-
-    /// Whether the processor has drawn the bodies.
-    pub fn has_bodies(&self) -> bool {
-        self.splats.is_some()
     }
 
     /// Makes room for the baked rock of a picture.
@@ -170,30 +161,6 @@ impl Map {
     }
 }
 
-/// A field that the processor draws.
-#[derive(Default)]
-struct Splat {
-    field: Field,
-    map: Map,
-}
-
-impl Splat {
-    /// Draws it, and hands it over; so many times.
-    fn draw(
-        &mut self,
-        (frame, bodies, foams): (Frame, &[Instance], bool),
-        times: u32,
-        device: &RenderDevice,
-        queue: &RenderQueue,
-    ) -> Option<TextureView> {
-        for _ in 0..times {
-            self.field.draw(frame, bodies, foams);
-            self.map.fill(self.field.texels(), frame.size, FIELD_FORMAT, device, queue);
-        }
-        self.map.0.as_ref().map(|(_, view)| view.clone())
-    }
-}
-
 fn descriptor(
     label: &'static str,
     size: UVec2,
@@ -230,15 +197,12 @@ pub fn upload(
     mut textures: ResMut<TextureCache>,
     pipelines: Res<Pipelines>,
     cost: Res<RenderCost>,
-    repeat: Res<Repeat>,
-    bodies_by: Res<BodiesBy>,
 ) {
     let begin = Instant::now();
     let GpuPictures { panes, lens, reduced } = &mut *gpu;
     let (shown, idle) = panes.split_at_mut(pictures.shown().len());
     for (picture, gpu) in pictures.shown_mut().iter_mut().zip(shown) {
-        hand_over(picture, gpu, &device, &queue);
-        fill_fields(picture, gpu, (*bodies_by, *repeat), &mut textures, &device, &queue);
+        hand_over(picture, gpu, &mut textures, &device, &queue);
     }
     idle.iter_mut().filter(|gpu| gpu.stone.is_some()).for_each(|gpu| *gpu = GpuPicture::default());
     let through = pictures.shown().iter().find(|picture| picture.is_lens);
@@ -252,8 +216,16 @@ pub fn upload(
     RenderCost::note_time(&cost.upload, begin.elapsed());
 }
 
-fn hand_over(picture: &mut Picture, gpu: &mut GpuPicture, device: &RenderDevice, queue: &RenderQueue) {
+fn hand_over(
+    picture: &mut Picture,
+    gpu: &mut GpuPicture,
+    textures: &mut TextureCache,
+    device: &RenderDevice,
+    queue: &RenderQueue,
+) {
     write_growing!(picture.particles, device, queue);
+    write_growing!(picture.matter.bodies, device, queue);
+    write_growing!(picture.matter.more, device, queue);
     write_growing!(picture.matter.grains, device, queue);
     write_growing!(picture.matter.gases, device, queue);
     write_growing!(picture.tiles.bodies, device, queue);
@@ -283,44 +255,19 @@ fn hand_over(picture: &mut Picture, gpu: &mut GpuPicture, device: &RenderDevice,
         let texels = if as_it_is && picture.glow.shines() { texels } else { &[] };
         map.fill(texels, size(dimensions), colours, device, queue);
     }
-}
 
-/// Makes the fields of a picture for the graphics to draw into, or draws them.
-fn fill_fields(
-    picture: &mut Picture,
-    gpu: &mut GpuPicture,
-    (bodies_by, repeat): (BodiesBy, Repeat),
-    textures: &mut TextureCache,
-    device: &RenderDevice,
-    queue: &RenderQueue,
-) {
     let (body_texels, gas_texels) = picture.level.texels();
-    let size = |texels_per_d: f32, is_empty: bool| {
+    let mut field = |label, texels_per_d: f32, empty: bool| {
         let share = (texels_per_d / picture.pixels_per_d).min(1.0);
-        if is_empty { UVec2::ONE } else { (picture.size.as_vec2() * share).ceil().as_uvec2().max(UVec2::ONE) }
-    };
-    let bodies = size(body_texels, picture.tiles.bodies.is_empty());
-    let more = size(body_texels, picture.matter.more.is_empty());
-    let gases = size(gas_texels, picture.matter.gases.is_empty());
-    let mut empty = |label, size| {
+        let size = if empty { UVec2::ONE } else { (picture.size.as_vec2() * share).ceil().as_uvec2().max(UVec2::ONE) };
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
-        textures.get(device, descriptor(label, size, FIELD_FORMAT, usage)).default_view
+        textures.get(device, descriptor(label, size, FIELD_FORMAT, usage))
     };
-    let gases = empty("gases", gases);
-    if bodies_by == BodiesBy::Processor && picture.as_it_is {
-        let Picture { matter, uniform, .. } = &*picture;
-        let frame = |size| Frame { size, to_clip: uniform.to_clip, radius: uniform.pen.x };
-        let times = repeat.times(PicturePass::Bodies);
-        let [first, second] = gpu.splats.get_or_insert_default();
-        let first = first.draw((frame(bodies), matter.bodies.values(), true), times, device, queue);
-        let second = second.draw((frame(more), matter.more.values(), false), times, device, queue);
-        gpu.fields = first.zip(second).map(|(first, second)| [first, second, gases]);
-    } else {
-        gpu.splats = None;
-        write_growing!(picture.matter.bodies, device, queue);
-        write_growing!(picture.matter.more, device, queue);
-        gpu.fields = Some([empty("bodies", bodies), empty("more bodies", more), gases]);
-    }
+    gpu.fields = Some([
+        field("bodies", body_texels, picture.tiles.bodies.is_empty()),
+        field("more bodies", body_texels, picture.matter.more.is_empty()),
+        field("gases", gas_texels, picture.matter.gases.is_empty()),
+    ]);
 }
 
 /// Makes the bind groups of the frame.
@@ -337,7 +284,7 @@ pub fn bind(mut gpu: ResMut<GpuPictures>, layouts: Res<Layouts>, cache: Res<Pipe
             continue;
         };
         let Some((_, noise)) = &gpu.noise.0 else { continue };
-        let [bodies, more, gases] = fields.each_ref();
+        let [bodies, more, gases] = fields.each_ref().map(|field| &field.default_view);
         let entries = BindGroupEntries::sequential((
             &layouts.sampler,
             air,

@@ -9,8 +9,7 @@
 //! views that show a number `particles`), `rock` and `air` in the layout that the graphics read, `body` and `glow` as maps that the
 //! shaders look at, `tiles` where there is anything at all, `features` what its passes can't leave out; `level` says how much of it
 //! the graphics can do in time; `moved` knows where things were between two ticks, `look` which element is drawn how, `noise` is a
-//! texture that never changes. `gpu` uploads it, and where the graphics are software anyhow `splat` draws the bodies into their fields;
-//! `pipelines` has what its features ask for; `draw` draws it before the HUD.
+//! texture that never changes. `gpu` uploads it; `pipelines` has what its features ask for; `draw` draws it before the HUD.
 //! `offscreen` draws without a window, for `bench frame` and tests. `tracers` make wind visible. Everything here runs on WebGL2: no
 //! storage buffers, no compute, targets of eight bits.
 
@@ -38,7 +37,6 @@ pub mod picture;
 pub mod pipelines;
 pub mod rock;
 mod scene;
-pub mod splat;
 #[cfg(test)]
 mod tests;
 pub mod tiles;
@@ -85,7 +83,7 @@ impl Plugin for WorldRenderPlugin {
             .init_resource::<gpu::GpuPictures>()
             .init_resource::<cost::Repeat>()
             .init_resource::<pipelines::Pipelines>()
-            .add_systems(RenderStartup, (pipelines::make_layouts, splat::choose))
+            .add_systems(RenderStartup, pipelines::make_layouts)
             .add_systems(ExtractSchedule, extract::extract)
             .add_systems(
                 Render,
