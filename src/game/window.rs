@@ -104,6 +104,9 @@ fn explain(panic: &str) -> String {
 }
 
 pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> App {
+    let mut app = App::new();
+    // Before anything is read, so that what is wrong with a file of the user's is told.
+    app.add_plugins(LogPlugin { filter: "error,bevy_winit=off".into(), ..LogPlugin::default() });
     let settings = Settings::of_user();
     let window = Window {
         title: "Powder Master".into(),
@@ -118,11 +121,10 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
         ..Window::default()
     };
     let [red, green, blue] = colours::SURROUNDINGS;
-    let mut app = App::new();
     app.add_plugins(
         DefaultPlugins
             .set(WindowPlugin { primary_window: Some(window), ..WindowPlugin::default() })
-            .set(LogPlugin { filter: "error,bevy_winit=off".into(), ..LogPlugin::default() }),
+            .disable::<LogPlugin>(),
     )
     .add_plugins(EguiPlugin::default())
     .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))

@@ -567,6 +567,16 @@ async function play() {
     return `${share.toFixed(1)} % of the picture changed`;
   });
 
+  await test('settings that can not be read are told and kept', async () => {
+    await game.kill();
+    const kept = join(folder, 'data', 'powder-master');
+    const bad = '(hud: 9.0, picture: Some(Best))';
+    writeFileSync(join(kept, 'settings.ron'), bad);
+    await begin();
+    await poll('a line of the log', () => readFileSync(join(folder, 'log'), 'utf8'), (log) => /settings\.ron: not read, .*; kept as /.test(log));
+    assert.equal(readFileSync(join(kept, 'settings.unread.ron'), 'utf8'), bad);
+  });
+
   const log = readFileSync(join(folder, 'log'), 'utf8');
   assert.doesNotMatch(log, /panicked/i, 'the game panicked');
 
