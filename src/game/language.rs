@@ -108,6 +108,11 @@ pub fn grouped(number: impl ToString) -> String {
     numbers::grouped_by(number, &tr!("between thousands" => ","))
 }
 
+/// What a text of a list is sorted by: its letters without case and, as in dictionaries of German (DIN 5007-1), without marks.
+pub fn sorted_as(text: &str) -> String {
+    text.to_lowercase().replace('ä', "a").replace('ö', "o").replace('ü', "u").replace('ß', "ss")
+}
+
 /// The first of the system's languages that the game speaks, or English; so is what C programs begin with.
 fn of_system(tags: impl IntoIterator<Item = String>) -> &'static str {
     let known = |tag: String| match tag.split('-').next() {
@@ -144,6 +149,13 @@ mod tests {
         ] {
             assert_eq!(of_system(tags.iter().map(|tag| (*tag).to_owned())), expected, "{tags:?}");
         }
+    }
+
+    #[test]
+    fn letters_with_marks_stand_by_those_without() {
+        let mut words = ["Zoll", "Über", "Straße", "Öl", "oben", "Strasse A", "unten"];
+        words.sort_by_key(|word| sorted_as(word));
+        assert_eq!(words, ["oben", "Öl", "Straße", "Strasse A", "Über", "unten", "Zoll"]);
     }
 
     #[test]

@@ -2,11 +2,15 @@
 
 use super::menu::Entry;
 use crate::{
-    game::{language::spoken, tools::spaced},
+    game::{
+        language::{sorted_as, spoken},
+        tools::spaced,
+    },
     scene::{SceneCategory, SceneFile},
 };
 
-/// The scenes that hold every word of the text, those first in whose titles it stands.
+/// The scenes that hold every word of the text, those first in whose titles it stands; then by category, and there by title, but
+/// the default one first.
 pub(super) fn find(entries: &[Entry], text: &str) -> Vec<usize> {
     let words: Vec<String> = text.split_whitespace().map(str::to_lowercase).collect();
     let of = |scene: &SceneFile| {
@@ -14,7 +18,10 @@ pub(super) fn find(entries: &[Entry], text: &str) -> Vec<usize> {
     };
     let mut found: Vec<(u8, usize)> =
         entries.iter().enumerate().filter_map(|(index, entry)| Some((of(&entry.scene)?, index))).collect();
-    found.sort_by_key(|(rank, _)| *rank);
+    found.sort_by_cached_key(|(rank, index)| {
+        let Entry { call, scene, .. } = &entries[*index];
+        (*rank, scene.category(), call != "waterfall", sorted_as(&spoken(scene.title())))
+    });
     found.into_iter().map(|(_, index)| index).collect()
 }
 
@@ -62,6 +69,15 @@ mod tests {
         assert!(names("village").contains(&"avalanche".to_owned()) || names("huts").contains(&"avalanche".to_owned()));
         assert!(names("heat").contains(&"volcano".to_owned()), "by its category");
         assert_eq!(names("xyzzy"), [""; 0]);
+    }
+
+    #[test]
+    fn scenes_stand_by_category_and_title() {
+        let menu = SceneMenu::of_game();
+        let found: Vec<_> = find(&menu.entries, "").into_iter().map(|index| &menu.entries[index]).collect();
+        assert_eq!(found[0].call, "waterfall");
+        let order = |entry: &&Entry| (entry.scene.category(), entry.scene.title().to_lowercase());
+        assert!(found[1..].is_sorted_by_key(order));
     }
 
     #[test]

@@ -61,16 +61,11 @@ pub struct SceneMenu {
 }
 
 impl SceneMenu {
-    /// Reads the scenes that come with the game: by category, and there by title; the default one comes first.
+    /// Reads the scenes that come with the game.
     pub(super) fn of_game() -> Self {
         let of =
             |name: &'static str| Some(Entry { call: name.to_owned(), scene: scene::load(name).ok()?, is_own: false });
-        let mut entries: Vec<Entry> = scene::builtin_names().into_iter().filter_map(of).collect();
-        entries.sort_by(|a, b| {
-            let key =
-                |entry: &Entry| (entry.scene.category(), entry.call != "waterfall", entry.scene.title().to_owned());
-            key(a).cmp(&key(b))
-        });
+        let entries = scene::builtin_names().into_iter().filter_map(of).collect();
         Self { entries, ..Self::default() }
     }
 
@@ -154,12 +149,10 @@ mod tests {
     use std::fs;
 
     #[test]
-    fn scenes_stand_by_category_and_title_and_each_says_one_thing_to_do() {
+    fn each_scene_has_a_category_and_says_one_thing_to_do() {
         let menu = SceneMenu::of_game();
         let categories: Vec<_> = menu.entries.iter().map(|entry| entry.scene.category()).collect();
         assert!(categories.iter().all(Option::is_some), "one would stand among the player's own");
-        assert!(categories.is_sorted());
-        assert_eq!(menu.entries[0].call, "waterfall");
         assert!(menu.entries.iter().all(|entry| !entry.scene.invitation().is_empty()));
         let proofs = Some(scene::SceneCategory::Proofs);
         assert!(categories.iter().filter(|category| **category != proofs).count() >= 24, "so many are there to play");
