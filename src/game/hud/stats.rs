@@ -33,7 +33,7 @@ pub struct Reading {
 /// The numbers as they were read last.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Readings {
-    /// Frames a second; that it is paused, or the speed if it is not 1.
+    /// That it is paused, or frames a second and the speed if it is not 1.
     pub pace: Vec<Reading>,
     /// Particles in all.
     pub total: Reading,
@@ -75,11 +75,11 @@ pub fn read(
 
 fn pace_readings(tempo: &Tempo, pace: &Pace) -> Vec<Reading> {
     let reading = |value: String, unit: String, warning| Reading { value, unit, warning };
-    let mut readings = vec![reading(format!("{:.0}", tempo.frames_per_second), tr!("FPS"), false)];
     if pace.paused {
-        readings.push(reading(tr!("paused"), String::new(), true));
-        return readings;
+        // Frames then come when something changes, and at no rate.
+        return vec![reading(tr!("paused"), String::new(), true)];
     }
+    let mut readings = vec![reading(format!("{:.0}", tempo.frames_per_second), tr!("FPS"), false)];
     if let Some(share) = tempo.lag {
         let speed = share * pace.speed;
         let digits = if speed < 0.1 { 2 } else { 1 };
@@ -126,6 +126,13 @@ mod tests {
         assert!(readings.iter().any(|reading| reading.value == "0.8×" && reading.warning), "{readings:?}");
         (tempo.lag, tempo.ticks_per_second) = (None, 60.0);
         assert_eq!(pace_readings(&tempo, &Pace::default()).len(), 1, "at its speed nothing is said of it");
+    }
+
+    #[test]
+    fn a_world_that_stands_has_no_rate_of_frames() {
+        let readings = pace_readings(&Tempo::default(), &Pace { paused: true, ..Pace::default() });
+        assert_eq!(readings.len(), 1, "{readings:?}");
+        assert_eq!((readings[0].value.as_str(), readings[0].warning), ("paused", true));
     }
 
     #[test]
