@@ -4,7 +4,7 @@ use crate::{
     parallel::{Rows, Sweep, Team, sweep},
     predictor::{
         conjugate::Conjugate,
-        equation::{Around, CHUNK, fill_in, lighten, steepness, touch, way},
+        equation::{Around, CHUNK, fill_in, lighten, steepness, touch},
         grid::MacGrid,
         level::{Level, WORTH_A_PIECE},
         rock::ClosedFaces,
@@ -21,8 +21,6 @@ pub(super) struct Changes<'a> {
     pub conjugate: &'a Conjugate,
     /// Pressure and potential of the density feedback, d/s; 0 where there is no liquid.
     pub potentials: [&'a [f32]; 2],
-    /// Particles from which on a face has them on both sides.
-    pub whole: f32,
     pub team: Team,
 }
 
@@ -30,7 +28,7 @@ impl Changes<'_> {
     /// Finds the change on every face that touches liquid, and fills one layer around them in from its neighbours. Of
     /// `finest`, the solver is done with the unknowns, the right-hand side and the products: they are used up.
     pub fn find(&self, faces: &mut Faces, finest: &mut Level) {
-        let Self { grid, closed, conjugate: Conjugate { liquid, rows, .. }, potentials, whole, team } = *self;
+        let Self { grid, closed, conjugate: Conjugate { liquid, rows, .. }, potentials, team } = *self;
         let Faces { u, v, ways: [ways_u, ways_v], filled, reached, area, matter, .. } = faces;
         let columns = &grid.padded(area);
         // The changes on each face, and whether they are known (1) or to be filled in from its neighbours (0).
@@ -49,7 +47,7 @@ impl Changes<'_> {
             let band = |field| Rows::new(field, grid.stride, &around);
             let band = (band(known), (band(gained), band(drift)));
             sweep(&work, around.clone(), band, columns.len(), WORTH_A_PIECE, team);
-            let work = FillIn { grid, near, columns, known, changes: [gained, drift], means, matter, whole };
+            let work = FillIn { grid, near, columns, known, changes: [gained, drift], matter };
             sweep(&work, all.clone(), Rows::new(ways, grid.stride, &all), columns.len(), WORTH_A_PIECE, team);
         }
         // The solver expects its padding empty.
@@ -138,12 +136,8 @@ struct FillIn<'a> {
     columns: &'a Range<usize>,
     known: &'a [f32],
     changes: [&'a [f32]; 2],
-    /// Weights and mean velocities.
-    means: &'a [[f32; 2]],
     /// Densities and their inverses, where they differ.
     matter: Option<&'a [[f32; 2]]>,
-    /// Particles from which on a face has them on both sides.
-    whole: f32,
 }
 
 impl FillIn<'_> {
@@ -167,7 +161,7 @@ impl FillIn<'_> {
 impl Sweep<Rows<'_, Way>> for FillIn<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut ways: Rows<Way>) {
-        let Self { grid, near, columns, known, changes, means, matter, whole } = *self;
+        let Self { grid, near, columns, known, changes, matter } = *self;
         for (j, ways) in rows.zip(ways.each()) {
             let ways = &mut ways[columns.clone()];
             let faces = grid.row(j) + columns.start..grid.row(j) + columns.end;
@@ -176,9 +170,9 @@ impl Sweep<Rows<'_, Way>> for FillIn<'_> {
                     let faces = start..faces.end.min(start + CHUNK);
                     let own = start - grid.row(j) - columns.start..faces.end - grid.row(j) - columns.start;
                     let around = |field| Around::new(field, faces.clone(), grid.stride);
-                    let mut out = [[0.0; 4]; CHUNK];
+                    let mut out = [[0.0; 2]; CHUNK];
                     let out = &mut out[..faces.len()];
-                    fill_in(out, changes.map(around), around(known), &means[faces.clone()], whole);
+                    fill_in(out, changes.map(around), around(known));
                     if let Some(matter) = matter {
                         let unknown = out.iter_mut().zip(faces).filter(|(_, face)| known[*face] == 0.0);
                         unknown.for_each(|(way, face)| way[0] = self.gained_beside(matter, face));
@@ -187,14 +181,13 @@ impl Sweep<Rows<'_, Way>> for FillIn<'_> {
                 }
                 continue;
             }
-            let means = &means[faces];
             // Beyond the floor stands what stands above it, as `fill_in` finds it beyond the other walls: particles
             // within half a cell of a wall take a part of their velocity along it from there. Elsewhere away from the
             // liquid nothing changes.
             let share = if j == 0 && near.start == 1 { 1.0 } else { 0.0 };
             let [gained, drift] = changes.map(|field| &field[grid.row(1)..][columns.clone()]);
-            for (i, at) in ways.iter_mut().enumerate() {
-                *at = way([share * gained[i], share * drift[i]], means[i], whole);
+            for (way, (gained, drift)) in ways.iter_mut().zip(gained.iter().zip(drift)) {
+                *way = [share * gained, share * drift];
             }
         }
     }

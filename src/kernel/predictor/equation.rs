@@ -339,12 +339,11 @@ pub(super) fn touch(
     }
 }
 
-/// The ways: both changes, or the means of the neighbours' where they are not known, and the mean velocities of the
-/// faces that have `whole` particles or more.
+/// The ways: both changes, or the means of the neighbours' where they are not known.
 #[inline(always)]
-pub(super) fn fill_in(ways: &mut [Way], changes: [Around; 2], known: Around, means: &[[f32; 2]], whole: f32) {
+pub(super) fn fill_in(ways: &mut [Way], changes: [Around; 2], known: Around) {
     let n = ways.len();
-    let ([gained, drift], known, means) = (changes.map(|change| change.first(n)), known.first(n), &means[..n]);
+    let ([gained, drift], known) = (changes.map(|change| change.first(n)), known.first(n));
     for i in 0..n {
         let around = (known.left[i] + known.right[i]) + (known.lower[i] + known.upper[i]);
         let share = 1.0 / if around > 0.5 { around } else { 0.5 };
@@ -353,13 +352,6 @@ pub(super) fn fill_in(ways: &mut [Way], changes: [Around; 2], known: Around, mea
         let (own, is_known) = ([gained.centre[i], drift.centre[i]], known.centre[i] > 0.0);
         let gained = if is_known { own[0] } else { by_pressure };
         let drift = if is_known { own[1] } else { by_potential };
-        ways[i] = way([gained, drift], means[i], whole);
+        ways[i] = [gained, drift];
     }
-}
-
-/// The way of a face with both changes, and with its mean velocity if it has `whole` particles or more.
-#[inline(always)]
-pub(super) fn way([gained, drift]: [f32; 2], [weight, mean]: [f32; 2], whole: f32) -> Way {
-    let is_whole = if weight < whole { 0.0 } else { 1.0 };
-    [gained, is_whole * mean, is_whole, drift]
 }

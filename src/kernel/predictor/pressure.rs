@@ -46,6 +46,11 @@ const OF_GRAINS: f64 = 0.2;
 /// face's. At a free surface a face that is half full has its particles on one side.
 const WHOLE: f32 = 0.5;
 
+/// Particles (as weights) from which on a face has them on both sides, where the density `target` (per d²) is aimed at.
+pub(super) fn whole(grid: &MacGrid, target: f32) -> f32 {
+    WHOLE * target * grid.cell * grid.cell
+}
+
 /// One projection. `p` is counted in d/s: a face gains `p_left − p_right`, over its density as a share of the heaviest's.
 pub(super) struct Projection<'a> {
     pub grid: &'a MacGrid,
@@ -86,14 +91,14 @@ impl Pass for Projection<'_> {
         } = self;
         conjugate.resize(grid.len());
         mark_liquid(grid, closed, faces, conjugate, target, team);
-        let whole = WHOLE * target * grid.cell * grid.cell;
         faces.find_means(grid, team);
         if conjugate.rows.is_empty() {
             return;
         }
         letting_go.run(grid, closed, faces, conjugate);
         let full = target * grid.cell * grid.cell;
-        let sealed = assemble(grid, closed, faces, hierarchy.finest(), conjugate, (dt, whole), team);
+        let of = (dt, whole(grid, target));
+        let sealed = assemble(grid, closed, faces, hierarchy.finest(), conjugate, of, team);
         if let Some(grains) = &mut grains {
             let bed = Bed::new((grid, closed), conjugate, full, kick, team);
             grains.begin(&bed, faces, &mut hierarchy.finest().b);
@@ -116,7 +121,7 @@ impl Pass for Projection<'_> {
         let mut potential = std::mem::take(&mut conjugate.potential);
         let drift = conjugate.solve(hierarchy, &mut potential, FEEDBACK_TOLERANCE, team);
         let potentials = [&conjugate.solution[..], &potential];
-        Changes { grid, closed, conjugate, potentials, whole, team }.find(faces, hierarchy.finest());
+        Changes { grid, closed, conjugate, potentials, team }.find(faces, hierarchy.finest());
         if let Some(grains) = grains {
             grains.end(&Bed::new((grid, closed), conjugate, full, kick, team), faces, &conjugate.solution);
         }

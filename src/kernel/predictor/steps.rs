@@ -164,7 +164,8 @@ impl Predictor {
             let share = |rate: f32| (rate * dt).min(1.0);
             let (blend, arrest) = (share(GRAINS_BLEND_PER_SECOND), ARREST * kick.length());
             let grains = self.grains.as_ref().map(|grains| RubOff { grains, blend, arrest });
-            let way = WayBack { blend: share(BLEND_PER_SECOND), drawn, grains, dt, domain, solids };
+            let whole = pressure::whole(&grid, params.rest_density);
+            let way = WayBack { whole, blend: share(BLEND_PER_SECOND), drawn, grains, dt, domain, solids };
             hand_back(&self.faces, &grid, particles, &way, team);
         }
         report

@@ -13,10 +13,9 @@ use crate::{
 };
 use std::ops::Range;
 
-/// What particles near a face do, on their way back from it: the change of velocity, d/s; the mean velocity of before,
-/// d/s, and 1, where particles stand on both sides of the face, else twice 0; velocity at which the density feedback
-/// moves particles, d/s.
-pub(super) type Way = [f32; 4];
+/// What the solve does to particles near a face: the change of velocity, and the velocity at which the density feedback moves
+/// them, d/s.
+pub(super) type Way = [f32; 2];
 
 /// Fields on the faces.
 #[derive(Clone, Debug, Default)]
@@ -49,7 +48,7 @@ impl Faces {
         blocks.partition(grid, y, team.instructions, team.threads);
         *reached = blocks.reached();
         *area = grid.columns_near(extent(x, team.instructions));
-        ways.iter_mut().for_each(|ways| ways.resize(grid.len(), [0.0; 4]));
+        ways.iter_mut().for_each(|ways| ways.resize(grid.len(), [0.0; 2]));
         filled.resize(grid.len(), 0.0);
         let share = ShareOut { grid, blocks, reached, area, team };
         share.run([x, y], None, [vx, vy], [u, v]);
@@ -94,10 +93,10 @@ impl Faces {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        let [u, v] = [&self.u, &self.v].map(|field| 8 * field.capacity());
-        let ways = 16 * (self.ways[0].capacity() + self.ways[1].capacity());
+        let [ways_u, ways_v] = &self.ways;
+        let on_faces: usize = [&self.u, &self.v, ways_u, ways_v].map(|field| 8 * field.capacity()).iter().sum();
         let matter = self.matter.as_ref().map_or(0, Matter::memory);
-        u + v + ways + matter + 4 * self.filled.capacity() + self.blocks.memory()
+        on_faces + matter + 4 * self.filled.capacity() + self.blocks.memory()
     }
 }
 

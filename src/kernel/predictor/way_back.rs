@@ -11,15 +11,17 @@ use crate::{
         matter::{Beside, Matter},
         share_out::lanes,
         stencil::{Axis, LANES, Stencils},
-        transfer::{Faces, Way},
+        transfer::Faces,
     },
     simd::{Lanes, Pass},
     solids::Solids,
 };
-use glam::{Vec2, Vec4};
+use glam::{Vec2, Vec4, Vec4Swizzles};
 
 /// How the particles follow the faces.
 pub(super) struct WayBack<'a> {
+    /// Particles (as weights) from which on they stand on both sides of a face, so that they are drawn to their mean velocity.
+    pub whole: f32,
     /// Share of the difference to the grid's velocity that a particle gives up.
     pub blend: f32,
     /// What share of that particles of each element give up; none where all give up all of it.
@@ -68,7 +70,7 @@ pub(super) fn hand_back(faces: &Faces, grid: &MacGrid, particles: &mut Particles
     let beside = faces.matter.as_ref().map(Matter::beside);
     spread(arrays, WORTH_A_PIECE, team.threads, &|first, [x, y, vx, vy, push_x, push_y]| {
         let (position, velocity, push) = ([x, y], [vx, vy], [push_x, push_y]);
-        let (ways, instructions) = (&faces.ways, team.instructions);
+        let instructions = team.instructions;
         let beside = beside.map(|beside| beside.from(first));
         let grains = way.grains.map(|off| (&off.grains.sines()[first..], off));
         let drawn = way.drawn.map(|drawn| (drawn, &elements[first..]));
@@ -77,7 +79,7 @@ pub(super) fn hand_back(faces: &Faces, grid: &MacGrid, particles: &mut Particles
                 let (beside, drawn, grains) = (None, None, None);
                 instructions.run(HandBack::<false> {
                     grid,
-                    ways,
+                    faces,
                     beside,
                     drawn,
                     grains,
@@ -88,7 +90,17 @@ pub(super) fn hand_back(faces: &Faces, grid: &MacGrid, particles: &mut Particles
                 });
             }
             true => {
-                instructions.run(HandBack::<true> { grid, ways, beside, drawn, grains, way, position, velocity, push });
+                instructions.run(HandBack::<true> {
+                    grid,
+                    faces,
+                    beside,
+                    drawn,
+                    grains,
+                    way,
+                    position,
+                    velocity,
+                    push,
+                });
             }
         }
     });
@@ -97,7 +109,7 @@ pub(super) fn hand_back(faces: &Faces, grid: &MacGrid, particles: &mut Particles
 /// Changes particles as the faces around them say.
 struct HandBack<'a, const MIXED: bool> {
     grid: &'a MacGrid,
-    ways: &'a [Vec<Way>; 2],
+    faces: &'a Faces,
     /// What particles gain beside the liquid, if masses differ; not read without `MIXED`.
     beside: Option<Beside<'a>>,
     /// What share of the difference the elements take, and the particles' elements, if not all take all; not read without `MIXED`.
@@ -113,7 +125,7 @@ struct HandBack<'a, const MIXED: bool> {
 impl<const MIXED: bool> Pass for HandBack<'_, MIXED> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { grid, ways, beside, drawn, grains, way, .. } = self;
+        let Self { grid, faces, beside, drawn, grains, way, .. } = self;
         let ([x, y], [vx, vy], [push_x, push_y]) = (self.position, self.velocity, self.push);
         let (low, high) = (Vec2::splat(WALL_GAP), way.domain.highest());
         let rock = (way.solids.count() > 0).then_some(way.solids);
@@ -123,8 +135,8 @@ impl<const MIXED: bool> Pass for HandBack<'_, MIXED> {
             let count = own.len();
             let around = |axis| Stencils::new(grid, &from_x, &from_y, axis);
             let (around_u, around_v) = (around(Axis::U), around(Axis::V));
-            let mut means_x = mean_of_faces(&ways[0], grid, &around_u, count);
-            let mut means_y = mean_of_faces(&ways[1], grid, &around_v, count);
+            let mut means_x = mean_of_faces([&faces.ways[0], &faces.u], way.whole, grid, &around_u, count);
+            let mut means_y = mean_of_faces([&faces.ways[1], &faces.v], way.whole, grid, &around_v, count);
             if let Some(beside) = beside.filter(|_| MIXED) {
                 for (axis, around, means) in [(Axis::U, &around_u, &mut means_x), (Axis::V, &around_v, &mut means_y)] {
                     for lane in 0..count {
@@ -170,9 +182,9 @@ impl<const MIXED: bool> Pass for HandBack<'_, MIXED> {
 
 /// Lets the faces draw a particle only by a share.
 #[inline(always)]
-fn draw_less(share: f32, means: [&mut Way; 2]) {
+fn draw_less(share: f32, means: [&mut Mean; 2]) {
     for mean in means {
-        (mean[1], mean[2]) = (share * mean[1], share * mean[2]);
+        (mean[2], mean[3]) = (share * mean[2], share * mean[3]);
     }
 }
 
@@ -182,24 +194,36 @@ const BESIDE: f32 = 0.02;
 /// The way of a particle that gains `more` times what the liquid gains. It moves beside the liquid: it is not drawn to the
 /// velocity of that, which is what it rises or sinks against.
 #[inline(always)]
-fn beside_the_liquid([gained, mean, known, drift]: Way, more: f32) -> Way {
+fn beside_the_liquid([gained, drift, known, mean]: Mean, more: f32) -> Mean {
     let moves = more.abs() * (1.0 / BESIDE);
     let drawn = if moves < 1.0 { 1.0 - moves } else { 0.0 };
-    [gained + gained * more, drawn * mean, drawn * known, drift]
+    [gained + gained * more, drift, drawn * known, drawn * mean]
 }
 
-/// The bilinear means of the faces around the first `count` points.
+/// Bilinear means of what the faces around a point do to a particle there: change of velocity, velocity of the density
+/// feedback, share of faces with particles on both sides, and their velocity of before times that, d/s.
+type Mean = [f32; 4];
+
+/// The means around the first `count` points, of the faces' ways and of their weights with the velocities of before.
 #[inline(always)]
-fn mean_of_faces(field: &[Way], grid: &MacGrid, stencils: &Stencils, count: usize) -> [Way; LANES] {
+fn mean_of_faces(
+    fields: [&[[f32; 2]]; 2],
+    whole: f32,
+    grid: &MacGrid,
+    stencils: &Stencils,
+    count: usize,
+) -> [Mean; LANES] {
     let mut means = [[0.0; 4]; LANES];
     for lane in 0..count {
         let corner = stencils.corner[lane] as usize;
         let (right, upper) = (stencils.right[lane], stencils.upper[lane]);
         let (left, lower) = (1.0 - right, 1.0 - upper);
-        let (below, above) = (pair(field, corner), pair(field, corner + grid.stride));
-        let on_left = lower * below[0] + upper * above[0];
-        let on_right = lower * below[1] + upper * above[1];
-        means[lane] = (left * on_left + right * on_right).to_array();
+        let (below, above) = (pair(fields, whole, corner), pair(fields, whole, corner + grid.stride));
+        let [ways, known] = [0, 1].map(|of| {
+            let [left_x, left_y, right_x, right_y] = (lower * below[of] + upper * above[of]).to_array();
+            left * Vec2::new(left_x, left_y) + right * Vec2::new(right_x, right_y)
+        });
+        means[lane] = [ways.x, ways.y, known.x, known.y];
     }
     means
 }
@@ -225,19 +249,21 @@ fn rub([vx, vy]: [f32; 2], [[mean_x, known_x], [mean_y, known_y]]: [GrainWay; 2]
     if vx * vx + vy * vy < arrest * arrest { [0.0; 2] } else { [vx, vy] }
 }
 
-/// Two faces side by side.
+/// Two faces side by side, left and right: their ways, and for each that is whole 1 and its velocity of before, else twice 0.
 #[inline(always)]
-fn pair(field: &[Way], at: usize) -> [Vec4; 2] {
-    let [left, right] = &field[at..at + 2] else { return [Vec4::ZERO; 2] };
-    [Vec4::from_array(*left), Vec4::from_array(*right)]
+fn pair([ways, means]: [&[[f32; 2]]; 2], whole: f32, at: usize) -> [Vec4; 2] {
+    let [ways, means] = [ways, means].map(|field| Vec4::from_slice(field[at..at + 2].as_flattened()));
+    let weights = means.xxzz();
+    let known = Vec4::new(1.0, means.y, 1.0, means.w);
+    [ways, Vec4::select(weights.cmplt(Vec4::splat(whole)), Vec4::ZERO, known)]
 }
 
 /// Changes one coordinate of some particles: position, velocity and push.
 #[inline(always)]
-fn change(means: &[Way; LANES], particles: [&mut [f32]; 3], way: &WayBack, [low, high]: [f32; 2]) {
+fn change(means: &[Mean; LANES], particles: [&mut [f32]; 3], way: &WayBack, [low, high]: [f32; 2]) {
     let [at, velocity, push] = particles;
     for (((at, velocity), push), mean) in at.iter_mut().zip(velocity).zip(push).zip(means) {
-        let [gained, grid, known, drift] = *mean;
+        let [gained, drift, known, grid] = *mean;
         *velocity += gained + way.blend * (grid - known * *velocity);
         *push += 0.5 * gained;
         *at = keep(*at + shorten(drift * way.dt), low, high);

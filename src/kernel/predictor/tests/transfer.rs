@@ -36,7 +36,9 @@ fn collect(grid: &MacGrid, particles: &Particles) -> Faces {
 fn hand_back(faces: &Faces, grid: &MacGrid, particles: &mut Particles) {
     let size = Vec2::new(grid.columns as f32, grid.rows as f32) * grid.cell;
     let domain = Domain { size, gravity: Vec2::ZERO };
-    let way = WayBack { blend: 0.0, drawn: None, grains: None, dt: DT, domain: &domain, solids: &Solids::new(1, 1) };
+    let whole = f32::INFINITY;
+    let way =
+        WayBack { whole, blend: 0.0, drawn: None, grains: None, dt: DT, domain: &domain, solids: &Solids::new(1, 1) };
     way_back::hand_back(faces, grid, particles, &way, team());
 }
 
@@ -117,7 +119,7 @@ fn a_linear_flow_is_linear_on_the_grid_and_back() {
         for column in 0..grid.columns + 1 {
             let [left, lower] = face_points(&grid, column, row).map(flow);
             let k = grid.row(row + 1) + column + 1;
-            (faces.ways[0][k], faces.ways[1][k]) = ([left.x, 0.0, 0.0, 0.0], [lower.y, 0.0, 0.0, 0.0]);
+            (faces.ways[0][k], faces.ways[1][k]) = ([left.x, 0.0], [lower.y, 0.0]);
         }
     }
     let mut particles = cloud(3000, size(&walls), CELL, |_| Vec2::ZERO);
@@ -142,7 +144,7 @@ fn what_the_faces_give_is_what_the_particles_get() {
         for ([weight, _], way) in field.iter().zip(ways) {
             let change = random();
             *sum += f64::from(*weight) * f64::from(change);
-            *way = [change, 0.0, 0.0, 0.0];
+            *way = [change, 0.0];
         }
     }
     hand_back(&faces, &grid, &mut particles);
