@@ -159,8 +159,8 @@ impl Sleep {
     /// Notes how the sleepers lie.
     pub(super) fn remember(&mut self, particles: &Particles) {
         let asleep = self.asleep();
-        // Room for all at once, and not anew for each that falls asleep.
-        let all = particles.len();
+        // Room for all at once, and not anew for each that falls asleep; none where none does.
+        let all = if asleep > 0 { particles.len() } else { 0 };
         for (copy, from) in [(&mut self.x, &particles.x), (&mut self.y, &particles.y)] {
             copy.clear();
             copy.reserve(all);

@@ -141,3 +141,17 @@ fn a_record_fits_its_world_and_no_other() {
     particles.vx[299] = 1.0;
     assert!(!record.fits(&particles, SIZE), "a sleeper moves");
 }
+
+#[test]
+fn nothing_is_kept_of_particles_while_none_sleeps() {
+    let held = |count: u32| {
+        let mut particles = Particles::default();
+        for k in 0..count {
+            particles.push(k, ElementId(1), Vec2::splat(0.5), Vec2::new(50.0, 0.0));
+        }
+        let mut sleep = Sleep::resume(SleepRecord::default(), &particles, SIZE, 0);
+        assert_eq!(watch(&mut sleep, &mut particles), 0);
+        sleep.memory()
+    };
+    assert_eq!(held(10), held(10_000));
+}

@@ -15,13 +15,13 @@ const fn bit(x: i32, y: i32) -> u16 {
     1 << (3 * (y + 1) + x + 1)
 }
 
-/// Which cells of the box are rock. Cells outside the box count as solid.
+/// Which cells of the box are rock. Cells outside the box count as solid. What is kept of cells is empty as long as there has been
+/// no rock.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Solids {
     columns: i32,
     rows: i32,
     element: Vec<u8>,
-    /// Empty as long as there has been no rock.
     id: Vec<u32>,
     /// Heat, quanta; empty as long as there has been none.
     heat: Vec<i32>,
@@ -34,17 +34,7 @@ pub struct Solids {
 impl Solids {
     /// A box of `columns × rows` cells without rock.
     pub fn new(columns: u32, rows: u32) -> Self {
-        let cells = columns as usize * rows as usize;
-        Self {
-            columns: columns as i32,
-            rows: rows as i32,
-            element: vec![EMPTY; cells],
-            id: Vec::new(),
-            heat: Vec::new(),
-            near: vec![0; cells],
-            count: 0,
-            version: 0,
-        }
+        Self { columns: columns as i32, rows: rows as i32, ..Self::default() }
     }
 
     /// Cells along x.
@@ -91,25 +81,35 @@ impl Solids {
         self.contains(cell).then(|| cell.y as usize * self.columns as usize + cell.x as usize)
     }
 
+    /// Where the rock in the cell is stored.
+    fn rock(&self, cell: IVec2) -> Option<usize> {
+        self.index(cell).filter(|k| self.is_rock(*k))
+    }
+
+    #[inline(always)]
+    fn is_rock(&self, k: usize) -> bool {
+        self.element.get(k).is_some_and(|element| *element != EMPTY)
+    }
+
     /// Whether water and air can't be there: rock, or outside the box.
     pub fn is_solid(&self, cell: IVec2) -> bool {
-        self.index(cell).is_none_or(|k| self.element[k] != EMPTY)
+        self.index(cell).is_none_or(|k| self.is_rock(k))
     }
 
     /// The rock in the cell: its element and id.
     pub fn get(&self, cell: IVec2) -> Option<(ElementId, u32)> {
-        let k = self.index(cell)?;
-        (self.element[k] != EMPTY).then(|| (ElementId(self.element[k]), self.id[k]))
+        self.rock(cell).map(|k| (ElementId(self.element[k]), self.id[k]))
     }
 
     /// Puts rock into a free cell of the box; `false` if the cell is taken or outside.
     pub fn insert(&mut self, cell: IVec2, element: ElementId, id: u32) -> bool {
         let Some(k) = self.index(cell) else { return false };
-        if self.element[k] != EMPTY {
+        if self.is_rock(k) {
             return false;
         }
-        if self.id.is_empty() {
-            self.id = vec![0; self.element.len()];
+        if self.element.is_empty() {
+            let cells = self.columns as usize * self.rows as usize;
+            (self.element, self.id, self.near) = (vec![EMPTY; cells], vec![0; cells], vec![0; cells]);
         }
         self.element[k] = element.0;
         self.id[k] = id;
@@ -121,10 +121,7 @@ impl Solids {
 
     /// Takes the rock out of the cell; `false` if there was none.
     pub fn remove(&mut self, cell: IVec2) -> bool {
-        let Some(k) = self.index(cell) else { return false };
-        if self.element[k] == EMPTY {
-            return false;
-        }
+        let Some(k) = self.rock(cell) else { return false };
         self.element[k] = EMPTY;
         if let Some(heat) = self.heat.get_mut(k) {
             *heat = 0;
@@ -163,7 +160,7 @@ impl Solids {
 
     /// Gives the rock in the cell this heat, quanta. Nothing where is none.
     pub fn set_heat(&mut self, cell: IVec2, heat: i32) {
-        let Some(k) = self.index(cell).filter(|k| self.element[*k] != EMPTY) else { return };
+        let Some(k) = self.rock(cell) else { return };
         if self.heat.is_empty() && heat != 0 {
             self.heat = vec![0; self.element.len()];
         }
@@ -210,6 +207,17 @@ mod tests {
             assert!(solids.insert(IVec2::new(x, y), ElementId(0), id as u32));
         }
         solids
+    }
+
+    #[test]
+    fn a_box_without_rock_holds_nothing_of_its_cells() {
+        let mut solids = Solids::new(1000, 1000);
+        let middle = IVec2::splat(500);
+        assert!(!solids.is_solid(middle) && solids.is_solid(IVec2::new(-1, 3)) && solids.iter().next().is_none());
+        assert!(solids.get(middle).is_none() && !solids.remove(middle) && !solids.is_rock_at([500.5; 2]));
+        assert_eq!(solids.memory(), 0);
+        assert!(solids.insert(middle, ElementId(1), 7) && solids.is_rock_at([500.5; 2]));
+        assert!(solids.memory() >= 1_000_000);
     }
 
     #[test]
