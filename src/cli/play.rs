@@ -2,11 +2,9 @@
 
 use crate::{
     cli::{args::PlayOptions, failure::Failure, output, start::Start, threads},
+    scene::DEFAULT_SCENE,
     sim::recording::Recording,
 };
-
-/// The scene without a name, the first time.
-pub(super) const DEFAULT_SCENE: &str = "waterfall";
 
 /// Opens the game with a scene, a saved world or a recording; with none, the scene that was played last.
 pub(super) fn play(scene: Option<&str>, options: &PlayOptions) -> Result<(), Failure> {

@@ -5,13 +5,12 @@ use crate::{
         args::{Minutes, SoakArguments},
         failure::Failure,
         journal::{self, StateFile},
-        output,
-        play::DEFAULT_SCENE,
-        progress,
+        output, progress,
         start::{Start, Wanted, bad},
         threads,
     },
     lab::soak::{Creep, Entry, Report, Soak},
+    scene::DEFAULT_SCENE,
     sim::{checkpoint::Checkpoint, snapshot::hash_bytes, workers::Workers},
 };
 use bevy::platform::time::Instant;

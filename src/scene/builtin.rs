@@ -15,19 +15,19 @@ static SCENES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/assets/scenes");
 pub(super) const ELEMENTS: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/elements.ron"));
 
 /// The scene that the game starts with; first in every list.
-const FIRST: &str = "waterfall";
+pub const DEFAULT_SCENE: &str = "waterfall";
 
 /// Largest file that is read, bytes.
 const LARGEST: u64 = 16 << 20;
 
-/// Names of the scenes in the binary, sorted, `waterfall` first.
+/// Names of the scenes in the binary, sorted, the default one first.
 pub fn builtin_names() -> Vec<&'static str> {
     let mut names: Vec<&str> = SCENES
         .files()
         .filter(|file| file.path().extension().is_some_and(|extension| extension == "ron"))
         .filter_map(|file| file.path().file_stem()?.to_str())
         .collect();
-    names.sort_unstable_by_key(|name| (*name != FIRST, *name));
+    names.sort_unstable_by_key(|name| (*name != DEFAULT_SCENE, *name));
     names
 }
 

@@ -34,7 +34,7 @@ pub mod readers;
 
 pub use build::{DETAIL, SceneFile, from_text, load};
 pub(crate) use build::{MOST_CELLS, MOST_DETAIL, SIDE};
-pub use builtin::builtin_names;
+pub use builtin::{DEFAULT_SCENE, builtin_names};
 pub use category::SceneCategory;
 pub use elements::elements;
 pub use error::SceneError;

@@ -2,13 +2,10 @@
 
 use crate::{
     kernel::params::Preset,
-    scene::{self, DETAIL, SceneError, blueprint::Blueprint, effects::EffectModes},
+    scene::{self, DEFAULT_SCENE, DETAIL, SceneError, blueprint::Blueprint, effects::EffectModes},
     sim::{checkpoint::Checkpoint, file::FileError, world_text},
 };
 use std::sync::Arc;
-
-/// The scene of a link that names none.
-const DEFAULT_SCENE: &str = "waterfall";
 
 /// What a link asks for.
 #[derive(Clone, Debug, PartialEq)]

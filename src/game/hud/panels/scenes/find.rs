@@ -6,7 +6,7 @@ use crate::{
         language::{sorted_as, spoken},
         tools::spaced,
     },
-    scene::{SceneCategory, SceneFile},
+    scene::{DEFAULT_SCENE, SceneCategory, SceneFile},
 };
 
 /// The scenes that hold every word of the text, those first in whose titles it stands; then by category, and there by title, but
@@ -20,7 +20,7 @@ pub(super) fn find(entries: &[Entry], text: &str) -> Vec<usize> {
         entries.iter().enumerate().filter_map(|(index, entry)| Some((of(&entry.scene)?, index))).collect();
     found.sort_by_cached_key(|(rank, index)| {
         let Entry { call, scene, .. } = &entries[*index];
-        (*rank, scene.category(), call != "waterfall", sorted_as(&spoken(scene.title())))
+        (*rank, scene.category(), call != DEFAULT_SCENE, sorted_as(&spoken(scene.title())))
     });
     found.into_iter().map(|(_, index)| index).collect()
 }
