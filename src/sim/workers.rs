@@ -69,7 +69,12 @@ impl Workers {
 
     /// [`Workers::run`] for work over `particles` particles: on one thread if they are few.
     pub fn run_for<T: Send>(&self, particles: usize, work: impl FnOnce(usize) -> T + Send) -> T {
-        self.run_if(particles >= WORTH_SHARING, work)
+        self.run_if(Self::are_worth_sharing(particles), work)
+    }
+
+    /// Whether there are so many particles that their ticks are shared.
+    pub fn are_worth_sharing(particles: usize) -> bool {
+        particles >= WORTH_SHARING
     }
 
     /// [`Workers::run_for`] for a look at each particle.

@@ -175,7 +175,7 @@ fn standard_run(scene: &str, settings: &[(&str, &str)], set: InstructionSet, thr
         }
         simulation.run(TICKS / 20);
         let air = simulation.get::<AirGrid>();
-        shared |= simulation.particles().len() >= 6_000 || (air.is_worth_sharing() && !air.is_quiet());
+        shared |= simulation.particles().len() >= 6_000 || (air.is_worth_waking() && !air.is_quiet());
     }
     (simulation.hash(), shared)
 }

@@ -44,8 +44,11 @@ const BANDS_PER_THREAD: usize = 2;
 /// Fewest rows of a band: two more are made beside it. Changing this affects speed only.
 const FEWEST_ROWS: usize = 16;
 
-/// Cells from which on threads gain more than starting them costs (some 30 µs a pass).
-const PARALLEL_CELLS: usize = 32 * 1024;
+/// Cells from which on threads gain more than waking them costs (some 30 µs a substep).
+const WORTH_WAKING: usize = 32 * 1024;
+
+/// Cells from which on threads that are awake gain more than handing bands to them costs (some 2 µs a substep).
+const WORTH_SHARING: usize = 2 * 1024;
 
 impl Scratch {
     fn prepare(&mut self, air: &Air) {
@@ -68,11 +71,11 @@ struct Substep {
 }
 
 impl Air {
-    /// Whether so much is awake that threads gain more than starting them costs.
-    pub fn is_worth_sharing(&self) -> bool {
+    /// Whether so much of the air is awake that threads are worth waking for it.
+    pub fn is_worth_waking(&self) -> bool {
         let (awake, tiles) = self.awake_tiles();
         let awake = if self.scratch.sleeps { awake } else { tiles };
-        awake > 0 && self.columns() * self.rows() * awake >= PARALLEL_CELLS * tiles
+        awake > 0 && self.columns() * self.rows() * awake >= WORTH_WAKING * tiles
     }
 
     /// Moves the air on by `dt` (s) in as many substeps as the scheme calls for. `team` changes the time it takes and not a
@@ -155,7 +158,7 @@ impl Air {
     /// The lanes for blocks, which must fill a register, and the rows of a band.
     fn division(&self, team: Team, cells: usize) -> (InstructionSet, usize) {
         let instructions = team.instructions.filled_by(self.columns());
-        let shared = team.threads > 1 && cells >= PARALLEL_CELLS;
+        let shared = team.threads > 1 && cells >= WORTH_SHARING;
         let bands = if shared { team.threads * BANDS_PER_THREAD } else { 1 };
         (instructions, self.rows().div_ceil(bands).max(FEWEST_ROWS))
     }

@@ -23,7 +23,7 @@ pub(super) fn step_air(
     setup: Res<Setup>,
     solver: Res<SolverState>,
     effects: Res<Effects>,
-    rock: Res<Rock>,
+    (particles, rock): (Res<ParticleStore>, Res<Rock>),
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
@@ -38,7 +38,9 @@ pub(super) fn step_air(
         air.uncrowd();
     }
     air.allow_sleep(sleep == Mode::On || sleep == Mode::Auto && setup.preset != Preset::Reference);
-    let (worth, instructions) = (air.is_worth_sharing(), solver.instructions);
+    // With many particles, other threads are awake for the whole tick.
+    let worth = air.is_worth_waking() || Workers::are_worth_sharing(particles.len());
+    let instructions = solver.instructions;
     let report = workers.run_if(worth, |threads| {
         air.step(&sources.winds, setup.quality.air_scheme(), Team { instructions, threads }, dt)
     });

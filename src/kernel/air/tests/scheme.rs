@@ -271,7 +271,7 @@ fn parallel_is_serial_bit_for_bit_for_any_number_of_threads() {
     warm(&mut start, &mut noise);
     let step = |threads: usize| {
         let mut air = start.clone();
-        assert!(air.is_worth_sharing(), "what is not shared proves nothing");
+        assert!(air.is_worth_waking(), "what is not shared proves nothing");
         for _ in 0..3 {
             air.step(&[], SCHEME, Team { threads, ..ALONE }, 4e-3);
         }
