@@ -53,6 +53,8 @@ pub mod sweep;
 pub mod tables;
 #[cfg(test)]
 mod testing;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod thread_cost;
 #[cfg(test)]
 pub(crate) mod vision;
 pub mod volume;

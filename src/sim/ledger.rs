@@ -79,7 +79,8 @@ pub struct Work {
     pub touched: u64,
     /// Particles or cells left alone.
     pub spared: u64,
-    time: Duration,
+    /// Time that it took.
+    pub time: Duration,
 }
 
 impl PassRecord {

@@ -5,9 +5,11 @@ mod frame;
 mod heat;
 mod neighbours;
 mod scaling;
+mod threads;
 
 pub(super) use effects::effects;
 pub(super) use frame::frame;
 pub(super) use heat::heat;
 pub(super) use neighbours::neighbours;
 pub(super) use scaling::scaling;
+pub(super) use threads::threads;
