@@ -44,6 +44,7 @@ fn dispatch(arguments: Arguments) -> Result<(), Failure> {
             Bench::Heat { threads } => bench::heat(threads, json.as_deref()),
             Bench::Neighbours { threads } => bench::neighbours(threads, json.as_deref()),
             Bench::Scaling(options) => bench::scaling(&options, json.as_deref()),
+            Bench::Sleep { quick } => bench::sleep(quick, json.as_deref()),
             Bench::Threads { threads, quick } => bench::threads(threads, quick, json.as_deref()),
         },
         Some(Command::Exam(arguments)) => judge::judge(&arguments, false),

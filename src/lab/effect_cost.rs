@@ -125,7 +125,7 @@ pub fn measure(name: &'static str, preset: Preset, rounds: usize) -> Result<Scen
 }
 
 /// Goes on from the start with a choice of effects.
-fn go_on(start: &Checkpoint, preset: Preset, modes: &EffectModes) -> io::Result<Run> {
+pub(super) fn go_on(start: &Checkpoint, preset: Preset, modes: &EffectModes) -> io::Result<Run> {
     let mut run = Simulation::resume(
         &start.clone().at_quality(preset, preset.quality()).map_err(io::Error::other)?,
         Workers::single(),

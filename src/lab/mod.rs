@@ -42,6 +42,8 @@ pub mod sampler;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod scaling;
 #[cfg(not(target_arch = "wasm32"))]
+pub mod sleep_cost;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod soak;
 pub mod sound;
 pub mod split;

@@ -70,7 +70,7 @@ fn bad_usage_is_one_line_that_says_what_is_allowed() {
         (&["play", "niagara"], &["niagara", "allowed"]),
         (&["list"], &["WHAT"]),
         (&["list", "cats"], &["scenes, elements, effects, qualities, cases"]),
-        (&["bench"], &["effects, frame, heat, neighbours, scaling, threads"]),
+        (&["bench"], &["effects, frame, heat, neighbours, scaling, sleep, threads"]),
         (&["bench", "everything"], &["everything", "powder-master bench --help"]),
         (&["bench", "neighbours", "--quick"], &["--quick", "powder-master bench neighbours --help"]),
         (&["bench", "scaling", "--up-to", "3"], &["--up-to", "from 1458"]),

@@ -77,6 +77,12 @@ pub(in crate::cli) enum Bench {
     },
     /// What a tick costs and how exact it is, from 1,458 to 999,698 particles, at every quality of detail 1
     Scaling(ScalingOptions),
+    /// What a tick of a world at rest takes, asleep and awake
+    Sleep {
+        /// One scene, once
+        #[arg(long)]
+        quick: bool,
+    },
     /// What a tick takes on 1, 2, 4 … threads, pass by pass, and what more threads would bring
     Threads {
         /// Most threads [default: all]

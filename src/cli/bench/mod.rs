@@ -5,6 +5,7 @@ mod frame;
 mod heat;
 mod neighbours;
 mod scaling;
+mod sleep;
 mod threads;
 
 pub(super) use effects::effects;
@@ -12,4 +13,5 @@ pub(super) use frame::frame;
 pub(super) use heat::heat;
 pub(super) use neighbours::neighbours;
 pub(super) use scaling::scaling;
+pub(super) use sleep::sleep;
 pub(super) use threads::threads;
