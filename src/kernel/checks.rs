@@ -1,4 +1,5 @@
-//! Looks over all particles once a tick: what is no longer a number, what is where none may be, how many there are.
+//! Looks over all particles once a tick: what is no longer a number, what is where none may be, how fast the
+//! fastest is, how many there are.
 
 use crate::{
     element::ElementId,
@@ -8,10 +9,12 @@ use crate::{
     solids::Solids,
 };
 use glam::IVec2;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 
 /// Particles that are looked at together.
 const BLOCK: usize = 256;
+/// Particles of which each may be the fastest of its own, so that they are looked at side by side.
+const FASTEST_OF: usize = 64;
 /// Fewer particles than this a piece do not pay for another thread: a look is short.
 const WORTH_A_LOOK: usize = 32_768;
 
@@ -46,6 +49,23 @@ pub fn count_escaped(particles: &Particles, solids: &Solids, domain: &Domain, th
     escaped.into_inner()
 }
 
+/// Speed of the fastest, d/s.
+pub fn fastest([vx, vy]: [&[f32]; 2], threads: usize) -> f32 {
+    // Of numbers that are not negative, the bits are in the order of the numbers.
+    let fastest = AtomicU32::new(0);
+    over(vx.len(), WORTH_A_LOOK, threads, &|range| {
+        let mut most = [0.0_f32; FASTEST_OF];
+        for (vx, vy) in vx[range.clone()].chunks(FASTEST_OF).zip(vy[range].chunks(FASTEST_OF)) {
+            for ((most, vx), vy) in most.iter_mut().zip(vx).zip(vy) {
+                let speed2 = vx * vx + vy * vy;
+                *most = if speed2 > *most { speed2 } else { *most };
+            }
+        }
+        fastest.fetch_max(most.into_iter().fold(0.0, f32::max).to_bits(), Ordering::Relaxed);
+    });
+    f32::from_bits(fastest.into_inner()).sqrt()
+}
+
 /// Adds the number of particles of each element to its entry of `counts`.
 pub fn count_elements(elements: &[ElementId], counts: &mut [u32]) {
     for block in elements.chunks(BLOCK) {
@@ -61,6 +81,7 @@ pub fn count_elements(elements: &[ElementId], counts: &mut [u32]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parallel::in_pool;
     use glam::Vec2;
 
     #[test]
@@ -87,6 +108,17 @@ mod tests {
         assert_eq!(count_escaped(&particles, &solids, &domain, 1), 4);
         solids.insert(IVec2::new(2, 2), ElementId(1), 99);
         assert_eq!(count_escaped(&particles, &solids, &domain, 1), 5);
+    }
+
+    #[test]
+    fn the_fastest_is_found_on_any_number_of_threads() {
+        let mut velocities = [vec![0.0_f32; 100_000], vec![0.0; 100_000]];
+        assert_eq!(fastest([&velocities[0], &velocities[1]], 1), 0.0);
+        (velocities[0][70_001], velocities[1][70_001]) = (-3.0, 4.0);
+        velocities[0][12] = 4.9;
+        for threads in [1, 2, 5] {
+            assert_eq!(in_pool(threads, || fastest([&velocities[0], &velocities[1]], threads)), 5.0);
+        }
     }
 
     #[test]

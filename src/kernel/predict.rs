@@ -76,18 +76,6 @@ pub fn longest_move(quality: &Quality) -> f32 {
     MOVE_RADII * quality.kernel_radius
 }
 
-/// Speed of the fastest, d/s.
-pub fn fastest(vx: &[f32], vy: &[f32]) -> f32 {
-    let mut most = [0.0_f32; BLOCK];
-    for (vx, vy) in vx.chunks(BLOCK).zip(vy.chunks(BLOCK)) {
-        for ((most, vx), vy) in most.iter_mut().zip(vx).zip(vy) {
-            let speed2 = vx * vx + vy * vy;
-            *most = if speed2 > *most { speed2 } else { *most };
-        }
-    }
-    most.into_iter().fold(0.0, f32::max).sqrt()
-}
-
 /// Moves the particles to `x + v Δt`, cut to the longest move and swept against rock and box. Where that changed the
 /// move, the velocity becomes that of the move that is left, and what was to push against the obstacle after the move
 /// is held by it ([`held`]). A grain rubs on what stopped it: of its motion along it Coulomb's friction is lost, tan φ times what
@@ -226,7 +214,7 @@ fn move_freely(from: &[f32], velocity: &[f32], to: &mut [f32], high: f32, dt: f3
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{params::Preset, units::TICK_SECONDS};
+    use crate::{checks, params::Preset, units::TICK_SECONDS};
 
     #[test]
     fn speeds_are_followed_up_to_the_bound_and_cut_to_it_past_it() {
@@ -242,7 +230,7 @@ mod tests {
             let speed = part * bound;
             let mut particles = Particles::default();
             particles.push(0, ElementId(0), Vec2::splat(500.0), Vec2::new(0.6, -0.8) * speed);
-            let speed = fastest(&particles.vx, &particles.vy);
+            let speed = checks::fastest([&particles.vx, &particles.vy], 1);
             let wanted = substeps(speed, &domain, &quality, (detail, TICK_SECONDS), || 1.0);
             assert_eq!(wanted, Substeps { count: most, short });
             let dt = TICK_SECONDS / wanted.count as f32;

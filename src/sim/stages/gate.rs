@@ -1,7 +1,7 @@
 //! Gathers the facts of a tick and lets the table of effects decide by them, and plans how many substeps it takes.
 
 use crate::{
-    kernel::{crowding::Crowding, fracture, predict, units::TICK_SECONDS},
+    kernel::{checks, crowding::Crowding, fracture, predict, units::TICK_SECONDS},
     scene::effects::{Effect, Facts, Mode},
     sim::{
         effects::Effects,
@@ -10,6 +10,7 @@ use crate::{
             AirGrid, Apart, Census, Counters, Elements, MassShares, ParticleStore, Recipes, Rock, Setup, SleepState,
             Sources,
         },
+        workers::Workers,
     },
 };
 use bevy::prelude::{Local, Res, ResMut};
@@ -22,12 +23,14 @@ pub(super) fn plan_tick(
     sources: Res<Sources>,
     census: Res<Census>,
     (asleep, rock): (Res<SleepState>, Res<Rock>),
+    workers: Res<Workers>,
     (elements, recipes): (Res<Elements>, Res<Recipes>),
     (mut effects, mut plan): (ResMut<Effects>, ResMut<TickPlan>),
     mut shares: ResMut<MassShares>,
     mut apart: ResMut<Apart>,
 ) {
-    let fastest = predict::fastest(&particles.vx, &particles.vy);
+    plan.fastest =
+        workers.run_checks(particles.len(), |threads| checks::fastest([&particles.vx, &particles.vy], threads));
     let modes = effects.wanted();
     // Air that is switched off stands: a wind that froze would blow for ever.
     if modes[Effect::Air as usize] == Mode::Off && !air.is_quiet() {
@@ -54,7 +57,7 @@ pub(super) fn plan_tick(
         air_moves: !air.is_quiet(),
         stirs_air: {
             let substep = TICK_SECONDS / setup.quality.substeps as f32;
-            air.may_be_roused(&elements, &census.by_element, fastest, substep)
+            air.may_be_roused(&elements, &census.by_element, plan.fastest, substep)
         },
     };
     effects.decide(&facts);
@@ -78,12 +81,11 @@ pub(super) fn plan_substeps(
     mut plan: ResMut<TickPlan>,
     mut crowding: Local<Crowding>,
 ) {
-    let fastest = predict::fastest(&particles.vx, &particles.vy);
     // The substeps of a preset make up for the detail of its own.
     let finer = f64::from(setup.blueprint.scale.detail) / setup.preset.detail();
     let length = (finer as f32, TICK_SECONDS);
     let crowding = || crowding.of(&particles, setup.domain.size);
-    let wanted = predict::substeps(fastest, &setup.domain, &setup.quality, length, crowding);
+    let wanted = predict::substeps(plan.fastest, &setup.domain, &setup.quality, length, crowding);
     plan.substeps = wanted.count;
     counters.substeps_short += u64::from(wanted.short);
     counters.substeps_max = counters.substeps_max.max(plan.substeps);

@@ -24,6 +24,8 @@ pub struct Substep;
 pub struct TickPlan {
     /// Substeps of this tick.
     pub substeps: u32,
+    /// Speed of the fastest particle as the tick begins, d/s.
+    pub(super) fastest: f32,
     /// Whether the air presses harder than a layer of the weakest of the rock bears.
     pub(super) presses: bool,
     /// When the tick began.
@@ -32,7 +34,7 @@ pub struct TickPlan {
 
 impl Default for TickPlan {
     fn default() -> Self {
-        Self { substeps: 1, presses: false, started: Instant::now() }
+        Self { substeps: 1, fastest: 0.0, presses: false, started: Instant::now() }
     }
 }
 
