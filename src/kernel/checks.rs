@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 
 /// Particles that are looked at together.
 const BLOCK: usize = 256;
-/// Particles of which each may be the fastest of its own, so that they are looked at side by side.
+/// Greatest speeds that are kept side by side, so that the loop over them fills the lanes.
 const FASTEST_OF: usize = 64;
 /// Fewer particles than this a piece do not pay for another thread: a look is short.
 const WORTH_A_LOOK: usize = 32_768;

@@ -4,8 +4,7 @@ use crate::{
     kernel::params::Preset,
     lab::{
         effect_cost::go_on,
-        experiment::{ExperimentError, Run, interleaved},
-        stats,
+        experiment::{ExperimentError, Run, Spread, interleaved},
     },
     scene::{
         self,
@@ -64,10 +63,8 @@ pub fn measure(
     for (_, k) in interleaved(choices.len(), rounds) {
         runs[k].push(go_on(&start, preset, &choices[k])?);
     }
-    let [ms_awake, ms_asleep] = runs.map(|runs| {
-        let mut medians: Vec<f64> = runs.iter().map(|run| run.quantile(0.5)).collect();
-        stats::quantile(&mut medians, 0.5).unwrap_or(f64::NAN)
-    });
+    let median = |runs: Vec<Run>| Spread::of(runs.iter().map(|run| run.quantile(0.5))).map_or(f64::NAN, |ms| ms.median);
+    let [ms_awake, ms_asleep] = runs.map(median);
     let (particles, asleep) = (world.get::<ParticleStore>().len(), world.get::<SleepState>().asleep());
     Ok(SleepCost { scene: name, particles, asleep, ticks, ms_awake, ms_asleep })
 }

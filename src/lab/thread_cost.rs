@@ -4,24 +4,25 @@
 use crate::{
     kernel::params::Preset,
     lab::{
-        experiment::{ExperimentError, interleaved, time},
+        experiment::{ExperimentError, Run, interleaved, time},
         run::{Observer, Plan},
         sampler::ms,
         stats,
     },
-    scene::{self, effects::EffectModes, passes::Pass},
+    scene::{self, blueprint::Blueprint, effects::EffectModes, passes::Pass},
     sim::{ledger::PassLedger, simulation::Simulation, state::ParticleStore, workers::Workers},
 };
 use bevy::ecs::world::World;
 use serde::Serialize;
 use std::{io, sync::Arc};
 
-/// Ticks that are not timed, and that are: the second second, while the dam's front runs to the far wall.
+/// Ticks that are not timed, and that are: the second second. A dam's front then runs to the far wall.
 const WARMUP: u64 = 60;
 const TIMED: u64 = 60;
 
-/// What a tick takes on some numbers of threads. Every run has the same work in the same tick and other programs only ever add to it, so
-/// the shortest of the rounds counts for each tick and pass. Times are means of these, ms, and so add up.
+/// What a tick takes on some numbers of threads. Every run has the same work in the same tick and other programs only ever add to its
+/// time, so of each tick the shortest of the rounds counts. Times are means over the ticks, ms; those of the passes are of the same
+/// rounds, so that the difference to the whole tick is what passes between them.
 #[derive(Clone, Debug, Serialize)]
 pub struct ThreadCost {
     /// Name of the scene.
@@ -48,24 +49,23 @@ pub struct PassTimes {
 }
 
 impl ThreadCost {
-    /// How many times faster a tick is on each number of threads than on one.
+    /// The speed-up on each number of threads: how many times faster a tick is than on one.
     pub fn speedups(&self) -> impl Iterator<Item = f64> {
         self.ms.iter().map(|ms| self.ms[0] / ms)
     }
 
-    /// How many times faster it is on `threads` than on one by Amdahl's law, from what it takes on one and on two; `None` without
-    /// two.
-    pub fn reckoned(&self, threads: usize) -> Option<f64> {
-        let serial = serial_share(&self.ms)?;
+    /// The speed-up on `threads` by Amdahl's law, from the times on one and on two; `None` without two.
+    pub fn predicted(&self, threads: usize) -> Option<f64> {
+        let serial = (serial(&self.ms)? / self.ms[0]).clamp(0.0, 1.0);
         Some(1.0 / (serial + (1.0 - serial) / threads as f64))
     }
 }
 
-/// Share s of the time on one thread that a second one does not shorten, 0 to 1, from the times on one and on two: Amdahl's law,
-/// t(n) = (s + (1 − s)/n) t(1). `None` without two.
-pub fn serial_share(ms: &[f64]) -> Option<f64> {
+/// What of the time on one thread a second one does not shorten, ms, from the times on one and on two: Amdahl's law, t(n) = s + (t(1) − s)/n.
+/// Below 0 where two are more than twice as fast. `None` without two.
+pub fn serial(ms: &[f64]) -> Option<f64> {
     let [one, two, ..] = ms else { return None };
-    Some((2.0 * two / one - 1.0).clamp(0.0, 1.0))
+    Some(2.0 * two - one)
 }
 
 /// 1, 2, 4 … up to `most`, and that.
@@ -87,21 +87,19 @@ pub fn measure(
 ) -> Result<ThreadCost, ExperimentError> {
     let blueprint = Arc::new(scene::load(name)?.build(settings, Some(preset), &EffectModes::new())?);
     let pools = threads.iter().map(|threads| Workers::new(*threads)).collect::<Result<Vec<_>, _>>()?;
-    let mut shortest = vec![[[f64::INFINITY; TIMED as usize]; COLUMNS]; pools.len()];
+    let mut shortest = vec![Vec::new(); pools.len()];
     let (mut hashes, mut particles) = (Vec::new(), 0);
     for (_, k) in interleaved(pools.len(), rounds) {
-        let mut world = Simulation::new(blueprint.clone(), pools[k].clone());
-        let mut seen = Passes::default();
-        let plan = Plan { ticks: WARMUP + TIMED, warmup: WARMUP, ..Plan::default() };
-        hashes.push(time(&mut world, &plan, &mut [&mut seen])?.hash);
-        particles = world.get::<ParticleStore>().len();
-        for (tick, times) in seen.ms.iter().enumerate() {
-            for (shortest, ms) in shortest[k].iter_mut().zip(times) {
-                shortest[tick] = shortest[tick].min(*ms);
-            }
-        }
+        // Within the pool, where a tick need not enter it, as in a run.
+        let (run, times, count) = pools[k].run(|_| run(&blueprint, &pools[k]))?;
+        keep_shortest(&mut shortest[k], times);
+        hashes.push(run.hash);
+        particles = count;
     }
-    let mean = |column: usize| shortest.iter().filter_map(|of| stats::mean(of[column])).collect::<Vec<_>>();
+    let mean = |column: usize| {
+        let of = |times: &Vec<[f64; COLUMNS]>| stats::mean(times.iter().map(|times| times[column]));
+        shortest.iter().filter_map(of).collect::<Vec<_>>()
+    };
     let passes = Pass::ALL.into_iter().map(|pass| PassTimes { pass: pass.row().name, ms: mean(pass as usize) });
     Ok(ThreadCost {
         scene: name,
@@ -115,6 +113,28 @@ pub fn measure(
 
 /// A time for each pass, and the whole tick's.
 const COLUMNS: usize = Pass::ALL.len() + 1;
+
+/// Runs the world once; returns the run, what its ticks took, and how many particles there are at its end.
+fn run(blueprint: &Arc<Blueprint>, workers: &Workers) -> io::Result<(Run, Vec<[f64; COLUMNS]>, usize)> {
+    let mut world = Simulation::new(blueprint.clone(), workers.clone());
+    let mut passes = Passes::default();
+    let plan = Plan { ticks: WARMUP + TIMED, warmup: WARMUP, ..Plan::default() };
+    let run = time(&mut world, &plan, &mut [&mut passes])?;
+    Ok((run, passes.ms, world.get::<ParticleStore>().len()))
+}
+
+/// Keeps each tick of a round that was shorter as a whole than in those before.
+fn keep_shortest(shortest: &mut Vec<[f64; COLUMNS]>, round: Vec<[f64; COLUMNS]>) {
+    if shortest.is_empty() {
+        *shortest = round;
+        return;
+    }
+    for (shortest, tick) in shortest.iter_mut().zip(round) {
+        if tick[COLUMNS - 1] < shortest[COLUMNS - 1] {
+            *shortest = tick;
+        }
+    }
+}
 
 /// Notes what each pass takes of each tick after the warm-up, ms.
 #[derive(Default)]
@@ -157,7 +177,20 @@ mod tests {
     }
 
     #[test]
-    fn more_threads_are_reckoned_by_amdahls_law() {
+    fn a_tick_counts_as_a_whole_where_it_was_shortest() {
+        let tick = |solve: f64, whole: f64| {
+            let mut times = [0.0; COLUMNS];
+            (times[Pass::Solve as usize], times[COLUMNS - 1]) = (solve, whole);
+            times
+        };
+        let mut shortest = Vec::new();
+        keep_shortest(&mut shortest, vec![tick(2.0, 5.0), tick(3.0, 4.0)]);
+        keep_shortest(&mut shortest, vec![tick(1.0, 6.0), tick(3.5, 3.8)]);
+        assert_eq!(shortest, [tick(2.0, 5.0), tick(3.5, 3.8)]);
+    }
+
+    #[test]
+    fn more_threads_are_predicted_by_amdahls_law() {
         // A fifth is serial.
         let amdahl = |threads: f64| 0.2 + 0.8 / threads;
         let cost = ThreadCost {
@@ -169,12 +202,13 @@ mod tests {
             same_hash: true,
         };
         for threads in [1, 2, 4, 16] {
-            let reckoned = cost.reckoned(threads).unwrap();
-            assert!((reckoned * amdahl(threads as f64) - 1.0).abs() < 1e-12, "{threads}: {reckoned}");
+            let predicted = cost.predicted(threads).unwrap();
+            assert!((predicted * amdahl(threads as f64) - 1.0).abs() < 1e-12, "{threads}: {predicted}");
         }
-        assert_eq!(ThreadCost { ms: vec![1.0], ..cost }.reckoned(4), None);
-        assert_eq!(serial_share(&[1.0, 0.4]), Some(0.0), "more than twice as fast is no serial part below nothing");
-        assert_eq!(serial_share(&[1.0, 1.5]), Some(1.0));
+        let of = |ms: &[f64]| ThreadCost { ms: ms.to_vec(), ..cost.clone() };
+        assert_eq!(of(&[1.0]).predicted(4), None);
+        assert_eq!(of(&[1.0, 0.4]).predicted(4), Some(4.0), "more than twice as fast is no serial part below nothing");
+        assert_eq!(of(&[1.0, 1.5]).predicted(4), Some(1.0));
     }
 
     #[test]

@@ -59,22 +59,21 @@ impl Workers {
         }
     }
 
-    /// [`Workers::run_for`] for a whole tick's work: the other threads stay awake for it, if there is a core for each.
+    /// [`Workers::run_for`] for a whole tick's work, for which the other threads [stay awake](Self::keep_awake).
     pub fn run_tick<T: Send>(&self, particles: usize, work: impl FnOnce() -> T + Send) -> T {
-        self.run_for(particles, |threads| {
-            let watchers = if threads <= *CORES { threads - 1 } else { 0 };
-            watched(watchers, work)
-        })
+        let keep_awake = self.keep_awake(particles);
+        self.run_for(particles, |threads| watched(if keep_awake { threads - 1 } else { 0 }, work))
+    }
+
+    /// Whether the other threads stay awake in a tick of so many particles, so that handing work over is cheap: if there is a
+    /// core for each.
+    pub fn keep_awake(&self, particles: usize) -> bool {
+        particles >= WORTH_SHARING && (2..=*CORES).contains(&self.threads())
     }
 
     /// [`Workers::run`] for work over `particles` particles: on one thread if they are few.
     pub fn run_for<T: Send>(&self, particles: usize, work: impl FnOnce(usize) -> T + Send) -> T {
-        self.run_if(Self::are_worth_sharing(particles), work)
-    }
-
-    /// Whether there are so many particles that their ticks are shared.
-    pub fn are_worth_sharing(particles: usize) -> bool {
-        particles >= WORTH_SHARING
+        self.run_if(particles >= WORTH_SHARING, work)
     }
 
     /// [`Workers::run_for`] for a look at each particle.

@@ -15,3 +15,8 @@ pub(super) use neighbours::neighbours;
 pub(super) use scaling::scaling;
 pub(super) use sleep::sleep;
 pub(super) use threads::threads;
+
+/// Settings of a scene, as the command line has them.
+fn settings(of: &[(&str, &str)]) -> Vec<(String, String)> {
+    of.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect()
+}

@@ -1,7 +1,7 @@
 //! `bench sleep`: what it saves to let water sleep.
 
 use crate::{
-    cli::{failure::Failure, output, progress},
+    cli::{bench::settings, failure::Failure, output, progress},
     kernel::{params::Preset, units::TICKS_PER_SECOND},
     lab::{
         machine::processor,
@@ -29,10 +29,9 @@ pub(in crate::cli) fn sleep(quick: bool, json: Option<&Path>) -> Result<(), Fail
     let (scenes, rounds) = if quick { (&SCENES[..1], 1) } else { (&SCENES[..], ROUNDS) };
     let line = progress::bar(scenes.len() as u64);
     let mut costs = Vec::new();
-    for (name, settings) in scenes {
+    for (name, of) in scenes {
         line.set_message(*name);
-        let settings: Vec<_> = settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
-        costs.push(sleep_cost::measure(name, &settings, PRESET, rounds)?);
+        costs.push(sleep_cost::measure(name, &settings(of), PRESET, rounds)?);
         line.inc(1);
     }
     drop(line);
@@ -50,7 +49,7 @@ fn text(costs: &[SleepCost], rounds: usize) -> String {
         format!("`{scene}` | {particles} | {asleep} | {after:.1} | {ms_awake:.3} | {ms_asleep:.4} | {ratio:.0}")
     };
     format!(
-        "At `{}`, one thread, {}; medians of a tick in ms, {rounds} of each in turn.\n\n{}",
+        "At `{}`, one thread, {}; medians of {rounds} runs each in turn, of a tick's ms.\n\n{}",
         PRESET.name(),
         processor(),
         markdown::rows(

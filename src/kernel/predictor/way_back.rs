@@ -249,7 +249,7 @@ fn rub([vx, vy]: [f32; 2], [[mean_x, known_x], [mean_y, known_y]]: [GrainWay; 2]
     if vx * vx + vy * vy < arrest * arrest { [0.0; 2] } else { [vx, vy] }
 }
 
-/// Two faces side by side, left and right: their ways, and for each that is whole 1 and its velocity of before, else twice 0.
+/// Two faces side by side, left and right: their ways, and (1, mean velocity of before) where a face is whole, else (0, 0).
 #[inline(always)]
 fn pair([ways, means]: [&[[f32; 2]]; 2], whole: f32, at: usize) -> [Vec4; 2] {
     let [ways, means] = [ways, means].map(|field| Vec4::from_slice(field[at..at + 2].as_flattened()));

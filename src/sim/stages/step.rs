@@ -19,7 +19,7 @@ use bevy::{
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Substep;
 
-/// What the gate decided for the tick.
+/// What the gate found and decided for the tick.
 #[derive(Resource, Clone, Copy, Debug)]
 pub struct TickPlan {
     /// Substeps of this tick.

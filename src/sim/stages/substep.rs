@@ -38,8 +38,7 @@ pub(super) fn step_air(
         air.uncrowd();
     }
     air.allow_sleep(sleep == Mode::On || sleep == Mode::Auto && setup.preset != Preset::Reference);
-    // With many particles, other threads are awake for the whole tick.
-    let worth = air.is_worth_waking() || Workers::are_worth_sharing(particles.len());
+    let worth = air.is_worth_waking() || workers.keep_awake(particles.len());
     let instructions = solver.instructions;
     let report = workers.run_if(worth, |threads| {
         air.step(&sources.winds, setup.quality.air_scheme(), Team { instructions, threads }, dt)

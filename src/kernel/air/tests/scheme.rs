@@ -2,6 +2,7 @@
 
 use super::super::MAX_PRESSURE;
 use super::super::source::FACE_FILTER;
+use super::super::step::WORTH_BANDS;
 use super::super::warmth::LOSS_SECONDS;
 use super::*;
 
@@ -263,23 +264,27 @@ fn turned_air_runs_turned() {
 
 #[test]
 fn parallel_is_serial_bit_for_bit_for_any_number_of_threads() {
-    let mut noise = Random::new(12);
-    let sides = OpenSides { right: true, ..OpenSides::default() };
-    let mut start = Air::new(Vec2::new(203.0, 190.0), 1.0, params(sides));
-    start.set_solids(&rock(203, 190, |_, _| noise.offset() > 0.9));
-    stir(&mut start, 0.5, 500.0, &mut noise);
-    warm(&mut start, &mut noise);
-    let step = |threads: usize| {
-        let mut air = start.clone();
-        assert!(air.is_worth_waking(), "what is not shared proves nothing");
-        for _ in 0..3 {
-            air.step(&[], SCHEME, Team { threads, ..ALONE }, 4e-3);
+    // As many cells as are worth waking threads for, and as few as are cut into bands.
+    for (columns, rows) in [(203, 190), (64, 33), (17, 125)] {
+        assert!((columns * rows) as usize >= WORTH_BANDS, "what is not shared proves nothing");
+        let mut noise = Random::new(12);
+        let sides = OpenSides { right: true, ..OpenSides::default() };
+        let mut start = Air::new(Vec2::new(columns as f32, rows as f32), 1.0, params(sides));
+        start.set_solids(&rock(columns, rows, |_, _| noise.offset() > 0.9));
+        stir(&mut start, 0.5, 500.0, &mut noise);
+        warm(&mut start, &mut noise);
+        let step = |threads: usize| {
+            let mut air = start.clone();
+            for _ in 0..3 {
+                air.step(&[], SCHEME, Team { threads, ..ALONE }, 4e-3);
+            }
+            bits(&air)
+        };
+        let serial = step(1);
+        for threads in [2, 3, 5, 40] {
+            let shared = in_pool(threads.min(5), || step(threads));
+            assert!(shared == serial, "{columns} × {rows} cells, {threads} threads");
         }
-        bits(&air)
-    };
-    let serial = step(1);
-    for threads in [2, 3, 5, 40] {
-        assert!(in_pool(threads.min(5), || step(threads)) == serial, "{threads} threads");
     }
 }
 
