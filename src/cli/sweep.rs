@@ -38,7 +38,7 @@ const RUN_IN: u64 = 240;
 const TICKS: [u64; 2] = [300, 120];
 
 /// Runs of a setting.
-const ROUNDS: u64 = 3;
+const ROUNDS: u64 = 5;
 
 /// Measures the scenes one after the other. With `--check`, presets that are out of order fail it once all are measured.
 pub(super) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {

@@ -41,6 +41,7 @@ pub mod run;
 pub mod sampler;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod scaling;
+pub mod shake;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod sleep_cost;
 #[cfg(not(target_arch = "wasm32"))]

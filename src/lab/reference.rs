@@ -2,18 +2,15 @@
 //! checkpoint go from it over time.
 
 use crate::{
-    kernel::{
-        params::{Preset, Quality},
-        random::Random,
-        units::TICKS_PER_SECOND,
-    },
+    kernel::params::{Preset, Quality},
     lab::{
         balance::matter,
         coarse::{CoarseField, Distance, Magnitude},
         run::{Observer, Plan, run},
         sampler::SAMPLE_EVERY,
+        shake::{UNSEEN, shake},
     },
-    sim::{checkpoint::Checkpoint, simulation::Simulation, state::ParticleStore, workers::Workers},
+    sim::{checkpoint::Checkpoint, simulation::Simulation, workers::Workers},
 };
 use bevy::ecs::world::World;
 use std::io;
@@ -29,10 +26,6 @@ pub struct Reference {
 
 /// How many times finer than the start a converged run is.
 pub const CONVERGED_DETAIL: f64 = 4.0;
-
-/// Speed by which the second of the converged runs is shaken at the start, along each axis, d/s: what is calm to the
-/// eye.
-const SHAKEN: f32 = 0.02 * TICKS_PER_SECOND as f32;
 
 #[derive(Clone, Debug)]
 struct Sample {
@@ -85,11 +78,7 @@ impl Reference {
         let mut simulation = Simulation::resume(&start, workers.clone());
         let first = Self::of(record(&mut simulation, plan, &mut ())?, plan, Distance::default());
         let mut simulation = Simulation::resume(&start, workers.clone());
-        let mut random = Random::new(1);
-        let particles = &mut simulation.world_mut().resource_mut::<ParticleStore>().into_inner().0;
-        for velocity in particles.vx.iter_mut().chain(&mut particles.vy) {
-            *velocity += SHAKEN * (2.0 * random.share() - 1.0);
-        }
+        shake(simulation.world_mut(), UNSEEN, 1);
         let mut follower = Follower::new(&first);
         let samples = record(&mut simulation, plan, &mut follower)?;
         let apart = follower.mean(plan.warmup);

@@ -20,6 +20,13 @@ pub fn mean(values: impl IntoIterator<Item: Borrow<f64>>) -> Option<f64> {
     (count > 0.0).then(|| sum / count)
 }
 
+/// Standard error of the mean of `values`, as far as they tell: their standard deviation over √n. `None` of fewer than two.
+pub fn standard_error(values: &[f64]) -> Option<f64> {
+    let (mean, n) = (mean(values)?, values.len() as f64);
+    let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
+    (n > 1.0).then(|| (squares / (n * (n - 1.0))).sqrt())
+}
+
 /// The largest of `values`, `None` of nothing.
 pub fn largest(values: impl IntoIterator<Item: Borrow<f64>>) -> Option<f64> {
     values.into_iter().map(|value| *value.borrow()).max_by(f64::total_cmp)
@@ -47,6 +54,15 @@ mod tests {
         assert_eq!(quantile(&mut values, 1.0), Some(4.0));
         assert_eq!(quantile(&mut [7.0], 0.99), Some(7.0));
         assert_eq!(quantile(&mut [], 0.5), None);
+    }
+
+    #[test]
+    fn the_mean_is_known_to_its_standard_error() {
+        // The variance of 1, 2, 3, 4 is 5/3, so that of their mean 5/12.
+        let error = standard_error(&[1.0, 2.0, 3.0, 4.0]).unwrap();
+        assert!((error - (5.0_f64 / 12.0).sqrt()).abs() < 1e-15);
+        assert_eq!(standard_error(&[2.0, 2.0]), Some(0.0));
+        assert_eq!((standard_error(&[1.0]), standard_error(&[])), (None, None));
     }
 
     #[test]

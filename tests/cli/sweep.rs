@@ -1,8 +1,13 @@
 //! `sweep`: its curve, and going on where it was stopped.
 
 use crate::{folder, good, metrics, refused};
-use std::fs::{self, File};
+use serde_json::Value;
+use std::{
+    collections::{BTreeSet, HashMap},
+    fs::{self, File},
+};
 
+/// A sweep of a few particles.
 const SMALL_SWEEP: [&str; 14] = [
     "sweep",
     "dam_break",
@@ -41,13 +46,6 @@ fn a_sweep_leaves_a_curve_and_goes_on_where_it_was_stopped() {
         assert_eq!(field(line, "runs"), "2");
         let number = |name: &str| field(line, name).parse::<f64>().unwrap();
         assert!(number("ms_low") <= number("ms") && number("ms") <= number("ms_high"), "{line}");
-        let quality = field(line, "preset");
-        let alone = ["run", "dam_break", "--set", "columns=8", "--ticks", "21", "--warmup", "3", "--quality", &quality];
-        let run = metrics(&here, &alone);
-        for (column, key) in [("error_max", "density_error_max"), ("density_mean", "density_mean")] {
-            let expected = format!("{:.6}", run["accuracy"][key].as_f64().unwrap());
-            assert_eq!(field(line, column), expected, "{quality} is in the sweep what it is by itself");
-        }
     }
     if cfg!(feature = "charts") {
         assert!(read("curve.svg").starts_with("<svg"));
@@ -55,7 +53,9 @@ fn a_sweep_leaves_a_curve_and_goes_on_where_it_was_stopped() {
     }
 
     let runs = read("runs.jsonl");
-    assert_eq!(runs.lines().count(), 4);
+    let ends: BTreeSet<String> =
+        runs.lines().map(|run| serde_json::from_str::<Value>(run).unwrap()["hash"].to_string()).collect();
+    assert_eq!((runs.lines().count(), ends.len()), (4, 4), "each round sets out a rounding off: {ends:?}");
     let half = &runs[..runs.len() - 9];
     fs::write(here.join("sw/runs.jsonl"), half).unwrap();
     good(&here, &SMALL_SWEEP);
@@ -65,6 +65,26 @@ fn a_sweep_leaves_a_curve_and_goes_on_where_it_was_stopped() {
     good(&here, &SMALL_SWEEP);
     assert_eq!(read("runs.jsonl"), again, "nothing was left to do");
     assert_eq!(fs::read_to_string(here.join("sw/curve.csv")).unwrap().lines().count(), 3);
+}
+
+#[test]
+fn a_quality_is_in_the_sweep_what_it_is_by_itself() {
+    let here = folder("sweep_alone");
+    let once = [&SMALL_SWEEP[..10], &["--repeat", "1", "--out", "sw"]].concat();
+    good(&here, &once);
+    let mut table = csv::Reader::from_path(here.join("sw/curve.csv")).unwrap();
+    let rows: Vec<HashMap<String, String>> = table.deserialize().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), 2);
+    for row in rows {
+        let alone =
+            ["run", "dam_break", "--set", "columns=8", "--ticks", "21", "--warmup", "3", "--quality", &row["preset"]];
+        let run = metrics(&here, &alone);
+        for (column, key) in [("error_max", "density_error_max"), ("density_mean", "density_mean")] {
+            assert_eq!(row[column], format!("{:.6}", run["accuracy"][key].as_f64().unwrap()), "{row:?}");
+        }
+        assert_eq!(row["hash"], run["hash"].as_str().unwrap());
+        assert_eq!(row["error_scatter"], "", "nothing is known of one run");
+    }
 }
 
 #[test]

@@ -278,7 +278,7 @@ pub(in crate::cli) struct SweepArguments {
     /// beaten by a margin
     #[arg(long, conflicts_with_all = ["only", "shard"])]
     pub(in crate::cli) check: bool,
-    /// Runs of each setting, interleaved [default: 3; with --quick 1]
+    /// Runs of each setting, interleaved, each but the first from a start that is a rounding off [default: 5; with --quick 1]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = rounds)]
     pub(in crate::cli) repeat: Option<u64>,
     /// Threads of the settings that don't stand for a number of threads

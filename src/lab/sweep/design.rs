@@ -11,7 +11,7 @@ use std::{fmt::Display, ops::RangeInclusive};
 pub const REAL_TIME: [Preset; 4] = [Preset::Draft, Preset::Fast, Preset::Balanced, Preset::Fine];
 
 /// Kernel radii, d.
-const RADII: [f32; 3] = [2.0, 2.25, 3.0];
+const RADII: [f32; 2] = [2.25, 3.0];
 
 /// Substeps of the plane.
 const SUBSTEPS: [u32; 3] = [1, 2, 4];
@@ -30,6 +30,9 @@ const AIR_CELLS: [f32; 8] = [16.0, 12.0, 8.0, 6.0, 4.0, 3.0, 2.0, 1.5];
 
 /// Courant numbers of the air.
 const COURANTS: [f32; 3] = [0.35, 0.7, 0.9];
+
+/// Those of them that cost no more than the presets' own.
+const LARGE_COURANTS: [f32; 2] = [COURANTS[1], COURANTS[2]];
 
 /// A full set of knobs to measure.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,9 +63,14 @@ impl Setting {
 
     /// The knobs in one word, exact: what the journal knows it by.
     pub fn key(&self) -> String {
+        format!("{} threads {}", self.world(), self.threads)
+    }
+
+    /// The knobs that the world depends on, in one word: the threads do not count.
+    pub(super) fn world(&self) -> String {
         let tuning = Tuning::from(self.quality);
         let knobs: String = Knob::of_quality().map(|knob| format!("{} {} ", knob.name, knob.text(&tuning))).collect();
-        format!("{knobs}predictor {} detail {} threads {}", self.quality.predictor, self.detail(), self.threads)
+        format!("{knobs}predictor {} detail {}", self.quality.predictor, self.detail())
     }
 
     /// How many times finer than the start of the sweep it is.
@@ -150,12 +158,15 @@ fn neighbours(preset: Preset, has_air: bool) -> Vec<Named> {
     for kernel_radius in RADII {
         add(format!("h {kernel_radius}"), Quality { kernel_radius, ..own });
     }
+    for correction_limit in [0.5 * own.correction_limit, 2.0 * own.correction_limit] {
+        add(format!("limit {correction_limit}"), Quality { correction_limit, ..own });
+    }
     add("no predictor".to_owned(), Quality { predictor: false, ..own });
     if has_air {
         for air_cell in [2.0 * own.air_cell, 0.5 * own.air_cell] {
             add(format!("air cell {air_cell}"), Quality { air_cell, ..own });
         }
-        for air_courant in COURANTS {
+        for air_courant in LARGE_COURANTS {
             add(format!("Courant {air_courant}"), Quality { air_courant, ..own });
         }
         for air_advection in AirAdvection::ALL {

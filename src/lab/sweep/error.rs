@@ -1,11 +1,12 @@
 //! What counts as the error of a setting.
 
+use super::record::Found;
 use crate::sim::checkpoint::Checkpoint;
 
 /// What counts as the error of a setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorMeasure {
-    /// 99th percentile of the density error.
+    /// The mean density error, which the game's panel and the autopilots go by, too.
     Density,
     /// Distance of the air's velocity to the reference's.
     Air,
@@ -22,10 +23,18 @@ impl ErrorMeasure {
         if start.has_air() && filled < LITTLE_LIQUID { Self::Air } else { Self::Density }
     }
 
+    /// The error of a run, or of several together.
+    pub fn of_found(self, found: &Found) -> Option<f64> {
+        match self {
+            Self::Density => found.accuracy.density_error_mean,
+            Self::Air => found.accuracy.distance?.air,
+        }
+    }
+
     /// Name with its unit, for the axis.
     pub fn title(self) -> &'static str {
         match self {
-            Self::Density => "density error, 99th percentile",
+            Self::Density => "mean density error",
             Self::Air => "distance of mean air velocity to the reference",
         }
     }

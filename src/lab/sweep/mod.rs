@@ -9,7 +9,8 @@
 //!                                     truth (which are truest)
 //! ```
 //!
-//! Only the first run of a setting is sampled for accuracy; the others are timed and their worlds compared.
+//! A flow is chaotic: every run of a setting but the first sets out a rounding off, so that errors are means with a scatter. The
+//! same round at other numbers of threads must come to the same world.
 
 pub mod design;
 #[cfg(feature = "charts")]

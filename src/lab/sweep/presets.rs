@@ -11,13 +11,13 @@ use std::fmt;
 /// The presets that are steps of accuracy, cheapest first.
 pub const STEPS: [Preset; 5] = [Preset::Draft, Preset::Fast, Preset::Balanced, Preset::Fine, Preset::Reference];
 
-/// A row beats another by a margin if it takes this much less time, as a share. Along the front from `draft` to `balanced`
-/// the error goes with the time to the power of −1.4, so this is worth as much as [`ERROR_MARGIN`].
-const TIME_MARGIN: f64 = 0.1;
+/// A row beats another by a margin if it has this much less of time or of error, as a share, and no more of the other: what is
+/// less than that nobody sees or pays for.
+const MARGIN: f64 = 0.1;
 
-/// Or if it has this much less error, as a share: more than runs of the same flow scatter when air or iterations are changed
-/// a little.
-const ERROR_MARGIN: f64 = 0.15;
+/// Two means of runs are told apart if they differ by more than so many standard errors of their difference: by chance one
+/// pair in twenty that are alike does.
+const TOLD_APART: f64 = 2.0;
 
 /// Whether the presets are in order in a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,16 +105,24 @@ pub fn judge(rows: &[Row], measure: ErrorMeasure, air_is_unseen: bool) -> Order 
         // Two errors that are both next to nothing can't be told apart, nor can times then that are within the margin: the
         // same work was done.
         let as_exact = is_as_fine && cheap.error.max(costly.error) <= NEGLIGIBLE;
-        let in_time = as_exact && (costly.ms / cheap.ms - 1.0).abs() < TIME_MARGIN;
+        let in_time = as_exact && (costly.ms / cheap.ms - 1.0).abs() < MARGIN;
         if as_exact {
             let time = if in_time { " and takes as long" } else { "" };
             alike.push(format!("`{b}` is as exact as `{a}`{time}"));
-        } else if is_as_fine && costly.error >= cheap.error {
+        } else if is_as_fine {
+            let chance = by_chance(cheap.error_scatter, costly.error_scatter);
             let [from, to] = [cheap.error, costly.error];
-            troubles.push(format!("`{a}` → `{b}`: the error rises, {from:.5} → {to:.5}"));
+            if to >= from + chance {
+                troubles.push(format!("`{a}` → `{b}`: the error rises, {from:.5} → {to:.5}"));
+            } else if to > from - chance {
+                troubles.push(format!(
+                    "`{a}` → `{b}`: the error falls by no more than it may by chance ({chance:.5}), {from:.5} → {to:.5}"
+                ));
+            }
         }
         // By so much two true errors may differ that are the same.
-        let floor = 2.0 * cheap.found.floor.unwrap_or(0.0);
+        let floor =
+            2.0 * cheap.found.floor.unwrap_or(0.0) + by_chance(cheap.true_error_scatter, costly.true_error_scatter);
         if let Some((from, to)) = cheap.true_error().zip(costly.true_error()).filter(|(from, to)| *to > from + floor) {
             troubles.push(format!("`{a}` → `{b}`: the true error rises, {from:.5} → {to:.5}"));
         }
@@ -134,16 +142,22 @@ pub fn judge(rows: &[Row], measure: ErrorMeasure, air_is_unseen: bool) -> Order 
     if troubles.is_empty() { Order::Ok { alike, front } } else { Order::NotOk(troubles) }
 }
 
+/// By how much the means of two rows may differ by chance, as far as their runs tell; nothing is known of single runs.
+fn by_chance(a: Option<f64>, b: Option<f64>) -> f64 {
+    TOLD_APART * a.unwrap_or(0.0).hypot(b.unwrap_or(0.0))
+}
+
 /// Whether a row beats another by more than their runs scatter.
 fn beats_beyond_noise(row: &Row, other: &Row, air_is_unseen: bool) -> bool {
     let (a, b) = (point(row, air_is_unseen), point(other, air_is_unseen));
+    let chance = by_chance(row.error_scatter, other.error_scatter);
     row.is_valid()
         && other.error > NEGLIGIBLE
         && row.setting.threads == other.setting.threads
         && row.setting.detail() == other.setting.detail()
         && row.ms_range[1] < other.ms_range[0]
-        && (a.ms <= (1.0 - TIME_MARGIN) * b.ms || a.error <= (1.0 - ERROR_MARGIN) * b.error)
         && a.error <= b.error
+        && (a.ms <= (1.0 - MARGIN) * b.ms || a.error <= (1.0 - MARGIN) * b.error - chance)
         && a.coarseness <= b.coarseness
 }
 
@@ -192,6 +206,27 @@ mod tests {
     }
 
     #[test]
+    fn what_may_be_chance_is_no_step() {
+        let with_scatter = |scatter: f64| {
+            let mut rows = ladder();
+            rows[3].error = 0.0;
+            (rows[1].error_scatter, rows[2].error_scatter) = (Some(scatter), Some(scatter));
+            says(&rows)
+        };
+        // `fast` and `balanced` differ by 0.01: 2 √2 standard errors of each are more from 0.00354 on.
+        assert_eq!(with_scatter(0.0035), [""; 0]);
+        let found = with_scatter(0.0036);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(
+            found[0].contains("`fast` → `balanced`: the error falls by no more than it may by chance"),
+            "{found:?}"
+        );
+        let mut rows = ladder();
+        (rows[2].error, rows[1].error_scatter) = (0.05, Some(0.001));
+        assert_eq!(says(&rows)[0], "`fast` → `balanced`: the error rises, 0.02000 → 0.05000");
+    }
+
+    #[test]
     fn errors_of_next_to_nothing_are_in_order_but_not_called_more_exact() {
         let order = |rows: &[Row]| judge(rows, ErrorMeasure::Density, false).to_string();
         let mut rows = ladder();
@@ -202,7 +237,7 @@ mod tests {
         (rows[2].error, rows[3].error) = (2e-5, 5e-5);
         assert_eq!(
             order(&rows),
-            "Order: ok. Each preset costs more and is more exact than the one before it, but where both err by less than 0.0001: \
+            "Order: ok. Each preset costs more and is more exact than the one before it, but where both err by less than 0.001: \
              `fine` is as exact as `balanced`. No setting beats one with a larger error by a margin.\n"
         );
         rows[3].ms = 1.05;
@@ -258,9 +293,9 @@ mod tests {
         rows[2].ms_range = [0.85, 1.1];
         assert_eq!(says(&rows), [""; 0], "the runs overlap");
         rows[2].ms_range = [1.0, 1.0];
-        (rows[5].ms, rows[5].ms_range, rows[5].error) = (0.97, [0.97, 0.97], 0.009);
+        (rows[5].ms, rows[5].ms_range, rows[5].error) = (0.97, [0.97, 0.97], 0.0095);
         assert_eq!(says(&rows), [""; 0], "neither by a margin");
-        rows[5].error = 0.008;
+        rows[5].error = 0.0085;
         assert_eq!(says(&rows).len(), 1, "more exact by a margin");
         (rows[5].ms, rows[5].ms_range) = (0.9, [0.9, 0.9]);
         let about_air = judge(&rows_with(&rows, [1.0, 1.0]), ErrorMeasure::Air, false);

@@ -1,6 +1,6 @@
 //! What a run of a sweep leaves, in the journal and in the table.
 
-use crate::lab::metrics::Accuracy;
+use crate::lab::{coarse::Distance, metrics::Accuracy, stats};
 use serde::{Deserialize, Serialize};
 
 /// How exact a run was.
@@ -28,6 +28,40 @@ pub struct Record {
     pub ms_p95: f64,
     /// Hash of the final state.
     pub hash: String,
-    /// How exact it was; only the first run of a setting is sampled.
-    pub found: Option<Found>,
+    /// How exact it was.
+    pub found: Found,
+}
+
+impl Found {
+    /// Share of the liquid that stands elsewhere than in the converged run.
+    pub fn true_error(&self) -> Option<f64> {
+        self.accuracy.distance?.share
+    }
+
+    /// What several runs of a setting found: their means, the largest of what is a largest, all that was lost. `None` without
+    /// any.
+    pub fn of_all(runs: &[&Self]) -> Option<Self> {
+        let first = runs.first()?;
+        let accuracies = || runs.iter().map(|run| &run.accuracy);
+        let mean = |of: fn(&Accuracy) -> Option<f64>| stats::mean(accuracies().filter_map(of));
+        let distances: Vec<Distance> = accuracies().filter_map(|accuracy| accuracy.distance).collect();
+        let accuracy = Accuracy {
+            samples: accuracies().map(|accuracy| accuracy.samples).sum(),
+            density_error_mean: mean(|of| of.density_error_mean),
+            density_error_p99: mean(|of| of.density_error_p99),
+            density_error_max: stats::largest(accuracies().filter_map(|of| of.density_error_max)),
+            density_mean: mean(|of| of.density_mean),
+            residual: mean(|of| of.residual),
+            volume_error: mean(|of| of.volume_error),
+            distance: (!distances.is_empty()).then(|| Distance::mean(&distances)),
+            ..Accuracy::default()
+        };
+        Some(Self {
+            particles: first.particles,
+            lost: runs.iter().map(|run| run.lost).sum(),
+            energy_gain: stats::largest(runs.iter().filter_map(|run| run.energy_gain)),
+            floor: first.floor,
+            accuracy,
+        })
+    }
 }

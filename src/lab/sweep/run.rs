@@ -62,16 +62,18 @@ impl Sweep<'_> {
                 continue;
             }
             let mut say = |what: &str| report(done, what);
-            let is_sampled = journal.all(&key).any(|record| record.found.is_some());
-            if !is_sampled && reference.is_none() {
-                say("the converged run");
-                // On all threads: its time is not what counts.
-                reference = Some(Reference::converged(self.start, &plan, &Workers::default())?);
-            }
+            let reference = match &mut reference {
+                Some(reference) => reference,
+                none => {
+                    say("the converged run");
+                    // On all threads: its time is not what counts.
+                    none.insert(Reference::converged(self.start, &plan, &Workers::default())?)
+                }
+            };
             say(&setting.name);
-            let sampled = reference.as_ref().filter(|_| !is_sampled);
-            let record = measure::run(self.start, &plan, setting, &workers[&setting.threads], sampled)?;
-            if journal.all(&key).any(|other| other.hash != record.hash) {
+            let record = measure::run(self.start, &plan, setting, round, &workers[&setting.threads], reference)?;
+            let others = self.settings.iter().filter(|other| other.world() == setting.world());
+            if others.filter_map(|other| journal.find(&other.key(), round)).any(|other| other.hash != record.hash) {
                 return Err(ExperimentError::NotRepeatable(setting.name.clone()));
             }
             journal.add(&key, round, record)?;
@@ -84,8 +86,7 @@ impl Sweep<'_> {
         let row = |setting: &Setting| {
             let key = setting.key();
             let records: Vec<&Record> = (0..self.rounds).filter_map(|round| journal.find(&key, round)).collect();
-            let found = journal.all(&key).find_map(|record| record.found.as_ref())?;
-            Row::new(setting, self.measure, &records, found)
+            Row::new(setting, self.measure, &records)
         };
         let mut rows: Vec<Row> = self.settings.iter().filter_map(row).collect();
         front::mark(&mut rows, self.start.has_air() && self.measure == ErrorMeasure::Density);

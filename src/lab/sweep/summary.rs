@@ -63,14 +63,17 @@ pub fn text(subject: &Subject, rows: &[Row]) -> String {
 
 fn heading(subject: &Subject, rows: &[&Row]) -> String {
     let Subject { scene, parameters, start, ticks, warmup, threads, .. } = subject;
-    let runs = match rows.iter().map(|row| row.runs).max() {
-        Some(runs @ 2..) => format!("{runs} times"),
-        _ => "once".to_owned(),
+    let (runs, means) = match rows.iter().map(|row| row.runs).max() {
+        Some(runs @ 2..) => (
+            format!("{runs} times"),
+            ", errors the mean over the runs ± its standard error: each but the first starts a rounding off",
+        ),
+        _ => ("once".to_owned(), ""),
     };
     let particles = rows.iter().map(|row| row.found.particles).max().unwrap_or(0);
     let what = match subject.measure {
         ErrorMeasure::Density => {
-            "Error: the density error, a fraction, from positions alone; p99 is what the front goes by."
+            "Error: the density error, a fraction, from positions alone; its mean is what the front goes by."
         }
         ErrorMeasure::Air => "Error: the distance of the air's mean velocity to that of the reference, a fraction.",
     };
@@ -78,7 +81,7 @@ fn heading(subject: &Subject, rows: &[&Row]) -> String {
     format!(
         "# {scene}: what accuracy costs\n\n{}, {of_threads}; {particles} particles, rock included{parameters}. Every \
          setting ran {ticks} ticks {runs}, from the same moment (tick {start} of the scene) and interleaved; the first \
-         {warmup} don't count. Times are the median over the runs of the median tick.\n\n{what}\n",
+         {warmup} don't count. Times are the median over the runs of the median tick{means}.\n\n{what}\n",
         processor()
     )
 }
@@ -109,14 +112,15 @@ fn preset_table(subject: &Subject, rows: &[Row]) -> String {
     let line = |row: &Row| {
         let Row { ms, ms_range: [low, high], found, .. } = row;
         let (accuracy, distance) = (found.accuracy, found.accuracy.distance.unwrap_or_default());
+        let of = |measure| row.error_scatter.filter(|_| subject.measure == measure);
         let figures = [
-            fixed(accuracy.density_error_mean, 5),
+            scattered(accuracy.density_error_mean, of(ErrorMeasure::Density), 5),
             fixed(accuracy.density_error_p99, 5),
             fixed(accuracy.density_mean, 3),
             fixed(found.energy_gain, 4),
-            fixed(distance.share, 3),
+            scattered(distance.share, row.true_error_scatter, 3),
             fixed(distance.momentum, 3),
-            fixed(distance.air, 3),
+            scattered(distance.air, of(ErrorMeasure::Air), 3),
         ];
         let front = if row.front { "yes" } else { "no" };
         format!("{} | {ms:.3} | {low:.3} … {high:.3} | {} | {front}", row.title(), figures.join(" | "))
@@ -125,6 +129,12 @@ fn preset_table(subject: &Subject, rows: &[Row]) -> String {
                     >liquid elsewhere | >momentum | >air | on the front";
     let table = markdown::rows(headings, Preset::ALL.into_iter().filter_map(find).map(line));
     format!("## The presets\n\n{table}\n{}", subject.order(rows))
+}
+
+/// A mean with its standard error, if that is known.
+fn scattered(mean: Option<f64>, error: Option<f64>, digits: usize) -> String {
+    let error = error.filter(|_| mean.is_some()).map(|error| format!(" ± {error:.digits$}"));
+    fixed(mean, digits) + &error.unwrap_or_default()
 }
 
 /// One knob turned, from one row to another.

@@ -35,7 +35,7 @@ const PREDICTOR: Column = (
     Text(|row| row.setting.quality.predictor.to_string()),
 );
 
-const RESULTS: [Column; 23] = [
+const RESULTS: [Column; 25] = [
     ("runs", "number of runs", Text(|row| row.runs.to_string())),
     ("ms", "time of a tick, ms: the median over the runs of their medians", Text(|row| ms(row.ms))),
     ("ms_low", "median of the fastest run, ms", Text(|row| ms(row.ms_range[0]))),
@@ -43,9 +43,10 @@ const RESULTS: [Column; 23] = [
     ("ms_p95", "95th percentile of the ticks, ms: the median over the runs", Text(|row| ms(row.ms_p95))),
     (
         "error",
-        "the error that counts: error_p99, or distance_air in a scene about air",
+        "the error that counts: error_mean, or distance_air in a scene about air",
         Text(|row| share(Some(row.error).filter(|error| error.is_finite()))),
     ),
+    ("error_scatter", "standard error of it over the runs", Text(|row| share(row.error_scatter))),
     ("error_mean", "density error: mean over the interior particles, a fraction", Share(|of| of.density_error_mean)),
     ("error_p99", "density error: 99th percentile, a fraction", Share(|of| of.density_error_p99)),
     ("error_max", "density error: largest, a fraction", Share(|of| of.density_error_max)),
@@ -71,6 +72,7 @@ const RESULTS: [Column; 23] = [
         "share of the liquid that stands elsewhere than in the converged run",
         Text(|row| share(row.true_error())),
     ),
+    ("true_scatter", "standard error of it over the runs", Text(|row| share(row.true_error_scatter))),
     ("true_floor", "what of it may be the converged run's own", Text(|row| share(row.found.floor))),
     ("distance_momentum", "distance to the converged run: momentum", Share(|of| of.distance?.momentum)),
     ("distance_air", "distance to the converged run: mean air velocity", Share(|of| of.distance?.air)),
@@ -78,7 +80,7 @@ const RESULTS: [Column; 23] = [
     ("front", "whether no valid setting beats it: true or false", Text(|row| row.front.to_string())),
     ("true_front", "whether none does by the true error: true or false", Text(|row| row.true_front.to_string())),
     ("faults", "what makes the row invalid, separated by semicolons", Text(|row| row.faults.join("; "))),
-    ("hash", "hash of the final state", Text(|row| row.hash.clone())),
+    ("hash", "hash of the final state of the first run", Text(|row| row.hash.clone())),
 ];
 
 /// All columns in their order.
@@ -138,10 +140,10 @@ mod tests {
         let text = String::from_utf8(text).unwrap();
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(lines.len(), 3);
-        assert!(lines[1].starts_with("\"fast, h 3\",,1,1,1,2,2.5,rational,0.1,"), "{}", lines[1]);
+        assert!(lines[1].starts_with("\"fast, h 3\",,1,1,1,2,2.5,rational,0.15,"), "{}", lines[1]);
         assert!(lines[1].contains("energy up by 2.0 %; mean density 0.970"), "{}", lines[1]);
         assert!(lines[2].starts_with("fine,fine,1,1,"), "{}", lines[2]);
-        assert!(lines[2].contains(",1.5000,1.5000,1.5000,1.5000,0.005000,,0.005000,,0.990000,"), "{}", lines[2]);
+        assert!(lines[2].contains(",1.5000,1.5000,1.5000,1.5000,0.005000,,0.005000,,,0.990000,"), "{}", lines[2]);
         assert_eq!(lines[2].split(',').count(), columns().len());
     }
 }

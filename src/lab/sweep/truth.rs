@@ -57,11 +57,11 @@ fn details(known: &[Known]) -> String {
             row.setting.detail(),
             row.found.particles,
             row.ms,
-            fixed(row.found.accuracy.density_error_p99, 5)
+            fixed(row.found.accuracy.density_error_mean, 5)
         )
     });
     let headings =
-        "setting | >detail | >particles | >ms | >true error | >density error, p99 | on the front of the true error";
+        "setting | >detail | >particles | >ms | >true error | >mean density error | on the front of the true error";
     markdown::rows(headings, lines)
 }
 
