@@ -260,8 +260,8 @@ impl Preset {
                 ..base
             },
             Self::Draft => Quality { air_cell: 6.0, ..base },
-            Self::Fast => Quality { iterations: 2, air_cell: 5.0, ..base },
-            Self::Balanced => Quality { iterations: 4, ..base },
+            Self::Fast => Quality { iterations: 2, correction_limit: 0.15, air_cell: 5.0, ..base },
+            Self::Balanced => Quality { iterations: 4, correction_limit: 0.2, ..base },
             Self::Fine | Self::Reference => Quality { substeps: 2, iterations: 4, air_cell: 3.0, ..base },
         }
     }

@@ -125,19 +125,27 @@ fn a_dam_break_and_its_images_part_by_rounding_only() {
             nudged.nudge(seed);
             Simulation::of(nudged)
         };
-        let mut nudged: Vec<Simulation> = (0..3).map(nudged).collect();
+        let mut nudged: Vec<Simulation> = (0..others.len() as u64).map(nudged).collect();
         for tick in 1..=24 {
             upright.run(1);
             // A difference that is put in at the start has to go together with them. How fast it grows is a matter of
-            // luck: the largest of three counts.
+            // luck: the largest of as many counts.
             let other = nudged.iter_mut().map(|nudged| apart(&upright, nudged.run(1), |at| at)).fold(0.0, f64::max);
             let most = rounding(&quality.1, tick);
+            let mut all = Vec::new();
             for (image, world) in &mut others {
                 let apart = apart(&upright, world.run(1), |at| image.of(at));
-                let told = format!("{what}, {image:?}, tick {tick}: {apart:e} d apart");
-                assert!(apart < 8.0 * other, "{told}, a nudge makes {other:e}");
-                assert!(apart < most, "{told}, rounding makes {most:e} at most");
+                assert!(
+                    apart < most,
+                    "{what}, {image:?}, tick {tick}: {apart:e} d apart, rounding makes {most:e} at most"
+                );
+                all.push(apart);
             }
+            // A density a rounding above the bound from which on it is iterated again sets one or two of them off at once. What
+            // prefers a direction would do so to the four that are turned by quarters, or to more.
+            all.sort_by(f64::total_cmp);
+            let middle = all[all.len() / 2];
+            assert!(middle < 8.0 * other, "{what}, tick {tick}: {all:?} d apart, a nudge makes {other:e}");
         }
         let fallen = upright.particles().x.iter().copied().fold(0.0, f32::max);
         assert!(fallen > 10.5, "{what}: nothing moved, to {fallen} at most");

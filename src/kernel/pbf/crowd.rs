@@ -59,7 +59,7 @@ mod tests {
         let mut particles = Particles::default();
         (0..count).for_each(|id| particles.push(id, ElementId(0), Vec2::new(100.3, 100.4), Vec2::new(1.0, 2.0)));
         let (mut solver, domain) = (Solver::default(), Domain { size: Vec2::splat(200.0), gravity: Vec2::ZERO });
-        let report = solver.bin(&mut particles, solids, &domain, &Preset::Fast.quality(), 1.0, 1);
+        let report = solver.bin(&mut particles, solids, &domain, &Preset::Draft.quality(), 1.0, 1);
         assert!((0..particles.len()).all(|i| inside(particles.position(i))), "scattered through rock");
         assert!((0..particles.len()).all(|i| particles.velocity(i) == Vec2::new(1.0, 2.0)), "it moves no velocity");
         let candidates = |group: &crate::bins::Group| -> usize {
