@@ -1,7 +1,7 @@
 //! `bench effects`: what each effect costs, and what it saves to run only those that a scene calls for.
 
 use crate::{
-    cli::{failure::Failure, output, progress},
+    cli::{bench::of_each, failure::Failure, output},
     kernel::params::Preset,
     lab::{
         effect_cost::{self, EffectCost, SceneCost},
@@ -21,15 +21,8 @@ const PRESET: Preset = Preset::Balanced;
 pub(in crate::cli) fn effects(quick: bool, json: Option<&Path>) -> Result<(), Failure> {
     output::check(json.as_slice())?;
     let rounds = if quick { 1 } else { 5 };
-    let names = scene::builtin_names();
-    let line = progress::bar(names.len() as u64);
-    let mut costs = Vec::new();
-    for name in names {
-        line.set_message(name);
-        costs.push(effect_cost::measure(name, PRESET, rounds)?);
-        line.inc(1);
-    }
-    drop(line);
+    let scenes: Vec<_> = scene::builtin_names().into_iter().map(|name| (name, &[][..])).collect();
+    let costs = of_each(&scenes, |name, _| effect_cost::measure(name, PRESET, rounds))?;
     let value = || json!({ "processor": processor(), "quality": PRESET.name(), "scenes": costs });
     output::report(json, value, || text(&costs))
 }

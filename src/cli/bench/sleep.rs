@@ -1,7 +1,11 @@
 //! `bench sleep`: what it saves to let water sleep.
 
 use crate::{
-    cli::{bench::settings, failure::Failure, output, progress},
+    cli::{
+        bench::{SceneSettings, of_each},
+        failure::Failure,
+        output,
+    },
     kernel::{params::Preset, units::TICKS_PER_SECOND},
     lab::{
         machine::processor,
@@ -20,21 +24,14 @@ const PRESET: Preset = Preset::Balanced;
 const ROUNDS: usize = 5;
 
 /// The scenes, with settings of theirs.
-const SCENES: [(&str, &[(&str, &str)]); 3] =
+const SCENES: [SceneSettings; 3] =
     [("hydrostatic", &[]), ("hydrostatic", &[("columns", "400"), ("depth", "250")]), ("communicating_vessels", &[])];
 
 /// Measures each scene and prints the table.
 pub(in crate::cli) fn sleep(quick: bool, json: Option<&Path>) -> Result<(), Failure> {
     output::check(json.as_slice())?;
     let (scenes, rounds) = if quick { (&SCENES[..1], 1) } else { (&SCENES[..], ROUNDS) };
-    let line = progress::bar(scenes.len() as u64);
-    let mut costs = Vec::new();
-    for (name, of) in scenes {
-        line.set_message(*name);
-        costs.push(sleep_cost::measure(name, &settings(of), PRESET, rounds)?);
-        line.inc(1);
-    }
-    drop(line);
+    let costs = of_each(scenes, |name, settings| sleep_cost::measure(name, settings, PRESET, rounds))?;
     let value = || json!({ "processor": processor(), "quality": PRESET.name(), "scenes": costs });
     output::report(json, value, || text(&costs, rounds))
 }

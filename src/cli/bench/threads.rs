@@ -1,7 +1,11 @@
 //! `bench threads`: what more threads bring, pass by pass, and what still more would bring.
 
 use crate::{
-    cli::{bench::settings, failure::Failure, output, progress},
+    cli::{
+        bench::{SceneSettings, of_each},
+        failure::Failure,
+        output,
+    },
     kernel::params::Preset,
     lab::{
         machine::processor,
@@ -21,7 +25,7 @@ const PRESET: Preset = Preset::Balanced;
 
 /// The scenes, with settings of theirs: 10,082, 100,352 and 999,698 particles that fall, and a scene with air, rock, springs and
 /// drains.
-const SCENES: [(&str, &[(&str, &str)]); 4] = [
+const SCENES: [SceneSettings; 4] = [
     ("dam_break", &[("columns", "71")]),
     ("waterfall", &[]),
     ("dam_break", &[("columns", "224")]),
@@ -42,14 +46,7 @@ pub(in crate::cli) fn threads(most: Option<u64>, quick: bool, json: Option<&Path
     output::check(json.as_slice())?;
     let threads = counts(most.map_or_else(|| Workers::default().threads(), |most| most as usize));
     let (scenes, rounds) = if quick { (&SCENES[..1], 1) } else { (&SCENES[..], ROUNDS) };
-    let line = progress::bar(scenes.len() as u64);
-    let mut costs = Vec::new();
-    for (name, of) in scenes {
-        line.set_message(*name);
-        costs.push(thread_cost::measure(name, &settings(of), PRESET, &threads, rounds)?);
-        line.inc(1);
-    }
-    drop(line);
+    let costs = of_each(scenes, |name, settings| thread_cost::measure(name, settings, PRESET, &threads, rounds))?;
     let value = || json!({ "processor": processor(), "quality": PRESET.name(), "scenes": costs });
     output::report(json, value, || text(&costs, rounds))
 }
