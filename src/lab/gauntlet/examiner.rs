@@ -215,11 +215,9 @@ impl Examiner {
             self.note(Rule::Lost, measured);
         }
         let is_drops = self.terms.lenient && world.resource::<ParticleStore>().len() < DROPS;
-        let is_turning = self.turned.is_some_and(|before| before != turns(world));
         let restless = match self.terms.restless {
             Ok(()) if is_drops => Err("a few drops"),
-            // What melts has another weight, or leaves room behind, and what lies on it moves.
-            Ok(()) if is_turning => Err("matter changes"),
+            Ok(()) if self.is_turning(world) => Err("matter changes"),
             restless => restless,
         };
         match (restless, stats::mean(&self.motion)) {
@@ -237,6 +235,12 @@ impl Examiner {
     /// Whether this is the last tenth, in which what shall be at rest is so.
     fn is_ending(&self) -> bool {
         self.seen * 10 > self.terms.length * 9
+    }
+
+    /// Whether matter became other matter since half of the time: what melts has another weight, or leaves room behind, and what
+    /// lies on it moves.
+    fn is_turning(&self, world: &World) -> bool {
+        self.turned.is_some_and(|before| before != turns(world))
     }
 
     /// Particles beyond where the terms let them be: how many, and where the first of them is, d.
@@ -308,7 +312,7 @@ impl Examiner {
         let free = f64::from(setup.domain.size.x * setup.domain.size.y) - rock.count() as f64;
         let tick = f64::from(TICK_SECONDS);
         let is_lenient = self.terms.lenient;
-        let is_still = self.terms.restless.is_ok();
+        let is_still = self.terms.restless.is_ok() && !self.is_turning(world);
         let bound = if is_still && self.is_ending() { STILL_DENSITY } else { ONE_TOO_MANY };
         let why = if !self.is_plain {
             "no plain liquid"

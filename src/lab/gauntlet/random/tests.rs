@@ -13,7 +13,7 @@ use crate::{
         gauntlet::{
             examiner::Examiner,
             judged::{Found, terms},
-            rule::Rule,
+            rule::{ONE_TOO_MANY, Rule, STILL_DENSITY},
         },
     },
     scene::{self, effects::EffectModes},
@@ -121,6 +121,17 @@ fn rest_is_judged_with_everything_awake() {
     let asleep = Case { scene: POOL.replace("effects: {sleep: off}, ", ""), ..pool() };
     let why = &examine(&asleep).findings()[Rule::Rest as usize].measured.clone();
     assert_eq!(why, &Err("sleep would hide motion"));
+}
+
+#[test]
+fn only_what_stays_what_it_is_is_held_to_the_bound_of_still_water() {
+    let bound = |case: &Case| {
+        let finding = examine(case).findings()[Rule::Density as usize].clone();
+        finding.measured.expect("it is judged").bound
+    };
+    // The surface of oil that burns comes down, and what stands above it follows.
+    let burning = Case { scene: POOL.replace("water", "burning_oil"), ..pool() };
+    assert_eq!([&pool(), &burning].map(bound), [STILL_DENSITY, ONE_TOO_MANY]);
 }
 
 fn particles(world: &mut Simulation) -> &mut crate::kernel::particles::Particles {
