@@ -3,9 +3,10 @@
 use crate::{
     parallel::{Rows, Sweep, Team, sweep},
     predictor::{
-        level::{RowSums, SUM_LANES, WORTH_A_PIECE, clear_around, row_dot},
+        level::{Level, RowSums, WORTH_A_PIECE},
         multigrid::Hierarchy,
         report::PredictorReport,
+        wet::Wet,
     },
 };
 use std::ops::Range;
@@ -40,8 +41,6 @@ pub(super) struct Conjugate {
     pub potential: Vec<f32>,
     /// Columns near particles; in the others `liquid` and `solution` are 0.
     pub area: Range<usize>,
-    /// Columns of each row from the first to the last liquid cell.
-    pub wet: Vec<Range<u32>>,
     direction: Vec<f32>,
     sums: [RowSums; 2],
 }
@@ -71,9 +70,9 @@ impl Conjugate {
     ) -> PredictorReport {
         let Self { direction, sums: [sums, after], .. } = self;
         let finest = hierarchy.finest();
-        let (stride, rows, span, cells) = (finest.stride, finest.rows.clone(), finest.span.clone(), finest.cells());
+        let (stride, rows, per_row) = (finest.stride, finest.wet.rows(), finest.wet.per_row());
         // The operator reads one cell further.
-        clear_around(direction, stride, finest.columns, &rows, &span);
+        finest.wet.clear_around(direction, stride);
         let [scale, mut left] = finest.take_product_off(solution, [&mut *sums, after], team);
         let scale = scale.max(1e-30);
         let (mut iterations, mut last) = (0, f64::INFINITY);
@@ -83,26 +82,26 @@ impl Conjugate {
             let turn = Turn {
                 preconditioned: &finest.x,
                 stride,
-                span: &span,
+                wet: &finest.wet,
                 keep: (next / last) as f32,
                 is_first: iterations == 0,
             };
-            sweep(&turn, rows.clone(), Rows::new(direction, stride, &rows), span.len(), WORTH_A_PIECE, team);
+            sweep(&turn, rows.clone(), Rows::new(direction, stride, &rows), per_row, WORTH_A_PIECE, team);
             last = next;
             let curvature = finest.apply(direction, sums, team);
             if curvature <= 0.0 || !curvature.is_finite() {
                 break;
             }
-            let product = &finest.work;
-            let advance = Advance { direction, product, stride, span: &span, step: (next / curvature) as f32 };
-            let fields = (Rows::new(solution, stride, &rows), Rows::new(&mut finest.b, stride, &rows));
-            sweep(&advance, rows.clone(), (fields, sums.rows(&rows)), span.len(), WORTH_A_PIECE, team);
+            let Level { work: product, wet, b, .. } = finest;
+            let advance = Advance { direction, product, stride, wet, step: (next / curvature) as f32 };
+            let fields = (Rows::new(solution, stride, &rows), Rows::new(b, stride, &rows));
+            sweep(&advance, rows.clone(), (fields, sums.rows(&rows)), per_row, WORTH_A_PIECE, team);
             left = sums.total(&rows);
             iterations += 1;
         }
         if left.is_nan() || left > scale {
             // Worse than no pressure at all: better to leave it all to the constraint than to act on it.
-            solution[cells].fill(0.0);
+            solution[rows.start * stride..rows.end * stride].fill(0.0);
         }
         let unsolved = left.is_nan() || left > tolerance * tolerance * scale;
         PredictorReport { liquid: true, iterations, residual: (left / scale).sqrt() as f32, unsolved, cuts: 0 }
@@ -126,7 +125,7 @@ impl Conjugate {
 struct Turn<'a> {
     preconditioned: &'a [f32],
     stride: usize,
-    span: &'a Range<usize>,
+    wet: &'a Wet,
     /// Share of the last direction that is kept.
     keep: f32,
     is_first: bool,
@@ -136,14 +135,16 @@ impl Sweep<Rows<'_, f32>> for Turn<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut direction: Rows<f32>) {
         for (j, direction) in rows.zip(direction.each()) {
-            let direction = &mut direction[self.span.clone()];
-            let preconditioned = &self.preconditioned[j * self.stride..][self.span.clone()];
-            if self.is_first {
-                direction.copy_from_slice(preconditioned);
-                continue;
-            }
-            for (direction, preconditioned) in direction.iter_mut().zip(preconditioned) {
-                *direction = *preconditioned + self.keep * *direction;
+            for run in self.wet.runs(j) {
+                let preconditioned = &self.preconditioned[j * self.stride..][run.clone()];
+                let direction = &mut direction[run];
+                if self.is_first {
+                    direction.copy_from_slice(preconditioned);
+                    continue;
+                }
+                for (direction, preconditioned) in direction.iter_mut().zip(preconditioned) {
+                    *direction = *preconditioned + self.keep * *direction;
+                }
             }
         }
     }
@@ -155,7 +156,7 @@ struct Advance<'a> {
     /// A times the direction.
     product: &'a [f32],
     stride: usize,
-    span: &'a Range<usize>,
+    wet: &'a Wet,
     step: f32,
 }
 
@@ -165,18 +166,17 @@ type Advanced<'a> = ((Rows<'a, f32>, Rows<'a, f32>), Rows<'a, f64>);
 impl Sweep<Advanced<'_>> for Advance<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, ((mut solution, mut b), sums): Advanced) {
-        let span = self.span;
-        // The sums count from the padding on; past the span, b is 0.
-        let summed = span.start - 1..(span.end - 1 + SUM_LANES).min(self.stride);
         for (((j, solution), b), sum) in rows.zip(solution.each()).zip(b.each()).zip(sums.field) {
-            let [direction, product] =
-                [self.direction, self.product].map(|field| &field[j * self.stride..][span.clone()]);
-            let (solution, own) = (&mut solution[span.clone()], &mut b[span.clone()]);
-            for i in 0..solution.len() {
-                solution[i] += self.step * direction[i];
-                own[i] -= self.step * product[i];
+            for run in self.wet.runs(j) {
+                let [direction, product] =
+                    [self.direction, self.product].map(|field| &field[j * self.stride..][run.clone()]);
+                let (solution, own) = (&mut solution[run.clone()], &mut b[run]);
+                for i in 0..solution.len() {
+                    solution[i] += self.step * direction[i];
+                    own[i] -= self.step * product[i];
+                }
             }
-            *sum = row_dot(&b[summed.clone()], &b[summed.clone()]);
+            *sum = self.wet.dot(j, b, b);
         }
     }
 }

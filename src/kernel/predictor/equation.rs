@@ -121,16 +121,12 @@ pub(super) fn fill(filled: &mut [f32], weights: Sides<[f32; 2]>, rock: &[f32], s
     }
 }
 
-/// Marks cells that are full enough to be liquid; returns whether any is.
+/// Marks cells that are full enough to be liquid.
 #[inline(always)]
-pub(super) fn mark(liquid: &mut [f32], filled: &[f32], liquid_from: &[f32]) -> bool {
-    let mut any = false;
+pub(super) fn mark(liquid: &mut [f32], filled: &[f32], liquid_from: &[f32]) {
     for i in 0..liquid.len() {
-        let is_liquid = filled[i] >= liquid_from[i];
-        liquid[i] = if is_liquid { 1.0 } else { 0.0 };
-        any |= is_liquid;
+        liquid[i] = if filled[i] >= liquid_from[i] { 1.0 } else { 0.0 };
     }
-    any
 }
 
 /// How steeply the pressure falls at faces between the cells before and after each: 1 between liquid cells, 1/θ between

@@ -1,6 +1,9 @@
 //! One level of the pressure equation: the operator, its smoother, and sums over cells.
 
-use crate::parallel::{Band, Rows, Sweep, Team, sweep};
+use crate::{
+    parallel::{Band, Rows, Sweep, Team, sweep},
+    predictor::wet::Wet,
+};
 use std::ops::Range;
 
 /// Damping of the Jacobi smoother.
@@ -16,10 +19,8 @@ pub(super) const WORTH_A_PIECE: usize = 4096;
 pub(super) struct Level {
     pub columns: usize,
     pub stride: usize,
-    /// Rows that are solved for, and columns of them. In the row below and the row above and within [`MARGIN`] columns on
-    /// either side all fields are 0; beyond, nothing is read.
-    pub rows: Range<usize>,
-    pub span: Range<usize>,
+    /// What is solved for. Around it all fields are 0; beyond, nothing is read.
+    pub wet: Wet,
     /// Σ of the open shares of a cell's faces; 0 where there is nothing to solve.
     pub diagonal: Vec<f32>,
     /// Damping/diagonal, or 0.
@@ -37,15 +38,14 @@ pub(super) struct Level {
 }
 
 impl Level {
-    /// A level of `columns × rows` cells.
-    pub fn new(columns: usize, rows: usize) -> Self {
+    /// The level of `columns × rows` cells that is coarser by `depth` steps than the grid.
+    pub fn new(columns: usize, rows: usize, depth: usize) -> Self {
         let stride = columns + 2;
         let field = || vec![0.0; stride * (rows + 3)];
         Self {
             columns,
             stride,
-            rows: 1..1,
-            span: 1..1,
+            wet: Wet::new(columns, rows, depth),
             diagonal: field(),
             damped: field(),
             right: field(),
@@ -56,37 +56,21 @@ impl Level {
         }
     }
 
-    /// Says which rows are solved for, and which columns of them; the caller fills the operator in there.
-    pub fn take(&mut self, rows: Range<usize>, span: Range<usize>) {
-        let (stride, columns) = (self.stride, self.columns);
-        for field in [
-            &mut self.diagonal,
-            &mut self.damped,
-            &mut self.right,
-            &mut self.upper,
-            &mut self.x,
-            &mut self.b,
-            &mut self.work,
-        ] {
-            clear_around(field, stride, columns, &rows, &span);
-        }
-        (self.rows, self.span) = (rows, span);
-    }
-
-    /// The indices of the rows that are solved for.
-    pub fn cells(&self) -> Range<usize> {
-        self.rows.start * self.stride..self.rows.end * self.stride
-    }
-
-    /// The columns of the next coarser level that its span is made from.
-    pub fn coarse_span(&self) -> Range<usize> {
-        self.span.start.div_ceil(2)..self.span.end / 2 + 1
+    /// Clears around what is wet now; the caller fills the operator in there.
+    pub fn take(&mut self) {
+        let Self { stride, wet, diagonal, damped, right, upper, x, b, work, .. } = self;
+        let mut fields = [diagonal, damped, right, upper, x, b, work];
+        wet.around(|row, columns| {
+            for field in &mut fields {
+                field[row * *stride..][columns.clone()].fill(0.0);
+            }
+        });
     }
 
     /// The operator and the right-hand side.
     fn equation(&self) -> Equation<'_> {
         Equation {
-            span: self.span.clone(),
+            wet: &self.wet,
             stride: self.stride,
             diagonal: &self.diagonal,
             damped: &self.damped,
@@ -99,26 +83,27 @@ impl Level {
     /// Sets `work` to A x; returns x · A x.
     pub fn apply(&mut self, x: &[f32], sums: &mut RowSums, team: Team) -> f64 {
         let mut work = std::mem::take(&mut self.work);
-        let band = (Rows::new(&mut work, self.stride, &self.rows), sums.rows(&self.rows));
+        let rows = self.wet.rows();
+        let band = (Rows::new(&mut work, self.stride, &rows), sums.rows(&rows));
         self.sweep(&Apply { equation: self.equation(), x }, band, team);
         self.work = work;
-        sums.total(&self.rows)
+        sums.total(&rows)
     }
 
     /// Takes A x off the right-hand side; returns b · b from before and after.
     pub fn take_product_off(&mut self, x: &[f32], sums: [&mut RowSums; 2], team: Team) -> [f64; 2] {
         let mut b = std::mem::take(&mut self.b);
-        let [before, after] = sums;
-        let band = (Rows::new(&mut b, self.stride, &self.rows), (before.rows(&self.rows), after.rows(&self.rows)));
+        let ([before, after], rows) = (sums, self.wet.rows());
+        let band = (Rows::new(&mut b, self.stride, &rows), (before.rows(&rows), after.rows(&rows)));
         self.sweep(&TakeProductOff { equation: self.equation(), x }, band, team);
         self.b = b;
-        [before, after].map(|sums| sums.total(&self.rows))
+        [before, after].map(|sums| sums.total(&rows))
     }
 
     /// The first two Jacobi steps, from x = 0.
     pub fn smooth_from_zero(&mut self, team: Team) {
         let mut x = std::mem::take(&mut self.x);
-        let band = Rows::new(&mut x, self.stride, &self.rows);
+        let band = Rows::new(&mut x, self.stride, &self.wet.rows());
         self.sweep(&SmoothFromZero(self.equation()), band, team);
         self.x = x;
     }
@@ -126,7 +111,7 @@ impl Level {
     /// A Jacobi step.
     pub fn smooth(&mut self, team: Team) {
         let mut next = std::mem::take(&mut self.work);
-        let band = Rows::new(&mut next, self.stride, &self.rows);
+        let band = Rows::new(&mut next, self.stride, &self.wet.rows());
         self.sweep(&Smooth { equation: self.equation(), x: &self.x }, band, team);
         self.work = std::mem::replace(&mut self.x, next);
     }
@@ -134,46 +119,34 @@ impl Level {
     /// A Jacobi step; returns b · x with the new x.
     pub fn smooth_and_sum(&mut self, sums: &mut RowSums, team: Team) -> f64 {
         let mut next = std::mem::take(&mut self.work);
-        let band = (Rows::new(&mut next, self.stride, &self.rows), sums.rows(&self.rows));
+        let rows = self.wet.rows();
+        let band = (Rows::new(&mut next, self.stride, &rows), sums.rows(&rows));
         self.sweep(&Smooth { equation: self.equation(), x: &self.x }, band, team);
         self.work = std::mem::replace(&mut self.x, next);
-        sums.total(&self.rows)
+        sums.total(&rows)
     }
 
     /// The residual's sums over 2 × 2 cells become the right-hand side of the next coarser level.
     pub fn restrict(&self, coarse: &mut Self, team: Team) {
-        let band = Rows::new(&mut coarse.b, coarse.stride, &coarse.rows);
-        let (rows, columns) = (self.rows.clone(), self.columns);
-        let work = Restrict { equation: self.equation(), rows, columns, span: coarse.span.clone(), x: &self.x };
-        sweep(&work, coarse.rows.clone(), band, 4 * coarse.span.len(), WORTH_A_PIECE, team);
+        let (rows, per_row) = (coarse.wet.rows(), 4 * coarse.wet.per_row());
+        let work = Restrict {
+            equation: self.equation(),
+            rows: self.wet.rows(),
+            columns: self.columns,
+            wet: &coarse.wet,
+            x: &self.x,
+        };
+        let band = Rows::new(&mut coarse.b, coarse.stride, &rows);
+        sweep(&work, rows.clone(), band, per_row, WORTH_A_PIECE, team);
     }
 
     fn sweep<B: Band>(&self, work: &impl Sweep<B>, band: B, team: Team) {
-        sweep(work, self.rows.clone(), band, self.span.len(), WORTH_A_PIECE, team);
+        sweep(work, self.wet.rows(), band, self.wet.per_row(), WORTH_A_PIECE, team);
     }
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        7 * 4 * self.x.capacity()
-    }
-}
-
-/// Columns beside those that are solved for in which fields are 0: as many as a pair of cells and a sum reach past them.
-const MARGIN: usize = SUM_LANES;
-
-/// Sets a field to 0 around the cells that are solved for.
-pub(super) fn clear_around(field: &mut [f32], stride: usize, columns: usize, rows: &Range<usize>, span: &Range<usize>) {
-    let (low, high) = (span.start.saturating_sub(MARGIN), (span.end + MARGIN).min(stride));
-    for row in [rows.start - 1, rows.end] {
-        field[row * stride + low..row * stride + high].fill(0.0);
-    }
-    // What is beside all columns is padding, and always 0.
-    if span.start == 1 && span.end == columns + 1 {
-        return;
-    }
-    for row in rows.clone() {
-        field[row * stride + low..row * stride + span.start].fill(0.0);
-        field[row * stride + span.end..row * stride + high].fill(0.0);
+        7 * 4 * self.x.capacity() + self.wet.memory()
     }
 }
 
@@ -185,7 +158,7 @@ pub(super) fn damping(diagonal: f32) -> f32 {
 
 /// The equation as sweeps read it.
 struct Equation<'a> {
-    span: Range<usize>,
+    wet: &'a Wet,
     stride: usize,
     diagonal: &'a [f32],
     damped: &'a [f32],
@@ -213,12 +186,6 @@ impl Equation<'_> {
             take(i, product);
         }
     }
-
-    /// The cells of a row that are solved for.
-    #[inline(always)]
-    fn cells(&self, row: usize) -> Range<usize> {
-        row * self.stride + self.span.start..row * self.stride + self.span.end
-    }
 }
 
 struct Apply<'a> {
@@ -230,10 +197,12 @@ impl<'b> Sweep<(Rows<'b, f32>, Rows<'b, f64>)> for Apply<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, (mut out, sums): (Rows<f32>, Rows<f64>)) {
         for ((j, out), sum) in rows.zip(out.each()).zip(sums.field) {
-            let cells = self.equation.cells(j);
-            let out = &mut out[self.equation.span.clone()];
-            self.equation.products(self.x, cells.start, cells.len(), |i, product| out[i] = product);
-            *sum = row_dot(out, &self.x[cells]);
+            let Equation { wet, stride, .. } = self.equation;
+            for run in wet.runs(j) {
+                let own = &mut out[run.clone()];
+                self.equation.products(self.x, j * stride + run.start, run.len(), |i, product| own[i] = product);
+            }
+            *sum = wet.dot(j, out, &self.x[j * stride..]);
         }
     }
 }
@@ -247,11 +216,13 @@ impl<'b> Sweep<(Rows<'b, f32>, (Rows<'b, f64>, Rows<'b, f64>))> for TakeProductO
     #[inline(always)]
     fn run(&self, rows: Range<usize>, (mut b, (before, after)): (Rows<f32>, (Rows<f64>, Rows<f64>))) {
         for (((j, b), before), after) in rows.zip(b.each()).zip(before.field).zip(after.field) {
-            let cells = self.equation.cells(j);
-            let b = &mut b[self.equation.span.clone()];
-            *before = row_dot(b, b);
-            self.equation.products(self.x, cells.start, cells.len(), |i, product| b[i] -= product);
-            *after = row_dot(b, b);
+            let Equation { wet, stride, .. } = self.equation;
+            *before = wet.dot(j, b, b);
+            for run in wet.runs(j) {
+                let own = &mut b[run.clone()];
+                self.equation.products(self.x, j * stride + run.start, run.len(), |i, product| own[i] -= product);
+            }
+            *after = wet.dot(j, b, b);
         }
     }
 }
@@ -264,23 +235,25 @@ impl Sweep<Rows<'_, f32>> for SmoothFromZero<'_> {
         let equation = &self.0;
         let s = equation.stride;
         for (j, out) in rows.zip(out.each()) {
-            let cells = equation.cells(j);
-            let (o, n) = (cells.start, cells.len());
-            let out = &mut out[equation.span.clone()];
-            // The first step alone is damping times right-hand side, of a cell and of those around it.
-            let [damped, d_left, d_right, d_lower, d_upper] = and_around(equation.damped, cells.clone(), s);
-            let [b, b_left, b_right, b_lower, b_upper] = and_around(equation.b, cells.clone(), s);
-            let diagonal = &equation.diagonal[cells.clone()];
-            let (to_right, to_left) = (&equation.right[cells.clone()], &equation.right[o - 1..o - 1 + n]);
-            let (to_upper, to_lower) = (&equation.upper[cells], &equation.upper[o - s..o - s + n]);
-            for i in 0..n {
-                let first = damped[i] * b[i];
-                let product = diagonal[i] * first
-                    - to_right[i] * (d_right[i] * b_right[i])
-                    - to_left[i] * (d_left[i] * b_left[i])
-                    - to_upper[i] * (d_upper[i] * b_upper[i])
-                    - to_lower[i] * (d_lower[i] * b_lower[i]);
-                out[i] = first + damped[i] * (b[i] - product);
+            for run in equation.wet.runs(j) {
+                let cells = j * s + run.start..j * s + run.end;
+                let (o, n) = (cells.start, cells.len());
+                let out = &mut out[run];
+                // The first step alone is damping times right-hand side, of a cell and of those around it.
+                let [damped, d_left, d_right, d_lower, d_upper] = and_around(equation.damped, cells.clone(), s);
+                let [b, b_left, b_right, b_lower, b_upper] = and_around(equation.b, cells.clone(), s);
+                let diagonal = &equation.diagonal[cells.clone()];
+                let (to_right, to_left) = (&equation.right[cells.clone()], &equation.right[o - 1..o - 1 + n]);
+                let (to_upper, to_lower) = (&equation.upper[cells], &equation.upper[o - s..o - s + n]);
+                for i in 0..n {
+                    let first = damped[i] * b[i];
+                    let product = diagonal[i] * first
+                        - to_right[i] * (d_right[i] * b_right[i])
+                        - to_left[i] * (d_left[i] * b_left[i])
+                        - to_upper[i] * (d_upper[i] * b_upper[i])
+                        - to_lower[i] * (d_lower[i] * b_lower[i]);
+                    out[i] = first + damped[i] * (b[i] - product);
+                }
             }
         }
     }
@@ -307,13 +280,15 @@ struct Smooth<'a> {
 impl Smooth<'_> {
     #[inline(always)]
     fn row(&self, row: usize, out: &mut [f32]) {
-        let cells = self.equation.cells(row);
-        let (x, damped) = (&self.x[cells.clone()], &self.equation.damped[cells.clone()]);
-        let b = &self.equation.b[cells.clone()];
-        let out = &mut out[self.equation.span.clone()];
-        self.equation.products(self.x, cells.start, cells.len(), |i, product| {
-            out[i] = x[i] + damped[i] * (b[i] - product);
-        });
+        let Equation { wet, stride, damped, b, .. } = self.equation;
+        for run in wet.runs(row) {
+            let cells = row * stride + run.start..row * stride + run.end;
+            let [x, damped, b] = [self.x, damped, b].map(|field| &field[cells.clone()]);
+            let out = &mut out[run];
+            self.equation.products(self.x, cells.start, cells.len(), |i, product| {
+                out[i] = x[i] + damped[i] * (b[i] - product);
+            });
+        }
     }
 }
 
@@ -331,8 +306,8 @@ impl<'b> Sweep<(Rows<'b, f32>, Rows<'b, f64>)> for Smooth<'_> {
     fn run(&self, rows: Range<usize>, (mut out, sums): (Rows<f32>, Rows<f64>)) {
         for ((j, out), sum) in rows.zip(out.each()).zip(sums.field) {
             self.row(j, out);
-            let cells = self.equation.cells(j);
-            *sum = row_dot(&out[self.equation.span.clone()], &self.equation.b[cells]);
+            let Equation { wet, stride, b, .. } = self.equation;
+            *sum = wet.dot(j, out, &b[j * stride..]);
         }
     }
 }
@@ -346,8 +321,8 @@ struct Restrict<'a> {
     rows: Range<usize>,
     /// Fine columns that there are.
     columns: usize,
-    /// Coarse columns that are solved for.
-    span: Range<usize>,
+    /// What of the coarse level is solved for.
+    wet: &'a Wet,
     x: &'a [f32],
 }
 
@@ -356,22 +331,24 @@ impl Sweep<Rows<'_, f32>> for Restrict<'_> {
     fn run(&self, rows: Range<usize>, mut out: Rows<f32>) {
         let equation = &self.equation;
         for (j, out) in rows.zip(out.each()) {
-            // Of a pair that the span cuts, what is outside is 0.
-            let end = (2 * self.span.end - 1).min(self.columns + 1);
-            for first in (2 * self.span.start - 1..end).step_by(CHUNK) {
-                let n = CHUNK.min(end - first);
-                let mut residuals = [[0.0_f32; CHUNK]; 2];
-                for (fine, residual) in [2 * j - 1, 2 * j].into_iter().zip(&mut residuals) {
-                    if self.rows.contains(&fine) {
-                        let start = fine * equation.stride + first;
-                        let (b, residual) = (&equation.b[start..start + n], &mut residual[..n]);
-                        equation.products(self.x, start, n, |i, product| residual[i] = b[i] - product);
+            for run in self.wet.runs(j) {
+                // Of a pair that the grid's edge cuts, what is outside is 0.
+                let end = (2 * run.end - 1).min(self.columns + 1);
+                for first in (2 * run.start - 1..end).step_by(CHUNK) {
+                    let n = CHUNK.min(end - first);
+                    let mut residuals = [[0.0_f32; CHUNK]; 2];
+                    for (fine, residual) in [2 * j - 1, 2 * j].into_iter().zip(&mut residuals) {
+                        if self.rows.contains(&fine) {
+                            let start = fine * equation.stride + first;
+                            let (b, residual) = (&equation.b[start..start + n], &mut residual[..n]);
+                            equation.products(self.x, start, n, |i, product| residual[i] = b[i] - product);
+                        }
                     }
-                }
-                let (lower, upper) = (residuals[0].as_chunks::<2>().0, residuals[1].as_chunks::<2>().0);
-                let sums = &mut out[first.div_ceil(2)..][..n.div_ceil(2)];
-                for ((sum, lower), upper) in sums.iter_mut().zip(lower).zip(upper) {
-                    *sum = (lower[0] + lower[1]) + (upper[0] + upper[1]);
+                    let (lower, upper) = (residuals[0].as_chunks::<2>().0, residuals[1].as_chunks::<2>().0);
+                    let sums = &mut out[first.div_ceil(2)..][..n.div_ceil(2)];
+                    for ((sum, lower), upper) in sums.iter_mut().zip(lower).zip(upper) {
+                        *sum = (lower[0] + lower[1]) + (upper[0] + upper[1]);
+                    }
                 }
             }
         }
@@ -395,34 +372,4 @@ impl RowSums {
     pub fn total(&self, rows: &Range<usize>) -> f64 {
         self.0[rows.clone()].iter().sum()
     }
-}
-
-/// Lanes of the sums: fixed, so that their rounding does not depend on the processor.
-pub(super) const SUM_LANES: usize = 16;
-
-/// `a · b` over the cells of a row, with a fixed order of sums.
-#[inline(always)]
-pub(super) fn row_dot(a: &[f32], b: &[f32]) -> f64 {
-    let (a_rows, a_rest) = a.as_chunks::<SUM_LANES>();
-    let (b_rows, b_rest) = b.as_chunks::<SUM_LANES>();
-    let [mut a_last, mut b_last] = [[0.0_f32; SUM_LANES]; 2];
-    a_last[..a_rest.len()].copy_from_slice(a_rest);
-    b_last[..b_rest.len()].copy_from_slice(b_rest);
-    let mut lanes = [0.0_f32; SUM_LANES];
-    for lane in 0..SUM_LANES {
-        lanes[lane] = a_last[lane] * b_last[lane];
-    }
-    for (a, b) in a_rows.iter().zip(b_rows) {
-        for lane in 0..SUM_LANES {
-            lanes[lane] += a[lane] * b[lane];
-        }
-    }
-    let [mut eight, mut four] = [[0.0_f32; 8], [0.0; 8]];
-    for lane in 0..8 {
-        eight[lane] = lanes[lane] + lanes[lane + 8];
-    }
-    for lane in 0..4 {
-        four[lane] = eight[lane] + eight[lane + 4];
-    }
-    f64::from((four[0] + four[2]) + (four[1] + four[3]))
 }

@@ -10,7 +10,8 @@
 //! Modules: `steps` the whole, `grid` the geometry, `rock` what is closed, `parts` cells that a wall cuts, `stencil`,
 //! `share_out`, `transfer` and `way_back` particles to grid and back, `matter` what of it is heavier, `grains` friction among
 //! powders, `pressure` and `equation` the equation, `changes` what follows from its solution on the faces, `flow` the velocity that
-//! comes of it, `pressure_at` the pressure between the cells, `pockets` where it is singular, `level`, `multigrid` and `conjugate` its solver.
+//! comes of it, `pressure_at` the pressure between the cells, `pockets` where it is singular, `wet` where there is
+//! any, `level`, `multigrid` and `conjugate` its solver.
 
 mod changes;
 mod conjugate;
@@ -35,6 +36,7 @@ mod steps;
 mod tests;
 mod transfer;
 mod way_back;
+mod wet;
 
 pub use flow::Flow;
 pub use grains::GrainParams;

@@ -21,11 +21,11 @@ pub(super) struct Hierarchy {
 impl Hierarchy {
     /// Levels down to a handful of cells.
     pub fn new(columns: usize, rows: usize) -> Self {
-        let mut levels = vec![Level::new(columns, rows)];
+        let mut levels = vec![Level::new(columns, rows, 0)];
         let (mut columns, mut rows) = (columns, rows);
         while columns * rows > 16 {
             (columns, rows) = (columns.div_ceil(2), rows.div_ceil(2));
-            levels.push(Level::new(columns, rows));
+            levels.push(Level::new(columns, rows, levels.len()));
         }
         Self { levels }
     }
@@ -33,6 +33,12 @@ impl Hierarchy {
     /// The level of the grid itself.
     pub fn finest(&mut self) -> &mut Level {
         &mut self.levels[0]
+    }
+
+    /// All of them.
+    #[cfg(test)]
+    pub fn levels(&mut self) -> &mut [Level] {
+        &mut self.levels
     }
 
     /// Builds the coarse operators from the finest.
@@ -76,24 +82,24 @@ impl Hierarchy {
     }
 }
 
-/// The two rows of cells that the span of a coarse row is made of, as pairs along the row. What is not solved for is 0.
+/// The two rows of cells that a run of a coarse row is made of, as pairs along the row. What is not solved for is 0.
 #[inline(always)]
-fn pairs<'a>(field: &'a [f32], fine: &Level, coarse: &Level, row: usize) -> [&'a [[f32; 2]]; 2] {
-    let (first, len) = (2 * coarse.span.start - 1, 2 * coarse.span.len());
-    [2 * row - 1, 2 * row].map(|j| field[j * fine.stride + first..][..len].as_chunks().0)
+fn pairs<'a>(field: &'a [f32], fine: &Level, row: usize, run: &Range<usize>) -> [&'a [[f32; 2]]; 2] {
+    [2 * row - 1, 2 * row].map(|j| field[j * fine.stride + 2 * run.start - 1..][..2 * run.len()].as_chunks().0)
 }
 
 /// Couplings across the edge of an aggregate add up, those inside one leave the diagonal.
 fn coarsen(fine: &Level, coarse: &mut Level, team: Team) {
-    coarse.take(fine.rows.start.div_ceil(2)..fine.rows.end / 2 + 1, fine.coarse_span());
-    let (rows, stride) = (coarse.rows.clone(), coarse.stride);
+    coarse.wet.coarsen(&fine.wet);
+    coarse.take();
+    let (rows, stride) = (coarse.wet.rows(), coarse.stride);
     let [mut diagonal, mut damped, mut right, mut upper] =
         [&mut coarse.diagonal, &mut coarse.damped, &mut coarse.right, &mut coarse.upper].map(std::mem::take);
     let band = (
         (Rows::new(&mut diagonal, stride, &rows), Rows::new(&mut damped, stride, &rows)),
         (Rows::new(&mut right, stride, &rows), Rows::new(&mut upper, stride, &rows)),
     );
-    sweep(&Coarsen { fine, coarse }, rows, band, 4 * coarse.span.len(), WORTH_A_PIECE, team);
+    sweep(&Coarsen { fine, coarse }, rows, band, 4 * coarse.wet.per_row(), WORTH_A_PIECE, team);
     (coarse.diagonal, coarse.damped, coarse.right, coarse.upper) = (diagonal, damped, right, upper);
 }
 
@@ -110,18 +116,19 @@ impl Sweep<Operator<'_>> for Coarsen<'_> {
     fn run(&self, rows: Range<usize>, ((mut diagonal, mut damped), (mut right, mut upper)): Operator) {
         let out = diagonal.each().zip(damped.each()).zip(right.each()).zip(upper.each());
         for (j, (((to_diagonal, to_damped), to_right), to_upper)) in rows.zip(out) {
-            let [diagonal, right, upper] = [&self.fine.diagonal, &self.fine.right, &self.fine.upper]
-                .map(|field| pairs(field, self.fine, self.coarse, j));
-            let out = self.coarse.span.clone();
-            let (to_diagonal, to_damped) = (&mut to_diagonal[out.clone()], &mut to_damped[out.clone()]);
-            let (to_right, to_upper) = (&mut to_right[out.clone()], &mut to_upper[out]);
-            for i in 0..to_diagonal.len() {
-                let whole = (diagonal[0][i][0] + diagonal[0][i][1]) + (diagonal[1][i][0] + diagonal[1][i][1]);
-                let inside = (right[0][i][0] + right[1][i][0]) + (upper[0][i][0] + upper[0][i][1]);
-                to_diagonal[i] = whole - 2.0 * inside;
-                to_damped[i] = damping(to_diagonal[i]);
-                to_right[i] = right[0][i][1] + right[1][i][1];
-                to_upper[i] = upper[1][i][0] + upper[1][i][1];
+            for run in self.coarse.wet.runs(j) {
+                let [diagonal, right, upper] = [&self.fine.diagonal, &self.fine.right, &self.fine.upper]
+                    .map(|field| pairs(field, self.fine, j, &run));
+                let (to_diagonal, to_damped) = (&mut to_diagonal[run.clone()], &mut to_damped[run.clone()]);
+                let (to_right, to_upper) = (&mut to_right[run.clone()], &mut to_upper[run]);
+                for i in 0..to_diagonal.len() {
+                    let whole = (diagonal[0][i][0] + diagonal[0][i][1]) + (diagonal[1][i][0] + diagonal[1][i][1]);
+                    let inside = (right[0][i][0] + right[1][i][0]) + (upper[0][i][0] + upper[0][i][1]);
+                    to_diagonal[i] = whole - 2.0 * inside;
+                    to_damped[i] = damping(to_diagonal[i]);
+                    to_right[i] = right[0][i][1] + right[1][i][1];
+                    to_upper[i] = upper[1][i][0] + upper[1][i][1];
+                }
             }
         }
     }
@@ -130,8 +137,8 @@ impl Sweep<Operator<'_>> for Coarsen<'_> {
 /// Adds the coarse solution to the fine one.
 fn prolong(coarse: &Level, fine: &mut Level, team: Team) {
     let mut x = std::mem::take(&mut fine.x);
-    let band = Rows::new(&mut x, fine.stride, &fine.rows);
-    sweep(&Prolong { coarse, fine }, fine.rows.clone(), band, fine.span.len(), WORTH_A_PIECE, team);
+    let band = Rows::new(&mut x, fine.stride, &fine.wet.rows());
+    sweep(&Prolong { coarse, fine }, fine.wet.rows(), band, fine.wet.per_row(), WORTH_A_PIECE, team);
     fine.x = x;
 }
 
@@ -144,20 +151,22 @@ impl Sweep<Rows<'_, f32>> for Prolong<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut x: Rows<f32>) {
         let Self { coarse, fine } = self;
-        let pairs = 2 * coarse.span.start - 1..(2 * coarse.span.end - 1).min(fine.columns + 1);
         for (j, x) in rows.zip(x.each()) {
-            let own = j * fine.stride + pairs.start..j * fine.stride + pairs.end;
-            let from = &coarse.x[j.div_ceil(2) * coarse.stride..][coarse.span.clone()];
-            // What is not solved for stays 0.
-            let weight = |damped: f32| if damped > 0.0 { CORRECTION } else { 0.0 };
-            let (x, odd_x) = x[pairs.clone()].as_chunks_mut();
-            let (damped, odd_damped) = fine.damped[own].as_chunks();
-            for (([left, right], [damped_left, damped_right]), from) in x.iter_mut().zip(damped).zip(from) {
-                *left += weight(*damped_left) * from;
-                *right += weight(*damped_right) * from;
-            }
-            if let ([x], [damped], Some(from)) = (odd_x, odd_damped, from.last()) {
-                *x += weight(*damped) * from;
+            // A run begins with a pair; its last may be cut by the grid's edge.
+            for run in fine.wet.runs(j) {
+                let from = &coarse.x[j.div_ceil(2) * coarse.stride + run.start.div_ceil(2)..];
+                // What is not solved for stays 0.
+                let weight = |damped: f32| if damped > 0.0 { CORRECTION } else { 0.0 };
+                let (damped, odd_damped) = fine.damped[j * fine.stride..][run.clone()].as_chunks();
+                let (x, odd_x) = x[run].as_chunks_mut();
+                let pairs = x.len();
+                for (([left, right], [damped_left, damped_right]), from) in x.iter_mut().zip(damped).zip(from) {
+                    *left += weight(*damped_left) * from;
+                    *right += weight(*damped_right) * from;
+                }
+                if let ([x], [damped]) = (odd_x, odd_damped) {
+                    *x += weight(*damped) * from[pairs];
+                }
             }
         }
     }

@@ -45,8 +45,8 @@ impl Pockets {
     pub fn balance(&mut self, grid: &MacGrid, level: &mut Level) -> bool {
         self.parts.clear();
         let s = grid.stride;
-        for j in level.rows.clone() {
-            for k in grid.row(j) + level.span.start..grid.row(j) + level.span.end {
+        for j in level.wet.rows() {
+            for k in level.wet.runs(j).flat_map(|run| grid.row(j) + run.start..grid.row(j) + run.end) {
                 if level.diagonal[k] == 0.0 {
                     continue;
                 }
@@ -69,8 +69,8 @@ impl Pockets {
         if self.parts.iter().all(|part| part.cells == OPEN) {
             return false;
         }
-        for j in level.rows.clone() {
-            for k in grid.row(j) + level.span.start..grid.row(j) + level.span.end {
+        for j in level.wet.rows() {
+            for k in level.wet.runs(j).flat_map(|run| grid.row(j) + run.start..grid.row(j) + run.end) {
                 if level.diagonal[k] == 0.0 {
                     continue;
                 }

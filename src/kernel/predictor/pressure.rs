@@ -19,6 +19,7 @@ use crate::{
         rock::ClosedFaces,
         stencil::Axis,
         transfer::Faces,
+        wet::Wet,
     },
     simd::{Lanes, Pass},
 };
@@ -90,7 +91,7 @@ impl Pass for Projection<'_> {
             report,
         } = self;
         conjugate.resize(grid.len());
-        mark_liquid(grid, closed, faces, conjugate, target, team);
+        mark_liquid(grid, closed, faces, conjugate, &mut hierarchy.finest().wet, (target, team));
         faces.find_means(grid, team);
         if conjugate.rows.is_empty() {
             return;
@@ -145,11 +146,11 @@ fn mark_liquid(
     closed: &ClosedFaces,
     faces: &mut Faces,
     conjugate: &mut Conjugate,
-    target: f32,
-    team: Team,
+    wet: &mut Wet,
+    (target, team): (f32, Team),
 ) {
     let rows = cells_reached(grid, faces);
-    let Conjugate { rows: before, area, span, liquid, solution, wet, .. } = conjugate;
+    let Conjugate { rows: before, area, span, liquid, solution, .. } = conjugate;
     for far in
         [before.start..rows.start.clamp(before.start, before.end), rows.end.clamp(before.start, before.end)..before.end]
     {
@@ -165,21 +166,15 @@ fn mark_liquid(
         }
         area.clone_from(&faces.area);
     }
-    wet.resize(grid.rows + 3, 0..0);
     let share = 0.25 * grid.per_cell * grid.per_cell / target;
     let Faces { u, v, filled, .. } = faces;
-    let band = (
-        (Rows::new(filled, grid.stride, &rows), Rows::new(liquid, grid.stride, &rows)),
-        (Rows::new(solution, grid.stride, &rows), Rows::new(wet, 1, &rows)),
-    );
+    let band = |field| Rows::new(field, grid.stride, &rows);
+    let band = (band(filled), (band(liquid), band(solution)));
     let work = Mark { grid, closed, area, weights: [u, v], share };
     sweep(&work, rows.clone(), band, area.len(), WORTH_A_PIECE, team);
-    let is_wet = |j: &usize| !wet[*j].is_empty();
-    let (first, last) = (rows.clone().find(is_wet), rows.rev().find(is_wet));
-    *before = first.zip(last).map_or(0..0, |(first, last)| first..last + 1);
-    let wet = wet[before.clone()].iter().filter(|wet| !wet.is_empty()).cloned();
-    let ends = wet.reduce(|ends, wet| ends.start.min(wet.start)..ends.end.max(wet.end));
-    *span = ends.map_or(1..1, |ends| grid.whole_pieces(ends.start as usize..ends.end as usize));
+    wet.find(liquid, grid.stride, rows, area.clone());
+    *before = if wet.rows().is_empty() { 0..0 } else { wet.rows() };
+    *span = grid.whole_pieces(wet.columns());
 }
 
 struct Mark<'a> {
@@ -193,34 +188,25 @@ struct Mark<'a> {
     share: f32,
 }
 
-/// Rows of the cells' filling and liquid, and of the solution with the columns from the first to the last liquid cell.
-type Marks<'a> = ((Rows<'a, f32>, Rows<'a, f32>), (Rows<'a, f32>, Rows<'a, Range<u32>>));
+/// Rows of the cells' filling and liquid, and of the solution.
+type Marks<'a> = (Rows<'a, f32>, (Rows<'a, f32>, Rows<'a, f32>));
 
 impl Sweep<Marks<'_>> for Mark<'_> {
     #[inline(always)]
-    fn run(&self, rows: Range<usize>, ((mut filled, mut liquid), (mut solution, wet)): Marks) {
+    fn run(&self, rows: Range<usize>, (mut filled, (mut liquid, mut solution)): Marks) {
         let Self { grid, closed, area, weights: [u, v], share } = *self;
-        let out = filled.each().zip(liquid.each()).zip(solution.each()).zip(wet.field);
-        for (j, (((filled, liquid), solution), wet)) in rows.zip(out) {
+        let out = filled.each().zip(liquid.each()).zip(solution.each());
+        for (j, ((filled, liquid), solution)) in rows.zip(out) {
             let (cells, own) = (grid.row(j) + area.start..grid.row(j) + area.end, area.clone());
             let (filled, liquid) = (&mut filled[own.clone()], &mut liquid[own.clone()]);
             let stored = closed.row(j) + area.start..closed.row(j) + area.end;
             fill(filled, Sides::new(u, v, cells, grid.stride), &closed.rock[stored.clone()], share);
-            let any = mark(liquid, filled, &closed.liquid_from[stored]);
-            *wet = if any { ends(liquid, area.start) } else { 0..0 };
+            mark(liquid, filled, &closed.liquid_from[stored]);
             for (p, liquid) in solution[own].iter_mut().zip(&*liquid) {
                 *p *= *liquid;
             }
         }
     }
-}
-
-/// Columns from the first to the last cell that is marked in a row, which begins at column `start`.
-#[inline(always)]
-fn ends(liquid: &[f32], start: usize) -> Range<u32> {
-    let is_marked = |liquid: &f32| *liquid > 0.0;
-    let ends = liquid.iter().position(is_marked).zip(liquid.iter().rposition(is_marked));
-    ends.map_or(0..0, |(first, last)| (start + first) as u32..(start + last + 1) as u32)
 }
 
 /// Sets up `Σ_f w_f s_f (p_c − p_n) = −Σ ± w_f u_f − Δt c det ∇u` over the liquid cells of edge c; p = 0 in the air,
@@ -235,14 +221,14 @@ fn assemble(
     (dt, whole): (f32, f32),
     team: Team,
 ) -> bool {
-    let Conjugate { rows, span, liquid, .. } = conjugate;
-    finest.take(rows.clone(), span.clone());
+    let Conjugate { rows, liquid, .. } = conjugate;
+    finest.take();
     let sealed = AtomicBool::new(false);
-    let work = Assemble { grid, closed, faces, liquid, span, dt, whole, sealed: &sealed };
-    let Level { diagonal, damped, right, upper, b, .. } = finest;
+    let Level { diagonal, damped, right, upper, b, wet, .. } = finest;
+    let work = Assemble { grid, closed, faces, liquid, wet, dt, whole, sealed: &sealed };
     let band = |field| Rows::new(field, grid.stride, rows);
     let band = ((band(diagonal), band(damped)), ((band(right), band(upper)), band(b)));
-    sweep(&work, rows.clone(), band, span.len(), WORTH_A_PIECE, team);
+    sweep(&work, rows.clone(), band, wet.per_row(), WORTH_A_PIECE, team);
     sealed.into_inner()
 }
 
@@ -251,8 +237,8 @@ struct Assemble<'a> {
     closed: &'a ClosedFaces,
     faces: &'a Faces,
     liquid: &'a [f32],
-    /// Columns that are solved for.
-    span: &'a Range<usize>,
+    /// What is solved for.
+    wet: &'a Wet,
     /// Substep, s.
     dt: f32,
     /// Particles from which on a face has them on both sides.
@@ -268,15 +254,18 @@ type System<'a> = ((Rows<'a, f32>, Rows<'a, f32>), ((Rows<'a, f32>, Rows<'a, f32
 impl Sweep<System<'_>> for Assemble<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, system: System) {
-        let Self { grid, closed, faces, liquid, span, dt, whole, sealed } = *self;
+        let Self { grid, closed, faces, liquid, wet, dt, whole, sealed } = *self;
         let ((mut diagonal, mut damped), ((mut right, mut upper), mut b)) = system;
         let stride = grid.stride;
         let mut any_sealed = false;
         let out = diagonal.each().zip(damped.each()).zip(right.each().zip(upper.each())).zip(b.each());
         for (j, (((diagonal, damped), (right, upper)), b)) in rows.zip(out) {
-            let end = grid.row(j) + span.end;
-            for start in (grid.row(j) + span.start..end).step_by(CHUNK) {
-                let cells = start..end.min(start + CHUNK);
+            let chunks = |run: Range<usize>| {
+                let end = grid.row(j) + run.end;
+                (grid.row(j) + run.start..end).step_by(CHUNK).map(move |start| start..end.min(start + CHUNK))
+            };
+            for cells in wet.runs(j).flat_map(chunks) {
+                let start = cells.start;
                 let (n, own) = (cells.len(), start - grid.row(j)..start - grid.row(j) + cells.len());
                 let [mut steep_u, mut steep_lower, mut steep_upper] = [[0.0_f32; CHUNK + 1]; 3];
                 for (axis, first, steep) in [
@@ -333,11 +322,11 @@ fn feed_back_densities(
     conjugate: &Conjugate,
     team: Team,
 ) -> u64 {
-    let Conjugate { rows, span, liquid, solution: pressure, .. } = conjugate;
+    let Conjugate { rows, liquid, solution: pressure, .. } = conjugate;
     let cuts = AtomicU64::new(0);
-    let work = FeedBack { grid, closed, filled, liquid, pressure, span, cuts: &cuts };
-    let band = Rows::new(&mut finest.b, grid.stride, rows);
-    sweep(&work, rows.clone(), band, span.len(), WORTH_A_PIECE, team);
+    let Level { b, wet, .. } = finest;
+    let work = FeedBack { grid, closed, filled, liquid, pressure, wet, cuts: &cuts };
+    sweep(&work, rows.clone(), Rows::new(b, grid.stride, rows), wet.per_row(), WORTH_A_PIECE, team);
     cuts.into_inner()
 }
 
@@ -347,8 +336,8 @@ struct FeedBack<'a> {
     filled: &'a [f32],
     liquid: &'a [f32],
     pressure: &'a [f32],
-    /// Columns that are solved for.
-    span: &'a Range<usize>,
+    /// What is solved for.
+    wet: &'a Wet,
     /// Counts the cells in which the feedback was cut.
     cuts: &'a AtomicU64,
 }
@@ -356,21 +345,18 @@ struct FeedBack<'a> {
 impl Sweep<Rows<'_, f32>> for FeedBack<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut b: Rows<f32>) {
-        let Self { grid, closed, filled, liquid, pressure, span, cuts } = *self;
+        let Self { grid, closed, filled, liquid, pressure, wet, cuts } = *self;
         let mut cut = 0;
         for (j, b) in rows.zip(b.each()) {
-            let cells = grid.row(j) + span.start..grid.row(j) + span.end;
-            let [below, at, above] = [j - 1, j, j + 1].map(|j| closed.row(j) + span.start);
-            let (n, rock) = (span.len(), &closed.rock);
-            let rock = Around::of_rows(&rock[below..below + n], &rock[at - 1..at + n + 1], &rock[above..above + n]);
-            let [liquid, pressure] = [liquid, pressure].map(|field| Around::new(field, cells.clone(), grid.stride));
-            cut += feed_back(
-                &mut b[span.clone()],
-                (liquid, pressure),
-                rock,
-                &filled[cells],
-                FEEDBACK_PER_SECOND * grid.cell,
-            );
+            for run in wet.runs(j) {
+                let cells = grid.row(j) + run.start..grid.row(j) + run.end;
+                let [below, at, above] = [j - 1, j, j + 1].map(|j| closed.row(j) + run.start);
+                let (n, rock) = (run.len(), &closed.rock);
+                let rock = Around::of_rows(&rock[below..below + n], &rock[at - 1..at + n + 1], &rock[above..above + n]);
+                let [liquid, pressure] = [liquid, pressure].map(|field| Around::new(field, cells.clone(), grid.stride));
+                let rate = FEEDBACK_PER_SECOND * grid.cell;
+                cut += feed_back(&mut b[run], (liquid, pressure), rock, &filled[cells], rate);
+            }
         }
         cuts.fetch_add(u64::from(cut), Ordering::Relaxed);
     }

@@ -56,7 +56,8 @@ impl Equation {
         conjugate.rows = 1..grid.rows + 1;
         let mut hierarchy = Hierarchy::new(grid.columns, grid.rows);
         let (finest, stride) = (hierarchy.finest(), grid.stride);
-        finest.take(conjugate.rows.clone(), 1..grid.columns + 1);
+        finest.wet.find(&conjugate.liquid, stride, conjugate.rows.clone(), 1..grid.columns + 1);
+        finest.take();
         for (axis, steep) in [(Axis::U, &mut steep_u), (Axis::V, &mut steep_v)] {
             for j in 1..grid.rows + 2 {
                 let (first, n) = (grid.row(j) + 1, grid.columns + 1);
