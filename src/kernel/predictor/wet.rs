@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 /// Columns of a piece on the finest level: as many as the lanes of sums, which begin anew in each.
-pub(super) const PIECE: usize = 16;
+const PIECE: usize = 16;
 
 /// Columns of a piece on the coarsest levels: pairs of columns are one on the next.
 const PAIR: usize = 2;
@@ -51,8 +51,8 @@ impl Wet {
         self.per_row
     }
 
-    /// Finds them where cells are marked in `liquid`, rows of `stride` of them, within these rows and columns; a piece begins with the
-    /// first of the columns.
+    /// Finds them where cells are marked in `liquid`, rows of `stride` of them, within these rows and columns. A piece has to begin
+    /// with the first of the columns.
     pub fn find(&mut self, liquid: &[f32], stride: usize, rows: Range<usize>, columns: Range<usize>) {
         self.bits.fill(0);
         let first = (columns.start - 1) / PIECE;
