@@ -153,7 +153,7 @@ pub struct Quality {
     /// Kernel radius h, d. 2.5 serves best; smaller is rougher, larger more expensive.
     pub kernel_radius: f32,
     /// Furthest that iterating may move a particle from its prediction in a substep along an axis, d. With the
-    /// predictor, crowded particles may go further ([`Quality::longest_correction`]).
+    /// predictor, crowded particles may go 0.2 d if this is less ([`Quality::longest_correction`]).
     pub correction_limit: f32,
     /// Edge of an air cell, d. Smaller sees finer eddies and costs with the inverse cube.
     pub air_cell: f32,
@@ -190,10 +190,10 @@ named! {
     Reference = "reference",
 }
 
-/// How many times the correction limit a crowded particle may move where the pressure predictor runs. In a corner that a
-/// stream presses on, a crowd of particles near one point is held together from outside: it must part faster than more are
-/// pressed in.
-const CROWDED_LIMIT: f32 = 2.0;
+/// Furthest that the most crowded particle may be corrected in a substep where the pressure predictor runs, if the correction
+/// limit is less, d along each axis. In a corner that a stream presses on, a crowd of particles near one point is held
+/// together from outside: it must part faster than more are pressed in.
+const CROWDED_LIMIT: f32 = 0.2;
 
 /// Density error, as a share of the density aimed at, from which on liquid is iterated again where the pressure predictor
 /// runs: shared by the substeps of a tick, each of which corrects what it finds. What is less dense has been corrected once
@@ -218,7 +218,7 @@ impl Quality {
     /// Furthest that iterating may move the most crowded particle in a substep along an axis, d. The neighbour search
     /// reaches further than the kernel by twice this, so that no pair is missed.
     pub fn longest_correction(&self) -> f32 {
-        self.correction_limit * if self.predictor { CROWDED_LIMIT } else { 1.0 }
+        if self.predictor { self.correction_limit.max(CROWDED_LIMIT) } else { self.correction_limit }
     }
 }
 
@@ -243,7 +243,7 @@ impl Preset {
             substeps: 1,
             iterations: 1,
             kernel_radius: 2.5,
-            correction_limit: 0.1,
+            correction_limit: 0.2,
             air_cell: 4.0,
             air_courant: 0.7,
             air_advection: AirAdvection::SecondOrder,
@@ -260,9 +260,11 @@ impl Preset {
                 ..base
             },
             Self::Draft => Quality { air_cell: 6.0, ..base },
-            Self::Fast => Quality { iterations: 2, correction_limit: 0.15, air_cell: 5.0, ..base },
-            Self::Balanced => Quality { iterations: 4, correction_limit: 0.2, ..base },
-            Self::Fine | Self::Reference => Quality { substeps: 2, iterations: 4, air_cell: 3.0, ..base },
+            Self::Fast => Quality { iterations: 2, air_cell: 5.0, ..base },
+            Self::Balanced => Quality { iterations: 4, ..base },
+            Self::Fine | Self::Reference => {
+                Quality { substeps: 2, iterations: 4, correction_limit: 0.1, air_cell: 3.0, ..base }
+            }
         }
     }
 }

@@ -157,7 +157,7 @@ fn presets_out_of_order_fail_the_sweep_only_if_that_is_asked_for() {
     let thin = ["sweep", "dam_break", "--set", "columns=12", "--quick", "--out", "thin"];
     assert!(good(&here, &thin).contains("\nOrder: not ok.\n"));
     let summary = fs::read_to_string(here.join("thin/summary.md")).unwrap();
-    let says = ["dam_break: the presets are out of order", "the error rises"];
+    let says = ["dam_break: the presets are out of order", "error rises"];
     let output = crate::program(&here, &[&thin[..], &["--check"]].concat());
     let stderr = String::from_utf8(output.stderr).unwrap();
     // A build without charts says so in a line of its own.

@@ -140,7 +140,7 @@ mod tests {
         let text = String::from_utf8(text).unwrap();
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(lines.len(), 3);
-        assert!(lines[1].starts_with("\"fast, h 3\",,1,1,1,2,2.5,rational,0.15,"), "{}", lines[1]);
+        assert!(lines[1].starts_with("\"fast, h 3\",,1,1,1,2,2.5,rational,0.2,"), "{}", lines[1]);
         assert!(lines[1].contains("energy up by 2.0 %; mean density 0.970"), "{}", lines[1]);
         assert!(lines[2].starts_with("fine,fine,1,1,"), "{}", lines[2]);
         assert!(lines[2].contains(",1.5000,1.5000,1.5000,1.5000,0.005000,,0.005000,,,0.990000,"), "{}", lines[2]);

@@ -15,6 +15,7 @@ use glam::Vec2;
 fn velocities_follow_from_the_moves_and_cut_corrections_are_counted() {
     let mut bench = square(0.0, |_| Vec2::ZERO);
     bench.predicted = true;
+    bench.quality.correction_limit = 0.1;
     bench.solve(false);
     bench.solver.density.fill(1.0);
     bench.solver.x.clone_from(&bench.particles.x);
