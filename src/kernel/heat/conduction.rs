@@ -10,6 +10,10 @@
 //! the lump and those of what may come of it, or water would boil to steam that is hotter than what boiled it. What a table makes
 //! hotter than 4,000 K by a change exchanges heat as if it were no hotter, so that no sum of quanta overflows.
 //!
+//! **Only where it is so fast.** Two lumps that can both exchange all of a tick at once do so in the first step, and only pairs with
+//! one that can't go on: beside a bar of metal a forest costs one step. Each step of a lump asks for no more than all of its
+//! pairs do at once, so the bound holds in each.
+//!
 //! **The air** takes `h′ (T − 293 K) Δt` for each length of a lump's surface, which is what its neighbours leave open, solved for
 //! the end of the step; gases give five times as much. It is as warm as the room, whatever it
 //! takes: what becomes of it is the air's own (`air/warmth`).
@@ -45,8 +49,12 @@ pub(super) struct Exchange {
     kelvin: Vec<f32>,
     /// √k′, √(W/mK).
     conduction: Vec<f32>,
-    /// Part of a whole tick's exchange that it can take at once; above 1 all.
+    /// Part of what it asks for in a step that it can take; 1 all.
     allowance: Vec<f32>,
+    /// 1 if it can take at once what it asks for in a tick, 0 if it takes steps.
+    once: Vec<f32>,
+    /// Cells with lumps that take steps, and those around them.
+    stepping: Vec<bool>,
     /// Length of its surface, d; of gases as many times as much as it gives more.
     surface: Vec<f32>,
     /// What it gains from pairs, and gives to the air, quanta.
@@ -66,21 +74,16 @@ impl Exchange {
         self.given.resize(count, 0);
         self.warm_up(lumps, warm.table, team.threads);
         self.look_around(lumps, warm, rates, team);
-        let least = self.allowance.iter().zip(&lumps.cell).filter(|(_, cell)| lumps.flows[**cell as usize]);
-        let least = least.map(|(allowance, _)| *allowance).fold(1.0, f32::min);
-        let steps = (1.0 / least.max(1.0 / MOST_STEPS)).ceil();
-        // What does not flow in the first step must not in a later one, either: its cell is not looked at.
-        for (allowance, cell) in self.allowance.iter_mut().zip(&lumps.cell) {
-            *allowance = if lumps.flows[*cell as usize] { (*allowance * steps).min(1.0) } else { 0.0 };
-        }
+        let steps = self.divide(lumps);
         let flowing = self.allowance.iter().zip(&lumps.cell).filter(|(_, cell)| lumps.flows[**cell as usize]);
         let cuts = flowing.filter(|(allowance, _)| **allowance < 1.0).count() as u64;
         let mut to_air = 0;
+        let rates = rates.over(steps);
         for step in 0..steps as u32 {
             if step > 0 {
                 self.warm_up(lumps, warm.table, team.threads);
             }
-            self.flow(lumps, warm.table, &rates.over(steps), team);
+            self.flow(lumps, warm.table, &rates, (step, steps), team);
             for (heat, (gained, given)) in lumps.heat.iter_mut().zip(self.gained.iter().zip(&self.given)) {
                 *heat = heat.saturating_add(gained.saturating_sub(*given));
                 to_air += i64::from(*given);
@@ -109,12 +112,51 @@ impl Exchange {
         });
     }
 
-    /// Finds what flows in a step.
-    fn flow(&mut self, lumps: &Lumps, table: &HeatTable, rates: &Rates, team: Team) {
-        let Self { kelvin, conduction, allowance, surface, gained, given, .. } = self;
+    /// Finds how many steps the tick takes, who takes them, and how much of what each asks for in a step it can take.
+    fn divide(&mut self, lumps: &Lumps) -> f32 {
+        let Self { allowance, once, stepping, .. } = self;
+        let flows = |cell: &u32| lumps.flows[*cell as usize];
+        let flowing = allowance.iter().zip(&lumps.cell).filter(|(_, cell)| flows(cell));
+        let least = flowing.map(|(allowance, _)| *allowance).fold(1.0, f32::min);
+        let steps = (1.0 / least.max(1.0 / MOST_STEPS)).ceil();
+        once.clear();
+        stepping.clear();
+        stepping.resize(lumps.flows.len(), false);
+        for (allowance, cell) in allowance.iter_mut().zip(&lumps.cell) {
+            let is_whole = *allowance >= 1.0;
+            once.push(f32::from(u8::from(is_whole)));
+            if !is_whole && flows(cell) {
+                for around in lumps.cells_around(*cell as usize) {
+                    stepping[around].fill(true);
+                }
+            }
+            // What does not flow in the first step must not in a later one, either: its cell is not looked at.
+            *allowance = if flows(cell) { (*allowance * steps).min(1.0) } else { 0.0 };
+        }
+        steps
+    }
+
+    /// Finds what flows in a step of so many.
+    fn flow(&mut self, lumps: &Lumps, table: &HeatTable, rates: &Rates, (step, steps): (u32, f32), team: Team) {
+        let Self { kelvin, conduction, allowance, once, stepping, surface, gained, given, .. } = self;
         let (kelvin, conduction, allowance, surface) = (&kelvin[..], &conduction[..], &allowance[..], &surface[..]);
+        let (cells, more) = if step == 0 { (&lumps.flows, steps - 1.0) } else { (&*stepping, -1.0) };
+        let once = &once[..];
         spread([&mut gained[..], &mut given[..]], PIECE, team.threads, &|base, out| {
-            team.instructions.run(Flow { lumps, table, rates, kelvin, conduction, allowance, surface, base, out });
+            team.instructions.run(Flow {
+                lumps,
+                table,
+                rates,
+                cells,
+                kelvin,
+                conduction,
+                allowance,
+                once,
+                more,
+                surface,
+                base,
+                out,
+            });
         });
     }
 
@@ -125,8 +167,8 @@ impl Exchange {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        let Self { kelvin, conduction, allowance, surface, gained, given, .. } = self;
-        let floats = [kelvin, conduction, allowance, surface].iter().map(|field| field.capacity()).sum::<usize>();
-        4 * (floats + gained.capacity() + given.capacity())
+        let Self { kelvin, conduction, allowance, once, stepping, surface, gained, given, .. } = self;
+        let floats = [kelvin, conduction, allowance, once, surface].iter().map(|field| field.capacity()).sum::<usize>();
+        4 * (floats + gained.capacity() + given.capacity()) + stepping.capacity()
     }
 }

@@ -67,10 +67,9 @@ impl Lumps {
         self.x.len()
     }
 
-    /// Whether anything may flow where a lump is.
-    #[inline(always)]
-    pub fn flows_at(&self, i: usize) -> bool {
-        self.flows[self.cell[i] as usize]
+    /// The cells that reach what is in a cell, three of each row.
+    pub fn cells_around(&self, cell: usize) -> [Range<usize>; 3] {
+        [cell - self.stride, cell, cell + self.stride].map(|cell| cell - 1..cell + 2)
     }
 
     /// The end of the lumps in a lump's row of cells.

@@ -22,16 +22,16 @@ struct Group {
     around: [Range<usize>; 3],
 }
 
-/// The lumps `lumps` in groups of up to `width`, each in one row of cells and with any in which heat flows.
+/// The lumps `range` in groups of up to `width`, each in one row of cells and with any in one of `cells`.
 #[inline(always)]
-fn groups(lumps: &Lumps, range: Range<usize>, width: usize) -> impl Iterator<Item = Group> {
+fn groups(lumps: &Lumps, cells: &[bool], range: Range<usize>, width: usize) -> impl Iterator<Item = Group> {
     let mut next = range.start;
     std::iter::from_fn(move || {
         while next < range.end {
             let first = next;
             let end = lumps.row_end(first).min(range.end).min(first + width);
             next = end;
-            if (first..end).any(|i| lumps.flows_at(i)) {
+            if lumps.cell[first..end].iter().any(|cell| cells[*cell as usize]) {
                 return Some(Group { lumps: first..end, around: lumps.around(first..end) });
             }
         }
@@ -76,7 +76,7 @@ impl Pass for LookAround<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let Self { lumps, table, walls, size, rates, conduction, base, out: [allowance, surface] } = self;
-        for group in groups(lumps, base..base + allowance.len(), L::WIDTH) {
+        for group in groups(lumps, &lumps.flows, base..base + allowance.len(), L::WIDTH) {
             let places = Places::<L>::load(lumps, &group);
             let (mut whole, mut through) = (L::splat(0.0), L::splat(0.0));
             for run in &group.around {
@@ -110,10 +110,18 @@ impl Pass for LookAround<'_> {
 pub(super) struct Flow<'a> {
     pub lumps: &'a Lumps,
     pub table: &'a HeatTable,
+    /// Those of a step.
     pub rates: &'a Rates,
+    /// Cells in which anything flows in this step.
+    pub cells: &'a [bool],
     pub kelvin: &'a [f32],
     pub conduction: &'a [f32],
     pub allowance: &'a [f32],
+    /// 1 for lumps that take a whole tick's exchange at once, else 0.
+    pub once: &'a [f32],
+    /// How many steps' exchange two of those have in this step beside its own: that of all others in the first, −1 in the others, 0
+    /// where a tick is one step.
+    pub more: f32,
     pub surface: &'a [f32],
     /// The first lump of those that are written.
     pub base: usize,
@@ -124,27 +132,32 @@ pub(super) struct Flow<'a> {
 impl Pass for Flow<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Self { lumps, table, rates, kelvin, conduction, allowance, surface, base, out: [gained, given] } = self;
+        let Self { lumps, table, rates, cells, kelvin, conduction, allowance, once, more, surface, base, out } = self;
+        let [gained, given] = out;
         gained.fill(0);
         given.fill(0);
-        for group in groups(lumps, base..base + gained.len(), L::WIDTH) {
+        for group in groups(lumps, cells, base..base + gained.len(), L::WIDTH) {
             let places = Places::<L>::load(lumps, &group);
             let own = |field: &[f32]| L::load(&field[group.lumps.clone()]);
             let (own_kelvin, own_conduction, most) = (own(kelvin), own(conduction), own(allowance));
+            let own_more = own(once) * L::splat(more);
             let mut sums = L::no_sums();
             for run in &group.around {
                 for j in run.clone() {
                     let share = L::splat(allowance[j]).min(most);
                     // The product of both comes first, so that the other lump finds the same to the bit.
-                    let rate = own_conduction * L::splat(conduction[j]) * L::splat(rates.pairs) * share;
+                    let mut rate = own_conduction * L::splat(conduction[j]) * L::splat(rates.pairs) * share;
+                    if more != 0.0 {
+                        rate = rate * (L::splat(1.0) + own_more * L::splat(once[j]));
+                    }
                     let flow = rate * places.weights_of(lumps, j) * (L::splat(kelvin[j]) - own_kelvin);
                     sums = flow.add_rounded(sums);
                 }
             }
             gained[group.lumps.start - base..group.lumps.end - base]
                 .copy_from_slice(&L::sums(sums)[..group.lumps.len()]);
-            for i in group.lumps.filter(|i| lumps.flows_at(*i)) {
-                let open = rates.air * surface[i];
+            for i in group.lumps.filter(|i| cells[lumps.cell[*i] as usize]) {
+                let open = rates.air * (1.0 + more * once[i]) * surface[i];
                 let held = table.curve(lumps.element[i]).least_capacity() / QUANTUM;
                 given[i - base] = rounded(open / (1.0 + open / held) * (kelvin[i] - ROOM));
             }

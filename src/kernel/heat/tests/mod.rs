@@ -316,3 +316,27 @@ fn a_lump_cools_in_the_air_as_newton_has_it() {
     let left = mean(&bench) - 293.0;
     assert!((left / expected - 1.0).abs() < 0.02, "{left} K left, {expected} expected");
 }
+
+#[test]
+fn what_one_step_is_enough_for_takes_one_beside_what_takes_more() {
+    let lava = |at: Vec2| (at.x < 20.0).then_some((LAVA, if at.y < 8.0 { 1400.0 } else { 1100.0 }));
+    let bar_in_ash = |at: Vec2| {
+        let element = if at.y < 10.0 { METAL } else { ASH };
+        (at.x > 40.0).then_some((element, if at.y < 5.0 { 1500.0 } else { 300.0 }))
+    };
+    let mut alone = Bench::new(Vec2::new(60.0, 16.0), 0.05).fill(0.2, lava);
+    let mut beside = Bench::new(Vec2::new(60.0, 16.0), 0.05).fill(0.2, |at| lava(at).or_else(|| bar_in_ash(at)));
+    let heats = |bench: &Bench| -> Vec<i32> {
+        let lava = (0..bench.particles.len()).filter(|i| bench.particles.element[*i] == LAVA);
+        lava.map(|i| bench.particles.heat_of(i)).collect()
+    };
+    let (start, total) = (heats(&alone), beside.total());
+    assert_eq!(start.len(), 320);
+    for tick in 0..60 {
+        alone.flow(1);
+        beside.flow(1);
+        assert!(heats(&alone) == heats(&beside), "in tick {tick} the lava takes other steps beside a bar in ash");
+    }
+    assert!(heats(&alone) != start, "nothing flows");
+    assert_eq!(beside.total(), total);
+}
