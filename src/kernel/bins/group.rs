@@ -38,7 +38,7 @@ pub struct Run {
 }
 
 impl Run {
-    pub(super) fn new(first: u32, end: u32) -> Self {
+    pub(crate) fn new(first: u32, end: u32) -> Self {
         Self { first, end }
     }
 

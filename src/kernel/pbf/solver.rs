@@ -11,6 +11,7 @@ use crate::{
     simd::InstructionSet,
     smoothing::{Gradient, Rational, Smoothing, Spiky},
     solids::Solids,
+    velocity::Thick,
 };
 use glam::Vec2;
 use std::sync::atomic::AtomicU64;
@@ -51,6 +52,8 @@ pub struct Solver {
     pub(crate) masses: Vec<f32>,
     /// The same, [`LEAST_INERTIA`] at least: what holds particles against being set apart.
     inertias: Vec<f32>,
+    /// What takes several passes of viscosity.
+    pub(crate) thick: Thick,
     /// Limit of the last corrections; none before the first.
     pub(crate) limit: Option<CorrectionLimit>,
     /// Density that the last solve aimed at, 1 on the lattice.
@@ -88,6 +91,7 @@ impl Solver {
             lambda: Vec::new(),
             masses: Vec::new(),
             inertias: Vec::new(),
+            thick: Thick::default(),
             limit: None,
             aim: 1.0,
             substeps: 1,
@@ -96,9 +100,9 @@ impl Solver {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        let Self { density, x, y, next_x, next_y, lambda, masses, inertias, .. } = self;
+        let Self { density, x, y, next_x, next_y, lambda, masses, inertias, thick, .. } = self;
         let floats = [density, x, y, next_x, next_y, lambda, masses, inertias];
-        4 * floats.iter().map(|array| array.capacity()).sum::<usize>() + self.bins.memory()
+        4 * floats.iter().map(|array| array.capacity()).sum::<usize>() + thick.memory() + self.bins.memory()
     }
 
     /// Sorts the particles by cell, sets those at one point apart, scatters crowds and builds the groups.

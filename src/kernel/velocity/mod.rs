@@ -1,7 +1,6 @@
 //! Velocities after the solve: what the moves imply, then viscosity and vorticity confinement.
 
 mod energy;
-mod grip;
 #[cfg(test)]
 mod tests;
 mod update;
@@ -10,6 +9,7 @@ mod vorticity;
 
 pub use energy::energy;
 pub use update::{MoveReport, update_velocities};
+pub(crate) use viscosity::Thick;
 pub use viscosity::apply_viscosity;
 pub use vorticity::apply_vorticity;
 

@@ -214,10 +214,14 @@ fn viscosity_is_stable_at_any_coefficient_and_cut_to_what_its_passes_can_do() {
 
 /// Something thick, and heavier, amid something thin, all in motion.
 fn thick_amid_thin() -> (Bench, Vec<f32>) {
-    let mut bench = square(0.2, |_| Vec2::ZERO);
+    stirred(square(0.2, |_| Vec2::ZERO), |at| at.distance(Vec2::splat(30.0)) < 4.0)
+}
+
+/// Particles in motion, thick and heavier where `is_thick` says so.
+fn stirred(mut bench: Bench, is_thick: impl Fn(Vec2) -> bool) -> (Bench, Vec<f32>) {
     let mut random = random_numbers(8);
-    for i in 0..400 {
-        bench.particles.element[i] = ElementId((bench.particles.position(i).distance(Vec2::splat(30.0)) < 4.0).into());
+    for i in 0..bench.particles.len() {
+        bench.particles.element[i] = ElementId(is_thick(bench.particles.position(i)).into());
         (bench.particles.vx[i], bench.particles.vy[i]) = (40.0 * (random() - 0.5), 40.0 * (random() - 0.5));
     }
     bench.solve(false);
@@ -244,6 +248,32 @@ fn what_is_thin_takes_one_pass_beside_what_takes_many() {
     assert!(far > 100, "{far} have none of it for a neighbour");
     let changed = (0..400).filter(|&i| beside.velocity(i) != alone.velocity(i)).count();
     assert!(changed > 30, "what is thick takes more than one pass: {changed}");
+}
+
+#[test]
+fn what_is_thick_moves_as_it_did_where_it_is_few_and_brought_together() {
+    for stickiness in [vec![], vec![0.0, 12.0]] {
+        let run = |is_far_thick: bool| {
+            let mut bench = square(0.2, |_| Vec2::ZERO);
+            for k in 0..560 {
+                bench.add(Vec2::new((k % 56) as f32 + 2.5, (k / 56) as f32 + 0.4), Vec2::ZERO);
+            }
+            let is_near = |at: Vec2| at.distance(Vec2::splat(30.0)) < 4.0;
+            let (mut bench, _) = stirred(bench, |at| if at.y < 15.0 { is_far_thick } else { is_near(at) });
+            let elements = ElementParams {
+                viscosity: vec![0.02, 12.0],
+                stickiness: stickiness.clone(),
+                ..ElementParams::default()
+            };
+            apply_viscosity(&mut bench.particles, &mut bench.solver, &bench.domain, &elements, 1, TICK_SECONDS);
+            // What is thick near by is few of all, or all of it together is most.
+            assert_eq!(bench.solver.thick.is_empty(), is_far_thick);
+            bench.particles
+        };
+        let (few, most) = (run(false), run(true));
+        assert!((0..few.len()).all(|i| few.y[i] < 15.0 || few.velocity(i) == most.velocity(i)));
+        assert!((0..few.len()).any(|i| few.velocity(i) != most.velocity(i)), "the test can fail");
+    }
 }
 
 #[test]
