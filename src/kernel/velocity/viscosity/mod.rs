@@ -29,11 +29,12 @@
 //! whose layer at a wall would be a millimetre thick.
 
 mod grip;
+mod matter;
 mod pass;
 mod thick;
 mod walls;
 
-pub(super) use pass::share_of;
+pub(super) use matter::share_of;
 pub(crate) use thick::Thick;
 
 use crate::{
@@ -46,7 +47,8 @@ use crate::{
     velocity::StrengthReport,
 };
 use grip::Grip;
-use pass::{LEAST_DENSITY, Matter, Once, Setting};
+use matter::{LEAST_DENSITY, Matter};
+use pass::{Once, Setting};
 use walls::Walls;
 
 /// Largest share of its difference to its neighbours that a particle may give up in a pass: the bound.

@@ -1,6 +1,9 @@
 //! What takes all of several passes, brought together, so that they cost what it is and not what lies between.
 
-use super::pass::{Matter, Once, Setting};
+use super::{
+    matter::Matter,
+    pass::{Once, Setting},
+};
 use crate::{
     bins::{Group, Run},
     element::ElementId,

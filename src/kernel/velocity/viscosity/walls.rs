@@ -2,7 +2,7 @@
 
 use super::{
     grip::Grip,
-    pass::{LEAST_DENSITY, Matter, share_of},
+    matter::{LEAST_DENSITY, Matter, share_of},
 };
 use crate::{
     bins::{Group, RockBins},
