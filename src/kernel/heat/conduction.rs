@@ -126,9 +126,7 @@ impl Exchange {
             let is_whole = *allowance >= 1.0;
             once.push(f32::from(u8::from(is_whole)));
             if !is_whole && flows(cell) {
-                for around in lumps.cells_around(*cell as usize) {
-                    stepping[around].fill(true);
-                }
+                lumps.cells_around(*cell as usize).into_iter().for_each(|cells| stepping[cells].fill(true));
             }
             // What does not flow in the first step must not in a later one, either: its cell is not looked at.
             *allowance = if flows(cell) { (*allowance * steps).min(1.0) } else { 0.0 };

@@ -69,7 +69,7 @@ impl Lumps {
 
     /// The cells that reach what is in a cell, three of each row.
     pub fn cells_around(&self, cell: usize) -> [Range<usize>; 3] {
-        [cell - self.stride, cell, cell + self.stride].map(|cell| cell - 1..cell + 2)
+        around(cell, self.stride)
     }
 
     /// The end of the lumps in a lump's row of cells.
@@ -149,14 +149,12 @@ impl Lumps {
                     continue;
                 }
                 let mut near = Span { coldest: ROOM, hottest: ROOM, conduction: 0.0 };
-                for other in [cell - *stride, cell, cell + *stride] {
-                    spans[other - 1..=other + 1].iter().for_each(|span| near.join(*span));
+                for others in around(cell, *stride) {
+                    spans[others].iter().for_each(|span| near.join(*span));
                 }
                 if rates.may_flow(near.hottest - near.coldest, near.conduction) {
                     flows[cell] = true;
-                    for around in [cell - *stride, cell, cell + *stride] {
-                        needed[around - 1..=around + 1].fill(true);
-                    }
+                    around(cell, *stride).into_iter().for_each(|others| needed[others].fill(true));
                 }
             }
         }
@@ -235,4 +233,9 @@ impl Lumps {
             + size_of::<Span>() * self.spans.capacity()
             + size_of::<IVec2>() * self.rock.capacity()
     }
+}
+
+/// A cell and those around it, three of each row, in rows of `stride`.
+fn around(cell: usize, stride: usize) -> [Range<usize>; 3] {
+    [cell - stride, cell, cell + stride].map(|cell| cell - 1..cell + 2)
 }
