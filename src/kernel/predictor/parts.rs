@@ -9,32 +9,35 @@ use glam::IVec2;
 pub(super) struct Parts {
     /// For each cell of the grid, 1 + the index of its part if it is cut, else 0. Empty without rock.
     of_cell: Vec<u32>,
-    parts: Vec<Part>,
-}
-
-/// The room that a cut cell stands for.
-struct Part {
-    /// Lower left cell of rock or room that the grid's cell reaches, and how many it reaches each way.
-    corner: IVec2,
-    columns: i32,
-    rows: i32,
-    /// Whether the room is in the part, row by row.
-    has: Vec<bool>,
+    parts: Vec<Piece>,
+    /// Whether rock leaves less than half of each cell, in one piece. Empty without rock.
+    slivers: Vec<bool>,
 }
 
 impl Parts {
-    /// Finds the cells that are cut.
+    /// Finds what room cells stand for, and which of them are cut.
     pub fn new(grid: &MacGrid, solids: &Solids) -> Self {
-        let mut found = Self { of_cell: Vec::new(), parts: Vec::new() };
+        let mut found = Self { of_cell: Vec::new(), parts: Vec::new(), slivers: Vec::new() };
         if solids.count() == 0 {
             return found;
         }
         found.of_cell.resize(grid.len(), 0);
+        found.slivers.resize(grid.len(), false);
+        let area = grid.cell * grid.cell;
         for j in 1..=grid.rows {
             for i in 1..=grid.columns {
-                if let Some(part) = Part::of_cut_cell(grid, solids, [i - 1, j - 1]) {
-                    found.parts.push(part);
-                    found.of_cell[grid.row(j) + i] = found.parts.len() as u32;
+                let Some(pieces) = Piece::of_cell(grid, solids, [i - 1, j - 1]) else { continue };
+                let k = grid.row(j) + i;
+                if let [only] = &pieces[..] {
+                    found.slivers[k] = only.area < 0.5 * area;
+                    continue;
+                }
+                // Of equal ones the first.
+                let largest =
+                    pieces.into_iter().reduce(|most, piece| if piece.area > most.area { piece } else { most });
+                if let Some(largest) = largest {
+                    found.parts.push(largest);
+                    found.of_cell[k] = found.parts.len() as u32;
                 }
             }
         }
@@ -48,11 +51,33 @@ impl Parts {
             Some(index) => self.parts[*index as usize - 1].has(room),
         }
     }
+
+    /// Whether rock cuts the grid's cell `k`.
+    pub fn is_cut(&self, k: usize) -> bool {
+        self.of_cell.get(k).is_some_and(|part| *part > 0)
+    }
+
+    /// Whether rock leaves less than half of the grid's cell `k`, in one piece.
+    pub fn is_sliver(&self, k: usize) -> bool {
+        self.slivers.get(k).is_some_and(|is_sliver| *is_sliver)
+    }
 }
 
-impl Part {
-    /// The larger part of a cell that rock cuts; `None` if its room is in one piece.
-    fn of_cut_cell(grid: &MacGrid, solids: &Solids, [column, row]: [usize; 2]) -> Option<Self> {
+/// Room of a cell of the grid in one piece.
+struct Piece {
+    /// Lower left cell of rock or room that the grid's cell reaches, and how many it reaches each way.
+    corner: IVec2,
+    columns: i32,
+    rows: i32,
+    /// Whether the room is in the piece, row by row.
+    has: Vec<bool>,
+    /// What of it is in the grid's cell, d².
+    area: f32,
+}
+
+impl Piece {
+    /// The room of a cell in pieces; `None` without rock in it.
+    fn of_cell(grid: &MacGrid, solids: &Solids, [column, row]: [usize; 2]) -> Option<Vec<Self>> {
         let (left, lower) = (column as f32 * grid.cell, row as f32 * grid.cell);
         let (right, upper) = (left + grid.cell, lower + grid.cell);
         let corner = IVec2::new(left.floor() as i32, lower.floor() as i32);
@@ -63,17 +88,17 @@ impl Part {
         }
         // How much of each room lies in the cell.
         let share = |low: f32, high: f32, from: i32| (high.min((from + 1) as f32) - low.max(from as f32)).max(0.0);
-        let area = |k: i32| share(left, right, at(k).x) * share(lower, upper, at(k).y);
-        let mut pieces: Vec<(f32, Vec<bool>)> = Vec::new();
+        let area_of = |k: i32| share(left, right, at(k).x) * share(lower, upper, at(k).y);
+        let mut pieces = Vec::new();
         let mut seen: Vec<bool> = (0..columns * rows).map(|k| solids.is_solid(at(k))).collect();
         for start in 0..columns * rows {
             if std::mem::replace(&mut seen[start as usize], true) {
                 continue;
             }
-            let (mut piece, mut size, mut next) = (vec![false; seen.len()], 0.0, vec![start]);
+            let (mut has, mut area, mut next) = (vec![false; seen.len()], 0.0, vec![start]);
             while let Some(k) = next.pop() {
-                piece[k as usize] = true;
-                size += area(k);
+                has[k as usize] = true;
+                area += area_of(k);
                 let (x, y) = (k % columns, k / columns);
                 let around =
                     [(x > 0, k - 1), (x + 1 < columns, k + 1), (y > 0, k - columns), (y + 1 < rows, k + columns)];
@@ -83,14 +108,9 @@ impl Part {
                     }
                 }
             }
-            pieces.push((size, piece));
+            pieces.push(Self { corner, columns, rows, has, area });
         }
-        if pieces.len() < 2 {
-            return None;
-        }
-        // Of equal ones the first.
-        let (_, has) = pieces.into_iter().reduce(|most, piece| if piece.0 > most.0 { piece } else { most })?;
-        Some(Self { corner, columns, rows, has })
+        Some(pieces)
     }
 
     fn has(&self, room: IVec2) -> bool {

@@ -17,6 +17,7 @@ use crate::{
         multigrid::Hierarchy,
         pockets::Pockets,
         rock::ClosedFaces,
+        slivers,
         stencil::Axis,
         transfer::Faces,
         wet::Wet,
@@ -172,6 +173,7 @@ fn mark_liquid(
     let band = (band(filled), (band(liquid), band(solution)));
     let work = Mark { grid, closed, area, weights: [u, v], share };
     sweep(&work, rows.clone(), band, area.len(), WORTH_A_PIECE, team);
+    slivers::follow_hosts(&closed.slivers, grid, (&rows, area), [liquid, solution]);
     wet.find(liquid, grid.stride, rows, area.clone());
     *before = if wet.rows().is_empty() { 0..0 } else { wet.rows() };
     *span = grid.whole_pieces(wet.columns());

@@ -5,6 +5,7 @@ use crate::{
         grid::MacGrid,
         parts::Parts,
         pockets::ROUNDING,
+        slivers::{MOST_MISSING, Place, Sliver, missing},
         stencil::{Axis, faces_around},
     },
     solids::{Solids, centre},
@@ -25,7 +26,8 @@ const LEAST_ROOM: f32 = 0.05;
 /// ([`ClosedFaces::row`]), so that a box without rock costs next to nothing.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ClosedFaces {
-    built_for: Option<u64>,
+    /// Version of the rock, and where gravity pulls most.
+    built_for: Option<(u64, IVec2)>,
     /// Where each row of the grid stands in the fields.
     rows: Vec<u32>,
     /// Open share of the left face of each cell.
@@ -42,15 +44,20 @@ pub(super) struct ClosedFaces {
     pub liquid_from: Vec<f32>,
     /// Cells beside a wall, those of the grid's index in order: a face of theirs is closed, or a part of it.
     pub beside_walls: Vec<u32>,
+    /// Those that go by other cells, in the order of the grid's index.
+    pub slivers: Vec<Sliver>,
 }
 
 impl ClosedFaces {
-    /// Follows the rock.
-    pub fn update(&mut self, grid: &MacGrid, solids: &Solids) {
-        if self.built_for != Some(solids.version()) || self.rows.len() != grid.rows + 3 {
-            self.build(grid, solids);
+    /// Follows the rock and gravity.
+    pub fn update(&mut self, grid: &MacGrid, solids: &Solids, gravity: Vec2) {
+        let is_across = gravity.x.abs() > gravity.y.abs();
+        let most = if is_across { Vec2::new(gravity.x, 0.0) } else { Vec2::new(0.0, gravity.y) };
+        let down = IVec2::new(sign(most.x), sign(most.y));
+        if self.built_for != Some((solids.version(), down)) || self.rows.len() != grid.rows + 3 {
+            self.build(grid, solids, down);
             self.share_rows(grid);
-            self.built_for = Some(solids.version());
+            self.built_for = Some((solids.version(), down));
         }
     }
 
@@ -113,7 +120,7 @@ impl ClosedFaces {
         }
     }
 
-    fn build(&mut self, grid: &MacGrid, solids: &Solids) {
+    fn build(&mut self, grid: &MacGrid, solids: &Solids, down: IVec2) {
         for field in self.fields() {
             field.clear();
             field.resize(grid.len(), 0.0);
@@ -131,7 +138,7 @@ impl ClosedFaces {
         for k in (0..grid.len()).filter(|k| !is_inside(*k)) {
             self.rock[k] = 1.0;
         }
-        self.open_slivers(&faces);
+        self.open_slivers(&faces, down);
         self.beside_walls.clear();
         for j in 1..=grid.rows {
             for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
@@ -148,26 +155,35 @@ impl ClosedFaces {
 
     /// Opens the cells of which a level or upright wall leaves less than half to the cells that their room belongs to: the
     /// lines between the centres are no measure of it, as they end in the wall. On its own such a cell would hold the
-    /// liquid in it, and stop what passes.
-    fn open_slivers(&mut self, faces: &OpenShares) {
-        let (grid, stride) = (faces.grid, faces.grid.stride);
-        let is_mostly_rock = |k: usize| self.rock[k] > 0.5;
+    /// liquid in it, and stop what passes. A cell that rock cuts in two stays closed: it stands for one of its parts, and what moved
+    /// that would move the matter in the other, too.
+    fn open_slivers(&mut self, faces: &OpenShares, down: IVec2) {
+        let (grid, stride, parts) = (faces.grid, faces.grid.stride, faces.parts);
+        let is_thin = |k| parts.is_sliver(k) && missing(grid, faces.solids, k) > MOST_MISSING;
+        let thin: Vec<bool> = (0..grid.len()).map(is_thin).collect();
+        let is_sliver = |k: usize| self.rock[k] > 0.5 || thin[k];
+        self.slivers.clear();
         for j in 1..=grid.rows {
-            for k in (grid.row(j) + 1..=grid.row(j) + grid.columns).filter(|k| is_mostly_rock(*k)) {
+            for k in (grid.row(j) + 1..=grid.row(j) + grid.columns).filter(|k| is_sliver(*k) && !parts.is_cut(*k)) {
+                let mut opened = None;
                 if self.open_u[k] + self.open_u[k + 1] == 0.0 {
-                    for (face, other) in [(k, k - 1), (k + 1, k + 1)] {
-                        if !is_mostly_rock(other) {
+                    for (face, host, way) in [(k, k - 1, IVec2::NEG_X), (k + 1, k + 1, IVec2::X)] {
+                        if !is_sliver(host) {
                             self.open_u[face] = faces.left(face, 0.0);
+                            opened = opened.or((self.open_u[face] > 0.0).then_some((host, way)));
                         }
                     }
                 }
                 if self.open_v[k] + self.open_v[k + stride] == 0.0 {
-                    for (face, other) in [(k, k - stride), (k + stride, k + stride)] {
-                        if !is_mostly_rock(other) {
+                    for (face, host, way) in [(k, k - stride, IVec2::NEG_Y), (k + stride, k + stride, IVec2::Y)] {
+                        if !is_sliver(host) {
                             self.open_v[face] = faces.lower(face, 0.0);
+                            opened = opened.or((self.open_v[face] > 0.0).then_some((host, way)));
                         }
                     }
                 }
+                let sliver = |(host, way)| Sliver { cell: k as u32, host: host as u32, place: Place::new(way, down) };
+                self.slivers.extend(opened.filter(|_| thin[k]).map(sliver));
             }
         }
     }
@@ -204,6 +220,7 @@ impl ClosedFaces {
     pub fn memory(&self) -> usize {
         let fields = [&self.open_u, &self.open_v, &self.rock, &self.right_of_u, &self.above_v, &self.liquid_from];
         4 * (fields.map(Vec::capacity).iter().sum::<usize>() + self.rows.capacity() + self.beside_walls.capacity())
+            + size_of::<Sliver>() * self.slivers.capacity()
     }
 }
 
@@ -214,6 +231,11 @@ pub(super) struct Beside<'a> {
     pub rock: [&'a [f32]; 2],
     /// Of both, what stands after the face.
     pub after: &'a [f32],
+}
+
+/// −1, 0 or 1.
+fn sign(number: f32) -> i32 {
+    i32::from(number > 0.0) - i32::from(number < 0.0)
 }
 
 /// Half the length of the lines from cell centre to cell centre, cells.

@@ -128,7 +128,7 @@ impl Predictor {
             }
         }
         let team = Team { instructions: params.instructions, threads: params.threads };
-        self.closed.update(&grid, solids);
+        self.closed.update(&grid, solids, params.domain.gravity);
         self.faces.collect(&grid, particles, params.masses, team);
         match params.grains {
             Some(of) => {

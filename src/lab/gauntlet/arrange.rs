@@ -18,7 +18,7 @@ use std::sync::Arc;
 type Arrange = fn(&mut Blueprint);
 
 /// By the names of the cases.
-pub(super) const STARTS: [(&str, Arrange); 26] = [
+pub(super) const STARTS: [(&str, Arrange); 27] = [
     ("two_at_a_point", |blueprint| {
         for at in [Vec2::new(2.0, 1.0), Vec2::new(4.03, 0.025)] {
             (0..2).for_each(|_| water(blueprint, at, Vec2::ZERO));
@@ -96,6 +96,7 @@ pub(super) const STARTS: [(&str, Arrange); 26] = [
             (0..64).for_each(|_| lump(blueprint, name, Vec2::new(x, 0.84), Vec2::ZERO));
         }
     }),
+    ("thin_walls", thin_walls),
     ("strong_grains", |blueprint| {
         change(blueprint, "sand", |sand| (sand.friction, sand.cohesion) = (60.0, 50_000.0));
     }),
@@ -214,6 +215,41 @@ fn heavy_above_light(blueprint: &mut Blueprint) {
         }
     }
     water(blueprint, Vec2::new(2.05, 2.55), Vec2::ZERO);
+}
+
+/// Basins of water, with upright walls below and slanting ones above: their cells of the predictor's grid, which are two and a half
+/// spacings wide, cut the walls wherever they can.
+fn thin_walls(blueprint: &mut Blueprint) {
+    const DEEP: i32 = 18;
+    for (row, steep, thick) in [(0, 0, 2), (1, 6, 3)] {
+        for k in 0..5 {
+            let floor = IVec2::new(36 * k + 18, 30 * row + 4) + k;
+            let half = |y: i32| -> i32 { 5 + steep * y.max(0) / 10 };
+            for (x, y) in (-thick..DEEP + 4).flat_map(|y| (-18_i32..18).map(move |x| (x, y))) {
+                let outside = (2 * x + 1).abs() / 2 - half(y);
+                let element = match outside {
+                    ..0 if y >= DEEP => continue,
+                    ..0 if y >= 0 => "water",
+                    _ if outside < thick => "rock",
+                    _ => continue,
+                };
+                for cell in finer(blueprint, floor + IVec2::new(x, y)).collect::<Vec<_>>() {
+                    put(blueprint, element, cell);
+                }
+            }
+        }
+    }
+}
+
+/// Puts rock or a lump into a cell of the run.
+fn put(blueprint: &mut Blueprint, name: &str, cell: IVec2) {
+    let id = element(&blueprint.elements, name);
+    if !blueprint.elements.get(id).fixed {
+        blueprint.particles.push(blueprint.next_id, id, centre(cell), Vec2::ZERO);
+    } else if !blueprint.solids.insert(cell, id, blueprint.next_id) {
+        return;
+    }
+    blueprint.next_id += 1;
 }
 
 /// A basin for any two elements that move, one over the other: as warm as they come, or as near to a temperature (K) as they stay

@@ -65,6 +65,9 @@ fn solids(columns: u32, rows: u32, is_rock: impl Fn(Vec2) -> bool) -> Solids {
     solids
 }
 
+/// Where gravity pulls.
+const DOWN: Vec2 = Vec2::NEG_Y;
+
 fn size(solids: &Solids) -> Vec2 {
     IVec2::new(solids.columns(), solids.rows()).as_vec2()
 }
@@ -81,7 +84,7 @@ fn go_on(
     solids: &Solids,
     (rest_density, dt): (f32, f32),
 ) -> PredictorReport {
-    let domain = Domain { size: size(solids), gravity: Vec2::ZERO };
+    let domain = Domain { size: size(solids), gravity: DOWN };
     let instructions = InstructionSet::detect();
     let params = PredictorParams {
         domain: &domain,

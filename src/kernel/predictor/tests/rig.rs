@@ -43,7 +43,7 @@ impl Equation {
     ) -> Self {
         let grid = MacGrid::new(size, cell);
         let mut closed = ClosedFaces::default();
-        closed.update(&grid, solids);
+        closed.update(&grid, solids, super::DOWN);
         let Open { u: open_u, v: open_v, liquid_from } = Open::new(&grid, &closed);
         let mut conjugate = Conjugate::default();
         conjugate.resize(grid.len());
@@ -215,7 +215,7 @@ impl Rig {
         let grid = MacGrid::new(super::size(solids), cell);
         let hierarchy = Hierarchy::new(grid.columns, grid.rows);
         let (mut closed, mut faces) = (ClosedFaces::default(), Faces::default());
-        closed.update(&grid, solids);
+        closed.update(&grid, solids, super::DOWN);
         faces.collect(&grid, particles, None, team());
         let open = Open::new(&grid, &closed);
         Self { grid, closed, open, faces, hierarchy, conjugate: Conjugate::default(), dt: DT }

@@ -117,6 +117,37 @@ fn still_water_beside_a_tank_under_pressure_stays_still() {
     }
 }
 
+/// A basin of walls and a floor some spacings thick, whose room lies between two corners; air around it.
+fn basin(thick: f32, [low, high]: [Vec2; 2]) -> Solids {
+    solids(60, 60, |at| {
+        let is_within = |margin: f32| at.cmpge(low - margin).all() && at.x < high.x + margin && at.y < high.y;
+        is_within(thick) && !is_within(0.0)
+    })
+}
+
+#[test]
+fn still_water_in_a_basin_carries_its_weight_however_thick_the_walls_are() {
+    // A pattern of cells repeats every five spacings. A wall one particle thick may cut cells in two, of which the equation has one
+    // alone; the constraint carries the other.
+    let fall = 98.1 * super::DT;
+    for thick in 2..=5 {
+        for off in 0..5 {
+            let (low, surface) = (Vec2::splat(10.0 + off as f32), 40.0);
+            let walls = basin(thick as f32, [low, low + Vec2::new(30.0, 45.0)]);
+            let is_inside = |at: Vec2| at.cmpge(low).all() && at.x < low.x + 30.0 && at.y < surface;
+            let mut particles = lattice(&walls, |at| is_inside(at).then_some(Vec2::new(0.0, -fall)));
+            predict(&mut particles, &walls, LATTICE);
+            let fastest = |below: f32| {
+                let those = (0..particles.len()).filter(|i| particles.y[*i] < below);
+                those.map(|i| particles.velocity(i).length()).fold(0.0, f32::max) / fall
+            };
+            let (deep, all) = (fastest(surface - 2.0 * CELL), fastest(surface));
+            assert!(deep < 0.1, "walls {thick} d thick, {off} d off: water falls with {deep} of what gravity adds");
+            assert!(all < 0.5, "walls {thick} d thick, {off} d off: the surface falls with {all} of what gravity adds");
+        }
+    }
+}
+
 /// Distance of a point to the nearest rock, d.
 fn distance_to_rock(solids: &Solids, at: Vec2) -> f32 {
     solids.iter().map(|(cell, ..)| centre(cell).distance(at)).fold(f32::MAX, f32::min)
