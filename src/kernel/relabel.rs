@@ -124,17 +124,20 @@ impl Relabelled {
         let Some((element, id)) = solids.get(cell) else { return };
         let heat = self.give_off(table, record, (element, solids.heat(cell)), product, (centre(cell), gas));
         self.places.push(centre(cell));
-        solids.remove(cell);
         match product {
             Some(product) if elements.get(product).fixed => {
-                solids.insert(cell, product, id);
+                solids.replace(cell, product);
                 solids.set_heat(cell, heat);
             }
             Some(product) => {
+                solids.remove(cell);
                 // A cell that the box ends in may have its centre beyond the wall.
                 particles.push_warm(id, product, domain.keep_inside(centre(cell)), Vec2::ZERO, heat);
             }
-            None => record.gone += 1,
+            None => {
+                solids.remove(cell);
+                record.gone += 1;
+            }
         }
         record.turned += 1;
     }

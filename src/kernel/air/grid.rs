@@ -55,8 +55,8 @@ pub struct Air {
     pub(super) solid: Vec<bool>,
     /// Velocity of the air outside along the outward normal, d/s: left and right by row, bottom and top by column.
     pub(super) outside: Vec<f32>,
-    /// Version of the rock that `solid` was made from.
-    pub(super) solids_version: Option<u64>,
+    /// Shape of the rock that `solid` was made from.
+    pub(super) solids_shape: Option<u64>,
     /// Whether the mass at hand must survive the first `set_solids` (air that was resampled), or pressure 1 (new air).
     pub(super) keep_mass: bool,
     pub(super) quiet: bool,
@@ -118,7 +118,7 @@ impl Air {
             && self.outside.is_empty()
             && self.awake.is_empty()
             && self.warmth.is_empty()
-            && self.solids_version.is_none();
+            && self.solids_shape.is_none();
         let (tiling, cells) = (self.tiling(), (columns + 2).saturating_mul(rows + 2));
         let fields = [&self.pressure, &self.velocity_x, &self.velocity_y];
         let whole = self.solid.len() == cells && fields.iter().all(|field| field.len() == cells);
@@ -202,7 +202,7 @@ impl Air {
             warmth: Vec::new(),
             solid: vec![false; stride],
             outside: Vec::new(),
-            solids_version: None,
+            solids_shape: None,
             keep_mass: false,
             quiet: true,
             awake: Vec::new(),

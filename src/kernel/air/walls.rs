@@ -10,7 +10,7 @@ use crate::solids::Solids;
 const FAR: u32 = u32::MAX;
 
 impl Air {
-    /// Follows the rock. Does nothing while `solids.version()` is the one it last followed, or to air that is not built.
+    /// Follows the rock. Does nothing while `solids.shape()` is the one it last followed, or to air that is not built.
     ///
     /// Air that has not followed any rock yet keeps its pressure: a scene starts with rock and still air. Resampled air
     /// in a closed box keeps its mass instead. From then on,
@@ -21,11 +21,11 @@ impl Air {
     ///   1/(k + 1) of its mass and gives as much to each. Where several open at once this goes on inwards. A hollow
     ///   without any open neighbour starts as a vacuum: no air was there.
     pub fn set_solids(&mut self, solids: &Solids) {
-        if self.solids_version == Some(solids.version()) || !self.is_built() {
+        if self.solids_shape == Some(solids.shape()) || !self.is_built() {
             return;
         }
-        let first = self.solids_version.is_none();
-        self.solids_version = Some(solids.version());
+        let first = self.solids_shape.is_none();
+        self.solids_shape = Some(solids.shape());
         let mut next = self.solid.clone();
         self.cells().for_each(|k| next[k] = false);
         self.mark(solids, &mut next);

@@ -21,7 +21,7 @@ pub struct RockBins {
 impl RockBins {
     /// Follows the rock and the cells.
     pub(super) fn follow(&mut self, grid: &CellGrid, solids: &Solids) {
-        if self.built_for.replace((*grid, solids.version())) == Some((*grid, solids.version())) {
+        if self.built_for.replace((*grid, solids.shape())) == Some((*grid, solids.shape())) {
             return;
         }
         self.starts.clear();

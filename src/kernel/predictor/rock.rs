@@ -26,7 +26,7 @@ const LEAST_ROOM: f32 = 0.05;
 /// ([`ClosedFaces::row`]), so that a box without rock costs next to nothing.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ClosedFaces {
-    /// Version of the rock, and where gravity pulls most.
+    /// Shape of the rock, and where gravity pulls most.
     built_for: Option<(u64, IVec2)>,
     /// Where each row of the grid stands in the fields.
     rows: Vec<u32>,
@@ -54,10 +54,10 @@ impl ClosedFaces {
         let is_across = gravity.x.abs() > gravity.y.abs();
         let most = if is_across { Vec2::new(gravity.x, 0.0) } else { Vec2::new(0.0, gravity.y) };
         let down = IVec2::new(sign(most.x), sign(most.y));
-        if self.built_for != Some((solids.version(), down)) || self.rows.len() != grid.rows + 3 {
+        if self.built_for != Some((solids.shape(), down)) || self.rows.len() != grid.rows + 3 {
             self.build(grid, solids, down);
             self.share_rows(grid);
-            self.built_for = Some((solids.version(), down));
+            self.built_for = Some((solids.shape(), down));
         }
     }
 

@@ -29,6 +29,7 @@ pub struct Solids {
     near: Vec<u16>,
     count: usize,
     version: u64,
+    shape: u64,
 }
 
 impl Solids {
@@ -60,6 +61,11 @@ impl Solids {
     /// Changes with every change of the rock, so that what is derived from it knows when to follow.
     pub fn version(&self) -> u64 {
         self.version
+    }
+
+    /// Changes with every change of where rock is, and not with what it is.
+    pub fn shape(&self) -> u64 {
+        self.shape
     }
 
     /// The cell of a point in d.
@@ -114,7 +120,7 @@ impl Solids {
         self.element[k] = element.0;
         self.id[k] = id;
         self.count += 1;
-        self.version += 1;
+        (self.version, self.shape) = (self.version + 1, self.shape + 1);
         self.note_near(cell, true);
         true
     }
@@ -127,8 +133,16 @@ impl Solids {
             *heat = 0;
         }
         self.count -= 1;
-        self.version += 1;
+        (self.version, self.shape) = (self.version + 1, self.shape + 1);
         self.note_near(cell, false);
+        true
+    }
+
+    /// Makes the rock in the cell another element's; it keeps its id and its heat. `false` if there is none.
+    pub fn replace(&mut self, cell: IVec2, element: ElementId) -> bool {
+        let Some(k) = self.rock(cell) else { return false };
+        self.element[k] = element.0;
+        self.version += 1;
         true
     }
 
@@ -231,5 +245,18 @@ mod tests {
         assert!(solids.remove(IVec2::new(3, 4)) && !solids.remove(IVec2::new(3, 4)));
         assert_eq!(solids.count(), 0);
         assert_ne!(solids.version(), version);
+    }
+
+    #[test]
+    fn rock_of_another_element_has_the_same_shape() {
+        let (mut solids, cell) = (with_rock(&[(3, 4)]), IVec2::new(3, 4));
+        solids.set_heat(cell, 5);
+        let (version, shape) = (solids.version(), solids.shape());
+        assert!(solids.replace(cell, ElementId(2)) && !solids.replace(IVec2::new(4, 4), ElementId(2)));
+        assert_eq!((solids.get(cell), solids.heat(cell)), (Some((ElementId(2), 0)), 5));
+        assert_eq!((solids.count(), solids.shape()), (1, shape));
+        assert_ne!(solids.version(), version);
+        solids.remove(cell);
+        assert_ne!(solids.shape(), shape);
     }
 }
