@@ -173,7 +173,7 @@ fn mark_liquid(
     let band = (band(filled), (band(liquid), band(solution)));
     let work = Mark { grid, closed, area, weights: [u, v], share };
     sweep(&work, rows.clone(), band, area.len(), WORTH_A_PIECE, team);
-    slivers::follow_hosts(&closed.slivers, grid, (&rows, area), [liquid, solution]);
+    slivers::follow_hosts(&closed.slivers, grid, (&rows, area), [filled, liquid, solution]);
     wet.find(liquid, grid.stride, rows, area.clone());
     *before = if wet.rows().is_empty() { 0..0 } else { wet.rows() };
     *span = grid.whole_pieces(wet.columns());

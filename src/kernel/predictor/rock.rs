@@ -19,6 +19,8 @@ const LEAST_OPEN: f32 = 0.1;
 const LIQUID_SHARE: f32 = 0.5;
 /// A cell with more rock than this is not solved for.
 const ROCK_SHARE: f32 = 0.9;
+/// Share of what is smeared over a cell from beyond one of its faces, where it is the same all around.
+const BEYOND_A_FACE: f32 = 3.0 / 16.0;
 /// A cell that is open to less than this has nowhere to go.
 const LEAST_ROOM: f32 = 0.05;
 
@@ -139,6 +141,7 @@ impl ClosedFaces {
             self.rock[k] = 1.0;
         }
         self.open_slivers(&faces, down);
+        self.even_out_slivers(grid);
         self.beside_walls.clear();
         for j in 1..=grid.rows {
             for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
@@ -182,8 +185,34 @@ impl ClosedFaces {
                         }
                     }
                 }
-                let sliver = |(host, way)| Sliver { cell: k as u32, host: host as u32, place: Place::new(way, down) };
+                let sliver = |(host, way)| {
+                    let place = Place::new(way, down, faces.leads_through(k, way));
+                    Sliver { cell: k as u32, host: host as u32, place }
+                };
                 self.slivers.extend(opened.filter(|_| thin[k]).map(sliver));
+            }
+        }
+    }
+
+    /// Gives slivers beside walls the rock of their hosts, so that a surface is found at the same height in both.
+    fn even_out_slivers(&mut self, grid: &MacGrid) {
+        let Self { rock, above_v, right_of_u, slivers, .. } = self;
+        let beside_walls = || {
+            let those = slivers.iter().filter(|sliver| sliver.place == Place::Wall);
+            those.map(|sliver| [sliver.cell, sliver.host].map(|cell| cell as usize))
+        };
+        for [own, host] in beside_walls() {
+            rock[own] = rock[host];
+        }
+        for [own, host] in beside_walls() {
+            let (after, step) =
+                if own.abs_diff(host) == 1 { (&mut *above_v, grid.stride) } else { (&mut *right_of_u, 1) };
+            for (face, other) in [(own, host), (own + step, host + step)] {
+                // Where only one of both cells has its host's rock.
+                let more = |own: usize, host: usize| rock[own] - rock[host];
+                after[face] = after[other]
+                    + (1.0 - BEYOND_A_FACE) * more(face, other)
+                    + BEYOND_A_FACE * more(face - step, other - step);
             }
         }
     }
@@ -268,6 +297,14 @@ impl OpenShares<'_> {
         };
         let [x, y] = self.corner(k);
         self.share(x, solid, joins, (y, reach))
+    }
+
+    /// Whether all that is rock in cell `k` leads through it across `way`.
+    fn leads_through(&self, k: usize, way: IVec2) -> bool {
+        let [columns, rows] = self.corner(k).map(|at| at.floor() as i32..(at + self.grid.cell).ceil() as i32);
+        let at = |x: i32, y: i32| self.solids.is_solid(if way.y == 0 { IVec2::new(x, y) } else { IVec2::new(y, x) });
+        let (across, along) = if way.y == 0 { (columns, rows) } else { (rows, columns) };
+        across.into_iter().all(|x| along.clone().all(|y| at(x, y) == at(x, along.start)))
     }
 
     /// Lower left corner of cell `k`, d.

@@ -18,8 +18,10 @@ use std::ops::Range;
 /// Where a sliver lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
-    /// Beside a wall: it is liquid if its host is, as a surface is level.
+    /// Beside an upright wall: it is as full as its host, as a surface is level.
     Wall,
+    /// Beside a slanting one: it is liquid if its host is.
+    Slope,
     /// On a floor: it carries what is above it, and alone it may be a puddle.
     Floor,
     /// Under a ceiling: it goes by itself.
@@ -28,9 +30,11 @@ pub(super) enum Place {
 
 impl Place {
     /// Where a sliver lies from which it is `way` to its host. `down`: where gravity pulls along the axis on which it does most, or 0.
-    pub fn new(way: IVec2, down: IVec2) -> Self {
+    /// `leads_through`: whether all its rock leads through it across `way`.
+    pub fn new(way: IVec2, down: IVec2, leads_through: bool) -> Self {
         match way.dot(down) {
-            0 => Self::Wall,
+            0 if leads_through => Self::Wall,
+            0 => Self::Slope,
             ..0 => Self::Floor,
             _ => Self::Ceiling,
         }
@@ -87,13 +91,13 @@ pub(super) fn missing(grid: &MacGrid, solids: &Solids, k: usize) -> f32 {
     missing
 }
 
-/// Lets slivers in some rows and columns of cells be liquid (1) as their hosts are, with their last pressure if they were not.
-/// `slivers` stand in the order of their cells.
+/// Lets slivers in some rows and columns of cells go by their hosts: in how full they are, in whether they are liquid (1), and in the
+/// last pressure if they were not. `slivers` stand in the order of their cells.
 pub(super) fn follow_hosts(
     slivers: &[Sliver],
     grid: &MacGrid,
     (rows, columns): (&Range<usize>, &Range<usize>),
-    [liquid, solution]: [&mut [f32]; 2],
+    [filled, liquid, solution]: [&mut [f32]; 3],
 ) {
     let place = |sliver: &Sliver| (sliver.cell as usize / grid.stride, sliver.cell as usize % grid.stride);
     let of_rows = slivers.partition_point(|sliver| place(sliver).0 < rows.start)
@@ -102,7 +106,8 @@ pub(super) fn follow_hosts(
         let [own, host] = [sliver.cell, sliver.host].map(|cell| cell as usize);
         let was = liquid[own];
         match sliver.place {
-            Place::Wall => liquid[own] = liquid[host],
+            Place::Wall => (filled[own], liquid[own]) = (filled[host], liquid[host]),
+            Place::Slope => liquid[own] = liquid[host],
             Place::Floor => liquid[own] = was.max(liquid[host]),
             Place::Ceiling => {}
         }
