@@ -163,11 +163,17 @@ fn nothing_of_it_runs_without_heat_or_with_the_air_off() {
     let mut simulation = Simulation::of(blueprint("waterfall", &[]));
     simulation.run(120);
     assert_eq!(simulation.get::<Effects>().get(Effect::Expansion).active_ticks, 0);
-    let mut still = blueprint("volcano", &[]);
-    still.effects.insert(Effect::Air, Mode::Off);
-    let mut simulation = Simulation::of(still);
-    simulation.run(240);
-    assert!(simulation.count("steam") > 0);
-    assert_eq!((simulation.get::<Effects>().get(Effect::Expansion).active_ticks, given(&simulation)), (0, 0.0));
-    assert!(!simulation.get::<Rock>().heats().is_empty());
+    let run = |mode| {
+        let mut still = blueprint("volcano", &[]);
+        still.effects.extend([(Effect::Air, Mode::Off), (Effect::Expansion, mode)]);
+        let mut simulation = Simulation::of(still);
+        simulation.run(240);
+        assert!(simulation.count("steam") > 0);
+        assert_eq!(given(&simulation), 0.0);
+        assert!(!simulation.get::<Rock>().heats().is_empty());
+        (simulation.get::<Effects>().get(Effect::Expansion).active_ticks, simulation.hash())
+    };
+    let (ticks, left) = run(Mode::Auto);
+    assert_eq!(ticks, 0);
+    assert_eq!(run(Mode::On), (240, left), "gas goes into air that is switched off");
 }

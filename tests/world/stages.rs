@@ -312,6 +312,23 @@ fn air_that_is_switched_off_stands_whatever_moved_it() {
 }
 
 #[test]
+fn a_tool_that_moves_no_air_moves_no_water() {
+    let run = |blown: Option<Vec2>| {
+        let mut blueprint = puddle();
+        blueprint.rock((0, 0), (30, 3));
+        let mut simulation = Simulation::of(blueprint);
+        simulation.run(3);
+        if let Some(velocity) = blown {
+            simulation.push(Intent::Blow { stroke: dab(10.0, 5.0, 8.0), velocity });
+        }
+        simulation.run(3).particles().clone()
+    };
+    let left = run(None);
+    assert_eq!(run(Some(Vec2::ZERO)), left, "a tool that blows with nothing slows water");
+    assert_ne!(run(Some(Vec2::X)), left, "nothing was blown at");
+}
+
+#[test]
 fn faster_water_takes_more_substeps_up_to_the_bound_and_is_slowed_past_it() {
     let run = |speed: f32| {
         let mut blueprint = empty_box(200, 20);

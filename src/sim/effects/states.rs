@@ -55,6 +55,11 @@ impl Effects {
         self.get(effect).running && effect.row().needs.iter().all(|needed| self.get(*needed).running)
     }
 
+    /// Whether what `effect` gives to the air comes to any: it acts, and the air may move.
+    pub fn reaches_air(&self, effect: Effect) -> bool {
+        self.acts(effect) && self.get(Effect::Air).mode != Mode::Off
+    }
+
     /// The wanted modes.
     pub fn modes(&self) -> EffectModes {
         Effect::ALL.into_iter().map(|effect| (effect, self.get(effect).mode)).collect()

@@ -26,7 +26,7 @@ pub(super) fn decay(
 ) -> usize {
     let count = particles.len();
     let mut warm = setup.matter(&mut particles, &mut rock, &curves);
-    relabelled.air = effects.acts(Effect::Expansion).then_some(setup.blueprint.air.density);
+    relabelled.air = effects.reaches_air(Effect::Expansion).then_some(setup.blueprint.air.density);
     decays.run(&mut warm, &recipes.decays, &mut books, &mut relabelled, clock.tick);
     gas.extend_from_slice(&relabelled.releases);
     wake_changed(&mut sleep, &mut particles, &rock, &relabelled.places);

@@ -131,7 +131,8 @@ pub(super) fn apply_intents(
             Intent::Blow { .. } | Intent::Press { .. } if air_stands => {}
             Intent::Blow { stroke, velocity } => {
                 let wind = air.blow(stroke.to, stroke.radius, velocity);
-                if air_may_yield(&setup, &effects) {
+                // A tool that moves no air pushes nothing, either.
+                if !air.is_quiet() && air_may_yield(&setup, &effects) {
                     let radius = stroke.radius.max(air.cell());
                     forces::drag_in_disc(stroke.to, radius, wind, &derived.elements, &mut particles, TICK_SECONDS);
                 }

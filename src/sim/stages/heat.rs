@@ -2,7 +2,7 @@
 
 use crate::{
     kernel::{heat::change, parallel::Team, relabel::Relabelled, units::TICK_SECONDS},
-    scene::effects::{Effect, Mode},
+    scene::effects::Effect,
     sim::{
         effects::Effects,
         stages::sleep::wake_changed,
@@ -30,13 +30,13 @@ pub(super) fn flow(
 ) -> usize {
     let count = particles.len();
     let mut warm = setup.matter(&mut particles, &mut rock, &curves);
-    relabelled.air = effects.acts(Effect::Expansion).then_some(setup.blueprint.air.density);
+    relabelled.air = effects.reaches_air(Effect::Expansion).then_some(setup.blueprint.air.density);
     change(&mut warm, &mut books, &mut relabelled);
     let instructions = solver.instructions;
     let report = workers
         .run_for(count, |threads| heat.flow(&mut warm, &mut books, Team { instructions, threads }, TICK_SECONDS));
     counters.heat_cuts += report.cuts;
-    if effects.acts(Effect::Convection) && effects.get(Effect::Air).mode != Mode::Off {
+    if effects.reaches_air(Effect::Convection) {
         air.warm_up(heat.contacts(), &rock);
     }
     gas.extend_from_slice(&relabelled.releases);

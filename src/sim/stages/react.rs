@@ -32,7 +32,7 @@ pub(super) fn react(
     }
     let count = particles.len();
     let mut warm = setup.matter(&mut particles, &mut rock, &curves);
-    relabelled.air = effects.acts(Effect::Expansion).then_some(setup.blueprint.air.density);
+    relabelled.air = effects.reaches_air(Effect::Expansion).then_some(setup.blueprint.air.density);
     workers.run_for(count, |threads| {
         let what = (&recipes.touches, &census.by_element[..]);
         reactions.react(&mut warm, what, &mut books, &mut relabelled, clock.tick, threads);
