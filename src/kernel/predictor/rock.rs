@@ -162,9 +162,10 @@ impl ClosedFaces {
     /// that would move the matter in the other, too.
     fn open_slivers(&mut self, faces: &OpenShares, down: IVec2) {
         let (grid, stride, parts) = (faces.grid, faces.grid.stride, faces.parts);
-        let is_thin = |k| parts.is_sliver(k) && missing(grid, faces.solids, k) > MOST_MISSING;
-        let thin: Vec<bool> = (0..grid.len()).map(is_thin).collect();
-        let is_sliver = |k: usize| self.rock[k] > 0.5 || thin[k];
+        let missing = |k| if parts.is_sliver(k) { missing(grid, faces.solids, k) } else { 0.0 };
+        let missing: Vec<f32> = (0..grid.len()).map(missing).collect();
+        let is_thin = |k: usize| missing[k] > MOST_MISSING;
+        let is_sliver = |k: usize| self.rock[k] > 0.5 || is_thin(k);
         self.slivers.clear();
         for j in 1..=grid.rows {
             for k in (grid.row(j) + 1..=grid.row(j) + grid.columns).filter(|k| is_sliver(*k) && !parts.is_cut(*k)) {
@@ -185,11 +186,14 @@ impl ClosedFaces {
                         }
                     }
                 }
-                let sliver = |(host, way)| {
-                    let place = Place::new(way, down, faces.leads_through(k, way));
-                    Sliver { cell: k as u32, host: host as u32, place }
-                };
-                self.slivers.extend(opened.filter(|_| thin[k]).map(sliver));
+                let Some((host, way)) = opened.filter(|_| is_thin(k)) else { continue };
+                let place = Place::new(way, down, faces.leads_through(k, way));
+                self.slivers.extend(place.map(|place| Sliver {
+                    cell: k as u32,
+                    host: host as u32,
+                    place,
+                    missing: missing[k],
+                }));
             }
         }
     }

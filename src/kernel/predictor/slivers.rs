@@ -22,31 +22,32 @@ pub(super) enum Place {
     Wall,
     /// Beside a slanting one: it is liquid if its host is.
     Slope,
-    /// On a floor: it carries what is above it, and alone it may be a puddle.
+    /// On a floor: it carries what is above it, and alone it may be a puddle. What is missed below the floor counts as rock does, or
+    /// the density feedback would take it for a gap and press the water above into it.
     Floor,
-    /// Under a ceiling: it goes by itself.
-    Ceiling,
 }
 
 impl Place {
     /// Where a sliver lies from which it is `way` to its host. `down`: where gravity pulls along the axis on which it does most, or 0.
-    /// `leads_through`: whether all its rock leads through it across `way`.
-    pub fn new(way: IVec2, down: IVec2, leads_through: bool) -> Self {
+    /// `leads_through`: whether all its rock leads through it across `way`. None under a ceiling, where it goes by itself.
+    pub fn new(way: IVec2, down: IVec2, leads_through: bool) -> Option<Self> {
         match way.dot(down) {
-            0 if leads_through => Self::Wall,
-            0 => Self::Slope,
-            ..0 => Self::Floor,
-            _ => Self::Ceiling,
+            0 if leads_through => Some(Self::Wall),
+            0 => Some(Self::Slope),
+            ..0 => Some(Self::Floor),
+            _ => None,
         }
     }
 }
 
 /// A sliver and its host.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Sliver {
     pub cell: u32,
     pub host: u32,
     pub place: Place,
+    /// See [`missing`].
+    pub missing: f32,
 }
 
 /// What a sliver may miss beyond walls and still go by how full it is itself: in still water that comes and goes by as much.
@@ -108,8 +109,11 @@ pub(super) fn follow_hosts(
         match sliver.place {
             Place::Wall => (filled[own], liquid[own]) = (filled[host], liquid[host]),
             Place::Slope => liquid[own] = liquid[host],
-            Place::Floor => liquid[own] = was.max(liquid[host]),
-            Place::Ceiling => {}
+            Place::Floor => {
+                // Where something is below after all, the cell is no fuller for it.
+                filled[own] = filled[own].max((filled[own] + sliver.missing).min(1.0));
+                liquid[own] = was.max(liquid[host]);
+            }
         }
         if liquid[own] != was {
             solution[own] = liquid[own] * solution[host];

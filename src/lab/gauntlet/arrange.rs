@@ -132,6 +132,16 @@ fn lump(blueprint: &mut Blueprint, name: &str, at: Vec2, velocity: Vec2) {
     blueprint.next_id += 1;
 }
 
+/// Puts rock into cells of the scene's own spacing that are free.
+fn rock(blueprint: &mut Blueprint, cells: impl IntoIterator<Item = IVec2>) {
+    let rock = element(&blueprint.elements, "rock");
+    for cell in cells.into_iter().flat_map(|cell| finer(blueprint, cell)).collect::<Vec<_>>() {
+        if blueprint.solids.insert(cell, rock, blueprint.next_id) {
+            blueprint.next_id += 1;
+        }
+    }
+}
+
 /// Changes what water is.
 fn change_water(blueprint: &mut Blueprint, to: impl Fn(&mut Element)) {
     change(blueprint, "water", to);
@@ -174,13 +184,7 @@ fn close_pairs(blueprint: &mut Blueprint) {
 }
 
 fn shots(blueprint: &mut Blueprint) {
-    let rock = element(&blueprint.elements, "rock");
-    let wall = (0..100).map(|y| IVec2::new(60, y)).chain((0..60).map(|k| IVec2::new(k, 60 - k)));
-    for cell in wall.flat_map(|cell| finer(blueprint, cell)).collect::<Vec<_>>() {
-        if blueprint.solids.insert(cell, rock, blueprint.next_id) {
-            blueprint.next_id += 1;
-        }
-    }
+    rock(blueprint, (0..100).map(|y| IVec2::new(60, y)).chain((0..60).map(|k| IVec2::new(k, 60 - k))));
     let mut seed = 0;
     while blueprint.particles.len() < 2000 {
         let at = Vec2::splat(5.0) + 9.8 * noise(seed);
@@ -227,29 +231,17 @@ fn thin_walls(blueprint: &mut Blueprint) {
             let half = |y: i32| -> i32 { 5 + steep * y.max(0) / 10 };
             for (x, y) in (-thick..DEEP + 4).flat_map(|y| (-18_i32..18).map(move |x| (x, y))) {
                 let outside = (2 * x + 1).abs() / 2 - half(y);
-                let element = match outside {
-                    ..0 if y >= DEEP => continue,
-                    ..0 if y >= 0 => "water",
-                    _ if outside < thick => "rock",
-                    _ => continue,
-                };
-                for cell in finer(blueprint, floor + IVec2::new(x, y)).collect::<Vec<_>>() {
-                    put(blueprint, element, cell);
+                let cell = floor + IVec2::new(x, y);
+                if outside < thick && (outside >= 0 || y < 0) {
+                    rock(blueprint, [cell]);
+                } else if outside < 0 && y < DEEP {
+                    for cell in finer(blueprint, cell) {
+                        water(blueprint, blueprint.scale.vec_to_metres(centre(cell)), Vec2::ZERO);
+                    }
                 }
             }
         }
     }
-}
-
-/// Puts rock or a lump into a cell of the run.
-fn put(blueprint: &mut Blueprint, name: &str, cell: IVec2) {
-    let id = element(&blueprint.elements, name);
-    if !blueprint.elements.get(id).fixed {
-        blueprint.particles.push(blueprint.next_id, id, centre(cell), Vec2::ZERO);
-    } else if !blueprint.solids.insert(cell, id, blueprint.next_id) {
-        return;
-    }
-    blueprint.next_id += 1;
 }
 
 /// A basin for any two elements that move, one over the other: as warm as they come, or as near to a temperature (K) as they stay
@@ -257,8 +249,8 @@ fn put(blueprint: &mut Blueprint, name: &str, cell: IVec2) {
 fn every_pair(blueprint: &mut Blueprint, kelvin: Option<f32>) {
     const INSIDE: IVec2 = IVec2::new(6, 12);
     const DEEP: i32 = 4;
-    let of = |fixed| blueprint.elements.iter().filter(move |(_, element)| element.fixed == fixed).map(|(id, _)| id);
-    let (movable, rock): (Vec<_>, _) = (of(false).collect(), element(&blueprint.elements, "rock"));
+    let rows = blueprint.elements.iter();
+    let movable: Vec<ElementId> = rows.filter(|(_, element)| !element.fixed).map(|(id, _)| id).collect();
     let pairs = movable.iter().flat_map(|lower| movable.iter().map(move |upper| [*lower, *upper]));
     let across = movable.len() as i32;
     let table = HeatTable::new(&blueprint.elements);
@@ -271,11 +263,7 @@ fn every_pair(blueprint: &mut Blueprint, kelvin: Option<f32>) {
         let corner = IVec2::new(k as i32 % across, k as i32 / across) * (INSIDE + 1);
         let walls = (0..=INSIDE.x + 1).flat_map(|x| (0..=INSIDE.y + 1).map(move |y| IVec2::new(x, y)));
         let walls = walls.filter(|at| at.x == 0 || at.y == 0 || at.x == INSIDE.x + 1 || at.y == INSIDE.y + 1);
-        for cell in walls.flat_map(|cell| finer(blueprint, corner + cell)).collect::<Vec<_>>() {
-            if blueprint.solids.insert(cell, rock, blueprint.next_id) {
-                blueprint.next_id += 1;
-            }
-        }
+        rock(blueprint, walls.map(|cell| corner + cell));
         for (row, element) in (0..2 * DEEP).map(|row| (row, pair[(row / DEEP) as usize])) {
             for column in 0..INSIDE.x {
                 for cell in finer(blueprint, corner + IVec2::new(1 + column, 1 + row)).collect::<Vec<_>>() {

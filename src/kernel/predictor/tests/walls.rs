@@ -130,21 +130,23 @@ fn still_water_in_a_basin_carries_its_weight_however_thick_the_walls_are() {
     // A pattern of cells repeats every five spacings. A wall one particle thick may cut cells in two, of which the equation has one
     // alone; the constraint carries the other.
     let fall = 98.1 * super::DT;
-    for thick in 2..=5 {
-        for off in 0..5 {
-            let (low, surface) = (Vec2::splat(10.0 + off as f32), 40.0);
-            let walls = basin(thick as f32, [low, low + Vec2::new(30.0, 45.0)]);
-            let is_inside = |at: Vec2| at.cmpge(low).all() && at.x < low.x + 30.0 && at.y < surface;
-            let mut particles = lattice(&walls, |at| is_inside(at).then_some(Vec2::new(0.0, -fall)));
-            predict(&mut particles, &walls, LATTICE);
-            let fastest = |below: f32| {
-                let those = (0..particles.len()).filter(|i| particles.y[*i] < below);
-                those.map(|i| particles.velocity(i).length()).fold(0.0, f32::max) / fall
-            };
-            let (deep, all) = (fastest(surface - 2.0 * CELL), fastest(surface));
-            assert!(deep < 0.1, "walls {thick} d thick, {off} d off: water falls with {deep} of what gravity adds");
-            assert!(all < 0.5, "walls {thick} d thick, {off} d off: the surface falls with {all} of what gravity adds");
-        }
+    for (thick, off, depth) in (2..=5).flat_map(|thick| (0..25).map(move |k| (thick, k % 5, k / 5))) {
+        let (low, surface) = (Vec2::splat(10.0 + off as f32), 38.0 + depth as f32);
+        let walls = basin(thick as f32, [low, low + Vec2::new(30.0, 45.0)]);
+        let is_inside = |at: Vec2| at.cmpge(low).all() && at.x < low.x + 30.0 && at.y < surface;
+        let mut particles = lattice(&walls, |at| is_inside(at).then_some(Vec2::new(0.0, -fall)));
+        predict(&mut particles, &walls, LATTICE);
+        let fastest = |below: f32| {
+            let those = (0..particles.len()).filter(|i| particles.y[*i] < below);
+            those.map(|i| particles.velocity(i).length()).fold(0.0, f32::max) / fall
+        };
+        let (deep, all) = (fastest(surface - 2.0 * CELL), fastest(surface));
+        let aside = particles.vx.iter().fold(0.0_f32, |most, vx| most.max(vx.abs())) / fall;
+        let basin = format!("walls {thick} d thick, {off} d off, the surface at {surface} d");
+        assert!(deep < 0.1, "{basin}: water falls with {deep} of what gravity adds");
+        assert!(all < 0.5, "{basin}: the surface falls with {all} of what gravity adds");
+        // As beside any rock (`rock_over_a_pool_and_beside_it_does_not_move_its_surface`).
+        assert!(aside < 0.1, "{basin}: still water is pushed aside with {aside} of what gravity adds");
     }
 }
 
