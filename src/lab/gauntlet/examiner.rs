@@ -97,7 +97,7 @@ pub struct Examiner {
 }
 
 impl Examiner {
-    /// Of a world at its start.
+    /// Of a world as it is.
     pub fn new(world: &World, terms: Terms) -> Self {
         let blueprint = &world.resource::<Setup>().blueprint;
         let open = blueprint.air.open;
@@ -110,7 +110,7 @@ impl Examiner {
             findings,
             before: None,
             seen: 0,
-            air: AirMass::default(),
+            air: AirMass::of(world),
             is_sealed: !(open.left || open.right || open.bottom || open.top),
             put_in: Stored::of(world),
             is_plain: is_plain(&blueprint.fluid),

@@ -6,7 +6,7 @@ use crate::{
     scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
-        state::{AirGrid, Books, Counters, Rock},
+        state::{AirGrid, Books, Clock, Counters, Rock},
     },
 };
 use bevy::ecs::world::World;
@@ -28,6 +28,12 @@ pub(in crate::lab::gauntlet) struct AirMass {
 }
 
 impl AirMass {
+    /// Of a world before its first tick or after any. Air that has moved before may be off by as much the other way already.
+    pub fn of(world: &World) -> Self {
+        let is_built = world.resource::<AirGrid>().is_built();
+        Self { begun: u32::from(world.resource::<Clock>().tick > 0), was_built: is_built, ..Self::default() }
+    }
+
     /// Notes a tick before which the world held this. Air that is switched off stands, and is brought to rest at
     /// the pressure around: what that makes is the hand's that switched it. Air without a grid is at the pressure around
     /// wherever there is no rock: rock that melts makes room for some, as rock that is taken away does, also in the tick in
