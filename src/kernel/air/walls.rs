@@ -5,6 +5,7 @@
 
 use super::grid::Air;
 use crate::solids::Solids;
+use std::ops::Range;
 
 /// Steps from the nearest cell that a flood started from.
 const FAR: u32 = u32::MAX;
@@ -58,13 +59,15 @@ impl Air {
             let high = (((site + 1) as f32 / self.cell).ceil() as usize).min(count);
             low.min(count)..high
         };
-        for (site, ..) in solids.iter() {
-            for row in cells_of(site.y, self.rows()) {
-                for column in cells_of(site.x, self.columns()) {
+        let columns: Vec<Range<usize>> = (0..solids.columns()).map(|x| cells_of(x, self.columns())).collect();
+        let rows: Vec<Range<usize>> = (0..solids.rows()).map(|y| cells_of(y, self.rows())).collect();
+        solids.iter().for_each(|(site, ..)| {
+            for row in rows[site.y as usize].clone() {
+                for column in columns[site.x as usize].clone() {
                     mask[self.index(column, row)] = true;
                 }
             }
-        }
+        });
     }
 
     pub(super) fn in_ring(&self, k: usize) -> bool {

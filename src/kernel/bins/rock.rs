@@ -4,7 +4,6 @@ use crate::{
     bins::cells::CellGrid,
     solids::{Solids, centre},
 };
-use glam::Vec2;
 
 /// Rock particles sorted by cell.
 #[derive(Clone, Debug, Default)]
@@ -30,17 +29,20 @@ impl RockBins {
         if solids.count() == 0 {
             return;
         }
-        let mut keyed: Vec<(u32, Vec2)> = solids.iter().map(|(cell, ..)| (0, centre(cell))).collect();
-        for (key, at) in &mut keyed {
-            *key = grid.cell(at.x, at.y);
+        let rock = || solids.iter().map(|(cell, ..)| centre(cell)).map(|at| (grid.cell(at.x, at.y) as usize, at));
+        self.starts.resize(grid.cells() + 1, 0);
+        rock().for_each(|(cell, _)| self.starts[cell + 1] += 1);
+        for cell in 0..grid.cells() {
+            self.starts[cell + 1] += self.starts[cell];
         }
-        keyed.sort_by_key(|(key, _)| *key);
-        self.starts.extend((0..=grid.cells() as u32).scan(0, |next, cell| {
-            *next += keyed[*next..].iter().take_while(|(key, _)| *key < cell).count();
-            Some(*next as u32)
-        }));
-        self.x.extend(keyed.iter().map(|(_, at)| at.x));
-        self.y.extend(keyed.iter().map(|(_, at)| at.y));
+        let mut next = self.starts.clone();
+        self.x.resize(solids.count(), 0.0);
+        self.y.resize(solids.count(), 0.0);
+        rock().for_each(|(cell, at)| {
+            let place = next[cell] as usize;
+            (self.x[place], self.y[place]) = (at.x, at.y);
+            next[cell] += 1;
+        });
     }
 
     /// Bytes held.

@@ -1,6 +1,6 @@
 //! The lumps that exchange heat, and those around them: gathered cell by cell, so that what is near stands together.
 
-use super::{matter::Warm, rates::Rates, units::ROOM, weights::REACH};
+use super::{curve::HeatCurve, matter::Warm, rates::Rates, table::HeatTable, units::ROOM, weights::REACH};
 use crate::{element::ElementId, solids::centre};
 use glam::{IVec2, Vec2};
 use std::ops::Range;
@@ -20,6 +20,12 @@ struct Span {
 const NOTHING: Span = Span { coldest: f32::MAX, hottest: f32::MIN, conduction: 0.0 };
 
 impl Span {
+    /// Of a lump that holds so many quanta.
+    fn of_lump(curve: &HeatCurve, heat: i32) -> Self {
+        let kelvin = curve.temperature(heat);
+        Self { coldest: kelvin, hottest: kelvin, conduction: curve.conduction(heat) }
+    }
+
     fn join(&mut self, other: Self) {
         self.coldest = self.coldest.min(other.coldest);
         self.hottest = self.hottest.max(other.hottest);
@@ -50,6 +56,8 @@ pub(super) struct Lumps {
     /// Cells whose lumps are needed: those in which anything flows, and those around them.
     needed: Vec<bool>,
     spans: Vec<Span>,
+    /// How warm lumps of each element are that hold no heat, as most do.
+    without_heat: Vec<Span>,
     /// Cell of each particle.
     of_particles: Vec<u32>,
     /// Rock that is needed.
@@ -116,22 +124,29 @@ impl Lumps {
     /// Finds how warm it is in each cell.
     fn measure(&mut self, warm: &Warm) {
         let Warm { particles, solids, table, .. } = warm;
+        self.without_heat.clear();
+        self.without_heat.extend(table.curves().iter().map(|curve| Span::of_lump(curve, 0)));
         let mut of_particles = std::mem::take(&mut self.of_particles);
         of_particles.clear();
         for i in 0..particles.len() {
             let cell = self.cell_of(particles.position(i));
             of_particles.push(cell as u32);
-            let (curve, heat) = (table.curve(particles.element[i]), particles.heat_of(i));
-            let (kelvin, conduction) = (curve.temperature(heat), curve.conduction(heat));
-            self.spans[cell].join(Span { coldest: kelvin, hottest: kelvin, conduction });
+            self.join(cell, table, particles.element[i], particles.heat_of(i));
         }
         self.of_particles = of_particles;
-        for (cell, element, _) in solids.iter() {
-            let (curve, heat) = (table.curve(element), solids.heat(cell));
-            let (kelvin, conduction) = (curve.temperature(heat), curve.conduction(heat));
-            let cell = self.cell_of(centre(cell));
-            self.spans[cell].join(Span { coldest: kelvin, hottest: kelvin, conduction });
-        }
+        solids.iter().for_each(|(place, element, _)| {
+            self.join(self.cell_of(centre(place)), table, element, solids.heat(place));
+        });
+    }
+
+    /// Joins a lump to what is in a cell.
+    #[inline(always)]
+    fn join(&mut self, cell: usize, table: &HeatTable, element: ElementId, heat: i32) {
+        let lump = match heat {
+            0 => self.without_heat[element.index()],
+            _ => Span::of_lump(table.curve(element), heat),
+        };
+        self.spans[cell].join(lump);
     }
 
     /// Finds the cells in which anything may flow: where the furthest temperatures nearby, those of the air among them, would
@@ -169,13 +184,13 @@ impl Lumps {
         for cell in &self.of_particles {
             self.starts[*cell as usize + 2] += u32::from(self.needed[*cell as usize]);
         }
-        for (place, _, _) in solids.iter() {
+        solids.iter().for_each(|(place, ..)| {
             let cell = self.cell_of(centre(place));
             if self.needed[cell] {
                 self.starts[cell + 2] += 1;
                 self.rock.push(place);
             }
-        }
+        });
         for cell in 2..cells + 2 {
             self.starts[cell] += self.starts[cell - 1];
         }
@@ -230,7 +245,7 @@ impl Lumps {
             + self.element.capacity()
             + self.flows.capacity()
             + self.needed.capacity()
-            + size_of::<Span>() * self.spans.capacity()
+            + size_of::<Span>() * (self.spans.capacity() + self.without_heat.capacity())
             + size_of::<IVec2>() * self.rock.capacity()
     }
 }

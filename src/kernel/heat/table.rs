@@ -60,6 +60,11 @@ impl HeatTable {
         &self.curves[id.index()]
     }
 
+    /// The curves of all elements, in the order of their ids.
+    pub fn curves(&self) -> &[HeatCurve] {
+        &self.curves
+    }
+
     /// Heat of a new lump of an element, quanta.
     pub fn spawn_heat(&self, id: ElementId) -> i32 {
         self.spawn[id.index()]

@@ -92,7 +92,8 @@ impl<'a> Flow<'a> {
         }
         let (means, ways) = (if axis == Axis::U { u } else { v }, &ways[axis as usize]);
         let mut difference = 0.0;
-        faces_around(grid, at.x, at.y, axis, |face, weight| {
+        faces_around(grid, at.x, at.y, axis, |column, row, weight| {
+            let face = grid.row(row) + column;
             let ([count, mean], [gained, ..]) = (means[face], ways[face]);
             difference += if count > 0.0 { weight * (mean + gained - velocity) } else { 0.0 };
         });

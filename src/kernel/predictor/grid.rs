@@ -37,6 +37,18 @@ impl MacGrid {
         self.stride * (self.rows + 3)
     }
 
+    /// Where a column or row of cells begins, d.
+    #[inline(always)]
+    pub fn edge(&self, index: usize) -> f32 {
+        (index as f32 - 1.0) * self.cell
+    }
+
+    /// Cells of rock that a column or row of the grid's cells reaches.
+    pub fn sites(&self, index: usize) -> Range<i32> {
+        let low = self.edge(index);
+        low.floor() as i32..(low + self.cell).ceil() as i32
+    }
+
     /// Columns of cells, rounded to whole pieces of [`SPAN_STEP`] from the first on.
     pub fn whole_pieces(&self, columns: Range<usize>) -> Range<usize> {
         if columns.is_empty() {

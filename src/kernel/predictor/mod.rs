@@ -23,6 +23,7 @@ mod letting_go;
 mod level;
 mod matter;
 mod multigrid;
+mod open_shares;
 mod parts;
 mod pockets;
 mod pressure;

@@ -4,63 +4,99 @@
 
 use crate::{predictor::grid::MacGrid, solids::Solids};
 use glam::IVec2;
+use std::ops::Range;
 
-/// The parts that cut cells stand for.
+/// What rock leaves of a cell of the grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Room {
+    /// All of it.
+    All,
+    /// Half of it or more, in one piece.
+    Most,
+    /// Less than half, in one piece.
+    Sliver,
+    /// Several pieces, of which it stands for one: its place among the parts.
+    Cut(u32),
+    /// Nothing.
+    None,
+}
+
+/// The room of cells, and the parts that cut ones stand for.
 pub(super) struct Parts {
-    /// For each cell of the grid, 1 + the index of its part if it is cut, else 0. Empty without rock.
-    of_cell: Vec<u32>,
+    /// Of each cell of the grid. What lies beyond the box has none.
+    rooms: Vec<Room>,
     parts: Vec<Piece>,
-    /// Whether rock leaves less than half of each cell, in one piece. Empty without rock.
-    slivers: Vec<bool>,
 }
 
 impl Parts {
     /// Finds what room cells stand for, and which of them are cut.
     pub fn new(grid: &MacGrid, solids: &Solids) -> Self {
-        let mut found = Self { of_cell: Vec::new(), parts: Vec::new(), slivers: Vec::new() };
-        if solids.count() == 0 {
-            return found;
-        }
-        found.of_cell.resize(grid.len(), 0);
-        found.slivers.resize(grid.len(), false);
-        let area = grid.cell * grid.cell;
+        let mut found = Self { rooms: vec![Room::None; grid.len()], parts: Vec::new() };
+        let columns: Vec<Range<i32>> = (0..=grid.columns).map(|i| grid.sites(i)).collect();
         for j in 1..=grid.rows {
+            let rows = grid.sites(j);
             for i in 1..=grid.columns {
-                let Some(pieces) = Piece::of_cell(grid, solids, [i - 1, j - 1]) else { continue };
-                let k = grid.row(j) + i;
-                if let [only] = &pieces[..] {
-                    found.slivers[k] = only.area < 0.5 * area;
-                    continue;
-                }
-                // Of equal ones the first.
-                let largest =
-                    pieces.into_iter().reduce(|most, piece| if piece.area > most.area { piece } else { most });
-                if let Some(largest) = largest {
-                    found.parts.push(largest);
-                    found.of_cell[k] = found.parts.len() as u32;
-                }
+                let sites = [columns[i].clone(), rows.clone()];
+                let solid = solids.count_solid(sites[0].clone(), sites[1].clone());
+                found.rooms[grid.row(j) + i] = if solid == 0 {
+                    Room::All
+                } else if solid == sites[0].len() * sites[1].len() {
+                    Room::None
+                } else {
+                    found.take(Piece::of_cell(grid, solids, [i, j], sites), grid.cell * grid.cell)
+                };
             }
         }
         found
     }
 
+    /// The room that is in these pieces, of a cell of this area (d²).
+    fn take(&mut self, pieces: Vec<Piece>, area: f32) -> Room {
+        match &pieces[..] {
+            [only] if only.area < 0.5 * area => Room::Sliver,
+            [_] => Room::Most,
+            _ => {
+                // Of equal ones the first.
+                let largest =
+                    pieces.into_iter().reduce(|most, piece| if piece.area > most.area { piece } else { most });
+                self.parts.extend(largest);
+                Room::Cut(self.parts.len() as u32 - 1)
+            }
+        }
+    }
+
     /// Whether room that the grid's cell `k` reaches is in the part that it stands for.
     pub fn has(&self, k: usize, room: IVec2) -> bool {
-        match self.of_cell.get(k) {
-            None | Some(0) => true,
-            Some(index) => self.parts[*index as usize - 1].has(room),
+        match self.rooms[k] {
+            Room::Cut(part) => self.parts[part as usize].has(room),
+            _ => true,
         }
+    }
+
+    /// What rock leaves of the grid's cell `k`.
+    pub fn room(&self, k: usize) -> Room {
+        self.rooms[k]
+    }
+
+    /// Whether rock leaves nothing of a cell of the grid and those around it, so that no face of it is open and none beside it.
+    pub fn shut(&self, grid: &MacGrid) -> Vec<bool> {
+        let is_full: Vec<bool> = self.rooms.iter().map(|room| *room == Room::None).collect();
+        all_around(grid, &is_full)
     }
 
     /// Whether rock cuts the grid's cell `k`.
     pub fn is_cut(&self, k: usize) -> bool {
-        self.of_cell.get(k).is_some_and(|part| *part > 0)
+        matches!(self.rooms[k], Room::Cut(_))
     }
+}
 
-    /// Whether rock leaves less than half of the grid's cell `k`, in one piece.
-    pub fn is_sliver(&self, k: usize) -> bool {
-        self.slivers.get(k).is_some_and(|is_sliver| *is_sliver)
-    }
+/// Whether something is so of a cell of the grid and of all around it; beyond the grid it is.
+pub(super) fn all_around(grid: &MacGrid, is: &[bool]) -> Vec<bool> {
+    let along = |is: &[bool], step: usize| -> Vec<bool> {
+        let at = |k: Option<usize>| k.and_then(|k| is.get(k)).is_none_or(|is| *is);
+        (0..is.len()).map(|k| is[k] && at(k.checked_sub(step)) && at(Some(k + step))).collect()
+    };
+    along(&along(is, 1), grid.stride)
 }
 
 /// Room of a cell of the grid in one piece.
@@ -76,16 +112,13 @@ struct Piece {
 }
 
 impl Piece {
-    /// The room of a cell in pieces; `None` without rock in it.
-    fn of_cell(grid: &MacGrid, solids: &Solids, [column, row]: [usize; 2]) -> Option<Vec<Self>> {
-        let (left, lower) = (column as f32 * grid.cell, row as f32 * grid.cell);
+    /// The room of a cell in pieces.
+    fn of_cell(grid: &MacGrid, solids: &Solids, [column, row]: [usize; 2], [across, up]: [Range<i32>; 2]) -> Vec<Self> {
+        let (left, lower) = (grid.edge(column), grid.edge(row));
         let (right, upper) = (left + grid.cell, lower + grid.cell);
-        let corner = IVec2::new(left.floor() as i32, lower.floor() as i32);
-        let (columns, rows) = (right.ceil() as i32 - corner.x, upper.ceil() as i32 - corner.y);
+        let corner = IVec2::new(across.start, up.start);
+        let (columns, rows) = (across.len() as i32, up.len() as i32);
         let at = |k: i32| corner + IVec2::new(k % columns, k / columns);
-        if !(0..columns * rows).any(|k| solids.is_solid(at(k))) {
-            return None;
-        }
         // How much of each room lies in the cell.
         let share = |low: f32, high: f32, from: i32| (high.min((from + 1) as f32) - low.max(from as f32)).max(0.0);
         let area_of = |k: i32| share(left, right, at(k).x) * share(lower, upper, at(k).y);
@@ -110,7 +143,7 @@ impl Piece {
             }
             pieces.push(Self { corner, columns, rows, has, area });
         }
-        Some(pieces)
+        pieces
     }
 
     fn has(&self, room: IVec2) -> bool {

@@ -3,7 +3,8 @@
 use crate::{
     predictor::{
         grid::MacGrid,
-        parts::Parts,
+        open_shares::{OpenShares, TO_CENTRES},
+        parts::{Parts, Room, all_around},
         pockets::ROUNDING,
         slivers::{MOST_MISSING, Place, Sliver, missing},
         stencil::{Axis, faces_around},
@@ -13,8 +14,6 @@ use crate::{
 use glam::{IVec2, Vec2};
 use std::ops::Range;
 
-/// A face that is less open than this is closed: the equation would be stiff, and nothing passes.
-const LEAST_OPEN: f32 = 0.1;
 /// A cell is liquid from this share of its open room on.
 const LIQUID_SHARE: f32 = 0.5;
 /// A cell with more rock than this is not solved for.
@@ -127,14 +126,15 @@ impl ClosedFaces {
             field.clear();
             field.resize(grid.len(), 0.0);
         }
-        let faces = OpenShares { grid, solids, parts: &Parts::new(grid, solids) };
+        let parts = Parts::new(grid, solids);
+        let faces = OpenShares::new(grid, solids, &parts);
         for j in 1..=grid.rows + 1 {
             for k in grid.row(j) + 1..=grid.row(j) + grid.columns + 1 {
                 self.open_u[k] = if j <= grid.rows { faces.left(k, TO_CENTRES) } else { 0.0 };
                 self.open_v[k] = if k <= grid.row(j) + grid.columns { faces.lower(k, TO_CENTRES) } else { 0.0 };
             }
         }
-        self.smear_rock(grid, solids);
+        self.smear_rock(grid, solids, &parts);
         let is_inside =
             |k: usize| (1..=grid.columns).contains(&(k % grid.stride)) && (1..=grid.rows).contains(&(k / grid.stride));
         for k in (0..grid.len()).filter(|k| !is_inside(*k)) {
@@ -162,7 +162,7 @@ impl ClosedFaces {
     /// that would move the matter in the other, too.
     fn open_slivers(&mut self, faces: &OpenShares, down: IVec2) {
         let (grid, stride, parts) = (faces.grid, faces.grid.stride, faces.parts);
-        let missing = |k| if parts.is_sliver(k) { missing(grid, faces.solids, k) } else { 0.0 };
+        let missing = |k| if parts.room(k) == Room::Sliver { missing(grid, faces.solids, k) } else { 0.0 };
         let missing: Vec<f32> = (0..grid.len()).map(missing).collect();
         let is_thin = |k: usize| missing[k] > MOST_MISSING;
         let is_sliver = |k: usize| self.rock[k] > 0.5 || is_thin(k);
@@ -221,31 +221,45 @@ impl ClosedFaces {
         }
     }
 
-    /// Rock particles share out their volume as liquid particles do, so that rock and liquid side by side add up to 1.
-    fn smear_rock(&mut self, grid: &MacGrid, solids: &Solids) {
-        let share = 0.25 * grid.per_cell * grid.per_cell;
-        for (cell, ..) in solids.iter() {
-            let at = centre(cell);
-            for axis in [Axis::U, Axis::V] {
-                faces_around(grid, at.x, at.y, axis, |face, weight| {
-                    let (face, weight) = fold(grid, axis, face, weight);
-                    for k in [face - axis.step(grid), face] {
-                        self.add_rock(grid, k, at, share * weight);
-                    }
-                });
+    /// Rock particles share out their volume as liquid particles do, so that rock and liquid side by side add up to 1. Those that
+    /// reach only cells without any open face are left out, as nobody asks for what is around them.
+    fn smear_rock(&mut self, grid: &MacGrid, solids: &Solids, parts: &Parts) {
+        let is_shut = parts.shut(grid);
+        let reaches_shut_only = all_around(grid, &is_shut);
+        solids.iter().map(|(cell, ..)| centre(cell)).for_each(|at| {
+            let home = grid.row(Axis::V.row(grid, at.y).0 as usize) + Axis::U.column(grid, at.x).0 as usize;
+            if !reaches_shut_only[home] {
+                self.add_rock(grid, at);
             }
+        });
+        for (rock, is_shut) in self.rock.iter_mut().zip(is_shut) {
+            *rock = if is_shut { 1.0 } else { rock.min(1.0) };
         }
-        self.rock.iter_mut().for_each(|rock| *rock = rock.min(1.0));
     }
 
-    /// Adds a share of a rock particle to cell `k` and, where it stands beyond one of the cell's faces, to that.
-    fn add_rock(&mut self, grid: &MacGrid, k: usize, at: Vec2, share: f32) {
-        let (column, row) = (k % grid.stride, k / grid.stride);
-        self.rock[k] += share;
-        let beyond = |at: f32, line: usize| (at + 0.5 - (line as f32 - 1.0) * grid.cell).clamp(0.0, 1.0);
-        for side in 0..2 {
-            self.right_of_u[k + side] += share * beyond(at.x, column + side);
-            self.above_v[k + side * grid.stride] += share * beyond(at.y, row + side);
+    /// Adds a rock particle to the cells that it reaches and, where it stands beyond one of their faces, to that.
+    fn add_rock(&mut self, grid: &MacGrid, at: Vec2) {
+        let share = 0.25 * grid.per_cell * grid.per_cell;
+        // It reaches three columns and three rows of cells.
+        let (left, lower) = (Axis::U.column(grid, at.x).0 as usize - 1, Axis::V.row(grid, at.y).0 as usize - 1);
+        let beyond = |at: f32, first: usize| {
+            std::array::from_fn::<_, 4, _>(|line| (at + 0.5 - grid.edge(first + line)).clamp(0.0, 1.0))
+        };
+        let (right_of, above) = (beyond(at.x, left), beyond(at.y, lower));
+        for axis in [Axis::U, Axis::V] {
+            faces_around(grid, at.x, at.y, axis, |column, row, weight| {
+                let (column, row, weight) = fold(grid, axis, (column, row), weight);
+                let share = share * weight;
+                let before = if axis == Axis::U { (column - 1, row) } else { (column, row - 1) };
+                for (column, row) in [before, (column, row)] {
+                    let k = grid.row(row) + column;
+                    self.rock[k] += share;
+                    for side in 0..2 {
+                        self.right_of_u[k + side] += share * right_of[column - left + side];
+                        self.above_v[k + side * grid.stride] += share * above[row - lower + side];
+                    }
+                }
+            });
         }
     }
 
@@ -271,88 +285,14 @@ fn sign(number: f32) -> i32 {
     i32::from(number > 0.0) - i32::from(number < 0.0)
 }
 
-/// Half the length of the lines from cell centre to cell centre, cells.
-const TO_CENTRES: f32 = 0.5;
-
-/// Finds how much of a face is open.
-struct OpenShares<'a> {
-    grid: &'a MacGrid,
-    solids: &'a Solids,
-    parts: &'a Parts,
-}
-
-impl OpenShares<'_> {
-    /// Of the left face of cell `k`, by lines that reach so far (cells) to either side.
-    fn left(&self, k: usize, reach: f32) -> f32 {
-        let solid = |along, across| self.solids.is_solid(IVec2::new(across, along));
-        let joins = |along, [before, after]: [i32; 2]| {
-            self.parts.has(k - 1, IVec2::new(before, along)) && self.parts.has(k, IVec2::new(after, along))
-        };
-        let [x, y] = self.corner(k);
-        self.share(y, solid, joins, (x, reach))
-    }
-
-    /// Of the lower face of cell `k`, likewise.
-    fn lower(&self, k: usize, reach: f32) -> f32 {
-        let solid = |along, across| self.solids.is_solid(IVec2::new(along, across));
-        let joins = |along, [before, after]: [i32; 2]| {
-            let below = k - self.grid.stride;
-            self.parts.has(below, IVec2::new(along, before)) && self.parts.has(k, IVec2::new(along, after))
-        };
-        let [x, y] = self.corner(k);
-        self.share(x, solid, joins, (y, reach))
-    }
-
-    /// Whether all that is rock in cell `k` leads through it across `way`.
-    fn leads_through(&self, k: usize, way: IVec2) -> bool {
-        let [columns, rows] = self.corner(k).map(|at| at.floor() as i32..(at + self.grid.cell).ceil() as i32);
-        let at = |x: i32, y: i32| self.solids.is_solid(if way.y == 0 { IVec2::new(x, y) } else { IVec2::new(y, x) });
-        let (across, along) = if way.y == 0 { (columns, rows) } else { (rows, columns) };
-        across.into_iter().all(|x| along.clone().all(|y| at(x, y) == at(x, along.start)))
-    }
-
-    /// Lower left corner of cell `k`, d.
-    fn corner(&self, k: usize) -> [f32; 2] {
-        [k % self.grid.stride, k / self.grid.stride].map(|at| (at - 1) as f32 * self.grid.cell)
-    }
-
-    /// Open share of a face that lies at `plane` across its normal and reaches from `start` one cell along itself: the
-    /// share of the lines across it, `reach` cells to either side, that meet no rock and join the parts that the two cells
-    /// stand for. A wall one particle thick closes every line, a lone rock only its own. `solid(along, across)` tells whether
-    /// a rock cell is solid, `joins(along, [before, after])` whether those before and after the plane are in their cells'
-    /// parts.
-    fn share(
-        &self,
-        start: f32,
-        solid: impl Fn(i32, i32) -> bool,
-        joins: impl Fn(i32, [i32; 2]) -> bool,
-        (plane, reach): (f32, f32),
-    ) -> f32 {
-        let MacGrid { cell, per_cell, .. } = *self.grid;
-        let end = start + cell;
-        let sides = [plane.ceil() as i32 - 1, plane.floor() as i32];
-        let met = ((plane - reach * cell).floor() as i32).min(sides[0])
-            ..((plane + reach * cell).ceil() as i32).max(sides[1] + 1);
-        let mut open = 0.0;
-        for along in start.floor() as i32..end.ceil() as i32 {
-            let width = (end.min((along + 1) as f32) - start.max(along as f32)).max(0.0);
-            let blocked = met.clone().any(|across| solid(along, across));
-            open += if blocked || !joins(along, sides) { 0.0 } else { width };
-        }
-        let share = (open * per_cell).min(1.0);
-        if share < LEAST_OPEN { 0.0 } else { share }
-    }
-}
-
-/// The face that a share of matter at `face` belongs to, and the share: what was shared out beyond a wall of the box belongs to
-/// this side of it, and a face on the wall sees only half of its surroundings.
-fn fold(grid: &MacGrid, axis: Axis, face: usize, share: f32) -> (usize, f32) {
-    let (column, row) = (face % grid.stride, face / grid.stride);
+/// The face that a share of matter at the face `(column, row)` belongs to, and the share: what was shared out beyond a wall of the box
+/// belongs to this side of it, and a face on the wall sees only half of its surroundings.
+fn fold(grid: &MacGrid, axis: Axis, (column, row): (usize, usize), share: f32) -> (usize, usize, f32) {
     let (column, row, on_wall) = match axis {
         Axis::U => (column, row.clamp(1, grid.rows), column == 1 || column == grid.columns + 1),
         Axis::V => (column.clamp(1, grid.columns), row, row == 1 || row == grid.rows + 1),
     };
-    (grid.row(row) + column, if on_wall { 2.0 * share } else { share })
+    (column, row, if on_wall { 2.0 * share } else { share })
 }
 
 /// What was shared out beyond a wall belongs to this side of it; a face on the wall sees only half of its surroundings.
@@ -392,5 +332,48 @@ pub(super) fn fold_at_walls(
     for wall in [1, rows + 1].into_iter().filter(|wall| reached.contains(wall)) {
         let cells = across.start.max(1)..across.end.min(columns + 1);
         v[wall * s..][cells].iter_mut().for_each(double);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::element::ElementId;
+
+    #[test]
+    fn around_cells_with_an_open_face_no_rock_is_left_out() {
+        // A hill, a ball and a thin wall in a box of cells that no cell of rock is a multiple of.
+        let (size, mut solids) = (Vec2::new(101.0, 70.0), Solids::new(101, 70));
+        let is_rock = |at: Vec2| {
+            at.y < 20.0 + 0.3 * at.x || at.distance(Vec2::new(30.0, 50.0)) < 14.0 || (at.x - 70.0).abs() < 1.0
+        };
+        let cells = (0..70).flat_map(|y| (0..101).map(move |x| IVec2::new(x, y)));
+        for cell in cells.filter(|cell| is_rock(centre(*cell))) {
+            solids.insert(cell, ElementId(0), 0);
+        }
+        let grid = MacGrid::new(size, 2.4);
+        let parts = Parts::new(&grid, &solids);
+        let [mut some, mut all] = [(); 2].map(|()| ClosedFaces::default());
+        for field in some.fields().into_iter().chain(all.fields()) {
+            field.resize(grid.len(), 0.0);
+        }
+        some.smear_rock(&grid, &solids, &parts);
+        solids.iter().for_each(|(cell, ..)| all.add_rock(&grid, centre(cell)));
+        let is_shut = parts.shut(&grid);
+        let mut shut = 0;
+        for k in (1..=grid.rows).flat_map(|j| grid.row(j) + 1..=grid.row(j) + grid.columns) {
+            if is_shut[k] {
+                shut += 1;
+                assert_eq!(some.rock[k], 1.0);
+                continue;
+            }
+            assert_eq!(some.rock[k], all.rock[k].min(1.0));
+            for (before, field) in
+                [(k - 1, [&some.right_of_u, &all.right_of_u]), (k - grid.stride, [&some.above_v, &all.above_v])]
+            {
+                assert!(is_shut[before] || field[0][k] == field[1][k]);
+            }
+        }
+        assert!(shut > 200, "{shut} cells are shut");
     }
 }

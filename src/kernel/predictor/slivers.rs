@@ -82,7 +82,8 @@ pub(super) fn missing(grid: &MacGrid, solids: &Solids, k: usize) -> f32 {
     let mut missing = 0.0;
     for at in places(1.0).filter(|at| !is_seen[index(*at)]).map(centre) {
         for axis in [Axis::U, Axis::V] {
-            faces_around(grid, at.x, at.y, axis, |face, weight| {
+            faces_around(grid, at.x, at.y, axis, |column, row, weight| {
+                let face = grid.row(row) + column;
                 if face == k || face == k + axis.step(grid) {
                     missing += share * weight;
                 }

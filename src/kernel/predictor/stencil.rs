@@ -74,13 +74,12 @@ impl Stencils {
     }
 }
 
-/// Calls `add(face, weight)` for the four faces around a point, d.
-pub(super) fn faces_around(grid: &MacGrid, x: f32, y: f32, axis: Axis, mut add: impl FnMut(usize, f32)) {
+/// Calls `add(column, row, weight)` for the four faces around a point, d.
+pub(super) fn faces_around(grid: &MacGrid, x: f32, y: f32, axis: Axis, mut add: impl FnMut(usize, usize, f32)) {
     let ((i, right), (j, upper)) = (axis.column(grid, x), axis.row(grid, y));
-    let corner = grid.row(j as usize) + i as usize;
-    let (left, lower) = (1.0 - right, 1.0 - upper);
-    add(corner, left * lower);
-    add(corner + 1, right * lower);
-    add(corner + grid.stride, left * upper);
-    add(corner + grid.stride + 1, right * upper);
+    let (i, j, left, lower) = (i as usize, j as usize, 1.0 - right, 1.0 - upper);
+    add(i, j, left * lower);
+    add(i + 1, j, right * lower);
+    add(i, j + 1, left * upper);
+    add(i + 1, j + 1, right * upper);
 }

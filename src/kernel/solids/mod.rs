@@ -7,6 +7,7 @@ mod sweep;
 
 use crate::element::ElementId;
 use glam::{IVec2, Vec2};
+use std::ops::Range;
 
 const EMPTY: u8 = u8::MAX;
 
@@ -102,6 +103,20 @@ impl Solids {
         self.index(cell).is_none_or(|k| self.is_rock(k))
     }
 
+    /// How many of some cells are solid.
+    pub(crate) fn count_solid(&self, columns: Range<i32>, rows: Range<i32>) -> usize {
+        let inside =
+            |range: &Range<i32>, all: i32| range.start.clamp(0, all) as usize..range.end.clamp(0, all) as usize;
+        let (across, up) = (inside(&columns, self.columns), inside(&rows, self.rows));
+        let outside = columns.len() * rows.len() - across.len() * up.len();
+        let rock = |row: usize| {
+            let first = row * self.columns as usize;
+            let cells = self.element.get(first + across.start..first + across.end).unwrap_or_default();
+            cells.iter().filter(|element| **element != EMPTY).count()
+        };
+        outside + up.map(rock).sum::<usize>()
+    }
+
     /// The rock in the cell: its element and id.
     pub fn get(&self, cell: IVec2) -> Option<(ElementId, u32)> {
         self.rock(cell).map(|k| (ElementId(self.element[k]), self.id[k]))
@@ -190,9 +205,18 @@ impl Solids {
 
     /// All rock, row by row from the bottom: cell, element, id.
     pub fn iter(&self) -> impl Iterator<Item = (IVec2, ElementId, u32)> + '_ {
-        self.element.iter().enumerate().filter(|(_, element)| **element != EMPTY).map(|(k, element)| {
-            let cell = IVec2::new(k as i32 % self.columns, k as i32 / self.columns);
-            (cell, ElementId(*element), self.id[k])
+        /// Cells that are passed over together where none is rock.
+        const STRIDE: usize = 16;
+        let rows = self.element.chunks(self.columns.max(1) as usize).enumerate();
+        rows.flat_map(move |(y, row)| {
+            let strides = row.chunks(STRIDE).enumerate().filter(|(_, cells)| **cells != [EMPTY; STRIDE][..cells.len()]);
+            strides.flat_map(move |(stride, cells)| {
+                let rock = cells.iter().enumerate().filter(|(_, element)| **element != EMPTY);
+                rock.map(move |(k, element)| {
+                    let cell = IVec2::new((stride * STRIDE + k) as i32, y as i32);
+                    (cell, ElementId(*element), self.id[y * row.len() + cell.x as usize])
+                })
+            })
         })
     }
 }
@@ -245,6 +269,27 @@ mod tests {
         assert!(solids.remove(IVec2::new(3, 4)) && !solids.remove(IVec2::new(3, 4)));
         assert_eq!(solids.count(), 0);
         assert_ne!(solids.version(), version);
+    }
+
+    #[test]
+    fn rock_is_found_row_by_row_wherever_it_stands() {
+        let mut solids = Solids::new(37, 3);
+        let cells = [(0, 0), (15, 0), (16, 0), (36, 0), (31, 2), (32, 2), (36, 2)];
+        for (id, (x, y)) in cells.iter().enumerate().rev() {
+            assert!(solids.insert(IVec2::new(*x, *y), ElementId(id as u8), id as u32));
+        }
+        let found: Vec<_> = solids.iter().collect();
+        let expected = cells.iter().enumerate();
+        let expected = expected.map(|(id, (x, y))| (IVec2::new(*x, *y), ElementId(id as u8), id as u32));
+        assert_eq!(found, expected.collect::<Vec<_>>());
+        for columns in [-2..1, 14..17, 30..40, 5..5, 40..42] {
+            for rows in [-1..1, 0..3, 2..5] {
+                let counted = rows.clone().flat_map(|y| columns.clone().map(move |x| IVec2::new(x, y)));
+                let counted = counted.filter(|cell| solids.is_solid(*cell)).count();
+                assert_eq!(solids.count_solid(columns.clone(), rows), counted, "columns {columns:?}");
+            }
+        }
+        assert_eq!(Solids::new(5, 5).count_solid(-1..3, 0..5), 5);
     }
 
     #[test]

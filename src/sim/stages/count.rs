@@ -20,9 +20,7 @@ pub(super) fn count_particles(
         census.rock_version = Some(rock.version());
         census.rock.clear();
         census.rock.resize(elements, 0);
-        for (_, element, _) in rock.iter() {
-            census.rock[element.index()] += 1;
-        }
+        rock.iter().for_each(|(_, element, _)| census.rock[element.index()] += 1);
     }
     census.by_element.clone_from(&census.rock);
     checks::count_elements(&particles.element, &mut census.by_element);
