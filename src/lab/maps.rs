@@ -119,9 +119,7 @@ impl BurialMap {
         self.columns = columns;
         self.steps.clear();
         self.steps.resize((columns * rows) as usize, 0);
-        for (cell, _, _) in solids.iter() {
-            self.steps[(cell.y * columns + cell.x) as usize] = CORE;
-        }
+        solids.iter().for_each(|(cell, ..)| self.steps[(cell.y * columns + cell.x) as usize] = CORE);
         // Two sweeps: each cell is one step further than its nearest neighbour that the sweep has passed.
         for y in 0..rows {
             for x in 0..columns {

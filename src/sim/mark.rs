@@ -70,11 +70,11 @@ impl Marker {
             Some((version, folded)) if version == rock.version() => folded,
             _ => {
                 let mut folded = 0_u64;
-                for (cell, element, id) in rock.iter() {
+                rock.iter().for_each(|(cell, element, id)| {
                     let place = (cell.x as u64) << 32 | cell.y as u64;
                     let kind = u64::from(element.0) << 32 | u64::from(id);
                     folded = (folded ^ place).wrapping_mul(SPREAD).rotate_left(29).wrapping_add(kind);
-                }
+                });
                 self.rock = Some((rock.version(), folded));
                 folded
             }

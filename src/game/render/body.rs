@@ -99,10 +99,10 @@ impl BodyMap {
         }
         if rock.count() > 0 {
             let edge = CELL as i32;
-            for (cell, _, _) in rock.iter() {
+            rock.iter().for_each(|(cell, ..)| {
                 let at = (cell.y / edge) as usize * self.columns + (cell.x / edge) as usize;
                 self.found[at].matter += 1.0;
-            }
+            });
         }
     }
 

@@ -79,9 +79,9 @@ impl GlowMap {
             self.add(particles.position(i), warmth.glow(i), !gas);
         }
         if !warmth.rock.heats().is_empty() {
-            for (cell, element, _) in warmth.rock.iter() {
+            warmth.rock.iter().for_each(|(cell, element, _)| {
                 self.add(cell.as_vec2() + 0.5, warmth.of(element, warmth.rock.heat(cell)), true);
-            }
+            });
         }
         if self.shines {
             self.spread();

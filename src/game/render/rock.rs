@@ -18,11 +18,11 @@ pub fn pack(
     burial.measure(solids);
     out.clear();
     out.resize(4 * (solids.columns() * solids.rows()) as usize, 0);
-    for (cell, element, id) in solids.iter() {
+    solids.iter().for_each(|(cell, element, id)| {
         let ([r, g, b], finish) = texel(cell, element, id, burial.at(cell));
         let k = 4 * (cell.y * solids.columns() + cell.x) as usize;
         out[k..k + 4].copy_from_slice(&[r, g, b, 255 - finish as u8]);
-    }
+    });
 }
 
 #[cfg(test)]
