@@ -1,4 +1,4 @@
-//! Cells that a thin wall cuts in two. The equation has one pressure for each cell, so such a cell stands for the larger
+//! What rock leaves of each cell. The equation has one pressure for each, so a cell that a thin wall cuts in two stands for the larger
 //! part of its room, and the faces of the other part are closed: else the pressure would go through the cell from one
 //! side of the wall to the other, as it would at every slanting wall.
 
