@@ -23,7 +23,7 @@ const BEYOND_A_FACE: f32 = 3.0 / 16.0;
 /// A cell that is open to less than this has nowhere to go.
 const LEAST_ROOM: f32 = 0.05;
 
-/// Rock as the grid sees it; follows the rock's version. Rows that are like the one below share its place in the fields
+/// Rock as the grid sees it; follows the rock's shape. Rows that are like the one below share its place in the fields
 /// ([`ClosedFaces::row`]), so that a box without rock costs next to nothing.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ClosedFaces {
@@ -359,7 +359,15 @@ mod tests {
         }
         some.smear_rock(&grid, &solids, &parts);
         solids.iter().for_each(|(cell, ..)| all.add_rock(&grid, centre(cell)));
-        let is_shut = parts.shut(&grid);
+        // A cell is shut if neither it nor any of those around it has room.
+        let has_room = |k: usize| parts.room(k) != Room::None;
+        let is_shut: Vec<bool> = (0..grid.len())
+            .map(|k| {
+                let rows = [k.wrapping_sub(grid.stride), k, k + grid.stride];
+                let around = rows.into_iter().flat_map(|k| [k.wrapping_sub(1), k, k + 1]);
+                around.filter(|k| *k < grid.len()).all(|k| !has_room(k))
+            })
+            .collect();
         let mut shut = 0;
         for k in (1..=grid.rows).flat_map(|j| grid.row(j) + 1..=grid.row(j) + grid.columns) {
             if is_shut[k] {

@@ -121,3 +121,32 @@ pub(super) fn follow_hosts(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec2;
+
+    #[test]
+    fn a_sliver_goes_by_its_host_as_far_as_its_place_has_it() {
+        let grid = MacGrid::new(Vec2::splat(10.0), 2.5);
+        let (own, host) = (grid.row(2) + 2, grid.row(2) + 3);
+        // How full a sliver and its host are, and which of them are liquid; then what the sliver is.
+        let follow = |place, [own_fill, host_fill]: [f32; 2], [own_liquid, host_liquid]: [f32; 2]| {
+            let [mut filled, mut liquid, mut solution] = [(); 3].map(|()| vec![0.0; grid.len()]);
+            (filled[own], filled[host]) = (own_fill, host_fill);
+            (liquid[own], liquid[host]) = (own_liquid, host_liquid);
+            solution[host] = 7.0;
+            let sliver = Sliver { cell: own as u32, host: host as u32, place, missing: 0.125 };
+            follow_hosts(&[sliver], &grid, (&(1..5), &(1..5)), [&mut filled, &mut liquid, &mut solution]);
+            [filled[own], liquid[own], solution[own]]
+        };
+        assert_eq!(follow(Place::Wall, [0.25, 0.75], [0.0, 1.0]), [0.75, 1.0, 7.0]);
+        assert_eq!(follow(Place::Wall, [0.75, 0.25], [1.0, 0.0]), [0.25, 0.0, 0.0]);
+        assert_eq!(follow(Place::Slope, [0.25, 0.75], [0.0, 1.0]), [0.25, 1.0, 7.0]);
+        // A puddle stays one, what is missed counts, and no more than fills the cell.
+        assert_eq!(follow(Place::Floor, [0.75, 0.25], [1.0, 0.0]), [0.875, 1.0, 0.0]);
+        assert_eq!(follow(Place::Floor, [0.9375, 1.0], [0.0, 1.0]), [1.0, 1.0, 7.0]);
+        assert_eq!(follow(Place::Floor, [1.25, 1.0], [1.0, 1.0]), [1.25, 1.0, 0.0]);
+    }
+}
