@@ -363,8 +363,8 @@ mod tests {
         let has_room = |k: usize| parts.room(k) != Room::None;
         let is_shut: Vec<bool> = (0..grid.len())
             .map(|k| {
-                let rows = [k.wrapping_sub(grid.stride), k, k + grid.stride];
-                let around = rows.into_iter().flat_map(|k| [k.wrapping_sub(1), k, k + 1]);
+                let rows = [k.checked_sub(grid.stride), Some(k), Some(k + grid.stride)];
+                let around = rows.into_iter().flatten().flat_map(|k| k.saturating_sub(1)..=k + 1);
                 around.filter(|k| *k < grid.len()).all(|k| !has_room(k))
             })
             .collect();
