@@ -1,7 +1,7 @@
 // ---- rock
 //
-// A map has a texel a cell: its colour, and what it is made of. `stone` bakes it as the window shows it, whenever rock or camera
-// changed; `rock` lays that over the world, with the light of the frame.
+// A map has a texel a cell: its colour, and what it is made of. `stone` bakes it as the window shows it: all of it when the camera moved,
+// else the tiles whose rock changed, over what was there. `rock` lays that over the world, with the light of the frame.
 
 // How the surfaces of fixed matter are made: the alpha of a texel is 1 less this many steps of eight bits.
 const FIBRES: u32 = 1u;
@@ -14,7 +14,7 @@ fn stone_fragment(in: Tile) -> @location(0) vec4<f32> {
     let uv = in.point * texel;
     let here = textureSampleLevel(rock_texture, linear_sampler, uv, 0.0);
     if here.a < 0.05 {
-        discard;
+        return vec4<f32>(0.0);
     }
     let reach = 1.1 * texel;
     let left = textureSampleLevel(rock_texture, linear_sampler, uv - vec2<f32>(reach.x, 0.0), 0.0).a;

@@ -34,8 +34,8 @@ impl DepthMap {
         self.count.resize(cells, 0);
         self.share.resize(cells, 0);
         for (&x, &y) in particles.x.iter().zip(&particles.y) {
-            let column = ((x / DEPTH_CELL) as usize).min(self.columns - 1);
-            let row = ((y / DEPTH_CELL) as usize).min(self.rows - 1);
+            let column = ((x / DEPTH_CELL) as u32 as usize).min(self.columns - 1);
+            let row = ((y / DEPTH_CELL) as u32 as usize).min(self.rows - 1);
             self.count[row * self.columns + column] += 1;
         }
         self.above.clear();
@@ -104,53 +104,95 @@ impl DepthMap {
 /// Distance from the rock's surface at which it is as dark as it gets, cells.
 const CORE: u8 = 14;
 
+/// Binary digits of [`CORE`].
+const DIGITS: usize = (u8::BITS - CORE.leading_zeros()) as usize;
+/// Cells that are looked at together.
+const WORD: usize = u64::BITS as usize;
+
 /// How far inside rock each cell lies. The walls of the box count as rock.
 #[derive(Clone, Debug, Default)]
 pub struct BurialMap {
-    columns: i32,
-    /// Steps to the nearest open cell, at most [`CORE`]; a straight step counts 1, a diagonal one too.
-    steps: Vec<u8>,
+    /// Words of a row: a bit for each cell.
+    words: usize,
+    /// Steps to the nearest open cell, at most [`CORE`], as binary digits, the lowest first; a straight step counts 1, a diagonal one
+    /// too.
+    steps: [Vec<u64>; DIGITS],
+    /// Rock that is further in than the steps counted so far, and of that what has more of it on both sides.
+    inner: Vec<u64>,
+    flanked: Vec<u64>,
 }
 
 impl BurialMap {
     /// Measures the rock; reuses the memory of the last time.
     pub fn measure(&mut self, solids: &Solids) {
-        let (columns, rows) = (solids.columns(), solids.rows());
-        self.columns = columns;
-        self.steps.clear();
-        self.steps.resize((columns * rows) as usize, 0);
-        solids.iter().for_each(|(cell, ..)| self.steps[(cell.y * columns + cell.x) as usize] = CORE);
-        // Two sweeps: each cell is one step further than its nearest neighbour that the sweep has passed.
-        for y in 0..rows {
-            for x in 0..columns {
-                self.relax(x, y, [(-1, 0), (-1, -1), (0, -1), (1, -1)], rows);
-            }
+        let columns = solids.columns() as usize;
+        self.words = columns.div_ceil(WORD);
+        let all = self.words * solids.rows() as usize;
+        for bits in self.steps.iter_mut().chain([&mut self.inner, &mut self.flanked]) {
+            bits.clear();
+            bits.resize(all, 0);
         }
-        for y in (0..rows).rev() {
-            for x in (0..columns).rev() {
-                self.relax(x, y, [(1, 0), (1, 1), (0, 1), (-1, 1)], rows);
+        solids.iter().for_each(|(cell, ..)| {
+            let column = cell.x as usize;
+            self.inner[cell.y as usize * self.words + column / WORD] |= 1 << (column % WORD);
+        });
+        // What is beyond the last column is the wall's.
+        if !columns.is_multiple_of(WORD) {
+            let beyond = u64::MAX << (columns % WORD);
+            self.inner.chunks_exact_mut(self.words).for_each(|row| row[self.words - 1] |= beyond);
+        }
+        for step in 1..=CORE {
+            self.count();
+            if step < CORE {
+                self.peel();
             }
         }
     }
 
-    fn relax(&mut self, x: i32, y: i32, neighbours: [(i32, i32); 4], rows: i32) {
-        let k = (y * self.columns + x) as usize;
-        if self.steps[k] == 0 {
-            return;
-        }
-        for (dx, dy) in neighbours {
-            let (x, y) = (x + dx, y + dy);
-            if x >= 0 && y >= 0 && x < self.columns && y < rows {
-                let next = self.steps[(y * self.columns + x) as usize] + 1;
-                self.steps[k] = self.steps[k].min(next);
+    /// Counts a step more for all that is further in.
+    fn count(&mut self) {
+        for (k, inner) in self.inner.iter().enumerate() {
+            let mut carry = *inner;
+            for digit in &mut self.steps {
+                let sum = digit[k] ^ carry;
+                carry &= digit[k];
+                digit[k] = sum;
             }
         }
+    }
+
+    /// Takes away what has an open cell among the eight around it.
+    fn peel(&mut self) {
+        let words = self.words.max(1);
+        for (row, flanked) in self.inner.chunks_exact(words).zip(self.flanked.chunks_exact_mut(words)) {
+            for (k, flanked) in flanked.iter_mut().enumerate() {
+                let beside = |k: Option<usize>| k.and_then(|k| row.get(k)).copied().unwrap_or(u64::MAX);
+                let (left, right) = (beside(k.checked_sub(1)), beside(Some(k + 1)));
+                let own = row[k];
+                *flanked = own & (own << 1 | left >> (WORD - 1)) & (own >> 1 | right << (WORD - 1));
+            }
+        }
+        let row = |y: usize| self.flanked.chunks_exact(words).nth(y);
+        for (y, inner) in self.inner.chunks_exact_mut(words).enumerate() {
+            let Some(own) = row(y) else { continue };
+            let (below, above) = (y.checked_sub(1).and_then(row).unwrap_or(own), row(y + 1).unwrap_or(own));
+            for (inner, ((below, own), above)) in inner.iter_mut().zip(below.iter().zip(own).zip(above)) {
+                *inner = below & own & above;
+            }
+        }
+    }
+
+    /// Steps to the nearest open cell: 0 in one, else 1 and more, [`CORE`] deep inside.
+    pub fn steps(&self, cell: IVec2) -> u8 {
+        let (column, row) = (cell.x as usize, cell.y as usize);
+        let digit =
+            |bits: &Vec<u64>| bits.get(row * self.words + column / WORD).map_or(0, |word| word >> (column % WORD));
+        self.steps.iter().rev().fold(0, |steps, bits| 2 * steps + (digit(bits) & 1) as u8)
     }
 
     /// How far inside the cell lies: 0 at the surface, 1 deep inside.
     pub fn at(&self, cell: IVec2) -> f32 {
-        let k = (cell.y * self.columns + cell.x) as usize;
-        f32::from(self.steps.get(k).copied().unwrap_or(1).max(1) - 1) / f32::from(CORE - 1)
+        f32::from(self.steps(cell).max(1) - 1) / f32::from(CORE - 1)
     }
 }
 
@@ -192,5 +234,27 @@ mod tests {
         assert_eq!(at(20, 0), 1.0);
         assert_eq!(at(0, 29), 0.0);
         assert_eq!(at(0, 0), 1.0, "the wall is no surface");
+    }
+
+    #[test]
+    fn the_steps_out_of_rock_are_those_to_the_nearest_open_cell() {
+        // Widths on both sides of a word, and one of whole words.
+        for (columns, rows, holes) in [(1, 1, 0), (63, 9, 1), (64, 40, 2), (70, 33, 3), (130, 40, 5)] {
+            let is_open = |cell: IVec2| {
+                (1..=holes).any(|k| cell == IVec2::new(37 * k % columns, 23 * k % rows)) || (holes > 2 && cell.x < 2)
+            };
+            let cells = || (0..rows).flat_map(|y| (0..columns).map(move |x| IVec2::new(x, y)));
+            let mut solids = Solids::new(columns as u32, rows as u32);
+            for cell in cells().filter(|cell| !is_open(*cell)) {
+                solids.insert(cell, ElementId(0), 0);
+            }
+            let mut map = BurialMap::default();
+            map.measure(&solids);
+            for cell in cells() {
+                let steps = |open: IVec2| (open - cell).abs().max_element() as u8;
+                let nearest = cells().filter(|cell| is_open(*cell)).map(steps).min().unwrap_or(CORE);
+                assert_eq!(map.steps(cell), nearest.min(CORE), "{cell} of {columns} × {rows}");
+            }
+        }
     }
 }

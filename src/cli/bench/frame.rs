@@ -8,7 +8,7 @@ use std::path::Path;
 pub(in crate::cli) fn frame(quick: bool, json: Option<&Path>) -> Result<(), Failure> {
     use crate::{
         cli::{output, progress},
-        game::render::frame_cost::{SCENES, SIZE, measure},
+        game::render::frame_cost::{LevelCost, SCENES, SIZE, SceneCost, measure},
         lab::{machine::processor, markdown},
     };
     use serde_json::json;
@@ -16,26 +16,38 @@ pub(in crate::cli) fn frame(quick: bool, json: Option<&Path>) -> Result<(), Fail
     output::check(json.as_slice())?;
     let line = progress::bar(SCENES.len() as u64);
     let (mut costs, mut adapter) = (Vec::new(), String::new());
-    for (name, ticks) in SCENES {
-        line.set_message(name);
-        let (found, more) = measure(name, ticks, if quick { 5 } else { 31 })?.map_err(Failure::Usage)?;
+    for scene in SCENES {
+        line.set_message(scene.0);
+        let (found, cost) = measure(scene, if quick { 5 } else { 31 })?.map_err(Failure::Usage)?;
         adapter = found;
-        costs.extend(more);
+        costs.push(cost);
         line.inc(1);
     }
     drop(line);
-    let value = || json!({ "processor": processor(), "graphics": adapter, "size": SIZE.to_array(), "frames": costs });
+    let value = || json!({ "processor": processor(), "graphics": adapter, "size": SIZE.to_array(), "scenes": costs });
     output::report(json, value, || {
-        let row = |cost: &crate::game::render::frame_cost::FrameCost| {
+        let name = |SceneCost { scene, detail, .. }: &SceneCost| match detail {
+            1.0 => format!("`{scene}`"),
+            _ => format!("`{scene}`, detail {detail}"),
+        };
+        let level = |name: &str, cost: &LevelCost| {
             let pass = |(name, drawn, ms): &(&str, u32, f64)| format!("{name} {ms:.2} ({drawn})");
             let passes: Vec<String> = cost.passes.iter().map(pass).collect();
-            format!("`{}` | {} | {:.1} | {}", cost.scene, cost.level, cost.frame, passes.join(", "))
+            format!("{name} | {} | {:.1} | {}", cost.level, cost.frame, passes.join(", "))
         };
-        let rows = markdown::rows("scene | level | >frame, ms | passes: ms (instances)", costs.iter().map(row));
+        let levels = costs.iter().flat_map(|cost| cost.levels.iter().map(move |own| level(&name(cost), own)));
+        let running = costs.iter().map(|cost| {
+            let SceneCost { particles, rock, extract, upload, .. } = cost;
+            format!("{} | {particles} | {rock} | {extract:.2} | {upload:.2}", name(cost))
+        });
         let [width, height] = SIZE.to_array();
         format!(
-            "{width} × {height} pixels, {adapter}, {}; medians of frames while the world stands.\n\n{rows}",
-            processor()
+            "{width} × {height} pixels, {adapter}, {}; medians of frames while the world stands.\n\n{}\n\
+             Processor time at `full` for what a frame needs of a world that runs, to copy it out and to hand it over; medians of \
+             frames with a tick each.\n\n{}",
+            processor(),
+            markdown::rows("scene | level | >frame, ms | passes: ms (instances)", levels),
+            markdown::rows("scene | >particles | >rock | >extraction, ms | >upload, ms", running),
         )
     })
 }

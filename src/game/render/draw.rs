@@ -125,15 +125,21 @@ impl<'a> Pane<'a> {
         }
     }
 
-    /// Bakes the rock anew if it looks otherwise.
+    /// Bakes the rock anew where it looks otherwise.
     fn bake(&self, context: &mut RenderContext<'_, '_>, with: With<'_>) {
-        if self.stone.baked.load(Ordering::Relaxed) || with.cache.get_render_pipeline(with.ids.stone).is_none() {
+        let Self { stone, picture, .. } = self;
+        if stone.baked.load(Ordering::Relaxed) || with.cache.get_render_pipeline(with.ids.stone).is_none() {
             return;
         }
-        let mut pass = into(context, "stone", &self.stone.sheet.view);
+        let tiles = &picture.tiles;
+        let (mut pass, tiles) = if stone.whole {
+            (into(context, "stone", &stone.sheet.view), all!(tiles.rock))
+        } else {
+            (onto(context, "stone", &stone.sheet.view), all!(tiles.changed))
+        };
         self.bind(&mut pass);
-        with.instances(&mut pass, PicturePass::Bake, with.ids.stone, all!(self.picture.tiles.rock));
-        self.stone.baked.store(true, Ordering::Relaxed);
+        with.instances(&mut pass, PicturePass::Bake, with.ids.stone, tiles);
+        stone.baked.store(true, Ordering::Relaxed);
     }
 
     /// Keeps what is drawn to its part; whether there is any.
@@ -184,13 +190,30 @@ impl<'a> Pane<'a> {
 
 /// A pass into an empty texture.
 fn into<'a>(context: &'a mut RenderContext<'_, '_>, label: &'static str, view: &TextureView) -> TrackedRenderPass<'a> {
+    begin(context, label, view, false)
+}
+
+/// A pass over what a texture holds.
+fn onto<'a>(context: &'a mut RenderContext<'_, '_>, label: &'static str, view: &TextureView) -> TrackedRenderPass<'a> {
+    begin(context, label, view, true)
+}
+
+fn begin<'a>(
+    context: &'a mut RenderContext<'_, '_>,
+    label: &'static str,
+    view: &TextureView,
+    keeps: bool,
+) -> TrackedRenderPass<'a> {
     context.begin_tracked_render_pass(RenderPassDescriptor {
         label: Some(label),
         color_attachments: &[Some(RenderPassColorAttachment {
             view,
             depth_slice: None,
             resolve_target: None,
-            ops: Operations { load: LoadOp::Clear(Default::default()), store: StoreOp::Store },
+            ops: Operations {
+                load: if keeps { LoadOp::Load } else { LoadOp::Clear(Default::default()) },
+                store: StoreOp::Store,
+            },
         })],
         ..RenderPassDescriptor::default()
     })

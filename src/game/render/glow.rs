@@ -54,7 +54,7 @@ pub struct GlowMap {
     /// Sum of glow, and particles that are no gas, by cell.
     glow: Vec<[f32; 4]>,
     light: Vec<[f32; 3]>,
-    line: Vec<[f32; 3]>,
+    sums: Vec<f32>,
     glow_texels: Vec<u8>,
     light_texels: Vec<u8>,
     shines: bool,
@@ -110,14 +110,11 @@ impl GlowMap {
 
     /// Light falls off with distance: box filters along rows and columns.
     fn spread(&mut self) {
-        let (columns, rows) = (self.coarse_columns(), self.coarse_rows());
+        let row = 3 * self.coarse_columns();
+        let light = self.light.as_flattened_mut();
         for _ in 0..PASSES {
-            for row in 0..rows {
-                blur(&mut self.light, &mut self.line, columns, row * columns, 1);
-            }
-            for column in 0..columns {
-                blur(&mut self.light, &mut self.line, rows, column, columns);
-            }
+            blur(light, &mut self.sums, row, 3);
+            blur(light, &mut self.sums, light.len(), row);
         }
     }
 
@@ -163,19 +160,23 @@ impl GlowMap {
     }
 }
 
-/// The mean over [`REACH`] cells to either side, of `count` cells from `first` on, `step` apart; nothing comes from beyond.
-fn blur(cells: &mut [[f32; 3]], line: &mut Vec<[f32; 3]>, count: usize, first: usize, step: usize) {
-    line.clear();
-    line.extend((0..count).map(|k| cells[first + k * step]));
+/// The mean of [`REACH`] numbers to either side, `step` apart, and of that between them, in each line of so many numbers; nothing comes
+/// from beyond.
+fn blur(numbers: &mut [f32], sums: &mut Vec<f32>, line: usize, step: usize) {
+    sums.clear();
+    sums.resize(numbers.len(), 0.0);
+    for (sums, from) in sums.chunks_exact_mut(line).zip(numbers.chunks_exact(line)) {
+        let mut add = |sums_from: usize, numbers_from: usize| {
+            let (sums, from) = (sums.get_mut(sums_from..), from.get(numbers_from..));
+            let pairs = sums.into_iter().flatten().zip(from.into_iter().flatten());
+            pairs.for_each(|(sum, number)| *sum += number);
+        };
+        (1..=REACH).rev().for_each(|away| add(away * step, 0));
+        (0..=REACH).for_each(|away| add(0, away * step));
+    }
     let width = (2 * REACH + 1) as f32;
-    for k in 0..count {
-        let mut sum = [0.0; 3];
-        for from in &line[k.saturating_sub(REACH)..(k + REACH + 1).min(count)] {
-            for (sum, channel) in sum.iter_mut().zip(from) {
-                *sum += channel;
-            }
-        }
-        cells[first + k * step] = sum.map(|sum| sum / width);
+    for (number, sum) in numbers.iter_mut().zip(sums) {
+        *number = *sum / width;
     }
 }
 

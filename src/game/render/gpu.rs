@@ -6,6 +6,7 @@ use crate::game::render::{
     noise,
     picture::Picture,
     pipelines::{FIELD_FORMAT, Layouts, Pipelines},
+    rock::RockMap,
     uniform::WorldUniform,
 };
 use bevy::{
@@ -22,7 +23,10 @@ use bevy::{
     },
 };
 use glam::UVec2;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::{
+    ops::Range,
+    sync::atomic::{AtomicBool, Ordering},
+};
 
 /// The pictures of a frame, in the order of [`Pictures::shown`].
 #[derive(Resource, Default)]
@@ -106,6 +110,8 @@ impl Sheet {
 pub struct Stone {
     /// What it is drawn on.
     pub sheet: Sheet,
+    /// Whether all of it is to be drawn, and not only what changed in this frame.
+    pub whole: bool,
     /// Whether it is drawn.
     pub baked: AtomicBool,
 }
@@ -125,13 +131,15 @@ impl GpuPicture {
     }
 
     /// Makes room for the baked rock of a picture.
-    fn make_stone(&mut self, size: UVec2, bake: bool, device: &RenderDevice) {
+    fn make_stone(&mut self, picture: &Picture, device: &RenderDevice) {
         let held = self.stone.take();
+        // A frame that was not drawn has left out what changed in it.
         let baked = held.as_ref().is_some_and(|stone| stone.baked.load(Ordering::Relaxed));
-        let sheet = Sheet::fitting(held.map(|stone| stone.sheet), "stone", size, FIELD_FORMAT, device);
+        let sheet = Sheet::fitting(held.map(|stone| stone.sheet), "stone", picture.size, FIELD_FORMAT, device);
         // A new one has no group yet.
-        let baked = baked && !bake && sheet.group.is_some();
-        self.stone = Some(Stone { sheet, baked: AtomicBool::new(baked) });
+        let whole = picture.bake || !baked || sheet.group.is_none();
+        let baked = AtomicBool::new(!whole && picture.rock.rows.is_empty());
+        self.stone = Some(Stone { sheet, whole, baked });
     }
 }
 
@@ -143,20 +151,36 @@ impl Map {
     /// Fills it; with nothing, it becomes one texel of zeros.
     fn fill(&mut self, texels: &[u8], size: UVec2, format: TextureFormat, device: &RenderDevice, queue: &RenderQueue) {
         let (texels, size) = if texels.is_empty() { (&[0; 4][..], UVec2::ONE) } else { (texels, size) };
+        self.fill_rows(texels, size, 0..size.y, format, device, queue);
+    }
+
+    /// Fills some rows of it, or all if it is of another size.
+    fn fill_rows(
+        &mut self,
+        texels: &[u8],
+        size: UVec2,
+        mut rows: Range<u32>,
+        format: TextureFormat,
+        device: &RenderDevice,
+        queue: &RenderQueue,
+    ) {
         if self.0.as_ref().is_none_or(|(held, _)| (held.width(), held.height()) != (size.x, size.y)) {
             let usage = TextureUsages::COPY_DST | TextureUsages::TEXTURE_BINDING;
             let texture = device.create_texture(&descriptor("map", size, format, usage));
             let view = texture.create_view(&TextureViewDescriptor::default());
             self.0 = Some((texture, view));
+            rows = 0..size.y;
         }
-        let Some((texture, _)) = &self.0 else { return };
-        let texel = if format == TextureFormat::R8Unorm { 1 } else { 4 };
-        let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(texel * size.x), rows_per_image: None };
+        let Some((texture, _)) = self.0.as_ref().filter(|_| !rows.is_empty()) else { return };
+        let bytes = if format == TextureFormat::R8Unorm { size.x } else { 4 * size.x };
+        let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(bytes), rows_per_image: None };
+        let mut part = texture.as_image_copy();
+        part.origin.y = rows.start;
         queue.write_texture(
-            texture.as_image_copy(),
-            &texels[..(texel * size.x * size.y) as usize],
+            part,
+            &texels[(bytes * rows.start) as usize..(bytes * rows.end) as usize],
             layout,
-            texture.size(),
+            Extent3d { width: size.x, height: rows.end - rows.start, depth_or_array_layers: 1 },
         );
     }
 }
@@ -234,7 +258,7 @@ fn hand_over(
     gpu.uniform.set(picture.uniform);
     gpu.uniform.write_buffer(device, queue);
 
-    gpu.make_stone(picture.size, picture.bake, device);
+    gpu.make_stone(picture, device);
     let size = |(columns, rows): (usize, usize)| UVec2::new(columns as u32, rows as u32);
     if gpu.noise.0.is_none() {
         let size = UVec2::splat(noise::EDGE as u32);
@@ -243,9 +267,11 @@ fn hand_over(
     let [air, depth, rock, body, glow, light] = &mut gpu.maps;
     let colours = TextureFormat::Rgba8Unorm;
     air.fill(&picture.air.0, picture.air.1, colours, device, queue);
-    if picture.rock_new || rock.0.is_none() {
+    if !picture.rock.rows.is_empty() || rock.0.is_none() {
         write_growing!(picture.tiles.rock, device, queue);
-        rock.fill(&picture.rock.0, picture.rock.1, colours, device, queue);
+        write_growing!(picture.tiles.changed, device, queue);
+        let RockMap { texels, size, rows, .. } = &picture.rock;
+        rock.fill_rows(texels, *size, rows.clone(), colours, device, queue);
     }
     let as_it_is = picture.as_it_is;
     let shown = |texels| if as_it_is { texels } else { &[][..] };

@@ -46,9 +46,9 @@ impl Moved {
             let (now, told) = (particles.position(i), particles.velocity(i) * self.span);
             let last = &mut self.last[(particles.id[i] - self.base) as usize];
             let way = now - *last;
-            let far = JUMP + 3.0 * told.length();
             // Not a number is not within any length.
-            self.ways.push(if way.length() <= far { way } else { told });
+            let is_way = way.length_squared() <= JUMP * JUMP || way.length() <= JUMP + 3.0 * told.length();
+            self.ways.push(if is_way { way } else { told });
             *last = now;
         }
     }

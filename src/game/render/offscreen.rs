@@ -198,6 +198,12 @@ impl Offscreen {
         self.app.world().resource::<RenderCost>().drawn()
     }
 
+    /// Processor time of the last frame, ms: to copy out of the world what it needs, and to hand that to the graphics.
+    pub fn processor_time(&self) -> (f64, f64) {
+        let (extract, upload) = self.app.world().resource::<RenderCost>().milliseconds();
+        (f64::from(extract), f64::from(upload))
+    }
+
     /// Draws the world as it stands; rows from the top.
     pub fn pixels(&mut self) -> Pixels {
         let target = RenderTarget::Image(self.image.clone().into());

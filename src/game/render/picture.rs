@@ -13,7 +13,7 @@ use crate::{
             matter::{Matter, Sample},
             moved::Moved,
             particles::{self, ColourTable, ParticleInstance},
-            rock,
+            rock::RockMap,
             scene::{Scene, Sight, Within},
             tiles::{PictureTiles, TILE},
             uniform::{WorldUniform, srgb, two},
@@ -27,7 +27,7 @@ use crate::{
     lab::{
         colours::{self, Reference, rock_colour},
         difference::Difference,
-        maps::{BurialMap, DepthMap},
+        maps::DepthMap,
     },
     sim::{generation::Generation, state::Setup},
 };
@@ -68,11 +68,9 @@ pub struct Picture {
     pub matter: Matter,
     /// Tiles with bodies of matter, with gases, with rock.
     pub tiles: PictureTiles,
-    /// Rock, a texel a cell, and its columns and rows.
-    pub rock: (Vec<u8>, UVec2),
-    /// Whether `rock` is new in this frame.
-    pub rock_new: bool,
-    /// Whether what is baked of the rock is another: it is itself, or where the camera looks.
+    /// Rock, a texel a cell.
+    pub rock: RockMap,
+    /// Whether all that is baked of the rock is another: it is itself, or where the camera looks.
     pub bake: bool,
     /// Streaks of wind.
     pub streaks: RawBufferVec<Streak>,
@@ -91,7 +89,6 @@ pub struct Picture {
     looks: Looks,
     moved: Moved,
     foam_of: Option<(Generation, u64)>,
-    burial: BurialMap,
     /// Where limiters act; of the last time that the view showed it.
     strain: StrainMap,
     /// What stands in the air; of the last time that the view showed what burns.
@@ -100,7 +97,6 @@ pub struct Picture {
     table_of: Option<(&'static View, Generation)>,
     /// What the particles are coloured by.
     shares: Vec<f32>,
-    rock_of: Option<(Generation, u64, f32)>,
 }
 
 impl Default for Picture {
@@ -116,8 +112,7 @@ impl Default for Picture {
             particles: RawBufferVec::new(BufferUsages::VERTEX),
             matter: Matter::default(),
             tiles: PictureTiles::default(),
-            rock: (Vec::new(), UVec2::ONE),
-            rock_new: false,
+            rock: RockMap::default(),
             bake: false,
             streaks: RawBufferVec::new(BufferUsages::VERTEX),
             streaks_on_top: false,
@@ -129,13 +124,11 @@ impl Default for Picture {
             looks: Looks::default(),
             moved: Moved::default(),
             foam_of: None,
-            burial: BurialMap::default(),
             strain: StrainMap::default(),
             exposure: Exposure::default(),
             table: ColourTable::default(),
             table_of: None,
             shares: Vec::new(),
-            rock_of: None,
         }
     }
 }
@@ -252,8 +245,6 @@ impl Picture {
 
     fn fill_rock(&mut self, scene: Scene<'_>, view: &View) {
         let (rock, elements) = (scene.rock, scene.setup.elements());
-        let out = &mut self.rock.0;
-        self.rock.1 = UVec2::new(rock.columns() as u32, rock.rows() as u32);
         if matches!(view.quantity, Quantity::Temperature | Quantity::Fire) {
             // It warms and cools without a change of its version.
             let burning = scene.burning(&self.exposure);
@@ -261,24 +252,18 @@ impl Picture {
                 Quantity::Fire => burning.of_rock(cell, element).share(),
                 _ => temperature_share(scene.curves.curve(element).temperature(rock.heat(cell))),
             };
-            let texel =
-                |cell, element, _, _| ((view.colour)(elements.get(element), share(cell, element)), Finish::Polished);
-            rock::pack(rock, &mut self.burial, texel, out);
-            (self.rock_new, self.rock_of) = (true, None);
+            let texel = |cell, element| ((view.colour)(elements.get(element), share(cell, element)), Finish::Polished);
+            self.rock.repaint(rock, texel);
         } else {
-            let rock_of = Some((scene.generation, rock.version(), scene.setup.blueprint.scale.spacing));
-            self.rock_new = self.rock_of != rock_of;
-            if self.rock_new {
-                let texel = |cell, element, id, burial| {
-                    let element = elements.get(element);
-                    (rock_colour(element, cell, id, burial), Finish::of(element))
-                };
-                rock::pack(rock, &mut self.burial, texel, out);
-                self.rock_of = rock_of;
-            }
+            let texel = |cell, element, id, burial| {
+                let element = elements.get(element);
+                (rock_colour(element, cell, id, burial), Finish::of(element))
+            };
+            self.rock.follow(rock, (scene.generation, scene.setup.blueprint.scale.spacing), texel);
         }
-        if self.rock_new {
-            self.tiles.mark_rock(scene.setup.blueprint.domain.size, rock);
+        if !self.rock.rows.is_empty() {
+            self.rock.tiles.list(self.tiles.rock.values_mut());
+            self.rock.changed.list(self.tiles.changed.values_mut());
         }
     }
 
@@ -360,6 +345,6 @@ impl Picture {
             (Features::RICH, self.level.is_rich()),
             (Features::MORE, !self.matter.more.is_empty()),
         ]);
-        self.bake = self.rock_new || seen != (self.size, self.uniform.to_clip);
+        self.bake = self.rock.is_new || seen != (self.size, self.uniform.to_clip);
     }
 }

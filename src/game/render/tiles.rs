@@ -1,8 +1,7 @@
 //! Which tiles of the box have something to be drawn, so that the shaders go over these pixels only.
 
-use crate::kernel::solids::Solids;
 use bevy::render::render_resource::{BufferUsages, RawBufferVec};
-use glam::{UVec2, Vec2};
+use glam::{IVec2, UVec2, Vec2};
 
 /// Edge of a tile, d.
 pub const TILE: f32 = 8.0;
@@ -11,7 +10,7 @@ pub const TILE: f32 = 8.0;
 pub type TileInstance = u32;
 
 /// Marks of the tiles of a box.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tiles {
     dimensions: UVec2,
     marked: Vec<bool>,
@@ -27,12 +26,23 @@ impl Tiles {
 
     /// Marks all that a disc reaches.
     pub fn mark(&mut self, at: Vec2, radius: f32) {
-        let most = (self.dimensions - 1).as_vec2();
-        let low = ((at - radius) / TILE).floor().clamp(Vec2::ZERO, most).as_uvec2();
-        let high = ((at + radius) / TILE).floor().clamp(Vec2::ZERO, most).as_uvec2();
+        // What is below 0 or no number becomes 0. Rounding down by `floor` would be a call.
+        let [low, high] = [at - radius, at + radius].map(|at| (at / TILE).as_uvec2().min(self.dimensions - 1));
         for y in low.y..=high.y {
             for x in low.x..=high.x {
                 self.marked[(y * self.dimensions.x + x) as usize] = true;
+            }
+        }
+    }
+
+    /// Marks those of a cell, and of the cells within `reach` of it.
+    pub fn mark_cell(&mut self, cell: IVec2, reach: i32) {
+        let most = self.dimensions.as_ivec2() - 1;
+        let low = ((cell - reach) / TILE as i32).clamp(IVec2::ZERO, most);
+        let high = ((cell + reach) / TILE as i32).clamp(IVec2::ZERO, most);
+        for y in low.y..=high.y {
+            for x in low.x..=high.x {
+                self.marked[(y * (most.x + 1) + x) as usize] = true;
             }
         }
     }
@@ -56,13 +66,15 @@ pub struct PictureTiles {
     pub gases: RawBufferVec<TileInstance>,
     /// Rock.
     pub rock: RawBufferVec<TileInstance>,
+    /// Rock that looks otherwise than in the frame before.
+    pub changed: RawBufferVec<TileInstance>,
     marks: Tiles,
 }
 
 impl Default for PictureTiles {
     fn default() -> Self {
         let buffer = || RawBufferVec::new(BufferUsages::VERTEX);
-        Self { bodies: buffer(), gases: buffer(), rock: buffer(), marks: Tiles::default() }
+        Self { bodies: buffer(), gases: buffer(), rock: buffer(), changed: buffer(), marks: Tiles::default() }
     }
 }
 
@@ -80,13 +92,6 @@ impl PictureTiles {
         };
         mark(bodies.0, bodies.1, of_bodies.values_mut());
         mark(&[gases.0], gases.1, of_gases.values_mut());
-    }
-
-    /// Marks where rock is, and a cell around it.
-    pub fn mark_rock(&mut self, size: Vec2, rock: &Solids) {
-        self.marks.clear(size);
-        rock.iter().for_each(|(cell, _, _)| self.marks.mark(cell.as_vec2() + 0.5, 1.0));
-        self.marks.list(self.rock.values_mut());
     }
 }
 
@@ -109,6 +114,22 @@ mod tests {
         assert_eq!(marked(Vec2::new(8.5, 4.0), 1.0), [0, 1]);
         assert_eq!(marked(Vec2::new(8.0, 8.0), 1.0), [0, 1, 1 << 16, 1 | 1 << 16]);
         assert_eq!(marked(Vec2::new(-5.0, 40.0), 1.0), [2 << 16], "what is outside belongs to the edge");
+    }
+
+    #[test]
+    fn a_cell_marks_the_tiles_of_those_around_it() {
+        let mut tiles = Tiles::default();
+        let mut marked = |cell: [i32; 2], reach: i32| {
+            tiles.clear(Vec2::new(30.0, 20.0));
+            tiles.mark_cell(IVec2::from(cell), reach);
+            let mut out = Vec::new();
+            tiles.list(&mut out);
+            out
+        };
+        assert_eq!(marked([4, 4], 2), [0]);
+        assert_eq!(marked([7, 1], 1), [0, 1]);
+        assert_eq!(marked([9, 9], 2), [0, 1, 1 << 16, 1 | 1 << 16]);
+        assert_eq!(marked([0, 19], 1), [2 << 16]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use crate::{
     game::render::{
-        body::BodyMap,
+        body::{BodyMap, CELL},
         glow::Warmth,
         look::Looks,
         matter::{LIQUIDS, Matter, Sample},
@@ -12,11 +12,11 @@ use crate::{
         element::{ElementId, ElementTable},
         heat::table::HeatTable,
         particles::Particles,
-        solids::Solids,
+        solids::{Solids, centre},
     },
     scene::elements,
 };
-use glam::Vec2;
+use glam::{IVec2, Vec2};
 use std::sync::Arc;
 
 /// Side of the box, d.
@@ -141,4 +141,47 @@ fn water_that_tumbles_foams_and_water_at_rest_does_not() {
     assert_eq!(foam(0.0), 0.0);
     assert!(foam(30.0) > 0.2, "{}", foam(30.0));
     assert!(foam(60.0) >= foam(30.0));
+}
+
+#[test]
+fn how_full_a_place_is_follows_from_what_is_around_it_and_from_nothing_before() {
+    let mut rig = Rig::new();
+    let mut body = BodyMap::default();
+    let side = SIDE as i32 / 2;
+    let worlds: [(&[&str], &[[i32; 2]]); 4] = [
+        (&["water", "sand", "steam", "mercury"], &[]),
+        (&["sand", "sand"], &[[0, 0], [1, 0], [39, 39], [8, 19], [8, 20]]),
+        (&["steam", "water", "water"], &[[8, 19]]),
+        (&[], &[]),
+    ];
+    for (names, cells) in worlds {
+        for (x, y) in (0..SIDE as i32).flat_map(|x| (0..SIDE as i32).map(move |y| (x, y))) {
+            let cell = IVec2::new(x, y);
+            if cells.contains(&[x, y]) {
+                rig.rock.insert(cell, rig.find("stone"), 0);
+            } else {
+                rig.rock.remove(cell);
+            }
+        }
+        let particles = rig.row(names);
+        body.measure(Vec2::splat(SIDE), 0.1, (&particles, &rig.rock), &rig.looks, Some(0));
+        let mut fresh = BodyMap::default();
+        fresh.measure(Vec2::splat(SIDE), 0.1, (&particles, &rig.rock), &rig.looks, None);
+        assert_eq!(body.texels(), fresh.texels());
+
+        let full = |x: i32, y: i32| {
+            let home = IVec2::new(x, y).clamp(IVec2::ZERO, IVec2::splat(side - 1));
+            let is_gas = |i: usize| rig.looks.of(particles.element[i]).is_gas();
+            let moves = (0..particles.len()).filter(|i| !is_gas(*i)).map(|i| particles.position(i));
+            let stands = rig.rock.iter().map(|(cell, ..)| centre(cell));
+            let matter = moves.chain(stands).filter(|at| (*at / CELL).as_ivec2() == home).count();
+            (matter as f32 / (CELL * CELL)).min(1.25)
+        };
+        for (x, y) in (0..side).flat_map(|x| (0..side).map(move |y| (x, y))) {
+            let weights = [(-1, 1.0), (0, 2.0), (1, 1.0)];
+            let parts = weights.iter().flat_map(|(dy, a)| weights.map(|(dx, b)| a * b * full(x + dx, y + dy)));
+            let share = (parts.sum::<f32>() / 16.0).min(1.0);
+            assert_eq!(body.texels()[(4 * (y * side + x) + 3) as usize], (255.0 * share) as u8, "{x} {y}");
+        }
+    }
 }

@@ -14,7 +14,7 @@ use crate::{
         },
         views::table::{ELEMENTS, TEMPERATURE, View},
     },
-    kernel::particles::Particles,
+    kernel::{element::ElementId, particles::Particles},
     lab::{
         colours::Rgb,
         split::Split,
@@ -23,14 +23,14 @@ use crate::{
     scene::{self, effects::EffectModes},
     sim::{
         checkpoint::Checkpoint,
-        state::{ParticleStore, Setup},
+        state::{ParticleStore, Rock, Setup},
     },
 };
 use bevy::{
     prelude::{IntoScheduleConfigs, Res, ResMut, Resource},
     render::{Render, RenderSystems},
 };
-use glam::{UVec2, Vec2};
+use glam::{IVec2, UVec2, Vec2};
 use std::sync::Arc;
 
 /// 10 pixels to a d in a box of 64 × 40 d, which the window has some room around.
@@ -92,6 +92,7 @@ fn the_picture_shows_what_is_there() {
     what_is_not_there_is_not_drawn(&mut seen);
     plain_and_full_have_the_same_silhouettes(&mut seen);
     rock_is_where_it_is(&mut seen);
+    rock_that_changes_is_baked_where_it_changed(&mut seen);
     the_lens_shows_the_second_world_inside_its_ring_and_nowhere_else(&mut seen);
     what_a_picture_lacks_is_left_out_without_a_trace(&mut seen);
 }
@@ -219,6 +220,26 @@ fn rock_is_where_it_is(seen: &mut Seen) {
             assert_eq!(is_rock(x, y), there, "{view:?}: at {x}, {y}");
         }
     }
+}
+
+fn rock_that_changes_is_baked_where_it_changed(seen: &mut Seen) {
+    seen.show(r#"(element: "rock", shape: Rect(min: (1, 1), max: (5, 3)))"#);
+    let all = seen.drawn(PicturePass::Rock);
+    let mut rock = seen.picture.world_mut().resource_mut::<Rock>();
+    assert!(rock.remove(IVec2::new(20, 29)) && rock.remove(IVec2::new(49, 10)));
+    assert!(rock.insert(IVec2::new(45, 32), ElementId(0), 1));
+    seen.picture.frame();
+    let some = seen.drawn(PicturePass::Bake);
+    assert!(0 < some && some < all, "{some} of {all} tiles are baked");
+    let changed = seen.picture.pixels();
+    assert_eq!(seen.drawn(PicturePass::Bake), 0, "nothing changed since");
+    // A view with colours of its own lets all of it be baked.
+    seen.picture.show(&TEMPERATURE, Level::Full);
+    seen.picture.frame();
+    seen.picture.show(&ELEMENTS, Level::Full);
+    seen.picture.frame();
+    assert!(seen.drawn(PicturePass::Bake) >= all);
+    assert!(seen.picture.pixels() == changed);
 }
 
 fn the_lens_shows_the_second_world_inside_its_ring_and_nowhere_else(seen: &mut Seen) {
