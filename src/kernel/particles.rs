@@ -88,10 +88,22 @@ macro_rules! columns {
 
         /// Movable particles. All arrays have one entry per particle, in the same order, or none if they are sparse; the order
         /// changes with every sort.
-        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+        #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
         pub struct Particles {
             $($(#[$doc])* pub $name: Vec<$type>,)*
             $($(#[$few_doc])* pub(crate) $few: Vec<$few_type>,)*
+        }
+
+        impl Clone for Particles {
+            fn clone(&self) -> Self {
+                Self { $($name: self.$name.clone(),)* $($few: self.$few.clone(),)* }
+            }
+
+            /// Without new memory where the old is enough; a derived one would ask for it.
+            fn clone_from(&mut self, other: &Self) {
+                $(self.$name.clone_from(&other.$name);)*
+                $(self.$few.clone_from(&other.$few);)*
+            }
         }
 
         impl Particles {

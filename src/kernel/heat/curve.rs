@@ -132,6 +132,20 @@ impl HeatCurve {
         })
     }
 
+    /// Least heat with which it is as warm as this (K) or warmer, quanta; the most that there is if it never is.
+    pub fn heat_reaching(&self, temperature: f32) -> i32 {
+        let (mut colder, mut warmer) = (i32::MIN, i32::MAX);
+        while warmer.abs_diff(colder) > 1 {
+            let middle = colder.midpoint(warmer);
+            if self.temperature(middle) >= temperature {
+                warmer = middle;
+            } else {
+                colder = middle;
+            }
+        }
+        warmer
+    }
+
     /// Heat at a temperature (K) with no change begun, quanta.
     pub fn heat(&self, temperature: f32) -> i32 {
         let more = f64::from(temperature - ROOM) * f64::from(self.capacity) / f64::from(QUANTUM);
@@ -243,6 +257,18 @@ mod tests {
             assert!(now >= before, "{before} K, then {now} K at {heat}");
             before = now;
         }
+    }
+
+    #[test]
+    fn the_heat_that_reaches_a_temperature_is_the_least_that_does() {
+        let curve = water();
+        for kelvin in [-1e30, 10.0, 263.0, 273.0, 293.0, 373.0, 780.0, 3000.0] {
+            let heat = curve.heat_reaching(kelvin);
+            assert!(curve.temperature(heat) >= kelvin, "{heat} quanta do not reach {kelvin} K");
+            let less = heat.saturating_sub(1);
+            assert!(curve.temperature(less) < kelvin || less < -i32::MAX, "{less} quanta reach {kelvin} K, too");
+        }
+        assert_eq!(curve.heat_reaching(f32::INFINITY), i32::MAX);
     }
 
     #[test]
