@@ -30,7 +30,7 @@ pub const DEPTH_SHADE: f32 = 0.75;
 const WIND: Rgb = [72, 208, 190];
 
 /// Below this nothing glows, K: the Draper point is 798 K.
-const DULL: f32 = 780.0;
+pub const DULL: f32 = 780.0;
 /// Colours of glowing matter by its temperature (K), after the locus of black bodies; brightness is compressed for the screen.
 const GLOW: [(f32, [f32; 3]); 7] = [
     (DULL, [0.0, 0.0, 0.0]),

@@ -1,6 +1,6 @@
 //! What the colours need to know of a place's surroundings: how deep the liquid is there, how deep inside rock it lies.
 
-use crate::kernel::{particles::Particles, solids::Solids};
+use crate::kernel::solids::Solids;
 use glam::{IVec2, Vec2};
 
 /// Depth at which half of the shading is reached, d.
@@ -25,18 +25,18 @@ pub struct DepthMap {
 }
 
 impl DepthMap {
-    /// Measures a world; reuses the memory of the last one.
-    pub fn measure(&mut self, size: Vec2, particles: &Particles) {
+    /// Measures matter in a box of `size` d: places, each with how many particles are there. Reuses the memory of the last time.
+    pub fn measure(&mut self, size: Vec2, matter: impl Iterator<Item = (Vec2, u32)>) {
         self.columns = ((size.x / DEPTH_CELL).ceil() as usize).max(1);
         self.rows = ((size.y / DEPTH_CELL).ceil() as usize).max(1);
         let cells = self.columns * self.rows;
         self.count.clear();
         self.count.resize(cells, 0);
         self.share.resize(cells, 0);
-        for (&x, &y) in particles.x.iter().zip(&particles.y) {
-            let column = ((x / DEPTH_CELL) as u32 as usize).min(self.columns - 1);
-            let row = ((y / DEPTH_CELL) as u32 as usize).min(self.rows - 1);
-            self.count[row * self.columns + column] += 1;
+        for (at, particles) in matter {
+            let column = ((at.x / DEPTH_CELL) as u32 as usize).min(self.columns - 1);
+            let row = ((at.y / DEPTH_CELL) as u32 as usize).min(self.rows - 1);
+            self.count[row * self.columns + column] += particles;
         }
         self.above.clear();
         self.above.resize(self.columns, 0.0);
@@ -203,15 +203,9 @@ mod tests {
 
     #[test]
     fn depth_grows_downwards_and_is_zero_in_empty_air() {
-        let mut particles = Particles::default();
-        for row in 0..40 {
-            for column in 0..40 {
-                let at = Vec2::new(column as f32 + 0.5, row as f32 + 0.5);
-                particles.push(row * 40 + column, ElementId(0), at, Vec2::ZERO);
-            }
-        }
+        let particles = (0..40).flat_map(|row| (0..40).map(move |column| Vec2::new(column as f32, row as f32) + 0.5));
         let mut map = DepthMap::default();
-        map.measure(Vec2::new(40.0, 80.0), &particles);
+        map.measure(Vec2::new(40.0, 80.0), particles.map(|at| (at, 1)));
         let (deep, shallow, air) =
             (map.at(Vec2::new(20.0, 2.0)), map.at(Vec2::new(20.0, 36.0)), map.at(Vec2::new(20.0, 70.0)));
         assert!(deep > shallow + 0.3 && shallow > air, "{deep} {shallow} {air}");

@@ -151,7 +151,7 @@ impl Canvas {
         let particles = world.resource::<ParticleStore>();
         let reference = Reference::of(&setup.blueprint.domain, &setup.blueprint.air);
         let mut depths = DepthMap::default();
-        depths.measure(setup.blueprint.domain.size, particles);
+        depths.measure(setup.blueprint.domain.size, (0..particles.len()).map(|i| (particles.position(i), 1)));
         for i in 0..particles.len() {
             let p = particles.position(i);
             let speed = particles.velocity(i).length() / reference.fall;

@@ -37,17 +37,17 @@ pub(in crate::cli) fn frame(quick: bool, json: Option<&Path>) -> Result<(), Fail
         };
         let levels = costs.iter().flat_map(|cost| cost.levels.iter().map(move |own| level(&name(cost), own)));
         let running = costs.iter().map(|cost| {
-            let SceneCost { particles, rock, extract, upload, .. } = cost;
-            format!("{} | {particles} | {rock} | {extract:.2} | {upload:.2}", name(cost))
+            let SceneCost { particles, rock, extract, pack, upload, .. } = cost;
+            format!("{} | {particles} | {rock} | {extract:.2} | {pack:.2} | {upload:.2}", name(cost))
         });
         let [width, height] = SIZE.to_array();
         format!(
             "{width} × {height} pixels, {adapter}, {}; medians of frames while the world stands.\n\n{}\n\
-             Processor time at `full` for what a frame needs of a world that runs, to copy it out and to hand it over; medians of \
-             frames with a tick each.\n\n{}",
+             Processor time at `full` for what a frame needs of a world that runs: to copy it out, for which the world waits, to \
+             pack it, and to hand it to the graphics; medians of frames with a tick each.\n\n{}",
             processor(),
             markdown::rows("scene | level | >frame, ms | passes: ms (instances)", levels),
-            markdown::rows("scene | >particles | >rock | >extraction, ms | >upload, ms", running),
+            markdown::rows("scene | >particles | >rock | >extraction, ms | >packing, ms | >upload, ms", running),
         )
     })
 }

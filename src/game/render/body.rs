@@ -5,7 +5,7 @@ use crate::{
     game::render::look::Looks,
     kernel::{particles::Particles, solids::Solids, units::TICK_SECONDS},
 };
-use glam::{IVec2, Vec2};
+use glam::{UVec2, Vec2};
 
 /// Edge of a cell, d.
 pub const CELL: f32 = 2.0;
@@ -21,19 +21,12 @@ const TUMBLE: (f32, f32) = (0.25, 1.3);
 /// Speeds from which it has the energy for that (their potential of kinetic energy), m/s.
 const FAST: (f32, f32) = (0.8, 3.5);
 
-/// What is found in a cell of what moves; of a gas nothing.
-#[derive(Clone, Copy, Debug, Default)]
-struct Found {
-    /// Matter of all kinds, particles.
-    matter: f32,
-    /// Liquid that foams, particles; its velocity, d/s, and the square of it.
-    liquid: f32,
-    velocity: Vec2,
-    square: f32,
-    /// Powders, particles, and the sum of their colours.
-    powder: f32,
-    colour: [f32; 3],
-}
+/// Mark of a cell that matter fills little of.
+const SPARSE: u8 = 1;
+/// Mark of a cell with foam in it or beside it.
+const FOAMY: u8 = 2;
+/// Less foam than this is none: it would not be seen.
+const LEAST_FOAM: f32 = 0.001;
 
 /// The grid.
 #[derive(Clone, Debug, Default)]
@@ -43,52 +36,56 @@ pub struct BodyMap {
     /// Rock of each cell, particles, and the shape that it was counted of.
     rock: Vec<u8>,
     rock_of: Option<u64>,
-    found: Vec<Found>,
-    /// Cells in which something was found.
+    /// What moves in each cell and is no gas, particles.
+    moving: Vec<f32>,
+    /// Of that the liquid that foams: particles, the sum of their velocities, d/s, and of the squares of those.
+    liquid: Vec<[f32; 4]>,
+    /// And the powders: particles, and the sum of their colours.
+    powder: Vec<[f32; 4]>,
+    /// Cells in which something moves.
     occupied: Vec<u32>,
     /// How full each cell is by itself, weighed with those beside it, and with those below and above, too.
     own: Vec<f32>,
     across: Vec<f32>,
     fill: Vec<f32>,
     foam: Vec<f32>,
-    /// Whether there is any.
-    foams: bool,
-    moved: Vec<f32>,
+    foam_after: Vec<f32>,
+    /// What is to be looked at more closely in each cell, as [`SPARSE`] and [`FOAMY`].
+    marks: Vec<u8>,
     texels: Vec<u8>,
 }
 
 impl BodyMap {
-    /// Measures movable particles and rock in a box of `size` d, and lets the foam go on by `ticks`; without, the world is another, and
-    /// there is none yet. `metres`: those of a d.
-    pub fn measure(
-        &mut self,
-        size: Vec2,
-        metres: f32,
-        (particles, rock): (&Particles, &Solids),
-        looks: &Looks,
-        ticks: Option<u64>,
-    ) {
-        self.columns = ((size.x / CELL).ceil() as usize).max(1);
-        self.rows = ((size.y / CELL).ceil() as usize).max(1);
-        let cells = self.columns * self.rows;
-        if ticks.is_none() || self.foam.len() != cells {
-            self.foam.clear();
-            self.foam.resize(cells, 0.0);
-            self.foams = false;
-            self.found.clear();
-            self.found.resize(cells, Found::default());
-            self.occupied.clear();
-            self.rock_of = None;
+    /// Begins with the rock of a world in a box of `size` d: another world than before if it `is_new`.
+    pub fn follow_rock(&mut self, size: Vec2, rock: &Solids, is_new: bool) {
+        let (columns, rows) = (((size.x / CELL).ceil() as usize).max(1), ((size.y / CELL).ceil() as usize).max(1));
+        if is_new || (columns, rows) != (self.columns, self.rows) {
+            let cells = columns * rows;
+            *self = Self {
+                columns,
+                rows,
+                moving: vec![0.0; cells],
+                liquid: vec![[0.0; 4]; cells],
+                powder: vec![[0.0; 4]; cells],
+                foam: vec![0.0; cells],
+                marks: vec![0; cells],
+                ..Self::default()
+            };
         }
         if self.rock_of != Some(rock.shape()) {
             self.count_rock(rock);
             self.rock_of = Some(rock.shape());
         }
+    }
+
+    /// Measures movable particles beside the rock, and lets the foam go on by `ticks`. `metres`: those of a d.
+    pub fn measure(&mut self, metres: f32, particles: &Particles, looks: &Looks, ticks: u64) {
         self.count(particles, looks);
         self.fill();
-        if let Some(ticks) = ticks.filter(|ticks| *ticks > 0) {
+        if ticks > 0 {
             self.spread_foam((ticks.min(8) as f32) * TICK_SECONDS, metres);
         }
+        self.mark();
         self.pack();
     }
 
@@ -102,31 +99,27 @@ impl BodyMap {
     }
 
     fn count(&mut self, particles: &Particles, looks: &Looks) {
-        for k in self.occupied.drain(..) {
-            self.found[k as usize] = Found::default();
+        for k in self.occupied.drain(..).map(|k| k as usize) {
+            (self.moving[k], self.liquid[k], self.powder[k]) = (0.0, [0.0; 4], [0.0; 4]);
         }
-        for i in 0..particles.len() {
-            let look = looks.of(particles.element[i]);
+        let Particles { element, x, y, vx, vy, .. } = particles;
+        for ((element, (x, y)), (vx, vy)) in element.iter().zip(x.iter().zip(y)).zip(vx.iter().zip(vy)) {
+            let look = looks.of(*element);
             if look.is_gas() {
                 continue;
             }
-            let cell = self.cell_of(particles.position(i));
-            let found = &mut self.found[cell];
-            if found.matter == 0.0 {
+            let cell = self.cell_of(Vec2::new(*x, *y));
+            let moving = &mut self.moving[cell];
+            if *moving == 0.0 {
                 self.occupied.push(cell as u32);
             }
-            found.matter += 1.0;
+            *moving += 1.0;
             if look.foams {
-                let velocity = particles.velocity(i);
-                found.liquid += 1.0;
-                found.velocity += velocity;
-                found.square += velocity.length_squared();
+                add(&mut self.liquid[cell], [1.0, *vx, *vy, vx * vx + vy * vy]);
             }
             if look.is_powder() {
-                found.powder += 1.0;
-                for (sum, channel) in found.colour.iter_mut().zip(look.colour) {
-                    *sum += f32::from(channel);
-                }
+                let [r, g, b] = look.colour.map(f32::from);
+                add(&mut self.powder[cell], [1.0, r, g, b]);
             }
         }
     }
@@ -138,7 +131,7 @@ impl BodyMap {
         own.clear();
         own.extend(rock.iter().map(|rock| share(f32::from(*rock))));
         for k in self.occupied.iter().map(|k| *k as usize) {
-            own[k] = share(f32::from(rock[k]) + self.found[k].matter);
+            own[k] = share(f32::from(rock[k]) + self.moving[k]);
         }
         across.resize(own.len(), 0.0);
         for (own, across) in own.chunks_exact(self.columns).zip(across.chunks_exact_mut(self.columns)) {
@@ -161,39 +154,49 @@ impl BodyMap {
 
     /// Foam is carried with the liquid (backwards along its mean velocity), made where it tumbles, and fades.
     fn spread_foam(&mut self, seconds: f32, metres: f32) {
-        self.moved.clear();
-        self.moved.resize(self.found.len(), 0.0);
-        let mut foams = false;
+        let kept = 1.0 / (1.0 + seconds / FOAM_LIFE);
+        self.foam_after.clear();
+        self.foam_after.resize(self.foam.len(), 0.0);
         for k in self.occupied.iter().map(|k| *k as usize) {
-            let Found { liquid, velocity, square, .. } = self.found[k];
+            let [liquid, vx, vy, square] = self.liquid[k];
             if liquid == 0.0 {
                 continue;
             }
-            let mean = velocity / liquid;
-            let tumble = (square / liquid - mean.length_squared()).max(0.0).sqrt() * metres;
-            let speed = (square / liquid).sqrt() * metres;
-            let centre = Vec2::new((k % self.columns) as f32 + 0.5, (k / self.columns) as f32 + 0.5) * CELL;
-            let carried = self.foam_at(centre - mean * seconds) / (1.0 + seconds / FOAM_LIFE);
+            let (mean, square) = (Vec2::new(vx, vy) / liquid, square / liquid);
+            let tumble = (square - mean.length_squared()).max(0.0).sqrt() * metres;
+            let speed = square.sqrt() * metres;
+            let carried = self.foam_at(self.centre(k) - mean * seconds) * kept;
             // What flies by itself is spray: white as it is, with nothing to tumble in.
             let spray = if liquid < 0.6 * FULL && self.fill[k] < 0.5 { 0.5 } else { 0.0 };
             let made = (ramp(TUMBLE, tumble).max(spray)) * ramp(FAST, speed) * FOAM_RATE * seconds;
-            self.moved[k] = carried + (1.0 - carried) * made.min(1.0);
-            foams |= self.moved[k] > 0.0;
+            let foam = carried + (1.0 - carried) * made.min(1.0);
+            self.foam_after[k] = if foam < LEAST_FOAM { 0.0 } else { foam };
         }
-        std::mem::swap(&mut self.foam, &mut self.moved);
-        self.foams = foams;
+        std::mem::swap(&mut self.foam, &mut self.foam_after);
+    }
+
+    /// Marks the cells that are to be looked at more closely.
+    fn mark(&mut self) {
+        for (mark, fill) in self.marks.iter_mut().zip(&self.fill) {
+            *mark = if *fill < 0.3 { SPARSE } else { 0 };
+        }
+        for k in self.occupied.iter().map(|k| *k as usize).filter(|k| self.foam[*k] > 0.0) {
+            around(k, self.columns, self.rows).for_each(|k| self.marks[k] |= FOAMY);
+        }
     }
 
     fn pack(&mut self) {
-        self.texels.clear();
-        self.texels.extend(self.fill.iter().flat_map(|fill| [0, 0, 0, (255.0 * fill.min(1.0)) as u8]));
+        self.texels.resize(4 * self.fill.len(), 0);
+        for (texel, fill) in self.texels.chunks_exact_mut(4).zip(&self.fill) {
+            texel.copy_from_slice(&[0, 0, 0, (255.0 * fill.min(1.0)) as u8]);
+        }
         for k in self.occupied.iter().map(|k| *k as usize) {
-            let found = &self.found[k];
-            if found.powder == 0.0 {
+            let [powder, colour @ ..] = self.powder[k];
+            if powder == 0.0 {
                 continue;
             }
-            self.texels[4 * k..][..3].copy_from_slice(&found.colour.map(|sum| (sum / found.powder) as u8));
-            for beside in around(k, self.columns, self.rows).filter(|k| self.found[*k].powder == 0.0) {
+            self.texels[4 * k..][..3].copy_from_slice(&colour.map(|sum| (sum / powder) as u8));
+            for beside in around(k, self.columns, self.rows).filter(|k| self.powder[*k][0] == 0.0) {
                 let colour = self.beside(beside).map(|channel| channel as u8);
                 self.texels[4 * beside..][..3].copy_from_slice(&colour);
             }
@@ -202,14 +205,24 @@ impl BodyMap {
 
     /// Mean colour of the powders in the cells beside one, so that the picture doesn't fade at the edge of a heap.
     fn beside(&self, k: usize) -> [f32; 3] {
-        let (mut sum, mut parts) = ([0.0; 3], 0.0);
-        for found in around(k, self.columns, self.rows).map(|k| &self.found[k]) {
-            parts += found.powder;
-            for (sum, channel) in sum.iter_mut().zip(found.colour) {
-                *sum += channel;
-            }
-        }
-        if parts > 0.0 { sum.map(|channel| channel / parts) } else { [0.0; 3] }
+        let mut sums = [0.0; 4];
+        around(k, self.columns, self.rows).for_each(|k| add(&mut sums, self.powder[k]));
+        let [powder, colour @ ..] = sums;
+        colour.map(|sum| sum / powder.max(1.0))
+    }
+
+    /// Matter of all kinds that moves and is no gas: places, and how many particles are there.
+    pub fn matter(&self) -> impl Iterator<Item = (Vec2, u32)> {
+        self.occupied.iter().map(|k| (self.centre(*k as usize), self.moving[*k as usize] as u32))
+    }
+
+    /// Matter in a cell that is no gas, particles.
+    pub fn held(&self, k: usize) -> f32 {
+        f32::from(self.rock[k]) + self.moving[k]
+    }
+
+    fn centre(&self, k: usize) -> Vec2 {
+        (Vec2::new((k % self.columns) as f32, (k / self.columns) as f32) + 0.5) * CELL
     }
 
     fn cell_of(&self, at: Vec2) -> usize {
@@ -220,25 +233,28 @@ impl BodyMap {
 
     /// Share of foam at a point, smooth between the cells.
     pub fn foam_at(&self, at: Vec2) -> f32 {
-        if !self.foams {
+        if self.marks[self.cell_of(at)] & FOAMY == 0 {
             return 0.0;
         }
-        let most = IVec2::new(self.columns as i32 - 1, self.rows as i32 - 1);
-        let p = at / CELL - 0.5;
-        let low = Solids::cell_of(p);
-        let t = p - low.as_vec2();
-        let value = |dx: i32, dy: i32| {
-            let cell = (low + IVec2::new(dx, dy)).clamp(IVec2::ZERO, most);
-            self.foam[cell.y as usize * self.columns + cell.x as usize]
+        let most = UVec2::new(self.columns as u32 - 1, self.rows as u32 - 1);
+        let p = (at / CELL - 0.5).clamp(Vec2::ZERO, most.as_vec2());
+        let low = p.as_uvec2();
+        let (t, high) = (p - low.as_vec2(), (low + 1).min(most));
+        let row = |y: u32| {
+            let cells = &self.foam[y as usize * self.columns..][..self.columns];
+            cells[low.x as usize] * (1.0 - t.x) + cells[high.x as usize] * t.x
         };
-        let bottom = value(0, 0) * (1.0 - t.x) + value(1, 0) * t.x;
-        let top = value(0, 1) * (1.0 - t.x) + value(1, 1) * t.x;
-        bottom * (1.0 - t.y) + top * t.y
+        row(low.y) * (1.0 - t.y) + row(high.y) * t.y
     }
 
     /// Whether a point lies in matter that fills little of its surroundings.
     pub fn is_sparse(&self, at: Vec2) -> bool {
-        self.fill[self.cell_of(at)] < 0.3
+        self.marks[self.cell_of(at)] & SPARSE != 0
+    }
+
+    /// Whether there is no foam at a point, and much matter.
+    pub fn is_plain(&self, at: Vec2) -> bool {
+        self.marks[self.cell_of(at)] == 0
     }
 
     /// Columns and rows.
@@ -262,6 +278,12 @@ fn around(k: usize, columns: usize, rows: usize) -> impl Iterator<Item = usize> 
     let near = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
     let (x, y) = (k % columns, k / columns);
     near(y, rows).flat_map(move |y| near(x, columns).map(move |x| y * columns + x))
+}
+
+fn add(sums: &mut [f32; 4], numbers: [f32; 4]) {
+    for (sum, number) in sums.iter_mut().zip(numbers) {
+        *sum += number;
+    }
 }
 
 /// From 0 at the first of `bounds` to 1 at the second.

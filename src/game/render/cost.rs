@@ -92,6 +92,7 @@ impl Repeat {
 #[derive(Resource, Clone, Default)]
 pub struct RenderCost {
     pub(super) extract: Arc<AtomicU32>,
+    pub(super) pack: Arc<AtomicU32>,
     pub(super) upload: Arc<AtomicU32>,
     /// Instances that each pass drew; 0 if it was not called.
     drawn: Arc<[AtomicU32; PicturePass::ALL.len()]>,
@@ -99,10 +100,9 @@ pub struct RenderCost {
 }
 
 impl RenderCost {
-    /// Time for copying the world out and for handing it to the graphics, ms.
-    pub fn milliseconds(&self) -> (f32, f32) {
-        let ms = |micros: &AtomicU32| micros.load(Ordering::Relaxed) as f32 / 1000.0;
-        (ms(&self.extract), ms(&self.upload))
+    /// Time for copying the world out, for packing what was copied and for handing that to the graphics, ms.
+    pub fn milliseconds(&self) -> [f32; 3] {
+        [&self.extract, &self.pack, &self.upload].map(|micros| micros.load(Ordering::Relaxed) as f32 / 1000.0)
     }
 
     /// What each pass drew in the last frame.

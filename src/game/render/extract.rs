@@ -1,4 +1,4 @@
-//! Copies out of the world what a frame needs, once a frame.
+//! Copies out of the world what a frame needs, once a frame, and packs it.
 
 use crate::{
     game::{
@@ -52,6 +52,13 @@ impl Pictures {
     pub fn shown_mut(&mut self) -> &mut [Picture] {
         &mut self.panes[..self.count]
     }
+}
+
+/// Makes of what was copied what the graphics read, while the worlds may go on.
+pub fn pack(mut pictures: ResMut<Pictures>, cost: Res<RenderCost>) {
+    let begin = Instant::now();
+    pictures.shown_mut().iter_mut().for_each(Picture::pack);
+    RenderCost::note_time(&cost.pack, begin.elapsed());
 }
 
 /// Copies the worlds out.

@@ -15,7 +15,7 @@ use crate::{
 };
 use glam::UVec2;
 use serde::Serialize;
-use std::sync::Arc;
+use std::{array, sync::Arc};
 
 /// Size of the pictures, pixels: that of the game's window at its start.
 pub const SIZE: UVec2 = UVec2::new(1280, 800);
@@ -49,6 +49,8 @@ pub struct SceneCost {
     pub rock: usize,
     /// Median processor time to copy out of the world what a frame needs, in frames with a tick each, ms.
     pub extract: f64,
+    /// Likewise to pack that as the graphics read it, while the world may go on.
+    pub pack: f64,
     /// Likewise to hand it to the graphics.
     pub upload: f64,
     /// At each level, the most first.
@@ -77,17 +79,17 @@ pub fn measure(
     Ok(Offscreen::new(&checkpoint, SIZE).map(|mut picture| {
         picture.show(&ELEMENTS, Level::Full);
         picture.run(ticks.saturating_sub(frames as u64));
-        let (extract, upload) = (0..frames)
+        let times: Vec<[f64; 3]> = (0..frames)
             .map(|_| {
                 picture.tick();
                 picture.processor_time()
             })
-            .unzip();
+            .collect();
         let [particles, rock] =
             [picture.world().resource::<ParticleStore>().len(), picture.world().resource::<Rock>().count()];
         let levels = Level::ALL.into_iter().rev().map(|level| at_level(&mut picture, level, frames)).collect();
-        let [extract, upload] = [extract, upload].map(middle);
-        (picture.adapter(), SceneCost { scene, detail, particles, rock, extract, upload, levels })
+        let [extract, pack, upload] = array::from_fn(|part| middle(times.iter().map(|times| times[part]).collect()));
+        (picture.adapter(), SceneCost { scene, detail, particles, rock, extract, pack, upload, levels })
     }))
 }
 

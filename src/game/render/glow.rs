@@ -2,11 +2,15 @@
 //! shaders.
 
 use crate::{
-    game::render::body::CELL,
+    game::render::{
+        body::CELL,
+        look::{Look, Looks},
+    },
     kernel::{element::ElementId, heat::table::HeatTable, particles::Particles, solids::Solids},
     lab::colours::incandescence,
 };
-use glam::Vec2;
+use glam::{IVec2, Vec2};
+use std::ops::Range;
 
 /// Particles that a full cell holds.
 const FULL: f32 = CELL * CELL;
@@ -24,26 +28,46 @@ const GAIN: f32 = 5.0;
 pub struct Warmth<'a> {
     /// Movable particles.
     pub particles: &'a Particles,
-    /// Rock.
-    pub rock: &'a Solids,
+    /// Rock that glows.
+    pub rock: &'a [GlowingRock],
     /// Temperature by heat.
     pub curves: &'a HeatTable,
+    /// Looks of the elements.
+    pub looks: &'a Looks,
 }
 
 impl Warmth<'_> {
     /// Whether anything could be warmer than the room.
     pub fn is_there(&self) -> bool {
-        self.particles.has_heat() || !self.rock.heats().is_empty()
+        self.particles.has_heat() || !self.rock.is_empty()
     }
 
-    /// Colour that a particle glows in.
-    pub fn glow(&self, i: usize) -> [f32; 3] {
-        self.of(self.particles.element[i], self.particles.heat_of(i))
+    /// Colour that a particle of a look glows in.
+    pub fn glow(&self, i: usize, look: Look) -> [f32; 3] {
+        glow(self.particles.element[i], look, self.particles.heat_of(i), self.curves)
     }
+}
 
-    fn of(&self, element: ElementId, heat: i32) -> [f32; 3] {
-        incandescence(self.curves.curve(element).temperature(heat))
+/// Colour that matter of a look glows in.
+fn glow(element: ElementId, look: Look, heat: i32, curves: &HeatTable) -> [f32; 3] {
+    if heat < look.glows_from { [0.0; 3] } else { incandescence(curves.curve(element).temperature(heat)) }
+}
+
+/// A cell of rock that glows, and in which colour.
+pub type GlowingRock = (IVec2, [f32; 3]);
+
+/// Finds the rock that glows.
+pub fn find_glowing(rock: &Solids, curves: &HeatTable, looks: &Looks, out: &mut Vec<GlowingRock>) {
+    out.clear();
+    if rock.heats().is_empty() {
+        return;
     }
+    rock.iter().for_each(|(cell, element, _)| {
+        let glow = glow(element, looks.of(element), rock.heat(cell), curves);
+        if glow[0] > 0.0 {
+            out.push((cell, glow));
+        }
+    });
 }
 
 /// The two grids.
@@ -51,83 +75,137 @@ impl Warmth<'_> {
 pub struct GlowMap {
     columns: usize,
     rows: usize,
-    /// Sum of glow, and particles that are no gas, by cell.
-    glow: Vec<[f32; 4]>,
-    light: Vec<[f32; 3]>,
+    /// Sum of glow of what is no gas, by cell, and the cells where there is any.
+    glow: Vec<[f32; 3]>,
+    glowing: Vec<u32>,
+    /// Sum of light by cell, and those that it reaches.
+    sources: Vec<[f32; 3]>,
+    lit: Region,
+    /// Light of those that it reaches.
+    light: Vec<f32>,
     sums: Vec<f32>,
     glow_texels: Vec<u8>,
     light_texels: Vec<u8>,
     shines: bool,
 }
 
+/// Columns and rows of a grid.
+#[derive(Clone, Debug, Default)]
+struct Region {
+    columns: Range<usize>,
+    rows: Range<usize>,
+}
+
+impl Region {
+    /// Takes a cell and those within `reach` of it in, as far as the grid goes.
+    fn include(&mut self, (x, y): (usize, usize), reach: usize, (columns, rows): (usize, usize)) {
+        let extend = |range: &mut Range<usize>, at: usize, all: usize| {
+            let (from, to) = (at.saturating_sub(reach), (at + reach + 1).min(all));
+            *range = if range.start >= range.end { from..to } else { range.start.min(from)..range.end.max(to) };
+        };
+        extend(&mut self.columns, x, columns);
+        extend(&mut self.rows, y, rows);
+    }
+
+    /// Each row's cells in a grid of so many columns.
+    fn runs(&self, columns: usize) -> impl Iterator<Item = Range<usize>> {
+        self.rows.clone().map(move |y| y * columns + self.columns.start..y * columns + self.columns.end)
+    }
+}
+
 impl GlowMap {
-    /// Measures a world. `is_gas` by element.
-    pub fn measure(&mut self, size: Vec2, warmth: Warmth<'_>, is_gas: impl Fn(ElementId) -> bool) {
+    /// Measures a world. `held`: how many particles of what is no gas a cell holds.
+    pub fn measure(&mut self, size: Vec2, warmth: Warmth<'_>, held: impl Fn(usize) -> f32) {
         self.shines = false;
         if !warmth.is_there() {
             return;
         }
-        self.columns = ((size.x / CELL).ceil() as usize).max(1);
-        self.rows = ((size.y / CELL).ceil() as usize).max(1);
-        self.glow.clear();
-        self.glow.resize(self.columns * self.rows, [0.0; 4]);
-        self.light.clear();
-        self.light.resize(self.coarse_columns() * self.coarse_rows(), [0.0; 3]);
+        self.begin(size);
         let particles = warmth.particles;
         for i in 0..particles.len() {
-            let gas = is_gas(particles.element[i]);
-            self.add(particles.position(i), warmth.glow(i), !gas);
+            let look = warmth.looks.of(particles.element[i]);
+            self.add(particles.position(i), warmth.glow(i, look), !look.is_gas());
         }
-        if !warmth.rock.heats().is_empty() {
-            warmth.rock.iter().for_each(|(cell, element, _)| {
-                self.add(cell.as_vec2() + 0.5, warmth.of(element, warmth.rock.heat(cell)), true);
-            });
+        for (cell, glow) in warmth.rock {
+            self.add(cell.as_vec2() + 0.5, *glow, true);
         }
         if self.shines {
             self.spread();
-            self.pack();
+            self.pack(held);
         }
     }
 
+    /// Takes everything out.
+    fn begin(&mut self, size: Vec2) {
+        let (columns, rows) = (((size.x / CELL).ceil() as usize).max(1), ((size.y / CELL).ceil() as usize).max(1));
+        if (columns, rows) != (self.columns, self.rows) {
+            *self = Self { columns, rows, ..Self::default() };
+            let dark = |cells: usize| [0, 0, 0, 255].repeat(cells);
+            let coarse = self.coarse_columns() * self.coarse_rows();
+            self.glow.resize(columns * rows, [0.0; 3]);
+            self.sources.resize(coarse, [0.0; 3]);
+            (self.glow_texels, self.light_texels) = (dark(columns * rows), dark(coarse));
+        }
+        for cell in self.glowing.drain(..).map(|cell| cell as usize) {
+            self.glow[cell] = [0.0; 3];
+            self.glow_texels[4 * cell..][..3].fill(0);
+        }
+        for run in self.lit.runs(self.coarse_columns()) {
+            self.sources[run.clone()].fill([0.0; 3]);
+            self.light_texels[4 * run.start..4 * run.end].as_chunks_mut().0.fill([0, 0, 0, 255]);
+        }
+        self.lit = Region::default();
+    }
+
     fn add(&mut self, at: Vec2, glow: [f32; 3], body: bool) {
+        // Of all colours red is the first.
+        if glow[0] <= 0.0 {
+            return;
+        }
+        self.shines = true;
         let (x, y) = (((at.x / CELL) as usize).min(self.columns - 1), ((at.y / CELL) as usize).min(self.rows - 1));
-        let shines = glow[0] > 0.0;
-        self.shines |= shines;
         if body {
-            let sum = &mut self.glow[y * self.columns + x];
+            let cell = y * self.columns + x;
+            let sum = &mut self.glow[cell];
+            if sum[0] == 0.0 {
+                self.glowing.push(cell as u32);
+            }
             for (sum, glow) in sum.iter_mut().zip(glow) {
                 *sum += glow;
             }
-            sum[3] += 1.0;
         }
-        if shines {
-            let coarse = (y / COARSE) * self.coarse_columns() + x / COARSE;
-            for (sum, glow) in self.light[coarse].iter_mut().zip(glow) {
-                *sum += glow / (FULL * (COARSE * COARSE) as f32);
-            }
+        let (x, y, all) = (x / COARSE, y / COARSE, (self.coarse_columns(), self.coarse_rows()));
+        self.lit.include((x, y), PASSES * REACH, all);
+        for (sum, glow) in self.sources[y * all.0 + x].iter_mut().zip(glow) {
+            *sum += glow / (FULL * (COARSE * COARSE) as f32);
         }
     }
 
     /// Light falls off with distance: box filters along rows and columns.
     fn spread(&mut self) {
-        let row = 3 * self.coarse_columns();
-        let light = self.light.as_flattened_mut();
+        self.light.clear();
+        for run in self.lit.runs(self.coarse_columns()) {
+            self.light.extend_from_slice(self.sources[run].as_flattened());
+        }
+        let row = 3 * self.lit.columns.len();
         for _ in 0..PASSES {
-            blur(light, &mut self.sums, row, 3);
-            blur(light, &mut self.sums, light.len(), row);
+            blur(&mut self.light, &mut self.sums, row, 3);
+            blur(&mut self.light, &mut self.sums, row * self.lit.rows.len(), row);
         }
     }
 
-    fn pack(&mut self) {
+    fn pack(&mut self, held: impl Fn(usize) -> f32) {
         let byte = |value: f32| (255.0 * value.min(1.0)) as u8;
-        self.glow_texels.clear();
-        for [r, g, b, count] in &self.glow {
-            let share = 1.0 / count.max(1.0);
-            self.glow_texels.extend([byte(r * share), byte(g * share), byte(b * share), 255]);
+        for cell in self.glowing.iter().map(|cell| *cell as usize) {
+            let share = 1.0 / held(cell).max(1.0);
+            self.glow_texels[4 * cell..][..3].copy_from_slice(&self.glow[cell].map(|sum| byte(sum * share)));
         }
-        self.light_texels.clear();
-        for [r, g, b] in &self.light {
-            self.light_texels.extend([byte(GAIN * r), byte(GAIN * g), byte(GAIN * b), 255]);
+        let mut lights = self.light.as_chunks().0.iter();
+        for run in self.lit.runs(self.coarse_columns()) {
+            let texels = self.light_texels[4 * run.start..4 * run.end].as_chunks_mut::<4>().0;
+            for (texel, [r, g, b]) in texels.iter_mut().zip(&mut lights) {
+                *texel = [byte(GAIN * r), byte(GAIN * g), byte(GAIN * b), 255];
+            }
         }
     }
 
@@ -184,7 +262,6 @@ fn blur(numbers: &mut [f32], sums: &mut Vec<f32>, line: usize, step: usize) {
 mod tests {
     use super::*;
     use crate::{kernel::element::ElementTable, scene::elements};
-    use glam::IVec2;
     use std::sync::Arc;
 
     fn table() -> (Arc<ElementTable>, HeatTable) {
@@ -212,9 +289,10 @@ mod tests {
             let at = Vec2::new(60.5 + (k % 8) as f32, 60.5 + (k / 8) as f32);
             particles.push_warm(k, lava, at, Vec2::ZERO, curves.spawn_heat(lava));
         }
-        let rock = Solids::new(128, 128);
         let mut map = GlowMap::default();
-        map.measure(Vec2::splat(128.0), Warmth { particles: &particles, rock: &rock, curves: &curves }, |_| false);
+        let looks = Looks::new(&elements, &curves);
+        let warmth = Warmth { particles: &particles, rock: &[], curves: &curves, looks: &looks };
+        map.measure(Vec2::splat(128.0), warmth, |_| 4.0);
         assert!(map.shines());
         let (texels, (columns, rows)) = map.light();
         let at = |x: usize, y: usize| u32::from(texels[4 * (y * columns + x)]);
@@ -233,8 +311,12 @@ mod tests {
         let metal = elements.find("metal").expect("metal");
         let (particles, mut rock, mut map) = (Particles::default(), Solids::new(32, 32), GlowMap::default());
         rock.insert(IVec2::new(16, 16), metal, 0);
+        let looks = Looks::new(&elements, &curves);
         let measure = |map: &mut GlowMap, rock: &Solids| {
-            map.measure(Vec2::splat(32.0), Warmth { particles: &particles, rock, curves: &curves }, |_| false);
+            let mut glowing = Vec::new();
+            find_glowing(rock, &curves, &looks, &mut glowing);
+            let warmth = Warmth { particles: &particles, rock: &glowing, curves: &curves, looks: &looks };
+            map.measure(Vec2::splat(32.0), warmth, |_| 1.0);
         };
         measure(&mut map, &rock);
         assert!(!map.shines());
@@ -243,5 +325,38 @@ mod tests {
         assert!(map.shines());
         let (texels, (columns, _)) = map.glow();
         assert!(texels[4 * (8 * columns + 8)] > 200);
+    }
+
+    #[test]
+    fn nothing_is_left_of_the_glow_and_the_light_of_the_frames_before() {
+        let (elements, curves) = table();
+        let (lava, fire) = (elements.find("lava").expect("lava"), elements.find("fire").expect("fire"));
+        let looks = Looks::new(&elements, &curves);
+        let mut map = GlowMap::default();
+        // Another box, a place further on, a gas, at the edges, nowhere, and back again.
+        type Lump = (f32, f32, ElementId);
+        let frames: [(f32, &[Lump]); 6] = [
+            (90.0, &[(20.0, 20.0, lava), (70.0, 30.0, lava)]),
+            (120.0, &[(20.0, 20.0, lava), (70.0, 30.0, lava)]),
+            (120.0, &[(23.0, 20.0, lava), (60.0, 80.0, fire)]),
+            (120.0, &[(0.0, 0.0, lava), (119.9, 119.9, lava)]),
+            (120.0, &[]),
+            (120.0, &[(40.0, 41.0, fire)]),
+        ];
+        for (k, (side, lumps)) in frames.into_iter().enumerate() {
+            let mut particles = Particles::default();
+            for (id, (x, y, element)) in lumps.iter().enumerate() {
+                particles.push_warm(id as u32, *element, Vec2::new(*x, *y), Vec2::ZERO, curves.spawn_heat(*element));
+            }
+            let warmth = Warmth { particles: &particles, rock: &[], curves: &curves, looks: &looks };
+            let mut fresh = GlowMap::default();
+            for map in [&mut map, &mut fresh] {
+                map.measure(Vec2::splat(side), warmth, |_| 1.0);
+            }
+            assert_eq!((map.shines(), fresh.shines()), (!lumps.is_empty(), !lumps.is_empty()), "frame {k}");
+            if map.shines() {
+                assert!(map.glow() == fresh.glow() && map.light() == fresh.light(), "frame {k}");
+            }
+        }
     }
 }

@@ -1,8 +1,11 @@
 //! How the elements look: which of the picture's ways of drawing each takes. It follows from the element table.
 
 use crate::{
-    kernel::element::{Category, Element, ElementId, ElementTable},
-    lab::colours::Rgb,
+    kernel::{
+        element::{Category, Element, ElementId, ElementTable},
+        heat::{curve::HeatCurve, table::HeatTable},
+    },
+    lab::colours::{DULL, Rgb},
 };
 
 /// Thicker liquids don't foam, m²/s: air that they take in does not come out in the time that foam lives.
@@ -45,12 +48,15 @@ pub struct Look {
     pub colour: Rgb,
     /// Whether it is a liquid that air makes white.
     pub foams: bool,
+    /// Heat from which on it glows, quanta.
+    pub glows_from: i32,
 }
 
 impl Look {
-    fn of(element: &Element) -> Self {
+    fn of(element: &Element, curve: &HeatCurve) -> Self {
         let thin = element.viscosity < FOAMING && element.density < FOAM_WEIGHT;
         Self {
+            glows_from: curve.heat_reaching(DULL),
             category: element.category,
             colour: element.colour,
             foams: element.category == Category::Liquids && thin,
@@ -73,9 +79,9 @@ impl Look {
 pub struct Looks(Vec<Look>);
 
 impl Looks {
-    /// Those of a table.
-    pub fn new(elements: &ElementTable) -> Self {
-        Self(elements.iter().map(|(_, element)| Look::of(element)).collect())
+    /// Those of a table, by the curves of its elements.
+    pub fn new(elements: &ElementTable, curves: &HeatTable) -> Self {
+        Self(elements.iter().map(|(id, element)| Look::of(element, curves.curve(id))).collect())
     }
 
     /// That of an element of the table.

@@ -9,8 +9,10 @@ use crate::{
         glow::Warmth,
         look::{Look, Looks},
         moved::Moved,
+        rock::RockMap,
+        tiles::Tiles,
     },
-    kernel::{element::ElementId, particles::Particles, random, solids::Solids},
+    kernel::{element::ElementId, particles::Particles, random},
     lab::colours::Rgb,
 };
 use bevy::{
@@ -41,7 +43,7 @@ struct Channels {
     colours: Vec<Rgb>,
     /// Whether any of it glows.
     glows: Vec<bool>,
-    counts: Vec<u32>,
+    counts: Vec<usize>,
 }
 
 impl Channels {
@@ -49,8 +51,8 @@ impl Channels {
     fn fill(&mut self, elements: &[ElementId], looks: &Looks) {
         self.counts.clear();
         self.counts.resize(256, 0);
-        for element in elements {
-            self.counts[element.index()] += 1;
+        for run in elements.chunk_by(|a, b| a == b) {
+            self.counts[run[0].index()] += run.len();
         }
         let liquid = |k: usize| {
             let look = looks.of(ElementId(k as u8));
@@ -93,13 +95,25 @@ pub struct Matter {
     pub grains: RawBufferVec<Instance>,
     /// Gases.
     pub gases: RawBufferVec<Instance>,
+    /// Tiles that bodies reach into.
+    pub body_tiles: Tiles,
+    /// Tiles that gases reach into.
+    pub gas_tiles: Tiles,
     channels: Channels,
 }
 
 impl Default for Matter {
     fn default() -> Self {
         let buffer = || RawBufferVec::new(BufferUsages::VERTEX);
-        Self { bodies: buffer(), more: buffer(), grains: buffer(), gases: buffer(), channels: Channels::default() }
+        Self {
+            bodies: buffer(),
+            more: buffer(),
+            grains: buffer(),
+            gases: buffer(),
+            body_tiles: Tiles::default(),
+            gas_tiles: Tiles::default(),
+            channels: Channels::default(),
+        }
     }
 }
 
@@ -109,7 +123,7 @@ pub struct Sample<'a> {
     /// Movable particles.
     pub particles: &'a Particles,
     /// Rock, which nothing is drawn in.
-    pub rock: &'a Solids,
+    pub rock: &'a RockMap,
     /// Looks of the elements.
     pub looks: &'a Looks,
     /// How far they went.
@@ -120,8 +134,8 @@ pub struct Sample<'a> {
     pub warmth: Warmth<'a>,
     /// Size of the box, d.
     pub size: Vec2,
-    /// Radius of a body's disc, d.
-    pub radius: f32,
+    /// Radii of the discs of bodies and of gases, d.
+    pub radii: [f32; 2],
     /// The moment that is drawn, s before the last tick.
     pub back: f32,
     /// Whether grains are large enough to be drawn one by one.
@@ -149,19 +163,32 @@ impl Matter {
         [r, g, b, f32::from(*glows)]
     }
 
+    /// Marks what the discs of some instances reach that are drawn as bodies are.
+    pub fn mark(&mut self, size: Vec2, bodies: &[Instance], radius: f32) {
+        self.body_tiles.clear(size);
+        self.gas_tiles.clear(size);
+        for [x, y, _] in bodies {
+            self.body_tiles.mark(Vec2::new(f32::from_bits(*x), f32::from_bits(*y)), radius);
+        }
+    }
+
     /// Packs a world's matter.
     pub fn fill(&mut self, world: Sample<'_>) {
         self.clear();
+        self.body_tiles.clear(world.size);
+        self.gas_tiles.clear(world.size);
         self.channels.fill(&world.particles.element, world.looks);
-        let warm = world.warmth.is_there();
+        let (warm, share) = (world.warmth.is_there(), world.moved.share(world.back));
         for i in 0..world.particles.len() {
             let look = world.looks.of(world.particles.element[i]);
-            let at = world.moved.at(world.particles, world.rock, i, world.back);
-            let glow = if warm { world.warmth.glow(i) } else { [0.0; 3] };
+            let at = world.moved.at(world.particles, |at| world.rock.is_at(at), i, share);
+            let glow = if warm { world.warmth.glow(i, look) } else { [0.0; 3] };
             if look.is_gas() {
+                self.gas_tiles.mark(at, world.radii[1]);
                 self.gases.push(instance(at, gas(look, glow)));
                 continue;
             }
+            self.body_tiles.mark(at, world.radii[0]);
             let traits = self.traits(world, look, i, at);
             if glow[0] > 0.0 && !look.is_powder() {
                 self.channels.glows[usize::from(traits[0])] = true;
@@ -176,37 +203,45 @@ impl Matter {
     /// Channel, foam, how far it is drawn out, and the angle along which.
     fn traits(&self, world: Sample<'_>, look: Look, i: usize, at: Vec2) -> [u8; 4] {
         let channel = if look.is_powder() { 0 } else { self.channels.of[world.particles.element[i].index()] };
-        if !look.foams {
-            return [channel, 0, 0, 0];
-        }
-        let id = world.particles.id[i];
-        let threshold = FOAM_SPREAD * random::share(random::mix(id));
-        let foam = ((world.body.foam_at(at) - threshold) * 2.2).clamp(0.0, 1.0);
-        let velocity = world.particles.velocity(i);
-        let (mut long, mut angle) = (0.0, 0.0);
-        if world.body.is_sparse(at) {
-            long = (velocity.length() / STRETCH).min(1.0);
-            angle = (ops::atan2(velocity.y, velocity.x) / std::f32::consts::PI).rem_euclid(1.0);
-        }
-        [channel, (255.0 * foam) as u8, (255.0 * long) as u8, (255.0 * angle) as u8]
+        let [foam, long, angle] = if look.foams { froth(world, i, at) } else { [0; 3] };
+        [channel, foam, long, angle]
     }
 
     /// A body, and its image behind each wall that it touches: a liquid at a wall ends there, not in drops before it.
     fn body(&mut self, world: Sample<'_>, at: Vec2, traits: [u8; 4], powder: bool) {
         let channel = usize::from(traits[0]);
         let (buffer, channel) = match channel {
-            _ if powder => (&mut self.bodies, 0),
-            k if k < FIRST => (&mut self.bodies, 1 + k),
-            k => (&mut self.more, k - FIRST),
+            _ if powder => (self.bodies.values_mut(), 0),
+            k if k < FIRST => (self.bodies.values_mut(), 1 + k),
+            k => (self.more.values_mut(), k - FIRST),
         };
         let traits = u32::from_le_bytes([channel as u8, traits[1], traits[2], traits[3]]);
         buffer.push(instance(at, traits));
-        let [x, y] = [0, 1].map(|axis| image(at[axis], world.size[axis], world.radius));
+        let [x, y] = [0, 1].map(|axis| image(at[axis], world.size[axis], world.radii[0]));
+        if x.is_none() && y.is_none() {
+            return;
+        }
         let images = [x.map(|x| Vec2::new(x, at.y)), y.map(|y| Vec2::new(at.x, y)), x.zip(y).map(Vec2::from)];
         images.into_iter().flatten().for_each(|image| {
             buffer.push(instance(image, traits));
         });
     }
+}
+
+/// Foam on a liquid, how far it is drawn out, and the angle along which.
+fn froth(world: Sample<'_>, i: usize, at: Vec2) -> [u8; 3] {
+    if world.body.is_plain(at) {
+        return [0; 3];
+    }
+    let threshold = FOAM_SPREAD * random::share(random::mix(world.particles.id[i]));
+    let foam = ((world.body.foam_at(at) - threshold) * 2.2).clamp(0.0, 1.0);
+    let (mut long, mut angle) = (0.0, 0.0);
+    if world.body.is_sparse(at) {
+        let velocity = world.particles.velocity(i);
+        long = (velocity.length() / STRETCH).min(1.0);
+        angle = (ops::atan2(velocity.y, velocity.x) / std::f32::consts::PI).rem_euclid(1.0);
+    }
+    [foam, long, angle].map(|share| (255.0 * share) as u8)
 }
 
 /// Where the image of a place behind the nearer wall is, along one axis, if it is within `reach` of one.

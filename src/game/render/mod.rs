@@ -5,10 +5,10 @@
 //! gases ────────► field ──► cloud   │    backdrop, streaks, surface, grains, rock, clouds
 //! grains, rock, streaks ────────────┴──► the window, from back to front
 //! ```
-//! `extract` copies what a frame needs out of a world (a `scene`, and how it is looked at) into a `picture`: `matter` (or in the
-//! views that show a number `particles`), `rock` and `air` in the layout that the graphics read, `body` and `glow` as maps that the
-//! shaders look at, `tiles` where there is anything at all, `features` what its passes can't leave out; `level` says how much of it
-//! the graphics can do in time; `moved` knows where things were between two ticks, `look` which element is drawn how, `noise` is a
+//! `extract` copies what a frame needs out of a world (a `scene`, and how it is looked at) into a `picture`: the `source` of its
+//! matter (or in the views that show a number `particles`), `rock` and `air`. The world goes on while the picture packs the source:
+//! `matter` in the layout that the graphics read, `body` and `glow` as maps that the shaders look at, `tiles` where there is anything
+//! at all, `features` what its passes can't leave out; `level` says how much of it the graphics can do in time; `moved` knows where things were between two ticks, `look` which element is drawn how, `noise` is a
 //! texture that never changes. `gpu` uploads it; `pipelines` has what its features ask for; `draw` draws it before the HUD.
 //! `offscreen` draws without a window, for `bench frame` and tests. `tracers` make wind visible. Everything here runs on WebGL2: no
 //! storage buffers, no compute, targets of eight bits.
@@ -37,6 +37,7 @@ pub mod picture;
 pub mod pipelines;
 pub mod rock;
 mod scene;
+pub mod source;
 #[cfg(test)]
 mod tests;
 pub mod tiles;
@@ -88,6 +89,7 @@ impl Plugin for WorldRenderPlugin {
             .add_systems(
                 Render,
                 (
+                    extract::pack.in_set(RenderSystems::PrepareAssets),
                     (gpu::upload, pipelines::prepare).in_set(RenderSystems::PrepareResources),
                     gpu::bind.in_set(RenderSystems::PrepareBindGroups),
                 ),

@@ -2,7 +2,7 @@
 //! wall stops within a tick has none afterwards.
 
 use crate::{
-    kernel::{particles::Particles, solids::Solids, units::TICK_SECONDS},
+    kernel::{particles::Particles, units::TICK_SECONDS},
     sim::generation::Generation,
 };
 use glam::Vec2;
@@ -27,7 +27,7 @@ pub struct Moved {
 
 impl Moved {
     /// Sees the world after a tick; the same tick may be seen again.
-    pub fn follow(&mut self, generation: Generation, tick: u64, particles: &Particles) {
+    pub fn follow(&mut self, (generation, tick): (Generation, u64), particles: &Particles) {
         let before = self.of.filter(|(of, at)| *of == generation && *at <= tick).map(|(_, at)| at);
         if before == Some(tick) && self.ways.len() == particles.len() {
             return;
@@ -42,15 +42,17 @@ impl Moved {
             self.ways.extend((0..particles.len()).map(|i| particles.velocity(i) * self.span));
             return;
         }
-        for i in 0..particles.len() {
-            let (now, told) = (particles.position(i), particles.velocity(i) * self.span);
-            let last = &mut self.last[(particles.id[i] - self.base) as usize];
+        let Particles { id, x, y, vx, vy, .. } = particles;
+        let (places, velocities) = (x.iter().zip(y), vx.iter().zip(vy));
+        self.ways.extend(id.iter().zip(places.zip(velocities)).map(|(id, ((x, y), (vx, vy)))| {
+            let (now, told) = (Vec2::new(*x, *y), Vec2::new(*vx, *vy) * self.span);
+            let last = &mut self.last[(id - self.base) as usize];
             let way = now - *last;
+            *last = now;
             // Not a number is not within any length.
             let is_way = way.length_squared() <= JUMP * JUMP || way.length() <= JUMP + 3.0 * told.length();
-            self.ways.push(if is_way { way } else { told });
-            *last = now;
-        }
+            if is_way { way } else { told }
+        }));
     }
 
     /// Makes room for the last places of these ids; `false` if they are too far apart.
@@ -73,15 +75,16 @@ impl Moved {
         true
     }
 
-    /// Where particle `i` was `back` seconds before the tick that was seen last: on its way, but never in rock.
-    pub fn at(&self, particles: &Particles, rock: &Solids, i: usize, back: f32) -> Vec2 {
+    /// The share of their ways that lies within so many seconds before the tick that was seen last.
+    pub fn share(&self, back: f32) -> f32 {
+        if back > 0.0 { (back / self.span).min(1.0) } else { 0.0 }
+    }
+
+    /// Where particle `i` was before the last `share` of its way, but never in rock.
+    pub fn at(&self, particles: &Particles, is_rock: impl Fn(Vec2) -> bool, i: usize, share: f32) -> Vec2 {
         let now = particles.position(i);
-        if back == 0.0 {
-            return now;
-        }
-        let way = self.ways.get(i).copied().unwrap_or_default();
-        let then = now - way * (back / self.span).min(1.0);
-        if rock.count() > 0 && rock.is_solid(Solids::cell_of(then)) { now } else { then }
+        let then = now - share * self.ways.get(i).copied().unwrap_or_default();
+        if is_rock(then) { now } else { then }
     }
 }
 
@@ -90,13 +93,19 @@ mod tests {
     use super::*;
     use crate::sim::state::{Clock, ParticleStore, Rock};
     use crate::{
-        kernel::element::ElementId,
+        kernel::{element::ElementId, solids::Solids},
         scene,
         scene::effects::EffectModes,
         sim::{simulation::Simulation, workers::Workers},
     };
     use glam::IVec2;
     use std::{collections::HashMap, sync::Arc};
+
+    /// Where a particle is drawn, `back` seconds before the tick.
+    fn at(moved: &Moved, particles: &Particles, rock: &Solids, i: usize, back: f32) -> Vec2 {
+        let is_rock = |at| rock.count() > 0 && rock.is_solid(Solids::cell_of(at));
+        moved.at(particles, is_rock, i, moved.share(back))
+    }
 
     fn one(id: u32, at: Vec2, velocity: Vec2) -> Particles {
         let mut particles = Particles::default();
@@ -114,37 +123,37 @@ mod tests {
         for _ in 0..8 {
             simulation.tick();
             let (particles, rock) = (&simulation.get::<ParticleStore>().0, &simulation.get::<Rock>().0);
-            moved.follow(Generation::default(), simulation.get::<Clock>().tick, particles);
+            moved.follow((Generation::default(), simulation.get::<Clock>().tick), particles);
             let begun = (0..particles.len()).filter_map(|i| {
                 let end = ends.get(&particles.id[i])?;
-                Some((moved.at(particles, rock, i, TICK_SECONDS) - *end).length())
+                Some((at(&moved, particles, rock, i, TICK_SECONDS) - *end).length())
             });
             let apart = begun.clone().fold(0.0, f32::max);
             assert!(apart < 0.001, "a tick begins {apart} d from where the one before ended");
             assert!(ends.is_empty() || begun.count() > 1000, "too few to say so");
-            ends = (0..particles.len()).map(|i| (particles.id[i], moved.at(particles, rock, i, 0.0))).collect();
+            ends = (0..particles.len()).map(|i| (particles.id[i], at(&moved, particles, rock, i, 0.0))).collect();
         }
     }
 
     #[test]
     fn what_a_wall_stopped_is_not_drawn_where_it_never_was() {
         let (mut moved, rock) = (Moved::default(), Solids::new(64, 64));
-        moved.follow(Generation::default(), 1, &one(7, Vec2::new(10.0, 5.0), Vec2::new(120.0, 0.0)));
+        moved.follow((Generation::default(), 1), &one(7, Vec2::new(10.0, 5.0), Vec2::new(120.0, 0.0)));
         // It has come to rest after half of its way.
         let stopped = one(7, Vec2::new(11.0, 5.0), Vec2::ZERO);
-        moved.follow(Generation::default(), 2, &stopped);
-        assert_eq!(moved.at(&stopped, &rock, 0, 0.5 * TICK_SECONDS), Vec2::new(10.5, 5.0));
-        assert_eq!(moved.at(&stopped, &rock, 0, 0.0), Vec2::new(11.0, 5.0));
+        moved.follow((Generation::default(), 2), &stopped);
+        assert_eq!(at(&moved, &stopped, &rock, 0, 0.5 * TICK_SECONDS), Vec2::new(10.5, 5.0));
+        assert_eq!(at(&moved, &stopped, &rock, 0, 0.0), Vec2::new(11.0, 5.0));
     }
 
     #[test]
     fn frames_that_skip_ticks_and_ticks_that_are_seen_twice_change_nothing() {
         let (mut moved, rock) = (Moved::default(), Solids::new(64, 64));
-        moved.follow(Generation::default(), 10, &one(0, Vec2::splat(10.0), Vec2::ZERO));
+        moved.follow((Generation::default(), 10), &one(0, Vec2::splat(10.0), Vec2::ZERO));
         let now = one(0, Vec2::new(14.0, 10.0), Vec2::new(60.0, 0.0));
         for _ in 0..2 {
-            moved.follow(Generation::default(), 14, &now);
-            assert_eq!(moved.at(&now, &rock, 0, TICK_SECONDS), Vec2::new(13.0, 10.0), "a quarter of four ticks' way");
+            moved.follow((Generation::default(), 14), &now);
+            assert_eq!(at(&moved, &now, &rock, 0, TICK_SECONDS), Vec2::new(13.0, 10.0), "a quarter of four ticks' way");
         }
     }
 
@@ -152,28 +161,28 @@ mod tests {
     fn what_is_new_or_was_elsewhere_goes_by_its_speed() {
         let (mut moved, rock) = (Moved::default(), Solids::new(64, 64));
         let new = one(5, Vec2::splat(20.0), Vec2::new(60.0, 0.0));
-        moved.follow(Generation::default(), 1, &new);
-        assert_eq!(moved.at(&new, &rock, 0, TICK_SECONDS), Vec2::new(19.0, 20.0));
+        moved.follow((Generation::default(), 1), &new);
+        assert_eq!(at(&moved, &new, &rock, 0, TICK_SECONDS), Vec2::new(19.0, 20.0));
         let far = one(5, Vec2::splat(50.0), Vec2::new(60.0, 0.0));
-        moved.follow(Generation::default(), 2, &far);
-        assert_eq!(moved.at(&far, &rock, 0, TICK_SECONDS), Vec2::new(49.0, 50.0));
+        moved.follow((Generation::default(), 2), &far);
+        assert_eq!(at(&moved, &far, &rock, 0, TICK_SECONDS), Vec2::new(49.0, 50.0));
         // Ids so far apart that no places are kept.
         let mut apart = one(0, Vec2::splat(30.0), Vec2::new(0.0, 60.0));
         apart.push(u32::MAX, ElementId(0), Vec2::splat(40.0), Vec2::ZERO);
-        moved.follow(Generation::default(), 3, &apart);
-        assert_eq!(moved.at(&apart, &rock, 0, TICK_SECONDS), Vec2::new(30.0, 29.0));
+        moved.follow((Generation::default(), 3), &apart);
+        assert_eq!(at(&moved, &apart, &rock, 0, TICK_SECONDS), Vec2::new(30.0, 29.0));
     }
 
     #[test]
     fn nothing_is_drawn_in_rock_between_two_ticks() {
         let (mut moved, mut rock) = (Moved::default(), Solids::new(64, 64));
         rock.insert(IVec2::new(10, 10), ElementId(0), 0);
-        moved.follow(Generation::default(), 1, &one(0, Vec2::new(9.5, 9.5), Vec2::ZERO));
+        moved.follow((Generation::default(), 1), &one(0, Vec2::new(9.5, 9.5), Vec2::ZERO));
         // Round the corner of a cell.
         let now = one(0, Vec2::new(11.5, 11.5), Vec2::new(60.0, 60.0));
-        moved.follow(Generation::default(), 2, &now);
-        assert_eq!(moved.at(&now, &rock, 0, 0.5 * TICK_SECONDS), Vec2::new(11.5, 11.5));
-        assert_eq!(moved.at(&now, &rock, 0, TICK_SECONDS), Vec2::new(9.5, 9.5));
+        moved.follow((Generation::default(), 2), &now);
+        assert_eq!(at(&moved, &now, &rock, 0, 0.5 * TICK_SECONDS), Vec2::new(11.5, 11.5));
+        assert_eq!(at(&moved, &now, &rock, 0, TICK_SECONDS), Vec2::new(9.5, 9.5));
     }
 
     #[test]
@@ -182,7 +191,7 @@ mod tests {
         for tick in 0..5000u32 {
             let mut particles = one(10 * tick, Vec2::splat(1.0), Vec2::ZERO);
             particles.push(10 * tick + 9, ElementId(0), Vec2::splat(2.0), Vec2::ZERO);
-            moved.follow(Generation::default(), u64::from(tick), &particles);
+            moved.follow((Generation::default(), u64::from(tick)), &particles);
         }
         assert!(moved.last.len() <= 40, "{}", moved.last.len());
     }

@@ -158,14 +158,14 @@ impl Offscreen {
         self.pause(true);
     }
 
-    /// Lets the world go on by a tick, which may be one of another world that takes its place.
+    /// Lets the world go on by a tick, which may be one of another world that takes its place, and waits until its frame is done.
     pub fn tick(&mut self) {
         let at = |world: &World| (Generation::of(world), world.resource::<Clock>().tick);
         let before = at(self.world());
         self.pause(false);
         // The first frame that is not late has a tick in it.
         for _ in 0..4 {
-            self.app.update();
+            self.frame();
             if at(self.world()) != before {
                 break;
             }
@@ -198,10 +198,9 @@ impl Offscreen {
         self.app.world().resource::<RenderCost>().drawn()
     }
 
-    /// Processor time of the last frame, ms: to copy out of the world what it needs, and to hand that to the graphics.
-    pub fn processor_time(&self) -> (f64, f64) {
-        let (extract, upload) = self.app.world().resource::<RenderCost>().milliseconds();
-        (f64::from(extract), f64::from(upload))
+    /// Processor time of the last frame, ms: to copy out of the world what it needs, to pack that, and to hand it to the graphics.
+    pub fn processor_time(&self) -> [f64; 3] {
+        self.app.world().resource::<RenderCost>().milliseconds().map(f64::from)
     }
 
     /// Draws the world as it stands; rows from the top.

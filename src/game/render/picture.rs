@@ -7,14 +7,15 @@ use crate::{
             air::{self, Streak},
             body::BodyMap,
             features::Features,
-            glow::{GlowMap, Warmth},
+            glow::GlowMap,
             level::Level,
-            look::{Finish, Looks},
+            look::Finish,
             matter::{Matter, Sample},
             moved::Moved,
             particles::{self, ColourTable, ParticleInstance},
             rock::RockMap,
             scene::{Scene, Sight, Within},
+            source::Source,
             tiles::{PictureTiles, TILE},
             uniform::{WorldUniform, srgb, two},
         },
@@ -23,7 +24,7 @@ use crate::{
             table::{Layer, PRESSURE, Quantity, Streaks, View, density_share, temperature_share},
         },
     },
-    kernel::heat::Exposure,
+    kernel::{heat::Exposure, solids::Solids},
     lab::{
         colours::{self, Reference, rock_colour},
         difference::Difference,
@@ -35,7 +36,7 @@ use bevy::{
     math::URect,
     render::render_resource::{BufferUsages, RawBufferVec},
 };
-use glam::{UVec2, Vec2, Vec4};
+use glam::{UVec2, Vec2, Vec4, Vec4Swizzles};
 
 /// Radius of a particle's soft disc, d.
 const DISC_RADIUS: f32 = 1.35;
@@ -86,9 +87,8 @@ pub struct Picture {
     pub glow: GlowMap,
     /// Whether matter is shown as it is, so that `depth`, `body` and `glow` are of this frame.
     pub as_it_is: bool,
-    looks: Looks,
+    source: Source,
     moved: Moved,
-    foam_of: Option<(Generation, u64)>,
     /// Where limiters act; of the last time that the view showed it.
     strain: StrainMap,
     /// What stands in the air; of the last time that the view showed what burns.
@@ -121,9 +121,8 @@ impl Default for Picture {
             body: BodyMap::default(),
             glow: GlowMap::default(),
             as_it_is: false,
-            looks: Looks::default(),
+            source: Source::default(),
             moved: Moved::default(),
-            foam_of: None,
             strain: StrainMap::default(),
             exposure: Exposure::default(),
             table: ColourTable::default(),
@@ -134,27 +133,27 @@ impl Default for Picture {
 }
 
 impl Picture {
-    /// Draws a world so that `area` shows it.
+    /// Copies out of a world what it takes to draw it so that `area` shows it; [`Self::pack`] is to follow.
     pub(super) fn fill(&mut self, scene: Scene<'_>, sight: Sight<'_>, area: Area, within: Within) {
         let blueprint = &scene.setup.blueprint;
         let reference = Reference::of(&blueprint.domain, &blueprint.air);
         self.as_it_is = sight.view.shaded;
-        self.moved.follow(scene.generation, scene.tick, scene.particles);
         if self.as_it_is {
             self.particles.clear();
-            self.fill_matter(scene, sight.back, sight.camera.pixels_per_d() * sight.scale() >= FINE);
+            self.source.take(scene, sight.back, sight.camera.pixels_per_d() * sight.scale() >= FINE);
+            self.body.follow_rock(blueprint.domain.size, scene.rock, self.source.ticks.is_none());
         } else {
             self.matter.clear();
+            self.moved.follow((scene.generation, scene.tick), scene.particles);
             self.fill_particles(scene, sight, reference);
         }
-        self.mark_bodies(blueprint.domain.size);
         self.fill_rock(scene, sight.view);
         let air_extent = self.fill_air(scene, sight, reference);
         self.fill_streaks(scene, sight, reference);
         self.look(scene.setup, sight, sight.view, air_extent, (area, within));
     }
 
-    /// Draws how far two worlds are apart, over the rock of one of them.
+    /// The same for how far two worlds are apart, over the rock of one of them.
     pub(super) fn fill_with_difference(
         &mut self,
         difference: &Difference,
@@ -165,7 +164,6 @@ impl Picture {
         self.particles.clear();
         self.matter.clear();
         self.streaks.clear();
-        self.mark_bodies(scene.setup.blueprint.domain.size);
         self.fill_rock(scene, &PRESSURE);
         self.as_it_is = false;
         difference.texels(&mut self.air.0);
@@ -173,29 +171,37 @@ impl Picture {
         self.look(scene.setup, sight, &PRESSURE, self.air.1.as_vec2() * difference.edge(), (area, Within::Area));
     }
 
-    /// Matter as it is, with what it takes to shade it.
-    fn fill_matter(&mut self, scene: Scene<'_>, back: f32, fine: bool) {
-        let (particles, blueprint) = (&scene.particles.0, &scene.setup.blueprint);
-        let size = blueprint.domain.size;
-        let ticks = self.foam_of.filter(|(of, _)| *of == scene.generation).map(|(_, at)| scene.tick.saturating_sub(at));
-        if ticks.is_none() {
-            self.looks = Looks::new(&blueprint.elements);
+    /// Makes of what was copied what the graphics read. The world is not needed any more.
+    pub(super) fn pack(&mut self) {
+        let size = self.uniform.size.xy();
+        if self.as_it_is {
+            self.pack_matter(size);
+        } else {
+            self.matter.mark(size, self.particles.values(), DISC_RADIUS);
         }
-        self.foam_of = Some((scene.generation, scene.tick));
-        let Self { looks, moved, body, glow, matter, depth, .. } = self;
-        depth.measure(size, particles);
-        body.measure(size, blueprint.scale.spacing, (particles, scene.rock), looks, ticks);
-        let warmth = Warmth { particles, rock: scene.rock, curves: scene.curves };
-        glow.measure(size, warmth, |element| looks.of(element).is_gas());
-        let radius = DISC_RADIUS;
-        matter.fill(Sample { particles, rock: scene.rock, looks, moved, body, warmth, size, radius, back, fine });
+        self.matter.body_tiles.list(self.tiles.bodies.values_mut());
+        self.matter.gas_tiles.list(self.tiles.gases.values_mut());
+        self.uniform.liquids = std::array::from_fn(|channel| Vec4::from(self.matter.liquid(channel)));
+        self.uniform.extent = two(self.depth.extent().max(Vec2::ONE), self.uniform.extent.zw());
+        self.uniform.fine_extent = two(self.body.extent().max(Vec2::ONE), self.glow.light_extent().max(Vec2::ONE));
+        self.features = Features::of([
+            (Features::AIR, !self.air.0.is_empty()),
+            (Features::GLOW, self.as_it_is && self.glow.shines()),
+            (Features::RICH, self.level.is_rich()),
+            (Features::MORE, !self.matter.more.is_empty()),
+        ]);
     }
 
-    /// Marks the tiles of bodies and gases.
-    fn mark_bodies(&mut self, size: Vec2) {
-        let Self { particles, matter, tiles, .. } = self;
-        let bodies = [particles.values(), matter.bodies.values(), matter.more.values()].map(|values| &values[..]);
-        tiles.mark_matter(size, (&bodies, DISC_RADIUS), (matter.gases.values(), GAS_RADIUS));
+    /// Matter as it is, with what it takes to shade it.
+    fn pack_matter(&mut self, size: Vec2) {
+        let Self { source, moved, body, glow, matter, depth, rock, .. } = self;
+        let (Source { particles, looks, spacing, back, fine, .. }, warmth) = (&*source, source.warmth());
+        moved.follow(source.of, particles);
+        body.measure(*spacing, particles, looks, source.ticks.unwrap_or_default());
+        depth.measure(size, body.matter());
+        glow.measure(size, warmth, |cell| body.held(cell));
+        let (back, fine, radii) = (*back, *fine, [DISC_RADIUS, GAS_RADIUS]);
+        matter.fill(Sample { particles, rock, looks, moved, body, warmth, size, radii, back, fine });
     }
 
     fn fill_particles(&mut self, scene: Scene<'_>, sight: Sight<'_>, reference: Reference) {
@@ -239,7 +245,9 @@ impl Picture {
                 &self.shares
             }
         };
-        let at = |i| self.moved.at(scene.particles, scene.rock, i, sight.back);
+        let is_rock = |at| scene.rock.count() > 0 && scene.rock.is_solid(Solids::cell_of(at));
+        let share = self.moved.share(sight.back);
+        let at = |i| self.moved.at(scene.particles, is_rock, i, share);
         particles::pack(scene.particles, &self.table, shares, at, self.particles.values_mut());
     }
 
@@ -326,8 +334,7 @@ impl Picture {
         self.uniform = WorldUniform {
             to_clip: two(to_clip, offset),
             size: two(setup.blueprint.domain.size, self.size.as_vec2()),
-            extent: two(self.depth.extent().max(Vec2::ONE), air_extent),
-            fine_extent: two(self.body.extent().max(Vec2::ONE), self.glow.light_extent().max(Vec2::ONE)),
+            extent: two(Vec2::ONE, air_extent),
             look: Vec4::new(self.pixels_per_d, dim, f32::from(view.shaded), colours::DEPTH_SHADE),
             pen: Vec4::new(DISC_RADIUS, 1.5 * lines, 0.0, lines),
             parts: Vec4::new(GAS_RADIUS, TILE, 0.0, sight.time),
@@ -337,14 +344,8 @@ impl Picture {
             box_bottom: srgb(colours::BOX_BOTTOM),
             frame: srgb(colours::FRAME),
             abyss: srgb(colours::ABYSS),
-            liquids: std::array::from_fn(|channel| Vec4::from(self.matter.liquid(channel))),
+            ..self.uniform
         };
-        self.features = Features::of([
-            (Features::AIR, !self.air.0.is_empty()),
-            (Features::GLOW, self.as_it_is && self.glow.shines()),
-            (Features::RICH, self.level.is_rich()),
-            (Features::MORE, !self.matter.more.is_empty()),
-        ]);
         self.bake = self.rock.is_new || seen != (self.size, self.uniform.to_clip);
     }
 }

@@ -6,7 +6,7 @@ use crate::{
     lab::{colours::Rgb, maps::BurialMap},
     sim::generation::Generation,
 };
-use glam::{IVec2, UVec2};
+use glam::{IVec2, UVec2, Vec2};
 use std::ops::Range;
 
 /// Cells to either side of a point that are looked up when its rock is baked: a texel and a tenth away, and between two texels.
@@ -29,6 +29,8 @@ pub struct RockMap {
     pub changed: Tiles,
     /// What the texel of each cell follows from, now and before; 0 where no rock is.
     causes: [Vec<u64>; 2],
+    /// A bit for each cell that is rock, in the same order; no word if there is none.
+    solid: Vec<u64>,
     burial: BurialMap,
     /// World, its version, and metres of a d.
     of: Option<(Generation, u64, f32)>,
@@ -73,6 +75,19 @@ impl RockMap {
         }
     }
 
+    /// Whether there was rock at a point, d, when it was last followed.
+    pub fn is_at(&self, point: Vec2) -> bool {
+        if self.solid.is_empty() {
+            return false;
+        }
+        let cell = Solids::cell_of(point);
+        if cell.min_element() < 0 || cell.as_uvec2().cmpge(self.size).any() {
+            return false;
+        }
+        let k = (cell.y as u32 * self.size.x + cell.x as u32) as usize;
+        self.solid[k / 64] >> (k % 64) & 1 != 0
+    }
+
     /// Makes all of it anew, in colours that change by themselves: `texel` is that of a cell, by its element.
     pub fn repaint(&mut self, rock: &Solids, texel: impl Fn(IVec2, ElementId) -> (Rgb, Finish)) {
         self.begin(rock);
@@ -105,11 +120,16 @@ impl RockMap {
         self.causes.swap(0, 1);
         let [now, _] = &mut self.causes;
         now.fill(0);
+        self.solid.clear();
+        if rock.count() > 0 {
+            self.solid.resize(now.len().div_ceil(64), 0);
+        }
         let columns = self.size.x as usize;
         rock.iter().for_each(|(cell, element, id)| {
+            let k = cell.y as usize * columns + cell.x as usize;
+            self.solid[k / 64] |= 1 << (k % 64);
             // The steps out of rock are never 0.
-            now[cell.y as usize * columns + cell.x as usize] =
-                u64::from(self.burial.steps(cell)) | u64::from(element.0) << 8 | u64::from(id) << 32;
+            now[k] = u64::from(self.burial.steps(cell)) | u64::from(element.0) << 8 | u64::from(id) << 32;
             self.tiles.mark_cell(cell, 1);
         });
     }

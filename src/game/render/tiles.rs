@@ -28,10 +28,16 @@ impl Tiles {
     pub fn mark(&mut self, at: Vec2, radius: f32) {
         // What is below 0 or no number becomes 0. Rounding down by `floor` would be a call.
         let [low, high] = [at - radius, at + radius].map(|at| (at / TILE).as_uvec2().min(self.dimensions - 1));
-        for y in low.y..=high.y {
-            for x in low.x..=high.x {
-                self.marked[(y * self.dimensions.x + x) as usize] = true;
+        let mut mark = |x: u32, y: u32| self.marked[(y * self.dimensions.x + x) as usize] = true;
+        if (high - low).max_element() <= 1 {
+            // Whether it reaches one tile or two is anyone's guess, also the processor's: no loop.
+            for (x, y) in [(low.x, low.y), (high.x, low.y), (low.x, high.y), (high.x, high.y)] {
+                mark(x, y);
             }
+            return;
+        }
+        for y in low.y..=high.y {
+            (low.x..=high.x).for_each(|x| mark(x, y));
         }
     }
 
@@ -68,30 +74,12 @@ pub struct PictureTiles {
     pub rock: RawBufferVec<TileInstance>,
     /// Rock that looks otherwise than in the frame before.
     pub changed: RawBufferVec<TileInstance>,
-    marks: Tiles,
 }
 
 impl Default for PictureTiles {
     fn default() -> Self {
         let buffer = || RawBufferVec::new(BufferUsages::VERTEX);
-        Self { bodies: buffer(), gases: buffer(), rock: buffer(), changed: buffer(), marks: Tiles::default() }
-    }
-}
-
-impl PictureTiles {
-    /// Marks what the discs of all instances reach, in a box of `size`: bodies in several buffers, and gases. Instances begin with
-    /// their place, two f32; radii in d.
-    pub fn mark_matter(&mut self, size: Vec2, bodies: (&[&[[u32; 3]]], f32), gases: (&[[u32; 3]], f32)) {
-        let Self { marks, bodies: of_bodies, gases: of_gases, .. } = self;
-        let mut mark = |instances: &[&[[u32; 3]]], radius: f32, out: &mut Vec<TileInstance>| {
-            marks.clear(size);
-            for [x, y, _] in instances.iter().copied().flatten() {
-                marks.mark(Vec2::new(f32::from_bits(*x), f32::from_bits(*y)), radius);
-            }
-            marks.list(out);
-        };
-        mark(bodies.0, bodies.1, of_bodies.values_mut());
-        mark(&[gases.0], gases.1, of_gases.values_mut());
+        Self { bodies: buffer(), gases: buffer(), rock: buffer(), changed: buffer() }
     }
 }
 

@@ -97,7 +97,7 @@ impl Painter {
         let reference = Reference::of(&setup.blueprint.domain, &setup.blueprint.air);
         self.bodies.clear();
         self.clouds.clear();
-        self.depths.measure(self.frame.size(), particles);
+        self.depths.measure(self.frame.size(), (0..particles.len()).map(|i| (particles.position(i), 1)));
         for i in 0..particles.len() {
             let (id, place) = (particles.element[i], particles.position(i));
             let element = setup.elements().get(id);

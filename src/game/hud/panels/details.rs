@@ -129,10 +129,11 @@ fn pace(ui: &mut Ui, tempo: &Tempo, ledger: &PassLedger) {
 }
 
 fn frame(ui: &mut Ui, render: &RenderCost, hud: &HudCost) {
-    let (extract, upload) = render.milliseconds();
+    let [extract, pack, upload] = render.milliseconds();
     ui.label(weak(tr!(
-        "a frame: picture {extract} + {upload} ms, HUD {hud} ms of processor time",
+        "a frame: picture {extract} + {pack} + {upload} ms, HUD {hud} ms of processor time",
         extract = format_args!("{extract:.2}"),
+        pack = format_args!("{pack:.2}"),
         upload = format_args!("{upload:.2}"),
         hud = format_args!("{:.2}", hud.milliseconds())
     )));

@@ -7,6 +7,7 @@ use crate::{
         look::Looks,
         matter::{LIQUIDS, Matter, Sample},
         moved::Moved,
+        rock::RockMap,
     },
     kernel::{
         element::{ElementId, ElementTable},
@@ -32,7 +33,8 @@ struct Rig {
 impl Rig {
     fn new() -> Self {
         let table = elements().expect("the elements");
-        let (curves, looks) = (HeatTable::new(&table), Looks::new(&table));
+        let curves = HeatTable::new(&table);
+        let looks = Looks::new(&table, &curves);
         Self { table, curves, looks, rock: Solids::new(SIDE as u32, SIDE as u32) }
     }
 
@@ -53,10 +55,12 @@ impl Rig {
     fn pack(&self, particles: &Particles, fine: bool) -> Matter {
         let size = Vec2::splat(SIDE);
         let (mut matter, mut body) = (Matter::default(), BodyMap::default());
-        body.measure(size, 0.1, (particles, &self.rock), &self.looks, None);
-        let warmth = Warmth { particles, rock: &self.rock, curves: &self.curves };
-        let (rock, looks, moved) = (&self.rock, &self.looks, &Moved::default());
-        matter.fill(Sample { particles, rock, looks, moved, body: &body, warmth, size, radius: 1.35, back: 0.0, fine });
+        body.follow_rock(size, &self.rock, true);
+        body.measure(0.1, particles, &self.looks, 0);
+        let warmth = Warmth { particles, rock: &[], curves: &self.curves, looks: &self.looks };
+        let (rock, looks, moved) = (&RockMap::default(), &self.looks, &Moved::default());
+        let (radii, back) = ([1.35, 4.2], 0.0);
+        matter.fill(Sample { particles, rock, looks, moved, body: &body, warmth, size, radii, back, fine });
         matter
     }
 }
@@ -133,8 +137,9 @@ fn water_that_tumbles_foams_and_water_at_rest_does_not() {
             particles.push(k, rig.find("water"), at, Vec2::new(way * speed, 0.0));
         }
         let mut body = BodyMap::default();
-        for ticks in [None, Some(1), Some(1), Some(1), Some(1)] {
-            body.measure(Vec2::splat(SIDE), 0.1, (&particles, &rig.rock), &rig.looks, ticks);
+        body.follow_rock(Vec2::splat(SIDE), &rig.rock, true);
+        for ticks in [0, 1, 1, 1, 1] {
+            body.measure(0.1, &particles, &rig.looks, ticks);
         }
         body.foam_at(Vec2::splat(20.0))
     };
@@ -164,9 +169,13 @@ fn how_full_a_place_is_follows_from_what_is_around_it_and_from_nothing_before() 
             }
         }
         let particles = rig.row(names);
-        body.measure(Vec2::splat(SIDE), 0.1, (&particles, &rig.rock), &rig.looks, Some(0));
+        let measure = |body: &mut BodyMap, is_new: bool| {
+            body.follow_rock(Vec2::splat(SIDE), &rig.rock, is_new);
+            body.measure(0.1, &particles, &rig.looks, 0);
+        };
         let mut fresh = BodyMap::default();
-        fresh.measure(Vec2::splat(SIDE), 0.1, (&particles, &rig.rock), &rig.looks, None);
+        measure(&mut body, false);
+        measure(&mut fresh, true);
         assert_eq!(body.texels(), fresh.texels());
 
         let full = |x: i32, y: i32| {
