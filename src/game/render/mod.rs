@@ -5,11 +5,12 @@
 //! gases ────────► field ──► cloud   │    backdrop, streaks, surface, grains, rock, clouds
 //! grains, rock, streaks ────────────┴──► the window, from back to front
 //! ```
-//! `extract` copies what a frame needs out of a world (a `scene`, and how it is looked at) into a `picture`: the `source` of its
-//! matter (or in the views that show a number `particles`), `rock` and `air`. The world goes on while the picture packs the source:
-//! `matter` in the layout that the graphics read, `body` and `glow` as maps that the shaders look at, `tiles` where there is anything
-//! at all, `features` what its passes can't leave out; `level` says how much of it the graphics can do in time; `moved` knows where things were between two ticks, `look` which element is drawn how, `noise` is a
-//! texture that never changes. `gpu` uploads it; `pipelines` has what its features ask for; `draw` draws it before the HUD.
+//! `extract` copies what a frame needs out of a world (a `scene`, and how it is looked at) into a `picture`: the `source` of matter
+//! and rock (in the views that show a number `particles` and `rock`), and `air`. The world goes on while the picture packs the source:
+//! `matter` and `rock` in the layout that the graphics read, `body` and `glow` as maps that the shaders look at, `tiles` where there is
+//! anything at all, `features` what its passes can't leave out; `level` says how much of it the graphics can do in time; `moved` knows
+//! where things were between two ticks, `look` which element is drawn how, `noise` is a texture that never changes. `gpu` uploads it;
+//! `pipelines` has what its features ask for; `draw` draws it before the HUD.
 //! `offscreen` draws without a window, for `bench frame` and tests. `tracers` make wind visible. Everything here runs on WebGL2: no
 //! storage buffers, no compute, targets of eight bits.
 

@@ -24,9 +24,13 @@ use crate::{
             table::{Layer, PRESSURE, Quantity, Streaks, View, density_share, temperature_share},
         },
     },
-    kernel::{heat::Exposure, solids::Solids},
+    kernel::{
+        element::{ElementId, ElementTable},
+        heat::Exposure,
+        solids::Solids,
+    },
     lab::{
-        colours::{self, Reference, rock_colour},
+        colours::{self, Reference, Rgb, rock_colour},
         difference::Difference,
         maps::DepthMap,
     },
@@ -36,7 +40,7 @@ use bevy::{
     math::URect,
     render::render_resource::{BufferUsages, RawBufferVec},
 };
-use glam::{UVec2, Vec2, Vec4, Vec4Swizzles};
+use glam::{IVec2, UVec2, Vec2, Vec4, Vec4Swizzles};
 
 /// Radius of a particle's soft disc, d.
 const DISC_RADIUS: f32 = 1.35;
@@ -87,7 +91,7 @@ pub struct Picture {
     pub glow: GlowMap,
     /// Whether matter is shown as it is, so that `depth`, `body` and `glow` are of this frame.
     pub as_it_is: bool,
-    source: Source,
+    source: Option<Source>,
     moved: Moved,
     /// Where limiters act; of the last time that the view showed it.
     strain: StrainMap,
@@ -121,7 +125,7 @@ impl Default for Picture {
             body: BodyMap::default(),
             glow: GlowMap::default(),
             as_it_is: false,
-            source: Source::default(),
+            source: None,
             moved: Moved::default(),
             strain: StrainMap::default(),
             exposure: Exposure::default(),
@@ -129,6 +133,14 @@ impl Default for Picture {
             table_of: None,
             shares: Vec::new(),
         }
+    }
+}
+
+/// Colours and finishes of rock in the colours of its elements, by its cell, element, id and how deep it is buried.
+fn own_colours(elements: &ElementTable) -> impl Fn(IVec2, ElementId, u32, f32) -> (Rgb, Finish) {
+    |cell, element, id, burial| {
+        let element = elements.get(element);
+        (rock_colour(element, cell, id, burial), Finish::of(element))
     }
 }
 
@@ -140,14 +152,14 @@ impl Picture {
         self.as_it_is = sight.view.shaded;
         if self.as_it_is {
             self.particles.clear();
-            self.source.take(scene, sight.back, sight.camera.pixels_per_d() * sight.scale() >= FINE);
-            self.body.follow_rock(blueprint.domain.size, scene.rock, self.source.ticks.is_none());
+            let fine = sight.camera.pixels_per_d() * sight.scale() >= FINE;
+            self.source = Some(Source::take(self.source.take(), scene, sight.back, fine));
         } else {
             self.matter.clear();
             self.moved.follow((scene.generation, scene.tick), scene.particles);
             self.fill_particles(scene, sight, reference);
+            self.fill_rock(scene, sight.view);
         }
-        self.fill_rock(scene, sight.view);
         let air_extent = self.fill_air(scene, sight, reference);
         self.fill_streaks(scene, sight, reference);
         self.look(scene.setup, sight, sight.view, air_extent, (area, within));
@@ -175,10 +187,15 @@ impl Picture {
     pub(super) fn pack(&mut self) {
         let size = self.uniform.size.xy();
         if self.as_it_is {
-            self.pack_matter(size);
+            self.pack_source(size);
         } else {
             self.matter.mark(size, self.particles.values(), DISC_RADIUS);
         }
+        if !self.rock.rows.is_empty() {
+            self.rock.tiles.list(self.tiles.rock.values_mut());
+            self.rock.changed.list(self.tiles.changed.values_mut());
+        }
+        self.bake |= self.rock.is_new;
         self.matter.body_tiles.list(self.tiles.bodies.values_mut());
         self.matter.gas_tiles.list(self.tiles.gases.values_mut());
         self.uniform.liquids = std::array::from_fn(|channel| Vec4::from(self.matter.liquid(channel)));
@@ -193,14 +210,17 @@ impl Picture {
     }
 
     /// Matter as it is, with what it takes to shade it.
-    fn pack_matter(&mut self, size: Vec2) {
-        let Self { source, moved, body, glow, matter, depth, rock, .. } = self;
-        let (Source { particles, looks, spacing, back, fine, .. }, warmth) = (&*source, source.warmth());
-        moved.follow(source.of, particles);
-        body.measure(*spacing, particles, looks, source.ticks.unwrap_or_default());
+    fn pack_source(&mut self, size: Vec2) {
+        let Self { source: Some(source), moved, body, glow, matter, depth, rock, .. } = self else { return };
+        let Source { of, ticks, blueprint, looks, particles, back, fine, .. } = &*source;
+        let spacing = blueprint.scale.spacing;
+        rock.follow(&source.rock, (of.0, spacing), own_colours(&blueprint.elements));
+        moved.follow(*of, particles);
+        body.follow_rock(size, &source.rock, ticks.is_none());
+        body.measure(spacing, particles, looks, ticks.unwrap_or_default());
         depth.measure(size, body.matter());
+        let (warmth, radii, back, fine) = (source.warmth(), [DISC_RADIUS, GAS_RADIUS], *back, *fine);
         glow.measure(size, warmth, |cell| body.held(cell));
-        let (back, fine, radii) = (*back, *fine, [DISC_RADIUS, GAS_RADIUS]);
         matter.fill(Sample { particles, rock, looks, moved, body, warmth, size, radii, back, fine });
     }
 
@@ -263,15 +283,7 @@ impl Picture {
             let texel = |cell, element| ((view.colour)(elements.get(element), share(cell, element)), Finish::Polished);
             self.rock.repaint(rock, texel);
         } else {
-            let texel = |cell, element, id, burial| {
-                let element = elements.get(element);
-                (rock_colour(element, cell, id, burial), Finish::of(element))
-            };
-            self.rock.follow(rock, (scene.generation, scene.setup.blueprint.scale.spacing), texel);
-        }
-        if !self.rock.rows.is_empty() {
-            self.rock.tiles.list(self.tiles.rock.values_mut());
-            self.rock.changed.list(self.tiles.changed.values_mut());
+            self.rock.follow(rock, (scene.generation, scene.setup.blueprint.scale.spacing), own_colours(elements));
         }
     }
 
@@ -346,6 +358,6 @@ impl Picture {
             abyss: srgb(colours::ABYSS),
             ..self.uniform
         };
-        self.bake = self.rock.is_new || seen != (self.size, self.uniform.to_clip);
+        self.bake = seen != (self.size, self.uniform.to_clip);
     }
 }

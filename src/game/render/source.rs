@@ -1,4 +1,4 @@
-//! What a world's matter is packed of, copied out of it so that the world may go on meanwhile.
+//! What a picture of matter is packed of, copied out of the world so that it may go on meanwhile.
 
 use crate::{
     game::render::{
@@ -6,46 +6,68 @@ use crate::{
         look::Looks,
         scene::Scene,
     },
-    kernel::{heat::table::HeatTable, particles::Particles},
+    kernel::{heat::table::HeatTable, particles::Particles, solids::Solids},
+    scene::blueprint::Blueprint,
     sim::generation::Generation,
 };
+use std::sync::Arc;
 
 /// The copy.
-#[derive(Default)]
 pub struct Source {
-    /// Movable particles.
-    pub particles: Particles,
-    /// Looks of the elements.
-    pub looks: Looks,
-    curves: HeatTable,
-    glowing: Vec<GlowingRock>,
     /// The world, and its tick.
     pub of: (Generation, u64),
     /// Ticks since the frame before; none if that showed another world, or none at all.
     pub ticks: Option<u64>,
-    /// Metres of a d.
-    pub spacing: f32,
+    /// What the world began with, at the detail in force.
+    pub blueprint: Arc<Blueprint>,
+    /// Looks of its elements.
+    pub looks: Looks,
+    curves: HeatTable,
+    /// Movable particles.
+    pub particles: Particles,
+    /// Rock; its heat may be that of an earlier tick.
+    pub rock: Solids,
+    glowing: Vec<GlowingRock>,
     /// The moment that is drawn, s before the last tick.
     pub back: f32,
     /// Whether grains are large enough to be drawn one by one.
     pub fine: bool,
-    is_begun: bool,
 }
 
 impl Source {
-    /// Copies a world.
-    pub(super) fn take(&mut self, scene: Scene<'_>, back: f32, fine: bool) {
-        let (blueprint, of) = (&scene.setup.blueprint, (scene.generation, scene.tick));
-        let is_known = self.is_begun && self.of.0 == scene.generation;
-        self.ticks = is_known.then(|| scene.tick.saturating_sub(self.of.1));
-        if !is_known {
-            self.looks = Looks::new(&blueprint.elements, scene.curves);
-            self.curves.clone_from(scene.curves);
+    /// Copies a world, into the memory of what was copied `before` where that is of the same one.
+    pub(super) fn take(before: Option<Self>, scene: Scene<'_>, back: f32, fine: bool) -> Self {
+        let spacing = |blueprint: &Blueprint| blueprint.scale.spacing;
+        let is_same = |before: &Self| {
+            before.of.0 == scene.generation && spacing(&before.blueprint) == spacing(&scene.setup.blueprint)
+        };
+        let mut source = match before.filter(is_same) {
+            Some(before) => Self { ticks: Some(scene.tick.saturating_sub(before.of.1)), ..before },
+            None => Self::begin(scene),
+        };
+        (source.of.1, source.back, source.fine) = (scene.tick, back, fine);
+        source.particles.clone_from(scene.particles);
+        if source.rock.version() != scene.rock.version() {
+            source.rock.clone_from(scene.rock);
         }
-        self.particles.clone_from(scene.particles);
-        glow::find_glowing(scene.rock, &self.curves, &self.looks, &mut self.glowing);
-        (self.of, self.is_begun) = (of, true);
-        (self.spacing, self.back, self.fine) = (blueprint.scale.spacing, back, fine);
+        glow::find_glowing(scene.rock, &source.curves, &source.looks, &mut source.glowing);
+        source
+    }
+
+    fn begin(scene: Scene<'_>) -> Self {
+        let curves = scene.curves.0.clone();
+        Self {
+            of: (scene.generation, scene.tick),
+            ticks: None,
+            blueprint: Arc::clone(&scene.setup.blueprint),
+            looks: Looks::new(scene.setup.elements(), &curves),
+            curves,
+            particles: Particles::default(),
+            rock: scene.rock.0.clone(),
+            glowing: Vec::new(),
+            back: 0.0,
+            fine: false,
+        }
     }
 
     /// How warm its matter is.

@@ -18,7 +18,7 @@ const fn bit(x: i32, y: i32) -> u16 {
 
 /// Which cells of the box are rock. Cells outside the box count as solid. What is kept of cells is empty as long as there has been
 /// no rock.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default, PartialEq)]
 pub struct Solids {
     columns: i32,
     rows: i32,
@@ -31,6 +31,25 @@ pub struct Solids {
     count: usize,
     version: u64,
     shape: u64,
+}
+
+impl Clone for Solids {
+    fn clone(&self) -> Self {
+        let mut clone = Self::default();
+        clone.clone_from(self);
+        clone
+    }
+
+    /// Without new memory where the old is enough; a derived one would ask for it.
+    fn clone_from(&mut self, other: &Self) {
+        let Self { columns, rows, element, id, heat, near, count, version, shape } = self;
+        (*columns, *rows, *count) = (other.columns, other.rows, other.count);
+        (*version, *shape) = (other.version, other.shape);
+        element.clone_from(&other.element);
+        id.clone_from(&other.id);
+        heat.clone_from(&other.heat);
+        near.clone_from(&other.near);
+    }
 }
 
 impl Solids {
