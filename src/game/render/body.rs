@@ -25,7 +25,7 @@ const FAST: (f32, f32) = (0.8, 3.5);
 const SPARSE: u8 = 1;
 /// Mark of a cell with foam in it or beside it.
 const FOAMY: u8 = 2;
-/// Less foam than this is none: it would not be seen.
+/// Less foam than this is none: it is less than a step of the eight bits that a body has for it.
 const LEAST_FOAM: f32 = 0.001;
 
 /// The grid.
