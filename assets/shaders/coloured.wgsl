@@ -11,12 +11,11 @@ struct Coloured {
 }
 
 @vertex
-fn coloured_vertex(
-    @builtin(vertex_index) vertex: u32,
-    @location(0) position: vec2<f32>,
-    @location(1) colour: vec4<f32>,
-) -> Coloured {
-    let at = corner(vertex) * 2.0 - 1.0;
+fn coloured_vertex(@builtin(vertex_index) vertex: u32) -> Coloured {
+    let packed = texel_of(vertex / 3u);
+    let position = bitcast<vec2<f32>>(packed.xy);
+    let colour = bytes_of(packed.z);
+    let at = around(vertex);
     var out: Coloured;
     out.position = clip_of(position + at * world.pen.x);
     out.at = at;

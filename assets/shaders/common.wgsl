@@ -31,6 +31,7 @@ struct World {
 }
 
 @group(0) @binding(0) var<uniform> world: World;
+@group(0) @binding(1) var instances: texture_2d<u32>;
 @group(1) @binding(0) var linear_sampler: sampler;
 @group(1) @binding(1) var air_texture: texture_2d<f32>;
 @group(1) @binding(2) var depth_texture: texture_2d<f32>;
@@ -48,8 +49,25 @@ struct World {
 // Alpha of the field at the surface of a body.
 const SURFACE: f32 = 0.5;
 
+// Three vertices are a disc: where they are around it, if its radius is 1.
+fn around(vertex: u32) -> vec2<f32> {
+    let k = vertex % 3u;
+    return vec2<f32>(1.7320508 * (f32(k) - 1.0), select(-1.0, 2.0, k == 1u));
+}
+
+// Six vertices are a quad: two triangles, of the corners 0, 1, 2 and 2, 1, 3.
 fn corner(vertex: u32) -> vec2<f32> {
-    return vec2<f32>(f32(vertex & 1u), f32(vertex >> 1u));
+    let k = (0xda4u >> (2u * (vertex % 6u))) & 3u;
+    return vec2<f32>(f32(k & 1u), f32(k >> 1u));
+}
+
+// A texel of what is known of the instances.
+fn texel_of(k: u32) -> vec4<u32> {
+    return textureLoad(instances, vec2<u32>(k % #{ROW}u, k / #{ROW}u), 0);
+}
+
+fn bytes_of(packed: u32) -> vec4<f32> {
+    return vec4<f32>((vec4<u32>(packed) >> vec4<u32>(0u, 8u, 16u, 24u)) & vec4<u32>(255u)) / 255.0;
 }
 
 fn clip_of(point: vec2<f32>) -> vec4<f32> {
@@ -138,8 +156,10 @@ struct Tile {
 }
 
 @vertex
-fn tile_vertex(@builtin(vertex_index) vertex: u32, @location(0) tile: vec2<u32>) -> Tile {
-    let point = min((vec2<f32>(tile) + corner(vertex)) * world.parts.y, world.size.xy);
+fn tile_vertex(@builtin(vertex_index) vertex: u32) -> Tile {
+    let packed = texel_of(vertex / 6u).x;
+    let tile = vec2<f32>(vec2<u32>(packed & 0xffffu, packed >> 16u));
+    let point = min((tile + corner(vertex)) * world.parts.y, world.size.xy);
     var out: Tile;
     out.position = clip_of(point);
     out.point = point;

@@ -11,12 +11,11 @@ struct Gas {
 }
 
 @vertex
-fn gas_vertex(
-    @builtin(vertex_index) vertex: u32,
-    @location(0) position: vec2<f32>,
-    @location(1) colour: vec4<f32>,
-) -> Gas {
-    let at = corner(vertex) * 2.0 - 1.0;
+fn gas_vertex(@builtin(vertex_index) vertex: u32) -> Gas {
+    let packed = texel_of(vertex / 3u);
+    let position = bitcast<vec2<f32>>(packed.xy);
+    let colour = bytes_of(packed.z);
+    let at = around(vertex);
     var out: Gas;
     out.position = clip_of(position + at * world.parts.x);
     out.at = at;

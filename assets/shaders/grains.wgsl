@@ -14,12 +14,11 @@ struct Grain {
 const GRAIN: f32 = 0.56;
 
 @vertex
-fn grain_vertex(
-    @builtin(vertex_index) vertex: u32,
-    @location(0) position: vec2<f32>,
-    @location(1) colour: vec4<f32>,
-) -> Grain {
-    let at = corner(vertex) * 2.0 - 1.0;
+fn grain_vertex(@builtin(vertex_index) vertex: u32) -> Grain {
+    let packed = texel_of(vertex / 3u);
+    let position = bitcast<vec2<f32>>(packed.xy);
+    let colour = bytes_of(packed.z);
+    let at = around(vertex);
     var out: Grain;
     // A pixel of room for the soft edge.
     let radius = GRAIN + 0.7 / world.look.x;

@@ -13,12 +13,11 @@ struct Body {
 
 // `traits`: channel, foam, how far the disc is drawn out, and the angle along which, as a share of a half turn.
 @vertex
-fn body_vertex(
-    @builtin(vertex_index) vertex: u32,
-    @location(0) position: vec2<f32>,
-    @location(1) traits: vec4<f32>,
-) -> Body {
-    let at = corner(vertex) * 2.0 - 1.0;
+fn body_vertex(@builtin(vertex_index) vertex: u32) -> Body {
+    let packed = texel_of(vertex / 3u);
+    let position = bitcast<vec2<f32>>(packed.xy);
+    let traits = bytes_of(packed.z);
+    let at = around(vertex);
     let long = 1.0 + 2.0 * traits.z;
     let angle = traits.w * 3.14159265;
     let along = vec2<f32>(cos(angle), sin(angle));

@@ -10,11 +10,10 @@ struct Streak {
 }
 
 @vertex
-fn streak_vertex(
-    @builtin(vertex_index) vertex: u32,
-    @location(0) ends: vec4<f32>,
-    @location(1) colour: vec4<f32>,
-) -> Streak {
+fn streak_vertex(@builtin(vertex_index) vertex: u32) -> Streak {
+    let k = 2u * (vertex / 6u);
+    let ends = bitcast<vec4<f32>>(texel_of(k));
+    let colour = bytes_of(texel_of(k + 1u).x);
     let c = corner(vertex);
     let along = (ends.zw - ends.xy) * world.look.x;
     let length_pixels = max(length(along), 0.001);

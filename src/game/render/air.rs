@@ -6,12 +6,13 @@ use crate::{
 };
 use glam::Vec2;
 
-/// Tail and head (four f32) and colour (four bytes) of a streak.
-pub type Streak = [u32; 5];
+/// Tail and head (four f32) and colour (four bytes) of a streak; the rest is not used.
+pub type Streak = [u32; 8];
 
 /// A streak from a tail to a head; the colour's last byte is its opacity.
 pub fn streak(tail: Vec2, head: Vec2, colour: [u8; 4]) -> Streak {
-    [tail.x.to_bits(), tail.y.to_bits(), head.x.to_bits(), head.y.to_bits(), u32::from_le_bytes(colour)]
+    let [from, to] = [tail, head].map(|end| end.to_array().map(f32::to_bits));
+    [from[0], from[1], to[0], to[1], u32::from_le_bytes(colour), 0, 0, 0]
 }
 
 /// Packs the air's colours by its pressure and velocity, premultiplied by their opacity, row by row from the bottom.

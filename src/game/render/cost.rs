@@ -123,8 +123,8 @@ impl RenderCost {
         self.drawn.iter().for_each(|count| count.store(0, Ordering::Relaxed));
     }
 
-    pub(super) fn note(&self, pass: PicturePass, instances: usize) {
-        self.drawn[pass as usize].fetch_add(instances as u32, Ordering::Relaxed);
+    pub(super) fn note(&self, pass: PicturePass, instances: u32) {
+        self.drawn[pass as usize].fetch_add(instances, Ordering::Relaxed);
     }
 
     pub(super) fn note_time(time: &AtomicU32, taken: Duration) {

@@ -4,6 +4,7 @@ use crate::game::render::{
     cost::{PicturePass, RenderCost, Repeat},
     extract::Pictures,
     gpu::{GpuPicture, GpuPictures, Stone},
+    instances::{Instances, PictureInstances},
     picture::Picture,
     pipelines::{Ids, Pipelines, Variants},
 };
@@ -12,7 +13,7 @@ use bevy::{
     render::{
         render_phase::TrackedRenderPass,
         render_resource::{
-            BindGroup, Buffer, CachedRenderPipelineId, LoadOp, Operations, PipelineCache, RenderPassColorAttachment,
+            BindGroup, CachedRenderPipelineId, LoadOp, Operations, PipelineCache, RenderPassColorAttachment,
             RenderPassDescriptor, RenderPipeline, StoreOp, TextureView,
         },
         renderer::{RenderContext, ViewQuery},
@@ -20,13 +21,6 @@ use bevy::{
     },
 };
 use std::sync::atomic::Ordering;
-
-/// The buffer of instances, and their number.
-macro_rules! all {
-    ($instances:expr) => {
-        ($instances.buffer(), $instances.len())
-    };
-}
 
 /// Draws the worlds of the frame.
 pub fn draw(
@@ -88,54 +82,54 @@ fn over<'a>(context: &'a mut RenderContext<'_, '_>, target: &ViewTarget) -> Trac
 /// A picture that has everything to be drawn.
 struct Pane<'a> {
     picture: &'a Picture,
+    instances: &'a PictureInstances,
     fields: [&'a TextureView; 3],
-    groups: &'a [BindGroup; 2],
+    textures: &'a BindGroup,
     stone: &'a Stone,
 }
 
 impl<'a> Pane<'a> {
     fn new((picture, gpu): (&'a Picture, &'a GpuPicture)) -> Option<Self> {
-        let ((fields, groups), stone) = (gpu.parts()?, gpu.stone()?);
-        Some(Self { picture, fields, groups, stone })
+        let ((fields, textures), stone) = (gpu.parts()?, gpu.stone()?);
+        Some(Self { picture, instances: &gpu.instances, fields, textures, stone })
     }
 
     /// Binds its numbers, and its maps and fields.
     fn bind(&self, pass: &mut TrackedRenderPass<'a>) {
-        for (k, group) in self.groups.iter().enumerate() {
-            pass.set_bind_group(k, group, &[]);
+        // A pass over all of the screen reads the numbers only, and they are in the group of any of its instances.
+        if let Some(numbers) = self.instances.bodies.group() {
+            pass.set_bind_group(0, numbers, &[]);
         }
+        pass.set_bind_group(1, self.textures, &[]);
     }
 
     /// Draws the fields of what is there.
     fn draw_fields(&self, context: &mut RenderContext<'_, '_>, with: With<'_>) {
-        let Picture { particles, matter, as_it_is, .. } = self.picture;
+        let PictureInstances { particles, bodies, more, gases, .. } = self.instances;
         let ids = with.ids;
-        let first = if *as_it_is { (ids.body, all!(matter.bodies)) } else { (ids.coloured, all!(particles)) };
+        let first = if self.picture.as_it_is { (ids.body, bodies) } else { (ids.coloured, particles) };
         let all = [
             (PicturePass::Bodies, first),
-            (PicturePass::Bodies, (ids.more, all!(matter.more))),
-            (PicturePass::Gases, (ids.gas, all!(matter.gases))),
+            (PicturePass::Bodies, (ids.more, more)),
+            (PicturePass::Gases, (ids.gas, gases)),
         ];
         for (view, (of, (pipeline, what))) in self.fields.into_iter().zip(all) {
-            if what.1 > 0 {
-                let mut pass = into(context, "field", view);
-                pass.set_bind_group(0, &self.groups[0], &[]);
-                with.instances(&mut pass, of, pipeline, what);
+            if what.count() > 0 {
+                with.instances(&mut into(context, "field", view), of, pipeline, what);
             }
         }
     }
 
     /// Bakes the rock anew where it looks otherwise.
     fn bake(&self, context: &mut RenderContext<'_, '_>, with: With<'_>) {
-        let Self { stone, picture, .. } = self;
+        let Self { stone, instances, .. } = self;
         if stone.baked.load(Ordering::Relaxed) || with.cache.get_render_pipeline(with.ids.stone).is_none() {
             return;
         }
-        let tiles = &picture.tiles;
         let (mut pass, tiles) = if stone.whole {
-            (into(context, "stone", &stone.sheet.view), all!(tiles.rock))
+            (into(context, "stone", &stone.sheet.view), &instances.rock_tiles)
         } else {
-            (onto(context, "stone", &stone.sheet.view), all!(tiles.changed))
+            (onto(context, "stone", &stone.sheet.view), &instances.changed_tiles)
         };
         self.bind(&mut pass);
         with.instances(&mut pass, PicturePass::Bake, with.ids.stone, tiles);
@@ -162,26 +156,25 @@ impl<'a> Pane<'a> {
     }
 
     fn draw(&self, pass: &mut TrackedRenderPass<'a>, with: With<'a>) {
-        let (picture, ids) = (self.picture, with.ids);
+        let (picture, instances, ids) = (self.picture, self.instances, with.ids);
         let fitting = |of: &Variants| of.fitting(picture.features, with.cache);
         if !self.confine(pass) {
             return;
         }
         self.bind(pass);
         with.screen(pass, PicturePass::Backdrop, fitting(&ids.backdrop));
-        let tiles = &picture.tiles;
-        let streaks = all!(picture.streaks);
+        let streaks = &instances.streaks;
         if !picture.streaks_on_top {
             with.instances(pass, PicturePass::Streaks, ids.streaks, streaks);
         }
         let surface = if picture.as_it_is { fitting(&ids.surface) } else { Some(ids.shape) };
-        with.instances(pass, PicturePass::Surface, surface, all!(tiles.bodies));
-        with.instances(pass, PicturePass::Grains, ids.grain, all!(picture.matter.grains));
+        with.instances(pass, PicturePass::Surface, surface, &instances.body_tiles);
+        with.instances(pass, PicturePass::Grains, ids.grain, &instances.grains);
         if let Some(group) = &self.stone.sheet.group {
             pass.set_bind_group(2, group, &[]);
-            with.instances(pass, PicturePass::Rock, fitting(&ids.rock), all!(tiles.rock));
+            with.instances(pass, PicturePass::Rock, fitting(&ids.rock), &instances.rock_tiles);
         }
-        with.instances(pass, PicturePass::Clouds, fitting(&ids.cloud), all!(tiles.gases));
+        with.instances(pass, PicturePass::Clouds, fitting(&ids.cloud), &instances.gas_tiles);
         if picture.streaks_on_top {
             with.instances(pass, PicturePass::Streaks, ids.streaks, streaks);
         }
@@ -243,19 +236,19 @@ impl<'a> With<'a> {
         }
     }
 
-    /// Draws one quad for each of `count` instances, if there are any.
-    fn instances(
+    /// Draws all instances, if there are any.
+    fn instances<const VERTICES: u32>(
         self,
         pass: &mut TrackedRenderPass<'a>,
         of: PicturePass,
         id: impl Into<Option<CachedRenderPipelineId>>,
-        (buffer, count): (Option<&'a Buffer>, usize),
+        instances: &'a Instances<VERTICES>,
     ) {
-        if let (Some(pipeline), Some(buffer), true) = (self.pipeline(id), buffer, count > 0) {
+        if let (Some(pipeline), Some(group), true) = (self.pipeline(id), instances.group(), instances.count() > 0) {
             pass.set_render_pipeline(pipeline);
-            pass.set_vertex_buffer(0, buffer.slice(..));
-            (0..self.repeat.times(of)).for_each(|_| pass.draw(0..4, 0..count as u32));
-            self.cost.note(of, count);
+            pass.set_bind_group(0, group, &[]);
+            (0..self.repeat.times(of)).for_each(|_| pass.draw(0..instances.vertices(), 0..1));
+            self.cost.note(of, instances.count());
         }
     }
 }

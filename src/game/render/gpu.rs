@@ -1,12 +1,14 @@
-//! The picture on the graphics' side: buffers and textures, filled once a frame.
+//! The picture on the graphics' side: numbers and textures, filled once a frame.
 
 use crate::game::render::{
     cost::RenderCost,
     extract::Pictures,
+    instances::PictureInstances,
     noise,
     picture::Picture,
     pipelines::{FIELD_FORMAT, Layouts, Pipelines},
     rock::RockMap,
+    texture::{Map, descriptor},
     uniform::WorldUniform,
 };
 use bevy::{
@@ -14,19 +16,15 @@ use bevy::{
     prelude::{Res, ResMut, Resource},
     render::{
         render_resource::{
-            BindGroup, BindGroupEntries, BindGroupLayout, Extent3d, PipelineCache, TexelCopyBufferLayout, Texture,
-            TextureDescriptor, TextureDimension, TextureFormat, TextureUsages, TextureView, TextureViewDescriptor,
-            UniformBuffer,
+            BindGroup, BindGroupEntries, BindGroupLayout, PipelineCache, Texture, TextureFormat, TextureUsages,
+            TextureView, TextureViewDescriptor, UniformBuffer,
         },
         renderer::{RenderDevice, RenderQueue},
         texture::{CachedTexture, TextureCache},
     },
 };
 use glam::UVec2;
-use std::{
-    ops::Range,
-    sync::atomic::{AtomicBool, Ordering},
-};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The pictures of a frame, in the order of [`Pictures::shown`].
 #[derive(Resource, Default)]
@@ -59,6 +57,8 @@ impl GpuPictures {
 #[derive(Default)]
 pub struct GpuPicture {
     uniform: UniformBuffer<WorldUniform>,
+    /// What is drawn many times, and group 0 (the uniform, and those of one kind) for each.
+    pub instances: PictureInstances,
     /// Air, depth, rock, bodies, glow and light.
     maps: [Map; 6],
     noise: Map,
@@ -66,8 +66,8 @@ pub struct GpuPicture {
     stone: Option<Stone>,
     /// Bodies, more of them, gases: of this frame.
     fields: Option<[CachedTexture; 3]>,
-    /// Group 0 (the uniform) and group 1 (sampler, maps, fields).
-    groups: Option<[BindGroup; 2]>,
+    /// Group 1: sampler, maps, fields.
+    textures: Option<BindGroup>,
 }
 
 /// A texture as large as the picture that is drawn into, and looked up later.
@@ -117,14 +117,12 @@ pub struct Stone {
 }
 
 impl GpuPicture {
-    /// The three fields, and the groups 0 and 1; all that drawing needs, once it is there.
-    pub fn parts(&self) -> Option<([&TextureView; 3], &[BindGroup; 2])> {
+    /// The three fields, and group 1, once they are there.
+    pub fn parts(&self) -> Option<([&TextureView; 3], &BindGroup)> {
         let fields = self.fields.as_ref()?;
-        Some((fields.each_ref().map(|field| &field.default_view), self.groups.as_ref()?))
+        Some((fields.each_ref().map(|field| &field.default_view), self.textures.as_ref()?))
     }
-}
 
-impl GpuPicture {
     /// What is baked of the rock.
     pub fn stone(&self) -> Option<&Stone> {
         self.stone.as_ref()
@@ -141,75 +139,6 @@ impl GpuPicture {
         let baked = AtomicBool::new(!whole && picture.rock.rows.is_empty());
         self.stone = Some(Stone { sheet, whole, baked });
     }
-}
-
-/// A texture that the processor fills, and that stays until it is filled again.
-#[derive(Default)]
-struct Map(Option<(Texture, TextureView)>);
-
-impl Map {
-    /// Fills it; with nothing, it becomes one texel of zeros.
-    fn fill(&mut self, texels: &[u8], size: UVec2, format: TextureFormat, device: &RenderDevice, queue: &RenderQueue) {
-        let (texels, size) = if texels.is_empty() { (&[0; 4][..], UVec2::ONE) } else { (texels, size) };
-        self.fill_rows(texels, size, 0..size.y, format, device, queue);
-    }
-
-    /// Fills some rows of it, or all if it is of another size.
-    fn fill_rows(
-        &mut self,
-        texels: &[u8],
-        size: UVec2,
-        mut rows: Range<u32>,
-        format: TextureFormat,
-        device: &RenderDevice,
-        queue: &RenderQueue,
-    ) {
-        if self.0.as_ref().is_none_or(|(held, _)| (held.width(), held.height()) != (size.x, size.y)) {
-            let usage = TextureUsages::COPY_DST | TextureUsages::TEXTURE_BINDING;
-            let texture = device.create_texture(&descriptor("map", size, format, usage));
-            let view = texture.create_view(&TextureViewDescriptor::default());
-            self.0 = Some((texture, view));
-            rows = 0..size.y;
-        }
-        let Some((texture, _)) = self.0.as_ref().filter(|_| !rows.is_empty()) else { return };
-        let bytes = if format == TextureFormat::R8Unorm { size.x } else { 4 * size.x };
-        let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(bytes), rows_per_image: None };
-        let mut part = texture.as_image_copy();
-        part.origin.y = rows.start;
-        queue.write_texture(
-            part,
-            &texels[(bytes * rows.start) as usize..(bytes * rows.end) as usize],
-            layout,
-            Extent3d { width: size.x, height: rows.end - rows.start, depth_or_array_layers: 1 },
-        );
-    }
-}
-
-fn descriptor(
-    label: &'static str,
-    size: UVec2,
-    format: TextureFormat,
-    usage: TextureUsages,
-) -> TextureDescriptor<'static> {
-    TextureDescriptor {
-        label: Some(label),
-        size: Extent3d { width: size.x, height: size.y, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: TextureDimension::D2,
-        format,
-        usage,
-        view_formats: &[],
-    }
-}
-
-/// Writes a buffer; grows it in powers of two, so that pouring doesn't make a new one each frame.
-macro_rules! write_growing {
-    ($buffer:expr, $device:expr, $queue:expr) => {{
-        let length = $buffer.len().next_power_of_two();
-        $buffer.reserve(length, $device);
-        $buffer.write_buffer($device, $queue);
-    }};
 }
 
 /// Hands the frame's pictures over.
@@ -247,29 +176,31 @@ fn hand_over(
     device: &RenderDevice,
     queue: &RenderQueue,
 ) {
-    write_growing!(picture.particles, device, queue);
-    write_growing!(picture.matter.bodies, device, queue);
-    write_growing!(picture.matter.more, device, queue);
-    write_growing!(picture.matter.grains, device, queue);
-    write_growing!(picture.matter.gases, device, queue);
-    write_growing!(picture.tiles.bodies, device, queue);
-    write_growing!(picture.tiles.gases, device, queue);
-    write_growing!(picture.streaks, device, queue);
+    let Picture { particles, matter, tiles, streaks, .. } = &*picture;
+    let instances = &mut gpu.instances;
+    instances.particles.fill(particles, device, queue);
+    instances.bodies.fill(&matter.bodies, device, queue);
+    instances.more.fill(&matter.more, device, queue);
+    instances.grains.fill(&matter.grains, device, queue);
+    instances.gases.fill(&matter.gases, device, queue);
+    instances.body_tiles.fill(&tiles.bodies, device, queue);
+    instances.gas_tiles.fill(&tiles.gases, device, queue);
+    instances.streaks.fill(streaks, device, queue);
     gpu.uniform.set(picture.uniform);
     gpu.uniform.write_buffer(device, queue);
 
     gpu.make_stone(picture, device);
     let size = |(columns, rows): (usize, usize)| UVec2::new(columns as u32, rows as u32);
-    if gpu.noise.0.is_none() {
+    if gpu.noise.view().is_none() {
         let size = UVec2::splat(noise::EDGE as u32);
         gpu.noise.fill(&noise::texels(), size, TextureFormat::Rgba8Unorm, device, queue);
     }
     let [air, depth, rock, body, glow, light] = &mut gpu.maps;
     let colours = TextureFormat::Rgba8Unorm;
     air.fill(&picture.air.0, picture.air.1, colours, device, queue);
-    if !picture.rock.rows.is_empty() || rock.0.is_none() {
-        write_growing!(picture.tiles.rock, device, queue);
-        write_growing!(picture.tiles.changed, device, queue);
+    if !picture.rock.rows.is_empty() || rock.view().is_none() {
+        gpu.instances.rock_tiles.fill(&tiles.rock, device, queue);
+        gpu.instances.changed_tiles.fill(&tiles.changed, device, queue);
         let RockMap { texels, size, rows, .. } = &picture.rock;
         rock.fill_rows(texels, *size, rows.clone(), colours, device, queue);
     }
@@ -304,12 +235,13 @@ pub fn bind(mut gpu: ResMut<GpuPictures>, layouts: Res<Layouts>, cache: Res<Pipe
     lens.iter_mut().chain(reduced).for_each(|own| own.bind(&sheet, &device));
     for gpu in panes {
         let (Some(uniform), Some(fields)) = (gpu.uniform.binding(), &gpu.fields) else { continue };
+        gpu.instances.bind(&world, &uniform, &device);
         let [Some(air), Some(depth), Some(rock), Some(body), Some(glow), Some(light)] =
-            gpu.maps.each_ref().map(|map| map.0.as_ref().map(|(_, view)| view))
+            gpu.maps.each_ref().map(Map::view)
         else {
             continue;
         };
-        let Some((_, noise)) = &gpu.noise.0 else { continue };
+        let Some(noise) = gpu.noise.view() else { continue };
         let [bodies, more, gases] = fields.each_ref().map(|field| &field.default_view);
         let entries = BindGroupEntries::sequential((
             &layouts.sampler,
@@ -328,9 +260,6 @@ pub fn bind(mut gpu: ResMut<GpuPictures>, layouts: Res<Layouts>, cache: Res<Pipe
         if let Some(stone) = &mut gpu.stone {
             stone.sheet.bind(&sheet, &device);
         }
-        gpu.groups = Some([
-            device.create_bind_group("world", &world, &BindGroupEntries::single(uniform)),
-            device.create_bind_group("world textures", &textures, &entries),
-        ]);
+        gpu.textures = Some(device.create_bind_group("world textures", &textures, &entries));
     }
 }

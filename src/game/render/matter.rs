@@ -15,10 +15,7 @@ use crate::{
     kernel::{element::ElementId, particles::Particles, random},
     lab::colours::Rgb,
 };
-use bevy::{
-    math::ops,
-    render::render_resource::{BufferUsages, RawBufferVec},
-};
+use bevy::math::ops;
 use glam::Vec2;
 
 /// Liquids that have a channel of their own.
@@ -26,8 +23,8 @@ pub const LIQUIDS: usize = 6;
 /// Liquids in the first field, beside powders and foam; the others are in the second.
 const FIRST: usize = 2;
 
-/// Position (two f32), and four bytes: traits of a body, or a colour.
-pub type Instance = [u32; 3];
+/// Position (two f32), and four bytes: traits of a body, or a colour; the last is not used.
+pub type Instance = [u32; 4];
 
 /// Speed at which a lone drop is drawn out by its own length, d/s.
 const STRETCH: f32 = 160.0;
@@ -86,35 +83,21 @@ fn apart(a: Rgb, b: Rgb) -> i32 {
 }
 
 /// What of the matter is drawn.
+#[derive(Default)]
 pub struct Matter {
     /// Bodies in the first field.
-    pub bodies: RawBufferVec<Instance>,
+    pub bodies: Vec<Instance>,
     /// Bodies in the second field.
-    pub more: RawBufferVec<Instance>,
+    pub more: Vec<Instance>,
     /// Grains.
-    pub grains: RawBufferVec<Instance>,
+    pub grains: Vec<Instance>,
     /// Gases.
-    pub gases: RawBufferVec<Instance>,
+    pub gases: Vec<Instance>,
     /// Tiles that bodies reach into.
     pub body_tiles: Tiles,
     /// Tiles that gases reach into.
     pub gas_tiles: Tiles,
     channels: Channels,
-}
-
-impl Default for Matter {
-    fn default() -> Self {
-        let buffer = || RawBufferVec::new(BufferUsages::VERTEX);
-        Self {
-            bodies: buffer(),
-            more: buffer(),
-            grains: buffer(),
-            gases: buffer(),
-            body_tiles: Tiles::default(),
-            gas_tiles: Tiles::default(),
-            channels: Channels::default(),
-        }
-    }
 }
 
 /// The world whose matter is drawn.
@@ -167,7 +150,7 @@ impl Matter {
     pub fn mark(&mut self, size: Vec2, bodies: &[Instance], radius: f32) {
         self.body_tiles.clear(size);
         self.gas_tiles.clear(size);
-        for [x, y, _] in bodies {
+        for [x, y, ..] in bodies {
             self.body_tiles.mark(Vec2::new(f32::from_bits(*x), f32::from_bits(*y)), radius);
         }
     }
@@ -211,9 +194,9 @@ impl Matter {
     fn body(&mut self, world: Sample<'_>, at: Vec2, traits: [u8; 4], powder: bool) {
         let channel = usize::from(traits[0]);
         let (buffer, channel) = match channel {
-            _ if powder => (self.bodies.values_mut(), 0),
-            k if k < FIRST => (self.bodies.values_mut(), 1 + k),
-            k => (self.more.values_mut(), k - FIRST),
+            _ if powder => (&mut self.bodies, 0),
+            k if k < FIRST => (&mut self.bodies, 1 + k),
+            k => (&mut self.more, k - FIRST),
         };
         let traits = u32::from_le_bytes([channel as u8, traits[1], traits[2], traits[3]]);
         buffer.push(instance(at, traits));
@@ -256,7 +239,7 @@ fn image(at: f32, size: f32, reach: f32) -> Option<f32> {
 }
 
 fn instance(at: Vec2, bytes: u32) -> Instance {
-    [at.x.to_bits(), at.y.to_bits(), bytes]
+    [at.x.to_bits(), at.y.to_bits(), bytes, 0]
 }
 
 /// Colour of a grain and its share of own light: a shade of its own that its id gives it, and what it glows.

@@ -26,6 +26,7 @@ pub mod film;
 pub mod frame_cost;
 pub mod glow;
 pub mod gpu;
+pub mod instances;
 pub mod level;
 pub mod look;
 pub mod matter;
@@ -41,6 +42,7 @@ mod scene;
 pub mod source;
 #[cfg(test)]
 mod tests;
+pub mod texture;
 pub mod tiles;
 pub mod tracers;
 pub mod uniform;

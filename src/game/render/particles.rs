@@ -1,16 +1,13 @@
 //! Movable particles as instances: position between two ticks and colour.
 
 use crate::{
-    game::views::table::View,
+    game::{render::matter::Instance, views::table::View},
     kernel::{element::ElementTable, particles::Particles},
 };
 use glam::Vec2;
 
 /// Colours of each element over the range of what is shown, precomputed.
 const LEVELS: usize = 64;
-
-/// Position (two f32) and colour (four bytes) of a particle.
-pub type ParticleInstance = [u32; 3];
 
 /// A table of colours: a row for each element.
 #[derive(Clone, Debug, Default)]
@@ -42,12 +39,12 @@ pub fn pack(
     table: &ColourTable,
     shares: &[f32],
     at: impl Fn(usize) -> Vec2,
-    out: &mut Vec<ParticleInstance>,
+    out: &mut Vec<Instance>,
 ) {
     out.clear();
     out.extend(particles.element.iter().zip(shares).enumerate().map(|(i, (element, share))| {
         let at = at(i);
-        [at.x.to_bits(), at.y.to_bits(), table.at(element.index(), *share)]
+        [at.x.to_bits(), at.y.to_bits(), table.at(element.index(), *share), 0]
     }));
 }
 
@@ -59,7 +56,7 @@ mod tests {
         kernel::element::{Element, ElementId},
     };
 
-    fn packed(view: &View, velocity: Vec2, share: f32) -> ParticleInstance {
+    fn packed(view: &View, velocity: Vec2, share: f32) -> Instance {
         let mut particles = Particles::default();
         particles.push(0, ElementId(0), Vec2::new(10.0, 20.0), velocity);
         let mut table = ColourTable::default();

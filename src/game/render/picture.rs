@@ -10,9 +10,9 @@ use crate::{
             glow::GlowMap,
             level::Level,
             look::Finish,
-            matter::{Matter, Sample},
+            matter::{Instance, Matter, Sample},
             moved::Moved,
-            particles::{self, ColourTable, ParticleInstance},
+            particles::{self, ColourTable},
             rock::RockMap,
             scene::{Scene, Sight, Within},
             source::Source,
@@ -36,10 +36,7 @@ use crate::{
     },
     sim::{generation::Generation, state::Setup},
 };
-use bevy::{
-    math::URect,
-    render::render_resource::{BufferUsages, RawBufferVec},
-};
+use bevy::math::URect;
 use glam::{IVec2, UVec2, Vec2, Vec4, Vec4Swizzles};
 
 /// Radius of a particle's soft disc, d.
@@ -68,7 +65,7 @@ pub struct Picture {
     /// What it has that not all pictures have.
     pub features: Features,
     /// Movable particles, in the views that colour them one by one.
-    pub particles: RawBufferVec<ParticleInstance>,
+    pub particles: Vec<Instance>,
     /// Matter, in the view that shows it as it is.
     pub matter: Matter,
     /// Tiles with bodies of matter, with gases, with rock.
@@ -78,7 +75,7 @@ pub struct Picture {
     /// Whether all that is baked of the rock is another: it is itself, or where the camera looks.
     pub bake: bool,
     /// Streaks of wind.
-    pub streaks: RawBufferVec<Streak>,
+    pub streaks: Vec<Streak>,
     /// Whether they lie over the liquid.
     pub streaks_on_top: bool,
     /// Texels of the air, and their columns and rows; empty if the view doesn't show it.
@@ -113,12 +110,12 @@ impl Default for Picture {
             is_lens: false,
             uniform: WorldUniform::default(),
             features: Features::default(),
-            particles: RawBufferVec::new(BufferUsages::VERTEX),
+            particles: Vec::new(),
             matter: Matter::default(),
             tiles: PictureTiles::default(),
             rock: RockMap::default(),
             bake: false,
-            streaks: RawBufferVec::new(BufferUsages::VERTEX),
+            streaks: Vec::new(),
             streaks_on_top: false,
             air: (Vec::new(), UVec2::ONE),
             depth: DepthMap::default(),
@@ -189,15 +186,15 @@ impl Picture {
         if self.as_it_is {
             self.pack_source(size);
         } else {
-            self.matter.mark(size, self.particles.values(), DISC_RADIUS);
+            self.matter.mark(size, &self.particles, DISC_RADIUS);
         }
         if !self.rock.rows.is_empty() {
-            self.rock.tiles.list(self.tiles.rock.values_mut());
-            self.rock.changed.list(self.tiles.changed.values_mut());
+            self.rock.tiles.list(&mut self.tiles.rock);
+            self.rock.changed.list(&mut self.tiles.changed);
         }
         self.bake |= self.rock.is_new;
-        self.matter.body_tiles.list(self.tiles.bodies.values_mut());
-        self.matter.gas_tiles.list(self.tiles.gases.values_mut());
+        self.matter.body_tiles.list(&mut self.tiles.bodies);
+        self.matter.gas_tiles.list(&mut self.tiles.gases);
         self.uniform.liquids = std::array::from_fn(|channel| Vec4::from(self.matter.liquid(channel)));
         self.uniform.extent = two(self.depth.extent().max(Vec2::ONE), self.uniform.extent.zw());
         self.uniform.fine_extent = two(self.body.extent().max(Vec2::ONE), self.glow.light_extent().max(Vec2::ONE));
@@ -268,7 +265,7 @@ impl Picture {
         let is_rock = |at| scene.rock.count() > 0 && scene.rock.is_solid(Solids::cell_of(at));
         let share = self.moved.share(sight.back);
         let at = |i| self.moved.at(scene.particles, is_rock, i, share);
-        particles::pack(scene.particles, &self.table, shares, at, self.particles.values_mut());
+        particles::pack(scene.particles, &self.table, shares, at, &mut self.particles);
     }
 
     fn fill_rock(&mut self, scene: Scene<'_>, view: &View) {
@@ -312,13 +309,13 @@ impl Picture {
             Streaks::None => {}
             Streaks::Tracers => {
                 if let Some(tracers) = scene.tracers {
-                    tracers.pack(reference, self.streaks.values_mut());
+                    tracers.pack(reference, &mut self.streaks);
                 }
             }
             Streaks::Arrows => {
                 let spacing = ARROW_SPACING / sight.camera.pixels_per_d();
                 let size = scene.setup.blueprint.domain.size;
-                air::arrows(scene.air, size, spacing, reference, self.streaks.values_mut());
+                air::arrows(scene.air, size, spacing, reference, &mut self.streaks);
             }
         }
     }

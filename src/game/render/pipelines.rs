@@ -1,24 +1,22 @@
 //! The pipelines of the picture, made for the format of the window's target.
 
-use crate::game::render::{extract::Pictures, features::Features, uniform::WorldUniform};
+use crate::game::render::{extract::Pictures, features::Features, instances::ROW, uniform::WorldUniform};
 use bevy::{
     asset::Handle,
-    mesh::VertexBufferLayout,
     prelude::{Commands, Query, Res, ResMut, Resource, With},
     render::{
         camera::ExtractedCamera,
         render_resource::{
             AddressMode, BindGroupLayoutDescriptor, BindGroupLayoutEntries, BlendComponent, BlendFactor,
             BlendOperation, BlendState, CachedPipelineState, CachedRenderPipelineId, ColorTargetState, ColorWrites,
-            FilterMode, FragmentState, PipelineCache, PrimitiveState, PrimitiveTopology, RenderPipelineDescriptor,
-            Sampler, SamplerBindingType, SamplerDescriptor, ShaderStages, TextureFormat, TextureSampleType,
-            VertexFormat, VertexState, VertexStepMode,
+            FilterMode, FragmentState, PipelineCache, RenderPipelineDescriptor, Sampler, SamplerBindingType,
+            SamplerDescriptor, ShaderStages, TextureFormat, TextureSampleType, VertexState,
             binding_types::{sampler, texture_2d, uniform_buffer},
         },
         renderer::RenderDevice,
         view::ViewTarget,
     },
-    shader::Shader,
+    shader::{Shader, ShaderDefVal},
 };
 
 /// Format of the fields that matter is drawn into. Their bytes are sRGB, but they are blended and sampled as they are.
@@ -53,7 +51,7 @@ pub struct WorldShader(pub Handle<Shader>);
 /// Layouts of the two bind groups, and the sampler that is in one of them.
 #[derive(Resource)]
 pub struct Layouts {
-    /// Group 0: the uniform.
+    /// Group 0: the uniform, and the numbers of instances.
     pub world: BindGroupLayoutDescriptor,
     /// Group 1: sampler, maps (air, depth, rock, bodies, glow, light) and fields (bodies, more, gases); repeating sampler, noise.
     pub textures: BindGroupLayoutDescriptor,
@@ -162,7 +160,13 @@ pub fn make_layouts(mut commands: Commands, device: Res<RenderDevice>) {
     commands.insert_resource(Layouts {
         world: BindGroupLayoutDescriptor::new(
             "world",
-            &BindGroupLayoutEntries::single(ShaderStages::VERTEX_FRAGMENT, uniform_buffer::<WorldUniform>(false)),
+            &BindGroupLayoutEntries::sequential(
+                ShaderStages::VERTEX,
+                (
+                    uniform_buffer::<WorldUniform>(false).visibility(ShaderStages::VERTEX_FRAGMENT),
+                    texture_2d(TextureSampleType::Uint),
+                ),
+            ),
         ),
         textures: BindGroupLayoutDescriptor::new(
             "world textures",
@@ -193,11 +197,10 @@ pub fn make_layouts(mut commands: Commands, device: Res<RenderDevice>) {
     });
 }
 
-/// How a pass is drawn: a quad for each instance of these formats, or the whole screen if there are none.
+/// How a pass is drawn.
 struct Recipe {
     vertex: &'static str,
     name: &'static str,
-    instance: &'static [VertexFormat],
     format: TextureFormat,
     blend: Option<BlendState>,
 }
@@ -212,14 +215,12 @@ struct Maker<'a> {
 impl Maker<'_> {
     fn make(&self, recipe: &Recipe, features: Features) -> CachedRenderPipelineId {
         let Self { layouts, cache, shader } = self;
-        let Recipe { vertex, name, instance, format, blend } = *recipe;
+        let Recipe { vertex, name, format, blend } = *recipe;
         // The passes that draw into the fields must not have these bound.
         let textures = (!INTO_FIELDS.contains(&name)).then(|| layouts.textures.clone());
         let sheet = ["rock", "lens", "enlarged"].contains(&name).then(|| layouts.sheet.clone());
-        let topology =
-            if instance.is_empty() { PrimitiveTopology::TriangleList } else { PrimitiveTopology::TriangleStrip };
-        let buffer = VertexBufferLayout::from_vertex_formats(VertexStepMode::Instance, instance.iter().copied());
-        let definitions = features.definitions();
+        let mut definitions = features.definitions();
+        definitions.push(ShaderDefVal::UInt("ROW".into(), ROW));
         cache.queue_render_pipeline(RenderPipelineDescriptor {
             label: Some(name.into()),
             layout: [layouts.world.clone()].into_iter().chain(textures).chain(sheet).collect(),
@@ -227,9 +228,8 @@ impl Maker<'_> {
                 shader: shader.0.clone(),
                 shader_defs: definitions.clone(),
                 entry_point: Some(format!("{vertex}_vertex").into()),
-                buffers: if instance.is_empty() { vec![] } else { vec![buffer] },
+                ..VertexState::default()
             },
-            primitive: PrimitiveState { topology, ..PrimitiveState::default() },
             fragment: Some(FragmentState {
                 shader: shader.0.clone(),
                 shader_defs: definitions,
@@ -258,35 +258,32 @@ pub fn prepare(
     pictures: Res<Pictures>,
     targets: Query<&ViewTarget, With<ExtractedCamera>>,
 ) {
-    use VertexFormat as F;
     let Some(format) = targets.iter().next().map(ViewTarget::main_texture_format) else { return };
     let (alpha, premultiplied) = (BlendState::ALPHA_BLENDING, BlendState::PREMULTIPLIED_ALPHA_BLENDING);
-    let point: &[F] = &[F::Float32x2, F::Unorm8x4];
-    let tile: &[F] = &[F::Uint16x2];
-    let recipe = |vertex, name, instance, format, blend| Recipe { vertex, name, instance, format, blend };
-    let backdrop = recipe("screen", "backdrop", &[], format, None);
-    let surface = recipe("tile", "surface", tile, format, Some(alpha));
-    let cloud = recipe("tile", "cloud", tile, format, Some(premultiplied));
-    let rock = recipe("tile", "rock", tile, format, Some(alpha));
+    let recipe = |vertex, name, format, blend| Recipe { vertex, name, format, blend };
+    let backdrop = recipe("screen", "backdrop", format, None);
+    let surface = recipe("tile", "surface", format, Some(alpha));
+    let cloud = recipe("tile", "cloud", format, Some(premultiplied));
+    let rock = recipe("tile", "rock", format, Some(alpha));
     let maker = Maker { layouts: &layouts, cache: &cache, shader: &shader };
     if pipelines.format() != Some(format) {
         let make = |recipe: Recipe| maker.make(&recipe, Features::ALL);
         let variants = |reads| Variants { reads, made: Vec::new() };
         let ids = Ids {
             backdrop: variants(Features::AIR.or(Features::GLOW)),
-            coloured: make(recipe("coloured", "coloured", point, FIELD_FORMAT, Some(premultiplied))),
-            shape: make(recipe("tile", "shape", tile, format, Some(alpha))),
-            body: make(recipe("body", "body", point, FIELD_FORMAT, Some(UNION))),
-            more: make(recipe("body", "more", point, FIELD_FORMAT, Some(UNION))),
+            coloured: make(recipe("coloured", "coloured", FIELD_FORMAT, Some(premultiplied))),
+            shape: make(recipe("tile", "shape", format, Some(alpha))),
+            body: make(recipe("body", "body", FIELD_FORMAT, Some(UNION))),
+            more: make(recipe("body", "more", FIELD_FORMAT, Some(UNION))),
             surface: variants(Features::GLOW.or(Features::RICH).or(Features::MORE)),
-            grain: make(recipe("grain", "grain", point, format, Some(LIGHTER))),
-            gas: make(recipe("gas", "gas", point, FIELD_FORMAT, Some(SUM))),
+            grain: make(recipe("grain", "grain", format, Some(LIGHTER))),
+            gas: make(recipe("gas", "gas", FIELD_FORMAT, Some(SUM))),
             cloud: variants(Features::GLOW.or(Features::RICH)),
-            stone: make(recipe("tile", "stone", tile, FIELD_FORMAT, None)),
+            stone: make(recipe("tile", "stone", FIELD_FORMAT, None)),
             rock: variants(Features::GLOW),
-            streaks: make(recipe("streak", "streak", &[F::Float32x4, F::Unorm8x4], format, Some(alpha))),
-            lens: make(recipe("screen", "lens", &[], format, Some(alpha))),
-            enlarged: make(recipe("screen", "enlarged", &[], format, None)),
+            streaks: make(recipe("streak", "streak", format, Some(alpha))),
+            lens: make(recipe("screen", "lens", format, Some(alpha))),
+            enlarged: make(recipe("screen", "enlarged", format, None)),
         };
         pipelines.0 = Some((format, ids));
     }

@@ -1,6 +1,5 @@
 //! Which tiles of the box have something to be drawn, so that the shaders go over these pixels only.
 
-use bevy::render::render_resource::{BufferUsages, RawBufferVec};
 use glam::{IVec2, UVec2, Vec2};
 
 /// Edge of a tile, d.
@@ -65,22 +64,16 @@ impl Tiles {
 }
 
 /// Which tiles are drawn by which pass.
+#[derive(Default)]
 pub struct PictureTiles {
     /// Bodies of matter.
-    pub bodies: RawBufferVec<TileInstance>,
+    pub bodies: Vec<TileInstance>,
     /// Gases.
-    pub gases: RawBufferVec<TileInstance>,
+    pub gases: Vec<TileInstance>,
     /// Rock.
-    pub rock: RawBufferVec<TileInstance>,
+    pub rock: Vec<TileInstance>,
     /// Rock that looks otherwise than in the frame before.
-    pub changed: RawBufferVec<TileInstance>,
-}
-
-impl Default for PictureTiles {
-    fn default() -> Self {
-        let buffer = || RawBufferVec::new(BufferUsages::VERTEX);
-        Self { bodies: buffer(), gases: buffer(), rock: buffer(), changed: buffer() }
-    }
+    pub changed: Vec<TileInstance>,
 }
 
 #[cfg(test)]

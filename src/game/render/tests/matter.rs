@@ -71,7 +71,7 @@ fn each_kind_of_matter_is_drawn_in_its_own_way() {
     let matter = rig.pack(&rig.row(&["water", "sand", "steam", "oil"]), true);
     assert_eq!([matter.bodies.len(), matter.more.len(), matter.grains.len(), matter.gases.len()], [3, 0, 1, 1]);
     assert_eq!(matter.colours(), [rig.table.get(rig.find("water")).colour, rig.table.get(rig.find("oil")).colour]);
-    let channels: Vec<u8> = matter.bodies.values().iter().map(|body| body[2].to_le_bytes()[0]).collect();
+    let channels: Vec<u8> = matter.bodies.iter().map(|body| body[2].to_le_bytes()[0]).collect();
     assert_eq!(channels, [1, 0, 2], "water, powder, oil");
     assert_eq!(rig.pack(&rig.row(&["sand"]), false).grains.len(), 0, "too small to be seen one by one");
 }
@@ -103,7 +103,7 @@ fn what_is_drawn_does_not_depend_on_the_order_of_the_particles() {
     let all = |particles: &Particles| {
         let matter = rig.pack(particles, true);
         [&matter.bodies, &matter.more, &matter.grains, &matter.gases].map(|buffer| {
-            let mut values = buffer.values().clone();
+            let mut values = buffer.clone();
             values.sort_unstable();
             values
         })
@@ -121,7 +121,7 @@ fn matter_at_a_wall_has_an_image_behind_it() {
     }
     let matter = rig.pack(&particles, true);
     let places: Vec<[f32; 2]> =
-        matter.bodies.values().iter().map(|[x, y, _]| [f32::from_bits(*x), f32::from_bits(*y)]).collect();
+        matter.bodies.iter().map(|[x, y, ..]| [f32::from_bits(*x), f32::from_bits(*y)]).collect();
     assert_eq!(places, [[0.5, 20.0], [-0.5, 20.0], [0.5, 39.5], [-0.5, 39.5], [0.5, 40.5], [-0.5, 40.5], [20.0, 20.0]]);
 }
 
