@@ -50,6 +50,15 @@ impl Tempo {
         self.missed * f64::from(TICKS_PER_SECOND)
     }
 
+    /// What a frame takes but for its ticks, of which one costs `tick`; nothing before there was one.
+    fn rest_of_frame(&self, tick: Duration) -> Duration {
+        if self.frames_per_second <= 0.0 {
+            return Duration::ZERO;
+        }
+        let ticks = self.ticks_per_second * tick.as_secs_f32();
+        Duration::from_secs_f32((1.0 - ticks).max(0.0) / self.frames_per_second)
+    }
+
     /// Notes how much of a frame of `elapsed`, at the player's speed, became `simulated` time.
     fn note_hitch(&mut self, elapsed: Duration, speed: f32, simulated: Duration) {
         let missed = elapsed.as_secs_f64() * f64::from(speed) - simulated.as_secs_f64();
@@ -103,7 +112,7 @@ pub fn set_pace(
     }
     let tick = ledger.tick().median() + split.tick_time();
     // A frame that wakes a resting game goes on as if it had not slept.
-    let longest = if tempo.rests { TICK } else { longest_frame(tick, speed) };
+    let longest = if tempo.rests { TICK } else { longest_frame(tick, tempo.rest_of_frame(tick), speed) };
     time.set_max_delta(longest);
 }
 
@@ -138,6 +147,18 @@ mod tests {
         assert!((lag - 5.0 / 6.0).abs() < 0.02);
         tempo.count(Duration::from_millis(20), 0, Pace::default());
         assert_eq!(tempo.lag, None, "a reset world starts a new count");
+    }
+
+    #[test]
+    fn what_a_frame_takes_but_for_its_ticks_is_what_they_leave() {
+        let mut tempo = Tempo::default();
+        assert_eq!(tempo.rest_of_frame(Duration::from_millis(5)), Duration::ZERO);
+        for frame in 1..=100 {
+            tempo.count(Duration::from_millis(50), 3 * frame, Pace::default());
+        }
+        let rest = |tick| tempo.rest_of_frame(Duration::from_millis(tick)).as_secs_f32();
+        assert!((rest(5) - 0.035).abs() < 0.002, "{}", rest(5));
+        assert_eq!(rest(20), 0.0, "ticks that were dearer a moment ago");
     }
 
     #[test]

@@ -67,7 +67,7 @@ impl CaseSimulation {
     /// Runs a frame of the game that comes `late` after the last one, in place of a tick; gives the ticks that it ran.
     pub async fn frame(&mut self, late: Duration) -> u64 {
         let median = self.world().resource::<PassLedger>().tick().median();
-        let time = late.min(longest_frame(median, 1.0));
+        let time = late.min(longest_frame(median, Duration::ZERO, 1.0));
         let ticks = time.as_nanos() / Duration::from_secs_f64(1.0 / f64::from(TICKS_PER_SECOND)).as_nanos();
         for _ in 0..ticks {
             self.stopwatch.time(|| self.simulation.tick());

@@ -9,6 +9,7 @@ use crate::{
             cost::PicturePass,
             extract::Pictures,
             features::Features,
+            instances::ROW,
             level::Level,
             offscreen::{Offscreen, Pixels},
         },
@@ -90,6 +91,7 @@ fn the_picture_shows_what_is_there() {
     nothing_shimmers_when_particles_are_sorted(&mut seen);
     light_falls_off_from_lava(&mut seen);
     what_is_not_there_is_not_drawn(&mut seen);
+    more_than_a_row_of_numbers_is_drawn_where_it_is(&mut seen);
     plain_and_full_have_the_same_silhouettes(&mut seen);
     rock_is_where_it_is(&mut seen);
     rock_that_changes_is_baked_where_it_changed(&mut seen);
@@ -179,6 +181,17 @@ fn what_is_not_there_is_not_drawn(seen: &mut Seen) {
     assert!(seen.drawn(Grains) == 100 && seen.drawn(Gases) == 100 && seen.drawn(Clouds) > 0);
     seen.show(r#"(element: "rock", shape: Rect(min: (1, 1), max: (2, 2)))"#);
     assert!(seen.drawn(Rock) > 0 && seen.drawn(Bake) == 0, "baked once, in the frame before");
+}
+
+fn more_than_a_row_of_numbers_is_drawn_where_it_is(seen: &mut Seen) {
+    let pixels = seen.show(r#"(element: "water", shape: Rect(min: (0, 0), max: (6.4, 3.7)))"#);
+    assert!(seen.drawn(PicturePass::Bodies) > ROW + 200, "{}", seen.drawn(PicturePass::Bodies));
+    let (water, empty) = (seen.at(&pixels, 3.2, 1.0), seen.at(&pixels, 3.2, 3.95));
+    for (x, y) in (0..31).flat_map(|x| (0..18).map(move |y| (0.1 + 0.2 * x as f32, 0.1 + 0.2 * y as f32))) {
+        let there = seen.at(&pixels, x, y);
+        assert!(hue_apart(there, water) < hue_apart(there, empty), "{there:?} at {x}, {y}");
+    }
+    assert!(hue_apart(empty, water) > 0.05, "{empty:?} above it");
 }
 
 fn plain_and_full_have_the_same_silhouettes(seen: &mut Seen) {
