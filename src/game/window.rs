@@ -7,7 +7,7 @@ use crate::{
         challenges::earned::Earned,
         favourites::Favourites,
         hints::Hints,
-        hud::{HudPlugin, panels::scenes::SceneFolder},
+        hud::{HudPlugin, panels::scenes::SceneFolder, shader},
         input::keymap::Keymap,
         language::spoken,
         mixer,
@@ -36,7 +36,6 @@ use bevy::{
     time::common_conditions::on_timer,
     window::{PresentMode, PrimaryWindow, Window, WindowPlugin, WindowResizeConstraints, WindowResolution},
 };
-use bevy_egui::EguiPlugin;
 use std::{
     panic::{self, AssertUnwindSafe},
     path::PathBuf,
@@ -126,7 +125,7 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
             .set(WindowPlugin { primary_window: Some(window), ..WindowPlugin::default() })
             .disable::<LogPlugin>(),
     )
-    .add_plugins(EguiPlugin::default())
+    .add_plugins(shader::plugin)
     .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
     .insert_resource(Favourites::of_user())
     .add_systems(PreStartup, mixer::desk::read_own)

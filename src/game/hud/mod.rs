@@ -24,6 +24,7 @@ pub mod palette;
 pub mod panels;
 pub mod probe;
 pub mod rewind;
+pub mod shader;
 pub mod split;
 pub mod springs;
 pub mod stamps;

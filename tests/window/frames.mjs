@@ -1,0 +1,36 @@
+// Frames a second of the waterfall in a window under Xvfb, level by level, programs in turn.
+// Usage: node tests/window/frames.mjs ROUNDS PROGRAM…
+
+import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+import { BEGUN, LEVELS, line, rate } from '../rate.mjs';
+import { display, open } from './game.mjs';
+
+const [rounds, ...programs] = process.argv.slice(2);
+const server = await display();
+
+async function measure(program, level) {
+  const folder = mkdtempSync(join(tmpdir(), 'powder-master-frames-'));
+  const kept = join(folder, 'data', 'powder-master');
+  mkdirSync(kept, { recursive: true });
+  writeFileSync(join(kept, 'settings.ron'), `(picture: Some(${level[0].toUpperCase()}${level.slice(1)}))`);
+  const game = await open(resolve(program), server.name, folder, ['waterfall']);
+  await game.until('water on its way', ({ tick }) => tick > BEGUN);
+  const found = await rate(game.stats);
+  await game.kill();
+  rmSync(folder, { recursive: true });
+  return found;
+}
+
+const runs = new Map();
+for (let round = 0; round < Number(rounds); round += 1) {
+  for (const level of LEVELS) {
+    for (const program of programs) {
+      const name = `${program}, ${level}`;
+      runs.set(name, [...(runs.get(name) ?? []), await measure(program, level)]);
+    }
+  }
+}
+for (const [name, found] of runs) console.log(line(name, found));
+server.stop();
