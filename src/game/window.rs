@@ -7,7 +7,7 @@ use crate::{
         challenges::earned::Earned,
         favourites::Favourites,
         hints::Hints,
-        hud::{HudPlugin, panels::scenes::SceneFolder, shader},
+        hud::{HudPlugin, paint, panels::scenes::SceneFolder},
         input::keymap::Keymap,
         language::spoken,
         mixer,
@@ -125,7 +125,7 @@ pub(crate) fn build(record: Option<PathBuf>, furnish: impl FnOnce(&mut App)) -> 
             .set(WindowPlugin { primary_window: Some(window), ..WindowPlugin::default() })
             .disable::<LogPlugin>(),
     )
-    .add_plugins(shader::plugin)
+    .add_plugins(paint::plugin)
     .add_plugins((SimulationPlugin, GamePlugin, HudPlugin, WorldRenderPlugin))
     .insert_resource(Favourites::of_user())
     .add_systems(PreStartup, mixer::desk::read_own)
