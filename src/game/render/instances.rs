@@ -65,7 +65,7 @@ impl<const VERTICES: u32> Instances<VERTICES> {
     }
 
     /// Makes the bind group if there is none.
-    pub fn bind(&mut self, layout: &BindGroupLayout, uniform: BindingResource<'_>, device: &RenderDevice) {
+    fn bind(&mut self, layout: &BindGroupLayout, uniform: BindingResource<'_>, device: &RenderDevice) {
         if let (None, Some(texels)) = (&self.group, self.texels.view()) {
             let entries = BindGroupEntries::sequential((uniform, texels));
             self.group = Some(device.create_bind_group("world", layout, &entries));

@@ -9,8 +9,8 @@
 //! and rock (in the views that show a number `particles` and `rock`), and `air`. The world goes on while the picture packs the source:
 //! `matter` and `rock` in the layout that the graphics read, `body` and `glow` as maps that the shaders look at, `tiles` where there is
 //! anything at all, `features` what its passes can't leave out; `level` says how much of it the graphics can do in time; `moved` knows
-//! where things were between two ticks, `look` which element is drawn how, `noise` is a texture that never changes. `gpu` uploads it;
-//! `pipelines` has what its features ask for; `draw` draws it before the HUD.
+//! where things were between two ticks, `look` which element is drawn how, `noise` is a texture that never changes. `gpu` uploads it, as
+//! `texture`s, also what is drawn many times (`instances`); `pipelines` has what its features ask for; `draw` draws it before the HUD.
 //! `offscreen` draws without a window, for `bench frame` and tests. `tracers` make wind visible. Everything here runs on WebGL2: no
 //! storage buffers, no compute, targets of eight bits.
 
