@@ -1,20 +1,18 @@
 // Frames a second of the waterfall in a window under Xvfb, level by level, programs in turn.
 // Usage: node tests/window/frames.mjs ROUNDS PROGRAM…
 
-import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { BEGUN, LEVELS, line, rate } from '../rate.mjs';
-import { display, open } from './game.mjs';
+import { display, keepLevel, open } from './game.mjs';
 
 const [rounds, ...programs] = process.argv.slice(2);
 const server = await display();
 
 async function measure(program, level) {
   const folder = mkdtempSync(join(tmpdir(), 'powder-master-frames-'));
-  const kept = join(folder, 'data', 'powder-master');
-  mkdirSync(kept, { recursive: true });
-  writeFileSync(join(kept, 'settings.ron'), `(picture: Some(${level[0].toUpperCase()}${level.slice(1)}))`);
+  keepLevel(folder, level);
   const game = await open(resolve(program), server.name, folder, ['waterfall']);
   await game.until('water on its way', ({ tick }) => tick > BEGUN);
   const found = await rate(game.stats);

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { execFile, execFileSync, spawn } from 'node:child_process';
-import { openSync } from 'node:fs';
+import { mkdirSync, openSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { promisify } from 'node:util';
@@ -23,6 +23,13 @@ export async function display() {
     server.once('exit', (code) => failed(new Error(`Xvfb ended with ${code}`)));
   });
   return { name: `:${number}`, stop: () => server.kill() };
+}
+
+// Has the game that is opened with `folder` draw so much of the picture, however long its frames take.
+export function keepLevel(folder, level) {
+  const kept = join(folder, 'data', 'powder-master');
+  mkdirSync(kept, { recursive: true });
+  writeFileSync(join(kept, 'settings.ron'), `(picture: Some(${level[0].toUpperCase()}${level.slice(1)}))`);
 }
 
 // Opens the game with a scene, or with `[]` as a player does who names none; its files and its log go to `folder`.

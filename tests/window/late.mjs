@@ -3,10 +3,10 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdirSync, readFileSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { poll } from '../poll.mjs';
-import { difference, display, isDrawn, open } from './game.mjs';
+import { difference, display, isDrawn, keepLevel, open } from './game.mjs';
 
 // Down to the smallest, and up to the screen's, across and along.
 const SIZES = [[640, 400], [1280, 400], [480, 320], [900, 800], [481, 799], [1280, 800]];
@@ -17,7 +17,8 @@ const IN_TIME = 1000 / 60;
 const SCENE = ['dam_break', '--set', 'columns=120', '--quality', 'reference', '--threads', '1'];
 
 export async function resizeWhileLate(program, folder) {
-  mkdirSync(folder, { recursive: true });
+  // Left to itself it would draw less once frames have been slow for a while, and be another picture.
+  keepLevel(folder, 'full');
   const screen = await display();
   let game;
   try {
