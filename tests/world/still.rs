@@ -1,6 +1,6 @@
 //! Water at rest stays at rest, and water that falls comes to it.
 
-use crate::support::{SimulationExt, blueprint, with_water};
+use crate::support::{Furnish, SimulationExt, blueprint, empty_box, with_water};
 use powder_master::{
     kernel::params::Preset,
     scene::{
@@ -110,4 +110,26 @@ fn a_pool_at_rest_is_flat_within_a_cell_of_the_pressure_grid() {
         .collect();
     let (low, high) = tops.iter().fold((f32::MAX, 0.0_f32), |(low, high), &top| (low.min(top), high.max(top)));
     assert!(high - low < 0.5, "a still pool stands between {low} and {high} d");
+}
+
+#[test]
+fn a_pool_with_a_block_at_its_surface_comes_to_rest() {
+    // The water reaches its underside and no further, so that the pressure under it is next to none: what lets go of the block and
+    // comes back in turn stirs the pool for good, at 0.03 d a tick.
+    for (columns, block, depth) in [(39, (5, 21), 4), (24, (3, 20), 9), (15, (2, 11), 3)] {
+        for preset in Preset::ALL.into_iter().filter(|preset| preset.quality().predictor) {
+            let mut blueprint = empty_box(columns, 15);
+            (blueprint.preset, blueprint.quality) = (preset, preset.quality());
+            blueprint.domain.gravity.y = -98.1;
+            blueprint.rock((block.0, depth), (block.1, depth + 4));
+            blueprint.pool((0, 0), (columns as i32, depth));
+            let mut simulation = awake(blueprint);
+            simulation.run(300);
+            let rms = (0..30).fold(0.0, |most, _| {
+                simulation.run(1);
+                simulation.rms_speed().max(most)
+            });
+            assert!(rms <= 0.02, "{}, {columns} d wide: the pool boils at {rms} d a tick", preset.name());
+        }
+    }
 }

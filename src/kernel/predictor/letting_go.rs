@@ -5,7 +5,9 @@
 //!
 //! One step of an active set in each substep: a cell beside a wall lets go if the last pressure there pulled, and stays free
 //! as long as more sets out of it than into it; and only if air is near, or comes to it through cells that let go, too.
-//! What no air comes to in this way keeps its suction.
+//! What no air comes to in this way keeps its suction. So does what is beside no air and pulls by less than half a row of
+//! particles weighs: a surface is known no better, and under a block that lies on a pool, where the pressure is next to none, cells
+//! let go and came back in turn. They have no part in the density feedback, and the pool never came to rest.
 
 use crate::predictor::{conjugate::Conjugate, grid::MacGrid, rock::ClosedFaces, transfer::Faces};
 
@@ -19,6 +21,9 @@ const LEAVING: f32 = 0.5;
 /// one that is put back goes on to the bit.
 const FREE: f32 = -1e-30;
 
+/// Half a row of particles, d.
+const HALF_A_ROW: f32 = 0.5;
+
 /// Cells that let go. The buffers are kept.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LettingGo {
@@ -29,8 +34,9 @@ pub(super) struct LettingGo {
 }
 
 impl LettingGo {
-    /// Takes the cells that let go out of the liquid. `faces` hold mean velocities.
-    pub fn run(&mut self, grid: &MacGrid, closed: &ClosedFaces, faces: &Faces, conjugate: &mut Conjugate) {
+    /// Takes the cells that let go out of the liquid. `faces` hold mean velocities; `kick` is what gravity adds in the substep, d/s,
+    /// and the pressure of a cell's edge of liquid.
+    pub fn run(&mut self, grid: &MacGrid, closed: &ClosedFaces, faces: &Faces, conjugate: &mut Conjugate, kick: f32) {
         let Conjugate { rows, liquid, solution, .. } = conjugate;
         let Self { leaving, reached } = self;
         leaving.clear();
@@ -39,19 +45,21 @@ impl LettingGo {
         leaving.reserve(closed.beside_walls.len());
         reached.reserve(closed.beside_walls.len());
         let row_of = |k: u32| k as usize / grid.stride;
+        let sides = |k: usize| open_sides(grid, closed, k);
+        let weight = kick * HALF_A_ROW * grid.per_cell;
         let walls = &closed.beside_walls;
         let of_rows =
             walls.partition_point(|k| row_of(*k) < rows.start)..walls.partition_point(|k| row_of(*k) < rows.end);
         for &cell in &walls[of_rows] {
             let k = cell as usize;
-            let is_pulled = solution[k] < FREE;
+            let is_beside_air = sides(k).any(|other| liquid[other] == 0.0);
+            let is_pulled = solution[k] < if is_beside_air { FREE } else { FREE - weight };
             let stays_free = solution[k] == FREE && outflow(grid, closed, faces, k) > 0.0;
             if liquid[k] > 0.0 && faces.filled[k] < PRESSED && (is_pulled || stays_free) {
                 liquid[k] = LEAVING;
                 leaving.push(cell);
             }
         }
-        let sides = |k: usize| open_sides(grid, closed, k);
         // Next to it, or one cell further: liquid in a corner of rock has a side only to such a cell.
         let is_near_air = |cell: &&u32| {
             sides(**cell as usize).any(|k| liquid[k] == 0.0 || sides(k).any(|other| liquid[other] == 0.0))

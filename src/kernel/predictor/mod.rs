@@ -8,11 +8,12 @@
 //! for the solver). A few iterations of the constraint then do the detail, whatever the depth.
 //!
 //! Modules: `steps` the whole, `grid` the geometry, `parts` what rock leaves of cells, `open_shares` of faces, `slivers` cells of
-//! which a thin wall leaves little, `rock` all that of a box, `stencil`, `share_out`, `transfer` and `way_back` particles to grid and
+//! which a thin wall leaves little, `behind` what thin walls hide, `rock` all that of a box, `stencil`, `share_out`, `transfer` and `way_back` particles to grid and
 //! back, `matter` what of it is heavier, `grains` friction among powders, `pressure` and `equation` the equation, `changes` what
 //! follows from its solution on the faces, `flow` the velocity that comes of it, `pressure_at` the pressure between the cells,
 //! `pockets` where it is singular, `wet` where there is any, `level`, `multigrid` and `conjugate` its solver.
 
+mod behind;
 mod changes;
 mod conjugate;
 mod equation;

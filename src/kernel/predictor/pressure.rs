@@ -3,7 +3,7 @@
 use crate::{
     parallel::{Rows, Sweep, Team, sweep},
     predictor::{
-        PredictorReport,
+        PredictorReport, behind,
         changes::Changes,
         conjugate::{Conjugate, tolerance},
         equation::{
@@ -97,7 +97,7 @@ impl Pass for Projection<'_> {
         if conjugate.rows.is_empty() {
             return;
         }
-        letting_go.run(grid, closed, faces, conjugate);
+        letting_go.run(grid, closed, faces, conjugate, kick.length());
         let full = target * grid.cell * grid.cell;
         let of = (dt, whole(grid, target));
         let sealed = assemble(grid, closed, faces, hierarchy.finest(), conjugate, of, team);
@@ -168,11 +168,12 @@ fn mark_liquid(
         area.clone_from(&faces.area);
     }
     let share = 0.25 * grid.per_cell * grid.per_cell / target;
-    let Faces { u, v, filled, .. } = faces;
+    let Faces { u, v, filled, made_up, .. } = faces;
     let band = |field| Rows::new(field, grid.stride, &rows);
     let band = (band(filled), (band(liquid), band(solution)));
     let work = Mark { grid, closed, area, weights: [u, v], share };
     sweep(&work, rows.clone(), band, area.len(), WORTH_A_PIECE, team);
+    behind::make_up(&closed.behind, grid, (&rows, area), [filled, liquid, solution], made_up);
     slivers::follow_hosts(&closed.slivers, grid, (&rows, area), [filled, liquid, solution]);
     wet.find(liquid, grid.stride, rows, area.clone());
     *before = if wet.rows().is_empty() { 0..0 } else { wet.rows() };

@@ -2,11 +2,12 @@
 
 use crate::{
     predictor::{
+        behind::{Behind, MakeUp},
         grid::MacGrid,
         open_shares::{OpenShares, TO_CENTRES},
         parts::{Parts, Room, all_around},
         pockets::ROUNDING,
-        slivers::{MOST_MISSING, Place, Sliver, missing},
+        slivers::{MOST_MISSING, Place, Sliver},
         stencil::{Axis, faces_around},
     },
     solids::{Solids, centre},
@@ -47,6 +48,8 @@ pub(super) struct ClosedFaces {
     pub beside_walls: Vec<u32>,
     /// Those that go by other cells, in the order of the grid's index.
     pub slivers: Vec<Sliver>,
+    /// Other cells with room behind a thin wall, likewise.
+    pub behind: Vec<MakeUp>,
 }
 
 impl ClosedFaces {
@@ -140,7 +143,9 @@ impl ClosedFaces {
         for k in (0..grid.len()).filter(|k| !is_inside(*k)) {
             self.rock[k] = 1.0;
         }
-        self.open_slivers(&faces, down);
+        let behind = behind_walls(&faces);
+        self.open_slivers(&faces, down, &behind);
+        self.make_up(&behind);
         self.even_out_slivers(grid);
         self.beside_walls.clear();
         for j in 1..=grid.rows {
@@ -154,17 +159,17 @@ impl ClosedFaces {
                 }
             }
         }
+        self.behind.retain_mut(|one| one.follow(&self.rock, &self.liquid_from));
     }
 
     /// Opens the cells of which a level or upright wall leaves less than half to the cells that their room belongs to: the
     /// lines between the centres are no measure of it, as they end in the wall. On its own such a cell would hold the
     /// liquid in it, and stop what passes. A cell that rock cuts in two stays closed: it stands for one of its parts, and what moved
     /// that would move the matter in the other, too.
-    fn open_slivers(&mut self, faces: &OpenShares, down: IVec2) {
+    fn open_slivers(&mut self, faces: &OpenShares, down: IVec2, behind: &[Behind]) {
         let (grid, stride, parts) = (faces.grid, faces.grid.stride, faces.parts);
-        let missing = |k| if parts.room(k) == Room::Sliver { missing(grid, faces.solids, k) } else { 0.0 };
-        let missing: Vec<f32> = (0..grid.len()).map(missing).collect();
-        let is_thin = |k: usize| missing[k] > MOST_MISSING;
+        let missing = |k: usize| missing(behind, k as u32);
+        let is_thin = |k: usize| parts.room(k) == Room::Sliver && missing(k) > MOST_MISSING;
         let is_sliver = |k: usize| self.rock[k] > 0.5 || is_thin(k);
         self.slivers.clear();
         for j in 1..=grid.rows {
@@ -188,14 +193,21 @@ impl ClosedFaces {
                 }
                 let Some((host, way)) = opened.filter(|_| is_thin(k)) else { continue };
                 let place = Place::new(way, down, faces.leads_through(k, way));
-                self.slivers.extend(place.map(|place| Sliver {
-                    cell: k as u32,
-                    host: host as u32,
-                    place,
-                    missing: missing[k],
-                }));
+                self.slivers.extend(place.map(|place| Sliver { cell: k as u32, host: host as u32, place }));
             }
         }
+    }
+
+    /// Notes what makes up for what is behind walls, but for slivers that are as full as their hosts.
+    fn make_up(&mut self, behind: &[Behind]) {
+        let Self { rock, slivers, behind: make_up, .. } = self;
+        let goes_by_host = |cell: u32| {
+            let at = slivers.binary_search_by_key(&cell, |sliver| sliver.cell);
+            at.is_ok_and(|at| slivers[at].place == Place::Wall)
+        };
+        let others = behind.iter().filter(|one| !goes_by_host(one.cell));
+        make_up.clear();
+        make_up.extend(others.filter_map(|one| MakeUp::new(*one, rock, missing(behind, one.other))));
     }
 
     /// Gives slivers beside walls the rock of their hosts, so that a surface is found at the same height in both.
@@ -268,6 +280,7 @@ impl ClosedFaces {
         let fields = [&self.open_u, &self.open_v, &self.rock, &self.right_of_u, &self.above_v, &self.liquid_from];
         4 * (fields.map(Vec::capacity).iter().sum::<usize>() + self.rows.capacity() + self.beside_walls.capacity())
             + size_of::<Sliver>() * self.slivers.capacity()
+            + size_of::<MakeUp>() * self.behind.capacity()
     }
 }
 
@@ -278,6 +291,23 @@ pub(super) struct Beside<'a> {
     pub rock: [&'a [f32]; 2],
     /// Of both, what stands after the face.
     pub after: &'a [f32],
+}
+
+/// What is behind walls for cells of the grid, in their order.
+fn behind_walls(faces: &OpenShares) -> Vec<Behind> {
+    let OpenShares { grid, solids, parts, .. } = *faces;
+    let is_near_rock = |k: usize| {
+        let rows = [k - grid.stride, k, k + grid.stride];
+        rows.into_iter().flat_map(|k| k - 1..=k + 1).any(|k| !matches!(parts.room(k), Room::All | Room::None))
+    };
+    let cells = (1..=grid.rows).flat_map(|j| grid.row(j) + 1..=grid.row(j) + grid.columns);
+    let with_room = cells.filter(|k| parts.room(*k) != Room::None);
+    with_room.filter(|k| is_near_rock(*k)).filter_map(|k| Behind::new(grid, solids, parts, k)).collect()
+}
+
+/// What a cell misses behind walls.
+fn missing(behind: &[Behind], cell: u32) -> f32 {
+    behind.binary_search_by_key(&cell, |one| one.cell).map_or(0.0, |at| behind[at].missing)
 }
 
 /// −1, 0 or 1.

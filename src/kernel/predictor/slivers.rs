@@ -5,13 +5,7 @@
 //! water in them fall, for good: in still basins it sprang up along walls two or three particles thick at 1 to 3 m/s. So they go by
 //! their hosts.
 
-use crate::{
-    predictor::{
-        grid::MacGrid,
-        stencil::{Axis, faces_around},
-    },
-    solids::{Solids, centre},
-};
+use crate::predictor::grid::MacGrid;
 use glam::IVec2;
 use std::ops::Range;
 
@@ -22,8 +16,7 @@ pub(super) enum Place {
     Wall,
     /// Beside a slanting one: it is liquid if its host is.
     Slope,
-    /// On a floor: it carries what is above it, and alone it may be a puddle. What is missed below the floor counts as rock does, or
-    /// the density feedback would take it for a gap and press the water above into it.
+    /// On a floor: it carries what is above it, and alone it may be a puddle.
     Floor,
 }
 
@@ -46,52 +39,10 @@ pub(super) struct Sliver {
     pub cell: u32,
     pub host: u32,
     pub place: Place,
-    /// See [`missing`].
-    pub missing: f32,
 }
 
 /// What a sliver may miss beyond walls and still go by how full it is itself: in still water that comes and goes by as much.
 pub(super) const MOST_MISSING: f32 = 0.05;
-
-/// How much less than full a cell of the grid is where all is that its room leads to: what would be beyond walls.
-pub(super) fn missing(grid: &MacGrid, solids: &Solids, k: usize) -> f32 {
-    // All that adds to the cell lies within one and a half cells of its middle.
-    let (column, row) = (k % grid.stride, k / grid.stride);
-    let span = |column: usize, more: f32| {
-        let left = (column as f32 - 1.0 - more) * grid.cell;
-        left.floor() as i32..(left + (1.0 + 2.0 * more) * grid.cell).ceil() as i32
-    };
-    let places = |more: f32| {
-        let across = span(column, more);
-        span(row, more).flat_map(move |y| across.clone().map(move |x| IVec2::new(x, y)))
-    };
-    let (across, up) = (span(column, 1.0), span(row, 1.0));
-    let index = |at: IVec2| ((at.y - up.start) * (across.end - across.start) + at.x - across.start) as usize;
-    let mut is_seen: Vec<bool> = places(1.0).map(|at| solids.is_solid(at)).collect();
-    let mut next: Vec<IVec2> = places(0.0).filter(|at| !solids.is_solid(*at)).collect();
-    next.iter().for_each(|at| is_seen[index(*at)] = true);
-    while let Some(at) = next.pop() {
-        for other in [at + IVec2::X, at - IVec2::X, at + IVec2::Y, at - IVec2::Y] {
-            let is_near = across.contains(&other.x) && up.contains(&other.y);
-            if is_near && !std::mem::replace(&mut is_seen[index(other)], true) {
-                next.push(other);
-            }
-        }
-    }
-    let share = 0.25 * grid.per_cell * grid.per_cell;
-    let mut missing = 0.0;
-    for at in places(1.0).filter(|at| !is_seen[index(*at)]).map(centre) {
-        for axis in [Axis::U, Axis::V] {
-            faces_around(grid, at.x, at.y, axis, |column, row, weight| {
-                let face = grid.row(row) + column;
-                if face == k || face == k + axis.step(grid) {
-                    missing += share * weight;
-                }
-            });
-        }
-    }
-    missing
-}
 
 /// Lets slivers in some rows and columns of cells go by their hosts: in how full they are, in whether they are liquid (1), and in the
 /// last pressure if they were not. `slivers` stand in the order of their cells.
@@ -110,11 +61,7 @@ pub(super) fn follow_hosts(
         match sliver.place {
             Place::Wall => (filled[own], liquid[own]) = (filled[host], liquid[host]),
             Place::Slope => liquid[own] = liquid[host],
-            Place::Floor => {
-                // Where something is below after all, the cell is no fuller for it.
-                filled[own] = filled[own].max((filled[own] + sliver.missing).min(1.0));
-                liquid[own] = was.max(liquid[host]);
-            }
+            Place::Floor => liquid[own] = was.max(liquid[host]),
         }
         if liquid[own] != was {
             solution[own] = liquid[own] * solution[host];
@@ -137,16 +84,15 @@ mod tests {
             (filled[own], filled[host]) = (own_fill, host_fill);
             (liquid[own], liquid[host]) = (own_liquid, host_liquid);
             solution[host] = 7.0;
-            let sliver = Sliver { cell: own as u32, host: host as u32, place, missing: 0.125 };
+            let sliver = Sliver { cell: own as u32, host: host as u32, place };
             follow_hosts(&[sliver], &grid, (&(1..5), &(1..5)), [&mut filled, &mut liquid, &mut solution]);
             [filled[own], liquid[own], solution[own]]
         };
         assert_eq!(follow(Place::Wall, [0.25, 0.75], [0.0, 1.0]), [0.75, 1.0, 7.0]);
         assert_eq!(follow(Place::Wall, [0.75, 0.25], [1.0, 0.0]), [0.25, 0.0, 0.0]);
         assert_eq!(follow(Place::Slope, [0.25, 0.75], [0.0, 1.0]), [0.25, 1.0, 7.0]);
-        // A puddle stays one, what is missed counts, and no more than fills the cell.
-        assert_eq!(follow(Place::Floor, [0.75, 0.25], [1.0, 0.0]), [0.875, 1.0, 0.0]);
-        assert_eq!(follow(Place::Floor, [0.9375, 1.0], [0.0, 1.0]), [1.0, 1.0, 7.0]);
-        assert_eq!(follow(Place::Floor, [1.25, 1.0], [1.0, 1.0]), [1.25, 1.0, 0.0]);
+        // A puddle stays one.
+        assert_eq!(follow(Place::Floor, [0.75, 0.25], [1.0, 0.0]), [0.75, 1.0, 0.0]);
+        assert_eq!(follow(Place::Floor, [0.25, 1.0], [0.0, 1.0]), [0.25, 1.0, 7.0]);
     }
 }

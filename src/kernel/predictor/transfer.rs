@@ -29,6 +29,8 @@ pub(super) struct Faces {
     pub ways: [Vec<Way>; 2],
     /// How full the cells are of liquid and rock, 1 at the density aimed at.
     pub filled: Vec<f32>,
+    /// Fills of cells beside thin walls; kept between uses.
+    pub made_up: Vec<f32>,
     /// Rows that a particle reaches. `u` and `v` are 0 in the two rows on either side; what is in all fields beyond is
     /// left from before.
     pub reached: Range<usize>,
@@ -43,7 +45,7 @@ impl Faces {
     /// Shares out the particles' velocities on the faces. `masses`: those of the elements, as shares of the heaviest, if they
     /// differ.
     pub fn collect(&mut self, grid: &MacGrid, particles: &Particles, masses: Option<&[f32]>, team: Team) {
-        let Self { u, v, ways, filled, reached, area, matter, blocks } = self;
+        let Self { u, v, ways, filled, reached, area, matter, blocks, .. } = self;
         let Particles { x, y, vx, vy, element, .. } = particles;
         blocks.partition(grid, y, team.instructions, team.threads);
         *reached = blocks.reached();
@@ -96,7 +98,7 @@ impl Faces {
         let [ways_u, ways_v] = &self.ways;
         let on_faces: usize = [&self.u, &self.v, ways_u, ways_v].map(|field| 8 * field.capacity()).iter().sum();
         let matter = self.matter.as_ref().map_or(0, Matter::memory);
-        on_faces + matter + 4 * self.filled.capacity() + self.blocks.memory()
+        on_faces + matter + 4 * (self.filled.capacity() + self.made_up.capacity()) + self.blocks.memory()
     }
 }
 
