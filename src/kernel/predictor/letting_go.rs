@@ -5,11 +5,11 @@
 //!
 //! One step of an active set in each substep: a cell beside a wall lets go if the last pressure there pulled, and stays free
 //! as long as more sets out of it than into it; and only if air is near, or comes to it through cells that let go, too.
-//! What no air comes to in this way keeps its suction. So does what is beside no air and pulls by less than half a row of
-//! particles weighs: a surface is known no better, and under a block that lies on a pool, where the pressure is next to none, cells
+//! What no air comes to in this way keeps its suction. So does liquid that is beside no air and pulls by less than half a row
+//! of its particles weighs: a surface is known no better, and under a block that lies on a pool, where the pressure is next to none, cells
 //! let go and came back in turn. They have no part in the density feedback, and the pool never came to rest.
 
-use crate::predictor::{conjugate::Conjugate, grid::MacGrid, rock::ClosedFaces, transfer::Faces};
+use crate::predictor::{conjugate::Conjugate, grains::Grains, grid::MacGrid, rock::ClosedFaces, transfer::Faces};
 
 /// A cell that is fuller than this is pressed together, whatever pulled there last, and needs a pressure. What hangs from a
 /// ceiling is off 1 by a few hundredths.
@@ -35,8 +35,15 @@ pub(super) struct LettingGo {
 
 impl LettingGo {
     /// Takes the cells that let go out of the liquid. `faces` hold mean velocities; `kick` is what gravity adds in the substep, d/s,
-    /// and the pressure of a cell's edge of liquid.
-    pub fn run(&mut self, grid: &MacGrid, closed: &ClosedFaces, faces: &Faces, conjugate: &mut Conjugate, kick: f32) {
+    /// and the pressure of a cell's edge of the heaviest.
+    pub fn run(
+        &mut self,
+        (grid, closed): (&MacGrid, &ClosedFaces),
+        faces: &Faces,
+        grains: Option<&Grains>,
+        conjugate: &mut Conjugate,
+        kick: f32,
+    ) {
         let Conjugate { rows, liquid, solution, .. } = conjugate;
         let Self { leaving, reached } = self;
         leaving.clear();
@@ -46,14 +53,16 @@ impl LettingGo {
         reached.reserve(closed.beside_walls.len());
         let row_of = |k: u32| k as usize / grid.stride;
         let sides = |k: usize| open_sides(grid, closed, k);
-        let weight = kick * HALF_A_ROW * grid.per_cell;
+        // Grains do not hang together.
+        let loose = |k: usize| grains.map_or(0.0, |grains| grains.bear(faces, grid, k));
+        let most = |k: usize| kick * HALF_A_ROW * grid.per_cell * faces.density(grid, k) * (1.0 - loose(k));
         let walls = &closed.beside_walls;
         let of_rows =
             walls.partition_point(|k| row_of(*k) < rows.start)..walls.partition_point(|k| row_of(*k) < rows.end);
         for &cell in &walls[of_rows] {
             let k = cell as usize;
             let is_beside_air = sides(k).any(|other| liquid[other] == 0.0);
-            let is_pulled = solution[k] < if is_beside_air { FREE } else { FREE - weight };
+            let is_pulled = solution[k] < if is_beside_air { FREE } else { FREE - most(k) };
             let stays_free = solution[k] == FREE && outflow(grid, closed, faces, k) > 0.0;
             if liquid[k] > 0.0 && faces.filled[k] < PRESSED && (is_pulled || stays_free) {
                 liquid[k] = LEAVING;

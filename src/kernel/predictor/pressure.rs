@@ -97,7 +97,7 @@ impl Pass for Projection<'_> {
         if conjugate.rows.is_empty() {
             return;
         }
-        letting_go.run(grid, closed, faces, conjugate, kick.length());
+        letting_go.run((grid, closed), faces, grains.as_deref(), conjugate, kick.length());
         let full = target * grid.cell * grid.cell;
         let of = (dt, whole(grid, target));
         let sealed = assemble(grid, closed, faces, hierarchy.finest(), conjugate, of, team);

@@ -9,6 +9,7 @@ use crate::{
         level,
         matter::{Buoyancy, Matter},
         share_out::{Pair, ShareOut},
+        stencil::Axis,
     },
 };
 use std::ops::Range;
@@ -76,6 +77,14 @@ impl Faces {
                 sweep(&Divide { columns }, reached.clone(), band, area.len(), level::WORTH_A_PIECE, team);
             }
         }
+    }
+
+    /// Mean density of what is on the faces of cell `k`, as a share of the heaviest's.
+    pub fn density(&self, grid: &MacGrid, k: usize) -> f32 {
+        self.matter.as_ref().map_or(1.0, |matter| {
+            let [u, v] = [Axis::U, Axis::V].map(|axis| matter.of(axis));
+            0.25 * (u[k][0] + u[k + 1][0] + v[k][0] + v[k + grid.stride][0])
+        })
     }
 
     /// Finds what each particle gains beside the liquid, where masses differ.

@@ -97,6 +97,11 @@ impl Grains {
         }
     }
 
+    /// How much of the pressure of cell `k` its grains bear.
+    pub fn bear(&self, faces: &Faces, grid: &MacGrid, k: usize) -> f32 {
+        Spread { grains: &self.faces, bound: None, all: [&faces.u, &faces.v] }.bears(grid, k)
+    }
+
     /// sin φ of each particle; 0 of what is no grain.
     pub fn sines(&self) -> &[f32] {
         &self.sines
