@@ -21,8 +21,8 @@ const ENOUGH_FOR_ALL_RULES: u64 = 200;
 /// what a test can hold them to is how many do.
 const KNOWN: [Rule; 4] = [Rule::Energy, Rule::Density, Rule::Rest, Rule::Cost];
 
-/// Share of worlds that miss them (docs/random.md).
-const KNOWN_SHARE: f64 = 0.0025;
+/// Share of worlds that miss them: 11 of 10,000 did (docs/random.md), and one seed in twenty that has two in a thousand has no more.
+const KNOWN_SHARE: f64 = 0.002;
 
 /// Chance with which a run fails though no more worlds miss a rule than did: once in 10,000 runs.
 const FALSE_ALARM: f64 = 1e-4;
@@ -44,7 +44,7 @@ fn most_known(count: u64) -> usize {
 #[test]
 fn no_more_may_miss_a_rule_than_chance_has_it() {
     // Tables of the law: at a mean of 0.4 .99922 up to 3, .99994 up to 4; at a mean of 2 .99976 up to 8, .99995 up to 9.
-    assert_eq!([160, 800].map(most_known), [4, 9]);
+    assert_eq!([200, 1000].map(most_known), [4, 9]);
 }
 
 /// A number that the environment gives, or else another.

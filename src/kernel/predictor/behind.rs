@@ -209,6 +209,8 @@ pub(super) fn make_up(
         if rows.contains(&row) && columns.contains(&column) { filled[k as usize] } else { 0.0 }
     };
     buffer.clear();
+    // As many as there can be: room is made when rock changes, not when water moves.
+    buffer.reserve(cells.len());
     buffer.extend(near().map(|one| {
         let [own, other] = one.factors;
         fill(one.cell) + own * fill(one.cell) + other * fill(one.other) - one.of_rock
