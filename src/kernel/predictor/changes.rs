@@ -26,9 +26,11 @@ pub(super) struct Changes<'a> {
 
 impl Changes<'_> {
     /// Finds the change on every face that touches liquid, and fills one layer around them in from its neighbours. Of
-    /// `finest`, the solver is done with the unknowns, the right-hand side and the products: they are used up.
+    /// `finest`, the solver is done with the unknowns, the right-hand side and the products, which are used up, and with the
+    /// operator, whose memory becomes that of the ways.
     pub fn find(&self, faces: &mut Faces, finest: &mut Level) {
         let Self { grid, closed, conjugate: Conjugate { liquid, rows, .. }, potentials, team } = *self;
+        finest.operator.exchange(&mut faces.ways);
         let Faces { u, v, ways: [ways_u, ways_v], filled, reached, area, matter, .. } = faces;
         let columns = &grid.padded(area);
         // The changes on each face, and whether they are known (1) or to be filled in from its neighbours (0).

@@ -21,20 +21,59 @@ pub(super) struct Level {
     pub stride: usize,
     /// What is solved for. Around it all fields are 0; beyond, nothing is read.
     pub wet: Wet,
-    /// Σ of the open shares of a cell's faces; 0 where there is nothing to solve.
-    pub diagonal: Vec<f32>,
-    /// Damping/diagonal, or 0.
-    pub damped: Vec<f32>,
-    /// Coupling to the right neighbour.
-    pub right: Vec<f32>,
-    /// Coupling to the upper neighbour.
-    pub upper: Vec<f32>,
+    pub operator: Operator,
     /// Unknowns.
     pub x: Vec<f32>,
     /// Right-hand side. On the finest level, conjugate gradients keep their residual here.
     pub b: Vec<f32>,
     /// What [`Level::apply`] found, and the next unknowns while smoothing.
     pub work: Vec<f32>,
+}
+
+/// Memory of an operator. What is on the faces of a grid after a solve fits in, two numbers each.
+pub(super) type Lent = [Vec<[f32; 2]>; 2];
+
+/// Coefficients of the equation. Those of the finest level are found anew for each solve and read by nobody after it, so that
+/// their memory is lent in between.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Operator(Lent);
+
+impl Operator {
+    fn new(cells: usize) -> Self {
+        Self([vec![[0.0; 2]; cells], vec![[0.0; 2]; cells]])
+    }
+
+    /// Of each cell: the sum of the open shares of its faces (*diagonal*; 0 where there is nothing to solve), damping over that or 0
+    /// (*damped*), and how it is coupled to its neighbours to the *right* and *upper*.
+    #[inline(always)]
+    pub fn fields(&self) -> [&[f32]; 4] {
+        let [first, second] = self.0.each_ref().map(|two| two.as_flattened().split_at(two.len()));
+        [first.0, first.1, second.0, second.1]
+    }
+
+    /// The same, to be changed.
+    #[inline(always)]
+    pub fn fields_mut(&mut self) -> [&mut [f32]; 4] {
+        let [first, second] = self.0.each_mut().map(|two| {
+            let cells = two.len();
+            two.as_flattened_mut().split_at_mut(cells)
+        });
+        [first.0, first.1, second.0, second.1]
+    }
+
+    /// Whether its memory is lent.
+    pub fn is_lent(&self) -> bool {
+        self.0[0].is_empty()
+    }
+
+    /// Lends its memory, or takes it back.
+    pub fn exchange(&mut self, lent: &mut Lent) {
+        std::mem::swap(&mut self.0, lent);
+    }
+
+    fn memory(&self) -> usize {
+        self.0.iter().map(|two| 8 * two.capacity()).sum()
+    }
 }
 
 impl Level {
@@ -46,10 +85,7 @@ impl Level {
             columns,
             stride,
             wet: Wet::new(columns, rows, depth),
-            diagonal: field(),
-            damped: field(),
-            right: field(),
-            upper: field(),
+            operator: Operator::new(stride * (rows + 3)),
             x: field(),
             b: field(),
             work: field(),
@@ -58,7 +94,8 @@ impl Level {
 
     /// Clears around what is wet now; the caller fills the operator in there.
     pub fn take(&mut self) {
-        let Self { stride, wet, diagonal, damped, right, upper, x, b, work, .. } = self;
+        let Self { stride, wet, operator, x, b, work, .. } = self;
+        let [diagonal, damped, right, upper] = operator.fields_mut();
         let mut fields = [diagonal, damped, right, upper, x, b, work];
         wet.around(|row, columns| {
             for field in &mut fields {
@@ -69,14 +106,21 @@ impl Level {
 
     /// The operator and the right-hand side.
     fn equation(&self) -> Equation<'_> {
-        Equation {
-            wet: &self.wet,
-            stride: self.stride,
-            diagonal: &self.diagonal,
-            damped: &self.damped,
-            right: &self.right,
-            upper: &self.upper,
-            b: &self.b,
+        let [diagonal, damped, right, upper] = self.operator.fields();
+        Equation { wet: &self.wet, stride: self.stride, diagonal, damped, right, upper, b: &self.b }
+    }
+
+    /// Takes the operator's memory back, if it is lent, and empties its padding.
+    pub fn take_back(&mut self, lent: &mut Lent) {
+        if !self.operator.is_lent() {
+            return;
+        }
+        self.operator.exchange(lent);
+        let (stride, columns, near) = (self.stride, self.columns, self.wet.rows_around());
+        for field in self.operator.fields_mut() {
+            for row in near.clone() {
+                (field[row * stride], field[row * stride + columns + 1]) = (0.0, 0.0);
+            }
         }
     }
 
@@ -146,7 +190,7 @@ impl Level {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        7 * 4 * self.x.capacity() + self.wet.memory()
+        3 * 4 * self.x.capacity() + self.operator.memory() + self.wet.memory()
     }
 }
 

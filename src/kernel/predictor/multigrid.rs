@@ -93,14 +93,11 @@ fn coarsen(fine: &Level, coarse: &mut Level, team: Team) {
     coarse.wet.coarsen(&fine.wet);
     coarse.take();
     let (rows, stride) = (coarse.wet.rows(), coarse.stride);
-    let [mut diagonal, mut damped, mut right, mut upper] =
-        [&mut coarse.diagonal, &mut coarse.damped, &mut coarse.right, &mut coarse.upper].map(std::mem::take);
-    let band = (
-        (Rows::new(&mut diagonal, stride, &rows), Rows::new(&mut damped, stride, &rows)),
-        (Rows::new(&mut right, stride, &rows), Rows::new(&mut upper, stride, &rows)),
-    );
+    let mut operator = std::mem::take(&mut coarse.operator);
+    let [diagonal, damped, right, upper] = operator.fields_mut().map(|field| Rows::new(field, stride, &rows));
+    let band = ((diagonal, damped), (right, upper));
     sweep(&Coarsen { fine, coarse }, rows, band, 4 * coarse.wet.per_row(), WORTH_A_PIECE, team);
-    (coarse.diagonal, coarse.damped, coarse.right, coarse.upper) = (diagonal, damped, right, upper);
+    coarse.operator = operator;
 }
 
 struct Coarsen<'a> {
@@ -114,11 +111,12 @@ type Operator<'a> = ((Rows<'a, f32>, Rows<'a, f32>), (Rows<'a, f32>, Rows<'a, f3
 impl Sweep<Operator<'_>> for Coarsen<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, ((mut diagonal, mut damped), (mut right, mut upper)): Operator) {
+        let [of_diagonal, _, of_right, of_upper] = self.fine.operator.fields();
         let out = diagonal.each().zip(damped.each()).zip(right.each()).zip(upper.each());
         for (j, (((to_diagonal, to_damped), to_right), to_upper)) in rows.zip(out) {
             for run in self.coarse.wet.runs(j) {
-                let [diagonal, right, upper] = [&self.fine.diagonal, &self.fine.right, &self.fine.upper]
-                    .map(|field| pairs(field, self.fine, j, &run));
+                let [diagonal, right, upper] =
+                    [of_diagonal, of_right, of_upper].map(|field| pairs(field, self.fine, j, &run));
                 let (to_diagonal, to_damped) = (&mut to_diagonal[run.clone()], &mut to_damped[run.clone()]);
                 let (to_right, to_upper) = (&mut to_right[run.clone()], &mut to_upper[run]);
                 for i in 0..to_diagonal.len() {
@@ -151,13 +149,14 @@ impl Sweep<Rows<'_, f32>> for Prolong<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut x: Rows<f32>) {
         let Self { coarse, fine } = self;
+        let [_, of_damped, ..] = fine.operator.fields();
         for (j, x) in rows.zip(x.each()) {
             // A run begins with a pair; its last may be cut by the grid's edge.
             for run in fine.wet.runs(j) {
                 let from = &coarse.x[j.div_ceil(2) * coarse.stride + run.start.div_ceil(2)..];
                 // What is not solved for stays 0.
                 let weight = |damped: f32| if damped > 0.0 { CORRECTION } else { 0.0 };
-                let (damped, odd_damped) = fine.damped[j * fine.stride..][run.clone()].as_chunks();
+                let (damped, odd_damped) = of_damped[j * fine.stride..][run.clone()].as_chunks();
                 let (x, odd_x) = x[run].as_chunks_mut();
                 let pairs = x.len();
                 for (([left, right], [damped_left, damped_right]), from) in x.iter_mut().zip(damped).zip(from) {

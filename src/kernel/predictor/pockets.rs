@@ -45,38 +45,40 @@ impl Pockets {
     pub fn balance(&mut self, grid: &MacGrid, level: &mut Level) -> bool {
         self.parts.clear();
         let s = grid.stride;
-        for j in level.wet.rows() {
-            for k in level.wet.runs(j).flat_map(|run| grid.row(j) + run.start..grid.row(j) + run.end) {
-                if level.diagonal[k] == 0.0 {
+        let Level { wet, operator, b, work, .. } = level;
+        let [diagonal, _, right, upper] = operator.fields();
+        for j in wet.rows() {
+            for k in wet.runs(j).flat_map(|run| grid.row(j) + run.start..grid.row(j) + run.end) {
+                if diagonal[k] == 0.0 {
                     continue;
                 }
-                let (left, lower) = (level.right[k - 1], level.upper[k - s]);
+                let (left, lower) = (right[k - 1], upper[k - s]);
                 let label = match (left > 0.0, lower > 0.0) {
-                    (true, true) => self.join(level.work[k - 1] as u32, level.work[k - s] as u32),
-                    (true, false) => self.root(level.work[k - 1] as u32),
-                    (false, true) => self.root(level.work[k - s] as u32),
+                    (true, true) => self.join(work[k - 1] as u32, work[k - s] as u32),
+                    (true, false) => self.root(work[k - 1] as u32),
+                    (false, true) => self.root(work[k - s] as u32),
                     (false, false) => self.found(),
                 };
-                level.work[k] = label as f32;
-                let coupled = left + lower + level.right[k] + level.upper[k];
-                let touches_air = !is_sealed(level.diagonal[k], coupled);
+                work[k] = label as f32;
+                let coupled = left + lower + right[k] + upper[k];
+                let touches_air = !is_sealed(diagonal[k], coupled);
                 let part = &mut self.parts[label as usize];
                 part.cells = part.cells.saturating_add(if touches_air { OPEN } else { 1 });
-                part.sum += f64::from(level.b[k]);
+                part.sum += f64::from(b[k]);
             }
         }
         self.gather();
         if self.parts.iter().all(|part| part.cells == OPEN) {
             return false;
         }
-        for j in level.wet.rows() {
-            for k in level.wet.runs(j).flat_map(|run| grid.row(j) + run.start..grid.row(j) + run.end) {
-                if level.diagonal[k] == 0.0 {
+        for j in wet.rows() {
+            for k in wet.runs(j).flat_map(|run| grid.row(j) + run.start..grid.row(j) + run.end) {
+                if diagonal[k] == 0.0 {
                     continue;
                 }
-                let part = &self.parts[self.root(level.work[k] as u32) as usize];
+                let part = &self.parts[self.root(work[k] as u32) as usize];
                 if part.cells != OPEN {
-                    level.b[k] -= (part.sum / f64::from(part.cells)) as f32;
+                    b[k] -= (part.sum / f64::from(part.cells)) as f32;
                 }
             }
         }

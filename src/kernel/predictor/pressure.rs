@@ -218,16 +218,18 @@ impl Sweep<Marks<'_>> for Mark<'_> {
 fn assemble(
     grid: &MacGrid,
     closed: &ClosedFaces,
-    faces: &Faces,
+    faces: &mut Faces,
     finest: &mut Level,
     conjugate: &Conjugate,
     (dt, whole): (f32, f32),
     team: Team,
 ) -> bool {
     let Conjugate { rows, liquid, .. } = conjugate;
+    finest.take_back(&mut faces.ways);
     finest.take();
     let sealed = AtomicBool::new(false);
-    let Level { diagonal, damped, right, upper, b, wet, .. } = finest;
+    let Level { operator, b, wet, .. } = finest;
+    let [diagonal, damped, right, upper] = operator.fields_mut();
     let work = Assemble { grid, closed, faces, liquid, wet, dt, whole, sealed: &sealed };
     let band = |field| Rows::new(field, grid.stride, rows);
     let band = ((band(diagonal), band(damped)), ((band(right), band(upper)), band(b)));

@@ -26,8 +26,8 @@ pub(super) struct Faces {
     pub u: Vec<[f32; 2]>,
     /// The same at the lower faces.
     pub v: Vec<[f32; 2]>,
-    /// At the left and at the lower faces, after the solve.
-    pub ways: [Vec<Way>; 2],
+    /// At the left and at the lower faces, after the solve: in memory that the solver lends.
+    pub ways: level::Lent,
     /// How full the cells are of liquid and rock, 1 at the density aimed at.
     pub filled: Vec<f32>,
     /// Fills of cells beside thin walls; kept between uses.
@@ -46,12 +46,11 @@ impl Faces {
     /// Shares out the particles' velocities on the faces. `masses`: those of the elements, as shares of the heaviest, if they
     /// differ.
     pub fn collect(&mut self, grid: &MacGrid, particles: &Particles, masses: Option<&[f32]>, team: Team) {
-        let Self { u, v, ways, filled, reached, area, matter, blocks, .. } = self;
+        let Self { u, v, filled, reached, area, matter, blocks, .. } = self;
         let Particles { x, y, vx, vy, element, .. } = particles;
         blocks.partition(grid, y, team.instructions, team.threads);
         *reached = blocks.reached();
         *area = grid.columns_near(extent(x, team.instructions));
-        ways.iter_mut().for_each(|ways| ways.resize(grid.len(), [0.0; 2]));
         filled.resize(grid.len(), 0.0);
         let share = ShareOut { grid, blocks, reached, area, team };
         share.run([x, y], None, [vx, vy], [u, v]);

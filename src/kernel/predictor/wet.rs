@@ -124,6 +124,12 @@ impl Wet {
         1 + pieces.start * self.piece..1 + (pieces.end * self.piece).min(self.columns)
     }
 
+    /// Rows with liquid, and those around them that sweeps read.
+    pub fn rows_around(&self) -> Range<usize> {
+        let all = self.bits.len() / self.words;
+        self.rows.start.saturating_sub(ROWS_AROUND)..(self.rows.end + ROWS_AROUND).min(all)
+    }
+
     /// Shows `visit` what is dry of the rows around wet pieces and reaches no further than sweeps read: row and columns, with the
     /// padding.
     pub fn around(&self, mut visit: impl FnMut(usize, Range<usize>)) {
@@ -132,9 +138,7 @@ impl Wet {
         }
         // Of two that are one on the next level, the other is read to its end, and a column more.
         let beyond = if self.piece == PAIR { 2 } else { 1 };
-        let all = self.bits.len() / self.words;
-        let rows = self.rows.start.saturating_sub(ROWS_AROUND)..(self.rows.end + ROWS_AROUND).min(all);
-        for row in rows {
+        for row in self.rows_around() {
             let near = row.saturating_sub(ROWS_AROUND)..row + ROWS_AROUND + 1;
             let any = |k: usize| near.clone().fold(0, |any, row| any | self.of(row).get(k).copied().unwrap_or(0));
             let dry = |k: usize| {

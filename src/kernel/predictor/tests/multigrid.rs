@@ -109,7 +109,8 @@ fn what_is_dry_is_left_out_to_the_bit() {
         equation.hierarchy.finest().wet.find(&equation.conjugate.liquid, stride, rows, 1..columns + 1);
         for (depth, level) in equation.hierarchy.levels().iter_mut().enumerate() {
             // What is dry is left from before, whatever it was; the padding is always 0.
-            let Level { columns, stride, wet, diagonal, damped, right, upper, x, work, .. } = level;
+            let Level { columns, stride, wet, operator, x, work, .. } = level;
+            let [diagonal, damped, right, upper] = operator.fields_mut();
             let is_wet = |k: usize| depth == 0 && wet.runs(k / *stride).any(|run| run.contains(&(k % *stride)));
             let kept: Vec<bool> = (0..x.len()).map(|k| is_wet(k) || !(1..=*columns).contains(&(k % *stride))).collect();
             let dry = kept.iter().filter(|kept| !**kept).count();

@@ -11,19 +11,19 @@ use glam::Vec2;
 /// Connected liquid as a flood from each cell finds it: the cells of each part and whether it touches air.
 fn parts(equation: &mut Equation) -> Vec<(Vec<usize>, bool)> {
     let (grid, stride) = (equation.grid, equation.grid.stride);
-    let level = equation.hierarchy.finest();
+    let [diagonal, _, right, upper] = equation.hierarchy.finest().operator.fields();
     let mut seen = vec![false; grid.len()];
     let mut parts = Vec::new();
     for (.., start) in cells(&grid) {
-        if seen[start] || level.diagonal[start] == 0.0 {
+        if seen[start] || diagonal[start] == 0.0 {
             continue;
         }
         let (mut part, mut open, mut next) = (Vec::new(), false, vec![start]);
         seen[start] = true;
         while let Some(k) = next.pop() {
             part.push(k);
-            let around = [(k + 1, level.right[k]), (k - 1, level.right[k - 1])];
-            let up_and_down = [(k + stride, level.upper[k]), (k - stride, level.upper[k - stride])];
+            let around = [(k + 1, right[k]), (k - 1, right[k - 1])];
+            let up_and_down = [(k + stride, upper[k]), (k - stride, upper[k - stride])];
             let mut coupled = 0.0;
             for (other, coupling) in around.into_iter().chain(up_and_down) {
                 coupled += coupling;
@@ -31,7 +31,7 @@ fn parts(equation: &mut Equation) -> Vec<(Vec<usize>, bool)> {
                     next.push(other);
                 }
             }
-            open |= level.diagonal[k] - coupled > 0.01;
+            open |= diagonal[k] - coupled > 0.01;
         }
         parts.push((part, open));
     }

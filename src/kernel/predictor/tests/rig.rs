@@ -66,12 +66,13 @@ impl Equation {
                 steepness(&mut steep[first..first + n], of(&conjugate.liquid), of(&fill), around);
             }
         }
+        let [diagonal, _, right, upper] = finest.operator.fields_mut();
         for j in 1..grid.rows + 1 {
             let row = grid.row(j) + 1..grid.row(j) + 1 + grid.columns;
             couple(
-                &mut finest.diagonal[row.clone()],
-                &mut finest.right[row.clone()],
-                &mut finest.upper[row.clone()],
+                &mut diagonal[row.clone()],
+                &mut right[row.clone()],
+                &mut upper[row.clone()],
                 Around::new(&conjugate.liquid, row.clone(), stride),
                 Sides::new(&open_u, &open_v, row.clone(), stride),
                 Sides::new(&steep_u, &steep_v, row, stride),
@@ -99,14 +100,14 @@ impl Equation {
     /// A x.
     pub fn apply(&mut self, x: &[f64]) -> Vec<f64> {
         let stride = self.grid.stride;
-        let level = self.hierarchy.finest();
+        let [diagonal, _, right, upper] = self.hierarchy.finest().operator.fields();
         let mut product = vec![0.0; x.len()];
         for (.., k) in cells(&self.grid) {
-            product[k] = f64::from(level.diagonal[k]) * x[k]
-                - f64::from(level.right[k]) * x[k + 1]
-                - f64::from(level.right[k - 1]) * x[k - 1]
-                - f64::from(level.upper[k]) * x[k + stride]
-                - f64::from(level.upper[k - stride]) * x[k - stride];
+            product[k] = f64::from(diagonal[k]) * x[k]
+                - f64::from(right[k]) * x[k + 1]
+                - f64::from(right[k - 1]) * x[k - 1]
+                - f64::from(upper[k]) * x[k + stride]
+                - f64::from(upper[k - stride]) * x[k - stride];
         }
         product
     }
@@ -159,7 +160,8 @@ impl Equation {
 /// Builds the coarse levels of an equation whose finest one is set up.
 pub(super) fn coarsen(hierarchy: &mut Hierarchy) {
     let finest = hierarchy.finest();
-    finest.damped.iter_mut().zip(&finest.diagonal).for_each(|(damped, diagonal)| *damped = damping(*diagonal));
+    let [diagonal, damped, ..] = finest.operator.fields_mut();
+    damped.iter_mut().zip(diagonal).for_each(|(damped, diagonal)| *damped = damping(*diagonal));
     hierarchy.coarsen(team());
 }
 
@@ -239,9 +241,12 @@ impl Rig {
             team: team(),
             report: &mut report,
         });
-        let Faces { u, v, ways: [ways_u, ways_v], .. } = &mut self.faces;
-        for (face, way) in u.iter_mut().zip(ways_u).chain(v.iter_mut().zip(ways_v)) {
-            face[1] += way[0];
+        let Faces { u, v, ways: [ways_u, ways_v], reached, area, .. } = &mut self.faces;
+        let columns = self.grid.padded(area);
+        for face in reached.clone().flat_map(|row| columns.clone().map(move |column| (row, column))) {
+            let face = self.grid.row(face.0) + face.1;
+            u[face][1] += ways_u[face][0];
+            v[face][1] += ways_v[face][0];
         }
         report
     }

@@ -30,6 +30,7 @@ fn cloud(count: usize, box_size: Vec2, gap: f32, mut velocity: impl FnMut(Vec2) 
 fn collect(grid: &MacGrid, particles: &Particles) -> Faces {
     let mut faces = Faces::default();
     faces.collect(grid, particles, None, team());
+    faces.ways = [(); 2].map(|()| vec![[0.0; 2]; grid.len()]);
     faces
 }
 
