@@ -293,7 +293,10 @@ pub(super) fn ms(time: Duration) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::brush::{BrushShape, Stroke};
+    use crate::kernel::{
+        brush::{BrushShape, Stroke},
+        params::Preset,
+    };
     use crate::{
         lab::run::{Plan, run},
         scene::{self, effects::EffectModes},
@@ -361,5 +364,20 @@ mod tests {
             more > (2 * 30 * 30 - 2 * 10 * 10) * crate::kernel::particles::Particles::BYTES as u64,
             "only {more} bytes more for 1,600 particles"
         );
+    }
+
+    #[test]
+    #[cfg_attr(any(debug_assertions, target_arch = "wasm32"), ignore = "heavy: natively and in release only")]
+    fn a_large_world_of_water_holds_at_most_128_bytes_a_particle_at_every_real_time_quality() {
+        for preset in Preset::ALL.into_iter().filter(|preset| *preset != Preset::Reference) {
+            let settings = [("columns".to_owned(), "224".to_owned())];
+            let blueprint = scene::load("dam_break").unwrap().build(&settings, Some(preset), &EffectModes::new());
+            let mut simulation = Simulation::new(Arc::new(blueprint.unwrap()), Workers::default());
+            // All buffers are there after a tick.
+            let bytes = measure(&mut simulation, 2).memory_bytes;
+            let particles = simulation.world().resource::<ParticleStore>().len() as u64;
+            assert!(particles > 100_000);
+            assert!(bytes <= 128 * particles, "{}: {} bytes a particle", preset.name(), bytes / particles);
+        }
     }
 }

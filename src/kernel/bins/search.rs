@@ -59,18 +59,20 @@ impl Bins {
     }
 
     /// Sorts the particles by cell and builds the groups over them, as wide as the lanes. Within a cell the order stays.
-    /// `spare` is a buffer for a column of numbers; `settle` may then change the positions of each strip.
+    /// `spare` is a buffer for a column of numbers, `order` another, which holds no numbers after; `settle` may then change the positions of each strip.
     pub(crate) fn bin(
         &mut self,
         particles: &mut Particles,
-        spare: &mut Vec<f32>,
+        [spare, order]: [&mut Vec<f32>; 2],
         neighbours: Neighbours,
         instructions: InstructionSet,
         threads: usize,
         settle: &(impl Fn(Strip) + Sync),
     ) {
-        self.sort.place(&self.grid, &particles.x, &particles.y, instructions, threads);
-        self.sort.reorder(particles, spare, threads);
+        order.resize(particles.len(), 0.0);
+        let source: &mut [u32] = bytemuck::cast_slice_mut(order);
+        self.sort.place(&self.grid, [&particles.x, &particles.y], source, instructions, threads);
+        self.sort.reorder(particles, source, spare, threads);
         self.sort.settle(&self.grid, particles, threads, settle);
         match neighbours {
             Neighbours::Binned => self.group(&particles.x, instructions.width(), threads),

@@ -25,7 +25,7 @@ const WORTH_A_LOOK: usize = 32;
 /// Fewer particles than this do not pay for a segment of their own.
 const WORTH_A_SEGMENT: usize = 2048;
 
-/// The sort's own buffers: 9 bytes a particle and 4 a cell.
+/// The sort's own buffers: 5 bytes a particle and 4 a cell.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sort {
     /// Strips that hold particles.
@@ -39,8 +39,6 @@ pub(super) struct Sort {
     keys: Vec<u32>,
     /// Lowest and highest cell in each block of particles.
     blocks: Vec<[u32; 2]>,
-    /// For each place the particle's place before the sort.
-    source: Vec<u32>,
     spare_elements: Vec<ElementId>,
     spare_heats: Vec<i32>,
     segments: Vec<Segment>,
@@ -54,13 +52,19 @@ struct Segment {
 }
 
 impl Sort {
-    /// Finds the order of the particles by cell: where each cell's begin, and for each place which particle comes there.
-    pub fn place(&mut self, grid: &CellGrid, x: &[f32], y: &[f32], instructions: InstructionSet, threads: usize) {
+    /// Finds the order of the particles by cell: where each cell's begin, and for each place which particle comes there (`source`).
+    pub fn place(
+        &mut self,
+        grid: &CellGrid,
+        [x, y]: [&[f32]; 2],
+        source: &mut [u32],
+        instructions: InstructionSet,
+        threads: usize,
+    ) {
         let found = self.find_cells(grid, x, y, instructions, threads);
         self.cut_into_segments(grid, found, x.len(), threads);
         self.columns = grid.columns_near(extent(x, instructions));
-        self.source.resize(x.len(), 0);
-        let Self { starts, columns, keys, blocks, source, segments, .. } = self;
+        let Self { starts, columns, keys, blocks, segments, .. } = self;
         if let Some(first) = segments.first() {
             let ends = &mut starts[1 + first.cells.start..];
             let unsorted = Unsorted { stride: grid.columns, columns, keys, blocks };
@@ -72,8 +76,8 @@ impl Sort {
 
     /// Brings all columns of the particles into the order that was found. `floats` is a buffer for one of them, and is left with
     /// what one of them held.
-    pub fn reorder(&mut self, particles: &mut Particles, floats: &mut Vec<f32>, threads: usize) {
-        let Self { source, keys: words, spare_elements: elements, spare_heats: heats, .. } = self;
+    pub fn reorder(&mut self, particles: &mut Particles, source: &[u32], floats: &mut Vec<f32>, threads: usize) {
+        let Self { keys: words, spare_elements: elements, spare_heats: heats, .. } = self;
         particles.reorder(source, Spares { floats, words, elements, heats }, threads);
     }
 
@@ -159,7 +163,7 @@ impl Sort {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        4 * (self.starts.capacity() + self.keys.capacity() + self.source.capacity())
+        4 * (self.starts.capacity() + self.keys.capacity())
             + 8 * self.blocks.capacity()
             + self.spare_elements.capacity()
             + 4 * self.spare_heats.capacity()

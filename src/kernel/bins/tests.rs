@@ -18,9 +18,9 @@ fn scattered(n: usize, size: Vec2) -> Particles {
 
 /// Sorts, without touching positions.
 fn sort(bins: &mut Bins, particles: &mut Particles, threads: usize) {
-    let mut spare = Vec::new();
+    let [mut spare, mut order] = [Vec::new(), Vec::new()];
     let instructions = InstructionSet::Baseline;
-    bins.bin(particles, &mut spare, Neighbours::Binned, instructions, threads, &|_| ());
+    bins.bin(particles, [&mut spare, &mut order], Neighbours::Binned, instructions, threads, &|_| ());
 }
 
 fn sorted(n: usize, size: Vec2, width: usize) -> (Bins, Particles) {
@@ -140,7 +140,7 @@ fn what_is_turned_inwards_stays_in_its_cell() {
     let size = Vec2::new(40.0, 40.0);
     let (mut bins, mut particles) = (Bins::default(), scattered(3000, size));
     bins.resize(size, 2.5, 0.1, &Solids::new(40, 40));
-    let mut spare = Vec::new();
+    let [mut spare, mut order] = [Vec::new(), Vec::new()];
     let grid = CellGrid::new(size, 2.7 + MARGIN_ROUNDING);
     let settle = |strip: Strip| {
         for i in 0..strip.x.len() {
@@ -152,7 +152,7 @@ fn what_is_turned_inwards_stays_in_its_cell() {
             }
         }
     };
-    bins.bin(&mut particles, &mut spare, Neighbours::Binned, InstructionSet::Baseline, 1, &settle);
+    bins.bin(&mut particles, [&mut spare, &mut order], Neighbours::Binned, InstructionSet::Baseline, 1, &settle);
 }
 
 #[test]

@@ -118,12 +118,12 @@ impl Solver {
         if (self.smoothing.radius, self.smoothing.gradient) != (quality.kernel_radius, quality.gradient) {
             self.smoothing = Smoothing::new(quality.kernel_radius, quality.gradient);
         }
-        let Self { bins, instructions, neighbours, lambda, .. } = self;
+        let Self { bins, instructions, neighbours, lambda, next_x, .. } = self;
         bins.resize(domain.size, quality.kernel_radius, quality.longest_correction(), solids);
         let set_apart = AtomicU64::new(0);
         let settle = |strip: Strip| separate_coincident(strip, *instructions, domain, solids, &set_apart);
         let mut bin = |bins: &mut Bins, particles: &mut Particles| {
-            bins.bin(particles, lambda, *neighbours, *instructions, threads, &settle);
+            bins.bin(particles, [lambda, next_x], *neighbours, *instructions, threads, &settle);
         };
         bin(bins, particles);
         let scattered =
