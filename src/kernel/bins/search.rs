@@ -59,7 +59,8 @@ impl Bins {
     }
 
     /// Sorts the particles by cell and builds the groups over them, as wide as the lanes. Within a cell the order stays.
-    /// `spare` is a buffer for a column of numbers, `order` another, which holds no numbers after; `settle` may then change the positions of each strip.
+    /// `spare` is a buffer for a column of numbers, `order` another, in which no number is left; `settle` may then change the positions
+    /// of each strip.
     pub(crate) fn bin(
         &mut self,
         particles: &mut Particles,
