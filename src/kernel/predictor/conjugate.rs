@@ -5,8 +5,8 @@ use crate::{
     predictor::{
         level::{Level, RowSums, WORTH_A_PIECE},
         multigrid::Hierarchy,
+        pieces::Pieces,
         report::PredictorReport,
-        wet::Wet,
     },
 };
 use std::ops::Range;
@@ -125,7 +125,7 @@ impl Conjugate {
 struct Turn<'a> {
     preconditioned: &'a [f32],
     stride: usize,
-    wet: &'a Wet,
+    wet: &'a Pieces,
     /// Share of the last direction that is kept.
     keep: f32,
     is_first: bool,
@@ -156,7 +156,7 @@ struct Advance<'a> {
     /// A times the direction.
     product: &'a [f32],
     stride: usize,
-    wet: &'a Wet,
+    wet: &'a Pieces,
     step: f32,
 }
 

@@ -4,7 +4,7 @@ use glam::Vec2;
 use std::ops::Range;
 
 /// What is done to columns is done in pieces of so many. The lanes of sums, the pairs of finer levels and what may be dry
-/// ([`Wet`](super::wet::Wet)) begin anew in each, so that it makes no difference, to the last bit, how many there are.
+/// ([`Pieces`](super::pieces::Pieces)) begin anew in each, so that it makes no difference, to the last bit, how many there are.
 const SPAN_STEP: usize = 64;
 
 /// Rows and columns of cells with a ring of padding. Cell (i, j) with 1 ≤ i ≤ columns, 1 ≤ j ≤ rows has index

@@ -2,7 +2,7 @@
 
 use crate::{
     parallel::{Band, Rows, Sweep, Team, sweep},
-    predictor::wet::Wet,
+    predictor::pieces::Pieces,
 };
 use std::ops::Range;
 
@@ -20,7 +20,7 @@ pub(super) struct Level {
     pub columns: usize,
     pub stride: usize,
     /// What is solved for. Around it all fields are 0; beyond, nothing is read.
-    pub wet: Wet,
+    pub wet: Pieces,
     pub operator: Operator,
     /// Unknowns.
     pub x: Vec<f32>,
@@ -84,7 +84,7 @@ impl Level {
         Self {
             columns,
             stride,
-            wet: Wet::new(columns, rows, depth),
+            wet: Pieces::new(columns, rows, depth),
             operator: Operator::new(stride * (rows + 3)),
             x: field(),
             b: field(),
@@ -202,7 +202,7 @@ pub(super) fn damping(diagonal: f32) -> f32 {
 
 /// The equation as sweeps read it.
 struct Equation<'a> {
-    wet: &'a Wet,
+    wet: &'a Pieces,
     stride: usize,
     diagonal: &'a [f32],
     damped: &'a [f32],
@@ -366,7 +366,7 @@ struct Restrict<'a> {
     /// Fine columns that there are.
     columns: usize,
     /// What of the coarse level is solved for.
-    wet: &'a Wet,
+    wet: &'a Pieces,
     x: &'a [f32],
 }
 

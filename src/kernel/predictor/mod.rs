@@ -26,6 +26,7 @@ mod matter;
 mod multigrid;
 mod open_shares;
 mod parts;
+mod pieces;
 mod pockets;
 mod pressure;
 mod pressure_at;
@@ -39,7 +40,6 @@ mod steps;
 mod tests;
 mod transfer;
 mod way_back;
-mod wet;
 
 pub use flow::Flow;
 pub use grains::GrainParams;

@@ -15,12 +15,12 @@ use crate::{
         letting_go::LettingGo,
         level::{Level, WORTH_A_PIECE, damping},
         multigrid::Hierarchy,
+        pieces::Pieces,
         pockets::Pockets,
         rock::ClosedFaces,
         slivers,
         stencil::Axis,
         transfer::Faces,
-        wet::Wet,
     },
     simd::{Lanes, Pass},
 };
@@ -147,7 +147,7 @@ fn mark_liquid(
     closed: &ClosedFaces,
     faces: &mut Faces,
     conjugate: &mut Conjugate,
-    wet: &mut Wet,
+    wet: &mut Pieces,
     (target, team): (f32, Team),
 ) {
     let rows = cells_reached(grid, faces);
@@ -243,7 +243,7 @@ struct Assemble<'a> {
     faces: &'a Faces,
     liquid: &'a [f32],
     /// What is solved for.
-    wet: &'a Wet,
+    wet: &'a Pieces,
     /// Substep, s.
     dt: f32,
     /// Particles from which on a face has them on both sides.
@@ -342,7 +342,7 @@ struct FeedBack<'a> {
     liquid: &'a [f32],
     pressure: &'a [f32],
     /// What is solved for.
-    wet: &'a Wet,
+    wet: &'a Pieces,
     /// Counts the cells in which the feedback was cut.
     cuts: &'a AtomicU64,
 }

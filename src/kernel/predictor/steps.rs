@@ -198,6 +198,12 @@ impl Predictor {
         self.liquid.then_some((&self.grid, &self.closed, &self.faces, &self.conjugate))
     }
 
+    /// Cells that friction worked on in the last run.
+    #[cfg(test)]
+    pub(super) fn cells_of_friction(&self) -> usize {
+        self.grains.as_ref().map_or(0, |grains| grains.cells(&self.grid))
+    }
+
     /// Edge of a cell, d; 0 before the first run.
     pub fn cell(&self) -> f32 {
         self.grid.cell

@@ -26,37 +26,6 @@ pub(in crate::predictor) struct Bed<'a> {
     pub team: Team,
 }
 
-/// Rows and columns in which fields may differ from 0.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Touched {
-    pub rows: Range<usize>,
-    pub columns: Range<usize>,
-}
-
-impl Touched {
-    /// Shows `visit` the pieces of the fields that lie in these rows and columns, but no more in those of `bed`.
-    pub fn left(&self, bed: &Bed, mut visit: impl FnMut(Range<usize>)) {
-        let (grid, now) = (bed.grid, bed.touched());
-        if *self == now {
-            return;
-        }
-        for (j, row) in self.rows.clone().map(|j| (j, grid.row(j))) {
-            if now.rows.contains(&j) {
-                visit(row..row + now.columns.start);
-                visit(row + now.columns.end.min(grid.stride)..row + grid.stride);
-            } else {
-                visit(row..row + grid.stride);
-            }
-        }
-    }
-
-    /// The indices of its faces.
-    pub fn all(&self, grid: &MacGrid) -> impl Iterator<Item = usize> + use<> {
-        let (stride, columns) = (grid.stride, self.columns.clone());
-        self.rows.clone().flat_map(move |j| j * stride + columns.start..j * stride + columns.end)
-    }
-}
-
 impl<'a> Bed<'a> {
     pub fn new(
         (grid, closed): (&'a MacGrid, &'a ClosedFaces),
@@ -67,11 +36,6 @@ impl<'a> Bed<'a> {
     ) -> Self {
         let Conjugate { liquid, rows, span, .. } = conjugate;
         Self { grid, closed, liquid, rows: rows.clone(), span: span.clone(), full, kick, team }
-    }
-
-    /// Rows and columns of faces and corners that touch such a cell.
-    pub(super) fn touched(&self) -> Touched {
-        Touched { rows: self.rows.start..self.rows.end + 1, columns: self.span.start..self.span.end + 1 }
     }
 
     #[inline(always)]
@@ -85,10 +49,22 @@ impl<'a> Bed<'a> {
         self.liquid[k] + self.liquid[k - axis.step(self.grid)] > 0.0
     }
 
+    /// Whether a face is one of a cell that has a pressure, and open.
+    #[inline(always)]
+    pub fn is_moved(&self, axis: Axis, k: usize) -> bool {
+        self.is_touched(axis, k) && self.open(axis, k) > 0.0
+    }
+
     /// Open share of a face.
     #[inline(always)]
     pub fn open(&self, axis: Axis, k: usize) -> f32 {
-        let at = self.closed.row(k / self.grid.stride) + k % self.grid.stride;
+        self.open_in(axis, k / self.grid.stride, k % self.grid.stride)
+    }
+
+    /// That of a face of a row.
+    #[inline(always)]
+    pub fn open_in(&self, axis: Axis, row: usize, column: usize) -> f32 {
+        let at = self.closed.row(row) + column;
         if axis == Axis::U { self.closed.open_u[at] } else { self.closed.open_v[at] }
     }
 

@@ -12,14 +12,14 @@ use crate::{
     parallel::{Rows, Sweep, sweep},
     predictor::{
         grains::{
-            bed::{Bed, Touched},
+            bed::Bed,
             fields::{Fields, row, two},
             iteration::{Hold, Limit, Pull},
             limits::{FindLimits, FindPressures},
+            near::Near,
             part::{Lighten, TakePart, is_still, lay_by},
             spread::Spread,
         },
-        grid::MacGrid,
         level::WORTH_A_PIECE,
         transfer::Faces,
     },
@@ -32,8 +32,6 @@ const ITERATIONS: usize = 20;
 /// Stress among grains. The buffers are kept.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Friction {
-    /// Where what is below may differ from 0.
-    touched: Touched,
     /// S and T, d/s.
     stress: Fields,
     /// S and T of what took part last where nothing does now: what sleeps there wakes with them.
@@ -63,33 +61,46 @@ pub(super) struct Friction {
 
 impl Friction {
     /// Finds which faces and corners take part, and what the last substep's stress changes on the faces.
-    pub fn begin(&mut self, bed: &Bed, faces: &Faces) {
-        self.make_room(bed);
-        let Self { touched: Touched { rows, columns }, stress, kept, strain, step, lightness, .. } = self;
+    pub fn begin(&mut self, bed: &Bed, near: &Near, faces: &Faces) {
+        self.make_room(bed, near);
+        let Self { stress, kept, strain, step, lightness, .. } = self;
+        let (rows, per_row, stride) = (near.rows(bed.grid), near.per_row(), bed.grid.stride);
+        let work = Lighten { bed, near, faces };
+        sweep(&work, rows.clone(), two(lightness, stride, &rows), per_row, WORTH_A_PIECE, bed.team);
+        let work = TakePart { bed, near, lightness, strain };
+        let band = ((two(stress, stride, &rows), two(kept, stride, &rows)), two(step, stride, &rows));
+        sweep(&work, rows, band, per_row, WORTH_A_PIECE, bed.team);
+        self.change(bed, near);
+    }
+
+    /// Whether any of some cells, or of their lower left corners, has a stress, or may get one that was laid by.
+    #[inline(always)]
+    pub fn is_stressed(&self, bed: &Bed, cells: Range<usize>) -> bool {
+        let any = |fields: &Fields| {
+            let of = |field: &[f32]| field.iter().fold(false, |any, stress| any | (*stress != 0.0));
+            fields.iter().any(|field| field.get(cells.clone()).is_some_and(of))
+        };
         let stride = bed.grid.stride;
-        let work = Lighten { bed, columns: columns.clone(), faces };
-        sweep(&work, rows.clone(), two(lightness, stride, rows), columns.len(), WORTH_A_PIECE, bed.team);
-        let work = TakePart { bed, columns: columns.clone(), lightness, strain };
-        let band = ((two(stress, stride, rows), two(kept, stride, rows)), two(step, stride, rows));
-        sweep(&work, rows.clone(), band, columns.len(), WORTH_A_PIECE, bed.team);
-        self.change(bed);
+        let is_by_liquid = |k: usize| [k, k - 1, k - stride, k - stride - 1].into_iter().any(|k| bed.is_liquid(k));
+        let is_laid_by = |k: &usize| self.kept.iter().any(|kept| kept[*k] != 0.0);
+        any(&self.stress) || any(&self.kept) && cells.clone().filter(is_laid_by).any(is_by_liquid)
     }
 
     /// Takes the divergence of what the stress changes off the right-hand side of the pressure.
-    pub fn subtract_divergence(&self, bed: &Bed, right_side: &mut [f32]) {
-        let work = Diverge { bed, columns: bed.span.clone(), gained: &self.gained };
-        let band = Rows::new(right_side, bed.grid.stride, &bed.rows);
-        sweep(&work, bed.rows.clone(), band, bed.span.len(), WORTH_A_PIECE, bed.team);
+    pub fn subtract_divergence(&self, bed: &Bed, near: &Near, right_side: &mut [f32]) {
+        let rows = near.rows(bed.grid);
+        let band = Rows::new(right_side, bed.grid.stride, &rows);
+        sweep(&Diverge { bed, near, gained: &self.gained }, rows, band, near.per_row(), WORTH_A_PIECE, bed.team);
     }
 
     /// Room for the grid, with 0 wherever nothing takes part any more.
-    fn make_room(&mut self, bed: &Bed) {
-        let Self { touched, stress, kept, strain, .. } = self;
+    fn make_room(&mut self, bed: &Bed, near: &Near) {
+        let Self { stress, kept, strain, .. } = self;
         for ((stress, kept), strain) in stress.iter_mut().zip(kept).zip(strain) {
             for field in [&mut *stress, kept, strain] {
                 field.resize(bed.grid.len(), 0.0);
             }
-            touched.left(bed, |left| {
+            near.left(bed.grid, |left| {
                 for k in left {
                     lay_by(&mut stress[k], &mut kept[k], is_still(bed, strain[k]));
                     strain[k] = 0.0;
@@ -101,9 +112,8 @@ impl Friction {
         for field in fields.into_iter().chain(on_faces).flatten().chain([&mut self.inner]) {
             // What is above and to the right of the last is read, and counts for nothing.
             field.resize(bed.grid.len() + 1, 0.0);
-            self.touched.left(bed, |left| field[left].fill(0.0));
+            near.left(bed.grid, |left| field[left].fill(0.0));
         }
-        self.touched = bed.touched();
     }
 
     /// What the next substep sets out from.
@@ -112,98 +122,102 @@ impl Friction {
         [s, t, kept_s, kept_t, cells, corners]
     }
 
-    /// One that sets out from what was kept on a grid.
-    pub fn resume(grid: &MacGrid, [s, t, kept_s, kept_t, cells, corners]: [Vec<f32>; 6]) -> Self {
-        let touched = Touched { rows: 0..grid.rows + 3, columns: 0..grid.stride };
-        Self { touched, stress: [s, t], kept: [kept_s, kept_t], strain: [cells, corners], ..Self::default() }
+    /// One that sets out from what was kept.
+    pub fn resume([s, t, kept_s, kept_t, cells, corners]: [Vec<f32>; 6]) -> Self {
+        Self { stress: [s, t], kept: [kept_s, kept_t], strain: [cells, corners], ..Self::default() }
     }
 
     /// What the stress changes on the faces.
-    fn change(&mut self, bed: &Bed) {
-        let Self { touched: Touched { rows, columns }, stress, lightness, gained, .. } = self;
-        let (columns, flow) = (columns.clone(), [&[][..]; 2]);
-        let work = Hold { bed, columns: columns.clone(), stress, before: stress, further: 0.0, lightness, flow };
-        sweep(&work, rows.clone(), two(gained, bed.grid.stride, rows), columns.len(), WORTH_A_PIECE, bed.team);
+    fn change(&mut self, bed: &Bed, near: &Near) {
+        let Self { stress, lightness, gained, .. } = self;
+        let (rows, flow) = (near.rows(bed.grid), [&[][..]; 2]);
+        let work = Hold { bed, near, stress, before: stress, further: 0.0, lightness, flow };
+        let band = two(gained, bed.grid.stride, &rows);
+        sweep(&work, rows, band, near.per_row(), WORTH_A_PIECE, bed.team);
     }
 
     /// Finds the stress under a pressure (d/s), and what it changes on the faces.
-    pub fn solve(&mut self, bed: &Bed, faces: &Faces, spread: &Spread, pressure: &[f32], pore: &[f32]) {
-        let Touched { rows, columns } = self.touched.clone();
-        let (stride, team) = (bed.grid.stride, bed.team);
-        let work = FindPressures { bed, columns: columns.clone(), faces, spread: *spread, pressure, pore };
-        sweep(&work, rows.clone(), two(&mut self.pressed, stride, &rows), columns.len(), WORTH_A_PIECE, team);
+    pub fn solve(
+        &mut self,
+        (bed, near): (&Bed, &Near),
+        faces: &Faces,
+        spread: &Spread,
+        pressure: &[f32],
+        pore: &[f32],
+    ) {
+        let (rows, per_row, stride, team) = (near.rows(bed.grid), near.per_row(), bed.grid.stride, bed.team);
+        let work = FindPressures { bed, near, faces, spread: *spread, pressure, pore };
+        sweep(&work, rows.clone(), two(&mut self.pressed, stride, &rows), per_row, WORTH_A_PIECE, team);
         let Self { pressed, stress, strain, step, limit, inner, .. } = self;
         let [along, _] = &*stress;
-        let work =
-            FindLimits { bed, columns: columns.clone(), spread: *spread, pressed, along, strain, takes_part: &step[1] };
-        sweep(
-            &work,
-            rows.clone(),
-            (two(limit, stride, &rows), Rows::new(inner, stride, &rows)),
-            columns.len(),
-            WORTH_A_PIECE,
-            team,
-        );
+        let work = FindLimits { bed, near, spread: *spread, pressed, along, strain, takes_part: &step[1] };
+        let band = (two(limit, stride, &rows), Rows::new(inner, stride, &rows));
+        sweep(&work, rows, band, per_row, WORTH_A_PIECE, team);
         for (axis, flow) in self.flow.iter_mut().enumerate() {
-            for k in self.touched.all(bed.grid) {
-                let mean = [&faces.u, &faces.v][axis][k][1];
-                flow[k] = if self.lightness[axis][k] > 0.0 { mean + faces.ways[axis][k][0] } else { 0.0 };
+            let (means, ways, lightness) = ([&faces.u, &faces.v][axis], &faces.ways[axis], &self.lightness[axis]);
+            for run in near.indices(bed.grid) {
+                let of = means[run.clone()].iter().zip(&ways[run.clone()]).zip(&lightness[run.clone()]);
+                for (flow, ((mean, way), lightness)) in flow[run].iter_mut().zip(of) {
+                    *flow = if *lightness > 0.0 { mean[1] + way[0] } else { 0.0 };
+                }
             }
         }
         for (before, stress) in self.before.iter_mut().zip(&self.stress) {
-            before[bed.grid.rows(rows.clone())].copy_from_slice(&stress[bed.grid.rows(rows.clone())]);
+            near.indices(bed.grid).for_each(|run| before[run.clone()].copy_from_slice(&stress[run]));
         }
         for iteration in 0..ITERATIONS {
-            self.iterate(bed, iteration as f32 / (iteration as f32 + 3.0));
+            self.iterate((bed, near), iteration as f32 / (iteration as f32 + 3.0));
         }
-        self.change(bed);
-        self.find_strain(bed);
+        self.change(bed, near);
+        self.find_strain(bed, near);
     }
 
     /// One step along the gradient from where the last two lead to, and back into the cone.
-    fn iterate(&mut self, bed: &Bed, further: f32) {
-        let Self {
-            touched: Touched { rows, columns },
-            stress,
-            before,
-            ahead,
-            limit,
-            step,
-            inner,
-            lightness,
-            flow,
-            held,
-            ..
-        } = self;
-        let stride = bed.grid.stride;
+    fn iterate(&mut self, (bed, near): (&Bed, &Near), further: f32) {
+        let Self { stress, before, ahead, limit, step, inner, lightness, flow, held, .. } = self;
+        let (rows, per_row, stride) = (near.rows(bed.grid), near.per_row(), bed.grid.stride);
         let flow = flow.each_ref().map(|flow| &flow[..]);
-        let hold = Hold { bed, columns: columns.clone(), stress, before, further, lightness, flow };
-        sweep(&hold, rows.clone(), two(held, stride, rows), columns.len(), WORTH_A_PIECE, bed.team);
-        let pull = Pull { bed, columns: columns.clone(), stress, before, further, step, held };
-        sweep(&pull, rows.clone(), two(ahead, stride, rows), columns.len(), WORTH_A_PIECE, bed.team);
-        let limit = Limit { bed, columns: columns.clone(), ahead, limit, inner };
-        sweep(&limit, rows.clone(), two(before, stride, rows), columns.len(), WORTH_A_PIECE, bed.team);
+        let hold = Hold { bed, near, stress, before, further, lightness, flow };
+        sweep(&hold, rows.clone(), two(held, stride, &rows), per_row, WORTH_A_PIECE, bed.team);
+        let pull = Pull { bed, near, stress, before, further, step, held };
+        sweep(&pull, rows.clone(), two(ahead, stride, &rows), per_row, WORTH_A_PIECE, bed.team);
+        let limit = Limit { bed, near, ahead, limit, inner };
+        sweep(&limit, rows.clone(), two(before, stride, &rows), per_row, WORTH_A_PIECE, bed.team);
         std::mem::swap(stress, before);
     }
 
     /// How much is strained, d/s a cell: a cell as much as the most strained of its corners at least.
-    fn find_strain(&mut self, bed: &Bed) {
+    fn find_strain(&mut self, bed: &Bed, near: &Near) {
         let stride = bed.grid.stride;
-        let Self { touched, strain: [cells, corners], held: [u, v], flow, gained, step, .. } = self;
-        let all = || touched.all(bed.grid);
-        for k in all() {
-            (u[k], v[k]) = (flow[0][k] + gained[0][k], flow[1][k] + gained[1][k]);
+        let Self { strain: [cells, corners], held: [u, v], flow, gained, step, .. } = self;
+        for run in near.indices(bed.grid) {
+            for (out, (flow, gained)) in [&mut *u, v].into_iter().zip(flow.iter().zip(&*gained)) {
+                let both = flow[run.clone()].iter().zip(&gained[run.clone()]);
+                out[run.clone()].iter_mut().zip(both).for_each(|(out, (flow, gained))| *out = flow + gained);
+            }
         }
-        for k in all() {
-            let sheared = (u[k] - u[k - stride] + v[k] - v[k - 1]).abs();
-            corners[k] = if step[1][k] > 0.0 { sheared } else { 0.0 };
+        for run in near.indices(bed.grid) {
+            let n = run.len();
+            let [u, u_lower] = [run.start, run.start - stride].map(|k| row(u, k, n));
+            let [v, v_left] = [run.start, run.start - 1].map(|k| row(v, k, n));
+            let (step, corners) = (row(&step[1], run.start, n), &mut corners[run]);
+            for i in 0..n {
+                let sheared = (u[i] - u_lower[i] + v[i] - v_left[i]).abs();
+                corners[i] = if step[i] > 0.0 { sheared } else { 0.0 };
+            }
         }
-        for k in all() {
-            cells[k] = 0.0;
-            if bed.is_liquid(k) {
-                let own = (u[k + 1] - u[k] - v[k + stride] + v[k]).abs();
-                let around = [k, k + 1, k + stride, k + stride + 1];
-                cells[k] = around.iter().fold(own, |most, k| most.max(corners[*k]));
+        // The last of all has nothing above and to its right, and no pressure.
+        let last = bed.grid.len() - stride - 1;
+        for run in near.indices(bed.grid).map(|run| run.start..run.end.min(last)) {
+            let n = run.len();
+            let [u, u_right] = [run.start, run.start + 1].map(|k| row(u, k, n));
+            let [v, v_upper] = [run.start, run.start + stride].map(|k| row(v, k, n));
+            let around = [0, 1, stride, stride + 1].map(|further| row(corners, run.start + further, n));
+            let (liquid, cells) = (row(bed.liquid, run.start, n), &mut cells[run]);
+            for i in 0..n {
+                let own = (u_right[i] - u[i] - v_upper[i] + v[i]).abs();
+                let most = around.iter().fold(own, |most, corners| most.max(corners[i]));
+                cells[i] = if liquid[i] > 0.0 { most } else { 0.0 };
             }
         }
     }
@@ -220,25 +234,28 @@ impl Friction {
 /// Takes a divergence off the right-hand side of the pressure.
 struct Diverge<'a> {
     bed: &'a Bed<'a>,
-    columns: Range<usize>,
+    near: &'a Near,
     gained: &'a Fields,
 }
 
 impl Sweep<Rows<'_, f32>> for Diverge<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut right_side: Rows<f32>) {
-        let Self { bed, columns, gained: [u, v] } = self;
-        let (n, stride, closed) = (columns.len(), bed.grid.stride, bed.closed);
-        for (j, out) in rows.zip(right_side.each()) {
-            let (k, out) = (bed.grid.row(j) + columns.start, &mut out[columns.clone()]);
-            let [own, above] = [j, j + 1].map(|j| closed.row(j) + columns.start);
-            let (open_left, open_right) = (row(&closed.open_u, own, n), row(&closed.open_u, own + 1, n));
-            let (open_lower, open_upper) = (row(&closed.open_v, own, n), row(&closed.open_v, above, n));
-            let (left, right) = (row(u, k, n), row(u, k + 1, n));
-            let (lower, upper, liquid) = (row(v, k, n), row(v, k + stride, n), row(bed.liquid, k, n));
-            for i in 0..n {
-                let along = open_right[i] * right[i] - open_left[i] * left[i];
-                out[i] -= liquid[i] * (along + (open_upper[i] * upper[i] - open_lower[i] * lower[i]));
+        let Self { bed, near, gained: [u, v] } = self;
+        let (stride, closed) = (bed.grid.stride, bed.closed);
+        for (j, out) in rows.zip(right_side.each()).filter(|(j, _)| bed.rows.contains(j)) {
+            let of_bed = |run: Range<usize>| run.start.max(bed.span.start)..run.end.min(bed.span.end);
+            for columns in near.runs(j).map(of_bed).filter(|columns| !columns.is_empty()) {
+                let (n, k) = (columns.len(), bed.grid.row(j) + columns.start);
+                let [own, above] = [j, j + 1].map(|j| closed.row(j) + columns.start);
+                let (open_left, open_right) = (row(&closed.open_u, own, n), row(&closed.open_u, own + 1, n));
+                let (open_lower, open_upper) = (row(&closed.open_v, own, n), row(&closed.open_v, above, n));
+                let (left, right) = (row(u, k, n), row(u, k + 1, n));
+                let (lower, upper, liquid) = (row(v, k, n), row(v, k + stride, n), row(bed.liquid, k, n));
+                for (i, out) in out[columns].iter_mut().enumerate() {
+                    let along = open_right[i] * right[i] - open_left[i] * left[i];
+                    *out -= liquid[i] * (along + (open_upper[i] * upper[i] - open_lower[i] * lower[i]));
+                }
             }
         }
     }

@@ -5,6 +5,7 @@ mod fields;
 mod friction;
 mod iteration;
 mod limits;
+mod near;
 mod part;
 mod pore;
 mod spread;
@@ -17,7 +18,7 @@ use crate::{
     element::ElementId,
     parallel::{Rows, Sweep, sweep},
     predictor::{
-        grains::{friction::Friction, pore::Pore, spread::Spread},
+        grains::{friction::Friction, near::Near, pore::Pore, spread::Spread},
         grid::MacGrid,
         level::WORTH_A_PIECE,
         share_out::ShareOut,
@@ -54,6 +55,7 @@ pub(super) struct Grains {
     bound: Option<[Vec<[f32; 2]>; 2]>,
     /// How full cells are, as far as that is to be changed.
     uneven: Vec<f32>,
+    near: Near,
     friction: Friction,
     pore: Pore,
     /// Particles of each element.
@@ -114,25 +116,28 @@ impl Grains {
 
     /// The pressure (its right-hand side) sets out from what the last substep's stress does to the faces.
     pub fn begin(&mut self, bed: &Bed, faces: &Faces, right_side: &mut [f32]) {
-        self.friction.begin(bed, faces);
-        self.friction.subtract_divergence(bed, right_side);
+        let Self { faces: own, near, friction, .. } = self;
+        let spread = Spread { grains: own, bound: None, all: [&faces.u, &faces.v] };
+        near.find(bed, (&faces.reached, &faces.area), &spread, |cells| friction.is_stressed(bed, cells));
+        friction.begin(bed, near, faces);
+        friction.subtract_divergence(bed, near, right_side);
     }
 
     /// Finds the stress under the pressure of the substep, and adds what it changes to the faces' ways.
     pub fn end(&mut self, bed: &Bed, faces: &mut Faces, pressure: &[f32]) {
-        let Self { faces: own, bound, friction, pore, liquids, ways, .. } = self;
+        let Self { faces: own, bound, near, friction, pore, liquids, ways, .. } = self;
         let spread = Spread { grains: own, bound: bound.as_ref(), all: [&faces.u, &faces.v] };
-        pore.solve(bed, &spread, pressure, *liquids);
-        friction.solve(bed, faces, &spread, pressure, pore.pressure());
-        friction.hand_over(bed, faces, ways);
+        pore.solve(bed, near, &spread, pressure, *liquids);
+        friction.solve((bed, near), faces, &spread, pressure, pore.pressure());
+        friction.hand_over(bed, near, faces, ways);
     }
 
     /// How full cells are, as far as that is to be changed: a bed of grains is left as it lies.
     pub fn uneven(&mut self, bed: &Bed, faces: &Faces) -> &[f32] {
-        let Self { faces: own, bound, uneven, .. } = self;
+        let Self { faces: own, bound, near, uneven, .. } = self;
         uneven.resize(bed.grid.len(), 0.0);
         let spread = Spread { grains: own, bound: bound.as_ref(), all: [&faces.u, &faces.v] };
-        let work = Uneven { grid: bed.grid, columns: bed.span.clone(), filled: &faces.filled, spread };
+        let work = Uneven { bed, near, filled: &faces.filled, spread };
         let band = Rows::new(uneven, bed.grid.stride, &bed.rows);
         sweep(&work, bed.rows.clone(), band, bed.span.len(), WORTH_A_PIECE, bed.team);
         uneven
@@ -149,22 +154,30 @@ impl Grains {
             Ok(kept) if kept.iter().all(|field| field.len() == grid.len()) => {
                 let [s, t, kept_s, kept_t, cells, corners, head, share] = kept;
                 Self {
-                    friction: Friction::resume(grid, [s, t, kept_s, kept_t, cells, corners]),
-                    pore: Pore::resume(grid, [head, share]),
+                    near: Near::all(grid),
+                    friction: Friction::resume([s, t, kept_s, kept_t, cells, corners]),
+                    pore: Pore::resume([head, share]),
                     ..Self::default()
                 }
             }
-            _ => Self::default(),
+            _ => Self { near: Near::all(grid), ..Self::default() },
         }
+    }
+
+    /// Cells that friction worked on in the last substep.
+    #[cfg(test)]
+    pub fn cells(&self, grid: &MacGrid) -> usize {
+        self.near.indices(grid).map(|run| run.len()).sum()
     }
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        let Self { sines, is_grain, bonds, faces, bound, uneven, friction, pore, ways, .. } = self;
+        let Self { sines, is_grain, bonds, faces, bound, uneven, near, friction, pore, ways, .. } = self;
         let on_faces = faces.iter().chain(bound.iter().flatten()).map(Vec::capacity);
         let on_faces: usize = on_faces.chain(ways.iter().map(Vec::capacity)).sum();
         4 * (sines.capacity() + is_grain.capacity() + bonds.capacity() + uneven.capacity())
             + 8 * on_faces
+            + near.memory()
             + friction.memory()
             + pore.memory()
     }
@@ -181,8 +194,8 @@ fn mean_density_of_liquids(counts: &[u32], sines: &[f32], masses: Option<&[f32]>
 }
 
 struct Uneven<'a> {
-    grid: &'a MacGrid,
-    columns: Range<usize>,
+    bed: &'a Bed<'a>,
+    near: &'a Near,
     filled: &'a [f32],
     spread: Spread<'a>,
 }
@@ -190,9 +203,10 @@ struct Uneven<'a> {
 impl Sweep<Rows<'_, f32>> for Uneven<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut out: Rows<f32>) {
-        let Self { grid, columns, filled, spread } = self;
+        let Self { bed: Bed { grid, span, .. }, near, filled, spread } = self;
         for (j, out) in rows.zip(out.each()) {
-            for column in columns.clone() {
+            out[span.clone()].copy_from_slice(&filled[grid.row(j)..][span.clone()]);
+            for column in near.runs(j).flatten().filter(|column| span.contains(column)) {
                 let k = grid.row(j) + column;
                 let error = filled[k] - 1.0;
                 let near = error.clamp(-LEFT_ALONE[0], LEFT_ALONE[1]);

@@ -6,6 +6,7 @@ use crate::{
         grains::{
             bed::Bed,
             fields::{Fields, Two},
+            near::Near,
         },
         stencil::Axis,
         transfer::Faces,
@@ -22,22 +23,23 @@ const COMPACT: f32 = 1.08;
 /// Finds what a stress moves faces by.
 pub(super) struct Lighten<'a> {
     pub bed: &'a Bed<'a>,
-    pub columns: Range<usize>,
+    pub near: &'a Near,
     pub faces: &'a Faces,
 }
 
 impl<'b> Sweep<Two<'b>> for Lighten<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, (mut u, mut v): Two) {
-        let Self { bed, columns, faces } = self;
+        let Self { bed, near, faces } = self;
         for (j, (u, v)) in rows.zip(u.each().zip(v.each())) {
             for (axis, lightness, counts) in [(Axis::U, u, &faces.u), (Axis::V, v, &faces.v)] {
-                for column in columns.clone() {
-                    let k = bed.grid.row(j) + column;
-                    let is_moved = bed.is_touched(axis, k) && bed.open(axis, k) > 0.0;
-                    let mass = (COMPACT * counts[k][0] / bed.full).clamp(LEAST_MASS, 1.0);
-                    let density = faces.matter.as_ref().map_or(1.0, |matter| matter.of(axis)[k][1]);
-                    lightness[column] = if is_moved { density / mass } else { 0.0 };
+                for columns in near.runs(j) {
+                    for column in columns {
+                        let k = bed.grid.row(j) + column;
+                        let mass = (COMPACT * counts[k][0] / bed.full).clamp(LEAST_MASS, 1.0);
+                        let density = faces.matter.as_ref().map_or(1.0, |matter| matter.of(axis)[k][1]);
+                        lightness[column] = if bed.is_moved(axis, k) { density / mass } else { 0.0 };
+                    }
                 }
             }
         }
@@ -71,7 +73,7 @@ pub(super) fn lay_by(stress: &mut f32, kept: &mut f32, is_still: bool) {
 /// the difference of the two faces between them, u and v: `2 Σ l + Σ |l_u − l_v|`.
 pub(super) struct TakePart<'a> {
     pub bed: &'a Bed<'a>,
-    pub columns: Range<usize>,
+    pub near: &'a Near,
     pub lightness: &'a Fields,
     pub strain: &'a Fields,
 }
@@ -79,7 +81,7 @@ pub(super) struct TakePart<'a> {
 impl<'b> Sweep<((Two<'b>, Two<'b>), Two<'b>)> for TakePart<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, ((stress, kept), (mut cells, mut corners)): ((Two, Two), Two)) {
-        let Self { bed, columns, lightness: [u, v], strain } = self;
+        let Self { bed, near, lightness: [u, v], strain } = self;
         let stride = bed.grid.stride;
         let step = |[a, b]: [f32; 2], [c, d]: [f32; 2]| {
             1.0 / (2.0 * (a + b + c + d) + (a - c).abs() + (a - d).abs() + (b - c).abs() + (b - d).abs())
@@ -89,28 +91,30 @@ impl<'b> Sweep<((Two<'b>, Two<'b>), Two<'b>)> for TakePart<'_> {
         for (j, (((s, kept_s), (t, kept_t)), (cells, corners))) in
             rows.zip(stress.zip(cells.each().zip(corners.each())))
         {
-            for column in columns.clone() {
-                let k = bed.grid.row(j) + column;
-                // Corners of which a face is neither moved nor closed are beside the air: nothing is held there.
-                let is_held = |axis, k, lightness: f32| lightness > 0.0 || bed.open(axis, k) == 0.0;
-                let (beside, above) = ([u[k], u[k - stride]], [v[k], v[k - 1]]);
-                let is_moved = |faces: [f32; 2]| faces[0] > 0.0 || faces[1] > 0.0;
-                let takes_part = (is_moved(beside) || is_moved(above))
-                    && is_held(Axis::U, k, u[k])
-                    && is_held(Axis::U, k - stride, u[k - stride])
-                    && is_held(Axis::V, k, v[k])
-                    && is_held(Axis::V, k - 1, v[k - 1]);
-                corners[column] = if takes_part { step(beside, above) } else { 0.0 };
-                let (beside, above) = ([u[k], u[k + 1]], [v[k], v[k + stride]]);
-                let takes_part = bed.is_liquid(k) && (is_moved(beside) || is_moved(above));
-                cells[column] = if takes_part { step(beside, above) } else { 0.0 };
-                let fields = [(cells[column], &mut *s, &mut *kept_s), (corners[column], &mut *t, &mut *kept_t)];
-                for ((step, stress, kept), strain) in fields.into_iter().zip(strain.iter()) {
-                    let (stress, kept) = (&mut stress[column], &mut kept[column]);
-                    if step == 0.0 {
-                        lay_by(stress, kept, is_still(bed, strain[k]));
-                    } else if *kept != 0.0 {
-                        (*stress, *kept) = (*kept, 0.0);
+            for columns in near.runs(j) {
+                for column in columns {
+                    let k = bed.grid.row(j) + column;
+                    // Corners of which a face is neither moved nor closed are beside the air: nothing is held there.
+                    let is_held = |axis, k, lightness: f32| lightness > 0.0 || bed.open(axis, k) == 0.0;
+                    let (beside, above) = ([u[k], u[k - stride]], [v[k], v[k - 1]]);
+                    let is_moved = |faces: [f32; 2]| faces[0] > 0.0 || faces[1] > 0.0;
+                    let takes_part = (is_moved(beside) || is_moved(above))
+                        && is_held(Axis::U, k, u[k])
+                        && is_held(Axis::U, k - stride, u[k - stride])
+                        && is_held(Axis::V, k, v[k])
+                        && is_held(Axis::V, k - 1, v[k - 1]);
+                    corners[column] = if takes_part { step(beside, above) } else { 0.0 };
+                    let (beside, above) = ([u[k], u[k + 1]], [v[k], v[k + stride]]);
+                    let takes_part = bed.is_liquid(k) && (is_moved(beside) || is_moved(above));
+                    cells[column] = if takes_part { step(beside, above) } else { 0.0 };
+                    let fields = [(cells[column], &mut *s, &mut *kept_s), (corners[column], &mut *t, &mut *kept_t)];
+                    for ((step, stress, kept), strain) in fields.into_iter().zip(strain.iter()) {
+                        let (stress, kept) = (&mut stress[column], &mut kept[column]);
+                        if step == 0.0 {
+                            lay_by(stress, kept, is_still(bed, strain[k]));
+                        } else if *kept != 0.0 {
+                            (*stress, *kept) = (*kept, 0.0);
+                        }
                     }
                 }
             }

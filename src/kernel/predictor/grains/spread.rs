@@ -1,6 +1,7 @@
 //! Where grains are.
 
-use crate::predictor::{grid::MacGrid, stencil::Axis};
+use crate::predictor::{grains::bed::Bed, grid::MacGrid, stencil::Axis};
+use std::ops::Range;
 
 /// Share of the particles of a cell that are grains from which on they touch, and that from which on they bear all.
 const TOUCHING: [f32; 2] = [0.3, 0.7];
@@ -17,6 +18,18 @@ pub(super) struct Spread<'a> {
 }
 
 impl Spread<'_> {
+    /// Whether grains reach any of some left or lower faces.
+    #[inline(always)]
+    pub fn any(&self, faces: Range<usize>) -> bool {
+        self.grains.iter().any(|of| of[faces.clone()].iter().fold(false, |any, face| any | (face[0] > 0.0)))
+    }
+
+    /// Whether grains touch in any of some cells side by side that have a pressure.
+    #[inline(always)]
+    pub fn any_touch(&self, bed: &Bed, mut cells: Range<usize>) -> bool {
+        cells.any(|k| bed.is_liquid(k) && self.bears(bed.grid, k) > 0.0)
+    }
+
     /// Mean sin φ around a cell or its lower left corner; 0 where no grain is.
     #[inline(always)]
     pub fn sine(&self, grid: &MacGrid, k: usize) -> f32 {

@@ -233,6 +233,27 @@ fn a_heap_less_steep_than_its_angle_stands_in_air_and_a_steeper_one_does_not() {
 }
 
 #[test]
+fn friction_works_where_grains_touch_and_not_for_such_that_drift_alone() {
+    let walls = solids(640, 100, |_| false);
+    let mut pool = lattice(&walls, |at| (at.y < 80.0).then_some(Vec2::ZERO));
+    let cells_worked_on = |pool: &mut Particles, is_sand: fn(Vec2) -> bool| {
+        for i in 0..pool.len() {
+            pool.element[i] = ElementId(if is_sand(pool.position(i)) { 1 } else { 2 });
+        }
+        let mut predictor = Predictor::default();
+        (0..3).for_each(|_| go_on(&mut predictor, pool, &walls, Vec2::new(0.0, -GRAVITY), ANGLE));
+        predictor.cells_of_friction()
+    };
+    // One grain in each 10 × 10 d: a sixth of a cell.
+    let alone = |at: Vec2| at.x.rem_euclid(10.0) < 1.0 && at.y.rem_euclid(10.0) < 1.0;
+    assert_eq!(cells_worked_on(&mut pool, alone), 0);
+    let heap = cells_worked_on(&mut pool, |at| at.y < 10.0 && (at.x - 320.0).abs() < 15.0);
+    // A heap of 30 × 10 d is some 14 × 5 cells with their corners; four around it, in pieces of 16 columns.
+    assert!((70..=(14 + 8 + 2 * 15) * (5 + 5)).contains(&heap), "{heap} cells");
+    assert!(cells_worked_on(&mut pool, |at| at.y < 80.0) > 256 * 32);
+}
+
+#[test]
 fn the_water_between_grains_bears_its_share() {
     // What weighs as much as the water is borne by it: nothing presses its grains together, and they are sheared as it is.
     let walls = solids(160, 60, |_| false);

@@ -1,10 +1,11 @@
-//! Where there is liquid, piece by piece of each row: sweeps over the pressure equation leave out what is dry, so that water in
-//! the corners of a wide box, or in thin sheets, costs what it is and not what it spans.
+//! Where there is liquid, or grains, piece by piece of each row: sweeps over the pressure equation leave out what is dry, so that
+//! water in the corners of a wide box, or in thin sheets, costs what it is and not what it spans, and those of friction what is
+//! far from grains.
 
 use std::ops::Range;
 
 /// Columns of a piece on the finest level: as many as the lanes of sums, which begin anew in each.
-const PIECE: usize = 16;
+pub(super) const PIECE: usize = 16;
 
 /// Columns of a piece on the coarsest levels: pairs of columns are one on the next.
 const PAIR: usize = 2;
@@ -16,9 +17,9 @@ const ROWS_AROUND: usize = 2;
 /// Bits of a word.
 const BITS: usize = u64::BITS as usize;
 
-/// Which pieces of a level's rows have liquid.
+/// Which pieces of a level's rows have liquid, or whatever else is looked for.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Wet {
+pub(super) struct Pieces {
     /// Columns of a piece.
     piece: usize,
     /// Columns of the level.
@@ -33,7 +34,7 @@ pub(super) struct Wet {
     per_row: usize,
 }
 
-impl Wet {
+impl Pieces {
     /// None yet, of the finest level of a grid or, for `depth` > 0, of a coarser one, with so many columns and rows of cells.
     pub fn new(columns: usize, rows: usize, depth: usize) -> Self {
         let piece = (PIECE >> depth.min(PIECE.ilog2() as usize)).max(PAIR);
@@ -54,18 +55,76 @@ impl Wet {
     /// Finds them where cells are marked in `liquid`, rows of `stride` of them, within these rows and columns. A piece has to begin
     /// with the first of the columns.
     pub fn find(&mut self, liquid: &[f32], stride: usize, rows: Range<usize>, columns: Range<usize>) {
+        self.find_by(rows, columns, |row, columns| {
+            let cells = &liquid[row * stride..][columns];
+            cells.iter().fold(0, |any, cell| any | cell.to_bits()) != 0
+        });
+    }
+
+    /// Finds those of the finest level's rows and columns of which `is_one` says that they are: it is asked with a row and a piece's
+    /// columns. A piece has to begin with the first of the columns.
+    #[inline(always)]
+    pub fn find_by(&mut self, rows: Range<usize>, columns: Range<usize>, is_one: impl Fn(usize, Range<usize>) -> bool) {
         self.bits.fill(0);
         let first = (columns.start - 1) / PIECE;
         for row in rows.clone() {
             let bits = &mut self.bits[row * self.words..(row + 1) * self.words];
-            let cells = &liquid[row * stride..][columns.clone()];
-            for (piece, cells) in (first..).zip(cells.chunks(PIECE)) {
-                let any = cells.iter().fold(0, |any, cell| any | cell.to_bits());
-                bits[piece / BITS] |= u64::from(any != 0) << (piece % BITS);
+            for (piece, start) in (first..).zip(columns.clone().step_by(PIECE)) {
+                let any = is_one(row, start..(start + PIECE).min(columns.end));
+                bits[piece / BITS] |= u64::from(any) << (piece % BITS);
             }
         }
-        let is_wet = |row: &usize| self.of(*row).iter().any(|word| *word != 0);
-        let (first, last) = (rows.clone().find(is_wet), rows.rev().find(is_wet));
+        self.bound(rows);
+    }
+
+    /// Makes it those pieces of the same columns that another has in a row or in up to `reach` rows below and above it.
+    pub fn widen(&mut self, other: &Self, reach: usize) {
+        self.bits.fill(0);
+        let words = self.words;
+        let last = self.bits.len() / words;
+        let rows = other.rows.start.saturating_sub(reach)..(other.rows.end + reach).min(last);
+        for row in other.rows.clone() {
+            for near in row.saturating_sub(reach)..(row + reach + 1).min(last) {
+                for (bits, more) in self.bits[near * words..(near + 1) * words].iter_mut().zip(other.of(row)) {
+                    *bits |= more;
+                }
+            }
+        }
+        self.bound(rows);
+    }
+
+    /// Makes it all pieces of all rows.
+    pub fn fill(&mut self) {
+        self.bits.fill(0);
+        for piece in 0..self.columns.div_ceil(self.piece) {
+            self.bits.iter_mut().skip(piece / BITS).step_by(self.words).for_each(|word| *word |= 1 << (piece % BITS));
+        }
+        self.bound(0..self.bits.len() / self.words);
+    }
+
+    /// Shows `visit` the pieces that another of the same rows has not: row and columns.
+    pub fn without(&self, other: &Self, mut visit: impl FnMut(usize, Range<usize>)) {
+        for row in self.rows.clone() {
+            let bits = |k: usize| self.of(row)[k] & !other.of(row)[k];
+            for pieces in (RunsOf { bits, words: self.words, at: 0 }) {
+                visit(row, self.columns_of(pieces));
+            }
+        }
+    }
+
+    /// Whether the piece of a column, one beside it or one above these is among them.
+    pub fn is_near(&self, row: usize, column: usize) -> bool {
+        let piece = (column - 1) / self.piece;
+        let has = |row: usize, piece: usize| {
+            self.of(row).get(piece / BITS).is_some_and(|word| word >> (piece % BITS) & 1 != 0)
+        };
+        (row..row + 2).any(|row| (piece.saturating_sub(1)..piece + 2).any(|piece| has(row, piece)))
+    }
+
+    /// Finds the first and the last of these rows that has any.
+    fn bound(&mut self, rows: Range<usize>) {
+        let has_any = |row: &usize| self.of(*row).iter().any(|word| *word != 0);
+        let (first, last) = (rows.clone().find(has_any), rows.rev().find(has_any));
         self.rows = first.zip(last).map_or(1..1, |(first, last)| first..last + 1);
         self.count();
     }
@@ -252,7 +311,7 @@ mod tests {
         all.filter(|(_, column)| *column <= columns).collect()
     }
 
-    fn wet_cells(wet: &Wet) -> Cells {
+    fn wet_cells(wet: &Pieces) -> Cells {
         wet.rows().flat_map(|row| wet.runs(row).flatten().map(move |column| (row, column))).collect()
     }
 
@@ -265,7 +324,7 @@ mod tests {
             let mut marked: Cells = (0..drops).map(|_| drop(&mut random)).collect();
             let mut liquid = vec![0.0; stride * (rows + 3)];
             marked.iter().for_each(|(row, column)| liquid[row * stride + column] = 1.0);
-            let mut wet = Wet::new(columns, rows, 0);
+            let mut wet = Pieces::new(columns, rows, 0);
             wet.find(&liquid, stride, 1..rows + 1, 1..columns + 1);
             let (mut columns, mut rows) = (columns, rows);
             for depth in 0..7 {
@@ -287,12 +346,47 @@ mod tests {
                         }
                     }
                 }
-                let mut coarse = Wet::new(columns.div_ceil(2), rows.div_ceil(2), depth + 1);
+                let mut coarse = Pieces::new(columns.div_ceil(2), rows.div_ceil(2), depth + 1);
                 coarse.coarsen(&wet);
                 marked =
                     wet_cells(&wet).into_iter().map(|(row, column)| (row.div_ceil(2), column.div_ceil(2))).collect();
                 (wet, columns, rows) = (coarse, columns.div_ceil(2), rows.div_ceil(2));
             }
+        }
+    }
+
+    #[test]
+    fn pieces_near_others_and_those_left_are_those_of_the_definition() {
+        let mut random = Random::new(7);
+        for (columns, rows, count, reach) in [(1, 1, 1, 4), (37, 9, 3, 1), (1040, 30, 12, 4), (2600, 20, 200, 3)] {
+            let mut find = || {
+                let marked: Cells = (0..count).map(|_| (1 + random.below(rows), 1 + random.below(columns))).collect();
+                let mut found = Pieces::new(columns, rows, 0);
+                let is_marked = |row: usize, of: Range<usize>| of.into_iter().any(|at| marked.contains(&(row, at)));
+                found.find_by(1..rows + 1, 1..columns + 1, is_marked);
+                (found, marked)
+            };
+            let (found, marked) = find();
+            let own = pieces(&marked, 16, columns);
+            assert_eq!(wet_cells(&found), own);
+            let mut wide = Pieces::new(columns, rows, 0);
+            wide.widen(&found, reach);
+            let near = |row: usize| row.saturating_sub(reach)..(row + reach + 1).min(rows + 3);
+            let expected: Cells = own.iter().flat_map(|(row, column)| near(*row).map(|row| (row, *column))).collect();
+            assert_eq!(wet_cells(&wide), expected);
+            let ([other, _], mut left) = ([find().0, wide.clone()], Cells::new());
+            wide.without(&other, |row, run| left.extend(run.map(|column| (row, column))));
+            assert_eq!(left, expected.difference(&wet_cells(&other)).copied().collect());
+            for (row, column) in (0..rows + 3).flat_map(|row| (1..columns + 1).step_by(16).map(move |at| (row, at))) {
+                let is_near = |(r, c): &(usize, usize)| {
+                    (row..row + 2).contains(r)
+                        && (column - 1) / 16 <= (c - 1) / 16 + 1
+                        && (c - 1) / 16 <= (column - 1) / 16 + 1
+                };
+                assert_eq!(found.is_near(row, column), own.iter().any(is_near), "{row}, {column}");
+            }
+            wide.fill();
+            assert_eq!(wet_cells(&wide).len(), columns * (rows + 3));
         }
     }
 
@@ -304,7 +398,7 @@ mod tests {
         let is_drop = |k: usize| (k % stride) % 100 < 7 && (1..=columns).contains(&(k % stride));
         a.iter_mut().enumerate().for_each(|(k, a)| *a = if is_drop(k) { *a } else { 0.0 });
         let sum = |liquid: &[f32]| {
-            let mut wet = Wet::new(columns, 1, 0);
+            let mut wet = Pieces::new(columns, 1, 0);
             wet.find(liquid, stride, 1..2, 1..columns + 1);
             wet.dot(1, &a[stride..2 * stride], &a[stride..2 * stride])
         };
