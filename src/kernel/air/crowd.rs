@@ -30,6 +30,8 @@ const LEAK: f32 = 0.02;
 pub(super) struct Crowd {
     /// Mass of the lumps in each cell, kg/m² d²; empty where nothing stands in its way.
     pub(super) mass: Vec<f32>,
+    /// The cells that have any.
+    pub(super) cells: Vec<usize>,
     /// Part that each cell lets through.
     pub(super) through: Vec<f32>,
     /// The left and the lower face of each cell: what they let through.
@@ -42,6 +44,7 @@ impl Crowd {
     /// Nothing is in the way any more.
     pub(super) fn clear(&mut self) {
         [&mut self.mass, &mut self.through].into_iter().for_each(Vec::clear);
+        self.cells.clear();
         self.push.clear();
     }
 
@@ -54,6 +57,9 @@ impl Crowd {
 
     /// Adds a part of a lump of a mass (kg/m² d²) to a cell.
     pub(super) fn add(&mut self, cell: usize, part: f32, mass: f32) {
+        if self.mass[cell] == 0.0 && mass * part > 0.0 {
+            self.cells.push(cell);
+        }
         self.mass[cell] += mass * part;
         self.through[cell] += part;
     }
@@ -93,7 +99,9 @@ impl Crowd {
 
     /// Bytes held.
     pub(super) fn memory_bytes(&self) -> usize {
-        let Self { mass, through, open: [x, y], push } = self;
-        (mass.capacity() + through.capacity() + x.capacity() + y.capacity()) * 4 + push.capacity() * size_of::<Vec2>()
+        let Self { mass, cells, through, open: [x, y], push } = self;
+        (mass.capacity() + through.capacity() + x.capacity() + y.capacity()) * 4
+            + cells.capacity() * size_of::<usize>()
+            + push.capacity() * size_of::<Vec2>()
     }
 }

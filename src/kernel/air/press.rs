@@ -1,6 +1,6 @@
 //! What the air pushes the matter by that stands in its way (`crowd`).
 
-use super::grid::Air;
+use super::{crowd::Crowd, grid::Air};
 use crate::{
     element::{ElementId, ElementParams},
     particles::Particles,
@@ -22,10 +22,13 @@ impl Air {
         let mut crowd = std::mem::take(&mut self.scratch.crowd);
         crowd.begin(self.pressure.len());
         for (i, element) in particles.element.iter().enumerate().filter(|(_, element)| stands(elements, **element)) {
-            let (cells, count) = self.open_near(self.cell_at(particles.position(i)));
-            for k in &cells[..count] {
-                crowd.add(*k, 1.0 / count as f32, elements.mass[element.index()]);
+            let (mass, k) = (elements.mass[element.index()], self.cell_at(particles.position(i)));
+            if !self.solid[k] {
+                crowd.add(k, 1.0, mass);
+                continue;
             }
+            let (cells, count) = self.open_near(k);
+            cells[..count].iter().for_each(|k| crowd.add(*k, 1.0 / count as f32, mass));
         }
         crowd.end(self.cell * self.cell);
         self.scratch.crowd = crowd;
@@ -43,16 +46,24 @@ impl Air {
         if !crowd.is_empty() {
             crowd.push.resize(self.pressure.len(), Vec2::ZERO);
             let stiffness = self.params.density * self.params.sound_speed * self.params.sound_speed * self.cell;
-            for k in self.cells().filter(|k| !self.solid[*k]) {
-                for (axis, beside) in [k - 1, k - self.stride()].into_iter().enumerate() {
-                    let mass = crowd.mass[k] + crowd.mass[beside];
-                    if self.solid[beside] || mass == 0.0 {
-                        continue;
+            let Crowd { mass, cells, through, push, .. } = &mut crowd;
+            let mut press = |k: usize, beside: usize, axis: usize| {
+                if self.solid[k] || self.solid[beside] {
+                    return;
+                }
+                let held = 1.0 - through[k].min(through[beside]);
+                let both = mass[k] + mass[beside];
+                let change = held * stiffness * (self.overpressure(beside) - self.overpressure(k)) / both;
+                push[k][axis] += change;
+                push[beside][axis] += change;
+            };
+            for k in &*cells {
+                for (axis, step) in [1, self.stride()].into_iter().enumerate() {
+                    press(*k, k - step, axis);
+                    // What has matter beyond it is pressed from there.
+                    if mass[k + step] == 0.0 {
+                        press(k + step, *k, axis);
                     }
-                    let held = 1.0 - crowd.through[k].min(crowd.through[beside]);
-                    let push = held * stiffness * (self.overpressure(beside) - self.overpressure(k)) / mass;
-                    crowd.push[k][axis] += push;
-                    crowd.push[beside][axis] += push;
                 }
             }
         }
@@ -68,9 +79,14 @@ impl Air {
         }
         for i in 0..particles.len() {
             if stands(elements, particles.element[i]) {
-                let (cells, count) = self.open_near(self.cell_at(particles.position(i)));
-                let sum: Vec2 = cells[..count].iter().map(|k| push[*k]).sum();
-                let (before, change) = (particles.velocity(i), sum * (dt / count.max(1) as f32));
+                let k = self.cell_at(particles.position(i));
+                let (sum, count) = if self.solid[k] {
+                    let (cells, count) = self.open_near(k);
+                    (cells[..count].iter().map(|k| push[*k]).sum(), count.max(1))
+                } else {
+                    (push[k], 1)
+                };
+                let (before, change) = (particles.velocity(i), sum * (dt / count as f32));
                 let (speed, most) = ((before + change).length(), most.max(before.length()));
                 cuts += u64::from(speed > most);
                 let share = if speed > most { most / speed } else { 1.0 };
@@ -82,7 +98,9 @@ impl Air {
 
     /// Middles of the cells in which it pushes matter by more than this, d/s².
     pub fn pushed(&self, least: f32) -> impl Iterator<Item = Vec2> + '_ {
-        let pushed = self.scratch.crowd.push.iter().enumerate().filter(move |(_, push)| push.length() > least);
+        // Most are not pushed at all.
+        let is_pushed = move |push: &Vec2| *push != Vec2::ZERO && push.length() > least;
+        let pushed = self.scratch.crowd.push.iter().enumerate().filter(move |(_, push)| is_pushed(push));
         pushed.map(|(k, _)| self.centre(k % self.stride() - 1, k / self.stride() - 1))
     }
 }

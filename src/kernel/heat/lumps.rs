@@ -56,6 +56,8 @@ pub(super) struct Lumps {
     /// Cells whose lumps are needed: those in which anything flows, and those around them.
     needed: Vec<bool>,
     spans: Vec<Span>,
+    /// Those of each cell and the one on either side together.
+    beside: Vec<Span>,
     /// How warm lumps of each element are that hold no heat, as most do.
     without_heat: Vec<Span>,
     /// Cell of each particle.
@@ -131,28 +133,40 @@ impl Lumps {
         for i in 0..particles.len() {
             let cell = self.cell_of(particles.position(i));
             of_particles.push(cell as u32);
-            self.join(cell, table, particles.element[i], particles.heat_of(i));
+            let lump = self.span_of(table, particles.element[i], particles.heat_of(i));
+            self.spans[cell].join(lump);
         }
         self.of_particles = of_particles;
+        // Rock comes row by row: what follows each other in a cell is joined to it at once.
+        let (mut last, mut joined) = (0, NOTHING);
         solids.iter().for_each(|(place, element, _)| {
-            self.join(self.cell_of(centre(place)), table, element, solids.heat(place));
+            let cell = self.cell_of(centre(place));
+            if cell != last {
+                self.spans[last].join(joined);
+                (last, joined) = (cell, NOTHING);
+            }
+            joined.join(self.span_of(table, element, solids.heat(place)));
         });
+        self.spans[last].join(joined);
     }
 
-    /// Joins a lump to what is in a cell.
     #[inline(always)]
-    fn join(&mut self, cell: usize, table: &HeatTable, element: ElementId, heat: i32) {
-        let lump = match heat {
+    fn span_of(&self, table: &HeatTable, element: ElementId, heat: i32) -> Span {
+        match heat {
             0 => self.without_heat[element.index()],
             _ => Span::of_lump(table.curve(element), heat),
-        };
-        self.spans[cell].join(lump);
+        }
     }
 
     /// Finds the cells in which anything may flow: where the furthest temperatures nearby, those of the air among them, would
     /// give half a quantum to a pair.
     fn find_flows(&mut self, rates: &Rates) {
-        let Self { stride, rows, spans, flows, needed, .. } = self;
+        let Self { stride, rows, spans, beside, flows, needed, .. } = self;
+        beside.clear();
+        beside.resize(spans.len(), NOTHING);
+        for (beside, spans) in beside[1..].iter_mut().zip(spans.windows(3)) {
+            spans.iter().for_each(|span| beside.join(*span));
+        }
         flows.clear();
         flows.resize(spans.len(), false);
         needed.clear();
@@ -164,9 +178,7 @@ impl Lumps {
                     continue;
                 }
                 let mut near = Span { coldest: ROOM, hottest: ROOM, conduction: 0.0 };
-                for others in around(cell, *stride) {
-                    spans[others].iter().for_each(|span| near.join(*span));
-                }
+                [cell - *stride, cell, cell + *stride].iter().for_each(|row| near.join(beside[*row]));
                 if rates.may_flow(near.hottest - near.coldest, near.conduction) {
                     flows[cell] = true;
                     around(cell, *stride).into_iter().for_each(|others| needed[others].fill(true));
@@ -245,7 +257,7 @@ impl Lumps {
             + self.element.capacity()
             + self.flows.capacity()
             + self.needed.capacity()
-            + size_of::<Span>() * (self.spans.capacity() + self.without_heat.capacity())
+            + size_of::<Span>() * (self.spans.capacity() + self.beside.capacity() + self.without_heat.capacity())
             + size_of::<IVec2>() * self.rock.capacity()
     }
 }

@@ -107,6 +107,10 @@ impl<const WEIGHTED: bool> Pass for Collect<'_, WEIGHTED> {
             let (x, y) = (lanes(self.x, at), lanes(self.y, at));
             let count = (self.x.len() - at).min(LANES);
             let weights = if WEIGHTED { lanes(self.weights, at) } else { [1.0; LANES] };
+            // Where grains are shared out, most are none.
+            if WEIGHTED && weights == [0.0; LANES] {
+                continue;
+            }
             let to_u = Stencils::new(grid, &x, &y, Axis::U);
             let to_u = Deposits::new::<WEIGHTED>(&to_u, &weights, &lanes(for_u, at));
             let to_v = Stencils::new(grid, &x, &y, Axis::V);
