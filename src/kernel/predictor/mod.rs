@@ -11,7 +11,7 @@
 //! which a thin wall leaves little, `behind` what thin walls hide, `rock` all that of a box, `stencil`, `share_out`, `transfer` and `way_back` particles to grid and
 //! back, `matter` what of it is heavier, `grains` friction among powders, `pressure` and `equation` the equation, `changes` what
 //! follows from its solution on the faces, `flow` the velocity that comes of it, `pressure_at` the pressure between the cells,
-//! `pockets` where it is singular, `wet` where there is any, `level`, `multigrid` and `conjugate` its solver.
+//! `pockets` where it is singular, `pieces` where there is any, `level`, `multigrid` and `conjugate` its solver.
 
 mod behind;
 mod changes;

@@ -39,7 +39,8 @@ pub(super) struct Pore {
 }
 
 impl Pore {
-    /// Finds the pressure between grains under that of the substep (d/s). `density`: of the liquids, as a share of the heaviest;
+    /// Finds the pressure between grains under that of the substep (d/s). Where grains come together far from all others, they are
+    /// dry before. `density`: of the liquids, as a share of the heaviest;
     /// none if there are none.
     pub fn solve(&mut self, bed: &Bed, near: &Near, spread: &Spread, pressure: &[f32], density: Option<f32>) {
         let (rows, per_row, stride) = (near.rows(bed.grid), near.per_row(), bed.grid.stride);
