@@ -8,7 +8,7 @@ use powder_master::kernel::{
     particles::Particles,
     pbf::{SolveParams, Solver},
     predict,
-    predictor::{Predictor, PredictorParams},
+    predictor::{GrainParams, Predictor, PredictorParams},
     random::Random,
     simd::InstructionSet,
     solids::Solids,
@@ -65,13 +65,18 @@ impl Tank {
 
     /// Solves for the pressure.
     pub fn project(&mut self) {
+        self.project_with(None);
+    }
+
+    /// The same with friction among what is a grain.
+    pub fn project_with(&mut self, grains: Option<GrainParams>) {
         let Self { particles, solids, domain, quality, solver, predictor } = self;
         let params = PredictorParams {
             domain,
             cell: quality.kernel_radius,
             rest_density: 1.0,
             masses: None,
-            grains: None,
+            grains,
             drawn: None,
             instructions: solver.instructions,
             threads: 1,

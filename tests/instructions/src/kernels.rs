@@ -11,7 +11,7 @@ use powder_master::kernel::{
     forces::{self, LaterDrag},
     parallel::Team,
     params::{AIR_DENSITY, AirAdvection, AirParams, AirScheme, OpenSides},
-    predictor::Predictor,
+    predictor::{GrainParams, Predictor},
     simd::InstructionSet,
     solids::Solids,
     velocity,
@@ -19,7 +19,8 @@ use powder_master::kernel::{
 use std::hint::black_box;
 
 /// Names of the kernels.
-pub const NAMES: [&str; 9] = ["bin", "solve", "velocity", "viscosity", "vorticity", "predictor", "drag", "air", "heat"];
+pub const NAMES: [&str; 10] =
+    ["bin", "solve", "velocity", "viscosity", "vorticity", "predictor", "grains", "drag", "air", "heat"];
 
 /// The instruction set that is counted, if this processor has it.
 pub fn counted_set() -> Option<InstructionSet> {
@@ -60,6 +61,16 @@ pub fn run(name: &str, set: InstructionSet) -> bool {
         "predictor" => {
             tank.predictor = Predictor::default();
             counted(&mut tank, Tank::project);
+        }
+        // A heap of sand, some 200 lumps, in a corner of the water.
+        "grains" => {
+            for i in 0..tank.particles.len() {
+                let at = tank.particles.position(i);
+                tank.particles.element[i] = ElementId(u8::from(at.x + at.y < 20.0));
+            }
+            let of = GrainParams { sines: &[0.0, 0.5], cohesion: &[0.0; 2] };
+            tank.project_with(Some(of));
+            counted(&mut tank, |tank| tank.project_with(Some(of)));
         }
         "drag" => {
             let air = windy();
