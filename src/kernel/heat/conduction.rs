@@ -19,20 +19,30 @@
 //! takes: what becomes of it is the air's own (`air/warmth`).
 
 use super::{
+    allowances::Allow,
+    exchanged::Exchanged,
+    lattice::{FlowAcross, Lattice, LookAcross, Steps},
     lumps::Lumps,
     matter::Warm,
-    passes::{Flow, LookAround},
+    passes::{Flow, LookAround, Nearby},
     rates::Rates,
+    sorted::Sorted,
     table::HeatTable,
-    units::HOTTEST,
+    units::ROOM,
     walls::Walls,
+    weights::WEIGHT,
 };
-use crate::parallel::{Team, WORTH_A_PIECE, spread};
+use crate::{
+    air::Contact,
+    parallel::{Team, WORTH_A_PIECE, cut, spread},
+    simd::{MOST_LANES, rounded},
+};
+use glam::Vec2;
 
 /// Most steps of a tick.
 const MOST_STEPS: f32 = 8.0;
-/// Lumps that are worth a piece of their own.
-const PIECE: usize = WORTH_A_PIECE / 8;
+/// Lumps that are worth a part of their own, where each looks at those around it.
+const WORTH_A_PART: usize = WORTH_A_PIECE / 8;
 
 /// What flowed in a tick.
 pub(super) struct Flowed {
@@ -47,126 +57,246 @@ pub(super) struct Flowed {
 pub(super) struct Exchange {
     /// Temperature, K.
     kelvin: Vec<f32>,
-    /// √k′, √(W/mK).
+    /// √k′, √(W/mK); 0 at sites without rock.
     conduction: Vec<f32>,
-    /// Part of what it asks for in a step that it can take; 1 all.
+    /// Part of what it asks for in a step that it can take; 1 all. Before it is known, the weights around it times √k′.
     allowance: Vec<f32>,
     /// 1 if it can take at once what it asks for in a tick, 0 if it takes steps.
     once: Vec<f32>,
+    /// Length of its surface, d; of gases as many times as much as it gives more, of what exchanges nothing 0. Before it is known,
+    /// the weights around it.
+    surface: Vec<f32>,
+    /// Heat that makes it a degree warmer, at least, quanta.
+    held: Vec<f32>,
+    /// What it gains from others, quanta.
+    gained: Vec<i32>,
     /// Cells with lumps that take steps, and those around them.
     stepping: Vec<bool>,
-    /// Length of its surface, d; of gases as many times as much as it gives more.
-    surface: Vec<f32>,
-    /// What it gains from pairs, and gives to the air, quanta.
-    gained: Vec<i32>,
-    given: Vec<i32>,
+    shore: Shore,
     walls: Walls,
+    steps: Steps,
+}
+
+/// The fields of rock that something that moves may reach, which stand among others there: an entry for each of it.
+#[derive(Clone, Debug, Default)]
+struct Shore {
+    kelvin: Vec<f32>,
+    conduction: Vec<f32>,
+    allowance: Vec<f32>,
+    once: Vec<f32>,
+    /// What it finds of what moves: weights, and weights times √k′, together.
+    found: [Vec<f32>; 2],
+    /// What it gains from what moves, quanta.
+    gained: Vec<i32>,
 }
 
 impl Exchange {
     /// Lets heat flow between the lumps for a tick.
     pub fn run(&mut self, lumps: &mut Lumps, warm: &Warm, rates: &Rates, team: Team) -> Flowed {
         let count = lumps.len();
-        for field in [&mut self.kelvin, &mut self.conduction, &mut self.allowance, &mut self.surface] {
+        let Self { kelvin, conduction, allowance, once, surface, held, .. } = self;
+        for field in [kelvin, conduction, allowance, once, surface, held] {
             field.resize(count, 0.0);
         }
         self.gained.resize(count, 0);
-        self.given.resize(count, 0);
         self.warm_up(lumps, warm.table, team.threads);
-        self.look_around(lumps, warm, rates, team);
-        let steps = self.divide(lumps);
-        let flowing = self.allowance.iter().zip(&lumps.cell).filter(|(_, cell)| lumps.flows[**cell as usize]);
-        let cuts = flowing.filter(|(allowance, _)| **allowance < 1.0).count() as u64;
+        self.look_around(lumps, team);
+        self.allow(lumps, warm.domain.size, rates, team);
+        let (steps, cuts) = self.divide(lumps);
         let mut to_air = 0;
         let rates = rates.over(steps);
         for step in 0..steps as u32 {
             if step > 0 {
                 self.warm_up(lumps, warm.table, team.threads);
             }
-            self.flow(lumps, warm.table, &rates, (step, steps), team);
-            for (heat, (gained, given)) in lumps.heat.iter_mut().zip(self.gained.iter().zip(&self.given)) {
-                *heat = heat.saturating_add(gained.saturating_sub(*given));
-                to_air += i64::from(*given);
-            }
+            let more = if step == 0 { steps - 1.0 } else { -1.0 };
+            self.flow(lumps, &rates, more, team);
+            to_air += self.settle(lumps, &rates, more);
         }
         Flowed { cuts, to_air }
     }
 
     /// Finds how warm the lumps are.
     fn warm_up(&mut self, lumps: &Lumps, table: &HeatTable, threads: usize) {
-        let Lumps { heat, element, .. } = lumps;
+        let Lumps { heat, element, present, cells, .. } = lumps;
+        let slopes = &cells.slopes;
         spread([&mut self.kelvin[..], &mut self.conduction], WORTH_A_PIECE, threads, &|first, [kelvin, conduction]| {
-            for k in 0..kelvin.len() {
-                let (curve, heat) = (table.curve(element[first + k]), heat[first + k]);
-                (kelvin[k], conduction[k]) = (curve.temperature(heat).clamp(0.0, HOTTEST), curve.conduction(heat));
+            let lumps = heat[first..].iter().zip(&element[first..]);
+            for ((kelvin, conduction), (heat, element)) in kelvin.iter_mut().zip(conduction.iter_mut()).zip(lumps) {
+                (*kelvin, *conduction) = slopes.state(table, *element, *heat);
             }
+            let sites = present.get(first..).unwrap_or_default();
+            conduction.iter_mut().zip(sites).for_each(|(conduction, present)| *conduction *= present);
         });
     }
 
-    /// Finds how much each lump can exchange, and how much of its surface is open.
-    fn look_around(&mut self, lumps: &Lumps, warm: &Warm, rates: &Rates, team: Team) {
-        let Self { conduction, allowance, surface, walls, .. } = self;
-        let (table, size, conduction, walls) = (warm.table, warm.domain.size, &conduction[..], &*walls);
-        spread([&mut allowance[..], &mut surface[..]], PIECE, team.threads, &|base, out| {
-            team.instructions.run(LookAround { lumps, table, walls, size, rates, conduction, base, out });
+    /// Finds how much is around each lump.
+    fn look_around(&mut self, lumps: &Lumps, team: Team) {
+        let Self { conduction, allowance, surface, shore, steps, .. } = self;
+        let (cells, flows, sites) = (&lumps.cells, &lumps.cells.flows[..], lumps.sites.len());
+        let (of_sites, of_moving) = cut([&mut surface[..], allowance], sites);
+        let (conduction, lattice) = (&conduction[..], Lattice { lumps, steps, flows });
+        spread(of_sites, WORTH_A_PART, team.threads, &|base, out| {
+            team.instructions.run(LookAcross { lattice, conduction, base, out });
         });
-    }
-
-    /// Finds how many steps the tick takes, who takes them, and how much of what each asks for in a step it can take.
-    fn divide(&mut self, lumps: &Lumps) -> f32 {
-        let Self { allowance, once, stepping, .. } = self;
-        let flows = |cell: &u32| lumps.flows[*cell as usize];
-        let flowing = allowance.iter().zip(&lumps.cell).filter(|(_, cell)| flows(cell));
-        let least = flowing.map(|(allowance, _)| *allowance).fold(1.0, f32::min);
-        let steps = (1.0 / least.max(1.0 / MOST_STEPS)).ceil();
-        once.clear();
-        stepping.clear();
-        stepping.resize(lumps.flows.len(), false);
-        for (allowance, cell) in allowance.iter_mut().zip(&lumps.cell) {
-            let is_whole = *allowance >= 1.0;
-            once.push(f32::from(u8::from(is_whole)));
-            if !is_whole && flows(cell) {
-                lumps.cells_around(*cell as usize).into_iter().for_each(|cells| stepping[cells].fill(true));
-            }
-            // What does not flow in the first step must not in a later one, either: its cell is not looked at.
-            *allowance = if flows(cell) { (*allowance * steps).min(1.0) } else { 0.0 };
-        }
-        steps
-    }
-
-    /// Finds what flows in a step of so many.
-    fn flow(&mut self, lumps: &Lumps, table: &HeatTable, rates: &Rates, (step, steps): (u32, f32), team: Team) {
-        let Self { kelvin, conduction, allowance, once, stepping, surface, gained, given, .. } = self;
-        let (kelvin, conduction, allowance, surface) = (&kelvin[..], &conduction[..], &allowance[..], &surface[..]);
-        let (cells, more) = if step == 0 { (&lumps.flows, steps - 1.0) } else { (&*stepping, -1.0) };
-        let once = &once[..];
-        spread([&mut gained[..], &mut given[..]], PIECE, team.threads, &|base, out| {
-            team.instructions.run(Flow {
-                lumps,
-                table,
-                rates,
-                cells,
-                kelvin,
-                conduction,
-                allowance,
-                once,
-                more,
-                surface,
-                base,
-                out,
+        let look = |own: &Sorted, others: &[(&Sorted, &[f32])], out: [&mut [f32]; 2]| {
+            spread(out, WORTH_A_PART, team.threads, &|base, out| {
+                let nearby = Nearby { cells, flows, own };
+                team.instructions.run(LookAround { nearby, others, base, out });
             });
+        };
+        let of_shore = lumps.shore.source.iter().map(|k| conduction[*k as usize]);
+        shore.conduction.clear();
+        shore.conduction.extend(of_shore);
+        let moving = (&lumps.moving, &conduction[sites..]);
+        look(&lumps.moving, &[moving, (&lumps.shore, &shore.conduction)], of_moving);
+        let [whole, through] = &mut shore.found;
+        [&mut *whole, through].into_iter().for_each(|found| found.resize(lumps.shore.len(), 0.0));
+        look(&lumps.shore, &[moving], [whole, through]);
+        for (k, (whole, through)) in lumps.shore.source.iter().zip(whole.iter().zip(&*through)) {
+            surface[*k as usize] += whole;
+            allowance[*k as usize] += through;
+        }
+        // What moves is its own neighbour in those sums.
+        for (k, conduction) in conduction.iter().enumerate().skip(sites) {
+            surface[k] -= WEIGHT;
+            allowance[k] -= WEIGHT * conduction;
+        }
+    }
+
+    /// Finds how much each lump can exchange, and how much of its surface is open, by what is around it.
+    fn allow(&mut self, lumps: &Lumps, size: Vec2, rates: &Rates, team: Team) {
+        let Self { conduction, allowance, surface, held, walls, .. } = self;
+        let (conduction, walls) = (&conduction[..], &*walls);
+        spread([&mut allowance[..], surface, held], WORTH_A_PIECE, team.threads, &|base, out| {
+            team.instructions.run(Allow { lumps, walls, size, rates, conduction, base, out });
         });
     }
 
-    /// Length of the surface of a lump (d), and how warm it is (K), as they were in the last step.
-    pub fn open(&self, k: usize) -> (f32, f32) {
-        (self.surface[k], self.kelvin[k])
+    /// Finds how many steps the tick takes, who takes them, and how much of what each asks for in a step it can take. How many can't
+    /// take all is given, too.
+    fn divide(&mut self, lumps: &Lumps) -> (f32, u64) {
+        let Self { allowance, once, stepping, .. } = self;
+        // What exchanges nothing in the first step must not in a later one, either: it has no allowance.
+        let least = least(allowance);
+        if least >= 1.0 {
+            return (1.0, 0);
+        }
+        let steps = (1.0 / least.max(1.0 / MOST_STEPS)).ceil();
+        stepping.clear();
+        stepping.resize(lumps.cells.len(), false);
+        let mut cuts = 0;
+        let of_lumps = lumps.cell.iter().chain(&lumps.moving.cell);
+        for ((allowance, once), cell) in allowance.iter_mut().zip(once).zip(of_lumps) {
+            let is_whole = *allowance == 1.0;
+            *once = f32::from(u8::from(is_whole));
+            if !is_whole && *allowance > 0.0 {
+                lumps.cells.mark_around(*cell as usize, stepping);
+            }
+            *allowance = (*allowance * steps).min(1.0);
+            cuts += u64::from(*allowance > 0.0 && *allowance < 1.0);
+        }
+        (steps, cuts)
+    }
+
+    /// Finds what flows between lumps in a step.
+    fn flow(&mut self, lumps: &Lumps, rates: &Rates, more: f32, team: Team) {
+        let Self { kelvin, conduction, allowance, once, gained, stepping, shore, steps, .. } = self;
+        let (cells, sites, pairs) = (&lumps.cells, lumps.sites.len(), rates.pairs);
+        let flows = if more < 0.0 { &stepping[..] } else { &cells.flows[..] };
+        let all = Exchanged { pairs, kelvin, conduction, allowance, once, more };
+        let moving = Exchanged {
+            kelvin: &kelvin[sites..],
+            conduction: &conduction[sites..],
+            allowance: &allowance[sites..],
+            once: &once[sites..],
+            ..all
+        };
+        shore.follow(&all, &lumps.shore.source);
+        let Shore { kelvin, conduction, allowance, once, gained: of_shore, .. } = shore;
+        let shore = Exchanged { kelvin, conduction, allowance, once, ..all };
+        let (of_sites, of_moving) = gained.split_at_mut(sites);
+        let lattice = Lattice { lumps, steps, flows };
+        spread([of_sites], WORTH_A_PART, team.threads, &|base, [gained]| {
+            team.instructions.run(FlowAcross { lattice, exchanged: all, base, gained });
+        });
+        let flow = |(own, exchanged): (&Sorted, Exchanged), others: &[(&Sorted, Exchanged)], gained: &mut [i32]| {
+            spread([gained], WORTH_A_PART, team.threads, &|base, [gained]| {
+                let nearby = Nearby { cells, flows, own };
+                team.instructions.run(Flow { nearby, exchanged, others, base, gained });
+            });
+        };
+        let (moving, shore) = ((&lumps.moving, moving), (&lumps.shore, shore));
+        flow(moving, &[moving, shore], of_moving);
+        flow(shore, &[moving], of_shore);
+        for (k, more) in lumps.shore.source.iter().zip(&*of_shore) {
+            gained[*k as usize] = gained[*k as usize].saturating_add(*more);
+        }
+    }
+
+    /// Gives the lumps what they gain in a step, and the air what it takes of them. What that is together is given, quanta.
+    fn settle(&self, lumps: &mut Lumps, rates: &Rates, more: f32) -> i64 {
+        let Self { kelvin, once, surface, held, gained, .. } = self;
+        let mut to_air = 0;
+        for (k, heat) in lumps.heat.iter_mut().enumerate() {
+            let mut gain = gained[k];
+            if surface[k] > 0.0 {
+                let open = rates.air * (1.0 + more * once[k]) * surface[k];
+                let given = rounded(open / (1.0 + open / held[k]) * (kelvin[k] - ROOM));
+                gain = gain.saturating_sub(given);
+                to_air += i64::from(given);
+            }
+            *heat = heat.saturating_add(gain);
+        }
+        to_air
+    }
+
+    /// The lumps that stood in the air in the last tick, with what the air gets of each for each K and length d of surface.
+    pub fn contacts(&self, lumps: &Lumps, of_air: f32) -> impl Iterator<Item = Contact> + Clone {
+        (0..lumps.len()).filter(|k| self.surface[*k] > 0.0).filter_map(move |k| {
+            let conductance = of_air * self.surface[k];
+            lumps.position(k).map(|at| Contact { at, conductance, kelvin: self.kelvin[k] })
+        })
     }
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        let Self { kelvin, conduction, allowance, once, stepping, surface, gained, given, .. } = self;
-        let floats = [kelvin, conduction, allowance, once, surface].iter().map(|field| field.capacity()).sum::<usize>();
-        4 * (floats + gained.capacity() + given.capacity()) + stepping.capacity()
+        let Self { kelvin, conduction, allowance, once, surface, held, gained, stepping, shore, .. } = self;
+        let floats = [kelvin, conduction, allowance, once, surface, held].map(Vec::capacity).iter().sum::<usize>();
+        4 * (floats + gained.capacity()) + stepping.capacity() + shore.memory()
     }
+}
+
+impl Shore {
+    /// Follows the fields of all lumps; `source`: which of those it is.
+    fn follow(&mut self, all: &Exchanged, source: &[u32]) {
+        let Self { kelvin, conduction, allowance, once, gained, .. } = self;
+        let fields = [(kelvin, all.kelvin), (conduction, all.conduction), (allowance, all.allowance), (once, all.once)];
+        for (own, all) in fields {
+            own.clear();
+            own.extend(source.iter().map(|k| all[*k as usize]));
+        }
+        gained.resize(source.len(), 0);
+    }
+
+    /// Bytes held.
+    fn memory(&self) -> usize {
+        let Self { kelvin, conduction, allowance, once, found: [whole, through], gained } = self;
+        let floats = [kelvin, conduction, allowance, once, whole, through].map(Vec::capacity).iter().sum::<usize>();
+        4 * (floats + gained.capacity())
+    }
+}
+
+/// The least of some numbers up to 1 that is above 0; 1 if there is none.
+fn least(numbers: &[f32]) -> f32 {
+    let (pieces, rest) = numbers.as_chunks::<MOST_LANES>();
+    let less = |least: f32, number: f32| if number > 0.0 && number < least { number } else { least };
+    let mut lanes = [1.0_f32; MOST_LANES];
+    for piece in pieces {
+        // Side by side, as the lanes of a register.
+        for (lane, number) in lanes.iter_mut().zip(piece) {
+            *lane = less(*lane, *number);
+        }
+    }
+    lanes.iter().chain(rest).fold(1.0, |least, number| less(least, *number))
 }

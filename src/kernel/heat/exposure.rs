@@ -8,6 +8,7 @@ use crate::{
     cells::Cells,
     element::{ElementId, ElementTable},
     particles::Particles,
+    simd::{Array, Lanes},
     solids::{Solids, centre},
 };
 use glam::{IVec2, Vec2};
@@ -52,7 +53,9 @@ impl Exposure {
             neighbours += cells.filter(|cell| solids.is_solid(*cell)).map(|cell| weight(centre(cell))).sum::<f32>();
         }
         // It is its own neighbour in that sum.
-        open_length(neighbours - WEIGHT)
+        let mut length = [0.0];
+        open_length(Array::<1>::splat(neighbours - WEIGHT)).store(&mut length);
+        length[0]
     }
 
     /// Bytes held.

@@ -4,23 +4,31 @@
 //! ([`curve`], [`table`]). Once a tick
 //!
 //! 1. lumps whose change is done become another element ([`change`](change())),
-//! 2. lumps near one another are gathered, where temperatures differ ([`lumps`]),
-//! 3. pairs exchange heat, and what stands in the air exchanges it with the air ([`conduction`]).
+//! 2. lumps near one another are gathered, where temperatures differ ([`cells`]): rock on its lattice ([`sites`]), and what moves
+//!    with the rock that it may reach ([`sorted`]),
+//! 3. pairs exchange heat ([`lattice`], [`passes`]), and what stands in the air exchanges it with the air ([`conduction`]).
 //!
 //! What one of a pair gets the other gives, in whole numbers: the sum is exact, in any order and for any number of threads.
 //! Where all is at the room's temperature, nothing of this exists, and where no exchange would come to half a quantum, nothing
 //! is done.
 
+mod allowances;
 mod brush;
+mod cells;
 mod change;
 mod conduction;
 pub mod curve;
+mod exchanged;
 mod exposure;
+mod lattice;
 mod lumps;
 mod matter;
 mod passes;
 mod rates;
 mod record;
+mod sites;
+mod slopes;
+mod sorted;
 mod steps;
 mod surface;
 pub mod table;

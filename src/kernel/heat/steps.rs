@@ -2,7 +2,6 @@
 
 use super::{conduction::Exchange, lumps::Lumps, matter::Warm, rates::Rates, record::HeatRecord};
 use crate::{air::Contact, parallel::Team};
-use glam::Vec2;
 
 /// What the limiters of the exchange did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -37,15 +36,10 @@ impl Heat {
         HeatReport { cuts: flowed.cuts }
     }
 
-    /// The lumps that stood in the air in the last tick and are not as warm as the room.
+    /// The lumps that stood in the air in the last tick.
     pub fn contacts(&self) -> impl Iterator<Item = Contact> + Clone {
-        let lumps = if self.of_air > 0.0 { 0..self.lumps.len() } else { 0..0 };
-        lumps.filter_map(|k| {
-            let (surface, kelvin) = self.exchange.open(k);
-            let flows = surface > 0.0 && self.lumps.flows[self.lumps.cell[k] as usize];
-            let at = Vec2::new(self.lumps.x[k], self.lumps.y[k]);
-            flows.then_some(Contact { at, conductance: self.of_air * surface, kelvin })
-        })
+        let flowed = (self.of_air > 0.0).then(|| self.exchange.contacts(&self.lumps, self.of_air));
+        flowed.into_iter().flatten()
     }
 
     /// Bytes held.

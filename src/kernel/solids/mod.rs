@@ -122,6 +122,13 @@ impl Solids {
         self.index(cell).is_none_or(|k| self.is_rock(k))
     }
 
+    /// Whether there is rock in a cell and in all that are up to two away from it along each side. Beyond the box it is not known.
+    pub(crate) fn is_deep(&self, cell: IVec2) -> bool {
+        const ALL: u16 = (1 << 9) - 1;
+        let corners = [(-1, -1), (1, -1), (-1, 1), (1, 1)].map(|(x, y)| self.index(cell + IVec2::new(x, y)));
+        corners.into_iter().all(|corner| corner.and_then(|k| self.near.get(k)).is_some_and(|near| *near == ALL))
+    }
+
     /// How many of some cells are solid.
     pub(crate) fn count_solid(&self, columns: Range<i32>, rows: Range<i32>) -> usize {
         let inside =
@@ -224,19 +231,75 @@ impl Solids {
 
     /// All rock, row by row from the bottom: cell, element, id. Of this kind of iterator `for_each` is faster than a loop.
     pub fn iter(&self) -> impl Iterator<Item = (IVec2, ElementId, u32)> + '_ {
-        /// Cells that are passed over together where none is rock.
-        const STRIDE: usize = 16;
-        let rows = self.element.chunks(self.columns.max(1) as usize).enumerate();
-        rows.flat_map(move |(y, row)| {
-            let strides = row.chunks(STRIDE).enumerate().filter(|(_, cells)| **cells != [EMPTY; STRIDE][..cells.len()]);
-            strides.flat_map(move |(stride, cells)| {
-                let rock = cells.iter().enumerate().filter(|(_, element)| **element != EMPTY);
-                rock.map(move |(k, element)| {
-                    let cell = IVec2::new((stride * STRIDE + k) as i32, y as i32);
-                    (cell, ElementId(*element), self.id[y * row.len() + cell.x as usize])
-                })
+        self.strides().flat_map(move |stride| {
+            let (first, sites) = (stride.first, stride.sites());
+            sites.filter_map(move |(k, element)| {
+                let cell = IVec2::new(first.x + k as i32, first.y);
+                element.map(|element| (cell, element, self.id[stride.place + k]))
             })
         })
+    }
+
+    /// The strides with rock, row by row from the bottom.
+    #[inline(always)]
+    pub(crate) fn strides(&self) -> impl Iterator<Item = Stride<'_>> {
+        let columns = self.columns.max(1) as usize;
+        let rows = self.element.chunks(columns).enumerate();
+        rows.flat_map(move |(y, row)| {
+            let strides = row.chunks(STRIDE).zip((0..).step_by(STRIDE));
+            let rocky = strides.filter(|(elements, _)| **elements != [EMPTY; STRIDE][..elements.len()]);
+            rocky.map(move |(elements, x)| {
+                let place = y * columns + x;
+                let heats = self.heat.get(place..place + elements.len()).unwrap_or_default();
+                Stride { first: IVec2::new(x as i32, y as i32), elements, heats, place }
+            })
+        })
+    }
+
+    /// Gives the rock of a stride that begins with this cell these heats, quanta; those where is none are 0.
+    pub(crate) fn set_heats(&mut self, first: IVec2, heats: &[i32]) {
+        let heats = &heats[..heats.len().min((self.columns - first.x).max(0) as usize)];
+        if self.heat.is_empty() && heats.iter().any(|heat| *heat != 0) {
+            self.heat = vec![0; self.element.len()];
+        }
+        if let Some(place) = self.index(first).filter(|_| !self.heat.is_empty()) {
+            self.heat[place..place + heats.len()].copy_from_slice(heats);
+        }
+    }
+}
+
+/// Cells of a row that are looked at together: passed over where none is rock.
+pub(crate) const STRIDE: usize = 16;
+
+/// [`STRIDE`] cells of a row, at its end fewer, with rock in any of them.
+pub(crate) struct Stride<'a> {
+    /// The first cell.
+    pub first: IVec2,
+    /// Elements, [`EMPTY`] where is no rock.
+    elements: &'a [u8],
+    /// Heat, quanta; empty if there has been none.
+    heats: &'a [i32],
+    /// Where the first cell is stored.
+    place: usize,
+}
+
+impl<'a> Stride<'a> {
+    /// Number of cells.
+    pub fn len(&self) -> usize {
+        self.elements.len()
+    }
+
+    /// The cells with their elements; `None` where is no rock.
+    #[inline(always)]
+    pub fn sites(&self) -> impl Iterator<Item = (usize, Option<ElementId>)> + use<'a> {
+        let element = |element: &u8| (*element != EMPTY).then_some(ElementId(*element));
+        self.elements.iter().map(element).enumerate()
+    }
+
+    /// Heat in one of the cells, quanta; 0 where is no rock.
+    #[inline(always)]
+    pub fn heat(&self, k: usize) -> i32 {
+        self.heats.get(k).copied().unwrap_or_default()
     }
 }
 

@@ -1,0 +1,72 @@
+//! What the exchange asks of every lump, by its element, in one place: its curve where no change has begun, as of most.
+
+use super::{
+    curve::Change,
+    table::HeatTable,
+    units::{HOTTEST, QUANTUM, ROOM},
+};
+use crate::element::ElementId;
+
+/// An element between its changes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slope {
+    /// Heats between which no change has begun, quanta.
+    below: i32,
+    above: i32,
+    /// Heat at [`ROOM`], quanta.
+    base: i32,
+    /// K.
+    per_quantum: f32,
+    /// √k′, √(W/mK).
+    conduction: f32,
+    /// Heat that makes it a degree warmer, at least, quanta.
+    pub held: f32,
+    /// How many times as much its surface gives to the air as that of liquids and solids does.
+    pub openness: f32,
+}
+
+/// Those of all elements.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Slopes(Vec<Slope>);
+
+impl Slopes {
+    /// Follows a table.
+    pub fn follow(&mut self, table: &HeatTable) {
+        self.0.clear();
+        self.0.extend(table.curves().iter().map(|curve| {
+            let begin = |change: &Option<Change>, never| change.as_ref().map_or(never, |change| change.plateau[0]);
+            Slope {
+                below: begin(&curve.below, i32::MIN),
+                above: begin(&curve.above, i32::MAX),
+                base: curve.base,
+                per_quantum: QUANTUM / curve.capacity,
+                conduction: curve.conduction[0],
+                held: curve.least_capacity() / QUANTUM,
+                openness: curve.openness(),
+            }
+        }));
+    }
+
+    /// That of an element.
+    #[inline(always)]
+    pub fn of(&self, element: ElementId) -> &Slope {
+        &self.0[element.index()]
+    }
+
+    /// Temperature (K) and √k′ (√(W/mK)) of a lump by its heat, as its curve has them.
+    #[inline(always)]
+    pub fn state(&self, table: &HeatTable, element: ElementId, heat: i32) -> (f32, f32) {
+        let slope = self.of(element);
+        if slope.below < heat && heat < slope.above {
+            let kelvin = ROOM + heat.saturating_sub(slope.base) as f32 * slope.per_quantum;
+            return (kelvin.clamp(0.0, HOTTEST), slope.conduction);
+        }
+        let curve = table.curve(element);
+        (curve.temperature(heat).clamp(0.0, HOTTEST), curve.conduction(heat))
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        size_of::<Slope>() * self.0.capacity()
+    }
+}
