@@ -157,7 +157,7 @@ impl Behind {
 /// What a cell's fill is to be made up by.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct MakeUp {
-    cell: u32,
+    pub cell: u32,
     other: u32,
     /// Factors of what is liquid in both.
     factors: [f32; 2],

@@ -23,6 +23,21 @@ pub(super) struct MacGrid {
     pub per_cell: f32,
 }
 
+/// Some columns and rows of a grid, among them padding.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Window {
+    pub columns: Range<usize>,
+    pub rows: Range<usize>,
+}
+
+impl Window {
+    /// Whether a cell of the grid is in it.
+    #[inline(always)]
+    pub fn has(&self, grid: &MacGrid, k: usize) -> bool {
+        self.rows.contains(&(k / grid.stride)) && self.columns.contains(&(k % grid.stride))
+    }
+}
+
 impl MacGrid {
     /// Cells of about `cell` d whose number along x is whole.
     pub fn new(size: Vec2, cell: f32) -> Self {
@@ -79,6 +94,45 @@ impl MacGrid {
     #[inline(always)]
     pub fn rows(&self, rows: Range<usize>) -> Range<usize> {
         self.row(rows.start)..self.row(rows.end)
+    }
+
+    /// All columns and rows, with the padding.
+    pub fn all(&self) -> Window {
+        Window { columns: 0..self.stride, rows: 0..self.rows + 3 }
+    }
+
+    /// The columns and rows that reach some cells of rock.
+    pub fn window(&self, [across, up]: [Range<i32>; 2]) -> Window {
+        let index = |site: i32, most: usize| ((site as f32 * self.per_cell).max(0.0) as usize + 1).min(most);
+        // A cell of rock that ends with a cell may be found to reach the next.
+        let span =
+            |sites: Range<i32>, most: usize| index(sites.start, most).saturating_sub(1)..index(sites.end, most) + 1;
+        Window { columns: span(across, self.stride - 1), rows: span(up, self.rows + 2) }
+    }
+
+    /// Columns and rows with so many around them.
+    pub fn widened(&self, window: &Window, by: usize) -> Window {
+        let span = |span: &Range<usize>, most: usize| span.start.saturating_sub(by)..(span.end + by).min(most);
+        Window { columns: span(&window.columns, self.stride), rows: span(&window.rows, self.rows + 3) }
+    }
+
+    /// The indices in a window.
+    pub fn indices<'a>(&'a self, window: &'a Window) -> impl Iterator<Item = usize> + 'a {
+        let columns = &window.columns;
+        window.rows.clone().flat_map(move |j| self.row(j) + columns.start..self.row(j) + columns.end)
+    }
+
+    /// Cells of rock that a window reaches.
+    pub fn sites_in(&self, window: &Window) -> [Range<i32>; 2] {
+        let last = |span: &Range<usize>| self.sites(span.end.max(1) - 1).end;
+        [&window.columns, &window.rows].map(|span| self.sites(span.start).start..last(span))
+    }
+
+    /// The cells in a window but for the padding.
+    pub fn cells_in<'a>(&'a self, window: &'a Window) -> impl Iterator<Item = usize> + 'a {
+        let columns = window.columns.start.max(1)..window.columns.end.min(self.columns + 1);
+        let rows = window.rows.start.max(1)..window.rows.end.min(self.rows + 1);
+        rows.flat_map(move |j| self.row(j) + columns.start..self.row(j) + columns.end)
     }
 
     /// Index of cell (0, j).

@@ -25,6 +25,7 @@ mod level;
 mod matter;
 mod multigrid;
 mod open_shares;
+mod outline;
 mod parts;
 mod pieces;
 mod pockets;

@@ -2,7 +2,10 @@
 //! part of its room, and the faces of the other part are closed: else the pressure would go through the cell from one
 //! side of the wall to the other, as it would at every slanting wall.
 
-use crate::{predictor::grid::MacGrid, solids::Solids};
+use crate::{
+    predictor::grid::{MacGrid, Window},
+    solids::Solids,
+};
 use glam::IVec2;
 use std::ops::Range;
 
@@ -23,29 +26,27 @@ pub(super) enum Room {
 
 /// The room of cells, and the parts that cut ones stand for.
 pub(super) struct Parts {
-    /// Of each cell of the grid. What lies beyond the box has none.
+    /// Of each cell of the grid. What lies beyond the box, or where nothing is asked for, has none.
     rooms: Vec<Room>,
     parts: Vec<Piece>,
 }
 
 impl Parts {
-    /// Finds what room cells stand for, and which of them are cut.
-    pub fn new(grid: &MacGrid, solids: &Solids) -> Self {
+    /// Finds what room cells in a window stand for, and which of them are cut.
+    pub fn new(grid: &MacGrid, solids: &Solids, window: &Window) -> Self {
         let mut found = Self { rooms: vec![Room::None; grid.len()], parts: Vec::new() };
         let columns: Vec<Range<i32>> = (0..=grid.columns).map(|i| grid.sites(i)).collect();
-        for j in 1..=grid.rows {
-            let rows = grid.sites(j);
-            for i in 1..=grid.columns {
-                let sites = [columns[i].clone(), rows.clone()];
-                let solid = solids.count_solid(sites[0].clone(), sites[1].clone());
-                found.rooms[grid.row(j) + i] = if solid == 0 {
-                    Room::All
-                } else if solid == sites[0].len() * sites[1].len() {
-                    Room::None
-                } else {
-                    found.take(Piece::of_cell(grid, solids, [i, j], sites), grid.cell * grid.cell)
-                };
-            }
+        for k in grid.cells_in(window) {
+            let (i, j) = (k % grid.stride, k / grid.stride);
+            let sites = [columns[i].clone(), grid.sites(j)];
+            let solid = solids.count_solid(sites[0].clone(), sites[1].clone());
+            found.rooms[k] = if solid == 0 {
+                Room::All
+            } else if solid == sites[0].len() * sites[1].len() {
+                Room::None
+            } else {
+                found.take(Piece::of_cell(grid, solids, [i, j], sites), grid.cell * grid.cell)
+            };
         }
         found
     }
@@ -79,9 +80,9 @@ impl Parts {
     }
 
     /// Whether rock leaves nothing of a cell of the grid and those around it, so that no face of it is open and none beside it.
-    pub fn shut(&self, grid: &MacGrid) -> Vec<bool> {
+    pub fn shut(&self, grid: &MacGrid, window: &Window) -> Vec<bool> {
         let is_full: Vec<bool> = self.rooms.iter().map(|room| *room == Room::None).collect();
-        all_around(grid, &is_full)
+        all_around(grid, &is_full, window)
     }
 
     /// Whether rock cuts the grid's cell `k`.
@@ -90,11 +91,15 @@ impl Parts {
     }
 }
 
-/// Whether something is so of a cell of the grid and of all around it; beyond the grid it is.
-pub(super) fn all_around(grid: &MacGrid, is: &[bool]) -> Vec<bool> {
+/// Whether something is so of a cell of the grid in a window and of all around it; beyond the grid it is, and beyond the window.
+pub(super) fn all_around(grid: &MacGrid, is: &[bool], window: &Window) -> Vec<bool> {
     let along = |is: &[bool], step: usize| -> Vec<bool> {
         let at = |k: Option<usize>| k.and_then(|k| is.get(k)).is_none_or(|is| *is);
-        (0..is.len()).map(|k| is[k] && at(k.checked_sub(step)) && at(Some(k + step))).collect()
+        let mut all = vec![true; is.len()];
+        for k in grid.indices(window) {
+            all[k] = is[k] && at(k.checked_sub(step)) && at(Some(k + step));
+        }
+        all
     };
     along(&along(is, 1), grid.stride)
 }

@@ -3,8 +3,9 @@
 use crate::{
     predictor::{
         behind::{Behind, MakeUp},
-        grid::MacGrid,
+        grid::{MacGrid, Window},
         open_shares::{OpenShares, TO_CENTRES},
+        outline::Outline,
         parts::{Parts, Room, all_around},
         pockets::ROUNDING,
         slivers::{MOST_MISSING, Place, Sliver},
@@ -24,12 +25,19 @@ const BEYOND_A_FACE: f32 = 3.0 / 16.0;
 /// A cell that is open to less than this has nowhere to go.
 const LEAST_ROOM: f32 = 0.05;
 
+/// How far a cell's fields go by what rock leaves of other cells: what is shut goes by those around it, rock is left out that
+/// reaches what is shut only, its share is smeared over those around it, and slivers and what is behind walls go by the cells
+/// beside them.
+const GOES_BY: usize = 5;
+
 /// Rock as the grid sees it; follows the rock's shape. Rows that are like the one below share its place in the fields
 /// ([`ClosedFaces::row`]), so that a box without rock costs next to nothing.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ClosedFaces {
-    /// Shape of the rock, and where gravity pulls most.
-    built_for: Option<(u64, IVec2)>,
+    /// The grid, the shape of the rock, and where gravity pulls most.
+    built_for: Option<(MacGrid, u64, IVec2)>,
+    /// Where the rock stands.
+    outline: Outline,
     /// Where each row of the grid stands in the fields.
     rows: Vec<u32>,
     /// Open share of the left face of each cell.
@@ -58,11 +66,22 @@ impl ClosedFaces {
         let is_across = gravity.x.abs() > gravity.y.abs();
         let most = if is_across { Vec2::new(gravity.x, 0.0) } else { Vec2::new(0.0, gravity.y) };
         let down = IVec2::new(sign(most.x), sign(most.y));
-        if self.built_for != Some((solids.shape(), down)) || self.rows.len() != grid.rows + 3 {
-            self.build(grid, solids, down);
-            self.share_rows(grid);
-            self.built_for = Some((solids.shape(), down));
+        let now = (*grid, solids.shape(), down);
+        if self.built_for == Some(now) {
+            return;
         }
+        let changed = self.outline.follow(solids);
+        let is_like = |(was, _, then): (MacGrid, u64, IVec2)| (was, then) == (*grid, down);
+        let window = match changed {
+            _ if !self.built_for.is_some_and(is_like) => Some(grid.all()),
+            Some(sites) => Some(grid.widened(&grid.window(sites), GOES_BY)),
+            None => None,
+        };
+        if let Some(window) = window {
+            let fresh = Self::built(grid, solids, down, &grid.widened(&window, GOES_BY));
+            self.take(grid, &window, fresh);
+        }
+        self.built_for = Some(now);
     }
 
     /// Index of cell (0, j) in the fields.
@@ -99,102 +118,133 @@ impl ClosedFaces {
         Vec2::new(self.open_u[own + 1] - self.open_u[own], self.open_v[above] - self.open_v[own])
     }
 
-    fn fields(&mut self) -> [&mut Vec<f32>; 6] {
+    fn fields(&self) -> [&Vec<f32>; 6] {
         let Self { open_u, open_v, rock, right_of_u, above_v, liquid_from, .. } = self;
         [open_u, open_v, rock, right_of_u, above_v, liquid_from]
     }
 
-    /// Stores rows that are like the one below them only once.
-    fn share_rows(&mut self, grid: &MacGrid) {
-        self.rows.clear();
-        let mut stored = 0;
-        for j in 0..grid.rows + 3 {
-            let own = grid.rows(j..j + 1);
-            let last = stored..stored + grid.stride;
-            let fields = self.fields();
-            if j == 0 || fields.iter().any(|field| field[own.clone()] != field[last.clone()]) {
-                stored += if j == 0 { 0 } else { grid.stride };
-                fields.into_iter().for_each(|field| field.copy_within(own.clone(), stored));
-            }
-            self.rows.push(stored as u32);
-        }
-        for field in self.fields() {
-            field.truncate(stored + grid.stride);
-            field.shrink_to_fit();
-        }
+    fn fields_mut(&mut self) -> [&mut Vec<f32>; 6] {
+        let Self { open_u, open_v, rock, right_of_u, above_v, liquid_from, .. } = self;
+        [open_u, open_v, rock, right_of_u, above_v, liquid_from]
     }
 
-    fn build(&mut self, grid: &MacGrid, solids: &Solids, down: IVec2) {
-        for field in self.fields() {
-            field.clear();
-            field.resize(grid.len(), 0.0);
+    /// Takes what is in a window from others whose rows stand one by one. Rows that are like the one below them are stored only once.
+    fn take(&mut self, grid: &MacGrid, window: &Window, fresh: Self) {
+        if *window == grid.all() {
+            // There may be nothing yet, or another grid's.
+            *self = Self { outline: std::mem::take(&mut self.outline), ..Self::default() };
         }
-        let parts = Parts::new(grid, solids);
-        let faces = OpenShares::new(grid, solids, &parts);
-        for j in 1..=grid.rows + 1 {
-            for k in grid.row(j) + 1..=grid.row(j) + grid.columns + 1 {
-                self.open_u[k] = if j <= grid.rows { faces.left(k, TO_CENTRES) } else { 0.0 };
-                self.open_v[k] = if k <= grid.row(j) + grid.columns { faces.lower(k, TO_CENTRES) } else { 0.0 };
-            }
-        }
-        self.smear_rock(grid, solids, &parts);
-        let is_inside =
-            |k: usize| (1..=grid.columns).contains(&(k % grid.stride)) && (1..=grid.rows).contains(&(k / grid.stride));
-        for k in (0..grid.len()).filter(|k| !is_inside(*k)) {
-            self.rock[k] = 1.0;
-        }
-        let behind = behind_walls(&faces);
-        self.open_slivers(&faces, down, &behind);
-        self.make_up(&behind);
-        self.even_out_slivers(grid);
-        self.beside_walls.clear();
-        for j in 1..=grid.rows {
-            for k in grid.row(j) + 1..=grid.row(j) + grid.columns {
-                let room = self.open_u[k] + self.open_u[k + 1] + self.open_v[k] + self.open_v[k + grid.stride];
-                let solved = self.rock[k] < ROCK_SHARE && room >= LEAST_ROOM;
-                let least = LIQUID_SHARE * (1.0 - self.rock[k]) + self.rock[k];
-                self.liquid_from[k] = if solved { least } else { f32::INFINITY };
-                if solved && room < 4.0 - ROUNDING {
-                    self.beside_walls.push(k as u32);
+        let mut merged: [Vec<f32>; 6] = Default::default();
+        let mut rows = Vec::with_capacity(grid.rows + 3);
+        let mut row = vec![0.0; grid.stride];
+        let mut stored = 0;
+        for j in 0..grid.rows + 3 {
+            let own = self.rows.get(j).map(|own| *own as usize);
+            for ((merged, old), new) in merged.iter_mut().zip(self.fields()).zip(fresh.fields()) {
+                if let Some(own) = own {
+                    row.copy_from_slice(&old[own..own + grid.stride]);
                 }
+                if window.rows.contains(&j) {
+                    let columns = window.columns.clone();
+                    row[columns.clone()].copy_from_slice(&new[grid.row(j)..][columns]);
+                }
+                merged.extend_from_slice(&row);
+            }
+            let next = stored + grid.stride;
+            if j > 0 && merged.iter().all(|field| field[stored..next] == field[next..]) {
+                merged.iter_mut().for_each(|field| field.truncate(next));
+            } else if j > 0 {
+                stored = next;
+            }
+            rows.push(stored as u32);
+        }
+        self.rows = rows;
+        for (field, merged) in self.fields_mut().into_iter().zip(merged) {
+            *field = merged;
+            field.shrink_to_fit();
+        }
+        let is_old = |cell: u32| !window.has(grid, cell as usize);
+        let Self { beside_walls, slivers, behind, .. } = self;
+        beside_walls.retain(|cell| is_old(*cell));
+        beside_walls.extend(fresh.beside_walls.iter().filter(|cell| !is_old(**cell)));
+        beside_walls.sort_unstable();
+        slivers.retain(|sliver| is_old(sliver.cell));
+        slivers.extend(fresh.slivers.iter().filter(|sliver| !is_old(sliver.cell)));
+        slivers.sort_unstable_by_key(|sliver| sliver.cell);
+        behind.retain(|one| is_old(one.cell));
+        behind.extend(fresh.behind.iter().filter(|one| !is_old(one.cell)));
+        behind.sort_unstable_by_key(|one| one.cell);
+    }
+
+    /// What rock closes in a window; near its edge, and beyond it, other than it is.
+    fn built(grid: &MacGrid, solids: &Solids, down: IVec2, window: &Window) -> Self {
+        let mut built = Self::default();
+        for field in built.fields_mut() {
+            *field = vec![0.0; grid.len()];
+        }
+        let parts = Parts::new(grid, solids, window);
+        let faces = OpenShares::new(grid, solids, &parts);
+        for j in window.rows.start.max(1)..window.rows.end.min(grid.rows + 2) {
+            for i in window.columns.start.max(1)..window.columns.end.min(grid.columns + 2) {
+                let k = grid.row(j) + i;
+                built.open_u[k] = if j <= grid.rows { faces.left(k, TO_CENTRES) } else { 0.0 };
+                built.open_v[k] = if i <= grid.columns { faces.lower(k, TO_CENTRES) } else { 0.0 };
             }
         }
-        self.behind.retain_mut(|one| one.follow(&self.rock, &self.liquid_from));
+        built.smear_rock(grid, solids, &parts, window);
+        let is_inside = |i: usize, j: usize| (1..=grid.columns).contains(&i) && (1..=grid.rows).contains(&j);
+        for j in window.rows.clone() {
+            for i in window.columns.clone().filter(|i| !is_inside(*i, j)) {
+                built.rock[grid.row(j) + i] = 1.0;
+            }
+        }
+        let behind = behind_walls(&faces, window);
+        built.open_slivers(&faces, down, &behind, window);
+        built.make_up(&behind);
+        built.even_out_slivers(grid);
+        for k in grid.cells_in(window) {
+            let room = built.open_u[k] + built.open_u[k + 1] + built.open_v[k] + built.open_v[k + grid.stride];
+            let solved = built.rock[k] < ROCK_SHARE && room >= LEAST_ROOM;
+            let least = LIQUID_SHARE * (1.0 - built.rock[k]) + built.rock[k];
+            built.liquid_from[k] = if solved { least } else { f32::INFINITY };
+            if solved && room < 4.0 - ROUNDING {
+                built.beside_walls.push(k as u32);
+            }
+        }
+        built.behind.retain_mut(|one| one.follow(&built.rock, &built.liquid_from));
+        built
     }
 
     /// Opens the cells of which a level or upright wall leaves less than half to the cells that their room belongs to: the
     /// lines between the centres are no measure of it, as they end in the wall. On its own such a cell would hold the
     /// liquid in it, and stop what passes. A cell that rock cuts in two stays closed: it stands for one of its parts, and what moved
     /// that would move the matter in the other, too.
-    fn open_slivers(&mut self, faces: &OpenShares, down: IVec2, behind: &[Behind]) {
+    fn open_slivers(&mut self, faces: &OpenShares, down: IVec2, behind: &[Behind], window: &Window) {
         let (grid, stride, parts) = (faces.grid, faces.grid.stride, faces.parts);
         let missing = |k: usize| missing(behind, k as u32);
         let is_thin = |k: usize| parts.room(k) == Room::Sliver && missing(k) > MOST_MISSING;
         let is_sliver = |k: usize| self.rock[k] > 0.5 || is_thin(k);
-        self.slivers.clear();
-        for j in 1..=grid.rows {
-            for k in (grid.row(j) + 1..=grid.row(j) + grid.columns).filter(|k| is_sliver(*k) && !parts.is_cut(*k)) {
-                let mut opened = None;
-                if self.open_u[k] + self.open_u[k + 1] == 0.0 {
-                    for (face, host, way) in [(k, k - 1, IVec2::NEG_X), (k + 1, k + 1, IVec2::X)] {
-                        if !is_sliver(host) {
-                            self.open_u[face] = faces.left(face, 0.0);
-                            opened = opened.or((self.open_u[face] > 0.0).then_some((host, way)));
-                        }
+        for k in grid.cells_in(window).filter(|k| is_sliver(*k) && !parts.is_cut(*k)) {
+            let mut opened = None;
+            if self.open_u[k] + self.open_u[k + 1] == 0.0 {
+                for (face, host, way) in [(k, k - 1, IVec2::NEG_X), (k + 1, k + 1, IVec2::X)] {
+                    if !is_sliver(host) {
+                        self.open_u[face] = faces.left(face, 0.0);
+                        opened = opened.or((self.open_u[face] > 0.0).then_some((host, way)));
                     }
                 }
-                if self.open_v[k] + self.open_v[k + stride] == 0.0 {
-                    for (face, host, way) in [(k, k - stride, IVec2::NEG_Y), (k + stride, k + stride, IVec2::Y)] {
-                        if !is_sliver(host) {
-                            self.open_v[face] = faces.lower(face, 0.0);
-                            opened = opened.or((self.open_v[face] > 0.0).then_some((host, way)));
-                        }
-                    }
-                }
-                let Some((host, way)) = opened.filter(|_| is_thin(k)) else { continue };
-                let place = Place::new(way, down, faces.leads_through(k, way));
-                self.slivers.extend(place.map(|place| Sliver { cell: k as u32, host: host as u32, place }));
             }
+            if self.open_v[k] + self.open_v[k + stride] == 0.0 {
+                for (face, host, way) in [(k, k - stride, IVec2::NEG_Y), (k + stride, k + stride, IVec2::Y)] {
+                    if !is_sliver(host) {
+                        self.open_v[face] = faces.lower(face, 0.0);
+                        opened = opened.or((self.open_v[face] > 0.0).then_some((host, way)));
+                    }
+                }
+            }
+            let Some((host, way)) = opened.filter(|_| is_thin(k)) else { continue };
+            let place = Place::new(way, down, faces.leads_through(k, way));
+            self.slivers.extend(place.map(|place| Sliver { cell: k as u32, host: host as u32, place }));
         }
     }
 
@@ -206,7 +256,6 @@ impl ClosedFaces {
             at.is_ok_and(|at| slivers[at].place == Place::Wall)
         };
         let others = behind.iter().filter(|one| !goes_by_host(one.cell));
-        make_up.clear();
         make_up.extend(others.filter_map(|one| MakeUp::new(*one, rock, missing(behind, one.other))));
     }
 
@@ -235,17 +284,17 @@ impl ClosedFaces {
 
     /// Rock particles share out their volume as liquid particles do, so that rock and liquid side by side add up to 1. Those that
     /// reach only cells without any open face are left out, as nobody asks for what is around them.
-    fn smear_rock(&mut self, grid: &MacGrid, solids: &Solids, parts: &Parts) {
-        let is_shut = parts.shut(grid);
-        let reaches_shut_only = all_around(grid, &is_shut);
-        solids.iter().map(|(cell, ..)| centre(cell)).for_each(|at| {
+    fn smear_rock(&mut self, grid: &MacGrid, solids: &Solids, parts: &Parts, window: &Window) {
+        let is_shut = parts.shut(grid, window);
+        let reaches_shut_only = all_around(grid, &is_shut, window);
+        solids.iter_in(grid.sites_in(window)).map(centre).for_each(|at| {
             let home = grid.row(Axis::V.row(grid, at.y).0 as usize) + Axis::U.column(grid, at.x).0 as usize;
             if !reaches_shut_only[home] {
                 self.add_rock(grid, at);
             }
         });
-        for (rock, is_shut) in self.rock.iter_mut().zip(is_shut) {
-            *rock = if is_shut { 1.0 } else { rock.min(1.0) };
+        for k in grid.indices(window) {
+            self.rock[k] = if is_shut[k] { 1.0 } else { self.rock[k].min(1.0) };
         }
     }
 
@@ -279,6 +328,7 @@ impl ClosedFaces {
     pub fn memory(&self) -> usize {
         let fields = [&self.open_u, &self.open_v, &self.rock, &self.right_of_u, &self.above_v, &self.liquid_from];
         4 * (fields.map(Vec::capacity).iter().sum::<usize>() + self.rows.capacity() + self.beside_walls.capacity())
+            + self.outline.memory()
             + size_of::<Sliver>() * self.slivers.capacity()
             + size_of::<MakeUp>() * self.behind.capacity()
     }
@@ -293,15 +343,14 @@ pub(super) struct Beside<'a> {
     pub after: &'a [f32],
 }
 
-/// What is behind walls for cells of the grid, in their order.
-fn behind_walls(faces: &OpenShares) -> Vec<Behind> {
+/// What is behind walls for cells of the grid in a window, in their order.
+fn behind_walls(faces: &OpenShares, window: &Window) -> Vec<Behind> {
     let OpenShares { grid, solids, parts, .. } = *faces;
     let is_near_rock = |k: usize| {
         let rows = [k - grid.stride, k, k + grid.stride];
         rows.into_iter().flat_map(|k| k - 1..=k + 1).any(|k| !matches!(parts.room(k), Room::All | Room::None))
     };
-    let cells = (1..=grid.rows).flat_map(|j| grid.row(j) + 1..=grid.row(j) + grid.columns);
-    let with_room = cells.filter(|k| parts.room(*k) != Room::None);
+    let with_room = grid.cells_in(window).filter(|k| parts.room(*k) != Room::None);
     with_room.filter(|k| is_near_rock(*k)).filter_map(|k| Behind::new(grid, solids, parts, k)).collect()
 }
 
@@ -368,7 +417,7 @@ pub(super) fn fold_at_walls(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::element::ElementId;
+    use crate::{element::ElementId, random::Random};
 
     #[test]
     fn around_cells_with_an_open_face_no_rock_is_left_out() {
@@ -382,12 +431,12 @@ mod tests {
             solids.insert(cell, ElementId(0), 0);
         }
         let grid = MacGrid::new(size, 2.4);
-        let parts = Parts::new(&grid, &solids);
+        let parts = Parts::new(&grid, &solids, &grid.all());
         let [mut some, mut all] = [(); 2].map(|()| ClosedFaces::default());
-        for field in some.fields().into_iter().chain(all.fields()) {
+        for field in some.fields_mut().into_iter().chain(all.fields_mut()) {
             field.resize(grid.len(), 0.0);
         }
-        some.smear_rock(&grid, &solids, &parts);
+        some.smear_rock(&grid, &solids, &parts, &grid.all());
         solids.iter().for_each(|(cell, ..)| all.add_rock(&grid, centre(cell)));
         // A cell is shut if neither it nor any of those around it has room.
         let has_room = |k: usize| parts.room(k) != Room::None;
@@ -413,5 +462,62 @@ mod tests {
             }
         }
         assert!(shut > 200, "{shut} cells are shut");
+    }
+
+    #[test]
+    fn what_is_made_anew_near_a_change_is_as_if_all_were() {
+        let mut random = Random::new(11);
+        let (mut near, mut steps, mut thin) = (0, 0, [0; 2]);
+        for (cell, [width, height]) in [(2.4, [150, 120]), (1.5, [97, 61]), (2.0, [64, 90]), (4.3, [200, 150])] {
+            let mut solids = Solids::new(width, height);
+            let grid = MacGrid::new(Vec2::new(width as f32, height as f32), cell);
+            // A hill, over it walls two and three rocks thick, and a level one.
+            let is_rock = |IVec2 { x, y }: IVec2| y < 10 + x / 3 || x % 19 < 2 || x % 23 < 3 || (55..57).contains(&y);
+            let cells = (0..height as i32).flat_map(|y| (0..width as i32).map(move |x| IVec2::new(x, y)));
+            for at in cells.filter(|at| is_rock(*at)) {
+                solids.insert(at, ElementId(0), 0);
+            }
+            let (mut follows, mut gravity) = (ClosedFaces::default(), Vec2::NEG_Y);
+            for step in 0..60 {
+                // Of rock or in it, level, upright or slanting, single cells among them.
+                let corner = Vec2::new(random.share() * width as f32, random.share() * height as f32);
+                let (is_rock, slope) = (random.below(2) > 0, [0.0, 0.5, 1.0, -1.0][random.below(4)]);
+                let (long, thick) = (0.6 + 9.0 * random.share() * random.share(), 1.0 + 4.0 * random.share());
+                let is_upright = random.below(2) == 0;
+                let low = (corner - long - thick).as_ivec2().max(IVec2::ZERO);
+                let high = (corner + long + thick).as_ivec2().min(IVec2::new(width as i32, height as i32));
+                for at in (low.y..high.y).flat_map(|y| (low.x..high.x).map(move |x| IVec2::new(x, y))) {
+                    let from = centre(at) - corner;
+                    let from = if is_upright { Vec2::new(from.y, from.x) } else { from };
+                    let is_near = from.x.abs() < long && (from.y - slope * from.x).abs() < thick * 0.5;
+                    match is_rock {
+                        true if is_near => drop(solids.insert(at, ElementId(0), 0)),
+                        false if is_near => drop(solids.remove(at)),
+                        _ => (),
+                    }
+                }
+                if step == 40 {
+                    gravity = Vec2::X;
+                }
+                let before = follows.outline.clone();
+                follows.update(&grid, &solids, gravity);
+                let sites = before.clone().follow(&solids);
+                near += usize::from(sites.is_some_and(|sites| grid.window(sites).columns.len() < grid.columns / 4));
+                let mut anew = ClosedFaces::default();
+                anew.update(&grid, &solids, gravity);
+                assert_eq!(follows.rows, anew.rows, "step {step}, cells of {cell}");
+                assert!(follows.fields() == anew.fields(), "step {step}, cells of {cell}");
+                assert_eq!(follows.beside_walls, anew.beside_walls);
+                assert_eq!(follows.slivers, anew.slivers);
+                assert_eq!(follows.behind, anew.behind);
+                steps += 1;
+                thin = [thin[0] + anew.slivers.len(), thin[1] + anew.behind.len()];
+            }
+        }
+        assert!(near > steps / 4, "{near} of {steps} changes were small");
+        assert!(
+            thin.iter().all(|count| *count > 10 * steps),
+            "{thin:?} slivers, and cells with something behind walls"
+        );
     }
 }

@@ -240,6 +240,19 @@ impl Solids {
         })
     }
 
+    /// The cells with rock in some columns and rows, row by row from the bottom.
+    pub(crate) fn iter_in(&self, [across, up]: [Range<i32>; 2]) -> impl Iterator<Item = IVec2> + '_ {
+        let clamp = |range: Range<i32>, all: i32| range.start.clamp(0, all)..range.end.clamp(0, all);
+        let (across, up) = (clamp(across, self.columns), clamp(up, self.rows));
+        let rows = up.filter(|_| !self.element.is_empty());
+        rows.flat_map(move |y| {
+            let first = y as usize * self.columns as usize;
+            let row = &self.element[first + across.start as usize..first + across.end as usize];
+            let rock = across.clone().zip(row).filter(|(_, element)| **element != EMPTY);
+            rock.map(move |(x, _)| IVec2::new(x, y))
+        })
+    }
+
     /// The strides with rock, row by row from the bottom.
     #[inline(always)]
     pub(crate) fn strides(&self) -> impl Iterator<Item = Stride<'_>> {
