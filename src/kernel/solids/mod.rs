@@ -260,7 +260,7 @@ impl Solids {
         let rows = self.element.chunks(columns).enumerate();
         rows.flat_map(move |(y, row)| {
             let strides = row.chunks(STRIDE).zip((0..).step_by(STRIDE));
-            let rocky = strides.filter(|(elements, _)| **elements != [EMPTY; STRIDE][..elements.len()]);
+            let rocky = strides.filter(|(elements, _)| has_rock(elements));
             rocky.map(move |(elements, x)| {
                 let place = y * columns + x;
                 let heats = self.heat.get(place..place + elements.len()).unwrap_or_default();
@@ -278,6 +278,15 @@ impl Solids {
         if let Some(place) = self.index(first).filter(|_| !self.heat.is_empty()) {
             self.heat[place..place + heats.len()].copy_from_slice(heats);
         }
+    }
+}
+
+/// Whether any of a stride's cells is rock. A whole one is compared at once, for which its length must be known.
+#[inline(always)]
+fn has_rock(elements: &[u8]) -> bool {
+    match elements.first_chunk::<STRIDE>() {
+        Some(whole) => *whole != [EMPTY; STRIDE],
+        None => elements.iter().any(|element| *element != EMPTY),
     }
 }
 
