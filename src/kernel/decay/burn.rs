@@ -74,8 +74,11 @@ impl Decays {
         };
         self.particles.extend((0..particles.len() as u32).filter(fallen));
         self.rock.clear();
-        let fallen = solids.iter().filter(|(cell, element, id)| falls(*element, *id, solids.heat(*cell)));
-        self.rock.extend(fallen.map(|(cell, _, _)| cell));
+        solids.iter().for_each(|(cell, element, id)| {
+            if falls(element, id, solids.heat(cell)) {
+                self.rock.push(cell);
+            }
+        });
     }
 
     /// Leaves out those that need air and have none, before any of them is something else.

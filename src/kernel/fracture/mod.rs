@@ -71,8 +71,9 @@ pub fn fracture(
 fn broken(solids: &Solids, table: &FractureTable, air: &Air, (scale, thick): (Scale, i32)) -> Vec<IVec2> {
     let presses = |cell, out| if solids.is_solid(cell) { 0.0 } else { air.overpressure_at(centre(cell), out) };
     let mut cells = Vec::new();
-    for (cell, element, _) in solids.iter() {
-        let Some(Fracture { above, .. }) = table.of(element) else { continue };
+    solids.iter().for_each(|(cell, element, _)| {
+        let fracture = table.of(element).filter(|_| !solids.is_enclosed(cell));
+        let Some(Fracture { above, .. }) = fracture else { return };
         let own = layer(*above, air, scale);
         for out in [IVec2::NEG_X, IVec2::X, IVec2::NEG_Y, IVec2::Y] {
             let front = presses(cell + out, out);
@@ -90,7 +91,7 @@ fn broken(solids: &Solids, table: &FractureTable, air: &Air, (scale, thick): (Sc
                 _ => {}
             }
         }
-    }
+    });
     cells
 }
 

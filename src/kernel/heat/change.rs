@@ -24,8 +24,12 @@ pub fn change(warm: &mut Warm, record: &mut HeatRecord, relabelled: &mut Relabel
         return;
     }
     let (solids, table) = (&*warm.solids, warm.table);
-    let done = |(cell, element, _)| table.curve(element).done(solids.heat(cell)).map(|_| cell);
-    let cells: Vec<IVec2> = solids.iter().filter_map(done).collect();
+    let mut cells: Vec<IVec2> = Vec::new();
+    solids.iter().for_each(|(cell, element, _)| {
+        if table.curve(element).done(solids.heat(cell)).is_some() {
+            cells.push(cell);
+        }
+    });
     for cell in cells {
         let Some((element, _)) = warm.solids.get(cell) else { continue };
         let heat = warm.solids.heat(cell);

@@ -122,6 +122,13 @@ impl Solids {
         self.index(cell).is_none_or(|k| self.is_rock(k))
     }
 
+    /// Whether there is rock on all four sides of a cell. Beyond the box it is not known.
+    #[inline(always)]
+    pub(crate) fn is_enclosed(&self, cell: IVec2) -> bool {
+        const SIDES: u16 = bit(-1, 0) | bit(1, 0) | bit(0, -1) | bit(0, 1);
+        self.index(cell).and_then(|k| self.near.get(k)).is_some_and(|near| near & SIDES == SIDES)
+    }
+
     /// Whether there is rock in a cell and in all that are up to two away from it along each side. Beyond the box it is not known.
     pub(crate) fn is_deep(&self, cell: IVec2) -> bool {
         const ALL: u16 = (1 << 9) - 1;
