@@ -185,14 +185,18 @@ impl Exchange {
         let steps = (1.0 / least.max(1.0 / MOST_STEPS)).ceil();
         stepping.clear();
         stepping.resize(lumps.cells.len(), false);
-        let mut cuts = 0;
         let of_lumps = lumps.cell.iter().chain(&lumps.moving.cell);
-        for ((allowance, once), cell) in allowance.iter_mut().zip(once).zip(of_lumps) {
-            let is_whole = *allowance == 1.0;
-            *once = f32::from(u8::from(is_whole));
-            if !is_whole && *allowance > 0.0 {
+        let mut last = None;
+        allowance.iter().zip(of_lumps).for_each(|(allowance, cell)| {
+            // Those of a cell follow each other.
+            if *allowance > 0.0 && *allowance < 1.0 && last != Some(*cell) {
                 lumps.cells.mark_around(*cell as usize, stepping);
+                last = Some(*cell);
             }
+        });
+        let mut cuts = 0;
+        for (allowance, once) in allowance.iter_mut().zip(once) {
+            *once = if *allowance == 1.0 { 1.0 } else { 0.0 };
             *allowance = (*allowance * steps).min(1.0);
             cuts += u64::from(*allowance > 0.0 && *allowance < 1.0);
         }
