@@ -19,8 +19,7 @@ pub(super) struct Allow<'a> {
     /// The first lump of those that are written.
     pub base: usize,
     /// In: weights times √k′, and weights. Out: part of what a lump asks for in a tick that it can take, 1 if all and 0 where
-    /// nothing flows; its
-    /// surface, d; and heat that makes it a degree warmer, at least, quanta.
+    /// nothing flows; its surface, d; and heat that makes it a degree warmer, at least, quanta.
     pub out: [&'a mut [f32]; 3],
 }
 

@@ -349,6 +349,7 @@ pub fn centre(cell: IVec2) -> Vec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Random;
 
     pub(super) fn with_rock(cells: &[(i32, i32)]) -> Solids {
         let mut solids = Solids::new(100, 100);
@@ -401,6 +402,54 @@ mod tests {
             }
         }
         assert_eq!(Solids::new(5, 5).count_solid(-1..3, 0..5), 5);
+    }
+
+    #[test]
+    fn what_is_around_a_cell_is_known() {
+        let mut random = Random::new(5);
+        for share in [2, 4, 16] {
+            let mut solids = Solids::new(37, 30);
+            for y in 0..30 {
+                for x in 0..37 {
+                    if random.below(share * share) > 0 {
+                        solids.insert(IVec2::new(x, y), ElementId(0), 0);
+                    }
+                }
+            }
+            let is_rock = |cell: IVec2| solids.get(cell).is_some();
+            let (mut deep, mut enclosed) = (0, 0);
+            for cell in (0..30).flat_map(|y| (0..37).map(move |x| IVec2::new(x, y))) {
+                let square = (-2..=2).flat_map(|y| (-2..=2).map(move |x| IVec2::new(x, y)));
+                assert_eq!(solids.is_deep(cell), square.clone().all(|step| is_rock(cell + step)), "{cell}");
+                let sides = [IVec2::X, IVec2::Y, IVec2::NEG_X, IVec2::NEG_Y];
+                assert_eq!(solids.is_enclosed(cell), sides.into_iter().all(|side| is_rock(cell + side)), "{cell}");
+                deep += i32::from(solids.is_deep(cell));
+                enclosed += i32::from(solids.is_enclosed(cell));
+            }
+            assert!(enclosed > 10 && (share < 16 || deep > 10), "{enclosed} enclosed, {deep} deep");
+            for ranges in [[-3..5, 2..40], [16..17, 0..30], [40..50, 0..30], [5..5, 0..30]] {
+                let [across, up] = ranges.clone();
+                let inside = up.flat_map(|y| across.clone().map(move |x| IVec2::new(x, y)));
+                assert!(solids.iter_in(ranges).eq(inside.filter(|cell| is_rock(*cell))));
+            }
+        }
+        assert_eq!(Solids::new(5, 5).iter_in([0..5, 0..5]).count(), 0);
+    }
+
+    #[test]
+    fn a_strides_heat_is_that_of_its_cells() {
+        let mut solids = with_rock(&[(96, 7), (99, 7), (3, 7)]);
+        solids.set_heats(IVec2::new(96, 7), &[0; STRIDE]);
+        assert!(solids.heats().is_empty(), "room for no heat");
+        // The last stride of a row is shorter.
+        let mut heats = [0; STRIDE];
+        (heats[0], heats[3]) = (5, -6);
+        solids.set_heats(IVec2::new(96, 7), &heats);
+        let found: Vec<_> =
+            solids.strides().map(|stride| (stride.first.x, stride.len(), stride.heat(0), stride.heat(3))).collect();
+        assert_eq!(found, [(0, 16, 0, 0), (96, 4, 5, -6)]);
+        assert_eq!([99, 96, 3].map(|x| solids.heat(IVec2::new(x, 7))), [-6, 5, 0]);
+        assert_eq!(solids.heats().iter().filter(|heat| **heat != 0).count(), 2);
     }
 
     #[test]
