@@ -40,11 +40,11 @@ impl Allow<'_> {
     /// What lumps in lanes go by, `None` if nothing flows in any.
     #[inline(always)]
     fn lots(&self, lumps: Range<usize>) -> Option<Lots> {
-        let Lumps { cells, sites, moving, present, cell, element, .. } = self.lumps;
+        let Lumps { grid, sites, moving, present, cell, element, .. } = self.lumps;
         let mut lots = NONE;
         let mut take = |lane: usize, i: usize, cell: u32, is_there: bool| {
-            lots.flows[lane] = f32::from(u8::from(is_there && cells.flows[cell as usize]));
-            let slope = cells.slopes.of(element[i]);
+            lots.flows[lane] = f32::from(u8::from(is_there && grid.flows[cell as usize]));
+            let slope = grid.slopes.of(element[i]);
             (lots.held[lane], lots.openness[lane]) = (slope.held, slope.openness);
         };
         if let Some(first) = lumps.start.checked_sub(sites.len()) {

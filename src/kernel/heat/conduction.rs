@@ -118,8 +118,8 @@ impl Exchange {
 
     /// Finds how warm the lumps are.
     fn warm_up(&mut self, lumps: &Lumps, table: &HeatTable, threads: usize) {
-        let Lumps { heat, element, present, cells, .. } = lumps;
-        let slopes = &cells.slopes;
+        let Lumps { heat, element, present, grid, .. } = lumps;
+        let slopes = &grid.slopes;
         spread([&mut self.kelvin[..], &mut self.conduction], WORTH_A_PIECE, threads, &|first, [kelvin, conduction]| {
             let lumps = heat[first..].iter().zip(&element[first..]);
             for ((kelvin, conduction), (heat, element)) in kelvin.iter_mut().zip(conduction.iter_mut()).zip(lumps) {
@@ -133,7 +133,7 @@ impl Exchange {
     /// Finds how much is around each lump.
     fn look_around(&mut self, lumps: &Lumps, team: Team) {
         let Self { conduction, allowance, surface, shore, steps, .. } = self;
-        let (cells, flows, sites) = (&lumps.cells, &lumps.cells.flows[..], lumps.sites.len());
+        let (grid, flows, sites) = (&lumps.grid, &lumps.grid.flows[..], lumps.sites.len());
         let (of_sites, of_moving) = cut([&mut surface[..], allowance], sites);
         let (conduction, lattice) = (&conduction[..], Lattice { lumps, steps, flows });
         spread(of_sites, WORTH_A_PART, team.threads, &|base, out| {
@@ -141,7 +141,7 @@ impl Exchange {
         });
         let look = |own: &Sorted, others: &[(&Sorted, &[f32])], out: [&mut [f32]; 2]| {
             spread(out, WORTH_A_PART, team.threads, &|base, out| {
-                let nearby = Nearby { cells, flows, own };
+                let nearby = Nearby { grid, flows, own };
                 team.instructions.run(LookAround { nearby, others, base, out });
             });
         };
@@ -184,13 +184,13 @@ impl Exchange {
         }
         let steps = (1.0 / least.max(1.0 / MOST_STEPS)).ceil();
         stepping.clear();
-        stepping.resize(lumps.cells.len(), false);
+        stepping.resize(lumps.grid.len(), false);
         let of_lumps = lumps.cell.iter().chain(&lumps.moving.cell);
         let mut last = None;
         allowance.iter().zip(of_lumps).for_each(|(allowance, cell)| {
             // Those of a cell follow each other.
             if *allowance > 0.0 && *allowance < 1.0 && last != Some(*cell) {
-                lumps.cells.mark_around(*cell as usize, stepping);
+                lumps.grid.mark_around(*cell as usize, stepping);
                 last = Some(*cell);
             }
         });
@@ -206,8 +206,8 @@ impl Exchange {
     /// Finds what flows between lumps in a step.
     fn flow(&mut self, lumps: &Lumps, rates: &Rates, more: f32, team: Team) {
         let Self { kelvin, conduction, allowance, once, gained, stepping, shore, steps, .. } = self;
-        let (cells, sites, pairs) = (&lumps.cells, lumps.sites.len(), rates.pairs);
-        let flows = if more < 0.0 { &stepping[..] } else { &cells.flows[..] };
+        let (grid, sites, pairs) = (&lumps.grid, lumps.sites.len(), rates.pairs);
+        let flows = if more < 0.0 { &stepping[..] } else { &grid.flows[..] };
         let all = Exchanged { pairs, kelvin, conduction, allowance, once, more };
         let moving = Exchanged {
             kelvin: &kelvin[sites..],
@@ -226,7 +226,7 @@ impl Exchange {
         });
         let flow = |(own, exchanged): (&Sorted, Exchanged), others: &[(&Sorted, Exchanged)], gained: &mut [i32]| {
             spread([gained], WORTH_A_PART, team.threads, &|base, [gained]| {
-                let nearby = Nearby { cells, flows, own };
+                let nearby = Nearby { grid, flows, own };
                 team.instructions.run(Flow { nearby, exchanged, others, base, gained });
             });
         };

@@ -1,7 +1,7 @@
 //! The lumps that exchange heat, and those around them: rock on its lattice, and what moves, cell by cell.
 
 use super::{
-    cells::Cells,
+    grid::HeatGrid,
     matter::Warm,
     rates::Rates,
     sites::{PIECE, Sites},
@@ -16,7 +16,7 @@ use glam::{IVec2, Vec2};
 /// What exchanges heat. Fields of lumps have an entry a lump: first the [`Sites`] of rock, blank ones among them, then what moves.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Lumps {
-    pub cells: Cells,
+    pub grid: HeatGrid,
     pub sites: Sites,
     /// What moves, from its particles.
     pub moving: Sorted,
@@ -48,13 +48,13 @@ impl Lumps {
 
     /// Gathers the lumps.
     pub fn gather(&mut self, warm: &Warm, rates: &Rates) {
-        self.cells.find(warm, rates);
+        self.grid.find(warm, rates);
         self.heat.clear();
         self.element.clear();
         self.cell.clear();
         self.present.clear();
         self.sites.clear(warm.solids.columns(), warm.solids.rows());
-        if self.cells.flows.contains(&true) {
+        if self.grid.flows.contains(&true) {
             self.gather_rock(warm);
             self.gather_moving(warm);
             self.find_shore(warm.solids);
@@ -64,13 +64,13 @@ impl Lumps {
     }
 
     fn gather_rock(&mut self, warm: &Warm) {
-        let Self { cells, sites, heat, element, present, cell, .. } = self;
-        warm.solids.strides().filter(|stride| cells.needs(stride)).for_each(|stride| {
+        let Self { grid, sites, heat, element, present, cell, .. } = self;
+        warm.solids.strides().filter(|stride| grid.needs(stride)).for_each(|stride| {
             let first = sites.keep(stride.first);
             blank_to(first + PIECE, heat, element, present, cell);
             let (heat, element) = (&mut heat[first..], &mut element[first..]);
             let (present, cell) = (&mut present[first..], &mut cell[first..]);
-            for ((k, rock), of) in stride.sites().zip(cells.of_stride(&stride)) {
+            for ((k, rock), of) in stride.sites().zip(grid.of_stride(&stride)) {
                 heat[k] = stride.heat(k);
                 element[k] = rock.unwrap_or_default();
                 present[k] = f32::from(u8::from(rock.is_some()));
@@ -82,19 +82,19 @@ impl Lumps {
     }
 
     fn gather_moving(&mut self, warm: &Warm) {
-        let Self { cells, moving, heat, element, .. } = self;
+        let Self { grid, moving, heat, element, .. } = self;
         let particles = &*warm.particles;
-        let needed = cells.of_particles.iter().enumerate().filter(|(_, cell)| cells.needed[**cell as usize]);
-        moving.sort(cells.len(), needed.map(|(i, cell)| (*cell as usize, particles.position(i), i as u32)));
+        let needed = grid.of_particles.iter().enumerate().filter(|(_, cell)| grid.needed[**cell as usize]);
+        moving.sort(grid.len(), needed.map(|(i, cell)| (*cell as usize, particles.position(i), i as u32)));
         heat.extend(moving.source.iter().map(|i| particles.heat_of(*i as usize)));
         element.extend(moving.source.iter().map(|i| particles.element[*i as usize]));
     }
 
     fn find_shore(&mut self, solids: &Solids) {
-        let Self { cells, sites, moving, shore, present, cell, reached, near, .. } = self;
+        let Self { grid, sites, moving, shore, present, cell, reached, near, .. } = self;
         reached.clear();
-        reached.resize(cells.len(), false);
-        moving.cells().for_each(|cell| cells.mark_around(cell, reached));
+        reached.resize(grid.len(), false);
+        moving.cells().for_each(|cell| grid.mark_around(cell, reached));
         near.clear();
         for (first, site) in sites.pieces() {
             let at = |place: u32| site + IVec2::new((place as usize - first) as i32, 0);
@@ -113,7 +113,7 @@ impl Lumps {
             let k = *place as usize;
             sites.at(k).map(|site| (cell[k] as usize, centre(site), *place))
         };
-        shore.sort(cells.len(), near.iter().filter_map(lump));
+        shore.sort(grid.len(), near.iter().filter_map(lump));
     }
 
     /// Where a lump is, d; `None` if it is a blank piece's site.
@@ -136,12 +136,12 @@ impl Lumps {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        let Self { cells, sites, moving, shore, heat, element, present, cell, reached, near } = self;
+        let Self { grid, sites, moving, shore, heat, element, present, cell, reached, near } = self;
         let words = heat.capacity() + present.capacity() + cell.capacity() + near.capacity();
         4 * words
             + element.capacity()
             + reached.capacity()
-            + cells.memory()
+            + grid.memory()
             + sites.memory()
             + [moving, shore].map(Sorted::memory).iter().sum::<usize>()
     }

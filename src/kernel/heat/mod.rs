@@ -4,7 +4,7 @@
 //! ([`curve`], [`table`]). Once a tick
 //!
 //! 1. lumps whose change is done become another element ([`change`](change())),
-//! 2. lumps near one another are gathered, where temperatures differ ([`cells`]): rock on its lattice ([`sites`]), and what moves
+//! 2. lumps near one another are gathered, where temperatures differ ([`grid`]): rock on its lattice ([`sites`]), and what moves
 //!    with the rock that it may reach ([`sorted`]),
 //! 3. pairs exchange heat ([`lattice`], [`passes`]), and what stands in the air exchanges it with the air ([`conduction`]).
 //!
@@ -14,12 +14,12 @@
 
 mod allowances;
 mod brush;
-mod cells;
 mod change;
 mod conduction;
 pub mod curve;
 mod exchanged;
 mod exposure;
+mod grid;
 mod lattice;
 mod lumps;
 mod matter;

@@ -3,17 +3,23 @@
 //!
 //! What is beyond a lump's reach has no weight, and adds 0 to its sums: so a lane finds what its lump would by itself, to the bit.
 
-use super::{cells::Cells, exchanged::Exchanged, sorted::Sorted, weights::weight};
+use super::{exchanged::Exchanged, grid::HeatGrid, sorted::Sorted, weights::weight};
 use crate::simd::{Lanes, Pass};
 use std::ops::Range;
 
 /// Cells from one lump of a group to the next: as many as a group has around it that ends with the one and begins with the other.
 const WIDEST_GAP: usize = 3;
 
+/// Lumps that are worked on side by side, and the cells around any of them.
+struct Group {
+    lumps: Range<usize>,
+    around: [Range<usize>; 3],
+}
+
 /// The lumps that a pass works on, and where.
 #[derive(Clone, Copy)]
 pub(super) struct Nearby<'a> {
-    pub cells: &'a Cells,
+    pub grid: &'a HeatGrid,
     /// Cells in which anything flows.
     pub flows: &'a [bool],
     pub own: &'a Sorted,
@@ -21,19 +27,19 @@ pub(super) struct Nearby<'a> {
 
 impl Nearby<'_> {
     /// The lumps `range` in groups of up to `width`, each in one row of cells without a wide gap and with any in a cell in which
-    /// something flows; with the cells around each.
+    /// something flows.
     #[inline(always)]
-    fn groups(&self, range: Range<usize>, width: usize) -> impl Iterator<Item = (Range<usize>, [Range<usize>; 3])> {
+    fn groups(&self, range: Range<usize>, width: usize) -> impl Iterator<Item = Group> {
         let mut next = range.start;
         let cell = |k: usize| self.own.cell[k] as usize;
         std::iter::from_fn(move || {
             while next < range.end {
                 let first = next;
-                let most = self.own.row_end(self.cells, cell(first)).min(range.end).min(first + width);
+                let most = self.own.row_end(self.grid, cell(first)).min(range.end).min(first + width);
                 let end = (first + 1..most).find(|k| cell(*k) - cell(k - 1) > WIDEST_GAP).unwrap_or(most);
                 next = end;
                 if (first..end).any(|k| self.flows[cell(k)]) {
-                    return Some((first..end, self.cells.around(cell(first), cell(end - 1))));
+                    return Some(Group { lumps: first..end, around: self.grid.around(cell(first), cell(end - 1)) });
                 }
             }
             None
@@ -42,14 +48,9 @@ impl Nearby<'_> {
 
     /// Shows `visit` those of some lumps that are near a group, one by one, with the weights of each beside those of the group.
     #[inline(always)]
-    fn each<L: Lanes>(
-        &self,
-        (group, around): &(Range<usize>, [Range<usize>; 3]),
-        others: &Sorted,
-        mut visit: impl FnMut(usize, L),
-    ) {
-        let [x, y] = [&self.own.x, &self.own.y].map(|field| L::load(&field[group.clone()]));
-        for cells in around {
+    fn each<L: Lanes>(&self, group: &Group, others: &Sorted, mut visit: impl FnMut(usize, L)) {
+        let [x, y] = [&self.own.x, &self.own.y].map(|field| L::load(&field[group.lumps.clone()]));
+        for cells in &group.around {
             for j in others.of(cells.clone()) {
                 visit(j, weight(L::splat(others.x[j]) - x, L::splat(others.y[j]) - y));
             }
@@ -72,14 +73,14 @@ impl Pass for LookAround<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let Self { nearby, others, base, out: [whole, through] } = self;
-        for near in nearby.groups(base..base + whole.len(), L::WIDTH) {
+        for group in nearby.groups(base..base + whole.len(), L::WIDTH) {
             let mut sums = [L::splat(0.0); 2];
             for (others, conduction) in others {
-                nearby.each(&near, others, |j, weights: L| {
+                nearby.each(&group, others, |j, weights: L| {
                     sums = [sums[0] + weights, sums[1] + weights * L::splat(conduction[j])];
                 });
             }
-            let out = near.0.start - base..near.0.end - base;
+            let out = group.lumps.start - base..group.lumps.end - base;
             sums[0].store(&mut whole[out.clone()]);
             sums[1].store(&mut through[out]);
         }
@@ -103,16 +104,17 @@ impl Pass for Flow<'_> {
     fn run<L: Lanes>(self) {
         let Self { nearby, exchanged, others, base, gained } = self;
         gained.fill(0);
-        for near in nearby.groups(base..base + gained.len(), L::WIDTH) {
-            let own = exchanged.own(|field| L::load(&field[near.0.clone()]));
+        for group in nearby.groups(base..base + gained.len(), L::WIDTH) {
+            let own = exchanged.own(|field| L::load(&field[group.lumps.clone()]));
             let mut sums = L::no_sums();
             for (others, exchanged) in others {
-                nearby.each(&near, others, |j, weights: L| {
+                nearby.each(&group, others, |j, weights: L| {
                     let flow = own.flow(exchanged, weights, |field| L::splat(field[j]));
                     sums = flow.add_rounded(sums);
                 });
             }
-            gained[near.0.start - base..near.0.end - base].copy_from_slice(&L::sums(sums)[..near.0.len()]);
+            gained[group.lumps.start - base..group.lumps.end - base]
+                .copy_from_slice(&L::sums(sums)[..group.lumps.len()]);
         }
     }
 }

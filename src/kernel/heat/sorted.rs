@@ -1,6 +1,6 @@
 //! Lumps that are sorted into cells, so that what is near stands together.
 
-use super::cells::Cells;
+use super::grid::HeatGrid;
 use glam::Vec2;
 use std::ops::Range;
 
@@ -67,8 +67,8 @@ impl Sorted {
 
     /// The end of the lumps in a cell's row of cells.
     #[inline(always)]
-    pub fn row_end(&self, cells: &Cells, cell: usize) -> usize {
-        self.starts[cells.first_of(cells.row(cell) + 1)] as usize
+    pub fn row_end(&self, grid: &HeatGrid, cell: usize) -> usize {
+        self.starts[grid.first_of(grid.row(cell) + 1)] as usize
     }
 
     /// Bytes held.

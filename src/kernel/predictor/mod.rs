@@ -18,6 +18,7 @@ mod changes;
 mod conjugate;
 mod equation;
 mod flow;
+mod fold;
 mod grains;
 mod grid;
 mod letting_go;

@@ -4,8 +4,8 @@ use crate::{
     blocks::Blocks,
     parallel::{Rows, Sweep, Team, sweep},
     predictor::{
+        fold::fold_at_walls,
         grid::MacGrid,
-        rock::fold_at_walls,
         stencil::{Axis, LANES, Stencils},
     },
     simd::{Lanes, Pass},

@@ -36,7 +36,7 @@ impl Span {
 
 /// Cells of the exchange's reach, row by row, with one before and one behind each row, and a row below and above the box.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Cells {
+pub(super) struct HeatGrid {
     /// Cells of a row.
     stride: usize,
     rows: usize,
@@ -55,7 +55,7 @@ pub(super) struct Cells {
     of_columns: Vec<u32>,
 }
 
-impl Cells {
+impl HeatGrid {
     /// Number of cells.
     pub fn len(&self) -> usize {
         self.flows.len()
