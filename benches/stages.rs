@@ -70,7 +70,7 @@ fn stages(criterion: &mut Criterion) {
 
 /// Projects the same velocities each time.
 fn predictor(bencher: &mut Bencher, tank: &Tank) {
-    let mut predictor = Predictor::default();
+    let (mut predictor, mut room) = (Predictor::default(), [(); 3].map(|()| Vec::new()));
     let params = PredictorParams {
         domain: &tank.domain,
         cell: tank.quality.kernel_radius,
@@ -82,7 +82,7 @@ fn predictor(bencher: &mut Bencher, tank: &Tank) {
         threads: 1,
         dt: SUBSTEP,
     };
-    let project = |particles: &mut _| predictor.run(particles, &tank.solids, &params);
+    let project = |particles: &mut _| predictor.run(particles, &tank.solids, &params, room.each_mut());
     bencher.iter_batched_ref(|| tank.particles.clone(), project, BatchSize::SmallInput);
 }
 

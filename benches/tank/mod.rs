@@ -82,7 +82,7 @@ impl Tank {
             threads: 1,
             dt: SUBSTEP,
         };
-        predictor.run(particles, solids, &params);
+        predictor.run(particles, solids, &params, solver.room());
     }
 
     /// Velocities follow from the moves.

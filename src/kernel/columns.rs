@@ -1,7 +1,11 @@
 //! What every column of the particles can do, whatever its type.
 
 use crate::{element::ElementId, parallel::spread};
-use std::{mem::swap, ops::Range};
+use bytemuck::cast_vec;
+use std::{
+    mem::{swap, take},
+    ops::Range,
+};
 
 /// Fewer entries than this are not handed to another thread to be brought into an order.
 const WORTH_REORDERING: usize = 8192;
@@ -20,19 +24,26 @@ pub trait Column: Copy + Default + Send + Sync {
         true
     }
 
-    /// The buffer for columns of this type.
+    /// Lets `work` use the buffer for columns of this type.
     #[doc(hidden)]
-    fn spare<'a>(spares: &'a mut Spares) -> &'a mut Vec<Self>;
+    fn with_spare(spares: &mut Spares, work: impl FnOnce(&mut Vec<Self>));
 }
 
-/// A buffer for a column of each type, in which it is brought into another order. It is swapped with the column, so it then
-/// holds the column as it was.
+/// Buffers in which columns are brought into another order: one for all whose entries take four bytes. It is swapped with the
+/// column, so it then holds the column as it was.
 #[derive(Debug)]
 pub struct Spares<'a> {
-    pub(crate) floats: &'a mut Vec<f32>,
     pub(crate) words: &'a mut Vec<u32>,
     pub(crate) elements: &'a mut Vec<ElementId>,
-    pub(crate) heats: &'a mut Vec<i32>,
+}
+
+impl Spares<'_> {
+    /// The words as numbers of another type.
+    fn with_words<T: bytemuck::Pod>(&mut self, work: impl FnOnce(&mut Vec<T>)) {
+        let mut words = cast_vec(take(self.words));
+        work(&mut words);
+        *self.words = cast_vec(words);
+    }
 }
 
 impl Column for f32 {
@@ -46,8 +57,8 @@ impl Column for f32 {
         self.abs() < ABSURD
     }
 
-    fn spare<'a>(spares: &'a mut Spares) -> &'a mut Vec<Self> {
-        spares.floats
+    fn with_spare(spares: &mut Spares, work: impl FnOnce(&mut Vec<Self>)) {
+        spares.with_words(work);
     }
 }
 
@@ -57,8 +68,8 @@ impl Column for u32 {
         self
     }
 
-    fn spare<'a>(spares: &'a mut Spares) -> &'a mut Vec<Self> {
-        spares.words
+    fn with_spare(spares: &mut Spares, work: impl FnOnce(&mut Vec<Self>)) {
+        spares.with_words(work);
     }
 }
 
@@ -68,8 +79,8 @@ impl Column for i32 {
         self as u32
     }
 
-    fn spare<'a>(spares: &'a mut Spares) -> &'a mut Vec<Self> {
-        spares.heats
+    fn with_spare(spares: &mut Spares, work: impl FnOnce(&mut Vec<Self>)) {
+        spares.with_words(work);
     }
 }
 
@@ -79,8 +90,8 @@ impl Column for ElementId {
         u32::from(self.0)
     }
 
-    fn spare<'a>(spares: &'a mut Spares) -> &'a mut Vec<Self> {
-        spares.elements
+    fn with_spare(spares: &mut Spares, work: impl FnOnce(&mut Vec<Self>)) {
+        work(spares.elements);
     }
 }
 
@@ -137,12 +148,13 @@ fn put_there<T: Column>(column: &mut Vec<T>, i: usize, value: T, len: usize) {
 
 /// Brings a column into an order: at each place comes the entry that was at `order[place]`.
 pub(crate) fn reorder<T: Column>(column: &mut Vec<T>, order: &[u32], spares: &mut Spares, threads: usize) {
-    let spare = T::spare(spares);
-    spare.resize(column.len(), T::default());
-    spread([&mut spare[..]], WORTH_REORDERING, threads, &|base, [sorted]| {
-        fetch(sorted, column, &order[base..base + sorted.len()]);
+    T::with_spare(spares, |spare| {
+        spare.resize(column.len(), T::default());
+        spread([&mut spare[..]], WORTH_REORDERING, threads, &|base, [sorted]| {
+            fetch(sorted, column, &order[base..base + sorted.len()]);
+        });
+        swap(column, spare);
     });
-    swap(column, spare);
 }
 
 /// Sets each value to that at its place in `order`. A function of its own, so that the compiler knows of slices that do not

@@ -12,9 +12,12 @@ const FEWEST_GROUPS: usize = 64;
 /// [`Group::lanes`] of a group of which all are worked on.
 pub(crate) const ALL_LANES: u16 = u16::MAX;
 
-/// A run of consecutive particles with the runs of candidates that may touch any of them. 56 bytes.
+/// A run of consecutive particles with the runs of candidates that may touch any of them; those of rock are held
+/// apart, as most boxes have none near ([`RockBins::around`](super::rock::RockBins::around)). 36 bytes.
 #[derive(Clone, Debug, Default)]
 pub struct Group {
+    /// Its number among all groups.
+    pub number: u32,
     /// First particle.
     pub first: u32,
     /// Lanes that are worked on, the lowest bit for the first of [`MOST_LANES`] particles; [`ALL_LANES`] for all that
@@ -26,8 +29,6 @@ pub struct Group {
     pub near_wall: bool,
     /// Movable candidates, one run a strip.
     pub movable: [Run; 3],
-    /// Rock candidates, one run a strip.
-    pub rock: [Run; 3],
 }
 
 /// A run of consecutive entries.

@@ -4,7 +4,6 @@ use crate::{
     bins::{
         cells::CellGrid,
         group::{ALL_LANES, Group, Run},
-        rock::RockBins,
         sort::Sort,
     },
     parallel::{Parts, fork, piece},
@@ -29,7 +28,8 @@ pub(super) struct StripGroups {
 pub(super) struct Cutter<'a> {
     pub grid: &'a CellGrid,
     pub starts: &'a [u32],
-    pub rock: &'a RockBins,
+    /// First rock of each cell; empty where there is none.
+    pub rock: &'a [u32],
     /// Sorted positions, d.
     pub x: &'a [f32],
     /// Particles in a group at most.
@@ -68,18 +68,24 @@ impl Cutter<'_> {
         groups as usize
     }
 
-    /// Fills the groups of strips in; `groups` begin with those of the first.
-    pub fn fill(&self, strips: &[StripGroups], groups: &mut [Group], threads: usize) {
+    /// Fills the groups of strips in, and the runs of rock of each, where there is any; both begin with those of the first.
+    pub fn fill(&self, strips: &[StripGroups], groups: &mut [Group], rock: &mut [[Run; 3]], threads: usize) {
         let most = piece(groups.len(), threads, WORTH_A_PIECE);
-        fork(Filling { strips, groups }, most, &|part: Filling| {
-            let mut groups = part.groups.iter_mut();
+        fork(Filling { strips, groups, rock }, most, &|part: Filling| {
+            let (mut groups, mut rock) = (part.groups.iter_mut(), part.rock.iter_mut());
             for strip in part.strips {
-                self.fill_strip(strip.strip as usize, &mut groups);
+                self.fill_strip(strip, &mut groups, &mut rock);
             }
         });
     }
 
-    fn fill_strip<'g>(&self, strip: usize, groups: &mut impl Iterator<Item = &'g mut Group>) {
+    fn fill_strip<'g>(
+        &self,
+        &StripGroups { strip, first: mut number }: &StripGroups,
+        groups: &mut impl Iterator<Item = &'g mut Group>,
+        rock: &mut impl Iterator<Item = &'g mut [Run; 3]>,
+    ) {
+        let strip = strip as usize;
         let near_floor_or_top = self.grid.is_near_floor_or_top(strip);
         self.for_each(strip, |first, next, low, high| {
             let columns = self.grid.columns_around(low, high);
@@ -91,22 +97,27 @@ impl Cutter<'_> {
             };
             if let Some(group) = groups.next() {
                 *group = Group {
+                    number,
                     first: first as u32,
                     lanes: ALL_LANES,
                     len: (next - first) as u8,
                     near_wall: near_floor_or_top || self.grid.is_near_side(low, high),
                     movable: runs(self.starts),
-                    rock: if self.rock.starts.is_empty() { Default::default() } else { runs(&self.rock.starts) },
                 };
             }
+            if let Some(rock) = rock.next() {
+                *rock = runs(self.rock);
+            }
+            number += 1;
         });
     }
 }
 
-/// Strips with their groups.
+/// Strips with their groups, and with the rock of each, where there is any.
 struct Filling<'a> {
     strips: &'a [StripGroups],
     groups: &'a mut [Group],
+    rock: &'a mut [[Run; 3]],
 }
 
 impl Parts for Filling<'_> {
@@ -119,7 +130,12 @@ impl Parts for Filling<'_> {
         let half = (self.groups.len() / 2) as u32 + self.strips[0].first;
         let middle = self.strips.partition_point(|strip| strip.first < half).clamp(1, self.strips.len() - 1);
         let (lower, upper) = self.strips.split_at(middle);
-        let (lower_groups, upper_groups) = self.groups.split_at_mut((upper[0].first - lower[0].first) as usize);
-        (Self { strips: lower, groups: lower_groups }, Self { strips: upper, groups: upper_groups })
+        let count = (upper[0].first - lower[0].first) as usize;
+        let (lower_groups, upper_groups) = self.groups.split_at_mut(count);
+        let (lower_rock, upper_rock) = self.rock.split_at_mut(count.min(self.rock.len()));
+        (
+            Self { strips: lower, groups: lower_groups, rock: lower_rock },
+            Self { strips: upper, groups: upper_groups, rock: upper_rock },
+        )
     }
 }

@@ -1,7 +1,10 @@
 //! Rock, binned into the same cells as the particles, once for every change of it.
 
 use crate::{
-    bins::cells::CellGrid,
+    bins::{
+        cells::CellGrid,
+        group::{Group, Run},
+    },
     solids::{Solids, centre},
 };
 
@@ -15,6 +18,8 @@ pub struct RockBins {
     pub y: Vec<f32>,
     /// First entry of each cell and the one after the last; empty where there is no rock.
     pub(super) starts: Vec<u32>,
+    /// Rock candidates of each group, one run a strip; empty where there is no rock.
+    pub(super) runs: Vec<[Run; 3]>,
 }
 
 impl RockBins {
@@ -45,8 +50,15 @@ impl RockBins {
         });
     }
 
+    /// Runs of rock that may touch any particle of a group.
+    #[inline(always)]
+    pub fn around(&self, group: &Group) -> [Run; 3] {
+        self.runs.get(group.number as usize).copied().unwrap_or_default()
+    }
+
     /// Bytes held.
     pub(super) fn memory(&self) -> usize {
         4 * (self.x.capacity() + self.y.capacity() + self.starts.capacity())
+            + size_of::<[Run; 3]>() * self.runs.capacity()
     }
 }

@@ -59,8 +59,8 @@ impl Bins {
     }
 
     /// Sorts the particles by cell and builds the groups over them, as wide as the lanes. Within a cell the order stays.
-    /// `spare` is a buffer for a column of numbers, `order` another, in which no number is left; `settle` may then change the positions
-    /// of each strip.
+    /// `spare` and `order` are buffers for a number of each particle, in which none is left; `settle` may then change the positions of
+    /// each strip.
     pub(crate) fn bin(
         &mut self,
         particles: &mut Particles,
@@ -70,10 +70,13 @@ impl Bins {
         threads: usize,
         settle: &(impl Fn(Strip) + Sync),
     ) {
+        spare.resize(particles.len(), 0.0);
         order.resize(particles.len(), 0.0);
+        let mut words = bytemuck::cast_vec(std::mem::take(spare));
         let source: &mut [u32] = bytemuck::cast_slice_mut(order);
-        self.sort.place(&self.grid, [&particles.x, &particles.y], source, instructions, threads);
-        self.sort.reorder(particles, source, spare, threads);
+        self.sort.place(&self.grid, [&particles.x, &particles.y], [&mut words, source], instructions, threads);
+        self.sort.reorder(particles, source, &mut words, threads);
+        *spare = bytemuck::cast_vec(words);
         self.sort.settle(&self.grid, particles, threads, settle);
         match neighbours {
             Neighbours::Binned => self.group(&particles.x, instructions.width(), threads),
@@ -84,26 +87,26 @@ impl Bins {
     /// Cuts the sorted particles into groups of up to `width`.
     pub(super) fn group(&mut self, x: &[f32], width: usize, threads: usize) {
         let Self { grid, sort, strips, groups, rock, .. } = self;
-        let cutter = Cutter { grid, starts: &sort.starts, rock, x, width };
+        let cutter = Cutter { grid, starts: &sort.starts, rock: &rock.starts, x, width };
         let count = cutter.count(sort, strips);
-        if count > groups.capacity() {
-            groups.reserve_exact(count + count / SPARE_GROUPS - groups.len());
-        }
-        groups.resize_with(count, Group::default);
-        cutter.fill(strips, groups, threads);
+        resize(groups, count);
+        resize(&mut rock.runs, if rock.starts.is_empty() { 0 } else { count });
+        cutter.fill(strips, groups, &mut rock.runs, threads);
     }
 
     fn group_with_all(&mut self, particles: usize, width: usize) {
         let all = |len: usize| [Run::new(0, len as u32), Run::default(), Run::default()];
         self.groups.clear();
-        self.groups.extend((0..particles).step_by(width).map(|first| Group {
+        self.groups.extend((0..).zip((0..particles).step_by(width)).map(|(number, first)| Group {
+            number,
             first: first as u32,
             lanes: ALL_LANES,
             len: width.min(particles - first) as u8,
             near_wall: true,
             movable: all(particles),
-            rock: all(self.rock.x.len()),
         }));
+        self.rock.runs.clear();
+        self.rock.runs.resize(self.groups.len(), all(self.rock.x.len()));
     }
 
     /// The particles of each cell in which there are `fill` or more to a d², and eight at least.
@@ -141,4 +144,12 @@ impl Bins {
             + size_of::<Group>() * self.groups.capacity()
             + self.focus.memory()
     }
+}
+
+/// Makes room for `count` entries, and for few more.
+fn resize<T: Clone + Default>(entries: &mut Vec<T>, count: usize) {
+    if count > entries.capacity() {
+        entries.reserve_exact(count + count / SPARE_GROUPS - entries.len());
+    }
+    entries.resize(count, T::default());
 }

@@ -25,7 +25,7 @@ const WORTH_A_LOOK: usize = 32;
 /// Fewer particles than this do not pay for a segment of their own.
 const WORTH_A_SEGMENT: usize = 2048;
 
-/// The sort's own buffers: 5 bytes a particle and 4 a cell.
+/// The sort's own buffers: a byte a particle and 4 a cell.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sort {
     /// Strips that hold particles.
@@ -35,12 +35,9 @@ pub(super) struct Sort {
     pub starts: Vec<u32>,
     /// Columns near particles.
     columns: Range<usize>,
-    /// Cell of each particle in the order from before; then a buffer to reorder a column.
-    keys: Vec<u32>,
     /// Lowest and highest cell in each block of particles.
     blocks: Vec<[u32; 2]>,
     spare_elements: Vec<ElementId>,
-    spare_heats: Vec<i32>,
     segments: Vec<Segment>,
 }
 
@@ -52,19 +49,20 @@ struct Segment {
 }
 
 impl Sort {
-    /// Finds the order of the particles by cell: where each cell's begin, and for each place which particle comes there (`source`).
+    /// Finds the order of the particles by cell: where each cell's begin, the cell of each in the order from before (`keys`), and
+    /// for each place which particle comes there (`source`).
     pub fn place(
         &mut self,
         grid: &CellGrid,
         [x, y]: [&[f32]; 2],
-        source: &mut [u32],
+        [keys, source]: [&mut [u32]; 2],
         instructions: InstructionSet,
         threads: usize,
     ) {
-        let found = self.find_cells(grid, x, y, instructions, threads);
-        self.cut_into_segments(grid, found, x.len(), threads);
+        let found = self.find_cells(grid, [x, y], keys, instructions, threads);
+        self.cut_into_segments(grid, found, keys, threads);
         self.columns = grid.columns_near(extent(x, instructions));
-        let Self { starts, columns, keys, blocks, segments, .. } = self;
+        let Self { starts, columns, blocks, segments, .. } = self;
         if let Some(first) = segments.first() {
             let ends = &mut starts[1 + first.cells.start..];
             let unsorted = Unsorted { stride: grid.columns, columns, keys, blocks };
@@ -74,11 +72,10 @@ impl Sort {
         }
     }
 
-    /// Brings all columns of the particles into the order that was found. `floats` is a buffer for one of them, and is left with
+    /// Brings all columns of the particles into the order that was found. `words` is a buffer for one of them, and is left with
     /// what one of them held.
-    pub fn reorder(&mut self, particles: &mut Particles, source: &[u32], floats: &mut Vec<f32>, threads: usize) {
-        let Self { keys: words, spare_elements: elements, spare_heats: heats, .. } = self;
-        particles.reorder(source, Spares { floats, words, elements, heats }, threads);
+    pub fn reorder(&mut self, particles: &mut Particles, source: &[u32], words: &mut Vec<u32>, threads: usize) {
+        particles.reorder(source, Spares { words, elements: &mut self.spare_elements }, threads);
     }
 
     /// Lets `settle` change the positions of each strip of the sorted particles within their cells.
@@ -92,15 +89,14 @@ impl Sort {
     fn find_cells(
         &mut self,
         grid: &CellGrid,
-        x: &[f32],
-        y: &[f32],
+        [x, y]: [&[f32]; 2],
+        keys: &mut [u32],
         instructions: InstructionSet,
         threads: usize,
     ) -> Range<usize> {
-        self.keys.resize(x.len(), 0);
         self.blocks.resize(x.len().div_ceil(BLOCK), [0; 2]);
         let count = self.blocks.len();
-        let band = (Rows { field: &mut self.keys[..], stride: BLOCK }, Rows { field: &mut self.blocks[..], stride: 1 });
+        let band = (Rows { field: keys, stride: BLOCK }, Rows { field: &mut self.blocks[..], stride: 1 });
         fork((0..count, band), piece(count, threads, WORTH_A_LOOK), &|(whole, (keys, blocks))| {
             let own = whole.start * BLOCK..whole.start * BLOCK + keys.field.len();
             instructions.run(FindCells {
@@ -118,8 +114,9 @@ impl Sort {
     }
 
     /// Cuts the cells of `found` strips into segments of about as many particles each as the last sort found there.
-    fn cut_into_segments(&mut self, grid: &CellGrid, found: Range<usize>, count: usize, threads: usize) {
-        let Self { strips, starts, keys, blocks, segments, .. } = self;
+    fn cut_into_segments(&mut self, grid: &CellGrid, found: Range<usize>, keys: &[u32], threads: usize) {
+        let Self { strips, starts, blocks, segments, .. } = self;
+        let count = keys.len();
         if starts.len() != grid.cells() + 1 {
             starts.clear();
             starts.resize(grid.cells() + 1, 0);
@@ -163,10 +160,9 @@ impl Sort {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        4 * (self.starts.capacity() + self.keys.capacity())
+        4 * self.starts.capacity()
             + 8 * self.blocks.capacity()
             + self.spare_elements.capacity()
-            + 4 * self.spare_heats.capacity()
             + size_of::<Segment>() * self.segments.capacity()
     }
 }

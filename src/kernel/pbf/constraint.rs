@@ -93,7 +93,7 @@ impl<G: Gradient, const MASSES: bool> Pass for ConstraintPass<'_, G, MASSES> {
                     add!(places.map(|(x, y)| (*x, *y, 1.0_f32)), true);
                 }
             }
-            for run in group.rock {
+            for run in self.rock.around(group) {
                 let places = self.rock.x[run.range()].iter().zip(&self.rock.y[run.range()]);
                 add!(places.map(|(x, y)| (*x, *y, 1.0_f32)), false);
             }

@@ -104,7 +104,7 @@ impl<G: Gradient, const TENSION: bool, const APART: bool, const MASSES: bool> Pa
                     add!(near.map(|((x, y), lambda)| (*x, *y, *lambda, 0.0_f32)));
                 }
             }
-            for run in group.rock {
+            for run in self.rock.around(group) {
                 for (&xj, &yj) in self.rock.x[run.range()].iter().zip(&self.rock.y[run.range()]) {
                     let (dx, dy) = (xi - L::splat(xj), yi - L::splat(yj));
                     let r2 = dx * dx + dy * dy;

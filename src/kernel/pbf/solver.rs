@@ -43,10 +43,9 @@ pub struct Solver {
     /// corrections keep within the correction limit of that.
     pub(crate) x: Vec<f32>,
     pub(crate) y: Vec<f32>,
-    /// Outputs of a pass.
+    /// Outputs of a pass; in between, others work in them ([`Solver::room`]).
     pub(crate) next_x: Vec<f32>,
     pub(crate) next_y: Vec<f32>,
-    /// Output of a pass, and a buffer of the sort.
     pub(crate) lambda: Vec<f32>,
     /// Masses as shares of the heaviest; empty where all are alike.
     pub(crate) masses: Vec<f32>,
@@ -96,6 +95,11 @@ impl Solver {
             aim: 1.0,
             substeps: 1,
         }
+    }
+
+    /// Buffers in which nothing is kept between its passes, for others to work in.
+    pub fn room(&mut self) -> [&mut Vec<f32>; 3] {
+        [&mut self.lambda, &mut self.next_x, &mut self.next_y]
     }
 
     /// Bytes held.

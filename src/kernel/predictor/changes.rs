@@ -52,11 +52,6 @@ impl Changes<'_> {
             let work = FillIn { grid, near, columns, known, changes: [gained, drift], matter };
             sweep(&work, all.clone(), Rows::new(ways, grid.stride, &all), columns.len(), WORTH_A_PIECE, team);
         }
-        // The solver expects its padding empty.
-        for j in around {
-            let padding = grid.row(j) + grid.columns + 1;
-            (gained[padding], drift[padding], known[padding]) = (0.0, 0.0, 0.0);
-        }
     }
 }
 

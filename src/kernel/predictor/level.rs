@@ -14,7 +14,8 @@ const LEAST_DIAGONAL: f32 = 1e-3;
 pub(super) const WORTH_A_PIECE: usize = 4096;
 
 /// The equation `diagonal x_c − Σ coupling x_n = b` on one level. Cells are indexed as in `MacGrid`. In the padding left
-/// and right all fields are 0.
+/// and right all fields are 0. What the finest level works in holds something else between two solves: the operator's memory
+/// ([`Operator::exchange`]), and that of the vectors `x`, `b` and `work` ([`Level::borrow`]).
 #[derive(Clone, Debug)]
 pub(super) struct Level {
     pub columns: usize,
@@ -80,7 +81,7 @@ impl Level {
     /// The level of `columns × rows` cells that is coarser by `depth` steps than the grid.
     pub fn new(columns: usize, rows: usize, depth: usize) -> Self {
         let stride = columns + 2;
-        let field = || vec![0.0; stride * (rows + 3)];
+        let field = || if depth > 0 { vec![0.0; stride * (rows + 3)] } else { Vec::new() };
         Self {
             columns,
             stride,
@@ -90,6 +91,31 @@ impl Level {
             b: field(),
             work: field(),
         }
+    }
+
+    /// Takes memory for its vectors of so many cells with the padding: that of `room`, where a number of each particle takes at least
+    /// as much, else its own. Were `room` made larger for it, all columns of the particles would be in time, as they go round. What is
+    /// in there does not matter. Returns whether it is that of `room`.
+    pub fn borrow(&mut self, room: [&mut Vec<f32>; 3], cells: usize, particles: usize) -> bool {
+        let fields = [&mut self.x, &mut self.b, &mut self.work];
+        let is_large = fields.iter().all(|field| field.is_empty()) && room.iter().all(|room| room.capacity() >= cells);
+        let is_lent = is_large || particles >= cells;
+        for (field, room) in fields.into_iter().zip(room) {
+            if is_lent {
+                *field = std::mem::take(room);
+            }
+            if is_lent && field.capacity() < cells {
+                *field = Vec::with_capacity(particles);
+            }
+            field.resize(cells, 0.0);
+        }
+        is_lent
+    }
+
+    /// Gives that memory back.
+    pub fn give_back(&mut self, room: [&mut Vec<f32>; 3]) {
+        let fields = [&mut self.x, &mut self.b, &mut self.work];
+        fields.into_iter().zip(room).for_each(|(field, room)| *room = std::mem::take(field));
     }
 
     /// Clears around what is wet now; the caller fills the operator in there.
@@ -110,16 +136,16 @@ impl Level {
         Equation { wet: &self.wet, stride: self.stride, diagonal, damped, right, upper, b: &self.b }
     }
 
-    /// Takes the operator's memory back, if it is lent, and empties its padding.
+    /// Takes the operator's memory back, if it is lent, and empties the padding of what may hold something else.
     pub fn take_back(&mut self, lent: &mut Lent) {
-        if !self.operator.is_lent() {
-            return;
+        if self.operator.is_lent() {
+            self.operator.exchange(lent);
         }
-        self.operator.exchange(lent);
-        let (stride, columns, near) = (self.stride, self.columns, self.wet.rows_around());
-        for field in self.operator.fields_mut() {
-            for row in near.clone() {
-                (field[row * stride], field[row * stride + columns + 1]) = (0.0, 0.0);
+        let Self { columns, stride, wet, operator, x, b, work } = self;
+        let [diagonal, damped, right, upper] = operator.fields_mut();
+        for field in [diagonal, damped, right, upper, x, b, work] {
+            for row in wet.rows_around() {
+                (field[row * *stride], field[row * *stride + *columns + 1]) = (0.0, 0.0);
             }
         }
     }

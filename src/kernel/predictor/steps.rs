@@ -115,8 +115,15 @@ impl Predictor {
     }
 
     /// Makes the moves of the particles nearly keep the volume where they are liquid, by their velocities, and moves
-    /// them to where it is too thin from where it is too dense, which leaves velocities as they are.
-    pub fn run(&mut self, particles: &mut Particles, solids: &Solids, params: &PredictorParams) -> PredictorReport {
+    /// them to where it is too thin from where it is too dense, which leaves velocities as they are. It works in `room`, where
+    /// others keep a number of each particle: what is in there does not matter, and nothing that matters is left.
+    pub fn run(
+        &mut self,
+        particles: &mut Particles,
+        solids: &Solids,
+        params: &PredictorParams,
+        mut room: [&mut Vec<f32>; 3],
+    ) -> PredictorReport {
         let grid = MacGrid::new(params.domain.size, params.cell);
         if self.grid != grid {
             let pressure = std::mem::take(&mut self.conjugate.solution);
@@ -127,6 +134,8 @@ impl Predictor {
                 self.conjugate.resume(pressure, 1..grid.rows + 1, 1..grid.columns + 1);
             }
         }
+        let finest = self.hierarchy.finest();
+        let is_lent = finest.borrow(room.each_mut().map(|room| &mut **room), grid.len(), particles.len());
         let team = Team { instructions: params.instructions, threads: params.threads };
         self.closed.update(&grid, solids, params.domain.gravity);
         self.faces.collect(&grid, particles, params.masses, team);
@@ -157,6 +166,9 @@ impl Predictor {
             team,
             report: &mut report,
         });
+        if is_lent {
+            self.hierarchy.finest().give_back(room);
+        }
         self.liquid = report.liquid;
         if report.liquid {
             let PredictorParams { domain, drawn, dt, .. } = *params;

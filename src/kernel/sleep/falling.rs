@@ -22,22 +22,20 @@ impl Sleep {
         self.resize(size);
         self.rock = rock_version;
         self.look(particles, rising);
-        let Self { grid, record, tally, flags, waiting, body, .. } = &mut *self;
+        let Self { grid, record, tally, flags, body, .. } = &mut *self;
         let mut falls_asleep = false;
         for tile in 0..grid.len() {
             if tally[tile].count == 0 {
                 continue;
             }
-            body.clear();
             let mut is_calm = true;
-            grid.flood(tile, waiting, |tile| {
+            grid.flood(tile, body, |tile| {
                 let found = std::mem::take(&mut tally[tile]);
-                if found.count == 0 {
-                    return false;
+                let enters = found.count > 0;
+                if enters {
+                    is_calm &= found.judge(&mut record.tiles[tile]);
                 }
-                is_calm &= found.judge(&mut record.tiles[tile]);
-                body.push(tile as u32);
-                true
+                enters
             });
             let mut looks = LOOKS;
             for &tile in &*body {

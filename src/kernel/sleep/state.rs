@@ -54,7 +54,6 @@ pub struct Sleep {
     pub(super) tally: Vec<Tally>,
     /// Tiles of the body at hand.
     pub(super) body: Vec<u32>,
-    pub(super) waiting: Vec<u32>,
     /// The sleepers as they fell asleep, to see whether anything touched them.
     pub(super) x: Vec<f32>,
     pub(super) y: Vec<f32>,
@@ -97,7 +96,7 @@ impl Sleep {
     /// Bytes held.
     pub fn memory(&self) -> usize {
         self.flags.capacity()
-            + 4 * (self.tiles.capacity() + self.drag.capacity() + self.waiting.capacity() + self.body.capacity())
+            + 4 * (self.tiles.capacity() + self.drag.capacity() + self.body.capacity())
             + size_of::<Tally>() * self.tally.capacity()
             + size_of::<Calm>() * self.record.tiles.capacity()
             + 4 * (self.x.capacity() + self.y.capacity() + self.id.capacity())
@@ -114,7 +113,6 @@ impl Sleep {
             self.grid = grid;
             self.flags = vec![0; grid.len()];
             // A flood enters each tile once.
-            self.waiting.reserve(grid.len());
             self.body.reserve(grid.len());
         }
         if self.record.tiles.len() != grid.len() {

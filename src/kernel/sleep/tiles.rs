@@ -49,16 +49,15 @@ impl TileGrid {
         (0..9).map(move |k| corner + k / 3 * stride + k % 3)
     }
 
-    /// Calls `visit` for every tile that is connected with `start` through tiles that `enters` lets in, `start` included.
-    /// Tiles that touch at a corner are connected. `enters` must turn down a tile that it has let in before.
-    pub fn flood(&self, start: usize, waiting: &mut Vec<u32>, mut enters: impl FnMut(usize) -> bool) {
-        if !enters(start) {
-            return;
-        }
-        waiting.clear();
-        waiting.push(start as u32);
-        while let Some(tile) = waiting.pop() {
-            waiting.extend(self.around(tile as usize).filter(|&near| enters(near)).map(|near| near as u32));
+    /// Finds the tiles that are connected with `start` through tiles that `enters` lets in, `start` included. Tiles that touch at
+    /// a corner are connected. `enters` must turn down a tile that it has let in before.
+    pub fn flood(&self, start: usize, found: &mut Vec<u32>, mut enters: impl FnMut(usize) -> bool) {
+        found.clear();
+        found.extend(enters(start).then_some(start as u32));
+        let mut next = 0;
+        while let Some(&tile) = found.get(next) {
+            found.extend(self.around(tile as usize).filter(|&near| enters(near)).map(|near| near as u32));
+            next += 1;
         }
     }
 }
@@ -92,15 +91,9 @@ mod tests {
         let body = [of(1.0, 1.0), of(2.0, 2.0), of(3.0, 2.0), of(0.0, 0.0)];
         body.iter().chain([&of(5.0, 2.0)]).for_each(|&tile| open[tile] = true);
         let mut found = Vec::new();
-        grid.flood(body[0], &mut Vec::new(), |tile| {
-            let enters = std::mem::take(&mut open[tile]);
-            if enters {
-                found.push(tile);
-            }
-            enters
-        });
+        grid.flood(body[0], &mut found, |tile| std::mem::take(&mut open[tile]));
         found.sort_unstable();
-        let mut expected = body.to_vec();
+        let mut expected = body.map(|tile| tile as u32);
         expected.sort_unstable();
         assert_eq!(found, expected);
     }

@@ -137,8 +137,8 @@ impl Sleep {
 
     /// Marks the body that has a tile as to wake.
     fn mark_body(&mut self, tile: usize) {
-        let Self { grid, flags, waiting, .. } = self;
-        grid.flood(tile, waiting, |tile| {
+        let Self { grid, flags, body, .. } = self;
+        grid.flood(tile, body, |tile| {
             let enters = flags[tile] & (ASLEEP | CHANGES) == ASLEEP;
             flags[tile] |= if enters { CHANGES } else { 0 };
             enters

@@ -113,7 +113,7 @@ pub(super) fn apply_drag(
 pub(super) fn predict_pressure(
     mut particles: ResMut<ParticleStore>,
     mut predictor: ResMut<PredictorState>,
-    solver: Res<SolverState>,
+    mut solver: ResMut<SolverState>,
     (elements, shares, apart): (Res<Elements>, Res<MassShares>, Res<Apart>),
     rock: Res<Rock>,
     setup: Res<Setup>,
@@ -136,7 +136,7 @@ pub(super) fn predict_pressure(
             threads,
             dt: plan.substep_seconds(),
         };
-        predictor.run(&mut particles, &rock, &params)
+        predictor.run(&mut particles, &rock, &params, solver.room())
     });
     counters.pressure_clamps += report.cuts;
     counters.pressure_unsolved += u64::from(report.unsolved);

@@ -166,6 +166,9 @@ impl ClosedFaces {
         behind.retain(|one| is_old(one.cell));
         behind.extend(fresh.behind.iter().filter(|one| !is_old(one.cell)));
         behind.sort_unstable_by_key(|one| one.cell);
+        beside_walls.shrink_to_fit();
+        slivers.shrink_to_fit();
+        behind.shrink_to_fit();
     }
 
     /// Bytes held.

@@ -1,6 +1,6 @@
 //! Grains: what friction holds, and what it does not.
 
-use super::{CELL, DT, LATTICE, lattice, noise, size, solids, team};
+use super::{CELL, DT, LATTICE, lattice, noise, room, size, solids, team};
 use crate::{
     element::ElementId,
     params::Domain,
@@ -51,7 +51,7 @@ fn go_on_bound(
         dt: DT,
     };
     let at = (particles.x.clone(), particles.y.clone());
-    predictor.run(particles, walls, &params);
+    predictor.run(particles, walls, &params, room().each_mut());
     (particles.x, particles.y) = at;
 }
 

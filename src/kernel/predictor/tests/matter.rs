@@ -1,6 +1,6 @@
 //! Liquids of different densities.
 
-use super::{CELL, DT, LATTICE, lattice, noise, size, solids, team};
+use super::{CELL, DT, LATTICE, lattice, noise, room, size, solids, team};
 use crate::{
     element::ElementId,
     params::Domain,
@@ -28,11 +28,11 @@ fn predict(particles: &mut Particles, solids: &Solids, masses: Option<&[f32]>) -
     let mut predictor = Predictor::default();
     for _ in 0..4 {
         let before = (particles.vx.clone(), particles.vy.clone());
-        predictor.run(particles, solids, &params);
+        predictor.run(particles, solids, &params, room().each_mut());
         // Each prediction sets out from the same velocities with a better pressure.
         (particles.vx, particles.vy) = before;
     }
-    predictor.run(particles, solids, &params);
+    predictor.run(particles, solids, &params, room().each_mut());
     predictor
 }
 

@@ -56,6 +56,7 @@ impl Equation {
         conjugate.rows = 1..grid.rows + 1;
         let mut hierarchy = Hierarchy::new(grid.columns, grid.rows);
         let (finest, stride) = (hierarchy.finest(), grid.stride);
+        finest.borrow([(); 3].map(|()| Vec::new()).each_mut(), grid.len(), 0);
         finest.wet.find(&conjugate.liquid, stride, conjugate.rows.clone(), 1..grid.columns + 1);
         finest.take();
         for (axis, steep) in [(Axis::U, &mut steep_u), (Axis::V, &mut steep_v)] {
@@ -215,7 +216,8 @@ impl Rig {
     /// Shares the particles' velocities out.
     pub fn new(particles: &Particles, solids: &Solids, cell: f32) -> Self {
         let grid = MacGrid::new(super::size(solids), cell);
-        let hierarchy = Hierarchy::new(grid.columns, grid.rows);
+        let mut hierarchy = Hierarchy::new(grid.columns, grid.rows);
+        hierarchy.finest().borrow(super::room().each_mut(), grid.len(), 0);
         let (mut closed, mut faces) = (ClosedFaces::default(), Faces::default());
         closed.update(&grid, solids, super::DOWN);
         faces.collect(&grid, particles, None, team());

@@ -1,6 +1,6 @@
 //! Particles to grid and back: constants and linear fields, and the sums that have to stay.
 
-use super::{CELL, DT, LATTICE, lattice, noise, size, solids, team};
+use super::{CELL, DT, LATTICE, lattice, noise, room, size, solids, team};
 use crate::{
     element::ElementId,
     params::Domain,
@@ -178,7 +178,7 @@ fn what_is_far_away_changes_nothing_and_leaves_nothing_behind() {
     };
     let alone = |first: f32| {
         let mut particles = pool(first);
-        assert!(Predictor::default().run(&mut particles, &rock, &params).liquid);
+        assert!(Predictor::default().run(&mut particles, &rock, &params, room().each_mut()).liquid);
         particles
     };
     let mut kept = Predictor::default();
@@ -190,11 +190,11 @@ fn what_is_far_away_changes_nothing_and_leaves_nothing_behind() {
         for (id, x) in [(1_000_000, 0.5), (1_000_001, 1999.5)] {
             among.push(id, ElementId(1), Vec2::new(x, 55.5), Vec2::new(0.0, -9.0));
         }
-        Predictor::default().run(&mut among, &rock, &params);
+        Predictor::default().run(&mut among, &rock, &params, room().each_mut());
         assert_eq!((&among.vx[..count], &among.vy[..count]), (&quiet.vx[..], &quiet.vy[..]), "drops far from {first}");
         // The pool comes from somewhere else: no pressure there is the pressure of no liquid.
         let mut moved = pool(first);
-        kept.run(&mut moved, &rock, &params);
+        kept.run(&mut moved, &rock, &params, room().each_mut());
         assert_eq!((moved.vx, moved.vy), (quiet.vx, quiet.vy), "a predictor that has been elsewhere before {first}");
     }
 }

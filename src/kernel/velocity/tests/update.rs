@@ -71,7 +71,7 @@ fn after_corrections(mut bench: Bench, ids: [usize; 2], density: f32, way: f32, 
         threads: 1,
         dt: SUBSTEP,
     };
-    assert_eq!(predictor.run(&mut bench.particles, &bench.solids, &params).liquid, is_liquid);
+    assert_eq!(predictor.run(&mut bench.particles, &bench.solids, &params, bench.solver.room()).liquid, is_liquid);
     bench.predicted = true;
     bench.particles.push_x.fill(0.0);
     bench.particles.push_y.fill(0.0);

@@ -28,7 +28,7 @@ impl Walls<'_> {
     /// Whether a group has anything to do with them.
     #[inline(always)]
     pub fn hold(&self, group: &Group, elements: &[ElementId]) -> bool {
-        let is_near = group.near_wall || group.rock.iter().any(|run| !run.range().is_empty());
+        let is_near = group.near_wall || self.rock.around(group).iter().any(|run| !run.range().is_empty());
         is_near && elements.iter().any(|element| self.strengths[element.index()] > 0.0)
     }
 
@@ -56,7 +56,7 @@ impl Walls<'_> {
         let (xi, yi) = (L::load(&matter.x[own.start..]), L::load(&matter.y[own.start..]));
         let (zero, h2) = (L::splat(0.0), L::splat(smoothing.radius * smoothing.radius));
         let mut sum = zero;
-        for run in group.rock {
+        for run in self.rock.around(group) {
             for (&xj, &yj) in self.rock.x[run.range()].iter().zip(&self.rock.y[run.range()]) {
                 let (dx, dy) = (xi - L::splat(xj), yi - L::splat(yj));
                 let w = (h2 - (dx * dx + dy * dy)).max(zero);
