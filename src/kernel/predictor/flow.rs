@@ -3,10 +3,11 @@
 use crate::predictor::{
     grid::MacGrid,
     rock::ClosedFaces,
-    stencil::{Axis, faces_around},
+    stencil::{Axis, LANES, Stencils},
     transfer::Faces,
 };
 use glam::Vec2;
+use std::array::from_fn;
 
 /// The grid's velocity after the solve: on faces that particles reach, their mean velocity and what pressure changed of it. On
 /// others nothing is known of it.
@@ -69,34 +70,41 @@ impl<'a> Flow<'a> {
         if is_near_pressure && away != Vec2::ZERO { away.normalize().dot(way.normalize()).max(0.0) } else { 1.0 }
     }
 
-    /// By how much the flow around a place (d) differs from a particle's velocity, d/s: as far as it is known, between 0
-    /// and the whole difference.
+    /// By how much the flow around some places (d) differs from the velocities of particles there, d/s: as far as it is known, between
+    /// 0 and the whole difference.
     #[inline(always)]
-    pub fn beside(&self, at: Vec2, velocity: Vec2) -> Vec2 {
-        let along = |axis, velocity| self.along(axis, at, velocity);
-        Vec2::new(along(Axis::U, velocity.x), along(Axis::V, velocity.y))
+    pub fn beside(&self, at: &[[f32; LANES]; 2], [vx, vy]: &[[f32; LANES]; 2]) -> [[f32; LANES]; 2] {
+        [self.along(Axis::U, at, vx), self.along(Axis::V, at, vy)]
     }
 
     #[inline(always)]
-    fn along(&self, axis: Axis, at: Vec2, velocity: f32) -> f32 {
+    fn along(&self, axis: Axis, [x, y]: &[[f32; LANES]; 2], velocity: &[f32; LANES]) -> [f32; LANES] {
         let Self { grid, faces: Faces { u, v, ways, reached, area, .. }, liquid, .. } = *self;
+        let mut difference = [0.0; LANES];
         if liquid.is_none() {
-            return 0.0;
+            return difference;
         }
-        let (column, row) = (axis.column(grid, at.x).0 as usize, axis.row(grid, at.y).0 as usize);
         // Beyond the rows and columns that particles reached lies what is left from before.
-        let columns = grid.padded(area);
-        let is_reached = columns.contains(&column) && column + 1 < columns.end;
-        if !(is_reached && reached.contains(&row) && row + 1 < reached.end) {
-            return 0.0;
-        }
-        let (means, ways) = (if axis == Axis::U { u } else { v }, &ways[axis as usize]);
-        let mut difference = 0.0;
-        faces_around(grid, at.x, at.y, axis, |column, row, weight| {
-            let face = grid.row(row) + column;
-            let ([count, mean], [gained, ..]) = (means[face], ways[face]);
-            difference += if count > 0.0 { weight * (mean + gained - velocity) } else { 0.0 };
+        let (columns, stencils) = (grid.padded(area), Stencils::new(grid, x, y, axis));
+        let is_reached: [bool; LANES] = from_fn(|lane| {
+            let (column, row) = (axis.column(grid, x[lane]).0 as usize, axis.row(grid, y[lane]).0 as usize);
+            let is_among = (columns.start <= column) & (column + 1 < columns.end);
+            is_among & (reached.start <= row) & (row + 1 < reached.end)
         });
-        difference
+        let (means, ways) = (if axis == Axis::U { u } else { v }, &ways[axis as usize]);
+        for (right, upper) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            let (mut faces, mut gained) = ([[0.0; 2]; LANES], [0.0; LANES]);
+            for lane in 0..LANES {
+                let face = stencils.corner[lane] as usize + right + upper * grid.stride;
+                (faces[lane], gained[lane]) = (means[face], ways[face][0]);
+            }
+            for lane in 0..LANES {
+                let share = |share: f32, is_far: usize| if is_far == 1 { share } else { 1.0 - share };
+                let weight = share(stencils.right[lane], right) * share(stencils.upper[lane], upper);
+                let [count, mean] = faces[lane];
+                difference[lane] += if count > 0.0 { weight * (mean + gained[lane] - velocity[lane]) } else { 0.0 };
+            }
+        }
+        from_fn(|lane| if is_reached[lane] { difference[lane] } else { 0.0 })
     }
 }

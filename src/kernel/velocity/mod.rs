@@ -1,6 +1,7 @@
 //! Velocities after the solve: what the moves imply, then viscosity and vorticity confinement.
 
 mod energy;
+mod follow;
 #[cfg(test)]
 mod tests;
 mod update;

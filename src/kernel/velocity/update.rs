@@ -10,6 +10,7 @@ use crate::{
     simd::{Lanes, Pass},
     solids::Solids,
     units::TICK_SECONDS,
+    velocity::follow::{BLOCK, PRESSED, follow},
 };
 use glam::Vec2;
 use std::{
@@ -24,21 +25,8 @@ pub struct MoveReport {
     pub position_clamps: u64,
 }
 
-/// How far liquid is too dense, as a share of the density aimed at, from which on it counts as pressed together where the
-/// pressure predictor ran, and where it does so in full: shared by the substeps of a quality, as what iterating goes by is.
-/// Below are the particles that find their places: at rest the sum over the neighbours differs by a hundredth or two from
-/// one to the next, and to take that for motion would make a still pool simmer and brake what flows.
-pub(super) const PRESSED: [f32; 2] = [0.02, 0.07];
-
-/// Density, as a multiple of the one aimed at, from which on a particle is held by its crowd and not by the flow: as that
-/// from which on corrections may be longer.
-const CROWDED: f32 = 1.5;
-
 /// Correction of a tick below which a grain stays where it is, d. Without it a bed drifts by what corrections are off.
 const STILL: f32 = 0.003;
-
-/// Particles that are looked through at a time.
-const BLOCK: usize = 64;
 
 /// Share of its limit from which on a correction counts as cut: less the rounding of (anchor + limit) − anchor.
 const CUT: f32 = 0.999;
@@ -52,7 +40,7 @@ const CUT: f32 = 0.999;
 /// where liquid is pressed together ([`PRESSED`]), a particle loses what runs against its correction of its motion beside
 /// the flow around it, as matter does that meets and does not bounce. So a correction brings no particle beyond the flow:
 /// however deep particles lie inside one another, they are set apart, and not shot apart, and the finer the substeps the
-/// less. In a crowd ([`CROWDED`]) all motion against the correction ends, not only that beside the flow: what lies inside
+/// less. In a crowd ([`CROWDED`](super::follow::CROWDED)) all motion against the correction ends, not only that beside the flow: what lies inside
 /// others moves with them, and a crowd that the floor holds up would keep the speed of a fall that has ended.
 ///
 /// In a cell beside a wall that has no pressure ([`Flow::held_by_wall`]) only corrections hold matter up, and gravity would
@@ -212,70 +200,5 @@ fn end_kick(
         let kick = held(Vec2::new(half[0] + push_x[k], half[1] + push_y[k]), Vec2::new(change_x[k], change_y[k]));
         (vx[k], vy[k]) = (vx[k] + change_x[k] + kick.x, vy[k] + change_y[k] + kick.y);
         (push_x[k], push_y[k]) = (kick.x - half[0], kick.y - half[1]);
-    }
-}
-
-/// Least and most of some numbers.
-#[inline(always)]
-fn range(numbers: &[f32]) -> [f32; 2] {
-    // In lanes, which one least number after the other is not.
-    let (mut least, mut most) = ([f32::MAX; 16], [f32::MIN; 16]);
-    for chunk in numbers.chunks(16) {
-        for ((least, most), number) in least.iter_mut().zip(&mut most).zip(chunk) {
-            *least = if *number < *least { *number } else { *least };
-            *most = if *number > *most { *number } else { *most };
-        }
-    }
-    let [mut low, mut high] = [least[0], most[0]];
-    for (least, most) in least.into_iter().zip(most) {
-        low = if least < low { least } else { low };
-        high = if most > high { most } else { high };
-    }
-    [low, high]
-}
-
-/// Leaves of the changes of velocity (d/s) that corrections would be what ends the motion beside the flow.
-#[inline(always)]
-fn follow(
-    flow: Flow,
-    (aim, pressed): (f32, [f32; 2]),
-    density: &[f32],
-    [x, y]: [&[f32]; 2],
-    [vx, vy]: [&[f32]; 2],
-    [change_x, change_y]: [&mut [f32]; 2],
-) {
-    let [from, to] = pressed.map(|density| density * aim);
-    let per_density = 1.0 / (to - from);
-    let is_near_dry_wall = flow.has_dry_wall([range(x), range(y)]);
-    let is_held = density.iter().fold(is_near_dry_wall, |any, density| any | (*density > from));
-    if density.is_empty() || !is_held {
-        change_x.fill(0.0);
-        change_y.fill(0.0);
-        return;
-    }
-    for (k, density) in density.iter().enumerate() {
-        let at = Vec2::new(x[k], y[k]);
-        let is_pressed = *density > from;
-        if !(is_pressed || is_near_dry_wall && flow.is_beside_dry_wall(at)) {
-            (change_x[k], change_y[k]) = (0.0, 0.0);
-            continue;
-        }
-        let (change, velocity) = (Vec2::new(change_x[k], change_y[k]), Vec2::new(vx[k], vy[k]));
-        let length = change.length();
-        if length == 0.0 {
-            // One whose square is too small for a number ends nothing.
-            (change_x[k], change_y[k]) = (0.0, 0.0);
-            continue;
-        }
-        let along = |motion: Vec2| motion.dot(change) / length;
-        // How much of the correction may end of the motion, and what runs against it.
-        let held = if *density > CROWDED * aim { 1.0 } else { flow.held_by_wall(at, change) };
-        let mut most = (held * length).min(along(-velocity));
-        if held < 1.0 && is_pressed {
-            let share = ((density - from) * per_density).min(1.0);
-            most = most.max((share * length).min(along(flow.beside(at, velocity))));
-        }
-        let left = change * (most.max(0.0) / length);
-        (change_x[k], change_y[k]) = (left.x, left.y);
     }
 }

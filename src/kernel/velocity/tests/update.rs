@@ -7,7 +7,7 @@ use crate::{
     predictor::{Predictor, PredictorParams},
     solids::Solids,
     units::TICK_SECONDS,
-    velocity::update::PRESSED,
+    velocity::follow::PRESSED,
 };
 use glam::Vec2;
 
