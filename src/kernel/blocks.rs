@@ -15,7 +15,7 @@ use std::ops::Range;
 const SPAN: usize = 128;
 
 /// Fewer spans than this are not handed to another thread.
-const FEWEST_SPANS: usize = 512;
+const FEWEST_SPANS: usize = 128;
 
 /// A grid that particles share something out to.
 pub(super) trait Reach: Copy + Sync {

@@ -16,7 +16,7 @@ const BLOCK: usize = 256;
 /// Greatest speeds that are kept side by side, so that the loop over them fills the lanes.
 const FASTEST_OF: usize = 64;
 /// Fewer particles than this a piece do not pay for another thread: a look is short.
-const WORTH_A_LOOK: usize = 32_768;
+const WORTH_A_LOOK: usize = 8192;
 
 /// Removes particles with a value that is no number or beyond all bounds; returns how many.
 pub fn remove_non_finite(particles: &mut Particles, threads: usize) -> usize {

@@ -8,7 +8,7 @@ use std::{
 };
 
 /// Fewer entries than this are not handed to another thread to be brought into an order.
-const WORTH_REORDERING: usize = 8192;
+const WORTH_REORDERING: usize = 2048;
 /// Entries that are checked together.
 const BLOCK: usize = 256;
 /// Beyond this, in d or d/s, a value is a fault and not a motion.

@@ -15,6 +15,7 @@ pub mod brush;
 mod cells;
 pub mod checks;
 pub mod columns;
+mod crew;
 pub mod crowding;
 pub mod decay;
 pub mod diffusion;

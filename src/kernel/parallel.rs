@@ -2,10 +2,16 @@
 //!
 //! What an entry gets never depends on where the pieces are cut, so the number of threads does not show in the result.
 
-use crate::simd::{InstructionSet, Lanes, Pass};
+use crate::{
+    crew::{self, Crew, wait_a_moment},
+    simd::{InstructionSet, Lanes, Pass},
+};
 use std::{
     ops::Range,
-    sync::atomic::{AtomicBool, Ordering},
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicBool, Ordering},
+    },
 };
 
 /// Pieces a thread: some are denser than others, so there is something left to steal.
@@ -22,18 +28,48 @@ pub(crate) trait Parts: Send + Sized {
     fn halve(self) -> (Self, Self);
 }
 
-/// Shares work out to the threads of the current rayon pool: halves it until a part is no more than `most`, and calls `run`
-/// with each part.
+/// Shares work out to the crew that this thread leads, or else to the threads of the current rayon pool: halves it until a part is
+/// no more than `most`, and calls `run` with each part.
 pub(crate) fn fork<P: Parts>(part: P, most: usize, run: &(impl Fn(P) + Sync)) {
     if part.size() <= most {
         return run(part);
     }
+    if crew::leads() { fork_among_crew(part, most, run) } else { fork_in_pool(part, most, run) }
+}
+
+/// The same among the threads of the current rayon pool.
+fn fork_in_pool<P: Parts>(part: P, most: usize, run: &(impl Fn(P) + Sync)) {
+    if part.size() <= most {
+        return run(part);
+    }
     let (left, right) = part.halve();
-    rayon::join(|| fork(left, most, run), || fork(right, most, run));
+    rayon::join(|| fork_in_pool(left, most, run), || fork_in_pool(right, most, run));
+}
+
+/// The same among the crew that this thread leads. It takes parts from the first on and the others from the last, so that each mostly
+/// gets what its caches have of the sweep before, and no two ask for the same part but where they meet.
+fn fork_among_crew<P: Parts>(part: P, most: usize, run: &(impl Fn(P) + Sync)) {
+    let mut parts = Vec::with_capacity((2 * part.size()).div_ceil(most.max(1)).next_power_of_two());
+    cut_up(part, most, &mut parts);
+    let take = |part: &Mutex<Option<P>>| part.lock().unwrap_or_else(PoisonError::into_inner).take();
+    crew::share(&|leads| match leads {
+        true => parts.iter().filter_map(take).for_each(run),
+        false => parts.iter().rev().filter_map(take).for_each(run),
+    });
+}
+
+/// Halves a part until none is more than `most`.
+fn cut_up<P: Parts>(part: P, most: usize, parts: &mut Vec<Mutex<Option<P>>>) {
+    if part.size() <= most {
+        return parts.push(Mutex::new(Some(part)));
+    }
+    let (left, right) = part.halve();
+    cut_up(left, most, parts);
+    cut_up(right, most, parts);
 }
 
 /// Entries that are worth a piece of their own where each takes some nanoseconds; lighter work wants more.
-pub(crate) const WORTH_A_PIECE: usize = 2048;
+pub(crate) const WORTH_A_PIECE: usize = 512;
 
 /// Runs `work` over pieces of arrays of one length, of `fewest` entries or more, on up to `threads` threads of the
 /// current rayon pool. Each call gets the index of its first entry and its piece of each array.
@@ -82,40 +118,39 @@ impl Parts for Range<usize> {
     }
 }
 
-/// Looks for work in vain, one after the other, after which a watching thread gives up: a millisecond, about.
-const PATIENCE: u32 = 10_000;
-/// Looks in vain after which a watching thread lets others of the system go first.
-const POLITENESS: u32 = 64;
+/// Looks for a job in vain, one after the other, after which a watching thread gives up: a millisecond, about.
+const PATIENCE: u32 = 40_000;
+/// Looks after which it looks for what the pool may have to do, too.
+const POOL_LOOKS: u32 = 64;
 
-/// Runs `work` in the current rayon pool while up to `watchers` of its other threads look out for the parts that `work`
-/// hands over. Left alone, they would fall asleep between two of them, and waking them takes longer than a small part.
-/// A thread that waits for others in the midst of a part may come to watch, too; that is why no watch lasts.
+/// Runs `work` in the current rayon pool while up to `watchers` of its other threads are its [`Crew`] and look out for the parts that
+/// `work` hands over. A thread that waits for others in the midst of a part may come to watch, too; that is why no watch lasts.
 pub fn watched<T: Send>(watchers: usize, work: impl FnOnce() -> T + Send) -> T {
     if watchers == 0 {
         return work();
     }
+    let crew = Arc::new(Crew::default());
     // The thread that hands work over. Were it to watch for itself, nothing would come.
     let (done, leader) = (AtomicBool::new(false), rayon::current_thread_index());
     let lead = || {
-        let result = work();
+        let result = crew.lead(work);
         done.store(true, Ordering::Release);
         result
     };
     let look_out = |_: Range<usize>| {
-        let mut in_vain = 0;
+        let (mut in_vain, mut last) = (0, 0);
         while in_vain < PATIENCE && !done.load(Ordering::Acquire) && rayon::current_thread_index() != leader {
-            if rayon::yield_now() == Some(rayon::Yield::Executed) {
+            in_vain += 1;
+            if let Some(number) = crew.help(last) {
+                (last, in_vain) = (number, 0);
+            } else if in_vain % POOL_LOOKS == 0 && rayon::yield_now() == Some(rayon::Yield::Executed) {
                 in_vain = 0;
             } else {
-                in_vain += 1;
-                std::hint::spin_loop();
-                if in_vain % POLITENESS == 0 {
-                    std::thread::yield_now();
-                }
+                wait_a_moment(in_vain);
             }
         }
     };
-    rayon::join(lead, || fork(0..watchers, 1, &look_out)).0
+    rayon::join(lead, || fork_in_pool(0..watchers, 1, &look_out)).0
 }
 
 /// What a pass may use.
@@ -212,9 +247,22 @@ impl<B, S: Sweep<B>> Pass for SweepRows<'_, S, B> {
     }
 }
 
-/// Entries that a piece has at most.
+/// Whether other threads are awake for what this one hands over ([`watched`]).
+pub fn are_awake() -> bool {
+    crew::leads()
+}
+
+/// How many times what is worth handing to a crew is worth handing to a pool, which takes as many times longer.
+const IN_POOL: usize = 4;
+
+/// Entries that are worth handing to another thread, if `fewest` are with a crew.
+pub(crate) fn worth(fewest: usize) -> usize {
+    if crew::leads() { fewest } else { IN_POOL * fewest }
+}
+
+/// Entries that a piece has at most. `fewest`: those that are worth a piece of their own with a crew.
 pub(crate) fn piece(len: usize, threads: usize, fewest: usize) -> usize {
-    if threads <= 1 { usize::MAX } else { (len / (threads * PIECES_PER_THREAD)).max(fewest) }
+    if threads <= 1 { usize::MAX } else { (len / (threads * PIECES_PER_THREAD)).max(worth(fewest)) }
 }
 
 /// Cuts each array in two at `at`.
@@ -231,14 +279,18 @@ pub(crate) fn cut<const K: usize, T>(arrays: [&mut [T]; K], at: usize) -> ([&mut
     (left, right)
 }
 
-/// Runs `work` in a pool of so many threads. In a module, where a test has no threads, it is done by the caller; pieces are
+/// Runs `work` in a pool of so many threads, the others of which are its crew. In a module, where a test has no threads, it is done by the caller; pieces are
 /// cut as for all of them even so.
 #[cfg(test)]
 pub(crate) fn in_pool<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     if cfg!(target_arch = "wasm32") {
         return work();
     }
-    rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads").install(work)
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .expect("threads")
+        .install(|| watched(threads - 1, work))
 }
 
 #[cfg(test)]

@@ -1,14 +1,17 @@
 //! The threads that the kernel may use.
 
-use crate::kernel::parallel::watched;
+use crate::kernel::parallel::{are_awake, watched};
 use bevy::prelude::Resource;
 use std::{
     num::NonZero,
     sync::{Arc, LazyLock},
 };
 
-/// Fewer particles than this are done on one thread: handing them over costs more than it saves.
-const WORTH_SHARING: usize = 6_000;
+/// Fewer particles than this are done on one thread: keeping the others awake costs more than they save.
+const WORTH_SHARING: usize = 500;
+
+/// The same where the others are asleep: handing work over then costs as much as the passes over fewer.
+const WORTH_WAKING: usize = 6_000;
 
 /// The same where a particle takes a fraction of a nanosecond: entering the pool takes some ten microseconds.
 const WORTH_SHARING_CHECKS: usize = 200_000;
@@ -59,21 +62,19 @@ impl Workers {
         }
     }
 
-    /// [`Workers::run_for`] for a whole tick's work, for which the other threads [stay awake](Self::keep_awake).
-    pub fn run_tick<T: Send>(&self, particles: usize, work: impl FnOnce() -> T + Send) -> T {
-        let keep_awake = self.keep_awake(particles);
-        self.run_for(particles, |threads| watched(if keep_awake { threads - 1 } else { 0 }, work))
-    }
-
-    /// Whether the other threads stay awake in a tick of so many particles, so that handing work over is cheap: if there is a
-    /// core for each.
-    pub fn keep_awake(&self, particles: usize) -> bool {
-        particles >= WORTH_SHARING && (2..=*CORES).contains(&self.threads())
+    /// Runs `work` while the other threads stay awake for what it hands over in turn ([`Workers::run_for`]), if it is over enough
+    /// particles and there is a core for each thread.
+    pub fn run_awake<T: Send>(&self, particles: usize, work: impl FnOnce() -> T + Send) -> T {
+        if particles >= WORTH_SHARING && (2..=*CORES).contains(&self.threads()) {
+            self.run(|threads| watched(threads - 1, work))
+        } else {
+            self.run_for(particles, |_| work())
+        }
     }
 
     /// [`Workers::run`] for work over `particles` particles: on one thread if they are few.
     pub fn run_for<T: Send>(&self, particles: usize, work: impl FnOnce(usize) -> T + Send) -> T {
-        self.run_if(particles >= WORTH_SHARING, work)
+        self.run_if(particles >= if are_awake() { WORTH_SHARING } else { WORTH_WAKING }, work)
     }
 
     /// [`Workers::run_for`] for a look at each particle.

@@ -36,7 +36,7 @@ use crate::{
 use std::ops::Range;
 
 /// Fewer cells than this are not handed to another thread.
-const WORTH_RESOLVING: usize = 2048;
+const WORTH_RESOLVING: usize = 512;
 
 /// A drag per substep from which on a particle has the wind's velocity, whatever the rounding.
 const MOST_DRAG: f32 = 1.0e30;

@@ -13,7 +13,7 @@ use super::{
     tiling::{Block, WATCH},
 };
 use crate::{
-    parallel::{Rows, Team, fork},
+    parallel::{Rows, Team, fork, worth},
     params::{AirAdvection, AirScheme},
     simd::InstructionSet,
     sources::Wind,
@@ -47,8 +47,8 @@ const FEWEST_ROWS: usize = 16;
 /// Cells from which on threads gain more than waking them costs (some 30 µs each time).
 const WORTH_WAKING: usize = 32 * 1024;
 
-/// Cells from which on threads that are awake gain more than handing bands to them costs (some 3 µs each).
-pub(super) const WORTH_BANDS: usize = 2 * 1024;
+/// Cells from which on a crew gains more than handing bands to it costs (half a microsecond).
+pub(super) const WORTH_BANDS: usize = 512;
 
 impl Scratch {
     fn prepare(&mut self, air: &Air) {
@@ -158,7 +158,7 @@ impl Air {
     /// The lanes for blocks, which must fill a register, and the rows of a band.
     fn division(&self, team: Team, cells: usize) -> (InstructionSet, usize) {
         let instructions = team.instructions.filled_by(self.columns());
-        let shared = team.threads > 1 && cells >= WORTH_BANDS;
+        let shared = team.threads > 1 && cells >= worth(WORTH_BANDS);
         let bands = if shared { team.threads * BANDS_PER_THREAD } else { 1 };
         (instructions, self.rows().div_ceil(bands).max(FEWEST_ROWS))
     }

@@ -7,7 +7,7 @@ use crate::{
 use std::ops::Range;
 
 /// Fewer groups than this a piece do not pay for handing it over (a hand-over costs some microseconds).
-const FEWEST_GROUPS: usize = 64;
+const FEWEST_GROUPS: usize = 16;
 
 /// [`Group::lanes`] of a group of which all are worked on.
 pub(crate) const ALL_LANES: u16 = u16::MAX;

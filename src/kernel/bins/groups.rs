@@ -13,7 +13,7 @@ use crate::{
 /// everything that lies between.
 const GROUP_SPAN_RADII: u32 = 8;
 /// Fewer groups than this do not pay for another thread.
-const WORTH_A_PIECE: usize = 64;
+const WORTH_A_PIECE: usize = 16;
 
 /// The groups of a strip.
 #[derive(Clone, Copy, Debug)]

@@ -11,7 +11,7 @@ const DAMPING: f32 = 0.8;
 /// A coarse cell that is coupled to less than this is left out.
 const LEAST_DIAGONAL: f32 = 1e-3;
 /// Fewer cells than this are not handed to another thread: a sweep takes a fraction of a nanosecond for each.
-pub(super) const WORTH_A_PIECE: usize = 4096;
+pub(super) const WORTH_A_PIECE: usize = 1024;
 
 /// The equation `diagonal x_c − Σ coupling x_n = b` on one level. Cells are indexed as in `MacGrid`. In the padding left
 /// and right all fields are 0. What the finest level works in holds something else between two solves: the operator's memory

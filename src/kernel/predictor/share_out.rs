@@ -13,7 +13,7 @@ use crate::{
 use std::ops::Range;
 
 /// Fewer faces than this are not handed to another thread to be cleared.
-const WORTH_CLEARING: usize = 32_768;
+const WORTH_CLEARING: usize = 8192;
 
 /// Shares out on the faces what particles have.
 pub(super) struct ShareOut<'a> {

@@ -33,8 +33,9 @@ pub(super) fn flow(
     relabelled.air = effects.reaches_air(Effect::Expansion).then_some(setup.blueprint.air.density);
     change(&mut warm, &mut books, &mut relabelled);
     let instructions = solver.instructions;
-    let report = workers
-        .run_for(count, |threads| heat.flow(&mut warm, &mut books, Team { instructions, threads }, TICK_SECONDS));
+    let report = workers.run_awake(count, || {
+        workers.run_for(count, |threads| heat.flow(&mut warm, &mut books, Team { instructions, threads }, TICK_SECONDS))
+    });
     counters.heat_cuts += report.cuts;
     if effects.reaches_air(Effect::Convection) {
         air.warm_up(heat.contacts(), &rock);

@@ -60,7 +60,7 @@ pub(super) fn run_substeps(world: &mut World) {
         put_back(world);
         return;
     }
-    workers.run_tick(particles, || {
+    workers.run_awake(particles, || {
         for _ in 0..substeps {
             world.run_schedule(Substep);
         }

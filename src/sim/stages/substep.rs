@@ -1,7 +1,13 @@
 //! The stages of a substep.
 
 use crate::{
-    kernel::{air::Rousing, diffusion, forces, parallel::Team, params::Preset, pbf, predict, predictor, velocity},
+    kernel::{
+        air::Rousing,
+        diffusion, forces,
+        parallel::{Team, are_awake},
+        params::Preset,
+        pbf, predict, predictor, velocity,
+    },
     scene::effects::{Effect, Mode},
     sim::{
         effects::Effects,
@@ -23,7 +29,7 @@ pub(super) fn step_air(
     setup: Res<Setup>,
     solver: Res<SolverState>,
     effects: Res<Effects>,
-    (particles, rock): (Res<ParticleStore>, Res<Rock>),
+    rock: Res<Rock>,
     plan: Res<TickPlan>,
     workers: Res<Workers>,
     mut counters: ResMut<Counters>,
@@ -38,7 +44,7 @@ pub(super) fn step_air(
         air.uncrowd();
     }
     air.allow_sleep(sleep == Mode::On || sleep == Mode::Auto && setup.preset != Preset::Reference);
-    let worth = air.is_worth_waking() || workers.keep_awake(particles.len());
+    let worth = air.is_worth_waking() || are_awake();
     let instructions = solver.instructions;
     let report = workers.run_if(worth, |threads| {
         air.step(&sources.winds, setup.quality.air_scheme(), Team { instructions, threads }, dt)
