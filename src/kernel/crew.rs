@@ -98,6 +98,10 @@ impl Crew {
                 while self.0.inside.0.load(SeqCst) > 0 {
                     nth += 1;
                     wait_a_moment(nth);
+                    if cfg!(target_arch = "wasm32") && nth.is_multiple_of(POLITENESS) {
+                        // A fault there ends its thread, and this one hears of it as work of the pool.
+                        rayon::yield_now();
+                    }
                 }
                 if panicking() {
                     // One fault is enough, and that of another job is none of the next one's.

@@ -16,8 +16,11 @@ const WORTH_WAKING: usize = 6_000;
 /// The same where a particle takes a fraction of a nanosecond: entering the pool takes some ten microseconds.
 const WORTH_SHARING_CHECKS: usize = 200_000;
 
-/// Cores that this process may use.
-static CORES: LazyLock<usize> = LazyLock::new(|| std::thread::available_parallelism().map_or(1, NonZero::get));
+/// Cores that this process may use. A page does not know, and takes no more threads than its browser says that there are.
+static CORES: LazyLock<usize> = LazyLock::new(|| {
+    let unknown = if cfg!(target_arch = "wasm32") { usize::MAX } else { 1 };
+    std::thread::available_parallelism().map_or(unknown, NonZero::get)
+});
 
 /// A pool of threads for the kernel's passes. By default rayon's own, with one thread a core.
 #[derive(Resource, Clone, Default)]
