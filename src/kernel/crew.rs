@@ -36,6 +36,7 @@ pub(crate) struct Crew {
 }
 
 thread_local! {
+    static OWN: Arc<Crew> = Arc::default();
     /// The crew that this thread leads, while it has no job.
     static LED: RefCell<Option<Arc<Crew>>> = const { RefCell::new(None) };
 }
@@ -61,6 +62,11 @@ pub(crate) fn wait_a_moment(nth: u32) {
 }
 
 impl Crew {
+    /// The crew that only this thread may lead.
+    pub fn of_this_thread() -> Arc<Self> {
+        OWN.with(Arc::clone)
+    }
+
     /// Runs `work` on this thread, whose jobs ([`share`]) the crew then does. It is led by one thread at a time.
     pub fn lead<T>(self: &Arc<Self>, work: impl FnOnce() -> T) -> T {
         let _before = Leads(LED.replace(Some(self.clone())));

@@ -9,7 +9,7 @@ use crate::{
 use std::{
     ops::Range,
     sync::{
-        Arc, Mutex, PoisonError,
+        Mutex, PoisonError,
         atomic::{AtomicBool, Ordering},
     },
 };
@@ -46,11 +46,17 @@ fn fork_in_pool<P: Parts>(part: P, most: usize, run: &(impl Fn(P) + Sync)) {
     rayon::join(|| fork_in_pool(left, most, run), || fork_in_pool(right, most, run));
 }
 
+/// Parts of a job of a crew at most.
+const MOST_PARTS: usize = 32;
+
 /// The same among the crew that this thread leads. It takes parts from the first on and the others from the last, so that each mostly
 /// gets what its caches have of the sweep before, and no two ask for the same part but where they meet.
 fn fork_among_crew<P: Parts>(part: P, most: usize, run: &(impl Fn(P) + Sync)) {
-    let mut parts = Vec::with_capacity((2 * part.size()).div_ceil(most.max(1)).next_power_of_two());
-    cut_up(part, most, &mut parts);
+    let mut parts: [Mutex<Option<P>>; MOST_PARTS] = std::array::from_fn(|_| Mutex::new(None));
+    let mut places = parts.iter_mut();
+    cut_up(part, most, MOST_PARTS, &mut places);
+    let count = MOST_PARTS - places.len();
+    let parts = &parts[..count];
     let take = |part: &Mutex<Option<P>>| part.lock().unwrap_or_else(PoisonError::into_inner).take();
     crew::share(&|leads| match leads {
         true => parts.iter().filter_map(take).for_each(run),
@@ -58,14 +64,20 @@ fn fork_among_crew<P: Parts>(part: P, most: usize, run: &(impl Fn(P) + Sync)) {
     });
 }
 
-/// Halves a part until none is more than `most`.
-fn cut_up<P: Parts>(part: P, most: usize, parts: &mut Vec<Mutex<Option<P>>>) {
-    if part.size() <= most {
-        return parts.push(Mutex::new(Some(part)));
+/// Halves a part until none is more than `most`, or there are as many as there is room for.
+fn cut_up<'a, P: Parts + 'a>(
+    part: P,
+    most: usize,
+    room: usize,
+    places: &mut impl Iterator<Item = &'a mut Mutex<Option<P>>>,
+) {
+    if part.size() > most && room > 1 {
+        let (left, right) = part.halve();
+        cut_up(left, most, room / 2, places);
+        cut_up(right, most, room / 2, places);
+    } else if let Some(place) = places.next() {
+        *place = Mutex::new(Some(part));
     }
-    let (left, right) = part.halve();
-    cut_up(left, most, parts);
-    cut_up(right, most, parts);
 }
 
 /// Entries that are worth a piece of their own where each takes some nanoseconds; lighter work wants more.
@@ -129,7 +141,7 @@ pub fn watched<T: Send>(watchers: usize, work: impl FnOnce() -> T + Send) -> T {
     if watchers == 0 {
         return work();
     }
-    let crew = Arc::new(Crew::default());
+    let crew = Crew::of_this_thread();
     // The thread that hands work over. Were it to watch for itself, nothing would come.
     let (done, leader) = (AtomicBool::new(false), rayon::current_thread_index());
     let lead = || {
