@@ -6,7 +6,7 @@ use crate::{
 };
 use std::ops::Range;
 
-/// Fewer groups than this a piece do not pay for handing it over (a hand-over costs some microseconds).
+/// Fewer groups than this a piece do not pay for handing it over.
 const FEWEST_GROUPS: usize = 16;
 
 /// [`Group::lanes`] of a group of which all are worked on.
