@@ -10,7 +10,7 @@ use std::{
     ops::Range,
     sync::{
         Mutex, PoisonError,
-        atomic::{AtomicBool, Ordering},
+        atomic::{AtomicBool, AtomicUsize, Ordering},
     },
 };
 
@@ -58,9 +58,14 @@ fn fork_among_crew<P: Parts>(part: P, most: usize, run: &(impl Fn(P) + Sync)) {
     let count = MOST_PARTS - places.len();
     let parts = &parts[..count];
     let take = |part: &Mutex<Option<P>>| part.lock().unwrap_or_else(PoisonError::into_inner).take();
+    let from_last = AtomicUsize::new(0);
+    // Whoever comes to a part that is taken has met those from the other end: there is none left beyond.
     crew::share(&|leads| match leads {
-        true => parts.iter().filter_map(take).for_each(run),
-        false => parts.iter().rev().filter_map(take).for_each(run),
+        true => parts.iter().map_while(take).for_each(run),
+        false => {
+            let places = std::iter::from_fn(|| count.checked_sub(1 + from_last.fetch_add(1, Ordering::Relaxed)));
+            places.map_while(|place| take(&parts[place])).for_each(run);
+        }
     });
 }
 
