@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    #[cfg_attr(target_arch = "wasm32", ignore = "threads: natively only")]
+    #[cfg_attr(target_arch = "wasm32", ignore = "a module has no threads")]
     fn every_part_of_every_job_is_taken_once_and_done_when_the_job_is() {
         for others in [0, 1, 3] {
             with_others(others, || {
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    #[cfg_attr(target_arch = "wasm32", ignore = "threads: natively only")]
+    #[cfg_attr(target_arch = "wasm32", ignore = "a module has no threads")]
     fn a_job_is_not_over_while_one_of_the_others_is_at_it() {
         with_others(1, || {
             let (begun, ended) = (AtomicBool::new(false), AtomicBool::new(false));
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    #[cfg_attr(target_arch = "wasm32", ignore = "threads: natively only")]
+    #[cfg_attr(target_arch = "wasm32", ignore = "a module has no threads")]
     fn a_fault_comes_out_where_the_job_was_shared_and_the_crew_goes_on() {
         for leader_fails in [false, true] {
             with_others(1, || {
