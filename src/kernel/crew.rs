@@ -1,6 +1,7 @@
-//! Hands a job to threads that look out for it. To wake a thread of a pool takes some ten microseconds, and to have one that is
-//! awake find a task there some three; most sweeps of a tick are shorter than that. Threads that look at one number, again and again,
-//! see a job as soon as that number has come to their caches: in a fifth of a microsecond.
+//! Hands a job to threads that look out for it: a work crew (Butenhof 1997, "Programming with POSIX Threads", ch. 4). To wake a
+//! thread of a pool takes some ten microseconds, and to have one that is awake find a task there some three; most sweeps of a tick
+//! are shorter than that. Threads that look at one number, again and again, see a job as soon as that number has come to their
+//! caches, and are done with it in 0.3 to 0.5 µs (docs/performance.md).
 
 use std::{
     any::Any,

@@ -46,7 +46,7 @@ fn fork_in_pool<P: Parts>(part: P, most: usize, run: &(impl Fn(P) + Sync)) {
     rayon::join(|| fork_in_pool(left, most, run), || fork_in_pool(right, most, run));
 }
 
-/// Parts of a job of a crew at most.
+/// Parts of a job of a crew at most; of more threads than that some have none. There is room for all of them on the stack.
 const MOST_PARTS: usize = 32;
 
 /// The same among the crew that this thread leads. It takes parts from the first on and the others from the last, so that each mostly
