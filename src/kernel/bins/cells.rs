@@ -57,23 +57,24 @@ impl CellGrid {
     /// Cell of a point, d.
     #[inline(always)]
     pub fn cell(&self, x: f32, y: f32) -> u32 {
-        self.row(y) * self.columns as u32 + self.column(x)
+        self.strip(y) as u32 * self.columns as u32 + self.column(x)
     }
 
+    /// Strip of a coordinate, d: a row of cells, and of tiles.
     #[inline(always)]
-    fn row(&self, y: f32) -> u32 {
-        whole_below(y * self.per_row + (1.0 + self.over.y), 1, self.rows as u32 - 2).0
+    pub fn strip(&self, y: f32) -> usize {
+        whole_below(y * self.per_row + (1.0 + self.over.y), 1, self.rows as u32 - 2).0 as usize
     }
 
-    /// Tiles along x, of which the first and the last are empty.
+    /// Tiles along x, a strip high and as wide, of which the first and the last are empty.
     pub fn tile_columns(&self) -> usize {
         self.columns.div_ceil(COLUMNS_PER_TILE as usize) + 2
     }
 
-    /// Tile of a point, d: tiles are a strip high and as wide. Those on all sides of it exist.
+    /// Column of tiles of a coordinate, d.
     #[inline(always)]
-    pub fn tile(&self, x: f32, y: f32) -> usize {
-        self.row(y) as usize * self.tile_columns() + (self.column(x) / COLUMNS_PER_TILE) as usize + 1
+    pub fn tile_column(&self, x: f32) -> usize {
+        (self.column(x) / COLUMNS_PER_TILE) as usize + 1
     }
 
     /// Columns that hold everything within reach of what is in the columns `first … last`: rounding may put a particle

@@ -9,12 +9,15 @@ use std::ops::Range;
 /// Fewer groups than this a piece do not pay for handing it over.
 const FEWEST_GROUPS: usize = 16;
 
+/// A buffer of groups has one in so many to spare: their number changes a little from tick to tick.
+const SPARE_GROUPS: usize = 4;
+
 /// [`Group::lanes`] of a group of which all are worked on.
 pub(crate) const ALL_LANES: u16 = u16::MAX;
 
 /// A run of consecutive particles with the runs of candidates that may touch any of them; those of rock are held
 /// apart, as most boxes have none near ([`RockBins::around`](super::rock::RockBins::around)). 36 bytes.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Group {
     /// Its number among all groups.
     pub number: u32,
@@ -66,6 +69,14 @@ impl Group {
         let chosen: [f32; MOST_LANES] = std::array::from_fn(|lane| f32::from(self.lanes >> lane & 1));
         L::load(&chosen).if_less(L::splat(0.5), old(), new)
     }
+}
+
+/// Makes room for `count` groups or what belongs to one, and for few more.
+pub(super) fn make_room<T: Clone + Default>(entries: &mut Vec<T>, count: usize) {
+    if count > entries.capacity() {
+        entries.reserve_exact(count + count / SPARE_GROUPS - entries.len());
+    }
+    entries.resize(count, T::default());
 }
 
 /// Runs `work` over pieces of `groups`, on up to `threads` threads of the current rayon pool. Each call gets its groups,

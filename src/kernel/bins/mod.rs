@@ -9,7 +9,8 @@
 //! a group nor the search itself shows in the result.
 //!
 //! Modules: `cells` the geometry, `sort` the order of the particles, `strip` those of a row of cells, `group` what the passes
-//! work on, `groups` how they are cut, `focus` those that are iterated again, `rock`, and `search` the whole.
+//! work on, `groups` how they are cut, `tiles` marks on the box, `focus` the groups that are iterated again, `rock`, and `search` the
+//! whole.
 
 mod cells;
 mod focus;
@@ -21,6 +22,7 @@ mod sort;
 mod strip;
 #[cfg(test)]
 mod tests;
+mod tiles;
 
 pub(crate) use group::split;
 pub use group::{Group, Run};

@@ -3,13 +3,14 @@
 use crate::{
     bins::{
         cells::CellGrid,
-        focus::Focus,
-        group::{ALL_LANES, Group, Run},
+        focus::{Binned, Focus},
+        group::{ALL_LANES, Group, Run, make_room},
         groups::{Cutter, StripGroups},
         rock::RockBins,
         sort::Sort,
         strip::Strip,
     },
+    parallel::Team,
     particles::Particles,
     simd::InstructionSet,
     solids::Solids,
@@ -19,8 +20,6 @@ use std::ops::Range;
 
 /// Rounding allowance of the search margin, d.
 pub(super) const MARGIN_ROUNDING: f32 = 1e-3;
-/// The buffer of groups has one in so many to spare: their number changes a little from tick to tick.
-const SPARE_GROUPS: usize = 4;
 /// Fewer particles than this are no crowd, however much room they ask for.
 const LEAST_CROWD: usize = 8;
 
@@ -89,8 +88,8 @@ impl Bins {
         let Self { grid, sort, strips, groups, rock, .. } = self;
         let cutter = Cutter { grid, starts: &sort.starts, rock: &rock.starts, x, width };
         let count = cutter.count(sort, strips);
-        resize(groups, count);
-        resize(&mut rock.runs, if rock.starts.is_empty() { 0 } else { count });
+        make_room(groups, count);
+        make_room(&mut rock.runs, if rock.starts.is_empty() { 0 } else { count });
         cutter.fill(strips, groups, &mut rock.runs, threads);
     }
 
@@ -122,13 +121,14 @@ impl Bins {
 
     /// Narrows [`Bins::focused`] down to what stands within reach of a particle whose density is above `bound`. The
     /// particles were binned at `at` (d).
-    pub(crate) fn focus(&mut self, at: [&[f32]; 2], density: &[f32], bound: f32) {
-        self.focus.find(&self.grid, &self.sort.strips, &self.groups, at, density, bound);
+    pub(crate) fn focus(&mut self, at: [&[f32]; 2], density: &[f32], bound: f32, team: Team) {
+        let Self { grid, sort, groups, focus, .. } = self;
+        focus.find(&Binned { grid, sort, groups, at }, density, bound, team);
     }
 
     /// The groups of the last [`Bins::focus`], in the order of their particles. Of some only a part is worked on.
     pub(crate) fn focused(&self) -> &[Group] {
-        &self.focus.groups
+        self.focus.groups()
     }
 
     /// The binned rock.
@@ -144,12 +144,4 @@ impl Bins {
             + size_of::<Group>() * self.groups.capacity()
             + self.focus.memory()
     }
-}
-
-/// Makes room for `count` entries, and for few more.
-fn resize<T: Clone + Default>(entries: &mut Vec<T>, count: usize) {
-    if count > entries.capacity() {
-        entries.reserve_exact(count + count / SPARE_GROUPS - entries.len());
-    }
-    entries.resize(count, T::default());
 }

@@ -22,6 +22,9 @@ use std::ops::Range;
 const BLOCK: usize = 256;
 /// Fewer blocks than this a piece do not pay for another thread when their cells are looked up.
 const WORTH_A_LOOK: usize = 32;
+/// Particles of a segment at least, where there are enough of them for the threads: it searches the blocks at both of its ends for its
+/// own.
+const WHOLE_SEGMENT: usize = 8192;
 /// Fewer particles than this do not pay for a segment of their own.
 const WORTH_A_SEGMENT: usize = 2048;
 
@@ -78,6 +81,12 @@ impl Sort {
         particles.reorder(source, Spares { words, elements: &mut self.spare_elements }, threads);
     }
 
+    /// The places of the particles of a strip that holds any, or lies between such.
+    pub fn particles(&self, grid: &CellGrid, strip: usize) -> Range<usize> {
+        let start = strip * grid.columns;
+        self.starts[start] as usize..self.starts[start + grid.columns] as usize
+    }
+
     /// Lets `settle` change the positions of each strip of the sorted particles within their cells.
     pub fn settle(&self, grid: &CellGrid, particles: &mut Particles, threads: usize, settle: &(impl Fn(Strip) + Sync)) {
         let Particles { x, y, id, .. } = particles;
@@ -123,7 +132,8 @@ impl Sort {
             *strips = 1..1;
         }
         segments.clear();
-        let most = piece(count, threads, WORTH_A_SEGMENT) as u32;
+        let share = count.div_ceil(threads.max(1)).clamp(WORTH_A_SEGMENT, WHOLE_SEGMENT);
+        let most = piece(count, threads, share) as u32;
         let mut next = Segment { cells: found.start * grid.columns..0, places: 0..0 };
         let mut filled = 0;
         for boundary in strips.clone().map(|strip| strip * grid.columns) {

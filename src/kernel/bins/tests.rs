@@ -1,10 +1,16 @@
 //! No particle within reach is missed, and each is in one group.
 
-use super::{Bins, Neighbours, Strip, cells::CellGrid, search::MARGIN_ROUNDING};
+use super::{Bins, Group, Neighbours, Strip, cells::CellGrid, search::MARGIN_ROUNDING};
 use crate::{
-    element::ElementId, particles::Particles, pbf::tests::random_numbers, simd::InstructionSet, solids::Solids,
+    element::ElementId,
+    parallel::{Team, in_pool},
+    particles::Particles,
+    pbf::tests::random_numbers,
+    simd::InstructionSet,
+    solids::Solids,
 };
 use glam::Vec2;
+use std::collections::BTreeSet;
 
 fn scattered(n: usize, size: Vec2) -> Particles {
     let mut random = random_numbers(12345);
@@ -138,6 +144,49 @@ fn the_sort_does_not_depend_on_how_it_is_cut() {
     assert!([2, 3, 8].into_iter().all(|threads| run(threads) == one));
 }
 
+/// The particles that the focus works on.
+fn focused(bins: &Bins) -> Vec<usize> {
+    let of = |group: &Group| {
+        let lanes = group.lanes;
+        group.particles().enumerate().filter(move |(lane, _)| lanes >> lane & 1 != 0).map(|(_, i)| i)
+    };
+    bins.focused().iter().flat_map(of).collect()
+}
+
+#[test]
+fn the_focus_is_on_what_is_in_or_beside_a_tile_with_something_too_dense() {
+    let mut random = random_numbers(11);
+    // The widest has rows of several words of marks.
+    for (count, size) in [(0, 9.0), (1, 3.0), (6000, 60.0), (9000, 700.0)] {
+        let size = Vec2::new(size, 40.0);
+        for share_of_dense in [0.0, 0.002, 0.05, 1.0] {
+            let (mut bins, particles) = sorted(count, size, 16);
+            let density: Vec<f32> = (0..count).map(|_| if random() < share_of_dense { 1.2 } else { 1.0 }).collect();
+            let Particles { x, y, .. } = &particles;
+            let tile = |i: usize| (bins.grid.tile_column(x[i]), bins.grid.strip(y[i]));
+            let dense: BTreeSet<_> = (0..count).filter(|&i| density[i] > 1.1).map(tile).collect();
+            let beside = |at: usize| at - 1..=at + 1;
+            let is_near = |&i: &usize| {
+                let (column, row) = tile(i);
+                beside(row).any(|row| beside(column).any(|column| dense.contains(&(column, row))))
+            };
+            let expected: Vec<_> = (0..count).filter(is_near).collect();
+            for (threads, width) in [(1, 16), (3, 16), (2, 4), (1, 1)] {
+                bins.group(x, width, threads);
+                for instructions in InstructionSet::available() {
+                    in_pool(threads, || bins.focus([x, y], &density, 1.1, Team { instructions, threads }));
+                    assert_eq!(focused(&bins), expected, "{count} particles, {threads} threads, {width} side by side");
+                }
+            }
+            let [mut spare, mut order] = [Vec::new(), Vec::new()];
+            let (instructions, brute) = (InstructionSet::Baseline, Neighbours::Brute);
+            bins.bin(&mut particles.clone(), [&mut spare, &mut order], brute, instructions, 1, &|_| ());
+            bins.focus([x, y], &density, 1.1, Team { instructions, threads: 1 });
+            assert_eq!(focused(&bins), expected, "every particle with every other");
+        }
+    }
+}
+
 #[test]
 fn what_is_turned_inwards_stays_in_its_cell() {
     let size = Vec2::new(40.0, 40.0);
@@ -177,12 +226,11 @@ fn cells_and_tiles_stand_symmetrically_about_the_middle() {
             let (cell, turned) = (grid.cell(at.x, at.y), grid.cell(image.x, image.y));
             assert_eq!(cell % columns + turned % columns, columns - 1, "{at} in {size}");
             assert_eq!(cell / columns + turned / columns, rows - 1, "{at} in {size}");
-            let (tile, turned) = (grid.tile(at.x, at.y), grid.tile(image.x, image.y));
-            assert_eq!(tile % stride + turned % stride, stride - 1, "{at} in {size}");
+            let (tile, turned) = (grid.tile_column(at.x), grid.tile_column(image.x));
+            assert_eq!(tile + turned, stride - 1, "{at} in {size}");
             // Square tiles in a square box: turned by a quarter they are the same.
-            let quarter = grid.tile(at.y, at.x);
             if size.x == size.y {
-                assert_eq!((tile % stride, tile / stride), (quarter / stride, quarter % stride), "{at}");
+                assert_eq!(grid.strip(at.x), tile, "{at}");
             }
         }
     }

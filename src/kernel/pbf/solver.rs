@@ -2,6 +2,7 @@
 
 use crate::{
     bins::{self, Bins, Group, Neighbours, RockBins, Strip},
+    parallel::Team,
     params::{Domain, GradientKernel, Quality},
     particles::Particles,
     pbf::{
@@ -181,7 +182,8 @@ impl Solver {
                 _ if iteration == 0 => Reach::First,
                 None => Reach::All,
                 Some(bound) => {
-                    self.bins.focus(anchor, &self.density, bound);
+                    let team = Team { instructions: self.instructions, threads: params.threads };
+                    self.bins.focus(anchor, &self.density, bound, team);
                     Reach::Focused
                 }
             };
