@@ -1,8 +1,12 @@
-//! One level of the pressure equation: the operator, its smoother, and sums over cells.
+//! One level of the pressure equation: its fields, its smoother, and sums over cells.
 
 use crate::{
     parallel::{Band, Rows, Sweep, Team, sweep},
-    predictor::pieces::Pieces,
+    predictor::{
+        operator::{Equation, EquationRow, Lent, Operator},
+        pieces::Pieces,
+        wide::{Wide, in_lanes, load, store},
+    },
 };
 use std::ops::Range;
 
@@ -29,52 +33,6 @@ pub(super) struct Level {
     pub b: Vec<f32>,
     /// What [`Level::apply`] found, and the next unknowns while smoothing.
     pub work: Vec<f32>,
-}
-
-/// Memory of an operator. What is on the faces of a grid after a solve fits in, two numbers each.
-pub(super) type Lent = [Vec<[f32; 2]>; 2];
-
-/// Coefficients of the equation. Those of the finest level are found anew for each solve and read by nobody after it, so that
-/// their memory is lent in between.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Operator(Lent);
-
-impl Operator {
-    fn new(cells: usize) -> Self {
-        Self([vec![[0.0; 2]; cells], vec![[0.0; 2]; cells]])
-    }
-
-    /// Of each cell: the sum of the open shares of its faces (*diagonal*; 0 where there is nothing to solve), damping over that or 0
-    /// (*damped*), and how it is coupled to its neighbours to the *right* and *upper*.
-    #[inline(always)]
-    pub fn fields(&self) -> [&[f32]; 4] {
-        let [first, second] = self.0.each_ref().map(|two| two.as_flattened().split_at(two.len()));
-        [first.0, first.1, second.0, second.1]
-    }
-
-    /// The same, to be changed.
-    #[inline(always)]
-    pub fn fields_mut(&mut self) -> [&mut [f32]; 4] {
-        let [first, second] = self.0.each_mut().map(|two| {
-            let cells = two.len();
-            two.as_flattened_mut().split_at_mut(cells)
-        });
-        [first.0, first.1, second.0, second.1]
-    }
-
-    /// Whether its memory is lent.
-    pub fn is_lent(&self) -> bool {
-        self.0[0].is_empty()
-    }
-
-    /// Lends its memory, or takes it back.
-    pub fn exchange(&mut self, lent: &mut Lent) {
-        std::mem::swap(&mut self.0, lent);
-    }
-
-    fn memory(&self) -> usize {
-        self.0.iter().map(|two| 8 * two.capacity()).sum()
-    }
 }
 
 impl Level {
@@ -174,7 +132,8 @@ impl Level {
     pub fn smooth_from_zero(&mut self, team: Team) {
         let mut x = std::mem::take(&mut self.x);
         let band = Rows::new(&mut x, self.stride, &self.wet.rows());
-        self.sweep(&SmoothFromZero(self.equation()), band, team);
+        let equation = self.equation();
+        self.sweep(&Smooth { x: [equation.damped, equation.b], equation }, band, team);
         self.x = x;
     }
 
@@ -182,7 +141,7 @@ impl Level {
     pub fn smooth(&mut self, team: Team) {
         let mut next = std::mem::take(&mut self.work);
         let band = Rows::new(&mut next, self.stride, &self.wet.rows());
-        self.sweep(&Smooth { equation: self.equation(), x: &self.x }, band, team);
+        self.sweep(&Smooth { equation: self.equation(), x: [&self.x] }, band, team);
         self.work = std::mem::replace(&mut self.x, next);
     }
 
@@ -191,7 +150,7 @@ impl Level {
         let mut next = std::mem::take(&mut self.work);
         let rows = self.wet.rows();
         let band = (Rows::new(&mut next, self.stride, &rows), sums.rows(&rows));
-        self.sweep(&Smooth { equation: self.equation(), x: &self.x }, band, team);
+        self.sweep(&Smooth { equation: self.equation(), x: [&self.x] }, band, team);
         self.work = std::mem::replace(&mut self.x, next);
         sums.total(&rows)
     }
@@ -226,38 +185,6 @@ pub(super) fn damping(diagonal: f32) -> f32 {
     if diagonal > LEAST_DIAGONAL { DAMPING / diagonal } else { 0.0 }
 }
 
-/// The equation as sweeps read it.
-struct Equation<'a> {
-    wet: &'a Pieces,
-    stride: usize,
-    diagonal: &'a [f32],
-    damped: &'a [f32],
-    right: &'a [f32],
-    upper: &'a [f32],
-    b: &'a [f32],
-}
-
-impl Equation<'_> {
-    /// Calls `take(i, (A x)_i)` for the `len` cells from index `first` on.
-    #[inline(always)]
-    fn products(&self, x: &[f32], first: usize, len: usize, mut take: impl FnMut(usize, f32)) {
-        let (o, n, s) = (first, len, self.stride);
-        let (centre, left, right) = (&x[o..o + n], &x[o - 1..o - 1 + n], &x[o + 1..o + 1 + n]);
-        let (lower, upper) = (&x[o - s..o - s + n], &x[o + s..o + s + n]);
-        let diagonal = &self.diagonal[o..o + n];
-        let (to_right, to_left) = (&self.right[o..o + n], &self.right[o - 1..o - 1 + n]);
-        let (to_upper, to_lower) = (&self.upper[o..o + n], &self.upper[o - s..o - s + n]);
-        for i in 0..n {
-            let product = diagonal[i] * centre[i]
-                - to_right[i] * right[i]
-                - to_left[i] * left[i]
-                - to_upper[i] * upper[i]
-                - to_lower[i] * lower[i];
-            take(i, product);
-        }
-    }
-}
-
 struct Apply<'a> {
     equation: Equation<'a>,
     x: &'a [f32],
@@ -266,14 +193,27 @@ struct Apply<'a> {
 impl<'b> Sweep<(Rows<'b, f32>, Rows<'b, f64>)> for Apply<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, (mut out, sums): (Rows<f32>, Rows<f64>)) {
+        let Self { equation, x } = self;
         for ((j, out), sum) in rows.zip(out.each()).zip(sums.field) {
-            let Equation { wet, stride, .. } = self.equation;
-            for run in wet.runs(j) {
-                let own = &mut out[run.clone()];
-                self.equation.products(self.x, j * stride + run.start, run.len(), |i, product| own[i] = product);
+            let row = equation.row(j, [*x]);
+            for run in equation.wet.runs(j) {
+                in_lanes(run, Products { row: &row, out });
             }
-            *sum = wet.dot(j, out, &self.x[j * stride..]);
+            *sum = equation.wet.dot(j, out, row.x[0][1]);
         }
+    }
+}
+
+/// Sets `out` to A x.
+struct Products<'a> {
+    row: &'a EquationRow<'a, 1>,
+    out: &'a mut [f32],
+}
+
+impl Wide for Products<'_> {
+    #[inline(always)]
+    fn run<const N: usize>(&mut self, at: usize) {
+        store(self.out, at, self.row.products::<N>(at));
     }
 }
 
@@ -285,84 +225,73 @@ struct TakeProductOff<'a> {
 impl<'b> Sweep<(Rows<'b, f32>, (Rows<'b, f64>, Rows<'b, f64>))> for TakeProductOff<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, (mut b, (before, after)): (Rows<f32>, (Rows<f64>, Rows<f64>))) {
+        let Self { equation, x } = self;
         for (((j, b), before), after) in rows.zip(b.each()).zip(before.field).zip(after.field) {
-            let Equation { wet, stride, .. } = self.equation;
-            *before = wet.dot(j, b, b);
-            for run in wet.runs(j) {
-                let own = &mut b[run.clone()];
-                self.equation.products(self.x, j * stride + run.start, run.len(), |i, product| own[i] -= product);
-            }
-            *after = wet.dot(j, b, b);
-        }
-    }
-}
-
-struct SmoothFromZero<'a>(Equation<'a>);
-
-impl Sweep<Rows<'_, f32>> for SmoothFromZero<'_> {
-    #[inline(always)]
-    fn run(&self, rows: Range<usize>, mut out: Rows<f32>) {
-        let equation = &self.0;
-        let s = equation.stride;
-        for (j, out) in rows.zip(out.each()) {
+            *before = equation.wet.dot(j, b, b);
+            let row = equation.row(j, [*x]);
             for run in equation.wet.runs(j) {
-                let cells = j * s + run.start..j * s + run.end;
-                let (o, n) = (cells.start, cells.len());
-                let out = &mut out[run];
-                // The first step alone is damping times right-hand side, of a cell and of those around it.
-                let [damped, d_left, d_right, d_lower, d_upper] = and_around(equation.damped, cells.clone(), s);
-                let [b, b_left, b_right, b_lower, b_upper] = and_around(equation.b, cells.clone(), s);
-                let diagonal = &equation.diagonal[cells.clone()];
-                let (to_right, to_left) = (&equation.right[cells.clone()], &equation.right[o - 1..o - 1 + n]);
-                let (to_upper, to_lower) = (&equation.upper[cells], &equation.upper[o - s..o - s + n]);
-                for i in 0..n {
-                    let first = damped[i] * b[i];
-                    let product = diagonal[i] * first
-                        - to_right[i] * (d_right[i] * b_right[i])
-                        - to_left[i] * (d_left[i] * b_left[i])
-                        - to_upper[i] * (d_upper[i] * b_upper[i])
-                        - to_lower[i] * (d_lower[i] * b_lower[i]);
-                    out[i] = first + damped[i] * (b[i] - product);
-                }
+                in_lanes(run, LessProducts { row: &row, b });
             }
+            *after = equation.wet.dot(j, b, b);
         }
     }
 }
 
-/// A row of cells and those to the left, to the right, below and above.
-#[inline(always)]
-fn and_around(field: &[f32], cells: Range<usize>, stride: usize) -> [&[f32]; 5] {
-    let Range { start, end } = cells;
-    [
-        &field[start..end],
-        &field[start - 1..end - 1],
-        &field[start + 1..end + 1],
-        &field[start - stride..end - stride],
-        &field[start + stride..end + stride],
-    ]
+/// Takes A x off `b`.
+struct LessProducts<'a> {
+    row: &'a EquationRow<'a, 1>,
+    b: &'a mut [f32],
 }
 
-struct Smooth<'a> {
+impl Wide for LessProducts<'_> {
+    #[inline(always)]
+    fn run<const N: usize>(&mut self, at: usize) {
+        let (mut b, products) = (load::<N>(self.b, at), self.row.products::<N>(at));
+        for i in 0..N {
+            b[i] -= products[i];
+        }
+        store(self.b, at, b);
+    }
+}
+
+/// A Jacobi step.
+struct Smooth<'a, const FACTORS: usize> {
     equation: Equation<'a>,
-    x: &'a [f32],
+    /// What the unknowns are the product of.
+    x: [&'a [f32]; FACTORS],
 }
 
-impl Smooth<'_> {
+impl<const FACTORS: usize> Smooth<'_, FACTORS> {
     #[inline(always)]
     fn row(&self, row: usize, out: &mut [f32]) {
-        let Equation { wet, stride, damped, b, .. } = self.equation;
-        for run in wet.runs(row) {
-            let cells = row * stride + run.start..row * stride + run.end;
-            let [x, damped, b] = [self.x, damped, b].map(|field| &field[cells.clone()]);
-            let out = &mut out[run];
-            self.equation.products(self.x, cells.start, cells.len(), |i, product| {
-                out[i] = x[i] + damped[i] * (b[i] - product);
-            });
+        let Self { equation, x } = self;
+        let (own, b) = (equation.row(row, *x), equation.of(equation.b, row));
+        for run in equation.wet.runs(row) {
+            in_lanes(run, Step { row: &own, b, out });
         }
     }
 }
 
-impl Sweep<Rows<'_, f32>> for Smooth<'_> {
+/// The step in a row.
+struct Step<'a, const FACTORS: usize> {
+    row: &'a EquationRow<'a, FACTORS>,
+    b: &'a [f32],
+    out: &'a mut [f32],
+}
+
+impl<const FACTORS: usize> Wide for Step<'_, FACTORS> {
+    #[inline(always)]
+    fn run<const N: usize>(&mut self, at: usize) {
+        let (mut x, damped) = (self.row.unknowns::<N>(1, at), load::<N>(self.row.damped, at));
+        let residuals = self.row.residuals::<N>(self.b, at);
+        for i in 0..N {
+            x[i] += damped[i] * residuals[i];
+        }
+        store(self.out, at, x);
+    }
+}
+
+impl<const FACTORS: usize> Sweep<Rows<'_, f32>> for Smooth<'_, FACTORS> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut out: Rows<f32>) {
         for (j, out) in rows.zip(out.each()) {
@@ -371,7 +300,7 @@ impl Sweep<Rows<'_, f32>> for Smooth<'_> {
     }
 }
 
-impl<'b> Sweep<(Rows<'b, f32>, Rows<'b, f64>)> for Smooth<'_> {
+impl<'b, const FACTORS: usize> Sweep<(Rows<'b, f32>, Rows<'b, f64>)> for Smooth<'_, FACTORS> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, (mut out, sums): (Rows<f32>, Rows<f64>)) {
         for ((j, out), sum) in rows.zip(out.each()).zip(sums.field) {
@@ -407,11 +336,10 @@ impl Sweep<Rows<'_, f32>> for Restrict<'_> {
                 for first in (2 * run.start - 1..end).step_by(CHUNK) {
                     let n = CHUNK.min(end - first);
                     let mut residuals = [[0.0_f32; CHUNK]; 2];
-                    for (fine, residual) in [2 * j - 1, 2 * j].into_iter().zip(&mut residuals) {
+                    for (fine, out) in [2 * j - 1, 2 * j].into_iter().zip(&mut residuals) {
                         if self.rows.contains(&fine) {
-                            let start = fine * equation.stride + first;
-                            let (b, residual) = (&equation.b[start..start + n], &mut residual[..n]);
-                            equation.products(self.x, start, n, |i, product| residual[i] = b[i] - product);
+                            let (row, b) = (equation.row(fine, [self.x]), equation.of(equation.b, fine));
+                            in_lanes(first..first + n, Residuals { row: &row, b, first, out });
                         }
                     }
                     let (lower, upper) = (residuals[0].as_chunks::<2>().0, residuals[1].as_chunks::<2>().0);
@@ -422,6 +350,21 @@ impl Sweep<Rows<'_, f32>> for Restrict<'_> {
                 }
             }
         }
+    }
+}
+
+/// Sets `out` to the residuals from column `first` on.
+struct Residuals<'a> {
+    row: &'a EquationRow<'a, 1>,
+    b: &'a [f32],
+    first: usize,
+    out: &'a mut [f32],
+}
+
+impl Wide for Residuals<'_> {
+    #[inline(always)]
+    fn run<const N: usize>(&mut self, at: usize) {
+        store(self.out, at - self.first, self.row.residuals::<N>(self.b, at));
     }
 }
 

@@ -11,7 +11,8 @@
 //! which a thin wall leaves little, `behind` what thin walls hide, `rock` all that of a box, `stencil`, `share_out`, `transfer` and `way_back` particles to grid and
 //! back, `matter` what of it is heavier, `grains` friction among powders, `pressure` and `equation` the equation, `changes` what
 //! follows from its solution on the faces, `flow` the velocity that comes of it, `pressure_at` the pressure between the cells,
-//! `pockets` where it is singular, `pieces` where there is any, `level`, `multigrid` and `conjugate` its solver.
+//! `pockets` where it is singular, `pieces` where there is any, `operator`, `level`, `multigrid` and `conjugate` its solver, `wide` how they
+//! go over cells.
 
 mod behind;
 mod changes;
@@ -26,6 +27,7 @@ mod level;
 mod matter;
 mod multigrid;
 mod open_shares;
+mod operator;
 mod outline;
 mod parts;
 mod pieces;
@@ -42,6 +44,7 @@ mod steps;
 mod tests;
 mod transfer;
 mod way_back;
+mod wide;
 
 pub use flow::Flow;
 pub use grains::GrainParams;

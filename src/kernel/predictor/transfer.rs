@@ -8,6 +8,7 @@ use crate::{
         grid::MacGrid,
         level,
         matter::{Buoyancy, Matter},
+        operator::Lent,
         share_out::{Pair, ShareOut},
         stencil::Axis,
     },
@@ -27,7 +28,7 @@ pub(super) struct Faces {
     /// The same at the lower faces.
     pub v: Vec<[f32; 2]>,
     /// At the left and at the lower faces, after the solve: in memory that the solver lends.
-    pub ways: level::Lent,
+    pub ways: Lent,
     /// How full the cells are of liquid and rock, 1 at the density aimed at.
     pub filled: Vec<f32>,
     /// Fills of cells beside thin walls; kept between uses.
