@@ -23,7 +23,7 @@ use super::{
     grid::Air,
     meetings::{Feedback, Meeting},
     rooms::QUIET_MACH,
-    stencils::{LANES, Stencils, split},
+    stencils::{LANES, Stencils, lanes, split},
 };
 use crate::{
     blocks::Reach,
@@ -57,14 +57,14 @@ pub enum Rousing {
 #[derive(Clone, Copy)]
 struct Along {
     per_cell: f32,
-    last: f32,
+    last: u32,
 }
 
 impl Reach for Along {
     #[inline(always)]
     fn rows(self, y: f32) -> [u32; 2] {
         let (row, _) = split(y, self.per_cell, self.last);
-        [row as u32 + 1, row as u32 + 3]
+        [row + 1, row + 3]
     }
 }
 
@@ -90,7 +90,7 @@ impl Air {
     ) {
         let mut feedback = std::mem::take(&mut self.scratch.feedback);
         feedback.meetings.resize(self.pressure.len(), Meeting::default());
-        let along = |count: usize| Along { per_cell: 1.0 / self.cell, last: (count - 1) as f32 };
+        let along = |count: usize| Along { per_cell: 1.0 / self.cell, last: count as u32 - 1 };
         feedback.blocks.partition(along(self.rows()), &particles.y, team.instructions, team.threads);
         let [low, high] = extent(&particles.x, team.instructions).map(|x| along(self.columns()).rows(x));
         feedback.columns = low[0] as usize..high[1] as usize;
@@ -199,21 +199,22 @@ impl Pass for FindShares<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let Self { air, elements, particles: Particles { x, y, vx, vy, element, .. }, first, shares, dt } = self;
-        let (mut rates, mut wind_x, mut wind_y) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let (mut rates, mut found) = ([0.0; LANES], [0.0; LANES]);
         for (index, shares) in shares.chunks_mut(LANES).enumerate() {
             let (start, count) = (first + index * LANES, shares.len());
             let own = start..start + count;
-            air.sample_velocities(&x[own.clone()], &y[own.clone()], &mut wind_x[..count], &mut wind_y[..count]);
+            let [wind_x, wind_y] = air.velocities_around(&x[own.clone()], &y[own.clone()]);
             for (rate, element) in rates.iter_mut().zip(&element[own.clone()]) {
                 *rate = elements.drag[element.index()];
             }
-            let (vx, vy) = (&vx[own.clone()], &vy[own]);
-            for k in 0..count {
+            let (vx, vy) = (lanes(&vx[own.clone()]), lanes(&vy[own]));
+            for k in 0..LANES {
                 let (x, y) = (vx[k] - wind_x[k], vy[k] - wind_y[k]);
                 let slowing = rates[k] * (x * x + y * y).sqrt() * dt;
                 let slowing = if slowing < MOST_DRAG { slowing } else { MOST_DRAG };
-                shares[k] = slowing / (1.0 + slowing);
+                found[k] = slowing / (1.0 + slowing);
             }
+            shares.copy_from_slice(&found[..count]);
         }
     }
 }
@@ -272,12 +273,16 @@ impl Pass for DragAlong<'_> {
             let count = own.len();
             let stencils = Stencils::new(air, &x[own.clone()], &y[own.clone()]);
             let [u, v] = stencils.blend(count, |k| [0, 1].map(|next| [meetings[k + next][0], meetings[k + next][1]]));
-            let (vx, vy) = (&mut vx[own.clone()], &mut vy[own.clone()]);
-            let (later_x, later_y) = (&mut later_x[own.clone()], &mut later_y[own]);
-            for k in 0..count {
-                let share = later_x[k];
-                (later_x[k], later_y[k]) = (0.5 * share * (u[k] - vx[k]), 0.5 * share * (v[k] - vy[k]));
-                (vx[k], vy[k]) = (vx[k] + later_x[k], vy[k] + later_y[k]);
+            let share = lanes(&later_x[own.clone()]);
+            for (velocity, later, air) in [(&mut *vx, &mut *later_x, u), (vy, later_y, v)] {
+                let mut before = lanes(&velocity[own.clone()]);
+                let mut half = [0.0; LANES];
+                for k in 0..LANES {
+                    half[k] = 0.5 * share[k] * (air[k] - before[k]);
+                    before[k] += half[k];
+                }
+                later[own.clone()].copy_from_slice(&half[..count]);
+                velocity[own.clone()].copy_from_slice(&before[..count]);
             }
         }
     }

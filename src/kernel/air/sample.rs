@@ -26,12 +26,17 @@ impl Air {
         }
         let places = x.chunks(LANES).zip(y.chunks(LANES));
         for ((x, y), (out_u, out_v)) in places.zip(out_u.chunks_mut(LANES).zip(out_v.chunks_mut(LANES))) {
-            let [u, v] = Stencils::new(self, x, y).blend(x.len(), |k| {
-                let (u, v) = (&self.velocity_x[k..k + 2], &self.velocity_y[k..k + 2]);
-                [[u[0], v[0]], [u[1], v[1]]]
-            });
+            let [u, v] = self.velocities_around(x, y);
             out_u.copy_from_slice(&u[..x.len()]);
             out_v.copy_from_slice(&v[..x.len()]);
         }
+    }
+    /// The same at up to [`LANES`] points, and 0 for the others. The air must be built.
+    #[inline(always)]
+    pub(super) fn velocities_around(&self, x: &[f32], y: &[f32]) -> [[f32; LANES]; 2] {
+        Stencils::new(self, x, y).blend(x.len(), |k| {
+            let (u, v) = (&self.velocity_x[k..k + 2], &self.velocity_y[k..k + 2]);
+            [[u[0], v[0]], [u[1], v[1]]]
+        })
     }
 }

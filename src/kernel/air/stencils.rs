@@ -1,6 +1,7 @@
 //! Where points lie between the centres of cells, several at a time.
 
 use super::grid::Air;
+use crate::simd::whole_below;
 
 /// Points that are looked at side by side.
 pub(super) const LANES: usize = 16;
@@ -22,14 +23,14 @@ impl Stencils {
     #[inline(always)]
     pub(super) fn new(air: &Air, x: &[f32], y: &[f32]) -> Self {
         let (per_cell, stride) = (1.0 / air.cell(), air.stride());
-        let last = [air.columns() - 1, air.rows() - 1].map(|last| last as f32);
+        let last = [air.columns() - 1, air.rows() - 1].map(|last| last as u32);
         let origin = air.index(0, 0) as u32;
         let mut stencils = Self { corner: [0; LANES], right: [0.0; LANES], upper: [0.0; LANES], stride };
         let (x, y) = (lanes(x), lanes(y));
         for lane in 0..LANES {
             let (column, right) = split(x[lane], per_cell, last[0]);
             let (row, upper) = split(y[lane], per_cell, last[1]);
-            stencils.corner[lane] = origin + row as u32 * stride as u32 + column as u32;
+            stencils.corner[lane] = origin + row * stride as u32 + column;
             (stencils.right[lane], stencils.upper[lane]) = (right, upper);
         }
         stencils
@@ -71,7 +72,7 @@ impl Stencils {
 
 /// Up to [`LANES`] numbers, and 0 for what is missing.
 #[inline(always)]
-fn lanes(numbers: &[f32]) -> [f32; LANES] {
+pub(super) fn lanes(numbers: &[f32]) -> [f32; LANES] {
     match numbers.first_chunk() {
         Some(all) => *all,
         None => {
@@ -88,11 +89,10 @@ fn mix(a: f32, b: f32, part: f32) -> f32 {
     a * (1.0 - part) + b * part
 }
 
-/// A coordinate in cells from the first centre: the cell at or below it and how far beyond. `max` and `min` also turn
-/// what is no number into 0.
+/// A coordinate in cells from the first centre: the cell at or below it and how far beyond. What is no number counts as 0.
 #[inline(always)]
-pub(super) fn split(at: f32, per_cell: f32, last: f32) -> (usize, f32) {
-    let at = (at * per_cell - 0.5).max(0.0).min(last);
-    let whole = at as u32;
-    (whole as usize, at - whole as f32)
+pub(super) fn split(at: f32, per_cell: f32, last: u32) -> (u32, f32) {
+    let at = at * per_cell - 0.5;
+    let at = if at > 0.0 { at } else { 0.0 };
+    whole_below(if at < last as f32 { at } else { last as f32 }, 0, last)
 }
