@@ -23,7 +23,7 @@ use super::{
     grid::Air,
     meetings::{Feedback, Meeting},
     rooms::QUIET_MACH,
-    stencils::{LANES, Stencils, lanes, split},
+    stencils::{LANES, Stencils, split},
 };
 use crate::{
     blocks::Reach,
@@ -31,7 +31,7 @@ use crate::{
     forces::LaterDrag,
     parallel::{Rows, Sweep, Team, WORTH_A_PIECE, spread, sweep},
     particles::{Particles, extent},
-    simd::{Lanes, Pass},
+    simd::{Lanes, Pass, padded},
 };
 use std::ops::Range;
 
@@ -207,7 +207,7 @@ impl Pass for FindShares<'_> {
             for (rate, element) in rates.iter_mut().zip(&element[own.clone()]) {
                 *rate = elements.drag[element.index()];
             }
-            let (vx, vy) = (lanes(&vx[own.clone()]), lanes(&vy[own]));
+            let [vx, vy] = [vx, vy].map(|velocity| padded::<LANES>(&velocity[own.clone()]));
             for k in 0..LANES {
                 let (x, y) = (vx[k] - wind_x[k], vy[k] - wind_y[k]);
                 let slowing = rates[k] * (x * x + y * y).sqrt() * dt;
@@ -273,9 +273,9 @@ impl Pass for DragAlong<'_> {
             let count = own.len();
             let stencils = Stencils::new(air, &x[own.clone()], &y[own.clone()]);
             let [u, v] = stencils.blend(count, |k| [0, 1].map(|next| [meetings[k + next][0], meetings[k + next][1]]));
-            let share = lanes(&later_x[own.clone()]);
+            let share = padded::<LANES>(&later_x[own.clone()]);
             for (velocity, later, air) in [(&mut *vx, &mut *later_x, u), (vy, later_y, v)] {
-                let mut before = lanes(&velocity[own.clone()]);
+                let mut before = padded::<LANES>(&velocity[own.clone()]);
                 let mut half = [0.0; LANES];
                 for k in 0..LANES {
                     half[k] = 0.5 * share[k] * (air[k] - before[k]);

@@ -1,7 +1,7 @@
 //! Where points lie between the centres of cells, several at a time.
 
 use super::grid::Air;
-use crate::simd::whole_below;
+use crate::simd::{padded, whole_below};
 
 /// Points that are looked at side by side.
 pub(super) const LANES: usize = 16;
@@ -26,7 +26,7 @@ impl Stencils {
         let last = [air.columns() - 1, air.rows() - 1].map(|last| last as u32);
         let origin = air.index(0, 0) as u32;
         let mut stencils = Self { corner: [0; LANES], right: [0.0; LANES], upper: [0.0; LANES], stride };
-        let (x, y) = (lanes(x), lanes(y));
+        let (x, y): ([f32; LANES], [f32; LANES]) = (padded(x), padded(y));
         for lane in 0..LANES {
             let (column, right) = split(x[lane], per_cell, last[0]);
             let (row, upper) = split(y[lane], per_cell, last[1]);
@@ -67,19 +67,6 @@ impl Stencils {
                 mix(mix(left[lane], right[lane], x), mix(upper_left[lane], upper_right[lane], x), y)
             })
         })
-    }
-}
-
-/// Up to [`LANES`] numbers, and 0 for what is missing.
-#[inline(always)]
-pub(super) fn lanes(numbers: &[f32]) -> [f32; LANES] {
-    match numbers.first_chunk() {
-        Some(all) => *all,
-        None => {
-            let mut lanes = [0.0; LANES];
-            lanes[..numbers.len()].copy_from_slice(numbers);
-            lanes
-        }
     }
 }
 

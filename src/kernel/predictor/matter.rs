@@ -21,10 +21,10 @@ use crate::{
     predictor::{
         grid::MacGrid,
         level,
-        share_out::{Pair, ShareOut, lanes},
+        share_out::{Pair, ShareOut},
         stencil::{Axis, LANES, Stencils},
     },
-    simd::{Lanes, Pass},
+    simd::{Lanes, Pass, padded},
 };
 use glam::Vec2;
 use std::ops::Range;
@@ -225,7 +225,7 @@ impl Pass for FindBeside<'_> {
     fn run<L: Lanes>(self) {
         let Self { grid, densities, at: [x, y], masses, gains } = self;
         for first in (0..x.len()).step_by(LANES) {
-            let (x, y) = (lanes(x, first), lanes(y, first));
+            let [x, y]: [[f32; LANES]; 2] = [&x[first..], &y[first..]].map(padded);
             let [u, v] = [Axis::U, Axis::V].map(|axis| Stencils::new(grid, &x, &y, axis));
             let own = first..gains.len().min(first + LANES);
             for (lane, (gain, mass)) in gains[own.clone()].iter_mut().zip(&masses[own]).enumerate() {

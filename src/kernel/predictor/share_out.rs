@@ -8,7 +8,7 @@ use crate::{
         grid::MacGrid,
         stencil::{Axis, LANES, Stencils},
     },
-    simd::{Lanes, Pass},
+    simd::{Lanes, Pass, padded},
 };
 use std::ops::Range;
 
@@ -73,17 +73,6 @@ impl<'b> Sweep<Pair<'b>> for Clear {
     }
 }
 
-/// The numbers of a slice from `at` on, as many as there are lanes; lanes past its end are 0.
-#[inline(always)]
-pub(super) fn lanes(from: &[f32], at: usize) -> [f32; LANES] {
-    let from = &from[at..];
-    from.first_chunk().copied().unwrap_or_else(|| {
-        let mut lanes = [0.0; LANES];
-        lanes[..from.len()].copy_from_slice(from);
-        lanes
-    })
-}
-
 /// Adds the particles' weights and weighted values to the faces around them.
 struct Collect<'a, const WEIGHTED: bool> {
     grid: &'a MacGrid,
@@ -104,17 +93,17 @@ impl<const WEIGHTED: bool> Pass for Collect<'_, WEIGHTED> {
     fn run<L: Lanes>(self) {
         let Self { grid, values: [for_u, for_v], u, v, .. } = self;
         for at in (0..self.x.len()).step_by(LANES) {
-            let (x, y) = (lanes(self.x, at), lanes(self.y, at));
+            let (x, y) = (padded(&self.x[at..]), padded(&self.y[at..]));
             let count = (self.x.len() - at).min(LANES);
-            let weights = if WEIGHTED { lanes(self.weights, at) } else { [1.0; LANES] };
+            let weights = if WEIGHTED { padded(&self.weights[at..]) } else { [1.0; LANES] };
             // Where grains are shared out, most are none.
             if WEIGHTED && weights == [0.0; LANES] {
                 continue;
             }
             let to_u = Stencils::new(grid, &x, &y, Axis::U);
-            let to_u = Deposits::new::<WEIGHTED>(&to_u, &weights, &lanes(for_u, at));
+            let to_u = Deposits::new::<WEIGHTED>(&to_u, &weights, &padded(&for_u[at..]));
             let to_v = Stencils::new(grid, &x, &y, Axis::V);
-            let to_v = Deposits::new::<WEIGHTED>(&to_v, &weights, &lanes(for_v, at));
+            let to_v = Deposits::new::<WEIGHTED>(&to_v, &weights, &padded(&for_v[at..]));
             // Neighbours in the order add to the same faces, and each sum waits for the one before: far and near ones
             // in turn wait less.
             for turn in 0..LANES {

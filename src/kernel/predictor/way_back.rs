@@ -9,11 +9,10 @@ use crate::{
         grains::{GrainWay, Grains},
         grid::MacGrid,
         matter::{Beside, Matter},
-        share_out::lanes,
         stencil::{Axis, LANES, Stencils},
         transfer::Faces,
     },
-    simd::{Lanes, Pass},
+    simd::{Lanes, Pass, padded},
     solids::Solids,
 };
 use glam::{Vec2, Vec4, Vec4Swizzles};
@@ -130,7 +129,7 @@ impl<const MIXED: bool> Pass for HandBack<'_, MIXED> {
         let (low, high) = (Vec2::splat(WALL_GAP), way.domain.highest());
         let rock = (way.solids.count() > 0).then_some(way.solids);
         for at in (0..x.len()).step_by(LANES) {
-            let (from_x, from_y) = (lanes(x, at), lanes(y, at));
+            let [from_x, from_y]: [[f32; LANES]; 2] = [&x[at..], &y[at..]].map(padded);
             let own = at..x.len().min(at + LANES);
             let count = own.len();
             let around = |axis| Stencils::new(grid, &from_x, &from_y, axis);

@@ -189,6 +189,28 @@ pub(crate) fn rounded(value: f32) -> i32 {
     unsafe { away.to_int_unchecked() }
 }
 
+/// The first `N` numbers, and 0 for what is missing.
+#[inline(always)]
+pub(crate) fn padded<const N: usize>(numbers: &[f32]) -> [f32; N] {
+    numbers.first_chunk().copied().unwrap_or_else(|| {
+        let mut lanes = [0.0; N];
+        lanes[..numbers.len()].copy_from_slice(numbers);
+        lanes
+    })
+}
+
+/// The whole number at or just below one: 0 for what is below that or not a number, and 2³⁰ for what is beyond.
+#[inline(always)]
+pub(crate) fn truncated(value: f32) -> u32 {
+    const MOST: f32 = 1_073_741_824.0;
+    let value = if value > 0.0 { value } else { 0.0 };
+    let value = if value < MOST { value } else { MOST };
+    // As above.
+    // SAFETY: it is a number between 0 and 2³⁰.
+    let whole: i32 = unsafe { value.to_int_unchecked() };
+    whole as u32
+}
+
 #[cold]
 #[inline(never)]
 pub(super) fn too_short() -> ! {

@@ -8,7 +8,7 @@ mod sweep;
 
 pub(crate) use strides::{STRIDE, Stride};
 
-use crate::element::ElementId;
+use crate::{element::ElementId, simd::truncated};
 use glam::{IVec2, Vec2};
 use std::ops::Range;
 
@@ -206,7 +206,7 @@ impl Solids {
     /// Where the cell of a point (d) in the box is stored. Of others nothing is known.
     #[inline(always)]
     fn place(&self, [x, y]: [f32; 2]) -> u32 {
-        (y as u32).wrapping_mul(self.columns as u32).wrapping_add(x as u32)
+        truncated(y).wrapping_mul(self.columns as u32).wrapping_add(truncated(x))
     }
 
     /// Notes at the cells around one whether it is rock.

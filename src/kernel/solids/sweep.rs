@@ -1,6 +1,7 @@
 //! Collision with the cells of rock.
 
 use super::{Solids, bit};
+use crate::simd::{padded, truncated};
 use glam::{IVec2, Vec2};
 
 /// Distance to a face at which a swept point comes to rest, d: keeps it on the right side after rounding.
@@ -68,8 +69,8 @@ impl Solids {
         let mut is_turned = false;
         let from = from_x.chunks(BLOCK).zip(from_y.chunks(BLOCK));
         for ((from_x, from_y), (to_x, to_y)) in from.zip(to_x.chunks_mut(BLOCK).zip(to_y.chunks_mut(BLOCK))) {
-            let blocked = self.blocked([from_x, from_y], [to_x, to_y]);
-            if blocked == [0; BLOCK] {
+            let (blocked, is_any) = self.blocked([from_x, from_y].map(padded), [&*to_x, to_y].map(padded));
+            if !is_any {
                 continue;
             }
             for k in (0..from_x.len()).filter(|k| blocked[*k] != 0) {
@@ -82,25 +83,28 @@ impl Solids {
         is_turned
     }
 
-    /// Which ways of a block may meet rock or leave the box: not 0 for those. They are looked at side by side.
+    /// Which ways of a block may meet rock or leave the box, not 0 for those, and whether there is any. They are looked at side by
+    /// side; one from 0 to 0 goes nowhere.
     #[inline(always)]
-    fn blocked(&self, [from_x, from_y]: [&[f32]; 2], [to_x, to_y]: [&[f32]; 2]) -> [u16; BLOCK] {
+    fn blocked(&self, [from_x, from_y]: [[f32; BLOCK]; 2], [to_x, to_y]: [[f32; BLOCK]; 2]) -> ([u16; BLOCK], bool) {
         let (mut places, mut ways, mut blocked) = ([0; BLOCK], [0; BLOCK], [0; BLOCK]);
-        for k in 0..from_x.len() {
+        for k in 0..BLOCK {
             (places[k], ways[k]) = self.way([from_x[k], from_y[k]], [to_x[k], to_y[k]]);
         }
-        for k in 0..from_x.len() {
+        let mut any = 0;
+        for k in 0..BLOCK {
             blocked[k] =
                 self.near.get(places[k] as usize).map_or(ANY, |near| near | OUT) & PASSED[ways[k] as usize & 15];
+            any |= blocked[k];
         }
-        blocked
+        (blocked, any != 0)
     }
 
     /// Where the cell that a way begins in is stored, and which of [`PASSED`] it takes.
     #[inline(always)]
     fn way(&self, from: [f32; 2], to: [f32; 2]) -> (u32, u32) {
         let is_inside = |[x, y]: [f32; 2]| (x >= 0.0) & (y >= 0.0) & (x < self.columns as f32) & (y < self.rows as f32);
-        let ([column, row], [to_column, to_row]) = (from.map(|at| at as u32), to.map(|at| at as u32));
+        let ([column, row], [to_column, to_row]) = (from.map(truncated), to.map(truncated));
         let [x, y] = [to_column.wrapping_sub(column).wrapping_add(1), to_row.wrapping_sub(row).wrapping_add(1)];
         let is_short = is_inside(from) & is_inside(to) & (x < 3) & (y < 3);
         (self.place(from), if is_short { 3 * y + x } else { FAR })
