@@ -27,6 +27,7 @@ pub mod springs;
 pub mod stages;
 pub mod stamp;
 pub mod state;
+mod trial;
 pub mod workers;
 pub mod world_text;
 

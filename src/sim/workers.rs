@@ -1,7 +1,8 @@
 //! The threads that the kernel may use.
 
+use super::trial::Trial;
 use crate::kernel::parallel::{are_awake, watched};
-use bevy::prelude::Resource;
+use bevy::{platform::time::Instant, prelude::Resource};
 use std::{
     num::NonZero,
     sync::{Arc, LazyLock},
@@ -12,6 +13,9 @@ const WORTH_SHARING: usize = 500;
 
 /// The same where the others are asleep: handing work over then costs as much as the passes over fewer.
 const WORTH_WAKING: usize = 6_000;
+
+/// Of more particles than this a tick is always shared: to try how long one takes alone would be felt.
+const SURELY_SHARED: usize = 50_000;
 
 /// The same where a particle takes a fraction of a nanosecond: entering the pool takes some ten microseconds.
 const WORTH_SHARING_CHECKS: usize = 200_000;
@@ -28,6 +32,8 @@ pub struct Workers {
     pool: Option<Arc<rayon::ThreadPool>>,
     /// Whether there is no pool: the calling thread does all.
     alone: bool,
+    /// Whether ticks are shared out.
+    trial: Arc<Trial>,
 }
 
 impl Workers {
@@ -39,12 +45,12 @@ impl Workers {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.max(1)).build()?;
         // A thread that is still starting would slow a tick down.
         pool.broadcast(|_| ());
-        Ok(Self { pool: Some(Arc::new(pool)), alone: false })
+        Ok(Self { pool: Some(Arc::new(pool)), ..Self::default() })
     }
 
     /// No pool: the thread that asks does the work.
     pub fn single() -> Self {
-        Self { pool: None, alone: true }
+        Self { alone: true, ..Self::default() }
     }
 
     /// Number of threads.
@@ -65,10 +71,26 @@ impl Workers {
         }
     }
 
+    /// Runs the substeps of a tick like [`Workers::run_awake`], and takes their time to see now and then whether sharing them out
+    /// pays.
+    pub fn run_tick<T: Send>(&self, particles: usize, substeps: u32, work: impl FnOnce() -> T + Send) -> T {
+        if particles > SURELY_SHARED {
+            self.trial.end();
+        }
+        if self.threads() < 2 || !(WORTH_SHARING..=SURELY_SHARED).contains(&particles) {
+            return self.run_awake(particles, work);
+        }
+        let start = Instant::now();
+        let result = self.run_awake(particles, work);
+        self.trial.note(particles * substeps as usize, start.elapsed());
+        result
+    }
+
     /// Runs `work` while the other threads stay awake for what it hands over in turn ([`Workers::run_for`]), if it is over enough
     /// particles and there is a core for each thread.
     pub fn run_awake<T: Send>(&self, particles: usize, work: impl FnOnce() -> T + Send) -> T {
-        if particles >= WORTH_SHARING && (2..=*CORES).contains(&self.threads()) {
+        let is_worth_it = particles >= WORTH_SHARING && !self.trial.is_alone();
+        if is_worth_it && (2..=*CORES).contains(&self.threads()) {
             self.run(|threads| watched(threads - 1, work))
         } else {
             self.run_for(particles, |_| work())
@@ -85,8 +107,8 @@ impl Workers {
         self.run_if(particles >= WORTH_SHARING_CHECKS, work)
     }
 
-    /// [`Workers::run`] if the work is worth sharing, else on this thread.
+    /// [`Workers::run`] if the work is worth sharing and sharing is found to pay, else on this thread.
     pub fn run_if<T: Send>(&self, worth: bool, work: impl FnOnce(usize) -> T + Send) -> T {
-        if worth { self.run(work) } else { work(1) }
+        if worth && !self.trial.is_alone() { self.run(work) } else { work(1) }
     }
 }

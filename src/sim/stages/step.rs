@@ -60,7 +60,7 @@ pub(super) fn run_substeps(world: &mut World) {
         put_back(world);
         return;
     }
-    workers.run_awake(particles, || {
+    workers.run_tick(particles, substeps, || {
         for _ in 0..substeps {
             world.run_schedule(Substep);
         }
