@@ -21,6 +21,9 @@ const PERIOD: u32 = 360;
 /// The other way is taken where it needs no more than this share of the time.
 const WORTH_A_CHANGE: f32 = 0.95;
 
+/// A tick alone that takes longer would be felt: half of a frame. None is tried that might, and one that does is the last.
+const FELT: Duration = Duration::from_millis(8);
+
 /// The way that is taken, and what is known of both.
 #[derive(Debug, Default)]
 pub(super) struct Trial {
@@ -67,10 +70,15 @@ impl Trial {
         self.is_alone.load(Ordering::Relaxed)
     }
 
-    /// Notes that so many units of work took so long, and decides how the next tick is done.
-    pub fn note(&self, work: usize, time: Duration) {
+    /// Notes that so many units of work took so long, with so many threads if they were shared, and decides how the next tick is done.
+    pub fn note(&self, work: usize, time: Duration, threads: usize) {
         let mut notes = self.notes.lock().unwrap_or_else(PoisonError::into_inner);
         let notes = &mut *notes;
+        if self.is_alone() && time > FELT {
+            self.turn();
+            *notes = Notes { left: PERIOD, ..Notes::default() };
+            return;
+        }
         if notes.left > 0 {
             notes.left -= 1;
             return;
@@ -78,7 +86,12 @@ impl Trial {
         notes.times[usize::from(notes.measured >= MEASURED)].add(time.as_secs_f32() / work as f32);
         notes.measured += 1;
         if notes.measured == MEASURED {
-            self.turn();
+            let mean = notes.times[0].all_but_the_longest() / (MEASURED - 1) as f32 * work as f32;
+            if !self.is_alone() && mean * threads as f32 > FELT.as_secs_f32() {
+                *notes = Notes { left: PERIOD, ..Notes::default() };
+            } else {
+                self.turn();
+            }
         } else if notes.measured == 2 * MEASURED {
             let [before, other] = notes.times.map(Times::all_but_the_longest);
             if other >= WORTH_A_CHANGE * before {
@@ -86,12 +99,6 @@ impl Trial {
             }
             *notes = Notes { left: PERIOD, ..Notes::default() };
         }
-    }
-
-    /// Ends the trial: ticks are shared, and the next trial is as far off as the first.
-    pub fn end(&self) {
-        self.is_alone.store(false, Ordering::Relaxed);
-        *self.notes.lock().unwrap_or_else(PoisonError::into_inner) = Notes::default();
     }
 
     /// Takes the other way.
@@ -110,7 +117,7 @@ mod tests {
         for tick in 0..ticks {
             let is_alone = trial.is_alone();
             alone += u32::from(is_alone);
-            trial.note(1000, Duration::from_nanos(1000 * time(tick, is_alone)));
+            trial.note(1000, Duration::from_nanos(1000 * time(tick, is_alone)), 2);
         }
         alone
     }
@@ -134,7 +141,7 @@ mod tests {
 
     #[test]
     fn what_comes_between_once_decides_nothing_and_what_does_again_and_again_does() {
-        // Another program takes a long time in one tick, of each trial or of three.
+        // Another program takes some time in one tick, of each trial or of three.
         for (every, is_alone) in [(2 * MEASURED, false), (3, true)] {
             let trial = Trial::default();
             let late = |tick: u32| if tick % every == 1 { 1000 } else { 0 };
@@ -151,12 +158,16 @@ mod tests {
     }
 
     #[test]
-    fn what_was_found_is_forgotten_at_the_end() {
+    fn no_tick_is_tried_alone_that_might_be_felt_and_one_that_is_felt_is_the_last() {
+        // Half of 8 ms for 1,000 units on two threads.
+        let trial = Trial::default();
+        assert_eq!(play(&trial, 2000, |_, _| 4_100), 0);
+        assert!(play(&trial, 2000, |_, _| 3_900) > 0);
         let trial = Trial::default();
         play(&trial, 200, |_, is_alone| if is_alone { 100 } else { 120 });
         assert!(trial.is_alone());
-        trial.end();
-        assert_eq!(play(&trial, FIRST, |_, _| 1), 0);
+        // The world grows.
+        assert_eq!(play(&trial, 200, |_, is_alone| if is_alone { 9_000 } else { 6_000 }), 1);
     }
 
     #[test]

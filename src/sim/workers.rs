@@ -14,9 +14,6 @@ const WORTH_SHARING: usize = 500;
 /// The same where the others are asleep: handing work over then costs as much as the passes over fewer.
 const WORTH_WAKING: usize = 6_000;
 
-/// Of more particles than this a tick is always shared: to try how long one takes alone would be felt.
-const SURELY_SHARED: usize = 50_000;
-
 /// The same where a particle takes a fraction of a nanosecond: entering the pool takes some ten microseconds.
 const WORTH_SHARING_CHECKS: usize = 200_000;
 
@@ -74,15 +71,13 @@ impl Workers {
     /// Runs the substeps of a tick like [`Workers::run_awake`], and takes their time to see now and then whether sharing them out
     /// pays.
     pub fn run_tick<T: Send>(&self, particles: usize, substeps: u32, work: impl FnOnce() -> T + Send) -> T {
-        if particles > SURELY_SHARED {
-            self.trial.end();
-        }
-        if self.threads() < 2 || !(WORTH_SHARING..=SURELY_SHARED).contains(&particles) {
+        let threads = self.threads();
+        if threads < 2 || particles < WORTH_SHARING {
             return self.run_awake(particles, work);
         }
         let start = Instant::now();
         let result = self.run_awake(particles, work);
-        self.trial.note(particles * substeps as usize, start.elapsed());
+        self.trial.note(particles * substeps as usize, start.elapsed(), threads);
         result
     }
 
