@@ -37,10 +37,11 @@ struct Notes {
     left: u32,
     /// Ticks measured in this trial: of the way taken before, and then of the other.
     measured: u32,
-    /// Times for a unit of work, s, of the way taken before and of the other.
+    /// Those of the way taken before, and of the other.
     times: [Times; 2],
 }
 
+/// Times of some ticks for a unit of work, s.
 #[derive(Clone, Copy, Debug, Default)]
 struct Times {
     sum: f32,
@@ -70,7 +71,8 @@ impl Trial {
         self.is_alone.load(Ordering::Relaxed)
     }
 
-    /// Notes that so many units of work took so long, with so many threads if they were shared, and decides how the next tick is done.
+    /// Notes that so many units of work (particle-substeps) took so long, on so many threads if they were shared, and decides how the
+    /// next tick is done.
     pub fn note(&self, work: usize, time: Duration, threads: usize) {
         let mut notes = self.notes.lock().unwrap_or_else(PoisonError::into_inner);
         let notes = &mut *notes;

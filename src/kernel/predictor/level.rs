@@ -246,11 +246,8 @@ struct LessProducts<'a> {
 impl Wide for LessProducts<'_> {
     #[inline(always)]
     fn run<const N: usize>(&mut self, at: usize) {
-        let (mut b, products) = (load::<N>(self.b, at), self.row.products::<N>(at));
-        for i in 0..N {
-            b[i] -= products[i];
-        }
-        store(self.b, at, b);
+        let left = self.row.residuals::<N>(self.b, at);
+        store(self.b, at, left);
     }
 }
 
