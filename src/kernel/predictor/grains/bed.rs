@@ -2,7 +2,7 @@
 
 use crate::{
     parallel::Team,
-    predictor::{conjugate::Conjugate, grid::MacGrid, rock::ClosedFaces, stencil::Axis},
+    predictor::{conjugate::Conjugate, grains::cells::At, grid::MacGrid, rock::ClosedFaces, stencil::Axis, wide::load},
 };
 use glam::Vec2;
 use std::ops::Range;
@@ -38,6 +38,12 @@ impl<'a> Bed<'a> {
         Self { grid, closed, liquid, rows: rows.clone(), span: span.clone(), full, kick, team }
     }
 
+    /// What of some columns is among those with pressure.
+    #[inline(always)]
+    pub fn within(&self, columns: Range<usize>) -> Range<usize> {
+        columns.start.max(self.span.start)..columns.end.min(self.span.end)
+    }
+
     #[inline(always)]
     pub fn is_liquid(&self, k: usize) -> bool {
         self.liquid[k] > 0.0
@@ -52,24 +58,27 @@ impl<'a> Bed<'a> {
     /// Whether a face is one of a cell that has a pressure, and open.
     #[inline(always)]
     pub fn is_moved(&self, axis: Axis, k: usize) -> bool {
-        self.is_touched(axis, k) && self.open(axis, k) > 0.0
+        let (row, column) = (k / self.grid.stride, k % self.grid.stride);
+        let [open] = self.open::<1>(axis, At { row, column, k });
+        self.is_touched(axis, k) && open > 0.0
     }
 
-    /// Open share of a face.
+    /// Open shares of faces side by side.
     #[inline(always)]
-    pub fn open(&self, axis: Axis, k: usize) -> f32 {
-        self.open_in(axis, k / self.grid.stride, k % self.grid.stride)
+    pub fn open<const N: usize>(&self, axis: Axis, At { row, column, .. }: At) -> [f32; N] {
+        let ClosedFaces { open_u, open_v, .. } = self.closed;
+        load(if axis == Axis::U { open_u } else { open_v }, self.closed.row(row) + column)
     }
 
-    /// That of a face of a row.
+    /// Rock of cells side by side.
     #[inline(always)]
-    pub fn open_in(&self, axis: Axis, row: usize, column: usize) -> f32 {
-        let at = self.closed.row(row) + column;
-        if axis == Axis::U { self.closed.open_u[at] } else { self.closed.open_v[at] }
+    pub fn rock<const N: usize>(&self, row: usize, column: usize) -> [f32; N] {
+        load(&self.closed.rock, self.closed.row(row) + column)
     }
+}
 
-    #[inline(always)]
-    pub fn is_wall(&self, k: usize) -> bool {
-        self.closed.rock[self.closed.row(k / self.grid.stride) + k % self.grid.stride] > WALL
-    }
+/// Whether a cell with so much rock is a wall.
+#[inline(always)]
+pub(super) fn is_wall(rock: f32) -> bool {
+    rock > WALL
 }

@@ -13,15 +13,19 @@ use crate::{
     predictor::{
         grains::{
             bed::Bed,
-            fields::{Fields, row, two},
-            iteration::{Hold, Limit, Pull},
+            cells::{At, find},
+            fields::{Fields, both},
+            iteration::{Hold, Limit, Pull, SetOut},
             limits::{FindLimits, FindPressures},
             near::Near,
             part::{Lighten, TakePart, is_still, lay_by},
             spread::Spread,
+            strain::{Hasten, Shear, Strain},
         },
         level::WORTH_A_PIECE,
+        stencil::Axis,
         transfer::Faces,
+        wide::{Wide, in_lanes, lanes, load, store},
     },
 };
 use std::ops::Range;
@@ -64,12 +68,9 @@ impl Friction {
     pub fn begin(&mut self, bed: &Bed, near: &Near, faces: &Faces) {
         self.make_room(bed, near);
         let Self { stress, kept, strain, step, lightness, .. } = self;
-        let (rows, per_row, stride) = (near.rows(bed.grid), near.per_row(), bed.grid.stride);
-        let work = Lighten { bed, near, faces };
-        sweep(&work, rows.clone(), two(lightness, stride, &rows), per_row, WORTH_A_PIECE, bed.team);
-        let work = TakePart { bed, near, lightness, strain };
-        let band = ((two(stress, stride, &rows), two(kept, stride, &rows)), two(step, stride, &rows));
-        sweep(&work, rows, band, per_row, WORTH_A_PIECE, bed.team);
+        find(&Lighten { faces }, (bed, near), lightness.each_mut());
+        let ([s, t], [kept_s, kept_t], [cells, corners]) = (stress, kept, step);
+        find(&TakePart { lightness, strain }, (bed, near), [s, t, kept_s, kept_t, cells, corners]);
         self.change(bed, near);
     }
 
@@ -130,10 +131,8 @@ impl Friction {
     /// What the stress changes on the faces.
     fn change(&mut self, bed: &Bed, near: &Near) {
         let Self { stress, lightness, gained, .. } = self;
-        let (rows, flow) = (near.rows(bed.grid), [&[][..]; 2]);
-        let work = Hold { bed, near, stress, before: stress, further: 0.0, lightness, flow };
-        let band = two(gained, bed.grid.stride, &rows);
-        sweep(&work, rows, band, near.per_row(), WORTH_A_PIECE, bed.team);
+        let hold = Hold { stress, before: stress, further: 0.0, lightness, flow: [&[]; 2] };
+        find(&hold, (bed, near), gained.each_mut());
     }
 
     /// Finds the stress under a pressure (d/s), and what it changes on the faces.
@@ -145,26 +144,14 @@ impl Friction {
         pressure: &[f32],
         pore: &[f32],
     ) {
-        let (rows, per_row, stride, team) = (near.rows(bed.grid), near.per_row(), bed.grid.stride, bed.team);
-        let work = FindPressures { bed, near, faces, spread: *spread, pressure, pore };
-        sweep(&work, rows.clone(), two(&mut self.pressed, stride, &rows), per_row, WORTH_A_PIECE, team);
-        let Self { pressed, stress, strain, step, limit, inner, .. } = self;
+        let Self { pressed, stress, strain, step, limit, inner, lightness, flow, before, .. } = self;
         let [along, _] = &*stress;
-        let work = FindLimits { bed, near, spread: *spread, pressed, along, strain, takes_part: &step[1] };
-        let band = (two(limit, stride, &rows), Rows::new(inner, stride, &rows));
-        sweep(&work, rows, band, per_row, WORTH_A_PIECE, team);
-        for (axis, flow) in self.flow.iter_mut().enumerate() {
-            let (means, ways, lightness) = ([&faces.u, &faces.v][axis], &faces.ways[axis], &self.lightness[axis]);
-            for run in near.indices(bed.grid) {
-                let of = means[run.clone()].iter().zip(&ways[run.clone()]).zip(&lightness[run.clone()]);
-                for (flow, ((mean, way), lightness)) in flow[run].iter_mut().zip(of) {
-                    *flow = if *lightness > 0.0 { mean[1] + way[0] } else { 0.0 };
-                }
-            }
-        }
-        for (before, stress) in self.before.iter_mut().zip(&self.stress) {
-            near.indices(bed.grid).for_each(|run| before[run.clone()].copy_from_slice(&stress[run]));
-        }
+        let pressures = FindPressures { faces, spread: *spread, pressure, pore, along };
+        find(&pressures, (bed, near), pressed.each_mut());
+        let ([of_cells, of_corners], takes_part) = (limit, &step[1]);
+        let limits = FindLimits { spread: *spread, pressed, strain, takes_part };
+        find(&limits, (bed, near), [of_cells, of_corners, inner]);
+        find(&SetOut { faces, lightness, stress }, (bed, near), both(flow, before));
         for iteration in 0..ITERATIONS {
             self.iterate((bed, near), iteration as f32 / (iteration as f32 + 3.0));
         }
@@ -173,53 +160,21 @@ impl Friction {
     }
 
     /// One step along the gradient from where the last two lead to, and back into the cone.
-    fn iterate(&mut self, (bed, near): (&Bed, &Near), further: f32) {
+    fn iterate(&mut self, work: (&Bed, &Near), further: f32) {
         let Self { stress, before, ahead, limit, step, inner, lightness, flow, held, .. } = self;
-        let (rows, per_row, stride) = (near.rows(bed.grid), near.per_row(), bed.grid.stride);
         let flow = flow.each_ref().map(|flow| &flow[..]);
-        let hold = Hold { bed, near, stress, before, further, lightness, flow };
-        sweep(&hold, rows.clone(), two(held, stride, &rows), per_row, WORTH_A_PIECE, bed.team);
-        let pull = Pull { bed, near, stress, before, further, step, held };
-        sweep(&pull, rows.clone(), two(ahead, stride, &rows), per_row, WORTH_A_PIECE, bed.team);
-        let limit = Limit { bed, near, ahead, limit, inner };
-        sweep(&limit, rows.clone(), two(before, stride, &rows), per_row, WORTH_A_PIECE, bed.team);
+        find(&Hold { stress, before, further, lightness, flow }, work, held.each_mut());
+        find(&Pull { stress, before, further, step, held }, work, ahead.each_mut());
+        find(&Limit { ahead, limit, inner }, work, before.each_mut());
         std::mem::swap(stress, before);
     }
 
     /// How much is strained, d/s a cell: a cell as much as the most strained of its corners at least.
     fn find_strain(&mut self, bed: &Bed, near: &Near) {
-        let stride = bed.grid.stride;
-        let Self { strain: [cells, corners], held: [u, v], flow, gained, step, .. } = self;
-        for run in near.indices(bed.grid) {
-            for (out, (flow, gained)) in [&mut *u, v].into_iter().zip(flow.iter().zip(&*gained)) {
-                let both = flow[run.clone()].iter().zip(&gained[run.clone()]);
-                out[run.clone()].iter_mut().zip(both).for_each(|(out, (flow, gained))| *out = flow + gained);
-            }
-        }
-        for run in near.indices(bed.grid) {
-            let n = run.len();
-            let [u, u_lower] = [run.start, run.start - stride].map(|k| row(u, k, n));
-            let [v, v_left] = [run.start, run.start - 1].map(|k| row(v, k, n));
-            let (step, corners) = (row(&step[1], run.start, n), &mut corners[run]);
-            for i in 0..n {
-                let sheared = (u[i] - u_lower[i] + v[i] - v_left[i]).abs();
-                corners[i] = if step[i] > 0.0 { sheared } else { 0.0 };
-            }
-        }
-        // The last of all has nothing above and to its right, and no pressure.
-        let last = bed.grid.len() - stride - 1;
-        for run in near.indices(bed.grid).map(|run| run.start..run.end.min(last)) {
-            let n = run.len();
-            let [u, u_right] = [run.start, run.start + 1].map(|k| row(u, k, n));
-            let [v, v_upper] = [run.start, run.start + stride].map(|k| row(v, k, n));
-            let around = [0, 1, stride, stride + 1].map(|further| row(corners, run.start + further, n));
-            let (liquid, cells) = (row(bed.liquid, run.start, n), &mut cells[run]);
-            for i in 0..n {
-                let own = (u_right[i] - u[i] - v_upper[i] + v[i]).abs();
-                let most = around.iter().fold(own, |most, corners| most.max(corners[i]));
-                cells[i] = if liquid[i] > 0.0 { most } else { 0.0 };
-            }
-        }
+        let Self { strain: [cells, corners], held, flow, gained, step, .. } = self;
+        find(&Hasten { flow, gained }, (bed, near), held.each_mut());
+        find(&Shear { held, step: &step[1] }, (bed, near), [corners]);
+        find(&Strain { held, corners }, (bed, near), [cells]);
     }
 
     /// Bytes held.
@@ -241,22 +196,36 @@ struct Diverge<'a> {
 impl Sweep<Rows<'_, f32>> for Diverge<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut right_side: Rows<f32>) {
-        let Self { bed, near, gained: [u, v] } = self;
-        let (stride, closed) = (bed.grid.stride, bed.closed);
-        for (j, out) in rows.zip(right_side.each()).filter(|(j, _)| bed.rows.contains(j)) {
-            let of_bed = |run: Range<usize>| run.start.max(bed.span.start)..run.end.min(bed.span.end);
-            for columns in near.runs(j).map(of_bed).filter(|columns| !columns.is_empty()) {
-                let (n, k) = (columns.len(), bed.grid.row(j) + columns.start);
-                let [own, above] = [j, j + 1].map(|j| closed.row(j) + columns.start);
-                let (open_left, open_right) = (row(&closed.open_u, own, n), row(&closed.open_u, own + 1, n));
-                let (open_lower, open_upper) = (row(&closed.open_v, own, n), row(&closed.open_v, above, n));
-                let (left, right) = (row(u, k, n), row(u, k + 1, n));
-                let (lower, upper, liquid) = (row(v, k, n), row(v, k + stride, n), row(bed.liquid, k, n));
-                for (i, out) in out[columns].iter_mut().enumerate() {
-                    let along = open_right[i] * right[i] - open_left[i] * left[i];
-                    *out -= liquid[i] * (along + (open_upper[i] * upper[i] - open_lower[i] * lower[i]));
-                }
+        let Self { bed, near, gained } = self;
+        for (row, out) in rows.zip(right_side.each()).filter(|(row, _)| bed.rows.contains(row)) {
+            for columns in near.runs(row).map(|run| bed.within(run)).filter(|columns| !columns.is_empty()) {
+                in_lanes(columns, DivergeRow { bed, gained, row, out });
             }
         }
+    }
+}
+
+struct DivergeRow<'a> {
+    bed: &'a Bed<'a>,
+    gained: &'a Fields,
+    row: usize,
+    out: &'a mut [f32],
+}
+
+impl Wide for DivergeRow<'_> {
+    #[inline(always)]
+    fn run<const N: usize>(&mut self, column: usize) {
+        let Self { bed, gained: [u, v], row, out } = self;
+        let at = At { row: *row, column, k: bed.grid.row(*row) + column };
+        let [open_left, open_right] = [column, column + 1].map(|column| bed.open::<N>(Axis::U, At { column, ..at }));
+        let [open_lower, open_upper] = [at.row, at.row + 1].map(|row| bed.open::<N>(Axis::V, At { row, ..at }));
+        let [left, right] = [at.k, at.k + 1].map(|k| load::<N>(u, k));
+        let [lower, upper] = [at.k, at.k + bed.grid.stride].map(|k| load::<N>(v, k));
+        let (liquid, before) = (load::<N>(bed.liquid, at.k), load::<N>(out, column));
+        let less = lanes(|i| {
+            let along = open_right[i] * right[i] - open_left[i] * left[i];
+            before[i] - liquid[i] * (along + (open_upper[i] * upper[i] - open_lower[i] * lower[i]))
+        });
+        store::<N>(out, column, less);
     }
 }

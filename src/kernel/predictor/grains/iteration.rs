@@ -1,64 +1,42 @@
-//! The passes of an iteration of friction: what a stress leaves of the flow, a step along the gradient, and back into the cone.
+//! The passes of friction's iterations: where they set out from, and in each what a stress leaves of the flow, a step along the
+//! gradient, and back into the cone.
 
-use crate::{
-    parallel::Sweep,
-    predictor::{
-        grains::{
-            bed::Bed,
-            fields::{Fields, Two},
-            near::Near,
-        },
-        grid::MacGrid,
-        pieces::PIECE,
+use crate::predictor::{
+    grains::{
+        bed::Bed,
+        cells::{At, Cells},
+        fields::Fields,
     },
+    transfer::Faces,
+    wide::{lanes, load, store},
 };
-use std::{array, ops::Range};
 
-/// A pass over cells (or faces) and their corners: a whole piece at once, so that its loops are as long as known, or one by one.
-trait Cells: Sync {
-    /// Where it works.
-    fn grid(&self) -> (&MacGrid, &Near);
-
-    /// What it finds for `N` cells from index `k` on.
-    fn find<const N: usize>(&self, k: usize) -> [[f32; N]; 2];
+/// Velocities without friction on the faces that a stress moves, and the stress to set out from.
+pub(super) struct SetOut<'a> {
+    pub faces: &'a Faces,
+    pub lightness: &'a Fields,
+    pub stress: &'a Fields,
 }
 
-impl<'b, T: Cells> Sweep<Two<'b>> for T {
+impl Cells<4> for SetOut<'_> {
     #[inline(always)]
-    fn run(&self, rows: Range<usize>, (mut first, mut second): Two) {
-        let (grid, near) = self.grid();
-        for (j, (first, second)) in rows.zip(first.each().zip(second.each())) {
-            for Range { mut start, end } in near.runs(j) {
-                let mut put = |at: usize, [one, other]: [&[f32]; 2]| {
-                    first[at..at + one.len()].copy_from_slice(one);
-                    second[at..at + one.len()].copy_from_slice(other);
-                };
-                while start + PIECE <= end {
-                    let [one, other] = self.find::<PIECE>(grid.row(j) + start);
-                    put(start, [&one, &other]);
-                    start += PIECE;
-                }
-                for column in start..end {
-                    let [one, other] = self.find::<1>(grid.row(j) + column);
-                    put(column, [&one, &other]);
-                }
-            }
+    fn find<const N: usize>(&self, _: &Bed, At { column, k, .. }: At, rows: &mut [&mut [f32]; 4]) {
+        let Self { faces, lightness, stress } = self;
+        let [flow_u, flow_v, before_s, before_t] = rows;
+        let means = [&faces.u, &faces.v].into_iter().zip(&faces.ways);
+        for (out, ((means, ways), lightness)) in [flow_u, flow_v].into_iter().zip(means.zip(lightness.iter())) {
+            let (means, ways, lightness) = (&means[k..k + N], &ways[k..k + N], load::<N>(lightness, k));
+            let flow = lanes(|i| if lightness[i] > 0.0 { means[i][1] + ways[i][0] } else { 0.0 });
+            store::<N>(out, column, flow);
+        }
+        for (out, stress) in [before_s, before_t].into_iter().zip(stress.iter()) {
+            store(out, column, load::<N>(stress, k));
         }
     }
 }
 
-/// The numbers of `N` cells from index `k` on.
-#[inline(always)]
-fn cells<const N: usize>(field: &[f32], k: usize) -> [f32; N] {
-    let mut cells = [0.0; N];
-    cells.copy_from_slice(&field[k..k + N]);
-    cells
-}
-
 /// Velocities under the stress that the last two lead to.
 pub(super) struct Hold<'a> {
-    pub bed: &'a Bed<'a>,
-    pub near: &'a Near,
     pub stress: &'a Fields,
     pub before: &'a Fields,
     pub further: f32,
@@ -67,37 +45,32 @@ pub(super) struct Hold<'a> {
     pub flow: [&'a [f32]; 2],
 }
 
-impl Cells for Hold<'_> {
+impl Cells<2> for Hold<'_> {
     #[inline(always)]
-    fn grid(&self) -> (&MacGrid, &Near) {
-        (self.bed.grid, self.near)
-    }
-
-    #[inline(always)]
-    fn find<const N: usize>(&self, k: usize) -> [[f32; N]; 2] {
-        let Self { bed, stress: [s, t], before: [s0, t0], further, lightness, flow, .. } = self;
-        let stride = bed.grid.stride;
-        let ahead = |now: &[f32], before: &[f32], k: usize| -> [f32; N] {
-            let (now, before) = (cells::<N>(now, k), cells::<N>(before, k));
-            array::from_fn(|i| now[i] + further * (now[i] - before[i]))
-        };
-        let [s, s_left, s_lower] = [k, k - 1, k - stride].map(|k| ahead(s, s0, k));
-        let [t, t_upper, t_right] = [k, k + stride, k + 1].map(|k| ahead(t, t0, k));
-        let [light_u, light_v] = lightness.each_ref().map(|field| cells::<N>(field, k));
-        let u = array::from_fn(|i| light_u[i] * ((s[i] - s_left[i]) + (t_upper[i] - t[i])));
-        let v = array::from_fn(|i| light_v[i] * ((s_lower[i] - s[i]) + (t_right[i] - t[i])));
-        if flow[0].is_empty() {
-            return [u, v];
+    fn find<const N: usize>(&self, bed: &Bed, At { column, k, .. }: At, [out_u, out_v]: &mut [&mut [f32]; 2]) {
+        let Self { stress: [s, t], before: [s0, t0], further, lightness: [light_u, light_v], flow: [flow_u, flow_v] } =
+            self;
+        let (further, stride) = (*further, bed.grid.stride);
+        let (s, s_left, s_lower) =
+            (ahead::<N>(s, s0, further, k), ahead::<N>(s, s0, further, k - 1), ahead::<N>(s, s0, further, k - stride));
+        let (t, t_right, t_upper) =
+            (ahead::<N>(t, t0, further, k), ahead::<N>(t, t0, further, k + 1), ahead::<N>(t, t0, further, k + stride));
+        let (light_u, light_v) = (load::<N>(light_u, k), load::<N>(light_v, k));
+        let u = lanes::<N>(|i| light_u[i] * ((s[i] - s_left[i]) + (t_upper[i] - t[i])));
+        let v = lanes::<N>(|i| light_v[i] * ((s_lower[i] - s[i]) + (t_right[i] - t[i])));
+        if flow_u.is_empty() {
+            store(out_u, column, u);
+            store(out_v, column, v);
+        } else {
+            let (flow_u, flow_v) = (load::<N>(flow_u, k), load::<N>(flow_v, k));
+            store(out_u, column, lanes::<N>(|i| u[i] + flow_u[i]));
+            store(out_v, column, lanes::<N>(|i| v[i] + flow_v[i]));
         }
-        let [flow_u, flow_v] = flow.map(|field| cells::<N>(field, k));
-        [array::from_fn(|i| u[i] + flow_u[i]), array::from_fn(|i| v[i] + flow_v[i])]
     }
 }
 
 /// A step along the gradient.
 pub(super) struct Pull<'a> {
-    pub bed: &'a Bed<'a>,
-    pub near: &'a Near,
     pub stress: &'a Fields,
     pub before: &'a Fields,
     pub further: f32,
@@ -105,32 +78,29 @@ pub(super) struct Pull<'a> {
     pub held: &'a Fields,
 }
 
-impl Cells for Pull<'_> {
+impl Cells<2> for Pull<'_> {
     #[inline(always)]
-    fn grid(&self) -> (&MacGrid, &Near) {
-        (self.bed.grid, self.near)
-    }
-
-    #[inline(always)]
-    fn find<const N: usize>(&self, k: usize) -> [[f32; N]; 2] {
-        let Self { bed, stress, before, further, step, held: [u, v], .. } = self;
+    fn find<const N: usize>(&self, bed: &Bed, At { column, k, .. }: At, [out_s, out_t]: &mut [&mut [f32]; 2]) {
+        let Self { stress: [s, t], before: [s0, t0], further, step: [step_s, step_t], held: [u, v] } = self;
         let stride = bed.grid.stride;
-        let [u, u_right, u_lower] = [k, k + 1, k - stride].map(|k| cells::<N>(u, k));
-        let [v, v_upper, v_left] = [k, k + stride, k - 1].map(|k| cells::<N>(v, k));
-        let along = array::from_fn(|i| (u_right[i] - u[i]) - (v_upper[i] - v[i]));
-        let across = array::from_fn(|i| (u[i] - u_lower[i]) + (v[i] - v_left[i]));
-        let pulled = |of: usize, by: [f32; N]| {
-            let [now, before, step] = [stress, before, step].map(|fields| cells::<N>(&fields[of], k));
-            array::from_fn(|i| now[i] + further * (now[i] - before[i]) + step[i] * by[i])
-        };
-        [pulled(0, along), pulled(1, across)]
+        let (s, t) = (ahead::<N>(s, s0, *further, k), ahead::<N>(t, t0, *further, k));
+        let (step_s, step_t) = (load::<N>(step_s, k), load::<N>(step_t, k));
+        let (u, right, lower) = (load::<N>(u, k), load::<N>(u, k + 1), load::<N>(u, k - stride));
+        let (v, left, upper) = (load::<N>(v, k), load::<N>(v, k - 1), load::<N>(v, k + stride));
+        store(out_s, column, lanes::<N>(|i| s[i] + step_s[i] * ((right[i] - u[i]) - (upper[i] - v[i]))));
+        store(out_t, column, lanes::<N>(|i| t[i] + step_t[i] * ((u[i] - lower[i]) + (v[i] - left[i]))));
     }
+}
+
+/// Where the last two of some numbers lead to.
+#[inline(always)]
+fn ahead<const N: usize>(now: &[f32], before: &[f32], further: f32, k: usize) -> [f32; N] {
+    let (now, before) = (load::<N>(now, k), load::<N>(before, k));
+    lanes(|i| now[i] + further * (now[i] - before[i]))
 }
 
 /// Back into the cone √(S² + T²) ≤ limit, with the mean square of the other component from around.
 pub(super) struct Limit<'a> {
-    pub bed: &'a Bed<'a>,
-    pub near: &'a Near,
     pub ahead: &'a Fields,
     pub limit: &'a Fields,
     pub inner: &'a [f32],
@@ -139,30 +109,33 @@ pub(super) struct Limit<'a> {
 /// Least square of a stress that a share is taken of.
 const LEAST_SQUARE: f32 = 1e-20;
 
-impl Cells for Limit<'_> {
+impl Cells<2> for Limit<'_> {
     #[inline(always)]
-    fn grid(&self) -> (&MacGrid, &Near) {
-        (self.bed.grid, self.near)
+    fn find<const N: usize>(&self, bed: &Bed, At { column, k, .. }: At, [out_s, out_t]: &mut [&mut [f32]; 2]) {
+        let Self { ahead: [s, t], limit: [of_cells, of_corners], inner } = self;
+        let (below, above) = (k - bed.grid.stride, k + bed.grid.stride);
+        let (own, left) = (load::<N>(s, k), load::<N>(s, k - 1));
+        let (lower, lower_left) = (load::<N>(s, below), load::<N>(s, below - 1));
+        let (corner, right) = (load::<N>(t, k), load::<N>(t, k + 1));
+        let (upper, upper_right) = (load::<N>(t, above), load::<N>(t, above + 1));
+        let (of_cells, of_corners, inner) = (load::<N>(of_cells, k), load::<N>(of_corners, k), load::<N>(inner, k));
+        let corners = mean_square([&corner, &right, &upper, &upper_right]);
+        let cells = mean_square([&own, &left, &lower, &lower_left]);
+        let s = lanes::<N>(|i| {
+            let share = of_cells[i] / (own[i] * own[i] + corners[i] + LEAST_SQUARE).sqrt();
+            own[i] * if share < 1.0 { share } else { 1.0 }
+        });
+        store(out_s, column, s);
+        let t = lanes::<N>(|i| {
+            let share = of_corners[i] / (corner[i] * corner[i] + inner[i] * cells[i] + LEAST_SQUARE).sqrt();
+            corner[i] * if share < 1.0 { share } else { 1.0 }
+        });
+        store(out_t, column, t);
     }
+}
 
-    #[inline(always)]
-    fn find<const N: usize>(&self, k: usize) -> [[f32; N]; 2] {
-        let Self { bed, ahead: [s, t], limit, inner, .. } = self;
-        let stride = bed.grid.stride;
-        let [a, left, lower, lower_left] = [k, k - 1, k - stride, k - stride - 1].map(|k| cells::<N>(s, k));
-        let [b, right, upper, upper_right] = [k, k + 1, k + stride, k + stride + 1].map(|k| cells::<N>(t, k));
-        let [of_cells, of_corners, inner] = [&limit[0][..], &limit[1], inner].map(|field| cells::<N>(field, k));
-        let square = |of: &[f32; N], i: usize| of[i] * of[i];
-        let s = array::from_fn(|i| {
-            let corners = 0.25 * ((square(&b, i) + square(&right, i)) + (square(&upper, i) + square(&upper_right, i)));
-            let share = of_cells[i] / (square(&a, i) + corners + LEAST_SQUARE).sqrt();
-            a[i] * if share < 1.0 { share } else { 1.0 }
-        });
-        let t = array::from_fn(|i| {
-            let cells = 0.25 * ((square(&a, i) + square(&left, i)) + (square(&lower, i) + square(&lower_left, i)));
-            let share = of_corners[i] / (square(&b, i) + inner[i] * cells + LEAST_SQUARE).sqrt();
-            b[i] * if share < 1.0 { share } else { 1.0 }
-        });
-        [s, t]
-    }
+/// Mean square of four stresses.
+#[inline(always)]
+fn mean_square<const N: usize>([a, b, c, d]: [&[f32; N]; 4]) -> [f32; N] {
+    lanes(|i| 0.25 * ((a[i] * a[i] + b[i] * b[i]) + (c[i] * c[i] + d[i] * d[i])))
 }

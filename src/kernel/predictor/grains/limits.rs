@@ -1,128 +1,172 @@
 //! How much stress grains can bear: Coulomb's law, from what presses them together, and cohesion.
 
-use crate::{
-    parallel::{Rows, Sweep},
-    predictor::{
-        equation::steepness,
-        grains::{bed::Bed, fields::Fields, near::Near, spread::Spread},
-        stencil::Axis,
-        transfer::Faces,
+use crate::predictor::{
+    equation::steepness,
+    grains::{
+        bed::{Bed, is_wall},
+        cells::{At, Cells},
+        fields::Fields,
+        spread::Spread,
     },
+    stencil::Axis,
+    transfer::Faces,
+    wide::{lanes, load, store},
 };
-use std::ops::Range;
 
 /// By how much more what has not moved holds, and the strain of a substep, in g Δt a cell, at which that has ended.
 const AT_REST: (f32, f32) = (0.1, 0.5);
 
-/// Finds the pressure of the grains in each cell, and what they press walls with; in cells without pressure beside others that
-/// which is 0 at the surface.
+/// Finds what grains in each cell press one another with, and what they press a wall beside it with; in cells without pressure beside
+/// others that which is 0 at the surface, and nothing.
 pub(super) struct FindPressures<'a> {
-    pub bed: &'a Bed<'a>,
-    pub near: &'a Near,
     pub faces: &'a Faces,
     pub spread: Spread<'a>,
     pub pressure: &'a [f32],
     /// Pressure of the water between grains, d/s.
     pub pore: &'a [f32],
+    /// S of the last substep, d/s.
+    pub along: &'a [f32],
 }
 
-impl<'b> Sweep<(Rows<'b, f32>, Rows<'b, f32>)> for FindPressures<'_> {
+impl Cells<2> for FindPressures<'_> {
     #[inline(always)]
-    fn run(&self, rows: Range<usize>, (mut pressed, mut at_wall): (Rows<f32>, Rows<f32>)) {
-        let Self { bed, near, faces, spread, pressure: p, pore } = self;
-        let (grid, stride) = (bed.grid, bed.grid.stride);
-        for (j, (pressed, at_wall)) in rows.zip(pressed.each().zip(at_wall.each())) {
-            for columns in near.runs(j) {
-                for column in columns {
-                    let k = grid.row(j) + column;
-                    // Each side's cell, and the face to it.
-                    let sides = [
-                        (k - 1, Axis::U, k),
-                        (k + 1, Axis::U, k + 1),
-                        (k - stride, Axis::V, k),
-                        (k + stride, Axis::V, k + stride),
-                    ];
-                    if bed.is_liquid(k) {
-                        let open = sides.iter().filter(|(_, axis, face)| bed.open(*axis, *face) > 0.0);
-                        let least = open.fold(p[k], |least, (other, ..)| least.min(p[*other]));
-                        let own = spread.bears(grid, k);
-                        pressed[column] = (own * (p[k] - pore[k])).max(0.0);
-                        at_wall[column] = (own * (p[k] - pore[k] + 0.5 * (p[k] - least))).max(0.0);
-                        continue;
-                    }
-                    let (mut sum, mut count) = (0.0, 0.0);
-                    for (other, axis, face) in sides.into_iter().filter(|(other, ..)| bed.is_liquid(*other)) {
-                        let (mut steep, before) = ([1.0], face - axis.step(grid));
-                        let [liquid, filled] =
-                            [bed.liquid, &faces.filled].map(|field| [before, face].map(|k| &field[k..=k]));
-                        steepness(&mut steep, liquid, filled, bed.closed.beside(grid, axis, face, 1));
-                        sum += p[other] * (1.0 - steep[0]);
-                        count += 1.0;
-                    }
-                    (pressed[column], at_wall[column]) = (if count > 0.0 { sum / count } else { 0.0 }, 0.0);
-                }
+    fn find<const N: usize>(&self, bed: &Bed, at: At, [pressed, at_wall]: &mut [&mut [f32]; 2]) {
+        let At { row, column, k } = at;
+        let liquid = load::<N>(bed.liquid, k);
+        let [mut presses, mut presses_wall] = [[0.0; N]; 2];
+        if liquid.iter().any(|liquid| *liquid > 0.0) {
+            [presses, presses_wall] = self.within(bed, at);
+        }
+        if liquid.contains(&0.0) {
+            let beside = self.beside::<N>(bed, k);
+            for i in 0..N {
+                presses[i] = if liquid[i] > 0.0 { presses[i] } else { beside[i] };
+                presses_wall[i] = if liquid[i] > 0.0 { presses_wall[i] } else { 0.0 };
             }
         }
+        let (along, own) = (load::<N>(self.along, k), bed.rock::<N>(row, column));
+        let [left, right] = [column - 1, column + 1].map(|column| bed.rock::<N>(row, column));
+        let [lower, upper] = [row - 1, row + 1].map(|row| bed.rock::<N>(row, column));
+        let presses_wall = lanes(|i| {
+            let is_beside = !is_wall(upper[i]) & !is_wall(lower[i]);
+            let is_above = !is_wall(right[i]) & !is_wall(left[i]);
+            let normal = if is_beside {
+                -along[i]
+            } else if is_above {
+                along[i]
+            } else {
+                0.0
+            };
+            if is_wall(own[i]) { 0.0 } else { (presses_wall[i] + normal).max(0.0) }
+        });
+        store::<N>(pressed, column, presses);
+        store::<N>(at_wall, column, presses_wall);
+    }
+}
+
+impl FindPressures<'_> {
+    /// Those of cells that have a pressure.
+    #[inline(always)]
+    fn within<const N: usize>(&self, bed: &Bed, at: At) -> [[f32; N]; 2] {
+        let (At { row, column, k }, stride) = (at, bed.grid.stride);
+        let [p, pore] = [self.pressure, self.pore].map(|field| load::<N>(field, k));
+        let bears = self.spread.bears::<N>(bed.grid, k);
+        let mut least = p;
+        for (other, axis, face) in [
+            (k - 1, Axis::U, at),
+            (k + 1, Axis::U, At { column: column + 1, ..at }),
+            (k - stride, Axis::V, at),
+            (k + stride, Axis::V, At { row: row + 1, ..at }),
+        ] {
+            let (open, other) = (bed.open::<N>(axis, face), load::<N>(self.pressure, other));
+            for i in 0..N {
+                least[i] = if (open[i] > 0.0) & (other[i] < least[i]) { other[i] } else { least[i] };
+            }
+        }
+        let presses = lanes(|i| (bears[i] * (p[i] - pore[i])).max(0.0));
+        [presses, lanes(|i| (bears[i] * (p[i] - pore[i] + 0.5 * (p[i] - least[i]))).max(0.0))]
+    }
+
+    /// The pressure of cells that have none by that of those beside them.
+    #[inline(always)]
+    fn beside<const N: usize>(&self, bed: &Bed, k: usize) -> [f32; N] {
+        let (grid, stride) = (bed.grid, bed.grid.stride);
+        let [mut sums, mut counts] = [[0.0; N]; 2];
+        let sides =
+            [(k - 1, Axis::U, k), (k + 1, Axis::U, k + 1), (k - stride, Axis::V, k), (k + stride, Axis::V, k + stride)];
+        for (other, axis, face) in sides {
+            let [own, wet] = [k, other].map(|k| load::<N>(bed.liquid, k));
+            if !(0..N).any(|i| own[i] == 0.0 && wet[i] > 0.0) {
+                continue;
+            }
+            let (mut steep, before) = ([1.0; N], face - axis.step(grid));
+            let [liquid, filled] =
+                [bed.liquid, &self.faces.filled].map(|field| [before, face].map(|k| &field[k..k + N]));
+            steepness(&mut steep, liquid, filled, bed.closed.beside(grid, axis, face, N));
+            let pressure = load::<N>(self.pressure, other);
+            for i in 0..N {
+                let is_wet = wet[i] > 0.0;
+                sums[i] += if is_wet { pressure[i] * (1.0 - steep[i]) } else { 0.0 };
+                counts[i] += if is_wet { 1.0 } else { 0.0 };
+            }
+        }
+        lanes(|i| if counts[i] > 0.0 { sums[i] / counts[i] } else { 0.0 })
     }
 }
 
 /// Finds the most stress that cells and corners can have, and which corners are away from walls (1).
 pub(super) struct FindLimits<'a> {
-    pub bed: &'a Bed<'a>,
-    pub near: &'a Near,
     pub spread: Spread<'a>,
     /// What grains press one another and walls with, d/s.
     pub pressed: &'a Fields,
-    /// S of the last substep, d/s.
-    pub along: &'a [f32],
-    /// How much was strained in it, d/s a cell.
+    /// How much was strained in the last substep, d/s a cell.
     pub strain: &'a Fields,
     /// More than 0 in corners that take part.
     pub takes_part: &'a [f32],
 }
 
-impl<'b> Sweep<((Rows<'b, f32>, Rows<'b, f32>), Rows<'b, f32>)> for FindLimits<'_> {
+impl Cells<3> for FindLimits<'_> {
     #[inline(always)]
-    fn run(&self, rows: Range<usize>, ((mut cells, mut corners), mut inner): ((Rows<f32>, Rows<f32>), Rows<f32>)) {
-        let Self { bed, near, spread, pressed: [pressed, at_wall], along, strain, takes_part } = self;
-        let (grid, stride) = (bed.grid, bed.grid.stride);
+    fn find<const N: usize>(&self, bed: &Bed, at: At, [cells, corners, inner]: &mut [&mut [f32]; 3]) {
+        let Self { spread, pressed: [pressed, at_wall], strain, takes_part } = self;
+        let (At { row, column, k }, stride) = (at, bed.grid.stride);
         let ended = AT_REST.1 * bed.kick.length();
         // Without gravity nothing rests on anything.
         let holds = |strain: f32| 1.0 + if strain < ended { AT_REST.0 * (1.0 - strain / ended) } else { 0.0 };
-        for (j, ((cells, corners), inner)) in rows.zip(cells.each().zip(corners.each()).zip(inner.each())) {
-            for columns in near.runs(j) {
-                for column in columns {
-                    let k = grid.row(j) + column;
-                    let (sine, bond) = (spread.sine(grid, k), spread.bond(grid, k));
-                    cells[column] = if bed.is_liquid(k) { sine * pressed[k] * holds(strain[0][k]) + bond } else { 0.0 };
-                    if takes_part[k] == 0.0 {
-                        (corners[column], inner[column]) = (0.0, 0.0);
-                        continue;
-                    }
-                    let (mut inside, mut outside, mut count) = (0.0, 0.0, 0.0);
-                    for cell in [k, k - 1, k - stride, k - stride - 1] {
-                        if bed.is_wall(cell) {
-                            continue;
-                        }
-                        let is_beside = !bed.is_wall(cell + stride) && !bed.is_wall(cell - stride);
-                        let is_above = !bed.is_wall(cell + 1) && !bed.is_wall(cell - 1);
-                        let normal = match (is_beside, is_above) {
-                            (true, _) => -along[cell],
-                            (false, true) => along[cell],
-                            _ => 0.0,
-                        };
-                        inside += pressed[cell];
-                        outside += (at_wall[cell] + normal).max(0.0);
-                        count += 1.0;
-                    }
-                    let is_inner = count == 4.0;
-                    let presses = if is_inner { 0.25 * inside } else { outside / f32::max(count, 1.0) };
-                    // What holds grains together does not hold them to walls.
-                    let bond = if is_inner { bond } else { 0.0 };
-                    corners[column] = sine * presses.max(0.0) * holds(strain[1][k]) + bond;
-                    inner[column] = if is_inner { 1.0 } else { 0.0 };
-                }
+        let (sines, bonds) = (spread.sines::<N>(bed.grid, k), spread.bonds::<N>(bed.grid, k));
+        let (liquid, presses) = (load::<N>(bed.liquid, k), load::<N>(pressed, k));
+        let [of_cells, of_corners] = strain.each_ref().map(|strain| load::<N>(strain, k));
+        let limits =
+            lanes(|i| if liquid[i] > 0.0 { sines[i] * presses[i] * holds(of_cells[i]) + bonds[i] } else { 0.0 });
+        store::<N>(cells, column, limits);
+
+        let [mut inside, mut outside, mut counts] = [[0.0; N]; 3];
+        let around = [
+            (k, row, column),
+            (k - 1, row, column - 1),
+            (k - stride, row - 1, column),
+            (k - stride - 1, row - 1, column - 1),
+        ];
+        for (k, row, column) in around {
+            let (rock, presses, presses_wall) =
+                (bed.rock::<N>(row, column), load::<N>(pressed, k), load::<N>(at_wall, k));
+            for i in 0..N {
+                let is_room = !is_wall(rock[i]);
+                inside[i] += if is_room { presses[i] } else { 0.0 };
+                outside[i] += if is_room { presses_wall[i] } else { 0.0 };
+                counts[i] += if is_room { 1.0 } else { 0.0 };
             }
         }
+        let takes_part = load::<N>(takes_part, k);
+        let is_inner = lanes(|i| if (takes_part[i] != 0.0) & (counts[i] == 4.0) { 1.0 } else { 0.0 });
+        let limits = lanes(|i| {
+            let presses = if counts[i] == 4.0 { 0.25 * inside[i] } else { outside[i] / f32::max(counts[i], 1.0) };
+            // What holds grains together does not hold them to walls.
+            let bond = if counts[i] == 4.0 { bonds[i] } else { 0.0 };
+            let limit = sines[i] * presses.max(0.0) * holds(of_corners[i]) + bond;
+            if takes_part[i] == 0.0 { 0.0 } else { limit }
+        });
+        store::<N>(corners, column, limits);
+        store::<N>(inner, column, is_inner);
     }
 }

@@ -1,6 +1,7 @@
 //! Grains on the grid: the pressure holds them as it holds a liquid, and friction among them holds slopes.
 
 mod bed;
+mod cells;
 mod fields;
 mod friction;
 mod iteration;
@@ -9,6 +10,7 @@ mod near;
 mod part;
 mod pore;
 mod spread;
+mod strain;
 mod ways;
 
 pub(super) use bed::Bed;
@@ -23,6 +25,7 @@ use crate::{
         level::WORTH_A_PIECE,
         share_out::ShareOut,
         transfer::Faces,
+        wide::{Wide, in_lanes, lanes, load, store},
     },
 };
 use std::ops::Range;
@@ -101,7 +104,8 @@ impl Grains {
 
     /// How much of the pressure of cell `k` its grains bear.
     pub fn bear(&self, faces: &Faces, grid: &MacGrid, k: usize) -> f32 {
-        Spread { grains: &self.faces, bound: None, all: [&faces.u, &faces.v] }.bears(grid, k)
+        let [bears] = Spread { grains: &self.faces, bound: None, all: [&faces.u, &faces.v] }.bears::<1>(grid, k);
+        bears
     }
 
     /// sin φ of each particle; 0 of what is no grain.
@@ -203,15 +207,35 @@ struct Uneven<'a> {
 impl Sweep<Rows<'_, f32>> for Uneven<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut out: Rows<f32>) {
-        let Self { bed: Bed { grid, span, .. }, near, filled, spread } = self;
-        for (j, out) in rows.zip(out.each()) {
-            out[span.clone()].copy_from_slice(&filled[grid.row(j)..][span.clone()]);
-            for column in near.runs(j).flatten().filter(|column| span.contains(column)) {
-                let k = grid.row(j) + column;
-                let error = filled[k] - 1.0;
-                let near = error.clamp(-LEFT_ALONE[0], LEFT_ALONE[1]);
-                out[column] = filled[k] - near * spread.bears(grid, k);
+        let Self { bed, near, filled, spread } = self;
+        for (row, out) in rows.zip(out.each()) {
+            let first = bed.grid.row(row);
+            out[bed.span.clone()].copy_from_slice(&filled[first..][bed.span.clone()]);
+            for columns in near.runs(row).map(|run| bed.within(run)).filter(|columns| !columns.is_empty()) {
+                in_lanes(columns, UnevenRow { bed, spread, first, out });
             }
         }
+    }
+}
+
+struct UnevenRow<'a> {
+    bed: &'a Bed<'a>,
+    spread: &'a Spread<'a>,
+    /// Index of the row's first cell.
+    first: usize,
+    /// In: how full cells are. Out: how full as far as that is to be changed.
+    out: &'a mut [f32],
+}
+
+impl Wide for UnevenRow<'_> {
+    #[inline(always)]
+    fn run<const N: usize>(&mut self, column: usize) {
+        let Self { bed, spread, first, out } = self;
+        let (filled, bears) = (load::<N>(out, column), spread.bears::<N>(bed.grid, *first + column));
+        let uneven = lanes(|i| {
+            let near = (filled[i] - 1.0).clamp(-LEFT_ALONE[0], LEFT_ALONE[1]);
+            filled[i] - near * bears[i]
+        });
+        store::<N>(out, column, uneven);
     }
 }

@@ -1,18 +1,15 @@
 //! What takes part in friction: faces that a stress moves, and cells and corners that can have one.
 
-use crate::{
-    parallel::Sweep,
-    predictor::{
-        grains::{
-            bed::Bed,
-            fields::{Fields, Two},
-            near::Near,
-        },
-        stencil::Axis,
-        transfer::Faces,
+use crate::predictor::{
+    grains::{
+        bed::Bed,
+        cells::{At, Cells},
+        fields::Fields,
     },
+    stencil::Axis,
+    transfer::Faces,
+    wide::{lanes, load, store},
 };
-use std::ops::Range;
 
 /// Least mass of a face, of a full one's: what is lighter would be moved at once by any stress.
 const LEAST_MASS: f32 = 0.25;
@@ -22,26 +19,31 @@ const COMPACT: f32 = 1.08;
 
 /// Finds what a stress moves faces by.
 pub(super) struct Lighten<'a> {
-    pub bed: &'a Bed<'a>,
-    pub near: &'a Near,
     pub faces: &'a Faces,
 }
 
-impl<'b> Sweep<Two<'b>> for Lighten<'_> {
+impl Cells<2> for Lighten<'_> {
     #[inline(always)]
-    fn run(&self, rows: Range<usize>, (mut u, mut v): Two) {
-        let Self { bed, near, faces } = self;
-        for (j, (u, v)) in rows.zip(u.each().zip(v.each())) {
-            for (axis, lightness, counts) in [(Axis::U, u, &faces.u), (Axis::V, v, &faces.v)] {
-                for columns in near.runs(j) {
-                    for column in columns {
-                        let k = bed.grid.row(j) + column;
-                        let mass = (COMPACT * counts[k][0] / bed.full).clamp(LEAST_MASS, 1.0);
-                        let density = faces.matter.as_ref().map_or(1.0, |matter| matter.of(axis)[k][1]);
-                        lightness[column] = if bed.is_moved(axis, k) { density / mass } else { 0.0 };
-                    }
+    fn find<const N: usize>(&self, bed: &Bed, at: At, [u, v]: &mut [&mut [f32]; 2]) {
+        let Self { faces } = self;
+        let At { column, k, .. } = at;
+        for (axis, out, counts) in [(Axis::U, u, &faces.u), (Axis::V, v, &faces.v)] {
+            let counts = &counts[k..k + N];
+            let density = match &faces.matter {
+                Some(matter) => {
+                    let of_faces = &matter.of(axis)[k..k + N];
+                    lanes(|i| of_faces[i][1])
                 }
-            }
+                None => [1.0; N],
+            };
+            let [before, after] = [k - axis.step(bed.grid), k].map(|k| load::<N>(bed.liquid, k));
+            let open = bed.open::<N>(axis, at);
+            let lightness = lanes(|i| {
+                let mass = (COMPACT * counts[i][0] / bed.full).clamp(LEAST_MASS, 1.0);
+                let is_moved = (after[i] + before[i] > 0.0) & (open[i] > 0.0);
+                if is_moved { density[i] / mass } else { 0.0 }
+            });
+            store::<N>(out, column, lightness);
         }
     }
 }
@@ -71,53 +73,91 @@ pub(super) fn lay_by(stress: &mut f32, kept: &mut f32, is_still: bool) {
 /// its stresses, whatever the others do (Gershgorin). In the row of a cell or a corner stand the lightness of the four faces
 /// around it (Σ l on the diagonal, and l for the next of its kind beyond each), and for each of the four of the other kind around it
 /// the difference of the two faces between them, u and v: `2 Σ l + Σ |l_u − l_v|`.
+///
+/// Writes S and T, those that were laid by, and the steps of cells and of corners.
 pub(super) struct TakePart<'a> {
-    pub bed: &'a Bed<'a>,
-    pub near: &'a Near,
     pub lightness: &'a Fields,
     pub strain: &'a Fields,
 }
 
-impl<'b> Sweep<((Two<'b>, Two<'b>), Two<'b>)> for TakePart<'_> {
+impl Cells<6> for TakePart<'_> {
     #[inline(always)]
-    fn run(&self, rows: Range<usize>, ((stress, kept), (mut cells, mut corners)): ((Two, Two), Two)) {
-        let Self { bed, near, lightness: [u, v], strain } = self;
-        let stride = bed.grid.stride;
-        let step = |[a, b]: [f32; 2], [c, d]: [f32; 2]| {
-            1.0 / (2.0 * (a + b + c + d) + (a - c).abs() + (a - d).abs() + (b - c).abs() + (b - d).abs())
-        };
-        let ((mut s, mut t), (mut kept_s, mut kept_t)) = (stress, kept);
-        let stress = s.each().zip(kept_s.each()).zip(t.each().zip(kept_t.each()));
-        for (j, (((s, kept_s), (t, kept_t)), (cells, corners))) in
-            rows.zip(stress.zip(cells.each().zip(corners.each())))
-        {
-            for columns in near.runs(j) {
-                for column in columns {
-                    let k = bed.grid.row(j) + column;
-                    // Corners of which a face is neither moved nor closed are beside the air: nothing is held there.
-                    let is_held = |axis, k, lightness: f32| lightness > 0.0 || bed.open(axis, k) == 0.0;
-                    let (beside, above) = ([u[k], u[k - stride]], [v[k], v[k - 1]]);
-                    let is_moved = |faces: [f32; 2]| faces[0] > 0.0 || faces[1] > 0.0;
-                    let takes_part = (is_moved(beside) || is_moved(above))
-                        && is_held(Axis::U, k, u[k])
-                        && is_held(Axis::U, k - stride, u[k - stride])
-                        && is_held(Axis::V, k, v[k])
-                        && is_held(Axis::V, k - 1, v[k - 1]);
-                    corners[column] = if takes_part { step(beside, above) } else { 0.0 };
-                    let (beside, above) = ([u[k], u[k + 1]], [v[k], v[k + stride]]);
-                    let takes_part = bed.is_liquid(k) && (is_moved(beside) || is_moved(above));
-                    cells[column] = if takes_part { step(beside, above) } else { 0.0 };
-                    let fields = [(cells[column], &mut *s, &mut *kept_s), (corners[column], &mut *t, &mut *kept_t)];
-                    for ((step, stress, kept), strain) in fields.into_iter().zip(strain.iter()) {
-                        let (stress, kept) = (&mut stress[column], &mut kept[column]);
-                        if step == 0.0 {
-                            lay_by(stress, kept, is_still(bed, strain[k]));
-                        } else if *kept != 0.0 {
-                            (*stress, *kept) = (*kept, 0.0);
-                        }
-                    }
-                }
-            }
-        }
+    fn find<const N: usize>(&self, bed: &Bed, at: At, rows: &mut [&mut [f32]; 6]) {
+        let Self { lightness: [u, v], strain } = self;
+        let (At { row, column, k }, stride) = (at, bed.grid.stride);
+        let [s, t, kept_s, kept_t, cells, corners] = rows;
+        let liquid = load::<N>(bed.liquid, k);
+        let [own_u, right] = [k, k + 1].map(|k| load::<N>(u, k));
+        let [own_v, upper] = [k, k + stride].map(|k| load::<N>(v, k));
+        let of_cells = lanes(|i| {
+            let (beside, above) = ([own_u[i], right[i]], [own_v[i], upper[i]]);
+            let takes_part = (liquid[i] > 0.0) & (is_moved(beside) | is_moved(above));
+            if takes_part { step(beside, above) } else { 0.0 }
+        });
+        store::<N>(cells, column, of_cells);
+        lay_by_all(of_cells, (s, kept_s), load(&strain[0], k), bed, column);
+
+        let (lower_u, left_v) = (load::<N>(u, k - stride), load::<N>(v, k - 1));
+        let open_u = bed.open::<N>(Axis::U, at);
+        let open_lower_u = bed.open::<N>(Axis::U, At { row: row - 1, ..at });
+        let open_v = bed.open::<N>(Axis::V, at);
+        let open_left_v = bed.open::<N>(Axis::V, At { column: column - 1, ..at });
+        let of_corners = lanes(|i| {
+            // Corners of which a face is neither moved nor closed are beside the air: nothing is held there.
+            let is_held = |lightness: f32, open: f32| (lightness > 0.0) | (open == 0.0);
+            let (beside, above) = ([own_u[i], lower_u[i]], [own_v[i], left_v[i]]);
+            let takes_part = (is_moved(beside) | is_moved(above))
+                & (is_held(own_u[i], open_u[i]) & is_held(lower_u[i], open_lower_u[i]))
+                & (is_held(own_v[i], open_v[i]) & is_held(left_v[i], open_left_v[i]));
+            if takes_part { step(beside, above) } else { 0.0 }
+        });
+        store::<N>(corners, column, of_corners);
+        lay_by_all(of_corners, (t, kept_t), load(&strain[1], k), bed, column);
     }
+}
+
+/// Whether a stress moves one of two faces.
+#[inline(always)]
+fn is_moved([one, other]: [f32; 2]) -> bool {
+    (one > 0.0) | (other > 0.0)
+}
+
+/// A stable step, by the lightness of two faces and of those across.
+#[inline(always)]
+fn step([a, b]: [f32; 2], [c, d]: [f32; 2]) -> f32 {
+    1.0 / (2.0 * (a + b + c + d) + (a - c).abs() + (a - d).abs() + (b - c).abs() + (b - d).abs())
+}
+
+/// Lays by the stress of those of some cells or corners that make no step, and gives the others theirs back.
+#[inline(always)]
+fn lay_by_all<const N: usize>(
+    step: [f32; N],
+    (stress, kept): (&mut [f32], &mut [f32]),
+    strain: [f32; N],
+    bed: &Bed,
+    column: usize,
+) {
+    let [mut stresses, mut laid_by] = [&*stress, kept].map(|row| load::<N>(row, column));
+    for i in 0..N {
+        let (now, before) = (stresses[i], laid_by[i]);
+        let goes = (step[i] == 0.0) & (now != 0.0);
+        let comes = (step[i] != 0.0) & (before != 0.0);
+        stresses[i] = if goes {
+            0.0
+        } else if comes {
+            before
+        } else {
+            now
+        };
+        let left = if is_still(bed, strain[i]) { now } else { 0.0 };
+        laid_by[i] = if goes {
+            left
+        } else if comes {
+            0.0
+        } else {
+            before
+        };
+    }
+    store(stress, column, stresses);
+    store(kept, column, laid_by);
 }

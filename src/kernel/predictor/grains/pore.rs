@@ -5,19 +5,17 @@
 //! reaches a cell goes by how near water and air are: head and share are harmonic in the grains (seepage by Darcy's law, without
 //! what it takes of the water), with the water's and 1 beside water, with 0 beside air.
 
-use crate::{
-    parallel::{Rows, Sweep, sweep},
-    predictor::{
-        grains::{
-            bed::Bed,
-            fields::{Fields, Two, row, two},
-            near::Near,
-            spread::Spread,
-        },
-        level::WORTH_A_PIECE,
+use crate::predictor::{
+    grains::{
+        bed::Bed,
+        cells::{At, Cells, find},
+        fields::Fields,
+        near::Near,
+        spread::Spread,
     },
+    stencil::Axis,
+    wide::{lanes, load, store},
 };
-use std::ops::Range;
 
 /// Sweeps of a substep: what is far from the water becomes wet in the course of some ticks.
 const SWEEPS: usize = 20;
@@ -43,7 +41,6 @@ impl Pore {
     /// dry before. `density`: of the liquids, as a share of the heaviest;
     /// none if there are none.
     pub fn solve(&mut self, bed: &Bed, near: &Near, spread: &Spread, pressure: &[f32], density: Option<f32>) {
-        let (rows, per_row, stride) = (near.rows(bed.grid), near.per_row(), bed.grid.stride);
         for field in self.reached.iter_mut().chain(&mut self.next).chain([&mut self.inside, &mut self.pressure]) {
             field.resize(bed.grid.len(), 0.0);
             near.left(bed.grid, |left| field[left].fill(0.0));
@@ -53,16 +50,14 @@ impl Pore {
             reached.iter_mut().chain([pore]).for_each(|field| field.fill(0.0));
             return;
         };
-        let work = Begin { bed, near, spread: *spread, pressure, density };
-        let band = ((two(reached, stride, &rows), two(next, stride, &rows)), Rows::new(inside, stride, &rows));
-        sweep(&work, rows.clone(), band, per_row, WORTH_A_PIECE, bed.team);
+        let ([head, share], [next_head, next_share]) = (&mut *reached, &mut *next);
+        let begin = Begin { spread: *spread, pressure, density };
+        find(&begin, (bed, near), [head, share, next_head, next_share, inside]);
         for _ in 0..SWEEPS {
-            let work = Seep { bed, near, reached, inside };
-            sweep(&work, rows.clone(), two(next, stride, &rows), per_row, WORTH_A_PIECE, bed.team);
+            find(&Seep { reached, inside }, (bed, near), next.each_mut());
             std::mem::swap(reached, next);
         }
-        let work = Finish { bed, near, reached, density };
-        sweep(&work, rows.clone(), Rows::new(pore, stride, &rows), per_row, WORTH_A_PIECE, bed.team);
+        find(&Finish { reached, density }, (bed, near), [pore]);
     }
 
     /// Pressure of the water in each cell, d/s.
@@ -87,104 +82,80 @@ impl Pore {
     }
 }
 
-/// What the water of a density has lost of its head in a cell, d/s.
+/// What the water of a density has lost of its head in cells side by side, d/s.
 #[inline(always)]
-fn height(bed: &Bed, density: f32, j: usize, column: usize) -> f32 {
-    -density * (bed.kick.x * column as f32 + bed.kick.y * j as f32)
+fn heights<const N: usize>(bed: &Bed, density: f32, At { row, column, .. }: At) -> [f32; N] {
+    lanes(|i| -density * (bed.kick.x * (column + i) as f32 + bed.kick.y * row as f32))
 }
 
 /// Marks the cells of grains, and sets head and share in all others.
 struct Begin<'a> {
-    bed: &'a Bed<'a>,
-    near: &'a Near,
     spread: Spread<'a>,
     pressure: &'a [f32],
     density: f32,
 }
 
-impl<'b> Sweep<((Two<'b>, Two<'b>), Rows<'b, f32>)> for Begin<'_> {
+impl Cells<5> for Begin<'_> {
     #[inline(always)]
-    fn run(&self, rows: Range<usize>, ((now, next), mut inside): ((Two, Two), Rows<f32>)) {
-        let Self { bed, near, spread, pressure, density } = self;
-        let ((mut head, mut share), (mut next_head, mut next_share)) = (now, next);
-        let out = head.each().zip(share.each()).zip(next_head.each().zip(next_share.each())).zip(inside.each());
-        for (j, (((head, share), (next_head, next_share)), inside)) in rows.zip(out) {
-            for columns in near.runs(j) {
-                for column in columns {
-                    let k = bed.grid.row(j) + column;
-                    let is_liquid = bed.is_liquid(k);
-                    let is_inside = is_liquid && spread.bears(bed.grid, k) > GRAINS;
-                    inside[column] = if is_inside { 1.0 } else { 0.0 };
-                    if is_inside {
-                        continue;
-                    }
-                    let value = if is_liquid { pressure[k].max(0.0) + height(bed, *density, j, column) } else { 0.0 };
-                    (head[column], share[column]) = (value, if is_liquid { 1.0 } else { 0.0 });
-                    (next_head[column], next_share[column]) = (head[column], share[column]);
-                }
-            }
+    fn find<const N: usize>(&self, bed: &Bed, at: At, rows: &mut [&mut [f32]; 5]) {
+        let Self { spread, pressure, density } = self;
+        let At { column, k, .. } = at;
+        let (liquid, pressure) = (load::<N>(bed.liquid, k), load::<N>(pressure, k));
+        let (bears, heights) = (spread.bears::<N>(bed.grid, k), heights::<N>(bed, *density, at));
+        let is_inside = lanes::<N>(|i| if (liquid[i] > 0.0) & (bears[i] > GRAINS) { 1.0 } else { 0.0 });
+        let head: [f32; N] = lanes(|i| if liquid[i] > 0.0 { pressure[i].max(0.0) + heights[i] } else { 0.0 });
+        let share: [f32; N] = lanes(|i| if liquid[i] > 0.0 { 1.0 } else { 0.0 });
+        let [own_head, own_share, next_head, next_share, inside] = rows;
+        for (row, values) in [(own_head, head), (next_head, head), (own_share, share), (next_share, share)] {
+            let before = load::<N>(row, column);
+            store::<N>(row, column, lanes(|i| if is_inside[i] > 0.0 { before[i] } else { values[i] }));
         }
+        store(inside, column, is_inside);
     }
 }
 
 /// Each cell of grains takes the mean of those around it that no wall parts it from.
 struct Seep<'a> {
-    bed: &'a Bed<'a>,
-    near: &'a Near,
     reached: &'a Fields,
     inside: &'a [f32],
 }
 
-impl<'b> Sweep<Two<'b>> for Seep<'_> {
+impl Cells<2> for Seep<'_> {
     #[inline(always)]
-    fn run(&self, rows: Range<usize>, (mut head, mut share): Two) {
-        let Self { bed, near, reached, inside } = self;
-        let (stride, closed) = (bed.grid.stride, bed.closed);
-        for (j, (head, share)) in rows.zip(head.each().zip(share.each())) {
-            // No cell beyond has a pressure.
-            for columns in near.runs(j).map(|run| run.start..run.end.min(bed.grid.columns + 1)) {
-                let (n, k) = (columns.len(), bed.grid.row(j) + columns.start);
-                let [own, above] = [j, j + 1].map(|j| closed.row(j) + columns.start);
-                let (left, right) = (row(&closed.open_u, own, n), row(&closed.open_u, own + 1, n));
-                let (lower, upper) = (row(&closed.open_v, own, n), row(&closed.open_v, above, n));
-                let inside = row(inside, k, n);
-                for (out, field) in [(&mut *head, &reached[0]), (&mut *share, &reached[1])] {
-                    let out = &mut out[columns.clone()];
-                    let [at, at_left, at_right, at_lower, at_upper] =
-                        [k, k - 1, k + 1, k - stride, k + stride].map(|at| row(field, at, n));
-                    for i in 0..n {
-                        let open = (left[i] + right[i]) + (lower[i] + upper[i]);
-                        let sum = (left[i] * at_left[i] + right[i] * at_right[i])
-                            + (lower[i] * at_lower[i] + upper[i] * at_upper[i]);
-                        let mean = if open > 0.0 { sum / open } else { 0.0 };
-                        out[i] = if inside[i] > 0.0 { mean } else { at[i] };
-                    }
-                }
-            }
+    fn find<const N: usize>(&self, bed: &Bed, at: At, rows: &mut [&mut [f32]; 2]) {
+        let Self { reached, inside } = self;
+        let (At { row, column, k }, stride) = (at, bed.grid.stride);
+        let [left, right] = [column, column + 1].map(|column| bed.open::<N>(Axis::U, At { column, ..at }));
+        let [lower, upper] = [row, row + 1].map(|row| bed.open::<N>(Axis::V, At { row, ..at }));
+        let inside = load::<N>(inside, k);
+        for (out, field) in rows.iter_mut().zip(reached.iter()) {
+            let own = load::<N>(field, k);
+            let [at_left, at_right] = [k - 1, k + 1].map(|k| load::<N>(field, k));
+            let [at_lower, at_upper] = [k - stride, k + stride].map(|k| load::<N>(field, k));
+            let next = lanes(|i| {
+                let open = (left[i] + right[i]) + (lower[i] + upper[i]);
+                let sum =
+                    (left[i] * at_left[i] + right[i] * at_right[i]) + (lower[i] * at_lower[i] + upper[i] * at_upper[i]);
+                let mean = if open > 0.0 { sum / open } else { 0.0 };
+                if inside[i] > 0.0 { mean } else { own[i] }
+            });
+            store::<N>(out, column, next);
         }
     }
 }
 
 /// From head and share to the pressure.
 struct Finish<'a> {
-    bed: &'a Bed<'a>,
-    near: &'a Near,
     reached: &'a Fields,
     density: f32,
 }
 
-impl Sweep<Rows<'_, f32>> for Finish<'_> {
+impl Cells<1> for Finish<'_> {
     #[inline(always)]
-    fn run(&self, rows: Range<usize>, mut pressure: Rows<f32>) {
-        let Self { bed, near, reached: [head, share], density } = self;
-        for (j, pressure) in rows.zip(pressure.each()) {
-            for columns in near.runs(j) {
-                for column in columns {
-                    let k = bed.grid.row(j) + column;
-                    let left = head[k] - share[k] * height(bed, *density, j, column);
-                    pressure[column] = if left > 0.0 { left } else { 0.0 };
-                }
-            }
-        }
+    fn find<const N: usize>(&self, bed: &Bed, at: At, [pressure]: &mut [&mut [f32]; 1]) {
+        let [head, share] = self.reached.each_ref().map(|field| load::<N>(field, at.k));
+        let heights = heights::<N>(bed, self.density, at);
+        let left = lanes(|i| head[i] - share[i] * heights[i]);
+        store::<N>(pressure, at.column, left.map(|left| if left > 0.0 { left } else { 0.0 }));
     }
 }

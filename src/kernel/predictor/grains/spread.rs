@@ -1,6 +1,10 @@
 //! Where grains are.
 
-use crate::predictor::{grains::bed::Bed, grid::MacGrid, stencil::Axis};
+use crate::predictor::{
+    grains::bed::Bed,
+    grid::MacGrid,
+    wide::{Wide, in_lanes, lanes, load},
+};
 use std::ops::Range;
 
 /// Share of the particles of a cell that are grains from which on they touch, and that from which on they bear all.
@@ -26,50 +30,75 @@ impl Spread<'_> {
 
     /// Whether grains touch in any of some cells side by side that have a pressure.
     #[inline(always)]
-    pub fn any_touch(&self, bed: &Bed, mut cells: Range<usize>) -> bool {
-        cells.any(|k| bed.is_liquid(k) && self.bears(bed.grid, k) > 0.0)
+    pub fn any_touch(&self, bed: &Bed, cells: Range<usize>) -> bool {
+        let mut any = false;
+        in_lanes(cells, AnyTouch { spread: self, bed, any: &mut any });
+        any
     }
 
-    /// Mean sin φ around a cell or its lower left corner; 0 where no grain is.
+    /// Mean sin φ around cells from index `k` on, or around their lower left corners; 0 where no grain is.
     #[inline(always)]
-    pub fn sine(&self, grid: &MacGrid, k: usize) -> f32 {
-        mean(self.grains, grid, k)
+    pub fn sines<const N: usize>(&self, grid: &MacGrid, k: usize) -> [f32; N] {
+        means(self.grains, grid, k)
     }
 
-    /// Mean stress (d/s) around a cell or its lower left corner that grains bear without pressure; 0 where they do not touch.
+    /// Mean stress (d/s) around them that grains bear without pressure; 0 where they do not touch.
     #[inline(always)]
-    pub fn bond(&self, grid: &MacGrid, k: usize) -> f32 {
-        self.bound.map_or(0.0, |bound| mean(bound, grid, k) * self.bears(grid, k))
+    pub fn bonds<const N: usize>(&self, grid: &MacGrid, k: usize) -> [f32; N] {
+        let Some(bound) = self.bound else { return [0.0; N] };
+        let (means, bears) = (means::<N>(bound, grid, k), self.bears::<N>(grid, k));
+        lanes(|i| means[i] * bears[i])
     }
 
-    /// How much of the pressure of a cell its grains bear: none where they do not touch.
+    /// How much of the pressure of cells from index `k` on their grains bear: none where they do not touch.
     #[inline(always)]
-    pub fn bears(&self, grid: &MacGrid, k: usize) -> f32 {
-        let (mut grains, mut all) = (0.0, 0.0);
-        for (axis, face) in sides(grid, k) {
-            grains += self.grains[axis as usize][face][0];
-            all += self.all[axis as usize][face][0];
+    pub fn bears<const N: usize>(&self, grid: &MacGrid, k: usize) -> [f32; N] {
+        let [u, v] = self.grains.each_ref().map(|faces| &faces[..]);
+        let (grains, all) = (around::<N>([u, v], 0, grid, k), around::<N>(self.all, 0, grid, k));
+        lanes(|i| {
+            let share = if all[i] > 0.0 { grains[i] / all[i] } else { 0.0 };
+            let share = (share - TOUCHING[0]) / (TOUCHING[1] - TOUCHING[0]);
+            let share = if share > 0.0 { share } else { 0.0 };
+            if share < 1.0 { share } else { 1.0 }
+        })
+    }
+}
+
+/// Finds whether grains touch in any of some cells.
+struct AnyTouch<'a> {
+    spread: &'a Spread<'a>,
+    bed: &'a Bed<'a>,
+    any: &'a mut bool,
+}
+
+impl Wide for AnyTouch<'_> {
+    #[inline(always)]
+    fn run<const N: usize>(&mut self, k: usize) {
+        let Self { spread, bed, any } = self;
+        if !**any {
+            let (bears, liquid) = (spread.bears::<N>(bed.grid, k), load::<N>(bed.liquid, k));
+            **any = (0..N).fold(false, |any, i| any | ((liquid[i] > 0.0) & (bears[i] > 0.0)));
         }
-        let share = if all > 0.0 { grains / all } else { 0.0 };
-        let share = (share - TOUCHING[0]) / (TOUCHING[1] - TOUCHING[0]);
-        let share = if share > 0.0 { share } else { 0.0 };
-        if share < 1.0 { share } else { 1.0 }
     }
 }
 
-/// Mean of what grains have around a cell or its lower left corner; 0 where no grain is.
+/// Mean of what grains have around cells from index `k` on, or around their lower left corners; 0 where no grain is.
 #[inline(always)]
-fn mean(of: &[Vec<[f32; 2]>; 2], grid: &MacGrid, k: usize) -> f32 {
-    let (mut weight, mut sum) = (0.0, 0.0);
-    for (axis, face) in sides(grid, k) {
-        let at = of[axis as usize][face];
-        (weight, sum) = (weight + at[0], sum + at[1]);
-    }
-    if weight > 0.0 { sum / weight } else { 0.0 }
+fn means<const N: usize>(of: &[Vec<[f32; 2]>; 2], grid: &MacGrid, k: usize) -> [f32; N] {
+    let [u, v] = of.each_ref().map(|faces| &faces[..]);
+    let (weights, sums) = (around::<N>([u, v], 0, grid, k), around::<N>([u, v], 1, grid, k));
+    lanes(|i| if weights[i] > 0.0 { sums[i] / weights[i] } else { 0.0 })
 }
 
-/// The faces of a cell.
+/// Sums of a number of the faces of cells.
 #[inline(always)]
-fn sides(grid: &MacGrid, k: usize) -> [(Axis, usize); 4] {
-    [(Axis::U, k), (Axis::U, k + 1), (Axis::V, k), (Axis::V, k + grid.stride)]
+fn around<const N: usize>([u, v]: [&[[f32; 2]]; 2], number: usize, grid: &MacGrid, k: usize) -> [f32; N] {
+    let sides = [(u, k), (u, k + 1), (v, k), (v, k + grid.stride)].map(|(faces, at)| &faces[at..at + N]);
+    let mut sums = [0.0; N];
+    for faces in sides {
+        for i in 0..N {
+            sums[i] += faces[i][number];
+        }
+    }
+    sums
 }

@@ -3,7 +3,7 @@
 use crate::{
     parallel::{Rows, Sweep, sweep},
     predictor::{
-        grains::{bed::Bed, friction::Friction, near::Near},
+        grains::{bed::Bed, cells::At, friction::Friction, near::Near},
         level::WORTH_A_PIECE,
         pieces::Pieces,
         stencil::Axis,
@@ -112,7 +112,8 @@ impl Sweep<Rows<'_, GrainWay>> for Draw<'_> {
                     let k = bed.grid.row(j) + column;
                     if k >= stride && bed.is_touched(*axis, k) {
                         // A closed face is a wall.
-                        out[column] = [if bed.open_in(*axis, j, column) > 0.0 { velocity(k) } else { 0.0 }, 1.0];
+                        let [open] = bed.open::<1>(*axis, At { row: j, column, k });
+                        out[column] = [if open > 0.0 { velocity(k) } else { 0.0 }, 1.0];
                         continue;
                     }
                     let (mut sum, mut count) = (0.0, 0.0);

@@ -151,7 +151,9 @@ impl ClosedFaces {
             rows.push(stored as u32);
         }
         self.rows = rows;
-        for (field, merged) in self.fields_mut().into_iter().zip(merged) {
+        for (field, mut merged) in self.fields_mut().into_iter().zip(merged) {
+            // What is to the right of the last row is read in lanes, and counts for nothing.
+            merged.push(0.0);
             *field = merged;
             field.shrink_to_fit();
         }
